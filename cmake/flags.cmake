@@ -1,0 +1,11 @@
+# How everything of ours is compiled: an interface target that each of our targets links privately.
+add_library(belvedere_flags INTERFACE)
+target_include_directories(belvedere_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(belvedere_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference -Werror
+  # The same bits everywhere: no fused multiply-add unless written, no fast-math; a plain x86-64-v2 machine is enough.
+  -ffp-contract=off -march=x86-64-v2 -mtune=generic)
+if(BELVEDERE_SANITIZE)
+  target_compile_options(belvedere_flags INTERFACE -fsanitize=${BELVEDERE_SANITIZE} -fno-omit-frame-pointer -Wno-error=null-dereference -Wno-error=maybe-uninitialized)
+  target_link_options(belvedere_flags INTERFACE -fsanitize=${BELVEDERE_SANITIZE})
+endif()

@@ -1,0 +1,1 @@
+#include "renderer/base/filter.h"

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace belvedere {
+
+// A width × height array of values, row-major, row 0 on top. No geography: a Raster adds that.
+// x is the column, y the row. Indices are not checked in release builds of the hot loops.
+template <class T>
+class Grid {
+ public:
+  using value_type = T;
+
+  Grid() = default;
+  Grid(int width, int height, T fill = T{})
+      : width_(width), height_(height), values_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill) {}
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  std::size_t size() const { return values_.size(); }
+  bool empty() const { return values_.empty(); }
+  bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
+  template <class U>
+  bool same_size(const Grid<U>& other) const {
+    return width_ == other.width() && height_ == other.height();
+  }
+
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+  T& operator()(int x, int y) { return values_[index(x, y)]; }
+  const T& operator()(int x, int y) const { return values_[index(x, y)]; }
+  T& operator[](std::size_t i) { return values_[i]; }
+  const T& operator[](std::size_t i) const { return values_[i]; }
+
+  // The value at the nearest place inside the grid: borders replicate.
+  const T& clamped(int x, int y) const { return (*this)(std::clamp(x, 0, width_ - 1), std::clamp(y, 0, height_ - 1)); }
+
+  T* row(int y) { return values_.data() + index(0, y); }
+  const T* row(int y) const { return values_.data() + index(0, y); }
+  T* data() { return values_.data(); }
+  const T* data() const { return values_.data(); }
+
+  auto begin() { return values_.begin(); }
+  auto end() { return values_.end(); }
+  auto begin() const { return values_.begin(); }
+  auto end() const { return values_.end(); }
+
+  bool operator==(const Grid&) const = default;
+
+ private:
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<T> values_;
+};
+
+}  // namespace belvedere

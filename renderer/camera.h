@@ -1,0 +1,54 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace belvedere {
+
+struct Ray {
+  glm::dvec3 origin;
+  glm::dvec3 direction;  // unit
+};
+
+// How the picture sees the deformed world (x east, y north, z up, metres, scene CRS). Image places are in pixels,
+// x right, y down, (0, 0) the outer corner of the top-left pixel.
+class Camera {
+ public:
+  virtual ~Camera() = default;
+  virtual Ray ray(glm::dvec2 pixel) const = 0;
+  // The image place of a point, or nothing where it lies behind the eye; places outside the picture are returned as they are.
+  virtual std::optional<glm::dvec2> project(glm::dvec3 point) const = 0;
+  // The place distances and generalization count from; for parallel projections the middle of the near picture edge's ray.
+  virtual glm::dvec3 eye() const = 0;
+  virtual glm::ivec2 size() const = 0;
+};
+
+struct CameraParameters {
+  std::string projection = "perspective";  // one of projection_names()
+  int width = 2400;                        // px, 16…65535
+  int height = 1100;                       // px, 16…65535
+  glm::dvec3 eye{0.0};                     // deformed world, m
+  double azimuth_deg = 0.0;                // view direction, clockwise from north
+  double pitch_deg = -20.0;                // -90 straight down … 90
+  double field_of_view_deg = 50.0;         // horizontal; perspective 1…150, cylindrical 1…360
+  double view_width_m = 20000.0;           // oblique: width of the picture on the ground
+};
+
+// One file and one line a projection: see CONTRIBUTING.
+using ProjectionMaker = std::unique_ptr<Camera> (*)(const CameraParameters&);
+struct Projection {
+  std::string_view name;
+  std::string_view meaning;  // a line for the documentation
+  ProjectionMaker make;
+};
+const std::vector<Projection>& projections();
+
+// Throws Error(usage) for an unknown projection or values out of range.
+std::unique_ptr<Camera> make_camera(const CameraParameters& parameters);
+
+}  // namespace belvedere

@@ -1,0 +1,1 @@
+#include "renderer/guidance_io.h"

@@ -1,0 +1,1 @@
+#include "renderer/image_io.h"

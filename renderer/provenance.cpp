@@ -1,0 +1,1 @@
+#include "renderer/provenance.h"

@@ -1,0 +1,1 @@
+#include "renderer/scene_file.h"

@@ -1,0 +1,1 @@
+#include "terrain/class_rules.h"

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "renderer/base/progress.h"
+#include "terrain/dem.h"
+#include "terrain/land_cover.h"
+
+namespace belvedere {
+
+// Land cover for a DEM that has none, from rules in a file of their own (data/layers/alpine.toml): surface layers in order, each with a class and
+// conditions over altitude, slope, exposure, relief, noise and water; later layers win (look/recipe.md, Classes; requirements P02).
+struct ClassRules {
+  struct Layer {
+    LandCoverClass painted_as;
+    std::string when;  // an expression; true where > 0
+  };
+  std::string name;
+  std::vector<std::pair<std::string, double>> parameters;  // named numbers that expressions may use and a scene may set
+  std::vector<std::pair<std::string, std::string>> terms;   // named sub-expressions, evaluated in order
+  std::vector<Layer> layers;
+};
+
+// Built-in name ("alpine") or a .toml file. Error(usage) with file:line:column.
+ClassRules read_class_rules(const std::string& name_or_path);
+
+// Evaluates the rules on the DEM's grid (or `refine` times finer), cleans up specks, and returns land cover.
+// `settings` override the rules' parameters by name.
+LandCover apply_class_rules(const ClassRules& rules, const std::vector<std::pair<std::string, double>>& settings, const Dem& dem,
+                            std::uint64_t seed, Progress& progress);
+
+}  // namespace belvedere

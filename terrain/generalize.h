@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "renderer/base/grid.h"
+#include "renderer/base/progress.h"
+
+namespace belvedere {
+
+// Weights of the Laplacian bands, lowest (coarsest) band first as in figure 2 of Jenny, Jenny & Hurni 2011.
+struct GeneralizeParameters {
+  std::vector<float> foreground = {1.F, 1.F, 1.F, 1.F, 1.F, 1.F};  // 0…5; their number is the number of bands
+  std::vector<float> background = {1.F, 1.F, 1.F, 1.F, 1.F, 1.F};  // as many as foreground
+  // Sharpening of high crests (look/recipe.md): adds crest · high · clamp(b2 + b3 + .6 b4, 0, 60 m) · (1 - .2 (1 - foreground share)),
+  // b1 the finest band, high = clamp((b5 + b6 + base - 1200 m) / 700 m). 0 is off; 0…3.
+  float crest = 0.F;
+};
+
+// Equations 1, 2 and 5: A' = G_1 + Σ w_i L_i with w_i = u w_fore + (1-u) w_back. `foreground_share` is u per cell (1 near, 0 far), made
+// by the caller from the camera; empty means 1 everywhere. Cells of `keep` != 0 (lakes) keep their altitude; empty: none.
+// Unit weights and no crest return the input exactly.
+Grid<float> generalize(const Grid<float>& altitude_m, const Grid<float>& foreground_share, const Grid<unsigned char>& keep,
+                       const GeneralizeParameters& parameters, Progress& progress);
+
+}  // namespace belvedere

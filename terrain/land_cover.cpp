@@ -1,0 +1,1 @@
+#include "terrain/land_cover.h"

@@ -1,0 +1,1 @@
+#include "terrain/raster_io.h"

@@ -1,0 +1,1 @@
+#include "terrain/synthetic.h"

@@ -1,0 +1,1 @@
+#include "texture/stroke_painter.h"

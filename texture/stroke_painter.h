@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+
+#include "renderer/base/guidance_buffers.h"
+#include "renderer/base/image.h"
+#include "renderer/base/progress.h"
+
+namespace belvedere {
+
+// What strokes are painted from. All images in encoded sRGB 0…1, because paint mixes there; same size as the guidance.
+struct PaintGround {
+  Grid<glm::vec3> colour;      // base picture at the pixel's tone
+  Grid<glm::vec3> darker;      // … at tone - .17
+  Grid<glm::vec3> lighter;     // … at tone + .17
+  Grid<float> accent;          // -1 hollow … +1 edge: where accents go
+  Grid<float> tree_density;    // 0…1
+  Grid<float> haze;            // 0…1
+};
+
+struct StrokeParameters {
+  double pixels_per_unit = 1.0;  // a unit is 0.5 mm of the sheet: 1 at 2400 px on 1.2 m; 0.1…50
+  bool winter = false;
+  double sun_side = 1.0;         // -1 light from the left … +1 from the right of the image
+  std::uint64_t seed = 1;
+};
+
+// Which kinds of stroke to paint: the ground (wash, rock, meadow, scree, snow, water), what stands up (trees, houses), the sky.
+struct StrokeLayers {
+  bool sky = true;
+  bool ground = true;
+  bool upright = true;
+};
+
+// Paints strokes over `canvas` (encoded sRGB), far to near, and returns the picture. look/recipe.md, table Strokes.
+Grid<glm::vec3> paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const PaintGround& ground,
+                              const StrokeLayers& layers, const StrokeParameters& parameters, Progress& progress);
+
+}  // namespace belvedere
