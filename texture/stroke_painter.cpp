@@ -1,1 +1,59 @@
 #include "texture/stroke_painter.h"
+
+#include <utility>
+#include <vector>
+
+#include "renderer/base/error.h"
+#include "texture/brush.h"
+#include "texture/stroke_kinds.h"
+
+namespace belvedere {
+namespace {
+
+void append(std::vector<Stroke>& all, std::vector<Stroke> more) { all.insert(all.end(), more.begin(), more.end()); }
+
+void check_sizes(const Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance, const PaintGround& ground) {
+  const bool same = canvas.same_size(guidance.depth_m) && canvas.same_size(guidance.land_cover) && canvas.same_size(guidance.fall_line) &&
+                    canvas.same_size(guidance.tone) && canvas.same_size(guidance.position_m) && canvas.same_size(ground.colour) &&
+                    canvas.same_size(ground.darker) && canvas.same_size(ground.lighter) && canvas.same_size(ground.accent) &&
+                    canvas.same_size(ground.tree_density) && canvas.same_size(ground.haze);
+  if (!same) throw Error(ErrorKind::bug, "paint_strokes", "canvas, guidance and ground differ in size");
+}
+
+}  // namespace
+
+Grid<glm::vec3> paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const PaintGround& ground,
+                              const StrokeLayers& layers, const StrokeParameters& parameters, Progress& progress) {
+  check_sizes(canvas, guidance, ground);
+  const StrokeScene scene{guidance, ground, parameters};
+  const auto paint = [&](std::vector<Stroke> strokes) {
+    if (!strokes.empty()) paint_in_order(canvas, guidance, std::move(strokes), parameters.pixels_per_unit, progress);
+  };
+
+  if (layers.sky) paint(sky_strokes(scene));
+  if (layers.ground) paint(wash_strokes(scene));
+
+  // Everything over the wash is one list, far to near, so that a near range covers a far one whatever it is made of.
+  std::vector<Stroke> body;
+  if (layers.upright) append(body, forest_trees(scene));
+  if (layers.ground) append(body, meadow_strokes(scene));
+  if (layers.upright) {
+    append(body, scattered_trees(scene));
+    append(body, low_bushes(scene));
+  }
+  if (layers.ground) {
+    append(body, rock_facets(scene));
+    append(body, rock_hatching(scene));
+    append(body, rock_fissures(scene));
+    append(body, scree_strokes(scene));
+    append(body, snow_strokes(scene));
+    append(body, water_strokes(scene));
+  }
+  if (layers.upright) append(body, houses(scene));
+  paint(std::move(body));
+
+  if (layers.accents) paint(accent_strokes(scene));
+  return canvas;
+}
+
+}  // namespace belvedere

@@ -3,36 +3,37 @@
 #include <cstdint>
 
 #include "renderer/base/guidance_buffers.h"
-#include "renderer/base/image.h"
 #include "renderer/base/progress.h"
 
 namespace belvedere {
 
 // What strokes are painted from. All images in encoded sRGB 0…1, because paint mixes there; same size as the guidance.
 struct PaintGround {
-  Grid<glm::vec3> colour;      // base picture at the pixel's tone
-  Grid<glm::vec3> darker;      // … at tone - .17
-  Grid<glm::vec3> lighter;     // … at tone + .17
-  Grid<float> accent;          // -1 hollow … +1 edge: where accents go
-  Grid<float> tree_density;    // 0…1
-  Grid<float> haze;            // 0…1
+  Grid<glm::vec3> colour;    // base picture at the pixel's tone
+  Grid<glm::vec3> darker;    // … at tone - .17
+  Grid<glm::vec3> lighter;   // … at tone + .17
+  Grid<float> accent;        // -1 hollow … +1 edge: where accents go
+  Grid<float> tree_density;  // 0…1: trees in forest, dwarf pines on alpine grass and shrubland
+  Grid<float> haze;          // 0…1
 };
 
 struct StrokeParameters {
   double pixels_per_unit = 1.0;  // a unit is 0.5 mm of the sheet: 1 at 2400 px on 1.2 m; 0.1…50
   bool winter = false;
-  double sun_side = 1.0;         // -1 light from the left … +1 from the right of the image
+  double sun_side = 1.0;  // -1 light from the left … +1 from the right of the picture
   std::uint64_t seed = 1;
 };
 
-// Which kinds of stroke to paint: the ground (wash, rock, meadow, scree, snow, water), what stands up (trees, houses), the sky.
+// Which kinds of stroke to paint.
 struct StrokeLayers {
-  bool sky = true;
-  bool ground = true;
-  bool upright = true;
+  bool sky = true;      // on sky pixels
+  bool ground = true;   // wash, rock, meadow, scree, snow, water
+  bool accents = true;  // light on edges, dark in hollows
+  bool upright = true;  // what stands on the ground: trees, dwarf pines, houses
 };
 
-// Paints strokes over `canvas` (encoded sRGB), far to near, and returns the picture. look/recipe.md, table Strokes.
+// Paints strokes over `canvas` (encoded sRGB), far to near, and returns the picture. look/recipe.md, table Strokes. Needs the channels
+// depth, land cover, fall line, tone, slope. Throws Error(bug) where sizes disagree.
 Grid<glm::vec3> paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const PaintGround& ground,
                               const StrokeLayers& layers, const StrokeParameters& parameters, Progress& progress);
 

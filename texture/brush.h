@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "renderer/base/guidance_buffers.h"
+#include "renderer/base/progress.h"
+
+namespace belvedere {
+
+// Where paint may fall. Every stroke has the depth of its seed; a gate compares it with the pixel's.
+enum class StrokeGate : std::uint8_t {
+  surface,  // only on the seed's own surface: depth within ± depth_tolerance, so texture never swims across a ridge
+  upright,  // may cover what is farther, never what is nearer: trees
+  sky,      // only on sky
+  water,    // only on water
+};
+
+// One stroke of the brush: a polyline with a width that runs from start to end. Lengths in pixels of the canvas.
+struct Stroke {
+  static constexpr int max_points = 4;
+  std::array<glm::vec2, max_points> points{};
+  int point_count = 0;
+  float start_width = 1.F;
+  float end_width = 1.F;
+  float alpha = 1.F;      // 0…1
+  float bristle = 0.F;    // 0 smooth … 1 dry brush
+  float wetness = 0.F;    // how much colour varies between bristles, encoded sRGB
+  glm::vec3 colour{0.F};  // encoded sRGB
+  float depth_m = 0.F;
+  float depth_tolerance = 0.045F;  // relative
+  float tone = -1.F;               // tone of the seed: alpha falls as exp(-((tone_px - tone)/.16)²); < 0: no tone gate
+  StrokeGate gate = StrokeGate::surface;
+  float order = 0.F;       // larger is painted first: usually depth
+  std::uint32_t seed = 0;  // of its bristles
+};
+
+// Paints the strokes in order (ties: as listed) over the canvas (encoded sRGB). Each tile of the canvas paints the strokes
+// that touch it in that order, so threads and tiles change no bit. pixels_per_unit: see StrokeParameters.
+void paint_in_order(Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance, std::vector<Stroke> strokes, double pixels_per_unit,
+                    Progress& progress);
+
+}  // namespace belvedere

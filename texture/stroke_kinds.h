@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "texture/brush.h"
+#include "texture/stroke_seeds.h"
+
+namespace belvedere {
+
+// The kinds of stroke, one function each: where they grow, how they lie, what they are mixed from. Sizes in units of 0.5 mm, from the
+// table Strokes of look/recipe.md. A new kind is one function here and one line in stroke_painter.cpp.
+std::vector<Stroke> sky_strokes(const StrokeScene& scene);
+std::vector<Stroke> wash_strokes(const StrokeScene& scene);
+std::vector<Stroke> meadow_strokes(const StrokeScene& scene);
+std::vector<Stroke> rock_facets(const StrokeScene& scene);
+std::vector<Stroke> rock_hatching(const StrokeScene& scene);
+std::vector<Stroke> rock_fissures(const StrokeScene& scene);
+std::vector<Stroke> scree_strokes(const StrokeScene& scene);
+std::vector<Stroke> snow_strokes(const StrokeScene& scene);
+std::vector<Stroke> water_strokes(const StrokeScene& scene);
+std::vector<Stroke> accent_strokes(const StrokeScene& scene);
+// What stands up (stroke_upright.cpp).
+std::vector<Stroke> forest_trees(const StrokeScene& scene);
+std::vector<Stroke> scattered_trees(const StrokeScene& scene);
+std::vector<Stroke> low_bushes(const StrokeScene& scene);
+std::vector<Stroke> houses(const StrokeScene& scene);
+
+}  // namespace belvedere
