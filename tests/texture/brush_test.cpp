@@ -1,0 +1,138 @@
+#include "texture/brush.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "renderer/base/parallel.h"
+
+namespace belvedere {
+namespace {
+
+// A canvas of 60 × 40 on one flat surface 1000 m away, class pasture, tone .5.
+GuidanceBuffers flat_guidance(int width = 60, int height = 40) {
+  GuidanceBuffers g;
+  g.depth_m = Grid<float>(width, height, 1000.F);
+  g.land_cover = Grid<LandCoverClass>(width, height, LandCoverClass::pasture);
+  g.tone = Grid<float>(width, height, 0.5F);
+  return g;
+}
+
+Stroke horizontal_stroke() {
+  Stroke s;
+  s.points = {glm::vec2(10.F, 20.F), glm::vec2(50.F, 20.F)};
+  s.point_count = 2;
+  s.start_width = s.end_width = 4.F;
+  s.colour = glm::vec3(1.F);
+  s.depth_m = 1000.F;
+  return s;
+}
+
+double painted_area(const Grid<glm::vec3>& canvas) {
+  double sum = 0.0;
+  for (const glm::vec3& p : canvas) sum += p.x;
+  return sum;
+}
+
+Grid<glm::vec3> paint(const std::vector<Stroke>& strokes, const GuidanceBuffers& g) {
+  Grid<glm::vec3> canvas(g.width(), g.height(), glm::vec3(0.F));
+  paint_in_order(canvas, g, strokes, 1.0, silent_progress());
+  return canvas;
+}
+
+TEST(Brush, CoversTheAreaOfItsOutline) {
+  // A rectangle of 40 × 4 with two half discs of radius 2.
+  EXPECT_NEAR(painted_area(paint({horizontal_stroke()}, flat_guidance())), 40.0 * 4.0 + 3.14159 * 4.0, 2.5);
+}
+
+TEST(Brush, AHairlineKeepsItsAreaNotItsWidth) {
+  Stroke hair = horizontal_stroke();
+  hair.start_width = hair.end_width = 0.2F;
+  EXPECT_NEAR(painted_area(paint({hair}, flat_guidance())), 40.0 * 0.2, 2.0);
+}
+
+TEST(Brush, StaysOnItsOwnSurface) {
+  GuidanceBuffers g = flat_guidance();
+  for (int y = 0; y < g.height(); ++y)
+    for (int x = 30; x < g.width(); ++x) g.depth_m(x, y) = 1100.F;
+  const auto canvas = paint({horizontal_stroke()}, g);
+  EXPECT_FLOAT_EQ(canvas(20, 20).x, 1.F);
+  EXPECT_FLOAT_EQ(canvas(40, 20).x, 0.F);
+}
+
+TEST(Brush, UprightStrokesCoverWhatIsFartherAndNeverWhatIsNearer) {
+  GuidanceBuffers g = flat_guidance();
+  for (int y = 0; y < g.height(); ++y) {
+    for (int x = 0; x < 25; ++x) g.depth_m(x, y) = std::numeric_limits<float>::infinity();
+    for (int x = 40; x < g.width(); ++x) g.depth_m(x, y) = 900.F;
+  }
+  Stroke tree = horizontal_stroke();
+  tree.gate = StrokeGate::upright;
+  const auto canvas = paint({tree}, g);
+  EXPECT_FLOAT_EQ(canvas(15, 20).x, 1.F);
+  EXPECT_FLOAT_EQ(canvas(30, 20).x, 1.F);
+  EXPECT_FLOAT_EQ(canvas(45, 20).x, 0.F);
+}
+
+TEST(Brush, WaterAndSkyGatesHold) {
+  GuidanceBuffers g = flat_guidance();
+  for (int y = 0; y < g.height(); ++y) {
+    for (int x = 0; x < 20; ++x) g.land_cover(x, y) = LandCoverClass::water;
+    for (int x = 40; x < g.width(); ++x) g.depth_m(x, y) = std::numeric_limits<float>::infinity();
+  }
+  Stroke s = horizontal_stroke();
+  s.gate = StrokeGate::water;
+  const auto water = paint({s}, g);
+  EXPECT_FLOAT_EQ(water(15, 20).x, 1.F);
+  EXPECT_FLOAT_EQ(water(30, 20).x, 0.F);
+  s.gate = StrokeGate::sky;
+  const auto sky = paint({s}, g);
+  EXPECT_FLOAT_EQ(sky(45, 20).x, 1.F);
+  EXPECT_FLOAT_EQ(sky(30, 20).x, 0.F);
+}
+
+TEST(Brush, ToneGateFadesWithTheDifferenceOfTone) {
+  GuidanceBuffers g = flat_guidance();
+  for (int y = 0; y < g.height(); ++y)
+    for (int x = 30; x < g.width(); ++x) g.tone(x, y) = 0.5F + 0.16F;
+  Stroke s = horizontal_stroke();
+  s.tone = 0.5F;
+  const auto canvas = paint({s}, g);
+  EXPECT_FLOAT_EQ(canvas(20, 20).x, 1.F);
+  EXPECT_NEAR(canvas(40, 20).x, std::exp(-1.0), 0.03);
+}
+
+TEST(Brush, LargerOrderIsPaintedFirst) {
+  Stroke white = horizontal_stroke();
+  Stroke black = horizontal_stroke();
+  black.colour = glm::vec3(0.F);
+  white.order = 1.F;
+  black.order = 2.F;
+  EXPECT_FLOAT_EQ(paint({white, black}, flat_guidance())(30, 20).x, 1.F);
+  white.order = 3.F;
+  EXPECT_FLOAT_EQ(paint({white, black}, flat_guidance())(30, 20).x, 0.F);
+}
+
+TEST(Brush, ThreadsChangeNoBit) {
+  const GuidanceBuffers g = flat_guidance(500, 400);
+  std::vector<Stroke> strokes;
+  for (int i = 0; i < 300; ++i) {
+    Stroke s = horizontal_stroke();
+    for (auto& p : s.points) p += glm::vec2(static_cast<float>((i * 37) % 450), static_cast<float>((i * 53) % 380));
+    s.bristle = 0.5F;
+    s.alpha = 0.6F;
+    s.colour = glm::vec3(static_cast<float>(i % 7) / 7.F);
+    s.order = static_cast<float>(i % 5);
+    s.seed = static_cast<std::uint32_t>(i);
+    strokes.push_back(s);
+  }
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return paint(strokes, g);
+  };
+  EXPECT_EQ(run(1), run(2));
+}
+
+}  // namespace
+}  // namespace belvedere
