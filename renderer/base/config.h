@@ -45,7 +45,7 @@ ConfigValue parse_config_value(std::string_view text, const std::string& name);
 
 // `name:line:column`, or `name` alone where there is no place.
 std::string config_where(const std::string& name, ConfigPlace place);
-// What a value is, in words for messages: "a string \"abc\"", "the number 3", "a table" …
+// What a value is, in words for messages: "the string \"abc\"", "the number 3", "a table" …
 std::string describe(const ConfigValue& value);
 // The candidate closest to `word` by edit distance, or an empty string where none is near.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
