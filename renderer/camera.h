@@ -16,30 +16,30 @@ struct Ray {
 };
 
 // How the picture sees the deformed world (x east, y north, z up, metres, scene CRS). Image places are in pixels,
-// x right, y down, (0, 0) the outer corner of the top-left pixel.
+// x right, y down, (0, 0) the outer corner of the top-left pixel. A camera is immutable; all calls are safe from any thread.
 class Camera {
  public:
   virtual ~Camera() = default;
   virtual Ray ray(glm::dvec2 pixel) const = 0;
   // The image place of a point, or nothing where it lies behind the eye; places outside the picture are returned as they are.
   virtual std::optional<glm::dvec2> project(glm::dvec3 point) const = 0;
-  // The place distances and generalization count from; for parallel projections the middle of the near picture edge's ray.
+  // The place distances and generalization count from; for parallel projections the origin of the near picture edge's middle ray.
   virtual glm::dvec3 eye() const = 0;
   virtual glm::ivec2 size() const = 0;
 };
 
 struct CameraParameters {
-  std::string projection = "perspective";  // one of projection_names()
+  std::string projection = "perspective";  // a name of projections()
   int width = 2400;                        // px, 16…65535
   int height = 1100;                       // px, 16…65535
-  glm::dvec3 eye{0.0};                     // deformed world, m
+  glm::dvec3 eye{0.0};                     // deformed world, m; the picture's middle ray passes through it
   double azimuth_deg = 0.0;                // view direction, clockwise from north
-  double pitch_deg = -20.0;                // -90 straight down … 90
+  double pitch_deg = -20.0;                // perspective -90 straight down … 90, oblique -90…-5, cylindrical -80…80
   double field_of_view_deg = 50.0;         // horizontal; perspective 1…150, cylindrical 1…360
-  double view_width_m = 20000.0;           // oblique: width of the picture on the ground
+  double view_width_m = 20000.0;           // oblique: width of the picture on the ground, 1…1e7
 };
 
-// One file and one line a projection: see CONTRIBUTING.
+// A projection is one file with its maker, declared and listed in camera.cpp: see CONTRIBUTING.
 using ProjectionMaker = std::unique_ptr<Camera> (*)(const CameraParameters&);
 struct Projection {
   std::string_view name;
@@ -48,7 +48,10 @@ struct Projection {
 };
 const std::vector<Projection>& projections();
 
-// Throws Error(usage) for an unknown projection or values out of range.
+// Throws Error(usage) for an unknown projection or values out of range, naming the scene's key.
 std::unique_ptr<Camera> make_camera(const CameraParameters& parameters);
+
+// Throws Error(usage) unless lowest <= value <= highest (so NaN as well); for the makers. key: "camera.pitch_deg".
+void check_camera_value(std::string_view key, double value, double lowest, double highest);
 
 }  // namespace belvedere

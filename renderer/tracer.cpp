@@ -1,1 +1,362 @@
 #include "renderer/tracer.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <xmmintrin.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "renderer/base/error.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int bundle = 16;  // rays handed to Embree at once
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+// Embree wants denormal floats flushed (FTZ, bit 15) and read as zero (DAZ, bit 6) in every thread that traces.
+class FlushDenormals {
+ public:
+  FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040U); }
+  ~FlushDenormals() { _mm_setcsr(saved_); }
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned saved_;
+};
+
+// What one RTCGrid covers: its first post and how many cells it has.
+struct GridTile {
+  int x0, y0, cells_x, cells_y;
+};
+
+void check(RTCDevice device, const char* what) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE) return;
+  const bool memory = error == RTC_ERROR_OUT_OF_MEMORY;
+  const bool cpu = error == RTC_ERROR_UNSUPPORTED_CPU;
+  throw Error(memory || cpu ? ErrorKind::limit : ErrorKind::bug, "ray tracing",
+              fmt::format("{} failed (Embree error {}{})", what, static_cast<int>(error),
+                          memory ? ", out of memory"
+                          : cpu  ? ", this processor is not supported"
+                                 : ""));
+}
+
+// Embree falls back silently where the processor lacks what was asked for, so it is asked first.
+std::string device_settings(const std::string& isa) {
+  const bool known = isa.empty() || isa == "sse4.2" || isa == "avx" || isa == "avx2" || isa == "avx512";
+  if (!known) {
+    throw Error(ErrorKind::usage, "instruction set", fmt::format("\"{}\"", isa), "\"sse4.2\", \"avx\", \"avx2\", \"avx512\" or empty");
+  }
+  const bool present = isa.empty() || (isa == "sse4.2" && __builtin_cpu_supports("sse4.2")) ||
+                       (isa == "avx" && __builtin_cpu_supports("avx")) || (isa == "avx2" && __builtin_cpu_supports("avx2")) ||
+                       (isa == "avx512" && __builtin_cpu_supports("avx512vl"));
+  if (!present) throw Error(ErrorKind::limit, "instruction set", fmt::format("this processor lacks {}", isa), "a processor that has it");
+  return isa.empty() ? std::string() : fmt::format("isa={}", isa);
+}
+
+// A ray against the two triangles of a cell, in double. Sides are signs of the volumes that the ray's line spans with each edge;
+// an edge shared by two triangles gives both the same volume with opposite sign, so no ray slips between them.
+struct CellHit {
+  double distance = std::numeric_limits<double>::infinity();
+  double u = 0.0;  // in the cell, 0…1
+  double v = 0.0;
+  glm::dvec3 normal{0.0};  // not unit
+};
+
+}  // namespace
+
+struct Tracer::State {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  const Grid<glm::vec3>* posts = nullptr;
+  glm::dvec3 origin{0.0};
+  std::vector<GridTile> tiles;    // those of geometry 0, then the last one, which is geometry 1
+  std::vector<RTCGrid> grids;     // of geometry 0
+  std::vector<float> last_posts;  // of geometry 1, with 4 readable bytes after the end
+  RTCGrid last_grid{};
+  std::atomic<std::ptrdiff_t> bytes{0};
+  std::string description;
+
+  ~State() {
+    if (scene != nullptr) rtcReleaseScene(scene);
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+
+  void attach(const float* vertices, std::size_t count, const RTCGrid* first, std::size_t grid_count);
+  void build(int tile_cells);
+  glm::dvec3 post(int x, int y) const { return glm::dvec3((*posts)(x, y)); }
+  void intersect_cell(int x, int y, const Ray& ray, CellHit& best, glm::ivec2& cell) const;
+  bool resolve(const Ray& ray, unsigned geometry, unsigned primitive, float u, float v, Hit& hit) const;
+  void trace_on(const Ray& ray, float from, Hit& hit) const;
+};
+
+void Tracer::State::attach(const float* vertices, std::size_t count, const RTCGrid* first, std::size_t grid_count) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_GRID);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0, 3 * sizeof(float), count);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, first, 0, sizeof(RTCGrid), grid_count);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+}
+
+void Tracer::State::build(int tile_cells) {
+  const int width = posts->width();
+  const int height = posts->height();
+  for (int y = 0; y + 1 < height; y += tile_cells) {
+    for (int x = 0; x + 1 < width; x += tile_cells) {
+      tiles.push_back({x, y, std::min(tile_cells, width - 1 - x), std::min(tile_cells, height - 1 - y)});
+    }
+  }
+  const auto grid = [](unsigned start, unsigned stride, const GridTile& tile) {
+    return RTCGrid{start, stride, static_cast<std::uint16_t>(tile.cells_x + 1), static_cast<std::uint16_t>(tile.cells_y + 1)};
+  };
+  for (const GridTile& tile : tiles) {
+    grids.push_back(grid(static_cast<unsigned>(posts->index(tile.x0, tile.y0)), static_cast<unsigned>(width), tile));
+  }
+  grids.pop_back();
+  // Embree reads each post with 16 bytes, so the very last one needs 4 more than the surface owns. Only the last tile
+  // reads it: that tile alone is copied, all others are traced where they lie.
+  const GridTile& last = tiles.back();
+  for (int y = last.y0; y <= last.y0 + last.cells_y; ++y) {
+    for (int x = last.x0; x <= last.x0 + last.cells_x; ++x) {
+      const glm::vec3& p = (*posts)(x, y);
+      last_posts.insert(last_posts.end(), {p.x, p.y, p.z});
+    }
+  }
+  const std::size_t last_count = last_posts.size() / 3;
+  last_posts.push_back(0.F);
+  last_grid = grid(0, static_cast<unsigned>(last.cells_x + 1), last);
+
+  if (!grids.empty()) attach(&posts->data()->x, posts->size() - 1, grids.data(), grids.size());
+  attach(last_posts.data(), last_count, &last_grid, 1);
+  check(device, "taking over the terrain");
+  rtcCommitScene(scene);
+  check(device, "building the terrain's structure");
+}
+
+void Tracer::State::intersect_cell(int x, int y, const Ray& ray, CellHit& best, glm::ivec2& cell) const {
+  const glm::dvec3 o = ray.origin - origin;
+  const glm::dvec3& d = ray.direction;
+  const glm::dvec3 p00 = post(x, y) - o;
+  const glm::dvec3 p10 = post(x + 1, y) - o;
+  const glm::dvec3 p01 = post(x, y + 1) - o;
+  const glm::dvec3 p11 = post(x + 1, y + 1) - o;
+  const double diagonal = glm::dot(glm::cross(p10, p01), d);
+  const auto triangle = [&](const glm::dvec3& a, double ab, double bc, double ca, bool lower, const glm::dvec3& b, const glm::dvec3& c) {
+    // ab belongs to the edge a-b and weighs c, and so on.
+    if (!((ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0))) return;
+    const double sum = ab + bc + ca;
+    if (sum == 0.0) return;  // seen edge on
+    const double wb = ca / sum;
+    const double wc = ab / sum;
+    const double distance = glm::dot(a + (b - a) * wb + (c - a) * wc, d);
+    if (!(distance >= 0.0) || !(distance < best.distance)) return;
+    best.distance = distance;
+    best.u = lower ? 1.0 - wb : wb;
+    best.v = lower ? 1.0 - wc : wc;
+    best.normal = glm::cross(c - a, b - a);
+    cell = {x, y};
+  };
+  triangle(p00, glm::dot(glm::cross(p00, p10), d), diagonal, glm::dot(glm::cross(p01, p00), d), false, p10, p01);
+  triangle(p11, glm::dot(glm::cross(p11, p01), d), -diagonal, glm::dot(glm::cross(p10, p11), d), true, p01, p10);
+}
+
+// The exact hit from the facet that Embree named. False where in double the ray passes it by (it grazed an edge).
+bool Tracer::State::resolve(const Ray& ray, unsigned geometry, unsigned primitive, float u, float v, Hit& hit) const {
+  const bool in_last = grids.empty() || geometry == 1;
+  const GridTile& tile = in_last ? tiles.back() : tiles[primitive];
+  const float fx = u * static_cast<float>(tile.cells_x);
+  const float fy = v * static_cast<float>(tile.cells_y);
+  const int x = tile.x0 + std::clamp(static_cast<int>(fx), 0, tile.cells_x - 1);
+  const int y = tile.y0 + std::clamp(static_cast<int>(fy), 0, tile.cells_y - 1);
+  CellHit best;
+  glm::ivec2 cell(x, y);
+  intersect_cell(x, y, ray, best, cell);
+  // Embree's float places are good to some hundredths of a cell far from the eye. So near a border, and where the cell is missed,
+  // the neighbours are asked too, and the nearest hit is the answer, from whichever side Embree came.
+  constexpr double rim = 0.03;
+  const bool missed = !(best.distance < std::numeric_limits<double>::infinity());
+  const bool near_border = missed || best.u < rim || best.v < rim || best.u > 1.0 - rim || best.v > 1.0 - rim;
+  if (near_border) {
+    const double cell_u = best.u;
+    const double cell_v = best.v;
+    for (int j = -1; j <= 1; ++j) {
+      for (int i = -1; i <= 1; ++i) {
+        if (i == 0 && j == 0) continue;
+        const bool towards =
+            missed || ((i == 0 || (i < 0 ? cell_u < rim : cell_u > 1.0 - rim)) && (j == 0 || (j < 0 ? cell_v < rim : cell_v > 1.0 - rim)));
+        if (!towards || x + i < 0 || y + j < 0 || x + i + 1 >= posts->width() || y + j + 1 >= posts->height()) continue;
+        intersect_cell(x + i, y + j, ray, best, cell);
+      }
+    }
+    if (!(best.distance < std::numeric_limits<double>::infinity())) return false;
+  }
+  hit.found = true;
+  hit.distance_m = best.distance;
+  hit.column = cell.x + best.u;
+  hit.row = cell.y + best.v;
+  hit.facet_normal = glm::normalize(best.normal);
+  return true;
+}
+
+// Follows a ray beyond a facet that it only grazed, one hit at a time.
+void Tracer::State::trace_on(const Ray& ray, float from, Hit& hit) const {
+  const glm::vec3 o(ray.origin - origin);
+  const glm::vec3 d(ray.direction);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  for (int tries = 0; tries < 16; ++tries) {
+    // Two steps of float farther than the facet left behind.
+    from = std::nextafter(std::nextafter(from, infinity), infinity);
+    RTCRayHit r{};
+    r.ray.org_x = o.x;
+    r.ray.org_y = o.y;
+    r.ray.org_z = o.z;
+    r.ray.tnear = from;
+    r.ray.dir_x = d.x;
+    r.ray.dir_y = d.y;
+    r.ray.dir_z = d.z;
+    r.ray.tfar = infinity;
+    r.ray.mask = ~0U;
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene, &context, &r);
+    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID || resolve(ray, r.hit.geomID, r.hit.primID, r.hit.u, r.hit.v, hit)) return;
+    from = r.ray.tfar;
+  }
+}
+
+namespace {
+
+// Fills a lane's ray part; false where the ray holds a NaN or no direction, which Embree would not survive well.
+template <class Packet>
+bool set_lane(Packet& packet, int lane, const Ray& ray, const glm::dvec3& origin, float reach) {
+  const glm::vec3 o(ray.origin - origin);
+  const glm::vec3 d(ray.direction);
+  const bool usable = std::isfinite(o.x + o.y + o.z + d.x + d.y + d.z) && glm::dot(d, d) > 0.F;
+  packet.org_x[lane] = usable ? o.x : 0.F;
+  packet.org_y[lane] = usable ? o.y : 0.F;
+  packet.org_z[lane] = usable ? o.z : 0.F;
+  packet.dir_x[lane] = usable ? d.x : 0.F;
+  packet.dir_y[lane] = usable ? d.y : 0.F;
+  packet.dir_z[lane] = usable ? d.z : 1.F;
+  packet.tnear[lane] = 0.F;
+  packet.tfar[lane] = reach;
+  packet.time[lane] = 0.F;
+  packet.mask[lane] = ~0U;
+  packet.id[lane] = static_cast<unsigned>(lane);
+  packet.flags[lane] = 0;
+  return usable;
+}
+
+RTCIntersectContext coherent_context() {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  return context;
+}
+
+std::string describe(RTCDevice device, const std::string& pinned) {
+  const auto version = [device](RTCDeviceProperty property) { return static_cast<int>(rtcGetDeviceProperty(device, property)); };
+  std::string isa = "SSE4.2";
+  if (__builtin_cpu_supports("avx")) isa = "AVX";
+  if (__builtin_cpu_supports("avx2")) isa = "AVX2";
+  if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) isa = "AVX-512";
+  if (!pinned.empty()) isa = pinned == "sse4.2" ? "SSE4.2" : pinned == "avx" ? "AVX" : pinned == "avx2" ? "AVX2" : "AVX-512";
+  return fmt::format("Embree {}.{}.{}, {}{}", version(RTC_DEVICE_PROPERTY_VERSION_MAJOR), version(RTC_DEVICE_PROPERTY_VERSION_MINOR),
+                     version(RTC_DEVICE_PROPERTY_VERSION_PATCH), isa, pinned.empty() ? "" : " pinned");
+}
+
+}  // namespace
+
+Tracer::Tracer(const DeformedSurface& surface, const TracerParameters& parameters) : state_(std::make_unique<State>()) {
+  State& state = *state_;
+  state.posts = &surface.vertices_m;
+  state.origin = surface.origin;
+  const Grid<glm::vec3>& posts = surface.vertices_m;
+  if (posts.width() < 2 || posts.height() < 2) {
+    throw Error(ErrorKind::bug, "ray tracing", fmt::format("a terrain of {} × {} posts", posts.width(), posts.height()), "2 × 2 or more");
+  }
+  if (parameters.tile_cells < 1 || parameters.tile_cells > 1024) {
+    throw Error(ErrorKind::bug, "ray tracing", fmt::format("tiles of {} cells", parameters.tile_cells), "1 to 1024");
+  }
+  // About 40 bytes a cell while building (23 are kept); Embree's ids of posts have 32 bits.
+  const double wanted = 40.0 * static_cast<double>(posts.size());
+  const double present = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  if (wanted > present || posts.size() > std::numeric_limits<std::uint32_t>::max() / 12) {
+    throw Error(ErrorKind::limit, "ray tracing",
+                fmt::format("a terrain of {} × {} posts needs about {:.1f} GB", posts.width(), posts.height(), wanted * 1e-9),
+                fmt::format("{:.1f} GB of memory, {} posts", present * 1e-9, std::numeric_limits<std::uint32_t>::max() / 12));
+  }
+  state.device = rtcNewDevice(device_settings(parameters.instruction_set).c_str());
+  check(state.device, "starting Embree");
+  rtcSetDeviceMemoryMonitorFunction(
+      state.device,
+      [](void* user, ssize_t bytes, bool) {
+        *static_cast<std::atomic<std::ptrdiff_t>*>(user) += bytes;
+        return true;
+      },
+      &state.bytes);
+  state.scene = rtcNewScene(state.device);
+  // Compact: 23 bytes a cell instead of 60. Robust: without it rays fall through the edges of cells.
+  rtcSetSceneFlags(state.scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_COMPACT | RTC_SCENE_FLAG_ROBUST));
+  state.description = describe(state.device, parameters.instruction_set);
+  const FlushDenormals flush;
+  state.build(parameters.tile_cells);
+}
+
+Tracer::~Tracer() = default;
+Tracer::Tracer(Tracer&&) noexcept = default;
+Tracer& Tracer::operator=(Tracer&&) noexcept = default;
+
+std::string Tracer::description() const { return state_->description; }
+std::size_t Tracer::memory_bytes() const { return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, state_->bytes.load())); }
+
+void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
+  const FlushDenormals flush;
+  RTCIntersectContext context = coherent_context();
+  for (std::size_t first = 0; first < rays.size(); first += bundle) {
+    const int count = static_cast<int>(std::min<std::size_t>(bundle, rays.size() - first));
+    alignas(64) std::array<int, bundle> valid{};
+    RTCRayHit16 packet;
+    for (int k = 0; k < count; ++k) {
+      valid[k] = set_lane(packet.ray, k, rays[first + k], state_->origin, infinity) ? -1 : 0;
+      packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect16(valid.data(), state_->scene, &context, &packet);
+    for (int k = 0; k < count; ++k) {
+      Hit& hit = hits[first + k];
+      hit = Hit{};
+      if (valid[k] == 0 || packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
+      const Ray& ray = rays[first + k];
+      if (state_->resolve(ray, packet.hit.geomID[k], packet.hit.primID[k], packet.hit.u[k], packet.hit.v[k], hit)) continue;
+      state_->trace_on(ray, packet.ray.tfar[k], hit);
+    }
+  }
+}
+
+void Tracer::occluded(std::span<const Ray> rays, double reach_m, std::span<std::uint8_t> blocked) const {
+  const FlushDenormals flush;
+  RTCIntersectContext context = coherent_context();
+  for (std::size_t first = 0; first < rays.size(); first += bundle) {
+    const int count = static_cast<int>(std::min<std::size_t>(bundle, rays.size() - first));
+    alignas(64) std::array<int, bundle> valid{};
+    RTCRay16 packet;
+    for (int k = 0; k < count; ++k) {
+      valid[k] = set_lane(packet, k, rays[first + k], state_->origin, static_cast<float>(reach_m)) ? -1 : 0;
+    }
+    rtcOccluded16(valid.data(), state_->scene, &context, &packet);
+    // Embree marks what is blocked with tfar = -infinity.
+    for (int k = 0; k < count; ++k) blocked[first + k] = valid[k] != 0 && packet.tfar[k] < 0.F ? 1 : 0;
+  }
+}
+
+}  // namespace belvedere

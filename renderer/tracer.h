@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -15,28 +16,43 @@ namespace belvedere {
 // they are the same on every instruction set.
 struct Hit {
   bool found = false;
-  double distance_m = 0.0;       // along the unit direction
-  double column = 0.0;           // fractional vertex of the grid: place before deformation
+  double distance_m = 0.0;  // along the unit direction
+  double column = 0.0;      // fractional vertex of the grid, barycentric in the undeformed grid: place before deformation
   double row = 0.0;
-  glm::dvec3 facet_normal{0.0};  // unit, upward, of the deformed facet
+  glm::dvec3 facet_normal{0.0};  // unit, of the deformed facet, towards its upper side
+};
+
+struct TracerParameters {
+  // Embree's instruction set: "" the best this machine has, or pinned for pictures that must be the same on several machines:
+  // "sse4.2", "avx", "avx2", "avx512". See description().
+  std::string instruction_set;
+  int tile_cells = 64;  // cells on a side of the grids handed to Embree, 1…1024; changes speed and memory only
 };
 
 // Owns the acceleration structure over a deformed surface. tracer.cpp is the only file that knows Embree. Immutable once made, all
 // calls are safe from any thread.
+//
+// Facets: vertices (x, y) of the surface are posts; the cell between posts (x, y) and (x+1, y+1) is two triangles,
+// (x, y) (x+1, y) (x, y+1) and (x+1, y+1) (x, y+1) (x+1, y), so the diagonal runs from the north-east to the south-west post.
 class Tracer {
  public:
-  // Throws Error(limit) where memory would not suffice.
-  explicit Tracer(const DeformedSurface& surface);
+  // Reads the surface's posts whenever it traces: the surface must outlive the tracer and stay as it is.
+  // Throws Error(limit) where memory would not suffice or the machine lacks the instruction set, Error(bug) for fewer than 2 × 2 posts.
+  explicit Tracer(const DeformedSurface& surface, const TracerParameters& parameters = {});
+  explicit Tracer(const DeformedSurface&&, const TracerParameters& = {}) = delete;
   ~Tracer();
   Tracer(Tracer&&) noexcept;
+  Tracer& operator=(Tracer&&) noexcept;
 
-  // Rays in the deformed world (not relative to the surface's origin). Coherent bundles are fastest: 16 neighbouring rays.
+  // Rays in the deformed world (not relative to the surface's origin). Every 16 rays are a bundle; bundles of neighbouring rays are
+  // fastest. Facets are hit from both sides. A ray with a NaN misses.
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
-  // Whether something stands in the way within [0, reach_m]. `blocked` gets 1 or 0 per ray.
+  // Whether something stands in the way within [0, reach_m]. `blocked` gets 1 or 0 per ray; a ray with a NaN is free.
   void occluded(std::span<const Ray> rays, double reach_m, std::span<std::uint8_t> blocked) const;
 
   // "Embree 3.13.5, AVX2": for provenance.
   std::string description() const;
+  // What Embree holds: the structure, not the posts.
   std::size_t memory_bytes() const;
 
  private:
