@@ -16,8 +16,8 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/memory_limit.h"
-#include "terrain/gdal_errors.h"
 #include "terrain/raster_file.h"
+#include "terrain/raster_io_errors.h"
 
 namespace belvedere {
 namespace {

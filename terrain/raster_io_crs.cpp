@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "renderer/base/error.h"
-#include "terrain/gdal_errors.h"
 #include "terrain/raster_file.h"
+#include "terrain/raster_io_errors.h"
 
 namespace belvedere {
 namespace {

@@ -9,9 +9,9 @@
 #include <memory>
 
 #include "renderer/base/error.h"
-#include "terrain/gdal_errors.h"
 #include "terrain/raster_file.h"
 #include "terrain/raster_io.h"
+#include "terrain/raster_io_errors.h"
 
 namespace belvedere {
 
