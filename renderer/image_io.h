@@ -75,6 +75,8 @@ ImageInfo read_image_info(const std::string& path);
 // One channel of any part of an OpenEXR file by name; half and float32 as float. Error(input) if absent, of the other kind or damaged,
 // Error(limit) over memory_limit_bytes().
 Grid<float> read_channel(const std::string& path, const std::string& channel);
+// Several at once, so that a part is unpacked only once; an absent one gives an empty grid.
+std::vector<Grid<float>> read_channels(const std::string& path, const std::vector<std::string>& channels);
 Grid<std::uint32_t> read_id_channel(const std::string& path, const std::string& channel);
 
 // A picture from PNG, TIFF, JPEG or OpenEXR (channels R G B or Y), as it stands in the file: values 0…1 for integer formats. Colours are

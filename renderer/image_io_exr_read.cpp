@@ -149,22 +149,40 @@ std::string list_channels(const std::vector<PartHeader>& parts) {
   return list;
 }
 
+// Channels by name from whichever part has them first, each part read once; an absent channel gives an empty grid.
+template <class T>
+std::vector<Grid<T>> read_some(const std::string& path, const std::vector<PartHeader>& parts, const std::vector<std::string>& channels,
+                               bool ids) {
+  std::vector<Grid<T>> out(channels.size());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    std::vector<std::size_t> wanted;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const Imf::Channel* found = out[c].empty() ? find_channel(path, parts[p], channels[c]) : nullptr;
+      if (found == nullptr) continue;
+      if ((found->type == Imf::UINT) != ids) {
+        throw Error(ErrorKind::input, path, "channel " + channels[c] + (ids ? " holds no ids" : " holds ids"),
+                    ids ? "32-bit whole numbers" : "half or float");
+      }
+      wanted.push_back(c);
+    }
+    if (wanted.empty()) continue;
+    check_part(path, parts[p], static_cast<int>(sizeof(T) * wanted.size()));
+    std::vector<Target> targets;
+    for (const std::size_t c : wanted) {
+      out[c] = Grid<T>(static_cast<int>(parts[p].width), static_cast<int>(parts[p].height));
+      targets.push_back({channels[c], ids ? Imf::UINT : Imf::FLOAT, reinterpret_cast<char*>(out[c].data()), sizeof(T)});
+    }
+    read_part(path, p, parts[p], targets);
+  }
+  return out;
+}
+
 template <class T>
 Grid<T> read_one(const std::string& path, const std::string& channel, bool ids) {
   const std::vector<PartHeader> parts = read_headers(path);
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const Imf::Channel* found = find_channel(path, parts[p], channel);
-    if (found == nullptr) continue;
-    if ((found->type == Imf::UINT) != ids) {
-      throw Error(ErrorKind::input, path, "channel " + channel + (ids ? " holds no ids" : " holds ids"),
-                  ids ? "32-bit whole numbers" : "half or float");
-    }
-    check_part(path, parts[p], sizeof(T));
-    Grid<T> out(static_cast<int>(parts[p].width), static_cast<int>(parts[p].height));
-    read_part(path, p, parts[p], {{channel, ids ? Imf::UINT : Imf::FLOAT, reinterpret_cast<char*>(out.data()), sizeof(T)}});
-    return out;
-  }
-  throw Error(ErrorKind::input, path, "has no channel " + channel, list_channels(parts));
+  Grid<T> out = std::move(read_some<T>(path, parts, {channel}, ids).front());
+  if (out.empty()) throw Error(ErrorKind::input, path, "has no channel " + channel, list_channels(parts));
+  return out;
 }
 
 }  // namespace
@@ -225,6 +243,10 @@ Grid<glm::vec3> read_exr_picture(const std::string& path, Grid<float>* alpha) {
 }  // namespace image_io
 
 Grid<float> read_channel(const std::string& path, const std::string& channel) { return image_io::read_one<float>(path, channel, false); }
+
+std::vector<Grid<float>> read_channels(const std::string& path, const std::vector<std::string>& channels) {
+  return image_io::read_some<float>(path, image_io::read_headers(path), channels, false);
+}
 
 Grid<std::uint32_t> read_id_channel(const std::string& path, const std::string& channel) {
   return image_io::read_one<std::uint32_t>(path, channel, true);
