@@ -20,9 +20,13 @@ struct Match {
 using MatchField = Grid<Match>;
 
 // Copies any layer of the exemplars, at its own bit depth, through a match field. layers[i] belongs to exemplar i.
-// Pixels without a match take `missing`'s value there.
+// Pixels without a match take `missing`'s value there, or T{} where `missing` is empty. Throws Error(usage) where `missing` is of
+// another size, Error(input) where a match lies outside its layer.
 template <class T>
 Grid<T> replay(const MatchField& matches, const std::vector<const Grid<T>*>& layers, const Grid<T>& missing) {
+  if (!missing.empty() && !missing.same_size(matches)) {
+    throw Error(ErrorKind::usage, "match field", "values for missing pixels of another size", "the size of the match field");
+  }
   Grid<T> out(matches.width(), matches.height());
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const Match m = matches[i];

@@ -1,0 +1,330 @@
+#include "texture/synth_kernel.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "renderer/base/random.h"
+#include "texture/synth_bins.h"
+#include "texture/synth_level.h"
+
+namespace belvedere::synth {
+namespace {
+
+constexpr int classes = 3;
+
+// A plane of noise with blotches of classes and smooth guides; `seed` tells pictures apart.
+Plane noise_plane(std::vector<std::pair<int, int>> sizes, int guides, std::uint64_t seed, bool with_holes) {
+  Plane plane = make_plane(sizes, guides);
+  for (std::size_t p = 0; p < plane.parts.size(); ++p) {
+    for (int y = 0; y < plane.parts[p].height; ++y) {
+      for (int x = 0; x < plane.parts[p].width; ++x) {
+        const std::uint32_t at = plane.index(static_cast<int>(p), x, y);
+        std::uint32_t c = random_index(classes, seed, x / 5, y / 4, p);
+        if (with_holes && random_index(20, seed + 1, x / 2, y / 2, p) == 0) c = no_class;
+        plane.words[at] = static_cast<std::uint32_t>(random_bits(seed + 2, x, y, p) & 0xffffffU) | c << 24;
+        for (int g = 0; g < guides; ++g) {
+          plane.guides[at * static_cast<std::size_t>(guides) + static_cast<std::size_t>(g)] =
+              static_cast<std::uint8_t>(random_index(256, seed + 3, x / 3, y / 3, static_cast<std::uint64_t>(g)));
+        }
+      }
+    }
+  }
+  pad(plane);
+  return plane;
+}
+
+// The price of a patch, as the formula says it and no faster.
+std::int64_t naive_patch_cost(const Plane& target, std::uint32_t pixel, const Plane& exemplars, std::uint32_t texel,
+                              const std::array<std::array<bool, 7>, 7>& counts) {
+  std::int64_t sum = 0;
+  std::int64_t mismatches = 0;
+  for (int dy = -3; dy <= 3; ++dy) {
+    for (int dx = -3; dx <= 3; ++dx) {
+      const std::uint32_t a = target.words[static_cast<std::size_t>(static_cast<std::int64_t>(pixel) + dy * target.stride + dx)];
+      const std::uint32_t b = exemplars.words[static_cast<std::size_t>(static_cast<std::int64_t>(texel) + dy * exemplars.stride + dx)];
+      if (class_of(a) == no_class || !counts[static_cast<std::size_t>(dy + 3)][static_cast<std::size_t>(dx + 3)]) continue;
+      const std::int64_t weight = std::lround(16.0 * std::exp(-(dx * dx + dy * dy) / 8.0));
+      for (int c = 0; c < 3; ++c) {
+        const int d = static_cast<int>(a >> (8 * c) & 255U) - static_cast<int>(b >> (8 * c) & 255U);
+        sum += weight * d * d;
+      }
+      if (class_of(a) != class_of(b)) ++mismatches;
+    }
+  }
+  return (sum >> 3) + 3000 * mismatches;
+}
+
+std::array<std::array<bool, 7>, 7> whole_patch() {
+  std::array<std::array<bool, 7>, 7> all{};
+  for (auto& row : all) row.fill(true);
+  return all;
+}
+
+class EachVectorWidth : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { use_vector_target(GetParam()); }
+  void TearDown() override { use_vector_target(""); }
+};
+
+TEST_P(EachVectorWidth, PatchCostEqualsTheFormula) {
+  const Plane exemplars = noise_plane({{23, 17}, {9, 31}}, 1, 5, true);
+  Plane target = noise_plane({{19, 21}}, 1, 50, true);
+  LevelState state(settings_for_level(2, 1, 240, 1.0), {GuideRole{2880}}, classes, exemplars, target, {});
+  start_from_picks(state);
+  const KernelView view = state.view(0);
+  int compared = 0;
+  target.for_each([&](std::uint32_t pixel) {
+    if (class_of(target.words[pixel]) == no_class) return;
+    const int part = static_cast<int>(random_index(2, 7, pixel, 0));
+    const Plane::Part& p = exemplars.parts[static_cast<std::size_t>(part)];
+    const std::uint32_t texel = exemplars.index(part, static_cast<int>(random_index(static_cast<std::uint32_t>(p.width), 8, pixel, 0)),
+                                                static_cast<int>(random_index(static_cast<std::uint32_t>(p.height), 9, pixel, 0)));
+    ASSERT_EQ(patch_cost(view, pixel, texel), naive_patch_cost(target, pixel, exemplars, texel, whole_patch()));
+    ++compared;
+  });
+  EXPECT_GT(compared, 300);
+}
+
+TEST_P(EachVectorWidth, BlackAgainstWhiteDoesNotOverflow) {
+  Plane exemplars = make_plane({{7, 7}}, 0);
+  exemplars.for_each([&](std::uint32_t at) { exemplars.words[at] = 0x00ffffffU; });
+  pad(exemplars);
+  Plane target = make_plane({{7, 7}}, 0);
+  target.for_each([&](std::uint32_t at) { target.words[at] = 0xfe000000U; });
+  pad(target);
+  KernelView view;
+  view.target = &target;
+  view.exemplars = &exemplars;
+  std::int64_t weights = 0;
+  for (int dy = -3; dy <= 3; ++dy) {
+    for (int dx = -3; dx <= 3; ++dx) weights += std::lround(16.0 * std::exp(-(dx * dx + dy * dy) / 8.0));
+  }
+  EXPECT_EQ(patch_cost(view, target.index(0, 3, 3), exemplars.index(0, 3, 3)), (weights * 3 * 255 * 255 >> 3) + 49 * 3000);
+}
+
+TEST_P(EachVectorWidth, PatchesEndAtSilhouettes) {
+  const Plane exemplars = noise_plane({{40, 40}}, 0, 5, false);
+  Plane target = noise_plane({{20, 20}}, 0, 50, false);
+  // A near disc before a far plain before the sky.
+  Grid<float> depth(20, 20, 9000.0F);
+  const auto near_disc = [](int x, int y) { return (x - 9) * (x - 9) + (y - 12) * (y - 12) < 20; };
+  for (int y = 0; y < 20; ++y) {
+    for (int x = 0; x < 20; ++x) {
+      if (near_disc(x, y)) depth(x, y) = 1000.0F;
+      if (y < 5) depth(x, y) = std::numeric_limits<float>::infinity();
+    }
+  }
+  LevelState state(settings_for_level(2, 1, 240, 1.0), {}, classes, exemplars, target, make_links(depth, target, 1.04F));
+  start_from_picks(state);
+  const KernelView view = state.view(0);
+  // The disc is convex and the sky is one: inside a window a surface is what has the same depth, except where the disc cuts the
+  // plain in two, which these pixels' windows do not show.
+  for (const auto& [x, y] : {std::pair{9, 12}, {9, 9}, {12, 14}, {5, 4}, {5, 5}, {15, 6}, {13, 8}, {0, 0}, {19, 19}}) {
+    auto counts = whole_patch();
+    for (int dy = -3; dy <= 3; ++dy) {
+      for (int dx = -3; dx <= 3; ++dx) {
+        if (depth.contains(x + dx, y + dy)) {
+          counts[static_cast<std::size_t>(dy + 3)][static_cast<std::size_t>(dx + 3)] = depth(x + dx, y + dy) == depth(x, y);
+        }
+      }
+    }
+    const std::uint32_t pixel = target.index(0, x, y);
+    EXPECT_EQ(patch_cost(view, pixel, exemplars.index(0, 20, 20)),
+              naive_patch_cost(target, pixel, exemplars, exemplars.index(0, 20, 20), counts))
+        << x << ", " << y;
+  }
+}
+
+// One sub-pass against an exhaustive search with the formula of the recipe: every pixel must end at the cheapest of all that it may
+// copy, and nothing else may change.
+TEST_P(EachVectorWidth, SubPassFindsTheCheapestCandidate) {
+  const Plane exemplars = noise_plane({{26, 18}, {11, 30}}, 3, 5, true);
+  Plane target = noise_plane({{21, 23}}, 3, 50, true);
+  const std::vector<GuideRole> guides{{2880}, {1440}, {160}};
+  LevelSettings settings = settings_for_level(1, 1, 240, 1.0);
+  settings.draws = 4;
+  LevelState state(settings, guides, classes, exemplars, target, {});
+  start_from_picks(state);
+  for (int pass = 0; pass < 2; ++pass) {  // so that there are pieces and used bins
+    state.pieces.find(target, exemplars, state.match);
+    for (int s = 0; s < 4; ++s) sub_pass(state, pass, s & 1, s >> 1);
+  }
+  state.pieces.find(target, exemplars, state.match);
+  const Plane target_before = target;
+  const LevelState before = state;
+  const int pass = 2;
+  sub_pass(state, pass, 1, 0);
+
+  KernelView view = before.view(pass);
+  view.target = &target_before;
+  const std::vector<std::int32_t> bin_cost = bin_penalties(before.bins_actual, before.bins_expected, static_cast<std::int32_t>(price::bin));
+  int moved = 0;
+  for (int y = 0; y < 23; ++y) {
+    for (int x = 0; x < 21; ++x) {
+      const std::uint32_t pixel = target.index(0, x, y);
+      if (x % 2 != 1 || y % 2 != 0 || class_of(target_before.words[pixel]) == no_class) {
+        ASSERT_EQ(state.match[pixel], before.match[pixel]);
+        ASSERT_EQ(target.words[pixel], target_before.words[pixel]);
+        continue;
+      }
+      const std::uint32_t c = class_of(target_before.words[pixel]);
+      const Slack slack = make_slack(view, pixel);
+      std::set<std::pair<std::uint32_t, std::int64_t>> candidates;  // with the price of joining; the cheapest offer comes first below
+      std::set<std::uint32_t> offered;
+      const auto offer = [&](std::uint32_t texel, std::int64_t join) {
+        if (class_of(exemplars.words[texel]) == c && offered.insert(texel).second) candidates.insert({texel, join});
+      };
+      offer(before.match[pixel], 0);
+      for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}) {
+        const std::uint32_t q = target.index(0, x + dx, y + dy);
+        const std::int64_t texel = static_cast<std::int64_t>(before.match[q]) - dx - dy * exemplars.stride;
+        offer(static_cast<std::uint32_t>(texel), before.pieces.size()[q] >= 45 ? 60000 : 0);
+      }
+      offer(draw_texel(view, pixel, view.key, x, y, slack), 0);
+      std::uint32_t best = 0;
+      std::int64_t best_cost = std::numeric_limits<std::int64_t>::max();
+      for (const auto& [texel, join] : candidates) {
+        std::int64_t guide = 0;
+        for (int g = 0; g < 3; ++g) {
+          const std::int64_t off = std::max(0, std::abs(target.guides_at(pixel)[g] - exemplars.guides_at(texel)[g]) - slack.value[g]);
+          guide += guides[static_cast<std::size_t>(g)].weight_q4 * off * off;
+        }
+        const std::int64_t n = static_cast<std::int64_t>(before.uses[texel]) - (texel == before.match[pixel] ? 1 : 0);
+        const std::int64_t cost = join + (guide >> 4) + ((n * (n + 1) / 2 * before.reuse_q4[c]) >> 4) +
+                                  bin_cost[c * 64 + before.bins[texel]] +
+                                  naive_patch_cost(target_before, pixel, exemplars, texel, whole_patch());
+        if (cost < best_cost) {  // the set is in index order: ties go to the lower index
+          best_cost = cost;
+          best = texel;
+        }
+      }
+      ASSERT_EQ(state.match[pixel], best) << x << ", " << y;
+      ASSERT_EQ(target.words[pixel] & 0xffffffU, exemplars.words[best] & 0xffffffU);
+      moved += best != before.match[pixel] ? 1 : 0;
+    }
+  }
+  EXPECT_GT(moved, 5);
+
+  // What is kept along equals a recount.
+  LevelState recounted = state;
+  recount(recounted);
+  EXPECT_EQ(recounted.uses, state.uses);
+  EXPECT_EQ(recounted.bins_actual, state.bins_actual);
+}
+
+INSTANTIATE_TEST_SUITE_P(Vectors, EachVectorWidth, testing::ValuesIn(vector_targets()), [](const auto& name) { return name.param; });
+
+TEST(PickLists, WindowsHoldEnoughTexelsForTheDemand) {
+  const Plane exemplars = noise_plane({{60, 50}}, 2, 5, false);
+  const Plane target = noise_plane({{90, 80}}, 2, 50, false);
+  for (const std::vector<GuideRole>& guides : {std::vector<GuideRole>{{2880}, {0}}, std::vector<GuideRole>{{1000}, {2880}}}) {
+    const PickLists lists(exemplars, target, classes, guides, 16);
+    const ListKeys keys = lists.keys();
+    EXPECT_EQ(keys.sorted, guides[1].weight_q4 > 0 ? 1 : 0);
+    EXPECT_EQ(keys.bucket, guides[1].weight_q4 > 0 ? 0 : -1);
+    for (int n = 0; n < 200; ++n) {
+      const std::uint32_t pixel = target.index(0, static_cast<int>(random_index(90, 1, n, 0)), static_cast<int>(random_index(80, 2, n, 0)));
+      const std::uint32_t c = class_of(target.words[pixel]);
+      const std::uint8_t* wanted = target.guides_at(pixel);
+      const PickWindow window = lists.window(c, wanted);
+      const auto inside = [&](const std::uint8_t* guide) {
+        if (std::abs(guide[keys.sorted] - wanted[keys.sorted]) > window.slack + 1) return false;
+        return keys.bucket < 0 || std::abs(guide[keys.bucket] / 16 - wanted[keys.bucket] / 16) <= window.buckets;
+      };
+      std::int64_t texels = 0;
+      std::int64_t pixels = 0;
+      exemplars.for_each(
+          [&](std::uint32_t at) { texels += class_of(exemplars.words[at]) == c && inside(exemplars.guides_at(at)) ? 1 : 0; });
+      target.for_each([&](std::uint32_t at) { pixels += class_of(target.words[at]) == c && inside(target.guides_at(at)) ? 1 : 0; });
+      EXPECT_GE(texels, 16);
+      const double ratio = 1.5 * static_cast<double>(lists.pixel_count(c)) / static_cast<double>(lists.texel_count(c));
+      EXPECT_LE(static_cast<double>(pixels), static_cast<double>(texels) * std::max(4.0, ratio));
+      const std::uint32_t texel = lists.pick(c, wanted, static_cast<std::uint32_t>(random_bits(3, n, 0)));
+      EXPECT_EQ(class_of(exemplars.words[texel]), c);
+      EXPECT_TRUE(inside(exemplars.guides_at(texel)));
+    }
+  }
+}
+
+TEST(Pieces, EqualAFloodFillForAnyBand) {
+  const Plane exemplars = noise_plane({{150, 140}}, 0, 5, false);
+  const Plane target = noise_plane({{70, 140}}, 0, 50, false);  // several bands of rows
+  std::vector<std::uint32_t> match(target.words.size(), exemplars.nowhere());
+  // Blocks of constant offset that touch in all ways.
+  const auto offset = [](int x, int y) { return static_cast<int>(random_index(3, 11, x / 6, y / 9)); };
+  for (int y = 0; y < 140; ++y) {
+    for (int x = 0; x < 70; ++x) match[target.index(0, x, y)] = exemplars.index(0, x + 9 * offset(x, y), y);
+  }
+  Pieces pieces(target);
+  pieces.find(target, exemplars, match);
+  Grid<int> seen(70, 140, -1);
+  std::uint32_t largest = 0;
+  for (int y = 0; y < 140; ++y) {
+    for (int x = 0; x < 70; ++x) {
+      if (seen(x, y) >= 0) continue;
+      std::vector<std::pair<int, int>> open{{x, y}};
+      seen(x, y) = 1;
+      for (std::size_t i = 0; i < open.size(); ++i) {
+        for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+          const int nx = open[i].first + dx;
+          const int ny = open[i].second + dy;
+          if (!seen.contains(nx, ny) || seen(nx, ny) >= 0 || offset(nx, ny) != offset(x, y)) continue;
+          seen(nx, ny) = 1;
+          open.emplace_back(nx, ny);
+        }
+      }
+      largest = std::max(largest, static_cast<std::uint32_t>(open.size()));
+      for (const auto& [px, py] : open) {
+        ASSERT_EQ(pieces.size()[target.index(0, px, py)], open.size());
+        ASSERT_EQ(pieces.first_pixel(target.index(0, px, py)), target.index(0, x, y));
+      }
+    }
+  }
+  EXPECT_EQ(pieces.largest(), largest);
+  EXPECT_GT(largest, 64U);
+}
+
+TEST(Plane, StepsOutOfAPictureLandOnNoClass) {
+  const Plane plane = noise_plane({{5, 7}, {9, 3}, {1, 1}}, 2, 5, false);
+  for (int p = 0; p < 3; ++p) {
+    const Plane::Part& part = plane.parts[static_cast<std::size_t>(p)];
+    for (int y = -padding; y < part.height + padding; ++y) {
+      for (int x = -padding; x < part.width + padding; ++x) {
+        const bool inside = x >= 0 && y >= 0 && x < part.width && y < part.height;
+        const std::uint32_t at = plane.index(p, x, y);
+        ASSERT_EQ(class_of(plane.words[at]) != no_class, inside);
+        if (!inside) continue;
+        const Plane::Place place = plane.place(at);
+        ASSERT_EQ(std::make_tuple(place.part, place.x, place.y), std::make_tuple(p, x, y));
+      }
+    }
+  }
+}
+
+TEST(Plane, HalvesByClassAndMean) {
+  Plane plane = make_plane({{5, 4}}, 1);
+  plane.for_each([&](std::uint32_t at) {
+    plane.words[at] = 0x02804020U;
+    plane.guides[at] = 77;
+  });
+  plane.words[plane.index(0, 0, 0)] = 0x01ffffffU;
+  plane.words[plane.index(0, 1, 1)] = 0x01ffffffU;  // two of two: the lower class
+  plane.words[plane.index(0, 3, 3)] = 0xff123456U;  // excluded: its colour counts nowhere
+  pad(plane);
+  const Plane coarse = halve(plane);
+  EXPECT_EQ(coarse.parts[0].width, 3);
+  EXPECT_EQ(coarse.parts[0].height, 2);
+  EXPECT_EQ(class_of(coarse.words[coarse.index(0, 0, 0)]), 1U);
+  EXPECT_EQ(coarse.words[coarse.index(0, 2, 1)], 0x02804020U);
+  EXPECT_EQ(coarse.words[coarse.index(0, 1, 1)] >> 24, 2U);
+  coarse.for_each([&](std::uint32_t at) { EXPECT_EQ(coarse.guides[at], 77); });
+}
+
+}  // namespace
+}  // namespace belvedere::synth

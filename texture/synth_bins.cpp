@@ -1,0 +1,104 @@
+#include "texture/synth_bins.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "renderer/base/parallel.h"
+
+namespace belvedere::synth {
+
+namespace {
+
+constexpr int side = 2 * patch_radius + 1;
+constexpr int quantiles = 8;
+constexpr int luminances = 3 * 255 + 1;
+constexpr int contrasts = 384;  // the deviation of values 0…765 is at most 382.5
+
+int luminance(std::uint32_t word) { return static_cast<int>((word & 255U) + (word >> 8 & 255U) + (word >> 16 & 255U)); }
+
+// Quantile of each value in a histogram, by the rank of the value's middle.
+void to_quantiles(const std::int64_t* histogram, int values, std::uint8_t* quantile) {
+  std::int64_t total = 0;
+  for (int i = 0; i < values; ++i) total += histogram[i];
+  std::int64_t below = 0;
+  for (int i = 0; i < values; ++i) {
+    const std::int64_t rank = (below + histogram[i] / 2) * quantiles / std::max<std::int64_t>(1, total);
+    quantile[i] = static_cast<std::uint8_t>(std::min<std::int64_t>(quantiles - 1, rank));
+    below += histogram[i];
+  }
+}
+
+// Deviation of luminance over the 7 × 7 around each texel of a row; the square root of an exact integer, so the same anywhere.
+void contrast_row(const Plane& plane, std::uint32_t row, int width, std::vector<std::uint16_t>& out) {
+  std::vector<int> sum(static_cast<std::size_t>(width + side - 1));
+  std::vector<int> squares(sum.size());
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    for (int j = -patch_radius; j <= patch_radius; ++j) {
+      const std::int64_t at =
+          static_cast<std::int64_t>(row) - patch_radius + static_cast<std::int64_t>(i) + static_cast<std::int64_t>(j) * plane.stride;
+      const int value = luminance(plane.words[static_cast<std::size_t>(at)]);
+      sum[i] += value;
+      squares[i] += value * value;
+    }
+  }
+  for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
+    std::int64_t s = 0;
+    std::int64_t s2 = 0;
+    for (std::size_t i = 0; i < side; ++i) {
+      s += sum[x + i];
+      s2 += squares[x + i];
+    }
+    constexpr std::int64_t count = side * side;
+    out[x] = static_cast<std::uint16_t>(std::sqrt(static_cast<double>((count * s2 - s * s) / (count * count))));
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> make_bins(const Plane& exemplars, int classes) {
+  const std::size_t class_count = static_cast<std::size_t>(classes);
+  std::vector<std::uint16_t> contrast(exemplars.words.size(), 0);
+  for (const Plane::Part& part : exemplars.parts) {
+    parallel_rows(part.height, [&](int y) {
+      const std::uint32_t row = part.origin + static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(exemplars.stride);
+      std::vector<std::uint16_t> values(static_cast<std::size_t>(part.width));
+      contrast_row(exemplars, row, part.width, values);
+      std::copy(values.begin(), values.end(), contrast.begin() + row);
+    });
+  }
+  std::vector<std::int64_t> by_luminance(class_count * luminances, 0);
+  std::vector<std::int64_t> by_contrast(class_count * contrasts, 0);
+  exemplars.for_each([&](std::uint32_t at) {
+    const std::uint32_t c = class_of(exemplars.words[at]);
+    if (c == no_class) return;
+    ++by_luminance[c * luminances + static_cast<std::size_t>(luminance(exemplars.words[at]))];
+    ++by_contrast[c * contrasts + contrast[at]];
+  });
+  std::vector<std::uint8_t> luminance_quantile(by_luminance.size());
+  std::vector<std::uint8_t> contrast_quantile(by_contrast.size());
+  for (std::size_t c = 0; c < class_count; ++c) {
+    to_quantiles(&by_luminance[c * luminances], luminances, &luminance_quantile[c * luminances]);
+    to_quantiles(&by_contrast[c * contrasts], contrasts, &contrast_quantile[c * contrasts]);
+  }
+  std::vector<std::uint8_t> bins(exemplars.words.size(), 0);
+  exemplars.for_each([&](std::uint32_t at) {
+    const std::uint32_t c = class_of(exemplars.words[at]);
+    if (c == no_class) return;
+    const int bright = luminance_quantile[c * luminances + static_cast<std::size_t>(luminance(exemplars.words[at]))];
+    bins[at] = static_cast<std::uint8_t>(bright * quantiles + contrast_quantile[c * contrasts + contrast[at]]);
+  });
+  return bins;
+}
+
+std::vector<std::int32_t> bin_penalties(const std::vector<std::int32_t>& actual, const std::vector<std::int32_t>& expected,
+                                        std::int32_t strength) {
+  std::vector<std::int32_t> penalties(actual.size());
+  for (std::size_t i = 0; i < actual.size(); ++i) {
+    const std::int64_t excess = (static_cast<std::int64_t>(actual[i]) - expected[i]) * 16 / (static_cast<std::int64_t>(expected[i]) + 4);
+    penalties[i] = static_cast<std::int32_t>(std::clamp<std::int64_t>(excess, -16, 32) * strength / 16);
+  }
+  return penalties;
+}
+
+}  // namespace belvedere::synth

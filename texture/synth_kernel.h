@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "texture/synth_lists.h"
+#include "texture/synth_plane.h"
+
+namespace belvedere::synth {
+
+// The hot loop of synthesis: what a candidate costs, and which candidate of a pixel is the cheapest. Compiled for several
+// vector widths, chosen when the program starts; integer arithmetic, so each width gives the same numbers.
+
+// Prices of the cost function, in the units of the patch distance (1 = an eighth of a weighted squared 8-bit difference).
+namespace price {
+inline constexpr std::int64_t distance_shift = 3;     // weighted squared differences >> 3
+inline constexpr std::int64_t class_mismatch = 3000;  // a pixel of the patch whose class differs
+inline constexpr std::int64_t guide = 180;            // a squared difference of a guide of weight 1
+inline constexpr std::int64_t reuse = 2000;           // n (n + 1) / 2 times, for a texel used n times by others
+inline constexpr std::int64_t bin = 15000;            // a bin used twice as often as expected
+inline constexpr std::int64_t join = 60000;           // joining a piece near the cap
+inline constexpr std::int64_t misfit = 300000;        // a member of a moved piece that would leave its class
+}  // namespace price
+
+// Weight of a patch pixel: round(16 exp(-r² / 8)), by |dx| and |dy|.
+inline constexpr int patch_weights[4][4] = {{16, 14, 10, 5}, {14, 12, 9, 5}, {10, 9, 6, 3}, {5, 5, 3, 2}};
+
+// All that pricing reads. Pointers into the state of a level (synth_level.h); nothing is owned.
+struct KernelView {
+  const Plane* target = nullptr;
+  const Plane* exemplars = nullptr;
+  const PickLists* lists = nullptr;
+  const std::uint8_t* links = nullptr;        // by target index; null: no silhouettes
+  const GuideRole* guides = nullptr;          // exemplars->guide_count of them
+  const std::uint32_t* match = nullptr;       // by target index: exemplar index
+  const std::uint16_t* piece_size = nullptr;  // by target index: pixels of the piece copied in one, saturated
+  const std::uint32_t* uses = nullptr;        // by exemplar index
+  const std::uint8_t* bins = nullptr;         // by exemplar index
+  const std::int32_t* bin_cost = nullptr;     // by class × 64 + bin
+  const std::int64_t* reuse_q4 = nullptr;     // by class: price of reuse in sixteenths
+  std::int64_t copy_cap = 0;                  // pixels of a piece
+  bool replaces_pieces = false;               // whether pieces over the cap are moved as a whole on this level
+  int draws = 1;                              // texels drawn for one pick
+  std::uint64_t key = 0;                      // of the random numbers of this pass
+  int pass = 0;
+};
+
+// What a pixel's guides may be off without cost, per guide.
+struct Slack {
+  static constexpr int most_guides = 32;
+  std::int32_t value[most_guides];
+};
+Slack make_slack(const KernelView& view, std::uint32_t pixel);
+std::int64_t guide_cost(const KernelView& view, const std::uint8_t* wanted, const std::uint8_t* offered, const Slack& slack);
+// A texel of the pixel's class from the window of its guides: of `draws` random ones that with the cheapest guides.
+std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, const Slack& slack);
+
+// Which of the 7 × 7 pixels around (bit x of row y) lie on the pixel's own surface, reached by linked steps inside the window.
+void surface_around(const KernelView& view, std::uint32_t pixel, std::uint8_t rows[7]);
+
+// The best candidate of every second pixel of row y from x0 on, into next[0], next[1] …
+void improve_row(const KernelView& view, int x0, int y, std::uint32_t* next);
+// Patch distance and class mismatches together, as improve_row prices them.
+std::int64_t patch_cost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel);
+
+// A whole piece moved: pixels[i] would copy from first_texel + steps[i]. Which first texel is the cheapest over all of them?
+struct PieceSample {
+  std::uint32_t pixel = 0;
+  int dx = 0;  // from the piece's reference pixel
+  int dy = 0;
+};
+// Index into `candidates` (exemplar indices for the reference pixel), or -1 where there is none. Ties to the first.
+int best_move(const KernelView& view, const std::vector<PieceSample>& samples, const std::vector<std::uint32_t>& candidates);
+
+// The vector instruction sets this machine can run, best first; and to use one of them alone ("" for the best), for tests.
+std::vector<std::string> vector_targets();
+void use_vector_target(const std::string& name);
+
+}  // namespace belvedere::synth

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "texture/synth_plane.h"
+
+namespace belvedere::synth {
+
+// A guide's place in the cost of a candidate and in the lists picks come from.
+struct GuideRole {
+  std::int64_t weight_q4 = 0;  // cost of a squared difference, in sixteenths
+};
+
+// Which guides order the lists (indices into a plane's guides, -1 none). The strongest guide sorts the texels of a class; the
+// second strongest, where it is strong enough to matter, splits them into 16 buckets before.
+struct ListKeys {
+  static constexpr int bucket_width = 16;
+  int sorted = -1;
+  int bucket = -1;
+  int buckets() const { return bucket < 0 ? 1 : 256 / bucket_width; }
+};
+ListKeys choose_list_keys(const std::vector<GuideRole>& guides);
+
+// How far a pick may lie from the pixel's own guides: wide enough that the window holds enough texels for all pixels that
+// draw from it. So no texel is in demand more than its class as a whole.
+struct PickWindow {
+  std::uint8_t slack = 0;    // of the sorting guide: the window is value ± (slack + 1), and costs nothing within ± slack
+  std::uint8_t buckets = 0;  // neighbouring buckets on either side; costs nothing within buckets × bucket_width
+};
+
+// All texels of a level by class, bucket and value of the sorting guide: what random candidates are picked from.
+class PickLists {
+ public:
+  // minimum: texels a window must hold.
+  PickLists(const Plane& exemplars, const Plane& target, int classes, const std::vector<GuideRole>& guides, int minimum);
+
+  bool has_class(std::uint32_t label_class) const { return texel_count(label_class) > 0; }
+  std::int64_t texel_count(std::uint32_t label_class) const;
+  std::int64_t pixel_count(std::uint32_t label_class) const { return pixel_counts_[label_class]; }
+  const ListKeys& keys() const { return keys_; }
+
+  // The window of a pixel with these guides.
+  PickWindow window(std::uint32_t label_class, const std::uint8_t* guides) const;
+  // A texel of the class from that window, uniform in `random`; exemplars.nowhere() where the class has no texel.
+  std::uint32_t pick(std::uint32_t label_class, const std::uint8_t* guides, std::uint32_t random) const;
+
+ private:
+  int value_of(const std::uint8_t* guides) const { return keys_.sorted < 0 ? 0 : guides[keys_.sorted]; }
+  int bucket_of(const std::uint8_t* guides) const { return keys_.bucket < 0 ? 0 : guides[keys_.bucket] / ListKeys::bucket_width; }
+  std::size_t cell(std::uint32_t label_class, int bucket) const {
+    return static_cast<std::size_t>(label_class) * static_cast<std::size_t>(keys_.buckets()) + static_cast<std::size_t>(bucket);
+  }
+
+  ListKeys keys_;
+  std::uint32_t nowhere_ = 0;
+  std::vector<std::uint32_t> texels_;       // by class, bucket, value, index
+  std::vector<std::uint32_t> start_;        // cell × 257: where a value begins in texels_
+  std::vector<PickWindow> windows_;         // cell × 256
+  std::vector<std::int64_t> pixel_counts_;  // target pixels of a class
+};
+
+}  // namespace belvedere::synth
