@@ -6,19 +6,32 @@
 
 namespace belvedere {
 
-// Where a result came from: what every file's header carries (design sections 3 and 6). No time of day, no host: the same run gives the same bytes.
+// Where a result came from: what every file's header carries (design sections 3 and 6). No time of day, no host, no folder: the same run
+// gives the same bytes, wherever its files lie.
 struct Provenance {
   std::string program_version;
-  std::string libraries;                        // "Embree 3.13.5, GDAL 3.6.2 …"
+  std::string libraries;  // "Embree 3.13.5, GDAL 3.6.2 …"
   std::string instruction_set;
-  std::string scene;                            // the resolved scene, TOML
-  std::map<std::string, std::string> inputs;    // file name → xxh3 of its bytes
+  std::string scene;                          // the resolved scene, TOML
+  std::map<std::string, std::string> inputs;  // file name as the scene writes it → hash_file of its bytes
 };
+
 // "0.1.0"
 std::string program_version();
-// XXH3-128 of a file's bytes, hexadecimal; Error(input) where it cannot be read.
+// The foreign libraries the program was built with, "Embree 3.13.5, …".
+std::string library_versions();
+// The widest vector instructions this machine has of those the libraries distinguish: "SSE2", "SSE4.2", "AVX", "AVX2" or "AVX-512".
+std::string machine_instruction_set();
+// XXH3-128 of a file's bytes, 32 hexadecimal digits as `xxhsum -H2` prints them; Error(input) where it cannot be read. Memory does not
+// grow with the file.
 std::string hash_file(const std::string& path);
-// As header notes: belvedere:version, belvedere:scene, …
+// The same of bytes in memory.
+std::string hash_bytes(const std::string& bytes);
+// Version, libraries and instruction set of this program on this machine, the scene's text and the hash of each input.
+// inputs: name as the scene writes it → path.
+Provenance make_provenance(const std::string& scene_text, const std::map<std::string, std::string>& inputs);
+// As header notes: belvedere:version, belvedere:libraries, belvedere:instruction_set, belvedere:scene and belvedere:inputs (lines of hash,
+// two spaces, name). Empty fields are left out.
 std::map<std::string, std::string> to_notes(const Provenance& provenance);
 
 }  // namespace belvedere

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+namespace belvedere {
+
+// A file that appears whole or not at all: written under a temporary name in the same folder (`x.tif` as `x.tmp.tif`, because image
+// libraries go by the ending), then renamed. Until commit() an older file of that name stays as it is; without it the temporary
+// file is removed. Throws Error(output) with the system's reason.
+class OutputFile {
+ public:
+  explicit OutputFile(std::string path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  const std::string& path() const { return path_; }
+  const std::string& temporary() const { return temporary_; }
+  // Brings the temporary file to disk and renames it.
+  void commit();
+
+ private:
+  std::string path_;
+  std::string temporary_;
+  bool committed_ = false;
+};
+
+}  // namespace belvedere

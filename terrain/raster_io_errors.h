@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cpl_error.h>
+
+#include <string>
+
+namespace belvedere {
+
+// While it lives, GDAL prints nothing in this thread, and the first failure it reports is kept in its own words. Included
+// by raster_io.cpp, raster_io_write.cpp and raster_io_crs.cpp only, the files that know GDAL.
+class GdalErrors {
+ public:
+  GdalErrors() {
+    CPLErrorReset();
+    CPLPushErrorHandlerEx(&GdalErrors::collect, this);
+  }
+  ~GdalErrors() { CPLPopErrorHandler(); }
+  GdalErrors(const GdalErrors&) = delete;
+  GdalErrors& operator=(const GdalErrors&) = delete;
+
+  bool failed() const { return failed_; }
+  // GDAL's words after what we were doing, such as "cannot be read: TIFFFillStrip: Read error …".
+  std::string say(const std::string& doing) const { return text_.empty() ? doing : doing + ": " + text_; }
+
+ private:
+  static void CPL_STDCALL collect(CPLErr severity, CPLErrorNum, const char* text) {
+    auto* errors = static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
+    if (severity < CE_Failure || errors->failed_) return;  // debug messages and warnings
+    errors->failed_ = true;
+    errors->text_ = text;
+  }
+
+  bool failed_ = false;
+  std::string text_;
+};
+
+// Makes GDAL's formats known, once a process.
+void register_gdal();
+
+}  // namespace belvedere

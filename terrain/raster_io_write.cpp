@@ -1,0 +1,154 @@
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <gdal.h>
+#include <ogr_spatialref.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "renderer/base/error.h"
+#include "terrain/raster_file.h"
+#include "terrain/raster_io.h"
+#include "terrain/raster_io_errors.h"
+
+namespace belvedere {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr float written_void = -9999.0F;
+
+// Cells as a file holds them.
+Grid<float> with_written_voids(const Grid<float>& cells) {
+  Grid<float> out = cells;
+  for (float& value : out)
+    if (!std::isfinite(value)) value = written_void;
+  return out;
+}
+
+void write_geotiff(const std::string& path, const Raster<float>& raster, const Grid<float>& cells) {
+  CPLStringList options;
+  for (const char* option : {"TILED=YES", "COMPRESS=DEFLATE", "PREDICTOR=3", "BIGTIFF=IF_SAFER", "NUM_THREADS=1"})
+    options.AddString(option);
+  const GdalErrors errors;
+  const auto check = [&](bool good) {
+    if (!good || errors.failed()) throw Error(ErrorKind::output, path, errors.say("cannot be written"));
+  };
+  std::unique_ptr<void, void (*)(GDALDatasetH)> dataset(
+      GDALCreate(GDALGetDriverByName("GTiff"), path.c_str(), cells.width(), cells.height(), 1, GDT_Float32, options.List()),
+      [](GDALDatasetH open) { GDALClose(open); });
+  check(dataset != nullptr);
+  const GeoTransform& t = raster.transform;
+  double affine[6] = {t.origin_x, t.cell_x, 0.0, t.origin_y, 0.0, -t.cell_y};
+  check(GDALSetGeoTransform(dataset.get(), affine) == CE_None);
+  if (!raster.crs.empty()) {
+    OGRSpatialReference crs;
+    check(crs.SetFromUserInput(raster.crs.c_str()) == OGRERR_NONE);
+    check(GDALSetSpatialRef(dataset.get(), &crs) == CE_None);
+  }
+  GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
+  check(GDALSetRasterNoDataValue(band, written_void) == CE_None);
+  // The library takes a pointer to non-const for reading and writing alike; it only reads here.
+  check(GDALRasterIO(band, GF_Write, 0, 0, cells.width(), cells.height(), const_cast<float*>(cells.data()), cells.width(), cells.height(),
+                     GDT_Float32, 0, 0) == CE_None);
+  GDALFlushCache(dataset.get());
+  dataset.reset();
+  check(true);
+}
+
+// By hand, because shortest round-trip numbers keep every bit of a float and no locale interferes.
+void write_ascii(const std::string& path, const Raster<float>& raster, const Grid<float>& cells) {
+  const GeoTransform& t = raster.transform;
+  if (std::abs(t.cell_x - t.cell_y) > 1e-9 * t.cell_x) {
+    throw Error(ErrorKind::output, path, fmt::format("ESRI ASCII cannot hold cells of {} × {}", t.cell_x, t.cell_y),
+                "square cells, or .tif");
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"), &std::fclose);
+  if (!file) throw Error(ErrorKind::output, path, "cannot be created");
+  std::string text = fmt::format("ncols {}\nnrows {}\nxllcorner {}\nyllcorner {}\ncellsize {}\nNODATA_value -9999\n", cells.width(),
+                                 cells.height(), t.origin_x, t.origin_y - t.cell_y * cells.height(), t.cell_x);
+  bool good = true;
+  for (int y = 0; y < cells.height(); ++y) {
+    const float* row = cells.row(y);
+    for (int x = 0; x < cells.width(); ++x) fmt::format_to(std::back_inserter(text), "{}{}", x == 0 ? "" : " ", row[x]);
+    text += '\n';
+    good = good && std::fwrite(text.data(), 1, text.size(), file.get()) == text.size();
+    text.clear();
+  }
+  if (!good || std::fflush(file.get()) != 0) throw Error(ErrorKind::output, path, "cannot be written: is the disk full?");
+}
+
+// The CRS beside an ASCII grid, in the dialect that its readers know.
+void write_prj(const std::string& path, const std::string& crs) {
+  OGRSpatialReference reference;
+  char* text = nullptr;
+  const char* const options[] = {"FORMAT=WKT1_ESRI", nullptr};
+  const GdalErrors errors;
+  const bool good = reference.SetFromUserInput(crs.c_str()) == OGRERR_NONE && reference.exportToWkt(&text, options) == OGRERR_NONE;
+  const std::string wkt = text != nullptr ? text : "";
+  CPLFree(text);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(good ? std::fopen(path.c_str(), "wb") : nullptr, &std::fclose);
+  if (!file || std::fwrite(wkt.data(), 1, wkt.size(), file.get()) != wkt.size() || std::fflush(file.get()) != 0) {
+    throw Error(ErrorKind::output, path, errors.say("cannot be written"));
+  }
+}
+
+// What was written, read again: a full disk is not always reported.
+void check_written(const std::string& path, const Grid<float>& cells) {
+  try {
+    RasterSource source;
+    source.path = path;
+    source.crs = "EPSG:3857";  // any: places are not looked at here
+    const RasterFile file(source);
+    if (file.width() != cells.width() || file.height() != cells.height()) throw Error(ErrorKind::output, path, "has another size");
+    constexpr int strip = 256;
+    for (int y0 = 0; y0 < cells.height(); y0 += strip) {
+      const int rows = std::min(strip, cells.height() - y0);
+      const Grid<float> back = file.read_values({0, y0, cells.width(), rows});
+      for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < cells.width(); ++x) {
+          const float wanted = cells(x, y0 + y);
+          if (back(x, y) != wanted && !(wanted == written_void && std::isnan(back(x, y))))
+            throw Error(ErrorKind::output, path, "holds other values");
+        }
+    }
+  } catch (const Error& error) {
+    throw Error(ErrorKind::output, path, "was not written as it should be: " + error.found());
+  }
+}
+
+}  // namespace
+
+void write_raster(const std::string& path, const Raster<float>& raster) {
+  std::string ending = fs::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const bool ascii = ending == ".asc";
+  if (!ascii && ending != ".tif" && ending != ".tiff") throw Error(ErrorKind::output, path, "has an unknown ending", ".tif, .tiff or .asc");
+  if (raster.cells.empty()) throw Error(ErrorKind::output, path, "is to hold no cells");
+  const Grid<float> cells = with_written_voids(raster.cells);
+  register_gdal();
+  // The temporary name keeps the ending, by which formats are known, and lies in the same folder, so that a rename suffices.
+  const fs::path target(path);
+  const auto temporary = [&target](const char* end) { return (target.parent_path() / target.stem()).string() + ".tmp" + end; };
+  const std::string part = temporary(target.extension().c_str());
+  const std::string part_prj = temporary(".prj");
+  const bool prj = ascii && !raster.crs.empty();
+  try {
+    ascii ? write_ascii(part, raster, cells) : write_geotiff(part, raster, cells);
+    if (prj) write_prj(part_prj, raster.crs);
+    check_written(part, cells);
+    fs::rename(part, target);
+    if (prj) fs::rename(part_prj, fs::path(target).replace_extension(".prj"));
+  } catch (const std::exception& exception) {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    fs::remove(part_prj, ignored);
+    const auto* error = dynamic_cast<const Error*>(&exception);
+    throw Error(ErrorKind::output, path, error != nullptr ? error->found() : exception.what(), error != nullptr ? error->allowed() : "");
+  }
+}
+
+}  // namespace belvedere

@@ -1,0 +1,44 @@
+#include "renderer/base/memory_limit.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "renderer/base/error.h"
+
+namespace belvedere {
+namespace {
+
+class MemoryLimit : public testing::Test {
+ protected:
+  void TearDown() override { unsetenv("BELVEDERE_MEMORY_MIB"); }
+};
+
+TEST_F(MemoryLimit, IsPartOfTheMachine) {
+  EXPECT_GT(memory_budget_bytes(), std::uint64_t{64} << 20);
+  EXPECT_NO_THROW(check_memory("small.tif", 1e6));
+  EXPECT_THROW(check_memory("huge.tif", 1e30), Error);
+}
+
+TEST_F(MemoryLimit, IsSetByTheEnvironment) {
+  setenv("BELVEDERE_MEMORY_MIB", "16", 1);
+  EXPECT_EQ(memory_budget_bytes(), std::uint64_t{16} << 20);
+  EXPECT_NO_THROW(check_memory("a.tif", 16.0 * 1048576.0));
+  try {
+    check_memory("a.tif", 16.0 * 1048576.0 + 1.0);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_EQ(error.where(), "a.tif");
+  }
+}
+
+TEST_F(MemoryLimit, RefusesWhatIsNoNumber) {
+  for (const char* text : {"0", "-1", "many", "12x", "99999999999999999999"}) {
+    setenv("BELVEDERE_MEMORY_MIB", text, 1);
+    EXPECT_THROW(memory_budget_bytes(), Error) << text;
+  }
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// Picture files made byte by byte from their specifications, so that readers are tested against something other than our own writers.
+namespace belvedere::test {
+
+// A folder of its own for each test, emptied at the start and removed at the end.
+class Folder {
+ public:
+  explicit Folder(const std::string& name)
+      : path_(std::filesystem::temp_directory_path() / ("belvedere-" + name + "-" + std::to_string(::getpid()))) {
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  std::string path() const { return path_.string(); }
+  std::size_t file_count() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string read_bytes(const std::string& path) {
+  std::string bytes(std::filesystem::file_size(path), '\0');
+  std::ifstream(path, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return bytes;
+}
+
+inline void write_bytes(const std::string& path, std::string_view bytes) {
+  std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+inline std::string big_endian(std::uint32_t v) {
+  return {static_cast<char>(v >> 24), static_cast<char>(v >> 16), static_cast<char>(v >> 8), static_cast<char>(v)};
+}
+
+inline std::string little_endian(std::uint64_t v, int bytes) {
+  std::string out;
+  for (int i = 0; i < bytes; ++i) out += static_cast<char>(v >> (8 * i));
+  return out;
+}
+
+inline std::string png_chunk(const std::string& type, const std::string& data) {
+  std::uint32_t crc = 0xffffffffu;
+  for (const char c : type + data) {
+    crc ^= static_cast<std::uint8_t>(c);
+    for (int k = 0; k < 8; ++k) crc = (crc & 1) != 0 ? 0xedb88320u ^ (crc >> 1) : crc >> 1;
+  }
+  return big_endian(static_cast<std::uint32_t>(data.size())) + type + data + big_endian(~crc);
+}
+
+// `rows`: all bytes of all rows without filter bytes. colour_type: 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGB and alpha.
+inline std::string make_png(int width, int height, int bits, int colour_type, const std::string& rows, const std::string& palette = {}) {
+  const std::string header = big_endian(static_cast<std::uint32_t>(width)) + big_endian(static_cast<std::uint32_t>(height)) +
+                             static_cast<char>(bits) + static_cast<char>(colour_type) + std::string(3, '\0');
+  std::string raw;
+  const std::size_t row_bytes = height > 0 ? rows.size() / static_cast<std::size_t>(height) : 0;
+  for (int y = 0; y < height && row_bytes > 0; ++y) raw += '\0' + rows.substr(static_cast<std::size_t>(y) * row_bytes, row_bytes);
+  // zlib with one stored block (up to 65535 bytes).
+  std::uint32_t a = 1, b = 0;
+  for (const char c : raw) {
+    a = (a + static_cast<std::uint8_t>(c)) % 65521;
+    b = (b + a) % 65521;
+  }
+  const std::string packed = "\x78\x01\x01" + little_endian(raw.size(), 2) + little_endian(~raw.size(), 2) + raw + big_endian(b << 16 | a);
+  std::string out = "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header);
+  if (!palette.empty()) out += png_chunk("PLTE", palette);
+  return out + png_chunk("IDAT", packed) + png_chunk("IEND", "");
+}
+
+// An uncompressed TIFF of 8-bit grey with its directory in front of the rows; one strip a row.
+inline std::string make_tiff(int width, int height, const std::string& rows, int photometric = 1) {
+  const int entries = 9;
+  const std::uint32_t tables = 8 + 2 + 12 * entries + 4;
+  const auto h = static_cast<std::uint32_t>(height);
+  const auto w = static_cast<std::uint32_t>(width);
+  const std::uint32_t data = tables + 8 * h;
+  std::string out = std::string("II*\0", 4) + little_endian(8, 4) + little_endian(entries, 2);
+  const auto entry = [&](int tag, int type, std::uint32_t count, std::uint32_t value) {
+    out += little_endian(static_cast<std::uint64_t>(tag), 2) + little_endian(static_cast<std::uint64_t>(type), 2) +
+           little_endian(count, 4) + little_endian(value, 4);
+  };
+  entry(256, 4, 1, w);
+  entry(257, 4, 1, h);
+  entry(258, 3, 1, 8);
+  entry(259, 3, 1, 1);
+  entry(262, 3, 1, static_cast<std::uint32_t>(photometric));
+  entry(273, 4, h, tables);
+  entry(277, 3, 1, 1);
+  entry(278, 4, 1, 1);
+  entry(279, 4, h, tables + 4 * h);
+  out += little_endian(0, 4);
+  for (std::uint32_t y = 0; y < h; ++y) out += little_endian(data + y * w, 4);
+  for (std::uint32_t y = 0; y < h; ++y) out += little_endian(w, 4);
+  return out + rows;
+}
+
+// The header of an OpenEXR file with one float channel "Z" and nothing behind it.
+inline std::string make_exr_header(std::uint32_t width, std::uint32_t height) {
+  using namespace std::string_literals;
+  const auto attribute = [](const std::string& name, const std::string& type, const std::string& value) {
+    return name + '\0' + type + '\0' + little_endian(value.size(), 4) + value;
+  };
+  const std::string window = little_endian(0, 8) + little_endian(width - 1, 4) + little_endian(height - 1, 4);
+  std::string out = "\x76\x2f\x31\x01\x02\0\0\0"s;
+  out += attribute("channels", "chlist",
+                   "Z\0"s + little_endian(2, 4) + little_endian(0, 4) + little_endian(1, 4) + little_endian(1, 4) + "\0"s);
+  out += attribute("compression", "compression", "\0"s);
+  out += attribute("dataWindow", "box2i", window);
+  out += attribute("displayWindow", "box2i", window);
+  out += attribute("lineOrder", "lineOrder", "\0"s);
+  out += attribute("pixelAspectRatio", "float", "\0\0\x80\x3f"s);
+  out += attribute("screenWindowCenter", "v2f", std::string(8, '\0'));
+  out += attribute("screenWindowWidth", "float", "\0\0\x80\x3f"s);
+  return out + '\0';
+}
+
+}  // namespace belvedere::test
