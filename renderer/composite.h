@@ -9,15 +9,21 @@
 
 namespace belvedere {
 
-// out = texel + residual · (base_target - base_exemplar), in encoded sRGB (look/recipe.md, From an exemplar). Sky and unmatched
-// pixels take the target's base.
+// out = texel + residual · (base_target - base_exemplar), in encoded sRGB (look/recipe.md, From an exemplar), cut to 0…1. residual 0…1.
+// Pixels without a match, sky among them, take the target's base; exemplars without a base (scans) give their texel as it is. Error(input)
+// for matches outside of the exemplars.
 Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<PaintedExemplar>& exemplars,
                                   const Grid<glm::vec3>& target_base, double residual);
 
-// Softens depth edges and the skyline by coverage: a pixel is mixed with its neighbours on the other surface by `front` and `coverage`.
+// Softens depth edges and the skyline. A pixel of which only the part `front` shows the surface it was painted for gets the rest from those
+// of its eight neighbours that lie on another surface (depth differs by more than 3 %, or one is sky), in linear light, as an eye or lens
+// would mix them. Pixels with front 1, or with no other surface around, stay as they are. `picture` encoded sRGB. Needs depth_m and
+// front; without front the picture comes back unchanged.
 Grid<glm::vec3> blend_edges(const Grid<glm::vec3>& picture, const GuidanceBuffers& guidance);
+// Rows that blend_edges looks at above and below, for pictures made in bands.
+inline constexpr int blend_margin_px = 1;
 
-// Encoded sRGB to scene-linear and back (exact piecewise sRGB curve).
+// Encoded sRGB to scene-linear and back (exact piecewise curve of IEC 61966-2-1, continued below 0 and beyond 1).
 Image decode_srgb(const Grid<glm::vec3>& encoded);
 Grid<glm::vec3> encode_srgb(const Image& linear);
 
