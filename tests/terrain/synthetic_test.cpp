@@ -20,9 +20,9 @@ namespace {
 // As large as the default, with coarse cells: a main valley, side valleys and ranges.
 SyntheticParameters quick() {
   SyntheticParameters p;
-  p.width = 400;
-  p.height = 420;
-  p.cell_m = 90.0;
+  p.width = 300;
+  p.height = 320;
+  p.cell_m = 120.0;
   return p;
 }
 
@@ -90,7 +90,7 @@ TEST(SyntheticTerrain, HasTheFormOfTheAlps) {
   EXPECT_FLOAT_EQ(*low, 500.F);
   EXPECT_LE(*high, 3400.F);
   EXPECT_GE(*high, 0.7F * 3400.F);
-  const Grid<float> slope = slope_deg(dem.altitude_m, 90.0, 90.0);
+  const Grid<float> slope = slope_deg(dem.altitude_m, 120.0, 120.0);
   const auto share = [&](auto&& holds) {
     return static_cast<double>(std::count_if(slope.begin(), slope.end(), holds)) / static_cast<double>(slope.size());
   };
@@ -113,8 +113,8 @@ TEST(SyntheticTerrain, HasTheFormOfTheAlps) {
 
 TEST(SyntheticTerrain, IsTheSameForAnyNumberOfThreadsAndDiffersBySeed) {
   SyntheticParameters p = quick();
-  p.width = 150;
-  p.height = 170;
+  p.width = 100;
+  p.height = 110;
   const Dem two = make_synthetic_terrain(p, silent_progress());
   {
     const ThreadLimit limit(1);
