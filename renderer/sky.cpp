@@ -1,0 +1,192 @@
+#include "renderer/sky.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "renderer/base/noise.h"
+#include "renderer/base/parallel.h"
+#include "renderer/base/random.h"
+#include "renderer/picture_noise.h"
+
+namespace belvedere {
+namespace {
+
+float smooth_step(float from, float to, float value) {
+  const float t = std::clamp((value - from) / (to - from), 0.0F, 1.0F);
+  return t * t * (3.0F - 2.0F * t);
+}
+
+// A row of cumulus, seen from below the layer: the farther, the lower, the smaller and the denser. All in heights of the sky.
+struct CloudRow {
+  double base;   // height of the flat base above the horizon
+  double width;  // of a cloud
+  double opacity;
+};
+constexpr std::array<CloudRow, 5> cloud_rows = {
+    {{0.05, 0.34, 0.40}, {0.11, 0.50, 0.60}, {0.20, 0.74, 0.80}, {0.33, 1.10, 0.90}, {0.50, 1.60, 0.85}}};
+
+// One cloud over a flat base: heads under an arch, larger in the middle, the near ones low.
+Cloud make_cloud(const SkyParameters& p, std::uint64_t seed, std::int64_t cell, double middle_px, double base_px, double width_px,
+                 double opacity) {
+  std::int64_t draw = 0;
+  const auto uniform = [&] { return random_uniform(seed, cell, draw++, 1); };
+  const double height_px = width_px * (0.16 + 0.16 * uniform());
+  const double peak = -0.45 + 0.9 * uniform();  // where the heap is highest
+  const int count = 16 + static_cast<int>(16.0 * uniform());
+  Cloud cloud{static_cast<float>(base_px), {}, {}, static_cast<float>(opacity), {}};
+  for (int k = 0; k < count; ++k) {
+    const double u = -1.0 + 2.0 * (k + uniform()) / count;
+    const double side = u < peak ? (peak - u) / (1.0 + peak) : (u - peak) / (1.0 - peak);
+    const double arch = std::sqrt(std::max(0.0, 1.0 - side * side)) * (0.55 + 0.45 * uniform());
+    const double radius = height_px * (0.16 + 0.30 * arch) * (0.75 + 0.5 * uniform());
+    const double rise = std::max(0.0, arch * height_px - radius) * (0.25 + 0.75 * uniform());
+    cloud.heads.push_back(
+        {{static_cast<float>(middle_px + 0.5 * width_px * u), static_cast<float>(base_px - rise)}, static_cast<float>(radius)});
+  }
+  std::stable_sort(cloud.heads.begin(), cloud.heads.end(), [](const CloudHead& a, const CloudHead& b) { return a.centre.y < b.centre.y; });
+  cloud.from = glm::vec2(1e9F);
+  cloud.to = glm::vec2(-1e9F);
+  for (const CloudHead& head : cloud.heads) {
+    cloud.from = glm::min(cloud.from, head.centre - 1.5F * head.radius);
+    cloud.to = glm::max(cloud.to, head.centre + 1.5F * head.radius);
+  }
+  cloud.to.y = static_cast<float>(base_px + 0.05 * p.horizon_px);
+  return cloud;
+}
+
+struct Layer {
+  glm::vec3 colour{0.0F};
+  float alpha = 0.0F;
+};
+
+// What a cloud shows at a place: its heads over each other, each lit from above and from the sun's side.
+Layer cloud_at(const Cloud& cloud, glm::vec2 place, glm::vec2 wobble, const Palette& palette, glm::vec2 towards_light) {
+  Layer layer;
+  const float height = cloud.base_px - cloud.from.y;
+  for (const CloudHead& head : cloud.heads) {
+    const glm::vec2 offset = (place - head.centre) / head.radius + wobble;
+    const float distance = glm::length(offset);
+    if (distance >= 1.25F) continue;
+    const float cover = 1.0F - smooth_step(0.55F, 1.25F, distance);
+    const float lit = std::clamp(0.52F + 0.55F * glm::dot(offset, towards_light), 0.0F, 1.0F);
+    // The foot of the heap lies in its own shade.
+    const float raised = smooth_step(-0.05F, 0.75F, (cloud.base_px - place.y) / height);
+    const float light = std::clamp(lit * 0.55F + raised * 0.55F, 0.0F, 1.0F);
+    const glm::vec3 colour = glm::mix(palette.cloud_shade, palette.cloud_light, light);
+    layer.colour = layer.alpha + cover > 0.0F ? glm::mix(layer.colour, colour, layer.alpha == 0.0F ? 1.0F : cover) : colour;
+    layer.alpha = layer.alpha + cover * (1.0F - layer.alpha);
+  }
+  // The flat base: it ends in a soft line.
+  layer.alpha *= smooth_step(-0.10F, 0.12F, (cloud.base_px - place.y) / height - 0.02F * wobble.x) * cloud.opacity;
+  return layer;
+}
+
+// Cirrus at a place: streaks on a high plane seen in perspective; 0…1.
+float cirrus_at(const SkyParameters& p, double x_px, double elevation, GroundNoise& streaks, GroundNoise& threads, GroundNoise& patches) {
+  if (elevation < 0.12) return 0.0F;
+  const double depth = 1.0 / (elevation + 0.18);  // along the view, 0.85 at the top of the picture
+  const double vanishing_px = 0.5 * p.picture_size.x + (p.sun_image_x < 0.0 ? 0.28 : -0.28) * p.picture_size.x;
+  const double across = (x_px - vanishing_px) / p.horizon_px * depth;
+  // Streaks run along the view: noise is stretched eightfold in depth, and wavers a little.
+  const double waver = 0.25 * patches(across * 0.9 + 40.0, depth * 2.0);
+  const float broad = streaks((across + waver) * 2.1, depth * 1.1);
+  const float fine = threads((across + waver) * 6.5, depth * 1.6);
+  const float where = patches(across * 0.33, depth * 0.9);
+  const float density = 0.55F * broad + 0.28F * fine + 0.75F * where - 0.75F;
+  const float fade = smooth_step(0.12F, 0.45F, static_cast<float>(elevation));
+  return std::clamp(0.75F * density * static_cast<float>(std::min(p.clouds, 1.5)), 0.0F, 0.62F) * fade;
+}
+
+}  // namespace
+
+glm::vec3 sky_gradient(const Palette& palette, double place) {
+  const auto& stops = palette.sky;
+  if (place <= stops.front().first) return stops.front().second;
+  for (std::size_t i = 1; i < stops.size(); ++i)
+    if (place < stops[i].first) {
+      const auto share = static_cast<float>((place - stops[i - 1].first) / (stops[i].first - stops[i - 1].first));
+      return glm::mix(stops[i - 1].second, stops[i].second, share);
+    }
+  return stops.back().second;
+}
+
+std::vector<Cloud> make_clouds(const SkyParameters& p) {
+  std::vector<Cloud> clouds;
+  const double sky_px = p.horizon_px;
+  for (std::size_t r = 0; r < cloud_rows.size(); ++r) {
+    const CloudRow& row = cloud_rows[r];
+    const std::uint64_t seed = p.seed + 100 + r;
+    const double cell_px = row.width * sky_px * 0.8;
+    const auto last = static_cast<std::int64_t>(p.picture_size.x / cell_px) + 2;
+    for (std::int64_t cell = -2; cell <= last; ++cell) {
+      const double middle_px = (static_cast<double>(cell) + random_uniform(seed, cell, 0)) * cell_px;
+      // Clouds keep together in banks.
+      const double bank = gaussian_noise(p.seed + 90, middle_px / sky_px + 17.0 * static_cast<double>(r), static_cast<double>(r), 1.7);
+      if (0.22 + 0.42 * bank + 0.35 * (p.clouds - 1.0) < random_uniform(seed, cell, 1)) continue;
+      const double width_px = row.width * sky_px * (0.55 + 0.75 * random_uniform(seed, cell, 2));
+      const double base_px = sky_px * (1.0 - row.base * (0.92 + 0.16 * random_uniform(seed, cell, 3)));
+      if (p.clouds > 0.0) clouds.push_back(make_cloud(p, seed, cell, middle_px, base_px, width_px, row.opacity));
+    }
+  }
+  return clouds;
+}
+
+Grid<glm::vec3> make_sky(const Grid<float>& depth_m, const Palette& palette, const SkyParameters& p, glm::ivec2 origin_px) {
+  const int width = depth_m.width();
+  const int height = depth_m.height();
+  Grid<glm::vec3> sky(width, height, glm::vec3(0.0F));
+  const std::vector<Cloud> clouds = make_clouds(p);
+  const glm::vec2 towards_light = glm::normalize(glm::vec2(p.sun_image_x < 0.0 ? -0.55F : 0.55F, -0.85F));
+  // Unevenness of edges, in two sizes, in heights of the sky.
+  parallel_rows(height, [&](int y) {
+    GroundNoise streaks(p.seed + 80, 1.0), threads(p.seed + 81, 1.0), patches(p.seed + 82, 1.0), bands(p.seed + 83, 1.0);
+    GroundNoise wobble_x(p.seed + 84, 0.030), wobble_y(p.seed + 85, 0.030), ripple_x(p.seed + 86, 0.010), ripple_y(p.seed + 87, 0.010);
+    const double row_px = origin_px.y + y + 0.5;
+    std::vector<const Cloud*> near_row;
+    for (const Cloud& cloud : clouds)
+      if (row_px >= cloud.from.y && row_px <= cloud.to.y) near_row.push_back(&cloud);
+    for (int x = 0; x < width; ++x) {
+      if (!std::isinf(depth_m(x, y))) continue;
+      const double column_px = origin_px.x + x + 0.5;
+      const double u = column_px / p.horizon_px;
+      const double v = row_px / p.horizon_px;
+      // Long soft bands keep the gradient from looking ruled.
+      const double place = v + 0.03 * bands(u * 0.9, v * 11.0) * std::clamp(2.0 * (1.0 - v), 0.0, 1.0);
+      glm::vec3 colour = sky_gradient(palette, place);
+      const float cirrus = p.clouds > 0.0 ? cirrus_at(p, column_px, 1.0 - v, streaks, threads, patches) : 0.0F;
+      colour = glm::mix(colour, palette.cloud_light, cirrus);
+      if (!near_row.empty()) {
+        const glm::vec2 wobble = 0.16F * glm::vec2(wobble_x(u, v), wobble_y(u, v)) + 0.07F * glm::vec2(ripple_x(u, v), ripple_y(u, v));
+        const glm::vec2 at(static_cast<float>(column_px), static_cast<float>(row_px));
+        for (const Cloud* cloud : near_row) {
+          if (at.x < cloud->from.x || at.x > cloud->to.x) continue;
+          const Layer layer = cloud_at(*cloud, at, wobble, palette, towards_light);
+          // Low clouds stand far away, in the air of the horizon.
+          const float air = 0.45F * smooth_step(0.55F, 1.0F, static_cast<float>(v));
+          colour = glm::mix(colour, glm::mix(layer.colour, sky_gradient(palette, 1.0), air), 0.88F * layer.alpha);
+        }
+      }
+      sky(x, y) = glm::clamp(colour, 0.0F, 1.0F);
+    }
+  });
+  return sky;
+}
+
+double skyline_row_px(const GuidanceBuffers& guidance, double fallback_px) {
+  std::vector<int> rows;
+  for (int x = 0; x < guidance.width(); ++x)
+    for (int y = 0; y < guidance.height(); ++y)
+      if (!guidance.is_sky(guidance.depth_m.index(x, y))) {
+        rows.push_back(y);
+        break;
+      }
+  if (rows.empty()) return fallback_px;
+  const auto middle = rows.begin() + static_cast<std::ptrdiff_t>(rows.size() / 2);
+  std::nth_element(rows.begin(), middle, rows.end());
+  return *middle;
+}
+
+}  // namespace belvedere

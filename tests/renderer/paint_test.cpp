@@ -1,0 +1,201 @@
+#include "renderer/paint.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "painted_hills.h"
+#include "renderer/base/error.h"
+#include "renderer/light.h"
+
+namespace belvedere {
+namespace {
+
+using test::cut;
+using test::make_hills;
+using test::make_slope;
+using test::with_margin;
+
+PaintGround ground_of(const GuidanceBuffers& g, const BaseParameters& p = {}, const char* palette = "summer") {
+  return make_paint_ground(g, read_palette(palette), p, {0, 0}, {g.width(), g.height()}, silent_progress());
+}
+
+BaseParameters plain() {
+  BaseParameters p;
+  p.haze = p.range_mist = p.warm_near = p.hue_drift = p.clouds = 0.0;
+  return p;
+}
+
+float luma(glm::vec3 c) { return 0.2126F * c.r + 0.7152F * c.g + 0.0722F * c.b; }
+
+TEST(Haze, GrowsWithDistanceAndSaturates) {
+  const BaseParameters p;
+  EXPECT_EQ(haze_share(p, 0.0, 600.0), 0.0);
+  EXPECT_EQ(haze_share(p, p.haze_from_m, 600.0), 0.0);
+  double last = 0.0;
+  for (double depth = 40000.0; depth < 400000.0; depth += 20000.0) {
+    EXPECT_GT(haze_share(p, depth, 600.0), last);
+    last = haze_share(p, depth, 600.0);
+  }
+  EXPECT_NEAR(haze_share(p, p.haze_from_m + p.haze_scale_m, 600.0), 0.85 * (1.0 - std::exp(-1.0)), 1e-12);
+  EXPECT_NEAR(haze_share(p, 1e7, 600.0), 0.85, 1e-9);
+  EXPECT_NEAR(haze_share(p, 1e7, 600.0 + 900.0), 0.85 * (0.58 + 0.42 * std::exp(-1.0)), 1e-9);
+}
+
+TEST(Base, IsTheRampWhereEverythingElseIsOff) {
+  const GuidanceBuffers g = make_slope(30, 20, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 10.0F);
+  const Palette palette = read_palette("summer");
+  const PaintGround ground = ground_of(g, plain());
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(ground.colour(15, 10)[k], palette_colour(palette, LandCoverClass::forest, 1200.0, 0.6)[k], 1e-6F);
+    EXPECT_NEAR(ground.darker(15, 10)[k], palette_colour(palette, LandCoverClass::forest, 1200.0, 0.6 - 0.17)[k], 1e-6F);
+    EXPECT_NEAR(ground.lighter(15, 10)[k], palette_colour(palette, LandCoverClass::forest, 1200.0, 0.6 + 0.17)[k], 1e-6F);
+  }
+}
+
+TEST(Base, FarGroundTurnsIntoAirAndNearGroundIsWarm) {
+  BaseParameters p = plain();
+  p.haze = 1.0;
+  p.warm_near = 1.0;
+  GuidanceBuffers g = make_slope(8, 8, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 10.0F);
+  for (float& a : g.altitude_m) a = 500.0F;
+  const Palette palette = read_palette("summer");
+  const glm::vec3 ramp = palette_colour(palette, LandCoverClass::pasture, 500.0, 0.6);
+  const glm::vec3 near = ground_of(g, p).colour(4, 4);
+  EXPECT_NEAR(near.r, ramp.r * (1.0F + 0.06F * 0.6F), 1e-5F);
+  EXPECT_NEAR(near.b, ramp.b * (1.0F - 0.07F * 0.6F), 1e-5F);
+  for (float& d : g.depth_m) d = 900000.0F;
+  const PaintGround far = ground_of(g, p);
+  EXPECT_LT(glm::length(far.colour(4, 4) - palette.haze_far), 0.01F);
+  EXPECT_GT(far.haze(4, 4), 0.99F);
+}
+
+TEST(Base, RangesReadApart) {
+  // A near range before a far one of the same colour: the far side lightens towards the edge, the near side darkens.
+  GuidanceBuffers g = make_slope(20, 160, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 10.0F);
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 20; ++x) g.depth_m(x, y) = 32000.0F;
+  BaseParameters p = plain();
+  p.range_mist = 1.0;
+  const PaintGround ground = ground_of(g, p);
+  EXPECT_GT(luma(ground.colour(10, 78)), luma(ground.colour(10, 20)) + 0.05F);
+  EXPECT_LT(luma(ground.colour(10, 81)), luma(ground.colour(10, 140)) - 0.02F);
+  EXPECT_GT(ground.accent(10, 80), 0.5F);
+  EXPECT_EQ(ground.accent(10, 79), 0.0F);
+}
+
+TEST(Base, AccentsFollowRelief) {
+  GuidanceBuffers g = make_slope(12, 12, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 40.0F);
+  for (float& t : g.relief_s_m) t = -4.5F;
+  EXPECT_NEAR(ground_of(g).accent(6, 6), -0.45F, 1e-6F);
+  for (LandCoverClass& id : g.land_cover) id = LandCoverClass::snow;
+  EXPECT_NEAR(ground_of(g).accent(6, 6), -0.3F, 1e-6F);
+}
+
+TEST(Base, ForestThinsTowardsItsBorderAndDwarfPineStandsThere) {
+  GuidanceBuffers g = make_slope(60, 60, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 20.0F);
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x) {
+      g.position_m(x, y) = glm::vec3(40.0F * x, -40.0F * y, 1800.0F);
+      if (y < 30) g.land_cover(x, y) = LandCoverClass::alpine_grass;
+    }
+  const PaintGround ground = ground_of(g);
+  double inside = 0.0, border = 0.0, above = 0.0, high = 0.0;
+  for (int x = 0; x < 60; ++x) {
+    inside += ground.tree_density(x, 55) / 60.0;
+    border += ground.tree_density(x, 31) / 60.0;
+    above += ground.tree_density(x, 26) / 60.0;
+    high += ground.tree_density(x, 0) / 60.0;
+  }
+  EXPECT_GT(inside, 0.8);
+  EXPECT_LT(border, 0.65);
+  EXPECT_GT(above, 0.1);
+  EXPECT_LT(high, 0.05);
+}
+
+TEST(Base, PartEqualsWhole) {
+  for (const double ppu : {1.0, 2.5}) {
+    const int width = ppu > 1.0 ? 640 : 300;
+    const int height = ppu > 1.0 ? 560 : 260;
+    GuidanceBuffers hills = make_hills(width, height, ppu);
+    for (std::size_t i = 0; i < hills.tone.size(); ++i) hills.tone[i] = hills.sky_view[i] * 0.8F;
+    BaseParameters p;
+    p.pixels_per_unit = ppu;
+    const Palette palette = read_palette("summer");
+    const PaintGround whole = ground_of(hills, p);
+    const PixelRect wanted{width / 2 - 20, height / 2 - 30, width / 2 + 21, height / 2 + 9};
+    const PixelRect part = with_margin(wanted, base_margin_px(p), width, height);
+    ASSERT_GT(part.x0, 0);
+    const PaintGround ground = make_paint_ground(cut(hills, part), palette, p, {part.x0, part.y0}, {width, height}, silent_progress());
+    for (int y = wanted.y0; y < wanted.y1; ++y)
+      for (int x = wanted.x0; x < wanted.x1; ++x) {
+        const int px = x - part.x0, py = y - part.y0;
+        ASSERT_EQ(ground.colour(px, py), whole.colour(x, y)) << x << " " << y << " ppu " << ppu;
+        ASSERT_EQ(ground.darker(px, py), whole.darker(x, y));
+        ASSERT_EQ(ground.lighter(px, py), whole.lighter(x, y));
+        ASSERT_EQ(ground.accent(px, py), whole.accent(x, y));
+        ASSERT_EQ(ground.tree_density(px, py), whole.tree_density(x, y));
+        ASSERT_EQ(ground.haze(px, py), whole.haze(x, y));
+      }
+  }
+}
+
+TEST(Base, SameBitsForAnyThreads) {
+  const GuidanceBuffers hills = make_hills(180, 140);
+  PaintGround one;
+  {
+    const ThreadLimit limit(1);
+    one = ground_of(hills);
+  }
+  const ThreadLimit limit(2);
+  const PaintGround two = ground_of(hills);
+  EXPECT_EQ(two.colour, one.colour);
+  EXPECT_EQ(two.lighter, one.lighter);
+  EXPECT_EQ(two.tree_density, one.tree_density);
+}
+
+TEST(Base, MissingToneIsAnError) {
+  GuidanceBuffers g = make_slope(8, 8, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 10.0F);
+  g.tone = {};
+  EXPECT_THROW(ground_of(g), Error);
+}
+
+TEST(Guides, AreQuantizedAsDocumented) {
+  GuidanceBuffers g = make_slope(4, 1, LandCoverClass::scree, {0.0F, 0.0F, 1.0F}, 45.0F);
+  g.depth_m[0] = 500.0F;
+  g.depth_m[1] = 500000.0F;
+  g.depth_m[2] = 500.0F * std::sqrt(1000.0F);
+  g.depth_m[3] = std::numeric_limits<float>::infinity();
+  g.altitude_m[1] = -20.0F;
+  g.altitude_m[2] = 9000.0F;
+  g.fall_line[1] = {-1.0F, 0.0F};
+  const GuideStack stack = make_guide_stack(g);
+  const auto guide = [&](const std::string& name) {
+    for (const Guide& each : stack.guides)
+      if (each.name == name) return each.values;
+    ADD_FAILURE() << name;
+    return Grid<std::uint8_t>(4, 1, 0);
+  };
+  EXPECT_EQ(stack.guides.size(), 7U);
+  EXPECT_EQ(stack.label[0], 6);
+  EXPECT_EQ(stack.label[3], 255);
+  EXPECT_EQ(stack.depth_m, g.depth_m);
+  EXPECT_EQ(guide("altitude")[0], 60);
+  EXPECT_EQ(guide("altitude")[1], 0);
+  EXPECT_EQ(guide("altitude")[2], 255);
+  EXPECT_EQ(guide("tone")[0], 153);
+  EXPECT_EQ(guide("distance")[0], 0);
+  EXPECT_EQ(guide("distance")[1], 255);
+  EXPECT_EQ(guide("distance")[2], 128);
+  EXPECT_EQ(guide("shadow")[0], 255);
+  EXPECT_EQ(guide("slope")[0], 128);
+  EXPECT_EQ(guide("fall_line_x")[0], 128);
+  EXPECT_EQ(guide("fall_line_y")[0], 255);
+  EXPECT_EQ(guide("fall_line_x")[1], 0);
+  g.shadow = {};
+  EXPECT_EQ(make_guide_stack(g).guides.size(), 6U);
+}
+
+}  // namespace
+}  // namespace belvedere

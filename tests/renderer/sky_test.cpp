@@ -1,0 +1,103 @@
+#include "renderer/sky.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "painted_hills.h"
+
+namespace belvedere {
+namespace {
+
+constexpr float sky_depth = std::numeric_limits<float>::infinity();
+
+SkyParameters small_sky() {
+  SkyParameters p;
+  p.picture_size = {600, 300};
+  p.horizon_px = 120.0;
+  return p;
+}
+
+TEST(Sky, GradientEndsInItsStops) {
+  const Palette palette = read_palette("summer");
+  EXPECT_EQ(sky_gradient(palette, 0.0), palette.sky.front().second);
+  EXPECT_EQ(sky_gradient(palette, -1.0), palette.sky.front().second);
+  EXPECT_EQ(sky_gradient(palette, 1.0), palette.sky.back().second);
+  EXPECT_EQ(sky_gradient(palette, 2.0), palette.sky.back().second);
+  const glm::vec3 middle = sky_gradient(palette, 0.45);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(middle[k], 0.5F * (palette.sky[1].second[k] + palette.sky[2].second[k]), 1e-6F);
+}
+
+TEST(Sky, WithoutCloudsItIsTheGradient) {
+  const Palette palette = read_palette("winter");
+  SkyParameters p = small_sky();
+  p.clouds = 0.0;
+  const Grid<glm::vec3> sky = make_sky(Grid<float>(600, 150, sky_depth), palette, p, {0, 0});
+  for (int x = 0; x < 600; x += 7) {
+    EXPECT_LT(glm::length(sky(x, 0) - palette.sky.front().second), 0.05F);
+    EXPECT_LT(glm::length(sky(x, 149) - palette.sky.back().second), 1e-6F);
+  }
+}
+
+TEST(Sky, CloudsHaveFlatBasesAndShrinkTowardsTheHorizon) {
+  const std::vector<Cloud> clouds = make_clouds({});
+  ASSERT_GT(clouds.size(), 10U);
+  double far = 0.0, near = 0.0;
+  int far_count = 0, near_count = 0;
+  for (const Cloud& cloud : clouds) {
+    for (const CloudHead& head : cloud.heads) EXPECT_LE(head.centre.y, cloud.base_px);
+    const double width = cloud.to.x - cloud.from.x;
+    if (cloud.base_px > 198.0 * 0.84) far += width, ++far_count;
+    if (cloud.base_px < 198.0 * 0.72) near += width, ++near_count;
+  }
+  ASSERT_GT(far_count, 0);
+  ASSERT_GT(near_count, 0);
+  EXPECT_GT(near / near_count, 1.5 * far / far_count);
+}
+
+TEST(Sky, CloudsAreLitFromAboveAndShadedBelow) {
+  const Palette palette = read_palette("summer");
+  const SkyParameters p;
+  const Grid<glm::vec3> sky = make_sky(Grid<float>(2400, 198, sky_depth), palette, p, {0, 0});
+  double top = 0.0, foot = 0.0;
+  int count = 0;
+  for (const Cloud& cloud : make_clouds(p)) {
+    const int x = static_cast<int>(0.5F * (cloud.from.x + cloud.to.x));
+    const float height = cloud.base_px - cloud.from.y;
+    const int y_top = static_cast<int>(cloud.base_px - 0.5F * height);
+    const int y_foot = static_cast<int>(cloud.base_px - 0.12F * height);
+    if (x < 0 || x >= 2400 || y_top < 0 || cloud.base_px > 160.0F) continue;
+    top += sky(x, y_top).r;
+    foot += sky(x, y_foot).r;
+    ++count;
+  }
+  ASSERT_GT(count, 3);
+  EXPECT_GT(top / count, foot / count + 0.02);
+}
+
+TEST(Sky, PartEqualsWholeAndTerrainIsLeftOut) {
+  const Palette palette = read_palette("summer");
+  const SkyParameters p = small_sky();
+  Grid<float> depth(600, 150, sky_depth);
+  for (int x = 0; x < 600; ++x)
+    for (int y = 100; y < 150; ++y) depth(x, y) = 9000.0F;
+  const Grid<glm::vec3> whole = make_sky(depth, palette, p, {0, 0});
+  EXPECT_EQ(whole(300, 120), glm::vec3(0.0F));
+  const PixelRect rect{123, 17, 391, 140};
+  EXPECT_EQ(make_sky(test::cut(depth, rect), palette, p, {rect.x0, rect.y0}), test::cut(whole, rect));
+}
+
+TEST(Sky, SkylineIsTheMedianOfTheColumns) {
+  GuidanceBuffers g;
+  g.depth_m = Grid<float>(9, 20, sky_depth);
+  for (int x = 0; x < 9; ++x)
+    for (int y = x + 3; y < 20; ++y) g.depth_m(x, y) = 5000.0F;
+  EXPECT_EQ(skyline_row_px(g, 1.0), 7.0);
+  g.depth_m = Grid<float>(9, 20, sky_depth);
+  EXPECT_EQ(skyline_row_px(g, 33.0), 33.0);
+}
+
+}  // namespace
+}  // namespace belvedere
