@@ -292,7 +292,10 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3 + 1);  // so many edits are no slip any more
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(wanted, lower(candidate));
+    const std::string known = lower(candidate);
+    // A unit too much or too little (pitch_deg for pitch) is a small slip, however long it is.
+    const bool same_stem = wanted.starts_with(known + "_") || known.starts_with(wanted + "_");
+    const std::size_t distance = same_stem ? 1 : edit_distance(wanted, known);
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;

@@ -177,6 +177,8 @@ TEST(Config, NearestWord) {
   EXPECT_EQ(nearest_word("azimut_deg", keys), "azimuth_deg");
   EXPECT_EQ(nearest_word("Altitude_Deg", keys), "altitude_deg");
   EXPECT_EQ(nearest_word("tmie", keys), "time");
+  EXPECT_EQ(nearest_word("time_utc", keys), "time");
+  EXPECT_EQ(nearest_word("azimuth", keys), "azimuth_deg");
   EXPECT_EQ(nearest_word("palette", keys), "");
   EXPECT_EQ(nearest_word(std::string(100'000, 'a'), keys), "");
 }

@@ -1,0 +1,137 @@
+#include "renderer/scene_rules.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "renderer/base/error.h"
+
+namespace belvedere {
+namespace {
+
+class Rules {
+ public:
+  Rules(Scene& scene, const ConfigValue& root, const SceneOrigin& origin) : scene_(scene), root_(root), origin_(origin) {}
+
+  void terrain() {
+    SceneTerrain& terrain = scene_.terrain;
+    if (!terrain.sources.empty() && terrain.synthetic)
+      refuse("terrain.synthetic", "terrain.sources and terrain.synthetic exclude each other", "rasters or a made-up terrain");
+    if (terrain.sources.empty() && !terrain.synthetic) terrain.synthetic.emplace();
+    if (terrain.synthetic && terrain.synthetic->lowest_m >= terrain.synthetic->highest_m)
+      refuse("terrain.synthetic.highest",
+             fmt::format("terrain.synthetic.highest ({} m) is not above lowest ({} m)", terrain.synthetic->highest_m,
+                         terrain.synthetic->lowest_m),
+             "a highest summit above the lowest valley");
+    if (terrain.extent) {
+      const auto& [min_e, min_n, max_e, max_n] = *terrain.extent;
+      if (min_e >= max_e || min_n >= max_n)
+        refuse("terrain.extent", "terrain.extent holds no area", "[min E, min N, max E, max N], each min below its max");
+    }
+    if (terrain.cell_m > 0.0 && terrain.cell_m < 0.1)
+      refuse("terrain.cell", fmt::format("terrain.cell is {}", terrain.cell_m), "0 for the data's own, or 0.1 … 10000 m");
+  }
+
+  void land_cover() {
+    if (!scene_.land_cover.sources.empty() && scene_.land_cover.legend.empty())
+      refuse("land_cover.sources", "land_cover.sources needs land_cover.legend, which says what the raster's codes mean",
+             "legend = \"nlcd\", \"corine\", \"esa_worldcover\", \"fbfm40\" or a file");
+  }
+
+  void generalize() {
+    auto& [foreground, background, crest] = scene_.generalize.bands;
+    // Where only one of the two is given, the other keeps every band.
+    if (written("generalize.foreground") && !written("generalize.background")) background.assign(foreground.size(), 1.F);
+    if (written("generalize.background") && !written("generalize.foreground")) foreground.assign(background.size(), 1.F);
+    if (foreground.size() != background.size())
+      refuse("generalize.background",
+             fmt::format("generalize.background has {} weights, generalize.foreground has {}", background.size(), foreground.size()),
+             "as many weights in both");
+    if (scene_.generalize.foreground_to_m >= scene_.generalize.background_from_m)
+      refuse(written("generalize.background_from") ? "generalize.background_from" : "generalize.foreground_to",
+             fmt::format("generalize.background_from ({} m) is not beyond generalize.foreground_to ({} m)",
+                         scene_.generalize.background_from_m, scene_.generalize.foreground_to_m),
+             "a background that begins beyond the foreground");
+  }
+
+  void deform() {
+    const double radius = scene_.deform.bend.radius_m;
+    if (radius > 0.0 && radius < 1000.0)
+      refuse("deform.bend.radius", fmt::format("deform.bend.radius is {}", radius), "0 for no bend, or 1000 … 1e9 m");
+  }
+
+  void camera() {
+    const SceneCamera& camera = scene_.camera;
+    if (camera.look_at_altitude_m && !camera.look_at && !camera.look_at_lonlat)
+      refuse("camera.look_at_altitude", "camera.look_at_altitude has no point to belong to",
+             "camera.look_at or camera.look_at_lonlat beside it");
+    constexpr double widest_perspective = 150.0;
+    if (camera.projection == "perspective" && camera.field_of_view_deg > widest_perspective)
+      refuse("camera.field_of_view", fmt::format("camera.field_of_view is {} with a perspective projection", camera.field_of_view_deg),
+             fmt::format("1 … {}°, or projection = \"cylindrical\"", widest_perspective));
+  }
+
+  void exemplars() {
+    for (std::size_t i = 0; i < scene_.exemplars.size(); ++i) {
+      const SceneExemplar& exemplar = scene_.exemplars[i];
+      const std::string name = fmt::format("exemplar.{}", i);
+      if (!exemplar.picture.empty() && exemplar.guidance.empty() && exemplar.classes.empty())
+        refuse(name + ".picture", name + ".picture has neither guidance nor classes, so nobody knows what it shows",
+               "guidance = \"….exr\", or classes = \"….png\"");
+      if (exemplar.picture.empty())
+        for (const char* key : {"guidance", "classes", "altitude", "altitude_range", "optional"})
+          if (written(name + "." + key))
+            refuse(name + "." + key, fmt::format("{}.{} has no picture to belong to", name, key), "a picture beside it");
+      if (!exemplar.altitude.empty() && exemplar.classes.empty())
+        refuse(name + ".altitude", name + ".altitude needs classes beside it", "classes = \"….png\"");
+      if (exemplar.altitude_range_m[0] >= exemplar.altitude_range_m[1])
+        refuse(name + ".altitude_range",
+               fmt::format("{}.altitude_range goes from {} to {}", name, exemplar.altitude_range_m[0], exemplar.altitude_range_m[1]),
+               "[lower, upper]");
+    }
+  }
+
+ private:
+  // The value at a dotted path, numbers counting list elements; null where nobody wrote it.
+  const ConfigValue* written(std::string_view path) const {
+    const ConfigValue* node = &root_;
+    while (node != nullptr && !path.empty()) {
+      const std::size_t dot = path.find('.');
+      const std::string_view part = path.substr(0, dot);
+      path = dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
+      if (const auto* table = std::get_if<ConfigTable>(&node->value)) {
+        node = find(*table, part);
+      } else if (const auto* array = std::get_if<ConfigArray>(&node->value)) {
+        std::size_t index = array->size();
+        std::from_chars(part.data(), part.data() + part.size(), index);
+        node = index < array->size() ? &(*array)[index] : nullptr;
+      } else {
+        node = nullptr;
+      }
+    }
+    return node;
+  }
+
+  [[noreturn]] void refuse(const std::string& path, const std::string& found, const std::string& allowed) const {
+    const ConfigValue* value = written(path);
+    throw Error(ErrorKind::usage, origin_.where(value == nullptr ? root_.place : value->place), found, allowed);
+  }
+
+  Scene& scene_;
+  const ConfigValue& root_;
+  const SceneOrigin& origin_;
+};
+
+}  // namespace
+
+void apply_scene_rules(Scene& scene, const ConfigValue& root, const SceneOrigin& origin) {
+  Rules rules(scene, root, origin);
+  rules.terrain();
+  rules.land_cover();
+  rules.generalize();
+  rules.deform();
+  rules.camera();
+  rules.exemplars();
+}
+
+}  // namespace belvedere
