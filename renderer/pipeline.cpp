@@ -1,1 +1,168 @@
 #include "renderer/pipeline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "renderer/color.h"
+#include "renderer/composite.h"
+#include "renderer/exemplars.h"
+#include "renderer/guidance_io.h"
+#include "renderer/image_io.h"
+#include "renderer/lit_picture.h"
+#include "renderer/provenance.h"
+#include "terrain/raster_io.h"
+#include "texture/stroke_painter.h"
+#include "texture/synthesize.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int band_rows = 512;  // rows of guidance held at once; a multiple of the file's tiles
+
+std::string join(const std::string& folder, const char* file) { return folder.empty() ? file : folder + "/" + file; }
+
+// Bytes a whole picture takes while it is painted: buffers, paint ground, canvases, strokes.
+constexpr std::uint64_t render_bytes_per_pixel = 320;
+
+void check_memory(const Scene& scene) {
+  const std::uint64_t need =
+      static_cast<std::uint64_t>(scene.output.width) * static_cast<std::uint64_t>(scene.output.height) * render_bytes_per_pixel;
+  if (need > memory_limit_bytes())
+    throw Error(ErrorKind::limit, "output",
+                fmt::format("a picture of {}×{} pixels needs about {} MiB", scene.output.width, scene.output.height, need >> 20),
+                fmt::format("at most {} MiB: a smaller output.width, or --memory", memory_limit_bytes() >> 20));
+}
+
+// Every file the scene reads, as it names them.
+std::vector<std::string> input_files(const Scene& scene) {
+  std::vector<std::string> files;
+  for (const SceneSource& source : scene.terrain.sources) files.push_back(source.file);
+  for (const SceneSource& source : scene.land_cover.sources) files.push_back(source.file);
+  for (const SceneExemplar& exemplar : scene.exemplars)
+    for (const std::string* file : {&exemplar.picture, &exemplar.guidance, &exemplar.classes, &exemplar.altitude}) files.push_back(*file);
+  for (const std::string* name : {&scene.land_cover.legend, &scene.land_cover.rules, &scene.palette})
+    if (name->ends_with(".toml") || name->ends_with(".csv")) files.push_back(*name);
+  files.push_back(scene.output.profile);
+  files.push_back(scene.output.ocio_config);
+  std::erase_if(files, [](const std::string& file) { return file.empty(); });
+  return files;
+}
+
+FileNotes make_notes(const LoadedScene& loaded, const Stage& stage) {
+  Provenance provenance;
+  provenance.program_version = program_version();
+  provenance.instruction_set = stage.tracer->description();
+  provenance.scene = write_scene(loaded.scene);
+  for (const std::string& file : input_files(loaded.scene))
+    if (const std::string path = find_scene_file(loaded, file); !path.empty()) provenance.inputs[file] = hash_file(path);
+  FileNotes notes = to_notes(provenance);
+  const CameraParameters& camera = stage.view.camera;
+  notes["belvedere:camera"] =
+      fmt::format("{} eye {:.3f} {:.3f} {:.3f} azimuth {:.6f} pitch {:.6f} field {:.4f}", camera.projection, camera.eye.x, camera.eye.y,
+                  camera.eye.z, camera.azimuth_deg, camera.pitch_deg, camera.field_of_view_deg);
+  notes["belvedere:crs"] = stage.ground.model.dem.crs.empty() ? "none" : describe_crs(stage.ground.model.dem.crs);
+  const glm::dvec3 origin = stage.ground.surface.origin;
+  notes["belvedere:origin"] = fmt::format("{:.3f} {:.3f} {:.3f}", origin.x, origin.y, origin.z);
+  notes["belvedere:sun"] = fmt::format("azimuth {:.4f} altitude {:.4f}", stage.view.sun.azimuth_deg, stage.view.sun.altitude_deg);
+  return notes;
+}
+
+StrokeParameters to_stroke_parameters(const Stage& stage) {
+  StrokeParameters parameters;
+  parameters.pixels_per_unit = stage.scene.pixels_per_unit();
+  parameters.winter = stage.palette.winter;
+  parameters.sun_side = stage.view.sun_image_x < 0.0 ? -1.0 : 1.0;
+  parameters.seed = stage.scene.seed;
+  return parameters;
+}
+
+SynthesisParameters to_synthesis_parameters(const Scene& scene) {
+  SynthesisParameters parameters;
+  parameters.seed = scene.seed;
+  parameters.levels = scene.synthesis.levels;
+  parameters.weights = scene.synthesis.weights;
+  parameters.reuse = scene.synthesis.reuse;
+  parameters.copy_cap = scene.synthesis.copy_cap;
+  for (const auto& [from, to] : scene.synthesis.fallback)
+    parameters.fallback[static_cast<std::uint8_t>(from)] = static_cast<std::uint8_t>(to);
+  return parameters;
+}
+
+// The ground of the picture in the exemplars' hand: synthesized texture as a residual over the base picture.
+Grid<glm::vec3> synthesize_ground(const LoadedScene& loaded, const Stage& stage, const LitPicture& picture, Progress& progress) {
+  const std::vector<PaintedExemplar> painted = make_exemplars(loaded, stage, picture, progress);
+  std::vector<Exemplar> exemplars;
+  for (const PaintedExemplar& p : painted) exemplars.push_back(p.exemplar);
+  const GuideStack guides = make_guide_stack(picture.guidance);
+  const MatchField matches = synthesize(exemplars, guides, to_synthesis_parameters(stage.scene), progress);
+  return transfer_residual(matches, painted, picture.ground.colour, stage.scene.synthesis.residual);
+}
+
+void write_panorama(const Grid<glm::vec3>& picture, const Scene& scene, const std::string& profile_path, const FileNotes& notes,
+                    const std::string& folder, Progress& progress) {
+  progress.begin("writing the panorama", 0.0);
+  const ColorParameters color{.config = scene.output.ocio_config};
+  const Image linear = decode_srgb(picture);
+  const Grid<glm::vec3> display = to_display(linear, color);
+  PictureFileOptions options;
+  options.dots_per_inch = scene.output.width / scene.output.sheet_width_mm * 25.4;
+  options.notes = notes;
+  options.icc_profile = srgb_profile();
+  write_png8(join(folder, "panorama.png"), display, options);
+  if (profile_path.empty()) {
+    write_tiff16(join(folder, "panorama.tif"), display, options);
+  } else {
+    options.icc_profile = read_icc_profile(profile_path);
+    write_tiff16(join(folder, "panorama.tif"), to_profile(display, options.icc_profile), options);
+  }
+  write_exr(join(folder, "panorama.exr"), linear, notes);
+}
+
+}  // namespace
+
+void render(const LoadedScene& loaded, const RenderOptions& options, Progress& progress) {
+  const ThreadLimit threads(options.threads);
+  require_scene_files(loaded);
+  check_memory(loaded.scene);
+  check_output_folder(options.out_folder);
+
+  const Stage stage = set_stage(loaded, progress);
+  const FileNotes notes = make_notes(loaded, stage);
+  const PixelRect whole{0, 0, loaded.scene.output.width, loaded.scene.output.height};
+  const LitPicture picture = make_lit_picture(stage, whole, options.tile_size, progress);
+  progress.begin("writing guidance", 0.0);
+  write_guidance(join(options.out_folder, "guidance.exr"), picture.guidance, notes);
+
+  const bool copied = stage.scene.synthesis.enabled;
+  Grid<glm::vec3> ground = copied ? synthesize_ground(loaded, stage, picture, progress) : picture.ground.colour;
+  // What the exemplar cannot give is painted last, far to near: sky, trees, houses; without an exemplar everything is.
+  const StrokeLayers layers{.sky = true, .ground = !copied, .accents = true, .upright = true};
+  const Grid<glm::vec3> painted =
+      paint_strokes(std::move(ground), picture.guidance, picture.ground, layers, to_stroke_parameters(stage), progress);
+  const Grid<glm::vec3> panorama = blend_edges(painted, picture.guidance);
+  write_panorama(panorama, stage.scene, find_scene_file(loaded, stage.scene.output.profile), notes, options.out_folder, progress);
+}
+
+void render_guidance(const LoadedScene& loaded, const RenderOptions& options, Progress& progress) {
+  const ThreadLimit threads(options.threads);
+  require_scene_files(loaded);
+  check_output_folder(options.out_folder);
+
+  const Stage stage = set_stage(loaded, progress);
+  const int width = loaded.scene.output.width;
+  const int height = loaded.scene.output.height;
+  const int margin = lit_margin_px(stage.scene);
+  GuidanceWriter writer(join(options.out_folder, "guidance.exr"), width, height, make_notes(loaded, stage));
+  for (int y0 = 0; y0 < height; y0 += band_rows) {
+    const int y1 = std::min(height, y0 + band_rows);
+    const PixelRect band{0, std::max(0, y0 - margin), width, std::min(height, y1 + margin)};
+    const LitPicture picture = make_lit_picture(stage, band, options.tile_size, progress);
+    writer.write_rows(picture.guidance, y0 - band.y0, y1 - y0, y0);
+  }
+  writer.finish();
+}
+
+}  // namespace belvedere

@@ -9,8 +9,8 @@ namespace belvedere {
 
 struct RenderOptions {
   std::string out_folder;
-  int threads = 0;             // 0: all
-  int tile_size = 32;          // changes no bit of the result
+  int threads = 0;     // 0: all
+  int tile_size = 32;  // changes no bit of the result
 };
 
 // The whole main job: reads top to bottom as named values. Writes panorama.tif, panorama.png, panorama.exr and guidance.exr.

@@ -1,0 +1,164 @@
+#include "renderer/exemplars.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "renderer/base/embedded.h"
+#include "renderer/base/error.h"
+#include "renderer/composite.h"
+#include "renderer/guidance_io.h"
+#include "renderer/image_io.h"
+#include "texture/stroke_painter.h"
+
+namespace belvedere {
+namespace {
+
+constexpr std::uint8_t excluded_label = 255;
+
+Rgb8 to_rgb8(glm::vec3 encoded) {
+  Rgb8 rgb{};
+  for (int c = 0; c < 3; ++c)
+    rgb[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(std::clamp(encoded[c], 0.F, 1.F) * 255.F));
+  return rgb;
+}
+
+Grid<Rgb8> to_rgb8(const Grid<glm::vec3>& encoded) {
+  Grid<Rgb8> picture(encoded.width(), encoded.height());
+  for (std::size_t i = 0; i < encoded.size(); ++i) picture[i] = to_rgb8(encoded[i]);
+  return picture;
+}
+
+// The sheet's scene: built in, then fitted to the target's size of stroke, palette and side of light.
+LoadedScene sheet_scene(const SceneExemplar& wish, const Stage& target) {
+  LoadedScene sheet = parse_scene(std::string(embedded_file("sheet.toml")), "sheet.toml", ".", {});
+  const double scale = target.scene.pixels_per_unit();
+  sheet.scene.output.width = wish.width;
+  sheet.scene.output.height = wish.height;
+  sheet.scene.output.sheet_width_mm = 0.5 * wish.width / scale;  // strokes as large as the target's
+  sheet.scene.terrain.synthetic->seed = wish.seed;
+  sheet.scene.seed = wish.seed;
+  sheet.scene.light = target.scene.light;
+  // The light falls from the same side of the picture as in the target.
+  sheet.scene.sun.azimuth_deg =
+      std::remainder(sheet.scene.camera.azimuth_deg + target.view.sun.azimuth_deg - target.view.camera.azimuth_deg, 360.0);
+  if (sheet.scene.sun.azimuth_deg < 0.0) sheet.scene.sun.azimuth_deg += 360.0;
+  if (target.palette.winter) sheet.scene.land_cover.settings.emplace_back("winter", 1.0);
+  return sheet;
+}
+
+void check_same_size(const std::string& file, int width, int height, const Grid<glm::vec3>& picture) {
+  if (width != picture.width() || height != picture.height())
+    throw Error(ErrorKind::input, file,
+                fmt::format("{}×{} pixels beside a picture of {}×{}", width, height, picture.width(), picture.height()),
+                "the picture's size");
+}
+
+// Where the classes of a file-based painting come from.
+GuidanceBuffers read_painting_guides(const SceneExemplar& wish, const LoadedScene& scene, const Grid<glm::vec3>& picture) {
+  if (!wish.guidance.empty()) {
+    const std::string path = find_scene_file(scene, wish.guidance);
+    GuidanceBuffers guidance = read_guidance(path);
+    check_same_size(path, guidance.width(), guidance.height(), picture);
+    return guidance;
+  }
+  GuidanceBuffers guidance;
+  const std::string path = find_scene_file(scene, wish.classes);
+  const Grid<std::uint16_t> ids = read_grey(path);
+  check_same_size(path, ids.width(), ids.height(), picture);
+  guidance.depth_m = Grid<float>(ids.width(), ids.height(), 1.F);
+  guidance.land_cover = Grid<LandCoverClass>(ids.width(), ids.height());
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    guidance.land_cover[i] = static_cast<LandCoverClass>(std::min<std::uint16_t>(ids[i], excluded_label));
+  if (!wish.altitude.empty()) {
+    const std::string altitude_path = find_scene_file(scene, wish.altitude);
+    const Grid<std::uint16_t> grey = read_grey(altitude_path);
+    check_same_size(altitude_path, grey.width(), grey.height(), picture);
+    std::uint16_t highest = 255;
+    for (const std::uint16_t value : grey)
+      if (value > 255) highest = 65535;
+    guidance.altitude_m = Grid<float>(grey.width(), grey.height());
+    for (std::size_t i = 0; i < grey.size(); ++i)
+      guidance.altitude_m[i] =
+          static_cast<float>(wish.altitude_range_m[0] + (wish.altitude_range_m[1] - wish.altitude_range_m[0]) * grey[i] / highest);
+  }
+  return guidance;
+}
+
+// The target's mean base colour of each class.
+std::array<glm::vec3, land_cover_class_count> class_means(const LitPicture& target) {
+  std::array<glm::dvec3, land_cover_class_count> sum{};
+  std::array<double, land_cover_class_count> count{};
+  for (std::size_t i = 0; i < target.ground.colour.size(); ++i) {
+    const auto id = static_cast<std::size_t>(target.guidance.land_cover[i]);
+    sum[id] += glm::dvec3(target.ground.colour[i]);
+    count[id] += 1.0;
+  }
+  std::array<glm::vec3, land_cover_class_count> mean{};
+  for (std::size_t k = 0; k < mean.size(); ++k) mean[k] = glm::vec3(sum[k] / std::max(1.0, count[k]));
+  return mean;
+}
+
+}  // namespace
+
+PaintedExemplar paint_sheet(const SceneExemplar& wish, const Stage& target, Progress& progress) {
+  const LoadedScene scene = sheet_scene(wish, target);
+  Stage stage = set_stage(scene, progress);
+  stage.palette = target.palette;
+  const LitPicture picture = make_lit_picture(stage, {0, 0, wish.width, wish.height}, 32, progress);
+  StrokeParameters strokes;
+  strokes.pixels_per_unit = stage.scene.pixels_per_unit();
+  strokes.winter = stage.palette.winter;
+  strokes.sun_side = stage.view.sun_image_x < 0.0 ? -1.0 : 1.0;
+  strokes.seed = wish.seed;
+  const StrokeLayers layers{.sky = false, .ground = true, .accents = true, .upright = false};
+
+  PaintedExemplar painted;
+  painted.picture = paint_strokes(picture.ground.colour, picture.guidance, picture.ground, layers, strokes, progress);
+  painted.base = picture.ground.colour;
+  painted.exemplar.name = "painted sheet";
+  painted.exemplar.picture = to_rgb8(painted.picture);
+  painted.exemplar.guides = make_guide_stack(picture.guidance);
+  return painted;
+}
+
+PaintedExemplar read_painting(const SceneExemplar& wish, const LoadedScene& scene, const LitPicture& target) {
+  PaintedExemplar painting;
+  painting.picture = read_picture(find_scene_file(scene, wish.picture));
+  const GuidanceBuffers guidance = read_painting_guides(wish, scene, painting.picture);
+  painting.exemplar.name = wish.picture;
+  painting.exemplar.picture = to_rgb8(painting.picture);
+  painting.exemplar.guides = make_guide_stack(guidance);
+  if (!guidance.base.empty()) {
+    painting.base = encode_srgb(guidance.base);
+  } else {
+    const auto means = class_means(target);
+    painting.base = Grid<glm::vec3>(painting.picture.width(), painting.picture.height());
+    for (std::size_t i = 0; i < painting.base.size(); ++i) {
+      const auto id = static_cast<std::size_t>(guidance.land_cover[i]);
+      if (id < means.size()) painting.base[i] = means[id];
+    }
+  }
+  return painting;
+}
+
+std::vector<PaintedExemplar> make_exemplars(const LoadedScene& scene, const Stage& stage, const LitPicture& target, Progress& progress) {
+  std::vector<PaintedExemplar> exemplars;
+  for (const SceneExemplar& wish : scene.scene.exemplars) {
+    if (wish.picture.empty()) {
+      exemplars.push_back(paint_sheet(wish, stage, progress));
+    } else if (find_scene_file(scene, wish.picture).empty()) {
+      // Missing files that are not optional were refused before the work began.
+      progress.note(fmt::format("exemplar {} is not there and is left out; get it from {}", wish.picture, wish.get_from));
+    } else {
+      exemplars.push_back(read_painting(wish, scene, target));
+    }
+  }
+  if (exemplars.empty()) exemplars.push_back(paint_sheet({}, stage, progress));
+  return exemplars;
+}
+
+}  // namespace belvedere

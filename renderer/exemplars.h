@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "renderer/base/guidance_buffers.h"
+#include "renderer/base/progress.h"
+#include "renderer/lit_picture.h"
+#include "renderer/paint.h"
+#include "renderer/scene_file.h"
+
+namespace belvedere {
+
+// Paints a sheet on a made-up terrain with the scene's palette and the light from the scene's side, so that every guide of it is exactly
+// known. It carries no trees, no houses and no sky: those are painted on the target last.
+PaintedExemplar paint_sheet(const SceneExemplar& wish, const Stage& target, Progress& progress);
+
+// A painting from files: picture with a guidance file, or with a class mask and perhaps altitudes. Such a painting has no base picture
+// of its own; target_base lends it the mean of each class, so that the target's light is laid over it and not its colours.
+PaintedExemplar read_painting(const SceneExemplar& wish, const LoadedScene& scene, const LitPicture& target);
+
+// All exemplars of a scene; one painted sheet where it names none. An optional one whose file is missing is noted and left out.
+std::vector<PaintedExemplar> make_exemplars(const LoadedScene& scene, const Stage& stage, const LitPicture& target, Progress& progress);
+
+}  // namespace belvedere

@@ -1,0 +1,90 @@
+#include "renderer/ground.h"
+
+#include <cmath>
+#include <utility>
+
+#include "renderer/base/error.h"
+#include "renderer/base/parallel.h"
+#include "terrain/class_rules.h"
+#include "terrain/generalize.h"
+#include "terrain/hydrology.h"
+
+namespace belvedere {
+namespace {
+
+RasterSource to_raster_source(const LoadedScene& scene, const SceneSource& source) {
+  RasterSource raster;
+  raster.path = find_scene_file(scene, source.file);
+  raster.band = source.band;
+  raster.crs = source.crs;
+  raster.nodata = source.nodata;
+  if (source.unit == "m") raster.unit_to_m = 1.0;
+  if (source.unit == "ft") raster.unit_to_m = 0.3048;
+  if (source.unit == "us-ft") raster.unit_to_m = 1200.0 / 3937.0;
+  return raster;
+}
+
+std::vector<RasterSource> to_raster_sources(const LoadedScene& scene, const std::vector<SceneSource>& sources) {
+  std::vector<RasterSource> rasters;
+  for (const SceneSource& source : sources) rasters.push_back(to_raster_source(scene, source));
+  return rasters;
+}
+
+// 1 near, 0 far, smoothstep between (requirements G15, G16).
+Grid<float> foreground_share(const Dem& dem, glm::dvec2 viewer_xy, const SceneGeneralize& wish) {
+  Grid<float> share(dem.width(), dem.height());
+  const double span = std::max(1.0, wish.background_from_m - wish.foreground_to_m);
+  parallel_rows(dem.height(), [&](int y) {
+    for (int x = 0; x < dem.width(); ++x) {
+      const glm::dvec2 place = dem.transform.to_crs(x, y);
+      const double distance = std::hypot(place.x - viewer_xy.x, place.y - viewer_xy.y);
+      const double t = std::clamp((distance - wish.foreground_to_m) / span, 0.0, 1.0);
+      share(x, y) = static_cast<float>(1.0 - t * t * (3.0 - 2.0 * t));
+    }
+  });
+  return share;
+}
+
+}  // namespace
+
+std::string name_or_file(const LoadedScene& scene, const std::string& name) {
+  const bool is_file = name.ends_with(".toml") || name.ends_with(".csv");
+  return is_file ? find_scene_file(scene, name) : name;
+}
+
+Dem make_scene_dem(const LoadedScene& loaded, Progress& progress) {
+  const SceneTerrain& terrain = loaded.scene.terrain;
+  if (terrain.synthetic) return make_synthetic_terrain(*terrain.synthetic, progress);
+  DemParameters parameters;
+  parameters.sources = to_raster_sources(loaded, terrain.sources);
+  parameters.crs = terrain.crs;
+  parameters.cell_m = terrain.cell_m;
+  parameters.extent = terrain.extent;
+  parameters.max_void_share = terrain.max_void_share;
+  return read_dem(parameters, progress);
+}
+
+LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
+  const SceneLandCover& wish = loaded.scene.land_cover;
+  if (wish.sources.empty())
+    return apply_class_rules(read_class_rules(name_or_file(loaded, wish.rules)), wish.settings, dem, loaded.scene.seed, progress);
+  LandCoverParameters parameters;
+  parameters.sources = to_raster_sources(loaded, wish.sources);
+  parameters.legend = name_or_file(loaded, wish.legend);
+  parameters.unknown = wish.unknown;
+  parameters.nodata = wish.nodata;
+  return read_land_cover(parameters, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);
+}
+
+Ground make_ground(const Scene& scene, Dem dem, LandCover land_cover, const View& view, Progress& progress) {
+  const Grid<float> near = foreground_share(dem, view.viewer_xy, scene.generalize);
+  const Grid<std::uint8_t> lakes = scene.generalize.keep_lakes ? find_lakes(dem.altitude_m, {}) : Grid<std::uint8_t>();
+  Grid<float> generalized_m = generalize(dem.altitude_m, near, lakes, scene.generalize.bands, progress);
+  // The eye's place at altitude 0 is the origin of everything that becomes float.
+  const glm::dvec3 origin{view.viewer_xy, 0.0};
+  DeformedSurface surface = deform(generalized_m, dem.transform, view.viewer_xy, origin, scene.deform);
+  TerrainModel model = make_terrain_model(std::move(dem), std::move(generalized_m), std::move(land_cover), scene.deform.exaggeration);
+  return {std::move(model), std::move(surface)};
+}
+
+}  // namespace belvedere

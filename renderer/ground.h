@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "renderer/base/progress.h"
+#include "renderer/guidance.h"
+#include "renderer/scene_file.h"
+#include "renderer/view.h"
+#include "terrain/deform.h"
+
+namespace belvedere {
+
+// What a scene calls by name (palette, legend, rules): the path of a file where the name ends in .toml or .csv, else the name of something
+// built in.
+std::string name_or_file(const LoadedScene& scene, const std::string& name);
+
+// The DEM of a scene: its sources read and mosaicked, or a terrain made up.
+Dem make_scene_dem(const LoadedScene& scene, Progress& progress);
+// Its land cover: from sources and a legend, or by rules.
+LandCover make_scene_land_cover(const LoadedScene& scene, const Dem& dem, Progress& progress);
+
+// The terrain as one view wants it: generalized by distance, exaggerated and bent.
+struct Ground {
+  TerrainModel model;
+  DeformedSurface surface;
+};
+Ground make_ground(const Scene& scene, Dem dem, LandCover land_cover, const View& view, Progress& progress);
+
+}  // namespace belvedere

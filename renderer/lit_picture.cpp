@@ -1,0 +1,89 @@
+#include "renderer/lit_picture.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "renderer/base/angle.h"
+#include "renderer/composite.h"
+#include "renderer/light.h"
+
+namespace belvedere {
+namespace {
+
+ToneParameters to_tone_parameters(const Stage& stage) {
+  const SceneLight& light = stage.scene.light;
+  ToneParameters parameters;
+  parameters.sun_direction = stage.view.sun_direction;
+  parameters.sun_strength = stage.view.sun.altitude_deg > 0.0 ? light.sun : 0.0;
+  parameters.sky_strength = light.sky;
+  parameters.relief_strength = light.relief;
+  parameters.shadow_depth = light.shadow_depth;
+  parameters.contrast = light.contrast;
+  parameters.pixels_per_unit = stage.scene.pixels_per_unit();
+  parameters.seed = stage.scene.seed;
+  return parameters;
+}
+
+BaseParameters to_base_parameters(const Stage& stage) {
+  const SceneAir& air = stage.scene.air;
+  BaseParameters parameters;
+  parameters.haze = air.haze;
+  parameters.haze_from_m = air.from_m;
+  parameters.haze_scale_m = air.scale_m;
+  parameters.range_mist = air.range_mist;
+  parameters.warm_near = air.warm_near;
+  parameters.hue_drift = air.hue_drift;
+  parameters.pixels_per_unit = stage.scene.pixels_per_unit();
+  parameters.seed = stage.scene.seed;
+  return parameters;
+}
+
+GuidanceParameters to_guidance_parameters(const Stage& stage, int tile_size) {
+  const SceneSampling& sampling = stage.scene.sampling;
+  GuidanceParameters parameters;
+  parameters.pixel_samples = sampling.pixel_samples;
+  parameters.shadow_rays = sampling.shadow_rays;
+  parameters.sky_directions = sampling.sky_directions;
+  parameters.sky_reach_m = sampling.sky_reach_m;
+  parameters.sun_direction = stage.view.sun_direction;
+  parameters.sun_radius_rad = to_radians(stage.scene.sun.radius_deg);
+  parameters.tile_size = tile_size;
+  return parameters;
+}
+
+}  // namespace
+
+Stage set_stage(const LoadedScene& loaded, Progress& progress) {
+  Stage stage;
+  stage.scene = loaded.scene;
+  stage.palette = read_palette(name_or_file(loaded, loaded.scene.palette));
+  Dem dem = make_scene_dem(loaded, progress);
+  stage.view = make_view(loaded.scene, dem, progress);
+  stage.camera = make_camera(stage.view.camera);
+  LandCover land_cover = make_scene_land_cover(loaded, dem, progress);
+  stage.ground = make_ground(loaded.scene, std::move(dem), std::move(land_cover), stage.view, progress);
+  progress.begin("building the ray tracer", 0.0);
+  stage.tracer = std::make_unique<Tracer>(stage.ground.surface);
+  return stage;
+}
+
+LitPicture make_lit_picture(const Stage& stage, PixelRect region, int tile_size, Progress& progress) {
+  const glm::ivec2 origin_px{region.x0, region.y0};
+  LitPicture picture;
+  picture.guidance = trace_guidance(stage.ground.model, stage.ground.surface, *stage.tracer, *stage.camera,
+                                    to_guidance_parameters(stage, tile_size), region, progress);
+  picture.guidance.tone = make_tone(picture.guidance, to_tone_parameters(stage), origin_px, progress);
+  picture.ground = make_paint_ground(picture.guidance, stage.palette, to_base_parameters(stage), origin_px, stage.camera->size(), progress);
+  picture.guidance.base = decode_srgb(picture.ground.colour);
+  return picture;
+}
+
+int lit_margin_px(const Scene& scene) {
+  ToneParameters tone;
+  tone.pixels_per_unit = scene.pixels_per_unit();
+  BaseParameters base;
+  base.pixels_per_unit = scene.pixels_per_unit();
+  return guidance_margin_px() + std::max(tone_margin_px(tone), base_margin_px(base));
+}
+
+}  // namespace belvedere

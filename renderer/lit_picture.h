@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+
+#include "renderer/base/guidance_buffers.h"
+#include "renderer/base/parallel.h"
+#include "renderer/base/progress.h"
+#include "renderer/camera.h"
+#include "renderer/ground.h"
+#include "renderer/paint.h"
+#include "renderer/palette.h"
+#include "renderer/scene_file.h"
+#include "renderer/tracer.h"
+#include "renderer/view.h"
+
+namespace belvedere {
+
+// Everything about a scene that is made before the first pixel: owned in one place because pixels of any part of the picture need all of
+// it.
+struct Stage {
+  Scene scene;
+  View view;
+  Ground ground;
+  Palette palette;
+  std::unique_ptr<Camera> camera;
+  std::unique_ptr<Tracer> tracer;
+};
+// Reads, generalizes and bends the terrain, sets up camera, sun and palette, builds the acceleration structure.
+Stage set_stage(const LoadedScene& scene, Progress& progress);
+
+// The traced channels with light and base picture: complete guidance buffers, and the ground strokes are painted on.
+struct LitPicture {
+  GuidanceBuffers guidance;  // tone and base included
+  PaintGround ground;
+};
+// A rectangle of the picture. Where it is only a part, the outer lit_margin_px() pixels are not final. tile_size changes no bit.
+LitPicture make_lit_picture(const Stage& stage, PixelRect region, int tile_size, Progress& progress);
+int lit_margin_px(const Scene& scene);
+
+}  // namespace belvedere
