@@ -25,6 +25,7 @@ using Shorts = hn::Repartition<std::int16_t, Words>;
 using Sums = hn::Repartition<std::int32_t, Words>;
 
 constexpr std::size_t row_words = 8;
+constexpr std::int64_t no_price = INT64_MAX / 4;  // above all; room to subtract a price below 0
 
 // Weights as pairs of shorts beside R and B of a word, and beside G and the class: there a difference of class, cut to 1,
 // times class_mismatch << distance_shift adds the price of a mismatch into the same sum.
@@ -126,7 +127,7 @@ struct Search {
   Patch patch;
   std::uint32_t own = 0;
   std::uint32_t best = 0;
-  std::int64_t best_cost = INT64_MAX;
+  std::int64_t best_cost = no_price;
   std::uint32_t seen[12];
   int seen_count = 0;
 
@@ -196,7 +197,7 @@ void ImproveRow(const KernelView& view, int x0, int y, std::uint32_t* next) {
 std::int64_t OnePatchCost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
   Patch patch;
   LoadPatch(view, pixel, patch);
-  return PatchCost(patch, view.exemplars->words.data() + texel, view.exemplars->stride, INT64_MAX);
+  return PatchCost(patch, view.exemplars->words.data() + texel, view.exemplars->stride, no_price);
 }
 
 int BestMove(const KernelView& view, const std::vector<PieceSample>& samples, const std::vector<std::uint32_t>& candidates) {
@@ -204,7 +205,7 @@ int BestMove(const KernelView& view, const std::vector<PieceSample>& samples, co
   for (std::size_t s = 0; s < samples.size(); ++s) searches[s].Begin(view, samples[s].pixel);
   const Plane& exemplars = *view.exemplars;
   int best = -1;
-  std::int64_t best_cost = INT64_MAX;
+  std::int64_t best_cost = no_price;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     const Plane::Place place = exemplars.place(candidates[c]);
     const Plane::Part& part = exemplars.parts[static_cast<std::size_t>(place.part)];
@@ -223,7 +224,7 @@ int BestMove(const KernelView& view, const std::vector<PieceSample>& samples, co
       cost += guide_cost(view, search.wanted, exemplars.guides_at(texel), search.slack) +
               (others * (others + 1) / 2 * view.reuse_q4[search.label_class] >> 4) +
               view.bin_cost[search.label_class * 64 + view.bins[texel]];
-      cost += PatchCost(search.patch, exemplars.words.data() + texel, exemplars.stride, INT64_MAX);
+      cost += PatchCost(search.patch, exemplars.words.data() + texel, exemplars.stride, no_price);
     }
     if (cost < best_cost) {
       best_cost = cost;
