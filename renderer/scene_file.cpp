@@ -60,7 +60,13 @@ class ValueReader {
   void operator()(std::optional<LandCoverClass>* field) const { *field = class_of(value_); }
   void operator()(std::vector<std::pair<std::string, double>>* field) const {
     field->clear();
-    for (const ConfigEntry& entry : table()) field->emplace_back(entry.key, number(entry.value, key_.range));
+    for (const ConfigEntry& entry : table()) {
+      const std::vector<std::string> names = key_choices(key_);
+      if (!names.empty() && std::find(names.begin(), names.end(), entry.key) == names.end())
+        throw Error(ErrorKind::usage, origin_.where(entry.key_place),
+                    fmt::format("{} has no \"{}\"{}", key_name_, entry.key, suggestion(entry.key, names)), listed(names));
+      field->emplace_back(entry.key, number(entry.value, key_.range));
+    }
   }
   void operator()(std::vector<std::pair<LandCoverClass, LandCoverClass>>* field) const {
     field->clear();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 
 #include "renderer/base/error.h"
 
@@ -19,8 +20,8 @@ class Rules {
       refuse("terrain.synthetic", "terrain.sources and terrain.synthetic exclude each other", "rasters or a made-up terrain");
     if (terrain.sources.empty() && !terrain.synthetic) terrain.synthetic.emplace();
     if (terrain.synthetic && terrain.synthetic->lowest_m >= terrain.synthetic->highest_m)
-      refuse("terrain.synthetic.highest",
-             fmt::format("terrain.synthetic.highest ({} m) is not above lowest ({} m)", terrain.synthetic->highest_m,
+      refuse("terrain.synthetic.highest_m",
+             fmt::format("terrain.synthetic.highest_m ({} m) is not above lowest_m ({} m)", terrain.synthetic->highest_m,
                          terrain.synthetic->lowest_m),
              "a highest summit above the lowest valley");
     if (terrain.extent) {
@@ -29,7 +30,7 @@ class Rules {
         refuse("terrain.extent", "terrain.extent holds no area", "[min E, min N, max E, max N], each min below its max");
     }
     if (terrain.cell_m > 0.0 && terrain.cell_m < 0.1)
-      refuse("terrain.cell", fmt::format("terrain.cell is {}", terrain.cell_m), "0 for the data's own, or 0.1 … 10000 m");
+      refuse("terrain.cell_m", fmt::format("terrain.cell_m is {}", terrain.cell_m), "0 for the data's own, or 0.1 … 10000 m");
   }
 
   void land_cover() {
@@ -48,8 +49,8 @@ class Rules {
              fmt::format("generalize.background has {} weights, generalize.foreground has {}", background.size(), foreground.size()),
              "as many weights in both");
     if (scene_.generalize.foreground_to_m >= scene_.generalize.background_from_m)
-      refuse(written("generalize.background_from") ? "generalize.background_from" : "generalize.foreground_to",
-             fmt::format("generalize.background_from ({} m) is not beyond generalize.foreground_to ({} m)",
+      refuse(written("generalize.background_from_m") ? "generalize.background_from_m" : "generalize.foreground_to_m",
+             fmt::format("generalize.background_from_m ({} m) is not beyond generalize.foreground_to_m ({} m)",
                          scene_.generalize.background_from_m, scene_.generalize.foreground_to_m),
              "a background that begins beyond the foreground");
   }
@@ -57,17 +58,25 @@ class Rules {
   void deform() {
     const double radius = scene_.deform.bend.radius_m;
     if (radius > 0.0 && radius < 1000.0)
-      refuse("deform.bend.radius", fmt::format("deform.bend.radius is {}", radius), "0 for no bend, or 1000 … 1e9 m");
+      refuse("deform.bend.radius_m", fmt::format("deform.bend.radius_m is {}", radius), "0 for no bend, or 1000 … 1e9 m");
+  }
+
+  void sampling() {
+    const int samples = scene_.sampling.pixel_samples;
+    const int side = static_cast<int>(std::lround(std::sqrt(samples)));
+    if (side * side != samples)
+      refuse("sampling.pixel_samples", fmt::format("sampling.pixel_samples is {}, which fills no square", samples), "1, 4, 9 or 16");
   }
 
   void camera() {
     const SceneCamera& camera = scene_.camera;
     if (camera.look_at_altitude_m && !camera.look_at && !camera.look_at_lonlat)
-      refuse("camera.look_at_altitude", "camera.look_at_altitude has no point to belong to",
+      refuse("camera.look_at_altitude_m", "camera.look_at_altitude_m has no point to belong to",
              "camera.look_at or camera.look_at_lonlat beside it");
     constexpr double widest_perspective = 150.0;
     if (camera.projection == "perspective" && camera.field_of_view_deg > widest_perspective)
-      refuse("camera.field_of_view", fmt::format("camera.field_of_view is {} with a perspective projection", camera.field_of_view_deg),
+      refuse("camera.field_of_view_deg",
+             fmt::format("camera.field_of_view_deg is {} with a perspective projection", camera.field_of_view_deg),
              fmt::format("1 … {}°, or projection = \"cylindrical\"", widest_perspective));
   }
 
@@ -79,14 +88,14 @@ class Rules {
         refuse(name + ".picture", name + ".picture has neither guidance nor classes, so nobody knows what it shows",
                "guidance = \"….exr\", or classes = \"….png\"");
       if (exemplar.picture.empty())
-        for (const char* key : {"guidance", "classes", "altitude", "altitude_range", "optional"})
+        for (const char* key : {"guidance", "classes", "altitude", "altitude_range_m", "optional"})
           if (written(name + "." + key))
             refuse(name + "." + key, fmt::format("{}.{} has no picture to belong to", name, key), "a picture beside it");
       if (!exemplar.altitude.empty() && exemplar.classes.empty())
         refuse(name + ".altitude", name + ".altitude needs classes beside it", "classes = \"….png\"");
       if (exemplar.altitude_range_m[0] >= exemplar.altitude_range_m[1])
-        refuse(name + ".altitude_range",
-               fmt::format("{}.altitude_range goes from {} to {}", name, exemplar.altitude_range_m[0], exemplar.altitude_range_m[1]),
+        refuse(name + ".altitude_range_m",
+               fmt::format("{}.altitude_range_m goes from {} to {}", name, exemplar.altitude_range_m[0], exemplar.altitude_range_m[1]),
                "[lower, upper]");
     }
   }
@@ -130,6 +139,7 @@ void apply_scene_rules(Scene& scene, const ConfigValue& root, const SceneOrigin&
   rules.land_cover();
   rules.generalize();
   rules.deform();
+  rules.sampling();
   rules.camera();
   rules.exemplars();
 }

@@ -20,9 +20,9 @@ const std::vector<SceneExclusion>& scene_exclusions() {
   static const std::vector<SceneExclusion> exclusions = {
       {"camera", {"position"}, {"position_lonlat"}},
       {"camera", {"look_at"}, {"look_at_lonlat"}},
-      {"camera", {"look_at", "look_at_lonlat"}, {"azimuth", "pitch"}},
-      {"sun", {"time"}, {"azimuth", "altitude"}},
-      {"exemplar", {"guidance"}, {"classes", "altitude", "altitude_range"}},
+      {"camera", {"look_at", "look_at_lonlat"}, {"azimuth_deg", "pitch_deg"}},
+      {"sun", {"time"}, {"azimuth_deg", "altitude_deg"}},
+      {"exemplar", {"guidance"}, {"classes", "altitude", "altitude_range_m"}},
       {"exemplar", {"picture"}, {"width", "height", "seed"}},
   };
   return exclusions;
@@ -84,7 +84,9 @@ std::string describe_type(const SceneKey& key) {
     std::string operator()(std::optional<std::array<double, 4>>*) const { return "four numbers, [min E, min N, max E, max N]"; }
     std::string operator()(std::vector<float>*) const { return "1 to 12 numbers, [a, b, …]"; }
     std::string operator()(std::optional<LandCoverClass>*) const { return "a class name"; }
-    std::string operator()(std::vector<std::pair<std::string, double>>*) const { return "a table of names and numbers"; }
+    std::string operator()(std::vector<std::pair<std::string, double>>*) const {
+      return key.choices.empty() ? "a table of names and numbers" : fmt::format("a table of numbers for {}", fmt::join(key.choices, ", "));
+    }
     std::string operator()(std::vector<std::pair<LandCoverClass, LandCoverClass>>*) const { return "a table of class names"; }
     std::string operator()(std::string*) const {
       if (key.text == TextKind::choice || key.text == TextKind::built_in) {

@@ -79,7 +79,7 @@ bool is_excluded(const SceneSection& section, const SceneKey& key, Scene& scene,
       if (!value_text(*find_key(section, rival), scene, i).empty()) return true;
   }
   // What an exemplar without a picture cannot have.
-  static constexpr std::array<std::string_view, 2> of_pictures = {"altitude_range", "optional"};
+  static constexpr std::array<std::string_view, 2> of_pictures = {"altitude_range_m", "optional"};
   return section.name == "exemplar" && scene.exemplars[i].picture.empty() &&
          std::find(of_pictures.begin(), of_pictures.end(), key.name) != of_pictures.end();
 }
@@ -165,7 +165,10 @@ struct SchemaOfField {
   Json operator()(std::vector<float>*) const { return list(1, 12); }
   Json operator()(std::optional<LandCoverClass>*) const { return classes(); }
   Json operator()(std::vector<std::pair<std::string, double>>*) const {
-    return typed("object").add("additionalProperties", number_schema("number", key.range));
+    if (key.choices.empty()) return typed("object").add("additionalProperties", number_schema("number", key.range));
+    Json names;
+    for (const std::string& name : key.choices) names.add(name, number_schema("number", key.range));
+    return typed("object").add("properties", names).add("additionalProperties", std::string("false"));
   }
   Json operator()(std::vector<std::pair<LandCoverClass, LandCoverClass>>*) const {
     Json names;
@@ -234,7 +237,8 @@ std::string write_scene(const Scene& scene) {
   for (const SceneSection& section : scene_sections()) {
     const std::size_t count = section.count == nullptr ? 1 : section.count(values);
     for (std::size_t i = 0; i < count; ++i) {
-      if (!section.name.empty()) out += fmt::format(fmt::runtime(section.kind == SectionKind::list ? "\n[[{}]]\n" : "\n[{}]\n"), section.name);
+      if (!section.name.empty())
+        out += fmt::format(fmt::runtime(section.kind == SectionKind::list ? "\n[[{}]]\n" : "\n[{}]\n"), section.name);
       for (const SceneKey& key : section.keys) {
         const std::string text = is_excluded(section, key, values, i) ? "" : value_text(key, values, i);
         if (!text.empty()) out += fmt::format("{} = {}\n", key.name, text);
@@ -258,12 +262,13 @@ std::string scene_reference() {
       "Made by `belvedere schema --markdown`; `docs/scene.schema.json`, by `belvedere schema`, says the same to editors.\n\n"
       "A scene is a TOML file that says everything about one panorama. `version = 1` is required; every other key has a default. An "
       "unknown\n"
-      "key, a wrong type or a value out of range is an error that names the place. Lengths are in metres and angles in degrees, unless a\n"
-      "key's name says otherwise. Files are looked for beside the scene file, then in the folders named with `--data`, and nowhere else.\n"
+      "key, a wrong type or a value out of range is an error that names the place. Units stand in the keys' names; places are in metres "
+      "of\n"
+      "the scene's CRS. Files are looked for beside the scene file, then in the folders named with `--data`, and nowhere else.\n"
       "Any key can be set on the command line: `--set output.width=1200`, `--set exemplar.0.seed=3`,\n"
       "`--set 'generalize.foreground=[1, 1, 0.5]'`; it replaces what the file says of the same question.\n\n"
       "```toml\nversion = 1\ntitle = \"Karwendel from the north\"\n\n[[terrain.sources]]\nfile = \"innsbruck/innsbruck_utm32_30m.tif\"\n\n"
-      "[camera]\nposition = [692000, 5302000]\nheight = 22000\nlook_at = [690000, 5249000]\n```\n";
+      "[camera]\nposition = [692000, 5302000]\nheight_m = 22000\nlook_at = [690000, 5249000]\n```\n";
   for (const SceneSection& section : scene_sections()) {
     const char* heading = section.name.empty()                ? "\n## On top\n\n"
                           : section.kind == SectionKind::list ? "\n## `[[{}]]`\n\n"

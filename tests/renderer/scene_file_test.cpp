@@ -68,7 +68,7 @@ palette = "winter"
 extent = [0, 1, 2e3, 3]
 [terrain.synthetic]
 width = 64
-cell = 45
+cell_m = 45
 [land_cover]
 unknown = "rock"
 settings = { treeline = 1900, "odd name" = -1.5 }
@@ -79,7 +79,7 @@ keep_lakes = false
 [camera]
 position_lonlat = [11.4, 47.9]
 look_at = [690000, 5249000.5]
-look_at_altitude = 1200
+look_at_altitude_m = 1200
 [sun]
 time = 2024-06-21T17:30:00+02:00
 [[exemplar]]
@@ -87,7 +87,7 @@ seed = 3
 [[exemplar]]
 picture = "a.png"
 classes = "b.png"
-altitude_range = [-5, 6]
+altitude_range_m = [-5, 6]
 optional = true
 [synthesis]
 weights = { tone = 5 }
@@ -129,18 +129,18 @@ TEST(SceneFile, VersionIsRequiredAndComesFirst) {
 }
 
 TEST(SceneFile, UnknownKeysNameThePlaceAndTheNearestKey) {
-  EXPECT_THAT(refused("[camera]\n  pich = 3\n"), AllOf(StartsWith("s.toml:3:3: unknown key \"camera.pich\""),
-                                                       HasSubstr("did you mean \"pitch\""), HasSubstr("field_of_view")));
-  EXPECT_THAT(refused("[camera]\npitch_deg = 3\n"), HasSubstr("did you mean \"pitch\""));
-  EXPECT_THAT(refused("[camra]\npitch = 3\n"), AllOf(StartsWith("s.toml:2:2: "), HasSubstr("did you mean \"camera\"")));
-  EXPECT_THAT(refused("azimuth = 3\n"), AllOf(HasSubstr("camera.azimuth"), HasSubstr("sun.azimuth")));
+  EXPECT_THAT(refused("[camera]\n  pich_deg = 3\n"), AllOf(StartsWith("s.toml:3:3: unknown key \"camera.pich_deg\""),
+                                                           HasSubstr("did you mean \"pitch_deg\""), HasSubstr("field_of_view_deg")));
+  EXPECT_THAT(refused("[camera]\npitch = 3\n"), HasSubstr("did you mean \"pitch_deg\""));
+  EXPECT_THAT(refused("[camra]\npitch_deg = 3\n"), AllOf(StartsWith("s.toml:2:2: "), HasSubstr("did you mean \"camera\"")));
+  EXPECT_THAT(refused("azimuth_deg = 3\n"), AllOf(HasSubstr("camera.azimuth_deg"), HasSubstr("sun.azimuth_deg")));
   EXPECT_THAT(refused("[[exemplar]]\nseed = 1\n[[exemplar]]\nsead = 1\n"), AllOf(StartsWith("s.toml:5:1: "), HasSubstr("exemplar.1.sead")));
-  EXPECT_THAT(refused("[deform.bend]\nradus = 1\n"), HasSubstr("did you mean \"radius\""));
+  EXPECT_THAT(refused("[deform.bend]\nradus_m = 1\n"), HasSubstr("did you mean \"radius_m\""));
 }
 
 TEST(SceneFile, WrongTypesSayWhatIsWanted) {
-  EXPECT_THAT(refused("[camera]\npitch = \"steep\"\n"),
-              AllOf(StartsWith("s.toml:3:9: camera.pitch is the string \"steep\""), HasSubstr("a number"), HasSubstr("-90 … 90°")));
+  EXPECT_THAT(refused("[camera]\npitch_deg = \"steep\"\n"),
+              AllOf(StartsWith("s.toml:3:13: camera.pitch_deg is the string \"steep\""), HasSubstr("a number"), HasSubstr("-90 … 90°")));
   EXPECT_THAT(refused("[output]\nwidth = 2400.5\n"), HasSubstr("a whole number"));
   EXPECT_THAT(refused("[camera]\nposition = [1, 2, 3]\n"), AllOf(HasSubstr("an array of 3"), HasSubstr("[E, N]")));
   EXPECT_THAT(refused("[camera]\nposition = [1, \"2\"]\n"), StartsWith("s.toml:3:16: "));
@@ -190,32 +190,34 @@ TEST(SceneFile, RangesOfPairsListsAndTables) {
   EXPECT_THAT(refused("[generalize]\nforeground = [1, 6]\n"), HasSubstr("0 … 5"));
   EXPECT_THAT(refused("[generalize]\nforeground = []\n"), HasSubstr("1 to 12 numbers"));
   EXPECT_THAT(refused("[synthesis]\nweights = { tone = -1 }\n"), HasSubstr("0 … 100"));
-  EXPECT_THAT(refused("[air]\nscale = 0\n"), HasSubstr("more than 0"));
+  EXPECT_THAT(refused("[synthesis]\nweights = { tne = 1 }\n"), AllOf(StartsWith("s.toml:3:13: "), HasSubstr("did you mean \"tone\"")));
+  EXPECT_THAT(refused("[sampling]\npixel_samples = 5\n"), HasSubstr("1, 4, 9 or 16"));
+  EXPECT_THAT(refused("[air]\nscale_m = 0\n"), HasSubstr("more than 0"));
 }
 
 TEST(SceneFile, KeysThatExcludeEachOther) {
   EXPECT_THAT(refused("[camera]\nposition = [1, 2]\nposition_lonlat = [1, 2]\n"),
               AllOf(StartsWith("s.toml:4:1: "), HasSubstr("camera.position and camera.position_lonlat exclude each other")));
   EXPECT_THAT(refused("[camera]\nlook_at = [1, 2]\nlook_at_lonlat = [1, 2]\n"), HasSubstr("exclude"));
-  EXPECT_THAT(refused("[camera]\nlook_at = [1, 2]\nazimuth = 3\n"), HasSubstr("exclude"));
-  EXPECT_THAT(refused("[camera]\nlook_at_lonlat = [1, 2]\npitch = 3\n"), HasSubstr("exclude"));
-  EXPECT_THAT(refused("[sun]\ntime = \"2024-06-21T17:30:00Z\"\nazimuth = 3\n"), HasSubstr("exclude"));
+  EXPECT_THAT(refused("[camera]\nlook_at = [1, 2]\nazimuth_deg = 3\n"), HasSubstr("exclude"));
+  EXPECT_THAT(refused("[camera]\nlook_at_lonlat = [1, 2]\npitch_deg = 3\n"), HasSubstr("exclude"));
+  EXPECT_THAT(refused("[sun]\ntime = \"2024-06-21T17:30:00Z\"\nazimuth_deg = 3\n"), HasSubstr("exclude"));
   EXPECT_THAT(refused("[terrain.synthetic]\n[[terrain.sources]]\nfile = \"a.tif\"\n"), HasSubstr("exclude"));
   EXPECT_THAT(refused("[[exemplar]]\npicture = \"a.png\"\nguidance = \"a.exr\"\nseed = 3\n"), HasSubstr("exemplar.0.seed exclude"));
-  EXPECT_NO_THROW(scene_of("[sun]\ntime = \"\"\nazimuth = 3\n"));
+  EXPECT_NO_THROW(scene_of("[sun]\ntime = \"\"\nazimuth_deg = 3\n"));
 }
 
 TEST(SceneFile, KeysThatBelongTogether) {
   EXPECT_THAT(refused("[generalize]\nforeground = [1, 1]\nbackground = [1]\n"), StartsWith("s.toml:4:14: "));
-  EXPECT_THAT(refused("[generalize]\nforeground_to = 90000\n"), HasSubstr("beyond"));
+  EXPECT_THAT(refused("[generalize]\nforeground_to_m = 90000\n"), HasSubstr("beyond"));
   EXPECT_THAT(refused("[terrain]\nextent = [1, 1, 0, 2]\n"), HasSubstr("no area"));
-  EXPECT_THAT(refused("[terrain.synthetic]\nlowest = 4000\n"), HasSubstr("not above lowest"));
+  EXPECT_THAT(refused("[terrain.synthetic]\nlowest_m = 4000\n"), HasSubstr("not above lowest_m"));
   EXPECT_THAT(refused("[[terrain.sources]]\nband = 2\n"), AllOf(StartsWith("s.toml:2:"), HasSubstr("terrain.sources.0.file is missing")));
   EXPECT_THAT(refused("[[land_cover.sources]]\nfile = \"a.tif\"\n"), HasSubstr("needs land_cover.legend"));
-  EXPECT_THAT(refused("[deform.bend]\nradius = 10\n"), HasSubstr("1000"));
-  EXPECT_THAT(refused("[camera]\nlook_at_altitude = 10\n"), HasSubstr("no point"));
-  EXPECT_THAT(refused("[camera]\nfield_of_view = 200\n"), HasSubstr("cylindrical"));
-  EXPECT_NO_THROW(scene_of("[camera]\nfield_of_view = 200\nprojection = \"cylindrical\"\n"));
+  EXPECT_THAT(refused("[deform.bend]\nradius_m = 10\n"), HasSubstr("1000"));
+  EXPECT_THAT(refused("[camera]\nlook_at_altitude_m = 10\n"), HasSubstr("no point"));
+  EXPECT_THAT(refused("[camera]\nfield_of_view_deg = 200\n"), HasSubstr("cylindrical"));
+  EXPECT_NO_THROW(scene_of("[camera]\nfield_of_view_deg = 200\nprojection = \"cylindrical\"\n"));
   EXPECT_THAT(refused("[[exemplar]]\npicture = \"a.png\"\n"), HasSubstr("neither guidance nor classes"));
   EXPECT_THAT(refused("[[exemplar]]\nclasses = \"a.png\"\n"), HasSubstr("no picture"));
   const Scene one_set = scene_of("[generalize]\nforeground = [2, 2]\n");
@@ -225,12 +227,12 @@ TEST(SceneFile, KeysThatBelongTogether) {
 }
 
 TEST(SceneFile, SettingsOverride) {
-  const std::string text = "[camera]\nlook_at = [1, 2]\npitch = -5\n";
+  const std::string text = "[camera]\nlook_at = [1, 2]\npitch_deg = -5\n";
   EXPECT_THAT(refused(text), HasSubstr("exclude"));
   // The last word is the command line's, also against what says the same in other words.
   const Scene scene =
       scene_of("title = \"a\"\n[camera]\nlook_at = [1, 2]\n[sun]\ntime = \"2024-06-21T17:30:00Z\"\n[[exemplar]]\nseed = 1\n",
-               {"camera.pitch=-7.5", "sun.altitude = 12", "output.width=1200", "exemplar.0.seed=3", "exemplar.1.width=800",
+               {"camera.pitch_deg=-7.5", "sun.altitude_deg = 12", "output.width=1200", "exemplar.0.seed=3", "exemplar.1.width=800",
                 "generalize.foreground.2=0.5", "synthesis.weights.tone=4", "title=2024", "palette=winter", "land_cover.unknown=rock",
                 "terrain.extent=[0, 0, 5, 5]", "output.width=1300"});
   EXPECT_FALSE(scene.camera.look_at);
@@ -250,17 +252,17 @@ TEST(SceneFile, SettingsOverride) {
 }
 
 TEST(SceneFile, BadSettingsNameThemselves) {
-  EXPECT_THAT(refused("", {"camera.pich=3"}), AllOf(StartsWith("--set camera.pich=3: unknown key"), HasSubstr("pitch")));
-  EXPECT_THAT(refused("", {"camera.pitch=95"}),
-              AllOf(StartsWith("--set camera.pitch=95: camera.pitch is the number 95"), HasSubstr("-90 … 90°")));
-  EXPECT_THAT(refused("", {"camera.pitch"}), AllOf(StartsWith("--set camera.pitch: "), HasSubstr("key=value")));
+  EXPECT_THAT(refused("", {"camera.pich_deg=3"}), AllOf(StartsWith("--set camera.pich_deg=3: unknown key"), HasSubstr("pitch")));
+  EXPECT_THAT(refused("", {"camera.pitch_deg=95"}),
+              AllOf(StartsWith("--set camera.pitch_deg=95: camera.pitch_deg is the number 95"), HasSubstr("-90 … 90°")));
+  EXPECT_THAT(refused("", {"camera.pitch_deg"}), AllOf(StartsWith("--set camera.pitch_deg: "), HasSubstr("key=value")));
   EXPECT_THAT(refused("", {"=3"}), HasSubstr("key=value"));
-  EXPECT_THAT(refused("", {"camera..pitch=3"}), HasSubstr("empty"));
+  EXPECT_THAT(refused("", {"camera..pitch_deg=3"}), HasSubstr("empty"));
   EXPECT_THAT(refused("", {"exemplar.5.seed=3"}), HasSubstr("no place in a list of 0"));
   EXPECT_THAT(refused("", {"exemplar.x.seed=3"}), HasSubstr("no place"));
   EXPECT_THAT(refused("title = \"a\"\n", {"title.x=3"}), HasSubstr("nothing to set below"));
   EXPECT_THAT(refused("", {"camera.position=[1,"}), StartsWith("--set camera.position=[1,: "));
-  EXPECT_THAT(refused("", {"camera.look_at=[1,2]", "camera.azimuth=3"}), HasSubstr("exclude"));
+  EXPECT_THAT(refused("", {"camera.look_at=[1,2]", "camera.azimuth_deg=3"}), HasSubstr("exclude"));
   EXPECT_THAT(refused("", {"a.b.c.d.e.f.g.h.i.j=1"}), HasSubstr("too many parts"));
 }
 
