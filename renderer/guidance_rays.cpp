@@ -70,14 +70,16 @@ std::vector<glm::dvec2> disc_places(int count) {
 }
 
 std::vector<SkyDirection> sky_directions(int per_pixel) {
-  // Strata of equal weight in the squared sine of the angle from the zenith, and in azimuth; each lane has its own place in them:
-  // Bayer's order (neighbours differ most) in the one, turns by the golden ratio in the other.
+  // Vogel's spiral: equal steps in the squared sine of the angle from the zenith, turns by the golden ratio. Each run of 16 along it
+  // is dealt to the 16 lanes, in Bayer's order, so that neighbours differ most; 7 places on from run to run, a quarter turn nearly,
+  // so that the directions of one lane spread as well.
   constexpr std::array<int, 16> bayer = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
   std::vector<SkyDirection> all;
   for (int lane = 0; lane < 16; ++lane) {
-    for (int m = 0; m < per_pixel; ++m) {
-      const double u = (m + (bayer[static_cast<std::size_t>(lane)] + 0.5) / 16.0) / per_pixel;
-      const double turn = golden_turn * lane + 2.0 * std::numbers::pi * m / per_pixel;
+    for (int run = 0; run < per_pixel; ++run) {
+      const int n = 16 * run + (bayer[static_cast<std::size_t>(lane)] + 7 * run) % 16;
+      const double u = (n + 0.5) / (16.0 * per_pixel);
+      const double turn = golden_turn * n;
       all.push_back({{std::cos(turn) * std::sqrt(u), std::sin(turn) * std::sqrt(u), std::sqrt(1.0 - u)}, lane});
     }
   }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "renderer/base/parallel.h"
 #include "renderer/base/random.h"
 #include "terrain/heightfield.h"
+#include "terrain/raster_io.h"
 
 namespace belvedere {
 namespace {
@@ -231,6 +233,20 @@ void expect_like_oracle(const DeformedSurface& surface, double height_m) {
 }
 
 TEST(Tracer, AgreesWithHeightfieldOnRoughGround) { expect_like_oracle(make_surface(700, 600, rough_altitude), 5200.0); }
+
+TEST(Tracer, AgreesWithHeightfieldOnInnsbruck) {
+  const std::string file = std::string(BELVEDERE_DATA_DIR) + "/innsbruck/innsbruck_utm32_30m.tif";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
+  RasterSource source;
+  source.path = file;
+  const Raster<float> dem = read_raster(source);
+  constexpr int x0 = 700;
+  constexpr int y0 = 1400;
+  const DeformedSurface surface = make_surface(900, 800, [&](double x, double y) {
+    return dem.cells(x0 + static_cast<int>(std::lround(x / cell)), y0 - static_cast<int>(std::lround(y / cell)));
+  });
+  expect_like_oracle(surface, 4500.0);
+}
 
 TEST(Tracer, NaNRaysMissAndHarmNoNeighbour) {
   const DeformedSurface surface = make_surface(100, 100, rough_altitude);
