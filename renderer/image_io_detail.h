@@ -28,11 +28,8 @@ void quantize_rows(const Grid<glm::vec3>& encoded, int y0, int y1, int row_pixel
 // image_io_exr_read.cpp
 ImageInfo read_exr_info(const std::string& path);
 Grid<glm::vec3> read_exr_picture(const std::string& path, Grid<float>* alpha);
-// image_io_tiff.cpp: Error(input) unless all strips or tiles that the directory names lie within the file.
-void check_tiff_complete(const std::string& path);
-// image_io_complete.cpp: whether a file of that format reaches its end.
+// image_io_png_check.cpp: whether a PNG reaches its end, all checksums right.
 bool is_png_complete(const std::string& path);
-bool is_jpeg_complete(const std::string& path);
 struct PngKind {
   int bits = 8;  // a channel, 1…16
   bool palette = false;

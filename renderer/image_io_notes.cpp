@@ -83,7 +83,8 @@ std::string find_format(const std::string& path) {
 }
 
 void throw_damaged(const std::string& path, const std::string& reason) {
-  throw Error(ErrorKind::input, path, "is damaged or cut off" + (reason.empty() ? std::string() : " (" + reason + ")"));
+  const std::string first = reason.substr(0, reason.find('\n'));  // libraries complain once for each row
+  throw Error(ErrorKind::input, path, "is damaged or cut off" + (first.empty() ? std::string() : " (" + first + ")"));
 }
 
 void check_memory(const std::string& path, std::int64_t width, std::int64_t height, double bytes) {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 #include "renderer/base/error.h"
@@ -150,22 +149,6 @@ void write_tiff16(const std::string& path, const Grid<glm::vec3>& encoded, const
   }
   read_back(output, encoded, across);
   output.commit();
-}
-
-void image_io::check_tiff_complete(const std::string& path) {
-  std::string message;
-  const Tiff tiff = open_tiff(path, "r", message);
-  if (tiff == nullptr) throw_damaged(path, message);
-  const std::uint64_t file_bytes = std::filesystem::file_size(path);
-  const std::uint32_t pieces = TIFFIsTiled(tiff.get()) != 0 ? TIFFNumberOfTiles(tiff.get()) : TIFFNumberOfStrips(tiff.get());
-  for (std::uint32_t i = 0; i < pieces; ++i) {
-    int failed = 0;
-    const std::uint64_t start = TIFFGetStrileOffsetWithErr(tiff.get(), i, &failed);
-    const std::uint64_t bytes = failed != 0 ? 0 : TIFFGetStrileByteCountWithErr(tiff.get(), i, &failed);
-    if (failed != 0 || bytes == 0 || bytes > file_bytes || start > file_bytes - bytes) {
-      throw_damaged(path, "piece " + std::to_string(i + 1) + " of " + std::to_string(pieces) + " is missing");
-    }
-  }
 }
 
 }  // namespace belvedere

@@ -1,4 +1,4 @@
-// Whether PNG and JPEG files are whole, from their structure alone: the decoders print, or fill up with grey, where data is missing.
+// What a PNG says of itself, read without libpng: that prints where data is missing, and does not miss the end of a file.
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -59,29 +59,6 @@ PngKind read_png_kind(const std::string& path) {
   const int colour_type = file.get();
   if (!file) throw_damaged(path, "its header is missing");
   return {bits, colour_type == 3};
-}
-
-// Segments, and coded data in which 0xFF is followed by 0 or a restart marker, up to the end marker (ITU T.81, annex B).
-bool is_jpeg_complete(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  file.seekg(2);  // behind the start marker
-  bool coded = false;
-  for (int c = file.get(); file; c = file.get()) {
-    if (c != 0xff) {
-      if (!coded) return false;
-      continue;
-    }
-    int marker = file.get();
-    while (marker == 0xff) marker = file.get();
-    if (marker == 0xd9) return true;
-    if (marker == 0x00 || marker == 0x01 || (marker >= 0xd0 && marker <= 0xd7)) continue;
-    const int high = file.get();
-    const int low = file.get();
-    if (!file || high * 256 + low < 2) return false;
-    file.seekg(high * 256 + low - 2, std::ios::cur);
-    coded = marker == 0xda;  // start of scan
-  }
-  return false;
 }
 
 }  // namespace belvedere::image_io
