@@ -87,7 +87,7 @@ glm::vec3 hue_drift(Class id, const Patches& p, const Palette& palette, float st
       break;
   }
   if (id == Class::rock) {
-    const float drift = std::clamp(0.6F * p.n25 + 0.4F * p.n8, -1.6F, 1.6F) * static_cast<float>(palette.rock_drift_share) * strength;
+    const float drift = std::clamp(0.6F * p.n25 + 0.4F * p.n8, -1.0F, 1.6F) * static_cast<float>(palette.rock_drift_share) * strength;
     factor *= 1.0F + glm::vec3(0.028F, 0.0F, -0.035F) * drift;
   }
   if (id == Class::forest) {
@@ -248,7 +248,7 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
       const float tone = guidance.tone[i];
       const auto drift = static_cast<float>(parameters.hue_drift);
       const float warm = warmth(parameters, depth) * static_cast<float>(parameters.warm_near * palette.warm_share) *
-                         (id == Class::rock ? 0.30F : 1.0F) * tone;
+                         (id == Class::rock ? 0.60F : 1.0F) * tone;
       const auto mist = static_cast<float>(parameters.range_mist);
       const float behind = logs[i] - mean_logs[i];
       PixelColour pixel{};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "renderer/base/parallel.h"
@@ -64,11 +63,6 @@ Grid<float> blur_directly(const Grid<float>& values, double sigma) {
 int floor_divide(int value, int divisor) { return value >= 0 ? value / divisor : -((-value + divisor - 1) / divisor); }
 
 }  // namespace
-
-bool same_surface(float depth_a_m, float depth_b_m) {
-  if (std::isinf(depth_a_m) || std::isinf(depth_b_m)) return depth_a_m == depth_b_m;
-  return std::abs(depth_a_m - depth_b_m) <= surface_tolerance * depth_a_m;
-}
 
 Grid<float> blur_on_surface(const Grid<float>& values, const Grid<float>& depth_m, double sigma_px) {
   const std::vector<float> kernel = half_kernel(sigma_px);

@@ -26,14 +26,14 @@ struct CloudRow {
   double opacity;
 };
 constexpr std::array<CloudRow, 5> cloud_rows = {
-    {{0.05, 0.34, 0.40}, {0.11, 0.50, 0.60}, {0.20, 0.74, 0.80}, {0.33, 1.10, 0.90}, {0.50, 1.60, 0.85}}};
+    {{0.04, 0.40, 0.45}, {0.10, 0.62, 0.70}, {0.19, 0.95, 0.90}, {0.32, 1.40, 1.00}, {0.47, 1.90, 1.00}}};
 
 // One cloud over a flat base: heads under an arch, larger in the middle, the near ones low.
 Cloud make_cloud(const SkyParameters& p, std::uint64_t seed, std::int64_t cell, double middle_px, double base_px, double width_px,
                  double opacity) {
   std::int64_t draw = 0;
   const auto uniform = [&] { return random_uniform(seed, cell, draw++, 1); };
-  const double height_px = width_px * (0.16 + 0.16 * uniform());
+  const double height_px = width_px * (0.20 + 0.16 * uniform());
   const double peak = -0.45 + 0.9 * uniform();  // where the heap is highest
   const int count = 16 + static_cast<int>(16.0 * uniform());
   Cloud cloud{static_cast<float>(base_px), {}, {}, static_cast<float>(opacity), {}};
@@ -74,7 +74,7 @@ Layer cloud_at(const Cloud& cloud, glm::vec2 place, glm::vec2 wobble, const Pale
     const float lit = std::clamp(0.52F + 0.55F * glm::dot(offset, towards_light), 0.0F, 1.0F);
     // The foot of the heap lies in its own shade.
     const float raised = smooth_step(-0.05F, 0.75F, (cloud.base_px - place.y) / height);
-    const float light = std::clamp(lit * 0.55F + raised * 0.55F, 0.0F, 1.0F);
+    const float light = std::clamp(lit * 0.52F + raised * 0.52F, 0.0F, 1.0F);
     const glm::vec3 colour = glm::mix(palette.cloud_shade, palette.cloud_light, light);
     layer.colour = layer.alpha + cover > 0.0F ? glm::mix(layer.colour, colour, layer.alpha == 0.0F ? 1.0F : cover) : colour;
     layer.alpha = layer.alpha + cover * (1.0F - layer.alpha);
@@ -84,20 +84,27 @@ Layer cloud_at(const Cloud& cloud, glm::vec2 place, glm::vec2 wobble, const Pale
   return layer;
 }
 
-// Cirrus at a place: streaks on a high plane seen in perspective; 0…1.
-float cirrus_at(const SkyParameters& p, double x_px, double elevation, GroundNoise& streaks, GroundNoise& threads, GroundNoise& patches) {
+// Fields of noise that the cirrus is made of; one set a thread.
+struct CirrusNoises {
+  explicit CirrusNoises(std::uint64_t seed) : streaks(seed, 1.0), threads(seed + 1, 1.0), waver(seed + 2, 1.0), patches(seed + 3, 1.0) {}
+  GroundNoise streaks, threads, waver, patches;
+};
+
+// Cirrus at a place: long thin veils that fan out from a vanishing point on the horizon, far beyond the side of the picture; 0…1.
+float cirrus_at(const SkyParameters& p, double x_px, double elevation, CirrusNoises& noises) {
   if (elevation < 0.12) return 0.0F;
-  const double depth = 1.0 / (elevation + 0.18);  // along the view, 0.85 at the top of the picture
-  const double vanishing_px = 0.5 * p.picture_size.x + (p.sun_image_x < 0.0 ? 0.28 : -0.28) * p.picture_size.x;
-  const double across = (x_px - vanishing_px) / p.horizon_px * depth;
-  // Streaks run along the view: noise is stretched eightfold in depth, and wavers a little.
-  const double waver = 0.25 * patches(across * 0.9 + 40.0, depth * 2.0);
-  const float broad = streaks((across + waver) * 2.1, depth * 1.1);
-  const float fine = threads((across + waver) * 6.5, depth * 1.6);
-  const float where = patches(across * 0.33, depth * 0.9);
-  const float density = 0.55F * broad + 0.28F * fine + 0.75F * where - 0.75F;
-  const float fade = smooth_step(0.12F, 0.45F, static_cast<float>(elevation));
-  return std::clamp(0.75F * density * static_cast<float>(std::min(p.clouds, 1.5)), 0.0F, 0.62F) * fade;
+  const double width = p.picture_size.x / p.horizon_px;  // of the picture, in heights of the sky
+  const double x = x_px / p.horizon_px;
+  const double distance = p.sun_image_x < 0.0 ? x + 0.6 * width : 1.6 * width - x;
+  // In the fan: the angle above the horizon, and the logarithm of the distance along a ray.
+  const double bend = 0.09 * noises.waver(x * 0.55, elevation * 1.3);
+  const double angle = (elevation + bend) * 1.1 * width / distance;
+  const double along = std::log(distance / width) * width;
+  const float broad = noises.streaks(angle / 0.055, along / 0.75);
+  const float fine = noises.threads(angle / 0.018, along / 0.55);
+  const float where = noises.patches(x / 1.6, elevation / 0.34);
+  const float density = 0.42F * broad + 0.20F * fine + 0.62F * where - 0.62F + 0.4F * static_cast<float>(p.clouds - 1.0);
+  return 0.55F * smooth_step(0.0F, 1.25F, density) * smooth_step(0.12F, 0.40F, static_cast<float>(elevation));
 }
 
 }  // namespace
@@ -142,7 +149,8 @@ Grid<glm::vec3> make_sky(const Grid<float>& depth_m, const Palette& palette, con
   const glm::vec2 towards_light = glm::normalize(glm::vec2(p.sun_image_x < 0.0 ? -0.55F : 0.55F, -0.85F));
   // Unevenness of edges, in two sizes, in heights of the sky.
   parallel_rows(height, [&](int y) {
-    GroundNoise streaks(p.seed + 80, 1.0), threads(p.seed + 81, 1.0), patches(p.seed + 82, 1.0), bands(p.seed + 83, 1.0);
+    CirrusNoises cirrus_noises(p.seed + 70);
+    GroundNoise bands(p.seed + 83, 1.0);
     GroundNoise wobble_x(p.seed + 84, 0.030), wobble_y(p.seed + 85, 0.030), ripple_x(p.seed + 86, 0.010), ripple_y(p.seed + 87, 0.010);
     const double row_px = origin_px.y + y + 0.5;
     std::vector<const Cloud*> near_row;
@@ -156,7 +164,7 @@ Grid<glm::vec3> make_sky(const Grid<float>& depth_m, const Palette& palette, con
       // Long soft bands keep the gradient from looking ruled.
       const double place = v + 0.03 * bands(u * 0.9, v * 11.0) * std::clamp(2.0 * (1.0 - v), 0.0, 1.0);
       glm::vec3 colour = sky_gradient(palette, place);
-      const float cirrus = p.clouds > 0.0 ? cirrus_at(p, column_px, 1.0 - v, streaks, threads, patches) : 0.0F;
+      const float cirrus = p.clouds > 0.0 ? cirrus_at(p, column_px, 1.0 - v, cirrus_noises) : 0.0F;
       colour = glm::mix(colour, palette.cloud_light, cirrus);
       if (!near_row.empty()) {
         const glm::vec2 wobble = 0.16F * glm::vec2(wobble_x(u, v), wobble_y(u, v)) + 0.07F * glm::vec2(ripple_x(u, v), ripple_y(u, v));
