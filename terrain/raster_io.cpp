@@ -307,6 +307,7 @@ Grid<float> RasterFile::read_values(const CellWindow& window) const {
       value = nan_value;
     else if (!plain)
       value = static_cast<float>(value * gain + shift);
+    if ((s.source.lowest_m && value < *s.source.lowest_m) || (s.source.highest_m && value > *s.source.highest_m)) value = nan_value;
   }
   return values;
 }

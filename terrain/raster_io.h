@@ -12,13 +12,15 @@
 
 namespace belvedere {
 
-// One raster file and what a scene says of it. raster_io.cpp is the only file of the project that knows GDAL.
+// One raster file and what a scene says of it. raster_io*.cpp are the only files of the project that know GDAL.
 struct RasterSource {
   std::string path;
   int band = 1;               // from 1
   std::string crs;            // overrides or supplies the file's CRS ("EPSG:26911" or WKT); empty: the file's own
   double unit_to_m = 0.0;     // metres per unit of the values; 0: by the band's unit (feet known), metres if it has none
   std::optional<double> nodata;  // overrides the file's
+  // Altitudes beyond these are void: for files with wrong values that look like right ones.
+  std::optional<double> lowest_m, highest_m;
 };
 
 // What a file says of itself, without reading its cells.
@@ -46,13 +48,15 @@ struct RasterFrame {
 // it); Error(limit) where it would not fit into memory, before allocating.
 RasterInfo read_raster_info(const RasterSource& source);
 
-// Cells as floats in metres, nodata (and -9999, -32768, 32767 where the file declares none) as NaN; no reprojection.
+// Cells as floats in metres; nodata as NaN, and so are -9999, -32768 and 32767 where the file declares none, -32768 always.
+// No reprojection; a south-up raster is turned over, a rotated one resampled upright in its own CRS.
 Raster<float> read_raster(const RasterSource& source);
 // Integer codes; nodata becomes -1.
 Raster<std::int32_t> read_codes(const RasterSource& source);
 
-// Several sources, reprojected and mosaicked into one frame; earlier sources win, voids let later ones through. Bilinear
-// (average where the source is finer), values in metres.
+// Several sources, reprojected and mosaicked into one frame; earlier sources win, voids let later ones through. Files whose cells lie on
+// one lattice join without a seam. Cubic convolution within the range of the cells it sees, an average where the source is
+// finer; cells that coincide are copied to the bit. Values in metres.
 Raster<float> warp_rasters(const std::vector<RasterSource>& sources, const RasterFrame& frame, Progress& progress);
 // Nearest neighbour; cells without a source are -1.
 Raster<std::int32_t> warp_codes(const std::vector<RasterSource>& sources, const RasterFrame& frame, Progress& progress);

@@ -53,9 +53,17 @@ std::string normalize_crs(const std::string& crs) { return to_wkt(parse(crs)); }
 std::string describe_crs(const std::string& crs) {
   if (crs.empty()) return "no coordinate system";
   const OGRSpatialReference reference = parse(crs);
-  const char* authority = reference.GetAuthorityName(nullptr);
-  const char* code = reference.GetAuthorityCode(nullptr);
-  if (authority != nullptr && code != nullptr) return fmt::format("{}:{}", authority, code);
+  const auto code_of = [](const OGRSpatialReference& known) {
+    const char* authority = known.GetAuthorityName(nullptr);
+    const char* code = known.GetAuthorityCode(nullptr);
+    return authority != nullptr && code != nullptr ? fmt::format("{}:{}", authority, code) : std::string();
+  };
+  if (std::string code = code_of(reference); !code.empty()) return code;
+  // A .prj file has no code, but mostly the words of one that has.
+  const GdalErrors errors;
+  const std::unique_ptr<OGRSpatialReference> match(reference.FindBestMatch());
+  if (match)
+    if (std::string code = code_of(*match); !code.empty()) return code;
   const char* name = reference.GetName();
   return name != nullptr ? name : "a coordinate system without a name";
 }
