@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "renderer/base/random.h"
 
@@ -30,10 +31,11 @@ SplineWeights spline_weights(double position) {
   return s;
 }
 
+constexpr double spacing_per_sigma = 1.7320508075688772;  // the B-spline's deviation is spacing / sqrt(3)
+
 }  // namespace
 
 double gaussian_noise(std::uint64_t seed, double x, double y, double sigma_x, double sigma_y) {
-  constexpr double spacing_per_sigma = 1.7320508075688772;  // the B-spline's deviation is spacing / sqrt(3)
   const SplineWeights sx = spline_weights(x / (sigma_x * spacing_per_sigma));
   const SplineWeights sy = spline_weights(y / (sigma_y * spacing_per_sigma));
   double sum = 0.0;
@@ -46,5 +48,26 @@ double gaussian_noise(std::uint64_t seed, double x, double y, double sigma_x, do
 }
 
 double gaussian_noise(std::uint64_t seed, double x, double y, double sigma) { return gaussian_noise(seed, x, y, sigma, sigma); }
+
+void gaussian_noise_row(std::uint64_t seed, double x, double step, int count, double y, double sigma, float* out) {
+  if (count <= 0) return;
+  const double spacing = sigma * spacing_per_sigma;
+  const SplineWeights sy = spline_weights(y / spacing);
+  const std::int64_t first = spline_weights(x / spacing).first;
+  const std::int64_t last = spline_weights((x + step * (count - 1)) / spacing).first + 3;
+  // The lattice under this row, summed up over y once.
+  std::vector<double> columns(static_cast<std::size_t>(last - first + 1));
+  for (std::int64_t i = first; i <= last; ++i) {
+    double sum = 0.0;
+    for (int j = 0; j < 4; ++j) sum += sy.weight[static_cast<std::size_t>(j)] * random_normal(seed, i, sy.first + j);
+    columns[static_cast<std::size_t>(i - first)] = sum * sy.inverse_deviation;
+  }
+  for (int k = 0; k < count; ++k) {
+    const SplineWeights sx = spline_weights((x + step * k) / spacing);
+    const double* c = columns.data() + (sx.first - first);
+    const double sum = sx.weight[0] * c[0] + sx.weight[1] * c[1] + sx.weight[2] * c[2] + sx.weight[3] * c[3];
+    out[k] = static_cast<float>(sum * sx.inverse_deviation);
+  }
+}
 
 }  // namespace belvedere

@@ -13,4 +13,8 @@ double gaussian_noise(std::uint64_t seed, double x, double y, double sigma);
 // The same with different widths along x and y.
 double gaussian_noise(std::uint64_t seed, double x, double y, double sigma_x, double sigma_y);
 
+// gaussian_noise at the `count` places x + i · step of one row, into out: equal up to rounding, at a tenth of the cost where the step
+// is no longer than sigma. step > 0.
+void gaussian_noise_row(std::uint64_t seed, double x, double step, int count, double y, double sigma, float* out);
+
 }  // namespace belvedere
