@@ -6,12 +6,15 @@
 namespace belvedere {
 
 struct SunPosition {
-  double azimuth_deg = 0.0;   // clockwise from north
-  double altitude_deg = 0.0;  // above the horizon, without refraction
+  double azimuth_deg = 0.0;   // 0…360, clockwise from north
+  double altitude_deg = 0.0;  // -90…90, above the horizon, of the sun's centre, seen from the ground, without refraction
 };
 
-// PSA algorithm (Blanco-Muriel et al. 2001, updated coefficients 2020): valid 2020–2050 within .01°. UTC.
-// time: ISO 8601 with zone, "2024-07-15T09:30:00Z" or "…+02:00". Error(usage) for anything else.
+// PSA algorithm (Blanco-Muriel et al. 2001, coefficients of 2020): within .01° of the IAU's standards in 2020–2050, .02° in
+// 1900–2100. UTC.
+// Longitude -180…180, east positive; latitude -90…90.
+// time: ISO 8601, date and time to the minute or second (a decimal fraction may follow), and a zone: "2024-07-15T09:30:00Z",
+// "2024-07-15T11:30+02:00". Error(usage) for anything else, years outside 1900–2100, or a place that is not on the globe.
 SunPosition sun_position(double longitude_deg, double latitude_deg, const std::string& time);
 // Unit vector towards the sun, x east, y north, z up.
 glm::dvec3 sun_direction(const SunPosition& sun);
