@@ -11,6 +11,7 @@
 // This file is compiled once for each vector width by Highway.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "texture/synth_kernel.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -161,13 +162,35 @@ struct Search {
   }
 };
 
+constexpr std::ptrdiff_t fetch_ahead = 2;
+
+HWY_INLINE void Fetch(const KernelView& view, std::uint32_t texel) {
+  const std::ptrdiff_t stride = view.exemplars->stride;
+  const std::uint32_t* row = view.exemplars->words.data() + texel - patch_radius * stride;
+  for (int j = 0; j < 7; ++j, row += stride) hwy::Prefetch(row);
+  hwy::Prefetch(view.exemplars->guides_at(texel));
+  hwy::Prefetch(view.uses + texel);
+  hwy::Prefetch(view.bins + texel);
+}
+
 void ImproveRow(const KernelView& view, int x0, int y, std::uint32_t* next) {
   static constexpr std::array<std::array<int, 2>, 8> neighbours{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
   const Plane& target = *view.target;
   const std::int64_t nearly_full = view.copy_cap - view.copy_cap / 4;
   const std::uint32_t row = target.index(0, 0, y);
-  for (int x = x0; x < target.parts[0].width; x += 2, ++next) {
+  const int width = target.parts[0].width;
+  // Picks lie anywhere in the exemplars, and waiting for memory is most of their cost. So all are drawn first, into `next`, and fetched
+  // a few pixels ahead of their use.
+  std::uint32_t* drawn = next;
+  for (int x = x0; x < width; x += 2, ++drawn) {
     const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
+    *drawn = class_of(target.words[pixel]) == no_class ? view.exemplars->nowhere()
+                                                       : draw_texel(view, pixel, view.key, x, y, make_slack(view, pixel));
+  }
+  for (int x = x0; x < width; x += 2, ++next) {
+    if (next + fetch_ahead < drawn) Fetch(view, next[fetch_ahead]);
+    const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
+    const std::uint32_t pick = *next;
     *next = view.match[pixel];
     if (class_of(target.words[pixel]) == no_class) continue;
     Search search;
@@ -189,7 +212,7 @@ void ImproveRow(const KernelView& view, int x0, int y, std::uint32_t* next) {
       const bool joins = size >= (view.replaces_pieces ? nearly_full : view.copy_cap);
       search.Offer(static_cast<std::uint32_t>(texel), joins ? price::join : 0);
     }
-    search.Offer(draw_texel(view, pixel, view.key, x, y, search.slack), 0);
+    search.Offer(pick, 0);
     *next = search.best;
   }
 }
@@ -273,25 +296,11 @@ void use_vector_target(const std::string& name) {
 }
 
 Slack make_slack(const KernelView& view, std::uint32_t pixel) {
-  Slack slack{};
-  const ListKeys& keys = view.lists->keys();
-  if (keys.sorted < 0) return slack;
   const PickWindow window = view.lists->window(class_of(view.target->words[pixel]), view.target->guides_at(pixel));
-  slack.value[keys.sorted] = window.slack;
-  if (keys.bucket >= 0) slack.value[keys.bucket] = window.buckets * ListKeys::bucket_width;
-  return slack;
+  return {window.slack, window.buckets * ListKeys::bucket_width};
 }
 
-std::int64_t guide_cost(const KernelView& view, const std::uint8_t* wanted, const std::uint8_t* offered, const Slack& slack) {
-  std::int64_t cost = 0;
-  for (int g = 0; g < view.exemplars->guide_count; ++g) {
-    const std::int64_t off = std::max(0, std::abs(wanted[g] - offered[g]) - slack.value[g]);
-    cost += view.guides[g].weight_q4 * off * off;
-  }
-  return cost >> 4;
-}
-
-std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, const Slack& slack) {
+std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, Slack slack) {
   const std::uint32_t label_class = class_of(view.target->words[pixel]);
   const std::uint8_t* wanted = view.target->guides_at(pixel);
   std::uint32_t best = view.exemplars->nowhere();

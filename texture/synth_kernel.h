@@ -1,7 +1,8 @@
 #pragma once
 
-#include <cstddef>
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -47,15 +48,26 @@ struct KernelView {
   int pass = 0;
 };
 
-// What a pixel's guides may be off without cost, per guide.
+// What the two guides that order the lists may be off without cost: as much as picks may.
 struct Slack {
-  static constexpr int most_guides = 32;
-  std::int32_t value[most_guides];
+  std::int32_t sorted = 0;
+  std::int32_t bucketed = 0;
 };
 Slack make_slack(const KernelView& view, std::uint32_t pixel);
-std::int64_t guide_cost(const KernelView& view, const std::uint8_t* wanted, const std::uint8_t* offered, const Slack& slack);
+inline std::int64_t guide_cost(const KernelView& view, const std::uint8_t* wanted, const std::uint8_t* offered, Slack slack) {
+  const auto price_of = [&](int g, int free) {
+    const std::int32_t off = std::max(0, std::abs(wanted[g] - offered[g]) - free);
+    return view.guides[g].weight_q4 * (off * off);
+  };
+  const int count = view.exemplars->guide_count;
+  std::int64_t cost = 0;
+  if (count > 0) cost += price_of(0, slack.sorted);
+  if (count > 1) cost += price_of(1, slack.bucketed);
+  for (int g = 2; g < count; ++g) cost += price_of(g, 0);
+  return cost >> 4;
+}
 // A texel of the pixel's class from the window of its guides: of `draws` random ones that with the cheapest guides.
-std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, const Slack& slack);
+std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, Slack slack);
 
 // Which of the 7 × 7 pixels around (bit x of row y) lie on the pixel's own surface, reached by linked steps inside the window.
 void surface_around(const KernelView& view, std::uint32_t pixel, std::uint8_t rows[7]);

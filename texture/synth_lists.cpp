@@ -5,19 +5,7 @@
 namespace belvedere::synth {
 
 ListKeys choose_list_keys(const std::vector<GuideRole>& guides) {
-  ListKeys keys;
-  for (std::size_t g = 0; g < guides.size(); ++g) {
-    if (guides[g].weight_q4 > 0 && (keys.sorted < 0 || guides[g].weight_q4 > guides[static_cast<std::size_t>(keys.sorted)].weight_q4)) {
-      keys.sorted = static_cast<int>(g);
-    }
-  }
-  if (keys.sorted < 0) return keys;
-  const std::int64_t strongest = guides[static_cast<std::size_t>(keys.sorted)].weight_q4;
-  for (std::size_t g = 0; g < guides.size(); ++g) {
-    if (static_cast<int>(g) == keys.sorted || guides[g].weight_q4 * 8 < strongest) continue;
-    if (keys.bucket < 0 || guides[g].weight_q4 > guides[static_cast<std::size_t>(keys.bucket)].weight_q4) keys.bucket = static_cast<int>(g);
-  }
-  return keys;
+  return {!guides.empty(), guides.size() > 1 && guides[1].weight_q4 * 8 >= guides[0].weight_q4};
 }
 
 namespace {
@@ -83,8 +71,8 @@ PickLists::PickLists(const Plane& exemplars, const Plane& target, int classes, c
   });
 
   windows_.assign(cells * 256, PickWindow{255, static_cast<std::uint8_t>(buckets - 1)});
-  const std::int64_t value_weight = keys_.sorted < 0 ? 0 : guides[static_cast<std::size_t>(keys_.sorted)].weight_q4;
-  const std::int64_t bucket_weight = keys_.bucket < 0 ? 0 : guides[static_cast<std::size_t>(keys_.bucket)].weight_q4;
+  const std::int64_t value_weight = keys_.sorted ? guides[0].weight_q4 : 0;
+  const std::int64_t bucket_weight = keys_.bucketed ? guides[1].weight_q4 : 0;
   for (int c = 0; c < classes; ++c) {
     const std::uint32_t label_class = static_cast<std::uint32_t>(c);
     WindowCounts sources(buckets);

@@ -8,18 +8,18 @@
 
 namespace belvedere::synth {
 
-// A guide's place in the cost of a candidate and in the lists picks come from.
+// A guide's part in the cost of a candidate. Guides of a plane stand in order of weight, the strongest first.
 struct GuideRole {
-  std::int64_t weight_q4 = 0;  // cost of a squared difference, in sixteenths
+  std::int64_t weight_q4 = 0;  // cost of a squared difference, in sixteenths; > 0
 };
 
-// Which guides order the lists (indices into a plane's guides, -1 none). The strongest guide sorts the texels of a class; the
-// second strongest, where it is strong enough to matter, splits them into 16 buckets before.
+// Which guides order the lists: the strongest (guide 0) sorts the texels of a class; the second (guide 1), where it is strong enough to
+// matter, splits them into 16 buckets before.
 struct ListKeys {
   static constexpr int bucket_width = 16;
-  int sorted = -1;
-  int bucket = -1;
-  int buckets() const { return bucket < 0 ? 1 : 256 / bucket_width; }
+  bool sorted = false;
+  bool bucketed = false;
+  int buckets() const { return bucketed ? 256 / bucket_width : 1; }
 };
 ListKeys choose_list_keys(const std::vector<GuideRole>& guides);
 
@@ -47,8 +47,8 @@ class PickLists {
   std::uint32_t pick(std::uint32_t label_class, const std::uint8_t* guides, std::uint32_t random) const;
 
  private:
-  int value_of(const std::uint8_t* guides) const { return keys_.sorted < 0 ? 0 : guides[keys_.sorted]; }
-  int bucket_of(const std::uint8_t* guides) const { return keys_.bucket < 0 ? 0 : guides[keys_.bucket] / ListKeys::bucket_width; }
+  int value_of(const std::uint8_t* guides) const { return keys_.sorted ? guides[0] : 0; }
+  int bucket_of(const std::uint8_t* guides) const { return keys_.bucketed ? guides[1] / ListKeys::bucket_width : 0; }
   std::size_t cell(std::uint32_t label_class, int bucket) const {
     return static_cast<std::size_t>(label_class) * static_cast<std::size_t>(keys_.buckets()) + static_cast<std::size_t>(bucket);
   }

@@ -43,7 +43,9 @@ struct Plane {
   }
   // The inverse of index for pixels inside a picture.
   Place place(std::uint32_t index) const;
-  const std::uint8_t* guides_at(std::uint32_t index) const { return guides.data() + static_cast<std::size_t>(index) * guide_count; }
+  const std::uint8_t* guides_at(std::uint32_t index) const {
+    return guides.data() + static_cast<std::size_t>(index) * static_cast<std::size_t>(guide_count);
+  }
   // An index in the padding whose eight neighbours are padding too: what an unmatched pixel points at.
   std::uint32_t nowhere() const { return static_cast<std::uint32_t>(2 * stride + 2); }
   // Calls f(index) for every pixel inside the pictures, in index order.

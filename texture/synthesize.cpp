@@ -16,6 +16,7 @@ namespace belvedere {
 
 namespace {
 
+constexpr std::size_t most_guides = 32;
 constexpr int least_side = 16;           // of the coarsest level, pixels
 constexpr double jump_per_level = 0.04;  // relative depth between neighbours beyond which they are two surfaces
 
@@ -76,10 +77,13 @@ std::vector<PairedGuide> pair_guides(const std::vector<Exemplar>& exemplars, con
     for (const Exemplar& exemplar : exemplars) known = known || exemplar.guides.find(name) != nullptr;
     if (!known) note(name, "every picture");
   }
-  if (paired.size() > static_cast<std::size_t>(synth::Slack::most_guides)) {
+  if (paired.size() > most_guides) {
     throw Error(ErrorKind::limit, "synthesis", fmt::format("{} guides", paired.size()),
-                fmt::format("at most {} guides of a weight above 0", synth::Slack::most_guides));
+                fmt::format("at most {} guides of a weight above 0", most_guides));
   }
+  // The strongest first: the first two order the lists of picks.
+  std::stable_sort(paired.begin(), paired.end(),
+                   [](const PairedGuide& a, const PairedGuide& b) { return a.role.weight_q4 > b.role.weight_q4; });
   return paired;
 }
 
@@ -219,8 +223,7 @@ MatchField synthesize(const std::vector<Exemplar>& exemplars, const GuideStack& 
     synth::LevelSettings settings = synth::settings_for_level(level, parameters.seed, parameters.copy_cap, parameters.reuse);
     // Guides that do not order the lists are served by drawing several texels and keeping the one that fits them best.
     const synth::ListKeys keys = synth::choose_list_keys(roles);
-    const int ordered = (keys.sorted >= 0 ? 1 : 0) + (keys.bucket >= 0 ? 1 : 0);
-    settings.draws = static_cast<int>(roles.size()) > ordered ? 4 : 1;
+    settings.draws = roles.size() > (keys.bucketed ? 2U : 1U) ? 4 : 1;
     synth::LevelState state(settings, roles, classes.count, sources[l], targets[l], std::move(links));
     progress.begin(fmt::format("synthesize, level {} of {}", levels - level, levels), settings.passes + settings.replacing_passes);
     if (level == levels - 1) {

@@ -193,7 +193,8 @@ TEST_P(EachVectorWidth, SubPassFindsTheCheapestCandidate) {
       for (const auto& [texel, join] : candidates) {
         std::int64_t guide = 0;
         for (int g = 0; g < 3; ++g) {
-          const std::int64_t off = std::max(0, std::abs(target.guides_at(pixel)[g] - exemplars.guides_at(texel)[g]) - slack.value[g]);
+          const int free = g == 0 ? slack.sorted : g == 1 ? slack.bucketed : 0;
+          const std::int64_t off = std::max(0, std::abs(target.guides_at(pixel)[g] - exemplars.guides_at(texel)[g]) - free);
           guide += guides[static_cast<std::size_t>(g)].weight_q4 * off * off;
         }
         const std::int64_t n = static_cast<std::int64_t>(before.uses[texel]) - (texel == before.match[pixel] ? 1 : 0);
@@ -224,19 +225,18 @@ INSTANTIATE_TEST_SUITE_P(Vectors, EachVectorWidth, testing::ValuesIn(vector_targ
 TEST(PickLists, WindowsHoldEnoughTexelsForTheDemand) {
   const Plane exemplars = noise_plane({{60, 50}}, 2, 5, false);
   const Plane target = noise_plane({{90, 80}}, 2, 50, false);
-  for (const std::vector<GuideRole>& guides : {std::vector<GuideRole>{{2880}, {0}}, std::vector<GuideRole>{{1000}, {2880}}}) {
+  for (const std::vector<GuideRole>& guides : {std::vector<GuideRole>{{2880}, {200}}, std::vector<GuideRole>{{2880}, {1000}}}) {
     const PickLists lists(exemplars, target, classes, guides, 16);
-    const ListKeys keys = lists.keys();
-    EXPECT_EQ(keys.sorted, guides[1].weight_q4 > 0 ? 1 : 0);
-    EXPECT_EQ(keys.bucket, guides[1].weight_q4 > 0 ? 0 : -1);
+    ASSERT_TRUE(lists.keys().sorted);
+    ASSERT_EQ(lists.keys().bucketed, guides[1].weight_q4 == 1000) << "a guide of an eighth of the strongest one's weight";
     for (int n = 0; n < 200; ++n) {
       const std::uint32_t pixel = target.index(0, static_cast<int>(random_index(90, 1, n, 0)), static_cast<int>(random_index(80, 2, n, 0)));
       const std::uint32_t c = class_of(target.words[pixel]);
       const std::uint8_t* wanted = target.guides_at(pixel);
       const PickWindow window = lists.window(c, wanted);
       const auto inside = [&](const std::uint8_t* guide) {
-        if (std::abs(guide[keys.sorted] - wanted[keys.sorted]) > window.slack + 1) return false;
-        return keys.bucket < 0 || std::abs(guide[keys.bucket] / 16 - wanted[keys.bucket] / 16) <= window.buckets;
+        if (std::abs(guide[0] - wanted[0]) > window.slack + 1) return false;
+        return !lists.keys().bucketed || std::abs(guide[1] / 16 - wanted[1] / 16) <= window.buckets;
       };
       std::int64_t texels = 0;
       std::int64_t pixels = 0;
