@@ -3,33 +3,84 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
+#include <utility>
 
 namespace belvedere {
 namespace {
 
-TEST(GaussianNoise, HasMeanZeroAndDeviationOneEverywhere) {
+// Mean of f(seed) over many seeds.
+template <class F>
+double mean_over_seeds(F&& f, int count = 4000) {
   double sum = 0.0;
-  double squares = 0.0;
-  constexpr int side = 120;
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      const double n = gaussian_noise(3, x * 7.7, y * 7.7, 2.0);  // far enough apart to be independent
-      sum += n;
-      squares += n * n;
-    }
-  }
-  EXPECT_NEAR(sum / (side * side), 0.0, 0.03);
-  EXPECT_NEAR(squares / (side * side), 1.0, 0.03);
+  for (int seed = 0; seed < count; ++seed) sum += f(static_cast<std::uint64_t>(seed));
+  return sum / count;
 }
 
-TEST(GaussianNoise, RowsEqualSinglePlaces) {
-  for (const double sigma : {60.0, 660.0, 7.0}) {
-    std::vector<float> row(300);
-    gaussian_noise_row(11, -4000.5, 29.3, 300, 5237123.0, sigma, row.data());
-    for (int i = 0; i < 300; ++i)
-      EXPECT_NEAR(row[static_cast<std::size_t>(i)], gaussian_noise(11, -4000.5 + 29.3 * i, 5237123.0, sigma), 1e-5) << sigma << ' ' << i;
+TEST(GaussianNoise, HasMeanNoughtAndDeviationOneAtEachPlace) {
+  // On a lattice point, between them, far from the origin, at negative places: a spline of white noise is stationary only
+  // because each place is divided by its own weights.
+  const double spacing = 30.0 * std::sqrt(3.0);
+  for (const auto& [x, y] :
+       {std::pair{0.0, 0.0}, {spacing / 2, spacing / 2}, {spacing, 0.3 * spacing}, {-1234.5, 77.0}, {690000.0, 5.25e6}}) {
+    const double mean = mean_over_seeds([&](std::uint64_t s) { return gaussian_noise(s, x, y, 30.0); });
+    const double variance = mean_over_seeds([&](std::uint64_t s) { return std::pow(gaussian_noise(s, x, y, 30.0), 2); });
+    EXPECT_NEAR(mean, 0.0, 4.0 / std::sqrt(4000.0)) << x << ' ' << y;
+    EXPECT_NEAR(variance, 1.0, 4.0 * std::sqrt(2.0 / 4000.0)) << x << ' ' << y;
   }
+}
+
+TEST(GaussianNoise, IsCorrelatedOverAboutSigma) {
+  // White noise under a Gaussian of deviation s has the correlation exp(-d² / 4 s²).
+  const double sigma = 50.0;
+  for (const double distance : {0.5, 1.0, 1.5, 2.0, 3.0}) {
+    for (const double angle : {0.0, 0.8, 1.57}) {
+      const double dx = distance * sigma * std::cos(angle);
+      const double dy = distance * sigma * std::sin(angle);
+      double correlation = 0.0;
+      for (const double phase : {0.0, 21.0, 43.0}) {  // mean over the lattice
+        correlation += mean_over_seeds([&](std::uint64_t s) {
+                         return gaussian_noise(s, phase, 2.0 * phase, sigma) * gaussian_noise(s, phase + dx, 2.0 * phase + dy, sigma);
+                       }) /
+                       3.0;
+      }
+      EXPECT_NEAR(correlation, std::exp(-distance * distance / 4.0), 0.08) << distance << ' ' << angle;
+    }
+  }
+}
+
+TEST(GaussianNoise, HasItsOwnWidthAlongEachAxis) {
+  const auto correlation = [](double dx, double dy) {
+    return mean_over_seeds(
+        [&](std::uint64_t s) { return gaussian_noise(s, 3.0, 4.0, 100.0, 10.0) * gaussian_noise(s, 3.0 + dx, 4.0 + dy, 100.0, 10.0); });
+  };
+  EXPECT_GT(correlation(30.0, 0.0), 0.9);
+  EXPECT_LT(correlation(0.0, 30.0), 0.2);
+  EXPECT_EQ(gaussian_noise(5, 1.0, 2.0, 7.0), gaussian_noise(5, 1.0, 2.0, 7.0, 7.0));
+}
+
+TEST(GaussianNoise, IsSmooth) {
+  // Value and slope are continuous, also across lattice lines (multiples of the spacing).
+  const double sigma = 20.0;
+  const double spacing = sigma * std::sqrt(3.0);
+  const double h = 1e-4;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const auto at = [&](double x) { return gaussian_noise(seed, x, 13.0, sigma); };
+    for (const double x : {spacing, -2.0 * spacing, 0.4 * spacing}) {
+      const double left = (at(x) - at(x - h)) / h;
+      const double right = (at(x + h) - at(x)) / h;
+      EXPECT_NEAR(left, right, 1e-4) << seed << ' ' << x;
+      EXPECT_LT(std::abs(right), 10.0 / sigma);
+    }
+  }
+}
+
+TEST(GaussianNoise, SeedsAreIndependent) {
+  double product = 0.0;
+  int count = 0;
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 60; ++x, ++count) product += gaussian_noise(1, 9.0 * x, 9.0 * y, 2.0) * gaussian_noise(2, 9.0 * x, 9.0 * y, 2.0);
+  }
+  EXPECT_NEAR(product / count, 0.0, 4.0 / 60.0);
 }
 
 }  // namespace

@@ -1,0 +1,63 @@
+#include "renderer/base/grid.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <numeric>
+
+namespace belvedere {
+namespace {
+
+Grid<int> counted(int width, int height) {
+  Grid<int> grid(width, height);
+  std::iota(grid.begin(), grid.end(), 0);
+  return grid;
+}
+
+TEST(Grid, IsRowMajor) {
+  Grid<int> grid = counted(4, 3);
+  EXPECT_EQ(grid.width(), 4);
+  EXPECT_EQ(grid.height(), 3);
+  EXPECT_EQ(grid.size(), 12U);
+  EXPECT_EQ(grid(0, 0), 0);
+  EXPECT_EQ(grid(3, 0), 3);
+  EXPECT_EQ(grid(0, 1), 4);
+  EXPECT_EQ(grid(3, 2), 11);
+  EXPECT_EQ(grid.index(2, 1), 6U);
+  EXPECT_EQ(grid.row(2), &grid(0, 2));
+  grid(2, 1) = 60;
+  EXPECT_EQ(grid[6], 60);
+  EXPECT_EQ(grid.data()[6], 60);
+}
+
+TEST(Grid, FillsAndCompares) {
+  EXPECT_EQ(Grid<float>(2, 2, 3.F)(1, 1), 3.F);
+  EXPECT_EQ(Grid<float>(2, 2)(1, 1), 0.F);
+  EXPECT_TRUE(Grid<float>().empty());
+  EXPECT_NE(Grid<float>(2, 3), Grid<float>(3, 2));  // as many cells, another shape
+  EXPECT_EQ(Grid<float>(2, 3), Grid<float>(2, 3));
+  EXPECT_TRUE(Grid<float>(2, 3).same_size(Grid<int>(2, 3)));
+  EXPECT_FALSE(Grid<float>(2, 3).same_size(Grid<int>(3, 2)));
+}
+
+TEST(Grid, ContainsItsCellsAndClampsToItsBorder) {
+  const Grid<int> grid = counted(4, 3);
+  EXPECT_TRUE(grid.contains(0, 0));
+  EXPECT_TRUE(grid.contains(3, 2));
+  EXPECT_FALSE(grid.contains(4, 2));
+  EXPECT_FALSE(grid.contains(3, 3));
+  EXPECT_FALSE(grid.contains(-1, 0));
+  EXPECT_FALSE(grid.contains(0, -1));
+  EXPECT_EQ(grid.clamped(-9, -9), 0);
+  EXPECT_EQ(grid.clamped(9, 1), 7);
+  EXPECT_EQ(grid.clamped(1, 9), 9);
+}
+
+TEST(Grid, IndicesSurviveMoreThanTwoToThe31Cells) {
+  // The arithmetic alone; such a grid is not allocated.
+  Grid<std::byte> line(65536, 1);
+  EXPECT_EQ(line.index(7, 65536), 65536ULL * 65536ULL + 7ULL);
+}
+
+}  // namespace
+}  // namespace belvedere

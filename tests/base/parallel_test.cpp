@@ -1,0 +1,80 @@
+#include "renderer/base/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "renderer/base/grid.h"
+
+namespace belvedere {
+namespace {
+
+std::size_t allowed_threads() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); }
+
+TEST(ThreadLimit, HoldsWhileItLives) {
+  const std::size_t before = allowed_threads();
+  {
+    const ThreadLimit one(1);
+    EXPECT_EQ(allowed_threads(), 1U);
+    const ThreadLimit more(7);  // the stricter one holds
+    EXPECT_EQ(allowed_threads(), 1U);
+  }
+  EXPECT_EQ(allowed_threads(), before);
+  const ThreadLimit all(0);
+  EXPECT_EQ(allowed_threads(), before);
+}
+
+TEST(ParallelRows, VisitsEachRowOnce) {
+  std::vector<int> visits(1000, 0);
+  parallel_rows(1000, [&](int y) { ++visits[static_cast<std::size_t>(y)]; });
+  EXPECT_EQ(visits, std::vector<int>(1000, 1));
+  parallel_rows(0, [](int) { FAIL(); });
+}
+
+TEST(ParallelRows, PassesErrorsOn) {
+  EXPECT_THROW(parallel_rows(50,
+                             [](int y) {
+                               if (y == 31) throw std::runtime_error("row");
+                             }),
+               std::runtime_error);
+}
+
+TEST(ParallelTiles, CoverTheGridOnceWithoutOverlap) {
+  for (const int tile : {1, 7, 32, 500}) {
+    Grid<int> visits(101, 67);
+    parallel_tiles(101, 67, tile, [&](PixelRect r) {
+      EXPECT_LE(r.width(), tile);
+      EXPECT_LE(r.height(), tile);
+      EXPECT_EQ(r.x0 % tile, 0);
+      EXPECT_EQ(r.y0 % tile, 0);
+      for (int y = r.y0; y < r.y1; ++y) {
+        for (int x = r.x0; x < r.x1; ++x) ++visits(x, y);
+      }
+    });
+    EXPECT_EQ(visits, Grid<int>(101, 67, 1)) << tile;
+  }
+}
+
+TEST(DeterministicSum, SameBitsForAnyThreadCount) {
+  // Numbers whose float sum depends on its order.
+  const auto term = [](std::size_t i) { return std::sin(static_cast<double>(i)) * std::pow(10.0, static_cast<double>(i % 17)); };
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return deterministic_sum(100003, term);
+  };
+  const double once = run(1);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(run(2), once);
+}
+
+TEST(DeterministicSum, IsTheSum) {
+  EXPECT_EQ(deterministic_sum(0, [](std::size_t) { return 1.0; }), 0.0);
+  for (const std::size_t n : {1UL, 8191UL, 8192UL, 8193UL, 50000UL}) {
+    EXPECT_EQ(deterministic_sum(n, [](std::size_t i) { return static_cast<double>(i); }),
+              0.5 * static_cast<double>(n) * static_cast<double>(n - 1));
+  }
+}
+
+}  // namespace
+}  // namespace belvedere
