@@ -107,6 +107,13 @@ float cirrus_at(const SkyParameters& p, double x_px, double elevation, CirrusNoi
   return 0.55F * smooth_step(0.0F, 1.25F, density) * smooth_step(0.12F, 0.40F, static_cast<float>(elevation));
 }
 
+double median_or(std::vector<double> values, double fallback) {
+  if (values.empty()) return fallback;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace
 
 glm::vec3 sky_gradient(const Palette& palette, double place) {
@@ -184,17 +191,43 @@ Grid<glm::vec3> make_sky(const Grid<float>& depth_m, const Palette& palette, con
 }
 
 double skyline_row_px(const GuidanceBuffers& guidance, double fallback_px) {
-  std::vector<int> rows;
+  std::vector<double> rows;
   for (int x = 0; x < guidance.width(); ++x)
     for (int y = 0; y < guidance.height(); ++y)
       if (!guidance.is_sky(guidance.depth_m.index(x, y))) {
         rows.push_back(y);
         break;
       }
-  if (rows.empty()) return fallback_px;
-  const auto middle = rows.begin() + static_cast<std::ptrdiff_t>(rows.size() / 2);
-  std::nth_element(rows.begin(), middle, rows.end());
-  return *middle;
+  return median_or(std::move(rows), fallback_px);
+}
+
+double skyline_row_px(const Camera& camera, const Tracer& tracer, double fallback_px) {
+  constexpr int columns = 64;
+  constexpr int steps = 96;
+  const glm::dvec2 size(camera.size());
+  std::vector<double> rows;
+  for (int column = 0; column < columns; ++column) {
+    const double x = (column + 0.5) * size.x / columns;
+    const auto hits_at = [&](double y) {
+      const Ray ray = camera.ray({x, y});
+      Hit hit;
+      tracer.intersect({&ray, 1}, {&hit, 1});
+      return hit.found;
+    };
+    double sky = 0.0;
+    double ground = -1.0;
+    for (int step = 0; step < steps && ground < 0.0; ++step) {
+      const double y = (step + 0.5) * size.y / steps;
+      (hits_at(y) ? ground : sky) = y;
+    }
+    if (ground < 0.0) continue;
+    while (ground - sky > 1.0) {
+      const double middle = 0.5 * (sky + ground);
+      (hits_at(middle) ? ground : sky) = middle;
+    }
+    rows.push_back(sky);
+  }
+  return median_or(std::move(rows), fallback_px);
 }
 
 }  // namespace belvedere

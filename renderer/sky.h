@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "renderer/base/guidance_buffers.h"
+#include "renderer/camera.h"
 #include "renderer/palette.h"
+#include "renderer/tracer.h"
 
 namespace belvedere {
 
@@ -43,5 +45,8 @@ Grid<glm::vec3> make_sky(const Grid<float>& depth_m, const Palette& palette, con
 // Median over the columns of the topmost terrain row, for buffers that hold the whole picture's skyline; `fallback_px` where no column
 // has terrain.
 double skyline_row_px(const GuidanceBuffers& guidance, double fallback_px);
+// The same before anything is traced, by a few thousand rays in 64 columns: the horizon_px of pictures made in parts. A column's
+// skyline is sought from the top in steps of 1/96 of the height, so a needle between two steps may be missed; then halved to a pixel.
+double skyline_row_px(const Camera& camera, const Tracer& tracer, double fallback_px);
 
 }  // namespace belvedere

@@ -39,6 +39,7 @@ TEST(Haze, GrowsWithDistanceAndSaturates) {
     last = haze_share(p, depth, 600.0);
   }
   EXPECT_NEAR(haze_share(p, p.haze_from_m + p.haze_scale_m, 600.0), 0.85 * (1.0 - std::exp(-1.0)), 1e-12);
+  EXPECT_NEAR(haze_share(p, p.haze_from_m + 0.5 * p.haze_scale_m, 600.0), 0.85 * (1.0 - std::exp(-std::pow(0.5, 1.35))), 1e-12);
   EXPECT_NEAR(haze_share(p, 1e7, 600.0), 0.85, 1e-9);
   EXPECT_NEAR(haze_share(p, 1e7, 600.0 + 900.0), 0.85 * (0.58 + 0.42 * std::exp(-1.0)), 1e-9);
 }
