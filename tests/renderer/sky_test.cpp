@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
 
 #include "painted_hills.h"
 
@@ -97,6 +98,27 @@ TEST(Sky, SkylineIsTheMedianOfTheColumns) {
   EXPECT_EQ(skyline_row_px(g, 1.0), 7.0);
   g.depth_m = Grid<float>(9, 20, sky_depth);
   EXPECT_EQ(skyline_row_px(g, 33.0), 33.0);
+}
+
+TEST(Sky, SkylineByRaysIsWhereTheCrestProjects) {
+  // A level crest 400 m high, 6 km north of the eye and at right angles to the view.
+  DeformedSurface surface;
+  surface.vertices_m = Grid<glm::vec3>(200, 90);
+  for (int y = 0; y < 90; ++y)
+    for (int x = 0; x < 200; ++x) surface.vertices_m(x, y) = {100.0F * x - 10000.0F, 7000.0F - 100.0F * y, y == 10 ? 400.0F : 0.0F};
+  surface.origin = {500000.0, 5000000.0, 0.0};
+  const Tracer tracer(surface);
+  CameraParameters parameters;
+  parameters.width = 400;
+  parameters.height = 300;
+  parameters.eye = surface.origin + glm::dvec3(0.0, 0.0, 900.0);
+  parameters.pitch_deg = -10.0;
+  const auto camera = make_camera(parameters);
+  const std::optional<glm::dvec2> crest = camera->project(surface.origin + glm::dvec3(0.0, 6000.0, 400.0));
+  ASSERT_TRUE(crest);
+  EXPECT_NEAR(skyline_row_px(*camera, tracer, -1.0), crest->y, 1.5);
+  parameters.pitch_deg = 60.0;
+  EXPECT_EQ(skyline_row_px(*make_camera(parameters), tracer, -1.0), -1.0);
 }
 
 }  // namespace
