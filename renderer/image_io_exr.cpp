@@ -122,6 +122,7 @@ Imf::Header make_header(const std::string& path, int width, int height, const Pa
   header.setTileDescription(Imf::TileDescription(ExrWriter::band_rows, ExrWriter::band_rows, Imf::ONE_LEVEL));
   header.compression() = Imf::ZIP_COMPRESSION;
   header.lineOrder() = Imf::INCREASING_Y;
+  header.zipCompressionLevel() = 2;                       // guidance measured: a quarter less time than level 4, the same size
   Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec. 709, that is sRGB
   for (const ChannelSpec& channel : part.channels) {
     if (header.channels().findChannel(channel.name) != nullptr) {
@@ -207,8 +208,7 @@ struct ExrWriter::State {
 
   // Says why the file cannot be written: the system's reason where there is one, else the library's.
   [[noreturn]] void fail(const std::string& reason) const {
-    throw Error(ErrorKind::output, output.path(),
-                "cannot be written: " + (stream.code() != 0 ? std::generic_category().message(stream.code()) : reason));
+    output.fail(stream.code() != 0 ? std::generic_category().message(stream.code()) : reason);
   }
 
   void write_band(std::size_t part, int y0, int rows, const float* interleaved);
@@ -248,9 +248,8 @@ void ExrWriter::State::write_band(std::size_t part, int y0, int rows, const floa
   tiles.setFrameBuffer(band.frame(output.path(), spec, width, y0));
   const int row = y0 / band_rows;
   tiles.writeTiles(0, tiles.numXTiles() - 1, row, row);
-  const Sample sample{y0, rows, band.digest()};
-  if (y0 == 0) progress[part].first = sample;
-  if (y0 + rows == height) progress[part].last = sample;
+  if (y0 == 0) progress[part].first = {y0, rows, band.digest()};
+  if (y0 + rows == height) progress[part].last = {y0, rows, band.digest()};
 }
 
 // Reads the first and last band of each part again from the temporary file.

@@ -95,14 +95,10 @@ bool set_fields(TIFF* tiff, const Grid<glm::vec3>& encoded, const PictureFileOpt
   return ok;
 }
 
-[[noreturn]] void fail(const std::string& path, const std::string& reason) {
-  throw Error(ErrorKind::output, path, "cannot be written" + (reason.empty() ? std::string() : ": " + reason));
-}
-
 void read_back(const OutputFile& output, const Grid<glm::vec3>& encoded, int across) {
   std::string message;
   const Tiff tiff = open_tiff(output.temporary(), "r", message);
-  if (tiff == nullptr) fail(output.path(), message);
+  if (tiff == nullptr) output.fail(message);
   std::vector<std::uint16_t> wanted;
   for (int y = 0; y < encoded.height(); y += tile_size) {
     image_io::quantize_rows(encoded, y, std::min(y + tile_size, encoded.height()), across * tile_size, wanted);
@@ -118,7 +114,7 @@ void read_back(const OutputFile& output, const Grid<glm::vec3>& encoded, int acr
             std::equal(wanted.begin() + static_cast<std::ptrdiff_t>(at), wanted.begin() + static_cast<std::ptrdiff_t>(at + 3 * tile_size),
                        tile.begin() + static_cast<std::ptrdiff_t>(r * 3 * tile_size));
       }
-      if (!same) fail(output.path(), message.empty() ? "it reads otherwise than it was written" : message);
+      if (!same) output.fail(message.empty() ? "it reads otherwise than it was written" : message);
     }
   }
 }
@@ -133,7 +129,7 @@ void write_tiff16(const std::string& path, const Grid<glm::vec3>& encoded, const
   std::string message;
   {
     const Tiff tiff = open_tiff(output.temporary(), big ? "w8l" : "w4l", message);  // l: little-endian on any machine
-    if (tiff == nullptr || !set_fields(tiff.get(), encoded, options)) fail(path, message);
+    if (tiff == nullptr || !set_fields(tiff.get(), encoded, options)) output.fail(message);
     std::vector<std::uint16_t> band;
     ttile_t number = 0;
     for (int y = 0; y < encoded.height(); y += tile_size) {
@@ -141,11 +137,11 @@ void write_tiff16(const std::string& path, const Grid<glm::vec3>& encoded, const
       band.resize(static_cast<std::size_t>(across) * tile_size * tile_size * 3);
       for (std::vector<std::uint8_t>& packed : compress_tiles(band, across)) {
         const auto bytes = static_cast<tmsize_t>(packed.size());
-        if (TIFFWriteRawTile(tiff.get(), number++, packed.data(), bytes) != bytes) fail(path, message);
+        if (TIFFWriteRawTile(tiff.get(), number++, packed.data(), bytes) != bytes) output.fail(message);
       }
     }
     // The directory is written here and not by closing, which cannot say that it failed.
-    if (TIFFWriteDirectory(tiff.get()) == 0 || !message.empty()) fail(path, message);
+    if (TIFFWriteDirectory(tiff.get()) == 0 || !message.empty()) output.fail(message);
   }
   read_back(output, encoded, across);
   output.commit();

@@ -18,6 +18,8 @@ class OutputFile {
   const std::string& temporary() const { return temporary_; }
   // Brings the temporary file to disk and renames it.
   void commit();
+  // Throws Error(output) for a library's `reason`, and says so where the disk is full: most libraries do not.
+  [[noreturn]] void fail(const std::string& reason) const;
 
  private:
   std::string path_;
