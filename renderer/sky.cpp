@@ -19,10 +19,13 @@ float smooth_step(float from, float to, float value) {
   return t * t * (3.0F - 2.0F * t);
 }
 
-// A row of cumulus, seen from below the layer: the farther, the lower, the smaller and the denser. All in heights of the sky.
+// What clouds are measured in: the height of the sky, but no more than a narrow picture can carry.
+double cloud_scale_px(const SkyParameters& p) { return std::min(p.horizon_px, 0.09 * p.picture_size.x); }
+
+// A row of cumulus, seen from below the layer: the farther, the lower, the smaller and the denser.
 struct CloudRow {
-  double base;   // height of the flat base above the horizon
-  double width;  // of a cloud
+  double base;   // height of the flat base above the horizon, in heights of the sky
+  double width;  // of a cloud, in cloud scales
   double opacity;
 };
 constexpr std::array<CloudRow, 5> cloud_rows = {
@@ -53,7 +56,7 @@ Cloud make_cloud(const SkyParameters& p, std::uint64_t seed, std::int64_t cell, 
     cloud.from = glm::min(cloud.from, head.centre - 1.5F * head.radius);
     cloud.to = glm::max(cloud.to, head.centre + 1.5F * head.radius);
   }
-  cloud.to.y = static_cast<float>(base_px + 0.05 * p.horizon_px);
+  cloud.to.y = static_cast<float>(base_px + 0.05 * cloud_scale_px(p));
   return cloud;
 }
 
@@ -93,16 +96,18 @@ struct CirrusNoises {
 // Cirrus at a place: long thin veils that fan out from a vanishing point on the horizon, far beyond the side of the picture; 0…1.
 float cirrus_at(const SkyParameters& p, double x_px, double elevation, CirrusNoises& noises) {
   if (elevation < 0.12) return 0.0F;
-  const double width = p.picture_size.x / p.horizon_px;  // of the picture, in heights of the sky
-  const double x = x_px / p.horizon_px;
+  const double scale_px = cloud_scale_px(p);
+  const double width = p.picture_size.x / scale_px;
+  const double x = x_px / scale_px;
+  const double rise = elevation * p.horizon_px / scale_px;
   const double distance = p.sun_image_x < 0.0 ? x + 0.6 * width : 1.6 * width - x;
   // In the fan: the angle above the horizon, and the logarithm of the distance along a ray.
-  const double bend = 0.09 * noises.waver(x * 0.55, elevation * 1.3);
-  const double angle = (elevation + bend) * 1.1 * width / distance;
+  const double bend = 0.09 * noises.waver(x * 0.55, rise * 1.3);
+  const double angle = (rise + bend) * 1.1 * width / distance;
   const double along = std::log(distance / width) * width;
   const float broad = noises.streaks(angle / 0.055, along / 0.75);
   const float fine = noises.threads(angle / 0.018, along / 0.55);
-  const float where = noises.patches(x / 1.6, elevation / 0.34);
+  const float where = noises.patches(x / 1.6, rise / 0.34);
   const float density = 0.42F * broad + 0.20F * fine + 0.62F * where - 0.62F + 0.4F * static_cast<float>(p.clouds - 1.0);
   return 0.55F * smooth_step(0.0F, 1.25F, density) * smooth_step(0.12F, 0.40F, static_cast<float>(elevation));
 }
@@ -130,17 +135,18 @@ glm::vec3 sky_gradient(const Palette& palette, double place) {
 std::vector<Cloud> make_clouds(const SkyParameters& p) {
   std::vector<Cloud> clouds;
   const double sky_px = p.horizon_px;
+  const double scale_px = cloud_scale_px(p);
   for (std::size_t r = 0; r < cloud_rows.size(); ++r) {
     const CloudRow& row = cloud_rows[r];
     const std::uint64_t seed = p.seed + 100 + r;
-    const double cell_px = row.width * sky_px * 0.8;
+    const double cell_px = row.width * scale_px * 0.8;
     const auto last = static_cast<std::int64_t>(p.picture_size.x / cell_px) + 2;
     for (std::int64_t cell = -2; cell <= last; ++cell) {
       const double middle_px = (static_cast<double>(cell) + random_uniform(seed, cell, 0)) * cell_px;
       // Clouds keep together in banks.
-      const double bank = gaussian_noise(p.seed + 90, middle_px / sky_px + 17.0 * static_cast<double>(r), static_cast<double>(r), 1.7);
+      const double bank = gaussian_noise(p.seed + 90, middle_px / scale_px + 17.0 * static_cast<double>(r), static_cast<double>(r), 1.7);
       if (0.22 + 0.42 * bank + 0.35 * (p.clouds - 1.0) < random_uniform(seed, cell, 1)) continue;
-      const double width_px = row.width * sky_px * (0.55 + 0.75 * random_uniform(seed, cell, 2));
+      const double width_px = row.width * scale_px * (0.55 + 0.75 * random_uniform(seed, cell, 2));
       const double base_px = sky_px * (1.0 - row.base * (0.92 + 0.16 * random_uniform(seed, cell, 3)));
       if (p.clouds > 0.0) clouds.push_back(make_cloud(p, seed, cell, middle_px, base_px, width_px, row.opacity));
     }
@@ -153,8 +159,8 @@ Grid<glm::vec3> make_sky(const Grid<float>& depth_m, const Palette& palette, con
   const int height = depth_m.height();
   Grid<glm::vec3> sky(width, height, glm::vec3(0.0F));
   const std::vector<Cloud> clouds = make_clouds(p);
+  const double scale_px = cloud_scale_px(p);
   const glm::vec2 towards_light = glm::normalize(glm::vec2(p.sun_image_x < 0.0 ? -0.55F : 0.55F, -0.85F));
-  // Unevenness of edges, in two sizes, in heights of the sky.
   parallel_rows(height, [&](int y) {
     CirrusNoises cirrus_noises(p.seed + 70);
     GroundNoise bands(p.seed + 83, 1.0);
@@ -166,15 +172,16 @@ Grid<glm::vec3> make_sky(const Grid<float>& depth_m, const Palette& palette, con
     for (int x = 0; x < width; ++x) {
       if (!std::isinf(depth_m(x, y))) continue;
       const double column_px = origin_px.x + x + 0.5;
-      const double u = column_px / p.horizon_px;
-      const double v = row_px / p.horizon_px;
+      const double u = column_px / scale_px;  // of cloud edges
+      const double w = row_px / scale_px;
+      const double v = row_px / p.horizon_px;  // 0 top … 1 horizon
       // Long soft bands keep the gradient from looking ruled.
       const double place = v + 0.03 * bands(u * 0.9, v * 11.0) * std::clamp(2.0 * (1.0 - v), 0.0, 1.0);
       glm::vec3 colour = sky_gradient(palette, place);
       const float cirrus = p.clouds > 0.0 ? cirrus_at(p, column_px, 1.0 - v, cirrus_noises) : 0.0F;
       colour = glm::mix(colour, palette.cloud_light, cirrus);
       if (!near_row.empty()) {
-        const glm::vec2 wobble = 0.16F * glm::vec2(wobble_x(u, v), wobble_y(u, v)) + 0.07F * glm::vec2(ripple_x(u, v), ripple_y(u, v));
+        const glm::vec2 wobble = 0.16F * glm::vec2(wobble_x(u, w), wobble_y(u, w)) + 0.07F * glm::vec2(ripple_x(u, w), ripple_y(u, w));
         const glm::vec2 at(static_cast<float>(column_px), static_cast<float>(row_px));
         for (const Cloud* cloud : near_row) {
           if (at.x < cloud->from.x || at.x > cloud->to.x) continue;

@@ -59,7 +59,7 @@ TEST(Palette, BlendsByAltitude) {
 }
 
 TEST(Palette, BuiltInPalettesAreCompleteAndGrowLighterWithTone) {
-  for (const char* name : {"summer", "winter"}) {
+  for (const char* name : {"summer", "winter", "desert"}) {
     const Palette palette = read_palette(name);
     EXPECT_EQ(palette.name, name);
     EXPECT_EQ(palette.winter, std::string(name) == "winter");
