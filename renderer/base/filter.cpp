@@ -81,15 +81,22 @@ LineBundle refine(const LineBundle& halved, int count) {
   return out;
 }
 
-LineBundle blur(const LineBundle& lines, double sigma, const std::vector<float>& kernel) {
-  if (sigma <= widest_sampled_sigma) return convolve(lines, kernel);
-  return refine(blur(halve(lines), std::sqrt((sigma * sigma - 2.0) / 4.0), kernel), lines.count());
+// How often the resolution is halved, and the kernel that remains: the same for every bundle, so made once.
+struct BlurPlan {
+  int halvings = 0;
+  std::vector<float> kernel;
+};
+
+BlurPlan plan_blur(double sigma) {
+  BlurPlan plan;
+  for (; sigma > widest_sampled_sigma; ++plan.halvings) sigma = std::sqrt((sigma * sigma - 2.0) / 4.0);
+  plan.kernel = half_kernel(sigma);
+  return plan;
 }
 
-// The kernel that remains after all halvings: the same for every bundle, so it is made once.
-std::vector<float> innermost_kernel(double sigma) {
-  while (sigma > widest_sampled_sigma) sigma = std::sqrt((sigma * sigma - 2.0) / 4.0);
-  return half_kernel(sigma);
+LineBundle blur(const LineBundle& lines, const BlurPlan& plan, int halvings_left) {
+  if (halvings_left == 0) return convolve(lines, plan.kernel);
+  return refine(blur(halve(lines), plan, halvings_left - 1), lines.count());
 }
 
 // Weights of the four coefficients around a place t in 0…1 after the second.
@@ -112,12 +119,12 @@ Grid<float> gaussian_blur(const Grid<float>& values, double sigma_x, double sigm
   Grid<float> out = values;
   if (values.empty()) return out;
   if (sigma_x > 0.0) {
-    const std::vector<float> kernel = innermost_kernel(sigma_x);
-    transform_rows(out, [&](const LineBundle& rows) { return blur(rows, sigma_x, kernel); });
+    const BlurPlan plan = plan_blur(sigma_x);
+    transform_rows(out, [&](const LineBundle& rows) { return blur(rows, plan, plan.halvings); });
   }
   if (sigma_y > 0.0) {
-    const std::vector<float> kernel = innermost_kernel(sigma_y);
-    transform_columns(out, [&](const LineBundle& columns) { return blur(columns, sigma_y, kernel); });
+    const BlurPlan plan = plan_blur(sigma_y);
+    transform_columns(out, [&](const LineBundle& columns) { return blur(columns, plan, plan.halvings); });
   }
   return out;
 }

@@ -81,6 +81,19 @@ TEST(Pyramid, RampStaysARampWhateverTheWeights) {
   }
 }
 
+TEST(Pyramid, ReduceKeepsARampOnGridsOfTwoCells) {
+  for (const auto& [width, height] : {std::pair{2, 2}, std::pair{9, 2}, std::pair{2, 9}, std::pair{3, 3}}) {
+    Grid<float> ramp(width, height);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) ramp(x, y) = 10.F + 3.F * static_cast<float>(x) - 5.F * static_cast<float>(y);
+    }
+    const Grid<float> half = reduce(ramp);
+    for (int y = 0; y < half.height(); ++y) {
+      for (int x = 0; x < half.width(); ++x) EXPECT_NEAR(half(x, y), ramp(2 * x, 2 * y), 1e-4) << width << " x " << height;
+    }
+  }
+}
+
 TEST(Pyramid, IsLinear) {
   const Grid<float> a = rough_terrain(75, 90);
   Grid<float> b(75, 90);

@@ -149,6 +149,13 @@ TEST(Lakes, StepsOfAFloodPlainAreNone) {
   const auto count = [](const Grid<std::uint8_t>& mask) { return std::count(mask.begin(), mask.end(), 1); };
   EXPECT_EQ(count(find_lakes(plain, {})), 0);
   EXPECT_GT(count(find_lakes(plain, {.min_bank_m = 0.F})), 5000);
+  // Nor where a wall of rock stands on one side of them.
+  for (int y = 0; y < 10; ++y) {
+    for (int x = 0; x < 240; ++x) plain(x, y) += 100.F * static_cast<float>(10 - y);
+  }
+  const Grid<std::uint8_t> lakes = find_lakes(plain, {});
+  // The last step lies at the rim and may be one: what is beyond it nobody knows.
+  for (int y = 0; y < 60; ++y) EXPECT_EQ(std::count(lakes.row(y), lakes.row(y) + 210, 1), 0) << y;
 }
 
 TEST(Rivers, GrowSteadilyWithTheCatchment) {
