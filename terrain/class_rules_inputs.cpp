@@ -202,7 +202,7 @@ Grid<float> flowing_ice(const Grid<float>& balance, const Dem& dem) {
       const int cx = i % width;
       const int cy = i / width;
       const float thickness = 45.F * std::pow(f, 0.3F);
-      const int reach = static_cast<int>(std::min(600.0, 240.0 * std::sqrt(static_cast<double>(f))) / cell);
+      const int reach = static_cast<int>(std::min(900.0, 420.0 * std::sqrt(static_cast<double>(f))) / cell);
       const float level = surface[static_cast<std::size_t>(i)] + thickness;
       for (int y = std::max(b * band, cy - reach); y < std::min({height, (b + 1) * band, cy + reach + 1}); ++y)
         for (int x = std::max(0, cx - reach); x < std::min(width, cx + reach + 1); ++x)

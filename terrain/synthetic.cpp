@@ -14,6 +14,7 @@
 #include "renderer/base/random.h"
 #include "terrain/synthetic_erosion.h"
 #include "terrain/synthetic_noise.h"
+#include "terrain/synthetic_plan.h"
 #include "terrain/synthetic_valleys.h"
 
 namespace belvedere {
@@ -36,61 +37,6 @@ void check(const SyntheticParameters& p) {
   if (!(std::abs(p.lowest_m) <= 9000.0)) refuse("lowest_m", p.lowest_m, "-9000…9000 m");
   if (!(p.highest_m > p.lowest_m && p.highest_m <= 20000.0)) refuse("highest_m", p.highest_m, "above lowest_m, at most 20000 m");
 }
-
-// The plan of a landscape: where mountains rise and where the main valleys run. Places in metres from the padded map's
-// north-west corner, x east, y south; `unit_m` shrinks it for maps smaller than a mountain range.
-class Plan {
- public:
-  Plan(double width_m, double height_m, double unit_m, std::uint64_t seed)
-      : width_m_(width_m), height_m_(height_m), unit_m_(unit_m), seed_(mix_bits(seed)) {
-    valleys_ = std::max(1, static_cast<int>(std::lround(height_m / (38000.0 * unit_m))));
-  }
-
-  int valleys() const { return valleys_; }
-  bool flows_east(int valley) const { return (random_bits(seed_, valley, 0, 1) & 1) != 0; }
-  // The middle line of a main valley, y at x.
-  double valley_y(int valley, double x) const {
-    const double middle = (valley + 0.42 + 0.16 * random_uniform(seed_, valley, 0, 2)) * height_m_ / valleys_;
-    const double u = x / unit_m_;
-    return middle + unit_m_ * (4200.0 * gradient_noise(seed_ + 11, u / 17000.0, valley * 7.3) +
-                               1300.0 * gradient_noise(seed_ + 12, u / 5200.0, valley * 3.1));
-  }
-
-  // 0…about 1.5
-  float uplift(double x, double y) const {
-    const double u = x / unit_m_;
-    const double v = y / unit_m_;
-    const double wu = u + 3500.0 * fractal_noise(seed_ + 20, u / 11000.0, v / 11000.0, 3);
-    const double wv = v + 3500.0 * fractal_noise(seed_ + 30, u / 11000.0, v / 11000.0, 3);
-    const float massif = 1.0F + 0.55F * fractal_noise(seed_ + 40, wu / 21000.0, wv / 21000.0, 2);
-    const float range = ridged_noise(seed_ + 50, wu / 19000.0, wv / 10500.0, 4);
-    float rise = std::max(0.12F, massif) * (0.50F + 0.80F * range);
-    for (int k = 0; k < valleys_; ++k) {
-      const auto off = static_cast<float>((y - valley_y(k, x)) / unit_m_);
-      const float near = std::abs(off) * (1.F + 0.35F * gradient_noise(seed_ + 13, u / 6000.0, v / 6000.0));
-      rise *= 0.10F + 0.90F * smoothstep(500.F, 3200.F, near);
-    }
-    return rise;
-  }
-
-  // Softness of the rock, about 0.4…2.
-  float softness(double x, double y) const {
-    const double u = x / unit_m_;
-    const double v = y / unit_m_;
-    return std::exp2(1.3F * fractal_noise(seed_ + 60, u / 3600.0, v / 3600.0, 2) +
-                     1.1F * fractal_noise(seed_ + 70, u / 700.0, v / 700.0, 3));
-  }
-
-  std::uint64_t seed() const { return seed_; }
-  double unit_m() const { return unit_m_; }
-
- private:
-  double width_m_;
-  double height_m_;
-  double unit_m_;
-  std::uint64_t seed_;
-  int valleys_ = 1;
-};
 
 // One resolution of the landscape.
 struct Level {
@@ -277,6 +223,18 @@ void add_ribs(Level& level, const Plan& plan, float relief_m) {
   });
 }
 
+// Rivers alone leave little high ground. Ice works like a saw at the height of its snow fields and leaves high basins: altitudes, from 0
+// for the lowest ground on, are bent up in the middle, t + 0.45 t (1 - t), which changes no way of the water.
+void lift_middle(Grid<float>& altitude_m) {
+  const auto [low, high] = std::minmax_element(altitude_m.begin(), altitude_m.end());
+  const float base = *low;
+  const float relief = std::max(1e-3F, *high - base);
+  for (float& z : altitude_m) {
+    const float t = (z - base) / relief;
+    z = relief * (t + 0.45F * t * (1.F - t));
+  }
+}
+
 // Mean tangent of slope.
 double mean_slope(const Grid<float>& altitude_m, double cell_m) {
   const double sum = deterministic_sum(altitude_m.size(), [&](std::size_t i) {
@@ -304,7 +262,7 @@ Dem make_synthetic_terrain(const SyntheticParameters& parameters, Progress& prog
   level.cell_m = parameters.cell_m * scale;
   const int width = (parameters.width + scale - 1) / scale + 2 * margin;
   const int height = (parameters.height + scale - 1) / scale + 2 * margin;
-  const Plan plan(width * level.cell_m, height * level.cell_m, unit_m, parameters.seed);
+  const Plan plan(height * level.cell_m, unit_m, parameters.seed);
 
   level.altitude_m = Grid<float>(width, height);
   level.uplift_m = Grid<float>(width, height);
@@ -392,13 +350,13 @@ Dem make_synthetic_terrain(const SyntheticParameters& parameters, Progress& prog
   const int cut = margin * scale;
   for (int y = 0; y < parameters.height; ++y)
     for (int x = 0; x < parameters.width; ++x) altitude(x, y) = level.altitude_m(x + cut, y + cut);
-  const auto [low, high] = std::minmax_element(altitude.begin(), altitude.end());
-  const float base = *low;
+  lift_middle(altitude);
   // Nature piles up no more than its slopes can bear: on small maps summits stay lower than asked for.
   constexpr double steepest_mean = 0.65;
   const double bearable = steepest_mean / std::max(1e-9, mean_slope(altitude, parameters.cell_m));
-  const auto factor = static_cast<float>(std::min(static_cast<double>(relief) * 0.98 / (static_cast<double>(*high - base)), bearable));
-  for (float& z : altitude) z = static_cast<float>(parameters.lowest_m) + (z - base) * factor;
+  const float highest = largest(altitude);
+  const auto factor = static_cast<float>(std::min(static_cast<double>(relief) * 0.98 / static_cast<double>(highest), bearable));
+  for (float& z : altitude) z = static_cast<float>(parameters.lowest_m) + z * factor;
   fill_pits(altitude, 60);
   Dem dem;
   dem.altitude_m = std::move(altitude);
