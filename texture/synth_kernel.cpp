@@ -296,13 +296,16 @@ void use_vector_target(const std::string& name) {
 }
 
 Slack make_slack(const KernelView& view, std::uint32_t pixel) {
-  const PickWindow window = view.lists->window(class_of(view.target->words[pixel]), view.target->guides_at(pixel));
-  return {window.slack, window.buckets * ListKeys::bucket_width};
+  const std::uint32_t label_class = class_of(view.target->words[pixel]);
+  const PickWindow window = view.lists->window(label_class, view.target->guides_at(pixel));
+  const std::size_t first = static_cast<std::size_t>(label_class) * static_cast<std::size_t>(view.exemplars->guide_count);
+  return {window.slack, window.buckets * ListKeys::bucket_width, view.usual_error == nullptr ? nullptr : view.usual_error + first};
 }
 
 std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, Slack slack) {
   const std::uint32_t label_class = class_of(view.target->words[pixel]);
   const std::uint8_t* wanted = view.target->guides_at(pixel);
+  slack.others = nullptr;  // picks are as good as they can be
   std::uint32_t best = view.exemplars->nowhere();
   std::int64_t best_cost = INT64_MAX;
   for (int draw = 0; draw < view.draws; ++draw) {

@@ -35,6 +35,7 @@ struct KernelView {
   const PickLists* lists = nullptr;
   const std::uint8_t* links = nullptr;        // by target index; null: no silhouettes
   const GuideRole* guides = nullptr;          // exemplars->guide_count of them
+  const std::uint8_t* usual_error = nullptr;  // by class × guide_count + guide: what picks are usually off; null: not known yet
   const std::uint32_t* match = nullptr;       // by target index: exemplar index
   const std::uint16_t* piece_size = nullptr;  // by target index: pixels of the piece copied in one, saturated
   const std::uint32_t* uses = nullptr;        // by exemplar index
@@ -48,10 +49,13 @@ struct KernelView {
   int pass = 0;
 };
 
-// What the two guides that order the lists may be off without cost: as much as picks may.
+// What a pixel's guides may be off without cost: as much as picks are off. For the two guides that order the lists that is the window,
+// for the others what picks usually leave. Else many guides, which no texel can meet all, would drive out the texture for a gain
+// that is none.
 struct Slack {
   std::int32_t sorted = 0;
   std::int32_t bucketed = 0;
+  const std::uint8_t* others = nullptr;  // by guide, from 2 on; null: nothing
 };
 Slack make_slack(const KernelView& view, std::uint32_t pixel);
 inline std::int64_t guide_cost(const KernelView& view, const std::uint8_t* wanted, const std::uint8_t* offered, Slack slack) {
@@ -63,7 +67,7 @@ inline std::int64_t guide_cost(const KernelView& view, const std::uint8_t* wante
   std::int64_t cost = 0;
   if (count > 0) cost += price_of(0, slack.sorted);
   if (count > 1) cost += price_of(1, slack.bucketed);
-  for (int g = 2; g < count; ++g) cost += price_of(g, 0);
+  for (int g = 2; g < count; ++g) cost += price_of(g, slack.others == nullptr ? 0 : slack.others[g]);
   return cost >> 4;
 }
 // A texel of the pixel's class from the window of its guides: of `draws` random ones that with the cheapest guides.

@@ -7,7 +7,10 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstdlib>
 #include <functional>
+#include <numeric>
 #include <utility>
 
 #include "renderer/base/parallel.h"
@@ -19,7 +22,7 @@ namespace belvedere::synth {
 namespace {
 
 // Keys of the random numbers of different purposes on a level.
-enum class Purpose : std::uint64_t { start = 1, expectation = 2, moves = 3, cells = 4, pass = 16 };
+enum class Purpose : std::uint64_t { start = 1, expectation = 2, moves = 3, cells = 4, errors = 5, pass = 16 };
 
 std::uint64_t key_for(const LevelSettings& settings, Purpose purpose, int number = 0) {
   return random_bits(settings.seed, settings.level, number, static_cast<std::uint64_t>(purpose));
@@ -72,6 +75,38 @@ void add_to(BinCounts& sums, const BinCounts& change) {
   std::transform(sums.begin(), sums.end(), change.begin(), sums.begin(), std::plus<>());
 }
 
+// The median error of each guide over the picks of a sample of a class's pixels.
+std::vector<std::uint8_t> usual_errors_of_picks(const LevelState& state, int classes) {
+  constexpr int samples_across = 256;
+  const std::size_t guides = static_cast<std::size_t>(state.exemplars.guide_count);
+  const Plane::Part& part = state.target.parts[0];
+  const KernelView view = state.view(0);
+  const std::uint64_t key = key_for(state.settings, Purpose::errors);
+  std::vector<std::int32_t> counts(static_cast<std::size_t>(classes) * guides * 256, 0);
+  for (int y = 0; y < part.height; y += std::max(1, part.height / samples_across)) {
+    for (int x = 0; x < part.width; x += std::max(1, part.width / samples_across)) {
+      const std::uint32_t at = state.target.index(0, x, y);
+      const std::uint32_t label_class = class_of(state.target.words[at]);
+      if (label_class == no_class) continue;
+      const std::uint8_t* wanted = state.target.guides_at(at);
+      const std::uint8_t* offered = state.exemplars.guides_at(draw_texel(view, at, key, x, y, make_slack(view, at)));
+      for (std::size_t g = 0; g < guides; ++g) {
+        ++counts[(label_class * guides + g) * 256 + static_cast<std::size_t>(std::abs(wanted[g] - offered[g]))];
+      }
+    }
+  }
+  std::vector<std::uint8_t> medians(static_cast<std::size_t>(classes) * guides, 0);
+  for (std::size_t i = 0; i < medians.size(); ++i) {
+    const auto first = counts.begin() + static_cast<std::ptrdiff_t>(i * 256);
+    const std::int64_t total = std::accumulate(first, first + 256, std::int64_t{0});
+    std::int64_t below = first[0];
+    int error = 0;
+    while (error < 255 && 2 * below < total) below += first[++error];
+    medians[i] = static_cast<std::uint8_t>(error);
+  }
+  return medians;
+}
+
 }  // namespace
 
 LevelSettings settings_for_level(int level, std::uint64_t seed, int copy_cap, double reuse) {
@@ -117,6 +152,7 @@ LevelState::LevelState(const LevelSettings& level_settings, const std::vector<Gu
     const std::uint32_t c = class_of(target.words[at]);
     if (c != no_class && !lists.has_class(c)) target.words[at] |= no_class << 24;
   });
+  usual_error = usual_errors_of_picks(*this, classes);
 }
 
 KernelView LevelState::view(int pass) const {
@@ -126,6 +162,7 @@ KernelView LevelState::view(int pass) const {
   view.lists = &lists;
   view.links = links.empty() ? nullptr : links.data();
   view.guides = guides.data();
+  view.usual_error = usual_error.empty() ? nullptr : usual_error.data();
   view.match = match.data();
   view.piece_size = pieces.size().data();
   view.uses = uses.data();

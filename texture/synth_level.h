@@ -34,6 +34,7 @@ struct LevelState {
   Plane& target;
   std::vector<std::uint8_t> links;  // empty: no silhouettes
   PickLists lists;
+  std::vector<std::uint8_t> usual_error;    // by class × guide: median error of picks
   std::vector<std::uint32_t> match;         // by target index: exemplar index, exemplars.nowhere() in padding and without class
   std::vector<std::uint32_t> next;          // matches found by a sub-pass: every second pixel of every second row
   std::vector<std::uint32_t> uses;          // by exemplar index: pixels that copy this texel
