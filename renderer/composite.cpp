@@ -39,8 +39,9 @@ Image decode_srgb(const Grid<glm::vec3>& encoded) { return map_channels(encoded,
 Grid<glm::vec3> encode_srgb(const Image& linear) { return map_channels(linear, srgb_encoded); }
 
 Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<PaintedExemplar>& exemplars,
-                                  const Grid<glm::vec3>& target_base, double residual) {
+                                  const Grid<glm::vec3>& target_base, const Grid<float>& target_haze, double residual) {
   if (!matches.same_size(target_base)) throw Error(ErrorKind::bug, "composite", "the match field and the base have different sizes");
+  if (!target_haze.empty() && !target_haze.same_size(target_base)) throw Error(ErrorKind::bug, "composite", "air and base have different sizes");
   for (const PaintedExemplar& e : exemplars) {
     if (!e.base.empty() && !e.base.same_size(e.picture)) {
       throw Error(ErrorKind::input, "exemplar " + e.exemplar.name, "its base has another size than its picture");
@@ -61,7 +62,8 @@ Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<P
       const PaintedExemplar& e = exemplars[m.exemplar];
       glm::vec3 v = e.picture(m.x, m.y);
       if (!e.base.empty()) v += r * (target_base(x, y) - e.base(m.x, m.y));
-      out(x, y) = glm::clamp(v, 0.0f, 1.0f);
+      if (!target_haze.empty()) v = glm::mix(v, target_base(x, y), std::clamp(target_haze(x, y), 0.0F, 1.0F));
+      out(x, y) = glm::clamp(v, 0.0F, 1.0F);
     }
   });
   return out;

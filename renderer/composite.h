@@ -9,11 +9,12 @@
 
 namespace belvedere {
 
-// out = texel + residual · (base_target - base_exemplar), in encoded sRGB (look/recipe.md, From an exemplar), cut to 0…1. residual 0…1.
+// paint = texel + residual · (base_target - base_exemplar), in encoded sRGB (look/recipe.md, From an exemplar), cut to 0…1. residual 0…1.
+// Air lies over paint as it lies over the base: out = base_target + (1 - haze) · (paint - base_target); target_haze empty: no air.
 // Pixels without a match, sky among them, take the target's base; exemplars without a base (scans) give their texel as it is. Error(input)
 // for matches outside of the exemplars.
 Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<PaintedExemplar>& exemplars,
-                                  const Grid<glm::vec3>& target_base, double residual);
+                                  const Grid<glm::vec3>& target_base, const Grid<float>& target_haze, double residual);
 
 // Softens depth edges and the skyline. A pixel of which only the part `front` shows the surface it was painted for gets the rest from those
 // of its eight neighbours that lie on another surface (depth differs by more than 3 %, or one is sky), in linear light, as an eye or lens

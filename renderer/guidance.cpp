@@ -97,7 +97,7 @@ GuidanceBuffers make_buffers(int width, int height) {
   b.shadow = b.sky_view = Grid<float>(width, height, 1.F);
   b.fall_line = Grid<glm::vec2>(width, height, glm::vec2(0.F));
   for (Grid<float>* channel : {&b.altitude_m, &b.coverage, &b.front, &b.slope_deg, &b.aspect_deg, &b.footprint_m, &b.ridge, &b.relief_s_m,
-                               &b.relief_m_m, &b.relief_l_m, &b.valley_height_m}) {
+                               &b.relief_m_m, &b.relief_l_m, &b.valley_height_m, &b.rim_m}) {
     *channel = Grid<float>(width, height, 0.F);
   }
   return b;
@@ -188,7 +188,30 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
     out.relief_m_m[o] = ground.relief_m_m;
     out.relief_l_m[o] = ground.relief_l_m;
     out.valley_height_m[o] = ground.valley_height_m;
+    out.rim_m[o] = ground.rim_m;
   }
+}
+
+}  // namespace
+
+namespace {
+
+// Distance of every post to the nearest that is not known: the border's own posts, and voids that were filled.
+Grid<float> rim_distance(const Dem& dem) {
+  const int width = dem.width();
+  const int height = dem.height();
+  Grid<std::uint8_t> rim = dem.filled.empty() ? Grid<std::uint8_t>(width, height, 0) : dem.filled;
+  for (int x = 0; x < width; ++x) rim(x, 0) = rim(x, height - 1) = 1;
+  for (int y = 0; y < height; ++y) rim(0, y) = rim(width - 1, y) = 1;
+  const Grid<std::int32_t> nearest = nearest_marked(rim);
+  Grid<float> distance(width, height);
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const int at = nearest(x, y);
+      distance(x, y) = static_cast<float>(std::hypot((at % width - x) * dem.transform.cell_x, (at / width - y) * dem.transform.cell_y));
+    }
+  });
+  return distance;
 }
 
 }  // namespace
@@ -208,6 +231,7 @@ TerrainModel make_terrain_model(Dem dem, Grid<float> generalized_m, LandCover la
   model.relief_m_m = relief(z, cell_m, 30.0, 750.0);
   model.relief_l_m = relief(z, cell_m, 120.0, 1800.0);
   model.valley_height_m = height_above_valley(z, cell_m, 900.0);
+  model.rim_m = rim_distance(dem);
   model.dem = std::move(dem);
   model.generalized_m = std::move(generalized_m);
   model.land_cover = std::move(land_cover);
@@ -234,6 +258,7 @@ GuidanceBuffers trace_guidance(const TerrainModel& terrain, const DeformedSurfac
                         disc_places(parameters.shadow_rays),
                         sky_directions((parameters.sky_directions + 3) / 4)};
   GuidanceBuffers out = make_buffers(region.width(), region.height());
+  out.origin_m = surface.origin;
   progress.begin("trace", static_cast<double>(region.width()) * region.height());
   // Blocks lie at multiples of their size of the whole picture; tiles are whole blocks.
   const int bx0 = region.x0 / trace_block_px;

@@ -21,6 +21,7 @@ struct TerrainModel {
   Grid<float> shape_smooth_m;                      // generalized after a Gaussian of 120 m: normal_smooth, fall line
   Grid<float> relief_s_m, relief_m_m, relief_l_m;  // z(30 m) - z(180 m), z(30 m) - z(750 m), z(120 m) - z(1800 m)
   Grid<float> valley_height_m;                     // above the lowest ground within 900 m
+  Grid<float> rim_m;                               // distance to the edge of the DEM or the nearest filled void
   LandCover land_cover;
   double exaggeration = 1.0;  // of light's normals
   double detail_boost = 1.5;  // further exaggeration of normal_detail (look/recipe.md: slopes × 1.6 × 1.5)
@@ -43,7 +44,7 @@ struct GuidanceParameters {
 };
 
 // Traces a rectangle of the picture: all channels but tone and base (those are renderer/light's and renderer/palette's). The
-// buffers have the rectangle's size. position_m is relative to surface.origin: position_m + surface.origin is in the scene's CRS.
+// buffers have the rectangle's size. position_m is relative to surface.origin, which becomes origin_m.
 // ridge is relief_s / (|relief_s| + 10 m), -1…1. Terrain without a known class counts as rock. Any split of the picture into
 // rectangles gives the same bits, except silhouette and sky_view, which look at neighbours: they need a margin of guidance_margin_px().
 // terrain and surface have the same posts. Throws Error(usage) for parameters out of range, naming the scene's key.

@@ -112,6 +112,7 @@ GroundValues sample_ground(const TerrainModel& terrain, const DeformedSurface& s
   ground.relief_l_m = bilinear(terrain.relief_l_m, at);
   ground.ridge = ground.relief_s_m / (std::abs(ground.relief_s_m) + ridge_scale_m);
   ground.valley_height_m = bilinear(terrain.valley_height_m, at);
+  ground.rim_m = bilinear(terrain.rim_m, at);
   return ground;
 }
 

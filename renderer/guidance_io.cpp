@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -97,6 +98,7 @@ const Channel channels[] = {
     channel<&B::relief_m_m>("terrain", "relief.M", half),
     channel<&B::relief_l_m>("terrain", "relief.L", half),
     channel<&B::valley_height_m>("terrain", "valley.V", half),
+    channel<&B::rim_m>("terrain", "rim.V", float32),
     channel<&B::shadow>("light", "shadow.V", half),
     channel<&B::sky_view>("light", "skyview.V", half),
     channel<&B::tone>("light", "tone.V", half),
@@ -139,6 +141,25 @@ Grid<LandCoverClass> make_classes(const std::string& path, const Grid<std::uint3
 
 }  // namespace
 
+namespace {
+
+constexpr const char* origin_note = "origin";  // what P is relative to: easting, northing, altitude
+
+glm::dvec3 parse_origin(const std::string& path, const std::string& text) {
+  glm::dvec3 origin{0.0};
+  const char* at = text.data();
+  const char* end = at + text.size();
+  for (int k = 0; k < 3; ++k) {
+    while (at != end && *at == ' ') ++at;
+    const auto [next, fault] = std::from_chars(at, end, origin[k]);
+    if (fault != std::errc()) throw Error(ErrorKind::input, path, "the note \"origin\" is " + text, "three numbers");
+    at = next;
+  }
+  return origin;
+}
+
+}  // namespace
+
 GuidanceWriter::GuidanceWriter(const std::string& path, int width, int height, const FileNotes& notes)
     : path_(path), width_(width), height_(height), notes_(notes) {
   notes_["legend"] = make_legend();
@@ -157,6 +178,7 @@ void GuidanceWriter::write_rows(const GuidanceBuffers& part, int first, int rows
       parts_.back().push_back(c);
     }
     if (specs.empty()) throw Error(ErrorKind::bug, path_, "guidance without any channel");
+    notes_[origin_note] = fmt::format("{:.17g} {:.17g} {:.17g}", part.origin_m.x, part.origin_m.y, part.origin_m.z);
     writer_.emplace(path_, width_, height_, specs, notes_);
   }
   std::vector<float> band;
@@ -201,6 +223,7 @@ void write_guidance(const std::string& path, const GuidanceBuffers& guidance, co
 GuidanceBuffers read_guidance(const std::string& path) {
   const ImageInfo info = read_image_info(path);
   GuidanceBuffers out;
+  if (const auto note = info.notes.find(origin_note); note != info.notes.end()) out.origin_m = parse_origin(path, note->second);
   bool found = false;
   const auto check_size = [&](const auto& grid) {
     found = true;

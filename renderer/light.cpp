@@ -133,8 +133,8 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
       if (ribbed[i] != 0) {
         float rib = ribs[i];
         if (id == LandCoverClass::rock) {
-          const glm::vec3 place = guidance.position_m[i];
-          rib += 0.30F * strata(guidance.altitude_m[i], place.x, n8(place.x, place.y), n25(place.x, place.y));
+          const glm::dvec3 place = glm::dvec3(guidance.position_m[i]) + guidance.origin_m;
+          rib += 0.30F * strata(guidance.altitude_m[i], static_cast<float>(place.x), n8(place.x, place.y), n25(place.x, place.y));
         }
         raw += static_cast<float>(parameters.ribs) * light.ribs * rib * steepness(guidance.slope_deg[i]);
       }

@@ -6,6 +6,7 @@
 #include "renderer/base/angle.h"
 #include "renderer/composite.h"
 #include "renderer/light.h"
+#include "renderer/sky.h"
 
 namespace belvedere {
 namespace {
@@ -20,6 +21,7 @@ ToneParameters to_tone_parameters(const Stage& stage) {
   parameters.shadow_depth = light.shadow_depth;
   parameters.contrast = light.contrast;
   parameters.pixels_per_unit = stage.scene.pixels_per_unit();
+  parameters.sun_image_x = stage.view.sun_image_x;
   parameters.seed = stage.scene.seed;
   return parameters;
 }
@@ -33,6 +35,10 @@ BaseParameters to_base_parameters(const Stage& stage) {
   parameters.range_mist = air.range_mist;
   parameters.warm_near = air.warm_near;
   parameters.hue_drift = air.hue_drift;
+  parameters.rim_fade_m = air.rim_fade_m;
+  parameters.clouds = air.clouds;
+  parameters.horizon_px = stage.horizon_px;
+  parameters.sun_image_x = stage.view.sun_image_x;
   parameters.pixels_per_unit = stage.scene.pixels_per_unit();
   parameters.seed = stage.scene.seed;
   return parameters;
@@ -64,6 +70,7 @@ Stage set_stage(const LoadedScene& loaded, Progress& progress) {
   stage.ground = make_ground(loaded.scene, std::move(dem), std::move(land_cover), stage.view, progress);
   progress.begin("building the ray tracer", 0.0);
   stage.tracer = std::make_unique<Tracer>(stage.ground.surface);
+  stage.horizon_px = skyline_row_px(*stage.camera, *stage.tracer, 0.18 * loaded.scene.output.height);
   return stage;
 }
 

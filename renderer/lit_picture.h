@@ -24,6 +24,7 @@ struct Stage {
   Palette palette;
   std::unique_ptr<Camera> camera;
   std::unique_ptr<Tracer> tracer;
+  double horizon_px = 0.0;  // row of the skyline's median
 };
 // Reads, generalizes and bends the terrain, sets up camera, sun and palette, builds the acceleration structure.
 Stage set_stage(const LoadedScene& scene, Progress& progress);

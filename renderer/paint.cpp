@@ -37,7 +37,7 @@ struct Patches {
 // 1 where `size_m` covers two units of the sheet or more, 0 where it covers less than 2/3.
 float visible(float size_m, float metres_per_unit) { return std::clamp(1.5F - metres_per_unit / size_m, 0.0F, 1.0F); }
 
-Patches patches_at(GroundNoises& noises, glm::vec3 place, float metres_per_unit, std::uint64_t seed) {
+Patches patches_at(GroundNoises& noises, glm::dvec3 place, float metres_per_unit, std::uint64_t seed) {
   Patches p{};
   p.n3 = noises.n3(place.x, place.y) * visible(60.0F, metres_per_unit);
   p.n8 = noises.n8(place.x, place.y) * visible(210.0F, metres_per_unit);
@@ -108,6 +108,12 @@ glm::vec3 air_colour(const BaseParameters& p, const Palette& palette, double dep
   const double near_m = 0.88 * p.haze_from_m;
   const double far_m = p.haze_from_m + 1.06 * p.haze_scale_m;
   return glm::mix(palette.haze_near, palette.haze_far, static_cast<float>(std::clamp((depth_m - near_m) / (far_m - near_m), 0.0, 1.0)));
+}
+
+// 1 at the rim of the terrain, 0 from `fade_m` inwards: the world does not end in a cliff but in haze.
+float rim_share(float rim_m, double fade_m) {
+  const auto t = static_cast<float>(std::clamp(rim_m / fade_m, 0.0, 1.0));
+  return 1.0F - t * t * (3.0F - 2.0F * t);
 }
 
 // Log depth; the sky counts as little farther than the terrain below it, so that the skyline gets no halo.
@@ -182,12 +188,15 @@ struct PixelColour {
   float haze;
   float mist;
   float dark;  // the near side of an edge between ranges
+  glm::vec3 horizon;
+  float rim;   // share of the horizon's air at the end of the terrain
 
   glm::vec3 finish(glm::vec3 colour, glm::vec3 range_mist) const {
     colour = glm::clamp(colour + added, 0.0F, 1.0F) * factor;
     colour = glm::mix(colour, air, haze);
     colour = glm::mix(colour, range_mist, mist);
-    return glm::clamp(colour * (1.0F - 0.35F * dark), 0.0F, 1.0F);
+    colour = glm::clamp(colour * (1.0F - 0.35F * dark), 0.0F, 1.0F);
+    return glm::mix(colour, horizon, rim);
   }
 };
 
@@ -219,6 +228,7 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
 
   SkyParameters sky_parameters{picture_size, parameters.horizon_px, parameters.clouds, parameters.sun_image_x, parameters.seed};
   if (sky_parameters.horizon_px <= 0.0) sky_parameters.horizon_px = 0.18 * picture_size.y;
+  const glm::dvec3 origin = guidance.origin_m;
   const Grid<glm::vec3> sky = make_sky(guidance.depth_m, palette, sky_parameters, origin_px);
 
   PaintGround ground;
@@ -228,6 +238,7 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
   ground.accent = Grid<float>(width, height, 0.0F);
   ground.tree_density = Grid<float>(width, height, 0.0F);
   ground.haze = Grid<float>(width, height, 0.0F);
+  const bool has_rim = guidance.rim_m.same_size(guidance.depth_m) && parameters.rim_fade_m > 0.0;
   const bool has_footprint = guidance.footprint_m.same_size(guidance.depth_m);
   const int step_px = std::max(1, static_cast<int>(std::lround(ppu)));
   parallel_rows(height, [&](int y) {
@@ -242,7 +253,7 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
       }
       const Class id = guidance.land_cover[i];
       const float metres_per_unit = has_footprint ? guidance.footprint_m[i] * static_cast<float>(ppu) : 0.0F;
-      const Patches patches = patches_at(noises, guidance.position_m[i], metres_per_unit, parameters.seed);
+      const Patches patches = patches_at(noises, glm::dvec3(guidance.position_m[i]) + origin, metres_per_unit, parameters.seed);
       const double depth = guidance.depth_m[i];
       const double altitude = guidance.altitude_m[i];
       const float tone = guidance.tone[i];
@@ -258,12 +269,14 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
       pixel.haze = static_cast<float>(std::clamp(haze_share(parameters, depth, altitude) * palette.haze_share, 0.0, 1.0));
       pixel.mist = std::clamp(3.0F * behind, 0.0F, 0.35F) * mist;
       pixel.dark = std::clamp(-1.5F * behind, 0.0F, 0.25F) * mist;
+      pixel.horizon = sky_gradient(palette, (y + origin_px.y + 0.5) / sky_parameters.horizon_px);
+      pixel.rim = has_rim ? rim_share(guidance.rim_m[i], parameters.rim_fade_m) : 0.0F;
       ground.colour[i] = pixel.finish(palette_colour(palette, id, altitude, tone), palette.range_mist);
       ground.darker[i] = pixel.finish(palette_colour(palette, id, altitude, tone - tone_step), palette.range_mist);
       ground.lighter[i] = pixel.finish(palette_colour(palette, id, altitude, tone + tone_step), palette.range_mist);
       ground.accent[i] = accent_at(guidance, logs, x, y, step_px);
       ground.tree_density[i] = tree_density_at(id, forest[i], wood[i], patches);
-      ground.haze[i] = 1.0F - (1.0F - pixel.haze) * (1.0F - std::min(pixel.mist, 1.0F));
+      ground.haze[i] = 1.0F - (1.0F - pixel.haze) * (1.0F - std::min(pixel.mist, 1.0F)) * (1.0F - pixel.rim);
     }
     progress.advance(1.0);
   });

@@ -64,8 +64,6 @@ FileNotes make_notes(const LoadedScene& loaded, const Stage& stage) {
       fmt::format("{} eye {:.3f} {:.3f} {:.3f} azimuth {:.6f} pitch {:.6f} field {:.4f}", camera.projection, camera.eye.x, camera.eye.y,
                   camera.eye.z, camera.azimuth_deg, camera.pitch_deg, camera.field_of_view_deg);
   notes["belvedere:crs"] = stage.ground.model.dem.crs.empty() ? "none" : describe_crs(stage.ground.model.dem.crs);
-  const glm::dvec3 origin = stage.ground.surface.origin;
-  notes["belvedere:origin"] = fmt::format("{:.3f} {:.3f} {:.3f}", origin.x, origin.y, origin.z);
   notes["belvedere:sun"] = fmt::format("azimuth {:.4f} altitude {:.4f}", stage.view.sun.azimuth_deg, stage.view.sun.altitude_deg);
   return notes;
 }
@@ -98,7 +96,7 @@ Grid<glm::vec3> synthesize_ground(const LoadedScene& loaded, const Stage& stage,
   for (const PaintedExemplar& p : painted) exemplars.push_back(p.exemplar);
   const GuideStack guides = make_guide_stack(picture.guidance);
   const MatchField matches = synthesize(exemplars, guides, to_synthesis_parameters(stage.scene), progress);
-  return transfer_residual(matches, painted, picture.ground.colour, stage.scene.synthesis.residual);
+  return transfer_residual(matches, painted, picture.ground.colour, picture.ground.haze, stage.scene.synthesis.residual);
 }
 
 void write_panorama(const Grid<glm::vec3>& picture, const Scene& scene, const std::string& profile_path, const FileNotes& notes,

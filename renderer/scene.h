@@ -99,6 +99,8 @@ struct SceneAir {
   double range_mist = 1.0;
   double warm_near = 1.0;
   double hue_drift = 1.0;
+  double rim_fade_m = 4000.0;  // over this distance terrain dissolves in haze towards its end
+  double clouds = 1.0;
 };
 
 // One exemplar: painted by the program (picture empty), or a picture with a class mask and perhaps guides.

@@ -79,7 +79,7 @@ void plant(const StrokeScene& scene, const Tree& tree, std::size_t i, float ligh
 
 // Forest is nowhere equally dense: openings and thick groups of some 250 m, a pure function of the ground.
 float grouping(const StrokeScene& scene, std::size_t i) {
-  const glm::vec3 p = scene.guidance.position_m[i];
+  const glm::dvec3 p = glm::dvec3(scene.guidance.position_m[i]) + scene.guidance.origin_m;
   return static_cast<float>(gaussian_noise(scene.parameters.seed + 51, p.x, p.y, 120.0) * 0.6 +
                             gaussian_noise(scene.parameters.seed + 52, p.x, p.y, 420.0) * 0.6);
 }

@@ -15,6 +15,7 @@ namespace belvedere {
 // channel is absent. Every value of a pixel comes from one and the same sample, the one that won the pixel, so nothing
 // mixes across a silhouette. Sky pixels hold: depth +inf, class sky, normal (0,0,1), everything else 0 (sky_view, shadow 1).
 struct GuidanceBuffers {
+  glm::dvec3 origin_m{0.0};       // what position_m is relative to, scene CRS
   Grid<float> depth_m;            // distance from the eye along the ray; +inf is sky
   Grid<glm::vec3> position_m;     // before deformation, scene CRS (x east, y north, z altitude), relative to the origin
   Grid<glm::vec3> normal;         // unit; generalized, exaggerated surface, not bent: light would otherwise follow the bend
@@ -36,6 +37,7 @@ struct GuidanceBuffers {
   Grid<float> relief_m_m;         // … of about 750 m
   Grid<float> relief_l_m;         // … of about 1.8 km
   Grid<float> valley_height_m;    // height above the lowest ground within 900 m
+  Grid<float> rim_m;              // distance on the ground to where the terrain ends or a void was filled
   Grid<float> tone;               // the scalar light that indexes palettes, 0…1
   Image base;                     // strokeless base picture, scene-linear
 

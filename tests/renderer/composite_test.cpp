@@ -46,7 +46,7 @@ TEST(TransferResidual, AddsAPartOfTheDifferenceOfBases) {
   matches(1, 0) = {0, 2, 1};
   matches(2, 0) = {1, 2, 1};
   const Grid<glm::vec3> base(4, 1, glm::vec3(0.6f, 0.8f, 0.2f));
-  const Grid<glm::vec3> out = transfer_residual(matches, exemplars, base, 0.75);
+  const Grid<glm::vec3> out = transfer_residual(matches, exemplars, base, {}, 0.75);
   const glm::vec3 wanted[] = {
       {0.65f, 0.9f, 0.55f},  // .5 + .75 (.6 - .4) …
       {0.25f, 1.0f, 0.25f},  // green would be 1.2
@@ -60,16 +60,16 @@ TEST(TransferResidual, AddsAPartOfTheDifferenceOfBases) {
 
 TEST(TransferResidual, SameBaseGivesTheTexel) {
   const std::vector<PaintedExemplar> exemplars = {make_exemplar(true)};
-  const Grid<glm::vec3> out = transfer_residual(MatchField(1, 1, Match{0, 2, 1}), exemplars, Grid<glm::vec3>(1, 1, glm::vec3(0.4f)), 0.75);
+  const Grid<glm::vec3> out = transfer_residual(MatchField(1, 1, Match{0, 2, 1}), exemplars, Grid<glm::vec3>(1, 1, glm::vec3(0.4f)), {}, 0.75);
   EXPECT_EQ(out(0, 0), exemplars[0].picture(2, 1));
 }
 
 TEST(TransferResidual, RefusesMatchesOutside) {
   const std::vector<PaintedExemplar> exemplars = {make_exemplar(true)};
   const Grid<glm::vec3> base(1, 1);
-  EXPECT_THROW(transfer_residual(MatchField(1, 1, Match{1, 0, 0}), exemplars, base, 0.5), Error);
-  EXPECT_THROW(transfer_residual(MatchField(1, 1, Match{0, 3, 0}), exemplars, base, 0.5), Error);
-  EXPECT_THROW(transfer_residual(MatchField(2, 1), exemplars, base, 0.5), Error);
+  EXPECT_THROW(transfer_residual(MatchField(1, 1, Match{1, 0, 0}), exemplars, base, {}, 0.5), Error);
+  EXPECT_THROW(transfer_residual(MatchField(1, 1, Match{0, 3, 0}), exemplars, base, {}, 0.5), Error);
+  EXPECT_THROW(transfer_residual(MatchField(2, 1), exemplars, base, {}, 0.5), Error);
 }
 
 // The part of pixel x, y (centre at whole numbers) below the line v = slope u + offset, by 64 × 64 samples: fine enough for 1e-3.
