@@ -71,6 +71,7 @@ LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progr
   LandCoverParameters parameters;
   parameters.sources = to_raster_sources(loaded, wish.sources);
   parameters.legend = name_or_file(loaded, wish.legend);
+  parameters.folders = loaded.allowed_folders;
   parameters.unknown = wish.unknown;
   parameters.nodata = wish.nodata;
   return read_land_cover(parameters, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);

@@ -196,14 +196,37 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
 
 namespace {
 
-// Distance of every post to the nearest that is not known: the border's own posts, and voids that were filled.
+// 1 where the known terrain ends: the border's own posts and the filled voids that reach the border. A void in the middle of known
+// terrain is a flaw that filling has mended, no end of the world.
+Grid<std::uint8_t> outside(const Dem& dem) {
+  const int width = dem.width();
+  const int height = dem.height();
+  Grid<std::uint8_t> out(width, height, 0);
+  std::vector<glm::ivec2> open;
+  const auto mark = [&](int x, int y) {
+    if (!out.contains(x, y) || out(x, y) != 0) return;
+    out(x, y) = 1;
+    open.emplace_back(x, y);
+  };
+  for (int x = 0; x < width; ++x) mark(x, 0), mark(x, height - 1);
+  for (int y = 0; y < height; ++y) mark(0, y), mark(width - 1, y);
+  if (dem.filled.empty()) return out;
+  while (!open.empty()) {
+    const glm::ivec2 at = open.back();
+    open.pop_back();
+    for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+      const glm::ivec2 next = at + step;
+      if (dem.filled.contains(next.x, next.y) && dem.filled(next.x, next.y) != 0) mark(next.x, next.y);
+    }
+  }
+  return out;
+}
+
+// Distance of every post to the nearest that lies outside.
 Grid<float> rim_distance(const Dem& dem) {
   const int width = dem.width();
   const int height = dem.height();
-  Grid<std::uint8_t> rim = dem.filled.empty() ? Grid<std::uint8_t>(width, height, 0) : dem.filled;
-  for (int x = 0; x < width; ++x) rim(x, 0) = rim(x, height - 1) = 1;
-  for (int y = 0; y < height; ++y) rim(0, y) = rim(width - 1, y) = 1;
-  const Grid<std::int32_t> nearest = nearest_marked(rim);
+  const Grid<std::int32_t> nearest = nearest_marked(outside(dem));
   Grid<float> distance(width, height);
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {

@@ -21,7 +21,7 @@ struct TerrainModel {
   Grid<float> shape_smooth_m;                      // generalized after a Gaussian of 120 m: normal_smooth, fall line
   Grid<float> relief_s_m, relief_m_m, relief_l_m;  // z(30 m) - z(180 m), z(30 m) - z(750 m), z(120 m) - z(1800 m)
   Grid<float> valley_height_m;                     // above the lowest ground within 900 m
-  Grid<float> rim_m;                               // distance to the edge of the DEM or the nearest filled void
+  Grid<float> rim_m;                               // distance to where the known terrain ends
   LandCover land_cover;
   double exaggeration = 1.0;  // of light's normals
   double detail_boost = 1.5;  // further exaggeration of normal_detail (look/recipe.md: slopes × 1.6 × 1.5)

@@ -37,7 +37,7 @@ struct GuidanceBuffers {
   Grid<float> relief_m_m;         // … of about 750 m
   Grid<float> relief_l_m;         // … of about 1.8 km
   Grid<float> valley_height_m;    // height above the lowest ground within 900 m
-  Grid<float> rim_m;              // distance on the ground to where the terrain ends or a void was filled
+  Grid<float> rim_m;              // distance on the ground to where the known terrain ends
   Grid<float> tone;               // the scalar light that indexes palettes, 0…1
   Image base;                     // strokeless base picture, scene-linear
 
