@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "renderer/base/error.h"
@@ -14,7 +15,13 @@
 namespace belvedere {
 namespace {
 
-// What is left at the shore of a kept lake fades in over so many cells.
+// The change that a kept lake would have had is taken off the land around it as well, less and less over so many cells: a
+// valley whose floor sinks must not leave its lake on a table.
+constexpr float surroundings_cells = 32.0F;
+// That change is a mean over this deviation, so that no seams run between lakes; in blocks, because it is smooth.
+constexpr int block_cells = 4;
+constexpr double mean_cells = 10.0;
+// What is left of the change at the shore itself fades in over so many cells.
 constexpr float shore_cells = 6.0F;
 // The crest terms of the recipe end with the fourth band.
 constexpr int crest_bands = 4;
@@ -125,17 +132,55 @@ void add_crests(Grid<float>& change, const CrestTerms& crests, const Grid<float>
   });
 }
 
-// No change in lakes, all of it from six cells off the shore.
-void fade_towards_lakes(Grid<float>& change, const Grid<unsigned char>& keep) {
+float smoothstep(float t) { return t * t * (3.F - 2.F * t); }
+
+// Distance from a cell to its nearest lake cell, cells; there is a lake.
+float shore_distance(const Grid<std::int32_t>& nearest, int x, int y) {
+  const std::int32_t shore = nearest(x, y);
+  const auto dx = static_cast<float>(shore % nearest.width() - x);
+  const auto dy = static_cast<float>(shore / nearest.width() - y);
+  return std::sqrt(dx * dx + dy * dy);
+}
+
+// What lakes take off the change around them, in blocks of block_cells: the mean change of the lake cells nearby, fading with the
+// distance. The last blur rounds the creases that the distance has halfway between two shores.
+Grid<float> pull_of_lakes(const Grid<float>& change, const Grid<unsigned char>& keep, const Grid<std::int32_t>& nearest) {
+  Grid<float> sum((change.width() + block_cells - 1) / block_cells, (change.height() + block_cells - 1) / block_cells);
+  Grid<float> count(sum.width(), sum.height());
+  parallel_rows(sum.height(), [&](int block) {
+    for (int y = block * block_cells; y < std::min((block + 1) * block_cells, change.height()); ++y) {
+      for (int x = 0; x < change.width(); ++x) {
+        if (keep(x, y) == 0) continue;
+        sum(x / block_cells, block) += change(x, y);
+        count(x / block_cells, block) += 1.F;
+      }
+    }
+  });
+  Grid<float> pull = gaussian_blur(sum, mean_cells / block_cells);
+  count = gaussian_blur(count, mean_cells / block_cells);
+  parallel_rows(pull.height(), [&](int y) {
+    for (int x = 0; x < pull.width(); ++x) {
+      const int middle_x = std::min(x * block_cells + block_cells / 2, change.width() - 1);
+      const int middle_y = std::min(y * block_cells + block_cells / 2, change.height() - 1);
+      const float fade = 1.F - smoothstep(unit(shore_distance(nearest, middle_x, middle_y) / surroundings_cells));
+      pull(x, y) = count(x, y) > 0.F ? fade * pull(x, y) / count(x, y) : 0.F;
+    }
+  });
+  return gaussian_blur(pull, 1.5);
+}
+
+// No change in lakes, little of it beside them, all of it farther off.
+void settle_around_lakes(Grid<float>& change, const Grid<unsigned char>& keep) {
   const Grid<std::int32_t> nearest = nearest_marked(keep);
-  const int width = change.width();
+  const Grid<float> pull = pull_of_lakes(change, keep, nearest);
   parallel_rows(change.height(), [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const std::int32_t shore = nearest(x, y);
-      if (shore < 0) continue;
-      const float distance = std::hypot(static_cast<float>(shore % width - x), static_cast<float>(shore / width - y));
-      const float t = unit(distance / shore_cells);
-      change(x, y) *= t * t * (3.F - 2.F * t);
+    for (int x = 0; x < change.width(); ++x) {
+      const float distance = shore_distance(nearest, x, y);
+      if (distance >= 1.5F * surroundings_cells) continue;  // beyond the reach of the last blur
+      // Block centres lie at 1.5, 5.5, 9.5… cells.
+      const double u = (x - 0.5 * (block_cells - 1)) / block_cells;
+      const double v = (y - 0.5 * (block_cells - 1)) / block_cells;
+      change(x, y) = (change(x, y) - sample_bspline(pull, u, v)) * smoothstep(unit(distance / shore_cells));
     }
   });
 }
@@ -194,7 +239,7 @@ Grid<float> generalize(const Grid<float>& altitude_m, const Grid<float>& foregro
     add_crests(change, find_crests(levels.altitude_m), has_share ? &foreground_share : nullptr, parameters.crest);
   }
   if (change.empty()) return altitude_m;
-  if (has_lakes) fade_towards_lakes(change, keep);
+  if (has_lakes) settle_around_lakes(change, keep);
   parallel_rows(change.height(), [&](int y) {
     const float* a = altitude_m.row(y);
     float* out = change.row(y);

@@ -20,8 +20,9 @@ struct GeneralizeParameters {
 
 // Equations 1, 2 and 5: A' = G_1 + Σ w_i L_i with w_i = u w_fore + (1-u) w_back. `foreground_share` is u per cell (1 near, 0 far), made
 // by the caller from the camera, and reduced through the same pyramid for coarser bands; empty means 1 everywhere.
-// Cells of `keep` != 0 (lakes) keep their altitude exactly; empty: none. No step stands at their shore: as in equation 6 each
-// band's weight returns to 1 towards them, by the mask's own Gaussian pyramid, and what is left fades out over six cells.
+// Cells of `keep` != 0 (lakes) keep their altitude exactly; empty: none. No step stands at their shore and none are left on a table
+// above a lowered valley: as in equation 6 each band's weight returns to 1 towards them, by the mask's own Gaussian pyramid, the
+// change still left in the lake is taken off the land around it, fading over 32 cells, and the rest off the last six.
 // A DEM too small for all bands goes without the coarsest. Unit weights and no crest return the input exactly.
 // Throws Error(usage) where the two sets of weights differ in number, Error(bug) where grids differ in size.
 Grid<float> generalize(const Grid<float>& altitude_m, const Grid<float>& foreground_share, const Grid<unsigned char>& keep,

@@ -167,6 +167,26 @@ TEST(Generalize, NoStepStandsAtTheShore) {
   EXPECT_NEAR(out(3, 3), free(3, 3), 1.0);
 }
 
+TEST(Generalize, LakesAreNotLeftOnATable) {
+  // A broad valley with a lake 12 cells wide on its level floor. Amplified coarse bands lower the floor far; the lake stays,
+  // so the floor must come up to it, over many cells.
+  Grid<float> valley(200, 200);
+  Grid<unsigned char> keep(200, 200);
+  for (int y = 0; y < 200; ++y) {
+    for (int x = 0; x < 200; ++x) {
+      valley(x, y) = 600.F + 800.F * std::clamp((static_cast<float>(std::abs(x - 100)) - 25.F) / 40.F, 0.F, 1.F);
+      keep(x, y) = std::abs(x - 100) < 6 && std::abs(y - 100) < 20;
+    }
+  }
+  const GeneralizeParameters parameters{{2.F, 2.F, 1.5F, .5F, .5F, .5F}, {1, 1, 1, 1, 1, 1}, 0.F};
+  const double sinking = 600.0 - generalize(valley, parameters)(100, 100);
+  EXPECT_GT(sinking, 100.0);
+  const Grid<float> out = generalize(valley, parameters, {}, keep);
+  double steepest = 0.0;
+  for (int i = 0; i < 60; ++i) steepest = std::max(steepest, std::abs(static_cast<double>(out(100, 119 + i)) - out(100, 120 + i)));
+  EXPECT_LT(steepest, 0.055 * sinking);  // a cell; evenly over 32 cells it were .031
+}
+
 TEST(Generalize, CrestsRiseWhereTheyAreHighOnly) {
   // A roof-shaped crest 10 cells across on ground of a given altitude.
   const auto roof = [](float ground) {
