@@ -1,0 +1,117 @@
+#include "bench.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <limits>
+
+#include "renderer/base/error.h"
+#include "renderer/base/parallel.h"
+
+namespace belvedere::bench {
+
+std::vector<Measurement> bench_generalize(const Options&);
+std::vector<Measurement> bench_guidance(const Options&);
+std::vector<Measurement> bench_trace(const Options&);
+
+namespace {
+
+const std::vector<Section>& sections() {
+  static const std::vector<Section> all = {
+      {"trace", "building the structure and tracing rays, beside a bare Embree loop over the same rays", &bench_trace},
+      {"guidance", "a whole picture's guidance buffers", &bench_guidance},
+      {"generalize", "generalization of the terrain", &bench_generalize},
+  };
+  return all;
+}
+
+double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
+
+rusage used() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage;
+}
+
+std::string json_text(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+}  // namespace
+
+Cost measure(const std::function<void()>& work) {
+  const rusage before = used();
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  const rusage after = used();
+  return {wall.count(), seconds(after.ru_utime) + seconds(after.ru_stime) - seconds(before.ru_utime) - seconds(before.ru_stime)};
+}
+
+std::vector<Cost> measure_fastest(int repeats, const std::vector<std::function<void()>>& works) {
+  std::vector<Cost> best(works.size(), {0.0, std::numeric_limits<double>::infinity()});
+  for (int r = 0; r < repeats; ++r) {
+    for (std::size_t i = 0; i < works.size(); ++i) {
+      const Cost cost = measure(works[i]);
+      if (cost.cpu_s < best[i].cpu_s) best[i] = cost;
+    }
+  }
+  return best;
+}
+
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App app("Measures the speed of Belvedere's stages on made-up terrain and prints JSON.");
+  Options options;
+  int threads = 0;
+  std::string only;
+  std::string sections_text;
+  for (const Section& section : sections()) sections_text += fmt::format("{}  {}\n", section.name, section.meaning);
+  app.footer("Sections:\n" + sections_text);
+  app.add_option("--size", options.sizes, "Cells on a side of the terrain")->check(CLI::Range(64, 16384))->capture_default_str();
+  app.add_option("--repeats", options.repeats, "Runs of each measurement; the fastest counts")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  app.add_option("--threads", threads, "Threads; 0 for all")->check(CLI::Range(0, 1024));
+  app.add_option("section", only, "The section to run; all by default");
+  CLI11_PARSE(app, argc, argv);
+  const auto wanted = [&](const Section& section) { return only.empty() || section.name == only; };
+  if (std::none_of(sections().begin(), sections().end(), wanted)) throw Error(ErrorKind::usage, "section", only, sections_text);
+  const ThreadLimit limit(threads);
+
+  std::string body;
+  for (const Section& section : sections()) {
+    if (!wanted(section)) continue;
+    std::string lines;
+    for (const Measurement& m : section.run(options)) {
+      lines += fmt::format("{}\n    {{\"name\": {}, \"value\": {:.6g}, \"unit\": {}}}", lines.empty() ? "" : ",", json_text(m.name),
+                           m.value, json_text(m.unit));
+    }
+    body += fmt::format("{}\n  {}: [{}\n  ]", body.empty() ? "" : ",", json_text(section.name), lines);
+  }
+  body += fmt::format("{}\n  \"peak_memory_mb\": {:.1f}", body.empty() ? "" : ",", static_cast<double>(used().ru_maxrss) / 1024.0);
+  fmt::print("{{{}\n}}\n", body);
+  return 0;
+}
+
+}  // namespace
+}  // namespace belvedere::bench
+
+int main(int argc, char** argv) {
+  try {
+    return belvedere::bench::run(argc, argv);
+  } catch (const belvedere::Error& error) {
+    fmt::print(stderr, "bench: {}\n", error.what());
+    return error.exit_status();
+  }
+}

@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <numbers>
+
+#include "bare_embree.h"
+#include "bench.h"
+#include "bench_terrain.h"
+#include "renderer/base/error.h"
+#include "renderer/base/parallel.h"
+#include "renderer/tracer.h"
+
+namespace belvedere::bench {
+
+std::vector<Measurement> bench_trace(const Options&);
+
+namespace {
+
+constexpr std::size_t task_packets = 64;  // 1024 rays a task
+
+// f(first, last) over packets of 16 rays.
+template <class F>
+void for_packets(std::size_t packets, F&& f) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets, task_packets),
+                    [&](const tbb::blocked_range<std::size_t>& range) { f(range.begin(), range.end()); });
+}
+
+struct Race {
+  const char* name;
+  std::vector<Ray> rays;  // a multiple of 16
+  double reach_m;
+  bool nearest;  // intersect, else occluded
+};
+
+void run_race(const Race& race, const Tracer& tracer, BareEmbree& bare, const std::string& size, int repeats,
+              std::vector<Measurement>& out) {
+  std::vector<Hit> hits(race.nearest ? race.rays.size() : 0);
+  std::vector<std::uint8_t> blocked(race.nearest ? 0 : race.rays.size());
+  bare.prepare(race.rays, race.reach_m);
+  const std::size_t packets = bare.packets();
+  const auto ours = [&] {
+    for_packets(packets, [&](std::size_t first, std::size_t last) {
+      const std::span rays = std::span(race.rays).subspan(first * 16, (last - first) * 16);
+      if (race.nearest) {
+        tracer.intersect(rays, std::span(hits).subspan(first * 16, rays.size()));
+      } else {
+        tracer.occluded(rays, race.reach_m, std::span(blocked).subspan(first * 16, rays.size()));
+      }
+    });
+  };
+  const auto theirs = [&] {
+    for_packets(packets, [&](std::size_t first, std::size_t last) {
+      if (race.nearest) {
+        bare.intersect(first, last);
+      } else {
+        bare.occluded(first, last);
+      }
+    });
+  };
+  const std::vector<Cost> costs = measure_fastest(repeats, {ours, theirs});
+  // Both must have done the same work; a ray that grazes an edge may differ.
+  std::size_t found = 0;
+  for (const Hit& hit : hits) found += hit.found ? 1 : 0;
+  for (const std::uint8_t b : blocked) found += b;
+  const auto difference = std::abs(static_cast<double>(found) - static_cast<double>(bare.count_hits()));
+  if (difference > 1e-4 * static_cast<double>(race.rays.size())) {
+    throw Error(ErrorKind::bug, "bench trace", fmt::format("{}: {} hits against {}", race.name, found, bare.count_hits()));
+  }
+  const double count = static_cast<double>(race.rays.size());
+  out.push_back({fmt::format("{}/{}_rays", size, race.name), count * 1e-6, "Mrays"});
+  out.push_back({fmt::format("{}/{}", size, race.name), count / costs[0].cpu_s * 1e-6, "Mrays/CPU s"});
+  out.push_back({fmt::format("{}/{}_wall", size, race.name), count / costs[0].wall_s * 1e-6, "Mrays/s"});
+  out.push_back({fmt::format("{}/{}_bare_embree", size, race.name), count / costs[1].cpu_s * 1e-6, "Mrays/CPU s"});
+  out.push_back({fmt::format("{}/{}_ratio", size, race.name), costs[1].cpu_s / costs[0].cpu_s, "of bare Embree"});
+}
+
+// Secondary rays from the hits, in whole packets of one direction.
+std::vector<Ray> rays_from(const std::vector<Ray>& primary, const std::vector<Hit>& hits, glm::dvec3 direction) {
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits[i].found) continue;
+    rays.push_back(
+        {primary[i].origin + primary[i].direction * hits[i].distance_m + 0.05 * hits[i].facet_normal, glm::normalize(direction)});
+  }
+  rays.resize(rays.size() / 16 * 16);
+  return rays;
+}
+
+}  // namespace
+
+std::vector<Measurement> bench_trace(const Options& options) {
+  std::vector<Measurement> out;
+  for (const int size : options.sizes) {
+    const std::string name = fmt::format("{}²", size);
+    const Dem dem = make_bench_dem(size);
+    const DeformedSurface surface = make_bench_surface(dem);
+    const double cells = static_cast<double>(dem.altitude_m.size());
+    std::unique_ptr<Tracer> tracer;
+    const Cost build = measure([&] { tracer = std::make_unique<Tracer>(surface); });
+    out.push_back({name + "/build", cells / build.cpu_s * 1e-6, "Mcells/CPU s"});
+    out.push_back({name + "/build_wall", build.wall_s, "s"});
+    out.push_back({name + "/structure", static_cast<double>(tracer->memory_bytes()) / cells, "bytes/cell"});
+    BareEmbree bare(surface);
+
+    const auto camera = make_camera(bench_view(dem, 1600, 800));
+    Race primary{"primary", bundle_rays(*camera), 1e9, true};
+    std::vector<Hit> hits(primary.rays.size());
+    tracer->intersect(primary.rays, hits);
+    run_race(primary, *tracer, bare, name, options.repeats, out);
+    run_race({"shadow", rays_from(primary.rays, hits, {-0.612, 0.612, 0.5}), 1e9, false}, *tracer, bare, name, options.repeats, out);
+    // Four directions of the sky, from near the zenith to low.
+    std::vector<Ray> sky;
+    for (int k = 0; k < 4; ++k) {
+      const double u = (k + 0.5) / 4.0;
+      const double turn = 2.0 * std::numbers::pi * 0.618 * k;
+      const std::vector<Ray> some =
+          rays_from(primary.rays, hits, {std::cos(turn) * std::sqrt(u), std::sin(turn) * std::sqrt(u), std::sqrt(1.0 - u)});
+      sky.insert(sky.end(), some.begin(), some.end());
+    }
+    run_race({"sky", std::move(sky), 12000.0, false}, *tracer, bare, name, options.repeats, out);
+  }
+  return out;
+}
+
+}  // namespace belvedere::bench
