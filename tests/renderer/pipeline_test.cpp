@@ -1,0 +1,167 @@
+#include "renderer/pipeline.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "renderer/base/error.h"
+#include "renderer/guidance_io.h"
+#include "renderer/image_io.h"
+
+namespace belvedere {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A small whole: made-up terrain, painted sheet, synthesis, strokes, files.
+constexpr const char* small_scene = R"(
+version = 1
+[terrain.synthetic]
+width = 200
+height = 220
+cell_m = 90
+seed = 3
+[deform]
+exaggeration = 1.5
+[camera]
+position = [9000, -6000]
+height_m = 9000
+pitch_deg = -22
+[sun]
+azimuth_deg = 235
+[[exemplar]]
+width = 240
+height = 180
+[output]
+width = 200
+height = 120
+sheet_width_mm = 150
+)";
+
+class Pipeline : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("belvedere_pipeline_" + std::to_string(getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string out(const std::string& name) const { return (folder_ / name).string(); }
+  LoadedScene scene(const std::vector<std::string>& settings = {}) const {
+    return parse_scene(small_scene, "small.toml", folder_.string(), {.data_folders = {}, .settings = settings});
+  }
+  static std::string bytes(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  static void expect_same_files(const std::string& a, const std::string& b) {
+    for (const char* file : {"panorama.tif", "panorama.png", "panorama.exr", "guidance.exr"}) {
+      const std::string left = bytes(a + "/" + file);
+      EXPECT_FALSE(left.empty()) << file;
+      EXPECT_TRUE(left == bytes(b + "/" + file)) << file;
+    }
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Pipeline, SameBytesForAnyThreadsAndTiles) {
+  render(scene(), {.out_folder = out("a"), .threads = 1, .tile_size = 32}, silent_progress());
+  render(scene(), {.out_folder = out("b"), .threads = 2, .tile_size = 64}, silent_progress());
+  expect_same_files(out("a"), out("b"));
+}
+
+TEST_F(Pipeline, GuidanceAloneEqualsGuidanceOfTheWholeRender) {
+  // Taller than one band of the streamed file, with a margin on both sides of its seams.
+  const std::vector<std::string> tall = {"output.height=1100", "output.width=96", "output.sheet_width_mm=96", "synthesis.enabled=false", "sampling.pixel_samples=1"};
+  render(scene(tall), {.out_folder = out("a")}, silent_progress());
+  render_guidance(scene(tall), {.out_folder = out("b")}, silent_progress());
+  EXPECT_TRUE(bytes(out("a/guidance.exr")) == bytes(out("b/guidance.exr")));
+}
+
+TEST_F(Pipeline, PanoramaShowsSkyOverTerrainAndIsPainted) {
+  render(scene(), {.out_folder = out("a")}, silent_progress());
+  const Grid<glm::vec3> picture = read_picture(out("a/panorama.tif"));
+  const GuidanceBuffers guidance = read_guidance(out("a/guidance.exr"));
+  ASSERT_EQ(picture.width(), 200);
+  ASSERT_EQ(picture.height(), 120);
+  EXPECT_TRUE(guidance.is_sky(guidance.depth_m.index(100, 0)));
+  EXPECT_FALSE(guidance.is_sky(guidance.depth_m.index(100, 119)));
+  // Sky is bluer than it is red; the ground differs from its strokeless base.
+  EXPECT_GT(picture(100, 0).z, picture(100, 0).x + 0.1F);
+  double difference = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    if (guidance.is_sky(i)) continue;
+    const double base = std::pow(static_cast<double>(guidance.base[i].y), 1.0 / 2.2);
+    difference += std::abs(picture[i].y - base);
+    ++count;
+  }
+  EXPECT_GT(difference / count, 0.01);
+  EXPECT_LT(difference / count, 0.12);
+}
+
+TEST_F(Pipeline, EveryFileSaysWhatMadeIt) {
+  render(scene(), {.out_folder = out("a")}, silent_progress());
+  for (const char* file : {"panorama.tif", "panorama.exr", "guidance.exr"}) {
+    const ImageInfo info = read_image_info(out("a/") + file);
+    ASSERT_TRUE(info.notes.contains("belvedere:scene")) << file;
+    EXPECT_NE(info.notes.at("belvedere:scene").find("[terrain.synthetic]"), std::string::npos) << file;
+    EXPECT_TRUE(info.notes.contains("belvedere:camera")) << file;
+  }
+}
+
+TEST_F(Pipeline, AnOutputThatCannotBeWrittenIsRefusedBeforeTheWork) {
+  std::ofstream(out("file")) << "no folder";
+  try {
+    render(scene(), {.out_folder = out("file") + "/below"}, silent_progress());
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::output);
+  }
+}
+
+TEST_F(Pipeline, APictureBeyondMemoryIsRefusedWithTheEstimate) {
+  try {
+    render(scene({"output.width=60000", "output.height=60000"}), {.out_folder = out("a")}, silent_progress());
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_NE(std::string(error.what()).find("MiB"), std::string::npos);
+  }
+}
+
+TEST_F(Pipeline, AnEyeBelowTheGroundIsRefusedWithTheHeight) {
+  try {
+    render(scene({"camera.position=[9000, 9000]", "camera.height_m=-500"}), {.out_folder = out("a")}, silent_progress());
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_NE(std::string(error.what()).find("below the ground"), std::string::npos);
+  }
+}
+
+TEST_F(Pipeline, ASunBelowTheHorizonIsNotedAndLeavesSkyLight) {
+  struct Notes : Progress {
+    std::string all;
+    void note(std::string_view text) override { all += text; }
+  } notes;
+  render_guidance(scene({"sun.altitude_deg=-5"}), {.out_folder = out("a")}, notes);
+  EXPECT_NE(notes.all.find("below the horizon"), std::string::npos);
+  const GuidanceBuffers guidance = read_guidance(out("a/guidance.exr"));
+  for (std::size_t i = 0; i < guidance.shadow.size(); ++i) {
+    if (!guidance.is_sky(i)) {
+      ASSERT_EQ(guidance.shadow[i], 0.F);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace belvedere
