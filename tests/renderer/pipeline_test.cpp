@@ -45,8 +45,17 @@ sheet_width_mm = 150
 
 class Pipeline : public testing::Test {
  protected:
+  // One render that several tests look at: on one thread.
+  static void SetUpTestSuite() {
+    rendered_ = (fs::temp_directory_path() / ("belvedere_pipeline_" + std::to_string(getpid()))).string();
+    render(parse_scene(small_scene, "small.toml", ".", {}), {.out_folder = rendered_, .threads = 1, .tile_size = 32}, silent_progress());
+  }
+  static void TearDownTestSuite() { fs::remove_all(rendered_); }
+  static inline std::string rendered_;
+
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("belvedere_pipeline_" + std::to_string(getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = fs::temp_directory_path() /
+              ("belvedere_pipeline_" + std::to_string(getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
@@ -73,23 +82,22 @@ class Pipeline : public testing::Test {
 };
 
 TEST_F(Pipeline, SameBytesForAnyThreadsAndTiles) {
-  render(scene(), {.out_folder = out("a"), .threads = 1, .tile_size = 32}, silent_progress());
   render(scene(), {.out_folder = out("b"), .threads = 2, .tile_size = 64}, silent_progress());
-  expect_same_files(out("a"), out("b"));
+  expect_same_files(rendered_, out("b"));
 }
 
 TEST_F(Pipeline, GuidanceAloneEqualsGuidanceOfTheWholeRender) {
   // Taller than one band of the streamed file, with a margin on both sides of its seams.
-  const std::vector<std::string> tall = {"output.height=1100", "output.width=96", "output.sheet_width_mm=96", "synthesis.enabled=false", "sampling.pixel_samples=1"};
+  const std::vector<std::string> tall = {"output.height=1100", "output.width=96", "output.sheet_width_mm=96", "synthesis.enabled=false",
+                                         "sampling.pixel_samples=1"};
   render(scene(tall), {.out_folder = out("a")}, silent_progress());
   render_guidance(scene(tall), {.out_folder = out("b")}, silent_progress());
   EXPECT_TRUE(bytes(out("a/guidance.exr")) == bytes(out("b/guidance.exr")));
 }
 
 TEST_F(Pipeline, PanoramaShowsSkyOverTerrainAndIsPainted) {
-  render(scene(), {.out_folder = out("a")}, silent_progress());
-  const Grid<glm::vec3> picture = read_picture(out("a/panorama.tif"));
-  const GuidanceBuffers guidance = read_guidance(out("a/guidance.exr"));
+  const Grid<glm::vec3> picture = read_picture(rendered_ + "/panorama.tif");
+  const GuidanceBuffers guidance = read_guidance(rendered_ + "/guidance.exr");
   ASSERT_EQ(picture.width(), 200);
   ASSERT_EQ(picture.height(), 120);
   EXPECT_TRUE(guidance.is_sky(guidance.depth_m.index(100, 0)));
@@ -109,9 +117,8 @@ TEST_F(Pipeline, PanoramaShowsSkyOverTerrainAndIsPainted) {
 }
 
 TEST_F(Pipeline, EveryFileSaysWhatMadeIt) {
-  render(scene(), {.out_folder = out("a")}, silent_progress());
   for (const char* file : {"panorama.tif", "panorama.exr", "guidance.exr"}) {
-    const ImageInfo info = read_image_info(out("a/") + file);
+    const ImageInfo info = read_image_info(rendered_ + "/" + file);
     ASSERT_TRUE(info.notes.contains("belvedere:scene")) << file;
     EXPECT_NE(info.notes.at("belvedere:scene").find("[terrain.synthetic]"), std::string::npos) << file;
     EXPECT_TRUE(info.notes.contains("belvedere:camera")) << file;
