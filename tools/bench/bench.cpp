@@ -14,6 +14,7 @@
 
 namespace belvedere::bench {
 
+std::vector<Measurement> bench_files(const Options&);
 std::vector<Measurement> bench_generalize(const Options&);
 std::vector<Measurement> bench_guidance(const Options&);
 std::vector<Measurement> bench_trace(const Options&);
@@ -25,6 +26,7 @@ const std::vector<Section>& sections() {
       {"trace", "building the structure and tracing rays, beside a bare Embree loop over the same rays", &bench_trace},
       {"guidance", "a whole picture's guidance buffers", &bench_guidance},
       {"generalize", "generalization of the terrain", &bench_generalize},
+      {"files", "writing and reading TIFF, PNG and OpenEXR", &bench_files},
   };
   return all;
 }
