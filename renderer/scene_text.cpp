@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <cmath>
 
+#include "renderer/base/json.h"
 #include "renderer/camera.h"
 #include "renderer/scene_file.h"
 #include "renderer/scene_schema.h"
@@ -11,28 +12,11 @@
 namespace belvedere {
 namespace {
 
-// A basic string of TOML; the same escapes are JSON's.
-std::string quoted(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (c == '\n')
-      out += "\\n";
-    else if (c == '\t')
-      out += "\\t";
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
-    else
-      out += c;
-  }
-  return out + "\"";
-}
-
 std::string bare_key(std::string_view key) {
   const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   });
-  return bare ? std::string(key) : quoted(key);
+  return bare ? std::string(key) : json_quoted(key);
 }
 
 template <class List>
@@ -48,14 +32,14 @@ struct ValueWriter {
   std::string operator()(const double* field) const { return fmt::format("{}", *field); }  // shortest that reads back the same
   std::string operator()(const float* field) const { return fmt::format("{}", *field); }
   std::string operator()(const std::optional<double>* field) const { return *field ? fmt::format("{}", **field) : ""; }
-  std::string operator()(const std::string* field) const { return field->empty() ? "" : quoted(*field); }
+  std::string operator()(const std::string* field) const { return field->empty() ? "" : json_quoted(*field); }
   std::string operator()(const std::optional<glm::dvec2>* field) const {
     return *field ? bracketed(std::array{(*field)->x, (*field)->y}) : "";
   }
   std::string operator()(const std::array<double, 2>* field) const { return bracketed(*field); }
   std::string operator()(const std::optional<std::array<double, 4>>* field) const { return *field ? bracketed(**field) : ""; }
   std::string operator()(const std::vector<float>* field) const { return bracketed(*field); }
-  std::string operator()(const std::optional<LandCoverClass>* field) const { return *field ? quoted(class_name(**field)) : ""; }
+  std::string operator()(const std::optional<LandCoverClass>* field) const { return *field ? json_quoted(class_name(**field)) : ""; }
   std::string operator()(const std::vector<std::pair<std::string, double>>* field) const {
     std::vector<std::string> entries;
     for (const auto& [name, number] : *field) entries.push_back(fmt::format("{} = {}", bare_key(name), number));
@@ -63,7 +47,7 @@ struct ValueWriter {
   }
   std::string operator()(const std::vector<std::pair<LandCoverClass, LandCoverClass>>* field) const {
     std::vector<std::string> entries;
-    for (const auto& [from, to] : *field) entries.push_back(fmt::format("{} = {}", class_name(from), quoted(class_name(to))));
+    for (const auto& [from, to] : *field) entries.push_back(fmt::format("{} = {}", class_name(from), json_quoted(class_name(to))));
     return entries.empty() ? "" : fmt::format("{{ {} }}", fmt::join(entries, ", "));
   }
 };
@@ -92,47 +76,13 @@ Scene full_scene() {
   return scene;
 }
 
-// A JSON value under construction: text of a scalar, or members.
-class Json {
- public:
-  Json(std::string scalar = "{}") : scalar_(std::move(scalar)) {}  // NOLINT(google-explicit-constructor): rows read as data
-  Json& add(std::string_view key, Json value) {
-    members_.emplace_back(key, std::move(value));
-    return *this;
-  }
-  static Json array(std::vector<Json> elements) {
-    Json out("[]");
-    for (Json& element : elements) out.members_.emplace_back("", std::move(element));
-    return out;
-  }
-  static Json strings(const std::vector<std::string>& texts) {
-    std::vector<Json> elements;
-    for (const std::string& text : texts) elements.emplace_back(quoted(text));
-    return array(std::move(elements));
-  }
-  std::string text(int depth = 0) const {
-    if (members_.empty()) return scalar_;
-    const std::string indent(static_cast<std::size_t>(2 * depth + 2), ' ');
-    const bool is_array = scalar_ == "[]";
-    std::string out;
-    for (const auto& [key, value] : members_)
-      out += (out.empty() ? "\n" : ",\n") + indent + (is_array ? "" : quoted(key) + ": ") + value.text(depth + 1);
-    out += "\n" + indent.substr(2);
-    return is_array ? "[" + out + "]" : "{" + out + "}";
-  }
-
- private:
-  std::string scalar_;
-  std::vector<std::pair<std::string, Json>> members_;
-};
-
-Json typed(std::string_view type) { return Json().add("type", quoted(type)); }
+Json typed(std::string_view type) { return Json::object().add("type", Json::text(type)); }
 
 Json number_schema(std::string_view type, const SceneRange& range) {
   Json out = typed(type);
-  if (std::abs(range.min) < std::numeric_limits<double>::infinity()) out.add("minimum", fmt::format("{}", range.min));
-  if (range.above_min) out.add("exclusiveMinimum", std::string("true"));  // draft 4: a boolean beside minimum
-  if (std::abs(range.max) < std::numeric_limits<double>::infinity()) out.add("maximum", fmt::format("{}", range.max));
+  if (std::abs(range.min) < std::numeric_limits<double>::infinity()) out.add("minimum", Json::number(range.min));
+  if (range.above_min) out.add("exclusiveMinimum", Json::boolean(true));  // draft 4: a boolean beside minimum
+  if (std::abs(range.max) < std::numeric_limits<double>::infinity()) out.add("maximum", Json::number(range.max));
   return out;
 }
 
@@ -142,10 +92,10 @@ struct SchemaOfField {
   Json list(std::size_t least, std::size_t most) const {
     return typed("array")
         .add("items", number_schema("number", key.range))
-        .add("minItems", std::to_string(least))
-        .add("maxItems", std::to_string(most));
+        .add("minItems", Json::number(static_cast<double>(least)))
+        .add("maxItems", Json::number(static_cast<double>(most)));
   }
-  Json classes() const { return typed("string").add("enum", Json::strings(ground_class_names())); }
+  Json classes() const { return typed("string").add("enum", Json::texts(ground_class_names())); }
 
   Json operator()(bool*) const { return typed("boolean"); }
   Json operator()(int*) const { return number_schema("integer", key.range); }
@@ -157,8 +107,8 @@ struct SchemaOfField {
     if (!key.lonlat) return list(2, 2);
     return typed("array")
         .add("items", Json::array({number_schema("number", {-180.0, 180.0}), number_schema("number", {-90.0, 90.0})}))
-        .add("minItems", std::string("2"))
-        .add("additionalItems", std::string("false"));
+        .add("minItems", Json::number(2))
+        .add("additionalItems", Json::boolean(false));
   }
   Json operator()(std::array<double, 2>*) const { return list(2, 2); }
   Json operator()(std::optional<std::array<double, 4>>*) const { return list(4, 4); }
@@ -166,22 +116,22 @@ struct SchemaOfField {
   Json operator()(std::optional<LandCoverClass>*) const { return classes(); }
   Json operator()(std::vector<std::pair<std::string, double>>*) const {
     if (key.choices.empty()) return typed("object").add("additionalProperties", number_schema("number", key.range));
-    Json names;
+    Json names = Json::object();
     for (const std::string& name : key.choices) names.add(name, number_schema("number", key.range));
-    return typed("object").add("properties", names).add("additionalProperties", std::string("false"));
+    return typed("object").add("properties", names).add("additionalProperties", Json::boolean(false));
   }
   Json operator()(std::vector<std::pair<LandCoverClass, LandCoverClass>>*) const {
-    Json names;
+    Json names = Json::object();
     for (const std::string& name : ground_class_names()) names.add(name, classes());
-    return typed("object").add("properties", names).add("additionalProperties", std::string("false"));
+    return typed("object").add("properties", names).add("additionalProperties", Json::boolean(false));
   }
   Json operator()(std::string*) const {
-    if (key.text == TextKind::choice) return typed("string").add("enum", Json::strings(key_choices(key)));
+    if (key.text == TextKind::choice) return typed("string").add("enum", Json::texts(key_choices(key)));
     if (key.text == TextKind::built_in)
-      return Json().add("anyOf", Json::array({typed("string").add("enum", Json::strings(key_choices(key))),
-                                              typed("string").add("pattern", quoted(R"(\.(toml|csv)$)"))}));
+      return Json::object().add("anyOf", Json::array({typed("string").add("enum", Json::texts(key_choices(key))),
+                                                      typed("string").add("pattern", Json::text(R"(\.(toml|csv)$)"))}));
     if (key.text == TextKind::time)
-      return typed("string").add("pattern", quoted(R"(^\d{4}-\d\d-\d\dT\d\d:\d\d(:\d\d(\.\d{1,9})?)?(Z|[+-]\d\d:\d\d)$)"));
+      return typed("string").add("pattern", Json::text(R"(^\d{4}-\d\d-\d\dT\d\d:\d\d(:\d\d(\.\d{1,9})?)?(Z|[+-]\d\d:\d\d)$)"));
     return typed("string");
   }
 };
@@ -193,34 +143,34 @@ bool has_json_default(const SceneField& field) {
 }
 
 Json section_schema(const SceneSection& section, Scene& defaults) {
-  Json properties;
+  Json properties = Json::object();
   std::vector<std::string> required;
   for (const SceneKey& key : section.keys) {
     const SceneField field = key.field(defaults, 0);
     Json schema = std::visit(SchemaOfField{key}, field);
     const std::string unit = key.unit.empty() ? "" : fmt::format(" Unit: {}.", key.unit);
-    schema.add("description", quoted(std::string(key.meaning) + unit));
+    schema.add("description", Json::text(std::string(key.meaning) + unit));
     const std::string value = std::visit(ValueWriter{}, field);
-    if (!value.empty() && !key.required && has_json_default(field)) schema.add("default", value);
+    if (!value.empty() && !key.required && has_json_default(field)) schema.add("default", Json::raw(value));
     properties.add(key.name, std::move(schema));
     if (key.required) required.emplace_back(key.name);
   }
   for (const SceneSection* child : child_sections(section.name)) {
     Json schema = section_schema(*child, defaults);
     if (child->kind == SectionKind::list)
-      schema = typed("array").add("description", quoted(child->meaning)).add("items", std::move(schema));
+      schema = typed("array").add("description", Json::text(child->meaning)).add("items", std::move(schema));
     properties.add(child->name.substr(section.name.empty() ? 0 : section.name.size() + 1), std::move(schema));
   }
-  Json out = typed("object").add("description", quoted(section.meaning)).add("properties", std::move(properties));
-  if (!required.empty()) out.add("required", Json::strings(required));
+  Json out = typed("object").add("description", Json::text(section.meaning)).add("properties", std::move(properties));
+  if (!required.empty()) out.add("required", Json::texts(required));
   std::vector<Json> exclusions;
   for (const SceneExclusion& exclusion : scene_exclusions())
     if (exclusion.section == section.name)
       for (const std::string_view a : exclusion.these)
         for (const std::string_view b : exclusion.those)
-          exclusions.push_back(Json().add("not", Json().add("required", Json::strings({std::string(a), std::string(b)}))));
+          exclusions.push_back(Json::object().add("not", Json::object().add("required", Json::texts({std::string(a), std::string(b)}))));
   if (!exclusions.empty()) out.add("allOf", Json::array(std::move(exclusions)));
-  return out.add("additionalProperties", std::string("false"));
+  return out.add("additionalProperties", Json::boolean(false));
 }
 
 std::string table_cell(std::string_view text) {
@@ -251,8 +201,9 @@ std::string write_scene(const Scene& scene) {
 std::string scene_json_schema() {
   Scene defaults = full_scene();
   Json schema = section_schema(*find_section(""), defaults);
-  Json out = Json().add("$schema", quoted("http://json-schema.org/draft-04/schema#")).add("title", quoted("A scene of Belvedere"));
-  return out.add("allOf", Json::array({std::move(schema)})).text() + "\n";
+  Json out =
+      Json::object().add("$schema", Json::text("http://json-schema.org/draft-04/schema#")).add("title", Json::text("A scene of Belvedere"));
+  return out.add("allOf", Json::array({std::move(schema)})).str() + "\n";
 }
 
 std::string scene_reference() {

@@ -1,3 +1,81 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+#include <sstream>
+
+#include "renderer/base/error.h"
 #include "renderer/provenance.h"
-int main() { fmt::print("belvedere\n"); }
+#include "tools/commands.h"
+#include "tools/terminal.h"
+
+namespace {
+
+using belvedere::Error;
+using belvedere::ErrorKind;
+using belvedere::tools::Command;
+
+constexpr const char* description =
+    "Belvedere renders panorama maps in the look of a painting, from an elevation model,\n"
+    "a land-cover map and a scene file that says where you stand and where you look.\n\n"
+    "  belvedere render                                      a demo; needs no data\n"
+    "  belvedere check scenes/karwendel.toml --data ../data  is everything there?\n"
+    "  belvedere render scenes/karwendel.toml --data ../data --out karwendel\n"
+    "  belvedere COMMAND --help                              all about one command";
+
+constexpr const char* footer =
+    "Exit status: 0 done, 2 command line or scene file, 3 input data, 4 output, 5 over a limit\n"
+    "(memory, size), 75 stopped by you, 70 a fault of the program.";
+
+int run(int argc, char** argv) {
+  CLI::App program(description, "belvedere");
+  program.set_version_flag("--version", "belvedere " + belvedere::program_version() + "\n" + belvedere::library_versions());
+  program.require_subcommand(1);
+  program.footer(footer);
+  program.get_formatter()->column_width(34);
+  std::vector<Command> commands;
+  for (const auto add : belvedere::tools::all_commands()) commands.push_back(add(program));
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& help) {  // --help and --version
+    std::ostringstream out;
+    program.exit(help, out, out);
+    std::string text = out.str();
+    if (!text.ends_with('\n')) text += '\n';
+    belvedere::tools::print_out(text);
+    return 0;
+  } catch (const CLI::ParseError& problem) {
+    throw Error(ErrorKind::usage, "command line", problem.what(), "belvedere --help, or belvedere COMMAND --help, says what there is");
+  }
+  for (const Command& command : commands)
+    if (command.options->parsed()) return command.run();
+  throw Error(ErrorKind::bug, "command line", "a command that does nothing");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  belvedere::tools::prepare_process();
+  const auto fail = [](const std::string& message, ErrorKind kind) {
+    belvedere::tools::print_error("belvedere: " + message + "\n");
+    return static_cast<int>(kind);
+  };
+  try {
+    const int status = run(argc, argv);
+    belvedere::tools::finish_output();
+    return status;
+  } catch (const Error& error) {
+    const std::string asked =
+        error.kind() == ErrorKind::bug ? "\n  This is a fault of the program, not of your data. Please report it." : "";
+    return fail(error.what() + asked, error.kind());
+  } catch (const std::bad_alloc&) {
+    return fail("there is not enough memory\n  allowed: a smaller output.width and output.height, or a smaller terrain.extent",
+                ErrorKind::limit);
+  } catch (const std::exception& error) {
+    return fail(std::string("unexpected: ") + error.what() + "\n  This is a fault of the program, not of your data. Please report it.",
+                ErrorKind::bug);
+  } catch (...) {
+    return fail("unexpected: an error without a description\n  This is a fault of the program. Please report it.", ErrorKind::bug);
+  }
+}

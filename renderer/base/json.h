@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace belvedere {
+
+// A JSON text under construction, for machines that read what the program says. Members stay in the order they were added.
+class Json {
+ public:
+  static Json object() { return Json("{}"); }
+  static Json array(std::vector<Json> elements = {});
+  static Json text(std::string_view text);
+  // Shortest form that reads back the same. JSON has no infinities and no nan: those come as texts "inf", "-inf", "nan".
+  static Json number(double value);
+  static Json boolean(bool value) { return Json(value ? "true" : "false"); }
+  // What is JSON already.
+  static Json raw(std::string json) { return Json(std::move(json)); }
+  static Json texts(const std::vector<std::string>& texts);
+
+  // Adds a member to an object, an element to an array.
+  Json& add(std::string_view key, Json value);
+  Json& add(Json value);
+
+  // Indented by two spaces a level, no line break at the end.
+  std::string str(int depth = 0) const;
+
+ private:
+  explicit Json(std::string scalar) : scalar_(std::move(scalar)) {}
+
+  std::string scalar_;  // a value, or "{}" and "[]" with members
+  std::vector<std::pair<std::string, Json>> members_;
+};
+
+// Between quotation marks, with the escapes that JSON and TOML share.
+std::string json_quoted(std::string_view text);
+
+}  // namespace belvedere

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace belvedere {
+
+// How one channel differs between two pictures. Values as in the file; those of integer formats 0…1. Equal infinities and two nan count as
+// equal, an infinity or nan against anything else as an infinite difference.
+struct ChannelDifference {
+  std::string name;
+  bool is_id = false;  // ids are equal or not: their difference is 0 or 1, so mean is the differing share
+  double mean = 0.0;   // of the absolute differences
+  double max = 0.0;
+  double rms = 0.0;
+  double differing_share = 0.0;  // of the pixels, 0…1
+};
+
+struct PictureDifference {
+  int width = 0;
+  int height = 0;
+  std::vector<ChannelDifference> channels;  // that both have
+  std::vector<std::string> mismatches;      // what makes them incomparable: another size, channels that one of them lacks
+};
+
+// Thresholds; a picture within them counts as the same. Ids have no size of difference, so max does not hold for them.
+struct DifferenceLimits {
+  double mean = 0.0;
+  double max = 0.0;
+};
+
+// Compares PNG, TIFF, JPEG and OpenEXR files: two OpenEXR files channel by channel by name, anything else as R, G, B and alpha.
+// Error(input) for files that cannot be read, Error(limit) over memory_limit_bytes().
+PictureDifference compare_pictures(const std::string& a, const std::string& b);
+// No mismatch and every channel within the limits.
+bool is_same(const PictureDifference& difference, const DifferenceLimits& limits);
+
+}  // namespace belvedere

@@ -1,0 +1,78 @@
+#include "renderer/scene_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "renderer/base/error.h"
+#include "renderer/exemplars.h"
+#include "renderer/image_io.h"
+#include "renderer/lit_picture.h"
+#include "terrain/raster_io.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int check_width_px = 480;
+
+// The view with few pixels and no more light than it takes: classes are all that is wanted.
+LoadedScene small(const LoadedScene& scene) {
+  LoadedScene out = scene;
+  const int width = std::min(scene.scene.output.width, check_width_px);
+  out.scene.output.height =
+      std::max(16, static_cast<int>(static_cast<double>(scene.scene.output.height) * width / scene.scene.output.width));
+  out.scene.output.width = width;
+  out.scene.sampling = {.pixel_samples = 1, .shadow_rays = 1, .sky_directions = 0, .sky_reach_m = 1000.0};
+  return out;
+}
+
+std::vector<bool> labels_of(const std::vector<PaintedExemplar>& exemplars) {
+  std::vector<bool> found(256, false);
+  for (const PaintedExemplar& painted : exemplars)
+    for (const std::uint8_t label : painted.exemplar.guides.label) found[label] = true;
+  return found;
+}
+
+}  // namespace
+
+SceneReport check_scene(const LoadedScene& scene, Progress& progress) {
+  require_scene_files(scene);
+  SceneReport report;
+  report.inputs = scene_inputs(scene);
+  const LoadedScene view = small(scene);
+  const Stage stage = set_stage(view, progress);
+  report.view = stage.view;
+  report.crs = stage.ground.model.dem.crs.empty() ? std::string("none") : describe_crs(stage.ground.model.dem.crs);
+  report.cells_wide = stage.ground.model.dem.width();
+  report.cells_high = stage.ground.model.dem.height();
+  report.cell_m = stage.ground.model.dem.cell_m();
+
+  const LitPicture picture = make_lit_picture(stage, {0, 0, view.scene.output.width, view.scene.output.height}, 32, progress);
+  std::array<double, land_cover_class_count> count{};
+  for (const LandCoverClass id : picture.guidance.land_cover) count[static_cast<std::size_t>(id)] += 1.0;
+  for (const LandCoverClassInfo& info : land_cover_classes())
+    if (const double share = count[static_cast<std::size_t>(info.id)] / static_cast<double>(picture.guidance.land_cover.size());
+        share > 0.0)
+      report.classes.emplace_back(info.id, share);
+  if (!scene.scene.synthesis.enabled) return report;
+
+  const std::vector<PaintedExemplar> exemplars = make_exemplars(view, stage, picture, progress);
+  for (const PaintedExemplar& painted : exemplars) report.exemplars.push_back(painted.exemplar.name);
+  const std::vector<bool> has = labels_of(exemplars);
+  std::vector<std::string> missing;
+  for (const auto& [id, share] : report.classes) {
+    if (id == LandCoverClass::sky || has[static_cast<std::size_t>(id)]) continue;
+    const auto& fallback = scene.scene.synthesis.fallback;
+    const auto way_out =
+        std::find_if(fallback.begin(), fallback.end(), [&, wanted = id](const auto& pair) { return pair.first == wanted; });
+    if (way_out == fallback.end() || !has[static_cast<std::size_t>(way_out->second)]) missing.emplace_back(class_name(id));
+  }
+  if (!missing.empty())
+    throw Error(ErrorKind::usage, scene.name,
+                fmt::format("no exemplar shows how to paint {}, which the picture has", fmt::join(missing, ", ")),
+                fmt::format("an exemplar with {}, or [synthesis] fallback = {{ {} = \"…\" }}", missing.size() == 1 ? "it" : "them",
+                            missing.front()));
+  return report;
+}
+
+}  // namespace belvedere

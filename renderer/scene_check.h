@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "renderer/base/land_cover_class.h"
+#include "renderer/base/progress.h"
+#include "renderer/scene_file.h"
+#include "renderer/view.h"
+
+namespace belvedere {
+
+// What is known of a scene before it is rendered.
+struct SceneReport {
+  std::vector<SceneInput> inputs;
+  std::string crs;
+  int cells_wide = 0;
+  int cells_high = 0;
+  double cell_m = 0.0;
+  View view;
+  std::vector<std::pair<LandCoverClass, double>> classes;  // seen in the picture, with their share of its area
+  std::vector<std::string> exemplars;
+};
+
+// Everything about a scene that shows without rendering it: files, data, terrain, the camera's place, the palette, and, from a small trace
+// of the view, whether some exemplar has texels of each class in the picture. Throws what rendering would throw, and Error(usage) for
+// classes that have neither texels nor a fallback that has.
+SceneReport check_scene(const LoadedScene& scene, Progress& progress);
+
+}  // namespace belvedere

@@ -1,0 +1,174 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <tuple>
+
+#include "renderer/base/error.h"
+#include "renderer/base/json.h"
+#include "renderer/base/parallel.h"
+#include "renderer/provenance.h"
+#include "texture/synthesize.h"
+#include "tools/commands.h"
+#include "tools/synthesis_files.h"
+#include "tools/terminal.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  SynthesisFiles files;
+  std::vector<std::tuple<std::string, std::string, std::string, double>> guides;
+  std::vector<std::pair<int, int>> fallback;
+  std::string out;
+  std::string match;
+  SynthesisParameters parameters;
+  int threads = 0;
+  int memory_mib = 0;
+  bool quiet = false;
+  bool json = false;
+};
+
+enum class Format { png, tiff };
+
+Format format_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  if (ending == ".png") return Format::png;
+  if (ending == ".tif" || ending == ".tiff") return Format::tiff;
+  throw Error(ErrorKind::usage, "--out " + path, "is no name of a picture the program writes", ".png (8 bit) or .tif (16 bit)");
+}
+
+// The folder of a result is tried before the work begins.
+void check_place(const std::string& path) {
+  if (path.empty()) return;
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  check_output_folder(folder.empty() ? "." : folder);
+}
+
+// Without folders: the same files give the same header wherever they lie.
+FileNotes make_notes(const Options& options) {
+  std::map<std::string, std::string> inputs;
+  const auto add = [&](const std::string& path) { inputs[std::filesystem::path(path).filename().string()] = path; };
+  for (const std::string& picture : options.files.pictures) add(picture);
+  for (const auto& [source, target] : options.files.labels) {
+    add(source);
+    add(target);
+  }
+  for (const GuidePair& guide : options.files.guides) {
+    add(guide.source);
+    add(guide.target);
+  }
+  FileNotes notes = to_notes(make_provenance("", inputs));
+  std::string weights;
+  for (const GuidePair& guide : options.files.guides) weights += fmt::format(" {} {}", guide.name, guide.weight);
+  notes["belvedere:synthesis"] = fmt::format("seed {} levels {} reuse {} copy_cap {} weights{}", options.parameters.seed,
+                                             options.parameters.levels, options.parameters.reuse, options.parameters.copy_cap, weights);
+  return notes;
+}
+
+int run(Options& options) {
+  if (options.memory_mib > 0) setenv("BELVEDERE_MEMORY_MIB", std::to_string(options.memory_mib).c_str(), 1);
+  const Format format = format_of(options.out);
+  check_place(options.out);
+  check_place(options.match);
+  for (const auto& [name, source, target, weight] : options.guides) options.files.guides.push_back({name, source, target, weight});
+  for (const auto& [from, to] : options.fallback) {
+    if (from < 0 || from >= unused_label || to < 0 || to >= unused_label || from == to)
+      throw Error(ErrorKind::usage, fmt::format("--fallback {} {}", from, to), "is no pair of labels", "two different ones, 0 … 254");
+    options.parameters.fallback[static_cast<std::uint8_t>(from)] = static_cast<std::uint8_t>(to);
+  }
+
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  progress.begin("reading", 0.0);
+  SynthesisInputs inputs = read_synthesis(options.files);
+  options.parameters.weights = inputs.weights;
+  const FileNotes notes = make_notes(options);
+  const MatchField matches = synthesize(inputs.exemplars, inputs.target, options.parameters, progress);
+
+  progress.begin("writing", 0.0);
+  std::vector<const Grid<glm::vec3>*> layers;
+  for (const Grid<glm::vec3>& picture : inputs.pictures) layers.push_back(&picture);
+  const Grid<glm::vec3> picture = replay(matches, layers, Grid<glm::vec3>());  // black where nothing could be copied
+  const PictureFileOptions file{.icc_profile = inputs.profile, .notes = notes};
+  if (format == Format::png)
+    write_png8(options.out, picture, file);
+  else
+    write_tiff16(options.out, picture, file);
+  if (!options.match.empty()) write_matches(options.match, matches, notes);
+  const auto empty = std::count_if(matches.begin(), matches.end(), [](const Match& m) { return m.exemplar == Match::none; });
+  if (empty > 0) progress.note(fmt::format("{} pixels stay black: nothing may be copied there", empty));
+  progress.end();
+
+  if (options.json)
+    print_out(Json::object()
+                  .add("out", Json::text(options.out))
+                  .add("match", Json::text(options.match))
+                  .add("width", Json::number(picture.width()))
+                  .add("height", Json::number(picture.height()))
+                  .add("pixels_without_texel", Json::number(static_cast<double>(empty)))
+                  .str() +
+              "\n");
+  return 0;
+}
+
+}  // namespace
+
+Command add_synthesize(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("synthesize", "Lays a painting's texture over a label map; works on image files alone");
+  const auto options = std::make_shared<Options>();
+  SynthesisParameters& parameters = options->parameters;
+  command->add_option("--picture", options->files.pictures, "The painting (PNG, TIFF, JPEG); may be repeated")
+      ->type_name("STYLE")
+      ->required()
+      ->allow_extra_args(false);
+  command
+      ->add_option("--label", options->files.labels,
+                   "Label images of the painting and of the target: grey, one number a class, 255 is never used; one for each --picture")
+      ->type_name("STYLE TARGET")
+      ->required()
+      ->allow_extra_args(false);
+  command
+      ->add_option("--guide", options->guides,
+                   "A further guide: name, grey image of the painting, of the target, and weight 0…100; may be repeated")
+      ->type_name("NAME STYLE TARGET WEIGHT")
+      ->allow_extra_args(false);
+  command->add_option("--out", options->out, "The result: .png (8 bit) or .tif (16 bit)")->type_name("FILE")->required();
+  command->add_option("--match", options->match, "Also where each pixel was copied from: OpenEXR with channels exemplar, x, y")
+      ->type_name("FILE");
+  command->add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
+      ->type_name("LABEL LABEL")
+      ->allow_extra_args(false);
+  command->add_option("--seed", parameters.seed, "Another number gives another result")->type_name("N")->capture_default_str();
+  command->add_option("--levels", parameters.levels, "Steps from coarse to fine")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 8));
+  command->add_option("--reuse", parameters.reuse, "How hard repetition is avoided")
+      ->type_name("X")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 10.0));
+  command->add_option("--copy-cap", parameters.copy_cap, "Largest piece copied whole, in pixels of area")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(16, 100000));
+  command->add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096));
+  command->add_option("--memory", options->memory_mib, "Memory that pictures may take; 0, the default, is three quarters of the machine's")
+      ->type_name("MIB")
+      ->check(CLI::Range(0, 1 << 30));
+  command->add_flag("--quiet,-q", options->quiet, "No progress, no notes");
+  command->add_flag("--json", options->json, "The result as JSON on standard output");
+  command->footer(
+      "  belvedere synthesize --picture style.png --label style_class.png target_class.png \\\n"
+      "    --guide altitude style_alt.png target_alt.png 1.0 --out out.png --match match.exr\n\n"
+      "With several paintings, the first --label and the first --guide of a name belong to the first\n"
+      "--picture, the second to the second, and so on; they all name the same target.");
+  return {command, [options] { return run(*options); }};
+}
+
+}  // namespace belvedere::tools

@@ -1,0 +1,44 @@
+#include "tools/scene_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdlib>
+
+#include "renderer/base/embedded.h"
+#include "renderer/base/error.h"
+
+namespace belvedere::tools {
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+  command.add_option("SCENE", options.scene, "The scene file; without one the built-in demo");
+  command
+      .add_option("--data", options.files.data_folders,
+                  "A folder in which the scene's files may lie, beside the scene's own; may be repeated")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  command
+      .add_option("--set", options.files.settings,
+                  "Overrides a key of the scene: --set output.width=1200, --set exemplar.0.seed=3; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--threads", options.threads, "How many processor threads to use; 0, the default, takes all. Changes no pixel")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096));
+  command.add_option("--memory", options.memory_mib, "Memory that pictures may take; 0, the default, is three quarters of the machine's")
+      ->type_name("MIB")
+      ->check(CLI::Range(0, 1 << 30));
+  command.add_flag("--quiet,-q", options.quiet, "No progress, no notes");
+  command.add_flag("--json", options.json, "The result as JSON on standard output");
+}
+
+LoadedScene load(const SceneOptions& options) {
+  if (options.memory_mib > 0) setenv("BELVEDERE_MEMORY_MIB", std::to_string(options.memory_mib).c_str(), 1);
+  if (!options.scene.empty()) return read_scene(options.scene, options.files);
+  const std::vector<std::string> scenes = embedded_names("scenes");
+  if (std::find(scenes.begin(), scenes.end(), "demo") == scenes.end())
+    throw Error(ErrorKind::usage, "command line", "no scene is named, and this program has no demo built in",
+                "belvedere render SCENE.toml");
+  return parse_scene(std::string(embedded_file("scenes/demo.toml")), "demo.toml", ".", options.files);
+}
+
+}  // namespace belvedere::tools

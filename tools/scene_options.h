@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "renderer/scene_file.h"
+
+namespace CLI {
+class App;
+}
+
+namespace belvedere::tools {
+
+// What every command that takes a scene has in common.
+struct SceneOptions {
+  std::string scene;  // path; empty: the built-in demo
+  SceneFileOptions files;
+  int threads = 0;     // 0: all
+  int memory_mib = 0;  // 0: three quarters of the machine's
+  bool quiet = false;
+  bool json = false;
+};
+
+void add_scene_options(CLI::App& command, SceneOptions& options);
+// Reads the scene, or the demo, and tells the library of the memory limit.
+LoadedScene load(const SceneOptions& options);
+
+}  // namespace belvedere::tools
