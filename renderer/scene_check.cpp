@@ -22,6 +22,12 @@ LoadedScene small(const LoadedScene& scene) {
   out.scene.output.height =
       std::max(16, static_cast<int>(static_cast<double>(scene.scene.output.height) * width / scene.scene.output.width));
   out.scene.output.width = width;
+  // Sheets are painted at half their size: enough to see which classes they have.
+  if (out.scene.exemplars.empty()) out.scene.exemplars.emplace_back();
+  for (SceneExemplar& exemplar : out.scene.exemplars) {
+    exemplar.width /= 2;
+    exemplar.height /= 2;
+  }
   out.scene.sampling = {.pixel_samples = 1, .shadow_rays = 1, .sky_directions = 0, .sky_reach_m = 1000.0};
   return out;
 }
