@@ -63,13 +63,14 @@ std::string device_settings(const std::string& isa) {
   return isa.empty() ? std::string() : fmt::format("isa={}", isa);
 }
 
-// A ray against the two triangles of a cell, in double. Sides are signs of the volumes that the ray's line spans with each edge;
-// an edge shared by two triangles gives both the same volume with opposite sign, so no ray slips between them.
+// The nearest hit so far among some cells.
 struct CellHit {
   double distance = std::numeric_limits<double>::infinity();
   double u = 0.0;  // in the cell, 0…1
   double v = 0.0;
-  glm::dvec3 normal{0.0};  // not unit
+  int x = 0;  // the cell
+  int y = 0;
+  bool lower = false;  // its south-eastern triangle
 };
 
 }  // namespace
@@ -94,7 +95,8 @@ struct Tracer::State {
   void attach(const float* vertices, std::size_t count, const RTCGrid* first, std::size_t grid_count);
   void build(int tile_cells);
   glm::dvec3 post(int x, int y) const { return glm::dvec3((*posts)(x, y)); }
-  void intersect_cell(int x, int y, const Ray& ray, CellHit& best, glm::ivec2& cell) const;
+  void intersect_facet(int x, int y, bool lower, const glm::dvec3& o, const glm::dvec3& d, CellHit& best) const;
+  glm::dvec3 facet_normal(const CellHit& hit) const;
   bool resolve(const Ray& ray, unsigned geometry, unsigned primitive, float u, float v, Hit& hit) const;
   void trace_on(const Ray& ray, float from, Hit& hit) const;
 };
@@ -143,31 +145,33 @@ void Tracer::State::build(int tile_cells) {
   check(device, "building the terrain's structure");
 }
 
-void Tracer::State::intersect_cell(int x, int y, const Ray& ray, CellHit& best, glm::ivec2& cell) const {
-  const glm::dvec3 o = ray.origin - origin;
-  const glm::dvec3& d = ray.direction;
-  const glm::dvec3 p00 = post(x, y) - o;
-  const glm::dvec3 p10 = post(x + 1, y) - o;
-  const glm::dvec3 p01 = post(x, y + 1) - o;
-  const glm::dvec3 p11 = post(x + 1, y + 1) - o;
-  const double diagonal = glm::dot(glm::cross(p10, p01), d);
-  const auto triangle = [&](const glm::dvec3& a, double ab, double bc, double ca, bool lower, const glm::dvec3& b, const glm::dvec3& c) {
-    // ab belongs to the edge a-b and weighs c, and so on.
-    if (!((ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0))) return;
-    const double sum = ab + bc + ca;
-    if (sum == 0.0) return;  // seen edge on
-    const double wb = ca / sum;
-    const double wc = ab / sum;
-    const double distance = glm::dot(a + (b - a) * wb + (c - a) * wc, d);
-    if (!(distance >= 0.0) || !(distance < best.distance)) return;
-    best.distance = distance;
-    best.u = lower ? 1.0 - wb : wb;
-    best.v = lower ? 1.0 - wc : wc;
-    best.normal = glm::cross(c - a, b - a);
-    cell = {x, y};
-  };
-  triangle(p00, glm::dot(glm::cross(p00, p10), d), diagonal, glm::dot(glm::cross(p01, p00), d), false, p10, p01);
-  triangle(p11, glm::dot(glm::cross(p11, p01), d), -diagonal, glm::dot(glm::cross(p10, p11), d), true, p01, p10);
+// A ray (origin o relative to the surface's, direction d) against one triangle of a cell, in double. Sides are signs of the volumes
+// that the ray's line spans with each edge; an edge shared by two triangles gives both the same volume with opposite sign, so no
+// ray slips between them.
+inline void Tracer::State::intersect_facet(int x, int y, bool lower, const glm::dvec3& o, const glm::dvec3& d, CellHit& best) const {
+  const int near = lower ? 1 : 0;  // the triangle's right angle is at post (x + near, y + near)
+  const int far = 1 - near;
+  const glm::dvec3 a = post(x + near, y + near) - o;
+  const glm::dvec3 b = post(x + far, y + near) - o;
+  const glm::dvec3 c = post(x + near, y + far) - o;
+  const double ab = glm::dot(glm::cross(a, b), d);  // weighs c, and so on
+  const double bc = glm::dot(glm::cross(b, c), d);
+  const double ca = glm::dot(glm::cross(c, a), d);
+  const double sum = ab + bc + ca;
+  const bool beside = std::min(ab, std::min(bc, ca)) < 0.0 && std::max(ab, std::max(bc, ca)) > 0.0;
+  if (beside || sum == 0.0) return;  // 0: seen edge on
+  const double share = 1.0 / sum;
+  const double wb = ca * share;
+  const double wc = ab * share;
+  const double distance = glm::dot(a + (b - a) * wb + (c - a) * wc, d);
+  if (!(distance >= 0.0) || !(distance < best.distance)) return;
+  best = {distance, lower ? 1.0 - wb : wb, lower ? 1.0 - wc : wc, x, y, lower};
+}
+
+glm::dvec3 Tracer::State::facet_normal(const CellHit& hit) const {
+  const glm::dvec3 east = hit.lower ? post(hit.x + 1, hit.y + 1) - post(hit.x, hit.y + 1) : post(hit.x + 1, hit.y) - post(hit.x, hit.y);
+  const glm::dvec3 south = hit.lower ? post(hit.x + 1, hit.y + 1) - post(hit.x + 1, hit.y) : post(hit.x, hit.y + 1) - post(hit.x, hit.y);
+  return glm::normalize(glm::cross(south, east));
 }
 
 // The exact hit from the facet that Embree named. False where in double the ray passes it by (it grazed an edge).
@@ -178,33 +182,34 @@ bool Tracer::State::resolve(const Ray& ray, unsigned geometry, unsigned primitiv
   const float fy = v * static_cast<float>(tile.cells_y);
   const int x = tile.x0 + std::clamp(static_cast<int>(fx), 0, tile.cells_x - 1);
   const int y = tile.y0 + std::clamp(static_cast<int>(fy), 0, tile.cells_y - 1);
+  const glm::dvec3 o = ray.origin - origin;
   CellHit best;
-  glm::ivec2 cell(x, y);
-  intersect_cell(x, y, ray, best, cell);
-  // Embree's float places are good to some hundredths of a cell far from the eye. So near a border, and where the cell is missed,
-  // the neighbours are asked too, and the nearest hit is the answer, from whichever side Embree came.
+  const float in_x = fx - static_cast<float>(x - tile.x0);
+  const float in_y = fy - static_cast<float>(y - tile.y0);
+  intersect_facet(x, y, in_x + in_y > 1.F, o, ray.direction, best);
+  // Embree's float places are good to some hundredths of a cell far from the eye. So near an edge, and where the facet is missed,
+  // its neighbours are asked too, and the nearest hit is the answer, from whichever side Embree came.
   constexpr double rim = 0.03;
   const bool missed = !(best.distance < std::numeric_limits<double>::infinity());
-  const bool near_border = missed || best.u < rim || best.v < rim || best.u > 1.0 - rim || best.v > 1.0 - rim;
-  if (near_border) {
-    const double cell_u = best.u;
-    const double cell_v = best.v;
-    for (int j = -1; j <= 1; ++j) {
-      for (int i = -1; i <= 1; ++i) {
-        if (i == 0 && j == 0) continue;
-        const bool towards =
-            missed || ((i == 0 || (i < 0 ? cell_u < rim : cell_u > 1.0 - rim)) && (j == 0 || (j < 0 ? cell_v < rim : cell_v > 1.0 - rim)));
-        if (!towards || x + i < 0 || y + j < 0 || x + i + 1 >= posts->width() || y + j + 1 >= posts->height()) continue;
-        intersect_cell(x + i, y + j, ray, best, cell);
+  const bool near_diagonal = std::abs(best.u + best.v - 1.0) < rim;
+  if (missed || near_diagonal || std::min(best.u, best.v) < rim || std::max(best.u, best.v) > 1.0 - rim) {
+    const int x0 = std::max(missed || best.u < rim ? x - 1 : x, 0);
+    const int x1 = std::min(missed || best.u > 1.0 - rim ? x + 1 : x, posts->width() - 2);
+    const int y0 = std::max(missed || best.v < rim ? y - 1 : y, 0);
+    const int y1 = std::min(missed || best.v > 1.0 - rim ? y + 1 : y, posts->height() - 2);
+    for (int cy = y0; cy <= y1; ++cy) {
+      for (int cx = x0; cx <= x1; ++cx) {
+        intersect_facet(cx, cy, false, o, ray.direction, best);
+        intersect_facet(cx, cy, true, o, ray.direction, best);
       }
     }
     if (!(best.distance < std::numeric_limits<double>::infinity())) return false;
   }
   hit.found = true;
   hit.distance_m = best.distance;
-  hit.column = cell.x + best.u;
-  hit.row = cell.y + best.v;
-  hit.facet_normal = glm::normalize(best.normal);
+  hit.column = best.x + best.u;
+  hit.row = best.y + best.v;
+  hit.facet_normal = facet_normal(best);
   return true;
 }
 

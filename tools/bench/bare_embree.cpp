@@ -1,4 +1,4 @@
-#include "bare_embree.h"
+#include "tools/bench/bare_embree.h"
 
 #include <embree3/rtcore.h>
 #include <xmmintrin.h>

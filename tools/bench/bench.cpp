@@ -1,4 +1,4 @@
-#include "bench.h"
+#include "tools/bench/bench.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

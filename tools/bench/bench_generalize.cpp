@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "bench.h"
-#include "bench_terrain.h"
 #include "terrain/generalize.h"
+#include "tools/bench/bench.h"
+#include "tools/bench/bench_terrain.h"
 
 namespace belvedere::bench {
 

@@ -1,4 +1,4 @@
-#include "bench_terrain.h"
+#include "tools/bench/bench_terrain.h"
 
 #include "terrain/synthetic.h"
 

@@ -5,12 +5,12 @@
 #include <memory>
 #include <numbers>
 
-#include "bare_embree.h"
-#include "bench.h"
-#include "bench_terrain.h"
 #include "renderer/base/error.h"
 #include "renderer/base/parallel.h"
 #include "renderer/tracer.h"
+#include "tools/bench/bare_embree.h"
+#include "tools/bench/bench.h"
+#include "tools/bench/bench_terrain.h"
 
 namespace belvedere::bench {
 
