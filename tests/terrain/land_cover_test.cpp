@@ -210,7 +210,7 @@ TEST(RealLandCover, ZionAcrossTwoCrs) {
 TEST(RealLandCover, GlacierParkWithItsTable) {
   if (!has_real_data()) GTEST_SKIP() << "no " << BELVEDERE_DATA_DIR;
   const std::string legend = std::string(BELVEDERE_SOURCE_DIR) + "/scenes/legends/canada_fbp.toml";
-  const LandCover cover = read_real("glacier_np/elevation.asc", "glacier_np/Forest.asc", 1, "EPSG:3978", legend, "glacier_np");
+  const LandCover cover = read_real("glacier_np/elevation.asc", "glacier_np/Forest.asc", 1, "EPSG:3978", legend, "");
   EXPECT_NEAR(share(cover, forest), 0.69, 0.03);
   EXPECT_NEAR(share(cover, water), 0.023, 0.01);
   EXPECT_EQ(share(cover, sky), 0.0);
