@@ -13,7 +13,18 @@
 
 #include "renderer/base/error.h"
 
-#define TOML_EXCEPTIONS 0
+// In this version some malformed texts reach the library's own assertions, which would end the program, or, compiled out, leave it
+// undefined. Thrown instead they are one more syntax error. (Its mode without exceptions reaches more of them.)
+namespace belvedere {
+struct BrokenAssertion {};
+[[noreturn]] static void break_assertion() { throw BrokenAssertion(); }
+}  // namespace belvedere
+#undef NDEBUG
+#define TOML_ASSERT(expression)                      \
+  do {                                               \
+    if (!(expression)) belvedere::break_assertion(); \
+  } while (false)
+#define TOML_EXCEPTIONS 1
 #include <toml++/toml.h>
 
 namespace belvedere {
@@ -155,6 +166,25 @@ std::string tidy(std::string_view message) {
   return out;
 }
 
+// An assertion names no place. But only a text that holds the line breaks it, so the line is found by halving.
+int line_of_broken_assertion(std::string_view text) {
+  std::vector<std::size_t> ends;  // of the lines
+  for (std::size_t i = text.find('\n'); i != std::string_view::npos; i = text.find('\n', i + 1)) ends.push_back(i + 1);
+  ends.push_back(text.size());
+  const auto breaks = [&](std::size_t end) {
+    try {
+      static_cast<void>(toml::parse(text.substr(0, end)));
+    } catch (const toml::parse_error&) {
+      return false;
+    } catch (const BrokenAssertion&) {
+      return true;
+    }
+    return false;
+  };
+  const auto first = std::partition_point(ends.begin(), ends.end(), [&](std::size_t end) { return !breaks(end); });
+  return static_cast<int>(first - ends.begin()) + 1;
+}
+
 void forget_places(ConfigValue& value) {
   value.place = {};
   if (auto* table = std::get_if<ConfigTable>(&value.value)) {
@@ -221,12 +251,18 @@ void check_size(std::uintmax_t bytes, const std::string& name) {
 ConfigValue parse_config(std::string_view text, const std::string& name) {
   check_size(text.size(), name);
   NestingScan(text, name).run();
-  const toml::parse_result result = toml::parse(text, name);
-  if (!result) {
-    const toml::parse_error& error = result.error();
-    throw Error(ErrorKind::usage, config_where(name, place_of(error.source())), tidy(error.description()), "TOML 1.0 (https://toml.io)");
+  const auto refuse = [&](ConfigPlace place, const std::string& found) {
+    throw Error(ErrorKind::usage, config_where(name, place), found, "TOML 1.0 (https://toml.io)");
+  };
+  toml::table table;
+  try {
+    table = toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    refuse(place_of(error.source()), tidy(error.description()));
+  } catch (const BrokenAssertion&) {
+    refuse({line_of_broken_assertion(text), 1}, "this line cannot be read");
   }
-  ConfigValue root = convert(result.table(), name, 0);
+  ConfigValue root = convert(table, name, 0);
   root.place = {1, 1};
   return root;
 }
@@ -254,9 +290,13 @@ ConfigValue parse_config_value(std::string_view text, const std::string& name) {
     throw Error(ErrorKind::usage, name, "the value " + in_quotes(text) + " has more than one line", "one value");
   if (!structured) {
     // A bare word (summer, EPSG:32632, my dem.tif) is no TOML; it means itself. So does nothing at all: the empty string.
-    const std::string line = "v = " + std::string(text);
-    const toml::parse_result result = toml::parse(line);
-    if (!result || result.table().size() != 1) return {.value = std::string(text), .place = {}};
+    try {
+      if (toml::parse("v = " + std::string(text)).size() != 1) return {.value = std::string(text), .place = {}};
+    } catch (const toml::parse_error&) {
+      return {.value = std::string(text), .place = {}};
+    } catch (const BrokenAssertion&) {
+      return {.value = std::string(text), .place = {}};
+    }
   }
   ConfigValue root;
   try {

@@ -73,6 +73,16 @@ TEST(Config, SyntaxErrorsNameThePlace) {
   EXPECT_THAT(usage_of([] { parse_config("a = 'open\n", "s.toml"); }), StartsWith("s.toml:1:"));
 }
 
+// Headers that begin with no key break an assertion inside the library: an error as any other here.
+TEST(Config, BrokenHeadersAreSyntaxErrors) {
+  for (const char* header : {"[=a]", "[[[a]]]", "[[ ]]", "[,]", "[\n", "[[\na]]"})
+    for (const std::string before : {"", "b = 1\nc = \"\"\"\n\"\"\"\n"})
+      EXPECT_THAT(usage_of([&] { parse_config(before + header + "\nd = 2\n", "s.toml"); }),
+                  StartsWith(before.empty() ? "s.toml:1:" : "s.toml:4:"))
+          << header;
+  EXPECT_EQ(as_string(parse_config_value("=a", "--set"), "--set"), "=a");
+}
+
 TEST(Config, BrokenUtf8NamesThePlace) {
   EXPECT_THAT(usage_of([] { parse_config("a = 1\nb = \"\xff\xfe\"\n", "s.toml"); }), StartsWith("s.toml:2:"));
   EXPECT_THAT(usage_of([] { parse_config(std::string("a = \"\0\"\n", 9), "s.toml"); }), StartsWith("s.toml:1:"));
