@@ -120,7 +120,9 @@ struct SceneExemplar {
 struct SceneSynthesis {
   bool enabled = true;           // off: everything is painted as strokes
   double residual = 0.75;        // how much of the base picture's difference is laid over the texel, 0…1
-  std::vector<std::pair<std::string, double>> weights;
+  // By guide. Tone leads, so that the relief of the target survives, then altitude; the rest only decides between equals.
+  std::vector<std::pair<std::string, double>> weights = {{"tone", 3.0},  {"altitude", 1.0},    {"distance", 0.3},   {"shadow", 0.3},
+                                                         {"slope", 0.3}, {"fall_line_x", 0.2}, {"fall_line_y", 0.2}};
   std::vector<std::pair<LandCoverClass, LandCoverClass>> fallback;
   double reuse = 1.0;
   int copy_cap = 240;

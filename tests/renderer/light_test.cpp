@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "painted_hills.h"
+#include "tests/renderer/painted_hills.h"
 #include "renderer/base/error.h"
 #include "renderer/base/noise.h"
 #include "renderer/picture_filter.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "painted_hills.h"
+#include "tests/renderer/painted_hills.h"
 #include "renderer/base/error.h"
 #include "renderer/light.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "painted_hills.h"
+#include "tests/renderer/painted_hills.h"
 
 namespace belvedere {
 namespace {
