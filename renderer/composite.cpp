@@ -41,7 +41,8 @@ Grid<glm::vec3> encode_srgb(const Image& linear) { return map_channels(linear, s
 Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<PaintedExemplar>& exemplars,
                                   const Grid<glm::vec3>& target_base, const Grid<float>& target_haze, double residual) {
   if (!matches.same_size(target_base)) throw Error(ErrorKind::bug, "composite", "the match field and the base have different sizes");
-  if (!target_haze.empty() && !target_haze.same_size(target_base)) throw Error(ErrorKind::bug, "composite", "air and base have different sizes");
+  if (!target_haze.empty() && !target_haze.same_size(target_base))
+    throw Error(ErrorKind::bug, "composite", "air and base have different sizes");
   for (const PaintedExemplar& e : exemplars) {
     if (!e.base.empty() && !e.base.same_size(e.picture)) {
       throw Error(ErrorKind::input, "exemplar " + e.exemplar.name, "its base has another size than its picture");

@@ -18,6 +18,8 @@ RasterSource to_raster_source(const LoadedScene& scene, const SceneSource& sourc
   raster.band = source.band;
   raster.crs = source.crs;
   raster.nodata = source.nodata;
+  raster.lowest_m = source.lowest_m;
+  raster.highest_m = source.highest_m;
   if (source.unit == "m") raster.unit_to_m = 1.0;
   if (source.unit == "ft") raster.unit_to_m = 0.3048;
   if (source.unit == "us-ft") raster.unit_to_m = 1200.0 / 3937.0;
@@ -45,6 +47,28 @@ Grid<float> foreground_share(const Dem& dem, glm::dvec2 viewer_xy, const SceneGe
   return share;
 }
 
+LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
+  const SceneLandCover& wish = loaded.scene.land_cover;
+  return apply_class_rules(read_class_rules(name_or_file(loaded, wish.rules)), wish.settings, dem, loaded.scene.seed, progress);
+}
+
+// {to, from}: cells of class `from` where the rules see `to` become `to`.
+void refine_by_rules(LandCover& cover, const LandCover& rules, const std::vector<std::pair<LandCoverClass, LandCoverClass>>& refine) {
+  Grid<LandCoverClass>& cells = cover.classes.cells;
+  parallel_rows(cells.height(), [&](int y) {
+    for (int x = 0; x < cells.width(); ++x) {
+      const glm::dvec2 place = cover.classes.transform.to_crs(x, y);
+      const glm::dvec2 at = rules.classes.transform.to_cell(place.x, place.y);
+      const LandCoverClass seen = rules.classes.cells.clamped(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y)));
+      for (const auto& [to, from] : refine)
+        if (cells(x, y) == from && seen == to) {
+          cells(x, y) = to;
+          break;
+        }
+    }
+  });
+}
+
 }  // namespace
 
 std::string name_or_file(const LoadedScene& scene, const std::string& name) {
@@ -66,15 +90,16 @@ Dem make_scene_dem(const LoadedScene& loaded, Progress& progress) {
 
 LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
   const SceneLandCover& wish = loaded.scene.land_cover;
-  if (wish.sources.empty())
-    return apply_class_rules(read_class_rules(name_or_file(loaded, wish.rules)), wish.settings, dem, loaded.scene.seed, progress);
+  if (wish.sources.empty()) return make_rule_cover(loaded, dem, progress);
   LandCoverParameters parameters;
   parameters.sources = to_raster_sources(loaded, wish.sources);
   parameters.legend = name_or_file(loaded, wish.legend);
   parameters.folders = loaded.allowed_folders;
   parameters.unknown = wish.unknown;
   parameters.nodata = wish.nodata;
-  return read_land_cover(parameters, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);
+  LandCover cover = read_land_cover(parameters, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);
+  if (!wish.refine.empty()) refine_by_rules(cover, make_rule_cover(loaded, dem, progress), wish.refine);
+  return cover;
 }
 
 Ground make_ground(const Scene& scene, Dem dem, LandCover land_cover, const View& view, Progress& progress) {

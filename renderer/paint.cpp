@@ -189,7 +189,7 @@ struct PixelColour {
   float mist;
   float dark;  // the near side of an edge between ranges
   glm::vec3 horizon;
-  float rim;   // share of the horizon's air at the end of the terrain
+  float rim;  // share of the horizon's air at the end of the terrain
 
   glm::vec3 finish(glm::vec3 colour, glm::vec3 range_mist) const {
     colour = glm::clamp(colour + added, 0.0F, 1.0F) * factor;

@@ -81,7 +81,15 @@ SynthesisParameters to_synthesis_parameters(const Scene& scene) {
   SynthesisParameters parameters;
   parameters.seed = scene.seed;
   parameters.levels = scene.synthesis.levels;
-  parameters.weights = scene.synthesis.weights;
+  // What a scene says of one guide leaves the defaults of the others.
+  parameters.weights = SceneSynthesis{}.weights;
+  for (const auto& [name, weight] : scene.synthesis.weights) {
+    const auto known = std::find_if(parameters.weights.begin(), parameters.weights.end(), [&](const auto& w) { return w.first == name; });
+    if (known != parameters.weights.end())
+      known->second = weight;
+    else
+      parameters.weights.emplace_back(name, weight);
+  }
   parameters.reuse = scene.synthesis.reuse;
   parameters.copy_cap = scene.synthesis.copy_cap;
   for (const auto& [from, to] : scene.synthesis.fallback)

@@ -18,39 +18,42 @@ namespace belvedere {
 // A whole picture as plain values with defaults: what a scene file says. scene_file turns TOML into it and checks every range; the
 // table there is the reference of keys. Lengths in metres, angles in degrees.
 
-struct SceneSource {             // a file and where it comes from
-  std::string file;              // relative to the scene file or a --data folder
+struct SceneSource {  // a file and where it comes from
+  std::string file;   // relative to the scene file or a --data folder
   int band = 1;
-  std::string crs;               // where the file has none, or to override it
-  std::string unit;              // "m", "ft", "us-ft" or empty: what the file says
+  std::string crs;   // where the file has none, or to override it
+  std::string unit;  // "m", "ft", "us-ft" or empty: what the file says
   std::optional<double> nodata;
-  std::string origin;            // who made the data
+  std::optional<double> lowest_m, highest_m;  // heights outside are voids
+  std::string origin;                         // who made the data
   std::string licence;
-  std::string get_from;          // where to get it; shown when it is missing
+  std::string get_from;  // where to get it; shown when it is missing
 };
 
 struct SceneTerrain {
-  std::vector<SceneSource> sources;            // empty: synthetic
+  std::vector<SceneSource> sources;  // empty: synthetic
   std::optional<SyntheticParameters> synthetic;
-  std::string crs;                             // metric; empty: the data's own or its UTM zone
-  double cell_m = 0.0;                         // 0: the data's
-  std::optional<std::array<double, 4>> extent; // min E, min N, max E, max N
+  std::string crs;                              // metric; empty: the data's own or its UTM zone
+  double cell_m = 0.0;                          // 0: the data's
+  std::optional<std::array<double, 4>> extent;  // min E, min N, max E, max N
   double max_void_share = 0.25;
 };
 
 struct SceneLandCover {
-  std::vector<SceneSource> sources;  // empty: by rules
-  std::string legend;                // "nlcd", "corine", "esa_worldcover", "fbfm40", or a .csv or .toml file
-  std::string rules = "alpine";      // where there is no source: built-in name or file
+  std::vector<SceneSource> sources;                      // empty: by rules
+  std::string legend;                                    // "nlcd", "corine", "esa_worldcover", "fbfm40", or a .csv or .toml file
+  std::string rules = "alpine";                          // where there is no source: built-in name or file
   std::vector<std::pair<std::string, double>> settings;  // parameters of the rules
+  // What a raster does not tell: {glacier, rock} makes glacier of what the raster calls rock and the rules call glacier.
+  std::vector<std::pair<LandCoverClass, LandCoverClass>> refine;
   std::optional<LandCoverClass> unknown;
   std::optional<LandCoverClass> nodata;
 };
 
 struct SceneGeneralize {
   GeneralizeParameters bands;
-  double foreground_to_m = 32000.0;   // up to this distance all foreground
-  double background_from_m = 90000.0; // from here all background, smoothstep between
+  double foreground_to_m = 32000.0;    // up to this distance all foreground
+  double background_from_m = 90000.0;  // from here all background, smoothstep between
   bool keep_lakes = true;
 };
 
@@ -59,13 +62,13 @@ struct SceneCamera {
   std::optional<glm::dvec2> position;         // E, N in the scene's CRS
   std::optional<glm::dvec2> position_lonlat;  // or longitude, latitude
   double height_m = 3000.0;
-  bool height_above_ground = false;           // else above the datum
-  std::optional<glm::dvec2> look_at;          // E, N: a point on the ground
+  bool height_above_ground = false;   // else above the datum
+  std::optional<glm::dvec2> look_at;  // E, N: a point on the ground
   std::optional<glm::dvec2> look_at_lonlat;
-  std::optional<double> look_at_altitude_m;   // else the ground's, unbent
-  double azimuth_deg = 0.0;                   // without look_at
+  std::optional<double> look_at_altitude_m;  // else the ground's, unbent
+  double azimuth_deg = 0.0;                  // without look_at
   double pitch_deg = -20.0;
-  double tilt_deg = 0.0;                      // added to the pitch in either case
+  double tilt_deg = 0.0;  // added to the pitch in either case
   double field_of_view_deg = 50.0;
   double view_width_m = 20000.0;
 };
@@ -73,8 +76,8 @@ struct SceneCamera {
 struct SceneSun {
   double azimuth_deg = 315.0;
   double altitude_deg = 30.0;
-  std::string time;              // ISO 8601 with zone; then azimuth and altitude are computed for the scene's middle
-  double radius_deg = 1.72;      // of the disc: softness of cast shadows (the true sun has 0.27)
+  std::string time;          // ISO 8601 with zone; then azimuth and altitude are computed for the scene's middle
+  double radius_deg = 1.72;  // of the disc: softness of cast shadows (the true sun has 0.27)
 };
 
 struct SceneSampling {
@@ -105,21 +108,21 @@ struct SceneAir {
 
 // One exemplar: painted by the program (picture empty), or a picture with a class mask and perhaps guides.
 struct SceneExemplar {
-  std::string picture;           // file; empty: the program paints one
-  std::string guidance;          // guidance.exr of the picture, or:
-  std::string classes;           // grey image of class ids; 255 excludes
-  std::string altitude;          // grey image, scaled by altitude_range_m
+  std::string picture;   // file; empty: the program paints one
+  std::string guidance;  // guidance.exr of the picture, or:
+  std::string classes;   // grey image of class ids; 255 excludes
+  std::string altitude;  // grey image, scaled by altitude_range_m
   std::array<double, 2> altitude_range_m = {0.0, 4000.0};
   std::string origin, licence, get_from;
-  bool optional = false;         // missing file: left out with a note instead of an error
-  int width = 2000;              // px of a painted one
+  bool optional = false;  // missing file: left out with a note instead of an error
+  int width = 2000;       // px of a painted one
   int height = 1400;
   std::uint64_t seed = 7;
 };
 
 struct SceneSynthesis {
-  bool enabled = true;           // off: everything is painted as strokes
-  double residual = 0.75;        // how much of the base picture's difference is laid over the texel, 0…1
+  bool enabled = true;     // off: everything is painted as strokes
+  double residual = 0.75;  // how much of the base picture's difference is laid over the texel, 0…1
   // By guide. Tone leads, so that the relief of the target survives, then altitude; the rest only decides between equals.
   std::vector<std::pair<std::string, double>> weights = {{"tone", 3.0},  {"altitude", 1.0},    {"distance", 0.3},   {"shadow", 0.3},
                                                          {"slope", 0.3}, {"fall_line_x", 0.2}, {"fall_line_y", 0.2}};
@@ -150,7 +153,7 @@ struct Scene {
   SceneSampling sampling;
   SceneLight light;
   SceneAir air;
-  std::string palette = "summer";   // built-in name or file
+  std::string palette = "summer";        // built-in name or file
   std::vector<SceneExemplar> exemplars;  // empty: one painted by the program
   SceneSynthesis synthesis;
   SceneOutput output;

@@ -40,12 +40,23 @@ std::vector<SceneKey> source_keys(bool heights) {
        .field = source(AT(terrain.sources[i].get_from), AT(land_cover.sources[i].get_from)),
        .meaning = "Where to get it; shown when the file is missing."},
   };
-  if (heights)
+  if (heights) {
     keys.insert(keys.begin() + 3, {.name = "unit",
                                    .field = AT(terrain.sources[i].unit),
                                    .meaning = "Unit of the heights, where the file does not say it; us-ft is the survey foot.",
                                    .text = TextKind::choice,
                                    .choices = {"", "m", "ft", "us-ft"}});
+    keys.insert(keys.begin() + 5, {.name = "lowest_m",
+                                   .field = AT(terrain.sources[i].lowest_m),
+                                   .range = {-12000, 9000},
+                                   .unit = "m",
+                                   .meaning = "Lower heights are flaws of the data and count as voids."});
+    keys.insert(keys.begin() + 6, {.name = "highest_m",
+                                   .field = AT(terrain.sources[i].highest_m),
+                                   .range = {-12000, 9000},
+                                   .unit = "m",
+                                   .meaning = "Higher heights are flaws of the data and count as voids."});
+  }
   return keys;
 }
 
@@ -150,6 +161,10 @@ std::vector<SceneSection> make_scene_sections() {
       {.name = "land_cover",
        .meaning = "What the ground is: from rasters with a legend, or, where there are none, by rules from the terrain itself.",
        .keys = {
+           {.name = "refine",
+            .field = AT(land_cover.refine),
+            .meaning = "What a raster does not tell apart: glacier = \"rock\" makes glacier of what the raster calls rock where the rules "
+                       "see a glacier."},
            {.name = "legend",
             .field = AT(land_cover.legend),
             .meaning = "What the raster's codes mean: a built-in legend or a .toml or .csv file. Needed where there is a source.",
@@ -457,7 +472,7 @@ std::vector<SceneSection> make_scene_sections() {
            {.name = "weights",
             .field = AT(synthesis.weights),
             .range = {0, 100},
-            .meaning = "How strongly each guide steers, by name; 1 where not named, 0 switches it off.",
+            .meaning = "How strongly each guide steers, by name; a guide not named keeps the strength given here, 0 switches it off.",
             .choices = {"altitude", "tone", "distance", "shadow", "slope", "fall_line_x", "fall_line_y"}},
            {.name = "fallback",
             .field = AT(synthesis.fallback),
