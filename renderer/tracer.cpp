@@ -70,7 +70,8 @@ struct CellHit {
   double v = 0.0;
   int x = 0;  // the cell
   int y = 0;
-  bool lower = false;  // its south-eastern triangle
+  bool lower = false;   // its south-eastern triangle
+  double volume = 1.0;  // the facet's normal, twice its area long, along the ray
 };
 
 }  // namespace
@@ -79,6 +80,7 @@ struct Tracer::State {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   const Grid<glm::vec3>* posts = nullptr;
+  double side = 0.0;  // of a cell, about
   glm::dvec3 origin{0.0};
   std::vector<GridTile> tiles;    // those of geometry 0, then the last one, which is geometry 1
   std::vector<RTCGrid> grids;     // of geometry 0
@@ -165,7 +167,7 @@ inline void Tracer::State::intersect_facet(int x, int y, bool lower, const glm::
   const double wc = ab * share;
   const double distance = glm::dot(a + (b - a) * wb + (c - a) * wc, d);
   if (!(distance >= 0.0) || !(distance < best.distance)) return;
-  best = {distance, lower ? 1.0 - wb : wb, lower ? 1.0 - wc : wc, x, y, lower};
+  best = {distance, lower ? 1.0 - wb : wb, lower ? 1.0 - wc : wc, x, y, lower, sum};
 }
 
 glm::dvec3 Tracer::State::facet_normal(const CellHit& hit) const {
@@ -187,9 +189,11 @@ bool Tracer::State::resolve(const Ray& ray, unsigned geometry, unsigned primitiv
   const float in_x = fx - static_cast<float>(x - tile.x0);
   const float in_y = fy - static_cast<float>(y - tile.y0);
   intersect_facet(x, y, in_x + in_y > 1.F, o, ray.direction, best);
-  // Embree's float places are good to some hundredths of a cell far from the eye. So near an edge, and where the facet is missed,
-  // its neighbours are asked too, and the nearest hit is the answer, from whichever side Embree came.
-  constexpr double rim = 0.03;
+  // Embree's float places err by the rounding of volumes of about distance × side of a cell, against the facet's own. So near an
+  // edge, and where the facet is missed, its neighbours are asked too, and the nearest hit is the answer, from whichever side
+  // Embree came. 16 roundings are more than its sums have.
+  constexpr double rounding = 16.0 * 0x1.0p-24;
+  const double rim = std::min(0.5, rounding * best.distance * side / std::abs(best.volume));
   const bool missed = !(best.distance < std::numeric_limits<double>::infinity());
   const bool near_diagonal = std::abs(best.u + best.v - 1.0) < rim;
   if (missed || near_diagonal || std::min(best.u, best.v) < rim || std::max(best.u, best.v) > 1.0 - rim) {
@@ -293,6 +297,8 @@ Tracer::Tracer(const DeformedSurface& surface, const TracerParameters& parameter
   if (parameters.tile_cells < 1 || parameters.tile_cells > 1024) {
     throw Error(ErrorKind::bug, "ray tracing", fmt::format("tiles of {} cells", parameters.tile_cells), "1 to 1024");
   }
+  const glm::dvec3 across = state.post(posts.width() - 1, posts.height() - 1) - state.post(0, 0);
+  state.side = glm::length(across) / std::hypot(posts.width() - 1.0, posts.height() - 1.0);
   // About 40 bytes a cell while building (23 are kept); Embree's ids of posts have 32 bits.
   const double wanted = 40.0 * static_cast<double>(posts.size());
   const double present = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
