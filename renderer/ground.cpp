@@ -49,7 +49,8 @@ Grid<float> foreground_share(const Dem& dem, glm::dvec2 viewer_xy, const SceneGe
 
 LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
   const SceneLandCover& wish = loaded.scene.land_cover;
-  return apply_class_rules(read_class_rules(name_or_file(loaded, wish.rules)), wish.settings, dem, loaded.scene.seed, progress);
+  return apply_class_rules(read_class_rules(find_named_file(loaded, "layers", wish.rules)), wish.settings, dem, loaded.scene.seed,
+                           progress);
 }
 
 // {to, from}: cells of class `from` where the rules see `to` become `to`.
@@ -71,11 +72,6 @@ void refine_by_rules(LandCover& cover, const LandCover& rules, const std::vector
 
 }  // namespace
 
-std::string name_or_file(const LoadedScene& scene, const std::string& name) {
-  const bool is_file = name.ends_with(".toml") || name.ends_with(".csv");
-  return is_file ? find_scene_file(scene, name) : name;
-}
-
 Dem make_scene_dem(const LoadedScene& loaded, Progress& progress) {
   const SceneTerrain& terrain = loaded.scene.terrain;
   if (terrain.synthetic) return make_synthetic_terrain(*terrain.synthetic, progress);
@@ -93,7 +89,7 @@ LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progr
   if (wish.sources.empty()) return make_rule_cover(loaded, dem, progress);
   LandCoverParameters parameters;
   parameters.sources = to_raster_sources(loaded, wish.sources);
-  parameters.legend = name_or_file(loaded, wish.legend);
+  parameters.legend = find_named_file(loaded, "legends", wish.legend);
   parameters.folders = loaded.allowed_folders;
   parameters.unknown = wish.unknown;
   parameters.nodata = wish.nodata;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "renderer/base/progress.h"
 #include "renderer/guidance.h"
 #include "renderer/scene_file.h"
@@ -9,10 +7,6 @@
 #include "terrain/deform.h"
 
 namespace belvedere {
-
-// What a scene calls by name (palette, legend, rules): the path of a file where the name ends in .toml or .csv, else the name of something
-// built in.
-std::string name_or_file(const LoadedScene& scene, const std::string& name);
 
 // The DEM of a scene: its sources read and mosaicked, or a terrain made up.
 Dem make_scene_dem(const LoadedScene& scene, Progress& progress);

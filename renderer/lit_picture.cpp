@@ -62,7 +62,7 @@ GuidanceParameters to_guidance_parameters(const Stage& stage, int tile_size) {
 Stage set_stage(const LoadedScene& loaded, Progress& progress) {
   Stage stage;
   stage.scene = loaded.scene;
-  stage.palette = read_palette(name_or_file(loaded, loaded.scene.palette));
+  stage.palette = read_palette(find_named_file(loaded, "palettes", loaded.scene.palette));
   Dem dem = make_scene_dem(loaded, progress);
   stage.view = make_view(loaded.scene, dem, progress);
   stage.camera = make_camera(stage.view.camera);

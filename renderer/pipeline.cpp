@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -36,28 +38,12 @@ void check_memory(const Scene& scene) {
                 fmt::format("at most {} MiB: a smaller output.width, or --memory", memory_limit_bytes() >> 20));
 }
 
-// Every file the scene reads, as it names them.
-std::vector<std::string> input_files(const Scene& scene) {
-  std::vector<std::string> files;
-  for (const SceneSource& source : scene.terrain.sources) files.push_back(source.file);
-  for (const SceneSource& source : scene.land_cover.sources) files.push_back(source.file);
-  for (const SceneExemplar& exemplar : scene.exemplars)
-    for (const std::string* file : {&exemplar.picture, &exemplar.guidance, &exemplar.classes, &exemplar.altitude}) files.push_back(*file);
-  for (const std::string* name : {&scene.land_cover.legend, &scene.land_cover.rules, &scene.palette})
-    if (name->ends_with(".toml") || name->ends_with(".csv")) files.push_back(*name);
-  files.push_back(scene.output.profile);
-  files.push_back(scene.output.ocio_config);
-  std::erase_if(files, [](const std::string& file) { return file.empty(); });
-  return files;
-}
-
 FileNotes make_notes(const LoadedScene& loaded, const Stage& stage) {
-  Provenance provenance;
-  provenance.program_version = program_version();
+  std::map<std::string, std::string> inputs;
+  for (const SceneInput& input : scene_inputs(loaded))
+    if (!input.path.empty()) inputs[input.file] = input.path;
+  Provenance provenance = make_provenance(write_scene(loaded.scene), inputs);
   provenance.instruction_set = stage.tracer->description();
-  provenance.scene = write_scene(loaded.scene);
-  for (const std::string& file : input_files(loaded.scene))
-    if (const std::string path = find_scene_file(loaded, file); !path.empty()) provenance.inputs[file] = hash_file(path);
   FileNotes notes = to_notes(provenance);
   const CameraParameters& camera = stage.view.camera;
   notes["belvedere:camera"] =

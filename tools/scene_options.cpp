@@ -38,7 +38,7 @@ LoadedScene load(const SceneOptions& options) {
   if (std::find(scenes.begin(), scenes.end(), "demo") == scenes.end())
     throw Error(ErrorKind::usage, "command line", "no scene is named, and this program has no demo built in",
                 "belvedere render SCENE.toml");
-  return parse_scene(std::string(embedded_file("scenes/demo.toml")), "demo.toml", ".", options.files);
+  return parse_scene(std::string(embedded_file("scenes/demo/demo.toml")), "demo.toml", ".", options.files);
 }
 
 }  // namespace belvedere::tools
