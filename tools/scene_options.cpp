@@ -1,7 +1,6 @@
 #include "tools/scene_options.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdlib>
 
 #include "renderer/base/embedded.h"
@@ -34,10 +33,6 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
 LoadedScene load(const SceneOptions& options) {
   if (options.memory_mib > 0) setenv("BELVEDERE_MEMORY_MIB", std::to_string(options.memory_mib).c_str(), 1);
   if (!options.scene.empty()) return read_scene(options.scene, options.files);
-  const std::vector<std::string> scenes = embedded_names("scenes");
-  if (std::find(scenes.begin(), scenes.end(), "demo") == scenes.end())
-    throw Error(ErrorKind::usage, "command line", "no scene is named, and this program has no demo built in",
-                "belvedere render SCENE.toml");
   return parse_scene(std::string(embedded_file("scenes/demo/demo.toml")), "demo.toml", ".", options.files);
 }
 
