@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <fstream>
 #include <limits>
 
 #include "renderer/base/error.h"
@@ -17,6 +18,7 @@ namespace belvedere::bench {
 std::vector<Measurement> bench_files(const Options&);
 std::vector<Measurement> bench_generalize(const Options&);
 std::vector<Measurement> bench_guidance(const Options&);
+std::vector<Measurement> bench_synthesis(const Options&);
 std::vector<Measurement> bench_trace(const Options&);
 
 namespace {
@@ -26,6 +28,7 @@ const std::vector<Section>& sections() {
       {"trace", "building the structure and tracing rays, beside a bare Embree loop over the same rays", &bench_trace},
       {"guidance", "a whole picture's guidance buffers", &bench_guidance},
       {"generalize", "generalization of the terrain", &bench_generalize},
+      {"synthesis", "painting by example, with one guide and with seven", &bench_synthesis},
       {"files", "writing and reading TIFF, PNG and OpenEXR", &bench_files},
   };
   return all;
@@ -70,6 +73,10 @@ std::vector<Cost> measure_fastest(int repeats, const std::vector<std::function<v
   return best;
 }
 
+double peak_memory_mb() { return static_cast<double>(used().ru_maxrss) / 1024.0; }
+
+void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }  // Linux: proc(5)
+
 namespace {
 
 int run(int argc, char** argv) {
@@ -92,16 +99,19 @@ int run(int argc, char** argv) {
   const ThreadLimit limit(threads);
 
   std::string body;
+  double peak = 0.0;
   for (const Section& section : sections()) {
     if (!wanted(section)) continue;
     std::string lines;
-    for (const Measurement& m : section.run(options)) {
+    const std::vector<Measurement> measured = section.run(options);
+    peak = std::max(peak, peak_memory_mb());
+    for (const Measurement& m : measured) {
       lines += fmt::format("{}\n    {{\"name\": {}, \"value\": {:.6g}, \"unit\": {}}}", lines.empty() ? "" : ",", json_text(m.name),
                            m.value, json_text(m.unit));
     }
     body += fmt::format("{}\n  {}: [{}\n  ]", body.empty() ? "" : ",", json_text(section.name), lines);
   }
-  body += fmt::format("{}\n  \"peak_memory_mb\": {:.1f}", body.empty() ? "" : ",", static_cast<double>(used().ru_maxrss) / 1024.0);
+  body += fmt::format("{}\n  \"peak_memory_mb\": {:.1f}", body.empty() ? "" : ",", peak);
   fmt::print("{{{}\n}}\n", body);
   return 0;
 }

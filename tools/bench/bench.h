@@ -36,4 +36,8 @@ Cost measure(const std::function<void()>& work);
 // take turns, so that a slow minute of the machine slows them all.
 std::vector<Cost> measure_fastest(int repeats, const std::vector<std::function<void()>>& works);
 
+// Most memory this process had resident since the last reset. Where the system cannot reset it, since the start of the program.
+double peak_memory_mb();
+void reset_peak_memory();
+
 }  // namespace belvedere::bench
