@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <glm/common.hpp>
 #include <sstream>
 #include <string>
 
@@ -114,6 +117,26 @@ TEST_F(Pipeline, PanoramaShowsSkyOverTerrainAndIsPainted) {
   }
   EXPECT_GT(difference / count, 0.01);
   EXPECT_LT(difference / count, 0.12);
+}
+
+// The golden picture is small, and was looked at when it was made. A change of the look is meant to fail here: look at the new picture,
+// then run with BELVEDERE_WRITE_GOLDEN=1 and commit it. Thresholds leave room for another processor's last bits, not for another look.
+TEST_F(Pipeline, LooksAsItDid) {
+  const std::string golden = std::string(BELVEDERE_SOURCE_DIR) + "/tests/golden/small_panorama.png";
+  if (std::getenv("BELVEDERE_WRITE_GOLDEN") != nullptr)
+    fs::copy_file(rendered_ + "/panorama.png", golden, fs::copy_options::overwrite_existing);
+  const Grid<glm::vec3> wanted = read_picture(golden);
+  const Grid<glm::vec3> found = read_picture(rendered_ + "/panorama.png");
+  ASSERT_TRUE(found.same_size(wanted));
+  double sum = 0.0;
+  int far_off = 0;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const glm::vec3 d = glm::abs(found[i] - wanted[i]);
+    sum += (d.x + d.y + d.z) / 3.0;
+    far_off += std::max({d.x, d.y, d.z}) > 0.1F ? 1 : 0;
+  }
+  EXPECT_LT(sum / static_cast<double>(wanted.size()), 0.003);
+  EXPECT_LT(far_off, static_cast<int>(wanted.size() / 100));
 }
 
 TEST_F(Pipeline, EveryFileSaysWhatMadeIt) {
