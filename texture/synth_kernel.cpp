@@ -125,6 +125,7 @@ struct Search {
   std::uint32_t label_class = no_class;
   const std::uint8_t* wanted = nullptr;
   Slack slack;
+  alignas(8) std::uint8_t free[vector_guides] = {};  // slack of each guide, for GuideCost
   Patch patch;
   std::uint32_t own = 0;
   std::uint32_t best = 0;
@@ -137,8 +138,37 @@ struct Search {
     label_class = class_of(state.target->words[pixel]);
     wanted = state.target->guides_at(pixel);
     slack = make_slack(state, pixel);
+    if (state.vector_weights != nullptr) {
+      const int count = std::min(state.exemplars->guide_count, vector_guides);
+      free[0] = static_cast<std::uint8_t>(std::min(255, slack.sorted));
+      free[1] = static_cast<std::uint8_t>(std::min(255, slack.bucketed));
+      for (int g = 2; g < count && slack.others != nullptr; ++g) free[g] = slack.others[g];
+    }
     own = best = state.match[pixel];
     LoadPatch(state, pixel, patch);
+  }
+
+  // guide_cost, for up to 8 guides at once where their prices fit 32 bits.
+  HWY_INLINE std::int64_t GuideCost(const std::uint8_t* offered) const {
+    if (view->vector_weights == nullptr) return guide_cost(*view, wanted, offered, slack);
+    const hn::CappedTag<std::uint32_t, 4> d32;
+    const hn::CappedTag<std::uint16_t, 8> d16;
+    const hn::Rebind<std::uint8_t, decltype(d16)> d8;
+    const hn::Rebind<std::uint16_t, decltype(d32)> half;
+    auto sum = hn::Zero(d32);
+    for (std::size_t i = 0; i < vector_guides; i += hn::Lanes(d16)) {
+      const auto a = hn::LoadU(d8, wanted + i);
+      const auto b = hn::LoadU(d8, offered + i);
+      const auto off = hn::SaturatedSub(hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)), hn::LoadU(d8, free + i));
+      const auto wide = hn::PromoteTo(d16, off);
+      alignas(16) std::uint16_t squares[vector_guides];
+      hn::StoreU(hn::Mul(wide, wide), d16, squares);
+      for (std::size_t k = 0; k < hn::Lanes(d16); k += hn::Lanes(d32)) {
+        const auto square = hn::PromoteTo(d32, hn::LoadU(half, squares + k));
+        sum = hn::Add(sum, hn::Mul(square, hn::LoadU(d32, view->vector_weights + i + k)));
+      }
+    }
+    return static_cast<std::int64_t>(hn::GetLane(hn::SumOfLanes(d32, sum)) >> 4);
   }
 
   // `join` is what copying along with a neighbour's (or keeping the own) piece costs.
@@ -150,7 +180,7 @@ struct Search {
     }
     seen[seen_count++] = texel;
     const std::int64_t others = static_cast<std::int64_t>(view->uses[texel]) - (texel == own ? 1 : 0);
-    std::int64_t cost = join + guide_cost(*view, wanted, view->exemplars->guides_at(texel), slack) +
+    std::int64_t cost = join + GuideCost(view->exemplars->guides_at(texel)) +
                         (others * (others + 1) / 2 * view->reuse_q4[label_class] >> 4) +
                         view->bin_cost[label_class * 64 + view->bins[texel]];
     if (cost > best_cost) return;
@@ -306,16 +336,28 @@ std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint6
   const std::uint32_t label_class = class_of(view.target->words[pixel]);
   const std::uint8_t* wanted = view.target->guides_at(pixel);
   slack.others = nullptr;  // picks are as good as they can be
+  const auto pick = [&](int draw) {
+    const std::uint32_t random = static_cast<std::uint32_t>(random_bits(key, x, y, static_cast<std::uint64_t>(draw)) >> 32);
+    return view.lists->pick(label_class, wanted, random);
+  };
+  if (view.draws == 1) return pick(0);
+  // Each draw waits for memory twice, for its list entry and for its guides; in batches the waits overlap.
+  constexpr int batch = 8;
+  std::array<std::uint32_t, batch> drawn;
   std::uint32_t best = view.exemplars->nowhere();
   std::int64_t best_cost = INT64_MAX;
-  for (int draw = 0; draw < view.draws; ++draw) {
-    const std::uint32_t random = static_cast<std::uint32_t>(random_bits(key, x, y, static_cast<std::uint64_t>(draw)) >> 32);
-    const std::uint32_t texel = view.lists->pick(label_class, wanted, random);
-    if (view.draws == 1) return texel;
-    const std::int64_t cost = guide_cost(view, wanted, view.exemplars->guides_at(texel), slack);
-    if (cost < best_cost) {
-      best_cost = cost;
-      best = texel;
+  for (int first = 0; first < view.draws; first += batch) {
+    const std::size_t count = static_cast<std::size_t>(std::min(batch, view.draws - first));
+    for (std::size_t i = 0; i < count; ++i) {
+      drawn[i] = pick(first + static_cast<int>(i));
+      hwy::Prefetch(view.exemplars->guides_at(drawn[i]));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int64_t cost = guide_cost(view, wanted, view.exemplars->guides_at(drawn[i]), slack);
+      if (cost < best_cost) {
+        best_cost = cost;
+        best = drawn[i];
+      }
     }
   }
   return best;

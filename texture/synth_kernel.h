@@ -28,24 +28,28 @@ inline constexpr std::int64_t misfit = 300000;        // a member of a moved pie
 // Weight of a patch pixel: round(16 exp(-r² / 8)), by |dx| and |dy|.
 inline constexpr int patch_weights[4][4] = {{16, 14, 10, 5}, {14, 12, 9, 5}, {10, 9, 6, 3}, {5, 5, 3, 2}};
 
+// Guides priced by one vector operation; each plane's guides may be read this far from any texel's first.
+inline constexpr int vector_guides = 8;
+
 // All that pricing reads. Pointers into the state of a level (synth_level.h); nothing is owned.
 struct KernelView {
   const Plane* target = nullptr;
   const Plane* exemplars = nullptr;
   const PickLists* lists = nullptr;
-  const std::uint8_t* links = nullptr;        // by target index; null: no silhouettes
-  const GuideRole* guides = nullptr;          // exemplars->guide_count of them
-  const std::uint8_t* usual_error = nullptr;  // by class × guide_count + guide: what picks are usually off; null: not known yet
-  const std::uint32_t* match = nullptr;       // by target index: exemplar index
-  const std::uint16_t* piece_size = nullptr;  // by target index: pixels of the piece copied in one, saturated
-  const std::uint32_t* uses = nullptr;        // by exemplar index
-  const std::uint8_t* bins = nullptr;         // by exemplar index
-  const std::int32_t* bin_cost = nullptr;     // by class × 64 + bin
-  const std::int64_t* reuse_q4 = nullptr;     // by class: price of reuse in sixteenths
-  std::int64_t copy_cap = 0;                  // pixels of a piece
-  bool replaces_pieces = false;               // whether pieces over the cap are moved as a whole on this level
-  int draws = 1;                              // texels drawn for one pick
-  std::uint64_t key = 0;                      // of the random numbers of this pass
+  const std::uint8_t* links = nullptr;            // by target index; null: no silhouettes
+  const GuideRole* guides = nullptr;              // exemplars->guide_count of them
+  const std::uint32_t* vector_weights = nullptr;  // vector_guides weights, 0 beyond the last; null: one by one
+  const std::uint8_t* usual_error = nullptr;      // by class × guide_count + guide: what picks are usually off; null: not known yet
+  const std::uint32_t* match = nullptr;           // by target index: exemplar index
+  const std::uint16_t* piece_size = nullptr;      // by target index: pixels of the piece copied in one, saturated
+  const std::uint32_t* uses = nullptr;            // by exemplar index
+  const std::uint8_t* bins = nullptr;             // by exemplar index
+  const std::int32_t* bin_cost = nullptr;         // by class × 64 + bin
+  const std::int64_t* reuse_q4 = nullptr;         // by class: price of reuse in sixteenths
+  std::int64_t copy_cap = 0;                      // pixels of a piece
+  bool replaces_pieces = false;                   // whether pieces over the cap are moved as a whole on this level
+  int draws = 1;                                  // texels drawn for one pick
+  std::uint64_t key = 0;                          // of the random numbers of this pass
   int pass = 0;
 };
 

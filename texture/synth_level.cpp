@@ -75,6 +75,16 @@ void add_to(BinCounts& sums, const BinCounts& change) {
   std::transform(sums.begin(), sums.end(), change.begin(), sums.begin(), std::plus<>());
 }
 
+// The guides' weights for 32-bit prices; empty where these could overflow, and where one or two are priced as fast singly.
+std::vector<std::uint32_t> vector_weights_of(const std::vector<GuideRole>& guides) {
+  std::vector<std::uint32_t> weights(vector_guides, 0);
+  std::int64_t largest_price = 0;
+  for (const GuideRole& guide : guides) largest_price += guide.weight_q4 * 255 * 255;
+  if (guides.size() <= 2 || guides.size() > weights.size() || largest_price > INT32_MAX) return {};
+  for (std::size_t g = 0; g < guides.size(); ++g) weights[g] = static_cast<std::uint32_t>(guides[g].weight_q4);
+  return weights;
+}
+
 // The median error of each guide over the picks of a sample of a class's pixels.
 std::vector<std::uint8_t> usual_errors_of_picks(const LevelState& state, int classes) {
   constexpr int samples_across = 256;
@@ -126,6 +136,7 @@ LevelState::LevelState(const LevelSettings& level_settings, const std::vector<Gu
                        const Plane& exemplar_plane, Plane& target_plane, std::vector<std::uint8_t> surface_links)
     : settings(level_settings),
       guides(guide_roles),
+      vector_weights(vector_weights_of(guide_roles)),
       exemplars(exemplar_plane),
       target(target_plane),
       links(std::move(surface_links)),
@@ -162,6 +173,7 @@ KernelView LevelState::view(int pass) const {
   view.lists = &lists;
   view.links = links.empty() ? nullptr : links.data();
   view.guides = guides.data();
+  view.vector_weights = vector_weights.empty() ? nullptr : vector_weights.data();
   view.usual_error = usual_error.empty() ? nullptr : usual_error.data();
   view.match = match.data();
   view.piece_size = pieces.size().data();

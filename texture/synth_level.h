@@ -30,6 +30,7 @@ LevelSettings settings_for_level(int level, std::uint64_t seed, int copy_cap, do
 struct LevelState {
   LevelSettings settings;
   std::vector<GuideRole> guides;
+  std::vector<std::uint32_t> vector_weights;  // empty: guides are priced one by one
   const Plane& exemplars;
   Plane& target;
   std::vector<std::uint8_t> links;  // empty: no silhouettes

@@ -35,7 +35,7 @@ Plane make_plane(const std::vector<std::pair<int, int>>& sizes, int guide_count)
   }
   const std::size_t count = static_cast<std::size_t>(rows) * static_cast<std::size_t>(plane.stride);
   plane.words.assign(count, no_class << 24);
-  plane.guides.assign(count * static_cast<std::size_t>(guide_count), 0);
+  plane.guides.assign(count * static_cast<std::size_t>(guide_count) + 8, 0);  // vector reads of 8 guides stay inside
   return plane;
 }
 
