@@ -145,6 +145,21 @@ PaintedExemplar read_painting(const SceneExemplar& wish, const LoadedScene& scen
   return painting;
 }
 
+void check_paintings(const LoadedScene& scene) {
+  for (const SceneExemplar& wish : scene.scene.exemplars) {
+    const std::string path = wish.picture.empty() ? std::string() : find_scene_file(scene, wish.picture);
+    if (path.empty()) continue;
+    const Grid<glm::vec3> picture = read_picture(path);
+    for (const std::string* file : {&wish.guidance, &wish.classes, &wish.altitude}) {
+      if (file->empty()) continue;
+      const std::string guide = find_scene_file(scene, *file);
+      const ImageInfo info = read_image_info(guide);
+      check_same_size(guide, info.width, info.height, picture);
+      if (file != &wish.guidance) read_grey(guide);
+    }
+  }
+}
+
 std::vector<PaintedExemplar> make_exemplars(const LoadedScene& scene, const Stage& stage, const LitPicture& target, Progress& progress) {
   std::vector<PaintedExemplar> exemplars;
   for (const SceneExemplar& wish : scene.scene.exemplars) {

@@ -18,6 +18,10 @@ PaintedExemplar paint_sheet(const SceneExemplar& wish, const Stage& target, Prog
 // of its own; target_base lends it the mean of each class, so that the target's light is laid over it and not its colours.
 PaintedExemplar read_painting(const SceneExemplar& wish, const LoadedScene& scene, const LitPicture& target);
 
+// Error(input) naming the file where a painting cannot be read whole or its guides have another size, Error(limit) where it takes too
+// much memory: to be called before the work begins.
+void check_paintings(const LoadedScene& scene);
+
 // All exemplars of a scene; one painted sheet where it names none. An optional one whose file is missing is noted and left out.
 std::vector<PaintedExemplar> make_exemplars(const LoadedScene& scene, const Stage& stage, const LitPicture& target, Progress& progress);
 

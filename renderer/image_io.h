@@ -73,7 +73,7 @@ struct ImageInfo {
 // PNG, TIFF, JPEG or OpenEXR, known by their first bytes whatever the name. Error(input) for anything else or a damaged header.
 ImageInfo read_image_info(const std::string& path);
 // One channel of any part of an OpenEXR file by name; half and float32 as float. Error(input) if absent, of the other kind or damaged,
-// Error(limit) over memory_limit_bytes().
+// Error(limit) over memory_budget_bytes() (base/memory_limit.h).
 Grid<float> read_channel(const std::string& path, const std::string& channel);
 // Several at once, so that a part is unpacked only once; an absent one gives an empty grid.
 std::vector<Grid<float>> read_channels(const std::string& path, const std::vector<std::string>& channels);
@@ -101,8 +101,6 @@ void write_png8(const std::string& path, const Grid<glm::vec3>& encoded, const P
 // Scene-linear picture as half EXR, primaries of sRGB in the header.
 void write_exr(const std::string& path, const Image& linear, const FileNotes& notes);
 
-// Bytes an image may take in memory: ¾ of the machine's, or BELVEDERE_MEMORY_MIB. Checked from headers before allocating.
-std::uint64_t memory_limit_bytes();
 // Error(output) unless a file could be created in the folder (made where it is missing).
 void check_output_folder(const std::string& folder);
 

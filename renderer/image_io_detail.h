@@ -13,7 +13,7 @@ namespace belvedere::image_io {
 // Known by its first bytes: "openexr", "tiff", "png", "jpeg", or empty.
 std::string find_format(const std::string& path);
 [[noreturn]] void throw_damaged(const std::string& path, const std::string& reason);
-// Error(limit) where `bytes`, needed to read this width × height picture, are over memory_limit_bytes().
+// Error(limit) where `bytes`, needed to read this width × height picture, are over memory_budget_bytes().
 void check_memory(const std::string& path, std::int64_t width, std::int64_t height, double bytes);
 
 // Notes as one text for formats that have a single description: a first line that says so, then `key: value` lines with \n and \\ for

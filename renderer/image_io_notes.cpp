@@ -1,18 +1,13 @@
 // What all formats share: limits, notes as text, numbers from colours, which format a file has.
-#include <sys/types.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <limits>
 #include <system_error>
 
 #include "renderer/base/error.h"
+#include "renderer/base/memory_limit.h"
 #include "renderer/image_io_detail.h"
 
 namespace belvedere {
@@ -49,22 +44,6 @@ std::string unescape(std::string_view text) {
 
 }  // namespace
 
-std::uint64_t memory_limit_bytes() {
-  if (const char* text = std::getenv("BELVEDERE_MEMORY_MIB"); text != nullptr && *text != '\0') {
-    std::uint64_t mib = 0;
-    const char* end = text + std::strlen(text);
-    const auto [stop, code] = std::from_chars(text, end, mib);
-    if (code != std::errc() || stop != end || mib == 0 || mib > (std::uint64_t{1} << 40)) {
-      throw Error(ErrorKind::usage, "BELVEDERE_MEMORY_MIB", std::string("is \"") + text + "\"", "a whole number of MiB, at least 1");
-    }
-    return mib << 20;
-  }
-  const long pages = ::sysconf(_SC_PHYS_PAGES);
-  const long page_bytes = ::sysconf(_SC_PAGESIZE);
-  if (pages <= 0 || page_bytes <= 0) return std::uint64_t{4} << 30;
-  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes) / 4 * 3;
-}
-
 namespace image_io {
 
 std::string find_format(const std::string& path) {
@@ -89,7 +68,7 @@ void throw_damaged(const std::string& path, const std::string& reason) {
 
 void check_memory(const std::string& path, std::int64_t width, std::int64_t height, double bytes) {
   if (width < 1 || height < 1) throw_damaged(path, "a picture without pixels");
-  const double limit = static_cast<double>(memory_limit_bytes());
+  const double limit = static_cast<double>(memory_budget_bytes());
   constexpr std::int64_t longest = std::numeric_limits<int>::max() / 64;
   if (bytes <= limit && width <= longest && height <= longest) return;
   const auto mib = [](double b) { return std::to_string(static_cast<std::int64_t>(std::ceil(std::min(b, 1e18) / 1048576.0))) + " MiB"; };

@@ -30,7 +30,7 @@ struct DifferenceLimits {
 };
 
 // Compares PNG, TIFF, JPEG and OpenEXR files: two OpenEXR files channel by channel by name, anything else as R, G, B and alpha.
-// Error(input) for files that cannot be read, Error(limit) over memory_limit_bytes().
+// Error(input) for files that cannot be read, Error(limit) over memory_budget_bytes().
 PictureDifference compare_pictures(const std::string& a, const std::string& b);
 // No mismatch and every channel within the limits.
 bool is_same(const PictureDifference& difference, const DifferenceLimits& limits);

@@ -8,12 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/base/memory_limit.h"
 #include "renderer/color.h"
 #include "renderer/composite.h"
 #include "renderer/exemplars.h"
 #include "renderer/guidance_io.h"
 #include "renderer/image_io.h"
 #include "renderer/lit_picture.h"
+#include "renderer/output_color.h"
 #include "renderer/provenance.h"
 #include "terrain/raster_io.h"
 #include "texture/stroke_painter.h"
@@ -21,8 +23,6 @@
 
 namespace belvedere {
 namespace {
-
-constexpr int band_rows = 512;  // rows of guidance held at once; a multiple of the file's tiles
 
 std::string join(const std::string& folder, const char* file) { return folder.empty() ? file : folder + "/" + file; }
 
@@ -32,10 +32,27 @@ constexpr std::uint64_t render_bytes_per_pixel = 320;
 void check_memory(const Scene& scene) {
   const std::uint64_t need =
       static_cast<std::uint64_t>(scene.output.width) * static_cast<std::uint64_t>(scene.output.height) * render_bytes_per_pixel;
-  if (need > memory_limit_bytes())
+  if (need > memory_budget_bytes())
     throw Error(ErrorKind::limit, "output",
                 fmt::format("a picture of {}×{} pixels needs about {} MiB", scene.output.width, scene.output.height, need >> 20),
-                fmt::format("at most {} MiB: a smaller output.width, or --memory", memory_limit_bytes() >> 20));
+                fmt::format("at most {} MiB: a smaller output.width, or --memory", memory_budget_bytes() >> 20));
+}
+
+// Rows of guidance that are made at once: as many as memory allows, a multiple of the file's tiles. Changes no pixel.
+int choose_band_rows(const Scene& scene) {
+  constexpr int tile_rows = 64;
+  constexpr int most_rows = 512;
+  const auto bytes = [&](int rows) {
+    const int held = std::min(scene.output.height, rows + 2 * lit_margin_px(scene));
+    return static_cast<double>(scene.output.width) * held * render_bytes_per_pixel;
+  };
+  int rows = most_rows;
+  while (rows > tile_rows && bytes(rows) > static_cast<double>(memory_budget_bytes())) rows /= 2;
+  if (bytes(rows) > static_cast<double>(memory_budget_bytes()))
+    throw Error(ErrorKind::limit, "output",
+                fmt::format("guidance {} pixels wide needs about {:.0f} MiB", scene.output.width, bytes(rows) / 1048576.0),
+                fmt::format("at most {} MiB: a smaller output.width, or --memory", memory_budget_bytes() >> 20));
+  return rows;
 }
 
 FileNotes make_notes(const LoadedScene& loaded, const Stage& stage) {
@@ -93,21 +110,20 @@ Grid<glm::vec3> synthesize_ground(const LoadedScene& loaded, const Stage& stage,
   return transfer_residual(matches, painted, picture.ground.colour, picture.ground.haze, stage.scene.synthesis.residual);
 }
 
-void write_panorama(const Grid<glm::vec3>& picture, const Scene& scene, const std::string& profile_path, const FileNotes& notes,
+void write_panorama(const Grid<glm::vec3>& picture, const Scene& scene, const OutputColor& color, const FileNotes& notes,
                     const std::string& folder, Progress& progress) {
   progress.begin("writing the panorama", 0.0);
-  const ColorParameters color{.config = scene.output.ocio_config};
   const Image linear = decode_srgb(picture);
-  const Grid<glm::vec3> display = to_display(linear, color);
+  const Grid<glm::vec3> display = to_display(linear, color.display);
   PictureFileOptions options;
   options.dots_per_inch = scene.output.width / scene.output.sheet_width_mm * 25.4;
   options.notes = notes;
   options.icc_profile = srgb_profile();
   write_png8(join(folder, "panorama.png"), display, options);
-  if (profile_path.empty()) {
+  if (color.profile.empty()) {
     write_tiff16(join(folder, "panorama.tif"), display, options);
   } else {
-    options.icc_profile = read_icc_profile(profile_path);
+    options.icc_profile = color.profile;
     write_tiff16(join(folder, "panorama.tif"), to_profile(display, options.icc_profile), options);
   }
   write_exr(join(folder, "panorama.exr"), linear, notes);
@@ -119,6 +135,8 @@ void render(const LoadedScene& loaded, const RenderOptions& options, Progress& p
   const ThreadLimit threads(options.threads);
   require_scene_files(loaded);
   check_memory(loaded.scene);
+  const OutputColor color = read_output_color(loaded);
+  if (loaded.scene.synthesis.enabled) check_paintings(loaded);
   check_output_folder(options.out_folder);
 
   const Stage stage = set_stage(loaded, progress);
@@ -135,12 +153,13 @@ void render(const LoadedScene& loaded, const RenderOptions& options, Progress& p
   const Grid<glm::vec3> painted =
       paint_strokes(std::move(ground), picture.guidance, picture.ground, layers, to_stroke_parameters(stage), progress);
   const Grid<glm::vec3> panorama = blend_edges(painted, picture.guidance);
-  write_panorama(panorama, stage.scene, find_scene_file(loaded, stage.scene.output.profile), notes, options.out_folder, progress);
+  write_panorama(panorama, stage.scene, color, notes, options.out_folder, progress);
 }
 
 void render_guidance(const LoadedScene& loaded, const RenderOptions& options, Progress& progress) {
   const ThreadLimit threads(options.threads);
   require_scene_files(loaded);
+  const int band_rows = choose_band_rows(loaded.scene);
   check_output_folder(options.out_folder);
 
   const Stage stage = set_stage(loaded, progress);

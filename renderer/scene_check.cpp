@@ -8,6 +8,7 @@
 #include "renderer/exemplars.h"
 #include "renderer/image_io.h"
 #include "renderer/lit_picture.h"
+#include "renderer/output_color.h"
 #include "terrain/raster_io.h"
 
 namespace belvedere {
@@ -43,6 +44,8 @@ std::vector<bool> labels_of(const std::vector<PaintedExemplar>& exemplars) {
 
 SceneReport check_scene(const LoadedScene& scene, Progress& progress) {
   require_scene_files(scene);
+  read_output_color(scene);
+  if (scene.scene.synthesis.enabled) check_paintings(scene);
   SceneReport report;
   report.inputs = scene_inputs(scene);
   const LoadedScene view = small(scene);

@@ -37,7 +37,9 @@ void prepare_process() {
     const int opened = open("/dev/null", O_RDWR);  // the lowest free number, which is this one
     static_cast<void>(opened);
   }
+  // A closed pipe and a limit of file sizes are errors of the write, not the end of the program with a half file left.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
 }

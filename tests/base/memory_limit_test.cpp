@@ -34,7 +34,7 @@ TEST_F(MemoryLimit, IsSetByTheEnvironment) {
 }
 
 TEST_F(MemoryLimit, RefusesWhatIsNoNumber) {
-  for (const char* text : {"0", "-1", "many", "12x", "99999999999999999999"}) {
+  for (const char* text : {"0", "-1", "many", "12x", "1e3", "99999999999999999999"}) {
     setenv("BELVEDERE_MEMORY_MIB", text, 1);
     EXPECT_THROW(memory_budget_bytes(), Error) << text;
   }
