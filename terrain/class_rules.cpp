@@ -167,10 +167,10 @@ void apply_layers(const Run& run, std::size_t from, std::size_t to, Grid<LandCov
   const std::size_t slots = variables + run.rules.terms.size();
   const std::vector<bool> wanted = union_of(run.program.layer_needs, from, to, slots);
   const auto first = static_cast<std::size_t>(first_class);
-  tbb::parallel_for(tbb::blocked_range<int>(0, classes.height(), 16), [&](const tbb::blocked_range<int>& rows) {
+  parallel_ranges(classes.height(), 16, [&](int y0, int y1) {
     Row row;
     std::array<float, rule_block> hit{};
-    for (int y = rows.begin(); y != rows.end(); ++y) {
+    for (int y = y0; y != y1; ++y) {
       LandCoverClass* line = classes.row(y);
       fill_row(run, wanted, y, line, row);
       std::vector<const float*> pointers(slots, nullptr);
@@ -201,9 +201,9 @@ Grid<float> evaluate_term(const Run& run, std::size_t term) {
   const std::size_t slot = variable_names().size() + term;
   wanted[slot] = true;
   Grid<float> out(run.dem.width(), run.dem.height());
-  tbb::parallel_for(tbb::blocked_range<int>(0, out.height(), 16), [&](const tbb::blocked_range<int>& rows) {
+  parallel_ranges(out.height(), 16, [&](int y0, int y1) {
     Row row;
-    for (int y = rows.begin(); y != rows.end(); ++y) {
+    for (int y = y0; y != y1; ++y) {
       fill_row(run, wanted, y, nullptr, row);
       std::copy_n(row.slots[slot].begin(), out.width(), out.row(y));
     }

@@ -51,8 +51,8 @@ void relax(Grid<float>& z, const std::vector<std::size_t>& voids, int rounds) {
   std::vector<float> next(voids.size());
   const auto width = static_cast<std::size_t>(z.width());
   for (int round = 0; round < rounds; ++round) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, voids.size(), 4096), [&](const tbb::blocked_range<std::size_t>& range) {
-      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+    parallel_ranges(voids.size(), std::size_t{4096}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i != end; ++i) {
         const auto x = static_cast<int>(voids[i] % width);
         const auto y = static_cast<int>(voids[i] / width);
         // Reflecting borders: at the edge of the raster the fill is level.

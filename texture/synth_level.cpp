@@ -1,7 +1,5 @@
 #include "texture/synth_level.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +8,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <functional>
+#include <mutex>
 #include <numeric>
 #include <utility>
 
@@ -30,19 +29,18 @@ std::uint64_t key_for(const LevelSettings& settings, Purpose purpose, int number
 
 using BinCounts = std::vector<std::int32_t>;
 
-// Sum of f(i, counts) over 0 <= i < count, each f adding to the counts it is given.
+// Sum of f(i, counts) over 0 <= i < count, each f adding to the counts it is given. Whole numbers, so the order of ranges does not matter.
 template <class F>
 BinCounts sum_bins(int count, std::size_t size, F&& f) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<int>(0, count, 16), BinCounts(size, 0),
-      [&](const tbb::blocked_range<int>& range, BinCounts sums) {
-        for (int i = range.begin(); i != range.end(); ++i) f(i, sums);
-        return sums;
-      },
-      [](BinCounts a, const BinCounts& b) {
-        std::transform(a.begin(), a.end(), b.begin(), a.begin(), std::plus<>());
-        return a;
-      });
+  BinCounts total(size, 0);
+  std::mutex adding;
+  parallel_ranges(count, 16, [&](int begin, int end) {
+    BinCounts sums(size, 0);
+    for (int i = begin; i != end; ++i) f(i, sums);
+    const std::scoped_lock lock(adding);
+    std::transform(total.begin(), total.end(), sums.begin(), total.begin(), std::plus<>());
+  });
+  return total;
 }
 
 std::size_t bin_of(const LevelState& state, std::uint32_t label_class, std::uint32_t texel) {

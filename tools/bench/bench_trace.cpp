@@ -23,8 +23,7 @@ constexpr std::size_t task_packets = 64;  // 1024 rays a task
 // f(first, last) over packets of 16 rays.
 template <class F>
 void for_packets(std::size_t packets, F&& f) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets, task_packets),
-                    [&](const tbb::blocked_range<std::size_t>& range) { f(range.begin(), range.end()); });
+  parallel_ranges(packets, task_packets, f);
 }
 
 struct Race {
