@@ -18,9 +18,7 @@ struct GeoTransform {
   // CRS coordinates to fractional cells whose centres lie at whole numbers.
   glm::dvec2 to_cell(double x, double y) const { return {(x - origin_x) / cell_x - 0.5, (origin_y - y) / cell_y - 0.5}; }
   // Fractional cells to CRS coordinates.
-  glm::dvec2 to_crs(double column, double row) const {
-    return {origin_x + (column + 0.5) * cell_x, origin_y - (row + 0.5) * cell_y};
-  }
+  glm::dvec2 to_crs(double column, double row) const { return {origin_x + (column + 0.5) * cell_x, origin_y - (row + 0.5) * cell_y}; }
   bool operator==(const GeoTransform&) const = default;
 };
 

@@ -15,9 +15,9 @@ namespace belvedere {
 // One raster file and what a scene says of it. raster_io*.cpp are the only files of the project that know GDAL.
 struct RasterSource {
   std::string path;
-  int band = 1;               // from 1
-  std::string crs;            // overrides or supplies the file's CRS ("EPSG:26911" or WKT); empty: the file's own
-  double unit_to_m = 0.0;     // metres per unit of the values; 0: by the band's unit (feet known), metres if it has none
+  int band = 1;                  // from 1
+  std::string crs;               // overrides or supplies the file's CRS ("EPSG:26911" or WKT); empty: the file's own
+  double unit_to_m = 0.0;        // metres per unit of the values; 0: by the band's unit (feet known), metres if it has none
   std::optional<double> nodata;  // overrides the file's
   // Altitudes beyond these are void: for files with wrong values that look like right ones.
   std::optional<double> lowest_m, highest_m;
@@ -29,7 +29,7 @@ struct RasterInfo {
   int height = 0;
   int bands = 0;
   GeoTransform transform;
-  std::string crs;            // WKT2, empty where unknown
+  std::string crs;  // WKT2, empty where unknown
   bool geographic = false;
   std::optional<double> nodata;
   std::string driver;

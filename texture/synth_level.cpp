@@ -1,6 +1,5 @@
 #include "texture/synth_level.h"
 
-
 #include <algorithm>
 #include <array>
 #include <atomic>

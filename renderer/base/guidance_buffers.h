@@ -23,23 +23,23 @@ struct GuidanceBuffers {
   Grid<glm::vec3> normal_smooth;  // unit; generalized surface after a Gaussian of 120 m
   Grid<float> altitude_m;         // above the vertical datum, of the undeformed, ungeneralized DEM
   Grid<LandCoverClass> land_cover;
-  Grid<float> coverage;           // part of the pixel that is terrain, 0…1
-  Grid<float> front;              // part of the pixel's samples on the winning surface, 0…1; < 1 at depth edges
-  Grid<float> silhouette;         // depth discontinuity, 0…1; the nearer side carries it
-  Grid<float> shadow;             // 1 lit by the sun, 0 in cast shadow
-  Grid<float> sky_view;           // part of the sky seen, 0…1
-  Grid<float> slope_deg;          // of the unexaggerated DEM after a Gaussian of 60 m
-  Grid<float> aspect_deg;         // clockwise from north, downhill
-  Grid<glm::vec2> fall_line;      // unit direction of steepest descent in the image (x right, y down); 0 where flat
-  Grid<float> footprint_m;        // ground metres per pixel
-  Grid<float> ridge;              // signed: ridge > 0, valley < 0
-  Grid<float> relief_s_m;         // height above the Gaussian mean of about 180 m
-  Grid<float> relief_m_m;         // … of about 750 m
-  Grid<float> relief_l_m;         // … of about 1.8 km
-  Grid<float> valley_height_m;    // height above the lowest ground within 900 m
-  Grid<float> rim_m;              // distance on the ground to where the known terrain ends
-  Grid<float> tone;               // the scalar light that indexes palettes, 0…1
-  Image base;                     // strokeless base picture, scene-linear
+  Grid<float> coverage;         // part of the pixel that is terrain, 0…1
+  Grid<float> front;            // part of the pixel's samples on the winning surface, 0…1; < 1 at depth edges
+  Grid<float> silhouette;       // depth discontinuity, 0…1; the nearer side carries it
+  Grid<float> shadow;           // 1 lit by the sun, 0 in cast shadow
+  Grid<float> sky_view;         // part of the sky seen, 0…1
+  Grid<float> slope_deg;        // of the unexaggerated DEM after a Gaussian of 60 m
+  Grid<float> aspect_deg;       // clockwise from north, downhill
+  Grid<glm::vec2> fall_line;    // unit direction of steepest descent in the image (x right, y down); 0 where flat
+  Grid<float> footprint_m;      // ground metres per pixel
+  Grid<float> ridge;            // signed: ridge > 0, valley < 0
+  Grid<float> relief_s_m;       // height above the Gaussian mean of about 180 m
+  Grid<float> relief_m_m;       // … of about 750 m
+  Grid<float> relief_l_m;       // … of about 1.8 km
+  Grid<float> valley_height_m;  // height above the lowest ground within 900 m
+  Grid<float> rim_m;            // distance on the ground to where the known terrain ends
+  Grid<float> tone;             // the scalar light that indexes palettes, 0…1
+  Image base;                   // strokeless base picture, scene-linear
 
   int width() const { return depth_m.width(); }
   int height() const { return depth_m.height(); }

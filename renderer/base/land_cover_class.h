@@ -28,8 +28,8 @@ inline constexpr int land_cover_class_count = 12;
 
 struct LandCoverClassInfo {
   LandCoverClass id;
-  std::string_view name;    // as written in scenes, legends and file headers
-  std::uint32_t rgb;        // 0xrrggbb, for class maps only; the painting's colours are in palettes
+  std::string_view name;  // as written in scenes, legends and file headers
+  std::uint32_t rgb;      // 0xrrggbb, for class maps only; the painting's colours are in palettes
 };
 
 // In the order of their ids.

@@ -11,9 +11,9 @@ namespace belvedere {
 namespace {
 
 struct SplineWeights {
-  std::int64_t first;           // lattice index of the first of four
+  std::int64_t first;  // lattice index of the first of four
   std::array<double, 4> weight;
-  double inverse_deviation;     // 1 / sqrt(sum of squares)
+  double inverse_deviation;  // 1 / sqrt(sum of squares)
 };
 
 // Uniform cubic B-spline at fraction t: its four weights sum to 1.
@@ -23,8 +23,7 @@ SplineWeights spline_weights(double position) {
   const double u = 1.0 - t;
   SplineWeights s{};
   s.first = static_cast<std::int64_t>(base) - 1;
-  s.weight = {u * u * u / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0,
-              t * t * t / 6.0};
+  s.weight = {u * u * u / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0, t * t * t / 6.0};
   double squares = 0.0;
   for (const double w : s.weight) squares += w * w;
   s.inverse_deviation = 1.0 / std::sqrt(squares);

@@ -60,7 +60,8 @@ TEST(TransferResidual, AddsAPartOfTheDifferenceOfBases) {
 
 TEST(TransferResidual, SameBaseGivesTheTexel) {
   const std::vector<PaintedExemplar> exemplars = {make_exemplar(true)};
-  const Grid<glm::vec3> out = transfer_residual(MatchField(1, 1, Match{0, 2, 1}), exemplars, Grid<glm::vec3>(1, 1, glm::vec3(0.4f)), {}, 0.75);
+  const Grid<glm::vec3> out =
+      transfer_residual(MatchField(1, 1, Match{0, 2, 1}), exemplars, Grid<glm::vec3>(1, 1, glm::vec3(0.4f)), {}, 0.75);
   EXPECT_EQ(out(0, 0), exemplars[0].picture(2, 1));
 }
 

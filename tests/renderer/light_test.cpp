@@ -6,12 +6,12 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "tests/renderer/painted_hills.h"
 #include "renderer/base/error.h"
 #include "renderer/base/noise.h"
 #include "renderer/picture_filter.h"
 #include "renderer/picture_noise.h"
 #include "renderer/ribs.h"
+#include "tests/renderer/painted_hills.h"
 
 namespace belvedere {
 namespace {

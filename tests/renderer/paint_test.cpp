@@ -5,9 +5,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "tests/renderer/painted_hills.h"
 #include "renderer/base/error.h"
 #include "renderer/light.h"
+#include "tests/renderer/painted_hills.h"
 
 namespace belvedere {
 namespace {
