@@ -1,0 +1,263 @@
+#include "texture/quality.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "renderer/base/error.h"
+#include "renderer/base/random.h"
+#include "texture/quality_parts.h"
+
+namespace belvedere {
+namespace {
+
+Rgb8 grey(int value) {
+  const std::uint8_t v = static_cast<std::uint8_t>(value);
+  return {v, v, v};
+}
+
+// Horizontal dashes of `length` pixels, each of a brightness of its own.
+Grid<Rgb8> dashes(int width, int height, int length, std::uint64_t seed) {
+  Grid<Rgb8> picture(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      picture(x, y) = grey(40 + static_cast<int>(random_index(160, seed, (x + 7 * y) / length, y)));
+    }
+  }
+  return picture;
+}
+
+Exemplar exemplar_of(const Grid<Rgb8>& picture) {
+  Exemplar exemplar;
+  exemplar.name = "test";
+  exemplar.picture = picture;
+  exemplar.guides.label = Grid<std::uint8_t>(picture.width(), picture.height(), 1);
+  Grid<std::uint8_t> altitude(picture.width(), picture.height());
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      if (x >= picture.width() / 2) exemplar.guides.label(x, y) = 2;
+      altitude(x, y) = static_cast<std::uint8_t>(y);
+    }
+  }
+  exemplar.guides.guides = {{"altitude", altitude}};
+  return exemplar;
+}
+
+MatchField identity(int width, int height) {
+  MatchField field(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) field(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
+  }
+  return field;
+}
+
+TEST(Quality, AnExemplarAgainstItselfIsFaultless) {
+  const Exemplar exemplar = exemplar_of(dashes(120, 90, 6, 1));
+  const SynthesisQuality q = measure_quality(identity(120, 90), {exemplar}, exemplar.guides, {.repeat_samples = 20});
+  EXPECT_EQ(q.label_agreement, 1.0);
+  EXPECT_EQ(q.guide_error_mean, 0.0);
+  EXPECT_EQ(q.most_used, 1);
+  EXPECT_EQ(q.coverage, 1.0);
+  EXPECT_EQ(q.largest_piece, 120U * 90U);
+  EXPECT_EQ(q.coherence, 1.0);
+  EXPECT_EQ(q.without_texel, 0U);
+  EXPECT_EQ(q.excluded_used, 0U);
+  EXPECT_EQ(q.self_repeat, 1.0);
+  EXPECT_EQ(q.specks_inside, 1.0);
+  ASSERT_EQ(q.classes.size(), 2U);
+  for (const ClassQuality& c : q.classes) {
+    EXPECT_EQ(c.pixels, c.texels);
+    EXPECT_EQ(c.sharpness, 1.0);
+    EXPECT_EQ(c.stroke_run, 1.0);
+    EXPECT_EQ(c.clique_distance, 0.0);
+    EXPECT_EQ(c.colour_distance, 0.0);
+    EXPECT_EQ(c.colour_floor, 0.0);
+    EXPECT_EQ(c.colour_beyond_floor, 0.0);
+  }
+}
+
+TEST(Quality, CountsWhatACopyDoes) {
+  Exemplar exemplar = exemplar_of(dashes(40, 30, 6, 1));
+  exemplar.guides.label(3, 3) = unused_label;
+  GuideStack target = exemplar.guides;
+  target.label(3, 3) = 1;
+  MatchField field = identity(40, 30);
+  // A column shifted by 5 cuts the picture in three; one pixel has nothing; one row copies one texel throughout.
+  for (int y = 0; y < 30; ++y) field(20, y) = {0, 25, static_cast<std::uint16_t>(y)};
+  field(0, 0) = Match{};
+  for (int x = 21; x < 40; ++x) field(x, 29) = {0, 30, 20};
+  const SynthesisQuality q = measure_quality(field, {exemplar}, target, {.repeat_samples = 0});
+  EXPECT_EQ(q.without_texel, 1U);
+  EXPECT_EQ(q.excluded_used, 1U);
+  EXPECT_EQ(q.most_used, 20);
+  EXPECT_EQ(q.largest_piece, 20U * 30U - 1U);
+  const std::vector<std::size_t> sizes = piece_sizes(field);
+  EXPECT_EQ(sizes.size(), 3U + 19U);  // left, column, right; each pixel of the repeated row by itself
+  EXPECT_NEAR(q.guide_error_mean, 19.0 * 9.0 / (40.0 * 30.0 - 1.0), 1e-12);
+  EXPECT_EQ(q.label_agreement, 1.0 - 1.0 / (40.0 * 30.0 - 1.0));
+  EXPECT_EQ(q.self_repeat, 0.0) << "left out";
+}
+
+TEST(Quality, SilhouettesCountPairsAcrossJumpsOnly) {
+  const Exemplar exemplar = exemplar_of(dashes(40, 30, 6, 1));
+  GuideStack target = exemplar.guides;
+  target.depth_m = Grid<float>(40, 30, 1000.0F);
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 10; x < 40; ++x) target.depth_m(x, y) = x < 30 ? 1100.0F : std::numeric_limits<float>::infinity();
+  }
+  MatchField field = identity(40, 30);
+  EXPECT_EQ(measure_quality(field, {exemplar}, target, {.repeat_samples = 0}).across_silhouettes, 1.0);
+  for (int y = 0; y < 15; ++y) field(10, y).x = 13;
+  EXPECT_EQ(measure_quality(field, {exemplar}, target, {.repeat_samples = 0}).across_silhouettes, 0.75);
+  EXPECT_EQ(measure_quality(field, {exemplar}, target, {.depth_ratio = 1.2F, .repeat_samples = 0}).across_silhouettes, 1.0)
+      << "only the sky";
+}
+
+TEST(Quality, StrokeRunTellsLongStrokesFromShort) {
+  const Grid<std::uint8_t> labels(200, 200, 1);
+  const auto run = [&](int length) {
+    const Grid<Rgb8> picture = dashes(200, 200, length, 3);
+    return stroke_run(picture, labels, 1, 3);
+  };
+  // A run through a random pixel of a dash is the dash; a neighbour of the same grey is rare (about 3 of 160 each side).
+  EXPECT_NEAR(run(8), 8.0, 0.8);
+  EXPECT_NEAR(run(16), 16.0, 1.6);
+  EXPECT_NEAR(run(40), 40.0, 4.0);
+  // Turned by a quarter, the same.
+  const Grid<Rgb8> lying = dashes(200, 200, 16, 3);
+  Grid<Rgb8> standing(200, 200);
+  for (int y = 0; y < 200; ++y) {
+    for (int x = 0; x < 200; ++x) standing(x, y) = lying(y, x);
+  }
+  EXPECT_NEAR(stroke_run(standing, labels, 1, 3), run(16), 0.5);
+  EXPECT_TRUE(std::isnan(stroke_run(lying, labels, 2, 3)));
+}
+
+TEST(Quality, ToleranceIsHalfTheLocalDeviation) {
+  Grid<Rgb8> board(60, 60);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 60; ++x) board(x, y) = grey((x + y) % 2 == 0 ? 100 : 120);
+  }
+  // 25 of one and 24 of the other, 60 apart in r + g + b: deviation 29.99.
+  EXPECT_EQ(stroke_tolerance(board, Grid<std::uint8_t>(60, 60, 1), 1), 14);
+}
+
+TEST(Quality, ShiftAndBlurShowInTheirFigures) {
+  // The output is brighter by 7 in the whole, or the mean of neighbours: made by copying from a second layer of the exemplar.
+  const Grid<Rgb8> picture = dashes(160, 120, 6, 1);
+  Exemplar exemplar = exemplar_of(picture);
+  Exemplar brighter = exemplar;
+  Exemplar blurred = exemplar;
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 160; ++x) {
+      brighter.picture(x, y) = grey(picture(x, y)[0] + 7);
+      blurred.picture(x, y) = grey((picture.clamped(x, y - 1)[0] + picture(x, y)[0]) / 2);
+    }
+  }
+  quality::Histogram plain{};
+  quality::Histogram shifted{};
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    ++plain[picture[i][0]];
+    ++shifted[brighter.picture[i][0]];
+  }
+  EXPECT_NEAR(quality::wasserstein(plain, shifted), 7.0, 1e-9);
+  const Grid<std::uint8_t> one_class(160, 120, 1);
+  EXPECT_LT(mean_gradient(blurred.picture, one_class, 1), 0.8 * mean_gradient(picture, one_class, 1));
+  exemplar.guides.label = blurred.guides.label = one_class;
+  EXPECT_GT(quality::clique_distance(blurred.picture, one_class, {exemplar}, 1), 0.05);
+  EXPECT_EQ(quality::clique_distance(picture, one_class, {exemplar}, 1), 0.0);
+}
+
+TEST(Quality, GradientOfARampIsItsSlope) {
+  Grid<Rgb8> ramp(80, 40);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 80; ++x) ramp(x, y) = grey(3 * x);
+  }
+  EXPECT_NEAR(mean_gradient(ramp, Grid<std::uint8_t>(80, 40, 1), 1), 3.0, 1e-12);
+}
+
+TEST(Quality, FloorIsWhatOtherAltitudesMakeByThemselves) {
+  // Brightness is altitude. The target holds only the upper half of it, copied faultlessly: all its distance is floor.
+  Grid<Rgb8> picture(100, 200);
+  for (int y = 0; y < 200; ++y) {
+    for (int x = 0; x < 100; ++x) picture(x, y) = grey(y);
+  }
+  Exemplar exemplar = exemplar_of(picture);
+  GuideStack target;
+  target.label = Grid<std::uint8_t>(100, 96);
+  target.guides = {{"altitude", Grid<std::uint8_t>(100, 96)}};
+  MatchField field(100, 96);
+  for (int y = 0; y < 96; ++y) {
+    for (int x = 0; x < 100; ++x) {
+      target.label(x, y) = exemplar.guides.label(x, y + 96);
+      target.guides[0].values(x, y) = static_cast<std::uint8_t>(y + 96);
+      field(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y + 96)};
+    }
+  }
+  const SynthesisQuality q = measure_quality(field, {exemplar}, target, {.repeat_samples = 0});
+  for (const ClassQuality& c : q.classes) {
+    EXPECT_NEAR(c.colour_distance, 44.0, 1.5);  // means 143.5 and 99.5
+    EXPECT_NEAR(c.colour_floor, c.colour_distance, 1.0);
+    EXPECT_LT(c.colour_beyond_floor, 1.0);
+  }
+}
+
+TEST(Quality, BorderDistanceEqualsASearch) {
+  Grid<std::uint8_t> labels(60, 50);
+  for (int y = 0; y < 50; ++y) {
+    for (int x = 0; x < 60; ++x) labels(x, y) = static_cast<std::uint8_t>(random_index(2, 4, x / 23, y / 17));
+  }
+  const Grid<std::uint8_t> fast = border_distance_squared(labels);
+  for (int y = 0; y < 50; ++y) {
+    for (int x = 0; x < 60; ++x) {
+      int least = 255;
+      for (int j = 0; j < 50; ++j) {
+        for (int i = 0; i < 60; ++i) {
+          const bool border = (i > 0 && labels(i, j) != labels(i - 1, j)) || (j > 0 && labels(i, j) != labels(i, j - 1));
+          if (border) least = std::min(least, (i - x) * (i - x) + (j - y) * (j - y));
+        }
+      }
+      if (least < 225) {
+        ASSERT_EQ(fast(x, y), least) << x << ", " << y;
+      } else {
+        ASSERT_GE(fast(x, y), 225);
+      }
+    }
+  }
+}
+
+TEST(Quality, SpecksAreSinglePixels) {
+  Grid<Rgb8> picture(60, 60, grey(100));
+  for (int y = 3; y < 60; y += 6) {
+    for (int x = 3; x < 60; x += 6) picture(x, y) = grey(140);
+  }
+  const Grid<std::uint8_t> one_class(60, 60, 1);
+  EXPECT_NEAR(speck_shares(picture, one_class).inside, 1.0 / 36.0, 1e-9);
+  for (int y = 3; y < 60; y += 6) {
+    for (int x = 3; x < 60; x += 6) {
+      for (int i = 0; i < 4; ++i) picture(x - 1 + (i & 1), y - 1 + (i >> 1)) = grey(140);   // 2 × 2: still odd ones out
+      for (int i = -2; i <= 2; ++i) picture(x + i, y) = picture(x + i, y - 1) = grey(140);  // a stroke
+    }
+  }
+  EXPECT_LT(speck_shares(picture, one_class).inside, 1.0 / 36.0 * 4.0);
+  EXPECT_EQ(speck_shares(Grid<Rgb8>(60, 60, grey(9)), one_class).inside, 0.0);
+}
+
+TEST(Quality, QuantileIsLinearBetweenNeighbours) {
+  const std::size_t counts[] = {1, 0, 2, 1};  // 0 2 2 3
+  EXPECT_DOUBLE_EQ(quality::quantile(counts, 4, 0.0), 0.0);
+  EXPECT_DOUBLE_EQ(quality::quantile(counts, 4, 0.25), 1.5);
+  EXPECT_DOUBLE_EQ(quality::quantile(counts, 4, 0.95), 2.85);
+}
+
+TEST(Quality, RefusesWhatDoesNotFit) {
+  const Exemplar exemplar = exemplar_of(dashes(40, 30, 6, 1));
+  EXPECT_THROW(measure_quality(identity(40, 30), {}, exemplar.guides), Error);
+  EXPECT_THROW(measure_quality(identity(41, 30), {exemplar}, exemplar.guides), Error);
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,268 @@
+#include "texture/quality.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "renderer/base/error.h"
+#include "renderer/base/parallel.h"
+#include "texture/quality_parts.h"
+
+namespace belvedere {
+
+namespace {
+
+using quality::Histogram;
+
+struct Sizes {
+  std::size_t pixels = 0;
+  std::size_t texels = 0;
+};
+
+// Mean of f over exemplars, weighted by the class's texels there; NaN values drop out.
+template <class F>
+double over_exemplars(const std::vector<Exemplar>& exemplars, std::uint8_t label, F&& f) {
+  double sum = 0.0;
+  double weights = 0.0;
+  for (const Exemplar& exemplar : exemplars) {
+    const double weight = static_cast<double>(std::count(exemplar.guides.label.begin(), exemplar.guides.label.end(), label));
+    if (weight == 0.0) continue;
+    const double value = f(exemplar);
+    if (std::isnan(value)) continue;
+    sum += weight * value;
+    weights += weight;
+  }
+  return weights > 0.0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
+}
+
+double ratio(double output, double exemplar) {
+  return std::isnan(output) || std::isnan(exemplar) || exemplar <= 0.0 ? 0.0 : output / exemplar;
+}
+
+void measure_copying(const MatchField& matches, const std::vector<Exemplar>& exemplars, const GuideStack& target,
+                     const QualityParameters& parameters, SynthesisQuality& quality) {
+  const Grid<std::uint8_t>* wanted = target.find(parameters.guide);
+  std::array<std::size_t, 256> errors{};
+  std::vector<Grid<std::uint32_t>> uses;
+  for (const Exemplar& exemplar : exemplars) uses.emplace_back(exemplar.picture.width(), exemplar.picture.height(), 0U);
+  std::size_t matched = 0;
+  std::size_t agreeing = 0;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const Match m = matches[i];
+    if (m.exemplar == Match::none) {
+      ++quality.without_texel;
+      continue;
+    }
+    const GuideStack& source = exemplars[m.exemplar].guides;
+    ++matched;
+    if (source.label(m.x, m.y) == target.label[i]) ++agreeing;
+    if (source.label(m.x, m.y) == unused_label) ++quality.excluded_used;
+    quality.most_used = std::max(quality.most_used, static_cast<int>(++uses[m.exemplar](m.x, m.y)));
+    const Grid<std::uint8_t>* offered = source.find(parameters.guide);
+    if (wanted != nullptr && offered != nullptr) ++errors[static_cast<std::size_t>(std::abs((*wanted)[i] - (*offered)(m.x, m.y)))];
+  }
+  if (matched > 0) quality.label_agreement = static_cast<double>(agreeing) / static_cast<double>(matched);
+  std::size_t used = 0;
+  std::size_t texels = 0;
+  for (const Grid<std::uint32_t>& counts : uses) {
+    texels += counts.size();
+    used += counts.size() - static_cast<std::size_t>(std::count(counts.begin(), counts.end(), 0U));
+  }
+  quality.coverage = static_cast<double>(used) / static_cast<double>(texels);
+  const std::size_t count = std::accumulate(errors.begin(), errors.end(), std::size_t{0});
+  if (count > 0) {
+    double sum = 0.0;
+    for (std::size_t e = 0; e < errors.size(); ++e) sum += static_cast<double>(e * errors[e]);
+    quality.guide_error_mean = sum / static_cast<double>(count);
+    quality.guide_error_95 = quality::quantile(errors.data(), errors.size(), 0.95);
+  }
+}
+
+bool one_offset(const Match& a, const Match& b, int dx, int dy) {
+  return a.exemplar != Match::none && a.exemplar == b.exemplar && b.x - a.x == dx && b.y - a.y == dy;
+}
+
+void measure_pieces(const MatchField& matches, const GuideStack& target, float depth_ratio, SynthesisQuality& quality) {
+  const std::vector<std::size_t> sizes = piece_sizes(matches);
+  quality.largest_piece = sizes.empty() ? 0 : sizes.front();
+  std::size_t pairs = 0, joined = 0, jumps = 0, across = 0;
+  const auto look = [&](int x, int y, int dx, int dy) {
+    if (!matches.contains(x + dx, y + dy)) return;
+    const bool same = one_offset(matches(x, y), matches(x + dx, y + dy), dx, dy);
+    ++pairs;
+    joined += same ? 1 : 0;
+    if (target.depth_m.empty()) return;
+    const float a = target.depth_m(x, y);
+    const float b = target.depth_m(x + dx, y + dy);
+    if (a == b || std::max(a, b) <= depth_ratio * std::min(a, b)) return;
+    ++jumps;
+    across += same ? 1 : 0;
+  };
+  for (int y = 0; y < matches.height(); ++y) {
+    for (int x = 0; x < matches.width(); ++x) {
+      look(x, y, 1, 0);
+      look(x, y, 0, 1);
+    }
+  }
+  if (pairs > 0) quality.coherence = static_cast<double>(joined) / static_cast<double>(pairs);
+  if (jumps > 0) quality.across_silhouettes = static_cast<double>(across) / static_cast<double>(jumps);
+}
+
+// Colour histograms of a class: of the output, of the exemplars, and of the exemplars with each texel weighted so that guide and
+// distance from borders are spread as in the target.
+struct ClassColours {
+  std::array<Histogram, 3> output{};
+  std::array<Histogram, 3> exemplars{};
+  std::array<Histogram, 3> reweighted{};
+};
+
+constexpr std::size_t guide_steps = 16;
+constexpr std::size_t border_steps = 5;  // within 2, 4, 8, 15 pixels, and beyond
+
+std::size_t border_step(std::uint8_t squared) { return squared <= 4 ? 0 : squared <= 16 ? 1 : squared <= 64 ? 2 : squared < 225 ? 3 : 4; }
+
+ClassColours colours_of_class(const Grid<Rgb8>& output, const std::vector<Exemplar>& exemplars, const GuideStack& target,
+                              const Grid<std::uint8_t>& target_borders, const std::vector<Grid<std::uint8_t>>& exemplar_borders,
+                              const std::string& guide, std::uint8_t label) {
+  ClassColours colours;
+  const auto cell = [](const Grid<std::uint8_t>* values, const Grid<std::uint8_t>& borders, std::size_t i) {
+    return (values == nullptr ? 0U : static_cast<std::size_t>((*values)[i]) * guide_steps / 256) * border_steps + border_step(borders[i]);
+  };
+  std::array<double, guide_steps * border_steps> wanted{};
+  std::array<double, guide_steps * border_steps> offered{};
+  const Grid<std::uint8_t>* values = target.find(guide);
+  for (const Exemplar& exemplar : exemplars)
+    if (exemplar.guides.find(guide) == nullptr) values = nullptr;
+  for (std::size_t i = 0; i < output.size(); ++i) {
+    if (target.label[i] != label) continue;
+    ++wanted[cell(values, target_borders, i)];
+    for (std::size_t c = 0; c < 3; ++c) colours.output[c][output[i][c]] += 1.0;
+  }
+  for (int pass = 0; pass < 2; ++pass) {
+    for (std::size_t e = 0; e < exemplars.size(); ++e) {
+      const Exemplar& exemplar = exemplars[e];
+      const Grid<std::uint8_t>* texel_values = values == nullptr ? nullptr : exemplar.guides.find(guide);
+      for (std::size_t i = 0; i < exemplar.picture.size(); ++i) {
+        if (exemplar.guides.label[i] != label) continue;
+        const std::size_t at = cell(texel_values, exemplar_borders[e], i);
+        if (pass == 0) ++offered[at];
+        for (std::size_t c = 0; c < 3; ++c) {
+          const std::uint8_t value = exemplar.picture[i][c];
+          if (pass == 0) colours.exemplars[c][value] += 1.0;
+          if (pass == 1) colours.reweighted[c][value] += wanted[at] / offered[at];
+        }
+      }
+    }
+  }
+  return colours;
+}
+
+double colour_distance(const std::array<Histogram, 3>& a, const std::array<Histogram, 3>& b) {
+  return (quality::wasserstein(a[0], b[0]) + quality::wasserstein(a[1], b[1]) + quality::wasserstein(a[2], b[2])) / 3.0;
+}
+
+}  // namespace
+
+std::vector<std::size_t> piece_sizes(const MatchField& matches) {
+  std::vector<std::size_t> sizes;
+  Grid<std::uint8_t> seen(matches.width(), matches.height(), 0);
+  std::vector<std::pair<int, int>> open;
+  for (int y = 0; y < matches.height(); ++y) {
+    for (int x = 0; x < matches.width(); ++x) {
+      if (seen(x, y) || matches(x, y).exemplar == Match::none) continue;
+      open.assign(1, {x, y});
+      seen(x, y) = 1;
+      std::size_t size = 0;
+      while (!open.empty()) {
+        const auto [ax, ay] = open.back();
+        open.pop_back();
+        ++size;
+        for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+          if (!matches.contains(ax + dx, ay + dy) || seen(ax + dx, ay + dy)) continue;
+          if (!one_offset(matches(ax, ay), matches(ax + dx, ay + dy), dx, dy)) continue;
+          seen(ax + dx, ay + dy) = 1;
+          open.emplace_back(ax + dx, ay + dy);
+        }
+      }
+      sizes.push_back(size);
+    }
+  }
+  std::sort(sizes.rbegin(), sizes.rend());
+  return sizes;
+}
+
+SynthesisQuality measure_quality(const MatchField& matches, const std::vector<Exemplar>& exemplars, const GuideStack& target,
+                                 const QualityParameters& parameters) {
+  if (exemplars.empty()) throw Error(ErrorKind::usage, "quality of a synthesis", "no exemplar", "at least one");
+  for (const Exemplar& exemplar : exemplars) check_exemplar(exemplar);
+  check_guide_stack(target, "target");
+  if (!matches.same_size(target.label)) {
+    throw Error(ErrorKind::usage, "quality of a synthesis", fmt::format("matches of {} × {} pixels", matches.width(), matches.height()),
+                fmt::format("{} × {}, the size of the target", target.width(), target.height()));
+  }
+  std::vector<const Grid<Rgb8>*> layers;
+  for (const Exemplar& exemplar : exemplars) layers.push_back(&exemplar.picture);
+  const Grid<Rgb8> output = replay(matches, layers, Grid<Rgb8>());
+
+  SynthesisQuality quality;
+  measure_copying(matches, exemplars, target, parameters, quality);
+  measure_pieces(matches, target, parameters.depth_ratio, quality);
+
+  const SpeckShares specks = speck_shares(output, target.label);
+  SpeckShares usual;
+  double self = 0.0;
+  double area = 0.0;
+  for (const Exemplar& exemplar : exemplars) {
+    const double weight = static_cast<double>(exemplar.picture.size());
+    const SpeckShares here = speck_shares(exemplar.picture, exemplar.guides.label);
+    usual.inside += weight * here.inside;
+    usual.border += weight * here.border;
+    if (parameters.repeat_samples > 0) self += weight * self_distance(exemplar.picture, parameters.repeat_samples);
+    area += weight;
+  }
+  quality.specks_inside = specks.inside / std::max(usual.inside / area, 1e-6);
+  quality.specks_border = specks.border / std::max(usual.border / area, 1e-6);
+  if (parameters.repeat_samples > 0) quality.self_repeat = ratio(self_distance(output, parameters.repeat_samples), self / area);
+
+  const Grid<std::uint8_t> target_borders = border_distance_squared(target.label);
+  std::vector<Grid<std::uint8_t>> exemplar_borders;
+  for (const Exemplar& exemplar : exemplars) exemplar_borders.push_back(border_distance_squared(exemplar.guides.label));
+  std::array<Sizes, 256> sizes{};
+  for (const std::uint8_t label : target.label) ++sizes[label].pixels;
+  for (const Exemplar& exemplar : exemplars) {
+    for (const std::uint8_t label : exemplar.guides.label) ++sizes[label].texels;
+  }
+  for (std::size_t l = 0; l < unused_label; ++l) {
+    if (sizes[l].pixels == 0 || sizes[l].texels == 0) continue;
+    ClassQuality of;
+    of.label = static_cast<std::uint8_t>(l);
+    of.pixels = sizes[l].pixels;
+    of.texels = sizes[l].texels;
+    const std::uint8_t label = of.label;
+    of.sharpness = ratio(mean_gradient(output, target.label, label), over_exemplars(exemplars, label, [&](const Exemplar& exemplar) {
+                           return mean_gradient(exemplar.picture, exemplar.guides.label, label);
+                         }));
+    const int tolerance = static_cast<int>(std::lround(over_exemplars(exemplars, label, [&](const Exemplar& exemplar) {
+      return static_cast<double>(stroke_tolerance(exemplar.picture, exemplar.guides.label, label));
+    })));
+    of.stroke_run =
+        ratio(stroke_run(output, target.label, label, tolerance), over_exemplars(exemplars, label, [&](const Exemplar& exemplar) {
+                return stroke_run(exemplar.picture, exemplar.guides.label, label, tolerance);
+              }));
+    of.clique_distance = quality::clique_distance(output, target.label, exemplars, label);
+    const ClassColours colours = colours_of_class(output, exemplars, target, target_borders, exemplar_borders, parameters.guide, label);
+    of.colour_distance = colour_distance(colours.output, colours.exemplars);
+    of.colour_floor = colour_distance(colours.reweighted, colours.exemplars);
+    of.colour_beyond_floor = colour_distance(colours.output, colours.reweighted);
+    quality.classes.push_back(of);
+  }
+  return quality;
+}
+
+}  // namespace belvedere
