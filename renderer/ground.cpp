@@ -1,11 +1,14 @@
 #include "renderer/ground.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <utility>
 
 #include "renderer/base/error.h"
 #include "renderer/base/parallel.h"
 #include "terrain/class_rules.h"
+#include "terrain/fold.h"
 #include "terrain/generalize.h"
 #include "terrain/hydrology.h"
 
@@ -98,15 +101,45 @@ LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progr
   return cover;
 }
 
-Ground make_ground(const Scene& scene, Dem dem, LandCover land_cover, const View& view, Progress& progress) {
+Grid<float> generalize_for_view(const Scene& scene, const Dem& dem, const View& view, Progress& progress) {
   const Grid<float> near = foreground_share(dem, view.viewer_xy, scene.generalize);
   const Grid<std::uint8_t> lakes = scene.generalize.keep_lakes ? find_lakes(dem.altitude_m, {}) : Grid<std::uint8_t>();
-  Grid<float> generalized_m = generalize(dem.altitude_m, near, lakes, scene.generalize.bands, progress);
+  return generalize(dem.altitude_m, near, lakes, scene.generalize.bands, progress);
+}
+
+Ground make_ground(const Scene& scene, Dem dem, LandCover land_cover, const View& view, Progress& progress) {
+  Grid<float> generalized_m = generalize_for_view(scene, dem, view, progress);
   // The eye's place at altitude 0 is the origin of everything that becomes float.
   const glm::dvec3 origin{view.viewer_xy, 0.0};
-  DeformedSurface surface = deform(generalized_m, dem.transform, view.viewer_xy, origin, scene.deform);
-  TerrainModel model = make_terrain_model(std::move(dem), std::move(generalized_m), std::move(land_cover), scene.deform.exaggeration);
-  return {std::move(model), std::move(surface)};
+  Deformation deformation(view.deform, view.viewer_xy);
+  DeformedSurface surface = deform(generalized_m, dem.transform, origin, deformation);
+  TerrainModel model = make_terrain_model(std::move(dem), std::move(generalized_m), std::move(land_cover), view.deform.exaggeration);
+  if (deformation.is_local()) model.local = deformation;
+  return {std::move(deformation), std::move(model), std::move(surface)};
+}
+
+void check_folds(const Scene& scene, const Ground& ground, const Camera& camera, Progress& progress) {
+  const Dem& dem = ground.model.dem;
+  const Deformation& deformation = ground.deformation;
+  const std::vector<Fold> folds = find_folds(ground.model.generalized_m, dem.transform, deformation);
+  if (folds.empty()) return;
+  std::vector<Fold> in_picture;
+  for (const Fold& fold : folds) {
+    const double altitude = static_cast<double>(ground.model.generalized_m(fold.column, fold.row));
+    const auto at = camera.project(deformation.point({fold.place, altitude}));
+    if (at && at->x >= 0.0 && at->y >= 0.0 && at->x <= camera.size().x && at->y <= camera.size().y) in_picture.push_back(fold);
+  }
+  const bool refuse = !in_picture.empty() && !scene.deform.allow_folds;
+  for (const FoldSummary& summary : summarize_folds(refuse ? in_picture : folds, deformation.parameters().handles)) {
+    const std::string& name = scene.deform.handles[summary.handle].name;
+    const std::string where = fmt::format("deform.handles.{}{}", summary.handle, name.empty() ? "" : " (" + name + ")");
+    const std::string found = fmt::format("folds the ground over itself{} around E {:.0f} N {:.0f}, {} facets",
+                                          refuse ? " in the picture" : "", summary.middle.x, summary.middle.y, summary.facets);
+    if (refuse)
+      throw Error(ErrorKind::usage, where, found,
+                  "a smaller move_m, rotate_deg or scale, a larger radius_m, a smaller core_m, or deform.allow_folds = true");
+    progress.note(where + " " + found);
+  }
 }
 
 }  // namespace belvedere

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 
 #include "renderer/base/guidance_buffers.h"
@@ -8,6 +9,7 @@
 #include "renderer/base/progress.h"
 #include "renderer/camera.h"
 #include "renderer/tracer.h"
+#include "terrain/deform.h"
 #include "terrain/dem.h"
 #include "terrain/land_cover.h"
 
@@ -24,6 +26,8 @@ struct TerrainModel {
   Grid<float> rim_m;                               // distance to where the known terrain ends
   LandCover land_cover;
   double exaggeration = 1.0;  // of light's normals
+  // Given where the ground is not only exaggerated alike everywhere: then light's normals are those of the rearranged shape.
+  std::optional<Deformation> local;
   double detail_boost = 1.5;  // further exaggeration of normal_detail (look/recipe.md: slopes × 1.6 × 1.5)
 };
 

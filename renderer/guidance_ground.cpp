@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 
 #include "renderer/base/angle.h"
 
@@ -53,11 +54,18 @@ glm::dvec2 gradient(const Grid<float>& z, const GeoTransform& transform, const C
 
 glm::vec3 upward_normal(glm::dvec2 slope) { return glm::vec3(glm::normalize(glm::dvec3(-slope.x, -slope.y, 1.0))); }
 
+// The slope of a ground as light sees it, turned and steepened as its place is. A fold's underside counts as upper side.
+glm::vec3 shape_normal(const glm::dmat3& jacobian, glm::dvec2 slope) {
+  const glm::dvec3 normal = glm::cross(jacobian * glm::dvec3(1.0, 0.0, slope.x), jacobian * glm::dvec3(0.0, 1.0, slope.y));
+  return glm::vec3(glm::normalize(normal.z < 0.0 ? -normal : normal));
+}
+
 // A place of the smoothed shape in the deformed world: the shape exaggerated, moved as the surface's own posts were moved. (The posts
 // themselves would give the fall line of every bump.)
 glm::dvec3 smooth_deformed(const TerrainModel& terrain, const DeformedSurface& surface, double column, double row) {
   const GeoTransform& transform = terrain.dem.transform;
   const Corners at = corners(terrain.generalized_m, column, row);
+  if (terrain.local) return terrain.local->point({transform.to_crs(column, row), bilinear(terrain.shape_smooth_m, at)});
   const glm::dvec3 moved = at.blend([&](int x, int y) {
     const glm::dvec2 post = transform.to_crs(x, y);
     return glm::dvec3(surface.vertices_m(x, y)) + surface.origin -
@@ -94,10 +102,19 @@ GroundValues sample_ground(const TerrainModel& terrain, const DeformedSurface& s
   GroundValues ground;
   ground.place = glm::dvec3(transform.to_crs(column, row), bilinear(terrain.dem.altitude_m, at));
 
-  ground.normal = upward_normal(gradient(terrain.generalized_m, transform, at) * terrain.exaggeration);
-  ground.normal_detail = upward_normal(gradient(terrain.dem.altitude_m, transform, at) * (terrain.exaggeration * terrain.detail_boost));
+  const glm::dvec2 slope_shown = gradient(terrain.generalized_m, transform, at);
+  const glm::dvec2 slope_detail = gradient(terrain.dem.altitude_m, transform, at);
   const glm::dvec2 shape = gradient(terrain.shape_smooth_m, transform, at);
-  ground.normal_smooth = upward_normal(shape * terrain.exaggeration);
+  if (terrain.local) {
+    const glm::dmat3 jacobian = terrain.local->shape_jacobian({glm::dvec2(ground.place), bilinear(terrain.generalized_m, at)});
+    ground.normal = shape_normal(jacobian, slope_shown);
+    ground.normal_detail = shape_normal(jacobian, slope_detail * terrain.detail_boost);
+    ground.normal_smooth = shape_normal(jacobian, shape);
+  } else {
+    ground.normal = upward_normal(slope_shown * terrain.exaggeration);
+    ground.normal_detail = upward_normal(slope_detail * (terrain.exaggeration * terrain.detail_boost));
+    ground.normal_smooth = upward_normal(shape * terrain.exaggeration);
+  }
   ground.fall_line = image_fall_line(terrain, surface, camera, column, row, shape);
 
   const glm::dvec2 slope = gradient(terrain.detail_smooth_m, transform, at);

@@ -57,6 +57,35 @@ struct SceneGeneralize {
   bool keep_lakes = true;
 };
 
+struct SceneSummit {  // a summit with an exaggeration of its own
+  std::string name;
+  std::optional<glm::dvec2> position;         // E, N in the scene's CRS
+  std::optional<glm::dvec2> position_lonlat;  // or longitude, latitude
+  double radius_m = 5000.0;
+  double factor = 1.3;
+  double base_m = 0.0;
+};
+
+struct SceneHandle {  // a piece of ground that is moved: see terrain/handles.h
+  std::string name;
+  std::optional<glm::dvec2> position;
+  std::optional<glm::dvec2> position_lonlat;
+  double radius_m = 5000.0;
+  std::optional<double> core_m;  // else half of the radius
+  std::array<double, 2> move_m = {0.0, 0.0};
+  double rotate_deg = 0.0;
+  double scale = 1.0;
+  double raise_m = 0.0;
+  bool pin = false;
+};
+
+struct SceneDeform {
+  DeformParameters ground;  // without summits and handles: make_view puts them there, at places of the scene's CRS
+  std::vector<SceneSummit> summits;
+  std::vector<SceneHandle> handles;
+  bool allow_folds = false;  // ground in the picture that handles fold over itself is a note instead of an error
+};
+
 struct SceneCamera {
   std::string projection = "perspective";
   std::optional<glm::dvec2> position;         // E, N in the scene's CRS
@@ -147,7 +176,7 @@ struct Scene {
   SceneTerrain terrain;
   SceneLandCover land_cover;
   SceneGeneralize generalize;
-  DeformParameters deform;
+  SceneDeform deform;
   SceneCamera camera;
   SceneSun sun;
   SceneSampling sampling;

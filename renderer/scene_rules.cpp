@@ -56,9 +56,29 @@ class Rules {
   }
 
   void deform() {
-    const double radius = scene_.deform.bend.radius_m;
-    if (radius > 0.0 && radius < 1000.0)
-      refuse("deform.bend.radius_m", fmt::format("deform.bend.radius_m is {}", radius), "0 for no bend, or 1000 … 1e9 m");
+    const DeformParameters& ground = scene_.deform.ground;
+    if (ground.bend.radius_m > 0.0 && ground.bend.radius_m < 1000.0)
+      refuse("deform.bend.radius_m", fmt::format("deform.bend.radius_m is {}", ground.bend.radius_m), "0 for no bend, or 1000 … 1e9 m");
+    if (ground.foreground_to_m >= ground.background_from_m)
+      refuse(written("deform.background_from_m") ? "deform.background_from_m" : "deform.foreground_to_m",
+             fmt::format("deform.background_from_m ({} m) is not beyond deform.foreground_to_m ({} m)", ground.background_from_m,
+                         ground.foreground_to_m),
+             "a background that begins beyond the foreground");
+    for (std::size_t i = 0; i < scene_.deform.handles.size(); ++i) {
+      const SceneHandle& handle = scene_.deform.handles[i];
+      const std::string name = fmt::format("deform.handles.{}", i);
+      require_position(name, handle.position, handle.position_lonlat);
+      if (handle.radius_m > 0.0 && handle.core_m && *handle.core_m >= handle.radius_m)
+        refuse(name + ".core_m", fmt::format("{}.core_m ({} m) is not less than radius_m ({} m)", name, *handle.core_m, handle.radius_m),
+               "a core smaller than the radius");
+    }
+    for (std::size_t i = 0; i < scene_.deform.summits.size(); ++i)
+      require_position(fmt::format("deform.summits.{}", i), scene_.deform.summits[i].position, scene_.deform.summits[i].position_lonlat);
+    try {
+      const BendProfile curve(ground.bend);
+    } catch (const Error& error) {
+      refuse(error.where(), error.where() + ": " + error.found(), error.allowed());
+    }
   }
 
   void sampling() {
@@ -119,6 +139,10 @@ class Rules {
       }
     }
     return node;
+  }
+
+  void require_position(const std::string& name, const std::optional<glm::dvec2>& place, const std::optional<glm::dvec2>& lonlat) const {
+    if (!place && !lonlat) refuse(name, name + " has no position", "position = [E, N], or position_lonlat");
   }
 
   [[noreturn]] void refuse(const std::string& path, const std::string& found, const std::string& allowed) const {

@@ -16,7 +16,7 @@
 namespace belvedere {
 
 // The one table of what a scene file may say. Validation, defaults, the JSON Schema, the written reference and write_scene
-// all read it; a new key is one row in scene_table.cpp and nothing else.
+// all read it; a new key is one row in scene_table.cpp (or scene_table_deform.cpp) and nothing else.
 
 // The value of a key inside a Scene. Its C++ type decides the type in the file; defaults are those of a fresh Scene.
 using SceneField =

@@ -1,15 +1,14 @@
 #include "renderer/scene_schema.h"
 
+#include <utility>
+
 #include "renderer/camera.h"
+#include "renderer/scene_table.h"
 
 namespace belvedere {
 namespace {
 
 constexpr double largest_seed = 9007199254740991.0;  // 2⁵³ - 1: what JSON and every editor hold exactly
-constexpr double largest_m = 1e8;                    // farther than around the Earth
-
-// A row's accessor: AT(camera.pitch_deg) is where the value lies in a Scene `s`; `i` counts list elements.
-#define AT(place) [](Scene& s, [[maybe_unused]] std::size_t i) -> SceneField { return &s.place; }
 
 std::vector<SceneKey> source_keys(bool heights) {
   // Land cover and heights name their files alike; only heights have a unit.
@@ -220,45 +219,7 @@ std::vector<SceneSection> make_scene_sections() {
            {.name = "crest", .field = AT(generalize.bands.crest), .range = {0, 3}, .meaning = "Sharpening of high crests; 0 is off."},
            {.name = "keep_lakes", .field = AT(generalize.keep_lakes), .meaning = "Lakes keep their level."},
        }});
-  sections.push_back(
-      {.name = "deform",
-       .meaning = "How the ground is raised and bent before it is seen.",
-       .keys = {
-           {.name = "exaggeration",
-            .field = AT(deform.exaggeration),
-            .range = {0.1, 10},
-            .meaning = "Vertical exaggeration of all altitudes."},
-           {.name = "earth_curvature", .field = AT(deform.earth_curvature), .meaning = "Lets far ground sink as on the round Earth."},
-           {.name = "refraction",
-            .field = AT(deform.refraction),
-            .range = {0, 0.5},
-            .meaning = "How much the air bends sight back: coefficient k, used with earth_curvature."},
-       }});
-  sections.push_back(
-      {.name = "deform.bend",
-       .meaning = "Progressive bend: the near ground tilts towards the viewer like a map, the far ground sinks to a horizon.",
-       .keys = {
-           {.name = "radius_m",
-            .field = AT(deform.bend.radius_m),
-            .range = {0, 1e9},
-            .unit = "m",
-            .meaning = "Radius of the bend, 1000 or more; smaller bends more, 0 not at all."},
-           {.name = "crest_m",
-            .field = AT(deform.bend.crest_m),
-            .range = {0, largest_m},
-            .unit = "m",
-            .meaning = "Distance from the viewer at which the bent ground is level."},
-           {.name = "far_from_m",
-            .field = AT(deform.bend.far_from_m),
-            .range = {0, largest_m},
-            .unit = "m",
-            .meaning = "Distance beyond which the ground sinks faster."},
-           {.name = "far_amount_per_m",
-            .field = AT(deform.bend.far_amount_per_m),
-            .range = {0, 1},
-            .unit = "1/m",
-            .meaning = "How fast: metres sunk per square metre of distance beyond far_from_m."},
-       }});
+  for (SceneSection& section : make_deform_sections()) sections.push_back(std::move(section));
   sections.push_back({.name = "camera",
                       .meaning = "Where the viewer stands and where the view goes.",
                       .keys = {
@@ -510,6 +471,4 @@ std::vector<SceneSection> make_scene_sections() {
        }});
   return sections;
 }
-#undef AT
-
 }  // namespace belvedere

@@ -47,6 +47,13 @@ SunPosition resolve_sun(const SceneSun& sun, const Dem& dem) {
   return position;
 }
 
+glm::dvec2 resolve_place(const Dem& dem, const std::optional<glm::dvec2>& place, const std::optional<glm::dvec2>& lonlat,
+                         const std::string& key) {
+  if (place) return *place;
+  if (!lonlat) throw Error(ErrorKind::usage, key, "no position", "position or position_lonlat");
+  return to_scene(dem, *lonlat, (key + ".position_lonlat").c_str());
+}
+
 // Pitch and azimuth towards a point.
 void look_towards(CameraParameters& camera, glm::dvec3 point) {
   const glm::dvec3 line = point - camera.eye;
@@ -57,6 +64,29 @@ void look_towards(CameraParameters& camera, glm::dvec3 point) {
 }
 
 }  // namespace
+
+DeformParameters resolve_deform(const SceneDeform& wish, const Dem& dem) {
+  DeformParameters deform = wish.ground;
+  for (std::size_t i = 0; i < wish.summits.size(); ++i) {
+    const SceneSummit& summit = wish.summits[i];
+    const glm::dvec2 place = resolve_place(dem, summit.position, summit.position_lonlat, fmt::format("deform.summits.{}", i));
+    deform.summits.push_back({place, summit.radius_m, summit.factor, summit.base_m});
+  }
+  for (std::size_t i = 0; i < wish.handles.size(); ++i) {
+    const SceneHandle& handle = wish.handles[i];
+    const glm::dvec2 place = resolve_place(dem, handle.position, handle.position_lonlat, fmt::format("deform.handles.{}", i));
+    constexpr double core_share = 0.5;
+    deform.handles.push_back({.center = place,
+                              .move_m = {handle.move_m[0], handle.move_m[1]},
+                              .rotate_deg = handle.rotate_deg,
+                              .scale = handle.scale,
+                              .raise_m = handle.raise_m,
+                              .radius_m = handle.radius_m,
+                              .core_m = handle.core_m.value_or(core_share * handle.radius_m),
+                              .pin = handle.pin});
+  }
+  return deform;
+}
 
 View make_view(const Scene& scene, const Dem& dem, Progress& progress) {
   const SceneCamera& wish = scene.camera;
@@ -74,18 +104,23 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress) {
   else
     throw Error(ErrorKind::usage, "camera", "no position", "camera.position or camera.position_lonlat");
 
-  const bool known_ground = on_terrain(dem, view.viewer_xy);
+  view.deform = resolve_deform(scene.deform, dem);
+  const Deformation deformation(view.deform, view.viewer_xy);
+  // Handles may have brought other ground under the eye.
+  const glm::dvec2 below = deformation.source_of(view.viewer_xy).value_or(view.viewer_xy);
+  const bool known_ground = on_terrain(dem, below);
+  const glm::dvec3 ground{below, known_ground ? ground_altitude_m(dem, below) : 0.0};
   double eye_m = wish.height_m;
   if (wish.height_above_ground) {
     if (!known_ground)
       throw Error(ErrorKind::usage, "camera.height_above_ground", "a position outside the terrain, whose ground is not known",
                   "a position on the terrain, or height_above_ground = false");
-    eye_m += ground_altitude_m(dem, view.viewer_xy) * scene.deform.exaggeration;
+    eye_m += deformation.unbent(ground).z;
   }
   view.camera.eye = {view.viewer_xy, eye_m};
   if (known_ground) {
     // The ground as the camera meets it: exaggerated and bent.
-    const double ground_m = deform_point({view.viewer_xy, ground_altitude_m(dem, view.viewer_xy)}, view.viewer_xy, scene.deform).z;
+    const double ground_m = deformation.point(ground).z;
     if (eye_m < ground_m)
       throw Error(ErrorKind::usage, "camera.height_m",
                   fmt::format("the eye at {:.0f} m stands below the ground, which is at {:.0f} m there", eye_m, ground_m),
@@ -94,9 +129,12 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress) {
 
   if (wish.look_at || wish.look_at_lonlat) {
     const glm::dvec2 place = wish.look_at ? *wish.look_at : to_scene(dem, *wish.look_at_lonlat, "camera.look_at_lonlat");
-    // On the exaggerated ground before bending, so that the bend alone decides what moves in the picture.
+    // On the exaggerated ground before it is bent or rearranged, so that those alone decide what moves in the picture.
+    DeformParameters plain = view.deform;
+    plain.summits.clear();
+    plain.handles.clear();
     const double altitude = wish.look_at_altitude_m ? *wish.look_at_altitude_m : ground_altitude_m(dem, place);
-    look_towards(view.camera, {place, altitude * scene.deform.exaggeration});
+    look_towards(view.camera, Deformation(plain, view.viewer_xy).unbent({place, altitude}));
   } else {
     view.camera.azimuth_deg = wish.azimuth_deg;
     view.camera.pitch_deg = wish.pitch_deg;

@@ -7,6 +7,7 @@
 #include "renderer/camera.h"
 #include "renderer/scene.h"
 #include "renderer/sun.h"
+#include "terrain/deform.h"
 #include "terrain/dem.h"
 
 namespace belvedere {
@@ -15,10 +16,14 @@ namespace belvedere {
 struct View {
   CameraParameters camera;        // eye in the deformed world
   glm::dvec2 viewer_xy{0.0};      // what distances, bend and generalization count from, scene CRS
+  DeformParameters deform;        // with summits and handles, scene CRS
   SunPosition sun;                // azimuth from the grid's north
   glm::dvec3 sun_direction{0.0};  // unit, towards the sun
   double sun_image_x = 1.0;       // where the light comes from in the picture: -1 left … +1 right
 };
+
+// What a scene asks of the ground, with the places of summits and handles in the DEM's CRS. Throws Error(usage) for places that cannot be.
+DeformParameters resolve_deform(const SceneDeform& deform, const Dem& dem);
 
 // Resolves longitude and latitude, heights above ground, look-at points and the time of day. Throws Error(usage) where the eye would stand
 // below the ground (fault 19, with the height) or outside the terrain where its height is counted from the ground; a sun below the

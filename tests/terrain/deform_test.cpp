@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 
+#include "renderer/base/angle.h"
 #include "renderer/base/parallel.h"
 
 namespace belvedere {
@@ -108,6 +110,106 @@ TEST(Deform, UtmCoordinatesKeepCentimetres) {
       ASSERT_LT(std::abs(stored.z - exact.z), 0.005);
     }
   }
+}
+
+// Everything at once, to be compared between points and vertices, and between threads.
+DeformParameters rearranged() {
+  DeformParameters p = panorama();
+  p.background_exaggeration = 1.2;
+  p.foreground_to_m = 41000.0;
+  p.background_from_m = 42500.0;
+  p.summits = {{{680600.0, 5259600.0}, 500.0, 1.4, 1500.0}};
+  p.handles = {{.center = {680500.0, 5259500.0}, .move_m = {40.0, 15.0}, .rotate_deg = 50.0, .radius_m = 400.0, .core_m = 120.0},
+               {.center = {680900.0, 5259300.0}, .raise_m = 80.0, .radius_m = 300.0, .core_m = 50.0}};
+  return p;
+}
+
+TEST(Deform, VertexEqualsDeformPointWithEverythingAsked) {
+  const Grid<float> altitude = hills();
+  const glm::dvec2 viewer(691234.5, 5302017.25);
+  const DeformParameters p = rearranged();
+  const DeformedSurface surface = deform(altitude, innsbruck, viewer, glm::dvec3(viewer, 0.0), p);
+  int moved = 0;
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      const glm::dvec3 from(innsbruck.to_crs(x, y), altitude(x, y));
+      const glm::dvec3 point = deform_point(from, viewer, p);
+      ASSERT_EQ(surface.vertices_m(x, y), glm::vec3(point - surface.origin)) << x << ' ' << y;
+      moved += point.x != from.x ? 1 : 0;
+    }
+  }
+  EXPECT_GT(moved, 100);
+  EXPECT_LT(moved, 1000);
+}
+
+TEST(Deform, ExaggerationIsExactAtBothEndsAndSmoothBetween) {
+  DeformParameters p;
+  p.exaggeration = 1.7;
+  p.background_exaggeration = 1.1;
+  p.foreground_to_m = 20000.0;
+  p.background_from_m = 60000.0;
+  p.exaggeration_base_m = 600.0;
+  const auto height = [&](double d) { return deform_point({0.0, d, 1600.0}, {0.0, 0.0}, p).z; };
+  EXPECT_EQ(height(0.0), 600.0 + 1.7 * 1000.0);
+  EXPECT_EQ(height(20000.0), 600.0 + 1.7 * 1000.0);
+  EXPECT_EQ(height(60000.0), 600.0 + 1.1 * 1000.0);
+  EXPECT_EQ(height(150000.0), 600.0 + 1.1 * 1000.0);
+  EXPECT_DOUBLE_EQ(height(40000.0), 600.0 + 1.4 * 1000.0);
+  for (const double edge : {20000.0, 60000.0}) EXPECT_NEAR(height(edge + 10.0), height(edge - 10.0), 0.01);
+  for (double d = 20000.0; d < 60000.0; d += 500.0) EXPECT_LT(height(d + 500.0), height(d));
+  // The base keeps its height everywhere.
+  EXPECT_EQ(deform_point({0.0, 40000.0, 600.0}, {0.0, 0.0}, p).z, 600.0);
+}
+
+TEST(Deform, ASummitRisesAloneAndSmoothly) {
+  DeformParameters p;
+  p.summits = {{{5000.0, 5000.0}, 3000.0, 1.5, 1000.0}};
+  const auto rise = [&](double from_summit, double z) { return deform_point({5000.0 + from_summit, 5000.0, z}, {0.0, 0.0}, p).z - z; };
+  EXPECT_DOUBLE_EQ(rise(0.0, 2600.0), 0.5 * 1600.0);
+  EXPECT_EQ(rise(3000.0, 2600.0), 0.0);
+  EXPECT_EQ(rise(9000.0, 2600.0), 0.0);
+  EXPECT_EQ(rise(0.0, 1000.0), 0.0);
+  EXPECT_EQ(rise(0.0, 400.0), 0.0);
+  EXPECT_DOUBLE_EQ(rise(0.0, 1200.0), 100.0);  // from 200 m above the base on in full
+  // No step and no kink at the rim, at the centre, at the base and where the factor has come in.
+  const double h = 1.0;
+  for (const double r : {3000.0, 0.0})
+    EXPECT_NEAR((rise(r, 2600.0) - rise(r - h, 2600.0)) / h, (rise(r + h, 2600.0) - rise(r, 2600.0)) / h, 1e-3);
+  for (const double z : {1000.0, 1200.0}) EXPECT_NEAR((rise(0.0, z) - rise(0.0, z - h)) / h, (rise(0.0, z + h) - rise(0.0, z)) / h, 0.01);
+  // Higher ground stays higher.
+  for (double z = 900.0; z < 2600.0; z += 5.0) EXPECT_GT(rise(0.0, z + 5.0) + 5.0, rise(0.0, z));
+}
+
+TEST(Deform, SourceIsTheInverseOfHandles) {
+  const Deformation deformation(rearranged(), {691234.5, 5302017.25});
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x) {
+      const glm::dvec2 place = innsbruck.to_crs(x + 0.3, y + 0.1);
+      const auto source = deformation.source_of(glm::dvec2(deformation.point({place, 1500.0})));
+      ASSERT_TRUE(source);
+      ASSERT_LT(glm::length(*source - place), 0.01) << x << ' ' << y;
+    }
+}
+
+TEST(Deform, LightSeesTheRearrangedShapeWithoutTheBend) {
+  DeformParameters p = panorama();
+  p.handles = {{.center = {1000.0, 60000.0}, .rotate_deg = 50.0, .radius_m = 4000.0, .core_m = 2000.0}};
+  const Deformation deformation(p, {0.0, 0.0});
+  // In the core: turned clockwise by 50°, heights exaggerated 1.6 times, nothing else.
+  const glm::dmat3 shape = deformation.shape_jacobian({1500.0, 60500.0, 1800.0});
+  const double c = std::cos(to_radians(50.0));
+  const double s = std::sin(to_radians(50.0));
+  const glm::dmat3 expected(glm::dvec3(c, -s, 0.0), glm::dvec3(s, c, 0.0), glm::dvec3(0.0, 0.0, 1.6));
+  for (int column = 0; column < 3; ++column) EXPECT_LT(glm::length(shape[column] - expected[column]), 1e-8);
+}
+
+TEST(Deform, SameBitsForAnyThreadCountWithEverythingAsked) {
+  const Grid<float> altitude = hills();
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return deform(altitude, innsbruck, {691000.0, 5302000.0}, {691000.0, 5302000.0, 0.0}, rearranged()).vertices_m;
+  };
+  EXPECT_EQ(run(1), run(2));
 }
 
 TEST(Deform, SameBitsForAnyThreadCount) {
