@@ -5,6 +5,7 @@
 
 #include "renderer/base/angle.h"
 #include "renderer/composite.h"
+#include "renderer/instruction_set.h"
 #include "renderer/light.h"
 #include "renderer/sky.h"
 
@@ -60,6 +61,9 @@ GuidanceParameters to_guidance_parameters(const Stage& stage, int tile_size) {
 }  // namespace
 
 Stage set_stage(const LoadedScene& loaded, Progress& progress) {
+  TracerParameters tracing;
+  tracing.instruction_set = loaded.scene.sampling.instruction_set;
+  choose_instruction_set(tracing.instruction_set);  // what this machine lacks is said before the work
   Stage stage;
   stage.scene = loaded.scene;
   stage.palette = read_palette(find_named_file(loaded, "palettes", loaded.scene.palette));
@@ -70,7 +74,7 @@ Stage set_stage(const LoadedScene& loaded, Progress& progress) {
   stage.ground = make_ground(loaded.scene, std::move(dem), std::move(land_cover), stage.view, progress);
   check_folds(loaded.scene, stage.ground, *stage.camera, progress);
   progress.begin("building the ray tracer", 0.0);
-  stage.tracer = std::make_unique<Tracer>(stage.ground.surface);
+  stage.tracer = std::make_unique<Tracer>(stage.ground.surface, tracing);
   stage.horizon_px = skyline_row_px(*stage.camera, *stage.tracer, 0.18 * loaded.scene.output.height);
   return stage;
 }

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "renderer/base/error.h"
+#include "renderer/instruction_set.h"
 
 namespace belvedere {
 namespace {
@@ -32,14 +33,6 @@ std::string program_version() { return BELVEDERE_VERSION; }
 
 std::string library_versions() { return fmt::format("{}, oneTBB {}.{}", BELVEDERE_LIBRARIES, TBB_VERSION_MAJOR, TBB_VERSION_MINOR); }
 
-std::string machine_instruction_set() {
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")) return "AVX-512";
-  if (__builtin_cpu_supports("avx2")) return "AVX2";
-  if (__builtin_cpu_supports("avx")) return "AVX";
-  if (__builtin_cpu_supports("sse4.2")) return "SSE4.2";
-  return "SSE2";
-}
-
 std::string hash_file(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw Error(ErrorKind::input, path, "this is a folder", "a file");
@@ -61,7 +54,7 @@ std::string hash_bytes(const std::string& bytes) { return hexadecimal(XXH3_128bi
 Provenance make_provenance(const std::string& scene_text, const std::map<std::string, std::string>& inputs) {
   Provenance provenance{.program_version = program_version(),
                         .libraries = library_versions(),
-                        .instruction_set = machine_instruction_set(),
+                        .instruction_set = instruction_set_title(machine_instruction_set()),
                         .scene = scene_text,
                         .inputs = {}};
   for (const auto& [name, path] : inputs) provenance.inputs[name] = hash_file(path);

@@ -10,8 +10,8 @@ namespace belvedere {
 // gives the same bytes, wherever its files lie.
 struct Provenance {
   std::string program_version;
-  std::string libraries;  // "Embree 3.13.5, GDAL 3.6.2 …"
-  std::string instruction_set;
+  std::string libraries;                      // "Embree 3.13.5, GDAL 3.6.2 …"
+  std::string instruction_set;                // that rays are traced with: "AVX2", or "Embree 3.13.5, AVX2 pinned"
   std::string scene;                          // the resolved scene, TOML
   std::map<std::string, std::string> inputs;  // file name as the scene writes it → hash_file of its bytes
 };
@@ -20,8 +20,6 @@ struct Provenance {
 std::string program_version();
 // The foreign libraries the program was built with, "Embree 3.13.5, …".
 std::string library_versions();
-// The widest vector instructions this machine has of those the libraries distinguish: "SSE2", "SSE4.2", "AVX", "AVX2" or "AVX-512".
-std::string machine_instruction_set();
 // XXH3-128 of a file's bytes, 32 hexadecimal digits as `xxhsum -H2` prints them; Error(input) where it cannot be read. Memory does not
 // grow with the file.
 std::string hash_file(const std::string& path);

@@ -114,6 +114,7 @@ struct SceneSampling {
   int shadow_rays = 8;
   int sky_directions = 16;
   double sky_reach_m = 12000.0;
+  std::string instruction_set = "any";  // see renderer/instruction_set.h; pinned where other machines must give the same picture
 };
 
 struct SceneLight {

@@ -29,7 +29,9 @@ LoadedScene small(const LoadedScene& scene) {
     exemplar.width /= 2;
     exemplar.height /= 2;
   }
-  out.scene.sampling = {.pixel_samples = 1, .shadow_rays = 1, .sky_directions = 0, .sky_reach_m = 1000.0};
+  out.scene.sampling.pixel_samples = 1;
+  out.scene.sampling.shadow_rays = 1;
+  out.scene.sampling.sky_directions = 0;
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "renderer/camera.h"
+#include "renderer/instruction_set.h"
 #include "renderer/scene_table.h"
 
 namespace belvedere {
@@ -62,6 +63,12 @@ std::vector<SceneKey> source_keys(bool heights) {
 std::vector<std::string> projection_choices() {
   std::vector<std::string> names;
   for (const Projection& projection : projections()) names.emplace_back(projection.name);
+  return names;
+}
+
+std::vector<std::string> instruction_set_choices() {
+  std::vector<std::string> names = {"any"};
+  names.insert(names.end(), instruction_sets().begin(), instruction_sets().end());
   return names;
 }
 
@@ -330,6 +337,12 @@ std::vector<SceneSection> make_scene_sections() {
                            .range = {1, 1e6},
                            .unit = "m",
                            .meaning = "How far terrain hides the sky."},
+                          {.name = "instruction_set",
+                           .field = AT(sampling.instruction_set),
+                           .meaning = "Vector instructions that rays are traced with: the best a machine has, or one kind, where several "
+                                      "machines shall give the same picture to the last bit. A machine that lacks it refuses.",
+                           .text = TextKind::choice,
+                           .choices = instruction_set_choices()},
                       }});
   sections.push_back(
       {.name = "light",

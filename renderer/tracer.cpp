@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "renderer/base/error.h"
+#include "renderer/instruction_set.h"
 
 namespace belvedere {
 namespace {
@@ -48,19 +49,6 @@ void check(RTCDevice device, const char* what) {
                           memory ? ", out of memory"
                           : cpu  ? ", this processor is not supported"
                                  : ""));
-}
-
-// Embree falls back silently where the processor lacks what was asked for, so it is asked first.
-std::string device_settings(const std::string& isa) {
-  const bool known = isa.empty() || isa == "sse4.2" || isa == "avx" || isa == "avx2" || isa == "avx512";
-  if (!known) {
-    throw Error(ErrorKind::usage, "instruction set", fmt::format("\"{}\"", isa), "\"sse4.2\", \"avx\", \"avx2\", \"avx512\" or empty");
-  }
-  const bool present = isa.empty() || (isa == "sse4.2" && __builtin_cpu_supports("sse4.2")) ||
-                       (isa == "avx" && __builtin_cpu_supports("avx")) || (isa == "avx2" && __builtin_cpu_supports("avx2")) ||
-                       (isa == "avx512" && __builtin_cpu_supports("avx512vl"));
-  if (!present) throw Error(ErrorKind::limit, "instruction set", fmt::format("this processor lacks {}", isa), "a processor that has it");
-  return isa.empty() ? std::string() : fmt::format("isa={}", isa);
 }
 
 // The nearest hit so far among some cells.
@@ -245,11 +233,12 @@ void Tracer::State::trace_on(const Ray& ray, float from, Hit& hit) const {
 
 namespace {
 
-// Fills a lane's ray part; false where the ray holds a NaN or no direction, which Embree would not survive well.
+// Fills a lane's ray part; false where there is no ray (null), or one with a NaN or without direction, which Embree would not survive well.
+// Such a lane gets a ray that ends before it begins: without 16-wide instructions Embree takes bundles apart by that and not by the mask.
 template <class Packet>
-bool set_lane(Packet& packet, int lane, const Ray& ray, const glm::dvec3& origin, float reach) {
-  const glm::vec3 o(ray.origin - origin);
-  const glm::vec3 d(ray.direction);
+bool set_lane(Packet& packet, int lane, const Ray* ray, const glm::dvec3& origin, float reach) {
+  const glm::vec3 o = ray == nullptr ? glm::vec3(0.F) : glm::vec3(ray->origin - origin);
+  const glm::vec3 d = ray == nullptr ? glm::vec3(0.F) : glm::vec3(ray->direction);
   const bool usable = std::isfinite(o.x + o.y + o.z + d.x + d.y + d.z) && glm::dot(d, d) > 0.F;
   packet.org_x[lane] = usable ? o.x : 0.F;
   packet.org_y[lane] = usable ? o.y : 0.F;
@@ -258,7 +247,7 @@ bool set_lane(Packet& packet, int lane, const Ray& ray, const glm::dvec3& origin
   packet.dir_y[lane] = usable ? d.y : 0.F;
   packet.dir_z[lane] = usable ? d.z : 1.F;
   packet.tnear[lane] = 0.F;
-  packet.tfar[lane] = reach;
+  packet.tfar[lane] = usable ? reach : -1.F;
   packet.time[lane] = 0.F;
   packet.mask[lane] = ~0U;
   packet.id[lane] = static_cast<unsigned>(lane);
@@ -273,15 +262,10 @@ RTCIntersectContext coherent_context() {
   return context;
 }
 
-std::string describe(RTCDevice device, const std::string& pinned) {
+std::string describe(RTCDevice device, const std::string& instructions, bool pinned) {
   const auto version = [device](RTCDeviceProperty property) { return static_cast<int>(rtcGetDeviceProperty(device, property)); };
-  std::string isa = "SSE4.2";
-  if (__builtin_cpu_supports("avx")) isa = "AVX";
-  if (__builtin_cpu_supports("avx2")) isa = "AVX2";
-  if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")) isa = "AVX-512";
-  if (!pinned.empty()) isa = pinned == "sse4.2" ? "SSE4.2" : pinned == "avx" ? "AVX" : pinned == "avx2" ? "AVX2" : "AVX-512";
   return fmt::format("Embree {}.{}.{}, {}{}", version(RTC_DEVICE_PROPERTY_VERSION_MAJOR), version(RTC_DEVICE_PROPERTY_VERSION_MINOR),
-                     version(RTC_DEVICE_PROPERTY_VERSION_PATCH), isa, pinned.empty() ? "" : " pinned");
+                     version(RTC_DEVICE_PROPERTY_VERSION_PATCH), instruction_set_title(instructions), pinned ? " pinned" : "");
 }
 
 }  // namespace
@@ -307,7 +291,9 @@ Tracer::Tracer(const DeformedSurface& surface, const TracerParameters& parameter
                 fmt::format("a terrain of {} × {} posts needs about {:.1f} GB", posts.width(), posts.height(), wanted * 1e-9),
                 fmt::format("{:.1f} GB of memory, {} posts", present * 1e-9, std::numeric_limits<std::uint32_t>::max() / 12));
   }
-  state.device = rtcNewDevice(device_settings(parameters.instruction_set).c_str());
+  // Embree falls back silently where the processor lacks what is asked for; this does not.
+  const std::string instructions = choose_instruction_set(parameters.instruction_set);
+  state.device = rtcNewDevice(("isa=" + instructions).c_str());
   check(state.device, "starting Embree");
   rtcSetDeviceMemoryMonitorFunction(
       state.device,
@@ -319,7 +305,7 @@ Tracer::Tracer(const DeformedSurface& surface, const TracerParameters& parameter
   state.scene = rtcNewScene(state.device);
   // Compact: 23 bytes a cell instead of 60. Robust: without it rays fall through the edges of cells.
   rtcSetSceneFlags(state.scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_COMPACT | RTC_SCENE_FLAG_ROBUST));
-  state.description = describe(state.device, parameters.instruction_set);
+  state.description = describe(state.device, instructions, parameters.instruction_set != "any");
   const FlushDenormals flush;
   state.build(parameters.tile_cells);
 }
@@ -338,8 +324,8 @@ void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
     const int count = static_cast<int>(std::min<std::size_t>(bundle, rays.size() - first));
     alignas(64) std::array<int, bundle> valid{};
     RTCRayHit16 packet;
-    for (int k = 0; k < count; ++k) {
-      valid[k] = set_lane(packet.ray, k, rays[first + k], state_->origin, infinity) ? -1 : 0;
+    for (int k = 0; k < bundle; ++k) {
+      valid[k] = set_lane(packet.ray, k, k < count ? &rays[first + k] : nullptr, state_->origin, infinity) ? -1 : 0;
       packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
     }
     rtcIntersect16(valid.data(), state_->scene, &context, &packet);
@@ -361,8 +347,8 @@ void Tracer::occluded(std::span<const Ray> rays, double reach_m, std::span<std::
     const int count = static_cast<int>(std::min<std::size_t>(bundle, rays.size() - first));
     alignas(64) std::array<int, bundle> valid{};
     RTCRay16 packet;
-    for (int k = 0; k < count; ++k) {
-      valid[k] = set_lane(packet, k, rays[first + k], state_->origin, static_cast<float>(reach_m)) ? -1 : 0;
+    for (int k = 0; k < bundle; ++k) {
+      valid[k] = set_lane(packet, k, k < count ? &rays[first + k] : nullptr, state_->origin, static_cast<float>(reach_m)) ? -1 : 0;
     }
     rtcOccluded16(valid.data(), state_->scene, &context, &packet);
     // Embree marks what is blocked with tfar = -infinity.

@@ -23,9 +23,9 @@ struct Hit {
 };
 
 struct TracerParameters {
-  // Embree's instruction set: "" the best this machine has, or pinned for pictures that must be the same on several machines:
-  // "sse4.2", "avx", "avx2", "avx512". See description().
-  std::string instruction_set;
+  // Embree's vector instructions: "any", the widest this machine has, or pinned for pictures that must be the same on several machines to
+  // one of instruction_sets(). See description().
+  std::string instruction_set = "any";
   int tile_cells = 64;  // cells on a side of the grids handed to Embree, 1…1024; changes speed and memory only
 };
 
@@ -50,7 +50,7 @@ class Tracer {
   // Whether something stands in the way within [0, reach_m]. `blocked` gets 1 or 0 per ray; a ray with a NaN is free.
   void occluded(std::span<const Ray> rays, double reach_m, std::span<std::uint8_t> blocked) const;
 
-  // "Embree 3.13.5, AVX2": for provenance.
+  // "Embree 3.13.5, AVX2", with "pinned" behind where the parameters say which: for provenance.
   std::string description() const;
   // What Embree holds: the structure, not the posts.
   std::size_t memory_bytes() const;

@@ -1,7 +1,6 @@
 #include "renderer/tracer.h"
 
 #include <gtest/gtest.h>
-#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <cstring>
@@ -207,9 +206,11 @@ void expect_like_oracle(const DeformedSurface& surface, double height_m) {
   std::vector<Hit> hits(rays.size());
   tracer.intersect(rays, hits);
   std::vector<double> expected(rays.size(), -1.0);
-  tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
-    const auto d = oracle.intersect(rays[i].origin - surface.origin, rays[i].direction);
-    if (d) expected[i] = *d;
+  parallel_ranges(rays.size(), std::size_t{64}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) {
+      const auto d = oracle.intersect(rays[i].origin - surface.origin, rays[i].direction);
+      if (d) expected[i] = *d;
+    }
   });
   int flips = 0;
   int found = 0;
@@ -248,9 +249,21 @@ TEST(Tracer, AgreesWithHeightfieldOnInnsbruck) {
   expect_like_oracle(surface, 4500.0);
 }
 
-TEST(Tracer, NaNRaysMissAndHarmNoNeighbour) {
+// Each kind of vector instructions takes bundles apart in its own way, and Debian's Embree stops the program where it meets a wrong ray.
+class EachInstructionSet : public testing::TestWithParam<std::string> {};
+
+TEST_P(EachInstructionSet, NaNRaysMissAndHarmNoNeighbour) {
   const DeformedSurface surface = make_surface(100, 100, rough_altitude);
-  const Tracer tracer(surface);
+  TracerParameters parameters;
+  parameters.instruction_set = GetParam();
+  std::optional<Tracer> made;
+  try {
+    made.emplace(surface, parameters);
+  } catch (const Error& error) {
+    ASSERT_EQ(error.kind(), ErrorKind::limit);
+    GTEST_SKIP() << error.what();
+  }
+  const Tracer& tracer = *made;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   std::vector<Ray> rays(21, ray_from({1500.0, -1500.0, 9000.0}, {0.01, 0.02, -1.0}));  // no multiple of 16
@@ -274,10 +287,40 @@ TEST(Tracer, NaNRaysMissAndHarmNoNeighbour) {
   }
 }
 
+TEST_P(EachInstructionSet, BundlesOfAnyLengthAreTraced) {
+  const DeformedSurface surface = make_surface(100, 100, rough_altitude);
+  TracerParameters parameters;
+  parameters.instruction_set = GetParam();
+  std::optional<Tracer> tracer;
+  try {
+    tracer.emplace(surface, parameters);
+  } catch (const Error& error) {
+    GTEST_SKIP() << error.what();
+  }
+  const std::vector<Ray> rays(33, ray_from({1500.0, -1500.0, 9000.0}, {0.01, 0.02, -1.0}));
+  for (std::size_t count = 1; count <= rays.size(); ++count) {
+    std::vector<Hit> hits(count);
+    std::vector<std::uint8_t> blocked(count, 7);
+    tracer->intersect(std::span(rays).first(count), hits);
+    tracer->occluded(std::span(rays).first(count), 1e9, blocked);
+    for (std::size_t i = 0; i < count; ++i) {
+      ASSERT_TRUE(hits[i].found) << i << " of " << count;
+      ASSERT_EQ(blocked[i], 1) << i << " of " << count;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tracer, EachInstructionSet, testing::Values("sse2", "sse4.2", "avx", "avx2", "avx512"), [](const auto& set) {
+  std::string name = set.param;
+  std::erase(name, '.');
+  return name;
+});
+
 std::vector<Hit> trace_in_tasks(const Tracer& tracer, const std::vector<Ray>& rays) {
   std::vector<Hit> hits(rays.size());
-  tbb::parallel_for(std::size_t{0}, rays.size() / 64,
-                    [&](std::size_t i) { tracer.intersect(std::span(rays).subspan(i * 64, 64), std::span(hits).subspan(i * 64, 64)); });
+  parallel_ranges(rays.size() / 64, std::size_t{1}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) tracer.intersect(std::span(rays).subspan(i * 64, 64), std::span(hits).subspan(i * 64, 64));
+  });
   return hits;
 }
 
@@ -316,11 +359,11 @@ TEST(Tracer, InstructionSetsAgreeOnTheFacet) {
   const DeformedSurface surface = make_surface(500, 400, rough_altitude);
   const std::vector<Ray> rays = view_rays(surface, 480, 400, 4500.0);
   TracerParameters plain;
-  plain.instruction_set = "sse4.2";
+  plain.instruction_set = "sse2";
   const Tracer oldest(surface, plain);
-  EXPECT_EQ(oldest.description(), "Embree 3.13.5, SSE4.2 pinned");
+  EXPECT_EQ(oldest.description(), "Embree 3.13.5, SSE2 pinned");
   const std::vector<Hit> expected = trace_in_tasks(oldest, rays);
-  for (const char* isa : {"avx", "avx2", "avx512"}) {
+  for (const char* isa : {"sse4.2", "avx", "avx2", "avx512", "any"}) {
     TracerParameters parameters;
     parameters.instruction_set = isa;
     std::optional<Tracer> tracer;
