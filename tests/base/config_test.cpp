@@ -7,12 +7,12 @@
 #include <clocale>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <locale>
 
 #include "renderer/base/embedded.h"
 #include "renderer/base/error.h"
+#include "tests/files.h"
 
 namespace belvedere {
 namespace {
@@ -21,17 +21,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// The message of the Error(kind) that f throws.
-std::string message_of(ErrorKind kind, const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), kind) << error.what();
-    return error.what();
-  }
-  ADD_FAILURE() << "no error";
-  return {};
-}
+using test::message_of;
 
 std::string usage_of(const std::function<void()>& f) { return message_of(ErrorKind::usage, f); }
 
@@ -118,13 +108,12 @@ TEST(Config, NestingUpToTheLimitIsRead) {
 }
 
 TEST(Config, HugeTextIsRefusedUnread) {
-  const std::string path = ::testing::TempDir() + "/huge.toml";
-  std::ofstream(path).put('\n');
+  const test::Folder folder;
+  const std::string path = folder.write("huge.toml", "\n");
   std::filesystem::resize_file(path, 100'000'000);  // sparse: takes no disk
   std::string message;
   EXPECT_LT(seconds([&] { message = usage_of([&] { read_config(path); }); }), 0.5);
   EXPECT_THAT(message, AllOf(HasSubstr("huge.toml"), HasSubstr("1 MiB")));
-  std::filesystem::remove(path);
   EXPECT_THAT(usage_of([&] { read_config("/dev/zero"); }), HasSubstr("1 MiB"));
   EXPECT_THAT(message_of(ErrorKind::input, [] { read_config("/nowhere/x.toml"); }), HasSubstr("/nowhere/x.toml"));
   EXPECT_THAT(message_of(ErrorKind::input, [] { read_config("/tmp"); }), HasSubstr("folder"));

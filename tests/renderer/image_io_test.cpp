@@ -120,7 +120,7 @@ TEST(ExrWriter, RoundTripOfMixedChannels) {
         ASSERT_EQ(ids(x, y), id_value(x, y)) << x << " " << y;
       }
     }
-    EXPECT_EQ(folder.file_count(), 1u) << "no temporary file stays";
+    EXPECT_EQ(folder.count(), 1u) << "no temporary file stays";
   }
 }
 
@@ -182,7 +182,7 @@ TEST(ExrWriter, WithoutFinishTheOldFileStays) {
     writer.write_rows(0, 0, 10, std::vector<float>(200));
   }
   EXPECT_EQ(test::read_bytes(folder / "a.exr"), "old");
-  EXPECT_EQ(folder.file_count(), 1u);
+  EXPECT_EQ(folder.count(), 1u);
 }
 
 TEST(ExrReader, MissingChannelIsNamedWithThoseThatAreThere) {
@@ -482,7 +482,7 @@ TEST(Output, FullDiskLeavesTheOldFileWhole) {
       const SmallDisk disk(limit);
       EXPECT_EQ(kind_of([&, w = &write, n = &name] { (*w)(folder / *n); }), ErrorKind::output) << name << " " << limit;
       EXPECT_EQ(test::read_bytes(folder / name), "old") << name << " " << limit;
-      EXPECT_EQ(folder.file_count(), files) << "the temporary file is removed";
+      EXPECT_EQ(folder.count(), files) << "the temporary file is removed";
     }
     const SmallDisk disk(size);
     EXPECT_NO_THROW(write(folder / name)) << "just large enough";

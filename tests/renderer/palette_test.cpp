@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <fstream>
 #include <glm/common.hpp>
 #include <string>
 
 #include "renderer/base/error.h"
+#include "tests/files.h"
 
 namespace belvedere {
 namespace {
@@ -97,8 +97,8 @@ TEST(Palette, PaletteCanOverrideABuiltInOne) {
 }
 
 TEST(Palette, ReadsAFile) {
-  const std::string path = std::string(BELVEDERE_BINARY_DIR) + "/palette_test.toml";
-  std::ofstream(path) << "based_on = \"winter\"\n[strength]\nhaze = 0.5\n";
+  const test::Folder folder;
+  const std::string path = folder.write("frost.toml", "based_on = \"winter\"\n[strength]\nhaze = 0.5\n");
   const Palette palette = read_palette(path);
   EXPECT_TRUE(palette.winter);
   EXPECT_EQ(palette.haze_share, 0.5);

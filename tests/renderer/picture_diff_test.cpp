@@ -10,6 +10,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/image_io.h"
+#include "tests/files.h"
 
 namespace belvedere {
 namespace {
@@ -17,9 +18,9 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // 20 × 10 pixels of depth (float), tone (half) and class (ids), each by place.
-std::string write_buffers(const std::string& name, const std::function<float(int)>& depth, const std::function<float(int)>& tone,
-                          const std::function<std::uint32_t(int)>& id) {
-  std::string path = ::testing::TempDir() + "/diff_" + name + ".exr";
+std::string write_buffers(const test::Folder& folder, const std::string& name, const std::function<float(int)>& depth,
+                          const std::function<float(int)>& tone, const std::function<std::uint32_t(int)>& id) {
+  std::string path = folder / (name + ".exr");
   ExrWriter writer(
       path, 20, 10,
       {{"depth", {{"Z", ChannelType::float32}, {"tone.V", ChannelType::half}}}, {"class", {{"landcover.id", ChannelType::uint32}}}}, {});
@@ -47,12 +48,13 @@ const auto half = [](int) { return 0.5F; };
 const auto classes = [](int i) { return static_cast<std::uint32_t>(i % 7); };
 
 TEST(PictureDiff, FiguresOfAKnownDifference) {
-  const std::string a = write_buffers("a", ramp, half, classes);
+  const test::Folder folder;
+  const std::string a = write_buffers(folder, "a", ramp, half, classes);
   // Depth differs by 3 and 4 at two of 200 pixels, the class at ten.
   const std::string b = write_buffers(
-      "b", [](int i) { return static_cast<float>(i) + (i == 20    ? 3.F
-                                                       : i == 120 ? -4.F
-                                                                  : 0.F); }, half,
+      folder, "b", [](int i) { return static_cast<float>(i) + (i == 20    ? 3.F
+                                                               : i == 120 ? -4.F
+                                                                          : 0.F); }, half,
       [](int i) { return static_cast<std::uint32_t>(i % 7 + (i % 20 == 0 ? 1 : 0)); });
   const PictureDifference difference = compare_pictures(a, b);
   EXPECT_TRUE(difference.mismatches.empty());
@@ -78,17 +80,19 @@ TEST(PictureDiff, FiguresOfAKnownDifference) {
 }
 
 TEST(PictureDiff, SkyIsEqualToSkyAndInfinitelyFarFromLand) {
-  const std::string a = write_buffers("sky", sky_above, half, classes);
+  const test::Folder folder;
+  const std::string a = write_buffers(folder, "sky", sky_above, half, classes);
   EXPECT_TRUE(is_same(compare_pictures(a, a), {}));
-  const PictureDifference difference = compare_pictures(a, write_buffers("land", ramp, half, classes));
+  const PictureDifference difference = compare_pictures(a, write_buffers(folder, "land", ramp, half, classes));
   EXPECT_EQ(channel(difference, "Z").max, infinity);
   EXPECT_DOUBLE_EQ(channel(difference, "Z").differing_share, 0.25);
   EXPECT_FALSE(is_same(difference, {.mean = 1e300, .max = 1e300}));
 }
 
 TEST(PictureDiff, ChannelsThatOneLacksAreAMismatch) {
-  const std::string a = write_buffers("both", ramp, half, classes);
-  const std::string b = ::testing::TempDir() + "/diff_one.exr";
+  const test::Folder folder;
+  const std::string a = write_buffers(folder, "both", ramp, half, classes);
+  const std::string b = folder / "one.exr";
   ExrWriter writer(b, 20, 10, {{"depth", {{"Z", ChannelType::float32}, {"extra", ChannelType::half}}}}, {});
   std::vector<float> values;
   for (int i = 0; i < 200; ++i) values.insert(values.end(), {ramp(i), 0.F});
@@ -101,10 +105,11 @@ TEST(PictureDiff, ChannelsThatOneLacksAreAMismatch) {
 }
 
 TEST(PictureDiff, FormatsOfEqualValuesAreEqual) {
+  const test::Folder folder;
   Grid<glm::vec3> picture(30, 20);
   for (std::size_t i = 0; i < picture.size(); ++i) picture[i] = glm::vec3(static_cast<float>(i % 256) / 255.F, 0.F, 1.F);
-  const std::string png = ::testing::TempDir() + "/diff.png";
-  const std::string tiff = ::testing::TempDir() + "/diff.tif";
+  const std::string png = folder / "picture.png";
+  const std::string tiff = folder / "picture.tif";
   write_png8(png, picture, {});
   write_tiff16(tiff, picture, {});
   const PictureDifference difference = compare_pictures(png, tiff);
@@ -117,8 +122,9 @@ TEST(PictureDiff, FormatsOfEqualValuesAreEqual) {
 }
 
 TEST(PictureDiff, OtherSizesAndMissingFiles) {
-  const std::string a = ::testing::TempDir() + "/diff_s1.png";
-  const std::string b = ::testing::TempDir() + "/diff_s2.png";
+  const test::Folder folder;
+  const std::string a = folder / "s1.png";
+  const std::string b = folder / "s2.png";
   write_png8(a, Grid<glm::vec3>(5, 5), {});
   write_png8(b, Grid<glm::vec3>(5, 6), {});
   EXPECT_THAT(compare_pictures(a, b).mismatches, ::testing::ElementsAre("5 × 5 pixels against 5 × 6"));

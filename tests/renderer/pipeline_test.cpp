@@ -1,25 +1,25 @@
 #include "renderer/pipeline.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <glm/common.hpp>
-#include <sstream>
+#include <memory>
 #include <string>
 
 #include "renderer/base/error.h"
 #include "renderer/guidance_io.h"
 #include "renderer/image_io.h"
+#include "tests/files.h"
 
 namespace belvedere {
 namespace {
 
 namespace fs = std::filesystem;
+using test::read_bytes;
 
 // A small whole: made-up terrain, painted sheet, synthesis, strokes, files.
 constexpr const char* small_scene = R"(
@@ -50,38 +50,27 @@ class Pipeline : public testing::Test {
  protected:
   // One render that several tests look at: on one thread.
   static void SetUpTestSuite() {
-    rendered_ = (fs::temp_directory_path() / ("belvedere_pipeline_" + std::to_string(getpid()))).string();
+    folder_of_all_ = std::make_unique<test::Folder>();
+    rendered_ = folder_of_all_->path();
     render(parse_scene(small_scene, "small.toml", ".", {}), {.out_folder = rendered_, .threads = 1, .tile_size = 32}, silent_progress());
   }
-  static void TearDownTestSuite() { fs::remove_all(rendered_); }
+  static void TearDownTestSuite() { folder_of_all_.reset(); }
+  static inline std::unique_ptr<test::Folder> folder_of_all_;
   static inline std::string rendered_;
 
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("belvedere_pipeline_" + std::to_string(getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string out(const std::string& name) const { return (folder_ / name).string(); }
+  std::string out(const std::string& name) const { return folder_ / name; }
   LoadedScene scene(const std::vector<std::string>& settings = {}) const {
-    return parse_scene(small_scene, "small.toml", folder_.string(), {.data_folders = {}, .settings = settings});
-  }
-  static std::string bytes(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
+    return parse_scene(small_scene, "small.toml", folder_.path(), {.data_folders = {}, .settings = settings});
   }
   static void expect_same_files(const std::string& a, const std::string& b) {
     for (const char* file : {"panorama.tif", "panorama.png", "panorama.exr", "guidance.exr"}) {
-      const std::string left = bytes(a + "/" + file);
+      const std::string left = read_bytes(a + "/" + file);
       EXPECT_FALSE(left.empty()) << file;
-      EXPECT_TRUE(left == bytes(b + "/" + file)) << file;
+      EXPECT_TRUE(left == read_bytes(b + "/" + file)) << file;
     }
   }
 
-  fs::path folder_;
+  test::Folder folder_;
 };
 
 TEST_F(Pipeline, SameBytesForAnyThreadsAndTiles) {
@@ -95,7 +84,7 @@ TEST_F(Pipeline, GuidanceAloneEqualsGuidanceOfTheWholeRender) {
                                          "sampling.pixel_samples=1"};
   render(scene(tall), {.out_folder = out("a")}, silent_progress());
   render_guidance(scene(tall), {.out_folder = out("b")}, silent_progress());
-  EXPECT_TRUE(bytes(out("a/guidance.exr")) == bytes(out("b/guidance.exr")));
+  EXPECT_TRUE(read_bytes(out("a/guidance.exr")) == read_bytes(out("b/guidance.exr")));
 }
 
 TEST_F(Pipeline, PanoramaShowsSkyOverTerrainAndIsPainted) {
@@ -149,7 +138,7 @@ TEST_F(Pipeline, EveryFileSaysWhatMadeIt) {
 }
 
 TEST_F(Pipeline, AnOutputThatCannotBeWrittenIsRefusedBeforeTheWork) {
-  std::ofstream(out("file")) << "no folder";
+  folder_.write("file", "no folder");
   try {
     render(scene(), {.out_folder = out("file") + "/below"}, silent_progress());
     FAIL() << "no error";

@@ -3,9 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "renderer/base/error.h"
+#include "tests/files.h"
 
 namespace belvedere {
 namespace {
@@ -13,22 +12,18 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 
-std::string write_temporary(const std::string& name, const std::string& bytes) {
-  std::string path = ::testing::TempDir() + "/" + name;
-  std::ofstream(path, std::ios::binary) << bytes;
-  return path;
-}
-
 // XXH3-128 with seed 0 of nothing, as published in xxHash's own test vectors.
 TEST(Provenance, HashOfTheEmptyFileIsThePublishedOne) {
-  EXPECT_EQ(hash_file(write_temporary("empty", "")), "99aa06d3014798d86001c324468d497f");
+  const test::Folder folder;
+  EXPECT_EQ(hash_file(folder.write("empty", "")), "99aa06d3014798d86001c324468d497f");
 }
 
 // Longer than a read and no multiple of it: streaming must agree with the one-call form of the library.
 TEST(Provenance, StreamedHashIsTheHashOfTheBytes) {
   std::string bytes(700'001, '\0');
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 2654435761U >> 13U);
-  const std::string path = write_temporary("long", bytes);
+  const test::Folder folder;
+  const std::string path = folder.write("long", bytes);
   EXPECT_EQ(hash_file(path), hash_bytes(bytes));
   bytes[700'000] ^= 1;
   EXPECT_NE(hash_file(path), hash_bytes(bytes));
@@ -45,7 +40,8 @@ TEST(Provenance, MissingFileIsAnInputError) {
 }
 
 TEST(Provenance, NotesSayEverythingAndNothingOfTheMoment) {
-  const std::string path = write_temporary("dem.tif", "metres");
+  const test::Folder folder;
+  const std::string path = folder.write("dem.tif", "metres");
   const Provenance provenance = make_provenance("version = 1\n", {{"data/dem.tif", path}, {"data/a.tif", path}});
   const auto notes = to_notes(provenance);
   EXPECT_THAT(notes.at("belvedere:version"), MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
@@ -56,7 +52,7 @@ TEST(Provenance, NotesSayEverythingAndNothingOfTheMoment) {
   const std::string hash = hash_bytes("metres");
   EXPECT_EQ(notes.at("belvedere:inputs"), hash + "  data/a.tif\n" + hash + "  data/dem.tif\n");
   EXPECT_EQ(notes, to_notes(make_provenance("version = 1\n", {{"data/dem.tif", path}, {"data/a.tif", path}})));
-  for (const auto& [key, text] : notes) EXPECT_EQ(text.find(::testing::TempDir()), std::string::npos) << key;
+  for (const auto& [key, text] : notes) EXPECT_EQ(text.find(folder.path()), std::string::npos) << key;
   EXPECT_TRUE(to_notes(Provenance{}).empty());
 }
 

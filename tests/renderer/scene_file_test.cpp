@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <sstream>
 
 #include "renderer/base/error.h"
 #include "renderer/scene_schema.h"
+#include "tests/files.h"
 
 namespace belvedere {
 namespace {
@@ -20,16 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-std::string message_of(ErrorKind kind, const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), kind) << error.what();
-    return error.what();
-  }
-  ADD_FAILURE() << "no error";
-  return {};
-}
+using test::message_of;
 
 Scene scene_of(const std::string& text, const std::vector<std::string>& settings = {}) {
   return parse_scene("version = 1\n" + text, "s.toml", ".", {.data_folders = {}, .settings = settings}).scene;
@@ -43,20 +33,14 @@ std::string refused(const std::string& text, const std::vector<std::string>& set
 class SceneFolders : public ::testing::Test {
  protected:
   void SetUp() override {
-    root_ = fs::path(::testing::TempDir()) / ("scene_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(root_);
-    fs::create_directories(root_ / "scenes");
-    fs::create_directories(root_ / "data/alps");
-    fs::create_directories(root_ / "secret");
-    for (const char* file : {"scenes/here.tif", "data/alps/dem.tif", "secret/x.tif"}) std::ofstream(root_ / file) << "x";
+    for (const char* file : {"scenes/here.tif", "data/alps/dem.tif", "secret/x.tif"}) root_.write(file, "x");
   }
-  void TearDown() override { fs::remove_all(root_); }
-  std::string path(const std::string& relative) const { return (root_ / relative).string(); }
+  std::string path(const std::string& relative) const { return root_ / relative; }
   LoadedScene load(const std::string& text, bool with_data = true) const {
     return parse_scene("version = 1\n" + text, "s.toml", path("scenes"),
                        {.data_folders = with_data ? std::vector<std::string>{path("data")} : std::vector<std::string>{}, .settings = {}});
   }
-  fs::path root_;
+  test::Folder root_;
 };
 
 TEST(SceneFile, ReadsEveryKindOfValue) {
@@ -348,7 +332,7 @@ optional = true
 }
 
 TEST_F(SceneFolders, SceneFromAFile) {
-  std::ofstream(root_ / "scenes/peak.toml") << "version = 1\n[[terrain.sources]]\nfile = \"here.tif\"\n";
+  root_.write("scenes/peak.toml", "version = 1\n[[terrain.sources]]\nfile = \"here.tif\"\n");
   const LoadedScene scene = read_scene(path("scenes/peak.toml"), {});
   EXPECT_EQ(scene.name, "peak");
   EXPECT_EQ(scene.folder, path("scenes"));
@@ -356,11 +340,7 @@ TEST_F(SceneFolders, SceneFromAFile) {
   EXPECT_THAT(message_of(ErrorKind::input, [&] { read_scene(path("scenes/none.toml"), {}); }), HasSubstr("none.toml"));
 }
 
-std::string text_of(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream(std::string(BELVEDERE_SOURCE_DIR) + "/" + file).rdbuf();
-  return text.str();
-}
+std::string text_of(const std::string& file) { return test::read_bytes(std::string(BELVEDERE_SOURCE_DIR) + "/" + file); }
 
 TEST(SceneFile, ReferenceAndSchemaAreTheCommittedOnes) {
   EXPECT_TRUE(text_of("docs/scene.md") == scene_reference()) << "run: belvedere schema --markdown > docs/scene.md";

@@ -4,13 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 
 #include "renderer/base/error.h"
 #include "renderer/base/parallel.h"
 #include "terrain/class_rules_inputs.h"
+#include "tests/files.h"
 
 namespace belvedere {
 namespace {
@@ -231,13 +230,12 @@ TEST(ClassRules, UnknownSettingNamesTheNearest) {
 
 // What a rules file of this text is refused for.
 std::string refused(const std::string& text) {
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "class_rules_test.toml";
-  std::ofstream(path) << text;
+  const test::Folder folder;
   try {
-    read_class_rules(path.string());
+    read_class_rules(folder.write("rules.toml", text));
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::usage);
-    const std::string where = e.where().substr(std::min(e.where().size(), path.parent_path().string().size() + 1));
+    const std::string where = e.where().substr(std::min(e.where().size(), folder.path().size() + 1));
     return where + " " + e.found();
   }
   return "accepted";
@@ -247,7 +245,7 @@ TEST(ClassRules, FilesAreRefusedWithTheirPlace) {
   const std::string head = "version = 1\n";
   EXPECT_EQ(refused(head + "[[layers]]\nclass = \"rock\"\nwhen = \"slope > 3\"\n"), "accepted");
   EXPECT_EQ(refused(head + "[[layers]]\nclass = \"rock\"\nwhen = \"slop > 3\"\n"),
-            "class_rules_test.toml:4:9 unknown name \"slop\"; did you mean \"slope\"?");
+            "rules.toml:4:9 unknown name \"slop\"; did you mean \"slope\"?");
   EXPECT_THAT(refused(head + "[[layers]]\nclass = \"rok\"\nwhen = \"1\"\n"),
               testing::HasSubstr(":3:9 unknown class \"rok\"; did you mean \"rock\"?"));
   EXPECT_THAT(refused(head + "[[layers]]\nclass = \"rock\"\n"), testing::HasSubstr("a layer without when"));

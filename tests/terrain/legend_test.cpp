@@ -150,7 +150,7 @@ TEST_F(Legends, TablesAreFoundInTheFoldersGivenAndNowhereElse) {
   legend_naming(path("t.csv"));
   EXPECT_EQ(error_of([&] { read_legend(legend); }).kind(), ErrorKind::usage);
   legend_naming("link.csv");
-  std::filesystem::create_symlink(path("t.csv"), folder_ / "scene" / "link.csv");
+  std::filesystem::create_symlink(path("t.csv"), folder_ / "scene/link.csv");
   EXPECT_EQ(error_of([&] { read_legend(legend); }).kind(), ErrorKind::usage);
 }
 

@@ -5,39 +5,22 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <sstream>
 #include <string>
 
-#include "renderer/base/error.h"
 #include "terrain/raster.h"
+#include "tests/files.h"
 
 namespace belvedere {
 
-// A folder of its own for each test, gone afterwards.
+// Rasters in a folder of the test's own.
 class RasterFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() / ("belvedere_" + std::string(info->test_suite_name()) + "_" + info->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override {
-    unsetenv("BELVEDERE_MEMORY_MIB");
-    std::filesystem::remove_all(folder_);
-  }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  std::string write_text(const std::string& name, const std::string& text) const {
-    std::ofstream(path(name), std::ios::binary) << text;
-    return path(name);
-  }
-  std::string read_text(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(path(name), std::ios::binary).rdbuf();
-    return text.str();
-  }
+  void TearDown() override { unsetenv("BELVEDERE_MEMORY_MIB"); }
+  std::string path(const std::string& name) const { return folder_ / name; }
+  std::string write_text(const std::string& name, const std::string& text) const { return folder_.write(name, text); }
+  std::string read_text(const std::string& name) const { return test::read_bytes(path(name)); }
   // An ESRI ASCII grid of 1-unit… cells, its lower left corner at (x, y); a .prj beside it where a CRS is wanted is not needed:
   // sources can say theirs.
   std::string write_ascii(const std::string& name, int width, int height, double x, double y, double cell,
@@ -53,18 +36,9 @@ class RasterFiles : public testing::Test {
     return write_text(name, text.str());
   }
 
-  std::filesystem::path folder_;
+  test::Folder folder_;
 };
 
-// What f throws; fails where it throws nothing or something else.
-inline Error error_of(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "no error";
-  return Error(ErrorKind::bug, "", "");
-}
+using test::error_of;
 
 }  // namespace belvedere

@@ -138,7 +138,7 @@ TEST_F(Program, GuidanceIsWrittenAndTold) {
   EXPECT_EQ(again.status, 0);
   EXPECT_THAT(again.err, IsEmpty());
   EXPECT_THAT(again.out, IsEmpty());
-  EXPECT_EQ(text_of(path("again/guidance.exr")), text_of(path("result/guidance.exr")));
+  EXPECT_EQ(read_bytes(path("again/guidance.exr")), read_bytes(path("result/guidance.exr")));
   const Outcome diff = run({"diff", path("again/guidance.exr"), path("result/guidance.exr")});
   EXPECT_EQ(diff.status, 0) << diff.out;
 }
@@ -174,7 +174,7 @@ TEST_F(Program, SignalsStopItAndASecondOneEndsIt) {
     fs::remove(path("stderr"));
     const pid_t child = start({"guidance", scene, "--out", path("result"), "--threads", "1"});
     // The terrain is done when the first lines stand in the log.
-    for (int i = 0; i < 1000 && text_of(path("stderr")).find("building the ray tracer") == std::string::npos; ++i)
+    for (int i = 0; i < 1000 && read_bytes(path("stderr")).find("building the ray tracer") == std::string::npos; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     return child;
   };
@@ -221,7 +221,7 @@ TEST_F(Program, LocaleChangesNothing) {
   };
   ASSERT_EQ(run({"guidance", scene, "--out", path("de"), "--set", "camera.pitch_deg=-20.5", "--quiet"}, german).status, 0);
   ASSERT_EQ(run({"guidance", scene, "--out", path("c"), "--set", "camera.pitch_deg=-20.5", "--quiet"}).status, 0);
-  EXPECT_EQ(text_of(path("de/guidance.exr")), text_of(path("c/guidance.exr")));
+  EXPECT_EQ(read_bytes(path("de/guidance.exr")), read_bytes(path("c/guidance.exr")));
 }
 
 TEST_F(Program, TooLittleMemoryIsALimit) {
@@ -301,8 +301,8 @@ TEST_F(Program, SynthesizeFromImageFiles) {
   }
   // Twice the same, and with two threads.
   ASSERT_EQ(run(arguments(path("out2.png"), path("match2.exr"), "2")).status, 0);
-  EXPECT_EQ(text_of(path("out2.png")), text_of(path("out.png")));
-  EXPECT_EQ(text_of(path("match2.exr")), text_of(path("match.exr")));
+  EXPECT_EQ(read_bytes(path("out2.png")), read_bytes(path("out.png")));
+  EXPECT_EQ(read_bytes(path("match2.exr")), read_bytes(path("match.exr")));
   // Two pictures: the second's labels and guides follow the first's.
   const Outcome two = run({"synthesize", "--picture", style,        "--picture", style,      "--label", style_class,    target_class,
                            "--label",    style_class, target_class, "--guide",   "altitude", style_alt, target_alt,     "1",

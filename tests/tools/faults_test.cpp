@@ -13,7 +13,6 @@
 //   SIGINT, SIGTERM, a second one                 Program.SignalsStopItAndASecondOneEndsIt
 //   allocation that fails                         Program.TooLittleMemoryIsALimit
 //   bad ICC profiles and OpenColorIO configs      Icc.FaultsAreNamed, Color.FaultsAreNamed
-//   an instruction set the processor lacks        Tracer.RefusesWhatItCannotTrace
 //   closed streams, other locales                 Program.ClosedStreamsDoNoHarm, Program.LocaleChangesNothing
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -285,6 +284,39 @@ TEST_F(Faults, SunBelowTheHorizonIsAWarning) {
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("below the horizon"), HasSubstr("sky")));
 }
 
+// ---- the machine
+
+TEST_F(Faults, APinnedInstructionSetThatTheProcessorLacksIsALimit) {
+  const std::string scene = write_scene_file("[sampling]\ninstruction_set = \"avx2\"\n");
+  const auto older_machine = [] { setenv("BELVEDERE_INSTRUCTION_SET", "sse4.2", 1); };
+  for (const char* command : {"check", "render", "guidance"}) {
+    std::vector<std::string> arguments = {command, scene};
+    if (command != std::string("check")) arguments.insert(arguments.end(), {"--out", path("result")});
+    const Outcome refused = run(arguments, older_machine);
+    EXPECT_EQ(refused.status, 5) << command;
+    EXPECT_THAT(refused.err,
+                AllOf(HasSubstr("sampling.instruction_set"), HasSubstr("AVX2"), HasSubstr("\"sse4.2\""), Not(HasSubstr(" s)"))));
+    EXPECT_TRUE(!fs::exists(path("result")) || fs::is_empty(path("result"))) << "something is left";
+  }
+  const Outcome unknown = run({"check", scene, "--set", "sampling.instruction_set=mmx"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, AllOf(HasSubstr("mmx"), HasSubstr("sse4.2")));
+
+  // Both have this one: the same picture, and its header says why.
+  const std::vector<std::string> pinned = {"guidance", scene, "--set", "sampling.instruction_set=sse4.2", "--out"};
+  const auto with_folder = [&](const std::string& folder) {
+    std::vector<std::string> arguments = pinned;
+    arguments.push_back(path(folder));
+    return arguments;
+  };
+  ASSERT_EQ(run(with_folder("here")).status, 0);
+  ASSERT_EQ(run(with_folder("there"), older_machine).status, 0);
+  EXPECT_TRUE(read_bytes(path("here/guidance.exr")) == read_bytes(path("there/guidance.exr")));
+  const ImageInfo info = read_image_info(path("here/guidance.exr"));
+  EXPECT_THAT(info.notes.at("belvedere:instruction_set"), HasSubstr("SSE4.2 pinned"));
+  EXPECT_THAT(info.notes.at("belvedere:scene"), HasSubstr("instruction_set = \"sse4.2\""));
+}
+
 // ---- output
 
 TEST_F(Faults, FullDiskKeepsTheOldResultWhole) {
@@ -292,7 +324,7 @@ TEST_F(Faults, FullDiskKeepsTheOldResultWhole) {
   ASSERT_EQ(run({"render", scene, "--out", path("result"), "--quiet"}).status, 0);
   const std::vector<const char*> files = {"panorama.tif", "panorama.png", "panorama.exr", "guidance.exr"};
   std::vector<std::string> old;
-  for (const char* file : files) old.push_back(text_of(fs::path(path("result")) / file));
+  for (const char* file : files) old.push_back(read_bytes(fs::path(path("result")) / file));
   // A limit of file sizes stands for the full disk: here every file is too large for it.
   const Outcome outcome = run({"render", scene, "--out", path("result"), "--set", "seed=5"}, [] {
     const rlimit bytes{8000, 8000};
@@ -300,7 +332,7 @@ TEST_F(Faults, FullDiskKeepsTheOldResultWhole) {
   });
   EXPECT_EQ(outcome.status, 4) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("guidance.exr"));
-  for (std::size_t i = 0; i < files.size(); ++i) EXPECT_TRUE(text_of(fs::path(path("result")) / files[i]) == old[i]) << files[i];
+  for (std::size_t i = 0; i < files.size(); ++i) EXPECT_TRUE(read_bytes(fs::path(path("result")) / files[i]) == old[i]) << files[i];
   EXPECT_EQ(std::distance(fs::directory_iterator(path("result")), {}), 4) << "a temporary file is left";
 }
 
@@ -321,8 +353,8 @@ TEST_F(Faults, KilledAtAnyMomentLeavesTheOldOrTheNewFile) {
   const auto begun = std::chrono::steady_clock::now();
   ASSERT_EQ(run(arguments("new", "camera.pitch_deg=-30")).status, 0);
   const auto whole = std::chrono::steady_clock::now() - begun;
-  const std::string old_bytes = text_of(path("old/guidance.exr"));
-  const std::string new_bytes = text_of(path("new/guidance.exr"));
+  const std::string old_bytes = read_bytes(path("old/guidance.exr"));
+  const std::string new_bytes = read_bytes(path("new/guidance.exr"));
   ASSERT_NE(old_bytes, new_bytes);
   constexpr int moments = 9;
   for (int i = 0; i < moments; ++i) {
@@ -334,12 +366,12 @@ TEST_F(Faults, KilledAtAnyMomentLeavesTheOldOrTheNewFile) {
     std::this_thread::sleep_for(whole * share);
     kill(child, SIGKILL);
     finish(child);
-    const std::string bytes = text_of(path("result/guidance.exr"));
+    const std::string bytes = read_bytes(path("result/guidance.exr"));
     EXPECT_TRUE(bytes == old_bytes || bytes == new_bytes) << "after " << share << " of the time, " << bytes.size() << " bytes";
   }
   // What was left does not stand in the way.
   ASSERT_EQ(run(arguments("result", "camera.pitch_deg=-30")).status, 0);
-  EXPECT_TRUE(text_of(path("result/guidance.exr")) == new_bytes);
+  EXPECT_TRUE(read_bytes(path("result/guidance.exr")) == new_bytes);
   EXPECT_EQ(std::distance(fs::directory_iterator(path("result")), {}), 1);
 }
 
@@ -362,7 +394,7 @@ TEST_F(Faults, GuidanceStreamsInTheMemoryThereIs) {
   ASSERT_EQ(guidance("whole", "1000").status, 0);
   const Outcome small = guidance("small", "8");
   ASSERT_EQ(small.status, 0) << small.err;
-  EXPECT_TRUE(text_of(path("whole/guidance.exr")) == text_of(path("small/guidance.exr")));
+  EXPECT_TRUE(read_bytes(path("whole/guidance.exr")) == read_bytes(path("small/guidance.exr")));
   const Outcome none = guidance("none", "1");
   EXPECT_EQ(none.status, 5);
   EXPECT_THAT(none.err, AllOf(HasSubstr("output.width"), Not(HasSubstr(" s)"))));

@@ -6,23 +6,18 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "renderer/base/grid.h"
 #include "renderer/image_io.h"
+#include "tests/files.h"
 
 // Runs the built program as users do.
 namespace belvedere {
 
-inline std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
+using test::read_bytes;
 
 struct Outcome {
   int status = -1;  // exit status; 1000 + signal where one ended it
@@ -30,17 +25,10 @@ struct Outcome {
   std::string err;
 };
 
-// A folder of its own for each test, gone afterwards, and the built program.
+// The built program, and a folder of the test's own.
 class Program : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) / (std::string("belvedere_") + std::to_string(getpid()) + "_" +
-                                                             ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return folder_ / name; }
 
   // Starts the program with stdout and stderr in files; `prepare` runs in the child before it.
   pid_t start(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {}) const {
@@ -63,15 +51,12 @@ class Program : public ::testing::Test {
   Outcome finish(pid_t child) const {
     int status = 0;
     waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), text_of(path("stdout")), text_of(path("stderr"))};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), read_bytes(path("stdout")), read_bytes(path("stderr"))};
   }
   Outcome run(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {}) const {
     return finish(start(arguments, prepare));
   }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path(name), std::ios::binary) << text;
-    return path(name);
-  }
+  std::string write(const std::string& name, const std::string& text) const { return folder_.write(name, text); }
   std::string write_picture(const std::string& name, int width, int height, const std::function<glm::vec3(int, int)>& colour) const {
     Grid<glm::vec3> picture(width, height);
     for (int y = 0; y < height; ++y)
@@ -116,7 +101,7 @@ class Program : public ::testing::Test {
                      "\n[terrain.synthetic]\nwidth = 96\nheight = 96\ncell_m = 200\n[camera]\nposition = [9000, -9000]\nheight_m = 9000\n"
                      "pitch_deg = -25\n[synthesis]\nenabled = false\n[output]\nwidth = 96\nheight = 64\n");
   }
-  std::filesystem::path folder_;
+  test::Folder folder_;
 };
 
 }  // namespace belvedere
