@@ -253,6 +253,12 @@ std::int64_t OnePatchCost(const KernelView& view, std::uint32_t pixel, std::uint
   return PatchCost(patch, view.exemplars->words.data() + texel, view.exemplars->stride, no_price);
 }
 
+std::int64_t OneGuidesCost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
+  Search search;
+  search.Begin(view, pixel);
+  return search.GuideCost(view.exemplars->guides_at(texel));
+}
+
 int BestMove(const KernelView& view, const std::vector<PieceSample>& samples, const std::vector<std::uint32_t>& candidates) {
   std::vector<Search> searches(samples.size());
   for (std::size_t s = 0; s < samples.size(); ++s) searches[s].Begin(view, samples[s].pixel);
@@ -296,12 +302,17 @@ namespace belvedere::synth {
 
 HWY_EXPORT(ImproveRow);
 HWY_EXPORT(OnePatchCost);
+HWY_EXPORT(OneGuidesCost);
 HWY_EXPORT(BestMove);
 
 void improve_row(const KernelView& view, int x0, int y, std::uint32_t* next) { HWY_DYNAMIC_DISPATCH(ImproveRow)(view, x0, y, next); }
 
 std::int64_t patch_cost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
   return HWY_DYNAMIC_DISPATCH(OnePatchCost)(view, pixel, texel);
+}
+
+std::int64_t guides_cost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
+  return HWY_DYNAMIC_DISPATCH(OneGuidesCost)(view, pixel, texel);
 }
 
 int best_move(const KernelView& view, const std::vector<PieceSample>& samples, const std::vector<std::uint32_t>& candidates) {

@@ -84,6 +84,8 @@ void surface_around(const KernelView& view, std::uint32_t pixel, std::uint8_t ro
 void improve_row(const KernelView& view, int x0, int y, std::uint32_t* next);
 // Patch distance and class mismatches together, as improve_row prices them.
 std::int64_t patch_cost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel);
+// The guides' price of a texel for a pixel, as improve_row computes it: guide_cost, however many at once.
+std::int64_t guides_cost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel);
 
 // A whole piece moved: pixels[i] would copy from first_texel + steps[i]. Which first texel is the cheapest over all of them?
 struct PieceSample {

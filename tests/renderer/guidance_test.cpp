@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
@@ -154,6 +155,50 @@ TEST(Guidance, LevelGroundIsLitOpenAndFlat) {
     EXPECT_NEAR(b.valley_height_m[i], 0.F, 1e-3);
   }
   EXPECT_GT(ground, 2000);
+}
+
+// The distance to the border of the data, or to a void that reaches it; a void in the middle is mended and counts as ground.
+TEST(Guidance, RimIsTheDistanceToTheEndOfTheKnownTerrain) {
+  constexpr int side = 200;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto void_at = [](double x, double y, double x0, double x1, double y0, double y1) {
+    return x >= x0 * cell && x <= x1 * cell && y >= y0 * cell && y <= y1 * cell;
+  };
+  const World world = make_world(
+      side, side,
+      [&](double x, double y) {
+        const bool bay = void_at(x, y, 0, 60, 70, 90);        // from the western border inwards
+        const bool hole = void_at(x, y, 120, 130, 100, 110);  // in the middle of known terrain
+        return bay || hole ? nan : 500.0;
+      },
+      all_meadow);
+  const auto camera = make_camera(southward(128, 96, -35.0));
+  const GuidanceBuffers b = trace(world, *camera);
+  int ground = 0;
+  int at_bay = 0;
+  int exact = 0;
+  int in_hole = 0;
+  for (std::size_t i = 0; i < b.depth_m.size(); ++i) {
+    if (b.is_sky(i)) continue;
+    const glm::dvec3 place = glm::dvec3(b.position_m[i]) + world.surface.origin;
+    const glm::dvec2 at = world.terrain.dem.transform.to_cell(place.x, place.y);
+    std::array<double, 4> sides = {at.x, at.y, side - 1 - at.x, side - 1 - at.y};
+    std::sort(sides.begin(), sides.end());
+    const double border = sides[0];
+    const double bay = std::hypot(std::max(at.x - 60.0, 0.0), std::max({70.0 - at.y, at.y - 90.0, 0.0}));
+    const double wanted = cell * std::max(0.0, std::min(border, bay));
+    // Bilinear between posts: exact by a straight side, up to half a cell off around corners and where two ends are as near.
+    const bool one_side = std::min(sides[1], bay) > border + 2.0;
+    ASSERT_NEAR(b.rim_m[i], wanted, one_side ? 0.05 : 0.75 * cell) << at.x << ", " << at.y;
+    exact += one_side ? 1 : 0;
+    ++ground;
+    at_bay += bay < border ? 1 : 0;
+    in_hole += at.x > 121 && at.x < 129 && at.y > 101 && at.y < 109 ? 1 : 0;
+  }
+  EXPECT_GT(ground, 5000);
+  EXPECT_GT(at_bay, 300);
+  EXPECT_GT(exact, 1000);
+  EXPECT_GT(in_hole, 5);
 }
 
 TEST(Guidance, SkyPixelsHoldTheirDefaults) {

@@ -7,6 +7,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/light.h"
+#include "renderer/sky.h"
 #include "tests/renderer/painted_hills.h"
 
 namespace belvedere {
@@ -70,6 +71,35 @@ TEST(Base, FarGroundTurnsIntoAirAndNearGroundIsWarm) {
   const PaintGround far = ground_of(g, p);
   EXPECT_LT(glm::length(far.colour(4, 4) - palette.haze_far), 0.01F);
   EXPECT_GT(far.haze(4, 4), 0.99F);
+}
+
+// Towards its end the terrain takes the colour of the sky at its own height in the picture, by smoothstep of the distance.
+TEST(Base, TerrainDissolvesTowardsItsEnd) {
+  GuidanceBuffers g = make_slope(9, 6, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 10.0F);
+  const PaintGround full = ground_of(g, plain());
+  g.rim_m = Grid<float>(9, 6);
+  for (int y = 0; y < 6; ++y)
+    for (int x = 0; x < 9; ++x) g.rim_m(x, y) = 500.0F * static_cast<float>(x);
+  BaseParameters p = plain();
+  p.rim_fade_m = 3000.0;
+  p.horizon_px = 4.0;
+  const Palette palette = read_palette("summer");
+  const PaintGround ground = ground_of(g, p);
+  for (int y = 0; y < 6; ++y)
+    for (int x = 0; x < 9; ++x) {
+      const double t = std::min(1.0, 500.0 * x / 3000.0);
+      const auto share = static_cast<float>(1.0 - (3.0 - 2.0 * t) * t * t);
+      const glm::vec3 horizon = sky_gradient(palette, (y + 0.5) / 4.0);
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_NEAR(ground.colour(x, y)[k], full.colour(x, y)[k] * (1.0F - share) + horizon[k] * share, 1e-6F) << x << ", " << y;
+        ASSERT_NEAR(ground.darker(x, y)[k], full.darker(x, y)[k] * (1.0F - share) + horizon[k] * share, 1e-6F);
+        ASSERT_NEAR(ground.lighter(x, y)[k], full.lighter(x, y)[k] * (1.0F - share) + horizon[k] * share, 1e-6F);
+      }
+      ASSERT_NEAR(ground.haze(x, y), share, 1e-6F);
+    }
+  EXPECT_GT(glm::length(ground.colour(0, 2) - full.colour(0, 2)), 0.2F);
+  p.rim_fade_m = 0.0;
+  EXPECT_EQ(ground_of(g, p).colour, full.colour) << "0 is off";
 }
 
 TEST(Base, RangesReadApart) {

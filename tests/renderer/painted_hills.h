@@ -18,7 +18,7 @@ inline GuidanceBuffers make_hills(int width, int height, double pixels_per_unit 
   const auto vector = [&] { return Grid<glm::vec3>(width, height, glm::vec3(0.0F)); };
   g.depth_m = Grid<float>(width, height, std::numeric_limits<float>::infinity());
   g.position_m = g.normal = g.normal_detail = g.normal_smooth = vector();
-  g.altitude_m = g.slope_deg = g.relief_s_m = g.relief_m_m = g.relief_l_m = g.valley_height_m = g.footprint_m = g.tone = scalar();
+  g.altitude_m = g.slope_deg = g.relief_s_m = g.relief_m_m = g.relief_l_m = g.valley_height_m = g.footprint_m = g.tone = g.rim_m = scalar();
   g.shadow = g.sky_view = Grid<float>(width, height, 1.0F);
   g.land_cover = Grid<LandCoverClass>(width, height, LandCoverClass::sky);
   g.fall_line = Grid<glm::vec2>(width, height, glm::vec2(0.0F));
@@ -50,6 +50,7 @@ inline GuidanceBuffers make_hills(int width, int height, double pixels_per_unit 
         g.relief_l_m[i] = static_cast<float>(150.0 * gaussian_noise(48, e, n, 1800.0));
         g.shadow[i] = gaussian_noise(49, e, n, 700.0) > 0.7 ? 0.0F : 1.0F;
         g.sky_view[i] = static_cast<float>(std::min(1.0, 0.8 + 0.1 * gaussian_noise(50, e, n, 400.0)));
+        g.rim_m[i] = static_cast<float>(std::abs(e - 2000.0));  // it ends in the east
         g.footprint_m[i] = static_cast<float>(depth / 2500.0 / pixels_per_unit);
         const double kind = 5.5 + 3.0 * gaussian_noise(51, e, n, 800.0);
         g.land_cover[i] = static_cast<LandCoverClass>(std::min(11, std::max(1, static_cast<int>(kind))));
@@ -87,6 +88,7 @@ inline GuidanceBuffers cut(const GuidanceBuffers& g, PixelRect r) {
   part.relief_m_m = cut(g.relief_m_m, r);
   part.relief_l_m = cut(g.relief_l_m, r);
   part.valley_height_m = cut(g.valley_height_m, r);
+  part.rim_m = cut(g.rim_m, r);
   part.tone = cut(g.tone, r);
   return part;
 }

@@ -108,6 +108,62 @@ TEST_P(EachVectorWidth, BlackAgainstWhiteDoesNotOverflow) {
   EXPECT_EQ(patch_cost(view, target.index(0, 3, 3), exemplars.index(0, 3, 3)), (weights * 3 * 255 * 255 >> 3) + 49 * 3000);
 }
 
+// The formula of the guides' price, and which way it is computed. `weights` in sixteenths.
+void expect_guide_prices(const std::vector<std::int64_t>& weights, bool at_once) {
+  const int count = static_cast<int>(weights.size());
+  Plane exemplars = noise_plane({{23, 17}, {9, 31}}, count, 5, false);
+  Plane target = noise_plane({{19, 21}}, count, 50, false);
+  // The dearest texel there is: every guide off by 255.
+  const std::uint32_t white = exemplars.index(1, 4, 20);
+  const std::uint32_t black = target.index(0, 9, 9);
+  for (int g = 0; g < count; ++g) {
+    exemplars.guides[white * static_cast<std::size_t>(count) + static_cast<std::size_t>(g)] = 255;
+    target.guides[black * static_cast<std::size_t>(count) + static_cast<std::size_t>(g)] = 0;
+  }
+  std::vector<GuideRole> roles;
+  for (const std::int64_t weight : weights) roles.push_back({weight});
+  LevelState state(settings_for_level(1, 1, 240, 1.0), roles, classes, exemplars, target, {});
+  EXPECT_EQ(!state.vector_weights.empty(), at_once);
+  const auto expect = [&](bool with_slack) {
+    KernelView view = state.view(0);
+    if (!with_slack) view.usual_error = nullptr;
+    std::int64_t dearest = 0;
+    target.for_each([&](std::uint32_t pixel) {
+      const Slack slack = make_slack(view, pixel);
+      exemplars.for_each([&](std::uint32_t texel) {
+        if (texel % 7 != pixel % 7 && texel != white) return;
+        std::int64_t sum = 0;
+        for (int g = 0; g < count; ++g) {
+          const std::int64_t free = g == 0 ? slack.sorted : g == 1 ? slack.bucketed : with_slack ? slack.others[g] : 0;
+          const std::int64_t off = std::max<std::int64_t>(0, std::abs(target.guides_at(pixel)[g] - exemplars.guides_at(texel)[g]) - free);
+          sum += weights[static_cast<std::size_t>(g)] * off * off;
+        }
+        ASSERT_EQ(guides_cost(view, pixel, texel), sum >> 4) << count << " guides, pixel " << pixel << ", texel " << texel;
+        ASSERT_EQ(guide_cost(view, target.guides_at(pixel), exemplars.guides_at(texel), slack), sum >> 4);
+        dearest = std::max(dearest, sum);
+      });
+    });
+    EXPECT_GT(dearest, 0);
+    return dearest;
+  };
+  expect(true);
+  const std::int64_t dearest = expect(false);
+  if (!at_once && count > 2 && count <= vector_guides) {
+    EXPECT_GT(dearest, std::int64_t{UINT32_MAX}) << "32 bits would have done";
+  }
+}
+
+TEST_P(EachVectorWidth, GuidesArePricedByTheFormula) {
+  expect_guide_prices({2880, 200, 700}, true);
+  expect_guide_prices({2880, 1000, 300, 300, 300, 200, 200}, true);
+  expect_guide_prices({2880, 1000, 300, 31, 300, 17, 200, 1}, true);
+  // The largest sum that is priced at once, just under 2³¹; one sixteenth more, and far more than 32 bits hold.
+  expect_guide_prices({33000, 4, 3, 3, 3, 4, 4, 4}, true);
+  expect_guide_prices({80000, 4, 60000}, false);
+  expect_guide_prices({2880, 1000, 300, 300, 300, 200, 200, 150, 250}, false);
+  expect_guide_prices({2880, 1000}, false);
+}
+
 TEST_P(EachVectorWidth, PatchesEndAtSilhouettes) {
   const Plane exemplars = noise_plane({{40, 40}}, 0, 5, false);
   Plane target = noise_plane({{20, 20}}, 0, 50, false);
