@@ -233,6 +233,8 @@ Grid<float> flow_accumulation_km2(const Grid<float>& altitude_m, double cell_m) 
   return catchment;
 }
 
+Grid<float> fill_hollows(const Grid<float>& altitude_m) { return flood_from_rim(altitude_m).level_m; }
+
 Grid<std::uint8_t> find_lakes(const Grid<float>& altitude_m, const LakeParameters& parameters) {
   Mask lakes = find_flat_cells(altitude_m, parameters.max_range_m);
   lakes = morph<false>(morph<false>(morph<true>(morph<true>(lakes))));

@@ -12,6 +12,9 @@ namespace belvedere {
 // What lies outside the grid is unknown: a river that enters at the rim begins there. Cells finite; fewer than 2^31 cells.
 Grid<float> flow_accumulation_km2(const Grid<float>& altitude_m, double cell_m);
 
+// Altitudes with every hollow filled up to its outlet by the same flood; what it adds is the depth of pits.
+Grid<float> fill_hollows(const Grid<float>& altitude_m);
+
 struct LakeParameters {
   float max_range_m = 0.25F;  // a lake's 3×3 neighbourhood differs by less
   int min_cells = 150;

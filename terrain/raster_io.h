@@ -75,5 +75,7 @@ std::string describe_crs(const std::string& crs);
 
 // GeoTIFF (tiled, deflate) or ESRI ASCII by the ending; voids as -9999; temporary file and rename.
 void write_raster(const std::string& path, const Raster<float>& raster);
+// GeoTIFF of bytes, 0 for voids.
+void write_raster(const std::string& path, const Raster<std::uint8_t>& raster);
 
 }  // namespace belvedere

@@ -7,7 +7,7 @@
 namespace belvedere {
 
 // While it lives, GDAL prints nothing in this thread, and the first failure it reports is kept in its own words. Included
-// by raster_io.cpp, raster_io_write.cpp and raster_io_crs.cpp only, the files that know GDAL.
+// by raster_io*.cpp only, the files that know GDAL.
 class GdalErrors {
  public:
   GdalErrors() {

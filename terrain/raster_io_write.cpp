@@ -3,10 +3,14 @@
 #include <gdal.h>
 #include <ogr_spatialref.h>
 
+#include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "renderer/base/error.h"
 #include "terrain/raster_file.h"
@@ -29,16 +33,19 @@ Grid<float> with_written_voids(const Grid<float>& cells) {
   return out;
 }
 
-void write_geotiff(const std::string& path, const Raster<float>& raster, const Grid<float>& cells) {
+template <class T>
+void write_geotiff(const std::string& path, const Raster<T>& raster, const Grid<T>& cells, double void_value) {
+  constexpr bool bytes = sizeof(T) == 1;
+  constexpr GDALDataType type = bytes ? GDT_Byte : GDT_Float32;
   CPLStringList options;
-  for (const char* option : {"TILED=YES", "COMPRESS=DEFLATE", "PREDICTOR=3", "BIGTIFF=IF_SAFER", "NUM_THREADS=1"})
+  for (const char* option : {"TILED=YES", "COMPRESS=DEFLATE", bytes ? "PREDICTOR=2" : "PREDICTOR=3", "BIGTIFF=IF_SAFER", "NUM_THREADS=1"})
     options.AddString(option);
   const GdalErrors errors;
   const auto check = [&](bool good) {
     if (!good || errors.failed()) throw Error(ErrorKind::output, path, errors.say("cannot be written"));
   };
   std::unique_ptr<void, void (*)(GDALDatasetH)> dataset(
-      GDALCreate(GDALGetDriverByName("GTiff"), path.c_str(), cells.width(), cells.height(), 1, GDT_Float32, options.List()),
+      GDALCreate(GDALGetDriverByName("GTiff"), path.c_str(), cells.width(), cells.height(), 1, type, options.List()),
       [](GDALDatasetH open) { GDALClose(open); });
   check(dataset != nullptr);
   const GeoTransform& t = raster.transform;
@@ -50,10 +57,10 @@ void write_geotiff(const std::string& path, const Raster<float>& raster, const G
     check(GDALSetSpatialRef(dataset.get(), &crs) == CE_None);
   }
   GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
-  check(GDALSetRasterNoDataValue(band, written_void) == CE_None);
+  check(GDALSetRasterNoDataValue(band, void_value) == CE_None);
   // The library takes a pointer to non-const for reading and writing alike; it only reads here.
-  check(GDALRasterIO(band, GF_Write, 0, 0, cells.width(), cells.height(), const_cast<float*>(cells.data()), cells.width(), cells.height(),
-                     GDT_Float32, 0, 0) == CE_None);
+  check(GDALRasterIO(band, GF_Write, 0, 0, cells.width(), cells.height(), const_cast<T*>(cells.data()), cells.width(), cells.height(), type,
+                     0, 0) == CE_None);
   GDALFlushCache(dataset.get());
   dataset.reset();
   check(true);
@@ -97,7 +104,8 @@ void write_prj(const std::string& path, const std::string& crs) {
 }
 
 // What was written, read again: a full disk is not always reported.
-void check_written(const std::string& path, const Grid<float>& cells) {
+template <class T>
+void check_written(const std::string& path, const Grid<T>& cells, T void_value) {
   try {
     RasterSource source;
     source.path = path;
@@ -110,8 +118,8 @@ void check_written(const std::string& path, const Grid<float>& cells) {
       const Grid<float> back = file.read_values({0, y0, cells.width(), rows});
       for (int y = 0; y < rows; ++y)
         for (int x = 0; x < cells.width(); ++x) {
-          const float wanted = cells(x, y0 + y);
-          if (back(x, y) != wanted && !(wanted == written_void && std::isnan(back(x, y))))
+          const T wanted = cells(x, y0 + y);
+          if (back(x, y) != static_cast<float>(wanted) && !(wanted == void_value && std::isnan(back(x, y))))
             throw Error(ErrorKind::output, path, "holds other values");
         }
     }
@@ -120,35 +128,63 @@ void check_written(const std::string& path, const Grid<float>& cells) {
   }
 }
 
+std::string ending_of(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+// The temporary name keeps the ending, by which formats are known, and lies in the same folder, so that a rename suffices.
+std::string temporary_beside(const fs::path& target, const char* ending) {
+  return (target.parent_path() / target.stem()).string() + ".tmp" + ending;
+}
+
+// write() makes the temporary files; all of them come to their places, or none.
+template <class Write>
+void write_and_rename(const std::string& path, const std::vector<std::pair<std::string, fs::path>>& files, Write&& write) {
+  try {
+    write();
+    for (const auto& [part, target] : files) fs::rename(part, target);
+  } catch (const std::exception& exception) {
+    std::error_code ignored;
+    for (const auto& [part, target] : files) fs::remove(part, ignored);
+    const auto* error = dynamic_cast<const Error*>(&exception);
+    throw Error(ErrorKind::output, path, error != nullptr ? error->found() : exception.what(), error != nullptr ? error->allowed() : "");
+  }
+}
+
 }  // namespace
 
 void write_raster(const std::string& path, const Raster<float>& raster) {
-  std::string ending = fs::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = ending_of(path);
   const bool ascii = ending == ".asc";
   if (!ascii && ending != ".tif" && ending != ".tiff") throw Error(ErrorKind::output, path, "has an unknown ending", ".tif, .tiff or .asc");
   if (raster.cells.empty()) throw Error(ErrorKind::output, path, "is to hold no cells");
   const Grid<float> cells = with_written_voids(raster.cells);
   register_gdal();
-  // The temporary name keeps the ending, by which formats are known, and lies in the same folder, so that a rename suffices.
   const fs::path target(path);
-  const auto temporary = [&target](const char* end) { return (target.parent_path() / target.stem()).string() + ".tmp" + end; };
-  const std::string part = temporary(target.extension().c_str());
-  const std::string part_prj = temporary(".prj");
-  const bool prj = ascii && !raster.crs.empty();
-  try {
-    ascii ? write_ascii(part, raster, cells) : write_geotiff(part, raster, cells);
-    if (prj) write_prj(part_prj, raster.crs);
-    check_written(part, cells);
-    fs::rename(part, target);
-    if (prj) fs::rename(part_prj, fs::path(target).replace_extension(".prj"));
-  } catch (const std::exception& exception) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    fs::remove(part_prj, ignored);
-    const auto* error = dynamic_cast<const Error*>(&exception);
-    throw Error(ErrorKind::output, path, error != nullptr ? error->found() : exception.what(), error != nullptr ? error->allowed() : "");
-  }
+  const std::string part = temporary_beside(target, target.extension().c_str());
+  const std::string part_prj = temporary_beside(target, ".prj");
+  std::vector<std::pair<std::string, fs::path>> files{{part, target}};
+  if (ascii && !raster.crs.empty()) files.emplace_back(part_prj, fs::path(target).replace_extension(".prj"));
+  write_and_rename(path, files, [&] {
+    ascii ? write_ascii(part, raster, cells) : write_geotiff(part, raster, cells, static_cast<double>(written_void));
+    if (files.size() > 1) write_prj(part_prj, raster.crs);
+    check_written(part, cells, written_void);
+  });
+}
+
+void write_raster(const std::string& path, const Raster<std::uint8_t>& raster) {
+  const std::string ending = ending_of(path);
+  if (ending != ".tif" && ending != ".tiff") throw Error(ErrorKind::output, path, "has an unknown ending", ".tif or .tiff");
+  if (raster.cells.empty()) throw Error(ErrorKind::output, path, "is to hold no cells");
+  register_gdal();
+  const fs::path target(path);
+  const std::string part = temporary_beside(target, target.extension().c_str());
+  write_and_rename(path, {{part, target}}, [&] {
+    write_geotiff(part, raster, raster.cells, 0.0);
+    check_written(part, raster.cells, std::uint8_t{0});
+  });
 }
 
 }  // namespace belvedere
