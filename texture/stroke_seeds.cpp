@@ -27,8 +27,9 @@ float mixed_tone(float dark, float light, StrokeSeed& seed) {
   return 0.25F * seed.normal();
 }
 
-void lay_line(Stroke& stroke, const StrokeScene& scene, glm::vec2 place, float length_px, float angle_rad, float wobble_rad, bool follow,
+void lay_line(Stroke& stroke, const StrokeScene& scene, glm::vec2 place, float length_units, float angle_rad, float wobble_rad, bool follow,
               StrokeSeed& seed) {
+  const float length_px = length_units * scene.scale();
   const float c = std::cos(angle_rad);
   const float s = std::sin(angle_rad);
   const auto turned = [&](glm::vec2 v) { return glm::vec2(v.x * c - v.y * s, v.x * s + v.y * c); };

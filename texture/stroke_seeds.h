@@ -13,6 +13,8 @@ namespace belvedere {
 
 // Everything a kind of stroke asks its surroundings, and the random numbers of one seed: draw k of a seed is a pure function of
 // the painter's seed, the kind of stroke and the cell the seed stands in, so canvas size and threads change nothing.
+// Two draws never stand among the arguments of one call or the terms of one sum: C++ leaves open which comes first, and the picture
+// would be the compiler's.
 class StrokeSeed {
  public:
   StrokeSeed(std::uint64_t kind_seed, int cell_x, int cell_y) : key_(kind_seed), cell_x_(cell_x), cell_y_(cell_y) {}
@@ -54,7 +56,7 @@ float mixed_tone(float dark, float light, StrokeSeed& seed);
 
 // Lays the polyline of a stroke centred at `place`, turned by `angle_rad` from the fall line (follow) or from the horizontal, bending by
 // about `wobble_rad`.
-void lay_line(Stroke& stroke, const StrokeScene& scene, glm::vec2 place, float length_px, float angle_rad, float wobble_rad, bool follow,
+void lay_line(Stroke& stroke, const StrokeScene& scene, glm::vec2 place, float length_units, float angle_rad, float wobble_rad, bool follow,
               StrokeSeed& seed);
 
 // One seed in every cell of spacing_units, jittered; make(seed, place, pixel index, strokes) appends what grows there. Rows of cells

@@ -98,7 +98,9 @@ std::vector<Stroke> forest_trees(const StrokeScene& scene) {
       const std::size_t here = scene.pixel(foot);
       if (scene.class_at(here) != forest || std::abs(scene.guidance.depth_m[here] / scene.guidance.depth_m[i] - 1.F) > 0.03F) break;
       if (seed.uniform() < scene.ground.tree_density[here] - thin) {
-        const Tree tree{foot + glm::vec2(seed.normal(), seed.normal()) * 0.6F * scale, tree_width * seed.between(0.75F, 1.25F) * scale,
+        const float down = seed.normal();  // drawn one by one: see stroke_seeds.h
+        const float right = seed.normal();
+        const Tree tree{foot + glm::vec2(right, down) * 0.6F * scale, tree_width * seed.between(0.75F, 1.25F) * scale,
                         tree_height * seed.between(0.7F, 1.3F) * scale};
         plant(scene, tree, here, row_tone + 0.25F * seed.normal(), seed, out);
       }
