@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "renderer/base/angle.h"
 #include "renderer/base/error.h"
 
 namespace belvedere {
@@ -20,6 +21,13 @@ const std::vector<Projection>& projections() {
        &make_cylindrical_camera},
   };
   return all;
+}
+
+ViewAxes view_axes(const CameraParameters& parameters) {
+  const double azimuth = to_radians(parameters.azimuth_deg);
+  const double pitch = to_radians(parameters.pitch_deg);
+  const glm::dvec3 ahead{std::sin(azimuth), std::cos(azimuth), 0.0};
+  return {{std::cos(azimuth), -std::sin(azimuth), 0.0}, ahead, ahead * std::cos(pitch) + glm::dvec3(0.0, 0.0, std::sin(pitch))};
 }
 
 void check_camera_value(std::string_view key, double value, double lowest, double highest) {

@@ -51,6 +51,15 @@ const std::vector<Projection>& projections();
 // Throws Error(usage) for an unknown projection or values out of range, naming the scene's key.
 std::unique_ptr<Camera> make_camera(const CameraParameters& parameters);
 
+// Unit vectors of a view, for the makers. `right` and `ahead` are level whatever the pitch, so looking straight down still has the
+// azimuth's direction on top; `forward` is `ahead` turned up by the pitch. `right` is square to both.
+struct ViewAxes {
+  glm::dvec3 right;
+  glm::dvec3 ahead;
+  glm::dvec3 forward;
+};
+ViewAxes view_axes(const CameraParameters& parameters);
+
 // Throws Error(usage) unless lowest <= value <= highest (so NaN as well); for the makers. key: "camera.pitch_deg".
 void check_camera_value(std::string_view key, double value, double lowest, double highest);
 

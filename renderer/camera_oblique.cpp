@@ -1,7 +1,5 @@
-#include <cmath>
 #include <glm/geometric.hpp>
 
-#include "renderer/base/angle.h"
 #include "renderer/camera.h"
 
 namespace belvedere {
@@ -13,11 +11,10 @@ namespace {
 class ObliqueCamera final : public Camera {
  public:
   explicit ObliqueCamera(const CameraParameters& p) : middle_origin_(p.eye), size_(p.width, p.height) {
-    const double azimuth = to_radians(p.azimuth_deg);
-    const double pitch = to_radians(p.pitch_deg);
-    right_ = {std::cos(azimuth), -std::sin(azimuth), 0.0};
-    up_ = {std::sin(azimuth), std::cos(azimuth), 0.0};
-    direction_ = glm::normalize(up_ * std::cos(pitch) + glm::dvec3(0.0, 0.0, std::sin(pitch)));
+    const ViewAxes axes = view_axes(p);
+    right_ = axes.right;
+    up_ = axes.ahead;
+    direction_ = glm::normalize(axes.forward);
     middle_ = 0.5 * glm::dvec2(size_);
     metres_per_px_ = p.view_width_m / p.width;
   }

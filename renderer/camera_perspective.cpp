@@ -11,11 +11,9 @@ namespace {
 class PerspectiveCamera final : public Camera {
  public:
   explicit PerspectiveCamera(const CameraParameters& p) : eye_(p.eye), size_(p.width, p.height) {
-    const double azimuth = to_radians(p.azimuth_deg);
-    const double pitch = to_radians(p.pitch_deg);
-    // `right_` is level whatever the pitch, so looking straight down still has the azimuth's direction on top.
-    right_ = {std::cos(azimuth), -std::sin(azimuth), 0.0};
-    forward_ = {std::sin(azimuth) * std::cos(pitch), std::cos(azimuth) * std::cos(pitch), std::sin(pitch)};
+    const ViewAxes axes = view_axes(p);
+    right_ = axes.right;
+    forward_ = axes.forward;
     up_ = glm::cross(right_, forward_);
     middle_ = 0.5 * glm::dvec2(size_);
     focal_px_ = middle_.x / std::tan(0.5 * to_radians(p.field_of_view_deg));
