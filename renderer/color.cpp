@@ -32,7 +32,7 @@ float half_value(std::uint32_t bits) {
 // A curve as a table over all halves with straight lines between. OCIO's own formula for sRGB (ExponentWithLinear) joins its two pieces at
 // another place than IEC 61966-2-1 and is up to 1e-5 off, most of a 16-bit step; the table is off by 1e-7 at most, at any brightness.
 ocio::Lut1DTransformRcPtr make_curve(const std::function<double(double)>& curve) {
-  const auto table = ocio::Lut1DTransform::Create(65536, true);
+  auto table = ocio::Lut1DTransform::Create(65536, true);
   for (std::uint32_t bits = 0; bits < 65536; ++bits) {
     const auto v = static_cast<float>(curve(half_value(bits)));
     table->setValue(bits, v, v, v);
@@ -41,7 +41,7 @@ ocio::Lut1DTransformRcPtr make_curve(const std::function<double(double)>& curve)
 }
 
 ocio::ColorSpaceRcPtr make_space(const char* name, const char* encoding, const char* description) {
-  const ocio::ColorSpaceRcPtr space = ocio::ColorSpace::Create();
+  ocio::ColorSpaceRcPtr space = ocio::ColorSpace::Create();
   space->setName(name);
   space->setEncoding(encoding);
   space->setDescription(description);
@@ -50,7 +50,7 @@ ocio::ColorSpaceRcPtr make_space(const char* name, const char* encoding, const c
 }
 
 ocio::BuiltinTransformRcPtr make_builtin(const char* style, ocio::TransformDirection direction) {
-  const auto transform = ocio::BuiltinTransform::Create();
+  auto transform = ocio::BuiltinTransform::Create();
   transform->setStyle(style);
   transform->setDirection(direction);
   return transform;

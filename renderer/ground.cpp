@@ -31,6 +31,7 @@ RasterSource to_raster_source(const LoadedScene& scene, const SceneSource& sourc
 
 std::vector<RasterSource> to_raster_sources(const LoadedScene& scene, const std::vector<SceneSource>& sources) {
   std::vector<RasterSource> rasters;
+  rasters.reserve(sources.size());
   for (const SceneSource& source : sources) rasters.push_back(to_raster_source(scene, source));
   return rasters;
 }

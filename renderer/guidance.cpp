@@ -231,7 +231,9 @@ Grid<float> rim_distance(const Dem& dem) {
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const int at = nearest(x, y);
-      distance(x, y) = static_cast<float>(std::hypot((at % width - x) * dem.transform.cell_x, (at / width - y) * dem.transform.cell_y));
+      const int across = at % width - x;
+      const int down = at / width - y;
+      distance(x, y) = static_cast<float>(std::hypot(across * dem.transform.cell_x, down * dem.transform.cell_y));
     }
   });
   return distance;

@@ -139,10 +139,11 @@ BlockValues trace_sun(const Tracer& tracer, const BlockSurface& block, std::span
     if (rest > 0) {
       if (asked > 0 && open == asked) {
         for (int lane = 0; lane < 16; ++lane) {
-          const BlockSurface::Pixel& pixel = block.pixels[static_cast<std::size_t>(bundle * 16 + lane)];
+          const int i = bundle * 16 + lane;
+          const BlockSurface::Pixel& pixel = block.pixels[static_cast<std::size_t>(i)];
           if (!pixel.terrain) continue;
           for (int k = 0; k < rest; ++k) {
-            if (glm::dot(towards(bundle * 16 + lane, k), pixel.facet_normal) > 0.0) ++free[static_cast<std::size_t>(lane)];
+            if (glm::dot(towards(i, k), pixel.facet_normal) > 0.0) ++free[static_cast<std::size_t>(lane)];
           }
         }
       } else if (open > 0 || asked == 0) {
@@ -150,8 +151,8 @@ BlockValues trace_sun(const Tracer& tracer, const BlockSurface& block, std::span
       }
     }
     for (int lane = 0; lane < 16; ++lane) {
-      lit[static_cast<std::size_t>(bundle * 16 + lane)] =
-          static_cast<float>(free[static_cast<std::size_t>(lane)]) / static_cast<float>(count);
+      const int i = bundle * 16 + lane;
+      lit[static_cast<std::size_t>(i)] = static_cast<float>(free[static_cast<std::size_t>(lane)]) / static_cast<float>(count);
     }
   }
   return lit;
@@ -188,7 +189,7 @@ Grid<float> mean_of_squares(const Grid<float>& values, const Grid<float>& depth_
         for (int i = -2; i <= 2; ++i) {
           // Written so that sky (infinite depth) is of no surface, and stays as it is.
           if (!values.contains(x + i, y + j) || !(std::abs(depth_m(x + i, y + j) - depth) <= same_surface * depth)) continue;
-          const float w = weight[static_cast<std::size_t>(i + 2)] * weight[static_cast<std::size_t>(j + 2)];
+          const float w = weight[i + 2] * weight[j + 2];
           sum += w * values(x + i, y + j);
           total += w;
         }

@@ -16,7 +16,7 @@ namespace {
 constexpr int band_rows = 64;
 
 std::string require_format(const std::string& path) {
-  const std::string format = image_io::find_format(path);
+  std::string format = image_io::find_format(path);
   if (format.empty()) throw Error(ErrorKind::input, path, "is no picture in a known format", "PNG, TIFF, JPEG or OpenEXR");
   return format;
 }

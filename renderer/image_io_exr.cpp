@@ -270,6 +270,7 @@ void ExrWriter::State::verify() const {
 ExrWriter::ExrWriter(const std::string& path, int width, int height, const std::vector<PartSpec>& parts, const FileNotes& notes) {
   if (width < 1 || height < 1 || parts.empty()) throw Error(ErrorKind::bug, path, "a file without pixels or parts");
   std::vector<Imf::Header> headers;
+  headers.reserve(parts.size());
   for (const PartSpec& part : parts) headers.push_back(make_header(path, width, height, part, headers.empty() ? notes : FileNotes{}));
   state_ = std::make_unique<State>(path, width, height, parts);
   if (state_->stream.code() != 0) state_->fail({});

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <utility>
 
@@ -221,7 +222,8 @@ Grid<glm::vec3> read_exr_picture(const std::string& path, Grid<float>* alpha) {
     std::vector<Target> targets;
     char* first = reinterpret_cast<char*>(out.data());
     if (colour) {
-      for (int c = 0; c < 3; ++c) targets.push_back({std::string(1, "RGB"[c]), Imf::FLOAT, first + 4 * c, sizeof(glm::vec3)});
+      for (int c = 0; c < 3; ++c)
+        targets.push_back({std::string(1, "RGB"[c]), Imf::FLOAT, first + std::ptrdiff_t{4} * c, sizeof(glm::vec3)});
     } else {
       targets.push_back({"Y", Imf::FLOAT, first, sizeof(glm::vec3)});
     }

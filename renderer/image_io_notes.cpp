@@ -118,6 +118,7 @@ void quantize_rows(const Grid<glm::vec3>& encoded, int y0, int y1, int row_pixel
       for (int c = 0; c < 3; ++c) {
         const double v = from[x][c];
         const double cut = v > 0.0 ? (v < 1.0 ? v : 1.0) : 0.0;  // NaN fails the comparison and becomes 0
+        // NOLINTNEXTLINE(bugprone-incorrect-roundings): never negative, and lround would be a call for each value
         to[3 * x + c] = static_cast<Number>(cut * highest + 0.5);
       }
     }

@@ -17,6 +17,8 @@ namespace belvedere {
 namespace {
 
 constexpr int tile_size = 256;  // pixels; 384 KiB a tile, small enough for viewers, large enough to compress
+constexpr std::size_t row_values = std::size_t{3} * tile_size;
+constexpr std::size_t tile_values = row_values * tile_size;
 constexpr int compression_level = 6;
 
 struct CloseTiff {
@@ -50,8 +52,7 @@ void difference(std::uint16_t* row) {
 std::vector<std::vector<std::uint8_t>> compress_tiles(const std::vector<std::uint16_t>& band, int across) {
   std::vector<std::vector<std::uint8_t>> out(static_cast<std::size_t>(across));
   parallel_rows(across, [&](int t) {
-    constexpr std::size_t row_values = 3 * tile_size;
-    std::vector<std::uint16_t> tile(row_values * tile_size);
+    std::vector<std::uint16_t> tile(tile_values);
     for (std::size_t y = 0; y < tile_size; ++y) {
       const std::uint16_t* from = band.data() + (y * static_cast<std::size_t>(across) + static_cast<std::size_t>(t)) * row_values;
       std::copy(from, from + row_values, tile.begin() + static_cast<std::ptrdiff_t>(y * row_values));
@@ -102,17 +103,16 @@ void read_back(const OutputFile& output, const Grid<glm::vec3>& encoded, int acr
   std::vector<std::uint16_t> wanted;
   for (int y = 0; y < encoded.height(); y += tile_size) {
     image_io::quantize_rows(encoded, y, std::min(y + tile_size, encoded.height()), across * tile_size, wanted);
-    wanted.resize(static_cast<std::size_t>(across) * tile_size * tile_size * 3);
-    std::vector<std::uint16_t> tile(3 * tile_size * tile_size);
+    wanted.resize(static_cast<std::size_t>(across) * tile_values);
+    std::vector<std::uint16_t> tile(tile_values);
     for (int t = 0; t < across; ++t) {
       const auto bytes = static_cast<tmsize_t>(tile.size() * 2);
       const ttile_t number = TIFFComputeTile(tiff.get(), static_cast<std::uint32_t>(t * tile_size), static_cast<std::uint32_t>(y), 0, 0);
       bool same = TIFFReadEncodedTile(tiff.get(), number, tile.data(), bytes) == bytes;
       for (std::size_t r = 0; same && r < tile_size; ++r) {
-        const std::size_t at = (r * static_cast<std::size_t>(across) + static_cast<std::size_t>(t)) * 3 * tile_size;
-        same =
-            std::equal(wanted.begin() + static_cast<std::ptrdiff_t>(at), wanted.begin() + static_cast<std::ptrdiff_t>(at + 3 * tile_size),
-                       tile.begin() + static_cast<std::ptrdiff_t>(r * 3 * tile_size));
+        const std::size_t at = (r * static_cast<std::size_t>(across) + static_cast<std::size_t>(t)) * row_values;
+        same = std::equal(wanted.begin() + static_cast<std::ptrdiff_t>(at), wanted.begin() + static_cast<std::ptrdiff_t>(at + row_values),
+                          tile.begin() + static_cast<std::ptrdiff_t>(r * row_values));
       }
       if (!same) output.fail(message.empty() ? "it reads otherwise than it was written" : message);
     }
@@ -134,7 +134,7 @@ void write_tiff16(const std::string& path, const Grid<glm::vec3>& encoded, const
     ttile_t number = 0;
     for (int y = 0; y < encoded.height(); y += tile_size) {
       image_io::quantize_rows(encoded, y, std::min(y + tile_size, encoded.height()), across * tile_size, band);
-      band.resize(static_cast<std::size_t>(across) * tile_size * tile_size * 3);
+      band.resize(static_cast<std::size_t>(across) * tile_values);
       for (std::vector<std::uint8_t>& packed : compress_tiles(band, across)) {
         const auto bytes = static_cast<tmsize_t>(packed.size());
         if (TIFFWriteRawTile(tiff.get(), number++, packed.data(), bytes) != bytes) output.fail(message);

@@ -103,7 +103,7 @@ float GroundNoise::operator()(double x_m, double y_m) {
     cell_x_ = wx.first;
     cell_y_ = wy.first;
     for (int j = 0; j < 4; ++j)
-      for (int i = 0; i < 4; ++i) cell_[static_cast<std::size_t>(4 * j + i)] = lattice(cell_x_ + i, cell_y_ + j);
+      for (int i = 0; i < 4; ++i) cell_[4 * j + i] = lattice(cell_x_ + i, cell_y_ + j);
   }
   double sum = 0.0;
   for (std::size_t j = 0; j < 4; ++j) {

@@ -86,12 +86,13 @@ SynthesisParameters to_synthesis_parameters(const Scene& scene) {
   parameters.levels = scene.synthesis.levels;
   // What a scene says of one guide leaves the defaults of the others.
   parameters.weights = SceneSynthesis{}.weights;
-  for (const auto& [name, weight] : scene.synthesis.weights) {
-    const auto known = std::find_if(parameters.weights.begin(), parameters.weights.end(), [&](const auto& w) { return w.first == name; });
+  for (const auto& wanted : scene.synthesis.weights) {
+    const auto known = std::find_if(parameters.weights.begin(), parameters.weights.end(),
+                                    [&](const auto& weight) { return weight.first == wanted.first; });
     if (known != parameters.weights.end())
-      known->second = weight;
+      known->second = wanted.second;
     else
-      parameters.weights.emplace_back(name, weight);
+      parameters.weights.push_back(wanted);
   }
   parameters.reuse = scene.synthesis.reuse;
   parameters.copy_cap = scene.synthesis.copy_cap;

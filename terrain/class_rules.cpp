@@ -124,7 +124,7 @@ struct Row {
 void fill_row(const Run& run, const std::vector<bool>& wanted, int y, const LandCoverClass* classes, Row& row) {
   const int width = run.dem.width();
   const std::size_t variables = variable_names().size();
-  const std::size_t padded = static_cast<std::size_t>((width + rule_block - 1) / rule_block * rule_block);
+  const std::size_t padded = (static_cast<std::size_t>(width) + rule_block - 1) / rule_block * rule_block;
   row.slots.resize(wanted.size());
   for (std::size_t v = 0; v < wanted.size(); ++v) {
     if (!wanted[v]) continue;
@@ -182,7 +182,8 @@ void apply_layers(const Run& run, std::size_t from, std::size_t to, Grid<LandCov
           run.program.layers[k].evaluate(pointers, hit.data(), row.scratch);
           for (int x = 0; x < count; ++x) {
             if (!(hit[static_cast<std::size_t>(x)] > 0.F)) continue;
-            const auto place = static_cast<std::size_t>(begin + x);
+            const int at = begin + x;
+            const auto place = static_cast<std::size_t>(at);
             const auto old = static_cast<std::size_t>(line[place]);
             // Later layers of this pass see the class so far.
             if (wanted[first + old]) row.slots[first + old][place] = 0.F;

@@ -137,8 +137,10 @@ float smoothstep(float t) { return t * t * (3.F - 2.F * t); }
 // Distance from a cell to its nearest lake cell, cells; there is a lake.
 float shore_distance(const Grid<std::int32_t>& nearest, int x, int y) {
   const std::int32_t shore = nearest(x, y);
-  const auto dx = static_cast<float>(shore % nearest.width() - x);
-  const auto dy = static_cast<float>(shore / nearest.width() - y);
+  const int across = shore % nearest.width() - x;
+  const int down = shore / nearest.width() - y;
+  const auto dx = static_cast<float>(across);
+  const auto dy = static_cast<float>(down);
   return std::sqrt(dx * dx + dy * dy);
 }
 

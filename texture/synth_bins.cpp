@@ -12,8 +12,8 @@ namespace {
 
 constexpr int side = 2 * patch_radius + 1;
 constexpr int quantiles = 8;
-constexpr int luminances = 3 * 255 + 1;
-constexpr int contrasts = 384;  // the deviation of values 0…765 is at most 382.5
+constexpr std::size_t luminances = 3 * 255 + 1;
+constexpr std::size_t contrasts = 384;  // the deviation of values 0…765 is at most 382.5
 
 int luminance(std::uint32_t word) { return static_cast<int>((word & 255U) + (word >> 8 & 255U) + (word >> 16 & 255U)); }
 
@@ -49,8 +49,9 @@ void contrast_row(const Plane& plane, std::uint32_t row, int width, std::vector<
       s += sum[x + i];
       s2 += squares[x + i];
     }
-    constexpr std::int64_t count = side * side;
-    out[x] = static_cast<std::uint16_t>(std::sqrt(static_cast<double>((count * s2 - s * s) / (count * count))));
+    constexpr auto count = static_cast<std::int64_t>(side) * side;
+    const std::int64_t variance = (count * s2 - s * s) / (count * count);
+    out[x] = static_cast<std::uint16_t>(std::sqrt(static_cast<double>(variance)));
   }
 }
 

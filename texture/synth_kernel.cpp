@@ -231,9 +231,7 @@ void ImproveRow(const KernelView& view, int x0, int y, std::uint32_t* next) {
       keep = price::join;
     }
     search.Offer(view.match[pixel], keep);
-    for (std::size_t n = 0; n < neighbours.size(); ++n) {
-      const int dx = neighbours[n][0];
-      const int dy = neighbours[n][1];
+    for (const auto& [dx, dy] : neighbours) {
       if (view.links != nullptr && !linked(view.links, target.stride, pixel, dx, dy)) continue;
       const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(pixel) + dx + static_cast<std::ptrdiff_t>(dy) * target.stride;
       const std::ptrdiff_t texel =

@@ -65,7 +65,7 @@ Slack make_slack(const KernelView& view, std::uint32_t pixel);
 inline std::int64_t guide_cost(const KernelView& view, const std::uint8_t* wanted, const std::uint8_t* offered, Slack slack) {
   const auto price_of = [&](int g, int free) {
     const std::int32_t off = std::max(0, std::abs(wanted[g] - offered[g]) - free);
-    return view.guides[g].weight_q4 * (off * off);
+    return view.guides[g].weight_q4 * off * off;
   };
   const int count = view.exemplars->guide_count;
   std::int64_t cost = 0;

@@ -347,7 +347,8 @@ bool replace_pieces(LevelState& state, int pass, int round) {
         if (state.pieces.size()[at] <= state.settings.copy_cap) continue;
         const Cell cell = cell_around(x, y, cell_key);
         if (cell.y != cell_y || cell.odd != (number & 1)) continue;
-        cells[static_cast<std::size_t>(cell.x + 1)].push_back({state.pieces.first_pixel(at), x, y});
+        const int column = cell.x + 1;
+        cells[static_cast<std::size_t>(column)].push_back({state.pieces.first_pixel(at), x, y});
       }
     }
     for (std::vector<Member>& members : cells) {

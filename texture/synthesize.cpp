@@ -126,6 +126,7 @@ Classes number_classes(const std::vector<Exemplar>& exemplars, const GuideStack&
 
 synth::Plane exemplar_plane(const std::vector<Exemplar>& exemplars, const std::vector<PairedGuide>& guides, const Classes& classes) {
   std::vector<std::pair<int, int>> sizes;
+  sizes.reserve(exemplars.size());
   for (const Exemplar& exemplar : exemplars) sizes.emplace_back(exemplar.picture.width(), exemplar.picture.height());
   synth::Plane plane = synth::make_plane(sizes, static_cast<int>(guides.size()));
   for (std::size_t e = 0; e < exemplars.size(); ++e) {
@@ -195,6 +196,7 @@ MatchField synthesize(const std::vector<Exemplar>& exemplars, const GuideStack& 
   const Classes classes = number_classes(exemplars, target, parameters, progress);
   if (classes.count == 0) return MatchField(target.width(), target.height());
   std::vector<synth::GuideRole> roles;
+  roles.reserve(guides.size());
   for (const PairedGuide& guide : guides) roles.push_back(guide.role);
 
   const int levels = level_count(exemplars, target, parameters.levels);

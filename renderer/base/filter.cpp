@@ -36,8 +36,8 @@ LineBundle convolve(const LineBundle& lines, const std::vector<float>& kernel) {
     std::array<float, LineBundle::lanes> sum;
     for (int l = 0; l < LineBundle::lanes; ++l) sum[l] = kernel[0] * center[l];
     for (int k = 1; k <= radius; ++k) {
-      const float* before = center - k * LineBundle::lanes;
-      const float* after = center + k * LineBundle::lanes;
+      const float* before = padded[i + radius - k];
+      const float* after = padded[i + radius + k];
       const float weight = kernel[k];
       for (int l = 0; l < LineBundle::lanes; ++l) sum[l] += weight * (before[l] + after[l]);
     }

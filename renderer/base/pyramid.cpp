@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -65,7 +66,7 @@ Grid<float> reduce(const Grid<float>& level) {
     extend_linearly(column, width, 2);
     float* target = out.row(y);
     for (int x = 0; x < out.width(); ++x) {
-      const float* v = column + 2 * x;
+      const float* v = column + std::ptrdiff_t{2} * x;
       target[x] = 0.4F * v[0] + 0.25F * (v[-1] + v[1]) + 0.05F * (v[-2] + v[2]);
     }
   });
@@ -88,8 +89,9 @@ void expand_row(const Grid<float>& coarser, int y, int width, float* out) {
   extend_linearly(column, count, 1);
   for (int x = 0; x < width / 2; ++x) {
     const float* v = column + x;
-    out[2 * x] = 0.8F * v[0] + 0.1F * (v[-1] + v[1]);
-    out[2 * x + 1] = 0.5F * (v[0] + v[1]);
+    float* pair = out + std::ptrdiff_t{2} * x;
+    pair[0] = 0.8F * v[0] + 0.1F * (v[-1] + v[1]);
+    pair[1] = 0.5F * (v[0] + v[1]);
   }
   if (width % 2 == 1) {
     const float* v = column + width / 2;
@@ -147,6 +149,7 @@ Grid<float> reconstruct(const LaplacianPyramid& pyramid) {
 
 std::vector<Grid<float>> make_gaussian_pyramid(const Grid<float>& values, int levels) {
   std::vector<Grid<float>> pyramid;
+  pyramid.reserve(static_cast<std::size_t>(std::max(levels, 0)));
   for (int i = 0; i < levels; ++i) pyramid.push_back(i == 0 ? values : reduce(pyramid.back()));
   return pyramid;
 }
