@@ -73,6 +73,14 @@ Grid<float> find_moves(const Grid<float>& altitude_m, const Valleys& valleys, do
   const Grid<float> ridge_m = gaussian_blur(window_maximum(altitude_m, reach), 0.3 * reach);
   const Grid<float> smooth_m = gaussian_blur(altitude_m, 2.0);
   const Grid<float> floor_m = gaussian_blur(valleys.floor_m, 0.1 * reach);
+  // The walls of two valleys move apart from the line halfway between their courses, however low the ground is there: at that line, where
+  // the distance is largest, nothing may move. Over three half-widths the ground then gets at most 1.5 times as steep.
+  Grid<float> distance(altitude_m.width(), altitude_m.height());
+  parallel_rows(distance.height(), [&](int y) {
+    for (int x = 0; x < distance.width(); ++x) distance(x, y) = distance_to_course(valleys.course, x, y);
+  });
+  const int apart = std::max(2, static_cast<int>(std::ceil(1.5 * parameters.width_m / cell_m)));
+  const Grid<float> farthest = window_maximum(distance, apart);
   Grid<float> moves(altitude_m.width(), altitude_m.height());
   parallel_rows(altitude_m.height(), [&](int y) {
     for (int x = 0; x < altitude_m.width(); ++x) {
@@ -81,7 +89,8 @@ Grid<float> find_moves(const Grid<float>& altitude_m, const Valleys& valleys, do
       const float height_m = std::max(smooth_m(x, y) - std::max(floor_m(x, y), valleys.floor_m(x, y)), 0.F);
       // A quarter of the way moves as a whole: heights are those of the cell as it is, before lower ground comes there.
       const float part = height_m / (parameters.fade_height * depth_m);
-      moves(x, y) = valleys.half_width(x, y) * (1.F - smoothstep((part - 0.25F) / 0.75F));
+      moves(x, y) = valleys.half_width(x, y) * (1.F - smoothstep((part - 0.25F) / 0.75F)) *
+                    smoothstep((farthest(x, y) - distance(x, y)) / static_cast<float>(apart));
     }
   });
   return moves;
