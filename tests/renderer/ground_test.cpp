@@ -31,9 +31,9 @@ class RefinedLandCover : public testing::Test {
                                           "s.toml", folder_.path(), {});
     return make_scene_land_cover(scene, level(), silent_progress());
   }
-  // ESA WorldCover: grassland, bare ground, trees, in stripes four cells wide.
-  static float code(int x) { return x / 4 % 3 == 0 ? 30.F : x / 4 % 3 == 1 ? 60.F : 10.F; }
-  static LandCoverClass as_read(int x) { return x / 4 % 3 == 0 ? pasture : x / 4 % 3 == 1 ? rock : forest; }
+  // ESA WorldCover: grassland, bare ground, trees, in stripes one cell wide.
+  static float code(int x) { return x % 3 == 0 ? 30.F : x % 3 == 1 ? 60.F : 10.F; }
+  static LandCoverClass as_read(int x) { return x % 3 == 0 ? pasture : x % 3 == 1 ? rock : forest; }
 
   test::Folder folder_;
 };
