@@ -20,10 +20,10 @@ struct BendPoint {
 // - of inclinations: the same through their tangents, integrated, so C2; the drop counts from the curve's highest place.
 // Before the first and after the last point the ground keeps the inclination it has there.
 struct BendCurve {
-  double radius_m = 0.0;          // 0: no parabola; else 1000…1e9
-  double crest_m = 0.0;           // distance where the ground is level
-  double far_from_m = 0.0;        // ≥ 0
-  double far_amount_per_m = 0.0;  // ≥ 0, 1/m
+  double radius_m = 0.0;               // 0: no parabola; else 1000…1e9
+  double crest_m = 0.0;                // distance where the ground is level
+  double far_from_m = 0.0;             // ≥ 0
+  double far_amount_per_m = 0.0;       // ≥ 0, 1/m
   std::vector<BendPoint> points = {};  // none, or two and more by distance, all with drops or all with inclinations
 };
 

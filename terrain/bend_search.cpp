@@ -150,8 +150,7 @@ ValleySight::ValleySight(const Grid<float>& altitude_m, const GeoTransform& tran
   samples_ = Grid<Sample>(steps, static_cast<int>(lines_.size()), Sample{std::numeric_limits<float>::quiet_NaN(), false});
   const BendProfile own_bend(deformation.parameters().bend);
   for (int k = 0; k < steps; ++k)
-    curvature_drop_m_.push_back(deformation.drop_m((k + 0.5) * step_m_) -
-                                own_bend.drop_m((k + 0.5) * step_m_));
+    curvature_drop_m_.push_back(deformation.drop_m((k + 0.5) * step_m_) - own_bend.drop_m((k + 0.5) * step_m_));
   parallel_rows(samples_.height(), [&](int row) {
     const double azimuth = to_radians(lines_[static_cast<std::size_t>(row)].azimuth_deg);
     for (int k = 0; k < steps; ++k) {

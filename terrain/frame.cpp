@@ -94,7 +94,7 @@ std::string choose_crs(const std::vector<RasterFile>& files, const std::string& 
     return crs_traits(crs).metric && std::isfinite(there.x) && true_to_scale(crs, there);
   };
   if (wanted.empty()) return fits(own) ? own : utm;
-  const std::string crs = normalize_crs(wanted);
+  std::string crs = normalize_crs(wanted);
   if (fits(crs)) return crs;
   throw Error(ErrorKind::usage, "crs", fmt::format("{} does not give true metres here", describe_crs(crs)),
               fmt::format("a metric coordinate system made for this region, such as {}", describe_crs(utm)));
@@ -106,6 +106,7 @@ RasterFrame choose_frame(const std::vector<RasterSource>& sources, const std::st
                          const std::optional<std::array<double, 4>>& extent) {
   if (sources.empty()) throw Error(ErrorKind::usage, "sources", "no raster is named", "at least one");
   std::vector<RasterFile> files;
+  files.reserve(sources.size());
   for (const RasterSource& source : sources) files.emplace_back(source);
   RasterFrame frame;
   frame.crs = choose_crs(files, crs);

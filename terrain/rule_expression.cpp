@@ -268,6 +268,7 @@ class RuleCompiler {
     const auto function = std::find_if(functions.begin(), functions.end(), [&](const Function& f) { return f.name == name.text; });
     if (function == functions.end()) {
       std::vector<std::string> known;
+      known.reserve(functions.size());
       for (const Function& f : functions) known.emplace_back(f.name);
       fail_unknown(name, "function", known);
     }

@@ -149,7 +149,8 @@ void dam_valleys(Grid<float>& altitude_m, const Drainage& drainage, const Grid<f
     for (int k = 0; k < static_cast<int>(500.0 * p.unit_m / p.cell_m) + 1 && drainage.receiver[at(down)] >= 0; ++k)
       down = drainage.receiver[at(down)];
     const double dx = down % width - cx;
-    const double dy = down / width - cy;
+    const int down_y = down / width;
+    const double dy = down_y - cy;
     const double length = std::max(1e-6, std::hypot(dx, dy));
     const double half = 80.0 * p.unit_m + 1.6 * static_cast<double>(floor_half_width_m(p, (cx + 0.5) * p.cell_m, (cy + 0.5) * p.cell_m,
                                                                                        catchment_km2[at(i)], altitude_m[at(i)]));
