@@ -8,9 +8,12 @@
 #include "renderer/base/error.h"
 #include "renderer/base/parallel.h"
 #include "terrain/class_rules.h"
+#include "terrain/destripe.h"
 #include "terrain/fold.h"
 #include "terrain/generalize.h"
 #include "terrain/hydrology.h"
+#include "terrain/line_integral_generalize.h"
+#include "terrain/widen_valleys.h"
 
 namespace belvedere {
 namespace {
@@ -74,9 +77,7 @@ void refine_by_rules(LandCover& cover, const LandCover& rules, const std::vector
   });
 }
 
-}  // namespace
-
-Dem make_scene_dem(const LoadedScene& loaded, Progress& progress) {
+Dem read_scene_dem(const LoadedScene& loaded, Progress& progress) {
   const SceneTerrain& terrain = loaded.scene.terrain;
   if (terrain.synthetic) return make_synthetic_terrain(*terrain.synthetic, progress);
   DemParameters parameters;
@@ -86,6 +87,14 @@ Dem make_scene_dem(const LoadedScene& loaded, Progress& progress) {
   parameters.extent = terrain.extent;
   parameters.max_void_share = terrain.max_void_share;
   return read_dem(parameters, progress);
+}
+
+}  // namespace
+
+Dem make_scene_dem(const LoadedScene& loaded, Progress& progress) {
+  Dem dem = read_scene_dem(loaded, progress);
+  if (loaded.scene.generalize.destripe) dem.altitude_m = destripe(dem.altitude_m, {}, progress);
+  return dem;
 }
 
 LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
@@ -105,7 +114,11 @@ LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progr
 Grid<float> generalize_for_view(const Scene& scene, const Dem& dem, const View& view, Progress& progress) {
   const Grid<float> near = foreground_share(dem, view.viewer_xy, scene.generalize);
   const Grid<std::uint8_t> lakes = scene.generalize.keep_lakes ? find_lakes(dem.altitude_m, {}) : Grid<std::uint8_t>();
-  return generalize(dem.altitude_m, near, lakes, scene.generalize.bands, progress);
+  const SceneGeneralize& wish = scene.generalize;
+  Grid<float> out = wish.line_integral ? generalize_along_slope_lines(dem.altitude_m, dem.cell_m(), {}, progress) : Grid<float>();
+  out = generalize(wish.line_integral ? out : dem.altitude_m, near, lakes, wish.bands, progress);
+  if (wish.valleys.width_m > 0.F) out = widen_valleys(out, lakes, dem.cell_m(), wish.valleys, progress);
+  return out;
 }
 
 Ground make_ground(const Scene& scene, Dem dem, LandCover land_cover, const View& view, Progress& progress) {

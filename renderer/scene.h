@@ -12,6 +12,7 @@
 #include "terrain/deform.h"
 #include "terrain/generalize.h"
 #include "terrain/synthetic.h"
+#include "terrain/widen_valleys.h"
 
 namespace belvedere {
 
@@ -55,6 +56,9 @@ struct SceneGeneralize {
   double foreground_to_m = 32000.0;    // up to this distance all foreground
   double background_from_m = 90000.0;  // from here all background, smoothstep between
   bool keep_lakes = true;
+  bool destripe = false;           // takes stripes off the DEM itself, before everything else
+  bool line_integral = false;      // line integral convolution, before the bands
+  WidenValleysParameters valleys;  // after the bands
 };
 
 struct SceneSummit {  // a summit with an exaggeration of its own

@@ -225,6 +225,19 @@ std::vector<SceneSection> make_scene_sections() {
             .meaning = "From this distance the background's weights hold alone; between the two they blend."},
            {.name = "crest", .field = AT(generalize.bands.crest), .range = {0, 3}, .meaning = "Sharpening of high crests; 0 is off."},
            {.name = "keep_lakes", .field = AT(generalize.keep_lakes), .meaning = "Lakes keep their level."},
+           {.name = "destripe",
+            .field = AT(generalize.destripe),
+            .meaning = "Finds stripes along rows and columns of the DEM (old USGS and SRTM data, resampling by nearest neighbours) and "
+                       "takes them off before anything else."},
+           {.name = "line_integral",
+            .field = AT(generalize.line_integral),
+            .meaning = "Before the bands, slopes are made plain along slope lines and ridges kept sharp (line integral convolution, Jenny "
+                       "2021)."},
+           {.name = "widen_valleys_m",
+            .field = AT(generalize.valleys.width_m),
+            .range = {0, 5000},
+            .unit = "m",
+            .meaning = "After the bands, the floors of large valleys become so much wider; ridges keep their place. 0 is off."},
        }});
   for (SceneSection& section : make_deform_sections()) sections.push_back(std::move(section));
   sections.push_back({.name = "camera",
