@@ -9,6 +9,7 @@
 
 #include "renderer/base/embedded.h"
 #include "renderer/base/error.h"
+#include "renderer/base/filter.h"
 #include "renderer/composite.h"
 #include "renderer/guidance_io.h"
 #include "renderer/image_io.h"
@@ -26,11 +27,9 @@ Rgb8 to_rgb8(glm::vec3 encoded) {
   return rgb;
 }
 
-Grid<Rgb8> to_rgb8(const Grid<glm::vec3>& encoded) {
-  Grid<Rgb8> picture(encoded.width(), encoded.height());
-  for (std::size_t i = 0; i < encoded.size(); ++i) picture[i] = to_rgb8(encoded[i]);
-  return picture;
-}
+// Deviation of a texel's brightness from that around it that the prices of synthesis are tuned for, encoded sRGB: strong, even strokes.
+constexpr double tuned_contrast = 14.0 / 255.0;
+constexpr double around_texels = 2.0;
 
 // The sheet's scene: built in, then fitted to the target's size of stroke, palette and side of light.
 LoadedScene sheet_scene(const SceneExemplar& wish, const Stage& target) {
@@ -104,6 +103,43 @@ std::array<glm::vec3, land_cover_class_count> class_means(const LitPicture& targ
 
 }  // namespace
 
+Grid<Rgb8> seam_picture(const PaintedExemplar& painted, const Grid<std::uint8_t>& labels, double residual) {
+  const Grid<glm::vec3>& picture = painted.picture;
+  Grid<glm::vec3> carried = picture;
+  if (!painted.base.empty())
+    for (std::size_t i = 0; i < carried.size(); ++i) carried[i] -= static_cast<float>(residual) * painted.base[i];
+  Grid<float> brightness(carried.width(), carried.height());
+  for (std::size_t i = 0; i < carried.size(); ++i) brightness[i] = (carried[i].x + carried[i].y + carried[i].z) / 3.F;
+  const Grid<float> around = gaussian_blur(brightness, around_texels);
+
+  struct Sums {
+    glm::dvec3 colour{0.0};
+    double squares = 0.0;
+    double count = 0.0;
+  };
+  std::array<Sums, 256> sums{};
+  for (std::size_t i = 0; i < carried.size(); ++i) {
+    Sums& s = sums[labels[i]];
+    const double detail = brightness[i] - around[i];
+    s.colour += glm::dvec3(carried[i]);
+    s.squares += detail * detail;
+    s.count += 1.0;
+  }
+  std::array<glm::vec3, 256> middle{};
+  std::array<float, 256> gain{};
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    const double count = std::max(1.0, sums[k].count);
+    middle[k] = glm::vec3(sums[k].colour / count);
+    gain[k] = static_cast<float>(std::clamp(tuned_contrast / std::sqrt(sums[k].squares / count + 1e-12), 1.0, 8.0));
+  }
+  Grid<Rgb8> seams(picture.width(), picture.height());
+  for (std::size_t i = 0; i < seams.size(); ++i) {
+    const std::uint8_t k = labels[i];
+    seams[i] = to_rgb8(glm::vec3(0.5F) + gain[k] * (carried[i] - middle[k]));
+  }
+  return seams;
+}
+
 PaintedExemplar paint_sheet(const SceneExemplar& wish, const Stage& target, Progress& progress) {
   const LoadedScene scene = sheet_scene(wish, target);
   Stage stage = set_stage(scene, progress);
@@ -117,11 +153,13 @@ PaintedExemplar paint_sheet(const SceneExemplar& wish, const Stage& target, Prog
   const StrokeLayers layers{.sky = false, .ground = true, .accents = true, .upright = false};
 
   PaintedExemplar painted;
-  painted.picture = paint_strokes(picture.ground.colour, picture.guidance, picture.ground, layers, strokes, progress);
-  painted.base = picture.ground.colour;
+  Painting painting = paint_strokes(picture.ground.colour, picture.guidance, picture.ground, layers, strokes, progress);
+  PaintedClasses classes = find_painted_classes(painting.sources, picture.guidance, picture.ground.colour);
+  painted.picture = std::move(painting.picture);
+  painted.base = std::move(classes.base);
   painted.exemplar.name = "painted sheet";
-  painted.exemplar.picture = to_rgb8(painted.picture);
-  painted.exemplar.guides = make_guide_stack(picture.guidance);
+  painted.exemplar.guides = make_guide_stack(picture.guidance, classes.land_cover);
+  painted.exemplar.picture = seam_picture(painted, painted.exemplar.guides.label, target.scene.synthesis.residual);
   return painted;
 }
 
@@ -130,8 +168,7 @@ PaintedExemplar read_painting(const SceneExemplar& wish, const LoadedScene& scen
   painting.picture = read_picture(find_scene_file(scene, wish.picture));
   const GuidanceBuffers guidance = read_painting_guides(wish, scene, painting.picture);
   painting.exemplar.name = wish.picture;
-  painting.exemplar.picture = to_rgb8(painting.picture);
-  painting.exemplar.guides = make_guide_stack(guidance);
+  painting.exemplar.guides = make_guide_stack(guidance, guidance.land_cover);
   if (!guidance.base.empty()) {
     painting.base = encode_srgb(guidance.base);
   } else {
@@ -142,6 +179,7 @@ PaintedExemplar read_painting(const SceneExemplar& wish, const LoadedScene& scen
       if (id < means.size()) painting.base[i] = means[id];
     }
   }
+  painting.exemplar.picture = seam_picture(painting, painting.exemplar.guides.label, scene.scene.synthesis.residual);
   return painting;
 }
 

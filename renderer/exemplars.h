@@ -10,6 +10,11 @@
 
 namespace belvedere {
 
+// What synthesis shall compare: the part of a painting that the residual carries over, picture - residual · base, because a seam shows
+// where that part jumps and not where light does. Each label is stretched to the same contrast about mid grey: strokes that differ
+// little would else be torn apart for the sake of guides.
+Grid<Rgb8> seam_picture(const PaintedExemplar& painted, const Grid<std::uint8_t>& labels, double residual);
+
 // Paints a sheet on a made-up terrain with the scene's palette and the light from the scene's side, so that every guide of it is exactly
 // known. It carries no trees, no houses and no sky: those are painted on the target last.
 PaintedExemplar paint_sheet(const SceneExemplar& wish, const Stage& target, Progress& progress);

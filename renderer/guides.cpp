@@ -17,15 +17,25 @@ std::uint8_t quantize(float share) { return static_cast<std::uint8_t>(std::floor
 
 }  // namespace
 
-GuideStack make_guide_stack(const GuidanceBuffers& guidance) {
-  if (!guidance.depth_m.same_size(guidance.land_cover)) throw Error(ErrorKind::bug, "guides", "land cover is missing");
+PaintedClasses find_painted_classes(const Grid<std::uint32_t>& sources, const GuidanceBuffers& guidance, const Grid<glm::vec3>& base) {
+  PaintedClasses painted{guidance.land_cover, base};
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const std::uint32_t source = sources[i];
+    painted.land_cover[i] = guidance.land_cover[source];
+    if (guidance.land_cover[i] != painted.land_cover[i]) painted.base[i] = base[source];
+  }
+  return painted;
+}
+
+GuideStack make_guide_stack(const GuidanceBuffers& guidance, const Grid<LandCoverClass>& land_cover) {
+  if (!guidance.depth_m.same_size(land_cover)) throw Error(ErrorKind::bug, "guides", "land cover is missing");
   const int width = guidance.width();
   const int height = guidance.height();
   GuideStack stack;
   stack.depth_m = guidance.depth_m;
   stack.label = Grid<std::uint8_t>(width, height, excluded_label);
   for (std::size_t i = 0; i < stack.label.size(); ++i)
-    if (!guidance.is_sky(i)) stack.label[i] = static_cast<std::uint8_t>(guidance.land_cover[i]);
+    if (!guidance.is_sky(i)) stack.label[i] = static_cast<std::uint8_t>(land_cover[i]);
 
   const auto add = [&](const char* name, bool present, auto share) {
     if (!present) return;

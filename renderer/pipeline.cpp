@@ -106,9 +106,13 @@ Grid<glm::vec3> synthesize_ground(const LoadedScene& loaded, const Stage& stage,
   const std::vector<PaintedExemplar> painted = make_exemplars(loaded, stage, picture, progress);
   std::vector<Exemplar> exemplars;
   for (const PaintedExemplar& p : painted) exemplars.push_back(p.exemplar);
-  const GuideStack guides = make_guide_stack(picture.guidance);
+  // A first painting of strokes tells where each class's paint would lie: borders get the shape of strokes.
+  const Painting draft = paint_strokes(picture.ground.colour, picture.guidance, picture.ground, {.sky = false, .upright = false},
+                                       to_stroke_parameters(stage), progress);
+  const PaintedClasses classes = find_painted_classes(draft.sources, picture.guidance, picture.ground.colour);
+  const GuideStack guides = make_guide_stack(picture.guidance, classes.land_cover);
   const MatchField matches = synthesize(exemplars, guides, to_synthesis_parameters(stage.scene), progress);
-  return transfer_residual(matches, painted, picture.ground.colour, picture.ground.haze, stage.scene.synthesis.residual);
+  return transfer_residual(matches, painted, classes.base, picture.ground.haze, stage.scene.synthesis.residual);
 }
 
 void write_panorama(const Grid<glm::vec3>& picture, const Scene& scene, const OutputColor& color, const FileNotes& notes,
@@ -151,9 +155,9 @@ void render(const LoadedScene& loaded, const RenderOptions& options, Progress& p
   Grid<glm::vec3> ground = copied ? synthesize_ground(loaded, stage, picture, progress) : picture.ground.colour;
   // What the exemplar cannot give is painted last, far to near: sky, trees, houses; without an exemplar everything is.
   const StrokeLayers layers{.sky = true, .ground = !copied, .accents = true, .upright = true};
-  const Grid<glm::vec3> painted =
+  const Painting painted =
       paint_strokes(std::move(ground), picture.guidance, picture.ground, layers, to_stroke_parameters(stage), progress);
-  const Grid<glm::vec3> panorama = blend_edges(painted, picture.guidance);
+  const Grid<glm::vec3> panorama = blend_edges(painted.picture, picture.guidance);
   write_panorama(panorama, stage.scene, color, notes, options.out_folder, progress);
 }
 

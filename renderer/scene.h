@@ -157,9 +157,10 @@ struct SceneExemplar {
 struct SceneSynthesis {
   bool enabled = true;     // off: everything is painted as strokes
   double residual = 0.75;  // how much of the base picture's difference is laid over the texel, 0…1
-  // By guide. Tone leads, so that the relief of the target survives, then altitude; the rest only decides between equals.
-  std::vector<std::pair<std::string, double>> weights = {{"tone", 3.0},  {"altitude", 1.0},    {"distance", 0.3},   {"shadow", 0.3},
-                                                         {"slope", 0.3}, {"fall_line_x", 0.2}, {"fall_line_y", 0.2}};
+  // By guide. Relief, altitude and air come with the base picture, so guides only choose among strokes, lightly: heavier ones tear the
+  // texture to grain. Tone leads, because strokes in shade differ from those in light, then the direction strokes run in.
+  std::vector<std::pair<std::string, double>> weights = {{"tone", 0.15},  {"altitude", 0.04},   {"distance", 0.02},   {"shadow", 0.02},
+                                                         {"slope", 0.02}, {"fall_line_x", 0.1}, {"fall_line_y", 0.05}};
   std::vector<std::pair<LandCoverClass, LandCoverClass>> fallback;
   double reuse = 1.0;
   int copy_cap = 240;

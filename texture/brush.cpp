@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/glm.hpp>
+#include <numeric>
+#include <utility>
 
 #include "renderer/base/parallel.h"
 
@@ -85,7 +87,27 @@ StrokePlace place_on(const Stroke& stroke, const std::array<float, Stroke::max_p
   return place;
 }
 
-void paint_stroke(const Stroke& stroke, const PixelRect& clip, Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance,
+// Follows whose paint lies thickest: a layer of another class hides what lies below by its opacity, one of the same class adds to it.
+// Water keeps its shores: a brook that grass leans over is still one line.
+struct TopPaint {
+  Grid<std::uint32_t>& sources;
+  Grid<float>& share;  // 0…1, of the class on top
+
+  void cover(const GuidanceBuffers& guidance, std::size_t i, const Stroke& stroke, float alpha) {
+    if (guidance.land_cover[i] == LandCoverClass::water) return;
+    const LandCoverClass paint = guidance.land_cover[stroke.source];
+    if (guidance.land_cover[sources[i]] == paint) {
+      share[i] += alpha * (1.F - share[i]);
+      return;
+    }
+    share[i] *= 1.F - alpha;
+    if (alpha <= share[i]) return;
+    sources[i] = guidance.land_cover[i] == paint ? static_cast<std::uint32_t>(i) : stroke.source;
+    share[i] = alpha;
+  }
+};
+
+void paint_stroke(const Stroke& stroke, const PixelRect& clip, Grid<glm::vec3>& canvas, TopPaint top, const GuidanceBuffers& guidance,
                   float pixels_per_unit) {
   const Bounds whole = bounds_of(stroke, canvas.width(), canvas.height());
   std::array<float, Stroke::max_points> length_before{};
@@ -138,14 +160,24 @@ void paint_stroke(const Stroke& stroke, const PixelRect& clip, Grid<glm::vec3>& 
       }
       if (alpha < 0.004F) continue;
       canvas[i] += alpha * (stroke.colour + tint - canvas[i]);
+      top.cover(guidance, i, stroke, alpha);
     }
   }
 }
 
 }  // namespace
 
-void paint_in_order(Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance, std::vector<Stroke> strokes, double pixels_per_unit,
+Painting begin_painting(Grid<glm::vec3> canvas) {
+  Painting painting{std::move(canvas), {}};
+  painting.sources = Grid<std::uint32_t>(painting.picture.width(), painting.picture.height());
+  std::iota(painting.sources.begin(), painting.sources.end(), 0U);
+  return painting;
+}
+
+void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::vector<Stroke> strokes, double pixels_per_unit,
                     Progress& progress) {
+  Grid<glm::vec3>& canvas = painting.picture;
+  Grid<float> top_share(canvas.width(), canvas.height(), 1.F);  // what was painted before counts as one thick layer
   std::stable_sort(strokes.begin(), strokes.end(), [](const Stroke& a, const Stroke& b) { return a.order > b.order; });
   const int across = (canvas.width() + tile_px - 1) / tile_px;
   const int down = (canvas.height() + tile_px - 1) / tile_px;
@@ -162,7 +194,8 @@ void paint_in_order(Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance, st
   parallel_tiles(canvas.width(), canvas.height(), tile_px, [&](PixelRect tile) {
     const auto t =
         static_cast<std::size_t>(tile.y0 / tile_px) * static_cast<std::size_t>(across) + static_cast<std::size_t>(tile.x0 / tile_px);
-    for (const std::uint32_t s : tiles[t]) paint_stroke(strokes[s], tile, canvas, guidance, static_cast<float>(pixels_per_unit));
+    for (const std::uint32_t s : tiles[t])
+      paint_stroke(strokes[s], tile, canvas, {painting.sources, top_share}, guidance, static_cast<float>(pixels_per_unit));
     progress.advance(1.0);
   });
 }

@@ -34,13 +34,22 @@ struct Stroke {
   float depth_tolerance = 0.045F;  // relative
   float tone = -1.F;               // tone of the seed: alpha falls as exp(-((tone_px - tone)/.16)²); < 0: no tone gate
   StrokeGate gate = StrokeGate::surface;
-  float order = 0.F;       // larger is painted first: usually depth
-  std::uint32_t seed = 0;  // of its bristles
+  float order = 0.F;         // larger is painted first: usually depth
+  std::uint32_t seed = 0;    // of its bristles
+  std::uint32_t source = 0;  // index of the pixel it grew from: its class is that pixel's
 };
 
-// Paints the strokes in order (ties: as listed) over the canvas (encoded sRGB). Each tile of the canvas paints the strokes
-// that touch it in that order, so threads and tiles change no bit. pixels_per_unit: see StrokeParameters.
-void paint_in_order(Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance, std::vector<Stroke> strokes, double pixels_per_unit,
+// A picture with the origin of its paint. Strokes overlap the borders of classes, so what a pixel shows is often not what stands there.
+struct Painting {
+  Grid<glm::vec3> picture;  // encoded sRGB
+  Grid<std::uint32_t>
+      sources;  // index of a pixel of the class whose paint lies thickest on each pixel: the pixel itself where that is its own
+};
+Painting begin_painting(Grid<glm::vec3> canvas);
+
+// Paints the strokes in order (ties: as listed) over the canvas. Each tile of the canvas paints the strokes that touch it in that
+// order, so threads and tiles change no bit. pixels_per_unit: see StrokeParameters.
+void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::vector<Stroke> strokes, double pixels_per_unit,
                     Progress& progress);
 
 }  // namespace belvedere

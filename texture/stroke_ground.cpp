@@ -35,6 +35,7 @@ Stroke ground_stroke(const StrokeScene& scene, std::size_t i, StrokeSeed& seed) 
   stroke.depth_m = scene.guidance.depth_m[i];
   stroke.order = stroke.depth_m;
   stroke.seed = seed.bits();
+  stroke.source = static_cast<std::uint32_t>(i);
   return stroke;
 }
 

@@ -22,12 +22,13 @@ void check_sizes(const Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance,
 
 }  // namespace
 
-Grid<glm::vec3> paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const PaintGround& ground,
-                              const StrokeLayers& layers, const StrokeParameters& parameters, Progress& progress) {
+Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const PaintGround& ground, const StrokeLayers& layers,
+                       const StrokeParameters& parameters, Progress& progress) {
   check_sizes(canvas, guidance, ground);
+  Painting painting = begin_painting(std::move(canvas));
   const StrokeScene scene{guidance, ground, parameters};
   const auto paint = [&](std::vector<Stroke> strokes) {
-    if (!strokes.empty()) paint_in_order(canvas, guidance, std::move(strokes), parameters.pixels_per_unit, progress);
+    if (!strokes.empty()) paint_in_order(painting, guidance, std::move(strokes), parameters.pixels_per_unit, progress);
   };
 
   if (layers.sky) paint(sky_strokes(scene));
@@ -53,7 +54,7 @@ Grid<glm::vec3> paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& gui
   paint(std::move(body));
 
   if (layers.accents) paint(accent_strokes(scene));
-  return canvas;
+  return painting;
 }
 
 }  // namespace belvedere

@@ -4,6 +4,7 @@
 
 #include "renderer/base/guidance_buffers.h"
 #include "renderer/base/progress.h"
+#include "texture/brush.h"
 
 namespace belvedere {
 
@@ -32,9 +33,9 @@ struct StrokeLayers {
   bool upright = true;  // what stands on the ground: trees, dwarf pines, houses
 };
 
-// Paints strokes over `canvas` (encoded sRGB), far to near, and returns the picture. look/recipe.md, table Strokes. Needs the channels
+// Paints strokes over `canvas` (encoded sRGB), far to near, and returns the painting. look/recipe.md, table Strokes. Needs the channels
 // depth, land cover, fall line, tone, slope. Throws Error(bug) where sizes disagree.
-Grid<glm::vec3> paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const PaintGround& ground,
-                              const StrokeLayers& layers, const StrokeParameters& parameters, Progress& progress);
+Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const PaintGround& ground, const StrokeLayers& layers,
+                       const StrokeParameters& parameters, Progress& progress);
 
 }  // namespace belvedere

@@ -37,6 +37,7 @@ void plant(const StrokeScene& scene, const Tree& tree, std::size_t i, float ligh
   const float scale = scene.scale();
   Stroke stroke;
   stroke.depth_m = scene.guidance.depth_m[i];
+  stroke.source = static_cast<std::uint32_t>(i);
   stroke.order = stroke.depth_m;
   stroke.gate = StrokeGate::upright;
   if (tone > 0.35F && seed.uniform() < 0.6F) {
@@ -119,6 +120,7 @@ std::vector<Stroke> scattered_trees(const StrokeScene& scene) {
     const float width = 2.4F * scene.scale() * seed.between(0.7F, 1.3F);
     Stroke stroke;
     stroke.depth_m = scene.guidance.depth_m[i];
+    stroke.source = static_cast<std::uint32_t>(i);
     stroke.order = stroke.depth_m - 0.5F;
     stroke.gate = StrokeGate::upright;
     set_line(stroke, place, place + glm::vec2(0.3F * scene.scale(), -1.2F * width), width, width * 0.6F);
@@ -138,6 +140,7 @@ std::vector<Stroke> low_bushes(const StrokeScene& scene) {
     const float width = 2.6F * scale * seed.between(0.6F, 1.4F);
     Stroke stroke;
     stroke.depth_m = scene.guidance.depth_m[i];
+    stroke.source = static_cast<std::uint32_t>(i);
     stroke.order = stroke.depth_m - 0.5F;
     stroke.gate = StrokeGate::upright;
     set_line(stroke, place - glm::vec2(0.4F * width, 0.F), place + glm::vec2(0.5F * width, -0.4F * scale), width, width * 0.7F);
@@ -157,6 +160,7 @@ std::vector<Stroke> houses(const StrokeScene& scene) {
     const float width = seed.between(1.F, 2.F) * scene.scale();
     Stroke stroke;
     stroke.depth_m = scene.guidance.depth_m[i];
+    stroke.source = static_cast<std::uint32_t>(i);
     stroke.order = stroke.depth_m - 1.F;
     set_line(stroke, place - glm::vec2(0.7F * width, 0.F), place + glm::vec2(0.7F * width, 0.F), width, width);
     stroke.alpha = 0.85F;

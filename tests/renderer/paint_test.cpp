@@ -201,7 +201,7 @@ TEST(Guides, AreQuantizedAsDocumented) {
   g.altitude_m[1] = -20.0F;
   g.altitude_m[2] = 9000.0F;
   g.fall_line[1] = {-1.0F, 0.0F};
-  const GuideStack stack = make_guide_stack(g);
+  const GuideStack stack = make_guide_stack(g, g.land_cover);
   const auto guide = [&](const std::string& name) {
     for (const Guide& each : stack.guides)
       if (each.name == name) return each.values;
@@ -225,7 +225,23 @@ TEST(Guides, AreQuantizedAsDocumented) {
   EXPECT_EQ(guide("fall_line_y")[0], 255);
   EXPECT_EQ(guide("fall_line_x")[1], 0);
   g.shadow = {};
-  EXPECT_EQ(make_guide_stack(g).guides.size(), 6U);
+  EXPECT_EQ(make_guide_stack(g, g.land_cover).guides.size(), 6U);
+}
+
+TEST(PaintedClasses, TakeClassAndBaseFromWhereThePaintCameFrom) {
+  GuidanceBuffers g = make_slope(3, 1, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 10.0F);
+  g.land_cover[2] = LandCoverClass::snow;
+  Grid<glm::vec3> base(3, 1);
+  for (int i = 0; i < 3; ++i) base(i, 0) = glm::vec3(0.1F * static_cast<float>(i));
+  Grid<std::uint32_t> sources(3, 1);
+  sources(0, 0) = 1;  // rock on rock
+  sources(1, 0) = 1;
+  sources(2, 0) = 0;  // rock on snow
+  const PaintedClasses painted = find_painted_classes(sources, g, base);
+  EXPECT_EQ(painted.land_cover(2, 0), LandCoverClass::rock);
+  EXPECT_EQ(painted.base(2, 0), base(0, 0));
+  EXPECT_EQ(painted.base(0, 0), base(0, 0)) << "its own base where the class is its own";
+  EXPECT_EQ(painted.base(1, 0), base(1, 0));
 }
 
 }  // namespace

@@ -36,9 +36,45 @@ double painted_area(const Grid<glm::vec3>& canvas) {
 }
 
 Grid<glm::vec3> paint(const std::vector<Stroke>& strokes, const GuidanceBuffers& g) {
-  Grid<glm::vec3> canvas(g.width(), g.height(), glm::vec3(0.F));
-  paint_in_order(canvas, g, strokes, 1.0, silent_progress());
-  return canvas;
+  Painting painting = begin_painting(Grid<glm::vec3>(g.width(), g.height(), glm::vec3(0.F)));
+  paint_in_order(painting, g, strokes, 1.0, silent_progress());
+  return painting.picture;
+}
+
+// Pasture left of x = 30, rock right of it, and water in row 20 from x = 40 on.
+GuidanceBuffers border_guidance() {
+  GuidanceBuffers g = flat_guidance();
+  for (int y = 0; y < g.height(); ++y)
+    for (int x = 30; x < g.width(); ++x) g.land_cover(x, y) = y == 20 && x >= 40 ? LandCoverClass::water : LandCoverClass::rock;
+  return g;
+}
+
+Grid<std::uint32_t> sources_of(const std::vector<Stroke>& strokes, const GuidanceBuffers& g) {
+  Painting painting = begin_painting(Grid<glm::vec3>(g.width(), g.height(), glm::vec3(0.F)));
+  paint_in_order(painting, g, strokes, 1.0, silent_progress());
+  return painting.sources;
+}
+
+TEST(Brush, TellsWhosePaintLiesOnAPixel) {
+  const GuidanceBuffers g = border_guidance();
+  Stroke grass = horizontal_stroke();
+  grass.alpha = 0.8F;
+  grass.source = static_cast<std::uint32_t>(g.depth_m.index(10, 20));
+  const auto sources = sources_of({grass}, g);
+  EXPECT_EQ(sources(35, 19), grass.source) << "grass over the border";
+  EXPECT_EQ(sources(20, 19), g.depth_m.index(20, 19)) << "grass on grass is its own";
+  EXPECT_EQ(sources(35, 30), g.depth_m.index(35, 30)) << "nothing painted";
+  EXPECT_EQ(sources(45, 20), g.depth_m.index(45, 20)) << "water keeps its shores";
+}
+
+TEST(Brush, ThinPaintDoesNotHideWhatLiesBelow) {
+  const GuidanceBuffers g = border_guidance();
+  Stroke grass = horizontal_stroke();
+  grass.alpha = 0.4F;
+  grass.source = static_cast<std::uint32_t>(g.depth_m.index(10, 20));
+  EXPECT_EQ(sources_of({grass}, g)(35, 19), g.depth_m.index(35, 19));
+  // Two thin layers: .4 hides the rock to .6, another to .36, which is less than the grass's own .4 then.
+  EXPECT_EQ(sources_of({grass, grass}, g)(35, 19), grass.source);
 }
 
 TEST(Brush, CoversTheAreaOfItsOutline) {

@@ -141,12 +141,12 @@ TEST(StrokePainter, UprightLayerAloneLeavesBareGroundUntouched) {
   const Picture p = one_class(rock);
   const Grid<glm::vec3> canvas(320, 240, glm::vec3(0.3F));
   const StrokeLayers upright_only{.sky = false, .ground = false, .accents = false, .upright = true};
-  EXPECT_EQ(paint_strokes(canvas, p.guidance, p.ground, upright_only, {}, silent_progress()), canvas);
+  EXPECT_EQ(paint_strokes(canvas, p.guidance, p.ground, upright_only, {}, silent_progress()).picture, canvas);
 }
 
 TEST(StrokePainter, MeanColourStaysNearTheBase) {
   const Picture p = one_class(pasture);
-  const auto picture = paint_strokes(p.ground.colour, p.guidance, p.ground, {.upright = false}, {}, silent_progress());
+  const auto picture = paint_strokes(p.ground.colour, p.guidance, p.ground, {.upright = false}, {}, silent_progress()).picture;
   double sum = 0.0;
   double squares = 0.0;
   for (const glm::vec3& c : picture) {
@@ -162,7 +162,7 @@ TEST(StrokePainter, ThreadsChangeNoBit) {
   const Picture p = one_class(forest);
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
-    return paint_strokes(p.ground.colour, p.guidance, p.ground, {}, {}, silent_progress());
+    return paint_strokes(p.ground.colour, p.guidance, p.ground, {}, {}, silent_progress()).picture;
   };
   EXPECT_EQ(run(1), run(2));
 }
