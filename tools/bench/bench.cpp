@@ -120,10 +120,16 @@ int run(int argc, char** argv) {
 }  // namespace belvedere::bench
 
 int main(int argc, char** argv) {
+  // Not fmt::print, which may itself throw.
+  const auto fail = [](const char* message, int status) {
+    std::fprintf(stderr, "bench: %s\n", message);
+    return status;
+  };
   try {
     return belvedere::bench::run(argc, argv);
   } catch (const belvedere::Error& error) {
-    fmt::print(stderr, "bench: {}\n", error.what());
-    return error.exit_status();
+    return fail(error.what(), error.exit_status());
+  } catch (const std::exception& error) {
+    return fail(error.what(), static_cast<int>(belvedere::ErrorKind::bug));
   }
 }
