@@ -56,7 +56,7 @@ std::string instruction_set_title(const std::string& name) {
 }
 
 std::string choose_instruction_set(const std::string& pinned) {
-  const std::string widest = machine_instruction_set();
+  std::string widest = machine_instruction_set();
   if (pinned == "any") return widest;
   if (known_rank(pinned, "sampling.instruction_set", " or any") > rank_of(widest))
     throw Error(ErrorKind::limit, "sampling.instruction_set",

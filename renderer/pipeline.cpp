@@ -105,6 +105,7 @@ SynthesisParameters to_synthesis_parameters(const Scene& scene) {
 Grid<glm::vec3> synthesize_ground(const LoadedScene& loaded, const Stage& stage, const LitPicture& picture, Progress& progress) {
   const std::vector<PaintedExemplar> painted = make_exemplars(loaded, stage, picture, progress);
   std::vector<Exemplar> exemplars;
+  exemplars.reserve(painted.size());
   for (const PaintedExemplar& p : painted) exemplars.push_back(p.exemplar);
   // A first painting of strokes tells where each class's paint would lie: borders get the shape of strokes.
   const Painting draft = paint_strokes(picture.ground.colour, picture.guidance, picture.ground, {.sky = false, .upright = false},

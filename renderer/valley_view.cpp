@@ -33,10 +33,11 @@ std::optional<SightLine> shown(const Camera& camera, double azimuth_deg) {
     return std::tan(to_radians(in));
   };
   constexpr double step_deg = 0.5;
-  constexpr double steepest_deg = 89.5;
+  constexpr int steepest = 179;  // steps
   std::optional<double> lowest;
   std::optional<double> highest;
-  for (double altitude = -steepest_deg; altitude <= steepest_deg; altitude += step_deg) {
+  for (int step = -steepest; step <= steepest; ++step) {
+    const double altitude = step * step_deg;
     if (!inside(altitude)) continue;
     if (!lowest) lowest = altitude;
     highest = altitude;

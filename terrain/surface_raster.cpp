@@ -75,7 +75,7 @@ Grid<float> raster_of_moved(const Grid<float>& altitude_m, const GeoTransform& t
     const int y1 = std::min(y0 + band_rows, height);
     for (int y = 0; y + 1 < height; ++y) {
       const Reach& above = reach[static_cast<std::size_t>(y)];
-      const Reach& below = reach[static_cast<std::size_t>(y + 1)];
+      const Reach& below = reach[static_cast<std::size_t>(y) + 1];
       const double low = std::min(static_cast<double>(y) + above.low, y + 1.0 + below.low);
       const double high = std::max(static_cast<double>(y) + above.high, y + 1.0 + below.high);
       if (high < y0 || low > y1 - 1.0) continue;

@@ -50,6 +50,7 @@ void measure_copying(const MatchField& matches, const std::vector<Exemplar>& exe
   const Grid<std::uint8_t>* wanted = target.find(parameters.guide);
   std::array<std::size_t, 256> errors{};
   std::vector<Grid<std::uint32_t>> uses;
+  uses.reserve(exemplars.size());
   for (const Exemplar& exemplar : exemplars) uses.emplace_back(exemplar.picture.width(), exemplar.picture.height(), 0U);
   std::size_t matched = 0;
   std::size_t agreeing = 0;
@@ -207,6 +208,7 @@ SynthesisQuality measure_quality(const MatchField& matches, const std::vector<Ex
                 fmt::format("{} × {}, the size of the target", target.width(), target.height()));
   }
   std::vector<const Grid<Rgb8>*> layers;
+  layers.reserve(exemplars.size());
   for (const Exemplar& exemplar : exemplars) layers.push_back(&exemplar.picture);
   const Grid<Rgb8> output = replay(matches, layers, Grid<Rgb8>());
 

@@ -230,7 +230,7 @@ SpeckShares speck_shares(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& la
     for (int x = 0; x < picture.width(); ++x) {
       std::array<int, 9> around{};
       for (int j = -1; j <= 1; ++j) {
-        for (int i = -1; i <= 1; ++i) around[static_cast<std::size_t>(3 * j + i + 4)] = sum_of(picture.clamped(x + i, y + j));
+        for (int i = -1; i <= 1; ++i) around[3 * j + i + 4] = sum_of(picture.clamped(x + i, y + j));
       }
       std::nth_element(around.begin(), around.begin() + 4, around.end());
       const bool speck = std::abs(sum_of(picture(x, y)) - around[4]) > stands_out;

@@ -29,6 +29,7 @@ int run_job(const Options& options, Job job, const std::vector<std::string>& res
   progress.end();
 
   std::vector<std::string> paths;
+  paths.reserve(results.size());
   for (const std::string& name : results) paths.push_back((std::filesystem::path(folder) / name).string());
   if (options.scene.json) {
     Json files = Json::array();
