@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace belvedere {
 namespace {
@@ -20,8 +21,10 @@ TEST(GaussianNoise, HasMeanNoughtAndDeviationOneAtEachPlace) {
   // On a lattice point, between them, far from the origin, at negative places: a spline of white noise is stationary only
   // because each place is divided by its own weights.
   const double spacing = 30.0 * std::sqrt(3.0);
-  for (const auto& [x, y] :
-       {std::pair{0.0, 0.0}, {spacing / 2, spacing / 2}, {spacing, 0.3 * spacing}, {-1234.5, 77.0}, {690000.0, 5.25e6}}) {
+  for (const std::pair<double, double>& place : std::vector<std::pair<double, double>>{
+           {0.0, 0.0}, {spacing / 2, spacing / 2}, {spacing, 0.3 * spacing}, {-1234.5, 77.0}, {690000.0, 5.25e6}}) {
+    const double x = place.first;
+    const double y = place.second;
     const double mean = mean_over_seeds([&](std::uint64_t s) { return gaussian_noise(s, x, y, 30.0); });
     const double variance = mean_over_seeds([&](std::uint64_t s) { return std::pow(gaussian_noise(s, x, y, 30.0), 2); });
     EXPECT_NEAR(mean, 0.0, 4.0 / std::sqrt(4000.0)) << x << ' ' << y;

@@ -400,9 +400,9 @@ TEST(ReadPicture, TruncatedFilesAreFound) {
     for (const double part : {0.0, 0.02, 0.1, 0.5, 0.9, 0.995}) {
       test::write_bytes(folder / name,
                         std::string_view(whole).substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
-      EXPECT_EQ(kind_of([&] { read_picture(folder / name); }), ErrorKind::input) << name << " cut to " << part;
+      EXPECT_EQ(kind_of([path = folder / name] { read_picture(path); }), ErrorKind::input) << name << " cut to " << part;
       if (!name.ends_with("jpg")) {
-        EXPECT_EQ(kind_of([&] { read_grey(folder / name); }), ErrorKind::input) << name << " cut to " << part;
+        EXPECT_EQ(kind_of([path = folder / name] { read_grey(path); }), ErrorKind::input) << name << " cut to " << part;
       }
     }
   }
