@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -90,8 +91,16 @@ std::vector<SightLine> sight_lines(const CameraParameters& parameters, int count
   return lines;
 }
 
+Grid<float> known_altitude(const Dem& dem) {
+  Grid<float> known = dem.altitude_m;
+  if (!dem.filled.empty())
+    for (std::size_t i = 0; i < known.size(); ++i)
+      if (dem.filled[i] != 0) known[i] = std::numeric_limits<float>::quiet_NaN();
+  return known;
+}
+
 ValleySight make_valley_sight(const BareView& bare) {
-  return {bare.dem.altitude_m, bare.dem.transform, bare.deformation, bare.view.camera.eye.z,
+  return {known_altitude(bare.dem), bare.dem.transform, bare.deformation, bare.view.camera.eye.z,
           sight_lines(bare.view.camera, sight_line_count)};
 }
 

@@ -32,6 +32,8 @@ void bend_anew(BareView& bare, const BendCurve& bend);
 // The directions in which a camera looks over the land, evenly spaced, and how far down and up it shows in each. Throws Error(usage) for
 // parallel projections, whose lines of sight do not meet in an eye.
 std::vector<SightLine> sight_lines(const CameraParameters& camera, int count);
+// The DEM without what was filled: voids are no valley floor.
+Grid<float> known_altitude(const Dem& dem);
 ValleySight make_valley_sight(const BareView& bare);
 
 }  // namespace belvedere

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "renderer/base/angle.h"
@@ -163,18 +162,37 @@ ValleySight::ValleySight(const Grid<float>& altitude_m, const GeoTransform& tran
                           floor(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y))) != 0};
     }
   });
+  // The ground in view begins where the unbent ground enters the picture's lower edge (what lies nearer is under the frame), and the
+  // horizon lies where all but a twentieth of the ground is nearer: a bend need not care for a far corner of the terrain.
+  constexpr double beyond_horizon = 0.05;
   nearest_m_ = farthest;
-  const double angle = 2.0 * std::numbers::pi / 360.0 * (lines_.size() > 1 ? std::abs(lines_[1].azimuth_deg - lines_[0].azimuth_deg) : 1.0);
+  std::vector<double> ground(static_cast<std::size_t>(steps), 0.0);
+  double all_ground = 0.0;
   for (int row = 0; row < samples_.height(); ++row) {
     for (int k = 0; k < steps; ++k) {
-      if (std::isnan(samples_(k, row).height_m)) continue;
       const double distance = (k + 0.5) * step_m_;
-      nearest_m_ = std::min(nearest_m_, distance);
-      farthest_m_ = std::max(farthest_m_, distance);
-      if (samples_(k, row).floor) floor_m2_ += distance * step_m_ * angle;
+      if (std::isnan(samples_(k, row).height_m)) continue;
+      ground[static_cast<std::size_t>(k)] += distance;
+      all_ground += distance;
+      const double height = static_cast<double>(samples_(k, row).height_m) - curvature_drop_m_[static_cast<std::size_t>(k)];
+      if ((height - eye_m_) / distance >= lines_[static_cast<std::size_t>(row)].lowest) nearest_m_ = std::min(nearest_m_, distance);
     }
   }
+  double nearer = 0.0;
+  for (int k = 0; k < steps && nearer < (1.0 - beyond_horizon) * all_ground; ++k) {
+    nearer += ground[static_cast<std::size_t>(k)];
+    farthest_m_ = (k + 0.5) * step_m_;
+  }
   nearest_m_ = std::min(nearest_m_, farthest_m_);
+  const double angle = lines_.size() > 1 ? to_radians(std::abs(lines_[1].azimuth_deg - lines_[0].azimuth_deg)) : to_radians(1.0);
+  for (int row = 0; row < samples_.height(); ++row) {
+    for (int k = 0; k < steps; ++k) {
+      const double distance = (k + 0.5) * step_m_;
+      Sample& sample = samples_(k, row);
+      sample.floor = sample.floor && distance >= nearest_m_;
+      if (sample.floor) floor_m2_ += distance * step_m_ * angle;
+    }
+  }
 }
 
 double ValleySight::visible_share(const BendProfile& bend) const {

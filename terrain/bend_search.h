@@ -21,7 +21,7 @@ struct SightLine {
 // by one sweep outwards over each, that keeps the steepest sight so far. Any bend costs a few milliseconds.
 class ValleySight {
  public:
-  // altitude_m: the ungeneralized or generalized DEM. eye_m: height of the eye in the deformed world. Large grids are thinned by means of
+  // altitude_m: the DEM, NaN where there is none. eye_m: height of the eye in the deformed world. Large grids are thinned by means of
   // whole cells. Lines evenly spaced in azimuth.
   ValleySight(const Grid<float>& altitude_m, const GeoTransform& transform, const Deformation& deformation, double eye_m,
               std::vector<SightLine> lines);
@@ -30,7 +30,8 @@ class ValleySight {
   // ground sinks by drop_m(distance).
   double visible_share(const BendProfile& bend) const;
   double floor_km2() const { return floor_m2_ * 1e-6; }
-  // From the nearest to the farthest ground on the sight lines.
+  // From the nearest unbent ground that the picture's frame does not cut off, to the horizon: all but a twentieth of the ground is
+  // nearer. Only floors beyond the former count.
   double nearest_m() const { return nearest_m_; }
   double farthest_m() const { return farthest_m_; }
 

@@ -61,6 +61,7 @@ HandleField::HandleField(std::vector<DeformHandle> handles) : given_(std::move(h
     out.center = h.center;
     out.image = h.center + h.move_m;
     out.turn = angle == 0.0 ? glm::dvec2(scale, 0.0) : scale * glm::dvec2(std::cos(angle), std::sin(angle));
+    out.angle = angle;
     out.log_scale = std::log(scale);
     out.raise_m = h.raise_m;
     out.radius_m = h.radius_m;
@@ -115,6 +116,7 @@ HandleField::Moved HandleField::move(glm::dvec2 v) const {
     if (h.radius_m > 0.0) {
       const double share = 1.0 - quintic_smoothstep((distance - h.core_m) / (h.radius_m - h.core_m));
       if (share >= 1.0) return carry(h, v);
+      if (share <= 0.0) continue;
       weight = share / (1.0 - share);
       reach2 = h.radius_m * h.radius_m;
     } else {
@@ -130,32 +132,36 @@ HandleField::Moved HandleField::move(glm::dvec2 v) const {
   // Together the handles without a radius weigh at least as much as the ground that would hold on without them, and near each it
   // outweighs all others.
   const double hold = unlimited > 0.0 ? 0.0 : 1.0;
-  double total = hold;
+  double weights = 0.0;
   double spread = 0.0;
-  glm::dvec2 from(0.0);  // weighted centroids relative to v
-  glm::dvec2 to(0.0);
+  glm::dvec2 from(0.0);  // weighted centroids relative to v, of the centres and of where they go
+  glm::dvec2 shift(0.0);
   double raise = 0.0;
   each([&](Active& a) {
     if (a.handle->radius_m <= 0.0) a.weight *= 1.0 / unlimited + near_m * near_m;
-    total += a.weight;
+    weights += a.weight;
     spread += a.weight * a.reach2;
     from += a.weight * (a.handle->center - v);
-    to += a.weight * (a.handle->image - v);
+    shift += a.weight * (a.handle->image - a.handle->center);
     raise += a.weight * a.handle->raise_m;
   });
-  from /= total;
-  to /= total;
-  const double hold_reach2 = hold > 0.0 ? spread / (total - hold) : 0.0;
-  glm::dvec2 turn = hold * (times(conjugate(from), to) + glm::dvec2(hold_reach2, 0.0));
+  const double total = weights + hold;
+  from /= weights;
+  const glm::dvec2 to = from + shift / total;
+  const double held = hold / weights;  // share of each handle's weight with which its centre would stay
+  glm::dvec2 turn(0.0);
+  double angle = 0.0;
   double log_scale = 0.0;
-  double framed = hold * hold_reach2;
+  double framed = held * spread;
   each([&](const Active& a) {
-    turn += a.weight * times(conjugate(a.handle->center - v - from), a.handle->image - v - to);
+    const glm::dvec2 arm = conjugate(a.handle->center - v - from);
+    turn += a.weight * times(arm, a.handle->image - v - to) + a.weight * held * times(arm, a.handle->center - v - to);
     if (a.handle->pin) return;
-    turn += a.weight * a.reach2 * a.handle->turn;
+    angle += a.weight * a.reach2 * a.handle->angle;
     log_scale += a.weight * a.reach2 * a.handle->log_scale;
     framed += a.weight * a.reach2;
   });
+  if (framed > 0.0) turn += framed * glm::dvec2(std::cos(angle / framed), std::sin(angle / framed));
   const double length = std::hypot(turn.x, turn.y);
   const double scale = framed > 0.0 ? std::exp(log_scale / framed) : 1.0;
   turn = length > 0.0 ? turn * (scale / length) : glm::dvec2(scale, 0.0);

@@ -22,12 +22,15 @@ struct DeformHandle {
 // Handles brought together by moving least squares (Schaefer, McPhail & Warren 2006, rigid form) with compact support.
 //
 // At a place v, handle i has weight w_i = s / (1 - s), s falling from 1 at the core's edge to 0 at the radius by the quintic
-// smoothstep, and the place itself holds on with weight 1 ("stay where you are"). The similarity A that leaves least of
-//   Σ w_i (|A p_i - q_i|² + radius_i² |M - M_i|²) + |A v - v|² + …, p_i → q_i the centres, M_i the handles' rotations,
-// moves v; its rotation is Schaefer's closed form, its scale the weighted geometric mean of the handles' scales (their least-squares scale
-// would shrink what lies between a turned mountain and still ground). So the transform is exact in a core, identity from the radius on,
-// and twice continuously differentiable between and across both. Handles without a radius have weights 1 / (distance from the core)²,
-// and the place does not hold on: they carry the plane with them, exactly so where they all say the same.
+// smoothstep, and against all of them, with weight 1, stands the ground that would stay. The similarity A that leaves least of
+//   Σ w_i (|A p_i - q_i|² + r_i² |M - M_i|²) + Σ w_i / Σ w · (|A p_i - p_i|² + r_i² |M - 1|²)
+// moves v: p_i → q_i the centres, r_i the radii, M_i the handles' rotations, M that of A. Its rotation is Schaefer's closed form, its scale
+// the weighted geometric mean of the handles' scales (their least-squares scale would shrink what lies between a turned mountain and
+// still ground); likewise the rotations M_i and 1 enter by the mean of their angles, so that large turns fade evenly. So the transform is
+// exact in a core, identity from the radius on, and twice continuously differentiable between and across both. One turned handle twists the
+// belt between, which keeps areas and so folds nothing; one moved by more than (radius - core) / 1.9 folds the ground before it. Handles
+// without a radius have weights that grow with 1 / (distance from the core)², and no ground stays: they carry the plane with them, exactly
+// so where they all say the same.
 class HandleField {
  public:
   HandleField() = default;
@@ -50,8 +53,9 @@ class HandleField {
   struct Handle {
     glm::dvec2 center;
     glm::dvec2 image;
-    glm::dvec2 turn;  // complex number of the rotation, times the scale
-    double log_scale;
+    glm::dvec2 turn;   // complex number of the rotation, times the scale
+    double angle;      // of it, counter-clockwise, rad
+    double log_scale;  // of its length
     double raise_m;
     double radius_m;
     double core_m;

@@ -23,6 +23,7 @@ Command add_render(CLI::App& program);
 Command add_guidance(CLI::App& program);
 Command add_synthesize(CLI::App& program);
 Command add_check(CLI::App& program);
+Command add_deform(CLI::App& program);
 Command add_info(CLI::App& program);
 Command add_diff(CLI::App& program);
 Command add_schema(CLI::App& program);

@@ -28,6 +28,18 @@ TEST(Fold, NoneWithoutHandlesAndNoneWhereATurnIsWideEnough) {
       find_folds(flat, frame, with({{.center = {10000.0, 10000.0}, .rotate_deg = 90.0, .radius_m = 9000.0, .core_m = 3000.0}})).empty());
 }
 
+TEST(Fold, ATurnFoldsNothingAndAMoveFromItsLimitOn) {
+  // A twist keeps areas (until it outruns the facets). Moves fold where the share falls faster than they are long: steepest 15/8 over the belt.
+  EXPECT_TRUE(
+      find_folds(flat, frame, with({{.center = {10000.0, 10000.0}, .rotate_deg = 110.0, .radius_m = 8000.0, .core_m = 3000.0}})).empty());
+  const auto folds = [&](double move) {
+    return find_folds(flat, frame, with({{.center = {10000.0, 10000.0}, .move_m = {move, 0.0}, .radius_m = 7000.0, .core_m = 3000.0}}))
+        .size();
+  };
+  EXPECT_EQ(folds(0.97 * 4000.0 * 8.0 / 15.0), 0U);
+  EXPECT_GT(folds(1.03 * 4000.0 * 8.0 / 15.0), 0U);
+}
+
 TEST(Fold, IsFoundWhereAMovedCoreRunsOverTheGroundBeforeIt) {
   // 3 km east, over a belt of 2 km: the ground there folds, east of the core; on the west it is stretched.
   const std::vector<DeformHandle> handles = {{.center = {4000.0, 4000.0}, .move_m = {300.0, 0.0}, .radius_m = 3500.0, .core_m = 1000.0},
@@ -52,7 +64,7 @@ TEST(Fold, IsFoundWhereAMovedCoreRunsOverTheGroundBeforeIt) {
 
 TEST(Fold, AgreesWithTheSignOfAreasAllOverTheGrid) {
   const Deformation deformation =
-      with({{.center = {9000.0, 11000.0}, .move_m = {-900.0, 1800.0}, .rotate_deg = 120.0, .radius_m = 4000.0, .core_m = 1500.0}});
+      with({{.center = {9000.0, 11000.0}, .move_m = {-900.0, 2400.0}, .rotate_deg = 120.0, .radius_m = 4000.0, .core_m = 1500.0}});
   std::size_t turned_over = 0;
   const auto place = [&](int x, int y) { return glm::dvec2(deformation.point({frame.to_crs(x, y), 500.0})); };
   const auto area = [](glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); };

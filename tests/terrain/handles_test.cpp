@@ -62,6 +62,23 @@ TEST(Handles, ATurnIsExactInItsCoreAndNothingOutsideItsRadius) {
   EXPECT_GT(glm::length(field.move(middle + glm::dvec2(5000.0, 0.0)).place - middle - glm::dvec2(5000.0, 0.0)), 100.0);
 }
 
+TEST(Handles, BetweenCoreAndRadiusATurnFadesAndKeepsDistances) {
+  const HandleField field({turn_50()});
+  double before = 50.0;
+  for (double d = 3000.0; d <= 8000.0; d += 100.0) {
+    const glm::dvec2 moved = field.move(middle + glm::dvec2(0.0, d)).place - middle;
+    EXPECT_NEAR(glm::length(moved), d, 1e-6);
+    const double angle = to_degrees(std::atan2(moved.x, moved.y));
+    EXPECT_LE(angle, before + 1e-9);
+    EXPECT_GE(angle, -1e-9);
+    before = angle;
+  }
+  // Half-way the two rotations weigh the same.
+  EXPECT_NEAR(to_degrees(std::atan2(field.move(middle + glm::dvec2(0.0, 5500.0)).place.x - middle.x,
+                                    field.move(middle + glm::dvec2(0.0, 5500.0)).place.y - middle.y)),
+              25.0, 1e-9);
+}
+
 TEST(Handles, EdgesHaveNoStepAndNoKink) {
   DeformHandle handle = turn_50();
   handle.move_m = {700.0, -300.0};

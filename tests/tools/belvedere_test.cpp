@@ -36,7 +36,7 @@ TEST_F(Program, HelpAndVersionAreAnswers) {
   EXPECT_THAT(help.out, AllOf(HasSubstr("render"), HasSubstr("synthesize"), HasSubstr("Exit status"), HasSubstr("scenes/karwendel.toml")));
   EXPECT_THAT(help.err, IsEmpty());
   EXPECT_THAT(run({"--version"}).out, AllOf(HasSubstr("belvedere 0."), HasSubstr("Embree")));
-  for (const char* command : {"render", "guidance", "synthesize", "check", "info", "diff", "schema"}) {
+  for (const char* command : {"render", "guidance", "synthesize", "check", "deform", "info", "diff", "schema"}) {
     const Outcome one = run({command, "--help"});
     EXPECT_EQ(one.status, 0) << command;
     EXPECT_THAT(one.out, HasSubstr("  belvedere " + std::string(command))) << "no example";

@@ -15,6 +15,7 @@
 
 namespace belvedere::bench {
 
+std::vector<Measurement> bench_deform(const Options&);
 std::vector<Measurement> bench_files(const Options&);
 std::vector<Measurement> bench_generalize(const Options&);
 std::vector<Measurement> bench_guidance(const Options&);
@@ -28,6 +29,7 @@ const std::vector<Section>& sections() {
       {"trace", "building the structure and tracing rays, beside a bare Embree loop over the same rays", &bench_trace},
       {"guidance", "a whole picture's guidance buffers", &bench_guidance},
       {"generalize", "generalization of the terrain", &bench_generalize},
+      {"deform", "bending the terrain, and moving pieces of it", &bench_deform},
       {"synthesis", "painting by example, with one guide and with seven", &bench_synthesis},
       {"files", "writing and reading TIFF, PNG and OpenEXR", &bench_files},
   };
