@@ -250,7 +250,7 @@ Command add_deform(CLI::App& program) {
       "  belvedere deform scenes/karwendel.toml --data ../data --search-bend --out bend.png\n"
       "  belvedere deform scenes/karwendel.toml --data ../data --locate 681500,5237300 --at 1200,700\n"
       "  belvedere deform dem.tif bent.tif --viewer 692000,5302000 --exaggeration 1.6 --bend 30000:20,60000:8,90000:0\n"
-      "  belvedere deform dem.tif turned.tif --handle \"672000,5253000 radius=8000 core=3500 rotate=50\"");
+      "  belvedere deform dem.tif turned.tif --handle \"674000,5253500 radius=12000 core=4000 rotate=50\"");
   return {command, [options] { return run(*options); }};
 }
 
