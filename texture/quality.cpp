@@ -20,20 +20,16 @@ namespace {
 
 using quality::Histogram;
 
-struct Sizes {
-  std::size_t pixels = 0;
-  std::size_t texels = 0;
-};
-
 // Mean of f over exemplars, weighted by the class's texels there; NaN values drop out.
 template <class F>
 double over_exemplars(const std::vector<Exemplar>& exemplars, std::uint8_t label, F&& f) {
   double sum = 0.0;
   double weights = 0.0;
-  for (const Exemplar& exemplar : exemplars) {
-    const double weight = static_cast<double>(std::count(exemplar.guides.label.begin(), exemplar.guides.label.end(), label));
+  for (std::size_t e = 0; e < exemplars.size(); ++e) {
+    const Grid<std::uint8_t>& labels = exemplars[e].guides.label;
+    const double weight = static_cast<double>(std::count(labels.begin(), labels.end(), label));
     if (weight == 0.0) continue;
-    const double value = f(exemplar);
+    const double value = f(e);
     if (std::isnan(value)) continue;
     sum += weight * value;
     weights += weight;
@@ -115,49 +111,67 @@ void measure_pieces(const MatchField& matches, const GuideStack& target, float d
   if (jumps > 0) quality.across_silhouettes = static_cast<double>(across) / static_cast<double>(jumps);
 }
 
-// Colour histograms of a class: of the output, of the exemplars, and of the exemplars with each texel weighted so that guide and
-// distance from borders are spread as in the target.
+constexpr std::size_t guide_steps = 16;
+constexpr std::size_t border_steps = 5;  // within 2, 4, 8, 15 pixels, and beyond
+
+std::size_t border_step(std::uint8_t squared) { return squared <= 4 ? 0 : squared <= 16 ? 1 : squared <= 64 ? 2 : squared < 225 ? 3 : 4; }
+
+// What is measured of all pictures before classes are gone through.
+struct Borders {
+  Grid<std::uint8_t> target;
+  std::vector<Grid<std::uint8_t>> exemplars;
+};
+
+// Weights of the texels of a class by which guide and distance from borders are spread as in the target.
+void weigh_texels(const std::vector<Exemplar>& exemplars, const GuideStack& target, const Borders& borders, const std::string& guide,
+                  std::uint8_t label, std::vector<Grid<float>>& weights) {
+  const auto cell = [](const Grid<std::uint8_t>* values, const Grid<std::uint8_t>& distances, std::size_t i) {
+    return (values == nullptr ? 0U : static_cast<std::size_t>((*values)[i]) * guide_steps / 256) * border_steps + border_step(distances[i]);
+  };
+  bool shared = target.find(guide) != nullptr;
+  for (const Exemplar& exemplar : exemplars) shared = shared && exemplar.guides.find(guide) != nullptr;
+  std::array<double, guide_steps * border_steps> wanted{};
+  std::array<double, guide_steps * border_steps> offered{};
+  const Grid<std::uint8_t>* values = shared ? target.find(guide) : nullptr;
+  for (std::size_t i = 0; i < target.label.size(); ++i) {
+    if (target.label[i] == label) ++wanted[cell(values, borders.target, i)];
+  }
+  for (int pass = 0; pass < 2; ++pass) {
+    for (std::size_t e = 0; e < exemplars.size(); ++e) {
+      const GuideStack& stack = exemplars[e].guides;
+      const Grid<std::uint8_t>* texel_values = shared ? stack.find(guide) : nullptr;
+      for (std::size_t i = 0; i < stack.label.size(); ++i) {
+        if (stack.label[i] != label) continue;
+        const std::size_t at = cell(texel_values, borders.exemplars[e], i);
+        if (pass == 0)
+          ++offered[at];
+        else
+          weights[e][i] = static_cast<float>(wanted[at] / offered[at]);
+      }
+    }
+  }
+}
+
 struct ClassColours {
   std::array<Histogram, 3> output{};
   std::array<Histogram, 3> exemplars{};
   std::array<Histogram, 3> reweighted{};
 };
 
-constexpr std::size_t guide_steps = 16;
-constexpr std::size_t border_steps = 5;  // within 2, 4, 8, 15 pixels, and beyond
-
-std::size_t border_step(std::uint8_t squared) { return squared <= 4 ? 0 : squared <= 16 ? 1 : squared <= 64 ? 2 : squared < 225 ? 3 : 4; }
-
-ClassColours colours_of_class(const Grid<Rgb8>& output, const std::vector<Exemplar>& exemplars, const GuideStack& target,
-                              const Grid<std::uint8_t>& target_borders, const std::vector<Grid<std::uint8_t>>& exemplar_borders,
-                              const std::string& guide, std::uint8_t label) {
+ClassColours colours_of_class(const Grid<Rgb8>& output, const Grid<std::uint8_t>& labels, const std::vector<Exemplar>& exemplars,
+                              const std::vector<Grid<float>>& weights, std::uint8_t label) {
   ClassColours colours;
-  const auto cell = [](const Grid<std::uint8_t>* values, const Grid<std::uint8_t>& borders, std::size_t i) {
-    return (values == nullptr ? 0U : static_cast<std::size_t>((*values)[i]) * guide_steps / 256) * border_steps + border_step(borders[i]);
-  };
-  std::array<double, guide_steps * border_steps> wanted{};
-  std::array<double, guide_steps * border_steps> offered{};
-  const Grid<std::uint8_t>* values = target.find(guide);
-  for (const Exemplar& exemplar : exemplars)
-    if (exemplar.guides.find(guide) == nullptr) values = nullptr;
   for (std::size_t i = 0; i < output.size(); ++i) {
-    if (target.label[i] != label) continue;
-    ++wanted[cell(values, target_borders, i)];
+    if (labels[i] != label) continue;
     for (std::size_t c = 0; c < 3; ++c) colours.output[c][output[i][c]] += 1.0;
   }
-  for (int pass = 0; pass < 2; ++pass) {
-    for (std::size_t e = 0; e < exemplars.size(); ++e) {
-      const Exemplar& exemplar = exemplars[e];
-      const Grid<std::uint8_t>* texel_values = values == nullptr ? nullptr : exemplar.guides.find(guide);
-      for (std::size_t i = 0; i < exemplar.picture.size(); ++i) {
-        if (exemplar.guides.label[i] != label) continue;
-        const std::size_t at = cell(texel_values, exemplar_borders[e], i);
-        if (pass == 0) ++offered[at];
-        for (std::size_t c = 0; c < 3; ++c) {
-          const std::uint8_t value = exemplar.picture[i][c];
-          if (pass == 0) colours.exemplars[c][value] += 1.0;
-          if (pass == 1) colours.reweighted[c][value] += wanted[at] / offered[at];
-        }
+  for (std::size_t e = 0; e < exemplars.size(); ++e) {
+    for (std::size_t i = 0; i < exemplars[e].picture.size(); ++i) {
+      if (exemplars[e].guides.label[i] != label) continue;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::uint8_t value = exemplars[e].picture[i][c];
+        colours.exemplars[c][value] += 1.0;
+        colours.reweighted[c][value] += static_cast<double>(weights[e][i]);
       }
     }
   }
@@ -166,6 +180,50 @@ ClassColours colours_of_class(const Grid<Rgb8>& output, const std::vector<Exempl
 
 double colour_distance(const std::array<Histogram, 3>& a, const std::array<Histogram, 3>& b) {
   return (quality::wasserstein(a[0], b[0]) + quality::wasserstein(a[1], b[1]) + quality::wasserstein(a[2], b[2])) / 3.0;
+}
+
+void measure_whole_picture(const Grid<Rgb8>& output, const std::vector<Exemplar>& exemplars, const Borders& borders,
+                           const QualityParameters& parameters, SynthesisQuality& quality) {
+  const SpeckShares specks = speck_shares(output, borders.target);
+  SpeckShares usual;
+  double self = 0.0;
+  double area = 0.0;
+  for (std::size_t e = 0; e < exemplars.size(); ++e) {
+    const double weight = static_cast<double>(exemplars[e].picture.size());
+    const SpeckShares here = speck_shares(exemplars[e].picture, borders.exemplars[e]);
+    usual.inside += weight * here.inside;
+    usual.border += weight * here.border;
+    if (parameters.repeat_samples > 0) self += weight * self_distance(exemplars[e].picture, parameters.repeat_samples);
+    area += weight;
+  }
+  quality.specks_inside = specks.inside / std::max(usual.inside / area, 1e-6);
+  quality.specks_border = specks.border / std::max(usual.border / area, 1e-6);
+  if (parameters.repeat_samples > 0) quality.self_repeat = ratio(self_distance(output, parameters.repeat_samples), self / area);
+}
+
+ClassQuality measure_class(const Grid<Rgb8>& output, const std::vector<Exemplar>& exemplars, const GuideStack& target,
+                           const Borders& borders, const std::vector<Grid<float>>& weights, std::uint8_t label) {
+  ClassQuality of;
+  of.label = label;
+  of.sharpness = ratio(mean_gradient(output, target.label, borders.target, label), over_exemplars(exemplars, label, [&](std::size_t e) {
+                         return mean_gradient(exemplars[e].picture, exemplars[e].guides.label, borders.exemplars[e], label);
+                       }));
+  const int tolerance = static_cast<int>(std::lround(over_exemplars(exemplars, label, [&](std::size_t e) {
+    return static_cast<double>(stroke_tolerance(exemplars[e].picture, exemplars[e].guides.label, label));
+  })));
+  of.stroke_run =
+      ratio(stroke_run(output, target.label, borders.target, label, tolerance), over_exemplars(exemplars, label, [&](std::size_t e) {
+              return stroke_run(exemplars[e].picture, exemplars[e].guides.label, borders.exemplars[e], label, tolerance);
+            }));
+  const quality::CliqueDistances cliques = quality::clique_distances(output, target.label, exemplars, weights, label);
+  of.clique_distance = cliques.distance;
+  of.clique_floor = cliques.floor;
+  of.clique_beyond_floor = cliques.beyond_floor;
+  const ClassColours colours = colours_of_class(output, target.label, exemplars, weights, label);
+  of.colour_distance = colour_distance(colours.output, colours.exemplars);
+  of.colour_floor = colour_distance(colours.reweighted, colours.exemplars);
+  of.colour_beyond_floor = colour_distance(colours.output, colours.reweighted);
+  return of;
 }
 
 }  // namespace
@@ -216,53 +274,25 @@ SynthesisQuality measure_quality(const MatchField& matches, const std::vector<Ex
   measure_copying(matches, exemplars, target, parameters, quality);
   measure_pieces(matches, target, parameters.depth_ratio, quality);
 
-  const SpeckShares specks = speck_shares(output, target.label);
-  SpeckShares usual;
-  double self = 0.0;
-  double area = 0.0;
-  for (const Exemplar& exemplar : exemplars) {
-    const double weight = static_cast<double>(exemplar.picture.size());
-    const SpeckShares here = speck_shares(exemplar.picture, exemplar.guides.label);
-    usual.inside += weight * here.inside;
-    usual.border += weight * here.border;
-    if (parameters.repeat_samples > 0) self += weight * self_distance(exemplar.picture, parameters.repeat_samples);
-    area += weight;
-  }
-  quality.specks_inside = specks.inside / std::max(usual.inside / area, 1e-6);
-  quality.specks_border = specks.border / std::max(usual.border / area, 1e-6);
-  if (parameters.repeat_samples > 0) quality.self_repeat = ratio(self_distance(output, parameters.repeat_samples), self / area);
+  Borders borders{border_distance_squared(target.label), {}};
+  for (const Exemplar& exemplar : exemplars) borders.exemplars.push_back(border_distance_squared(exemplar.guides.label));
+  measure_whole_picture(output, exemplars, borders, parameters, quality);
 
-  const Grid<std::uint8_t> target_borders = border_distance_squared(target.label);
-  std::vector<Grid<std::uint8_t>> exemplar_borders;
-  for (const Exemplar& exemplar : exemplars) exemplar_borders.push_back(border_distance_squared(exemplar.guides.label));
-  std::array<Sizes, 256> sizes{};
-  for (const std::uint8_t label : target.label) ++sizes[label].pixels;
+  std::vector<Grid<float>> weights;
+  for (const Exemplar& exemplar : exemplars) weights.emplace_back(exemplar.picture.width(), exemplar.picture.height(), 0.0F);
+  std::array<std::size_t, 256> pixels{};
+  std::array<std::size_t, 256> texels{};
+  for (const std::uint8_t label : target.label) ++pixels[label];
   for (const Exemplar& exemplar : exemplars) {
-    for (const std::uint8_t label : exemplar.guides.label) ++sizes[label].texels;
+    for (const std::uint8_t label : exemplar.guides.label) ++texels[label];
   }
   for (std::size_t l = 0; l < unused_label; ++l) {
-    if (sizes[l].pixels == 0 || sizes[l].texels == 0) continue;
-    ClassQuality of;
-    of.label = static_cast<std::uint8_t>(l);
-    of.pixels = sizes[l].pixels;
-    of.texels = sizes[l].texels;
-    const std::uint8_t label = of.label;
-    of.sharpness = ratio(mean_gradient(output, target.label, label), over_exemplars(exemplars, label, [&](const Exemplar& exemplar) {
-                           return mean_gradient(exemplar.picture, exemplar.guides.label, label);
-                         }));
-    const int tolerance = static_cast<int>(std::lround(over_exemplars(exemplars, label, [&](const Exemplar& exemplar) {
-      return static_cast<double>(stroke_tolerance(exemplar.picture, exemplar.guides.label, label));
-    })));
-    of.stroke_run =
-        ratio(stroke_run(output, target.label, label, tolerance), over_exemplars(exemplars, label, [&](const Exemplar& exemplar) {
-                return stroke_run(exemplar.picture, exemplar.guides.label, label, tolerance);
-              }));
-    of.clique_distance = quality::clique_distance(output, target.label, exemplars, label);
-    const ClassColours colours = colours_of_class(output, exemplars, target, target_borders, exemplar_borders, parameters.guide, label);
-    of.colour_distance = colour_distance(colours.output, colours.exemplars);
-    of.colour_floor = colour_distance(colours.reweighted, colours.exemplars);
-    of.colour_beyond_floor = colour_distance(colours.output, colours.reweighted);
-    quality.classes.push_back(of);
+    if (pixels[l] == 0 || texels[l] == 0) continue;
+    const std::uint8_t label = static_cast<std::uint8_t>(l);
+    weigh_texels(exemplars, target, borders, parameters.guide, label, weights);
+    quality.classes.push_back(measure_class(output, exemplars, target, borders, weights, label));
+    quality.classes.back().pixels = pixels[l];
+    quality.classes.back().texels = texels[l];
   }
   return quality;
 }

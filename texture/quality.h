@@ -18,14 +18,16 @@ namespace belvedere {
 
 struct ClassQuality {
   std::uint8_t label = 0;
-  std::size_t pixels = 0;        // of the target
-  std::size_t texels = 0;        // of all exemplars
-  double sharpness = 0.0;        // mean gradient of grey inside the class, output / exemplar; 0: no inside
-  double clique_distance = 0.0;  // mean L1 distance (0…2) of histograms of grey differences over 20 pixel pairs up to 16 pixels apart
-  double colour_distance = 0.0;  // Wasserstein-1 of R, G, B, mean over the three, grey levels of 255
-  double colour_floor = 0.0;     // the same between the exemplar and the exemplar reweighted to the target's guide and border distances:
-                                 // what other altitudes and more border make by themselves
-  double colour_beyond_floor = 0.0;  // the same between the output and the reweighted exemplar: what synthesis adds
+  std::size_t pixels = 0;            // of the target
+  std::size_t texels = 0;            // of all exemplars
+  double sharpness = 0.0;            // mean gradient of grey inside the class, output / exemplar; 0: no inside
+  double clique_distance = 0.0;      // mean L1 distance (0…2) of histograms of grey differences over 20 pixel pairs up to 16 pixels apart
+  double clique_floor = 0.0;         // the same between the exemplar and the exemplar reweighted to the target's guide and border
+                                     // distances: what other altitudes and more border make by themselves
+  double clique_beyond_floor = 0.0;  // the same between the output and the reweighted exemplar: what synthesis adds
+  double colour_distance = 0.0;      // Wasserstein-1 of R, G, B, mean over the three, grey levels of 255
+  double colour_floor = 0.0;         // as clique_floor
+  double colour_beyond_floor = 0.0;  // as clique_beyond_floor
   double stroke_run = 0.0;           // mean run along the strokes, output / exemplar; 0: no inside
 };
 
@@ -60,11 +62,13 @@ SynthesisQuality measure_quality(const MatchField& matches, const std::vector<Ex
 
 // Squared distance to the nearest pixel on a border of classes (one that differs from its left or upper neighbour), at most 255.
 Grid<std::uint8_t> border_distance_squared(const Grid<std::uint8_t>& labels);
+// The parts below take it as `borders`.
 // Mean grey gradient (central differences) inside a class; NaN where there is no inside.
-double mean_gradient(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, std::uint8_t label);
+double mean_gradient(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& borders, std::uint8_t label);
 // Mean length, in pixels, of the run through every third pixel inside a class, along the direction in which it is longest: the pixels of
 // a run stay in the class and within `tolerance` (of r + g + b) of the pixel. At most 65. NaN where there is no inside.
-double stroke_run(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, std::uint8_t label, int tolerance);
+double stroke_run(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& borders, std::uint8_t label,
+                  int tolerance);
 // The tolerance that goes with an exemplar's class: half its median deviation of r + g + b over 7 × 7 pixels.
 int stroke_tolerance(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, std::uint8_t label);
 // Share of pixels that stand out from the median of their 3 × 3, inside classes and at borders.
@@ -72,7 +76,7 @@ struct SpeckShares {
   double inside = 0.0;
   double border = 0.0;
 };
-SpeckShares speck_shares(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels);
+SpeckShares speck_shares(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& borders);
 // Sizes of the 4-connected pieces of constant offset, largest first.
 std::vector<std::size_t> piece_sizes(const MatchField& matches);
 // Mean over sampled 7 × 7 patches of the root mean squared difference to the most alike patch (every second pixel each way, every

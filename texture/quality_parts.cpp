@@ -67,36 +67,54 @@ constexpr std::array<std::array<int, 2>, 20> clique_steps{{{1, 0},  {0, 1},  {1,
                                                            {16, 0}, {0, 16}, {12, 6}, {6, 12}, {12, -6}, {6, -12}}};
 using Differences = std::array<double, 64>;
 
-// Adds the differences (first minus second pixel, first the left one) of a picture to a histogram.
-void add_differences(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, std::uint8_t label, int dx, int dy, Differences& counts) {
+// Adds the differences (first minus second pixel, first the left one) of a picture to a histogram; returns how many.
+std::size_t add_differences(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, std::uint8_t label, int dx, int dy,
+                            const Grid<float>* weights, Differences& counts) {
+  std::size_t pairs = 0;
   for (int y = std::max(0, -dy); y < picture.height() - std::max(0, dy); ++y) {
     for (int x = 0; x + dx < picture.width(); ++x) {
       if (labels(x, y) != label || labels(x + dx, y + dy) != label) continue;
       const int difference = sum_of(picture(x, y)) - sum_of(picture(x + dx, y + dy));  // three times that of grey
-      counts[static_cast<std::size_t>((difference + 768) / 24)] += 1.0;
+      counts[static_cast<std::size_t>((difference + 768) / 24)] += weights == nullptr ? 1.0 : static_cast<double>((*weights)(x, y));
+      ++pairs;
     }
   }
+  return pairs;
+}
+
+double difference(const Differences& a, const Differences& b) {
+  const double of_a = std::accumulate(a.begin(), a.end(), 0.0);
+  const double of_b = std::accumulate(b.begin(), b.end(), 0.0);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] / of_a - b[i] / of_b);
+  return sum;
 }
 
 }  // namespace
 
-double clique_distance(const Grid<Rgb8>& output, const Grid<std::uint8_t>& labels, const std::vector<Exemplar>& exemplars,
-                       std::uint8_t label) {
-  constexpr double fewest_pairs = 500.0;
-  double sum = 0.0;
+CliqueDistances clique_distances(const Grid<Rgb8>& output, const Grid<std::uint8_t>& labels, const std::vector<Exemplar>& exemplars,
+                                 const std::vector<Grid<float>>& weights, std::uint8_t label) {
+  constexpr std::size_t fewest_pairs = 500;
+  CliqueDistances sums;
   int compared = 0;
   for (const auto& [dx, dy] : clique_steps) {
-    Differences a{};
-    Differences b{};
-    add_differences(output, labels, label, dx, dy, a);
-    for (const Exemplar& exemplar : exemplars) add_differences(exemplar.picture, exemplar.guides.label, label, dx, dy, b);
-    const double of_a = std::accumulate(a.begin(), a.end(), 0.0);
-    const double of_b = std::accumulate(b.begin(), b.end(), 0.0);
-    if (of_a < fewest_pairs || of_b < fewest_pairs) continue;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] / of_a - b[i] / of_b);
+    Differences of_output{};
+    Differences plain{};
+    Differences reweighted{};
+    std::size_t offered = 0;
+    const std::size_t made = add_differences(output, labels, label, dx, dy, nullptr, of_output);
+    for (std::size_t e = 0; e < exemplars.size(); ++e) {
+      offered += add_differences(exemplars[e].picture, exemplars[e].guides.label, label, dx, dy, nullptr, plain);
+      add_differences(exemplars[e].picture, exemplars[e].guides.label, label, dx, dy, &weights[e], reweighted);
+    }
+    if (made < fewest_pairs || offered < fewest_pairs) continue;
+    sums.distance += difference(of_output, plain);
+    sums.floor += difference(reweighted, plain);
+    sums.beyond_floor += difference(of_output, reweighted);
     ++compared;
   }
-  return compared > 0 ? sum / compared : 0.0;
+  if (compared > 0) sums = {sums.distance / compared, sums.floor / compared, sums.beyond_floor / compared};
+  return sums;
 }
 
 }  // namespace quality
@@ -138,8 +156,7 @@ Grid<std::uint8_t> border_distance_squared(const Grid<std::uint8_t>& labels) {
   return out;
 }
 
-double mean_gradient(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, std::uint8_t label) {
-  const Grid<std::uint8_t> borders = border_distance_squared(labels);
+double mean_gradient(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& borders, std::uint8_t label) {
   double sum = 0.0;
   std::size_t count = 0;
   // Central differences, one-sided at the picture's sides.
@@ -178,7 +195,8 @@ int stroke_tolerance(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels
   return count == 0 ? 0 : static_cast<int>(quality::quantile(deviations.data(), deviations.size(), 0.5) / 2.0);
 }
 
-double stroke_run(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, std::uint8_t label, int tolerance) {
+double stroke_run(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& borders, std::uint8_t label,
+                  int tolerance) {
   constexpr int directions = 16;
   constexpr int longest = 32;  // each way
   constexpr double pi = 3.14159265358979323846;
@@ -193,7 +211,6 @@ double stroke_run(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, s
                      static_cast<int>(std::lround(static_cast<double>(t) * std::sin(angle) / longer))};
     }
   }
-  const Grid<std::uint8_t> borders = border_distance_squared(labels);
   std::vector<double> sums(static_cast<std::size_t>(picture.height()), 0.0);
   std::vector<std::size_t> counts(sums.size(), 0);
   parallel_rows((picture.height() + 2) / 3, [&](int row) {
@@ -222,9 +239,8 @@ double stroke_run(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, s
   return count > 0 ? sum / static_cast<double>(count) : std::numeric_limits<double>::quiet_NaN();
 }
 
-SpeckShares speck_shares(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels) {
+SpeckShares speck_shares(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& borders) {
   constexpr int stands_out = 90;  // 30 levels of grey
-  const Grid<std::uint8_t> borders = border_distance_squared(labels);
   std::size_t inside = 0, inside_specks = 0, border = 0, border_specks = 0;
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {

@@ -126,6 +126,8 @@ struct Search {
   const std::uint8_t* wanted = nullptr;
   Slack slack;
   alignas(8) std::uint8_t free[vector_guides] = {};  // slack of each guide, for GuideCost
+  Surroundings around;
+  Forbidden forbidden;
   Patch patch;
   std::uint32_t own = 0;
   std::uint32_t best = 0;
@@ -144,6 +146,8 @@ struct Search {
       free[1] = static_cast<std::uint8_t>(std::min(255, slack.bucketed));
       for (int g = 2; g < count && slack.others != nullptr; ++g) free[g] = slack.others[g];
     }
+    if (state.around_price != nullptr) around = state.wanted_around[pixel];
+    if (state.links != nullptr && (state.links[pixel] & link::all) != link::all) forbidden = forbidden_texels(state, pixel);
     own = best = state.match[pixel];
     LoadPatch(state, pixel, patch);
   }
@@ -171,6 +175,10 @@ struct Search {
     return static_cast<std::int64_t>(hn::GetLane(hn::SumOfLanes(d32, sum)) >> 4);
   }
 
+  HWY_INLINE std::int64_t AroundCost(std::uint32_t texel) const {
+    return view->around_price == nullptr ? 0 : (*view->around_price)(around, view->offered_around[texel]);
+  }
+
   // `join` is what copying along with a neighbour's (or keeping the own) piece costs.
   HWY_INLINE void Offer(std::uint32_t texel, std::int64_t join) {
     const std::uint32_t* word = view->exemplars->words.data() + texel;
@@ -179,8 +187,10 @@ struct Search {
       if (seen[i] == texel) return;
     }
     seen[seen_count++] = texel;
+    if (forbidden.count > 0 && forbidden.has(texel)) return;
     const std::int64_t others = static_cast<std::int64_t>(view->uses[texel]) - (texel == own ? 1 : 0);
-    std::int64_t cost = join + GuideCost(view->exemplars->guides_at(texel)) +
+    if (others >= view->most_uses[label_class] && texel != own) return;
+    std::int64_t cost = join + GuideCost(view->exemplars->guides_at(texel)) + AroundCost(texel) +
                         (others * (others + 1) / 2 * view->reuse_q4[label_class] >> 4) +
                         view->bin_cost[label_class * 64 + view->bins[texel]];
     if (cost > best_cost) return;
@@ -203,21 +213,20 @@ HWY_INLINE void Fetch(const KernelView& view, std::uint32_t texel) {
   hwy::Prefetch(view.bins + texel);
 }
 
-void ImproveRow(const KernelView& view, int x0, int y, std::uint32_t* next) {
+void ImproveRow(const KernelView& view, int x0, int x1, int y, std::uint32_t* next) {
   static constexpr std::array<std::array<int, 2>, 8> neighbours{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
   const Plane& target = *view.target;
   const std::int64_t nearly_full = view.copy_cap - view.copy_cap / 4;
   const std::uint32_t row = target.index(0, 0, y);
-  const int width = target.parts[0].width;
   // Picks lie anywhere in the exemplars, and waiting for memory is most of their cost. So all are drawn first, into `next`, and fetched
   // a few pixels ahead of their use.
   std::uint32_t* drawn = next;
-  for (int x = x0; x < width; x += 2, ++drawn) {
+  for (int x = x0; x < x1; x += 2, ++drawn) {
     const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
     *drawn = class_of(target.words[pixel]) == no_class ? view.exemplars->nowhere()
                                                        : draw_texel(view, pixel, view.key, x, y, make_slack(view, pixel));
   }
-  for (int x = x0; x < width; x += 2, ++next) {
+  for (int x = x0; x < x1; x += 2, ++next) {
     if (next + fetch_ahead < drawn) Fetch(view, next[fetch_ahead]);
     const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
     const std::uint32_t pick = *next;
@@ -241,6 +250,7 @@ void ImproveRow(const KernelView& view, int x0, int y, std::uint32_t* next) {
       search.Offer(static_cast<std::uint32_t>(texel), joins ? price::join : 0);
     }
     search.Offer(pick, 0);
+    if (search.best_cost == no_price) search.best = allowed_texel(view, pixel, search.forbidden, view.key, x, y);
     *next = search.best;
   }
 }
@@ -278,7 +288,7 @@ int BestMove(const KernelView& view, const std::vector<PieceSample>& samples, co
         continue;
       }
       const std::int64_t others = view.uses[texel];
-      cost += guide_cost(view, search.wanted, exemplars.guides_at(texel), search.slack) +
+      cost += guide_cost(view, search.wanted, exemplars.guides_at(texel), search.slack) + search.AroundCost(texel) +
               (others * (others + 1) / 2 * view.reuse_q4[search.label_class] >> 4) +
               view.bin_cost[search.label_class * 64 + view.bins[texel]];
       cost += PatchCost(search.patch, exemplars.words.data() + texel, exemplars.stride, no_price);
@@ -303,7 +313,9 @@ HWY_EXPORT(OnePatchCost);
 HWY_EXPORT(OneGuidesCost);
 HWY_EXPORT(BestMove);
 
-void improve_row(const KernelView& view, int x0, int y, std::uint32_t* next) { HWY_DYNAMIC_DISPATCH(ImproveRow)(view, x0, y, next); }
+void improve_row(const KernelView& view, int x0, int x1, int y, std::uint32_t* next) {
+  HWY_DYNAMIC_DISPATCH(ImproveRow)(view, x0, x1, y, next);
+}
 
 std::int64_t patch_cost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
   return HWY_DYNAMIC_DISPATCH(OnePatchCost)(view, pixel, texel);
@@ -338,7 +350,37 @@ Slack make_slack(const KernelView& view, std::uint32_t pixel) {
   const std::uint32_t label_class = class_of(view.target->words[pixel]);
   const PickWindow window = view.lists->window(label_class, view.target->guides_at(pixel));
   const std::size_t first = static_cast<std::size_t>(label_class) * static_cast<std::size_t>(view.exemplars->guide_count);
-  return {window.slack, window.buckets * ListKeys::bucket_width, view.usual_error == nullptr ? nullptr : view.usual_error + first};
+  return {std::max(0, window.slack - 1), window.buckets * ListKeys::bucket_width,
+          view.usual_error == nullptr ? nullptr : view.usual_error + first};
+}
+
+Forbidden forbidden_texels(const KernelView& view, std::uint32_t pixel, bool all_neighbours) {
+  static constexpr std::array<std::array<int, 2>, 4> steps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+  Forbidden forbidden;
+  for (const auto& [dx, dy] : steps) {
+    if (!all_neighbours && (view.links == nullptr || linked(view.links, view.target->stride, pixel, dx, dy))) continue;
+    // Beyond the picture's sides lies `nowhere`, whose neighbours have no class either.
+    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(pixel) + dx + static_cast<std::ptrdiff_t>(dy) * view.target->stride;
+    const std::ptrdiff_t texel =
+        static_cast<std::ptrdiff_t>(view.match[at]) - dx - static_cast<std::ptrdiff_t>(dy) * view.exemplars->stride;
+    forbidden.texels[static_cast<std::size_t>(forbidden.count++)] = static_cast<std::uint32_t>(texel);
+  }
+  return forbidden;
+}
+
+std::uint32_t allowed_texel(const KernelView& view, std::uint32_t pixel, const Forbidden& forbidden, std::uint64_t key, int x, int y) {
+  constexpr int tries = 16;
+  const Slack slack = make_slack(view, pixel);
+  for (int i = 1; i <= tries; ++i) {
+    const std::uint32_t texel = draw_texel(view, pixel, key + static_cast<std::uint64_t>(i), x, y, slack);
+    if (!forbidden.has(texel)) return texel;
+  }
+  const std::uint32_t label_class = class_of(view.target->words[pixel]);
+  for (std::int64_t i = 0; i < view.lists->texel_count(label_class); ++i) {
+    const std::uint32_t texel = view.lists->texel(label_class, i);
+    if (!forbidden.has(texel)) return texel;
+  }
+  return view.match[pixel];
 }
 
 std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, Slack slack) {
@@ -349,20 +391,24 @@ std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint6
     const std::uint32_t random = static_cast<std::uint32_t>(random_bits(key, x, y, static_cast<std::uint64_t>(draw)) >> 32);
     return view.lists->pick(label_class, wanted, random);
   };
-  if (view.draws == 1) return pick(0);
+  const int draws = view.around_price != nullptr && view.wanted_around[pixel].others > border_others
+                        ? std::max(view.draws, view.border_draws)
+                        : view.draws;
+  if (draws == 1) return pick(0);
   // Each draw waits for memory twice, for its list entry and for its guides; in batches the waits overlap.
   constexpr int batch = 8;
   std::array<std::uint32_t, batch> drawn;
   std::uint32_t best = view.exemplars->nowhere();
   std::int64_t best_cost = INT64_MAX;
-  for (int first = 0; first < view.draws; first += batch) {
-    const std::size_t count = static_cast<std::size_t>(std::min(batch, view.draws - first));
+  for (int first = 0; first < draws; first += batch) {
+    const std::size_t count = static_cast<std::size_t>(std::min(batch, draws - first));
     for (std::size_t i = 0; i < count; ++i) {
       drawn[i] = pick(first + static_cast<int>(i));
       hwy::Prefetch(view.exemplars->guides_at(drawn[i]));
     }
     for (std::size_t i = 0; i < count; ++i) {
-      const std::int64_t cost = guide_cost(view, wanted, view.exemplars->guides_at(drawn[i]), slack);
+      const std::int64_t cost =
+          guide_cost(view, wanted, view.exemplars->guides_at(drawn[i]), slack) + surroundings_cost(view, pixel, drawn[i]);
       if (cost < best_cost) {
         best_cost = cost;
         best = drawn[i];

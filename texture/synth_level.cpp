@@ -14,63 +14,11 @@
 #include "renderer/base/parallel.h"
 #include "renderer/base/random.h"
 #include "texture/synth_bins.h"
+#include "texture/synth_level_parts.h"
 
 namespace belvedere::synth {
 
 namespace {
-
-// Keys of the random numbers of different purposes on a level.
-enum class Purpose : std::uint64_t { start = 1, expectation = 2, moves = 3, cells = 4, errors = 5, pass = 16 };
-
-std::uint64_t key_for(const LevelSettings& settings, Purpose purpose, int number = 0) {
-  return random_bits(settings.seed, settings.level, number, static_cast<std::uint64_t>(purpose));
-}
-
-using BinCounts = std::vector<std::int32_t>;
-
-// Sum of f(i, counts) over 0 <= i < count, each f adding to the counts it is given. Whole numbers, so the order of ranges does not matter.
-template <class F>
-BinCounts sum_bins(int count, std::size_t size, F&& f) {
-  BinCounts total(size, 0);
-  std::mutex adding;
-  parallel_ranges(count, 16, [&](int begin, int end) {
-    BinCounts sums(size, 0);
-    for (int i = begin; i != end; ++i) f(i, sums);
-    const std::scoped_lock lock(adding);
-    std::transform(total.begin(), total.end(), sums.begin(), total.begin(), std::plus<>());
-  });
-  return total;
-}
-
-std::size_t bin_of(const LevelState& state, std::uint32_t label_class, std::uint32_t texel) {
-  return static_cast<std::size_t>(label_class) * bins_per_class + state.bins[texel];
-}
-
-// Pixels that copy it: others may move to or from the same texel at the same time.
-void add_use(LevelState& state, std::uint32_t texel, std::uint32_t by) {
-  std::atomic_ref<std::uint32_t>(state.uses[texel]).fetch_add(by, std::memory_order_relaxed);
-}
-
-void move_pixel(LevelState& state, std::uint32_t pixel, std::uint32_t texel, BinCounts& bins) {
-  const std::uint32_t before = state.match[pixel];
-  if (before == texel) return;
-  std::uint32_t& word = state.target.words[pixel];
-  const std::uint32_t label_class = class_of(word);
-  add_use(state, before, ~std::uint32_t{0});  // minus 1
-  add_use(state, texel, 1);
-  --bins[bin_of(state, label_class, before)];
-  ++bins[bin_of(state, label_class, texel)];
-  state.match[pixel] = texel;
-  word = (state.exemplars.words[texel] & 0xffffffU) | label_class << 24;
-}
-
-void update_bin_cost(LevelState& state) {
-  state.bin_cost = bin_penalties(state.bins_actual, state.bins_expected, static_cast<std::int32_t>(price::bin));
-}
-
-void add_to(BinCounts& sums, const BinCounts& change) {
-  std::transform(sums.begin(), sums.end(), change.begin(), sums.begin(), std::plus<>());
-}
 
 // The guides' weights for 32-bit prices; empty where these could overflow, and where one or two are priced as fast singly.
 std::vector<std::uint32_t> vector_weights_of(const std::vector<GuideRole>& guides) {
@@ -126,11 +74,13 @@ LevelSettings settings_for_level(int level, std::uint64_t seed, int copy_cap, do
   settings.copy_cap = std::max<std::int64_t>(1, (static_cast<std::int64_t>(copy_cap) + (1LL << shift) / 2) >> shift);
   settings.reuse_price = std::llround(static_cast<double>(price::reuse) * reuse);
   settings.least_window = std::max(16, 64 >> shift);
+  settings.surroundings_radius = std::max(2, 8 >> level);
   return settings;
 }
 
 LevelState::LevelState(const LevelSettings& level_settings, const std::vector<GuideRole>& guide_roles, int classes,
-                       const Plane& exemplar_plane, Plane& target_plane, std::vector<std::uint8_t> surface_links)
+                       const Plane& exemplar_plane, Plane& target_plane, std::vector<std::uint8_t> surface_links,
+                       const SurroundingsPrice& surroundings_price)
     : settings(level_settings),
       guides(guide_roles),
       vector_weights(vector_weights_of(guide_roles)),
@@ -138,6 +88,7 @@ LevelState::LevelState(const LevelSettings& level_settings, const std::vector<Gu
       target(target_plane),
       links(std::move(surface_links)),
       lists(exemplars, target, classes, guides, settings.least_window),
+      around_price(surroundings_price),
       match(target.words.size(), exemplars.nowhere()),
       uses(exemplars.words.size(), 0),
       bins(make_bins(exemplars, classes)),
@@ -145,6 +96,7 @@ LevelState::LevelState(const LevelSettings& level_settings, const std::vector<Gu
       bins_actual(bins_expected),
       bin_cost(bins_expected),
       reuse_q4(static_cast<std::size_t>(classes), 0),
+      most_uses(static_cast<std::size_t>(classes), 0xffffffffU),
       pieces(target) {
   const Plane::Part& part = target.parts[0];
   next.resize(static_cast<std::size_t>((part.width + 1) / 2) * static_cast<std::size_t>((part.height + 1) / 2));
@@ -155,11 +107,17 @@ LevelState::LevelState(const LevelSettings& level_settings, const std::vector<Gu
     const std::int64_t pixels = lists.pixel_count(label_class);
     const std::int64_t full = settings.reuse_price * 16;
     reuse_q4[label_class] = 4 * pixels <= texels ? 4 * full : full * texels / pixels;
+    // Where reuse is priced at all, no texel may serve more than 6 + 3 × pixels per texel.
+    if (settings.reuse_price > 0 && texels > 0) most_uses[label_class] = static_cast<std::uint32_t>(6 + 3 * pixels / texels);
   }
   target.for_each([&](std::uint32_t at) {
     const std::uint32_t c = class_of(target.words[at]);
     if (c != no_class && !lists.has_class(c)) target.words[at] |= no_class << 24;
   });
+  if (!around_price.is_free()) {
+    wanted_around = make_surroundings(target, settings.surroundings_radius, classes);
+    offered_around = make_surroundings(exemplars, settings.surroundings_radius, classes);
+  }
   usual_error = usual_errors_of_picks(*this, classes);
 }
 
@@ -169,6 +127,12 @@ KernelView LevelState::view(int pass) const {
   view.exemplars = &exemplars;
   view.lists = &lists;
   view.links = links.empty() ? nullptr : links.data();
+  if (!wanted_around.empty()) {
+    view.wanted_around = wanted_around.data();
+    view.offered_around = offered_around.data();
+    view.around_price = &around_price;
+    view.border_draws = settings.border_draws;
+  }
   view.guides = guides.data();
   view.vector_weights = vector_weights.empty() ? nullptr : vector_weights.data();
   view.usual_error = usual_error.empty() ? nullptr : usual_error.data();
@@ -178,6 +142,7 @@ KernelView LevelState::view(int pass) const {
   view.bins = bins.data();
   view.bin_cost = bin_cost.data();
   view.reuse_q4 = reuse_q4.data();
+  view.most_uses = most_uses.data();
   view.copy_cap = settings.copy_cap;
   view.replaces_pieces = settings.replacing_passes > 0;
   view.draws = settings.draws;
@@ -265,107 +230,20 @@ void sub_pass(LevelState& state, int pass, int odd_x, int odd_y) {
   const std::size_t across = static_cast<std::size_t>((part.width + 1) / 2);
   update_bin_cost(state);
   const KernelView view = state.view(pass);
-  parallel_rows(rows, [&](int i) { improve_row(view, odd_x, 2 * i + odd_y, state.next.data() + static_cast<std::size_t>(i) * across); });
-  add_to(state.bins_actual, sum_bins(rows, state.bins_actual.size(), [&](int i, BinCounts& bins) {
-           const std::uint32_t* found = state.next.data() + static_cast<std::size_t>(i) * across;
-           for (int x = odd_x; x < part.width; x += 2, ++found) move_pixel(state, state.target.index(0, x, 2 * i + odd_y), *found, bins);
-         }));
-}
-
-namespace {
-
-struct Move {
-  std::uint32_t pixel = 0;
-  std::uint32_t texel = 0;
-};
-
-struct Member {
-  std::uint32_t piece = 0;  // its first pixel
-  int x = 0;
-  int y = 0;
-};
-
-// Where one group of pixels, all of a piece and a cell, moves to.
-void find_moves(const LevelState& state, const KernelView& view, const Member* members, int count, std::uint64_t key,
-                std::vector<Move>& moves) {
-  constexpr int picks = 24;
-  constexpr int far_enough = 8;  // texels from where the group copies from now
-  constexpr int samples_wanted = 12;
-  const Plane& exemplars = state.exemplars;
-  const Member& middle = members[count / 2];
-  const std::uint32_t pixel = state.target.index(0, middle.x, middle.y);
-  const Plane::Place now = exemplars.place(state.match[pixel]);
-  const Slack slack = make_slack(view, pixel);
-  std::vector<std::uint32_t> candidates;
-  for (int i = 0; i < picks; ++i) {
-    const std::uint64_t draw = random_bits(key, static_cast<std::int64_t>(pixel), i);
-    const std::uint32_t texel = draw_texel(view, pixel, draw, 0, 0, slack);
-    const Plane::Place place = exemplars.place(texel);
-    if (place.part == now.part && std::abs(place.x - now.x) < far_enough && std::abs(place.y - now.y) < far_enough) continue;
-    candidates.push_back(texel);
+  const auto improve_part = [&](int x0, int x1, int i) {
+    std::uint32_t* next = state.next.data() + static_cast<std::size_t>(i) * across + x0 / 2;
+    improve_row(view, x0 + odd_x, x1, 2 * i + odd_y, next);
+  };
+  if (state.settings.tile > 0) {
+    parallel_tiles(part.width, part.height, state.settings.tile, [&](const PixelRect& tile) {
+      for (int i = tile.y0 / 2; i < std::min(rows, (tile.y1 + 1) / 2); ++i) improve_part(tile.x0, tile.x1, i);
+    });
+  } else {
+    parallel_ranges(rows, rows_per_task(part.width), [&](int begin, int end) {
+      for (int i = begin; i != end; ++i) improve_part(0, part.width, i);
+    });
   }
-  const int step = std::max(1, count / samples_wanted);
-  std::vector<PieceSample> samples;
-  for (int i = step / 2; i < count; i += step) {
-    samples.push_back({state.target.index(0, members[i].x, members[i].y), members[i].x - middle.x, members[i].y - middle.y});
-  }
-  const int best = best_move(view, samples, candidates);
-  if (best < 0) return;
-  const Plane::Place to = exemplars.place(candidates[static_cast<std::size_t>(best)]);
-  const Plane::Part& part = exemplars.parts[static_cast<std::size_t>(to.part)];
-  for (int i = 0; i < count; ++i) {
-    const int x = to.x + members[i].x - middle.x;
-    const int y = to.y + members[i].y - middle.y;
-    if (x < 0 || y < 0 || x >= part.width || y >= part.height) continue;
-    const std::uint32_t member = state.target.index(0, members[i].x, members[i].y);
-    const std::uint32_t texel = exemplars.index(to.part, x, y);
-    if (class_of(exemplars.words[texel]) == class_of(state.target.words[member])) moves.push_back({member, texel});
-  }
-}
-
-}  // namespace
-
-bool replace_pieces(LevelState& state, int pass, int round) {
-  if (static_cast<std::int64_t>(state.pieces.largest()) <= state.settings.copy_cap) return false;
-  const int number = pass * 7 + round;
-  const std::uint64_t cell_key = key_for(state.settings, Purpose::cells, number);
-  const std::uint64_t move_key = key_for(state.settings, Purpose::moves, number);
-  const Plane::Part& part = state.target.parts[0];
-  update_bin_cost(state);
-  const KernelView view = state.view(pass);
-
-  // The pixels of a cell lie in the 3 × 3 squares around the square that holds its point: a row of squares a task.
-  const int across = (part.width + cell_side - 1) / cell_side;
-  const int down = (part.height + cell_side - 1) / cell_side;
-  std::vector<std::vector<Move>> moves(static_cast<std::size_t>(down + 2));
-  parallel_rows(down + 2, [&](int i) {
-    const int cell_y = i - 1;
-    std::vector<std::vector<Member>> cells(static_cast<std::size_t>(across + 2));
-    for (int y = std::max(0, (cell_y - 1) * cell_side); y < std::min(part.height, (cell_y + 2) * cell_side); ++y) {
-      for (int x = 0; x < part.width; ++x) {
-        const std::uint32_t at = state.target.index(0, x, y);
-        if (state.pieces.size()[at] <= state.settings.copy_cap) continue;
-        const Cell cell = cell_around(x, y, cell_key);
-        if (cell.y != cell_y || cell.odd != (number & 1)) continue;
-        const int column = cell.x + 1;
-        cells[static_cast<std::size_t>(column)].push_back({state.pieces.first_pixel(at), x, y});
-      }
-    }
-    for (std::vector<Member>& members : cells) {
-      std::stable_sort(members.begin(), members.end(), [](const Member& a, const Member& b) { return a.piece < b.piece; });
-      for (std::size_t from = 0; from < members.size();) {
-        std::size_t to = from;
-        while (to < members.size() && members[to].piece == members[from].piece) ++to;
-        find_moves(state, view, &members[from], static_cast<int>(to - from), move_key, moves[static_cast<std::size_t>(i)]);
-        from = to;
-      }
-    }
-  });
-  add_to(state.bins_actual, sum_bins(down + 2, state.bins_actual.size(), [&](int i, BinCounts& bins) {
-           for (const Move& move : moves[static_cast<std::size_t>(i)]) move_pixel(state, move.pixel, move.texel, bins);
-         }));
-  state.pieces.find(state.target, state.exemplars, state.match);
-  return true;
+  commit_next(state, odd_x, odd_y);
 }
 
 void improve(LevelState& state, Progress& progress) {
@@ -380,6 +258,10 @@ void improve(LevelState& state, Progress& progress) {
     }
     for (const auto& [odd_x, odd_y] : parities) sub_pass(state, pass, odd_x, odd_y);
     progress.advance(1);
+  }
+  if (settings.level == 0) {
+    state.pieces.find(state.target, state.exemplars, state.match);
+    finish_pieces(state);
   }
 }
 

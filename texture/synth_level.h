@@ -20,7 +20,10 @@ struct LevelSettings {
   std::int64_t copy_cap = 1;  // pixels
   std::int64_t reuse_price = price::reuse;
   int draws = 1;          // texels drawn for one pick
+  int border_draws = 4;   // and where other classes lie around
   int least_window = 16;  // texels a pick's window must hold
+  int surroundings_radius = 8;
+  int tile = 0;  // side of the tiles that sub-passes work in, even; 0: whole rows. Changes no bit
 };
 // The settings of the recipe for a level; cap and reuse as SynthesisParameters has them.
 LevelSettings settings_for_level(int level, std::uint64_t seed, int copy_cap, double reuse);
@@ -35,20 +38,24 @@ struct LevelState {
   Plane& target;
   std::vector<std::uint8_t> links;  // empty: no silhouettes
   PickLists lists;
-  std::vector<std::uint8_t> usual_error;    // by class × guide: median error of picks
-  std::vector<std::uint32_t> match;         // by target index: exemplar index, exemplars.nowhere() in padding and without class
-  std::vector<std::uint32_t> next;          // matches found by a sub-pass: every second pixel of every second row
-  std::vector<std::uint32_t> uses;          // by exemplar index: pixels that copy this texel
-  std::vector<std::uint8_t> bins;           // by exemplar index
-  std::vector<std::int32_t> bins_expected;  // by class × 64 + bin: how often picks alone would draw it
+  SurroundingsPrice around_price;
+  std::vector<Surroundings> wanted_around;   // by target index; empty: surroundings are not priced
+  std::vector<Surroundings> offered_around;  // by exemplar index
+  std::vector<std::uint8_t> usual_error;     // by class × guide: median error of picks
+  std::vector<std::uint32_t> match;          // by target index: exemplar index, exemplars.nowhere() in padding and without class
+  std::vector<std::uint32_t> next;           // matches found by a sub-pass: every second pixel of every second row
+  std::vector<std::uint32_t> uses;           // by exemplar index: pixels that copy this texel
+  std::vector<std::uint8_t> bins;            // by exemplar index
+  std::vector<std::int32_t> bins_expected;   // by class × 64 + bin: how often picks alone would draw it
   std::vector<std::int32_t> bins_actual;
   std::vector<std::int32_t> bin_cost;
-  std::vector<std::int64_t> reuse_q4;  // by class
+  std::vector<std::int64_t> reuse_q4;    // by class
+  std::vector<std::uint32_t> most_uses;  // by class
   Pieces pieces;
 
   // Target classes without texels on this level become no_class. `links` may be empty.
   LevelState(const LevelSettings& settings, const std::vector<GuideRole>& guides, int classes, const Plane& exemplars, Plane& target,
-             std::vector<std::uint8_t> links);
+             std::vector<std::uint8_t> links, const SurroundingsPrice& around_price = no_surroundings());
   KernelView view(int pass) const;
 };
 
@@ -65,6 +72,10 @@ void sub_pass(LevelState& state, int pass, int odd_x, int odd_y);
 // Moves pieces over the cap, cell by cell of one colour, as a whole elsewhere. False where there is no such piece. Needs and leaves
 // up-to-date pieces.
 bool replace_pieces(LevelState& state, int pass, int round);
+// What prices leave open, made certain at the end: no texel is used too often, no piece is larger than the cap, none runs on across a
+// silhouette. Needs and leaves
+// up-to-date pieces.
+void finish_pieces(LevelState& state);
 // All passes of the level. progress.advance(1) after each.
 void improve(LevelState& state, Progress& progress);
 

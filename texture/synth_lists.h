@@ -39,6 +39,10 @@ class PickLists {
   bool has_class(std::uint32_t label_class) const { return texel_count(label_class) > 0; }
   std::int64_t texel_count(std::uint32_t label_class) const;
   std::int64_t pixel_count(std::uint32_t label_class) const { return pixel_counts_[label_class]; }
+  // The texels of a class, 0 … texel_count - 1.
+  std::uint32_t texel(std::uint32_t label_class, std::int64_t nth) const {
+    return texels_[start_[cell(label_class, 0) * 257] + static_cast<std::size_t>(nth)];
+  }
   const ListKeys& keys() const { return keys_; }
 
   // The window of a pixel with these guides.

@@ -29,6 +29,11 @@ void check_parameters(const SynthesisParameters& parameters) {
   in_range("levels", parameters.levels, 1, 8);
   in_range("reuse", parameters.reuse, 0, 10);
   in_range("copy_cap", parameters.copy_cap, 16, 100000);
+  in_range("surroundings", parameters.surroundings, 0, 100);
+  for (const auto& [pair, value] : parameters.unlikeness)
+    in_range(fmt::format("unlikeness of classes {} and {}", pair.first, pair.second).c_str(), value, 0, 1);
+  if (parameters.tile < 0 || parameters.tile % 2 != 0)
+    throw Error(ErrorKind::usage, "synthesis tile", fmt::format("{}", parameters.tile), "0 or an even number of pixels");
   for (const auto& [name, weight] : parameters.weights) in_range(fmt::format("weight of \"{}\"", name).c_str(), weight, 0, 100);
 }
 
@@ -124,6 +129,18 @@ Classes number_classes(const std::vector<Exemplar>& exemplars, const GuideStack&
   return classes;
 }
 
+synth::SurroundingsPrice surroundings_price(const Classes& classes, const SynthesisParameters& parameters) {
+  const std::size_t count = static_cast<std::size_t>(classes.count);
+  std::vector<std::uint8_t> pairs(count * count, 16);
+  for (const auto& [labels, value] : parameters.unlikeness) {
+    const std::uint32_t a = classes.of_target[labels.first];
+    const std::uint32_t b = classes.of_target[labels.second];
+    if (a == synth::no_class || b == synth::no_class) continue;
+    pairs[a * count + b] = pairs[b * count + a] = static_cast<std::uint8_t>(std::lround(16.0 * value));
+  }
+  return {std::llround(static_cast<double>(synth::price::surroundings_q8) * parameters.surroundings), std::move(pairs), classes.count};
+}
+
 synth::Plane exemplar_plane(const std::vector<Exemplar>& exemplars, const std::vector<PairedGuide>& guides, const Classes& classes) {
   std::vector<std::pair<int, int>> sizes;
   sizes.reserve(exemplars.size());
@@ -166,14 +183,15 @@ int level_count(const std::vector<Exemplar>& exemplars, const GuideStack& target
   return levels;
 }
 
-MatchField to_match_field(const synth::LevelState& state) {
-  const synth::Plane::Part& part = state.target.parts[0];
+// The result takes the place of what led to it: it is the largest moment of the memory.
+MatchField to_match_field(const std::vector<std::uint32_t>& matches, const synth::Plane::Part& part, std::size_t stride,
+                          const synth::Plane& exemplars) {
   MatchField field(part.width, part.height);
   parallel_rows(part.height, [&](int y) {
     for (int x = 0; x < part.width; ++x) {
-      const std::uint32_t texel = state.match[state.target.index(0, x, y)];
-      if (texel == state.exemplars.nowhere()) continue;
-      const synth::Plane::Place place = state.exemplars.place(texel);
+      const std::uint32_t texel = matches[part.origin + static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)];
+      if (texel == exemplars.nowhere()) continue;
+      const synth::Plane::Place place = exemplars.place(texel);
       field(x, y) = {static_cast<std::uint16_t>(place.part), static_cast<std::uint16_t>(place.x), static_cast<std::uint16_t>(place.y)};
     }
   });
@@ -202,53 +220,59 @@ MatchField synthesize(const std::vector<Exemplar>& exemplars, const GuideStack& 
   const int levels = level_count(exemplars, target, parameters.levels);
   std::vector<synth::Plane> sources{exemplar_plane(exemplars, guides, classes)};
   std::vector<synth::Plane> targets{target_plane(target, guides, classes)};
-  std::vector<Grid<float>> depths;
-  if (!target.depth_m.empty() && levels > 1) depths.push_back(target.depth_m);
+  std::vector<Grid<float>> depths;  // of the coarser levels, from 1 on
   for (int level = 1; level < levels; ++level) {
     sources.push_back(synth::halve(sources.back()));
     targets.push_back(synth::halve(targets.back()));
     if (!target.depth_m.empty()) {
       const std::size_t finer = static_cast<std::size_t>(level) - 1;
-      depths.push_back(synth::halve_depth(depths.back(), targets[finer], targets.back()));
+      depths.push_back(synth::halve_depth(level == 1 ? target.depth_m : depths.back(), targets[finer], targets.back()));
     }
   }
 
-  std::vector<std::uint32_t> coarse_match;
-  for (int level = levels - 1;; --level) {
+  const synth::SurroundingsPrice around = surroundings_price(classes, parameters);
+  std::vector<std::uint32_t> matches;  // of the level done last
+  for (int level = levels - 1; level >= 0; --level) {
     const std::size_t l = static_cast<std::size_t>(level);
     // Pixels of a coarse level lie further apart, so their depths may differ by more on one and the same surface.
     std::vector<std::uint8_t> links;
     if (!target.depth_m.empty()) {
-      links =
-          synth::make_links(level == 0 ? target.depth_m : depths[l], targets[l], static_cast<float>(1.0 + jump_per_level * (level + 1)));
+      links = synth::make_links(level == 0 ? target.depth_m : depths.back(), targets[l],
+                                static_cast<float>(1.0 + jump_per_level * (level + 1)));
+      if (level > 0) depths.pop_back();
     }
     synth::LevelSettings settings = synth::settings_for_level(level, parameters.seed, parameters.copy_cap, parameters.reuse);
+    settings.tile = parameters.tile;
     // Guides that do not order the lists are served by drawing several texels and keeping the one that fits them best.
     const synth::ListKeys keys = synth::choose_list_keys(roles);
     settings.draws = roles.size() > (keys.bucketed ? 2U : 1U) ? 4 : 1;
-    synth::LevelState state(settings, roles, classes.count, sources[l], targets[l], std::move(links));
+    synth::LevelState state(settings, roles, classes.count, sources[l], targets[l], std::move(links), around);
     progress.begin(fmt::format("synthesize, level {} of {}", levels - level, levels), settings.passes + settings.replacing_passes);
     if (level == levels - 1) {
       synth::start_from_picks(state);
     } else {
-      synth::start_from_coarser(state, sources[l + 1], targets[l + 1], coarse_match);
-    }
-    synth::improve(state, progress);
-    if (level == 0) return to_match_field(state);
-    coarse_match = std::move(state.match);
-    if (l + 1 < sources.size()) {  // done with the coarser pictures
-      sources.resize(l + 1);
+      synth::start_from_coarser(state, sources[l + 1], targets[l + 1], matches);
+      sources.resize(l + 1);  // done with the coarser pictures
       targets.resize(l + 1);
     }
+    matches = {};
+    synth::improve(state, progress);
+    matches = std::move(state.match);
   }
+  const synth::Plane::Part part = targets[0].parts[0];
+  const std::size_t stride = static_cast<std::size_t>(targets[0].stride);
+  targets.clear();
+  return to_match_field(matches, part, stride, sources[0]);
 }
 
 std::size_t synthesis_bytes(std::size_t texels, std::size_t pixels, int guides, bool with_depth) {
-  // Per texel: word, uses, bin, contrast while bins are made, list entry and its sorting; per pixel: word, match, next,
-  // pieces, result, silhouettes; a third more of what the pyramid holds.
+  // Per texel: word and guides with a quarter more of the next level, uses, bin, surroundings, list entry; contrast while bins are made.
+  // Per pixel at the start of the finest level: word and guides, match, every fourth's next, pieces, surroundings, silhouettes, and a
+  // quarter of what the level above holds of words, guides and matches; later, instead, what pieces moved as a whole take. The result
+  // (6) comes when all but the matches is gone.
   const std::size_t g = static_cast<std::size_t>(guides);
-  const std::size_t per_texel = (4 + g) * 4 / 3 + 1 + 4 + 1 + 2 + 4;
-  const std::size_t per_pixel = (4 + g) * 4 / 3 + 1 + 4 + 1 + 4 + 2 + 6 + 2 + (with_depth ? 2 + 6 : 0);
+  const std::size_t per_texel = (4 + g) * 4 / 3 + 1 + 4 + 1 + 2 + 4 + 2;
+  const std::size_t per_pixel = 4 + g + 4 + 1 + 6 + 2 + (8 + g) / 4 + 3 + (with_depth ? 2 : 0);
   return texels * per_texel + pixels * per_pixel + (std::size_t{32} << 20);
 }
 

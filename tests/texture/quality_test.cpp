@@ -73,6 +73,8 @@ TEST(Quality, AnExemplarAgainstItselfIsFaultless) {
     EXPECT_EQ(c.sharpness, 1.0);
     EXPECT_EQ(c.stroke_run, 1.0);
     EXPECT_EQ(c.clique_distance, 0.0);
+    EXPECT_NEAR(c.clique_floor, 0.0, 1e-12);
+    EXPECT_NEAR(c.clique_beyond_floor, 0.0, 1e-12);
     EXPECT_EQ(c.colour_distance, 0.0);
     EXPECT_EQ(c.colour_floor, 0.0);
     EXPECT_EQ(c.colour_beyond_floor, 0.0);
@@ -120,7 +122,7 @@ TEST(Quality, StrokeRunTellsLongStrokesFromShort) {
   const Grid<std::uint8_t> labels(200, 200, 1);
   const auto run = [&](int length) {
     const Grid<Rgb8> picture = dashes(200, 200, length, 3);
-    return stroke_run(picture, labels, 1, 3);
+    return stroke_run(picture, labels, border_distance_squared(labels), 1, 3);
   };
   // A run through a random pixel of a dash is the dash; a neighbour of the same grey is rare (about 3 of 160 each side).
   EXPECT_NEAR(run(8), 8.0, 0.8);
@@ -132,8 +134,8 @@ TEST(Quality, StrokeRunTellsLongStrokesFromShort) {
   for (int y = 0; y < 200; ++y) {
     for (int x = 0; x < 200; ++x) standing(x, y) = lying(y, x);
   }
-  EXPECT_NEAR(stroke_run(standing, labels, 1, 3), run(16), 0.5);
-  EXPECT_TRUE(std::isnan(stroke_run(lying, labels, 2, 3)));
+  EXPECT_NEAR(stroke_run(standing, labels, border_distance_squared(labels), 1, 3), run(16), 0.5);
+  EXPECT_TRUE(std::isnan(stroke_run(lying, labels, border_distance_squared(labels), 2, 3)));
 }
 
 TEST(Quality, ToleranceIsHalfTheLocalDeviation) {
@@ -165,10 +167,20 @@ TEST(Quality, ShiftAndBlurShowInTheirFigures) {
   }
   EXPECT_NEAR(quality::wasserstein(plain, shifted), 7.0, 1e-9);
   const Grid<std::uint8_t> one_class(160, 120, 1);
-  EXPECT_LT(mean_gradient(blurred.picture, one_class, 1), 0.8 * mean_gradient(picture, one_class, 1));
+  EXPECT_LT(mean_gradient(blurred.picture, one_class, border_distance_squared(one_class), 1),
+            0.8 * mean_gradient(picture, one_class, border_distance_squared(one_class), 1));
   exemplar.guides.label = blurred.guides.label = one_class;
-  EXPECT_GT(quality::clique_distance(blurred.picture, one_class, {exemplar}, 1), 0.05);
-  EXPECT_EQ(quality::clique_distance(picture, one_class, {exemplar}, 1), 0.0);
+  EXPECT_GT(quality::clique_distances(blurred.picture, one_class, {exemplar}, {Grid<float>(160, 120, 1.0F)}, 1).distance, 0.05);
+  // Weights of nothing but the upper half: the floor is what the upper half by itself differs by.
+  Grid<float> upper(160, 120, 0.0F);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 160; ++x) upper(x, y) = 1.0F;
+  }
+  const quality::CliqueDistances same = quality::clique_distances(picture, one_class, {exemplar}, {upper}, 1);
+  EXPECT_EQ(same.distance, 0.0);
+  EXPECT_GT(same.floor, 0.0);
+  EXPECT_LT(same.floor, 0.1);
+  EXPECT_EQ(same.floor, same.beyond_floor);
 }
 
 TEST(Quality, GradientOfARampIsItsSlope) {
@@ -176,7 +188,7 @@ TEST(Quality, GradientOfARampIsItsSlope) {
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 80; ++x) ramp(x, y) = grey(3 * x);
   }
-  EXPECT_NEAR(mean_gradient(ramp, Grid<std::uint8_t>(80, 40, 1), 1), 3.0, 1e-12);
+  EXPECT_NEAR(mean_gradient(ramp, Grid<std::uint8_t>(80, 40, 1), Grid<std::uint8_t>(80, 40, 255), 1), 3.0, 1e-12);
 }
 
 TEST(Quality, FloorIsWhatOtherAltitudesMakeByThemselves) {
@@ -235,15 +247,15 @@ TEST(Quality, SpecksAreSinglePixels) {
     for (int x = 3; x < 60; x += 6) picture(x, y) = grey(140);
   }
   const Grid<std::uint8_t> one_class(60, 60, 1);
-  EXPECT_NEAR(speck_shares(picture, one_class).inside, 1.0 / 36.0, 1e-9);
+  EXPECT_NEAR(speck_shares(picture, border_distance_squared(one_class)).inside, 1.0 / 36.0, 1e-9);
   for (int y = 3; y < 60; y += 6) {
     for (int x = 3; x < 60; x += 6) {
       for (int i = 0; i < 4; ++i) picture(x - 1 + (i & 1), y - 1 + (i >> 1)) = grey(140);   // 2 × 2: still odd ones out
       for (int i = -2; i <= 2; ++i) picture(x + i, y) = picture(x + i, y - 1) = grey(140);  // a stroke
     }
   }
-  EXPECT_LT(speck_shares(picture, one_class).inside, 1.0 / 36.0 * 4.0);
-  EXPECT_EQ(speck_shares(Grid<Rgb8>(60, 60, grey(9)), one_class).inside, 0.0);
+  EXPECT_LT(speck_shares(picture, border_distance_squared(one_class)).inside, 1.0 / 36.0 * 4.0);
+  EXPECT_EQ(speck_shares(Grid<Rgb8>(60, 60, grey(9)), border_distance_squared(one_class)).inside, 0.0);
 }
 
 TEST(Quality, QuantileIsLinearBetweenNeighbours) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -213,7 +214,10 @@ void expect_cheapest_candidates(bool with_silhouettes) {
   }
   const auto same_surface = [&](int x, int y, int dx) { return !with_silhouettes || depth.clamped(x + dx, y) == depth(x, y); };
   LevelState state(settings, guides, classes, exemplars, target,
-                   with_silhouettes ? make_links(depth, target, 1.04F) : std::vector<std::uint8_t>());
+                   with_silhouettes ? make_links(depth, target, 1.04F) : std::vector<std::uint8_t>(),
+                   SurroundingsPrice(40, {0, 16, 5, 16, 0, 9, 5, 9, 0}, classes));
+  // So few uses allowed that some candidates drop out.
+  std::fill(state.most_uses.begin(), state.most_uses.end(), 2U);
   start_from_picks(state);
   // Passes before it, so that there are pieces and used bins; at silhouettes none, as fresh picks are easily beaten by a neighbour.
   for (int pass = 0; pass < (with_silhouettes ? 0 : 2); ++pass) {
@@ -242,7 +246,13 @@ void expect_cheapest_candidates(bool with_silhouettes) {
       const Slack slack = make_slack(view, pixel);
       std::set<std::pair<std::uint32_t, std::int64_t>> candidates;  // with the price of joining; the cheapest offer comes first below
       std::set<std::uint32_t> offered;
+      std::set<std::uint32_t> across;  // what runs on behind a silhouette
+      for (const int dx : {-1, 1}) {
+        if (!same_surface(x, y, dx))
+          across.insert(static_cast<std::uint32_t>(static_cast<std::int64_t>(before.match[target.index(0, x + dx, y)]) - dx));
+      }
       const auto offer = [&](std::uint32_t texel, std::int64_t join) {
+        if (across.count(texel) > 0 || (before.uses[texel] >= 2 && texel != before.match[pixel])) return;
         if (class_of(exemplars.words[texel]) == c && offered.insert(texel).second) candidates.insert({texel, join});
       };
       offer(before.match[pixel], 0);
@@ -268,7 +278,9 @@ void expect_cheapest_candidates(bool with_silhouettes) {
         }
         const std::int64_t n = static_cast<std::int64_t>(before.uses[texel]) - (texel == before.match[pixel] ? 1 : 0);
         const std::int64_t cost = join + (guide >> 4) + ((n * (n + 1) / 2 * before.reuse_q4[c]) >> 4) +
-                                  bin_cost[c * 64 + before.bins[texel]] + naive_patch_cost(target_before, pixel, exemplars, texel, counts);
+                                  bin_cost[c * 64 + before.bins[texel]] +
+                                  before.around_price(before.wanted_around[pixel], before.offered_around[texel]) +
+                                  naive_patch_cost(target_before, pixel, exemplars, texel, counts);
         if (cost < best_cost) {  // the set is in index order: ties go to the lower index
           best_cost = cost;
           best = texel;
@@ -294,6 +306,64 @@ TEST_P(EachVectorWidth, SubPassFindsTheCheapestCandidate) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Vectors, EachVectorWidth, testing::ValuesIn(vector_targets()), [](const auto& name) { return name.param; });
+
+TEST(Surroundings, AreTheCountsOfTheWindow) {
+  const Plane plane = noise_plane({{150, 140}, {33, 20}}, 0, 5, true);
+  for (const int radius : {2, 8}) {
+    const std::vector<Surroundings> around = make_surroundings(plane, radius, classes);
+    for (int p = 0; p < 2; ++p) {
+      const Plane::Part& part = plane.parts[static_cast<std::size_t>(p)];
+      for (int y = 0; y < part.height; y += 3) {
+        for (int x = 0; x < part.width; x += 5) {
+          const std::uint32_t own = class_of(plane.words[plane.index(p, x, y)]);
+          if (own == no_class) continue;
+          std::array<int, classes> counts{};
+          for (int j = std::max(0, y - radius); j <= std::min(part.height - 1, y + radius); ++j) {
+            for (int i = std::max(0, x - radius); i <= std::min(part.width - 1, x + radius); ++i) {
+              const std::uint32_t c = class_of(plane.words[plane.index(p, i, j)]);
+              if (c != no_class) ++counts[c];
+            }
+          }
+          const int total = counts[0] + counts[1] + counts[2];
+          const Surroundings found = around[plane.index(p, x, y)];
+          ASSERT_EQ(found.others, 255 * (total - counts[own]) / total) << x << ", " << y;
+          if (total == counts[own]) continue;
+          ASSERT_NE(found.commonest, own);
+          for (std::uint32_t c = 0; c < classes; ++c) {
+            if (c != own) {
+              ASSERT_GE(counts[found.commonest], counts[c]);
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+// Where no more than two classes meet, the price is that of all class counts.
+TEST(Surroundings, PriceIsTheSquaredDifferenceOfCounts) {
+  const SurroundingsPrice price(256, std::vector<std::uint8_t>(16, 16), 4);
+  const auto counts = [](Surroundings s) {
+    std::array<std::int64_t, 4> n{255 - s.others, 0, 0, 0};
+    n[s.commonest] += s.others;
+    return n;
+  };
+  for (int u = 0; u <= 255; u += 15) {
+    for (int v = 0; v <= 255; v += 17) {
+      for (const std::uint8_t a : {std::uint8_t{1}, std::uint8_t{2}}) {
+        const Surroundings wanted{static_cast<std::uint8_t>(u), a};
+        const Surroundings offered{static_cast<std::uint8_t>(v), 2};
+        std::int64_t sum = 0;
+        for (std::size_t k = 0; k < 4; ++k) sum += (counts(wanted)[k] - counts(offered)[k]) * (counts(wanted)[k] - counts(offered)[k]);
+        ASSERT_EQ(price(wanted, offered), sum);
+      }
+    }
+  }
+  // Classes said to be alike count as one.
+  const SurroundingsPrice alike(256, std::vector<std::uint8_t>(16, 0), 4);
+  EXPECT_EQ(alike({100, 1}, {100, 2}), 0);
+  EXPECT_EQ(alike({100, 1}, {90, 2}), 200);
+}
 
 TEST(PickLists, WindowsHoldEnoughTexelsForTheDemand) {
   const Plane exemplars = noise_plane({{60, 50}}, 2, 5, false);
