@@ -5,7 +5,6 @@
 #include <cstdlib>
 
 #include "renderer/base/error.h"
-#include "renderer/base/random.h"
 #include "texture/synth_pieces.h"
 
 // This file is compiled once for each vector width by Highway.
@@ -344,100 +343,6 @@ void use_vector_target(const std::string& name) {
   if (!name.empty() && chosen == 0) throw Error(ErrorKind::limit, "vector instructions", name, "one that this processor has");
   hwy::SetSupportedTargetsForTest(chosen);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
-Slack make_slack(const KernelView& view, std::uint32_t pixel) {
-  const std::uint32_t label_class = class_of(view.target->words[pixel]);
-  const PickWindow window = view.lists->window(label_class, view.target->guides_at(pixel));
-  const std::size_t first = static_cast<std::size_t>(label_class) * static_cast<std::size_t>(view.exemplars->guide_count);
-  return {std::max(0, window.slack - 1), window.buckets * ListKeys::bucket_width,
-          view.usual_error == nullptr ? nullptr : view.usual_error + first};
-}
-
-Forbidden forbidden_texels(const KernelView& view, std::uint32_t pixel, bool all_neighbours) {
-  static constexpr std::array<std::array<int, 2>, 4> steps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-  Forbidden forbidden;
-  for (const auto& [dx, dy] : steps) {
-    if (!all_neighbours && (view.links == nullptr || linked(view.links, view.target->stride, pixel, dx, dy))) continue;
-    // Beyond the picture's sides lies `nowhere`, whose neighbours have no class either.
-    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(pixel) + dx + static_cast<std::ptrdiff_t>(dy) * view.target->stride;
-    const std::ptrdiff_t texel =
-        static_cast<std::ptrdiff_t>(view.match[at]) - dx - static_cast<std::ptrdiff_t>(dy) * view.exemplars->stride;
-    forbidden.texels[static_cast<std::size_t>(forbidden.count++)] = static_cast<std::uint32_t>(texel);
-  }
-  return forbidden;
-}
-
-std::uint32_t allowed_texel(const KernelView& view, std::uint32_t pixel, const Forbidden& forbidden, std::uint64_t key, int x, int y) {
-  constexpr int tries = 16;
-  const Slack slack = make_slack(view, pixel);
-  for (int i = 1; i <= tries; ++i) {
-    const std::uint32_t texel = draw_texel(view, pixel, key + static_cast<std::uint64_t>(i), x, y, slack);
-    if (!forbidden.has(texel)) return texel;
-  }
-  const std::uint32_t label_class = class_of(view.target->words[pixel]);
-  for (std::int64_t i = 0; i < view.lists->texel_count(label_class); ++i) {
-    const std::uint32_t texel = view.lists->texel(label_class, i);
-    if (!forbidden.has(texel)) return texel;
-  }
-  return view.match[pixel];
-}
-
-std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, Slack slack) {
-  const std::uint32_t label_class = class_of(view.target->words[pixel]);
-  const std::uint8_t* wanted = view.target->guides_at(pixel);
-  slack.others = nullptr;  // picks are as good as they can be
-  const auto pick = [&](int draw) {
-    const std::uint32_t random = static_cast<std::uint32_t>(random_bits(key, x, y, static_cast<std::uint64_t>(draw)) >> 32);
-    return view.lists->pick(label_class, wanted, random);
-  };
-  const int draws = view.around_price != nullptr && view.wanted_around[pixel].others > border_others
-                        ? std::max(view.draws, view.border_draws)
-                        : view.draws;
-  if (draws == 1) return pick(0);
-  // Each draw waits for memory twice, for its list entry and for its guides; in batches the waits overlap.
-  constexpr int batch = 8;
-  std::array<std::uint32_t, batch> drawn;
-  std::uint32_t best = view.exemplars->nowhere();
-  std::int64_t best_cost = INT64_MAX;
-  for (int first = 0; first < draws; first += batch) {
-    const std::size_t count = static_cast<std::size_t>(std::min(batch, draws - first));
-    for (std::size_t i = 0; i < count; ++i) {
-      drawn[i] = pick(first + static_cast<int>(i));
-      hwy::Prefetch(view.exemplars->guides_at(drawn[i]));
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::int64_t cost =
-          guide_cost(view, wanted, view.exemplars->guides_at(drawn[i]), slack) + surroundings_cost(view, pixel, drawn[i]);
-      if (cost < best_cost) {
-        best_cost = cost;
-        best = drawn[i];
-      }
-    }
-  }
-  return best;
-}
-
-void surface_around(const KernelView& view, std::uint32_t pixel, std::uint8_t rows[7]) {
-  std::fill(rows, rows + 7, std::uint8_t{0});
-  std::array<std::uint8_t, 49> open{};  // places reached, y × 7 + x; each enters once
-  std::size_t count = 0;
-  const auto reach = [&](int x, int y) {
-    if (x < 0 || y < 0 || x > 6 || y > 6 || (rows[y] >> x & 1)) return;
-    rows[y] = static_cast<std::uint8_t>(rows[y] | 1U << x);
-    open[count++] = static_cast<std::uint8_t>(y * 7 + x);
-  };
-  reach(patch_radius, patch_radius);
-  for (std::size_t i = 0; i < count; ++i) {
-    const int x = open[i] % 7;
-    const int y = open[i] / 7;
-    const std::uint8_t bits = view.links[static_cast<std::ptrdiff_t>(pixel) + x - patch_radius +
-                                         static_cast<std::ptrdiff_t>(y - patch_radius) * view.target->stride];
-    if (bits & link::right) reach(x + 1, y);
-    if (bits & link::left) reach(x - 1, y);
-    if (bits & link::down) reach(x, y + 1);
-    if (bits & link::up) reach(x, y - 1);
-  }
 }
 
 }  // namespace belvedere::synth

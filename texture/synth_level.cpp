@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <cstddef>
 #include <cstdlib>
-#include <functional>
-#include <mutex>
 #include <numeric>
 #include <utility>
 

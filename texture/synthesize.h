@@ -29,12 +29,14 @@ struct SynthesisParameters {
 };
 
 // Guided texture synthesis (design section 8, synthesis/recipe.md): the match field of the target. Label-filtered coherent
-// candidates and picks by guides, coarse to fine, integer costs, double-buffered parity passes: the same for any threads.
+// candidates and picks by guides, coarse to fine, integer costs, double-buffered parity passes: the same for any threads and tiles.
 //
 // Guides are paired by name; one that any exemplar or the target lacks is unused, and progress.note says so once. The strongest
 // two order the lists that picks come from (synth_lists.h): give the guides that must be met exactly the largest weights.
 // A class without texels takes its fallback, or Match::none; a note says which. Pixels labelled 255 get Match::none.
-// Where the target has depths, nothing is copied along across a jump of more than 4 % from one pixel to the next.
+// Where the target has depths, patches end at a jump of more than 4 % from one pixel to the next, and no two neighbours across one copy by
+// the same offset. No piece is larger than copy_cap. Where reuse is priced, no texel is used more than 6 + 3 × (pixels per texel of its
+// class) times, as far as a dozen rounds of moving pixels can bring that about.
 //
 // Throws Error(usage) where there is no exemplar, sizes disagree or a parameter is out of range; Error(limit) for more than 2^31
 // pixels or texels together or an exemplar over 32767 texels on a side.
