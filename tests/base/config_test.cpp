@@ -75,7 +75,7 @@ TEST(Config, BrokenHeadersAreSyntaxErrors) {
 
 TEST(Config, BrokenUtf8NamesThePlace) {
   EXPECT_THAT(usage_of([] { parse_config("a = 1\nb = \"\xff\xfe\"\n", "s.toml"); }), StartsWith("s.toml:2:"));
-  EXPECT_THAT(usage_of([] { parse_config(std::string("a = \"\0\"\n", 9), "s.toml"); }), StartsWith("s.toml:1:"));
+  EXPECT_THAT(usage_of([] { parse_config(std::string("a = \"\0\"\n", 8), "s.toml"); }), StartsWith("s.toml:1:"));
 }
 
 // Every way to nest, 10,000 and 300,000 deep: refused by a message, not by the end of the stack, and at once.

@@ -123,7 +123,7 @@ TEST(GuidanceIo, RoundTrip) {
   expect_near(g.normal_detail, r.normal_detail, half, "normal_detail");
   expect_near(g.normal_smooth, r.normal_smooth, half, "normal_smooth");
   expect_near(g.fall_line, r.fall_line, half, "fall_line");
-  for (std::size_t i = 0; i < r.normal.size(); ++i) ASSERT_NEAR(glm::length(r.normal[i]), 1.0, 1e-6);
+  for (const glm::vec3& normal : r.normal) ASSERT_NEAR(glm::length(normal), 1.0, 1e-6);
   EXPECT_EQ(r.fall_line(1, 5), glm::vec2(0.0f)) << "flat ground has no direction";
 }
 
