@@ -29,7 +29,8 @@ TEST(Fold, NoneWithoutHandlesAndNoneWhereATurnIsWideEnough) {
 }
 
 TEST(Fold, ATurnFoldsNothingAndAMoveFromItsLimitOn) {
-  // A twist keeps areas (until it outruns the facets). Moves fold where the share falls faster than they are long: steepest 15/8 over the belt.
+  // A twist keeps areas (until it outruns the facets). Moves fold where the share falls faster than they are long: steepest 15/8 over the
+  // belt.
   EXPECT_TRUE(
       find_folds(flat, frame, with({{.center = {10000.0, 10000.0}, .rotate_deg = 110.0, .radius_m = 8000.0, .core_m = 3000.0}})).empty());
   const auto folds = [&](double move) {
