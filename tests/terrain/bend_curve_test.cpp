@@ -40,6 +40,12 @@ TEST(BendCurve, RunsThroughItsDropsAndNeverBeyond) {
   }
 }
 
+TEST(BendCurve, IsLevelAtAnExtremeOfItsDrops) {
+  const BendProfile bend(drops({{0, 1000}, {10000, 0}, {20000, 300}}));
+  EXPECT_EQ(bend.slope(10000.0), 0.0);
+  for (double d = 0.0; d <= 20000.0; d += 100.0) EXPECT_GE(bend.drop_m(d), -1e-9) << d;
+}
+
 TEST(BendCurve, IsSmoothAtItsPointsAndStraightBeyond) {
   for (const BendCurve& curve : {steps, inclinations({{10000, 25}, {40000, 12}, {80000, 0}, {120000, -3}})}) {
     const BendProfile bend(curve);

@@ -122,6 +122,12 @@ TEST(Handles, HandlesWithoutRadiusThatAgreeTurnThePlane) {
   }
 }
 
+TEST(Handles, ACoreWithoutRadiusIsExactBesideAnother) {
+  const HandleField field({{.center = middle, .rotate_deg = 40.0, .core_m = 2000.0},
+                           {.center = middle + glm::dvec2(9000.0, 0.0), .move_m = {300.0, 500.0}, .core_m = 1000.0}});
+  around(0.0, 2000.0, [&](glm::dvec2 v) { EXPECT_LT(glm::length(field.move(v).place - middle - turned(v - middle, 40.0)), 1e-8); });
+}
+
 TEST(Handles, CentresAreInterpolatedExactly) {
   std::vector<DeformHandle> handles;
   for (int i = 0; i < 20; ++i)  // more than fit on the stack
