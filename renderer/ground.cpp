@@ -112,12 +112,13 @@ LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progr
 }
 
 Grid<float> generalize_for_view(const Scene& scene, const Dem& dem, const View& view, Progress& progress) {
-  const Grid<float> near = foreground_share(dem, view.viewer_xy, scene.generalize);
-  const Grid<std::uint8_t> lakes = scene.generalize.keep_lakes ? find_lakes(dem.altitude_m, {}) : Grid<std::uint8_t>();
+  GeneralizeGrids grids;
+  grids.foreground_share = foreground_share(dem, view.viewer_xy, scene.generalize);
+  if (scene.generalize.keep_lakes) grids.keep = find_lakes(dem.altitude_m, {});
   const SceneGeneralize& wish = scene.generalize;
   Grid<float> out = wish.line_integral ? generalize_along_slope_lines(dem.altitude_m, dem.cell_m(), {}, progress) : Grid<float>();
-  out = generalize(wish.line_integral ? out : dem.altitude_m, near, lakes, wish.bands, progress);
-  if (wish.valleys.width_m > 0.F) out = widen_valleys(out, lakes, dem.cell_m(), wish.valleys, progress);
+  out = generalize(wish.line_integral ? out : dem.altitude_m, {dem.transform.cell_x, dem.transform.cell_y}, grids, wish.bands, progress);
+  if (wish.valleys.width_m > 0.F) out = widen_valleys(out, grids.keep, dem.cell_m(), wish.valleys, progress);
   return out;
 }
 

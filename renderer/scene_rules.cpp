@@ -40,7 +40,8 @@ class Rules {
   }
 
   void generalize() {
-    auto& [foreground, background, crest] = scene_.generalize.bands;
+    std::vector<float>& foreground = scene_.generalize.bands.foreground;
+    std::vector<float>& background = scene_.generalize.bands.background;
     // Where only one of the two is given, the other keeps every band.
     if (written("generalize.foreground") && !written("generalize.background")) background.assign(foreground.size(), 1.F);
     if (written("generalize.background") && !written("generalize.foreground")) foreground.assign(background.size(), 1.F);
