@@ -68,7 +68,7 @@ BandWeights weights_of(const GeneralizeParameters& parameters, int level, double
 
 BreakLines break_lines_of(const GeneralizeParameters& parameters, int level, glm::dvec2 cell_m) {
   const bool plan = parameters.curvature == CurvatureForm::plan;
-  const double full = parameters.full_curvature > 0.F ? parameters.full_curvature : plan ? 0.5 : 0.15;
+  const double full = parameters.full_curvature > 0.F ? parameters.full_curvature : plan ? 0.8 : 0.15;
   const glm::dvec2 cell = cell_m * std::ldexp(1.0, level);
   BreakLines lines;
   lines.scale = {plan, static_cast<float>(1.0 / cell.x), static_cast<float>(1.0 / cell.y),
