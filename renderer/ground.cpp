@@ -7,6 +7,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/parallel.h"
+#include "renderer/generalize_view.h"
 #include "terrain/class_rules.h"
 #include "terrain/destripe.h"
 #include "terrain/fold.h"
@@ -37,21 +38,6 @@ std::vector<RasterSource> to_raster_sources(const LoadedScene& scene, const std:
   rasters.reserve(sources.size());
   for (const SceneSource& source : sources) rasters.push_back(to_raster_source(scene, source));
   return rasters;
-}
-
-// 1 near, 0 far, smoothstep between (requirements G15, G16).
-Grid<float> foreground_share(const Dem& dem, glm::dvec2 viewer_xy, const SceneGeneralize& wish) {
-  Grid<float> share(dem.width(), dem.height());
-  const double span = std::max(1.0, wish.background_from_m - wish.foreground_to_m);
-  parallel_rows(dem.height(), [&](int y) {
-    for (int x = 0; x < dem.width(); ++x) {
-      const glm::dvec2 place = dem.transform.to_crs(x, y);
-      const double distance = std::hypot(place.x - viewer_xy.x, place.y - viewer_xy.y);
-      const double t = std::clamp((distance - wish.foreground_to_m) / span, 0.0, 1.0);
-      share(x, y) = static_cast<float>(1.0 - t * t * (3.0 - 2.0 * t));
-    }
-  });
-  return share;
 }
 
 LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
@@ -111,19 +97,8 @@ LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progr
   return cover;
 }
 
-Grid<float> generalize_for_view(const Scene& scene, const Dem& dem, const View& view, Progress& progress) {
-  GeneralizeGrids grids;
-  grids.foreground_share = foreground_share(dem, view.viewer_xy, scene.generalize);
-  if (scene.generalize.keep_lakes) grids.keep = find_lakes(dem.altitude_m, {});
-  const SceneGeneralize& wish = scene.generalize;
-  Grid<float> out = wish.line_integral ? generalize_along_slope_lines(dem.altitude_m, dem.cell_m(), {}, progress) : Grid<float>();
-  out = generalize(wish.line_integral ? out : dem.altitude_m, {dem.transform.cell_x, dem.transform.cell_y}, grids, wish.bands, progress);
-  if (wish.valleys.width_m > 0.F) out = widen_valleys(out, grids.keep, dem.cell_m(), wish.valleys, progress);
-  return out;
-}
-
-Ground make_ground(const Scene& scene, Dem dem, LandCover land_cover, const View& view, Progress& progress) {
-  Grid<float> generalized_m = generalize_for_view(scene, dem, view, progress);
+Ground make_ground(const LoadedScene& loaded, Dem dem, LandCover land_cover, const View& view, Progress& progress) {
+  Grid<float> generalized_m = generalize_for_view(loaded, dem, &land_cover, view, progress);
   // The eye's place at altitude 0 is the origin of everything that becomes float.
   const glm::dvec3 origin{view.viewer_xy, 0.0};
   Deformation deformation(view.deform, view.viewer_xy);

@@ -13,16 +13,13 @@ Dem make_scene_dem(const LoadedScene& scene, Progress& progress);
 // Its land cover: from sources and a legend, or by rules.
 LandCover make_scene_land_cover(const LoadedScene& scene, const Dem& dem, Progress& progress);
 
-// A DEM generalized by its distance from the viewer, as the scene asks.
-Grid<float> generalize_for_view(const Scene& scene, const Dem& dem, const View& view, Progress& progress);
-
 // The terrain as one view wants it: generalized by distance, exaggerated and bent.
 struct Ground {
   Deformation deformation;
   TerrainModel model;
   DeformedSurface surface;
 };
-Ground make_ground(const Scene& scene, Dem dem, LandCover land_cover, const View& view, Progress& progress);
+Ground make_ground(const LoadedScene& loaded, Dem dem, LandCover land_cover, const View& view, Progress& progress);
 // Where handles fold the ground over itself: Error(usage) naming the handle, the place and a way out if that is in the picture, unless the
 // scene allows it; a note otherwise.
 void check_folds(const Scene& scene, const Ground& ground, const Camera& camera, Progress& progress);

@@ -71,7 +71,7 @@ Stage set_stage(const LoadedScene& loaded, Progress& progress) {
   stage.view = make_view(loaded.scene, dem, progress);
   stage.camera = make_camera(stage.view.camera);
   LandCover land_cover = make_scene_land_cover(loaded, dem, progress);
-  stage.ground = make_ground(loaded.scene, std::move(dem), std::move(land_cover), stage.view, progress);
+  stage.ground = make_ground(loaded, std::move(dem), std::move(land_cover), stage.view, progress);
   check_folds(loaded.scene, stage.ground, *stage.camera, progress);
   progress.begin("building the ray tracer", 0.0);
   stage.tracer = std::make_unique<Tracer>(stage.ground.surface, tracing);

@@ -52,9 +52,16 @@ struct SceneLandCover {
 };
 
 struct SceneGeneralize {
+  std::string preset;  // fills what the file does not write; empty: none
   GeneralizeParameters bands;
-  double foreground_to_m = 32000.0;    // up to this distance all foreground
-  double background_from_m = 90000.0;  // from here all background, smoothstep between
+  double foreground_to_m = 32000.0;                          // up to this distance all foreground
+  double background_from_m = 90000.0;                        // from here all background, smoothstep between
+  std::string curvature = "bounded";                         // "bounded" or "plan": becomes bands.curvature
+  double print_detail_px = 0.0;                              // 0: every band, wherever it is
+  std::array<double, 2> mask_slope_deg = {0, 0};             // original up to the first, generalized from the second; 0, 0: no mask
+  bool automatic_mask = false;                               // of slope feet
+  std::string mask;                                          // raster; empty: none
+  std::vector<std::pair<std::string, double>> mask_classes;  // how much of the generalization a class takes
   bool keep_lakes = true;
   bool destripe = false;           // takes stripes off the DEM itself, before everything else
   bool line_integral = false;      // line integral convolution, before the bands

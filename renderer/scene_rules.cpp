@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "renderer/base/error.h"
+#include "terrain/generalize_presets.h"
 
 namespace belvedere {
 namespace {
@@ -40,15 +41,37 @@ class Rules {
   }
 
   void generalize() {
-    std::vector<float>& foreground = scene_.generalize.bands.foreground;
-    std::vector<float>& background = scene_.generalize.bands.background;
+    apply_preset();
+    SceneGeneralize& wish = scene_.generalize;
+    std::vector<float>& foreground = wish.bands.foreground;
+    std::vector<float>& background = wish.bands.background;
+    wish.bands.curvature = wish.curvature == "plan" ? CurvatureForm::plan : CurvatureForm::bounded;
+    const bool preset = !wish.preset.empty();
     // Where only one of the two is given, the other keeps every band.
-    if (written("generalize.foreground") && !written("generalize.background")) background.assign(foreground.size(), 1.F);
-    if (written("generalize.background") && !written("generalize.foreground")) foreground.assign(background.size(), 1.F);
+    if (!preset && written("generalize.foreground") && !written("generalize.background")) background.assign(foreground.size(), 1.F);
+    if (!preset && written("generalize.background") && !written("generalize.foreground")) foreground.assign(background.size(), 1.F);
     if (foreground.size() != background.size())
       refuse("generalize.background",
              fmt::format("generalize.background has {} weights, generalize.foreground has {}", background.size(), foreground.size()),
              "as many weights in both");
+    const auto fits = [&](const char* key, const std::vector<float>& weights) {
+      if (!weights.empty() && weights.size() != foreground.size())
+        refuse(key, fmt::format("{} has {} weights, generalize.foreground has {}", key, weights.size(), foreground.size()),
+               "as many weights in both");
+    };
+    fits("generalize.foreground_ridges", wish.bands.foreground_ridges);
+    fits("generalize.foreground_valleys", wish.bands.foreground_valleys);
+    fits("generalize.background_ridges", wish.bands.background_ridges);
+    fits("generalize.background_valleys", wish.bands.background_valleys);
+    if (wish.mask_slope_deg[1] > 0.0 && wish.mask_slope_deg[0] >= wish.mask_slope_deg[1])
+      refuse("generalize.mask_slope_deg",
+             fmt::format("generalize.mask_slope_deg goes from {}° to {}°", wish.mask_slope_deg[0], wish.mask_slope_deg[1]),
+             "[flatter, steeper], or [0, 0] for no mask");
+    if (wish.print_detail_px > 0.0 && wish.print_detail_px < 0.5)
+      refuse("generalize.print_detail_px", fmt::format("generalize.print_detail_px is {}", wish.print_detail_px), "0 for off, or 0.5 … 20");
+    if (wish.bands.full_curvature > 0.F && wish.bands.full_curvature < 0.001F)
+      refuse("generalize.full_curvature", fmt::format("generalize.full_curvature is {}", wish.bands.full_curvature),
+             "0 for the usual one, or 0.001 … 10");
     if (scene_.generalize.foreground_to_m >= scene_.generalize.background_from_m)
       refuse(written("generalize.background_from_m") ? "generalize.background_from_m" : "generalize.foreground_to_m",
              fmt::format("generalize.background_from_m ({} m) is not beyond generalize.foreground_to_m ({} m)",
@@ -122,6 +145,26 @@ class Rules {
   }
 
  private:
+  // What the file does not write itself comes from the preset it names.
+  void apply_preset() {
+    SceneGeneralize& wish = scene_.generalize;
+    const GeneralizePreset* preset = find_generalize_preset(wish.preset);
+    if (preset == nullptr) return;
+    const auto take = [&](const char* key, auto& value, const auto& from) {
+      if (written(key) == nullptr) value = from;
+    };
+    take("generalize.foreground", wish.bands.foreground, preset->bands.foreground);
+    take("generalize.background", wish.bands.background, preset->bands.background);
+    take("generalize.foreground_ridges", wish.bands.foreground_ridges, preset->bands.foreground_ridges);
+    take("generalize.foreground_valleys", wish.bands.foreground_valleys, preset->bands.foreground_valleys);
+    take("generalize.background_ridges", wish.bands.background_ridges, preset->bands.background_ridges);
+    take("generalize.background_valleys", wish.bands.background_valleys, preset->bands.background_valleys);
+    take("generalize.automatic_mask", wish.automatic_mask, preset->automatic_mask);
+    if (preset->slope_mask)
+      take("generalize.mask_slope_deg", wish.mask_slope_deg,
+           std::array{preset->slope_mask->original_to_deg, preset->slope_mask->generalized_from_deg});
+  }
+
   // The value at a dotted path, numbers counting list elements; null where nobody wrote it.
   const ConfigValue* written(std::string_view path) const {
     const ConfigValue* node = &root_;

@@ -199,46 +199,7 @@ std::vector<SceneSection> make_scene_sections() {
                       .keys = source_keys(false),
                       .count = [](const Scene& s) { return s.land_cover.sources.size(); },
                       .resize = [](Scene& s, std::size_t n) { s.land_cover.sources.resize(n); }});
-  sections.push_back(
-      {.name = "generalize",
-       .meaning = "Terrain generalization by bands of landform size (Jenny, Jenny & Hurni 2011): 1 keeps a band, 0 removes it, more "
-                  "exaggerates it. Each band holds landforms twice as large as the next.",
-       .keys = {
-           {.name = "foreground",
-            .field = AT(generalize.bands.foreground),
-            .range = {0, 5},
-            .meaning = "Weights of the bands near the viewer, the band of the largest landforms first. Their number is the number of "
-                       "bands, 1 to 12."},
-           {.name = "background",
-            .field = AT(generalize.bands.background),
-            .range = {0, 5},
-            .meaning = "Weights of the bands far away, as many as in foreground."},
-           {.name = "foreground_to_m",
-            .field = AT(generalize.foreground_to_m),
-            .range = {0, largest_m},
-            .unit = "m",
-            .meaning = "Up to this distance the foreground's weights hold alone."},
-           {.name = "background_from_m",
-            .field = AT(generalize.background_from_m),
-            .range = {0, largest_m},
-            .unit = "m",
-            .meaning = "From this distance the background's weights hold alone; between the two they blend."},
-           {.name = "crest", .field = AT(generalize.bands.crest), .range = {0, 3}, .meaning = "Sharpening of high crests; 0 is off."},
-           {.name = "keep_lakes", .field = AT(generalize.keep_lakes), .meaning = "Lakes keep their level."},
-           {.name = "destripe",
-            .field = AT(generalize.destripe),
-            .meaning = "Finds stripes along rows and columns of the DEM (old USGS and SRTM data, resampling by nearest neighbours) and "
-                       "takes them off before anything else."},
-           {.name = "line_integral",
-            .field = AT(generalize.line_integral),
-            .meaning = "Before the bands, slopes are made plain along slope lines and ridges kept sharp (line integral convolution, Jenny "
-                       "2021)."},
-           {.name = "widen_valleys_m",
-            .field = AT(generalize.valleys.width_m),
-            .range = {0, 5000},
-            .unit = "m",
-            .meaning = "After the bands, the floors of large valleys become so much wider; ridges keep their place. 0 is off."},
-       }});
+  sections.push_back(make_generalize_section());
   for (SceneSection& section : make_deform_sections()) sections.push_back(std::move(section));
   sections.push_back({.name = "camera",
                       .meaning = "Where the viewer stands and where the view goes.",

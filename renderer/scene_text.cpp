@@ -38,7 +38,8 @@ struct ValueWriter {
   }
   std::string operator()(const std::array<double, 2>* field) const { return bracketed(*field); }
   std::string operator()(const std::optional<std::array<double, 4>>* field) const { return *field ? bracketed(**field) : ""; }
-  std::string operator()(const std::vector<float>* field) const { return bracketed(*field); }
+  // An empty set of weights is none: nothing is written.
+  std::string operator()(const std::vector<float>* field) const { return field->empty() ? "" : bracketed(*field); }
   std::string operator()(const std::optional<LandCoverClass>* field) const { return *field ? json_quoted(class_name(**field)) : ""; }
   std::string operator()(const std::vector<std::pair<std::string, double>>* field) const {
     std::vector<std::string> entries;

@@ -1,5 +1,7 @@
 #include "renderer/ground.h"
 
+#include "renderer/generalize_view.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -90,7 +92,7 @@ class TerrainOperators : public testing::Test {
   }
   Grid<float> generalized(const std::string& wishes) const {
     const LoadedScene loaded = scene("clean.tif", wishes);
-    return generalize_for_view(loaded.scene, make_scene_dem(loaded, silent_progress()), {}, silent_progress());
+    return generalize_for_view(loaded, make_scene_dem(loaded, silent_progress()), nullptr, {}, silent_progress());
   }
 
   Raster<float> striped_;

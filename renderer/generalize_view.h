@@ -1,0 +1,19 @@
+#pragma once
+
+#include "renderer/base/progress.h"
+#include "renderer/scene_file.h"
+#include "renderer/view.h"
+#include "terrain/land_cover.h"
+
+namespace belvedere {
+
+// A DEM generalized as the scene asks for one view: by the distance from the viewer, by what its print can show, and by masks. `land_cover`
+// is looked at where the scene masks by class; null: it is made then. Its cells are the DEM's.
+Grid<float> generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
+                                Progress& progress);
+
+// Ground metres that an output pixel shows, at every cell of the DEM, in the direction in which the picture shows most: what is
+// finer cannot be seen however the ground lies. Behind the eye it goes on as the distance does. Empty where no ground is before it.
+Grid<float> ground_m_per_pixel(const Dem& dem, const View& view);
+
+}  // namespace belvedere
