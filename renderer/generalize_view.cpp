@@ -54,10 +54,6 @@ Grid<float> mask_for_scene(const LoadedScene& loaded, const Dem& dem, const Land
   const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
   Grid<float> mask;
   if (wish.mask_slope_deg[1] > 0.0) mask = slope_mask(dem.altitude_m, cell_m, {wish.mask_slope_deg[0], wish.mask_slope_deg[1]});
-  if (wish.automatic_mask) {
-    const int reach = 1 << std::min<std::size_t>(wish.bands.foreground.size(), 6);
-    mask = combine_masks(std::move(mask), slope_foot_mask(dem.altitude_m, cell_m, reach));
-  }
   if (!wish.mask.empty()) {
     RasterSource source;
     source.path = find_scene_file(loaded, wish.mask);
@@ -114,6 +110,10 @@ Grid<float> generalize_for_view(const LoadedScene& loaded, const Dem& dem, const
   if (wish.keep_lakes) grids.keep = find_lakes(dem.altitude_m, {});
   grids.mask = mask_for_scene(loaded, dem, land_cover, progress);
   GeneralizeParameters bands = wish.bands;
+  if (wish.automatic_mask) {
+    const int reach = 1 << std::min<std::size_t>(bands.foreground.size(), 6);
+    grids.amplification_mask = slope_foot_mask(dem.altitude_m, {dem.transform.cell_x, dem.transform.cell_y}, reach);
+  }
   if (wish.print_detail_px > 0.0) {
     grids.ground_m_per_pixel = ground_m_per_pixel(dem, view);
     bands.print_pixels = static_cast<float>(wish.print_detail_px);

@@ -89,7 +89,7 @@ SceneSection make_generalize_section() {
            .meaning = "Ground flatter than the first stays as it is, steeper than the second is generalized. [0, 0] is off."},
           {.name = "automatic_mask",
            .field = AT(generalize.automatic_mask),
-           .meaning = "Keeps flat ground at the foot of slopes, where amplified bands would dig a moat."},
+           .meaning = "Exaggerates nothing on flat ground at the foot of slopes, where it would dig a moat; smoothing goes on there."},
           {.name = "mask",
            .field = AT(generalize.mask),
            .meaning = "Raster that says where terrain is generalized: 0 stays as it is, 1 (or 255) is generalized. Masks combine.",

@@ -49,7 +49,8 @@ void check(const Grid<float>& altitude_m, const GeneralizeGrids& grids, const Ge
   check_number("background_ridges", parameters.background_ridges, bands);
   check_number("background_valleys", parameters.background_valleys, bands);
   const auto fits = [&](const auto& grid) { return grid.empty() || grid.same_size(altitude_m); };
-  if (!fits(grids.foreground_share) || !fits(grids.keep) || !fits(grids.mask) || !fits(grids.ground_m_per_pixel)) {
+  if (!fits(grids.foreground_share) || !fits(grids.keep) || !fits(grids.mask) || !fits(grids.amplification_mask) ||
+      !fits(grids.ground_m_per_pixel)) {
     throw Error(ErrorKind::bug, "generalize", "a foreground, lake, mask or ground grid whose size is not the DEM's");
   }
 }
@@ -106,6 +107,7 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m, const G
   const LevelsOf share(grids.foreground_share, bands);
   const LevelsOf free_levels(free, bands);
   const LevelsOf mask(grids.mask, bands);
+  const LevelsOf amplify(grids.amplification_mask, bands);
   const LevelsOf ground(grids.ground_m_per_pixel, bands);
 
   Grid<float> change;
@@ -117,13 +119,14 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m, const G
     band.share = share.at(i);
     band.free = free_levels.at(i);
     band.mask = mask.at(i);
+    band.amplify = amplify.at(i);
     band.ground_m_per_pixel = ground.at(i);
     change = add_band(band, weights_of(parameters, i, 0.5 * (cell_m.x + cell_m.y)), break_lines_of(parameters, i, cell_m));
     progress.advance(1.0);
   }
   if (parameters.crest > 0.F && reductions > 0) {
     if (change.empty()) change = Grid<float>(altitude_m.width(), altitude_m.height());
-    add_crests(change, levels_m, share.at(0), mask.at(0), parameters.crest);
+    add_crests(change, levels_m, share.at(0), mask.at(0), amplify.at(0), parameters.crest);
   }
   if (change.empty()) return altitude_m;
   if (has_lakes) settle_around_lakes(change, grids.keep);

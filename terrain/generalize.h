@@ -46,9 +46,12 @@ struct GeneralizeParameters {
 
 // What varies from place to place. Each grid is empty or of the DEM's size.
 struct GeneralizeGrids {
-  Grid<float> foreground_share;    // u_d of equation 5: 1 near, 0 far; empty: 1 everywhere
-  Grid<unsigned char> keep;        // != 0 keeps its altitude exactly (lakes)
-  Grid<float> mask;                // m of equation 6: 1 generalized, 0 original; empty: 1 everywhere
+  Grid<float> foreground_share;  // u_d of equation 5: 1 near, 0 far; empty: 1 everywhere
+  Grid<unsigned char> keep;      // != 0 keeps its altitude exactly (lakes)
+  Grid<float> mask;              // m of equation 6: 1 generalized, 0 original; empty: 1 everywhere
+  // 1 where bands may be exaggerated, 0 where weights stop at 1: limits what digs moats and still lets flats be smoothed; empty: 1
+  // everywhere.
+  Grid<float> amplification_mask;
   Grid<float> ground_m_per_pixel;  // how much ground an output pixel shows; empty: every band can be printed
 };
 

@@ -115,6 +115,7 @@ class BandStrip {
     rows.share = row(band_.share);
     rows.free = row(band_.free);
     rows.mask = row(band_.mask);
+    rows.amplify = row(band_.amplify);
     rows.ground_m_per_pixel = row(band_.ground_m_per_pixel);
     weigh_row(rows, weights_, band_.level->row(y), smooth_[y], width_, gain_.data(), out);
   }

@@ -21,6 +21,7 @@ struct Band {
   const Grid<float>* share = nullptr;
   const Grid<float>* free = nullptr;
   const Grid<float>* mask = nullptr;
+  const Grid<float>* amplify = nullptr;
   const Grid<float>* ground_m_per_pixel = nullptr;
 };
 

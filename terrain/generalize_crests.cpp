@@ -46,7 +46,7 @@ CrestTerms find_crests(const std::vector<Grid<float>>& levels) {
 }  // namespace
 
 void add_crests(Grid<float>& change, const std::vector<Grid<float>>& levels, const Grid<float>* share, const Grid<float>* mask,
-                float strength) {
+                const Grid<float>* amplify, float strength) {
   const CrestTerms crests = find_crests(levels);
   const int width = change.width();
   parallel_rows(change.height(), [&](int y) {
@@ -58,8 +58,10 @@ void add_crests(Grid<float>& change, const std::vector<Grid<float>>& levels, con
     for (int x = 0; x < width; ++x) {
       const float high = unit((ground[x] - 1200.F) / 700.F);
       const float near = share == nullptr ? 1.F : unit((*share)(x, y));
-      const float added = strength * high * std::clamp(detail[x], 0.F, 60.F) * (1.F - 0.2F * (1.F - near));
-      out[x] += mask == nullptr ? added : added * unit((*mask)(x, y));
+      float added = strength * high * std::clamp(detail[x], 0.F, 60.F) * (1.F - 0.2F * (1.F - near));
+      if (mask != nullptr) added *= unit((*mask)(x, y));
+      if (amplify != nullptr) added *= unit((*amplify)(x, y));
+      out[x] += added;
     }
   });
 }

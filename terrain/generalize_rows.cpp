@@ -181,6 +181,13 @@ void WeighRow(const WeightRows& in, const BandWeights& w, const float* level, co
     }
   }
   for (int x = 0; x < width; ++x) gain[x] -= 1.F;
+  if (in.amplify != nullptr) {
+    const float* m = in.amplify;
+    for (int x = 0; x < width; ++x) {
+      const float more = gain[x] * unit(m[x]);
+      gain[x] = gain[x] > 0.F ? more : gain[x];
+    }
+  }
   if (in.free != nullptr) {
     const float* m = in.free;
     for (int x = 0; x < width; ++x) gain[x] *= unit(m[x]);

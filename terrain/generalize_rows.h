@@ -39,6 +39,7 @@ struct WeightRows {
   const float* convex = nullptr;      // share of the ridge set against the valley set; null: they are the same
   const float* free = nullptr;
   const float* mask = nullptr;
+  const float* amplify = nullptr;  // mask of what is above 1
   const float* ground_m_per_pixel = nullptr;
 };
 struct WeightSet {

@@ -24,9 +24,10 @@ Grid<float> slope_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, const S
 using ClassShares = std::array<float, land_cover_class_count>;
 Grid<float> class_mask(const Grid<LandCoverClass>& classes, const ClassShares& shares);
 
-// Where flat ground meets steep slopes, and nowhere else: there amplified middle bands would dig a moat along the foot of the
-// slope. Flat is less than 3° (all) to 12° (nothing) after a blur of 1.5 cells, with six cells around it; it counts as far as
-// reach_cells beside slopes of more than 12° to 20°. reach_cells: about the largest landform amplified, 2^bands cells; 2…256.
+// For GeneralizeGrids::amplification_mask, where it lets flats be smoothed all the same. Where flat ground meets steep slopes, and nowhere
+// else: there amplified middle bands would dig a moat along the foot of the slope. Flat is less than 3° (all) to 12° (nothing) after a blur
+// of 1.5 cells, with six cells around it; it counts as far as reach_cells beside slopes of more than 12° to 20°. reach_cells: about the
+// largest landform amplified, 2^bands cells; 2…256.
 Grid<float> slope_foot_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, int reach_cells);
 
 // A mask drawn by a cartographer, reprojected into `frame`: 0 or black is original, the largest value it can hold (1, or 255 where values

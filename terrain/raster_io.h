@@ -66,6 +66,9 @@ Raster<std::int32_t> warp_codes(const std::vector<RasterSource>& sources, const 
 RasterFrame choose_frame(const std::vector<RasterSource>& sources, const std::string& crs, double cell_m,
                          const std::optional<std::array<double, 4>>& extent);
 
+// Width and height of a cell on the ground, m, in the middle of a raster of that size: of degrees, feet or a map that stretches. Cells of a
+// metric CRS that is true within 3 %, and cells of no CRS, count as they are.
+glm::dvec2 ground_cell_m(const GeoTransform& transform, const std::string& crs, int width, int height);
 // A point between two CRS; geographic CRS are in longitude, latitude order.
 glm::dvec2 transform_point(const std::string& from_crs, const std::string& to_crs, glm::dvec2 point);
 // "EPSG:4326" and the like to WKT2; Error(usage) where it means nothing.

@@ -95,13 +95,14 @@ std::string utm_crs(glm::dvec2 lon_lat) {
   return normalize_crs(fmt::format("EPSG:{}", (lon_lat.y < 0.0 ? 32700 : 32600) + zone));
 }
 
-double scale_of_crs(const std::string& crs, glm::dvec2 point) {
-  // Geometric mean of the scales along both axes, over ±500 m, on the WGS 84 ellipsoid: radii of curvature in the
-  // meridian M and in the prime vertical N.
+namespace {
+
+// How long ±reach (CRS units) along x and y is on the ground, m, on the WGS 84 ellipsoid: radii of curvature in the meridian M
+// and in the prime vertical N.
+glm::dvec2 ground_lengths_m(const std::string& crs, glm::dvec2 point, glm::dvec2 reach) {
   const PointTransform to_degrees(crs, "EPSG:4326");
-  constexpr double reach = 500.0;
-  std::vector<glm::dvec2> p = {point, point + glm::dvec2{-reach, 0.0}, point + glm::dvec2{reach, 0.0}, point + glm::dvec2{0.0, -reach},
-                               point + glm::dvec2{0.0, reach}};
+  std::vector<glm::dvec2> p = {point, point + glm::dvec2{-reach.x, 0.0}, point + glm::dvec2{reach.x, 0.0},
+                               point + glm::dvec2{0.0, -reach.y}, point + glm::dvec2{0.0, reach.y}};
   to_degrees.apply(p);
   constexpr double a = 6378137.0;
   constexpr double e2 = 6.69437999014e-3;
@@ -113,7 +114,26 @@ double scale_of_crs(const std::string& crs, glm::dvec2 point) {
     d.x -= 360.0 * std::round(d.x / 360.0);
     return std::hypot(d.x * degree * n * std::cos(p[0].y * degree), d.y * degree * m);
   };
-  return 2.0 * reach / std::sqrt(metres(p[2] - p[1]) * metres(p[4] - p[3]));
+  return {metres(p[2] - p[1]), metres(p[4] - p[3])};
+}
+
+}  // namespace
+
+double scale_of_crs(const std::string& crs, glm::dvec2 point) {
+  constexpr double reach = 500.0;
+  const glm::dvec2 ground = ground_lengths_m(crs, point, {reach, reach});
+  return 2.0 * reach / std::sqrt(ground.x * ground.y);
+}
+
+glm::dvec2 ground_cell_m(const GeoTransform& transform, const std::string& crs, int width, int height) {
+  const glm::dvec2 cell{transform.cell_x, transform.cell_y};
+  if (crs.empty()) return cell;
+  const glm::dvec2 ground = ground_lengths_m(crs, transform.to_crs(0.5 * (width - 1), 0.5 * (height - 1)), 0.5 * cell);
+  if (!std::isfinite(ground.x) || !std::isfinite(ground.y) || !(ground.x > 0.0) || !(ground.y > 0.0)) {
+    throw Error(ErrorKind::input, "crs", fmt::format("the raster lies nowhere on earth by {}", describe_crs(crs)));
+  }
+  const auto near = [](double a, double b) { return std::abs(a / b - 1.0) < 0.03; };
+  return crs_traits(crs).metric && near(ground.x, cell.x) && near(ground.y, cell.y) ? cell : ground;
 }
 
 struct PointTransform::State {

@@ -21,6 +21,7 @@ using AddCommand = Command (*)(CLI::App& program);
 // One file and one line in commands.cpp a subcommand.
 Command add_render(CLI::App& program);
 Command add_guidance(CLI::App& program);
+Command add_generalize(CLI::App& program);
 Command add_synthesize(CLI::App& program);
 Command add_check(CLI::App& program);
 Command add_deform(CLI::App& program);

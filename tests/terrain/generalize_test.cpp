@@ -44,7 +44,8 @@ Grid<float> equation_two(const Grid<float>& altitude_m, const std::vector<float>
 
 Grid<float> generalize(const Grid<float>& altitude_m, const GeneralizeParameters& parameters, const Grid<float>& share = {},
                        const Grid<unsigned char>& keep = {}) {
-  return belvedere::generalize(altitude_m, {30.0, 30.0}, {.foreground_share = share, .keep = keep, .mask = {}, .ground_m_per_pixel = {}},
+  return belvedere::generalize(altitude_m, {30.0, 30.0},
+                               {.foreground_share = share, .keep = keep, .mask = {}, .amplification_mask = {}, .ground_m_per_pixel = {}},
                                parameters, silent_progress());
 }
 

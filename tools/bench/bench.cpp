@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -38,9 +39,9 @@ const std::vector<Section>& sections() {
 
 double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
 
-rusage used() {
+rusage used(int who = RUSAGE_SELF) {
   rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
+  getrusage(who, &usage);
   return usage;
 }
 
@@ -64,6 +65,15 @@ Cost measure(const std::function<void()>& work) {
   return {wall.count(), seconds(after.ru_utime) + seconds(after.ru_stime) - seconds(before.ru_utime) - seconds(before.ru_stime)};
 }
 
+Cost measure_child(const std::function<int()>& work) {
+  const rusage before = used(RUSAGE_CHILDREN);
+  const auto start = std::chrono::steady_clock::now();
+  if (work() != 0) return {};
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  const rusage after = used(RUSAGE_CHILDREN);
+  return {wall.count(), seconds(after.ru_utime) + seconds(after.ru_stime) - seconds(before.ru_utime) - seconds(before.ru_stime)};
+}
+
 std::vector<Cost> measure_fastest(int repeats, const std::vector<std::function<void()>>& works) {
   std::vector<Cost> best(works.size(), {0.0, std::numeric_limits<double>::infinity()});
   for (int r = 0; r < repeats; ++r) {
@@ -76,6 +86,12 @@ std::vector<Cost> measure_fastest(int repeats, const std::vector<std::function<v
 }
 
 double peak_memory_mb() { return static_cast<double>(used().ru_maxrss) / 1024.0; }
+
+double resident_memory_mb() {
+  double pages = 0.0;  // Linux: proc(5)
+  std::ifstream("/proc/self/statm") >> pages >> pages;
+  return pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1048576.0;
+}
 
 void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }  // Linux: proc(5)
 

@@ -32,6 +32,8 @@ struct Cost {
   double cpu_s = 0.0;
 };
 Cost measure(const std::function<void()>& work);
+// The same where the work is done by a program that is started and waited for.
+Cost measure_child(const std::function<int()>& work);
 // The least of several runs by processor time: what else the machine does only ever adds. Where several works are compared they
 // take turns, so that a slow minute of the machine slows them all.
 std::vector<Cost> measure_fastest(int repeats, const std::vector<std::function<void()>>& works);
@@ -39,5 +41,7 @@ std::vector<Cost> measure_fastest(int repeats, const std::vector<std::function<v
 // Most memory this process had resident since the last reset. Where the system cannot reset it, since the start of the program.
 double peak_memory_mb();
 void reset_peak_memory();
+// What it has resident now; 0 where the system does not say.
+double resident_memory_mb();
 
 }  // namespace belvedere::bench
