@@ -10,6 +10,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/json.h"
 #include "renderer/base/parallel.h"
+#include "renderer/generalize_view.h"
 #include "renderer/ground.h"
 #include "renderer/image_io.h"
 #include "renderer/relief_sketch.h"
@@ -183,7 +184,7 @@ void write_dem(const LoadedScene& loaded, const DeformOptions& options, Report& 
   if (is_scene(options)) {
     const View view = make_view(loaded.scene, dem, progress);
     viewer = view.viewer_xy;
-    const Grid<float> shown = generalize_for_view(loaded.scene, dem, view, progress);
+    const Grid<float> shown = generalize_for_view(loaded, dem, nullptr, view, progress);
     for (std::size_t i = 0; i < ground.size(); ++i)
       if (!std::isnan(ground[i])) ground[i] = shown[i];
   }
