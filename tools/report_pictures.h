@@ -1,0 +1,34 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "renderer/base/grid.h"
+#include "renderer/base/parallel.h"
+
+namespace belvedere::tools {
+
+// Pictures of terrain for pages: Grid<glm::vec3> of encoded RGB, 0…1.
+
+// The cells of a window; the window lies within the grid.
+Grid<float> cut(const Grid<float>& cells, const PixelRect& window);
+// Means of n × n cells (fewer at the right and lower rim), n the smallest that brings both sides to `longest_px`. n is 1 where they are.
+struct Reduced {
+  Grid<float> cells;
+  int factor = 1;
+};
+Reduced reduce_to(const Grid<float>& cells, int longest_px);
+
+// Shaded relief, no side above longest_px.
+Grid<glm::vec3> relief_picture(const Grid<float>& altitude_m, glm::dvec2 cell_m, int longest_px);
+// Relief with ground that was lowered in red and raised in blue; the full tint at ±full_m.
+Grid<glm::vec3> change_picture(const Grid<float>& before_m, const Grid<float>& after_m, glm::dvec2 cell_m, float full_m, int longest_px);
+// Mid grey at 0, black and white at ∓full.
+Grid<glm::vec3> signed_picture(const Grid<float>& values, float full);
+
+// Of square windows of `side` cells (less where the grid is smaller), half a side apart: that with the largest sum of `score`, the first of
+// equals. Windows where the mean of `where` is below .5 do not count while another has more; an empty `where` is 1.
+PixelRect best_window(const Grid<float>& score, const Grid<float>& where, int side);
+
+}  // namespace belvedere::tools
