@@ -16,6 +16,7 @@
 #include "terrain/generalize_presets.h"
 #include "terrain/hydrology.h"
 #include "tools/commands.h"
+#include "tools/generalize_report_page.h"
 #include "tools/terminal.h"
 #include "tools/terrain_operators.h"
 
@@ -39,6 +40,7 @@ struct Options {
   bool automatic_mask = false;
   bool change_lakes = false;
   TerrainOperators operators;
+  std::string report;
   int threads = 0;
   bool quiet = false;
   bool json = false;
@@ -144,9 +146,37 @@ void check_place(const std::string& path) {
   check_output_folder(folder.empty() ? "." : folder);
 }
 
+// The weights and masks as they would be typed, without folders: the same on every machine.
+std::string describe_command(const Options& options, const GeneralizeParameters& bands) {
+  const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+  std::string out = fmt::format("belvedere generalize {} {}", name(options.in), name(options.out));
+  const auto set = [&out](const char* option, const Weights& weights) {
+    if (!weights.empty()) out += fmt::format(" {} {}", option, fmt::join(weights, ","));
+  };
+  if (!options.preset.empty()) out += " --preset " + options.preset;
+  set("--global", bands.foreground);
+  set("--ridges", bands.foreground_ridges);
+  set("--valleys", bands.foreground_valleys);
+  if (!options.viewer.empty()) {
+    set("--background-global", bands.background);
+    set("--background-ridges", bands.background_ridges);
+    set("--background-valleys", bands.background_valleys);
+    out += fmt::format(" --viewer {}", fmt::join(options.viewer, ","));
+  }
+  if (!options.distances.empty()) out += fmt::format(" --distances {}", fmt::join(options.distances, ","));
+  if (!options.mask.empty()) out += " --mask " + name(options.mask);
+  if (!options.mask_slope.empty()) out += fmt::format(" --mask-slope {}", fmt::join(options.mask_slope, ","));
+  if (options.automatic_mask) out += " --automatic-mask";
+  if (options.operators.destripe) out += " --destripe";
+  if (options.operators.line_integral) out += " --line-integral";
+  if (options.operators.widen_valleys_m > 0.F) out += fmt::format(" --widen-valleys {}", options.operators.widen_valleys_m);
+  return out;
+}
+
 int run(const Options& options) {
   const GeneralizeParameters bands = resolve_bands(options);
   check_place(options.out);
+  if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   progress.begin("reading", 0.0);
@@ -167,6 +197,7 @@ int run(const Options& options) {
   if (dem.crs.empty()) progress.note("the DEM names no coordinate system: its cells are taken for metres");
 
   const double cell = 0.5 * (cell_m.x + cell_m.y);
+  const Grid<float> original_m = options.report.empty() ? Grid<float>() : dem.altitude_m;
   dem.altitude_m = operate_before_bands(std::move(dem.altitude_m), cell, options.operators, progress);
   GeneralizeGrids grids;
   grids.foreground_share = share_by_distance(options, dem, cell_m);
@@ -179,6 +210,17 @@ int run(const Options& options) {
   Grid<float> result_m = generalize(dem.altitude_m, cell_m, grids, bands, progress);
   result_m = operate_after_bands(std::move(result_m), grids.keep, cell, options.operators, progress);
 
+  if (!options.report.empty()) {
+    write_generalize_report(options.report,
+                            {.title = std::filesystem::path(options.in).filename().string(),
+                             .command = describe_command(options, bands),
+                             .before_m = original_m,
+                             .after_m = result_m,
+                             .cell_m = cell_m,
+                             .grids = grids,
+                             .parameters = bands},
+                            progress);
+  }
   progress.begin("writing", 0.0);
   double sum = 0.0;
   double largest = 0.0;
@@ -279,6 +321,8 @@ Command add_generalize(CLI::App& program) {
       ->capture_default_str()
       ->check(CLI::Range(0.0, 4.0));
   add_terrain_operators(*command, options->operators);
+  command->add_option("--report", options->report, "Also a folder with a page of pictures and numbers: index.html, report.json")
+      ->type_name("DIR");
   command->add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no altitude")
       ->type_name("N")
       ->check(CLI::Range(0, 4096));
@@ -290,7 +334,8 @@ Command add_generalize(CLI::App& program) {
       "  belvedere generalize dem.tif smooth.tif --preset smooth_slopes\n"
       "  belvedere generalize dem.tif out.tif --global 1,1,0.7,0.3,0 --ridges 0,0,0.3,0.8,1.1\n"
       "  belvedere generalize dem.tif out.tif --preset panorama --viewer 692000,5302000 --distances 30000,90000\n"
-      "  belvedere generalize dem.tif out.tif --global 1,1.5,2,1,0.5 --automatic-mask --hillshade relief.tif\n\n"
+      "  belvedere generalize dem.tif out.tif --global 1,1.5,2,1,0.5 --automatic-mask --hillshade relief.tif\n"
+      "  belvedere generalize dem.tif out.tif --preset bold_ridges --report report\n\n"
       "Presets:\n" +
       preset_lines());
   return {command, [options] { return run(*options); }};

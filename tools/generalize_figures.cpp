@@ -62,10 +62,19 @@ FigureWindows choose_windows(const Grid<float>& altitude_m, glm::dvec2 cell_m, c
   const Grid<std::uint8_t> lines = ridge_lines(altitude_m, cell_m);
   Grid<float> score(lines.width(), lines.height());
   std::transform(lines.begin(), lines.end(), score.begin(), [](std::uint8_t v) { return static_cast<float>(v); });
+  // The nearest and the farthest quarter of the cells.
+  std::vector<float> ranked(share.begin(), share.end());
+  const auto ranked_at = [&ranked](double part) {
+    const auto at = ranked.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(ranked.size() - 1));
+    std::nth_element(ranked.begin(), at, ranked.end());
+    return *at;
+  };
+  const float nearest_quarter = ranked_at(0.75);
+  const float farthest_quarter = ranked_at(0.25);
   Grid<float> near = share;
-  for (float& v : near) v = v > 0.75F ? 1.F : 0.F;
   Grid<float> far = share;
-  for (float& v : far) v = v < 0.25F ? 1.F : 0.F;
+  for (float& v : near) v = v >= nearest_quarter ? 1.F : 0.F;
+  for (float& v : far) v = v <= farthest_quarter ? 1.F : 0.F;
   return {best_window(score, {}, ReliefPainter::window_px), best_window(score, near, ReliefPainter::window_px),
           best_window(score, far, ReliefPainter::window_px)};
 }

@@ -220,9 +220,9 @@ std::string as_json(const GeneralizeReportInput& in, const Measures& m) {
 constexpr const char* style =
     R"(body{font:16px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:1320px;padding:0 1rem;color:#222;background:#fafaf7}
 h1{font-size:1.7rem}h2{font-size:1.2rem;margin-top:2.2rem}p{max-width:46rem}
-.row{display:flex;flex-wrap:wrap;gap:12px}figure{margin:0}figure img{max-width:100%;height:auto;display:block}
+.row{display:flex;gap:12px;align-items:flex-start;margin-bottom:10px}figure{margin:0;flex:0 1 auto;min-width:0}figure img{max-width:100%;height:auto;display:block}
 figcaption{font-size:.85rem;color:#555}table{border-collapse:collapse}td,th{padding:.25rem .8rem;border-bottom:1px solid #ddd;text-align:right}
-td:first-child,th:first-child{text-align:left}small,svg text{color:#666;font-size:.8rem}pre{background:#eee;padding:.6rem;overflow:auto})";
+td:first-child,th:first-child{text-align:left}small,svg text{color:#666;font-size:.8rem}pre{background:#eee;padding:.6rem;white-space:pre-wrap})";
 
 }  // namespace
 
