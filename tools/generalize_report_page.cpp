@@ -35,9 +35,10 @@ Grid<float> south_is_near(int width, int height) {
   return share;
 }
 
-GeneralizeGrids with_mask(const GeneralizeGrids& grids, Grid<float> mask) {
+GeneralizeGrids with_masks(const GeneralizeGrids& grids, Grid<float> mask, Grid<float> amplification_mask) {
   GeneralizeGrids out = grids;
   out.mask = std::move(mask);
+  out.amplification_mask = std::move(amplification_mask);
   return out;
 }
 
@@ -51,12 +52,12 @@ Measures measure(const GeneralizeReportInput& in, const Grid<float>& share, Prog
   m.ridges = ridge_sharpness(in.before_m, in.after_m, in.cell_m, share, m.bands, slices);
   const Grid<std::uint8_t> feet = slope_feet(in.before_m, in.cell_m, m.bands);
   m.original = foot_pits(in.before_m, in.before_m, feet, in.cell_m);
-  m.own_mask = !in.grids.mask.empty();
-  const auto pits = [&](const Grid<float>& mask) {
-    return foot_pits(in.before_m, generalize(in.before_m, in.cell_m, with_mask(in.grids, mask), in.parameters, progress), feet, in.cell_m);
+  m.own_mask = !in.grids.mask.empty() || !in.grids.amplification_mask.empty();
+  const auto pits = [&](const GeneralizeGrids& grids) {
+    return foot_pits(in.before_m, generalize(in.before_m, in.cell_m, grids, in.parameters, progress), feet, in.cell_m);
   };
-  m.without_mask = pits({});
-  m.with_mask = pits(m.own_mask ? in.grids.mask : slope_foot_mask(in.before_m, in.cell_m, 1 << std::min(m.bands, 8)));
+  m.without_mask = pits(with_masks(in.grids, {}, {}));
+  m.with_mask = pits(m.own_mask ? in.grids : with_masks(in.grids, {}, slope_foot_mask(in.before_m, in.cell_m, 1 << std::min(m.bands, 8))));
   return m;
 }
 
