@@ -16,6 +16,7 @@
 #include "terrain/generalize_presets.h"
 #include "terrain/hydrology.h"
 #include "tools/commands.h"
+#include "tools/equalizer_page.h"
 #include "tools/generalize_report_page.h"
 #include "tools/terminal.h"
 #include "tools/terrain_operators.h"
@@ -41,6 +42,7 @@ struct Options {
   bool change_lakes = false;
   TerrainOperators operators;
   std::string report;
+  std::string equalizer;
   int threads = 0;
   bool quiet = false;
   bool json = false;
@@ -63,14 +65,15 @@ void check_set(const char* option, const Weights& weights, std::size_t bands, fl
 GeneralizeParameters resolve_bands(const Options& options) {
   GeneralizeParameters bands = options.bands;
   const GeneralizePreset* preset = options.preset.empty() ? nullptr : find_generalize_preset(options.preset);
-  if (preset == nullptr && options.global.empty()) {
+  const Weights unchanged = options.equalizer.empty() ? Weights() : Weights(6, 1.F);  // a page begins with the terrain as it is
+  if (preset == nullptr && options.global.empty() && unchanged.empty()) {
     refuse("--global", "no weights", "--global 1,1,0.7,0.3,0 (the largest landforms first), or --preset NAME");
   }
   const auto choose = [&](const Weights& written, const Weights GeneralizeParameters::*from, const Weights& otherwise) {
     return !written.empty() ? written : preset != nullptr ? preset->bands.*from : otherwise;
   };
   using P = GeneralizeParameters;
-  bands.foreground = choose(options.global, &P::foreground, {});
+  bands.foreground = choose(options.global, &P::foreground, unchanged);
   bands.foreground_ridges = choose(options.ridges, &P::foreground_ridges, {});
   bands.foreground_valleys = choose(options.valleys, &P::foreground_valleys, {});
   bands.background = choose(options.background_global, &P::background, bands.foreground);
@@ -87,30 +90,37 @@ GeneralizeParameters resolve_bands(const Options& options) {
   check_set("--background-valleys", bands.background_valleys, count, -5.F);
   const bool differs = bands.background != bands.foreground || bands.background_ridges != bands.foreground_ridges ||
                        bands.background_valleys != bands.foreground_valleys;
-  if (differs && options.viewer.empty()) {
+  if (differs && options.viewer.empty() && !(options.out.empty() && !options.equalizer.empty())) {
     refuse("--viewer", "weights that differ near and far, and nobody who looks", "--viewer E,N in the DEM's coordinates");
   }
   return bands;
 }
 
-// 1 near, 0 far: smoothstep between two distances, by default a quarter and three quarters of the way to the farthest corner.
+// Between which distances foreground turns into background: by default a quarter and three quarters of the way to the farthest corner.
+glm::dvec2 blend_distances(const Options& options, const Dem& dem, glm::dvec2 viewer_cell, glm::dvec2 cell_m) {
+  if (!options.distances.empty()) {
+    const glm::dvec2 written(options.distances[0], options.distances[1]);
+    if (!(written.x >= 0.0 && written.x < written.y)) {
+      refuse("--distances", fmt::format("from {} to {} m", written.x, written.y), "two distances, the nearer first");
+    }
+    return written;
+  }
+  double farthest = 1.0;
+  for (const double x : {0.0, dem.width() - 1.0}) {
+    for (const double y : {0.0, dem.height() - 1.0})
+      farthest = std::max(farthest, std::hypot((x - viewer_cell.x) * cell_m.x, (y - viewer_cell.y) * cell_m.y));
+  }
+  return {0.25 * farthest, 0.75 * farthest};
+}
+
+// 1 near, 0 far, smoothstep between the two distances.
 Grid<float> share_by_distance(const Options& options, const Dem& dem, glm::dvec2 cell_m) {
   if (options.viewer.empty()) return {};
   const glm::dvec2 at = dem.transform.to_cell(options.viewer[0], options.viewer[1]);
   const auto distance_m = [&](double x, double y) { return std::hypot((x - at.x) * cell_m.x, (y - at.y) * cell_m.y); };
-  double near = 0.0;
-  double far = 0.0;
-  if (!options.distances.empty()) {
-    near = options.distances[0];
-    far = options.distances[1];
-    if (!(near >= 0.0 && near < far)) refuse("--distances", fmt::format("from {} to {} m", near, far), "two distances, the nearer first");
-  } else {
-    const double right = dem.width() - 1.0;
-    const double bottom = dem.height() - 1.0;
-    const double farthest = std::max({distance_m(0, 0), distance_m(right, 0), distance_m(0, bottom), distance_m(right, bottom), 1.0});
-    near = 0.25 * farthest;
-    far = 0.75 * farthest;
-  }
+  const glm::dvec2 blend = blend_distances(options, dem, at, cell_m);
+  const double near = blend.x;
+  const double far = blend.y;
   Grid<float> share(dem.width(), dem.height());
   parallel_rows(dem.height(), [&](int y) {
     for (int x = 0; x < dem.width(); ++x) {
@@ -137,13 +147,17 @@ Grid<float> make_mask(const Options& options, const Dem& dem, glm::dvec2 cell_m,
   return mask;
 }
 
+std::string folder_of(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
 // Before the work: what could not be written afterwards.
 void check_place(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   if (ending != ".tif" && ending != ".tiff" && ending != ".asc") refuse(path, "is no name of a DEM the program writes", ".tif or .asc");
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  check_output_folder(folder.empty() ? "." : folder);
+  check_output_folder(folder_of(path));
 }
 
 // The weights and masks as they would be typed, without folders: the same on every machine.
@@ -173,9 +187,32 @@ std::string describe_command(const Options& options, const GeneralizeParameters&
   return out;
 }
 
+// The page with sliders. Without a viewer, one stands in the middle of the southern rim and looks north.
+void write_equalizer(const Options& options, const Dem& dem, glm::dvec2 cell_m, const GeneralizeParameters& bands, Progress& progress) {
+  const glm::dvec2 middle = dem.transform.to_crs(0.5 * (dem.width() - 1), dem.height() - 1.0);
+  const glm::dvec2 viewer = options.viewer.empty() ? middle : glm::dvec2(options.viewer[0], options.viewer[1]);
+  const glm::dvec2 viewer_cell = dem.transform.to_cell(viewer.x, viewer.y);
+  glm::dvec2 distances_m = blend_distances(options, dem, viewer_cell, cell_m);
+  if (options.distances.empty()) distances_m = {std::floor(distances_m.x), std::ceil(distances_m.y)};  // as people would type them
+  write_equalizer_page(
+      options.equalizer,
+      {.title = std::filesystem::path(options.in).filename().string(),
+       .altitude_m = dem.altitude_m,
+       .cell_m = cell_m,
+       .start = bands,
+       .viewer_cell = viewer_cell,
+       .distances_m = distances_m,
+       .viewer_options = fmt::format("--viewer {},{} --distances {},{}", viewer.x, viewer.y, distances_m.x, distances_m.y)},
+      progress);
+}
+
 int run(const Options& options) {
+  const bool only_page = options.out.empty() && !options.equalizer.empty();
   const GeneralizeParameters bands = resolve_bands(options);
-  check_place(options.out);
+  if (options.out.empty() && !only_page) refuse("OUT", "no file for the result", "a .tif or .asc; only --equalizer goes without");
+  if (only_page && !options.report.empty()) refuse("--report", "no result to report on", "a file OUT beside it");
+  if (!only_page) check_place(options.out);
+  if (!options.equalizer.empty()) check_output_folder(folder_of(options.equalizer));
   if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
@@ -196,6 +233,11 @@ int run(const Options& options) {
   }
   if (dem.crs.empty()) progress.note("the DEM names no coordinate system: its cells are taken for metres");
 
+  if (!options.equalizer.empty()) write_equalizer(options, dem, cell_m, bands, progress);
+  if (only_page) {
+    progress.end();
+    return 0;
+  }
   const double cell = 0.5 * (cell_m.x + cell_m.y);
   const Grid<float> original_m = options.report.empty() ? Grid<float>() : dem.altitude_m;
   dem.altitude_m = operate_before_bands(std::move(dem.altitude_m), cell, options.operators, progress);
@@ -272,7 +314,7 @@ Command add_generalize(CLI::App& program) {
       program.add_subcommand("generalize", "Simplifies a DEM for a map: weights landforms by their size, keeps ridges sharp");
   const auto options = std::make_shared<Options>();
   command->add_option("IN", options->in, "The DEM: GeoTIFF, ESRI ASCII, HGT …; it stays in its own grid and coordinates")->required();
-  command->add_option("OUT", options->out, "The result, altitudes in metres: .tif or .asc")->required();
+  command->add_option("OUT", options->out, "The result, altitudes in metres: .tif or .asc. May be left out beside --equalizer");
   std::vector<std::string> names;
   for (const GeneralizePreset& preset : generalize_presets()) names.emplace_back(preset.name);
   command->add_option("--preset", options->preset, "Weights and masks by name; options beside it have the last word")
@@ -321,6 +363,11 @@ Command add_generalize(CLI::App& program) {
       ->capture_default_str()
       ->check(CLI::Range(0.0, 4.0));
   add_terrain_operators(*command, options->operators);
+  command
+      ->add_option(
+          "--equalizer", options->equalizer,
+          "Also an .html page with sliders for all weights and a preview that follows them; its bands are those of --global, else six")
+      ->type_name("FILE");
   command->add_option("--report", options->report, "Also a folder with a page of pictures and numbers: index.html, report.json")
       ->type_name("DIR");
   command->add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no altitude")
@@ -335,7 +382,8 @@ Command add_generalize(CLI::App& program) {
       "  belvedere generalize dem.tif out.tif --global 1,1,0.7,0.3,0 --ridges 0,0,0.3,0.8,1.1\n"
       "  belvedere generalize dem.tif out.tif --preset panorama --viewer 692000,5302000 --distances 30000,90000\n"
       "  belvedere generalize dem.tif out.tif --global 1,1.5,2,1,0.5 --automatic-mask --hillshade relief.tif\n"
-      "  belvedere generalize dem.tif out.tif --preset bold_ridges --report report\n\n"
+      "  belvedere generalize dem.tif out.tif --preset bold_ridges --report report\n"
+      "  belvedere generalize dem.tif --equalizer sliders.html\n\n"
       "Presets:\n" +
       preset_lines());
   return {command, [options] { return run(*options); }};
