@@ -258,8 +258,8 @@ void write_generalize_report(const std::string& folder, const GeneralizeReportIn
   page.end_figure();
   add_numbers(page, measures, view);
   page.add(
-      "<h2>The method on this terrain</h2><p>Figures 1 to 5 of Jenny, Jenny &amp; Hurni 2011, made from this terrain with the paper's "
-      "settings, whatever the settings above.</p>");
+      "<h2>The method on this terrain</h2><p>Figures 1 to 5 of Jenny, Jenny &amp; Hurni 2011, made from this terrain whatever the settings "
+      "above: figures 2 and 5 with the paper's weights, 3 and 4, for which it gives none, with ours.</p>");
   add_paper_figures(page, input, share, windows, progress);
 
   page.write("report.json", as_json(input, measures));
