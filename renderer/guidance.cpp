@@ -140,8 +140,8 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
     if (!hit.found) continue;
     any_terrain = true;
     const Ray ray = t.camera.ray(glm::dvec2(corner + block_pixel(p)) + t.pixel_places[chosen[i]]);
-    block.pixels[i] = {true, hit.distance_m, ray.origin + ray.direction * hit.distance_m + hit.facet_normal * t.parameters.shadow_bias_m,
-                       hit.facet_normal};
+    const glm::dvec3 normal = hit.facet_normal();
+    block.pixels[i] = {true, hit.distance_m, ray.origin + ray.direction * hit.distance_m + normal * t.parameters.shadow_bias_m, normal};
   }
   BlockValues sun{};
   BlockValues sky{};

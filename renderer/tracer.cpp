@@ -86,7 +86,7 @@ struct Tracer::State {
   void build(int tile_cells);
   glm::dvec3 post(int x, int y) const { return glm::dvec3((*posts)(x, y)); }
   void intersect_facet(int x, int y, bool lower, const glm::dvec3& o, const glm::dvec3& d, CellHit& best) const;
-  glm::dvec3 facet_normal(const CellHit& hit) const;
+  glm::dvec3 facet_area(const CellHit& hit) const;
   bool resolve(const Ray& ray, unsigned geometry, unsigned primitive, float u, float v, Hit& hit) const;
   void trace_on(const Ray& ray, float from, Hit& hit) const;
 };
@@ -158,10 +158,10 @@ inline void Tracer::State::intersect_facet(int x, int y, bool lower, const glm::
   best = {distance, lower ? 1.0 - wb : wb, lower ? 1.0 - wc : wc, x, y, lower, sum};
 }
 
-glm::dvec3 Tracer::State::facet_normal(const CellHit& hit) const {
+glm::dvec3 Tracer::State::facet_area(const CellHit& hit) const {
   const glm::dvec3 east = hit.lower ? post(hit.x + 1, hit.y + 1) - post(hit.x, hit.y + 1) : post(hit.x + 1, hit.y) - post(hit.x, hit.y);
   const glm::dvec3 south = hit.lower ? post(hit.x + 1, hit.y + 1) - post(hit.x + 1, hit.y) : post(hit.x, hit.y + 1) - post(hit.x, hit.y);
-  return glm::normalize(glm::cross(south, east));
+  return glm::cross(south, east);
 }
 
 // The exact hit from the facet that Embree named. False where in double the ray passes it by (it grazed an edge).
@@ -181,14 +181,16 @@ bool Tracer::State::resolve(const Ray& ray, unsigned geometry, unsigned primitiv
   // edge, and where the facet is missed, its neighbours are asked too, and the nearest hit is the answer, from whichever side
   // Embree came. 16 roundings are more than its sums have.
   constexpr double rounding = 16.0 * 0x1.0p-24;
-  const double rim = std::min(0.5, rounding * best.distance * side / std::abs(best.volume));
+  const double volume = std::abs(best.volume);
+  const double rim = std::min(0.5 * volume, rounding * best.distance * side);  // times the volume, which spares a division a ray
+  const auto within_rim = [&](double share) { return share * volume < rim; };
   const bool missed = !(best.distance < std::numeric_limits<double>::infinity());
-  const bool near_diagonal = std::abs(best.u + best.v - 1.0) < rim;
-  if (missed || near_diagonal || std::min(best.u, best.v) < rim || std::max(best.u, best.v) > 1.0 - rim) {
-    const int x0 = std::max(missed || best.u < rim ? x - 1 : x, 0);
-    const int x1 = std::min(missed || best.u > 1.0 - rim ? x + 1 : x, posts->width() - 2);
-    const int y0 = std::max(missed || best.v < rim ? y - 1 : y, 0);
-    const int y1 = std::min(missed || best.v > 1.0 - rim ? y + 1 : y, posts->height() - 2);
+  const double to_edge = std::min(std::min(best.u, best.v), 1.0 - std::max(best.u, best.v));
+  if (missed || within_rim(std::min(to_edge, std::abs(best.u + best.v - 1.0)))) {
+    const int x0 = std::max(missed || within_rim(best.u) ? x - 1 : x, 0);
+    const int x1 = std::min(missed || within_rim(1.0 - best.u) ? x + 1 : x, posts->width() - 2);
+    const int y0 = std::max(missed || within_rim(best.v) ? y - 1 : y, 0);
+    const int y1 = std::min(missed || within_rim(1.0 - best.v) ? y + 1 : y, posts->height() - 2);
     for (int cy = y0; cy <= y1; ++cy) {
       for (int cx = x0; cx <= x1; ++cx) {
         intersect_facet(cx, cy, false, o, ray.direction, best);
@@ -201,7 +203,7 @@ bool Tracer::State::resolve(const Ray& ray, unsigned geometry, unsigned primitiv
   hit.distance_m = best.distance;
   hit.column = best.x + best.u;
   hit.row = best.y + best.v;
-  hit.facet_normal = facet_normal(best);
+  hit.facet_area = facet_area(best);
   return true;
 }
 
@@ -233,6 +235,18 @@ void Tracer::State::trace_on(const Ray& ray, float from, Hit& hit) const {
 
 namespace {
 
+// What no ray of a bundle changes, and Embree neither.
+template <class Packet>
+void begin_packet(Packet& packet) {
+  for (int lane = 0; lane < bundle; ++lane) {
+    packet.tnear[lane] = 0.F;
+    packet.time[lane] = 0.F;
+    packet.mask[lane] = ~0U;
+    packet.id[lane] = static_cast<unsigned>(lane);
+    packet.flags[lane] = 0;
+  }
+}
+
 // Fills a lane's ray part; false where there is no ray (null), or one with a NaN or without direction, which Embree would not survive well.
 // Such a lane gets a ray that ends before it begins: without 16-wide instructions Embree takes bundles apart by that and not by the mask.
 template <class Packet>
@@ -246,12 +260,7 @@ bool set_lane(Packet& packet, int lane, const Ray* ray, const glm::dvec3& origin
   packet.dir_x[lane] = usable ? d.x : 0.F;
   packet.dir_y[lane] = usable ? d.y : 0.F;
   packet.dir_z[lane] = usable ? d.z : 1.F;
-  packet.tnear[lane] = 0.F;
   packet.tfar[lane] = usable ? reach : -1.F;
-  packet.time[lane] = 0.F;
-  packet.mask[lane] = ~0U;
-  packet.id[lane] = static_cast<unsigned>(lane);
-  packet.flags[lane] = 0;
   return usable;
 }
 
@@ -320,10 +329,11 @@ std::size_t Tracer::memory_bytes() const { return static_cast<std::size_t>(std::
 void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
   const FlushDenormals flush;
   RTCIntersectContext context = coherent_context();
+  RTCRayHit16 packet;
+  begin_packet(packet.ray);
   for (std::size_t first = 0; first < rays.size(); first += bundle) {
     const int count = static_cast<int>(std::min<std::size_t>(bundle, rays.size() - first));
     alignas(64) std::array<int, bundle> valid{};
-    RTCRayHit16 packet;
     for (int k = 0; k < bundle; ++k) {
       valid[k] = set_lane(packet.ray, k, k < count ? &rays[first + k] : nullptr, state_->origin, infinity) ? -1 : 0;
       packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
@@ -343,10 +353,11 @@ void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
 void Tracer::occluded(std::span<const Ray> rays, double reach_m, std::span<std::uint8_t> blocked) const {
   const FlushDenormals flush;
   RTCIntersectContext context = coherent_context();
+  RTCRay16 packet;
+  begin_packet(packet);
   for (std::size_t first = 0; first < rays.size(); first += bundle) {
     const int count = static_cast<int>(std::min<std::size_t>(bundle, rays.size() - first));
     alignas(64) std::array<int, bundle> valid{};
-    RTCRay16 packet;
     for (int k = 0; k < bundle; ++k) {
       valid[k] = set_lane(packet, k, k < count ? &rays[first + k] : nullptr, state_->origin, static_cast<float>(reach_m)) ? -1 : 0;
     }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -19,7 +20,10 @@ struct Hit {
   double distance_m = 0.0;  // along the unit direction
   double column = 0.0;      // fractional vertex of the grid, barycentric in the undeformed grid: place before deformation
   double row = 0.0;
-  glm::dvec3 facet_normal{0.0};  // unit, of the deformed facet, towards its upper side
+  // Normal of the deformed facet towards its upper side, twice its area long: of many hits only few are asked for the unit normal.
+  glm::dvec3 facet_area{0.0};
+
+  glm::dvec3 facet_normal() const { return glm::normalize(facet_area); }
 };
 
 struct TracerParameters {

@@ -439,7 +439,7 @@ TEST(Guidance, ShadowsWithoutPenumbraAreFoundByTwoRays) {
       const Ray ray = camera->ray({x + 0.5, y + 0.5});
       Hit hit;
       world.tracer->intersect({&ray, 1}, {&hit, 1});
-      const glm::dvec3 start = ray.origin + ray.direction * hit.distance_m + 0.05 * hit.facet_normal;
+      const glm::dvec3 start = ray.origin + ray.direction * hit.distance_m + 0.05 * hit.facet_normal();
       const glm::dvec3 side = glm::normalize(glm::cross(parameters.sun_direction, glm::dvec3(0, 0, 1)));
       const glm::dvec3 above = glm::cross(side, parameters.sun_direction);
       std::vector<Ray> rays;

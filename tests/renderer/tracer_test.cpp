@@ -70,7 +70,7 @@ bool occluded(const Tracer& tracer, const Ray& ray, double reach_m = 1e9) {
 }
 
 bool same_bits(const Hit& a, const Hit& b) {
-  return a.found == b.found && a.distance_m == b.distance_m && a.column == b.column && a.row == b.row && a.facet_normal == b.facet_normal;
+  return a.found == b.found && a.distance_m == b.distance_m && a.column == b.column && a.row == b.row && a.facet_area == b.facet_area;
 }
 
 // Rays of a perspective view over the surface, in bundles of 4 × 4 pixels.
@@ -116,7 +116,7 @@ TEST(Tracer, PlaceIsExactOnAPlane) {
     EXPECT_NEAR(hit.distance_m, glm::length(target - eye), 1e-3);  // posts are floats: half a millimetre
     EXPECT_NEAR(hit.column, target.x / cell, 1e-4);
     EXPECT_NEAR(hit.row, -target.y / cell, 1e-4);
-    EXPECT_GT(glm::dot(hit.facet_normal, normal), 1.0 - 1e-7);
+    EXPECT_GT(glm::dot(hit.facet_normal(), normal), 1.0 - 1e-7);
   }
 }
 
@@ -148,12 +148,12 @@ TEST(Tracer, WallIsHitAtItsFace) {
   ASSERT_TRUE(face.found);
   EXPECT_NEAR(face.distance_m, 2015.0, 1e-6);  // half way up a face that leans over one cell
   EXPECT_NEAR(face.column, 100.5, 1e-6);
-  EXPECT_NEAR(face.facet_normal.x, -600.0 / std::hypot(600.0, 30.0), 1e-9);
+  EXPECT_NEAR(face.facet_normal().x, -600.0 / std::hypot(600.0, 30.0), 1e-9);
   EXPECT_FALSE(intersect(tracer, ray_from({1000.0, -1500.0, 601.0}, {1.0, 0.0, 0.0})).found);
   // From below the facet is hit as well and its normal still points up.
   const Hit below = intersect(tracer, ray_from({1000.0, -1500.0, -300.0}, {0.0, 0.0, 1.0}));
   ASSERT_TRUE(below.found);
-  EXPECT_NEAR(below.facet_normal.z, 1.0, 1e-12);
+  EXPECT_NEAR(below.facet_normal().z, 1.0, 1e-12);
 }
 
 TEST(Tracer, ShadowOfAWallIsItsHeightOverTheTangent) {
@@ -186,7 +186,7 @@ TEST(Tracer, APlaneHasNoShadowAndReachIsKept) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!hits[i].found) continue;
     ++count;
-    const glm::dvec3 start = rays[i].origin + rays[i].direction * hits[i].distance_m + 0.05 * hits[i].facet_normal;
+    const glm::dvec3 start = rays[i].origin + rays[i].direction * hits[i].distance_m + 0.05 * hits[i].facet_normal();
     for (const glm::dvec3 sun : {glm::dvec3(-0.6, 0.6, 0.5), glm::dvec3(0.99, 0.0, 0.25), glm::dvec3(0.0, 0.0, 1.0)}) {
       if (glm::dot(normal, sun) > 0.01) {
         EXPECT_FALSE(occluded(tracer, {start, glm::normalize(sun)}));

@@ -81,7 +81,7 @@ std::vector<Ray> rays_from(const std::vector<Ray>& primary, const std::vector<Hi
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i].found) continue;
     rays.push_back(
-        {primary[i].origin + primary[i].direction * hits[i].distance_m + 0.05 * hits[i].facet_normal, glm::normalize(direction)});
+        {primary[i].origin + primary[i].direction * hits[i].distance_m + 0.05 * hits[i].facet_normal(), glm::normalize(direction)});
   }
   rays.resize(rays.size() / 16 * 16);
   return rays;
