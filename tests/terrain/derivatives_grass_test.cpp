@@ -37,7 +37,7 @@ TEST(PlanCurvature, IsTheNegativeOfGrassPlanc) {
     EXPECT_EQ(std::system(command.c_str()), 0) << test::read_bytes(folder / "log.txt");
     return test::read_bytes(folder / name);
   };
-  // Now and then a run of r.param.scale goes wrong : two that agree are right.
+  // Now and then a run of r.param.scale goes wrong: two that agree are right.
   std::string bytes = planc("0.bin");
   bool agreed = false;
   for (int i = 1; i < 6 && !agreed; ++i) {
