@@ -76,8 +76,9 @@ std::string normalize_crs(const std::string& crs);
 // A short name for people, "EPSG:32632" or the CRS's name.
 std::string describe_crs(const std::string& crs);
 
-// GeoTIFF (tiled, deflate) or ESRI ASCII by the ending; voids as -9999; temporary file and rename.
-void write_raster(const std::string& path, const Raster<float>& raster);
+// GeoTIFF (tiled, deflate) or ESRI ASCII by the ending; temporary file and rename. Voids are written as `nodata`, or as -9999 where none is
+// given, where it is the altitude of a cell or where the format cannot hold it.
+void write_raster(const std::string& path, const Raster<float>& raster, std::optional<double> nodata = {});
 // GeoTIFF of bytes, 0 for voids.
 void write_raster(const std::string& path, const Raster<std::uint8_t>& raster);
 

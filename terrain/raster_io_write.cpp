@@ -3,12 +3,15 @@
 #include <gdal.h>
 #include <ogr_spatialref.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,10 +26,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float written_void = -9999.0F;
+// What voids are written as: see write_raster. Text has no number for NaN that all readers know.
+float choose_void(const Grid<float>& cells, std::optional<double> nodata, bool ascii) {
+  constexpr float usual = -9999.0F;
+  if (!nodata) return usual;
+  if (std::isnan(*nodata)) return ascii ? usual : std::numeric_limits<float>::quiet_NaN();
+  if (!(std::abs(*nodata) <= static_cast<double>(std::numeric_limits<float>::max()))) return usual;
+  const float wanted = static_cast<float>(*nodata);
+  return std::find(cells.begin(), cells.end(), wanted) == cells.end() ? wanted : usual;
+}
 
 // Cells as a file holds them.
-Grid<float> with_written_voids(const Grid<float>& cells) {
+Grid<float> with_written_voids(const Grid<float>& cells, float written_void) {
   Grid<float> out = cells;
   for (float& value : out)
     if (!std::isfinite(value)) value = written_void;
@@ -67,7 +78,7 @@ void write_geotiff(const std::string& path, const Raster<T>& raster, const Grid<
 }
 
 // By hand, because shortest round-trip numbers keep every bit of a float and no locale interferes.
-void write_ascii(const std::string& path, const Raster<float>& raster, const Grid<float>& cells) {
+void write_ascii(const std::string& path, const Raster<float>& raster, const Grid<float>& cells, float void_value) {
   const GeoTransform& t = raster.transform;
   if (std::abs(t.cell_x - t.cell_y) > 1e-9 * t.cell_x) {
     throw Error(ErrorKind::output, path, fmt::format("ESRI ASCII cannot hold cells of {} × {}", t.cell_x, t.cell_y),
@@ -75,8 +86,8 @@ void write_ascii(const std::string& path, const Raster<float>& raster, const Gri
   }
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"), &std::fclose);
   if (!file) throw Error(ErrorKind::output, path, "cannot be created");
-  std::string text = fmt::format("ncols {}\nnrows {}\nxllcorner {}\nyllcorner {}\ncellsize {}\nNODATA_value -9999\n", cells.width(),
-                                 cells.height(), t.origin_x, t.origin_y - t.cell_y * cells.height(), t.cell_x);
+  std::string text = fmt::format("ncols {}\nnrows {}\nxllcorner {}\nyllcorner {}\ncellsize {}\nNODATA_value {}\n", cells.width(),
+                                 cells.height(), t.origin_x, t.origin_y - t.cell_y * cells.height(), t.cell_x, void_value);
   bool good = true;
   for (int y = 0; y < cells.height(); ++y) {
     const float* row = cells.row(y);
@@ -119,7 +130,8 @@ void check_written(const std::string& path, const Grid<T>& cells, T void_value) 
       for (int y = 0; y < rows; ++y)
         for (int x = 0; x < cells.width(); ++x) {
           const T wanted = cells(x, y0 + y);
-          if (back(x, y) != static_cast<float>(wanted) && !(wanted == void_value && std::isnan(back(x, y))))
+          const bool hole = wanted == void_value || wanted != wanted;  // NaN equals nothing
+          if (back(x, y) != static_cast<float>(wanted) && !(hole && std::isnan(back(x, y))))
             throw Error(ErrorKind::output, path, "holds other values");
         }
     }
@@ -155,12 +167,13 @@ void write_and_rename(const std::string& path, const std::vector<std::pair<std::
 
 }  // namespace
 
-void write_raster(const std::string& path, const Raster<float>& raster) {
+void write_raster(const std::string& path, const Raster<float>& raster, std::optional<double> nodata) {
   const std::string ending = ending_of(path);
   const bool ascii = ending == ".asc";
   if (!ascii && ending != ".tif" && ending != ".tiff") throw Error(ErrorKind::output, path, "has an unknown ending", ".tif, .tiff or .asc");
   if (raster.cells.empty()) throw Error(ErrorKind::output, path, "is to hold no cells");
-  const Grid<float> cells = with_written_voids(raster.cells);
+  const float written_void = choose_void(raster.cells, nodata, ascii);
+  const Grid<float> cells = with_written_voids(raster.cells, written_void);
   register_gdal();
   const fs::path target(path);
   const std::string part = temporary_beside(target, target.extension().c_str());
@@ -168,7 +181,7 @@ void write_raster(const std::string& path, const Raster<float>& raster) {
   std::vector<std::pair<std::string, fs::path>> files{{part, target}};
   if (ascii && !raster.crs.empty()) files.emplace_back(part_prj, fs::path(target).replace_extension(".prj"));
   write_and_rename(path, files, [&] {
-    ascii ? write_ascii(part, raster, cells) : write_geotiff(part, raster, cells, static_cast<double>(written_void));
+    ascii ? write_ascii(part, raster, cells, written_void) : write_geotiff(part, raster, cells, static_cast<double>(written_void));
     if (files.size() > 1) write_prj(part_prj, raster.crs);
     check_written(part, cells, written_void);
   });

@@ -279,6 +279,7 @@ SynthesisQuality measure_quality(const MatchField& matches, const std::vector<Ex
   measure_whole_picture(output, exemplars, borders, parameters, quality);
 
   std::vector<Grid<float>> weights;
+  weights.reserve(exemplars.size());
   for (const Exemplar& exemplar : exemplars) weights.emplace_back(exemplar.picture.width(), exemplar.picture.height(), 0.0F);
   std::array<std::size_t, 256> pixels{};
   std::array<std::size_t, 256> texels{};

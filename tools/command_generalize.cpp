@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "renderer/base/error.h"
@@ -72,13 +73,20 @@ GeneralizeParameters resolve_bands(const Options& options) {
   const auto choose = [&](const Weights& written, const Weights GeneralizeParameters::*from, const Weights& otherwise) {
     return !written.empty() ? written : preset != nullptr ? preset->bands.*from : otherwise;
   };
+  // A preset that is the same near and far stays so when one of its sets is written anew.
+  const auto choose_far = [&](const Weights& written, const Weights GeneralizeParameters::*from,
+                              const Weights GeneralizeParameters::*near_set, const Weights& near_weights) {
+    const bool same = preset != nullptr && preset->bands.*from == preset->bands.*near_set;
+    return written.empty() && same ? near_weights : choose(written, from, near_weights);
+  };
   using P = GeneralizeParameters;
   bands.foreground = choose(options.global, &P::foreground, unchanged);
   bands.foreground_ridges = choose(options.ridges, &P::foreground_ridges, {});
   bands.foreground_valleys = choose(options.valleys, &P::foreground_valleys, {});
-  bands.background = choose(options.background_global, &P::background, bands.foreground);
-  bands.background_ridges = choose(options.background_ridges, &P::background_ridges, bands.foreground_ridges);
-  bands.background_valleys = choose(options.background_valleys, &P::background_valleys, bands.foreground_valleys);
+  bands.background = choose_far(options.background_global, &P::background, &P::foreground, bands.foreground);
+  bands.background_ridges = choose_far(options.background_ridges, &P::background_ridges, &P::foreground_ridges, bands.foreground_ridges);
+  bands.background_valleys =
+      choose_far(options.background_valleys, &P::background_valleys, &P::foreground_valleys, bands.foreground_valleys);
   bands.curvature = options.curvature == "plan" ? CurvatureForm::plan : CurvatureForm::bounded;
   const std::size_t count = bands.foreground.size();
   if (count > 12) refuse("--global", fmt::format("{} weights", count), "1 to 12");
@@ -219,6 +227,7 @@ int run(const Options& options) {
   progress.begin("reading", 0.0);
   RasterSource source;
   source.path = options.in;
+  const std::optional<double> nodata = read_raster_info(source).nodata;  // voids stay what they are called
   Dem dem = make_dem(read_raster(source));
   const glm::dvec2 cell_m = ground_cell_m(dem.transform, dem.crs, dem.width(), dem.height());
   const bool true_cells = cell_m == glm::dvec2(dem.transform.cell_x, dem.transform.cell_y);
@@ -250,7 +259,7 @@ int run(const Options& options) {
     grids.amplification_mask = slope_foot_mask(dem.altitude_m, cell_m, 1 << std::min<std::size_t>(bands.foreground.size(), 6));
   }
   Grid<float> result_m = generalize(dem.altitude_m, cell_m, grids, bands, progress);
-  result_m = operate_after_bands(std::move(result_m), grids.keep, cell, options.operators, progress);
+  result_m = operate_after_bands(result_m, grids.keep, cell, options.operators, progress);
 
   if (!options.report.empty()) {
     write_generalize_report(options.report,
@@ -278,7 +287,7 @@ int run(const Options& options) {
     ++cells;
   }
   const Raster<float> result{std::move(result_m), dem.transform, dem.crs};
-  write_raster(options.out, result);
+  write_raster(options.out, result, nodata);
   write_products(result, options.operators, progress);
   const double mean = std::sqrt(sum / static_cast<double>(cells));
   progress.note(fmt::format("altitudes change by {:.1f} m (root mean square), at most {:.1f} m", mean, largest));

@@ -34,8 +34,8 @@ Grid<float> operate_before_bands(Grid<float> altitude_m, double cell_m, const Te
   return altitude_m;
 }
 
-Grid<float> operate_after_bands(Grid<float> altitude_m, const Grid<std::uint8_t>& keep, double cell_m, const TerrainOperators& operators,
-                                Progress& progress) {
+Grid<float> operate_after_bands(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep, double cell_m,
+                                const TerrainOperators& operators, Progress& progress) {
   WidenValleysParameters valleys;
   valleys.width_m = operators.widen_valleys_m;
   return valleys.width_m == 0.F ? altitude_m : widen_valleys(altitude_m, keep, cell_m, valleys, progress);

@@ -28,8 +28,8 @@ void add_terrain_operators(CLI::App& command, TerrainOperators& operators);
 
 // Cells finite, m. `keep`: lakes, which stay; empty: none.
 Grid<float> operate_before_bands(Grid<float> altitude_m, double cell_m, const TerrainOperators& operators, Progress& progress);
-Grid<float> operate_after_bands(Grid<float> altitude_m, const Grid<std::uint8_t>& keep, double cell_m, const TerrainOperators& operators,
-                                Progress& progress);
+Grid<float> operate_after_bands(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep, double cell_m,
+                                const TerrainOperators& operators, Progress& progress);
 // Hillshade and contours of the result; voids are NaN, its CRS metric.
 void write_products(const Raster<float>& result, const TerrainOperators& operators, Progress& progress);
 
