@@ -1,11 +1,18 @@
 #include "tools/commands.h"
 
+#include <CLI/CLI.hpp>
+
 namespace belvedere::tools {
 
 const std::vector<AddCommand>& all_commands() {
   static const std::vector<AddCommand> commands = {add_render, add_guidance, add_generalize, add_synthesize, add_check,
                                                    add_deform, add_info,     add_diff,       add_schema};
   return commands;
+}
+
+CLI::App& exemplar_commands(CLI::App& program) {
+  if (CLI::App* group = program.get_subcommand_no_throw("exemplar")) return *group;
+  return *program.add_subcommand("exemplar", "About example paintings: what they can serve, and painting one")->require_subcommand(1);
 }
 
 }  // namespace belvedere::tools

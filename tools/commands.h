@@ -30,4 +30,7 @@ Command add_diff(CLI::App& program);
 Command add_schema(CLI::App& program);
 const std::vector<AddCommand>& all_commands();
 
+// The group `exemplar`, which commands about example paintings are added to: `belvedere exemplar check`. Made by the first that asks.
+CLI::App& exemplar_commands(CLI::App& program);
+
 }  // namespace belvedere::tools
