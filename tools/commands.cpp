@@ -11,7 +11,8 @@ const std::vector<AddCommand>& all_commands() {
 }
 
 CLI::App& exemplar_commands(CLI::App& program) {
-  if (CLI::App* group = program.get_subcommand_no_throw("exemplar")) return *group;
+  const auto groups = program.get_subcommands([](const CLI::App* command) { return command->get_name() == "exemplar"; });
+  if (!groups.empty()) return *groups.front();
   return *program.add_subcommand("exemplar", "About example paintings: what they can serve, and painting one")->require_subcommand(1);
 }
 
