@@ -15,10 +15,6 @@ namespace belvedere {
 // little would else be torn apart for the sake of guides.
 Grid<Rgb8> seam_picture(const PaintedExemplar& painted, const Grid<std::uint8_t>& labels, double residual);
 
-// Paints a sheet on a made-up terrain with the scene's palette and the light from the scene's side, so that every guide of it is exactly
-// known. It carries no trees, no houses and no sky: those are painted on the target last.
-PaintedExemplar paint_sheet(const SceneExemplar& wish, const Stage& target, Progress& progress);
-
 // A painting from files: picture with a guidance file, or with a class mask and perhaps altitudes. Such a painting has no base picture
 // of its own; target_base lends it the mean of each class, so that the target's light is laid over it and not its colours.
 PaintedExemplar read_painting(const SceneExemplar& wish, const LoadedScene& scene, const LitPicture& target);
