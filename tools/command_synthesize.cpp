@@ -13,6 +13,7 @@
 #include "texture/synthesize.h"
 #include "tools/commands.h"
 #include "tools/synthesis_files.h"
+#include "tools/synthesize_replay.h"
 #include "tools/terminal.h"
 
 namespace belvedere::tools {
@@ -24,6 +25,7 @@ struct Options {
   std::vector<std::pair<int, int>> fallback;
   std::string out;
   std::string match;
+  std::string replay;
   SynthesisParameters parameters;
   int threads = 0;
   int memory_mib = 0;
@@ -31,21 +33,10 @@ struct Options {
   bool json = false;
 };
 
-enum class Format { png, tiff };
-
-Format format_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  if (ending == ".png") return Format::png;
-  if (ending == ".tif" || ending == ".tiff") return Format::tiff;
-  throw Error(ErrorKind::usage, "--out " + path, "is no name of a picture the program writes", ".png (8 bit) or .tif (16 bit)");
-}
-
-// The folder of a result is tried before the work begins.
-void check_place(const std::string& path) {
-  if (path.empty()) return;
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  check_output_folder(folder.empty() ? "." : folder);
+void check_result_name(const std::string& path) {
+  const std::string ending = ending_of(path);
+  if (ending != ".png" && ending != ".tif" && ending != ".tiff")
+    throw Error(ErrorKind::usage, "--out " + path, "is no name of a picture the program writes", ".png (8 bit) or .tif (16 bit)");
 }
 
 // Without folders: the same files give the same header wherever they lie.
@@ -69,9 +60,38 @@ FileNotes make_notes(const Options& options) {
   return notes;
 }
 
+std::vector<MatchedPicture> matched_pictures(const SynthesisInputs& inputs) {
+  std::vector<MatchedPicture> pictures;
+  for (const Exemplar& exemplar : inputs.exemplars)
+    pictures.push_back({std::filesystem::path(exemplar.name).filename().string(), exemplar.picture.width(), exemplar.picture.height()});
+  return pictures;
+}
+
+void print_result(const Options& options, int width, int height, std::size_t empty, Progress& progress) {
+  if (empty > 0) progress.note(fmt::format("{} pixels stay black: nothing may be copied there", empty));
+  if (!options.json) return;
+  print_out(Json::object()
+                .add("out", Json::text(options.out))
+                .add("match", Json::text(options.match))
+                .add("width", Json::number(width))
+                .add("height", Json::number(height))
+                .add("pixels_without_texel", Json::number(static_cast<double>(empty)))
+                .str() +
+            "\n");
+}
+
+int run_replay(const Options& options) {
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  const ReplayResult result = replay_layers({options.replay, options.files.pictures, options.out}, progress);
+  print_result(options, result.width, result.height, result.without_texel, progress);
+  return 0;
+}
+
 int run(Options& options) {
   if (options.memory_mib > 0) setenv("BELVEDERE_MEMORY_MIB", std::to_string(options.memory_mib).c_str(), 1);
-  const Format format = format_of(options.out);
+  if (!options.replay.empty()) return run_replay(options);
+  check_result_name(options.out);
   check_place(options.out);
   check_place(options.match);
   for (const auto& [name, source, target, weight] : options.guides) options.files.guides.push_back({name, source, target, weight});
@@ -94,24 +114,13 @@ int run(Options& options) {
   for (const Grid<glm::vec3>& picture : inputs.pictures) layers.push_back(&picture);
   const Grid<glm::vec3> picture = replay(matches, layers, Grid<glm::vec3>());  // black where nothing could be copied
   const PictureFileOptions file{.icc_profile = inputs.profile, .notes = notes};
-  if (format == Format::png)
+  if (ending_of(options.out) == ".png")
     write_png8(options.out, picture, file);
   else
     write_tiff16(options.out, picture, file);
-  if (!options.match.empty()) write_matches(options.match, matches, notes);
+  if (!options.match.empty()) write_matches(options.match, matches, matched_pictures(inputs), notes);
   const auto empty = std::count_if(matches.begin(), matches.end(), [](const Match& m) { return m.exemplar == Match::none; });
-  if (empty > 0) progress.note(fmt::format("{} pixels stay black: nothing may be copied there", empty));
-  progress.end();
-
-  if (options.json)
-    print_out(Json::object()
-                  .add("out", Json::text(options.out))
-                  .add("match", Json::text(options.match))
-                  .add("width", Json::number(picture.width()))
-                  .add("height", Json::number(picture.height()))
-                  .add("pixels_without_texel", Json::number(static_cast<double>(empty)))
-                  .str() +
-              "\n");
+  print_result(options, picture.width(), picture.height(), static_cast<std::size_t>(empty), progress);
   return 0;
 }
 
@@ -125,20 +134,25 @@ Command add_synthesize(CLI::App& program) {
       ->type_name("STYLE")
       ->required()
       ->allow_extra_args(false);
-  command
-      ->add_option("--label", options->files.labels,
-                   "Label images of the painting and of the target: grey, one number a class, 255 is never used; one for each --picture")
-      ->type_name("STYLE TARGET")
-      ->required()
-      ->allow_extra_args(false);
-  command
-      ->add_option("--guide", options->guides,
-                   "A further guide: name, grey image of the painting, of the target, and weight 0…100; may be repeated")
-      ->type_name("NAME STYLE TARGET WEIGHT")
-      ->allow_extra_args(false);
-  command->add_option("--out", options->out, "The result: .png (8 bit) or .tif (16 bit)")->type_name("FILE")->required();
-  command->add_option("--match", options->match, "Also where each pixel was copied from: OpenEXR with channels exemplar, x, y")
-      ->type_name("FILE");
+  CLI::Option* label =
+      command
+          ->add_option(
+              "--label", options->files.labels,
+              "Label images of the painting and of the target: grey, one number a class, 255 is never used; one for each --picture")
+          ->type_name("STYLE TARGET")
+          ->allow_extra_args(false);
+  CLI::Option* guide =
+      command
+          ->add_option("--guide", options->guides,
+                       "A further guide: name, grey image of the painting, of the target, and weight 0…100; may be repeated")
+          ->type_name("NAME STYLE TARGET WEIGHT")
+          ->allow_extra_args(false);
+  command->add_option("--out", options->out, "The result: .png (8 bit) or .tif (16 bit); with --replay also .exr")
+      ->type_name("FILE")
+      ->required();
+  CLI::Option* match =
+      command->add_option("--match", options->match, "Also where each pixel was copied from: OpenEXR with channels exemplar, x, y")
+          ->type_name("FILE");
   command->add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
       ->type_name("LABEL LABEL")
       ->allow_extra_args(false);
@@ -155,6 +169,11 @@ Command add_synthesize(CLI::App& program) {
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(16, 100000));
+  command
+      ->add_option("--replay", options->replay,
+                   "Lays other layers of the same paintings, one --picture each, exactly where a --match file says; needs no labels")
+      ->type_name("MATCH")
+      ->excludes(label, guide, match);
   command->add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")
       ->type_name("N")
       ->check(CLI::Range(0, 4096));
@@ -167,7 +186,10 @@ Command add_synthesize(CLI::App& program) {
       "  belvedere synthesize --picture style.png --label style_class.png target_class.png \\\n"
       "    --guide altitude style_alt.png target_alt.png 1.0 --out out.png --match match.exr\n\n"
       "With several paintings, the first --label and the first --guide of a name belong to the first\n"
-      "--picture, the second to the second, and so on; they all name the same target.");
+      "--picture, the second to the second, and so on; they all name the same target.\n\n"
+      "  belvedere synthesize --replay match.exr --picture style_16bit.tif --out out_16bit.tif\n\n"
+      "lays another layer of the same painting (its 16-bit scan, its varnish, its guidance.exr) with all its\n"
+      "bits; the layer has the painting's size.");
   return {command, [options] { return run(*options); }};
 }
 

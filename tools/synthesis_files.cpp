@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <filesystem>
+#include <glm/vec2.hpp>
 #include <map>
+#include <sstream>
 
 #include "renderer/base/error.h"
 
@@ -112,11 +115,42 @@ SynthesisInputs read_synthesis(const SynthesisFiles& files) {
   return inputs;
 }
 
-void write_matches(const std::string& path, const MatchField& matches, const FileNotes& notes) {
+namespace {
+
+constexpr const char* pictures_note = "belvedere:matched_pictures";
+
+// A line a picture: width, height, name.
+std::string to_note(const std::vector<MatchedPicture>& pictures) {
+  std::string note;
+  for (const MatchedPicture& picture : pictures) note += fmt::format("{} {} {}\n", picture.width, picture.height, picture.name);
+  return note;
+}
+
+std::vector<MatchedPicture> parse_note(const std::string& file, const std::string& note) {
+  std::vector<MatchedPicture> pictures;
+  std::istringstream lines(note);
+  for (std::string line; std::getline(lines, line);) {
+    MatchedPicture picture;
+    std::istringstream words(line);
+    if (!(words >> picture.width >> picture.height) || picture.width < 1 || picture.height < 1)
+      throw Error(ErrorKind::input, file, fmt::format("its header says of a picture \"{}\"", line), "width, height and name");
+    std::getline(words >> std::ws, picture.name);
+    pictures.push_back(std::move(picture));
+  }
+  return pictures;
+}
+
+}  // namespace
+
+void write_matches(const std::string& path, const MatchField& matches, const std::vector<MatchedPicture>& pictures,
+                   const FileNotes& notes) {
   const int width = matches.width();
+  FileNotes all_notes = notes;
+  all_notes[pictures_note] = to_note(pictures);
   ExrWriter writer(
       path, width, matches.height(),
-      {{.name = "match", .channels = {{"exemplar", ChannelType::uint32}, {"x", ChannelType::uint32}, {"y", ChannelType::uint32}}}}, notes);
+      {{.name = "match", .channels = {{"exemplar", ChannelType::uint32}, {"x", ChannelType::uint32}, {"y", ChannelType::uint32}}}},
+      all_notes);
   for (int y0 = 0; y0 < matches.height(); y0 += ExrWriter::band_rows) {
     const int rows = std::min(ExrWriter::band_rows, matches.height() - y0);
     std::vector<float> values;
@@ -130,6 +164,53 @@ void write_matches(const std::string& path, const MatchField& matches, const Fil
     writer.write_rows(0, y0, rows, values);
   }
   writer.finish();
+}
+
+StoredMatches read_matches(const std::string& path) {
+  const ImageInfo info = read_image_info(path);
+  const std::string allowed = "a file that synthesize --match wrote: OpenEXR with the channels exemplar, x and y of 32-bit whole numbers";
+  if (info.format != "openexr") throw Error(ErrorKind::input, path, "is no match field but " + info.format, allowed);
+  StoredMatches stored;
+  if (const auto note = info.notes.find(pictures_note); note != info.notes.end()) stored.pictures = parse_note(path, note->second);
+  for (const char* name : {"exemplar", "x", "y"}) {
+    bool found = false;
+    for (const PartSpec& part : info.parts)
+      for (const ChannelSpec& channel : part.channels) found = found || channel == ChannelSpec{name, ChannelType::uint32};
+    if (!found) throw Error(ErrorKind::input, path, fmt::format("is no match field: it has no channel {} of whole numbers", name), allowed);
+  }
+  const Grid<std::uint32_t> exemplar = read_id_channel(path, "exemplar");
+  const Grid<std::uint32_t> x = read_id_channel(path, "x");
+  const Grid<std::uint32_t> y = read_id_channel(path, "y");
+  if (!x.same_size(exemplar) || !y.same_size(exemplar))
+    throw Error(ErrorKind::input, path, "its channels exemplar, x and y differ in size", allowed);
+  stored.matches = MatchField(exemplar.width(), exemplar.height());
+  for (std::size_t i = 0; i < exemplar.size(); ++i) {
+    if (exemplar[i] == Match::none) continue;
+    const bool known = stored.pictures.empty() || exemplar[i] < stored.pictures.size();
+    const glm::ivec2 most = !known || stored.pictures.empty()
+                                ? glm::ivec2(Exemplar::largest_side)
+                                : glm::ivec2(stored.pictures[exemplar[i]].width, stored.pictures[exemplar[i]].height);
+    if (!known || exemplar[i] > Match::none || x[i] >= static_cast<std::uint32_t>(most.x) || y[i] >= static_cast<std::uint32_t>(most.y))
+      throw Error(ErrorKind::input, path,
+                  fmt::format("pixel {}, {} copies texel {}, {} of picture {}", i % static_cast<std::size_t>(exemplar.width()),
+                              i / static_cast<std::size_t>(exemplar.width()), x[i], y[i], exemplar[i]),
+                  known ? fmt::format("texels of a picture of {}", size_text(most.x, most.y))
+                        : fmt::format("pictures 0 … {}, and 65535 for none", stored.pictures.size() - 1));
+    stored.matches[i] = {static_cast<std::uint16_t>(exemplar[i]), static_cast<std::uint16_t>(x[i]), static_cast<std::uint16_t>(y[i])};
+  }
+  return stored;
+}
+
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return ending;
+}
+
+void check_place(const std::string& path) {
+  if (path.empty()) return;
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  check_output_folder(folder.empty() ? "." : folder);
 }
 
 }  // namespace belvedere::tools

@@ -39,7 +39,25 @@ struct SynthesisInputs {
 // Error(usage) where files do not pair up or sizes disagree, Error(input) for files that cannot be read or labels over 255.
 SynthesisInputs read_synthesis(const SynthesisFiles& files);
 
-// Channels exemplar, x and y (uint) of each pixel; exemplar is 65535 where nothing was copied.
-void write_matches(const std::string& path, const MatchField& matches, const FileNotes& notes);
+// What a stored match field says of a picture it copies from.
+struct MatchedPicture {
+  std::string name;  // without folders
+  int width = 0;
+  int height = 0;
+};
+struct StoredMatches {
+  MatchField matches;
+  std::vector<MatchedPicture> pictures;  // by number; empty where the file does not say
+};
+
+// Channels exemplar, x and y (uint) of each pixel; exemplar is 65535 where nothing was copied. The header says which pictures they are.
+void write_matches(const std::string& path, const MatchField& matches, const std::vector<MatchedPicture>& pictures, const FileNotes& notes);
+// Error(input) for a file that is no match field: another format, channels missing or not uint, a texel outside of its picture.
+StoredMatches read_matches(const std::string& path);
+
+// The ending of a file name in small letters, with its point.
+std::string ending_of(const std::string& path);
+// Tries the folder of a result before the work begins: Error(output). An empty path is none.
+void check_place(const std::string& path);
 
 }  // namespace belvedere::tools
