@@ -34,15 +34,19 @@ Grid<float> foreground_share(const Dem& dem, glm::dvec2 viewer_xy, const SceneGe
   return share;
 }
 
-// Pixels that a metre of ground at `place` takes at most: the larger singular value of the map from ground to picture. 0 behind the eye.
+// Pixels that a metre of ground at `place` takes at most: the larger singular value of the map from ground to picture, whose derivatives
+// are central differences over ±step_m. 0 behind the eye.
 double pixels_per_m(const Camera& camera, const Deformation& deformation, glm::dvec2 place, double altitude_m, double step_m) {
-  const auto seen = [&](glm::dvec2 at) { return camera.project(deformation.point({at, altitude_m})); };
-  const auto here = seen(place);
-  const auto east = seen(place + glm::dvec2(step_m, 0.0));
-  const auto north = seen(place + glm::dvec2(0.0, step_m));
-  if (!here || !east || !north) return 0.0;
-  const glm::dvec2 a = (*east - *here) / step_m;
-  const glm::dvec2 b = (*north - *here) / step_m;
+  const auto seen = [&](double east, double north) {
+    return camera.project(deformation.point({place + glm::dvec2(east, north), altitude_m}));
+  };
+  const auto east = seen(step_m, 0.0);
+  const auto west = seen(-step_m, 0.0);
+  const auto north = seen(0.0, step_m);
+  const auto south = seen(0.0, -step_m);
+  if (!east || !west || !north || !south) return 0.0;
+  const glm::dvec2 a = (*east - *west) / (2.0 * step_m);
+  const glm::dvec2 b = (*north - *south) / (2.0 * step_m);
   const double half_trace = 0.5 * (glm::dot(a, a) + glm::dot(b, b));
   const double determinant = a.x * b.y - a.y * b.x;
   const double square = half_trace + std::sqrt(std::max(0.0, half_trace * half_trace - determinant * determinant));

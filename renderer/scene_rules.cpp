@@ -43,13 +43,9 @@ class Rules {
   void generalize() {
     apply_preset();
     SceneGeneralize& wish = scene_.generalize;
-    std::vector<float>& foreground = wish.bands.foreground;
-    std::vector<float>& background = wish.bands.background;
+    const std::vector<float>& foreground = wish.bands.foreground;
+    const std::vector<float>& background = wish.bands.background;
     wish.bands.curvature = wish.curvature == "plan" ? CurvatureForm::plan : CurvatureForm::bounded;
-    const bool preset = !wish.preset.empty();
-    // Where only one of the two is given, the other keeps every band.
-    if (!preset && written("generalize.foreground") && !written("generalize.background")) background.assign(foreground.size(), 1.F);
-    if (!preset && written("generalize.background") && !written("generalize.foreground")) foreground.assign(background.size(), 1.F);
     if (foreground.size() != background.size())
       refuse("generalize.background",
              fmt::format("generalize.background has {} weights, generalize.foreground has {}", background.size(), foreground.size()),
@@ -149,20 +145,20 @@ class Rules {
   void apply_preset() {
     SceneGeneralize& wish = scene_.generalize;
     const GeneralizePreset* preset = find_generalize_preset(wish.preset);
-    if (preset == nullptr) return;
-    const auto take = [&](const char* key, auto& value, const auto& from) {
-      if (written(key) == nullptr) value = from;
+    const auto set = [&](const char* key, const std::vector<float>& weights) {
+      return written(key) == nullptr ? std::vector<float>() : weights;
     };
-    take("generalize.foreground", wish.bands.foreground, preset->bands.foreground);
-    take("generalize.background", wish.bands.background, preset->bands.background);
-    take("generalize.foreground_ridges", wish.bands.foreground_ridges, preset->bands.foreground_ridges);
-    take("generalize.foreground_valleys", wish.bands.foreground_valleys, preset->bands.foreground_valleys);
-    take("generalize.background_ridges", wish.bands.background_ridges, preset->bands.background_ridges);
-    take("generalize.background_valleys", wish.bands.background_valleys, preset->bands.background_valleys);
-    take("generalize.automatic_mask", wish.automatic_mask, preset->automatic_mask);
-    if (preset->slope_mask)
-      take("generalize.mask_slope_deg", wish.mask_slope_deg,
-           std::array{preset->slope_mask->original_to_deg, preset->slope_mask->generalized_from_deg});
+    const WrittenWeights weights{.foreground = set("generalize.foreground", wish.bands.foreground),
+                                 .foreground_ridges = set("generalize.foreground_ridges", wish.bands.foreground_ridges),
+                                 .foreground_valleys = set("generalize.foreground_valleys", wish.bands.foreground_valleys),
+                                 .background = set("generalize.background", wish.bands.background),
+                                 .background_ridges = set("generalize.background_ridges", wish.bands.background_ridges),
+                                 .background_valleys = set("generalize.background_valleys", wish.bands.background_valleys)};
+    choose_weights(wish.bands, weights, preset);
+    if (preset == nullptr) return;
+    if (written("generalize.automatic_mask") == nullptr) wish.automatic_mask = preset->automatic_mask;
+    if (preset->slope_mask && written("generalize.mask_slope_deg") == nullptr)
+      wish.mask_slope_deg = {preset->slope_mask->original_to_deg, preset->slope_mask->generalized_from_deg};
   }
 
   // The value at a dotted path, numbers counting list elements; null where nobody wrote it.

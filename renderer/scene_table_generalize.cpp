@@ -32,7 +32,8 @@ SceneSection make_generalize_section() {
           {.name = "background",
            .field = AT(generalize.bands.background),
            .range = {0, 5},
-           .meaning = "Weights of the bands far away, as many as in foreground."},
+           .meaning = "Weights of the bands far away, as many as in foreground; not written, they are as near, unless the preset has two "
+                      "different sets. So are the other background sets."},
           {.name = "foreground_ridges",
            .field = AT(generalize.bands.foreground_ridges),
            .range = {-5, 5},

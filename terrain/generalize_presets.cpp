@@ -75,4 +75,23 @@ const GeneralizePreset* find_generalize_preset(std::string_view name) {
   return found == all.end() ? nullptr : &*found;
 }
 
+void choose_weights(GeneralizeParameters& bands, const WrittenWeights& written, const GeneralizePreset* preset) {
+  using Set = Weights GeneralizeParameters::*;
+  const auto choose_near = [&](const Weights& wish, Set near_set, const Weights& otherwise) {
+    return !wish.empty() ? wish : preset != nullptr ? preset->bands.*near_set : otherwise;
+  };
+  const auto choose_far = [&](const Weights& wish, Set far_set, Set near_set) {
+    const bool own = preset != nullptr && preset->bands.*far_set != preset->bands.*near_set;
+    return !wish.empty() ? wish : own ? preset->bands.*far_set : bands.*near_set;
+  };
+  using P = GeneralizeParameters;
+  const std::size_t count = written.background.empty() ? P().foreground.size() : written.background.size();
+  bands.foreground = choose_near(written.foreground, &P::foreground, Weights(count, 1.F));
+  bands.foreground_ridges = choose_near(written.foreground_ridges, &P::foreground_ridges, {});
+  bands.foreground_valleys = choose_near(written.foreground_valleys, &P::foreground_valleys, {});
+  bands.background = choose_far(written.background, &P::background, &P::foreground);
+  bands.background_ridges = choose_far(written.background_ridges, &P::background_ridges, &P::foreground_ridges);
+  bands.background_valleys = choose_far(written.background_valleys, &P::background_valleys, &P::foreground_valleys);
+}
+
 }  // namespace belvedere

@@ -21,4 +21,13 @@ const std::vector<GeneralizePreset>& generalize_presets();
 // Null where there is none of that name.
 const GeneralizePreset* find_generalize_preset(std::string_view name);
 
+// The sets of weights that somebody wrote; those nobody wrote are empty.
+struct WrittenWeights {
+  std::vector<float> foreground, foreground_ridges, foreground_valleys;
+  std::vector<float> background, background_ridges, background_valleys;
+};
+// The sets of `bands` as scenes and commands understand them. What is written has the last word; the rest is the preset's (null: none,
+// weights of 1). A background set nobody wrote is as the foreground set is written, unless the preset has two different ones.
+void choose_weights(GeneralizeParameters& bands, const WrittenWeights& written, const GeneralizePreset* preset);
+
 }  // namespace belvedere

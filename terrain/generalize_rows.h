@@ -25,8 +25,9 @@ void blur_down_row(const float* const* rows, const std::vector<float>& taps, int
 // x^exponent for 0 ≤ x ≤ 1, in place, exponent > 0; error below 1e-5. Exactly 0 at 0 and 1 at 1.
 void power_row(float* values, int width, float exponent);
 
-// Of three rows of a band, padded by 1: P = p²r + 2pqs + q²t, whose sign is opposite to the profile curvature's, per
-// cell, split into what is convex (max(-P, 0)) and |P|.
+// Of three rows of a band, padded by 1: the mean over 3 × 3 cells of P = p²r + 2pqs + q²t, whose sign is opposite to the profile
+// curvature's, split into what is convex (max(-P, 0)) and |P|. P at the cell alone is 0 where the band is level, so along the very
+// bottom of a valley and on the top of a roof; its mean tells there by the bend across, and on slopes by the bend along the fall.
 void profile_row(const float* north, const float* here, const float* south, int width, float inverse_x, float inverse_y, float* convex,
                  float* both);
 // Σ convex / Σ both over 3 × 3 cells, rows padded by 1: 1 where all the surroundings are convex, 0 where all are concave, .5 on a plane.

@@ -62,31 +62,21 @@ void check_set(const char* option, const Weights& weights, std::size_t bands, fl
     if (!(w >= least && w <= 5.F)) refuse(option, fmt::format("a weight of {}", w), fmt::format("{} … 5; 1 keeps a band", least));
 }
 
-// The weights asked for: what is not written comes from the preset; far away is as near where nothing is said of it.
+// The weights asked for. A page with sliders begins with the terrain as it is.
 GeneralizeParameters resolve_bands(const Options& options) {
   GeneralizeParameters bands = options.bands;
   const GeneralizePreset* preset = options.preset.empty() ? nullptr : find_generalize_preset(options.preset);
-  const Weights unchanged = options.equalizer.empty() ? Weights() : Weights(6, 1.F);  // a page begins with the terrain as it is
-  if (preset == nullptr && options.global.empty() && unchanged.empty()) {
+  if (preset == nullptr && options.global.empty() && options.equalizer.empty()) {
     refuse("--global", "no weights", "--global 1,1,0.7,0.3,0 (the largest landforms first), or --preset NAME");
   }
-  const auto choose = [&](const Weights& written, const Weights GeneralizeParameters::*from, const Weights& otherwise) {
-    return !written.empty() ? written : preset != nullptr ? preset->bands.*from : otherwise;
-  };
-  // A preset that is the same near and far stays so when one of its sets is written anew.
-  const auto choose_far = [&](const Weights& written, const Weights GeneralizeParameters::*from,
-                              const Weights GeneralizeParameters::*near_set, const Weights& near_weights) {
-    const bool same = preset != nullptr && preset->bands.*from == preset->bands.*near_set;
-    return written.empty() && same ? near_weights : choose(written, from, near_weights);
-  };
-  using P = GeneralizeParameters;
-  bands.foreground = choose(options.global, &P::foreground, unchanged);
-  bands.foreground_ridges = choose(options.ridges, &P::foreground_ridges, {});
-  bands.foreground_valleys = choose(options.valleys, &P::foreground_valleys, {});
-  bands.background = choose_far(options.background_global, &P::background, &P::foreground, bands.foreground);
-  bands.background_ridges = choose_far(options.background_ridges, &P::background_ridges, &P::foreground_ridges, bands.foreground_ridges);
-  bands.background_valleys =
-      choose_far(options.background_valleys, &P::background_valleys, &P::foreground_valleys, bands.foreground_valleys);
+  choose_weights(bands,
+                 {.foreground = options.global,
+                  .foreground_ridges = options.ridges,
+                  .foreground_valleys = options.valleys,
+                  .background = options.background_global,
+                  .background_ridges = options.background_ridges,
+                  .background_valleys = options.background_valleys},
+                 preset);
   bands.curvature = options.curvature == "plan" ? CurvatureForm::plan : CurvatureForm::bounded;
   const std::size_t count = bands.foreground.size();
   if (count > 12) refuse("--global", fmt::format("{} weights", count), "1 to 12");

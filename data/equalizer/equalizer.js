@@ -149,12 +149,16 @@ function breakLines(partialSum, cell) {
   return blur(c);
 }
 
-// How far a band adds convex detail around each cell, 0…1, by its profile curvature.
+// How far a band adds convex detail around each cell, 0…1, by its profile curvature: the mean of p²r + 2pqs + q²t over the nine cells,
+// which tells also on the very top of a roof, where p = q = 0.
 function convexShare(band, cell) {
   const w = band.width, h = band.height;
+  const spreadX = 2 / 3 * cell[0] * cell[0], spreadY = 2 / 3 * cell[1] * cell[1];
   const convex = new Float64Array(w * h), both = new Float64Array(w * h);
   fitQuadrics(band, cell, (i, p, q, r, s, t) => {
-    const curve = p * p * r + 2 * p * q * s + q * q * t;
+    const bendX = r * (r * r + 2 * s * s) + s * s * t;
+    const bendY = t * (t * t + 2 * s * s) + s * s * r;
+    const curve = p * p * r + 2 * p * q * s + q * q * t + spreadX * bendX + spreadY * bendY;
     both[i] = Math.abs(curve);
     convex[i] = 0.5 * (Math.abs(curve) - curve);
   });

@@ -205,7 +205,9 @@ TEST(SceneFile, KeysThatBelongTogether) {
   EXPECT_THAT(refused("[[exemplar]]\npicture = \"a.png\"\n"), HasSubstr("neither guidance nor classes"));
   EXPECT_THAT(refused("[[exemplar]]\nclasses = \"a.png\"\n"), HasSubstr("no picture"));
   const Scene one_set = scene_of("[generalize]\nforeground = [2, 2]\n");
-  EXPECT_EQ(one_set.generalize.bands.background, (std::vector<float>{1.F, 1.F}));
+  EXPECT_EQ(one_set.generalize.bands.background, (std::vector<float>{2.F, 2.F}));  // far as near
+  const Scene far_set = scene_of("[generalize]\nbackground = [2, 0]\n");
+  EXPECT_EQ(far_set.generalize.bands.foreground, (std::vector<float>{1.F, 1.F}));
   EXPECT_TRUE(scene_of("").terrain.synthetic);
   EXPECT_FALSE(scene_of("[[terrain.sources]]\nfile = \"a.tif\"\n").terrain.synthetic);
 }
