@@ -18,6 +18,7 @@
 #include "renderer/output_color.h"
 #include "renderer/provenance.h"
 #include "terrain/raster_io.h"
+#include "texture/class_supply.h"
 #include "texture/stroke_painter.h"
 #include "texture/synthesize.h"
 
@@ -112,7 +113,12 @@ Grid<glm::vec3> synthesize_ground(const LoadedScene& loaded, const Stage& stage,
                                        to_stroke_parameters(stage), progress);
   const PaintedClasses classes = find_painted_classes(draft.sources, picture.guidance, picture.ground.colour);
   const GuideStack guides = make_guide_stack(picture.guidance, classes.land_cover);
-  const MatchField matches = synthesize(exemplars, guides, to_synthesis_parameters(stage.scene), progress);
+  const SynthesisParameters parameters = to_synthesis_parameters(stage.scene);
+  const std::string scarcity = describe_scarcity(class_supply(exemplars, guides.label, parameters.fallback), [](std::uint8_t label) {
+    return std::string(class_name(static_cast<LandCoverClass>(label)));
+  });
+  if (!scarcity.empty()) progress.note(scarcity);
+  const MatchField matches = synthesize(exemplars, guides, parameters, progress);
   return transfer_residual(matches, painted, classes.base, picture.ground.haze, stage.scene.synthesis.residual);
 }
 

@@ -86,4 +86,18 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress) {
   return report;
 }
 
+SceneExemplars look_at_exemplars(const LoadedScene& scene, Progress& progress) {
+  require_scene_files(scene);
+  check_paintings(scene);
+  const LoadedScene view = small(scene);
+  Stage stage = set_stage(view, progress);
+  const LitPicture picture = make_lit_picture(stage, {0, 0, view.scene.output.width, view.scene.output.height}, 32, progress);
+  // Sheets are painted for the picture itself: their strokes are as large as its.
+  stage.scene = scene.scene;
+  const double small_pixels = static_cast<double>(view.scene.output.width) * view.scene.output.height;
+  return {.exemplars = make_exemplars(scene, stage, picture, progress),
+          .view = make_guide_stack(picture.guidance, picture.guidance.land_cover),
+          .pixels_of_picture = static_cast<double>(scene.scene.output.width) * scene.scene.output.height / small_pixels};
+}
+
 }  // namespace belvedere

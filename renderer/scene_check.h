@@ -7,6 +7,7 @@
 
 #include "renderer/base/land_cover_class.h"
 #include "renderer/base/progress.h"
+#include "renderer/paint.h"
 #include "renderer/scene_file.h"
 #include "renderer/view.h"
 
@@ -28,5 +29,14 @@ struct SceneReport {
 // of the view, whether some exemplar has texels of each class in the picture. Throws what rendering would throw, and Error(usage) for
 // classes that have neither texels nor a fallback that has.
 SceneReport check_scene(const LoadedScene& scene, Progress& progress);
+
+// The exemplars of a scene as rendering would have them, and what its picture asks of them, from a small trace of the view.
+struct SceneExemplars {
+  std::vector<PaintedExemplar> exemplars;
+  GuideStack view;                 // of the small trace
+  double pixels_of_picture = 1.0;  // that each pixel of `view` stands for
+};
+// Throws what check_scene throws for files; classes without texels are no error here.
+SceneExemplars look_at_exemplars(const LoadedScene& scene, Progress& progress);
 
 }  // namespace belvedere

@@ -1,10 +1,13 @@
 #include "texture/exemplar_survey.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "renderer/base/error.h"
 #include "texture/quality.h"
 #include "texture/quality_parts.h"
 
@@ -110,6 +113,32 @@ ExemplarSurvey survey_exemplar(const Exemplar& exemplar) {
     survey.classes.push_back(std::move(of));
   }
   return survey;
+}
+
+double covered_share(const std::vector<Exemplar>& exemplars, const GuideStack& target, std::uint8_t label, const std::string& guide,
+                     int reach) {
+  const auto values_of = [&](const GuideStack& stack) -> const Grid<std::uint8_t>& {
+    const Grid<std::uint8_t>* values = stack.find(guide);
+    if (values == nullptr) throw Error(ErrorKind::usage, "coverage", fmt::format("guide \"{}\" is missing on one side", guide));
+    return *values;
+  };
+  std::array<bool, 256> served{};
+  for (const Exemplar& exemplar : exemplars) {
+    const Grid<std::uint8_t>& values = values_of(exemplar.guides);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (exemplar.guides.label[i] != label) continue;
+      for (int v = std::max(0, values[i] - reach); v <= std::min(255, values[i] + reach); ++v) served[static_cast<std::size_t>(v)] = true;
+    }
+  }
+  const Grid<std::uint8_t>& wanted = values_of(target);
+  std::size_t pixels = 0;
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (target.label[i] != label) continue;
+    ++pixels;
+    covered += served[wanted[i]] ? 1 : 0;
+  }
+  return pixels == 0 ? 1.0 : static_cast<double>(covered) / static_cast<double>(pixels);
 }
 
 }  // namespace belvedere

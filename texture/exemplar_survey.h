@@ -54,4 +54,9 @@ struct ExemplarSurvey {
 // Throws as check_exemplar.
 ExemplarSurvey survey_exemplar(const Exemplar& exemplar);
 
+// Share of the target's pixels of a class for which some texel of it has that guide within `reach` steps; 1 where the target has no
+// such pixel. Error(usage) where the target or an exemplar lacks the guide.
+double covered_share(const std::vector<Exemplar>& exemplars, const GuideStack& target, std::uint8_t label, const std::string& guide,
+                     int reach);
+
 }  // namespace belvedere

@@ -10,6 +10,7 @@
 #include "renderer/base/json.h"
 #include "renderer/base/parallel.h"
 #include "renderer/provenance.h"
+#include "texture/class_supply.h"
 #include "texture/synthesize.h"
 #include "tools/commands.h"
 #include "tools/synthesis_files.h"
@@ -107,6 +108,9 @@ int run(Options& options) {
   SynthesisInputs inputs = read_synthesis(options.files);
   options.parameters.weights = inputs.weights;
   const FileNotes notes = make_notes(options);
+  const std::string scarcity = describe_scarcity(class_supply(inputs.exemplars, inputs.target.label, options.parameters.fallback),
+                                                 [](std::uint8_t label) { return fmt::format("class {}", label); });
+  if (!scarcity.empty()) progress.note(scarcity);
   const MatchField matches = synthesize(inputs.exemplars, inputs.target, options.parameters, progress);
 
   progress.begin("writing", 0.0);

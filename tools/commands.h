@@ -25,6 +25,7 @@ Command add_generalize(CLI::App& program);
 Command add_synthesize(CLI::App& program);
 Command add_check(CLI::App& program);
 Command add_deform(CLI::App& program);
+Command add_exemplar_check(CLI::App& program);
 Command add_info(CLI::App& program);
 Command add_diff(CLI::App& program);
 Command add_schema(CLI::App& program);

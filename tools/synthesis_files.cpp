@@ -46,19 +46,10 @@ Grid<std::uint8_t> read_guide(const std::string& file) {
   return values;
 }
 
-Rgb8 to_rgb8(glm::vec3 encoded) {
-  Rgb8 out{};
-  for (int c = 0; c < 3; ++c)
-    out[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(std::clamp(encoded[c], 0.F, 1.F) * 255.F));
-  return out;
-}
-
 Exemplar make_exemplar(const std::string& file, const Grid<glm::vec3>& picture, const Grid<float>& alpha, Grid<std::uint8_t> labels) {
-  Exemplar exemplar{.name = file, .picture = Grid<Rgb8>(picture.width(), picture.height()), .guides = {}};
-  for (std::size_t i = 0; i < picture.size(); ++i) {
-    exemplar.picture[i] = to_rgb8(picture[i]);
+  Exemplar exemplar{.name = file, .picture = to_rgb8(picture), .guides = {}};
+  for (std::size_t i = 0; i < picture.size(); ++i)
     if (alpha[i] < 0.5F) labels[i] = unused_label;  // what is cut out of a picture is no paint
-  }
   exemplar.guides.label = std::move(labels);
   return exemplar;
 }
@@ -76,7 +67,7 @@ SynthesisInputs read_synthesis(const SynthesisFiles& files) {
 
   SynthesisInputs inputs;
   const std::string& target_file = files.labels.front().second;
-  inputs.target.label = read_labels(target_file);
+  if (!target_file.empty()) inputs.target.label = read_labels(target_file);
   inputs.profile = read_image_info(files.pictures.front()).icc_profile;
   for (std::size_t i = 0; i < files.pictures.size(); ++i) {
     if (files.labels[i].second != target_file)
@@ -102,8 +93,10 @@ SynthesisInputs read_synthesis(const SynthesisFiles& files) {
                  files.pictures[i]);
     if (i == 0) {
       first[guide.name] = &guide;
-      inputs.target.guides.push_back({guide.name, read_guide(guide.target)});
-      require_size(inputs.target.guides.back().values, guide.target, inputs.target.width(), inputs.target.height(), target_file);
+      if (!guide.target.empty()) {
+        inputs.target.guides.push_back({guide.name, read_guide(guide.target)});
+        require_size(inputs.target.guides.back().values, guide.target, inputs.target.width(), inputs.target.height(), target_file);
+      }
       inputs.weights.emplace_back(guide.name, guide.weight);
     } else if (guide.target != first[guide.name]->target || guide.weight != first[guide.name]->weight) {
       refuse(fmt::format("--guide {} has two targets or two weights", guide.name), "the same target and weight for every picture");
@@ -199,6 +192,20 @@ StoredMatches read_matches(const std::string& path) {
     stored.matches[i] = {static_cast<std::uint16_t>(exemplar[i]), static_cast<std::uint16_t>(x[i]), static_cast<std::uint16_t>(y[i])};
   }
   return stored;
+}
+
+std::uint8_t to_label(const std::string& option, int number) {
+  if (number < 0 || number >= unused_label) throw Error(ErrorKind::usage, option, fmt::format("{} is no label", number), "0 … 254");
+  return static_cast<std::uint8_t>(number);
+}
+
+Grid<Rgb8> to_rgb8(const Grid<glm::vec3>& encoded) {
+  Grid<Rgb8> out(encoded.width(), encoded.height());
+  std::transform(encoded.begin(), encoded.end(), out.begin(), [](const glm::vec3& colour) {
+    const auto level = [](float v) { return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.F, 1.F) * 255.F)); };
+    return Rgb8{level(colour.x), level(colour.y), level(colour.z)};
+  });
+  return out;
 }
 
 std::string ending_of(const std::string& path) {

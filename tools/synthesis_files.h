@@ -21,7 +21,7 @@ struct GuidePair {
 };
 
 // What `synthesize` works on, by file name. The first label and the first guide of a name belong to the first picture, the second to the
-// second …; their target is always the same file.
+// second …; their target is always the same file. Where only the paintings matter, target names are empty.
 struct SynthesisFiles {
   std::vector<std::string> pictures;
   std::vector<std::pair<std::string, std::string>> labels;  // of the picture, of the target
@@ -54,6 +54,11 @@ struct StoredMatches {
 void write_matches(const std::string& path, const MatchField& matches, const std::vector<MatchedPicture>& pictures, const FileNotes& notes);
 // Error(input) for a file that is no match field: another format, channels missing or not uint, a texel outside of its picture.
 StoredMatches read_matches(const std::string& path);
+
+// A label from the command line: Error(usage) unless 0 … 254.
+std::uint8_t to_label(const std::string& option, int number);
+// 8-bit encoded sRGB, as synthesis compares pictures.
+Grid<Rgb8> to_rgb8(const Grid<glm::vec3>& encoded);
 
 // The ending of a file name in small letters, with its point.
 std::string ending_of(const std::string& path);

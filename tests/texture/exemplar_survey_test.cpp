@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/base/random.h"
+#include "tests/files.h"
 
 namespace belvedere {
 namespace {
@@ -67,6 +68,19 @@ TEST(ExemplarSurvey, CountsWhatIsExcludedAndWhatLiesInside) {
   EXPECT_EQ(survey.classes[1].texels, 1200U);
   EXPECT_EQ(survey.classes[1].inside, 120U);  // the last column, 9 pixels off
   EXPECT_FALSE(survey.classes[1].left_right.known);
+}
+
+TEST(ExemplarSurvey, TellsHowManyPixelsFindTexelsOfTheirAltitude) {
+  const std::vector<Exemplar> exemplars{two_hands(60, 60)};  // 20…79, 120…179
+  GuideStack target;
+  target.label = Grid<std::uint8_t>(200, 1, 4);
+  target.guides = {{"altitude", Grid<std::uint8_t>(200, 1)}};
+  for (int x = 0; x < 200; ++x) target.guides[0].values(x, 0) = static_cast<std::uint8_t>(x);
+  EXPECT_EQ(covered_share(exemplars, target, 4, "altitude", 0), 120.0 / 200.0);
+  EXPECT_EQ(covered_share(exemplars, target, 4, "altitude", 3), 132.0 / 200.0);
+  EXPECT_EQ(covered_share(exemplars, target, 4, "altitude", 40), 1.0);
+  EXPECT_EQ(covered_share(exemplars, target, 5, "altitude", 0), 1.0);
+  EXPECT_EQ(test::message_of(ErrorKind::usage, [&] { covered_share(exemplars, target, 4, "tone", 0); }).empty(), false);
 }
 
 // Bars along a row, 12 pixels long on 1 high: their run is told.
