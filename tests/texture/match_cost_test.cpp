@@ -23,8 +23,7 @@ Exemplar noise(int width, int height, std::uint64_t seed) {
   Grid<std::uint8_t> altitude(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      for (std::size_t c = 0; c < 3; ++c)
-        exemplar.picture(x, y)[c] = static_cast<std::uint8_t>(random_index(256, seed, x, y, c));
+      for (std::size_t c = 0; c < 3; ++c) exemplar.picture(x, y)[c] = static_cast<std::uint8_t>(random_index(256, seed, x, y, c));
       exemplar.guides.label(x, y) = x < width / 2 ? 3 : 200;
       altitude(x, y) = static_cast<std::uint8_t>(random_index(256, seed, x, y, 4));
     }

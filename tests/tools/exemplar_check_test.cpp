@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <regex>
+
 #include "renderer/base/random.h"
 #include "tests/tools/program.h"
 
@@ -98,6 +101,15 @@ TEST_F(SceneExemplarCheck, ASceneIsJudgedByItsOwnNames) {
   const Outcome large = run({"exemplar", "check", path("scene.toml"), "--set", "synthesis.enabled=true", "--set", "output.width=960",
                              "--set", "output.height=640", "--quiet"});
   EXPECT_THAT(large.out, HasSubstr("forest: too few, strokes will repeat"));
+  // Both are counted on small traces, of 96 and of 480 pixels, but told for the picture.
+  const auto forest = [](const std::string& text) {
+    std::smatch found;
+    const bool there = std::regex_search(text, found, std::regex("forest: [^:]*: ([0-9 ]+) pixels"));
+    std::string digits = there ? found[1].str() : "0";
+    digits.erase(std::remove(digits.begin(), digits.end(), ' '), digits.end());
+    return std::stod(digits);
+  };
+  EXPECT_NEAR(forest(large.out) / forest(outcome.out), 100.0, 10.0);
 }
 
 TEST_F(SceneExemplarCheck, RenderSaysWhichClassHasTooFewTexels) {
