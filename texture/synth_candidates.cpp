@@ -1,5 +1,3 @@
-#include <hwy/cache_control.h>
-
 #include <algorithm>
 #include <array>
 
@@ -46,39 +44,34 @@ std::uint32_t allowed_texel(const KernelView& view, std::uint32_t pixel, const F
   return view.match[pixel];
 }
 
-std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, Slack slack) {
-  const std::uint32_t label_class = class_of(view.target->words[pixel]);
+PickRun begin_draw(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y) {
+  const std::uint32_t random = static_cast<std::uint32_t>(random_bits(key, x, y) >> 32);
+  return view.lists->pick(class_of(view.target->words[pixel]), view.target->guides_at(pixel), random);
+}
+
+std::uint32_t finish_draw(const KernelView& view, std::uint32_t pixel, const PickRun& run, Slack slack) {
+  if (run.count == 0) return view.exemplars->nowhere();
+  const bool at_border = view.around_price != nullptr && view.wanted_around[pixel].others > border_others;
+  const int draws = at_border ? std::max(view.draws, view.border_draws) : view.draws;
+  const PickLists::Entry first = view.lists->entry(run.entry(0));
+  if (draws == 1) return first.texel();
   const std::uint8_t* wanted = view.target->guides_at(pixel);
   slack.others = nullptr;  // picks are as good as they can be
-  const auto pick = [&](int draw) {
-    const std::uint32_t random = static_cast<std::uint32_t>(random_bits(key, x, y, static_cast<std::uint64_t>(draw)) >> 32);
-    return view.lists->pick(label_class, wanted, random);
-  };
-  const int draws = view.around_price != nullptr && view.wanted_around[pixel].others > border_others
-                        ? std::max(view.draws, view.border_draws)
-                        : view.draws;
-  if (draws == 1) return pick(0);
-  // Each draw waits for memory twice, for its list entry and for its guides; in batches the waits overlap.
-  constexpr int batch = 8;
-  std::array<std::uint32_t, batch> drawn;
-  std::uint32_t best = view.exemplars->nowhere();
+  std::uint32_t best = first.texel();
   std::int64_t best_cost = INT64_MAX;
-  for (int first = 0; first < draws; first += batch) {
-    const std::size_t count = static_cast<std::size_t>(std::min(batch, draws - first));
-    for (std::size_t i = 0; i < count; ++i) {
-      drawn[i] = pick(first + static_cast<int>(i));
-      hwy::Prefetch(view.exemplars->guides_at(drawn[i]));
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::int64_t cost =
-          guide_cost(view, wanted, view.exemplars->guides_at(drawn[i]), slack) + surroundings_cost(view, pixel, drawn[i]);
-      if (cost < best_cost) {
-        best_cost = cost;
-        best = drawn[i];
-      }
+  for (std::uint32_t i = 0; i < std::min(run.count, static_cast<std::uint32_t>(draws)); ++i) {
+    const PickLists::Entry entry = view.lists->entry(run.entry(i));
+    const std::int64_t cost = guide_cost(view, wanted, entry.guides(), slack) + surroundings_cost(view, pixel, entry.around());
+    if (cost < best_cost) {
+      best_cost = cost;
+      best = entry.texel();
     }
   }
   return best;
+}
+
+std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, Slack slack) {
+  return finish_draw(view, pixel, begin_draw(view, pixel, key, x, y), slack);
 }
 
 void surface_around(const KernelView& view, std::uint32_t pixel, std::uint8_t rows[7]) {

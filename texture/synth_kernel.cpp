@@ -174,8 +174,8 @@ struct Search {
     return static_cast<std::int64_t>(hn::GetLane(hn::SumOfLanes(d32, sum)) >> 4);
   }
 
-  HWY_INLINE std::int64_t AroundCost(std::uint32_t texel) const {
-    return view->around_price == nullptr ? 0 : (*view->around_price)(around, view->offered_around[texel]);
+  HWY_INLINE std::int64_t AroundCost(Surroundings offered) const {
+    return view->around_price == nullptr ? 0 : (*view->around_price)(around, offered);
   }
 
   // `join` is what copying along with a neighbour's (or keeping the own) piece costs.
@@ -187,11 +187,11 @@ struct Search {
     }
     seen[seen_count++] = texel;
     if (forbidden.count > 0 && forbidden.has(texel)) return;
-    const std::int64_t others = static_cast<std::int64_t>(view->uses[texel]) - (texel == own ? 1 : 0);
+    const TexelRecords::Record record = view->texels->at(texel);
+    const std::int64_t others = static_cast<std::int64_t>(record.uses()) - (texel == own ? 1 : 0);
     if (others >= view->most_uses[label_class] && texel != own) return;
-    std::int64_t cost = join + GuideCost(view->exemplars->guides_at(texel)) + AroundCost(texel) +
-                        (others * (others + 1) / 2 * view->reuse_q4[label_class] >> 4) +
-                        view->bin_cost[label_class * 64 + view->bins[texel]];
+    std::int64_t cost = join + GuideCost(record.guides()) + AroundCost(record.around()) +
+                        (others * (others + 1) / 2 * view->reuse_q4[label_class] >> 4) + view->bin_cost[label_class * 64 + record.bin()];
     if (cost > best_cost) return;
     cost += PatchCost(patch, word, view->exemplars->stride, best_cost - cost);
     if (cost < best_cost || (cost == best_cost && texel < best)) {
@@ -202,14 +202,13 @@ struct Search {
 };
 
 constexpr std::ptrdiff_t fetch_ahead = 2;
+constexpr int batch = 32;  // picks begun before the first is finished
 
 HWY_INLINE void Fetch(const KernelView& view, std::uint32_t texel) {
   const std::ptrdiff_t stride = view.exemplars->stride;
   const std::uint32_t* row = view.exemplars->words.data() + texel - patch_radius * stride;
   for (int j = 0; j < 7; ++j, row += stride) hwy::Prefetch(row);
-  hwy::Prefetch(view.exemplars->guides_at(texel));
-  hwy::Prefetch(view.uses + texel);
-  hwy::Prefetch(view.bins + texel);
+  hwy::Prefetch(view.texels->at(texel).words);
 }
 
 void ImproveRow(const KernelView& view, int x0, int x1, int y, std::uint32_t* next) {
@@ -217,17 +216,39 @@ void ImproveRow(const KernelView& view, int x0, int x1, int y, std::uint32_t* ne
   const Plane& target = *view.target;
   const std::int64_t nearly_full = view.copy_cap - view.copy_cap / 4;
   const std::uint32_t row = target.index(0, 0, y);
-  // Picks lie anywhere in the exemplars, and waiting for memory is most of their cost. So all are drawn first, into `next`, and fetched
-  // a few pixels ahead of their use.
+  // Picks lie anywhere in the exemplars, and waiting for memory is most of their cost. So all are drawn first, into `next`: list entries
+  // are asked for a batch at a time before they are looked at, and texels a few pixels ahead of their use.
   std::uint32_t* drawn = next;
-  for (int x = x0; x < x1; x += 2, ++drawn) {
-    const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
-    *drawn = class_of(target.words[pixel]) == no_class ? view.exemplars->nowhere()
-                                                       : draw_texel(view, pixel, view.key, x, y, make_slack(view, pixel));
+  for (int first = x0; first < x1; first += 2 * batch) {
+    std::array<PickRun, batch> runs;
+    const int last = std::min(x1, first + 2 * batch);
+    for (int x = first, i = 0; x < last; x += 2, ++i) {
+      const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
+      if (class_of(target.words[pixel]) == no_class) continue;
+      PickRun& run = runs[static_cast<std::size_t>(i)];
+      run = begin_draw(view, pixel, view.key, x, y);
+      if (run.count == 0) continue;
+      hwy::Prefetch(view.lists->entry(run.entry(0)).words);
+      if (view.draws > 1)
+        hwy::Prefetch(view.lists->entry(run.entry(std::min(run.count, static_cast<std::uint32_t>(view.draws)) - 1)).words);
+    }
+    for (int x = first, i = 0; x < last; x += 2, ++i, ++drawn) {
+      const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
+      const PickRun& run = runs[static_cast<std::size_t>(i)];
+      *drawn = run.count == 0 ? view.exemplars->nowhere() : finish_draw(view, pixel, run, make_slack(view, pixel));
+    }
   }
   for (int x = x0; x < x1; x += 2, ++next) {
-    if (next + fetch_ahead < drawn) Fetch(view, next[fetch_ahead]);
     const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
+    if (next + fetch_ahead < drawn) {
+      Fetch(view, next[fetch_ahead]);
+      // What neighbours copy is where this pixel's coherent candidates lie.
+      const std::uint32_t* ahead = view.match + pixel + 2 * fetch_ahead;
+      for (const std::uint32_t texel : {ahead[0], ahead[1], *(ahead - target.stride), ahead[target.stride]}) {
+        hwy::Prefetch(view.texels->at(texel).words);
+        hwy::Prefetch(view.exemplars->words.data() + texel);
+      }
+    }
     const std::uint32_t pick = *next;
     *next = view.match[pixel];
     if (class_of(target.words[pixel]) == no_class) continue;
@@ -263,7 +284,7 @@ std::int64_t OnePatchCost(const KernelView& view, std::uint32_t pixel, std::uint
 std::int64_t OneGuidesCost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
   Search search;
   search.Begin(view, pixel);
-  return search.GuideCost(view.exemplars->guides_at(texel));
+  return search.GuideCost(view.texels->at(texel).guides());
 }
 
 int BestMove(const KernelView& view, const std::vector<PieceSample>& samples, const std::vector<std::uint32_t>& candidates) {
@@ -286,10 +307,10 @@ int BestMove(const KernelView& view, const std::vector<PieceSample>& samples, co
         cost += price::misfit;
         continue;
       }
-      const std::int64_t others = view.uses[texel];
-      cost += guide_cost(view, search.wanted, exemplars.guides_at(texel), search.slack) + search.AroundCost(texel) +
-              (others * (others + 1) / 2 * view.reuse_q4[search.label_class] >> 4) +
-              view.bin_cost[search.label_class * 64 + view.bins[texel]];
+      const TexelRecords::Record record = view.texels->at(texel);
+      const std::int64_t others = record.uses();
+      cost += guide_cost(view, search.wanted, record.guides(), search.slack) + search.AroundCost(record.around()) +
+              (others * (others + 1) / 2 * view.reuse_q4[search.label_class] >> 4) + view.bin_cost[search.label_class * 64 + record.bin()];
       cost += PatchCost(search.patch, exemplars.words.data() + texel, exemplars.stride, no_price);
     }
     if (cost < best_cost) {

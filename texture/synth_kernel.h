@@ -10,6 +10,7 @@
 #include "texture/synth_lists.h"
 #include "texture/synth_plane.h"
 #include "texture/synth_surroundings.h"
+#include "texture/synth_texels.h"
 
 namespace belvedere::synth {
 
@@ -42,17 +43,15 @@ struct KernelView {
   const Plane* target = nullptr;
   const Plane* exemplars = nullptr;
   const PickLists* lists = nullptr;
-  const std::uint8_t* links = nullptr;           // by target index; null: no silhouettes
-  const Surroundings* wanted_around = nullptr;   // by target index: classes around; null: not priced
-  const Surroundings* offered_around = nullptr;  // by exemplar index
+  const std::uint8_t* links = nullptr;          // by target index; null: no silhouettes
+  const Surroundings* wanted_around = nullptr;  // by target index: classes around; null: not priced
   const SurroundingsPrice* around_price = nullptr;
   const GuideRole* guides = nullptr;              // exemplars->guide_count of them
   const std::uint32_t* vector_weights = nullptr;  // vector_guides weights, 0 beyond the last; null: one by one
   const std::uint8_t* usual_error = nullptr;      // by class × guide_count + guide: what picks are usually off; null: not known yet
   const std::uint32_t* match = nullptr;           // by target index: exemplar index
   const std::uint16_t* piece_size = nullptr;      // by target index: pixels of the piece copied in one, saturated
-  const std::uint32_t* uses = nullptr;            // by exemplar index
-  const std::uint8_t* bins = nullptr;             // by exemplar index
+  const TexelRecords* texels = nullptr;           // uses, bins, surroundings and guides of the exemplars' texels
   const std::int32_t* bin_cost = nullptr;         // by class × 64 + bin
   const std::int64_t* reuse_q4 = nullptr;         // by class: price of reuse in sixteenths
   const std::uint32_t* most_uses = nullptr;       // by class: a texel used by so many others is not offered any more
@@ -86,12 +85,16 @@ inline std::int64_t guide_cost(const KernelView& view, const std::uint8_t* wante
   for (int g = 2; g < count; ++g) cost += price_of(g, slack.others == nullptr ? 0 : slack.others[g]);
   return cost >> 4;
 }
-// A texel of the pixel's class from the window of its guides: of `draws` random ones that with the cheapest guides.
+// A texel of the pixel's class from the window of its guides: of `draws` that follow each other in the list from a random one on that with
+// the cheapest guides and surroundings. Nowhere where the class has no texel.
 std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, Slack slack);
+// The same in two steps, so that others can be begun while memory is waited for.
+PickRun begin_draw(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y);
+std::uint32_t finish_draw(const KernelView& view, std::uint32_t pixel, const PickRun& run, Slack slack);
 
 // What the classes around a texel cost; 0 where they are not priced.
-inline std::int64_t surroundings_cost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
-  return view.around_price == nullptr ? 0 : (*view.around_price)(view.wanted_around[pixel], view.offered_around[texel]);
+inline std::int64_t surroundings_cost(const KernelView& view, std::uint32_t pixel, Surroundings offered) {
+  return view.around_price == nullptr ? 0 : (*view.around_price)(view.wanted_around[pixel], offered);
 }
 
 // Texels that a pixel must not copy, because a neighbour across a silhouette copies by the same offset: no piece runs on behind a ridge.

@@ -77,17 +77,23 @@ LevelSettings settings_for_level(int level, std::uint64_t seed, int copy_cap, do
 LevelState::LevelState(const LevelSettings& level_settings, const std::vector<GuideRole>& guide_roles, int classes,
                        const Plane& exemplar_plane, Plane& target_plane, std::vector<std::uint8_t> surface_links,
                        const SurroundingsPrice& surroundings_price)
+    : LevelState(level_settings, guide_roles, classes, exemplar_plane, target_plane, std::move(surface_links), surroundings_price,
+                 surroundings_price.is_free() ? std::vector<Surroundings>{}
+                                              : make_surroundings(exemplar_plane, level_settings.surroundings_radius, classes)) {}
+
+LevelState::LevelState(const LevelSettings& level_settings, const std::vector<GuideRole>& guide_roles, int classes,
+                       const Plane& exemplar_plane, Plane& target_plane, std::vector<std::uint8_t> surface_links,
+                       const SurroundingsPrice& surroundings_price, const std::vector<Surroundings>& offered_around)
     : settings(level_settings),
       guides(guide_roles),
       vector_weights(vector_weights_of(guide_roles)),
       exemplars(exemplar_plane),
       target(target_plane),
       links(std::move(surface_links)),
-      lists(exemplars, target, classes, guides, settings.least_window),
       around_price(surroundings_price),
+      texels(exemplars, make_bins(exemplars, classes), offered_around),
+      lists(exemplars, target, classes, guides, settings.least_window, offered_around),
       match(target.words.size(), exemplars.nowhere()),
-      uses(exemplars.words.size(), 0),
-      bins(make_bins(exemplars, classes)),
       bins_expected(static_cast<std::size_t>(classes) * bins_per_class, 0),
       bins_actual(bins_expected),
       bin_cost(bins_expected),
@@ -99,12 +105,13 @@ LevelState::LevelState(const LevelSettings& level_settings, const std::vector<Gu
   for (int c = 0; c < classes; ++c) {
     // Price / max(1/4, pixels per texel of the class): reuse is dear where it can be avoided.
     const std::uint32_t label_class = static_cast<std::uint32_t>(c);
-    const std::int64_t texels = lists.texel_count(label_class);
+    const std::int64_t texels_of_class = lists.texel_count(label_class);
     const std::int64_t pixels = lists.pixel_count(label_class);
     const std::int64_t full = settings.reuse_price * 16;
-    reuse_q4[label_class] = 4 * pixels <= texels ? 4 * full : full * texels / pixels;
+    reuse_q4[label_class] = 4 * pixels <= texels_of_class ? 4 * full : full * texels_of_class / pixels;
     // Where reuse is priced at all, no texel may serve more than 6 + 3 × pixels per texel.
-    if (settings.reuse_price > 0 && texels > 0) most_uses[label_class] = static_cast<std::uint32_t>(6 + 3 * pixels / texels);
+    if (settings.reuse_price > 0 && texels_of_class > 0)
+      most_uses[label_class] = static_cast<std::uint32_t>(6 + 3 * pixels / texels_of_class);
   }
   target.for_each([&](std::uint32_t at) {
     const std::uint32_t c = class_of(target.words[at]);
@@ -112,7 +119,6 @@ LevelState::LevelState(const LevelSettings& level_settings, const std::vector<Gu
   });
   if (!around_price.is_free()) {
     wanted_around = make_surroundings(target, settings.surroundings_radius, classes);
-    offered_around = make_surroundings(exemplars, settings.surroundings_radius, classes);
   }
   usual_error = usual_errors_of_picks(*this, classes);
 }
@@ -125,7 +131,6 @@ KernelView LevelState::view(int pass) const {
   view.links = links.empty() ? nullptr : links.data();
   if (!wanted_around.empty()) {
     view.wanted_around = wanted_around.data();
-    view.offered_around = offered_around.data();
     view.around_price = &around_price;
     view.border_draws = settings.border_draws;
   }
@@ -134,8 +139,7 @@ KernelView LevelState::view(int pass) const {
   view.usual_error = usual_error.empty() ? nullptr : usual_error.data();
   view.match = match.data();
   view.piece_size = pieces.size().data();
-  view.uses = uses.data();
-  view.bins = bins.data();
+  view.texels = &texels;
   view.bin_cost = bin_cost.data();
   view.reuse_q4 = reuse_q4.data();
   view.most_uses = most_uses.data();
@@ -194,7 +198,7 @@ void start_from_coarser(LevelState& state, const Plane& coarse_exemplars, const 
 }
 
 void recount(LevelState& state) {
-  std::fill(state.uses.begin(), state.uses.end(), 0U);
+  state.texels.forget_uses();
   const Plane::Part& part = state.target.parts[0];
   const KernelView view = state.view(0);
   const std::uint64_t key = key_for(state.settings, Purpose::expectation);

@@ -8,6 +8,7 @@
 #include "texture/synth_lists.h"
 #include "texture/synth_pieces.h"
 #include "texture/synth_plane.h"
+#include "texture/synth_texels.h"
 
 namespace belvedere::synth {
 
@@ -37,16 +38,14 @@ struct LevelState {
   const Plane& exemplars;
   Plane& target;
   std::vector<std::uint8_t> links;  // empty: no silhouettes
-  PickLists lists;
   SurroundingsPrice around_price;
-  std::vector<Surroundings> wanted_around;   // by target index; empty: surroundings are not priced
-  std::vector<Surroundings> offered_around;  // by exemplar index
-  std::vector<std::uint8_t> usual_error;     // by class × guide: median error of picks
-  std::vector<std::uint32_t> match;          // by target index: exemplar index, exemplars.nowhere() in padding and without class
-  std::vector<std::uint32_t> next;           // matches found by a sub-pass: every second pixel of every second row
-  std::vector<std::uint32_t> uses;           // by exemplar index: pixels that copy this texel
-  std::vector<std::uint8_t> bins;            // by exemplar index
-  std::vector<std::int32_t> bins_expected;   // by class × 64 + bin: how often picks alone would draw it
+  TexelRecords texels;
+  PickLists lists;
+  std::vector<Surroundings> wanted_around;  // by target index; empty: surroundings are not priced
+  std::vector<std::uint8_t> usual_error;    // by class × guide: median error of picks
+  std::vector<std::uint32_t> match;         // by target index: exemplar index, exemplars.nowhere() in padding and without class
+  std::vector<std::uint32_t> next;          // matches found by a sub-pass: every second pixel of every second row
+  std::vector<std::int32_t> bins_expected;  // by class × 64 + bin: how often picks alone would draw it
   std::vector<std::int32_t> bins_actual;
   std::vector<std::int32_t> bin_cost;
   std::vector<std::int64_t> reuse_q4;    // by class
@@ -57,6 +56,10 @@ struct LevelState {
   LevelState(const LevelSettings& settings, const std::vector<GuideRole>& guides, int classes, const Plane& exemplars, Plane& target,
              std::vector<std::uint8_t> links, const SurroundingsPrice& around_price = no_surroundings());
   KernelView view(int pass) const;
+
+ private:
+  LevelState(const LevelSettings& settings, const std::vector<GuideRole>& guides, int classes, const Plane& exemplars, Plane& target,
+             std::vector<std::uint8_t> links, const SurroundingsPrice& around_price, const std::vector<Surroundings>& offered_around);
 };
 
 // Matches to begin with: one pick a pixel.

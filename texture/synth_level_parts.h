@@ -39,12 +39,12 @@ BinCounts sum_bins(int count, std::size_t size, F&& f) {
 }
 
 inline std::size_t bin_of(const LevelState& state, std::uint32_t label_class, std::uint32_t texel) {
-  return static_cast<std::size_t>(label_class) * bins_per_class + state.bins[texel];
+  return static_cast<std::size_t>(label_class) * bins_per_class + state.texels.at(texel).bin();
 }
 
 // Pixels that copy it: others may move to or from the same texel at the same time.
 inline void add_use(LevelState& state, std::uint32_t texel, std::uint32_t by) {
-  std::atomic_ref<std::uint32_t>(state.uses[texel]).fetch_add(by, std::memory_order_relaxed);
+  std::atomic_ref<std::uint32_t>(state.texels.uses(texel)).fetch_add(by, std::memory_order_relaxed);
 }
 
 inline void move_pixel(LevelState& state, std::uint32_t pixel, std::uint32_t texel, BinCounts& bins) {

@@ -1,6 +1,7 @@
 #include "texture/synth_lists.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace belvedere::synth {
 
@@ -33,12 +34,13 @@ class WindowCounts {
 
 }  // namespace
 
-PickLists::PickLists(const Plane& exemplars, const Plane& target, int classes, const std::vector<GuideRole>& guides, int minimum)
-    : keys_(choose_list_keys(guides)), nowhere_(exemplars.nowhere()), pixel_counts_(static_cast<std::size_t>(classes), 0) {
+PickLists::PickLists(const Plane& exemplars, const Plane& target, int classes, const std::vector<GuideRole>& guides, int minimum,
+                     const std::vector<Surroundings>& around)
+    : keys_(choose_list_keys(guides)), pixel_counts_(static_cast<std::size_t>(classes), 0) {
   const int buckets = keys_.buckets();
   const std::size_t cells = static_cast<std::size_t>(classes) * static_cast<std::size_t>(buckets);
 
-  // Counting sort: stable, so texels of equal value stay in index order.
+  // A counting sort.
   std::vector<std::uint32_t> counts(cells * 257, 0);
   exemplars.for_each([&](std::uint32_t at) {
     const std::uint32_t c = class_of(exemplars.words[at]);
@@ -52,14 +54,29 @@ PickLists::PickLists(const Plane& exemplars, const Plane& target, int classes, c
     start_[i] = total;
     total += counts[i];
   }
-  texels_.resize(total);
+  const std::size_t guide_count = static_cast<std::size_t>(exemplars.guide_count);
+  entry_words_ = 1 + (2 + guide_count + 3) / 4;
+  entries_.assign(total * entry_words_ + 2, 0U);  // eight guides may be read from the last one, too
   std::vector<std::uint32_t> next = start_;
-  exemplars.for_each([&](std::uint32_t at) {
-    const std::uint32_t c = class_of(exemplars.words[at]);
-    if (c == no_class) return;
-    const std::uint8_t* values = exemplars.guides_at(at);
-    texels_[next[cell(c, bucket_of(values)) * 257 + static_cast<std::size_t>(value_of(values))]++] = at;
-  });
+  // Texels are gone through by golden steps, so that those which follow each other in the list lie far apart in the picture.
+  const std::uint64_t words = exemplars.words.size();
+  std::uint64_t step = words * 618 / 1000 | 1;
+  while (std::gcd(step, words) != 1) step += 2;
+  std::uint64_t here = 0;
+  for (std::uint64_t i = 0; i < words; ++i, here = here + step < words ? here + step : here + step - words) {
+    const std::uint32_t c = class_of(exemplars.words[here]);
+    if (c == no_class) continue;
+    const std::uint8_t* values = exemplars.guides_at(static_cast<std::uint32_t>(here));
+    const std::size_t nth = next[cell(c, bucket_of(values)) * 257 + static_cast<std::size_t>(value_of(values))]++;
+    std::uint32_t* entry = entries_.data() + nth * entry_words_;
+    entry[0] = static_cast<std::uint32_t>(here);
+    std::uint8_t* bytes = reinterpret_cast<std::uint8_t*>(entry + 1);
+    if (!around.empty()) {
+      bytes[0] = around[here].others;
+      bytes[1] = around[here].commonest;
+    }
+    std::copy(values, values + guide_count, bytes + 2);
+  }
 
   std::vector<std::uint32_t> demand(cells * 256, 0);
   target.for_each([&](std::uint32_t at) {
@@ -126,7 +143,7 @@ PickWindow PickLists::window(std::uint32_t label_class, const std::uint8_t* guid
   return windows_[cell(label_class, bucket_of(guides)) * 256 + static_cast<std::size_t>(value_of(guides))];
 }
 
-std::uint32_t PickLists::pick(std::uint32_t label_class, const std::uint8_t* guides, std::uint32_t random) const {
+PickRun PickLists::pick(std::uint32_t label_class, const std::uint8_t* guides, std::uint32_t random) const {
   const PickWindow reach = window(label_class, guides);
   const int bucket = bucket_of(guides);
   const int value = value_of(guides);
@@ -136,12 +153,12 @@ std::uint32_t PickLists::pick(std::uint32_t label_class, const std::uint8_t* gui
   const std::size_t v1 = static_cast<std::size_t>(std::min(256, value + reach.slack + 2));
   std::uint32_t count = 0;
   for (int b = b0; b < b1; ++b) count += start_[cell(label_class, b) * 257 + v1] - start_[cell(label_class, b) * 257 + v0];
-  if (count == 0) return nowhere_;
+  if (count == 0) return {};
   std::uint32_t nth = static_cast<std::uint32_t>((static_cast<std::uint64_t>(random) * count) >> 32);
   for (int b = b0;; ++b) {
     const std::uint32_t first = start_[cell(label_class, b) * 257 + v0];
     const std::uint32_t here = start_[cell(label_class, b) * 257 + v1] - first;
-    if (nth < here) return texels_[first + nth];
+    if (nth < here) return {first, here, nth};
     nth -= here;
   }
 }

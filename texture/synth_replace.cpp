@@ -165,7 +165,7 @@ void finish_pieces(LevelState& state) {
     const std::uint64_t key = key_for(state.settings, Purpose::alone, 100 + round);
     std::atomic<bool> any = false;
     isolate(state, 200 + round, [&](const KernelView& view, std::uint32_t at, int x, int y) {
-      const std::uint32_t uses = view.uses[view.match[at]];
+      const std::uint32_t uses = view.texels->at(view.match[at]).uses();
       const std::uint32_t most = view.most_uses[class_of(view.target->words[at])];
       if (uses <= most) return false;
       any.store(true, std::memory_order_relaxed);

@@ -233,6 +233,7 @@ void expect_cheapest_candidates(bool with_silhouettes) {
   KernelView view = before.view(pass);
   view.target = &target_before;
   const std::vector<std::int32_t> bin_cost = bin_penalties(before.bins_actual, before.bins_expected, static_cast<std::int32_t>(price::bin));
+  const std::vector<Surroundings> offered_around = make_surroundings(exemplars, settings.surroundings_radius, classes);
   int moved = 0;
   for (int y = 0; y < 23; ++y) {
     for (int x = 0; x < 21; ++x) {
@@ -252,7 +253,7 @@ void expect_cheapest_candidates(bool with_silhouettes) {
           across.insert(static_cast<std::uint32_t>(static_cast<std::int64_t>(before.match[target.index(0, x + dx, y)]) - dx));
       }
       const auto offer = [&](std::uint32_t texel, std::int64_t join) {
-        if (across.count(texel) > 0 || (before.uses[texel] >= 2 && texel != before.match[pixel])) return;
+        if (across.count(texel) > 0 || (before.texels.at(texel).uses() >= 2 && texel != before.match[pixel])) return;
         if (class_of(exemplars.words[texel]) == c && offered.insert(texel).second) candidates.insert({texel, join});
       };
       offer(before.match[pixel], 0);
@@ -276,10 +277,10 @@ void expect_cheapest_candidates(bool with_silhouettes) {
           const std::int64_t off = std::max(0, std::abs(target.guides_at(pixel)[g] - exemplars.guides_at(texel)[g]) - free);
           guide += guides[static_cast<std::size_t>(g)].weight_q4 * off * off;
         }
-        const std::int64_t n = static_cast<std::int64_t>(before.uses[texel]) - (texel == before.match[pixel] ? 1 : 0);
+        const std::int64_t n = static_cast<std::int64_t>(before.texels.at(texel).uses()) - (texel == before.match[pixel] ? 1 : 0);
         const std::int64_t cost = join + (guide >> 4) + ((n * (n + 1) / 2 * before.reuse_q4[c]) >> 4) +
-                                  bin_cost[c * 64 + before.bins[texel]] +
-                                  before.around_price(before.wanted_around[pixel], before.offered_around[texel]) +
+                                  bin_cost[c * 64 + before.texels.at(texel).bin()] +
+                                  before.around_price(before.wanted_around[pixel], offered_around[texel]) +
                                   naive_patch_cost(target_before, pixel, exemplars, texel, counts);
         if (cost < best_cost) {  // the set is in index order: ties go to the lower index
           best_cost = cost;
@@ -296,7 +297,7 @@ void expect_cheapest_candidates(bool with_silhouettes) {
   // What is kept along equals a recount.
   LevelState recounted = state;
   recount(recounted);
-  EXPECT_EQ(recounted.uses, state.uses);
+  EXPECT_TRUE(recounted.texels == state.texels);
   EXPECT_EQ(recounted.bins_actual, state.bins_actual);
 }
 
@@ -389,11 +390,58 @@ TEST(PickLists, WindowsHoldEnoughTexelsForTheDemand) {
       EXPECT_GE(texels, 16);
       const double ratio = 1.5 * static_cast<double>(lists.pixel_count(c)) / static_cast<double>(lists.texel_count(c));
       EXPECT_LE(static_cast<double>(pixels), static_cast<double>(texels) * std::max(4.0, ratio));
-      const std::uint32_t texel = lists.pick(c, wanted, static_cast<std::uint32_t>(random_bits(3, n, 0)));
+      const std::uint32_t texel = lists.entry(lists.pick(c, wanted, static_cast<std::uint32_t>(random_bits(3, n, 0))).entry(0)).texel();
       EXPECT_EQ(class_of(exemplars.words[texel]), c);
       EXPECT_TRUE(inside(exemplars.guides_at(texel)));
     }
   }
+}
+
+// A draw looks at texels that follow each other in the list: all of a window's bucket once, whatever the beginning, each with what it is
+// chosen by, and the cheapest of as many as are drawn wins.
+TEST(PickLists, DrawsAreTheCheapestOfTheirRun) {
+  const Plane exemplars = noise_plane({{40, 30}, {25, 33}}, 5, 5, true);
+  Plane target = noise_plane({{31, 29}}, 5, 50, true);
+  const std::vector<GuideRole> guides{{2880}, {1000}, {300}, {200}, {200}};
+  LevelSettings settings = settings_for_level(1, 1, 240, 1.0);
+  settings.draws = 4;
+  settings.border_draws = 7;
+  LevelState state(settings, guides, classes, exemplars, target, {}, SurroundingsPrice(40, {0, 16, 5, 16, 0, 9, 5, 9, 0}, classes));
+  const std::vector<Surroundings> around = make_surroundings(exemplars, settings.surroundings_radius, classes);
+  const KernelView view = state.view(0);
+  int better_than_first = 0;
+  int wrapped = 0;
+  target.for_each([&](std::uint32_t pixel) {
+    const std::uint32_t c = class_of(target.words[pixel]);
+    if (c == no_class) return;
+    const PickRun run = begin_draw(view, pixel, 77, static_cast<int>(pixel), 3);
+    ASSERT_GT(run.count, 0U);
+    const int draws = state.wanted_around[pixel].others > border_others ? 7 : 4;
+    wrapped += run.start + static_cast<std::uint32_t>(draws) > run.count ? 1 : 0;
+    Slack slack = make_slack(view, pixel);
+    slack.others = nullptr;
+    std::set<std::uint32_t> seen;
+    std::uint32_t best = 0;
+    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    for (std::uint32_t i = 0; i < run.count; ++i) {
+      const std::uint32_t texel = state.lists.entry(run.entry(i)).texel();
+      ASSERT_TRUE(seen.insert(texel).second) << "a texel stands twice in a run";
+      ASSERT_EQ(class_of(exemplars.words[texel]), c);
+      const std::uint8_t* of_texel = exemplars.guides_at(texel);
+      ASSERT_TRUE(std::equal(of_texel, of_texel + 5, state.lists.entry(run.entry(i)).guides()));
+      ASSERT_TRUE(std::equal(of_texel, of_texel + 5, state.texels.at(texel).guides()));
+      if (i >= static_cast<std::uint32_t>(draws)) continue;
+      const std::int64_t cost =
+          guide_cost(view, target.guides_at(pixel), of_texel, slack) + state.around_price(state.wanted_around[pixel], around[texel]);
+      if (cost >= least) continue;
+      least = cost;
+      best = texel;
+    }
+    better_than_first += best != state.lists.entry(run.entry(0)).texel() ? 1 : 0;
+    ASSERT_EQ(finish_draw(view, pixel, run, make_slack(view, pixel)), best);
+  });
+  EXPECT_GT(better_than_first, 100);
+  EXPECT_GT(wrapped, 10);
 }
 
 TEST(Pieces, EqualAFloodFillForAnyBand) {
@@ -466,7 +514,7 @@ TEST(Replacement, MovesPiecesWholeAndWithinTheirClass) {
   EXPECT_LT(moved, 3000 * 3 / 4);
   LevelState recounted = state;
   recount(recounted);
-  EXPECT_EQ(recounted.uses, state.uses);
+  EXPECT_TRUE(recounted.texels == state.texels);
   EXPECT_EQ(recounted.bins_actual, state.bins_actual);
   ASSERT_TRUE(replace_pieces(state, 5, 1));
   EXPECT_LT(state.pieces.largest(), 3000U);
