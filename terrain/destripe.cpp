@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "renderer/base/error.h"
 #include "renderer/base/filter.h"
 #include "renderer/base/parallel.h"
+#include "terrain/stripe_fit.h"
 
 // Across a stripe the terrain's fine detail h = z - blur(z) is noise whose sign changes along the line; the stripe's part does not change.
 // So along each line, h = c · g is fitted over a long window, where g is 1 (an offset) or the slope of the smoothed terrain along or
@@ -19,8 +21,6 @@
 namespace belvedere {
 namespace {
 
-// What a stripe's error follows.
-enum class Follows { offset, slope_along, slope_across };
 constexpr std::array<Follows, 3> kinds{Follows::offset, Follows::slope_along, Follows::slope_across};
 
 struct Stripes {
@@ -39,11 +39,9 @@ constexpr double scan_step = 0.01;
 constexpr int fine_length = 320;
 constexpr double fine_step = 0.002;
 constexpr std::size_t scanned_cells = std::size_t{1} << 21;
-constexpr float most_displacement = 0.75F;  // cells; nearest neighbours move by no more than half a cell
 // A line may stand out from the lines around it by this factor (geometric mean of their amplitudes; a sine's crest has 2, a saw tooth 2.7):
 // a ridge that runs along the lines is a single large exception, and is not cut off.
 constexpr float most_exception = 4.F;
-constexpr int taps = 8;  // of the interpolation across lines, Lanczos
 
 Grid<float> transposed(const Grid<float>& values) {
   Grid<float> out(values.height(), values.width());
@@ -97,13 +95,6 @@ Detail find_detail(const Grid<float>& altitude_m, const DestripeParameters& para
     }
   });
   return detail;
-}
-
-// g at a cell: 1, or m per cell.
-float followed(const Grid<float>& smooth_m, Follows follows, int x, int y) {
-  if (follows == Follows::slope_along) return 0.5F * (smooth_m.clamped(x + 1, y) - smooth_m.clamped(x - 1, y));
-  if (follows == Follows::slope_across) return 0.5F * (smooth_m.clamped(x, y + 1) - smooth_m.clamped(x, y - 1));
-  return 1.F;
 }
 
 // A ridge along the lines is an exception among them and must not pass for a stripe.
@@ -192,116 +183,37 @@ Stripes find_stripes(const Detail& detail, bool columns, const DestripeParameter
   return best;
 }
 
-// Values of row y + tilt (x - middle) come to row y; beyond the grid 0.
-Grid<float> sheared(const Grid<float>& values, double tilt) {
-  if (tilt == 0.0) return values;
-  const int width = values.width();
-  const int height = values.height();
-  std::vector<int> first(static_cast<std::size_t>(width));
-  std::vector<std::array<float, taps>> weights(first.size());
-  for (int x = 0; x < width; ++x) {
-    const double shift = tilt * (x - 0.5 * (width - 1));
-    const double whole = std::floor(shift);
-    first[x] = static_cast<int>(whole) - taps / 2 + 1;
-    double sum = 0.0;
-    std::array<double, taps> w{};
-    for (int k = 0; k < taps; ++k) {
-      const double d = 3.14159265358979323846 * (k - taps / 2 + 1 - (shift - whole));
-      w[k] = std::abs(d) < 1e-9 ? 1.0 : std::sin(d) / d * std::sin(d * 2 / taps) / (d * 2 / taps);
-      sum += w[k];
-    }
-    for (int k = 0; k < taps; ++k) weights[x][k] = static_cast<float>(w[k] / sum);
-  }
-  Grid<float> out(width, height);
-  parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      float sum = 0.F;
-      for (int k = 0; k < taps; ++k) {
-        const int v = y + first[x] + k;
-        if (v >= 0 && v < height) sum += weights[x][k] * values(x, v);
-      }
-      out(x, y) = sum;
+// A lake was made level after the stripes came into the land: nothing is taken off it, up to its shore.
+Grid<std::uint8_t> find_level(const Grid<float>& altitude_m) {
+  const auto amid_equals = [&](int x, int y) {
+    const float z = altitude_m.clamped(x, y);
+    return altitude_m.clamped(x - 1, y) == z && altitude_m.clamped(x + 1, y) == z && altitude_m.clamped(x, y - 1) == z &&
+           altitude_m.clamped(x, y + 1) == z;
+  };
+  Grid<std::uint8_t> level(altitude_m.width(), altitude_m.height());
+  parallel_rows(altitude_m.height(), [&](int y) {
+    for (int x = 0; x < altitude_m.width(); ++x) {
+      for (int dy = -1; dy <= 1 && level(x, y) == 0; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          if (altitude_m.clamped(x + dx, y + dy) == altitude_m(x, y) && amid_equals(x + dx, y + dy)) level(x, y) = 1;
     }
   });
-  return out;
-}
-
-// Sums along rows under a triangle of 2 half - 1 cells: a box, twice. Beyond the ends there is nothing. Sums run in double, so that
-// no rounding stays behind.
-void sum_along_rows(Grid<float>& values, int box) {
-  parallel_rows(values.height(), [&](int y) {
-    float* row = values.row(y);
-    const int width = values.width();
-    const int radius = box / 2;
-    std::vector<double> from(row, row + width);
-    std::vector<double> to(from.size());
-    for (int pass = 0; pass < 2; ++pass) {
-      double sum = 0.0;
-      for (int x = 0; x < std::min(radius, width); ++x) sum += from[x];
-      for (int x = 0; x < width; ++x) {
-        if (x + radius < width) sum += from[x + radius];
-        if (x - radius - 1 >= 0) sum -= from[x - radius - 1];
-        to[x] = sum;
-      }
-      from.swap(to);
-    }
-    for (int x = 0; x < width; ++x) row[x] = static_cast<float>(from[x]);
-  });
+  return level;
 }
 
 // Takes these stripes off `altitude_m`, whose lines run along rows.
 void remove_stripes(Grid<float>& altitude_m, const Detail& detail, const Stripes& stripes, const DestripeParameters& parameters) {
-  const int width = altitude_m.width();
-  const int height = altitude_m.height();
-  Grid<float> p(width, height);
-  Grid<float> q(width, height);
-  Grid<float> noise(width, height);
-  parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const float g = followed(detail.smooth_m, stripes.follows, x, y);
-      const float weighted = detail.certainty(x, y) * g;
-      p(x, y) = weighted * detail.height_m(x, y);
-      q(x, y) = weighted * g;
-      noise(x, y) = p(x, y) * p(x, y);
+  const Grid<std::uint8_t> level = find_level(altitude_m);
+  StripeLines lines;
+  lines.follows = stripes.follows;
+  lines.tilt = stripes.tilt;
+  lines.longest_period_cells = parameters.longest_period_cells;
+  lines.length_cells = parameters.length_cells;
+  const Grid<float> stripe = fit_stripes(altitude_m, detail.height_m, detail.smooth_m, lines);
+  parallel_rows(altitude_m.height(), [&](int y) {
+    for (int x = 0; x < altitude_m.width(); ++x) {
+      if (level(x, y) == 0) altitude_m(x, y) -= stripe(x, y) * followed(detail.smooth_m, stripes.follows, x, y);
     }
-  });
-  const float least = 1e-3F * parameters.length_cells * median_size(q);
-  p = sheared(p, stripes.tilt);
-  q = sheared(q, stripes.tilt);
-  const int box = std::max(3, static_cast<int>(std::lround(parameters.length_cells)) | 1);
-  sum_along_rows(p, box);
-  sum_along_rows(q, box);
-  sum_along_rows(noise, box);
-  // p under the triangle of boxes: the variance of a sum with weights w_i = up to `box` each is Σ w² p². The triangle's sum of squares is
-  // two thirds of its peak times its sum; detail keeps its sign over about two cells.
-  const float noise_factor = 2.F * (2.F / 3.F) * static_cast<float>(box);
-  // A line of low certainty all along is a ridge: it is held against the lines around it.
-  const double around = 1.5 * parameters.longest_period_cells;
-  const Grid<float> usual = gaussian_blur(q, 0.0, around);
-  Grid<float> energy(width, height);
-  Grid<float> level(width, height);
-  parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      energy(x, y) = p(x, y) * p(x, y);
-      p(x, y) /= std::max(q(x, y), usual(x, y)) + static_cast<float>(box) * least + 1e-12F;
-      level(x, y) = std::log(std::abs(p(x, y)) + 1e-9F);
-    }
-  });
-  energy = gaussian_blur(energy, 0.0, around);
-  noise = gaussian_blur(noise, 0.0, around);
-  level = gaussian_blur(level, 0.0, around);
-  parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      // Wiener's share of the stripes in what the lines have in common.
-      const float share = 1.F - noise_factor * noise(x, y) / std::max(energy(x, y), 1e-30F);
-      float most = most_exception * std::exp(level(x, y));
-      if (stripes.follows != Follows::offset) most = std::min(most, most_displacement);
-      p(x, y) = std::max(share, 0.F) * std::clamp(p(x, y), -most, most);
-    }
-  });
-  p = sheared(p, -stripes.tilt);
-  parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) altitude_m(x, y) -= p(x, y) * followed(detail.smooth_m, stripes.follows, x, y);
   });
 }
 

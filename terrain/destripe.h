@@ -11,7 +11,7 @@ namespace belvedere {
 //                 a DEM resampled by nearest neighbours into a CRS turned against its own
 // Both are found and removed by the same regression, see destripe.cpp.
 struct DestripeParameters {
-  float longest_period_cells = 8.F;  // wider bands are taken for terrain; 3…64
+  float longest_period_cells = 6.F;  // wider bands are taken for terrain; 3…64
   float length_cells = 160.F;        // over which a stripe is taken to be the same, along itself; 16…2000
   float most_tilt = 0.3F;            // of stripes against rows and columns, cells per cell; 0…0.5
   // How much more coherent lines must be in one direction than in the middle of all before they pass for stripes; 1.2…100.
