@@ -1,7 +1,5 @@
 #include "renderer/exemplars.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <string>
@@ -10,14 +8,10 @@
 #include "renderer/base/error.h"
 #include "renderer/base/filter.h"
 #include "renderer/composite.h"
-#include "renderer/guidance_io.h"
-#include "renderer/image_io.h"
 #include "renderer/sheet.h"
 
 namespace belvedere {
 namespace {
-
-constexpr std::uint8_t excluded_label = 255;
 
 Rgb8 to_rgb8(glm::vec3 encoded) {
   Rgb8 rgb{};
@@ -29,58 +23,6 @@ Rgb8 to_rgb8(glm::vec3 encoded) {
 // Deviation of a texel's brightness from that around it that the prices of synthesis are tuned for, encoded sRGB: strong, even strokes.
 constexpr double tuned_contrast = 14.0 / 255.0;
 constexpr double around_texels = 2.0;
-
-void check_same_size(const std::string& file, int width, int height, const Grid<glm::vec3>& picture) {
-  if (width != picture.width() || height != picture.height())
-    throw Error(ErrorKind::input, file,
-                fmt::format("{}×{} pixels beside a picture of {}×{}", width, height, picture.width(), picture.height()),
-                "the picture's size");
-}
-
-// Where the classes of a file-based painting come from.
-GuidanceBuffers read_painting_guides(const SceneExemplar& wish, const LoadedScene& scene, const Grid<glm::vec3>& picture) {
-  if (!wish.guidance.empty()) {
-    const std::string path = find_scene_file(scene, wish.guidance);
-    GuidanceBuffers guidance = read_guidance(path);
-    check_same_size(path, guidance.width(), guidance.height(), picture);
-    return guidance;
-  }
-  GuidanceBuffers guidance;
-  const std::string path = find_scene_file(scene, wish.classes);
-  const Grid<std::uint16_t> ids = read_grey(path);
-  check_same_size(path, ids.width(), ids.height(), picture);
-  guidance.depth_m = Grid<float>(ids.width(), ids.height(), 1.F);
-  guidance.land_cover = Grid<LandCoverClass>(ids.width(), ids.height());
-  for (std::size_t i = 0; i < ids.size(); ++i)
-    guidance.land_cover[i] = static_cast<LandCoverClass>(std::min<std::uint16_t>(ids[i], excluded_label));
-  if (!wish.altitude.empty()) {
-    const std::string altitude_path = find_scene_file(scene, wish.altitude);
-    const Grid<std::uint16_t> grey = read_grey(altitude_path);
-    check_same_size(altitude_path, grey.width(), grey.height(), picture);
-    std::uint16_t highest = 255;
-    for (const std::uint16_t value : grey)
-      if (value > 255) highest = 65535;
-    guidance.altitude_m = Grid<float>(grey.width(), grey.height());
-    for (std::size_t i = 0; i < grey.size(); ++i)
-      guidance.altitude_m[i] =
-          static_cast<float>(wish.altitude_range_m[0] + (wish.altitude_range_m[1] - wish.altitude_range_m[0]) * grey[i] / highest);
-  }
-  return guidance;
-}
-
-// The target's mean base colour of each class.
-std::array<glm::vec3, land_cover_class_count> class_means(const LitPicture& target) {
-  std::array<glm::dvec3, land_cover_class_count> sum{};
-  std::array<double, land_cover_class_count> count{};
-  for (std::size_t i = 0; i < target.ground.colour.size(); ++i) {
-    const auto id = static_cast<std::size_t>(target.guidance.land_cover[i]);
-    sum[id] += glm::dvec3(target.ground.colour[i]);
-    count[id] += 1.0;
-  }
-  std::array<glm::vec3, land_cover_class_count> mean{};
-  for (std::size_t k = 0; k < mean.size(); ++k) mean[k] = glm::vec3(sum[k] / std::max(1.0, count[k]));
-  return mean;
-}
 
 }  // namespace
 
@@ -121,52 +63,15 @@ Grid<Rgb8> seam_picture(const PaintedExemplar& painted, const Grid<std::uint8_t>
   return seams;
 }
 
-PaintedExemplar read_painting(const SceneExemplar& wish, const LoadedScene& scene, const LitPicture& target) {
-  PaintedExemplar painting;
-  painting.picture = read_picture(find_scene_file(scene, wish.picture));
-  const GuidanceBuffers guidance = read_painting_guides(wish, scene, painting.picture);
-  painting.exemplar.name = wish.picture;
-  painting.exemplar.guides = make_guide_stack(guidance, guidance.land_cover);
-  if (!guidance.base.empty()) {
-    painting.base = encode_srgb(guidance.base);
-  } else {
-    const auto means = class_means(target);
-    painting.base = Grid<glm::vec3>(painting.picture.width(), painting.picture.height());
-    for (std::size_t i = 0; i < painting.base.size(); ++i) {
-      const auto id = static_cast<std::size_t>(guidance.land_cover[i]);
-      if (id < means.size()) painting.base[i] = means[id];
-    }
-  }
-  painting.exemplar.picture = seam_picture(painting, painting.exemplar.guides.label, scene.scene.synthesis.residual);
-  return painting;
-}
-
-void check_paintings(const LoadedScene& scene) {
-  for (const SceneExemplar& wish : scene.scene.exemplars) {
-    const std::string path = wish.picture.empty() ? std::string() : find_scene_file(scene, wish.picture);
-    if (path.empty()) continue;
-    const Grid<glm::vec3> picture = read_picture(path);
-    for (const std::string* file : {&wish.guidance, &wish.classes, &wish.altitude}) {
-      if (file->empty()) continue;
-      const std::string guide = find_scene_file(scene, *file);
-      const ImageInfo info = read_image_info(guide);
-      check_same_size(guide, info.width, info.height, picture);
-      if (file != &wish.guidance) read_grey(guide);
-    }
-  }
-}
-
-std::vector<PaintedExemplar> make_exemplars(const LoadedScene& scene, const Stage& stage, const LitPicture& target, Progress& progress) {
+std::vector<PaintedExemplar> make_exemplars(const LoadedScene& scene, const Stage& stage, std::vector<ScannedPainting> scans,
+                                            Progress& progress) {
   std::vector<PaintedExemplar> exemplars;
-  for (const SceneExemplar& wish : scene.scene.exemplars) {
-    if (wish.picture.empty()) {
-      exemplars.push_back(paint_sheet(wish, stage, progress));
-    } else if (find_scene_file(scene, wish.picture).empty()) {
-      // Missing files that are not optional were refused before the work began.
-      progress.note(fmt::format("exemplar {} is not there and is left out; get it from {}", wish.picture, wish.get_from));
-    } else {
-      exemplars.push_back(read_painting(wish, scene, target));
-    }
+  const std::vector<SceneExemplar>& wishes = scene.scene.exemplars;
+  for (std::size_t i = 0; i < wishes.size(); ++i) {
+    if (wishes[i].picture.empty())
+      exemplars.push_back(paint_sheet(wishes[i], stage, progress));
+    else if (i < scans.size() && !scans[i].painted.picture.empty())
+      exemplars.push_back(std::move(scans[i].painted));
   }
   if (exemplars.empty()) exemplars.push_back(paint_sheet({}, stage, progress));
   return exemplars;

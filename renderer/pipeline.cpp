@@ -103,8 +103,9 @@ SynthesisParameters to_synthesis_parameters(const Scene& scene) {
 }
 
 // The ground of the picture in the exemplars' hand: synthesized texture as a residual over the base picture.
-Grid<glm::vec3> synthesize_ground(const LoadedScene& loaded, const Stage& stage, const LitPicture& picture, Progress& progress) {
-  const std::vector<PaintedExemplar> painted = make_exemplars(loaded, stage, picture, progress);
+Grid<glm::vec3> synthesize_ground(const LoadedScene& loaded, const Stage& stage, const LitPicture& picture,
+                                  std::vector<ScannedPainting> scans, Progress& progress) {
+  const std::vector<PaintedExemplar> painted = make_exemplars(loaded, stage, std::move(scans), progress);
   std::vector<Exemplar> exemplars;
   exemplars.reserve(painted.size());
   for (const PaintedExemplar& p : painted) exemplars.push_back(p.exemplar);
@@ -121,6 +122,9 @@ Grid<glm::vec3> synthesize_ground(const LoadedScene& loaded, const Stage& stage,
   const MatchField matches = synthesize(exemplars, guides, parameters, progress);
   return transfer_residual(matches, painted, classes.base, picture.ground.haze, stage.scene.synthesis.residual);
 }
+
+// Colours may be a painting's even where its strokes are not used.
+bool reads_paintings(const Scene& scene) { return scene.synthesis.enabled || scene.synthesis.colours == "painting"; }
 
 void write_panorama(const Grid<glm::vec3>& picture, const Scene& scene, const OutputColor& color, const FileNotes& notes,
                     const std::string& folder, Progress& progress) {
@@ -148,10 +152,13 @@ void render(const LoadedScene& loaded, const RenderOptions& options, Progress& p
   require_scene_files(loaded);
   check_memory(loaded.scene);
   const OutputColor color = read_output_color(loaded);
-  if (loaded.scene.synthesis.enabled) check_paintings(loaded);
+  if (reads_paintings(loaded.scene)) check_paintings(loaded);
   check_output_folder(options.out_folder);
 
-  const Stage stage = set_stage(loaded, progress);
+  Stage stage = set_stage(loaded, progress);
+  std::vector<ScannedPainting> scans;
+  if (reads_paintings(loaded.scene)) scans = read_scans(loaded, progress);
+  if (loaded.scene.synthesis.colours == "painting") stage.palette = take_colours(stage.palette, scans, loaded.scene.synthesis.fallback);
   const FileNotes notes = make_notes(loaded, stage);
   const PixelRect whole{0, 0, loaded.scene.output.width, loaded.scene.output.height};
   const LitPicture picture = make_lit_picture(stage, whole, options.tile_size, progress);
@@ -159,7 +166,7 @@ void render(const LoadedScene& loaded, const RenderOptions& options, Progress& p
   write_guidance(join(options.out_folder, "guidance.exr"), picture.guidance, notes);
 
   const bool copied = stage.scene.synthesis.enabled;
-  Grid<glm::vec3> ground = copied ? synthesize_ground(loaded, stage, picture, progress) : picture.ground.colour;
+  Grid<glm::vec3> ground = copied ? synthesize_ground(loaded, stage, picture, std::move(scans), progress) : picture.ground.colour;
   // What the exemplar cannot give is painted last, far to near: sky, trees, houses; without an exemplar everything is.
   const StrokeLayers layers{.sky = true, .ground = !copied, .accents = true, .upright = true};
   const Painting painted =
@@ -174,7 +181,9 @@ void render_guidance(const LoadedScene& loaded, const RenderOptions& options, Pr
   const int band_rows = choose_band_rows(loaded.scene);
   check_output_folder(options.out_folder);
 
-  const Stage stage = set_stage(loaded, progress);
+  Stage stage = set_stage(loaded, progress);
+  if (loaded.scene.synthesis.colours == "painting")
+    stage.palette = take_colours(stage.palette, read_scans(loaded, progress), loaded.scene.synthesis.fallback);
   const int width = loaded.scene.output.width;
   const int height = loaded.scene.output.height;
   const int margin = lit_margin_px(stage.scene);

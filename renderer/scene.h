@@ -154,6 +154,11 @@ struct SceneExemplar {
   std::string classes;   // grey image of class ids; 255 excludes
   std::string altitude;  // grey image, scaled by altitude_range_m
   std::array<double, 2> altitude_range_m = {0.0, 4000.0};
+  std::string shadow;                  // grey image: black in cast shadow, white in the sun
+  std::string exclude;                 // grey image: what is not black is never copied from
+  std::vector<LandCoverClass> serves;  // classes it may be copied for; empty: all
+  std::string found_shadow = "guide";  // without a shadow image: "guide", "exclude" or "ignore" dark, cool places
+  double stroke_px = 6.0;              // what is larger than this is light, what is smaller a stroke
   std::string origin, licence, get_from;
   bool optional = false;  // missing file: left out with a note instead of an error
   int width = 2000;       // px of a painted one
@@ -162,8 +167,10 @@ struct SceneExemplar {
 };
 
 struct SceneSynthesis {
-  bool enabled = true;     // off: everything is painted as strokes
-  double residual = 0.75;  // how much of the base picture's difference is laid over the texel, 0…1
+  bool enabled = true;              // off: everything is painted as strokes
+  std::string colours = "palette";  // whose colours the picture has: "palette" or "painting"
+  std::string harmonize = "off";    // colours of several paintings: "off", "common" or like the "first"
+  double residual = 0.75;           // how much of the base picture's difference is laid over the texel, 0…1
   // By guide. Relief, altitude and air come with the base picture, so guides only choose among strokes, lightly: heavier ones tear the
   // texture to grain. Tone leads, because strokes in shade differ from those in light, then the direction strokes run in.
   std::vector<std::pair<std::string, double>> weights = {{"tone", 0.15},  {"altitude", 0.04},   {"distance", 0.02},   {"shadow", 0.02},

@@ -52,6 +52,8 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress) {
   report.inputs = scene_inputs(scene);
   const LoadedScene view = small(scene);
   const Stage stage = set_stage(view, progress);
+  std::vector<ScannedPainting> scans;
+  if (scene.scene.synthesis.enabled) scans = read_scans(view, progress);
   report.view = stage.view;
   report.crs = stage.ground.model.dem.crs.empty() ? std::string("none") : describe_crs(stage.ground.model.dem.crs);
   report.cells_wide = stage.ground.model.dem.width();
@@ -67,7 +69,7 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress) {
       report.classes.emplace_back(info.id, share);
   if (!scene.scene.synthesis.enabled) return report;
 
-  const std::vector<PaintedExemplar> exemplars = make_exemplars(view, stage, picture, progress);
+  const std::vector<PaintedExemplar> exemplars = make_exemplars(view, stage, std::move(scans), progress);
   for (const PaintedExemplar& painted : exemplars) report.exemplars.push_back(painted.exemplar.name);
   const std::vector<bool> has = labels_of(exemplars);
   std::vector<std::string> missing;
@@ -95,7 +97,7 @@ SceneExemplars look_at_exemplars(const LoadedScene& scene, Progress& progress) {
   // Sheets are painted for the picture itself: their strokes are as large as its.
   stage.scene = scene.scene;
   const double small_pixels = static_cast<double>(view.scene.output.width) * view.scene.output.height;
-  return {.exemplars = make_exemplars(scene, stage, picture, progress),
+  return {.exemplars = make_exemplars(scene, stage, read_scans(scene, progress), progress),
           .view = make_guide_stack(picture.guidance, picture.guidance.land_cover),
           .pixels_of_picture = static_cast<double>(scene.scene.output.width) * scene.scene.output.height / small_pixels};
 }

@@ -58,6 +58,12 @@ class ValueReader {
     field->assign(list.begin(), list.end());
   }
   void operator()(std::optional<LandCoverClass>* field) const { *field = class_of(value_); }
+  void operator()(std::vector<LandCoverClass>* field) const {
+    const auto* array = std::get_if<ConfigArray>(&value_.value);
+    if (array == nullptr) wrong(value_);
+    field->clear();
+    for (const ConfigValue& entry : *array) field->push_back(class_of(entry));
+  }
   void operator()(std::vector<std::pair<std::string, double>>* field) const {
     field->clear();
     for (const ConfigEntry& entry : table()) {

@@ -128,7 +128,8 @@ class Rules {
         refuse(name + ".picture", name + ".picture has neither guidance nor classes, so nobody knows what it shows",
                "guidance = \"….exr\", or classes = \"….png\"");
       if (exemplar.picture.empty())
-        for (const char* key : {"guidance", "classes", "altitude", "altitude_range_m", "optional"})
+        for (const char* key : {"guidance", "classes", "altitude", "altitude_range_m", "shadow", "found_shadow", "exclude", "serves",
+                                "stroke_px", "optional"})
           if (written(name + "." + key))
             refuse(name + "." + key, fmt::format("{}.{} has no picture to belong to", name, key), "a picture beside it");
       if (!exemplar.altitude.empty() && exemplar.classes.empty())

@@ -41,6 +41,11 @@ struct ValueWriter {
   // An empty set of weights is none: nothing is written.
   std::string operator()(const std::vector<float>* field) const { return field->empty() ? "" : bracketed(*field); }
   std::string operator()(const std::optional<LandCoverClass>* field) const { return *field ? json_quoted(class_name(**field)) : ""; }
+  std::string operator()(const std::vector<LandCoverClass>* field) const {
+    std::vector<std::string> entries;
+    for (const LandCoverClass id : *field) entries.push_back(json_quoted(class_name(id)));
+    return entries.empty() ? "" : bracketed(entries);
+  }
   std::string operator()(const std::vector<std::pair<std::string, double>>* field) const {
     std::vector<std::string> entries;
     for (const auto& [name, number] : *field) entries.push_back(fmt::format("{} = {}", bare_key(name), number));
@@ -64,7 +69,7 @@ bool is_excluded(const SceneSection& section, const SceneKey& key, Scene& scene,
       if (!value_text(*find_key(section, rival), scene, i).empty()) return true;
   }
   // What an exemplar without a picture cannot have.
-  static constexpr std::array<std::string_view, 2> of_pictures = {"altitude_range_m", "optional"};
+  static constexpr std::array<std::string_view, 4> of_pictures = {"altitude_range_m", "optional", "found_shadow", "stroke_px"};
   return section.name == "exemplar" && scene.exemplars[i].picture.empty() &&
          std::find(of_pictures.begin(), of_pictures.end(), key.name) != of_pictures.end();
 }
@@ -115,6 +120,7 @@ struct SchemaOfField {
   Json operator()(std::optional<std::array<double, 4>>*) const { return list(4, 4); }
   Json operator()(std::vector<float>*) const { return list(1, 12); }
   Json operator()(std::optional<LandCoverClass>*) const { return classes(); }
+  Json operator()(std::vector<LandCoverClass>*) const { return typed("array").add("items", classes()); }
   Json operator()(std::vector<std::pair<std::string, double>>*) const {
     if (key.choices.empty()) return typed("object").add("additionalProperties", number_schema("number", key.range));
     Json names = Json::object();
