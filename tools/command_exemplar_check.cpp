@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <tuple>
 
@@ -66,7 +65,6 @@ Subject from_files(const Options& options) {
   Subject subject;
   subject.exemplars = std::move(inputs.exemplars);
   subject.target = std::move(inputs.target);
-  for (Exemplar& exemplar : subject.exemplars) exemplar.name = std::filesystem::path(exemplar.name).filename().string();
   for (const auto& [from, to] : options.fallback) subject.fallback[to_label("--fallback", from)] = to_label("--fallback", to);
   return subject;
 }

@@ -14,6 +14,7 @@
 #include "texture/synthesize.h"
 #include "tools/commands.h"
 #include "tools/synthesis_files.h"
+#include "tools/synthesis_report_page.h"
 #include "tools/synthesize_replay.h"
 #include "tools/terminal.h"
 
@@ -27,6 +28,7 @@ struct Options {
   std::string out;
   std::string match;
   std::string replay;
+  std::string report;
   SynthesisParameters parameters;
   int threads = 0;
   int memory_mib = 0;
@@ -56,16 +58,34 @@ FileNotes make_notes(const Options& options) {
   FileNotes notes = to_notes(make_provenance("", inputs));
   std::string weights;
   for (const GuidePair& guide : options.files.guides) weights += fmt::format(" {} {}", guide.name, guide.weight);
-  notes["belvedere:synthesis"] = fmt::format("seed {} levels {} reuse {} copy_cap {} weights{}", options.parameters.seed,
-                                             options.parameters.levels, options.parameters.reuse, options.parameters.copy_cap, weights);
+  notes["belvedere:synthesis"] =
+      fmt::format("seed {} levels {} reuse {} copy_cap {} surroundings {} weights{}", options.parameters.seed, options.parameters.levels,
+                  options.parameters.reuse, options.parameters.copy_cap, options.parameters.surroundings, weights);
   return notes;
 }
 
 std::vector<MatchedPicture> matched_pictures(const SynthesisInputs& inputs) {
   std::vector<MatchedPicture> pictures;
   for (const Exemplar& exemplar : inputs.exemplars)
-    pictures.push_back({std::filesystem::path(exemplar.name).filename().string(), exemplar.picture.width(), exemplar.picture.height()});
+    pictures.push_back({exemplar.name, exemplar.picture.width(), exemplar.picture.height()});
   return pictures;
+}
+
+std::string class_name_of(std::uint8_t label) { return fmt::format("class {}", label); }
+
+// What was asked for as it would be typed, without folders: the same on every machine.
+std::string describe_command(const Options& options) {
+  const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+  std::string out = "belvedere synthesize";
+  for (std::size_t i = 0; i < options.files.pictures.size(); ++i)
+    out += fmt::format(" --picture {} --label {} {}", name(options.files.pictures[i]), name(options.files.labels[i].first),
+                       name(options.files.labels[i].second));
+  for (const GuidePair& guide : options.files.guides)
+    out += fmt::format(" --guide {} {} {} {}", guide.name, name(guide.source), name(guide.target), guide.weight);
+  for (const auto& [from, to] : options.fallback) out += fmt::format(" --fallback {} {}", from, to);
+  const SynthesisParameters& p = options.parameters;
+  return out + fmt::format(" --seed {} --levels {} --reuse {} --copy-cap {} --surroundings {} --out {}", p.seed, p.levels, p.reuse,
+                           p.copy_cap, p.surroundings, name(options.out));
 }
 
 void print_result(const Options& options, int width, int height, std::size_t empty, Progress& progress) {
@@ -95,6 +115,7 @@ int run(Options& options) {
   check_result_name(options.out);
   check_place(options.out);
   check_place(options.match);
+  if (!options.report.empty()) check_output_folder(options.report);
   for (const auto& [name, source, target, weight] : options.guides) options.files.guides.push_back({name, source, target, weight});
   for (const auto& [from, to] : options.fallback) {
     if (from < 0 || from >= unused_label || to < 0 || to >= unused_label || from == to)
@@ -108,8 +129,8 @@ int run(Options& options) {
   SynthesisInputs inputs = read_synthesis(options.files);
   options.parameters.weights = inputs.weights;
   const FileNotes notes = make_notes(options);
-  const std::string scarcity = describe_scarcity(class_supply(inputs.exemplars, inputs.target.label, options.parameters.fallback),
-                                                 [](std::uint8_t label) { return fmt::format("class {}", label); });
+  const std::string scarcity =
+      describe_scarcity(class_supply(inputs.exemplars, inputs.target.label, options.parameters.fallback), class_name_of);
   if (!scarcity.empty()) progress.note(scarcity);
   const MatchField matches = synthesize(inputs.exemplars, inputs.target, options.parameters, progress);
 
@@ -123,6 +144,16 @@ int run(Options& options) {
   else
     write_tiff16(options.out, picture, file);
   if (!options.match.empty()) write_matches(options.match, matches, matched_pictures(inputs), notes);
+  if (!options.report.empty())
+    write_synthesis_report(options.report,
+                           {.title = std::filesystem::path(options.out).filename().string(),
+                            .command = describe_command(options),
+                            .exemplars = inputs.exemplars,
+                            .target = inputs.target,
+                            .parameters = options.parameters,
+                            .matches = matches,
+                            .class_name = class_name_of},
+                           progress);
   const auto empty = std::count_if(matches.begin(), matches.end(), [](const Match& m) { return m.exemplar == Match::none; });
   print_result(options, picture.width(), picture.height(), static_cast<std::size_t>(empty), progress);
   return 0;
@@ -157,6 +188,10 @@ Command add_synthesize(CLI::App& program) {
   CLI::Option* match =
       command->add_option("--match", options->match, "Also where each pixel was copied from: OpenEXR with channels exemplar, x, y")
           ->type_name("FILE");
+  command
+      ->add_option("--report", options->report,
+                   "Also a folder with index.html: how good the result is, where it comes from, what each guide costs, worst places")
+      ->type_name("DIR");
   command->add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
       ->type_name("LABEL LABEL")
       ->allow_extra_args(false);
@@ -173,6 +208,10 @@ Command add_synthesize(CLI::App& program) {
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(16, 100000));
+  command->add_option("--surroundings", parameters.surroundings, "How much the classes around a place count")
+      ->type_name("X")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 100.0));
   command
       ->add_option("--replay", options->replay,
                    "Lays other layers of the same paintings, one --picture each, exactly where a --match file says; needs no labels")

@@ -96,12 +96,6 @@ std::string energy_chart(const Measures& m) {
   return svg;
 }
 
-std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
-  std::string out = "<tr>";
-  for (const std::string& cell : cells) out += fmt::format("<{0}>{1}</{0}>", tag, cell);
-  return out + "</tr>\n";
-}
-
 void add_numbers(ReportFolder& page, const Measures& m, bool view) {
   page.add("<section id=\"energy\"><h2>Detail kept by landform size and distance</h2>");
   page.add(
@@ -112,7 +106,7 @@ void add_numbers(ReportFolder& page, const Measures& m, bool view) {
   std::vector<std::string> head = {"distance"};
   for (int b = 0; b < m.bands; ++b)
     head.push_back(fmt::format("band {}{}", b + 1, b == 0 ? " (largest)" : b == m.bands - 1 ? " (smallest)" : ""));
-  table += row(head, "th");
+  table += html_row(head, "th");
   for (std::size_t s = 0; s < slices; ++s) {
     std::vector<std::string> cells = {slice_name(static_cast<int>(s))};
     for (std::size_t b = 0; b < static_cast<std::size_t>(m.bands); ++b) {
@@ -121,7 +115,7 @@ void add_numbers(ReportFolder& page, const Measures& m, bool view) {
       cells.push_back(fmt::format("{}<br><small>{:.3g} → {:.3g} m</small>", percent(kept_amplitude(before, after)), std::sqrt(before),
                                   std::sqrt(after)));
     }
-    table += row(cells);
+    table += html_row(cells);
   }
   page.add(table + "</table><p><small>Below each percentage the root mean square height of the band, before → after. " +
            (view ? "Distance goes by the foreground share of the view, in five equal steps."
@@ -133,16 +127,15 @@ void add_numbers(ReportFolder& page, const Measures& m, bool view) {
       "<p>How sharp the ridge lines still are, against a plain Gaussian blur that takes as much energy from the quietened bands: the "
       "farther "
       "the second column is above the third, the better break lines were preserved.</p>");
-  table = "<table>" + row({"distance", "this generalization", "Gaussian of equal energy", "its width", "ridge-line cells"}, "th");
+  table = "<table>" + html_row({"distance", "this generalization", "Gaussian of equal energy", "its width", "ridge-line cells"}, "th");
   for (std::size_t s = 0; s < slices; ++s) {
     const RidgeSharpness& r = m.ridges[s];
     const std::string width = r.gaussian_cells == 0.0                     ? "no band quieter"
                               : r.gaussian_cells >= widest_gaussian_cells ? fmt::format("σ over {:.0f} cells", widest_gaussian_cells)
                                                                           : fmt::format("σ {:.2f} cells", r.gaussian_cells);
-    table +=
-        r.cells == 0
-            ? row({slice_name(static_cast<int>(s)), "–", "–", "–", "0"})
-            : row({slice_name(static_cast<int>(s)), percent(r.kept()), percent(r.kept_by_gaussian()), width, fmt::format("{}", r.cells)});
+    table += r.cells == 0 ? html_row({slice_name(static_cast<int>(s)), "–", "–", "–", "0"})
+                          : html_row({slice_name(static_cast<int>(s)), percent(r.kept()), percent(r.kept_by_gaussian()), width,
+                                      fmt::format("{}", r.cells)});
   }
   page.add(table + "</table></section>");
 
@@ -151,9 +144,9 @@ void add_numbers(ReportFolder& page, const Measures& m, bool view) {
       "<p>Where steep slopes meet flat ground, exaggerated middle bands dig moats: hollows that would hold water, or ground taken away; a "
       "good "
       "mask brings both figures back towards the original's.</p>");
-  table = "<table>" + row({"terrain", "hollows, 10⁶ m³", "deepest, m", "ground taken away, 10⁶ m³"}, "th");
+  table = "<table>" + html_row({"terrain", "hollows, 10⁶ m³", "deepest, m", "ground taken away, 10⁶ m³"}, "th");
   const auto pits = [&](const char* name, const FootPits& p) {
-    table += row(
+    table += html_row(
         {name, fmt::format("{:.3f}", p.hollows_m3 / 1e6), fmt::format("{:.1f}", p.deepest_m), fmt::format("{:.3f}", p.lowered_m3 / 1e6)});
   };
   pits("original", m.original);
@@ -163,11 +156,11 @@ void add_numbers(ReportFolder& page, const Measures& m, bool view) {
 
   page.add("<section id=\"change\"><h2>Altitude change</h2>");
   page.add("<p>How far the result lies from the original: a mean near 0 says that the land as a whole was neither raised nor lowered.</p>");
-  table = "<table>" + row({"distance", "mean, m", "root mean square, m", "largest, m", "cells"}, "th");
+  table = "<table>" + html_row({"distance", "mean, m", "root mean square, m", "largest, m", "cells"}, "th");
   for (std::size_t s = 0; s < slices; ++s) {
     const AltitudeChange& c = m.change[s];
-    table += row({slice_name(static_cast<int>(s)), fmt::format("{:+.2f}", c.mean_m), fmt::format("{:.2f}", c.rms_m),
-                  fmt::format("{:.1f}", c.largest_m), fmt::format("{}", c.cells)});
+    table += html_row({slice_name(static_cast<int>(s)), fmt::format("{:+.2f}", c.mean_m), fmt::format("{:.2f}", c.rms_m),
+                       fmt::format("{:.1f}", c.largest_m), fmt::format("{}", c.cells)});
   }
   page.add(table + "</table></section>");
 }
@@ -218,13 +211,6 @@ std::string as_json(const GeneralizeReportInput& in, const Measures& m) {
          "\n";
 }
 
-constexpr const char* style =
-    R"(body{font:16px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:1320px;padding:0 1rem;color:#222;background:#fafaf7}
-h1{font-size:1.7rem}h2{font-size:1.2rem;margin-top:2.2rem}p{max-width:46rem}
-.row{display:flex;gap:12px;align-items:flex-start;margin-bottom:10px}figure{margin:0;flex:0 1 auto;min-width:0}figure img{max-width:100%;height:auto;display:block}
-figcaption{font-size:.85rem;color:#555}table{border-collapse:collapse}td,th{padding:.25rem .8rem;border-bottom:1px solid #ddd;text-align:right}
-td:first-child,th:first-child{text-align:left}small,svg text{color:#666;font-size:.8rem}pre{background:#eee;padding:.6rem;white-space:pre-wrap})";
-
 }  // namespace
 
 void write_generalize_report(const std::string& folder, const GeneralizeReportInput& input, Progress& progress) {
@@ -263,13 +249,10 @@ void write_generalize_report(const std::string& folder, const GeneralizeReportIn
   add_paper_figures(page, input, share, windows, progress);
 
   page.write("report.json", as_json(input, measures));
-  page.write(
-      "index.html",
-      fmt::format(
-          "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>\n<style>{1}</style></head>\n"
-          "<body><h1>Generalization of {0}</h1>\n<p>{2} × {3} cells of {4:.4g} × {5:.4g} m.</p>\n<pre>{6}</pre>\n{7}</body></html>\n",
-          html_escaped(input.title), style, input.before_m.width(), input.before_m.height(), input.cell_m.x, input.cell_m.y,
-          html_escaped(input.command), page.body()));
+  page.write_page(
+      input.title, "Generalization of " + input.title,
+      fmt::format("{} × {} cells of {:.4g} × {:.4g} m.", input.before_m.width(), input.before_m.height(), input.cell_m.x, input.cell_m.y),
+      input.command);
 }
 
 }  // namespace belvedere::tools

@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
+#include <vector>
 
 #include "renderer/base/grid.h"
 #include "renderer/base/parallel.h"
@@ -11,6 +12,9 @@ namespace belvedere::tools {
 
 // Characters that HTML means something by, as entities.
 std::string html_escaped(const std::string& text);
+
+// A row of a table; tag "td" or "th". Cells are HTML.
+std::string html_row(const std::vector<std::string>& cells, const char* tag = "td");
 
 // A folder with a page and its pictures: writes the files and gathers the page's text.
 class ReportFolder {
@@ -26,6 +30,8 @@ class ReportFolder {
   void end_figure();
 
   void write(const std::string& name, const std::string& text) const;
+  // index.html: what was added, under a heading, a first sentence and the command that makes it. Plain text, not HTML.
+  void write_page(const std::string& title, const std::string& heading, const std::string& lead, const std::string& command) const;
   const std::string& body() const { return body_; }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "terrain/hillshade.h"
 
@@ -11,12 +12,6 @@ namespace {
 glm::vec3 mix(glm::vec3 a, glm::vec3 b, float t) { return a + t * (b - a); }
 
 }  // namespace
-
-Grid<float> cut(const Grid<float>& cells, const PixelRect& window) {
-  Grid<float> out(window.width(), window.height());
-  for (int y = 0; y < out.height(); ++y) std::copy_n(cells.row(window.y0 + y) + window.x0, out.width(), out.row(y));
-  return out;
-}
 
 Reduced reduce_to(const Grid<float>& cells, int longest_px) {
   Reduced out;
@@ -67,6 +62,44 @@ Grid<glm::vec3> signed_picture(const Grid<float>& values, float full) {
   std::transform(values.begin(), values.end(), out.begin(),
                  [full](float v) { return glm::vec3(std::clamp(0.5F + 0.5F * v / std::max(full, 1e-6F), 0.F, 1.F)); });
   return out;
+}
+
+Grid<glm::vec3> reduced_picture(const Grid<glm::vec3>& picture, int longest_px) {
+  Grid<glm::vec3> out;
+  for (int c = 0; c < 3; ++c) {
+    Grid<float> channel(picture.width(), picture.height());
+    std::transform(picture.begin(), picture.end(), channel.begin(), [c](const glm::vec3& colour) { return colour[c]; });
+    const Grid<float> small = reduce_to(channel, longest_px).cells;
+    if (out.empty()) out = Grid<glm::vec3>(small.width(), small.height());
+    for (std::size_t i = 0; i < small.size(); ++i) out[i][c] = small[i];
+  }
+  return out;
+}
+
+Grid<glm::vec3> enlarged(const Grid<glm::vec3>& picture, int times) {
+  Grid<glm::vec3> out(picture.width() * times, picture.height() * times);
+  for (int y = 0; y < out.height(); ++y)
+    for (int x = 0; x < out.width(); ++x) out(x, y) = picture(x / times, y / times);
+  return out;
+}
+
+Grid<glm::vec3> heat_picture(const Grid<float>& values, float full) {
+  Grid<glm::vec3> out(values.width(), values.height());
+  std::transform(values.begin(), values.end(), out.begin(), [full](float v) {
+    const float t = 3.F * std::clamp(v / std::max(full, 1e-6F), 0.F, 1.F);
+    return glm::vec3(std::clamp(t, 0.F, 1.F), std::clamp(t - 1.F, 0.F, 1.F), std::clamp(t - 2.F, 0.F, 1.F));
+  });
+  return out;
+}
+
+float percentile(const Grid<float>& values, double share) {
+  if (values.empty()) return 0.F;
+  const std::size_t step = std::max<std::size_t>(1, values.size() / 1000000);
+  std::vector<float> some;
+  for (std::size_t i = 0; i < values.size(); i += step) some.push_back(values[i]);
+  const auto nth = some.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(some.size() - 1));
+  std::nth_element(some.begin(), nth, some.end());
+  return *nth;
 }
 
 PixelRect best_window(const Grid<float>& score, const Grid<float>& where, int side) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
@@ -12,7 +13,12 @@ namespace belvedere::tools {
 // Pictures of terrain for pages: Grid<glm::vec3> of encoded RGB, 0…1.
 
 // The cells of a window; the window lies within the grid.
-Grid<float> cut(const Grid<float>& cells, const PixelRect& window);
+template <class T>
+Grid<T> cut(const Grid<T>& cells, const PixelRect& window) {
+  Grid<T> out(window.width(), window.height());
+  for (int y = 0; y < out.height(); ++y) std::copy_n(cells.row(window.y0 + y) + window.x0, out.width(), out.row(y));
+  return out;
+}
 // Means of n × n cells (fewer at the right and lower rim), n the smallest that brings both sides to `longest_px`. n is 1 where they are.
 struct Reduced {
   Grid<float> cells;
@@ -26,6 +32,15 @@ Grid<glm::vec3> relief_picture(const Grid<float>& altitude_m, glm::dvec2 cell_m,
 Grid<glm::vec3> change_picture(const Grid<float>& before_m, const Grid<float>& after_m, glm::dvec2 cell_m, float full_m, int longest_px);
 // Mid grey at 0, black and white at ∓full.
 Grid<glm::vec3> signed_picture(const Grid<float>& values, float full);
+
+// A picture no side of which is above longest_px: means as in reduce_to.
+Grid<glm::vec3> reduced_picture(const Grid<glm::vec3>& picture, int longest_px);
+// Each pixel as a square of `times` pixels.
+Grid<glm::vec3> enlarged(const Grid<glm::vec3>& picture, int times);
+// Black at 0 by red and yellow to white at `full` and above.
+Grid<glm::vec3> heat_picture(const Grid<float>& values, float full);
+// The value that a share of all lies below, 0…1; of every n-th where there are many.
+float percentile(const Grid<float>& values, double share);
 
 // Of square windows of `side` cells (less where the grid is smaller), half a side apart: that with the largest sum of `score`, the first of
 // equals. Windows where the mean of `where` is below .5 do not count while another has more; an empty `where` is 1.

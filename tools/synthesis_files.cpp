@@ -47,7 +47,7 @@ Grid<std::uint8_t> read_guide(const std::string& file) {
 }
 
 Exemplar make_exemplar(const std::string& file, const Grid<glm::vec3>& picture, const Grid<float>& alpha, Grid<std::uint8_t> labels) {
-  Exemplar exemplar{.name = file, .picture = to_rgb8(picture), .guides = {}};
+  Exemplar exemplar{.name = std::filesystem::path(file).filename().string(), .picture = to_rgb8(picture), .guides = {}};
   for (std::size_t i = 0; i < picture.size(); ++i)
     if (alpha[i] < 0.5F) labels[i] = unused_label;  // what is cut out of a picture is no paint
   exemplar.guides.label = std::move(labels);
