@@ -10,6 +10,7 @@
 #include "renderer/picture_filter.h"
 #include "renderer/picture_noise.h"
 #include "renderer/ribs.h"
+#include "renderer/rock_planes.h"
 
 namespace belvedere {
 namespace {
@@ -46,6 +47,9 @@ constexpr float middle_tone = 0.55F;
 constexpr float brightest_tone = 1.02F;
 constexpr float floor_lift = 0.10F;  // valley floors glow
 constexpr float pool_strength = 0.035F;
+constexpr float plane_strength = 0.17F;  // of big planes on steep rock
+constexpr float calm_from_m = 16.0F;     // metres of ground in a unit of the sheet from which forms are simplified …
+constexpr float calm_to_m = 42.0F;       // … and at which they are simplest
 
 const ClassLight& light_of(LandCoverClass id) { return class_lights[static_cast<std::size_t>(id)]; }
 
@@ -61,17 +65,27 @@ void check_channels(const GuidanceBuffers& g) {
     throw Error(ErrorKind::bug, "tone", "a guidance channel is missing or has another size", "all traced channels");
 }
 
-// Bedding of rock: bands in altitude that dip and waver, strong only in places; -1 … 1.
+// Bedding of rock: bands in altitude that dip and waver, strong only in places; -1 … 1. Treads are broad and light, risers narrow and dark.
 float strata(float altitude_m, float east_m, float n8, float n25) {
-  const float band = std::sin((altitude_m + 35.0F * n8 + 0.06F * east_m) / 26.0F);
+  const float phase = (altitude_m + 35.0F * n8 + 0.06F * east_m) / 26.0F;
+  const float band = 0.8F * std::sin(phase) - 0.35F * std::cos(2.0F * phase);
   return band * std::clamp(0.3F + 0.7F * n25, 0.0F, 1.0F);
 }
 
+// How fine the ground is drawn: 1 near, falling to .35 where a unit of the sheet covers so much ground that the DEM's small forms would
+// crumple a range into specks.
+float fineness(const GuidanceBuffers& g, std::size_t i, double pixels_per_unit) {
+  if (g.footprint_m.empty()) return 1.0F;
+  const float metres_per_unit = g.footprint_m[i] * static_cast<float>(pixels_per_unit);
+  return 1.0F - 0.65F * std::clamp((metres_per_unit - calm_from_m) / (calm_to_m - calm_from_m), 0.0F, 1.0F);
+}
+
 // Light before contrast: sun, sky, relief and edges of one pixel.
-float raw_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky_view, const ToneParameters& p) {
+float raw_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky_view, float fine, const ToneParameters& p) {
   const ClassLight& light = light_of(g.land_cover[i]);
   const glm::vec3 detail = light.own_relief ? g.normal_detail[i] : g.normal[i];
-  const glm::vec3 normal = glm::normalize(detail * light.detail + g.normal_smooth[i] * (1.0F - light.detail));
+  const float share = light.detail * fine;
+  const glm::vec3 normal = glm::normalize(detail * share + g.normal_smooth[i] * (1.0F - share));
   const auto wrap = static_cast<float>(p.wrap);
   const float towards = glm::dot(normal, glm::vec3(p.sun_direction));
   const float facing = std::clamp((towards + wrap) / (1.0F + wrap), 0.0F, 1.0F);
@@ -80,7 +94,7 @@ float raw_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky
   const float relief = 0.5F * std::clamp(g.relief_m_m[i] / 70.0F, -1.0F, 1.0F) + 0.5F * std::clamp(g.relief_l_m[i] / 250.0F, -1.0F, 1.0F);
   const float edges = std::clamp(g.relief_s_m[i] / 10.0F, -1.2F, 1.2F);
   return static_cast<float>(p.sun_strength) * sun + static_cast<float>(p.sky_strength) * sky +
-         static_cast<float>(p.relief_strength) * relief + light.edges * edges;
+         static_cast<float>(p.relief_strength) * relief + light.edges * fine * edges;
 }
 
 // The crest rule: the topmost pixels of a silhouette look away from the eye and would draw a dark line along every ridge, so they
@@ -118,6 +132,9 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
   for (std::size_t i = 0; i < ribbed.size(); ++i)
     ribbed[i] = light_of(guidance.land_cover[i]).ribs > 0.0F && steepness(guidance.slope_deg[i]) > 0.0F ? 1 : 0;
   const Grid<float> ribs = make_ribs(guidance, ribbed, {ppu, parameters.sun_image_x, parameters.seed}, origin_px);
+  Grid<std::uint8_t> walls(width, height, 0);
+  for (std::size_t i = 0; i < walls.size(); ++i) walls[i] = ribbed[i] != 0 && guidance.land_cover[i] == LandCoverClass::rock ? 1 : 0;
+  const Grid<float> planes = make_rock_planes(guidance, walls, {ppu, parameters.sun_image_x, parameters.seed}, origin_px);
   const Grid<float> pool = make_image_noise(parameters.seed + 5, origin_px, width, height, ppu, 140.0, 60.0);
 
   Grid<float> tone(width, height, 0.0F);
@@ -129,14 +146,16 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
       if (guidance.is_sky(i)) continue;
       const LandCoverClass id = guidance.land_cover[i];
       const ClassLight& light = light_of(id);
-      float raw = raw_light(guidance, i, shadow[i], sky_view[i], parameters);
+      const float fine = fineness(guidance, i, ppu);
+      float raw = raw_light(guidance, i, shadow[i], sky_view[i], fine, parameters);
       if (ribbed[i] != 0) {
         float rib = ribs[i];
         if (id == LandCoverClass::rock) {
           const glm::dvec3 place = glm::dvec3(guidance.position_m[i]) + guidance.origin_m;
-          rib += 0.30F * strata(guidance.altitude_m[i], static_cast<float>(place.x), n8(place.x, place.y), n25(place.x, place.y));
+          rib += 0.45F * strata(guidance.altitude_m[i], static_cast<float>(place.x), n8(place.x, place.y), n25(place.x, place.y));
         }
-        raw += static_cast<float>(parameters.ribs) * light.ribs * rib * steepness(guidance.slope_deg[i]);
+        const float steep = steepness(guidance.slope_deg[i]);
+        raw += static_cast<float>(parameters.ribs) * (light.ribs * fine * rib + plane_strength * planes[i]) * steep;
       }
       float value = std::clamp((raw - raw_black) / raw_range, 0.0F, 1.05F);
       if (id == LandCoverClass::valley_floor) value += floor_lift;

@@ -10,7 +10,9 @@
 #include "renderer/base/random.h"
 #include "renderer/picture_filter.h"
 #include "renderer/picture_noise.h"
+#include "renderer/reflection.h"
 #include "renderer/sky.h"
+#include "texture/parcels.h"
 
 namespace belvedere {
 namespace {
@@ -19,6 +21,8 @@ constexpr double tone_step = 0.17;              // to the darker and the lighter
 constexpr double range_sigma_units = 14.0;      // width of mist behind an edge
 constexpr double treeline_sigma_units = 5.0;    // forest thins towards its border …
 constexpr double krummholz_sigma_units = 12.0;  // … and dwarf pine stands about it
+constexpr double brook_sigma_units = 1.8;       // what this blur of the water leaves pale is a brook
+constexpr float garden_share = 0.5F;            // of a settlement's ground: houses stand out from green
 constexpr float unknown_sky_depth_m = 92000.0F;
 
 using Class = LandCoverClass;
@@ -31,32 +35,28 @@ struct GroundNoises {
 // Noise at one place; each fades where its patches become smaller than a stroke.
 struct Patches {
   float n3, n8, n25, n60;
-  float parcel;  // of fields, -.5….5
 };
 
 // 1 where `size_m` covers two units of the sheet or more, 0 where it covers less than 2/3.
 float visible(float size_m, float metres_per_unit) { return std::clamp(1.5F - metres_per_unit / size_m, 0.0F, 1.0F); }
 
-Patches patches_at(GroundNoises& noises, glm::dvec3 place, float metres_per_unit, std::uint64_t seed) {
+Patches patches_at(GroundNoises& noises, glm::dvec3 place, float metres_per_unit) {
   Patches p{};
   p.n3 = noises.n3(place.x, place.y) * visible(60.0F, metres_per_unit);
   p.n8 = noises.n8(place.x, place.y) * visible(210.0F, metres_per_unit);
   p.n25 = noises.n25(place.x, place.y);
   p.n60 = noises.n60(place.x, place.y);
-  // Parcels of 330 × 200 m in bent rows.
-  const double along = (place.x + 180.0 * p.n25 - 0.35 * place.y) / 330.0;
-  const double across = (-place.y + 150.0 * p.n60 - 0.25 * place.x) / 198.0;
-  const auto random = static_cast<float>(
-      random_uniform(seed + 24, static_cast<std::int64_t>(std::floor(along)), static_cast<std::int64_t>(std::floor(across))));
-  p.parcel = (random - 0.5F) * visible(100.0F, metres_per_unit);
   return p;
 }
 
-// Fields and grasses: + turns towards ripe yellow, - towards green.
+// Crops are of a few kinds, not all shades between.
+float crop_shift(float crop) { return crop > 0.25F ? 0.85F : crop > 0.05F ? 0.35F : crop > -0.2F ? -0.15F : -0.75F; }
+
+// Grasses: + turns towards ripe yellow, - towards green.
 float field_shift(Class id, const Patches& p) {
   switch (id) {
     case Class::valley_floor:
-      return p.parcel + 0.12F * p.n8;
+      return 0.12F * p.n8;
     case Class::pasture:
       return 0.20F * p.n8 + 0.12F * p.n3 + 0.12F * p.n25 - 0.15F;
     case Class::alpine_grass:
@@ -101,6 +101,26 @@ glm::vec3 hue_drift(Class id, const Patches& p, const Palette& palette, float st
 float warmth(const BaseParameters& p, double depth_m) {
   if (p.haze_from_m <= 0.0) return 0.0F;
   return static_cast<float>(std::clamp(1.0 - (depth_m - 0.82 * p.haze_from_m) / (1.03 * p.haze_from_m), 0.0, 1.0));
+}
+
+// Greens of the middle distance lose their freshness before air veils them: 0 near … 1 from where air begins.
+float staleness(Class id, const BaseParameters& p, double depth_m) {
+  if (p.haze_from_m <= 0.0) return 0.0F;
+  switch (id) {
+    case Class::valley_floor:
+    case Class::forest:
+    case Class::alpine_grass:
+    case Class::pasture:
+    case Class::shrub:
+      return static_cast<float>(std::clamp((depth_m - 0.75 * p.haze_from_m) / (0.75 * p.haze_from_m), 0.0, 1.0));
+    default:
+      return 0.0F;
+  }
+}
+
+// 0 in the foreground … 1 where ranges lie one behind the other in the air.
+float farness(const BaseParameters& p, double depth_m) {
+  return static_cast<float>(std::clamp((depth_m - p.haze_from_m - 0.30 * p.haze_scale_m) / (0.5 * p.haze_scale_m), 0.0, 1.0));
 }
 
 // Air turns from its near to its far colour between 30 and 100 km for the default distances.
@@ -164,8 +184,8 @@ float accent_at(const GuidanceBuffers& g, const Grid<float>& logs, int x, int y,
 float tree_density_at(Class id, float forest, float wood, const Patches& p) {
   if (id == Class::forest) {
     const float border = 1.0F - std::clamp((forest - 0.5F) / 0.45F, 0.0F, 1.0F);
-    const float clearing = 0.22F * std::clamp(0.7F * p.n3 + 0.7F * p.n8 - 0.5F, 0.0F, 1.0F);
-    return std::clamp(0.95F - clearing - border * (p.n3 > 0.0F ? 0.60F : 0.40F), 0.25F, 1.0F);
+    const float clearing = 0.45F * std::clamp(0.55F * p.n3 + 0.6F * p.n8 + 0.45F * p.n25 - 0.6F, 0.0F, 1.0F);
+    return std::clamp(0.96F - clearing - border * (p.n3 > 0.0F ? 0.62F : 0.36F), 0.14F, 1.0F);
   }
   if (id == Class::alpine_grass) return std::clamp(0.75F * wood + 0.06F * p.n3 * (wood > 0.02F ? 1.0F : 0.0F), 0.0F, 0.35F);
   if (id == Class::shrub) return std::clamp(0.45F + 0.22F * p.n8 + 0.12F * p.n3, 0.1F, 0.85F);
@@ -186,6 +206,7 @@ struct PixelColour {
   glm::vec3 factor;  // drift of hue, warm foreground
   glm::vec3 air;
   float haze;
+  float stale;  // greens: how much of their freshness is gone, 0…1
   float mist;
   float dark;  // the near side of an edge between ranges
   glm::vec3 horizon;
@@ -193,12 +214,42 @@ struct PixelColour {
 
   glm::vec3 finish(glm::vec3 colour, glm::vec3 range_mist) const {
     colour = glm::clamp(colour + added, 0.0F, 1.0F) * factor;
+    const float grey = 0.30F * colour.r + 0.59F * colour.g + 0.11F * colour.b;
+    colour = glm::mix(colour, glm::vec3(1.03F, 0.99F, 1.04F) * grey, 0.17F * stale);
     colour = glm::mix(colour, air, haze);
     colour = glm::mix(colour, range_mist, mist);
-    colour = glm::clamp(colour * (1.0F - 0.35F * dark), 0.0F, 1.0F);
+    colour = glm::clamp(colour * (1.0F - glm::vec3(0.40F, 0.35F, 0.27F) * dark), 0.0F, 1.0F);
     return glm::mix(colour, horizon, rim);
   }
 };
+
+// How water differs from its ramp.
+struct WaterLook {
+  glm::vec3 image;    // what is mirrored
+  float image_share;  // 0…1
+  glm::vec3 bank;     // grass and gravel that a brook runs through
+  float bank_share;   // 0…1
+  float tone_shift;   // streaks of wind and light
+
+  glm::vec3 over(glm::vec3 colour) const { return glm::mix(glm::mix(colour, image, image_share), bank, bank_share); }
+};
+
+// `around` is the share of water nearby: brooks are thin and lose themselves between gravel and grass, lakes mirror.
+WaterLook water_look(const GuidanceBuffers& g, const Palette& palette, const Mirrored& mirrored, std::size_t i, float around, float streak,
+                     const Patches& p) {
+  WaterLook look{};
+  const float thin = std::clamp((0.52F - around) / 0.3F, 0.0F, 1.0F);
+  look.bank = palette_colour(palette, palette.winter ? Class::snow : Class::valley_floor, g.altitude_m[i], g.tone[i]);
+  look.bank_share = thin * std::clamp(0.12F + 0.40F * p.n25 + 0.2F * p.n8, 0.0F, 0.8F);
+  look.tone_shift = 0.09F * streak * (1.0F - thin);
+  if (mirrored.source[i] < 0) return look;
+  const auto from = static_cast<std::size_t>(mirrored.source[i]);
+  // An image in water is darker and bluer than what it is of.
+  const glm::vec3 image = palette_colour(palette, g.land_cover[from], g.altitude_m[from], 0.75 * static_cast<double>(g.tone[from]));
+  look.image = image * glm::vec3(0.80F, 0.90F, 0.98F);
+  look.image_share = std::clamp((0.85F + 0.12F * streak) * mirrored.share[i], 0.0F, 0.9F) * (1.0F - thin);
+  return look;
+}
 
 }  // namespace
 
@@ -225,6 +276,12 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
   for (std::size_t i = 0; i < is_forest.size(); ++i) is_forest[i] = guidance.land_cover[i] == Class::forest ? 1.0F : 0.0F;
   const Grid<float> forest = blur_on_surface(is_forest, guidance.depth_m, treeline_sigma_units * ppu);
   const Grid<float> wood = blur_in_picture(is_forest, krummholz_sigma_units * ppu, origin_px);
+
+  Grid<float> is_water(width, height, 0.0F);
+  for (std::size_t i = 0; i < is_water.size(); ++i) is_water[i] = guidance.land_cover[i] == Class::water ? 1.0F : 0.0F;
+  const Grid<float> waters = blur_on_surface(is_water, guidance.depth_m, brook_sigma_units * ppu);
+  const Mirrored mirrored = find_reflections(guidance, ppu);
+  const Grid<float> streaks = make_image_noise(parameters.seed + 29, origin_px, width, height, ppu, 26.0, 1.6);
 
   SkyParameters sky_parameters{picture_size, parameters.horizon_px, parameters.clouds, parameters.sun_image_x, parameters.seed};
   if (sky_parameters.horizon_px <= 0.0) sky_parameters.horizon_px = 0.18 * picture_size.y;
@@ -253,7 +310,7 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
       }
       const Class id = guidance.land_cover[i];
       const float metres_per_unit = has_footprint ? guidance.footprint_m[i] * static_cast<float>(ppu) : 0.0F;
-      const Patches patches = patches_at(noises, glm::dvec3(guidance.position_m[i]) + origin, metres_per_unit, parameters.seed);
+      const Patches patches = patches_at(noises, glm::dvec3(guidance.position_m[i]) + origin, metres_per_unit);
       const double depth = guidance.depth_m[i];
       const double altitude = guidance.altitude_m[i];
       const float tone = guidance.tone[i];
@@ -263,17 +320,39 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
       const auto mist = static_cast<float>(parameters.range_mist);
       const float behind = logs[i] - mean_logs[i];
       PixelColour pixel{};
-      pixel.added = glm::vec3(0.11F, 0.02F, -0.10F) * field_shift(id, patches) * drift;
-      pixel.factor = hue_drift(id, patches, palette, drift) * (1.0F + glm::vec3(0.06F, 0.03F, -0.07F) * warm);
+      float shift = field_shift(id, patches);
+      float border = 0.0F;
+      if (id == Class::valley_floor && !palette.winter) {
+        const glm::dvec3 place = glm::dvec3(guidance.position_m[i]) + origin;
+        const Parcel parcel = parcel_at(parameters.seed, place.x, place.y, metres_per_unit);
+        shift += crop_shift(parcel.crop);
+        border = std::clamp(1.0F - parcel.border_m / (0.10F * parcel.width_m), 0.0F, 1.0F) * (parcel.hedged ? 0.16F : 0.07F);
+      }
+      pixel.added = glm::vec3(0.11F, 0.02F, -0.10F) * shift * drift;
+      pixel.factor = hue_drift(id, patches, palette, drift) * (1.0F + glm::vec3(0.06F, 0.03F, -0.07F) * warm) * (1.0F - border * drift);
+      pixel.stale = staleness(id, parameters, depth) * static_cast<float>(parameters.warm_near);
       pixel.air = air_colour(parameters, palette, depth);
+      // Far ranges: the feet stand in mist and the crests out of it, and each hides the next in a step of light.
+      const float far = farness(parameters, depth) * mist;
+      const float foot = guidance.relief_l_m.empty() ? 0.0F : std::clamp(-guidance.relief_l_m[i] / 260.0F, -1.0F, 1.0F);
       pixel.haze = static_cast<float>(std::clamp(haze_share(parameters, depth, altitude) * palette.haze_share, 0.0, 1.0));
-      pixel.mist = std::clamp(3.0F * behind, 0.0F, 0.35F) * mist;
-      pixel.dark = std::clamp(-1.5F * behind, 0.0F, 0.25F) * mist;
+      pixel.haze = std::clamp(pixel.haze * (1.0F + 0.40F * far * foot) + 0.10F * far * foot, 0.0F, 1.0F);
+      pixel.mist = std::clamp((3.0F + 5.0F * far) * behind, 0.0F, 0.35F + 0.20F * std::min(far, 1.0F)) * mist;
+      pixel.dark = std::clamp(-(1.5F + 4.0F * far) * behind, 0.0F, 0.25F + 0.10F * std::min(far, 1.0F)) * mist;
       pixel.horizon = sky_gradient(palette, (y + origin_px.y + 0.5) / sky_parameters.horizon_px);
       pixel.rim = has_rim ? rim_share(guidance.rim_m[i], parameters.rim_fade_m) : 0.0F;
-      ground.colour[i] = pixel.finish(palette_colour(palette, id, altitude, tone), palette.range_mist);
-      ground.darker[i] = pixel.finish(palette_colour(palette, id, altitude, tone - tone_step), palette.range_mist);
-      ground.lighter[i] = pixel.finish(palette_colour(palette, id, altitude, tone + tone_step), palette.range_mist);
+      const Class gardens = palette.winter ? Class::snow : Class::valley_floor;
+      WaterLook water{};
+      if (id == Class::water) water = water_look(guidance, palette, mirrored, i, waters[i], streaks[i], patches);
+      const auto paint = [&](double step) {
+        const double light = tone + static_cast<double>(water.tone_shift) + step;
+        glm::vec3 ramp = palette_colour(palette, id, altitude, light);
+        if (id == Class::settlement) ramp = glm::mix(ramp, palette_colour(palette, gardens, altitude, light - 0.12), garden_share);
+        return pixel.finish(water.over(ramp), palette.range_mist);
+      };
+      ground.colour[i] = paint(0.0);
+      ground.darker[i] = paint(-tone_step);
+      ground.lighter[i] = paint(tone_step);
       ground.accent[i] = accent_at(guidance, logs, x, y, step_px);
       ground.tree_density[i] = tree_density_at(id, forest[i], wood[i], patches);
       ground.haze[i] = 1.0F - (1.0F - pixel.haze) * (1.0F - std::min(pixel.mist, 1.0F)) * (1.0F - pixel.rim);
@@ -287,7 +366,8 @@ int base_margin_px(const BaseParameters& parameters) {
   const double ppu = parameters.pixels_per_unit;
   const int ranges = 2 * blur_reach_px(range_sigma_units * ppu);  // the blur, and the sky's look down at the terrain
   const int woods = blur_reach_px(krummholz_sigma_units * ppu);
-  return std::max(ranges, woods) + 3 * static_cast<int>(std::ceil(ppu)) + 2;
+  const int waters = std::max(reflection_margin_px(ppu), blur_reach_px(brook_sigma_units * ppu));
+  return std::max({ranges, woods, waters}) + 3 * static_cast<int>(std::ceil(ppu)) + 2;
 }
 
 }  // namespace belvedere

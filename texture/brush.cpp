@@ -126,6 +126,10 @@ void paint_stroke(const Stroke& stroke, const PixelRect& clip, Grid<glm::vec3>& 
         case StrokeGate::surface:
           if (depth < stroke.depth_m * (1.F - stroke.depth_tolerance) || depth > stroke.depth_m * (1.F + stroke.depth_tolerance)) continue;
           break;
+        case StrokeGate::same_class:
+          if (guidance.land_cover[i] != guidance.land_cover[stroke.source]) continue;
+          if (depth < stroke.depth_m * (1.F - stroke.depth_tolerance) || depth > stroke.depth_m * (1.F + stroke.depth_tolerance)) continue;
+          break;
         case StrokeGate::upright:
           if (depth < stroke.depth_m * 0.985F) continue;
           break;

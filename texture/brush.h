@@ -13,10 +13,11 @@ namespace belvedere {
 
 // Where paint may fall. Every stroke has the depth of its seed; a gate compares it with the pixel's.
 enum class StrokeGate : std::uint8_t {
-  surface,  // only on the seed's own surface: depth within ± depth_tolerance, so texture never swims across a ridge
-  upright,  // may cover what is farther, never what is nearer: trees
-  sky,      // only on sky
-  water,    // only on water
+  surface,     // only on the seed's own surface: depth within ± depth_tolerance, so texture never swims across a ridge
+  upright,     // may cover what is farther, never what is nearer: trees
+  sky,         // only on sky
+  water,       // only on water
+  same_class,  // as surface, and only on pixels of the seed's class: what ends with the ice it lies on
 };
 
 // One stroke of the brush: a polyline with a width that runs from start to end. Lengths in pixels of the canvas.

@@ -12,14 +12,21 @@ namespace belvedere {
 std::vector<Stroke> sky_strokes(const StrokeScene& scene);
 std::vector<Stroke> wash_strokes(const StrokeScene& scene);
 std::vector<Stroke> meadow_strokes(const StrokeScene& scene);
-std::vector<Stroke> rock_facets(const StrokeScene& scene);
-std::vector<Stroke> rock_hatching(const StrokeScene& scene);
-std::vector<Stroke> rock_fissures(const StrokeScene& scene);
 std::vector<Stroke> scree_strokes(const StrokeScene& scene);
-std::vector<Stroke> snow_strokes(const StrokeScene& scene);
 std::vector<Stroke> water_strokes(const StrokeScene& scene);
 std::vector<Stroke> accent_strokes(const StrokeScene& scene);
-// What stands up (stroke_upright.cpp).
+// Rock (stroke_rock.cpp): planes, hatching down the wall, beds across it with their lit tops, cracks.
+std::vector<Stroke> rock_facets(const StrokeScene& scene);
+std::vector<Stroke> rock_hatching(const StrokeScene& scene);
+std::vector<Stroke> rock_ledges(const StrokeScene& scene);
+std::vector<Stroke> rock_fissures(const StrokeScene& scene);
+// Snow and ice (stroke_ice.cpp). Flow lines, crevasses and edges of glaciers, and the ribs that are bare of snow, are drawn on top.
+std::vector<Stroke> snow_strokes(const StrokeScene& scene);
+std::vector<Stroke> snow_ribs(const StrokeScene& scene);
+std::vector<Stroke> glacier_flow_lines(const StrokeScene& scene);
+std::vector<Stroke> glacier_crevasses(const StrokeScene& scene);
+std::vector<Stroke> glacier_edges(const StrokeScene& scene);
+// What stands up (stroke_upright.cpp, stroke_town.cpp).
 std::vector<Stroke> forest_trees(const StrokeScene& scene);
 std::vector<Stroke> scattered_trees(const StrokeScene& scene);
 std::vector<Stroke> low_bushes(const StrokeScene& scene);

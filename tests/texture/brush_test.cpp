@@ -128,6 +128,16 @@ TEST(Brush, WaterAndSkyGatesHold) {
   EXPECT_FLOAT_EQ(sky(30, 20).x, 0.F);
 }
 
+TEST(Brush, StaysOnItsOwnClass) {
+  const GuidanceBuffers g = border_guidance();
+  Stroke line = horizontal_stroke();
+  line.gate = StrokeGate::same_class;
+  line.source = static_cast<std::uint32_t>(g.depth_m.index(10, 20));
+  const auto canvas = paint({line}, g);
+  EXPECT_FLOAT_EQ(canvas(25, 20).x, 1.F);
+  EXPECT_FLOAT_EQ(canvas(35, 20).x, 0.F);
+}
+
 TEST(Brush, ToneGateFadesWithTheDifferenceOfTone) {
   GuidanceBuffers g = flat_guidance();
   for (int y = 0; y < g.height(); ++y)

@@ -1,7 +1,9 @@
 #include "texture/stroke_painter.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -69,11 +71,190 @@ TEST(StrokePainter, TreesStandUprightWhateverTheSlope) {
   EXPECT_GT(bodies, 500);
 }
 
+// Puts the picture's ground at an altitude: which trees grow depends on it.
+void raise(Picture& picture, float altitude_m) {
+  for (auto& place : picture.guidance.position_m) place.z = altitude_m;
+}
+
 TEST(StrokePainter, TreesAreAsTallFarAsNear) {
-  const Picture p = one_class(forest);
+  Picture p = one_class(forest);
+  raise(p, 1700.F);  // spruces only: where leafy trees grow varies over the ground
   const StrokeParameters parameters;
   const auto trees = forest_trees({p.guidance, p.ground, parameters});
   EXPECT_NEAR(mean_height(trees, 0.F, 80.F) / mean_height(trees, 160.F, 240.F), 1.0, 0.05);
+}
+
+// Angle between a direction and the fall line, 0…90°.
+double angle_deg(glm::vec2 axis, glm::vec2 fall) {
+  const float cosine = std::abs(axis.x * fall.x + axis.y * fall.y) / (std::hypot(axis.x, axis.y) * std::hypot(fall.x, fall.y));
+  return std::acos(std::min(1.F, cosine)) * 57.29578;
+}
+
+TEST(StrokePainter, TrunksStandInRowsDownTheFallLine) {
+  Picture p = one_class(forest);
+  raise(p, 1700.F);
+  const glm::vec2 fall(0.8F, 0.6F);
+  for (auto& d : p.guidance.fall_line) d = fall;
+  const StrokeParameters parameters;
+  // Bodies are the wide upright strokes; the next in the list is the next of its row where it stands a step away.
+  std::vector<glm::vec2> feet;
+  for (const Stroke& s : forest_trees({p.guidance, p.ground, parameters}))
+    if (s.gate == StrokeGate::upright && s.start_width > 2.5F) feet.push_back(s.points[0]);
+  int steps = 0;
+  int along = 0;
+  for (std::size_t k = 1; k < feet.size(); ++k) {
+    const glm::vec2 step = feet[k] - feet[k - 1];
+    if (std::hypot(step.x, step.y) > 8.F) continue;
+    ++steps;
+    along += angle_deg(step, fall) < 20.0 ? 1 : 0;
+  }
+  EXPECT_GT(steps, 300);
+  // Strewn trees would have two in nine; some neighbours in the list are of two rows.
+  EXPECT_GT(along, steps * 3 / 5);
+}
+
+TEST(StrokePainter, LowForestIsLeafyAndWarmer) {
+  Picture low = one_class(forest);
+  raise(low, 500.F);
+  Picture high = one_class(forest);
+  raise(high, 1700.F);
+  const StrokeParameters parameters;
+  const auto warmest = [&](const Picture& p) {
+    float most = -1.F;
+    for (const Stroke& s : forest_trees({p.guidance, p.ground, parameters})) most = std::max(most, s.colour.x - s.colour.z);
+    return most;
+  };
+  EXPECT_GT(warmest(low), warmest(high) + 0.1F);  // yellow dots
+}
+
+TEST(StrokePainter, TreesOfTheValleyFloorStandInGroups) {
+  Picture p = one_class(valley_floor, 600, 400);
+  const StrokeParameters parameters;
+  constexpr int cell = 25;
+  Grid<int> counts(600 / cell, 400 / cell, 0);
+  for (const Stroke& s : scattered_trees({p.guidance, p.ground, parameters}))
+    if (s.gate == StrokeGate::upright && s.start_width > 1.5F)
+      ++counts(std::min(599, static_cast<int>(s.points[0].x)) / cell, std::min(399, static_cast<int>(s.points[0].y)) / cell);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const int n : counts) {
+    sum += n;
+    squares += static_cast<double>(n) * n;
+  }
+  const double mean = sum / static_cast<double>(counts.size());
+  EXPECT_GT(mean, 0.1);
+  // Evenly strewn ones would have a variance as large as the mean.
+  EXPECT_GT(squares / static_cast<double>(counts.size()) - mean * mean, 3.0 * mean);
+}
+
+TEST(StrokePainter, CrevassesLieAcrossTheFlowAndOnlyWhereIceIsTorn) {
+  Picture p = one_class(glacier);
+  const glm::vec2 flow(0.6F, 0.8F);
+  for (auto& d : p.guidance.fall_line) d = flow;
+  p.guidance.slope_deg = Grid<float>(320, 240, 22.F);
+  const StrokeParameters parameters;
+  const auto torn = glacier_crevasses({p.guidance, p.ground, parameters});
+  EXPECT_GT(torn.size(), 100U);
+  for (const Stroke& s : torn) EXPECT_GE(angle_deg(s.points[3] - s.points[0], flow), 60.0);
+  for (float& slope : p.guidance.slope_deg) slope = 3.F;
+  EXPECT_TRUE(glacier_crevasses({p.guidance, p.ground, parameters}).empty());
+}
+
+TEST(StrokePainter, FlowLinesAreLongAndFollowTheIce) {
+  Picture p = one_class(glacier);
+  const glm::vec2 flow(0.6F, 0.8F);
+  for (auto& d : p.guidance.fall_line) d = flow;
+  p.guidance.slope_deg = Grid<float>(320, 240, 12.F);
+  const StrokeParameters parameters;
+  const auto lines = glacier_flow_lines({p.guidance, p.ground, parameters});
+  ASSERT_GT(lines.size(), 100U);
+  for (const Stroke& s : lines) {
+    const glm::vec2 axis = s.points[3] - s.points[0];
+    EXPECT_GT(std::hypot(axis.x, axis.y), 20.F);
+    EXPECT_LT(angle_deg(axis, flow), 20.0);
+  }
+}
+
+TEST(StrokePainter, GlaciersAreLinedWithRubbleWhereTheyEndOnGroundNotOnSnow) {
+  const auto edges = [](LandCoverClass beyond) {
+    Picture p = one_class(glacier);
+    for (int y = 0; y < 240; ++y)
+      for (int x = 160; x < 320; ++x) p.guidance.land_cover(x, y) = beyond;
+    p.guidance.slope_deg = Grid<float>(320, 240, 12.F);
+    const StrokeParameters parameters;
+    return glacier_edges({p.guidance, p.ground, parameters});
+  };
+  EXPECT_TRUE(edges(snow).empty());
+  const auto strokes = edges(scree);
+  EXPECT_GT(strokes.size(), 50U);
+  for (const Stroke& s : strokes) EXPECT_NEAR(s.points[1].x, 160.F, 14.F);
+}
+
+// 10 … 30 % of the strokes are of the next darker tone, so that no area is flat.
+TEST(StrokePainter, DarkerStrokesAreMixedIn) {
+  const StrokeParameters parameters;
+  const auto darker_share = [&](LandCoverClass id, auto&& kind) {
+    const Picture p = one_class(id);
+    const auto strokes = kind(StrokeScene{p.guidance, p.ground, parameters});
+    // Half a step down from the base at .5, the darker picture at .4.
+    const auto dark = std::count_if(strokes.begin(), strokes.end(), [](const Stroke& s) { return s.colour.y < 0.455F; });
+    return static_cast<double>(dark) / static_cast<double>(strokes.size());
+  };
+  for (const LandCoverClass id : {pasture, alpine_grass, valley_floor, snow, glacier, scree})
+    EXPECT_THAT(darker_share(id, wash_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30))) << class_name(id);
+  EXPECT_THAT(darker_share(pasture, meadow_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)));
+  EXPECT_THAT(darker_share(snow, snow_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)));
+}
+
+// A round settlement of this radius on the valley floor.
+Picture town(float radius) {
+  Picture p = one_class(valley_floor, 320, 240);
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x)
+      if (std::hypot(static_cast<float>(x) - 160.F, static_cast<float>(y) - 120.F) < radius) p.guidance.land_cover(x, y) = settlement;
+  p.guidance.footprint_m = Grid<float>(320, 240, 15.F);
+  return p;
+}
+
+TEST(StrokePainter, TownsDifferFromVillages) {
+  const StrokeParameters parameters;
+  const auto widest = [&](float radius) {
+    const Picture p = town(radius);
+    float most = 0.F;
+    for (const Stroke& s : houses({p.guidance, p.ground, parameters}))
+      if (s.gate == StrokeGate::surface && s.point_count == 2)
+        most = std::max(most, std::abs(s.points[1].x - s.points[0].x) + s.start_width);
+    return most;
+  };
+  EXPECT_GT(widest(80.F), 4.5F);  // halls and works
+  EXPECT_LT(widest(9.F), 4.5F);
+}
+
+TEST(StrokePainter, TownsAreDenserInTheirMiddle) {
+  const Picture p = town(80.F);
+  const StrokeParameters parameters;
+  int inside = 0;
+  int edge = 0;
+  for (const Stroke& s : houses({p.guidance, p.ground, parameters})) {
+    if (s.alpha < 0.9F || s.gate != StrokeGate::surface) continue;  // walls and roofs
+    const float r = std::hypot(s.points[0].x - 160.F, s.points[0].y - 120.F);
+    inside += r < 55.F ? 1 : 0;
+    edge += r > 70.F ? 1 : 0;
+  }
+  EXPECT_GT(inside / (55.0 * 55.0), 1.15 * edge / (80.0 * 80.0 - 70.0 * 70.0));
+}
+
+TEST(StrokePainter, SnowIsLaidInLongStrokes) {
+  const Picture p = one_class(snow);
+  const StrokeParameters parameters;
+  double sum = 0.0;
+  int count = 0;
+  for (const Stroke& s : snow_strokes({p.guidance, p.ground, parameters})) {
+    const glm::vec2 axis = s.points[3] - s.points[0];
+    sum += std::hypot(axis.x, axis.y);
+    ++count;
+  }
+  EXPECT_GT(sum / count, 19.0);  // units of 0.5 mm
 }
 
 TEST(StrokePainter, StrokesGrowWithTheSheet) {

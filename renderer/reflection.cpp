@@ -1,0 +1,52 @@
+#include "renderer/reflection.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/base/parallel.h"
+#include "renderer/picture_filter.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double reflection_units = 34.0;  // how far the image of the shore reaches into the water
+constexpr float fade_units = 15.0F;        // over which it fades
+constexpr float foreshortening = 1.25F;    // looking down, the image of a slope is shorter than the slope
+
+bool is_water(const GuidanceBuffers& g, int x, int y) { return g.land_cover(x, y) == LandCoverClass::water; }
+
+}  // namespace
+
+Mirrored find_reflections(const GuidanceBuffers& guidance, double pixels_per_unit) {
+  const int width = guidance.width();
+  const int height = guidance.height();
+  const int reach_px = static_cast<int>(std::ceil(reflection_units * pixels_per_unit));
+  Mirrored mirrored{Grid<std::int32_t>(width, height, -1), Grid<float>(width, height, 0.0F)};
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      if (!is_water(guidance, x, y)) continue;
+      int above = 1;
+      while (above <= reach_px && y - above >= 0 && is_water(guidance, x, y - above)) ++above;
+      const int shore = y - above;
+      // A silhouette in front of the water is no shore: what stands before it is nearer.
+      if (above > reach_px || shore < 0 || !same_surface(guidance.depth_m(x, y), guidance.depth_m(x, shore))) continue;
+      const int wanted = std::max(shore - static_cast<int>(std::lround(foreshortening * static_cast<float>(above))), 0);
+      int top = shore;
+      while (top > wanted && !is_water(guidance, x, top - 1) && same_surface(guidance.depth_m(x, top), guidance.depth_m(x, top - 1))) --top;
+      mirrored.source(x, y) = static_cast<std::int32_t>(guidance.depth_m.index(x, top));
+      // Steep shores have dark images, level ones hardly any: the image of a meadow is a line.
+      const float into_units = static_cast<float>(above / pixels_per_unit);
+      const float cut_short =
+          top > wanted ? std::max(0.0F, 1.0F - static_cast<float>(top - wanted) / static_cast<float>(pixels_per_unit) / 6.0F) : 1.0F;
+      mirrored.share(x, y) = std::max(0.0F, 1.0F - into_units / fade_units) * cut_short;
+    }
+  });
+  return mirrored;
+}
+
+int reflection_margin_px(double pixels_per_unit) {
+  const int reach_px = static_cast<int>(std::ceil(reflection_units * pixels_per_unit));
+  return reach_px + static_cast<int>(std::ceil(foreshortening * static_cast<float>(reach_px))) + 1;
+}
+
+}  // namespace belvedere

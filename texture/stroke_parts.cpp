@@ -1,0 +1,54 @@
+#include "texture/stroke_parts.h"
+
+#include <algorithm>
+
+#include "renderer/base/noise.h"
+
+namespace belvedere {
+
+void take_brush(Stroke& stroke, const StrokeScene& scene, float width_units, const Brush& brush) {
+  stroke.start_width = width_units * scene.scale();
+  stroke.end_width = stroke.start_width * brush.taper;
+  stroke.alpha = brush.alpha;
+  stroke.bristle = brush.bristle;
+  stroke.wetness = brush.wetness;
+}
+
+Stroke ground_stroke(const StrokeScene& scene, std::size_t i, StrokeSeed& seed) {
+  Stroke stroke;
+  stroke.depth_m = scene.guidance.depth_m[i];
+  stroke.order = stroke.depth_m;
+  stroke.seed = seed.bits();
+  stroke.source = static_cast<std::uint32_t>(i);
+  return stroke;
+}
+
+void set_line(Stroke& stroke, glm::vec2 from, glm::vec2 to, float start_width, float end_width) {
+  stroke.points[0] = from;
+  stroke.points[1] = to;
+  stroke.point_count = 2;
+  stroke.start_width = start_width;
+  stroke.end_width = end_width;
+}
+
+glm::vec3 through_air(const StrokeScene& scene, std::size_t i, glm::vec3 paint) {
+  return paint + (scene.ground.colour[i] - paint) * std::clamp(scene.ground.haze[i], 0.F, 1.F);
+}
+
+glm::vec3 through_air_factor(const StrokeScene& scene, std::size_t i, glm::vec3 factor) {
+  return factor + (1.F - factor) * std::clamp(scene.ground.haze[i], 0.F, 1.F);
+}
+
+void lay_on_top(Stroke& stroke) { stroke.order -= tight_depth * stroke.depth_m; }
+
+float ground_noise(const StrokeScene& scene, std::size_t i, std::uint64_t kind, double sigma_m) {
+  const glm::dvec3 p = glm::dvec3(scene.guidance.position_m[i]) + scene.guidance.origin_m;
+  return static_cast<float>(gaussian_noise(scene.parameters.seed + kind, p.x, p.y, sigma_m));
+}
+
+float sheet_noise(const StrokeScene& scene, glm::vec2 place, std::uint64_t kind, double sigma_units) {
+  return static_cast<float>(gaussian_noise(scene.parameters.seed + kind, static_cast<double>(place.x) / scene.parameters.pixels_per_unit,
+                                           static_cast<double>(place.y) / scene.parameters.pixels_per_unit, sigma_units));
+}
+
+}  // namespace belvedere

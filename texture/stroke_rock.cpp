@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cmath>
+
+#include "texture/stroke_kinds.h"
+#include "texture/stroke_parts.h"
+
+namespace belvedere {
+namespace {
+
+using enum LandCoverClass;
+
+// How far the grain of a wall is turned from its fall line, rad: joints run slanting for a stretch, then change sides. A wall hatched in
+// one direction throughout looks combed.
+float joint_angle(const StrokeScene& scene, glm::vec2 place) { return 0.24F * sheet_noise(scene, place, 61, 22.0); }
+
+}  // namespace
+
+std::vector<Stroke> rock_facets(const StrokeScene& scene) {
+  return sow(scene, 4.6F, 4, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != rock) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    const float tone = scene.guidance.tone[i];
+    stroke.depth_tolerance = tight_depth;
+    stroke.tone = tone;
+    stroke.order += 400.F + seed.uniform() * 100.F;
+    const float oblique = seed.uniform() < 0.25F ? (seed.uniform() < 0.5F ? 0.8F : -0.8F) : 0.F;
+    const float angle = 0.25F * seed.normal() + oblique + joint_angle(scene, place);
+    const bool broad = seed.uniform() < 0.35F;  // a whole plane in a stroke or two
+    lay_line(stroke, scene, place, broad ? seed.between(12.F, 22.F) : seed.between(6.F, 15.F), angle, 0.1F, true, seed);
+    const float width = broad ? seed.between(6.F, 11.F) : seed.between(3.2F, 6.4F);
+    take_brush(stroke, scene, width,
+               {.taper = seed.between(0.55F, 1.05F), .alpha = broad ? 0.75F : 0.9F, .bristle = 0.08F, .wetness = 0.02F});
+    const float m = tone > 0.60F   ? seed.between(0.1F, 0.6F)
+                    : tone < 0.42F ? -seed.between(0.1F, 0.6F)
+                                   : (seed.uniform() < 0.5F ? 0.55F : -0.55F);
+    stroke.colour = scene.colour(i, broad ? 0.5F * m : m, paint_jitter * 1.1F, seed);
+    if (broad) stroke.order += 200.F;
+    out.push_back(stroke);
+  });
+}
+
+std::vector<Stroke> rock_hatching(const StrokeScene& scene) {
+  return sow(scene, 3.4F, 5, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != rock) return;
+    const float edge = scene.ground.accent[i];
+    if (seed.uniform() > 0.30F + 0.60F * std::min(1.F, std::abs(edge))) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.depth_tolerance = tight_depth;
+    stroke.order += seed.uniform() * 100.F;
+    const float u = seed.uniform();
+    lay_line(stroke, scene, place, 5.F + 12.F * u * u, joint_angle(scene, place) + 0.20F * seed.normal(), 0.12F, true, seed);
+    const bool dark = seed.uniform() < (edge < 0.F ? 0.8F : 0.35F);
+    take_brush(stroke, scene, dark ? seed.between(1.1F, 2.3F) : seed.between(1.2F, 2.5F), {.taper = 0.3F, .alpha = 0.75F, .bristle = 0.1F});
+    stroke.colour = scene.colour(i, dark ? -seed.between(0.9F, 1.5F) : seed.between(0.7F, 1.3F), paint_jitter, seed);
+    out.push_back(stroke);
+  });
+}
+
+std::vector<Stroke> rock_ledges(const StrokeScene& scene) {
+  return sow(scene, 8.5F, 15, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    // Beds crop out in stretches: where the noise is low the wall is one slab.
+    if (scene.class_at(i) != rock || seed.uniform() > std::clamp(0.25F + 0.5F * sheet_noise(scene, place, 62, 30.0), 0.03F, 0.9F)) return;
+    Stroke dark = ground_stroke(scene, i, seed);
+    dark.depth_tolerance = tight_depth;
+    dark.order -= 10.F;
+    const float angle = quarter_turn + 0.16F * seed.normal();
+    const float length = seed.between(4.F, 14.F);
+    lay_line(dark, scene, place, length, angle, 0.15F, true, seed);
+    const float width = seed.between(1.0F, 2.0F);
+    take_brush(dark, scene, width, {.taper = 0.4F, .alpha = 0.62F, .bristle = 0.15F});
+    dark.colour = scene.colour(i, -seed.between(0.9F, 1.4F), paint_jitter, seed);
+    // The tread over the riser catches the light.
+    Stroke lit = dark;
+    const glm::vec2 up = scene.fall_line(place) * (-0.95F * width * scene.scale());
+    for (auto& point : lit.points) point += up;
+    lit.start_width *= 0.8F;
+    lit.end_width *= 0.8F;
+    lit.alpha = 0.22F + 0.3F * scene.guidance.tone[i];
+    lit.colour = scene.colour(i, seed.between(0.5F, 1.0F), paint_jitter, seed);
+    out.push_back(dark);
+    out.push_back(lit);
+  });
+}
+
+std::vector<Stroke> rock_fissures(const StrokeScene& scene) {
+  return sow(scene, 7.5F, 6, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != rock || scene.guidance.tone[i] < 0.45F || seed.uniform() > 0.5F) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.depth_tolerance = 0.012F;
+    stroke.order -= 5.F;
+    const float angle = joint_angle(scene, place) + 0.30F * seed.normal();
+    lay_line(stroke, scene, place, seed.between(7.F, 21.F), angle, 0.25F, true, seed);
+    take_brush(stroke, scene, seed.between(1.0F, 1.7F), {.alpha = 0.62F});
+    stroke.end_width = 0.5F * scene.scale();  // all run out equally fine
+    stroke.colour = scene.colour(i, -seed.between(1.25F, 1.5F), paint_jitter, seed);
+    out.push_back(stroke);
+  });
+}
+
+}  // namespace belvedere
