@@ -108,7 +108,7 @@ std::vector<Stroke> houses(const StrokeScene& scene) {
     const float core = core_of(scene, place);
     // Blocks between streets in the middle, loose houses at the edge.
     const float quarter = 0.12F * ground_noise(scene, i, 54, 160.0);
-    const float share = std::clamp(0.52F + 0.43F * core + quarter, 0.2F, 0.96F);
+    const float share = std::clamp(0.36F + 0.62F * core + quarter, 0.15F, 0.98F);
     if (seed.uniform() > share || (core > 0.3F && in_street(scene, i))) return;
     const float u = seed.uniform();
     const bool large = core > 0.55F && seed.uniform() < 0.08F;  // a hall, a school, a works
