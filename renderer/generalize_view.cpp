@@ -75,7 +75,7 @@ Grid<float> mask_for_scene(const LoadedScene& loaded, const Dem& dem, const Land
 
 }  // namespace
 
-Grid<float> ground_m_per_pixel(const Dem& dem, const View& view) {
+PixelGround ground_m_per_pixel(const Dem& dem, const View& view) {
   const std::unique_ptr<Camera> camera = make_camera(view.camera);
   const Deformation deformation(view.deform, view.viewer_xy);
   Grid<float> coarse((dem.width() - 1) / step_cells + 2, (dem.height() - 1) / step_cells + 2);
@@ -98,33 +98,32 @@ Grid<float> ground_m_per_pixel(const Dem& dem, const View& view) {
   std::nth_element(angles.begin(), middle, angles.end());
   for (std::size_t i = 0; i < coarse.size(); ++i)
     if (coarse[i] == 0.F) coarse[i] = *middle * distance_m[i];
-  Grid<float> out(dem.width(), dem.height());
-  parallel_rows(out.height(), [&](int y) {
-    for (int x = 0; x < out.width(); ++x)
-      out(x, y) = sample_bilinear(coarse, static_cast<double>(x) / step_cells, static_cast<double>(y) / step_cells);
-  });
-  return out;
+  return {std::move(coarse), step_cells};
 }
 
 Grid<float> generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
                                 Progress& progress) {
   const SceneGeneralize& wish = loaded.scene.generalize;
+  const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
+  GeneralizeParameters bands = wish.bands;
+  // What takes most memory on its way comes first.
+  Grid<float> plain = wish.line_integral ? generalize_along_slope_lines(dem.altitude_m, dem.cell_m(), {}, progress) : Grid<float>();
   GeneralizeGrids grids;
-  grids.foreground_share = foreground_share(dem, view.viewer_xy, wish);
+  if (wish.automatic_mask) {
+    grids.amplification_mask = slope_foot_mask(dem.altitude_m, cell_m, 1 << std::min<std::size_t>(bands.foreground.size(), 6));
+  }
   if (wish.keep_lakes) grids.keep = find_lakes(dem.altitude_m, {});
   grids.mask = mask_for_scene(loaded, dem, land_cover, progress);
-  GeneralizeParameters bands = wish.bands;
-  if (wish.automatic_mask) {
-    const int reach = 1 << std::min<std::size_t>(bands.foreground.size(), 6);
-    grids.amplification_mask = slope_foot_mask(dem.altitude_m, {dem.transform.cell_x, dem.transform.cell_y}, reach);
-  }
   if (wish.print_detail_px > 0.0) {
-    grids.ground_m_per_pixel = ground_m_per_pixel(dem, view);
+    grids.pixel_ground = ground_m_per_pixel(dem, view);
     bands.print_pixels = static_cast<float>(wish.print_detail_px);
   }
-  Grid<float> out = wish.line_integral ? generalize_along_slope_lines(dem.altitude_m, dem.cell_m(), {}, progress) : Grid<float>();
-  out = generalize(wish.line_integral ? out : dem.altitude_m, {dem.transform.cell_x, dem.transform.cell_y}, grids, bands, progress);
-  if (wish.valleys.width_m > 0.F) out = widen_valleys(out, grids.keep, dem.cell_m(), wish.valleys, progress);
+  grids.foreground_share = foreground_share(dem, view.viewer_xy, wish);
+  Grid<float> out = generalize(wish.line_integral ? plain : dem.altitude_m, cell_m, grids, bands, progress);
+  plain = {};
+  const Grid<unsigned char> lakes = std::move(grids.keep);
+  grids = {};
+  if (wish.valleys.width_m > 0.F) out = widen_valleys(out, lakes, dem.cell_m(), wish.valleys, progress);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include "renderer/base/progress.h"
 #include "renderer/scene_file.h"
 #include "renderer/view.h"
+#include "terrain/generalize.h"
 #include "terrain/land_cover.h"
 
 namespace belvedere {
@@ -12,8 +13,8 @@ namespace belvedere {
 Grid<float> generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
                                 Progress& progress);
 
-// Ground metres that an output pixel shows, at every cell of the DEM, in the direction in which the picture shows most: what is
+// Ground metres that an output pixel shows, at every 16th cell of the DEM, in the direction in which the picture shows most: what is
 // finer cannot be seen however the ground lies. Behind the eye it goes on as the distance does. Empty where no ground is before it.
-Grid<float> ground_m_per_pixel(const Dem& dem, const View& view);
+PixelGround ground_m_per_pixel(const Dem& dem, const View& view);
 
 }  // namespace belvedere

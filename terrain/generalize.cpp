@@ -20,14 +20,22 @@ namespace {
 // The stage works on the change, D = A' - A: with D_n = 0 and D_i = expand(D_i+1) + (w_i - 1) L_i it needs no band grids, keeps
 // the float's precision for the small numbers, and unit weights change nothing at all. An empty grid is a change of 0.
 
-// Coarser Gaussian levels of a grid that the caller holds.
-class LevelsOf {
+// The Gaussian levels of a grid that the caller holds. A level that is done with goes, so that the finest, where all the memory is, stand
+// alone at the end.
+class Levels {
  public:
-  LevelsOf(const Grid<float>& finest, int bands) : finest_(finest) {
-    for (int i = 1; i < bands && !finest.empty(); ++i) coarser_.push_back(reduce(i == 1 ? finest : coarser_.back()));
+  Levels(const Grid<float>& finest, int bands) : Levels(finest, finest, bands) {}
+  // Coarser levels of another grid, of which nothing is kept.
+  Levels(const Grid<float>& finest, const Grid<float>& coarsened, int bands) : finest_(finest) {
+    for (int i = 1; i < bands && !coarsened.empty(); ++i) coarser_.push_back(reduce(i == 1 ? coarsened : coarser_.back()));
   }
+  // The coarsest that is left; null where the grid is empty.
   const Grid<float>* at(int level) const {
-    return finest_.empty() ? nullptr : level == 0 ? &finest_ : &coarser_[static_cast<std::size_t>(level) - 1];
+    if (level > 0) return coarser_.empty() ? nullptr : &coarser_[static_cast<std::size_t>(level) - 1];
+    return finest_.empty() ? nullptr : &finest_;
+  }
+  void drop(int level) {
+    if (level > 0 && !coarser_.empty()) coarser_.resize(static_cast<std::size_t>(level) - 1);
   }
 
  private:
@@ -49,9 +57,8 @@ void check(const Grid<float>& altitude_m, const GeneralizeGrids& grids, const Ge
   check_number("background_ridges", parameters.background_ridges, bands);
   check_number("background_valleys", parameters.background_valleys, bands);
   const auto fits = [&](const auto& grid) { return grid.empty() || grid.same_size(altitude_m); };
-  if (!fits(grids.foreground_share) || !fits(grids.keep) || !fits(grids.mask) || !fits(grids.amplification_mask) ||
-      !fits(grids.ground_m_per_pixel)) {
-    throw Error(ErrorKind::bug, "generalize", "a foreground, lake, mask or ground grid whose size is not the DEM's");
+  if (!fits(grids.foreground_share) || !fits(grids.keep) || !fits(grids.mask) || !fits(grids.amplification_mask)) {
+    throw Error(ErrorKind::bug, "generalize", "a foreground, lake or mask grid whose size is not the DEM's");
   }
 }
 
@@ -79,11 +86,13 @@ BreakLines break_lines_of(const GeneralizeParameters& parameters, int level, glm
   return lines;
 }
 
-// 1 where the terrain may change, 0 in lakes.
-Grid<float> free_of_lakes(const Grid<unsigned char>& keep) {
-  Grid<float> free(keep.width(), keep.height());
-  std::transform(keep.begin(), keep.end(), free.begin(), [](unsigned char k) { return k == 0 ? 1.F : 0.F; });
-  return free;
+// The mask that coarser bands see: 0 in lakes as well.
+Grid<float> without_lakes(const Grid<float>& mask, const Grid<unsigned char>& keep) {
+  Grid<float> out(keep.width(), keep.height());
+  parallel_rows(out.height(), [&](int y) {
+    for (int x = 0; x < out.width(); ++x) out(x, y) = keep(x, y) != 0 ? 0.F : mask.empty() ? 1.F : mask(x, y);
+  });
+  return out;
 }
 
 }  // namespace
@@ -103,12 +112,9 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m, const G
     levels_m.push_back(reduce(i == 0 ? altitude_m : levels_m.back()));
     progress.advance(1.0);
   }
-  const Grid<float> free = has_lakes ? free_of_lakes(grids.keep) : Grid<float>();
-  const LevelsOf share(grids.foreground_share, bands);
-  const LevelsOf free_levels(free, bands);
-  const LevelsOf mask(grids.mask, bands);
-  const LevelsOf amplify(grids.amplification_mask, bands);
-  const LevelsOf ground(grids.ground_m_per_pixel, bands);
+  Levels mask = has_lakes ? Levels(grids.mask, without_lakes(grids.mask, grids.keep), bands) : Levels(grids.mask, bands);
+  Levels share(grids.foreground_share, bands);
+  Levels amplify(grids.amplification_mask, bands);
 
   Grid<float> change;
   for (int i = bands - 1; i >= 0; --i) {
@@ -117,17 +123,21 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m, const G
     band.coarser = &levels_m[static_cast<std::size_t>(i)];
     band.coarser_change = &change;
     band.share = share.at(i);
-    band.free = free_levels.at(i);
+    band.keep = i == 0 && has_lakes ? &grids.keep : nullptr;
     band.mask = mask.at(i);
     band.amplify = amplify.at(i);
-    band.ground_m_per_pixel = ground.at(i);
+    band.pixel_ground = grids.pixel_ground.m_per_pixel.empty() ? nullptr : &grids.pixel_ground;
+    band.level_cells = 1 << i;
     change = add_band(band, weights_of(parameters, i, 0.5 * (cell_m.x + cell_m.y)), break_lines_of(parameters, i, cell_m));
+    for (Levels* levels : {&share, &mask, &amplify}) levels->drop(i);
+    if (parameters.crest <= 0.F || i >= crest_bands) levels_m[static_cast<std::size_t>(i)] = {};
     progress.advance(1.0);
   }
   if (parameters.crest > 0.F && reductions > 0) {
     if (change.empty()) change = Grid<float>(altitude_m.width(), altitude_m.height());
-    add_crests(change, levels_m, share.at(0), mask.at(0), amplify.at(0), parameters.crest);
+    add_crests(change, std::move(levels_m), share.at(0), mask.at(0), amplify.at(0), parameters.crest);
   }
+  levels_m = {};
   if (change.empty()) return altitude_m;
   if (has_lakes) settle_around_lakes(change, grids.keep);
   parallel_rows(change.height(), [&](int y) {

@@ -70,8 +70,8 @@ Plan make_plan(const Band& band, const BandWeights& weights, const BreakLines& l
   plan.local = any(weights.near, weights.far, [](const WeightSet& w) { return w.ridges != 0.F || w.valleys != 0.F; });
   plan.sides = any(weights.near, weights.far, [](const WeightSet& w) { return w.ridges != w.valleys; });
   plan.break_lines = plan.local && lines.exponent > 0.F;
-  plan.unchanged = !plan.local && band.ground_m_per_pixel == nullptr &&
-                   !any(weights.near, weights.far, [](const WeightSet& w) { return w.global != 1.F; });
+  plan.unchanged =
+      !plan.local && band.pixel_ground == nullptr && !any(weights.near, weights.far, [](const WeightSet& w) { return w.global != 1.F; });
   // Beyond three deviations lies a 400th of the kernel.
   if (plan.break_lines && lines.blur_cells > 0.0) plan.radius = std::max(1, static_cast<int>(std::ceil(3.0 * lines.blur_cells)));
   plan.taps = gaussian_taps(lines.blur_cells, plan.radius);
@@ -98,6 +98,7 @@ class BandStrip {
         line_(static_cast<std::size_t>(plan.local ? width_ + 2 * plan.radius : 0), 1.F),
         sides_(static_cast<std::size_t>(plan.sides ? width_ : 0)),
         gain_(static_cast<std::size_t>(width_)),
+        ground_(static_cast<std::size_t>(band.pixel_ground != nullptr ? width_ : 0)),
         next_expanded_(std::max(first - plan.radius - 2, 0)),
         next_sum_(std::max(first - plan.radius, 0) - 1),
         next_line_(std::max(first - plan.radius, 0)),
@@ -113,10 +114,10 @@ class BandStrip {
     if (plan_.sides) rows.convex = convex_share(y);
     const auto row = [y](const Grid<float>* grid) { return grid == nullptr ? nullptr : grid->row(y); };
     rows.share = row(band_.share);
-    rows.free = row(band_.free);
+    if (band_.keep != nullptr) rows.keep = band_.keep->row(y);
     rows.mask = row(band_.mask);
     rows.amplify = row(band_.amplify);
-    rows.ground_m_per_pixel = row(band_.ground_m_per_pixel);
+    if (band_.pixel_ground != nullptr) rows.ground_m_per_pixel = ground(y);
     weigh_row(rows, weights_, band_.level->row(y), smooth_[y], width_, gain_.data(), out);
   }
 
@@ -196,6 +197,27 @@ class BandStrip {
     return sides_.data();
   }
 
+  // Ground metres a pixel shows, linear between the places where they are known.
+  const float* ground(int y) {
+    const Grid<float>& known = band_.pixel_ground->m_per_pixel;
+    const float cells = static_cast<float>(band_.level_cells) / static_cast<float>(band_.pixel_ground->step_cells);
+    const auto before = [](float at, int count) { return std::min(static_cast<int>(at), count - 1); };
+    const float v = static_cast<float>(y) * cells;
+    const int j = before(v, known.height());
+    const float down = std::min(v - static_cast<float>(j), 1.F);
+    ground_posts_.resize(static_cast<std::size_t>(known.width()) + 1);
+    for (int i = 0; i <= known.width(); ++i)
+      ground_posts_[static_cast<std::size_t>(i)] = (1.F - down) * known.clamped(i, j) + down * known.clamped(i, j + 1);
+    for (int x = 0; x < width_; ++x) {
+      const float u = static_cast<float>(x) * cells;
+      const int i = before(u, known.width());
+      const float across = std::min(u - static_cast<float>(i), 1.F);
+      const float* post = ground_posts_.data() + i;
+      ground_[static_cast<std::size_t>(x)] = (1.F - across) * post[0] + across * post[1];
+    }
+    return ground_.data();
+  }
+
   const Band& band_;
   const BandWeights& weights_;
   const BreakLines& lines_;
@@ -206,7 +228,8 @@ class BandStrip {
   RowRing sum_;                     // their sum
   RowRing across_;                  // c, blurred along the rows
   RowRing detail_, convex_, both_;  // L_i and its profile
-  std::vector<float> line_, sides_, gain_;
+  std::vector<float> line_, sides_, gain_, ground_;
+  std::vector<float> ground_posts_;
   std::vector<const float*> around_;
   int next_expanded_, next_sum_, next_line_, next_detail_, next_profile_;
 };

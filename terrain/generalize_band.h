@@ -1,6 +1,7 @@
 #pragma once
 
 #include "renderer/base/grid.h"
+#include "terrain/generalize.h"
 #include "terrain/generalize_rows.h"
 
 namespace belvedere {
@@ -19,10 +20,11 @@ struct Band {
   const Grid<float>* coarser = nullptr;
   const Grid<float>* coarser_change = nullptr;
   const Grid<float>* share = nullptr;
-  const Grid<float>* free = nullptr;
+  const Grid<unsigned char>* keep = nullptr;
   const Grid<float>* mask = nullptr;
   const Grid<float>* amplify = nullptr;
-  const Grid<float>* ground_m_per_pixel = nullptr;
+  const PixelGround* pixel_ground = nullptr;
+  int level_cells = 1;  // of the DEM in a cell of this level
 };
 
 // D_i = expand(D_i+1) + (w - 1) L_i, row by row in strips: no grid is made but the result. Empty where nothing changes.

@@ -18,23 +18,23 @@ struct CrestTerms {
   Grid<float> ground_m;
 };
 
-CrestTerms find_crests(const std::vector<Grid<float>>& levels) {
+CrestTerms find_crests(std::vector<Grid<float>> levels) {
   CrestTerms crests;
   const int top = std::min(static_cast<int>(levels.size()), crest_bands) - 1;
   crests.ground_m = levels[static_cast<std::size_t>(top)];
   for (int i = top - 1; i >= 0; --i) {
-    const Grid<float>& level = levels[static_cast<std::size_t>(i)];
     const Grid<float>& coarser = levels[static_cast<std::size_t>(i) + 1];
     const float weight = i == crest_bands - 2 ? 0.6F : 1.F;
-    const int width = level.width();
-    Grid<float> detail(width, level.height());
-    Grid<float> ground(width, level.height());
-    parallel_rows(level.height(), [&](int y) {
+    // Level 1 is not asked for again: row by row it becomes the detail.
+    Grid<float> detail = i == 0 ? std::move(levels[0]) : levels[static_cast<std::size_t>(i)];
+    const int width = detail.width();
+    Grid<float> ground(width, detail.height());
+    parallel_rows(detail.height(), [&](int y) {
       std::vector<float> below(static_cast<std::size_t>(width));
       std::vector<float> smooth(static_cast<std::size_t>(width));
       expand_change_row(crests.detail_m, y, width, below.data());
       expand_row(coarser, y, width, smooth.data());
-      for (int x = 0; x < width; ++x) detail(x, y) = below[x] + weight * (level(x, y) - smooth[x]);
+      for (int x = 0; x < width; ++x) detail(x, y) = below[x] + weight * (detail(x, y) - smooth[x]);
       expand_row(crests.ground_m, y, width, ground.row(y));
     });
     crests.detail_m = std::move(detail);
@@ -45,9 +45,9 @@ CrestTerms find_crests(const std::vector<Grid<float>>& levels) {
 
 }  // namespace
 
-void add_crests(Grid<float>& change, const std::vector<Grid<float>>& levels, const Grid<float>* share, const Grid<float>* mask,
+void add_crests(Grid<float>& change, std::vector<Grid<float>> levels, const Grid<float>* share, const Grid<float>* mask,
                 const Grid<float>* amplify, float strength) {
-  const CrestTerms crests = find_crests(levels);
+  const CrestTerms crests = find_crests(std::move(levels));
   const int width = change.width();
   parallel_rows(change.height(), [&](int y) {
     std::vector<float> detail(static_cast<std::size_t>(width));

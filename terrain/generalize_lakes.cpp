@@ -22,19 +22,46 @@ float unit(float v) { return std::clamp(v, 0.F, 1.F); }
 
 float smoothstep(float t) { return t * t * (3.F - 2.F * t); }
 
-// Distance from a cell to its nearest lake cell, cells; there is a lake.
-float shore_distance(const Grid<std::int32_t>& nearest, int x, int y) {
-  const std::int32_t shore = nearest(x, y);
-  const int across = shore % nearest.width() - x;
-  const int down = shore / nearest.width() - y;
-  const auto dx = static_cast<float>(across);
-  const auto dy = static_cast<float>(down);
-  return std::sqrt(dx * dx + dy * dy);
+// Beyond the reach of the pull's last blur.
+constexpr int reach_cells = 48;
+
+// Squares of the distance from each cell to its nearest lake cell, cells²; out_of_reach beyond reach_cells. Strip by strip, because the
+// nearest cells themselves would take twice the memory.
+using Squares = Grid<std::uint16_t>;
+constexpr int out_of_reach = 65535;
+
+Squares shore_squares(const Grid<unsigned char>& keep) {
+  const int width = keep.width();
+  const int height = keep.height();
+  Squares squares(width, height);
+  constexpr int strip = 256;
+  for (int first = 0; first < height; first += strip) {
+    const int last = std::min(first + strip, height);
+    const int top = std::max(first - reach_cells, 0);
+    Grid<unsigned char> around(width, std::min(last + reach_cells, height) - top);
+    std::copy_n(keep.row(top), around.size(), around.data());
+    const Grid<std::int32_t> nearest = nearest_marked(around);
+    parallel_rows(last - first, [&](int i) {
+      const int y = first - top + i;
+      for (int x = 0; x < width; ++x) {
+        const std::int32_t shore = nearest(x, y);
+        const std::int64_t across = shore % width - x;
+        const std::int64_t down = shore / width - y;
+        const std::int64_t square = across * across + down * down;
+        const bool reached = shore >= 0 && square <= reach_cells * reach_cells;
+        squares(x, first + i) = static_cast<std::uint16_t>(reached ? square : out_of_reach);
+      }
+    });
+  }
+  return squares;
 }
+
+// Distance from a cell to its nearest lake cell, cells; more than reach_cells where that is too far to know.
+float shore_distance(const Squares& squares, int x, int y) { return std::sqrt(static_cast<float>(squares(x, y))); }
 
 // What lakes take off the change around them, in blocks of block_cells: the mean change of the lake cells nearby, fading with the
 // distance. The last blur rounds the creases that the distance has halfway between two shores.
-Grid<float> pull_of_lakes(const Grid<float>& change, const Grid<unsigned char>& keep, const Grid<std::int32_t>& nearest) {
+Grid<float> pull_of_lakes(const Grid<float>& change, const Grid<unsigned char>& keep, const Squares& squares) {
   Grid<float> sum((change.width() + block_cells - 1) / block_cells, (change.height() + block_cells - 1) / block_cells);
   Grid<float> count(sum.width(), sum.height());
   parallel_rows(sum.height(), [&](int block) {
@@ -52,7 +79,7 @@ Grid<float> pull_of_lakes(const Grid<float>& change, const Grid<unsigned char>& 
     for (int x = 0; x < pull.width(); ++x) {
       const int middle_x = std::min(x * block_cells + block_cells / 2, change.width() - 1);
       const int middle_y = std::min(y * block_cells + block_cells / 2, change.height() - 1);
-      const float fade = 1.F - smoothstep(unit(shore_distance(nearest, middle_x, middle_y) / surroundings_cells));
+      const float fade = 1.F - smoothstep(unit(shore_distance(squares, middle_x, middle_y) / surroundings_cells));
       pull(x, y) = count(x, y) > 0.F ? fade * pull(x, y) / count(x, y) : 0.F;
     }
   });
@@ -62,12 +89,12 @@ Grid<float> pull_of_lakes(const Grid<float>& change, const Grid<unsigned char>& 
 }  // namespace
 
 void settle_around_lakes(Grid<float>& change, const Grid<unsigned char>& keep) {
-  const Grid<std::int32_t> nearest = nearest_marked(keep);
-  const Grid<float> pull = pull_of_lakes(change, keep, nearest);
+  const Squares squares = shore_squares(keep);
+  const Grid<float> pull = pull_of_lakes(change, keep, squares);
   parallel_rows(change.height(), [&](int y) {
     for (int x = 0; x < change.width(); ++x) {
-      const float distance = shore_distance(nearest, x, y);
-      if (distance >= 1.5F * surroundings_cells) continue;  // beyond the reach of the last blur
+      const float distance = shore_distance(squares, x, y);
+      if (distance >= static_cast<float>(reach_cells)) continue;
       // Block centres lie at 1.5, 5.5, 9.5… cells.
       const double u = (x - 0.5 * (block_cells - 1)) / block_cells;
       const double v = (y - 0.5 * (block_cells - 1)) / block_cells;

@@ -199,9 +199,9 @@ void WeighRow(const WeightRows& in, const BandWeights& w, const float* level, co
       gain[x] = gain[x] > 0.F ? more : gain[x];
     }
   }
-  if (in.free != nullptr) {
-    const float* m = in.free;
-    for (int x = 0; x < width; ++x) gain[x] *= unit(m[x]);
+  if (in.keep != nullptr) {
+    const unsigned char* k = in.keep;
+    for (int x = 0; x < width; ++x) gain[x] *= k[x] == 0 ? 1.F : 0.F;
   }
   if (in.mask != nullptr) {
     const float* m = in.mask;

@@ -33,12 +33,12 @@ void profile_row(const float* north, const float* here, const float* south, int 
 // Σ convex / Σ both over 3 × 3 cells, rows padded by 1: 1 where all the surroundings are convex, 0 where all are concave, .5 on a plane.
 void convex_share_row(const float* const convex[3], const float* const both[3], int width, float* out);
 
-// Everything that makes the weight of a cell. Null pointers mean: share 1, no break lines, mask 1, free 1, printable.
+// Everything that makes the weight of a cell. Null pointers mean: share 1, no break lines, mask 1, nothing kept, printable.
 struct WeightRows {
   const float* share = nullptr;
-  const float* break_line = nullptr;  // c
-  const float* convex = nullptr;      // share of the ridge set against the valley set; null: they are the same
-  const float* free = nullptr;
+  const float* break_line = nullptr;    // c
+  const float* convex = nullptr;        // share of the ridge set against the valley set; null: they are the same
+  const unsigned char* keep = nullptr;  // != 0: weight 1
   const float* mask = nullptr;
   const float* amplify = nullptr;  // mask of what is above 1
   const float* ground_m_per_pixel = nullptr;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "renderer/base/error.h"
@@ -51,12 +52,12 @@ Grid<float> class_mask(const Grid<LandCoverClass>& classes, const ClassShares& s
 
 Grid<float> slope_foot_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, int reach_cells) {
   const int reach = std::clamp(reach_cells, 2, 256);
-  const Grid<float> slope = smooth_slope(altitude_m, cell_m, 1.5);
+  Grid<float> slope = smooth_slope(altitude_m, cell_m, 1.5);
   Grid<float> near_steep = slope;
   change_cells(near_steep, [](float s, int, int) { return smoothstep(12.0, 20.0, s); });
   // Fades outwards, over as much again.
   near_steep = gaussian_blur(window_maximum(near_steep, reach), 0.35 * reach);
-  Grid<float> mask = slope;
+  Grid<float> mask = std::move(slope);
   change_cells(mask, [](float s, int, int) { return 1.F - smoothstep(3.0, 12.0, s); });
   // The foot itself is concave and steeper than the flat: it belongs to what is kept. Narrow flats, ledges and passes do not.
   mask = window_maximum(window_minimum(mask, 1), 6);

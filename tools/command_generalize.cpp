@@ -241,13 +241,13 @@ int run(const Options& options) {
   const Grid<float> original_m = options.report.empty() ? Grid<float>() : dem.altitude_m;
   dem.altitude_m = operate_before_bands(std::move(dem.altitude_m), cell, options.operators, progress);
   GeneralizeGrids grids;
-  grids.foreground_share = share_by_distance(options, dem, cell_m);
-  if (!options.change_lakes) grids.keep = find_lakes(dem.altitude_m, {});
-  grids.mask = make_mask(options, dem, cell_m, progress);
   const GeneralizePreset* preset = find_generalize_preset(options.preset);
-  if (options.automatic_mask || (preset != nullptr && preset->automatic_mask)) {
+  if (options.automatic_mask || (preset != nullptr && preset->automatic_mask)) {  // first, as it takes most memory on its way
     grids.amplification_mask = slope_foot_mask(dem.altitude_m, cell_m, 1 << std::min<std::size_t>(bands.foreground.size(), 6));
   }
+  if (!options.change_lakes) grids.keep = find_lakes(dem.altitude_m, {});
+  grids.mask = make_mask(options, dem, cell_m, progress);
+  grids.foreground_share = share_by_distance(options, dem, cell_m);
   Grid<float> result_m = generalize(dem.altitude_m, cell_m, grids, bands, progress);
   result_m = operate_after_bands(result_m, grids.keep, cell, options.operators, progress);
 

@@ -37,8 +37,10 @@ TEST(GroundMetresPerPixel, AreThoseOfAPerspectiveOverAPlane) {
   const double h = 2500.0;
   view.camera.eye = {dem.transform.to_crs(80, 0).x, dem.transform.to_crs(0, 112).y, h};
   view.viewer_xy = {view.camera.eye.x, view.camera.eye.y};
-  const Grid<float> shown = ground_m_per_pixel(dem, view);
-  ASSERT_TRUE(shown.same_size(dem.altitude_m));
+  const PixelGround ground = ground_m_per_pixel(dem, view);
+  ASSERT_EQ(ground.step_cells, 16);
+  ASSERT_GE(ground.m_per_pixel.width(), 11);
+  const auto shown = [&](int column, int row) { return ground.m_per_pixel(column / 16, row / 16); };
   const double f = 500.0 / std::tan(30.0 * degree);
   const double sine = std::sin(30.0 * degree);
   const double cosine = std::cos(30.0 * degree);
@@ -72,8 +74,9 @@ TEST(GroundMetresPerPixel, GoOnBehindTheEyeAsTheDistanceDoes) {
   View view;
   view.camera.pitch_deg = -5.0;
   view.camera.eye = {dem.transform.to_crs(48, 48).x, dem.transform.to_crs(48, 48).y, 300.0};
-  const Grid<float> shown = ground_m_per_pixel(dem, view);
-  for (const float metres : shown) ASSERT_TRUE(std::isfinite(metres) && metres > 0.F);
+  const PixelGround ground = ground_m_per_pixel(dem, view);
+  const auto shown = [&](int column, int row) { return ground.m_per_pixel(column / 16, row / 16); };
+  for (const float metres : ground.m_per_pixel) ASSERT_TRUE(std::isfinite(metres) && metres > 0.F);
   const auto distance = [&](int row) { return std::hypot((row - 48) * 100.0, 300.0); };
   EXPECT_NEAR(shown(48, 96) / shown(48, 80), distance(96) / distance(80), 1e-3);
 }

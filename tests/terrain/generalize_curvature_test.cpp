@@ -188,10 +188,10 @@ TEST(GeneralizeCurvature, WhatThePrintCannotShowGoes) {
   const Grid<float> terrain = alpine(128, 128);
   GeneralizeParameters p = everywhere({1.F, 1.F, 1.F});
   GeneralizeGrids grids;
-  grids.ground_m_per_pixel = Grid<float>(128, 128, 1.F);
+  grids.pixel_ground = {Grid<float>(128, 128, 1.F), 1};
   EXPECT_EQ(run(terrain, p, grids), terrain);
   // Wavelengths 120, 240, 480 m; at 110 m a pixel and 2.5 pixels the limit is 275 m: the finest is gone, the coarsest whole.
-  grids.ground_m_per_pixel = Grid<float>(128, 128, 110.F);
+  grids.pixel_ground = {Grid<float>(9, 9, 110.F), 16};
   const float t = 2.F * 240.F / 275.F - 1.F;
   EXPECT_LE(largest_difference(run(terrain, p, grids), run(terrain, everywhere({1.F, t * t * (3.F - 2.F * t), 0.F}))), 5e-3);
 }

@@ -45,7 +45,7 @@ Grid<float> equation_two(const Grid<float>& altitude_m, const std::vector<float>
 Grid<float> generalize(const Grid<float>& altitude_m, const GeneralizeParameters& parameters, const Grid<float>& share = {},
                        const Grid<unsigned char>& keep = {}) {
   return belvedere::generalize(altitude_m, {30.0, 30.0},
-                               {.foreground_share = share, .keep = keep, .mask = {}, .amplification_mask = {}, .ground_m_per_pixel = {}},
+                               {.foreground_share = share, .keep = keep, .mask = {}, .amplification_mask = {}, .pixel_ground = {}},
                                parameters, silent_progress());
 }
 

@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "renderer/base/parallel.h"
+#include "renderer/generalize_view.h"
+#include "renderer/scene_file.h"
 #include "terrain/generalize.h"
 #include "terrain/raster_io.h"
 #include "tools/bench/bench.h"
@@ -36,6 +38,42 @@ GeneralizeParameters full_bands() {
   bands.background_valleys = {0.2F, 0.2F, 0.2F, 0.3F, 0.3F, 0.3F};
   bands.exponent = 0.7F;
   return bands;
+}
+
+// Everything that needs a grid of its own at once: lakes, slope and slope-foot masks, distance, printable detail, crests, six arrays with
+// blur and exponent.
+constexpr const char* everything = R"(version = 1
+[generalize]
+foreground = [1.2, 1.2, 1.1, 1.05, 1.1, 0.9]
+background = [1.5, 1.5, 1.1, 0.6, 0.3, 0.15]
+foreground_ridges = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]
+foreground_valleys = [0.1, 0.1, 0.1, 0.2, 0.2, 0.2]
+background_ridges = [0.2, 0.3, 0.4, 0.5, 0.6, 0.7]
+background_valleys = [0.2, 0.2, 0.2, 0.3, 0.3, 0.3]
+exponent = 0.7
+foreground_to_m = 10000
+background_from_m = 90000
+print_detail_px = 2.5
+mask_slope_deg = [3, 10]
+automatic_mask = true
+crest = 0.9
+keep_lakes = true
+)";
+
+// Most bytes a cell above the DEM while a scene with all of that is generalized, from making the masks to the result.
+double scene_memory(Dem dem, const std::string& more) {
+  // The lowest ground under lakes.
+  const auto [low, high] = std::minmax_element(dem.altitude_m.begin(), dem.altitude_m.end());
+  const float level = *low + 0.15F * (*high - *low);
+  for (float& altitude : dem.altitude_m) altitude = std::max(altitude, level);
+  const LoadedScene loaded = parse_scene(everything + more, "bench", ".", {});
+  View view;
+  view.camera = bench_view(dem, 2400, 1100);
+  view.viewer_xy = {view.camera.eye.x, view.camera.eye.y};
+  const double used_mb = resident_memory_mb();
+  reset_peak_memory();
+  const Grid<float> result = generalize_for_view(loaded, dem, nullptr, view, silent_progress());
+  return (peak_memory_mb() - used_mb) * 1048576.0 / static_cast<double>(result.size());
 }
 
 // Processor seconds that `gdaldem hillshade` needs for the same DEM, or less than 0 where it is not installed. It reads and writes files.
@@ -96,6 +134,9 @@ std::vector<Measurement> bench_generalize(const Options& options) {
     add("generalize_full_two_threads", cells / all[2].wall_s * 1e-6, "Mcells/s");
     // The foreground share, the mask, the result and what is made on the way.
     add("generalize_full_memory", (peak_mb - used_mb) * 1048576.0 / cells, "bytes/cell above the DEM");
+    grids = {};
+    add("generalize_scene_memory", scene_memory(dem, ""), "bytes/cell above the DEM");
+    add("generalize_scene_memory_line_integral", scene_memory(dem, "line_integral = true\n"), "bytes/cell above the DEM");
     const double hillshade_cpu_s = gdaldem_cpu_s(dem);
     if (hillshade_cpu_s > 0.0) add("gdaldem_hillshade", cells / hillshade_cpu_s * 1e-6, "Mcells/CPU s");
   }
