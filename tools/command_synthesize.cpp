@@ -15,6 +15,7 @@
 #include "tools/commands.h"
 #include "tools/synthesis_files.h"
 #include "tools/synthesis_report_page.h"
+#include "tools/synthesis_sweep.h"
 #include "tools/synthesize_replay.h"
 #include "tools/terminal.h"
 
@@ -29,6 +30,7 @@ struct Options {
   std::string match;
   std::string replay;
   std::string report;
+  std::vector<std::string> sweeps;
   SynthesisParameters parameters;
   int threads = 0;
   int memory_mib = 0;
@@ -109,11 +111,42 @@ int run_replay(const Options& options) {
   return 0;
 }
 
+int run_sweep(const Options& options, const SynthesisInputs& inputs, Progress& progress) {
+  std::vector<std::string> guides;
+  for (const Guide& guide : inputs.target.guides) guides.push_back(guide.name);
+  std::vector<SweepAxis> axes;
+  std::string command = describe_command(options);
+  for (const std::string& sweep : options.sweeps) {
+    axes.push_back(parse_sweep(sweep, guides));
+    command += " --sweep " + sweep;
+  }
+  if (axes.size() > 2) throw Error(ErrorKind::usage, "--sweep", fmt::format("stands {} times", axes.size()), "once or twice");
+  if (axes.size() == 2 && axes[0].name == axes[1].name)
+    throw Error(ErrorKind::usage, "--sweep", fmt::format("{} twice", axes[0].name), "two different ones");
+  const int count = write_sweep(options.out,
+                                {.title = std::filesystem::path(options.out).lexically_normal().filename().string(),
+                                 .command = command,
+                                 .axes = axes,
+                                 .exemplars = inputs.exemplars,
+                                 .target = inputs.target,
+                                 .parameters = options.parameters},
+                                progress);
+  if (options.json) print_out(Json::object().add("out", Json::text(options.out)).add("syntheses", Json::number(count)).str() + "\n");
+  return 0;
+}
+
 int run(Options& options) {
   if (options.memory_mib > 0) setenv("BELVEDERE_MEMORY_MIB", std::to_string(options.memory_mib).c_str(), 1);
   if (!options.replay.empty()) return run_replay(options);
-  check_result_name(options.out);
-  check_place(options.out);
+  if (options.sweeps.empty()) {
+    check_result_name(options.out);
+    check_place(options.out);
+  } else {
+    const std::string ending = ending_of(options.out);
+    if (ending == ".png" || ending == ".tif" || ending == ".tiff" || ending == ".exr" || ending == ".jpg")
+      throw Error(ErrorKind::usage, "--out " + options.out, "is no name of a folder", "with --sweep a folder for all results");
+    check_output_folder(options.out);
+  }
   check_place(options.match);
   if (!options.report.empty()) check_output_folder(options.report);
   for (const auto& [name, source, target, weight] : options.guides) options.files.guides.push_back({name, source, target, weight});
@@ -132,6 +165,7 @@ int run(Options& options) {
   const std::string scarcity =
       describe_scarcity(class_supply(inputs.exemplars, inputs.target.label, options.parameters.fallback), class_name_of);
   if (!scarcity.empty()) progress.note(scarcity);
+  if (!options.sweeps.empty()) return run_sweep(options, inputs, progress);
   const MatchField matches = synthesize(inputs.exemplars, inputs.target, options.parameters, progress);
 
   progress.begin("writing", 0.0);
@@ -188,10 +222,11 @@ Command add_synthesize(CLI::App& program) {
   CLI::Option* match =
       command->add_option("--match", options->match, "Also where each pixel was copied from: OpenEXR with channels exemplar, x, y")
           ->type_name("FILE");
-  command
-      ->add_option("--report", options->report,
-                   "Also a folder with index.html: how good the result is, where it comes from, what each guide costs, worst places")
-      ->type_name("DIR");
+  CLI::Option* report =
+      command
+          ->add_option("--report", options->report,
+                       "Also a folder with index.html: how good the result is, where it comes from, what each guide costs, worst places")
+          ->type_name("DIR");
   command->add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
       ->type_name("LABEL LABEL")
       ->allow_extra_args(false);
@@ -212,11 +247,19 @@ Command add_synthesize(CLI::App& program) {
       ->type_name("X")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 100.0));
+  CLI::Option* replay =
+      command
+          ->add_option("--replay", options->replay,
+                       "Lays other layers of the same paintings, one --picture each, exactly where a --match file says; needs no labels")
+          ->type_name("MATCH")
+          ->excludes(label, guide, match, report);
   command
-      ->add_option("--replay", options->replay,
-                   "Lays other layers of the same paintings, one --picture each, exactly where a --match file says; needs no labels")
-      ->type_name("MATCH")
-      ->excludes(label, guide, match);
+      ->add_option("--sweep", options->sweeps,
+                   "Tries several values of seed, levels, reuse, copy-cap, surroundings or of a guide's weight; --out is a folder then. "
+                   "Twice for two at once")
+      ->type_name("NAME=V,V…")
+      ->allow_extra_args(false)
+      ->excludes(match, report, replay);
   command->add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")
       ->type_name("N")
       ->check(CLI::Range(0, 4096));
@@ -232,7 +275,10 @@ Command add_synthesize(CLI::App& program) {
       "--picture, the second to the second, and so on; they all name the same target.\n\n"
       "  belvedere synthesize --replay match.exr --picture style_16bit.tif --out out_16bit.tif\n\n"
       "lays another layer of the same painting (its 16-bit scan, its varnish, its guidance.exr) with all its\n"
-      "bits; the layer has the painting's size.");
+      "bits; the layer has the painting's size.\n\n"
+      "  belvedere synthesize --picture style.png --label style_class.png target_class.png \\\n"
+      "    --guide altitude style_alt.png target_alt.png 1.0 --sweep altitude=0.3,1,3 --sweep reuse=0,1 --out sweep\n\n"
+      "puts six results beside each other: sweep/sheet.png, and their figures in sweep/index.html.");
   return {command, [options] { return run(*options); }};
 }
 

@@ -61,8 +61,12 @@ void ReportFolder::begin_figure(const std::string& id, const std::string& headin
 
 void ReportFolder::next_row() { add("</div><div class=\"row\">"); }
 
-void ReportFolder::picture(const std::string& name, const Grid<glm::vec3>& pixels, const std::string& caption) {
+void ReportFolder::write_picture(const std::string& name, const Grid<glm::vec3>& pixels) const {
   write_png8((std::filesystem::path(folder_) / (name + ".png")).string(), pixels, {});
+}
+
+void ReportFolder::picture(const std::string& name, const Grid<glm::vec3>& pixels, const std::string& caption) {
+  write_picture(name, pixels);
   add(
       fmt::format("<figure style=\"max-width:{1}px\"><img src=\"{0}.png\" width=\"{1}\" height=\"{2}\" "
                   "alt=\"{3}\"><figcaption>{3}</figcaption></figure>",

@@ -26,6 +26,8 @@ class ReportFolder {
   // A row of pictures under a heading, with a sentence on how to read them.
   void begin_figure(const std::string& id, const std::string& heading, const std::string& how_to_read);
   void next_row();
+  // Only the file NAME.png.
+  void write_picture(const std::string& name, const Grid<glm::vec3>& pixels) const;
   void picture(const std::string& name, const Grid<glm::vec3>& pixels, const std::string& caption);
   void end_figure();
 

@@ -29,23 +29,24 @@ double largest(const SynthesisQuality& quality, double ClassQuality::*value) {
 
 std::vector<QualityFigure> key_figures(const SynthesisQuality& q) {
   return {
-      {"label_agreement", "texels of the class asked for, share", q.label_agreement, 1.0, 1.0},
-      {"guide_error_mean", "guide off by, mean, 0–255", q.guide_error_mean, 0.0, 2.2},
-      {"guide_error_95", "guide off by, 95th percentile", q.guide_error_95, 0.0, any},
-      {"sharpness", "sharpness against the painting, worst class", farthest_from_one(q, &ClassQuality::sharpness), 0.95, 1.05},
-      {"clique_distance", "strokes' clique distance, worst class, 0–2", largest(q, &ClassQuality::clique_distance), 0.0, 0.08},
-      {"colour_distance", "colours' distance, worst class, grey levels", largest(q, &ClassQuality::colour_distance), 0.0, 3.0},
-      {"stroke_run", "length of strokes against the painting, worst class", farthest_from_one(q, &ClassQuality::stroke_run), 0.85, 1.15},
-      {"largest_piece", "largest piece copied whole, pixels", static_cast<double>(q.largest_piece), 0.0, 250.0},
-      {"most_used", "uses of the texel used most", static_cast<double>(q.most_used), 0.0, 12.0},
-      {"self_repeat", "self-repetition against the painting", q.self_repeat, 0.9, 1.1},
-      {"specks_inside", "specks inside classes against the painting", q.specks_inside, 0.0, 1.2},
-      {"specks_border", "specks at borders against the painting", q.specks_border, 0.0, 1.2},
-      {"coverage", "texels used at all, share", q.coverage, 0.0, any},
-      {"coherence", "neighbours copied together, share", q.coherence, 0.0, any},
-      {"across_silhouettes", "of those across silhouettes, share", q.across_silhouettes, 0.0, 0.0},
-      {"without_texel", "pixels without a texel", static_cast<double>(q.without_texel), 0.0, 0.0},
-      {"excluded_used", "pixels that copy what is excluded", static_cast<double>(q.excluded_used), 0.0, 0.0}};
+      {"label_agreement", "texels of the class asked for, share", "class", q.label_agreement, 1.0, 1.0},
+      {"guide_error_mean", "guide off by, mean, 0–255", "guide", q.guide_error_mean, 0.0, 2.2},
+      {"guide_error_95", "guide off by, 95th percentile", "guide 95 %", q.guide_error_95, 0.0, any},
+      {"sharpness", "sharpness against the painting, worst class", "sharpness", farthest_from_one(q, &ClassQuality::sharpness), 0.95, 1.05},
+      {"clique_distance", "strokes' clique distance, worst class, 0–2", "clique", largest(q, &ClassQuality::clique_distance), 0.0, 0.08},
+      {"colour_distance", "colours' distance, worst class, grey levels", "colour", largest(q, &ClassQuality::colour_distance), 0.0, 3.0},
+      {"stroke_run", "length of strokes against the painting, worst class", "strokes", farthest_from_one(q, &ClassQuality::stroke_run),
+       0.85, 1.15},
+      {"largest_piece", "largest piece copied whole, pixels", "piece", static_cast<double>(q.largest_piece), 0.0, 250.0},
+      {"most_used", "uses of the texel used most", "used", static_cast<double>(q.most_used), 0.0, 12.0},
+      {"self_repeat", "self-repetition against the painting", "repetition", q.self_repeat, 0.9, 1.1},
+      {"specks_inside", "specks inside classes against the painting", "specks", q.specks_inside, 0.0, 1.2},
+      {"specks_border", "specks at borders against the painting", "specks, border", q.specks_border, 0.0, 1.2},
+      {"coverage", "texels used at all, share", "texels", q.coverage, 0.0, any},
+      {"coherence", "neighbours copied together, share", "together", q.coherence, 0.0, any},
+      {"across_silhouettes", "of those across silhouettes, share", "silhouettes", q.across_silhouettes, 0.0, 0.0},
+      {"without_texel", "pixels without a texel", "empty", static_cast<double>(q.without_texel), 0.0, 0.0},
+      {"excluded_used", "pixels that copy what is excluded", "excluded", static_cast<double>(q.excluded_used), 0.0, 0.0}};
 }
 
 Json quality_json(const SynthesisQuality& quality, const std::function<std::string(std::uint8_t)>& class_name) {

@@ -30,8 +30,9 @@ void write_synthesis_report(const std::string& folder, const SynthesisReportInpu
 
 // A figure of the quality of a synthesis, what it is, and the range in which eyes are content.
 struct QualityFigure {
-  std::string key;   // in JSON
-  std::string name;  // on pages
+  std::string key;    // in JSON
+  std::string name;   // on pages
+  std::string brief;  // at the head of a column
   double value = 0.0;
   double least = 0.0;
   double most = 0.0;
