@@ -101,8 +101,8 @@ PixelGround ground_m_per_pixel(const Dem& dem, const View& view) {
   return {std::move(coarse), step_cells};
 }
 
-Grid<float> generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
-                                Progress& progress) {
+GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
+                                       Progress& progress) {
   const SceneGeneralize& wish = loaded.scene.generalize;
   const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
   GeneralizeParameters bands = wish.bands;
@@ -123,8 +123,9 @@ Grid<float> generalize_for_view(const LoadedScene& loaded, const Dem& dem, const
   plain = {};
   const Grid<unsigned char> lakes = std::move(grids.keep);
   grids = {};
-  if (wish.valleys.width_m > 0.F) out = widen_valleys(out, lakes, dem.cell_m(), wish.valleys, progress);
-  return out;
+  if (wish.valleys.width_m <= 0.F) return {std::move(out), {}};
+  WidenedValleys wide = widen_valleys(out, lakes, dem.cell_m(), wish.valleys, progress);
+  return {std::move(wide.altitude_m), std::move(wide.came_from)};
 }
 
 }  // namespace belvedere

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/vec2.hpp>
+
 #include "renderer/base/progress.h"
 #include "renderer/scene_file.h"
 #include "renderer/view.h"
@@ -8,10 +10,15 @@
 
 namespace belvedere {
 
+struct GeneralizedTerrain {
+  Grid<float> altitude_m;
+  Grid<glm::vec2> came_from;  // WidenedValleys::came_from; empty where no ground moved
+};
+
 // A DEM generalized as the scene asks for one view: by the distance from the viewer, by what its print can show, and by masks. `land_cover`
 // is looked at where the scene masks by class; null: it is made then. Its cells are the DEM's.
-Grid<float> generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
-                                Progress& progress);
+GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
+                                       Progress& progress);
 
 // Ground metres that an output pixel shows, at every 16th cell of the DEM, in the direction in which the picture shows most: what is
 // finer cannot be seen however the ground lies. Behind the eye it goes on as the distance does. Empty where no ground is before it.

@@ -98,12 +98,13 @@ LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progr
 }
 
 Ground make_ground(const LoadedScene& loaded, Dem dem, LandCover land_cover, const View& view, Progress& progress) {
-  Grid<float> generalized_m = generalize_for_view(loaded, dem, &land_cover, view, progress);
+  GeneralizedTerrain shown = generalize_for_view(loaded, dem, &land_cover, view, progress);
   // The eye's place at altitude 0 is the origin of everything that becomes float.
   const glm::dvec3 origin{view.viewer_xy, 0.0};
   Deformation deformation(view.deform, view.viewer_xy);
-  DeformedSurface surface = deform(generalized_m, dem.transform, origin, deformation);
-  TerrainModel model = make_terrain_model(std::move(dem), std::move(generalized_m), std::move(land_cover), view.deform.exaggeration);
+  DeformedSurface surface = deform(shown.altitude_m, dem.transform, origin, deformation);
+  TerrainModel model = make_terrain_model(std::move(dem), std::move(shown.altitude_m), std::move(land_cover), view.deform.exaggeration);
+  model.came_from = std::move(shown.came_from);
   if (deformation.is_local()) model.local = deformation;
   return {std::move(deformation), std::move(model), std::move(surface)};
 }

@@ -57,7 +57,8 @@ struct Seen {
 };
 
 LandCoverClass class_at(const TerrainModel& terrain, double column, double row) {
-  const glm::dvec2 place = terrain.dem.transform.to_crs(column, row);
+  const glm::dvec2 origin = origin_of(terrain, column, row);
+  const glm::dvec2 place = terrain.dem.transform.to_crs(origin.x, origin.y);
   const LandCoverClass found = terrain.land_cover.at(place.x, place.y);
   return found == LandCoverClass::sky ? LandCoverClass::rock : found;
 }

@@ -96,14 +96,23 @@ glm::dvec2 sample_gradient(const Grid<float>& altitude_m, const GeoTransform& tr
   return gradient(altitude_m, transform, corners(altitude_m, column, row));
 }
 
+glm::dvec2 origin_of(const TerrainModel& terrain, double column, double row) {
+  glm::dvec2 origin(column, row);
+  if (terrain.came_from.empty()) return origin;
+  const Corners at = corners(terrain.generalized_m, column, row);
+  return origin + at.blend([&](int x, int y) { return glm::dvec2(terrain.came_from(x, y)); });
+}
+
 GroundValues sample_ground(const TerrainModel& terrain, const DeformedSurface& surface, const Camera& camera, double column, double row) {
   const GeoTransform& transform = terrain.dem.transform;
-  const Corners at = corners(terrain.dem.altitude_m, column, row);
+  const Corners at = corners(terrain.generalized_m, column, row);
+  const glm::dvec2 origin = origin_of(terrain, column, row);
+  const Corners known = corners(terrain.dem.altitude_m, origin.x, origin.y);
   GroundValues ground;
-  ground.place = glm::dvec3(transform.to_crs(column, row), bilinear(terrain.dem.altitude_m, at));
+  ground.place = glm::dvec3(transform.to_crs(column, row), bilinear(terrain.dem.altitude_m, known));
 
   const glm::dvec2 slope_shown = gradient(terrain.generalized_m, transform, at);
-  const glm::dvec2 slope_detail = gradient(terrain.dem.altitude_m, transform, at);
+  const glm::dvec2 slope_detail = gradient(terrain.dem.altitude_m, transform, known);
   const glm::dvec2 shape = gradient(terrain.shape_smooth_m, transform, at);
   if (terrain.local) {
     const glm::dmat3 jacobian = terrain.local->shape_jacobian({glm::dvec2(ground.place), bilinear(terrain.generalized_m, at)});
@@ -117,18 +126,18 @@ GroundValues sample_ground(const TerrainModel& terrain, const DeformedSurface& s
   }
   ground.fall_line = image_fall_line(terrain, surface, camera, column, row, shape);
 
-  const glm::dvec2 slope = gradient(terrain.detail_smooth_m, transform, at);
+  const glm::dvec2 slope = gradient(terrain.detail_smooth_m, transform, known);
   ground.slope_deg = static_cast<float>(to_degrees(std::atan(glm::length(slope))));
   // Downhill is against the gradient; flat ground has aspect 0.
   if (slope != glm::dvec2(0.0)) {
     const double aspect = to_degrees(std::atan2(-slope.x, -slope.y));
     ground.aspect_deg = static_cast<float>(aspect < 0.0 ? aspect + 360.0 : aspect);
   }
-  ground.relief_s_m = bilinear(terrain.relief_s_m, at);
-  ground.relief_m_m = bilinear(terrain.relief_m_m, at);
-  ground.relief_l_m = bilinear(terrain.relief_l_m, at);
+  ground.relief_s_m = bilinear(terrain.relief_s_m, known);
+  ground.relief_m_m = bilinear(terrain.relief_m_m, known);
+  ground.relief_l_m = bilinear(terrain.relief_l_m, known);
   ground.ridge = ground.relief_s_m / (std::abs(ground.relief_s_m) + ridge_scale_m);
-  ground.valley_height_m = bilinear(terrain.valley_height_m, at);
+  ground.valley_height_m = bilinear(terrain.valley_height_m, known);
   ground.rim_m = bilinear(terrain.rim_m, at);
   return ground;
 }

@@ -15,9 +15,12 @@ namespace belvedere {
 // bilinearly, so it is continuous and shows no facets.
 glm::dvec2 sample_gradient(const Grid<float>& altitude_m, const GeoTransform& transform, double column, double row);
 
+// The place in columns and rows where the ground seen here was before valleys were widened: what lies on it lies there.
+glm::dvec2 origin_of(const TerrainModel& terrain, double column, double row);
+
 // Everything of a pixel that depends on the place alone.
 struct GroundValues {
-  glm::dvec3 place{0.0};  // undeformed, scene CRS and altitude
+  glm::dvec3 place{0.0};  // undeformed, scene CRS; the altitude is that of the ground that lies here, wherever it came from
   glm::vec3 normal{0.F}, normal_detail{0.F}, normal_smooth{0.F};
   float slope_deg = 0.F;
   float aspect_deg = 0.F;

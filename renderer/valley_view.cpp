@@ -55,7 +55,7 @@ BareView make_bare_view(const LoadedScene& loaded, Progress& progress) {
   bare.dem = make_scene_dem(loaded, progress);
   bare.view = make_view(loaded.scene, bare.dem, progress);
   bare.camera = make_camera(bare.view.camera);
-  bare.generalized_m = generalize_for_view(loaded, bare.dem, nullptr, bare.view, progress);
+  bare.generalized_m = generalize_for_view(loaded, bare.dem, nullptr, bare.view, progress).altitude_m;
   bend_anew(bare, bare.view.deform.bend);
   return bare;
 }

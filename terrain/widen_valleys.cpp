@@ -17,6 +17,8 @@ namespace {
 
 // A floor's altitude is that of the water's course beside it, smoothed over so many cells: courses run in stairs.
 constexpr double floor_smoothing_cells = 3.0;
+// So far beside the course lies the water with its banks: it does not become as wide as the new floor.
+constexpr float water_cells = 1.5F;
 
 float smoothstep(float t) {
   t = std::clamp(t, 0.F, 1.F);
@@ -116,6 +118,21 @@ Shift find_shifts(const Grid<float>& moves, const Valleys& valleys) {
   return shift;
 }
 
+// Where the ground of each cell came from. The same move, but water and banks stay beside the course, and what has no wall any more takes
+// what lies at the bank.
+Grid<glm::vec2> find_origins(const Grid<float>& moves, const Valleys& valleys, const Grid<std::uint8_t>& keep) {
+  Grid<glm::vec2> out(moves.width(), moves.height());
+  parallel_rows(moves.height(), [&](int y) {
+    for (int x = 0; x < moves.width(); ++x) {
+      const float distance = distance_to_course(valleys.course, x, y);
+      if (distance <= water_cells || (!keep.empty() && keep(x, y) != 0)) continue;
+      const float share = std::min(moves(x, y), distance - water_cells) / distance;
+      out(x, y) = share * glm::vec2(valleys.course(x, y) % moves.width() - x, valleys.course(x, y) / moves.width() - y);
+    }
+  });
+  return out;
+}
+
 // Cubic convolution (Catmull–Rom): keeps the detail of walls that moved by parts of a cell. Whole places give their cell exactly.
 float sample_cubic(const Grid<float>& values, float x, float y) {
   const float fx = std::floor(x);
@@ -154,15 +171,15 @@ void check(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep, const 
 
 }  // namespace
 
-Grid<float> widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep, double cell_m,
-                          const WidenValleysParameters& parameters, Progress& progress) {
+WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep, double cell_m,
+                             const WidenValleysParameters& parameters, Progress& progress) {
   check(altitude_m, keep, parameters);
   progress.begin("widen valleys", 4.0);
-  if (parameters.width_m <= 0.F || altitude_m.empty()) return altitude_m;
+  if (parameters.width_m <= 0.F || altitude_m.empty()) return {altitude_m, {}};
   const Valleys valleys = find_valleys(altitude_m, cell_m, parameters);
   if (valleys.course[0] < 0) {
     progress.note(fmt::format("no valley has a catchment of {} km²: none is widened", parameters.least_catchment_km2));
-    return altitude_m;
+    return {altitude_m, {}};
   }
   progress.advance(1.0);
   const Grid<float> moves = find_moves(altitude_m, valleys, cell_m, parameters);
@@ -192,7 +209,7 @@ Grid<float> widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint8_t
     }
   });
   progress.advance(1.0);
-  return out;
+  return {std::move(out), find_origins(moves, valleys, keep)};
 }
 
 }  // namespace belvedere

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 
 #include "renderer/base/grid.h"
 #include "renderer/base/progress.h"
@@ -19,9 +20,16 @@ struct WidenValleysParameters {
   float fade_height = 0.6F;         // part of a valley's depth at which its walls no longer move; 0.1…1
 };
 
+struct WidenedValleys {
+  Grid<float> altitude_m;
+  // Columns and rows from each cell to where its ground was before: what lies on the ground (land cover, the altitude that it is painted
+  // by) is looked up there. A new floor takes what lies beside the water's course. Empty where nothing moved.
+  Grid<glm::vec2> came_from;
+};
+
 // Cells of `keep` != 0 (lakes) stay; empty: none. No hollow is left that was not there before. Cells finite.
 // Throws Error(usage) for values out of range, Error(bug) where grids differ in size.
-Grid<float> widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep, double cell_m,
-                          const WidenValleysParameters& parameters, Progress& progress);
+WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep, double cell_m,
+                             const WidenValleysParameters& parameters, Progress& progress);
 
 }  // namespace belvedere

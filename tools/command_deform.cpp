@@ -184,7 +184,7 @@ void write_dem(const LoadedScene& loaded, const DeformOptions& options, Report& 
   if (is_scene(options)) {
     const View view = make_view(loaded.scene, dem, progress);
     viewer = view.viewer_xy;
-    const Grid<float> shown = generalize_for_view(loaded, dem, nullptr, view, progress);
+    const Grid<float> shown = generalize_for_view(loaded, dem, nullptr, view, progress).altitude_m;
     for (std::size_t i = 0; i < ground.size(); ++i)
       if (!std::isnan(ground[i])) ground[i] = shown[i];
   }

@@ -38,7 +38,7 @@ Grid<float> operate_after_bands(const Grid<float>& altitude_m, const Grid<std::u
                                 const TerrainOperators& operators, Progress& progress) {
   WidenValleysParameters valleys;
   valleys.width_m = operators.widen_valleys_m;
-  return valleys.width_m == 0.F ? altitude_m : widen_valleys(altitude_m, keep, cell_m, valleys, progress);
+  return valleys.width_m == 0.F ? altitude_m : widen_valleys(altitude_m, keep, cell_m, valleys, progress).altitude_m;
 }
 
 void write_products(const Raster<float>& result, const TerrainOperators& operators, Progress& progress) {

@@ -99,7 +99,7 @@ class ViewedGround : public testing::Test {
   Grid<float> seen(const LoadedScene& loaded, const View* view = nullptr) const {
     const Dem dem = make_scene_dem(loaded, silent_progress());
     const View made = make_view(loaded.scene, dem, silent_progress());
-    return generalize_for_view(loaded, dem, nullptr, view == nullptr ? made : *view, silent_progress());
+    return generalize_for_view(loaded, dem, nullptr, view == nullptr ? made : *view, silent_progress()).altitude_m;
   }
   // Straight down from so high that a pixel shows so many metres.
   static View from_above(double m_per_pixel) {

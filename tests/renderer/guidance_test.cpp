@@ -157,6 +157,29 @@ TEST(Guidance, LevelGroundIsLitOpenAndFlat) {
   EXPECT_GT(ground, 2000);
 }
 
+TEST(Guidance, GroundThatMovedTakesAlongWhatLiesOnIt) {
+  // The ground rises to the east, with a forest from 3 km on; all of it came from ten cells farther west.
+  World world = make_world(
+      200, 200, [](double x, double) { return 500.0 + 0.1 * x; },
+      [](double x, double) { return x > 3000.0 ? LandCoverClass::forest : LandCoverClass::alpine_grass; });
+  world.terrain.came_from = Grid<glm::vec2>(200, 200, glm::vec2(-10.F, 0.F));
+  const auto camera = make_camera(southward(96, 64));
+  const GuidanceBuffers b = trace(world, *camera);
+  int forest = 0;
+  int grass = 0;
+  for (std::size_t i = 0; i < b.depth_m.size(); ++i) {
+    if (b.is_sky(i)) continue;
+    const double east = b.origin_m.x + b.position_m[i].x - 650015.0;  // from the first post
+    if (east < 320.0 || east > 5900.0) continue;
+    EXPECT_NEAR(b.altitude_m[i], 500.0 + 0.1 * (east - 300.0), 0.1);
+    if (std::abs(east - 3300.0) < 100.0) continue;
+    (east > 3300.0 ? forest : grass) += 1;
+    EXPECT_EQ(b.land_cover[i], east > 3300.0 ? LandCoverClass::forest : LandCoverClass::alpine_grass) << east;
+  }
+  EXPECT_GT(forest, 200);
+  EXPECT_GT(grass, 200);
+}
+
 // The distance to the border of the data, or to a void that reaches it; a void in the middle is mended and counts as ground.
 TEST(Guidance, RimIsTheDistanceToTheEndOfTheKnownTerrain) {
   constexpr int side = 200;

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <string>
 
 #include "renderer/base/error.h"
+#include "renderer/base/filter.h"
 #include "renderer/base/parallel.h"
 #include "terrain/hydrology.h"
 #include "terrain/raster_io.h"
@@ -41,7 +43,7 @@ WidenValleysParameters wish(float width_m) {
 }
 
 Grid<float> widen(const Grid<float>& altitude_m, const WidenValleysParameters& parameters, const Grid<std::uint8_t>& keep = {}) {
-  return widen_valleys(altitude_m, keep, cell_m, parameters, silent_progress());
+  return widen_valleys(altitude_m, keep, cell_m, parameters, silent_progress()).altitude_m;
 }
 
 // Width of the ground lower than `above_m` over the course in this row, m, between the walls' crossings.
@@ -117,6 +119,32 @@ TEST(WidenValleys, LakesStay) {
       EXPECT_EQ(out[i], valley[i]);
     }
   }
+}
+
+TEST(WidenValleys, EachCellKnowsWhereItsGroundCameFrom) {
+  const Grid<float> valley = make_valley(0.0);
+  Grid<std::uint8_t> keep(valley.width(), valley.height());
+  keep(95, 100) = 1;
+  const WidenedValleys wide = widen_valleys(valley, keep, cell_m, wish(480.F), silent_progress());
+  ASSERT_TRUE(wide.came_from.same_size(valley));
+  for (int y = 120; y < 240; y += 10) {
+    // What lay on the wall 12 cells beside the course lies 8 cells farther off now, half of 480 m.
+    for (const int side : {-1, 1}) {
+      EXPECT_NEAR(wide.came_from(100 + side * 20, y).x, -side * 8.0, 0.5) << y;
+      EXPECT_NEAR(wide.came_from(100 + side * 20, y).y, 0.0, 0.5);
+      // The new floor comes from the bank, not from the water.
+      EXPECT_NEAR(5.0 * side + wide.came_from(100 + side * 5, y).x, 1.5 * side, 0.1);
+      EXPECT_NEAR(glm::length(wide.came_from(100 + side, y)), 0.0, 0.0);
+      EXPECT_NEAR(glm::length(wide.came_from(100 + side * 89, y)), 0.0, 0.1);  // the ridge
+    }
+    // On the walls altitude goes along.
+    for (int x = 115; x < 185; ++x) {
+      const glm::vec2 from = glm::vec2(x, y) + wide.came_from(x, y);
+      EXPECT_NEAR(wide.altitude_m(x, y), sample_bilinear(valley, from.x, from.y), 8.0) << x << " " << y;
+    }
+  }
+  EXPECT_EQ(wide.came_from(95, 100), glm::vec2(0.F));
+  EXPECT_TRUE(widen_valleys(valley, {}, cell_m, wish(0.F), silent_progress()).came_from.empty());
 }
 
 TEST(WidenValleys, OneOrTwoThreadsAndFaults) {

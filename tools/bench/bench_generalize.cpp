@@ -72,7 +72,7 @@ double scene_memory(Dem dem, const std::string& more) {
   view.viewer_xy = {view.camera.eye.x, view.camera.eye.y};
   const double used_mb = resident_memory_mb();
   reset_peak_memory();
-  const Grid<float> result = generalize_for_view(loaded, dem, nullptr, view, silent_progress());
+  const Grid<float> result = generalize_for_view(loaded, dem, nullptr, view, silent_progress()).altitude_m;
   return (peak_memory_mb() - used_mb) * 1048576.0 / static_cast<double>(result.size());
 }
 
