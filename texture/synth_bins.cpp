@@ -29,28 +29,50 @@ void to_quantiles(const std::int64_t* histogram, int values, std::uint8_t* quant
   }
 }
 
-// Deviation of luminance over the 7 × 7 around each texel of a row; the square root of an exact integer, so the same anywhere.
+// Deviation of luminance over those of the 7 × 7 around each texel of a row that are of its class, so that a border of classes is no
+// contrast of either; the square root of an exact integer, so the same anywhere.
 void contrast_row(const Plane& plane, std::uint32_t row, int width, std::vector<std::uint16_t>& out) {
-  std::vector<int> sum(static_cast<std::size_t>(width + side - 1));
-  std::vector<int> squares(sum.size());
-  for (std::size_t i = 0; i < sum.size(); ++i) {
+  const std::size_t columns = static_cast<std::size_t>(width + side - 1);
+  std::vector<int> sum(columns);
+  std::vector<int> squares(columns);
+  std::vector<std::uint32_t> column_class(columns);  // no_class where a column has several
+  const std::uint32_t* words = plane.words.data();
+  const auto at = [&](std::size_t i, int j) {
+    return static_cast<std::size_t>(static_cast<std::int64_t>(row) - patch_radius + static_cast<std::int64_t>(i) +
+                                    static_cast<std::int64_t>(j) * plane.stride);
+  };
+  for (std::size_t i = 0; i < columns; ++i) {
+    column_class[i] = class_of(words[at(i, 0)]);
     for (int j = -patch_radius; j <= patch_radius; ++j) {
-      const std::int64_t at =
-          static_cast<std::int64_t>(row) - patch_radius + static_cast<std::int64_t>(i) + static_cast<std::int64_t>(j) * plane.stride;
-      const int value = luminance(plane.words[static_cast<std::size_t>(at)]);
+      const std::uint32_t word = words[at(i, j)];
+      const int value = luminance(word);
       sum[i] += value;
       squares[i] += value * value;
+      if (class_of(word) != column_class[i]) column_class[i] = no_class;
     }
   }
   for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
+    const std::uint32_t own = class_of(words[row + x]);
     std::int64_t s = 0;
     std::int64_t s2 = 0;
-    for (std::size_t i = 0; i < side; ++i) {
-      s += sum[x + i];
-      s2 += squares[x + i];
+    std::int64_t count = 0;
+    for (std::size_t i = x; i < x + side; ++i) {
+      if (column_class[i] == own) {
+        s += sum[i];
+        s2 += squares[i];
+        count += side;
+        continue;
+      }
+      for (int j = -patch_radius; j <= patch_radius; ++j) {
+        const std::uint32_t word = words[at(i, j)];
+        if (class_of(word) != own) continue;
+        const int value = luminance(word);
+        s += value;
+        s2 += value * value;
+        ++count;
+      }
     }
-    constexpr auto count = static_cast<std::int64_t>(side) * side;
-    const std::int64_t variance = (count * s2 - s * s) / (count * count);
+    const std::int64_t variance = count == 0 ? 0 : (count * s2 - s * s) / (count * count);
     out[x] = static_cast<std::uint16_t>(std::sqrt(static_cast<double>(variance)));
   }
 }

@@ -49,25 +49,49 @@ PickRun begin_draw(const KernelView& view, std::uint32_t pixel, std::uint64_t ke
   return view.lists->pick(class_of(view.target->words[pixel]), view.target->guides_at(pixel), random);
 }
 
-std::uint32_t finish_draw(const KernelView& view, std::uint32_t pixel, const PickRun& run, Slack slack) {
-  if (run.count == 0) return view.exemplars->nowhere();
-  const bool at_border = view.around_price != nullptr && view.wanted_around[pixel].others > border_others;
-  const int draws = at_border ? std::max(view.draws, view.border_draws) : view.draws;
-  const PickLists::Entry first = view.lists->entry(run.entry(0));
-  if (draws == 1) return first.texel();
+namespace {
+
+// The cheapest of the first `draws` entries of a run, by guides, surroundings and what `further` adds.
+template <class F>
+std::uint32_t cheapest_entry(const KernelView& view, std::uint32_t pixel, const PickRun& run, int draws, Slack slack, F&& further) {
   const std::uint8_t* wanted = view.target->guides_at(pixel);
   slack.others = nullptr;  // picks are as good as they can be
-  std::uint32_t best = first.texel();
+  std::uint32_t best = view.exemplars->nowhere();
   std::int64_t best_cost = INT64_MAX;
   for (std::uint32_t i = 0; i < std::min(run.count, static_cast<std::uint32_t>(draws)); ++i) {
     const PickLists::Entry entry = view.lists->entry(run.entry(i));
-    const std::int64_t cost = guide_cost(view, wanted, entry.guides(), slack) + surroundings_cost(view, pixel, entry.around());
+    const std::int64_t cost =
+        guide_cost(view, wanted, entry.guides(), slack) + surroundings_cost(view, pixel, entry.around()) + further(entry);
     if (cost < best_cost) {
       best_cost = cost;
       best = entry.texel();
     }
   }
   return best;
+}
+
+int draws_at(const KernelView& view, std::uint32_t pixel) {
+  const bool at_border = view.around_price != nullptr && view.wanted_around[pixel].others > border_others;
+  return at_border ? std::max(view.draws, view.border_draws) : view.draws;
+}
+
+}  // namespace
+
+std::uint32_t finish_draw(const KernelView& view, std::uint32_t pixel, const PickRun& run, Slack slack) {
+  if (run.count == 0) return view.exemplars->nowhere();
+  const int draws = draws_at(view, pixel);
+  if (draws == 1) return view.lists->entry(run.entry(0)).texel();
+  return cheapest_entry(view, pixel, run, draws, slack, [](const PickLists::Entry&) { return std::int64_t{0}; });
+}
+
+std::uint32_t finish_fitting_draw(const KernelView& view, std::uint32_t pixel, const PickRun& run, Slack slack) {
+  if (view.fitting_draws == 1 || (view.links != nullptr && (view.links[pixel] & link::cut_patch))) {
+    return finish_draw(view, pixel, run, slack);
+  }
+  const Greys greys = greys_around(*view.target, pixel);
+  const int draws = std::max(view.fitting_draws, draws_at(view, pixel));
+  return cheapest_entry(view, pixel, run, draws, slack,
+                        [&](const PickLists::Entry& entry) { return price::grey * grey_distance(greys, entry.greys()); });
 }
 
 std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, Slack slack) {

@@ -219,6 +219,7 @@ void ImproveRow(const KernelView& view, int x0, int x1, int y, std::uint32_t* ne
   // Picks lie anywhere in the exemplars, and waiting for memory is most of their cost. So all are drawn first, into `next`: list entries
   // are asked for a batch at a time before they are looked at, and texels a few pixels ahead of their use.
   std::uint32_t* drawn = next;
+  const std::uint32_t draws = static_cast<std::uint32_t>(std::max(view.draws, view.fitting_draws));
   for (int first = x0; first < x1; first += 2 * batch) {
     std::array<PickRun, batch> runs;
     const int last = std::min(x1, first + 2 * batch);
@@ -229,13 +230,12 @@ void ImproveRow(const KernelView& view, int x0, int x1, int y, std::uint32_t* ne
       run = begin_draw(view, pixel, view.key, x, y);
       if (run.count == 0) continue;
       hwy::Prefetch(view.lists->entry(run.entry(0)).words);
-      if (view.draws > 1)
-        hwy::Prefetch(view.lists->entry(run.entry(std::min(run.count, static_cast<std::uint32_t>(view.draws)) - 1)).words);
+      if (draws > 1) hwy::Prefetch(view.lists->entry(run.entry(std::min(run.count, draws) - 1)).words);
     }
     for (int x = first, i = 0; x < last; x += 2, ++i, ++drawn) {
       const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
       const PickRun& run = runs[static_cast<std::size_t>(i)];
-      *drawn = run.count == 0 ? view.exemplars->nowhere() : finish_draw(view, pixel, run, make_slack(view, pixel));
+      *drawn = run.count == 0 ? view.exemplars->nowhere() : finish_fitting_draw(view, pixel, run, make_slack(view, pixel));
     }
   }
   for (int x = x0; x < x1; x += 2, ++next) {

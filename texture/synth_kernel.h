@@ -23,6 +23,7 @@ inline constexpr std::int64_t distance_shift = 3;     // weighted squared differ
 inline constexpr std::int64_t class_mismatch = 3000;  // a pixel of the patch whose class differs
 inline constexpr std::int64_t guide = 270;            // a squared difference of a guide of weight 1
 inline constexpr std::int64_t surroundings_q8 = 32;   // Σ_k of squared differences of class shares (of 255), in 256ths
+inline constexpr std::int64_t grey = 16;              // a squared difference at one of the 8 places, in picks: the patch's weights in all
 inline constexpr std::int64_t reuse = 2000;           // n (n + 1) / 2 times, for a texel used n times by others
 inline constexpr std::int64_t bin = 15000;            // a bin used twice as often as expected
 inline constexpr std::int64_t join = 60000;           // joining a piece near the cap
@@ -59,6 +60,7 @@ struct KernelView {
   bool replaces_pieces = false;                   // whether pieces over the cap are moved as a whole on this level
   int draws = 1;                                  // texels drawn for one pick
   int border_draws = 1;                           // and where other classes lie around
+  int fitting_draws = 1;                          // and where what is painted around is looked at; 1: it is not
   std::uint64_t key = 0;                          // of the random numbers of this pass
   int pass = 0;
 };
@@ -91,6 +93,9 @@ std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint6
 // The same in two steps, so that others can be begun while memory is waited for.
 PickRun begin_draw(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y);
 std::uint32_t finish_draw(const KernelView& view, std::uint32_t pixel, const PickRun& run, Slack slack);
+// And of `fitting_draws` that which fits best what is painted around the pixel already, too: what sub-passes offer. Where a silhouette
+// cuts the patch, as above.
+std::uint32_t finish_fitting_draw(const KernelView& view, std::uint32_t pixel, const PickRun& run, Slack slack);
 
 // What the classes around a texel cost; 0 where they are not priced.
 inline std::int64_t surroundings_cost(const KernelView& view, std::uint32_t pixel, Surroundings offered) {

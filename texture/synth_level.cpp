@@ -64,8 +64,8 @@ LevelSettings settings_for_level(int level, std::uint64_t seed, int copy_cap, do
   LevelSettings settings;
   settings.level = level;
   settings.seed = seed;
-  settings.passes = level == 0 ? 6 : level == 1 ? 5 : 4;
-  settings.replacing_passes = level == 0 ? 3 : level == 1 ? 1 : 0;
+  settings.passes = level == 1 ? 5 : 4;
+  settings.replacing_passes = level == 0 ? 2 : level == 1 ? 1 : 0;
   const int shift = 2 * level;  // a level has a quarter of the pixels
   settings.copy_cap = std::max<std::int64_t>(1, (static_cast<std::int64_t>(copy_cap) + (1LL << shift) / 2) >> shift);
   settings.reuse_price = std::llround(static_cast<double>(price::reuse) * reuse);
@@ -146,6 +146,7 @@ KernelView LevelState::view(int pass) const {
   view.copy_cap = settings.copy_cap;
   view.replaces_pieces = settings.replacing_passes > 0;
   view.draws = settings.draws;
+  view.fitting_draws = settings.fitting_draws;
   view.key = key_for(settings, Purpose::pass, pass);
   view.pass = pass;
   return view;

@@ -22,6 +22,7 @@ struct LevelSettings {
   std::int64_t reuse_price = price::reuse;
   int draws = 1;          // texels drawn for one pick
   int border_draws = 4;   // and where other classes lie around
+  int fitting_draws = 4;  // and in sub-passes, which look at what is painted around
   int least_window = 16;  // texels a pick's window must hold
   int surroundings_radius = 8;
   int tile = 0;  // side of the tiles that sub-passes work in, even; 0: whole rows. Changes no bit

@@ -55,7 +55,7 @@ PickLists::PickLists(const Plane& exemplars, const Plane& target, int classes, c
     total += counts[i];
   }
   const std::size_t guide_count = static_cast<std::size_t>(exemplars.guide_count);
-  entry_words_ = 1 + (2 + guide_count + 3) / 4;
+  entry_words_ = 1 + (Entry::guides_from + guide_count + 3) / 4;
   entries_.assign(total * entry_words_ + 2, 0U);  // eight guides may be read from the last one, too
   std::vector<std::uint32_t> next = start_;
   // Texels are gone through by golden steps, so that those which follow each other in the list lie far apart in the picture.
@@ -75,7 +75,9 @@ PickLists::PickLists(const Plane& exemplars, const Plane& target, int classes, c
       bytes[0] = around[here].others;
       bytes[1] = around[here].commonest;
     }
-    std::copy(values, values + guide_count, bytes + 2);
+    const Greys greys = greys_around(exemplars, static_cast<std::uint32_t>(here));
+    std::copy(greys.values.begin(), greys.values.end(), bytes + 2);
+    std::copy(values, values + guide_count, bytes + Entry::guides_from);
   }
 
   std::vector<std::uint32_t> demand(cells * 256, 0);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "texture/synth_greys.h"
 #include "texture/synth_plane.h"
 #include "texture/synth_texels.h"
 
@@ -44,13 +45,15 @@ struct PickRun {
 // chooses between texels, and texels of one value stand in scattered order, so that a pick and those after it cost one wait for memory.
 class PickLists {
  public:
-  // An entry's words: the texel, then the share and commonest of other classes around it and its guides, a byte each.
+  // An entry's words: the texel, then the share and commonest of other classes around it, its greys and its guides, a byte each.
   struct Entry {
+    static constexpr std::size_t guides_from = 2 + grey_places;
     const std::uint32_t* words = nullptr;
     std::uint32_t texel() const { return words[0]; }
     const std::uint8_t* bytes() const { return reinterpret_cast<const std::uint8_t*>(words + 1); }
     Surroundings around() const { return {bytes()[0], bytes()[1]}; }
-    const std::uint8_t* guides() const { return bytes() + 2; }
+    const std::uint8_t* greys() const { return bytes() + 2; }
+    const std::uint8_t* guides() const { return bytes() + guides_from; }
   };
 
   // minimum: texels a window must hold. `around`, by exemplar index, may be empty.

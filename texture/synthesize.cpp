@@ -273,7 +273,7 @@ std::size_t synthesis_bytes(std::size_t texels, std::size_t pixels, int guides, 
   // (6) comes when all but the matches is gone.
   const std::size_t g = static_cast<std::size_t>(guides);
   const std::size_t record = g <= 1 ? 8 : 8 + (g + 6) / 8 * 8;
-  const std::size_t entry = 4 + (2 + g + 3) / 4 * 4;
+  const std::size_t entry = 4 + (10 + g + 3) / 4 * 4;
   const std::size_t per_texel = (4 + g) * 4 / 3 + 1 + record + entry + 5;
   const std::size_t per_pixel = 4 + g + 4 + 1 + 6 + 2 + (8 + g) / 4 + 3 + (with_depth ? 2 : 0);
   return texels * per_texel + pixels * per_pixel + (std::size_t{32} << 20);

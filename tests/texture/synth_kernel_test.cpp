@@ -263,7 +263,7 @@ void expect_cheapest_candidates(bool with_silhouettes) {
         const std::int64_t texel = static_cast<std::int64_t>(before.match[q]) - dx - dy * exemplars.stride;
         offer(static_cast<std::uint32_t>(texel), before.pieces.size()[q] >= 45 ? 60000 : 0);
       }
-      offer(draw_texel(view, pixel, view.key, x, y, slack), 0);
+      offer(finish_fitting_draw(view, pixel, begin_draw(view, pixel, view.key, x, y), slack), 0);
       auto counts = whole_patch();
       for (auto& row : counts) {
         for (int dx = -3; dx <= 3; ++dx) row[static_cast<std::size_t>(dx + 3)] = same_surface(x, y, dx);
@@ -397,6 +397,24 @@ TEST(PickLists, WindowsHoldEnoughTexelsForTheDemand) {
   }
 }
 
+TEST(Bins, ABorderOfClassesIsNoContrast) {
+  // Class 0: above, calm; below, restless; on its right a class that is far brighter.
+  Plane exemplars = make_plane({{40, 40}}, 0);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      const std::uint32_t grey = x >= 20 ? 250U : y < 20 ? 100U + static_cast<std::uint32_t>((x ^ y) & 1) : 80U + 40U * ((x ^ y) & 1);
+      exemplars.words[exemplars.index(0, x, y)] = grey * 0x010101U | (x >= 20 ? 1U << 24 : 0U);
+    }
+  }
+  pad(exemplars);
+  const std::vector<std::uint8_t> bins = make_bins(exemplars, 2);
+  const auto contrast = [&](int x, int y) { return bins[exemplars.index(0, x, y)] % 8; };
+  for (int y = 4; y < 16; ++y) {
+    EXPECT_EQ(contrast(19, y), contrast(8, y)) << y;
+    EXPECT_LT(contrast(19, y), std::min(contrast(8, y + 20), contrast(19, y + 20))) << y;
+  }
+}
+
 // A draw looks at texels that follow each other in the list: all of a window's bucket once, whatever the beginning, each with what it is
 // chosen by, and the cheapest of as many as are drawn wins.
 TEST(PickLists, DrawsAreTheCheapestOfTheirRun) {
@@ -406,10 +424,15 @@ TEST(PickLists, DrawsAreTheCheapestOfTheirRun) {
   LevelSettings settings = settings_for_level(1, 1, 240, 1.0);
   settings.draws = 4;
   settings.border_draws = 7;
+  settings.fitting_draws = 7;
   LevelState state(settings, guides, classes, exemplars, target, {}, SurroundingsPrice(40, {0, 16, 5, 16, 0, 9, 5, 9, 0}, classes));
   const std::vector<Surroundings> around = make_surroundings(exemplars, settings.surroundings_radius, classes);
   const KernelView view = state.view(0);
+  const auto grey = [](std::uint32_t word) {
+    return static_cast<std::int64_t>((word & 255U) + 2 * (word >> 8 & 255U) + (word >> 16 & 255U)) / 4;
+  };
   int better_than_first = 0;
+  int fitting = 0;
   int wrapped = 0;
   target.for_each([&](std::uint32_t pixel) {
     const std::uint32_t c = class_of(target.words[pixel]);
@@ -423,6 +446,8 @@ TEST(PickLists, DrawsAreTheCheapestOfTheirRun) {
     std::set<std::uint32_t> seen;
     std::uint32_t best = 0;
     std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    std::uint32_t best_fit = 0;
+    std::int64_t least_fit = least;
     for (std::uint32_t i = 0; i < run.count; ++i) {
       const std::uint32_t texel = state.lists.entry(run.entry(i)).texel();
       ASSERT_TRUE(seen.insert(texel).second) << "a texel stands twice in a run";
@@ -430,17 +455,36 @@ TEST(PickLists, DrawsAreTheCheapestOfTheirRun) {
       const std::uint8_t* of_texel = exemplars.guides_at(texel);
       ASSERT_TRUE(std::equal(of_texel, of_texel + 5, state.lists.entry(run.entry(i)).guides()));
       ASSERT_TRUE(std::equal(of_texel, of_texel + 5, state.texels.at(texel).guides()));
-      if (i >= static_cast<std::uint32_t>(draws)) continue;
+      if (i >= 7) continue;
       const std::int64_t cost =
           guide_cost(view, target.guides_at(pixel), of_texel, slack) + state.around_price(state.wanted_around[pixel], around[texel]);
-      if (cost >= least) continue;
+      std::int64_t squares = 0;
+      for (int dy = -2; dy <= 2; ++dy) {
+        for (int dx = -2; dx <= 2; ++dx) {
+          if (!(std::abs(dx * dy) == 1 || (dx * dy == 0 && std::abs(dx + dy) == 2))) continue;
+          const std::int64_t step_target = dx + static_cast<std::int64_t>(dy) * target.stride;
+          const std::int64_t step_texel = dx + static_cast<std::int64_t>(dy) * exemplars.stride;
+          const std::uint32_t wanted = target.words[static_cast<std::size_t>(pixel + step_target)];
+          if (class_of(wanted) == no_class) continue;
+          const std::int64_t off = grey(wanted) - grey(exemplars.words[static_cast<std::size_t>(texel + step_texel)]);
+          squares += off * off;
+        }
+      }
+      if (cost + price::grey * squares < least_fit) {
+        least_fit = cost + price::grey * squares;
+        best_fit = texel;
+      }
+      if (i >= static_cast<std::uint32_t>(draws) || cost >= least) continue;
       least = cost;
       best = texel;
     }
     better_than_first += best != state.lists.entry(run.entry(0)).texel() ? 1 : 0;
+    fitting += best != best_fit ? 1 : 0;
     ASSERT_EQ(finish_draw(view, pixel, run, make_slack(view, pixel)), best);
+    ASSERT_EQ(finish_fitting_draw(view, pixel, run, make_slack(view, pixel)), best_fit);
   });
   EXPECT_GT(better_than_first, 100);
+  EXPECT_GT(fitting, 100);
   EXPECT_GT(wrapped, 10);
 }
 

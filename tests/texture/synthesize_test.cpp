@@ -428,8 +428,8 @@ TEST(Synthesize, ManyWeakGuidesLeaveTheStrongOneAlone) {
   const double among_many = mean_guide_error(run(exemplars, target, parameters), exemplars, target, 0);
   RecordProperty("many_alone_milli", static_cast<int>(1000 * alone));
   RecordProperty("many_among_milli", static_cast<int>(1000 * among_many));
-  // Measured: 1.36 times the error; 1.52 times where errors that picks leave as well are priced.
-  EXPECT_LT(among_many, 1.43 * alone);
+  // Measured: 1.41 times the error; 1.60 times where errors that picks leave as well are priced.
+  EXPECT_LT(among_many, 1.5 * alone);
 }
 
 TEST(Synthesize, ReplaysOntoAnotherLayer) {
