@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <tuple>
 
@@ -11,6 +12,7 @@
 #include "renderer/base/parallel.h"
 #include "renderer/scene_check.h"
 #include "tools/commands.h"
+#include "tools/exemplar_report_page.h"
 #include "tools/exemplar_verdict.h"
 #include "tools/scene_options.h"
 #include "tools/synthesis_files.h"
@@ -27,6 +29,7 @@ struct Options {
   std::string target;
   std::vector<std::tuple<std::string, std::string>> target_guides;
   std::vector<std::pair<int, int>> fallback;
+  std::string report;
 };
 
 // What is looked at, wherever it comes from.
@@ -85,10 +88,10 @@ Subject from_scene(const Options& options, Progress& progress) {
   return subject;
 }
 
-void ask(const Subject& subject, ExemplarFindings& findings) {
+// What the target asks of the classes that pixels copy from.
+void ask(const Subject& subject, GuideStack& asked, ExemplarFindings& findings) {
   findings.target_known = !subject.target.label.empty();
   if (!findings.target_known) return;
-  GuideStack asked = subject.target;
   asked.label = serving_labels(subject.exemplars, subject.target.label, subject.fallback);
   bool altitude = asked.find("altitude") != nullptr;
   for (const Exemplar& exemplar : subject.exemplars) altitude = altitude && exemplar.guides.find("altitude") != nullptr;
@@ -105,12 +108,28 @@ void ask(const Subject& subject, ExemplarFindings& findings) {
     if (without[label] > 0) findings.missing.emplace_back(static_cast<std::uint8_t>(label), std::round(scaled(without[label])));
 }
 
+// As it would be typed, without folders.
+std::string describe_command(const Options& options) {
+  const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+  std::string out = "belvedere exemplar check";
+  if (!options.scene.scene.empty()) out += " " + name(options.scene.scene);
+  for (const std::string& setting : options.scene.files.settings) out += " --set " + setting;
+  for (std::size_t i = 0; i < options.pictures.size(); ++i)
+    out += fmt::format(" --picture {} --label {}", name(options.pictures[i]), name(options.labels[i]));
+  for (const auto& [guide, file] : options.guides) out += fmt::format(" --guide {} {}", guide, name(file));
+  if (!options.target.empty()) out += " --target " + name(options.target);
+  for (const auto& [guide, file] : options.target_guides) out += fmt::format(" --target-guide {} {}", guide, name(file));
+  for (const auto& [from, to] : options.fallback) out += fmt::format(" --fallback {} {}", from, to);
+  return out;
+}
+
 int run(const Options& options) {
   const bool of_files = !options.pictures.empty();
   const bool more = !options.labels.empty() || !options.guides.empty() || !options.target.empty() || !options.target_guides.empty();
   if (!of_files && more) throw Error(ErrorKind::usage, "command line", "there is no --picture", "at least one, or a scene");
   refuse_mixture(of_files && !options.scene.scene.empty());
 
+  if (!options.report.empty()) check_output_folder(options.report);
   if (options.scene.memory_mib > 0) setenv("BELVEDERE_MEMORY_MIB", std::to_string(options.scene.memory_mib).c_str(), 1);
   const ThreadLimit threads(options.scene.threads);
   TerminalProgress progress(options.scene.quiet);
@@ -133,7 +152,9 @@ int run(const Options& options) {
       return guide == "altitude" ? fmt::format("{} m", 20 * value) : fmt::format("{}", value);  // steps of make_guide_stack
     };
   }
-  ask(subject, findings);
+  GuideStack asked = subject.target;
+  ask(subject, asked, findings);
+  if (!options.report.empty()) write_exemplar_report(options.report, subject.exemplars, asked, findings, describe_command(options));
   progress.end();
   print_out(options.scene.json ? findings_json(findings) : findings_text(findings));
   return 0;
@@ -162,6 +183,8 @@ Command add_exemplar_check(CLI::App& program) {
   command->add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
       ->type_name("LABEL LABEL")
       ->allow_extra_args(false);
+  command->add_option("--report", options->report, "Also a folder with index.html: the paintings, a swatch of each class, coverage charts")
+      ->type_name("DIR");
   command->footer(
       "Of each class: how many texels it has and how many of them lie well inside, how many pixels they serve\n"
       "before strokes repeat, how sharp its paint is and how long its strokes are, at which altitudes it was\n"

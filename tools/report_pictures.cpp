@@ -9,6 +9,14 @@
 namespace belvedere::tools {
 namespace {
 
+// Hues as far apart as the golden section brings them; excluded is near black.
+glm::vec3 label_colour(std::uint8_t label) {
+  if (label == unused_label) return glm::vec3(0.12F);
+  const float hue = 6.F * static_cast<float>(std::fmod(0.1 + label * 0.6180339887, 1.0));
+  const auto part = [hue](float shift) { return std::clamp(std::abs(std::fmod(hue + shift, 6.F) - 3.F) - 1.F, 0.F, 1.F); };
+  return glm::vec3(0.25F) + 0.6F * glm::vec3(part(0.F), part(4.F), part(2.F));
+}
+
 glm::vec3 mix(glm::vec3 a, glm::vec3 b, float t) { return a + t * (b - a); }
 
 }  // namespace
@@ -73,6 +81,18 @@ Grid<glm::vec3> reduced_picture(const Grid<glm::vec3>& picture, int longest_px) 
     if (out.empty()) out = Grid<glm::vec3>(small.width(), small.height());
     for (std::size_t i = 0; i < small.size(); ++i) out[i][c] = small[i];
   }
+  return out;
+}
+
+Grid<glm::vec3> to_picture(const Grid<Rgb8>& colours) {
+  Grid<glm::vec3> out(colours.width(), colours.height());
+  std::transform(colours.begin(), colours.end(), out.begin(), [](const Rgb8& c) { return glm::vec3(c[0], c[1], c[2]) / 255.F; });
+  return out;
+}
+
+Grid<glm::vec3> label_picture(const Grid<std::uint8_t>& labels) {
+  Grid<glm::vec3> out(labels.width(), labels.height());
+  std::transform(labels.begin(), labels.end(), out.begin(), label_colour);
   return out;
 }
 

@@ -7,6 +7,7 @@
 
 #include "renderer/base/grid.h"
 #include "renderer/base/parallel.h"
+#include "texture/exemplar.h"
 
 namespace belvedere::tools {
 
@@ -35,6 +36,10 @@ Grid<glm::vec3> signed_picture(const Grid<float>& values, float full);
 
 // A picture no side of which is above longest_px: means as in reduce_to.
 Grid<glm::vec3> reduced_picture(const Grid<glm::vec3>& picture, int longest_px);
+// 8 bits as 0…1.
+Grid<glm::vec3> to_picture(const Grid<Rgb8>& colours);
+// A colour a label, the same in every picture; unused_label is near black.
+Grid<glm::vec3> label_picture(const Grid<std::uint8_t>& labels);
 // Each pixel as a square of `times` pixels.
 Grid<glm::vec3> enlarged(const Grid<glm::vec3>& picture, int times);
 // Black at 0 by red and yellow to white at `full` and above.

@@ -18,14 +18,6 @@ namespace {
 constexpr int map_px = 600;    // longest side of a map
 constexpr int crop_times = 4;  // worst places are shown so many times as large
 
-glm::vec3 to_colour(const Rgb8& c) { return glm::vec3(c[0], c[1], c[2]) / 255.F; }
-
-Grid<glm::vec3> to_picture(const Grid<Rgb8>& grid) {
-  Grid<glm::vec3> out(grid.width(), grid.height());
-  std::transform(grid.begin(), grid.end(), out.begin(), to_colour);
-  return out;
-}
-
 Grid<glm::vec3> grey_picture(const Grid<std::uint8_t>& values) {
   Grid<glm::vec3> out(values.width(), values.height());
   std::transform(values.begin(), values.end(), out.begin(), [](std::uint8_t v) { return glm::vec3(static_cast<float>(v) / 255.F); });
@@ -37,14 +29,6 @@ const Grid<std::uint8_t>& guide_values(const GuideStack& stack, const std::strin
   const Grid<std::uint8_t>* values = stack.find(name);
   if (values == nullptr) throw Error(ErrorKind::bug, "report", "guide \"" + name + "\" is missing");
   return *values;
-}
-
-// Hues as far apart as the golden section brings them; excluded is near black.
-glm::vec3 label_colour(std::uint8_t label) {
-  if (label == unused_label) return glm::vec3(0.12F);
-  const float hue = 6.F * static_cast<float>(std::fmod(0.1 + label * 0.6180339887, 1.0));
-  const auto part = [hue](float shift) { return std::clamp(std::abs(std::fmod(hue + shift, 6.F) - 3.F) - 1.F, 0.F, 1.F); };
-  return glm::vec3(0.25F) + 0.6F * glm::vec3(part(0.F), part(4.F), part(2.F));
 }
 
 // A texel's place as a colour: red from left to right, green from top to bottom, blue by the number of the painting.
@@ -100,9 +84,7 @@ void add_overview(ReportFolder& page, const SynthesisReportInput& in, const Grid
   page.begin_figure("overview", "The picture and what it was made of",
                     "Left the classes asked for, then the picture; the frames are the places shown at the end. Below the paintings with "
                     "their classes; what is excluded is near black.");
-  Grid<glm::vec3> labels(in.target.label.width(), in.target.label.height());
-  std::transform(in.target.label.begin(), in.target.label.end(), labels.begin(), label_colour);
-  page.picture("target_classes", reduced_picture(labels, map_px), "classes of the target");
+  page.picture("target_classes", reduced_picture(label_picture(in.target.label), map_px), "classes of the target");
   Grid<glm::vec3> small = reduced_picture(picture, map_px);
   const int factor = std::max(1, (std::max(picture.width(), picture.height()) + map_px - 1) / map_px);
   for (const Place& place : found.places) mark(small, place, factor);
@@ -110,9 +92,8 @@ void add_overview(ReportFolder& page, const SynthesisReportInput& in, const Grid
   for (std::size_t e = 0; e < in.exemplars.size(); ++e) {
     const Exemplar& exemplar = in.exemplars[e];
     page.next_row();
-    Grid<glm::vec3> classes(exemplar.picture.width(), exemplar.picture.height());
-    std::transform(exemplar.guides.label.begin(), exemplar.guides.label.end(), classes.begin(), label_colour);
-    page.picture(fmt::format("painting_{}_classes", e + 1), reduced_picture(classes, map_px), "classes of the painting");
+    page.picture(fmt::format("painting_{}_classes", e + 1), reduced_picture(label_picture(exemplar.guides.label), map_px),
+                 "classes of the painting");
     page.picture(fmt::format("painting_{}", e + 1), reduced_picture(to_picture(exemplar.picture), map_px), html_escaped(exemplar.name));
   }
   page.end_figure();

@@ -253,10 +253,7 @@ int write_sweep(const std::string& folder, const SweepInput& in, Progress& progr
       const MatchField matches = synthesize(in.exemplars, in.target, parameters, here);
       here.begin("measuring", 0.0);
       cell.quality = measure_quality(matches, in.exemplars, in.target, {.guide = measured_guide(in)});
-      const Grid<Rgb8> result = replay(matches, layers, Grid<Rgb8>());
-      Grid<glm::vec3> picture(result.width(), result.height());
-      std::transform(result.begin(), result.end(), picture.begin(),
-                     [](const Rgb8& colour) { return glm::vec3(colour[0], colour[1], colour[2]) / 255.F; });
+      const Grid<glm::vec3> picture = to_picture(replay(matches, layers, Grid<Rgb8>()));
       page.write_picture(cell.file, picture);
       sheet.add(static_cast<int>(c), static_cast<int>(r), cut(picture, view), summary(cell.quality));
       cells.push_back(std::move(cell));

@@ -60,6 +60,26 @@ TEST_F(ExemplarCheck, TellsWhatATargetAsksFor) {
                           HasSubstr("\"excluded_texels\": 640"), HasSubstr("\"checkerboard\": {")));
 }
 
+TEST_F(ExemplarCheck, ThePageShowsPaintsAndWhereTheyAreMissing) {
+  const std::string target = write_labels("target.tif", 128, 20, [](int, int) { return 2; });
+  const std::string target_altitude = write_labels("target_altitude.tif", 128, 20, [](int x, int) { return x; });
+  const Outcome outcome = check(
+      {"--guide", "altitude", altitude_, "--target", target, "--target-guide", "altitude", target_altitude, "--report", path("report")});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string page = read_bytes(path("report/index.html"));
+  EXPECT_THAT(page, AllOf(HasSubstr("id=\"verdict\""), HasSubstr("class 5: only 464 texels"), HasSubstr("swatch_1_5.png"),
+                          HasSubstr("belvedere exemplar check --picture style.png --label label.tif"), Not(HasSubstr(path("")))));
+  // The second class's row: texels up to 59, wanted up to 127.
+  const Grid<glm::vec3> chart = read_picture(path("report/coverage_1_1.png"));
+  const auto has_texels = [&](int value) { return chart(130 + 3 * value + 1, 24 + 8).x > 0.F; };
+  const auto is_wanted = [&](int value) { return chart(130 + 3 * value + 1, 24 + 18).x < 0.5F; };
+  for (const int value : {5, 30, 59, 160, 219}) EXPECT_TRUE(has_texels(value)) << value;
+  for (const int value : {0, 60, 100, 159, 220}) EXPECT_FALSE(has_texels(value)) << value;
+  for (const int value : {0, 30, 127}) EXPECT_TRUE(is_wanted(value)) << value;
+  for (const int value : {128, 255}) EXPECT_FALSE(is_wanted(value)) << value;
+  EXPECT_THAT(read_bytes(path("report/report.json")), HasSubstr("\"altitude_covered\": 0."));
+}
+
 TEST_F(ExemplarCheck, RefusesWhatCannotBeMeant) {
   const auto refused = [&](int status, const std::vector<std::string>& arguments, const std::string& words) {
     const Outcome outcome = run(arguments);
