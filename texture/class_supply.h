@@ -13,8 +13,8 @@
 namespace belvedere {
 
 // So many pixels a texel may serve before repetition is to be expected: as many as synthesis asks of a texel before it lets guides go
-// astray for others (synth_lists.h), and what the figures of a picture four times as large as its painting bear out. The most used texels
-// then serve about four times as many (the cap of synthesize: 6 + 3 × this).
+// astray for others (synth_lists.h). Measured on one painting with ever fewer of its texels allowed (docs/synthesis.md): up to 4 pixels a
+// texel the statistics of strokes stay near the painting's, from 8 on they leave it.
 inline constexpr std::size_t pixels_per_texel = 4;
 
 // What a class of the exemplars has to give, and what a target asks of it.

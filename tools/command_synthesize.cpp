@@ -274,7 +274,7 @@ Command add_synthesize(CLI::App& program) {
       "With several paintings, the first --label and the first --guide of a name belong to the first\n"
       "--picture, the second to the second, and so on; they all name the same target.\n\n"
       "  belvedere synthesize --replay match.exr --picture style_16bit.tif --out out_16bit.tif\n\n"
-      "lays another layer of the same painting (its 16-bit scan, its varnish, its guidance.exr) with all its\n"
+      "lays another layer of the same painting (its 16-bit scan, its guidance.exr) with all its\n"
       "bits; the layer has the painting's size.\n\n"
       "  belvedere synthesize --picture style.png --label style_class.png target_class.png \\\n"
       "    --guide altitude style_alt.png target_alt.png 1.0 --sweep altitude=0.3,1,3 --sweep reuse=0,1 --out sweep\n\n"
