@@ -41,8 +41,15 @@ struct Subject {
   std::map<std::uint8_t, std::uint8_t> fallback;
 };
 
-void refuse_mixture(bool mixed) {
-  if (mixed)
+void check_scene_or_files(const Options& options) {
+  const bool of_files = !options.pictures.empty();
+  const bool more = !options.labels.empty() || !options.guides.empty() || !options.target.empty() || !options.target_guides.empty();
+  if (!of_files && more) throw Error(ErrorKind::usage, "command line", "there is no --picture", "at least one, or a scene");
+  for (const char* ending : {".png", ".tif", ".tiff", ".jpg", ".jpeg", ".exr"})
+    if (ending_of(options.scene.scene) == ending)
+      throw Error(ErrorKind::usage, options.scene.scene, "is a picture, and no scene",
+                  "a scene file, or --picture " + options.scene.scene + " with --label");
+  if (of_files && !options.scene.scene.empty())
     throw Error(ErrorKind::usage, "command line", "there is a scene, and there are files of a painting besides",
                 "either a scene, or --picture with --label");
 }
@@ -125,9 +132,7 @@ std::string describe_command(const Options& options) {
 
 int run(const Options& options) {
   const bool of_files = !options.pictures.empty();
-  const bool more = !options.labels.empty() || !options.guides.empty() || !options.target.empty() || !options.target_guides.empty();
-  if (!of_files && more) throw Error(ErrorKind::usage, "command line", "there is no --picture", "at least one, or a scene");
-  refuse_mixture(of_files && !options.scene.scene.empty());
+  check_scene_or_files(options);
 
   if (!options.report.empty()) check_output_folder(options.report);
   if (options.scene.memory_mib > 0) setenv("BELVEDERE_MEMORY_MIB", std::to_string(options.scene.memory_mib).c_str(), 1);

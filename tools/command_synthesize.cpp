@@ -195,6 +195,19 @@ int run(Options& options) {
 
 }  // namespace
 
+namespace {
+
+// An option of several words takes the next option's name where one of its own is missing, and the message would be about something else.
+CLI::Validator no_option_among(const char* words) {
+  return CLI::Validator(
+      [words](const std::string& word) {
+        return word.starts_with("--") ? fmt::format("takes {}, and {} comes too early", words, word) : "";
+      },
+      "");
+}
+
+}  // namespace
+
 Command add_synthesize(CLI::App& program) {
   CLI::App* command = program.add_subcommand("synthesize", "Lays a painting's texture over a label map; works on image files alone");
   const auto options = std::make_shared<Options>();
@@ -209,12 +222,14 @@ Command add_synthesize(CLI::App& program) {
               "--label", options->files.labels,
               "Label images of the painting and of the target: grey, one number a class, 255 is never used; one for each --picture")
           ->type_name("STYLE TARGET")
+          ->check(no_option_among("two files, of the painting and of the target"))
           ->allow_extra_args(false);
   CLI::Option* guide =
       command
           ->add_option("--guide", options->guides,
                        "A further guide: name, grey image of the painting, of the target, and weight 0…100; may be repeated")
           ->type_name("NAME STYLE TARGET WEIGHT")
+          ->check(no_option_among("a name, two files and a weight"))
           ->allow_extra_args(false);
   command->add_option("--out", options->out, "The result: .png (8 bit) or .tif (16 bit); with --replay also .exr")
       ->type_name("FILE")

@@ -94,7 +94,9 @@ TEST_F(ExemplarCheck, RefusesWhatCannotBeMeant) {
   refused(2, {"exemplar", "check", "--picture", style_, "--label", label_, "--target", label_, "--target-guide", "a", label_},
           "no --guide a");
   refused(2, {"exemplar", "check", "--picture", style_, "--label", write_labels("small.tif", 9, 9, [](int, int) { return 1; })}, "9 × 9");
+  refused(2, {"exemplar", "check", style_}, "is a picture, and no scene");
   refused(3, {"exemplar", "check", path("none.toml")}, "none.toml");
+  refused(4, {"exemplar", "check", "--picture", style_, "--label", label_, "--report", label_ + "/report"}, "label.tif");
 }
 
 // A painting with as many texels of each class: 96 × 96, columns of 8.

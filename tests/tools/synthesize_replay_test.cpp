@@ -162,6 +162,9 @@ TEST_F(Replay, RefusesWhatDoesNotFit) {
   const Outcome both = run({"synthesize", "--replay", match_, "--picture", style_, "--label", style_, style_, "--out", path("out.tif")});
   EXPECT_EQ(both.status, 2);
   EXPECT_THAT(both.err, AllOf(HasSubstr("--replay"), HasSubstr("--label")));
+  const Outcome half = run({"synthesize", "--picture", style_, "--label", style_, "--out", path("out.tif")});
+  EXPECT_EQ(half.status, 2);
+  EXPECT_THAT(half.err, HasSubstr("--label: takes two files, of the painting and of the target, and --out comes too early"));
   const Outcome neither = run({"synthesize", "--picture", style_, "--out", path("out.tif")});
   EXPECT_EQ(neither.status, 2);
   EXPECT_THAT(neither.err, HasSubstr("--label"));
