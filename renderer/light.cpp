@@ -32,7 +32,7 @@ constexpr std::array<ClassLight, land_cover_class_count> class_lights = {{
     {0.45F, false, 0.10F, 0.05F, 1.20F},  // forest
     {0.45F, false, 0.07F, 0.10F, 1.00F},  // alpine grass
     {0.60F, false, 0.07F, 0.10F, 1.00F},  // scree
-    {0.75F, true, 0.10F, 0.21F, 1.45F},   // rock
+    {0.68F, true, 0.10F, 0.18F, 1.45F},   // rock
     {0.60F, false, 0.07F, 0.06F, 1.30F},  // snow
     {0.60F, false, 0.07F, 0.06F, 1.30F},  // glacier
     {0.45F, false, 0.07F, 0.00F, 1.00F},  // pasture
@@ -47,7 +47,7 @@ constexpr float middle_tone = 0.55F;
 constexpr float brightest_tone = 1.02F;
 constexpr float floor_lift = 0.10F;  // valley floors glow
 constexpr float pool_strength = 0.035F;
-constexpr float plane_strength = 0.17F;  // of big planes on steep rock
+constexpr float plane_strength = 0.19F;  // of big planes on steep rock
 constexpr float calm_from_m = 16.0F;     // metres of ground in a unit of the sheet from which forms are simplified …
 constexpr float calm_to_m = 42.0F;       // … and at which they are simplest
 

@@ -88,7 +88,7 @@ glm::vec3 hue_drift(Class id, const Patches& p, const Palette& palette, float st
   }
   if (id == Class::rock) {
     const float drift = std::clamp(0.6F * p.n25 + 0.4F * p.n8, -1.0F, 1.6F) * static_cast<float>(palette.rock_drift_share) * strength;
-    factor *= 1.0F + glm::vec3(0.028F, 0.0F, -0.035F) * drift;
+    factor *= 1.0F + glm::vec3(0.042F, 0.0F, -0.045F) * drift;
   }
   if (id == Class::forest) {
     const float drift = std::clamp(0.7F * p.n25 + 0.5F * p.n8, -1.5F, 1.5F) * static_cast<float>(palette.forest_drift_share) * strength;
@@ -215,7 +215,7 @@ struct PixelColour {
   glm::vec3 finish(glm::vec3 colour, glm::vec3 range_mist) const {
     colour = glm::clamp(colour + added, 0.0F, 1.0F) * factor;
     const float grey = 0.30F * colour.r + 0.59F * colour.g + 0.11F * colour.b;
-    colour = glm::mix(colour, glm::vec3(1.03F, 0.99F, 1.04F) * grey, 0.17F * stale);
+    colour = glm::mix(colour, glm::vec3(1.03F, 0.99F, 1.04F) * grey, 0.12F * stale);
     colour = glm::mix(colour, air, haze);
     colour = glm::mix(colour, range_mist, mist);
     colour = glm::clamp(colour * (1.0F - glm::vec3(0.40F, 0.35F, 0.27F) * dark), 0.0F, 1.0F);

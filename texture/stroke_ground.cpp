@@ -95,6 +95,32 @@ std::vector<Stroke> scree_strokes(const StrokeScene& scene) {
   });
 }
 
+std::vector<Stroke> broken_colour(const StrokeScene& scene) {
+  return sow(scene, 4.F, 21, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    const LandCoverClass id = scene.class_at(i);
+    if (id == sky || id == water || id == settlement || seed.uniform() > 0.62F) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.depth_tolerance = tight_depth;
+    stroke.order -= 0.5F * tight_depth * stroke.depth_m;
+    const float tone = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
+    // Every way, or a slope would look combed.
+    const float angle = 1.1F * seed.normal();
+    const float u = seed.uniform();
+    lay_line(stroke, scene, place, 1.2F + 3.4F * u * u, angle, 0.3F, true, seed);
+    take_brush(stroke, scene, seed.between(0.7F, 1.7F), {.taper = 0.5F, .alpha = is_ice(id) ? 0.4F : 0.55F});
+    const float n = seed.normal();
+    stroke.colour = scene.colour(i, n < 0.F ? -seed.between(0.3F, 1.1F) : seed.between(0.3F, 1.1F), paint_jitter, seed);
+    // Warm beside cool: ochre and rose in the light of rock and grass, violet in the shade, rose and blue on snow.
+    const float clear = 1.F - std::clamp(scene.ground.haze[i], 0.F, 1.F);
+    const float warm = seed.normal() + 1.2F * (tone - 0.5F);
+    const glm::vec3 turn = is_ice(id)                    ? glm::vec3(0.018F, -0.008F, 0.004F)
+                           : id == forest || id == shrub ? glm::vec3(0.045F, 0.018F, -0.020F)
+                                                         : glm::vec3(0.050F, 0.004F, -0.035F);
+    stroke.colour += turn * (warm * clear);
+    out.push_back(stroke);
+  });
+}
+
 std::vector<Stroke> water_strokes(const StrokeScene& scene) {
   return sow(scene, 3.2F, 9, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != water) return;

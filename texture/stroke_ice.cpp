@@ -19,7 +19,7 @@ glm::vec3 by_tone(glm::vec3 paint, float tone) { return paint * (0.62F + 0.70F *
 float torn(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
   const float steep = std::clamp((scene.slope_deg(i) - 7.F) / 13.F, 0.F, 1.F);
   const float moving = std::clamp((scene.slope_deg(i) - 4.F) / 5.F, 0.F, 1.F);
-  const float over_edge = std::clamp(scene.relief_m(i) / 6.F, -0.3F, 0.6F);
+  const float over_edge = std::clamp(scene.relief_m(i) / 25.F, -0.3F, 0.5F);
   return moving * std::clamp(0.55F * steep + over_edge + 0.45F * sheet_noise(scene, place, 63, 20.0) - 0.42F, 0.F, 1.F);
 }
 
@@ -53,7 +53,7 @@ std::vector<Stroke> snow_strokes(const StrokeScene& scene) {
 std::vector<Stroke> snow_ribs(const StrokeScene& scene) {
   return sow(scene, 4.4F, 16, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != snow) return;
-    const float bare = std::clamp((scene.slope_deg(i) - 27.F) / 16.F, 0.F, 1.F) * std::clamp(scene.relief_m(i) / 7.F + 0.15F, 0.F, 1.F);
+    const float bare = std::clamp((scene.slope_deg(i) - 27.F) / 16.F, 0.F, 1.F) * std::clamp(scene.relief_m(i) / 30.F + 0.15F, 0.F, 1.F);
     // Outcrops gather; single ones would be flies on the snow.
     const float gathered = std::clamp(0.9F * sheet_noise(scene, place, 65, 11.0) - 0.2F, 0.F, 1.F);
     if (seed.uniform() > bare * gathered) return;
@@ -76,24 +76,14 @@ std::vector<Stroke> glacier_flow_lines(const StrokeScene& scene) {
     stroke.gate = StrokeGate::same_class;
     stroke.depth_tolerance = 0.03F;
     lay_on_top(stroke);
-    // Rubble from where two ice streams met; only on flat tongues.
-    const bool rubble = scene.slope_deg(i) < 14.F && seed.uniform() < 0.05F;
+
     const bool blue = seed.uniform() < 0.5F;
     const bool band = seed.uniform() < 0.45F;
     lay_line(stroke, scene, place, seed.between(26.F, 64.F), 0.F, 0.06F, true, seed);
-    take_brush(stroke, scene,
-               rubble ? seed.between(1.2F, 2.4F)
-               : band ? seed.between(3.F, 6.F)
-                      : seed.between(0.9F, 1.8F),
-               {.taper = 0.35F,
-                .alpha = rubble ? 0.55F
-                         : band ? 0.32F
-                                : 0.42F,
-                .bristle = 0.4F,
-                .wetness = 0.02F});
+    take_brush(stroke, scene, band ? seed.between(3.F, 6.F) : seed.between(0.9F, 1.8F),
+               {.taper = 0.35F, .alpha = band ? 0.32F : 0.42F, .bristle = 0.4F, .wetness = 0.02F});
     const float m = blue ? -seed.between(0.4F, 1.0F) : seed.between(0.5F, 1.1F);
     stroke.colour = scene.colour(i, m, paint_jitter * 0.5F, seed);
-    if (rubble) stroke.colour = through_air(scene, i, by_tone(moraine_paint, scene.guidance.tone[i]));
     out.push_back(stroke);
   });
 }
@@ -164,8 +154,8 @@ std::vector<Stroke> glacier_edges(const StrokeScene& scene) {
     lay_on_top(stroke);
     const glm::vec2 at = rubble ? place + across * (side * 0.8F * scene.scale()) : place;
     lay_line(stroke, scene, at, rubble ? seed.between(7.F, 18.F) : seed.between(10.F, 24.F), 0.06F * seed.normal(), 0.08F, true, seed);
-    take_brush(stroke, scene, rubble ? seed.between(1.8F, 4.2F) : seed.between(1.6F, 3.4F),
-               {.taper = 0.45F, .alpha = rubble ? 0.6F : 0.5F, .bristle = rubble ? 0.6F : 0.35F, .wetness = 0.03F});
+    const float width = rubble ? seed.between(1.8F, 4.2F) : seed.between(1.6F, 3.4F);
+    take_brush(stroke, scene, width, {.taper = 0.45F, .alpha = rubble ? 0.6F : 0.5F, .bristle = rubble ? 0.6F : 0.35F, .wetness = 0.03F});
     const float value = 0.04F * seed.normal();
     stroke.colour = rubble ? through_air(scene, i, by_tone(moraine_paint, scene.guidance.tone[i]) + value)
                            : scene.colour(i, -1.2F, paint_jitter * 0.5F, seed) * through_air_factor(scene, i, depth_of_ice);

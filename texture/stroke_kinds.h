@@ -13,6 +13,7 @@ std::vector<Stroke> sky_strokes(const StrokeScene& scene);
 std::vector<Stroke> wash_strokes(const StrokeScene& scene);
 std::vector<Stroke> meadow_strokes(const StrokeScene& scene);
 std::vector<Stroke> scree_strokes(const StrokeScene& scene);
+std::vector<Stroke> broken_colour(const StrokeScene& scene);  // small dabs every way, warm beside cool
 std::vector<Stroke> water_strokes(const StrokeScene& scene);
 std::vector<Stroke> accent_strokes(const StrokeScene& scene);
 // Rock (stroke_rock.cpp): planes, hatching down the wall, beds across it with their lit tops, cracks.
@@ -20,6 +21,7 @@ std::vector<Stroke> rock_facets(const StrokeScene& scene);
 std::vector<Stroke> rock_hatching(const StrokeScene& scene);
 std::vector<Stroke> rock_ledges(const StrokeScene& scene);
 std::vector<Stroke> rock_fissures(const StrokeScene& scene);
+std::vector<Stroke> rock_snow(const StrokeScene& scene);  // in winter only
 // Snow and ice (stroke_ice.cpp). Flow lines, crevasses and edges of glaciers, and the ribs that are bare of snow, are drawn on top.
 std::vector<Stroke> snow_strokes(const StrokeScene& scene);
 std::vector<Stroke> snow_ribs(const StrokeScene& scene);

@@ -47,12 +47,14 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     append(body, rock_hatching(scene));
     append(body, rock_ledges(scene));
     append(body, rock_fissures(scene));
+    append(body, rock_snow(scene));
     append(body, scree_strokes(scene));
     append(body, snow_strokes(scene));
     append(body, snow_ribs(scene));
     append(body, glacier_flow_lines(scene));
     append(body, glacier_edges(scene));
     append(body, glacier_crevasses(scene));
+    append(body, broken_colour(scene));
     append(body, water_strokes(scene));
   }
   if (layers.upright) append(body, houses(scene));

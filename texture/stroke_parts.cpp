@@ -39,6 +39,12 @@ glm::vec3 through_air_factor(const StrokeScene& scene, std::size_t i, glm::vec3 
   return factor + (1.F - factor) * std::clamp(scene.ground.haze[i], 0.F, 1.F);
 }
 
+glm::vec3 fresh_snow(float tone) {
+  const float light = std::clamp(tone, 0.F, 1.F);
+  const float sunny = light * (0.55F + 0.4F * light);
+  return {0.55F + 0.42F * sunny, 0.62F + 0.34F * sunny, 0.78F + 0.17F * light};
+}
+
 void lay_on_top(Stroke& stroke) { stroke.order -= tight_depth * stroke.depth_m; }
 
 float ground_noise(const StrokeScene& scene, std::size_t i, std::uint64_t kind, double sigma_m) {

@@ -30,6 +30,8 @@ void set_line(Stroke& stroke, glm::vec2 from, glm::vec2 to, float start_width, f
 glm::vec3 through_air(const StrokeScene& scene, std::size_t i, glm::vec3 paint);
 // The same for a factor on the picture's colour.
 glm::vec3 through_air_factor(const StrokeScene& scene, std::size_t i, glm::vec3 factor);
+// Fresh snow at a tone: white in the sun, blue in the shade.
+glm::vec3 fresh_snow(float tone);
 // Painted after everything else on its own surface, but before what is nearer: what lies on top of long strokes.
 void lay_on_top(Stroke& stroke);
 

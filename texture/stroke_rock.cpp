@@ -82,6 +82,28 @@ std::vector<Stroke> rock_ledges(const StrokeScene& scene) {
   });
 }
 
+std::vector<Stroke> rock_snow(const StrokeScene& scene) {
+  if (!scene.parameters.winter) return {};
+  return sow(scene, 4.4F, 20, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != rock) return;
+    // It holds in gullies and on ledges and slides off what is steeper than 60°.
+    const float hollow = std::clamp(0.5F - scene.relief_m(i) / 60.F, 0.F, 1.F);
+    const float holds = std::clamp((64.F - scene.slope_deg(i)) / 18.F, 0.F, 1.F);
+    const float gathered = std::clamp(0.55F + 0.6F * sheet_noise(scene, place, 66, 10.0), 0.F, 1.F);
+    if (seed.uniform() > 1.5F * hollow * holds * gathered) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.depth_tolerance = tight_depth;
+    lay_on_top(stroke);
+    const bool ledge = seed.uniform() < 0.25F;
+    const float angle = (ledge ? quarter_turn : 0.F) + joint_angle(scene, place) + 0.2F * seed.normal();
+    lay_line(stroke, scene, place, ledge ? seed.between(4.F, 10.F) : seed.between(6.F, 20.F), angle, 0.2F, true, seed);
+    take_brush(stroke, scene, seed.between(1.4F, 4.2F), {.taper = 0.35F, .alpha = 0.78F, .bristle = 0.45F, .wetness = 0.02F});
+    const float value = 0.02F * seed.normal();
+    stroke.colour = through_air(scene, i, fresh_snow(scene.guidance.tone[i]) + value);
+    out.push_back(stroke);
+  });
+}
+
 std::vector<Stroke> rock_fissures(const StrokeScene& scene) {
   return sow(scene, 7.5F, 6, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != rock || scene.guidance.tone[i] < 0.45F || seed.uniform() > 0.5F) return;

@@ -54,15 +54,14 @@ void plant(const StrokeScene& scene, const Tree& tree, std::size_t i, float ligh
     lit.order -= 0.5F;
     out.push_back(lit);
   }
-  if (scene.parameters.winter && seed.uniform() < 0.55F) {
-    // Snow lies on the branches: white in the sun, bluish in shadow, a quarter into the air.
+  if (scene.parameters.winter && seed.uniform() < 0.5F) {
+    // Snow lies on the branches of the sunny side; on the shady one it hardly shows, or the wood would look as in a flurry.
     Stroke dab = stroke;
-    set_line(dab, tree.foot + glm::vec2(0.15F * side * tree.width, -0.45F * tree.height),
-             tree.foot + glm::vec2(0.05F * side * tree.width, -0.95F * tree.height), tree.width * 0.55F, tree.width * 0.3F);
-    dab.alpha = 0.55F;
-    const float sunny = 0.55F + 0.4F * tone;
-    const glm::vec3 snow_paint{0.55F + 0.42F * tone * sunny, 0.62F + 0.34F * tone * sunny, 0.78F + 0.17F * tone};
-    dab.colour = snow_paint + (scene.ground.colour[i] - snow_paint) * 0.25F;
+    set_line(dab, tree.foot + glm::vec2(0.17F * side * tree.width, -0.50F * tree.height),
+             tree.foot + glm::vec2(0.05F * side * tree.width, -0.95F * tree.height), tree.width * 0.46F, tree.width * 0.25F);
+    dab.alpha = 0.16F + 0.42F * std::clamp(tone, 0.F, 1.F);
+    const glm::vec3 snow_paint = fresh_snow(tone);
+    dab.colour = snow_paint + (scene.ground.colour[i] - snow_paint) * 0.3F;
     dab.order -= 0.7F;
     out.push_back(dab);
   }

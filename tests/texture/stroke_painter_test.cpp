@@ -318,6 +318,34 @@ TEST(StrokePainter, RockIsHatchedAlongTheFallLine) {
   EXPECT_GT(along, all * 3 / 4);  // one in eight is a ledge across
 }
 
+TEST(StrokePainter, RockHoldsSnowInWinterButNotOnTheSteepest) {
+  Picture p = one_class(rock);
+  p.guidance.slope_deg = Grid<float>(320, 240, 45.F);
+  const StrokeParameters summer;
+  StrokeParameters winter;
+  winter.winter = true;
+  EXPECT_TRUE(rock_snow({p.guidance, p.ground, summer}).empty());
+  EXPECT_GT(rock_snow({p.guidance, p.ground, winter}).size(), 100U);
+  for (float& slope : p.guidance.slope_deg) slope = 66.F;
+  EXPECT_TRUE(rock_snow({p.guidance, p.ground, winter}).empty());
+}
+
+TEST(StrokePainter, BrokenColourIsSmallAndLiesEveryWay) {
+  const Picture p = one_class(rock);
+  const StrokeParameters parameters;
+  int steep = 0;
+  int all = 0;
+  for (const Stroke& s : broken_colour({p.guidance, p.ground, parameters})) {
+    const glm::vec2 axis = s.points[3] - s.points[0];
+    EXPECT_LT(std::hypot(axis.x, axis.y), 5.F);
+    steep += angle_deg(axis, {0.F, 1.F}) < 45.0 ? 1 : 0;
+    ++all;
+  }
+  ASSERT_GT(all, 1000);
+  EXPECT_GT(steep, all * 2 / 5);
+  EXPECT_LT(steep, all * 3 / 4);
+}
+
 TEST(StrokePainter, UprightLayerAloneLeavesBareGroundUntouched) {
   const Picture p = one_class(rock);
   const Grid<glm::vec3> canvas(320, 240, glm::vec3(0.3F));
