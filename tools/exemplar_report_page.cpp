@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "texture/quality.h"
 #include "tools/bitmap_text.h"
@@ -40,6 +41,14 @@ Grid<glm::vec3> swatch(const Exemplar& exemplar, const Grid<std::uint8_t>& borde
   return enlarged(to_picture(cut(exemplar.picture, best_window(score, {}, swatch_side))), swatch_times);
 }
 
+// What white stands for: nearly the largest count, because the ends of a guide's range may gather many texels.
+float common_count(const Counts& counts) {
+  std::vector<std::size_t> some;
+  std::copy_if(counts.begin(), counts.end(), std::back_inserter(some), [](std::size_t n) { return n > 0; });
+  std::sort(some.begin(), some.end());
+  return some.empty() ? 1.F : static_cast<float>(some[(some.size() - 1) * 19 / 20]);
+}
+
 void fill(Grid<glm::vec3>& picture, int x0, int y0, int width, int height, glm::vec3 colour) {
   for (int y = y0; y < y0 + height; ++y) std::fill_n(picture.row(y) + x0, width, colour);
 }
@@ -59,7 +68,7 @@ Grid<glm::vec3> coverage_chart(const Exemplar& exemplar, const ExemplarSurvey& s
     const Counts texels = count_values(guide.values, exemplar.guides.label, label);
     const Counts pixels = wanted == nullptr ? Counts{} : count_values(*wanted, asked.label, label);
     Grid<float> shares(256, 1);
-    const auto most = static_cast<float>(std::max<std::size_t>(1, *std::max_element(texels.begin(), texels.end())));
+    const float most = common_count(texels);
     // The root lets few texels be seen beside many.
     for (int v = 0; v < 256; ++v) shares(v, 0) = std::sqrt(static_cast<float>(texels[static_cast<std::size_t>(v)]) / most);
     const Grid<glm::vec3> heat = heat_picture(shares, 1.F);
