@@ -63,6 +63,21 @@ void refine_by_rules(LandCover& cover, const LandCover& rules, const std::vector
   });
 }
 
+// With every patch, however small.
+LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
+  const SceneLandCover& wish = loaded.scene.land_cover;
+  if (wish.sources.empty()) return make_rule_cover(loaded, dem, progress);
+  LandCoverParameters parameters;
+  parameters.sources = to_raster_sources(loaded, wish.sources);
+  parameters.legend = find_named_file(loaded, "legends", wish.legend);
+  parameters.folders = loaded.allowed_folders;
+  parameters.unknown = wish.unknown;
+  parameters.nodata = wish.nodata;
+  LandCover cover = read_land_cover(parameters, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);
+  if (!wish.refine.empty()) refine_by_rules(cover, make_rule_cover(loaded, dem, progress), wish.refine);
+  return cover;
+}
+
 Dem read_scene_dem(const LoadedScene& loaded, Progress& progress) {
   const SceneTerrain& terrain = loaded.scene.terrain;
   if (terrain.synthetic) return make_synthetic_terrain(*terrain.synthetic, progress);
@@ -84,17 +99,11 @@ Dem make_scene_dem(const LoadedScene& loaded, Progress& progress) {
 }
 
 LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
-  const SceneLandCover& wish = loaded.scene.land_cover;
-  if (wish.sources.empty()) return make_rule_cover(loaded, dem, progress);
-  LandCoverParameters parameters;
-  parameters.sources = to_raster_sources(loaded, wish.sources);
-  parameters.legend = find_named_file(loaded, "legends", wish.legend);
-  parameters.folders = loaded.allowed_folders;
-  parameters.unknown = wish.unknown;
-  parameters.nodata = wish.nodata;
-  LandCover cover = read_land_cover(parameters, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);
-  if (!wish.refine.empty()) refine_by_rules(cover, make_rule_cover(loaded, dem, progress), wish.refine);
-  return cover;
+  return make_scene_patches(loaded, dem, progress).cover;
+}
+
+PatchResult make_scene_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
+  return remove_small_patches(make_full_cover(loaded, dem, progress), loaded.scene.land_cover.patches);
 }
 
 Ground make_ground(const LoadedScene& loaded, Dem dem, LandCover land_cover, const View& view, Progress& progress) {

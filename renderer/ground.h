@@ -5,6 +5,7 @@
 #include "renderer/scene_file.h"
 #include "renderer/view.h"
 #include "terrain/deform.h"
+#include "terrain/land_cover_patches.h"
 
 namespace belvedere {
 
@@ -12,6 +13,9 @@ namespace belvedere {
 Dem make_scene_dem(const LoadedScene& scene, Progress& progress);
 // Its land cover: from sources and a legend, or by rules.
 LandCover make_scene_land_cover(const LoadedScene& scene, const Dem& dem, Progress& progress);
+
+// The same, and what became of each class when small patches were taken out ([land_cover] smallest_patch_m2).
+PatchResult make_scene_patches(const LoadedScene& scene, const Dem& dem, Progress& progress);
 
 // The terrain as one view wants it: generalized by distance, exaggerated and bent.
 struct Ground {

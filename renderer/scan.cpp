@@ -193,9 +193,9 @@ ScannedPainting finish_scan(const SceneExemplar& wish, Raw raw, double residual,
 }
 
 // A painting's own light is often fainter than relief needs to be read, and much of it is in strokes, which ramps leave out. The ramp gets
-// at least this share of the palette's range of lightness (OKLab), about its middle, hue and saturation kept; stretched at most twofold.
+// at least this share of the palette's range of lightness (OKLab), about its middle, hue and saturation kept; stretched at most threefold.
 constexpr double least_range_share = 0.8;
-constexpr double largest_stretch = 2.0;
+constexpr double largest_stretch = 3.0;
 ToneRamp stretch(const ToneRamp& ramp, const ToneRamp& wanted) {
   const auto range = [](const ToneRamp& r) { return to_oklab(r.back()).x - to_oklab(r.front()).x; };
   const double factor = std::clamp(least_range_share * range(wanted) / std::max(range(ramp), 1e-3), 1.0, largest_stretch);

@@ -11,6 +11,7 @@
 #include "renderer/base/land_cover_class.h"
 #include "terrain/deform.h"
 #include "terrain/generalize.h"
+#include "terrain/land_cover_patches.h"
 #include "terrain/synthetic.h"
 #include "terrain/widen_valleys.h"
 
@@ -49,6 +50,7 @@ struct SceneLandCover {
   std::vector<std::pair<LandCoverClass, LandCoverClass>> refine;
   std::optional<LandCoverClass> unknown;
   std::optional<LandCoverClass> nodata;
+  PatchParameters patches;  // generalization: small patches go, those that matter stay
 };
 
 struct SceneGeneralize {

@@ -54,6 +54,8 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress) {
   const Stage stage = set_stage(view, progress);
   std::vector<ScannedPainting> scans;
   if (scene.scene.synthesis.enabled) scans = read_scans(view, progress);
+  if (scene.scene.land_cover.patches.smallest_m2 > 0.0)
+    report.land_cover = make_scene_patches(scene, stage.ground.model.dem, progress).areas;
   report.view = stage.view;
   report.crs = stage.ground.model.dem.crs.empty() ? std::string("none") : describe_crs(stage.ground.model.dem.crs);
   report.cells_wide = stage.ground.model.dem.width();

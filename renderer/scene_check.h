@@ -10,6 +10,7 @@
 #include "renderer/paint.h"
 #include "renderer/scene_file.h"
 #include "renderer/view.h"
+#include "terrain/land_cover_patches.h"
 
 namespace belvedere {
 
@@ -22,6 +23,7 @@ struct SceneReport {
   double cell_m = 0.0;
   View view;
   std::vector<std::pair<LandCoverClass, double>> classes;  // seen in the picture, with their share of its area
+  std::vector<ClassArea> land_cover;                       // where small patches are taken out: each class before and after
   std::vector<std::string> exemplars;
 };
 

@@ -188,6 +188,16 @@ std::vector<SceneSection> make_scene_sections() {
            {.name = "nodata",
             .field = AT(land_cover.nodata),
             .meaning = "Class where the raster has nothing; without it that of the nearest known cell."},
+           {.name = "smallest_patch_m2",
+            .field = AT(land_cover.patches.smallest_m2),
+            .range = {0, 1e10},
+            .unit = "m²",
+            .meaning = "Smaller patches of a class go to what lies around them; 0 leaves them. `belvedere check` says what became of each "
+                       "class."},
+           {.name = "keep_patches",
+            .field = AT(land_cover.patches.keep),
+            .meaning =
+                "Classes whose small patches matter: they stay, and grow by up to three cells until they are large enough to be seen."},
            {.name = "settings",
             .field = AT(land_cover.settings),
             .range = {-1e9, 1e9},

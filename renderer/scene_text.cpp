@@ -44,7 +44,7 @@ struct ValueWriter {
   std::string operator()(const std::vector<LandCoverClass>* field) const {
     std::vector<std::string> entries;
     for (const LandCoverClass id : *field) entries.push_back(json_quoted(class_name(id)));
-    return entries.empty() ? "" : bracketed(entries);
+    return bracketed(entries);
   }
   std::string operator()(const std::vector<std::pair<std::string, double>>* field) const {
     std::vector<std::string> entries;
@@ -69,7 +69,7 @@ bool is_excluded(const SceneSection& section, const SceneKey& key, Scene& scene,
       if (!value_text(*find_key(section, rival), scene, i).empty()) return true;
   }
   // What an exemplar without a picture cannot have.
-  static constexpr std::array<std::string_view, 4> of_pictures = {"altitude_range_m", "optional", "found_shadow", "stroke_px"};
+  static constexpr std::array<std::string_view, 5> of_pictures = {"altitude_range_m", "optional", "found_shadow", "stroke_px", "serves"};
   return section.name == "exemplar" && scene.exemplars[i].picture.empty() &&
          std::find(of_pictures.begin(), of_pictures.end(), key.name) != of_pictures.end();
 }

@@ -24,6 +24,13 @@ std::string as_json(const LoadedScene& scene, const SceneReport& report) {
                    .add("licence", Json::text(input.licence)));
   Json classes = Json::object();
   for (const auto& [id, share] : report.classes) classes.add(class_name(id), Json::number(share));
+  Json areas = Json::object();
+  for (const ClassArea& area : report.land_cover)
+    areas.add(class_name(area.id), Json::object()
+                                       .add("before_m2", Json::number(area.before_m2))
+                                       .add("after_m2", Json::number(area.after_m2))
+                                       .add("patches_before", Json::number(area.patches_before))
+                                       .add("patches_after", Json::number(area.patches_after)));
   const CameraParameters& camera = report.view.camera;
   return Json::object()
              .add("scene", Json::text(scene.name))
@@ -38,6 +45,7 @@ std::string as_json(const LoadedScene& scene, const SceneReport& report) {
              .add("sun_azimuth_deg", Json::number(report.view.sun.azimuth_deg))
              .add("sun_altitude_deg", Json::number(report.view.sun.altitude_deg))
              .add("classes", std::move(classes))
+             .add("land_cover", std::move(areas))
              .add("exemplars", Json::texts(report.exemplars))
              .str() +
          "\n";
@@ -53,6 +61,9 @@ std::string as_text(const LoadedScene& scene, const SceneReport& report) {
   out += fmt::format("camera: E {:.0f} N {:.0f}, {:.0f} m; looks to {:.1f}°, pitch {:.1f}°\n", camera.eye.x, camera.eye.y, camera.eye.z,
                      camera.azimuth_deg, camera.pitch_deg);
   out += fmt::format("sun: azimuth {:.1f}°, {:.1f}° high\n", report.view.sun.azimuth_deg, report.view.sun.altitude_deg);
+  for (const ClassArea& area : report.land_cover)
+    out += fmt::format("land cover: {} {:.2f} km² in {} patches, {:.2f} km² in {} before small ones were taken out\n", class_name(area.id),
+                       area.after_m2 / 1e6, area.patches_after, area.before_m2 / 1e6, area.patches_before);
   out += "in the picture:";
   for (const auto& [id, share] : report.classes) out += fmt::format(" {} {:.1f} %,", class_name(id), 100.0 * share);
   out.back() = '\n';

@@ -53,6 +53,8 @@ FileNotes make_notes(const Options& options) {
     add(source);
     add(target);
   }
+  for (const std::string& mask : options.files.exclusions)
+    if (mask != "-") add(mask);
   for (const GuidePair& guide : options.files.guides) {
     add(guide.source);
     add(guide.target);
@@ -60,9 +62,9 @@ FileNotes make_notes(const Options& options) {
   FileNotes notes = to_notes(make_provenance("", inputs));
   std::string weights;
   for (const GuidePair& guide : options.files.guides) weights += fmt::format(" {} {}", guide.name, guide.weight);
-  notes["belvedere:synthesis"] =
-      fmt::format("seed {} levels {} reuse {} copy_cap {} surroundings {} weights{}", options.parameters.seed, options.parameters.levels,
-                  options.parameters.reuse, options.parameters.copy_cap, options.parameters.surroundings, weights);
+  notes["belvedere:synthesis"] = fmt::format(
+      "seed {} levels {} reuse {} copy_cap {} surroundings {} harmonize {} weights{}", options.parameters.seed, options.parameters.levels,
+      options.parameters.reuse, options.parameters.copy_cap, options.parameters.surroundings, options.files.harmonize, weights);
   return notes;
 }
 
@@ -84,10 +86,20 @@ std::string describe_command(const Options& options) {
                        name(options.files.labels[i].second));
   for (const GuidePair& guide : options.files.guides)
     out += fmt::format(" --guide {} {} {} {}", guide.name, name(guide.source), name(guide.target), guide.weight);
+  for (const std::string& mask : options.files.exclusions) out += fmt::format(" --exclude {}", name(mask));
+  if (options.files.harmonize != "off") out += fmt::format(" --harmonize {}", options.files.harmonize);
   for (const auto& [from, to] : options.fallback) out += fmt::format(" --fallback {} {}", from, to);
   const SynthesisParameters& p = options.parameters;
   return out + fmt::format(" --seed {} --levels {} --reuse {} --copy-cap {} --surroundings {} --out {}", p.seed, p.levels, p.reuse,
                            p.copy_cap, p.surroundings, name(options.out));
+}
+
+// Messages and --fallback speak of labels by number.
+void note_colours(const std::vector<Rgb8>& colours, Progress& progress) {
+  std::string list;
+  for (std::size_t k = 0; k < colours.size(); ++k)
+    list += fmt::format("{} {} is #{:02x}{:02x}{:02x}", k == 0 ? "" : ",", k, colours[k][0], colours[k][1], colours[k][2]);
+  if (!list.empty()) progress.note("labels by colour:" + list);
 }
 
 void print_result(const Options& options, int width, int height, std::size_t empty, Progress& progress) {
@@ -161,6 +173,7 @@ int run(Options& options) {
   progress.begin("reading", 0.0);
   SynthesisInputs inputs = read_synthesis(options.files);
   options.parameters.weights = inputs.weights;
+  note_colours(inputs.label_colours, progress);
   const FileNotes notes = make_notes(options);
   const std::string scarcity =
       describe_scarcity(class_supply(inputs.exemplars, inputs.target.label, options.parameters.fallback), class_name_of);
@@ -220,7 +233,8 @@ Command add_synthesize(CLI::App& program) {
       command
           ->add_option(
               "--label", options->files.labels,
-              "Label images of the painting and of the target: grey, one number a class, 255 is never used; one for each --picture")
+              "Label images of the painting and of the target: grey, one number a class, 255 is never used, or drawn in flat colours; "
+              "one for each --picture")
           ->type_name("STYLE TARGET")
           ->check(no_option_among("two files, of the painting and of the target"))
           ->allow_extra_args(false);
@@ -242,6 +256,19 @@ Command add_synthesize(CLI::App& program) {
           ->add_option("--report", options->report,
                        "Also a folder with index.html: how good the result is, where it comes from, what each guide costs, worst places")
           ->type_name("DIR");
+  command
+      ->add_option(
+          "--exclude", options->files.exclusions,
+          "Grey image of the painting's size: what is not black is never copied (lettering, frames, figures); the first belongs to "
+          "the first --picture …, - is none")
+      ->type_name("MASK")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--harmonize", options->files.harmonize,
+                   "Brings the colours of several paintings together first, label by label: off, common, or like the first")
+      ->type_name("HOW")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"off", "common", "first"}));
   command->add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
       ->type_name("LABEL LABEL")
       ->allow_extra_args(false);

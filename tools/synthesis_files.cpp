@@ -8,9 +8,12 @@
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "renderer/base/error.h"
+#include "renderer/harmonize.h"
+#include "renderer/label_image.h"
 
 namespace belvedere::tools {
 namespace {
@@ -24,17 +27,6 @@ void require_size(const Grid<T>& grid, const std::string& file, int width, int h
                 fmt::format("{}, as {}", size_text(width, height), of));
 }
 
-Grid<std::uint8_t> read_labels(const std::string& file) {
-  const Grid<std::uint16_t> grey = read_grey(file);
-  Grid<std::uint8_t> labels(grey.width(), grey.height());
-  for (std::size_t i = 0; i < grey.size(); ++i) {
-    if (grey[i] > unused_label)
-      throw Error(ErrorKind::input, file, fmt::format("has a label {}", grey[i]), "0 … 254, and 255 for what must not be used");
-    labels[i] = static_cast<std::uint8_t>(grey[i]);
-  }
-  return labels;
-}
-
 // Guides are compared in 8 bits; 16-bit images lose their lower half, on both sides alike.
 Grid<std::uint8_t> read_guide(const std::string& file) {
   const ImageInfo info = read_image_info(file);
@@ -46,12 +38,13 @@ Grid<std::uint8_t> read_guide(const std::string& file) {
   return values;
 }
 
-Exemplar make_exemplar(const std::string& file, const Grid<glm::vec3>& picture, const Grid<float>& alpha, Grid<std::uint8_t> labels) {
-  Exemplar exemplar{.name = std::filesystem::path(file).filename().string(), .picture = to_rgb8(picture), .guides = {}};
-  for (std::size_t i = 0; i < picture.size(); ++i)
-    if (alpha[i] < 0.5F) labels[i] = unused_label;  // what is cut out of a picture is no paint
-  exemplar.guides.label = std::move(labels);
-  return exemplar;
+// What is not black in a mask is never copied from.
+void leave_out(const std::string& mask_file, const std::string& picture_file, Grid<std::uint8_t>& labels) {
+  if (mask_file == "-") return;
+  const Grid<std::uint16_t> mask = read_grey(mask_file);
+  require_size(mask, mask_file, labels.width(), labels.height(), picture_file);
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (mask[i] > 0) labels[i] = unused_label;
 }
 
 }  // namespace
@@ -67,7 +60,15 @@ SynthesisInputs read_synthesis(const SynthesisFiles& files) {
 
   SynthesisInputs inputs;
   const std::string& target_file = files.labels.front().second;
-  if (!target_file.empty()) inputs.target.label = read_labels(target_file);
+  std::vector<std::string> label_files;
+  for (const auto& [source, target] : files.labels) label_files.push_back(source);
+  if (!target_file.empty()) label_files.push_back(target_file);
+  LabelImages labels = read_label_images(label_files);
+  inputs.label_colours = std::move(labels.colours);
+  if (!target_file.empty()) inputs.target.label = std::move(labels.labels.back());
+  if (files.exclusions.size() > files.pictures.size())
+    refuse(fmt::format("there are {} --exclude and {} --picture", files.exclusions.size(), files.pictures.size()),
+           "one --exclude for each --picture, or fewer");
   inputs.profile = read_image_info(files.pictures.front()).icc_profile;
   for (std::size_t i = 0; i < files.pictures.size(); ++i) {
     if (files.labels[i].second != target_file)
@@ -76,9 +77,21 @@ SynthesisInputs read_synthesis(const SynthesisFiles& files) {
     Grid<float> alpha;
     inputs.pictures.push_back(read_picture(files.pictures[i], &alpha));
     const Grid<glm::vec3>& picture = inputs.pictures.back();
-    Grid<std::uint8_t> labels = read_labels(files.labels[i].first);
-    require_size(labels, files.labels[i].first, picture.width(), picture.height(), files.pictures[i]);
-    inputs.exemplars.push_back(make_exemplar(files.pictures[i], picture, alpha, std::move(labels)));
+    Grid<std::uint8_t>& own = labels.labels[i];
+    require_size(own, files.labels[i].first, picture.width(), picture.height(), files.pictures[i]);
+    for (std::size_t k = 0; k < own.size(); ++k)
+      if (alpha[k] < 0.5F) own[k] = unused_label;  // what is cut out of a picture is no paint
+    if (i < files.exclusions.size()) leave_out(files.exclusions[i], files.pictures[i], own);
+  }
+  if (files.harmonize != "off") {
+    std::vector<LabelledPicture> painted;
+    for (std::size_t i = 0; i < inputs.pictures.size(); ++i) painted.push_back({&inputs.pictures[i], &labels.labels[i]});
+    inputs.pictures = harmonize(painted, files.harmonize == "first" ? std::optional<std::size_t>(0) : std::nullopt);
+  }
+  for (std::size_t i = 0; i < inputs.pictures.size(); ++i) {
+    inputs.exemplars.push_back(
+        {.name = std::filesystem::path(files.pictures[i]).filename().string(), .picture = to_rgb8(inputs.pictures[i]), .guides = {}});
+    inputs.exemplars.back().guides.label = std::move(labels.labels[i]);
   }
 
   std::map<std::string, std::size_t> seen;  // how many pictures have that guide

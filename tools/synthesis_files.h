@@ -26,13 +26,16 @@ struct SynthesisFiles {
   std::vector<std::string> pictures;
   std::vector<std::pair<std::string, std::string>> labels;  // of the picture, of the target
   std::vector<GuidePair> guides;
+  std::vector<std::string> exclusions;  // masks of what is never copied from, by picture; "-" and missing ones: none
+  std::string harmonize = "off";        // colours of several pictures: "off", "common" or like the "first"
 };
 
 struct SynthesisInputs {
   std::vector<Exemplar> exemplars;
-  std::vector<Grid<glm::vec3>> pictures;  // full depth, as in the files
+  std::vector<Grid<glm::vec3>> pictures;  // full depth, as in the files or harmonized
   GuideStack target;
   std::vector<std::pair<std::string, double>> weights;
+  std::vector<Rgb8> label_colours;    // where labels are drawn in colours: that of each number
   std::vector<std::uint8_t> profile;  // colour profile of the first picture
 };
 
