@@ -16,6 +16,7 @@
 #include "renderer/harmonize.h"
 #include "renderer/image_io.h"
 #include "renderer/oklab.h"
+#include "renderer/painting_strokes.h"
 #include "renderer/painting_tone.h"
 #include "renderer/shadow_texels.h"
 
@@ -168,6 +169,7 @@ ScannedPainting finish_scan(const SceneExemplar& wish, Raw raw, double residual,
     progress.note(fmt::format("{}: {:.1f} % of it is taken for cast shadow", wish.picture,
                               100.0 * static_cast<double>(shaded) / static_cast<double>(raw.labels.size())));
   }
+  if (guidance.fall_line.empty()) guidance.fall_line = find_stroke_direction(raw.picture, raw.labels, wish.stroke_px);
   PaintedExemplar& painted = scan.painted;
   painted.exemplar.name = wish.picture;
   painted.exemplar.guides = make_guide_stack(guidance, guidance.land_cover);

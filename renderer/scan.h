@@ -23,8 +23,8 @@ struct ScannedPainting {
 
 // The paintings of a scene's [[exemplar]] blocks, one result for each block. Each is a picture with a guidance file, or with a class mask
 // and perhaps altitude, shadow and exclusion masks. What is not there is estimated from the painting itself: the tone (painting_tone.h),
-// cast shadow (shadow_texels.h), the base picture (fitted_ramps.h). Colours are harmonized first where the scene says so. An optional
-// painting whose file is missing is noted.
+// cast shadow (shadow_texels.h), the direction of strokes (painting_strokes.h), the base picture (fitted_ramps.h). Colours are harmonized
+// first where the scene says so. An optional painting whose file is missing is noted.
 std::vector<ScannedPainting> read_scans(const LoadedScene& scene, Progress& progress);
 
 // Error(input) naming the file where a painting cannot be read whole or its guides have another size, Error(limit) where it takes too

@@ -252,6 +252,23 @@ TEST(SceneFile, BadSettingsNameThemselves) {
   EXPECT_THAT(refused("", {"a.b.c.d.e.f.g.h.i.j=1"}), HasSubstr("too many parts"));
 }
 
+TEST(SceneFile, ListsOfClasses) {
+  const Scene scene = scene_of(
+      "[land_cover]\nsmallest_patch_m2 = 9000\nkeep_patches = []\n[[exemplar]]\npicture = \"p.png\"\nclasses = \"c.png\"\n"
+      "serves = [\"rock\", \"snow\"]\nfound_shadow = \"exclude\"\n[synthesis]\ncolours = \"painting\"\nharmonize = \"first\"\n");
+  EXPECT_EQ(scene.exemplars[0].serves, (std::vector{LandCoverClass::rock, LandCoverClass::snow}));
+  EXPECT_TRUE(scene.land_cover.patches.keep.empty());
+  EXPECT_EQ(Scene{}.land_cover.patches.keep, (std::vector{LandCoverClass::water, LandCoverClass::settlement}));
+  const Scene again = parse_scene(write_scene(scene), "again.toml", ".", {}).scene;
+  EXPECT_EQ(again.exemplars[0].serves, scene.exemplars[0].serves);
+  EXPECT_TRUE(again.land_cover.patches.keep.empty());
+  EXPECT_EQ(again.land_cover.patches.smallest_m2, 9000.0);
+  EXPECT_EQ(again.synthesis.colours, "painting");
+  EXPECT_THAT(refused("[land_cover]\nkeep_patches = [\"water\", \"watr\"]\n"), AllOf(StartsWith("s.toml:3:"), HasSubstr("water")));
+  EXPECT_THAT(refused("[land_cover]\nkeep_patches = \"water\"\n"), HasSubstr("a list of class names"));
+  EXPECT_THAT(refused("[[exemplar]]\nserves = [\"rock\"]\n"), HasSubstr("no picture"));
+}
+
 // Everything at once and the defaults: what is written reads back to the same.
 TEST(SceneFile, WrittenScenesReadBack) {
   for (const char* text :

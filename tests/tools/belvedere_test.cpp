@@ -155,6 +155,15 @@ TEST_F(Program, CheckReportsWhatItSaw) {
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"valid\": true"), HasSubstr("\"cell_m\": 200"), HasSubstr("\"classes\": {")));
 }
 
+TEST_F(Program, CheckSaysWhatBecameOfSmallPatches) {
+  const std::string scene = write_scene_file("[land_cover]\nsmallest_patch_m2 = 1e6\n");
+  const Outcome words = run({"check", scene});
+  ASSERT_EQ(words.status, 0) << words.err;
+  EXPECT_THAT(words.out, AllOf(HasSubstr("land cover: "), HasSubstr("before small ones were taken out")));
+  EXPECT_THAT(run({"check", scene, "--json"}).out, HasSubstr("\"patches_before\": "));
+  EXPECT_THAT(run({"check", write_scene_file()}).out, Not(HasSubstr("land cover: ")));
+}
+
 TEST_F(Program, UnwritableFolderIsAnOutputError) {
   write("file", "in the way");
   const Outcome outcome = run({"guidance", write_scene_file(), "--out", path("file/result")});
