@@ -124,4 +124,14 @@ std::vector<std::int32_t> bin_penalties(const std::vector<std::int32_t>& actual,
   return penalties;
 }
 
+std::vector<std::int32_t> steer_bins(const std::vector<std::int32_t>& actual, const std::vector<std::int32_t>& expected,
+                                     std::int32_t strength, std::vector<std::int32_t>& kept) {
+  std::vector<std::int32_t> costs = bin_penalties(actual, expected, strength);
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    kept[i] = std::clamp(kept[i] + costs[i] / 16, -2 * strength, 2 * strength);
+    costs[i] += kept[i];
+  }
+  return costs;
+}
+
 }  // namespace belvedere::synth

@@ -19,4 +19,9 @@ std::vector<std::uint8_t> make_bins(const Plane& exemplars, int classes);
 std::vector<std::int32_t> bin_penalties(const std::vector<std::int32_t>& actual, const std::vector<std::int32_t>& expected,
                                         std::int32_t strength);
 
+// The same with a memory, as a controller has it: a sixteenth of each round's cost stays, within ± 2 × strength, so that a bin which a
+// steady preference draws too often grows dearer until it is not. Changes `kept`; the sum of both is the cost.
+std::vector<std::int32_t> steer_bins(const std::vector<std::int32_t>& actual, const std::vector<std::int32_t>& expected,
+                                     std::int32_t strength, std::vector<std::int32_t>& kept);
+
 }  // namespace belvedere::synth

@@ -97,6 +97,7 @@ LevelState::LevelState(const LevelSettings& level_settings, const std::vector<Gu
       bins_expected(static_cast<std::size_t>(classes) * bins_per_class, 0),
       bins_actual(bins_expected),
       bin_cost(bins_expected),
+      bin_cost_kept(bins_expected),
       reuse_q4(static_cast<std::size_t>(classes), 0),
       most_uses(static_cast<std::size_t>(classes), 0xffffffffU),
       pieces(target) {

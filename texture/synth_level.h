@@ -49,8 +49,9 @@ struct LevelState {
   std::vector<std::int32_t> bins_expected;  // by class × 64 + bin: how often picks alone would draw it
   std::vector<std::int32_t> bins_actual;
   std::vector<std::int32_t> bin_cost;
-  std::vector<std::int64_t> reuse_q4;    // by class
-  std::vector<std::uint32_t> most_uses;  // by class
+  std::vector<std::int32_t> bin_cost_kept;  // from round to round
+  std::vector<std::int64_t> reuse_q4;       // by class
+  std::vector<std::uint32_t> most_uses;     // by class
   Pieces pieces;
 
   // Target classes without texels on this level become no_class. `links` may be empty.

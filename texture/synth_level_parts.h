@@ -61,7 +61,7 @@ inline void move_pixel(LevelState& state, std::uint32_t pixel, std::uint32_t tex
 }
 
 inline void update_bin_cost(LevelState& state) {
-  state.bin_cost = bin_penalties(state.bins_actual, state.bins_expected, static_cast<std::int32_t>(price::bin));
+  state.bin_cost = steer_bins(state.bins_actual, state.bins_expected, static_cast<std::int32_t>(price::bin), state.bin_cost_kept);
 }
 
 inline void add_to(BinCounts& sums, const BinCounts& change) {

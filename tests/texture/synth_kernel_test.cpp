@@ -232,7 +232,11 @@ void expect_cheapest_candidates(bool with_silhouettes) {
 
   KernelView view = before.view(pass);
   view.target = &target_before;
-  const std::vector<std::int32_t> bin_cost = bin_penalties(before.bins_actual, before.bins_expected, static_cast<std::int32_t>(price::bin));
+  std::vector<std::int32_t> bin_cost = bin_penalties(before.bins_actual, before.bins_expected, static_cast<std::int32_t>(price::bin));
+  for (std::size_t i = 0; i < bin_cost.size(); ++i) {
+    ASSERT_LT(std::abs(before.bin_cost_kept[i] + bin_cost[i] / 16), 30000);
+    bin_cost[i] += before.bin_cost_kept[i] + bin_cost[i] / 16;
+  }
   const std::vector<Surroundings> offered_around = make_surroundings(exemplars, settings.surroundings_radius, classes);
   int moved = 0;
   for (int y = 0; y < 23; ++y) {
@@ -394,6 +398,20 @@ TEST(PickLists, WindowsHoldEnoughTexelsForTheDemand) {
       EXPECT_EQ(class_of(exemplars.words[texel]), c);
       EXPECT_TRUE(inside(exemplars.guides_at(texel)));
     }
+  }
+}
+
+TEST(Bins, WhatStaysTooOftenGrowsDearerUpToABound) {
+  // Used twice as often as expected, as often, never: 15000, 0 and -15000 at once, a sixteenth more each round.
+  const std::vector<std::int32_t> expected{9996, 996, 9996};
+  const std::vector<std::int32_t> actual{19996, 996, 0};
+  std::vector<std::int32_t> kept(3, 0);
+  for (int round = 1; round <= 40; ++round) {
+    const std::vector<std::int32_t> costs = steer_bins(actual, expected, 15000, kept);
+    EXPECT_EQ(costs[0], 15000 + std::min(30000, round * 937));
+    EXPECT_EQ(costs[1], 0);
+    // 16 × 9996 / 10000, towards zero, is 15 sixteenths.
+    EXPECT_EQ(costs[2], -14062 - std::min(30000, round * 878));
   }
 }
 

@@ -68,7 +68,11 @@ TEST(SynthesisMemory, SlopeStaysUnderTheBound) {
     const double large = static_cast<double>(peak_of(640, 512, c.guides, c.with_depth));
     const double slope = (large - small) / (640.0 * 512.0 - 256.0 * 256.0);
     RecordProperty("bytes_per_pixel_x100_" + std::to_string(c.guides), static_cast<int>(100 * slope));
-    EXPECT_LE(slope, c.guides == 1 ? 32.0 : 40.0) << c.guides << " guides";
+    // Promised are 32 and 40 bytes. In a process of its own, as ctest runs it, 16.7 … 17.5 and 28.0 … 29.6 were measured: there the bound
+    // is so tight that a further array of 4 bytes a pixel shows. What other tests left in the heap blurs that by up to 4 bytes.
+    const testing::UnitTest& tests = *testing::UnitTest::GetInstance();
+    const bool alone = tests.successful_test_count() + tests.failed_test_count() == 0;
+    EXPECT_LE(slope, alone ? (c.guides == 1 ? 19.0 : 31.0) : (c.guides == 1 ? 32.0 : 40.0)) << c.guides << " guides";
     EXPECT_GE(slope, 12.0) << "nothing was measured";
     const auto estimate = [&](std::size_t pixels) { return static_cast<double>(synthesis_bytes(0, pixels, c.guides, c.with_depth)); };
     EXPECT_LE(slope, (estimate(2000000) - estimate(1000000)) / 1e6) << "synthesis_bytes says too little";
