@@ -57,6 +57,12 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     append(body, broken_colour(scene));
     append(body, water_strokes(scene));
   }
+  if (layers.accents && !layers.ground) {
+    // Structure that a copied ground has lost: it lies where the ice breaks and ends, which no texel knows.
+    append(body, snow_ribs(scene));
+    append(body, glacier_edges(scene));
+    append(body, glacier_crevasses(scene));
+  }
   if (layers.upright) append(body, houses(scene));
   paint(std::move(body));
 

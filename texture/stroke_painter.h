@@ -29,7 +29,7 @@ struct StrokeParameters {
 struct StrokeLayers {
   bool sky = true;      // on sky pixels
   bool ground = true;   // wash, rock, meadow, scree, snow, water
-  bool accents = true;  // light on edges, dark in hollows
+  bool accents = true;  // light on edges, dark in hollows; crevasses and edges of glaciers, ribs bare of snow
   bool upright = true;  // what stands on the ground: trees, dwarf pines, houses
 };
 

@@ -160,6 +160,14 @@ TEST(StrokePainter, CrevassesLieAcrossTheFlowAndOnlyWhereIceIsTorn) {
   EXPECT_TRUE(glacier_crevasses({p.guidance, p.ground, parameters}).empty());
 }
 
+TEST(StrokePainter, CopiedIceGetsItsCrevassesToo) {
+  Picture p = one_class(glacier);
+  p.guidance.slope_deg = Grid<float>(320, 240, 22.F);
+  const StrokeLayers over_copied{.sky = true, .ground = false, .accents = true, .upright = true};
+  const auto torn = paint_strokes(p.ground.colour, p.guidance, p.ground, over_copied, {}, silent_progress()).picture;
+  EXPECT_NE(torn, p.ground.colour);
+}
+
 TEST(StrokePainter, FlowLinesAreLongAndFollowTheIce) {
   Picture p = one_class(glacier);
   const glm::vec2 flow(0.6F, 0.8F);
