@@ -13,7 +13,7 @@
 #include "renderer/base/error.h"
 #include "renderer/guidance_io.h"
 #include "renderer/image_io.h"
-#include "tests/files.h"
+#include "tests/renderer/picture_bytes.h"
 
 namespace belvedere {
 namespace {
@@ -106,6 +106,37 @@ TEST_F(Pipeline, PanoramaShowsSkyOverTerrainAndIsPainted) {
   }
   EXPECT_GT(difference / count, 0.01);
   EXPECT_LT(difference / count, 0.12);
+}
+
+// A painting in reds, each class lighter to the right: its colours become those of the base picture, with or without its strokes.
+TEST_F(Pipeline, ColoursOfAPaintingReachTheBasePicture) {
+  Grid<glm::vec3> red(88, 40);
+  std::string classes;
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 88; ++x) {
+      const float light = static_cast<float>(x % 8) / 8.F;
+      red(x, y) = glm::vec3(0.3F + 0.6F * light, 0.1F + 0.2F * light, 0.05F);
+      classes += static_cast<char>(x / 8 + 1);
+    }
+  write_png8(out("red.png"), red, {});
+  test::write_bytes(out("classes.png"), test::make_png(88, 40, 8, 0, classes));
+  const std::string painting = "exemplar.0={ picture = \"red.png\", classes = \"classes.png\", stroke_px = 1 }";
+  const auto redness = [&](const std::string& colours) {
+    render_guidance(scene({painting, "synthesis.colours=" + colours, "synthesis.enabled=false", "air.haze=0", "air.range_mist=0",
+                           "sampling.pixel_samples=1", "output.width=96", "output.height=64", "output.sheet_width_mm=96"}),
+                    {.out_folder = out(colours)}, silent_progress());
+    const GuidanceBuffers guidance = read_guidance(out(colours) + "/guidance.exr");
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t i = 0; i < guidance.base.size(); ++i)
+      if (!guidance.is_sky(i)) {
+        sum += guidance.base[i].x - guidance.base[i].z;
+        ++count;
+      }
+    return sum / count;
+  };
+  EXPECT_GT(redness("painting"), 0.2);
+  EXPECT_LT(redness("palette"), 0.15);
 }
 
 // The golden picture is small, and was looked at when it was made. A change of the look is meant to fail here: look at the new picture,
