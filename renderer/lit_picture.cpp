@@ -58,25 +58,59 @@ GuidanceParameters to_guidance_parameters(const Stage& stage, int tile_size) {
   return parameters;
 }
 
-}  // namespace
-
-Stage set_stage(const LoadedScene& loaded, Progress& progress) {
+TracerParameters to_tracer_parameters(const Scene& scene) {
   TracerParameters tracing;
-  tracing.instruction_set = loaded.scene.sampling.instruction_set;
-  choose_instruction_set(tracing.instruction_set);  // what this machine lacks is said before the work
+  tracing.instruction_set = scene.sampling.instruction_set;
+  return tracing;
+}
+
+// What can be refused before the terrain is read, and what before its land cover is made.
+Stage begin_stage(const LoadedScene& loaded) {
+  choose_instruction_set(loaded.scene.sampling.instruction_set);  // what this machine lacks is said before the work
   Stage stage;
   stage.scene = loaded.scene;
   stage.palette = read_palette(find_named_file(loaded, "palettes", loaded.scene.palette));
-  Dem dem = make_scene_dem(loaded, progress);
-  stage.view = make_view(loaded.scene, dem, progress);
+  return stage;
+}
+
+void set_camera(Stage& stage, const Dem& dem, Progress& progress) {
+  stage.view = make_view(stage.scene, dem, progress);
   stage.camera = make_camera(stage.view.camera);
-  LandCover land_cover = make_scene_land_cover(loaded, dem, progress);
+}
+
+void set_ground(Stage& stage, const LoadedScene& loaded, Dem dem, LandCover land_cover, Progress& progress) {
   stage.ground = make_ground(loaded, std::move(dem), std::move(land_cover), stage.view, progress);
   check_folds(loaded.scene, stage.ground, *stage.camera, progress);
   progress.begin("building the ray tracer", 0.0);
-  stage.tracer = std::make_unique<Tracer>(stage.ground.surface, tracing);
+  stage.tracer = std::make_unique<Tracer>(stage.ground.surface, to_tracer_parameters(loaded.scene));
   stage.horizon_px = skyline_row_px(*stage.camera, *stage.tracer, 0.18 * loaded.scene.output.height);
+}
+
+}  // namespace
+
+Stage set_stage(const LoadedScene& loaded, Progress& progress) {
+  Stage stage = begin_stage(loaded);
+  Dem dem = make_scene_dem(loaded, progress);
+  set_camera(stage, dem, progress);
+  LandCover land_cover = make_scene_land_cover(loaded, dem, progress);
+  set_ground(stage, loaded, std::move(dem), std::move(land_cover), progress);
   return stage;
+}
+
+Stage set_stage(const LoadedScene& loaded, Dem dem, LandCover land_cover, Progress& progress) {
+  Stage stage = begin_stage(loaded);
+  set_camera(stage, dem, progress);
+  set_ground(stage, loaded, std::move(dem), std::move(land_cover), progress);
+  return stage;
+}
+
+StrokeParameters to_stroke_parameters(const Stage& stage) {
+  StrokeParameters parameters;
+  parameters.pixels_per_unit = stage.scene.pixels_per_unit();
+  parameters.winter = stage.palette.winter;
+  parameters.sun_side = stage.view.sun_image_x < 0.0 ? -1.0 : 1.0;
+  parameters.seed = stage.scene.seed;
+  return parameters;
 }
 
 LitPicture make_lit_picture(const Stage& stage, PixelRect region, int tile_size, Progress& progress) {

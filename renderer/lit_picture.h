@@ -28,6 +28,10 @@ struct Stage {
 };
 // Reads, generalizes and bends the terrain, sets up camera, sun and palette, builds the acceleration structure.
 Stage set_stage(const LoadedScene& scene, Progress& progress);
+// The same with terrain that is already there: several views of one made-up terrain.
+Stage set_stage(const LoadedScene& scene, Dem dem, LandCover land_cover, Progress& progress);
+// The hand the stage's strokes are painted in.
+StrokeParameters to_stroke_parameters(const Stage& stage);
 
 // The traced channels with light and base picture: complete guidance buffers, and the ground strokes are painted on.
 struct LitPicture {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,8 +15,7 @@
 #include "renderer/image_io.h"
 #include "renderer/lit_picture.h"
 #include "renderer/output_color.h"
-#include "renderer/provenance.h"
-#include "terrain/raster_io.h"
+#include "renderer/stage_notes.h"
 #include "texture/class_supply.h"
 #include "texture/stroke_painter.h"
 #include "texture/synthesize.h"
@@ -54,31 +52,6 @@ int choose_band_rows(const Scene& scene) {
                 fmt::format("guidance {} pixels wide needs about {:.0f} MiB", scene.output.width, bytes(rows) / 1048576.0),
                 fmt::format("at most {} MiB: a smaller output.width, or --memory", memory_budget_bytes() >> 20));
   return rows;
-}
-
-FileNotes make_notes(const LoadedScene& loaded, const Stage& stage) {
-  std::map<std::string, std::string> inputs;
-  for (const SceneInput& input : scene_inputs(loaded))
-    if (!input.path.empty()) inputs[input.file] = input.path;
-  Provenance provenance = make_provenance(write_scene(loaded.scene), inputs);
-  provenance.instruction_set = stage.tracer->description();
-  FileNotes notes = to_notes(provenance);
-  const CameraParameters& camera = stage.view.camera;
-  notes["belvedere:camera"] =
-      fmt::format("{} eye {:.3f} {:.3f} {:.3f} azimuth {:.6f} pitch {:.6f} field {:.4f}", camera.projection, camera.eye.x, camera.eye.y,
-                  camera.eye.z, camera.azimuth_deg, camera.pitch_deg, camera.field_of_view_deg);
-  notes["belvedere:crs"] = stage.ground.model.dem.crs.empty() ? "none" : describe_crs(stage.ground.model.dem.crs);
-  notes["belvedere:sun"] = fmt::format("azimuth {:.4f} altitude {:.4f}", stage.view.sun.azimuth_deg, stage.view.sun.altitude_deg);
-  return notes;
-}
-
-StrokeParameters to_stroke_parameters(const Stage& stage) {
-  StrokeParameters parameters;
-  parameters.pixels_per_unit = stage.scene.pixels_per_unit();
-  parameters.winter = stage.palette.winter;
-  parameters.sun_side = stage.view.sun_image_x < 0.0 ? -1.0 : 1.0;
-  parameters.seed = stage.scene.seed;
-  return parameters;
 }
 
 SynthesisParameters to_synthesis_parameters(const Scene& scene) {
@@ -159,7 +132,7 @@ void render(const LoadedScene& loaded, const RenderOptions& options, Progress& p
   std::vector<ScannedPainting> scans;
   if (reads_paintings(loaded.scene)) scans = read_scans(loaded, progress);
   if (loaded.scene.synthesis.colours == "painting") stage.palette = take_colours(stage.palette, scans, loaded.scene.synthesis.fallback);
-  const FileNotes notes = make_notes(loaded, stage);
+  const FileNotes notes = make_stage_notes(loaded, stage);
   const PixelRect whole{0, 0, loaded.scene.output.width, loaded.scene.output.height};
   const LitPicture picture = make_lit_picture(stage, whole, options.tile_size, progress);
   progress.begin("writing guidance", 0.0);
@@ -187,7 +160,7 @@ void render_guidance(const LoadedScene& loaded, const RenderOptions& options, Pr
   const int width = loaded.scene.output.width;
   const int height = loaded.scene.output.height;
   const int margin = lit_margin_px(stage.scene);
-  GuidanceWriter writer(join(options.out_folder, "guidance.exr"), width, height, make_notes(loaded, stage));
+  GuidanceWriter writer(join(options.out_folder, "guidance.exr"), width, height, make_stage_notes(loaded, stage));
   for (int y0 = 0; y0 < height; y0 += band_rows) {
     const int y1 = std::min(height, y0 + band_rows);
     const PixelRect band{0, std::max(0, y0 - margin), width, std::min(height, y1 + margin)};

@@ -92,8 +92,15 @@ StrokePlace place_on(const Stroke& stroke, const std::array<float, Stroke::max_p
 struct TopPaint {
   Grid<std::uint32_t>& sources;
   Grid<float>& share;  // 0…1, of the class on top
+  Grid<std::uint32_t>& strokes;
+  Grid<float>& stroke_share;  // 0…1, of the stroke on top
 
-  void cover(const GuidanceBuffers& guidance, std::size_t i, const Stroke& stroke, float alpha) {
+  void cover(const GuidanceBuffers& guidance, std::size_t i, const Stroke& stroke, std::uint32_t number, float alpha) {
+    stroke_share[i] *= 1.F - alpha;
+    if (alpha > stroke_share[i]) {
+      strokes[i] = number;
+      stroke_share[i] = alpha;
+    }
     if (guidance.land_cover[i] == LandCoverClass::water) return;
     const LandCoverClass paint = guidance.land_cover[stroke.source];
     if (guidance.land_cover[sources[i]] == paint) {
@@ -107,8 +114,8 @@ struct TopPaint {
   }
 };
 
-void paint_stroke(const Stroke& stroke, const PixelRect& clip, Grid<glm::vec3>& canvas, TopPaint top, const GuidanceBuffers& guidance,
-                  float pixels_per_unit) {
+void paint_stroke(const Stroke& stroke, std::uint32_t number, const PixelRect& clip, Grid<glm::vec3>& canvas, TopPaint top,
+                  const GuidanceBuffers& guidance, float pixels_per_unit) {
   const Bounds whole = bounds_of(stroke, canvas.width(), canvas.height());
   std::array<float, Stroke::max_points> length_before{};
   float length = 0.F;
@@ -164,7 +171,7 @@ void paint_stroke(const Stroke& stroke, const PixelRect& clip, Grid<glm::vec3>& 
       }
       if (alpha < 0.004F) continue;
       canvas[i] += alpha * (stroke.colour + tint - canvas[i]);
-      top.cover(guidance, i, stroke, alpha);
+      top.cover(guidance, i, stroke, number, alpha);
     }
   }
 }
@@ -172,9 +179,10 @@ void paint_stroke(const Stroke& stroke, const PixelRect& clip, Grid<glm::vec3>& 
 }  // namespace
 
 Painting begin_painting(Grid<glm::vec3> canvas) {
-  Painting painting{std::move(canvas), {}};
+  Painting painting{.picture = std::move(canvas), .sources = {}, .strokes = {}};
   painting.sources = Grid<std::uint32_t>(painting.picture.width(), painting.picture.height());
   std::iota(painting.sources.begin(), painting.sources.end(), 0U);
+  painting.strokes = Grid<std::uint32_t>(painting.picture.width(), painting.picture.height(), 0U);
   return painting;
 }
 
@@ -182,6 +190,9 @@ void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::ve
                     Progress& progress) {
   Grid<glm::vec3>& canvas = painting.picture;
   Grid<float> top_share(canvas.width(), canvas.height(), 1.F);  // what was painted before counts as one thick layer
+  Grid<float> top_stroke_share = top_share;
+  const std::uint32_t first_number = painting.stroke_count + 1;
+  painting.stroke_count += static_cast<std::uint32_t>(strokes.size());
   std::stable_sort(strokes.begin(), strokes.end(), [](const Stroke& a, const Stroke& b) { return a.order > b.order; });
   const int across = (canvas.width() + tile_px - 1) / tile_px;
   const int down = (canvas.height() + tile_px - 1) / tile_px;
@@ -199,7 +210,8 @@ void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::ve
     const auto t =
         static_cast<std::size_t>(tile.y0 / tile_px) * static_cast<std::size_t>(across) + static_cast<std::size_t>(tile.x0 / tile_px);
     for (const std::uint32_t s : tiles[t])
-      paint_stroke(strokes[s], tile, canvas, {painting.sources, top_share}, guidance, static_cast<float>(pixels_per_unit));
+      paint_stroke(strokes[s], first_number + s, tile, canvas, {painting.sources, top_share, painting.strokes, top_stroke_share}, guidance,
+                   static_cast<float>(pixels_per_unit));
     progress.advance(1.0);
   });
 }

@@ -45,6 +45,8 @@ struct Painting {
   Grid<glm::vec3> picture;  // encoded sRGB
   Grid<std::uint32_t>
       sources;  // index of a pixel of the class whose paint lies thickest on each pixel: the pixel itself where that is its own
+  Grid<std::uint32_t> strokes;  // number of the stroke whose paint lies thickest, counted from 1 in the order of painting; 0: bare canvas
+  std::uint32_t stroke_count = 0;  // strokes laid so far
 };
 Painting begin_painting(Grid<glm::vec3> canvas);
 
