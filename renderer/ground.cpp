@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "renderer/base/error.h"
 #include "renderer/base/parallel.h"
 #include "renderer/generalize_view.h"
+#include "renderer/palette.h"
 #include "terrain/class_rules.h"
 #include "terrain/destripe.h"
 #include "terrain/fold.h"
@@ -18,6 +20,8 @@
 
 namespace belvedere {
 namespace {
+
+constexpr const char* winter_setting = "winter";
 
 RasterSource to_raster_source(const LoadedScene& scene, const SceneSource& source) {
   RasterSource raster;
@@ -42,8 +46,15 @@ std::vector<RasterSource> to_raster_sources(const LoadedScene& scene, const std:
 
 LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
   const SceneLandCover& wish = loaded.scene.land_cover;
-  return apply_class_rules(read_class_rules(find_named_file(loaded, "layers", wish.rules)), wish.settings, dem, loaded.scene.seed,
-                           progress);
+  const ClassRules rules = read_class_rules(find_named_file(loaded, "layers", wish.rules));
+  auto settings = wish.settings;
+  // A palette of winter brings its snow along, unless the scene says otherwise or the rules know no winter.
+  const auto is_winter = [](const auto& setting) { return setting.first == winter_setting; };
+  if (std::none_of(settings.begin(), settings.end(), is_winter) &&
+      std::any_of(rules.parameters.begin(), rules.parameters.end(), is_winter) &&
+      read_palette(find_named_file(loaded, "palettes", loaded.scene.palette)).winter)
+    settings.emplace_back(winter_setting, 1.0);
+  return apply_class_rules(rules, settings, dem, loaded.scene.seed, progress);
 }
 
 // {to, from}: cells of class `from` where the rules see `to` become `to`.

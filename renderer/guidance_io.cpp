@@ -50,6 +50,8 @@ constexpr Channel channel(const char* part, const char* name, ChannelType type) 
             for (std::size_t i = 0; i < count; ++i, out += step) {
               if constexpr (std::is_same_v<std::decay_t<decltype(*from)>, LandCoverClass>) {
                 *out = std::bit_cast<float>(std::uint32_t{static_cast<std::uint8_t>(from[i])});
+              } else if constexpr (std::is_same_v<std::decay_t<decltype(*from)>, std::uint32_t>) {
+                *out = std::bit_cast<float>(from[i]);
               } else {
                 *out = part_of<decltype(*from), component>(from[i]);
               }
@@ -58,7 +60,7 @@ constexpr Channel channel(const char* part, const char* name, ChannelType type) 
           [](GuidanceBuffers& g, const Grid<float>& values) {
             auto& grid = g.*member;
             using Value = typename std::decay_t<decltype(grid)>::value_type;
-            if constexpr (!std::is_same_v<Value, LandCoverClass>) {
+            if constexpr (!std::is_same_v<Value, LandCoverClass> && !std::is_same_v<Value, std::uint32_t>) {
               if (grid.empty()) grid = std::decay_t<decltype(grid)>(values.width(), values.height());
               for (std::size_t i = 0; i < values.size(); ++i) part_of<Value, component>(grid[i]) = values[i];
             }
@@ -66,6 +68,18 @@ constexpr Channel channel(const char* part, const char* name, ChannelType type) 
 }
 
 constexpr const char* class_channel = "landcover.id";
+constexpr const char* painted_channel = "painted.id";
+
+// Numbers that are written bit by bit and read by their own function.
+struct IdChannel {
+  const char* name;
+  Grid<std::uint32_t> GuidanceBuffers::*member;
+};
+constexpr IdChannel id_channels[] = {
+    {"painted.from", &GuidanceBuffers::painted_from},
+    {"stroke.id", &GuidanceBuffers::stroke},
+    {"ground.from", &GuidanceBuffers::ground_from},
+};
 
 using B = GuidanceBuffers;
 using enum ChannelType;
@@ -105,6 +119,10 @@ const Channel channels[] = {
     channel<&B::base, 0>("base", "base.R", half),
     channel<&B::base, 1>("base", "base.G", half),
     channel<&B::base, 2>("base", "base.B", half),
+    channel<&B::painted_class>("paint", painted_channel, uint32),
+    channel<&B::painted_from>("paint", "painted.from", uint32),
+    channel<&B::stroke>("paint", "stroke.id", uint32),
+    channel<&B::ground_from>("paint", "ground.from", uint32),
 };
 
 std::string make_legend() {
@@ -127,11 +145,11 @@ void make_unit(Grid<V>& directions) {
   });
 }
 
-Grid<LandCoverClass> make_classes(const std::string& path, const Grid<std::uint32_t>& ids) {
+Grid<LandCoverClass> make_classes(const std::string& path, const char* name, const Grid<std::uint32_t>& ids) {
   Grid<LandCoverClass> out(ids.width(), ids.height());
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (ids[i] >= static_cast<std::uint32_t>(land_cover_class_count)) {
-      throw Error(ErrorKind::input, path, fmt::format("channel {} has the class id {}", class_channel, ids[i]),
+      throw Error(ErrorKind::input, path, fmt::format("channel {} has the class id {}", name, ids[i]),
                   fmt::format("0 to {}", land_cover_class_count - 1));
     }
     out[i] = static_cast<LandCoverClass>(ids[i]);
@@ -236,7 +254,7 @@ GuidanceBuffers read_guidance(const std::string& path) {
   for (auto begin = all.begin(); begin != all.end();) {
     const auto end = std::find_if(begin, all.end(), [&](const Channel& c) { return std::string_view(c.part) != begin->part; });
     std::vector<std::string> names;
-    if (std::string_view(begin->name) != class_channel) {
+    if (begin->type != uint32) {
       for (auto c = begin; c != end; ++c) names.emplace_back(c->name);
     }
     const std::vector<Grid<float>> grids = read_channels(path, names);
@@ -247,13 +265,20 @@ GuidanceBuffers read_guidance(const std::string& path) {
     }
     begin = end;
   }
-  for (const PartSpec& part : info.parts) {
-    if (std::none_of(part.channels.begin(), part.channels.end(), [](const ChannelSpec& c) { return c.name == class_channel; })) continue;
-    const Grid<std::uint32_t> ids = read_id_channel(path, class_channel);
+  const auto holds = [&](const char* name) {
+    return std::any_of(info.parts.begin(), info.parts.end(), [&](const PartSpec& part) {
+      return std::any_of(part.channels.begin(), part.channels.end(), [&](const ChannelSpec& c) { return c.name == name; });
+    });
+  };
+  const auto read_ids = [&](const char* name) {
+    Grid<std::uint32_t> ids = read_id_channel(path, name);
     check_size(ids);
-    out.land_cover = make_classes(path, ids);
-    break;
-  }
+    return ids;
+  };
+  if (holds(class_channel)) out.land_cover = make_classes(path, class_channel, read_ids(class_channel));
+  if (holds(painted_channel)) out.painted_class = make_classes(path, painted_channel, read_ids(painted_channel));
+  for (const IdChannel& c : id_channels)
+    if (holds(c.name)) out.*c.member = read_ids(c.name);
   if (!found) throw Error(ErrorKind::input, path, "holds no guidance", "an OpenEXR file with channels such as Z, altitude.V, landcover.id");
   make_unit(out.normal);
   make_unit(out.normal_detail);

@@ -18,6 +18,7 @@ namespace belvedere {
 //   terrain   slope.V aspect.V fallline.X fallline.Y ridge.V relief.S relief.M relief.L valley.V, half
 //   light     shadow.V skyview.V tone.V, half
 //   base      base.R base.G base.B half
+//   paint     painted.id painted.from stroke.id ground.from uint (of paintings whose strokes are known)
 // The header's note "legend" has a line `id name rrggbb` for each class.
 
 // Writes rows from top to bottom, streamed: memory holds one band of one part.

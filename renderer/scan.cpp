@@ -11,6 +11,8 @@
 
 #include "renderer/base/error.h"
 #include "renderer/composite.h"
+#include "renderer/example_painting.h"
+#include "renderer/exemplar_files.h"
 #include "renderer/exemplars.h"
 #include "renderer/guidance_io.h"
 #include "renderer/harmonize.h"
@@ -70,6 +72,23 @@ void read_masks(const SceneExemplar& wish, const LoadedScene& scene, Raw& raw) {
         static_cast<float>(wish.altitude_range_m[0] + (wish.altitude_range_m[1] - wish.altitude_range_m[0]) * static_cast<double>(value));
 }
 
+// A painting the program painted knows where its paint grew: class and base colour are those of that place. The file of the layer without
+// trees says in its header that it is that.
+void take_paint(const SceneExemplar& wish, const LoadedScene& scene, GuidanceBuffers& guidance) {
+  const FileNotes notes = read_image_info(find_scene_file(scene, wish.picture)).notes;
+  const auto layer = notes.find(exemplar_layer_note);
+  const bool ground = layer != notes.end() && layer->second == exemplar_ground_layer;
+  const Grid<std::uint32_t>& from = ground ? guidance.ground_from : guidance.painted_from;
+  if (from.empty() || guidance.base.empty()) return;
+  for (const std::uint32_t index : from)
+    if (index >= from.size())
+      throw Error(ErrorKind::input, find_scene_file(scene, wish.guidance), fmt::format("paint from pixel {}", index),
+                  fmt::format("pixels of the picture, fewer than {}", from.size()));
+  PaintedClasses classes = classes_of_paint(guidance, from);
+  guidance.land_cover = std::move(classes.land_cover);
+  guidance.base = decode_srgb(classes.base);
+}
+
 Raw read_raw(const SceneExemplar& wish, const LoadedScene& scene) {
   Raw raw;
   raw.picture = read_picture(find_scene_file(scene, wish.picture));
@@ -78,6 +97,7 @@ Raw read_raw(const SceneExemplar& wish, const LoadedScene& scene) {
     raw.guidance = read_guidance(path);
     raw.measured = true;
     check_same_size(path, raw.guidance.width(), raw.guidance.height(), raw.picture);
+    take_paint(wish, scene, raw.guidance);
   } else {
     read_masks(wish, scene, raw);
   }
@@ -85,6 +105,9 @@ Raw read_raw(const SceneExemplar& wish, const LoadedScene& scene) {
   raw.labels = Grid<std::uint8_t>(raw.picture.width(), raw.picture.height());
   for (std::size_t i = 0; i < raw.labels.size(); ++i)
     raw.labels[i] = raw.guidance.is_sky(i) ? sky_label : static_cast<std::uint8_t>(raw.guidance.land_cover[i]);
+  // Bare paper between the panels of a sheet is neither ground nor sky.
+  for (std::size_t i = 0; i < raw.guidance.sky_view.size(); ++i)
+    if (raw.guidance.is_sky(i) && raw.guidance.sky_view[i] <= 0.F) raw.labels[i] = unused_label;
   if (!wish.exclude.empty()) {
     const Grid<float> mask = read_share(find_scene_file(scene, wish.exclude), raw.picture);
     for (std::size_t i = 0; i < mask.size(); ++i)

@@ -29,6 +29,7 @@ Command add_exemplar_check(CLI::App& program);
 Command add_info(CLI::App& program);
 Command add_diff(CLI::App& program);
 Command add_schema(CLI::App& program);
+Command add_exemplar_paint(CLI::App& program);
 const std::vector<AddCommand>& all_commands();
 
 // The group `exemplar`, which commands about example paintings are added to: `belvedere exemplar check`. Made by the first that asks.

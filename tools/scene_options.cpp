@@ -8,8 +8,8 @@
 
 namespace belvedere::tools {
 
-void add_scene_options(CLI::App& command, SceneOptions& options) {
-  command.add_option("SCENE", options.scene, "The scene file; without one the built-in demo");
+void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& meaning) {
+  command.add_option("SCENE", options.scene, meaning);
   command
       .add_option("--data", options.files.data_folders,
                   "A folder in which the scene's files may lie, beside the scene's own; may be repeated")
@@ -30,8 +30,12 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_flag("--json", options.json, "The result as JSON on standard output");
 }
 
-LoadedScene load(const SceneOptions& options) {
+void limit_memory(const SceneOptions& options) {
   if (options.memory_mib > 0) setenv("BELVEDERE_MEMORY_MIB", std::to_string(options.memory_mib).c_str(), 1);
+}
+
+LoadedScene load(const SceneOptions& options) {
+  limit_memory(options);
   if (!options.scene.empty()) return read_scene(options.scene, options.files);
   return parse_scene(std::string(embedded_file("scenes/demo/demo.toml")), "demo.toml", ".", options.files);
 }

@@ -20,7 +20,11 @@ struct SceneOptions {
   bool json = false;
 };
 
-void add_scene_options(CLI::App& command, SceneOptions& options);
+// meaning: of the scene, in the command's help.
+void add_scene_options(CLI::App& command, SceneOptions& options,
+                       const std::string& meaning = "The scene file; without one the built-in demo");
+// Tells the library of the memory limit.
+void limit_memory(const SceneOptions& options);
 // Reads the scene, or the demo, and tells the library of the memory limit.
 LoadedScene load(const SceneOptions& options);
 

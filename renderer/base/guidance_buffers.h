@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -40,6 +41,11 @@ struct GuidanceBuffers {
   Grid<float> rim_m;            // distance on the ground to where the known terrain ends
   Grid<float> tone;             // the scalar light that indexes palettes, 0…1
   Image base;                   // strokeless base picture, scene-linear
+  // Of a painting whose strokes are known. Strokes overlap the borders of classes, so what a pixel shows is not always what stands there.
+  Grid<LandCoverClass> painted_class;  // whose paint lies thickest
+  Grid<std::uint32_t> painted_from;    // row-major index of a pixel of that class that the paint grew from; base colour and class are its
+  Grid<std::uint32_t> stroke;          // number of the stroke on top, from 1; 0 is bare canvas
+  Grid<std::uint32_t> ground_from;     // as painted_from, in the layer without trees and houses
 
   int width() const { return depth_m.width(); }
   int height() const { return depth_m.height(); }

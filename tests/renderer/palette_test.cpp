@@ -59,7 +59,7 @@ TEST(Palette, BlendsByAltitude) {
 }
 
 TEST(Palette, BuiltInPalettesAreCompleteAndGrowLighterWithTone) {
-  for (const char* name : {"summer", "winter", "desert"}) {
+  for (const char* name : {"summer", "autumn", "winter", "desert"}) {
     const Palette palette = read_palette(name);
     EXPECT_EQ(palette.name, name);
     EXPECT_EQ(palette.winter, std::string(name) == "winter");
@@ -104,7 +104,7 @@ TEST(Palette, ReadsAFile) {
   EXPECT_EQ(palette.haze_share, 0.5);
   std::remove(path.c_str());
   EXPECT_THROW(read_palette(path), Error);
-  EXPECT_THROW(read_palette("autumn"), Error);
+  EXPECT_THROW(read_palette("spring"), Error);
 }
 
 TEST(Palette, ErrorsNamePlaceAndWhatIsAllowed) {

@@ -1,0 +1,81 @@
+// `belvedere exemplar paint` as users meet it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "renderer/guidance_io.h"
+#include "tests/tools/program.h"
+
+namespace belvedere {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ExemplarPaint : public Program {
+ protected:
+  std::string write_plan() const {
+    return write(
+        "plan.toml",
+        "width = 256\nheight = 256\ncolumns = 1\nscene = \"\"\"\nversion = 1\n[terrain.synthetic]\nwidth = 96\nheight = 96\n"
+        "cell_m = 200\n[camera]\nposition = [9000, -9000]\nheight_m = 9000\npitch_deg = -25\n\"\"\"\n[[panels]]\nname = \"one\"\n");
+  }
+};
+
+TEST_F(ExemplarPaint, WritesAPaintingWithAllThatIsKnownOfIt) {
+  const Outcome done = run({"exemplar", "paint", "--plan", write_plan(), "--season", "winter", "--out", path("sheet")});
+  ASSERT_EQ(done.status, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("floors are not met"));
+  for (const char* file : {"painting.tif", "ground.tif", "painting.png", "guidance.exr", "sheet.toml", "coverage.json"})
+    EXPECT_TRUE(std::filesystem::exists(path(std::string("sheet/") + file))) << file;
+  EXPECT_THAT(read_bytes(path("sheet/sheet.toml")), HasSubstr("palette = \"winter\""));
+  const ImageInfo info = read_image_info(path("sheet/ground.tif"));
+  EXPECT_EQ(info.notes.at("belvedere:layer"), "ground");
+  EXPECT_FALSE(info.icc_profile.empty());
+  EXPECT_EQ(info.parts.at(0).channels.at(0).type, ChannelType::uint16);
+  const GuidanceBuffers guidance = read_guidance(path("sheet/guidance.exr"));
+  EXPECT_FALSE(guidance.painted_class.empty());
+  EXPECT_FALSE(guidance.stroke.empty());
+  EXPECT_FALSE(guidance.tone.empty());
+  EXPECT_FALSE(guidance.base.empty());
+}
+
+TEST_F(ExemplarPaint, PaintsASceneThatCanBePaintedAgain) {
+  const Outcome done = run({"exemplar", "paint", write_scene_file(), "--season", "autumn", "--seed", "5", "--out", path("a"), "--json"});
+  ASSERT_EQ(done.status, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("\"by_tone_and_distance\""));
+  EXPECT_THAT(read_bytes(path("a/scene.toml")), HasSubstr("palette = \"autumn\""));
+  ASSERT_EQ(run({"exemplar", "paint", path("a/scene.toml"), "--out", path("b"), "--threads", "1", "--tile", "16"}).status, 0);
+  for (const char* file : {"painting.tif", "ground.tif", "guidance.exr", "coverage.json"})
+    EXPECT_TRUE(read_bytes(path(std::string("a/") + file)) == read_bytes(path(std::string("b/") + file))) << file;
+}
+
+TEST_F(ExemplarPaint, APanoramaCopiesIt) {
+  ASSERT_EQ(run({"exemplar", "paint", write_scene_file(), "--out", path("a"), "-q"}).status, 0);
+  const std::string scene = write(
+      "copy.toml",
+      "version = 1\n[terrain.synthetic]\nwidth = 96\nheight = 96\ncell_m = 200\n[camera]\nposition = [9000, -9000]\nheight_m = 9000\n"
+      "pitch_deg = -25\n[[exemplar]]\npicture = \"a/ground.tif\"\nguidance = \"a/guidance.exr\"\n[output]\nwidth = 96\nheight = 64\n");
+  const Outcome done = run({"render", scene, "--out", path("copy")});
+  ASSERT_EQ(done.status, 0) << done.err;
+  // The same view copied from itself: close to what it copies.
+  const Grid<glm::vec3> copied = read_picture(path("copy/panorama.tif"));
+  const Grid<glm::vec3> painted = read_picture(path("a/painting.tif"));
+  double sum = 0.0;
+  for (std::size_t i = 0; i < copied.size(); ++i) sum += static_cast<double>(std::abs(copied[i].y - painted[i].y));
+  EXPECT_LT(sum / static_cast<double>(copied.size()), 0.05);
+}
+
+TEST_F(ExemplarPaint, RefusesWhatDoesNotGoTogether) {
+  const std::string scene = write_scene_file();
+  EXPECT_EQ(run({"exemplar", "paint", scene, "--size", "512", "--out", path("x")}).status, 2);
+  EXPECT_EQ(run({"exemplar", "paint", scene, "--plan", write_plan(), "--out", path("x")}).status, 2);
+  EXPECT_EQ(run({"exemplar", "paint", "--set", "output.width=100", "--out", path("x")}).status, 2);
+  EXPECT_EQ(run({"exemplar", "paint", "--season", "spring", "--out", path("x")}).status, 2);
+  EXPECT_EQ(run({"exemplar", "paint", "--plan", write("bad.toml", "rows = 3\n"), "--out", path("x")}).status, 2);
+  EXPECT_EQ(run({"exemplar", "paint"}).status, 2);  // --out is required
+  EXPECT_FALSE(std::filesystem::exists(path("x/painting.tif")));
+}
+
+}  // namespace
+}  // namespace belvedere
