@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "renderer/base/error.h"
 #include "renderer/base/memory_limit.h"
 #include "renderer/color.h"
 #include "renderer/example_painting.h"
@@ -87,6 +88,9 @@ Coverage write_sheet_exemplar(const SheetPlan& plan, const RenderOptions& option
   const ThreadLimit threads(options.threads);
   const Palette palette = read_palette(plan.palette);
   const double rows = static_cast<double>(plan.panels.size()) / plan.columns;
+  if (plan.height < ExrWriter::band_rows * rows)
+    throw Error(ErrorKind::usage, "sheet", fmt::format("{} rows of panels in {} pixels of height", rows, plan.height),
+                fmt::format("at least {} pixels a row", ExrWriter::band_rows));
   check_memory("sheet", (paint_bytes_per_pixel / rows + kept_bytes_per_pixel) * plan.width * plan.height);
   check_output_folder(options.out_folder);
 

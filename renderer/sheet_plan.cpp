@@ -72,7 +72,7 @@ int rows_of(const SheetPlan& plan) { return static_cast<int>(plan.panels.size())
 int row_top(const SheetPlan& plan, int row) {
   const int rows = rows_of(plan);
   if (row == rows) return plan.height;
-  const int step = plan.height >= 2 * row_px * rows ? row_px : 1;
+  const int step = plan.height >= row_px * rows ? row_px : 1;
   return static_cast<int>(std::lround(static_cast<double>(plan.height) * row / rows / step)) * step;
 }
 
