@@ -129,20 +129,33 @@ Grid<float> share_by_distance(const Options& options, const Dem& dem, glm::dvec2
   return share;
 }
 
-Grid<float> make_mask(const Options& options, const Dem& dem, glm::dvec2 cell_m, Progress& progress) {
+// The slopes that are masked as asked for; nothing: none are.
+std::optional<SlopeRange> masked_slopes(const Options& options) {
+  if (!options.mask_slope.empty()) return SlopeRange{options.mask_slope[0], options.mask_slope[1]};
   const GeneralizePreset* preset = find_generalize_preset(options.preset);
+  return preset != nullptr ? preset->slope_mask : std::nullopt;
+}
+
+bool masks_slope_feet(const Options& options) {
+  const GeneralizePreset* preset = find_generalize_preset(options.preset);
+  return options.automatic_mask || (preset != nullptr && preset->automatic_mask);
+}
+
+Grid<float> make_foot_mask(const Dem& dem, glm::dvec2 cell_m, std::size_t bands) {
+  return slope_foot_mask(dem.altitude_m, cell_m, 1 << std::min<std::size_t>(bands, 6));
+}
+
+Grid<float> drawn_mask(const Options& options, const Dem& dem, Progress& progress) {
+  if (options.mask.empty()) return {};
+  RasterSource source;
+  source.path = options.mask;
+  return read_mask(source, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);
+}
+
+Grid<float> make_mask(const Options& options, const Dem& dem, glm::dvec2 cell_m, Progress& progress) {
   Grid<float> mask;
-  if (!options.mask_slope.empty()) {
-    mask = slope_mask(dem.altitude_m, cell_m, {options.mask_slope[0], options.mask_slope[1]});
-  } else if (preset != nullptr && preset->slope_mask) {
-    mask = slope_mask(dem.altitude_m, cell_m, *preset->slope_mask);
-  }
-  if (!options.mask.empty()) {
-    RasterSource source;
-    source.path = options.mask;
-    mask = combine_masks(std::move(mask), read_mask(source, {dem.transform, dem.width(), dem.height(), dem.crs}, progress));
-  }
-  return mask;
+  if (const auto range = masked_slopes(options)) mask = slope_mask(dem.altitude_m, cell_m, *range);
+  return combine_masks(std::move(mask), drawn_mask(options, dem, progress));
 }
 
 std::string folder_of(const std::string& path) {
@@ -192,16 +205,27 @@ void write_equalizer(const Options& options, const Dem& dem, glm::dvec2 cell_m, 
   const glm::dvec2 viewer_cell = dem.transform.to_cell(viewer.x, viewer.y);
   glm::dvec2 distances_m = blend_distances(options, dem, viewer_cell, cell_m);
   if (options.distances.empty()) distances_m = {std::floor(distances_m.x), std::ceil(distances_m.y)};  // as people would type them
-  write_equalizer_page(
-      options.equalizer,
-      {.title = std::filesystem::path(options.in).filename().string(),
-       .altitude_m = dem.altitude_m,
-       .cell_m = cell_m,
-       .start = bands,
-       .viewer_cell = viewer_cell,
-       .distances_m = distances_m,
-       .viewer_options = fmt::format("--viewer {},{} --distances {},{}", viewer.x, viewer.y, distances_m.x, distances_m.y)},
-      progress);
+  const std::optional<SlopeRange> slopes = masked_slopes(options);
+  const SlopeRange range = slopes.value_or(SlopeRange{});
+  write_equalizer_page(options.equalizer,
+                       {.title = std::filesystem::path(options.in).filename().string(),
+                        .altitude_m = dem.altitude_m,
+                        .cell_m = cell_m,
+                        .start = bands,
+                        .viewer_cell = viewer_cell,
+                        .distances_m = distances_m,
+                        .viewer_options = fmt::format("--viewer {},{} --distances {},{}", viewer.x, viewer.y, distances_m.x, distances_m.y),
+                        .lakes = find_lakes(dem.altitude_m, {}),
+                        .foot_mask = make_foot_mask(dem, cell_m, bands.foreground.size()),
+                        .slope_mask = slope_mask(dem.altitude_m, cell_m, range),
+                        .drawn_mask = drawn_mask(options, dem, progress),
+                        .slope_range = range,
+                        .drawn_name = std::filesystem::path(options.mask).filename().string(),
+                        .switches = {.lakes = !options.change_lakes,
+                                     .foot = masks_slope_feet(options),
+                                     .slope = slopes.has_value(),
+                                     .drawn = !options.mask.empty()}},
+                       progress);
 }
 
 int run(const Options& options) {
@@ -241,10 +265,8 @@ int run(const Options& options) {
   const Grid<float> original_m = options.report.empty() ? Grid<float>() : dem.altitude_m;
   dem.altitude_m = operate_before_bands(std::move(dem.altitude_m), cell, options.operators, progress);
   GeneralizeGrids grids;
-  const GeneralizePreset* preset = find_generalize_preset(options.preset);
-  if (options.automatic_mask || (preset != nullptr && preset->automatic_mask)) {  // first, as it takes most memory on its way
-    grids.amplification_mask = slope_foot_mask(dem.altitude_m, cell_m, 1 << std::min<std::size_t>(bands.foreground.size(), 6));
-  }
+  // First, as it takes most memory on its way.
+  if (masks_slope_feet(options)) grids.amplification_mask = make_foot_mask(dem, cell_m, bands.foreground.size());
   if (!options.change_lakes) grids.keep = find_lakes(dem.altitude_m, {});
   grids.mask = make_mask(options, dem, cell_m, progress);
   grids.foreground_share = share_by_distance(options, dem, cell_m);

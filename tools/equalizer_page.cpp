@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "renderer/base/embedded.h"
+#include "renderer/base/filter.h"
 #include "renderer/base/json.h"
 #include "renderer/base/pyramid.h"
 #include "renderer/output_file.h"
@@ -36,16 +37,12 @@ struct Preview {
   int skipped = 0;  // finest bands that this level no longer holds
   int bands = 0;
   glm::dvec2 viewer_cell;
+  Grid<unsigned char> lakes;  // empty: none here
+  Grid<float> foot_mask, slope_mask, drawn_mask;
 };
 
-std::string base64(const Grid<float>& values) {
+std::string base64(std::string_view bytes) {
   static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  bytes.reserve(values.size() * 4);
-  for (const float v : values) {
-    const auto bits = std::bit_cast<std::uint32_t>(v);  // little end first
-    for (int i = 0; i < 4; ++i) bytes += static_cast<char>((bits >> (8 * i)) & 0xffU);
-  }
   std::string out;
   out.reserve(bytes.size() / 3 * 4 + 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
@@ -56,15 +53,41 @@ std::string base64(const Grid<float>& values) {
   return out;
 }
 
+std::string base64(const Grid<float>& values) {
+  std::string bytes;
+  bytes.reserve(values.size() * 4);
+  for (const float v : values) {
+    const auto bits = std::bit_cast<std::uint32_t>(v);  // little end first
+    for (int i = 0; i < 4; ++i) bytes += static_cast<char>((bits >> (8 * i)) & 0xffU);
+  }
+  return base64(std::string_view(bytes));
+}
+
+std::string base64(const Grid<unsigned char>& values) { return base64(std::string(values.begin(), values.end())); }
+
+// Cell i over cell 2 i, as reduce() takes altitudes.
+Grid<unsigned char> every_other(const Grid<unsigned char>& cells) {
+  Grid<unsigned char> out((cells.width() + 1) / 2, (cells.height() + 1) / 2);
+  for (int y = 0; y < out.height(); ++y)
+    for (int x = 0; x < out.width(); ++x) out(x, y) = cells(2 * x, 2 * y);
+  return out;
+}
+
+bool any(const Grid<unsigned char>& cells) {
+  return std::any_of(cells.begin(), cells.end(), [](unsigned char v) { return v != 0; });
+}
+
 std::vector<Preview> make_previews(const EqualizerInput& in) {
   const int bands = static_cast<int>(in.start.foreground.size());
   const auto possible = [&](const Preview& p) {
     return std::min(bands - p.skipped, most_bands(p.altitude_m.width(), p.altitude_m.height()));
   };
   std::vector<Preview> previews;
-  Preview whole{"whole terrain", in.altitude_m, in.cell_m, 0, 0, in.viewer_cell};
+  Preview whole{"whole terrain", in.altitude_m, in.cell_m, 0, 0, in.viewer_cell, in.lakes, in.foot_mask, in.slope_mask, in.drawn_mask};
   while (std::max(whole.altitude_m.width(), whole.altitude_m.height()) > largest_side) {
-    whole.altitude_m = reduce(whole.altitude_m);
+    for (Grid<float>* grid : {&whole.altitude_m, &whole.foot_mask, &whole.slope_mask, &whole.drawn_mask})
+      if (!grid->empty()) *grid = reduce(*grid);
+    whole.lakes = every_other(whole.lakes);
     whole.cell_m = 2.0 * whole.cell_m;
     whole.viewer_cell = 0.5 * whole.viewer_cell;  // cell i lies over cell 2 i
     ++whole.skipped;
@@ -78,10 +101,21 @@ std::vector<Preview> make_previews(const EqualizerInput& in) {
     Grid<float> score(lines.width(), lines.height());
     std::transform(lines.begin(), lines.end(), score.begin(), [](std::uint8_t v) { return static_cast<float>(v); });
     const PixelRect window = best_window(score, {}, closeup_side);
-    Preview part{"close-up", cut(in.altitude_m, window), in.cell_m, 0, 0, in.viewer_cell - glm::dvec2(window.x0, window.y0)};
+    Preview part{"close-up",
+                 cut(in.altitude_m, window),
+                 in.cell_m,
+                 0,
+                 0,
+                 in.viewer_cell - glm::dvec2(window.x0, window.y0),
+                 cut(in.lakes, window),
+                 cut(in.foot_mask, window),
+                 cut(in.slope_mask, window),
+                 in.drawn_mask.empty() ? Grid<float>() : cut(in.drawn_mask, window)};
     part.bands = possible(part);
     previews.push_back(std::move(part));
   }
+  for (Preview& preview : previews)
+    if (!any(preview.lakes)) preview.lakes = {};
   return previews;
 }
 
@@ -144,48 +178,85 @@ Grid<float> share_of(const Preview& preview, glm::dvec2 distances_m) {
   return share;
 }
 
-// Altitudes that the program makes of the previews, at a few places on a lattice.
+GeneralizeGrids grids_of(const Preview& preview, glm::dvec2 distances_m, const EqualizerSwitches& on) {
+  GeneralizeGrids grids;
+  grids.foreground_share = share_of(preview, distances_m);
+  if (on.lakes) grids.keep = preview.lakes;
+  if (on.foot) grids.amplification_mask = preview.foot_mask;
+  if (on.slope) grids.mask = preview.slope_mask;
+  if (on.drawn) grids.mask = combine_masks(std::move(grids.mask), preview.drawn_mask);
+  return grids;
+}
+
+Json switches_json(const EqualizerSwitches& on) {
+  return Json::object()
+      .add("lakes", Json::boolean(on.lakes))
+      .add("foot", Json::boolean(on.foot))
+      .add("slope", Json::boolean(on.slope))
+      .add("drawn", Json::boolean(on.drawn));
+}
+
+// Where the page is compared with the program: a lattice over all of it, and as many cells among those that lakes or masks reach.
+std::vector<std::size_t> places_to_check(const Preview& preview) {
+  constexpr std::size_t across = 16;
+  const Grid<float>& z = preview.altitude_m;
+  const auto on_lattice = [](std::size_t i, int count) { return static_cast<int>(i * static_cast<std::size_t>(count - 1) / (across - 1)); };
+  std::vector<std::size_t> places;
+  for (std::size_t j = 0; j < across; ++j)
+    for (std::size_t i = 0; i < across; ++i) places.push_back(z.index(on_lattice(i, z.width()), on_lattice(j, z.height())));
+  Grid<float> lakes(preview.lakes.width(), preview.lakes.height());
+  std::transform(preview.lakes.begin(), preview.lakes.end(), lakes.begin(), [](unsigned char v) { return v != 0 ? 1.F : 0.F; });
+  lakes = window_maximum(lakes, 32);
+  std::vector<std::size_t> reached;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const auto masked = [i](const Grid<float>& mask) { return !mask.empty() && mask[i] < 0.9F; };
+    if ((!lakes.empty() && lakes[i] > 0.F) || masked(preview.foot_mask) || masked(preview.slope_mask) || masked(preview.drawn_mask))
+      reached.push_back(i);
+  }
+  const std::size_t step = std::max<std::size_t>(1, reached.size() / (across * across));
+  for (std::size_t i = step / 2; i < reached.size(); i += step) places.push_back(reached[i]);
+  return places;
+}
+
+// Altitudes that the program makes of the previews, at those places.
 Json make_checks(const std::vector<Preview>& previews, const EqualizerInput& in, Progress& progress) {
   const std::size_t bands = in.start.foreground.size();
-  std::vector<GeneralizeParameters> settings;
-  settings.push_back(in.start);
-  for (const char* name : {"figure2", "panorama"}) settings.push_back(fitted(find_generalize_preset(name)->bands, bands));
+  struct Setting {
+    GeneralizeParameters weights;
+    EqualizerSwitches on;
+  };
+  const bool drawn = !in.drawn_mask.empty();
+  const auto preset = [bands](const char* name) { return fitted(find_generalize_preset(name)->bands, bands); };
+  const std::vector<Setting> settings = {{fitted(in.start, bands), in.switches},
+                                         {preset("figure2"), {.lakes = true, .foot = true, .slope = true, .drawn = drawn}},
+                                         {preset("figure2"), {.lakes = false, .foot = false, .slope = false, .drawn = false}},
+                                         {preset("panorama"), {.lakes = true, .foot = true, .slope = false, .drawn = false}}};
   Json checks = Json::array();
   for (std::size_t t = 0; t < previews.size(); ++t) {
     const Preview& preview = previews[t];
     if (preview.bands == 0) continue;
-    GeneralizeGrids grids;
-    grids.foreground_share = share_of(preview, in.distances_m);
-    for (const GeneralizeParameters& setting : settings) {
-      const GeneralizeParameters whole = fitted(setting, bands);
-      GeneralizeParameters plain = seen_in(whole, preview);
+    const std::vector<std::size_t> places = places_to_check(preview);
+    for (const Setting& setting : settings) {
+      GeneralizeParameters plain = seen_in(setting.weights, preview);
       plain.curvature = CurvatureForm::bounded;
       plain.full_curvature = 0.F;
       plain.blur_cells = plain.exponent = 1.F;
+      const GeneralizeGrids grids = grids_of(preview, in.distances_m, setting.on);
       const Grid<float> out = generalize(preview.altitude_m, preview.cell_m, grids, plain, progress);
       Json altitudes = Json::array();
-      constexpr int across = 16;
-      for (int j = 0; j < across; ++j) {
-        for (int i = 0; i < across; ++i) {
-          const std::size_t at = out.index(i * (out.width() - 1) / (across - 1), j * (out.height() - 1) / (across - 1));
-          altitudes.add(pair(static_cast<double>(at), static_cast<double>(out[at])));
-        }
-      }
+      for (const std::size_t at : places) altitudes.add(pair(static_cast<double>(at), static_cast<double>(out[at])));
       checks.add(Json::object()
                      .add("terrain", Json::number(static_cast<double>(t)))
-                     .add("weights", sets_json(whole))
+                     .add("weights", sets_json(setting.weights))
+                     .add("on", switches_json(setting.on))
                      .add("altitudes", std::move(altitudes)));
     }
   }
   return checks;
 }
 
-std::string script_data(const EqualizerInput& in, Progress& progress) {
-  const std::size_t bands = in.start.foreground.size();
-  const std::vector<Preview> previews = make_previews(in);
-  Json terrains = Json::array();
-  for (const Preview& p : previews) {
-    terrains.add(Json::object()
+Json terrain_json(const Preview& p, glm::dvec2 distances_m) {
+  Json terrain = Json::object()
                      .add("name", Json::text(p.name))
                      .add("width", Json::number(p.altitude_m.width()))
                      .add("height", Json::number(p.altitude_m.height()))
@@ -193,21 +264,64 @@ std::string script_data(const EqualizerInput& in, Progress& progress) {
                      .add("bands", Json::number(p.bands))
                      .add("skipped", Json::number(p.skipped))
                      .add("viewer", pair(p.viewer_cell.x, p.viewer_cell.y))
-                     .add("distances", pair(in.distances_m.x, in.distances_m.y))
-                     .add("altitude", Json::text(base64(p.altitude_m))));
+                     .add("distances", pair(distances_m.x, distances_m.y))
+                     .add("altitude", Json::text(base64(p.altitude_m)))
+                     .add("foot", Json::text(base64(p.foot_mask)))
+                     .add("slope", Json::text(base64(p.slope_mask)));
+  if (!p.drawn_mask.empty()) terrain.add("drawn", Json::text(base64(p.drawn_mask)));
+  if (!p.lakes.empty()) terrain.add("lakes", Json::text(base64(p.lakes)));
+  return terrain;
+}
+
+// Switches with what they say on the command line.
+Json switches_of_page(const EqualizerInput& in) {
+  Json switches = Json::array();
+  const auto add = [&switches](const char* name, std::string_view label, bool on, std::string_view on_option, std::string_view off_option) {
+    switches.add(Json::object()
+                     .add("name", Json::text(name))
+                     .add("label", Json::text(label))
+                     .add("on", Json::boolean(on))
+                     .add("on_option", Json::text(on_option))
+                     .add("off_option", Json::text(off_option)));
+  };
+  const SlopeRange& range = in.slope_range;
+  add("lakes", "Lakes keep their level", in.switches.lakes, "", " --change-lakes");
+  add("foot", "Nothing is exaggerated on flat ground at the foot of slopes", in.switches.foot, " --automatic-mask", "");
+  add("slope",
+      fmt::format("Ground flatter than {}° stays as it is, steeper than {}° is generalized", range.original_to_deg,
+                  range.generalized_from_deg),
+      in.switches.slope, fmt::format(" --mask-slope={},{}", range.original_to_deg, range.generalized_from_deg), "");
+  if (!in.drawn_mask.empty()) {
+    add("drawn", fmt::format("The mask {} counts", in.drawn_name), in.switches.drawn, fmt::format(" --mask={}", in.drawn_name), "");
   }
+  return switches;
+}
+
+std::string script_data(const EqualizerInput& in, Progress& progress) {
+  const std::size_t bands = in.start.foreground.size();
+  const std::vector<Preview> previews = make_previews(in);
+  Json terrains = Json::array();
+  for (const Preview& p : previews) terrains.add(terrain_json(p, in.distances_m));
   Json presets = Json::array();
   GeneralizeParameters unchanged;
   unchanged.foreground = unchanged.background = Weights(bands, 1.F);
-  presets.add(Json::object().add("name", Json::text("unchanged")).add("weights", sets_json(unchanged)));
+  const auto add_preset = [&](std::string_view name, const GeneralizeParameters& weights, bool foot, bool slope) {
+    presets.add(Json::object()
+                    .add("name", Json::text(name))
+                    .add("weights", sets_json(weights))
+                    .add("foot", Json::boolean(foot))
+                    .add("slope", Json::boolean(slope)));
+  };
+  add_preset("unchanged", unchanged, false, false);
   for (const GeneralizePreset& preset : generalize_presets())
-    presets.add(Json::object().add("name", Json::text(preset.name)).add("weights", sets_json(fitted(preset.bands, bands))));
+    add_preset(preset.name, fitted(preset.bands, bands), preset.automatic_mask, preset.slope_mask.has_value());
   std::string text = Json::object()
                          .add("input", Json::text(in.title))
                          .add("bands", Json::number(static_cast<double>(bands)))
                          .add("viewer", Json::text(in.viewer_options))
                          .add("weights", sets_json(in.start))
                          .add("presets", std::move(presets))
+                         .add("switches", switches_of_page(in))
                          .add("terrains", std::move(terrains))
                          .add("checks", make_checks(previews, in, progress))
                          .str();
@@ -227,13 +341,13 @@ void write_equalizer_page(const std::string& path, const EqualizerInput& input, 
       "exaggerates it. "
       "Ridges and valleys add to the weight along break lines. The preview follows the sliders.</p>\n<p id=\"verdict\"></p>\n"
       "<main><div><canvas id=\"preview\"></canvas><p id=\"unseen\"></p><div id=\"views\"></div></div>\n<div><div id=\"presets\"></div>\n"
-      "<div id=\"foreground\" class=\"sets\"></div><div id=\"background\" class=\"sets\"></div>\n<p>The same for the whole DEM, lakes "
-      "kept:</p>\n"
+      "<div id=\"switches\"></div>\n"
+      "<div id=\"foreground\" class=\"sets\"></div><div id=\"background\" class=\"sets\"></div>\n<p>The same for the whole DEM:</p>\n"
       "<pre id=\"command\"></pre><button id=\"copy\">Copy</button></div></main>\n<script>\nconst equalizer = "
-      "{2};\n</script>\n<script>\n{3}</script>\n"
+      "{2};\n</script>\n<script>\n{3}{4}{5}</script>\n"
       "</body></html>\n",
       html_escaped(input.title), embedded_file("equalizer/equalizer.css"), script_data(input, progress),
-      embedded_file("equalizer/equalizer.js"));
+      embedded_file("equalizer/generalize.js"), embedded_file("equalizer/lakes.js"), embedded_file("equalizer/equalizer.js"));
   OutputFile file(path);
   std::ofstream stream(file.temporary(), std::ios::binary);
   stream << text;
