@@ -8,6 +8,8 @@
 #include "renderer/base/random.h"
 #include "terrain/generalize.h"
 #include "terrain/generalize_presets.h"
+#include "terrain/generalize_report.h"
+#include "terrain/synthetic.h"
 #include "tests/terrain/terrain_measures.h"
 
 // What holds for any terrain.
@@ -93,6 +95,34 @@ TEST(GeneralizeProperties, FigureFourIsQuietFarOffAndNotNear) {
   plain.foreground_ridges = plain.background_ridges = {};
   const auto bare = make_laplacian_pyramid(run(terrain, plain, grids), 2).bands;
   EXPECT_LT(energy(bare[0], 8, 88), 0.25 * energy(after[0], 8, 88));
+}
+
+// What of the highest band is left near the viewer, as a factor: on slopes it is taken down a little, along ridges it is raised.
+TEST(GeneralizeProperties, FigureFourFirmsRidgesNear) {
+  SyntheticParameters made;
+  made.width = made.height = 256;
+  made.cell_m = 30.0;
+  const Grid<float> terrain = make_synthetic_terrain(made, silent_progress()).altitude_m;
+  const Grid<float> before = make_laplacian_pyramid(terrain, 1).bands[0];
+  const Grid<float> change = surface(256, 256, [&, after = run(terrain, find_generalize_preset("figure4")->bands)](int x, int y) {
+    return static_cast<double>(after(x, y)) - terrain(x, y);
+  });
+  // Ridges are ground that bends more than nineteen in twenty, slopes what bends less than half of it.
+  const Grid<float> bend = crest_curvature(terrain, {30.0, 30.0});
+  std::vector<float> sorted(bend.begin(), bend.end());
+  std::sort(sorted.begin(), sorted.end());
+  const float ridge = sorted[sorted.size() * 19 / 20];
+  const float slope = sorted[sorted.size() / 2];
+  double on[2] = {0.0, 0.0};  // of slopes, of ridges: Σ change · band / Σ band²
+  double of[2] = {0.0, 0.0};
+  for (std::size_t i = 0; i < terrain.size(); ++i) {
+    if (bend[i] > slope && bend[i] < ridge) continue;
+    const std::size_t side = bend[i] >= ridge ? 1 : 0;
+    on[side] += static_cast<double>(change[i]) * before[i];
+    of[side] += static_cast<double>(before[i]) * before[i];
+  }
+  EXPECT_GT(1.0 + on[1] / of[1], 1.15);
+  EXPECT_LT(1.0 + on[0] / of[0], 0.97);
 }
 
 TEST(GeneralizeProperties, AHalfMaskIsHalfTheChange) {
