@@ -206,6 +206,7 @@ TEST(Deformation, LightFallsOnTheTurnedSlope) {
   Grid<float>& z = world->ground.model.generalized_m;
   for (int y = 0; y < 260; ++y)
     for (int x = 0; x < 220; ++x) z(x, y) = static_cast<float>(0.4 * cell * x);
+  world->ground.model.detail_smooth_m = z;
   world->ground.surface = deform(z, frame, glm::dvec3(viewer, 0.0), world->ground.deformation);
   Tracer tracer(world->ground.surface);
   *world->tracer = std::move(tracer);
@@ -216,6 +217,10 @@ TEST(Deformation, LightFallsOnTheTurnedSlope) {
   // Unturned the normal leans west with slope 0.4 · 1.5.
   const glm::dvec2 lean = turned({-0.6, 0.0}, 50.0);
   EXPECT_LT(glm::length(normal - glm::normalize(glm::dvec3(lean, 1.0))), 1e-3);
+  // Slope and aspect are the ground's own, as on the map: neither exaggerated nor turned.
+  const std::size_t pixel = guidance.slope_deg.index(static_cast<int>(at->pixel.x), static_cast<int>(at->pixel.y));
+  EXPECT_NEAR(guidance.slope_deg[pixel], to_degrees(std::atan(0.4)), 0.01);
+  EXPECT_NEAR(guidance.aspect_deg[pixel], 270.0, 0.1);
 }
 
 TEST(Deformation, FoldsInThePictureAreRefusedUnlessAllowed) {
