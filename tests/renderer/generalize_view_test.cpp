@@ -154,5 +154,35 @@ TEST_F(ViewedGround, TwoViewsOfOneSceneHaveEachItsOwn) {
     }
 }
 
+// Stripes along the view: their change divided by its largest is the background's share.
+TEST_F(ViewedGround, TheShareFallsWithDistanceWithoutAJump) {
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 160; ++x) ground_.cells(x, y) = x % 2 == 0 ? 1050.F : 950.F;
+  write_raster(folder_ / "dem.tif", ground_);
+  const std::string bands = "keep_lakes = false\nforeground = [1, 1]\nbackground = [1, 0]\n";
+  const std::string view = "position = [508000, 5175000]";  // 5 km south of the rim
+  const Grid<float> out = seen(scene(bands + "foreground_to_m = 8000\nbackground_from_m = 16000\n", view));
+  const int x = 80;
+  const double whole = 1050.0 - out(x, 0);  // more than 16 km away
+  ASSERT_GT(whole, 40.0);
+  double before = 0.0;
+  double middle = -1.0;
+  for (int y = 199; y >= 0; --y) {
+    const double far = (1050.0 - out(x, y)) / whole;
+    const double distance_m = 5000.0 + 100.0 * (199 - y) + 50.0;
+    if (distance_m < 8000.0) {
+      ASSERT_EQ(out(x, y), 1050.F) << y;
+    }
+    if (distance_m > 16000.0) {
+      ASSERT_NEAR(far, 1.0, 1e-5) << y;
+    }
+    ASSERT_GE(far, before - 1e-6) << y;
+    ASSERT_LE(far - before, 1.5 * 100.0 / 8000.0 + 1e-5) << y;  // the steepest of a smoothstep
+    if (middle < 0.0 && distance_m >= 12000.0) middle = far;
+    before = far;
+  }
+  EXPECT_NEAR(middle, 0.5, 0.02);
+}
+
 }  // namespace
 }  // namespace belvedere
