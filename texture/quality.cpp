@@ -273,6 +273,8 @@ SynthesisQuality measure_quality(const MatchField& matches, const std::vector<Ex
   SynthesisQuality quality;
   measure_copying(matches, exemplars, target, parameters, quality);
   measure_pieces(matches, target, parameters.depth_ratio, quality);
+  quality.exemplars = exemplars.size();
+  quality.seams = seam_visibility(matches, exemplars, target.depth_m, parameters.depth_ratio);
 
   Borders borders{border_distance_squared(target.label), {}};
   for (const Exemplar& exemplar : exemplars) borders.exemplars.push_back(border_distance_squared(exemplar.guides.label));

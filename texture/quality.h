@@ -31,6 +31,20 @@ struct ClassQuality {
   double stroke_run = 0.0;           // mean run along the strokes, output / exemplar; 0: no inside
 };
 
+// How much seams show: pixels side by side that were not side by side in a painting. Each step (|R − R'| + |G − G'| + |B − B'|) / 3 is set
+// against what neighbours of the same two classes are apart in the paintings it comes from (the mean of the two paintings' means), or,
+// where neither has these classes side by side, against their borders of any two classes. 1: seams step as neighbours of the painting do.
+struct SeamVisibility {
+  std::size_t pairs = 0;     // of 4-neighbours, those across silhouettes left out: there the land itself steps
+  std::size_t compared = 0;  // of those, the ones whose paintings have something to compare with
+  double step = 0.0;         // mean over pairs, levels of 255
+  double visibility = 0.0;   // sum of steps / sum of the paintings' own, over compared pairs; 0: none, or paintings without any step
+};
+struct SeamsOfKinds {
+  SeamVisibility within;   // both pixels from one painting
+  SeamVisibility between;  // from different paintings
+};
+
 struct SynthesisQuality {
   double label_agreement = 0.0;     // share of matched pixels whose texel has their label
   double guide_error_mean = 0.0;    // of the guide asked for, 0…255
@@ -45,6 +59,8 @@ struct SynthesisQuality {
   double self_repeat = 0.0;         // distance to the most alike patch elsewhere in the picture, output / exemplar; < 1: repetitive
   double specks_inside = 0.0;       // pixels that stand out from their 3 × 3 median by more than 30 levels, output / exemplar
   double specks_border = 0.0;
+  std::size_t exemplars = 0;  // paintings copied from or offered
+  SeamsOfKinds seams;
   std::vector<ClassQuality> classes;  // those of the target, by label
 };
 
@@ -79,6 +95,9 @@ struct SpeckShares {
 SpeckShares speck_shares(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& borders);
 // Sizes of the 4-connected pieces of constant offset, largest first.
 std::vector<std::size_t> piece_sizes(const MatchField& matches);
+// Seams inside paintings and between them. Matches must lie inside the exemplars; depth_m may be empty: no silhouettes.
+SeamsOfKinds seam_visibility(const MatchField& matches, const std::vector<Exemplar>& exemplars, const Grid<float>& depth_m,
+                             float depth_ratio);
 // Mean over sampled 7 × 7 patches of the root mean squared difference to the most alike patch (every second pixel each way, every
 // fourth in pictures over 1024 rows) that lies 16 pixels or more away.
 double self_distance(const Grid<Rgb8>& picture, int samples);

@@ -27,8 +27,20 @@ double largest(const SynthesisQuality& quality, double ClassQuality::*value) {
 
 }  // namespace
 
+namespace {
+
+Json seams_json(const SeamVisibility& seams) {
+  return Json::object()
+      .add("pairs", Json::number(static_cast<double>(seams.pairs)))
+      .add("compared", Json::number(static_cast<double>(seams.compared)))
+      .add("step", Json::number(seams.step))
+      .add("visibility", Json::number(seams.visibility));
+}
+
+}  // namespace
+
 std::vector<QualityFigure> key_figures(const SynthesisQuality& q) {
-  return {
+  std::vector<QualityFigure> figures = {
       {"label_agreement", "texels of the class asked for, share", "class", q.label_agreement, 1.0, 1.0},
       {"guide_error_mean", "guide off by, mean, 0–255", "guide", q.guide_error_mean, 0.0, 2.2},
       {"guide_error_95", "guide off by, 95th percentile", "guide 95 %", q.guide_error_95, 0.0, any},
@@ -47,12 +59,22 @@ std::vector<QualityFigure> key_figures(const SynthesisQuality& q) {
       {"across_silhouettes", "of those across silhouettes, share", "silhouettes", q.across_silhouettes, 0.0, 0.0},
       {"without_texel", "pixels without a texel", "empty", static_cast<double>(q.without_texel), 0.0, 0.0},
       {"excluded_used", "pixels that copy what is excluded", "excluded", static_cast<double>(q.excluded_used), 0.0, 0.0}};
+  // Of one painting there is no seam to compare with. What eyes are content with is not known: seams inside a painting stand beside.
+  if (q.exemplars > 1) {
+    figures.push_back(
+        {"seams_between", "seams between paintings against the paintings' neighbours", "seams", q.seams.between.visibility, 0.0, any});
+    figures.push_back(
+        {"seams_within", "seams inside a painting against its neighbours", "seams inside", q.seams.within.visibility, 0.0, any});
+  }
+  return figures;
 }
 
 Json quality_json(const SynthesisQuality& quality, const std::function<std::string(std::uint8_t)>& class_name) {
   Json out = Json::object();
   for (const QualityFigure& figure : key_figures(quality))
     out.add(figure.key, Json::object().add("value", Json::number(figure.value)).add("good", Json::boolean(figure.good())));
+  if (quality.exemplars > 1)
+    out.add("seams", Json::object().add("between", seams_json(quality.seams.between)).add("within", seams_json(quality.seams.within)));
   Json classes = Json::array();
   for (const ClassQuality& of : quality.classes) {
     classes.add(Json::object()

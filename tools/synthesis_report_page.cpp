@@ -99,6 +99,22 @@ void add_overview(ReportFolder& page, const SynthesisReportInput& in, const Grid
   page.end_figure();
 }
 
+void add_seams(ReportFolder& page, const SeamsOfKinds& seams) {
+  page.add("<section id=\"seams\"><h2>Seams between paintings</h2>");
+  page.add(
+      "<p>Neighbours that were not side by side in a painting, and how far apart their colours are. Visibility is that step against what "
+      "neighbours of the same classes are apart in the paintings themselves: at 1 a seam steps as the painting does, above it shows. "
+      "Silhouettes do not count.</p>");
+  std::string table = "<table>" + html_row({"seams", "pairs", "step, levels", "visibility"}, "th");
+  const auto row = [&table](const char* name, const SeamVisibility& of) {
+    table += html_row({name, fmt::format("{}", of.pairs), of.pairs == 0 ? "–" : fmt::format("{:.1f}", of.step),
+                       of.compared == 0 ? "–" : fmt::format("{:.2f}", of.visibility)});
+  };
+  row("from one painting to another", seams.between);
+  row("inside a painting", seams.within);
+  page.add(table + "</table></section>");
+}
+
 void add_figures(ReportFolder& page, const SynthesisReportInput& in, const SynthesisFindings& found) {
   page.add("<section id=\"figures\"><h2>Figures</h2>");
   page.add(
@@ -108,6 +124,7 @@ void add_figures(ReportFolder& page, const SynthesisReportInput& in, const Synth
   for (const QualityFigure& figure : key_figures(found.quality))
     table += html_row({figure.name, coloured(number_text(figure.value), figure.good()), range_text(figure)});
   page.add(table + "</table></section>");
+  if (found.quality.exemplars > 1) add_seams(page, found.quality.seams);
 
   page.add("<section id=\"classes\"><h2>Class by class</h2>");
   page.add(fmt::format(

@@ -10,6 +10,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/random.h"
 #include "texture/quality_parts.h"
+#include "texture/synthesize.h"
 
 namespace belvedere {
 namespace {
@@ -263,6 +264,147 @@ TEST(Quality, QuantileIsLinearBetweenNeighbours) {
   EXPECT_DOUBLE_EQ(quality::quantile(counts, 4, 0.0), 0.0);
   EXPECT_DOUBLE_EQ(quality::quantile(counts, 4, 0.25), 1.5);
   EXPECT_DOUBLE_EQ(quality::quantile(counts, 4, 0.95), 2.85);
+}
+
+// A picture of two classes side by side, each of one grey.
+Exemplar two_flats(int width, int height, std::uint8_t left, int left_grey, std::uint8_t right, int right_grey) {
+  Exemplar exemplar;
+  exemplar.picture = Grid<Rgb8>(width, height);
+  exemplar.guides.label = Grid<std::uint8_t>(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      exemplar.picture(x, y) = grey(x < width / 2 ? left_grey : right_grey);
+      exemplar.guides.label(x, y) = x < width / 2 ? left : right;
+    }
+  }
+  return exemplar;
+}
+
+// Left half from the first exemplar, right half from the second, all from their own places.
+MatchField halves(int width, int height) {
+  MatchField field = identity(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = width / 2; x < width; ++x) field(x, y).exemplar = 1;
+  }
+  return field;
+}
+
+TEST(Quality, SeamsOfFlatColoursStepAsReckoned) {
+  // Class 1 of grey 40 from one painting meets class 2 of grey 70 from another: a step of 30. In themselves they step by 20 and by 30.
+  const std::vector<Exemplar> both{two_flats(20, 10, 1, 40, 2, 60), two_flats(20, 10, 1, 100, 2, 70)};
+  const SeamsOfKinds seams = seam_visibility(halves(20, 10), both, {}, 1.04F);
+  EXPECT_EQ(seams.between.pairs, 10U);
+  EXPECT_EQ(seams.between.compared, 10U);
+  EXPECT_DOUBLE_EQ(seams.between.step, 30.0);
+  EXPECT_DOUBLE_EQ(seams.between.visibility, 30.0 / 25.0);
+  EXPECT_EQ(seams.within.pairs, 0U);
+  EXPECT_EQ(seams.within.visibility, 0.0);
+
+  // Class 1 beside class 3 is in neither: borders of any classes stand in, 20 and 30.
+  const std::vector<Exemplar> strangers{both[0], two_flats(20, 10, 2, 70, 3, 100)};
+  EXPECT_DOUBLE_EQ(seam_visibility(halves(20, 10), strangers, {}, 1.04F).between.visibility, 60.0 / 25.0);
+
+  // Of one class each, or of flat colour throughout, there is nothing to compare with.
+  const std::vector<Exemplar> single{two_flats(20, 10, 1, 40, 1, 40), two_flats(20, 10, 2, 70, 2, 70)};
+  const SeamVisibility alone = seam_visibility(halves(20, 10), single, {}, 1.04F).between;
+  EXPECT_EQ(alone.pairs, 10U);
+  EXPECT_EQ(alone.compared, 0U);
+  EXPECT_DOUBLE_EQ(alone.step, 30.0);
+  EXPECT_EQ(alone.visibility, 0.0);
+  const std::vector<Exemplar> flat{two_flats(20, 10, 1, 40, 1, 40), two_flats(20, 10, 1, 70, 1, 70)};
+  EXPECT_EQ(seam_visibility(halves(20, 10), flat, {}, 1.04F).between.visibility, 0.0);
+}
+
+TEST(Quality, SeamsAreJudgedByTheirClassAndKind) {
+  // A board of 100 and 110 and one brighter by d: across the seam steps are d + 10 and d − 10 in turn, 10 in the paintings.
+  const auto board = [](int add) {
+    Exemplar exemplar = two_flats(20, 10, 1, 0, 1, 0);
+    for (int y = 0; y < 10; ++y) {
+      for (int x = 0; x < 20; ++x) exemplar.picture(x, y) = grey(100 + add + (x + y) % 2 * 10);
+    }
+    return exemplar;
+  };
+  for (const int d : {0, 10, 40}) {
+    EXPECT_DOUBLE_EQ(seam_visibility(halves(20, 10), {board(0), board(d)}, {}, 1.04F).between.visibility, std::max(d, 10) / 10.0) << d;
+  }
+  // A row moved by two texels: a seam to the rows above and below, inside the painting, that steps as before.
+  MatchField field = halves(20, 10);
+  for (int x = 0; x < 8; ++x) field(x, 5).x = static_cast<std::uint16_t>(x + 2);
+  const SeamsOfKinds moved = seam_visibility(field, {board(0), board(40)}, {}, 1.04F);
+  EXPECT_EQ(moved.within.pairs, 8U + 8U + 1U);
+  EXPECT_DOUBLE_EQ(moved.within.visibility, 1.0);
+  EXPECT_EQ(moved.between.pairs, 10U);
+  // Pixels without a texel have no seam, silhouettes are none.
+  field(9, 0) = Match{};
+  EXPECT_EQ(seam_visibility(field, {board(0), board(40)}, {}, 1.04F).between.pairs, 9U);
+  Grid<float> depth(20, 10, 1000.0F);
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 10; x < 20; ++x) depth(x, y) = 1100.0F;
+  }
+  EXPECT_EQ(seam_visibility(field, {board(0), board(40)}, depth, 1.04F).between.pairs, 5U);
+  EXPECT_EQ(seam_visibility(field, {board(0), board(40)}, depth, 1.2F).between.pairs, 9U);
+}
+
+TEST(Quality, SeamsBetweenCopiesOfOnePaintingAreItsNeighbours) {
+  const Exemplar exemplar = exemplar_of(dashes(40, 30, 6, 1));
+  MatchField field = identity(40, 30);
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 40; ++x) field(x, y).exemplar = static_cast<std::uint16_t>((x + y) % 2);  // every pair is a seam
+  }
+  const SynthesisQuality q = measure_quality(field, {exemplar, exemplar}, exemplar.guides, {.repeat_samples = 0});
+  EXPECT_EQ(q.exemplars, 2U);
+  EXPECT_EQ(q.seams.between.pairs, 39U * 30U + 40U * 29U);
+  EXPECT_NEAR(q.seams.between.visibility, 1.0, 1e-12);
+  EXPECT_EQ(q.seams.within.pairs, 0U);
+  const SynthesisQuality one = measure_quality(identity(40, 30), {exemplar}, exemplar.guides, {.repeat_samples = 0});
+  EXPECT_EQ(one.seams.between.pairs + one.seams.within.pairs, 0U);
+  EXPECT_EQ(one.seams.between.visibility, 0.0);
+}
+
+TEST(Quality, SynthesisKnitsPaintingsAndPaintingsOfAnotherToneShow) {
+  // Class 1 only in the first, class 2 only in the second, class 3 in both: classes come from different paintings.
+  const auto painting = [](std::uint64_t seed, std::uint8_t own, int add) {
+    Exemplar exemplar = exemplar_of(dashes(96, 80, 6, seed));
+    for (int y = 0; y < 80; ++y) {
+      for (int x = 0; x < 96; ++x) {
+        exemplar.picture(x, y) = grey(exemplar.picture(x, y)[0] / 2 + add);
+        exemplar.guides.label(x, y) = (x / 24 + y / 20) % 2 == 0 ? own : 3;
+      }
+    }
+    exemplar.guides.guides.clear();
+    return exemplar;
+  };
+  GuideStack target;
+  target.label = Grid<std::uint8_t>(90, 70);
+  for (int y = 0; y < 70; ++y) {
+    for (int x = 0; x < 90; ++x) target.label(x, y) = static_cast<std::uint8_t>(1 + (x / 15 + y / 14) % 3);
+  }
+  const auto seams = [&](const std::vector<Exemplar>& exemplars, const MatchField& field) {
+    return measure_quality(field, exemplars, target, {.repeat_samples = 0}).seams;
+  };
+  const std::vector<Exemplar> alike{painting(1, 1, 0), painting(2, 2, 0)};
+  const std::vector<Exemplar> unlike{painting(1, 1, 0), painting(2, 2, 120)};
+  // Texels of the right class by chance: every pair is a seam, as bad as can be.
+  MatchField chance(90, 70);
+  for (std::size_t i = 0; i < chance.size(); ++i) {
+    for (std::uint64_t draw = 0; chance[i].exemplar == Match::none; ++draw) {
+      const auto e = static_cast<std::uint16_t>(random_index(2, 7, i, draw));
+      const auto x = static_cast<std::uint16_t>(random_index(96, 8, i, draw));
+      const auto y = static_cast<std::uint16_t>(random_index(80, 9, i, draw));
+      if (alike[e].guides.label(x, y) == target.label[i]) chance[i] = {e, x, y};
+    }
+  }
+  const double worst = seams(alike, chance).between.visibility;
+  const SeamsOfKinds knit = seams(alike, synthesize(alike, target, {}, silent_progress()));
+  const SeamsOfKinds other = seams(unlike, synthesize(unlike, target, {}, silent_progress()));
+  // Measured: 1.71 by chance; 1.258 between and 1.262 within; with the second brighter by 120, 5.5 and 1.33.
+  EXPECT_NEAR(worst, 12.0 / 7.0, 0.1);  // in a painting of dashes of 6, rows are strangers, and one of six along them: 1/2 + 1/12 of pairs
+  EXPECT_GT(knit.between.pairs, 200U);
+  EXPECT_GT(knit.between.visibility, 1.0);
+  EXPECT_LT(knit.between.visibility, 0.8 * worst);
+  EXPECT_NEAR(knit.between.visibility, knit.within.visibility, 0.1);
+  EXPECT_GT(other.between.visibility, 4.0);
+  EXPECT_LT(other.within.visibility, 0.85 * worst);
 }
 
 TEST(Quality, RefusesWhatDoesNotFit) {

@@ -111,6 +111,32 @@ TEST_F(SynthesisReport, NumbersAreThoseOfTheMatches) {
   }
 }
 
+TEST_F(SynthesisReport, OfSeveralPaintingsTellsTheirSeams) {
+  ASSERT_EQ(report("one").status, 0);
+  EXPECT_THAT(read_bytes(path("one/report.json")), Not(HasSubstr("seams_between")));
+  EXPECT_THAT(read_bytes(path("one/index.html")), Not(HasSubstr("id=\"seams\"")));
+  const Outcome outcome = run({"synthesize", "--picture",     style_,    "--picture",       style_,       "--label",  label_,
+                               target_,      "--label",       label_,    target_,           "--fallback", "7",        "1",
+                               "--out",      path("out.png"), "--match", path("match.exr"), "--report",   path("two")});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string json = read_bytes(path("two/report.json"));
+  const Grid<std::uint32_t> exemplar = read_id_channel(path("match.exr"), "exemplar");
+  std::size_t pairs = 0;
+  for (int y = 0; y < 90; ++y) {
+    for (int x = 0; x < 100; ++x) {
+      pairs += x < 99 && exemplar(x, y) != exemplar(x + 1, y) ? 1 : 0;
+      pairs += y < 89 && exemplar(x, y) != exemplar(x, y + 1) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(pairs, 0U);
+  EXPECT_EQ(number(json, "\"between\": \\{[^}]*\"pairs\""), static_cast<double>(pairs));
+  const double visibility = number(json, "\"seams_between\": \\{[^}]*\"value\"");
+  EXPECT_GT(visibility, 0.0);
+  EXPECT_EQ(number(json, "\"between\": \\{[^}]*\"visibility\""), visibility);
+  EXPECT_THAT(read_bytes(path("two/index.html")),
+              AllOf(HasSubstr("id=\"seams\""), HasSubstr(fmt::format("<td>{}</td>", pairs)), HasSubstr(fmt::format("{:.2f}", visibility))));
+}
+
 TEST_F(SynthesisReport, HasTheSameBytesForAnyNumberOfThreads) {
   for (const char* threads : {"1", "2"}) ASSERT_EQ(report(threads, {"--threads", threads, "--quiet"}).status, 0);
   for (const auto& entry : fs::directory_iterator(path("1")))
