@@ -32,8 +32,10 @@ struct ClassQuality {
 };
 
 // How much seams show: pixels side by side that were not side by side in a painting. Each step (|R − R'| + |G − G'| + |B − B'|) / 3 is set
-// against what neighbours of the same two classes are apart in the paintings it comes from (the mean of the two paintings' means), or,
-// where neither has these classes side by side, against their borders of any two classes. 1: seams step as neighbours of the painting do.
+// against what neighbours of the same two classes are apart in the paintings it comes from (the mean of the two paintings' means).
+// Where neither has these classes side by side: what texels of the two classes are apart by chance, times the share of that by which the
+// paintings' other borders step; a painting of another tone does not show there, for nothing tells how the classes would meet. 1: seams
+// step as neighbours of the painting do.
 struct SeamVisibility {
   std::size_t pairs = 0;     // of 4-neighbours, those across silhouettes left out: there the land itself steps
   std::size_t compared = 0;  // of those, the ones whose paintings have something to compare with
