@@ -70,6 +70,24 @@ Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<P
   return out;
 }
 
+Grid<glm::vec3> mix_borders(const Grid<glm::vec3>& copied, const Painting& draft, const Grid<LandCoverClass>& shown,
+                            const Grid<LandCoverClass>& land_cover, const Grid<glm::vec3>& base) {
+  if (!copied.same_size(draft.under) || !copied.same_size(draft.under_share) || !copied.same_size(shown) || !copied.same_size(land_cover) ||
+      !copied.same_size(base))
+    throw Error(ErrorKind::bug, "composite", "the picture and its draft have different sizes");
+  Grid<glm::vec3> out = copied;
+  parallel_rows(out.height(), [&](int y) {
+    for (int x = 0; x < out.width(); ++x) {
+      const std::size_t i = out.index(x, y);
+      if (draft.under_share[i] == 0) continue;
+      const std::size_t from = draft.under[i];
+      const float share = static_cast<float>(draft.under_share[i]) / 255.0F;
+      out[i] = glm::mix(copied[i], shown[from] == land_cover[from] ? copied[from] : base[from], share);
+    }
+  });
+  return out;
+}
+
 Grid<glm::vec3> blend_edges(const Grid<glm::vec3>& picture, const GuidanceBuffers& guidance) {
   if (guidance.front.empty()) return picture;
   if (!picture.same_size(guidance.depth_m) || !picture.same_size(guidance.front)) {

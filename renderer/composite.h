@@ -5,6 +5,7 @@
 #include "renderer/base/guidance_buffers.h"
 #include "renderer/base/image.h"
 #include "renderer/paint.h"
+#include "texture/brush.h"
 #include "texture/match_field.h"
 
 namespace belvedere {
@@ -15,6 +16,13 @@ namespace belvedere {
 // for matches outside of the exemplars.
 Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<PaintedExemplar>& exemplars,
                                   const Grid<glm::vec3>& target_base, const Grid<float>& target_haze, double residual);
+
+// Borders of classes as strokes leave them. A texel is of one class, and a picture of texels alone is torn like paper where classes meet.
+// Where in `draft` two classes share a pixel, the other one's paint is mixed in by its share, in the colour of the place its stroke grew
+// from: that of `copied` where this shows the same class, else that of `base` (the target's, of no hand). Pixels of one class alone stay as
+// they are, bit for bit. All in encoded sRGB, where paint mixes; `shown` is the class of each pixel of `copied`.
+Grid<glm::vec3> mix_borders(const Grid<glm::vec3>& copied, const Painting& draft, const Grid<LandCoverClass>& shown,
+                            const Grid<LandCoverClass>& land_cover, const Grid<glm::vec3>& base);
 
 // Softens depth edges and the skyline. A pixel of which only the part `front` shows the surface it was painted for gets the rest from those
 // of its eight neighbours that lie on another surface (depth differs by more than 3 %, or one is sky), in linear light, as an eye or lens

@@ -93,7 +93,8 @@ Grid<glm::vec3> synthesize_ground(const LoadedScene& loaded, const Stage& stage,
   });
   if (!scarcity.empty()) progress.note(scarcity);
   const MatchField matches = synthesize(exemplars, guides, parameters, progress);
-  return transfer_residual(matches, painted, classes.base, picture.ground.haze, stage.scene.synthesis.residual);
+  const Grid<glm::vec3> copied = transfer_residual(matches, painted, classes.base, picture.ground.haze, stage.scene.synthesis.residual);
+  return mix_borders(copied, draft, classes.land_cover, picture.guidance.land_cover, picture.ground.colour);
 }
 
 // Colours may be a painting's even where its strokes are not used.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "renderer/base/parallel.h"
+#include "texture/paint_record.h"
 
 namespace belvedere {
 namespace {
@@ -87,34 +88,7 @@ StrokePlace place_on(const Stroke& stroke, const std::array<float, Stroke::max_p
   return place;
 }
 
-// Follows whose paint lies thickest: a layer of another class hides what lies below by its opacity, one of the same class adds to it.
-// Water keeps its shores: a brook that grass leans over is still one line.
-struct TopPaint {
-  Grid<std::uint32_t>& sources;
-  Grid<float>& share;  // 0…1, of the class on top
-  Grid<std::uint32_t>& strokes;
-  Grid<float>& stroke_share;  // 0…1, of the stroke on top
-
-  void cover(const GuidanceBuffers& guidance, std::size_t i, const Stroke& stroke, std::uint32_t number, float alpha) {
-    stroke_share[i] *= 1.F - alpha;
-    if (alpha > stroke_share[i]) {
-      strokes[i] = number;
-      stroke_share[i] = alpha;
-    }
-    if (guidance.land_cover[i] == LandCoverClass::water) return;
-    const LandCoverClass paint = guidance.land_cover[stroke.source];
-    if (guidance.land_cover[sources[i]] == paint) {
-      share[i] += alpha * (1.F - share[i]);
-      return;
-    }
-    share[i] *= 1.F - alpha;
-    if (alpha <= share[i]) return;
-    sources[i] = guidance.land_cover[i] == paint ? static_cast<std::uint32_t>(i) : stroke.source;
-    share[i] = alpha;
-  }
-};
-
-void paint_stroke(const Stroke& stroke, std::uint32_t number, const PixelRect& clip, Grid<glm::vec3>& canvas, TopPaint top,
+void paint_stroke(const Stroke& stroke, std::uint32_t number, const PixelRect& clip, Grid<glm::vec3>& canvas, PaintRecord& record,
                   const GuidanceBuffers& guidance, float pixels_per_unit) {
   const Bounds whole = bounds_of(stroke, canvas.width(), canvas.height());
   std::array<float, Stroke::max_points> length_before{};
@@ -171,7 +145,7 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, const PixelRect& c
       }
       if (alpha < 0.004F) continue;
       canvas[i] += alpha * (stroke.colour + tint - canvas[i]);
-      top.cover(guidance, i, stroke, number, alpha);
+      record.cover(x, y, stroke, number, alpha);
     }
   }
 }
@@ -179,9 +153,11 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, const PixelRect& c
 }  // namespace
 
 Painting begin_painting(Grid<glm::vec3> canvas) {
-  Painting painting{.picture = std::move(canvas), .sources = {}, .strokes = {}};
+  Painting painting{.picture = std::move(canvas), .sources = {}, .under = {}, .under_share = {}, .strokes = {}};
   painting.sources = Grid<std::uint32_t>(painting.picture.width(), painting.picture.height());
   std::iota(painting.sources.begin(), painting.sources.end(), 0U);
+  painting.under = painting.sources;
+  painting.under_share = Grid<std::uint8_t>(painting.picture.width(), painting.picture.height(), 0);
   painting.strokes = Grid<std::uint32_t>(painting.picture.width(), painting.picture.height(), 0U);
   return painting;
 }
@@ -189,8 +165,6 @@ Painting begin_painting(Grid<glm::vec3> canvas) {
 void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::vector<Stroke> strokes, double pixels_per_unit,
                     Progress& progress) {
   Grid<glm::vec3>& canvas = painting.picture;
-  Grid<float> top_share(canvas.width(), canvas.height(), 1.F);  // what was painted before counts as one thick layer
-  Grid<float> top_stroke_share = top_share;
   const std::uint32_t first_number = painting.stroke_count + 1;
   painting.stroke_count += static_cast<std::uint32_t>(strokes.size());
   std::stable_sort(strokes.begin(), strokes.end(), [](const Stroke& a, const Stroke& b) { return a.order > b.order; });
@@ -209,9 +183,10 @@ void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::ve
   parallel_tiles(canvas.width(), canvas.height(), tile_px, [&](PixelRect tile) {
     const auto t =
         static_cast<std::size_t>(tile.y0 / tile_px) * static_cast<std::size_t>(across) + static_cast<std::size_t>(tile.x0 / tile_px);
+    PaintRecord record(painting, guidance, tile);
     for (const std::uint32_t s : tiles[t])
-      paint_stroke(strokes[s], first_number + s, tile, canvas, {painting.sources, top_share, painting.strokes, top_stroke_share}, guidance,
-                   static_cast<float>(pixels_per_unit));
+      paint_stroke(strokes[s], first_number + s, tile, canvas, record, guidance, static_cast<float>(pixels_per_unit));
+    record.hand_back(painting);
     progress.advance(1.0);
   });
 }

@@ -45,6 +45,10 @@ struct Painting {
   Grid<glm::vec3> picture;  // encoded sRGB
   Grid<std::uint32_t>
       sources;  // index of a pixel of the class whose paint lies thickest on each pixel: the pixel itself where that is its own
+  // Where two classes share a pixel: a pixel that the other class's paint grew from, itself where there is none, and how much of it
+  // shows, in 255ths of the two: at most half.
+  Grid<std::uint32_t> under;
+  Grid<std::uint8_t> under_share;
   Grid<std::uint32_t> strokes;  // number of the stroke whose paint lies thickest, counted from 1 in the order of painting; 0: bare canvas
   std::uint32_t stroke_count = 0;  // strokes laid so far
 };

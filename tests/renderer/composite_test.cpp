@@ -73,6 +73,91 @@ TEST(TransferResidual, RefusesMatchesOutside) {
   EXPECT_THROW(transfer_residual(MatchField(2, 1), exemplars, base, {}, 0.5), Error);
 }
 
+// Pasture left of x = 20, rock right of it.
+Grid<LandCoverClass> two_classes() {
+  Grid<LandCoverClass> classes(40, 30, LandCoverClass::pasture);
+  for (int y = 0; y < 30; ++y)
+    for (int x = 20; x < 40; ++x) classes(x, y) = LandCoverClass::rock;
+  return classes;
+}
+
+Grid<LandCoverClass> shown_classes(const Painting& draft, const Grid<LandCoverClass>& land_cover) {
+  Grid<LandCoverClass> shown = land_cover;
+  for (std::size_t i = 0; i < shown.size(); ++i) shown[i] = land_cover[draft.sources[i]];
+  return shown;
+}
+
+TEST(MixBorders, GivesTheBordersOfThePaintingItself) {
+  GuidanceBuffers g;
+  g.land_cover = two_classes();
+  g.depth_m = Grid<float>(40, 30, 1000.F);
+  g.tone = Grid<float>(40, 30, 0.5F);
+  // Slanting dry strokes over the border, white where they are grass, black where they are rock.
+  std::vector<Stroke> strokes;
+  for (int k = 0; k < 60; ++k) {
+    Stroke s;
+    const glm::vec2 at(40.F * static_cast<float>(random_uniform(1, k, 0)), 30.F * static_cast<float>(random_uniform(1, k, 1)));
+    s.points = {at - glm::vec2(5.F, 2.F), at + glm::vec2(5.F, 2.F)};
+    s.point_count = 2;
+    s.start_width = s.end_width = 3.F;
+    s.alpha = 0.3F + 0.6F * static_cast<float>(random_uniform(1, k, 2));
+    s.bristle = 0.5F;
+    s.depth_m = 1000.F;
+    s.seed = static_cast<std::uint32_t>(k);
+    s.source = static_cast<std::uint32_t>(g.depth_m.index(static_cast<int>(at.x), static_cast<int>(at.y)));
+    s.colour = glm::vec3(g.land_cover[s.source] == LandCoverClass::pasture ? 1.F : 0.F);
+    strokes.push_back(s);
+  }
+  Grid<glm::vec3> canvas(40, 30, glm::vec3(0.F));
+  for (std::size_t i = 0; i < canvas.size(); ++i) canvas[i] = glm::vec3(g.land_cover[i] == LandCoverClass::pasture ? 1.F : 0.F);
+  Painting draft = begin_painting(canvas);
+  paint_in_order(draft, g, strokes, 1.0, silent_progress());
+  // A picture of whole pixels, each of the class that shows there most: torn paper.
+  const Grid<LandCoverClass> shown = shown_classes(draft, g.land_cover);
+  Grid<glm::vec3> copied = canvas;
+  for (std::size_t i = 0; i < copied.size(); ++i) copied[i] = glm::vec3(shown[i] == LandCoverClass::pasture ? 1.F : 0.F);
+  const Grid<glm::vec3> out = mix_borders(copied, draft, shown, g.land_cover, canvas);
+  int mixed = 0;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    ASSERT_NEAR(out[i].x, draft.picture[i].x, 0.5 / 255 + 1e-5) << i;
+    mixed += out[i].x > 0.1F && out[i].x < 0.9F ? 1 : 0;
+  }
+  EXPECT_GT(mixed, 100);
+}
+
+TEST(MixBorders, TakesTheColourOfWhereTheStrokeGrew) {
+  const Grid<LandCoverClass> land_cover = two_classes();
+  Grid<glm::vec3> copied(40, 30, glm::vec3(0.2F));
+  Painting draft = begin_painting(copied);
+  const std::size_t grass = copied.index(3, 3);
+  copied[grass] = glm::vec3(0.8F, 0.4F, 0.6F);
+  Grid<glm::vec3> base(40, 30, glm::vec3(0.F));
+  base[grass] = glm::vec3(1.F, 0.5F, 0.F);
+  const std::size_t here = copied.index(30, 7);
+  draft.under[here] = static_cast<std::uint32_t>(grass);
+  draft.under_share[here] = 51;  // a fifth
+  const Grid<glm::vec3> out = mix_borders(copied, draft, land_cover, land_cover, base);
+  EXPECT_NEAR(out[here].x, 0.8 * 0.2 + 0.2 * 0.8, 1e-6);
+  EXPECT_NEAR(out[here].z, 0.8 * 0.2 + 0.2 * 0.6, 1e-6);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (i != here) {
+      ASSERT_EQ(out[i], copied[i]) << "one class alone";
+    }
+  }
+  // Where the stroke grew, rock has been painted over the grass: its colour there is not grass's.
+  Grid<LandCoverClass> shown = land_cover;
+  shown[grass] = LandCoverClass::rock;
+  const Grid<glm::vec3> hidden = mix_borders(copied, draft, shown, land_cover, base);
+  EXPECT_NEAR(hidden[here].x, 0.8 * 0.2 + 0.2 * 1.0, 1e-6);
+  EXPECT_NEAR(hidden[here].z, 0.8 * 0.2, 1e-6);
+}
+
+TEST(MixBorders, RefusesGridsOfDifferentSize) {
+  const Painting draft = begin_painting(Grid<glm::vec3>(4, 3));
+  const Grid<LandCoverClass> classes(4, 3);
+  EXPECT_THROW(mix_borders(Grid<glm::vec3>(3, 3), draft, classes, classes, Grid<glm::vec3>(4, 3)), Error);
+}
+
 // The part of pixel x, y (centre at whole numbers) below the line v = slope u + offset, by 64 × 64 samples: fine enough for 1e-3.
 double covered(int x, int y, double slope, double offset) {
   int inside = 0;

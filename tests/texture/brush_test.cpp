@@ -77,6 +77,54 @@ TEST(Brush, ThinPaintDoesNotHideWhatLiesBelow) {
   EXPECT_EQ(sources_of({grass, grass}, g)(35, 19), grass.source);
 }
 
+TEST(Brush, RecordsTheClassBesideTheThickest) {
+  const GuidanceBuffers g = border_guidance();
+  Stroke grass = horizontal_stroke();
+  grass.source = static_cast<std::uint32_t>(g.depth_m.index(10, 20));
+  const auto painted = [&](const std::vector<Stroke>& strokes) {
+    Painting painting = begin_painting(Grid<glm::vec3>(g.width(), g.height(), glm::vec3(0.F)));
+    paint_in_order(painting, g, strokes, 1.0, silent_progress());
+    return painting;
+  };
+  const auto rock_pixel = static_cast<std::uint32_t>(g.depth_m.index(35, 19));
+  grass.alpha = 0.4F;
+  const Painting thin = painted({grass});
+  EXPECT_EQ(thin.under(35, 19), grass.source);
+  EXPECT_EQ(thin.under_share(35, 19), 102) << ".4 of 255";
+  EXPECT_EQ(thin.under_share(20, 19), 0) << "grass on grass";
+  EXPECT_EQ(thin.under(20, 19), g.depth_m.index(20, 19));
+  EXPECT_EQ(thin.under_share(35, 30), 0) << "nothing painted";
+  EXPECT_EQ(thin.under_share(45, 20), 0) << "water keeps its shores";
+  // Two layers leave .6² = .36 of the rock, which then lies below.
+  const Painting thick = painted({grass, grass});
+  EXPECT_EQ(thick.sources(35, 19), grass.source);
+  EXPECT_EQ(thick.under(35, 19), rock_pixel);
+  EXPECT_EQ(thick.under_share(35, 19), 92);
+  // A third class over both: .5 of it, .3 rock, .2 grass. The thinnest is forgotten: .3 of .8.
+  Stroke gravel = grass;
+  gravel.alpha = 0.5F;
+  gravel.source = static_cast<std::uint32_t>(g.depth_m.index(0, 0));
+  GuidanceBuffers three = g;
+  three.land_cover(0, 0) = LandCoverClass::scree;
+  Painting mixed = begin_painting(Grid<glm::vec3>(g.width(), g.height(), glm::vec3(0.F)));
+  paint_in_order(mixed, three, {grass, gravel}, 1.0, silent_progress());
+  EXPECT_EQ(mixed.sources(35, 19), gravel.source);
+  EXPECT_EQ(mixed.under(35, 19), rock_pixel);
+  EXPECT_EQ(mixed.under_share(35, 19), 96);
+}
+
+TEST(Brush, LaterStrokesBuildOnTheSharesOfEarlierOnes) {
+  const GuidanceBuffers g = border_guidance();
+  Stroke grass = horizontal_stroke();
+  grass.alpha = 0.4F;
+  grass.source = static_cast<std::uint32_t>(g.depth_m.index(10, 20));
+  Painting painting = begin_painting(Grid<glm::vec3>(g.width(), g.height(), glm::vec3(0.F)));
+  paint_in_order(painting, g, {grass}, 1.0, silent_progress());
+  paint_in_order(painting, g, {grass}, 1.0, silent_progress());
+  EXPECT_EQ(painting.sources(35, 19), grass.source);
+  EXPECT_NEAR(painting.under_share(35, 19), 92, 1);
+}
+
 TEST(Brush, CoversTheAreaOfItsOutline) {
   // A rectangle of 40 × 4 with two half discs of radius 2.
   EXPECT_NEAR(painted_area(paint({horizontal_stroke()}, flat_guidance())), 40.0 * 4.0 + 3.14159 * 4.0, 2.5);

@@ -379,12 +379,20 @@ TEST(StrokePainter, MeanColourStaysNearTheBase) {
 }
 
 TEST(StrokePainter, ThreadsChangeNoBit) {
-  const Picture p = one_class(forest);
+  Picture p = one_class(forest);
+  for (int y = 0; y < p.guidance.height(); ++y)
+    for (int x = p.guidance.width() / 2; x < p.guidance.width(); ++x) p.guidance.land_cover(x, y) = rock;
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
-    return paint_strokes(p.ground.colour, p.guidance, p.ground, {}, {}, silent_progress()).picture;
+    return paint_strokes(p.ground.colour, p.guidance, p.ground, {}, {}, silent_progress());
   };
-  EXPECT_EQ(run(1), run(2));
+  const Painting one = run(1);
+  const Painting two = run(2);
+  EXPECT_EQ(one.picture, two.picture);
+  EXPECT_EQ(one.sources, two.sources);
+  EXPECT_EQ(one.under, two.under);
+  EXPECT_EQ(one.under_share, two.under_share);
+  EXPECT_GT(std::count_if(one.under_share.begin(), one.under_share.end(), [](int share) { return share > 60; }), 50);
 }
 
 TEST(StrokePainter, RefusesGridsOfDifferentSize) {
