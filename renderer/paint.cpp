@@ -24,6 +24,7 @@ constexpr double krummholz_sigma_units = 12.0;  // … and dwarf pine stands abo
 constexpr double brook_sigma_units = 1.8;       // what this blur of the water leaves pale is a brook
 constexpr float garden_share = 0.5F;            // of a settlement's ground: houses stand out from green
 constexpr float unknown_sky_depth_m = 92000.0F;
+constexpr float far_air = 0.34F;  // more air where ranges lie one behind the other, crests as well
 
 using Class = LandCoverClass;
 
@@ -130,10 +131,24 @@ glm::vec3 air_colour(const BaseParameters& p, const Palette& palette, double dep
   return glm::mix(palette.haze_near, palette.haze_far, static_cast<float>(std::clamp((depth_m - near_m) / (far_m - near_m), 0.0, 1.0)));
 }
 
-// 1 at the rim of the terrain, 0 from `fade_m` inwards: the world does not end in a cliff but in haze.
+// 1 at the rim of the terrain, 0 from `fade_m` inwards.
 float rim_share(float rim_m, double fade_m) {
   const auto t = static_cast<float>(std::clamp(rim_m / fade_m, 0.0, 1.0));
   return 1.0F - t * t * (3.0F - 2.0F * t);
+}
+
+// How the terrain ends: not in a cliff, and not rubbed out either. Towards its end it stands ever deeper in air, so that mountains turn
+// into blue silhouettes with their crests; only the last strip dissolves in what lies beyond, low ground before high.
+constexpr float end_air = 0.86F;         // share of air at the very end
+constexpr double dissolving = 0.38;      // the last strip, in shares of the fade
+constexpr float crest_dissolves = 0.6F;  // at the very end, of what stands 260 m or more above its surroundings
+struct TerrainEnd {
+  float air;        // 0…1
+  float dissolved;  // 0…1
+};
+TerrainEnd terrain_end(float rim_m, double fade_m, float height) {
+  const float raised = std::clamp(height, 0.0F, 1.0F);
+  return {end_air * rim_share(rim_m, fade_m), rim_share(rim_m, dissolving * fade_m) * (1.0F - (1.0F - crest_dissolves) * raised)};
 }
 
 // Log depth; the sky counts as little farther than the terrain below it, so that the skyline gets no halo.
@@ -209,8 +224,8 @@ struct PixelColour {
   float stale;  // greens: how much of their freshness is gone, 0…1
   float mist;
   float dark;  // the near side of an edge between ranges
-  glm::vec3 horizon;
-  float rim;  // share of the horizon's air at the end of the terrain
+  TerrainEnd end;
+  glm::vec3 beyond;  // what is seen where the terrain has ended
 
   glm::vec3 finish(glm::vec3 colour, glm::vec3 range_mist) const {
     colour = glm::clamp(colour + added, 0.0F, 1.0F) * factor;
@@ -218,8 +233,9 @@ struct PixelColour {
     colour = glm::mix(colour, glm::vec3(1.03F, 0.99F, 1.04F) * grey, 0.12F * stale);
     colour = glm::mix(colour, air, haze);
     colour = glm::mix(colour, range_mist, mist);
+    colour = glm::mix(colour, air, end.air);
     colour = glm::clamp(colour * (1.0F - glm::vec3(0.40F, 0.35F, 0.27F) * dark), 0.0F, 1.0F);
-    return glm::mix(colour, horizon, rim);
+    return glm::mix(colour, beyond, end.dissolved);
   }
 };
 
@@ -334,13 +350,15 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
       pixel.air = air_colour(parameters, palette, depth);
       // Far ranges: the feet stand in mist and the crests out of it, and each hides the next in a step of light.
       const float far = farness(parameters, depth) * mist;
-      const float foot = guidance.relief_l_m.empty() ? 0.0F : std::clamp(-guidance.relief_l_m[i] / 260.0F, -1.0F, 1.0F);
+      const float raised = guidance.relief_l_m.empty() ? 0.0F : std::clamp(guidance.relief_l_m[i] / 260.0F, -1.0F, 1.0F);
+      const float low = 1.0F - 0.75F * std::max(raised, 0.0F);  // mist lies in valleys, crests stay clear
       pixel.haze = static_cast<float>(std::clamp(haze_share(parameters, depth, altitude) * palette.haze_share, 0.0, 1.0));
-      pixel.haze = std::clamp(pixel.haze * (1.0F + 0.40F * far * foot) + 0.10F * far * foot, 0.0F, 1.0F);
-      pixel.mist = std::clamp((3.0F + 5.0F * far) * behind, 0.0F, 0.35F + 0.20F * std::min(far, 1.0F)) * mist;
+      pixel.haze = std::clamp(pixel.haze * (1.0F - 0.30F * far * raised) - 0.06F * far * raised, 0.0F, 1.0F);
+      pixel.haze += far_air * std::min(far, 1.0F) * (1.0F - pixel.haze);
+      pixel.mist = std::clamp((3.0F + 5.0F * far) * behind, 0.0F, 0.35F + 0.20F * std::min(far, 1.0F)) * mist * low;
       pixel.dark = std::clamp(-(1.5F + 4.0F * far) * behind, 0.0F, 0.25F + 0.10F * std::min(far, 1.0F)) * mist;
-      pixel.horizon = sky_gradient(palette, (y + origin_px.y + 0.5) / sky_parameters.horizon_px);
-      pixel.rim = has_rim ? rim_share(guidance.rim_m[i], parameters.rim_fade_m) : 0.0F;
+      pixel.beyond = air_beyond(palette, (y + origin_px.y + 0.5) / sky_parameters.horizon_px);
+      if (has_rim) pixel.end = terrain_end(guidance.rim_m[i], parameters.rim_fade_m, raised);
       const Class gardens = palette.winter ? Class::snow : Class::valley_floor;
       WaterLook water{};
       if (id == Class::water) water = water_look(guidance, palette, mirrored, i, waters[i], streaks[i], patches);
@@ -355,7 +373,8 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
       ground.lighter[i] = paint(tone_step);
       ground.accent[i] = accent_at(guidance, logs, x, y, step_px);
       ground.tree_density[i] = tree_density_at(id, forest[i], wood[i], patches);
-      ground.haze[i] = 1.0F - (1.0F - pixel.haze) * (1.0F - std::min(pixel.mist, 1.0F)) * (1.0F - pixel.rim);
+      ground.haze[i] =
+          1.0F - (1.0F - pixel.haze) * (1.0F - std::min(pixel.mist, 1.0F)) * (1.0F - pixel.end.air) * (1.0F - pixel.end.dissolved);
     }
     progress.advance(1.0);
   });

@@ -22,7 +22,7 @@ struct BaseParameters {
   double range_mist = 1.0;        // separation of ranges, 0…3
   double warm_near = 1.0;         // 0…3
   double hue_drift = 1.0;         // 0…3: slow changes of hue over the ground, fields
-  double rim_fade_m = 4000.0;     // towards the end of the terrain it dissolves in the air of the horizon over this distance; 0 off
+  double rim_fade_m = 4000.0;     // over this distance the terrain stands ever deeper in air towards its end; 0 off
   double clouds = 1.0;            // 0 (none)…2
   double horizon_px = 0.0;        // row of the horizon in the whole picture (skyline_row_px of sky.h); 0: 0.18 of its height
   double sun_image_x = 1.0;       // as in ToneParameters

@@ -145,7 +145,7 @@ struct SceneAir {
   double range_mist = 1.0;
   double warm_near = 1.0;
   double hue_drift = 1.0;
-  double rim_fade_m = 4000.0;  // over this distance terrain dissolves in haze towards its end
+  double rim_fade_m = 4000.0;  // over this distance terrain stands ever deeper in haze towards its end
   double clouds = 1.0;
 };
 

@@ -364,7 +364,9 @@ std::vector<SceneSection> make_scene_sections() {
            {.name = "rim_fade_m",
             .field = AT(air.rim_fade_m),
             .range = {0, 1e6},
-            .meaning = "Over this distance the terrain dissolves in haze towards its end, so that it does not end in a cliff; 0 is off."},
+            .meaning =
+                "Over this distance the terrain stands ever deeper in haze towards its end, mountains as blue silhouettes, so that it "
+                "does not end in a cliff; 0 is off."},
            {.name = "clouds", .field = AT(air.clouds), .range = {0, 2}, .meaning = "How many clouds; 0 is a clear sky."},
        }});
   sections.push_back(

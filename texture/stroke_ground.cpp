@@ -29,12 +29,12 @@ std::vector<Stroke> sky_strokes(const StrokeScene& scene) {
     if (!scene.guidance.is_sky(i)) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.gate = StrokeGate::sky;
-    // Clear sky and veils are drawn out level; over the edge of a cloud such a stroke would smear it, there the brush dabs.
+    // The sky is drawn out level, within 3°; over the edge of a cloud a long stroke would smear it, there the brush dabs.
     const float edge = cloud_edge(scene, place, i);
     const float dab = std::clamp((edge - 0.02F) / 0.05F, 0.F, 1.F);
-    const float angle = seed.normal() * (0.05F + 0.6F * dab);
-    const float length = seed.between(26.F, 66.F) * (1.F - 0.78F * dab);
-    lay_line(stroke, scene, place, length, angle, 0.12F + 0.5F * dab, false, seed);
+    const float angle = std::clamp(0.018F * seed.normal(), -0.03F, 0.03F);
+    const float length = seed.between(26.F, 66.F) * (1.F - 0.80F * dab);
+    lay_line(stroke, scene, place, length, angle, 0.006F, false, seed);
     take_brush(stroke, scene, seed.between(5.F, 11.F) * (1.F - 0.35F * dab),
                {.taper = 0.7F, .alpha = 0.30F, .bristle = 0.5F, .wetness = 0.015F});
     stroke.colour = scene.colour(i, 0.2F * seed.normal(), 0.006F, seed);

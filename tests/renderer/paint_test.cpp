@@ -73,33 +73,94 @@ TEST(Base, FarGroundTurnsIntoAirAndNearGroundIsWarm) {
   EXPECT_GT(far.haze(4, 4), 0.99F);
 }
 
-// Towards its end the terrain takes the colour of the sky at its own height in the picture, by smoothstep of the distance.
-TEST(Base, TerrainDissolvesTowardsItsEnd) {
+// Slopes of forest whose end runs down the picture: 500 m of ground a column.
+GuidanceBuffers make_end(float relief_l_m) {
   GuidanceBuffers g = make_slope(9, 6, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 10.0F);
-  const PaintGround full = ground_of(g, plain());
   g.rim_m = Grid<float>(9, 6);
   for (int y = 0; y < 6; ++y)
     for (int x = 0; x < 9; ++x) g.rim_m(x, y) = 500.0F * static_cast<float>(x);
+  for (float& d : g.depth_m) d = 20000.0F;
+  g.relief_l_m = Grid<float>(9, 6, relief_l_m);
+  return g;
+}
+
+// Haze in depth, no eraser: on its way to the end low ground first turns into blue air, and only the last strip into what lies beyond.
+TEST(Base, TerrainEndsInAir) {
+  const Palette palette = read_palette("summer");
   BaseParameters p = plain();
+  p.rim_fade_m = 0.0;
+  const PaintGround full = ground_of(make_end(0.0F), p);
   p.rim_fade_m = 3000.0;
   p.horizon_px = 4.0;
-  const Palette palette = read_palette("summer");
-  const PaintGround ground = ground_of(g, p);
+  const PaintGround ground = ground_of(make_end(0.0F), p);
+  const auto step = [](double t) { return static_cast<float>((3.0 - 2.0 * t) * t * t); };
   for (int y = 0; y < 6; ++y)
     for (int x = 0; x < 9; ++x) {
-      const double t = std::min(1.0, 500.0 * x / 3000.0);
-      const auto share = static_cast<float>(1.0 - (3.0 - 2.0 * t) * t * t);
-      const glm::vec3 horizon = sky_gradient(palette, (y + 0.5) / 4.0);
+      const float air = 0.86F * (1.0F - step(std::min(1.0, 500.0 * x / 3000.0)));
+      const float gone = 1.0F - step(std::min(1.0, 500.0 * x / (0.38 * 3000.0)));
+      const glm::vec3 beyond = air_beyond(palette, (y + 0.5) / 4.0);
+      const auto expected = [&](float colour, int k) {
+        return (colour * (1.0F - air) + palette.haze_near[k] * air) * (1.0F - gone) + beyond[k] * gone;
+      };
       for (int k = 0; k < 3; ++k) {
-        ASSERT_NEAR(ground.colour(x, y)[k], full.colour(x, y)[k] * (1.0F - share) + horizon[k] * share, 1e-6F) << x << ", " << y;
-        ASSERT_NEAR(ground.darker(x, y)[k], full.darker(x, y)[k] * (1.0F - share) + horizon[k] * share, 1e-6F);
-        ASSERT_NEAR(ground.lighter(x, y)[k], full.lighter(x, y)[k] * (1.0F - share) + horizon[k] * share, 1e-6F);
+        ASSERT_NEAR(ground.colour(x, y)[k], expected(full.colour(x, y)[k], k), 1e-6F) << x << ", " << y;
+        ASSERT_NEAR(ground.darker(x, y)[k], expected(full.darker(x, y)[k], k), 1e-6F);
+        ASSERT_NEAR(ground.lighter(x, y)[k], expected(full.lighter(x, y)[k], k), 1e-6F);
       }
-      ASSERT_NEAR(ground.haze(x, y), share, 1e-6F);
+      ASSERT_NEAR(ground.haze(x, y), 1.0F - (1.0F - air) * (1.0F - gone), 1e-6F);
     }
-  EXPECT_GT(glm::length(ground.colour(0, 2) - full.colour(0, 2)), 0.2F);
-  p.rim_fade_m = 0.0;
-  EXPECT_EQ(ground_of(g, p).colour, full.colour) << "0 is off";
+  EXPECT_GT(glm::length(ground.colour(3, 2) - full.colour(3, 2)), 0.2F);
+}
+
+TEST(Base, MountainsAtTheEndStayAsSilhouettes) {
+  const Palette palette = read_palette("summer");
+  BaseParameters p = plain();
+  p.rim_fade_m = 4000.0;
+  p.horizon_px = 3.0;
+  const PaintGround low = ground_of(make_end(0.0F), p);
+  const PaintGround high = ground_of(make_end(400.0F), p);
+  for (int y = 2; y < 6; ++y) {
+    const glm::vec3 beyond = air_beyond(palette, (y + 0.5) / 3.0);
+    EXPECT_LT(glm::length(low.colour(0, y) - beyond), 0.01F) << "the ground is gone";
+    EXPECT_GT(glm::length(high.colour(0, y) - beyond), 0.05F) << "the crest is not";
+    EXPECT_LT(luma(high.colour(0, y)), luma(beyond)) << "and darker than the sky";
+    EXPECT_EQ(high.colour(6, y), low.colour(6, y)) << "farther in, both stand in the same air";
+  }
+}
+
+// Steep crests, one behind the other in clear air beyond the foreground: each lighter and bluer than the one before.
+TEST(Base, FarRangesGrowPale) {
+  const BaseParameters p;
+  const Palette palette = read_palette("summer");
+  float last = 0.0F;
+  for (const float depth : {50000.0F, 65000.0F, 80000.0F, 95000.0F, 110000.0F}) {
+    GuidanceBuffers g = make_slope(8, 8, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 30.0F);
+    for (float& d : g.depth_m) d = depth;
+    for (float& r : g.relief_l_m) r = 300.0F;
+    const glm::vec3 colour = ground_of(g, p).colour(4, 4);
+    EXPECT_GT(luma(colour), last + 0.015F) << depth;
+    last = luma(colour);
+    if (depth > 80000.0F) {
+      EXPECT_LT(glm::length(colour - palette.haze_far), 0.45F) << depth;
+    }
+  }
+}
+
+// Mist behind an edge lies in the valley and leaves a crest clear.
+TEST(Base, MistLiesInValleys) {
+  const auto behind_edge = [](float relief_l_m) {
+    GuidanceBuffers g = make_slope(20, 160, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 10.0F);
+    for (int y = 0; y < 80; ++y)
+      for (int x = 0; x < 20; ++x) g.depth_m(x, y) = 32000.0F;
+    for (float& r : g.relief_l_m) r = relief_l_m;
+    BaseParameters p = plain();
+    p.range_mist = 1.0;
+    const PaintGround ground = ground_of(g, p);
+    return luma(ground.colour(10, 78)) - luma(ground.colour(10, 20));
+  };
+  EXPECT_GT(behind_edge(-100.0F), 0.05F);
+  EXPECT_EQ(behind_edge(-100.0F), behind_edge(0.0F));
+  EXPECT_NEAR(behind_edge(300.0F), 0.25F * behind_edge(0.0F), 0.02F);
 }
 
 TEST(Base, RangesReadApart) {

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "tests/renderer/painted_hills.h"
 
@@ -38,7 +40,8 @@ TEST(Sky, WithoutCloudsItIsTheGradient) {
   const Grid<glm::vec3> sky = make_sky(Grid<float>(600, 150, sky_depth), palette, p, {0, 0});
   for (int x = 0; x < 600; x += 7) {
     EXPECT_LT(glm::length(sky(x, 0) - palette.sky.front().second), 0.05F);
-    EXPECT_LT(glm::length(sky(x, 149) - palette.sky.back().second), 1e-6F);
+    EXPECT_LT(glm::length(sky(x, 119) - palette.sky.back().second), 0.01F);
+    EXPECT_LT(glm::length(sky(x, 149) - air_beyond(palette, 149.5 / 120.0)), 1e-6F) << "below the horizon";
   }
 }
 
@@ -56,6 +59,87 @@ TEST(Sky, CloudsHaveFlatBasesAndShrinkTowardsTheHorizon) {
   ASSERT_GT(far_count, 0);
   ASSERT_GT(near_count, 0);
   EXPECT_GT(near / near_count, 1.5 * far / far_count);
+}
+
+// Height over width and the place of the highest head: what tells two clouds apart at a glance.
+TEST(Sky, NoTwoCloudsAreAlike) {
+  const std::vector<Cloud> clouds = make_clouds({});
+  std::vector<glm::dvec2> shapes;
+  for (const Cloud& cloud : clouds) {
+    const CloudHead* top = &cloud.heads.front();
+    for (const CloudHead& head : cloud.heads)
+      if (head.centre.y - head.radius.y < top->centre.y - top->radius.y) top = &head;
+    const double width = cloud.to.x - cloud.from.x;
+    shapes.emplace_back((cloud.base_px - cloud.from.y) / width, (top->centre.x - cloud.from.x) / width);
+  }
+  double low = 1.0, high = 0.0, left = 1.0, right = 0.0;
+  int alike = 0, pairs = 0;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    low = std::min(low, shapes[i].x), high = std::max(high, shapes[i].x);
+    left = std::min(left, shapes[i].y), right = std::max(right, shapes[i].y);
+    for (std::size_t k = i + 1; k < shapes.size(); ++k, ++pairs) alike += glm::length(shapes[i] - shapes[k]) < 0.02 ? 1 : 0;
+  }
+  EXPECT_GT(high, 2.5 * low) << "heaps and drawn-out banks";
+  EXPECT_GT(right - left, 0.35) << "heads stand left, right and in the middle";
+  EXPECT_LT(alike, 0.06 * pairs);
+}
+
+// Where clouds stand, as a mask of columns: no other seed may share more of it than chance would.
+TEST(Sky, EverySeedHasASkyOfItsOwn) {
+  const auto columns = [](std::uint64_t seed) {
+    SkyParameters p;
+    p.seed = seed;
+    std::vector<bool> mask(2400, false);
+    for (const Cloud& cloud : make_clouds(p))
+      for (int x = std::max(0, static_cast<int>(cloud.from.x)); x < std::min(2400.0F, cloud.to.x); ++x)
+        if (cloud.base_px < 150.0F) mask[static_cast<std::size_t>(x)] = true;
+    return mask;
+  };
+  int worst = 0;
+  for (std::uint64_t a = 1; a < 7; ++a)
+    for (std::uint64_t b = a + 1; b < 8; ++b) {
+      const std::vector<bool> one = columns(a), other = columns(b);
+      int both = 0, either = 0;
+      for (std::size_t x = 0; x < one.size(); ++x) both += one[x] && other[x], either += one[x] || other[x];
+      ASSERT_GT(either, 200) << a << ", " << b;
+      worst = std::max(worst, 100 * both / either);
+    }
+  EXPECT_LT(worst, 75);
+}
+
+// The sky must not be the loudest part: clear sky and veils change from row to row, hardly along a row.
+TEST(Sky, VeilsLieLevel) {
+  const Palette palette = read_palette("summer");
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SkyParameters p;
+    p.seed = seed;
+    const std::vector<Cloud> clouds = make_clouds(p);
+    const Grid<glm::vec3> sky = make_sky(Grid<float>(2400, 198, sky_depth), palette, p, {0, 0});
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    for (int y = 4; y < 190; y += 2)
+      for (int x = 4; x < 2396; x += 2) {
+        bool clear = true;
+        for (const Cloud& c : clouds) clear = clear && (x < c.from.x - 8 || x > c.to.x + 8 || y < c.from.y - 8 || y > c.to.y + 8);
+        if (!clear) continue;
+        // What is left of the gradient from top to horizon, which is level by nature, would hide the slope of veils.
+        const double gx = sky(x + 4, y).r - sky(x - 4, y).r;
+        const double gy =
+            sky(x, y + 4).r - sky(x, y - 4).r - (sky_gradient(palette, (y + 4.5) / 198.0).r - sky_gradient(palette, (y - 3.5) / 198.0).r);
+        xx += gx * gx, xy += gx * gy, yy += gy * gy;
+      }
+    ASSERT_GT(yy, 0.0);
+    // The axis of least change, degrees from level, and how strongly the veils keep to it.
+    EXPECT_LT(std::abs(0.5 * std::atan2(2.0 * xy, yy - xx)) * 57.3, 3.0) << seed;
+    EXPECT_GT(yy, 12.0 * xx) << seed;
+  }
+}
+
+TEST(Sky, BelowTheHorizonIsHazeNotSky) {
+  const Palette palette = read_palette("summer");
+  EXPECT_EQ(air_beyond(palette, 0.4), sky_gradient(palette, 0.4));
+  EXPECT_EQ(air_beyond(palette, 1.0), sky_gradient(palette, 1.0));
+  const glm::vec3 deep = air_beyond(palette, 3.0);
+  EXPECT_LT(glm::length(deep - palette.haze_far), 0.45F * glm::length(palette.sky.back().second - palette.haze_far));
 }
 
 TEST(Sky, CloudsAreLitFromAboveAndShadedBelow) {

@@ -268,6 +268,26 @@ TEST(StrokePainter, SnowIsLaidInLongStrokes) {
   EXPECT_GT(sum / count, 19.0);  // units of 0.5 mm
 }
 
+TEST(StrokePainter, TheSkyIsDrawnOutLevel) {
+  Picture p = one_class(sky);
+  // A cloud in the right half: there the brush dabs, and is level all the same.
+  for (int y = 80; y < 160; ++y)
+    for (int x = 200; x < 280; ++x) p.ground.colour(x, y) = glm::vec3(0.9F);
+  const StrokeParameters parameters;
+  double clear = 0.0, dabbed = 0.0;
+  int clear_count = 0, dab_count = 0;
+  for (const Stroke& s : sky_strokes({p.guidance, p.ground, parameters})) {
+    const glm::vec2 axis = s.points[3] - s.points[0];
+    EXPECT_LE(std::abs(std::atan2(axis.y, axis.x)) * 57.2958F, 3.F);
+    const glm::vec2 middle = 0.5F * (s.points[0] + s.points[3]);
+    if (middle.x < 150.F) clear += std::hypot(axis.x, axis.y), ++clear_count;
+    if (middle.y > 85.F && middle.y < 155.F && std::abs(middle.x - 200.F) < 6.F) dabbed += std::hypot(axis.x, axis.y), ++dab_count;
+  }
+  ASSERT_GT(clear_count, 100);
+  ASSERT_GT(dab_count, 5);
+  EXPECT_GT(clear / clear_count, 3.0 * dabbed / dab_count);
+}
+
 TEST(StrokePainter, StrokesGrowWithTheSheet) {
   const Picture small = one_class(forest, 200, 200);
   const Picture large = one_class(forest, 400, 400);
