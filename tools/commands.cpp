@@ -5,9 +5,9 @@
 namespace belvedere::tools {
 
 const std::vector<AddCommand>& all_commands() {
-  static const std::vector<AddCommand> commands = {add_render, add_guidance, add_generalize,     add_synthesize,
-                                                   add_check,  add_deform,   add_exemplar_check, add_exemplar_paint,
-                                                   add_info,   add_diff,     add_schema};
+  static const std::vector<AddCommand> commands = {add_render,         add_guidance, add_generalize,     add_synthesize,
+                                                   add_check,          add_deform,   add_exemplar_check, add_exemplar_compare,
+                                                   add_exemplar_paint, add_info,     add_diff,           add_schema};
   return commands;
 }
 

@@ -26,6 +26,7 @@ Command add_synthesize(CLI::App& program);
 Command add_check(CLI::App& program);
 Command add_deform(CLI::App& program);
 Command add_exemplar_check(CLI::App& program);
+Command add_exemplar_compare(CLI::App& program);
 Command add_info(CLI::App& program);
 Command add_diff(CLI::App& program);
 Command add_schema(CLI::App& program);
