@@ -8,6 +8,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/parallel.h"
 #include "renderer/base/random.h"
+#include "renderer/forest_cover.h"
 #include "renderer/picture_filter.h"
 #include "renderer/picture_noise.h"
 #include "renderer/reflection.h"
@@ -19,8 +20,7 @@ namespace {
 
 constexpr double tone_step = 0.17;              // to the darker and the lighter picture
 constexpr double range_sigma_units = 14.0;      // width of mist behind an edge
-constexpr double treeline_sigma_units = 5.0;    // forest thins towards its border …
-constexpr double krummholz_sigma_units = 12.0;  // … and dwarf pine stands about it
+constexpr double krummholz_sigma_units = 12.0;  // dwarf pine stands about the treeline
 constexpr double brook_sigma_units = 1.8;       // what this blur of the water leaves pale is a brook
 constexpr float garden_share = 0.5F;            // of a settlement's ground: houses stand out from green
 constexpr float unknown_sky_depth_m = 92000.0F;
@@ -195,24 +195,24 @@ float accent_at(const GuidanceBuffers& g, const Grid<float>& logs, int x, int y,
   }
 }
 
-// `forest` and `wood` are the shares of forest around, near and farther.
-float tree_density_at(Class id, float forest, float wood, const Patches& p) {
-  if (id == Class::forest) {
-    const float border = 1.0F - std::clamp((forest - 0.5F) / 0.45F, 0.0F, 1.0F);
-    const float clearing = 0.45F * std::clamp(0.55F * p.n3 + 0.6F * p.n8 + 0.45F * p.n25 - 0.6F, 0.0F, 1.0F);
-    return std::clamp(0.96F - clearing - border * (p.n3 > 0.0F ? 0.62F : 0.36F), 0.14F, 1.0F);
-  }
+// Dwarf pines on alpine grass and shrubland; `wood` is the share of forest around. Forest has its own: forest_cover.h.
+float bush_density_at(Class id, float wood, const Patches& p) {
   if (id == Class::alpine_grass) return std::clamp(0.75F * wood + 0.06F * p.n3 * (wood > 0.02F ? 1.0F : 0.0F), 0.0F, 0.35F);
   if (id == Class::shrub) return std::clamp(0.45F + 0.22F * p.n8 + 0.12F * p.n3, 0.1F, 0.85F);
   return 0.0F;
 }
 
+// Grass among trees: a little darker than that of the open.
+glm::vec3 glade_colour(const Palette& palette, double altitude, double light) {
+  return palette_colour(palette, altitude > 1600.0 ? Class::alpine_grass : Class::pasture, altitude, light - 0.06);
+}
+
 void check_channels(const GuidanceBuffers& g) {
   const auto& size = g.depth_m;
   if (!size.same_size(g.position_m) || !size.same_size(g.altitude_m) || !size.same_size(g.land_cover) || !size.same_size(g.tone) ||
-      !size.same_size(g.relief_s_m))
+      !size.same_size(g.relief_s_m) || !size.same_size(g.fall_line))
     throw Error(ErrorKind::bug, "base picture", "a guidance channel is missing or has another size",
-                "depth, position, altitude, land cover, tone and relief");
+                "depth, position, altitude, land cover, fall line, tone and relief");
 }
 
 // What all three tones of a pixel have in common.
@@ -290,8 +290,8 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
   const Grid<float> mean_logs = blur_in_picture(logs, range_sigma_px, origin_px);
   Grid<float> is_forest(width, height, 0.0F);
   for (std::size_t i = 0; i < is_forest.size(); ++i) is_forest[i] = guidance.land_cover[i] == Class::forest ? 1.0F : 0.0F;
-  const Grid<float> forest = blur_on_surface(is_forest, guidance.depth_m, treeline_sigma_units * ppu);
   const Grid<float> wood = blur_in_picture(is_forest, krummholz_sigma_units * ppu, origin_px);
+  const ForestCover cover = make_forest_cover(guidance, {ppu, parameters.seed}, origin_px);
 
   Grid<float> is_water(width, height, 0.0F);
   for (std::size_t i = 0; i < is_water.size(); ++i) is_water[i] = guidance.land_cover[i] == Class::water ? 1.0F : 0.0F;
@@ -365,6 +365,7 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
       const auto paint = [&](double step) {
         const double light = tone + static_cast<double>(water.tone_shift) + step;
         glm::vec3 ramp = palette_colour(palette, id, altitude, light);
+        if (cover.glade[i] > 0.0F) ramp = glm::mix(ramp, glade_colour(palette, altitude, light), 0.85F * cover.glade[i]);
         if (id == Class::settlement) ramp = glm::mix(ramp, palette_colour(palette, gardens, altitude, light - 0.12), garden_share);
         return pixel.finish(water.over(ramp), palette.range_mist);
       };
@@ -372,7 +373,7 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
       ground.darker[i] = paint(-tone_step);
       ground.lighter[i] = paint(tone_step);
       ground.accent[i] = accent_at(guidance, logs, x, y, step_px);
-      ground.tree_density[i] = tree_density_at(id, forest[i], wood[i], patches);
+      ground.tree_density[i] = id == Class::forest ? cover.density[i] : bush_density_at(id, wood[i], patches);
       ground.haze[i] =
           1.0F - (1.0F - pixel.haze) * (1.0F - std::min(pixel.mist, 1.0F)) * (1.0F - pixel.end.air) * (1.0F - pixel.end.dissolved);
     }
@@ -386,7 +387,7 @@ int base_margin_px(const BaseParameters& parameters) {
   const int ranges = 2 * blur_reach_px(range_sigma_units * ppu);  // the blur, and the sky's look down at the terrain
   const int woods = blur_reach_px(krummholz_sigma_units * ppu);
   const int waters = std::max(reflection_margin_px(ppu), blur_reach_px(brook_sigma_units * ppu));
-  return std::max({ranges, woods, waters}) + 3 * static_cast<int>(std::ceil(ppu)) + 2;
+  return std::max({ranges, woods, waters, forest_cover_margin_px(ppu)}) + 3 * static_cast<int>(std::ceil(ppu)) + 2;
 }
 
 }  // namespace belvedere

@@ -48,15 +48,16 @@ std::vector<Stroke> wash_strokes(const StrokeScene& scene) {
     const LandCoverClass id = scene.class_at(i);
     if (id == sky || id == water) return;
     Stroke stroke = ground_stroke(scene, i, seed);
+    const bool wooded = id == forest && !is_grassy(scene, i);
     const float length = is_ice(id) ? 28.F : id == rock ? 16.F : id == forest ? 10.F : 14.F;
     stroke.depth_tolerance = id == rock || id == snow || id == glacier ? tight_depth : 0.03F;
-    if (id != forest) stroke.tone = scene.guidance.tone[i];
+    if (!wooded) stroke.tone = scene.guidance.tone[i];
     const float turn = is_grass(id) && !is_floor(id) && seed.uniform() < 0.35F ? quarter_turn : 0.F;
     const float angle = turn + seed.normal() * (is_floor(id) ? 0.15F : is_grass(id) ? 0.3F : 0.2F);
     lay_line(stroke, scene, place, length * seed.between(0.7F, 1.3F), angle, 0.2F, !is_floor(id), seed);
     take_brush(stroke, scene, (id == forest ? 4.F : 6.F) * seed.between(0.7F, 1.3F),
                {.taper = 0.6F, .alpha = 0.55F, .bristle = 0.5F, .wetness = 0.03F});
-    stroke.colour = scene.colour(i, id == forest ? -0.55F + 0.35F * seed.normal() : mixed_tone(0.22F, 0.15F, seed), paint_jitter, seed);
+    stroke.colour = scene.colour(i, wooded ? -0.55F + 0.35F * seed.normal() : mixed_tone(0.22F, 0.15F, seed), paint_jitter, seed);
     stroke.order += seed.uniform() * 300.F;
     out.push_back(stroke);
   });

@@ -18,6 +18,9 @@ struct PaintGround {
   Grid<float> haze;          // 0…1
 };
 
+// Forest with a smaller tree_density is a glade: grass without trees.
+inline constexpr float glade_density = 0.08F;
+
 struct StrokeParameters {
   double pixels_per_unit = 1.0;  // a unit is 0.5 mm of the sheet: 1 at 2400 px on 1.2 m; 0.1…50
   bool winter = false;

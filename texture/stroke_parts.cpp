@@ -1,6 +1,7 @@
 #include "texture/stroke_parts.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "renderer/base/noise.h"
 
@@ -50,6 +51,24 @@ void lay_on_top(Stroke& stroke) { stroke.order -= tight_depth * stroke.depth_m; 
 float ground_noise(const StrokeScene& scene, std::size_t i, std::uint64_t kind, double sigma_m) {
   const glm::dvec3 p = glm::dvec3(scene.guidance.position_m[i]) + scene.guidance.origin_m;
   return static_cast<float>(gaussian_noise(scene.parameters.seed + kind, p.x, p.y, sigma_m));
+}
+
+float patch_noise(const StrokeScene& scene, std::size_t i, std::uint64_t kind, double sigma_units) {
+  constexpr double unknown_metres_per_unit = 20.0;
+  const double known = static_cast<double>(scene.metres_per_unit(i));
+  const double octave = std::log2(sigma_units * (known > 0.0 ? known : unknown_metres_per_unit));
+  const double below = std::floor(octave);
+  const auto share = static_cast<float>(octave - below);
+  // Two octaves, mixed so that the deviation stays 1.
+  const auto of = [&](double power) {
+    return ground_noise(scene, i, kind + 1000U * static_cast<std::uint64_t>(power + 64.0), std::exp2(power));
+  };
+  return std::sqrt(1.F - share) * of(below) + std::sqrt(share) * of(below + 1.0);
+}
+
+bool is_grassy(const StrokeScene& scene, std::size_t i) {
+  const LandCoverClass id = scene.class_at(i);
+  return is_grass(id) || (id == LandCoverClass::forest && scene.ground.tree_density[i] < glade_density);
 }
 
 float sheet_noise(const StrokeScene& scene, glm::vec2 place, std::uint64_t kind, double sigma_units) {

@@ -4,6 +4,7 @@
 #include "texture/parcels.h"
 #include "texture/stroke_kinds.h"
 #include "texture/stroke_parts.h"
+#include "texture/stroke_trees.h"
 
 namespace belvedere {
 namespace {
@@ -13,67 +14,34 @@ using enum LandCoverClass;
 constexpr float tree_width = 3.7F;   // units
 constexpr float tree_height = 7.8F;  // units
 
-// Where a tree stands and how large it is, px.
-struct Tree {
-  glm::vec2 foot;
-  float width;
-  float height;
-};
-
-// One tree, dark side then lit side, with the smudge it casts away from the sun. `lighter` moves the whole tree's tone.
-void plant(const StrokeScene& scene, const Tree& tree, std::size_t i, float lighter, StrokeSeed& seed, std::vector<Stroke>& out) {
-  const float tone = scene.guidance.tone[i];
-  const auto side = static_cast<float>(scene.parameters.sun_side);
-  const float scale = scene.scale();
-  Stroke stroke;
-  stroke.depth_m = scene.guidance.depth_m[i];
-  stroke.source = static_cast<std::uint32_t>(i);
-  stroke.order = stroke.depth_m;
-  stroke.gate = StrokeGate::upright;
-  if (tone > 0.35F && seed.uniform() < 0.6F) {
-    Stroke smudge = stroke;
-    smudge.gate = StrokeGate::surface;
-    set_line(smudge, tree.foot + glm::vec2(0.2F * side * tree.width, 0.F),
-             tree.foot + glm::vec2(-1.1F * side * tree.width, 0.25F * tree.width), tree.width * 0.7F, tree.width * 0.3F);
-    smudge.alpha = 0.45F;
-    smudge.colour = scene.colour(i, -1.1F, paint_jitter * 0.5F, seed);
-    out.push_back(smudge);
-  }
-  // Fractions of a metre of depth keep the parts of one tree in order without moving it between others.
-  set_line(stroke, tree.foot, tree.foot + glm::vec2(0.2F * seed.normal() * scale, -tree.height), tree.width, tree.width * 0.35F);
-  stroke.alpha = 0.85F;
-  stroke.colour = scene.colour(i, -0.85F + lighter * 0.8F, paint_jitter, seed);
-  stroke.order -= 0.5F;
-  out.push_back(stroke);
-  if (seed.uniform() < 0.9F) {
-    Stroke lit = stroke;
-    set_line(lit, tree.foot + glm::vec2(0.24F * side * tree.width, -0.25F * tree.height),
-             tree.foot + glm::vec2(0.10F * side * tree.width, -0.95F * tree.height), tree.width * 0.40F, tree.width * 0.18F);
-    lit.alpha = 0.35F + 0.55F * (0.25F + 0.75F * tone);
-    lit.colour = scene.colour(i, 0.10F + 0.9F * tone + lighter, paint_jitter, seed);
-    lit.order -= 0.5F;
-    out.push_back(lit);
-  }
-  if (scene.parameters.winter && seed.uniform() < 0.5F) {
-    // Snow lies on the branches of the sunny side; on the shady one it hardly shows, or the wood would look as in a flurry.
-    Stroke dab = stroke;
-    set_line(dab, tree.foot + glm::vec2(0.17F * side * tree.width, -0.50F * tree.height),
-             tree.foot + glm::vec2(0.05F * side * tree.width, -0.95F * tree.height), tree.width * 0.46F, tree.width * 0.25F);
-    dab.alpha = 0.16F + 0.42F * std::clamp(tone, 0.F, 1.F);
-    const glm::vec3 snow_paint = fresh_snow(tone);
-    dab.colour = snow_paint + (scene.ground.colour[i] - snow_paint) * 0.3F;
-    dab.order -= 0.7F;
-    out.push_back(dab);
-  }
-}
-
-// Trees stand in groups with gaps of some 250 m and 900 m between, a pure function of the ground; deviation about .85.
-float grouping(const StrokeScene& scene, std::size_t i) {
-  return 0.6F * ground_noise(scene, i, 51, 120.0) + 0.6F * ground_noise(scene, i, 52, 420.0);
-}
-
 bool on_same_slope(const StrokeScene& scene, std::size_t here, std::size_t there) {
   return std::abs(scene.guidance.depth_m[there] / scene.guidance.depth_m[here] - 1.F) <= 0.03F;
+}
+
+// Whether the ground at a place some units from pixel i lies open: glade, meadow or rock on the same slope.
+bool is_open_at(const StrokeScene& scene, std::size_t i, glm::vec2 place) {
+  if (!scene.on_canvas(place)) return false;
+  const std::size_t there = scene.pixel(place);
+  if (!on_same_slope(scene, i, there)) return false;
+  return scene.class_at(there) != forest || is_grassy(scene, there);
+}
+
+// What a tree of the forest's edge looks like: lit from the side that is open to the sun, dark before the open ground at its foot.
+TreeTone edge_tone(const StrokeScene& scene, std::size_t i, glm::vec2 foot, float lighter) {
+  const auto side = static_cast<float>(scene.parameters.sun_side);
+  const float unit = scene.scale();
+  TreeTone tone{lighter, 0.F, 0.F};
+  if (is_open_at(scene, i, foot + glm::vec2(5.5F * side, -1.F) * unit)) tone.rim += 0.6F;
+  if (is_open_at(scene, i, foot + glm::vec2(3.F * side, -4.F) * unit)) tone.rim += 0.4F;
+  if (is_open_at(scene, i, foot + glm::vec2(-5.F * side, 1.F) * unit)) tone.edge += 0.5F;
+  if (is_open_at(scene, i, foot + glm::vec2(0.F, 3.5F) * unit)) tone.edge += 0.5F;
+  return tone;
+}
+
+// Share of trees that are leafy where a group of noise `group` (deviation 1) stands: the lower, the more groups; none from 1350 m on.
+bool is_leafy(const StrokeScene& scene, std::size_t i, float group) {
+  const float share = 0.55F * std::clamp((1350.F - scene.altitude_m(i)) / 700.F, 0.F, 1.F);
+  return share > 0.02F && group > 2.5F * (0.5F - share);
 }
 
 // 1 on the borders of some fields, where hedges grow.
@@ -83,73 +51,78 @@ float hedge_at(const StrokeScene& scene, std::size_t i) {
   return parcel.border_m < 0.09F * parcel.width_m && parcel.hedged ? 1.F : 0.F;
 }
 
-// A leafy tree: a round crown on a short stem, its lit side dabbed with yellow.
-void plant_leafy(const StrokeScene& scene, const Tree& tree, std::size_t i, float lighter, StrokeSeed& seed, std::vector<Stroke>& out) {
-  const float tone = scene.guidance.tone[i];
-  const auto side = static_cast<float>(scene.parameters.sun_side);
-  Stroke body;
-  body.depth_m = scene.guidance.depth_m[i];
-  body.source = static_cast<std::uint32_t>(i);
-  body.order = body.depth_m - 0.5F;
-  body.gate = StrokeGate::upright;
-  set_line(body, tree.foot, tree.foot + glm::vec2(0.F, -0.55F * tree.height), tree.width, tree.width * 0.9F);
-  body.alpha = 0.82F;
-  body.colour = scene.colour(i, -0.9F + 0.7F * lighter, paint_jitter, seed);
-  out.push_back(body);
-  Stroke lit = body;
-  const glm::vec2 crown = tree.foot + glm::vec2(0.20F * side * tree.width, -0.60F * tree.height);
-  set_line(lit, crown, crown + glm::vec2(-0.02F * side * tree.width, -0.18F * tree.height), tree.width * 0.55F, tree.width * 0.4F);
-  lit.alpha = 0.4F + 0.45F * tone;
-  lit.colour = scene.colour(i, 0.2F + 0.9F * tone + lighter, paint_jitter, seed) + glm::vec3(0.045F, 0.025F, -0.045F) * tone;
-  lit.order -= 0.5F;
-  out.push_back(lit);
-  if (tone > 0.4F && seed.uniform() < 0.55F) {
-    Stroke dot = lit;
-    const glm::vec2 at = crown + glm::vec2(seed.between(-0.2F, 0.2F) * tree.width, -0.15F * tree.height);
-    set_line(dot, at, at - glm::vec2(0.F, 0.12F * tree.width), tree.width * 0.28F, tree.width * 0.2F);
-    dot.alpha = 0.7F;
-    dot.colour = lit.colour + (1.F - std::min(1.F, scene.ground.haze[i])) * glm::vec3(0.13F, 0.09F, -0.06F) * tone;
-    dot.order -= 0.5F;
-    out.push_back(dot);
-  }
+// One tree of the forest at `foot`, spruce or leafy. `group` 0…1 is how far it stands inside a group: the tallest stand in the middle.
+void plant_in_forest(const StrokeScene& scene, glm::vec2 foot, std::size_t i, bool leafy, float lighter, float group, StrokeSeed& seed,
+                     std::vector<Stroke>& out) {
+  const float scale = scene.scale();
+  const float slim = seed.between(0.80F, 1.20F);
+  const float size = seed.between(0.72F, 1.18F) * (0.90F + 0.22F * group);
+  const Tree tree{foot, tree_width * slim * size * scale, tree_height * size * scale};
+  const TreeTone tone = edge_tone(scene, i, foot, lighter);
+  if (leafy)
+    plant_leafy(scene, {tree.foot, 1.2F * tree.width, 0.72F * tree.height}, i, tone, seed, out);
+  else
+    plant_spruce(scene, tree, i, tone, seed, out);
 }
 
-// How many of the trees are leafy: the lower, the more; none from 1350 m on, none in winter's snow.
-float leafy_share(const StrokeScene& scene, std::size_t i) {
-  return scene.parameters.winter ? 0.F : 0.55F * std::clamp((1350.F - scene.altitude_m(i)) / 700.F, 0.F, 1.F);
+// Grass of the glades, over whatever lies there: short strokes down the slope and across it.
+std::vector<Stroke> glade_grass(const StrokeScene& scene) {
+  return sow(scene, 3.6F, 26, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != forest || !is_grassy(scene, i)) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.order += 2.F;  // before the trees around
+    const float turn = seed.uniform() < 0.5F ? 0.F : quarter_turn;
+    const float length = seed.between(4.F, 9.F);
+    lay_line(stroke, scene, place, length, turn + 0.3F * seed.normal(), 0.2F, true, seed);
+    take_brush(stroke, scene, seed.between(1.6F, 2.8F), {.taper = 0.5F, .alpha = 0.6F, .bristle = 0.4F, .wetness = 0.03F});
+    stroke.colour = scene.colour(i, mixed_tone(0.28F, 0.20F, seed), paint_jitter * 1.3F, seed);
+    out.push_back(stroke);
+  });
+}
+
+// Trees that stand like a wall where the forest ends on meadow.
+std::vector<Stroke> forest_edges(const StrokeScene& scene) {
+  return sow(scene, 3.4F, 25, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != forest || is_grassy(scene, i)) return;
+    const glm::vec2 below = place + glm::vec2(0.F, 3.2F * scene.scale());
+    if (!scene.on_canvas(below)) return;
+    const std::size_t ground = scene.pixel(below);
+    if (!on_same_slope(scene, i, ground) || !is_grassy(scene, ground) || scene.class_at(ground) == alpine_grass) return;
+    const float group = patch_noise(scene, i, 69, 5.0);
+    if (seed.uniform() > 0.62F + 0.35F * group) return;
+    const float lighter = 0.15F * seed.normal() - 0.2F;
+    plant_in_forest(scene, place, i, is_leafy(scene, i, patch_noise(scene, i, 64, 8.0)), lighter, 0.F, seed, out);
+  });
 }
 
 }  // namespace
 
 std::vector<Stroke> forest_trees(const StrokeScene& scene) {
-  return sow(scene, 7.F, 11, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+  std::vector<Stroke> trees = sow(scene, 7.F, 11, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != forest) return;
     const float scale = scene.scale();
-    const float group = grouping(scene, i);
     // Whole groups are lighter or darker, single trees little: then a slope reads as masses of wood, not as fur.
-    const float row_tone = 0.22F * seed.normal() + 0.20F * std::clamp(group, -1.5F, 1.5F);
-    const float leafy = leafy_share(scene, i) * std::clamp(1.F + 0.9F * sheet_noise(scene, place, 64, 18.0), 0.F, 2.F);
-    const bool leafy_row = seed.uniform() < leafy;
+    const float mass = patch_noise(scene, i, 51, 14.0);
+    const float group = patch_noise(scene, i, 52, 5.0);
+    const float row_tone = 0.18F * seed.normal() + 0.22F * std::clamp(mass, -1.6F, 1.6F);
+    const float strays = 0.35F * seed.normal();
+    const bool leafy = is_leafy(scene, i, patch_noise(scene, i, 64, 8.0) + strays);
     const int count = 2 + static_cast<int>(seed.uniform() * 4.F);
-    const float thin = std::clamp(0.34F * (-group - 0.5F), 0.F, 0.50F);
     glm::vec2 foot = place;
     for (int k = 0; k < count && scene.on_canvas(foot); ++k) {
       const std::size_t here = scene.pixel(foot);
       if (scene.class_at(here) != forest || !on_same_slope(scene, i, here)) break;
-      if (seed.uniform() < scene.ground.tree_density[here] - thin) {
+      if (seed.uniform() < scene.ground.tree_density[here]) {
         const float down = seed.normal();  // drawn one by one: see stroke_seeds.h
         const float right = seed.normal();
-        const float width = tree_width * seed.between(0.75F, 1.25F) * scale;
-        const Tree tree{foot + glm::vec2(right, down) * 0.6F * scale, width, tree_height * seed.between(0.7F, 1.3F) * scale};
-        const float tone = row_tone + 0.20F * seed.normal();
-        if (leafy_row)
-          plant_leafy(scene, {tree.foot, 1.15F * tree.width, 0.75F * tree.height}, here, tone, seed, out);
-        else
-          plant(scene, tree, here, tone, seed, out);
+        const float tone = row_tone + 0.22F * seed.normal();
+        plant_in_forest(scene, foot + glm::vec2(right, down) * 0.6F * scale, here, leafy, tone, std::clamp(group, -1.F, 1.F), seed, out);
       }
       foot += scene.fall_line(foot) * (5.2F * seed.between(0.8F, 1.2F) * scale);
     }
   });
+  for (const std::vector<Stroke>& more : {forest_edges(scene), glade_grass(scene)}) trees.insert(trees.end(), more.begin(), more.end());
+  return trees;
 }
 
 std::vector<Stroke> scattered_trees(const StrokeScene& scene) {
@@ -157,40 +130,58 @@ std::vector<Stroke> scattered_trees(const StrokeScene& scene) {
     const LandCoverClass id = scene.class_at(i);
     if (!is_grass(id) || id == shrub) return;
     const auto is = [&](LandCoverClass wanted) { return [&scene, wanted](std::size_t k) { return scene.class_at(k) == wanted; }; };
-    const float group = grouping(scene, i);
-    // Outposts before the forest, copses in the open, rows along brooks and hedges; the rest is bare.
+    // Stretches along brooks and fields that are planted, and places where copses stand; between them the land is bare.
+    const float stretch = patch_noise(scene, i, 67, 12.0);
+    const float copse = patch_noise(scene, i, 68, 5.0);
     const float before_forest = share_around(scene, place, 7.F, is(forest));
-    float share = 0.012F * std::clamp(group - 0.5F, 0.F, 2.F) + 0.10F * before_forest;
-    if (id == alpine_grass) share = before_forest > 0.F ? 0.16F * before_forest : 0.F;
-    if (id == pasture || id == valley_floor) share += 0.40F * std::clamp(group - 1.15F, 0.F, 0.8F);
-    if (id == valley_floor) {
-      if (share_around(scene, place, 3.2F, is(water)) > 0.F) share += 0.16F + 0.25F * std::clamp(0.5F + group, 0.F, 1.F);
-      share += 0.35F * hedge_at(scene, i) * std::clamp(0.3F + 0.8F * group, 0.F, 1.F);
-      share += 0.10F * share_around(scene, place, 6.F, is(settlement));
+    float share = 0.F;
+    int most = 3;
+    if (id == alpine_grass) {
+      const float outpost = 0.14F * share_around(scene, place, 15.F, is(forest));
+      share = (0.30F * before_forest + outpost) * std::clamp(0.4F + 0.8F * copse, 0.F, 1.5F);
+    } else {
+      share = 0.22F * before_forest * std::clamp(0.2F + copse, 0.F, 1.F);
+      if (copse > 1.75F) {
+        share += 0.45F;
+        most = 6;
+      } else if (stretch > 0.8F) {
+        share += 0.004F;  // a lone tree
+      }
     }
-    if (seed.uniform() > 0.42F * share) return;
-    // One to five together, in a row along the contour or huddled; a lone tree is the exception.
+    if (id == valley_floor) {
+      const bool bank = share_around(scene, place, 3.2F, is(water)) > 0.F;
+      if (bank) share += 0.62F * std::clamp(0.15F + 0.8F * stretch, 0.02F, 1.F);
+      share += 0.42F * hedge_at(scene, i) * std::clamp(0.9F * stretch - 0.2F, 0.F, 1.F);
+      share += 0.06F * share_around(scene, place, 6.F, is(settlement));
+    }
+    if (seed.uniform() > share) return;
     const float scale = scene.scale();
-    const int count = 1 + static_cast<int>(seed.uniform() * 4.6F);
-    const bool spruces = id == alpine_grass || scene.parameters.winter || seed.uniform() < 0.25F + 0.4F * before_forest;
+    const float crowd = seed.uniform();
+    const int count = 1 + static_cast<int>(crowd * crowd * static_cast<float>(most));
+    const bool spruces = id == alpine_grass || seed.uniform() < 0.2F + 0.5F * before_forest;
+    const float size = seed.between(0.7F, 1.1F);
     glm::vec2 foot = place;
     for (int k = 0; k < count; ++k) {
       if (k > 0) {
-        const float aside = seed.between(1.3F, 2.6F) * (seed.uniform() < 0.7F ? 1.F : -1.F);
-        foot += glm::vec2(aside, 0.7F * seed.normal()) * scale;
+        // Huddled: crowns touch, and each stands a little nearer or farther than the last.
+        const float aside = seed.between(0.9F, 2.0F);
+        const float way = seed.uniform() < 0.6F ? 1.F : -1.F;
+        const float down = 0.8F * seed.normal();
+        foot += glm::vec2(aside * way, down) * scale;
       }
       if (!scene.on_canvas(foot)) break;
       const std::size_t here = scene.pixel(foot);
       if (!is_grass(scene.class_at(here)) || !on_same_slope(scene, i, here)) break;
-      const float width = 2.6F * scale * seed.between(0.6F, 1.35F);
-      const float lighter = 0.2F * seed.normal() - 0.35F;
+      const float width = 2.7F * scale * size * seed.between(0.6F, 1.35F);
+      const TreeTone tone{0.2F * seed.normal() - 0.25F, 0.6F, 1.F};
       std::vector<Stroke> tree;
       if (spruces)
-        plant(scene, {foot, width, 2.0F * width}, here, lighter, seed, tree);
+        plant_spruce(scene, {foot, width, 2.2F * width}, here, tone, seed, tree);
       else
-        plant_leafy(scene, {foot, 1.2F * width, 1.35F * width}, here, lighter, seed, tree);
-      // They stand on grass, whose colours they would take: trees are darker and bluer than it.
-      const glm::vec3 leaves = through_air_factor(scene, here, glm::vec3(0.62F, 0.76F, 0.82F));
+        plant_leafy(scene, {foot, 1.2F * width, 1.35F * width}, here, tone, seed, tree);
+      // They stand on grass, whose colours they would take: leaves are darker and greener than it.
+      const glm::vec3 leaves = scene.parameters.winter ? through_air_factor(scene, here, glm::vec3(0.60F, 0.66F, 0.74F))
+                                                       : through_air_factor(scene, here, glm::vec3(0.70F, 0.84F, 0.74F));
       for (Stroke& stroke : tree) {
         if (stroke.gate == StrokeGate::upright) stroke.colour *= leaves;
         out.push_back(stroke);

@@ -289,8 +289,10 @@ TEST(StrokePainter, TheSkyIsDrawnOutLevel) {
 }
 
 TEST(StrokePainter, StrokesGrowWithTheSheet) {
-  const Picture small = one_class(forest, 200, 200);
-  const Picture large = one_class(forest, 400, 400);
+  Picture small = one_class(forest, 200, 200);
+  Picture large = one_class(forest, 400, 400);
+  raise(small, 1700.F);  // spruces only
+  raise(large, 1700.F);
   const StrokeParameters at_one;
   StrokeParameters at_two;
   at_two.pixels_per_unit = 2.0;
