@@ -89,7 +89,7 @@ SheetPlan build_plan(const ConfigValue& root, const std::string& name) {
   read_number(table, "width", 256, 16384, name, plan.width);
   read_number(table, "height", 256, 16384, name, plan.height);
   read_number(table, "dots_per_inch", 5, 2540, name, plan.dots_per_inch);
-  read_number(table, "seed", 0, 9007199254740992.0, name, plan.seed);
+  read_number(table, "seed", 0, static_cast<double>(SheetPlan::largest_seed), name, plan.seed);
   read_number(table, "light_from_deg", -360, 360, name, plan.light_from_deg);
   read_number(table, "columns", 1, 16, name, plan.columns);
   if (const ConfigValue* palette = find(table, "palette")) plan.palette = as_string(*palette, name);

@@ -18,11 +18,12 @@ struct SheetPanel {
   std::vector<std::string> snow_settings;  // more of them where the palette is one of winter
 };
 struct SheetPlan {
+  static constexpr std::uint64_t largest_seed = (std::uint64_t{1} << 53) - 1;  // what every reader of numbers holds exactly
   int width = 4096;  // px
   int height = 4096;
   double dots_per_inch = 50.8;     // strokes are sized in mm: 50.8 is two pixels a millimetre
   std::string palette = "summer";  // built-in name or file
-  std::uint64_t seed = 7;          // of terrains and strokes
+  std::uint64_t seed = 7;          // of terrains and strokes; at most largest_seed
   double light_from_deg = -125.0;  // the sun's azimuth, clockwise from where each panel looks to: the same side in all of them
   int columns = 4;
   std::string scene;               // TOML

@@ -4,7 +4,10 @@
 #include <exception>
 #include <new>
 #include <sstream>
+#include <string>
+#include <vector>
 
+#include "renderer/base/config.h"
 #include "renderer/base/error.h"
 #include "renderer/provenance.h"
 #include "tools/commands.h"
@@ -28,6 +31,37 @@ constexpr const char* footer =
     "Exit status: 0 done, 2 command line or scene file, 3 input data, 4 output, 5 over a limit\n"
     "(memory, size), 75 stopped by you, 70 a fault of the program.";
 
+// Where the command line ends before a command, or goes on with a word that is none: CLI11 says "A subcommand is required" to both.
+// Nothing where a command was found.
+void require_command(const CLI::App& program, int argc, char** argv) {
+  const CLI::App* group = &program;
+  std::string so_far = "belvedere";
+  std::string word;
+  for (int i = 1; i < argc && word.empty(); ++i) {
+    const std::string next = argv[i];
+    if (next.starts_with('-')) continue;
+    const auto known = group->get_subcommands([&](const CLI::App* command) { return command->get_name() == next; });
+    if (known.empty()) {
+      word = next;
+      break;
+    }
+    group = known.front();
+    so_far += " " + next;
+    if (group->get_subcommands({}).empty()) return;
+  }
+  std::vector<std::string> names;
+  std::string allowed;
+  for (const CLI::App* command : group->get_subcommands({})) {
+    names.push_back(command->get_name());
+    allowed += (allowed.empty() ? "" : ", ") + names.back();
+  }
+  allowed += fmt::format(". {} --help says what each does", so_far);
+  if (word.empty()) throw Error(ErrorKind::usage, "command line", fmt::format("what shall {} do?", so_far), allowed);
+  const std::string near = belvedere::nearest_word(word, names);
+  throw Error(ErrorKind::usage, "command line",
+              fmt::format("{} has no command \"{}\"{}", so_far, word, near.empty() ? "" : "; did you mean \"" + near + "\"?"), allowed);
+}
+
 int run(int argc, char** argv) {
   CLI::App program(description, "belvedere");
   program.set_version_flag("--version", "belvedere " + belvedere::program_version() + "\n" + belvedere::library_versions());
@@ -46,6 +80,7 @@ int run(int argc, char** argv) {
     belvedere::tools::print_out(text);
     return 0;
   } catch (const CLI::ParseError& problem) {
+    require_command(program, argc, argv);
     throw Error(ErrorKind::usage, "command line", problem.what(), "belvedere --help, or belvedere COMMAND --help, says what there is");
   }
   for (const Command& command : commands)

@@ -94,7 +94,9 @@ Command add_exemplar_paint(CLI::App& program) {
                    "Resolution the sheet's strokes are sized for: that of the panorama that shall copy them; 50.8 by default")
       ->type_name("DPI")
       ->check(CLI::Range(5.0, 2540.0));
-  command->add_option("--seed", options->seed, "Another number gives other mountains and strokes")->type_name("N");
+  command->add_option("--seed", options->seed, "Another number gives other mountains and strokes")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{0}, SheetPlan::largest_seed));
   command->add_option("--plan", options->plan, "A sheet.toml: paints that sheet instead of the built-in one")->type_name("FILE");
   command->add_option("--tile", options->tile_size, "Side of the tiles that threads work on, in pixels. Changes no pixel")
       ->type_name("N")

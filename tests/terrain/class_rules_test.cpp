@@ -181,6 +181,32 @@ TEST(ClassRules, TownsAreWhereTheSceneSaysAndNowhereElse) {
   EXPECT_EQ(houses_near(with, 150, 40), houses_near(without, 150, 40));
 }
 
+// Wooded slopes of one steepness all around, 700 m … 1400 m.
+Grid<LandCoverClass> wooded_cone(double slope_deg, const std::vector<std::pair<std::string, double>>& settings) {
+  const double fall = std::tan(slope_deg * 0.017453292519943295);
+  return apply(read_class_rules("alpine"), ground(160, [&](double e, double n) { return 1400.0 - fall * std::hypot(e, n); }), settings);
+}
+
+TEST(ClassRules, CragsStandOutOfWoodedSlopesTheMoreTheSteeper) {
+  EXPECT_EQ(share(wooded_cone(22.0, {}), rock), 0.0);
+  const double gentle = share(wooded_cone(8.0, {{"crags", 1.0}}), rock);
+  const double steep = share(wooded_cone(22.0, {{"crags", 1.0}}), rock);
+  EXPECT_GT(gentle, 0.03);
+  EXPECT_GT(steep, 1.6 * gentle);
+  EXPECT_LT(steep, 0.6);
+  EXPECT_GT(share(wooded_cone(22.0, {{"crags", 1.5}}), rock), steep);
+}
+
+TEST(ClassRules, ClearingsClimbSteeperSlopes) {
+  // Twenty-five degrees are too steep for the usual pasture.
+  EXPECT_LT(share(wooded_cone(25.0, {}), pasture), 0.02);
+  const double half = share(wooded_cone(25.0, {{"clearings", 0.5}}), pasture);
+  const double all = share(wooded_cone(25.0, {{"clearings", 1.0}}), pasture);
+  EXPECT_GT(all, half);
+  EXPECT_GT(all, 0.3);
+  EXPECT_LT(share(wooded_cone(8.0, {{"clearings", -1.0}}), pasture), 0.2 * share(wooded_cone(8.0, {}), pasture));
+}
+
 TEST(ClassRules, GlaciersFlowDownValleysInTongues) {
   // A valley that falls to the south from a snow field: its ice reaches far below the ice line, that of the ridges beside it does not.
   const Dem dem = ground(200, [](double e, double n) { return 2700.0 + 0.25 * n + 0.00045 * e * e; });

@@ -74,6 +74,9 @@ TEST_F(ExemplarPaint, RefusesWhatDoesNotGoTogether) {
   EXPECT_EQ(run({"exemplar", "paint", "--season", "spring", "--out", path("x")}).status, 2);
   EXPECT_EQ(run({"exemplar", "paint", "--plan", write("bad.toml", "rows = 3\n"), "--out", path("x")}).status, 2);
   EXPECT_EQ(run({"exemplar", "paint"}).status, 2);  // --out is required
+  // A seed that sheet.toml could not hold, or below 0.
+  for (const char* seed : {"9007199254740992", "-1"})
+    EXPECT_EQ(run({"exemplar", "paint", "--plan", write_plan(), "--seed", seed, "--out", path("x")}).status, 2) << seed;
   EXPECT_FALSE(std::filesystem::exists(path("x/painting.tif")));
 }
 
