@@ -19,7 +19,7 @@ struct SheetPanel {
 };
 struct SheetPlan {
   static constexpr std::uint64_t largest_seed = (std::uint64_t{1} << 53) - 1;  // what every reader of numbers holds exactly
-  int width = 4096;  // px
+  int width = 4096;                                                            // px
   int height = 4096;
   double dots_per_inch = 50.8;     // strokes are sized in mm: 50.8 is two pixels a millimetre
   std::string palette = "summer";  // built-in name or file
