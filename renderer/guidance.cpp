@@ -96,9 +96,9 @@ GuidanceBuffers make_buffers(int width, int height) {
   b.normal = b.normal_detail = b.normal_smooth = Grid<glm::vec3>(width, height, glm::vec3(0.F, 0.F, 1.F));
   b.land_cover = Grid<LandCoverClass>(width, height, LandCoverClass::sky);
   b.shadow = b.sky_view = Grid<float>(width, height, 1.F);
-  b.fall_line = Grid<glm::vec2>(width, height, glm::vec2(0.F));
+  b.fall_line = b.grain = Grid<glm::vec2>(width, height, glm::vec2(0.F));
   for (Grid<float>* channel : {&b.altitude_m, &b.coverage, &b.front, &b.slope_deg, &b.aspect_deg, &b.footprint_m, &b.ridge, &b.relief_s_m,
-                               &b.relief_m_m, &b.relief_l_m, &b.valley_height_m, &b.rim_m}) {
+                               &b.relief_m_m, &b.relief_l_m, &b.valley_height_m, &b.rim_m, &b.built}) {
     *channel = Grid<float>(width, height, 0.F);
   }
   return b;
@@ -190,6 +190,8 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
     out.relief_l_m[o] = ground.relief_l_m;
     out.valley_height_m[o] = ground.valley_height_m;
     out.rim_m[o] = ground.rim_m;
+    out.built[o] = ground.built;
+    out.grain[o] = ground.grain;
   }
 }
 
@@ -258,6 +260,7 @@ TerrainModel make_terrain_model(Dem dem, Grid<float> generalized_m, LandCover la
   model.relief_l_m = relief(z, cell_m, 120.0, 1800.0);
   model.valley_height_m = height_above_valley(z, cell_m, 900.0);
   model.rim_m = rim_distance(dem);
+  model.floor_plan = plan_floor(land_cover, dem);
   model.dem = std::move(dem);
   model.generalized_m = std::move(generalized_m);
   model.land_cover = std::move(land_cover);

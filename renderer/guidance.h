@@ -11,6 +11,7 @@
 #include "renderer/tracer.h"
 #include "terrain/deform.h"
 #include "terrain/dem.h"
+#include "terrain/floor_plan.h"
 #include "terrain/land_cover.h"
 
 namespace belvedere {
@@ -26,6 +27,7 @@ struct TerrainModel {
   Grid<float> valley_height_m;                     // above the lowest ground within 900 m
   Grid<float> rim_m;                               // distance to where the known terrain ends
   LandCover land_cover;
+  FloorPlan floor_plan;       // how valley floors are laid out
   double exaggeration = 1.0;  // of light's normals
   // Given where the ground is not only exaggerated alike everywhere: then light's normals are those of the rearranged shape.
   std::optional<Deformation> local;

@@ -139,6 +139,10 @@ GroundValues sample_ground(const TerrainModel& terrain, const DeformedSurface& s
   ground.ridge = ground.relief_s_m / (std::abs(ground.relief_s_m) + ridge_scale_m);
   ground.valley_height_m = bilinear(terrain.valley_height_m, known);
   ground.rim_m = bilinear(terrain.rim_m, at);
+  if (!terrain.floor_plan.built.empty()) {
+    ground.built = bilinear(terrain.floor_plan.built, known);
+    ground.grain = glm::vec2(known.blend([&](int x, int y) { return glm::dvec2(terrain.floor_plan.grain(x, y)); }));
+  }
   return ground;
 }
 

@@ -28,6 +28,8 @@ struct GroundValues {
   float relief_s_m = 0.F, relief_m_m = 0.F, relief_l_m = 0.F;
   float valley_height_m = 0.F;
   float rim_m = 0.F;
+  float built = 0.F;
+  glm::vec2 grain{0.F};
   glm::vec2 fall_line{0.F};
 };
 GroundValues sample_ground(const TerrainModel& terrain, const DeformedSurface& surface, const Camera& camera, double column, double row);

@@ -15,7 +15,7 @@ namespace belvedere {
 //   position  P.X P.Y P.Z altitude.V float
 //   normal    N.X…Z (normal), Nd.X…Z (normal_detail), Ns.X…Z (normal_smooth), half
 //   class     landcover.id uint
-//   terrain   slope.V aspect.V fallline.X fallline.Y ridge.V relief.S relief.M relief.L valley.V, half
+//   terrain   slope.V aspect.V fallline.X fallline.Y ridge.V relief.S relief.M relief.L valley.V built.V grain.X grain.Y half, rim.V float
 //   light     shadow.V skyview.V tone.V, half
 //   base      base.R base.G base.B half
 //   paint     painted.id painted.from stroke.id ground.from uint (of paintings whose strokes are known)

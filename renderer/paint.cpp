@@ -22,7 +22,9 @@ constexpr double tone_step = 0.17;              // to the darker and the lighter
 constexpr double range_sigma_units = 14.0;      // width of mist behind an edge
 constexpr double krummholz_sigma_units = 12.0;  // dwarf pine stands about the treeline
 constexpr double brook_sigma_units = 1.8;       // what this blur of the water leaves pale is a brook
-constexpr float garden_share = 0.5F;            // of a settlement's ground: houses stand out from green
+constexpr float garden_share = 0.80F;           // of a village's ground: houses stand out from green …
+constexpr float town_garden_share = 0.30F;      // … and of the middle of a town
+constexpr float melting_units = 5.0F;           // fields that look narrower than this melt into bands
 constexpr float unknown_sky_depth_m = 92000.0F;
 constexpr float far_air = 0.34F;  // more air where ranges lie one behind the other, crests as well
 
@@ -50,8 +52,22 @@ Patches patches_at(GroundNoises& noises, glm::dvec3 place, float metres_per_unit
   return p;
 }
 
-// Crops are of a few kinds, not all shades between.
-float crop_shift(float crop) { return crop > 0.25F ? 0.85F : crop > 0.05F ? 0.35F : crop > -0.2F ? -0.15F : -0.75F; }
+// Factor of the fields on the colour of the valley floor: crops, darker borders, pale lanes. Towards the slopes meadow takes over, far away
+// fields melt into bands; `drift` is the scene's wish for hue.
+glm::vec3 field_colour(const GuidanceBuffers& g, std::size_t i, const Parcel& parcel, float metres_per_unit, float haze, float drift) {
+  const float slope = g.slope_deg.empty() ? 0.0F : g.slope_deg[i];
+  const float level = std::clamp((5.5F - slope) / 2.5F, 0.0F, 1.0F);
+  const float units = metres_per_unit > 0.0F ? parcel.width_m / metres_per_unit : 100.0F;
+  const float apart = (0.45F + 0.55F * std::clamp(units / melting_units - 1.0F, 0.0F, 1.0F)) * (1.0F - 0.35F * std::min(haze, 1.0F));
+  const glm::vec3 crop = crop_colour(parcel.crop) * (1.0F + 0.035F * parcel.shade);
+  glm::vec3 colour = glm::mix(mean_crop_colour(), crop, apart);
+  const float edge = std::clamp(1.0F - parcel.border_m / (0.10F * parcel.width_m), 0.0F, 1.0F);
+  colour *= 1.0F - edge * apart * (parcel.hedged ? 0.13F : 0.05F);
+  const float lane = std::clamp(1.0F - parcel.lane_m / (0.06F * parcel.width_m), 0.0F, 1.0F);
+  if (!parcel.hedged) colour = glm::mix(colour, glm::vec3(1.02F, 0.99F, 1.05F), 0.55F * lane * apart);
+  colour = glm::mix(crop_colour(Crop::hay), colour, level);
+  return 1.0F + (colour - 1.0F) * drift;
+}
 
 // Grasses: + turns towards ripe yellow, - towards green.
 float field_shift(Class id, const Patches& p) {
@@ -336,16 +352,8 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
       const auto mist = static_cast<float>(parameters.range_mist);
       const float behind = logs[i] - mean_logs[i];
       PixelColour pixel{};
-      float shift = field_shift(id, patches);
-      float border = 0.0F;
-      if (id == Class::valley_floor && !palette.winter) {
-        const glm::dvec3 place = glm::dvec3(guidance.position_m[i]) + origin;
-        const Parcel parcel = parcel_at(parameters.seed, place.x, place.y, metres_per_unit);
-        shift += crop_shift(parcel.crop);
-        border = std::clamp(1.0F - parcel.border_m / (0.10F * parcel.width_m), 0.0F, 1.0F) * (parcel.hedged ? 0.16F : 0.07F);
-      }
-      pixel.added = glm::vec3(0.11F, 0.02F, -0.10F) * shift * drift;
-      pixel.factor = hue_drift(id, patches, palette, drift) * (1.0F + glm::vec3(0.06F, 0.03F, -0.07F) * warm) * (1.0F - border * drift);
+      pixel.added = glm::vec3(0.11F, 0.02F, -0.10F) * field_shift(id, patches) * drift;
+      pixel.factor = hue_drift(id, patches, palette, drift) * (1.0F + glm::vec3(0.06F, 0.03F, -0.07F) * warm);
       pixel.stale = staleness(id, parameters, depth) * static_cast<float>(parameters.warm_near);
       pixel.air = air_colour(parameters, palette, depth);
       // Far ranges: the feet stand in mist and the crests out of it, and each hides the next in a step of light.
@@ -359,6 +367,15 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
       pixel.dark = std::clamp(-(1.5F + 4.0F * far) * behind, 0.0F, 0.25F + 0.10F * std::min(far, 1.0F)) * mist;
       pixel.beyond = air_beyond(palette, (y + origin_px.y + 0.5) / sky_parameters.horizon_px);
       if (has_rim) pixel.end = terrain_end(guidance.rim_m[i], parameters.rim_fade_m, raised);
+      const glm::vec2 grain = guidance.grain.empty() ? glm::vec2(0.0F) : guidance.grain[i];
+      if (id == Class::valley_floor && !palette.winter) {
+        const glm::dvec3 place = glm::dvec3(guidance.position_m[i]) + origin;
+        const Parcel parcel = parcel_at(parameters.seed, place.x, place.y, metres_per_unit, grain);
+        pixel.factor *= field_colour(guidance, i, parcel, metres_per_unit, pixel.haze, drift);
+      }
+      const float built = guidance.built.empty() ? 0.5F : std::clamp(guidance.built[i], 0.0F, 1.0F);
+      const float green = garden_share + (town_garden_share - garden_share) * built;
+      const glm::vec3 lawn = palette.winter ? glm::vec3(1.0F) : 1.0F + (crop_colour(Crop::grass) - 1.0F) * drift;
       const Class gardens = palette.winter ? Class::snow : Class::valley_floor;
       WaterLook water{};
       if (id == Class::water) water = water_look(guidance, palette, mirrored, i, waters[i], streaks[i], patches);
@@ -366,7 +383,7 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
         const double light = tone + static_cast<double>(water.tone_shift) + step;
         glm::vec3 ramp = palette_colour(palette, id, altitude, light);
         if (cover.glade[i] > 0.0F) ramp = glm::mix(ramp, glade_colour(palette, altitude, light), 0.85F * cover.glade[i]);
-        if (id == Class::settlement) ramp = glm::mix(ramp, palette_colour(palette, gardens, altitude, light - 0.12), garden_share);
+        if (id == Class::settlement) ramp = glm::mix(ramp, lawn * palette_colour(palette, gardens, altitude, light - 0.08), green);
         return pixel.finish(water.over(ramp), palette.range_mist);
       };
       ground.colour[i] = paint(0.0);

@@ -63,6 +63,8 @@ void for_each_channel(F&& f) {
   f(&B::relief_l_m, 0.F);
   f(&B::valley_height_m, 0.F);
   f(&B::rim_m, 0.F);
+  f(&B::built, 0.F);
+  f(&B::grain, glm::vec2(0.F));
   f(&B::tone, 0.F);
   f(&B::base, glm::vec3(static_cast<float>(srgb_decoded(static_cast<double>(paper.x))),
                         static_cast<float>(srgb_decoded(static_cast<double>(paper.y))),

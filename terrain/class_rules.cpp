@@ -300,7 +300,7 @@ LandCover apply_class_rules(const ClassRules& rules, const std::vector<std::pair
     const std::vector<bool>& needs = program.term_needs[static_cast<std::size_t>(balance - rules.terms.begin())];
     for (std::size_t i = 0; i < slots; ++i) wanted[i] = wanted[i] || needs[i];
   }
-  Run run{rules, program, dem, seed, make_terrain_inputs(dem, wanted, parameters)};
+  Run run{rules, program, dem, seed, make_terrain_inputs(dem, wanted, parameters, seed)};
   progress.advance(1.0);
   if (has_ice)
     run.inputs[ice] = flowing_ice(evaluate_term(run, static_cast<std::size_t>(balance - rules.terms.begin())), dem);

@@ -13,6 +13,7 @@
 #include "renderer/base/random.h"
 #include "terrain/derivatives.h"
 #include "terrain/hydrology.h"
+#include "terrain/towns.h"
 
 namespace belvedere::class_rules {
 namespace {
@@ -31,13 +32,28 @@ glm::vec2 rise(const Grid<float>& z, int x, int y, double cell_x, double cell_y)
   return {static_cast<float>(gx), static_cast<float>(gy)};
 }
 
+// Towns are those that rules name town_1_east, town_1_north, town_1_radius_m, town_2_…, as far as the numbers go.
+TownParameters to_town_parameters(const Parameters& parameters, std::uint64_t seed) {
+  TownParameters towns;
+  towns.amount = parameter_or(parameters, "settlement", 0.0);
+  towns.highest_m = parameter_or(parameters, "town_highest_m", 1300.0);
+  towns.seed = mix_bits(seed + 0x746f776eULL);
+  for (int k = 1;; ++k) {
+    const std::string name = "town_" + std::to_string(k);
+    constexpr double absent = -1.0;
+    const double radius_m = parameter_or(parameters, name + "_radius_m", absent);
+    if (radius_m == absent) return towns;
+    towns.known.push_back({{parameter_or(parameters, name + "_east", 0.0), parameter_or(parameters, name + "_north", 0.0)}, radius_m});
+  }
+}
+
 }  // namespace
 
 const std::vector<std::string>& variable_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> n = {"altitude",      "slope",        "slope_smooth", "south", "relief_180", "relief_750", "relief_1800",
-                                  "valley_height", "valley_floor", "lake",         "river", "ice",        "below_rock", "n60",
-                                  "n210",          "n660",         "n1800",        "east",  "north"};
+                                  "valley_height", "valley_floor", "lake",         "river", "town",       "ice",        "below_rock",
+                                  "n60",           "n210",         "n660",         "n1800", "east",       "north"};
     for (const LandCoverClassInfo& c : land_cover_classes()) n.push_back("is_" + std::string(c.name));
     return n;
   }();
@@ -50,7 +66,8 @@ double parameter_or(const Parameters& parameters, const std::string& name, doubl
   return otherwise;
 }
 
-std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& wanted, const Parameters& parameters) {
+std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& wanted, const Parameters& parameters,
+                                             std::uint64_t seed) {
   const double cell = dem.cell_m();
   const double cell_x = dem.transform.cell_x;
   const double cell_y = dem.transform.cell_y;
@@ -60,13 +77,13 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
   const auto grid = [&](int v) -> Grid<float>& { return inputs[static_cast<std::size_t>(v)]; };
 
   if (is_wanted(altitude)) grid(altitude) = z;
-  const bool needs_floor = is_wanted(valley_floor);
+  const bool needs_floor = is_wanted(valley_floor) || is_wanted(town);
   if (is_wanted(valley_height) || needs_floor) grid(valley_height) = height_above_valley(z, cell, 900.0);
   {
     const Grid<float> smooth = gaussian_blur(z, 60.0 / cell);
     if (is_wanted(slope) || is_wanted(slope_smooth) || needs_floor) grid(slope) = slope_deg(smooth, cell_x, cell_y);
     if (is_wanted(slope_smooth)) grid(slope_smooth) = gaussian_blur(grid(slope), 90.0 / cell);
-    if (is_wanted(south)) {
+    if (is_wanted(south) || is_wanted(town)) {
       grid(south) = Grid<float>(z.width(), z.height());
       each_cell(grid(south), [&](int x, int y) {
         // Ground that rises to the north (against the rows) faces south. The small number fades exposure out on flat ground.
@@ -102,7 +119,14 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
     grid(lake) = Grid<float>(z.width(), z.height());
     each_cell(grid(lake), [&](int x, int y) { return mask(x, y) != 0 ? 1.F : 0.F; });
   }
-  if (is_wanted(river)) grid(river) = river_mask(flow_accumulation_km2(z, cell), cell);
+  if (is_wanted(river) || is_wanted(town)) {
+    const Grid<float> catchment_km2 = flow_accumulation_km2(z, cell);
+    if (is_wanted(river)) grid(river) = river_mask(catchment_km2, cell);
+    if (is_wanted(town)) {
+      const TownGround ground{z, grid(valley_floor), catchment_km2, grid(slope), grid(south), dem.transform};
+      grid(town) = town_field(find_town_sites(ground, to_town_parameters(parameters, seed)), ground);
+    }
+  }
   return inputs;
 }
 

@@ -26,6 +26,7 @@ enum Variable : int {
   valley_floor,
   lake,
   river,
+  town,
   ice,
   below_rock,
   first_noise,
@@ -44,7 +45,8 @@ const std::vector<std::string>& variable_names();
 double parameter_or(const Parameters& parameters, const std::string& name, double otherwise);
 
 // The grids that are wanted (by slot), all of the DEM's size; others stay empty. ice and below_rock depend on the rules and stay empty.
-std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& wanted, const Parameters& parameters);
+std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& wanted, const Parameters& parameters,
+                                             std::uint64_t seed);
 
 // 1 just below rock, falling to 0 over `reach_m` down the fall line.
 Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, double reach_m);

@@ -39,8 +39,10 @@ struct GuidanceBuffers {
   Grid<float> relief_l_m;       // … of about 1.8 km
   Grid<float> valley_height_m;  // height above the lowest ground within 900 m
   Grid<float> rim_m;            // distance on the ground to where the known terrain ends
-  Grid<float> tone;             // the scalar light that indexes palettes, 0…1
-  Image base;                   // strokeless base picture, scene-linear
+  Grid<float> built;            // how densely houses stand: 0 open land, .3 a village, 1 the middle of a large town
+  Grid<glm::vec2> grain;  // which way fields and streets run on the ground: (cos 2a, sin 2a) times how sure that is, 0…1; a from east
+  Grid<float> tone;       // the scalar light that indexes palettes, 0…1
+  Image base;             // strokeless base picture, scene-linear
   // Of a painting whose strokes are known. Strokes overlap the borders of classes, so what a pixel shows is not always what stands there.
   Grid<LandCoverClass> painted_class;  // whose paint lies thickest
   Grid<std::uint32_t> painted_from;    // row-major index of a pixel of that class that the paint grew from; base colour and class are its

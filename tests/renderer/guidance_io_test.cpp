@@ -63,14 +63,16 @@ GuidanceBuffers make_guidance(int width, int height) {
   numbers(g.relief_l_m, -900, 900);
   numbers(g.valley_height_m, 0, 2000);
   numbers(g.tone, 0, 1);
+  numbers(g.built, 0, 1);
   vectors(g.base, 0, 1, false);
   g.land_cover = Grid<LandCoverClass>(width, height);
-  g.fall_line = Grid<glm::vec2>(width, height);
+  g.fall_line = g.grain = Grid<glm::vec2>(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       g.land_cover(x, y) = static_cast<LandCoverClass>((x + y) % land_cover_class_count);
       const float angle = uniform(x, y, 99, 0, 6.28);
       if (x != 1) g.fall_line(x, y) = {std::cos(angle), std::sin(angle)};
+      g.grain(x, y) = glm::vec2(uniform(x, y, 97, -1, 1), uniform(x, y, 98, -1, 1));
       if (y == 0) g.depth_m(x, y) = std::numeric_limits<float>::infinity();
     }
   }
@@ -122,6 +124,8 @@ TEST(GuidanceIo, RoundTrip) {
   expect_near(g.normal, r.normal, half, "normal");
   expect_near(g.normal_detail, r.normal_detail, half, "normal_detail");
   expect_near(g.normal_smooth, r.normal_smooth, half, "normal_smooth");
+  expect_near(g.built, r.built, half, "built");
+  expect_near(g.grain, r.grain, half, "grain");
   expect_near(g.fall_line, r.fall_line, half, "fall_line");
   for (const glm::vec3& normal : r.normal) ASSERT_NEAR(glm::length(normal), 1.0, 1e-6);
   EXPECT_EQ(r.fall_line(1, 5), glm::vec2(0.0f)) << "flat ground has no direction";
@@ -138,9 +142,9 @@ TEST(GuidanceIo, HeaderNamesChannelsTypesAndClasses) {
   std::map<std::string, ChannelType> wanted;
   for (const char* name : {"Z", "P.X", "P.Y", "P.Z", "altitude.V", "footprint.V"}) wanted[name] = ChannelType::float32;
   for (const char* name :
-       {"N.X",        "N.Y",      "N.Z",          "Nd.X",     "Nd.Y",      "Nd.Z",    "Ns.X",     "Ns.Y",       "Ns.Z",
-        "coverage.A", "front.A",  "silhouette.V", "shadow.V", "skyview.V", "slope.V", "aspect.V", "fallline.X", "fallline.Y",
-        "ridge.V",    "relief.S", "relief.M",     "relief.L", "valley.V",  "tone.V",  "base.R",   "base.G",     "base.B"}) {
+       {"N.X",      "N.Y",          "N.Z",      "Nd.X",      "Nd.Y",    "Nd.Z",     "Ns.X",       "Ns.Y",       "Ns.Z",    "coverage.A",
+        "front.A",  "silhouette.V", "shadow.V", "skyview.V", "slope.V", "aspect.V", "fallline.X", "fallline.Y", "ridge.V", "relief.S",
+        "relief.M", "relief.L",     "valley.V", "built.V",   "grain.X", "grain.Y",  "tone.V",     "base.R",     "base.G",  "base.B"}) {
     wanted[name] = ChannelType::half;
   }
   wanted["landcover.id"] = ChannelType::uint32;

@@ -18,10 +18,11 @@ inline GuidanceBuffers make_hills(int width, int height, double pixels_per_unit 
   const auto vector = [&] { return Grid<glm::vec3>(width, height, glm::vec3(0.0F)); };
   g.depth_m = Grid<float>(width, height, std::numeric_limits<float>::infinity());
   g.position_m = g.normal = g.normal_detail = g.normal_smooth = vector();
-  g.altitude_m = g.slope_deg = g.relief_s_m = g.relief_m_m = g.relief_l_m = g.valley_height_m = g.footprint_m = g.tone = g.rim_m = scalar();
+  g.altitude_m = g.slope_deg = g.relief_s_m = g.relief_m_m = g.relief_l_m = g.valley_height_m = g.footprint_m = g.tone = g.rim_m = g.built =
+      scalar();
   g.shadow = g.sky_view = Grid<float>(width, height, 1.0F);
   g.land_cover = Grid<LandCoverClass>(width, height, LandCoverClass::sky);
-  g.fall_line = Grid<glm::vec2>(width, height, glm::vec2(0.0F));
+  g.fall_line = g.grain = Grid<glm::vec2>(width, height, glm::vec2(0.0F));
   constexpr int ranges = 4;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -52,6 +53,8 @@ inline GuidanceBuffers make_hills(int width, int height, double pixels_per_unit 
         g.sky_view[i] = static_cast<float>(std::min(1.0, 0.8 + 0.1 * gaussian_noise(50, e, n, 400.0)));
         g.rim_m[i] = static_cast<float>(std::abs(e - 2000.0));  // it ends in the east
         g.footprint_m[i] = static_cast<float>(depth / 2500.0 / pixels_per_unit);
+        g.built[i] = static_cast<float>(std::max(0.0, std::min(1.0, 0.5 * gaussian_noise(52, e, n, 600.0))));
+        g.grain[i] = 0.5F * glm::vec2(nx, ny);
         const double kind = 5.5 + 3.0 * gaussian_noise(51, e, n, 800.0);
         g.land_cover[i] = static_cast<LandCoverClass>(std::min(11, std::max(1, static_cast<int>(kind))));
         if (g.slope_deg[i] > 8.0F) g.fall_line[i] = glm::normalize(glm::vec2(0.6 * nx, 1.0));
@@ -89,6 +92,8 @@ inline GuidanceBuffers cut(const GuidanceBuffers& g, PixelRect r) {
   part.relief_l_m = cut(g.relief_l_m, r);
   part.valley_height_m = cut(g.valley_height_m, r);
   part.rim_m = cut(g.rim_m, r);
+  part.built = cut(g.built, r);
+  part.grain = cut(g.grain, r);
   part.tone = cut(g.tone, r);
   return part;
 }

@@ -161,24 +161,40 @@ TEST(ClassRules, WinterCoversMeadowsAndLeavesForest) {
 }
 
 TEST(ClassRules, TownsAreWhereTheSceneSaysAndNowhereElse) {
-  const Dem dem = ground(200, [](double, double) { return 700.0; });  // level, but no lake:
-  Dem plain = dem;
-  for (int y = 0; y < 200; ++y)
-    for (int x = 0; x < 200; ++x) plain.altitude_m(x, y) += static_cast<float>(0.4 * x);
+  // A plain that falls to the west: level, but no lake.
+  const Dem plain = ground(200, [](double e, double) { return 700.0 + 0.0133 * e; });
   const ClassRules rules = read_class_rules("alpine");
   const glm::dvec2 town = plain.transform.to_crs(60, 140);
   const std::vector<std::pair<std::string, double>> settings = {
-      {"town_1_east", town.x}, {"town_1_north", town.y}, {"town_1_radius_m", 900.0}, {"settlement", -0.4}, {"raggedness", 1.0}};
-  const auto houses_near = [&](const Grid<LandCoverClass>& c, int cx, int cy) {
-    int n = 0;
-    for (int y = cy - 12; y <= cy + 12; ++y)
-      for (int x = cx - 12; x <= cx + 12; ++x) n += c(x, y) == settlement ? 1 : 0;
-    return n;
-  };
-  const Grid<LandCoverClass> without = apply(rules, plain, {{"settlement", -0.4}});
+      {"town_1_east", town.x}, {"town_1_north", town.y}, {"town_1_radius_m", 900.0}, {"settlement", -1.0}};
+  EXPECT_EQ(share(apply(rules, plain, {{"settlement", -1.0}}), settlement), 0.0);
   const Grid<LandCoverClass> with = apply(rules, plain, settings);
-  EXPECT_GT(houses_near(with, 60, 140), houses_near(without, 60, 140) + 150);
-  EXPECT_EQ(houses_near(with, 150, 40), houses_near(without, 150, 40));
+  // As large as a circle of that radius, less the river; ragged by a fifth of the radius.
+  EXPECT_NEAR(share(with, settlement) * 6000.0 * 6000.0, 3.14159 * 900.0 * 900.0, 0.25 * 3.14159 * 900.0 * 900.0);
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x)
+      if (with(x, y) == settlement) {
+        ASSERT_LT(std::hypot(x - 60, y - 140) * 30.0, 2600.0);
+      }
+  EXPECT_EQ(with(60, 140), settlement);
+}
+
+TEST(ClassRules, VillagesStandOnValleyFloorsAndInClearings) {
+  // A trough from north to south with gentle shoulders.
+  const Dem dem = ground(240, [](double e, double n) {
+    return 650.0 + 0.012 * n + 0.5 * std::max(0.0, std::abs(e) - 900.0) - 0.35 * std::max(0.0, std::abs(e) - 1700.0);
+  });
+  const ClassRules rules = read_class_rules("alpine");
+  const Grid<LandCoverClass> some = apply(rules, dem);
+  EXPECT_GT(share(some, settlement), 0.001);
+  EXPECT_LT(share(some, settlement), 0.1);
+  EXPECT_EQ(share(apply(rules, dem, {{"town_highest_m", 500.0}}), settlement), 0.0);
+  // Nobody builds in the wood: it ends before the houses.
+  int in_wood = 0;
+  for (int y = 1; y < 239; ++y)
+    for (int x = 1; x < 239; ++x)
+      if (some(x, y) == settlement && some(x + 1, y) == forest && some(x - 1, y) == forest) ++in_wood;
+  EXPECT_EQ(in_wood, 0);
 }
 
 // Wooded slopes of one steepness all around, 700 m … 1400 m.
