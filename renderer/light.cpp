@@ -33,8 +33,8 @@ constexpr std::array<ClassLight, land_cover_class_count> class_lights = {{
     {0.45F, false, 0.07F, 0.10F, 1.00F},  // alpine grass
     {0.60F, false, 0.07F, 0.10F, 1.00F},  // scree
     {0.68F, true, 0.10F, 0.18F, 1.45F},   // rock
-    {0.60F, false, 0.07F, 0.06F, 1.30F},  // snow
-    {0.60F, false, 0.07F, 0.06F, 1.30F},  // glacier
+    {0.55F, false, 0.07F, 0.05F, 1.30F},  // snow
+    {0.38F, false, 0.05F, 0.00F, 1.20F},  // glacier: thick and smooth
     {0.45F, false, 0.07F, 0.00F, 1.00F},  // pasture
     {0.45F, false, 0.09F, 0.07F, 1.05F},  // shrub
 }};

@@ -53,10 +53,10 @@ std::vector<Stroke> wash_strokes(const StrokeScene& scene) {
     stroke.depth_tolerance = id == rock || id == snow || id == glacier ? tight_depth : 0.03F;
     if (!wooded) stroke.tone = scene.guidance.tone[i];
     const float turn = is_grass(id) && !is_floor(id) && seed.uniform() < 0.35F ? quarter_turn : 0.F;
-    const float angle = turn + seed.normal() * (is_floor(id) ? 0.15F : is_grass(id) ? 0.3F : 0.2F);
+    const float angle = turn + seed.normal() * (is_floor(id) ? 0.15F : is_grass(id) ? 0.3F : is_ice(id) ? 0.08F : 0.2F);
     lay_line(stroke, scene, place, length * seed.between(0.7F, 1.3F), angle, 0.2F, !is_floor(id), seed);
     take_brush(stroke, scene, (id == forest ? 4.F : 6.F) * seed.between(0.7F, 1.3F),
-               {.taper = 0.6F, .alpha = 0.55F, .bristle = 0.5F, .wetness = 0.03F});
+               {.taper = 0.6F, .alpha = 0.55F, .bristle = is_ice(id) ? 0.25F : 0.5F, .wetness = is_ice(id) ? 0.015F : 0.03F});
     stroke.colour = scene.colour(i, wooded ? -0.55F + 0.35F * seed.normal() : mixed_tone(0.22F, 0.15F, seed), paint_jitter, seed);
     stroke.order += seed.uniform() * 300.F;
     out.push_back(stroke);

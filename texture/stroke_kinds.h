@@ -22,10 +22,12 @@ std::vector<Stroke> rock_hatching(const StrokeScene& scene);
 std::vector<Stroke> rock_ledges(const StrokeScene& scene);
 std::vector<Stroke> rock_fissures(const StrokeScene& scene);
 std::vector<Stroke> rock_snow(const StrokeScene& scene);  // in winter only
-// Snow and ice (stroke_ice.cpp). Flow lines, crevasses and edges of glaciers, and the ribs that are bare of snow, are drawn on top.
+// Snow and ice (stroke_ice.cpp, stroke_glacier.cpp). Flow lines, moraines, crevasses and edges of glaciers, and the ribs that are bare
+// of snow, are drawn on top.
 std::vector<Stroke> snow_strokes(const StrokeScene& scene);
 std::vector<Stroke> snow_ribs(const StrokeScene& scene);
 std::vector<Stroke> glacier_flow_lines(const StrokeScene& scene);
+std::vector<Stroke> glacier_moraines(const StrokeScene& scene);
 std::vector<Stroke> glacier_crevasses(const StrokeScene& scene);
 std::vector<Stroke> glacier_edges(const StrokeScene& scene);
 // What stands up (stroke_upright.cpp, stroke_town.cpp).

@@ -53,6 +53,7 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     append(body, snow_ribs(scene));
     append(body, glacier_flow_lines(scene));
     append(body, glacier_edges(scene));
+    append(body, glacier_moraines(scene));
     append(body, glacier_crevasses(scene));
     append(body, broken_colour(scene));
     append(body, water_strokes(scene));
@@ -61,6 +62,7 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     // Structure that a copied ground has lost: it lies where the ice breaks and ends, which no texel knows.
     append(body, snow_ribs(scene));
     append(body, glacier_edges(scene));
+    append(body, glacier_moraines(scene));
     append(body, glacier_crevasses(scene));
   }
   if (layers.upright) append(body, houses(scene));

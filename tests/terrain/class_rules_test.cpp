@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -221,6 +222,30 @@ TEST(ClassRules, ClearingsClimbSteeperSlopes) {
   EXPECT_GT(all, half);
   EXPECT_GT(all, 0.3);
   EXPECT_LT(share(wooded_cone(8.0, {{"clearings", -1.0}}), pasture), 0.2 * share(wooded_cone(8.0, {}), pasture));
+}
+
+// Above the line a gentle glacier is white with firn; where it falls steeply, and below the line, it shows its ice.
+TEST(ClassRules, FirnHidesIceAboveTheLineButNotOnSteps) {
+  const std::vector<std::pair<std::string, double>> settings = {{"ice_line_m", 3000.0}, {"snowline_m", 9000.0}, {"raggedness", 0.0}};
+  const auto shares = [&](double gradient) {
+    // A trough that falls to the south, its middle at the line.
+    const Dem dem = ground(200, [&](double e, double n) { return 3000.0 + gradient * n + 0.0002 * e * e; });
+    const Grid<LandCoverClass> c = apply(read_class_rules("alpine"), dem, settings);
+    double firn_above = 0.0, ice_above = 0.0, firn_below = 0.0, ice_below = 0.0;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      if (std::abs(static_cast<int>(i % 200) - 100) > 15) continue;
+      const bool above = dem.altitude_m[i] > 3250.F;
+      if (!above && dem.altitude_m[i] > 2950.F) continue;
+      (c[i] == snow ? (above ? firn_above : firn_below) : (above ? ice_above : ice_below)) += c[i] == snow || c[i] == glacier ? 1.0 : 0.0;
+    }
+    return std::array<double, 4>{firn_above, ice_above, firn_below, ice_below};
+  };
+  const auto gentle = shares(0.2);
+  EXPECT_GT(gentle[0], 20.0 * gentle[1]);
+  EXPECT_GT(gentle[3], 100.0);
+  EXPECT_EQ(gentle[2], 0.0) << "no firn below the line";
+  const auto steep = shares(0.6);
+  EXPECT_GT(steep[1], 300.0) << "steps of ice above the line";
 }
 
 TEST(ClassRules, GlaciersFlowDownValleysInTongues) {

@@ -147,60 +147,6 @@ TEST(StrokePainter, TreesOfTheValleyFloorStandInGroups) {
   EXPECT_GT(squares / static_cast<double>(counts.size()) - mean * mean, 3.0 * mean);
 }
 
-TEST(StrokePainter, CrevassesLieAcrossTheFlowAndOnlyWhereIceIsTorn) {
-  Picture p = one_class(glacier);
-  const glm::vec2 flow(0.6F, 0.8F);
-  for (auto& d : p.guidance.fall_line) d = flow;
-  p.guidance.slope_deg = Grid<float>(320, 240, 22.F);
-  const StrokeParameters parameters;
-  const auto torn = glacier_crevasses({p.guidance, p.ground, parameters});
-  EXPECT_GT(torn.size(), 100U);
-  for (const Stroke& s : torn) EXPECT_GE(angle_deg(s.points[3] - s.points[0], flow), 60.0);
-  for (float& slope : p.guidance.slope_deg) slope = 3.F;
-  EXPECT_TRUE(glacier_crevasses({p.guidance, p.ground, parameters}).empty());
-}
-
-TEST(StrokePainter, CopiedIceGetsItsCrevassesToo) {
-  Picture p = one_class(glacier);
-  const StrokeLayers over_copied{.sky = true, .ground = false, .accents = true, .upright = true};
-  const auto painted_at = [&](float slope_deg) {
-    p.guidance.slope_deg = Grid<float>(320, 240, slope_deg);
-    return paint_strokes(p.ground.colour, p.guidance, p.ground, over_copied, {}, silent_progress()).picture;
-  };
-  // Level ice has none, so whatever else is painted over copied ground, the two differ by crevasses.
-  EXPECT_NE(painted_at(22.F), painted_at(3.F));
-}
-
-TEST(StrokePainter, FlowLinesAreLongAndFollowTheIce) {
-  Picture p = one_class(glacier);
-  const glm::vec2 flow(0.6F, 0.8F);
-  for (auto& d : p.guidance.fall_line) d = flow;
-  p.guidance.slope_deg = Grid<float>(320, 240, 12.F);
-  const StrokeParameters parameters;
-  const auto lines = glacier_flow_lines({p.guidance, p.ground, parameters});
-  ASSERT_GT(lines.size(), 100U);
-  for (const Stroke& s : lines) {
-    const glm::vec2 axis = s.points[3] - s.points[0];
-    EXPECT_GT(std::hypot(axis.x, axis.y), 20.F);
-    EXPECT_LT(angle_deg(axis, flow), 20.0);
-  }
-}
-
-TEST(StrokePainter, GlaciersAreLinedWithRubbleWhereTheyEndOnGroundNotOnSnow) {
-  const auto edges = [](LandCoverClass beyond) {
-    Picture p = one_class(glacier);
-    for (int y = 0; y < 240; ++y)
-      for (int x = 160; x < 320; ++x) p.guidance.land_cover(x, y) = beyond;
-    p.guidance.slope_deg = Grid<float>(320, 240, 12.F);
-    const StrokeParameters parameters;
-    return glacier_edges({p.guidance, p.ground, parameters});
-  };
-  EXPECT_TRUE(edges(snow).empty());
-  const auto strokes = edges(scree);
-  EXPECT_GT(strokes.size(), 50U);
-  for (const Stroke& s : strokes) EXPECT_NEAR(s.points[1].x, 160.F, 14.F);
-}
-
 // 10 … 30 % of the strokes are of the next darker tone, so that no area is flat.
 TEST(StrokePainter, DarkerStrokesAreMixedIn) {
   const StrokeParameters parameters;
@@ -253,19 +199,6 @@ TEST(StrokePainter, TownsAreDenserInTheirMiddle) {
     edge += r > 70.F ? 1 : 0;
   }
   EXPECT_GT(inside / (55.0 * 55.0), 1.15 * edge / (80.0 * 80.0 - 70.0 * 70.0));
-}
-
-TEST(StrokePainter, SnowIsLaidInLongStrokes) {
-  const Picture p = one_class(snow);
-  const StrokeParameters parameters;
-  double sum = 0.0;
-  int count = 0;
-  for (const Stroke& s : snow_strokes({p.guidance, p.ground, parameters})) {
-    const glm::vec2 axis = s.points[3] - s.points[0];
-    sum += std::hypot(axis.x, axis.y);
-    ++count;
-  }
-  EXPECT_GT(sum / count, 19.0);  // units of 0.5 mm
 }
 
 TEST(StrokePainter, TheSkyIsDrawnOutLevel) {
