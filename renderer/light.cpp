@@ -11,6 +11,7 @@
 #include "renderer/picture_noise.h"
 #include "renderer/ribs.h"
 #include "renderer/rock_planes.h"
+#include "texture/beds.h"
 
 namespace belvedere {
 namespace {
@@ -48,8 +49,12 @@ constexpr float brightest_tone = 1.02F;
 constexpr float floor_lift = 0.10F;  // valley floors glow
 constexpr float pool_strength = 0.035F;
 constexpr float plane_strength = 0.19F;  // of big planes on steep rock
-constexpr float calm_from_m = 16.0F;     // metres of ground in a unit of the sheet from which forms are simplified …
-constexpr float calm_to_m = 42.0F;       // … and at which they are simplest
+// Rock that looks out of forest is weathered and mossy: what is small and white there reads as a stone or an egg, not as a cliff.
+constexpr double outcrop_sigma_units = 12.0;  // forest within this is "around"
+constexpr float outcrop_calm = 0.50F;         // share of contrast it takes …
+constexpr float outcrop_shade = 0.20F;        // … and how much darker it is
+constexpr float calm_from_m = 16.0F;          // metres of ground in a unit of the sheet from which forms are simplified …
+constexpr float calm_to_m = 42.0F;            // … and at which they are simplest
 
 const ClassLight& light_of(LandCoverClass id) { return class_lights[static_cast<std::size_t>(id)]; }
 
@@ -63,13 +68,6 @@ void check_channels(const GuidanceBuffers& g) {
       !size.same_size(g.slope_deg) || !size.same_size(g.fall_line) || !size.same_size(g.relief_s_m) || !size.same_size(g.relief_m_m) ||
       !size.same_size(g.relief_l_m))
     throw Error(ErrorKind::bug, "tone", "a guidance channel is missing or has another size", "all traced channels");
-}
-
-// Bedding of rock: bands in altitude that dip and waver, strong only in places; -1 … 1. Treads are broad and light, risers narrow and dark.
-float strata(float altitude_m, float east_m, float n8, float n25) {
-  const float phase = (altitude_m + 35.0F * n8 + 0.06F * east_m) / 26.0F;
-  const float band = 0.8F * std::sin(phase) - 0.35F * std::cos(2.0F * phase);
-  return band * std::clamp(0.3F + 0.7F * n25, 0.0F, 1.0F);
 }
 
 // How fine the ground is drawn: 1 near, falling to .35 where a unit of the sheet covers so much ground that the DEM's small forms would
@@ -135,12 +133,15 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
   Grid<std::uint8_t> walls(width, height, 0);
   for (std::size_t i = 0; i < walls.size(); ++i) walls[i] = ribbed[i] != 0 && guidance.land_cover[i] == LandCoverClass::rock ? 1 : 0;
   const Grid<float> planes = make_rock_planes(guidance, walls, {ppu, parameters.sun_image_x, parameters.seed}, origin_px);
+  Grid<float> woods(width, height, 0.0F);
+  for (std::size_t i = 0; i < woods.size(); ++i) woods[i] = guidance.land_cover[i] == LandCoverClass::forest ? 1.0F : 0.0F;
+  woods = blur_on_surface(woods, guidance.depth_m, outcrop_sigma_units * ppu);
   const Grid<float> pool = make_image_noise(parameters.seed + 5, origin_px, width, height, ppu, 140.0, 60.0);
 
   Grid<float> tone(width, height, 0.0F);
   parallel_rows(height, [&](int y) {
-    GroundNoise n8(parameters.seed + 6, 210.0);
-    GroundNoise n25(parameters.seed + 7, 660.0);
+    GroundNoise n8(parameters.seed + bed_noise_seed_n8, 210.0);
+    GroundNoise n25(parameters.seed + bed_noise_seed_n25, 660.0);
     for (int x = 0; x < width; ++x) {
       const std::size_t i = tone.index(x, y);
       if (guidance.is_sky(i)) continue;
@@ -152,7 +153,8 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
         float rib = ribs[i];
         if (id == LandCoverClass::rock) {
           const glm::dvec3 place = glm::dvec3(guidance.position_m[i]) + guidance.origin_m;
-          rib += 0.45F * strata(guidance.altitude_m[i], static_cast<float>(place.x), n8(place.x, place.y), n25(place.x, place.y));
+          rib += 0.45F * bed_strength(n25(place.x, place.y)) *
+                 bed_light(bed_phase(guidance.altitude_m[i], static_cast<float>(place.x), n8(place.x, place.y)));
         }
         const float steep = steepness(guidance.slope_deg[i]);
         raw += static_cast<float>(parameters.ribs) * (light.ribs * fine * rib + plane_strength * planes[i]) * steep;
@@ -160,7 +162,12 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
       float value = std::clamp((raw - raw_black) / raw_range, 0.0F, 1.05F);
       if (id == LandCoverClass::valley_floor) value += floor_lift;
       value += pool_strength * pool[i];
-      const float contrast = light.contrast * static_cast<float>(parameters.contrast);
+      float contrast = light.contrast * static_cast<float>(parameters.contrast);
+      if (id == LandCoverClass::rock) {
+        const float outcrop = std::clamp((woods[i] - 0.15F) / 0.4F, 0.0F, 1.0F);
+        contrast *= 1.0F - outcrop_calm * outcrop;
+        value -= outcrop_shade * outcrop;
+      }
       tone[i] = std::clamp(middle_tone + (value - middle_tone) * contrast, 0.0F, brightest_tone);
     }
     progress.advance(1.0);
@@ -171,7 +178,7 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
 int tone_margin_px(const ToneParameters& parameters) {
   const double ppu = parameters.pixels_per_unit;
   const int crest = static_cast<int>(std::ceil(3.0 * ppu)) + 2;
-  const int blur = static_cast<int>(std::ceil(3.0 * sky_blur_units * ppu)) + 1;
+  const int blur = static_cast<int>(std::ceil(3.0 * std::max(sky_blur_units, outcrop_sigma_units) * ppu)) + 1;
   return std::max(rib_margin_px(ppu), blur) + crest;
 }
 

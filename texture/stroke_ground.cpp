@@ -102,7 +102,8 @@ std::vector<Stroke> broken_colour(const StrokeScene& scene) {
     if (id == sky || id == water || id == settlement || seed.uniform() > 0.62F) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.depth_tolerance = tight_depth;
-    stroke.order -= 0.5F * tight_depth * stroke.depth_m;
+    // On walls just over what lies there, so that trees before them stay whole.
+    stroke.order -= id == rock ? 7.F : 0.5F * tight_depth * stroke.depth_m;
     const float tone = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
     // Every way, or a slope would look combed.
     const float angle = 1.1F * seed.normal();
@@ -143,7 +144,8 @@ std::vector<Stroke> accent_strokes(const StrokeScene& scene) {
     if (id == sky || id == water || id == settlement || id == forest) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.depth_tolerance = 0.01F;
-    stroke.order = seed.uniform();
+    // Over everything that lies on its own ground, and under what stands before it.
+    stroke.order -= 10.F + seed.uniform();
     const float angle = (edge > 0.F ? 0.3F : 0.2F) * seed.normal();
     lay_line(stroke, scene, place, seed.between(4.F, 11.F), angle, 0.1F, true, seed);
     take_brush(stroke, scene, seed.between(1.1F, 2.2F), {.taper = 0.3F, .alpha = 0.55F * std::min(1.F, std::abs(edge)), .bristle = 0.2F});

@@ -21,6 +21,11 @@ std::vector<Stroke> rock_facets(const StrokeScene& scene);
 std::vector<Stroke> rock_hatching(const StrokeScene& scene);
 std::vector<Stroke> rock_ledges(const StrokeScene& scene);
 std::vector<Stroke> rock_fissures(const StrokeScene& scene);
+// Where rock meets what grows (stroke_rock_border.cpp): turf and undergrowth hang over its upper rim and lie on its ledges, rubble runs
+// down from its foot, single trees stand on it.
+std::vector<Stroke> rock_turf(const StrokeScene& scene);
+std::vector<Stroke> rock_rubble(const StrokeScene& scene);
+std::vector<Stroke> rock_trees(const StrokeScene& scene);
 std::vector<Stroke> rock_snow(const StrokeScene& scene);  // in winter only
 // Snow and ice (stroke_ice.cpp, stroke_glacier.cpp). Flow lines, moraines, crevasses and edges of glaciers, and the ribs that are bare
 // of snow, are drawn on top.

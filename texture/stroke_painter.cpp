@@ -41,6 +41,7 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
   if (layers.upright) {
     append(body, scattered_trees(scene));
     append(body, low_bushes(scene));
+    append(body, rock_trees(scene));
   }
   if (layers.ground) {
     append(body, rock_facets(scene));
@@ -48,6 +49,8 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     append(body, rock_ledges(scene));
     append(body, rock_fissures(scene));
     append(body, rock_snow(scene));
+    append(body, rock_rubble(scene));
+    append(body, rock_turf(scene));
     append(body, scree_strokes(scene));
     append(body, snow_strokes(scene));
     append(body, snow_ribs(scene));
@@ -64,11 +67,13 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     append(body, glacier_edges(scene));
     append(body, glacier_moraines(scene));
     append(body, glacier_crevasses(scene));
+    // Texels keep a wall's colours and lose its lines, which are longer than what is copied in one piece.
+    append(body, rock_ledges(scene));
+    append(body, rock_fissures(scene));
   }
   if (layers.upright) append(body, houses(scene));
+  if (layers.accents) append(body, accent_strokes(scene));
   paint(std::move(body));
-
-  if (layers.accents) paint(accent_strokes(scene));
   return painting;
 }
 

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/base/noise.h"
+#include "texture/beds.h"
 #include "texture/stroke_kinds.h"
 #include "texture/stroke_parts.h"
 
@@ -12,6 +14,23 @@ using enum LandCoverClass;
 // How far the grain of a wall is turned from its fall line, rad: joints run slanting for a stretch, then change sides. A wall hatched in
 // one direction throughout looks combed.
 float joint_angle(const StrokeScene& scene, glm::vec2 place) { return 0.24F * sheet_noise(scene, place, 61, 22.0); }
+
+// Whether a place lies on the riser of a bed, 0…1.
+struct Bed {
+  float riser;
+};
+Bed bed_at(const StrokeScene& scene, std::size_t i) {
+  // Beds thinner than a few strokes are not drawn one by one.
+  const float shown = std::clamp(2.F - scene.metres_per_unit(i) * 6.F / bed_thickness_m, 0.F, 1.F);
+  if (shown <= 0.F || scene.guidance.footprint_m.empty()) return {0.F};
+  const glm::dvec3 p = glm::dvec3(scene.guidance.position_m[i]) + scene.guidance.origin_m;
+  const auto noise = [&](unsigned kind, double sigma_m) {
+    return static_cast<float>(gaussian_noise(scene.parameters.seed + kind, p.x, p.y, sigma_m));
+  };
+  const float edge = bed_edge(bed_phase(scene.altitude_m(i), static_cast<float>(p.x), noise(bed_noise_seed_n8, 210.0)));
+  const float strength = bed_strength(noise(bed_noise_seed_n25, 660.0));
+  return {shown * strength * edge};
+}
 
 }  // namespace
 
@@ -57,17 +76,22 @@ std::vector<Stroke> rock_hatching(const StrokeScene& scene) {
 }
 
 std::vector<Stroke> rock_ledges(const StrokeScene& scene) {
-  return sow(scene, 8.5F, 15, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
-    // Beds crop out in stretches: where the noise is low the wall is one slab.
-    if (scene.class_at(i) != rock || seed.uniform() > std::clamp(0.25F + 0.5F * sheet_noise(scene, place, 62, 30.0), 0.03F, 0.9F)) return;
+  return sow(scene, 5.5F, 15, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != rock) return;
+    const Bed bed = bed_at(scene, i);
+    // On a riser ledges run one behind the other; elsewhere beds crop out in stretches.
+    const float anywhere = std::clamp(0.05F + 0.12F * sheet_noise(scene, place, 62, 30.0), 0.01F, 0.25F);
+    if (seed.uniform() > std::max(anywhere, 0.6F * bed.riser)) return;
     Stroke dark = ground_stroke(scene, i, seed);
     dark.depth_tolerance = tight_depth;
     dark.order -= 10.F;
-    const float angle = quarter_turn + 0.16F * seed.normal();
-    const float length = seed.between(4.F, 14.F);
-    lay_line(dark, scene, place, length, angle, 0.15F, true, seed);
-    const float width = seed.between(1.0F, 2.0F);
-    take_brush(dark, scene, width, {.taper = 0.4F, .alpha = 0.62F, .bristle = 0.15F});
+    // All beds of a region dip to one side.
+    const float dip = 0.22F * sheet_noise(scene, place, 70, 45.0);
+    const float angle = quarter_turn + dip + (bed.riser > 0.F ? 0.08F : 0.16F) * seed.normal();
+    const float length = seed.between(5.F, 14.F) + 6.F * bed.riser;
+    lay_line(dark, scene, place, length, angle, 0.3F, true, seed);
+    const float width = seed.between(0.9F, 1.9F);
+    take_brush(dark, scene, width, {.taper = 0.3F, .alpha = 0.56F, .bristle = 0.25F});
     dark.colour = scene.colour(i, -seed.between(0.9F, 1.4F), paint_jitter, seed);
     // The tread over the riser catches the light.
     Stroke lit = dark;
@@ -75,8 +99,8 @@ std::vector<Stroke> rock_ledges(const StrokeScene& scene) {
     for (auto& point : lit.points) point += up;
     lit.start_width *= 0.8F;
     lit.end_width *= 0.8F;
-    lit.alpha = 0.22F + 0.3F * scene.guidance.tone[i];
-    lit.colour = scene.colour(i, seed.between(0.5F, 1.0F), paint_jitter, seed);
+    lit.alpha = 0.25F + 0.35F * scene.guidance.tone[i];
+    lit.colour = scene.colour(i, seed.between(0.6F, 1.1F), paint_jitter, seed);
     out.push_back(dark);
     out.push_back(lit);
   });
@@ -93,7 +117,7 @@ std::vector<Stroke> rock_snow(const StrokeScene& scene) {
     if (seed.uniform() > 1.5F * hollow * holds * gathered) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.depth_tolerance = tight_depth;
-    lay_on_top(stroke);
+    stroke.order -= 12.F;  // over every stroke of the wall, under the trees before it
     const bool ledge = seed.uniform() < 0.25F;
     const float angle = (ledge ? quarter_turn : 0.F) + joint_angle(scene, place) + 0.2F * seed.normal();
     lay_line(stroke, scene, place, ledge ? seed.between(4.F, 10.F) : seed.between(6.F, 20.F), angle, 0.2F, true, seed);
@@ -105,17 +129,35 @@ std::vector<Stroke> rock_snow(const StrokeScene& scene) {
 }
 
 std::vector<Stroke> rock_fissures(const StrokeScene& scene) {
-  return sow(scene, 7.5F, 6, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
-    if (scene.class_at(i) != rock || scene.guidance.tone[i] < 0.45F || seed.uniform() > 0.5F) return;
-    Stroke stroke = ground_stroke(scene, i, seed);
-    stroke.depth_tolerance = 0.012F;
-    stroke.order -= 5.F;
-    const float angle = joint_angle(scene, place) + 0.30F * seed.normal();
-    lay_line(stroke, scene, place, seed.between(7.F, 21.F), angle, 0.25F, true, seed);
-    take_brush(stroke, scene, seed.between(1.0F, 1.7F), {.alpha = 0.62F});
-    stroke.end_width = 0.5F * scene.scale();  // all run out equally fine
-    stroke.colour = scene.colour(i, -seed.between(1.25F, 1.5F), paint_jitter, seed);
-    out.push_back(stroke);
+  return sow(scene, 6.2F, 6, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != rock) return;
+    const float tone = scene.guidance.tone[i];
+    // Shade swallows most of them.
+    if (seed.uniform() > std::clamp(0.2F + 1.2F * (tone - 0.35F), 0.15F, 0.6F)) return;
+    Stroke crack = ground_stroke(scene, i, seed);
+    crack.depth_tolerance = 0.012F;
+    crack.order -= 5.F;
+    // Two sets of joints: down the wall, and slanting to one side for a stretch.
+    const bool slanting = seed.uniform() < 0.22F;
+    const float slant = sheet_noise(scene, place, 63, 26.0) < 0.F ? -0.75F : 0.75F;
+    const float angle = joint_angle(scene, place) + (slanting ? slant + 0.12F * seed.normal() : 0.22F * seed.normal());
+    const float length = slanting ? seed.between(4.F, 11.F) : seed.between(7.F, 21.F);
+    lay_line(crack, scene, place, length, angle, 0.25F, true, seed);
+    const float width = seed.between(1.0F, 1.7F);
+    take_brush(crack, scene, width, {.alpha = 0.66F});
+    crack.end_width = 0.5F * scene.scale();  // all run out equally fine
+    crack.colour = scene.colour(i, -seed.between(1.25F, 1.5F), paint_jitter, seed);
+    out.push_back(crack);
+    if (seed.uniform() > 0.45F) return;
+    // The edge behind the crack turns to the light.
+    Stroke edge = crack;
+    const auto away = static_cast<float>(-scene.parameters.sun_side);
+    for (auto& point : edge.points) point.x += away * 1.15F * scene.scale();
+    edge.start_width = 0.9F * scene.scale();
+    edge.alpha = 0.3F + 0.35F * tone;
+    edge.order -= 1.F;
+    edge.colour = scene.colour(i, seed.between(0.9F, 1.4F), paint_jitter, seed);
+    out.push_back(edge);
   });
 }
 

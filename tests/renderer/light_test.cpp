@@ -82,6 +82,31 @@ TEST(Tone, StaysInRange) {
   EXPECT_GT(high, 0.9);
 }
 
+TEST(Tone, OutcropsInTheWoodAreCalmerThanWalls) {
+  // A slope of rock, lit in its left half and in shadow in its right one, and the same with wood all around a small patch of each.
+  GuidanceBuffers wall = make_slope(160, 80, LandCoverClass::rock, sun_side_normal, 45.0F);
+  for (int y = 0; y < 80; ++y)
+    for (int x = 80; x < 160; ++x) wall.shadow(x, y) = 0.0F;
+  GuidanceBuffers outcrops = wall;
+  const auto in_patch = [](int x, int y) { return std::abs(y - 40) < 6 && (std::abs(x - 40) < 6 || std::abs(x - 120) < 6); };
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 160; ++x)
+      if (!in_patch(x, y)) outcrops.land_cover(x, y) = LandCoverClass::forest;
+  ToneParameters p;
+  p.ribs = 0.0;
+  const auto patch = [&](const Grid<float>& tone, int middle) {
+    double sum = 0.0;
+    int count = 0;
+    for (int y = 35; y <= 45; ++y)
+      for (int x = middle - 5; x <= middle + 5; ++x, ++count) sum += static_cast<double>(tone(x, y));
+    return sum / count;
+  };
+  const Grid<float> of_wall = tone_of(wall, p);
+  const Grid<float> of_outcrops = tone_of(outcrops, p);
+  EXPECT_LT(patch(of_outcrops, 40), patch(of_wall, 40) - 0.1) << "not white";
+  EXPECT_LT(patch(of_outcrops, 40) - patch(of_outcrops, 120), 0.7 * (patch(of_wall, 40) - patch(of_wall, 120))) << "less contrast";
+}
+
 TEST(Tone, CrestTakesTheToneFromBelow) {
   // A dark rim of two pixels on a lit slope, below a farther range.
   GuidanceBuffers g = make_slope(24, 24, LandCoverClass::pasture, sun_side_normal, 10.0F);
