@@ -110,6 +110,8 @@ StrokeParameters to_stroke_parameters(const Stage& stage) {
   parameters.winter = stage.palette.winter;
   parameters.sun_side = stage.view.sun_image_x < 0.0 ? -1.0 : 1.0;
   parameters.seed = stage.scene.seed;
+  parameters.leaves = stage.palette.growth.leaves;
+  parameters.leaf_share = stage.palette.growth.leaf_share;
   return parameters;
 }
 

@@ -77,13 +77,23 @@ float field_shift(Class id, const Patches& p) {
     case Class::pasture:
       return 0.20F * p.n8 + 0.12F * p.n3 + 0.12F * p.n25 - 0.15F;
     case Class::alpine_grass:
-      return 0.18F * p.n8 + 0.12F * p.n25 - 0.1F;
+      return 0.22F * p.n8 + 0.14F * p.n3 + 0.12F * p.n25 - 0.15F;
     case Class::shrub:
       return 0.22F * p.n8 + 0.14F * p.n3 + 0.10F * p.n25 - 0.05F;
     default:
       return 0.0F;
   }
 }
+
+// High grass is fresh and dark where water gathers and bleached on ridges: added to the shift towards ripe yellow.
+float dryness(const GuidanceBuffers& g, Class id, std::size_t i) {
+  if (id != Class::alpine_grass && id != Class::pasture && id != Class::shrub) return 0.0F;
+  const float relief = std::clamp(g.relief_s_m[i] / 12.0F, -1.0F, 1.0F);
+  return (relief > 0.0F ? 0.16F : 0.30F) * relief;
+}
+
+// What that shift adds to a colour: ripe grass is yellow, fresh grass green, not blue.
+glm::vec3 field_turn(float shift) { return (shift > 0.0F ? glm::vec3(0.11F, 0.02F, -0.10F) : glm::vec3(0.11F, 0.01F, 0.0F)) * shift; }
 
 // Slow drift of hue, as factors of the colour.
 glm::vec3 hue_drift(Class id, const Patches& p, const Palette& palette, float strength) {
@@ -352,7 +362,7 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
       const auto mist = static_cast<float>(parameters.range_mist);
       const float behind = logs[i] - mean_logs[i];
       PixelColour pixel{};
-      pixel.added = glm::vec3(0.11F, 0.02F, -0.10F) * field_shift(id, patches) * drift;
+      pixel.added = field_turn(field_shift(id, patches) + dryness(guidance, id, i)) * drift;
       pixel.factor = hue_drift(id, patches, palette, drift) * (1.0F + glm::vec3(0.06F, 0.03F, -0.07F) * warm);
       pixel.stale = staleness(id, parameters, depth) * static_cast<float>(parameters.warm_near);
       pixel.air = air_colour(parameters, palette, depth);

@@ -127,6 +127,16 @@ void read_strength(const ConfigValue& value, const std::string& name, Palette& p
   read("rock_drift", palette.rock_drift_share);
 }
 
+void read_growth(const ConfigValue& value, const std::string& name, GrowthColours& growth) {
+  const ConfigTable& table = as_table(value, name);
+  allow_only(table, {"leaves", "leaf_share"}, name);
+  if (const ConfigValue* leaves = find(table, "leaves")) {
+    growth.leaves.clear();
+    for (const ConfigValue& colour : as_array(*leaves, name)) growth.leaves.push_back(read_colour(colour, name));
+  }
+  if (const ConfigValue* share = find(table, "leaf_share")) growth.leaf_share = read_number(*share, name, 0.0, 1.0, "a share");
+}
+
 bool is_built_in(const std::string& name) {
   const std::vector<std::string> names = embedded_names("palettes");
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -134,7 +144,7 @@ bool is_built_in(const std::string& name) {
 
 Palette build_palette(const ConfigValue& root, const std::string& name) {
   const ConfigTable& table = as_table(root, name);
-  allow_only(table, {"name", "based_on", "winter", "classes", "sky", "air", "strength"}, name);
+  allow_only(table, {"name", "based_on", "winter", "classes", "sky", "air", "growth", "strength"}, name);
   Palette palette;
   const ConfigValue* base = find(table, "based_on");
   if (base != nullptr) {
@@ -159,6 +169,7 @@ Palette build_palette(const ConfigValue& root, const std::string& name) {
   if (palette.sky.empty())
     fail(*find(table, "sky"), name, "a sky without a gradient", "gradient = [{ at = 0.0, colour = \"#5b8abb\" }, …]");
   section("air", read_air);
+  if (const ConfigValue* value = find(table, "growth")) read_growth(*value, name, palette.growth);
   if (const ConfigValue* value = find(table, "strength")) read_strength(*value, name, palette);
   return palette;
 }

@@ -27,6 +27,12 @@ struct ClassPalette {
   std::vector<Stop> stops;  // by rising altitude, at least one (but none for sky)
 };
 
+// What grows, beside the ramps: one class holds trees of several colours.
+struct GrowthColours {
+  std::vector<glm::vec3> leaves;  // of leafy trees in full light, encoded sRGB: groups of trees take one each; in winter their bare twigs
+  double leaf_share = 0.0;        // how far a leafy tree takes them, 0…1
+};
+
 struct Palette {
   std::string name;
   bool winter = false;
@@ -37,6 +43,7 @@ struct Palette {
   glm::vec3 haze_near{0.56F, 0.66F, 0.79F};   // where haze begins
   glm::vec3 haze_far{0.73F, 0.80F, 0.89F};    // far away
   glm::vec3 range_mist{0.79F, 0.84F, 0.90F};  // between ranges
+  GrowthColours growth;
   // Shares of what BaseParameters ask for, 0…2: snow takes less drift of hue than grass, winter air is clearer.
   double haze_share = 1.0;
   double warm_share = 1.0;

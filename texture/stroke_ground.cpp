@@ -68,7 +68,7 @@ std::vector<Stroke> meadow_strokes(const StrokeScene& scene) {
     const LandCoverClass id = scene.class_at(i);
     if (!is_grass(id)) return;
     Stroke stroke = ground_stroke(scene, i, seed);
-    const float length = (id == valley_floor ? 9.F : id == alpine_grass ? 8.8F : 8.F) * seed.between(0.6F, 1.4F);
+    const float length = (id == valley_floor ? 9.F : id == alpine_grass ? 7.6F : 8.F) * seed.between(0.6F, 1.4F);
     if (id == valley_floor) {
       lay_line(stroke, scene, place, length, seed.normal() * 0.12F, 0.1F, false, seed);
     } else {
@@ -77,7 +77,35 @@ std::vector<Stroke> meadow_strokes(const StrokeScene& scene) {
     }
     take_brush(stroke, scene, (id == valley_floor ? 2.2F : 2.6F) * seed.between(0.7F, 1.3F),
                {.taper = 0.5F, .alpha = 0.6F, .bristle = 0.4F, .wetness = 0.03F});
-    stroke.colour = scene.colour(i, mixed_tone(0.25F, 0.20F, seed), paint_jitter * 1.3F, seed);
+    // Whole patches are darker or lighter, so that a slope has places and no even grain.
+    const float patch = id == valley_floor ? 0.F : 0.24F * patch_noise(scene, i, 71, 7.0);
+    stroke.colour = scene.colour(i, mixed_tone(0.19F, 0.18F, seed) + std::clamp(patch, -0.5F, 0.5F), paint_jitter * 1.3F, seed);
+    out.push_back(stroke);
+  });
+}
+
+std::vector<Stroke> grass_flecks(const StrokeScene& scene) {
+  return sow(scene, 3.4F, 27, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    const LandCoverClass id = scene.class_at(i);
+    if (id != alpine_grass && id != pasture && id != shrub) return;
+    // Tussocks, alder and juniper gather in patches and hollows; flecks of light lie between.
+    const float patch = patch_noise(scene, i, 72, 6.0) - 0.10F * std::clamp(scene.relief_m(i), -10.F, 10.F);
+    const bool dark = seed.uniform() < 0.6F;
+    if (seed.uniform() > (dark ? 0.60F * std::clamp(patch - 0.1F, 0.F, 1.3F) : 0.30F * std::clamp(0.6F - patch, 0.F, 1.F))) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.depth_tolerance = tight_depth;
+    lay_on_top(stroke);
+    const float length = dark ? seed.between(1.6F, 4.2F) : seed.between(1.2F, 2.8F);
+    lay_line(stroke, scene, place, length, quarter_turn + 0.35F * seed.normal(), 0.2F, true, seed);
+    take_brush(stroke, scene, dark ? seed.between(1.2F, 2.2F) : seed.between(0.7F, 1.3F), {.taper = 0.5F, .alpha = dark ? 0.62F : 0.7F});
+    const float clear = 1.F - std::clamp(scene.ground.haze[i], 0.F, 1.F);
+    if (dark) {
+      stroke.colour = scene.colour(i, -seed.between(0.7F, 1.4F), paint_jitter, seed);
+      if (!scene.parameters.winter) stroke.colour *= through_air_factor(scene, i, glm::vec3(0.80F, 0.92F, 0.82F));
+    } else {
+      const float light = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
+      stroke.colour = scene.colour(i, seed.between(0.7F, 1.4F), paint_jitter, seed) + clear * light * glm::vec3(0.05F, 0.02F, -0.02F);
+    }
     out.push_back(stroke);
   });
 }

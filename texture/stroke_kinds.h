@@ -12,6 +12,7 @@ namespace belvedere {
 std::vector<Stroke> sky_strokes(const StrokeScene& scene);
 std::vector<Stroke> wash_strokes(const StrokeScene& scene);
 std::vector<Stroke> meadow_strokes(const StrokeScene& scene);
+std::vector<Stroke> grass_flecks(const StrokeScene& scene);  // tussocks and flecks of light on pastures and high grass
 std::vector<Stroke> scree_strokes(const StrokeScene& scene);
 std::vector<Stroke> broken_colour(const StrokeScene& scene);  // small dabs every way, warm beside cool
 std::vector<Stroke> water_strokes(const StrokeScene& scene);

@@ -42,6 +42,7 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     append(body, scattered_trees(scene));
     append(body, low_bushes(scene));
     append(body, rock_trees(scene));
+    append(body, grass_flecks(scene));
   }
   if (layers.ground) {
     append(body, rock_facets(scene));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "renderer/base/guidance_buffers.h"
 #include "renderer/base/progress.h"
@@ -26,6 +27,8 @@ struct StrokeParameters {
   bool winter = false;
   double sun_side = 1.0;  // -1 light from the left … +1 from the right of the picture
   std::uint64_t seed = 1;
+  std::vector<glm::vec3> leaves;  // colours of leafy trees in full light, of bare twigs in winter, encoded sRGB; none: only the ground's
+  double leaf_share = 0.0;        // how far leafy trees take them, 0…1
 };
 
 // Which kinds of stroke to paint.

@@ -53,6 +53,22 @@ void shade_ground(const StrokeScene& scene, const Tree& tree, std::size_t i, con
   out.push_back(shade);
 }
 
+// The colour a group of leafy trees has, of those the palette offers, and how far it takes it.
+struct Leaves {
+  glm::vec3 colour{0.F};
+  float share = 0.F;
+};
+
+Leaves leaves_at(const StrokeScene& scene, std::size_t i, StrokeSeed& seed) {
+  const std::vector<glm::vec3>& colours = scene.parameters.leaves;
+  const float stray = seed.normal();
+  if (colours.empty()) return {};
+  const auto count = static_cast<float>(colours.size());
+  const float place = 0.5F + 0.33F * patch_noise(scene, i, 70, 7.0) + 0.12F * stray;
+  const auto chosen = static_cast<std::size_t>(std::clamp(place * count, 0.F, count - 1.F));
+  return {colours[chosen], static_cast<float>(scene.parameters.leaf_share)};
+}
+
 }  // namespace
 
 void plant_spruce(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, StrokeSeed& seed,
@@ -99,13 +115,14 @@ void plant_leafy(const StrokeScene& scene, const Tree& tree, std::size_t i, cons
   const float clear = 1.F - std::min(1.F, scene.ground.haze[i]);
   const auto side = static_cast<float>(scene.parameters.sun_side);
   const bool bare = scene.parameters.winter;
+  const Leaves leaves = leaves_at(scene, i, seed);
   shade_ground(scene, tree, i, tone, seed, out);
   Stroke body = upright_stroke(scene, i);
   const glm::vec2 stem = tree.foot - glm::vec2(0.F, 0.25F * tree.width);
   set_line(body, stem, stem - glm::vec2(0.F, std::max(0.3F * tree.width, tree.height - 0.8F * tree.width)), tree.width * 0.85F, tree.width);
   body.alpha = bare ? 0.6F : 0.88F;
   body.colour = dark_side(scene, i, {tone.lighter + 0.3F, tone.rim, tone.edge}, seed);
-  if (bare) body.colour = through_air(scene, i, 0.45F * body.colour + 0.55F * glm::vec3(0.36F, 0.30F, 0.38F) * (0.7F + 0.6F * light));
+  body.colour += 0.6F * leaves.share * (through_air(scene, i, leaves.colour * (0.42F + 0.18F * light)) - body.colour);
   out.push_back(body);
   const glm::vec2 crown = body.points[1];
   Stroke lit = body;
@@ -114,7 +131,7 @@ void plant_leafy(const StrokeScene& scene, const Tree& tree, std::size_t i, cons
   lit.alpha = bare ? 0.5F : std::min(0.95F, 0.42F + 0.45F * light + 0.1F * tone.rim);
   lit.colour = scene.colour(i, std::min(1.5F, 0.25F + 1.1F * light + tone.lighter + 0.4F * tone.rim), paint_jitter, seed);
   lit.colour += glm::vec3(0.055F, 0.030F, -0.050F) * (light * clear);
-  if (bare) lit.colour = through_air(scene, i, 0.35F * lit.colour + 0.65F * glm::vec3(0.66F, 0.55F, 0.50F) * (0.55F + 0.6F * light));
+  lit.colour += leaves.share * (through_air(scene, i, leaves.colour * (0.55F + 0.5F * light)) - lit.colour);
   lit.order -= 0.5F;
   out.push_back(lit);
   const int dots = light > 0.4F && !bare ? static_cast<int>(seed.uniform() * 1.7F) : 0;

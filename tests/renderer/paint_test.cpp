@@ -163,6 +163,20 @@ TEST(Base, MistLiesInValleys) {
   EXPECT_NEAR(behind_edge(300.0F), 0.25F * behind_edge(0.0F), 0.02F);
 }
 
+// Grass of hollows is fresh, that of ridges ripe: greener and yellower than between.
+TEST(Base, GrassIsGreenerInHollows) {
+  GuidanceBuffers g = make_slope(60, 40, LandCoverClass::alpine_grass, {0.0F, 0.0F, 1.0F}, 20.0F);
+  BaseParameters p = plain();
+  p.hue_drift = 1.0;
+  const auto greenness = [&](float relief_m) {
+    for (float& r : g.relief_s_m) r = relief_m;
+    const glm::vec3 c = ground_of(g, p).colour(30, 20);
+    return c.g - c.r;
+  };
+  EXPECT_GT(greenness(-12.0F), greenness(0.0F) + 0.01F);
+  EXPECT_LT(greenness(12.0F), greenness(0.0F) - 0.005F);
+}
+
 TEST(Base, RangesReadApart) {
   // A near range before a far one of the same colour: the far side lightens towards the edge, the near side darkens.
   GuidanceBuffers g = make_slope(20, 160, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 10.0F);

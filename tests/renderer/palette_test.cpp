@@ -33,18 +33,18 @@ std::string error_of(const std::string& text) {
 
 TEST(Palette, RampIsExactAtItsStops) {
   const Palette summer = read_palette("summer");
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.0), rgb(0x434c74));
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.34), rgb(0x716f88));
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.66), rgb(0xb0a6a1));
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 1.0), rgb(0xf0e6d8));
-  expect_colour(palette_colour(read_palette("winter"), LandCoverClass::snow, 2000.0, 0.34), rgb(0xa3b5d8));
+  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.0), rgb(0x464a78));
+  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.34), rgb(0x776e8c));
+  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.66), rgb(0xb9a3a0));
+  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 1.0), rgb(0xf5e2d4));
+  expect_colour(palette_colour(read_palette("winter"), LandCoverClass::snow, 2000.0, 0.34), rgb(0xa9b3da));
 }
 
 TEST(Palette, RampIsLinearBetweenStopsAndFlatBeyond) {
   const Palette summer = read_palette("summer");
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 0.0, 0.5), 0.5F * (rgb(0x716f88) + rgb(0xb0a6a1)));
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 0.0, 1.4), rgb(0xf0e6d8));
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 0.0, -0.4), rgb(0x434c74));
+  expect_colour(palette_colour(summer, LandCoverClass::rock, 0.0, 0.5), 0.5F * (rgb(0x776e8c) + rgb(0xb9a3a0)));
+  expect_colour(palette_colour(summer, LandCoverClass::rock, 0.0, 1.4), rgb(0xf5e2d4));
+  expect_colour(palette_colour(summer, LandCoverClass::rock, 0.0, -0.4), rgb(0x464a78));
 }
 
 TEST(Palette, BlendsByAltitude) {
@@ -94,6 +94,19 @@ TEST(Palette, PaletteCanOverrideABuiltInOne) {
   const Palette summer = read_palette("summer");
   expect_colour(palette_colour(desert, LandCoverClass::snow, 0.0, 0.7), palette_colour(summer, LandCoverClass::snow, 0.0, 0.7));
   EXPECT_EQ(desert.sky, summer.sky);
+}
+
+TEST(Palette, GrowthColoursAreReadAndInherited) {
+  const Palette autumn = read_palette("autumn");
+  EXPECT_GE(autumn.growth.leaves.size(), 3U);
+  for (const glm::vec3& leaf : autumn.growth.leaves) EXPECT_GT(leaf.r, leaf.b + 0.2F) << "autumn's leaves are warm";
+  const Palette mine = parse_palette("based_on = \"autumn\"\n[growth]\nleaves = [\"#ff8000\"]\nleaf_share = 0.25\n", "mine.toml");
+  ASSERT_EQ(mine.growth.leaves.size(), 1U);
+  expect_colour(mine.growth.leaves[0], rgb(0xff8000));
+  EXPECT_EQ(mine.growth.leaf_share, 0.25);
+  EXPECT_EQ(parse_palette("based_on = \"autumn\"\n", "mine.toml").growth.leaf_share, autumn.growth.leaf_share);
+  EXPECT_THAT(error_of("based_on = \"summer\"\n[growth]\nleaf_share = 1.5\n"), HasSubstr("test.toml:3:14"));
+  EXPECT_THAT(error_of("based_on = \"summer\"\n[growth]\nleafs = []\n"), HasSubstr("leaves"));
 }
 
 TEST(Palette, ReadsAFile) {
