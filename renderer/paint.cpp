@@ -362,7 +362,8 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
       const auto mist = static_cast<float>(parameters.range_mist);
       const float behind = logs[i] - mean_logs[i];
       PixelColour pixel{};
-      pixel.added = field_turn(field_shift(id, patches) + dryness(guidance, id, i)) * drift;
+      pixel.added =
+          field_turn(field_shift(id, patches) + dryness(guidance, id, i)) * drift * static_cast<float>(palette.ground_drift_share);
       pixel.factor = hue_drift(id, patches, palette, drift) * (1.0F + glm::vec3(0.06F, 0.03F, -0.07F) * warm);
       pixel.stale = staleness(id, parameters, depth) * static_cast<float>(parameters.warm_near);
       pixel.air = air_colour(parameters, palette, depth);
