@@ -20,6 +20,13 @@ enum class StrokeGate : std::uint8_t {
   same_class,  // as surface, and only on pixels of the seed's class: what ends with the ice it lies on
 };
 
+// How a stroke begins, ends and is edged.
+enum class StrokeTip : std::uint8_t {
+  round,   // half discs, evenly covered: for what is drawn rather than painted
+  square,  // cut off at its first and last point, evenly covered: walls and roofs
+  hairs,   // a brush of hairs: set down, pressed on, run dry; every load of paint differs a little
+};
+
 // One stroke of the brush: a polyline with a width that runs from start to end. Lengths in pixels of the canvas.
 struct Stroke {
   static constexpr int max_points = 4;
@@ -27,13 +34,16 @@ struct Stroke {
   int point_count = 0;
   float start_width = 1.F;
   float end_width = 1.F;
-  float alpha = 1.F;      // 0…1
-  float bristle = 0.F;    // 0 smooth … 1 dry brush
-  float wetness = 0.F;    // how much colour varies between bristles, encoded sRGB
+  float alpha = 1.F;    // 0…1
+  float load = 0.F;     // of hairs, 0…1: how much loads of paint differ from the colour asked for
+  float bristle = 0.F;  // of hairs: 0 smooth … 1 dry brush
+  StrokeTip tip = StrokeTip::round;
+  float edge = 0.F;       // -1…1, of hairs: paint gathers on the right (> 0) or left side and thins out on the other; 0: both alike
+  float wetness = 0.F;    // of hairs: how much colour varies between them, encoded sRGB
   glm::vec3 colour{0.F};  // encoded sRGB
   float depth_m = 0.F;
   float depth_tolerance = 0.045F;  // relative
-  float tone = -1.F;               // tone of the seed: alpha falls as exp(-((tone_px - tone)/.16)²); < 0: no tone gate
+  float tone = -1.F;               // tone of the seed: alpha falls as exp(-((tone_px - tone)/.16)⁴); < 0: no tone gate
   StrokeGate gate = StrokeGate::surface;
   float order = 0.F;         // larger is painted first: usually depth
   std::uint32_t seed = 0;    // of its bristles

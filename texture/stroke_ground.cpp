@@ -44,19 +44,20 @@ std::vector<Stroke> sky_strokes(const StrokeScene& scene) {
 }
 
 std::vector<Stroke> wash_strokes(const StrokeScene& scene) {
-  return sow(scene, 5.F, 2, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+  return sow(scene, 4.4F, 2, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
     if (id == sky || id == water) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     const bool wooded = id == forest && !is_grassy(scene, i);
-    const float length = is_ice(id) ? 28.F : id == rock ? 16.F : id == forest ? 10.F : 14.F;
+    const float length = is_ice(id) ? 20.F : id == rock ? 11.F : id == forest ? 8.F : 10.F;
     stroke.depth_tolerance = id == rock || id == snow || id == glacier ? tight_depth : 0.03F;
     if (!wooded) stroke.tone = scene.guidance.tone[i];
     const float turn = is_grass(id) && !is_floor(id) && seed.uniform() < 0.35F ? quarter_turn : 0.F;
     const float angle = turn + seed.normal() * (is_floor(id) ? 0.15F : is_grass(id) ? 0.3F : is_ice(id) ? 0.08F : 0.2F);
     lay_line(stroke, scene, place, length * seed.between(0.7F, 1.3F), angle, 0.2F, !is_floor(id), seed);
-    take_brush(stroke, scene, (id == forest ? 4.F : 6.F) * seed.between(0.7F, 1.3F),
-               {.taper = 0.6F, .alpha = 0.55F, .bristle = is_ice(id) ? 0.25F : 0.5F, .wetness = is_ice(id) ? 0.015F : 0.03F});
+    const bool ice = is_ice(id);
+    take_brush(stroke, scene, (id == forest ? 4.F : 5.2F) * seed.between(0.7F, 1.3F),
+               {.taper = 0.6F, .alpha = 0.80F, .bristle = ice ? 0.25F : 0.35F, .wetness = ice ? 0.015F : 0.03F, .load = ice ? 0.4F : 1.F});
     stroke.colour = scene.colour(i, wooded ? -0.55F + 0.35F * seed.normal() : mixed_tone(0.22F, 0.15F, seed), paint_jitter, seed);
     stroke.order += seed.uniform() * 300.F;
     out.push_back(stroke);

@@ -32,7 +32,7 @@ std::vector<Stroke> snow_strokes(const StrokeScene& scene) {
     const float aside = (id == glacier ? 0.05F : 0.14F) * seed.normal();
     lay_flow(stroke, flow, place, length * scene.scale(), aside);
     take_brush(stroke, scene, id == glacier ? seed.between(4.F, 8.5F) : seed.between(3.6F, 8.F),
-               {.taper = 0.5F, .alpha = 0.55F, .bristle = 0.22F, .wetness = 0.012F});
+               {.taper = 0.5F, .alpha = 0.55F, .bristle = 0.22F, .wetness = 0.012F, .load = 0.4F});
     stroke.colour = scene.colour(i, (id == glacier ? 0.7F : 0.85F) * mixed_tone(0.16F, 0.16F, seed), paint_jitter * 0.4F, seed);
     out.push_back(stroke);
   });

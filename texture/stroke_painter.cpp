@@ -1,5 +1,6 @@
 #include "texture/stroke_painter.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,8 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
   Painting painting = begin_painting(std::move(canvas));
   const StrokeScene scene{guidance, ground, parameters};
   const auto paint = [&](std::vector<Stroke> strokes) {
+    // In the far, air evens out what loads of paint differ by.
+    for (Stroke& stroke : strokes) stroke.load *= 1.F - 0.8F * std::clamp(ground.haze[stroke.source], 0.F, 1.F);
     if (!strokes.empty()) paint_in_order(painting, guidance, std::move(strokes), parameters.pixels_per_unit, progress);
   };
 

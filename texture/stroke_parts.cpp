@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/base/noise.h"
+#include "renderer/base/random.h"
 
 namespace belvedere {
 
@@ -13,6 +14,9 @@ void take_brush(Stroke& stroke, const StrokeScene& scene, float width_units, con
   stroke.alpha = brush.alpha;
   stroke.bristle = brush.bristle;
   stroke.wetness = brush.wetness;
+  stroke.tip = StrokeTip::hairs;
+  stroke.load = brush.load;
+  stroke.edge = (stroke.seed & 0x200U) != 0U ? brush.edge : -brush.edge;
 }
 
 Stroke ground_stroke(const StrokeScene& scene, std::size_t i, StrokeSeed& seed) {
@@ -30,6 +34,11 @@ void set_line(Stroke& stroke, glm::vec2 from, glm::vec2 to, float start_width, f
   stroke.point_count = 2;
   stroke.start_width = start_width;
   stroke.end_width = end_width;
+  stroke.tip = StrokeTip::hairs;
+  stroke.edge = 0.5F;
+  stroke.load = 0.5F;
+  // All parts of what stands in one place are of one load of paint.
+  if (stroke.seed == 0) stroke.seed = static_cast<std::uint32_t>(mix_bits(stroke.source + 1U));
 }
 
 glm::vec3 through_air(const StrokeScene& scene, std::size_t i, glm::vec3 paint) {

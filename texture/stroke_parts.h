@@ -19,12 +19,14 @@ struct Brush {
   float alpha = 1.F;
   float bristle = 0.F;
   float wetness = 0.F;
+  float load = 1.F;   // 0…1: how much loads of paint differ
+  float edge = 0.8F;  // how much paint gathers on one side: on which is drawn by lot
 };
 void take_brush(Stroke& stroke, const StrokeScene& scene, float width_units, const Brush& brush);
 
 // A stroke that grows from pixel i, with what all of them share.
 Stroke ground_stroke(const StrokeScene& scene, std::size_t i, StrokeSeed& seed);
-// A straight tapered stroke between two places, px.
+// A straight tapered stroke of the brush between two places, px; its hairs are seeded by its source where it has no seed.
 void set_line(Stroke& stroke, glm::vec2 from, glm::vec2 to, float start_width, float end_width);
 // Paint seen through the air in front of pixel i: `paint` and the picture's colour mixed by the haze.
 glm::vec3 through_air(const StrokeScene& scene, std::size_t i, glm::vec3 paint);

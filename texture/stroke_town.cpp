@@ -59,11 +59,10 @@ void build(const StrokeScene& scene, const House& house, std::size_t i, StrokeSe
   shade.alpha = 0.35F + 0.3F * tone;
   shade.colour = through_air(scene, i, glm::vec3(0.33F, 0.35F, 0.46F));
   out.push_back(shade);
-  // Round ends of a stroke reach half its width farther.
-  const float inner = std::max(0.F, half - 0.5F * stripe);
   Stroke front = body;
   front.order -= 0.5F;
-  set_line(front, house.foot + glm::vec2(-inner, -0.5F * stripe), house.foot + glm::vec2(inner, -0.5F * stripe), stripe, stripe);
+  set_line(front, house.foot + glm::vec2(-half, -0.5F * stripe), house.foot + glm::vec2(half, -0.5F * stripe), stripe, stripe);
+  front.tip = StrokeTip::square;
   front.alpha = 0.92F;
   const float value = 0.03F * seed.normal();
   front.colour = through_air(scene, i, wall * light + value);
@@ -71,8 +70,9 @@ void build(const StrokeScene& scene, const House& house, std::size_t i, StrokeSe
   Stroke roof = front;
   roof.order -= 0.5F;
   const glm::vec2 ridge{0.F, -house.height + 0.2F * stripe};
-  set_line(roof, house.foot + ridge + glm::vec2(-inner * 1.1F, 0.F), house.foot + ridge + glm::vec2(inner * 1.1F, 0.F), 0.95F * stripe,
+  set_line(roof, house.foot + ridge + glm::vec2(-half * 1.1F, 0.F), house.foot + ridge + glm::vec2(half * 1.1F, 0.F), 0.95F * stripe,
            0.95F * stripe);
+  roof.tip = StrokeTip::square;
   const bool white = scene.parameters.winter && seed.uniform() < 0.7F;
   const float shift = 0.04F * seed.normal();
   roof.colour = through_air(scene, i, (white ? snowed : roofs[house.roof] + shift) * light);
@@ -91,10 +91,12 @@ void build_church(const StrokeScene& scene, glm::vec2 foot, float unit, std::siz
   const glm::vec2 base = foot + glm::vec2(-1.9F * side * unit, 0.F);
   const float light = 0.62F + 0.42F * std::clamp(scene.guidance.tone[i], 0.F, 1.F);
   set_line(tower, base, base + glm::vec2(0.F, -3.6F * unit), 1.3F * unit, 1.2F * unit);
+  tower.tip = StrokeTip::square;
   tower.alpha = 0.95F;
   tower.colour = through_air(scene, i, wall * light);
   out.push_back(tower);
-  set_line(tower, base + glm::vec2(0.F, -3.8F * unit), base + glm::vec2(0.F, -7.6F * unit), 1.3F * unit, 0.3F * unit);
+  set_line(tower, base + glm::vec2(0.F, -3.8F * unit), base + glm::vec2(0.F, -7.6F * unit), 1.3F * unit, 0.1F * unit);
+  tower.tip = StrokeTip::square;
   tower.order -= 0.5F;
   tower.colour = through_air(scene, i, roofs[2] * (0.8F * light));
   out.push_back(tower);

@@ -195,6 +195,128 @@ TEST(Brush, ToneGateFadesWithTheDifferenceOfTone) {
   const auto canvas = paint({s}, g);
   EXPECT_FLOAT_EQ(canvas(20, 20).x, 1.F);
   EXPECT_NEAR(canvas(40, 20).x, std::exp(-1.0), 0.03);
+  // Flat on top, so that paint ends at a shadow with an edge: exp(-x⁴), not exp(-x²).
+  for (int y = 0; y < g.height(); ++y)
+    for (int x = 30; x < g.width(); ++x) g.tone(x, y) = 0.5F - 0.08F;
+  EXPECT_NEAR(paint({s}, g)(40, 20).x, std::exp(-0.0625), 0.01);
+}
+
+TEST(Brush, SquareStrokesEndAtTheirPoints) {
+  Stroke wall = horizontal_stroke();
+  wall.tip = StrokeTip::square;
+  const auto canvas = paint({wall}, flat_guidance());
+  EXPECT_NEAR(painted_area(canvas), 40.0 * 4.0, 0.5);
+  EXPECT_FLOAT_EQ(canvas(10, 18).x, 1.F) << "the corner is full";
+  EXPECT_FLOAT_EQ(canvas(9, 20).x, 0.F);
+}
+
+// Mean canvas over strokes of many seeds, all in one place: 40 × 6 units from x = 10, at y = 20, paint 1 on 0.
+Grid<float> mean_of_hairs(const Stroke& like, float pixels_per_unit = 1.F, int seeds = 60) {
+  const auto size = [&](int units) { return static_cast<int>(static_cast<float>(units) * pixels_per_unit); };
+  const GuidanceBuffers g = flat_guidance(size(60), size(40));
+  Grid<float> mean(g.width(), g.height(), 0.F);
+  for (int k = 1; k <= seeds; ++k) {
+    Stroke s = like;
+    s.tip = StrokeTip::hairs;
+    s.start_width = s.end_width = 6.F * pixels_per_unit;
+    s.points = {glm::vec2(10.F, 20.F) * pixels_per_unit, glm::vec2(50.F, 20.F) * pixels_per_unit};
+    s.seed = static_cast<std::uint32_t>(k) * 2654435761U;
+    Painting painting = begin_painting(Grid<glm::vec3>(g.width(), g.height(), glm::vec3(0.F)));
+    paint_in_order(painting, g, {s}, static_cast<double>(pixels_per_unit), silent_progress());
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += painting.picture[i].x / static_cast<float>(seeds);
+  }
+  return mean;
+}
+
+double sum_of(const Grid<float>& grid) {
+  double sum = 0.0;
+  for (const float v : grid) sum += v;
+  return sum;
+}
+
+Stroke brush_stroke() {
+  Stroke s = horizontal_stroke();
+  s.alpha = 0.6F;
+  s.bristle = 0.5F;
+  s.edge = 0.8F;
+  return s;
+}
+
+TEST(Brush, HairsLayAsMuchPaintAtAnySize) {
+  for (const float bristle : {0.F, 0.5F, 1.F}) {
+    Stroke s = brush_stroke();
+    s.bristle = bristle;
+    const double small = sum_of(mean_of_hairs(s));
+    EXPECT_NEAR(sum_of(mean_of_hairs(s, 6.F)) / 36.0, small, 0.08 * small) << bristle;
+  }
+}
+
+TEST(Brush, PaintEndsWithAnEdgeOnOneSide) {
+  Stroke s = brush_stroke();
+  const Grid<float> right = mean_of_hairs(s);
+  s.edge = -s.edge;
+  const Grid<float> left = mean_of_hairs(s);
+  // y grows to the right of a stroke that runs to the right.
+  EXPECT_GT(right(26, 22), 1.25F * right(26, 17));
+  EXPECT_GT(left(26, 17), 1.25F * left(26, 22));
+}
+
+TEST(Brush, IsSetDownAndRunsDry) {
+  const Grid<float> mean = mean_of_hairs(brush_stroke());
+  const auto column = [&](int x) {
+    float sum = 0.F;
+    for (int y = 0; y < mean.height(); ++y) sum += mean(x, y);
+    return sum;
+  };
+  EXPECT_LT(column(11), 0.85F * column(22));
+  EXPECT_LT(column(47), 0.7F * column(25));
+}
+
+TEST(Brush, HairsDrawStreaksAlongTheStroke) {
+  const GuidanceBuffers g = flat_guidance(360, 240);
+  Stroke s = brush_stroke();
+  s.tip = StrokeTip::hairs;
+  s.start_width = s.end_width = 36.F;
+  s.points = {glm::vec2(60.F, 120.F), glm::vec2(300.F, 120.F)};
+  s.seed = 77;
+  Painting painting = begin_painting(Grid<glm::vec3>(360, 240, glm::vec3(0.F)));
+  paint_in_order(painting, g, {s}, 6.0, silent_progress());
+  double along = 0.0;
+  double across = 0.0;
+  for (int y = 106; y < 134; ++y)
+    for (int x = 120; x < 180; ++x) {
+      along += std::abs(painting.picture(x + 1, y).x - painting.picture(x, y).x);
+      across += std::abs(painting.picture(x, y + 1).x - painting.picture(x, y).x);
+    }
+  EXPECT_GT(across, 10.0 * along);
+  EXPECT_GT(across / (28.0 * 60.0), 0.02);  // and they are seen
+}
+
+TEST(Brush, LoadsOfPaintDifferAroundTheColourAskedFor) {
+  const GuidanceBuffers g = flat_guidance();
+  const auto middle = [&](float load, std::uint32_t seed) {
+    Stroke s = horizontal_stroke();
+    s.tip = StrokeTip::hairs;
+    s.alpha = 1.F;
+    s.load = load;
+    s.seed = seed;
+    s.colour = glm::vec3(0.5F);
+    return paint({s}, g)(25, 20) / 0.97F;  // hairs cover that much at most
+  };
+  EXPECT_NEAR(middle(0.F, 5).x, 0.5F, 0.003F);
+  EXPECT_NEAR(middle(0.F, 5).x, middle(0.F, 6).x, 1e-6F);
+  double sum = 0.0;
+  double squares = 0.0;
+  double warmth = 0.0;
+  for (std::uint32_t k = 1; k <= 400; ++k) {
+    const glm::vec3 c = middle(1.F, k);
+    sum += c.y;
+    squares += (c.y - 0.5) * (c.y - 0.5);
+    warmth += (c.x - c.z) * (c.x - c.z);
+  }
+  EXPECT_NEAR(sum / 400.0, 0.5, 0.004);
+  EXPECT_GT(std::sqrt(squares / 400.0), 0.015);
+  EXPECT_GT(std::sqrt(warmth / 400.0), 0.02);
 }
 
 TEST(Brush, LargerOrderIsPaintedFirst) {
@@ -214,7 +336,8 @@ TEST(Brush, ThreadsChangeNoBit) {
   for (int i = 0; i < 300; ++i) {
     Stroke s = horizontal_stroke();
     for (auto& p : s.points) p += glm::vec2(static_cast<float>((i * 37) % 450), static_cast<float>((i * 53) % 380));
-    s.bristle = 0.5F;
+    s.tip = i % 2 == 0 ? StrokeTip::hairs : StrokeTip::round;
+    s.bristle = s.edge = s.load = 0.5F;
     s.alpha = 0.6F;
     s.colour = glm::vec3(static_cast<float>(i % 7) / 7.F);
     s.order = static_cast<float>(i % 5);

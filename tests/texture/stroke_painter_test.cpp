@@ -180,7 +180,7 @@ TEST(StrokePainter, TownsDifferFromVillages) {
     float most = 0.F;
     for (const Stroke& s : houses({p.guidance, p.ground, parameters}))
       if (s.gate == StrokeGate::surface && s.point_count == 2)
-        most = std::max(most, std::abs(s.points[1].x - s.points[0].x) + s.start_width);
+        most = std::max(most, std::abs(s.points[1].x - s.points[0].x) + (s.tip == StrokeTip::square ? 0.F : s.start_width));
     return most;
   };
   EXPECT_GT(widest(80.F), 4.5F);  // halls and works
@@ -331,6 +331,19 @@ TEST(StrokePainter, MeanColourStaysNearTheBase) {
   const double mean = sum / static_cast<double>(picture.size());
   EXPECT_NEAR(mean, 0.5, 0.02);
   EXPECT_GT(squares / static_cast<double>(picture.size()) - mean * mean, 1e-4);  // and it is painted, not flat
+}
+
+TEST(StrokePainter, AirEvensOutWhatLoadsOfPaintDifferBy) {
+  Picture p = one_class(pasture);
+  p.ground.darker = p.ground.lighter = p.ground.colour;  // no other differences than of loads and of jitter
+  const auto variance = [&](float haze) {
+    p.ground.haze = Grid<float>(320, 240, haze);
+    const auto picture = paint_strokes(p.ground.colour, p.guidance, p.ground, {.upright = false}, {}, silent_progress()).picture;
+    double squares = 0.0;
+    for (const glm::vec3& c : picture) squares += (c.y - 0.5) * (c.y - 0.5);
+    return squares / static_cast<double>(picture.size());
+  };
+  EXPECT_LT(variance(1.F), 0.8 * variance(0.F));
 }
 
 TEST(StrokePainter, ThreadsChangeNoBit) {
