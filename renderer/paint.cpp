@@ -89,11 +89,11 @@ float field_shift(Class id, const Patches& p) {
 float dryness(const GuidanceBuffers& g, Class id, std::size_t i) {
   if (id != Class::alpine_grass && id != Class::pasture && id != Class::shrub) return 0.0F;
   const float relief = std::clamp(g.relief_s_m[i] / 12.0F, -1.0F, 1.0F);
-  return (relief > 0.0F ? 0.16F : 0.30F) * relief;
+  return (relief > 0.0F ? 0.16F : 0.24F) * relief;
 }
 
 // What that shift adds to a colour: ripe grass is yellow, fresh grass green, not blue.
-glm::vec3 field_turn(float shift) { return (shift > 0.0F ? glm::vec3(0.11F, 0.02F, -0.10F) : glm::vec3(0.11F, 0.01F, 0.0F)) * shift; }
+glm::vec3 field_turn(float shift) { return (shift > 0.0F ? glm::vec3(0.11F, 0.02F, -0.10F) : glm::vec3(0.10F, 0.01F, 0.02F)) * shift; }
 
 // Slow drift of hue, as factors of the colour.
 glm::vec3 hue_drift(Class id, const Patches& p, const Palette& palette, float strength) {

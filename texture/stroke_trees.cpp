@@ -66,7 +66,9 @@ Leaves leaves_at(const StrokeScene& scene, std::size_t i, StrokeSeed& seed) {
   const auto count = static_cast<float>(colours.size());
   const float place = 0.5F + 0.33F * patch_noise(scene, i, 70, 7.0) + 0.12F * stray;
   const auto chosen = static_cast<std::size_t>(std::clamp(place * count, 0.F, count - 1.F));
-  return {colours[chosen], static_cast<float>(scene.parameters.leaf_share)};
+  // Warm leaves shine in the sun; in the shade all woods are of one blue.
+  const float light = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
+  return {colours[chosen], static_cast<float>(scene.parameters.leaf_share) * (0.25F + 0.75F * light)};
 }
 
 }  // namespace

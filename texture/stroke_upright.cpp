@@ -106,14 +106,14 @@ std::vector<Stroke> forest_trees(const StrokeScene& scene) {
     const float mass = patch_noise(scene, i, 51, 14.0);
     const float group = patch_noise(scene, i, 52, 5.0);
     const float row_tone = 0.18F * seed.normal() + 0.22F * std::clamp(mass, -1.6F, 1.6F);
-    const float strays = 0.35F * seed.normal();
+    const float strays = 0.22F * seed.normal();
     const bool leafy = is_leafy(scene, i, patch_noise(scene, i, 64, 8.0) + strays);
     const int count = 2 + static_cast<int>(seed.uniform() * 4.F);
     glm::vec2 foot = place;
     for (int k = 0; k < count && scene.on_canvas(foot); ++k) {
       const std::size_t here = scene.pixel(foot);
       if (scene.class_at(here) != forest || !on_same_slope(scene, i, here)) break;
-      if (seed.uniform() < scene.ground.tree_density[here]) {
+      if (!is_grassy(scene, here) && seed.uniform() < scene.ground.tree_density[here]) {
         const float down = seed.normal();  // drawn one by one: see stroke_seeds.h
         const float right = seed.normal();
         const float tone = row_tone + 0.22F * seed.normal();
@@ -142,8 +142,8 @@ std::vector<Stroke> scattered_trees(const StrokeScene& scene) {
       share = (0.30F * before_forest + outpost) * std::clamp(0.4F + 0.8F * copse, 0.F, 1.5F);
     } else {
       share = 0.22F * before_forest * std::clamp(0.2F + copse, 0.F, 1.F);
-      if (copse > 1.75F) {
-        share += 0.45F;
+      if (copse > 1.9F) {
+        share += 0.40F;
         most = 6;
       } else if (stretch > 0.8F) {
         share += 0.004F;  // a lone tree
@@ -151,7 +151,7 @@ std::vector<Stroke> scattered_trees(const StrokeScene& scene) {
     }
     if (id == valley_floor) {
       const bool bank = share_around(scene, place, 3.2F, is(water)) > 0.F;
-      if (bank) share += 0.62F * std::clamp(0.15F + 0.8F * stretch, 0.02F, 1.F);
+      if (bank) share += 0.75F * std::clamp(0.2F + 0.9F * stretch, 0.03F, 1.F);
       share += 0.42F * hedge_at(scene, i) * std::clamp(0.9F * stretch - 0.2F, 0.F, 1.F);
       share += 0.06F * share_around(scene, place, 6.F, is(settlement));
     }
