@@ -33,7 +33,7 @@ constexpr std::array<ClassLight, land_cover_class_count> class_lights = {{
     {0.45F, false, 0.10F, 0.05F, 1.20F},  // forest
     {0.45F, false, 0.07F, 0.10F, 1.00F},  // alpine grass
     {0.60F, false, 0.07F, 0.10F, 1.00F},  // scree
-    {0.68F, true, 0.10F, 0.18F, 1.45F},   // rock
+    {0.68F, true, 0.10F, 0.15F, 1.45F},   // rock
     {0.55F, false, 0.07F, 0.05F, 1.30F},  // snow
     {0.38F, false, 0.05F, 0.00F, 1.20F},  // glacier: thick and smooth
     {0.45F, false, 0.07F, 0.00F, 1.00F},  // pasture
@@ -48,11 +48,13 @@ constexpr float middle_tone = 0.55F;
 constexpr float brightest_tone = 1.02F;
 constexpr float floor_lift = 0.10F;  // valley floors glow
 constexpr float pool_strength = 0.035F;
-constexpr float plane_strength = 0.19F;  // of big planes on steep rock
+constexpr float plane_strength = 0.22F;  // of big planes on steep rock
+constexpr float bench_light = 0.11F;     // ledges, benches and floors of cirques lie open to the sky, and walls stand darker between them
 // Rock that looks out of forest is weathered and mossy: what is small and white there reads as a stone or an egg, not as a cliff.
 constexpr double outcrop_sigma_units = 12.0;  // forest within this is "around"
 constexpr float outcrop_calm = 0.50F;         // share of contrast it takes …
 constexpr float outcrop_shade = 0.20F;        // … and how much darker it is
+constexpr float bench_slope_deg = 42.0F;      // of walls and benches alike
 constexpr float calm_from_m = 16.0F;          // metres of ground in a unit of the sheet from which forms are simplified …
 constexpr float calm_to_m = 42.0F;            // … and at which they are simplest
 
@@ -156,6 +158,8 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
           rib += 0.45F * bed_strength(n25(place.x, place.y)) *
                  bed_light(bed_phase(guidance.altitude_m[i], static_cast<float>(place.x), n8(place.x, place.y)));
         }
+        if (id == LandCoverClass::rock)
+          raw += bench_light * fine * std::clamp((bench_slope_deg - guidance.slope_deg[i]) / 13.0F, -0.6F, 1.0F);
         const float steep = steepness(guidance.slope_deg[i]);
         raw += static_cast<float>(parameters.ribs) * (light.ribs * fine * rib + plane_strength * planes[i]) * steep;
       }

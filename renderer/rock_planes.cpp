@@ -16,7 +16,7 @@ struct PlaneSize {
   double cell_units;  // mean distance of neighbouring planes
   float strength;
 };
-constexpr std::array<PlaneSize, 2> plane_sizes = {{{40.0, 0.66F}, {17.0, 0.42F}}};
+constexpr std::array<PlaneSize, 3> plane_sizes = {{{84.0, 0.50F}, {38.0, 0.56F}, {16.0, 0.38F}}};
 constexpr float drawn_out = 0.62F;  // length along the fall line counts this much: planes are 1.6 times as long as wide
 constexpr double warp_units = 2.2;  // how far edges waver
 constexpr double warp_sigma_units = 5.0;

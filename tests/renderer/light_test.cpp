@@ -107,6 +107,20 @@ TEST(Tone, OutcropsInTheWoodAreCalmerThanWalls) {
   EXPECT_LT(patch(of_outcrops, 40) - patch(of_outcrops, 120), 0.7 * (patch(of_wall, 40) - patch(of_wall, 120))) << "less contrast";
 }
 
+TEST(Tone, BenchesOfRockAreLighterThanWalls) {
+  ToneParameters p;
+  p.ribs = 0.0;
+  p.sun_strength = 0.4;  // nothing clips
+  const auto tone = [&](LandCoverClass id, float slope_deg) {
+    return mean(tone_of(make_slope(24, 24, id, sun_side_normal, slope_deg), p));
+  };
+  // Full light of a bench is reached 13° below the slope of a wall: .11 of raw light, .98 of which is a whole tone, times rock's contrast.
+  EXPECT_NEAR(tone(LandCoverClass::rock, 29.0F) - tone(LandCoverClass::rock, 42.0F), 0.11 / 0.98 * 1.45, 1e-3);
+  EXPECT_NEAR(tone(LandCoverClass::rock, 20.0F), tone(LandCoverClass::rock, 29.0F), 1e-6);
+  EXPECT_GT(tone(LandCoverClass::rock, 42.0F), tone(LandCoverClass::rock, 50.0F) + 0.05);
+  EXPECT_NEAR(tone(LandCoverClass::scree, 29.0F), tone(LandCoverClass::scree, 42.0F), 1e-6);
+}
+
 TEST(Tone, CrestTakesTheToneFromBelow) {
   // A dark rim of two pixels on a lit slope, below a farther range.
   GuidanceBuffers g = make_slope(24, 24, LandCoverClass::pasture, sun_side_normal, 10.0F);
