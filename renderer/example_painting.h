@@ -8,7 +8,7 @@ namespace belvedere {
 struct ExamplePainting {
   GuidanceBuffers guidance;  // with painted_class, painted_from, stroke and ground_from
   Grid<glm::vec3> painting;  // encoded sRGB, edges of depth softened
-  Grid<glm::vec3> ground;    // without trees, dwarf pines and houses, edges hard: what synthesis copies
+  Grid<glm::vec3> ground;    // without trees, dwarf pines, houses and breaks of the ice, edges hard: what synthesis copies
 };
 
 // Which layers are wanted: each costs a painting of its own.

@@ -340,6 +340,7 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
   const bool has_rim = guidance.rim_m.same_size(guidance.depth_m) && parameters.rim_fade_m > 0.0;
   const bool has_footprint = guidance.footprint_m.same_size(guidance.depth_m);
   const int step_px = std::max(1, static_cast<int>(std::lround(ppu)));
+  const auto far_share = static_cast<float>(std::min(1.0, parameters.haze / BaseParameters{}.haze * palette.haze_share));
   parallel_rows(height, [&](int y) {
     GroundNoises noises(parameters.seed);
     for (int x = 0; x < width; ++x) {
@@ -373,7 +374,7 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
       const float low = 1.0F - 0.75F * std::max(raised, 0.0F);  // mist lies in valleys, crests stay clear
       pixel.haze = static_cast<float>(std::clamp(haze_share(parameters, depth, altitude) * palette.haze_share, 0.0, 1.0));
       pixel.haze = std::clamp(pixel.haze * (1.0F - 0.30F * far * raised) - 0.06F * far * raised, 0.0F, 1.0F);
-      pixel.haze += far_air * std::min(far, 1.0F) * (1.0F - pixel.haze);
+      pixel.haze += far_air * far_share * std::min(far, 1.0F) * (1.0F - pixel.haze);
       pixel.mist = std::clamp((3.0F + 5.0F * far) * behind, 0.0F, 0.35F + 0.20F * std::min(far, 1.0F)) * mist * low;
       pixel.dark = std::clamp(-(1.5F + 4.0F * far) * behind, 0.0F, 0.25F + 0.10F * std::min(far, 1.0F)) * mist;
       pixel.beyond = air_beyond(palette, (y + origin_px.y + 0.5) / sky_parameters.horizon_px);

@@ -83,7 +83,7 @@ Grid<glm::vec3> synthesize_ground(const LoadedScene& loaded, const Stage& stage,
   exemplars.reserve(painted.size());
   for (const PaintedExemplar& p : painted) exemplars.push_back(p.exemplar);
   // A first painting of strokes tells where each class's paint would lie: borders get the shape of strokes.
-  const Painting draft = paint_strokes(picture.ground.colour, picture.guidance, picture.ground, {.sky = false, .upright = false},
+  const Painting draft = paint_strokes(picture.ground.colour, picture.guidance, picture.ground, {.sky = false, .breaks = false, .upright = false},
                                        to_stroke_parameters(stage), progress);
   const PaintedClasses classes = find_painted_classes(draft.sources, picture.guidance, picture.ground.colour);
   const GuideStack guides = make_guide_stack(picture.guidance, classes.land_cover);
@@ -142,7 +142,7 @@ void render(const LoadedScene& loaded, const RenderOptions& options, Progress& p
   const bool copied = stage.scene.synthesis.enabled;
   Grid<glm::vec3> ground = copied ? synthesize_ground(loaded, stage, picture, std::move(scans), progress) : picture.ground.colour;
   // What the exemplar cannot give is painted last, far to near: sky, trees, houses; without an exemplar everything is.
-  const StrokeLayers layers{.sky = true, .ground = !copied, .accents = true, .upright = true};
+  const StrokeLayers layers{.sky = true, .ground = !copied, .accents = true, .breaks = true, .upright = true};
   const Painting painted =
       paint_strokes(std::move(ground), picture.guidance, picture.ground, layers, to_stroke_parameters(stage), progress);
   const Grid<glm::vec3> panorama = blend_edges(painted.picture, picture.guidance);

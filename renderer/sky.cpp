@@ -220,7 +220,7 @@ std::vector<Cloud> make_clouds(const SkyParameters& p) {
     double stretch;          // cloud scales
     double share;            // of stretches with a bank
   };
-  constexpr std::array<Band, 3> bands = {{{0.05, 0.12, 1.3, 0.65}, {0.14, 0.30, 2.6, 0.60}, {0.32, 0.64, 4.4, 0.66}}};
+  constexpr std::array<Band, 3> bands = {{{0.05, 0.12, 1.3, 0.72}, {0.14, 0.30, 2.6, 0.70}, {0.32, 0.62, 4.2, 0.78}}};
   for (std::size_t b = 0; b < bands.size(); ++b) {
     const Band& band = bands[b];
     const double cell_px = band.stretch * scale_px;

@@ -46,13 +46,13 @@ std::vector<Stroke> snow_ribs(const StrokeScene& scene) {
     const float bare = std::clamp((scene.slope_deg(i) - 30.F) / 12.F, 0.F, 1.F) * std::clamp(scene.relief_m(i) / 20.F - 0.15F, 0.F, 1.F);
     // Ribs gather; single ones would be flies on the snow.
     const float gathered = std::clamp(1.2F * sheet_noise(scene, place, 65, 40.0) - 0.1F, 0.F, 1.F);
-    if (seed.uniform() > 1.5F * bare * gathered) return;
+    if (bare * gathered < 0.2F || seed.uniform() > 1.5F * bare * gathered) return;
     const float scale = scene.scale();
-    const int steps = 6 + static_cast<int>(seed.uniform() * 9.F);
+    const int steps = 9 + static_cast<int>(seed.uniform() * 9.F);
     const std::vector<glm::vec2> crest = trace_ice(scene, flow, place, 3.F * scale, steps);
-    if (crest.size() < 6) return;
+    if (crest.size() < 9) return;
     const float sunwards = scene.parameters.sun_side < 0.0 ? -1.F : 1.F;
-    const float widest = seed.between(3.5F, 6.5F);
+    const float widest = seed.between(4.F, 7.5F);
     float drift = 0.F;  // the crest wavers
     for (std::size_t k = 0; k + 2 < crest.size(); ++k) {
       const std::size_t here = scene.pixel(crest[k]);

@@ -57,17 +57,13 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     append(body, rock_turf(scene));
     append(body, scree_strokes(scene));
     append(body, snow_strokes(scene));
-    append(body, snow_ribs(scene));
-    append(body, glacier_flow_lines(scene));
-    append(body, glacier_edges(scene));
-    append(body, glacier_moraines(scene));
-    append(body, glacier_crevasses(scene));
     append(body, broken_colour(scene));
     append(body, water_strokes(scene));
   }
-  if (layers.accents && !layers.ground) {
-    // Structure that a copied ground has lost: it lies where the ice breaks and ends, which no texel knows.
+  if (layers.breaks) {
+    // It lies where it must, which no copied texel knows: painted over copied ground, and left out of what is copied from.
     append(body, snow_ribs(scene));
+    append(body, glacier_flow_lines(scene));
     append(body, glacier_edges(scene));
     append(body, glacier_moraines(scene));
     append(body, glacier_crevasses(scene));

@@ -35,7 +35,8 @@ struct StrokeParameters {
 struct StrokeLayers {
   bool sky = true;      // on sky pixels
   bool ground = true;   // wash, rock, meadow, scree, snow, water
-  bool accents = true;  // light on edges, dark in hollows; crevasses and edges of glaciers, ribs bare of snow
+  bool accents = true;  // light on edges, dark in hollows
+  bool breaks = true;   // how ice runs, breaks and ends: flow lines, moraines, crevasses, edges of glaciers, ribs bare of snow
   bool upright = true;  // what stands on the ground: trees, dwarf pines, houses
 };
 

@@ -37,7 +37,7 @@ TEST(Palette, RampIsExactAtItsStops) {
   expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.34), rgb(0x746f8a));
   expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.66), rgb(0xb8a49f));
   expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 1.0), rgb(0xf5e2d3));
-  expect_colour(palette_colour(read_palette("winter"), LandCoverClass::snow, 2000.0, 0.34), rgb(0xa9b3da));
+  expect_colour(palette_colour(read_palette("winter"), LandCoverClass::snow, 2300.0, 0.34), rgb(0xa9b3da));
 }
 
 TEST(Palette, RampIsLinearBetweenStopsAndFlatBeyond) {

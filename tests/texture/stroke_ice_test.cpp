@@ -148,13 +148,15 @@ TEST(Ice, CrevassesComeInFields) {
 
 TEST(Ice, CopiedIceGetsItsCrevassesToo) {
   Picture p = one_class(glacier, 22.F);
-  const StrokeLayers over_copied{.sky = true, .ground = false, .accents = true, .upright = true};
-  const auto painted_at = [&](float slope_deg) {
+  const StrokeLayers over_copied{.sky = true, .ground = false, .accents = true, .breaks = true, .upright = true};
+  const StrokeLayers copied_from{.sky = true, .ground = false, .accents = true, .breaks = false, .upright = true};
+  const auto painted_at = [&](float slope_deg, const StrokeLayers& layers) {
     p.guidance.slope_deg = Grid<float>(320, 240, slope_deg);
-    return paint_strokes(p.ground.colour, p.guidance, p.ground, over_copied, {}, silent_progress()).picture;
+    return paint_strokes(p.ground.colour, p.guidance, p.ground, layers, {}, silent_progress()).picture;
   };
   // Level ice has none, so whatever else is painted over copied ground, the two differ by crevasses.
-  EXPECT_NE(painted_at(24.F), painted_at(3.F));
+  EXPECT_NE(painted_at(24.F, over_copied), painted_at(3.F, over_copied));
+  EXPECT_EQ(painted_at(24.F, copied_from), painted_at(3.F, copied_from)) << "what is copied from has none";
 }
 
 TEST(Ice, FlowLinesAreLongAndFollowTheIce) {

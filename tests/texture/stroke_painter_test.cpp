@@ -315,7 +315,7 @@ TEST(StrokePainter, BrokenColourIsSmallAndLiesEveryWay) {
 TEST(StrokePainter, UprightLayerAloneLeavesBareGroundUntouched) {
   const Picture p = one_class(rock);
   const Grid<glm::vec3> canvas(320, 240, glm::vec3(0.3F));
-  const StrokeLayers upright_only{.sky = false, .ground = false, .accents = false, .upright = true};
+  const StrokeLayers upright_only{.sky = false, .ground = false, .accents = false, .breaks = false, .upright = true};
   EXPECT_EQ(paint_strokes(canvas, p.guidance, p.ground, upright_only, {}, silent_progress()).picture, canvas);
 }
 
