@@ -10,8 +10,9 @@ namespace belvedere {
 ExamplePainting paint_example(const Stage& stage, LitPicture picture, const ExampleLayers& layers, Progress& progress) {
   const StrokeParameters strokes = to_stroke_parameters(stage);
   ExamplePainting example;
-  Painting ground = paint_strokes(picture.ground.colour, picture.guidance, picture.ground,
-                                  {.sky = layers.sky, .ground = true, .accents = true, .breaks = false, .upright = false}, strokes, progress);
+  Painting ground =
+      paint_strokes(picture.ground.colour, picture.guidance, picture.ground,
+                    {.sky = layers.sky, .ground = true, .accents = true, .breaks = false, .upright = false}, strokes, progress);
   example.ground = std::move(ground.picture);
   picture.guidance.ground_from = std::move(ground.sources);
   if (layers.painting) {

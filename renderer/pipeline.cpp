@@ -83,8 +83,8 @@ Grid<glm::vec3> synthesize_ground(const LoadedScene& loaded, const Stage& stage,
   exemplars.reserve(painted.size());
   for (const PaintedExemplar& p : painted) exemplars.push_back(p.exemplar);
   // A first painting of strokes tells where each class's paint would lie: borders get the shape of strokes.
-  const Painting draft = paint_strokes(picture.ground.colour, picture.guidance, picture.ground, {.sky = false, .breaks = false, .upright = false},
-                                       to_stroke_parameters(stage), progress);
+  const Painting draft = paint_strokes(picture.ground.colour, picture.guidance, picture.ground,
+                                       {.sky = false, .breaks = false, .upright = false}, to_stroke_parameters(stage), progress);
   const PaintedClasses classes = find_painted_classes(draft.sources, picture.guidance, picture.ground.colour);
   const GuideStack guides = make_guide_stack(picture.guidance, classes.land_cover);
   const SynthesisParameters parameters = to_synthesis_parameters(stage.scene);
