@@ -120,8 +120,8 @@ ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParamet
 
       // Steep slopes are not cleared.
       const float glade_noise =
-          glades(place.x, place.y, glade_sigma_units * metres) + 0.25F * clump - 0.02F * std::max(slope - 25.0F, 0.0F);
-      float glade = smooth(1.25F, 1.45F, glade_noise);
+          glades(place.x, place.y, glade_sigma_units * metres) + 0.45F * clump - 0.025F * std::max(slope - 25.0F, 0.0F);
+      float glade = smooth(1.42F, 1.64F, glade_noise);
       float thin = 0.0F;
       if (up.left_after > 0 && is_open_high(g.land_cover[up.end])) {
         // The treeline frays: groups run up into the open, gaps reach down.

@@ -120,7 +120,7 @@ std::vector<Stroke> scree_strokes(const StrokeScene& scene) {
     const float u = seed.uniform();
     lay_line(stroke, scene, place, 1.5F + 4.F * u * u, 0.15F * seed.normal(), 0.1F, true, seed);
     take_brush(stroke, scene, seed.between(1.1F, 2.2F), {.taper = 0.7F, .alpha = 0.6F});
-    stroke.colour = scene.colour(i, mixed_tone(0.35F, 0.35F, seed), paint_jitter * 1.4F, seed);
+    stroke.colour = scene.colour(i, mixed_tone(0.26F, 0.33F, seed), paint_jitter * 1.4F, seed);
     out.push_back(stroke);
   });
 }

@@ -47,7 +47,7 @@ void shade_ground(const StrokeScene& scene, const Tree& tree, std::size_t i, con
   } else {
     set_line(shade, tree.foot + glm::vec2(0.F, 0.1F * tree.width), tree.foot - glm::vec2(0.4F * side * tree.width, 0.5F * tree.height),
              tree.width * 1.5F, tree.width * 1.2F);
-    shade.alpha = 0.30F + 0.22F * light;
+    shade.alpha = 0.40F + 0.22F * light;
   }
   shade.colour = dark_side(scene, i, {-0.3F, 0.F, 0.F}, seed);
   out.push_back(shade);

@@ -159,7 +159,9 @@ TEST(StrokePainter, DarkerStrokesAreMixedIn) {
   };
   for (const LandCoverClass id : {pasture, alpine_grass, valley_floor, snow, glacier, scree})
     EXPECT_THAT(darker_share(id, wash_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30))) << class_name(id);
-  EXPECT_THAT(darker_share(pasture, meadow_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)));
+  for (const LandCoverClass id : {pasture, alpine_grass, valley_floor, shrub})
+    EXPECT_THAT(darker_share(id, meadow_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30))) << class_name(id);
+  EXPECT_THAT(darker_share(scree, scree_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)));
   EXPECT_THAT(darker_share(snow, snow_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)));
 }
 
