@@ -25,6 +25,7 @@ std::vector<Stroke> rock_fissures(const StrokeScene& scene);
 // Where rock meets what grows (stroke_rock_border.cpp): turf and undergrowth hang over its upper rim and lie on its ledges, rubble runs
 // down from its foot, single trees stand on it.
 std::vector<Stroke> rock_turf(const StrokeScene& scene);
+std::vector<Stroke> rock_drifts(const StrokeScene& scene);  // snow that reaches up into a wall from its foot and hangs over its rim
 std::vector<Stroke> rock_rubble(const StrokeScene& scene);
 std::vector<Stroke> rock_trees(const StrokeScene& scene);
 std::vector<Stroke> rock_snow(const StrokeScene& scene);  // in winter only

@@ -55,6 +55,7 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     append(body, rock_snow(scene));
     append(body, rock_rubble(scene));
     append(body, rock_turf(scene));
+    append(body, rock_drifts(scene));
     append(body, scree_strokes(scene));
     append(body, snow_strokes(scene));
     append(body, broken_colour(scene));

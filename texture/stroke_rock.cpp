@@ -114,14 +114,15 @@ std::vector<Stroke> rock_snow(const StrokeScene& scene) {
     const float hollow = std::clamp(0.5F - scene.relief_m(i) / 60.F, 0.F, 1.F);
     const float holds = std::clamp((64.F - scene.slope_deg(i)) / 18.F, 0.F, 1.F);
     const float gathered = std::clamp(0.55F + 0.6F * sheet_noise(scene, place, 66, 10.0), 0.F, 1.F);
-    if (seed.uniform() > 1.5F * hollow * holds * gathered) return;
+    const float on_bed = bed_at(scene, i).riser;
+    if (seed.uniform() > holds * std::max(1.5F * hollow * gathered, 0.7F * on_bed)) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.depth_tolerance = tight_depth;
     stroke.order -= 12.F;  // over every stroke of the wall, under the trees before it
-    const bool ledge = seed.uniform() < 0.25F;
+    const bool ledge = seed.uniform() < 0.25F + 0.6F * on_bed;
     const float angle = (ledge ? quarter_turn : 0.F) + joint_angle(scene, place) + 0.2F * seed.normal();
     lay_line(stroke, scene, place, ledge ? seed.between(4.F, 10.F) : seed.between(6.F, 20.F), angle, 0.2F, true, seed);
-    take_brush(stroke, scene, seed.between(1.4F, 4.2F), {.taper = 0.35F, .alpha = 0.78F, .bristle = 0.45F, .wetness = 0.02F});
+    take_brush(stroke, scene, seed.between(1.2F, 3.2F), {.taper = 0.2F, .alpha = 0.72F, .bristle = 0.45F, .wetness = 0.02F});
     const float value = 0.02F * seed.normal();
     stroke.colour = through_air(scene, i, fresh_snow(scene.guidance.tone[i]) + value);
     out.push_back(stroke);

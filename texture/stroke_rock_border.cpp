@@ -85,6 +85,30 @@ std::vector<Stroke> rock_turf(const StrokeScene& scene) {
   });
 }
 
+std::vector<Stroke> rock_drifts(const StrokeScene& scene) {
+  return sow(scene, 3.2F, 43, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != rock) return;
+    const float up = seed.uniform() < 0.65F ? 1.F : -1.F;
+    const float reach = seed.between(2.5F, 7.F);
+    const auto snow_pixel = along_slope(scene, place, i, up * reach);
+    if (!snow_pixel || !is_ice(scene.class_at(*snow_pixel))) return;
+    // Up the gullies in tongues; ribs stand out of it bare.
+    const float gathered = std::clamp(0.55F + 0.8F * sheet_noise(scene, place, 71, 6.0) - scene.relief_m(i) / 80.F, 0.05F, 1.F);
+    if (seed.uniform() > gathered) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.source = static_cast<std::uint32_t>(*snow_pixel);
+    stroke.depth_tolerance = tight_depth;
+    stroke.order -= 12.F;
+    const glm::vec2 middle = place + scene.fall_line(place) * (0.4F * up * reach * scene.scale());
+    if (!scene.on_canvas(middle)) return;
+    lay_line(stroke, scene, middle, reach + seed.between(2.F, 6.F), 0.2F * seed.normal(), 0.25F, true, seed);
+    if (up > 0.F) std::reverse(stroke.points.begin(), stroke.points.end());  // it thins out upwards
+    take_brush(stroke, scene, seed.between(2.2F, 4.2F), {.taper = 0.3F, .alpha = 0.85F, .bristle = 0.2F});
+    stroke.colour = scene.colour(*snow_pixel, 0.25F * seed.normal(), paint_jitter, seed);
+    out.push_back(stroke);
+  });
+}
+
 std::vector<Stroke> rock_rubble(const StrokeScene& scene) {
   return sow(scene, 3.4F, 41, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != rock) return;

@@ -101,6 +101,27 @@ TEST(StrokeRock, TurfHangsOverTheUpperRim) {
   EXPECT_TRUE(rock_turf({wall.guidance, wall.ground, parameters}).empty());
 }
 
+TEST(StrokeRock, SnowReachesUpIntoTheWallAndThinsOutThere) {
+  const Picture p = two_bands(rock, snow);
+  const StrokeParameters parameters;
+  const auto drifts = rock_drifts({p.guidance, p.ground, parameters});
+  EXPECT_GT(drifts.size(), 20U);
+  for (const Stroke& s : drifts) {
+    EXPECT_EQ(p.guidance.land_cover[s.source], snow);
+    EXPECT_LT(s.points[3].y, s.points[0].y) << "drawn uphill";
+    EXPECT_LT(s.end_width, 0.5F * s.start_width);
+    EXPECT_LT(s.points[3].y, height / 2 + 1.F) << "it ends on the wall";
+    EXPECT_GT(s.points[3].y, height / 2 - 14.F);
+  }
+  // A cornice over the rim runs down.
+  const Picture rim = two_bands(snow, rock);
+  const auto cornices = rock_drifts({rim.guidance, rim.ground, parameters});
+  EXPECT_GT(cornices.size(), 10U);
+  for (const Stroke& s : cornices) EXPECT_GT(s.points[3].y, s.points[0].y);
+  const Picture wood = two_bands(rock, forest);
+  EXPECT_TRUE(rock_drifts({wood.guidance, wood.ground, parameters}).empty());
+}
+
 TEST(StrokeRock, RubbleRunsFromTheFootIntoTheWood) {
   const Picture p = two_bands(rock, forest);
   const StrokeParameters parameters;
