@@ -58,7 +58,7 @@ glm::vec3 field_colour(const GuidanceBuffers& g, std::size_t i, const Parcel& pa
   const float slope = g.slope_deg.empty() ? 0.0F : g.slope_deg[i];
   const float level = std::clamp((5.5F - slope) / 2.5F, 0.0F, 1.0F);
   const float units = metres_per_unit > 0.0F ? parcel.width_m / metres_per_unit : 100.0F;
-  const float apart = (0.45F + 0.55F * std::clamp(units / melting_units - 1.0F, 0.0F, 1.0F)) * (1.0F - 0.35F * std::min(haze, 1.0F));
+  const float apart = (0.55F + 0.60F * std::clamp(units / melting_units - 1.0F, 0.0F, 1.0F)) * (1.0F - 0.35F * std::min(haze, 1.0F));
   const glm::vec3 crop = crop_colour(parcel.crop) * (1.0F + 0.035F * parcel.shade);
   glm::vec3 colour = glm::mix(mean_crop_colour(), crop, apart);
   const float edge = std::clamp(1.0F - parcel.border_m / (0.10F * parcel.width_m), 0.0F, 1.0F);

@@ -42,5 +42,6 @@ std::vector<Stroke> forest_trees(const StrokeScene& scene);
 std::vector<Stroke> scattered_trees(const StrokeScene& scene);
 std::vector<Stroke> low_bushes(const StrokeScene& scene);
 std::vector<Stroke> houses(const StrokeScene& scene);
+std::vector<Stroke> farms(const StrokeScene& scene);
 
 }  // namespace belvedere

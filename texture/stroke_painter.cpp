@@ -72,7 +72,10 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     append(body, rock_ledges(scene));
     append(body, rock_fissures(scene));
   }
-  if (layers.upright) append(body, houses(scene));
+  if (layers.upright) {
+    append(body, houses(scene));
+    append(body, farms(scene));
+  }
   if (layers.accents) append(body, accent_strokes(scene));
   paint(std::move(body));
   return painting;
