@@ -335,6 +335,69 @@ TEST(StrokePainter, MeanColourStaysNearTheBase) {
   EXPECT_GT(squares / static_cast<double>(picture.size()) - mean * mean, 1e-4);  // and it is painted, not flat
 }
 
+// All kinds, by the layer they belong to; a kind that is not painted is a class without its brush.
+TEST(StrokePainter, EveryKindOfStrokeIsPaintedInItsLayer) {
+  using Kind = std::vector<Stroke> (*)(const StrokeScene&);
+  const std::vector<Kind> ground = {wash_strokes,       meadow_strokes, rock_facets,      rock_hatching,     rock_ledges,   rock_fissures,
+                                    rock_snow,          rock_rubble,    rock_turf,        scree_strokes,     snow_strokes,  snow_ribs,
+                                    glacier_flow_lines, glacier_edges,  glacier_moraines, glacier_crevasses, broken_colour, water_strokes};
+  const std::vector<Kind> upright = {forest_trees, scattered_trees, low_bushes, rock_trees, grass_flecks, houses};
+  StrokeParameters winter;
+  winter.winter = true;
+  for (const LandCoverClassInfo& info : land_cover_classes()) {
+    Picture p = one_class(info.id);
+    p.guidance.slope_deg = Grid<float>(320, 240, 30.F);
+    p.guidance.footprint_m = Grid<float>(320, 240, 15.F);
+    p.ground.accent = Grid<float>(320, 240, -0.8F);
+    const StrokeScene scene{p.guidance, p.ground, winter};
+    const auto count = [&](const StrokeLayers& layers) {
+      return static_cast<std::size_t>(paint_strokes(p.ground.colour, p.guidance, p.ground, layers, winter, silent_progress()).stroke_count);
+    };
+    const auto sum = [&](const std::vector<Kind>& kinds) {
+      std::size_t all = 0;
+      for (const Kind kind : kinds) all += kind(scene).size();
+      return all;
+    };
+    EXPECT_EQ(count({.sky = true, .ground = false, .accents = false, .upright = false}), sky_strokes(scene).size()) << info.name;
+    EXPECT_EQ(count({.sky = false, .ground = true, .accents = false, .upright = false}), sum(ground)) << info.name;
+    EXPECT_EQ(count({.sky = false, .ground = false, .accents = false, .upright = true}), sum(upright)) << info.name;
+    EXPECT_EQ(count({.sky = false, .ground = true, .accents = true, .upright = false}), sum(ground) + accent_strokes(scene).size())
+        << info.name;
+  }
+}
+
+TEST(StrokePainter, HousesInTheHazeTakeTheColourOfTheAir) {
+  Picture p = one_class(settlement);
+  p.guidance.footprint_m = Grid<float>(320, 240, 15.F);
+  const StrokeParameters parameters;
+  const auto farthest = [&](float haze) {
+    p.ground.haze = Grid<float>(320, 240, haze);
+    float most = 0.F;
+    for (const Stroke& s : houses({p.guidance, p.ground, parameters}))
+      if (s.tip == StrokeTip::square) most = std::max(most, std::abs(s.colour.x - 0.5F));
+    return most;
+  };
+  EXPECT_GT(farthest(0.F), 0.2F);
+  EXPECT_NEAR(farthest(1.F), 0.F, 1e-5F);
+}
+
+TEST(StrokePainter, StrokesCurveSlightlyAndAreEdgedOnEitherSide) {
+  const Picture p = one_class(pasture);
+  const StrokeParameters parameters;
+  double bend = 0.0;
+  int right = 0;
+  const auto strokes = wash_strokes({p.guidance, p.ground, parameters});
+  for (const Stroke& s : strokes) {
+    const glm::vec2 chord = s.points[3] - s.points[0];
+    const glm::vec2 middle = 0.5F * (s.points[1] + s.points[2]) - s.points[0];
+    bend += std::abs(chord.x * middle.y - chord.y * middle.x) / (chord.x * chord.x + chord.y * chord.y);
+    right += s.edge > 0.F ? 1 : 0;
+  }
+  const auto count = static_cast<double>(strokes.size());
+  EXPECT_THAT(bend / count, testing::AllOf(testing::Gt(0.008), testing::Lt(0.06)));  // of their length
+  EXPECT_NEAR(right / count, 0.5, 0.05);
+}
+
 TEST(StrokePainter, AirEvensOutWhatLoadsOfPaintDifferBy) {
   Picture p = one_class(pasture);
   p.ground.darker = p.ground.lighter = p.ground.colour;  // no other differences than of loads and of jitter
