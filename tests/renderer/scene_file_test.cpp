@@ -379,5 +379,24 @@ TEST(SceneFile, EveryKeyIsDocumented) {
   }
 }
 
+// Every scene that comes with the program is read without a complaint, and says whose its data are.
+TEST(SceneFile, ScenesOfTheProgramAreRead) {
+  std::vector<std::string> titles;
+  for (const auto& entry : fs::directory_iterator(std::string(BELVEDERE_SOURCE_DIR) + "/scenes")) {
+    if (entry.path().extension() != ".toml") continue;
+    const LoadedScene scene = read_scene(entry.path().string(), {});
+    EXPECT_FALSE(scene.scene.title.empty()) << entry.path();
+    ASSERT_FALSE(scene.scene.terrain.sources.empty()) << entry.path();
+    for (const auto& source : scene.scene.terrain.sources) {
+      EXPECT_FALSE(source.origin.empty()) << entry.path();
+      EXPECT_FALSE(source.licence.empty()) << entry.path();
+      EXPECT_FALSE(source.get_from.empty()) << entry.path();
+    }
+    titles.push_back(scene.scene.title);
+  }
+  EXPECT_THAT(titles, testing::UnorderedElementsAre("Glacier National Park, Selkirks", "Karwendel", "Lolo Peak", "Mount Rainier",
+                                                    "Zion Canyon", "Ötztal Alps"));
+}
+
 }  // namespace
 }  // namespace belvedere

@@ -248,6 +248,34 @@ TEST(ClassRules, FirnHidesIceAboveTheLineButNotOnSteps) {
   EXPECT_GT(steep[1], 300.0) << "steps of ice above the line";
 }
 
+// Above the last grass lies rubble, even where it is level, and so it does about the tongues of glaciers; never in lower woods.
+TEST(ClassRules, RubbleLiesAboveTheGrassAndAboutTheIce) {
+  const ClassRules rules = read_class_rules("alpine");
+  const Dem gentle = ground(200, [](double, double n) { return 2000.0 + 0.3 * n; });
+  const Grid<LandCoverClass> c = apply(rules, gentle, {{"raggedness", 0.0}, {"snowline_m", 9000.0}, {"ice_line_m", 9000.0}});
+  double highest_grass = 0.0;
+  for (std::size_t i = 0; i < c.size(); ++i)
+    if (c[i] == alpine_grass) highest_grass = std::max(highest_grass, static_cast<double>(gentle.altitude_m[i]));
+  EXPECT_GT(highest_grass, 1820.0 + 300.0);
+  EXPECT_LT(highest_grass, 1820.0 + 1000.0);
+
+  const Dem trough = ground(200, [](double e, double n) { return 2300.0 + 0.2 * n + 0.0003 * e * e; });
+  const Grid<LandCoverClass> icy = apply(rules, trough, {{"ice_line_m", 2450.0}, {"treeline_m", 2200.0}, {"raggedness", 0.0}});
+  const Grid<LandCoverClass> bare = apply(rules, trough, {{"ice_line_m", 9000.0}, {"treeline_m", 2200.0}, {"raggedness", 0.0}});
+  int rubble = 0;
+  for (int y = 1; y < 199; ++y)
+    for (int x = 1; x < 199; ++x) {
+      if (icy(x, y) != scree || bare(x, y) == scree) continue;
+      ++rubble;
+      bool near_ice = false;
+      for (int v = -6; v <= 6 && !near_ice; ++v)
+        for (int u = -6; u <= 6 && !near_ice; ++u)
+          near_ice = icy.contains(x + u, y + v) && (icy(x + u, y + v) == glacier || icy(x + u, y + v) == snow);
+      EXPECT_TRUE(near_ice) << x << ", " << y;
+    }
+  EXPECT_GT(rubble, 100);
+}
+
 TEST(ClassRules, GlaciersFlowDownValleysInTongues) {
   // A valley that falls to the south from a snow field: its ice reaches far below the ice line, that of the ridges beside it does not.
   const Dem dem = ground(200, [](double e, double n) { return 2700.0 + 0.25 * n + 0.00045 * e * e; });
