@@ -13,7 +13,7 @@ using enum LandCoverClass;
 
 // Rock that stands out of snow, encoded sRGB: its lit and its shaded side in full light.
 constexpr glm::vec3 lit_rock{0.80F, 0.72F, 0.64F};
-constexpr glm::vec3 shaded_rock{0.36F, 0.35F, 0.47F};
+constexpr glm::vec3 shaded_rock{0.42F, 0.40F, 0.50F};
 
 }  // namespace
 
@@ -46,7 +46,7 @@ std::vector<Stroke> snow_ribs(const StrokeScene& scene) {
     const float bare = std::clamp((scene.slope_deg(i) - 30.F) / 12.F, 0.F, 1.F) * std::clamp(scene.relief_m(i) / 20.F - 0.15F, 0.F, 1.F);
     // Ribs gather; single ones would be flies on the snow.
     const float gathered = std::clamp(1.2F * sheet_noise(scene, place, 65, 40.0) - 0.1F, 0.F, 1.F);
-    if (bare * gathered < 0.2F || seed.uniform() > 1.5F * bare * gathered) return;
+    if (bare * gathered < 0.25F || seed.uniform() > 1.5F * bare * gathered) return;
     const float scale = scene.scale();
     const int steps = 9 + static_cast<int>(seed.uniform() * 9.F);
     const std::vector<glm::vec2> crest = trace_ice(scene, flow, place, 3.F * scale, steps);
@@ -59,12 +59,12 @@ std::vector<Stroke> snow_ribs(const StrokeScene& scene) {
       const glm::vec2 down = flow.at(crest[k]);
       const glm::vec2 to_sun = glm::vec2(down.y > 0.F ? sunwards : -sunwards, 0.F);
       const float share = (static_cast<float>(k) + 0.5F) / static_cast<float>(crest.size() - 2);
-      const float size = widest * (0.3F + 2.8F * share * (1.F - share)) * seed.between(0.65F, 1.2F);
-      drift += 0.5F * seed.normal();
+      const float size = widest * (0.3F + 2.8F * share * (1.F - share)) * seed.between(0.45F, 1.3F);
+      drift += 0.9F * seed.normal();
       const glm::vec2 at = crest[k] + to_sun * (drift * scale);
       const float tone = std::clamp(scene.guidance.tone[here], 0.F, 1.F);
       for (const bool is_lit : {false, true}) {
-        if (is_lit && seed.uniform() < 0.25F) continue;
+        if (seed.uniform() < 0.22F) continue;  // snow lies across it
         Stroke stroke = ground_stroke(scene, here, seed);
         stroke.depth_tolerance = tight_depth;
         stroke.gate = StrokeGate::same_class;
