@@ -36,7 +36,7 @@ std::vector<Stroke> sky_strokes(const StrokeScene& scene) {
     const float length = seed.between(26.F, 66.F) * (1.F - 0.80F * dab);
     lay_line(stroke, scene, place, length, angle, 0.006F, false, seed);
     take_brush(stroke, scene, seed.between(5.F, 11.F) * (1.F - 0.35F * dab),
-               {.taper = 0.8F, .alpha = 0.28F, .bristle = 0.16F, .wetness = 0.004F});
+               {.taper = 0.8F, .alpha = 0.28F, .bristle = 0.14F, .wetness = 0.004F, .load = 0.35F, .edge = 0.2F});
     stroke.colour = scene.colour(i, 0.2F * seed.normal(), 0.004F, seed);
     stroke.order = seed.uniform();
     out.push_back(stroke);
