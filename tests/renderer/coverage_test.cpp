@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "renderer/base/error.h"
@@ -105,6 +106,45 @@ TEST(Coverage, NamesWhatIsMissingAndWhatIsTooMuch) {
   const std::vector<CoverageGap> much = find_gaps(coverage_of(small_view()), demand, narrow);
   ASSERT_EQ(much.size(), 2U);
   EXPECT_TRUE(much[0].too_much);
+}
+
+TEST(Coverage, EachFloorIsJudgedAndNamed) {
+  CoverageDemand demand;
+  demand.direction[rock][2] = demand.direction[rock][4] = true;
+  demand.shadow[forest] = demand.shadow[rock] = true;
+  demand.border[forest][rock] = demand.border[rock][forest] = true;
+  // Of 32 pixels: areas are 4096²/32 times smaller than the floors', lines the root of that.
+  const double area = 4096.0 * 4096.0 / 32.0;
+  const double length = std::sqrt(area);
+  CoverageFloors floors{
+      .texels = 0, .light = 0, .direction = 12 * area, .shadow = 3 * area, .altitude = 0, .border = 5.9 * length, .largest_share = 1.0};
+  const auto gaps = [&](const CoverageFloors& f) {
+    std::string names;
+    for (const CoverageGap& gap : find_gaps(coverage_of(small_view()), demand, f)) names += gap.what + "; ";
+    return names;
+  };
+  EXPECT_EQ(gaps(floors), "rock, fall line left; rock, in cast shadow; ");
+  floors.direction = 12.5 * area;
+  floors.shadow = 3.5 * area;
+  floors.border = 6.1 * length;
+  EXPECT_EQ(gaps(floors),
+            "forest, in cast shadow; border of forest and rock; rock, fall line down; rock, fall line left; rock, in cast shadow; ");
+  floors = {.texels = 0, .light = 0, .direction = 0, .shadow = 0, .altitude = 12 * area, .border = 0, .largest_share = 1.0};
+  EXPECT_EQ(gaps(floors), "forest, below 900 m; forest, above 1500 m; ");
+  // A class that is not there at all is missed without being asked for.
+  floors = {.texels = 12 * area, .light = 0, .direction = 0, .shadow = 0, .altitude = 0, .border = 0, .largest_share = 1.0};
+  EXPECT_THAT(gaps(floors), testing::AllOf(testing::HasSubstr("scree; "), testing::Not(testing::HasSubstr("rock"))));
+}
+
+TEST(Coverage, TheEdgesOfBins) {
+  GuidanceBuffers g = small_view();
+  for (float& depth : g.depth_m) depth = std::isinf(depth) ? depth : 16000.F;  // belongs to what it opens
+  for (float& tone : g.tone) tone = 1.F;                                       // and the lightest to the last bin
+  for (float& shadow : g.shadow) shadow = 0.5F;                                // half shade is light
+  EXPECT_EQ(coverage_of(g).by_light[rock][4][1], 12);
+  EXPECT_EQ(coverage_of(g).in_cast_shadow[rock], 0);
+  for (float& depth : g.depth_m) depth = std::isinf(depth) ? depth : 48001.F;
+  EXPECT_EQ(coverage_of(g).by_light[rock][4][3], 12);
 }
 
 TEST(CoverageDemand, IsReadStrictly) {
