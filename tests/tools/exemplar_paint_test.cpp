@@ -77,7 +77,7 @@ TEST_F(ExemplarPaint, RefusesWhatDoesNotGoTogether) {
   EXPECT_EQ(run({"exemplar", "paint", scene, "--size", "512", "--out", path("x")}).status, 2);
   EXPECT_EQ(run({"exemplar", "paint", scene, "--plan", write_plan(), "--out", path("x")}).status, 2);
   EXPECT_EQ(run({"exemplar", "paint", "--set", "output.width=100", "--out", path("x")}).status, 2);
-  EXPECT_EQ(run({"exemplar", "paint", "--season", "spring", "--out", path("x")}).status, 2);
+  EXPECT_EQ(run({"exemplar", "paint", "--plan", write_plan(), "--season", "spring", "--out", path("x")}).status, 2);
   EXPECT_EQ(run({"exemplar", "paint", "--plan", write("bad.toml", "rows = 3\n"), "--out", path("x")}).status, 2);
   EXPECT_EQ(run({"exemplar", "paint"}).status, 2);  // --out is required
   // A seed that sheet.toml could not hold, or below 0.
