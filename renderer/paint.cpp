@@ -272,8 +272,12 @@ struct WaterLook {
   glm::vec3 bank;     // grass and gravel that a brook runs through
   float bank_share;   // 0…1
   float tone_shift;   // streaks of wind and light
+  glm::vec3 shallow;  // pale bed seen through
+  float shallow_share;
 
-  glm::vec3 over(glm::vec3 colour) const { return glm::mix(glm::mix(colour, image, image_share), bank, bank_share); }
+  glm::vec3 over(glm::vec3 colour) const {
+    return glm::mix(glm::mix(glm::mix(colour, image, image_share), shallow, shallow_share), bank, bank_share);
+  }
 };
 
 // `around` is the share of water nearby: brooks are thin and lose themselves between gravel and grass, lakes mirror.
@@ -283,7 +287,13 @@ WaterLook water_look(const GuidanceBuffers& g, const Palette& palette, const Mir
   const float thin = std::clamp((0.52F - around) / 0.3F, 0.0F, 1.0F);
   look.bank = palette_colour(palette, palette.winter ? Class::snow : Class::valley_floor, g.altitude_m[i], g.tone[i]);
   look.bank_share = thin * std::clamp(0.12F + 0.40F * p.n25 + 0.2F * p.n8, 0.0F, 0.8F);
-  look.tone_shift = 0.09F * streak * (1.0F - thin);
+  // Paler towards the horizon, deep below the viewer; the shallows at the near bank and the dark line under the far one.
+  const float far = std::min(mirrored.to_far[i], 60.0F);
+  const float near = std::min(mirrored.to_near[i], 60.0F);
+  look.tone_shift = (0.09F * streak + 0.26F * (near / (near + far) - 0.5F)) * (1.0F - thin);
+  look.tone_shift -= 0.30F * std::clamp(1.7F - far, 0.0F, 1.0F) * (1.0F - thin);
+  look.shallow_share = 0.38F * std::clamp(2.1F - near, 0.0F, 1.0F) * (1.0F - thin);
+  look.shallow = palette.winter ? glm::vec3(0.86F, 0.90F, 0.94F) : glm::vec3(0.78F, 0.83F, 0.74F);
   if (mirrored.source[i] < 0) return look;
   const auto from = static_cast<std::size_t>(mirrored.source[i]);
   // An image in water is darker and bluer than what it is of.

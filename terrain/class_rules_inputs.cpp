@@ -52,8 +52,8 @@ TownParameters to_town_parameters(const Parameters& parameters, std::uint64_t se
 const std::vector<std::string>& variable_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> n = {"altitude",      "slope",        "slope_smooth", "south", "relief_180", "relief_750", "relief_1800",
-                                  "valley_height", "valley_floor", "lake",         "river", "town",       "ice",        "below_rock",
-                                  "n60",           "n210",         "n660",         "n1800", "east",       "north"};
+                                  "valley_height", "valley_floor", "lake",         "shore", "river",      "town",       "ice",
+                                  "below_rock",    "n60",          "n210",         "n660",  "n1800",      "east",       "north"};
     for (const LandCoverClassInfo& c : land_cover_classes()) n.push_back("is_" + std::string(c.name));
     return n;
   }();
@@ -111,13 +111,23 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
     });
     grid(valley_floor) = gaussian_blur(flat, 60.0 / cell);
   }
-  if (is_wanted(lake)) {
+  if (is_wanted(lake) || is_wanted(shore)) {
     LakeParameters lakes;
     lakes.max_range_m = static_cast<float>(parameter_or(parameters, "lake_range_m", 0.25));
     lakes.min_cells = static_cast<int>(parameter_or(parameters, "lake_min_cells", 150.0));
     const Grid<std::uint8_t> mask = find_lakes(z, lakes);
     grid(lake) = Grid<float>(z.width(), z.height());
     each_cell(grid(lake), [&](int x, int y) { return mask(x, y) != 0 ? 1.F : 0.F; });
+    if (is_wanted(shore)) {
+      Grid<std::uint8_t> land(z.width(), z.height());
+      for (std::size_t i = 0; i < land.size(); ++i) land[i] = mask[i] != 0 ? 0 : 1;
+      const Grid<std::int32_t> nearest = nearest_marked(land);
+      grid(shore) = Grid<float>(z.width(), z.height());
+      each_cell(grid(shore), [&](int x, int y) {
+        const std::int32_t at = nearest(x, y);
+        return at < 0 ? 1e6F : static_cast<float>(cell * std::hypot(at % z.width() - x, at / z.width() - y));
+      });
+    }
   }
   if (is_wanted(river) || is_wanted(town)) {
     const Grid<float> catchment_km2 = flow_accumulation_km2(z, cell);

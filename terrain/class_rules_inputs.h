@@ -25,6 +25,7 @@ enum Variable : int {
   valley_height,
   valley_floor,
   lake,
+  shore,
   river,
   town,
   ice,

@@ -54,6 +54,45 @@ TEST(Reflection, DarkensTheWaterBelowADarkShore) {
   EXPECT_LT(near_shore, open - 0.1);
 }
 
+TEST(Reflection, IsOfTheSlopeBehindALevelMeadow) {
+  GuidanceBuffers g = lake();
+  for (int y = 50; y < 60; ++y)
+    for (int x = 0; x < 80; ++x) {
+      g.land_cover(x, y) = LandCoverClass::pasture;
+      g.slope_deg(x, y) = 1.0F;
+    }
+  const Mirrored m = find_reflections(g, 1.0);
+  EXPECT_EQ(m.source(40, 67), g.depth_m.index(40, 49 - 10));
+  EXPECT_LT(m.share(40, 62), find_reflections(lake(), 1.0).share(40, 62));
+  EXPECT_GT(m.share(40, 62), 0.3F);
+  // Level to the end of what is looked through: only sky.
+  for (float& slope : g.slope_deg) slope = 1.0F;
+  EXPECT_EQ(find_reflections(g, 1.0).source(40, 62), -1);
+}
+
+TEST(Reflection, KnowsBothShores) {
+  const Mirrored m = find_reflections(lake(), 2.0);  // two pixels a unit
+  EXPECT_FLOAT_EQ(m.to_far(40, 65), 3.0F);           // row 59 is land
+  EXPECT_FLOAT_EQ(m.to_near(40, 65), 22.5F);         // row 110 is
+  EXPECT_EQ(m.to_near(40, 50), open_water);
+}
+
+TEST(Reflection, WaterIsPalerFarAwayWithADarkLineUnderTheShoreAndAPaleOneBeforeUs) {
+  GuidanceBuffers g = lake();
+  for (float& slope : g.slope_deg) slope = 1.0F;  // no image
+  BaseParameters p;
+  p.haze = p.range_mist = p.warm_near = p.hue_drift = p.clouds = 0.0;
+  const PaintGround ground = make_paint_ground(g, read_palette("summer"), p, {0, 0}, {80, 140}, silent_progress());
+  const auto row = [&](int y) {
+    double sum = 0.0;
+    for (int x = 0; x < 80; ++x) sum += ground.colour(x, y).g / 80.0;
+    return sum;
+  };
+  EXPECT_LT(row(60), row(63) - 0.05);
+  EXPECT_GT(row(65), row(100) + 0.05);
+  EXPECT_GT(row(109), row(104) + 0.03);
+}
+
 TEST(Reflection, PartEqualsWhole) {
   const GuidanceBuffers whole = test::make_hills(300, 260);
   const Mirrored all = find_reflections(whole, 1.0);
@@ -65,6 +104,8 @@ TEST(Reflection, PartEqualsWhole) {
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x) {
       ASSERT_EQ(some.share(x - part.x0, y - part.y0), all.share(x, y));
+      ASSERT_EQ(some.to_far(x - part.x0, y - part.y0), all.to_far(x, y));
+      ASSERT_EQ(some.to_near(x - part.x0, y - part.y0), all.to_near(x, y));
       if (all.source(x, y) < 0) continue;
       ++water;
       const int source_x = all.source(x, y) % 300 - part.x0;

@@ -150,6 +150,25 @@ TEST(ClassRules, WaterLiesOverAll) {
   }
 }
 
+TEST(ClassRules, ReedsGrowIntoLakesFromTheShore) {
+  const Dem dem = ground(160, [](double e, double n) { return std::max(600.0, 560.0 + 0.05 * std::hypot(e, n)); });
+  const ClassRules rules = read_class_rules("alpine");
+  const Grid<LandCoverClass> open = apply(rules, dem);
+  const Grid<LandCoverClass> grown = apply(rules, dem, {{"reeds", 1.0}});
+  EXPECT_LT(share(grown, water), 0.95 * share(open, water));
+  EXPECT_GT(share(grown, water), 0.5 * share(open, water));
+  // No reeds farther out than 400 m, and no water where the lake was not.
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 160; ++x) {
+      if (grown(x, y) == water) {
+        ASSERT_EQ(open(x, y), water);
+      }
+      if (std::hypot(x - 80, y - 80) * 30.0 < 350.0) {
+        ASSERT_EQ(grown(x, y), water);
+      }
+    }
+}
+
 TEST(ClassRules, WinterCoversMeadowsAndLeavesForest) {
   const ClassRules rules = read_class_rules("alpine");
   const Grid<LandCoverClass> summer = apply(rules, cone());

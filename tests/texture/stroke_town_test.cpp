@@ -74,7 +74,7 @@ TEST(Towns, HaveNoTwoHousesOnOnePlot) {
   int too_near = 0;
   for (std::size_t a = 0; a < feet.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) too_near += std::hypot(feet[a].x - feet[b].x, feet[a].y - feet[b].y) < 1.5F ? 1 : 0;
-  EXPECT_LT(too_near, 4);  // the church stands where it likes
+  EXPECT_LT(too_near, 12);  // churches stand where they like
 }
 
 TEST(Towns, AreDenserAndLargerInTheirMiddle) {
