@@ -121,8 +121,9 @@ std::vector<Stroke> glacier_moraines(const StrokeScene& scene) {
     for (const bool line : {false, true})
       draw_way(scene, way, seed, out, [&](Stroke& stroke, std::size_t here, float share) {
         const float fade = std::min(1.F, 0.45F + 2.5F * share) * (1.F - 0.45F * share);
-        take_brush(stroke, scene, (line ? 1.F : 3.4F) * width,
-                   {.taper = 0.95F, .alpha = (line ? 0.46F : 0.17F) * fade, .bristle = 0.4F, .wetness = 0.02F});
+        take_brush(
+            stroke, scene, (line ? 1.F : 3.4F) * width,
+            {.taper = 0.95F, .alpha = (line ? 0.46F : 0.17F) * fade, .bristle = 0.4F, .wetness = 0.02F, .load = 0.4F, .edge = 0.15F});
         stroke.colour = through_air(scene, here, by_tone(moraine_paint, scene.guidance.tone[here]) + value);
       });
   });
@@ -231,7 +232,8 @@ std::vector<Stroke> glacier_edges(const StrokeScene& scene) {
         }
       } else if (chance < 0.8F * (1.F - ahead / 24.F)) {
         lay_flow(stroke, flow, place, seed.between(9.F, 18.F) * scale, 0.12F * seed.normal());
-        take_brush(stroke, scene, seed.between(3.F, 7.F), {.taper = 0.6F, .alpha = 0.20F, .bristle = 0.7F, .wetness = 0.03F});
+        take_brush(stroke, scene, seed.between(3.F, 7.F),
+                   {.taper = 0.6F, .alpha = 0.17F, .bristle = 0.6F, .wetness = 0.02F, .load = 0.4F, .edge = 0.1F});
         stroke.colour = dirt(i, value);
         out.push_back(stroke);
       }
