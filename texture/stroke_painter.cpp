@@ -69,8 +69,10 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     append(body, glacier_moraines(scene));
     append(body, glacier_crevasses(scene));
     // Texels keep a wall's colours and lose its lines, which are longer than what is copied in one piece.
-    append(body, rock_ledges(scene));
-    append(body, rock_fissures(scene));
+    if (!layers.ground) {
+      append(body, rock_ledges(scene));
+      append(body, rock_fissures(scene));
+    }
   }
   if (layers.upright) {
     append(body, houses(scene));
