@@ -72,17 +72,29 @@ void read_masks(const SceneExemplar& wish, const LoadedScene& scene, Raw& raw) {
         static_cast<float>(wish.altitude_range_m[0] + (wish.altitude_range_m[1] - wish.altitude_range_m[0]) * static_cast<double>(value));
 }
 
+// Two files of one painting by the program say that the same scene made them. A disk that ran full between them, or a copy of one alone,
+// leaves a pair that is not registered.
+void check_same_painting(const FileNotes& picture, const FileNotes& guidance, const std::string& path) {
+  const auto made_by = picture.find("belvedere:scene");
+  const auto its = guidance.find("belvedere:scene");
+  if (made_by == picture.end() || its == guidance.end() || made_by->second == its->second) return;
+  throw Error(ErrorKind::input, path, "it belongs to another painting than the picture beside it: other scenes made them",
+              "the guidance.exr that was written with the picture");
+}
+
 // A painting the program painted knows where its paint grew: class and base colour are those of that place. The file of the layer without
 // trees says in its header that it is that.
 void take_paint(const SceneExemplar& wish, const LoadedScene& scene, GuidanceBuffers& guidance) {
   const FileNotes notes = read_image_info(find_scene_file(scene, wish.picture)).notes;
+  const std::string path = find_scene_file(scene, wish.guidance);
+  check_same_painting(notes, read_image_info(path).notes, path);
   const auto layer = notes.find(exemplar_layer_note);
   const bool ground = layer != notes.end() && layer->second == exemplar_ground_layer;
   const Grid<std::uint32_t>& from = ground ? guidance.ground_from : guidance.painted_from;
   if (from.empty() || guidance.base.empty()) return;
   for (const std::uint32_t index : from)
     if (index >= from.size())
-      throw Error(ErrorKind::input, find_scene_file(scene, wish.guidance), fmt::format("paint from pixel {}", index),
+      throw Error(ErrorKind::input, path, fmt::format("paint from pixel {}", index),
                   fmt::format("pixels of the picture, fewer than {}", from.size()));
   PaintedClasses classes = classes_of_paint(guidance, from);
   guidance.land_cover = std::move(classes.land_cover);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <set>
@@ -299,6 +300,21 @@ TEST_F(ExemplarFiles, CountedIsTheClassOfThePaintThatIsCopied) {
   EXPECT_EQ(counted.border, of_ground_paint.border);
   EXPECT_NE(counted.texels, of_classes.texels);
   EXPECT_EQ(test::read_bytes(out("a/coverage.json")), coverage_json(counted, find_gaps(counted, built_in_demand(), {})));
+}
+
+TEST_F(ExemplarFiles, GuidanceOfAnotherPaintingIsRefused) {
+  paint("a", 0, 32);
+  SheetPlan plan = small_plan();
+  plan.panels[1].settings.emplace_back("sun.altitude_deg=25");
+  write_sheet_exemplar(plan, {.out_folder = out("b")}, silent_progress());
+  std::filesystem::copy_file(out("b/guidance.exr"), out("a/guidance.exr"), std::filesystem::copy_options::overwrite_existing);
+  try {
+    read_scans(copying("ground.tif", "guidance.exr", out("a")), silent_progress());
+    FAIL() << "taken for one painting";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_NE(std::string(error.what()).find("guidance.exr"), std::string::npos);
+  }
 }
 
 TEST_F(ExemplarFiles, GuidanceWithPaintFromBeyondThePictureIsRefused) {

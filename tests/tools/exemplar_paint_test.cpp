@@ -2,8 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <glm/geometric.hpp>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "renderer/guidance_io.h"
 #include "tests/tools/program.h"
@@ -72,6 +79,35 @@ TEST_F(ExemplarPaint, APanoramaCopiesIt) {
   EXPECT_GT(static_cast<double>(same) / static_cast<double>(copied.size()), 0.65);
 }
 
+TEST_F(ExemplarPaint, FullDiskAndInterruptionKeepTheOldSheetWhole) {
+  const std::string plan = write_plan();
+  ASSERT_EQ(run({"exemplar", "paint", "--plan", plan, "--out", path("a"), "-q"}).status, 0);
+  const std::vector<const char*> files = {"painting.tif", "ground.tif", "painting.png", "guidance.exr", "sheet.toml", "coverage.json"};
+  std::vector<std::string> old;
+  for (const char* file : files) old.push_back(read_bytes(path(std::string("a/") + file)));
+  const auto expect_whole = [&] {
+    for (std::size_t i = 0; i < files.size(); ++i) EXPECT_TRUE(read_bytes(path(std::string("a/") + files[i])) == old[i]) << files[i];
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("a")), {}), 6) << "a temporary file is left";
+  };
+  const std::vector<std::string> again = {"exemplar", "paint", "--plan", plan, "--season", "winter", "--out", path("a")};
+  // A limit of file sizes stands for the full disk.
+  const Outcome full = run(again, [] {
+    const rlimit bytes{8000, 8000};
+    setrlimit(RLIMIT_FSIZE, &bytes);
+  });
+  EXPECT_EQ(full.status, 4) << full.err;
+  EXPECT_THAT(full.err, HasSubstr("guidance.exr"));
+  expect_whole();
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const pid_t child = start(again);
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));  // it takes seconds
+    kill(child, signal);
+    const Outcome stopped = finish(child);
+    EXPECT_TRUE(stopped.status == 75 || stopped.status == 1000 + signal) << stopped.status;  // before it listens, the signal ends it
+    expect_whole();
+  }
+}
+
 TEST_F(ExemplarPaint, RefusesWhatDoesNotGoTogether) {
   const std::string scene = write_scene_file();
   EXPECT_EQ(run({"exemplar", "paint", scene, "--size", "512", "--out", path("x")}).status, 2);
@@ -84,6 +120,9 @@ TEST_F(ExemplarPaint, RefusesWhatDoesNotGoTogether) {
   for (const char* seed : {"9007199254740992", "-1"})
     EXPECT_EQ(run({"exemplar", "paint", "--plan", write_plan(), "--seed", seed, "--out", path("x")}).status, 2) << seed;
   EXPECT_FALSE(std::filesystem::exists(path("x/painting.tif")));
+  const Outcome unwritable = run({"exemplar", "paint", "--plan", write_plan(), "--out", write("file", "in the way") + "/below"});
+  EXPECT_EQ(unwritable.status, 4);
+  EXPECT_THAT(unwritable.err, ::testing::AllOf(HasSubstr("file/below"), ::testing::Not(HasSubstr(" s)"))));  // before any work
 }
 
 }  // namespace
