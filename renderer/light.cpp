@@ -72,6 +72,12 @@ void check_channels(const GuidanceBuffers& g) {
     throw Error(ErrorKind::bug, "tone", "a guidance channel is missing or has another size", "all traced channels");
 }
 
+// Rock's contrast drives its shade below the darkest paint, where a wall has no forms left: from `toe` down tones draw together instead.
+float keep_forms(float tone) {
+  constexpr float toe = 0.26F;
+  return tone >= toe ? tone : toe * std::exp((tone - toe) / toe);
+}
+
 // How fine the ground is drawn: 1 near, falling to .35 where a unit of the sheet covers so much ground that the DEM's small forms would
 // crumple a range into specks.
 float fineness(const GuidanceBuffers& g, std::size_t i, double pixels_per_unit) {
@@ -163,7 +169,7 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
         const float steep = steepness(guidance.slope_deg[i]);
         raw += static_cast<float>(parameters.ribs) * (light.ribs * fine * rib + plane_strength * planes[i]) * steep;
       }
-      float value = std::clamp((raw - raw_black) / raw_range, 0.0F, 1.05F);
+      float value = std::clamp((raw - raw_black) / raw_range, id == LandCoverClass::rock ? -0.3F : 0.0F, 1.05F);
       if (id == LandCoverClass::valley_floor) value += floor_lift;
       value += pool_strength * pool[i];
       float contrast = light.contrast * static_cast<float>(parameters.contrast);
@@ -172,7 +178,8 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
         contrast *= 1.0F - outcrop_calm * outcrop;
         value -= outcrop_shade * outcrop;
       }
-      tone[i] = std::clamp(middle_tone + (value - middle_tone) * contrast, 0.0F, brightest_tone);
+      const float contrasted = middle_tone + (value - middle_tone) * contrast;
+      tone[i] = std::clamp(id == LandCoverClass::rock ? keep_forms(contrasted) : contrasted, 0.0F, brightest_tone);
     }
     progress.advance(1.0);
   });

@@ -121,6 +121,22 @@ TEST(Tone, BenchesOfRockAreLighterThanWalls) {
   EXPECT_NEAR(tone(LandCoverClass::scree, 29.0F), tone(LandCoverClass::scree, 42.0F), 1e-6);
 }
 
+TEST(Tone, WallsInShadowKeepTheirForms) {
+  // A wall away from the sun and in cast shadow: a bench on it and a lighter rise of the ground still differ, and nothing is lighter than
+  // before.
+  GuidanceBuffers wall = make_slope(24, 24, LandCoverClass::rock, glm::vec3(0.612F, -0.612F, 0.5F), 50.0F);
+  for (float& s : wall.shadow) s = 0.0F;
+  for (float& v : wall.sky_view) v = 0.3F;
+  GuidanceBuffers bench = wall;
+  for (float& slope : bench.slope_deg) slope = 35.0F;
+  ToneParameters p;
+  p.ribs = 0.0;
+  const double dark = mean(tone_of(wall, p));
+  EXPECT_LT(dark, 0.1);
+  EXPECT_GT(dark, 0.0);
+  EXPECT_GT(mean(tone_of(bench, p)), dark + 0.01);
+}
+
 TEST(Tone, CrestTakesTheToneFromBelow) {
   // A dark rim of two pixels on a lit slope, below a farther range.
   GuidanceBuffers g = make_slope(24, 24, LandCoverClass::pasture, sun_side_normal, 10.0F);
