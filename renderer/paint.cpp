@@ -265,6 +265,14 @@ struct PixelColour {
   }
 };
 
+// Banks of gravel where a river has thrown them up, here and there; `around` is the share of water nearby.
+float gravel_share(float around, const Patches& p) {
+  return 0.8F * std::clamp((around - 0.08F) / 0.25F, 0.0F, 1.0F) * std::clamp(0.15F + 0.8F * p.n8 + 0.6F * p.n25, 0.0F, 1.0F);
+}
+glm::vec3 gravel_colour(double light) {
+  return glm::vec3(0.93F, 0.91F, 0.86F) * static_cast<float>(0.55 + 0.45 * std::clamp(light, 0.0, 1.0));
+}
+
 // How water differs from its ramp.
 struct WaterLook {
   glm::vec3 image;    // what is mirrored
@@ -399,12 +407,14 @@ PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& pa
       const float green = garden_share + (town_garden_share - garden_share) * built;
       const glm::vec3 lawn = palette.winter ? glm::vec3(1.0F) : 1.0F + (crop_colour(Crop::grass) - 1.0F) * drift;
       const Class gardens = palette.winter ? Class::snow : Class::valley_floor;
+      const float gravel = (id == Class::valley_floor || id == Class::pasture) && !palette.winter ? gravel_share(waters[i], patches) : 0.0F;
       WaterLook water{};
       if (id == Class::water) water = water_look(guidance, palette, mirrored, i, waters[i], streaks[i], patches);
       const auto paint = [&](double step) {
         const double light = tone + static_cast<double>(water.tone_shift) + step;
         glm::vec3 ramp = palette_colour(palette, id, altitude, light);
         if (cover.glade[i] > 0.0F) ramp = glm::mix(ramp, glade_colour(palette, altitude, light), 0.85F * cover.glade[i]);
+        if (gravel > 0.0F) ramp = glm::mix(ramp, gravel_colour(light), gravel);
         if (id == Class::settlement) ramp = glm::mix(ramp, lawn * palette_colour(palette, gardens, altitude, light - 0.08), green);
         return pixel.finish(water.over(ramp), palette.range_mist);
       };

@@ -220,6 +220,24 @@ TEST(Base, ForestThinsTowardsItsBorderAndDwarfPineStandsThere) {
   EXPECT_LT(high, 0.05);
 }
 
+TEST(Base, RiversHaveBanksOfGravelHereAndThere) {
+  GuidanceBuffers g = make_slope(60, 600, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 1.0F);
+  for (int y = 0; y < 600; ++y)
+    for (int x = 0; x < 60; ++x) {
+      g.position_m(x, y) = glm::vec3(20.0F * static_cast<float>(x), -20.0F * static_cast<float>(y), 600.0F);
+      if (x >= 28 && x < 32) g.land_cover(x, y) = LandCoverClass::water;
+    }
+  const PaintGround ground = ground_of(g, plain());
+  int gravel = 0;
+  for (int y = 0; y < 600; ++y) {
+    const float blue = ground.colour(5, y).b;  // gravel is greyer than grass
+    gravel += ground.colour(32, y).b > blue + 0.1F ? 1 : 0;
+    EXPECT_NEAR(ground.colour(40, y).b, blue, 1e-6F);
+  }
+  EXPECT_GT(gravel, 100);
+  EXPECT_LT(gravel, 450);
+}
+
 TEST(Base, PartEqualsWhole) {
   for (const double ppu : {1.0, 2.5}) {
     const int width = ppu > 1.0 ? 640 : 300;
