@@ -346,10 +346,10 @@ TEST(StrokePainter, EveryKindOfStrokeIsPaintedInItsLayer) {
   StrokeParameters winter;
   winter.winter = true;
   for (const LandCoverClassInfo& info : land_cover_classes()) {
-    Picture p = one_class(info.id);
-    p.guidance.slope_deg = Grid<float>(320, 240, 30.F);
-    p.guidance.footprint_m = Grid<float>(320, 240, 15.F);
-    p.ground.accent = Grid<float>(320, 240, -0.8F);
+    Picture p = one_class(info.id, 160, 120);
+    p.guidance.slope_deg = Grid<float>(160, 120, 30.F);
+    p.guidance.footprint_m = Grid<float>(160, 120, 15.F);
+    p.ground.accent = Grid<float>(160, 120, -0.8F);
     const StrokeScene scene{p.guidance, p.ground, winter};
     const auto count = [&](const StrokeLayers& layers) {
       return static_cast<std::size_t>(paint_strokes(p.ground.colour, p.guidance, p.ground, layers, winter, silent_progress()).stroke_count);
