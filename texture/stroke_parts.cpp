@@ -34,7 +34,7 @@ void set_line(Stroke& stroke, glm::vec2 from, glm::vec2 to, float start_width, f
   stroke.point_count = 2;
   stroke.start_width = start_width;
   stroke.end_width = end_width;
-  stroke.tip = StrokeTip::hairs;
+  if (stroke.tip == StrokeTip::round) stroke.tip = StrokeTip::hairs;  // what is square stays so
   stroke.edge = 0.5F;
   stroke.load = 0.5F;
   // All parts of what stands in one place are of one load of paint.
