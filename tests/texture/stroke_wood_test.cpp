@@ -202,6 +202,24 @@ TEST(Wood, StandsLikeAWallBeforeMeadowButNotAtTheTreeline) {
   EXPECT_GT(near_edge(pasture), width / 8);
 }
 
+// The border of the wood towards the sun shines, the one away from it does not.
+TEST(Wood, LightsItsRimTowardsTheSun) {
+  Picture p = slope_of(forest);
+  fill(p.guidance.land_cover, 0, 0, 100, height, pasture);
+  fill(p.guidance.land_cover, 220, 0, width, height, pasture);
+  const auto trees = forest_trees(p.scene());
+  const auto lit_between = [&](float x0, float x1) {
+    double sum = 0.0;
+    int count = 0;
+    for (const Stroke& s : trees)
+      if (is_lit_side(s) && s.points[0].x >= x0 && s.points[0].x < x1) sum += luma(s.colour), ++count;
+    EXPECT_GT(count, 50);
+    return sum / count;
+  };
+  EXPECT_GT(lit_between(215.F, 222.F), lit_between(150.F, 170.F) + 0.025);
+  EXPECT_LT(lit_between(99.F, 106.F), lit_between(150.F, 170.F) + 0.015);
+}
+
 TEST(Wood, LeafyTreesStandInGroupsOfTheirOwn) {
   const Picture p = slope_of(forest, 900.F);
   constexpr int cell = 16;
