@@ -6,6 +6,7 @@
 #include <set>
 
 #include "renderer/base/random.h"
+#include "tests/texture/stroke_picture.h"
 #include "texture/ice_flow.h"
 #include "texture/stroke_kinds.h"
 #include "texture/stroke_painter.h"
@@ -15,31 +16,16 @@ namespace {
 
 using enum LandCoverClass;
 
-struct Picture {
-  GuidanceBuffers guidance;
-  PaintGround ground;
-};
-
 // One class over the whole picture, depth growing upwards from 20 to 22 km, ice flowing straight down, tone .6.
 Picture one_class(LandCoverClass id, float slope_deg, int width = 320, int height = 240) {
-  Picture p;
-  p.guidance.depth_m = Grid<float>(width, height);
-  p.guidance.land_cover = Grid<LandCoverClass>(width, height, id);
-  p.guidance.fall_line = Grid<glm::vec2>(width, height, glm::vec2(0.F, 1.F));
-  p.guidance.tone = Grid<float>(width, height, 0.6F);
+  Picture p = plain_picture(id, width, height);
   p.guidance.slope_deg = Grid<float>(width, height, slope_deg);
-  p.guidance.position_m = Grid<glm::vec3>(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       p.guidance.depth_m(x, y) = 22000.F - 2000.F * static_cast<float>(y) / static_cast<float>(height);
       p.guidance.position_m(x, y) = glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 2900.F);
     }
-  p.ground.colour = Grid<glm::vec3>(width, height, glm::vec3(0.5F));
-  p.ground.darker = Grid<glm::vec3>(width, height, glm::vec3(0.4F));
-  p.ground.lighter = Grid<glm::vec3>(width, height, glm::vec3(0.6F));
-  p.ground.accent = Grid<float>(width, height, 0.F);
   p.ground.tree_density = Grid<float>(width, height, 0.F);
-  p.ground.haze = Grid<float>(width, height, 0.F);
   return p;
 }
 
@@ -50,14 +36,6 @@ void set_flow(Picture& p, glm::vec2 flow) {
 void set_class(Picture& p, int x0, int y0, int x1, int y1, LandCoverClass id) {
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) p.guidance.land_cover(x, y) = id;
-}
-
-glm::vec2 axis_of(const Stroke& s) { return s.points[static_cast<std::size_t>(s.point_count - 1)] - s.points[0]; }
-
-// Between an axis (without sense) and a direction, 0…90.
-double angle_deg(glm::vec2 axis, glm::vec2 direction) {
-  const double c = std::abs(glm::dot(glm::normalize(axis), glm::normalize(direction)));
-  return std::acos(std::min(1.0, c)) * 57.29578;
 }
 
 float luma(glm::vec3 c) { return 0.2126F * c.r + 0.7152F * c.g + 0.0722F * c.b; }

@@ -9,6 +9,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/parallel.h"
+#include "tests/texture/stroke_picture.h"
 #include "texture/stroke_kinds.h"
 
 namespace belvedere {
@@ -16,31 +17,15 @@ namespace {
 
 using enum LandCoverClass;
 
-struct Picture {
-  GuidanceBuffers guidance;
-  PaintGround ground;
-};
-
 // One class over the whole picture, depth growing upwards from 20 to 60 km, fall line straight down, tone .6.
 Picture one_class(LandCoverClass id, int width = 320, int height = 240) {
-  Picture p;
-  p.guidance.depth_m = Grid<float>(width, height);
-  p.guidance.land_cover = Grid<LandCoverClass>(width, height, id);
-  p.guidance.fall_line = Grid<glm::vec2>(width, height, glm::vec2(0.F, 1.F));
-  p.guidance.tone = Grid<float>(width, height, 0.6F);
-  p.guidance.position_m = Grid<glm::vec3>(width, height);
+  Picture p = plain_picture(id, width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       p.guidance.depth_m(x, y) =
           id == sky ? std::numeric_limits<float>::infinity() : 60000.F - 40000.F * static_cast<float>(y) / static_cast<float>(height);
       p.guidance.position_m(x, y) = glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 900.F);
     }
-  p.ground.colour = Grid<glm::vec3>(width, height, glm::vec3(0.5F));
-  p.ground.darker = Grid<glm::vec3>(width, height, glm::vec3(0.4F));
-  p.ground.lighter = Grid<glm::vec3>(width, height, glm::vec3(0.6F));
-  p.ground.accent = Grid<float>(width, height, 0.F);
-  p.ground.tree_density = Grid<float>(width, height, 0.95F);
-  p.ground.haze = Grid<float>(width, height, 0.F);
   return p;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/base/noise.h"
+#include "tests/texture/stroke_picture.h"
 #include "texture/beds.h"
 #include "texture/stroke_kinds.h"
 #include "texture/stroke_painter.h"
@@ -17,20 +18,10 @@ using enum LandCoverClass;
 constexpr int width = 240;
 constexpr int height = 200;
 
-struct Picture {
-  GuidanceBuffers guidance;
-  PaintGround ground;
-};
-
 // A slope that falls straight down the picture, 12 m a pixel and nearer by 10 m a row, all of one class.
 Picture slope_of(LandCoverClass id) {
-  Picture p;
+  Picture p = plain_picture(id, width, height);
   GuidanceBuffers& g = p.guidance;
-  g.depth_m = Grid<float>(width, height);
-  g.land_cover = Grid<LandCoverClass>(width, height, id);
-  g.fall_line = Grid<glm::vec2>(width, height, glm::vec2(0.F, 1.F));
-  g.tone = Grid<float>(width, height, 0.6F);
-  g.position_m = Grid<glm::vec3>(width, height);
   g.footprint_m = Grid<float>(width, height, 12.F);
   g.relief_s_m = Grid<float>(width, height, 0.F);
   for (int y = 0; y < height; ++y)
@@ -38,12 +29,6 @@ Picture slope_of(LandCoverClass id) {
       g.depth_m(x, y) = 30000.F - 10.F * static_cast<float>(y);
       g.position_m(x, y) = glm::vec3(12.F * static_cast<float>(x), -10.F * static_cast<float>(y), 2600.F - 7.F * static_cast<float>(y));
     }
-  p.ground.colour = Grid<glm::vec3>(width, height, glm::vec3(0.5F));
-  p.ground.darker = Grid<glm::vec3>(width, height, glm::vec3(0.4F));
-  p.ground.lighter = Grid<glm::vec3>(width, height, glm::vec3(0.6F));
-  p.ground.accent = Grid<float>(width, height, 0.F);
-  p.ground.tree_density = Grid<float>(width, height, 0.95F);
-  p.ground.haze = Grid<float>(width, height, 0.F);
   return p;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 
+#include "tests/texture/stroke_picture.h"
 #include "texture/stroke_kinds.h"
 
 namespace belvedere {
@@ -10,28 +11,20 @@ namespace {
 
 using enum LandCoverClass;
 
-struct Picture {
-  GuidanceBuffers guidance;
-  PaintGround ground;
-};
-
 // Level ground seen from above at 20 m a pixel, all of one class, 900 m high.
 Picture level(LandCoverClass id, int width = 240, int height = 200) {
-  Picture p;
+  Picture p = plain_picture(id, width, height);
   p.guidance.depth_m = Grid<float>(width, height, 20000.F);
-  p.guidance.land_cover = Grid<LandCoverClass>(width, height, id);
   p.guidance.fall_line = Grid<glm::vec2>(width, height, glm::vec2(0.F));
-  p.guidance.tone = Grid<float>(width, height, 0.6F);
   p.guidance.footprint_m = Grid<float>(width, height, 20.F);
   p.guidance.slope_deg = Grid<float>(width, height, 1.F);
-  p.guidance.position_m = Grid<glm::vec3>(width, height);
   p.guidance.built = Grid<float>(width, height, 0.6F);
   p.guidance.grain = Grid<glm::vec2>(width, height, glm::vec2(1.F, 0.F));
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       p.guidance.position_m(x, y) = glm::vec3(20.F * static_cast<float>(x), -20.F * static_cast<float>(y), 900.F);
-  p.ground.colour = p.ground.darker = p.ground.lighter = Grid<glm::vec3>(width, height, glm::vec3(0.5F));
-  p.ground.accent = p.ground.tree_density = p.ground.haze = Grid<float>(width, height, 0.F);
+  p.ground.darker = p.ground.lighter = p.ground.colour;
+  p.ground.tree_density = Grid<float>(width, height, 0.F);
   return p;
 }
 

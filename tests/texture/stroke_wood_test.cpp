@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "renderer/base/progress.h"
+#include "tests/texture/stroke_picture.h"
 #include "texture/stroke_kinds.h"
 #include "texture/stroke_painter.h"
 #include "texture/stroke_parts.h"
@@ -15,34 +16,17 @@ namespace {
 
 using enum LandCoverClass;
 
-struct Picture {
-  GuidanceBuffers guidance;
-  PaintGround ground;
-  StrokeParameters parameters;
-  StrokeScene scene() const { return {guidance, ground, parameters}; }
-};
-
 constexpr int width = 320;
 constexpr int height = 240;
 
 // One class on one plane at 1700 m, 20 km away, 20 m a unit, tone .6, sun from the right.
 Picture slope_of(LandCoverClass id, float altitude_m = 1700.F) {
-  Picture p;
+  Picture p = plain_picture(id, width, height);
   p.guidance.depth_m = Grid<float>(width, height, 20000.F);
-  p.guidance.land_cover = Grid<LandCoverClass>(width, height, id);
-  p.guidance.fall_line = Grid<glm::vec2>(width, height, glm::vec2(0.F, 1.F));
-  p.guidance.tone = Grid<float>(width, height, 0.6F);
   p.guidance.relief_s_m = Grid<float>(width, height, 0.F);
-  p.guidance.position_m = Grid<glm::vec3>(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       p.guidance.position_m(x, y) = glm::vec3(20.F * static_cast<float>(x), -20.F * static_cast<float>(y), altitude_m);
-  p.ground.colour = Grid<glm::vec3>(width, height, glm::vec3(0.5F));
-  p.ground.darker = Grid<glm::vec3>(width, height, glm::vec3(0.4F));
-  p.ground.lighter = Grid<glm::vec3>(width, height, glm::vec3(0.6F));
-  p.ground.accent = Grid<float>(width, height, 0.F);
-  p.ground.tree_density = Grid<float>(width, height, 0.95F);
-  p.ground.haze = Grid<float>(width, height, 0.F);
   return p;
 }
 
@@ -53,13 +37,6 @@ void fill(Grid<T>& grid, int x0, int y0, int x1, int y1, T value) {
 }
 
 float luma(glm::vec3 c) { return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z; }
-
-glm::vec2 axis_of(const Stroke& s) { return s.points[static_cast<std::size_t>(s.point_count - 1)] - s.points[0]; }
-
-double angle_deg(glm::vec2 axis, glm::vec2 direction) {
-  const double c = std::abs(glm::dot(glm::normalize(axis), glm::normalize(direction)));
-  return std::acos(std::min(1.0, c)) * 57.29578;
-}
 
 bool is_body(const Stroke& s) { return s.gate == StrokeGate::upright && s.start_width > 2.4F && s.alpha > 0.85F; }
 
