@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "renderer/base/error.h"
+#include "base/error.h"
 
 // Files and errors, as tests of all layers meet them.
 namespace belvedere::test {

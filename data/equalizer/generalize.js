@@ -1,4 +1,4 @@
-// Terrain generalization by bands, as terrain/generalize.cpp does it: equations 1 to 6 of Jenny, Jenny & Hurni 2011. `equalizer` is written
+// Terrain generalization by bands, as terrain/generalize/generalize.cpp does it: equations 1 to 6 of Jenny, Jenny & Hurni 2011. `equalizer` is written
 // into the page before this file. A grid is { width, height, values }, row 0 in the north.
 "use strict";
 

@@ -1,4 +1,4 @@
-// Lakes that keep their level, as terrain/generalize_lakes.cpp settles the land around them.
+// Lakes that keep their level, as terrain/generalize/generalize_lakes.cpp settles the land around them.
 "use strict";
 
 const surroundingsCells = 32, shoreCells = 6, reachCells = 48, blockCells = 4;

@@ -1,4 +1,4 @@
-#include "renderer/base/config.h"
+#include "base/config.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <functional>
 #include <locale>
 
-#include "renderer/base/embedded.h"
-#include "renderer/base/error.h"
+#include "base/embedded.h"
+#include "base/error.h"
 #include "tests/files.h"
 
 namespace belvedere {

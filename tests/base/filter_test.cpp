@@ -1,4 +1,4 @@
-#include "renderer/base/filter.h"
+#include "base/filter.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/base/parallel.h"
-#include "renderer/base/random.h"
+#include "base/parallel.h"
+#include "base/random.h"
 
 namespace belvedere {
 namespace {

@@ -1,4 +1,4 @@
-#include "renderer/base/grid.h"
+#include "base/grid.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "renderer/base/json.h"
+#include "base/json.h"
 
 #include <gtest/gtest.h>
 

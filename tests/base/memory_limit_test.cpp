@@ -1,10 +1,10 @@
-#include "renderer/base/memory_limit.h"
+#include "base/memory_limit.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
-#include "renderer/base/error.h"
+#include "base/error.h"
 
 namespace belvedere {
 namespace {

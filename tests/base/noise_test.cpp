@@ -1,4 +1,4 @@
-#include "renderer/base/noise.h"
+#include "base/noise.h"
 
 #include <gtest/gtest.h>
 

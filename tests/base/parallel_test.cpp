@@ -1,4 +1,4 @@
-#include "renderer/base/parallel.h"
+#include "base/parallel.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "renderer/base/grid.h"
+#include "base/grid.h"
 
 namespace belvedere {
 namespace {

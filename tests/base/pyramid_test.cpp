@@ -1,4 +1,4 @@
-#include "renderer/base/pyramid.h"
+#include "base/pyramid.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/base/error.h"
-#include "renderer/base/parallel.h"
-#include "renderer/base/random.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/random.h"
 
 namespace belvedere {
 namespace {

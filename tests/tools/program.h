@@ -10,9 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "renderer/base/grid.h"
-#include "renderer/image_io.h"
+#include "base/grid.h"
+#include "renderer/image/image_io.h"
 #include "tests/files.h"
+#include "tests/paths.h"
 
 // Runs the built program as users do.
 namespace belvedere {
@@ -32,7 +33,7 @@ class Program : public ::testing::Test {
 
   // Starts the program with stdout and stderr in files; `prepare` runs in the child before it.
   pid_t start(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {}) const {
-    const std::string program = std::string(BELVEDERE_BINARY_DIR) + "/belvedere";
+    const std::string program = test::build_folder() + "/belvedere";
     const std::string out = path("stdout");
     const std::string err = path("stderr");
     std::vector<char*> argv = {const_cast<char*>(program.c_str())};

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "renderer/camera.h"
-#include "terrain/deform.h"
+#include "renderer/trace/camera.h"
+#include "terrain/deform/deform.h"
 
 namespace belvedere::bench {
 

@@ -11,8 +11,8 @@
 #include <fstream>
 #include <limits>
 
-#include "renderer/base/error.h"
-#include "renderer/base/parallel.h"
+#include "base/error.h"
+#include "base/parallel.h"
 
 namespace belvedere::bench {
 

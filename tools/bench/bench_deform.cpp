@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "terrain/deform.h"
+#include "terrain/deform/deform.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/bench_terrain.h"
 

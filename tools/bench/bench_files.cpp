@@ -6,9 +6,9 @@
 #include <functional>
 #include <system_error>
 
-#include "renderer/base/random.h"
-#include "renderer/guidance_io.h"
-#include "renderer/image_io.h"
+#include "base/random.h"
+#include "renderer/image/guidance_io.h"
+#include "renderer/image/image_io.h"
 #include "tools/bench/bench.h"
 
 namespace belvedere::bench {

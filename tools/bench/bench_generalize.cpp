@@ -4,11 +4,11 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "renderer/base/parallel.h"
-#include "renderer/generalize_view.h"
-#include "renderer/scene_file.h"
-#include "terrain/generalize.h"
-#include "terrain/raster_io.h"
+#include "base/parallel.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/world/generalize_view.h"
+#include "terrain/generalize/generalize.h"
+#include "terrain/io/raster_io.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/bench_terrain.h"
 

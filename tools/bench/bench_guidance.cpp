@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "renderer/guidance.h"
+#include "renderer/trace/guidance.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/bench_terrain.h"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/base/parallel.h"
-#include "renderer/base/random.h"
-#include "texture/synthesize.h"
+#include "base/parallel.h"
+#include "base/random.h"
+#include "texture/synthesis/synthesize.h"
 #include "tools/bench/bench.h"
 
 namespace belvedere::bench {

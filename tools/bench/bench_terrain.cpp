@@ -1,6 +1,6 @@
 #include "tools/bench/bench_terrain.h"
 
-#include "terrain/synthetic.h"
+#include "terrain/synthetic/synthetic.h"
 
 namespace belvedere::bench {
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "renderer/camera.h"
-#include "terrain/deform.h"
-#include "terrain/dem.h"
+#include "renderer/trace/camera.h"
+#include "terrain/deform/deform.h"
+#include "terrain/io/dem.h"
 
 namespace belvedere::bench {
 

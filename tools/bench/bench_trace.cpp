@@ -5,9 +5,9 @@
 #include <memory>
 #include <numbers>
 
-#include "renderer/base/error.h"
-#include "renderer/base/parallel.h"
-#include "renderer/tracer.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "renderer/trace/tracer.h"
 #include "tools/bench/bare_embree.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/bench_terrain.h"

@@ -1,0 +1,10 @@
+#include "base/progress.h"
+
+namespace belvedere {
+
+Progress& silent_progress() {
+  static Progress silent;
+  return silent;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "base/grid.h"
+
+namespace belvedere {
+
+// Gaussian and Laplacian pyramids (Burt & Adelson 1983) with the 5-tap kernel [.05 .25 .4 .25 .05] (requirements G02, G03).
+// Any grid size: a level of n cells has a coarser level of (n + 1) / 2, whose cell i lies over cell 2 i. Level 0 is the finest;
+// so band i holds features of about 2^i to 2^(i+1) cells.
+// Borders are extended linearly (2·edge - inner, a single cell is repeated), because replication bends a ramp when band weights
+// differ from 1: a ramp has no bands at all. Values may so leave their range by a little near borders; clamp shares and masks.
+// All functions are linear in their values and give the same bits for any number of threads.
+
+// What `level` looks like at half the size.
+Grid<float> reduce(const Grid<float>& level);
+// A coarser level brought to width × height, which must reduce to the coarser level's size.
+Grid<float> expand(const Grid<float>& coarser, int width, int height);
+// Row y of expand(coarser, width, …), for stages that need no whole grid of it; `out` has room for width values.
+void expand_row(const Grid<float>& coarser, int y, int width, float* out);
+
+struct LaplacianPyramid {
+  std::vector<Grid<float>> bands;  // bands[0] is the finest: G_i - expand(G_{i+1})
+  Grid<float> base;                // the coarsest Gaussian level
+};
+
+// `bands` bands, or fewer where the next level would have less than 2 cells on a side.
+LaplacianPyramid make_laplacian_pyramid(const Grid<float>& values, int bands);
+// Equation 1: the base and all bands summed up; identical to the input up to float rounding.
+Grid<float> reconstruct(const LaplacianPyramid& pyramid);
+// The Gaussian levels of a mask or weight, level 0 first; `levels` of them (small ones may be a single cell).
+std::vector<Grid<float>> make_gaussian_pyramid(const Grid<float>& values, int levels);
+// How many bands a grid of this size can have: the limit of make_laplacian_pyramid.
+int most_bands(int width, int height);
+
+}  // namespace belvedere

@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/config.h"
+#include "base/embedded.h"
+#include "base/error.h"
+#include "renderer/exemplar/coverage.h"
+#include "renderer/exemplar/coverage_names.h"
+
+namespace belvedere {
+namespace {
+
+[[noreturn]] void fail(const ConfigValue& value, const std::string& name, std::string found, std::string allowed) {
+  throw Error(ErrorKind::usage, config_where(name, value.place), std::move(found), std::move(allowed));
+}
+
+std::size_t read_class_name(const std::string& word, const ConfigValue& at, const std::string& name) {
+  const auto id = find_class(word);
+  if (!id || *id == LandCoverClass::sky) fail(at, name, "the class \"" + word + "\"", "a land-cover class");
+  return static_cast<std::size_t>(*id);
+}
+
+// "1.11": what occurs, one sign a bin.
+template <std::size_t count>
+void read_flags(const ConfigValue& value, const std::string& name, std::array<bool, count>& flags) {
+  const std::string& text = as_string(value, name);
+  if (text.size() != count || text.find_first_not_of("1.") != std::string::npos)
+    fail(value, name, describe(value), fmt::format("{} signs, 1 for what occurs and . for what does not", count));
+  for (std::size_t i = 0; i < count; ++i) flags[i] = text[i] == '1';
+}
+
+}  // namespace
+
+CoverageDemand parse_demand(std::string_view text, const std::string& name) {
+  const ConfigValue root = parse_config(text, name);
+  const ConfigTable& table = as_table(root, name);
+  CoverageDemand demand;
+  for (const ConfigEntry& entry : table) {
+    const std::size_t id = read_class_name(entry.key, entry.value, name);
+    const ConfigTable& of_class = as_table(entry.value, name);
+    allow_only(of_class, {"light", "direction", "shadow", "border"}, name);
+    if (const ConfigValue* light = find(of_class, "light")) {
+      const ConfigArray& rows = as_array(*light, name);
+      if (rows.size() != Coverage::tones) fail(*light, name, fmt::format("{} rows", rows.size()), "one for each of five tones");
+      for (std::size_t t = 0; t < rows.size(); ++t) read_flags(rows[t], name, demand.light[id][t]);
+    }
+    if (const ConfigValue* direction = find(of_class, "direction")) read_flags(*direction, name, demand.direction[id]);
+    if (const ConfigValue* shadow = find(of_class, "shadow")) demand.shadow[id] = as_bool(*shadow, name);
+    if (const ConfigValue* border = find(of_class, "border"))
+      for (const ConfigValue& other : as_array(*border, name)) {
+        const std::size_t beside = read_class_name(as_string(other, name), other, name);
+        demand.border[id][beside] = demand.border[beside][id] = true;
+      }
+  }
+  return demand;
+}
+
+const CoverageDemand& built_in_demand() {
+  static const CoverageDemand demand = parse_demand(embedded_file("sheet/demand.toml"), "sheet/demand.toml");
+  return demand;
+}
+
+std::string distance_name(std::size_t bin) {
+  const auto km = [](float m) { return static_cast<int>(m / 1000.F); };
+  const auto& bounds = Coverage::distance_bounds_m;
+  if (bin == 0) return fmt::format("nearer than {} km", km(bounds[0]));
+  if (bin == bounds.size()) return fmt::format("beyond {} km", km(bounds.back()));
+  return fmt::format("{}–{} km", km(bounds[bin - 1]), km(bounds[bin]));
+}
+
+std::string direction_name(std::size_t bin) {
+  static constexpr std::array<const char*, Coverage::directions> names = {"right", "down right", "down", "down left",
+                                                                          "left",  "up left",    "up",   "up right"};
+  return names[bin];
+}
+
+std::string altitude_name(std::size_t bin) {
+  const auto& bounds = Coverage::altitude_bounds_m;
+  if (bin == 0) return fmt::format("below {:.0f} m", bounds[0]);
+  if (bin == bounds.size()) return fmt::format("above {:.0f} m", bounds.back());
+  return fmt::format("{:.0f}–{:.0f} m", bounds[bin - 1], bounds[bin]);
+}
+
+}  // namespace belvedere

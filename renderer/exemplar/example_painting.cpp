@@ -1,0 +1,35 @@
+#include "renderer/exemplar/example_painting.h"
+
+#include <utility>
+
+#include "renderer/paint/composite.h"
+#include "texture/strokes/stroke_painter.h"
+
+namespace belvedere {
+
+ExamplePainting paint_example(const Stage& stage, LitPicture picture, const ExampleLayers& layers, Progress& progress) {
+  const StrokeParameters strokes = to_stroke_parameters(stage);
+  ExamplePainting example;
+  Painting ground =
+      paint_strokes(picture.ground.colour, picture.guidance, picture.ground,
+                    {.sky = layers.sky, .ground = true, .accents = true, .breaks = false, .upright = false}, strokes, progress);
+  example.ground = std::move(ground.picture);
+  picture.guidance.ground_from = std::move(ground.sources);
+  if (layers.painting) {
+    Painting painting = paint_strokes(picture.ground.colour, picture.guidance, picture.ground, {.sky = layers.sky}, strokes, progress);
+    example.painting = blend_edges(painting.picture, picture.guidance);
+    picture.guidance.painted_class = picture.guidance.land_cover;
+    for (std::size_t i = 0; i < painting.sources.size(); ++i)
+      picture.guidance.painted_class[i] = picture.guidance.land_cover[painting.sources[i]];
+    picture.guidance.painted_from = std::move(painting.sources);
+    picture.guidance.stroke = std::move(painting.strokes);
+  }
+  example.guidance = std::move(picture.guidance);
+  return example;
+}
+
+PaintedClasses classes_of_paint(const GuidanceBuffers& guidance, const Grid<std::uint32_t>& from) {
+  return find_painted_classes(from, guidance, encode_srgb(guidance.base));
+}
+
+}  // namespace belvedere

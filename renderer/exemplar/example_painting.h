@@ -1,0 +1,26 @@
+#pragma once
+
+#include "renderer/world/lit_picture.h"
+
+namespace belvedere {
+
+// A view painted in strokes alone, and everything its painter knows of every pixel.
+struct ExamplePainting {
+  GuidanceBuffers guidance;  // with painted_class, painted_from, stroke and ground_from
+  Grid<glm::vec3> painting;  // encoded sRGB, edges of depth softened
+  Grid<glm::vec3> ground;    // without trees, dwarf pines, houses and breaks of the ice, edges hard: what synthesis copies
+};
+
+// Which layers are wanted: each costs a painting of its own.
+struct ExampleLayers {
+  bool painting = true;  // else painting, painted_class, painted_from and stroke stay empty
+  bool sky = true;       // else sky keeps the base picture's
+};
+
+// picture: of the whole view. The same bits for any number of threads.
+ExamplePainting paint_example(const Stage& stage, LitPicture picture, const ExampleLayers& layers, Progress& progress);
+
+// Base colour and class of the paint on every pixel, from the pixels it grew from: what residual and labels of an exemplar go by.
+PaintedClasses classes_of_paint(const GuidanceBuffers& guidance, const Grid<std::uint32_t>& from);
+
+}  // namespace belvedere

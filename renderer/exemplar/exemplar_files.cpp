@@ -1,0 +1,128 @@
+#include "renderer/exemplar/exemplar_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "base/memory_limit.h"
+#include "renderer/exemplar/example_painting.h"
+#include "renderer/exemplar/sheet.h"
+#include "renderer/image/color.h"
+#include "renderer/image/guidance_io.h"
+#include "renderer/image/image_io.h"
+#include "renderer/image/output_file.h"
+#include "renderer/image/provenance.h"
+#include "renderer/pipeline/stage_notes.h"
+
+namespace belvedere {
+namespace {
+
+// Bytes a pixel takes while it is painted: buffers, paint ground, canvases and strokes of both layers.
+constexpr double paint_bytes_per_pixel = 420.0;
+constexpr double kept_bytes_per_pixel = 24.0;  // of the sheet's pixels outside the row in work: both layers
+
+std::string join(const std::string& folder, const char* file) { return folder + "/" + file; }
+
+void write_text(const std::string& path, const std::string& text) {
+  OutputFile file(path);
+  std::ofstream out(file.temporary(), std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) file.fail("the file cannot be written");
+  file.commit();
+}
+
+// 16 bit for copying from, 8 bit to look at. An exemplar is in sRGB, whatever a scene's printer wants.
+void write_layers(const ExamplePainting& example, double dots_per_inch, const FileNotes& notes, const std::string& folder,
+                  Progress& progress) {
+  progress.begin("writing the painting", 0.0);
+  PictureFileOptions options{.dots_per_inch = dots_per_inch, .icc_profile = srgb_profile(), .notes = notes};
+  options.notes[exemplar_layer_note] = "painting";
+  write_tiff16(join(folder, "painting.tif"), example.painting, options);
+  write_png8(join(folder, "painting.png"), example.painting, options);
+  options.notes[exemplar_layer_note] = exemplar_ground_layer;
+  write_tiff16(join(folder, "ground.tif"), example.ground, options);
+}
+
+// Which class counts is that of the paint: what synthesis copies by. `first` is the index of the part's first pixel in the picture.
+void count(Coverage& coverage, const GuidanceBuffers& guidance, std::uint32_t first) {
+  Grid<LandCoverClass> classes = guidance.land_cover;
+  for (std::size_t i = 0; i < classes.size(); ++i) classes[i] = guidance.land_cover[guidance.ground_from[i] - first];
+  add_coverage(coverage, guidance, classes);
+}
+
+void write_coverage(const Coverage& coverage, const std::string& folder) {
+  write_text(join(folder, "coverage.json"), coverage_json(coverage, find_gaps(coverage, built_in_demand(), {})));
+}
+
+}  // namespace
+
+Coverage write_scene_exemplar(const LoadedScene& loaded, const RenderOptions& options, Progress& progress) {
+  const ThreadLimit threads(options.threads);
+  require_scene_files(loaded);
+  const SceneOutput& output = loaded.scene.output;
+  check_memory("output", paint_bytes_per_pixel * output.width * output.height);
+  check_output_folder(options.out_folder);
+
+  const Stage stage = set_stage(loaded, progress);
+  const FileNotes notes = make_stage_notes(loaded, stage);
+  LitPicture picture = make_lit_picture(stage, {0, 0, output.width, output.height}, options.tile_size, progress);
+  const ExamplePainting example = paint_example(stage, std::move(picture), {}, progress);
+  Coverage coverage;
+  count(coverage, example.guidance, 0);
+  write_layers(example, output.width / output.sheet_width_mm * 25.4, notes, options.out_folder, progress);
+  progress.begin("writing guidance", 0.0);
+  write_guidance(join(options.out_folder, "guidance.exr"), example.guidance, notes);
+  write_text(join(options.out_folder, "scene.toml"), write_scene(loaded.scene));
+  write_coverage(coverage, options.out_folder);
+  return coverage;
+}
+
+Coverage write_sheet_exemplar(const SheetPlan& plan, const RenderOptions& options, Progress& progress) {
+  const ThreadLimit threads(options.threads);
+  const Palette palette = read_palette(plan.palette);
+  const double rows = static_cast<double>(plan.panels.size()) / plan.columns;
+  if (plan.height < ExrWriter::band_rows * rows)
+    throw Error(ErrorKind::usage, "sheet", fmt::format("{} rows of panels in {} pixels of height", rows, plan.height),
+                fmt::format("at least {} pixels a row", ExrWriter::band_rows));
+  check_memory("sheet", (paint_bytes_per_pixel / rows + kept_bytes_per_pixel) * plan.width * plan.height);
+  check_output_folder(options.out_folder);
+
+  const std::string text = write_sheet_plan(plan);
+  std::map<std::string, std::string> inputs;
+  if (plan.palette.ends_with(".toml")) inputs[plan.palette] = plan.palette;
+  Provenance provenance = make_provenance(text, inputs);
+  SheetPainter painter(plan, {palette, std::nullopt});
+  ExamplePainting whole;
+  whole.painting = whole.ground = Grid<glm::vec3>(plan.width, plan.height);
+  Coverage coverage;
+  std::optional<GuidanceWriter> writer;
+  FileNotes notes;
+  progress.begin("painting the sheet", static_cast<double>(plan.panels.size()));
+  for (int row = 0; row < painter.rows(); ++row) {
+    const auto [y0, y1] = painter.row_span(row);
+    const ExamplePainting part = painter.paint_row(row, {}, progress);
+    if (!writer) {
+      provenance.instruction_set = painter.instruction_set();
+      notes = to_notes(provenance);
+      writer.emplace(join(options.out_folder, "guidance.exr"), plan.width, plan.height, notes);
+    }
+    count(coverage, part.guidance, static_cast<std::uint32_t>(y0) * static_cast<std::uint32_t>(plan.width));
+    std::copy(part.painting.begin(), part.painting.end(), whole.painting.row(y0));
+    std::copy(part.ground.begin(), part.ground.end(), whole.ground.row(y0));
+    writer->write_rows(part.guidance, 0, y1 - y0, y0);
+  }
+  writer->finish();
+  write_layers(whole, plan.dots_per_inch, notes, options.out_folder, progress);
+  write_text(join(options.out_folder, "sheet.toml"), text);
+  write_coverage(coverage, options.out_folder);
+  return coverage;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,254 @@
+#include "renderer/exemplar/harmonize.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "base/error.h"
+#include "base/filter.h"
+#include "base/parallel.h"
+#include "renderer/image/oklab.h"
+#include "texture/synthesis/guide_stack.h"
+
+namespace belvedere {
+namespace {
+
+constexpr std::size_t least_texels = 32;   // fewer tell no spread
+constexpr double least_deviation = 0.004;  // OKLab; what is flatter than this is taken to be this rough, so that noise is not blown up
+constexpr double largest_gain = 3.0;       // of a deviation, up or down
+constexpr double border_texels = 1.5;      // sigma of the blend of maps across borders
+
+struct Statistics {
+  std::size_t count = 0;
+  glm::dvec3 mean{0.0};
+  glm::dmat3 covariance{0.0};
+};
+
+// lab → matrix · lab + shift
+struct ColourMap {
+  glm::dmat3 matrix{1.0};
+  glm::dvec3 shift{0.0};
+};
+
+// Eigenvalues and eigenvectors (columns) of a symmetric matrix, by Jacobi rotations.
+struct Eigen {
+  glm::dvec3 values;
+  glm::dmat3 vectors{1.0};
+};
+
+Eigen decompose(glm::dmat3 a) {
+  Eigen out;
+  for (int sweep = 0; sweep < 12; ++sweep)
+    for (int p = 0; p < 2; ++p)
+      for (int q = p + 1; q < 3; ++q) {
+        if (std::abs(a[q][p]) < 1e-18) continue;
+        const double theta = (a[q][q] - a[p][p]) / (2.0 * a[q][p]);
+        const double t = (theta >= 0.0 ? 1.0 : -1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
+        const double c = 1.0 / std::sqrt(t * t + 1.0);
+        glm::dmat3 turn(1.0);
+        turn[p][p] = turn[q][q] = c;
+        turn[q][p] = c * t;
+        turn[p][q] = -c * t;
+        a = glm::transpose(turn) * a * turn;
+        out.vectors = out.vectors * turn;
+      }
+  out.values = {a[0][0], a[1][1], a[2][2]};
+  return out;
+}
+
+// f of a symmetric matrix: f of its eigenvalues.
+template <class F>
+glm::dmat3 spectral(const glm::dmat3& a, F f) {
+  const Eigen eigen = decompose(a);
+  glm::dmat3 scale(0.0);
+  for (int k = 0; k < 3; ++k) scale[k][k] = f(eigen.values[k]);
+  return eigen.vectors * scale * glm::transpose(eigen.vectors);
+}
+
+glm::dmat3 root(const glm::dmat3& a) {
+  return spectral(a, [](double v) { return std::sqrt(std::max(v, 0.0)); });
+}
+
+// The map of one spread to another that moves colours least: A^-½ (A^½ B A^½)^½ A^-½, symmetric and positive.
+glm::dmat3 spread_map(const glm::dmat3& from, const glm::dmat3& to) {
+  const glm::dmat3 floor = glm::dmat3(least_deviation * least_deviation);
+  const glm::dmat3 half = root(from + floor);
+  const glm::dmat3 inverse = glm::inverse(half);
+  const glm::dmat3 map = inverse * root(half * (to + floor) * half) * inverse;
+  return spectral(map, [](double v) { return std::clamp(v, 1.0 / largest_gain, largest_gain); });
+}
+
+using LabelStatistics = std::array<Statistics, 256>;
+
+LabelStatistics measure(const Grid<glm::dvec3>& lab, const Grid<std::uint8_t>& labels) {
+  LabelStatistics statistics;
+  for (std::size_t i = 0; i < lab.size(); ++i) {
+    Statistics& s = statistics[labels[i]];
+    ++s.count;
+    s.mean += lab[i];
+    s.covariance += glm::outerProduct(lab[i], lab[i]);
+  }
+  for (Statistics& s : statistics) {
+    if (s.count == 0) continue;
+    s.mean /= static_cast<double>(s.count);
+    s.covariance = s.covariance / static_cast<double>(s.count) - glm::outerProduct(s.mean, s.mean);
+  }
+  statistics[unused_label] = {};
+  return statistics;
+}
+
+Grid<glm::dvec3> to_lab(const Grid<glm::vec3>& picture) {
+  Grid<glm::dvec3> lab(picture.width(), picture.height());
+  parallel_rows(picture.height(), [&](int y) {
+    for (int x = 0; x < picture.width(); ++x) lab(x, y) = to_oklab(picture(x, y));
+  });
+  return lab;
+}
+
+// What each label shall be like, and how many paintings have it.
+struct Wish {
+  Statistics look;
+  int paintings = 0;
+};
+
+std::array<Wish, 256> find_wishes(const std::vector<LabelStatistics>& all, std::optional<std::size_t> reference) {
+  std::array<Wish, 256> wishes;
+  for (std::size_t label = 0; label < unused_label; ++label) {
+    Wish& wish = wishes[label];
+    for (const LabelStatistics& one : all) {
+      const Statistics& s = one[label];
+      if (s.count < least_texels) continue;
+      ++wish.paintings;
+      const double count = static_cast<double>(s.count);
+      wish.look.count += s.count;
+      wish.look.mean += count * s.mean;
+      wish.look.covariance += count * s.covariance;
+    }
+    if (wish.look.count > 0) {
+      wish.look.mean /= static_cast<double>(wish.look.count);
+      wish.look.covariance = wish.look.covariance / static_cast<double>(wish.look.count);
+    }
+    if (reference && all[*reference][label].count >= least_texels)
+      wish.look = all[*reference][label];
+    else if (reference)
+      wish.paintings = 0;  // nothing to be like
+  }
+  return wishes;
+}
+
+std::array<ColourMap, 256> find_maps(const LabelStatistics& own, const std::array<Wish, 256>& wishes) {
+  std::array<ColourMap, 256> maps;
+  glm::dvec3 shift(0.0);
+  double count = 0.0;
+  const auto shared = [&](std::size_t label) { return own[label].count >= least_texels && wishes[label].paintings > 1; };
+  for (std::size_t label = 0; label < unused_label; ++label) {
+    if (!shared(label)) continue;
+    const Statistics& wish = wishes[label].look;
+    maps[label].matrix = spread_map(own[label].covariance, wish.covariance);
+    maps[label].shift = wish.mean - maps[label].matrix * own[label].mean;
+    shift += static_cast<double>(own[label].count) * (wish.mean - own[label].mean);
+    count += static_cast<double>(own[label].count);
+  }
+  for (std::size_t label = 0; label < unused_label; ++label)
+    if (!shared(label) && count > 0.0) maps[label].shift = shift / count;
+  return maps;
+}
+
+// Each texel by the maps of the labels around it, by how much of each there is.
+Grid<glm::vec3> apply_maps(const LabelledPicture& painting, const Grid<glm::dvec3>& lab, const std::array<ColourMap, 256>& maps) {
+  const Grid<std::uint8_t>& labels = *painting.labels;
+  Grid<glm::dvec3> sum(lab.width(), lab.height(), glm::dvec3(0.0));
+  Grid<float> weight(lab.width(), lab.height(), 0.F);
+  std::array<bool, 256> there{};
+  for (const std::uint8_t label : labels) there[label] = true;
+  for (std::size_t label = 0; label < unused_label; ++label) {
+    if (!there[label]) continue;
+    Grid<float> share(lab.width(), lab.height(), 0.F);
+    for (std::size_t i = 0; i < share.size(); ++i) share[i] = labels[i] == label ? 1.F : 0.F;
+    share = gaussian_blur(share, border_texels);
+    parallel_rows(lab.height(), [&](int y) {
+      for (int x = 0; x < lab.width(); ++x) {
+        const std::size_t i = lab.index(x, y);
+        if (!(share[i] > 0.F)) continue;
+        sum[i] += static_cast<double>(share[i]) * (maps[label].matrix * lab[i] + maps[label].shift);
+        weight[i] += share[i];
+      }
+    });
+  }
+  Grid<glm::vec3> out = *painting.picture;
+  parallel_rows(lab.height(), [&](int y) {
+    for (int x = 0; x < lab.width(); ++x) {
+      const std::size_t i = lab.index(x, y);
+      if (labels[i] != unused_label && weight[i] > 0.F) out[i] = glm::clamp(from_oklab(sum[i] / static_cast<double>(weight[i])), 0.F, 1.F);
+    }
+  });
+  return out;
+}
+
+}  // namespace
+
+std::vector<Grid<glm::vec3>> harmonize(const std::vector<LabelledPicture>& pictures, std::optional<std::size_t> reference) {
+  if (reference && *reference >= pictures.size())
+    throw Error(ErrorKind::usage, "harmonize", fmt::format("there is no painting {}", *reference + 1),
+                fmt::format("1 … {}", pictures.size()));
+  std::vector<Grid<glm::dvec3>> labs;
+  std::vector<LabelStatistics> statistics;
+  for (const LabelledPicture& painting : pictures) {
+    if (!painting.picture->same_size(*painting.labels))
+      throw Error(ErrorKind::usage, "harmonize", "a painting and its labels have different sizes", "the same size");
+    labs.push_back(to_lab(*painting.picture));
+    statistics.push_back(measure(labs.back(), *painting.labels));
+  }
+  const std::array<Wish, 256> wishes = find_wishes(statistics, reference);
+  std::vector<Grid<glm::vec3>> out;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    if (reference && i == *reference)
+      out.push_back(*pictures[i].picture);
+    else
+      out.push_back(apply_maps(pictures[i], labs[i], find_maps(statistics[i], wishes)));
+  }
+  return out;
+}
+
+double colour_distance(const LabelledPicture& a, const LabelledPicture& b, std::uint8_t label) {
+  constexpr int bins = 256;
+  constexpr std::array<double, 3> low = {0.0, -0.4, -0.4};
+  constexpr std::array<double, 3> width = {1.0, 0.8, 0.8};
+  using Histogram = std::array<std::array<double, bins>, 3>;
+  const auto histogram = [&](const LabelledPicture& painting) {
+    Histogram h{};
+    double count = 0.0;
+    for (std::size_t i = 0; i < painting.labels->size(); ++i) {
+      if ((*painting.labels)[i] != label) continue;
+      const glm::dvec3 lab = to_oklab((*painting.picture)[i]);
+      count += 1.0;
+      for (int c = 0; c < 3; ++c) {
+        const auto axis = static_cast<std::size_t>(c);
+        h[axis][static_cast<std::size_t>(std::clamp((lab[c] - low[axis]) / width[axis] * bins, 0.0, bins - 1.0))] += 1.0;
+      }
+    }
+    for (auto& axis : h)
+      for (double& bin : axis) bin /= std::max(count, 1.0);
+    return count > 0.0 ? std::optional(h) : std::nullopt;
+  };
+  const auto of_a = histogram(a);
+  const auto of_b = histogram(b);
+  if (!of_a || !of_b) return 0.0;
+  double distance = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double ahead = 0.0;  // how much of a stands below this bin beyond what of b does
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+      ahead += (*of_a)[axis][bin] - (*of_b)[axis][bin];
+      distance += std::abs(ahead) * width[axis] / bins / 3.0;
+    }
+  }
+  return distance;
+}
+
+}  // namespace belvedere

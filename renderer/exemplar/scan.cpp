@@ -1,0 +1,353 @@
+#include "renderer/exemplar/scan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+#include <optional>
+
+#include "base/error.h"
+#include "renderer/exemplar/example_painting.h"
+#include "renderer/exemplar/exemplar_files.h"
+#include "renderer/exemplar/exemplars.h"
+#include "renderer/exemplar/harmonize.h"
+#include "renderer/exemplar/painting_strokes.h"
+#include "renderer/exemplar/painting_tone.h"
+#include "renderer/exemplar/shadow_texels.h"
+#include "renderer/image/guidance_io.h"
+#include "renderer/image/image_io.h"
+#include "renderer/image/oklab.h"
+#include "renderer/paint/composite.h"
+
+namespace belvedere {
+namespace {
+
+constexpr auto sky_label = static_cast<std::uint8_t>(LandCoverClass::sky);
+
+void check_same_size(const std::string& file, int width, int height, const Grid<glm::vec3>& picture) {
+  if (width != picture.width() || height != picture.height())
+    throw Error(ErrorKind::input, file,
+                fmt::format("{}×{} pixels beside a picture of {}×{}", width, height, picture.width(), picture.height()),
+                "the picture's size");
+}
+
+// A painting as it stands in its files.
+struct Raw {
+  Grid<glm::vec3> picture;
+  GuidanceBuffers guidance;
+  bool measured = false;      // guidance is a renderer's: distances and all
+  Grid<std::uint8_t> labels;  // class ids, sky included; unused_label is never copied from
+};
+
+// A grey image as 0…1.
+Grid<float> read_share(const std::string& path, const Grid<glm::vec3>& picture) {
+  const Grid<std::uint16_t> grey = read_grey(path);
+  check_same_size(path, grey.width(), grey.height(), picture);
+  std::uint16_t highest = 255;
+  for (const std::uint16_t value : grey)
+    if (value > 255) highest = 65535;
+  Grid<float> share(grey.width(), grey.height());
+  for (std::size_t i = 0; i < grey.size(); ++i) share[i] = static_cast<float>(grey[i]) / static_cast<float>(highest);
+  return share;
+}
+
+void read_masks(const SceneExemplar& wish, const LoadedScene& scene, Raw& raw) {
+  const std::string path = find_scene_file(scene, wish.classes);
+  const Grid<std::uint16_t> ids = read_grey(path);
+  check_same_size(path, ids.width(), ids.height(), raw.picture);
+  GuidanceBuffers& guidance = raw.guidance;
+  guidance.depth_m = Grid<float>(ids.width(), ids.height(), 1.F);
+  guidance.land_cover = Grid<LandCoverClass>(ids.width(), ids.height());
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    guidance.land_cover[i] = static_cast<LandCoverClass>(std::min<std::uint16_t>(ids[i], unused_label));
+    if (guidance.land_cover[i] == LandCoverClass::sky) guidance.depth_m[i] = std::numeric_limits<float>::infinity();
+  }
+  if (wish.altitude.empty()) return;
+  guidance.altitude_m = read_share(find_scene_file(scene, wish.altitude), raw.picture);
+  for (float& value : guidance.altitude_m)
+    value =
+        static_cast<float>(wish.altitude_range_m[0] + (wish.altitude_range_m[1] - wish.altitude_range_m[0]) * static_cast<double>(value));
+}
+
+// Two files of one painting by the program say that the same scene made them. A disk that ran full between them, or a copy of one alone,
+// leaves a pair that is not registered.
+void check_same_painting(const FileNotes& picture, const FileNotes& guidance, const std::string& path) {
+  const auto made_by = picture.find("belvedere:scene");
+  const auto its = guidance.find("belvedere:scene");
+  if (made_by == picture.end() || its == guidance.end() || made_by->second == its->second) return;
+  throw Error(ErrorKind::input, path, "it belongs to another painting than the picture beside it: other scenes made them",
+              "the guidance.exr that was written with the picture");
+}
+
+// A painting the program painted knows where its paint grew: class and base colour are those of that place. The file of the layer without
+// trees says in its header that it is that.
+void take_paint(const SceneExemplar& wish, const LoadedScene& scene, GuidanceBuffers& guidance) {
+  const FileNotes notes = read_image_info(find_scene_file(scene, wish.picture)).notes;
+  const std::string path = find_scene_file(scene, wish.guidance);
+  check_same_painting(notes, read_image_info(path).notes, path);
+  const auto layer = notes.find(exemplar_layer_note);
+  const bool ground = layer != notes.end() && layer->second == exemplar_ground_layer;
+  const Grid<std::uint32_t>& from = ground ? guidance.ground_from : guidance.painted_from;
+  if (from.empty() || guidance.base.empty()) return;
+  for (const std::uint32_t index : from)
+    if (index >= from.size())
+      throw Error(ErrorKind::input, path, fmt::format("paint from pixel {}", index),
+                  fmt::format("pixels of the picture, fewer than {}", from.size()));
+  PaintedClasses classes = classes_of_paint(guidance, from);
+  guidance.land_cover = std::move(classes.land_cover);
+  guidance.base = decode_srgb(classes.base);
+}
+
+Raw read_raw(const SceneExemplar& wish, const LoadedScene& scene) {
+  Raw raw;
+  raw.picture = read_picture(find_scene_file(scene, wish.picture));
+  if (!wish.guidance.empty()) {
+    const std::string path = find_scene_file(scene, wish.guidance);
+    raw.guidance = read_guidance(path);
+    raw.measured = true;
+    check_same_size(path, raw.guidance.width(), raw.guidance.height(), raw.picture);
+    take_paint(wish, scene, raw.guidance);
+  } else {
+    read_masks(wish, scene, raw);
+  }
+  if (!wish.shadow.empty()) raw.guidance.shadow = read_share(find_scene_file(scene, wish.shadow), raw.picture);
+  raw.labels = Grid<std::uint8_t>(raw.picture.width(), raw.picture.height());
+  for (std::size_t i = 0; i < raw.labels.size(); ++i)
+    raw.labels[i] = raw.guidance.is_sky(i) ? sky_label : static_cast<std::uint8_t>(raw.guidance.land_cover[i]);
+  // Bare paper between the panels of a sheet is neither ground nor sky.
+  for (std::size_t i = 0; i < raw.guidance.sky_view.size(); ++i)
+    if (raw.guidance.is_sky(i) && raw.guidance.sky_view[i] <= 0.F) raw.labels[i] = unused_label;
+  if (!wish.exclude.empty()) {
+    const Grid<float> mask = read_share(find_scene_file(scene, wish.exclude), raw.picture);
+    for (std::size_t i = 0; i < mask.size(); ++i)
+      if (mask[i] > 0.F) raw.labels[i] = unused_label;
+  }
+  return raw;
+}
+
+void harmonize_all(std::vector<Raw>& raws, const std::string& how, Progress& progress) {
+  std::vector<LabelledPicture> pictures;
+  std::vector<Raw*> there;
+  for (Raw& raw : raws)
+    if (!raw.picture.empty()) {
+      pictures.push_back({&raw.picture, &raw.labels});
+      there.push_back(&raw);
+    }
+  if (how == "off" || there.size() < 2) return;
+  progress.begin("harmonizing the paintings' colours", 0.0);
+  std::vector<Grid<glm::vec3>> alike = harmonize(pictures, how == "first" ? std::optional<std::size_t>(0) : std::nullopt);
+  for (std::size_t i = 0; i < there.size(); ++i) there[i]->picture = std::move(alike[i]);
+}
+
+glm::vec3 median_colour(std::vector<glm::vec3>& colours) {
+  glm::vec3 out{};
+  const auto middle = static_cast<std::ptrdiff_t>(colours.size() / 2);
+  for (int c = 0; c < 3; ++c) {
+    std::nth_element(colours.begin(), colours.begin() + middle, colours.end(),
+                     [c](const glm::vec3& a, const glm::vec3& b) { return a[c] < b[c]; });
+    out[c] = colours[static_cast<std::size_t>(middle)][c];
+  }
+  return out;
+}
+
+// The painted sky as a gradient over its height, and its light and dark parts as clouds.
+void learn_sky(const Raw& raw, ScannedPainting& scan) {
+  constexpr int bands = 5;
+  int top = raw.picture.height();
+  int bottom = -1;
+  for (int y = 0; y < raw.picture.height(); ++y)
+    for (int x = 0; x < raw.picture.width(); ++x)
+      if (raw.labels(x, y) == sky_label) {
+        top = std::min(top, y);
+        bottom = std::max(bottom, y);
+      }
+  if (bottom < top) return;
+  std::array<std::vector<glm::vec3>, bands> colours;
+  std::vector<glm::vec3> all;
+  for (int y = top; y <= bottom; ++y)
+    for (int x = 0; x < raw.picture.width(); ++x) {
+      if (raw.labels(x, y) != sky_label) continue;
+      colours[static_cast<std::size_t>((y - top) * bands / (bottom - top + 1))].push_back(raw.picture(x, y));
+      all.push_back(raw.picture(x, y));
+    }
+  if (all.size() < least_texels) return;
+  for (std::size_t k = 0; k < colours.size(); ++k)
+    if (!colours[k].empty()) scan.sky.emplace_back(static_cast<double>(k) / (bands - 1), median_colour(colours[k]));
+  std::sort(all.begin(), all.end(), [](const glm::vec3& a, const glm::vec3& b) { return a.x + a.y + a.z < b.x + b.y + b.z; });
+  const auto part = static_cast<std::ptrdiff_t>(std::max<std::size_t>(all.size() / 12, 1));
+  std::vector<glm::vec3> light(all.end() - part, all.end());
+  std::vector<glm::vec3> shade(all.begin() + 3 * part, all.begin() + 4 * part);
+  scan.cloud_light = median_colour(light);
+  scan.cloud_shade = median_colour(shade);
+}
+
+const Grid<std::uint8_t>& values_of(const GuideStack& guides, const char* name) {
+  static const Grid<std::uint8_t> none;
+  const Grid<std::uint8_t>* found = guides.find(name);
+  return found == nullptr ? none : *found;
+}
+
+ScannedPainting finish_scan(const SceneExemplar& wish, Raw raw, double residual, Progress& progress) {
+  ScannedPainting scan;
+  learn_sky(raw, scan);
+  for (std::uint8_t& label : raw.labels)
+    if (label == sky_label) label = unused_label;  // the sky is painted, not copied
+  GuidanceBuffers& guidance = raw.guidance;
+  if (guidance.tone.empty()) guidance.tone = estimate_tone(raw.picture, raw.labels, wish.stroke_px);
+  if (guidance.shadow.empty() && wish.found_shadow != "ignore") {
+    guidance.shadow = find_shadow(raw.picture, raw.labels, wish.stroke_px);
+    std::size_t shaded = 0;
+    for (std::size_t i = 0; i < raw.labels.size(); ++i) shaded += raw.labels[i] != unused_label && guidance.shadow[i] < lit_from ? 1 : 0;
+    progress.note(fmt::format("{}: {:.1f} % of it is taken for cast shadow", wish.picture,
+                              100.0 * static_cast<double>(shaded) / static_cast<double>(raw.labels.size())));
+  }
+  if (guidance.fall_line.empty()) guidance.fall_line = find_stroke_direction(raw.picture, raw.labels, wish.stroke_px);
+  PaintedExemplar& painted = scan.painted;
+  painted.exemplar.name = wish.picture;
+  painted.exemplar.guides = make_guide_stack(guidance, guidance.land_cover);
+  GuideStack& guides = painted.exemplar.guides;
+  if (!raw.measured) std::erase_if(guides.guides, [](const Guide& guide) { return guide.name == "distance"; });
+  const Grid<std::uint8_t>& distance = values_of(guides, "distance");
+  scan.ramps = fit_ramps(raw.picture, raw.labels, guidance.tone, distance);
+  if (!guidance.base.empty())
+    painted.base = encode_srgb(guidance.base);
+  else
+    painted.base = make_ramp_base(scan.ramps, raw.picture, raw.labels, guidance.tone, distance);
+  const bool leave_shadow = wish.found_shadow == "exclude" && !guidance.shadow.empty();
+  for (std::size_t i = 0; i < raw.labels.size(); ++i) {
+    const auto id = static_cast<LandCoverClass>(raw.labels[i]);
+    const bool served = wish.serves.empty() || std::find(wish.serves.begin(), wish.serves.end(), id) != wish.serves.end();
+    if (!served || (leave_shadow && guidance.shadow[i] < lit_from)) raw.labels[i] = unused_label;
+  }
+  guides.label = std::move(raw.labels);
+  guides.depth_m = {};
+  painted.picture = std::move(raw.picture);
+  painted.exemplar.picture = seam_picture(painted, guides.label, residual);
+  return scan;
+}
+
+// A painting's own light is often fainter than relief needs to be read, and much of it is in strokes, which ramps leave out. The ramp gets
+// at least this share of the palette's range of lightness (OKLab), about its middle, hue and saturation kept; stretched at most threefold.
+constexpr double least_range_share = 0.8;
+constexpr double largest_stretch = 3.0;
+ToneRamp stretch(const ToneRamp& ramp, const ToneRamp& wanted) {
+  const auto range = [](const ToneRamp& r) { return to_oklab(r.back()).x - to_oklab(r.front()).x; };
+  const double factor = std::clamp(least_range_share * range(wanted) / std::max(range(ramp), 1e-3), 1.0, largest_stretch);
+  double middle = 0.0;
+  for (const glm::vec3& colour : ramp) middle += to_oklab(colour).x / static_cast<double>(ramp.size());
+  ToneRamp out = ramp;
+  for (glm::vec3& colour : out) {
+    glm::dvec3 lab = to_oklab(colour);
+    lab.x = std::clamp(middle + factor * (lab.x - middle), 0.0, 1.0);
+    colour = glm::clamp(from_oklab(lab), 0.F, 1.F);
+  }
+  return out;
+}
+
+glm::vec3 gradient_at(const std::vector<std::pair<double, glm::vec3>>& gradient, double place) {
+  for (std::size_t k = 1; k < gradient.size(); ++k)
+    if (place <= gradient[k].first) {
+      const double width = gradient[k].first - gradient[k - 1].first;
+      const double share = std::clamp((place - gradient[k - 1].first) / width, 0.0, 1.0);
+      return glm::mix(gradient[k - 1].second, gradient[k].second, static_cast<float>(share));
+    }
+  return gradient.back().second;
+}
+
+}  // namespace
+
+std::vector<ScannedPainting> read_scans(const LoadedScene& scene, Progress& progress) {
+  const std::vector<SceneExemplar>& wishes = scene.scene.exemplars;
+  std::vector<Raw> raws(wishes.size());
+  for (std::size_t i = 0; i < wishes.size(); ++i) {
+    if (wishes[i].picture.empty()) continue;
+    if (find_scene_file(scene, wishes[i].picture).empty()) {
+      // Missing files that are not optional were refused before the work began.
+      progress.note(fmt::format("exemplar {} is not there and is left out; get it from {}", wishes[i].picture, wishes[i].get_from));
+      continue;
+    }
+    raws[i] = read_raw(wishes[i], scene);
+  }
+  harmonize_all(raws, scene.scene.synthesis.harmonize, progress);
+  std::vector<ScannedPainting> scans(wishes.size());
+  for (std::size_t i = 0; i < wishes.size(); ++i)
+    if (!raws[i].picture.empty()) scans[i] = finish_scan(wishes[i], std::move(raws[i]), scene.scene.synthesis.residual, progress);
+  return scans;
+}
+
+void check_paintings(const LoadedScene& scene) {
+  for (const SceneExemplar& wish : scene.scene.exemplars) {
+    const std::string path = wish.picture.empty() ? std::string() : find_scene_file(scene, wish.picture);
+    if (path.empty()) continue;
+    const Grid<glm::vec3> picture = read_picture(path);
+    for (const std::string* file : {&wish.guidance, &wish.classes, &wish.altitude, &wish.shadow, &wish.exclude}) {
+      if (file->empty()) continue;
+      const std::string guide = find_scene_file(scene, *file);
+      const ImageInfo info = read_image_info(guide);
+      check_same_size(guide, info.width, info.height, picture);
+      if (file != &wish.guidance) read_grey(guide);
+    }
+  }
+}
+
+Palette take_colours(const Palette& palette, const std::vector<ScannedPainting>& scans,
+                     const std::vector<std::pair<LandCoverClass, LandCoverClass>>& fallback) {
+  Palette out = palette;
+  constexpr double usual_altitude_m = 1500.0;  // where palettes that change with altitude are compared
+  std::array<bool, land_cover_class_count> known{};
+  // Nearest distance: what air does to it is the scene's.
+  for (std::size_t id = 1; id < known.size(); ++id) {
+    ToneRamp sum{};
+    float texels = 0.F;
+    for (const ScannedPainting& scan : scans) {
+      const LabelRamps& fitted = scan.ramps[id];
+      if (fitted.ramps.empty()) continue;
+      const auto count = static_cast<float>(fitted.texels);
+      for (std::size_t t = 0; t < sum.size(); ++t) sum[t] += count * fitted.ramps.front()[t];
+      texels += count;
+    }
+    if (!(texels > 0.F)) continue;
+    known[id] = true;
+    for (glm::vec3& colour : sum) colour /= texels;
+    ToneRamp own{};
+    for (std::size_t t = 0; t < own.size(); ++t)
+      own[t] = palette_colour(palette, static_cast<LandCoverClass>(id), usual_altitude_m, ramp_tones[t]);
+    out.classes[id].stops = {{0.0, stretch(sum, own)}};
+  }
+  const int classes = static_cast<int>(std::count(known.begin(), known.end(), true));
+  if (classes == 0) return palette;
+  ToneRamp shift{};
+  for (std::size_t id = 1; id < known.size(); ++id)
+    for (std::size_t t = 0; t < shift.size() && known[id]; ++t)
+      shift[t] += (out.classes[id].stops.front().ramp[t] -
+                   palette_colour(palette, static_cast<LandCoverClass>(id), usual_altitude_m, ramp_tones[t])) /
+                  static_cast<float>(classes);
+  for (std::size_t id = 1; id < known.size(); ++id) {
+    if (known[id]) continue;
+    const auto stand_in =
+        std::find_if(fallback.begin(), fallback.end(), [&](const auto& pair) { return pair.first == static_cast<LandCoverClass>(id); });
+    if (stand_in != fallback.end() && known[static_cast<std::size_t>(stand_in->second)]) {
+      out.classes[id].stops = out.classes[static_cast<std::size_t>(stand_in->second)].stops;
+      continue;
+    }
+    for (ClassPalette::Stop& stop : out.classes[id].stops)
+      for (std::size_t t = 0; t < shift.size(); ++t) stop.ramp[t] = glm::clamp(stop.ramp[t] + shift[t], 0.F, 1.F);
+  }
+  for (const ScannedPainting& scan : scans) {
+    if (scan.sky.empty()) continue;
+    out.sky = scan.sky;
+    out.cloud_light = scan.cloud_light;
+    out.cloud_shade = scan.cloud_shade;
+    // Air is the sky's blue where it begins and its horizon far away.
+    out.haze_near = gradient_at(scan.sky, 0.35);
+    out.haze_far = gradient_at(scan.sky, 0.8);
+    out.range_mist = gradient_at(scan.sky, 0.85);
+    break;
+  }
+  return out;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,217 @@
+#include "renderer/exemplar/sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "renderer/exemplar/exemplars.h"
+#include "renderer/image/srgb.h"
+#include "renderer/paint/composite.h"
+#include "renderer/world/ground.h"
+
+namespace belvedere {
+namespace {
+
+const glm::vec3 paper{0.957F, 0.937F, 0.886F};  // encoded sRGB
+constexpr int trace_tile_px = 32;
+
+// A sheet is one stage for those who watch, not sixteen times ten; remarks about its panels are not theirs either.
+class OneStage : public Progress {
+ public:
+  explicit OneStage(Progress& watcher) : watcher_(watcher) {}
+  void advance(double) override { watcher_.advance(0.0); }
+
+ private:
+  Progress& watcher_;
+};
+
+template <class T>
+void copy_part(Grid<T>& whole, const Grid<T>& part, int x0, int y0) {
+  for (int y = 0; y < part.height(); ++y) std::copy_n(part.row(y), part.width(), whole.row(y0 + y) + x0);
+}
+
+// Every channel but those of paint, with what bare paper has there.
+template <class F>
+void for_each_channel(F&& f) {
+  using B = GuidanceBuffers;
+  const glm::vec3 up{0.F, 0.F, 1.F};
+  const float far = std::numeric_limits<float>::infinity();
+  f(&B::depth_m, far);
+  f(&B::position_m, glm::vec3(0.F));
+  f(&B::normal, up);
+  f(&B::normal_detail, up);
+  f(&B::normal_smooth, up);
+  f(&B::altitude_m, 0.F);
+  f(&B::land_cover, LandCoverClass::sky);
+  f(&B::coverage, 0.F);
+  f(&B::front, 1.F);
+  f(&B::silhouette, 0.F);
+  f(&B::shadow, 1.F);
+  f(&B::sky_view, 0.F);  // unlike the sky's: paper sees none
+  f(&B::slope_deg, 0.F);
+  f(&B::aspect_deg, 0.F);
+  f(&B::fall_line, glm::vec2(0.F));
+  f(&B::footprint_m, 0.F);
+  f(&B::ridge, 0.F);
+  f(&B::relief_s_m, 0.F);
+  f(&B::relief_m_m, 0.F);
+  f(&B::relief_l_m, 0.F);
+  f(&B::valley_height_m, 0.F);
+  f(&B::rim_m, 0.F);
+  f(&B::built, 0.F);
+  f(&B::grain, glm::vec2(0.F));
+  f(&B::tone, 0.F);
+  f(&B::base, glm::vec3(static_cast<float>(srgb_decoded(static_cast<double>(paper.x))),
+                        static_cast<float>(srgb_decoded(static_cast<double>(paper.y))),
+                        static_cast<float>(srgb_decoded(static_cast<double>(paper.z)))));
+  f(&B::painted_class, LandCoverClass::sky);
+  f(&B::stroke, 0U);
+}
+
+void insert_panel(ExamplePainting& row, ExamplePainting panel, int x0, int y0, int row_y0, const SheetPlan& plan) {
+  const glm::dvec3 shift = panel.guidance.origin_m - row.guidance.origin_m;
+  for (glm::vec3& place : panel.guidance.position_m) place += glm::vec3(shift);
+  for_each_channel([&](auto channel, auto blank) {
+    const auto& part = panel.guidance.*channel;
+    auto& whole = row.guidance.*channel;
+    if (part.empty()) return;
+    if (whole.empty()) whole = std::decay_t<decltype(whole)>(row.ground.width(), row.ground.height(), blank);
+    copy_part(whole, part, x0, y0);
+  });
+  // Indices in the panel become indices in the sheet.
+  for (const auto from : {&GuidanceBuffers::painted_from, &GuidanceBuffers::ground_from}) {
+    const Grid<std::uint32_t>& part = panel.guidance.*from;
+    if (part.empty()) continue;
+    Grid<std::uint32_t>& whole = row.guidance.*from;
+    const auto width = static_cast<std::uint32_t>(plan.width);
+    if (whole.empty()) {
+      whole = Grid<std::uint32_t>(row.ground.width(), row.ground.height());
+      for (std::size_t i = 0; i < whole.size(); ++i) whole[i] = static_cast<std::uint32_t>(row_y0) * width + static_cast<std::uint32_t>(i);
+    }
+    const auto part_width = static_cast<std::uint32_t>(part.width());
+    for (int y = 0; y < part.height(); ++y)
+      for (int x = 0; x < part.width(); ++x) {
+        const std::uint32_t index = part(x, y);
+        whole(x0 + x, y0 + y) =
+            (static_cast<std::uint32_t>(row_y0 + y0) + index / part_width) * width + static_cast<std::uint32_t>(x0) + index % part_width;
+      }
+  }
+  copy_part(row.ground, panel.ground, x0, y0);
+  if (!panel.painting.empty()) {
+    if (row.painting.empty()) row.painting = Grid<glm::vec3>(row.ground.width(), row.ground.height(), paper);
+    copy_part(row.painting, panel.painting, x0, y0);
+  }
+}
+
+}  // namespace
+
+struct SheetPainter::State {
+  SheetPlan plan;
+  SheetHand hand;
+  std::map<std::string, Dem> dems;
+  std::map<std::string, LandCover> covers;
+  std::uint32_t strokes = 0;  // laid so far on the sheet
+  std::string instruction_set;
+
+  ExamplePainting paint_panel(int panel, const ExampleLayers& layers, Progress& progress) {
+    LoadedScene loaded = panel_scene(plan, panel, hand.palette.winter);
+    if (hand.light) loaded.scene.light = *hand.light;
+    const SyntheticParameters& wish = loaded.scene.terrain.synthetic.value();
+    const std::string terrain =
+        fmt::format("{} {} {} {} {} {}", wish.width, wish.height, wish.cell_m, wish.lowest_m, wish.highest_m, wish.seed);
+    auto dem = dems.find(terrain);
+    if (dem == dems.end()) dem = dems.emplace(terrain, make_scene_dem(loaded, progress)).first;
+    std::string rules = terrain + " " + loaded.scene.land_cover.rules;
+    for (const auto& [key, value] : loaded.scene.land_cover.settings) rules += fmt::format(" {}={}", key, value);
+    auto cover = covers.find(rules);
+    if (cover == covers.end()) cover = covers.emplace(rules, make_scene_land_cover(loaded, dem->second, progress)).first;
+
+    Stage stage = set_stage(loaded, dem->second, cover->second, progress);
+    instruction_set = stage.tracer->description();
+    stage.palette = hand.palette;
+    stage.scene.seed = plan.seed + 1000ULL * static_cast<std::uint64_t>(panel + 1);  // no two panels have strokes at the same places
+    const PixelRect whole{0, 0, loaded.scene.output.width, loaded.scene.output.height};
+    ExamplePainting painted = paint_example(stage, make_lit_picture(stage, whole, trace_tile_px, progress), layers, progress);
+    std::uint32_t most = 0;
+    for (std::uint32_t& stroke : painted.guidance.stroke) {
+      most = std::max(most, stroke);
+      if (stroke > 0) stroke += strokes;
+    }
+    strokes += most;
+    return painted;
+  }
+};
+
+SheetPainter::SheetPainter(SheetPlan plan, SheetHand hand) : state_(std::make_unique<State>()) {
+  state_->plan = std::move(plan);
+  state_->hand = std::move(hand);
+}
+SheetPainter::~SheetPainter() = default;
+SheetPainter::SheetPainter(SheetPainter&&) noexcept = default;
+
+const SheetPlan& SheetPainter::plan() const { return state_->plan; }
+
+const std::string& SheetPainter::instruction_set() const { return state_->instruction_set; }
+
+int SheetPainter::rows() const { return static_cast<int>(state_->plan.panels.size()) / state_->plan.columns; }
+
+std::pair<int, int> SheetPainter::row_span(int row) const {
+  const PixelRect cell = panel_cell(state_->plan, row * state_->plan.columns);
+  return {cell.y0, cell.y1};
+}
+
+ExamplePainting SheetPainter::paint_row(int row, const ExampleLayers& layers, Progress& progress) {
+  const SheetPlan& plan = state_->plan;
+  const auto [y0, y1] = row_span(row);
+  ExamplePainting whole;
+  whole.ground = Grid<glm::vec3>(plan.width, y1 - y0, paper);
+  OneStage quiet(progress);
+  for (int column = 0; column < plan.columns; ++column) {
+    const int panel = row * plan.columns + column;
+    const PixelRect rect = panel_rect(plan, panel);
+    insert_panel(whole, state_->paint_panel(panel, layers, quiet), rect.x0, rect.y0 - y0, y0, plan);
+    progress.advance(1.0);
+  }
+  return whole;
+}
+
+PaintedExemplar paint_sheet(const SceneExemplar& wish, const Stage& target, Progress& progress) {
+  SheetPlan plan = built_in_sheet_plan();
+  plan.width = wish.width;
+  plan.height = wish.height;
+  plan.seed = wish.seed;
+  plan.dots_per_inch = 50.8 * target.scene.pixels_per_unit();  // strokes as large as the target's
+  plan.light_from_deg = target.view.sun.azimuth_deg - target.view.camera.azimuth_deg;
+  SheetPainter painter(plan, {target.palette, target.scene.light});
+  progress.begin("painting a sheet to copy from", static_cast<double>(plan.panels.size()));
+
+  PaintedExemplar painted;
+  painted.exemplar.name = "painted sheet";
+  GuideStack& guides = painted.exemplar.guides;
+  painted.picture = painted.base = Grid<glm::vec3>(plan.width, plan.height);
+  guides.label = Grid<std::uint8_t>(plan.width, plan.height);
+  for (int row = 0; row < painter.rows(); ++row) {
+    const auto [y0, y1] = painter.row_span(row);
+    ExamplePainting part = painter.paint_row(row, {.painting = false, .sky = false}, progress);
+    // find_painted_classes wants indices in the part.
+    const auto first = static_cast<std::uint32_t>(y0) * static_cast<std::uint32_t>(plan.width);
+    for (std::uint32_t& from : part.guidance.ground_from) from -= first;
+    const PaintedClasses classes = classes_of_paint(part.guidance, part.guidance.ground_from);
+    const GuideStack of_part = make_guide_stack(part.guidance, classes.land_cover);
+    copy_part(painted.picture, part.ground, 0, y0);
+    copy_part(painted.base, classes.base, 0, y0);
+    copy_part(guides.label, of_part.label, 0, y0);
+    if (guides.guides.empty())
+      for (const Guide& guide : of_part.guides) guides.guides.push_back({guide.name, Grid<std::uint8_t>(plan.width, plan.height)});
+    for (std::size_t g = 0; g < of_part.guides.size(); ++g) copy_part(guides.guides[g].values, of_part.guides[g].values, 0, y0);
+  }
+  painted.exemplar.picture = seam_picture(painted, guides.label, target.scene.synthesis.residual);
+  return painted;
+}
+
+}  // namespace belvedere

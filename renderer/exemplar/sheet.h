@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/progress.h"
+#include "renderer/exemplar/example_painting.h"
+#include "renderer/exemplar/sheet_plan.h"
+#include "renderer/paint/paint.h"
+#include "renderer/scene/scene.h"
+#include "renderer/world/lit_picture.h"
+
+namespace belvedere {
+
+// What a sheet takes over from the picture that will copy it.
+struct SheetHand {
+  Palette palette;
+  std::optional<SceneLight> light;  // else each panel's own
+};
+
+// Paints the panels of a sheet, row by row. Terrains that several panels show are made once.
+class SheetPainter {
+ public:
+  SheetPainter(SheetPlan plan, SheetHand hand);
+  ~SheetPainter();
+  SheetPainter(SheetPainter&&) noexcept;
+
+  const SheetPlan& plan() const;
+  int rows() const;
+  // Rows of pixels that a row of panels covers, margins included.
+  std::pair<int, int> row_span(int row) const;
+  // What rays were traced with, for provenance; known after the first row.
+  const std::string& instruction_set() const;
+  // A row of panels with their margins, as wide as the sheet. painted_from and ground_from count in the pixels of the whole sheet. Margins
+  // are bare paper: they count as sky, and nothing is copied from them.
+  ExamplePainting paint_row(int row, const ExampleLayers& layers, Progress& progress);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// The sheet that is painted for a picture: with its palette, light and size of stroke, so that every guide of it is exactly known. It
+// carries no trees, no houses and no sky: those are painted on the target last.
+PaintedExemplar paint_sheet(const SceneExemplar& wish, const Stage& target, Progress& progress);
+
+}  // namespace belvedere

@@ -1,0 +1,181 @@
+#include "renderer/exemplar/sheet_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/config.h"
+#include "base/embedded.h"
+#include "base/error.h"
+#include "base/json.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int row_px = 64;               // rows of panels begin at multiples of it
+constexpr double fine_panel_px = 240.0;  // smaller panels have coarser terrains
+constexpr double margin_mm = 2.0;        // of bare paper between two panels
+
+[[noreturn]] void fail(const ConfigValue& value, const std::string& name, std::string found, std::string allowed) {
+  throw Error(ErrorKind::usage, config_where(name, value.place), std::move(found), std::move(allowed));
+}
+
+std::vector<std::string> read_texts(const ConfigValue& value, const std::string& name) {
+  std::vector<std::string> texts;
+  for (const ConfigValue& text : as_array(value, name)) texts.push_back(as_string(text, name));
+  return texts;
+}
+
+using Named = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+// [terrains] or [views]: named lists of settings.
+Named read_named(const ConfigTable& root, const char* key, const std::string& name) {
+  Named named;
+  if (const ConfigValue* table = find(root, key))
+    for (const ConfigEntry& entry : as_table(*table, name)) named.emplace_back(entry.key, read_texts(entry.value, name));
+  return named;
+}
+
+void append_named(SheetPanel& panel, const ConfigTable& table, const char* key, const Named& named, const std::string& name) {
+  const ConfigValue* value = find(table, key);
+  if (value == nullptr) return;
+  const std::string& wanted = as_string(*value, name);
+  const auto found = std::find_if(named.begin(), named.end(), [&](const auto& n) { return n.first == wanted; });
+  if (found == named.end()) {
+    std::string known;
+    for (const auto& n : named) known += (known.empty() ? "" : ", ") + n.first;
+    fail(*value, name, fmt::format("no {} \"{}\"", key, wanted), known);
+  }
+  panel.settings.insert(panel.settings.end(), found->second.begin(), found->second.end());
+  panel.name += (panel.name.empty() ? "" : ", ") + wanted;
+}
+
+template <class T>
+void read_number(const ConfigTable& table, const char* key, double least, double most, const std::string& name, T& number) {
+  const ConfigValue* value = find(table, key);
+  if (value == nullptr) return;
+  const double found = as_number(*value, name);
+  if (!(found >= least && found <= most)) fail(*value, name, fmt::format("{} = {}", key, found), fmt::format("{}…{}", least, most));
+  number = static_cast<T>(found);
+}
+
+std::string quoted_list(const std::vector<std::string>& texts) {
+  std::string out = "[";
+  for (const std::string& text : texts) out += (out.size() > 1 ? ", " : "") + json_quoted(text);
+  return out + "]";
+}
+
+int rows_of(const SheetPlan& plan) { return static_cast<int>(plan.panels.size()) / plan.columns; }
+
+int row_top(const SheetPlan& plan, int row) {
+  const int rows = rows_of(plan);
+  if (row == rows) return plan.height;
+  const int step = plan.height >= row_px * rows ? row_px : 1;
+  return static_cast<int>(std::lround(static_cast<double>(plan.height) * row / rows / step)) * step;
+}
+
+int column_left(const SheetPlan& plan, int column) {
+  return static_cast<int>(std::lround(static_cast<double>(plan.width) * column / plan.columns));
+}
+
+SheetPlan build_plan(const ConfigValue& root, const std::string& name) {
+  const ConfigTable& table = as_table(root, name);
+  allow_only(table,
+             {"width", "height", "dots_per_inch", "palette", "seed", "light_from_deg", "columns", "scene", "terrains", "views", "panels"},
+             name);
+  SheetPlan plan;
+  read_number(table, "width", 256, 16384, name, plan.width);
+  read_number(table, "height", 256, 16384, name, plan.height);
+  read_number(table, "dots_per_inch", 5, 2540, name, plan.dots_per_inch);
+  read_number(table, "seed", 0, static_cast<double>(SheetPlan::largest_seed), name, plan.seed);
+  read_number(table, "light_from_deg", -360, 360, name, plan.light_from_deg);
+  read_number(table, "columns", 1, 16, name, plan.columns);
+  if (const ConfigValue* palette = find(table, "palette")) plan.palette = as_string(*palette, name);
+  const ConfigValue* scene = find(table, "scene");
+  plan.scene = scene != nullptr ? as_string(*scene, name) : std::string(embedded_file("sheet/scene.toml"));
+  const Named terrains = read_named(table, "terrains", name);
+  const Named views = read_named(table, "views", name);
+  const ConfigValue* panels = find(table, "panels");
+  if (panels == nullptr) fail(root, name, "no panels", "[[panels]], row by row");
+  for (const ConfigValue& value : as_array(*panels, name)) {
+    const ConfigTable& one = as_table(value, name);
+    allow_only(one, {"name", "terrain", "view", "set", "set_in_winter"}, name);
+    SheetPanel panel;
+    append_named(panel, one, "terrain", terrains, name);
+    append_named(panel, one, "view", views, name);
+    if (const ConfigValue* own = find(one, "name")) panel.name = as_string(*own, name);
+    if (const ConfigValue* set = find(one, "set"))
+      for (std::string& setting : read_texts(*set, name)) panel.settings.push_back(std::move(setting));
+    if (const ConfigValue* set = find(one, "set_in_winter")) panel.snow_settings = read_texts(*set, name);
+    plan.panels.push_back(std::move(panel));
+  }
+  if (plan.panels.empty() || plan.panels.size() % static_cast<std::size_t>(plan.columns) != 0)
+    fail(*panels, name, fmt::format("{} panels in rows of {}", plan.panels.size(), plan.columns), "full rows");
+  return plan;
+}
+
+}  // namespace
+
+SheetPlan parse_sheet_plan(std::string_view text, const std::string& name) { return build_plan(parse_config(text, name), name); }
+
+SheetPlan built_in_sheet_plan() { return parse_sheet_plan(embedded_file("sheet/plan.toml"), "sheet/plan.toml"); }
+
+SheetPlan read_sheet_plan(const std::string& path) { return build_plan(read_config(path), path); }
+
+std::string write_sheet_plan(const SheetPlan& plan) {
+  std::string out = "# An example sheet: belvedere exemplar paint --plan THIS_FILE --out DIR paints it again.\n";
+  out += fmt::format("width = {}\nheight = {}\ndots_per_inch = {}\npalette = {}\nseed = {}\nlight_from_deg = {}\ncolumns = {}\n",
+                     plan.width, plan.height, plan.dots_per_inch, json_quoted(plan.palette), plan.seed, plan.light_from_deg, plan.columns);
+  out += "# What all panels have in common.\nscene = '''\n" + plan.scene + "'''\n";
+  for (const SheetPanel& panel : plan.panels)
+    out += fmt::format("\n[[panels]]\nname = {}\nset = {}\nset_in_winter = {}\n", json_quoted(panel.name), quoted_list(panel.settings),
+                       quoted_list(panel.snow_settings));
+  return out;
+}
+
+PixelRect panel_cell(const SheetPlan& plan, int panel) {
+  const int column = panel % plan.columns;
+  const int row = panel / plan.columns;
+  return {column_left(plan, column), row_top(plan, row), column_left(plan, column + 1), row_top(plan, row + 1)};
+}
+
+PixelRect panel_rect(const SheetPlan& plan, int panel) {
+  const PixelRect cell = panel_cell(plan, panel);
+  const int margin = std::max(1, static_cast<int>(std::lround(0.5 * margin_mm * plan.dots_per_inch / 25.4)));
+  const int across = std::min(margin, (cell.width() - 16) / 2);
+  const int down = std::min(margin, (cell.height() - 16) / 2);
+  return {cell.x0 + across, cell.y0 + down, cell.x1 - across, cell.y1 - down};
+}
+
+LoadedScene panel_scene(const SheetPlan& plan, int panel, bool winter) {
+  const SheetPanel& wish = plan.panels[static_cast<std::size_t>(panel)];
+  SceneFileOptions options;
+  // A winter sheet has every class all the same, for land cover that comes from maps; panels say where snow lies over them.
+  options.settings.emplace_back("land_cover.settings.winter=0");
+  options.settings.insert(options.settings.end(), wish.settings.begin(), wish.settings.end());
+  if (winter) options.settings.insert(options.settings.end(), wish.snow_settings.begin(), wish.snow_settings.end());
+  const PixelRect rect = panel_rect(plan, panel);
+  options.settings.push_back(fmt::format("output.width={}", rect.width()));
+  options.settings.push_back(fmt::format("output.height={}", rect.height()));
+  LoadedScene loaded = parse_scene(plan.scene, "sheet", ".", options);
+  Scene& scene = loaded.scene;
+  scene.title = wish.name;
+  scene.palette = plan.palette;
+  scene.output.sheet_width_mm = rect.width() / plan.dots_per_inch * 25.4;
+  scene.sun.azimuth_deg = std::remainder(scene.camera.azimuth_deg + plan.light_from_deg, 360.0);
+  if (scene.sun.azimuth_deg < 0.0) scene.sun.azimuth_deg += 360.0;
+  // The terrains were chosen for the plan's own seed; another one makes others. Small panels show no more than coarse ones do.
+  const SheetPlan usual;
+  SyntheticParameters& terrain = scene.terrain.synthetic.value();
+  terrain.seed += plan.seed - usual.seed;
+  const double coarser = std::clamp(fine_panel_px / std::min(rect.width(), rect.height()), 1.0, 4.0);
+  terrain.width = static_cast<int>(std::lround(terrain.width / coarser));
+  terrain.height = static_cast<int>(std::lround(terrain.height / coarser));
+  terrain.cell_m *= coarser;
+  scene.seed = plan.seed;
+  return loaded;
+}
+
+}  // namespace belvedere

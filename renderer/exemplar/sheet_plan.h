@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/parallel.h"
+#include "renderer/scene/scene_file.h"
+
+namespace belvedere {
+
+// What a sheet shows: panels side by side, each a small view of its own. One text with `scene`, the scene that all panels have in common,
+// and for each panel what it sets differently. docs/exemplars.md describes the file.
+struct SheetPanel {
+  std::string name;
+  std::vector<std::string> settings;       // key.path=value, as --set takes them
+  std::vector<std::string> snow_settings;  // more of them where the palette is one of winter
+};
+struct SheetPlan {
+  static constexpr std::uint64_t largest_seed = (std::uint64_t{1} << 53) - 1;  // what every reader of numbers holds exactly
+  int width = 4096;                                                            // px
+  int height = 4096;
+  double dots_per_inch = 50.8;     // strokes are sized in mm: 50.8 is two pixels a millimetre
+  std::string palette = "summer";  // built-in name or file
+  std::uint64_t seed = 7;          // of terrains and strokes; at most largest_seed
+  double light_from_deg = -125.0;  // the sun's azimuth, clockwise from where each panel looks to: the same side in all of them
+  int columns = 4;
+  std::string scene;               // TOML
+  std::vector<SheetPanel> panels;  // row by row
+};
+
+// The sheet the program knows (data/sheet/).
+SheetPlan built_in_sheet_plan();
+// Strict: Error(usage) with place for unknown keys, a panel that names no terrain or view of the file, rows that are not full.
+SheetPlan parse_sheet_plan(std::string_view text, const std::string& name);
+SheetPlan read_sheet_plan(const std::string& path);
+// Reads back to the same plan.
+std::string write_sheet_plan(const SheetPlan& plan);
+
+// Where a panel's picture lies; around it is a margin of bare paper. Rows of panels begin at multiples of 64 pixels where the sheet is
+// large enough, so that files can be written row by row.
+PixelRect panel_cell(const SheetPlan& plan, int panel);  // with its margin
+PixelRect panel_rect(const SheetPlan& plan, int panel);
+// The scene of a panel. winter: of the palette. Error(usage) naming the panel where a setting is bad.
+LoadedScene panel_scene(const SheetPlan& plan, int panel, bool winter);
+
+}  // namespace belvedere

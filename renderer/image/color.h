@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+
+namespace belvedere {
+
+// Colour management. color.cpp is the only file that knows OpenColorIO, icc.cpp the only one that knows lcms2.
+struct ColorParameters {
+  std::string config;                // an OCIO config file; empty: $OCIO, else the program's own config, built in memory
+  std::string working = "lin_srgb";  // scene-linear space, role or alias in it
+  std::string display = "srgb";      // space, role or alias of PNG and TIFF, or `display/view`
+};
+// The program's own config knows lin_srgb, srgb (IEC 61966-2-1, exact), aces (ACES2065-1) and acescg; the last two are adapted to D65 by
+// Bradford. Every function throws Error(input) with the name of a config, a file that it needs, or a space that is missing or bad.
+
+// Scene-linear to encoded 0…1. Not cut: values beyond white stay beyond 1. The same bits for any number of threads.
+Grid<glm::vec3> to_display(const Image& linear, const ColorParameters& parameters);
+Image from_display(const Grid<glm::vec3>& encoded, const ColorParameters& parameters);
+// Config ("own" or the file's name), spaces and OCIO's version: for provenance.
+std::string describe_color(const ColorParameters& parameters);
+
+// An sRGB profile (ICC 4) made by lcms2, for embedding. The same bytes every time: its date is fixed.
+std::vector<std::uint8_t> srgb_profile();
+// Reads an ICC file; Error(input) where it is missing, damaged or no profile of an RGB device.
+std::vector<std::uint8_t> read_icc_profile(const std::string& path);
+// Encoded sRGB to the device space of an RGB profile, perceptual intent with black-point compensation, cut to 0…1. Error(input) for bytes
+// that are no profile of an RGB output. The same bits for any number of threads.
+Grid<glm::vec3> to_profile(const Grid<glm::vec3>& encoded_srgb, const std::vector<std::uint8_t>& profile);
+
+}  // namespace belvedere

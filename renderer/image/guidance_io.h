@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/guidance_buffers.h"
+#include "renderer/image/image_io.h"
+
+namespace belvedere {
+
+// Guidance buffers as one multi-part tiled OpenEXR. The parts, each with the channels that are used together, so that a reader unpacks no
+// more than it needs (name, type, meaning and unit as in GuidanceBuffers):
+//   depth     Z float, coverage.A front.A silhouette.V half, footprint.V float
+//   position  P.X P.Y P.Z altitude.V float
+//   normal    N.X…Z (normal), Nd.X…Z (normal_detail), Ns.X…Z (normal_smooth), half
+//   class     landcover.id uint
+//   terrain   slope.V aspect.V fallline.X fallline.Y ridge.V relief.S relief.M relief.L valley.V built.V grain.X grain.Y half, rim.V float
+//   light     shadow.V skyview.V tone.V, half
+//   base      base.R base.G base.B half
+//   paint     painted.id painted.from stroke.id ground.from uint (of paintings whose strokes are known)
+// The header's note "legend" has a line `id name rrggbb` for each class.
+
+// Writes rows from top to bottom, streamed: memory holds one band of one part.
+class GuidanceWriter {
+ public:
+  // notes: camera, CRS, origin, sun, resolved scene, versions, hashes; the legend is added here.
+  GuidanceWriter(const std::string& path, int width, int height, const FileNotes& notes);
+  // The rows [first, first + rows) of `part`, which stand at y0 in the picture. Bands as in ExrWriter::write_rows. The grids that are not
+  // empty in the first call decide which channels the file has; Error(bug) where a later call lacks one.
+  void write_rows(const GuidanceBuffers& part, int first, int rows, int y0);
+  void finish();
+
+ private:
+  std::string path_;
+  int width_;
+  int height_;
+  FileNotes notes_;
+  std::optional<ExrWriter> writer_;              // made with the first rows
+  std::vector<std::vector<std::size_t>> parts_;  // for each part of the file its channels, as places in the table of all channels
+};
+
+void write_guidance(const std::string& path, const GuidanceBuffers& guidance, const FileNotes& notes);
+// Reads what the file has; absent channels stay empty grids (of a vector all of its channels count). Directions are made unit again, as
+// half is not exact. Error(input): no guidance at all, parts of different size, a class id without a meaning.
+GuidanceBuffers read_guidance(const std::string& path);
+
+}  // namespace belvedere

@@ -1,0 +1,257 @@
+// Reads OpenEXR. Sizes are taken from a header of our own reading: opening a file with the library allocates tables of the size it claims.
+#include <Iex.h>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfStdIO.h>
+#include <ImfStringAttribute.h>
+#include <ImfTileDescriptionAttribute.h>
+#include <ImfVersion.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <utility>
+
+#include "base/error.h"
+#include "renderer/image/image_io_detail.h"
+
+namespace belvedere {
+namespace image_io {
+namespace {
+
+struct PartHeader {
+  Imf::Header header;
+  std::string name;
+  std::int64_t width = 0;
+  std::int64_t height = 0;
+};
+
+// Runs f, turning what the library throws into Error(input).
+template <class F>
+auto guarded(const std::string& path, F&& f) {
+  try {
+    return f();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::limit, path, "does not fit into memory");
+  } catch (const std::exception& e) {
+    throw_damaged(path, e.what());
+  }
+}
+
+std::uint32_t read_word(Imf::IStream& stream) {
+  std::array<char, 4> bytes{};
+  stream.read(bytes.data(), 4);
+  std::uint32_t word = 0;
+  for (int i = 3; i >= 0; --i) word = word << 8 | static_cast<std::uint8_t>(bytes[static_cast<std::size_t>(i)]);
+  return word;
+}
+
+// The headers of all parts: nothing beyond them is touched.
+std::vector<PartHeader> read_headers(const std::string& path) {
+  if (find_format(path) != "openexr") throw Error(ErrorKind::input, path, "is no OpenEXR file", "an OpenEXR file (.exr)");
+  return guarded(path, [&] {
+    Imf::StdIFStream stream(path.c_str());
+    read_word(stream);
+    int version = static_cast<int>(read_word(stream));
+    if (Imf::getVersion(version) != Imf::EXR_VERSION || !Imf::supportsFlags(Imf::getFlags(version))) {
+      throw Error(ErrorKind::input, path, "is of an unknown version of OpenEXR");
+    }
+    if (Imf::isNonImage(version)) throw Error(ErrorKind::input, path, "is a deep OpenEXR file", "a flat one");
+    std::vector<PartHeader> parts;
+    while (true) {
+      if (Imf::isMultiPart(version)) {
+        // An empty header, a single zero, ends the list.
+        char next = 0;
+        const std::uint64_t at = stream.tellg();
+        stream.read(&next, 1);
+        if (next == 0) break;
+        stream.seekg(at);
+      }
+      PartHeader part;
+      part.header.readFrom(stream, version);
+      part.name = part.header.hasName() ? part.header.name() : "";
+      const Imath::Box2i window = part.header.dataWindow();
+      part.width = std::int64_t{window.max.x} - window.min.x + 1;
+      part.height = std::int64_t{window.max.y} - window.min.y + 1;
+      if (part.width < 1 || part.height < 1) throw_damaged(path, "a picture without pixels");
+      parts.push_back(std::move(part));
+      if (!Imf::isMultiPart(version)) break;
+      if (parts.size() > 1000) throw_damaged(path, "more than 1000 parts");
+    }
+    if (parts.empty()) throw_damaged(path, "no parts");
+    return parts;
+  });
+}
+
+ChannelType channel_type(Imf::PixelType type) {
+  return type == Imf::HALF ? ChannelType::half : type == Imf::UINT ? ChannelType::uint32 : ChannelType::float32;
+}
+
+// Bytes for `values` values a pixel of our own, one row of tiles or lines of the library's, and its table of offsets.
+void check_part(const std::string& path, const PartHeader& part, int value_bytes) {
+  double bytes = static_cast<double>(part.width) * static_cast<double>(part.height) * value_bytes;
+  if (part.header.hasTileDescription()) {
+    const Imf::TileDescription tile = part.header.tileDescription();
+    double pixel_bytes = 0.0;
+    for (auto c = part.header.channels().begin(); c != part.header.channels().end(); ++c) pixel_bytes += 4.0;
+    const double across = std::max<double>(static_cast<double>(part.width), tile.xSize);
+    bytes += across * tile.ySize * pixel_bytes;
+    if (tile.xSize < 1 || tile.ySize < 1) throw_damaged(path, "tiles without pixels");
+  }
+  check_memory(path, part.width, part.height, bytes);
+}
+
+struct Target {
+  std::string channel;
+  Imf::PixelType type;
+  char* first = nullptr;  // of the top left pixel
+  std::size_t pixel_bytes = 0;
+};
+
+// Fills the targets from one part, all of it or an error.
+void read_part(const std::string& path, std::size_t index, const PartHeader& part, const std::vector<Target>& targets) {
+  guarded(path, [&] {
+    Imf::MultiPartInputFile file(path.c_str());
+    if (!file.partComplete(static_cast<int>(index))) throw_damaged(path, "tiles or rows are missing");
+    Imf::InputPart input(file, static_cast<int>(index));
+    const Imath::Box2i window = part.header.dataWindow();
+    Imf::FrameBuffer frame;
+    for (const Target& t : targets) {
+      const std::size_t row_bytes = t.pixel_bytes * static_cast<std::size_t>(part.width);
+      frame.insert(t.channel, Imf::Slice::Make(t.type, t.first, window, t.pixel_bytes, row_bytes));
+    }
+    input.setFrameBuffer(frame);
+    input.readPixels(window.min.y, window.max.y);
+  });
+}
+
+const Imf::Channel* find_channel(const std::string& path, const PartHeader& part, const std::string& name) {
+  const Imf::Channel* channel = part.header.channels().findChannel(name);
+  if (channel != nullptr && (channel->xSampling != 1 || channel->ySampling != 1)) {
+    throw Error(ErrorKind::input, path, "channel " + name + " is subsampled", "channels of full resolution");
+  }
+  return channel;
+}
+
+std::string list_channels(const std::vector<PartHeader>& parts) {
+  std::string list;
+  for (const PartHeader& part : parts) {
+    for (auto c = part.header.channels().begin(); c != part.header.channels().end(); ++c) {
+      list += (list.empty() ? "" : ", ") + std::string(c.name());
+    }
+  }
+  return list;
+}
+
+// Channels by name from whichever part has them first, each part read once; an absent channel gives an empty grid.
+template <class T>
+std::vector<Grid<T>> read_some(const std::string& path, const std::vector<PartHeader>& parts, const std::vector<std::string>& channels,
+                               bool ids) {
+  std::vector<Grid<T>> out(channels.size());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    std::vector<std::size_t> wanted;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const Imf::Channel* found = out[c].empty() ? find_channel(path, parts[p], channels[c]) : nullptr;
+      if (found == nullptr) continue;
+      if ((found->type == Imf::UINT) != ids) {
+        throw Error(ErrorKind::input, path, "channel " + channels[c] + (ids ? " holds no ids" : " holds ids"),
+                    ids ? "32-bit whole numbers" : "half or float");
+      }
+      wanted.push_back(c);
+    }
+    if (wanted.empty()) continue;
+    check_part(path, parts[p], static_cast<int>(sizeof(T) * wanted.size()));
+    std::vector<Target> targets;
+    for (const std::size_t c : wanted) {
+      out[c] = Grid<T>(static_cast<int>(parts[p].width), static_cast<int>(parts[p].height));
+      targets.push_back({channels[c], ids ? Imf::UINT : Imf::FLOAT, reinterpret_cast<char*>(out[c].data()), sizeof(T)});
+    }
+    read_part(path, p, parts[p], targets);
+  }
+  return out;
+}
+
+template <class T>
+Grid<T> read_one(const std::string& path, const std::string& channel, bool ids) {
+  const std::vector<PartHeader> parts = read_headers(path);
+  Grid<T> out = std::move(read_some<T>(path, parts, {channel}, ids).front());
+  if (out.empty()) throw Error(ErrorKind::input, path, "has no channel " + channel, list_channels(parts));
+  return out;
+}
+
+}  // namespace
+
+ImageInfo read_exr_info(const std::string& path) {
+  const std::vector<PartHeader> parts = read_headers(path);
+  check_memory(path, parts[0].width, parts[0].height, 0.0);
+  ImageInfo info;
+  info.format = "openexr";
+  info.width = static_cast<int>(parts[0].width);
+  info.height = static_cast<int>(parts[0].height);
+  for (const PartHeader& part : parts) {
+    PartSpec spec{part.name, {}};
+    for (auto c = part.header.channels().begin(); c != part.header.channels().end(); ++c) {
+      spec.channels.push_back({c.name(), channel_type(c.channel().type)});
+    }
+    info.parts.push_back(std::move(spec));
+  }
+  for (auto a = parts[0].header.begin(); a != parts[0].header.end(); ++a) {
+    const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute());
+    const std::string key = a.name();
+    if (text != nullptr && key != "name" && key != "type") info.notes[key] = text->value();
+  }
+  return info;
+}
+
+Grid<glm::vec3> read_exr_picture(const std::string& path, Grid<float>* alpha) {
+  const std::vector<PartHeader> parts = read_headers(path);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const PartHeader& part = parts[p];
+    const bool colour =
+        find_channel(path, part, "R") != nullptr && find_channel(path, part, "G") != nullptr && find_channel(path, part, "B") != nullptr;
+    if (!colour && find_channel(path, part, "Y") == nullptr) continue;
+    check_part(path, part, alpha != nullptr ? 16 : 12);
+    Grid<glm::vec3> out(static_cast<int>(part.width), static_cast<int>(part.height));
+    std::vector<Target> targets;
+    char* first = reinterpret_cast<char*>(out.data());
+    if (colour) {
+      for (int c = 0; c < 3; ++c)
+        targets.push_back({std::string(1, "RGB"[c]), Imf::FLOAT, first + std::ptrdiff_t{4} * c, sizeof(glm::vec3)});
+    } else {
+      targets.push_back({"Y", Imf::FLOAT, first, sizeof(glm::vec3)});
+    }
+    if (alpha != nullptr) {
+      *alpha = Grid<float>(out.width(), out.height(), 1.0f);
+      if (find_channel(path, part, "A") != nullptr) {
+        targets.push_back({"A", Imf::FLOAT, reinterpret_cast<char*>(alpha->data()), sizeof(float)});
+      }
+    }
+    read_part(path, p, part, targets);
+    if (!colour) {
+      for (glm::vec3& v : out) v = glm::vec3(v.x);
+    }
+    return out;
+  }
+  throw Error(ErrorKind::input, path, "holds no picture but " + list_channels(parts), "channels R, G, B or Y");
+}
+
+}  // namespace image_io
+
+Grid<float> read_channel(const std::string& path, const std::string& channel) { return image_io::read_one<float>(path, channel, false); }
+
+std::vector<Grid<float>> read_channels(const std::string& path, const std::vector<std::string>& channels) {
+  return image_io::read_some<float>(path, image_io::read_headers(path), channels, false);
+}
+
+Grid<std::uint32_t> read_id_channel(const std::string& path, const std::string& channel) {
+  return image_io::read_one<std::uint32_t>(path, channel, true);
+}
+
+}  // namespace belvedere

@@ -1,0 +1,80 @@
+#include "renderer/image/output_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "base/error.h"
+#include "renderer/image/image_io.h"
+
+namespace belvedere {
+namespace {
+
+[[noreturn]] void throw_system(const std::string& path, const std::string& what, int code) {
+  throw Error(ErrorKind::output, path, what + ": " + std::generic_category().message(code));
+}
+
+// Brings what was written to a file or folder to disk. Some file systems cannot do that for a folder, which is no fault.
+void synchronize(const std::string& path, const std::string& named, bool folder) {
+  const int file = ::open(path.c_str(), folder ? O_RDONLY | O_DIRECTORY : O_RDWR);
+  if (file < 0) {
+    if (folder) return;
+    throw_system(named, "cannot be reopened", errno);
+  }
+  const int code = ::fsync(file) == 0 ? 0 : errno;
+  ::close(file);
+  if (code != 0 && !folder) throw_system(named, "cannot be brought to disk", code);
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
+  std::filesystem::path name(path_);
+  if (name.filename().empty()) throw Error(ErrorKind::output, path_, "is a folder", "the name of a file");
+  std::filesystem::path ending = name.extension();
+  temporary_ = name.replace_extension().string() + ".tmp" + ending.string();
+  // Tried at once: the reason is then known before an image library hides it.
+  const int file = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) throw_system(path_, "cannot be created", errno);
+  ::close(file);
+}
+
+OutputFile::~OutputFile() {
+  if (!committed_) ::unlink(temporary_.c_str());
+}
+
+void OutputFile::commit() {
+  synchronize(temporary_, path_, false);
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw_system(path_, "cannot be replaced", errno);
+  committed_ = true;
+  const std::string folder = std::filesystem::path(path_).parent_path().string();
+  synchronize(folder.empty() ? "." : folder, path_, true);
+}
+
+void OutputFile::fail(const std::string& reason) const {
+  std::string text = "cannot be written";
+  std::error_code code;
+  const std::filesystem::space_info space = std::filesystem::space(temporary_, code);
+  if (!code && space.available < (std::uintmax_t{1} << 20)) text += ": the disk is full";
+  if (!reason.empty()) text += ": " + reason.substr(0, reason.find('\n'));  // some say the same once for each row
+  throw Error(ErrorKind::output, path_, text);
+}
+
+void check_output_folder(const std::string& folder) {
+  const std::string place = folder.empty() ? "." : folder;
+  std::error_code code;
+  std::filesystem::create_directories(place, code);
+  if (code) throw_system(place, "this folder cannot be made", code.value());
+  std::string name = place + "/.belvedere-XXXXXX";
+  const int file = ::mkstemp(name.data());
+  if (file < 0) throw_system(place, "no file can be created in this folder", errno);
+  ::close(file);
+  ::unlink(name.c_str());
+}
+
+}  // namespace belvedere

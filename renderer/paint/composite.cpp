@@ -1,0 +1,119 @@
+#include "renderer/paint/composite.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <string>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "renderer/image/srgb.h"
+
+namespace belvedere {
+namespace {
+
+template <class Curve>
+Grid<glm::vec3> map_channels(const Grid<glm::vec3>& picture, Curve curve) {
+  Grid<glm::vec3> out(picture.width(), picture.height());
+  parallel_rows(picture.height(), [&](int y) {
+    const glm::vec3* from = picture.row(y);
+    glm::vec3* to = out.row(y);
+    for (int x = 0; x < picture.width(); ++x) {
+      for (int c = 0; c < 3; ++c) to[x][c] = static_cast<float>(curve(static_cast<double>(from[x][c])));
+    }
+  });
+  return out;
+}
+
+glm::dvec3 decode(glm::vec3 v) { return {srgb_decoded(v.x), srgb_decoded(v.y), srgb_decoded(v.z)}; }
+glm::vec3 encode(glm::dvec3 v) { return glm::vec3(srgb_encoded(v.x), srgb_encoded(v.y), srgb_encoded(v.z)); }
+
+// Whether two pixels show different surfaces: the comparison is false for sky against sky (infinity) and true for sky against ground.
+bool differ(float depth_a, float depth_b) {
+  constexpr float ratio = 1.03f;
+  return depth_a > ratio * depth_b || depth_b > ratio * depth_a;
+}
+
+}  // namespace
+
+Image decode_srgb(const Grid<glm::vec3>& encoded) { return map_channels(encoded, srgb_decoded); }
+Grid<glm::vec3> encode_srgb(const Image& linear) { return map_channels(linear, srgb_encoded); }
+
+Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<PaintedExemplar>& exemplars,
+                                  const Grid<glm::vec3>& target_base, const Grid<float>& target_haze, double residual) {
+  if (!matches.same_size(target_base)) throw Error(ErrorKind::bug, "composite", "the match field and the base have different sizes");
+  if (!target_haze.empty() && !target_haze.same_size(target_base))
+    throw Error(ErrorKind::bug, "composite", "air and base have different sizes");
+  for (const PaintedExemplar& e : exemplars) {
+    if (!e.base.empty() && !e.base.same_size(e.picture)) {
+      throw Error(ErrorKind::input, "exemplar " + e.exemplar.name, "its base has another size than its picture");
+    }
+  }
+  const auto r = static_cast<float>(residual);
+  Grid<glm::vec3> out(target_base.width(), target_base.height());
+  parallel_rows(out.height(), [&](int y) {
+    for (int x = 0; x < out.width(); ++x) {
+      const Match m = matches(x, y);
+      if (m.exemplar == Match::none) {
+        out(x, y) = target_base(x, y);
+        continue;
+      }
+      if (m.exemplar >= exemplars.size() || !exemplars[m.exemplar].picture.contains(m.x, m.y)) {
+        throw Error(ErrorKind::input, "match field", "a match outside the exemplars");
+      }
+      const PaintedExemplar& e = exemplars[m.exemplar];
+      glm::vec3 v = e.picture(m.x, m.y);
+      if (!e.base.empty()) v += r * (target_base(x, y) - e.base(m.x, m.y));
+      if (!target_haze.empty()) v = glm::mix(v, target_base(x, y), std::clamp(target_haze(x, y), 0.0F, 1.0F));
+      out(x, y) = glm::clamp(v, 0.0F, 1.0F);
+    }
+  });
+  return out;
+}
+
+Grid<glm::vec3> mix_borders(const Grid<glm::vec3>& copied, const Painting& draft, const Grid<LandCoverClass>& shown,
+                            const Grid<LandCoverClass>& land_cover, const Grid<glm::vec3>& base) {
+  if (!copied.same_size(draft.under) || !copied.same_size(draft.under_share) || !copied.same_size(shown) || !copied.same_size(land_cover) ||
+      !copied.same_size(base))
+    throw Error(ErrorKind::bug, "composite", "the picture and its draft have different sizes");
+  Grid<glm::vec3> out = copied;
+  parallel_rows(out.height(), [&](int y) {
+    for (int x = 0; x < out.width(); ++x) {
+      const std::size_t i = out.index(x, y);
+      if (draft.under_share[i] == 0) continue;
+      const std::size_t from = draft.under[i];
+      const float share = static_cast<float>(draft.under_share[i]) / 255.0F;
+      out[i] = glm::mix(copied[i], shown[from] == land_cover[from] ? copied[from] : base[from], share);
+    }
+  });
+  return out;
+}
+
+Grid<glm::vec3> blend_edges(const Grid<glm::vec3>& picture, const GuidanceBuffers& guidance) {
+  if (guidance.front.empty()) return picture;
+  if (!picture.same_size(guidance.depth_m) || !picture.same_size(guidance.front)) {
+    throw Error(ErrorKind::bug, "composite", "the picture and its guidance have different sizes");
+  }
+  Grid<glm::vec3> out = picture;
+  parallel_rows(picture.height(), [&](int y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const float front = guidance.front(x, y);
+      if (!(front < 1.0f)) continue;
+      const float depth = guidance.depth_m(x, y);
+      glm::dvec3 sum(0.0);
+      int count = 0;
+      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, picture.height() - 1); ++v) {
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, picture.width() - 1); ++u) {
+          if (!differ(depth, guidance.depth_m(u, v))) continue;
+          sum += decode(picture(u, v));
+          ++count;
+        }
+      }
+      if (count == 0) continue;
+      const double own = std::max(static_cast<double>(front), 0.0);
+      out(x, y) = encode(own * decode(picture(x, y)) + (1.0 - own) / count * sum);
+    }
+  });
+  return out;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "base/guidance_buffers.h"
+#include "base/image.h"
+#include "renderer/paint/paint.h"
+#include "texture/strokes/brush.h"
+#include "texture/synthesis/match_field.h"
+
+namespace belvedere {
+
+// paint = texel + residual · (base_target - base_exemplar), in encoded sRGB (look/recipe.md, From an exemplar), cut to 0…1. residual 0…1.
+// Air lies over paint as it lies over the base: out = base_target + (1 - haze) · (paint - base_target); target_haze empty: no air.
+// Pixels without a match, sky among them, take the target's base; exemplars without a base (scans) give their texel as it is. Error(input)
+// for matches outside of the exemplars.
+Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<PaintedExemplar>& exemplars,
+                                  const Grid<glm::vec3>& target_base, const Grid<float>& target_haze, double residual);
+
+// Borders of classes as strokes leave them. A texel is of one class, and a picture of texels alone is torn like paper where classes meet.
+// Where in `draft` two classes share a pixel, the other one's paint is mixed in by its share, in the colour of the place its stroke grew
+// from: that of `copied` where this shows the same class, else that of `base` (the target's, of no hand). Pixels of one class alone stay as
+// they are, bit for bit. All in encoded sRGB, where paint mixes; `shown` is the class of each pixel of `copied`.
+Grid<glm::vec3> mix_borders(const Grid<glm::vec3>& copied, const Painting& draft, const Grid<LandCoverClass>& shown,
+                            const Grid<LandCoverClass>& land_cover, const Grid<glm::vec3>& base);
+
+// Softens depth edges and the skyline. A pixel of which only the part `front` shows the surface it was painted for gets the rest from those
+// of its eight neighbours that lie on another surface (depth differs by more than 3 %, or one is sky), in linear light, as an eye or lens
+// would mix them. Pixels with front 1, or with no other surface around, stay as they are. `picture` encoded sRGB. Needs depth_m and
+// front; without front the picture comes back unchanged.
+Grid<glm::vec3> blend_edges(const Grid<glm::vec3>& picture, const GuidanceBuffers& guidance);
+// Rows that blend_edges looks at above and below, for pictures made in bands.
+inline constexpr int blend_margin_px = 1;
+
+// Encoded sRGB to scene-linear and back (exact piecewise curve of IEC 61966-2-1, continued below 0 and beyond 1).
+Image decode_srgb(const Grid<glm::vec3>& encoded);
+Grid<glm::vec3> encode_srgb(const Image& linear);
+
+}  // namespace belvedere

@@ -1,0 +1,154 @@
+#include "renderer/paint/forest_cover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/vec3.hpp>
+#include <map>
+
+#include "base/parallel.h"
+#include "renderer/paint/picture_filter.h"
+#include "renderer/paint/picture_noise.h"
+
+namespace belvedere {
+namespace {
+
+using Class = LandCoverClass;
+
+constexpr double step_units = 2.0;  // of a walk along the fall line
+constexpr int steps_up = 32;        // avalanches run down as far as this
+constexpr int steps_down = 12;      // with as many steps up: the length over which lanes are drawn out
+constexpr double lane_sigma_units = 2.0;
+constexpr double glade_sigma_units = 9.0;
+constexpr double clump_sigma_units = 4.5;
+constexpr double track_sigma_units = 3.0;
+constexpr double stand_sigma_units = 20.0;
+constexpr float metres_per_unit_unknown = 20.0F;
+
+float smooth(float low, float high, float x) {
+  const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
+  return t * t * (3.0F - 2.0F * t);
+}
+
+// Ground above which forest thins out, in contrast to meadows that people keep clear.
+bool is_open_high(Class id) {
+  return id == Class::alpine_grass || id == Class::shrub || id == Class::scree || id == Class::rock || id == Class::snow ||
+         id == Class::glacier;
+}
+
+// Noise that lies on the ground and yet has patches of one size on the sheet: of the two octaves next to the wanted size, mixed so that
+// the deviation stays 1. Remembers lattice values: one for each thread.
+class SheetSizedNoise {
+ public:
+  explicit SheetSizedNoise(std::uint64_t seed) : seed_(seed) {}
+  float operator()(double x_m, double y_m, double sigma_m) {
+    const double octave = std::log2(std::max(sigma_m, 1e-3));
+    const auto below = static_cast<int>(std::floor(octave));
+    const double share = octave - below;
+    return static_cast<float>(std::sqrt(1.0 - share)) * of(below)(x_m, y_m) +
+           static_cast<float>(std::sqrt(share)) * of(below + 1)(x_m, y_m);
+  }
+
+ private:
+  GroundNoise& of(int octave) {
+    return octaves_.try_emplace(octave, seed_ + static_cast<std::uint64_t>(octave + 64), std::ldexp(1.0, octave)).first->second;
+  }
+  std::uint64_t seed_;
+  std::map<int, GroundNoise> octaves_;
+};
+
+// What lies along the fall line of a forest pixel. Places are relative to the pixel, so that rounding does not depend on the part.
+struct Walk {
+  float noise_sum = 0.0F;  // over the lane's length, without the pixel itself
+  int left_after = 0;      // steps after which the forest ended, 0: it did not
+  std::size_t end = 0;     // the first pixel beyond
+};
+
+Walk walk(const GuidanceBuffers& g, const Grid<float>& noise, int x, int y, float step_px, float sign, int steps) {
+  Walk result;
+  glm::vec2 offset(0.0F);
+  glm::vec2 direction(0.0F, sign);
+  std::size_t here = noise.index(x, y);
+  for (int k = 1; k <= steps; ++k) {
+    const glm::vec2 fall = g.fall_line[here];
+    if (fall.x != 0.0F || fall.y != 0.0F) direction = fall * sign;
+    offset += direction * step_px;
+    const int nx = x + static_cast<int>(std::floor(offset.x + 0.5F));
+    const int ny = y + static_cast<int>(std::floor(offset.y + 0.5F));
+    if (!noise.contains(nx, ny)) break;
+    const std::size_t next = noise.index(nx, ny);
+    if (!same_surface(g.depth_m[here], g.depth_m[next])) break;
+    here = next;
+    if (k <= steps_down) result.noise_sum += noise[here];
+    if (g.land_cover[here] != Class::forest) {
+      result.left_after = k;
+      result.end = here;
+      break;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParameters& parameters, glm::ivec2 origin_px) {
+  const int width = g.width();
+  const int height = g.height();
+  const double ppu = parameters.pixels_per_unit;
+  const std::uint64_t seed = parameters.seed + 400;
+  const Grid<float> noise = make_image_noise(seed, origin_px, width, height, ppu, lane_sigma_units, lane_sigma_units);
+  const bool has_footprint = g.footprint_m.same_size(g.depth_m);
+  const bool has_slope = g.slope_deg.same_size(g.depth_m);
+  const auto step_px = static_cast<float>(step_units * ppu);
+  // Deviation of the sum of 25 samples 2 units apart of that noise: neighbours share exp(-1/4), the next exp(-1).
+  constexpr float lane_deviation = 9.2F;
+  ForestCover cover{Grid<float>(width, height, 0.0F), Grid<float>(width, height, 0.0F)};
+  parallel_rows(height, [&](int y) {
+    SheetSizedNoise glades(seed + 1);
+    SheetSizedNoise clumps(seed + 201);
+    SheetSizedNoise tracks(seed + 401);
+    SheetSizedNoise stands(seed + 601);
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = noise.index(x, y);
+      if (g.land_cover[i] != Class::forest) continue;
+      const double metres = has_footprint ? static_cast<double>(g.footprint_m[i]) * ppu : static_cast<double>(metres_per_unit_unknown);
+      const glm::dvec3 place = glm::dvec3(g.position_m[i]) + g.origin_m;
+      const float slope = has_slope ? g.slope_deg[i] : 25.0F;
+      const Walk up = walk(g, noise, x, y, step_px, -1.0F, steps_up);
+      const Walk down = walk(g, noise, x, y, step_px, 1.0F, steps_down);
+      const float clump = clumps(place.x, place.y, clump_sigma_units * metres);
+      const float lane = (noise[i] + up.noise_sum + down.noise_sum) / lane_deviation;
+
+      // Steep slopes are not cleared.
+      const float glade_noise =
+          glades(place.x, place.y, glade_sigma_units * metres) + 0.45F * clump - 0.025F * std::max(slope - 25.0F, 0.0F);
+      float glade = smooth(1.42F, 1.64F, glade_noise);
+      float thin = 0.0F;
+      if (up.left_after > 0 && is_open_high(g.land_cover[up.end])) {
+        // The treeline frays: groups run up into the open, gaps reach down.
+        const float nearness = 1.0F - static_cast<float>(up.left_after) / 14.0F;
+        if (nearness > 0.0F) thin = nearness * std::clamp(0.62F - 0.45F * clump, 0.1F, 1.0F);
+        // What starts at one gap of the treeline is one track, straight down to where the slope or its force ends.
+        const glm::dvec3 head = glm::dvec3(g.position_m[up.end]) + g.origin_m;
+        const float force = tracks(head.x, head.y, track_sigma_units * metres) + 0.02F * (slope - 28.0F);
+        const float reach = 14.0F * (force - 0.75F);  // steps
+        if (slope > 18.0F) glade = std::max(glade, smooth(-0.5F, 1.5F, reach - static_cast<float>(up.left_after)));
+      }
+      // Whole stands are lighter than others.
+      const float open_stand = smooth(0.2F, 1.6F, stands(place.x, place.y, stand_sigma_units * metres));
+      const float bare_lane = smooth(0.9F, 1.5F, -lane - 0.25F * clump);
+      const float hollow = g.relief_s_m.empty() ? 0.0F : std::clamp(-g.relief_s_m[i] / 10.0F, -1.0F, 1.0F);
+      float density = 0.93F + 0.14F * hollow + 0.24F * std::clamp(clump + 0.3F, -2.2F, 0.4F);
+      density =
+          std::clamp(density, 0.25F, 1.0F) * (1.0F - 0.55F * open_stand) * (1.0F - thin) * (1.0F - 0.92F * bare_lane) * (1.0F - glade);
+      cover.density[i] = std::clamp(density, 0.0F, 1.0F);
+      cover.glade[i] = std::max(glade, 0.35F * bare_lane);
+    }
+  });
+  return cover;
+}
+
+int forest_cover_margin_px(double pixels_per_unit) {
+  return static_cast<int>(std::ceil(steps_up * step_units * pixels_per_unit)) + steps_up;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+
+#include "base/grid.h"
+#include "base/guidance_buffers.h"
+
+namespace belvedere {
+
+// How a forest stands, as a painter sees it: not an even cover but groups with gaps, glades that grass fills, lanes down the fall line,
+// tracks that avalanches have swept from the treeline down, fuller gullies, and trees that thin out towards the treeline but stand like a
+// wall where the forest ends on meadow. All sizes on the sheet, because trees keep their size whatever the distance.
+struct ForestCoverParameters {
+  double pixels_per_unit = 1.0;  // a unit is 0.5 mm of the sheet
+  std::uint64_t seed = 1;
+};
+
+struct ForestCover {
+  Grid<float> density;  // 0…1: share of the trees that are planted; 0 outside forest
+  Grid<float> glade;    // 0…1: how far grass shows instead of wood; 0 outside forest
+};
+
+// Reads depth, position, land cover, fall line, relief_s; slope and footprint where they are there. Local up to forest_cover_margin_px():
+// a part with that margin equals the whole bit for bit.
+ForestCover make_forest_cover(const GuidanceBuffers& guidance, const ForestCoverParameters& parameters, glm::ivec2 origin_px);
+int forest_cover_margin_px(double pixels_per_unit);
+
+}  // namespace belvedere

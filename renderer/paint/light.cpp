@@ -1,0 +1,196 @@
+#include "renderer/paint/light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "renderer/paint/picture_filter.h"
+#include "renderer/paint/picture_noise.h"
+#include "renderer/paint/ribs.h"
+#include "renderer/paint/rock_planes.h"
+#include "texture/strokes/beds.h"
+
+namespace belvedere {
+namespace {
+
+// How light falls on a class.
+struct ClassLight {
+  float detail;     // share of the detailed normal; the rest is the smooth one
+  bool own_relief;  // detail is the ungeneralized surface's, else the generalized one's
+  float edges;      // of relief_s: light on ridges, dark in hollows
+  float ribs;       // of ribs on slopes
+  float contrast;   // around tone .55
+};
+
+constexpr std::array<ClassLight, land_cover_class_count> class_lights = {{
+    {0.00F, false, 0.00F, 0.00F, 1.00F},  // sky
+    {0.45F, false, 0.07F, 0.00F, 0.55F},  // water
+    {0.45F, false, 0.07F, 0.00F, 0.55F},  // valley floor
+    {0.45F, false, 0.07F, 0.00F, 0.55F},  // settlement
+    {0.45F, false, 0.10F, 0.05F, 1.20F},  // forest
+    {0.45F, false, 0.07F, 0.10F, 1.00F},  // alpine grass
+    {0.60F, false, 0.07F, 0.10F, 1.00F},  // scree
+    {0.68F, true, 0.10F, 0.15F, 1.45F},   // rock
+    {0.55F, false, 0.07F, 0.05F, 1.30F},  // snow
+    {0.38F, false, 0.05F, 0.00F, 1.20F},  // glacier: thick and smooth
+    {0.45F, false, 0.07F, 0.00F, 1.00F},  // pasture
+    {0.45F, false, 0.09F, 0.07F, 1.05F},  // shrub
+}};
+
+constexpr double shadow_blur_units = 0.8;
+constexpr double sky_blur_units = 1.5;
+constexpr float raw_black = 0.14F;  // raw light that becomes tone 0 …
+constexpr float raw_range = 0.98F;  // … and how much more becomes tone 1
+constexpr float middle_tone = 0.55F;
+constexpr float brightest_tone = 1.02F;
+constexpr float floor_lift = 0.10F;  // valley floors glow
+constexpr float pool_strength = 0.035F;
+constexpr float plane_strength = 0.22F;  // of big planes on steep rock
+constexpr float bench_light = 0.11F;     // ledges, benches and floors of cirques lie open to the sky, and walls stand darker between them
+// Rock that looks out of forest is weathered and mossy: what is small and white there reads as a stone or an egg, not as a cliff.
+constexpr double outcrop_sigma_units = 12.0;  // forest within this is "around"
+constexpr float outcrop_calm = 0.50F;         // share of contrast it takes …
+constexpr float outcrop_shade = 0.20F;        // … and how much darker it is
+constexpr float bench_slope_deg = 42.0F;      // of walls and benches alike
+constexpr float calm_from_m = 16.0F;          // metres of ground in a unit of the sheet from which forms are simplified …
+constexpr float calm_to_m = 42.0F;            // … and at which they are simplest
+
+const ClassLight& light_of(LandCoverClass id) { return class_lights[static_cast<std::size_t>(id)]; }
+
+// How much of the ribs a slope shows: none on flats, all where it is steep.
+float steepness(float slope_deg) { return std::clamp((slope_deg - 18.0F) / 20.0F, 0.0F, 1.0F); }
+
+void check_channels(const GuidanceBuffers& g) {
+  const auto& size = g.depth_m;
+  if (!size.same_size(g.position_m) || !size.same_size(g.normal) || !size.same_size(g.normal_detail) || !size.same_size(g.normal_smooth) ||
+      !size.same_size(g.altitude_m) || !size.same_size(g.land_cover) || !size.same_size(g.shadow) || !size.same_size(g.sky_view) ||
+      !size.same_size(g.slope_deg) || !size.same_size(g.fall_line) || !size.same_size(g.relief_s_m) || !size.same_size(g.relief_m_m) ||
+      !size.same_size(g.relief_l_m))
+    throw Error(ErrorKind::bug, "tone", "a guidance channel is missing or has another size", "all traced channels");
+}
+
+// Rock's contrast drives its shade below the darkest paint, where a wall has no forms left: from `toe` down tones draw together instead.
+float keep_forms(float tone) {
+  constexpr float toe = 0.26F;
+  return tone >= toe ? tone : toe * std::exp((tone - toe) / toe);
+}
+
+// How fine the ground is drawn: 1 near, falling to .35 where a unit of the sheet covers so much ground that the DEM's small forms would
+// crumple a range into specks.
+float fineness(const GuidanceBuffers& g, std::size_t i, double pixels_per_unit) {
+  if (g.footprint_m.empty()) return 1.0F;
+  const float metres_per_unit = g.footprint_m[i] * static_cast<float>(pixels_per_unit);
+  return 1.0F - 0.65F * std::clamp((metres_per_unit - calm_from_m) / (calm_to_m - calm_from_m), 0.0F, 1.0F);
+}
+
+// Light before contrast: sun, sky, relief and edges of one pixel.
+float raw_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky_view, float fine, const ToneParameters& p) {
+  const ClassLight& light = light_of(g.land_cover[i]);
+  const glm::vec3 detail = light.own_relief ? g.normal_detail[i] : g.normal[i];
+  const float share = light.detail * fine;
+  const glm::vec3 normal = glm::normalize(detail * share + g.normal_smooth[i] * (1.0F - share));
+  const auto wrap = static_cast<float>(p.wrap);
+  const float towards = glm::dot(normal, glm::vec3(p.sun_direction));
+  const float facing = std::clamp((towards + wrap) / (1.0F + wrap), 0.0F, 1.0F);
+  const float sun = facing * (1.0F - static_cast<float>(p.shadow_depth) * (1.0F - shadow));
+  const float sky = std::pow(std::max(sky_view, 0.0F), 1.3F) * (0.6F + 0.4F * normal.z);
+  const float relief = 0.5F * std::clamp(g.relief_m_m[i] / 70.0F, -1.0F, 1.0F) + 0.5F * std::clamp(g.relief_l_m[i] / 250.0F, -1.0F, 1.0F);
+  const float edges = std::clamp(g.relief_s_m[i] / 10.0F, -1.2F, 1.2F);
+  return static_cast<float>(p.sun_strength) * sun + static_cast<float>(p.sky_strength) * sky +
+         static_cast<float>(p.relief_strength) * relief + light.edges * fine * edges;
+}
+
+// The crest rule: the topmost pixels of a silhouette look away from the eye and would draw a dark line along every ridge, so they
+// take the tone from below where that is lighter.
+Grid<float> lift_crests(const Grid<float>& tone, const GuidanceBuffers& g, double pixels_per_unit) {
+  const int crest_px = std::max(1, static_cast<int>(std::lround(2.0 * pixels_per_unit)));
+  const int below_px = std::max(crest_px + 1, static_cast<int>(std::lround(3.0 * pixels_per_unit)));
+  Grid<float> lifted = tone;
+  parallel_rows(tone.height(), [&](int y) {
+    const int below = y + below_px;
+    if (below >= tone.height()) return;
+    for (int x = 0; x < tone.width(); ++x) {
+      const float depth = g.depth_m(x, y);
+      if (std::isinf(depth) || !same_surface(depth, g.depth_m(x, below))) continue;
+      bool crest = false;
+      for (int k = 1; k <= crest_px && y - k >= 0 && !crest; ++k) crest = g.depth_m(x, y - k) > depth * (1.0F + surface_tolerance);
+      if (crest) lifted(x, y) = std::max(tone(x, y), tone(x, below));
+    }
+  });
+  return lifted;
+}
+
+}  // namespace
+
+Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& parameters, glm::ivec2 origin_px, Progress& progress) {
+  check_channels(guidance);
+  const int width = guidance.width();
+  const int height = guidance.height();
+  const double ppu = parameters.pixels_per_unit;
+  progress.begin("light", height);
+
+  const Grid<float> shadow = blur_on_surface(guidance.shadow, guidance.depth_m, shadow_blur_units * ppu);
+  const Grid<float> sky_view = blur_on_surface(guidance.sky_view, guidance.depth_m, sky_blur_units * ppu);
+  Grid<std::uint8_t> ribbed(width, height, 0);
+  for (std::size_t i = 0; i < ribbed.size(); ++i)
+    ribbed[i] = light_of(guidance.land_cover[i]).ribs > 0.0F && steepness(guidance.slope_deg[i]) > 0.0F ? 1 : 0;
+  const Grid<float> ribs = make_ribs(guidance, ribbed, {ppu, parameters.sun_image_x, parameters.seed}, origin_px);
+  Grid<std::uint8_t> walls(width, height, 0);
+  for (std::size_t i = 0; i < walls.size(); ++i) walls[i] = ribbed[i] != 0 && guidance.land_cover[i] == LandCoverClass::rock ? 1 : 0;
+  const Grid<float> planes = make_rock_planes(guidance, walls, {ppu, parameters.sun_image_x, parameters.seed}, origin_px);
+  Grid<float> woods(width, height, 0.0F);
+  for (std::size_t i = 0; i < woods.size(); ++i) woods[i] = guidance.land_cover[i] == LandCoverClass::forest ? 1.0F : 0.0F;
+  woods = blur_on_surface(woods, guidance.depth_m, outcrop_sigma_units * ppu);
+  const Grid<float> pool = make_image_noise(parameters.seed + 5, origin_px, width, height, ppu, 140.0, 60.0);
+
+  Grid<float> tone(width, height, 0.0F);
+  parallel_rows(height, [&](int y) {
+    GroundNoise n8(parameters.seed + bed_noise_seed_n8, 210.0);
+    GroundNoise n25(parameters.seed + bed_noise_seed_n25, 660.0);
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = tone.index(x, y);
+      if (guidance.is_sky(i)) continue;
+      const LandCoverClass id = guidance.land_cover[i];
+      const ClassLight& light = light_of(id);
+      const float fine = fineness(guidance, i, ppu);
+      float raw = raw_light(guidance, i, shadow[i], sky_view[i], fine, parameters);
+      if (ribbed[i] != 0) {
+        float rib = ribs[i];
+        if (id == LandCoverClass::rock) {
+          const glm::dvec3 place = glm::dvec3(guidance.position_m[i]) + guidance.origin_m;
+          rib += 0.45F * bed_strength(n25(place.x, place.y)) *
+                 bed_light(bed_phase(guidance.altitude_m[i], static_cast<float>(place.x), n8(place.x, place.y)));
+        }
+        if (id == LandCoverClass::rock)
+          raw += bench_light * fine * std::clamp((bench_slope_deg - guidance.slope_deg[i]) / 13.0F, -0.6F, 1.0F);
+        const float steep = steepness(guidance.slope_deg[i]);
+        raw += static_cast<float>(parameters.ribs) * (light.ribs * fine * rib + plane_strength * planes[i]) * steep;
+      }
+      float value = std::clamp((raw - raw_black) / raw_range, id == LandCoverClass::rock ? -0.3F : 0.0F, 1.05F);
+      if (id == LandCoverClass::valley_floor) value += floor_lift;
+      value += pool_strength * pool[i];
+      float contrast = light.contrast * static_cast<float>(parameters.contrast);
+      if (id == LandCoverClass::rock) {
+        const float outcrop = std::clamp((woods[i] - 0.15F) / 0.4F, 0.0F, 1.0F);
+        contrast *= 1.0F - outcrop_calm * outcrop;
+        value -= outcrop_shade * outcrop;
+      }
+      const float contrasted = middle_tone + (value - middle_tone) * contrast;
+      tone[i] = std::clamp(id == LandCoverClass::rock ? keep_forms(contrasted) : contrasted, 0.0F, brightest_tone);
+    }
+    progress.advance(1.0);
+  });
+  return lift_crests(tone, guidance, ppu);
+}
+
+int tone_margin_px(const ToneParameters& parameters) {
+  const double ppu = parameters.pixels_per_unit;
+  const int crest = static_cast<int>(std::ceil(3.0 * ppu)) + 2;
+  const int blur = static_cast<int>(std::ceil(3.0 * std::max(sky_blur_units, outcrop_sigma_units) * ppu)) + 1;
+  return std::max(rib_margin_px(ppu), blur) + crest;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "base/guidance_buffers.h"
+#include "base/progress.h"
+
+namespace belvedere {
+
+// The light of look/recipe.md, section Tone: one scalar a pixel from sun, cast shadow, sky view, relief and ribs. It indexes palette
+// ramps; it is no radiance.
+struct ToneParameters {
+  glm::dvec3 sun_direction{-0.612, 0.612, 0.5};  // unit, towards the sun (x east, y north, z up)
+  double sun_image_x = 1.0;                      // sun_direction · the camera's right: > 0 light from the right of the picture, -1…1
+  double sun_strength = 0.80;                    // 0…2
+  double sky_strength = 0.30;                    // 0…2
+  double relief_strength = 0.08;                 // 0…1
+  double shadow_depth = 0.78;                    // how much of the sun a cast shadow takes, 0…1
+  double contrast = 1.0;                         // around tone .55, 0.2…3
+  double ribs = 1.0;                             // strength of ribs and gullies, 0…3
+  double pixels_per_unit = 1.0;                  // as in StrokeParameters: pixels in 0.5 mm of the sheet
+  double wrap = 0.22;                            // light beyond the terminator, 0…1
+  std::uint64_t seed = 1;
+};
+
+// Tone of every terrain pixel, 0…1.02 (above 1 colours stay those of full light, strokes do not); sky 0. Reads depth, position, the three
+// normals, altitude, land cover, shadow, sky view, slope, fall line and relief, all of the buffers' size: Error(bug) otherwise.
+// `origin_px` is where the buffers' (0,0) lies in the whole picture, so that noise stays in place in parts of a picture. Local: a pixel
+// depends on neighbours within tone_margin_px() only, so a part with that margin equals the whole bit for bit.
+Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& parameters, glm::ivec2 origin_px, Progress& progress);
+int tone_margin_px(const ToneParameters& parameters);
+
+}  // namespace belvedere

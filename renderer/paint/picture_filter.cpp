@@ -1,0 +1,147 @@
+#include "renderer/paint/picture_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/parallel.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double widest_direct_sigma_px = 16.0;
+
+int kernel_radius(double sigma_px) { return static_cast<int>(std::ceil(3.0 * sigma_px)); }
+
+std::vector<float> half_kernel(double sigma_px) {
+  std::vector<float> kernel;
+  for (int i = 0; i <= kernel_radius(sigma_px); ++i) kernel.push_back(static_cast<float>(std::exp(-0.5 * i * i / (sigma_px * sigma_px))));
+  return kernel;
+}
+
+// Cells of this side replace pixels; 1 is none.
+int cell_side_px(double sigma_px) {
+  return sigma_px <= widest_direct_sigma_px ? 1 : static_cast<int>(std::floor(sigma_px / (0.5 * widest_direct_sigma_px)));
+}
+
+// Separable, direct. Sums run in a fixed order around each pixel.
+Grid<float> blur_directly(const Grid<float>& values, double sigma) {
+  std::vector<float> kernel = half_kernel(sigma);
+  float total = kernel[0];
+  for (std::size_t k = 1; k < kernel.size(); ++k) total += 2.0F * kernel[k];
+  for (float& weight : kernel) weight /= total;
+  const int radius = static_cast<int>(kernel.size()) - 1;
+  const int width = values.width();
+  const int height = values.height();
+  Grid<float> across(width, height);
+  parallel_rows(height, [&](int y) {
+    std::vector<float> line(static_cast<std::size_t>(width + 2 * radius));
+    for (int x = 0; x < width + 2 * radius; ++x) line[static_cast<std::size_t>(x)] = values.clamped(x - radius, y);
+    float* out = across.row(y);
+    const float* middle = line.data() + radius;
+    for (int x = 0; x < width; ++x) out[x] = kernel[0] * middle[x];
+    for (int k = 1; k <= radius; ++k) {
+      const float weight = kernel[static_cast<std::size_t>(k)];
+      for (int x = 0; x < width; ++x) out[x] += weight * (middle[x - k] + middle[x + k]);
+    }
+  });
+  Grid<float> blurred(width, height);
+  parallel_rows(height, [&](int y) {
+    float* out = blurred.row(y);
+    const float* here = across.row(y);
+    for (int x = 0; x < width; ++x) out[x] = kernel[0] * here[x];
+    for (int k = 1; k <= radius; ++k) {
+      const float weight = kernel[static_cast<std::size_t>(k)];
+      const float* above = across.row(std::max(y - k, 0));
+      const float* below = across.row(std::min(y + k, height - 1));
+      for (int x = 0; x < width; ++x) out[x] += weight * (above[x] + below[x]);
+    }
+  });
+  return blurred;
+}
+
+int floor_divide(int value, int divisor) { return value >= 0 ? value / divisor : -((-value + divisor - 1) / divisor); }
+
+}  // namespace
+
+Grid<float> blur_on_surface(const Grid<float>& values, const Grid<float>& depth_m, double sigma_px) {
+  const std::vector<float> kernel = half_kernel(sigma_px);
+  const int radius = static_cast<int>(kernel.size()) - 1;
+  const int width = values.width();
+  const int height = values.height();
+  // One pass along a line; each pass asks for the surface of its own centre.
+  const auto pass = [&](const Grid<float>& in, int step_x, int step_y) {
+    Grid<float> out(width, height);
+    parallel_rows(height, [&](int y) {
+      for (int x = 0; x < width; ++x) {
+        const float depth = depth_m(x, y);
+        float sum = kernel[0] * in(x, y);
+        float total = kernel[0];
+        const auto add = [&](int nx, int ny, float weight) {
+          if (!in.contains(nx, ny) || !same_surface(depth, depth_m(nx, ny))) return;
+          sum += weight * in(nx, ny);
+          total += weight;
+        };
+        for (int k = 1; k <= radius; ++k) {
+          add(x - k * step_x, y - k * step_y, kernel[static_cast<std::size_t>(k)]);
+          add(x + k * step_x, y + k * step_y, kernel[static_cast<std::size_t>(k)]);
+        }
+        out(x, y) = sum / total;
+      }
+    });
+    return out;
+  };
+  return pass(pass(values, 1, 0), 0, 1);
+}
+
+Grid<float> blur_in_picture(const Grid<float>& values, double sigma_px, glm::ivec2 origin_px) {
+  const int side = cell_side_px(sigma_px);
+  if (side == 1) return blur_directly(values, sigma_px);
+  const int width = values.width();
+  const int height = values.height();
+  const int first_x = floor_divide(origin_px.x, side);
+  const int first_y = floor_divide(origin_px.y, side);
+  Grid<float> cells(floor_divide(origin_px.x + width - 1, side) - first_x + 1, floor_divide(origin_px.y + height - 1, side) - first_y + 1);
+  parallel_rows(cells.height(), [&](int j) {
+    const int y0 = std::max((first_y + j) * side - origin_px.y, 0);
+    const int y1 = std::min((first_y + j + 1) * side - origin_px.y, height);
+    for (int i = 0; i < cells.width(); ++i) {
+      const int x0 = std::max((first_x + i) * side - origin_px.x, 0);
+      const int x1 = std::min((first_x + i + 1) * side - origin_px.x, width);
+      float sum = 0.0F;
+      for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x1; ++x) sum += values(x, y);
+      cells(i, j) = sum / static_cast<float>((x1 - x0) * (y1 - y0));
+    }
+  });
+  const Grid<float> blurred = blur_directly(cells, sigma_px / side);
+  // Back between cell centres, bilinearly; the weights follow from the absolute place, so they are the same in every part.
+  const auto place = [side](int absolute, int first, int count) {
+    const int twice = 2 * absolute + 1 - side;  // twice the distance from the centre of cell 0, in pixels
+    const int cell = floor_divide(twice, 2 * side);
+    struct Place {
+      int low, high;
+      float share;
+    };
+    return Place{std::clamp(cell - first, 0, count - 1), std::clamp(cell + 1 - first, 0, count - 1),
+                 static_cast<float>(twice - cell * 2 * side) / static_cast<float>(2 * side)};
+  };
+  Grid<float> out(width, height);
+  parallel_rows(height, [&](int y) {
+    const auto py = place(origin_px.y + y, first_y, cells.height());
+    for (int x = 0; x < width; ++x) {
+      const auto px = place(origin_px.x + x, first_x, cells.width());
+      const float top = blurred(px.low, py.low) * (1.0F - px.share) + blurred(px.high, py.low) * px.share;
+      const float bottom = blurred(px.low, py.high) * (1.0F - px.share) + blurred(px.high, py.high) * px.share;
+      out(x, y) = top * (1.0F - py.share) + bottom * py.share;
+    }
+  });
+  return out;
+}
+
+int blur_reach_px(double sigma_px) {
+  const int side = cell_side_px(sigma_px);
+  return side == 1 ? kernel_radius(sigma_px) : (kernel_radius(sigma_px / side) + 3) * side;
+}
+
+}  // namespace belvedere

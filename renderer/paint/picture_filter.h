@@ -1,0 +1,28 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/vec2.hpp>
+
+#include "base/grid.h"
+
+namespace belvedere {
+
+// Filters for parts of a picture: a value depends on neighbours within a stated reach and not on where the part was cut, bit for
+// bit. (gaussian_blur of renderer/base/filter halves wide kernels from the grid's own corner and so would depend on it.)
+
+// Two pixels whose distances differ by more than this share lie on different surfaces; sky (+inf) is a surface of its own.
+inline constexpr float surface_tolerance = 0.03F;
+inline bool same_surface(float depth_a_m, float depth_b_m) {
+  return depth_a_m == depth_b_m || std::abs(depth_a_m - depth_b_m) <= surface_tolerance * std::min(depth_a_m, depth_b_m);
+}
+
+// Gaussian of sigma_px that takes no value from another surface; reach 3 sigma. A sky pixel (depth +inf) takes sky only.
+Grid<float> blur_on_surface(const Grid<float>& values, const Grid<float>& depth_m, double sigma_px);
+
+// Plain Gaussian, borders replicated. Wide kernels work on means of square cells that are aligned to the whole picture, hence the
+// origin. Reach: blur_reach_px(sigma_px).
+Grid<float> blur_in_picture(const Grid<float>& values, double sigma_px, glm::ivec2 origin_px);
+int blur_reach_px(double sigma_px);
+
+}  // namespace belvedere

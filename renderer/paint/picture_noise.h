@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "base/grid.h"
+
+namespace belvedere {
+
+// The noise of base/noise.h evaluated for whole pictures: same values up to float rounding, many times faster.
+// Both are pure functions of seed and absolute place, so they do not depend on how a picture is cut into parts.
+
+// Noise at every pixel of a part of the picture whose top-left pixel is `origin_px`. Widths in units of 0.5 mm of the sheet; a unit
+// has `pixels_per_unit` pixels, so the noise stays in place on the sheet at every resolution. The lattice is filtered along x, then
+// along y, which costs two sums of four a pixel.
+Grid<float> make_image_noise(std::uint64_t seed, glm::ivec2 origin_px, int width, int height, double pixels_per_unit, double sigma_x_units,
+                             double sigma_y_units);
+
+// Noise on the ground, in metres, for places that lie close to the place before, as along a row of pixels: it remembers lattice
+// values. Not to be shared between threads.
+class GroundNoise {
+ public:
+  GroundNoise(std::uint64_t seed, double sigma_m);
+  float operator()(double x_m, double y_m);
+
+ private:
+  struct Entry {
+    std::int64_t x;
+    std::int64_t y;
+    double value;
+  };
+  double lattice(std::int64_t x, std::int64_t y);
+
+  std::uint64_t seed_;
+  double inverse_spacing_;
+  std::int64_t cell_x_;
+  std::int64_t cell_y_;
+  std::array<double, 16> cell_{};  // the lattice values around the last place
+  std::vector<Entry> memory_;
+};
+
+}  // namespace belvedere

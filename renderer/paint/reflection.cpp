@@ -1,0 +1,72 @@
+#include "renderer/paint/reflection.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "renderer/paint/picture_filter.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double reflection_units = 34.0;   // how far the image of the shore reaches into the water
+constexpr float fade_units = 22.0F;         // over which it fades
+constexpr double meadow_units = 30.0;       // of level shore, beyond which the slope behind is still mirrored …
+constexpr float meadow_half_units = 14.0F;  // … half as strongly from here
+constexpr float level_deg = 8.0F;           // less has no image of its own
+constexpr float foreshortening = 1.25F;     // looking down, the image of a slope is shorter than the slope
+
+bool is_water(const GuidanceBuffers& g, int x, int y) { return g.land_cover(x, y) == LandCoverClass::water; }
+
+}  // namespace
+
+Mirrored find_reflections(const GuidanceBuffers& guidance, double pixels_per_unit) {
+  const int width = guidance.width();
+  const int height = guidance.height();
+  const int reach_px = static_cast<int>(std::ceil(reflection_units * pixels_per_unit));
+  const int meadow_px = static_cast<int>(std::ceil(meadow_units * pixels_per_unit));
+  const auto ppu = static_cast<float>(pixels_per_unit);
+  const auto is_level = [&](int x, int y) { return !guidance.slope_deg.empty() && guidance.slope_deg(x, y) < level_deg; };
+  Mirrored mirrored{Grid<std::int32_t>(width, height, -1), Grid<float>(width, height, 0.0F), Grid<float>(width, height, open_water),
+                    Grid<float>(width, height, open_water)};
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      if (!is_water(guidance, x, y)) continue;
+      int below = 1;
+      while (below <= reach_px && y + below < height && is_water(guidance, x, y + below)) ++below;
+      if (below <= reach_px && y + below < height && same_surface(guidance.depth_m(x, y), guidance.depth_m(x, y + below)))
+        mirrored.to_near(x, y) = static_cast<float>(below) / ppu;
+      int above = 1;
+      while (above <= reach_px && y - above >= 0 && is_water(guidance, x, y - above)) ++above;
+      const int shore = y - above;
+      // A silhouette in front of the water is no shore: what stands before it is nearer.
+      if (above > reach_px || shore < 0 || !same_surface(guidance.depth_m(x, y), guidance.depth_m(x, shore))) continue;
+      mirrored.to_far(x, y) = static_cast<float>(above) / ppu;
+      // A level meadow has no image: what is mirrored is the slope behind it.
+      int foot = shore;
+      while (shore - foot < meadow_px && foot > 0 && is_level(x, foot) && !is_water(guidance, x, foot) &&
+             same_surface(guidance.depth_m(x, foot), guidance.depth_m(x, foot - 1)))
+        --foot;
+      if (is_level(x, foot) || is_water(guidance, x, foot)) continue;
+      const int wanted = std::max(foot - static_cast<int>(std::lround(foreshortening * static_cast<float>(above))), 0);
+      int top = foot;
+      while (top > wanted && !is_water(guidance, x, top - 1) && same_surface(guidance.depth_m(x, top), guidance.depth_m(x, top - 1))) --top;
+      mirrored.source(x, y) = static_cast<std::int32_t>(guidance.depth_m.index(x, top));
+      // Steep shores have dark images, level ones hardly any: the image of a meadow is a line.
+      const float into_units = static_cast<float>(above / pixels_per_unit);
+      const float cut_short =
+          top > wanted ? std::max(0.0F, 1.0F - static_cast<float>(top - wanted) / static_cast<float>(pixels_per_unit) / 6.0F) : 1.0F;
+      mirrored.share(x, y) =
+          std::max(0.0F, 1.0F - into_units / fade_units) * cut_short / (1.0F + static_cast<float>(shore - foot) / ppu / meadow_half_units);
+    }
+  });
+  return mirrored;
+}
+
+int reflection_margin_px(double pixels_per_unit) {
+  const int reach_px = static_cast<int>(std::ceil(reflection_units * pixels_per_unit));
+  const int meadow_px = static_cast<int>(std::ceil(meadow_units * pixels_per_unit));
+  return reach_px + meadow_px + static_cast<int>(std::ceil(foreshortening * static_cast<float>(reach_px))) + 1;
+}
+
+}  // namespace belvedere

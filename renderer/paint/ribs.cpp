@@ -1,0 +1,156 @@
+#include "renderer/paint/ribs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "renderer/paint/picture_filter.h"
+#include "renderer/paint/picture_noise.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double step_units = 2.0;        // between the samples of a streamline
+constexpr double blur_sigma_units = 0.5;  // hides the steps of nearest sampling
+constexpr double relief_gain = 0.81;      // the trial divided by a deviation that counted the sky: .805, .811, .853 for its three widths
+
+// Deviation of a sum of `count` samples `step_units` apart of noise with the autocorrelation exp(-r²/(4 sigma²)), that of white noise
+// under a Gaussian.
+double line_sum_deviation(int count, double sigma_units) {
+  double variance = count;
+  for (int k = 1; k < count; ++k) {
+    const double r = k * step_units / sigma_units;
+    variance += 2.0 * (count - k) * std::exp(-0.25 * r * r);
+  }
+  return std::sqrt(variance);
+}
+
+bool any_marked(const Grid<std::uint8_t>& marks, PixelRect rect) {
+  for (int y = std::max(rect.y0, 0); y < std::min(rect.y1, marks.height()); ++y)
+    for (int x = std::max(rect.x0, 0); x < std::min(rect.x1, marks.width()); ++x)
+      if (marks(x, y) != 0) return true;
+  return false;
+}
+
+int steps_each_way(const RibWidth& width) { return static_cast<int>(width.length_units / 2.0 / step_units); }
+
+// The noises of the three widths at one pixel, side by side, because every step reads all of them.
+using NoiseTriple = glm::vec3;
+
+// Sums of the noises at the places down (sign 1) or up the fall line from a pixel, without the pixel itself: each width as far as its own
+// length. Places are kept relative to the pixel, so that rounding does not depend on where the part of the picture lies.
+NoiseTriple integrate_one_way(const GuidanceBuffers& guidance, const Grid<NoiseTriple>& noise, int x, int y, float step_px, float sign) {
+  // By falling length: the widest runs on when the others have ended.
+  constexpr int longest = 2;
+  constexpr int middle = 0;
+  constexpr int shortest = 1;
+  static_assert(rib_widths[longest].length_units >= rib_widths[middle].length_units &&
+                rib_widths[middle].length_units >= rib_widths[shortest].length_units);
+  const int steps_short = steps_each_way(rib_widths[shortest]);
+  const int steps_middle = steps_each_way(rib_widths[middle]);
+  const int steps_long = steps_each_way(rib_widths[longest]);
+  glm::vec2 offset(0.0F);
+  glm::vec2 direction(0.0F);
+  bool bound = true;  // still on the surface it set out on
+  std::size_t here = noise.index(x, y);
+  NoiseTriple sum(0.0F);
+  for (int k = 0; k < steps_long; ++k) {
+    if (bound) {
+      const glm::vec2 fall = guidance.fall_line[here];
+      if (fall.x != 0.0F || fall.y != 0.0F) direction = fall * sign;
+    }
+    offset += direction * step_px;
+    const int next_x = std::clamp(x + static_cast<int>(std::floor(offset.x + 0.5F)), 0, noise.width() - 1);
+    const int next_y = std::clamp(y + static_cast<int>(std::floor(offset.y + 0.5F)), 0, noise.height() - 1);
+    const std::size_t next = noise.index(next_x, next_y);
+    if (bound && !same_surface(guidance.depth_m[here], guidance.depth_m[next])) bound = false;
+    here = next;
+    const NoiseTriple& value = noise[here];
+    if (k < steps_short) sum[shortest] += value[shortest];
+    if (k < steps_middle) sum[middle] += value[middle];
+    sum[longest] += value[longest];
+  }
+  return sum;
+}
+
+// Slope of a field along x, per unit, taken over the same surface only.
+float slope_across(const Grid<float>& field, const Grid<float>& depth_m, int x, int y, int reach_px, float units) {
+  const int left = std::max(x - reach_px, 0);
+  const int right = std::min(x + reach_px, field.width() - 1);
+  const float here = field(x, y);
+  const float a = same_surface(depth_m(x, y), depth_m(left, y)) ? field(left, y) : here;
+  const float b = same_surface(depth_m(x, y), depth_m(right, y)) ? field(right, y) : here;
+  return (b - a) / (2.0F * units);
+}
+
+}  // namespace
+
+std::array<Grid<float>, 3> integrate_along_fall_line(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& wanted, std::uint64_t seed,
+                                                     glm::ivec2 origin_px, double pixels_per_unit) {
+  const int width = guidance.width();
+  const int height = guidance.height();
+  Grid<NoiseTriple> noise(width, height);
+  NoiseTriple scale(0.0F);
+  for (int k = 0; k < 3; ++k) {
+    const double sigma = rib_widths[k].sigma_units;
+    const Grid<float> one = make_image_noise(seed + static_cast<std::uint64_t>(k), origin_px, width, height, pixels_per_unit, sigma, sigma);
+    for (std::size_t i = 0; i < one.size(); ++i) noise[i][k] = one[i];
+    scale[k] = static_cast<float>(1.0 / line_sum_deviation(2 * steps_each_way(rib_widths[k]) + 1, sigma));
+  }
+  const auto step_px = static_cast<float>(step_units * pixels_per_unit);
+  // Neighbours that slopes and the blur will ask for.
+  const int reach = static_cast<int>(std::ceil(pixels_per_unit)) + blur_reach_px(blur_sigma_units * pixels_per_unit);
+  std::array<Grid<float>, 3> fields;
+  for (Grid<float>& field : fields) field = Grid<float>(width, height, 0.0F);
+  parallel_tiles(width, height, 16, [&](PixelRect tile) {
+    if (!any_marked(wanted, {tile.x0 - reach, tile.y0 - reach, tile.x1 + reach, tile.y1 + reach})) return;
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        const NoiseTriple down = integrate_one_way(guidance, noise, x, y, step_px, 1.0F);
+        const NoiseTriple up = integrate_one_way(guidance, noise, x, y, step_px, -1.0F);
+        const NoiseTriple all = (noise(x, y) + down + up) * scale;
+        for (int k = 0; k < 3; ++k) fields[k](x, y) = all[k];
+      }
+  });
+  return fields;
+}
+
+Grid<float> make_ribs(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& wanted, const RibParameters& parameters,
+                      glm::ivec2 origin_px) {
+  const double ppu = parameters.pixels_per_unit;
+  const int width = guidance.width();
+  const int height = guidance.height();
+  std::array<Grid<float>, 3> fields = integrate_along_fall_line(guidance, wanted, parameters.seed + 10, origin_px, ppu);
+  for (Grid<float>& field : fields) field = blur_in_picture(field, blur_sigma_units * ppu, origin_px);
+  // Slow random amplitudes: evenly strong ribs look like corrugated iron.
+  const Grid<float> slow_a = make_image_noise(parameters.seed + 1, origin_px, width, height, ppu, 14.0, 14.0);
+  const Grid<float> slow_b = make_image_noise(parameters.seed + 2, origin_px, width, height, ppu, 9.0, 9.0);
+  const int reach_px = std::max(1, static_cast<int>(std::lround(ppu)));
+  const auto reach_units = static_cast<float>(reach_px / ppu);
+  const float side = parameters.sun_side < 0.0 ? -1.0F : 1.0F;
+  Grid<float> ribs(width, height, 0.0F);
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      if (wanted(x, y) == 0) continue;
+      const std::array<float, 3> amplitude = {std::clamp(0.55F + 0.45F * slow_a(x, y), 0.05F, 1.3F),
+                                              std::clamp(0.5F + 0.5F * slow_b(x, y), 0.0F, 1.3F), 1.0F};
+      float light = 0.0F;
+      for (int k = 0; k < 3; ++k) {
+        const auto gain = static_cast<float>(relief_gain * rib_widths[k].sigma_units);
+        const float slope = gain * slope_across(fields[k], guidance.depth_m, x, y, reach_px, reach_units);
+        light -= side * rib_widths[k].strength * amplitude[k] * std::clamp(slope, -1.5F, 1.5F);
+      }
+      // The deepest hollows are dark on both sides.
+      ribs(x, y) = light - 0.25F * std::clamp(-static_cast<float>(relief_gain) * fields[0](x, y) - 0.8F, 0.0F, 1.0F);
+    }
+  });
+  return ribs;
+}
+
+int rib_margin_px(double pixels_per_unit) {
+  const double longest_units = rib_widths[2].length_units / 2.0 + 1.0;
+  return static_cast<int>(std::ceil(longest_units * pixels_per_unit)) + blur_reach_px(blur_sigma_units * pixels_per_unit) +
+         std::max(1, static_cast<int>(std::lround(pixels_per_unit))) + 2;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+
+#include "base/grid.h"
+#include "base/guidance_buffers.h"
+
+namespace belvedere {
+
+// Ribs and gullies down the fall line, which give rock its form: image noise, smeared along the fall line (line integral convolution,
+// Cabral & Leedom 1993), taken as a relief and lit from one side. look/recipe.md, section Tone.
+struct RibParameters {
+  double pixels_per_unit = 1.0;  // a unit is 0.5 mm of the sheet
+  double sun_side = 1.0;         // > 0: flanks that face right are lit, < 0: those that face left
+  std::uint64_t seed = 1;
+};
+
+// Ribs come in three widths: deviation of the noise, and how far it is integrated along the fall line.
+struct RibWidth {
+  double sigma_units;
+  double length_units;
+  float strength;
+};
+inline constexpr std::array<RibWidth, 3> rib_widths = {{{3.2, 44.0, 0.50F}, {1.6, 22.0, 0.30F}, {7.0, 80.0, 0.55F}}};
+
+// Noise of each width, integrated down the fall line through each pixel; mean 0, deviation 1 where the fall line is straight (the sum of
+// correlated samples is normalized analytically). A streamline that comes to another surface, or to where there is no fall line, goes
+// straight on, so nothing crosses a silhouette. Pixels far from any mark in `wanted` hold 0.
+std::array<Grid<float>, 3> integrate_along_fall_line(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& wanted, std::uint64_t seed,
+                                                     glm::ivec2 origin_px, double pixels_per_unit);
+
+// The light on the ribs: about -1 … 1, mean 0. Only valid where `wanted` is marked. Reach: rib_margin_px().
+Grid<float> make_ribs(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& wanted, const RibParameters& parameters,
+                      glm::ivec2 origin_px);
+int rib_margin_px(double pixels_per_unit);
+
+}  // namespace belvedere

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/land_cover_class.h"
+#include "base/progress.h"
+#include "renderer/paint/paint.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/world/view.h"
+#include "terrain/cover/land_cover_patches.h"
+
+namespace belvedere {
+
+// What is known of a scene before it is rendered.
+struct SceneReport {
+  std::vector<SceneInput> inputs;
+  std::string crs;
+  int cells_wide = 0;
+  int cells_high = 0;
+  double cell_m = 0.0;
+  View view;
+  std::vector<std::pair<LandCoverClass, double>> classes;  // seen in the picture, with their share of its area
+  std::vector<ClassArea> land_cover;                       // where small patches are taken out: each class before and after
+  std::vector<std::string> exemplars;
+};
+
+// Everything about a scene that shows without rendering it: files, data, terrain, the camera's place, the palette, and, from a small trace
+// of the view, whether some exemplar has texels of each class in the picture. Throws what rendering would throw, and Error(usage) for
+// classes that have neither texels nor a fallback that has.
+SceneReport check_scene(const LoadedScene& scene, Progress& progress);
+
+// The exemplars of a scene as rendering would have them, and what its picture asks of them, from a small trace of the view.
+struct SceneExemplars {
+  std::vector<PaintedExemplar> exemplars;
+  GuideStack view;                 // of the small trace
+  double pixels_of_picture = 1.0;  // that each pixel of `view` stands for
+};
+// Throws what check_scene throws for files; classes without texels are no error here.
+SceneExemplars look_at_exemplars(const LoadedScene& scene, Progress& progress);
+
+}  // namespace belvedere

@@ -1,0 +1,215 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/land_cover_class.h"
+#include "terrain/cover/land_cover_patches.h"
+#include "terrain/deform/deform.h"
+#include "terrain/generalize/generalize.h"
+#include "terrain/generalize/widen_valleys.h"
+#include "terrain/synthetic/synthetic.h"
+
+namespace belvedere {
+
+// A whole picture as plain values with defaults: what a scene file says. scene_file turns TOML into it and checks every range; the
+// table there is the reference of keys. Lengths in metres, angles in degrees.
+
+struct SceneSource {  // a file and where it comes from
+  std::string file;   // relative to the scene file or a --data folder
+  int band = 1;
+  std::string crs;   // where the file has none, or to override it
+  std::string unit;  // "m", "ft", "us-ft" or empty: what the file says
+  std::optional<double> nodata;
+  std::optional<double> lowest_m, highest_m;  // heights outside are voids
+  std::string origin;                         // who made the data
+  std::string licence;
+  std::string get_from;  // where to get it; shown when it is missing
+};
+
+struct SceneTerrain {
+  std::vector<SceneSource> sources;  // empty: synthetic
+  std::optional<SyntheticParameters> synthetic;
+  std::string crs;                              // metric; empty: the data's own or its UTM zone
+  double cell_m = 0.0;                          // 0: the data's
+  std::optional<std::array<double, 4>> extent;  // min E, min N, max E, max N
+  double max_void_share = 0.25;
+};
+
+struct SceneLandCover {
+  std::vector<SceneSource> sources;                      // empty: by rules
+  std::string legend;                                    // "nlcd", "corine", "esa_worldcover", "fbfm40", or a .csv or .toml file
+  std::string rules = "alpine";                          // where there is no source: built-in name or file
+  std::vector<std::pair<std::string, double>> settings;  // parameters of the rules
+  // What a raster does not tell: {glacier, rock} makes glacier of what the raster calls rock and the rules call glacier.
+  std::vector<std::pair<LandCoverClass, LandCoverClass>> refine;
+  std::optional<LandCoverClass> unknown;
+  std::optional<LandCoverClass> nodata;
+  PatchParameters patches;  // generalization: small patches go, those that matter stay
+};
+
+struct SceneGeneralize {
+  std::string preset;  // fills what the file does not write; empty: none
+  GeneralizeParameters bands;
+  double foreground_to_m = 32000.0;                          // up to this distance all foreground
+  double background_from_m = 90000.0;                        // from here all background, smoothstep between
+  std::string curvature = "bounded";                         // "bounded" or "plan": becomes bands.curvature
+  double print_detail_px = 0.0;                              // 0: every band, wherever it is
+  std::array<double, 2> mask_slope_deg = {0, 0};             // original up to the first, generalized from the second; 0, 0: no mask
+  bool automatic_mask = false;                               // of slope feet
+  std::string mask;                                          // raster; empty: none
+  std::vector<std::pair<std::string, double>> mask_classes;  // how much of the generalization a class takes
+  bool keep_lakes = true;
+  bool destripe = false;           // takes stripes off the DEM itself, before everything else
+  bool line_integral = false;      // line integral convolution, before the bands
+  WidenValleysParameters valleys;  // after the bands
+};
+
+struct SceneSummit {  // a summit with an exaggeration of its own
+  std::string name;
+  std::optional<glm::dvec2> position;         // E, N in the scene's CRS
+  std::optional<glm::dvec2> position_lonlat;  // or longitude, latitude
+  double radius_m = 5000.0;
+  double factor = 1.3;
+  double base_m = 0.0;
+};
+
+struct SceneHandle {  // a piece of ground that is moved: see terrain/deform/handles.h
+  std::string name;
+  std::optional<glm::dvec2> position;
+  std::optional<glm::dvec2> position_lonlat;
+  double radius_m = 5000.0;
+  std::optional<double> core_m;  // else half of the radius
+  std::array<double, 2> move_m = {0.0, 0.0};
+  double rotate_deg = 0.0;
+  double scale = 1.0;
+  double raise_m = 0.0;
+  bool pin = false;
+};
+
+struct SceneDeform {
+  DeformParameters ground;  // without summits and handles: make_view puts them there, at places of the scene's CRS
+  std::vector<SceneSummit> summits;
+  std::vector<SceneHandle> handles;
+  bool allow_folds = false;  // ground in the picture that handles fold over itself is a note instead of an error
+};
+
+struct SceneCamera {
+  std::string projection = "perspective";
+  std::optional<glm::dvec2> position;         // E, N in the scene's CRS
+  std::optional<glm::dvec2> position_lonlat;  // or longitude, latitude
+  double height_m = 3000.0;
+  bool height_above_ground = false;   // else above the datum
+  std::optional<glm::dvec2> look_at;  // E, N: a point on the ground
+  std::optional<glm::dvec2> look_at_lonlat;
+  std::optional<double> look_at_altitude_m;  // else the ground's, unbent
+  double azimuth_deg = 0.0;                  // without look_at
+  double pitch_deg = -20.0;
+  double tilt_deg = 0.0;  // added to the pitch in either case
+  double field_of_view_deg = 50.0;
+  double view_width_m = 20000.0;
+};
+
+struct SceneSun {
+  double azimuth_deg = 315.0;
+  double altitude_deg = 30.0;
+  std::string time;          // ISO 8601 with zone; then azimuth and altitude are computed for the scene's middle
+  double radius_deg = 1.72;  // of the disc: softness of cast shadows (the true sun has 0.27)
+};
+
+struct SceneSampling {
+  int pixel_samples = 4;
+  int shadow_rays = 8;
+  int sky_directions = 16;
+  double sky_reach_m = 12000.0;
+  std::string instruction_set = "any";  // see base/instruction_set.h; pinned where other machines must give the same picture
+};
+
+struct SceneLight {
+  double sun = 0.80;
+  double sky = 0.30;
+  double relief = 0.08;
+  double shadow_depth = 0.78;
+  double contrast = 1.0;
+};
+
+struct SceneAir {
+  double haze = 0.85;
+  double from_m = 34000.0;
+  double scale_m = 62000.0;
+  double range_mist = 1.0;
+  double warm_near = 1.0;
+  double hue_drift = 1.0;
+  double rim_fade_m = 4000.0;  // over this distance terrain stands ever deeper in haze towards its end
+  double clouds = 1.0;
+};
+
+// One exemplar: painted by the program (picture empty), or a picture with a class mask and perhaps guides.
+struct SceneExemplar {
+  std::string picture;   // file; empty: the program paints one
+  std::string guidance;  // guidance.exr of the picture, or:
+  std::string classes;   // grey image of class ids; 255 excludes
+  std::string altitude;  // grey image, scaled by altitude_range_m
+  std::array<double, 2> altitude_range_m = {0.0, 4000.0};
+  std::string shadow;                  // grey image: black in cast shadow, white in the sun
+  std::string exclude;                 // grey image: what is not black is never copied from
+  std::vector<LandCoverClass> serves;  // classes it may be copied for; empty: all
+  std::string found_shadow = "guide";  // without a shadow image: "guide", "exclude" or "ignore" dark, cool places
+  double stroke_px = 6.0;              // what is larger than this is light, what is smaller a stroke
+  std::string origin, licence, get_from;
+  bool optional = false;  // missing file: left out with a note instead of an error
+  int width = 2000;       // px of a painted one
+  int height = 1400;
+  std::uint64_t seed = 7;
+};
+
+struct SceneSynthesis {
+  bool enabled = true;              // off: everything is painted as strokes
+  std::string colours = "palette";  // whose colours the picture has: "palette" or "painting"
+  std::string harmonize = "off";    // colours of several paintings: "off", "common" or like the "first"
+  double residual = 0.75;           // how much of the base picture's difference is laid over the texel, 0…1
+  // By guide. Relief, altitude and air come with the base picture, so guides only choose among strokes, lightly: heavier ones tear the
+  // texture to grain. Tone leads, because strokes in shade differ from those in light, then the direction strokes run in.
+  std::vector<std::pair<std::string, double>> weights = {{"tone", 0.15},  {"altitude", 0.04},   {"distance", 0.02},   {"shadow", 0.02},
+                                                         {"slope", 0.02}, {"fall_line_x", 0.1}, {"fall_line_y", 0.05}};
+  std::vector<std::pair<LandCoverClass, LandCoverClass>> fallback;
+  double reuse = 1.0;
+  int copy_cap = 240;
+  int levels = 6;
+};
+
+struct SceneOutput {
+  int width = 2400;
+  int height = 1100;
+  double sheet_width_mm = 1200.0;  // strokes are sized in mm of this sheet; dpi follows
+  std::string profile;             // ICC file to convert the TIFF to; empty: sRGB
+  std::string ocio_config;
+};
+
+struct Scene {
+  int version = 1;
+  std::string title;
+  std::uint64_t seed = 1;
+  SceneTerrain terrain;
+  SceneLandCover land_cover;
+  SceneGeneralize generalize;
+  SceneDeform deform;
+  SceneCamera camera;
+  SceneSun sun;
+  SceneSampling sampling;
+  SceneLight light;
+  SceneAir air;
+  std::string palette = "summer";        // built-in name or file
+  std::vector<SceneExemplar> exemplars;  // empty: one painted by the program
+  SceneSynthesis synthesis;
+  SceneOutput output;
+
+  double pixels_per_unit() const { return output.width / output.sheet_width_mm * 0.5; }
+};
+
+}  // namespace belvedere

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/scene/scene.h"
+
+namespace belvedere {
+
+struct SceneFileOptions {
+  std::vector<std::string> data_folders;  // --data: further folders files may come from
+  std::vector<std::string> settings;      // --set key.path=value, in order
+};
+
+// A scene and how its files were found.
+struct LoadedScene {
+  Scene scene;                               // file names as written
+  std::string folder;                        // of the scene file
+  std::string name;                          // file name without ending
+  std::vector<std::string> allowed_folders;  // folder first, then the --data folders, as given; some may not exist
+};
+
+// TOML to Scene, strict: unknown key, wrong type, value out of range, keys that exclude each other, a file outside the allowed folders →
+// Error(usage) with file:line:column (or --set …), what was found, what is allowed and the nearest known key.
+LoadedScene read_scene(const std::string& path, const SceneFileOptions& options);
+// The same from text (the embedded demo, tests).
+LoadedScene parse_scene(const std::string& text, const std::string& name, const std::string& folder, const SceneFileOptions& options);
+
+// A file that a scene names.
+struct SceneInput {
+  std::string key;   // "terrain.sources.0.file"
+  std::string file;  // as written
+  std::string path;  // where it was found; empty where it is missing
+  std::string origin;
+  std::string licence;
+  std::string get_from;
+  bool optional = false;
+};
+// All of them, in the order of the reference. Built-in palettes, legends and rules are no files.
+std::vector<SceneInput> scene_inputs(const LoadedScene& scene);
+
+// The path of a file a scene names: looked for beside the scene, then in each data folder. Error(usage) where it leaves the allowed
+// folders, also through a link; an empty string where it does not exist.
+std::string find_scene_file(const LoadedScene& scene, const std::string& file);
+// The same for a name that may also be built in (palette, legend, rules): built-in names come back as they are. folder: "palettes",
+// "legends", "layers". Error(input) where the file does not exist.
+std::string find_named_file(const LoadedScene& scene, const std::string& folder, const std::string& name_or_file);
+// All files the scene needs and does not find, with origin and where to get them, in one Error(input). Optional ones may be missing.
+void require_scene_files(const LoadedScene& scene);
+
+// The whole scene with all defaults as TOML; reads back to the same scene.
+std::string write_scene(const Scene& scene);
+// JSON Schema, draft 4, from the same table that validates.
+std::string scene_json_schema();
+// The reference of all keys as Markdown (docs/scene.md is made from it and a test compares).
+std::string scene_reference();
+
+}  // namespace belvedere

@@ -1,0 +1,212 @@
+#include "renderer/scene/scene_rules.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "base/error.h"
+#include "terrain/generalize/generalize_presets.h"
+
+namespace belvedere {
+namespace {
+
+class Rules {
+ public:
+  Rules(Scene& scene, const ConfigValue& root, const SceneOrigin& origin) : scene_(scene), root_(root), origin_(origin) {}
+
+  void terrain() {
+    SceneTerrain& terrain = scene_.terrain;
+    if (!terrain.sources.empty() && terrain.synthetic)
+      refuse("terrain.synthetic", "terrain.sources and terrain.synthetic exclude each other", "rasters or a made-up terrain");
+    if (terrain.sources.empty() && !terrain.synthetic) terrain.synthetic.emplace();
+    if (terrain.synthetic && terrain.synthetic->lowest_m >= terrain.synthetic->highest_m)
+      refuse("terrain.synthetic.highest_m",
+             fmt::format("terrain.synthetic.highest_m ({} m) is not above lowest_m ({} m)", terrain.synthetic->highest_m,
+                         terrain.synthetic->lowest_m),
+             "a highest summit above the lowest valley");
+    if (terrain.extent) {
+      const auto& [min_e, min_n, max_e, max_n] = *terrain.extent;
+      if (min_e >= max_e || min_n >= max_n)
+        refuse("terrain.extent", "terrain.extent holds no area", "[min E, min N, max E, max N], each min below its max");
+    }
+    if (terrain.cell_m > 0.0 && terrain.cell_m < 0.1)
+      refuse("terrain.cell_m", fmt::format("terrain.cell_m is {}", terrain.cell_m), "0 for the data's own, or 0.1 … 10000 m");
+  }
+
+  void land_cover() {
+    if (!scene_.land_cover.sources.empty() && scene_.land_cover.legend.empty())
+      refuse("land_cover.sources", "land_cover.sources needs land_cover.legend, which says what the raster's codes mean",
+             "legend = \"nlcd\", \"corine\", \"esa_worldcover\", \"fbfm40\" or a file");
+  }
+
+  void generalize() {
+    apply_preset();
+    SceneGeneralize& wish = scene_.generalize;
+    const std::vector<float>& foreground = wish.bands.foreground;
+    const std::vector<float>& background = wish.bands.background;
+    wish.bands.curvature = wish.curvature == "plan" ? CurvatureForm::plan : CurvatureForm::bounded;
+    if (foreground.size() != background.size())
+      refuse("generalize.background",
+             fmt::format("generalize.background has {} weights, generalize.foreground has {}", background.size(), foreground.size()),
+             "as many weights in both");
+    const auto fits = [&](const char* key, const std::vector<float>& weights) {
+      if (!weights.empty() && weights.size() != foreground.size())
+        refuse(key, fmt::format("{} has {} weights, generalize.foreground has {}", key, weights.size(), foreground.size()),
+               "as many weights in both");
+    };
+    fits("generalize.foreground_ridges", wish.bands.foreground_ridges);
+    fits("generalize.foreground_valleys", wish.bands.foreground_valleys);
+    fits("generalize.background_ridges", wish.bands.background_ridges);
+    fits("generalize.background_valleys", wish.bands.background_valleys);
+    if (wish.mask_slope_deg[1] > 0.0 && wish.mask_slope_deg[0] >= wish.mask_slope_deg[1])
+      refuse("generalize.mask_slope_deg",
+             fmt::format("generalize.mask_slope_deg goes from {}° to {}°", wish.mask_slope_deg[0], wish.mask_slope_deg[1]),
+             "[flatter, steeper], or [0, 0] for no mask");
+    if (wish.print_detail_px > 0.0 && wish.print_detail_px < 0.5)
+      refuse("generalize.print_detail_px", fmt::format("generalize.print_detail_px is {}", wish.print_detail_px), "0 for off, or 0.5 … 20");
+    if (wish.bands.full_curvature > 0.F && wish.bands.full_curvature < 0.001F)
+      refuse("generalize.full_curvature", fmt::format("generalize.full_curvature is {}", wish.bands.full_curvature),
+             "0 for the usual one, or 0.001 … 10");
+    if (scene_.generalize.foreground_to_m >= scene_.generalize.background_from_m)
+      refuse(written("generalize.background_from_m") ? "generalize.background_from_m" : "generalize.foreground_to_m",
+             fmt::format("generalize.background_from_m ({} m) is not beyond generalize.foreground_to_m ({} m)",
+                         scene_.generalize.background_from_m, scene_.generalize.foreground_to_m),
+             "a background that begins beyond the foreground");
+  }
+
+  void deform() {
+    const DeformParameters& ground = scene_.deform.ground;
+    if (ground.bend.radius_m > 0.0 && ground.bend.radius_m < 1000.0)
+      refuse("deform.bend.radius_m", fmt::format("deform.bend.radius_m is {}", ground.bend.radius_m), "0 for no bend, or 1000 … 1e9 m");
+    if (ground.foreground_to_m >= ground.background_from_m)
+      refuse(written("deform.background_from_m") ? "deform.background_from_m" : "deform.foreground_to_m",
+             fmt::format("deform.background_from_m ({} m) is not beyond deform.foreground_to_m ({} m)", ground.background_from_m,
+                         ground.foreground_to_m),
+             "a background that begins beyond the foreground");
+    for (std::size_t i = 0; i < scene_.deform.handles.size(); ++i) {
+      const SceneHandle& handle = scene_.deform.handles[i];
+      const std::string name = fmt::format("deform.handles.{}", i);
+      require_position(name, handle.position, handle.position_lonlat);
+      if (handle.radius_m > 0.0 && handle.core_m && *handle.core_m >= handle.radius_m)
+        refuse(name + ".core_m", fmt::format("{}.core_m ({} m) is not less than radius_m ({} m)", name, *handle.core_m, handle.radius_m),
+               "a core smaller than the radius");
+    }
+    for (std::size_t i = 0; i < scene_.deform.summits.size(); ++i)
+      require_position(fmt::format("deform.summits.{}", i), scene_.deform.summits[i].position, scene_.deform.summits[i].position_lonlat);
+    try {
+      const BendProfile curve(ground.bend);
+    } catch (const Error& error) {
+      refuse(error.where(), error.where() + ": " + error.found(), error.allowed());
+    }
+  }
+
+  void sampling() {
+    const int samples = scene_.sampling.pixel_samples;
+    const int side = static_cast<int>(std::lround(std::sqrt(samples)));
+    if (side * side != samples)
+      refuse("sampling.pixel_samples", fmt::format("sampling.pixel_samples is {}, which fills no square", samples), "1, 4, 9 or 16");
+  }
+
+  void camera() {
+    const SceneCamera& camera = scene_.camera;
+    if (camera.look_at_altitude_m && !camera.look_at && !camera.look_at_lonlat)
+      refuse("camera.look_at_altitude_m", "camera.look_at_altitude_m has no point to belong to",
+             "camera.look_at or camera.look_at_lonlat beside it");
+    constexpr double widest_perspective = 150.0;
+    if (camera.projection == "perspective" && camera.field_of_view_deg > widest_perspective)
+      refuse("camera.field_of_view_deg",
+             fmt::format("camera.field_of_view_deg is {} with a perspective projection", camera.field_of_view_deg),
+             fmt::format("1 … {}°, or projection = \"cylindrical\"", widest_perspective));
+  }
+
+  void exemplars() {
+    for (std::size_t i = 0; i < scene_.exemplars.size(); ++i) {
+      const SceneExemplar& exemplar = scene_.exemplars[i];
+      const std::string name = fmt::format("exemplar.{}", i);
+      if (!exemplar.picture.empty() && exemplar.guidance.empty() && exemplar.classes.empty())
+        refuse(name + ".picture", name + ".picture has neither guidance nor classes, so nobody knows what it shows",
+               "guidance = \"….exr\", or classes = \"….png\"");
+      if (exemplar.picture.empty())
+        for (const char* key : {"guidance", "classes", "altitude", "altitude_range_m", "shadow", "found_shadow", "exclude", "serves",
+                                "stroke_px", "optional"})
+          if (written(name + "." + key))
+            refuse(name + "." + key, fmt::format("{}.{} has no picture to belong to", name, key), "a picture beside it");
+      if (!exemplar.altitude.empty() && exemplar.classes.empty())
+        refuse(name + ".altitude", name + ".altitude needs classes beside it", "classes = \"….png\"");
+      if (exemplar.altitude_range_m[0] >= exemplar.altitude_range_m[1])
+        refuse(name + ".altitude_range_m",
+               fmt::format("{}.altitude_range_m goes from {} to {}", name, exemplar.altitude_range_m[0], exemplar.altitude_range_m[1]),
+               "[lower, upper]");
+    }
+  }
+
+ private:
+  // What the file does not write itself comes from the preset it names.
+  void apply_preset() {
+    SceneGeneralize& wish = scene_.generalize;
+    const GeneralizePreset* preset = find_generalize_preset(wish.preset);
+    const auto set = [&](const char* key, const std::vector<float>& weights) {
+      return written(key) == nullptr ? std::vector<float>() : weights;
+    };
+    const WrittenWeights weights{.foreground = set("generalize.foreground", wish.bands.foreground),
+                                 .foreground_ridges = set("generalize.foreground_ridges", wish.bands.foreground_ridges),
+                                 .foreground_valleys = set("generalize.foreground_valleys", wish.bands.foreground_valleys),
+                                 .background = set("generalize.background", wish.bands.background),
+                                 .background_ridges = set("generalize.background_ridges", wish.bands.background_ridges),
+                                 .background_valleys = set("generalize.background_valleys", wish.bands.background_valleys)};
+    choose_weights(wish.bands, weights, preset);
+    if (preset == nullptr) return;
+    if (written("generalize.automatic_mask") == nullptr) wish.automatic_mask = preset->automatic_mask;
+    if (preset->slope_mask && written("generalize.mask_slope_deg") == nullptr)
+      wish.mask_slope_deg = {preset->slope_mask->original_to_deg, preset->slope_mask->generalized_from_deg};
+  }
+
+  // The value at a dotted path, numbers counting list elements; null where nobody wrote it.
+  const ConfigValue* written(std::string_view path) const {
+    const ConfigValue* node = &root_;
+    while (node != nullptr && !path.empty()) {
+      const std::size_t dot = path.find('.');
+      const std::string_view part = path.substr(0, dot);
+      path = dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
+      if (const auto* table = std::get_if<ConfigTable>(&node->value)) {
+        node = find(*table, part);
+      } else if (const auto* array = std::get_if<ConfigArray>(&node->value)) {
+        std::size_t index = array->size();
+        std::from_chars(part.data(), part.data() + part.size(), index);
+        node = index < array->size() ? &(*array)[index] : nullptr;
+      } else {
+        node = nullptr;
+      }
+    }
+    return node;
+  }
+
+  void require_position(const std::string& name, const std::optional<glm::dvec2>& place, const std::optional<glm::dvec2>& lonlat) const {
+    if (!place && !lonlat) refuse(name, name + " has no position", "position = [E, N], or position_lonlat");
+  }
+
+  [[noreturn]] void refuse(const std::string& path, const std::string& found, const std::string& allowed) const {
+    const ConfigValue* value = written(path);
+    throw Error(ErrorKind::usage, origin_.where(value == nullptr ? root_.place : value->place), found, allowed);
+  }
+
+  Scene& scene_;
+  const ConfigValue& root_;
+  const SceneOrigin& origin_;
+};
+
+}  // namespace
+
+void apply_scene_rules(Scene& scene, const ConfigValue& root, const SceneOrigin& origin) {
+  Rules rules(scene, root, origin);
+  rules.terrain();
+  rules.land_cover();
+  rules.generalize();
+  rules.deform();
+  rules.sampling();
+  rules.camera();
+  rules.exemplars();
+}
+
+}  // namespace belvedere

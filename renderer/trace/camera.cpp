@@ -1,0 +1,54 @@
+#include "renderer/trace/camera.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/angle.h"
+#include "base/error.h"
+
+namespace belvedere {
+
+std::unique_ptr<Camera> make_perspective_camera(const CameraParameters&);
+std::unique_ptr<Camera> make_oblique_camera(const CameraParameters&);
+std::unique_ptr<Camera> make_cylindrical_camera(const CameraParameters&);
+
+const std::vector<Projection>& projections() {
+  static const std::vector<Projection> all = {
+      {"perspective", "central perspective, as the eye or a photograph sees", &make_perspective_camera},
+      {"oblique", "plan oblique: parallel rays, the ground true to scale as on a map, heights drawn upwards", &make_oblique_camera},
+      {"cylindrical", "panorama on an upright cylinder: azimuth runs evenly across the picture, up to 360 degrees",
+       &make_cylindrical_camera},
+  };
+  return all;
+}
+
+ViewAxes view_axes(const CameraParameters& parameters) {
+  const double azimuth = to_radians(parameters.azimuth_deg);
+  const double pitch = to_radians(parameters.pitch_deg);
+  const glm::dvec3 ahead{std::sin(azimuth), std::cos(azimuth), 0.0};
+  return {{std::cos(azimuth), -std::sin(azimuth), 0.0}, ahead, ahead * std::cos(pitch) + glm::dvec3(0.0, 0.0, std::sin(pitch))};
+}
+
+void check_camera_value(std::string_view key, double value, double lowest, double highest) {
+  if (value >= lowest && value <= highest) return;
+  throw Error(ErrorKind::usage, std::string(key), fmt::format("{}", value), fmt::format("{} to {}", lowest, highest));
+}
+
+std::unique_ptr<Camera> make_camera(const CameraParameters& parameters) {
+  check_camera_value("output.width", parameters.width, 16, 65535);
+  check_camera_value("output.height", parameters.height, 16, 65535);
+  // Beyond these a place is no projected coordinate on earth, and float distances would lose more than metres.
+  check_camera_value("camera.position (E)", parameters.eye.x, -1e8, 1e8);
+  check_camera_value("camera.position (N)", parameters.eye.y, -1e8, 1e8);
+  check_camera_value("camera.height_m", parameters.eye.z, -1e7, 1e7);
+  check_camera_value("camera.azimuth_deg", parameters.azimuth_deg, -360, 360);
+  std::string names;
+  for (const Projection& projection : projections()) {
+    if (projection.name == parameters.projection) return projection.make(parameters);
+    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", projection.name);
+  }
+  throw Error(ErrorKind::usage, "camera.projection", fmt::format("\"{}\"", parameters.projection), names);
+}
+
+}  // namespace belvedere

@@ -1,0 +1,57 @@
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "base/angle.h"
+#include "renderer/trace/camera.h"
+
+namespace belvedere {
+namespace {
+
+// A true upright cylinder around the eye, unrolled: azimuth runs evenly over x, the tangent of the elevation angle over y, with
+// square pixels at the horizon. Vertical lines stay vertical. The pitch shifts the picture up or down, it tilts nothing.
+class CylindricalCamera final : public Camera {
+ public:
+  explicit CylindricalCamera(const CameraParameters& p) : eye_(p.eye), size_(p.width, p.height) {
+    azimuth_ = to_radians(p.azimuth_deg);
+    middle_ = 0.5 * glm::dvec2(size_);
+    radius_px_ = p.width / to_radians(p.field_of_view_deg);
+    horizon_y_ = middle_.y + radius_px_ * std::tan(to_radians(p.pitch_deg));
+  }
+
+  Ray ray(glm::dvec2 pixel) const override {
+    const double azimuth = azimuth_ + (pixel.x - middle_.x) / radius_px_;
+    const double rise = (horizon_y_ - pixel.y) / radius_px_;
+    return {eye_, glm::normalize(glm::dvec3(std::sin(azimuth), std::cos(azimuth), rise))};
+  }
+
+  std::optional<glm::dvec2> project(glm::dvec3 point) const override {
+    const glm::dvec3 q = point - eye_;
+    const double level = std::hypot(q.x, q.y);
+    if (!(level > 0.0)) return std::nullopt;  // on the axis there is no azimuth
+    // The turn from the picture's middle, -pi…pi: nothing lies behind, what is outside the picture is left or right of it.
+    const double turn = std::remainder(std::atan2(q.x, q.y) - azimuth_, 2.0 * std::numbers::pi);
+    return glm::dvec2(middle_.x + turn * radius_px_, horizon_y_ - q.z / level * radius_px_);
+  }
+
+  glm::dvec3 eye() const override { return eye_; }
+  glm::ivec2 size() const override { return size_; }
+
+ private:
+  glm::dvec3 eye_;
+  glm::ivec2 size_;
+  double azimuth_ = 0.0;  // of the picture's middle, rad
+  glm::dvec2 middle_;
+  double radius_px_ = 1.0;
+  double horizon_y_ = 0.0;  // where level rays go, px
+};
+
+}  // namespace
+
+std::unique_ptr<Camera> make_cylindrical_camera(const CameraParameters& parameters) {
+  check_camera_value("camera.pitch_deg", parameters.pitch_deg, -80, 80);
+  check_camera_value("camera.field_of_view_deg", parameters.field_of_view_deg, 1, 360);
+  return std::make_unique<CylindricalCamera>(parameters);
+}
+
+}  // namespace belvedere

@@ -1,0 +1,69 @@
+#include "renderer/trace/geo_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <span>
+
+#include "base/filter.h"
+
+namespace belvedere {
+
+GeoMap::GeoMap(const Grid<float>& altitude_m, const GeoTransform& transform, const Deformation& deformation, const DeformedSurface& surface,
+               const Camera& camera, const Tracer& tracer)
+    : altitude_m_(altitude_m), transform_(transform), deformation_(deformation), surface_(surface), camera_(camera), tracer_(tracer) {}
+
+std::optional<glm::dvec3> GeoMap::on_surface(glm::dvec2 place) const {
+  const Grid<glm::vec3>& posts = surface_.vertices_m;
+  const glm::dvec2 at = transform_.to_cell(place.x, place.y);
+  if (!(at.x >= 0.0 && at.y >= 0.0 && at.x <= posts.width() - 1.0 && at.y <= posts.height() - 1.0)) return std::nullopt;
+  const int x = std::min(static_cast<int>(at.x), posts.width() - 2);
+  const int y = std::min(static_cast<int>(at.y), posts.height() - 2);
+  const double fx = at.x - x;
+  const double fy = at.y - y;
+  const glm::dvec3 ne(posts(x + 1, y));
+  const glm::dvec3 sw(posts(x, y + 1));
+  // The tracer's two triangles of a cell, whose common side runs from the north-east to the south-west.
+  if (fx + fy <= 1.0) {
+    const glm::dvec3 nw(posts(x, y));
+    return surface_.origin + nw + (ne - nw) * fx + (sw - nw) * fy;
+  }
+  const glm::dvec3 se(posts(x + 1, y + 1));
+  return surface_.origin + se + (sw - se) * (1.0 - fx) + (ne - se) * (1.0 - fy);
+}
+
+std::optional<ImagePlace> GeoMap::see(glm::dvec3 deformed) const {
+  const auto pixel = camera_.project(deformed);
+  if (!pixel) return std::nullopt;
+  ImagePlace out;
+  out.pixel = *pixel;
+  out.deformed = deformed;
+  const Ray ray = camera_.ray(*pixel);
+  out.distance_m = glm::dot(deformed - ray.origin, ray.direction);
+  out.in_picture = pixel->x >= 0.0 && pixel->y >= 0.0 && pixel->x <= camera_.size().x && pixel->y <= camera_.size().y;
+  if (!out.in_picture) return out;
+  Hit hit;
+  tracer_.intersect(std::span(&ray, 1), std::span(&hit, 1));
+  // A point on the ground is in front of itself by rounding.
+  const double rounding_m = 0.1 + 1e-6 * out.distance_m;
+  out.visible = !hit.found || hit.distance_m >= out.distance_m - rounding_m;
+  return out;
+}
+
+std::optional<ImagePlace> GeoMap::to_image(glm::dvec2 place) const {
+  const auto deformed = on_surface(place);
+  return deformed ? see(*deformed) : std::nullopt;
+}
+
+std::optional<ImagePlace> GeoMap::to_image(glm::dvec3 place) const { return see(deformation_.point(place)); }
+
+std::optional<GeoPlace> GeoMap::to_geo(glm::dvec2 pixel) const {
+  const Ray ray = camera_.ray(pixel);
+  Hit hit;
+  tracer_.intersect(std::span(&ray, 1), std::span(&hit, 1));
+  if (!hit.found) return std::nullopt;
+  return GeoPlace{transform_.to_crs(hit.column, hit.row), static_cast<double>(sample_bilinear(altitude_m_, hit.column, hit.row)),
+                  hit.distance_m};
+}
+
+}  // namespace belvedere

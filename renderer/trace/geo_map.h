@@ -1,0 +1,60 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "renderer/trace/camera.h"
+#include "renderer/trace/tracer.h"
+#include "terrain/deform/deform.h"
+#include "terrain/io/raster.h"
+
+namespace belvedere {
+
+// Where a geographic point lies in the picture.
+struct ImagePlace {
+  glm::dvec2 pixel{0.0};     // x right, y down, (0, 0) the outer corner of the top-left pixel; may lie outside the picture
+  glm::dvec3 deformed{0.0};  // in the deformed world
+  double distance_m = 0.0;   // from the eye, along the line of sight
+  bool in_picture = false;
+  bool visible = false;  // in the picture, and no ground stands in front of it
+};
+
+// What a pixel shows.
+struct GeoPlace {
+  glm::dvec2 place{0.0};    // undeformed, scene CRS
+  double altitude_m = 0.0;  // of the undeformed, ungeneralized DEM
+  double distance_m = 0.0;  // from the eye, along the line of sight
+};
+
+// The map from geography to the picture and back, through everything that generalization, deformation and camera do: what labels, rivers,
+// routes and a click on the picture need. Exact: a ground point's ray meets the same facet again, far below a pixel away. All calls are
+// safe from any thread; the parts must outlive the map.
+class GeoMap {
+ public:
+  // altitude_m: the undeformed, ungeneralized DEM, with as many cells as the surface has posts.
+  GeoMap(const Grid<float>& altitude_m, const GeoTransform& transform, const Deformation& deformation, const DeformedSurface& surface,
+         const Camera& camera, const Tracer& tracer);
+
+  // A place on the ground as it is drawn. Nothing outside the terrain, or behind the eye.
+  std::optional<ImagePlace> to_image(glm::dvec2 place) const;
+  // A point at an altitude above the datum, on the ground, above or below it, moved as ground at that place and altitude would be.
+  // Nothing behind the eye.
+  std::optional<ImagePlace> to_image(glm::dvec3 place) const;
+  // The ground that a place of the picture shows; nothing where it shows sky.
+  std::optional<GeoPlace> to_geo(glm::dvec2 pixel) const;
+  // The drawn ground in the deformed world; nothing outside the terrain.
+  std::optional<glm::dvec3> on_surface(glm::dvec2 place) const;
+
+ private:
+  std::optional<ImagePlace> see(glm::dvec3 deformed) const;
+
+  const Grid<float>& altitude_m_;
+  GeoTransform transform_;
+  const Deformation& deformation_;
+  const DeformedSurface& surface_;
+  const Camera& camera_;
+  const Tracer& tracer_;
+};
+
+}  // namespace belvedere

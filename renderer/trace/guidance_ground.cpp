@@ -1,0 +1,149 @@
+#include "renderer/trace/guidance_ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "base/angle.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double fall_line_step_m = 60.0;
+constexpr double flat_gradient = 0.002;  // 0.1°: below, water and noise would give a direction by chance
+constexpr float ridge_scale_m = 10.F;
+
+// The four posts around a place and their weights, borders replicated.
+struct Corners {
+  int x0, y0, x1, y1;
+  double fx, fy;
+
+  template <class F>
+  auto blend(F&& at) const {
+    const auto top = at(x0, y0) * (1.0 - fx) + at(x1, y0) * fx;
+    const auto low = at(x0, y1) * (1.0 - fx) + at(x1, y1) * fx;
+    return top * (1.0 - fy) + low * fy;
+  }
+};
+
+template <class T>
+Corners corners(const Grid<T>& grid, double column, double row) {
+  const double x = std::clamp(column, 0.0, static_cast<double>(grid.width() - 1));
+  const double y = std::clamp(row, 0.0, static_cast<double>(grid.height() - 1));
+  const int x0 = static_cast<int>(x);
+  const int y0 = static_cast<int>(y);
+  return {x0, y0, std::min(x0 + 1, grid.width() - 1), std::min(y0 + 1, grid.height() - 1), x - x0, y - y0};
+}
+
+float bilinear(const Grid<float>& grid, const Corners& at) {
+  return static_cast<float>(at.blend([&](int x, int y) { return static_cast<double>(grid(x, y)); }));
+}
+
+glm::dvec2 gradient(const Grid<float>& z, const GeoTransform& transform, const Corners& at) {
+  return at.blend([&](int x, int y) {
+    const int west = std::max(x - 1, 0);
+    const int east = std::min(x + 1, z.width() - 1);
+    const int north = std::max(y - 1, 0);
+    const int south = std::min(y + 1, z.height() - 1);
+    const double run_x = std::max(east - west, 1) * transform.cell_x;
+    const double run_y = std::max(south - north, 1) * transform.cell_y;
+    return glm::dvec2((static_cast<double>(z(east, y)) - z(west, y)) / run_x, (static_cast<double>(z(x, north)) - z(x, south)) / run_y);
+  });
+}
+
+glm::vec3 upward_normal(glm::dvec2 slope) { return glm::vec3(glm::normalize(glm::dvec3(-slope.x, -slope.y, 1.0))); }
+
+// The slope of a ground as light sees it, turned and steepened as its place is. A fold's underside counts as upper side.
+glm::vec3 shape_normal(const glm::dmat3& jacobian, glm::dvec2 slope) {
+  const glm::dvec3 normal = glm::cross(jacobian * glm::dvec3(1.0, 0.0, slope.x), jacobian * glm::dvec3(0.0, 1.0, slope.y));
+  return glm::vec3(glm::normalize(normal.z < 0.0 ? -normal : normal));
+}
+
+// A place of the smoothed shape in the deformed world: the shape exaggerated, moved as the surface's own posts were moved. (The posts
+// themselves would give the fall line of every bump.)
+glm::dvec3 smooth_deformed(const TerrainModel& terrain, const DeformedSurface& surface, double column, double row) {
+  const GeoTransform& transform = terrain.dem.transform;
+  const Corners at = corners(terrain.generalized_m, column, row);
+  if (terrain.local) return terrain.local->point({transform.to_crs(column, row), bilinear(terrain.shape_smooth_m, at)});
+  const glm::dvec3 moved = at.blend([&](int x, int y) {
+    const glm::dvec2 post = transform.to_crs(x, y);
+    return glm::dvec3(surface.vertices_m(x, y)) + surface.origin -
+           glm::dvec3(post, terrain.exaggeration * static_cast<double>(terrain.generalized_m(x, y)));
+  });
+  const glm::dvec2 place = transform.to_crs(column, row);
+  return glm::dvec3(place, terrain.exaggeration * static_cast<double>(bilinear(terrain.shape_smooth_m, at))) + moved;
+}
+
+glm::vec2 image_fall_line(const TerrainModel& terrain, const DeformedSurface& surface, const Camera& camera, double column, double row,
+                          glm::dvec2 slope) {
+  const double steepness = glm::length(slope);
+  if (steepness < flat_gradient) return glm::vec2(0.F);
+  const glm::dvec2 downhill = -slope / steepness * fall_line_step_m;
+  const GeoTransform& transform = terrain.dem.transform;
+  const auto from = camera.project(smooth_deformed(terrain, surface, column, row));
+  const auto to =
+      camera.project(smooth_deformed(terrain, surface, column + downhill.x / transform.cell_x, row - downhill.y / transform.cell_y));
+  if (!from || !to) return glm::vec2(0.F);
+  const glm::dvec2 step = *to - *from;
+  const double length = glm::length(step);
+  return length > 1e-6 ? glm::vec2(step / length) : glm::vec2(0.F);
+}
+
+}  // namespace
+
+glm::dvec2 sample_gradient(const Grid<float>& altitude_m, const GeoTransform& transform, double column, double row) {
+  return gradient(altitude_m, transform, corners(altitude_m, column, row));
+}
+
+glm::dvec2 origin_of(const TerrainModel& terrain, double column, double row) {
+  glm::dvec2 origin(column, row);
+  if (terrain.came_from.empty()) return origin;
+  const Corners at = corners(terrain.generalized_m, column, row);
+  return origin + at.blend([&](int x, int y) { return glm::dvec2(terrain.came_from(x, y)); });
+}
+
+GroundValues sample_ground(const TerrainModel& terrain, const DeformedSurface& surface, const Camera& camera, double column, double row) {
+  const GeoTransform& transform = terrain.dem.transform;
+  const Corners at = corners(terrain.generalized_m, column, row);
+  const glm::dvec2 origin = origin_of(terrain, column, row);
+  const Corners known = corners(terrain.dem.altitude_m, origin.x, origin.y);
+  GroundValues ground;
+  ground.place = glm::dvec3(transform.to_crs(column, row), bilinear(terrain.dem.altitude_m, known));
+
+  const glm::dvec2 slope_shown = gradient(terrain.generalized_m, transform, at);
+  const glm::dvec2 slope_detail = gradient(terrain.dem.altitude_m, transform, known);
+  const glm::dvec2 shape = gradient(terrain.shape_smooth_m, transform, at);
+  if (terrain.local) {
+    const glm::dmat3 jacobian = terrain.local->shape_jacobian({glm::dvec2(ground.place), bilinear(terrain.generalized_m, at)});
+    ground.normal = shape_normal(jacobian, slope_shown);
+    ground.normal_detail = shape_normal(jacobian, slope_detail * terrain.detail_boost);
+    ground.normal_smooth = shape_normal(jacobian, shape);
+  } else {
+    ground.normal = upward_normal(slope_shown * terrain.exaggeration);
+    ground.normal_detail = upward_normal(slope_detail * (terrain.exaggeration * terrain.detail_boost));
+    ground.normal_smooth = upward_normal(shape * terrain.exaggeration);
+  }
+  ground.fall_line = image_fall_line(terrain, surface, camera, column, row, shape);
+
+  const glm::dvec2 slope = gradient(terrain.detail_smooth_m, transform, known);
+  ground.slope_deg = static_cast<float>(to_degrees(std::atan(glm::length(slope))));
+  // Downhill is against the gradient; flat ground has aspect 0.
+  if (slope != glm::dvec2(0.0)) {
+    const double aspect = to_degrees(std::atan2(-slope.x, -slope.y));
+    ground.aspect_deg = static_cast<float>(aspect < 0.0 ? aspect + 360.0 : aspect);
+  }
+  ground.relief_s_m = bilinear(terrain.relief_s_m, known);
+  ground.relief_m_m = bilinear(terrain.relief_m_m, known);
+  ground.relief_l_m = bilinear(terrain.relief_l_m, known);
+  ground.ridge = ground.relief_s_m / (std::abs(ground.relief_s_m) + ridge_scale_m);
+  ground.valley_height_m = bilinear(terrain.valley_height_m, known);
+  ground.rim_m = bilinear(terrain.rim_m, at);
+  if (!terrain.floor_plan.built.empty()) {
+    ground.built = bilinear(terrain.floor_plan.built, known);
+    ground.grain = glm::vec2(known.blend([&](int x, int y) { return glm::dvec2(terrain.floor_plan.grain(x, y)); }));
+  }
+  return ground;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,203 @@
+#include "renderer/trace/guidance_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "base/random.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double golden_turn = 2.0 * std::numbers::pi * 0.6180339887498949;
+constexpr std::uint64_t sun_seed = 0x73756e;  // "sun"
+constexpr float same_surface = 0.03F;         // depths that differ by less belong together
+
+// Rays gathered from pixels, traced at once, answers returned to (pixel, direction).
+class RayBatch {
+ public:
+  void clear() {
+    rays_.clear();
+    owners_.clear();
+  }
+  void add(int pixel, glm::dvec3 start, glm::dvec3 direction) {
+    rays_.push_back({start, direction});
+    owners_.push_back(pixel);
+  }
+  // f(pixel, blocked) for each ray.
+  template <class F>
+  void trace(const Tracer& tracer, double reach_m, F&& f) {
+    blocked_.resize(rays_.size());
+    tracer.occluded(rays_, reach_m, blocked_);
+    for (std::size_t i = 0; i < rays_.size(); ++i) f(owners_[i], blocked_[i] != 0);
+  }
+
+ private:
+  std::vector<Ray> rays_;
+  std::vector<int> owners_;
+  std::vector<std::uint8_t> blocked_;
+};
+
+// Each thread keeps its own, so that tracing allocates nothing.
+RayBatch& thread_batch() {
+  thread_local RayBatch batch;
+  batch.clear();
+  return batch;
+}
+
+}  // namespace
+
+std::vector<glm::dvec2> pixel_sample_places(int n) {
+  const int side = static_cast<int>(std::lround(std::sqrt(n)));
+  std::vector<glm::dvec2> places;
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      places.emplace_back((i + (j + 0.5) / side) / side, (j + (side - 1 - i + 0.5) / side) / side);
+    }
+  }
+  return places;
+}
+
+std::vector<glm::dvec2> disc_places(int count) {
+  std::vector<glm::dvec2> places;
+  for (int k = 0; k < count; ++k) {
+    // A single ray goes to the disc's middle: a hard shadow.
+    const double radius = count == 1 ? 0.0 : std::sqrt((k + 0.5) / count);
+    places.emplace_back(radius * std::cos(golden_turn * k), radius * std::sin(golden_turn * k));
+  }
+  return places;
+}
+
+std::vector<SkyDirection> sky_directions(int per_pixel) {
+  // Vogel's spiral: equal steps in the squared sine of the angle from the zenith, turns by the golden ratio. Each run of 16 along it
+  // is dealt to the 16 lanes, in Bayer's order, so that neighbours differ most; 7 places on from run to run, a quarter turn nearly,
+  // so that the directions of one lane spread as well.
+  constexpr std::array<int, 16> bayer = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
+  std::vector<SkyDirection> all;
+  for (int lane = 0; lane < 16; ++lane) {
+    for (int run = 0; run < per_pixel; ++run) {
+      const int n = 16 * run + (bayer[static_cast<std::size_t>(lane)] + 7 * run) % 16;
+      const double u = (n + 0.5) / (16.0 * per_pixel);
+      const double turn = golden_turn * n;
+      all.push_back({{std::cos(turn) * std::sqrt(u), std::sin(turn) * std::sqrt(u), std::sqrt(1.0 - u)}, lane});
+    }
+  }
+  // Neighbours in azimuth are traced together: rays of one packet should go the same way.
+  std::stable_sort(all.begin(), all.end(), [](const SkyDirection& a, const SkyDirection& b) {
+    return std::atan2(a.direction.y, a.direction.x) < std::atan2(b.direction.y, b.direction.x);
+  });
+  return all;
+}
+
+BlockValues trace_sun(const Tracer& tracer, const BlockSurface& block, std::span<const glm::dvec2> places, glm::dvec3 sun_direction,
+                      double sun_radius_rad) {
+  BlockValues lit{};
+  const int count = static_cast<int>(places.size());
+  const glm::dvec3 sun = glm::normalize(sun_direction);
+  const glm::dvec3 side = glm::normalize(glm::cross(sun, std::abs(sun.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
+  const glm::dvec3 above = glm::cross(side, sun);
+  const double spread = std::tan(sun_radius_rad);
+  std::array<glm::dvec2, trace_block_pixels> turn;
+  for (int i = 0; i < trace_block_pixels; ++i) {
+    const glm::ivec2 at = block.corner + block_pixel(i);
+    const double angle = 2.0 * std::numbers::pi * random_uniform(sun_seed, at.x, at.y);
+    turn[static_cast<std::size_t>(i)] = {std::cos(angle), std::sin(angle)};
+  }
+  const auto towards = [&](int pixel, int k) {
+    const glm::dvec2 t = turn[static_cast<std::size_t>(pixel)];
+    const glm::dvec2 p = places[static_cast<std::size_t>(k)];
+    return glm::normalize(sun + side * (spread * (p.x * t.x - p.y * t.y)) + above * (spread * (p.x * t.y + p.y * t.x)));
+  };
+  RayBatch& batch = thread_batch();
+  // The outermost two places first. In a bundle whose 32 rays all agree there is no penumbra, and the other places are not asked.
+  constexpr int probes = 2;
+  for (int bundle = 0; bundle < trace_block_pixels / 16; ++bundle) {
+    std::array<int, 16> free{};
+    int asked = 0;
+    int open = 0;
+    const auto trace = [&](int from, int to) {
+      batch.clear();
+      for (int k = from; k < to; ++k) {
+        for (int lane = 0; lane < 16; ++lane) {
+          const int i = bundle * 16 + lane;
+          const BlockSurface::Pixel& pixel = block.pixels[static_cast<std::size_t>(i)];
+          if (!pixel.terrain) continue;
+          const glm::dvec3 direction = towards(i, k);
+          if (glm::dot(direction, pixel.facet_normal) > 0.0) batch.add(lane, pixel.start, direction);
+        }
+      }
+      batch.trace(tracer, 1e9, [&](int lane, bool blocked) {
+        ++asked;
+        if (blocked) return;
+        ++open;
+        ++free[static_cast<std::size_t>(lane)];
+      });
+    };
+    const int rest = std::max(count - probes, 0);
+    trace(rest, count);
+    if (rest > 0) {
+      if (asked > 0 && open == asked) {
+        for (int lane = 0; lane < 16; ++lane) {
+          const int i = bundle * 16 + lane;
+          const BlockSurface::Pixel& pixel = block.pixels[static_cast<std::size_t>(i)];
+          if (!pixel.terrain) continue;
+          for (int k = 0; k < rest; ++k) {
+            if (glm::dot(towards(i, k), pixel.facet_normal) > 0.0) ++free[static_cast<std::size_t>(lane)];
+          }
+        }
+      } else if (open > 0 || asked == 0) {
+        trace(0, rest);
+      }
+    }
+    for (int lane = 0; lane < 16; ++lane) {
+      const int i = bundle * 16 + lane;
+      lit[static_cast<std::size_t>(i)] = static_cast<float>(free[static_cast<std::size_t>(lane)]) / static_cast<float>(count);
+    }
+  }
+  return lit;
+}
+
+BlockValues trace_sky(const Tracer& tracer, const BlockSurface& block, std::span<const SkyDirection> directions, double reach_m) {
+  BlockValues sky{};
+  if (directions.empty()) {
+    sky.fill(1.F);
+    return sky;
+  }
+  RayBatch& batch = thread_batch();
+  for (const SkyDirection& sky_direction : directions) {
+    for (int bundle = 0; bundle < trace_block_pixels / 16; ++bundle) {
+      const int i = bundle * 16 + sky_direction.lane;
+      const BlockSurface::Pixel& pixel = block.pixels[static_cast<std::size_t>(i)];
+      if (pixel.terrain && glm::dot(sky_direction.direction, pixel.facet_normal) > 0.0) batch.add(i, pixel.start, sky_direction.direction);
+    }
+  }
+  const float share = 16.F / static_cast<float>(directions.size());
+  batch.trace(tracer, reach_m, [&](int i, bool blocked) { sky[static_cast<std::size_t>(i)] += blocked ? 0.F : share; });
+  return sky;
+}
+
+Grid<float> mean_of_squares(const Grid<float>& values, const Grid<float>& depth_m) {
+  Grid<float> mean(values.width(), values.height());
+  constexpr std::array<float, 5> weight = {0.5F, 1.F, 1.F, 1.F, 0.5F};
+  parallel_rows(values.height(), [&](int y) {
+    for (int x = 0; x < values.width(); ++x) {
+      const float depth = depth_m(x, y);
+      float sum = 0.F;
+      float total = 0.F;
+      for (int j = -2; j <= 2; ++j) {
+        for (int i = -2; i <= 2; ++i) {
+          // Written so that sky (infinite depth) is of no surface, and stays as it is.
+          if (!values.contains(x + i, y + j) || !(std::abs(depth_m(x + i, y + j) - depth) <= same_surface * depth)) continue;
+          const float w = weight[i + 2] * weight[j + 2];
+          sum += w * values(x + i, y + j);
+          total += w;
+        }
+      }
+      mean(x, y) = total > 0.F ? sum / total : values(x, y);
+    }
+  });
+  return mean;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "renderer/trace/guidance.h"
+#include "renderer/trace/tracer.h"
+
+namespace belvedere {
+
+// Part of trace_guidance: which rays are traced, and what they say of light. The picture is traced in blocks of 8 × 8 pixels that lie
+// at multiples of 8 of the whole picture, whatever part of it is asked for, so a ray always has the same neighbours in its bundle.
+constexpr int trace_block_px = 8;
+constexpr int trace_block_pixels = trace_block_px * trace_block_px;
+
+// Pixel i of a block: four bundles of 4 × 4 pixels follow each other.
+constexpr glm::ivec2 block_pixel(int i) { return {(i / 16 % 2) * 4 + i % 4, (i / 32) * 4 + i % 16 / 4}; }
+
+// n = 1, 4, 9 or 16 places in a pixel, 0…1, on a rotated grid: no two share a column or a row of the n × n fine grid.
+std::vector<glm::dvec2> pixel_sample_places(int n);
+// K places in the unit disc, in strata of equal area (Vogel's spiral).
+std::vector<glm::dvec2> disc_places(int count);
+
+// Directions of the upper hemisphere, cosine weighted, dealt out to the 16 pixels of each 4 × 4 square of the picture: a pixel traces
+// `per_pixel` of them, the square 16 times as many. (Interleaved sampling, Keller & Heidrich 2001: 16 directions for all pixels alike
+// would draw 16 outlines of every ridge on the ground.)
+struct SkyDirection {
+  glm::dvec3 direction;
+  int lane;  // which pixel of the square: x % 4 + 4 (y % 4)
+};
+std::vector<SkyDirection> sky_directions(int per_pixel);
+
+// The ground that the pixels of a block show.
+struct BlockSurface {
+  struct Pixel {
+    bool terrain = false;
+    double distance_m = 0.0;
+    glm::dvec3 start{0.0};  // of secondary rays, deformed world
+    glm::dvec3 facet_normal{0.0};
+  };
+  std::array<Pixel, trace_block_pixels> pixels;
+  glm::ivec2 corner{0};  // of the block in the whole picture, px
+};
+using BlockValues = std::array<float, trace_block_pixels>;
+
+// Part of the sun's disc that each pixel sees: 1 lit. `places` in the unit disc are turned by an angle of each pixel's own.
+BlockValues trace_sun(const Tracer& tracer, const BlockSurface& block, std::span<const glm::dvec2> places, glm::dvec3 sun_direction,
+                      double sun_radius_rad);
+// Part of each pixel's own directions in which nothing stands within reach; to be smoothed by mean_of_squares.
+BlockValues trace_sky(const Tracer& tracer, const BlockSurface& block, std::span<const SkyDirection> directions, double reach_m);
+// Mean over 5 × 5 pixels, the outer ones by half, so that each of the 16 kinds of pixels weighs the same: what was dealt out to them
+// becomes one smooth value. Only pixels of the same surface (depths within 3 %) are taken together.
+Grid<float> mean_of_squares(const Grid<float>& values, const Grid<float>& depth_m);
+
+}  // namespace belvedere

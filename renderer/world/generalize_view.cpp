@@ -1,0 +1,131 @@
+#include "renderer/world/generalize_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "base/filter.h"
+#include "base/parallel.h"
+#include "renderer/world/ground.h"
+#include "terrain/deform/deform.h"
+#include "terrain/generalize/line_integral_generalize.h"
+#include "terrain/generalize/mask.h"
+#include "terrain/shape/hydrology.h"
+
+namespace belvedere {
+namespace {
+
+// The camera is asked at every so many cells: what it answers changes little from one to the next.
+constexpr int step_cells = 16;
+
+// 1 near, 0 far, smoothstep between (requirements G15, G16).
+Grid<float> foreground_share(const Dem& dem, glm::dvec2 viewer_xy, const SceneGeneralize& wish) {
+  Grid<float> share(dem.width(), dem.height());
+  const double span = std::max(1.0, wish.background_from_m - wish.foreground_to_m);
+  parallel_rows(dem.height(), [&](int y) {
+    for (int x = 0; x < dem.width(); ++x) {
+      const glm::dvec2 place = dem.transform.to_crs(x, y);
+      const double distance = std::hypot(place.x - viewer_xy.x, place.y - viewer_xy.y);
+      const double t = std::clamp((distance - wish.foreground_to_m) / span, 0.0, 1.0);
+      share(x, y) = static_cast<float>(1.0 - t * t * (3.0 - 2.0 * t));
+    }
+  });
+  return share;
+}
+
+// Pixels that a metre of ground at `place` takes at most: the larger singular value of the map from ground to picture, whose derivatives
+// are central differences over ±step_m. 0 behind the eye.
+double pixels_per_m(const Camera& camera, const Deformation& deformation, glm::dvec2 place, double altitude_m, double step_m) {
+  const auto seen = [&](double east, double north) {
+    return camera.project(deformation.point({place + glm::dvec2(east, north), altitude_m}));
+  };
+  const auto east = seen(step_m, 0.0);
+  const auto west = seen(-step_m, 0.0);
+  const auto north = seen(0.0, step_m);
+  const auto south = seen(0.0, -step_m);
+  if (!east || !west || !north || !south) return 0.0;
+  const glm::dvec2 a = (*east - *west) / (2.0 * step_m);
+  const glm::dvec2 b = (*north - *south) / (2.0 * step_m);
+  const double half_trace = 0.5 * (glm::dot(a, a) + glm::dot(b, b));
+  const double determinant = a.x * b.y - a.y * b.x;
+  const double square = half_trace + std::sqrt(std::max(0.0, half_trace * half_trace - determinant * determinant));
+  return std::isfinite(square) ? std::sqrt(square) : 0.0;
+}
+
+Grid<float> mask_for_scene(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, Progress& progress) {
+  const SceneGeneralize& wish = loaded.scene.generalize;
+  const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
+  Grid<float> mask;
+  if (wish.mask_slope_deg[1] > 0.0) mask = slope_mask(dem.altitude_m, cell_m, {wish.mask_slope_deg[0], wish.mask_slope_deg[1]});
+  if (!wish.mask.empty()) {
+    RasterSource source;
+    source.path = find_scene_file(loaded, wish.mask);
+    mask = combine_masks(std::move(mask), read_mask(source, {dem.transform, dem.width(), dem.height(), dem.crs}, progress));
+  }
+  if (!wish.mask_classes.empty()) {
+    ClassShares shares;
+    shares.fill(1.F);
+    for (const auto& [name, share] : wish.mask_classes) shares[static_cast<std::size_t>(*find_class(name))] = static_cast<float>(share);
+    const LandCover made = land_cover == nullptr ? make_scene_land_cover(loaded, dem, progress) : LandCover();
+    mask = combine_masks(std::move(mask), class_mask((land_cover == nullptr ? made : *land_cover).classes.cells, shares));
+  }
+  return mask;
+}
+
+}  // namespace
+
+PixelGround ground_m_per_pixel(const Dem& dem, const View& view) {
+  const std::unique_ptr<Camera> camera = make_camera(view.camera);
+  const Deformation deformation(view.deform, view.viewer_xy);
+  Grid<float> coarse((dem.width() - 1) / step_cells + 2, (dem.height() - 1) / step_cells + 2);
+  Grid<float> distance_m(coarse.width(), coarse.height());
+  parallel_rows(coarse.height(), [&](int y) {
+    for (int x = 0; x < coarse.width(); ++x) {
+      const glm::dvec2 place = dem.transform.to_crs(x * step_cells, y * step_cells);
+      const double altitude = dem.altitude_m.clamped(x * step_cells, y * step_cells);
+      const double pixels = pixels_per_m(*camera, deformation, place, altitude, dem.cell_m());
+      coarse(x, y) = pixels > 0.0 ? static_cast<float>(1.0 / pixels) : 0.F;
+      distance_m(x, y) = static_cast<float>(std::max(1.0, glm::length(deformation.point({place, altitude}) - view.camera.eye)));
+    }
+  });
+  // A pixel's angle, to go on with behind the eye.
+  std::vector<float> angles;
+  for (std::size_t i = 0; i < coarse.size(); ++i)
+    if (coarse[i] > 0.F) angles.push_back(coarse[i] / distance_m[i]);
+  if (angles.empty()) return {};
+  const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
+  std::nth_element(angles.begin(), middle, angles.end());
+  for (std::size_t i = 0; i < coarse.size(); ++i)
+    if (coarse[i] == 0.F) coarse[i] = *middle * distance_m[i];
+  return {std::move(coarse), step_cells};
+}
+
+GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
+                                       Progress& progress) {
+  const SceneGeneralize& wish = loaded.scene.generalize;
+  const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
+  GeneralizeParameters bands = wish.bands;
+  // What takes most memory on its way comes first.
+  Grid<float> plain = wish.line_integral ? generalize_along_slope_lines(dem.altitude_m, dem.cell_m(), {}, progress) : Grid<float>();
+  GeneralizeGrids grids;
+  if (wish.automatic_mask) {
+    grids.amplification_mask = slope_foot_mask(dem.altitude_m, cell_m, 1 << std::min<std::size_t>(bands.foreground.size(), 6));
+  }
+  if (wish.keep_lakes) grids.keep = find_lakes(dem.altitude_m, {});
+  grids.mask = mask_for_scene(loaded, dem, land_cover, progress);
+  if (wish.print_detail_px > 0.0) {
+    grids.pixel_ground = ground_m_per_pixel(dem, view);
+    bands.print_pixels = static_cast<float>(wish.print_detail_px);
+  }
+  grids.foreground_share = foreground_share(dem, view.viewer_xy, wish);
+  Grid<float> out = generalize(wish.line_integral ? plain : dem.altitude_m, cell_m, grids, bands, progress);
+  plain = {};
+  const Grid<unsigned char> lakes = std::move(grids.keep);
+  grids = {};
+  if (wish.valleys.width_m <= 0.F) return {std::move(out), {}};
+  WidenedValleys wide = widen_valleys(out, lakes, dem.cell_m(), wish.valleys, progress);
+  return {std::move(wide.altitude_m), std::move(wide.came_from)};
+}
+
+}  // namespace belvedere

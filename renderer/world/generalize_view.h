@@ -1,0 +1,27 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "base/progress.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/world/view.h"
+#include "terrain/cover/land_cover.h"
+#include "terrain/generalize/generalize.h"
+
+namespace belvedere {
+
+struct GeneralizedTerrain {
+  Grid<float> altitude_m;
+  Grid<glm::vec2> came_from;  // WidenedValleys::came_from; empty where no ground moved
+};
+
+// A DEM generalized as the scene asks for one view: by the distance from the viewer, by what its print can show, and by masks. `land_cover`
+// is looked at where the scene masks by class; null: it is made then. Its cells are the DEM's.
+GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
+                                       Progress& progress);
+
+// Ground metres that an output pixel shows, at every 16th cell of the DEM, in the direction in which the picture shows most: what is
+// finer cannot be seen however the ground lies. Behind the eye it goes on as the distance does. Empty where no ground is before it.
+PixelGround ground_m_per_pixel(const Dem& dem, const View& view);
+
+}  // namespace belvedere

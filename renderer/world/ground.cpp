@@ -1,0 +1,156 @@
+#include "renderer/world/ground.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "renderer/paint/palette.h"
+#include "renderer/world/generalize_view.h"
+#include "terrain/cover/class_rules.h"
+#include "terrain/deform/fold.h"
+#include "terrain/generalize/destripe.h"
+#include "terrain/generalize/generalize.h"
+#include "terrain/generalize/line_integral_generalize.h"
+#include "terrain/generalize/widen_valleys.h"
+#include "terrain/shape/hydrology.h"
+
+namespace belvedere {
+namespace {
+
+constexpr const char* winter_setting = "winter";
+
+RasterSource to_raster_source(const LoadedScene& scene, const SceneSource& source) {
+  RasterSource raster;
+  raster.path = find_scene_file(scene, source.file);
+  raster.band = source.band;
+  raster.crs = source.crs;
+  raster.nodata = source.nodata;
+  raster.lowest_m = source.lowest_m;
+  raster.highest_m = source.highest_m;
+  if (source.unit == "m") raster.unit_to_m = 1.0;
+  if (source.unit == "ft") raster.unit_to_m = 0.3048;
+  if (source.unit == "us-ft") raster.unit_to_m = 1200.0 / 3937.0;
+  return raster;
+}
+
+std::vector<RasterSource> to_raster_sources(const LoadedScene& scene, const std::vector<SceneSource>& sources) {
+  std::vector<RasterSource> rasters;
+  rasters.reserve(sources.size());
+  for (const SceneSource& source : sources) rasters.push_back(to_raster_source(scene, source));
+  return rasters;
+}
+
+LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
+  const SceneLandCover& wish = loaded.scene.land_cover;
+  const ClassRules rules = read_class_rules(find_named_file(loaded, "layers", wish.rules));
+  auto settings = wish.settings;
+  // A palette of winter brings its snow along, unless the scene says otherwise or the rules know no winter.
+  const auto is_winter = [](const auto& setting) { return setting.first == winter_setting; };
+  if (std::none_of(settings.begin(), settings.end(), is_winter) &&
+      std::any_of(rules.parameters.begin(), rules.parameters.end(), is_winter) &&
+      read_palette(find_named_file(loaded, "palettes", loaded.scene.palette)).winter)
+    settings.emplace_back(winter_setting, 1.0);
+  return apply_class_rules(rules, settings, dem, loaded.scene.seed, progress);
+}
+
+// {to, from}: cells of class `from` where the rules see `to` become `to`.
+void refine_by_rules(LandCover& cover, const LandCover& rules, const std::vector<std::pair<LandCoverClass, LandCoverClass>>& refine) {
+  Grid<LandCoverClass>& cells = cover.classes.cells;
+  parallel_rows(cells.height(), [&](int y) {
+    for (int x = 0; x < cells.width(); ++x) {
+      const glm::dvec2 place = cover.classes.transform.to_crs(x, y);
+      const glm::dvec2 at = rules.classes.transform.to_cell(place.x, place.y);
+      const LandCoverClass seen = rules.classes.cells.clamped(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y)));
+      for (const auto& [to, from] : refine)
+        if (cells(x, y) == from && seen == to) {
+          cells(x, y) = to;
+          break;
+        }
+    }
+  });
+}
+
+// With every patch, however small.
+LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
+  const SceneLandCover& wish = loaded.scene.land_cover;
+  if (wish.sources.empty()) return make_rule_cover(loaded, dem, progress);
+  LandCoverParameters parameters;
+  parameters.sources = to_raster_sources(loaded, wish.sources);
+  parameters.legend = find_named_file(loaded, "legends", wish.legend);
+  parameters.folders = loaded.allowed_folders;
+  parameters.unknown = wish.unknown;
+  parameters.nodata = wish.nodata;
+  LandCover cover = read_land_cover(parameters, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);
+  if (!wish.refine.empty()) refine_by_rules(cover, make_rule_cover(loaded, dem, progress), wish.refine);
+  return cover;
+}
+
+Dem read_scene_dem(const LoadedScene& loaded, Progress& progress) {
+  const SceneTerrain& terrain = loaded.scene.terrain;
+  if (terrain.synthetic) return make_synthetic_terrain(*terrain.synthetic, progress);
+  DemParameters parameters;
+  parameters.sources = to_raster_sources(loaded, terrain.sources);
+  parameters.crs = terrain.crs;
+  parameters.cell_m = terrain.cell_m;
+  parameters.extent = terrain.extent;
+  parameters.max_void_share = terrain.max_void_share;
+  return read_dem(parameters, progress);
+}
+
+}  // namespace
+
+Dem make_scene_dem(const LoadedScene& loaded, Progress& progress) {
+  Dem dem = read_scene_dem(loaded, progress);
+  if (loaded.scene.generalize.destripe) dem.altitude_m = destripe(dem.altitude_m, {}, progress);
+  return dem;
+}
+
+LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
+  return make_scene_patches(loaded, dem, progress).cover;
+}
+
+PatchResult make_scene_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
+  return remove_small_patches(make_full_cover(loaded, dem, progress), loaded.scene.land_cover.patches);
+}
+
+Ground make_ground(const LoadedScene& loaded, Dem dem, LandCover land_cover, const View& view, Progress& progress) {
+  GeneralizedTerrain shown = generalize_for_view(loaded, dem, &land_cover, view, progress);
+  // The eye's place at altitude 0 is the origin of everything that becomes float.
+  const glm::dvec3 origin{view.viewer_xy, 0.0};
+  Deformation deformation(view.deform, view.viewer_xy);
+  DeformedSurface surface = deform(shown.altitude_m, dem.transform, origin, deformation);
+  TerrainModel model = make_terrain_model(std::move(dem), std::move(shown.altitude_m), std::move(land_cover), view.deform.exaggeration);
+  model.came_from = std::move(shown.came_from);
+  if (deformation.is_local()) model.local = deformation;
+  return {std::move(deformation), std::move(model), std::move(surface)};
+}
+
+void check_folds(const Scene& scene, const Ground& ground, const Camera& camera, Progress& progress) {
+  const Dem& dem = ground.model.dem;
+  const Deformation& deformation = ground.deformation;
+  const std::vector<Fold> folds = find_folds(ground.model.generalized_m, dem.transform, deformation);
+  if (folds.empty()) return;
+  std::vector<Fold> in_picture;
+  for (const Fold& fold : folds) {
+    const double altitude = static_cast<double>(ground.model.generalized_m(fold.column, fold.row));
+    const auto at = camera.project(deformation.point({fold.place, altitude}));
+    if (at && at->x >= 0.0 && at->y >= 0.0 && at->x <= camera.size().x && at->y <= camera.size().y) in_picture.push_back(fold);
+  }
+  const bool refuse = !in_picture.empty() && !scene.deform.allow_folds;
+  for (const FoldSummary& summary : summarize_folds(refuse ? in_picture : folds, deformation.parameters().handles)) {
+    const std::string& name = scene.deform.handles[summary.handle].name;
+    const std::string where = fmt::format("deform.handles.{}{}", summary.handle, name.empty() ? "" : " (" + name + ")");
+    const std::string found = fmt::format("folds the ground over itself{} around E {:.0f} N {:.0f}, {} facets",
+                                          refuse ? " in the picture" : "", summary.middle.x, summary.middle.y, summary.facets);
+    if (refuse)
+      throw Error(ErrorKind::usage, where, found,
+                  "a smaller move_m, rotate_deg or scale, a larger radius_m, a smaller core_m, or deform.allow_folds = true");
+    progress.note(where + " " + found);
+  }
+}
+
+}  // namespace belvedere

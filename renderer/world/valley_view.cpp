@@ -1,0 +1,108 @@
+#include "renderer/world/valley_view.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "renderer/world/generalize_view.h"
+#include "renderer/world/ground.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int sight_line_count = 400;
+
+// The part of an upright line of sight that the picture shows, or nothing.
+std::optional<SightLine> shown(const Camera& camera, double azimuth_deg) {
+  const double azimuth = to_radians(azimuth_deg);
+  const auto inside = [&](double altitude_deg) {
+    const double altitude = to_radians(altitude_deg);
+    constexpr double far_m = 1000.0;  // any distance: only the direction counts
+    const auto at = camera.project(camera.eye() + far_m * glm::dvec3(std::sin(azimuth) * std::cos(altitude),
+                                                                     std::cos(azimuth) * std::cos(altitude), std::sin(altitude)));
+    return at && at->x >= 0.0 && at->y >= 0.0 && at->x <= camera.size().x && at->y <= camera.size().y;
+  };
+  const auto edge = [&](double in, double out) {
+    for (int halving = 0; halving < 40; ++halving) {
+      const double middle = 0.5 * (in + out);
+      (inside(middle) ? in : out) = middle;
+    }
+    return std::tan(to_radians(in));
+  };
+  constexpr double step_deg = 0.5;
+  constexpr int steepest = 179;  // steps
+  std::optional<double> lowest;
+  std::optional<double> highest;
+  for (int step = -steepest; step <= steepest; ++step) {
+    const double altitude = step * step_deg;
+    if (!inside(altitude)) continue;
+    if (!lowest) lowest = altitude;
+    highest = altitude;
+  }
+  if (!lowest) return std::nullopt;
+  return SightLine{azimuth_deg, edge(*lowest, *lowest - step_deg), edge(*highest, *highest + step_deg)};
+}
+
+}  // namespace
+
+BareView make_bare_view(const LoadedScene& loaded, Progress& progress) {
+  BareView bare;
+  bare.dem = make_scene_dem(loaded, progress);
+  bare.view = make_view(loaded.scene, bare.dem, progress);
+  bare.camera = make_camera(bare.view.camera);
+  bare.generalized_m = generalize_for_view(loaded, bare.dem, nullptr, bare.view, progress).altitude_m;
+  bend_anew(bare, bare.view.deform.bend);
+  return bare;
+}
+
+void bend_anew(BareView& bare, const BendCurve& bend) {
+  bare.view.deform.bend = bend;
+  bare.deformation = Deformation(bare.view.deform, bare.view.viewer_xy);
+  bare.tracer.reset();
+  bare.surface = std::make_unique<DeformedSurface>(
+      deform(bare.generalized_m, bare.dem.transform, glm::dvec3(bare.view.viewer_xy, 0.0), bare.deformation));
+  bare.tracer = std::make_unique<Tracer>(*bare.surface);
+}
+
+std::vector<SightLine> sight_lines(const CameraParameters& parameters, int count) {
+  if (parameters.projection == "oblique")
+    throw Error(ErrorKind::usage, "camera.projection", "\"oblique\", whose lines of sight are parallel",
+                "\"perspective\" or \"cylindrical\"");
+  const std::unique_ptr<Camera> camera = make_camera(parameters);
+  // First how wide the picture looks, then evenly over that.
+  constexpr int quarters = 720;  // half a turn in quarters of a degree, to either side
+  int first = quarters;
+  int last = -quarters;
+  for (int q = -quarters; q < quarters; ++q) {
+    if (!shown(*camera, parameters.azimuth_deg + 0.25 * q)) continue;
+    first = std::min(first, q);
+    last = std::max(last, q);
+  }
+  std::vector<SightLine> lines;
+  const double from = parameters.azimuth_deg + 0.25 * first;
+  const double width = 0.25 * (last - first);
+  for (int i = 0; i < count; ++i)
+    if (const auto line = shown(*camera, from + width * (i + 0.5) / count)) lines.push_back(*line);
+  if (lines.empty()) throw Error(ErrorKind::usage, "camera", "a picture that shows no direction", "a wider view");
+  return lines;
+}
+
+Grid<float> known_altitude(const Dem& dem) {
+  Grid<float> known = dem.altitude_m;
+  if (!dem.filled.empty())
+    for (std::size_t i = 0; i < known.size(); ++i)
+      if (dem.filled[i] != 0) known[i] = std::numeric_limits<float>::quiet_NaN();
+  return known;
+}
+
+ValleySight make_valley_sight(const BareView& bare) {
+  return {known_altitude(bare.dem), bare.dem.transform, bare.deformation, bare.view.camera.eye.z,
+          sight_lines(bare.view.camera, sight_line_count)};
+}
+
+}  // namespace belvedere

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/progress.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/trace/camera.h"
+#include "renderer/trace/geo_map.h"
+#include "renderer/world/view.h"
+#include "terrain/deform/bend_search.h"
+#include "terrain/deform/fold.h"
+
+namespace belvedere {
+
+// A scene's ground and view without colour, light and land cover: enough to ask where things are, and ready in seconds.
+struct BareView {
+  View view;
+  Dem dem;
+  Grid<float> generalized_m;
+  Deformation deformation;
+  std::unique_ptr<DeformedSurface> surface;  // stays where it is: the tracer reads it
+  std::unique_ptr<Camera> camera;
+  std::unique_ptr<Tracer> tracer;
+
+  GeoMap geo_map() const { return {dem.altitude_m, dem.transform, deformation, *surface, *camera, *tracer}; }
+};
+BareView make_bare_view(const LoadedScene& loaded, Progress& progress);
+// The same ground under another bend.
+void bend_anew(BareView& bare, const BendCurve& bend);
+
+// The directions in which a camera looks over the land, evenly spaced, and how far down and up it shows in each. Throws Error(usage) for
+// parallel projections, whose lines of sight do not meet in an eye.
+std::vector<SightLine> sight_lines(const CameraParameters& camera, int count);
+// The DEM without what was filled: voids are no valley floor.
+Grid<float> known_altitude(const Dem& dem);
+ValleySight make_valley_sight(const BareView& bare);
+
+}  // namespace belvedere

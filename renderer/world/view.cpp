@@ -1,0 +1,152 @@
+#include "renderer/world/view.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "base/filter.h"
+#include "terrain/io/raster_io.h"
+
+namespace belvedere {
+namespace {
+
+constexpr const char* longitude_latitude = "EPSG:4326";
+
+glm::dvec2 to_scene(const Dem& dem, glm::dvec2 lonlat, const char* key) {
+  if (dem.crs.empty()) throw Error(ErrorKind::usage, key, "longitude and latitude on a terrain without CRS", "easting and northing");
+  return transform_point(normalize_crs(longitude_latitude), dem.crs, lonlat);
+}
+
+bool on_terrain(const Dem& dem, glm::dvec2 place) {
+  const glm::dvec2 cell = dem.transform.to_cell(place.x, place.y);
+  return cell.x >= 0.0 && cell.y >= 0.0 && cell.x <= dem.width() - 1.0 && cell.y <= dem.height() - 1.0;
+}
+
+double ground_altitude_m(const Dem& dem, glm::dvec2 place) {
+  const glm::dvec2 cell = dem.transform.to_cell(place.x, place.y);
+  return sample_bilinear(dem.altitude_m, cell.x, cell.y);
+}
+
+// Grid north against true north at a place: the azimuth of the meridian in the grid.
+double meridian_azimuth_deg(const Dem& dem, glm::dvec2 lonlat) {
+  const glm::dvec2 here = to_scene(dem, lonlat, "sun.time");
+  const glm::dvec2 north = to_scene(dem, lonlat + glm::dvec2(0.0, 1e-3), "sun.time");
+  return to_degrees(std::atan2(north.x - here.x, north.y - here.y));
+}
+
+SunPosition resolve_sun(const SceneSun& sun, const Dem& dem) {
+  if (sun.time.empty()) return {sun.azimuth_deg, sun.altitude_deg};
+  if (dem.crs.empty()) throw Error(ErrorKind::usage, "sun.time", "a time on a terrain without CRS", "sun.azimuth_deg and sun.altitude_deg");
+  const glm::dvec2 middle = dem.transform.to_crs(0.5 * (dem.width() - 1), 0.5 * (dem.height() - 1));
+  const glm::dvec2 lonlat = transform_point(dem.crs, normalize_crs(longitude_latitude), middle);
+  SunPosition position = sun_position(lonlat.x, lonlat.y, sun.time);
+  position.azimuth_deg += meridian_azimuth_deg(dem, lonlat);
+  return position;
+}
+
+glm::dvec2 resolve_place(const Dem& dem, const std::optional<glm::dvec2>& place, const std::optional<glm::dvec2>& lonlat,
+                         const std::string& key) {
+  if (place) return *place;
+  if (!lonlat) throw Error(ErrorKind::usage, key, "no position", "position or position_lonlat");
+  return to_scene(dem, *lonlat, (key + ".position_lonlat").c_str());
+}
+
+// Pitch and azimuth towards a point.
+void look_towards(CameraParameters& camera, glm::dvec3 point) {
+  const glm::dvec3 line = point - camera.eye;
+  const double horizontal = std::hypot(line.x, line.y);
+  if (horizontal < 1e-6) throw Error(ErrorKind::usage, "camera.look_at", "the point straight below the eye", "a point away from it");
+  camera.azimuth_deg = to_degrees(std::atan2(line.x, line.y));
+  camera.pitch_deg = to_degrees(std::atan2(line.z, horizontal));
+}
+
+}  // namespace
+
+DeformParameters resolve_deform(const SceneDeform& wish, const Dem& dem) {
+  DeformParameters deform = wish.ground;
+  for (std::size_t i = 0; i < wish.summits.size(); ++i) {
+    const SceneSummit& summit = wish.summits[i];
+    const glm::dvec2 place = resolve_place(dem, summit.position, summit.position_lonlat, fmt::format("deform.summits.{}", i));
+    deform.summits.push_back({place, summit.radius_m, summit.factor, summit.base_m});
+  }
+  for (std::size_t i = 0; i < wish.handles.size(); ++i) {
+    const SceneHandle& handle = wish.handles[i];
+    const glm::dvec2 place = resolve_place(dem, handle.position, handle.position_lonlat, fmt::format("deform.handles.{}", i));
+    constexpr double core_share = 0.5;
+    deform.handles.push_back({.center = place,
+                              .move_m = {handle.move_m[0], handle.move_m[1]},
+                              .rotate_deg = handle.rotate_deg,
+                              .scale = handle.scale,
+                              .raise_m = handle.raise_m,
+                              .radius_m = handle.radius_m,
+                              .core_m = handle.core_m.value_or(core_share * handle.radius_m),
+                              .pin = handle.pin});
+  }
+  return deform;
+}
+
+View make_view(const Scene& scene, const Dem& dem, Progress& progress) {
+  const SceneCamera& wish = scene.camera;
+  View view;
+  view.camera.projection = wish.projection;
+  view.camera.width = scene.output.width;
+  view.camera.height = scene.output.height;
+  view.camera.field_of_view_deg = wish.field_of_view_deg;
+  view.camera.view_width_m = wish.view_width_m;
+
+  if (wish.position)
+    view.viewer_xy = *wish.position;
+  else if (wish.position_lonlat)
+    view.viewer_xy = to_scene(dem, *wish.position_lonlat, "camera.position_lonlat");
+  else
+    throw Error(ErrorKind::usage, "camera", "no position", "camera.position or camera.position_lonlat");
+
+  view.deform = resolve_deform(scene.deform, dem);
+  const Deformation deformation(view.deform, view.viewer_xy);
+  // Handles may have brought other ground under the eye.
+  const glm::dvec2 below = deformation.source_of(view.viewer_xy).value_or(view.viewer_xy);
+  const bool known_ground = on_terrain(dem, below);
+  const glm::dvec3 ground{below, known_ground ? ground_altitude_m(dem, below) : 0.0};
+  double eye_m = wish.height_m;
+  if (wish.height_above_ground) {
+    if (!known_ground)
+      throw Error(ErrorKind::usage, "camera.height_above_ground", "a position outside the terrain, whose ground is not known",
+                  "a position on the terrain, or height_above_ground = false");
+    eye_m += deformation.unbent(ground).z;
+  }
+  view.camera.eye = {view.viewer_xy, eye_m};
+  if (known_ground) {
+    // The ground as the camera meets it: exaggerated and bent.
+    const double ground_m = deformation.point(ground).z;
+    if (eye_m < ground_m)
+      throw Error(ErrorKind::usage, "camera.height_m",
+                  fmt::format("the eye at {:.0f} m stands below the ground, which is at {:.0f} m there", eye_m, ground_m),
+                  fmt::format("more than {:.0f} m above the datum", ground_m));
+  }
+
+  if (wish.look_at || wish.look_at_lonlat) {
+    const glm::dvec2 place = wish.look_at ? *wish.look_at : to_scene(dem, *wish.look_at_lonlat, "camera.look_at_lonlat");
+    // On the exaggerated ground before it is bent or rearranged, so that those alone decide what moves in the picture.
+    DeformParameters plain = view.deform;
+    plain.summits.clear();
+    plain.handles.clear();
+    const double altitude = wish.look_at_altitude_m ? *wish.look_at_altitude_m : ground_altitude_m(dem, place);
+    look_towards(view.camera, Deformation(plain, view.viewer_xy).unbent({place, altitude}));
+  } else {
+    view.camera.azimuth_deg = wish.azimuth_deg;
+    view.camera.pitch_deg = wish.pitch_deg;
+  }
+  view.camera.pitch_deg += wish.tilt_deg;
+
+  view.sun = resolve_sun(scene.sun, dem);
+  view.sun_direction = sun_direction(view.sun);
+  view.sun_image_x = std::sin(to_radians(view.sun.azimuth_deg - view.camera.azimuth_deg));
+  if (view.sun.altitude_deg <= 0.0)
+    progress.note(fmt::format("the sun stands {:.1f}° below the horizon: only the sky gives light", -view.sun.altitude_deg));
+  return view;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "base/progress.h"
+#include "renderer/scene/scene.h"
+#include "renderer/trace/camera.h"
+#include "renderer/trace/sun.h"
+#include "terrain/deform/deform.h"
+#include "terrain/io/dem.h"
+
+namespace belvedere {
+
+// A scene's camera and sun, resolved on its terrain.
+struct View {
+  CameraParameters camera;        // eye in the deformed world
+  glm::dvec2 viewer_xy{0.0};      // what distances, bend and generalization count from, scene CRS
+  DeformParameters deform;        // with summits and handles, scene CRS
+  SunPosition sun;                // azimuth from the grid's north
+  glm::dvec3 sun_direction{0.0};  // unit, towards the sun
+  double sun_image_x = 1.0;       // where the light comes from in the picture: -1 left … +1 right
+};
+
+// What a scene asks of the ground, with the places of summits and handles in the DEM's CRS. Throws Error(usage) for places that cannot be.
+DeformParameters resolve_deform(const SceneDeform& deform, const Dem& dem);
+
+// Resolves longitude and latitude, heights above ground, look-at points and the time of day. Throws Error(usage) where the eye would stand
+// below the ground (fault 19, with the height) or outside the terrain where its height is counted from the ground; a sun below the
+// horizon is noted, and then only the sky gives light.
+View make_view(const Scene& scene, const Dem& dem, Progress& progress);
+
+}  // namespace belvedere

@@ -1,0 +1,326 @@
+#include "terrain/cover/class_rules.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "base/config.h"
+#include "base/embedded.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "terrain/cover/class_rules_inputs.h"
+#include "terrain/cover/rule_expression.h"
+
+namespace belvedere {
+namespace {
+
+using namespace class_rules;
+
+constexpr char balance_term[] = "ice_balance";
+
+// Where each text of a rules file stands; empty for rules that come from no file.
+struct Places {
+  std::vector<ConfigPlace> terms;
+  std::vector<ConfigPlace> layers;
+};
+
+// Rules ready to run. Slots: the terrain's variables, then the terms.
+struct Program {
+  std::vector<RuleExpression> terms;
+  std::vector<RuleExpression> layers;
+  std::vector<std::vector<bool>> term_needs;  // slots a term reads, also through other terms
+  std::vector<std::vector<bool>> layer_needs;
+};
+
+bool is_name(const std::string& text) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  return !text.empty() && letter(text[0]) &&
+         std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+Program compile(const ClassRules& rules, const Parameters& parameters, const std::string& where, const Places& places) {
+  const std::vector<std::string>& variables = variable_names();
+  const std::size_t slots = variables.size() + rules.terms.size();
+  Program program;
+  RuleNames names{variables, parameters};
+  const auto needs_of = [&](const RuleExpression& expression) {
+    std::vector<bool> needs(slots, false);
+    for (const int v : expression.variables()) {
+      const auto slot = static_cast<std::size_t>(v);
+      needs[slot] = true;
+      if (slot < variables.size()) continue;
+      const std::vector<bool>& of_term = program.term_needs[slot - variables.size()];
+      for (std::size_t i = 0; i < slots; ++i) needs[i] = needs[i] || of_term[i];
+    }
+    return needs;
+  };
+  // Classes so far exist in layers only; and what makes the ice cannot know where the ice is.
+  const auto forbid = [&](const std::vector<bool>& needs, int from, int to, const std::string& place, const std::string& reason) {
+    for (int v = from; v < to; ++v)
+      if (needs[static_cast<std::size_t>(v)])
+        throw Error(ErrorKind::usage, place, fmt::format("\"{}\" in {}", variables[static_cast<std::size_t>(v)], reason), "");
+  };
+  const auto compile_one = [&](const std::string& text, const std::string& what, const std::vector<ConfigPlace>& from, std::size_t i) {
+    return from.empty() ? RuleExpression(text, names, where + ", " + what, {}) : RuleExpression(text, names, where, from[i]);
+  };
+
+  for (std::size_t i = 0; i < rules.terms.size(); ++i) {
+    const auto& [name, text] = rules.terms[i];
+    program.terms.push_back(compile_one(text, "term " + name, places.terms, i));
+    program.term_needs.push_back(needs_of(program.terms.back()));
+    const std::string place = places.terms.empty() ? where + ", term " + name : config_where(where, places.terms[i]);
+    const std::vector<bool>& needs = program.term_needs.back();
+    forbid(needs, first_class, static_cast<int>(variables.size()), place, "a term; only layers know the class so far");
+    if (name == balance_term) forbid(needs, ice, below_rock + 1, place, "ice_balance, which is computed before it");
+    names.variables.push_back(name);
+  }
+  for (std::size_t i = 0; i < rules.layers.size(); ++i) {
+    const std::string what = fmt::format("layer {} ({})", i + 1, class_name(rules.layers[i].painted_as));
+    program.layers.push_back(compile_one(rules.layers[i].when, what, places.layers, i));
+    program.layer_needs.push_back(needs_of(program.layers.back()));
+  }
+  return program;
+}
+
+Parameters with_settings(const ClassRules& rules, const Parameters& settings) {
+  Parameters parameters = rules.parameters;
+  for (const auto& [name, value] : settings) {
+    const auto parameter = std::find_if(parameters.begin(), parameters.end(), [&, &key = name](const auto& p) { return p.first == key; });
+    if (parameter != parameters.end()) {
+      parameter->second = value;
+      continue;
+    }
+    std::vector<std::string> known;
+    for (const auto& p : parameters) known.push_back(p.first);
+    const std::string near = nearest_word(name, known);
+    throw Error(
+        ErrorKind::usage, "setting " + name,
+        fmt::format("unknown parameter of the class rules \"{}\"{}", rules.name, near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+        fmt::format("{}", fmt::join(known, ", ")));
+  }
+  return parameters;
+}
+
+// The state of one run over the DEM.
+struct Run {
+  const ClassRules& rules;
+  const Program& program;
+  const Dem& dem;
+  std::uint64_t seed;
+  std::vector<Grid<float>> inputs;
+};
+
+// Slots of one row, whole blocks long; each thread has its own.
+struct Row {
+  std::vector<std::vector<float>> slots;
+  RuleExpression::Scratch scratch;
+};
+
+// Makes the wanted slots of a row; `classes` is the row so far, or null. Terms come last, in their order.
+void fill_row(const Run& run, const std::vector<bool>& wanted, int y, const LandCoverClass* classes, Row& row) {
+  const int width = run.dem.width();
+  const std::size_t variables = variable_names().size();
+  const std::size_t padded = (static_cast<std::size_t>(width) + rule_block - 1) / rule_block * rule_block;
+  row.slots.resize(wanted.size());
+  for (std::size_t v = 0; v < wanted.size(); ++v) {
+    if (!wanted[v]) continue;
+    std::vector<float>& out = row.slots[v];
+    out.resize(padded, 0.F);
+    const int variable = static_cast<int>(v);
+    if (variable < first_noise) {
+      std::copy_n(run.inputs[v].row(y), width, out.begin());
+    } else if (variable < east) {
+      fill_noise(variable, run.seed, run.dem.transform, y, width, out.data());
+    } else if (variable < first_class) {
+      for (int x = 0; x < width; ++x) {
+        const glm::dvec2 place = run.dem.transform.to_crs(x, y);
+        out[static_cast<std::size_t>(x)] = static_cast<float>(variable == east ? place.x : place.y);
+      }
+    } else if (v < variables) {
+      const auto id = static_cast<LandCoverClass>(variable - first_class);
+      for (int x = 0; x < width; ++x) out[static_cast<std::size_t>(x)] = classes != nullptr && classes[x] == id ? 1.F : 0.F;
+    } else {
+      std::vector<const float*> pointers(wanted.size(), nullptr);
+      for (std::size_t begin = 0; begin < padded; begin += rule_block) {
+        for (std::size_t i = 0; i < v; ++i) pointers[i] = row.slots[i].empty() ? nullptr : row.slots[i].data() + begin;
+        run.program.terms[v - variables].evaluate(pointers, out.data() + begin, row.scratch);
+      }
+    }
+  }
+}
+
+std::vector<bool> union_of(const std::vector<std::vector<bool>>& needs, std::size_t from, std::size_t to, std::size_t slots) {
+  std::vector<bool> all(slots, false);
+  for (std::size_t k = from; k < to; ++k)
+    for (std::size_t i = 0; i < slots; ++i) all[i] = all[i] || needs[k][i];
+  return all;
+}
+
+// Applies the layers from…to to all cells.
+void apply_layers(const Run& run, std::size_t from, std::size_t to, Grid<LandCoverClass>& classes) {
+  if (from == to) return;
+  const std::size_t variables = variable_names().size();
+  const std::size_t slots = variables + run.rules.terms.size();
+  const std::vector<bool> wanted = union_of(run.program.layer_needs, from, to, slots);
+  const auto first = static_cast<std::size_t>(first_class);
+  parallel_ranges(classes.height(), 16, [&](int y0, int y1) {
+    Row row;
+    std::array<float, rule_block> hit{};
+    for (int y = y0; y != y1; ++y) {
+      LandCoverClass* line = classes.row(y);
+      fill_row(run, wanted, y, line, row);
+      std::vector<const float*> pointers(slots, nullptr);
+      for (int begin = 0; begin < classes.width(); begin += rule_block) {
+        const int count = std::min(rule_block, classes.width() - begin);
+        for (std::size_t i = 0; i < slots; ++i) pointers[i] = wanted[i] ? row.slots[i].data() + begin : nullptr;
+        for (std::size_t k = from; k < to; ++k) {
+          const auto painted = static_cast<std::size_t>(run.rules.layers[k].painted_as);
+          run.program.layers[k].evaluate(pointers, hit.data(), row.scratch);
+          for (int x = 0; x < count; ++x) {
+            if (!(hit[static_cast<std::size_t>(x)] > 0.F)) continue;
+            const int at = begin + x;
+            const auto place = static_cast<std::size_t>(at);
+            const auto old = static_cast<std::size_t>(line[place]);
+            // Later layers of this pass see the class so far.
+            if (wanted[first + old]) row.slots[first + old][place] = 0.F;
+            if (wanted[first + painted]) row.slots[first + painted][place] = 1.F;
+            line[place] = run.rules.layers[k].painted_as;
+          }
+        }
+      }
+    }
+  });
+}
+
+// The values of one term on all cells.
+Grid<float> evaluate_term(const Run& run, std::size_t term) {
+  std::vector<bool> wanted = run.program.term_needs[term];
+  const std::size_t slot = variable_names().size() + term;
+  wanted[slot] = true;
+  Grid<float> out(run.dem.width(), run.dem.height());
+  parallel_ranges(out.height(), 16, [&](int y0, int y1) {
+    Row row;
+    for (int y = y0; y != y1; ++y) {
+      fill_row(run, wanted, y, nullptr, row);
+      std::copy_n(row.slots[slot].begin(), out.width(), out.row(y));
+    }
+  });
+  return out;
+}
+
+}  // namespace
+
+ClassRules read_class_rules(const std::string& name_or_path) {
+  const std::vector<std::string> built_in = embedded_names("layers");
+  const bool is_file = name_or_path.ends_with(".toml");
+  if (!is_file && std::find(built_in.begin(), built_in.end(), name_or_path) == built_in.end())
+    throw Error(ErrorKind::usage, name_or_path, "no class rules of that name",
+                fmt::format("{}, or a .toml file", fmt::join(built_in, ", ")));
+  const std::string where = is_file ? name_or_path : "layers/" + name_or_path + ".toml";
+  const ConfigValue document = is_file ? read_config(name_or_path) : parse_config(embedded_file(where), where);
+
+  ClassRules rules;
+  Places places;
+  const ConfigTable& root = as_table(document, where);
+  allow_only(root, {"version", "name", "parameters", "terms", "layers"}, where);
+  const ConfigValue* version = find(root, "version");
+  if (version == nullptr || as_integer(*version, where) != 1)
+    throw Error(ErrorKind::usage, config_where(where, version == nullptr ? ConfigPlace{} : version->place),
+                version == nullptr ? "no version" : describe(*version), "version = 1");
+  const ConfigValue* name = find(root, "name");
+  rules.name = name != nullptr ? as_string(*name, where) : name_or_path;
+
+  std::vector<std::string> taken = variable_names();
+  const auto take_name = [&](const ConfigEntry& entry) {
+    const std::string place = config_where(where, entry.key_place);
+    constexpr std::array<const char*, 14> words = {"and", "or",  "not", "min", "max",  "clip",       "clamp",
+                                                   "abs", "sin", "cos", "exp", "sqrt", "smoothstep", "hat"};
+    if (!is_name(entry.key))
+      throw Error(ErrorKind::usage, place, "the name \"" + entry.key + "\"", "letters, digits and _, no digit first");
+    if (std::find(words.begin(), words.end(), entry.key) != words.end() || std::find(taken.begin(), taken.end(), entry.key) != taken.end())
+      throw Error(ErrorKind::usage, place, "the name \"" + entry.key + "\" already means something", "another name");
+    taken.push_back(entry.key);
+  };
+  if (const ConfigValue* parameters = find(root, "parameters"))
+    for (const ConfigEntry& entry : as_table(*parameters, where)) {
+      take_name(entry);
+      rules.parameters.emplace_back(entry.key, as_number(entry.value, where));
+    }
+  if (const ConfigValue* terms = find(root, "terms"))
+    for (const ConfigEntry& entry : as_table(*terms, where)) {
+      take_name(entry);
+      rules.terms.emplace_back(entry.key, as_string(entry.value, where));
+      places.terms.push_back(entry.value.place);
+    }
+  const ConfigValue* layers = find(root, "layers");
+  if (layers == nullptr) throw Error(ErrorKind::usage, where, "no layers", "[[layers]] with class and when");
+  for (const ConfigValue& value : as_array(*layers, where)) {
+    const ConfigTable& layer = as_table(value, where);
+    allow_only(layer, {"class", "when"}, where);
+    const ConfigValue* painted = find(layer, "class");
+    const ConfigValue* when = find(layer, "when");
+    if (painted == nullptr || when == nullptr)
+      throw Error(ErrorKind::usage, config_where(where, value.place), painted == nullptr ? "a layer without class" : "a layer without when",
+                  "class and when");
+    const std::string& word = as_string(*painted, where);
+    const std::optional<LandCoverClass> found = find_class(word);
+    if (!found || *found == LandCoverClass::sky) {
+      std::vector<std::string> known;
+      for (const LandCoverClassInfo& c : land_cover_classes())
+        if (c.id != LandCoverClass::sky) known.emplace_back(c.name);
+      const std::string near = nearest_word(word, known);
+      throw Error(ErrorKind::usage, config_where(where, painted->place),
+                  fmt::format("unknown class \"{}\"{}", word, near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+                  fmt::format("{}", fmt::join(known, ", ")));
+    }
+    rules.layers.push_back({*found, as_string(*when, where)});
+    places.layers.push_back(when->place);
+  }
+  compile(rules, rules.parameters, where, places);
+  return rules;
+}
+
+LandCover apply_class_rules(const ClassRules& rules, const std::vector<std::pair<std::string, double>>& settings, const Dem& dem,
+                            std::uint64_t seed, Progress& progress) {
+  const Parameters parameters = with_settings(rules, settings);
+  const Program program = compile(rules, parameters, rules.name, {});
+  const std::size_t variables = variable_names().size();
+  const std::size_t slots = variables + rules.terms.size();
+  progress.begin("class rules", 4.0);
+
+  // Ice needs the balance of snow and melting, and that needs variables of its own.
+  std::vector<bool> wanted = union_of(program.layer_needs, 0, program.layers.size(), slots);
+  const auto balance = std::find_if(rules.terms.begin(), rules.terms.end(), [](const auto& t) { return t.first == balance_term; });
+  const bool has_ice = wanted[ice] && balance != rules.terms.end();
+  if (has_ice) {
+    const std::vector<bool>& needs = program.term_needs[static_cast<std::size_t>(balance - rules.terms.begin())];
+    for (std::size_t i = 0; i < slots; ++i) wanted[i] = wanted[i] || needs[i];
+  }
+  Run run{rules, program, dem, seed, make_terrain_inputs(dem, wanted, parameters, seed)};
+  progress.advance(1.0);
+  if (has_ice)
+    run.inputs[ice] = flowing_ice(evaluate_term(run, static_cast<std::size_t>(balance - rules.terms.begin())), dem);
+  else if (wanted[ice])
+    run.inputs[ice] = Grid<float>(dem.width(), dem.height(), 0.F);
+  progress.advance(1.0);
+
+  // Layers that ask for rock uphill wait until the rock is there.
+  Grid<LandCoverClass> classes(dem.width(), dem.height(), LandCoverClass::sky);
+  std::size_t first = 0;
+  while (first < rules.layers.size() && !program.layer_needs[first][below_rock]) ++first;
+  apply_layers(run, 0, first, classes);
+  if (first < rules.layers.size()) {
+    run.inputs[below_rock] = rock_above(classes, dem, parameter_or(parameters, "apron_m", 400.0));
+    apply_layers(run, first, rules.layers.size(), classes);
+  }
+  progress.advance(1.0);
+  remove_specks(classes, static_cast<int>(parameter_or(parameters, "speck_cells", 5.0)));
+  progress.advance(1.0);
+  return {{std::move(classes), dem.transform, dem.crs}};
+}
+
+}  // namespace belvedere

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/land_cover_class.h"
+#include "terrain/io/dem.h"
+
+// What class rules can know of the terrain. Private to class_rules.
+namespace belvedere::class_rules {
+
+using Parameters = std::vector<std::pair<std::string, double>>;
+
+// The variables of rules. Those before `first_noise` are grids; noise, places and classes are made row by row.
+enum Variable : int {
+  altitude,
+  slope,
+  slope_smooth,
+  south,
+  relief_180,
+  relief_750,
+  relief_1800,
+  valley_height,
+  valley_floor,
+  lake,
+  shore,
+  river,
+  town,
+  ice,
+  below_rock,
+  first_noise,
+  n60 = first_noise,
+  n210,
+  n660,
+  n1800,
+  east,
+  north,
+  first_class
+};
+// Their names by slot; is_<class> follow from first_class on.
+const std::vector<std::string>& variable_names();
+
+// A parameter, or what it is where the rules do not name it.
+double parameter_or(const Parameters& parameters, const std::string& name, double otherwise);
+
+// The grids that are wanted (by slot), all of the DEM's size; others stay empty. ice and below_rock depend on the rules and stay empty.
+std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& wanted, const Parameters& parameters,
+                                             std::uint64_t seed);
+
+// 1 just below rock, falling to 0 over `reach_m` down the fall line.
+Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, double reach_m);
+
+// Where glaciers lie, 0…1: what falls and melts (`balance`, > 0 where more falls) flows downhill, and ice fills the valleys that it flows
+// through until it has melted: tongues.
+Grid<float> flowing_ice(const Grid<float>& balance, const Dem& dem);
+
+// One row of a noise variable.
+void fill_noise(int variable, std::uint64_t seed, const GeoTransform& transform, int row, int width, float* out);
+
+// Cells whose (window × window) neighbourhood holds no majority of their class take the class of the nearest cell that is not
+// so; window odd, below 3 off. Water and settlement keep every cell.
+void remove_specks(Grid<LandCoverClass>& classes, int window);
+
+}  // namespace belvedere::class_rules

@@ -1,0 +1,76 @@
+#include "terrain/cover/floor_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/filter.h"
+#include "base/parallel.h"
+#include "terrain/shape/derivatives.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double street_m = 110.0;       // houses along one street are one neighbourhood
+constexpr double town_m = 450.0;         // a village is small against this, a town is not
+constexpr double edge_m = 60.0;          // softness of banks and slope feet before their direction is taken
+constexpr double grain_m = 340.0;        // how far a bank or a slope foot orders the land
+constexpr float least_gradient = 1e-5F;  // squared, a cell; less is no edge at all
+
+Grid<float> class_mask(const LandCover& cover, const Dem& dem, LandCoverClass wanted) {
+  const Grid<LandCoverClass>& cells = cover.classes.cells;
+  Grid<float> mask(dem.width(), dem.height());
+  parallel_rows(dem.height(), [&](int y) {
+    for (int x = 0; x < dem.width(); ++x) {
+      const glm::dvec2 place = dem.transform.to_crs(x, y);
+      const glm::dvec2 at = cover.classes.transform.to_cell(place.x, place.y);
+      mask(x, y) = cells.clamped(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y))) == wanted ? 1.F : 0.F;
+    }
+  });
+  return mask;
+}
+
+}  // namespace
+
+FloorPlan plan_floor(const LandCover& land_cover, const Dem& dem) {
+  const double cell = dem.cell_m();
+  const int width = dem.width();
+  const int height = dem.height();
+  FloorPlan plan;
+  const Grid<float> houses = class_mask(land_cover, dem, LandCoverClass::settlement);
+  const Grid<float> street = gaussian_blur(houses, street_m / cell);
+  const Grid<float> town = gaussian_blur(houses, town_m / cell);
+  plan.built = Grid<float>(width, height);
+  for (std::size_t i = 0; i < plan.built.size(); ++i) plan.built[i] = std::clamp(street[i] * (0.35F + 0.65F * town[i]), 0.F, 1.F);
+
+  // Edges that order the land: banks, and where the floor begins to rise; their structure tensor says which way they run.
+  Grid<float> edges = gaussian_blur(class_mask(land_cover, dem, LandCoverClass::water), edge_m / cell);
+  const Grid<float> slope = slope_deg(gaussian_blur(dem.altitude_m, edge_m / cell), dem.transform.cell_x, dem.transform.cell_y);
+  Grid<float> difference(width, height);  // g_x² - g_y²
+  Grid<float> product(width, height);     // 2 g_x g_y
+  Grid<float> sum(width, height);         // g_x² + g_y²
+  parallel_rows(height, [&](int y) {
+    const auto rises = [&](int x, int v) { return std::clamp((slope.clamped(x, v) - 3.F) / 6.F, 0.F, 1.F); };
+    for (int x = 0; x < width; ++x) {
+      const auto add = [&](float gx, float gy, float weight) {
+        difference(x, y) += weight * (gx * gx - gy * gy);
+        product(x, y) += weight * 2.F * gx * gy;
+        sum(x, y) += weight * (gx * gx + gy * gy);
+      };
+      add(edges.clamped(x + 1, y) - edges.clamped(x - 1, y), edges.clamped(x, y - 1) - edges.clamped(x, y + 1), 2.F);
+      add(rises(x + 1, y) - rises(x - 1, y), rises(x, y - 1) - rises(x, y + 1), slope(x, y) < 9.F ? 1.F : 0.F);
+    }
+  });
+  const double sigma = grain_m / cell;
+  difference = gaussian_blur(difference, sigma);
+  product = gaussian_blur(product, sigma);
+  sum = gaussian_blur(sum, sigma);
+  plan.grain = Grid<glm::vec2>(width, height);
+  for (std::size_t i = 0; i < plan.grain.size(); ++i) {
+    // Along an edge is across its gradient: twice the angle, turned by half a circle.
+    const float scale = 1.F / (sum[i] + least_gradient);
+    plan.grain[i] = {-difference[i] * scale, -product[i] * scale};
+  }
+  return plan;
+}
+
+}  // namespace belvedere

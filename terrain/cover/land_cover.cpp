@@ -1,0 +1,143 @@
+#include "terrain/cover/land_cover.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "base/error.h"
+#include "base/filter.h"
+#include "base/parallel.h"
+
+namespace belvedere {
+namespace {
+
+// Weights of the cubic B-spline on four cells around a place t past the second one; their sum is 1.
+std::array<double, 4> bspline_weights(double t) {
+  const double s = 1.0 - t;
+  return {s * s * s / 6.0, (4.0 + t * t * (3.0 * t - 6.0)) / 6.0, (4.0 + s * s * (3.0 * s - 6.0)) / 6.0, t * t * t / 6.0};
+}
+
+// Four cells of a row as one number.
+std::uint32_t four_cells(const LandCoverClass* cells) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, cells, sizeof word);
+  return word;
+}
+
+// True where all of the 4 × 4 cells from (x, y) on are of one class: nearly everywhere, so this is what each lookup costs.
+bool is_uniform(const Grid<LandCoverClass>& cells, int x, int y) {
+  const std::uint32_t word = four_cells(cells.row(y) + x);
+  return word == four_cells(cells.row(y + 1) + x) && word == four_cells(cells.row(y + 2) + x) && word == four_cells(cells.row(y + 3) + x) &&
+         word == (word << 8 | word >> 24);
+}
+
+// Codes to classes. Unknown codes are counted for one message about all of them.
+Grid<LandCoverClass> classify(const Grid<std::int32_t>& codes, const Legend& legend, const LandCoverParameters& parameters,
+                              Progress& progress) {
+  Grid<LandCoverClass> classes(codes.width(), codes.height(), LandCoverClass::sky);
+  std::map<std::int32_t, std::size_t> unknown;
+  std::int32_t last_code = -1;
+  LandCoverClass last_class = LandCoverClass::sky;  // neighbours are mostly alike
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    const std::int32_t code = codes[i];
+    if (code < 0) continue;
+    if (code != last_code) {
+      last_code = code;
+      const auto found = legend.entries.find(code);
+      const bool nothing = found == legend.entries.end() && legend.nodata.contains(code);
+      const bool odd = found == legend.entries.end() && !nothing;
+      last_class = nothing ? LandCoverClass::sky : odd ? parameters.unknown.value_or(LandCoverClass::sky) : found->second.painted_as;
+      if (odd) unknown.try_emplace(code, 0);
+    }
+    classes[i] = last_class;
+    if (!unknown.empty())
+      if (const auto count = unknown.find(code); count != unknown.end()) ++count->second;
+  }
+  if (unknown.empty()) return classes;
+  std::string list;
+  for (const auto& [code, count] : unknown) list += fmt::format("{}{} ({} cells)", list.empty() ? "" : ", ", code, count);
+  const std::string where = parameters.sources[0].path;
+  if (!parameters.unknown) {
+    throw Error(ErrorKind::input, where, fmt::format("codes that the legend {} lacks: {}", legend.name, list),
+                "the legend's codes; another legend, or the key `unknown` with the class to paint them as");
+  }
+  progress.note(
+      fmt::format("{}: painted as {}, because the legend {} lacks them: {}", where, class_name(*parameters.unknown), legend.name, list));
+  return classes;
+}
+
+// Cells where nothing is known take the scene's class for them, or that of the nearest known cell.
+void fill_unknown(Grid<LandCoverClass>& classes, const LandCoverParameters& parameters, Progress& progress) {
+  Grid<std::uint8_t> known(classes.width(), classes.height(), 0);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    known[i] = classes[i] != LandCoverClass::sky ? 1 : 0;
+    count += known[i];
+  }
+  if (count == classes.size()) return;
+  const std::string where = parameters.sources[0].path;
+  const double share = 100.0 * static_cast<double>(classes.size() - count) / static_cast<double>(classes.size());
+  if (count == 0 && !parameters.nodata) throw Error(ErrorKind::input, where, "has no land cover within the scene's terrain");
+  progress.note(fmt::format("{}: no land cover on {:.1f} % of the terrain: {}", where, share,
+                            parameters.nodata ? fmt::format("painted as {}", class_name(*parameters.nodata)) : "taken from the nearest"));
+  if (parameters.nodata) {
+    for (LandCoverClass& c : classes)
+      if (c == LandCoverClass::sky) c = *parameters.nodata;
+    return;
+  }
+  const Grid<std::int32_t> nearest = nearest_marked(known);
+  for (std::size_t i = 0; i < classes.size(); ++i)
+    if (known[i] == 0) classes[i] = classes[static_cast<std::size_t>(nearest[i])];
+}
+
+}  // namespace
+
+LandCoverClass LandCover::at(double x, double y) const {
+  const Grid<LandCoverClass>& cells = classes.cells;
+  const glm::dvec2 place = classes.transform.to_cell(x, y);
+  // Two cells beyond the rim all 16 cells are the rim's; also keeps far places within an int.
+  const double column = std::clamp(place.x, -2.0, cells.width() + 1.0);
+  const double row = std::clamp(place.y, -2.0, cells.height() + 1.0);
+  const double left = std::floor(column);
+  const double above = std::floor(row);
+  const int x0 = static_cast<int>(left) - 1;
+  const int y0 = static_cast<int>(above) - 1;
+  const bool inside = x0 >= 0 && y0 >= 0 && x0 + 4 <= cells.width() && y0 + 4 <= cells.height();
+  if (inside && is_uniform(cells, x0, y0)) return cells(x0, y0);
+  const std::array<double, 4> across = bspline_weights(column - left);
+  const std::array<double, 4> down = bspline_weights(row - above);
+  std::array<double, land_cover_class_count> membership{};
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) {
+      const LandCoverClass c = cells.clamped(x0 + i, y0 + j);
+      membership[static_cast<std::size_t>(c)] += across[static_cast<std::size_t>(i)] * down[static_cast<std::size_t>(j)];
+    }
+  // The first of the largest; sums of the same weights in another order differ in their last bits, which are no reason to
+  // prefer a class.
+  constexpr double tie = 1e-12;
+  std::size_t best = 0;
+  for (std::size_t c = 1; c < membership.size(); ++c)
+    if (membership[c] > membership[best] + tie) best = c;
+  return static_cast<LandCoverClass>(best);
+}
+
+LandCover read_land_cover(const LandCoverParameters& parameters, const RasterFrame& frame, Progress& progress) {
+  if (parameters.sources.empty()) throw Error(ErrorKind::usage, "land_cover", "no raster is named", "at least one");
+  const Legend legend = read_legend(parameters.legend, parameters.folders);
+  // At the sources' own resolution, over the frame.
+  const GeoTransform& t = frame.transform;
+  const std::array<double, 4> extent = {t.origin_x, t.origin_y - t.cell_y * frame.height, t.origin_x + t.cell_x * frame.width, t.origin_y};
+  const RasterFrame own = choose_frame(parameters.sources, frame.crs, 0.0, extent);
+  const Raster<std::int32_t> codes = warp_codes(parameters.sources, own, progress);
+  LandCover cover;
+  cover.classes.cells = classify(codes.cells, legend, parameters, progress);
+  cover.classes.transform = codes.transform;
+  cover.classes.crs = codes.crs;
+  fill_unknown(cover.classes.cells, parameters, progress);
+  return cover;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/land_cover_class.h"
+#include "base/progress.h"
+#include "terrain/io/raster.h"
+#include "terrain/io/raster_io.h"
+
+namespace belvedere {
+
+// What the codes of a land-cover raster mean.
+struct Legend {
+  std::string name;
+  struct Entry {
+    std::string label;  // the legend's own words
+    LandCoverClass painted_as;
+  };
+  std::map<std::int32_t, Entry> entries;
+  std::set<std::int32_t> nodata;  // codes that say that nothing is known
+};
+
+// Built in: "esa_worldcover", "corine", "nlcd", "fbfm40" (data/legends/*.toml); else a .toml or .csv file (docs/legends.md). A .toml
+// may name a CSV file, which lies beside it or in one of `folders`. Error(usage) with file:line:column where the legend
+// is wrong, Error(input) where a file is missing.
+Legend read_legend(const std::string& name_or_path, const std::vector<std::string>& folders = {});
+
+// Painted classes on their own grid, and the smooth borders between them.
+struct LandCover {
+  Raster<LandCoverClass> classes;  // sky where no land cover is known; never empty
+
+  // The class at a place in the scene's CRS: membership of each class interpolated by cubic B-spline, then the largest (ties
+  // to the lower id). Smooth borders, no stairs of the raster's cells; what is one cell wide becomes a little narrower, single
+  // cells vanish. Beyond the raster the nearest cells go on.
+  LandCoverClass at(double x, double y) const;
+};
+
+struct LandCoverParameters {
+  std::vector<RasterSource> sources;
+  std::string legend;                     // built-in name or file
+  std::vector<std::string> folders;       // where a CSV file that the legend names is looked for, after the legend's own folder
+  std::optional<LandCoverClass> unknown;  // class of codes that the legend lacks; none: they are an error (exit 3, codes and counts)
+  std::optional<LandCoverClass> nodata;   // class where the raster has nothing; none: filled from the nearest known cell
+};
+
+// Reads and reprojects (nearest) into the frame's CRS and extent at the source's own resolution; codes to classes.
+LandCover read_land_cover(const LandCoverParameters& parameters, const RasterFrame& frame, Progress& progress);
+
+}  // namespace belvedere

@@ -1,0 +1,270 @@
+#include "terrain/cover/towns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+
+#include "base/filter.h"
+#include "base/parallel.h"
+#include "base/random.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double block_m = 300.0;          // one candidate in each block of the map
+constexpr double town_spacing_m = 6000.0;  // towns have markets; a day's walk there and back
+constexpr double village_spacing_m = 1700.0;
+constexpr double hamlet_spacing_m = 2000.0;
+constexpr double link_m = 5200.0;  // towns and villages within this distance are linked
+constexpr float outermost = -4.F;
+constexpr float least_side_km2 = 3.F;  // catchment of a side stream whose mouth is a place to settle
+constexpr float largest_side_km2 = 400.F;
+constexpr float river_km2 = 40.F;
+
+struct Candidate {
+  float score;
+  std::int32_t cell;
+  bool on_floor;
+};
+
+double distance_m(const TownGround& g, glm::dvec2 a, std::int32_t cell) {
+  const glm::dvec2 there = g.transform.to_crs(cell % g.floor.width(), cell / g.floor.width());
+  return glm::length(there - a);
+}
+
+// Largest of amount · exp(-d² / 2σ²) over the mouths of side valleys: where a stream comes out on the floor.
+Grid<float> valley_mouths(const TownGround& g, double cell_m) {
+  const int width = g.floor.width();
+  const int height = g.floor.height();
+  Grid<float> near(width, height, 0.F);
+  const double sigma = 420.0 / cell_m;
+  const int reach = static_cast<int>(2.5 * sigma);
+  for (int y = 1; y + 1 < height; ++y) {
+    for (int x = 1; x + 1 < width; ++x) {
+      const float area = g.catchment_km2(x, y);
+      if (area < least_side_km2 || area > largest_side_km2 || g.floor(x, y) >= 0.5F) continue;
+      bool opens = false;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) opens = opens || (g.catchment_km2(x + dx, y + dy) > area && g.floor(x + dx, y + dy) >= 0.5F);
+      if (!opens) continue;
+      const double amount = std::min(1.0, 0.35 + 0.30 * std::log10(static_cast<double>(area) / least_side_km2));
+      for (int v = std::max(0, y - reach); v < std::min(height, y + reach + 1); ++v)
+        for (int u = std::max(0, x - reach); u < std::min(width, x + reach + 1); ++u) {
+          const double d2 = (u - x) * (u - x) + (v - y) * (v - y);
+          near(u, v) = std::max(near(u, v), static_cast<float>(amount * std::exp(-0.5 * d2 / (sigma * sigma))));
+        }
+    }
+  }
+  return near;
+}
+
+// Distance to the nearest stream of some size, m; far where there is none.
+Grid<float> distance_to_rivers(const TownGround& g, double cell_m) {
+  Grid<std::uint8_t> streams(g.floor.width(), g.floor.height(), 0);
+  for (std::size_t i = 0; i < streams.size(); ++i) streams[i] = g.catchment_km2[i] >= river_km2 ? 1 : 0;
+  const Grid<std::int32_t> nearest = nearest_marked(streams);
+  Grid<float> distance(g.floor.width(), g.floor.height());
+  parallel_rows(distance.height(), [&](int y) {
+    for (int x = 0; x < distance.width(); ++x) {
+      const std::int32_t at = nearest(x, y);
+      distance(x, y) = at < 0 ? 1e6F : static_cast<float>(cell_m * std::hypot(at % distance.width() - x, at / distance.width() - y));
+    }
+  });
+  return distance;
+}
+
+// The best cell of each block, if it can be lived on.
+std::vector<Candidate> find_candidates(const TownGround& g, const TownParameters& p, double cell_m) {
+  const int width = g.floor.width();
+  const int height = g.floor.height();
+  const Grid<float> mouths = valley_mouths(g, cell_m);
+  const Grid<float> rivers = distance_to_rivers(g, cell_m);
+  const Grid<float> room = gaussian_blur(g.floor, 800.0 / cell_m);
+  const Grid<float> level = gaussian_blur(g.slope_deg, 120.0 / cell_m);
+  const int block = std::max(1, static_cast<int>(block_m / cell_m));
+  std::vector<Candidate> candidates;
+  for (int by = 0; by < height; by += block) {
+    for (int bx = 0; bx < width; bx += block) {
+      Candidate best{-1.F, -1, true};
+      Candidate terrace{-1.F, -1, false};
+      const auto chance = static_cast<float>(random_uniform(p.seed, bx / block, by / block, 1));
+      for (int y = by; y < std::min(height, by + block); ++y) {
+        for (int x = bx; x < std::min(width, bx + block); ++x) {
+          const float z = g.altitude_m(x, y);
+          const auto cell = static_cast<std::int32_t>(g.floor.index(x, y));
+          if (static_cast<double>(z) > p.highest_m) continue;
+          const float low = std::clamp((static_cast<float>(p.highest_m) - z) / 500.F, 0.F, 1.F);
+          if (g.floor(x, y) >= 0.5F) {
+            // Beside the river, not in it.
+            const float away = rivers(x, y);
+            const float bank = away < 130.F ? -0.6F : std::exp(-0.5F * (away - 350.F) * (away - 350.F) / (450.F * 450.F));
+            const float score = 0.95F * mouths(x, y) + 0.60F * bank + 0.70F * room(x, y) + 0.35F * low + 0.35F * chance;
+            if (score > best.score) best = {score, cell, true};
+          } else if (level(x, y) < 11.F) {
+            const float score = 0.5F * g.south(x, y) + 0.5F * low + chance - 0.03F * level(x, y);
+            if (score > terrace.score) terrace = {score, cell, false};
+          }
+        }
+      }
+      if (best.cell >= 0) candidates.push_back(best);
+      if (terrace.cell >= 0) candidates.push_back(terrace);
+    }
+  }
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.score != b.score ? a.score > b.score : a.cell < b.cell; });
+  return candidates;
+}
+
+// Second moments of cells about their own middle.
+struct Moments {
+  double weight = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  void add(double w, double dx, double dy) {
+    weight += w;
+    x += w * dx;
+    y += w * dy;
+    xx += w * dx * dx;
+    xy += w * dx * dy;
+    yy += w * dy * dy;
+  }
+  // (cos 2a, sin 2a) of the long axis times how long the set is, 0 round … 1 a line.
+  glm::dvec2 axis() const {
+    if (weight <= 0.0) return glm::dvec2(0.0);
+    const double cxx = xx - x * x / weight;
+    const double cxy = xy - x * y / weight;
+    const double cyy = yy - y * y / weight;
+    return glm::dvec2(cxx - cyy, 2.0 * cxy) / std::max(cxx + cyy, 1e-9);
+  }
+};
+
+// Streets run along the river where one is near, else along the valley, on a slope along the contour.
+void take_direction(const TownGround& g, std::int32_t cell, double cell_m, TownSite& site) {
+  const int cx = cell % g.floor.width();
+  const int cy = cell / g.floor.width();
+  const int reach = static_cast<int>(1100.0 / cell_m);
+  Moments ground;
+  Moments river;
+  for (int y = std::max(0, cy - reach); y < std::min(g.floor.height(), cy + reach + 1); ++y)
+    for (int x = std::max(0, cx - reach); x < std::min(g.floor.width(), cx + reach + 1); ++x) {
+      const double dx = x - cx;
+      const double dy = cy - y;
+      if (dx * dx + dy * dy > reach * reach) continue;
+      const double rise = static_cast<double>(g.altitude_m(x, y) - g.altitude_m(cx, cy));
+      ground.add(site.on_floor ? static_cast<double>(g.floor(x, y)) : 1.0 / (1.0 + 0.02 * rise * rise), dx, dy);
+      if (g.catchment_km2(x, y) >= river_km2) river.add(1.0, dx, dy);
+    }
+  const glm::dvec2 axis = ground.axis() + 1.5 * river.axis();
+  const double clear = std::min(1.0, glm::length(axis));
+  if (clear > 0.0) site.along_rad = 0.5 * std::atan2(axis.y, axis.x);
+  site.stretch = 1.0 + 1.1 * clear;
+}
+
+// Part of the straight way between two places that lies on valley floors.
+double open_share(const TownGround& g, glm::dvec2 a, glm::dvec2 b) {
+  const double length = glm::length(b - a);
+  const int steps = std::max(2, static_cast<int>(length / 60.0));
+  int open = 0;
+  for (int k = 0; k <= steps; ++k) {
+    const glm::dvec2 place = a + (b - a) * (static_cast<double>(k) / steps);
+    const glm::dvec2 at = g.transform.to_cell(place.x, place.y);
+    open += g.floor.clamped(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y))) > 0.4F ? 1 : 0;
+  }
+  return static_cast<double>(open) / (steps + 1);
+}
+
+// Runs f(x, y, place) over the cells of a box around a segment.
+template <class F>
+void each_cell_near(const TownGround& g, glm::dvec2 a, glm::dvec2 b, double margin_m, F&& f) {
+  const glm::dvec2 low = g.transform.to_cell(std::min(a.x, b.x) - margin_m, std::max(a.y, b.y) + margin_m);
+  const glm::dvec2 high = g.transform.to_cell(std::max(a.x, b.x) + margin_m, std::min(a.y, b.y) - margin_m);
+  for (int y = std::max(0, static_cast<int>(low.y)); y <= std::min(g.floor.height() - 1, static_cast<int>(high.y) + 1); ++y)
+    for (int x = std::max(0, static_cast<int>(low.x)); x <= std::min(g.floor.width() - 1, static_cast<int>(high.x) + 1); ++x)
+      f(x, y, g.transform.to_crs(x, y));
+}
+
+}  // namespace
+
+std::vector<TownSite> find_town_sites(const TownGround& g, const TownParameters& p) {
+  const double cell_m = 0.5 * (g.transform.cell_x + g.transform.cell_y);
+  std::vector<TownSite> sites;
+  for (const KnownTown& town : p.known) {
+    if (town.radius_m <= 0.0) continue;
+    TownSite site{town.place, town.radius_m, 1.0, 0.0, true};
+    const glm::dvec2 at = g.transform.to_cell(town.place.x, town.place.y);
+    const int x = static_cast<int>(std::lround(at.x));
+    const int y = static_cast<int>(std::lround(at.y));
+    if (g.floor.contains(x, y)) take_direction(g, static_cast<std::int32_t>(g.floor.index(x, y)), cell_m, site);
+    // The radius is that of a circle as large as the town.
+    site.radius_m /= std::sqrt(site.stretch);
+    sites.push_back(site);
+  }
+  if (p.amount <= -1.0) return sites;
+
+  const std::vector<Candidate> candidates = find_candidates(g, p, cell_m);
+  const auto is_free = [&](const Candidate& c, double spacing_m) {
+    return std::none_of(sites.begin(), sites.end(), [&](const TownSite& site) {
+      return distance_m(g, site.place, c.cell) < std::max(spacing_m, 0.5 * spacing_m + 1.3 * site.radius_m * site.stretch);
+    });
+  };
+  const double closer = std::exp2(-0.9 * p.amount);
+  const double larger = 1.0 + 0.35 * p.amount;
+  const auto settle = [&](const Candidate& c, double radius_m) {
+    TownSite site{g.transform.to_crs(c.cell % g.floor.width(), c.cell / g.floor.width()), radius_m * larger, 1.0, 0.0, c.on_floor};
+    take_direction(g, c.cell, cell_m, site);
+    sites.push_back(site);
+  };
+  const auto chance = [&](const Candidate& c, std::uint64_t draw) { return random_uniform(p.seed, c.cell, 0, draw); };
+  for (const Candidate& c : candidates)
+    if (c.on_floor && c.score > 1.45F && is_free(c, town_spacing_m * closer))
+      settle(c, 260.0 + 330.0 * std::clamp(static_cast<double>(c.score) - 1.3, 0.0, 1.0) + 140.0 * chance(c, 2));
+  for (const Candidate& c : candidates)
+    if (c.on_floor && c.score > 0.75F - 0.25F * static_cast<float>(p.amount) &&
+        is_free(c, village_spacing_m * closer * (0.7 + 0.9 * chance(c, 3)))) {
+      const double u = chance(c, 4);
+      settle(c, 95.0 + 170.0 * u * u);
+    }
+  for (const Candidate& c : candidates)
+    if (!c.on_floor && c.score > 0.95F - 0.3F * static_cast<float>(p.amount) &&
+        is_free(c, hamlet_spacing_m * closer * (0.7 + 0.9 * chance(c, 5)))) {
+      const double u = chance(c, 6);
+      settle(c, 60.0 + 110.0 * u * u);
+    }
+  return sites;
+}
+
+Grid<float> town_field(const std::vector<TownSite>& sites, const TownGround& g) {
+  Grid<float> field(g.floor.width(), g.floor.height(), outermost);
+  for (const TownSite& site : sites) {
+    const glm::dvec2 along{std::cos(site.along_rad), std::sin(site.along_rad)};
+    const double reach = site.radius_m * site.stretch * 5.0;
+    each_cell_near(g, site.place, site.place, reach, [&](int x, int y, glm::dvec2 place) {
+      const glm::dvec2 off = place - site.place;
+      const double u = glm::dot(off, along) / site.stretch;
+      const double v = off.x * along.y - off.y * along.x;
+      field(x, y) = std::max(field(x, y), static_cast<float>(1.0 - std::sqrt(u * u + v * v) / site.radius_m));
+    });
+  }
+  // Houses follow the ways out of a town towards its neighbours, fewer the farther.
+  for (std::size_t a = 0; a < sites.size(); ++a) {
+    for (std::size_t b = a + 1; b < sites.size(); ++b) {
+      if (!sites[a].on_floor || !sites[b].on_floor) continue;
+      const glm::dvec2 way = sites[b].place - sites[a].place;
+      const double length = glm::length(way);
+      if (length > link_m + 2.0 * (sites[a].radius_m + sites[b].radius_m) || length < 1.0) continue;
+      if (open_share(g, sites[a].place, sites[b].place) < 0.85) continue;
+      each_cell_near(g, sites[a].place, sites[b].place, 200.0, [&](int x, int y, glm::dvec2 place) {
+        const glm::dvec2 off = place - sites[a].place;
+        const double t = std::clamp(glm::dot(off, way) / (length * length), 0.0, 1.0);
+        const double aside = glm::length(off - t * way);
+        for (const auto& [site, gone] : {std::pair{&sites[a], t * length}, std::pair{&sites[b], (1.0 - t) * length}}) {
+          const double half = 40.0 + 0.10 * site->radius_m;
+          const double out = 1.0 - gone / (2.1 * site->radius_m * std::sqrt(site->stretch));
+          field(x, y) = std::max(field(x, y), static_cast<float>(std::min(0.45 * out, 1.0 - aside / half)));
+        }
+      });
+    }
+  }
+  return field;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,157 @@
+#include "terrain/deform/deform.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+#include "base/parallel.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double earth_radius_m = 6371.0e3;
+constexpr double summit_ramp_m = 200.0;  // height above its base over which a summit's factor comes in
+
+// 0 up to 0, h itself from the ramp's end on, smooth between: the cubic that leaves with tangent 0 and arrives with 1.
+double soft_height(double h) {
+  if (h <= 0.0) return 0.0;
+  if (h >= summit_ramp_m) return h;
+  const double t = h / summit_ramp_m;
+  return summit_ramp_m * t * t * (2.0 - t);
+}
+
+}  // namespace
+
+Deformation::Deformation(const DeformParameters& parameters, glm::dvec2 viewer_xy)
+    : parameters_(parameters), viewer_xy_(viewer_xy), bend_(parameters.bend), handles_(parameters.handles) {}
+
+double Deformation::distance_m(glm::dvec3 point) const {
+  const double east = point.x - viewer_xy_.x;
+  const double north = point.y - viewer_xy_.y;
+  return std::sqrt(east * east + north * north);
+}
+
+double Deformation::drop_m(double distance_m) const {
+  double drop = bend_.drop_m(distance_m);
+  if (parameters_.earth_curvature) {
+    // A ray bent down by refraction sees an earth whose radius is larger by 1 / (1 - k).
+    drop += distance_m * distance_m * (1.0 - parameters_.refraction) / (2.0 * earth_radius_m);
+  }
+  return drop;
+}
+
+double Deformation::exaggeration(double distance_m) const {
+  const double near = parameters_.exaggeration;
+  if (!parameters_.background_exaggeration || distance_m <= parameters_.foreground_to_m) return near;
+  const double far = *parameters_.background_exaggeration;
+  if (distance_m >= parameters_.background_from_m) return far;
+  const double t = (distance_m - parameters_.foreground_to_m) / (parameters_.background_from_m - parameters_.foreground_to_m);
+  return near + (far - near) * (t * t * (3.0 - 2.0 * t));
+}
+
+double Deformation::raised_by_summits_m(glm::dvec3 point) const {
+  double raised = 0.0;
+  for (const SummitExaggeration& summit : parameters_.summits) {
+    const double east = point.x - summit.center.x;
+    const double north = point.y - summit.center.y;
+    const double distance2 = east * east + north * north;
+    if (distance2 >= summit.radius_m * summit.radius_m) continue;
+    const double t = std::sqrt(distance2) / summit.radius_m;
+    const double share = 1.0 - t * t * t * (10.0 + t * (6.0 * t - 15.0));
+    raised += (summit.factor - 1.0) * share * soft_height(point.z - summit.base_m);
+  }
+  return raised;
+}
+
+glm::dvec3 Deformation::rearranged(glm::dvec3 point) const {
+  const double raised = parameters_.summits.empty() ? 0.0 : raised_by_summits_m(point);
+  if (handles_.is_identity()) return {point.x, point.y, point.z + raised};
+  const glm::dvec2 place(point);
+  const glm::dvec2 low = handles_.lowest();
+  const glm::dvec2 high = handles_.highest();
+  if (place.x < low.x || place.y < low.y || place.x > high.x || place.y > high.y) return {place, point.z + raised};
+  const HandleField::Moved moved = handles_.move(place);
+  return {moved.place, point.z + raised + moved.raise_m};
+}
+
+glm::dvec3 Deformation::unbent(glm::dvec3 point) const {
+  const glm::dvec3 moved = rearranged(point);
+  const double base = parameters_.exaggeration_base_m;
+  return {moved.x, moved.y, base + (moved.z - base) * exaggeration(distance_m(moved))};
+}
+
+glm::dvec3 Deformation::point(glm::dvec3 point) const {
+  const glm::dvec3 moved = rearranged(point);
+  const double base = parameters_.exaggeration_base_m;
+  const double distance = distance_m(moved);
+  return {moved.x, moved.y, base + (moved.z - base) * exaggeration(distance) - drop_m(distance)};
+}
+
+glm::dmat3 Deformation::shape_jacobian(glm::dvec3 point) const {
+  const double e = exaggeration(distance_m(rearranged(point)));
+  glm::dmat3 jacobian;
+  constexpr double step_m = 1.0;  // what is asked for is smooth over hundreds of metres, and double keeps nanometres
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 step(0.0);
+    step[axis] = step_m;
+    const glm::dvec3 change = (rearranged(point + step) - rearranged(point - step)) / (2.0 * step_m);
+    jacobian[axis] = {change.x, change.y, e * change.z};
+  }
+  return jacobian;
+}
+
+std::optional<glm::dvec2> Deformation::source_of(glm::dvec2 moved) const {
+  if (handles_.is_identity()) return moved;
+  // From where the place is now, and from where each handle would have brought it: a moved core lies far from where it came from.
+  std::vector<glm::dvec2> starts = {moved};
+  for (const DeformHandle& handle : handles_.handles()) {
+    starts.push_back(moved - handle.move_m);
+    starts.push_back(handle.center);
+  }
+  constexpr double step_m = 0.5;
+  constexpr double close_m = 1e-3;
+  for (glm::dvec2 at : starts) {
+    for (int round = 0; round < 40; ++round) {
+      const glm::dvec2 error = handles_.move(at).place - moved;
+      if (glm::length(error) < close_m) return at;
+      const auto change = [&](glm::dvec2 step) {
+        return (handles_.move(at + step).place - handles_.move(at - step).place) / (2.0 * step_m);
+      };
+      const glm::dmat2 slope(change({step_m, 0.0}), change({0.0, step_m}));
+      const double det = glm::determinant(slope);
+      if (!(std::abs(det) > 1e-9)) break;
+      at -= glm::inverse(slope) * error;
+    }
+  }
+  return std::nullopt;
+}
+
+bool Deformation::is_local() const {
+  return parameters_.background_exaggeration.has_value() || !parameters_.summits.empty() || !handles_.is_identity();
+}
+
+double bend_drop_m(const DeformParameters& parameters, double distance_m) { return Deformation(parameters, {0.0, 0.0}).drop_m(distance_m); }
+
+glm::dvec3 deform_point(glm::dvec3 point, glm::dvec2 viewer_xy, const DeformParameters& parameters) {
+  return Deformation(parameters, viewer_xy).point(point);
+}
+
+DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transform, glm::dvec3 origin, const Deformation& deformation) {
+  DeformedSurface surface{Grid<glm::vec3>(altitude_m.width(), altitude_m.height()), origin};
+  parallel_rows(altitude_m.height(), [&](int y) {
+    for (int x = 0; x < altitude_m.width(); ++x) {
+      const glm::dvec3 moved = deformation.point({transform.to_crs(x, y), altitude_m(x, y)});
+      surface.vertices_m(x, y) = glm::vec3(moved - origin);
+    }
+  });
+  return surface;
+}
+
+DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transform, glm::dvec2 viewer_xy, glm::dvec3 origin,
+                       const DeformParameters& parameters) {
+  return deform(altitude_m, transform, origin, Deformation(parameters, viewer_xy));
+}
+
+}  // namespace belvedere

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "base/grid.h"
+#include "terrain/generalize/generalize.h"
+#include "terrain/generalize/generalize_rows.h"
+
+namespace belvedere {
+
+// How one band finds its break lines.
+struct BreakLines {
+  BreakLineScale scale;  // at the band's cells
+  double blur_cells = 1.0;
+  float exponent = 1.F;  // 0: c is 1 everywhere
+};
+
+// A band of the pyramid: G_i, G_i+1 and the change D_i+1 = G_i+1' - G_i+1 that the bands below have made so far (empty: none), and what
+// varies from place to place at this level; null where it does not.
+struct Band {
+  const Grid<float>* level = nullptr;
+  const Grid<float>* coarser = nullptr;
+  const Grid<float>* coarser_change = nullptr;
+  const Grid<float>* share = nullptr;
+  const Grid<unsigned char>* keep = nullptr;
+  const Grid<float>* mask = nullptr;
+  const Grid<float>* amplify = nullptr;
+  const PixelGround* pixel_ground = nullptr;
+  int level_cells = 1;  // of the DEM in a cell of this level
+};
+
+// D_i = expand(D_i+1) + (w - 1) L_i, row by row in strips: no grid is made but the result. Empty where nothing changes.
+// The partial sum whose curvature is c is expand(G_i+1 + D_i+1).
+Grid<float> add_band(const Band& band, const BandWeights& weights, const BreakLines& break_lines);
+
+// Value for value: expand(change), 0 where there is none.
+void expand_change_row(const Grid<float>& change, int y, int width, float* out);
+
+}  // namespace belvedere

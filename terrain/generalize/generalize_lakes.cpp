@@ -1,0 +1,106 @@
+#include "terrain/generalize/generalize_lakes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "base/filter.h"
+#include "base/parallel.h"
+
+namespace belvedere {
+namespace {
+
+// The change that a kept lake would have had is taken off the land around it as well, less and less over so many cells: a
+// valley whose floor sinks must not leave its lake on a table.
+constexpr float surroundings_cells = 32.0F;
+// That change is a mean over this deviation, so that no seams run between lakes; in blocks, because it is smooth.
+constexpr int block_cells = 4;
+constexpr double mean_cells = 10.0;
+// What is left of the change at the shore itself fades in over so many cells.
+constexpr float shore_cells = 6.0F;
+float unit(float v) { return std::clamp(v, 0.F, 1.F); }
+
+float smoothstep(float t) { return t * t * (3.F - 2.F * t); }
+
+// Beyond the reach of the pull's last blur.
+constexpr int reach_cells = 48;
+
+// Squares of the distance from each cell to its nearest lake cell, cells²; out_of_reach beyond reach_cells. Strip by strip, because the
+// nearest cells themselves would take twice the memory.
+using Squares = Grid<std::uint16_t>;
+constexpr int out_of_reach = 65535;
+
+Squares shore_squares(const Grid<unsigned char>& keep) {
+  const int width = keep.width();
+  const int height = keep.height();
+  Squares squares(width, height);
+  constexpr int strip = 256;
+  for (int first = 0; first < height; first += strip) {
+    const int last = std::min(first + strip, height);
+    const int top = std::max(first - reach_cells, 0);
+    Grid<unsigned char> around(width, std::min(last + reach_cells, height) - top);
+    std::copy_n(keep.row(top), around.size(), around.data());
+    const Grid<std::int32_t> nearest = nearest_marked(around);
+    parallel_rows(last - first, [&](int i) {
+      const int y = first - top + i;
+      for (int x = 0; x < width; ++x) {
+        const std::int32_t shore = nearest(x, y);
+        const std::int64_t across = shore % width - x;
+        const std::int64_t down = shore / width - y;
+        const std::int64_t square = across * across + down * down;
+        const bool reached = shore >= 0 && square <= reach_cells * reach_cells;
+        squares(x, first + i) = static_cast<std::uint16_t>(reached ? square : out_of_reach);
+      }
+    });
+  }
+  return squares;
+}
+
+// Distance from a cell to its nearest lake cell, cells; more than reach_cells where that is too far to know.
+float shore_distance(const Squares& squares, int x, int y) { return std::sqrt(static_cast<float>(squares(x, y))); }
+
+// What lakes take off the change around them, in blocks of block_cells: the mean change of the lake cells nearby, fading with the
+// distance. The last blur rounds the creases that the distance has halfway between two shores.
+Grid<float> pull_of_lakes(const Grid<float>& change, const Grid<unsigned char>& keep, const Squares& squares) {
+  Grid<float> sum((change.width() + block_cells - 1) / block_cells, (change.height() + block_cells - 1) / block_cells);
+  Grid<float> count(sum.width(), sum.height());
+  parallel_rows(sum.height(), [&](int block) {
+    for (int y = block * block_cells; y < std::min((block + 1) * block_cells, change.height()); ++y) {
+      for (int x = 0; x < change.width(); ++x) {
+        if (keep(x, y) == 0) continue;
+        sum(x / block_cells, block) += change(x, y);
+        count(x / block_cells, block) += 1.F;
+      }
+    }
+  });
+  Grid<float> pull = gaussian_blur(sum, mean_cells / block_cells);
+  count = gaussian_blur(count, mean_cells / block_cells);
+  parallel_rows(pull.height(), [&](int y) {
+    for (int x = 0; x < pull.width(); ++x) {
+      const int middle_x = std::min(x * block_cells + block_cells / 2, change.width() - 1);
+      const int middle_y = std::min(y * block_cells + block_cells / 2, change.height() - 1);
+      const float fade = 1.F - smoothstep(unit(shore_distance(squares, middle_x, middle_y) / surroundings_cells));
+      pull(x, y) = count(x, y) > 0.F ? fade * pull(x, y) / count(x, y) : 0.F;
+    }
+  });
+  return gaussian_blur(pull, 1.5);
+}
+
+}  // namespace
+
+void settle_around_lakes(Grid<float>& change, const Grid<unsigned char>& keep) {
+  const Squares squares = shore_squares(keep);
+  const Grid<float> pull = pull_of_lakes(change, keep, squares);
+  parallel_rows(change.height(), [&](int y) {
+    for (int x = 0; x < change.width(); ++x) {
+      const float distance = shore_distance(squares, x, y);
+      if (distance >= static_cast<float>(reach_cells)) continue;
+      // Block centres lie at 1.5, 5.5, 9.5… cells.
+      const double u = (x - 0.5 * (block_cells - 1)) / block_cells;
+      const double v = (y - 0.5 * (block_cells - 1)) / block_cells;
+      change(x, y) = (change(x, y) - sample_bspline(pull, u, v)) * smoothstep(unit(distance / shore_cells));
+    }
+  });
+}
+
+}  // namespace belvedere

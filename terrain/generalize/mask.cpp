@@ -1,0 +1,100 @@
+#include "terrain/generalize/mask.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "base/filter.h"
+#include "base/parallel.h"
+#include "terrain/shape/derivatives.h"
+
+namespace belvedere {
+namespace {
+
+float smoothstep(double from, double to, double v) {
+  const double t = std::clamp((v - from) / (to - from), 0.0, 1.0);
+  return static_cast<float>(t * t * (3.0 - 2.0 * t));
+}
+
+template <class F>
+void change_cells(Grid<float>& grid, F&& f) {
+  parallel_rows(grid.height(), [&](int y) {
+    float* row = grid.row(y);
+    for (int x = 0; x < grid.width(); ++x) row[x] = f(row[x], x, y);
+  });
+}
+
+Grid<float> smooth_slope(const Grid<float>& altitude_m, glm::dvec2 cell_m, double blur_cells) {
+  return slope_deg(gaussian_blur(altitude_m, blur_cells), cell_m.x, cell_m.y);
+}
+
+}  // namespace
+
+Grid<float> slope_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, const SlopeRange& range) {
+  if (!(range.original_to_deg >= 0.0 && range.original_to_deg < range.generalized_from_deg && range.generalized_from_deg < 90.0)) {
+    throw Error(ErrorKind::usage, "slope mask", fmt::format("from {}° to {}°", range.original_to_deg, range.generalized_from_deg),
+                "0° ≤ lower < upper < 90°");
+  }
+  Grid<float> mask = smooth_slope(altitude_m, cell_m, 1.0);
+  change_cells(mask, [&](float slope, int, int) { return smoothstep(range.original_to_deg, range.generalized_from_deg, slope); });
+  return mask;
+}
+
+Grid<float> class_mask(const Grid<LandCoverClass>& classes, const ClassShares& shares) {
+  Grid<float> mask(classes.width(), classes.height());
+  change_cells(mask, [&](float, int x, int y) { return shares[static_cast<std::size_t>(classes(x, y))]; });
+  return mask;
+}
+
+Grid<float> slope_foot_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, int reach_cells) {
+  const int reach = std::clamp(reach_cells, 2, 256);
+  Grid<float> slope = smooth_slope(altitude_m, cell_m, 1.5);
+  Grid<float> near_steep = slope;
+  change_cells(near_steep, [](float s, int, int) { return smoothstep(12.0, 20.0, s); });
+  // Fades outwards, over as much again.
+  near_steep = gaussian_blur(window_maximum(near_steep, reach), 0.35 * reach);
+  Grid<float> mask = std::move(slope);
+  change_cells(mask, [](float s, int, int) { return 1.F - smoothstep(3.0, 12.0, s); });
+  // The foot itself is concave and steeper than the flat: it belongs to what is kept. Narrow flats, ledges and passes do not.
+  mask = window_maximum(window_minimum(mask, 1), 6);
+  mask = gaussian_blur(mask, 3.0);
+  change_cells(mask, [&](float flat, int x, int y) { return 1.F - flat * near_steep(x, y); });
+  return mask;
+}
+
+Grid<float> read_mask(const RasterSource& source, const RasterFrame& frame, Progress& progress) {
+  RasterSource plain = source;
+  plain.unit_to_m = 1.0;  // no lengths
+  Grid<float> mask = warp_rasters({plain}, frame, progress).cells;
+  float lowest = 1.F;
+  float highest = 0.F;
+  bool any = false;
+  for (const float v : mask) {
+    if (!std::isfinite(v)) continue;
+    any = true;
+    lowest = std::min(lowest, v);
+    highest = std::max(highest, v);
+  }
+  if (!any) throw Error(ErrorKind::input, source.path, "the mask has no data where the terrain lies", "a mask that covers the terrain");
+  if (lowest < 0.F || highest > 255.F) {
+    throw Error(ErrorKind::input, source.path, fmt::format("the mask's values go from {} to {}", lowest, highest),
+                "0 (stays as it is) … 1, or 0 … 255 (generalized)");
+  }
+  const float scale = highest > 1.F ? 1.F / 255.F : 1.F;
+  change_cells(mask, [&](float v, int, int) { return std::isfinite(v) ? v * scale : 1.F; });
+  return mask;
+}
+
+Grid<float> combine_masks(Grid<float> a, const Grid<float>& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  if (!a.same_size(b)) throw Error(ErrorKind::bug, "combine_masks", "masks of different sizes");
+  change_cells(a, [&](float v, int x, int y) { return v * b(x, y); });
+  return a;
+}
+
+}  // namespace belvedere

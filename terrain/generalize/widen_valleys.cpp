@@ -1,0 +1,215 @@
+#include "terrain/generalize/widen_valleys.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "base/error.h"
+#include "base/filter.h"
+#include "base/parallel.h"
+#include "terrain/shape/hydrology.h"
+
+namespace belvedere {
+namespace {
+
+// A floor's altitude is that of the water's course beside it, smoothed over so many cells: courses run in stairs.
+constexpr double floor_smoothing_cells = 3.0;
+// So far beside the course lies the water with its banks: it does not become as wide as the new floor.
+constexpr float water_cells = 1.5F;
+
+float smoothstep(float t) {
+  t = std::clamp(t, 0.F, 1.F);
+  return t * t * (3.F - 2.F * t);
+}
+
+// Where a cell takes its altitude from: cells, relative to itself.
+struct Shift {
+  Grid<float> x;
+  Grid<float> y;
+};
+
+// What is known of the valley that a cell belongs to.
+struct Valleys {
+  Grid<std::int32_t> course;  // the nearest cell of a water's course; -1 where there are none at all
+  Grid<float> floor_m;        // its altitude
+  Grid<float> half_width;     // cells by which the walls of this valley move at its floor
+};
+
+Valleys find_valleys(const Grid<float>& altitude_m, double cell_m, const WidenValleysParameters& parameters) {
+  const Grid<float> catchment = flow_accumulation_km2(altitude_m, cell_m);
+  Grid<std::uint8_t> water(altitude_m.width(), altitude_m.height());
+  std::transform(catchment.begin(), catchment.end(), water.begin(),
+                 [&](float area) { return static_cast<std::uint8_t>(area >= parameters.least_catchment_km2 ? 1 : 0); });
+  Valleys valleys;
+  valleys.course = nearest_marked(water);
+  valleys.floor_m = Grid<float>(altitude_m.width(), altitude_m.height());
+  valleys.half_width = valleys.floor_m;
+  const float least = std::log(parameters.least_catchment_km2);
+  const float span = std::log(parameters.full_catchment_km2) - least;
+  const auto widest = static_cast<float>(0.5 * parameters.width_m / cell_m);
+  parallel_rows(altitude_m.height(), [&](int y) {
+    for (int x = 0; x < altitude_m.width(); ++x) {
+      const std::int32_t at = valleys.course(x, y);
+      if (at < 0) continue;
+      valleys.floor_m(x, y) = altitude_m[static_cast<std::size_t>(at)];
+      valleys.half_width(x, y) = widest * smoothstep((std::log(catchment[static_cast<std::size_t>(at)]) - least) / span);
+    }
+  });
+  // A brook that comes into a valley has not its width yet: the change is spread over the width itself.
+  valleys.half_width = gaussian_blur(valleys.half_width, widest);
+  return valleys;
+}
+
+float distance_to_course(const Grid<std::int32_t>& course, int x, int y) {
+  const auto dx = static_cast<float>(course(x, y) % course.width() - x);
+  const auto dy = static_cast<float>(course(x, y) / course.width() - y);
+  return std::sqrt(dx * dx + dy * dy);
+}
+
+// How far each wall moves, cells: whole at the floor, nothing at fade_height of the ridges around and above.
+Grid<float> find_moves(const Grid<float>& altitude_m, const Valleys& valleys, double cell_m, const WidenValleysParameters& parameters) {
+  const int reach = std::max(1, static_cast<int>(std::lround(parameters.reach_m / cell_m)));
+  const Grid<float> ridge_m = gaussian_blur(window_maximum(altitude_m, reach), 0.3 * reach);
+  const Grid<float> smooth_m = gaussian_blur(altitude_m, 2.0);
+  const Grid<float> floor_m = gaussian_blur(valleys.floor_m, 0.1 * reach);
+  // The walls of two valleys move apart from the line halfway between their courses, however low the ground is there: at that line, where
+  // the distance is largest, nothing may move. Over three half-widths the ground then gets at most 1.5 times as steep.
+  Grid<float> distance(altitude_m.width(), altitude_m.height());
+  parallel_rows(distance.height(), [&](int y) {
+    for (int x = 0; x < distance.width(); ++x) distance(x, y) = distance_to_course(valleys.course, x, y);
+  });
+  const int apart = std::max(2, static_cast<int>(std::ceil(1.5 * parameters.width_m / cell_m)));
+  const Grid<float> farthest = window_maximum(distance, apart);
+  Grid<float> moves(altitude_m.width(), altitude_m.height());
+  parallel_rows(altitude_m.height(), [&](int y) {
+    for (int x = 0; x < altitude_m.width(); ++x) {
+      const float depth_m = std::max(ridge_m(x, y) - floor_m(x, y), 1.F);
+      // Near the floor every wall is low, whatever the smoothed floor is.
+      const float height_m = std::max(smooth_m(x, y) - std::max(floor_m(x, y), valleys.floor_m(x, y)), 0.F);
+      // A quarter of the way moves as a whole: heights are those of the cell as it is, before lower ground comes there.
+      const float part = height_m / (parameters.fade_height * depth_m);
+      moves(x, y) = valleys.half_width(x, y) * (1.F - smoothstep((part - 0.25F) / 0.75F)) *
+                    smoothstep((farthest(x, y) - distance(x, y)) / static_cast<float>(apart));
+    }
+  });
+  return moves;
+}
+
+Shift find_shifts(const Grid<float>& moves, const Valleys& valleys) {
+  Shift shift{Grid<float>(moves.width(), moves.height()), Grid<float>(moves.width(), moves.height())};
+  parallel_rows(moves.height(), [&](int y) {
+    for (int x = 0; x < moves.width(); ++x) {
+      const float distance = distance_to_course(valleys.course, x, y);
+      if (distance <= 0.F) continue;
+      // No farther than the course: beyond it lies the other wall.
+      const float share = std::min(moves(x, y), distance) / distance;
+      shift.x(x, y) = share * static_cast<float>(valleys.course(x, y) % moves.width() - x);
+      shift.y(x, y) = share * static_cast<float>(valleys.course(x, y) / moves.width() - y);
+    }
+  });
+  // Halfway between two courses the direction turns over; a step there would be a cliff.
+  const float widest = *std::max_element(moves.begin(), moves.end());
+  const double sigma = std::clamp(0.35 * widest, 1.0, 12.0);
+  shift.x = gaussian_blur(shift.x, sigma);
+  shift.y = gaussian_blur(shift.y, sigma);
+  return shift;
+}
+
+// Where the ground of each cell came from. The same move, but water and banks stay beside the course, and what has no wall any more takes
+// what lies at the bank.
+Grid<glm::vec2> find_origins(const Grid<float>& moves, const Valleys& valleys, const Grid<std::uint8_t>& keep) {
+  Grid<glm::vec2> out(moves.width(), moves.height());
+  parallel_rows(moves.height(), [&](int y) {
+    for (int x = 0; x < moves.width(); ++x) {
+      const float distance = distance_to_course(valleys.course, x, y);
+      if (distance <= water_cells || (!keep.empty() && keep(x, y) != 0)) continue;
+      const float share = std::min(moves(x, y), distance - water_cells) / distance;
+      out(x, y) = share * glm::vec2(valleys.course(x, y) % moves.width() - x, valleys.course(x, y) / moves.width() - y);
+    }
+  });
+  return out;
+}
+
+// Cubic convolution (Catmull–Rom): keeps the detail of walls that moved by parts of a cell. Whole places give their cell exactly.
+float sample_cubic(const Grid<float>& values, float x, float y) {
+  const float fx = std::floor(x);
+  const float fy = std::floor(y);
+  const auto weights = [](float t, float* w) {
+    w[0] = 0.5F * t * (t * (2.F - t) - 1.F);
+    w[1] = 0.5F * (t * t * (3.F * t - 5.F) + 2.F);
+    w[2] = 0.5F * t * (t * (4.F - 3.F * t) + 1.F);
+    w[3] = 0.5F * t * t * (t - 1.F);
+  };
+  float wx[4];
+  float wy[4];
+  weights(x - fx, wx);
+  weights(y - fy, wy);
+  float sum = 0.F;
+  for (int j = 0; j < 4; ++j) {
+    float row = 0.F;
+    for (int i = 0; i < 4; ++i) row += wx[i] * values.clamped(static_cast<int>(fx) + i - 1, static_cast<int>(fy) + j - 1);
+    sum += wy[j] * row;
+  }
+  return sum;
+}
+
+void check(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep, const WidenValleysParameters& p) {
+  const auto check_range = [](const char* key, double value, double least, double most) {
+    if (value >= least && value <= most) return;
+    throw Error(ErrorKind::usage, fmt::format("widen_valleys.{}", key), fmt::format("{}", value), fmt::format("{}…{}", least, most));
+  };
+  check_range("width_m", p.width_m, 0, 5000);
+  check_range("least_catchment_km2", p.least_catchment_km2, 0.01, 10000);
+  check_range("full_catchment_km2", p.full_catchment_km2, p.least_catchment_km2 * 1.01, 100000);
+  check_range("reach_m", p.reach_m, 100, 20000);
+  check_range("fade_height", p.fade_height, 0.1, 1);
+  if (!keep.empty() && !keep.same_size(altitude_m)) throw Error(ErrorKind::bug, "widen valleys", "a lake grid whose size is not the DEM's");
+}
+
+}  // namespace
+
+WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep, double cell_m,
+                             const WidenValleysParameters& parameters, Progress& progress) {
+  check(altitude_m, keep, parameters);
+  progress.begin("widen valleys", 4.0);
+  if (parameters.width_m <= 0.F || altitude_m.empty()) return {altitude_m, {}};
+  const Valleys valleys = find_valleys(altitude_m, cell_m, parameters);
+  if (valleys.course[0] < 0) {
+    progress.note(fmt::format("no valley has a catchment of {} km²: none is widened", parameters.least_catchment_km2));
+    return {altitude_m, {}};
+  }
+  progress.advance(1.0);
+  const Grid<float> moves = find_moves(altitude_m, valleys, cell_m, parameters);
+  const Shift shift = find_shifts(moves, valleys);
+  const Grid<float> floor_m = gaussian_blur(valleys.floor_m, floor_smoothing_cells);
+  progress.advance(1.0);
+  const Grid<float> depth_m = fill_hollows(altitude_m);
+  Grid<float> out(altitude_m.width(), altitude_m.height());
+  parallel_rows(out.height(), [&](int y) {
+    for (int x = 0; x < out.width(); ++x) {
+      out(x, y) = sample_cubic(altitude_m, static_cast<float>(x) + shift.x(x, y), static_cast<float>(y) + shift.y(x, y));
+      // What moved past the course is floor: level across, and falling as the water does.
+      const float distance = distance_to_course(valleys.course, x, y);
+      const float floor = smoothstep(2.F * (moves(x, y) - distance) / std::max(moves(x, y), 1.F));
+      out(x, y) += floor * (floor_m(x, y) - out(x, y));
+    }
+  });
+  progress.advance(1.0);
+  const Grid<float> filled = fill_hollows(out);
+  parallel_rows(out.height(), [&](int y) {
+    for (int x = 0; x < out.width(); ++x) {
+      const int u = static_cast<int>(std::lround(static_cast<float>(x) + shift.x(x, y)));
+      const int v = static_cast<int>(std::lround(static_cast<float>(y) + shift.y(x, y)));
+      const float was_m = depth_m.clamped(u, v) - altitude_m.clamped(u, v);
+      out(x, y) = std::max(out(x, y), filled(x, y) - was_m);
+      if (!keep.empty() && keep(x, y) != 0) out(x, y) = altitude_m(x, y);
+    }
+  });
+  progress.advance(1.0);
+  return {std::move(out), find_origins(moves, valleys, keep)};
+}
+
+}  // namespace belvedere

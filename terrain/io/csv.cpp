@@ -1,0 +1,129 @@
+#include "terrain/io/csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace belvedere {
+namespace {
+
+std::string trimmed(std::string_view text) {
+  const auto blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return std::string(text);
+}
+
+bool equal_letters(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char p, char q) {
+    return std::tolower(static_cast<unsigned char>(p)) == std::tolower(static_cast<unsigned char>(q));
+  });
+}
+
+char find_separator(std::string_view text) {
+  const std::string_view header = text.substr(0, text.find('\n'));
+  char best = ',';
+  for (const char c : {';', '\t'})
+    if (std::count(header.begin(), header.end(), c) > std::count(header.begin(), header.end(), best)) best = c;
+  return best;
+}
+
+// One record from `at` on, which is moved behind it; `line` counts the lines it covers.
+std::vector<std::string> read_record(std::string_view text, std::size_t& at, int& line, char separator, const std::string& name) {
+  std::vector<std::string> fields;
+  std::string field;
+  bool quoted = false;  // inside of quotes
+  bool was_quoted = false;
+  const int first_line = line;
+  const auto finish = [&] {
+    fields.push_back(was_quoted ? field : trimmed(field));
+    field.clear();
+    was_quoted = false;
+  };
+  for (; at < text.size(); ++at) {
+    const char c = text[at];
+    if (c == '\n') ++line;
+    if (quoted) {
+      if (c != '"')
+        field += c;
+      else if (at + 1 < text.size() && text[at + 1] == '"')
+        field += text[++at];
+      else
+        quoted = false;
+    } else if (c == '"' && trimmed(field).empty() && !was_quoted) {
+      field.clear();
+      quoted = was_quoted = true;
+    } else if (c == separator) {
+      finish();
+    } else if (c == '\n') {
+      ++at;
+      finish();
+      return fields;
+    } else if (c != '\r' && !(was_quoted && std::isspace(static_cast<unsigned char>(c)) != 0)) {
+      field += c;
+    }
+  }
+  if (quoted) throw Error(ErrorKind::usage, fmt::format("{}:{}", name, first_line), "a quote is opened and never closed");
+  finish();
+  return fields;
+}
+
+}  // namespace
+
+int CsvTable::find(std::string_view column) const {
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const std::string& c) { return equal_letters(c, column); });
+  return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
+}
+
+int CsvTable::find_any(const std::vector<std::string_view>& names) const {
+  for (const std::string_view candidate : names)
+    if (const int column = find(candidate); column >= 0) return column;
+  return -1;
+}
+
+CsvTable parse_csv(std::string_view text, const std::string& name) {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  const char separator = find_separator(text);
+  CsvTable table;
+  table.name = name;
+  std::size_t at = 0;
+  int line = 1;
+  while (at < text.size()) {
+    const int first_line = line;
+    std::vector<std::string> fields = read_record(text, at, line, separator, name);
+    if (std::all_of(fields.begin(), fields.end(), [](const std::string& field) { return field.empty(); })) continue;
+    if (table.columns.empty()) {
+      table.columns = std::move(fields);
+      continue;
+    }
+    if (fields.size() > table.columns.size()) {
+      throw Error(ErrorKind::usage, fmt::format("{}:{}", name, first_line), fmt::format("has {} fields", fields.size()),
+                  fmt::format("{}, as the header; a field with separators in it stands in quotes", table.columns.size()));
+    }
+    fields.resize(table.columns.size());
+    table.rows.push_back({first_line, std::move(fields)});
+  }
+  return table;
+}
+
+CsvTable read_csv(const std::string& path) {
+  constexpr std::uintmax_t most_bytes = 16U << 20;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) throw Error(ErrorKind::input, path, "there is no such file");
+  if (std::filesystem::file_size(path, ignored) > most_bytes) throw Error(ErrorKind::limit, path, "is too long", "up to 16 MiB of text");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(ErrorKind::input, path, "cannot be opened");
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (file.bad()) throw Error(ErrorKind::input, path, "cannot be read");
+  return parse_csv(text.str(), path);
+}
+
+}  // namespace belvedere

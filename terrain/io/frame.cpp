@@ -1,0 +1,167 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "base/error.h"
+#include "terrain/io/raster_file.h"
+#include "terrain/io/raster_io.h"
+
+namespace belvedere {
+namespace {
+
+struct Box {
+  glm::dvec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  glm::dvec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+  void add(glm::dvec2 point) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) return;
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+  }
+};
+
+glm::dvec2 middle_of(const RasterFile& file) { return file.affine().to_crs({0.5 * file.width(), 0.5 * file.height()}); }
+
+// The file's outline in another CRS; sides are followed, because they bend.
+Box box_in(const RasterFile& file, const std::string& crs) {
+  constexpr int steps = 32;
+  std::vector<glm::dvec2> outline;
+  for (int i = 0; i <= steps; ++i) {
+    const double x = static_cast<double>(file.width()) * i / steps;
+    const double y = static_cast<double>(file.height()) * i / steps;
+    outline.push_back(file.affine().to_crs({x, 0.0}));
+    outline.push_back(file.affine().to_crs({x, static_cast<double>(file.height())}));
+    outline.push_back(file.affine().to_crs({0.0, y}));
+    outline.push_back(file.affine().to_crs({static_cast<double>(file.width()), y}));
+  }
+  PointTransform(file.required_crs(), crs).apply(outline);
+  Box box;
+  for (const glm::dvec2& point : outline) box.add(point);
+  return box;
+}
+
+// Width and height of a cell at the file's middle, in the CRS's metres.
+glm::dvec2 cell_in(const RasterFile& file, const std::string& crs) {
+  const CellAffine& a = file.affine();
+  const glm::dvec2 c{0.5 * file.width(), 0.5 * file.height()};
+  std::vector<glm::dvec2> p = {a.to_crs(c), a.to_crs(c + glm::dvec2{1.0, 0.0}), a.to_crs(c + glm::dvec2{0.0, 1.0})};
+  PointTransform(file.required_crs(), crs).apply(p);
+  const glm::dvec2 cell{glm::length(p[1] - p[0]), glm::length(p[2] - p[0])};
+  if (std::isfinite(cell.x) && std::isfinite(cell.y) && cell.x > 0.0 && cell.y > 0.0) return cell;
+  throw Error(ErrorKind::input, file.source().path, fmt::format("has no place in {}", describe_crs(crs)));
+}
+
+// A length that reads well: three digits.
+double rounded(double metres) {
+  const double unit = std::pow(10.0, std::floor(std::log10(metres)) - 2.0);
+  return std::round(metres / unit) * unit;
+}
+
+// Maps that stretch the ground, as Web Mercator does, would make mountains too flat.
+constexpr double most_stretch = 1.03;
+
+bool true_to_scale(const std::string& crs, glm::dvec2 point) {
+  const double scale = scale_of_crs(crs, point);
+  return scale < most_stretch && scale > 1.0 / most_stretch;
+}
+
+// The middle of all files, longitude and latitude; of the first alone where they lie around the date line.
+glm::dvec2 middle_of(const std::vector<RasterFile>& files) {
+  Box box;
+  for (const RasterFile& file : files) {
+    const Box part = box_in(file, "EPSG:4326");
+    box.add(part.low);
+    box.add(part.high);
+  }
+  if (box.high.x - box.low.x <= 180.0) return 0.5 * (box.low + box.high);
+  return PointTransform(files[0].crs(), "EPSG:4326").apply(middle_of(files[0]));
+}
+
+std::string choose_crs(const std::vector<RasterFile>& files, const std::string& wanted) {
+  const RasterFile& first = files[0];
+  const std::string& own = first.required_crs();
+  const glm::dvec2 middle = middle_of(files);
+  const std::string utm = utm_crs(middle);
+  if (utm.empty()) {
+    throw Error(ErrorKind::input, first.source().path, fmt::format("lies nowhere on earth by {}", describe_crs(own)), "another `crs`");
+  }
+  const auto fits = [&middle](const std::string& crs) {
+    const glm::dvec2 there = PointTransform("EPSG:4326", crs).apply(middle);
+    return crs_traits(crs).metric && std::isfinite(there.x) && true_to_scale(crs, there);
+  };
+  if (wanted.empty()) return fits(own) ? own : utm;
+  std::string crs = normalize_crs(wanted);
+  if (fits(crs)) return crs;
+  throw Error(ErrorKind::usage, "crs", fmt::format("{} does not give true metres here", describe_crs(crs)),
+              fmt::format("a metric coordinate system made for this region, such as {}", describe_crs(utm)));
+}
+
+}  // namespace
+
+RasterFrame choose_frame(const std::vector<RasterSource>& sources, const std::string& crs, double cell_m,
+                         const std::optional<std::array<double, 4>>& extent) {
+  if (sources.empty()) throw Error(ErrorKind::usage, "sources", "no raster is named", "at least one");
+  std::vector<RasterFile> files;
+  files.reserve(sources.size());
+  for (const RasterSource& source : sources) files.emplace_back(source);
+  RasterFrame frame;
+  frame.crs = choose_crs(files, crs);
+  Box box;
+  glm::dvec2 finest{0.0, 0.0};
+  const CellAffine* lattice = nullptr;  // of the finest file, where its cells can be kept as they are
+  for (const RasterFile& file : files) {
+    const Box part = box_in(file, frame.crs);
+    box.add(part.low);
+    box.add(part.high);
+    const glm::dvec2 cell = cell_in(file, frame.crs);
+    if (finest.x > 0.0 && cell.x * cell.y > finest.x * finest.y * (1.0 - 1e-6)) continue;
+    finest = cell;
+    lattice = nullptr;
+    if (file.affine().axis_aligned() && same_crs(file.crs(), frame.crs) && std::abs(cell.x / cell.y - 1.0) < 0.01) lattice = &file.affine();
+  }
+  GeoTransform& t = frame.transform;
+  t.cell_x = t.cell_y = cell_m > 0.0 ? cell_m : rounded(std::sqrt(finest.x * finest.y));
+  glm::dvec2 anchor{0.0, 0.0};
+  const bool keep =
+      lattice != nullptr && (cell_m == 0.0 || (std::abs(cell_m / finest.x - 1.0) < 1e-6 && std::abs(cell_m / finest.y - 1.0) < 1e-6));
+  if (keep) {
+    t.cell_x = std::abs(lattice->x_column);
+    t.cell_y = std::abs(lattice->y_row);
+    anchor = {lattice->x0, lattice->y0};
+  }
+  if (extent) {
+    if (!((*extent)[0] < (*extent)[2] && (*extent)[1] < (*extent)[3])) {
+      throw Error(ErrorKind::usage, "extent", "holds no area", "west, south, east, north, in metres of the scene's coordinate system");
+    }
+    const Box data = box;
+    box.low = {(*extent)[0], (*extent)[1]};
+    box.high = {(*extent)[2], (*extent)[3]};
+    if (box.low.x >= data.high.x || box.high.x <= data.low.x || box.low.y >= data.high.y || box.high.y <= data.low.y) {
+      throw Error(ErrorKind::input, "extent", "lies outside of the data",
+                  fmt::format("within E {:.0f}…{:.0f}, N {:.0f}…{:.0f} of {}", data.low.x, data.high.x, data.low.y, data.high.y,
+                              describe_crs(frame.crs)));
+    }
+  }
+  // Outwards to whole cells of the lattice; a millionth of a cell is rounding.
+  const double left = std::floor((box.low.x - anchor.x) / t.cell_x + 1e-6);
+  const double right = std::ceil((box.high.x - anchor.x) / t.cell_x - 1e-6);
+  const double bottom = std::floor((box.low.y - anchor.y) / t.cell_y + 1e-6);
+  const double top = std::ceil((box.high.y - anchor.y) / t.cell_y - 1e-6);
+  t.origin_x = anchor.x + left * t.cell_x;
+  t.origin_y = anchor.y + top * t.cell_y;
+  constexpr double longest = 1 << 20;
+  if (!(right - left <= longest) || !(top - bottom <= longest)) {
+    throw Error(ErrorKind::limit, sources[0].path,
+                fmt::format("would make {:.0f} × {:.0f} cells of {} m", right - left, top - bottom, t.cell_x),
+                "larger cells (`cell_m`) or a smaller `extent`");
+  }
+  frame.width = static_cast<int>(right - left);
+  frame.height = static_cast<int>(top - bottom);
+  return frame;
+}
+
+}  // namespace belvedere

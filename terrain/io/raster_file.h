@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/grid.h"
+#include "terrain/io/raster_io.h"
+
+namespace belvedere {
+
+// What stands between the foreign library (raster_io.cpp, raster_io_write.cpp, raster_io_crs.cpp) and the resampling (warp.cpp). Private to
+// terrain/.
+
+// Cells of a file in its CRS: a corner-based affine map, which may be rotated, mirrored or south-up.
+//   x = x0 + x_column · column + x_row · row        y = y0 + y_column · column + y_row · row
+// Whole numbers are the corners of cells here; centres lie at .5.
+struct CellAffine {
+  double x0 = 0.0, x_column = 1.0, x_row = 0.0;
+  double y0 = 0.0, y_column = 0.0, y_row = -1.0;
+
+  glm::dvec2 to_crs(glm::dvec2 cell) const { return {x0 + x_column * cell.x + x_row * cell.y, y0 + y_column * cell.x + y_row * cell.y}; }
+  double determinant() const { return x_column * y_row - x_row * y_column; }
+  glm::dvec2 to_cell(glm::dvec2 point) const {
+    const double dx = point.x - x0;
+    const double dy = point.y - y0;
+    return {(y_row * dx - x_row * dy) / determinant(), (x_column * dy - y_column * dx) / determinant()};
+  }
+  bool axis_aligned() const { return x_row == 0.0 && y_column == 0.0; }
+};
+
+// A rectangle of cells of a file: 0 <= x0, x0 + width <= the file's.
+struct CellWindow {
+  int x0 = 0, y0 = 0, width = 0, height = 0;
+};
+
+// An open raster file, one band of it. For one thread at a time. Throws as raster_io.h says.
+class RasterFile {
+ public:
+  explicit RasterFile(const RasterSource& source);
+  ~RasterFile();
+  RasterFile(RasterFile&&) noexcept;
+  RasterFile& operator=(RasterFile&&) noexcept;
+
+  const RasterSource& source() const;
+  int width() const;
+  int height() const;
+  int bands() const;
+  const CellAffine& affine() const;
+  const std::string& crs() const;  // WKT2, horizontal part only; empty where unknown
+  // The same, or Error(input) that names the key which gives it.
+  const std::string& required_crs() const;
+  std::optional<double> nodata() const;  // the scene's, else the file's
+  std::string driver() const;
+
+  // Metres, voids NaN; the window's own size.
+  Grid<float> read_values(const CellWindow& window) const;
+  // Codes from 0 up, -1 where there are none.
+  Grid<std::int32_t> read_codes(const CellWindow& window) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// Coordinates from one CRS to another; longitude before latitude. Equal CRS (and empty ones) leave points as they are.
+// For one thread at a time.
+class PointTransform {
+ public:
+  PointTransform(const std::string& from_crs, const std::string& to_crs);
+  ~PointTransform();
+  PointTransform(PointTransform&&) noexcept;
+  PointTransform& operator=(PointTransform&&) noexcept;
+
+  // In one call for all, because the operation between two datums is chosen for the mean of the points. Points that
+  // have no image become NaN.
+  void apply(std::vector<glm::dvec2>& points) const;
+  glm::dvec2 apply(glm::dvec2 point) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+struct CrsTraits {
+  bool geographic = false;  // degrees
+  bool metric = false;      // projected, in metres
+};
+CrsTraits crs_traits(const std::string& crs);
+bool same_crs(const std::string& a, const std::string& b);
+// WGS 84 / UTM, or the polar stereographic CRS beyond 84° of latitude.
+std::string utm_crs(glm::dvec2 lon_lat);
+// How many metres of the CRS are one metre of ground at a point (of that CRS): 1.47 for Web Mercator at 47° N.
+double scale_of_crs(const std::string& crs, glm::dvec2 point);
+
+}  // namespace belvedere

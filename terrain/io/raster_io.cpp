@@ -1,0 +1,325 @@
+#include "terrain/io/raster_io.h"
+
+#include <cpl_conv.h>
+#include <cpl_minixml.h>
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <gdal.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <mutex>
+#include <string_view>
+
+#include "base/error.h"
+#include "base/memory_limit.h"
+#include "terrain/io/raster_file.h"
+#include "terrain/io/raster_io_errors.h"
+
+namespace belvedere {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
+
+// Formats that describe one raster and nothing else. A VRT can name any file or address of the machine, so it is only
+// taken where its name says what it is, and then each of its sources is opened under the same rules first.
+constexpr const char* drivers[] = {"GTiff", "AAIGrid", "SRTMHGT", "HFA",  "ENVI", "EHdr", "netCDF",
+                                   "PNG",   "USGSDEM", "DTED",    "GSAG", "GSBG", "GS7BG"};
+constexpr const char* driver_names =
+    "GeoTIFF, ESRI ASCII grid, SRTM .hgt, Erdas Imagine, ENVI, EHdr .bil, netCDF, PNG, USGS DEM, DTED, Surfer grid, or VRT named .vrt";
+
+struct CloseDataset {
+  void operator()(GDALDatasetH dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<void, CloseDataset>;
+
+// Settings of this thread that make reads strict: damaged blocks and short raw files are errors, no threads of its own.
+void make_strict() {
+  register_gdal();
+  CPLSetThreadLocalConfigOption("GTIFF_IGNORE_READ_ERRORS", "NO");
+  CPLSetThreadLocalConfigOption("RAW_CHECK_FILE_SIZE", "YES");
+  CPLSetThreadLocalConfigOption("GDAL_NUM_THREADS", "1");
+  CPLSetThreadLocalConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
+  CPLSetThreadLocalConfigOption("GDAL_NETCDF_VERIFY_DIMS", "STRICT");
+}
+
+std::string lower_ending(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+Dataset open_checked(const std::string& path, int nesting);
+
+// Every file that a VRT names, by element: they must exist and open by themselves. A missing one would read as nodata.
+void check_vrt_node(const CPLXMLNode* node, const std::string& path, int nesting) {
+  for (; node != nullptr; node = node->psNext) {
+    if (node->eType != CXT_Element) continue;
+    const std::string_view name = node->pszValue;
+    if (name == "PixelFunctionCode" || name == "PixelFunctionLanguage") {
+      throw Error(ErrorKind::input, path, "a VRT that carries program code", "VRTs that only name rasters");
+    }
+    if (name == "SourceFilename" || name == "SourceDataset") {
+      const bool relative = std::string_view(CPLGetXMLValue(node, "relativeToVRT", "0")) == "1";
+      const fs::path file = CPLGetXMLValue(node, nullptr, "");
+      try {
+        open_checked(relative ? (fs::path(path).parent_path() / file).string() : file.string(), nesting + 1);
+      } catch (const Error& error) {
+        throw Error(error.kind(), path, fmt::format("its source \"{}\": {}", error.where(), error.found()), error.allowed());
+      }
+    }
+    check_vrt_node(node->psChild, path, nesting);
+  }
+}
+
+void check_vrt(const std::string& path, int nesting) {
+  constexpr std::uintmax_t most_bytes = 64U << 20;
+  if (nesting > 8) throw Error(ErrorKind::input, path, "VRTs within VRTs, more than 8 deep");
+  if (fs::file_size(path) > most_bytes) throw Error(ErrorKind::limit, path, "a VRT of more than 64 MiB");
+  const GdalErrors errors;
+  const std::unique_ptr<CPLXMLNode, decltype(&CPLDestroyXMLNode)> root(CPLParseXMLFile(path.c_str()), &CPLDestroyXMLNode);
+  if (!root) throw Error(ErrorKind::input, path, errors.say("is no valid VRT"));
+  check_vrt_node(root.get(), path, nesting);
+}
+
+Dataset open_checked(const std::string& path, int nesting) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) throw Error(ErrorKind::input, path, "there is no such file", driver_names);
+  make_strict();
+  const bool vrt = lower_ending(path) == ".vrt";
+  if (vrt) check_vrt(path, nesting);
+  CPLStringList allowed;
+  for (const char* driver : drivers) allowed.AddString(driver);
+  if (vrt) allowed.AddString("VRT");
+  const GdalErrors errors;
+  Dataset dataset(GDALOpenEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, allowed.List(), nullptr, nullptr));
+  if (dataset) return dataset;
+  // Identification reads the first bytes only and opens nothing else.
+  GDALDriverH looks_like = nullptr;
+  {
+    const GdalErrors quiet;
+    looks_like = GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
+  }
+  const std::string format = looks_like != nullptr ? GDALGetDriverShortName(looks_like) : "";
+  if (!format.empty() && allowed.FindString(format.c_str()) < 0) {
+    throw Error(ErrorKind::input, path, fmt::format("is a {} file, which is not allowed under this name", format), driver_names);
+  }
+  throw Error(ErrorKind::input, path, errors.say("cannot be opened as a raster"), driver_names);
+}
+
+// Metres per unit by a unit's name; 0 where it is none that is known.
+double metres_per_unit(std::string_view unit) {
+  std::string name(unit);
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto is = [&name](std::initializer_list<const char*> words) {
+    return std::any_of(words.begin(), words.end(), [&name](const char* word) { return name == word; });
+  };
+  if (is({"", "m", "metre", "metres", "meter", "meters", "mtr"})) return 1.0;
+  if (is({"ft", "foot", "feet", "international foot", "foot_intl"})) return 0.3048;
+  if (is({"us-ft", "ftus", "us survey foot", "us survey feet", "foot_us", "us_survey_foot", "us foot", "survey foot"}))
+    return 1200.0 / 3937.0;
+  if (is({"cm", "centimetre", "centimeter", "centimetres", "centimeters"})) return 0.01;
+  if (is({"dm", "decimetre", "decimeter", "decimetres", "decimeters"})) return 0.1;
+  if (is({"km", "kilometre", "kilometer"})) return 1000.0;
+  return 0.0;
+}
+
+}  // namespace
+
+void register_gdal() {
+  static std::once_flag registered;
+  std::call_once(registered, [] { GDALAllRegister(); });
+}
+
+struct RasterFile::State {
+  RasterSource source;
+  Dataset dataset;
+  GDALRasterBandH band = nullptr;
+  int width = 0;
+  int height = 0;
+  CellAffine affine;
+  std::string crs;
+  std::optional<double> nodata;
+  double scale = 1.0;  // of the band's numbers to its unit
+  double offset = 0.0;
+  double vertical_unit_m = 1.0;  // from the file's vertical CRS
+
+  void find_place();
+  void find_crs();
+  void check_window(const CellWindow& window) const;
+  template <class T>
+  Grid<T> read(GDALRasterBandH from, const CellWindow& window, GDALDataType type) const;
+  double unit_to_m() const;
+  bool is_void(float raw) const;
+  // 0 where the file's own mask hides a cell; empty where it has none beside nodata.
+  Grid<std::uint8_t> read_mask(const CellWindow& window) const;
+};
+
+void RasterFile::State::find_place() {
+  double t[6] = {};
+  const GdalErrors errors;
+  if (GDALGetGeoTransform(dataset.get(), t) != CE_None) {
+    const bool points = GDALGetGCPCount(dataset.get()) > 0;
+    throw Error(ErrorKind::input, source.path, points ? "has control points only" : "does not say where on earth it lies",
+                "a georeferenced raster (rectified; or with a world file beside it)");
+  }
+  affine = {t[0], t[1], t[2], t[3], t[4], t[5]};
+  const double area = std::abs(affine.determinant());
+  if (!(area > 1e-18) || !std::isfinite(area) || !std::isfinite(t[0]) || !std::isfinite(t[3])) {
+    throw Error(ErrorKind::input, source.path, "has a damaged georeference: cells without an area");
+  }
+}
+
+void RasterFile::State::find_crs() {
+  if (!source.crs.empty()) crs = normalize_crs(source.crs);
+  const auto* own = static_cast<const OGRSpatialReference*>(GDALGetSpatialRef(dataset.get()));
+  if (own == nullptr) return;
+  if (own->IsCompound() != 0) vertical_unit_m = own->GetTargetLinearUnits("COMPD_CS|VERT_CS");
+  if (!(vertical_unit_m > 0.0)) vertical_unit_m = 1.0;
+  if (!crs.empty()) return;
+  // A local system ("Unknown") says no more than none does.
+  if (own->IsGeographic() == 0 && own->IsProjected() == 0) return;
+  char* text = nullptr;
+  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+  const GdalErrors errors;
+  own->exportToWkt(&text, options);
+  const std::string wkt = text != nullptr ? text : "";
+  CPLFree(text);
+  try {
+    crs = normalize_crs(wkt);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::input, source.path, "has an unusable coordinate system: " + error.found(),
+                "give it with the source's key `crs`");
+  }
+}
+
+RasterFile::RasterFile(const RasterSource& source) : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.source = source;
+  s.dataset = open_checked(source.path, 0);
+  s.width = GDALGetRasterXSize(s.dataset.get());
+  s.height = GDALGetRasterYSize(s.dataset.get());
+  const int count = GDALGetRasterCount(s.dataset.get());
+  if (count == 0) {
+    throw Error(ErrorKind::input, source.path, "holds several rasters, or none, side by side",
+                "a file with one raster: extract the one wanted first");
+  }
+  if (source.band < 1 || source.band > count) {
+    throw Error(ErrorKind::input, source.path, fmt::format("has no band {}", source.band), fmt::format("band 1…{}", count));
+  }
+  s.band = GDALGetRasterBand(s.dataset.get(), source.band);
+  if (GDALDataTypeIsComplex(GDALGetRasterDataType(s.band)) != 0) throw Error(ErrorKind::input, source.path, "holds complex numbers");
+  s.find_place();
+  s.find_crs();
+  int found = 0;
+  const double own_nodata = GDALGetRasterNoDataValue(s.band, &found);
+  if (source.nodata)
+    s.nodata = source.nodata;
+  else if (found != 0)
+    s.nodata = own_nodata;
+  const double scale = GDALGetRasterScale(s.band, &found);
+  if (found != 0 && std::isfinite(scale) && scale != 0.0) s.scale = scale;
+  const double offset = GDALGetRasterOffset(s.band, &found);
+  if (found != 0 && std::isfinite(offset)) s.offset = offset;
+}
+
+RasterFile::~RasterFile() = default;
+RasterFile::RasterFile(RasterFile&&) noexcept = default;
+RasterFile& RasterFile::operator=(RasterFile&&) noexcept = default;
+
+const RasterSource& RasterFile::source() const { return state_->source; }
+int RasterFile::width() const { return state_->width; }
+int RasterFile::height() const { return state_->height; }
+int RasterFile::bands() const { return GDALGetRasterCount(state_->dataset.get()); }
+const CellAffine& RasterFile::affine() const { return state_->affine; }
+const std::string& RasterFile::crs() const { return state_->crs; }
+std::optional<double> RasterFile::nodata() const { return state_->nodata; }
+std::string RasterFile::driver() const { return GDALGetDriverShortName(GDALGetDatasetDriver(state_->dataset.get())); }
+
+const std::string& RasterFile::required_crs() const {
+  if (!state_->crs.empty()) return state_->crs;
+  throw Error(ErrorKind::input, state_->source.path, "has no coordinate system",
+              "give it with the source's key `crs`, such as crs = \"EPSG:32632\"");
+}
+
+void RasterFile::State::check_window(const CellWindow& window) const {
+  const bool inside = window.x0 >= 0 && window.y0 >= 0 && window.width > 0 && window.height > 0 && window.x0 <= width - window.width &&
+                      window.y0 <= height - window.height;
+  if (!inside) throw Error(ErrorKind::bug, source.path, "a window outside of the raster");
+}
+
+template <class T>
+Grid<T> RasterFile::State::read(GDALRasterBandH from, const CellWindow& window, GDALDataType type) const {
+  check_window(window);
+  check_memory(source.path, static_cast<double>(window.width) * window.height * sizeof(T));
+  Grid<T> cells(window.width, window.height);
+  make_strict();
+  const GdalErrors errors;
+  const CPLErr result =
+      GDALRasterIO(from, GF_Read, window.x0, window.y0, window.width, window.height, cells.data(), window.width, window.height, type, 0, 0);
+  // Some drivers report a failure and still return success.
+  if (result != CE_None || errors.failed()) throw Error(ErrorKind::input, source.path, errors.say("is damaged or cut short"));
+  return cells;
+}
+
+double RasterFile::State::unit_to_m() const {
+  if (source.unit_to_m != 0.0) {
+    if (source.unit_to_m > 0.0 && std::isfinite(source.unit_to_m)) return source.unit_to_m;
+    throw Error(ErrorKind::usage, source.path, fmt::format("{} metres per unit", source.unit_to_m), "more than 0");
+  }
+  const std::string unit = GDALGetRasterUnitType(band);
+  if (unit.empty()) return vertical_unit_m;
+  const double metres = metres_per_unit(unit);
+  if (metres > 0.0) return metres;
+  throw Error(ErrorKind::input, source.path, fmt::format("its values are in \"{}\"", unit),
+              "a length; give it with the source's key `unit`");
+}
+
+bool RasterFile::State::is_void(float raw) const {
+  if (!std::isfinite(raw) || std::abs(raw) >= 1e30F) return true;
+  // Compared as floats: a declared -3.4028234663852886e38 or -9999.9 has been rounded in the cells as well.
+  if (nodata) return raw == static_cast<float>(*nodata) || raw == -32768.0F;
+  return raw == -9999.0F || raw == -32768.0F || raw == 32767.0F;
+}
+
+Grid<std::uint8_t> RasterFile::State::read_mask(const CellWindow& window) const {
+  const int flags = GDALGetMaskFlags(band);
+  if ((flags & (GMF_ALL_VALID | GMF_NODATA)) != 0) return {};
+  return read<std::uint8_t>(GDALGetMaskBand(band), window, GDT_Byte);
+}
+
+Grid<float> RasterFile::read_values(const CellWindow& window) const {
+  const State& s = *state_;
+  const double unit = s.unit_to_m();
+  Grid<float> values = s.read<float>(s.band, window, GDT_Float32);
+  const Grid<std::uint8_t> mask = s.read_mask(window);
+  const double gain = s.scale * unit;
+  const double shift = s.offset * unit;
+  const bool plain = gain == 1.0 && shift == 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    float& value = values[i];
+    if (s.is_void(value) || (!mask.empty() && mask[i] == 0))
+      value = nan_value;
+    else if (!plain)
+      value = static_cast<float>(value * gain + shift);
+    if ((s.source.lowest_m && value < *s.source.lowest_m) || (s.source.highest_m && value > *s.source.highest_m)) value = nan_value;
+  }
+  return values;
+}
+
+Grid<std::int32_t> RasterFile::read_codes(const CellWindow& window) const {
+  const State& s = *state_;
+  const Grid<float> raw = s.read<float>(s.band, window, GDT_Float32);
+  Grid<std::int32_t> codes = s.read<std::int32_t>(s.band, window, GDT_Int32);
+  const Grid<std::uint8_t> mask = s.read_mask(window);
+  for (std::size_t i = 0; i < codes.size(); ++i)
+    if (s.is_void(raw[i]) || (!mask.empty() && mask[i] == 0) || codes[i] < 0) codes[i] = -1;
+  return codes;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "terrain/io/raster.h"
+
+namespace belvedere {
+
+// One raster file and what a scene says of it. raster_io*.cpp are the only files of the project that know GDAL.
+struct RasterSource {
+  std::string path;
+  int band = 1;                  // from 1
+  std::string crs;               // overrides or supplies the file's CRS ("EPSG:26911" or WKT); empty: the file's own
+  double unit_to_m = 0.0;        // metres per unit of the values; 0: by the band's unit (feet known), metres if it has none
+  std::optional<double> nodata;  // overrides the file's
+  // Altitudes beyond these are void: for files with wrong values that look like right ones.
+  std::optional<double> lowest_m, highest_m;
+};
+
+// What a file says of itself, without reading its cells.
+struct RasterInfo {
+  int width = 0;
+  int height = 0;
+  int bands = 0;
+  GeoTransform transform;
+  std::string crs;  // WKT2, empty where unknown
+  bool geographic = false;
+  std::optional<double> nodata;
+  std::string driver;
+};
+
+// A frame to warp into: a metric CRS, its cells.
+struct RasterFrame {
+  GeoTransform transform;
+  int width = 0;
+  int height = 0;
+  std::string crs;
+};
+
+// Every function throws Error(input) naming the file: missing, a driver that is not on the allow-list (GTiff, AAIGrid,
+// SRTMHGT, HFA, ENVI, netCDF, PNG, VRT only where named .vrt, …), damaged, a failed read, no CRS (naming the key that gives
+// it); Error(limit) where it would not fit into memory, before allocating.
+RasterInfo read_raster_info(const RasterSource& source);
+
+// Cells as floats in metres; nodata as NaN, and so are -9999, -32768 and 32767 where the file declares none, -32768 always.
+// No reprojection; a south-up raster is turned over, a rotated one resampled upright in its own CRS.
+Raster<float> read_raster(const RasterSource& source);
+// Integer codes; nodata becomes -1.
+Raster<std::int32_t> read_codes(const RasterSource& source);
+
+// Several sources, reprojected and mosaicked into one frame; earlier sources win, voids let later ones through. Files whose cells lie on
+// one lattice join without a seam. Cubic convolution within the range of the cells it sees, an average where the source is
+// finer; cells that coincide are copied to the bit. Values in metres.
+Raster<float> warp_rasters(const std::vector<RasterSource>& sources, const RasterFrame& frame, Progress& progress);
+// Nearest neighbour; cells without a source are -1.
+Raster<std::int32_t> warp_codes(const std::vector<RasterSource>& sources, const RasterFrame& frame, Progress& progress);
+
+// The frame that holds all sources at their own resolution: the CRS of the first where it is metric (crs empty), else its
+// UTM zone, or the given CRS; cell_m 0 means the finest source's. extent: min x, min y, max x, max y in that CRS, optional.
+RasterFrame choose_frame(const std::vector<RasterSource>& sources, const std::string& crs, double cell_m,
+                         const std::optional<std::array<double, 4>>& extent);
+
+// Width and height of a cell on the ground, m, in the middle of a raster of that size: of degrees, feet or a map that stretches. Cells of a
+// metric CRS that is true within 3 %, and cells of no CRS, count as they are.
+glm::dvec2 ground_cell_m(const GeoTransform& transform, const std::string& crs, int width, int height);
+// A point between two CRS; geographic CRS are in longitude, latitude order.
+glm::dvec2 transform_point(const std::string& from_crs, const std::string& to_crs, glm::dvec2 point);
+// "EPSG:4326" and the like to WKT2; Error(usage) where it means nothing.
+std::string normalize_crs(const std::string& crs);
+// A short name for people, "EPSG:32632" or the CRS's name.
+std::string describe_crs(const std::string& crs);
+
+// GeoTIFF (tiled, deflate) or ESRI ASCII by the ending; temporary file and rename. Voids are written as `nodata`, or as -9999 where none is
+// given, where it is the altitude of a cell or where the format cannot hold it.
+void write_raster(const std::string& path, const Raster<float>& raster, std::optional<double> nodata = {});
+// GeoTIFF of bytes, 0 for voids.
+void write_raster(const std::string& path, const Raster<std::uint8_t>& raster);
+
+}  // namespace belvedere

@@ -1,0 +1,135 @@
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <gdal.h>
+#include <gdal_alg.h>
+#include <ogr_api.h>
+#include <ogr_spatialref.h>
+
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "base/error.h"
+#include "base/grid.h"
+#include "terrain/io/contours.h"
+#include "terrain/io/raster_io_errors.h"
+
+namespace belvedere {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr float void_m = -32768.F;  // what GDAL leaves out
+const char* const altitude_field = "altitude_m";
+
+using Dataset = std::unique_ptr<void, void (*)(GDALDatasetH)>;
+Dataset owned(GDALDatasetH open) {
+  return {open, [](GDALDatasetH dataset) { GDALClose(dataset); }};
+}
+
+const char* driver_for(const fs::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending == ".gpkg") return "GPKG";
+  if (ending == ".geojson" || ending == ".json") return "GeoJSON";
+  if (ending == ".shp") return "ESRI Shapefile";
+  throw Error(ErrorKind::output, path.string(), "has an unknown ending", ".gpkg, .geojson or .shp");
+}
+
+// Lines and their length, of a written layer.
+ContourSummary measure(OGRLayerH layer) {
+  ContourSummary summary;
+  OGR_L_ResetReading(layer);
+  while (OGRFeatureH feature = OGR_L_GetNextFeature(layer)) {
+    if (OGRGeometryH line = OGR_F_GetGeometryRef(feature)) summary.length += OGR_G_Length(line);
+    ++summary.lines;
+    OGR_F_Destroy(feature);
+  }
+  return summary;
+}
+
+ContourSummary write_lines(const std::string& path, const char* driver, const Raster<float>& raster, const ContourParameters& parameters) {
+  const GdalErrors errors;
+  const auto check = [&](bool good) {
+    if (!good || errors.failed()) throw Error(ErrorKind::output, path, errors.say("cannot be written"));
+  };
+  OGRSpatialReference crs;
+  if (!raster.crs.empty()) check(crs.SetFromUserInput(raster.crs.c_str()) == OGRERR_NONE);
+
+  Grid<float> cells = raster.cells;
+  for (float& z : cells)
+    if (!std::isfinite(z)) z = void_m;
+  const Dataset memory = owned(GDALCreate(GDALGetDriverByName("MEM"), "", cells.width(), cells.height(), 0, GDT_Float32, nullptr));
+  check(memory != nullptr);
+  char pointer[64] = {};
+  pointer[CPLPrintPointer(pointer, cells.data(), sizeof pointer - 1)] = 0;
+  CPLStringList band_options;
+  band_options.SetNameValue("DATAPOINTER", pointer);
+  check(GDALAddBand(memory.get(), GDT_Float32, band_options.List()) == CE_None);
+  const GeoTransform& t = raster.transform;
+  double affine[6] = {t.origin_x, t.cell_x, 0.0, t.origin_y, 0.0, -t.cell_y};
+  check(GDALSetGeoTransform(memory.get(), affine) == CE_None);
+
+  Dataset file = owned(GDALCreate(GDALGetDriverByName(driver), path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  check(file != nullptr);
+  OGRLayerH layer = GDALDatasetCreateLayer(file.get(), "contours", raster.crs.empty() ? nullptr : &crs, wkbLineString, nullptr);
+  check(layer != nullptr);
+  for (const auto& [name, type] : {std::pair{"id", OFTInteger}, std::pair{altitude_field, OFTReal}}) {
+    const std::unique_ptr<void, void (*)(OGRFieldDefnH)> field(OGR_Fld_Create(name, type), &OGR_Fld_Destroy);
+    check(OGR_L_CreateField(layer, field.get(), TRUE) == OGRERR_NONE);
+  }
+  CPLStringList options;
+  options.SetNameValue("LEVEL_INTERVAL", fmt::format("{}", parameters.interval_m).c_str());
+  options.SetNameValue("LEVEL_BASE", fmt::format("{}", parameters.base_m).c_str());
+  options.SetNameValue("NODATA", fmt::format("{}", void_m).c_str());
+  options.SetNameValue("ID_FIELD", "0");
+  options.SetNameValue("ELEV_FIELD", "1");
+  // One transaction: a database file would else be synced to the disk line by line.
+  const bool transaction = GDALDatasetTestCapability(file.get(), ODsCTransactions) != 0;
+  if (transaction) check(GDALDatasetStartTransaction(file.get(), FALSE) == OGRERR_NONE);
+  check(GDALContourGenerateEx(GDALGetRasterBand(memory.get(), 1), layer, options.List(), nullptr, nullptr) == CE_None);
+  if (transaction) check(GDALDatasetCommitTransaction(file.get()) == OGRERR_NONE);
+  file.reset();
+  check(true);
+
+  // What was written, read again.
+  file = owned(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
+  check(file != nullptr && GDALDatasetGetLayerCount(file.get()) == 1);
+  const ContourSummary summary = measure(GDALDatasetGetLayer(file.get(), 0));
+  check(true);
+  return summary;
+}
+
+}  // namespace
+
+ContourSummary write_contours(const std::string& path, const Raster<float>& raster, const ContourParameters& parameters) {
+  if (!(parameters.interval_m > 0.0) || !std::isfinite(parameters.interval_m)) {
+    throw Error(ErrorKind::usage, "contour interval", fmt::format("{}", parameters.interval_m), "metres, more than 0");
+  }
+  const fs::path target(path);
+  const char* driver = driver_for(target);
+  if (raster.cells.empty()) throw Error(ErrorKind::output, path, "is to hold no cells");
+  register_gdal();
+  // A shapefile is several files: all are made in a folder of their own, then moved.
+  const fs::path folder = target.parent_path() / (target.filename().string() + ".tmp");
+  try {
+    fs::remove_all(folder);
+    if (!fs::create_directory(folder)) throw Error(ErrorKind::output, path, "cannot be created");
+    const ContourSummary summary = write_lines((folder / target.filename()).string(), driver, raster, parameters);
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+    for (const fs::path& file : files) fs::rename(file, target.parent_path() / file.filename());
+    fs::remove_all(folder);
+    return summary;
+  } catch (const std::exception& exception) {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    const auto* error = dynamic_cast<const Error*>(&exception);
+    throw Error(ErrorKind::output, path, error != nullptr ? error->found() : exception.what(), error != nullptr ? error->allowed() : "");
+  }
+}
+
+}  // namespace belvedere

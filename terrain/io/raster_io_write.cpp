@@ -1,0 +1,203 @@
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <gdal.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "terrain/io/raster_file.h"
+#include "terrain/io/raster_io.h"
+#include "terrain/io/raster_io_errors.h"
+
+namespace belvedere {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// What voids are written as: see write_raster. Text has no number for NaN that all readers know.
+float choose_void(const Grid<float>& cells, std::optional<double> nodata, bool ascii) {
+  constexpr float usual = -9999.0F;
+  if (!nodata) return usual;
+  if (std::isnan(*nodata)) return ascii ? usual : std::numeric_limits<float>::quiet_NaN();
+  if (!(std::abs(*nodata) <= static_cast<double>(std::numeric_limits<float>::max()))) return usual;
+  const float wanted = static_cast<float>(*nodata);
+  return std::find(cells.begin(), cells.end(), wanted) == cells.end() ? wanted : usual;
+}
+
+// Cells as a file holds them.
+Grid<float> with_written_voids(const Grid<float>& cells, float written_void) {
+  Grid<float> out = cells;
+  for (float& value : out)
+    if (!std::isfinite(value)) value = written_void;
+  return out;
+}
+
+template <class T>
+void write_geotiff(const std::string& path, const Raster<T>& raster, const Grid<T>& cells, double void_value) {
+  constexpr bool bytes = sizeof(T) == 1;
+  constexpr GDALDataType type = bytes ? GDT_Byte : GDT_Float32;
+  CPLStringList options;
+  for (const char* option : {"TILED=YES", "COMPRESS=DEFLATE", bytes ? "PREDICTOR=2" : "PREDICTOR=3", "BIGTIFF=IF_SAFER", "NUM_THREADS=1"})
+    options.AddString(option);
+  const GdalErrors errors;
+  const auto check = [&](bool good) {
+    if (!good || errors.failed()) throw Error(ErrorKind::output, path, errors.say("cannot be written"));
+  };
+  std::unique_ptr<void, void (*)(GDALDatasetH)> dataset(
+      GDALCreate(GDALGetDriverByName("GTiff"), path.c_str(), cells.width(), cells.height(), 1, type, options.List()),
+      [](GDALDatasetH open) { GDALClose(open); });
+  check(dataset != nullptr);
+  const GeoTransform& t = raster.transform;
+  double affine[6] = {t.origin_x, t.cell_x, 0.0, t.origin_y, 0.0, -t.cell_y};
+  check(GDALSetGeoTransform(dataset.get(), affine) == CE_None);
+  if (!raster.crs.empty()) {
+    OGRSpatialReference crs;
+    check(crs.SetFromUserInput(raster.crs.c_str()) == OGRERR_NONE);
+    check(GDALSetSpatialRef(dataset.get(), &crs) == CE_None);
+  }
+  GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
+  check(GDALSetRasterNoDataValue(band, void_value) == CE_None);
+  // The library takes a pointer to non-const for reading and writing alike; it only reads here.
+  check(GDALRasterIO(band, GF_Write, 0, 0, cells.width(), cells.height(), const_cast<T*>(cells.data()), cells.width(), cells.height(), type,
+                     0, 0) == CE_None);
+  GDALFlushCache(dataset.get());
+  dataset.reset();
+  check(true);
+}
+
+// By hand, because shortest round-trip numbers keep every bit of a float and no locale interferes.
+void write_ascii(const std::string& path, const Raster<float>& raster, const Grid<float>& cells, float void_value) {
+  const GeoTransform& t = raster.transform;
+  if (std::abs(t.cell_x - t.cell_y) > 1e-9 * t.cell_x) {
+    throw Error(ErrorKind::output, path, fmt::format("ESRI ASCII cannot hold cells of {} × {}", t.cell_x, t.cell_y),
+                "square cells, or .tif");
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"), &std::fclose);
+  if (!file) throw Error(ErrorKind::output, path, "cannot be created");
+  std::string text = fmt::format("ncols {}\nnrows {}\nxllcorner {}\nyllcorner {}\ncellsize {}\nNODATA_value {}\n", cells.width(),
+                                 cells.height(), t.origin_x, t.origin_y - t.cell_y * cells.height(), t.cell_x, void_value);
+  bool good = true;
+  for (int y = 0; y < cells.height(); ++y) {
+    const float* row = cells.row(y);
+    for (int x = 0; x < cells.width(); ++x) fmt::format_to(std::back_inserter(text), "{}{}", x == 0 ? "" : " ", row[x]);
+    text += '\n';
+    good = good && std::fwrite(text.data(), 1, text.size(), file.get()) == text.size();
+    text.clear();
+  }
+  if (!good || std::fflush(file.get()) != 0) throw Error(ErrorKind::output, path, "cannot be written: is the disk full?");
+}
+
+// The CRS beside an ASCII grid, in the dialect that its readers know.
+void write_prj(const std::string& path, const std::string& crs) {
+  OGRSpatialReference reference;
+  char* text = nullptr;
+  const char* const options[] = {"FORMAT=WKT1_ESRI", nullptr};
+  const GdalErrors errors;
+  const bool good = reference.SetFromUserInput(crs.c_str()) == OGRERR_NONE && reference.exportToWkt(&text, options) == OGRERR_NONE;
+  const std::string wkt = text != nullptr ? text : "";
+  CPLFree(text);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(good ? std::fopen(path.c_str(), "wb") : nullptr, &std::fclose);
+  if (!file || std::fwrite(wkt.data(), 1, wkt.size(), file.get()) != wkt.size() || std::fflush(file.get()) != 0) {
+    throw Error(ErrorKind::output, path, errors.say("cannot be written"));
+  }
+}
+
+// What was written, read again: a full disk is not always reported.
+template <class T>
+void check_written(const std::string& path, const Grid<T>& cells, T void_value) {
+  try {
+    RasterSource source;
+    source.path = path;
+    source.crs = "EPSG:3857";  // any: places are not looked at here
+    const RasterFile file(source);
+    if (file.width() != cells.width() || file.height() != cells.height()) throw Error(ErrorKind::output, path, "has another size");
+    constexpr int strip = 256;
+    for (int y0 = 0; y0 < cells.height(); y0 += strip) {
+      const int rows = std::min(strip, cells.height() - y0);
+      const Grid<float> back = file.read_values({0, y0, cells.width(), rows});
+      for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < cells.width(); ++x) {
+          const T wanted = cells(x, y0 + y);
+          const bool hole = wanted == void_value || wanted != wanted;  // NaN equals nothing
+          if (back(x, y) != static_cast<float>(wanted) && !(hole && std::isnan(back(x, y))))
+            throw Error(ErrorKind::output, path, "holds other values");
+        }
+    }
+  } catch (const Error& error) {
+    throw Error(ErrorKind::output, path, "was not written as it should be: " + error.found());
+  }
+}
+
+std::string ending_of(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+// The temporary name keeps the ending, by which formats are known, and lies in the same folder, so that a rename suffices.
+std::string temporary_beside(const fs::path& target, const char* ending) {
+  return (target.parent_path() / target.stem()).string() + ".tmp" + ending;
+}
+
+// write() makes the temporary files; all of them come to their places, or none.
+template <class Write>
+void write_and_rename(const std::string& path, const std::vector<std::pair<std::string, fs::path>>& files, Write&& write) {
+  try {
+    write();
+    for (const auto& [part, target] : files) fs::rename(part, target);
+  } catch (const std::exception& exception) {
+    std::error_code ignored;
+    for (const auto& [part, target] : files) fs::remove(part, ignored);
+    const auto* error = dynamic_cast<const Error*>(&exception);
+    throw Error(ErrorKind::output, path, error != nullptr ? error->found() : exception.what(), error != nullptr ? error->allowed() : "");
+  }
+}
+
+}  // namespace
+
+void write_raster(const std::string& path, const Raster<float>& raster, std::optional<double> nodata) {
+  const std::string ending = ending_of(path);
+  const bool ascii = ending == ".asc";
+  if (!ascii && ending != ".tif" && ending != ".tiff") throw Error(ErrorKind::output, path, "has an unknown ending", ".tif, .tiff or .asc");
+  if (raster.cells.empty()) throw Error(ErrorKind::output, path, "is to hold no cells");
+  const float written_void = choose_void(raster.cells, nodata, ascii);
+  const Grid<float> cells = with_written_voids(raster.cells, written_void);
+  register_gdal();
+  const fs::path target(path);
+  const std::string part = temporary_beside(target, target.extension().c_str());
+  const std::string part_prj = temporary_beside(target, ".prj");
+  std::vector<std::pair<std::string, fs::path>> files{{part, target}};
+  if (ascii && !raster.crs.empty()) files.emplace_back(part_prj, fs::path(target).replace_extension(".prj"));
+  write_and_rename(path, files, [&] {
+    ascii ? write_ascii(part, raster, cells, written_void) : write_geotiff(part, raster, cells, static_cast<double>(written_void));
+    if (files.size() > 1) write_prj(part_prj, raster.crs);
+    check_written(part, cells, written_void);
+  });
+}
+
+void write_raster(const std::string& path, const Raster<std::uint8_t>& raster) {
+  const std::string ending = ending_of(path);
+  if (ending != ".tif" && ending != ".tiff") throw Error(ErrorKind::output, path, "has an unknown ending", ".tif or .tiff");
+  if (raster.cells.empty()) throw Error(ErrorKind::output, path, "is to hold no cells");
+  register_gdal();
+  const fs::path target(path);
+  const std::string part = temporary_beside(target, target.extension().c_str());
+  write_and_rename(path, {{part, target}}, [&] {
+    write_geotiff(part, raster, raster.cells, 0.0);
+    check_written(part, raster.cells, std::uint8_t{0});
+  });
+}
+
+}  // namespace belvedere

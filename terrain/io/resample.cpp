@@ -1,0 +1,89 @@
+#include "terrain/io/resample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace belvedere {
+namespace {
+
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
+
+double cubic(double distance) {
+  const double d = std::abs(distance);
+  if (d < 1.0) return (1.5 * d - 2.5) * d * d + 1.0;
+  if (d < 2.0) return ((-0.5 * d + 2.5) * d - 4.0) * d + 2.0;
+  return 0.0;
+}
+
+double tent(double distance) { return std::max(0.0, 1.0 - std::abs(distance)); }
+
+// The first and last whole number less than `radius` from `at`.
+glm::ivec2 span(double at, double radius) {
+  return {static_cast<int>(std::floor(at - radius)) + 1, static_cast<int>(std::ceil(at + radius)) - 1};
+}
+
+}  // namespace
+
+Resampler::Resampler(glm::dvec2 source_cells_per_sample)
+    : scale_(std::max(1.0, source_cells_per_sample.x), std::max(1.0, source_cells_per_sample.y)) {
+  // A scale that is 1 but for rounding must copy coinciding cells to the bit.
+  if (scale_.x < 1.001) scale_.x = 1.0;
+  if (scale_.y < 1.001) scale_.y = 1.0;
+}
+
+glm::ivec2 Resampler::reach() const {
+  return {static_cast<int>(std::ceil(2.0 * scale_.x)) + 1, static_cast<int>(std::ceil(2.0 * scale_.y)) + 1};
+}
+
+float Resampler::sample(const Grid<float>& cells, glm::dvec2 at) const {
+  // Beyond half a cell outside nothing is known, and far outside a place may not even fit an int.
+  if (!(at.x > -1.0 && at.y > -1.0 && at.x < cells.width() && at.y < cells.height())) return nan_value;
+  const glm::ivec2 sx = span(at.x, 2.0 * scale_.x);
+  const glm::ivec2 sy = span(at.y, 2.0 * scale_.y);
+  double total = 0.0;
+  double sum = 0.0;
+  float low = std::numeric_limits<float>::infinity();
+  float high = -low;
+  for (int y = sy[0]; y <= sy[1]; ++y) {
+    const double wy = cubic((y - at.y) / scale_.y);
+    if (wy == 0.0) continue;  // on a row of centres the others count nothing, void or not
+    for (int x = sx[0]; x <= sx[1]; ++x) {
+      const double wx = cubic((x - at.x) / scale_.x);
+      if (wx == 0.0) continue;
+      const float value = cells.contains(x, y) ? cells(x, y) : nan_value;
+      if (std::isnan(value)) return sample_tent(cells, at);
+      low = std::min(low, value);
+      high = std::max(high, value);
+      total += wx * wy;
+      sum += wx * wy * value;
+    }
+  }
+  return std::clamp(static_cast<float>(sum / total), low, high);
+}
+
+float Resampler::sample_tent(const Grid<float>& cells, glm::dvec2 at) const {
+  const glm::ivec2 sx = span(at.x, scale_.x);
+  const glm::ivec2 sy = span(at.y, scale_.y);
+  double total = 0.0;
+  double known = 0.0;
+  double sum = 0.0;
+  for (int y = sy[0]; y <= sy[1]; ++y) {
+    const double wy = tent((y - at.y) / scale_.y);
+    for (int x = sx[0]; x <= sx[1]; ++x) {
+      const double weight = wy * tent((x - at.x) / scale_.x);
+      total += weight;
+      if (!cells.contains(x, y) || std::isnan(cells(x, y))) continue;
+      known += weight;
+      sum += weight * cells(x, y);
+    }
+  }
+  return known > 0.0 && known >= 0.5 * total ? static_cast<float>(sum / known) : nan_value;
+}
+
+std::int32_t sample_nearest(const Grid<std::int32_t>& cells, glm::dvec2 at) {
+  if (!(at.x >= -0.5 && at.y >= -0.5 && at.x < cells.width() - 0.5 && at.y < cells.height() - 0.5)) return -1;
+  return cells(static_cast<int>(std::floor(at.x + 0.5)), static_cast<int>(std::floor(at.y + 0.5)));
+}
+
+}  // namespace belvedere

@@ -1,0 +1,326 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+#include <type_traits>
+
+#include "base/error.h"
+#include "base/memory_limit.h"
+#include "base/parallel.h"
+#include "terrain/io/raster_file.h"
+#include "terrain/io/raster_io.h"
+#include "terrain/io/resample.h"
+
+namespace belvedere {
+namespace {
+
+// Files whose cells lie on one lattice, read as if they were one: no seam at their borders, whatever the kernel.
+struct Layer {
+  struct Part {
+    RasterFile file;
+    int x0 = 0, y0 = 0;  // of its first cell on the layer's lattice
+  };
+  std::vector<Part> parts;             // earlier ones win
+  CellAffine affine;                   // the first part's
+  std::string crs;                     // may be empty where no reprojection is asked for
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // all parts together, half open
+
+  glm::dvec2 middle() const { return affine.to_crs({0.5 * (x0 + x1), 0.5 * (y0 + y1)}); }
+};
+
+// Where a file's first cell lies on a layer's lattice, if its cells lie on it at all (to a hundredth of a cell).
+std::optional<glm::ivec2> place_on(const Layer& layer, const RasterFile& file) {
+  const CellAffine& a = layer.affine;
+  const CellAffine& b = file.affine();
+  if (!same_crs(layer.crs, file.crs())) return std::nullopt;
+  const auto near = [](double p, double q, double tolerance) { return std::abs(p - q) <= tolerance; };
+  const double cell = std::sqrt(std::abs(a.determinant()));
+  // Steps must agree so well that the far end of the file is still in place.
+  const double steps = 0.01 * cell / std::max(file.width(), file.height());
+  if (!near(a.x_column, b.x_column, steps) || !near(a.x_row, b.x_row, steps) || !near(a.y_column, b.y_column, steps) ||
+      !near(a.y_row, b.y_row, steps)) {
+    return std::nullopt;
+  }
+  const glm::dvec2 at = a.to_cell({b.x0, b.y0});
+  const glm::dvec2 whole = glm::round(at);
+  if (!near(at.x, whole.x, 0.01) || !near(at.y, whole.y, 0.01) || std::abs(whole.x) > 1e8 || std::abs(whole.y) > 1e8) return std::nullopt;
+  return glm::ivec2(whole);
+}
+
+std::vector<Layer> make_layers(const std::vector<RasterSource>& sources) {
+  std::vector<Layer> layers;
+  for (const RasterSource& source : sources) {
+    RasterFile file(source);
+    std::optional<glm::ivec2> place;
+    // Only the last layer may grow: a file in between keeps its rank.
+    if (!layers.empty()) place = place_on(layers.back(), file);
+    if (!place) {
+      layers.emplace_back();
+      layers.back().affine = file.affine();
+      layers.back().crs = file.crs();
+      place = glm::ivec2{0, 0};
+    }
+    Layer& layer = layers.back();
+    const bool first = layer.parts.empty();
+    const glm::ivec2 end = *place + glm::ivec2{file.width(), file.height()};
+    layer.x0 = first ? place->x : std::min(layer.x0, place->x);
+    layer.y0 = first ? place->y : std::min(layer.y0, place->y);
+    layer.x1 = first ? end.x : std::max(layer.x1, end.x);
+    layer.y1 = first ? end.y : std::max(layer.y1, end.y);
+    layer.parts.push_back({std::move(file), place->x, place->y});
+  }
+  return layers;
+}
+
+// Where the cells of a frame lie on a layer's lattice, with cell centres at whole numbers. The reprojection is exact at control
+// points and bilinear in between. A map's curvature over n cells of c metres bends a line by about (n c)² / 8 R, up to
+// four times that near the poles and at the edges of UTM zones, so n is chosen for an error below a thousandth of a cell.
+class LatticeMap {
+ public:
+  LatticeMap(const Layer& layer, const RasterFrame& frame, bool geographic) : affine_(layer.affine) {
+    const bool equal = same_crs(layer.crs, frame.crs);
+    const double cell_m = std::max(frame.transform.cell_x, frame.transform.cell_y);
+    constexpr double earth_radius_m = 6.371e6;
+    step_ = equal ? 64 : std::clamp(static_cast<int>(std::sqrt(2e-3 * earth_radius_m / cell_m)), 1, 32);
+    across_ = (frame.width - 1) / step_ + 2;
+    const int down = (frame.height - 1) / step_ + 2;
+    points_.reserve(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down));
+    for (int j = 0; j < down; ++j)
+      for (int i = 0; i < across_; ++i) points_.push_back(frame.transform.to_crs(i * step_, j * step_));
+    if (!equal) {
+      PointTransform(frame.crs, layer.crs).apply(points_);
+      if (geographic) unwrap(layer.middle().x);
+    }
+    for (glm::dvec2& point : points_) point = affine_.to_cell(point) - glm::dvec2{0.5, 0.5};
+    find_scale(frame);
+  }
+
+  glm::dvec2 operator()(int x, int y) const {
+    const int i = x / step_;
+    const int j = y / step_;
+    const double u = static_cast<double>(x - i * step_) / step_;
+    const double v = static_cast<double>(y - j * step_) / step_;
+    const glm::dvec2* p = points_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(across_) + i;
+    const glm::dvec2 at = (1.0 - v) * ((1.0 - u) * p[0] + u * p[1]) + v * ((1.0 - u) * p[across_] + u * p[across_ + 1]);
+    // Cells that coincide are copied to the bit: rounding of the coordinates must not interpolate them.
+    const auto snap = [](double c) { return std::abs(c - std::round(c)) < 1e-5 ? std::round(c) : c; };
+    return {snap(at.x), snap(at.y)};
+  }
+
+  // Source cells per frame cell along the source's columns and rows, at the middle.
+  glm::dvec2 scale() const { return scale_; }
+
+ private:
+  // Longitudes without a jump over the frame, in the turn that lies nearest to the source.
+  void unwrap(double source_middle) {
+    const glm::dvec2 middle = points_[points_.size() / 2];
+    const double shift = std::isfinite(middle.x) ? 360.0 * std::round((source_middle - middle.x) / 360.0) : 0.0;
+    for (glm::dvec2& point : points_) point.x += shift - 360.0 * std::round((point.x - middle.x) / 360.0);
+  }
+
+  void find_scale(const RasterFrame& frame) {
+    const int i = std::min(across_ - 2, (frame.width / 2) / step_);
+    const int down = static_cast<int>(points_.size()) / across_;
+    const int j = std::min(down - 2, (frame.height / 2) / step_);
+    const glm::dvec2* p = points_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(across_) + i;
+    const glm::dvec2 east = (p[1] - p[0]) / static_cast<double>(step_);
+    const glm::dvec2 south = (p[across_] - p[0]) / static_cast<double>(step_);
+    scale_ = {std::hypot(east.x, south.x), std::hypot(east.y, south.y)};
+    if (!std::isfinite(scale_.x) || !std::isfinite(scale_.y)) scale_ = {1.0, 1.0};
+  }
+
+  CellAffine affine_;
+  int step_ = 1;
+  int across_ = 0;
+  std::vector<glm::dvec2> points_;
+  glm::dvec2 scale_{1.0, 1.0};
+};
+
+template <class T>
+bool is_void(T value) {
+  if constexpr (std::is_floating_point_v<T>)
+    return std::isnan(value);
+  else
+    return value < 0;
+}
+
+template <class T>
+constexpr T void_of() {
+  if constexpr (std::is_floating_point_v<T>)
+    return std::numeric_limits<T>::quiet_NaN();
+  else
+    return T{-1};
+}
+
+// The part of a layer that a window shows; outside of its files, and where they have voids, void.
+template <class T>
+Grid<T> read_window(const Layer& layer, const CellWindow& window) {
+  Grid<T> out(window.width, window.height, void_of<T>());
+  for (const Layer::Part& part : layer.parts) {
+    const int x0 = std::max(window.x0, part.x0);
+    const int y0 = std::max(window.y0, part.y0);
+    const int x1 = std::min(window.x0 + window.width, part.x0 + part.file.width());
+    const int y1 = std::min(window.y0 + window.height, part.y0 + part.file.height());
+    if (x0 >= x1 || y0 >= y1) continue;
+    const CellWindow inner{x0 - part.x0, y0 - part.y0, x1 - x0, y1 - y0};
+    Grid<T> cells;
+    if constexpr (std::is_floating_point_v<T>)
+      cells = part.file.read_values(inner);
+    else
+      cells = part.file.read_codes(inner);
+    for (int y = 0; y < cells.height(); ++y)
+      for (int x = 0; x < cells.width(); ++x) {
+        T& to = out(x0 - window.x0 + x, y0 - window.y0 + y);
+        if (is_void(to)) to = cells(x, y);
+      }
+  }
+  return out;
+}
+
+// Fills what is still void in one tile of the frame from a layer. Halves the tile where its cells of the layer are too many
+// to hold at once; each cell's value depends on its own place only, so the division changes nothing.
+template <class T>
+void warp_tile(const Layer& layer, const LatticeMap& map, const PixelRect& tile, Grid<T>& out) {
+  const Resampler resampler(map.scale());
+  double x0 = std::numeric_limits<double>::infinity(), y0 = x0, x1 = -x0, y1 = -x0;
+  for (int y = tile.y0; y < tile.y1; ++y)
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      if (!is_void(out(x, y))) continue;
+      const glm::dvec2 at = map(x, y);
+      if (!std::isfinite(at.x) || !std::isfinite(at.y)) continue;
+      x0 = std::min(x0, at.x);
+      y0 = std::min(y0, at.y);
+      x1 = std::max(x1, at.x);
+      y1 = std::max(y1, at.y);
+    }
+  const glm::ivec2 reach = resampler.reach();
+  x0 = std::max(std::floor(x0) - reach.x, static_cast<double>(layer.x0));
+  y0 = std::max(std::floor(y0) - reach.y, static_cast<double>(layer.y0));
+  x1 = std::min(std::ceil(x1) + reach.x + 1.0, static_cast<double>(layer.x1));
+  y1 = std::min(std::ceil(y1) + reach.y + 1.0, static_cast<double>(layer.y1));
+  if (!(x0 < x1) || !(y0 < y1)) return;
+  constexpr double most_cells = 16e6;
+  if ((x1 - x0) * (y1 - y0) > most_cells && (tile.width() > 1 || tile.height() > 1)) {
+    const bool wide = tile.width() >= tile.height();
+    const int half = wide ? (tile.x0 + tile.x1) / 2 : (tile.y0 + tile.y1) / 2;
+    warp_tile(layer, map, wide ? PixelRect{tile.x0, tile.y0, half, tile.y1} : PixelRect{tile.x0, tile.y0, tile.x1, half}, out);
+    warp_tile(layer, map, wide ? PixelRect{half, tile.y0, tile.x1, tile.y1} : PixelRect{tile.x0, half, tile.x1, tile.y1}, out);
+    return;
+  }
+  const CellWindow window{static_cast<int>(x0), static_cast<int>(y0), static_cast<int>(x1 - x0), static_cast<int>(y1 - y0)};
+  const Grid<T> cells = read_window<T>(layer, window);
+  parallel_rows(tile.height(), [&](int row) {
+    const int y = tile.y0 + row;
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      T& value = out(x, y);
+      if (!is_void(value)) continue;
+      const glm::dvec2 at = map(x, y) - glm::dvec2{window.x0, window.y0};
+      if (!std::isfinite(at.x) || !std::isfinite(at.y)) continue;
+      if constexpr (std::is_floating_point_v<T>)
+        value = resampler.sample(cells, at);
+      else
+        value = sample_nearest(cells, at);
+    }
+  });
+}
+
+void check_frame(const RasterFrame& frame, double bytes_per_cell) {
+  constexpr int longest = 1 << 20;
+  const GeoTransform& t = frame.transform;
+  if (frame.width < 1 || frame.height < 1 || !(t.cell_x > 0.0) || !(t.cell_y > 0.0)) throw Error(ErrorKind::bug, "frame", "has no cells");
+  const std::string where = fmt::format("terrain of {} × {} cells", frame.width, frame.height);
+  if (frame.width > longest || frame.height > longest)
+    throw Error(ErrorKind::limit, where, "is too large", fmt::format("up to {} cells a side", longest));
+  check_memory(where, bytes_per_cell * frame.width * frame.height);
+}
+
+template <class T>
+Raster<T> warp_layers(std::vector<Layer>& layers, const RasterFrame& frame, Progress& progress) {
+  check_frame(frame, sizeof(T));
+  Raster<T> out{Grid<T>(frame.width, frame.height, void_of<T>()), frame.transform, frame.crs};
+  for (const Layer& layer : layers) {
+    const LatticeMap map(layer, frame, !layer.crs.empty() && crs_traits(layer.crs).geographic);
+    // Tiles one after another, because a file is read by one thread; rows of a tile in parallel.
+    constexpr int side = 512;
+    for (int y = 0; y < frame.height; y += side)
+      for (int x = 0; x < frame.width; x += side) {
+        const PixelRect tile{x, y, std::min(x + side, frame.width), std::min(y + side, frame.height)};
+        warp_tile(layer, map, tile, out.cells);
+        progress.advance(static_cast<double>(tile.width()) * tile.height());
+      }
+  }
+  return out;
+}
+
+template <class T>
+Raster<T> warp(const std::vector<RasterSource>& sources, const RasterFrame& frame, Progress& progress, std::string_view stage) {
+  std::vector<Layer> layers = make_layers(sources);
+  for (const Layer& layer : layers)
+    for (const Layer::Part& part : layer.parts) part.file.required_crs();
+  progress.begin(stage, static_cast<double>(frame.width) * frame.height * static_cast<double>(layers.size()));
+  return warp_layers<T>(layers, frame, progress);
+}
+
+// The frame of one file in its own CRS: its cells as they are, or upright cells of the same area over its bounding box.
+RasterFrame own_frame(const RasterFile& file) {
+  const CellAffine& a = file.affine();
+  const glm::dvec2 end{file.width(), file.height()};
+  const glm::dvec2 corners[] = {a.to_crs({0.0, 0.0}), a.to_crs({end.x, 0.0}), a.to_crs({0.0, end.y}), a.to_crs(end)};
+  glm::dvec2 low = corners[0], high = corners[0];
+  for (const glm::dvec2& corner : corners) {
+    low = glm::min(low, corner);
+    high = glm::max(high, corner);
+  }
+  RasterFrame frame;
+  frame.crs = file.crs();
+  frame.width = file.width();
+  frame.height = file.height();
+  frame.transform = {low.x, high.y, std::abs(a.x_column), std::abs(a.y_row)};
+  if (!a.axis_aligned()) {
+    const double cell = std::sqrt(std::abs(a.determinant()));
+    frame.transform.cell_x = frame.transform.cell_y = cell;
+    frame.width = static_cast<int>(std::ceil((high.x - low.x) / cell - 1e-6));
+    frame.height = static_cast<int>(std::ceil((high.y - low.y) / cell - 1e-6));
+  }
+  return frame;
+}
+
+template <class T>
+Raster<T> read_upright(const RasterSource& source) {
+  std::vector<Layer> layers = make_layers({source});
+  const RasterFrame frame = own_frame(layers[0].parts[0].file);
+  return warp_layers<T>(layers, frame, silent_progress());
+}
+
+}  // namespace
+
+RasterInfo read_raster_info(const RasterSource& source) {
+  const RasterFile file(source);
+  const RasterFrame frame = own_frame(file);
+  RasterInfo info;
+  info.width = frame.width;
+  info.height = frame.height;
+  info.bands = file.bands();
+  info.transform = frame.transform;
+  info.crs = file.crs();
+  info.geographic = !info.crs.empty() && crs_traits(info.crs).geographic;
+  info.nodata = file.nodata();
+  info.driver = file.driver();
+  return info;
+}
+
+Raster<float> read_raster(const RasterSource& source) { return read_upright<float>(source); }
+
+Raster<std::int32_t> read_codes(const RasterSource& source) { return read_upright<std::int32_t>(source); }
+
+Raster<float> warp_rasters(const std::vector<RasterSource>& sources, const RasterFrame& frame, Progress& progress) {
+  return warp<float>(sources, frame, progress, "read terrain");
+}
+
+Raster<std::int32_t> warp_codes(const std::vector<RasterSource>& sources, const RasterFrame& frame, Progress& progress) {
+  return warp<std::int32_t>(sources, frame, progress, "read land cover");
+}
+
+}  // namespace belvedere

@@ -1,0 +1,121 @@
+#include "terrain/shape/derivatives.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/angle.h"
+#include "base/filter.h"
+#include "base/parallel.h"
+
+namespace belvedere {
+namespace {
+
+// Below this gradient (1 mm in 1 km) a contour has no direction worth naming.
+constexpr double least_gradient = 1e-6;
+
+// Nine cells in double, z1…z9 from the north-west corner row by row.
+struct Window {
+  double z1, z2, z3, z4, z5, z6, z7, z8, z9;
+};
+
+// Calls f(window) for every cell and stores what it returns.
+template <class F>
+Grid<float> map_windows(const Grid<float>& altitude_m, F&& f) {
+  const int width = altitude_m.width();
+  const int height = altitude_m.height();
+  Grid<float> out(width, height);
+  parallel_rows(height, [&](int y) {
+    const float* north = altitude_m.row(std::max(y - 1, 0));
+    const float* here = altitude_m.row(y);
+    const float* south = altitude_m.row(std::min(y + 1, height - 1));
+    float* target = out.row(y);
+    for (int x = 0; x < width; ++x) {
+      const int west = std::max(x - 1, 0);
+      const int east = std::min(x + 1, width - 1);
+      target[x] = static_cast<float>(
+          f(Window{north[west], north[x], north[east], here[west], here[x], here[east], south[west], south[x], south[east]}));
+    }
+  });
+  return out;
+}
+
+// Horn's rise towards the east and towards the north, metres a metre.
+struct Gradient {
+  double east;
+  double north;
+};
+
+Gradient horn(const Window& w, double cell_x_m, double cell_y_m) {
+  return {((w.z3 + 2.0 * w.z6 + w.z9) - (w.z1 + 2.0 * w.z4 + w.z7)) / (8.0 * cell_x_m),
+          ((w.z1 + 2.0 * w.z2 + w.z3) - (w.z7 + 2.0 * w.z8 + w.z9)) / (8.0 * cell_y_m)};
+}
+
+// N and g² of the quadric fitted by least squares (Evans 1980, Young 1978).
+struct ContourTerms {
+  double n;
+  double g2;
+};
+
+ContourTerms evans_young(const Window& w, double cell_m) {
+  const double p = (w.z3 + w.z6 + w.z9 - w.z1 - w.z4 - w.z7) / (6.0 * cell_m);
+  const double q = (w.z1 + w.z2 + w.z3 - w.z7 - w.z8 - w.z9) / (6.0 * cell_m);
+  const double area = cell_m * cell_m;
+  const double r = (w.z1 + w.z3 + w.z4 + w.z6 + w.z7 + w.z9 - 2.0 * (w.z2 + w.z5 + w.z8)) / (3.0 * area);
+  const double t = (w.z1 + w.z2 + w.z3 + w.z7 + w.z8 + w.z9 - 2.0 * (w.z4 + w.z5 + w.z6)) / (3.0 * area);
+  const double s = (w.z3 + w.z7 - w.z1 - w.z9) / (4.0 * area);
+  return {q * q * r - 2.0 * p * q * s + p * p * t, p * p + q * q};
+}
+
+}  // namespace
+
+Grid<float> slope_deg(const Grid<float>& altitude_m, double cell_x_m, double cell_y_m) {
+  return map_windows(altitude_m, [=](const Window& w) {
+    const Gradient g = horn(w, cell_x_m, cell_y_m);
+    return to_degrees(std::atan(std::sqrt(g.east * g.east + g.north * g.north)));
+  });
+}
+
+Grid<float> aspect_deg(const Grid<float>& altitude_m, double cell_x_m, double cell_y_m) {
+  return map_windows(altitude_m, [=](const Window& w) {
+    const Gradient g = horn(w, cell_x_m, cell_y_m);
+    if (g.east == 0.0 && g.north == 0.0) return -1.0F;
+    const double aspect = to_degrees(std::atan2(-g.east, -g.north));
+    // A hair's breadth below 360 must not round to it.
+    const auto clockwise = static_cast<float>(aspect < 0.0 ? aspect + 360.0 : aspect);
+    return clockwise >= 360.F ? 0.F : clockwise;
+  });
+}
+
+Grid<float> plan_curvature(const Grid<float>& altitude_m, double cell_m) {
+  return map_windows(altitude_m, [=](const Window& w) {
+    const ContourTerms c = evans_young(w, cell_m);
+    return c.g2 < least_gradient * least_gradient ? 0.0 : -c.n / (c.g2 * std::sqrt(c.g2));
+  });
+}
+
+Grid<float> bounded_plan_curvature(const Grid<float>& altitude_m, double cell_m) {
+  return map_windows(altitude_m, [=](const Window& w) {
+    const ContourTerms c = evans_young(w, cell_m);
+    return c.g2 < least_gradient * least_gradient ? 0.0 : c.n / c.g2;
+  });
+}
+
+Grid<float> relief(const Grid<float>& altitude_m, double cell_m, double inner_m, double outer_m) {
+  Grid<float> out = gaussian_blur(altitude_m, inner_m / cell_m);
+  const Grid<float> mean = gaussian_blur(altitude_m, outer_m / cell_m);
+  parallel_rows(out.height(), [&](int y) {
+    for (int x = 0; x < out.width(); ++x) out(x, y) -= mean(x, y);
+  });
+  return out;
+}
+
+Grid<float> height_above_valley(const Grid<float>& altitude_m, double cell_m, double radius_m) {
+  const int radius = std::max(1, static_cast<int>(std::lround(radius_m / cell_m)));
+  Grid<float> out = window_minimum(gaussian_blur(altitude_m, 1.0), radius);
+  parallel_rows(out.height(), [&](int y) {
+    for (int x = 0; x < out.width(); ++x) out(x, y) = std::max(0.F, altitude_m(x, y) - out(x, y));
+  });
+  return out;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,168 @@
+// A print of any size looks alike: light, base picture and strokes of the same ranges at one and at three pixels a unit of the sheet.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/filter.h"
+#include "base/progress.h"
+#include "renderer/exemplar/painting_figures.h"
+#include "renderer/paint/light.h"
+#include "renderer/paint/paint.h"
+#include "renderer/paint/palette.h"
+#include "tests/renderer/exemplar/painted_hills.h"
+#include "texture/strokes/stroke_kinds.h"
+#include "texture/strokes/stroke_painter.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int width_units = 220;
+constexpr int height_units = 160;
+
+struct Print {
+  GuidanceBuffers guidance;
+  PaintGround ground;
+  StrokeParameters strokes;
+  Grid<glm::vec3> picture;
+};
+
+Print print_at(double pixels_per_unit, bool upright = true) {
+  const glm::ivec2 size(static_cast<int>(width_units * pixels_per_unit), static_cast<int>(height_units * pixels_per_unit));
+  Print print;
+  print.guidance = test::make_hills(size.x, size.y, pixels_per_unit);
+  ToneParameters tone;
+  tone.pixels_per_unit = pixels_per_unit;
+  print.guidance.tone = make_tone(print.guidance, tone, {0, 0}, silent_progress());
+  BaseParameters base;
+  base.pixels_per_unit = pixels_per_unit;
+  print.ground = make_paint_ground(print.guidance, read_palette("summer"), base, {0, 0}, size, silent_progress());
+  print.strokes.pixels_per_unit = pixels_per_unit;
+  print.picture =
+      paint_strokes(print.ground.colour, print.guidance, print.ground, {.upright = upright}, print.strokes, silent_progress()).picture;
+  return print;
+}
+
+const Print& small_print() {
+  static const Print print = print_at(1.0);
+  return print;
+}
+const Print& large_print() {
+  static const Print print = print_at(3.0);
+  return print;
+}
+
+Grid<float> shrunk(const Grid<float>& values, int factor) {
+  Grid<float> out(values.width() / factor, values.height() / factor, 0.F);
+  for (int y = 0; y < out.height() * factor; ++y)
+    for (int x = 0; x < out.width() * factor; ++x) out(x / factor, y / factor) += values(x, y) / static_cast<float>(factor * factor);
+  return out;
+}
+
+double mean_difference(const Grid<float>& a, const Grid<float>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
+  return sum / static_cast<double>(a.size());
+}
+
+Grid<float> green_of(const Grid<glm::vec3>& picture) {
+  Grid<float> out(picture.width(), picture.height());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = picture[i].y;
+  return out;
+}
+
+// Mean and deviation of a value over the pixels of a class.
+struct Spread {
+  double mean = 0.0;
+  double deviation = 0.0;
+  std::size_t pixels = 0;
+};
+Spread spread_of(const Grid<float>& values, const Grid<LandCoverClass>& classes, LandCoverClass id) {
+  Spread out;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (classes[i] == id) {
+      ++out.pixels;
+      out.mean += values[i];
+      squares += static_cast<double>(values[i]) * values[i];
+    }
+  if (out.pixels == 0) return out;
+  out.mean /= static_cast<double>(out.pixels);
+  out.deviation = std::sqrt(std::max(0.0, squares / static_cast<double>(out.pixels) - out.mean * out.mean));
+  return out;
+}
+
+TEST(Likeness, ToneOfEachClassIsAlike) {
+  const Print& a = small_print();
+  const Print& b = large_print();
+  EXPECT_LT(mean_difference(a.guidance.tone, shrunk(b.guidance.tone, 3)), 0.012);
+  for (const LandCoverClassInfo& info : land_cover_classes()) {
+    const Spread small = spread_of(a.guidance.tone, a.guidance.land_cover, info.id);
+    const Spread large = spread_of(b.guidance.tone, b.guidance.land_cover, info.id);
+    if (info.id == LandCoverClass::sky || small.pixels < 300) continue;
+    EXPECT_NEAR(large.mean, small.mean, 0.003) << info.name;
+    EXPECT_NEAR(large.deviation, small.deviation, 0.003) << info.name;
+  }
+}
+
+TEST(Likeness, TheLargePrintReducedIsTheSmallOne) {
+  const Grid<float> small = green_of(small_print().picture);
+  const Grid<float> large = shrunk(green_of(large_print().picture), 3);
+  EXPECT_LT(mean_difference(small, large), 0.02);
+  EXPECT_LT(mean_difference(gaussian_blur(small, 3.0), gaussian_blur(large, 3.0)), 0.004) << "beyond single strokes";
+}
+
+TEST(Likeness, FiguresOfThePrintsAreAlike) {
+  const PaintingFigures small = measure_painting(small_print().picture);
+  const PaintingFigures large = measure_painting(shrink_picture(large_print().picture, 1.0 / 3.0));
+  EXPECT_NEAR(large.stroke_length_px, small.stroke_length_px, 0.06 * small.stroke_length_px);
+  EXPECT_NEAR(large.stroke_width_px, small.stroke_width_px, 0.06 * small.stroke_width_px);
+  EXPECT_NEAR(large.coherence, small.coherence, 0.015);
+  EXPECT_NEAR(large.sharpness, small.sharpness, 0.06);
+  EXPECT_NEAR(large.saturation_mean, small.saturation_mean, 0.003);
+  EXPECT_NEAR(large.lightness_mean, small.lightness_mean, 0.002);
+  EXPECT_NEAR(large.lightness_spread, small.lightness_spread, 0.002);
+}
+
+// Number of strokes, and their mean length and width in units of the sheet.
+struct StrokeSizes {
+  std::size_t count = 0;
+  double length = 0.0;
+  double width = 0.0;
+};
+StrokeSizes sizes_of(const std::vector<Stroke>& strokes, double pixels_per_unit) {
+  StrokeSizes out{strokes.size()};
+  for (const Stroke& s : strokes) {
+    for (int i = 0; i + 1 < s.point_count; ++i) {
+      const glm::vec2 step = s.points[static_cast<std::size_t>(i) + 1] - s.points[static_cast<std::size_t>(i)];
+      out.length += std::hypot(step.x, step.y);
+    }
+    out.width += s.start_width;
+  }
+  out.length /= pixels_per_unit * static_cast<double>(strokes.size());
+  out.width /= pixels_per_unit * static_cast<double>(strokes.size());
+  return out;
+}
+
+TEST(Likeness, EveryKindOfStrokeHasItsNumberAndItsSizeInMillimetres) {
+  const auto scene = [](const Print& p) { return StrokeScene{p.guidance, p.ground, p.strokes}; };
+  using Kind = std::vector<Stroke> (*)(const StrokeScene&);
+  const std::vector<std::pair<const char*, Kind>> kinds = {
+      {"sky", sky_strokes},       {"wash", wash_strokes},           {"meadow", meadow_strokes},
+      {"scree", scree_strokes},   {"broken colour", broken_colour}, {"water", water_strokes},
+      {"accent", accent_strokes}, {"facet", rock_facets},           {"hatching", rock_hatching},
+      {"snow", snow_strokes},     {"tree", forest_trees},           {"scattered", scattered_trees},
+      {"house", houses}};
+  for (const auto& [name, kind] : kinds) {
+    const StrokeSizes small = sizes_of(kind(scene(small_print())), 1.0);
+    const StrokeSizes large = sizes_of(kind(scene(large_print())), 3.0);
+    if (small.count < 40) continue;
+    EXPECT_NEAR(static_cast<double>(large.count) / static_cast<double>(small.count), 1.0, small.count < 400 ? 0.15 : 0.05) << name;
+    EXPECT_NEAR(large.length, small.length, (small.count < 400 ? 0.06 : 0.03) * small.length) << name;
+    EXPECT_NEAR(large.width, small.width, 0.05 * small.width) << name;
+  }
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,332 @@
+#include "renderer/exemplar/sheet.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <set>
+
+#include "base/error.h"
+#include "renderer/exemplar/coverage.h"
+#include "renderer/exemplar/exemplar_files.h"
+#include "renderer/exemplar/exemplars.h"
+#include "renderer/exemplar/scan.h"
+#include "renderer/image/guidance_io.h"
+#include "renderer/image/image_io.h"
+#include "renderer/paint/composite.h"
+#include "tests/files.h"
+
+namespace belvedere {
+namespace {
+
+// Two panels of one small terrain.
+constexpr const char* two_panels = R"(
+width = 256
+height = 256
+columns = 2
+dots_per_inch = 25.4
+scene = """
+version = 1
+[terrain.synthetic]
+width = 130
+height = 140
+cell_m = 120
+[camera]
+position = [8000, -6000]
+height_m = 9000
+pitch_deg = -35
+[sampling]
+pixel_samples = 1
+shadow_rays = 2
+sky_directions = 4
+"""
+[terrains]
+high = ["terrain.synthetic.seed=4"]
+[views]
+left = ["camera.azimuth_deg=-10"]
+right = ["camera.azimuth_deg=20"]
+[[panels]]
+terrain = "high"
+view = "left"
+[[panels]]
+terrain = "high"
+view = "right"
+set = ["sun.altitude_deg=20"]
+)";
+
+SheetPlan small_plan() { return parse_sheet_plan(two_panels, "two.toml"); }
+
+TEST(SheetPlan, PanelsCoverTheSheetWithMarginsBetweenThem) {
+  for (const int size : {256, 266, 1000, 4096}) {
+    SheetPlan plan = built_in_sheet_plan();
+    plan.width = plan.height = size;
+    Grid<int> covered(plan.width, plan.height, 0);
+    for (int p = 0; p < static_cast<int>(plan.panels.size()); ++p) {
+      const PixelRect cell = panel_cell(plan, p);
+      const PixelRect inner = panel_rect(plan, p);
+      EXPECT_GT(inner.x0, cell.x0);
+      EXPECT_LT(inner.y1, cell.y1);
+      EXPECT_GE(inner.width(), 16);
+      EXPECT_TRUE(cell.y0 % 64 == 0);  // or files could not be written row by row
+      for (int y = cell.y0; y < cell.y1; ++y)
+        for (int x = cell.x0; x < cell.x1; ++x) ++covered(x, y);
+    }
+    EXPECT_EQ(std::count(covered.begin(), covered.end(), 1), static_cast<std::ptrdiff_t>(covered.size()));
+  }
+}
+
+TEST(SheetPlan, IsWrittenAsItIsRead) {
+  SheetPlan plan = built_in_sheet_plan();
+  plan.width = 777;
+  plan.palette = "winter";
+  plan.seed = 12;
+  plan.dots_per_inch = 101.6;
+  const SheetPlan again = parse_sheet_plan(write_sheet_plan(plan), "again");
+  EXPECT_EQ(write_sheet_plan(again), write_sheet_plan(plan));
+  ASSERT_EQ(again.panels.size(), plan.panels.size());
+  for (int p = 0; p < static_cast<int>(plan.panels.size()); ++p)
+    for (const bool winter : {false, true})
+      EXPECT_EQ(write_scene(panel_scene(again, p, winter).scene), write_scene(panel_scene(plan, p, winter).scene)) << p;
+}
+
+TEST(SheetPlan, RefusesWhatItDoesNotUnderstand) {
+  const auto with = [](const std::string& more) { return std::string("columns = 1\n") + more; };
+  EXPECT_NO_THROW(parse_sheet_plan(with("[[panels]]\n"), "p"));
+  for (const char* wrong : {"", "rows = 2\n[[panels]]\n", "width = 10\n[[panels]]\n", "[[panels]]\nterrain = \"none\"\n",
+                            "[[panels]]\nsets = []\n", "palette = 3\n[[panels]]\n"})
+    EXPECT_THROW(parse_sheet_plan(with(wrong), "p"), Error) << wrong;
+  EXPECT_THROW(parse_sheet_plan("columns = 2\n[[panels]]\n", "p"), Error);  // a row that is not full
+  SheetPlan plan = small_plan();
+  plan.panels[0].settings.emplace_back("camera.colour=red");
+  EXPECT_THROW(panel_scene(plan, 0, false), Error);
+}
+
+TEST(SheetPlan, LightFallsFromTheSameSideInAllPanels) {
+  const SheetPlan plan = built_in_sheet_plan();
+  for (int p = 0; p < static_cast<int>(plan.panels.size()); ++p) {
+    const Scene scene = panel_scene(plan, p, false).scene;
+    EXPECT_NEAR(std::remainder(scene.sun.azimuth_deg - scene.camera.azimuth_deg - plan.light_from_deg, 360.0), 0.0, 1e-9) << p;
+  }
+}
+
+TEST(SheetPlan, WinterLaysSnowWherePanelsSaySo) {
+  const SheetPlan plan = built_in_sheet_plan();
+  const auto snowed = [&](bool winter) {
+    int count = 0;
+    for (int p = 0; p < static_cast<int>(plan.panels.size()); ++p)
+      for (const auto& [key, value] : panel_scene(plan, p, winter).scene.land_cover.settings)
+        count += key == "winter" && value > 0.0 ? 1 : 0;
+    return count;
+  };
+  EXPECT_GT(snowed(true), snowed(false));
+  EXPECT_LT(snowed(true), static_cast<int>(plan.panels.size()) / 2);  // or winter would have too little of everything else
+}
+
+TEST(SheetPainter, IndicesOfPaintCountInTheWholeSheet) {
+  SheetPainter painter(small_plan(), {read_palette("summer"), std::nullopt});
+  ASSERT_EQ(painter.rows(), 1);
+  const ExamplePainting row = painter.paint_row(0, {}, silent_progress());
+  const GuidanceBuffers& g = row.guidance;
+  ASSERT_EQ(g.width(), 256);
+  const PixelRect right = panel_rect(painter.plan(), 1);
+  int elsewhere = 0;
+  for (int y = right.y0; y < right.y1; ++y)
+    for (int x = right.x0; x < right.x1; ++x) {
+      const std::uint32_t from = g.ground_from(x, y);
+      const int fx = static_cast<int>(from % 256U);
+      const int fy = static_cast<int>(from / 256U);
+      // Paint comes from the own panel, from no farther than a stroke is long.
+      ASSERT_TRUE(fx >= right.x0 && fx < right.x1 && fy >= right.y0 && fy < right.y1);
+      EXPECT_LT(std::hypot(fx - x, fy - y), 40.0);
+      elsewhere += fx != x || fy != y ? 1 : 0;
+      EXPECT_EQ(g.painted_class(x, y), g.land_cover[g.painted_from(x, y)]);
+    }
+  EXPECT_GT(elsewhere, 0);
+  // Margins are paper: nothing is copied from them.
+  EXPECT_TRUE(g.is_sky(g.depth_m.index(128, 128)));
+  EXPECT_EQ(g.land_cover(128, 128), LandCoverClass::sky);
+  EXPECT_EQ(row.ground(0, 0), row.painting(128, 128));
+  // No stroke has a number twice: the panels' numbers do not meet.
+  std::set<std::uint32_t> left_strokes;
+  std::set<std::uint32_t> right_strokes;
+  for (int y = 0; y < 256; ++y)
+    for (int x = 0; x < 256; ++x)
+      if (g.stroke(x, y) > 0) (x < 128 ? left_strokes : right_strokes).insert(g.stroke(x, y));
+  EXPECT_GT(left_strokes.size(), 500U);
+  EXPECT_LT(*left_strokes.rbegin(), *right_strokes.begin());
+}
+
+TEST(SheetPlan, SeedAndResolutionChangeEveryPanel) {
+  SheetPlan plan = small_plan();
+  const Scene usual = panel_scene(plan, 1, false).scene;
+  EXPECT_EQ(usual.terrain.synthetic->seed, 4U);  // as the panel says, for the plan's own seed
+  plan.seed += 5;
+  EXPECT_EQ(panel_scene(plan, 1, false).scene.terrain.synthetic->seed, 9U);
+  EXPECT_NE(panel_scene(plan, 1, false).scene.seed, usual.seed);
+  // Strokes are sized in millimetres: 25.4 dpi are a pixel a millimetre, half a unit.
+  EXPECT_NEAR(usual.pixels_per_unit(), 0.5, 1e-9);
+  plan.dots_per_inch = 101.6;
+  EXPECT_NEAR(panel_scene(plan, 1, false).scene.pixels_per_unit(), 2.0, 1e-9);
+}
+
+TEST(SheetPainter, PanelsHaveTheTerrainRulesAndStrokesOfTheirOwn) {
+  SheetPlan plan = small_plan();
+  plan.panels[1] = plan.panels[0];  // alike at first
+  const PixelRect left = panel_rect(plan, 0);
+  const PixelRect right = panel_rect(plan, 1);
+  // Share of the ground that both panels have alike, in a channel.
+  const auto alike = [&](const ExamplePainting& row, const auto& channel) {
+    int same = 0;
+    int ground = 0;
+    for (int y = left.y0; y < left.y1; ++y)
+      for (int x = left.x0; x < left.x1; ++x) {
+        if (row.guidance.is_sky(channel.index(x, y))) continue;
+        ++ground;
+        same += channel(x, y) == channel(right.x0 + x - left.x0, y) ? 1 : 0;
+      }
+    return static_cast<double>(same) / ground;
+  };
+  const auto painted = [&] {
+    SheetPainter painter(plan, {read_palette("summer"), std::nullopt});
+    return painter.paint_row(0, {.painting = false, .sky = false}, silent_progress());
+  };
+  const ExamplePainting twins = painted();
+  EXPECT_EQ(alike(twins, twins.guidance.altitude_m), 1.0);
+  EXPECT_EQ(alike(twins, twins.guidance.land_cover), 1.0);
+  EXPECT_LT(alike(twins, twins.ground), 0.3);  // but no stroke lies where one of the other panel does
+  plan.panels[1].settings.emplace_back("land_cover.settings.treeline_m=900");
+  const ExamplePainting other_rules = painted();
+  EXPECT_EQ(alike(other_rules, other_rules.guidance.altitude_m), 1.0);
+  EXPECT_LT(alike(other_rules, other_rules.guidance.land_cover), 0.95);
+  plan.panels[1].settings.emplace_back("terrain.synthetic.seed=6");
+  const ExamplePainting other_terrain = painted();
+  EXPECT_LT(alike(other_terrain, other_terrain.guidance.altitude_m), 0.2);
+}
+
+TEST(SheetPainter, PaintsInTheHandOfWhoeverWantsTheSheet) {
+  const SheetPlan plan = small_plan();
+  const auto mean_tone_and_blue = [&](const char* palette, const std::optional<SceneLight>& light) {
+    SheetPainter painter(plan, {read_palette(palette), light});
+    const ExamplePainting row = painter.paint_row(0, {.painting = false, .sky = false}, silent_progress());
+    glm::dvec2 sum(0.0);
+    double ground = 0.0;
+    for (std::size_t i = 0; i < row.ground.size(); ++i) {
+      if (row.guidance.is_sky(i)) continue;
+      sum += glm::dvec2(row.guidance.tone[i], row.ground[i].z);
+      ground += 1.0;
+    }
+    return sum / ground;
+  };
+  const glm::dvec2 summer = mean_tone_and_blue("summer", std::nullopt);
+  EXPECT_GT(mean_tone_and_blue("winter", std::nullopt).y, summer.y + 0.05);
+  EXPECT_LT(mean_tone_and_blue("summer", SceneLight{.sun = 0.4}).x, summer.x - 0.05);
+}
+
+class ExemplarFiles : public testing::Test {
+ protected:
+  std::string out(const std::string& name) const { return folder_ / name; }
+  void paint(const std::string& name, int threads, int tile) const {
+    write_sheet_exemplar(small_plan(), {.out_folder = out(name), .threads = threads, .tile_size = tile}, silent_progress());
+  }
+  static LoadedScene copying(const std::string& picture, const std::string& guidance, const std::string& folder) {
+    return parse_scene("version = 1\n[[exemplar]]\npicture = \"" + picture + "\"\nguidance = \"" + guidance + "\"\n", "s.toml", folder, {});
+  }
+  test::Folder folder_;
+};
+
+TEST_F(ExemplarFiles, SameBytesForAnyThreadsAndWhenMadeAgainFromTheirPlan) {
+  paint("a", 1, 32);
+  write_sheet_exemplar(read_sheet_plan(out("a/sheet.toml")), {.out_folder = out("b"), .threads = 2, .tile_size = 64}, silent_progress());
+  for (const char* file : {"painting.tif", "ground.tif", "painting.png", "guidance.exr", "sheet.toml", "coverage.json"}) {
+    const std::string left = test::read_bytes(out(std::string("a/") + file));
+    EXPECT_FALSE(left.empty()) << file;
+    EXPECT_TRUE(left == test::read_bytes(out(std::string("b/") + file))) << file;
+  }
+}
+
+TEST_F(ExemplarFiles, AreReadAsTheSheetThatWasPainted) {
+  paint("a", 0, 32);
+  SheetPainter painter(small_plan(), {read_palette("summer"), std::nullopt});
+  const ExamplePainting row = painter.paint_row(0, {}, silent_progress());
+  for (const char* layer : {"ground.tif", "painting.tif"}) {
+    const bool ground = std::string(layer) == "ground.tif";
+    const PaintedExemplar read = read_scans(copying(layer, "guidance.exr", out("a")), silent_progress()).at(0).painted;
+    const Grid<glm::vec3>& picture = ground ? row.ground : row.painting;
+    const PaintedClasses classes = classes_of_paint(row.guidance, ground ? row.guidance.ground_from : row.guidance.painted_from);
+    const GuideStack guides = make_guide_stack(row.guidance, classes.land_cover);
+    ASSERT_TRUE(read.picture.same_size(picture));
+    EXPECT_EQ(read.exemplar.guides.label, guides.label) << layer;
+    EXPECT_GT(std::count(guides.label.begin(), guides.label.end(), static_cast<std::uint8_t>(LandCoverClass::forest)), 1000);
+    double colour = 0.0;
+    double base = 0.0;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      for (int c = 0; c < 3; ++c) {
+        colour = std::max(colour, static_cast<double>(std::abs(read.picture[i][c] - std::clamp(picture[i][c], 0.F, 1.F))));
+        base = std::max(base, static_cast<double>(std::abs(read.base[i][c] - classes.base[i][c])));
+      }
+    }
+    EXPECT_LT(colour, 1.0 / 65535.0) << layer;
+    EXPECT_LT(base, 0.0003) << layer;  // half floats: 2⁻¹² of the light, less in encoded values
+    // Guides of half floats may round to the neighbouring step where they lie within 2⁻¹² of the half of one: of 255 steps at most
+    // a sixteenth of the range does, seldom more than one value in a hundred.
+    ASSERT_EQ(read.exemplar.guides.guides.size(), guides.guides.size());
+    for (std::size_t k = 0; k < guides.guides.size(); ++k) {
+      const Guide& guide = guides.guides[k];
+      EXPECT_EQ(read.exemplar.guides.guides[k].name, guide.name);
+      std::size_t other = 0;
+      for (std::size_t i = 0; i < guides.label.size(); ++i) {
+        const int step = std::abs(read.exemplar.guides.guides[k].values[i] - guide.values[i]);
+        ASSERT_LE(step, 1) << guide.name;
+        other += static_cast<std::size_t>(step);
+      }
+      EXPECT_LT(other, guides.label.size() / 100) << guide.name;
+    }
+  }
+  // Which layer a picture is makes a difference: where trees stand, paint of the painting is forest's and of the ground below another's.
+  EXPECT_NE(row.guidance.painted_from, row.guidance.ground_from);
+}
+
+TEST_F(ExemplarFiles, CountedIsTheClassOfThePaintThatIsCopied) {
+  const Coverage counted = write_sheet_exemplar(small_plan(), {.out_folder = out("a")}, silent_progress());
+  const GuidanceBuffers guidance = read_guidance(out("a/guidance.exr"));
+  Coverage of_ground_paint;
+  Coverage of_classes;
+  add_coverage(of_ground_paint, guidance, classes_of_paint(guidance, guidance.ground_from).land_cover);
+  add_coverage(of_classes, guidance, guidance.land_cover);
+  EXPECT_EQ(counted.pixels, 256 * 256);
+  EXPECT_EQ(counted.texels, of_ground_paint.texels);
+  EXPECT_EQ(counted.border, of_ground_paint.border);
+  EXPECT_NE(counted.texels, of_classes.texels);
+  EXPECT_EQ(test::read_bytes(out("a/coverage.json")), coverage_json(counted, find_gaps(counted, built_in_demand(), {})));
+}
+
+TEST_F(ExemplarFiles, GuidanceOfAnotherPaintingIsRefused) {
+  paint("a", 0, 32);
+  SheetPlan plan = small_plan();
+  plan.panels[1].settings.emplace_back("sun.altitude_deg=25");
+  write_sheet_exemplar(plan, {.out_folder = out("b")}, silent_progress());
+  std::filesystem::copy_file(out("b/guidance.exr"), out("a/guidance.exr"), std::filesystem::copy_options::overwrite_existing);
+  try {
+    read_scans(copying("ground.tif", "guidance.exr", out("a")), silent_progress());
+    FAIL() << "taken for one painting";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_NE(std::string(error.what()).find("guidance.exr"), std::string::npos);
+  }
+}
+
+TEST_F(ExemplarFiles, GuidanceWithPaintFromBeyondThePictureIsRefused) {
+  GuidanceBuffers g;
+  g.depth_m = Grid<float>(16, 16, 1000.F);
+  g.land_cover = g.painted_class = Grid<LandCoverClass>(16, 16, LandCoverClass::rock);
+  g.base = Image(16, 16);
+  g.painted_from = Grid<std::uint32_t>(16, 16, 256U);
+  write_guidance(out("g.exr"), g, {});
+  write_png8(out("p.png"), Grid<glm::vec3>(16, 16), {});
+  EXPECT_THROW(read_scans(copying("p.png", "g.exr", folder_.path()), silent_progress()), Error);
+}
+
+}  // namespace
+}  // namespace belvedere

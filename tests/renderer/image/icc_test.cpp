@@ -1,0 +1,117 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/random.h"
+#include "renderer/image/color.h"
+#include "renderer/image/image_io.h"
+#include "tests/renderer/image/picture_bytes.h"
+
+namespace belvedere {
+namespace {
+
+using test::Folder;
+
+Grid<glm::vec3> random_picture(int width, int height) {
+  Grid<glm::vec3> out(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c) out(x, y)[c] = static_cast<float>(random_uniform(1, x, y, static_cast<std::uint64_t>(c)));
+    }
+  }
+  return out;
+}
+
+std::string as_text(const std::vector<std::uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
+
+// The profile with red and green taking each other's place: the names in the table of tags are exchanged.
+std::vector<std::uint8_t> swapped_profile() {
+  std::string text = as_text(srgb_profile());
+  const std::size_t red = text.find("rXYZ");
+  const std::size_t green = text.find("gXYZ");
+  EXPECT_LT(std::max(red, green), 400u) << "both in the table of tags";
+  text[red] = 'g';
+  text[green] = 'r';
+  return {text.begin(), text.end()};
+}
+
+TEST(Icc, SrgbProfileHasTheSameBytesEveryTime) {
+  const std::vector<std::uint8_t> first = srgb_profile();
+  ::sleep(1);
+  EXPECT_EQ(first, srgb_profile());
+  ASSERT_GT(first.size(), 128u);
+  const std::string text = as_text(first);
+  EXPECT_EQ(text.substr(16, 4), "RGB ");
+  EXPECT_EQ(text.substr(36, 4), "acsp");
+  EXPECT_EQ(text.substr(24, 6), std::string("\x07\xcf\0\x0a\0\x12", 6));
+  EXPECT_NE(text.substr(84, 16), std::string(16, '\0')) << "the profile's own checksum";
+}
+
+TEST(Icc, ToSrgbIsTheIdentity) {
+  const Grid<glm::vec3> picture = random_picture(200, 50);
+  const Grid<glm::vec3> out = to_profile(picture, srgb_profile());
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(out[i][c], picture[i][c], 1.0 / 65535.0);
+  }
+}
+
+TEST(Icc, ConvertsToTheDeviceNumbers) {
+  const Grid<glm::vec3> picture = random_picture(50, 50);
+  const Grid<glm::vec3> out = to_profile(picture, swapped_profile());
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    ASSERT_NEAR(out[i].x, picture[i].y, 1e-4);
+    ASSERT_NEAR(out[i].y, picture[i].x, 1e-4);
+    ASSERT_NEAR(out[i].z, picture[i].z, 1e-4);
+  }
+}
+
+TEST(Icc, SameBitsForAnyThreads) {
+  const Grid<glm::vec3> picture = random_picture(211, 97);
+  Grid<glm::vec3> one;
+  {
+    const ThreadLimit limit(1);
+    one = to_profile(picture, swapped_profile());
+  }
+  EXPECT_EQ(one, to_profile(picture, swapped_profile()));
+}
+
+TEST(Icc, EmbeddedAndReadAgain) {
+  const Folder folder("icc");
+  PictureFileOptions options;
+  options.icc_profile = srgb_profile();
+  write_png8(folder / "a.png", random_picture(5, 5), options);
+  write_tiff16(folder / "a.tif", random_picture(5, 5), options);
+  EXPECT_EQ(read_image_info(folder / "a.png").icc_profile, options.icc_profile);
+  EXPECT_EQ(read_image_info(folder / "a.tif").icc_profile, options.icc_profile);
+  test::write_bytes(folder / "a.icc", as_text(options.icc_profile));
+  EXPECT_EQ(read_icc_profile(folder / "a.icc"), options.icc_profile);
+}
+
+TEST(Icc, FaultsAreNamed) {
+  const Folder folder("icc");
+  const std::string good = as_text(srgb_profile());
+  const auto changed = [&](std::size_t at, const std::string& with) { return std::string(good).replace(at, with.size(), with); };
+  const std::vector<std::pair<std::string, std::string>> files = {{"text.icc", "this is no profile"}, {"empty.icc", ""},
+                                                                  {"cut.icc", good.substr(0, 200)},   {"cmyk.icc", changed(16, "CMYK")},
+                                                                  {"grey.icc", changed(16, "GRAY")},  {"link.icc", changed(12, "link")}};
+  for (const auto& [name, bytes] : files) {
+    test::write_bytes(folder / name, bytes);
+    try {
+      read_icc_profile(folder / name);
+      ADD_FAILURE() << name;
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::input);
+      EXPECT_THAT(e.what(), testing::HasSubstr(name));
+    }
+    EXPECT_THROW(to_profile(random_picture(1, 1), {bytes.begin(), bytes.end()}), Error) << name;
+  }
+  EXPECT_THROW(read_icc_profile(folder / "absent.icc"), Error);
+  EXPECT_THROW(read_icc_profile(folder.path()), Error);
+}
+
+}  // namespace
+}  // namespace belvedere

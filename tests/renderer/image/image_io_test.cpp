@@ -1,0 +1,513 @@
+#include "renderer/image/image_io.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <functional>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "tests/renderer/image/picture_bytes.h"
+
+namespace belvedere {
+namespace {
+
+using namespace std::string_literals;
+using test::Folder;
+
+ErrorKind kind_of(const std::function<void()>& f) {
+  try {
+    f();
+  } catch (const Error& e) {
+    EXPECT_FALSE(e.where().empty());
+    return e.kind();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return ErrorKind::bug;
+}
+
+Grid<glm::vec3> random_picture(int width, int height, std::uint64_t seed = 1) {
+  Grid<glm::vec3> out(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c) out(x, y)[c] = static_cast<float>(random_uniform(seed, x, y, static_cast<std::uint64_t>(c)));
+    }
+  }
+  return out;
+}
+
+// A limit of file sizes stands for a full disk: writing fails in the middle of the file.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+class MemoryLimit {
+ public:
+  explicit MemoryLimit(const char* mib) { ::setenv("BELVEDERE_MEMORY_MIB", mib, 1); }
+  ~MemoryLimit() { ::unsetenv("BELVEDERE_MEMORY_MIB"); }
+  MemoryLimit(const MemoryLimit&) = delete;
+  MemoryLimit& operator=(const MemoryLimit&) = delete;
+};
+
+// --- OpenEXR ---------------------------------------------------------------------------------------------------------------------
+
+const std::vector<PartSpec> mixed_parts = {
+    {"float", {{"Z", ChannelType::float32}, {"tone.V", ChannelType::half}}},
+    {"class", {{"landcover.id", ChannelType::uint32}}},
+};
+
+float z_value(int x, int y) { return y == 3 ? std::numeric_limits<float>::infinity() : static_cast<float>(1000.0 + x * 0.125 + y * 3.7); }
+float tone_value(int x, int y) { return static_cast<float>(random_uniform(5, x, y)); }
+// Bits of signalling NaNs among them: an id may have any.
+std::uint32_t id_value(int x, int y) {
+  return x == 2 ? 0x7f800001u + static_cast<std::uint32_t>(y) : static_cast<std::uint32_t>(x * 100000 + y);
+}
+
+void write_mixed(const std::string& path, int width, int height, int step = ExrWriter::band_rows) {
+  ExrWriter writer(path, width, height, mixed_parts, {{"camera", "perspective"}, {"scene", "a = 1\nb = \"é\"\n"}});
+  for (int y0 = 0; y0 < height; y0 += step) {
+    const int rows = std::min(step, height - y0);
+    std::vector<float> values, ids;
+    for (int y = y0; y < y0 + rows; ++y) {
+      for (int x = 0; x < width; ++x) {
+        values.push_back(z_value(x, y));
+        values.push_back(tone_value(x, y));
+        ids.push_back(std::bit_cast<float>(id_value(x, y)));
+      }
+    }
+    writer.write_rows(1, y0, rows, ids);  // parts in any order
+    writer.write_rows(0, y0, rows, values);
+  }
+  writer.finish();
+}
+
+TEST(ExrWriter, RoundTripOfMixedChannels) {
+  const Folder folder("exr");
+  for (const auto& [width, height] : {std::pair{130, 200}, std::pair{64, 64}, std::pair{1, 1}, std::pair{65, 63}}) {
+    const std::string path = folder / "a.exr";
+    write_mixed(path, width, height);
+    const Grid<float> z = read_channel(path, "Z");
+    const Grid<float> tone = read_channel(path, "tone.V");
+    const Grid<std::uint32_t> ids = read_id_channel(path, "landcover.id");
+    ASSERT_EQ(z.width(), width);
+    ASSERT_EQ(z.height(), height);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        ASSERT_EQ(z(x, y), z_value(x, y));
+        ASSERT_NEAR(tone(x, y), tone_value(x, y), 0x1p-12);  // half: 11 bits below 1, rounded
+        ASSERT_EQ(ids(x, y), id_value(x, y)) << x << " " << y;
+      }
+    }
+    EXPECT_EQ(folder.count(), 1u) << "no temporary file stays";
+  }
+}
+
+TEST(ExrWriter, HeaderSaysWhatIsInIt) {
+  const Folder folder("exr");
+  write_mixed(folder / "a.exr", 100, 70);
+  const ImageInfo info = read_image_info(folder / "a.exr");
+  EXPECT_EQ(info.width, 100);
+  EXPECT_EQ(info.height, 70);
+  EXPECT_EQ(info.format, "openexr");
+  ASSERT_EQ(info.parts.size(), 2u);
+  EXPECT_EQ(info.parts[0].name, "float");
+  EXPECT_EQ(info.parts[0].channels, mixed_parts[0].channels);
+  EXPECT_EQ(info.parts[1].channels, mixed_parts[1].channels);
+  EXPECT_EQ(info.notes, (FileNotes{{"camera", "perspective"}, {"scene", "a = 1\nb = \"é\"\n"}}));
+}
+
+TEST(ExrWriter, SameBytesForAnyThreadsAndBands) {
+  const Folder folder("exr");
+  {
+    const ThreadLimit one(1);
+    write_mixed(folder / "one.exr", 300, 200, 64);
+  }
+  {
+    const ThreadLimit two(2);
+    write_mixed(folder / "two.exr", 300, 200, 64);
+    write_mixed(folder / "whole.exr", 300, 200, 256);
+  }
+  EXPECT_EQ(test::read_bytes(folder / "one.exr"), test::read_bytes(folder / "two.exr"));
+  // Bands of another height change the order of tiles in the file, so only the values must agree.
+  EXPECT_EQ(read_channel(folder / "one.exr", "tone.V"), read_channel(folder / "whole.exr", "tone.V"));
+}
+
+TEST(ExrWriter, LargeNumbersStayFinite) {
+  const Folder folder("exr");
+  Image picture(2, 1, glm::vec3(1e9f, -1e9f, std::numeric_limits<float>::infinity()));
+  write_exr(folder / "a.exr", picture, {});
+  const Grid<glm::vec3> again = read_picture(folder / "a.exr");
+  EXPECT_EQ(again(0, 0), glm::vec3(65504.0f, -65504.0f, std::numeric_limits<float>::infinity()));
+}
+
+TEST(ExrWriter, RefusesRowsOutOfPlace) {
+  const Folder folder("exr");
+  const std::vector<float> band(10 * 128 * 2);
+  ExrWriter writer(folder / "a.exr", 10, 128, {mixed_parts[0]}, {});
+  EXPECT_EQ(kind_of([&] { writer.write_rows(0, 64, 64, band); }), ErrorKind::bug);
+  EXPECT_EQ(kind_of([&] { writer.write_rows(0, 0, 63, band); }), ErrorKind::bug);
+  EXPECT_EQ(kind_of([&] { writer.write_rows(1, 0, 64, band); }), ErrorKind::bug);
+  writer.write_rows(0, 0, 64, band);
+  EXPECT_EQ(kind_of([&] { writer.finish(); }), ErrorKind::bug);
+  EXPECT_EQ(kind_of([&] { ExrWriter(folder / "b.exr", 10, 10, {mixed_parts[0]}, {{"channels", "x"}}); }), ErrorKind::bug);
+}
+
+TEST(ExrWriter, WithoutFinishTheOldFileStays) {
+  const Folder folder("exr");
+  test::write_bytes(folder / "a.exr", "old");
+  {
+    ExrWriter writer(folder / "a.exr", 10, 10, {mixed_parts[0]}, {});
+    writer.write_rows(0, 0, 10, std::vector<float>(200));
+  }
+  EXPECT_EQ(test::read_bytes(folder / "a.exr"), "old");
+  EXPECT_EQ(folder.count(), 1u);
+}
+
+TEST(ExrReader, MissingChannelIsNamedWithThoseThatAreThere) {
+  const Folder folder("exr");
+  write_mixed(folder / "a.exr", 10, 10);
+  EXPECT_EQ(kind_of([&] { read_id_channel(folder / "a.exr", "Z"); }), ErrorKind::input);
+  EXPECT_EQ(kind_of([&] { read_channel(folder / "a.exr", "landcover.id"); }), ErrorKind::input);
+  try {
+    read_channel(folder / "a.exr", "ridge.V");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::input);
+    EXPECT_THAT(e.what(), testing::AllOf(testing::HasSubstr("a.exr"), testing::HasSubstr("ridge.V"), testing::HasSubstr("landcover.id")));
+  }
+}
+
+TEST(ExrReader, AnyCutIsFound) {
+  const Folder folder("exr");
+  write_mixed(folder / "a.exr", 130, 130);
+  const std::string whole = test::read_bytes(folder / "a.exr");
+  for (const double part : {0.001, 0.01, 0.1, 0.5, 0.9, 0.999}) {
+    test::write_bytes(folder / "b.exr",
+                      std::string_view(whole).substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
+    EXPECT_EQ(kind_of([&] {
+                read_channel(folder / "b.exr", "Z");
+                read_id_channel(folder / "b.exr", "landcover.id");
+              }),
+              ErrorKind::input)
+        << part;
+  }
+}
+
+// --- pictures ------------------------------------------------------------------------------------------------------------------------
+
+TEST(Tiff, RoundsToTheNearestStepAndReadsBack) {
+  const Folder folder("tiff");
+  Grid<glm::vec3> picture = random_picture(300, 270);
+  picture(0, 0) = glm::vec3(-1.0f, 2.0f, std::nanf(""));
+  picture(1, 0) = glm::vec3(0.49f / 65535.0f, 0.51f / 65535.0f, 1.0f);
+  write_tiff16(folder / "a.tif", picture, {});
+  const Grid<glm::vec3> again = read_picture(folder / "a.tif");
+  ASSERT_TRUE(again.same_size(picture));
+  EXPECT_EQ(again(0, 0), glm::vec3(0.0f, 1.0f, 0.0f));
+  EXPECT_EQ(again(1, 0), glm::vec3(0.0f, 1.0f / 65535.0f, 1.0f));
+  for (std::size_t i = 2; i < picture.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      ASSERT_EQ(std::lround(again[i][c] * 65535.0), std::lround(static_cast<double>(picture[i][c]) * 65535.0)) << i;
+    }
+  }
+}
+
+TEST(Tiff, CarriesResolutionProfileAndNotes) {
+  const Folder folder("tiff");
+  PictureFileOptions options;
+  options.dots_per_inch = 301.5;
+  options.icc_profile.assign(1000, 7);
+  options.notes = {{"scene", "a = 1\nb = 'x\\y: z'\n"}, {"version", "1"}};
+  for (const bool png : {false, true}) {
+    const std::string path = folder / (png ? "a.png" : "a.tif");
+    if (png) options.icc_profile.clear();  // libpng checks profiles; icc_test embeds a true one
+    png ? write_png8(path, random_picture(20, 10), options) : write_tiff16(path, random_picture(20, 10), options);
+    const ImageInfo info = read_image_info(path);
+    EXPECT_EQ(info.format, png ? "png" : "tiff");
+    EXPECT_EQ(info.width, 20);
+    EXPECT_EQ(info.height, 10);
+    EXPECT_NEAR(info.dots_per_inch, 301.5, 0.02);
+    EXPECT_EQ(info.icc_profile, options.icc_profile);
+    EXPECT_EQ(info.notes.at("scene"), options.notes.at("scene"));
+    EXPECT_EQ(info.notes.at("version"), "1");
+    ASSERT_EQ(info.parts.size(), 1u);
+    EXPECT_EQ(info.parts[0].channels.at(2).type, png ? ChannelType::uint8 : ChannelType::uint16);
+  }
+}
+
+TEST(Tiff, SameBytesForAnyThreads) {
+  const Folder folder("tiff");
+  const Grid<glm::vec3> picture = random_picture(600, 300);
+  {
+    const ThreadLimit one(1);
+    write_tiff16(folder / "one.tif", picture, {});
+  }
+  ::sleep(1);  // another second must not show either
+  write_tiff16(folder / "two.tif", picture, {});
+  EXPECT_EQ(test::read_bytes(folder / "one.tif"), test::read_bytes(folder / "two.tif"));
+}
+
+TEST(Tiff, BecomesBigTiffFromTheSizeOn) {
+  const Folder folder("tiff");
+  const Grid<glm::vec3> picture = random_picture(10, 10);
+  PictureFileOptions options;
+  EXPECT_EQ(options.big_tiff_from_bytes, std::uint64_t{1} << 31);
+  for (const std::uint64_t from : {600u, 601u}) {
+    options.big_tiff_from_bytes = from;
+    write_tiff16(folder / "a.tif", picture, options);
+    EXPECT_EQ(test::read_bytes(folder / "a.tif").substr(0, 4), from == 600u ? "II+\0"s : "II*\0"s);
+    EXPECT_EQ(read_picture(folder / "a.tif").width(), 10);
+  }
+}
+
+TEST(Png, RoundsToTheNearestStepAndReadsBack) {
+  const Folder folder("png");
+  Grid<glm::vec3> picture = random_picture(70, 130);
+  picture(0, 0) = glm::vec3(-1.0f, 2.0f, 0.51f / 255.0f);
+  write_png8(folder / "a.png", picture, {});
+  const Grid<glm::vec3> again = read_picture(folder / "a.png");
+  EXPECT_EQ(again(0, 0), glm::vec3(0.0f, 1.0f, 1.0f / 255.0f));
+  for (std::size_t i = 1; i < picture.size(); ++i) {
+    for (int c = 0; c < 3; ++c) ASSERT_EQ(std::lround(again[i][c] * 255.0), std::lround(static_cast<double>(picture[i][c]) * 255.0));
+  }
+}
+
+TEST(Exr, PictureReadsBackAsHalf) {
+  const Folder folder("exr");
+  const Grid<glm::vec3> picture = random_picture(70, 130);
+  write_exr(folder / "a.exr", picture, {{"program", "1"}});
+  const Grid<glm::vec3> again = read_picture(folder / "a.exr");
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(again[i][c], picture[i][c], 0x1p-12);
+  }
+  EXPECT_EQ(read_image_info(folder / "a.exr").notes, (FileNotes{{"program", "1"}}));
+}
+
+TEST(ReadPicture, AlphaDoesNotTouchColours) {
+  const Folder folder("png");
+  test::write_bytes(folder / "rgba.png", test::make_png(2, 1, 8, 6, "\x64\xc8\x32\x00\x64\xc8\x32\x80"s));
+  Grid<float> alpha;
+  Grid<glm::vec3> picture = read_picture(folder / "rgba.png", &alpha);
+  for (int x = 0; x < 2; ++x) {
+    EXPECT_NEAR(picture(x, 0).x, 100.0 / 255.0, 1e-7);
+    EXPECT_NEAR(picture(x, 0).y, 200.0 / 255.0, 1e-7);
+    EXPECT_NEAR(picture(x, 0).z, 50.0 / 255.0, 1e-7);
+  }
+  EXPECT_EQ(alpha(0, 0), 0.0f);
+  EXPECT_NEAR(alpha(1, 0), 128.0 / 255.0, 1e-6);
+  test::write_bytes(folder / "ga.png", test::make_png(1, 1, 8, 4, "\x64\x80"s));
+  picture = read_picture(folder / "ga.png", &alpha);
+  EXPECT_NEAR(picture(0, 0).x, 100.0 / 255.0, 1e-7);
+  EXPECT_NEAR(alpha(0, 0), 128.0 / 255.0, 1e-6);
+  test::write_bytes(folder / "grey.png", test::make_png(1, 1, 16, 0, "\x80\x00"s));
+  EXPECT_NEAR(read_picture(folder / "grey.png", &alpha)(0, 0).y, 32768.0 / 65535.0, 1e-6);
+  EXPECT_EQ(alpha(0, 0), 1.0f);
+}
+
+TEST(ReadGrey, GivesTheNumbersOfTheFile) {
+  const Folder folder("grey");
+  test::write_bytes(folder / "16.png", test::make_png(3, 1, 16, 0, "\x00\x05\x01\x00\xff\xff"s));
+  EXPECT_THAT(read_grey(folder / "16.png"), testing::ElementsAre(5, 256, 65535));
+  test::write_bytes(folder / "8.png", test::make_png(3, 1, 8, 0, "\x00\x07\xff"s));
+  EXPECT_THAT(read_grey(folder / "8.png"), testing::ElementsAre(0, 7, 255));
+  test::write_bytes(folder / "4.png", test::make_png(4, 1, 4, 0, "\x03\x9f"s));
+  EXPECT_THAT(read_grey(folder / "4.png"), testing::ElementsAre(0, 3, 9, 15));
+  test::write_bytes(folder / "1.png", test::make_png(8, 1, 1, 0, "\x25"s));
+  EXPECT_THAT(read_grey(folder / "1.png"), testing::ElementsAre(0, 0, 1, 0, 0, 1, 0, 1));
+  test::write_bytes(folder / "ga.png", test::make_png(2, 1, 8, 4, "\x09\x10\x03\x00"s));
+  EXPECT_THAT(read_grey(folder / "ga.png"), testing::ElementsAre(9, 3));
+  test::write_bytes(folder / "8.tif", test::make_tiff(3, 2, "\x00\x01\x02\x0a\x0b\xff"s));
+  EXPECT_THAT(read_grey(folder / "8.tif"), testing::ElementsAre(0, 1, 2, 10, 11, 255));
+}
+
+TEST(ReadGrey, PaletteGivesIndicesWhateverTheColours) {
+  const Folder folder("grey");
+  // Two entries of one colour: looking colours up would mix them.
+  const std::string palette = "\x10\x20\x30\xff\x00\x00\x10\x20\x30\x00\xff\x00"s;
+  test::write_bytes(folder / "8.png", test::make_png(4, 1, 8, 3, "\x03\x00\x02\x01"s, palette));
+  EXPECT_THAT(read_grey(folder / "8.png"), testing::ElementsAre(3, 0, 2, 1));
+  test::write_bytes(folder / "2.png", test::make_png(4, 2, 2, 3, "\xc9\x1b"s, palette));
+  EXPECT_THAT(read_grey(folder / "2.png"), testing::ElementsAre(3, 0, 2, 1, 0, 1, 2, 3));
+  EXPECT_EQ(read_picture(folder / "8.png")(3, 0), glm::vec3(1.0f, 0.0f, 0.0f));
+}
+
+TEST(ReadGrey, RefusesColour) {
+  const Folder folder("grey");
+  test::write_bytes(folder / "rgb.png", test::make_png(1, 1, 8, 2, "\x01\x01\x01"s));
+  EXPECT_EQ(kind_of([&] { read_grey(folder / "rgb.png"); }), ErrorKind::input);
+}
+
+// --- damaged, hostile, foreign ---------------------------------------------------------------------------------------------------
+
+// 32 × 32 grey, quality 60, by the Independent JPEG Group's encoder.
+const std::string jpeg_bytes(
+    "\xff\xd8\xff\xe0\x00\x10\x4a\x46\x49\x46\x00\x01\x01\x00\x00\x01\x00\x01\x00\x00\xff\xdb\x00\x43\x00\x0d\x09\x0a\x0b\x0a\x08\x0d"
+    "\x0b\x0a\x0b\x0e\x0e\x0d\x0f\x13\x20\x15\x13\x12\x12\x13\x27\x1c\x1e\x17\x20\x2e\x29\x31\x30\x2e\x29\x2d\x2c\x33\x3a\x4a\x3e\x33"
+    "\x36\x46\x37\x2c\x2d\x40\x57\x41\x46\x4c\x4e\x52\x53\x52\x32\x3e\x5a\x61\x5a\x50\x60\x4a\x51\x52\x4f\xff\xc0\x00\x0b\x08\x00\x20"
+    "\x00\x20\x01\x01\x11\x00\xff\xc4\x00\x16\x00\x01\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x04\x05\x07\xff\xc4"
+    "\x00\x16\x10\x01\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x03\x00\x61\xff\xda\x00\x08\x01\x01\x00\x00\x3f\x00"
+    "\xcf\xc4\x32\x78\x86\x4f\x10\xc9\xe2\x19\x46\x10\xc9\xe2\x19\x3c\x43\x27\x08\x65\x1c\x43\x27\x08\x64\xf1\x0c\x9e\x21\x94\x61\x0c"
+    "\x9e\x21\x93\xc4\x32\x78\x86\x5f\xff\xd9",
+    202);
+// 8 × 8 CMYK.
+const std::string cmyk_bytes(
+    "\xff\xd8\xff\xee\x00\x0e\x41\x64\x6f\x62\x65\x00\x64\x00\x00\x00\x00\x00\xff\xdb\x00\x43\x00\x0d\x09\x0a\x0b\x0a\x08\x0d\x0b\x0a"
+    "\x0b\x0e\x0e\x0d\x0f\x13\x20\x15\x13\x12\x12\x13\x27\x1c\x1e\x17\x20\x2e\x29\x31\x30\x2e\x29\x2d\x2c\x33\x3a\x4a\x3e\x33\x36\x46"
+    "\x37\x2c\x2d\x40\x57\x41\x46\x4c\x4e\x52\x53\x52\x32\x3e\x5a\x61\x5a\x50\x60\x4a\x51\x52\x4f\xff\xc0\x00\x14\x08\x00\x08\x00\x08"
+    "\x04\x43\x11\x00\x4d\x11\x00\x59\x11\x00\x4b\x11\x00\xff\xc4\x00\x14\x00\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00"
+    "\x00\x00\x07\xff\xc4\x00\x14\x10\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\xff\xda\x00\x0e\x04\x43\x00"
+    "\x4d\x00\x59\x00\x4b\x00\x00\x3f\x00\x4e\x27\x13\x89\xcf\xff\xd9",
+    176);
+
+TEST(ReadPicture, TruncatedFilesAreFound) {
+  const Folder folder("cut");
+  std::string rows;
+  for (int i = 0; i < 40 * 40; ++i) rows += static_cast<char>(i * 7);
+  const Grid<glm::vec3> picture = random_picture(300, 300);
+  write_tiff16(folder / "own.tif", picture, {});
+  write_png8(folder / "own.png", picture, {});
+  const std::vector<std::pair<std::string, std::string>> files = {{"a.tif", test::make_tiff(40, 40, rows)},
+                                                                  {"b.tif", test::read_bytes(folder / "own.tif")},
+                                                                  {"c.png", test::make_png(40, 40, 8, 0, rows)},
+                                                                  {"d.png", test::read_bytes(folder / "own.png")},
+                                                                  {"e.png", test::make_png(40, 40, 8, 3, rows, std::string(768, 'x'))},
+                                                                  {"f.jpg", jpeg_bytes}};
+  for (const auto& [name, whole] : files) {
+    test::write_bytes(folder / name, whole);
+    EXPECT_NO_THROW(read_picture(folder / name)) << name;
+    for (const double part : {0.0, 0.02, 0.1, 0.5, 0.9, 0.995}) {
+      test::write_bytes(folder / name,
+                        std::string_view(whole).substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
+      EXPECT_EQ(kind_of([path = folder / name] { read_picture(path); }), ErrorKind::input) << name << " cut to " << part;
+      if (!name.ends_with("jpg")) {
+        EXPECT_EQ(kind_of([path = folder / name] { read_grey(path); }), ErrorKind::input) << name << " cut to " << part;
+      }
+    }
+  }
+}
+
+TEST(ReadPicture, JpegIsReadWhole) {
+  const Folder folder("jpeg");
+  test::write_bytes(folder / "a.jpg", jpeg_bytes);
+  const Grid<glm::vec3> picture = read_picture(folder / "a.jpg");
+  ASSERT_EQ(picture.height(), 32);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 32; ++x) ASSERT_NEAR(picture(x, y).x * 255.0, (4 * y + 3 * x) % 256, 8.0) << x << " " << y;
+  }
+}
+
+TEST(ReadPicture, HugeClaimsAreRefusedBeforeAllocating) {
+  const Folder folder("huge");
+  // 95,000² pixels: 27 GB of grey bytes and far more as floats, in a file of some hundred bytes.
+  test::write_bytes(folder / "a.png", test::make_png(95000, 95000, 8, 2, ""));
+  EXPECT_LT(test::read_bytes(folder / "a.png").size(), 100u);
+  test::write_bytes(folder / "a.exr", test::make_exr_header(95000, 95000));
+  test::write_bytes(folder / "max.exr", test::make_exr_header(0x7fffffffu, 0x7fffffffu));
+  EXPECT_EQ(kind_of([&] { read_picture(folder / "a.png"); }), ErrorKind::limit);
+  test::write_bytes(folder / "grey.png", test::make_png(95000, 950000, 16, 0, ""));
+  EXPECT_EQ(kind_of([&] { read_grey(folder / "grey.png"); }), ErrorKind::limit);
+  test::write_bytes(folder / "p.png", test::make_png(95000, 950000, 8, 3, "", "abc"));
+  EXPECT_EQ(kind_of([&] { read_grey(folder / "p.png"); }), ErrorKind::limit);
+  EXPECT_EQ(kind_of([&] { read_channel(folder / "a.exr", "Z"); }), ErrorKind::limit);
+  EXPECT_EQ(kind_of([&] { read_channel(folder / "max.exr", "Z"); }), ErrorKind::limit);
+  EXPECT_EQ(read_image_info(folder / "a.exr").width, 95000) << "looking at the header costs nothing";
+}
+
+TEST(ReadPicture, KeepsToTheMemoryGiven) {
+  const Folder folder("limit");
+  write_exr(folder / "a.exr", random_picture(300, 400), {});
+  write_tiff16(folder / "a.tif", random_picture(300, 400), {});
+  EXPECT_NO_THROW(read_picture(folder / "a.tif"));
+  const MemoryLimit limit("1");
+  EXPECT_EQ(kind_of([&] { read_picture(folder / "a.tif"); }), ErrorKind::limit);
+  EXPECT_EQ(kind_of([&] { read_picture(folder / "a.exr"); }), ErrorKind::limit);
+  EXPECT_NO_THROW(read_channel(folder / "a.exr", "R")) << "half a megabyte";
+}
+
+TEST(ReadPicture, NamesWhatIsNoPicture) {
+  const Folder folder("none");
+  EXPECT_EQ(kind_of([&] { read_picture(folder / "absent.png"); }), ErrorKind::input);
+  EXPECT_EQ(kind_of([&] { read_picture(folder.path()); }), ErrorKind::input);
+  test::write_bytes(folder / "text.png", "not a picture at all");
+  EXPECT_EQ(kind_of([&] { read_picture(folder / "text.png"); }), ErrorKind::input);
+  test::write_bytes(folder / "cmyk.jpg", cmyk_bytes);
+  EXPECT_EQ(kind_of([&] { read_picture(folder / "cmyk.jpg"); }), ErrorKind::input);
+  // The content counts, not the name.
+  test::write_bytes(folder / "png.tif", test::make_png(1, 1, 8, 0, "\x01"s));
+  EXPECT_EQ(read_image_info(folder / "png.tif").format, "png");
+}
+
+// --- output that fails -----------------------------------------------------------------------------------------------------------
+
+TEST(Output, FullDiskLeavesTheOldFileWhole) {
+  const Folder folder("full");
+  const Grid<glm::vec3> picture = random_picture(200, 200);
+  const std::vector<std::pair<std::string, std::function<void(const std::string&)>>> writers = {
+      {"a.tif", [&](const std::string& path) { write_tiff16(path, picture, {}); }},
+      {"a.png", [&](const std::string& path) { write_png8(path, picture, {}); }},
+      {"a.exr", [&](const std::string& path) { write_exr(path, picture, {}); }},
+      {"b.exr", [&](const std::string& path) { write_mixed(path, 200, 200); }},
+  };
+  std::size_t files = 0;
+  for (const auto& [name, write] : writers) {
+    test::write_bytes(folder / name, "old");
+    ++files;
+    write(folder / ("whole" + name));
+    ++files;
+    const auto size = static_cast<rlim_t>(test::read_bytes(folder / ("whole" + name)).size());
+    // In the first byte, in the middle, and in the last byte.
+    for (const rlim_t limit : {rlim_t{0}, size / 2, size - 1}) {
+      const SmallDisk disk(limit);
+      EXPECT_EQ(kind_of([&, w = &write, n = &name] { (*w)(folder / *n); }), ErrorKind::output) << name << " " << limit;
+      EXPECT_EQ(test::read_bytes(folder / name), "old") << name << " " << limit;
+      EXPECT_EQ(folder.count(), files) << "the temporary file is removed";
+    }
+    const SmallDisk disk(size);
+    EXPECT_NO_THROW(write(folder / name)) << "just large enough";
+  }
+}
+
+TEST(Output, PlacesWhereNothingCanBeWritten) {
+  const Folder folder("place");
+  test::write_bytes(folder / "file", "x");
+  const Grid<glm::vec3> picture(2, 2);
+  for (const std::string& place : {folder / "file/a", folder / "absent/a", "/proc/a"s}) {
+    EXPECT_EQ(kind_of([&] { write_tiff16(place + ".tif", picture, {}); }), ErrorKind::output) << place;
+    EXPECT_EQ(kind_of([&] { write_png8(place + ".png", picture, {}); }), ErrorKind::output) << place;
+    EXPECT_EQ(kind_of([&] { write_exr(place + ".exr", picture, {}); }), ErrorKind::output) << place;
+  }
+  EXPECT_EQ(kind_of([&] { check_output_folder(folder / "file/below"); }), ErrorKind::output);
+  EXPECT_EQ(kind_of([&] { check_output_folder("/proc/self"); }), ErrorKind::output);
+  EXPECT_NO_THROW(check_output_folder(folder / "new/below"));
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "new/below"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "new/below"));
+  // A folder of the output's name: the rename fails, and nothing stays.
+  std::filesystem::create_directories(folder / "taken.png");
+  EXPECT_EQ(kind_of([&] { write_png8(folder / "taken.png", picture, {}); }), ErrorKind::output);
+  EXPECT_FALSE(std::filesystem::exists(folder / "taken.tmp.png"));
+}
+
+}  // namespace
+}  // namespace belvedere

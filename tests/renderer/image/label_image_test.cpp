@@ -1,0 +1,66 @@
+#include "renderer/image/label_image.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "tests/renderer/image/picture_bytes.h"
+#include "texture/synthesis/guide_stack.h"
+
+namespace belvedere {
+namespace {
+
+class LabelImage : public testing::Test {
+ protected:
+  // Left red, right blue, between them two columns of a soft edge; `third` fills the lowest rows.
+  std::string draw(const std::string& name, const std::string& third) const {
+    std::string rows;
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 20; ++x) {
+        const std::string mixed = x == 9 ? "\xaa\x30\x55" : "\x55\x30\xaa";
+        rows += y >= 12 ? third : x < 9 ? std::string("\xff\0\0", 3) : x > 10 ? std::string("\0\0\xff", 3) : mixed;
+      }
+    return write(name, 2, rows);
+  }
+  std::string write(const std::string& name, int colour_type, const std::string& rows) const {
+    const std::string path = folder_ / name;
+    test::write_bytes(path, test::make_png(20, 16, 8, colour_type, rows));
+    return path;
+  }
+  test::Folder folder_;
+};
+
+TEST_F(LabelImage, ColoursThatAreTheSameAreTheSameLabelInEveryFile) {
+  const std::string green("\0\xff\0", 3);
+  const LabelImages images = read_label_images({draw("a.png", green), draw("b.png", std::string("\0\0\xff", 3))});
+  ASSERT_EQ(images.colours.size(), 3U);
+  EXPECT_EQ(images.colours[0], (Rgb8{0, 0, 255}));
+  EXPECT_EQ(images.colours[1], (Rgb8{0, 255, 0}));
+  EXPECT_EQ(images.colours[2], (Rgb8{255, 0, 0}));
+  for (int x = 0; x < 20; ++x) {
+    EXPECT_EQ(images.labels[0](x, 4), x < 10 ? 2 : 0) << x;  // each half of the soft edge goes to its side
+    EXPECT_EQ(images.labels[0](x, 15), 1) << x;
+    EXPECT_EQ(images.labels[1](x, 15), 0) << x;
+  }
+}
+
+TEST_F(LabelImage, NumbersStayAsTheyAre) {
+  std::string rows(20 * 16, '\3');
+  rows[7] = '\xff';
+  const LabelImages images = read_label_images({write("a.png", 0, rows)});
+  EXPECT_TRUE(images.colours.empty());
+  EXPECT_EQ(images.labels[0](0, 0), 3);
+  EXPECT_EQ(images.labels[0](7, 0), unused_label);
+}
+
+TEST_F(LabelImage, RefusesWhatTellsNoLabels) {
+  const std::string drawn = draw("a.png", std::string("\0\xff\0", 3));
+  const std::string numbers = write("n.png", 0, std::string(20 * 16, '\3'));
+  EXPECT_THROW(read_label_images({drawn, numbers}), Error);
+  EXPECT_THROW(read_label_images({numbers, drawn}), Error);
+  std::string noise;
+  for (int i = 0; i < 20 * 16 * 3; ++i) noise += static_cast<char>(i * 37 % 251);
+  EXPECT_THROW(read_label_images({write("noise.png", 2, noise)}), Error);
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,258 @@
+#include "renderer/paint/composite.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/random.h"
+
+namespace belvedere {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+TEST(Srgb, KnownValues) {
+  // 8-bit code, linear value (IEC 61966-2-1 evaluated with 12 digits elsewhere).
+  const std::pair<double, double> known[] = {
+      {0.0, 0.0}, {10.0, 0.003035269835}, {11.0, 0.003346535764}, {128.0, 0.215860500500}, {255.0, 1.0}};
+  for (const auto& [code, linear] : known) {
+    const Grid<glm::vec3> encoded(1, 1, glm::vec3(static_cast<float>(code / 255.0)));
+    EXPECT_NEAR(decode_srgb(encoded)(0, 0).x, linear, 1e-7);
+    EXPECT_NEAR(encode_srgb(Image(1, 1, glm::vec3(static_cast<float>(linear))))(0, 0).z, code / 255.0, 1e-7);
+  }
+}
+
+TEST(Srgb, RoundTripKeepsEvery16BitStep) {
+  Grid<glm::vec3> encoded(65536, 1);
+  for (int i = 0; i < 65536; ++i) encoded(i, 0) = glm::vec3(static_cast<float>(i / 65535.0));
+  const Grid<glm::vec3> again = encode_srgb(decode_srgb(encoded));
+  for (int i = 0; i < 65536; ++i) ASSERT_EQ(std::lround(again(i, 0).y * 65535.0), i);
+}
+
+PaintedExemplar make_exemplar(bool with_base) {
+  PaintedExemplar e;
+  e.picture = Grid<glm::vec3>(3, 2, glm::vec3(0.5f, 0.6f, 0.7f));
+  e.picture(2, 1) = glm::vec3(0.1f, 0.9f, 0.4f);
+  if (with_base) e.base = Grid<glm::vec3>(3, 2, glm::vec3(0.4f));
+  return e;
+}
+
+TEST(TransferResidual, AddsAPartOfTheDifferenceOfBases) {
+  const std::vector<PaintedExemplar> exemplars = {make_exemplar(true), make_exemplar(false)};
+  MatchField matches(4, 1);
+  matches(0, 0) = {0, 0, 0};
+  matches(1, 0) = {0, 2, 1};
+  matches(2, 0) = {1, 2, 1};
+  const Grid<glm::vec3> base(4, 1, glm::vec3(0.6f, 0.8f, 0.2f));
+  const Grid<glm::vec3> out = transfer_residual(matches, exemplars, base, {}, 0.75);
+  const glm::vec3 wanted[] = {
+      {0.65f, 0.9f, 0.55f},  // .5 + .75 (.6 - .4) …
+      {0.25f, 1.0f, 0.25f},  // green would be 1.2
+      {0.1f, 0.9f, 0.4f},    // a scan has no base
+      {0.6f, 0.8f, 0.2f},    // no match
+  };
+  for (int x = 0; x < 4; ++x) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(out(x, 0)[c], wanted[x][c], 1e-6) << x;
+  }
+}
+
+TEST(TransferResidual, SameBaseGivesTheTexel) {
+  const std::vector<PaintedExemplar> exemplars = {make_exemplar(true)};
+  const Grid<glm::vec3> out =
+      transfer_residual(MatchField(1, 1, Match{0, 2, 1}), exemplars, Grid<glm::vec3>(1, 1, glm::vec3(0.4f)), {}, 0.75);
+  EXPECT_EQ(out(0, 0), exemplars[0].picture(2, 1));
+}
+
+TEST(TransferResidual, RefusesMatchesOutside) {
+  const std::vector<PaintedExemplar> exemplars = {make_exemplar(true)};
+  const Grid<glm::vec3> base(1, 1);
+  EXPECT_THROW(transfer_residual(MatchField(1, 1, Match{1, 0, 0}), exemplars, base, {}, 0.5), Error);
+  EXPECT_THROW(transfer_residual(MatchField(1, 1, Match{0, 3, 0}), exemplars, base, {}, 0.5), Error);
+  EXPECT_THROW(transfer_residual(MatchField(2, 1), exemplars, base, {}, 0.5), Error);
+}
+
+// Pasture left of x = 20, rock right of it.
+Grid<LandCoverClass> two_classes() {
+  Grid<LandCoverClass> classes(40, 30, LandCoverClass::pasture);
+  for (int y = 0; y < 30; ++y)
+    for (int x = 20; x < 40; ++x) classes(x, y) = LandCoverClass::rock;
+  return classes;
+}
+
+Grid<LandCoverClass> shown_classes(const Painting& draft, const Grid<LandCoverClass>& land_cover) {
+  Grid<LandCoverClass> shown = land_cover;
+  for (std::size_t i = 0; i < shown.size(); ++i) shown[i] = land_cover[draft.sources[i]];
+  return shown;
+}
+
+TEST(MixBorders, GivesTheBordersOfThePaintingItself) {
+  GuidanceBuffers g;
+  g.land_cover = two_classes();
+  g.depth_m = Grid<float>(40, 30, 1000.F);
+  g.tone = Grid<float>(40, 30, 0.5F);
+  // Slanting dry strokes over the border, white where they are grass, black where they are rock.
+  std::vector<Stroke> strokes;
+  for (int k = 0; k < 60; ++k) {
+    Stroke s;
+    const glm::vec2 at(40.F * static_cast<float>(random_uniform(1, k, 0)), 30.F * static_cast<float>(random_uniform(1, k, 1)));
+    s.points = {at - glm::vec2(5.F, 2.F), at + glm::vec2(5.F, 2.F)};
+    s.point_count = 2;
+    s.start_width = s.end_width = 3.F;
+    s.alpha = 0.3F + 0.6F * static_cast<float>(random_uniform(1, k, 2));
+    s.bristle = 0.5F;
+    s.depth_m = 1000.F;
+    s.seed = static_cast<std::uint32_t>(k);
+    s.source = static_cast<std::uint32_t>(g.depth_m.index(static_cast<int>(at.x), static_cast<int>(at.y)));
+    s.colour = glm::vec3(g.land_cover[s.source] == LandCoverClass::pasture ? 1.F : 0.F);
+    strokes.push_back(s);
+  }
+  Grid<glm::vec3> canvas(40, 30, glm::vec3(0.F));
+  for (std::size_t i = 0; i < canvas.size(); ++i) canvas[i] = glm::vec3(g.land_cover[i] == LandCoverClass::pasture ? 1.F : 0.F);
+  Painting draft = begin_painting(canvas);
+  paint_in_order(draft, g, strokes, 1.0, silent_progress());
+  // A picture of whole pixels, each of the class that shows there most: torn paper.
+  const Grid<LandCoverClass> shown = shown_classes(draft, g.land_cover);
+  Grid<glm::vec3> copied = canvas;
+  for (std::size_t i = 0; i < copied.size(); ++i) copied[i] = glm::vec3(shown[i] == LandCoverClass::pasture ? 1.F : 0.F);
+  const Grid<glm::vec3> out = mix_borders(copied, draft, shown, g.land_cover, canvas);
+  int mixed = 0;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    ASSERT_NEAR(out[i].x, draft.picture[i].x, 0.5 / 255 + 1e-5) << i;
+    mixed += out[i].x > 0.1F && out[i].x < 0.9F ? 1 : 0;
+  }
+  EXPECT_GT(mixed, 100);
+}
+
+TEST(MixBorders, TakesTheColourOfWhereTheStrokeGrew) {
+  const Grid<LandCoverClass> land_cover = two_classes();
+  Grid<glm::vec3> copied(40, 30, glm::vec3(0.2F));
+  Painting draft = begin_painting(copied);
+  const std::size_t grass = copied.index(3, 3);
+  copied[grass] = glm::vec3(0.8F, 0.4F, 0.6F);
+  Grid<glm::vec3> base(40, 30, glm::vec3(0.F));
+  base[grass] = glm::vec3(1.F, 0.5F, 0.F);
+  const std::size_t here = copied.index(30, 7);
+  draft.under[here] = static_cast<std::uint32_t>(grass);
+  draft.under_share[here] = 51;  // a fifth
+  const Grid<glm::vec3> out = mix_borders(copied, draft, land_cover, land_cover, base);
+  EXPECT_NEAR(out[here].x, 0.8 * 0.2 + 0.2 * 0.8, 1e-6);
+  EXPECT_NEAR(out[here].z, 0.8 * 0.2 + 0.2 * 0.6, 1e-6);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (i != here) {
+      ASSERT_EQ(out[i], copied[i]) << "one class alone";
+    }
+  }
+  // Where the stroke grew, rock has been painted over the grass: its colour there is not grass's.
+  Grid<LandCoverClass> shown = land_cover;
+  shown[grass] = LandCoverClass::rock;
+  const Grid<glm::vec3> hidden = mix_borders(copied, draft, shown, land_cover, base);
+  EXPECT_NEAR(hidden[here].x, 0.8 * 0.2 + 0.2 * 1.0, 1e-6);
+  EXPECT_NEAR(hidden[here].z, 0.8 * 0.2, 1e-6);
+}
+
+TEST(MixBorders, RefusesGridsOfDifferentSize) {
+  const Painting draft = begin_painting(Grid<glm::vec3>(4, 3));
+  const Grid<LandCoverClass> classes(4, 3);
+  EXPECT_THROW(mix_borders(Grid<glm::vec3>(3, 3), draft, classes, classes, Grid<glm::vec3>(4, 3)), Error);
+}
+
+// The part of pixel x, y (centre at whole numbers) below the line v = slope u + offset, by 64 × 64 samples: fine enough for 1e-3.
+double covered(int x, int y, double slope, double offset) {
+  int inside = 0;
+  for (int j = 0; j < 64; ++j) {
+    for (int i = 0; i < 64; ++i) {
+      const double u = x - 0.5 + (i + 0.5) / 64;
+      const double v = y - 0.5 + (j + 0.5) / 64;
+      inside += v > slope * u + offset ? 1 : 0;
+    }
+  }
+  return inside / 4096.0;
+}
+
+struct Edge {
+  Grid<glm::vec3> picture;
+  GuidanceBuffers guidance;
+  Grid<float> coverage;  // of the near surface
+};
+
+// A near surface below a slanted line before something else; every pixel is painted for the surface that fills most of it.
+Edge make_edge(double slope, float far_depth, glm::vec3 near_colour, glm::vec3 far_colour) {
+  constexpr int size = 40;
+  Edge e{Grid<glm::vec3>(size, size), {}, Grid<float>(size, size)};
+  e.guidance.depth_m = Grid<float>(size, size);
+  e.guidance.front = Grid<float>(size, size);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const double part = covered(x, y, slope, 12.3);
+      const bool near = part >= 0.5;
+      e.coverage(x, y) = static_cast<float>(part);
+      e.picture(x, y) = near ? near_colour : far_colour;
+      e.guidance.depth_m(x, y) = near ? 5000.0f : far_depth;
+      e.guidance.front(x, y) = static_cast<float>(near ? part : 1.0 - part);
+    }
+  }
+  return e;
+}
+
+TEST(BlendEdges, GivesTheLightOfTheCoveredArea) {
+  const glm::vec3 near_colour(0.2f, 0.3f, 0.1f);
+  const glm::vec3 far_colour(0.7f, 0.8f, 0.95f);
+  for (const double slope : {0.0, 0.37, 0.9}) {
+    for (const float far_depth : {5300.0f, 40000.0f, infinity}) {
+      const Edge e = make_edge(slope, far_depth, near_colour, far_colour);
+      const Image out = decode_srgb(blend_edges(e.picture, e.guidance));
+      const Image pure = decode_srgb(Grid<glm::vec3>(2, 1, near_colour));
+      const Image sky = decode_srgb(Grid<glm::vec3>(2, 1, far_colour));
+      double largest = 0.0;
+      for (int y = 0; y < out.height(); ++y) {
+        for (int x = 0; x < out.width(); ++x) {
+          const float part = e.coverage(x, y);
+          const glm::vec3 wanted = part * pure(0, 0) + (1.0f - part) * sky(0, 0);
+          for (int c = 0; c < 3; ++c) largest = std::max(largest, static_cast<double>(std::abs(out(x, y)[c] - wanted[c]) / sky(0, 0)[c]));
+        }
+      }
+      EXPECT_LT(largest, 0.05) << slope << " " << far_depth;
+    }
+  }
+}
+
+TEST(BlendEdges, LeavesWholePixelsAlone) {
+  Edge e = make_edge(0.37, infinity, glm::vec3(0.2f), glm::vec3(0.9f));
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) e.picture(x, y) += static_cast<float>(0.05 * random_uniform(4, x, y));
+  }
+  const Grid<glm::vec3> out = blend_edges(e.picture, e.guidance);
+  int changed = 0;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (e.guidance.front[i] == 1.0f) {
+      ASSERT_EQ(out[i], e.picture[i]);
+    } else {
+      changed += out[i] != e.picture[i] ? 1 : 0;
+    }
+  }
+  EXPECT_GT(changed, 30);
+}
+
+TEST(BlendEdges, OneSurfaceIsNotBlurred) {
+  // front < 1 for another reason, and depths that change by less than 3 % from pixel to pixel.
+  GuidanceBuffers guidance;
+  guidance.depth_m = Grid<float>(8, 8);
+  guidance.front = Grid<float>(8, 8, 0.6f);
+  Grid<glm::vec3> picture(8, 8);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      guidance.depth_m(x, y) = 1000.0f + 10.0f * static_cast<float>(x + y);
+      picture(x, y) = glm::vec3(static_cast<float>(random_uniform(4, x, y)));
+    }
+  }
+  EXPECT_EQ(blend_edges(picture, guidance), picture);
+  guidance.depth_m = Grid<float>(8, 8, infinity);
+  EXPECT_EQ(blend_edges(picture, guidance), picture) << "sky beside sky";
+  guidance.front = {};
+  EXPECT_EQ(blend_edges(picture, guidance), picture) << "nothing known";
+}
+
+}  // namespace
+}  // namespace belvedere

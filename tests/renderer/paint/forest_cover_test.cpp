@@ -1,0 +1,157 @@
+#include "renderer/paint/forest_cover.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "renderer/paint/paint.h"
+#include "tests/renderer/exemplar/painted_hills.h"
+#include "texture/strokes/stroke_kinds.h"
+
+namespace belvedere {
+namespace {
+
+using enum LandCoverClass;
+
+// A wooded slope of 20 m a unit at 1700 m, where only spruces grow. `ppu` pixels a unit.
+GuidanceBuffers wood(int width, int height, float ppu = 1.0F) {
+  GuidanceBuffers g = test::make_slope(width, height, forest, {0.0F, 0.0F, 1.0F}, 28.0F);
+  const float metres = 20.0F / ppu;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      g.position_m(x, y) = {metres * (static_cast<float>(x) + 0.5F), -metres * (static_cast<float>(y) + 0.5F), 1700.0F};
+  g.footprint_m = Grid<float>(width, height, metres);
+  return g;
+}
+
+// Variance of the counts in square windows of 40 units (20 mm) over their mean: 1 for trees strewn at random, near 0 for a lattice.
+template <class Density>
+double dispersion(Density&& density_of) {
+  GuidanceBuffers g = wood(800, 600);
+  PaintGround ground = make_paint_ground(g, read_palette("summer"), {}, {0, 0}, {800, 600}, silent_progress());
+  density_of(ground.tree_density);
+  const StrokeParameters parameters;
+  constexpr int cell = 40;
+  Grid<int> counts(800 / cell, 600 / cell, 0);
+  for (const Stroke& s : forest_trees({g, ground, parameters}))
+    if (s.gate == StrokeGate::upright && s.start_width > 2.4F && s.alpha > 0.85F)  // bodies
+      ++counts(std::clamp(static_cast<int>(s.points[0].x), 0, 799) / cell, std::clamp(static_cast<int>(s.points[0].y), 0, 599) / cell);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const int n : counts) {
+    sum += n;
+    squares += static_cast<double>(n) * n;
+  }
+  const double mean = sum / static_cast<double>(counts.size());
+  EXPECT_GT(mean, 30.0);
+  return (squares / static_cast<double>(counts.size()) - mean * mean) / mean;
+}
+
+TEST(ForestCover, TreesStandInGroupsWithGaps) {
+  const double even = dispersion([](Grid<float>& density) {
+    for (float& d : density) d = 0.9F;
+  });
+  RecordProperty("dispersion_even", std::to_string(even));
+  EXPECT_LT(even, 2.0) << "the measure itself: an even cover is no more uneven than chance";
+  EXPECT_GT(dispersion([](Grid<float>&) {}), 3.6);
+}
+
+TEST(ForestCover, GladesAreBareAndFew) {
+  const ForestCover cover = make_forest_cover(wood(800, 600), {}, {0, 0});
+  int glades = 0;
+  for (std::size_t i = 0; i < cover.glade.size(); ++i) {
+    if (cover.glade[i] < 0.95F) continue;
+    ++glades;
+    EXPECT_LT(cover.density[i], glade_density);
+  }
+  const double share = static_cast<double>(glades) / static_cast<double>(cover.glade.size());
+  EXPECT_GT(share, 0.02);
+  EXPECT_LT(share, 0.15);
+}
+
+// Meadow above or below: the treeline frays, the lower edge stands like a wall.
+TEST(ForestCover, ThinsToTheTreelineNotToTheMeadow) {
+  const auto density_at_edge = [](LandCoverClass beyond, bool above) {
+    GuidanceBuffers g = wood(600, 160);
+    for (int y = 0; y < 160; ++y)
+      for (int x = 0; x < 600; ++x)
+        if (above ? y < 40 : y >= 120) g.land_cover(x, y) = beyond;
+    const ForestCover cover = make_forest_cover(g, {}, {0, 0});
+    double sum = 0.0;
+    for (int k = 0; k < 8; ++k)
+      for (int x = 0; x < 600; ++x) sum += cover.density(x, above ? 40 + k : 119 - k);
+    return sum / 4800.0;
+  };
+  EXPECT_LT(density_at_edge(alpine_grass, true), 0.6 * density_at_edge(pasture, false));
+  EXPECT_LT(density_at_edge(alpine_grass, true), 0.6 * density_at_edge(pasture, true));
+  EXPECT_GT(density_at_edge(valley_floor, false), 0.6);
+}
+
+// Avalanches start at the treeline and run down the fall line, so what is bare there is longer than wide.
+TEST(ForestCover, TracksRunDownTheFallLine) {
+  GuidanceBuffers g = wood(600, 200);
+  const glm::vec2 fall(0.6F, 0.8F);
+  for (auto& d : g.fall_line) d = fall;
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 600; ++x) g.land_cover(x, y) = rock;
+  for (float& slope : g.slope_deg) slope = 40.0F;
+  const ForestCover cover = make_forest_cover(g, {}, {0, 0});
+  double along = 0.0;
+  double across = 0.0;
+  for (int y = 32; y < 60; ++y)
+    for (int x = 60; x < 540; ++x) {
+      along += std::abs(cover.glade(x + 6, y + 8) - cover.glade(x, y));
+      across += std::abs(cover.glade(x - 8, y + 6) - cover.glade(x, y));
+    }
+  EXPECT_GT(across, 200.0) << "there are tracks";
+  EXPECT_LT(along, 0.65 * across);
+}
+
+TEST(ForestCover, HollowsAreFullerThanRidges) {
+  const auto mean_density = [](float relief_m) {
+    GuidanceBuffers g = wood(300, 200);
+    for (float& r : g.relief_s_m) r = relief_m;
+    return test::mean(make_forest_cover(g, {}, {0, 0}).density);
+  };
+  EXPECT_GT(mean_density(-8.0F), mean_density(8.0F) + 0.08);
+}
+
+TEST(ForestCover, KeepsItsSizeOnTheSheet) {
+  const ForestCover small = make_forest_cover(wood(200, 150), {}, {0, 0});
+  const ForestCover large = make_forest_cover(wood(800, 600, 4.0F), {.pixels_per_unit = 4.0}, {0, 0});
+  double difference = 0.0;
+  for (int y = 10; y < 140; ++y)
+    for (int x = 10; x < 190; ++x) difference += std::abs(small.density(x, y) - large.density(4 * x + 2, 4 * y + 2)) / (180.0 * 130.0);
+  EXPECT_LT(difference, 0.05);
+}
+
+TEST(ForestCover, OtherGroundHasNone) {
+  GuidanceBuffers g = wood(40, 30);
+  for (auto& id : g.land_cover) id = pasture;
+  const ForestCover cover = make_forest_cover(g, {}, {0, 0});
+  EXPECT_EQ(cover.density, Grid<float>(40, 30, 0.0F));
+  EXPECT_EQ(cover.glade, Grid<float>(40, 30, 0.0F));
+}
+
+// A treeline above the part wanted, out of reach of a small margin: tracks and thinning depend on it.
+TEST(ForestCover, PartEqualsWhole) {
+  GuidanceBuffers g = wood(360, 400);
+  for (auto& d : g.fall_line) d = glm::vec2(0.28F, 0.96F);
+  for (int y = 0; y < 150; ++y)
+    for (int x = 0; x < 360; ++x) g.land_cover(x, y) = rock;
+  for (float& slope : g.slope_deg) slope = 40.0F;
+  const ForestCover whole = make_forest_cover(g, {}, {0, 0});
+  const PixelRect wanted{130, 165, 230, 240};
+  const PixelRect part = test::with_margin(wanted, forest_cover_margin_px(1.0), 360, 400);
+  ASSERT_GT(part.x0, 0);
+  ASSERT_GT(part.y0, 0);
+  const ForestCover cover = make_forest_cover(test::cut(g, part), {}, {part.x0, part.y0});
+  for (int y = wanted.y0; y < wanted.y1; ++y)
+    for (int x = wanted.x0; x < wanted.x1; ++x) {
+      ASSERT_EQ(cover.density(x - part.x0, y - part.y0), whole.density(x, y));
+      ASSERT_EQ(cover.glade(x - part.x0, y - part.y0), whole.glade(x, y));
+    }
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,308 @@
+#include "renderer/paint/light.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "base/error.h"
+#include "base/noise.h"
+#include "renderer/paint/picture_filter.h"
+#include "renderer/paint/picture_noise.h"
+#include "renderer/paint/ribs.h"
+#include "tests/renderer/exemplar/painted_hills.h"
+
+namespace belvedere {
+namespace {
+
+using test::cut;
+using test::make_hills;
+using test::make_slope;
+using test::mean;
+using test::with_margin;
+
+const glm::vec3 sun_side_normal(-0.612F, 0.612F, 0.5F);
+
+Grid<float> tone_of(const GuidanceBuffers& guidance, const ToneParameters& parameters = {}) {
+  return make_tone(guidance, parameters, {0, 0}, silent_progress());
+}
+
+TEST(Tone, GrowsWithLight) {
+  // Slopes turned step by step from the sun's side to the far side.
+  double lighter = 2.0;
+  for (double angle = 0.0; angle < 1.8; angle += 0.2) {
+    const glm::vec3 towards = glm::normalize(sun_side_normal);
+    const glm::vec3 side = glm::normalize(glm::vec3(1.0F, 1.0F, 0.0F));
+    const glm::vec3 normal = towards * static_cast<float>(std::cos(angle)) + side * static_cast<float>(std::sin(angle));
+    const double tone = mean(tone_of(make_slope(24, 24, LandCoverClass::pasture, normal, 10.0F)));
+    EXPECT_LT(tone, lighter) << "angle " << angle;
+    lighter = tone;
+  }
+}
+
+TEST(Tone, ShadowTakesItsShareOfTheSun) {
+  GuidanceBuffers lit = make_slope(24, 24, LandCoverClass::pasture, sun_side_normal, 10.0F);
+  GuidanceBuffers dark = lit;
+  for (float& s : dark.shadow) s = 0.0F;
+  ToneParameters p;
+  p.sun_strength = 0.6;  // full light must not clip here
+  // The sun alone gives sun_strength on this slope; a cast shadow takes shadow_depth of it, and tone is light / 0.98.
+  for (const double depth : {0.3, 0.78}) {
+    p.shadow_depth = depth;
+    EXPECT_NEAR(mean(tone_of(lit, p)) - mean(tone_of(dark, p)), 0.6 * depth / 0.98, 1e-3);
+  }
+}
+
+TEST(Tone, SkyViewAndReliefLighten) {
+  const glm::vec3 away(0.612F, -0.612F, 0.9F);
+  const GuidanceBuffers open = make_slope(24, 24, LandCoverClass::alpine_grass, away, 10.0F);
+  GuidanceBuffers narrow = open;
+  for (float& v : narrow.sky_view) v = 0.4F;
+  EXPECT_GT(mean(tone_of(open)), mean(tone_of(narrow)) + 0.05);
+  GuidanceBuffers high = open;
+  for (float& t : high.relief_m_m) t = 70.0F;
+  EXPECT_NEAR(mean(tone_of(high)) - mean(tone_of(open)), 0.04 / 0.98, 1e-3);
+}
+
+TEST(Tone, StaysInRange) {
+  const GuidanceBuffers hills = make_hills(200, 160);
+  const Grid<float> tone = tone_of(hills);
+  double low = 1.0, high = 0.0;
+  for (std::size_t i = 0; i < tone.size(); ++i) {
+    EXPECT_GE(tone[i], 0.0F);
+    EXPECT_LE(tone[i], 1.02F);
+    if (hills.is_sky(i)) {
+      EXPECT_EQ(tone[i], 0.0F);
+    }
+    low = std::min<double>(low, tone[i]);
+    high = std::max<double>(high, tone[i]);
+  }
+  EXPECT_LT(low, 0.2);
+  EXPECT_GT(high, 0.9);
+}
+
+TEST(Tone, OutcropsInTheWoodAreCalmerThanWalls) {
+  // A slope of rock, lit in its left half and in shadow in its right one, and the same with wood all around a small patch of each.
+  GuidanceBuffers wall = make_slope(160, 80, LandCoverClass::rock, sun_side_normal, 45.0F);
+  for (int y = 0; y < 80; ++y)
+    for (int x = 80; x < 160; ++x) wall.shadow(x, y) = 0.0F;
+  GuidanceBuffers outcrops = wall;
+  const auto in_patch = [](int x, int y) { return std::abs(y - 40) < 6 && (std::abs(x - 40) < 6 || std::abs(x - 120) < 6); };
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 160; ++x)
+      if (!in_patch(x, y)) outcrops.land_cover(x, y) = LandCoverClass::forest;
+  ToneParameters p;
+  p.ribs = 0.0;
+  const auto patch = [&](const Grid<float>& tone, int middle) {
+    double sum = 0.0;
+    int count = 0;
+    for (int y = 35; y <= 45; ++y)
+      for (int x = middle - 5; x <= middle + 5; ++x, ++count) sum += static_cast<double>(tone(x, y));
+    return sum / count;
+  };
+  const Grid<float> of_wall = tone_of(wall, p);
+  const Grid<float> of_outcrops = tone_of(outcrops, p);
+  EXPECT_LT(patch(of_outcrops, 40), patch(of_wall, 40) - 0.1) << "not white";
+  EXPECT_LT(patch(of_outcrops, 40) - patch(of_outcrops, 120), 0.7 * (patch(of_wall, 40) - patch(of_wall, 120))) << "less contrast";
+}
+
+TEST(Tone, BenchesOfRockAreLighterThanWalls) {
+  ToneParameters p;
+  p.ribs = 0.0;
+  p.sun_strength = 0.4;  // nothing clips
+  const auto tone = [&](LandCoverClass id, float slope_deg) {
+    return mean(tone_of(make_slope(24, 24, id, sun_side_normal, slope_deg), p));
+  };
+  // Full light of a bench is reached 13° below the slope of a wall: .11 of raw light, .98 of which is a whole tone, times rock's contrast.
+  EXPECT_NEAR(tone(LandCoverClass::rock, 29.0F) - tone(LandCoverClass::rock, 42.0F), 0.11 / 0.98 * 1.45, 1e-3);
+  EXPECT_NEAR(tone(LandCoverClass::rock, 20.0F), tone(LandCoverClass::rock, 29.0F), 1e-6);
+  EXPECT_GT(tone(LandCoverClass::rock, 42.0F), tone(LandCoverClass::rock, 50.0F) + 0.05);
+  EXPECT_NEAR(tone(LandCoverClass::scree, 29.0F), tone(LandCoverClass::scree, 42.0F), 1e-6);
+}
+
+TEST(Tone, WallsInShadowKeepTheirForms) {
+  // A wall away from the sun and in cast shadow: a bench on it and a lighter rise of the ground still differ, and nothing is lighter than
+  // before.
+  GuidanceBuffers wall = make_slope(24, 24, LandCoverClass::rock, glm::vec3(0.612F, -0.612F, 0.5F), 50.0F);
+  for (float& s : wall.shadow) s = 0.0F;
+  for (float& v : wall.sky_view) v = 0.3F;
+  GuidanceBuffers bench = wall;
+  for (float& slope : bench.slope_deg) slope = 35.0F;
+  ToneParameters p;
+  p.ribs = 0.0;
+  const double dark = mean(tone_of(wall, p));
+  EXPECT_LT(dark, 0.1);
+  EXPECT_GT(dark, 0.0);
+  EXPECT_GT(mean(tone_of(bench, p)), dark + 0.01);
+}
+
+TEST(Tone, CrestTakesTheToneFromBelow) {
+  // A dark rim of two pixels on a lit slope, below a farther range.
+  GuidanceBuffers g = make_slope(24, 24, LandCoverClass::pasture, sun_side_normal, 10.0F);
+  for (int x = 0; x < 24; ++x) {
+    for (int y = 0; y < 10; ++y) g.depth_m(x, y) = 40000.0F;
+    for (int y = 10; y < 12; ++y) g.normal(x, y) = g.normal_smooth(x, y) = glm::normalize(glm::vec3(0.6F, -0.6F, 0.2F));
+  }
+  const Grid<float> tone = tone_of(g);
+  EXPECT_EQ(tone(12, 10), tone(12, 13));
+  EXPECT_GE(tone(12, 11), tone(12, 14));
+  // Without the range behind there is no crest, and the rim stays dark.
+  for (float& depth : g.depth_m) depth = 20000.0F;
+  EXPECT_LT(tone_of(g)(12, 10), tone(12, 10) - 0.3F);
+}
+
+TEST(Tone, RibsAreLitFromTheSunsSide) {
+  GuidanceBuffers g = make_slope(96, 96, LandCoverClass::rock, glm::vec3(0.0F, 0.3F, 1.0F), 45.0F);
+  ToneParameters p;
+  p.sun_image_x = 0.6;
+  const Grid<float> right = tone_of(g, p);
+  p.sun_image_x = -0.6;
+  const Grid<float> left = tone_of(g, p);
+  p.ribs = 0.0;
+  const Grid<float> none = tone_of(g, p);
+  // What is light from one side is dark from the other.
+  double product = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < none.size(); ++i) {
+    product += (right[i] - none[i]) * (left[i] - none[i]);
+    squares += (right[i] - none[i]) * (right[i] - none[i]);
+  }
+  EXPECT_GT(squares / static_cast<double>(none.size()), 0.003);
+  EXPECT_LT(product, -0.2 * squares);
+}
+
+TEST(Tone, PartEqualsWhole) {
+  for (const double ppu : {1.0, 2.5}) {
+    const int width = ppu > 1.0 ? 420 : 260;
+    const int height = ppu > 1.0 ? 360 : 200;
+    const GuidanceBuffers hills = make_hills(width, height, ppu);
+    ToneParameters p;
+    p.pixels_per_unit = ppu;
+    const Grid<float> whole = tone_of(hills, p);
+    const PixelRect wanted{width / 2 - 21, height / 2 - 30, width / 2 + 20, height / 2 + 17};
+    const PixelRect part = with_margin(wanted, tone_margin_px(p), width, height);
+    ASSERT_GT(part.x0, 0);
+    const Grid<float> tone = make_tone(cut(hills, part), p, {part.x0, part.y0}, silent_progress());
+    for (int y = wanted.y0; y < wanted.y1; ++y)
+      for (int x = wanted.x0; x < wanted.x1; ++x) ASSERT_EQ(tone(x - part.x0, y - part.y0), whole(x, y)) << x << " " << y << " ppu " << ppu;
+  }
+}
+
+TEST(Tone, SameBitsForAnyThreads) {
+  const GuidanceBuffers hills = make_hills(180, 140);
+  Grid<float> one;
+  {
+    const ThreadLimit limit(1);
+    one = tone_of(hills);
+  }
+  const ThreadLimit limit(2);
+  EXPECT_EQ(tone_of(hills), one);
+}
+
+TEST(Tone, LooksAlikeAtAllResolutions) {
+  // Sizes are units of the sheet: at twice the resolution the mean of four pixels is the pixel of the small picture, but for sampling.
+  const GuidanceBuffers small = make_hills(200, 150, 1.0);
+  const GuidanceBuffers large = make_hills(400, 300, 2.0);
+  ToneParameters p;
+  const Grid<float> at_one = tone_of(small, p);
+  p.pixels_per_unit = 2.0;
+  const Grid<float> at_two = tone_of(large, p);
+  double difference = 0.0, spread = 0.0;
+  int count = 0;
+  const double middle = mean(at_one);
+  for (int y = 0; y < 150; ++y)
+    for (int x = 0; x < 200; ++x) {
+      if (small.is_sky(small.depth_m.index(x, y))) continue;
+      const double fine =
+          0.25 * (at_two(2 * x, 2 * y) + at_two(2 * x + 1, 2 * y) + at_two(2 * x, 2 * y + 1) + at_two(2 * x + 1, 2 * y + 1));
+      difference += std::abs(fine - at_one(x, y));
+      spread += std::abs(at_one(x, y) - middle);
+      ++count;
+    }
+  EXPECT_LT(difference / count, 0.25 * spread / count);
+}
+
+TEST(Tone, MissingChannelIsAnError) {
+  GuidanceBuffers g = make_slope(8, 8, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 10.0F);
+  g.sky_view = {};
+  EXPECT_THROW(tone_of(g), Error);
+}
+
+TEST(PictureNoise, EqualsTheNoiseOfBase) {
+  const Grid<float> grid = make_image_noise(9, {-13, 250}, 70, 40, 1.7, 3.2, 7.0);
+  GroundNoise ground(9, 210.0);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 70; ++x) {
+      EXPECT_NEAR(grid(x, y), gaussian_noise(9, (x - 13 + 0.5) / 1.7, (y + 250 + 0.5) / 1.7, 3.2, 7.0), 2e-6);
+      const double e = 31.0 * x - 700.0, n = -57.0 * y;
+      EXPECT_NEAR(ground(e, n), gaussian_noise(9, e, n, 210.0), 2e-6);
+    }
+}
+
+TEST(Ribs, LineIntegralHasDeviationOne) {
+  const GuidanceBuffers g = make_slope(500, 300, LandCoverClass::rock, {0.0F, 0.3F, 1.0F}, 45.0F);
+  const Grid<std::uint8_t> all(500, 300, 1);
+  const std::array<Grid<float>, 3> fields = integrate_along_fall_line(g, all, 3, {0, 0}, 1.0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Grid<float>& field = fields[k];
+    double squares = 0.0, along = 0.0, across = 0.0;
+    int count = 0;
+    for (int y = 60; y < 240; ++y)
+      for (int x = 60; x < 440; ++x, ++count) {
+        squares += field(x, y) * field(x, y);
+        along += field(x, y) * field(x, y + 5);
+        across += field(x, y) * field(x + 5, y);
+      }
+    EXPECT_NEAR(std::sqrt(squares / count), 1.0, 0.2) << "width " << k;
+    EXPECT_GT(along, across) << "the field must run down the fall line";
+  }
+}
+
+TEST(Ribs, DoNotCrossASilhouette) {
+  GuidanceBuffers g = make_slope(60, 120, LandCoverClass::rock, {0.0F, 0.3F, 1.0F}, 45.0F);
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x) g.depth_m(x, y) = 50000.0F;
+  const Grid<std::uint8_t> all(60, 120, 1);
+  const Grid<float> before = integrate_along_fall_line(g, all, 3, {0, 0}, 1.0)[0];
+  // Turning the far range's fall line must not change the near one.
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x) g.fall_line(x, y) = {0.8F, 0.6F};
+  const Grid<float> after = integrate_along_fall_line(g, all, 3, {0, 0}, 1.0)[0];
+  for (int x = 0; x < 60; ++x) EXPECT_EQ(after(x, 61), before(x, 61));
+  EXPECT_NE(after(30, 50), before(30, 50));
+}
+
+TEST(PictureFilter, GaussianHasItsDeviationAndPlace) {
+  for (const double sigma : {2.0, 9.0, 40.0}) {
+    const int size = 2 * blur_reach_px(sigma) + 41;
+    Grid<float> spot(size, size, 0.0F);
+    spot(size / 2, size / 2) = 1.0F;
+    const Grid<float> blurred = blur_in_picture(spot, sigma, {7, 3});
+    double sum = 0.0, moment = 0.0, square = 0.0;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) {
+        sum += blurred(x, y);
+        moment += blurred(x, y) * (x - size / 2);
+        square += blurred(x, y) * (x - size / 2) * (x - size / 2);
+      }
+    EXPECT_NEAR(sum, 1.0, 1e-3);
+    EXPECT_NEAR(moment, 0.0, 0.1 * sigma);
+    EXPECT_NEAR(std::sqrt(square), sigma, 0.04 * sigma) << sigma;
+  }
+}
+
+TEST(PictureFilter, BlurOnASurfaceKeepsSurfacesApart) {
+  Grid<float> values(40, 20, 0.0F);
+  Grid<float> depth(40, 20, 10000.0F);
+  for (int y = 0; y < 20; ++y)
+    for (int x = 20; x < 40; ++x) {
+      values(x, y) = 1.0F;
+      depth(x, y) = 20000.0F;
+    }
+  EXPECT_EQ(blur_on_surface(values, depth, 3.0)(19, 10), 0.0F);
+  EXPECT_EQ(blur_on_surface(values, depth, 3.0)(20, 10), 1.0F);
+  EXPECT_NEAR(blur_in_picture(values, 3.0, {0, 0})(19, 10), 0.43F, 0.05F);
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,209 @@
+#include "renderer/paint/sky.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "tests/renderer/exemplar/painted_hills.h"
+
+namespace belvedere {
+namespace {
+
+constexpr float sky_depth = std::numeric_limits<float>::infinity();
+
+SkyParameters small_sky() {
+  SkyParameters p;
+  p.picture_size = {600, 300};
+  p.horizon_px = 120.0;
+  return p;
+}
+
+TEST(Sky, GradientEndsInItsStops) {
+  const Palette palette = read_palette("summer");
+  EXPECT_EQ(sky_gradient(palette, 0.0), palette.sky.front().second);
+  EXPECT_EQ(sky_gradient(palette, -1.0), palette.sky.front().second);
+  EXPECT_EQ(sky_gradient(palette, 1.0), palette.sky.back().second);
+  EXPECT_EQ(sky_gradient(palette, 2.0), palette.sky.back().second);
+  const glm::vec3 middle = sky_gradient(palette, 0.45);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(middle[k], 0.5F * (palette.sky[1].second[k] + palette.sky[2].second[k]), 1e-6F);
+}
+
+TEST(Sky, WithoutCloudsItIsTheGradient) {
+  const Palette palette = read_palette("winter");
+  SkyParameters p = small_sky();
+  p.clouds = 0.0;
+  const Grid<glm::vec3> sky = make_sky(Grid<float>(600, 150, sky_depth), palette, p, {0, 0});
+  for (int x = 0; x < 600; x += 7) {
+    EXPECT_LT(glm::length(sky(x, 0) - palette.sky.front().second), 0.05F);
+    EXPECT_LT(glm::length(sky(x, 119) - palette.sky.back().second), 0.01F);
+    EXPECT_LT(glm::length(sky(x, 149) - air_beyond(palette, 149.5 / 120.0)), 1e-6F) << "below the horizon";
+  }
+}
+
+TEST(Sky, CloudsHaveFlatBasesAndShrinkTowardsTheHorizon) {
+  const std::vector<Cloud> clouds = make_clouds({});
+  ASSERT_GT(clouds.size(), 10U);
+  double far = 0.0, near = 0.0;
+  int far_count = 0, near_count = 0;
+  for (const Cloud& cloud : clouds) {
+    for (const CloudHead& head : cloud.heads) EXPECT_LE(head.centre.y, cloud.base_px);
+    const double width = cloud.to.x - cloud.from.x;
+    if (cloud.base_px > 198.0 * 0.84) far += width, ++far_count;
+    if (cloud.base_px < 198.0 * 0.72) near += width, ++near_count;
+  }
+  ASSERT_GT(far_count, 0);
+  ASSERT_GT(near_count, 0);
+  EXPECT_GT(near / near_count, 1.5 * far / far_count);
+}
+
+// Height over width and the place of the highest head: what tells two clouds apart at a glance.
+TEST(Sky, NoTwoCloudsAreAlike) {
+  const std::vector<Cloud> clouds = make_clouds({});
+  std::vector<glm::dvec2> shapes;
+  for (const Cloud& cloud : clouds) {
+    const CloudHead* top = &cloud.heads.front();
+    for (const CloudHead& head : cloud.heads)
+      if (head.centre.y - head.radius.y < top->centre.y - top->radius.y) top = &head;
+    const double width = cloud.to.x - cloud.from.x;
+    shapes.emplace_back((cloud.base_px - cloud.from.y) / width, (top->centre.x - cloud.from.x) / width);
+  }
+  double low = 1.0, high = 0.0, left = 1.0, right = 0.0;
+  int alike = 0, pairs = 0;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    low = std::min(low, shapes[i].x), high = std::max(high, shapes[i].x);
+    left = std::min(left, shapes[i].y), right = std::max(right, shapes[i].y);
+    for (std::size_t k = i + 1; k < shapes.size(); ++k, ++pairs) alike += glm::length(shapes[i] - shapes[k]) < 0.02 ? 1 : 0;
+  }
+  EXPECT_GT(high, 2.5 * low) << "heaps and drawn-out banks";
+  EXPECT_GT(right - left, 0.35) << "heads stand left, right and in the middle";
+  EXPECT_LT(alike, 0.06 * pairs);
+}
+
+// Where clouds stand, as a mask of columns: no other seed may share more of it than chance would.
+TEST(Sky, EverySeedHasASkyOfItsOwn) {
+  const auto columns = [](std::uint64_t seed) {
+    SkyParameters p;
+    p.seed = seed;
+    std::vector<bool> mask(2400, false);
+    for (const Cloud& cloud : make_clouds(p))
+      for (int x = std::max(0, static_cast<int>(cloud.from.x)); x < std::min(2400.0F, cloud.to.x); ++x)
+        if (cloud.base_px < 150.0F) mask[static_cast<std::size_t>(x)] = true;
+    return mask;
+  };
+  int worst = 0;
+  for (std::uint64_t a = 1; a < 7; ++a)
+    for (std::uint64_t b = a + 1; b < 8; ++b) {
+      const std::vector<bool> one = columns(a), other = columns(b);
+      int both = 0, either = 0;
+      for (std::size_t x = 0; x < one.size(); ++x) both += one[x] && other[x], either += one[x] || other[x];
+      ASSERT_GT(either, 200) << a << ", " << b;
+      worst = std::max(worst, 100 * both / either);
+    }
+  EXPECT_LT(worst, 75);
+}
+
+// The sky must not be the loudest part: clear sky and veils change from row to row, hardly along a row.
+TEST(Sky, VeilsLieLevel) {
+  const Palette palette = read_palette("summer");
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SkyParameters p;
+    p.seed = seed;
+    const std::vector<Cloud> clouds = make_clouds(p);
+    const Grid<glm::vec3> sky = make_sky(Grid<float>(2400, 198, sky_depth), palette, p, {0, 0});
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    for (int y = 4; y < 190; y += 2)
+      for (int x = 4; x < 2396; x += 2) {
+        bool clear = true;
+        for (const Cloud& c : clouds) clear = clear && (x < c.from.x - 8 || x > c.to.x + 8 || y < c.from.y - 8 || y > c.to.y + 8);
+        if (!clear) continue;
+        // What is left of the gradient from top to horizon, which is level by nature, would hide the slope of veils.
+        const double gx = sky(x + 4, y).r - sky(x - 4, y).r;
+        const double gy =
+            sky(x, y + 4).r - sky(x, y - 4).r - (sky_gradient(palette, (y + 4.5) / 198.0).r - sky_gradient(palette, (y - 3.5) / 198.0).r);
+        xx += gx * gx, xy += gx * gy, yy += gy * gy;
+      }
+    ASSERT_GT(yy, 0.0);
+    // The axis of least change, degrees from level, and how strongly the veils keep to it.
+    EXPECT_LT(std::abs(0.5 * std::atan2(2.0 * xy, yy - xx)) * 57.3, 3.0) << seed;
+    EXPECT_GT(yy, 12.0 * xx) << seed;
+  }
+}
+
+TEST(Sky, BelowTheHorizonIsHazeNotSky) {
+  const Palette palette = read_palette("summer");
+  EXPECT_EQ(air_beyond(palette, 0.4), sky_gradient(palette, 0.4));
+  EXPECT_EQ(air_beyond(palette, 1.0), sky_gradient(palette, 1.0));
+  const glm::vec3 deep = air_beyond(palette, 3.0);
+  EXPECT_LT(glm::length(deep - palette.haze_far), 0.45F * glm::length(palette.sky.back().second - palette.haze_far));
+}
+
+TEST(Sky, CloudsAreLitFromAboveAndShadedBelow) {
+  const Palette palette = read_palette("summer");
+  const SkyParameters p;
+  const Grid<glm::vec3> sky = make_sky(Grid<float>(2400, 198, sky_depth), palette, p, {0, 0});
+  double top = 0.0, foot = 0.0;
+  int count = 0;
+  for (const Cloud& cloud : make_clouds(p)) {
+    const int x = static_cast<int>(0.5F * (cloud.from.x + cloud.to.x));
+    const float height = cloud.base_px - cloud.from.y;
+    const int y_top = static_cast<int>(cloud.base_px - 0.5F * height);
+    const int y_foot = static_cast<int>(cloud.base_px - 0.12F * height);
+    if (x < 0 || x >= 2400 || y_top < 0 || cloud.base_px > 160.0F) continue;
+    top += sky(x, y_top).r;
+    foot += sky(x, y_foot).r;
+    ++count;
+  }
+  ASSERT_GT(count, 3);
+  EXPECT_GT(top / count, foot / count + 0.02);
+}
+
+TEST(Sky, PartEqualsWholeAndTerrainIsLeftOut) {
+  const Palette palette = read_palette("summer");
+  const SkyParameters p = small_sky();
+  Grid<float> depth(600, 150, sky_depth);
+  for (int x = 0; x < 600; ++x)
+    for (int y = 100; y < 150; ++y) depth(x, y) = 9000.0F;
+  const Grid<glm::vec3> whole = make_sky(depth, palette, p, {0, 0});
+  EXPECT_EQ(whole(300, 120), glm::vec3(0.0F));
+  const PixelRect rect{123, 17, 391, 140};
+  EXPECT_EQ(make_sky(test::cut(depth, rect), palette, p, {rect.x0, rect.y0}), test::cut(whole, rect));
+}
+
+TEST(Sky, SkylineIsTheMedianOfTheColumns) {
+  GuidanceBuffers g;
+  g.depth_m = Grid<float>(9, 20, sky_depth);
+  for (int x = 0; x < 9; ++x)
+    for (int y = x + 3; y < 20; ++y) g.depth_m(x, y) = 5000.0F;
+  EXPECT_EQ(skyline_row_px(g, 1.0), 7.0);
+  g.depth_m = Grid<float>(9, 20, sky_depth);
+  EXPECT_EQ(skyline_row_px(g, 33.0), 33.0);
+}
+
+TEST(Sky, SkylineByRaysIsWhereTheCrestProjects) {
+  // A level crest 400 m high, 6 km north of the eye and at right angles to the view.
+  DeformedSurface surface;
+  surface.vertices_m = Grid<glm::vec3>(200, 90);
+  for (int y = 0; y < 90; ++y)
+    for (int x = 0; x < 200; ++x) surface.vertices_m(x, y) = {100.0F * x - 10000.0F, 7000.0F - 100.0F * y, y == 10 ? 400.0F : 0.0F};
+  surface.origin = {500000.0, 5000000.0, 0.0};
+  const Tracer tracer(surface);
+  CameraParameters parameters;
+  parameters.width = 400;
+  parameters.height = 300;
+  parameters.eye = surface.origin + glm::dvec3(0.0, 0.0, 900.0);
+  parameters.pitch_deg = -10.0;
+  const auto camera = make_camera(parameters);
+  const std::optional<glm::dvec2> crest = camera->project(surface.origin + glm::dvec3(0.0, 6000.0, 400.0));
+  ASSERT_TRUE(crest);
+  EXPECT_NEAR(skyline_row_px(*camera, tracer, -1.0), crest->y, 1.5);
+  parameters.pitch_deg = 60.0;
+  EXPECT_EQ(skyline_row_px(*make_camera(parameters), tracer, -1.0), -1.0);
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,403 @@
+#include "renderer/scene/scene_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+
+#include "base/error.h"
+#include "renderer/scene/scene_schema.h"
+#include "tests/files.h"
+#include "tests/paths.h"
+
+namespace belvedere {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+using test::message_of;
+
+Scene scene_of(const std::string& text, const std::vector<std::string>& settings = {}) {
+  return parse_scene("version = 1\n" + text, "s.toml", ".", {.data_folders = {}, .settings = settings}).scene;
+}
+
+// `text` begins in line 2.
+std::string refused(const std::string& text, const std::vector<std::string>& settings = {}) {
+  return message_of(ErrorKind::usage, [&] { scene_of(text, settings); });
+}
+
+class SceneFolders : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* file : {"scenes/here.tif", "data/alps/dem.tif", "secret/x.tif"}) root_.write(file, "x");
+  }
+  std::string path(const std::string& relative) const { return root_ / relative; }
+  LoadedScene load(const std::string& text, bool with_data = true) const {
+    return parse_scene("version = 1\n" + text, "s.toml", path("scenes"),
+                       {.data_folders = with_data ? std::vector<std::string>{path("data")} : std::vector<std::string>{}, .settings = {}});
+  }
+  test::Folder root_;
+};
+
+TEST(SceneFile, ReadsEveryKindOfValue) {
+  const Scene scene = scene_of(R"(
+title = "Über den Bergen"
+seed = 9007199254740991
+palette = "winter"
+[terrain]
+extent = [0, 1, 2e3, 3]
+[terrain.synthetic]
+width = 64
+cell_m = 45
+[land_cover]
+unknown = "rock"
+settings = { treeline = 1900, "odd name" = -1.5 }
+[generalize]
+foreground = [1, 0.5, 2]
+background = [0, 1, 3.25]
+keep_lakes = false
+[camera]
+position_lonlat = [11.4, 47.9]
+look_at = [690000, 5249000.5]
+look_at_altitude_m = 1200
+[sun]
+time = 2024-06-21T17:30:00+02:00
+[[exemplar]]
+seed = 3
+[[exemplar]]
+picture = "a.png"
+classes = "b.png"
+altitude_range_m = [-5, 6]
+optional = true
+[synthesis]
+weights = { tone = 5 }
+fallback = { shrub = "forest" }
+)");
+  EXPECT_EQ(scene.title, "Über den Bergen");
+  EXPECT_EQ(scene.seed, 9007199254740991U);
+  EXPECT_EQ(scene.palette, "winter");
+  EXPECT_EQ(scene.terrain.extent, (std::array{0.0, 1.0, 2000.0, 3.0}));
+  ASSERT_TRUE(scene.terrain.synthetic);
+  EXPECT_EQ(scene.terrain.synthetic->width, 64);
+  EXPECT_EQ(scene.terrain.synthetic->cell_m, 45.0);
+  EXPECT_EQ(scene.terrain.synthetic->height, SyntheticParameters{}.height);
+  EXPECT_EQ(scene.land_cover.unknown, LandCoverClass::rock);
+  EXPECT_EQ(scene.land_cover.settings, (std::vector<std::pair<std::string, double>>{{"treeline", 1900.0}, {"odd name", -1.5}}));
+  EXPECT_EQ(scene.generalize.bands.foreground, (std::vector<float>{1.F, .5F, 2.F}));
+  EXPECT_EQ(scene.generalize.bands.background, (std::vector<float>{0.F, 1.F, 3.25F}));
+  EXPECT_FALSE(scene.generalize.keep_lakes);
+  EXPECT_EQ(scene.camera.position_lonlat, glm::dvec2(11.4, 47.9));
+  EXPECT_EQ(scene.camera.look_at, glm::dvec2(690000.0, 5249000.5));
+  EXPECT_EQ(scene.camera.look_at_altitude_m, 1200.0);
+  EXPECT_EQ(scene.sun.time, "2024-06-21T17:30:00+02:00");
+  ASSERT_EQ(scene.exemplars.size(), 2U);
+  EXPECT_EQ(scene.exemplars[0].seed, 3U);
+  EXPECT_EQ(scene.exemplars[1].classes, "b.png");
+  EXPECT_EQ(scene.exemplars[1].altitude_range_m, (std::array{-5.0, 6.0}));
+  EXPECT_TRUE(scene.exemplars[1].optional);
+  EXPECT_EQ(scene.synthesis.weights, (std::vector<std::pair<std::string, double>>{{"tone", 5.0}}));
+  EXPECT_EQ(scene.synthesis.fallback.at(0), std::pair(LandCoverClass::shrub, LandCoverClass::forest));
+}
+
+TEST(SceneFile, VersionIsRequiredAndComesFirst) {
+  const auto parse = [](const std::string& text) { parse_scene(text, "s.toml", ".", {}); };
+  EXPECT_THAT(message_of(ErrorKind::usage, [&] { parse("title = \"x\"\n"); }),
+              AllOf(HasSubstr("version is missing"), HasSubstr("version = 1")));
+  // A later format's other keys are not what to complain of.
+  EXPECT_THAT(message_of(ErrorKind::usage, [&] { parse("future = 1\nversion = 2\n"); }),
+              AllOf(StartsWith("s.toml:2:11: version is the number 2")));
+}
+
+TEST(SceneFile, UnknownKeysNameThePlaceAndTheNearestKey) {
+  EXPECT_THAT(refused("[camera]\n  pich_deg = 3\n"), AllOf(StartsWith("s.toml:3:3: unknown key \"camera.pich_deg\""),
+                                                           HasSubstr("did you mean \"pitch_deg\""), HasSubstr("field_of_view_deg")));
+  EXPECT_THAT(refused("[camera]\npitch = 3\n"), HasSubstr("did you mean \"pitch_deg\""));
+  EXPECT_THAT(refused("[camra]\npitch_deg = 3\n"), AllOf(StartsWith("s.toml:2:2: "), HasSubstr("did you mean \"camera\"")));
+  EXPECT_THAT(refused("azimuth_deg = 3\n"), AllOf(HasSubstr("camera.azimuth_deg"), HasSubstr("sun.azimuth_deg")));
+  EXPECT_THAT(refused("[[exemplar]]\nseed = 1\n[[exemplar]]\nsead = 1\n"), AllOf(StartsWith("s.toml:5:1: "), HasSubstr("exemplar.1.sead")));
+  EXPECT_THAT(refused("[deform.bend]\nradus_m = 1\n"), HasSubstr("did you mean \"radius_m\""));
+}
+
+TEST(SceneFile, WrongTypesSayWhatIsWanted) {
+  EXPECT_THAT(refused("[camera]\npitch_deg = \"steep\"\n"),
+              AllOf(StartsWith("s.toml:3:13: camera.pitch_deg is the string \"steep\""), HasSubstr("a number"), HasSubstr("-90 … 90°")));
+  EXPECT_THAT(refused("[output]\nwidth = 2400.5\n"), HasSubstr("a whole number"));
+  EXPECT_THAT(refused("[camera]\nposition = [1, 2, 3]\n"), AllOf(HasSubstr("an array of 3"), HasSubstr("[E, N]")));
+  EXPECT_THAT(refused("[camera]\nposition = [1, \"2\"]\n"), StartsWith("s.toml:3:16: "));
+  EXPECT_THAT(refused("camera = 5\n"), HasSubstr("a table, [camera]"));
+  EXPECT_THAT(refused("[exemplar]\nseed = 1\n"), HasSubstr("[[exemplar]]"));
+  EXPECT_THAT(refused("[land_cover]\nunknown = \"rok\"\n"), AllOf(HasSubstr("did you mean \"rock\""), HasSubstr("glacier")));
+  EXPECT_THAT(refused("[land_cover]\nunknown = \"sky\"\n"), HasSubstr("no class"));
+  EXPECT_THAT(refused("[camera]\nprojection = \"perspectiv\"\n"), HasSubstr("did you mean \"perspective\""));
+  EXPECT_THAT(refused("palette = \"sumer\"\n"), AllOf(HasSubstr("did you mean \"summer\""), HasSubstr("\"winter\"")));
+  EXPECT_THAT(refused("[sun]\ntime = \"yesterday\"\n"), HasSubstr("ISO 8601"));
+  EXPECT_THAT(refused("[sun]\ntime = 2024-06-21T17:30:00\n"), HasSubstr("zone"));
+  EXPECT_THAT(refused("[synthesis]\nfallback = { shrub = \"tree\" }\n"), AllOf(StartsWith("s.toml:3:22: "), HasSubstr("no class")));
+  EXPECT_THAT(refused("[synthesis]\nfallback = { shrub = \"shrub\" }\n"), HasSubstr("another class"));
+  EXPECT_THAT(refused("title = \"a\\u0007b\"\n"), HasSubstr("control characters"));
+}
+
+// Every number of the table, at both its ends and beyond: nan, inf, negative sizes, a width of 10⁹. Walks the table, so that a new key
+// without a range fails here.
+TEST(SceneFile, EveryNumberHasARange) {
+  int checked = 0;
+  for (const SceneSection& section : scene_sections())
+    for (const SceneKey& key : section.keys) {
+      if (describe_type(key) != "a number" && describe_type(key) != "a whole number") continue;
+      const bool whole = describe_type(key) == "a whole number";
+      const std::string name =
+          join_key(section.kind == SectionKind::list ? std::string(section.name) + ".0" : std::string(section.name), key.name);
+      std::vector<std::string> too_much = {"nan", "inf", "-inf", "-1e300", "1e300", "true"};
+      if (whole) too_much.insert(too_much.end(), {"9223372036854775807", "-1", "-9223372036854775808"});
+      if (key.name == "width" || key.name == "height") {
+        if (whole) too_much.push_back("1000000000");
+      }
+      for (const std::string& value : too_much) {
+        const std::string message = refused("", {name + "=" + value});
+        EXPECT_THAT(message, AllOf(HasSubstr("--set " + name + "=" + value), HasSubstr(name + " is "))) << value;
+        EXPECT_THAT(message, HasSubstr(describe_range(key)));
+        EXPECT_FALSE(describe_range(key).empty()) << name;
+        ++checked;
+      }
+    }
+  EXPECT_GT(checked, 300);
+}
+
+TEST(SceneFile, RangesOfPairsListsAndTables) {
+  EXPECT_THAT(refused("[camera]\nposition_lonlat = [181, 0]\n"), HasSubstr("longitude -180 … 180°"));
+  EXPECT_THAT(refused("[camera]\nposition_lonlat = [0, 91]\n"), StartsWith("s.toml:3:23: "));
+  EXPECT_THAT(refused("[camera]\nposition = [nan, 0]\n"), HasSubstr("not a number"));
+  EXPECT_THAT(refused("[generalize]\nforeground = [1, 6]\n"), HasSubstr("0 … 5"));
+  EXPECT_THAT(refused("[generalize]\nforeground = []\n"), HasSubstr("1 to 12 numbers"));
+  EXPECT_THAT(refused("[synthesis]\nweights = { tone = -1 }\n"), HasSubstr("0 … 100"));
+  EXPECT_THAT(refused("[synthesis]\nweights = { tne = 1 }\n"), AllOf(StartsWith("s.toml:3:13: "), HasSubstr("did you mean \"tone\"")));
+  EXPECT_THAT(refused("[sampling]\npixel_samples = 5\n"), HasSubstr("1, 4, 9 or 16"));
+  EXPECT_THAT(refused("[air]\nscale_m = 0\n"), HasSubstr("more than 0"));
+}
+
+TEST(SceneFile, KeysThatExcludeEachOther) {
+  EXPECT_THAT(refused("[camera]\nposition = [1, 2]\nposition_lonlat = [1, 2]\n"),
+              AllOf(StartsWith("s.toml:4:1: "), HasSubstr("camera.position and camera.position_lonlat exclude each other")));
+  EXPECT_THAT(refused("[camera]\nlook_at = [1, 2]\nlook_at_lonlat = [1, 2]\n"), HasSubstr("exclude"));
+  EXPECT_THAT(refused("[camera]\nlook_at = [1, 2]\nazimuth_deg = 3\n"), HasSubstr("exclude"));
+  EXPECT_THAT(refused("[camera]\nlook_at_lonlat = [1, 2]\npitch_deg = 3\n"), HasSubstr("exclude"));
+  EXPECT_THAT(refused("[sun]\ntime = \"2024-06-21T17:30:00Z\"\nazimuth_deg = 3\n"), HasSubstr("exclude"));
+  EXPECT_THAT(refused("[terrain.synthetic]\n[[terrain.sources]]\nfile = \"a.tif\"\n"), HasSubstr("exclude"));
+  EXPECT_THAT(refused("[[exemplar]]\npicture = \"a.png\"\nguidance = \"a.exr\"\nseed = 3\n"), HasSubstr("exemplar.0.seed exclude"));
+  EXPECT_NO_THROW(scene_of("[sun]\ntime = \"\"\nazimuth_deg = 3\n"));
+}
+
+TEST(SceneFile, KeysThatBelongTogether) {
+  EXPECT_THAT(refused("[generalize]\nforeground = [1, 1]\nbackground = [1]\n"), StartsWith("s.toml:4:14: "));
+  EXPECT_THAT(refused("[generalize]\nforeground_to_m = 90000\n"), HasSubstr("beyond"));
+  EXPECT_THAT(refused("[terrain]\nextent = [1, 1, 0, 2]\n"), HasSubstr("no area"));
+  EXPECT_THAT(refused("[terrain.synthetic]\nlowest_m = 4000\n"), HasSubstr("not above lowest_m"));
+  EXPECT_THAT(refused("[[terrain.sources]]\nband = 2\n"), AllOf(StartsWith("s.toml:2:"), HasSubstr("terrain.sources.0.file is missing")));
+  EXPECT_THAT(refused("[[land_cover.sources]]\nfile = \"a.tif\"\n"), HasSubstr("needs land_cover.legend"));
+  EXPECT_THAT(refused("[deform.bend]\nradius_m = 10\n"), HasSubstr("1000"));
+  EXPECT_THAT(refused("[camera]\nlook_at_altitude_m = 10\n"), HasSubstr("no point"));
+  EXPECT_THAT(refused("[camera]\nfield_of_view_deg = 200\n"), HasSubstr("cylindrical"));
+  EXPECT_NO_THROW(scene_of("[camera]\nfield_of_view_deg = 200\nprojection = \"cylindrical\"\n"));
+  EXPECT_THAT(refused("[[exemplar]]\npicture = \"a.png\"\n"), HasSubstr("neither guidance nor classes"));
+  EXPECT_THAT(refused("[[exemplar]]\nclasses = \"a.png\"\n"), HasSubstr("no picture"));
+  const Scene one_set = scene_of("[generalize]\nforeground = [2, 2]\n");
+  EXPECT_EQ(one_set.generalize.bands.background, (std::vector<float>{2.F, 2.F}));  // far as near
+  const Scene far_set = scene_of("[generalize]\nbackground = [2, 0]\n");
+  EXPECT_EQ(far_set.generalize.bands.foreground, (std::vector<float>{1.F, 1.F}));
+  EXPECT_TRUE(scene_of("").terrain.synthetic);
+  EXPECT_FALSE(scene_of("[[terrain.sources]]\nfile = \"a.tif\"\n").terrain.synthetic);
+}
+
+TEST(SceneFile, SettingsOverride) {
+  const std::string text = "[camera]\nlook_at = [1, 2]\npitch_deg = -5\n";
+  EXPECT_THAT(refused(text), HasSubstr("exclude"));
+  // The last word is the command line's, also against what says the same in other words.
+  const Scene scene =
+      scene_of("title = \"a\"\n[camera]\nlook_at = [1, 2]\n[sun]\ntime = \"2024-06-21T17:30:00Z\"\n[[exemplar]]\nseed = 1\n",
+               {"camera.pitch_deg=-7.5", "sun.altitude_deg = 12", "output.width=1200", "exemplar.0.seed=3", "exemplar.1.width=800",
+                "generalize.foreground.2=0.5", "synthesis.weights.tone=4", "title=2024", "palette=winter", "land_cover.unknown=rock",
+                "terrain.extent=[0, 0, 5, 5]", "output.width=1300"});
+  EXPECT_FALSE(scene.camera.look_at);
+  EXPECT_EQ(scene.camera.pitch_deg, -7.5);
+  EXPECT_EQ(scene.sun.time, "");
+  EXPECT_EQ(scene.sun.altitude_deg, 12.0);
+  EXPECT_EQ(scene.output.width, 1300);
+  ASSERT_EQ(scene.exemplars.size(), 2U);
+  EXPECT_EQ(scene.exemplars[0].seed, 3U);
+  EXPECT_EQ(scene.exemplars[1].width, 800);
+  EXPECT_EQ(scene.generalize.bands.foreground, (std::vector<float>{1.F, 1.F, .5F, 1.F, 1.F, 1.F}));
+  EXPECT_EQ(scene.synthesis.weights.at(0).second, 4.0);
+  EXPECT_EQ(scene.title, "2024");
+  EXPECT_EQ(scene.palette, "winter");
+  EXPECT_EQ(scene.land_cover.unknown, LandCoverClass::rock);
+  EXPECT_TRUE(scene.terrain.extent);
+}
+
+TEST(SceneFile, BadSettingsNameThemselves) {
+  EXPECT_THAT(refused("", {"camera.pich_deg=3"}), AllOf(StartsWith("--set camera.pich_deg=3: unknown key"), HasSubstr("pitch")));
+  EXPECT_THAT(refused("", {"camera.pitch_deg=95"}),
+              AllOf(StartsWith("--set camera.pitch_deg=95: camera.pitch_deg is the number 95"), HasSubstr("-90 … 90°")));
+  EXPECT_THAT(refused("", {"camera.pitch_deg"}), AllOf(StartsWith("--set camera.pitch_deg: "), HasSubstr("key=value")));
+  EXPECT_THAT(refused("", {"=3"}), HasSubstr("key=value"));
+  EXPECT_THAT(refused("", {"camera..pitch_deg=3"}), HasSubstr("empty"));
+  EXPECT_THAT(refused("", {"exemplar.5.seed=3"}), HasSubstr("no place in a list of 0"));
+  EXPECT_THAT(refused("", {"exemplar.x.seed=3"}), HasSubstr("no place"));
+  EXPECT_THAT(refused("title = \"a\"\n", {"title.x=3"}), HasSubstr("nothing to set below"));
+  EXPECT_THAT(refused("", {"camera.position=[1,"}), StartsWith("--set camera.position=[1,: "));
+  EXPECT_THAT(refused("", {"camera.look_at=[1,2]", "camera.azimuth_deg=3"}), HasSubstr("exclude"));
+  EXPECT_THAT(refused("", {"a.b.c.d.e.f.g.h.i.j=1"}), HasSubstr("too many parts"));
+}
+
+TEST(SceneFile, ListsOfClasses) {
+  const Scene scene = scene_of(
+      "[land_cover]\nsmallest_patch_m2 = 9000\nkeep_patches = []\n[[exemplar]]\npicture = \"p.png\"\nclasses = \"c.png\"\n"
+      "serves = [\"rock\", \"snow\"]\nfound_shadow = \"exclude\"\n[synthesis]\ncolours = \"painting\"\nharmonize = \"first\"\n");
+  EXPECT_EQ(scene.exemplars[0].serves, (std::vector{LandCoverClass::rock, LandCoverClass::snow}));
+  EXPECT_TRUE(scene.land_cover.patches.keep.empty());
+  EXPECT_EQ(Scene{}.land_cover.patches.keep, (std::vector{LandCoverClass::water, LandCoverClass::settlement}));
+  const Scene again = parse_scene(write_scene(scene), "again.toml", ".", {}).scene;
+  EXPECT_EQ(again.exemplars[0].serves, scene.exemplars[0].serves);
+  EXPECT_TRUE(again.land_cover.patches.keep.empty());
+  EXPECT_EQ(again.land_cover.patches.smallest_m2, 9000.0);
+  EXPECT_EQ(again.synthesis.colours, "painting");
+  EXPECT_THAT(refused("[land_cover]\nkeep_patches = [\"water\", \"watr\"]\n"), AllOf(StartsWith("s.toml:3:"), HasSubstr("water")));
+  EXPECT_THAT(refused("[land_cover]\nkeep_patches = \"water\"\n"), HasSubstr("a list of class names"));
+  EXPECT_THAT(refused("[[exemplar]]\nserves = [\"rock\"]\n"), HasSubstr("no picture"));
+}
+
+// Everything at once and the defaults: what is written reads back to the same.
+TEST(SceneFile, WrittenScenesReadBack) {
+  for (const char* text :
+       {"",
+        "title = 'q\"\\'\n[[terrain.sources]]\nfile = \"a b.tif\"\nnodata = -9999\nunit = \"us-ft\"\n[land_cover]\nlegend = "
+        "\"nlcd\"\nsettings = { \"a b\" = 0.1 }\n"
+        "[[land_cover.sources]]\nfile = \"lc.tif\"\n[camera]\nposition = [692000.123456789, 0.1]\nlook_at_lonlat = [11, 47]\n"
+        "[generalize]\nforeground = [0.9, 1.1, 0.333333]\nbackground = [0.1, 0.2, 0.7]\n[sun]\ntime = \"2024-06-21T17:30:00Z\"\n"
+        "[[exemplar]]\nseed = 4\n[[exemplar]]\npicture = \"p.png\"\nclasses = \"c.png\"\nlicence = \"x\\ty\\nz\"\n"
+        "[synthesis]\nweights = { tone = 3.3 }\nfallback = { shrub = \"forest\", scree = \"rock\" }\n"}) {
+    const Scene scene = scene_of(text);
+    const std::string written = write_scene(scene);
+    const Scene again = parse_scene(written, "again.toml", ".", {}).scene;
+    EXPECT_EQ(write_scene(again), written);
+    EXPECT_EQ(again.title, scene.title);
+    EXPECT_EQ(again.camera.position, scene.camera.position);
+    EXPECT_EQ(again.generalize.bands.foreground, scene.generalize.bands.foreground);
+    EXPECT_EQ(again.land_cover.settings, scene.land_cover.settings);
+    EXPECT_EQ(again.exemplars.size(), scene.exemplars.size());
+    EXPECT_EQ(again.terrain.synthetic.has_value(), scene.terrain.synthetic.has_value());
+  }
+}
+
+TEST_F(SceneFolders, FilesAreFoundBesideTheSceneAndInDataFolders) {
+  const LoadedScene scene = load("");
+  EXPECT_EQ(find_scene_file(scene, "here.tif"), fs::canonical(path("scenes/here.tif")));
+  EXPECT_EQ(find_scene_file(scene, "alps/dem.tif"), fs::canonical(path("data/alps/dem.tif")));
+  EXPECT_EQ(find_scene_file(scene, "../data/alps/dem.tif"), fs::canonical(path("data/alps/dem.tif")));
+  EXPECT_EQ(find_scene_file(scene, path("data/alps/dem.tif")), fs::canonical(path("data/alps/dem.tif")));
+  EXPECT_EQ(find_scene_file(scene, "alps/none.tif"), "");
+  EXPECT_EQ(find_scene_file(scene, ""), "");
+  EXPECT_EQ(find_named_file(scene, "palettes", "winter"), "winter");
+  EXPECT_THAT(message_of(ErrorKind::input, [&] { find_named_file(scene, "palettes", "none.toml"); }), HasSubstr("summer"));
+}
+
+TEST_F(SceneFolders, PathsMayNotLeaveTheAllowedFolders) {
+  for (const std::string& file :
+       {std::string("../secret/x.tif"), std::string("../secret/absent.tif"), path("secret/x.tif"), std::string("/etc/passwd"),
+        std::string("../../../../../../../../etc/passwd"), std::string("../scenes_not/x.tif"), std::string("..")})
+    EXPECT_THAT(message_of(ErrorKind::usage, [&] { load("[[terrain.sources]]\nfile = \"" + file + "\"\n"); }),
+                AllOf(StartsWith("s.toml:3:8: "), HasSubstr("outside"), HasSubstr("--data")))
+        << file;
+  EXPECT_THAT(message_of(ErrorKind::usage, [&] { load("[[terrain.sources]]\nfile = \"../data/alps/dem.tif\"\n", false); }),
+              HasSubstr("outside"));
+  // Links: to a file, to a folder, through two of them, and one that leads into an allowed folder.
+  fs::create_symlink("../secret/x.tif", path("scenes/link.tif"));
+  fs::create_directory_symlink(path("secret"), path("scenes/folder"));
+  fs::create_symlink("link.tif", path("scenes/link2.tif"));
+  fs::create_symlink("../data/alps/dem.tif", path("scenes/allowed.tif"));
+  const LoadedScene scene = load("");
+  for (const char* file : {"link.tif", "folder/x.tif", "link2.tif", "folder/none.tif"})
+    EXPECT_THAT(message_of(ErrorKind::usage, [&] { find_scene_file(scene, file); }), HasSubstr("outside")) << file;
+  EXPECT_EQ(find_scene_file(scene, "allowed.tif"), fs::canonical(path("data/alps/dem.tif")));
+  EXPECT_THAT(message_of(ErrorKind::usage, [&] { find_scene_file(scene, std::string("here.tif\0../x", 13)); }),
+              HasSubstr("control characters"));
+}
+
+TEST_F(SceneFolders, AllMissingFilesInOneMessage) {
+  const LoadedScene scene = load(R"(
+[[terrain.sources]]
+file = "alps/dem.tif"
+[[terrain.sources]]
+file = "alps/south.tif"
+origin = "Tyrol survey"
+licence = "CC0"
+get_from = "https://example.org/south"
+[output]
+profile = "press.icc"
+[[exemplar]]
+picture = "scan.png"
+classes = "mask.png"
+optional = true
+)");
+  const std::string message = message_of(ErrorKind::input, [&] { require_scene_files(scene); });
+  EXPECT_THAT(message, AllOf(HasSubstr("2 files"), HasSubstr("alps/south.tif (terrain.sources.1.file)"), HasSubstr("Tyrol survey"),
+                             HasSubstr("CC0"), HasSubstr("https://example.org/south"), HasSubstr("press.icc"), HasSubstr(path("data"))));
+  EXPECT_THAT(message, AllOf(Not(HasSubstr("alps/dem.tif")), Not(HasSubstr("scan.png"))));
+  EXPECT_EQ(scene_inputs(scene).size(), 5U);
+  EXPECT_NO_THROW(require_scene_files(load("[[terrain.sources]]\nfile = \"alps/dem.tif\"\n")));
+}
+
+TEST_F(SceneFolders, SceneFromAFile) {
+  root_.write("scenes/peak.toml", "version = 1\n[[terrain.sources]]\nfile = \"here.tif\"\n");
+  const LoadedScene scene = read_scene(path("scenes/peak.toml"), {});
+  EXPECT_EQ(scene.name, "peak");
+  EXPECT_EQ(scene.folder, path("scenes"));
+  EXPECT_EQ(find_scene_file(scene, scene.scene.terrain.sources.at(0).file), fs::canonical(path("scenes/here.tif")));
+  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_scene(path("scenes/none.toml"), {}); }), HasSubstr("none.toml"));
+}
+
+std::string text_of(const std::string& file) { return test::read_bytes(test::source_folder() + "/" + file); }
+
+TEST(SceneFile, ReferenceAndSchemaAreTheCommittedOnes) {
+  EXPECT_TRUE(text_of("docs/scene.md") == scene_reference()) << "run: belvedere schema --markdown > docs/scene.md";
+  EXPECT_TRUE(text_of("docs/scene.schema.json") == scene_json_schema()) << "run: belvedere schema > docs/scene.schema.json";
+}
+
+TEST(SceneFile, EveryKeyIsDocumented) {
+  const std::string reference = scene_reference();
+  const std::string schema = scene_json_schema();
+  for (const SceneSection& section : scene_sections()) {
+    EXPECT_FALSE(section.meaning.empty()) << section.name;
+    for (const SceneKey& key : section.keys) {
+      EXPECT_THAT(reference, HasSubstr("| `" + std::string(key.name) + "` |"));
+      EXPECT_THAT(schema, HasSubstr("\"" + std::string(key.name) + "\": {"));
+      EXPECT_TRUE(key.meaning.ends_with(".")) << section.name << "." << key.name;
+    }
+  }
+}
+
+// Every scene that comes with the program is read without a complaint, and says whose its data are.
+TEST(SceneFile, ScenesOfTheProgramAreRead) {
+  std::vector<std::string> titles;
+  for (const auto& entry : fs::directory_iterator(test::source_folder() + "/scenes")) {
+    if (entry.path().extension() != ".toml") continue;
+    const LoadedScene scene = read_scene(entry.path().string(), {});
+    EXPECT_FALSE(scene.scene.title.empty()) << entry.path();
+    ASSERT_FALSE(scene.scene.terrain.sources.empty()) << entry.path();
+    for (const auto& source : scene.scene.terrain.sources) {
+      EXPECT_FALSE(source.origin.empty()) << entry.path();
+      EXPECT_FALSE(source.licence.empty()) << entry.path();
+      EXPECT_FALSE(source.get_from.empty()) << entry.path();
+    }
+    titles.push_back(scene.scene.title);
+  }
+  EXPECT_THAT(titles, testing::UnorderedElementsAre("Glacier National Park, Selkirks", "Karwendel", "Lolo Peak", "Mount Rainier",
+                                                    "Zion Canyon", "Ötztal Alps"));
+}
+
+}  // namespace
+}  // namespace belvedere

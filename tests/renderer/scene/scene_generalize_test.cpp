@@ -1,0 +1,166 @@
+// The keys of [generalize]: what they mean, that they read back, what they refuse.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "renderer/scene/scene_file.h"
+#include "terrain/generalize/generalize_presets.h"
+
+namespace belvedere {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using Weights = std::vector<float>;
+
+Scene scene_of(const std::string& text) { return parse_scene("version = 1\n[generalize]\n" + text, "s.toml", ".", {}).scene; }
+Scene again(const Scene& scene) { return parse_scene(write_scene(scene), "again.toml", ".", {}).scene; }
+
+std::string refused(const std::string& text) {
+  try {
+    scene_of(text);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    return error.what();
+  }
+  return "accepted";
+}
+
+void expect_same(const SceneGeneralize& a, const SceneGeneralize& b) {
+  EXPECT_EQ(a.preset, b.preset);
+  EXPECT_EQ(a.bands.foreground, b.bands.foreground);
+  EXPECT_EQ(a.bands.background, b.bands.background);
+  EXPECT_EQ(a.bands.foreground_ridges, b.bands.foreground_ridges);
+  EXPECT_EQ(a.bands.foreground_valleys, b.bands.foreground_valleys);
+  EXPECT_EQ(a.bands.background_ridges, b.bands.background_ridges);
+  EXPECT_EQ(a.bands.background_valleys, b.bands.background_valleys);
+  EXPECT_EQ(a.bands.curvature, b.bands.curvature);
+  EXPECT_EQ(a.bands.full_curvature, b.bands.full_curvature);
+  EXPECT_EQ(a.bands.blur_cells, b.bands.blur_cells);
+  EXPECT_EQ(a.bands.exponent, b.bands.exponent);
+  EXPECT_EQ(a.bands.crest, b.bands.crest);
+  EXPECT_EQ(a.foreground_to_m, b.foreground_to_m);
+  EXPECT_EQ(a.background_from_m, b.background_from_m);
+  EXPECT_EQ(a.print_detail_px, b.print_detail_px);
+  EXPECT_EQ(a.mask_slope_deg, b.mask_slope_deg);
+  EXPECT_EQ(a.automatic_mask, b.automatic_mask);
+  EXPECT_EQ(a.mask, b.mask);
+  EXPECT_EQ(a.mask_classes, b.mask_classes);
+  EXPECT_EQ(a.keep_lakes, b.keep_lakes);
+  EXPECT_EQ(a.destripe, b.destripe);
+  EXPECT_EQ(a.line_integral, b.line_integral);
+  EXPECT_EQ(a.valleys.width_m, b.valleys.width_m);
+}
+
+constexpr const char* everything = R"(preset = "figure4"
+foreground = [1.1, 0.9, 0.333333]
+background = [1.3, 0.2, 0]
+foreground_ridges = [0, 0.25, 1.5]
+foreground_valleys = [0.1, -0.25, 0.7]
+background_ridges = [0.2, 0.6, -5]
+background_valleys = [0.05, 0, 5]
+foreground_to_m = 4000.5
+background_from_m = 9000.25
+print_detail_px = 2.25
+curvature = "plan"
+full_curvature = 0.4
+blur_cells = 1.75
+exponent = 0.6
+mask_slope_deg = [3.5, 11]
+automatic_mask = true
+mask = "where.tif"
+mask_classes = { valley_floor = 0.2, water = 0 }
+crest = 0.4
+keep_lakes = false
+destripe = true
+line_integral = true
+widen_valleys_m = 350
+)";
+
+TEST(SceneGeneralizeKeys, EachArrivesWhereItIsMeant) {
+  const SceneGeneralize wish = scene_of(everything).generalize;
+  EXPECT_EQ(wish.preset, "figure4");
+  EXPECT_EQ(wish.bands.foreground, (Weights{1.1F, .9F, .333333F}));
+  EXPECT_EQ(wish.bands.background, (Weights{1.3F, .2F, 0.F}));
+  EXPECT_EQ(wish.bands.foreground_ridges, (Weights{0.F, .25F, 1.5F}));
+  EXPECT_EQ(wish.bands.foreground_valleys, (Weights{.1F, -.25F, .7F}));
+  EXPECT_EQ(wish.bands.background_ridges, (Weights{.2F, .6F, -5.F}));
+  EXPECT_EQ(wish.bands.background_valleys, (Weights{.05F, 0.F, 5.F}));
+  EXPECT_EQ(wish.foreground_to_m, 4000.5);
+  EXPECT_EQ(wish.background_from_m, 9000.25);
+  EXPECT_EQ(wish.print_detail_px, 2.25);
+  EXPECT_EQ(wish.bands.curvature, CurvatureForm::plan);
+  EXPECT_EQ(wish.bands.full_curvature, .4F);
+  EXPECT_EQ(wish.bands.blur_cells, 1.75F);
+  EXPECT_EQ(wish.bands.exponent, .6F);
+  EXPECT_EQ(wish.bands.crest, .4F);
+  EXPECT_EQ(wish.mask_slope_deg, (std::array{3.5, 11.0}));
+  EXPECT_TRUE(wish.automatic_mask);
+  EXPECT_EQ(wish.mask, "where.tif");
+  ASSERT_EQ(wish.mask_classes.size(), 2U);
+  for (const auto& [name, share] : wish.mask_classes) EXPECT_EQ(share, name == "water" ? 0.0 : 0.2) << name;
+  EXPECT_FALSE(wish.keep_lakes);
+  EXPECT_TRUE(wish.destripe);
+  EXPECT_TRUE(wish.line_integral);
+  EXPECT_EQ(wish.valleys.width_m, 350.F);
+}
+
+TEST(SceneGeneralizeKeys, WrittenReadBackTheSame) {
+  const Scene scene = scene_of(everything);
+  expect_same(again(scene).generalize, scene.generalize);
+  EXPECT_EQ(write_scene(again(scene)), write_scene(scene));
+}
+
+// What a scene says beside a preset stays its last word when it is written, also where it says what holds without a preset.
+TEST(SceneGeneralizeKeys, PresetsFillWhatIsNotWrittenAndReadBack) {
+  for (const GeneralizePreset& preset : generalize_presets()) {
+    SCOPED_TRACE(preset.name);
+    const Scene scene = scene_of("preset = \"" + std::string(preset.name) + "\"\n");
+    EXPECT_EQ(scene.generalize.bands.background, preset.bands.background);
+    EXPECT_EQ(scene.generalize.bands.background_ridges, preset.bands.background_ridges);
+    EXPECT_EQ(scene.generalize.automatic_mask, preset.automatic_mask);
+    expect_same(again(scene).generalize, scene.generalize);
+  }
+  const Scene flat = scene_of("preset = \"figure5\"\nmask_slope_deg = [0, 0]\n");
+  EXPECT_EQ(flat.generalize.mask_slope_deg, (std::array{0.0, 0.0}));
+  expect_same(again(flat).generalize, flat.generalize);
+  const Scene bold = scene_of("preset = \"bold_ridges\"\nautomatic_mask = false\nforeground = [1, 1, 1, 1, 1, 1]\n");
+  EXPECT_FALSE(bold.generalize.automatic_mask);
+  expect_same(again(bold).generalize, bold.generalize);
+}
+
+TEST(SceneGeneralizeKeys, ABackgroundThatIsNotWrittenFollowsUnlessThePresetHasTwo) {
+  const std::string six = "foreground = [1, 1, 1, 0.5, 0.5, 0.5]\nforeground_ridges = [0, 0, 0, 1, 1, 1]\n";
+  const Scene same = scene_of("preset = \"smooth_slopes\"\n" + six);
+  EXPECT_EQ(same.generalize.bands.background, same.generalize.bands.foreground);
+  EXPECT_EQ(same.generalize.bands.background_ridges, same.generalize.bands.foreground_ridges);
+  EXPECT_EQ(same.generalize.bands.background_valleys, find_generalize_preset("smooth_slopes")->bands.background_valleys);
+  const Scene two = scene_of("preset = \"panorama\"\n" + six);
+  EXPECT_EQ(two.generalize.bands.background, find_generalize_preset("panorama")->bands.background);
+  EXPECT_EQ(two.generalize.bands.background_ridges, find_generalize_preset("panorama")->bands.background_ridges);
+  for (const Scene& scene : {same, two}) expect_same(again(scene).generalize, scene.generalize);
+}
+
+TEST(SceneGeneralizeKeys, RefuseWhatCannotBe) {
+  const std::string three = "foreground = [1, 1, 1]\n";
+  for (const std::string set : {"background", "foreground_ridges", "foreground_valleys", "background_ridges", "background_valleys"}) {
+    EXPECT_THAT(refused(three + set + " = [1, 1]\n"), AllOf(HasSubstr("s.toml:4:"), HasSubstr(set + " has 2 weights"))) << set;
+    EXPECT_THAT(refused(three + set + " = [1, 1, 5.5]\n"), HasSubstr("… 5")) << set;
+  }
+  EXPECT_THAT(refused(three + "background_ridges = [0, 0, -5.5]\n"), HasSubstr("-5 … 5"));
+  EXPECT_THAT(refused("foreground = [1, -0.1]\n"), HasSubstr("0 … 5"));
+  // A preset brings six arrays; one of another length beside it fits none of them.
+  EXPECT_THAT(refused("preset = \"smooth_slopes\"\nforeground = [1, 1]\n"), HasSubstr("6 weights"));
+  EXPECT_THAT(refused("preset = \"figure9\"\n"), AllOf(HasSubstr("s.toml:3:"), HasSubstr("figure9"), HasSubstr("smooth_slopes")));
+  EXPECT_THAT(refused("print_detail_px = 0.25\n"), HasSubstr("0.5 … 20"));
+  EXPECT_THAT(refused("print_detail_px = 21\n"), HasSubstr("0 … 20"));
+  EXPECT_THAT(refused("full_curvature = 0.0005\n"), HasSubstr("0.001 … 10"));
+  EXPECT_THAT(refused("mask_slope_deg = [9, 9]\n"), HasSubstr("[flatter, steeper]"));
+  EXPECT_THAT(refused("mask_classes = { valley_floor = 1.5 }\n"), HasSubstr("0 … 1"));
+  EXPECT_THAT(refused("mask_classes = { moon = 1 }\n"), HasSubstr("moon"));
+  EXPECT_THAT(refused("curvature = \"gauss\"\n"), HasSubstr("bounded"));
+  EXPECT_THAT(refused("forground = [1]\n"), HasSubstr("forground"));
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,252 @@
+#include "renderer/trace/geo_map.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "base/noise.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/trace/guidance.h"
+#include "renderer/world/ground.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double cell = 30.0;
+const GeoTransform frame{650000.0, 5320000.0, cell, cell};
+const glm::dvec2 viewer(653000.0, 5323000.0);
+// A patch of water on a meadow, in the core of what is turned.
+const glm::dvec2 mountain(653200.0, 5316500.0);
+const glm::dvec2 lake = mountain + glm::dvec2(0.0, 500.0);
+
+glm::dvec2 turned(glm::dvec2 v, double deg) {
+  const double c = std::cos(to_radians(deg));
+  const double s = std::sin(to_radians(deg));
+  return {v.x * c + v.y * s, -v.x * s + v.y * c};
+}
+
+DeformParameters everything() {
+  DeformParameters p;
+  p.exaggeration = 1.6;
+  p.background_exaggeration = 1.2;
+  p.foreground_to_m = 4000.0;
+  p.background_from_m = 9000.0;
+  p.bend.points = {{2000.0, std::nullopt, 18.0}, {8000.0, std::nullopt, 0.0}};
+  p.summits = {{{652000.0, 5315500.0}, 1500.0, 1.3, 100.0}};
+  p.handles = {{.center = mountain, .move_m = {150.0, 80.0}, .rotate_deg = 50.0, .radius_m = 2500.0, .core_m = 1000.0}};
+  return p;
+}
+
+struct World {
+  Ground ground;
+  std::unique_ptr<Camera> camera;
+  std::unique_ptr<Tracer> tracer;
+
+  GeoMap map() const {
+    return {ground.model.dem.altitude_m, ground.model.dem.transform, ground.deformation, ground.surface, *camera, *tracer};
+  }
+};
+
+std::unique_ptr<World> make_world(const DeformParameters& deform_parameters, double relief_m = 250.0) {
+  Raster<float> raster;
+  raster.transform = frame;
+  raster.cells = Grid<float>(220, 260);
+  LandCover cover;
+  cover.classes.transform = frame;
+  cover.classes.cells = Grid<LandCoverClass>(220, 260, LandCoverClass::alpine_grass);
+  for (int y = 0; y < 260; ++y)
+    for (int x = 0; x < 220; ++x) {
+      const glm::dvec2 place = frame.to_crs(x, y);
+      raster.cells(x, y) = static_cast<float>(400.0 + relief_m * gaussian_noise(7, place.x - 650000.0, place.y - 5312000.0, 900.0));
+      if (glm::length(place - lake) < 200.0) cover.classes.cells(x, y) = LandCoverClass::water;
+    }
+  auto world = std::make_unique<World>();
+  Dem dem = make_dem(std::move(raster));
+  Grid<float> shown = dem.altitude_m;
+  world->ground.deformation = Deformation(deform_parameters, viewer);
+  world->ground.surface = deform(shown, frame, glm::dvec3(viewer, 0.0), world->ground.deformation);
+  world->ground.model = make_terrain_model(std::move(dem), std::move(shown), std::move(cover), deform_parameters.exaggeration);
+  if (world->ground.deformation.is_local()) world->ground.model.local = world->ground.deformation;
+  CameraParameters camera;
+  camera.width = 240;
+  camera.height = 160;
+  camera.eye = {viewer, 4500.0};
+  camera.azimuth_deg = 180.0;
+  camera.pitch_deg = -33.0;
+  world->camera = make_camera(camera);
+  world->tracer = std::make_unique<Tracer>(world->ground.surface);
+  return world;
+}
+
+GuidanceBuffers trace(const World& world) {
+  GuidanceParameters parameters;
+  parameters.pixel_samples = 1;
+  parameters.shadow_rays = 1;
+  parameters.sky_directions = 0;
+  return trace_guidance(world.ground.model, world.ground.surface, *world.tracer, *world.camera, parameters, {0, 0, 240, 160},
+                        silent_progress());
+}
+
+TEST(GeoMap, FromPixelToPlaceAndBackIsTheSamePixel) {
+  const auto world = make_world(everything());
+  const GeoMap map = world->map();
+  int ground = 0;
+  for (int y = 0; y < 160; y += 3)
+    for (int x = 0; x < 240; x += 3) {
+      const glm::dvec2 pixel(x + 0.3, y + 0.7);
+      const auto place = map.to_geo(pixel);
+      if (!place) continue;
+      ++ground;
+      const auto back = map.to_image(place->place);
+      ASSERT_TRUE(back);
+      ASSERT_LT(glm::length(back->pixel - pixel), 0.01) << x << ' ' << y;
+      ASSERT_TRUE(back->visible) << x << ' ' << y;
+      ASSERT_NEAR(back->distance_m, place->distance_m, 0.5);
+    }
+  EXPECT_GT(ground, 2000);
+  EXPECT_FALSE(map.to_image(glm::dvec2(600000.0, 5316000.0)));
+  EXPECT_FALSE(map.to_geo({120.0, -2000.0}));
+}
+
+TEST(GeoMap, AgreesWithTheGuidanceBuffers) {
+  // The P channel is the undeformed place of what a pixel shows (at its middle, with one sample a pixel).
+  const auto world = make_world(everything());
+  const GeoMap map = world->map();
+  const GuidanceBuffers guidance = trace(*world);
+  for (int y = 0; y < 160; y += 5)
+    for (int x = 0; x < 240; x += 5) {
+      if (std::isinf(guidance.depth_m(x, y))) continue;
+      const glm::dvec3 place = glm::dvec3(guidance.position_m(x, y)) + guidance.origin_m;
+      const auto at = map.to_image(glm::dvec2(place));
+      ASSERT_TRUE(at);
+      ASSERT_LT(glm::length(at->pixel - glm::dvec2(x + 0.5, y + 0.5)), 0.1) << x << ' ' << y;
+      ASSERT_TRUE(at->visible);
+      ASSERT_NEAR(map.to_geo({x + 0.5, y + 0.5})->altitude_m, static_cast<double>(guidance.altitude_m(x, y)), 0.01);
+    }
+}
+
+TEST(GeoMap, APointOnThePostsIsTheSameByAltitudeAndByGround) {
+  const auto world = make_world(everything());
+  const GeoMap map = world->map();
+  for (int y = 40; y < 240; y += 17)
+    for (int x = 10; x < 210; x += 13) {
+      const glm::dvec2 place = frame.to_crs(x, y);
+      const auto ground = map.to_image(place);
+      const auto point = map.to_image(glm::dvec3(place, world->ground.model.dem.altitude_m(x, y)));
+      ASSERT_TRUE(ground && point);
+      ASSERT_LT(glm::length(ground->pixel - point->pixel), 0.01);
+      const auto above = map.to_image(glm::dvec3(place, world->ground.model.dem.altitude_m(x, y) + 50.F));
+      ASSERT_LT(above->pixel.y, point->pixel.y);
+    }
+}
+
+TEST(GeoMap, HiddenGroundIsHidden) {
+  // Each place is seen just where the pixel it falls on shows it and nothing nearer.
+  const auto world = make_world(everything(), 500.0);
+  const GeoMap map = world->map();
+  int hidden = 0;
+  int seen = 0;
+  for (int y = 5; y < 255; y += 4)
+    for (int x = 5; x < 215; x += 4) {
+      const glm::dvec2 place = frame.to_crs(x + 0.25, y + 0.25);
+      const auto at = map.to_image(place);
+      ASSERT_TRUE(at);
+      if (!at->in_picture) {
+        ASSERT_FALSE(at->visible);
+        continue;
+      }
+      const auto shown = map.to_geo(at->pixel);
+      const bool same = shown && glm::length(shown->place - place) < 1.0;
+      ASSERT_EQ(at->visible, same) << x << ' ' << y;
+      (same ? seen : hidden) += 1;
+    }
+  EXPECT_GT(hidden, 50);
+  EXPECT_GT(seen, 500);
+}
+
+TEST(Deformation, LandCoverFollowsWhatMoves) {
+  const auto world = make_world(everything(), 0.0);
+  const GuidanceBuffers guidance = trace(*world);
+  // The lake lies where the handle took it: 50° clockwise about the mountain and shifted.
+  const glm::dvec2 moved = mountain + glm::dvec2(150.0, 80.0) + turned(lake - mountain, 50.0);
+  int water = 0;
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 240; ++x) {
+      const Ray ray = world->camera->ray({x + 0.5, y + 0.5});
+      const float depth = guidance.depth_m(x, y);
+      if (std::isinf(depth)) continue;
+      const glm::dvec2 shown(ray.origin + ray.direction * static_cast<double>(depth));
+      const double from_lake = glm::length(shown - moved);
+      if (from_lake < 150.0) {
+        ++water;
+        EXPECT_EQ(guidance.land_cover(x, y), LandCoverClass::water);
+      }
+      if (from_lake > 250.0) {
+        EXPECT_EQ(guidance.land_cover(x, y), LandCoverClass::alpine_grass);
+      }
+      // So does the place itself.
+      if (guidance.land_cover(x, y) == LandCoverClass::water) {
+        EXPECT_LT(glm::length(glm::dvec2(glm::dvec3(guidance.position_m(x, y)) + guidance.origin_m) - lake), 230.0);
+      }
+    }
+  EXPECT_GT(water, 20);
+}
+
+TEST(Deformation, LightFallsOnTheTurnedSlope) {
+  // A plane rising to the east, turned by 50°: its normal turns along, and no other channel's light is bent with the ground.
+  DeformParameters p;
+  p.exaggeration = 1.5;
+  p.bend.points = {{2000.0, std::nullopt, 18.0}, {8000.0, std::nullopt, 0.0}};
+  p.handles = {{.center = mountain, .rotate_deg = 50.0, .radius_m = 2500.0, .core_m = 1000.0}};
+  const auto world = make_world(p, 0.0);
+  Grid<float>& z = world->ground.model.generalized_m;
+  for (int y = 0; y < 260; ++y)
+    for (int x = 0; x < 220; ++x) z(x, y) = static_cast<float>(0.4 * cell * x);
+  world->ground.model.detail_smooth_m = z;
+  world->ground.surface = deform(z, frame, glm::dvec3(viewer, 0.0), world->ground.deformation);
+  Tracer tracer(world->ground.surface);
+  *world->tracer = std::move(tracer);
+  const auto at = world->map().to_image(mountain);
+  ASSERT_TRUE(at && at->visible);
+  const GuidanceBuffers guidance = trace(*world);
+  const glm::dvec3 normal(guidance.normal(static_cast<int>(at->pixel.x), static_cast<int>(at->pixel.y)));
+  // Unturned the normal leans west with slope 0.4 · 1.5.
+  const glm::dvec2 lean = turned({-0.6, 0.0}, 50.0);
+  EXPECT_LT(glm::length(normal - glm::normalize(glm::dvec3(lean, 1.0))), 1e-3);
+  // Slope and aspect are the ground's own, as on the map: neither exaggerated nor turned.
+  const std::size_t pixel = guidance.slope_deg.index(static_cast<int>(at->pixel.x), static_cast<int>(at->pixel.y));
+  EXPECT_NEAR(guidance.slope_deg[pixel], to_degrees(std::atan(0.4)), 0.01);
+  EXPECT_NEAR(guidance.aspect_deg[pixel], 270.0, 0.1);
+}
+
+TEST(Deformation, FoldsInThePictureAreRefusedUnlessAllowed) {
+  DeformParameters p;
+  p.handles = {{.center = mountain, .move_m = {0.0, 2200.0}, .radius_m = 2500.0, .core_m = 1000.0}};
+  const auto world = make_world(p);
+  Scene scene;
+  scene.deform.handles.emplace_back().name = "Hochkar";
+  try {
+    check_folds(scene, world->ground, *world->camera, silent_progress());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_EQ(error.where(), "deform.handles.0 (Hochkar)");
+    EXPECT_THAT(error.found(), ::testing::HasSubstr("in the picture around E 653"));
+    EXPECT_THAT(error.allowed(), ::testing::HasSubstr("allow_folds"));
+  }
+  struct Notes : Progress {
+    void note(std::string_view text) override { notes.emplace_back(text); }
+    std::vector<std::string> notes;
+  } notes;
+  scene.deform.allow_folds = true;
+  check_folds(scene, world->ground, *world->camera, notes);
+  ASSERT_EQ(notes.notes.size(), 1U);
+  EXPECT_THAT(notes.notes[0], ::testing::HasSubstr("Hochkar"));
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,566 @@
+#include "renderer/trace/guidance.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "base/random.h"
+#include "renderer/trace/guidance_rays.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double cell = 30.0;
+
+// A made-up world: altitude and land cover as functions of metres east and south of the first post.
+struct World {
+  TerrainModel terrain;
+  DeformedSurface surface;
+  std::unique_ptr<Tracer> tracer;
+  DeformParameters deform_parameters;
+  glm::dvec2 viewer{0.0};
+};
+
+template <class Altitude, class Cover>
+World make_world(int width, int height, Altitude&& altitude, Cover&& cover, DeformParameters deform_parameters = {},
+                 glm::dvec2 viewer = {652000.0, 5330000.0}) {
+  Raster<float> raster;
+  raster.transform = {650000.0, 5320000.0, cell, cell};
+  raster.cells = Grid<float>(width, height);
+  LandCover land_cover;
+  land_cover.classes.transform = raster.transform;
+  land_cover.classes.cells = Grid<LandCoverClass>(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      raster.cells(x, y) = static_cast<float>(altitude(x * cell, y * cell));
+      land_cover.classes.cells(x, y) = cover(x * cell, y * cell);
+    }
+  }
+  World world;
+  Dem dem = make_dem(std::move(raster));
+  Grid<float> generalized = dem.altitude_m;
+  world.deform_parameters = deform_parameters;
+  world.viewer = viewer;
+  world.surface = deform(generalized, dem.transform, viewer, {viewer, 0.0}, deform_parameters);
+  world.terrain = make_terrain_model(std::move(dem), std::move(generalized), std::move(land_cover), deform_parameters.exaggeration);
+  world.tracer = std::make_unique<Tracer>(world.surface);
+  return world;
+}
+
+LandCoverClass all_meadow(double, double) { return LandCoverClass::alpine_grass; }
+
+double rough(double x, double y) {
+  double sum = 0.0;
+  for (int octave = 0; octave < 4; ++octave) {
+    const double wave = 3000.0 / (1 << octave);
+    const auto ix = static_cast<std::int64_t>(std::floor(x / wave));
+    const auto iy = static_cast<std::int64_t>(std::floor(y / wave));
+    const double fx = x / wave - static_cast<double>(ix);
+    const double fy = y / wave - static_cast<double>(iy);
+    const auto at = [&](int i, int j) { return random_uniform(5 + octave, ix + i, iy + j); };
+    sum += ((at(0, 0) * (1 - fx) + at(1, 0) * fx) * (1 - fy) + (at(0, 1) * (1 - fx) + at(1, 1) * fx) * fy) * wave * 0.5;
+  }
+  return sum;
+}
+
+// Looks south from 3 km north of the terrain's northern rim.
+CameraParameters southward(int width, int height, double pitch_deg = -20.0) {
+  CameraParameters p;
+  p.width = width;
+  p.height = height;
+  p.eye = {653000.0, 5323000.0, 3500.0};
+  p.azimuth_deg = 180.0;
+  p.pitch_deg = pitch_deg;
+  return p;
+}
+
+GuidanceBuffers trace(const World& world, const Camera& camera, const GuidanceParameters& parameters = {}) {
+  return trace_guidance(world.terrain, world.surface, *world.tracer, camera, parameters, {0, 0, camera.size().x, camera.size().y},
+                        silent_progress());
+}
+
+World rough_world() {
+  DeformParameters d;
+  d.exaggeration = 1.6;
+  d.bend = {60000.0, 9000.0, 8000.0, 1e-5};
+  return make_world(220, 260, rough,
+                    [](double x, double y) { return rough(x + 9000.0, y) > 1400.0 ? LandCoverClass::forest : LandCoverClass::rock; }, d,
+                    {653000.0, 5323000.0});
+}
+
+TEST(Guidance, PixelPlacesShareNoColumnAndNoRow) {
+  for (const int n : {1, 4, 9, 16}) {
+    const auto places = pixel_sample_places(n);
+    ASSERT_EQ(places.size(), static_cast<std::size_t>(n));
+    std::set<int> columns;
+    std::set<int> rows;
+    for (const glm::dvec2 p : places) {
+      columns.insert(static_cast<int>(std::floor(p.x * n)));
+      rows.insert(static_cast<int>(std::floor(p.y * n)));
+      EXPECT_NEAR(p.x * n - std::floor(p.x * n), 0.5, 1e-9);
+    }
+    EXPECT_EQ(columns.size(), static_cast<std::size_t>(n));
+    EXPECT_EQ(rows.size(), static_cast<std::size_t>(n));
+    EXPECT_GE(*columns.begin(), 0);
+    EXPECT_LT(*columns.rbegin(), n);
+  }
+}
+
+TEST(Guidance, SkyDirectionsAreCosineWeightedAndDealtOutEvenly) {
+  for (const int per_pixel : {1, 4, 16}) {
+    const auto all = sky_directions(per_pixel);
+    ASSERT_EQ(all.size(), static_cast<std::size_t>(16 * per_pixel));
+    std::array<int, 16> dealt{};
+    glm::dvec3 mean(0.0);
+    for (const SkyDirection& d : all) {
+      ++dealt[static_cast<std::size_t>(d.lane)];
+      EXPECT_NEAR(glm::length(d.direction), 1.0, 1e-12);
+      EXPECT_GT(d.direction.z, 0.0);
+      mean += d.direction / static_cast<double>(all.size());
+    }
+    EXPECT_THAT(dealt, testing::Each(per_pixel));
+    EXPECT_NEAR(mean.z, 2.0 / 3.0, 0.01);
+    EXPECT_NEAR(mean.x, 0.0, 0.05);
+    EXPECT_NEAR(mean.y, 0.0, 0.05);
+  }
+}
+
+TEST(Guidance, LevelGroundIsLitOpenAndFlat) {
+  const World world = make_world(
+      200, 200, [](double, double) { return 500.0; }, all_meadow);
+  const auto camera = make_camera(southward(96, 64));
+  const GuidanceBuffers b = trace(world, *camera);
+  int ground = 0;
+  for (std::size_t i = 0; i < b.depth_m.size(); ++i) {
+    if (b.is_sky(i)) continue;
+    ++ground;
+    EXPECT_EQ(b.shadow[i], 1.F);
+    EXPECT_EQ(b.sky_view[i], 1.F);
+    EXPECT_EQ(b.slope_deg[i], 0.F);
+    EXPECT_EQ(b.fall_line[i], glm::vec2(0.F));
+    EXPECT_EQ(b.normal[i], glm::vec3(0.F, 0.F, 1.F));
+    EXPECT_FLOAT_EQ(b.altitude_m[i], 500.F);
+    EXPECT_EQ(b.land_cover[i], LandCoverClass::alpine_grass);
+    EXPECT_NEAR(b.ridge[i], 0.F, 1e-4);  // the blurs' rounding
+    EXPECT_NEAR(b.valley_height_m[i], 0.F, 1e-3);
+  }
+  EXPECT_GT(ground, 2000);
+}
+
+TEST(Guidance, GroundThatMovedTakesAlongWhatLiesOnIt) {
+  // The ground rises to the east, with a forest from 3 km on; all of it came from ten cells farther west.
+  World world = make_world(
+      200, 200, [](double x, double) { return 500.0 + 0.1 * x; },
+      [](double x, double) { return x > 3000.0 ? LandCoverClass::forest : LandCoverClass::alpine_grass; });
+  world.terrain.came_from = Grid<glm::vec2>(200, 200, glm::vec2(-10.F, 0.F));
+  const auto camera = make_camera(southward(96, 64));
+  const GuidanceBuffers b = trace(world, *camera);
+  int forest = 0;
+  int grass = 0;
+  for (std::size_t i = 0; i < b.depth_m.size(); ++i) {
+    if (b.is_sky(i)) continue;
+    const double east = b.origin_m.x + b.position_m[i].x - 650015.0;  // from the first post
+    if (east < 320.0 || east > 5900.0) continue;
+    EXPECT_NEAR(b.altitude_m[i], 500.0 + 0.1 * (east - 300.0), 0.1);
+    if (std::abs(east - 3300.0) < 100.0) continue;
+    (east > 3300.0 ? forest : grass) += 1;
+    EXPECT_EQ(b.land_cover[i], east > 3300.0 ? LandCoverClass::forest : LandCoverClass::alpine_grass) << east;
+  }
+  EXPECT_GT(forest, 200);
+  EXPECT_GT(grass, 200);
+}
+
+// The distance to the border of the data, or to a void that reaches it; a void in the middle is mended and counts as ground.
+TEST(Guidance, RimIsTheDistanceToTheEndOfTheKnownTerrain) {
+  constexpr int side = 200;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto void_at = [](double x, double y, double x0, double x1, double y0, double y1) {
+    return x >= x0 * cell && x <= x1 * cell && y >= y0 * cell && y <= y1 * cell;
+  };
+  const World world = make_world(
+      side, side,
+      [&](double x, double y) {
+        const bool bay = void_at(x, y, 0, 60, 70, 90);        // from the western border inwards
+        const bool hole = void_at(x, y, 120, 130, 100, 110);  // in the middle of known terrain
+        return bay || hole ? nan : 500.0;
+      },
+      all_meadow);
+  const auto camera = make_camera(southward(128, 96, -35.0));
+  const GuidanceBuffers b = trace(world, *camera);
+  int ground = 0;
+  int at_bay = 0;
+  int exact = 0;
+  int in_hole = 0;
+  for (std::size_t i = 0; i < b.depth_m.size(); ++i) {
+    if (b.is_sky(i)) continue;
+    const glm::dvec3 place = glm::dvec3(b.position_m[i]) + world.surface.origin;
+    const glm::dvec2 at = world.terrain.dem.transform.to_cell(place.x, place.y);
+    std::array<double, 4> sides = {at.x, at.y, side - 1 - at.x, side - 1 - at.y};
+    std::sort(sides.begin(), sides.end());
+    const double border = sides[0];
+    const double bay = std::hypot(std::max(at.x - 60.0, 0.0), std::max({70.0 - at.y, at.y - 90.0, 0.0}));
+    const double wanted = cell * std::max(0.0, std::min(border, bay));
+    // Bilinear between posts: exact by a straight side, up to half a cell off around corners and where two ends are as near.
+    const bool one_side = std::min(sides[1], bay) > border + 2.0;
+    ASSERT_NEAR(b.rim_m[i], wanted, one_side ? 0.05 : 0.75 * cell) << at.x << ", " << at.y;
+    exact += one_side ? 1 : 0;
+    ++ground;
+    at_bay += bay < border ? 1 : 0;
+    in_hole += at.x > 121 && at.x < 129 && at.y > 101 && at.y < 109 ? 1 : 0;
+  }
+  EXPECT_GT(ground, 5000);
+  EXPECT_GT(at_bay, 300);
+  EXPECT_GT(exact, 1000);
+  EXPECT_GT(in_hole, 5);
+}
+
+TEST(Guidance, SkyPixelsHoldTheirDefaults) {
+  const World world = make_world(
+      100, 100, [](double, double) { return 500.0; }, all_meadow);
+  const auto camera = make_camera(southward(64, 32, 20.0));
+  const GuidanceBuffers b = trace(world, *camera);
+  for (std::size_t i = 0; i < b.depth_m.size(); ++i) {
+    ASSERT_TRUE(b.is_sky(i));
+    EXPECT_EQ(b.land_cover[i], LandCoverClass::sky);
+    EXPECT_EQ(b.normal[i], glm::vec3(0.F, 0.F, 1.F));
+    EXPECT_EQ(b.coverage[i], 0.F);
+    EXPECT_EQ(b.front[i], 1.F);
+    EXPECT_EQ(b.shadow[i], 1.F);
+    EXPECT_EQ(b.sky_view[i], 1.F);
+    EXPECT_EQ(b.altitude_m[i], 0.F);
+  }
+}
+
+// A ramp that rises to the south-east: everything has a closed form.
+TEST(Guidance, RampHasItsSlopeAspectNormalsAndSkyView) {
+  const double east = 0.15;
+  const double south = 0.25;
+  DeformParameters d;
+  d.exaggeration = 1.6;
+  const World world = make_world(
+      400, 400, [&](double x, double y) { return 100.0 + east * x + south * y; }, all_meadow, d);
+  CameraParameters p = southward(160, 96, -30.0);
+  p.eye.z = 6000.0;
+  const auto camera = make_camera(p);
+  GuidanceParameters parameters;
+  parameters.sky_directions = 64;
+  const GuidanceBuffers b = trace(world, *camera, parameters);
+  // Gradients point uphill: to the east, and to the south, which is against north.
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(-1.6 * east, 1.6 * south, 1.0));
+  const glm::dvec3 detail = glm::normalize(glm::dvec3(-2.4 * east, 2.4 * south, 1.0));
+  int inner = 0;
+  for (std::size_t i = 0; i < b.depth_m.size(); ++i) {
+    if (b.is_sky(i)) continue;
+    const glm::dvec3 place = glm::dvec3(b.position_m[i]) + world.surface.origin;
+    const glm::dvec2 at = world.terrain.dem.transform.to_cell(place.x, place.y);
+    if (at.x < 70.0 || at.y < 70.0 || at.x > 330.0 || at.y > 330.0) continue;  // the Gaussians see the rim
+    ++inner;
+    ASSERT_NEAR(b.slope_deg[i], to_degrees(std::atan(std::hypot(east, south))), 0.05);
+    ASSERT_NEAR(b.aspect_deg[i], 360.0 - to_degrees(std::atan2(east, south)), 0.1);  // downhill: north-west
+    ASSERT_LT(glm::length(glm::dvec3(b.normal[i]) - normal), 1e-3);
+    ASSERT_LT(glm::length(glm::dvec3(b.normal_smooth[i]) - normal), 1e-3);
+    ASSERT_LT(glm::length(glm::dvec3(b.normal_detail[i]) - detail), 1e-3);
+    ASSERT_NEAR(b.altitude_m[i], 100.0 + (east * at.x + south * at.y) * cell, 0.01);
+    ASSERT_NEAR(place.z, b.altitude_m[i], 0.01);
+    // A tilted plane sees (1 + cos tilt) / 2 of a cosine-weighted sky.
+    ASSERT_NEAR(b.sky_view[i], 0.5 * (1.0 + normal.z), 0.02);
+    ASSERT_NEAR(b.relief_m_m[i], 0.0, 0.5);
+    // The fall line goes left (west is right when looking south, so downhill west is to the right) and down (towards the viewer).
+    ASSERT_GT(b.fall_line[i].x, 0.1F);
+    ASSERT_GT(b.fall_line[i].y, 0.1F);
+    ASSERT_NEAR(glm::length(b.fall_line[i]), 1.0, 1e-5);
+  }
+  EXPECT_GT(inner, 1500);
+}
+
+TEST(Guidance, PlacesProjectBackIntoTheirPixels) {
+  const World world = rough_world();
+  for (const char* projection : {"perspective", "oblique", "cylindrical"}) {
+    CameraParameters p = southward(200, 120, -30.0);
+    p.projection = projection;
+    p.view_width_m = 6000.0;
+    p.field_of_view_deg = 60.0;
+    p.eye.z = 6500.0;
+    const auto camera = make_camera(p);
+    const GuidanceBuffers b = trace(world, *camera);
+    int ground = 0;
+    for (int y = 0; y < b.height(); ++y) {
+      for (int x = 0; x < b.width(); ++x) {
+        const std::size_t i = b.depth_m.index(x, y);
+        if (b.is_sky(i)) continue;
+        ++ground;
+        const glm::dvec3 place = glm::dvec3(b.position_m[i]) + world.surface.origin;
+        const auto at = camera->project(deform_point(place, world.viewer, world.deform_parameters));
+        ASSERT_TRUE(at);
+        // Within the pixel; a facet lies up to some decimetres off the bilinear altitude.
+        ASSERT_NEAR(at->x, x + 0.5, 0.6) << projection;
+        ASSERT_NEAR(at->y, y + 0.5, 0.8) << projection;
+      }
+    }
+    EXPECT_GT(ground, 5000) << projection;
+  }
+}
+
+TEST(Guidance, FootprintIsMetresAPixel) {
+  const World world = rough_world();
+  CameraParameters p = southward(120, 80, -30.0);
+  p.eye.z = 6500.0;
+  p.projection = "oblique";
+  p.view_width_m = 6000.0;
+  const GuidanceBuffers map = trace(world, *make_camera(p));
+  p.projection = "perspective";
+  const GuidanceBuffers view = trace(world, *make_camera(p));
+  for (std::size_t i = 0; i < map.depth_m.size(); ++i) {
+    if (!map.is_sky(i)) {
+      ASSERT_NEAR(map.footprint_m[i], 50.0, 1e-3);
+    }
+  }
+  const std::size_t middle = view.depth_m.index(60, 40);
+  ASSERT_FALSE(view.is_sky(middle));
+  EXPECT_NEAR(view.footprint_m[middle], view.depth_m[middle] * 2.0 * std::tan(to_radians(25.0)) / 120.0, 0.01 * view.footprint_m[middle]);
+}
+
+TEST(Guidance, FallLineFollowsTheSlopeInThePicture) {
+  // Ramps to the four directions, seen from the north looking south: east is left.
+  const struct {
+    double dx, dy;  // downhill in metres east and south
+    glm::vec2 image;
+  } cases[] = {{1.0, 0.0, {-1.F, 0.F}}, {-1.0, 0.0, {1.F, 0.F}}, {0.0, -1.0, {0.F, 1.F}}};
+  for (const auto& c : cases) {
+    const World world = make_world(
+        200, 200, [&](double x, double y) { return 1000.0 - 0.2 * (c.dx * x + c.dy * y); }, all_meadow);
+    const auto camera = make_camera(southward(64, 48, -25.0));
+    const GuidanceBuffers b = trace(world, *camera);
+    const std::size_t middle = b.depth_m.index(32, 24);
+    ASSERT_FALSE(b.is_sky(middle));
+    EXPECT_GT(glm::dot(b.fall_line[middle], c.image), 0.7F) << c.dx << ' ' << c.dy;
+  }
+}
+
+TEST(Guidance, MostSamplesWinThePixelAndItsValuesComeFromOneOfThem) {
+  const World world = rough_world();
+  CameraParameters p = southward(120, 72, -14.0);
+  const auto camera = make_camera(p);
+  GuidanceParameters parameters;
+  parameters.sky_directions = 0;
+  parameters.shadow_rays = 1;
+  const GuidanceBuffers b = trace(world, *camera, parameters);
+  const auto places = pixel_sample_places(4);
+  int mixed = 0;
+  int edges = 0;
+  for (int y = 0; y < b.height(); ++y) {
+    for (int x = 0; x < b.width(); ++x) {
+      const std::size_t i = b.depth_m.index(x, y);
+      std::array<int, land_cover_class_count> votes{};
+      std::vector<std::pair<LandCoverClass, double>> seen;
+      for (const glm::dvec2 place : places) {
+        const Ray ray = camera->ray(glm::dvec2(x, y) + place);
+        Hit hit;
+        world.tracer->intersect({&ray, 1}, {&hit, 1});
+        const glm::dvec2 at = world.terrain.dem.transform.to_crs(hit.column, hit.row);
+        seen.emplace_back(hit.found ? world.terrain.land_cover.at(at.x, at.y) : LandCoverClass::sky,
+                          hit.found ? hit.distance_m : std::numeric_limits<double>::infinity());
+        ++votes[static_cast<std::size_t>(seen.back().first)];
+      }
+      const auto winner = static_cast<LandCoverClass>(std::max_element(votes.begin(), votes.end()) - votes.begin());
+      ASSERT_EQ(b.land_cover[i], winner) << x << ' ' << y;
+      const double depth = b.depth_m[i];
+      EXPECT_TRUE(
+          std::any_of(seen.begin(), seen.end(), [&](const auto& s) { return s.first == winner && static_cast<float>(s.second) == depth; }));
+      EXPECT_FLOAT_EQ(b.coverage[i], 1.F - static_cast<float>(votes[0]) / 4.F);
+      const auto together = std::count_if(seen.begin(), seen.end(), [&](const auto& s) {
+        return winner == LandCoverClass::sky ? s.first == LandCoverClass::sky : std::abs(s.second - depth) <= 0.03 * depth;
+      });
+      EXPECT_FLOAT_EQ(b.front[i], static_cast<float>(together) / 4.F);
+      mixed += *std::max_element(votes.begin(), votes.end()) < 4 ? 1 : 0;
+      edges += b.front[i] < 1.F ? 1 : 0;
+    }
+  }
+  EXPECT_GT(mixed, 100);
+  EXPECT_GT(edges, 50);
+}
+
+TEST(Guidance, SunBelowTheHorizonLeavesAllTerrainInShadow) {
+  const World world = rough_world();
+  GuidanceParameters parameters;
+  parameters.sun_direction = glm::normalize(glm::dvec3(-0.7, 0.7, -0.05));
+  const GuidanceBuffers b = trace(world, *make_camera(southward(64, 48)), parameters);
+  for (std::size_t i = 0; i < b.depth_m.size(); ++i) EXPECT_EQ(b.shadow[i], b.is_sky(i) ? 1.F : 0.F);
+}
+
+// A wall across a plain: the umbra ends where the disc's upper edge passes the crest, the penumbra where its lower edge does.
+TEST(Guidance, PenumbraOfAWallIsAsWideAsTheDisc) {
+  const double wall = 400.0;
+  const World world = make_world(
+      300, 300, [&](double, double y) { return y >= 6000.0 && y <= 6030.0 ? wall : 0.0; }, all_meadow);
+  CameraParameters p;
+  p.projection = "oblique";  // straight down: a map, 10 m a pixel
+  p.pitch_deg = -90.0;
+  p.width = 64;
+  p.height = 256;
+  p.view_width_m = 640.0;
+  p.eye = {654500.0, 5320000.0 - 5000.0, 3000.0};
+  const auto camera = make_camera(p);
+  GuidanceParameters parameters;
+  parameters.shadow_rays = 32;
+  parameters.sky_directions = 0;
+  parameters.sun_radius_rad = 0.05;
+  const double altitude = to_radians(30.0);
+  parameters.sun_direction = {0.0, -std::cos(altitude), std::sin(altitude)};  // from the south: the shadow falls north
+  const GuidanceBuffers b = trace(world, *camera, parameters);
+  const auto length = [&](double angle) { return wall / std::tan(angle); };
+  for (int y = 0; y < b.height(); ++y) {
+    double lit = 0.0;
+    double from_wall = 0.0;
+    for (int x = 0; x < b.width(); ++x) {
+      const std::size_t i = b.depth_m.index(x, y);
+      lit += b.shadow[i] / b.width();
+      from_wall = b.position_m[i].y + world.surface.origin.y - (5320000.0 - 15.0 - 6000.0);
+    }
+    if (from_wall > length(altitude - 0.05) + 20.0) {
+      EXPECT_EQ(lit, 1.0) << from_wall;
+    }
+    if (from_wall < length(altitude + 0.05) - 20.0 && from_wall > 40.0) {
+      EXPECT_EQ(lit, 0.0) << from_wall;
+    }
+    // In the middle of the penumbra half of the disc is seen.
+    if (std::abs(from_wall - length(altitude)) < 6.0) {
+      EXPECT_NEAR(lit, 0.5, 0.12);
+    }
+  }
+}
+
+// The two probing rays a pixel must not change the picture: against all rays traced one by one.
+TEST(Guidance, ShadowsWithoutPenumbraAreFoundByTwoRays) {
+  const World world = rough_world();
+  const auto camera = make_camera(southward(160, 96, -18.0));
+  GuidanceParameters parameters;
+  parameters.pixel_samples = 1;
+  parameters.sky_directions = 0;
+  parameters.sun_direction = glm::normalize(glm::dvec3(-0.7, 0.5, 0.35));
+  const GuidanceBuffers b = trace(world, *camera, parameters);
+  double difference = 0.0;
+  int ground = 0;
+  int partly = 0;
+  const auto places = disc_places(64);
+  for (int y = 0; y < b.height(); ++y) {
+    for (int x = 0; x < b.width(); ++x) {
+      const std::size_t i = b.depth_m.index(x, y);
+      if (b.is_sky(i)) continue;
+      ++ground;
+      partly += b.shadow[i] > 0.F && b.shadow[i] < 1.F ? 1 : 0;
+      const Ray ray = camera->ray({x + 0.5, y + 0.5});
+      Hit hit;
+      world.tracer->intersect({&ray, 1}, {&hit, 1});
+      const glm::dvec3 start = ray.origin + ray.direction * hit.distance_m + 0.05 * hit.facet_normal();
+      const glm::dvec3 side = glm::normalize(glm::cross(parameters.sun_direction, glm::dvec3(0, 0, 1)));
+      const glm::dvec3 above = glm::cross(side, parameters.sun_direction);
+      std::vector<Ray> rays;
+      for (const glm::dvec2 p : places)
+        rays.push_back({start, glm::normalize(parameters.sun_direction + 0.03 * (side * p.x + above * p.y))});
+      std::vector<std::uint8_t> blocked(rays.size());
+      world.tracer->occluded(rays, 1e9, blocked);
+      const auto free = std::count(blocked.begin(), blocked.end(), 0);
+      difference += std::abs(static_cast<double>(free) / 64.0 - b.shadow[i]);
+    }
+  }
+  EXPECT_GT(partly, 100);
+  EXPECT_LT(difference / ground, 0.012);
+}
+
+template <class T>
+void expect_same(const Grid<T>& whole, const Grid<T>& part, PixelRect region, PixelRect keep, const char* channel) {
+  ASSERT_EQ(part.width(), region.width());
+  ASSERT_EQ(part.height(), region.height());
+  for (int y = keep.y0; y < keep.y1; ++y) {
+    for (int x = keep.x0; x < keep.x1; ++x) {
+      ASSERT_EQ(std::memcmp(&whole(x, y), &part(x - region.x0, y - region.y0), sizeof(T)), 0) << channel << " at " << x << ' ' << y;
+    }
+  }
+}
+
+void expect_same_buffers(const GuidanceBuffers& whole, const GuidanceBuffers& part, PixelRect region, PixelRect inner) {
+  expect_same(whole.depth_m, part.depth_m, region, region, "depth");
+  expect_same(whole.position_m, part.position_m, region, region, "position");
+  expect_same(whole.normal, part.normal, region, region, "normal");
+  expect_same(whole.normal_detail, part.normal_detail, region, region, "normal detail");
+  expect_same(whole.normal_smooth, part.normal_smooth, region, region, "normal smooth");
+  expect_same(whole.altitude_m, part.altitude_m, region, region, "altitude");
+  expect_same(whole.land_cover, part.land_cover, region, region, "land cover");
+  expect_same(whole.coverage, part.coverage, region, region, "coverage");
+  expect_same(whole.front, part.front, region, region, "front");
+  expect_same(whole.shadow, part.shadow, region, region, "shadow");
+  expect_same(whole.slope_deg, part.slope_deg, region, region, "slope");
+  expect_same(whole.aspect_deg, part.aspect_deg, region, region, "aspect");
+  expect_same(whole.fall_line, part.fall_line, region, region, "fall line");
+  expect_same(whole.footprint_m, part.footprint_m, region, region, "footprint");
+  expect_same(whole.ridge, part.ridge, region, region, "ridge");
+  expect_same(whole.relief_s_m, part.relief_s_m, region, region, "relief s");
+  expect_same(whole.relief_m_m, part.relief_m_m, region, region, "relief m");
+  expect_same(whole.relief_l_m, part.relief_l_m, region, region, "relief l");
+  expect_same(whole.valley_height_m, part.valley_height_m, region, region, "valley height");
+  expect_same(whole.sky_view, part.sky_view, region, inner, "sky view");
+  expect_same(whole.silhouette, part.silhouette, region, inner, "silhouette");
+}
+
+TEST(Guidance, AnyRectangleTileSizeAndThreadCountGivesTheSameBits) {
+  const World world = rough_world();
+  const auto camera = make_camera(southward(131, 77, -16.0));  // no multiple of a block
+  GuidanceBuffers whole;
+  {
+    const ThreadLimit limit(1);
+    whole = trace(world, *camera);
+  }
+  GuidanceParameters parameters;
+  for (const int tile : {8, 64}) {
+    const ThreadLimit limit(2);
+    parameters.tile_size = tile;
+    expect_same_buffers(whole, trace(world, *camera, parameters), {0, 0, 131, 77}, {0, 0, 131, 77});
+  }
+  for (const PixelRect region :
+       {PixelRect{0, 0, 61, 77}, PixelRect{13, 5, 131, 40}, PixelRect{50, 33, 59, 42}, PixelRect{128, 70, 131, 77}}) {
+    const GuidanceBuffers part =
+        trace_guidance(world.terrain, world.surface, *world.tracer, *camera, parameters, region, silent_progress());
+    const int m = guidance_margin_px();
+    const PixelRect inner = {region.x0 == 0 ? 0 : region.x0 + m, region.y0 == 0 ? 0 : region.y0 + m, region.x1 == 131 ? 131 : region.x1 - m,
+                             region.y1 == 77 ? 77 : region.y1 - m};
+    expect_same_buffers(whole, part, region, inner);
+  }
+}
+
+TEST(Guidance, RefusesParametersOutOfRange) {
+  const World world = make_world(
+      20, 20, [](double, double) { return 0.0; }, all_meadow);
+  const auto camera = make_camera(southward(16, 16));
+  const auto refused = [&](auto change, const char* key) {
+    GuidanceParameters parameters;
+    change(parameters);
+    try {
+      trace(world, *camera, parameters);
+      ADD_FAILURE() << key << " was accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      EXPECT_THAT(error.where(), testing::HasSubstr(key));
+    }
+  };
+  refused([](auto& p) { p.pixel_samples = 5; }, "pixel_samples");
+  refused([](auto& p) { p.shadow_rays = 0; }, "shadow_rays");
+  refused([](auto& p) { p.sky_directions = 300; }, "sky_directions");
+  refused([](auto& p) { p.sky_reach_m = -1.0; }, "sky_reach_m");
+  refused([](auto& p) { p.sun_radius_rad = std::numeric_limits<double>::quiet_NaN(); }, "radius_deg");
+  refused([](auto& p) { p.sun_direction = glm::dvec3(0.0); }, "sun");
+  EXPECT_THROW(trace_guidance(world.terrain, world.surface, *world.tracer, *camera, {}, {0, 0, 17, 16}, silent_progress()), Error);
+}
+
+}  // namespace
+}  // namespace belvedere

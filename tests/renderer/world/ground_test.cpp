@@ -1,0 +1,140 @@
+#include "renderer/world/ground.h"
+
+#include "renderer/world/generalize_view.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "terrain/io/raster_io.h"
+#include "tests/files.h"
+
+namespace belvedere {
+namespace {
+
+using enum LandCoverClass;
+
+// The rules see glacier east of 501 km, snow north of 5199 km, which wins, and forest elsewhere. The raster tells three columns of classes
+// apart, on cells of its own.
+class RefinedLandCover : public testing::Test {
+ protected:
+  static constexpr double east = 500000.0;
+  static constexpr double north = 5200000.0;
+
+  static Dem level() { return make_dem({Grid<float>(20, 20, 1000.F), {east, north, 100.0, 100.0}, normalize_crs("EPSG:32632")}); }
+  LandCover refined(const std::string& refine) const {
+    folder_.write("rules.toml",
+                  "version = 1\nname = \"two\"\n[parameters]\nspeck_cells = 0\n[[layers]]\nclass = \"forest\"\nwhen = \"1\"\n"
+                  "[[layers]]\nclass = \"glacier\"\nwhen = \"east > 501000\"\n[[layers]]\nclass = \"snow\"\nwhen = \"north > 5199000\"\n");
+    Raster<float> codes{Grid<float>(50, 50), {east, north, 40.0, 40.0}, normalize_crs("EPSG:32632")};
+    for (int y = 0; y < 50; ++y)
+      for (int x = 0; x < 50; ++x) codes.cells(x, y) = code(x);
+    write_raster(folder_ / "cover.tif", codes);
+    const LoadedScene scene = parse_scene("version = 1\n[land_cover]\nlegend = \"esa_worldcover\"\nrules = \"rules.toml\"\n" + refine +
+                                              "[[land_cover.sources]]\nfile = \"cover.tif\"\n",
+                                          "s.toml", folder_.path(), {});
+    return make_scene_land_cover(scene, level(), silent_progress());
+  }
+  // ESA WorldCover: grassland, bare ground, trees, in stripes one cell wide.
+  static float code(int x) { return x % 3 == 0 ? 30.F : x % 3 == 1 ? 60.F : 10.F; }
+  static LandCoverClass as_read(int x) { return x % 3 == 0 ? pasture : x % 3 == 1 ? rock : forest; }
+
+  test::Folder folder_;
+};
+
+TEST_F(RefinedLandCover, ChangesTheNamedClassWhereTheRulesSeeTheOther) {
+  const LandCover cover = refined("refine = { glacier = \"rock\", snow = \"pasture\" }\n");
+  ASSERT_EQ(cover.classes.cells.width(), 50);
+  int glaciers = 0;
+  int snows = 0;
+  for (int y = 0; y < 50; ++y)
+    for (int x = 0; x < 50; ++x) {
+      // The rules stand on the DEM's cells of 100 m: the border lies between columns 9 and 10, and rows 9 and 10; cells of 40 m have
+      // their centres at (n + 0.5) · 0.4 of those.
+      const bool east_of = (x + 0.5) * 0.4 > 10.0;
+      const bool north_of = (y + 0.5) * 0.4 < 10.0;
+      const LandCoverClass read = as_read(x);
+      const LandCoverClass wanted = read == rock && east_of && !north_of ? glacier : read == pasture && north_of ? snow : read;
+      ASSERT_EQ(cover.classes.cells(x, y), wanted) << x << ", " << y;
+      glaciers += wanted == glacier ? 1 : 0;
+      snows += wanted == snow ? 1 : 0;
+    }
+  EXPECT_GT(glaciers, 100);
+  EXPECT_GT(snows, 200);
+}
+
+TEST_F(RefinedLandCover, WithoutTheKeyTheRasterHoldsAlone) {
+  const LandCover cover = refined("");
+  for (int y = 0; y < 50; ++y)
+    for (int x = 0; x < 50; ++x) ASSERT_EQ(cover.classes.cells(x, y), as_read(x));
+}
+
+// A valley between ridges whose rows stand too high and too low in turn, read by a scene with these wishes.
+class TerrainOperators : public testing::Test {
+ protected:
+  void SetUp() override {
+    striped_ = valley(0.0);
+    for (int y = 0; y < striped_.cells.height(); ++y)
+      for (int x = 0; x < striped_.cells.width(); ++x) striped_.cells(x, y) += y / 2 % 2 == 0 ? 4.F : -4.F;
+    write_raster(folder_ / "striped.tif", striped_);
+    write_raster(folder_ / "clean.tif", valley());
+  }
+  // Its gullies run nearly along columns: to be called stripes themselves.
+  static Raster<float> valley(double gullies_m = 60.0) {
+    Raster<float> raster{Grid<float>(160, 200), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
+    for (int y = 0; y < 200; ++y)
+      for (int x = 0; x < 160; ++x)
+        raster.cells(x, y) =
+            static_cast<float>(900.0 - y + 18.0 * std::abs(x - 80.0) + gullies_m * std::sin(x / 3.0) * std::sin(y / 11.0 + x));
+    return raster;
+  }
+  LoadedScene scene(const std::string& file, const std::string& wishes) const {
+    return parse_scene("version = 1\n[[terrain.sources]]\nfile = \"" + file + "\"\n[generalize]\n" + wishes, "s.toml", folder_.path(), {});
+  }
+  Grid<float> generalized(const std::string& wishes) const {
+    const LoadedScene loaded = scene("clean.tif", wishes);
+    return generalize_for_view(loaded, make_scene_dem(loaded, silent_progress()), nullptr, {}, silent_progress()).altitude_m;
+  }
+
+  Raster<float> striped_;
+  test::Folder folder_;
+};
+
+TEST_F(TerrainOperators, AreOffUnlessASceneAsksForThem) {
+  EXPECT_EQ(make_scene_dem(scene("striped.tif", ""), silent_progress()).altitude_m, striped_.cells);
+  EXPECT_EQ(generalized(""), valley().cells);
+}
+
+TEST_F(TerrainOperators, StripesLeaveTheDemItself) {
+  const Grid<float> before = make_scene_dem(scene("striped.tif", ""), silent_progress()).altitude_m;
+  const Grid<float> after = make_scene_dem(scene("striped.tif", "destripe = true\n"), silent_progress()).altitude_m;
+  const auto error = [](const Grid<float>& z) {
+    const Grid<float> wanted = valley(0.0).cells;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < z.size(); ++i) sum += std::abs(z[i] - wanted[i]);
+    return sum;
+  };
+  EXPECT_LT(error(after), 0.5 * error(before));
+}
+
+TEST_F(TerrainOperators, SlopesBecomePlainAndValleysWide) {
+  const Grid<float> bare = valley().cells;
+  const Grid<float> plain = generalized("line_integral = true\n");
+  const Grid<float> wide = generalized("widen_valleys_m = 1000\n");
+  const auto roughness = [](const Grid<float>& z) {
+    double sum = 0.0;
+    for (int y = 20; y < 180; ++y)
+      for (int x = 20; x < 60; ++x) sum += std::abs(z(x - 1, y) - 2.F * z(x, y) + z(x + 1, y));
+    return sum;
+  };
+  EXPECT_LT(roughness(plain), 0.5 * roughness(bare));
+  // Walls of 18 % stand back by up to 500 m: the ground at their feet comes to lie lower.
+  double lower = 0.0;
+  for (int y = 100; y < 160; ++y)
+    for (int x = 70; x <= 90; ++x) lower += bare(x, y) - wide(x, y);
+  EXPECT_GT(lower / (60.0 * 21.0), 8.0);
+}
+
+}  // namespace
+}  // namespace belvedere

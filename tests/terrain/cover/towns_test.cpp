@@ -1,0 +1,152 @@
+#include "terrain/cover/towns.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+
+#include "base/parallel.h"
+#include "terrain/shape/derivatives.h"
+
+namespace belvedere {
+namespace {
+
+// A valley floor 3 km wide from west to east between slopes, a river along it, and a side valley that opens at `mouth_m` east of the
+// middle.
+struct Valley {
+  static constexpr int width = 700;
+  static constexpr int height = 240;
+  static constexpr double cell_m = 30.0;
+  Grid<float> altitude_m{width, height};
+  Grid<float> floor{width, height, 0.F};
+  Grid<float> catchment_km2{width, height, 0.1F};
+  Grid<float> slope{width, height, 0.F};
+  Grid<float> south{width, height, 0.F};
+  GeoTransform transform{0.0, height* cell_m, cell_m, cell_m};
+
+  explicit Valley(int mouth_column = 350) {
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const double aside = std::abs(y - height / 2) * cell_m;
+        altitude_m(x, y) = static_cast<float>(600.0 + 0.45 * std::max(0.0, aside - 1500.0));
+        floor(x, y) = aside < 1500.0 ? 1.F : 0.F;
+        slope(x, y) = aside < 1500.0 ? 0.F : 24.F;
+      }
+    for (int x = 0; x < width; ++x) catchment_km2(x, height / 2) = 600.F + 0.01F * static_cast<float>(x);
+    for (int y = 0; y < height / 2; ++y) catchment_km2(mouth_column, y) = 100.F + static_cast<float>(y);
+  }
+  TownGround ground() const { return {altitude_m, floor, catchment_km2, slope, south, transform}; }
+};
+
+TEST(Towns, StandOnTheFloorBesideTheRiverNotInIt) {
+  const Valley valley;
+  TownParameters p;
+  p.seed = 4;
+  const std::vector<TownSite> sites = find_town_sites(valley.ground(), p);
+  ASSERT_GT(sites.size(), 4U);
+  int near_river = 0;
+  for (const TownSite& site : sites) {
+    const glm::dvec2 at = valley.transform.to_cell(site.place.x, site.place.y);
+    EXPECT_TRUE(site.on_floor);
+    EXPECT_EQ(valley.floor(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y))), 1.F);
+    const double away = std::abs(at.y - Valley::height / 2) * Valley::cell_m;
+    EXPECT_GT(away, 125.0);
+    near_river += away < 900.0 ? 1 : 0;
+    // Where no side valley opens, streets run along the main one.
+    if (std::abs(at.x - 350.0) * Valley::cell_m > 1500.0) {
+      EXPECT_LT(std::abs(std::sin(site.along_rad)), 0.5);
+    }
+  }
+  EXPECT_GT(near_river, static_cast<int>(sites.size()) * 2 / 5) << "of " << sites.size();
+}
+
+TEST(Towns, TheLargestStandsWhereASideValleyOpens) {
+  for (const int mouth : {150, 350, 550}) {
+    const Valley valley(mouth);
+    TownParameters p;
+    p.seed = 4;
+    const std::vector<TownSite> sites = find_town_sites(valley.ground(), p);
+    const TownSite& first = sites.front();
+    const glm::dvec2 opening = valley.transform.to_crs(mouth, Valley::height / 2 - 50);
+    EXPECT_LT(glm::length(first.place - opening), 1200.0) << mouth;
+    for (const TownSite& site : sites) EXPECT_LE(site.radius_m, first.radius_m + 150.0);
+  }
+}
+
+TEST(Towns, KeepADistanceAndDifferInSize) {
+  const Valley valley;
+  TownParameters p;
+  p.seed = 4;
+  const std::vector<TownSite> sites = find_town_sites(valley.ground(), p);
+  double smallest = 1e9;
+  double largest = 0.0;
+  for (std::size_t a = 0; a < sites.size(); ++a) {
+    smallest = std::min(smallest, sites[a].radius_m);
+    largest = std::max(largest, sites[a].radius_m);
+    for (std::size_t b = 0; b < a; ++b) EXPECT_GT(glm::length(sites[a].place - sites[b].place), 1000.0);
+  }
+  EXPECT_GT(largest, 2.5 * smallest);
+}
+
+TEST(Towns, AmountRaisesWhatIsBuiltAndNothingIsHigherThanAsked) {
+  const Valley valley;
+  const auto built_km2 = [&](double amount, double highest_m) {
+    TownParameters p;
+    p.amount = amount;
+    p.highest_m = highest_m;
+    double sum = 0.0;
+    for (const TownSite& site : find_town_sites(valley.ground(), p)) sum += 3.14159e-6 * site.radius_m * site.radius_m * site.stretch;
+    return sum;
+  };
+  EXPECT_EQ(built_km2(-1.0, 1300.0), 0.0);
+  EXPECT_LT(1.2 * built_km2(-0.5, 1300.0), built_km2(0.0, 1300.0));
+  EXPECT_LT(1.2 * built_km2(0.0, 1300.0), built_km2(0.9, 1300.0));
+  EXPECT_EQ(built_km2(0.5, 590.0), 0.0);
+}
+
+TEST(Towns, KnownOnesComeFirstAndKeepOthersAway) {
+  const Valley valley;
+  TownParameters p;
+  p.known = {{{9000.0, 3300.0}, 1200.0}, {{0.0, 0.0}, 0.0}};
+  const std::vector<TownSite> sites = find_town_sites(valley.ground(), p);
+  EXPECT_EQ(sites.front().place, glm::dvec2(9000.0, 3300.0));
+  // As large as a circle of that radius.
+  EXPECT_NEAR(sites.front().radius_m * sites.front().radius_m * sites.front().stretch, 1200.0 * 1200.0, 1.0);
+  for (std::size_t k = 1; k < sites.size(); ++k) EXPECT_GT(glm::length(sites[k].place - sites[0].place), 1900.0);
+}
+
+TEST(Towns, FieldIsOneInTheMiddleAndZeroAtTheEdge) {
+  const Valley valley;
+  const TownSite site{valley.transform.to_crs(300, 100), 600.0, 2.0, 0.0, true};
+  const Grid<float> field = town_field({site}, valley.ground());
+  EXPECT_FLOAT_EQ(field(300, 100), 1.F);
+  EXPECT_NEAR(field(300, 120), 0.F, 1e-5F);  // 600 m across
+  EXPECT_NEAR(field(340, 100), 0.F, 1e-5F);  // 1200 m along
+  EXPECT_FLOAT_EQ(field(300, 239), -4.F);
+}
+
+TEST(Towns, ReachOutAlongTheWayToTheirNeighbours) {
+  const Valley valley;
+  const TownSite west{valley.transform.to_crs(250, 100), 400.0, 1.0, 0.0, true};
+  const TownSite east{valley.transform.to_crs(400, 100), 400.0, 1.0, 0.0, true};
+  const Grid<float> alone = town_field({west}, valley.ground());
+  const Grid<float> linked = town_field({west, east}, valley.ground());
+  EXPECT_LT(alone(270, 100), 0.F);
+  EXPECT_GT(linked(270, 100), 0.05F) << "on the way";
+  EXPECT_LT(linked(270, 106), 0.F) << "beside it";
+  EXPECT_LT(linked(325, 100), 0.F) << "open country half way";
+  EXPECT_LT(linked(230, 100), 0.F) << "the other side";
+}
+
+TEST(Towns, ThreadsChangeNothing) {
+  const Valley valley;
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return town_field(find_town_sites(valley.ground(), {}), valley.ground());
+  };
+  EXPECT_EQ(run(1), run(2));
+}
+
+}  // namespace
+}  // namespace belvedere

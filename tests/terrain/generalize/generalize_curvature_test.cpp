@@ -1,0 +1,270 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/filter.h"
+#include "base/parallel.h"
+#include "base/pyramid.h"
+#include "base/random.h"
+#include "terrain/generalize/generalize.h"
+#include "terrain/generalize/generalize_presets.h"
+#include "terrain/generalize/mask.h"
+#include "terrain/io/dem.h"
+#include "terrain/shape/derivatives.h"
+#include "tests/paths.h"
+#include "tests/terrain/shape/terrain_measures.h"
+
+namespace belvedere {
+namespace {
+
+using Weights = std::vector<float>;
+constexpr double cell_m = 30.0;
+
+Grid<float> alpine(int width, int height, double relief_m = 1000.0) {
+  Grid<float> grid(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double ridge = 0.7 * std::abs(std::sin(x / 23.0)) + 0.3 * std::abs(std::sin((x + 2 * y) / 17.0));
+      grid(x, y) = static_cast<float>(900.0 + relief_m * ridge + 2.0 * y + 40.0 * random_uniform(8, x, y));
+    }
+  }
+  return grid;
+}
+
+Grid<float> run(const Grid<float>& terrain, const GeneralizeParameters& parameters, const GeneralizeGrids& grids = {}) {
+  return generalize(terrain, {cell_m, cell_m}, grids, parameters, silent_progress());
+}
+
+GeneralizeParameters everywhere(const Weights& global, const Weights& ridges = {}, const Weights& valleys = {}) {
+  GeneralizeParameters p;
+  p.foreground = p.background = global;
+  p.foreground_ridges = p.background_ridges = ridges;
+  p.foreground_valleys = p.background_valleys = valleys;
+  return p;
+}
+
+GeneralizeGrids masked(Grid<float> mask) {
+  GeneralizeGrids grids;
+  grids.mask = std::move(mask);
+  return grids;
+}
+
+TEST(GeneralizeCurvature, PyramidReconstructsHighRelief) {
+  for (const auto& [width, height] : {std::pair{512, 512}, std::pair{513, 379}, std::pair{37, 61}}) {
+    const Grid<float> terrain = alpine(width, height, 5000.0);
+    EXPECT_LE(largest_difference(reconstruct(make_laplacian_pyramid(terrain, 6)), terrain), 1e-3);
+  }
+}
+
+TEST(GeneralizeCurvature, ExponentZeroAddsBothWeights) {
+  for (const auto& [width, height] : {std::pair{140, 97}, std::pair{37, 61}}) {
+    const Grid<float> terrain = alpine(width, height);
+    GeneralizeParameters local = everywhere({1.F, .5F, .25F}, {.25F, .5F, .5F}, {.25F, .5F, .5F});
+    local.exponent = 0.F;
+    EXPECT_LE(largest_difference(run(terrain, local), run(terrain, everywhere({1.25F, 1.F, .75F}))), 2e-3);
+    local.exponent = 1.F;
+    EXPECT_GT(largest_difference(run(terrain, local), run(terrain, everywhere({1.25F, 1.F, .75F}))), 1.0);
+  }
+}
+
+TEST(GeneralizeCurvature, CurvatureComesFromTheBandsBelow) {
+  // The finest weights do not change where the second finest band finds its ridges: at the coarser level nothing differs.
+  const Grid<float> terrain = alpine(128, 128);
+  const Grid<float> a = run(terrain, everywhere({1.F, .3F, 1.F}, {0.F, .7F, 0.F}));
+  const Grid<float> b = run(terrain, everywhere({1.F, .3F, 0.F}, {0.F, .7F, 0.F}));
+  const Grid<float> finest = make_laplacian_pyramid(terrain, 1).bands[0];
+  Grid<float> difference = a;
+  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] = a[i] - b[i] - finest[i];
+  EXPECT_LE(largest_difference(difference, Grid<float>(128, 128)), 1e-3);
+  // The weights below do: a change of the coarsest moves the ridges of the next.
+  const auto middle = [&](float coarsest) {
+    Grid<float> out = run(terrain, everywhere({coarsest, .3F, 1.F}, {0.F, .7F, 0.F}));
+    const Grid<float> plain = run(terrain, everywhere({coarsest, .3F, 1.F}));
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] -= plain[i];
+    return out;
+  };
+  EXPECT_GT(largest_difference(middle(1.F), middle(.2F)), 1.0);
+}
+
+TEST(GeneralizeCurvature, ValleySetLeavesConvexGroundAndRidgeSetConcaveGround) {
+  // A fold of one wavelength along x, slightly tilted along y: its crest is at x = 24, its trough at 72.
+  Grid<float> fold(96, 64);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 96; ++x) fold(x, y) = static_cast<float>(2000.0 + 60.0 * std::sin(x / 96.0 * 6.2831853) + 3.0 * y);
+  GeneralizeParameters ridges = everywhere({1.F, 1.F, 1.F, 1.F}, {0.F, 1.F, 1.F, 1.F}, {0.F, 0.F, 0.F, 0.F});
+  GeneralizeParameters valleys = everywhere({1.F, 1.F, 1.F, 1.F}, {0.F, 0.F, 0.F, 0.F}, {0.F, 1.F, 1.F, 1.F});
+  ridges.exponent = valleys.exponent = 0.F;  // c = 1: only the choice of the set counts
+  const auto change = [&](const Grid<float>& out, int x) { return std::abs(static_cast<double>(out(x, 32)) - fold(x, 32)); };
+  const Grid<float> r = run(fold, ridges);
+  const Grid<float> v = run(fold, valleys);
+  EXPECT_GT(change(r, 24), 3.0 * change(r, 72));
+  EXPECT_GT(change(v, 72), 3.0 * change(v, 24));
+}
+
+TEST(GeneralizeCurvature, MaskZeroReturnsTheOriginalBitForBit) {
+  Grid<float> terrain = alpine(101, 77);
+  terrain(3, 3) = -0.F;
+  GeneralizeParameters p = everywhere({2.F, .5F, 0.F}, {.5F, .5F, .5F});
+  p.crest = 2.F;
+  const Grid<float> out = run(terrain, p, masked(Grid<float>(101, 77, 0.F)));
+  EXPECT_EQ(std::memcmp(out.data(), terrain.data(), terrain.size() * sizeof(float)), 0);
+  EXPECT_EQ(run(terrain, p, masked(Grid<float>(101, 77, 1.F))), run(terrain, p));
+}
+
+TEST(GeneralizeCurvature, HalfMaskLeavesNoSeam) {
+  // A crest along the mask's edge: there the change is large, and level across the edge but for a seam.
+  Grid<float> terrain(256, 256);
+  for (int y = 0; y < 256; ++y)
+    for (int x = 0; x < 256; ++x) terrain(x, y) = static_cast<float>(1500.0 + 200.0 * std::cos((x - 127.5) / 64.0 * 6.2831853) + 2.0 * y);
+  const GeneralizeParameters p = everywhere({1.8F, 2.F, 1.5F, 1.F, 1.F});
+  Grid<float> half(256, 256);
+  for (int y = 0; y < 256; ++y) std::fill_n(half.row(y), 128, 1.F);
+  const Grid<float> out = run(terrain, p, masked(half));
+  const Grid<float> all = run(terrain, p);
+  double seam = 0.0;
+  double naive = 0.0;
+  for (int y = 0; y < 256; ++y) {
+    // The step of the change from the last filtered to the first original column.
+    seam += std::abs((static_cast<double>(out(127, y)) - terrain(127, y)) - (static_cast<double>(out(128, y)) - terrain(128, y)));
+    naive += std::abs(static_cast<double>(all(127, y)) - terrain(127, y));
+  }
+  EXPECT_LE(seam, 0.1 * naive);
+}
+
+TEST(GeneralizeCurvature, BlurTakesSpikesOffBreakLines) {
+  const Grid<float> terrain = alpine(256, 256);
+  GeneralizeParameters p = everywhere({1.F, 1.F, .3F, .1F, 0.F}, {0.F, 0.F, .9F, 1.2F, 1.2F}, {0.F, 0.F, .9F, 1.2F, 1.2F});
+  const auto spikes = [&](double blur) {
+    p.blur_cells = static_cast<float>(blur);
+    const Grid<float> out = run(terrain, p);
+    double sum = 0.0;  // fourth differences: what stands out from both neighbours
+    for (int y = 2; y < 254; ++y)
+      for (int x = 2; x < 254; ++x) {
+        const double d = out(x - 2, y) - 4.0 * out(x - 1, y) + 6.0 * out(x, y) - 4.0 * out(x + 1, y) + out(x + 2, y);
+        sum += d * d;
+      }
+    return std::sqrt(sum);
+  };
+  EXPECT_LT(spikes(1.5), 0.8 * spikes(0.0));
+}
+
+TEST(GeneralizeCurvature, RidgesStaySharperThanUnderABlurOfEqualEnergy) {
+  // A tilted roof: only its ridge is a break line.
+  Grid<float> roof(129, 129);
+  for (int y = 0; y < 129; ++y)
+    for (int x = 0; x < 129; ++x)
+      roof(x, y) = static_cast<float>(2000.0 - 18.0 * std::abs(x - 64) + 4.0 * y + 15.0 * random_uniform(3, x, y));
+  const Grid<float> out = run(roof, everywhere({1.F, .3F, 0.F, 0.F}, {0.F, .7F, 1.F, 1.F}));
+  const auto rough = [](const Grid<float>& g) {  // energy of the detail on the slope
+    double sum = 0.0;
+    for (int y = 20; y < 110; ++y)
+      for (int x = 20; x < 50; ++x) {
+        const double d = g(x - 1, y) - 2.0 * g(x, y) + g(x + 1, y);
+        sum += d * d;
+      }
+    return sum;
+  };
+  double low = 0.2;
+  double high = 8.0;
+  for (int i = 0; i < 20; ++i) {
+    const double middle = 0.5 * (low + high);
+    (rough(gaussian_blur(roof, middle)) > rough(out) ? low : high) = middle;
+  }
+  const Grid<float> blurred = gaussian_blur(roof, high);
+  const auto bend = [](const Grid<float>& g) {
+    double sum = 0.0;
+    for (int y = 20; y < 110; ++y) sum += 2.0 * g(64, y) - g(63, y) - g(65, y);
+    return sum;
+  };
+  EXPECT_GT(bend(out), 1.5 * bend(blurred));
+}
+
+TEST(GeneralizeCurvature, WhatThePrintCannotShowGoes) {
+  const Grid<float> terrain = alpine(128, 128);
+  GeneralizeParameters p = everywhere({1.F, 1.F, 1.F});
+  GeneralizeGrids grids;
+  grids.pixel_ground = {Grid<float>(128, 128, 1.F), 1};
+  EXPECT_EQ(run(terrain, p, grids), terrain);
+  // Wavelengths 120, 240, 480 m; at 110 m a pixel and 2.5 pixels the limit is 275 m: the finest is gone, the coarsest whole.
+  grids.pixel_ground = {Grid<float>(9, 9, 110.F), 16};
+  const float t = 2.F * 240.F / 275.F - 1.F;
+  EXPECT_LE(largest_difference(run(terrain, p, grids), run(terrain, everywhere({1.F, t * t * (3.F - 2.F * t), 0.F}))), 5e-3);
+}
+
+TEST(GeneralizeCurvature, SameBitsForAnyThreadCountAndAnySize) {
+  for (const auto& [width, height] : {std::pair{301, 417}, std::pair{1, 40}, std::pair{40, 1}, std::pair{3, 3}, std::pair{1, 1}}) {
+    const Grid<float> terrain = alpine(width, height);
+    GeneralizeParameters p = everywhere({1.2F, .5F, .25F}, {.25F, .5F, .5F}, {.1F, .2F, .3F});
+    p.exponent = .6F;
+    const auto with = [&](int threads) {
+      const ThreadLimit limit(threads);
+      return run(terrain, p, masked(Grid<float>(width, height, .7F)));
+    };
+    const Grid<float> one = with(1);
+    EXPECT_EQ(one, with(2));
+    for (const float v : one) ASSERT_TRUE(std::isfinite(v));
+  }
+}
+
+TEST(GeneralizeCurvature, PresetsHaveWholeSets) {
+  for (const GeneralizePreset& preset : generalize_presets()) {
+    EXPECT_NO_THROW(run(alpine(64, 64), preset.bands)) << preset.name;
+    EXPECT_EQ(find_generalize_preset(preset.name), &preset);
+  }
+  EXPECT_EQ(find_generalize_preset("figure2")->bands.foreground, (Weights{1.F, 1.F, 2.F, .25F, 0.F}));
+  EXPECT_EQ(find_generalize_preset("nothing"), nullptr);
+}
+
+TEST(GeneralizePresets, FillWhatIsNotWritten) {
+  const auto choose = [](const WrittenWeights& written, const char* preset) {
+    GeneralizeParameters bands;
+    choose_weights(bands, written, find_generalize_preset(preset));
+    return bands;
+  };
+  WrittenWeights written;
+  written.foreground = {1.F, .5F, .5F, 1.F, 1.F, 1.F};
+  EXPECT_EQ(choose(written, "").background, written.foreground);
+  EXPECT_EQ(choose(written, "bold_ridges").background, written.foreground);
+  EXPECT_EQ(choose(written, "bold_ridges").foreground_ridges, find_generalize_preset("bold_ridges")->bands.foreground_ridges);
+  EXPECT_EQ(choose(written, "panorama").background, find_generalize_preset("panorama")->bands.background);
+  written.background = {0.F, 0.F, 0.F, 0.F, 0.F, .5F};
+  written.foreground_valleys = {0.F, 0.F, 0.F, 0.F, 1.F, 1.F};
+  for (const char* preset : {"", "bold_ridges", "panorama"}) EXPECT_EQ(choose(written, preset).background, written.background) << preset;
+  EXPECT_EQ(choose(written, "").background_valleys, written.foreground_valleys);
+  EXPECT_EQ(choose(written, "panorama").background_valleys, find_generalize_preset("panorama")->bands.background_valleys);
+  WrittenWeights far;
+  far.background = {1.F, 0.F};
+  EXPECT_EQ(choose(far, "").foreground, (Weights{1.F, 1.F}));
+  EXPECT_EQ(choose({}, "").foreground, Weights(6, 1.F));
+}
+
+TEST(Mask, SlopeMaskKeepsFlatGround) {
+  Grid<float> ground(40, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x) ground(x, y) = x < 20 ? 0.F : 15.F * static_cast<float>(x - 20);
+  const Grid<float> mask = slope_mask(ground, {cell_m, cell_m}, {});
+  EXPECT_EQ(mask(5, 20), 0.F);
+  EXPECT_EQ(mask(34, 20), 1.F);
+}
+
+TEST(RealGeneralize, AutomaticMaskDigsFewerPitsAtSlopeFeet) {
+  const std::string file = test::data_folder() + "/lost_river/mackay.tif";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
+  DemParameters parameters;
+  parameters.sources.emplace_back().path = file;
+  const Dem dem = read_dem(parameters, silent_progress());
+  const GeneralizeParameters bands = find_generalize_preset("figure2")->bands;
+  GeneralizeGrids grids;
+  const double free = pit_volume_m3(run(dem.altitude_m, bands), cell_m);
+  grids.amplification_mask = slope_foot_mask(dem.altitude_m, {cell_m, cell_m}, 32);
+  EXPECT_LT(pit_volume_m3(run(dem.altitude_m, bands, grids), cell_m), 0.4 * free);
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,187 @@
+#include "terrain/generalize/widen_valleys.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "base/error.h"
+#include "base/filter.h"
+#include "base/parallel.h"
+#include "terrain/io/raster_io.h"
+#include "terrain/shape/hydrology.h"
+#include "tests/paths.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double cell_m = 30.0;
+
+// A valley along column 100 that falls to the south, walls of 27°, ridges 1350 m above it in columns 10 and 190; `floor_m` is the
+// half-width of its flat floor.
+Grid<float> make_valley(double floor_m) {
+  Grid<float> grid(201, 300);
+  for (int y = 0; y < grid.height(); ++y) {
+    for (int x = 0; x < grid.width(); ++x) {
+      const double side = std::abs(x - 100.0);
+      const double up = std::max(0.0, std::min(side, 180.0 - side) * cell_m - floor_m) * 0.5;
+      grid(x, y) = static_cast<float>(1500.0 - 0.6 * y + up);
+    }
+  }
+  return grid;
+}
+
+WidenValleysParameters wish(float width_m) {
+  WidenValleysParameters parameters;
+  parameters.width_m = width_m;
+  parameters.least_catchment_km2 = 4.F;
+  parameters.full_catchment_km2 = 6.F;
+  return parameters;
+}
+
+Grid<float> widen(const Grid<float>& altitude_m, const WidenValleysParameters& parameters, const Grid<std::uint8_t>& keep = {}) {
+  return widen_valleys(altitude_m, keep, cell_m, parameters, silent_progress()).altitude_m;
+}
+
+// Width of the ground lower than `above_m` over the course in this row, m, between the walls' crossings.
+double width_at(const Grid<float>& z, int row, double above_m) {
+  const double level = z(100, row) + above_m;
+  const auto crossing = [&](int step) {
+    int x = 100;
+    while (z(x + step, row) < level) x += step;
+    return std::abs(x - 100) + (level - z(x, row)) / (z(x + step, row) - z(x, row));
+  };
+  return (crossing(-1) + crossing(1)) * cell_m;
+}
+
+double pit_volume(const Grid<float>& z) {
+  const Grid<float> filled = fill_hollows(z);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < z.size(); ++i) sum += filled[i] - z[i];
+  return sum;
+}
+
+TEST(WidenValleys, OffReturnsTheInput) { EXPECT_EQ(widen(make_valley(0.0), wish(0.F)), make_valley(0.0)); }
+
+TEST(WidenValleys, TheFloorGrowsByTheWidthAskedFor) {
+  for (const double floor_m : {0.0, 300.0}) {
+    const Grid<float> valley = make_valley(floor_m);
+    for (const float width_m : {240.F, 480.F}) {
+      const Grid<float> out = widen(valley, wish(width_m));
+      EXPECT_NEAR(width_at(out, 200, 40.0) - width_at(valley, 200, 40.0), width_m, 0.1 * width_m) << floor_m;
+      // High on the walls it changes less.
+      EXPECT_LT(width_at(out, 200, 900.0) - width_at(valley, 200, 900.0), 0.5 * width_m);
+    }
+  }
+}
+
+TEST(WidenValleys, RidgesKeepHeightAndPlaceAndWallsHaveNoSteps) {
+  const Grid<float> valley = make_valley(0.0);
+  const Grid<float> out = widen(valley, wish(480.F));
+  // Away from the mouth, where nobody knows how the valley goes on.
+  double lost = 0.0;
+  for (int y = 60; y < 250; ++y) {
+    lost = std::max(lost, static_cast<double>(std::abs(out(10, y) - valley(10, y))));
+    EXPECT_EQ(std::max_element(out.row(y), out.row(y) + 100) - out.row(y), 10) << y;
+  }
+  EXPECT_LT(lost, 2.0);
+  // Walls of 15 m a cell become steeper, no cliffs.
+  double steepest = 0.0;
+  for (int y = 60; y < 270; ++y)
+    for (int x = 12; x < 100; ++x) steepest = std::max(steepest, static_cast<double>(std::abs(out(x + 1, y) - out(x, y))));
+  EXPECT_LT(steepest, 1.6 * 15.0);
+}
+
+TEST(WidenValleys, FloorsAreLevelAcrossAndDrain) {
+  const Grid<float> valley = make_valley(0.0);
+  const Grid<float> out = widen(valley, wish(480.F));
+  for (int y = 60; y < 260; ++y) {
+    EXPECT_NEAR(out(97, y), out(103, y), 0.5);
+    EXPECT_GT(out(100, y - 1), out(100, y)) << y;
+  }
+  EXPECT_LE(pit_volume(out), pit_volume(valley) + 1.0);
+}
+
+TEST(WidenValleys, LakesStay) {
+  Grid<float> valley = make_valley(300.0);
+  Grid<std::uint8_t> keep(valley.width(), valley.height());
+  for (int y = 140; y < 160; ++y)
+    for (int x = 95; x < 106; ++x) {
+      keep(x, y) = 1;
+      valley(x, y) = valley(100, 159);
+    }
+  const Grid<float> out = widen(valley, wish(480.F), keep);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (keep[i] != 0) {
+      EXPECT_EQ(out[i], valley[i]);
+    }
+  }
+}
+
+TEST(WidenValleys, EachCellKnowsWhereItsGroundCameFrom) {
+  const Grid<float> valley = make_valley(0.0);
+  Grid<std::uint8_t> keep(valley.width(), valley.height());
+  keep(95, 100) = 1;
+  const WidenedValleys wide = widen_valleys(valley, keep, cell_m, wish(480.F), silent_progress());
+  ASSERT_TRUE(wide.came_from.same_size(valley));
+  for (int y = 120; y < 240; y += 10) {
+    // What lay on the wall 12 cells beside the course lies 8 cells farther off now, half of 480 m.
+    for (const int side : {-1, 1}) {
+      EXPECT_NEAR(wide.came_from(100 + side * 20, y).x, -side * 8.0, 0.5) << y;
+      EXPECT_NEAR(wide.came_from(100 + side * 20, y).y, 0.0, 0.5);
+      // The new floor comes from the bank, not from the water.
+      EXPECT_NEAR(5.0 * side + wide.came_from(100 + side * 5, y).x, 1.5 * side, 0.1);
+      EXPECT_NEAR(glm::length(wide.came_from(100 + side, y)), 0.0, 0.0);
+      EXPECT_NEAR(glm::length(wide.came_from(100 + side * 89, y)), 0.0, 0.1);  // the ridge
+    }
+    // On the walls altitude goes along.
+    for (int x = 115; x < 185; ++x) {
+      const glm::vec2 from = glm::vec2(x, y) + wide.came_from(x, y);
+      EXPECT_NEAR(wide.altitude_m(x, y), sample_bilinear(valley, from.x, from.y), 8.0) << x << " " << y;
+    }
+  }
+  EXPECT_EQ(wide.came_from(95, 100), glm::vec2(0.F));
+  EXPECT_TRUE(widen_valleys(valley, {}, cell_m, wish(0.F), silent_progress()).came_from.empty());
+}
+
+TEST(WidenValleys, OneOrTwoThreadsAndFaults) {
+  const auto with = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return widen(make_valley(150.0), wish(300.F));
+  };
+  EXPECT_EQ(with(1), with(2));
+  WidenValleysParameters parameters = wish(100.F);
+  parameters.fade_height = 0.F;
+  EXPECT_THROW(widen(make_valley(0.0), parameters), Error);
+  // No catchment is large enough: nothing changes.
+  parameters = wish(100.F);
+  parameters.least_catchment_km2 = 9000.F;
+  parameters.full_catchment_km2 = 10000.F;
+  EXPECT_EQ(widen(make_valley(0.0), parameters), make_valley(0.0));
+}
+
+TEST(WidenValleys, ARealRangeKeepsItsSummitsAndGetsNoPits) {
+  const std::string path = test::data_folder() + "/big_tujunga/bigtujunga.tif";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  RasterSource source;
+  source.path = path;
+  const Grid<float> whole = read_raster(source).cells;
+  Grid<float> part(400, 400);
+  for (int y = 0; y < 400; ++y)
+    for (int x = 0; x < 400; ++x) part(x, y) = whole(x + 400, y + 120);
+  WidenValleysParameters parameters;
+  parameters.width_m = 400.F;
+  const Grid<float> out = widen(part, parameters);
+  EXPECT_LE(pit_volume(out), 1.05 * pit_volume(part));
+  EXPECT_NEAR(*std::max_element(out.begin(), out.end()), *std::max_element(part.begin(), part.end()), 1.0);
+  double moved = 0.0;
+  for (std::size_t i = 0; i < out.size(); ++i) moved += std::abs(out[i] - part[i]);
+  EXPECT_GT(moved / static_cast<double>(out.size()), 1.0);
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,464 @@
+#include "terrain/io/raster_io.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+#include "base/parallel.h"
+#include "terrain/io/raster_file.h"
+#include "tests/terrain/io/raster_files.h"
+
+namespace belvedere {
+namespace {
+
+using testing::HasSubstr;
+
+class RasterIo : public RasterFiles {};
+
+RasterSource source_of(const std::string& path, const std::string& crs = {}) {
+  RasterSource source;
+  source.path = path;
+  source.crs = crs;
+  return source;
+}
+
+// Hills of a few hundred metres over a kilometre, in metres of any CRS.
+float hills(double x, double y) { return static_cast<float>(1000.0 + 200.0 * std::sin(x / 300.0) * std::cos(y / 400.0) + 0.01 * x); }
+
+Raster<float> make_hills(int width, int height, GeoTransform transform, const std::string& crs) {
+  Raster<float> raster{Grid<float>(width, height), transform, normalize_crs(crs)};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const glm::dvec2 p = transform.to_crs(x, y);
+      raster.cells(x, y) = hills(p.x, p.y);
+    }
+  return raster;
+}
+
+TEST_F(RasterIo, GeoTiffComesBackToTheBit) {
+  Raster<float> raster = make_hills(300, 170, {652049.036943126, 5320655.789191568, 30.0, 30.0}, "EPSG:32632");
+  raster.cells(7, 9) = NAN;
+  write_raster(path("a.tif"), raster);
+  const Raster<float> back = read_raster(source_of(path("a.tif")));
+  EXPECT_EQ(back.transform, raster.transform);
+  EXPECT_EQ(describe_crs(back.crs), "EPSG:32632");
+  ASSERT_TRUE(back.cells.same_size(raster.cells));
+  for (std::size_t i = 0; i < raster.cells.size(); ++i) {
+    ASSERT_EQ(std::isnan(back.cells[i]), std::isnan(raster.cells[i]));
+    if (!std::isnan(raster.cells[i])) {
+      ASSERT_EQ(back.cells[i], raster.cells[i]) << i;
+    }
+  }
+  const RasterInfo info = read_raster_info(source_of(path("a.tif")));
+  EXPECT_EQ(info.driver, "GTiff");
+  EXPECT_EQ(info.bands, 1);
+  EXPECT_FALSE(info.geographic);
+  EXPECT_EQ(info.nodata, -9999.0);
+}
+
+TEST_F(RasterIo, AsciiComesBackToTheBit) {
+  Raster<float> raster = make_hills(31, 17, {652049.25, 5320655.5, 12.5, 12.5}, "EPSG:32632");
+  raster.cells(30, 16) = NAN;
+  write_raster(path("a.asc"), raster);
+  const Raster<float> back = read_raster(source_of(path("a.asc")));
+  EXPECT_EQ(back.transform, raster.transform);
+  EXPECT_EQ(describe_crs(back.crs), "EPSG:32632");
+  for (std::size_t i = 0; i + 1 < raster.cells.size(); ++i) ASSERT_EQ(back.cells[i], raster.cells[i]) << i;
+  EXPECT_TRUE(std::isnan(back.cells(30, 16)));
+}
+
+TEST_F(RasterIo, WritingLeavesNothingHalfDone) {
+  const Raster<float> raster = make_hills(20, 10, {0.0, 0.0, 30.0, 20.0}, "EPSG:32632");
+  write_text("old.asc", "the old file");
+  EXPECT_EQ(error_of([&] { write_raster(path("old.asc"), raster); }).kind(), ErrorKind::output);  // cells are not square
+  EXPECT_EQ(read_text("old.asc"), "the old file");
+  EXPECT_EQ(error_of([&] { write_raster(path("no/folder/a.tif"), raster); }).kind(), ErrorKind::output);
+  EXPECT_EQ(error_of([&] { write_raster(path("a.jpg"), raster); }).kind(), ErrorKind::output);
+  EXPECT_EQ(folder_.count(), 1U);
+  // Written, but not to be renamed onto a folder: the temporary file goes away.
+  std::filesystem::create_directories(path("folder.tif/full"));
+  EXPECT_EQ(error_of([&] { write_raster(path("folder.tif"), raster); }).kind(), ErrorKind::output);
+  std::filesystem::remove_all(path("folder.tif"));
+  EXPECT_EQ(folder_.count(), 1U);
+  write_raster(path("old.tif"), raster);
+  EXPECT_EQ(folder_.count(), 2U);
+}
+
+TEST_F(RasterIo, MissingFilesAndFoldersAreErrors) {
+  EXPECT_EQ(error_of([&] { read_raster(source_of(path("none.tif"))); }).kind(), ErrorKind::input);
+  EXPECT_EQ(error_of([&] { read_raster(source_of(folder_.path())); }).kind(), ErrorKind::input);
+  EXPECT_EQ(error_of([&] { read_raster(source_of("/vsimem/none.tif")); }).kind(), ErrorKind::input);
+  write_text("text.tif", "this is no raster");
+  EXPECT_EQ(error_of([&] { read_raster(source_of(path("text.tif"))); }).kind(), ErrorKind::input);
+}
+
+TEST_F(RasterIo, TruncatedGeoTiffIsAnErrorInItsOwnWords) {
+  const Raster<float> raster = make_hills(600, 600, {0.0, 0.0, 30.0, 30.0}, "EPSG:32632");
+  write_raster(path("whole.tif"), raster);
+  const std::string whole = read_text("whole.tif");
+  for (const double part : {0.001, 0.1, 0.5, 0.95}) {
+    write_text("cut.tif", whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
+    testing::internal::CaptureStderr();
+    const Error error = error_of([&] { read_raster(source_of(path("cut.tif"))); });
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");  // the library prints nothing
+    EXPECT_EQ(error.kind(), ErrorKind::input) << part;
+    EXPECT_THAT(error.what(), HasSubstr("cut.tif"));
+  }
+}
+
+TEST_F(RasterIo, TruncatedAsciiIsAnError) {
+  write_ascii("whole.asc", 40, 40, 0, 0, 30, [](int x, int y) { return std::to_string(x + y); });
+  const std::string whole = read_text("whole.asc");
+  write_text("cut.asc", whole.substr(0, whole.size() / 2));
+  EXPECT_EQ(error_of([&] { read_raster(source_of(path("cut.asc"))); }).kind(), ErrorKind::input);
+}
+
+TEST_F(RasterIo, HugeSizesAreRefusedBeforeAllocating) {
+  // A VRT without sources of 2^20 × 2^20 cells: 4 TiB.
+  write_text("huge.vrt",
+             R"(<VRTDataset rasterXSize="1048576" rasterYSize="1048576"><GeoTransform>0,30,0,0,0,-30</GeoTransform>
+             <VRTRasterBand dataType="Float32" band="1"/></VRTDataset>)");
+  EXPECT_EQ(error_of([&] { read_raster(source_of(path("huge.vrt"))); }).kind(), ErrorKind::limit);
+  write_raster(path("a.tif"), make_hills(600, 600, {0.0, 0.0, 30.0, 30.0}, "EPSG:32632"));
+  EXPECT_NO_THROW(read_raster(source_of(path("a.tif"))));
+  setenv("BELVEDERE_MEMORY_MIB", "1", 1);
+  EXPECT_EQ(error_of([&] { read_raster(source_of(path("a.tif"))); }).kind(), ErrorKind::limit);
+}
+
+std::string vrt_of(const std::string& file) {
+  return R"(<VRTDataset rasterXSize="20" rasterYSize="10"><SRS>EPSG:32632</SRS><GeoTransform>0,30,0,0,0,-30</GeoTransform>
+    <VRTRasterBand dataType="Float32" band="1"><SimpleSource><SourceFilename relativeToVRT="1">)" +
+         file + R"(</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>)";
+}
+
+TEST_F(RasterIo, VrtOnlyWhereItIsNamedSoAndItsSourcesOpen) {
+  const Raster<float> raster = make_hills(20, 10, {0.0, 0.0, 30.0, 30.0}, "EPSG:32632");
+  write_raster(path("a.tif"), raster);
+  write_text("good.vrt", vrt_of("a.tif"));
+  EXPECT_EQ(read_raster(source_of(path("good.vrt"))).cells, raster.cells);
+
+  write_text("hidden.tif", vrt_of("a.tif"));
+  const Error hidden = error_of([&] { read_raster(source_of(path("hidden.tif"))); });
+  EXPECT_EQ(hidden.kind(), ErrorKind::input);
+  EXPECT_THAT(hidden.what(), HasSubstr("VRT"));
+
+  write_text("missing.vrt", vrt_of("none.tif"));
+  const Error missing = error_of([&] { read_raster(source_of(path("missing.vrt"))); });
+  EXPECT_EQ(missing.kind(), ErrorKind::input);
+  EXPECT_THAT(missing.what(), HasSubstr("none.tif"));
+
+  write_text("nested.vrt", vrt_of("missing.vrt"));
+  EXPECT_EQ(error_of([&] { read_raster(source_of(path("nested.vrt"))); }).kind(), ErrorKind::input);
+  write_text("circle.vrt", vrt_of("circle.vrt"));
+  EXPECT_EQ(error_of([&] { read_raster(source_of(path("circle.vrt"))); }).kind(), ErrorKind::input);
+  write_text("in_hidden.vrt", vrt_of("hidden.tif"));
+  EXPECT_EQ(error_of([&] { read_raster(source_of(path("in_hidden.vrt"))); }).kind(), ErrorKind::input);
+  write_text("remote.vrt", vrt_of("/vsicurl/http://127.0.0.1:9/a.tif"));
+  EXPECT_EQ(error_of([&] { read_raster(source_of(path("remote.vrt"))); }).kind(), ErrorKind::input);
+
+  const std::string whole = read_text("a.tif");
+  write_text("cut.tif", whole.substr(0, whole.size() - 100));
+  write_text("cut.vrt", vrt_of("cut.tif"));
+  EXPECT_EQ(error_of([&] { read_raster(source_of(path("cut.vrt"))); }).kind(), ErrorKind::input);
+}
+
+TEST_F(RasterIo, NodataOfEveryKindIsVoid) {
+  const auto grid = [&](const std::string& value, const std::string& nodata) {
+    write_ascii(
+        "n.asc", 3, 2, 0, 0, 30, [&](int x, int y) { return x == 1 && y == 0 ? value : "12.5"; }, nodata);
+    return read_raster(source_of(path("n.asc"))).cells;
+  };
+  for (const char* value : {"-9999", "-32768", "32767", "nan"}) {
+    const Grid<float> bare = grid(value, "");
+    EXPECT_TRUE(std::isnan(bare(1, 0))) << value;
+    EXPECT_EQ(bare(0, 0), 12.5F);
+    EXPECT_EQ(bare(1, 1), 12.5F);
+    EXPECT_TRUE(std::isnan(grid(value, value)(1, 0))) << value << " declared";
+  }
+  EXPECT_TRUE(std::isnan(grid("77", "77")(1, 0)));
+  EXPECT_TRUE(std::isnan(grid("-3.4028234663852886e+38", "-3.4028234663852886e+38")(1, 0)));
+  EXPECT_EQ(grid("-9999", "77")(1, 0), -9999.F);  // where the file names another, this one is a depth
+  RasterSource source = source_of(path("n.asc"));
+  source.nodata = 12.5;
+  EXPECT_TRUE(std::isnan(read_raster(source).cells(0, 0)));
+  source.nodata.reset();
+  source.lowest_m = 0.0;  // for files with odd values of their own
+  source.highest_m = 12.0;
+  EXPECT_TRUE(std::isnan(read_raster(source).cells(1, 0)));
+  EXPECT_TRUE(std::isnan(read_raster(source).cells(0, 0)));
+  source.highest_m = 12.5;
+  EXPECT_EQ(read_raster(source).cells(0, 0), 12.5F);
+}
+
+TEST_F(RasterIo, CodesKeepNothingBelowZero) {
+  write_ascii(
+      "c.asc", 4, 1, 0, 0, 30,
+      [](int x, int) {
+        return std::array{"41", "-9999", "255", "-3"}[static_cast<std::size_t>(x)];
+      },
+      "255");
+  EXPECT_THAT(read_codes(source_of(path("c.asc"))).cells, testing::ElementsAre(41, -1, -1, -1));
+}
+
+TEST_F(RasterIo, FeetBecomeMetres) {
+  write_ascii("f.asc", 2, 1, 0, 0, 30, [](int, int) { return "1000.5"; });
+  RasterSource source = source_of(path("f.asc"));
+  EXPECT_EQ(read_raster(source).cells(0, 0), 1000.5F);
+  source.unit_to_m = 0.3048;
+  EXPECT_FLOAT_EQ(read_raster(source).cells(0, 0), 304.9524F);
+  // Said by the file itself, in a VRT's band; so are scale and offset.
+  const auto with = [&](const std::string& tags) {
+    write_text("f.vrt", R"(<VRTDataset rasterXSize="2" rasterYSize="1"><GeoTransform>0,30,0,0,0,-30</GeoTransform>
+      <VRTRasterBand dataType="Float32" band="1">)" +
+                            tags + R"(<SimpleSource><SourceFilename relativeToVRT="1">f.asc</SourceFilename>
+      <SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>)");
+    return source_of(path("f.vrt"));
+  };
+  EXPECT_FLOAT_EQ(read_raster(with("<UnitType>ft</UnitType>")).cells(0, 0), 304.9524F);
+  EXPECT_FLOAT_EQ(read_raster(with("<UnitType>us-ft</UnitType>")).cells(1, 0), 1000.5F * 1200.F / 3937.F);
+  EXPECT_FLOAT_EQ(read_raster(with("<Offset>5</Offset><Scale>0.1</Scale>")).cells(0, 0), 105.05F);
+  const Error odd = error_of([&] { read_raster(with("<UnitType>degrees</UnitType>")); });
+  EXPECT_EQ(odd.kind(), ErrorKind::input);
+  EXPECT_THAT(odd.allowed(), HasSubstr("`unit`"));
+}
+
+TEST_F(RasterIo, NoCrsIsAnErrorThatNamesItsKey) {
+  write_ascii("n.asc", 4, 4, 500000, 5000000, 30, [](int, int) { return "5"; });
+  const Error error = error_of([&] { choose_frame({source_of(path("n.asc"))}, "", 0.0, {}); });
+  EXPECT_EQ(error.kind(), ErrorKind::input);
+  EXPECT_THAT(error.what(), HasSubstr("`crs`"));
+  const RasterFrame frame = choose_frame({source_of(path("n.asc"), "EPSG:32632")}, "", 0.0, {});
+  EXPECT_EQ(error_of([&] { warp_rasters({source_of(path("n.asc"))}, frame, silent_progress()); }).kind(), ErrorKind::input);
+  EXPECT_EQ(frame.width, 4);
+  EXPECT_EQ(frame.transform, (GeoTransform{500000.0, 5000120.0, 30.0, 30.0}));
+  EXPECT_EQ(error_of([&] { choose_frame({source_of(path("n.asc"), "EPSG:banana")}, "", 0.0, {}); }).kind(), ErrorKind::usage);
+}
+
+TEST_F(RasterIo, PointsAreLongitudeFirst) {
+  // The Goldenes Dachl in Innsbruck.
+  const glm::dvec2 utm = transform_point("EPSG:4326", "EPSG:32632", {11.3933, 47.2686});
+  EXPECT_NEAR(utm.x, 681040.0, 150.0);
+  EXPECT_NEAR(utm.y, 5237750.0, 150.0);
+  const glm::dvec2 back = transform_point("EPSG:32632", "EPSG:4326", utm);
+  EXPECT_NEAR(back.x, 11.3933, 1e-9);
+  EXPECT_NEAR(back.y, 47.2686, 1e-9);
+  EXPECT_EQ(describe_crs(normalize_crs("EPSG:32632")), "EPSG:32632");
+  EXPECT_EQ(error_of([] { normalize_crs("nonsense"); }).kind(), ErrorKind::usage);
+  EXPECT_EQ(error_of([] { normalize_crs("http://127.0.0.1:9/crs"); }).kind(), ErrorKind::usage);
+  write_text("crs.txt", normalize_crs("EPSG:32632"));
+  EXPECT_EQ(error_of([&] { normalize_crs(path("crs.txt")); }).kind(), ErrorKind::usage);  // reads no files
+}
+
+TEST_F(RasterIo, GeographicDataGetTheirUtmZone) {
+  write_ascii("g.asc", 60, 40, 11.0, 47.0, 1.0 / 1200.0, [](int, int) { return "5"; });
+  const RasterSource source = source_of(path("g.asc"), "EPSG:4326");
+  const RasterFrame frame = choose_frame({source}, "", 0.0, {});
+  EXPECT_EQ(describe_crs(frame.crs), "EPSG:32632");
+  EXPECT_EQ(frame.transform.cell_x, frame.transform.cell_y);
+  // 3″ are 92.66 m from north to south and 63.3 m from west to east here; the cell has their area.
+  EXPECT_NEAR(frame.transform.cell_x, std::sqrt(92.66 * 63.3), 0.3);
+  const Error stretched = error_of([&] { choose_frame({source}, "EPSG:3857", 0.0, {}); });
+  EXPECT_EQ(stretched.kind(), ErrorKind::usage);
+  EXPECT_THAT(stretched.what(), HasSubstr("EPSG:32632"));
+  EXPECT_EQ(error_of([&] { choose_frame({source}, "EPSG:4326", 0.0, {}); }).kind(), ErrorKind::usage);
+}
+
+TEST_F(RasterIo, WebMercatorAndFeetAreNotTakenForMetres) {
+  write_ascii("m.asc", 4, 4, 1268000, 5985000, 30, [](int, int) { return "5"; });
+  EXPECT_EQ(describe_crs(choose_frame({source_of(path("m.asc"), "EPSG:3857")}, "", 0.0, {}).crs), "EPSG:32632");
+  // Washington South in US survey feet.
+  write_ascii("f.asc", 4, 4, 1200000, 500000, 100, [](int, int) { return "5"; });
+  const RasterFrame frame = choose_frame({source_of(path("f.asc"), "EPSG:2286")}, "", 0.0, {});
+  EXPECT_EQ(describe_crs(frame.crs), "EPSG:32610");
+  EXPECT_NEAR(frame.transform.cell_x, 30.48, 0.1);
+}
+
+TEST_F(RasterIo, ExtentCutsToWholeCells) {
+  write_raster(path("a.tif"), make_hills(100, 80, {500000.0, 5200000.0, 30.0, 30.0}, "EPSG:32632"));
+  const RasterSource source = source_of(path("a.tif"));
+  const RasterFrame frame = choose_frame({source}, "", 0.0, std::array<double, 4>{500100.0, 5199000.0, 500400.0, 5199500.0});
+  EXPECT_EQ(frame.transform, (GeoTransform{500090.0, 5199520.0, 30.0, 30.0}));
+  EXPECT_EQ(frame.width, 11);
+  EXPECT_EQ(frame.height, 18);
+  const Raster<float> whole = read_raster(source);
+  const Raster<float> part = warp_rasters({source}, frame, silent_progress());
+  EXPECT_EQ(part.cells(0, 0), whole.cells(3, 16));
+  EXPECT_EQ(part.cells(10, 17), whole.cells(13, 33));
+  EXPECT_EQ(error_of([&] { choose_frame({source}, "", 0.0, std::array<double, 4>{0, 0, 10, 10}); }).kind(), ErrorKind::input);
+  EXPECT_EQ(error_of([&] { choose_frame({source}, "", 0.0, std::array<double, 4>{10, 0, 0, 10}); }).kind(), ErrorKind::usage);
+  EXPECT_EQ(error_of([&] { choose_frame({source}, "", 1e-5, {}); }).kind(), ErrorKind::limit);
+}
+
+// Another UTM zone's grid of the same hills: what comes back must be the hills, wherever the cells lay.
+TEST_F(RasterIo, ReprojectionFindsTheSameGround) {
+  const GeoTransform transform{300000.0, 5230000.0, 30.0, 30.0};
+  const PointTransform to_32("EPSG:32633", "EPSG:32632");
+  const PointTransform to_33("EPSG:32632", "EPSG:32633");
+  Raster<float> there{Grid<float>(300, 260), transform, normalize_crs("EPSG:32633")};
+  for (int y = 0; y < 260; ++y)
+    for (int x = 0; x < 300; ++x) {
+      const glm::dvec2 p = to_32.apply(transform.to_crs(x, y));
+      there.cells(x, y) = hills(p.x, p.y);
+    }
+  write_raster(path("b.tif"), there);
+  const RasterSource source = source_of(path("b.tif"));
+  const RasterFrame frame = choose_frame({source}, "EPSG:32632", 30.0, {});
+  const Raster<float> here = warp_rasters({source}, frame, silent_progress());
+  double worst = 0.0;
+  std::size_t known = 0;
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) {
+      if (std::isnan(here.cells(x, y))) continue;
+      const glm::dvec2 p = frame.transform.to_crs(x, y);
+      // The outermost cell ring is interpolated from one side only.
+      const glm::dvec2 there_p = to_33.apply(p);
+      const glm::dvec2 cell = transform.to_cell(there_p.x, there_p.y);
+      if (cell.x < 2 || cell.y < 2 || cell.x > 297 || cell.y > 257) continue;
+      ++known;
+      worst = std::max(worst, std::abs(static_cast<double>(here.cells(x, y)) - hills(p.x, p.y)));
+    }
+  EXPECT_GT(known, 70000U);
+  EXPECT_LT(worst, 0.35);  // cubic error of the hills at 30 m; half a cell's shift would be 10 m
+}
+
+TEST_F(RasterIo, SouthUpAndRotatedRastersComeUpright) {
+  const Raster<float> raster = make_hills(40, 30, {500000.0, 5200000.0, 30.0, 30.0}, "EPSG:32632");
+  write_raster(path("a.tif"), raster);
+  const auto vrt = [&](const std::string& name, const std::string& transform) {
+    write_text(name, R"(<VRTDataset rasterXSize="40" rasterYSize="30"><SRS>EPSG:32632</SRS><GeoTransform>)" + transform +
+                         R"(</GeoTransform><VRTRasterBand dataType="Float32" band="1"><NoDataValue>-9999</NoDataValue><SimpleSource>
+      <SourceFilename relativeToVRT="1">a.tif</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>)");
+    return source_of(path(name));
+  };
+  const Raster<float> south_up = read_raster(vrt("s.vrt", "500000,30,0,5199100,0,30"));
+  EXPECT_EQ(south_up.transform, raster.transform);
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x) ASSERT_EQ(south_up.cells(x, y), raster.cells(x, 29 - y));
+  // A quarter turn: columns run south, rows run west.
+  const Raster<float> turned = read_raster(vrt("r.vrt", "500900,0,-30,5200000,-30,0"));
+  ASSERT_EQ(turned.cells.width(), 30);
+  ASSERT_EQ(turned.cells.height(), 40);
+  EXPECT_EQ(turned.transform, raster.transform);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 30; ++x) ASSERT_EQ(turned.cells(x, y), raster.cells(y, 29 - x));
+}
+
+TEST_F(RasterIo, TilesJoinWithoutSeamAndTheFirstWins) {
+  const Raster<float> whole = make_hills(100, 60, {500000.0, 5200000.0, 30.0, 30.0}, "EPSG:32632");
+  const auto part = [&](int x0, int x1, float shift) {
+    Raster<float> raster{Grid<float>(x1 - x0, 60), {500000.0 + 30.0 * x0, 5200000.0, 30.0, 30.0}, whole.crs};
+    for (int y = 0; y < 60; ++y)
+      for (int x = x0; x < x1; ++x) raster.cells(x - x0, y) = whole.cells(x, y) + shift;
+    return raster;
+  };
+  write_raster(path("whole.tif"), whole);
+  write_raster(path("west.tif"), part(0, 50, 0.F));
+  write_raster(path("east.tif"), part(50, 100, 0.F));
+  // Half a cell off, so that every value is interpolated, across the seam as well.
+  RasterFrame frame{{500015.0, 5199985.0, 30.0, 30.0}, 99, 59, whole.crs};
+  const Raster<float> one = warp_rasters({source_of(path("whole.tif"))}, frame, silent_progress());
+  const Raster<float> two = warp_rasters({source_of(path("west.tif")), source_of(path("east.tif"))}, frame, silent_progress());
+  EXPECT_EQ(one.cells, two.cells);
+  // Where they overlap, earlier sources win; their voids let later ones through.
+  Raster<float> upper = part(0, 70, 500.F);
+  upper.cells(20, 20) = NAN;
+  write_raster(path("upper.tif"), upper);
+  const RasterFrame all = choose_frame({source_of(path("upper.tif")), source_of(path("whole.tif"))}, "", 0.0, {});
+  const Raster<float> both = warp_rasters({source_of(path("upper.tif")), source_of(path("whole.tif"))}, all, silent_progress());
+  EXPECT_EQ(both.cells(10, 10), upper.cells(10, 10));
+  EXPECT_EQ(both.cells(20, 20), whole.cells(20, 20));
+  EXPECT_EQ(both.cells(90, 10), whole.cells(90, 10));
+}
+
+TEST_F(RasterIo, TilesOfDifferentCrsMeet) {
+  // The same plane z = northing of zone 32, in two zones that overlap.
+  const auto plane = [&](const std::string& name, const std::string& crs, glm::dvec2 origin) {
+    const GeoTransform transform{origin.x, origin.y, 30.0, 30.0};
+    const PointTransform to_32(crs, "EPSG:32632");
+    Raster<float> raster{Grid<float>(60, 60), transform, normalize_crs(crs)};
+    for (int y = 0; y < 60; ++y)
+      for (int x = 0; x < 60; ++x) raster.cells(x, y) = static_cast<float>(to_32.apply(transform.to_crs(x, y)).y - 5.2e6);
+    write_raster(path(name), raster);
+    return source_of(path(name));
+  };
+  const glm::dvec2 corner{730000.0, 5230000.0};
+  const RasterSource a = plane("a.tif", "EPSG:32632", corner);
+  const glm::dvec2 other = transform_point("EPSG:32632", "EPSG:32633", corner + glm::dvec2{1500.0, 0.0});
+  const RasterSource b = plane("b.tif", "EPSG:32633", other);
+  const RasterFrame frame = choose_frame({a, b}, "", 0.0, {});
+  EXPECT_EQ(describe_crs(frame.crs), "EPSG:32632");
+  const Raster<float> both = warp_rasters({a, b}, frame, silent_progress());
+  std::size_t known = 0;
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) {
+      if (std::isnan(both.cells(x, y))) continue;
+      ++known;
+      // Rim cells of b are held level over half a cell.
+      ASSERT_NEAR(both.cells(x, y), frame.transform.to_crs(x, y).y - 5.2e6, 16.0);
+    }
+  EXPECT_GT(known, 6000U);
+}
+
+TEST_F(RasterIo, FinerSourcesAreAveraged) {
+  // A checkerboard of ±100 m has no place in cells ten times as wide.
+  write_ascii("c.asc", 400, 400, 500000, 5200000, 3, [](int x, int y) { return (x + y) % 2 == 0 ? "900" : "1100"; });
+  const RasterSource source = source_of(path("c.asc"), "EPSG:32632");
+  const RasterFrame frame = choose_frame({source}, "", 30.0, {});
+  const Raster<float> coarse = warp_rasters({source}, frame, silent_progress());
+  for (int y = 2; y < frame.height - 2; ++y)
+    for (int x = 2; x < frame.width - 2; ++x) ASSERT_NEAR(coarse.cells(x, y), 1000.0, 1.0);
+}
+
+TEST_F(RasterIo, LakesStayFlatBesideSlopes) {
+  write_ascii("l.asc", 60, 60, 500000, 5200000, 30, [](int x, int) { return x < 30 ? "500" : std::to_string(500 + 25 * (x - 29)); });
+  const RasterSource source = source_of(path("l.asc"), "EPSG:32632");
+  const RasterFrame frame{{500007.0, 5201800.0 - 11.0, 30.0, 30.0}, 59, 59, normalize_crs("EPSG:32632")};
+  const Raster<float> shifted = warp_rasters({source}, frame, silent_progress());
+  for (int x = 0; x < 29; ++x) ASSERT_EQ(shifted.cells(x, 30), 500.F) << x;
+}
+
+TEST_F(RasterIo, SameBitsForAnyThreads) {
+  const auto value = [](int x, int y) { return std::to_string(1000.0 + 300.0 * std::sin(0.05 * x) * std::cos(0.04 * y)); };
+  write_ascii("g.asc", 700, 600, 11.0, 47.0, 1.0 / 3600.0, value);
+  const RasterSource source = source_of(path("g.asc"), "EPSG:4326");
+  const RasterFrame frame = choose_frame({source}, "", 0.0, {});
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return warp_rasters({source}, frame, silent_progress());
+  };
+  const Raster<float> one = run(1);
+  const Raster<float> two = run(2);
+  ASSERT_TRUE(one.cells.same_size(two.cells));
+  for (std::size_t i = 0; i < one.cells.size(); ++i)
+    ASSERT_TRUE(one.cells[i] == two.cells[i] || (std::isnan(one.cells[i]) && std::isnan(two.cells[i])));
+}
+
+TEST_F(RasterIo, CodesAreNeverBlended) {
+  write_ascii("c.asc", 200, 150, 11.0, 47.0, 1.0 / 3600.0, [](int x, int y) { return (x / 7 + y / 5) % 2 == 0 ? "11" : "95"; });
+  const RasterSource source = source_of(path("c.asc"), "EPSG:4326");
+  const RasterFrame frame = choose_frame({source}, "", 0.0, {});
+  const Raster<std::int32_t> codes = warp_codes({source}, frame, silent_progress());
+  const PointTransform to_degrees(frame.crs, "EPSG:4326");
+  std::size_t known = 0;
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) {
+      const std::int32_t code = codes.cells(x, y);
+      ASSERT_TRUE(code == -1 || code == 11 || code == 95);
+      if (code < 0) continue;
+      ++known;
+      const glm::dvec2 p = frame.transform.to_crs(x, y);
+      const glm::dvec2 degrees = to_degrees.apply(p);
+      const double column = (degrees.x - 11.0) * 3600.0;
+      const double row = 150.0 - (degrees.y - 47.0) * 3600.0;
+      const auto close = [](double c) { return std::abs(c - std::round(c)) < 2e-3; };
+      if (close(column) || close(row)) continue;
+      const bool even = (static_cast<int>(column) / 7 + static_cast<int>(row) / 5) % 2 == 0;
+      ASSERT_EQ(code, even ? 11 : 95) << x << ' ' << y;
+    }
+  EXPECT_GT(known, 25000U);
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,200 @@
+#include "terrain/shape/derivatives.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "base/angle.h"
+#include "base/filter.h"
+#include "base/parallel.h"
+#include "tests/paths.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double cell_m = 20.0;
+
+// f(x, y) in metres, x east and y north of the grid's middle.
+template <class F>
+Grid<float> surface(int size, F&& f) {
+  Grid<float> grid(size, size);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) grid(x, y) = static_cast<float>(f((x - size / 2) * cell_m, (size / 2 - y) * cell_m));
+  }
+  return grid;
+}
+
+TEST(Slope, OfTiltedPlanes) {
+  const Grid<float> plane = surface(9, [](double x, double y) { return 0.3 * x - 0.4 * y; });
+  EXPECT_NEAR(slope_deg(plane, cell_m, cell_m)(4, 4), to_degrees(std::atan(0.5)), 1e-4);
+  // Cells twice as wide halve the rise to the east.
+  EXPECT_NEAR(slope_deg(plane, 2.0 * cell_m, cell_m)(4, 4), to_degrees(std::atan(std::hypot(0.15, 0.4))), 1e-4);
+  EXPECT_EQ(slope_deg(Grid<float>(4, 4, 100.F), cell_m, cell_m), Grid<float>(4, 4, 0.F));
+}
+
+TEST(Aspect, PointsDownhillClockwiseFromNorth) {
+  for (const double azimuth : {0.0, 30.0, 90.0, 135.0, 180.0, 251.0, 270.0, 359.0}) {
+    const double east = std::sin(to_radians(azimuth));
+    const double north = std::cos(to_radians(azimuth));
+    const Grid<float> plane = surface(5, [&](double x, double y) { return 1000.0 - 0.5 * (east * x + north * y); });
+    const double aspect = aspect_deg(plane, cell_m, cell_m)(2, 2);
+    EXPECT_NEAR(std::remainder(aspect - azimuth, 360.0), 0.0, 1e-3) << azimuth;
+    EXPECT_GE(aspect, 0.0);
+    EXPECT_LT(aspect, 360.0);
+  }
+  EXPECT_EQ(aspect_deg(Grid<float>(3, 3, 5.F), 1.0, 1.0)(1, 1), -1.F);
+}
+
+TEST(PlanCurvature, OfAConeIsOneOverTheRadius) {
+  // Hills are convex, hollows concave, whatever the slope.
+  for (const double steepness : {0.2, 1.0}) {
+    const Grid<float> hill = surface(201, [&](double x, double y) { return 3000.0 - steepness * std::hypot(x, y); });
+    const Grid<float> hollow = surface(201, [&](double x, double y) { return steepness * std::hypot(x, y); });
+    const Grid<float> kp = plan_curvature(hill, cell_m);
+    const Grid<float> kp_hollow = plan_curvature(hollow, cell_m);
+    for (const auto& [x, y] : {std::pair{100, 50}, std::pair{180, 100}, std::pair{140, 150}, std::pair{40, 160}}) {
+      const double radius = std::hypot(x - 100, y - 100) * cell_m;
+      EXPECT_NEAR(kp(x, y) * radius, 1.0, 2e-3) << x << ' ' << y;
+      EXPECT_NEAR(kp_hollow(x, y) * radius, -1.0, 2e-3) << x << ' ' << y;
+    }
+  }
+}
+
+TEST(PlanCurvature, OfAParaboloidIsOneOverTheRadius) {
+  const Grid<float> hill = surface(201, [](double x, double y) { return 3000.0 - 2e-4 * (x * x + y * y); });
+  const Grid<float> kp = plan_curvature(hill, cell_m);
+  for (const auto& [x, y] : {std::pair{100, 50}, std::pair{180, 100}, std::pair{140, 150}, std::pair{40, 160}}) {
+    EXPECT_NEAR(kp(x, y) * std::hypot(x - 100, y - 100) * cell_m, 1.0, 2e-3) << x << ' ' << y;
+  }
+  // On the summit the contour is a point: no direction, no curvature.
+  EXPECT_EQ(kp(100, 100), 0.F);
+}
+
+TEST(PlanCurvature, OfAQuadricIsExact) {
+  // z = a x² + b y² + c x y + d x + e y: the 3 × 3 fit returns its derivatives exactly.
+  const double a = 3e-4, b = -1e-4, c = 2e-4, d = 0.3, e = -0.2;
+  const Grid<float> quadric = surface(61, [&](double x, double y) { return a * x * x + b * y * y + c * x * y + d * x + e * y; });
+  const Grid<float> kp = plan_curvature(quadric, cell_m);
+  const Grid<float> bounded = bounded_plan_curvature(quadric, cell_m);
+  for (const auto& [column, row] : {std::pair{30, 30}, std::pair{10, 44}, std::pair{50, 12}}) {
+    const double x = (column - 30) * cell_m;
+    const double y = (30 - row) * cell_m;
+    const double p = 2 * a * x + c * y + d;
+    const double q = 2 * b * y + c * x + e;
+    const double n = q * q * 2 * a - 2 * p * q * c + p * p * 2 * b;
+    const double g = std::hypot(p, q);
+    EXPECT_NEAR(kp(column, row), -n / (g * g * g), 2e-6) << column;
+    EXPECT_NEAR(bounded(column, row), n / (g * g), 1e-6) << column;
+  }
+}
+
+TEST(PlanCurvature, BoundedFormStaysFiniteWhereTheOtherDiverges) {
+  const Grid<float> saddle = surface(21, [](double x, double y) { return 1e-3 * (x * x - y * y) + 1e-5 * x; });
+  const Grid<float> bounded = bounded_plan_curvature(saddle, cell_m);
+  // Inside the border, where the window is whole.
+  for (int y = 1; y < 20; ++y) {
+    for (int x = 1; x < 20; ++x) ASSERT_LE(std::abs(bounded(x, y)), 2e-3F * 1.01F);
+  }
+}
+
+TEST(Relief, IsTheDifferenceOfTwoBlurs) {
+  const Grid<float> ground = surface(64, [](double x, double y) { return 500.0 + 200.0 * std::sin(x / 90.0) * std::cos(y / 70.0); });
+  const Grid<float> inner = gaussian_blur(ground, 3.0);
+  const Grid<float> outer = gaussian_blur(ground, 9.0);
+  const Grid<float> above = relief(ground, cell_m, 60.0, 180.0);
+  const Grid<float> own = relief(ground, cell_m, 0.0, 180.0);
+  for (std::size_t i = 0; i < ground.size(); ++i) {
+    ASSERT_FLOAT_EQ(above[i], inner[i] - outer[i]);
+    ASSERT_FLOAT_EQ(own[i], ground[i] - outer[i]);
+  }
+}
+
+TEST(HeightAboveValley, OfAVeeShapedValley) {
+  // A floor at 600 m whose flanks rise 1 in 2, cut off 400 m above.
+  const Grid<float> valley = surface(121, [](double x, double) { return 600.0 + std::min(400.0, 0.5 * std::abs(x)); });
+  const Grid<float> height = height_above_valley(valley, cell_m, 300.0);
+  EXPECT_NEAR(height(60 + 10, 60), 100.0, 15.0);  // 200 m off: the floor is in reach, smoothed by a cell
+  EXPECT_NEAR(height(60 + 30, 60), 150.0, 1.0);   // 600 m off the reach ends 300 m down the flank
+  EXPECT_NEAR(height(60, 60), 0.0, 1e-6);
+  for (const float v : height) ASSERT_GE(v, 0.F);
+}
+
+TEST(Derivatives, SameBitsForAnyThreadCount) {
+  const Grid<float> ground = surface(150, [](double x, double y) { return 500.0 + 200.0 * std::sin(x / 90.0) * std::cos(y / 70.0); });
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return std::array{slope_deg(ground, 20, 20), aspect_deg(ground, 20, 20), plan_curvature(ground, 20), relief(ground, 20, 40, 900),
+                      height_above_valley(ground, 20, 400)};
+  };
+  EXPECT_EQ(run(1), run(2));
+}
+
+// A raster that GDAL's own programs wrote as plain floats, read without our reader, so that both sides are independent.
+Grid<float> read_envi(const std::string& path) {
+  std::ifstream header(path.substr(0, path.find_last_of('.')) + ".hdr");
+  int width = 0;
+  int height = 0;
+  for (std::string line; std::getline(header, line);) {
+    std::istringstream words(line);
+    std::string key;
+    std::string equals;
+    words >> key >> equals;
+    if (key == "samples") words >> width;
+    if (key == "lines") words >> height;
+  }
+  Grid<float> grid(width, height);
+  std::ifstream data(path, std::ios::binary);
+  data.read(reinterpret_cast<char*>(grid.data()), static_cast<std::streamsize>(grid.size() * sizeof(float)));
+  EXPECT_TRUE(data.good()) << path;
+  return grid;
+}
+
+TEST(Derivatives, EqualGdaldem) {
+  const std::string dem = test::data_folder() + "/lost_river/mackay.tif";
+  if (!std::filesystem::exists(dem)) GTEST_SKIP() << "needs " << dem;
+  if (std::system("command -v gdaldem gdal_translate > /dev/null") != 0) GTEST_SKIP() << "needs GDAL's program gdaldem";
+  const std::filesystem::path folder = std::filesystem::path(test::build_folder()) / "derivatives_test";
+  std::filesystem::create_directories(folder);
+  const auto run = [&](const std::string& command, const std::string& name) {
+    const std::string out = (folder / name).string();
+    EXPECT_EQ(std::system((command + " '" + dem + "' '" + out + "' > /dev/null 2>&1").c_str()), 0) << command;
+    return read_envi(out);
+  };
+  const Grid<float> altitude = run("gdal_translate -q -of ENVI -ot Float32", "dem.bin");
+  const Grid<float> slope = run("gdaldem slope -q -of ENVI", "slope.bin");
+  const Grid<float> aspect = run("gdaldem aspect -q -of ENVI", "aspect.bin");
+  const Grid<float> our_slope = slope_deg(altitude, 30.0, 30.0);
+  const Grid<float> our_aspect = aspect_deg(altitude, 30.0, 30.0);
+  double slope_error = 0.0;
+  double aspect_error = 0.0;
+  std::size_t compared = 0;
+  for (int y = 1; y + 1 < altitude.height(); ++y) {
+    for (int x = 1; x + 1 < altitude.width(); ++x) {
+      if (slope(x, y) < 0.F) continue;  // a void nearby
+      ++compared;
+      slope_error = std::max(slope_error, std::abs(static_cast<double>(slope(x, y)) - our_slope(x, y)));
+      // gdaldem works in float: on nearly level ground the rounding of 2000 m turns its aspect anywhere.
+      if (slope(x, y) >= 1.F) {
+        aspect_error = std::max(aspect_error, std::abs(std::remainder(static_cast<double>(aspect(x, y)) - our_aspect(x, y), 360.0)));
+      }
+    }
+  }
+  EXPECT_GT(compared, altitude.size() * 9 / 10);
+  EXPECT_LE(slope_error, 1e-3);
+  EXPECT_LE(aspect_error, 0.05);
+  RecordProperty("slope_error_deg", std::to_string(slope_error));
+  RecordProperty("aspect_error_deg", std::to_string(aspect_error));
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,291 @@
+#include "terrain/shape/hydrology.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "base/filter.h"
+#include "base/parallel.h"
+#include "base/random.h"
+#include "terrain/io/raster_io.h"
+#include "tests/paths.h"
+
+namespace belvedere {
+namespace {
+
+Grid<float> rough(int width, int height, std::uint64_t seed) {
+  Grid<float> grid(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) grid(x, y) = static_cast<float>(1000.0 + 50.0 * random_uniform(seed, x, y));
+  }
+  return grid;
+}
+
+TEST(FlowAccumulation, OfATiltedPlaneCountsTheCellsAbove) {
+  // Falls to the south: each column is a catchment of its own.
+  Grid<float> plane(7, 50);
+  for (int y = 0; y < 50; ++y) {
+    for (int x = 0; x < 7; ++x) plane(x, y) = 500.F - 3.F * static_cast<float>(y);
+  }
+  const Grid<float> area = flow_accumulation_km2(plane, 1000.0);
+  for (int y = 0; y < 50; ++y) {
+    for (int x = 0; x < 7; ++x) EXPECT_FLOAT_EQ(area(x, y), static_cast<float>(y + 1)) << x << ' ' << y;
+  }
+}
+
+TEST(FlowAccumulation, OfAValleyGathersBothFlanks) {
+  // Flanks 1 in 2, a floor that falls to the south: all water leaves through the floor's last cell.
+  Grid<float> valley(61, 80);
+  for (int y = 0; y < 80; ++y) {
+    for (int x = 0; x < 61; ++x) valley(x, y) = 900.F - static_cast<float>(y) + 15.F * static_cast<float>(std::abs(x - 30));
+  }
+  const Grid<float> area = flow_accumulation_km2(valley, 30.0);
+  // Water runs off the flanks within a row or two, rim cells keep theirs.
+  EXPECT_NEAR(area(30, 79), 61 * 80 * 9e-4, 61 * 9e-4 * 1.5);
+  EXPECT_NEAR(area(30, 40), 61 * 41 * 9e-4, 61 * 9e-4 * 25);
+  for (int y = 1; y < 80; ++y) EXPECT_GT(area(30, y), area(30, y - 1));
+}
+
+TEST(FlowAccumulation, FillsAHollowToItsOutlet) {
+  // A bowl in a plane, its rim breached at one place: everything that falls into the bowl leaves there.
+  Grid<float> bowl(41, 41);
+  for (int y = 0; y < 41; ++y) {
+    for (int x = 0; x < 41; ++x) bowl(x, y) = std::hypot(static_cast<float>(x - 20), static_cast<float>(y - 20)) < 15.F ? 100.F : 200.F;
+  }
+  for (int x = 34; x < 41; ++x) bowl(x, 20) = 150.F;
+  const Grid<float> area = flow_accumulation_km2(bowl, 1000.0);
+  const auto hollow = std::count_if(bowl.begin(), bowl.end(), [](float z) { return z < 160.F; });
+  EXPECT_GE(area(40, 20), static_cast<float>(hollow));
+  EXPECT_FLOAT_EQ(*std::max_element(area.begin(), area.end()), area(40, 20));
+}
+
+TEST(FlowAccumulation, EveryCellDrainsStrictlyDownstream) {
+  // Noise is all hollows. Off the rim each cell has a neighbour of a larger catchment; what leaves the grid is all of it.
+  const Grid<float> ground = rough(70, 55, 4);
+  const Grid<float> area = flow_accumulation_km2(ground, 1000.0);
+  for (int y = 1; y < 54; ++y) {
+    for (int x = 1; x < 69; ++x) {
+      bool drains = false;
+      for (int v = y - 1; v <= y + 1; ++v) {
+        for (int u = x - 1; u <= x + 1; ++u) drains = drains || area(u, v) > area(x, y);
+      }
+      ASSERT_TRUE(drains) << x << ' ' << y;
+    }
+  }
+  EXPECT_EQ(*std::min_element(area.begin(), area.end()), 1.F);
+}
+
+TEST(FlowAccumulation, LosesNoWater) {
+  // Noise full of hollows inside a moat that falls towards one corner: all water must leave there, to the last cell.
+  Grid<float> ground = rough(50, 40, 6);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 50; ++x) {
+      if (x == 0 || y == 0 || x == 49 || y == 39) ground(x, y) = 1.F + 0.5F * static_cast<float>(x + y);
+    }
+  }
+  EXPECT_EQ(flow_accumulation_km2(ground, 1000.0)(0, 0), 2000.F);
+  EXPECT_FLOAT_EQ(flow_accumulation_km2(ground, 50.0)(0, 0), 5.F);
+}
+
+// A lake of 30 × 20 cells whose banks rise by `bank_m` a cell.
+Grid<float> with_lake(float level_m, float bank_m) {
+  Grid<float> ground(80, 70);
+  for (int y = 0; y < 70; ++y) {
+    for (int x = 0; x < 80; ++x) {
+      const int dx = std::max({20 - x, x - 49, 0});
+      const int dy = std::max({25 - y, y - 44, 0});
+      ground(x, y) = level_m + bank_m * static_cast<float>(std::max(dx, dy));
+    }
+  }
+  return ground;
+}
+
+TEST(Lakes, AreFoundUpToTheirShore) {
+  const Grid<std::uint8_t> lakes = find_lakes(with_lake(800.F, 1.F), {});
+  int inside = 0;
+  for (int y = 0; y < 70; ++y) {
+    for (int x = 0; x < 80; ++x) {
+      const bool water = x >= 20 && x <= 49 && y >= 25 && y <= 44;
+      if (!water) {
+        EXPECT_EQ(lakes(x, y), 0) << x << ' ' << y;
+      }
+      inside += lakes(x, y);
+    }
+  }
+  // Opening with a cross rounds the four corners off, by three cells each.
+  EXPECT_GE(inside, 30 * 20 - 4 * 3);
+}
+
+TEST(Lakes, NeedSizeAndFlatness) {
+  const auto count = [](const Grid<std::uint8_t>& mask) { return std::count(mask.begin(), mask.end(), 1); };
+  EXPECT_EQ(count(find_lakes(with_lake(800.F, 1.F), {.max_range_m = 0.25F, .min_cells = 700})), 0);
+  Grid<float> ripples = with_lake(800.F, 1.F);
+  for (int y = 0; y < 70; ++y) {
+    for (int x = 0; x < 80; ++x) ripples(x, y) += x % 2 == 0 ? 0.3F : 0.F;
+  }
+  EXPECT_EQ(count(find_lakes(ripples, {})), 0);
+  EXPECT_GT(count(find_lakes(ripples, {.max_range_m = 0.4F})), 500);
+  // A channel three cells wide is no lake, however long.
+  Grid<float> channel(200, 30, 50.F);
+  for (int x = 0; x < 200; ++x) {
+    for (int y = 14; y < 17; ++y) channel(x, y) = 40.F;
+  }
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 200; ++x) channel(x, y) += y < 14 || y > 16 ? static_cast<float>(std::abs(y - 15)) : 0.F;
+  }
+  EXPECT_EQ(count(find_lakes(channel, {})), 0);
+}
+
+TEST(Lakes, StepsOfAFloodPlainAreNone) {
+  // A plain that falls 1 m in 30 cells, stored in whole metres: flats of 30 × 60 cells.
+  Grid<float> plain(240, 60);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 240; ++x) plain(x, y) = static_cast<float>(700 - x / 30);
+  }
+  const auto count = [](const Grid<std::uint8_t>& mask) { return std::count(mask.begin(), mask.end(), 1); };
+  EXPECT_EQ(count(find_lakes(plain, {})), 0);
+  EXPECT_GT(count(find_lakes(plain, {.min_bank_m = 0.F})), 5000);
+  // Nor where a wall of rock stands on one side of them.
+  for (int y = 0; y < 10; ++y) {
+    for (int x = 0; x < 240; ++x) plain(x, y) += 100.F * static_cast<float>(10 - y);
+  }
+  const Grid<std::uint8_t> lakes = find_lakes(plain, {});
+  // The last step lies at the rim and may be one: what is beyond it nobody knows.
+  for (int y = 0; y < 60; ++y) EXPECT_EQ(std::count(lakes.row(y), lakes.row(y) + 210, 1), 0) << y;
+}
+
+TEST(Rivers, GrowSteadilyWithTheCatchment) {
+  EXPECT_NEAR(river_half_width_m(110.0), 30.0, 1e-9);
+  EXPECT_NEAR(river_half_width_m(500.0), 60.0, 1e-9);
+  EXPECT_EQ(river_half_width_m(75.0), 0.0);
+  EXPECT_EQ(river_half_width_m(1e7), 150.0);
+  double before = 0.0;
+  for (double area = 60.0; area < 5000.0; area += 1.0) {
+    const double here = river_half_width_m(area);
+    EXPECT_GE(here, before);
+    EXPECT_LE(here - before, 1.5) << area;  // no jump
+    before = here;
+  }
+}
+
+// Catchments of a river down a line of cells: `row(x)` for every column, growing to the east.
+template <class F>
+Grid<float> river_along(int width, int height, double from_km2, double to_km2, F&& row) {
+  Grid<float> area(width, height, 1.F);
+  int y = row(0);
+  double step = 0.0;
+  for (int x = 0; x < width; ++x) {
+    const int next = row(x);
+    for (; y != next; y += next > y ? 1 : -1)
+      area(x, y) = static_cast<float>(from_km2 + (to_km2 - from_km2) * (step += 0.5) / (2.0 * width));
+    area(x, y) = static_cast<float>(from_km2 + (to_km2 - from_km2) * (step += 0.5) / (2.0 * width));
+  }
+  return area;
+}
+
+TEST(Rivers, AreAsWideAsTheirCatchmentSays) {
+  // A straight river of 500 km²: 120 m wide, on cells of 10 m.
+  const Grid<float> mask = river_mask(river_along(60, 41, 500.0, 500.1, [](int) { return 20; }), 10.0);
+  for (int x = 20; x < 40; ++x) {
+    double width_m = 0.0;
+    for (int y = 0; y < 41; ++y) width_m += 10.0 * mask(x, y);
+    EXPECT_NEAR(width_m, 120.0, 0.5) << x;
+    EXPECT_FLOAT_EQ(mask(x, 20), 1.F);
+    EXPECT_FLOAT_EQ(mask(x, 30), 0.F);
+  }
+}
+
+TEST(Rivers, ThinOnesCoverAPartOfTheirCells) {
+  // 60 m of water in cells of 200 m: three tenths, not nothing and not a whole cell.
+  const Grid<float> mask = river_mask(river_along(30, 9, 110.0, 110.1, [](int) { return 4; }), 200.0);
+  EXPECT_NEAR(mask(15, 4), 0.3F, 0.01F);
+  EXPECT_EQ(mask(15, 6), 0.F);
+}
+
+TEST(Rivers, HaveNoStairs) {
+  // A line that falls one cell in five. The smoothed one must follow it without the steps.
+  const auto line = [](double x) { return 10.0 + 0.2 * x; };
+  const Grid<float> mask =
+      river_mask(river_along(150, 50, 500.0, 501.0, [&](int x) { return static_cast<int>(std::lround(line(x))); }), 30.0);
+  double worst = 0.0;
+  for (int x = 30; x < 120; ++x) {
+    double sum = 0.0;
+    double moment = 0.0;
+    for (int y = 0; y < 50; ++y) {
+      sum += mask(x, y);
+      moment += y * static_cast<double>(mask(x, y));
+    }
+    worst = std::max(worst, std::abs(moment / sum - line(x)));
+  }
+  EXPECT_LT(worst, 0.15);  // the cells themselves are off by up to 0.5
+}
+
+TEST(Rivers, TributariesReachTheMainRiver) {
+  // A T: a river of 600 km² along row 40, one of 200 km² down column 50 into it.
+  Grid<float> area = river_along(100, 60, 600.0, 600.1, [](int) { return 40; });
+  for (int x = 50; x < 100; ++x) area(x, 40) += 200.F;
+  for (int y = 0; y < 40; ++y) area(50, y) = 200.F + 0.01F * static_cast<float>(y);
+  const Grid<float> mask = river_mask(area, 30.0);
+  for (int y = 5; y < 40; ++y) EXPECT_GT(*std::max_element(mask.row(y) + 45, mask.row(y) + 56), 0.5F) << y;
+}
+
+TEST(Rivers, SmallStreamsAreNone) {
+  const Grid<float> mask = river_mask(river_along(50, 20, 20.0, 70.0, [](int) { return 10; }), 30.0);
+  EXPECT_EQ(*std::max_element(mask.begin(), mask.end()), 0.F);
+}
+
+// Every third cell of the Tyrol DEM, voids filled from the nearest cell.
+Grid<float> tyrol_90m() {
+  const std::string path = test::data_folder() + "/innsbruck/innsbruck_utm32_30m.tif";
+  if (!std::filesystem::exists(path)) return {};
+  RasterSource source;
+  source.path = path;
+  const Raster<float> raster = read_raster(source);
+  Grid<float> ground(raster.cells.width() / 3, raster.cells.height() / 3);
+  Grid<std::uint8_t> known(ground.width(), ground.height());
+  for (int y = 0; y < ground.height(); ++y) {
+    for (int x = 0; x < ground.width(); ++x) {
+      ground(x, y) = raster.cells(3 * x + 1, 3 * y + 1);
+      known(x, y) = std::isfinite(ground(x, y));
+    }
+  }
+  const Grid<std::int32_t> nearest = nearest_marked(known);
+  Grid<float> filled = ground;
+  for (std::size_t i = 0; i < ground.size(); ++i) filled[i] = ground[static_cast<std::size_t>(nearest[i])];
+  return filled;
+}
+
+TEST(Hydrology, FindsTheInn) {
+  const Grid<float> ground = tyrol_90m();
+  if (ground.empty()) GTEST_SKIP() << "needs innsbruck/innsbruck_utm32_30m.tif";
+  const Grid<float> area = flow_accumulation_km2(ground, 90.0);
+  const auto mouth = static_cast<int>(std::max_element(area.begin(), area.end()) - area.begin());
+  const int x = mouth % ground.width();
+  const int y = mouth / ground.width();
+  // It leaves at the eastern rim below Wörgl, about 507 m above the sea, with 2850 km² of this DEM behind it at 30 m; low
+  // passes move some valleys from one side to the other when only every third cell is left.
+  EXPECT_EQ(x, ground.width() - 1);
+  EXPECT_NEAR(y, 1961 / 3, 15);
+  EXPECT_NEAR(ground(x, y), 507.F, 15.F);
+  EXPECT_NEAR(area(x, y), 2950.F, 250.F);
+  const Grid<float> rivers = river_mask(area, 90.0);
+  EXPECT_GT(std::count_if(rivers.begin(), rivers.end(), [](float r) { return r > 0.5F; }), 2000);
+}
+
+TEST(Hydrology, SameBitsForAnyThreadCount) {
+  const Grid<float> ground = rough(200, 150, 9);
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    const Grid<float> area = flow_accumulation_km2(ground, 2000.0);
+    return std::tuple{area, river_mask(area, 30.0), find_lakes(ground, {.max_range_m = 60.F, .min_bank_m = 0.F})};
+  };
+  EXPECT_EQ(run(1), run(2));
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,96 @@
+#include "texture/quality/exemplar_survey.h"
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "tests/files.h"
+
+namespace belvedere {
+namespace {
+
+// Grey noise of contrast `left` and `right` of the middle, all one class; a guide that leaves out a stretch.
+Exemplar two_hands(int left, int right) {
+  Exemplar exemplar;
+  exemplar.name = "two hands";
+  exemplar.picture = Grid<Rgb8>(160, 120);
+  exemplar.guides.label = Grid<std::uint8_t>(160, 120, 4);
+  exemplar.guides.guides = {{"altitude", Grid<std::uint8_t>(160, 120)}};
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 160; ++x) {
+      const int contrast = x < 80 ? left : right;
+      const int grey = 128 + static_cast<int>(random_index(static_cast<std::uint32_t>(2 * contrast + 1), 3, x, y)) - contrast;
+      exemplar.picture(x, y).fill(static_cast<std::uint8_t>(grey));
+      exemplar.guides.guides[0].values(x, y) = static_cast<std::uint8_t>(y < 60 ? 20 + y : 60 + y);  // 20…79, 120…179
+    }
+  }
+  return exemplar;
+}
+
+TEST(ExemplarSurvey, HalvesOfOneHandAreAlikeAndOfTwoAreNot) {
+  const ClassSurvey even = survey_exemplar(two_hands(60, 60)).classes.at(0);
+  EXPECT_EQ(even.texels, 160U * 120U);
+  ASSERT_TRUE(even.left_right.known && even.checkerboard.known);
+  EXPECT_LT(even.left_right.clique, 0.12);
+  EXPECT_LT(even.checkerboard.clique, 0.12);
+  const ClassSurvey uneven = survey_exemplar(two_hands(60, 10)).classes.at(0);
+  EXPECT_GT(uneven.left_right.clique, 0.8);
+  EXPECT_LT(uneven.checkerboard.clique, 0.12) << "squares of both hands lie in both halves";
+  // Uniform from -60 to 60 against -10 to 10: quantiles are off by 25 on average.
+  EXPECT_NEAR(uneven.left_right.colour, 25.0, 1.5);
+}
+
+TEST(ExemplarSurvey, GuidesAreToldWithTheirGaps) {
+  const ClassSurvey of = survey_exemplar(two_hands(60, 60)).classes.at(0);
+  ASSERT_EQ(of.guides.size(), 1U);
+  const GuideCoverage& altitude = of.guides[0];
+  EXPECT_EQ(altitude.lowest, 20);
+  EXPECT_EQ(altitude.highest, 179);
+  EXPECT_EQ(altitude.low, 26);  // 5 % of 120 rows
+  EXPECT_EQ(altitude.high, 173);
+  ASSERT_EQ(altitude.gaps.size(), 1U);
+  EXPECT_EQ(altitude.gaps[0].from, 80);
+  EXPECT_EQ(altitude.gaps[0].to, 119);
+}
+
+TEST(ExemplarSurvey, CountsWhatIsExcludedAndWhatLiesInside) {
+  Exemplar exemplar = two_hands(60, 60);
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 20; ++x) exemplar.guides.label(x, y) = unused_label;
+    for (int x = 150; x < 160; ++x) exemplar.guides.label(x, y) = 9;  // all within 8 pixels of a border
+  }
+  const ExemplarSurvey survey = survey_exemplar(exemplar);
+  EXPECT_EQ(survey.texels, 19200U);
+  EXPECT_EQ(survey.excluded, 2400U);
+  ASSERT_EQ(survey.classes.size(), 2U);
+  EXPECT_EQ(survey.classes[0].label, 4);
+  EXPECT_GT(survey.classes[0].sharpness, 10.0);
+  EXPECT_EQ(survey.classes[1].label, 9);
+  EXPECT_EQ(survey.classes[1].texels, 1200U);
+  EXPECT_EQ(survey.classes[1].inside, 120U);  // the last column, 9 pixels off
+  EXPECT_FALSE(survey.classes[1].left_right.known);
+}
+
+TEST(ExemplarSurvey, TellsHowManyPixelsFindTexelsOfTheirAltitude) {
+  const std::vector<Exemplar> exemplars{two_hands(60, 60)};  // 20…79, 120…179
+  GuideStack target;
+  target.label = Grid<std::uint8_t>(200, 1, 4);
+  target.guides = {{"altitude", Grid<std::uint8_t>(200, 1)}};
+  for (int x = 0; x < 200; ++x) target.guides[0].values(x, 0) = static_cast<std::uint8_t>(x);
+  EXPECT_EQ(covered_share(exemplars, target, 4, "altitude", 0), 120.0 / 200.0);
+  EXPECT_EQ(covered_share(exemplars, target, 4, "altitude", 3), 132.0 / 200.0);
+  EXPECT_EQ(covered_share(exemplars, target, 4, "altitude", 40), 1.0);
+  EXPECT_EQ(covered_share(exemplars, target, 5, "altitude", 0), 1.0);
+  EXPECT_EQ(test::message_of(ErrorKind::usage, [&] { covered_share(exemplars, target, 4, "tone", 0); }).empty(), false);
+}
+
+// Bars along a row, 12 pixels long on 1 high: their run is told.
+TEST(ExemplarSurvey, TellsHowLongStrokesAre) {
+  Exemplar exemplar = two_hands(60, 60);
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x)
+      exemplar.picture(x, y).fill(static_cast<std::uint8_t>(random_index(2, 8, (x + 5 * y) / 12, y) == 0 ? 20 : 220));
+  EXPECT_GT(survey_exemplar(exemplar).classes.at(0).stroke_run_px, 12.0);
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,272 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "base/random.h"
+#include "tests/texture/strokes/stroke_picture.h"
+#include "texture/strokes/ice_flow.h"
+#include "texture/strokes/stroke_kinds.h"
+#include "texture/strokes/stroke_painter.h"
+
+namespace belvedere {
+namespace {
+
+using enum LandCoverClass;
+
+// One class over the whole picture, depth growing upwards from 20 to 22 km, ice flowing straight down, tone .6.
+Picture one_class(LandCoverClass id, float slope_deg, int width = 320, int height = 240) {
+  Picture p = plain_picture(id, width, height);
+  p.guidance.slope_deg = Grid<float>(width, height, slope_deg);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      p.guidance.depth_m(x, y) = 22000.F - 2000.F * static_cast<float>(y) / static_cast<float>(height);
+      p.guidance.position_m(x, y) = glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 2900.F);
+    }
+  p.ground.tree_density = Grid<float>(width, height, 0.F);
+  return p;
+}
+
+void set_flow(Picture& p, glm::vec2 flow) {
+  for (auto& d : p.guidance.fall_line) d = flow;
+}
+
+void set_class(Picture& p, int x0, int y0, int x1, int y1, LandCoverClass id) {
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) p.guidance.land_cover(x, y) = id;
+}
+
+float luma(glm::vec3 c) { return 0.2126F * c.r + 0.7152F * c.g + 0.0722F * c.b; }
+
+// Fall lines that turn by up to ±60° from pixel to pixel: ice over them keeps its way within a few degrees.
+TEST(IceFlow, FollowsTheBroadFallOfItsBed) {
+  Picture p = one_class(glacier, 12.F);
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x) {
+      const double turn = 2.1 * (random_uniform(5, x, y) - 0.5);
+      p.guidance.fall_line(x, y) = glm::vec2(std::sin(0.5 + turn), std::cos(0.5 + turn));
+    }
+  const StrokeParameters parameters;
+  const StrokeScene scene{p.guidance, p.ground, parameters};
+  const IceFlow flow = find_ice_flow(scene);
+  const glm::vec2 mean(std::sin(0.5F), std::cos(0.5F));
+  for (int y = 20; y < 220; y += 10)
+    for (int x = 20; x < 300; x += 10) {
+      const glm::vec2 at = flow.at({static_cast<float>(x), static_cast<float>(y)});
+      EXPECT_NEAR(glm::length(at), 1.F, 1e-5F);
+      EXPECT_LT(angle_deg(at, mean), 6.0) << x << ", " << y;
+    }
+  for (const Stroke& s : snow_strokes(scene)) {
+    if (std::abs(s.points[1].x - 160.F) > 90.F || std::abs(s.points[1].y - 120.F) > 60.F) continue;
+    EXPECT_LT(angle_deg(axis_of(s), mean), 14.0);
+  }
+}
+
+// Round a bend of the valley, strokes bend with it, and a trace stays on its circle.
+TEST(IceFlow, TurnsWithTheValley) {
+  Picture p = one_class(glacier, 12.F);
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x)
+      p.guidance.fall_line(x, y) = glm::normalize(glm::vec2(static_cast<float>(y) + 20.F, -static_cast<float>(x) - 0.5F));
+  const StrokeParameters parameters;
+  const StrokeScene scene{p.guidance, p.ground, parameters};
+  const IceFlow flow = find_ice_flow(scene);
+  const auto way = trace_ice(scene, flow, {100.F, 200.F}, 5.F, 40);
+  ASSERT_GT(way.size(), 30U);
+  for (const glm::vec2 at : way) EXPECT_NEAR(glm::length(at + glm::vec2(0.F, 20.F)), glm::length(glm::vec2(100.F, 220.F)), 3.F);
+  // Turned round: it ends where the class does.
+  set_class(p, 150, 0, 320, 240, rock);
+  for (const glm::vec2 at : trace_ice(scene, flow, {100.F, 200.F}, 5.F, 40)) EXPECT_LT(at.x, 151.F);
+}
+
+TEST(Ice, SnowIsLaidInLongStrokes) {
+  const Picture p = one_class(snow, 20.F);
+  const StrokeParameters parameters;
+  double sum = 0.0;
+  int count = 0;
+  for (const Stroke& s : snow_strokes({p.guidance, p.ground, parameters})) {
+    sum += glm::length(axis_of(s));
+    ++count;
+  }
+  EXPECT_GT(sum / count, 19.0);  // units of 0.5 mm
+}
+
+TEST(Ice, CrevassesLieAcrossTheFlowAndOnlyWhereIceIsTorn) {
+  Picture p = one_class(glacier, 24.F);
+  const glm::vec2 flow(0.6F, 0.8F);
+  set_flow(p, flow);
+  const StrokeParameters parameters;
+  const auto torn = glacier_crevasses({p.guidance, p.ground, parameters});
+  EXPECT_GT(torn.size(), 100U);
+  for (const Stroke& s : torn) EXPECT_GE(angle_deg(axis_of(s), flow), 50.0);
+  for (float& slope : p.guidance.slope_deg) slope = 3.F;
+  EXPECT_TRUE(glacier_crevasses({p.guidance, p.ground, parameters}).empty());
+}
+
+// They come in fields, with whole ice between: counts over squares vary far more than those of evenly strewn ones.
+TEST(Ice, CrevassesComeInFields) {
+  const Picture p = one_class(glacier, 16.F, 900, 600);
+  const StrokeParameters parameters;
+  constexpr int cell = 60;
+  Grid<int> counts(900 / cell, 600 / cell, 0);
+  for (const Stroke& s : glacier_crevasses({p.guidance, p.ground, parameters}))
+    if (s.points[0].x > 0.F && s.points[0].x < 900.F && s.points[0].y > 0.F && s.points[0].y < 600.F)
+      ++counts(static_cast<int>(s.points[0].x) / cell, static_cast<int>(s.points[0].y) / cell);
+  int empty = 0;
+  int full = 0;
+  for (const int n : counts) {
+    empty += n == 0 ? 1 : 0;
+    full += n >= 12 ? 1 : 0;
+  }
+  EXPECT_GT(empty, static_cast<int>(counts.size()) / 5);
+  EXPECT_GT(full, static_cast<int>(counts.size()) / 12);
+}
+
+TEST(Ice, CopiedIceGetsItsCrevassesToo) {
+  Picture p = one_class(glacier, 22.F);
+  const StrokeLayers over_copied{.sky = true, .ground = false, .accents = true, .breaks = true, .upright = true};
+  const StrokeLayers copied_from{.sky = true, .ground = false, .accents = true, .breaks = false, .upright = true};
+  const auto painted_at = [&](float slope_deg, const StrokeLayers& layers) {
+    p.guidance.slope_deg = Grid<float>(320, 240, slope_deg);
+    return paint_strokes(p.ground.colour, p.guidance, p.ground, layers, {}, silent_progress()).picture;
+  };
+  // Level ice has none, so whatever else is painted over copied ground, the two differ by crevasses.
+  EXPECT_NE(painted_at(24.F, over_copied), painted_at(3.F, over_copied));
+  EXPECT_EQ(painted_at(24.F, copied_from), painted_at(3.F, copied_from)) << "what is copied from has none";
+}
+
+TEST(Ice, FlowLinesAreLongAndFollowTheIce) {
+  Picture p = one_class(glacier, 12.F);
+  const glm::vec2 flow(0.6F, 0.8F);
+  set_flow(p, flow);
+  const StrokeParameters parameters;
+  const auto lines = glacier_flow_lines({p.guidance, p.ground, parameters});
+  ASSERT_GT(lines.size(), 100U);
+  for (const Stroke& s : lines) {
+    EXPECT_GT(glm::length(axis_of(s)), 20.F);
+    EXPECT_LT(angle_deg(axis_of(s), flow), 20.0);
+  }
+}
+
+// A rib of rock 16 units wide that ends in the middle of the ice: lines of rubble run down from its end and from nowhere else.
+TEST(Ice, MedialMorainesBeginBelowRibs) {
+  Picture p = one_class(glacier, 10.F, 320, 400);
+  const StrokeParameters parameters;
+  EXPECT_TRUE(glacier_moraines({p.guidance, p.ground, parameters}).empty());
+  set_class(p, 152, 0, 168, 120, rock);
+  const auto lines = glacier_moraines({p.guidance, p.ground, parameters});
+  ASSERT_GT(lines.size(), 4U);
+  float lowest = 0.F;
+  for (const Stroke& s : lines) {
+    for (const glm::vec2 at : s.points) {
+      EXPECT_NEAR(at.x, 160.F, 12.F);
+      EXPECT_GT(at.y, 118.F);
+      lowest = std::max(lowest, at.y);
+    }
+    EXPECT_LT(luma(s.colour), 0.62F) << "rubble, not ice";
+  }
+  EXPECT_GT(lowest, 220.F) << "long lines";
+}
+
+TEST(Ice, GlaciersAreLinedWithRubbleWhereTheyEndOnGroundNotOnSnow) {
+  const auto edges = [](LandCoverClass beyond) {
+    Picture p = one_class(glacier, 12.F);
+    set_class(p, 160, 0, 320, 240, beyond);
+    const StrokeParameters parameters;
+    return glacier_edges({p.guidance, p.ground, parameters});
+  };
+  EXPECT_TRUE(edges(snow).empty());
+  const auto strokes = edges(scree);
+  EXPECT_GT(strokes.size(), 50U);
+  for (const Stroke& s : strokes) EXPECT_NEAR(s.points[1].x, 160.F, 14.F);
+}
+
+// Where it ends down its flow: a blue wall across, dirty ice above it, rubble below.
+TEST(Ice, TonguesEndBlueAndDirty) {
+  Picture p = one_class(glacier, 12.F);
+  set_class(p, 0, 150, 320, 240, scree);
+  const StrokeParameters parameters;
+  int walls = 0, dirt = 0, rubble = 0;
+  for (const Stroke& s : glacier_edges({p.guidance, p.ground, parameters})) {
+    EXPECT_GT(s.points[1].y, 150.F - 32.F) << "only at the tongue";
+    const bool across = angle_deg(axis_of(s), {1.F, 0.F}) < 30.0;
+    const bool blue = s.colour.b > s.colour.r + 0.05F;
+    if (blue) {
+      ++walls;
+      EXPECT_TRUE(across);
+      EXPECT_EQ(s.gate, StrokeGate::same_class);
+    } else if (across) {
+      ++rubble;
+      EXPECT_GT(s.points[1].y, 148.F);
+    } else {
+      ++dirt;
+    }
+  }
+  EXPECT_GT(walls, 40);
+  EXPECT_GT(dirt, 40);
+  EXPECT_GT(rubble, 20);
+}
+
+// Few and big: a rib is many strokes, lit on the sun's side and dark on the other, down the fall line; none on gentle or hollow snow.
+TEST(Ice, RibsAreFewAndBigWithALitAndADarkSide) {
+  Picture p = one_class(snow, 40.F, 900, 600);
+  p.guidance.relief_s_m = Grid<float>(900, 600, 25.F);
+  for (const double sun : {-1.0, 1.0}) {
+    StrokeParameters parameters;
+    parameters.sun_side = sun;
+    const auto strokes = snow_ribs({p.guidance, p.ground, parameters});
+    ASSERT_GT(strokes.size(), 300U);
+    double lit = 0.0, dark = 0.0;
+    int lit_count = 0, dark_count = 0, pairs = 0, sunward = 0;
+    for (const Stroke& s : strokes) (luma(s.colour) > 0.5F ? ++lit_count : ++dark_count);
+    // Neighbours of one crest: consecutive dark and lit strokes.
+    for (std::size_t k = 0; k + 1 < strokes.size(); ++k) {
+      if (luma(strokes[k].colour) > 0.5F || luma(strokes[k + 1].colour) < 0.5F) continue;
+      dark += strokes[k].points[1].x;
+      lit += strokes[k + 1].points[1].x;
+      ++pairs;
+      sunward += (strokes[k + 1].points[1].x - strokes[k].points[1].x) * sun > 0.0 ? 1 : 0;
+    }
+    EXPECT_GT(lit_count, dark_count / 2);
+    EXPECT_GT((lit - dark) * sun, 0.0);
+    EXPECT_GT(sunward, pairs * 9 / 10) << "now and then snow lies across one of the two";
+    // Sources of a rib follow each other downhill: how many ribs there are.
+    int ribs = 1;
+    for (std::size_t k = 0; k + 1 < strokes.size(); ++k) {
+      const glm::vec2 step = strokes[k + 1].points[0] - strokes[k].points[0];
+      ribs += glm::length(step) > 14.F ? 1 : 0;
+    }
+    EXPECT_GT(static_cast<double>(strokes.size()) / ribs, 8.0);
+    EXPECT_LT(ribs, 900 * 600 / (30 * 30)) << "few";
+  }
+  p.guidance.slope_deg = Grid<float>(900, 600, 25.F);
+  EXPECT_TRUE(snow_ribs({p.guidance, p.ground, {}}).empty());
+  p.guidance.slope_deg = Grid<float>(900, 600, 40.F);
+  p.guidance.relief_s_m = Grid<float>(900, 600, -10.F);
+  EXPECT_TRUE(snow_ribs({p.guidance, p.ground, {}}).empty());
+}
+
+TEST(Ice, GrowsWithTheSheet) {
+  // Twice the pixels for the same paper: as many strokes, twice as long.
+  const Picture small = one_class(glacier, 14.F, 320, 240);
+  const Picture large = one_class(glacier, 14.F, 640, 480);
+  StrokeParameters at_two;
+  at_two.pixels_per_unit = 2.0;
+  const auto length = [](const std::vector<Stroke>& strokes) {
+    double sum = 0.0;
+    for (const Stroke& s : strokes) sum += glm::length(axis_of(s));
+    return sum / static_cast<double>(strokes.size());
+  };
+  for (const auto kind : {snow_strokes, glacier_flow_lines, glacier_crevasses}) {
+    const auto one = kind({small.guidance, small.ground, {}});
+    const auto two = kind({large.guidance, large.ground, at_two});
+    ASSERT_FALSE(one.empty());
+    EXPECT_NEAR(static_cast<double>(two.size()) / static_cast<double>(one.size()), 1.0, 0.15);
+    EXPECT_NEAR(length(two) / length(one), 2.0, 0.2);
+  }
+}
+
+}  // namespace
+}  // namespace belvedere

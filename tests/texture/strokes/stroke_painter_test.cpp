@@ -1,0 +1,431 @@
+#include "texture/strokes/stroke_painter.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "tests/texture/strokes/stroke_picture.h"
+#include "texture/strokes/stroke_kinds.h"
+
+namespace belvedere {
+namespace {
+
+using enum LandCoverClass;
+
+// One class over the whole picture, depth growing upwards from 20 to 60 km, fall line straight down, tone .6.
+Picture one_class(LandCoverClass id, int width = 320, int height = 240) {
+  Picture p = plain_picture(id, width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      p.guidance.depth_m(x, y) =
+          id == sky ? std::numeric_limits<float>::infinity() : 60000.F - 40000.F * static_cast<float>(y) / static_cast<float>(height);
+      p.guidance.position_m(x, y) = glm::vec3(20.F * static_cast<float>(x), p.guidance.depth_m(x, y), 900.F);
+    }
+  return p;
+}
+
+double mean_height(const std::vector<Stroke>& strokes, float y0, float y1) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Stroke& s : strokes) {
+    if (s.gate != StrokeGate::upright || s.points[0].y < y0 || s.points[0].y >= y1) continue;
+    sum += s.points[0].y - s.points[1].y;
+    ++count;
+  }
+  return sum / count;
+}
+
+TEST(StrokePainter, TreesStandUprightWhateverTheSlope) {
+  Picture p = one_class(forest);
+  for (auto& d : p.guidance.fall_line) d = glm::vec2(0.8F, 0.6F);  // a slope that falls to the right
+  const StrokeParameters parameters;
+  const auto trees = forest_trees({p.guidance, p.ground, parameters});
+  int bodies = 0;
+  for (const Stroke& s : trees) {
+    if (s.gate != StrokeGate::upright) continue;
+    const glm::vec2 axis = s.points[1] - s.points[0];
+    EXPECT_LT(axis.y, 0.F);
+    EXPECT_LT(std::abs(axis.x), std::tan(0.1745F) * std::abs(axis.y) + 0.2F);  // within 10°
+    ++bodies;
+  }
+  EXPECT_GT(bodies, 500);
+}
+
+// Puts the picture's ground at an altitude: which trees grow depends on it.
+void raise(Picture& picture, float altitude_m) {
+  for (auto& place : picture.guidance.position_m) place.z = altitude_m;
+}
+
+TEST(StrokePainter, TreesAreAsTallFarAsNear) {
+  Picture p = one_class(forest);
+  raise(p, 1700.F);  // spruces only: where leafy trees grow varies over the ground
+  const StrokeParameters parameters;
+  const auto trees = forest_trees({p.guidance, p.ground, parameters});
+  EXPECT_NEAR(mean_height(trees, 0.F, 80.F) / mean_height(trees, 160.F, 240.F), 1.0, 0.05);
+}
+
+// Angle between a direction and the fall line, 0…90°.
+double angle_deg(glm::vec2 axis, glm::vec2 fall) {
+  const float cosine = std::abs(axis.x * fall.x + axis.y * fall.y) / (std::hypot(axis.x, axis.y) * std::hypot(fall.x, fall.y));
+  return std::acos(std::min(1.F, cosine)) * 57.29578;
+}
+
+TEST(StrokePainter, TrunksStandInRowsDownTheFallLine) {
+  Picture p = one_class(forest);
+  raise(p, 1700.F);
+  const glm::vec2 fall(0.8F, 0.6F);
+  for (auto& d : p.guidance.fall_line) d = fall;
+  const StrokeParameters parameters;
+  // Bodies are the wide upright strokes; the next in the list is the next of its row where it stands a step away.
+  std::vector<glm::vec2> feet;
+  for (const Stroke& s : forest_trees({p.guidance, p.ground, parameters}))
+    if (s.gate == StrokeGate::upright && s.start_width > 2.5F) feet.push_back(s.points[0]);
+  int steps = 0;
+  int along = 0;
+  for (std::size_t k = 1; k < feet.size(); ++k) {
+    const glm::vec2 step = feet[k] - feet[k - 1];
+    if (std::hypot(step.x, step.y) > 8.F) continue;
+    ++steps;
+    along += angle_deg(step, fall) < 20.0 ? 1 : 0;
+  }
+  EXPECT_GT(steps, 300);
+  // Strewn trees would have two in nine; some neighbours in the list are of two rows.
+  EXPECT_GT(along, steps * 3 / 5);
+}
+
+TEST(StrokePainter, LowForestIsLeafyAndWarmer) {
+  Picture low = one_class(forest);
+  raise(low, 500.F);
+  Picture high = one_class(forest);
+  raise(high, 1700.F);
+  const StrokeParameters parameters;
+  const auto warmest = [&](const Picture& p) {
+    float most = -1.F;
+    for (const Stroke& s : forest_trees({p.guidance, p.ground, parameters})) most = std::max(most, s.colour.x - s.colour.z);
+    return most;
+  };
+  EXPECT_GT(warmest(low), warmest(high) + 0.1F);  // yellow dots
+}
+
+TEST(StrokePainter, TreesOfTheValleyFloorStandInGroups) {
+  Picture p = one_class(valley_floor, 600, 400);
+  const StrokeParameters parameters;
+  constexpr int cell = 25;
+  Grid<int> counts(600 / cell, 400 / cell, 0);
+  for (const Stroke& s : scattered_trees({p.guidance, p.ground, parameters}))
+    if (s.gate == StrokeGate::upright && s.start_width > 1.5F)
+      ++counts(std::min(599, static_cast<int>(s.points[0].x)) / cell, std::min(399, static_cast<int>(s.points[0].y)) / cell);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const int n : counts) {
+    sum += n;
+    squares += static_cast<double>(n) * n;
+  }
+  const double mean = sum / static_cast<double>(counts.size());
+  EXPECT_GT(mean, 0.1);
+  // Evenly strewn ones would have a variance as large as the mean.
+  EXPECT_GT(squares / static_cast<double>(counts.size()) - mean * mean, 3.0 * mean);
+}
+
+// 10 … 30 % of the strokes are of the next darker tone, so that no area is flat.
+TEST(StrokePainter, DarkerStrokesAreMixedIn) {
+  const StrokeParameters parameters;
+  const auto darker_share = [&](LandCoverClass id, auto&& kind) {
+    const Picture p = one_class(id);
+    const auto strokes = kind(StrokeScene{p.guidance, p.ground, parameters});
+    // Half a step down from the base at .5, the darker picture at .4.
+    const auto dark = std::count_if(strokes.begin(), strokes.end(), [](const Stroke& s) { return s.colour.y < 0.455F; });
+    return static_cast<double>(dark) / static_cast<double>(strokes.size());
+  };
+  for (const LandCoverClass id : {pasture, alpine_grass, valley_floor, snow, glacier, scree})
+    EXPECT_THAT(darker_share(id, wash_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30))) << class_name(id);
+  for (const LandCoverClass id : {pasture, alpine_grass, valley_floor, shrub})
+    EXPECT_THAT(darker_share(id, meadow_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30))) << class_name(id);
+  EXPECT_THAT(darker_share(scree, scree_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)));
+  EXPECT_THAT(darker_share(snow, snow_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)));
+}
+
+// A round settlement of this radius on the valley floor.
+Picture town(float radius) {
+  Picture p = one_class(valley_floor, 320, 240);
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x)
+      if (std::hypot(static_cast<float>(x) - 160.F, static_cast<float>(y) - 120.F) < radius) p.guidance.land_cover(x, y) = settlement;
+  p.guidance.footprint_m = Grid<float>(320, 240, 15.F);
+  return p;
+}
+
+TEST(StrokePainter, TownsDifferFromVillages) {
+  const StrokeParameters parameters;
+  const auto widest = [&](float radius) {
+    const Picture p = town(radius);
+    float most = 0.F;
+    for (const Stroke& s : houses({p.guidance, p.ground, parameters}))
+      if (s.gate == StrokeGate::surface && s.point_count == 2)
+        most = std::max(most, std::abs(s.points[1].x - s.points[0].x) + (s.tip == StrokeTip::square ? 0.F : s.start_width));
+    return most;
+  };
+  EXPECT_GT(widest(80.F), 4.5F);  // halls and works
+  EXPECT_LT(widest(9.F), 4.5F);
+}
+
+TEST(StrokePainter, TownsAreDenserInTheirMiddle) {
+  const Picture p = town(80.F);
+  const StrokeParameters parameters;
+  int inside = 0;
+  int edge = 0;
+  for (const Stroke& s : houses({p.guidance, p.ground, parameters})) {
+    if (s.alpha < 0.9F || s.gate != StrokeGate::surface) continue;  // walls and roofs
+    const float r = std::hypot(s.points[0].x - 160.F, s.points[0].y - 120.F);
+    inside += r < 55.F ? 1 : 0;
+    edge += r > 70.F ? 1 : 0;
+  }
+  EXPECT_GT(inside / (55.0 * 55.0), 1.15 * edge / (80.0 * 80.0 - 70.0 * 70.0));
+}
+
+TEST(StrokePainter, TheSkyIsDrawnOutLevel) {
+  Picture p = one_class(sky);
+  // A cloud in the right half: there the brush dabs, and is level all the same.
+  for (int y = 80; y < 160; ++y)
+    for (int x = 200; x < 280; ++x) p.ground.colour(x, y) = glm::vec3(0.9F);
+  const StrokeParameters parameters;
+  double clear = 0.0, dabbed = 0.0;
+  int clear_count = 0, dab_count = 0;
+  for (const Stroke& s : sky_strokes({p.guidance, p.ground, parameters})) {
+    const glm::vec2 axis = s.points[3] - s.points[0];
+    EXPECT_LE(std::abs(std::atan2(axis.y, axis.x)) * 57.2958F, 3.F);
+    const glm::vec2 middle = 0.5F * (s.points[0] + s.points[3]);
+    if (middle.x < 150.F) clear += std::hypot(axis.x, axis.y), ++clear_count;
+    if (middle.y > 85.F && middle.y < 155.F && std::abs(middle.x - 200.F) < 6.F) dabbed += std::hypot(axis.x, axis.y), ++dab_count;
+  }
+  ASSERT_GT(clear_count, 100);
+  ASSERT_GT(dab_count, 5);
+  EXPECT_GT(clear / clear_count, 3.0 * dabbed / dab_count);
+}
+
+TEST(StrokePainter, StrokesGrowWithTheSheet) {
+  Picture small = one_class(forest, 200, 200);
+  Picture large = one_class(forest, 400, 400);
+  raise(small, 1700.F);  // spruces only
+  raise(large, 1700.F);
+  const StrokeParameters at_one;
+  StrokeParameters at_two;
+  at_two.pixels_per_unit = 2.0;
+  const auto a = forest_trees({small.guidance, small.ground, at_one});
+  const auto b = forest_trees({large.guidance, large.ground, at_two});
+  EXPECT_NEAR(mean_height(b, 0.F, 400.F) / mean_height(a, 0.F, 200.F), 2.0, 0.05);
+  EXPECT_NEAR(static_cast<double>(b.size()) / static_cast<double>(a.size()), 1.0, 0.1);
+}
+
+TEST(StrokePainter, LightSideFollowsTheSun) {
+  const Picture p = one_class(forest);
+  StrokeParameters from_left;
+  from_left.sun_side = -1.0;
+  const StrokeParameters from_right;
+  const auto offset = [&](const StrokeParameters& parameters) {
+    // The lit stroke stands right behind its dark body in the list.
+    const auto trees = forest_trees({p.guidance, p.ground, parameters});
+    double sum = 0.0;
+    for (std::size_t i = 1; i < trees.size(); ++i)
+      if (trees[i].gate == StrokeGate::upright && trees[i - 1].gate == StrokeGate::upright &&
+          trees[i].start_width < 0.6F * trees[i - 1].start_width)
+        sum += trees[i].points[0].x - trees[i - 1].points[0].x;
+    return sum;
+  };
+  EXPECT_GT(offset(from_right), 0.0);
+  EXPECT_LT(offset(from_left), 0.0);
+}
+
+TEST(StrokePainter, EachClassGrowsItsOwnStrokesOnly) {
+  const StrokeParameters parameters;
+  for (const LandCoverClassInfo& info : land_cover_classes()) {
+    const Picture p = one_class(info.id);
+    const StrokeScene scene{p.guidance, p.ground, parameters};
+    EXPECT_EQ(forest_trees(scene).empty(), info.id != forest) << info.name;
+    EXPECT_EQ(rock_facets(scene).empty(), info.id != rock) << info.name;
+    EXPECT_EQ(water_strokes(scene).empty(), info.id != water) << info.name;
+    EXPECT_EQ(houses(scene).empty(), info.id != settlement) << info.name;
+    EXPECT_EQ(sky_strokes(scene).empty(), info.id != sky) << info.name;
+    EXPECT_EQ(snow_strokes(scene).empty(), info.id != snow && info.id != glacier) << info.name;
+  }
+}
+
+TEST(StrokePainter, RockIsHatchedAlongTheFallLine) {
+  Picture p = one_class(rock);
+  const glm::vec2 down = glm::vec2(0.6F, 0.8F);
+  for (auto& d : p.guidance.fall_line) d = down;
+  const StrokeParameters parameters;
+  int along = 0;
+  int all = 0;
+  for (const Stroke& s : rock_hatching({p.guidance, p.ground, parameters})) {
+    const glm::vec2 axis = s.points[3] - s.points[0];
+    const float cosine = std::abs(axis.x * down.x + axis.y * down.y) / std::hypot(axis.x, axis.y);
+    along += cosine > std::cos(0.6F) ? 1 : 0;
+    ++all;
+  }
+  EXPECT_GT(along, all * 3 / 4);  // one in eight is a ledge across
+}
+
+TEST(StrokePainter, RockHoldsSnowInWinterButNotOnTheSteepest) {
+  Picture p = one_class(rock);
+  p.guidance.slope_deg = Grid<float>(320, 240, 45.F);
+  const StrokeParameters summer;
+  StrokeParameters winter;
+  winter.winter = true;
+  EXPECT_TRUE(rock_snow({p.guidance, p.ground, summer}).empty());
+  EXPECT_GT(rock_snow({p.guidance, p.ground, winter}).size(), 100U);
+  for (float& slope : p.guidance.slope_deg) slope = 66.F;
+  EXPECT_TRUE(rock_snow({p.guidance, p.ground, winter}).empty());
+}
+
+TEST(StrokePainter, BrokenColourIsSmallAndLiesEveryWay) {
+  const Picture p = one_class(rock);
+  const StrokeParameters parameters;
+  int steep = 0;
+  int all = 0;
+  for (const Stroke& s : broken_colour({p.guidance, p.ground, parameters})) {
+    const glm::vec2 axis = s.points[3] - s.points[0];
+    EXPECT_LT(std::hypot(axis.x, axis.y), 5.F);
+    steep += angle_deg(axis, {0.F, 1.F}) < 45.0 ? 1 : 0;
+    ++all;
+  }
+  ASSERT_GT(all, 1000);
+  EXPECT_GT(steep, all * 2 / 5);
+  EXPECT_LT(steep, all * 3 / 4);
+}
+
+TEST(StrokePainter, UprightLayerAloneLeavesBareGroundUntouched) {
+  const Picture p = one_class(rock);
+  const Grid<glm::vec3> canvas(320, 240, glm::vec3(0.3F));
+  const StrokeLayers upright_only{.sky = false, .ground = false, .accents = false, .breaks = false, .upright = true};
+  EXPECT_EQ(paint_strokes(canvas, p.guidance, p.ground, upright_only, {}, silent_progress()).picture, canvas);
+}
+
+TEST(StrokePainter, MeanColourStaysNearTheBase) {
+  const Picture p = one_class(pasture);
+  const auto picture = paint_strokes(p.ground.colour, p.guidance, p.ground, {.upright = false}, {}, silent_progress()).picture;
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const glm::vec3& c : picture) {
+    sum += c.y;
+    squares += c.y * c.y;
+  }
+  const double mean = sum / static_cast<double>(picture.size());
+  EXPECT_NEAR(mean, 0.5, 0.02);
+  EXPECT_GT(squares / static_cast<double>(picture.size()) - mean * mean, 1e-4);  // and it is painted, not flat
+}
+
+// All kinds, by the layer they belong to; a kind that is not painted is a class without its brush.
+TEST(StrokePainter, EveryKindOfStrokeIsPaintedInItsLayer) {
+  using Kind = std::vector<Stroke> (*)(const StrokeScene&);
+  const std::vector<Kind> ground = {wash_strokes, meadow_strokes, rock_facets, rock_hatching, rock_ledges,  rock_fissures, rock_snow,
+                                    rock_rubble,  rock_turf,      rock_drifts, scree_strokes, snow_strokes, broken_colour, water_strokes};
+  const std::vector<Kind> breaks = {snow_ribs, glacier_flow_lines, glacier_edges, glacier_moraines, glacier_crevasses};
+  const std::vector<Kind> over_copied = {rock_ledges, rock_fissures};  // where the ground is not painted
+  const std::vector<Kind> upright = {forest_trees, scattered_trees, low_bushes, rock_trees, grass_flecks, houses, farms};
+  StrokeParameters winter;
+  winter.winter = true;
+  for (const LandCoverClassInfo& info : land_cover_classes()) {
+    Picture p = one_class(info.id, 160, 120);
+    p.guidance.slope_deg = Grid<float>(160, 120, 30.F);
+    p.guidance.footprint_m = Grid<float>(160, 120, 15.F);
+    p.ground.accent = Grid<float>(160, 120, -0.8F);
+    const StrokeScene scene{p.guidance, p.ground, winter};
+    const auto count = [&](const StrokeLayers& layers) {
+      return static_cast<std::size_t>(paint_strokes(p.ground.colour, p.guidance, p.ground, layers, winter, silent_progress()).stroke_count);
+    };
+    const auto sum = [&](const std::vector<Kind>& kinds) {
+      std::size_t all = 0;
+      for (const Kind kind : kinds) all += kind(scene).size();
+      return all;
+    };
+    const auto only = [](StrokeLayers wanted) {
+      wanted.accents = false;
+      return wanted;
+    };
+    EXPECT_EQ(count(only({.sky = true, .ground = false, .breaks = false, .upright = false})), sky_strokes(scene).size()) << info.name;
+    EXPECT_EQ(count(only({.sky = false, .ground = true, .breaks = false, .upright = false})), sum(ground)) << info.name;
+    EXPECT_EQ(count(only({.sky = false, .ground = false, .breaks = true, .upright = false})), sum(breaks) + sum(over_copied)) << info.name;
+    EXPECT_EQ(count(only({.sky = false, .ground = true, .breaks = true, .upright = false})), sum(ground) + sum(breaks)) << info.name;
+    EXPECT_EQ(count(only({.sky = false, .ground = false, .breaks = false, .upright = true})), sum(upright)) << info.name;
+    EXPECT_EQ(count({.sky = false, .ground = true, .accents = true, .breaks = false, .upright = false}),
+              sum(ground) + accent_strokes(scene).size())
+        << info.name;
+  }
+}
+
+TEST(StrokePainter, HousesInTheHazeTakeTheColourOfTheAir) {
+  Picture p = one_class(settlement);
+  p.guidance.footprint_m = Grid<float>(320, 240, 15.F);
+  const StrokeParameters parameters;
+  const auto farthest = [&](float haze) {
+    p.ground.haze = Grid<float>(320, 240, haze);
+    float most = 0.F;
+    for (const Stroke& s : houses({p.guidance, p.ground, parameters}))
+      if (s.tip == StrokeTip::square) most = std::max(most, std::abs(s.colour.x - 0.5F));
+    return most;
+  };
+  EXPECT_GT(farthest(0.F), 0.2F);
+  EXPECT_NEAR(farthest(1.F), 0.F, 1e-5F);
+}
+
+TEST(StrokePainter, StrokesCurveSlightlyAndAreEdgedOnEitherSide) {
+  const Picture p = one_class(pasture);
+  const StrokeParameters parameters;
+  double bend = 0.0;
+  int right = 0;
+  const auto strokes = wash_strokes({p.guidance, p.ground, parameters});
+  for (const Stroke& s : strokes) {
+    const glm::vec2 chord = s.points[3] - s.points[0];
+    const glm::vec2 middle = 0.5F * (s.points[1] + s.points[2]) - s.points[0];
+    bend += std::abs(chord.x * middle.y - chord.y * middle.x) / (chord.x * chord.x + chord.y * chord.y);
+    right += s.edge > 0.F ? 1 : 0;
+  }
+  const auto count = static_cast<double>(strokes.size());
+  EXPECT_THAT(bend / count, testing::AllOf(testing::Gt(0.008), testing::Lt(0.06)));  // of their length
+  EXPECT_NEAR(right / count, 0.5, 0.05);
+}
+
+TEST(StrokePainter, AirEvensOutWhatLoadsOfPaintDifferBy) {
+  Picture p = one_class(pasture);
+  p.ground.darker = p.ground.lighter = p.ground.colour;  // no other differences than of loads and of jitter
+  const auto variance = [&](float haze) {
+    p.ground.haze = Grid<float>(320, 240, haze);
+    const auto picture = paint_strokes(p.ground.colour, p.guidance, p.ground, {.upright = false}, {}, silent_progress()).picture;
+    double squares = 0.0;
+    for (const glm::vec3& c : picture) squares += (c.y - 0.5) * (c.y - 0.5);
+    return squares / static_cast<double>(picture.size());
+  };
+  EXPECT_LT(variance(1.F), 0.8 * variance(0.F));
+}
+
+TEST(StrokePainter, ThreadsChangeNoBit) {
+  Picture p = one_class(forest);
+  for (int y = 0; y < p.guidance.height(); ++y)
+    for (int x = p.guidance.width() / 2; x < p.guidance.width(); ++x) p.guidance.land_cover(x, y) = rock;
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return paint_strokes(p.ground.colour, p.guidance, p.ground, {}, {}, silent_progress());
+  };
+  const Painting one = run(1);
+  const Painting two = run(2);
+  EXPECT_EQ(one.picture, two.picture);
+  EXPECT_EQ(one.sources, two.sources);
+  EXPECT_EQ(one.under, two.under);
+  EXPECT_EQ(one.under_share, two.under_share);
+  EXPECT_GT(std::count_if(one.under_share.begin(), one.under_share.end(), [](int share) { return share > 60; }), 50);
+}
+
+TEST(StrokePainter, RefusesGridsOfDifferentSize) {
+  const Picture p = one_class(forest);
+  const Grid<glm::vec3> canvas(10, 10);
+  EXPECT_THROW(paint_strokes(canvas, p.guidance, p.ground, {}, {}, silent_progress()), Error);
+}
+
+}  // namespace
+}  // namespace belvedere

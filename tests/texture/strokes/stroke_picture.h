@@ -1,0 +1,50 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+
+#include "base/guidance_buffers.h"
+#include "texture/strokes/brush.h"
+#include "texture/strokes/stroke_painter.h"
+#include "texture/strokes/stroke_seeds.h"
+
+namespace belvedere {
+
+// What strokes are tested on.
+struct Picture {
+  GuidanceBuffers guidance;
+  PaintGround ground;
+  StrokeParameters parameters;
+  StrokeScene scene() const { return {guidance, ground, parameters}; }
+};
+
+// One class all over, fall line straight down, tone .6, three greys to mix from, clear air, trees where trees grow. Depth and positions
+// are zero: each test lays its own ground.
+inline Picture plain_picture(LandCoverClass id, int width, int height) {
+  Picture p;
+  p.guidance.depth_m = Grid<float>(width, height, 0.F);
+  p.guidance.land_cover = Grid<LandCoverClass>(width, height, id);
+  p.guidance.fall_line = Grid<glm::vec2>(width, height, glm::vec2(0.F, 1.F));
+  p.guidance.tone = Grid<float>(width, height, 0.6F);
+  p.guidance.position_m = Grid<glm::vec3>(width, height);
+  p.ground.colour = Grid<glm::vec3>(width, height, glm::vec3(0.5F));
+  p.ground.darker = Grid<glm::vec3>(width, height, glm::vec3(0.4F));
+  p.ground.lighter = Grid<glm::vec3>(width, height, glm::vec3(0.6F));
+  p.ground.accent = Grid<float>(width, height, 0.F);
+  p.ground.tree_density = Grid<float>(width, height, 0.95F);
+  p.ground.haze = Grid<float>(width, height, 0.F);
+  return p;
+}
+
+// From a stroke's first point to its last, px.
+inline glm::vec2 axis_of(const Stroke& s) { return s.points[static_cast<std::size_t>(s.point_count - 1)] - s.points[0]; }
+
+// Between an axis (without sense) and a direction, 0…90.
+inline double angle_deg(glm::vec2 axis, glm::vec2 direction) {
+  const double c = std::abs(glm::dot(glm::normalize(axis), glm::normalize(direction)));
+  return std::acos(std::min(1.0, c)) * 57.29578;
+}
+
+}  // namespace belvedere

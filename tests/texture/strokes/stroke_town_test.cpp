@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+#include "tests/texture/strokes/stroke_picture.h"
+#include "texture/strokes/stroke_kinds.h"
+
+namespace belvedere {
+namespace {
+
+using enum LandCoverClass;
+
+// Level ground seen from above at 20 m a pixel, all of one class, 900 m high.
+Picture level(LandCoverClass id, int width = 240, int height = 200) {
+  Picture p = plain_picture(id, width, height);
+  p.guidance.depth_m = Grid<float>(width, height, 20000.F);
+  p.guidance.fall_line = Grid<glm::vec2>(width, height, glm::vec2(0.F));
+  p.guidance.footprint_m = Grid<float>(width, height, 20.F);
+  p.guidance.slope_deg = Grid<float>(width, height, 1.F);
+  p.guidance.built = Grid<float>(width, height, 0.6F);
+  p.guidance.grain = Grid<glm::vec2>(width, height, glm::vec2(1.F, 0.F));
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      p.guidance.position_m(x, y) = glm::vec3(20.F * static_cast<float>(x), -20.F * static_cast<float>(y), 900.F);
+  p.ground.darker = p.ground.lighter = p.ground.colour;
+  p.ground.tree_density = Grid<float>(width, height, 0.F);
+  return p;
+}
+
+bool is_wall(const Stroke& s) { return s.gate == StrokeGate::surface && s.alpha == 0.95F && s.colour.y > 0.75F && s.colour.z > 0.65F; }
+bool is_spire(const Stroke& s) { return s.gate == StrokeGate::upright && s.end_width < 0.2F * s.start_width; }
+
+// How well places keep to rows of this pitch, 0…1.
+double rowed(const std::vector<Stroke>& strokes, bool vertical, double pitch_px) {
+  std::complex<double> sum = 0.0;
+  int count = 0;
+  for (const Stroke& s : strokes) {
+    if (!is_wall(s)) continue;
+    const double at = vertical ? 0.5 * static_cast<double>(s.points[0].x + s.points[1].x) : static_cast<double>(s.points[0].y);
+    sum += std::polar(1.0, 6.283185 * at / pitch_px);
+    ++count;
+  }
+  EXPECT_GT(count, 150);
+  return std::abs(sum) / count;
+}
+
+TEST(Towns, HousesStandInRowsAlongTheGrain) {
+  const StrokeParameters parameters;
+  Picture p = level(settlement);
+  // 2^6.5 m hold 3 units of 20 m and a garden.
+  const double pitch_px = std::exp2(6.5) / 20.0;
+  const auto strokes = [&] { return houses({p.guidance, p.ground, parameters}); };
+  EXPECT_GT(rowed(strokes(), false, pitch_px), 0.75);
+  for (glm::vec2& grain : p.guidance.grain) grain = {0.F, 1.F};  // 45°
+  EXPECT_LT(rowed(strokes(), false, pitch_px), 0.3);
+}
+
+TEST(Towns, HaveNoTwoHousesOnOnePlot) {
+  const StrokeParameters parameters;
+  Picture p = level(settlement);
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 240; ++x) p.guidance.built(x, y) = 0.45F - 0.0005F * std::hypot(x - 120.F, y - 100.F);  // one church
+  std::vector<glm::vec2> feet;
+  for (const Stroke& s : houses({p.guidance, p.ground, parameters}))
+    if (is_wall(s)) feet.push_back(0.5F * (s.points[0] + s.points[1]));
+  int too_near = 0;
+  for (std::size_t a = 0; a < feet.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) too_near += std::hypot(feet[a].x - feet[b].x, feet[a].y - feet[b].y) < 1.5F ? 1 : 0;
+  EXPECT_LT(too_near, 12);  // churches stand where they like
+}
+
+TEST(Towns, AreDenserAndLargerInTheirMiddle) {
+  const StrokeParameters parameters;
+  const auto total = [&](float built) {
+    Picture p = level(settlement);
+    for (float& b : p.guidance.built) b = built;
+    double width = 0.0;
+    int count = 0;
+    for (const Stroke& s : houses({p.guidance, p.ground, parameters})) {
+      if (!is_wall(s)) continue;
+      width += std::abs(s.points[1].x - s.points[0].x);
+      ++count;
+    }
+    return std::pair(count, width / count);
+  };
+  const auto [few, small] = total(0.1F);
+  const auto [many, large] = total(0.8F);
+  EXPECT_GT(many, 1.4 * few);
+  EXPECT_GT(large, 1.1 * small);
+}
+
+TEST(Towns, EveryVillageHasItsChurchInItsMiddle) {
+  const StrokeParameters parameters;
+  Picture p = level(valley_floor);
+  for (const glm::ivec2 middle : {glm::ivec2(60, 60), glm::ivec2(170, 130)})
+    for (int y = -12; y <= 12; ++y)
+      for (int x = -12; x <= 12; ++x) {
+        const float away = std::hypot(static_cast<float>(x), static_cast<float>(y));
+        if (away > 12.F) continue;
+        p.guidance.land_cover(middle.x + x, middle.y + y) = settlement;
+        p.guidance.built(middle.x + x, middle.y + y) = 0.35F - 0.02F * away;
+      }
+  std::vector<glm::vec2> spires;
+  for (const Stroke& s : houses({p.guidance, p.ground, parameters}))
+    if (is_spire(s)) spires.push_back(s.points[0]);
+  ASSERT_EQ(spires.size(), 2U);
+  EXPECT_NEAR(spires[0].x, 60.F, 5.F);
+  EXPECT_NEAR(spires[0].y, 60.F, 8.F);
+  EXPECT_NEAR(spires[1].x, 170.F, 5.F);
+}
+
+TEST(Towns, FarmsAreFewAndOnGentleLowGround) {
+  const StrokeParameters parameters;
+  const auto count = [&](const Picture& p) {
+    int walls = 0;
+    for (const Stroke& s : farms({p.guidance, p.ground, parameters})) walls += is_wall(s) ? 1 : 0;
+    return walls;
+  };
+  Picture p = level(valley_floor, 400, 400);
+  EXPECT_GT(count(p), 20);
+  EXPECT_LT(count(p), 400 * 400 / 300);
+  Picture steep = p;
+  for (float& slope : steep.guidance.slope_deg) slope = 25.F;
+  EXPECT_EQ(count(steep), 0);
+  Picture high = p;
+  for (glm::vec3& place : high.guidance.position_m) place.z = 1600.F;
+  EXPECT_EQ(count(high), 0);
+  EXPECT_EQ(count(level(forest, 400, 400)), 0);
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,129 @@
+// `belvedere exemplar paint` as users meet it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "renderer/image/guidance_io.h"
+#include "tests/tools/program.h"
+
+namespace belvedere {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ExemplarPaint : public Program {
+ protected:
+  std::string write_plan() const {
+    return write(
+        "plan.toml",
+        "width = 256\nheight = 256\ncolumns = 1\nscene = \"\"\"\nversion = 1\n[terrain.synthetic]\nwidth = 96\nheight = 96\n"
+        "cell_m = 200\n[camera]\nposition = [9000, -9000]\nheight_m = 9000\npitch_deg = -25\n\"\"\"\n[[panels]]\nname = \"one\"\n");
+  }
+};
+
+TEST_F(ExemplarPaint, WritesAPaintingWithAllThatIsKnownOfIt) {
+  const Outcome done = run({"exemplar", "paint", "--plan", write_plan(), "--season", "winter", "--out", path("sheet")});
+  ASSERT_EQ(done.status, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("floors are not met"));
+  for (const char* file : {"painting.tif", "ground.tif", "painting.png", "guidance.exr", "sheet.toml", "coverage.json"})
+    EXPECT_TRUE(std::filesystem::exists(path(std::string("sheet/") + file))) << file;
+  EXPECT_THAT(read_bytes(path("sheet/sheet.toml")), HasSubstr("palette = \"winter\""));
+  const ImageInfo info = read_image_info(path("sheet/ground.tif"));
+  EXPECT_EQ(info.notes.at("belvedere:layer"), "ground");
+  EXPECT_FALSE(info.icc_profile.empty());
+  EXPECT_EQ(info.parts.at(0).channels.at(0).type, ChannelType::uint16);
+  const GuidanceBuffers guidance = read_guidance(path("sheet/guidance.exr"));
+  EXPECT_FALSE(guidance.painted_class.empty());
+  EXPECT_FALSE(guidance.stroke.empty());
+  EXPECT_FALSE(guidance.tone.empty());
+  EXPECT_FALSE(guidance.base.empty());
+}
+
+TEST_F(ExemplarPaint, PaintsASceneThatCanBePaintedAgain) {
+  const Outcome done = run({"exemplar", "paint", write_scene_file(), "--season", "autumn", "--seed", "5", "--out", path("a"), "--json"});
+  ASSERT_EQ(done.status, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("\"by_tone_and_distance\""));
+  EXPECT_THAT(read_bytes(path("a/scene.toml")), HasSubstr("palette = \"autumn\""));
+  ASSERT_EQ(run({"exemplar", "paint", path("a/scene.toml"), "--out", path("b"), "--threads", "1", "--tile", "16"}).status, 0);
+  for (const char* file : {"painting.tif", "ground.tif", "guidance.exr", "coverage.json"})
+    EXPECT_TRUE(read_bytes(path(std::string("a/") + file)) == read_bytes(path(std::string("b/") + file))) << file;
+}
+
+TEST_F(ExemplarPaint, APanoramaCopiesIt) {
+  ASSERT_EQ(run({"exemplar", "paint", write_scene_file(), "--out", path("a"), "-q"}).status, 0);
+  const std::string scene = write(
+      "copy.toml",
+      "version = 1\n[terrain.synthetic]\nwidth = 96\nheight = 96\ncell_m = 200\n[camera]\nposition = [9000, -9000]\nheight_m = 9000\n"
+      "pitch_deg = -25\n[[exemplar]]\npicture = \"a/ground.tif\"\nguidance = \"a/guidance.exr\"\n[output]\nwidth = 96\nheight = 64\n");
+  const Outcome done = run({"render", scene, "--out", path("copy")});
+  ASSERT_EQ(done.status, 0) << done.err;
+  // The same view copied from itself, with the same trees on it: most pixels are their own, and the others differ by little.
+  const Grid<glm::vec3> copied = read_picture(path("copy/panorama.tif"));
+  const Grid<glm::vec3> painted = read_picture(path("a/painting.tif"));
+  double sum = 0.0;
+  std::ptrdiff_t same = 0;
+  for (std::size_t i = 0; i < copied.size(); ++i) {
+    sum += static_cast<double>(std::abs(copied[i].y - painted[i].y));
+    same += glm::length(copied[i] - painted[i]) < 0.01F ? 1 : 0;
+  }
+  EXPECT_LT(sum / static_cast<double>(copied.size()), 0.006);
+  EXPECT_GT(static_cast<double>(same) / static_cast<double>(copied.size()), 0.65);
+}
+
+TEST_F(ExemplarPaint, FullDiskAndInterruptionKeepTheOldSheetWhole) {
+  const std::string plan = write_plan();
+  ASSERT_EQ(run({"exemplar", "paint", "--plan", plan, "--out", path("a"), "-q"}).status, 0);
+  const std::vector<const char*> files = {"painting.tif", "ground.tif", "painting.png", "guidance.exr", "sheet.toml", "coverage.json"};
+  std::vector<std::string> old;
+  for (const char* file : files) old.push_back(read_bytes(path(std::string("a/") + file)));
+  const auto expect_whole = [&] {
+    for (std::size_t i = 0; i < files.size(); ++i) EXPECT_TRUE(read_bytes(path(std::string("a/") + files[i])) == old[i]) << files[i];
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("a")), {}), 6) << "a temporary file is left";
+  };
+  const std::vector<std::string> again = {"exemplar", "paint", "--plan", plan, "--season", "winter", "--out", path("a")};
+  // A limit of file sizes stands for the full disk.
+  const Outcome full = run(again, [] {
+    const rlimit bytes{8000, 8000};
+    setrlimit(RLIMIT_FSIZE, &bytes);
+  });
+  EXPECT_EQ(full.status, 4) << full.err;
+  EXPECT_THAT(full.err, HasSubstr("guidance.exr"));
+  expect_whole();
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const pid_t child = start(again);
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));  // it takes seconds
+    kill(child, signal);
+    const Outcome stopped = finish(child);
+    EXPECT_TRUE(stopped.status == 75 || stopped.status == 1000 + signal) << stopped.status;  // before it listens, the signal ends it
+    expect_whole();
+  }
+}
+
+TEST_F(ExemplarPaint, RefusesWhatDoesNotGoTogether) {
+  const std::string scene = write_scene_file();
+  EXPECT_EQ(run({"exemplar", "paint", scene, "--size", "512", "--out", path("x")}).status, 2);
+  EXPECT_EQ(run({"exemplar", "paint", scene, "--plan", write_plan(), "--out", path("x")}).status, 2);
+  EXPECT_EQ(run({"exemplar", "paint", "--set", "output.width=100", "--out", path("x")}).status, 2);
+  EXPECT_EQ(run({"exemplar", "paint", "--plan", write_plan(), "--season", "spring", "--out", path("x")}).status, 2);
+  EXPECT_EQ(run({"exemplar", "paint", "--plan", write("bad.toml", "rows = 3\n"), "--out", path("x")}).status, 2);
+  EXPECT_EQ(run({"exemplar", "paint"}).status, 2);  // --out is required
+  // A seed that sheet.toml could not hold, or below 0.
+  for (const char* seed : {"9007199254740992", "-1"})
+    EXPECT_EQ(run({"exemplar", "paint", "--plan", write_plan(), "--seed", seed, "--out", path("x")}).status, 2) << seed;
+  EXPECT_FALSE(std::filesystem::exists(path("x/painting.tif")));
+  const Outcome unwritable = run({"exemplar", "paint", "--plan", write_plan(), "--out", write("file", "in the way") + "/below"});
+  EXPECT_EQ(unwritable.status, 4);
+  EXPECT_THAT(unwritable.err, ::testing::AllOf(HasSubstr("file/below"), ::testing::Not(HasSubstr(" s)"))));  // before any work
+}
+
+}  // namespace
+}  // namespace belvedere

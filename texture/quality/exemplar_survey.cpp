@@ -1,0 +1,144 @@
+#include "texture/quality/exemplar_survey.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "texture/quality/quality.h"
+#include "texture/quality/quality_parts.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int square = 32;                   // of the checkerboard, texels
+constexpr int inside_squared = 64;           // as in quality.h
+constexpr int least_gap = 16;                // steps of a guide
+constexpr std::size_t fewest_texels = 1000;  // of a half
+
+// The texels of one half; the rest is excluded.
+template <class F>
+Exemplar half_of(const Exemplar& exemplar, F&& belongs) {
+  Exemplar half;
+  half.name = exemplar.name;
+  half.picture = exemplar.picture;
+  half.guides.label = exemplar.guides.label;
+  for (int y = 0; y < half.picture.height(); ++y)
+    for (int x = 0; x < half.picture.width(); ++x)
+      if (!belongs(x, y)) half.guides.label(x, y) = unused_label;
+  return half;
+}
+
+std::array<quality::Histogram, 3> colours_of(const Exemplar& exemplar, std::uint8_t label) {
+  std::array<quality::Histogram, 3> out{};
+  for (std::size_t i = 0; i < exemplar.picture.size(); ++i) {
+    if (exemplar.guides.label[i] != label) continue;
+    for (std::size_t c = 0; c < 3; ++c) out[c][exemplar.picture[i][c]] += 1.0;
+  }
+  return out;
+}
+
+HalvesDistance compare_halves(const Exemplar& a, const Exemplar& b, std::uint8_t label) {
+  const auto texels = [label](const Exemplar& half) {
+    return static_cast<std::size_t>(std::count(half.guides.label.begin(), half.guides.label.end(), label));
+  };
+  HalvesDistance distance;
+  if (texels(a) < fewest_texels || texels(b) < fewest_texels) return distance;
+  distance.known = true;
+  const std::vector<Grid<float>> even{Grid<float>(b.picture.width(), b.picture.height(), 1.F)};
+  distance.clique = quality::clique_distances(a.picture, a.guides.label, {b}, even, label).distance;
+  const auto of_a = colours_of(a, label);
+  const auto of_b = colours_of(b, label);
+  for (std::size_t c = 0; c < 3; ++c) distance.colour += quality::wasserstein(of_a[c], of_b[c]) / 3.0;
+  return distance;
+}
+
+GuideCoverage cover(const Guide& guide, const Grid<std::uint8_t>& labels, std::uint8_t label) {
+  std::array<std::size_t, 256> counts{};
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    if (labels[i] == label) ++counts[guide.values[i]];
+  GuideCoverage out;
+  out.name = guide.name;
+  out.low = static_cast<std::uint8_t>(std::lround(quality::quantile(counts.data(), counts.size(), 0.05)));
+  out.high = static_cast<std::uint8_t>(std::lround(quality::quantile(counts.data(), counts.size(), 0.95)));
+  int last = -1;  // value that has texels
+  for (int v = 0; v < 256; ++v) {
+    if (counts[static_cast<std::size_t>(v)] == 0) continue;
+    if (last < 0) out.lowest = static_cast<std::uint8_t>(v);
+    if (last >= 0 && v - last - 1 >= least_gap) out.gaps.push_back({last + 1, v - 1});
+    out.highest = static_cast<std::uint8_t>(v);
+    last = v;
+  }
+  return out;
+}
+
+double or_zero(double value) { return std::isnan(value) ? 0.0 : value; }
+
+}  // namespace
+
+ExemplarSurvey survey_exemplar(const Exemplar& exemplar) {
+  check_exemplar(exemplar);
+  const Grid<std::uint8_t>& labels = exemplar.guides.label;
+  const Grid<std::uint8_t> borders = border_distance_squared(labels);
+  const int middle = exemplar.picture.width() / 2;
+  const Exemplar left = half_of(exemplar, [&](int x, int) { return x < middle; });
+  const Exemplar right = half_of(exemplar, [&](int x, int) { return x >= middle; });
+  const Exemplar white = half_of(exemplar, [](int x, int y) { return (x / square + y / square) % 2 == 0; });
+  const Exemplar black = half_of(exemplar, [](int x, int y) { return (x / square + y / square) % 2 != 0; });
+
+  ExemplarSurvey survey;
+  survey.texels = labels.size();
+  std::array<std::size_t, 256> texels{};
+  std::array<std::size_t, 256> inside{};
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    ++texels[labels[i]];
+    if (borders[i] > inside_squared) ++inside[labels[i]];
+  }
+  survey.excluded = texels[unused_label];
+  for (std::size_t l = 0; l < unused_label; ++l) {
+    if (texels[l] == 0) continue;
+    const auto label = static_cast<std::uint8_t>(l);
+    ClassSurvey of;
+    of.label = label;
+    of.texels = texels[l];
+    of.inside = inside[l];
+    of.sharpness = or_zero(mean_gradient(exemplar.picture, labels, borders, label));
+    of.stroke_run_px = or_zero(stroke_run(exemplar.picture, labels, borders, label, stroke_tolerance(exemplar.picture, labels, label)));
+    of.left_right = compare_halves(left, right, label);
+    of.checkerboard = compare_halves(white, black, label);
+    for (const Guide& guide : exemplar.guides.guides) of.guides.push_back(cover(guide, labels, label));
+    survey.classes.push_back(std::move(of));
+  }
+  return survey;
+}
+
+double covered_share(const std::vector<Exemplar>& exemplars, const GuideStack& target, std::uint8_t label, const std::string& guide,
+                     int reach) {
+  const auto values_of = [&](const GuideStack& stack) -> const Grid<std::uint8_t>& {
+    const Grid<std::uint8_t>* values = stack.find(guide);
+    if (values == nullptr) throw Error(ErrorKind::usage, "coverage", fmt::format("guide \"{}\" is missing on one side", guide));
+    return *values;
+  };
+  std::array<bool, 256> served{};
+  for (const Exemplar& exemplar : exemplars) {
+    const Grid<std::uint8_t>& values = values_of(exemplar.guides);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (exemplar.guides.label[i] != label) continue;
+      for (int v = std::max(0, values[i] - reach); v <= std::min(255, values[i] + reach); ++v) served[static_cast<std::size_t>(v)] = true;
+    }
+  }
+  const Grid<std::uint8_t>& wanted = values_of(target);
+  std::size_t pixels = 0;
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (target.label[i] != label) continue;
+    ++pixels;
+    covered += served[wanted[i]] ? 1 : 0;
+  }
+  return pixels == 0 ? 1.0 : static_cast<double>(covered) / static_cast<double>(pixels);
+}
+
+}  // namespace belvedere

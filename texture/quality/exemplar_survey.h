@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "texture/synthesis/exemplar.h"
+
+namespace belvedere {
+
+// What a painting can serve, told before anything is copied from it.
+
+// Where a guide's values of a class lie.
+struct GuideCoverage {
+  std::string name;
+  std::uint8_t lowest = 0;
+  std::uint8_t highest = 0;
+  std::uint8_t low = 0;  // 5th and 95th percentile: between them texels are not rare
+  std::uint8_t high = 0;
+  // Stretches of 16 or more steps between lowest and highest that no texel has, both ends included in the stretch.
+  struct Gap {
+    int from = 0;
+    int to = 0;
+  };
+  std::vector<Gap> gaps;
+};
+
+// How unlike two halves of a class are. Comparable with clique_distance and colour_distance of quality.h: no synthesis can be expected
+// to come nearer to the painting than the painting's own halves are.
+struct HalvesDistance {
+  bool known = false;   // false: one half has too few texels
+  double clique = 0.0;  // 0…2
+  double colour = 0.0;  // grey levels
+};
+
+struct ClassSurvey {
+  std::uint8_t label = 0;
+  std::size_t texels = 0;
+  std::size_t inside = 0;       // of them more than 8 pixels from the nearest border of classes
+  double sharpness = 0.0;       // mean gradient of grey inside, levels a pixel; 0: no inside
+  double stroke_run_px = 0.0;   // mean length of strokes inside (quality.h); 0: no inside
+  HalvesDistance left_right;    // one hand all over?
+  HalvesDistance checkerboard;  // of squares of 32 texels: what chance alone makes
+  std::vector<GuideCoverage> guides;
+};
+
+struct ExemplarSurvey {
+  std::size_t texels = 0;    // of the whole picture
+  std::size_t excluded = 0;  // labelled 255: lettering, frames …
+  std::vector<ClassSurvey> classes;
+};
+
+// Throws as check_exemplar.
+ExemplarSurvey survey_exemplar(const Exemplar& exemplar);
+
+// Share of the target's pixels of a class for which some texel of it has that guide within `reach` steps; 1 where the target has no
+// such pixel. Error(usage) where the target or an exemplar lacks the guide.
+double covered_share(const std::vector<Exemplar>& exemplars, const GuideStack& target, std::uint8_t label, const std::string& guide,
+                     int reach);
+
+}  // namespace belvedere

@@ -1,0 +1,246 @@
+#include "texture/strokes/brush.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/glm.hpp>
+#include <numeric>
+#include <utility>
+
+#include "base/parallel.h"
+#include "texture/strokes/paint_record.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int tile_px = 128;
+constexpr float tone_gate_width = 0.16F;  // look/recipe.md, finding 2: without it rock turns to fur
+constexpr float dry_from = 0.5F;          // share of the stroke from which the brush runs dry
+constexpr float pressed_by = 0.18F;       // share of it over which the brush is set down
+constexpr float load_value = 0.04F;       // ±, encoded sRGB: how much lighter or darker …
+constexpr float load_warmth = 0.03F;      // … and warmer or cooler a load of paint is than the one asked for
+constexpr float ridge_light = 0.05F;      // encoded sRGB, of a ridge of paint
+
+// A cheap 32-bit hash: bristles ask for it millions of times.
+std::uint32_t hash32(std::uint32_t x) {
+  x ^= x >> 16;
+  x *= 0x7feb352dU;
+  x ^= x >> 15;
+  x *= 0x846ca68bU;
+  return x ^ (x >> 16);
+}
+
+// One-dimensional value noise 0…1: hairs across the brush, wobble along it.
+float hair_noise(float x, std::uint32_t seed) {
+  const float base = std::floor(x);
+  const auto i = static_cast<std::uint32_t>(static_cast<std::int32_t>(base));
+  float t = x - base;
+  t = t * t * (3.F - 2.F * t);
+  const auto at = [&](std::uint32_t k) { return static_cast<float>(hash32(k * 374761393U + seed) & 0xffffU) / 65535.F; };
+  const float a = at(i);
+  return a + (at(i + 1U) - a) * t;
+}
+
+// The hairs of a brush. Fine ones show only where a unit has pixels enough; reduced to the size where they do not, a stroke looks alike,
+// because how many hairs touch stays the same.
+struct Hairs {
+  explicit Hairs(float pixels_per_unit)
+      : fine(0.5F * std::clamp((pixels_per_unit - 1.5F) / 3.F, 0.F, 1.F)), contrast(std::clamp(2.F * pixels_per_unit, 1.F, 9.F)) {}
+  // 0…1, about .5 ± .15: how long the hair is that passes a place, in units across and along the stroke.
+  float height(float across, float along, std::uint32_t seed) const {
+    const float coarse = hair_noise(across * 0.6F + 50.F, seed) * 0.6F + hair_noise(across * 1.3F + along * 0.05F + 90.F, seed + 7U) * 0.4F;
+    return fine > 0.F ? coarse + fine * (hair_noise(across * 4.F + along * 0.03F + 70.F, seed + 11U) - 0.5F) : coarse;
+  }
+  float fine;
+  float contrast;
+};
+
+// exp(-x⁴) as (1 - x⁴/8)^8: products only, so that no machine's exp() changes a bit. Flat where tones are alike and steep beyond, so that
+// a stroke ends at a shadow with an edge instead of thinning out into it.
+float gate_bell(float x) {
+  const float x2 = x * x;
+  const float t = std::max(0.F, 1.F - x2 * x2 * 0.125F);
+  const float t2 = t * t;
+  const float t4 = t2 * t2;
+  return t4 * t4;
+}
+
+struct Bounds {
+  int x0, y0, x1, y1;  // half open
+};
+
+Bounds bounds_of(const Stroke& stroke, int width, int height) {
+  glm::vec2 low = stroke.points[0];
+  glm::vec2 high = low;
+  for (int i = 1; i < stroke.point_count; ++i) {
+    low = glm::min(low, stroke.points[static_cast<std::size_t>(i)]);
+    high = glm::max(high, stroke.points[static_cast<std::size_t>(i)]);
+  }
+  const float reach = std::max(stroke.start_width, stroke.end_width) * 0.58F + 1.F;  // wobble widens by up to 7.5 %
+  return {std::max(0, static_cast<int>(std::floor(low.x - reach))), std::max(0, static_cast<int>(std::floor(low.y - reach))),
+          std::min(width, static_cast<int>(std::ceil(high.x + reach))), std::min(height, static_cast<int>(std::ceil(high.y + reach)))};
+}
+
+// How far a pixel lies from the stroke: the plain distance, and along and across in pixels. Before the start and beyond the end of the
+// stroke `along` goes on (below 0, above the length) and `beyond` is true.
+struct StrokePlace {
+  float distance;
+  float along_px;
+  float across_px;
+  bool beyond;
+};
+
+StrokePlace place_on(const Stroke& stroke, const std::array<float, Stroke::max_points>& length_before, glm::vec2 pixel) {
+  float best = 1e30F;
+  StrokePlace place{};
+  for (int i = 0; i + 1 < stroke.point_count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const glm::vec2 segment = stroke.points[k + 1] - stroke.points[k];
+    const float squared = glm::dot(segment, segment) + 1e-6F;
+    const glm::vec2 offset = pixel - stroke.points[k];
+    const float whole = glm::dot(offset, segment) / squared;
+    const float t = std::clamp(whole, 0.F, 1.F);
+    const glm::vec2 error = offset - t * segment;
+    const float distance = glm::dot(error, error);
+    if (distance >= best) continue;
+    best = distance;
+    const float length = std::sqrt(squared);
+    place.beyond = (whole < 0.F && i == 0) || (whole > 1.F && i + 2 == stroke.point_count);
+    place.along_px = length_before[k] + (place.beyond ? whole : t) * length;
+    place.across_px = (error.y * segment.x - error.x * segment.y) / length;
+  }
+  place.distance = std::sqrt(best);
+  return place;
+}
+
+void paint_stroke(const Stroke& stroke, std::uint32_t number, const PixelRect& clip, Grid<glm::vec3>& canvas, PaintRecord& record,
+                  const GuidanceBuffers& guidance, float pixels_per_unit) {
+  const Bounds whole = bounds_of(stroke, canvas.width(), canvas.height());
+  std::array<float, Stroke::max_points> length_before{};
+  float length = 0.F;
+  for (int i = 0; i + 1 < stroke.point_count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    length_before[k] = length;
+    length += glm::length(stroke.points[k + 1] - stroke.points[k]);
+  }
+  const float unit = 1.F / pixels_per_unit;
+  const float widest = std::max(stroke.start_width, stroke.end_width) * 0.54F + 0.5F;  // beyond it no pixel is touched
+  const Hairs hairs(pixels_per_unit);
+  glm::vec3 colour = stroke.colour;
+  float ridge = 0.F;
+  if (stroke.tip == StrokeTip::hairs) {
+    // Every load of paint is mixed anew.
+    const std::uint32_t load = hash32(stroke.seed);
+    const float value = stroke.load * load_value * (static_cast<float>(load & 0xffffU) / 32767.5F - 1.F);
+    const float warmth = stroke.load * load_warmth * (static_cast<float>(load >> 16U) / 32767.5F - 1.F);
+    colour += glm::vec3(value + warmth, value, value - warmth);
+    ridge = stroke.load * ((stroke.seed & 0x100U) != 0U ? ridge_light : -ridge_light);
+  }
+  for (int y = std::max(whole.y0, clip.y0); y < std::min(whole.y1, clip.y1); ++y) {
+    for (int x = std::max(whole.x0, clip.x0); x < std::min(whole.x1, clip.x1); ++x) {
+      const std::size_t i = canvas.index(x, y);
+      const float depth = guidance.depth_m[i];
+      switch (stroke.gate) {
+        case StrokeGate::surface:
+          if (depth < stroke.depth_m * (1.F - stroke.depth_tolerance) || depth > stroke.depth_m * (1.F + stroke.depth_tolerance)) continue;
+          break;
+        case StrokeGate::same_class:
+          if (guidance.land_cover[i] != guidance.land_cover[stroke.source]) continue;
+          if (depth < stroke.depth_m * (1.F - stroke.depth_tolerance) || depth > stroke.depth_m * (1.F + stroke.depth_tolerance)) continue;
+          break;
+        case StrokeGate::upright:
+          if (depth < stroke.depth_m * 0.985F) continue;
+          break;
+        case StrokeGate::sky:
+          if (!guidance.is_sky(i)) continue;
+          break;
+        case StrokeGate::water:
+          if (guidance.land_cover[i] != LandCoverClass::water) continue;
+          break;
+      }
+      const StrokePlace place = place_on(stroke, length_before, {static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F});
+      if (place.distance > widest) continue;
+      const float share = std::clamp(place.along_px / (length + 1e-6F), 0.F, 1.F);
+      float half_width = 0.5F * (stroke.start_width + (stroke.end_width - stroke.start_width) * share);
+      float alpha = stroke.alpha;
+      float tint = 0.F;
+      float outside = place.distance - half_width;  // px; negative inside
+      if (stroke.tip == StrokeTip::hairs) {
+        const float across = place.across_px * unit;
+        const float along = place.along_px * unit;
+        const float hair = hairs.height(across, along, stroke.seed);
+        // Pressed on over its first part, and never quite evenly.
+        const float set_down = std::max(0.F, 1.F - share / pressed_by);
+        half_width *= (1.F - 0.35F * set_down * set_down) * (1.F + 0.15F * (hair_noise(along * 0.3F, stroke.seed + 3U) - 0.5F));
+        const float side = std::clamp((stroke.edge > 0.F ? place.across_px : -place.across_px) / (half_width + 1e-3F), -1.F, 1.F);
+        outside = place.distance - half_width;
+        if (place.beyond) {
+          // A flat brush ends in a shallow curve, each hair at its own place.
+          const float reach = half_width * (0.75F * (1.F - side * side) + 0.9F * (hair - 0.5F));
+          outside = std::max(std::abs(place.across_px) - half_width, std::max(-place.along_px, place.along_px - length) - reach);
+        }
+        // Paint gathers in a ridge on one side and thins out on the other; towards the end the brush runs dry.
+        const float strength = std::abs(stroke.edge);
+        tint = (hair - 0.5F) * stroke.wetness + ridge * strength * std::max(0.F, 1.F - std::abs(side - 0.7F) * 2.5F);
+        const float late = std::max(0.F, share - dry_from) / (1.F - dry_from);
+        alpha *= (1.F - 0.45F * strength * std::max(0.F, -side)) * (1.F - (0.2F + 0.6F * stroke.bristle) * late * late);
+        // The share of hairs that touch is alpha: where hairs can be seen some lay all their paint and others none.
+        alpha = std::clamp(alpha + stroke.bristle * hairs.contrast * (hair - 0.75F + 0.5F * alpha), 0.F, 0.97F);
+      } else if (stroke.tip == StrokeTip::square && place.beyond) {
+        outside = std::max(std::abs(place.across_px) - half_width, std::max(-place.along_px, place.along_px - length));
+      }
+      // Antialiased by distance; a line thinner than a pixel keeps its area instead of its width.
+      alpha *= std::clamp(0.5F - outside, 0.F, std::min(1.F, 2.F * half_width));
+      if (alpha <= 0.F) continue;
+      if (stroke.tone >= 0.F) {
+        alpha *= gate_bell((guidance.tone[i] - stroke.tone) / tone_gate_width);
+      }
+      if (alpha < 0.004F) continue;
+      canvas[i] += alpha * (colour + tint - canvas[i]);
+      record.cover(x, y, stroke, number, alpha);
+    }
+  }
+}
+
+}  // namespace
+
+Painting begin_painting(Grid<glm::vec3> canvas) {
+  Painting painting{.picture = std::move(canvas), .sources = {}, .under = {}, .under_share = {}, .strokes = {}};
+  painting.sources = Grid<std::uint32_t>(painting.picture.width(), painting.picture.height());
+  std::iota(painting.sources.begin(), painting.sources.end(), 0U);
+  painting.under = painting.sources;
+  painting.under_share = Grid<std::uint8_t>(painting.picture.width(), painting.picture.height(), 0);
+  painting.strokes = Grid<std::uint32_t>(painting.picture.width(), painting.picture.height(), 0U);
+  return painting;
+}
+
+void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::vector<Stroke> strokes, double pixels_per_unit,
+                    Progress& progress) {
+  Grid<glm::vec3>& canvas = painting.picture;
+  const std::uint32_t first_number = painting.stroke_count + 1;
+  painting.stroke_count += static_cast<std::uint32_t>(strokes.size());
+  std::stable_sort(strokes.begin(), strokes.end(), [](const Stroke& a, const Stroke& b) { return a.order > b.order; });
+  const int across = (canvas.width() + tile_px - 1) / tile_px;
+  const int down = (canvas.height() + tile_px - 1) / tile_px;
+  std::vector<std::vector<std::uint32_t>> tiles(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
+  for (std::size_t s = 0; s < strokes.size(); ++s) {
+    const Bounds b = bounds_of(strokes[s], canvas.width(), canvas.height());
+    if (b.x0 >= b.x1 || b.y0 >= b.y1) continue;
+    for (int ty = b.y0 / tile_px; ty <= (b.y1 - 1) / tile_px; ++ty)
+      for (int tx = b.x0 / tile_px; tx <= (b.x1 - 1) / tile_px; ++tx)
+        tiles[static_cast<std::size_t>(ty) * static_cast<std::size_t>(across) + static_cast<std::size_t>(tx)].push_back(
+            static_cast<std::uint32_t>(s));
+  }
+  progress.begin("painting strokes", static_cast<double>(tiles.size()));
+  parallel_tiles(canvas.width(), canvas.height(), tile_px, [&](PixelRect tile) {
+    const auto t =
+        static_cast<std::size_t>(tile.y0 / tile_px) * static_cast<std::size_t>(across) + static_cast<std::size_t>(tile.x0 / tile_px);
+    PaintRecord record(painting, guidance, tile);
+    for (const std::uint32_t s : tiles[t])
+      paint_stroke(strokes[s], first_number + s, tile, canvas, record, guidance, static_cast<float>(pixels_per_unit));
+    record.hand_back(painting);
+    progress.advance(1.0);
+  });
+}
+
+}  // namespace belvedere

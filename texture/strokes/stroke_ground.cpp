@@ -1,0 +1,186 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "texture/strokes/stroke_kinds.h"
+#include "texture/strokes/stroke_parts.h"
+
+namespace belvedere {
+namespace {
+
+using enum LandCoverClass;
+
+// How much lighter or darker the sky is some units around a place: large at the edges of clouds.
+float cloud_edge(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
+  float most = 0.F;
+  for (const float reach : {-22.F, -9.F, 9.F, 22.F}) {
+    const glm::vec2 there = place + glm::vec2(reach * scene.scale(), 0.F);
+    if (!scene.on_canvas(there)) continue;
+    const std::size_t k = scene.pixel(there);
+    if (scene.guidance.is_sky(k)) most = std::max(most, std::abs(scene.ground.colour[k].x - scene.ground.colour[i].x));
+  }
+  return most;
+}
+
+}  // namespace
+
+std::vector<Stroke> sky_strokes(const StrokeScene& scene) {
+  return sow(scene, 5.F, 1, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (!scene.guidance.is_sky(i)) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.gate = StrokeGate::sky;
+    // The sky is drawn out level, within 3°; over the edge of a cloud a long stroke would smear it, there the brush dabs.
+    const float edge = cloud_edge(scene, place, i);
+    const float dab = std::clamp((edge - 0.02F) / 0.05F, 0.F, 1.F);
+    const float angle = std::clamp(0.018F * seed.normal(), -0.03F, 0.03F);
+    const float length = seed.between(26.F, 66.F) * (1.F - 0.80F * dab);
+    lay_line(stroke, scene, place, length, angle, 0.006F, false, seed);
+    take_brush(stroke, scene, seed.between(5.F, 11.F) * (1.F - 0.35F * dab),
+               {.taper = 0.8F, .alpha = 0.28F, .bristle = 0.14F, .wetness = 0.004F, .load = 0.35F, .edge = 0.2F});
+    stroke.colour = scene.colour(i, 0.2F * seed.normal(), 0.004F, seed);
+    stroke.order = seed.uniform();
+    out.push_back(stroke);
+  });
+}
+
+std::vector<Stroke> wash_strokes(const StrokeScene& scene) {
+  return sow(scene, 4.4F, 2, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    const LandCoverClass id = scene.class_at(i);
+    if (id == sky || id == water) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    const bool wooded = id == forest && !is_grassy(scene, i);
+    const float length = is_ice(id) ? 20.F : id == rock ? 11.F : id == forest ? 8.F : 10.F;
+    stroke.depth_tolerance = id == rock || id == snow || id == glacier ? tight_depth : 0.03F;
+    if (!wooded) stroke.tone = scene.guidance.tone[i];
+    const float turn = is_grass(id) && !is_floor(id) && seed.uniform() < 0.35F ? quarter_turn : 0.F;
+    const float angle = turn + seed.normal() * (is_floor(id) ? 0.15F : is_grass(id) ? 0.3F : is_ice(id) ? 0.08F : 0.2F);
+    lay_line(stroke, scene, place, length * seed.between(0.7F, 1.3F), angle, 0.2F, !is_floor(id), seed);
+    const bool ice = is_ice(id);
+    take_brush(stroke, scene, (id == forest ? 4.F : 5.2F) * seed.between(0.7F, 1.3F),
+               {.taper = 0.6F, .alpha = 0.80F, .bristle = ice ? 0.25F : 0.35F, .wetness = ice ? 0.015F : 0.03F, .load = ice ? 0.4F : 1.F});
+    stroke.colour = scene.colour(i, wooded ? -0.55F + 0.35F * seed.normal() : mixed_tone(0.22F, 0.15F, seed), paint_jitter, seed);
+    stroke.order += seed.uniform() * 300.F;
+    out.push_back(stroke);
+  });
+}
+
+std::vector<Stroke> meadow_strokes(const StrokeScene& scene) {
+  return sow(scene, 4.2F, 3, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    const LandCoverClass id = scene.class_at(i);
+    if (!is_grass(id)) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    const float length = (id == valley_floor ? 9.F : id == alpine_grass ? 7.6F : 8.F) * seed.between(0.6F, 1.4F);
+    if (id == valley_floor) {
+      lay_line(stroke, scene, place, length, seed.normal() * 0.12F, 0.1F, false, seed);
+    } else {
+      const float turn = seed.uniform() < 0.5F ? 0.F : quarter_turn;
+      lay_line(stroke, scene, place, length, turn + 0.25F * seed.normal(), 0.2F, true, seed);
+    }
+    take_brush(stroke, scene, (id == valley_floor ? 2.2F : 2.6F) * seed.between(0.7F, 1.3F),
+               {.taper = 0.5F, .alpha = 0.6F, .bristle = 0.4F, .wetness = 0.03F});
+    // Whole patches are darker or lighter, so that a slope has places and no even grain.
+    const float patch = id == valley_floor ? 0.F : 0.24F * patch_noise(scene, i, 71, 7.0);
+    stroke.colour = scene.colour(i, mixed_tone(0.19F, 0.18F, seed) + std::clamp(patch, -0.5F, 0.5F), paint_jitter * 1.3F, seed);
+    out.push_back(stroke);
+  });
+}
+
+std::vector<Stroke> grass_flecks(const StrokeScene& scene) {
+  return sow(scene, 3.4F, 27, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    const LandCoverClass id = scene.class_at(i);
+    if (id != alpine_grass && id != pasture && id != shrub) return;
+    // Tussocks, alder and juniper gather in patches and hollows; flecks of light lie between.
+    const float patch = patch_noise(scene, i, 72, 6.0) - 0.10F * std::clamp(scene.relief_m(i), -10.F, 10.F);
+    const bool dark = seed.uniform() < 0.6F;
+    if (seed.uniform() > (dark ? 0.60F * std::clamp(patch - 0.1F, 0.F, 1.3F) : 0.30F * std::clamp(0.6F - patch, 0.F, 1.F))) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.depth_tolerance = tight_depth;
+    lay_on_top(stroke);
+    const float length = dark ? seed.between(1.6F, 4.2F) : seed.between(1.2F, 2.8F);
+    lay_line(stroke, scene, place, length, quarter_turn + 0.35F * seed.normal(), 0.2F, true, seed);
+    take_brush(stroke, scene, dark ? seed.between(1.2F, 2.2F) : seed.between(0.7F, 1.3F), {.taper = 0.5F, .alpha = dark ? 0.62F : 0.7F});
+    const float clear = 1.F - std::clamp(scene.ground.haze[i], 0.F, 1.F);
+    if (dark) {
+      stroke.colour = scene.colour(i, -seed.between(0.7F, 1.4F), paint_jitter, seed);
+      if (!scene.parameters.winter) stroke.colour *= through_air_factor(scene, i, glm::vec3(0.80F, 0.92F, 0.82F));
+    } else {
+      const float light = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
+      stroke.colour = scene.colour(i, seed.between(0.7F, 1.4F), paint_jitter, seed) + clear * light * glm::vec3(0.05F, 0.02F, -0.02F);
+    }
+    out.push_back(stroke);
+  });
+}
+
+std::vector<Stroke> scree_strokes(const StrokeScene& scene) {
+  return sow(scene, 3.2F, 7, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != scree) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.depth_tolerance = tight_depth;
+    stroke.tone = scene.guidance.tone[i];
+    const float u = seed.uniform();
+    lay_line(stroke, scene, place, 1.5F + 4.F * u * u, 0.15F * seed.normal(), 0.1F, true, seed);
+    take_brush(stroke, scene, seed.between(1.1F, 2.2F), {.taper = 0.7F, .alpha = 0.6F});
+    stroke.colour = scene.colour(i, mixed_tone(0.26F, 0.33F, seed), paint_jitter * 1.4F, seed);
+    out.push_back(stroke);
+  });
+}
+
+std::vector<Stroke> broken_colour(const StrokeScene& scene) {
+  return sow(scene, 4.F, 21, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    const LandCoverClass id = scene.class_at(i);
+    if (id == sky || id == water || id == settlement || seed.uniform() > 0.62F) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.depth_tolerance = tight_depth;
+    // On walls just over what lies there, so that trees before them stay whole.
+    stroke.order -= id == rock ? 7.F : 0.5F * tight_depth * stroke.depth_m;
+    const float tone = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
+    // Every way, or a slope would look combed.
+    const float angle = 1.1F * seed.normal();
+    const float u = seed.uniform();
+    lay_line(stroke, scene, place, 1.2F + 3.4F * u * u, angle, 0.3F, true, seed);
+    take_brush(stroke, scene, seed.between(0.7F, 1.7F), {.taper = 0.5F, .alpha = is_ice(id) ? 0.4F : 0.55F});
+    const float n = seed.normal();
+    stroke.colour = scene.colour(i, n < 0.F ? -seed.between(0.3F, 1.1F) : seed.between(0.3F, 1.1F), paint_jitter, seed);
+    // Warm beside cool: ochre and rose in the light of rock and grass, violet in the shade, rose and blue on snow.
+    const float clear = 1.F - std::clamp(scene.ground.haze[i], 0.F, 1.F);
+    const float warm = seed.normal() + 1.2F * (tone - 0.5F);
+    const glm::vec3 turn = is_ice(id)                    ? glm::vec3(0.018F, -0.008F, 0.004F)
+                           : id == forest || id == shrub ? glm::vec3(0.045F, 0.018F, -0.020F)
+                                                         : glm::vec3(0.050F, 0.004F, -0.035F);
+    stroke.colour += turn * (warm * clear);
+    out.push_back(stroke);
+  });
+}
+
+std::vector<Stroke> water_strokes(const StrokeScene& scene) {
+  return sow(scene, 3.2F, 9, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != water) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.gate = StrokeGate::water;
+    const float angle = seed.normal() * 0.015F;
+    lay_line(stroke, scene, place, seed.between(10.F, 26.F), angle, 0.02F, false, seed);
+    take_brush(stroke, scene, seed.between(1.4F, 3.2F), {.taper = 0.5F, .alpha = 0.5F, .bristle = 0.4F, .wetness = 0.02F});
+    stroke.colour = scene.colour(i, mixed_tone(0.15F, 0.22F, seed), paint_jitter * 0.6F, seed);
+    out.push_back(stroke);
+  });
+}
+
+std::vector<Stroke> accent_strokes(const StrokeScene& scene) {
+  return sow(scene, 2.6F, 10, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    const float edge = scene.ground.accent[i];
+    const LandCoverClass id = scene.class_at(i);
+    if (std::abs(edge) < 0.25F || seed.uniform() > std::abs(edge)) return;
+    if (id == sky || id == water || id == settlement || id == forest) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.depth_tolerance = 0.01F;
+    // Over everything that lies on its own ground, and under what stands before it.
+    stroke.order -= 10.F + seed.uniform();
+    const float angle = (edge > 0.F ? 0.3F : 0.2F) * seed.normal();
+    lay_line(stroke, scene, place, seed.between(4.F, 11.F), angle, 0.1F, true, seed);
+    take_brush(stroke, scene, seed.between(1.1F, 2.2F), {.taper = 0.3F, .alpha = 0.55F * std::min(1.F, std::abs(edge)), .bristle = 0.2F});
+    stroke.colour = scene.colour(i, edge > 0.F ? 1.1F : -1.1F, paint_jitter * 0.6F, seed);
+    out.push_back(stroke);
+  });
+}
+
+}  // namespace belvedere

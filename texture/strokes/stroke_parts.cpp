@@ -1,0 +1,88 @@
+#include "texture/strokes/stroke_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/noise.h"
+#include "base/random.h"
+
+namespace belvedere {
+
+void take_brush(Stroke& stroke, const StrokeScene& scene, float width_units, const Brush& brush) {
+  stroke.start_width = width_units * scene.scale();
+  stroke.end_width = stroke.start_width * brush.taper;
+  stroke.alpha = brush.alpha;
+  stroke.bristle = brush.bristle;
+  stroke.wetness = brush.wetness;
+  stroke.tip = StrokeTip::hairs;
+  stroke.load = brush.load;
+  stroke.edge = (stroke.seed & 0x200U) != 0U ? brush.edge : -brush.edge;
+}
+
+Stroke ground_stroke(const StrokeScene& scene, std::size_t i, StrokeSeed& seed) {
+  Stroke stroke;
+  stroke.depth_m = scene.guidance.depth_m[i];
+  stroke.order = stroke.depth_m;
+  stroke.seed = seed.bits();
+  stroke.source = static_cast<std::uint32_t>(i);
+  return stroke;
+}
+
+void set_line(Stroke& stroke, glm::vec2 from, glm::vec2 to, float start_width, float end_width) {
+  stroke.points[0] = from;
+  stroke.points[1] = to;
+  stroke.point_count = 2;
+  stroke.start_width = start_width;
+  stroke.end_width = end_width;
+  if (stroke.tip == StrokeTip::round) stroke.tip = StrokeTip::hairs;  // what is square stays so
+  stroke.edge = 0.5F;
+  stroke.load = 0.5F;
+  // All parts of what stands in one place are of one load of paint.
+  if (stroke.seed == 0) stroke.seed = static_cast<std::uint32_t>(mix_bits(stroke.source + 1U));
+}
+
+glm::vec3 through_air(const StrokeScene& scene, std::size_t i, glm::vec3 paint) {
+  return paint + (scene.ground.colour[i] - paint) * std::clamp(scene.ground.haze[i], 0.F, 1.F);
+}
+
+glm::vec3 through_air_factor(const StrokeScene& scene, std::size_t i, glm::vec3 factor) {
+  return factor + (1.F - factor) * std::clamp(scene.ground.haze[i], 0.F, 1.F);
+}
+
+glm::vec3 fresh_snow(float tone) {
+  const float light = std::clamp(tone, 0.F, 1.F);
+  const float sunny = light * (0.55F + 0.4F * light);
+  return {0.55F + 0.42F * sunny, 0.62F + 0.34F * sunny, 0.78F + 0.17F * light};
+}
+
+void lay_on_top(Stroke& stroke) { stroke.order -= tight_depth * stroke.depth_m; }
+
+float ground_noise(const StrokeScene& scene, std::size_t i, std::uint64_t kind, double sigma_m) {
+  const glm::dvec3 p = glm::dvec3(scene.guidance.position_m[i]) + scene.guidance.origin_m;
+  return static_cast<float>(gaussian_noise(scene.parameters.seed + kind, p.x, p.y, sigma_m));
+}
+
+float patch_noise(const StrokeScene& scene, std::size_t i, std::uint64_t kind, double sigma_units) {
+  constexpr double unknown_metres_per_unit = 20.0;
+  const double known = static_cast<double>(scene.metres_per_unit(i));
+  const double octave = std::log2(sigma_units * (known > 0.0 ? known : unknown_metres_per_unit));
+  const double below = std::floor(octave);
+  const auto share = static_cast<float>(octave - below);
+  // Two octaves, mixed so that the deviation stays 1.
+  const auto of = [&](double power) {
+    return ground_noise(scene, i, kind + 1000U * static_cast<std::uint64_t>(power + 64.0), std::exp2(power));
+  };
+  return std::sqrt(1.F - share) * of(below) + std::sqrt(share) * of(below + 1.0);
+}
+
+bool is_grassy(const StrokeScene& scene, std::size_t i) {
+  const LandCoverClass id = scene.class_at(i);
+  return is_grass(id) || (id == LandCoverClass::forest && scene.ground.tree_density[i] < glade_density);
+}
+
+float sheet_noise(const StrokeScene& scene, glm::vec2 place, std::uint64_t kind, double sigma_units) {
+  return static_cast<float>(gaussian_noise(scene.parameters.seed + kind, static_cast<double>(place.x) / scene.parameters.pixels_per_unit,
+                                           static_cast<double>(place.y) / scene.parameters.pixels_per_unit, sigma_units));
+}
+
+}  // namespace belvedere

@@ -1,0 +1,336 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "texture/strokes/stroke_kinds.h"
+#include "texture/strokes/stroke_parts.h"
+
+namespace belvedere {
+namespace {
+
+using enum LandCoverClass;
+
+// Roofs: brick, old brick, weathered wood, slate; walls; encoded sRGB in full light (look/recipe.md, warmer).
+constexpr std::array<glm::vec3, 4> roofs = {glm::vec3(0.76F, 0.37F, 0.26F), glm::vec3(0.64F, 0.30F, 0.22F), glm::vec3(0.49F, 0.31F, 0.27F),
+                                            glm::vec3(0.42F, 0.44F, 0.50F)};
+constexpr glm::vec3 wall{0.97F, 0.93F, 0.84F};
+constexpr glm::vec3 snowed{0.90F, 0.92F, 0.96F};
+constexpr glm::vec3 dusk{0.33F, 0.36F, 0.50F};    // what lies in a house's shadow
+constexpr glm::vec3 leaves{0.27F, 0.40F, 0.24F};  // garden trees
+constexpr glm::vec3 bare{0.38F, 0.38F, 0.42F};    // … in winter
+
+constexpr float plot_width = 3.7F;    // units of the sheet that a plot takes in a row …
+constexpr float plot_height = 3.0F;   // … and upwards, with its garden
+constexpr double turn_step = 0.3927;  // rad, 22.5°: a quarter has one direction
+
+// 0 at the edge of a hamlet … .3 in a village … 1 in the middle of a large town.
+float built_at(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
+  if (!scene.guidance.built.empty()) return std::clamp(scene.guidance.built[i], 0.F, 1.F);
+  const auto houses_stand = [&](std::size_t k) { return scene.class_at(k) == settlement; };
+  const float near = share_around(scene, place, 6.F, houses_stand);
+  return 0.2F * near + (near < 0.5F ? 0.F : 0.8F * share_around(scene, place, 17.F, houses_stand));
+}
+
+glm::dvec2 ground_at(const StrokeScene& scene, std::size_t i) {
+  const glm::dvec3 p = glm::dvec3(scene.guidance.position_m[i]) + scene.guidance.origin_m;
+  return {p.x, p.y};
+}
+
+// How the ground lies in the picture around a pixel: metres of ground a pixel to the right and down, and back.
+struct Lie {
+  glm::dvec2 right{0.0}, down{0.0};
+  double area = 0.0;  // of the two, m²; 0: the ground is not seen from above
+
+  glm::dvec2 to_picture(glm::dvec2 m) const { return glm::dvec2(m.x * down.y - m.y * down.x, right.x * m.y - right.y * m.x) / area; }
+};
+
+Lie lie_at(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
+  const float step = std::max(1.F, std::round(1.5F * scene.scale()));
+  const auto across = [&](glm::vec2 direction) {
+    const glm::vec2 from = place - direction * step;
+    const glm::vec2 to = place + direction * step;
+    if (!scene.on_canvas(from) || !scene.on_canvas(to)) return glm::dvec2(0.0);
+    const std::size_t a = scene.pixel(from);
+    const std::size_t b = scene.pixel(to);
+    for (const std::size_t k : {a, b})
+      if (!(std::abs(scene.guidance.depth_m[k] / scene.guidance.depth_m[i] - 1.F) < 0.03F)) return glm::dvec2(0.0);
+    return (ground_at(scene, b) - ground_at(scene, a)) / (2.0 * static_cast<double>(step));
+  };
+  Lie lie;
+  lie.right = across({1.F, 0.F});
+  lie.down = across({0.F, 1.F});
+  lie.area = lie.right.x * lie.down.y - lie.right.y * lie.down.x;
+  return lie;
+}
+
+// A place for a house in a row along a street: a cell of a lattice on the ground that is as fine as houses on the sheet allow.
+struct Plot {
+  std::uint64_t key;  // of the cell: its random numbers
+  double away_px;     // from the pixel it was found at
+  glm::vec2 place;    // px
+  std::uint32_t pixel;
+  bool street;  // left open: a lane across the rows
+};
+
+// A pitch that holds `wanted_m`, in steps of the square root of 2: neighbours agree on it.
+double pitch_m(double wanted_m) { return std::exp2(0.5 * std::ceil(2.0 * std::log2(std::max(wanted_m, 1.0)))); }
+
+bool find_plot(const StrokeScene& scene, glm::vec2 at, Plot& plot) {
+  const std::size_t i = scene.pixel(at);
+  if (scene.class_at(i) != settlement) return false;
+  const Lie lie = lie_at(scene, at, i);
+  if (std::abs(lie.area) < 1e-6) return false;
+  // Streets run with the land; where nothing orders it each quarter has its own way.
+  const glm::vec2 grain = scene.guidance.grain.empty() ? glm::vec2(0.F) : scene.guidance.grain[i];
+  double angle = 0.6 * static_cast<double>(ground_noise(scene, i, 53, 900.0));
+  if (std::abs(grain.x) + std::abs(grain.y) > 0.1F) angle = 0.5 * std::atan2(static_cast<double>(grain.y), static_cast<double>(grain.x));
+  const auto turn = static_cast<std::int64_t>(std::lround(angle / turn_step));
+  angle = turn_step * static_cast<double>(turn);
+  const glm::dvec2 along{std::cos(angle), std::sin(angle)};
+  const glm::dvec2 across{-along.y, along.x};
+  const auto plots_a_metre = [&](glm::dvec2 direction) {
+    const glm::dvec2 d = lie.to_picture(direction) / static_cast<double>(scene.scale());
+    return std::hypot(d.x / static_cast<double>(plot_width), d.y / static_cast<double>(plot_height));
+  };
+  const double length = pitch_m(1.0 / plots_a_metre(along));
+  const double depth = pitch_m(1.15 / plots_a_metre(across));
+  const glm::dvec2 here = ground_at(scene, i);
+  const double u = glm::dot(here, along) / length;
+  const double v = glm::dot(here, across) / depth;
+  const auto column = static_cast<std::int64_t>(std::floor(u));
+  const auto row = static_cast<std::int64_t>(std::floor(v));
+  plot.key =
+      random_bits(scene.parameters.seed + 55, column, row, static_cast<std::uint64_t>(turn * 4096 + std::lround(length + 64.0 * depth)));
+  // Rows are straighter than the gaps in them.
+  const double aside = 0.5 + 0.30 * (random_uniform(plot.key, 0, 0) - 0.5);
+  const double back = 0.5 + 0.16 * (random_uniform(plot.key, 0, 1) - 0.5);
+  const glm::dvec2 target = along * ((static_cast<double>(column) + aside) * length) + across * ((static_cast<double>(row) + back) * depth);
+  const glm::dvec2 offset = lie.to_picture(target - here);
+  plot.away_px = glm::length(offset);
+  plot.place = at + glm::vec2(offset);
+  if (plot.away_px > 4.0 * static_cast<double>(scene.scale()) || !scene.on_canvas(plot.place)) return false;
+  const std::size_t there = scene.pixel(plot.place);
+  plot.pixel = static_cast<std::uint32_t>(there);
+  plot.street = column % 6 == 0;
+  return scene.class_at(there) == settlement && std::abs(scene.guidance.depth_m[there] / scene.guidance.depth_m[i] - 1.F) < 0.03F;
+}
+
+// All plots of the picture, each once: found from the nearest pixel of a net that is finer than they are.
+std::vector<Plot> find_plots(const StrokeScene& scene) {
+  const float step = std::max(1.F, 1.4F * scene.scale());
+  const int across = static_cast<int>(static_cast<float>(scene.guidance.width()) / step);
+  const int down = static_cast<int>(static_cast<float>(scene.guidance.height()) / step);
+  std::vector<std::vector<Plot>> rows(static_cast<std::size_t>(std::max(down, 0)));
+  parallel_rows(down, [&](int y) {
+    for (int x = 0; x < across; ++x) {
+      Plot plot{};
+      if (find_plot(scene, (glm::vec2(x, y) + 0.5F) * step, plot)) rows[static_cast<std::size_t>(y)].push_back(plot);
+    }
+  });
+  std::vector<Plot> plots;
+  for (const auto& row : rows) plots.insert(plots.end(), row.begin(), row.end());
+  std::stable_sort(plots.begin(), plots.end(),
+                   [](const Plot& a, const Plot& b) { return a.key != b.key ? a.key < b.key : a.away_px < b.away_px; });
+  plots.erase(std::unique(plots.begin(), plots.end(), [](const Plot& a, const Plot& b) { return a.key == b.key; }), plots.end());
+  return plots;
+}
+
+struct House {
+  glm::vec2 foot;        // middle of the lower edge, px
+  float width;           // px
+  float height;          // of walls and roof, px
+  std::size_t roof = 0;  // of `roofs`
+};
+
+// A shadow away from the sun, a lit front, a gable in shade, a roof over them with its sunny edge.
+void build(const StrokeScene& scene, const House& house, std::size_t i, StrokeSeed& seed, std::vector<Stroke>& out) {
+  const auto side = static_cast<float>(scene.parameters.sun_side);
+  const float tone = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
+  const float light = 0.62F + 0.42F * tone;
+  Stroke body;
+  body.depth_m = scene.guidance.depth_m[i];
+  body.source = static_cast<std::uint32_t>(i);
+  body.order = body.depth_m - 1.F;
+  const float half = 0.5F * house.width;
+  const float stripe = 0.5F * house.height;
+  Stroke shade = body;
+  shade.gate = StrokeGate::surface;
+  set_line(shade, house.foot + glm::vec2(-0.7F * half * side, 0.F), house.foot + glm::vec2(-1.8F * half * side, 0.06F * house.height),
+           1.1F * stripe, 0.6F * stripe);
+  shade.alpha = 0.40F + 0.3F * tone;
+  shade.colour = through_air(scene, i, dusk);
+  out.push_back(shade);
+  const float inner = half;
+  const float value = 0.03F * seed.normal();
+  Stroke front = body;
+  front.tip = StrokeTip::square;
+  front.order -= 0.5F;
+  set_line(front, house.foot + glm::vec2(-inner, -0.5F * stripe), house.foot + glm::vec2(inner, -0.5F * stripe), stripe, stripe);
+  front.alpha = 0.95F;
+  front.colour = through_air(scene, i, wall * light + value);
+  out.push_back(front);
+  Stroke gable = front;
+  gable.order -= 0.2F;
+  const float end = -0.8F * half * side;
+  set_line(gable, house.foot + glm::vec2(end, -0.25F * stripe), house.foot + glm::vec2(end, -stripe), 0.55F * half, 0.5F * half);
+  gable.alpha = 0.75F;
+  gable.colour = through_air(scene, i, glm::vec3(0.60F, 0.60F, 0.70F) * light);
+  out.push_back(gable);
+  Stroke roof = front;
+  roof.order -= 0.5F;
+  const glm::vec2 ridge{0.F, -house.height + 0.2F * stripe};
+  set_line(roof, house.foot + ridge + glm::vec2(-inner * 1.1F, 0.F), house.foot + ridge + glm::vec2(inner * 1.1F, 0.F), 1.1F * stripe,
+           1.1F * stripe);
+  const bool white = scene.parameters.winter && seed.uniform() < 0.7F;
+  const float shift = 0.035F * seed.normal();
+  const glm::vec3 tiles = white ? snowed : roofs[house.roof] + shift;
+  roof.colour = through_air(scene, i, tiles * (0.86F * light));
+  out.push_back(roof);
+  Stroke edge = roof;
+  edge.order -= 0.2F;
+  const glm::vec2 top = house.foot + ridge + glm::vec2(0.25F * half * side, -0.2F * stripe);
+  set_line(edge, top - glm::vec2(0.35F * inner, 0.F), top + glm::vec2(0.55F * inner, 0.F), 0.5F * stripe, 0.45F * stripe);
+  edge.alpha = 0.25F + 0.5F * tone;
+  edge.colour = through_air(scene, i, glm::min(tiles * light + glm::vec3(0.09F, 0.06F, 0.03F), glm::vec3(1.F)));
+  out.push_back(edge);
+}
+
+// A tree in a garden: a dark crown and its sunny side.
+void plant_garden(const StrokeScene& scene, glm::vec2 foot, float width, std::size_t i, StrokeSeed& seed, std::vector<Stroke>& out) {
+  const auto side = static_cast<float>(scene.parameters.sun_side);
+  const float light = 0.62F + 0.42F * std::clamp(scene.guidance.tone[i], 0.F, 1.F);
+  const glm::vec3 crown = (scene.parameters.winter ? bare : leaves) + 0.03F * seed.normal();
+  Stroke body;
+  body.depth_m = scene.guidance.depth_m[i];
+  body.source = static_cast<std::uint32_t>(i);
+  body.order = body.depth_m - 1.2F;
+  body.gate = StrokeGate::upright;
+  set_line(body, foot, foot - glm::vec2(0.F, 0.6F * width), width, 0.85F * width);
+  body.alpha = 0.8F;
+  body.colour = through_air(scene, i, crown * light);
+  out.push_back(body);
+  set_line(body, foot + glm::vec2(0.2F * side * width, -0.55F * width), foot + glm::vec2(0.15F * side * width, -0.8F * width), 0.5F * width,
+           0.4F * width);
+  body.order -= 0.2F;
+  body.alpha = 0.7F;
+  body.colour = through_air(scene, i, crown * (1.4F * light) + glm::vec3(0.06F, 0.04F, 0.F));
+  out.push_back(body);
+}
+
+// Climbs to where houses stand densest around: the middle of a village or a quarter.
+glm::vec2 find_middle(const StrokeScene& scene, glm::vec2 place) {
+  const float step = 2.F * scene.scale();
+  for (int k = 0; k < 24; ++k) {
+    glm::vec2 best = place;
+    for (const glm::vec2 way : {glm::vec2(1.F, 0.F), glm::vec2(-1.F, 0.F), glm::vec2(0.F, 1.F), glm::vec2(0.F, -1.F)}) {
+      const glm::vec2 there = place + way * step;
+      if (!scene.on_canvas(there) || scene.class_at(scene.pixel(there)) != settlement) continue;
+      if (scene.guidance.built[scene.pixel(there)] > scene.guidance.built[scene.pixel(best)]) best = there;
+    }
+    if (best == place) break;
+    place = best;
+  }
+  return place;
+}
+
+// A church: nave and spire, which stands out over the roofs from afar.
+void build_church(const StrokeScene& scene, glm::vec2 foot, float unit, std::size_t i, StrokeSeed& seed, std::vector<Stroke>& out) {
+  build(scene, {foot, 4.2F * unit, 2.6F * unit, 3}, i, seed, out);
+  Stroke tower;
+  tower.depth_m = scene.guidance.depth_m[i];
+  tower.source = static_cast<std::uint32_t>(i);
+  tower.order = tower.depth_m - 3.F;
+  tower.gate = StrokeGate::upright;
+  const auto side = static_cast<float>(scene.parameters.sun_side);
+  const glm::vec2 base = foot + glm::vec2(-1.9F * side * unit, 0.F);
+  const float light = 0.62F + 0.42F * std::clamp(scene.guidance.tone[i], 0.F, 1.F);
+  set_line(tower, base, base + glm::vec2(0.F, -3.6F * unit), 1.3F * unit, 1.2F * unit);
+  tower.tip = StrokeTip::square;
+  tower.alpha = 0.95F;
+  tower.colour = through_air(scene, i, wall * light);
+  out.push_back(tower);
+  set_line(tower, base + glm::vec2(0.F, -3.8F * unit), base + glm::vec2(0.F, -7.6F * unit), 1.3F * unit, 0.1F * unit);
+  tower.tip = StrokeTip::square;
+  tower.order -= 0.5F;
+  tower.colour = through_air(scene, i, roofs[3] * (0.8F * light));
+  out.push_back(tower);
+}
+
+}  // namespace
+
+std::vector<Stroke> houses(const StrokeScene& scene) {
+  std::vector<Stroke> all;
+  for (const Plot& plot : find_plots(scene)) {
+    StrokeSeed seed(plot.key, 1, 0);
+    const float built = built_at(scene, plot.place, plot.pixel);
+    const float quarter = 0.12F * ground_noise(scene, plot.pixel, 54, 160.0);
+    // Blocks between lanes in the middle, loose houses and gardens at the edge.
+    const bool lane = plot.street && built > 0.3F;
+    if (lane || seed.uniform() > std::clamp(0.34F + 0.75F * built + quarter, 0.15F, 0.97F)) {
+      if (!lane && seed.uniform() < 0.55F) plant_garden(scene, plot.place, seed.between(1.5F, 2.4F) * scene.scale(), plot.pixel, seed, all);
+      continue;
+    }
+    const float u = seed.uniform();
+    const bool large = built > 0.55F && seed.uniform() < 0.07F;  // a hall, a school, a works
+    const float width = large ? seed.between(4.6F, 6.6F) : seed.between(2.1F, 2.9F) + (0.4F + 1.1F * built) * u * u;
+    const float height = large ? seed.between(2.2F, 3.0F) : seed.between(1.9F, 2.5F) + 0.6F * built;
+    const float r = seed.uniform();
+    const std::size_t roof = large ? 3 : r < 0.44F ? 0 : r < 0.72F ? 1 : r < 0.90F ? 2 : 3;
+    build(scene, {plot.place, width * scene.scale(), height * scene.scale(), roof}, plot.pixel, seed, all);
+  }
+  // A church in the middle of every village, a few in a town.
+  const bool known = !scene.guidance.built.empty();
+  std::vector<glm::vec2> built_already;
+  std::vector<Stroke> churches = sow(scene, 24.F, 24, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != settlement || seed.uniform() > 0.45F) return;
+    const auto stands = [&](std::size_t k) { return scene.class_at(k) == settlement; };
+    if (share_around(scene, place, 3.F, stands) < 1.F || (known && scene.guidance.built[i] < 0.5F)) return;
+    build_church(scene, place, seed.between(0.9F, 1.15F) * scene.scale(), i, seed, out);
+  });
+  all.insert(all.end(), churches.begin(), churches.end());
+  if (!known) return all;
+  const float step = 6.F * scene.scale();
+  for (float y = 0.5F * step; y < static_cast<float>(scene.guidance.height()); y += step)
+    for (float x = 0.5F * step; x < static_cast<float>(scene.guidance.width()); x += step) {
+      const std::size_t i = scene.pixel({x, y});
+      if (scene.class_at(i) != settlement) continue;
+      const glm::vec2 middle = find_middle(scene, {x, y});
+      const std::size_t k = scene.pixel(middle);
+      const bool taken = std::any_of(built_already.begin(), built_already.end(),
+                                     [&](glm::vec2 other) { return glm::length(other - middle) < 16.F * scene.scale(); });
+      if (taken || scene.guidance.built[k] < 0.12F) continue;
+      built_already.push_back(middle);
+      StrokeSeed seed(
+          random_bits(scene.parameters.seed + 56, static_cast<std::int64_t>(middle.x / step), static_cast<std::int64_t>(middle.y / step)),
+          0, 0);
+      build_church(scene, middle, (0.85F + 0.4F * scene.guidance.built[k]) * scene.scale(), k, seed, all);
+    }
+  return all;
+}
+
+// Single farms on floors and gentle slopes, with a barn or a tree beside them.
+std::vector<Stroke> farms(const StrokeScene& scene) {
+  return sow(scene, 13.F, 27, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    const LandCoverClass id = scene.class_at(i);
+    const bool level = scene.slope_deg(i) < (id == pasture ? 15.F : 6.F);
+    if ((id != valley_floor && id != pasture && !(id == snow && scene.parameters.winter)) || !level || scene.altitude_m(i) > 1250.F) return;
+    const float dense = 0.10F + 0.09F * ground_noise(scene, i, 57, 900.0);
+    if (seed.uniform() > dense) return;
+    const float scale = scene.scale();
+    build(scene, {place, seed.between(2.4F, 3.2F) * scale, seed.between(2.0F, 2.5F) * scale, seed.uniform() < 0.6F ? 0U : 2U}, i, seed,
+          out);
+    const float right = seed.uniform() < 0.5F ? 1.F : -1.F;
+    const glm::vec2 beside = place + glm::vec2(right * seed.between(3.F, 4.5F), seed.between(-1.F, 1.F)) * scale;
+    if (!scene.on_canvas(beside)) return;
+    const std::size_t k = scene.pixel(beside);
+    if (scene.class_at(k) != id || std::abs(scene.guidance.depth_m[k] / scene.guidance.depth_m[i] - 1.F) > 0.03F) return;
+    if (seed.uniform() < 0.5F)
+      build(scene, {beside, seed.between(1.8F, 2.4F) * scale, 1.8F * scale, 2}, k, seed, out);
+    else
+      plant_garden(scene, beside, 2.2F * scale, k, seed, out);
+  });
+}
+
+}  // namespace belvedere

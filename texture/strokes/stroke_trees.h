@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "texture/strokes/stroke_seeds.h"
+
+namespace belvedere {
+
+// Where a tree stands and how large it is, px.
+struct Tree {
+  glm::vec2 foot;
+  float width;
+  float height;
+};
+
+// How it is painted.
+struct TreeTone {
+  float lighter = 0.F;  // moves the tone of the whole tree, in the steps of StrokeScene::colour
+  float rim = 0.F;      // 0…1: stands free towards the sun, so its light side shines
+  float edge = 0.F;     // 0…1: stands before open ground, so its dark body is drawn hard and it casts a shadow there
+};
+
+// One tree appended to `out`: the smudge it casts away from the sun, its dark body, its light side. A spruce is pointed, a leafy tree has
+// a round crown with yellow dots, bare and violet in winter. Upright in the picture whatever the slope.
+void plant_spruce(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, StrokeSeed& seed,
+                  std::vector<Stroke>& out);
+void plant_leafy(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, StrokeSeed& seed,
+                 std::vector<Stroke>& out);
+
+}  // namespace belvedere

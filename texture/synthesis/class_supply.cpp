@@ -1,0 +1,67 @@
+#include "texture/synthesis/class_supply.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace belvedere {
+namespace {
+
+using Counts = std::array<std::size_t, 256>;
+
+Counts count_texels(const std::vector<Exemplar>& exemplars) {
+  Counts texels{};
+  for (const Exemplar& exemplar : exemplars)
+    for (const std::uint8_t label : exemplar.guides.label) ++texels[label];
+  texels[unused_label] = 0;
+  return texels;
+}
+
+// 12 345 678
+std::string grouped(std::size_t number) {
+  std::string digits = fmt::format("{}", number);
+  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, " ");
+  return digits;
+}
+
+}  // namespace
+
+Grid<std::uint8_t> serving_labels(const std::vector<Exemplar>& exemplars, const Grid<std::uint8_t>& target,
+                                  const std::map<std::uint8_t, std::uint8_t>& fallback) {
+  const Counts texels = count_texels(exemplars);
+  std::array<std::uint8_t, 256> serving{};
+  for (std::size_t label = 0; label < serving.size(); ++label) {
+    const auto other = fallback.find(static_cast<std::uint8_t>(label));
+    serving[label] = texels[label] > 0                                                               ? static_cast<std::uint8_t>(label)
+                     : label != unused_label && other != fallback.end() && texels[other->second] > 0 ? other->second
+                                                                                                     : unused_label;
+  }
+  Grid<std::uint8_t> out(target.width(), target.height());
+  std::transform(target.begin(), target.end(), out.begin(), [&](std::uint8_t label) { return serving[label]; });
+  return out;
+}
+
+std::vector<ClassSupply> class_supply(const std::vector<Exemplar>& exemplars, const Grid<std::uint8_t>& target,
+                                      const std::map<std::uint8_t, std::uint8_t>& fallback) {
+  const Counts texels = count_texels(exemplars);
+  Counts pixels{};
+  for (const std::uint8_t label : serving_labels(exemplars, target, fallback)) ++pixels[label];
+  std::vector<ClassSupply> supply;
+  for (std::size_t label = 0; label < unused_label; ++label)
+    if (pixels[label] > 0) supply.push_back({static_cast<std::uint8_t>(label), texels[label], pixels[label]});
+  return supply;
+}
+
+std::string describe_scarcity(const std::vector<ClassSupply>& supply, const std::function<std::string(std::uint8_t)>& name) {
+  std::string list;
+  for (const ClassSupply& of : supply) {
+    if (of.enough()) continue;
+    list += fmt::format("{}{} (each texel serves {:.0f} pixels; {} texels would be needed, there are {})", list.empty() ? "" : ", ",
+                        name(of.label), static_cast<double>(of.pixels) / static_cast<double>(of.texels), grouped(of.texels_needed()),
+                        grouped(of.texels));
+  }
+  return list.empty() ? list : "too few texels, so strokes will repeat: " + list;
+}
+
+}  // namespace belvedere

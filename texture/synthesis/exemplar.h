@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "base/grid.h"
+#include "texture/synthesis/guide_stack.h"
+
+namespace belvedere {
+
+// 8-bit encoded sRGB: what patches are compared in. The full-depth painting is only touched by replay.
+using Rgb8 = std::array<std::uint8_t, 3>;
+
+// A picture with its guides, ready to copy from.
+struct Exemplar {
+  static constexpr int largest_side = 32767;  // texels
+
+  std::string name;
+  Grid<Rgb8> picture;
+  GuideStack guides;  // label 255: never a source (lettering, frames, what a mask excludes); depth is not used
+};
+
+// Throws Error(usage) where picture and guides disagree in size or nothing is there, Error(limit) over the largest side.
+void check_exemplar(const Exemplar& exemplar);
+
+}  // namespace belvedere

@@ -1,0 +1,370 @@
+#include "texture/synthesis/synth_kernel.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include "base/error.h"
+#include "texture/synthesis/synth_pieces.h"
+
+// This file is compiled once for each vector width by Highway.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "texture/synthesis/synth_kernel.cpp"
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace belvedere::synth {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Words = hn::CappedTag<std::uint32_t, 8>;  // a patch row: 7 pixels and one of weight 0
+using Bytes = hn::Repartition<std::uint8_t, Words>;
+using Shorts = hn::Repartition<std::int16_t, Words>;
+using Sums = hn::Repartition<std::int32_t, Words>;
+
+constexpr std::size_t row_words = 8;
+constexpr std::int64_t no_price = INT64_MAX / 4;  // above all; room to subtract a price below 0
+
+// Weights as pairs of shorts beside R and B of a word, and beside G and the class: there a difference of class, cut to 1,
+// times class_mismatch << distance_shift adds the price of a mismatch into the same sum.
+struct WeightTable {
+  alignas(64) std::uint32_t red_blue[7 * row_words] = {};
+  alignas(64) std::uint32_t green_class[7 * row_words] = {};
+  constexpr WeightTable() {
+    for (int j = 0; j < 7; ++j) {
+      for (int i = 0; i < 7; ++i) {
+        const std::uint32_t w = static_cast<std::uint32_t>(patch_weights[j < 3 ? 3 - j : j - 3][i < 3 ? 3 - i : i - 3]);
+        const std::size_t at = static_cast<std::size_t>(j) * row_words + static_cast<std::size_t>(i);
+        red_blue[at] = w | w << 16;
+        green_class[at] = w | static_cast<std::uint32_t>(price::class_mismatch << price::distance_shift) << 16;
+      }
+    }
+  }
+};
+static_assert((price::class_mismatch << price::distance_shift) <= 32767);
+constexpr WeightTable weight_table;
+
+// The target's patch around a pixel, loaded once for all its candidates. mask is 0 where a pixel does not count.
+struct Patch {
+  alignas(64) std::uint32_t colour[7 * row_words];
+  alignas(64) std::uint32_t mask[7 * row_words];
+};
+
+HWY_INLINE void LoadPatch(const KernelView& view, std::uint32_t pixel, Patch& patch) {
+  const Words d;
+  const std::ptrdiff_t stride = view.target->stride;
+  const std::uint32_t* row = view.target->words.data() + pixel - patch_radius * stride - patch_radius;
+  for (std::size_t j = 0; j < 7; ++j, row += stride) {
+    for (std::size_t i = 0; i < row_words; i += hn::Lanes(d)) {
+      const auto words = hn::LoadU(d, row + i);
+      const auto counts = hn::Ne(hn::ShiftRight<24>(words), hn::Set(d, no_class));
+      hn::Store(words, d, patch.colour + j * row_words + i);
+      hn::Store(hn::VecFromMask(d, counts), d, patch.mask + j * row_words + i);
+    }
+  }
+  if (view.links != nullptr && (view.links[pixel] & link::cut_patch)) {
+    std::uint8_t rows[7];
+    surface_around(view, pixel, rows);
+    for (std::size_t j = 0; j < 7; ++j) {
+      for (std::size_t i = 0; i < 7; ++i) {
+        if (!(rows[j] >> i & 1)) patch.mask[j * row_words + i] = 0;
+      }
+    }
+  }
+}
+
+// Adds one row's weighted squared differences of R, G, B and its class mismatches.
+template <class V>
+HWY_INLINE void AddRow(const Patch& patch, std::size_t j, const std::uint32_t* texels, V& sum0, V& sum1) {
+  const Words d;
+  const Bytes d8;
+  const Shorts d16;
+  const Sums d32;
+  const auto low_bytes = hn::Set(d, 0x00ff00ffU);
+  const auto green_or_one = hn::BitCast(d16, hn::Set(d, 0x000100ffU));
+  for (std::size_t i = 0; i < row_words; i += hn::Lanes(d)) {
+    const std::size_t at = j * row_words + i;
+    const auto a = hn::BitCast(d8, hn::LoadU(d, texels + i));
+    const auto b = hn::BitCast(d8, hn::Load(d, patch.colour + at));
+    const auto difference = hn::And(hn::BitCast(d, hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a))), hn::Load(d, patch.mask + at));
+    const auto red_blue = hn::BitCast(d16, hn::And(difference, low_bytes));
+    const auto green_class =
+        hn::Min(hn::BitCast(d16, hn::ShiftRight<8>(hn::BitCast(hn::Repartition<std::uint16_t, Words>(), difference))), green_or_one);
+    const auto w_rb = hn::BitCast(d16, hn::Load(d, weight_table.red_blue + at));
+    const auto w_gc = hn::BitCast(d16, hn::Load(d, weight_table.green_class + at));
+    sum0 = hn::ReorderWidenMulAccumulate(d32, red_blue, hn::Mul(red_blue, w_rb), sum0, sum1);
+    sum0 = hn::ReorderWidenMulAccumulate(d32, green_class, hn::Mul(green_class, w_gc), sum0, sum1);
+  }
+}
+
+// Patch distance plus class mismatches, in price units; anything above `limit` may come back as a part of the sum above it.
+HWY_INLINE std::int64_t PatchCost(const Patch& patch, const std::uint32_t* texel, std::ptrdiff_t stride, std::int64_t limit) {
+  const Sums d32;
+  auto sum0 = hn::Zero(d32);
+  auto sum1 = hn::Zero(d32);
+  const std::uint32_t* row = texel - patch_radius;
+  // The middle rows carry most of the weight: they settle most candidates.
+  AddRow(patch, 3, row, sum0, sum1);
+  AddRow(patch, 2, row - stride, sum0, sum1);
+  AddRow(patch, 4, row + stride, sum0, sum1);
+  const std::int64_t part = hn::GetLane(hn::SumOfLanes(d32, hn::Add(sum0, sum1)));
+  if ((part >> price::distance_shift) > limit) return part >> price::distance_shift;
+  AddRow(patch, 1, row - 2 * stride, sum0, sum1);
+  AddRow(patch, 5, row + 2 * stride, sum0, sum1);
+  AddRow(patch, 0, row - 3 * stride, sum0, sum1);
+  AddRow(patch, 6, row + 3 * stride, sum0, sum1);
+  return static_cast<std::int64_t>(hn::GetLane(hn::SumOfLanes(d32, hn::Add(sum0, sum1)))) >> price::distance_shift;
+}
+
+// The search of one pixel: candidates are offered one by one, the cheapest stays; ties to the lower exemplar index.
+struct Search {
+  const KernelView* view = nullptr;
+  std::uint32_t label_class = no_class;
+  const std::uint8_t* wanted = nullptr;
+  Slack slack;
+  alignas(8) std::uint8_t free[vector_guides] = {};  // slack of each guide, for GuideCost
+  Surroundings around;
+  Forbidden forbidden;
+  Patch patch;
+  std::uint32_t own = 0;
+  std::uint32_t best = 0;
+  std::int64_t best_cost = no_price;
+  std::uint32_t seen[12];
+  int seen_count = 0;
+
+  HWY_INLINE void Begin(const KernelView& state, std::uint32_t pixel) {
+    view = &state;
+    label_class = class_of(state.target->words[pixel]);
+    wanted = state.target->guides_at(pixel);
+    slack = make_slack(state, pixel);
+    if (state.vector_weights != nullptr) {
+      const int count = std::min(state.exemplars->guide_count, vector_guides);
+      free[0] = static_cast<std::uint8_t>(std::min(255, slack.sorted));
+      free[1] = static_cast<std::uint8_t>(std::min(255, slack.bucketed));
+      for (int g = 2; g < count && slack.others != nullptr; ++g) free[g] = slack.others[g];
+    }
+    if (state.around_price != nullptr) around = state.wanted_around[pixel];
+    if (state.links != nullptr && (state.links[pixel] & link::all) != link::all) forbidden = forbidden_texels(state, pixel);
+    own = best = state.match[pixel];
+    LoadPatch(state, pixel, patch);
+  }
+
+  // guide_cost, for up to 8 guides at once where their prices fit 32 bits.
+  HWY_INLINE std::int64_t GuideCost(const std::uint8_t* offered) const {
+    if (view->vector_weights == nullptr) return guide_cost(*view, wanted, offered, slack);
+    const hn::CappedTag<std::uint32_t, 4> d32;
+    const hn::CappedTag<std::uint16_t, 8> d16;
+    const hn::Rebind<std::uint8_t, decltype(d16)> d8;
+    const hn::Rebind<std::uint16_t, decltype(d32)> half;
+    auto sum = hn::Zero(d32);
+    for (std::size_t i = 0; i < vector_guides; i += hn::Lanes(d16)) {
+      const auto a = hn::LoadU(d8, wanted + i);
+      const auto b = hn::LoadU(d8, offered + i);
+      const auto off = hn::SaturatedSub(hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)), hn::LoadU(d8, free + i));
+      const auto wide = hn::PromoteTo(d16, off);
+      alignas(16) std::uint16_t squares[vector_guides];
+      hn::StoreU(hn::Mul(wide, wide), d16, squares);
+      for (std::size_t k = 0; k < hn::Lanes(d16); k += hn::Lanes(d32)) {
+        const auto square = hn::PromoteTo(d32, hn::LoadU(half, squares + k));
+        sum = hn::Add(sum, hn::Mul(square, hn::LoadU(d32, view->vector_weights + i + k)));
+      }
+    }
+    return static_cast<std::int64_t>(hn::GetLane(hn::SumOfLanes(d32, sum)) >> 4);
+  }
+
+  HWY_INLINE std::int64_t AroundCost(Surroundings offered) const {
+    return view->around_price == nullptr ? 0 : (*view->around_price)(around, offered);
+  }
+
+  // `join` is what copying along with a neighbour's (or keeping the own) piece costs.
+  HWY_INLINE void Offer(std::uint32_t texel, std::int64_t join) {
+    const std::uint32_t* word = view->exemplars->words.data() + texel;
+    if (class_of(*word) != label_class) return;
+    for (int i = 0; i < seen_count; ++i) {
+      if (seen[i] == texel) return;
+    }
+    seen[seen_count++] = texel;
+    if (forbidden.count > 0 && forbidden.has(texel)) return;
+    const TexelRecords::Record record = view->texels->at(texel);
+    const std::int64_t others = static_cast<std::int64_t>(record.uses()) - (texel == own ? 1 : 0);
+    if (others >= view->most_uses[label_class] && texel != own) return;
+    std::int64_t cost = join + GuideCost(record.guides()) + AroundCost(record.around()) +
+                        (others * (others + 1) / 2 * view->reuse_q4[label_class] >> 4) + view->bin_cost[label_class * 64 + record.bin()];
+    if (cost > best_cost) return;
+    cost += PatchCost(patch, word, view->exemplars->stride, best_cost - cost);
+    if (cost < best_cost || (cost == best_cost && texel < best)) {
+      best_cost = cost;
+      best = texel;
+    }
+  }
+};
+
+constexpr std::ptrdiff_t fetch_ahead = 2;
+constexpr int batch = 32;  // picks begun before the first is finished
+
+HWY_INLINE void Fetch(const KernelView& view, std::uint32_t texel) {
+  const std::ptrdiff_t stride = view.exemplars->stride;
+  const std::uint32_t* row = view.exemplars->words.data() + texel - patch_radius * stride;
+  for (int j = 0; j < 7; ++j, row += stride) hwy::Prefetch(row);
+  hwy::Prefetch(view.texels->at(texel).words);
+}
+
+void ImproveRow(const KernelView& view, int x0, int x1, int y, std::uint32_t* next) {
+  static constexpr std::array<std::array<int, 2>, 8> neighbours{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
+  const Plane& target = *view.target;
+  const std::int64_t nearly_full = view.copy_cap - view.copy_cap / 4;
+  const std::uint32_t row = target.index(0, 0, y);
+  // Picks lie anywhere in the exemplars, and waiting for memory is most of their cost. So all are drawn first, into `next`: list entries
+  // are asked for a batch at a time before they are looked at, and texels a few pixels ahead of their use.
+  std::uint32_t* drawn = next;
+  const std::uint32_t draws = static_cast<std::uint32_t>(std::max(view.draws, view.fitting_draws));
+  for (int first = x0; first < x1; first += 2 * batch) {
+    std::array<PickRun, batch> runs;
+    const int last = std::min(x1, first + 2 * batch);
+    for (int x = first, i = 0; x < last; x += 2, ++i) {
+      const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
+      if (class_of(target.words[pixel]) == no_class) continue;
+      PickRun& run = runs[static_cast<std::size_t>(i)];
+      run = begin_draw(view, pixel, view.key, x, y);
+      if (run.count == 0) continue;
+      hwy::Prefetch(view.lists->entry(run.entry(0)).words);
+      if (draws > 1) hwy::Prefetch(view.lists->entry(run.entry(std::min(run.count, draws) - 1)).words);
+    }
+    for (int x = first, i = 0; x < last; x += 2, ++i, ++drawn) {
+      const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
+      const PickRun& run = runs[static_cast<std::size_t>(i)];
+      *drawn = run.count == 0 ? view.exemplars->nowhere() : finish_fitting_draw(view, pixel, run, make_slack(view, pixel));
+    }
+  }
+  for (int x = x0; x < x1; x += 2, ++next) {
+    const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
+    if (next + fetch_ahead < drawn) {
+      Fetch(view, next[fetch_ahead]);
+      // What neighbours copy is where this pixel's coherent candidates lie.
+      const std::uint32_t* ahead = view.match + pixel + 2 * fetch_ahead;
+      for (const std::uint32_t texel : {ahead[0], ahead[1], *(ahead - target.stride), ahead[target.stride]}) {
+        hwy::Prefetch(view.texels->at(texel).words);
+        hwy::Prefetch(view.exemplars->words.data() + texel);
+      }
+    }
+    const std::uint32_t pick = *next;
+    *next = view.match[pixel];
+    if (class_of(target.words[pixel]) == no_class) continue;
+    Search search;
+    search.Begin(view, pixel);
+    // Where pieces are not moved as a whole, a piece over the cap is broken up from inside, by cells that alternate with the passes.
+    std::int64_t keep = 0;
+    if (!view.replaces_pieces && view.piece_size[pixel] > view.copy_cap && cell_around(x, y, view.key).odd == (view.pass & 1)) {
+      keep = price::join;
+    }
+    search.Offer(view.match[pixel], keep);
+    for (const auto& [dx, dy] : neighbours) {
+      if (view.links != nullptr && !linked(view.links, target.stride, pixel, dx, dy)) continue;
+      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(pixel) + dx + static_cast<std::ptrdiff_t>(dy) * target.stride;
+      const std::ptrdiff_t texel =
+          static_cast<std::ptrdiff_t>(view.match[at]) - dx - static_cast<std::ptrdiff_t>(dy) * view.exemplars->stride;
+      const std::int64_t size = view.piece_size[at];
+      const bool joins = size >= (view.replaces_pieces ? nearly_full : view.copy_cap);
+      search.Offer(static_cast<std::uint32_t>(texel), joins ? price::join : 0);
+    }
+    search.Offer(pick, 0);
+    if (search.best_cost == no_price) search.best = allowed_texel(view, pixel, search.forbidden, view.key, x, y);
+    *next = search.best;
+  }
+}
+
+std::int64_t OnePatchCost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
+  Patch patch;
+  LoadPatch(view, pixel, patch);
+  return PatchCost(patch, view.exemplars->words.data() + texel, view.exemplars->stride, no_price);
+}
+
+std::int64_t OneGuidesCost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
+  Search search;
+  search.Begin(view, pixel);
+  return search.GuideCost(view.texels->at(texel).guides());
+}
+
+int BestMove(const KernelView& view, const std::vector<PieceSample>& samples, const std::vector<std::uint32_t>& candidates) {
+  std::vector<Search> searches(samples.size());
+  for (std::size_t s = 0; s < samples.size(); ++s) searches[s].Begin(view, samples[s].pixel);
+  const Plane& exemplars = *view.exemplars;
+  int best = -1;
+  std::int64_t best_cost = no_price;
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    const Plane::Place place = exemplars.place(candidates[c]);
+    const Plane::Part& part = exemplars.parts[static_cast<std::size_t>(place.part)];
+    std::int64_t cost = 0;
+    for (std::size_t s = 0; s < samples.size() && cost < best_cost; ++s) {
+      const int x = place.x + samples[s].dx;
+      const int y = place.y + samples[s].dy;
+      const Search& search = searches[s];
+      const std::uint32_t texel =
+          x < 0 || y < 0 || x >= part.width || y >= part.height ? exemplars.nowhere() : exemplars.index(place.part, x, y);
+      if (class_of(exemplars.words[texel]) != search.label_class) {
+        cost += price::misfit;
+        continue;
+      }
+      const TexelRecords::Record record = view.texels->at(texel);
+      const std::int64_t others = record.uses();
+      cost += guide_cost(view, search.wanted, record.guides(), search.slack) + search.AroundCost(record.around()) +
+              (others * (others + 1) / 2 * view.reuse_q4[search.label_class] >> 4) + view.bin_cost[search.label_class * 64 + record.bin()];
+      cost += PatchCost(search.patch, exemplars.words.data() + texel, exemplars.stride, no_price);
+    }
+    if (cost < best_cost) {
+      best_cost = cost;
+      best = static_cast<int>(c);
+    }
+  }
+  return best;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace belvedere::synth
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace belvedere::synth {
+
+HWY_EXPORT(ImproveRow);
+HWY_EXPORT(OnePatchCost);
+HWY_EXPORT(OneGuidesCost);
+HWY_EXPORT(BestMove);
+
+void improve_row(const KernelView& view, int x0, int x1, int y, std::uint32_t* next) {
+  HWY_DYNAMIC_DISPATCH(ImproveRow)(view, x0, x1, y, next);
+}
+
+std::int64_t patch_cost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
+  return HWY_DYNAMIC_DISPATCH(OnePatchCost)(view, pixel, texel);
+}
+
+std::int64_t guides_cost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
+  return HWY_DYNAMIC_DISPATCH(OneGuidesCost)(view, pixel, texel);
+}
+
+int best_move(const KernelView& view, const std::vector<PieceSample>& samples, const std::vector<std::uint32_t>& candidates) {
+  return HWY_DYNAMIC_DISPATCH(BestMove)(view, samples, candidates);
+}
+
+std::vector<std::string> vector_targets() {
+  std::vector<std::string> names;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.emplace_back(hwy::TargetName(target));
+  return names;
+}
+
+void use_vector_target(const std::string& name) {
+  hwy::SetSupportedTargetsForTest(0);
+  std::int64_t chosen = 0;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    if (name == hwy::TargetName(target)) chosen = target;
+  }
+  if (!name.empty() && chosen == 0) throw Error(ErrorKind::limit, "vector instructions", name, "one that this processor has");
+  hwy::SetSupportedTargetsForTest(chosen);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace belvedere::synth
+#endif

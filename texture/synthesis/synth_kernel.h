@@ -1,0 +1,140 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "texture/synthesis/synth_lists.h"
+#include "texture/synthesis/synth_plane.h"
+#include "texture/synthesis/synth_surroundings.h"
+#include "texture/synthesis/synth_texels.h"
+
+namespace belvedere::synth {
+
+// The hot loop of synthesis: what a candidate costs, and which candidate of a pixel is the cheapest. Compiled for several
+// vector widths, chosen when the program starts; integer arithmetic, so each width gives the same numbers.
+
+// Prices of the cost function, in the units of the patch distance (1 = an eighth of a weighted squared 8-bit difference).
+namespace price {
+inline constexpr std::int64_t distance_shift = 3;     // weighted squared differences >> 3
+inline constexpr std::int64_t class_mismatch = 3000;  // a pixel of the patch whose class differs
+inline constexpr std::int64_t guide = 270;            // a squared difference of a guide of weight 1
+inline constexpr std::int64_t surroundings_q8 = 32;   // Σ_k of squared differences of class shares (of 255), in 256ths
+inline constexpr std::int64_t grey = 16;              // a squared difference at one of the 8 places, in picks: the patch's weights in all
+inline constexpr std::int64_t reuse = 2000;           // n (n + 1) / 2 times, for a texel used n times by others
+inline constexpr std::int64_t bin = 15000;            // a bin used twice as often as expected
+inline constexpr std::int64_t join = 60000;           // joining a piece near the cap
+inline constexpr std::int64_t misfit = 300000;        // a member of a moved piece that would leave its class
+}  // namespace price
+
+// Weight of a patch pixel: round(16 exp(-r² / 8)), by |dx| and |dy|.
+inline constexpr int patch_weights[4][4] = {{16, 14, 10, 5}, {14, 12, 9, 5}, {10, 9, 6, 3}, {5, 5, 3, 2}};
+
+// Share of other classes, of 255, from which on a pixel lies at a border.
+inline constexpr int border_others = 64;
+
+// Guides priced by one vector operation; each plane's guides may be read this far from any texel's first.
+inline constexpr int vector_guides = 8;
+
+// All that pricing reads. Pointers into the state of a level (synth_level.h); nothing is owned.
+struct KernelView {
+  const Plane* target = nullptr;
+  const Plane* exemplars = nullptr;
+  const PickLists* lists = nullptr;
+  const std::uint8_t* links = nullptr;          // by target index; null: no silhouettes
+  const Surroundings* wanted_around = nullptr;  // by target index: classes around; null: not priced
+  const SurroundingsPrice* around_price = nullptr;
+  const GuideRole* guides = nullptr;              // exemplars->guide_count of them
+  const std::uint32_t* vector_weights = nullptr;  // vector_guides weights, 0 beyond the last; null: one by one
+  const std::uint8_t* usual_error = nullptr;      // by class × guide_count + guide: what picks are usually off; null: not known yet
+  const std::uint32_t* match = nullptr;           // by target index: exemplar index
+  const std::uint16_t* piece_size = nullptr;      // by target index: pixels of the piece copied in one, saturated
+  const TexelRecords* texels = nullptr;           // uses, bins, surroundings and guides of the exemplars' texels
+  const std::int32_t* bin_cost = nullptr;         // by class × 64 + bin
+  const std::int64_t* reuse_q4 = nullptr;         // by class: price of reuse in sixteenths
+  const std::uint32_t* most_uses = nullptr;       // by class: a texel used by so many others is not offered any more
+  std::int64_t copy_cap = 0;                      // pixels of a piece
+  bool replaces_pieces = false;                   // whether pieces over the cap are moved as a whole on this level
+  int draws = 1;                                  // texels drawn for one pick
+  int border_draws = 1;                           // and where other classes lie around
+  int fitting_draws = 1;                          // and where what is painted around is looked at; 1: it is not
+  std::uint64_t key = 0;                          // of the random numbers of this pass
+  int pass = 0;
+};
+
+// What a pixel's guides may be off without cost: about as much as picks are off (of the sorted one a step less, as copying along makes most
+// of its error). For the two guides that order the lists that is the window,
+// for the others what picks usually leave. Else many guides, which no texel can meet all, would drive out the texture for a gain
+// that is none.
+struct Slack {
+  std::int32_t sorted = 0;
+  std::int32_t bucketed = 0;
+  const std::uint8_t* others = nullptr;  // by guide, from 2 on; null: nothing
+};
+Slack make_slack(const KernelView& view, std::uint32_t pixel);
+inline std::int64_t guide_cost(const KernelView& view, const std::uint8_t* wanted, const std::uint8_t* offered, Slack slack) {
+  const auto price_of = [&](int g, int free) {
+    const std::int32_t off = std::max(0, std::abs(wanted[g] - offered[g]) - free);
+    return view.guides[g].weight_q4 * off * off;
+  };
+  const int count = view.exemplars->guide_count;
+  std::int64_t cost = 0;
+  if (count > 0) cost += price_of(0, slack.sorted);
+  if (count > 1) cost += price_of(1, slack.bucketed);
+  for (int g = 2; g < count; ++g) cost += price_of(g, slack.others == nullptr ? 0 : slack.others[g]);
+  return cost >> 4;
+}
+// A texel of the pixel's class from the window of its guides: of `draws` that follow each other in the list from a random one on that with
+// the cheapest guides and surroundings. Nowhere where the class has no texel.
+std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, Slack slack);
+// The same in two steps, so that others can be begun while memory is waited for.
+PickRun begin_draw(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y);
+std::uint32_t finish_draw(const KernelView& view, std::uint32_t pixel, const PickRun& run, Slack slack);
+// And of `fitting_draws` that which fits best what is painted around the pixel already, too: what sub-passes offer. Where a silhouette
+// cuts the patch, as above.
+std::uint32_t finish_fitting_draw(const KernelView& view, std::uint32_t pixel, const PickRun& run, Slack slack);
+
+// What the classes around a texel cost; 0 where they are not priced.
+inline std::int64_t surroundings_cost(const KernelView& view, std::uint32_t pixel, Surroundings offered) {
+  return view.around_price == nullptr ? 0 : (*view.around_price)(view.wanted_around[pixel], offered);
+}
+
+// Texels that a pixel must not copy, because a neighbour across a silhouette copies by the same offset: no piece runs on behind a ridge.
+struct Forbidden {
+  std::array<std::uint32_t, 4> texels{};
+  int count = 0;
+  bool has(std::uint32_t texel) const { return std::find(texels.begin(), texels.begin() + count, texel) != texels.begin() + count; }
+};
+// With `all_neighbours` also what linked neighbours' offsets give: a pixel that copies none of these is a piece of its own.
+Forbidden forbidden_texels(const KernelView& view, std::uint32_t pixel, bool all_neighbours = false);
+
+// A texel of the pixel's class that is not forbidden: a pick, or the first there is; its own one where there is no other.
+std::uint32_t allowed_texel(const KernelView& view, std::uint32_t pixel, const Forbidden& forbidden, std::uint64_t key, int x, int y);
+
+// Which of the 7 × 7 pixels around (bit x of row y) lie on the pixel's own surface, reached by linked steps inside the window.
+void surface_around(const KernelView& view, std::uint32_t pixel, std::uint8_t rows[7]);
+
+// The best candidate of every second pixel of row y from x0 on and before x1, into next[0], next[1] …
+void improve_row(const KernelView& view, int x0, int x1, int y, std::uint32_t* next);
+// Patch distance and class mismatches together, as improve_row prices them.
+std::int64_t patch_cost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel);
+// The guides' price of a texel for a pixel, as improve_row computes it: guide_cost, however many at once.
+std::int64_t guides_cost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel);
+
+// A whole piece moved: pixels[i] would copy from first_texel + steps[i]. Which first texel is the cheapest over all of them?
+struct PieceSample {
+  std::uint32_t pixel = 0;
+  int dx = 0;  // from the piece's reference pixel
+  int dy = 0;
+};
+// Index into `candidates` (exemplar indices for the reference pixel), or -1 where there is none. Ties to the first.
+int best_move(const KernelView& view, const std::vector<PieceSample>& samples, const std::vector<std::uint32_t>& candidates);
+
+// The vector instruction sets this machine can run, best first; and to use one of them alone ("" for the best), for tests.
+std::vector<std::string> vector_targets();
+void use_vector_target(const std::string& name);
+
+}  // namespace belvedere::synth

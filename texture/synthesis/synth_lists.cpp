@@ -1,0 +1,168 @@
+#include "texture/synthesis/synth_lists.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace belvedere::synth {
+
+ListKeys choose_list_keys(const std::vector<GuideRole>& guides) {
+  return {!guides.empty(), guides.size() > 1 && guides[1].weight_q4 * 8 >= guides[0].weight_q4};
+}
+
+namespace {
+
+// Counts of one class by bucket and value, as sums over all lower buckets and values: any window in four look-ups.
+class WindowCounts {
+ public:
+  explicit WindowCounts(int buckets) : sums_(static_cast<std::size_t>(buckets + 1) * 257, 0) {}
+  std::int64_t& at(int bucket, int value) { return sums_[static_cast<std::size_t>(bucket) * 257 + static_cast<std::size_t>(value)]; }
+  void add(int bucket, int value, std::int64_t count) { at(bucket + 1, value + 1) += count; }
+  void sum_up(int buckets) {
+    for (int b = 1; b <= buckets; ++b) {
+      for (int v = 1; v <= 256; ++v) at(b, v) += at(b, v - 1);
+    }
+    for (int b = 1; b <= buckets; ++b) {
+      for (int v = 0; v <= 256; ++v) at(b, v) += at(b - 1, v);
+    }
+  }
+  // Half open in both.
+  std::int64_t count(int b0, int b1, int v0, int v1) { return at(b1, v1) - at(b0, v1) - at(b1, v0) + at(b0, v0); }
+
+ private:
+  std::vector<std::int64_t> sums_;
+};
+
+}  // namespace
+
+PickLists::PickLists(const Plane& exemplars, const Plane& target, int classes, const std::vector<GuideRole>& guides, int minimum,
+                     const std::vector<Surroundings>& around)
+    : keys_(choose_list_keys(guides)), pixel_counts_(static_cast<std::size_t>(classes), 0) {
+  const int buckets = keys_.buckets();
+  const std::size_t cells = static_cast<std::size_t>(classes) * static_cast<std::size_t>(buckets);
+
+  // A counting sort.
+  std::vector<std::uint32_t> counts(cells * 257, 0);
+  exemplars.for_each([&](std::uint32_t at) {
+    const std::uint32_t c = class_of(exemplars.words[at]);
+    if (c == no_class) return;
+    const std::uint8_t* values = exemplars.guides_at(at);
+    ++counts[cell(c, bucket_of(values)) * 257 + static_cast<std::size_t>(value_of(values))];
+  });
+  start_.assign(cells * 257, 0);
+  std::uint32_t total = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    start_[i] = total;
+    total += counts[i];
+  }
+  const std::size_t guide_count = static_cast<std::size_t>(exemplars.guide_count);
+  entry_words_ = 1 + (Entry::guides_from + guide_count + 3) / 4;
+  entries_.assign(total * entry_words_ + 2, 0U);  // eight guides may be read from the last one, too
+  std::vector<std::uint32_t> next = start_;
+  // Texels are gone through by golden steps, so that those which follow each other in the list lie far apart in the picture.
+  const std::uint64_t words = exemplars.words.size();
+  std::uint64_t step = words * 618 / 1000 | 1;
+  while (std::gcd(step, words) != 1) step += 2;
+  std::uint64_t here = 0;
+  for (std::uint64_t i = 0; i < words; ++i, here = here + step < words ? here + step : here + step - words) {
+    const std::uint32_t c = class_of(exemplars.words[here]);
+    if (c == no_class) continue;
+    const std::uint8_t* values = exemplars.guides_at(static_cast<std::uint32_t>(here));
+    const std::size_t nth = next[cell(c, bucket_of(values)) * 257 + static_cast<std::size_t>(value_of(values))]++;
+    std::uint32_t* entry = entries_.data() + nth * entry_words_;
+    entry[0] = static_cast<std::uint32_t>(here);
+    std::uint8_t* bytes = reinterpret_cast<std::uint8_t*>(entry + 1);
+    if (!around.empty()) {
+      bytes[0] = around[here].others;
+      bytes[1] = around[here].commonest;
+    }
+    const Greys greys = greys_around(exemplars, static_cast<std::uint32_t>(here));
+    std::copy(greys.values.begin(), greys.values.end(), bytes + 2);
+    std::copy(values, values + guide_count, bytes + Entry::guides_from);
+  }
+
+  std::vector<std::uint32_t> demand(cells * 256, 0);
+  target.for_each([&](std::uint32_t at) {
+    const std::uint32_t c = class_of(target.words[at]);
+    if (c == no_class) return;
+    const std::uint8_t* values = target.guides_at(at);
+    ++pixel_counts_[c];
+    ++demand[cell(c, bucket_of(values)) * 256 + static_cast<std::size_t>(value_of(values))];
+  });
+
+  windows_.assign(cells * 256, PickWindow{255, static_cast<std::uint8_t>(buckets - 1)});
+  const std::int64_t value_weight = keys_.sorted ? guides[0].weight_q4 : 0;
+  const std::int64_t bucket_weight = keys_.bucketed ? guides[1].weight_q4 : 0;
+  for (int c = 0; c < classes; ++c) {
+    const std::uint32_t label_class = static_cast<std::uint32_t>(c);
+    WindowCounts sources(buckets);
+    WindowCounts pixels(buckets);
+    for (int b = 0; b < buckets; ++b) {
+      for (int v = 0; v < 256; ++v) {
+        sources.add(b, v, counts[cell(label_class, b) * 257 + static_cast<std::size_t>(v)]);
+        pixels.add(b, v, demand[cell(label_class, b) * 256 + static_cast<std::size_t>(v)]);
+      }
+    }
+    sources.sum_up(buckets);
+    pixels.sum_up(buckets);
+    // Uses of a texel that a window may ask for, in 256ths: max(4, 1.5 × pixels of the class per texel of it).
+    const std::int64_t all_sources = std::max<std::int64_t>(1, texel_count(label_class));
+    const std::int64_t uses_q8 = std::clamp<std::int64_t>(384 * pixel_counts_[static_cast<std::size_t>(c)] / all_sources, 1024, 1LL << 31);
+    const auto wide_enough = [&](int b0, int b1, int v0, int v1) {
+      const std::int64_t texels = sources.count(b0, b1, v0, v1);
+      return texels >= minimum && texels * uses_q8 >= pixels.count(b0, b1, v0, v1) * 256;
+    };
+    for (int b = 0; b < buckets; ++b) {
+      for (int v = 0; v < 256; ++v) {
+        if (demand[cell(label_class, b) * 256 + static_cast<std::size_t>(v)] == 0) continue;
+        // The window with the least cost of guides at its rim, over both guides.
+        std::int64_t best = INT64_MAX;
+        for (int s = 0; s < buckets; ++s) {
+          const std::int64_t off = static_cast<std::int64_t>(s) * ListKeys::bucket_width;
+          if (bucket_weight * off * off >= best) break;
+          for (int t = 1; t <= 256; t += std::max(1, t / 16)) {
+            const std::int64_t cost = bucket_weight * off * off + value_weight * (t - 1) * (t - 1);
+            if (cost >= best) break;
+            if (wide_enough(std::max(0, b - s), std::min(buckets, b + s + 1), std::max(0, v - t), std::min(256, v + t + 1))) {
+              best = cost;
+              windows_[cell(label_class, b) * 256 + static_cast<std::size_t>(v)] = {static_cast<std::uint8_t>(t - 1),
+                                                                                    static_cast<std::uint8_t>(s)};
+              break;
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+std::int64_t PickLists::texel_count(std::uint32_t label_class) const {
+  const std::size_t first = cell(label_class, 0) * 257;
+  const std::size_t last = cell(label_class, keys_.buckets() - 1) * 257 + 256;
+  return static_cast<std::int64_t>(start_[last]) - start_[first];
+}
+
+PickWindow PickLists::window(std::uint32_t label_class, const std::uint8_t* guides) const {
+  return windows_[cell(label_class, bucket_of(guides)) * 256 + static_cast<std::size_t>(value_of(guides))];
+}
+
+PickRun PickLists::pick(std::uint32_t label_class, const std::uint8_t* guides, std::uint32_t random) const {
+  const PickWindow reach = window(label_class, guides);
+  const int bucket = bucket_of(guides);
+  const int value = value_of(guides);
+  const int b0 = std::max(0, bucket - reach.buckets);
+  const int b1 = std::min(keys_.buckets(), bucket + reach.buckets + 1);
+  const std::size_t v0 = static_cast<std::size_t>(std::max(0, value - reach.slack - 1));
+  const std::size_t v1 = static_cast<std::size_t>(std::min(256, value + reach.slack + 2));
+  std::uint32_t count = 0;
+  for (int b = b0; b < b1; ++b) count += start_[cell(label_class, b) * 257 + v1] - start_[cell(label_class, b) * 257 + v0];
+  if (count == 0) return {};
+  std::uint32_t nth = static_cast<std::uint32_t>((static_cast<std::uint64_t>(random) * count) >> 32);
+  for (int b = b0;; ++b) {
+    const std::uint32_t first = start_[cell(label_class, b) * 257 + v0];
+    const std::uint32_t here = start_[cell(label_class, b) * 257 + v1] - first;
+    if (nth < here) return {first, here, nth};
+    nth -= here;
+  }
+}
+
+}  // namespace belvedere::synth

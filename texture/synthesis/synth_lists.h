@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "texture/synthesis/synth_greys.h"
+#include "texture/synthesis/synth_plane.h"
+#include "texture/synthesis/synth_texels.h"
+
+namespace belvedere::synth {
+
+// A guide's part in the cost of a candidate. Guides of a plane stand in order of weight, the strongest first.
+struct GuideRole {
+  std::int64_t weight_q4 = 0;  // cost of a squared difference, in sixteenths; > 0
+};
+
+// Which guides order the lists: the strongest (guide 0) sorts the texels of a class; the second (guide 1), where it is strong enough to
+// matter, splits them into 16 buckets before.
+struct ListKeys {
+  static constexpr int bucket_width = 16;
+  bool sorted = false;
+  bool bucketed = false;
+  int buckets() const { return bucketed ? 256 / bucket_width : 1; }
+};
+ListKeys choose_list_keys(const std::vector<GuideRole>& guides);
+
+// How far a pick may lie from the pixel's own guides: wide enough that the window holds enough texels for all pixels that
+// draw from it. So no texel is in demand more than its class as a whole.
+struct PickWindow {
+  std::uint8_t slack = 0;    // of the sorting guide: the window is value ± (slack + 1), and costs nothing within ± slack
+  std::uint8_t buckets = 0;  // neighbouring buckets on either side; costs nothing within buckets × bucket_width
+};
+
+// Where a pick begins to look: at one entry of a part of the list, whose end joins its beginning.
+struct PickRun {
+  std::uint32_t first = 0;  // entry
+  std::uint32_t count = 0;  // entries; 0: the class has no texel
+  std::uint32_t start = 0;  // 0 … count - 1
+
+  std::uint32_t entry(std::uint32_t i) const { return first + (start + i < count ? start + i : start + i - count); }  // i < count
+};
+
+// All texels of a level by class, bucket and value of the sorting guide: what random candidates are picked from. An entry holds all that
+// chooses between texels, and texels of one value stand in scattered order, so that a pick and those after it cost one wait for memory.
+class PickLists {
+ public:
+  // An entry's words: the texel, then the share and commonest of other classes around it, its greys and its guides, a byte each.
+  struct Entry {
+    static constexpr std::size_t guides_from = 2 + grey_places;
+    const std::uint32_t* words = nullptr;
+    std::uint32_t texel() const { return words[0]; }
+    const std::uint8_t* bytes() const { return reinterpret_cast<const std::uint8_t*>(words + 1); }
+    Surroundings around() const { return {bytes()[0], bytes()[1]}; }
+    const std::uint8_t* greys() const { return bytes() + 2; }
+    const std::uint8_t* guides() const { return bytes() + guides_from; }
+  };
+
+  // minimum: texels a window must hold. `around`, by exemplar index, may be empty.
+  PickLists(const Plane& exemplars, const Plane& target, int classes, const std::vector<GuideRole>& guides, int minimum,
+            const std::vector<Surroundings>& around = {});
+
+  bool has_class(std::uint32_t label_class) const { return texel_count(label_class) > 0; }
+  std::int64_t texel_count(std::uint32_t label_class) const;
+  std::int64_t pixel_count(std::uint32_t label_class) const { return pixel_counts_[label_class]; }
+  // The texels of a class, 0 … texel_count - 1.
+  std::uint32_t texel(std::uint32_t label_class, std::int64_t nth) const {
+    return entry(static_cast<std::uint32_t>(start_[cell(label_class, 0) * 257] + nth)).texel();
+  }
+  const ListKeys& keys() const { return keys_; }
+
+  // The window of a pixel with these guides.
+  PickWindow window(std::uint32_t label_class, const std::uint8_t* guides) const;
+  // Begins at a texel of the class from that window, uniform in `random`, and stays within its bucket.
+  PickRun pick(std::uint32_t label_class, const std::uint8_t* guides, std::uint32_t random) const;
+  Entry entry(std::uint32_t nth) const { return {entries_.data() + static_cast<std::size_t>(nth) * entry_words_}; }
+
+ private:
+  int value_of(const std::uint8_t* guides) const { return keys_.sorted ? guides[0] : 0; }
+  int bucket_of(const std::uint8_t* guides) const { return keys_.bucketed ? guides[1] / ListKeys::bucket_width : 0; }
+  std::size_t cell(std::uint32_t label_class, int bucket) const {
+    return static_cast<std::size_t>(label_class) * static_cast<std::size_t>(keys_.buckets()) + static_cast<std::size_t>(bucket);
+  }
+
+  ListKeys keys_;
+  std::size_t entry_words_ = 2;
+  std::vector<std::uint32_t> entries_;      // by class, bucket, value
+  std::vector<std::uint32_t> start_;        // cell × 257: the entry where a value begins
+  std::vector<PickWindow> windows_;         // cell × 256
+  std::vector<std::int64_t> pixel_counts_;  // target pixels of a class
+};
+
+}  // namespace belvedere::synth

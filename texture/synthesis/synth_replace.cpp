@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "texture/synthesis/synth_level.h"
+#include "texture/synthesis/synth_level_parts.h"
+
+namespace belvedere::synth {
+
+void commit_next(LevelState& state, int odd_x, int odd_y) {
+  const Plane::Part& part = state.target.parts[0];
+  const int rows = (part.height - odd_y + 1) / 2;
+  const std::size_t across = static_cast<std::size_t>((part.width + 1) / 2);
+  add_to(state.bins_actual, sum_bins(rows, state.bins_actual.size(), [&](int i, BinCounts& bins) {
+           const std::uint32_t* found = state.next.data() + static_cast<std::size_t>(i) * across;
+           for (int x = odd_x; x < part.width; x += 2, ++found) move_pixel(state, state.target.index(0, x, 2 * i + odd_y), *found, bins);
+         }));
+}
+
+namespace {
+
+struct Move {
+  std::uint32_t pixel = 0;
+  std::uint32_t texel = 0;
+};
+
+struct Member {
+  std::uint32_t piece = 0;  // its first pixel
+  int x = 0;
+  int y = 0;
+};
+
+// Where one group of pixels, all of a piece and a cell, moves to.
+void find_moves(const LevelState& state, const KernelView& view, const Member* members, int count, std::uint64_t key,
+                std::vector<Move>& moves) {
+  constexpr int picks = 24;
+  constexpr int far_enough = 8;  // texels from where the group copies from now
+  constexpr int samples_wanted = 12;
+  const Plane& exemplars = state.exemplars;
+  const Member& middle = members[count / 2];
+  const std::uint32_t pixel = state.target.index(0, middle.x, middle.y);
+  const Plane::Place now = exemplars.place(state.match[pixel]);
+  const Slack slack = make_slack(view, pixel);
+  std::vector<std::uint32_t> candidates;
+  for (int i = 0; i < picks; ++i) {
+    const std::uint64_t draw = random_bits(key, static_cast<std::int64_t>(pixel), i);
+    const std::uint32_t texel = draw_texel(view, pixel, draw, 0, 0, slack);
+    const Plane::Place place = exemplars.place(texel);
+    if (place.part == now.part && std::abs(place.x - now.x) < far_enough && std::abs(place.y - now.y) < far_enough) continue;
+    candidates.push_back(texel);
+  }
+  const int step = std::max(1, count / samples_wanted);
+  std::vector<PieceSample> samples;
+  for (int i = step / 2; i < count; i += step) {
+    samples.push_back({state.target.index(0, members[i].x, members[i].y), members[i].x - middle.x, members[i].y - middle.y});
+  }
+  const int best = best_move(view, samples, candidates);
+  if (best < 0) return;
+  const Plane::Place to = exemplars.place(candidates[static_cast<std::size_t>(best)]);
+  const Plane::Part& part = exemplars.parts[static_cast<std::size_t>(to.part)];
+  for (int i = 0; i < count; ++i) {
+    const int x = to.x + members[i].x - middle.x;
+    const int y = to.y + members[i].y - middle.y;
+    if (x < 0 || y < 0 || x >= part.width || y >= part.height) continue;
+    const std::uint32_t member = state.target.index(0, members[i].x, members[i].y);
+    const std::uint32_t texel = exemplars.index(to.part, x, y);
+    if (class_of(exemplars.words[texel]) == class_of(state.target.words[member])) moves.push_back({member, texel});
+  }
+}
+
+}  // namespace
+
+bool replace_pieces(LevelState& state, int pass, int round) {
+  if (static_cast<std::int64_t>(state.pieces.largest()) <= state.settings.copy_cap) return false;
+  const int number = pass * 7 + round;
+  const std::uint64_t cell_key = key_for(state.settings, Purpose::cells, number);
+  const std::uint64_t move_key = key_for(state.settings, Purpose::moves, number);
+  const Plane::Part& part = state.target.parts[0];
+  update_bin_cost(state);
+  const KernelView view = state.view(pass);
+
+  // The pixels of a cell lie in the 3 × 3 squares around the square that holds its point: a row of squares a task.
+  const int across = (part.width + cell_side - 1) / cell_side;
+  const int down = (part.height + cell_side - 1) / cell_side;
+  std::vector<std::vector<Move>> moves(static_cast<std::size_t>(down + 2));
+  parallel_rows(down + 2, [&](int i) {
+    const int cell_y = i - 1;
+    std::vector<std::vector<Member>> cells(static_cast<std::size_t>(across + 2));
+    for (int y = std::max(0, (cell_y - 1) * cell_side); y < std::min(part.height, (cell_y + 2) * cell_side); ++y) {
+      for (int x = 0; x < part.width; ++x) {
+        const std::uint32_t at = state.target.index(0, x, y);
+        if (state.pieces.size()[at] <= state.settings.copy_cap) continue;
+        const Cell cell = cell_around(x, y, cell_key);
+        if (cell.y != cell_y || cell.odd != (number & 1)) continue;
+        const int column = cell.x + 1;
+        cells[static_cast<std::size_t>(column)].push_back({state.pieces.first_pixel(at), x, y});
+      }
+    }
+    for (std::vector<Member>& members : cells) {
+      std::stable_sort(members.begin(), members.end(), [](const Member& a, const Member& b) { return a.piece < b.piece; });
+      for (std::size_t from = 0; from < members.size();) {
+        std::size_t to = from;
+        while (to < members.size() && members[to].piece == members[from].piece) ++to;
+        find_moves(state, view, &members[from], static_cast<int>(to - from), move_key, moves[static_cast<std::size_t>(i)]);
+        from = to;
+      }
+    }
+  });
+  add_to(state.bins_actual, sum_bins(down + 2, state.bins_actual.size(), [&](int i, BinCounts& bins) {
+           for (const Move& move : moves[static_cast<std::size_t>(i)]) move_pixel(state, move.pixel, move.texel, bins);
+         }));
+  state.pieces.find(state.target, state.exemplars, state.match);
+  return true;
+}
+
+namespace {
+
+// Gives each pixel that `chosen` names a texel by which it belongs to no neighbour's piece: the cheapest of some picks.
+template <class F>
+void isolate(LevelState& state, int number, F&& chosen) {
+  static constexpr std::array<std::array<int, 2>, 4> parities{{{0, 0}, {1, 1}, {1, 0}, {0, 1}}};
+  constexpr int picks = 16;
+  const Plane::Part& part = state.target.parts[0];
+  const std::size_t across = static_cast<std::size_t>((part.width + 1) / 2);
+  const std::uint64_t key = key_for(state.settings, Purpose::alone, number);
+  // Direct neighbours are of other parities, so what a pixel sees of them stays as it is while it moves.
+  for (const auto& [odd_x, odd_y] : parities) {
+    update_bin_cost(state);
+    const KernelView view = state.view(0);
+    parallel_rows((part.height - odd_y + 1) / 2, [&, ox = odd_x, oy = odd_y](int i) {
+      const int y = 2 * i + oy;
+      std::uint32_t* next = state.next.data() + static_cast<std::size_t>(i) * across;
+      std::vector<std::uint32_t> candidates;
+      for (int x = ox; x < part.width; x += 2, ++next) {
+        const std::uint32_t at = state.target.index(0, x, y);
+        *next = state.match[at];
+        if (class_of(state.target.words[at]) == no_class || !chosen(view, at, x, y)) continue;
+        const Forbidden forbidden = forbidden_texels(view, at, true);
+        const Slack slack = make_slack(view, at);
+        candidates.clear();
+        for (int k = 0; k < picks; ++k) {
+          const std::uint32_t texel = draw_texel(view, at, key + static_cast<std::uint64_t>(k), x, y, slack);
+          if (!forbidden.has(texel)) candidates.push_back(texel);
+        }
+        const int best = best_move(view, {PieceSample{at, 0, 0}}, candidates);
+        *next = best >= 0 ? candidates[static_cast<std::size_t>(best)] : allowed_texel(view, at, forbidden, key, x, y);
+      }
+    });
+    commit_next(state, odd_x, odd_y);
+  }
+}
+
+}  // namespace
+
+void finish_pieces(LevelState& state) {
+  constexpr int most_rounds = 12;
+  const std::int64_t cap = state.settings.copy_cap;
+  const int first = state.settings.passes + state.settings.replacing_passes;
+  for (int round = 0; round < most_rounds; ++round) {
+    // Of the pixels that share a texel too many, each takes another with the probability that leaves as many as allowed.
+    const std::uint64_t key = key_for(state.settings, Purpose::alone, 100 + round);
+    std::atomic<bool> any = false;
+    isolate(state, 200 + round, [&](const KernelView& view, std::uint32_t at, int x, int y) {
+      const std::uint32_t uses = view.texels->at(view.match[at]).uses();
+      const std::uint32_t most = view.most_uses[class_of(view.target->words[at])];
+      if (uses <= most) return false;
+      any.store(true, std::memory_order_relaxed);
+      return random_index(uses, key, x, y) >= most;
+    });
+    if (!any.load()) break;
+    state.pieces.find(state.target, state.exemplars, state.match);
+  }
+  for (int round = 0; round < most_rounds && replace_pieces(state, first, round); ++round) {
+  }
+  if (!state.links.empty()) {
+    isolate(state, 0, [](const KernelView& view, std::uint32_t at, int, int) {
+      return (view.links[at] & link::all) != link::all && forbidden_texels(view, at).has(view.match[at]);
+    });
+    state.pieces.find(state.target, state.exemplars, state.match);
+  }
+  if (static_cast<std::int64_t>(state.pieces.largest()) <= cap) return;
+  // Nothing else helped: lines of single pixels cut what is left into squares under the cap.
+  const int side = static_cast<int>(std::sqrt(static_cast<double>(cap))) + 1;
+  isolate(state, 1, [&](const KernelView& view, std::uint32_t at, int x, int y) {
+    return view.piece_size[at] > cap && (x % side == 0 || y % side == 0);
+  });
+  state.pieces.find(state.target, state.exemplars, state.match);
+}
+
+}  // namespace belvedere::synth

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "texture/synthesis/synth_plane.h"
+#include "texture/synthesis/synth_surroundings.h"
+
+namespace belvedere::synth {
+
+// What a candidate is priced by before its patch is looked at, side by side in memory: of one texel that nobody has asked for yet these
+// arrive together, and a candidate's neighbours, which come next, with them. Waiting for memory is most of what a candidate costs.
+class TexelRecords {
+ public:
+  struct Record {
+    const std::uint32_t* words = nullptr;
+    const std::uint8_t* bytes() const { return reinterpret_cast<const std::uint8_t*>(words); }
+    std::uint32_t uses() const { return words[0]; }  // pixels that copy this texel
+    std::uint8_t bin() const { return bytes()[4]; }
+    Surroundings around() const { return {bytes()[5], bytes()[6]}; }
+    const std::uint8_t* guides() const { return bytes() + guides_from; }  // eight may be read, however few there are
+  };
+
+  TexelRecords() = default;
+  // `around` may be empty. All uses are 0.
+  TexelRecords(const Plane& exemplars, const std::vector<std::uint8_t>& bins, const std::vector<Surroundings>& around);
+
+  Record at(std::uint32_t texel) const { return {words_.data() + static_cast<std::size_t>(texel) * record_words_}; }
+  std::uint32_t& uses(std::uint32_t texel) { return words_[static_cast<std::size_t>(texel) * record_words_]; }
+  const std::uint32_t* data() const { return words_.data(); }
+  std::size_t record_words() const { return record_words_; }
+  void forget_uses();
+  bool operator==(const TexelRecords&) const = default;
+
+ private:
+  static constexpr std::size_t guides_from = 7;  // one guide ends with the record's second word; more take up further pairs of words
+
+  std::size_t record_words_ = 2;
+  std::vector<std::uint32_t> words_;
+};
+
+}  // namespace belvedere::synth

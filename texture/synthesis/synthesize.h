@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/progress.h"
+#include "texture/synthesis/exemplar.h"
+#include "texture/synthesis/guide_stack.h"
+#include "texture/synthesis/match_field.h"
+
+namespace belvedere {
+
+struct SynthesisParameters {
+  std::uint64_t seed = 1;
+  int levels = 6;                                       // 1…8, fewer where the smallest side would fall under 16
+  std::vector<std::pair<std::string, double>> weights;  // by guide name; absent: 1; 0 switches a guide off; 0…100
+  std::map<std::uint8_t, std::uint8_t> fallback;        // class → class to copy from where no exemplar has any texel of it
+  double reuse = 1.0;                                   // strength of the reuse penalty, 0…10
+  int copy_cap = 240;                                   // largest piece copied in one, texels at level 0; 16…100000; never exceeded
+  // How much the classes around a pixel count (T08: squared differences of class counts over 17 × 17 pixels), 0…100.
+  double surroundings = 1.0;
+  // How unlike two classes are as surroundings, 0 (one is as good as the other) … 1, by pair of labels in either order; absent: 1.
+  std::map<std::pair<std::uint8_t, std::uint8_t>, double> unlikeness;
+  int tile = 0;  // side of the tiles worked on at a time, 0 (whole rows) or even; changes no bit of the result
+};
+
+// Guided texture synthesis (design section 8, synthesis/recipe.md): the match field of the target. Label-filtered coherent
+// candidates and picks by guides, coarse to fine, integer costs, double-buffered parity passes: the same for any threads and tiles.
+//
+// Guides are paired by name; one that any exemplar or the target lacks is unused, and progress.note says so once. The strongest
+// two order the lists that picks come from (synth_lists.h): give the guides that must be met exactly the largest weights.
+// A class without texels takes its fallback, or Match::none; a note says which. Pixels labelled 255 get Match::none.
+// Where the target has depths, patches end at a jump of more than 4 % from one pixel to the next, and no two neighbours across one copy by
+// the same offset. No piece is larger than copy_cap. Where reuse is priced, no texel is used more than 6 + 3 × (pixels per texel of its
+// class) times, as far as a dozen rounds of moving pixels can bring that about.
+//
+// Throws Error(usage) where there is no exemplar, sizes disagree or a parameter is out of range; Error(limit) for more than 2^31
+// pixels or texels together or an exemplar over 32767 texels on a side.
+MatchField synthesize(const std::vector<Exemplar>& exemplars, const GuideStack& target, const SynthesisParameters& parameters,
+                      Progress& progress);
+
+// Memory that synthesize needs beyond its arguments, its result included, bytes; an upper bound for checks before the work.
+std::size_t synthesis_bytes(std::size_t texels, std::size_t pixels, int guides, bool with_depth);
+
+}  // namespace belvedere

@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "base/json.h"
+#include "base/parallel.h"
+#include "renderer/pipeline/scene_check.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/scene_options.h"
+#include "tools/cli/terminal.h"
+
+namespace belvedere::tools {
+namespace {
+
+std::string as_json(const LoadedScene& scene, const SceneReport& report) {
+  Json inputs = Json::array();
+  for (const SceneInput& input : report.inputs)
+    inputs.add(Json::object()
+                   .add("key", Json::text(input.key))
+                   .add("file", Json::text(input.file))
+                   .add("found", Json::boolean(!input.path.empty()))
+                   .add("origin", Json::text(input.origin))
+                   .add("licence", Json::text(input.licence)));
+  Json classes = Json::object();
+  for (const auto& [id, share] : report.classes) classes.add(class_name(id), Json::number(share));
+  Json areas = Json::object();
+  for (const ClassArea& area : report.land_cover)
+    areas.add(class_name(area.id), Json::object()
+                                       .add("before_m2", Json::number(area.before_m2))
+                                       .add("after_m2", Json::number(area.after_m2))
+                                       .add("patches_before", Json::number(area.patches_before))
+                                       .add("patches_after", Json::number(area.patches_after)));
+  const CameraParameters& camera = report.view.camera;
+  return Json::object()
+             .add("scene", Json::text(scene.name))
+             .add("valid", Json::boolean(true))
+             .add("inputs", std::move(inputs))
+             .add("crs", Json::text(report.crs))
+             .add("cells", Json::array({Json::number(report.cells_wide), Json::number(report.cells_high)}))
+             .add("cell_m", Json::number(report.cell_m))
+             .add("eye", Json::array({Json::number(camera.eye.x), Json::number(camera.eye.y), Json::number(camera.eye.z)}))
+             .add("azimuth_deg", Json::number(camera.azimuth_deg))
+             .add("pitch_deg", Json::number(camera.pitch_deg))
+             .add("sun_azimuth_deg", Json::number(report.view.sun.azimuth_deg))
+             .add("sun_altitude_deg", Json::number(report.view.sun.altitude_deg))
+             .add("classes", std::move(classes))
+             .add("land_cover", std::move(areas))
+             .add("exemplars", Json::texts(report.exemplars))
+             .str() +
+         "\n";
+}
+
+std::string as_text(const LoadedScene& scene, const SceneReport& report) {
+  std::string out;
+  for (const SceneInput& input : report.inputs)
+    out += fmt::format("{} {}{}\n", input.path.empty() ? "left out:" : "found:", input.file,
+                       input.origin.empty() ? "" : " (" + input.origin + ")");
+  const CameraParameters& camera = report.view.camera;
+  out += fmt::format("terrain: {} × {} cells of {:.4g} m, {}\n", report.cells_wide, report.cells_high, report.cell_m, report.crs);
+  out += fmt::format("camera: E {:.0f} N {:.0f}, {:.0f} m; looks to {:.1f}°, pitch {:.1f}°\n", camera.eye.x, camera.eye.y, camera.eye.z,
+                     camera.azimuth_deg, camera.pitch_deg);
+  out += fmt::format("sun: azimuth {:.1f}°, {:.1f}° high\n", report.view.sun.azimuth_deg, report.view.sun.altitude_deg);
+  for (const ClassArea& area : report.land_cover)
+    out += fmt::format("land cover: {} {:.2f} km² in {} patches, {:.2f} km² in {} before small ones were taken out\n", class_name(area.id),
+                       area.after_m2 / 1e6, area.patches_after, area.before_m2 / 1e6, area.patches_before);
+  out += "in the picture:";
+  for (const auto& [id, share] : report.classes) out += fmt::format(" {} {:.1f} %,", class_name(id), 100.0 * share);
+  out.back() = '\n';
+  for (const std::string& exemplar : report.exemplars) out += "painted after: " + exemplar + "\n";
+  return out + scene.name + " is in order\n";
+}
+
+}  // namespace
+
+Command add_check(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("check", "Says whether a scene can be rendered, without rendering it");
+  const auto options = std::make_shared<SceneOptions>();
+  add_scene_options(*command, *options);
+  command->footer(
+      "Looks at the scene's keys, its files, the terrain, the camera's place, and whether the exemplars\n"
+      "show every class that is in the picture. Exit status 0: in order.\n\n"
+      "  belvedere check scenes/karwendel.toml --data ../data");
+  return {command, [options] {
+            const LoadedScene scene = load(*options);
+            const ThreadLimit threads(options->threads);
+            TerminalProgress progress(options->quiet);
+            const SceneReport report = check_scene(scene, progress);
+            progress.end();
+            print_out(options->json ? as_json(scene, report) : as_text(scene, report));
+            return 0;
+          }};
+}
+
+}  // namespace belvedere::tools

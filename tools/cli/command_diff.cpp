@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "base/json.h"
+#include "renderer/image/picture_diff.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/terminal.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  std::string a;
+  std::string b;
+  std::optional<double> max_mean;
+  std::optional<double> max_max;
+  bool json = false;
+};
+
+// Without any limit the pictures must be equal; with one, the other does not hold.
+DifferenceLimits limits_of(const Options& options) {
+  if (!options.max_mean && !options.max_max) return {};
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
+  return {.mean = options.max_mean.value_or(unlimited), .max = options.max_max.value_or(unlimited)};
+}
+
+std::string as_json(const PictureDifference& difference, bool same) {
+  Json channels = Json::array();
+  for (const ChannelDifference& c : difference.channels)
+    channels.add(Json::object()
+                     .add("name", Json::text(c.name))
+                     .add("ids", Json::boolean(c.is_id))
+                     .add("mean", Json::number(c.mean))
+                     .add("max", Json::number(c.max))
+                     .add("rms", Json::number(c.rms))
+                     .add("differing_share", Json::number(c.differing_share)));
+  return Json::object()
+             .add("same", Json::boolean(same))
+             .add("width", Json::number(difference.width))
+             .add("height", Json::number(difference.height))
+             .add("mismatches", Json::texts(difference.mismatches))
+             .add("channels", std::move(channels))
+             .str() +
+         "\n";
+}
+
+std::string as_text(const PictureDifference& difference, bool same) {
+  std::string out;
+  for (const std::string& mismatch : difference.mismatches) out += mismatch + "\n";
+  if (!difference.channels.empty())
+    out += fmt::format("{:<14} {:>11} {:>11} {:>11} {:>14}\n", "channel", "mean", "max", "rms", "pixels differ");
+  for (const ChannelDifference& c : difference.channels)
+    out += fmt::format("{:<14} {:>11.4g} {:>11.4g} {:>11.4g} {:>13.4f}%\n", c.name, c.mean, c.max, c.rms, 100.0 * c.differing_share);
+  return out + (same ? "same\n" : "different\n");
+}
+
+}  // namespace
+
+Command add_diff(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("diff", "Compares two pictures or guidance files, with thresholds");
+  const auto options = std::make_shared<Options>();
+  command->add_option("A", options->a, "A picture: OpenEXR, TIFF, PNG or JPEG")->required();
+  command->add_option("B", options->b, "Another of the same size")->required();
+  command->add_option("--max-mean", options->max_mean, "Largest mean difference of any channel that still counts as the same")
+      ->type_name("X")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--max-max", options->max_max, "Largest difference of any single pixel that still counts as the same")
+      ->type_name("X")
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--json", options->json, "As JSON");
+  command->footer(
+      "Exit status 0: the same within the thresholds (without any: equal in every pixel); 1: different.\n"
+      "Values are 0…1 in PNG, TIFF and JPEG, and as they stand in OpenEXR. Class numbers are equal or not:\n"
+      "for them --max-mean is the share of pixels that may differ, and --max-max does not hold.\n\n"
+      "  belvedere diff before/panorama.png after/panorama.png --max-mean 0.002");
+  return {command, [options] {
+            const PictureDifference difference = compare_pictures(options->a, options->b);
+            const bool same = is_same(difference, limits_of(*options));
+            print_out(options->json ? as_json(difference, same) : as_text(difference, same));
+            return same ? 0 : 1;
+          }};
+}
+
+}  // namespace belvedere::tools

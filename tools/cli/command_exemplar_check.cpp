@@ -1,0 +1,203 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <tuple>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "renderer/pipeline/scene_check.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/scene_options.h"
+#include "tools/cli/synthesis_files.h"
+#include "tools/cli/terminal.h"
+#include "tools/report/exemplar_report_page.h"
+#include "tools/report/exemplar_verdict.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  SceneOptions scene;
+  std::vector<std::string> pictures;
+  std::vector<std::string> labels;
+  std::vector<std::tuple<std::string, std::string>> guides;
+  std::string target;
+  std::vector<std::tuple<std::string, std::string>> target_guides;
+  std::vector<std::pair<int, int>> fallback;
+  std::string report;
+};
+
+// What is looked at, wherever it comes from.
+struct Subject {
+  std::vector<Exemplar> exemplars;
+  GuideStack target;            // no labels: not known
+  double pixels_of_target = 1;  // that each pixel of `target` stands for
+  int altitude_reach = 4;       // steps within which a texel has a pixel's altitude
+  std::map<std::uint8_t, std::uint8_t> fallback;
+};
+
+void check_scene_or_files(const Options& options) {
+  const bool of_files = !options.pictures.empty();
+  const bool more = !options.labels.empty() || !options.guides.empty() || !options.target.empty() || !options.target_guides.empty();
+  if (!of_files && more) throw Error(ErrorKind::usage, "command line", "there is no --picture", "at least one, or a scene");
+  for (const char* ending : {".png", ".tif", ".tiff", ".jpg", ".jpeg", ".exr"})
+    if (ending_of(options.scene.scene) == ending)
+      throw Error(ErrorKind::usage, options.scene.scene, "is a picture, and no scene",
+                  "a scene file, or --picture " + options.scene.scene + " with --label");
+  if (of_files && !options.scene.scene.empty())
+    throw Error(ErrorKind::usage, "command line", "there is a scene, and there are files of a painting besides",
+                "either a scene, or --picture with --label");
+}
+
+Subject from_files(const Options& options) {
+  SynthesisFiles files;
+  files.pictures = options.pictures;
+  for (const std::string& label : options.labels) files.labels.emplace_back(label, options.target);
+  for (const auto& [name, source] : options.guides) {
+    std::string target;
+    for (const auto& [target_name, file] : options.target_guides)
+      if (target_name == name) target = file;
+    files.guides.push_back({name, source, target, 1.0});
+  }
+  for (const auto& [name, file] : options.target_guides) {
+    if (options.target.empty())
+      throw Error(ErrorKind::usage, "command line", fmt::format("there is --target-guide {} and no --target", name), "--target LABELS");
+    if (std::none_of(files.guides.begin(), files.guides.end(), [&, wanted = name](const GuidePair& guide) { return guide.name == wanted; }))
+      throw Error(ErrorKind::usage, "command line", fmt::format("there is --target-guide {} and no --guide {}", name, name),
+                  "the same guide of the painting");
+  }
+  SynthesisInputs inputs = read_synthesis(files);
+  Subject subject;
+  subject.exemplars = std::move(inputs.exemplars);
+  subject.target = std::move(inputs.target);
+  for (const auto& [from, to] : options.fallback) subject.fallback[to_label("--fallback", from)] = to_label("--fallback", to);
+  return subject;
+}
+
+Subject from_scene(const Options& options, Progress& progress) {
+  const LoadedScene scene = load(options.scene);
+  SceneExemplars found = look_at_exemplars(scene, progress);
+  Subject subject;
+  subject.target = std::move(found.view);
+  subject.pixels_of_target = found.pixels_of_picture;
+  for (const auto& [from, to] : scene.scene.synthesis.fallback)
+    subject.fallback[static_cast<std::uint8_t>(from)] = static_cast<std::uint8_t>(to);
+  for (PaintedExemplar& painted : found.exemplars) {
+    Exemplar exemplar = std::move(painted.exemplar);
+    exemplar.picture = to_rgb8(painted.picture);  // the painting itself, not what seams are judged by
+    subject.exemplars.push_back(std::move(exemplar));
+  }
+  return subject;
+}
+
+// What the target asks of the classes that pixels copy from.
+void ask(const Subject& subject, GuideStack& asked, ExemplarFindings& findings) {
+  findings.target_known = !subject.target.label.empty();
+  if (!findings.target_known) return;
+  asked.label = serving_labels(subject.exemplars, subject.target.label, subject.fallback);
+  bool altitude = asked.find("altitude") != nullptr;
+  for (const Exemplar& exemplar : subject.exemplars) altitude = altitude && exemplar.guides.find("altitude") != nullptr;
+  const auto scaled = [&](std::size_t pixels) { return static_cast<double>(pixels) * subject.pixels_of_target; };
+  for (ClassSupply supply : class_supply(subject.exemplars, subject.target.label, subject.fallback)) {
+    supply.pixels = static_cast<std::size_t>(std::llround(scaled(supply.pixels)));
+    findings.demands.push_back(
+        {supply, altitude ? covered_share(subject.exemplars, asked, supply.label, "altitude", subject.altitude_reach) : -1.0});
+  }
+  std::array<std::size_t, 256> without{};
+  for (std::size_t i = 0; i < asked.label.size(); ++i)
+    if (asked.label[i] == unused_label) ++without[subject.target.label[i]];
+  for (std::size_t label = 0; label < unused_label; ++label)
+    if (without[label] > 0) findings.missing.emplace_back(static_cast<std::uint8_t>(label), std::round(scaled(without[label])));
+}
+
+// As it would be typed, without folders.
+std::string describe_command(const Options& options) {
+  const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+  std::string out = "belvedere exemplar check";
+  if (!options.scene.scene.empty()) out += " " + name(options.scene.scene);
+  for (const std::string& setting : options.scene.files.settings) out += " --set " + setting;
+  for (std::size_t i = 0; i < options.pictures.size(); ++i)
+    out += fmt::format(" --picture {} --label {}", name(options.pictures[i]), name(options.labels[i]));
+  for (const auto& [guide, file] : options.guides) out += fmt::format(" --guide {} {}", guide, name(file));
+  if (!options.target.empty()) out += " --target " + name(options.target);
+  for (const auto& [guide, file] : options.target_guides) out += fmt::format(" --target-guide {} {}", guide, name(file));
+  for (const auto& [from, to] : options.fallback) out += fmt::format(" --fallback {} {}", from, to);
+  return out;
+}
+
+int run(const Options& options) {
+  const bool of_files = !options.pictures.empty();
+  check_scene_or_files(options);
+
+  if (!options.report.empty()) check_output_folder(options.report);
+  if (options.scene.memory_mib > 0) setenv("BELVEDERE_MEMORY_MIB", std::to_string(options.scene.memory_mib).c_str(), 1);
+  const ThreadLimit threads(options.scene.threads);
+  TerminalProgress progress(options.scene.quiet);
+  if (of_files) progress.begin("reading", 0.0);
+  const Subject subject = of_files ? from_files(options) : from_scene(options, progress);
+  progress.begin("measuring", static_cast<double>(subject.exemplars.size()));
+  ExemplarFindings findings;
+  for (const Exemplar& exemplar : subject.exemplars) {
+    findings.paintings.push_back({exemplar.name, exemplar.picture.width(), exemplar.picture.height(), survey_exemplar(exemplar)});
+    progress.advance(1.0);
+  }
+  if (of_files) {
+    findings.name = [](std::uint8_t label) { return fmt::format("class {}", label); };
+    findings.value = [](const std::string&, int value) { return fmt::format("{}", value); };
+  } else {
+    findings.name = [](std::uint8_t label) {
+      return label < land_cover_class_count ? std::string(class_name(static_cast<LandCoverClass>(label))) : fmt::format("class {}", label);
+    };
+    findings.value = [](const std::string& guide, int value) {
+      return guide == "altitude" ? fmt::format("{} m", 20 * value) : fmt::format("{}", value);  // steps of make_guide_stack
+    };
+  }
+  GuideStack asked = subject.target;
+  ask(subject, asked, findings);
+  if (!options.report.empty()) write_exemplar_report(options.report, subject.exemplars, asked, findings, describe_command(options));
+  progress.end();
+  print_out(options.scene.json ? findings_json(findings) : findings_text(findings));
+  return 0;
+}
+
+}  // namespace
+
+Command add_exemplar_check(CLI::App& program) {
+  CLI::App* command =
+      exemplar_commands(program).add_subcommand("check", "Tells what a painting can serve before anything is copied from it");
+  const auto options = std::make_shared<Options>();
+  add_scene_options(*command, options->scene);
+  command->add_option("--picture", options->pictures, "Instead of a scene: a painting (PNG, TIFF, JPEG); may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command->add_option("--label", options->labels, "Its label image: grey, one number a class, 255 is never used; one for each --picture")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command->add_option("--guide", options->guides, "A guide of it: name (altitude is judged) and grey image; may be repeated")
+      ->type_name("NAME FILE")
+      ->allow_extra_args(false);
+  command->add_option("--target", options->target, "Label image of the picture to be made: is there enough for it?")->type_name("FILE");
+  command->add_option("--target-guide", options->target_guides, "A guide of the picture to be made")
+      ->type_name("NAME FILE")
+      ->allow_extra_args(false);
+  command->add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
+      ->type_name("LABEL LABEL")
+      ->allow_extra_args(false);
+  command->add_option("--report", options->report, "Also a folder with index.html: the paintings, a swatch of each class, coverage charts")
+      ->type_name("DIR");
+  command->footer(
+      "Of each class: how many texels it has and how many of them lie well inside, how many pixels they serve\n"
+      "before strokes repeat, how sharp its paint is and how long its strokes are, at which altitudes it was\n"
+      "painted, and whether left and right were painted alike (0 … 2; chance is what random halves differ by).\n\n"
+      "  belvedere exemplar check scenes/karwendel.toml --data ../data\n"
+      "  belvedere exemplar check --picture style.png --label style_class.png --guide altitude style_alt.png \\\n"
+      "    --target target_class.png --target-guide altitude target_alt.png");
+  return {command, [options] { return run(*options); }};
+}
+
+}  // namespace belvedere::tools

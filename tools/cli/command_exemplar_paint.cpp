@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "base/error.h"
+#include "base/json.h"
+#include "renderer/exemplar/exemplar_files.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/scene_options.h"
+#include "tools/cli/terminal.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  SceneOptions scene;
+  std::string plan;
+  std::string out;
+  std::optional<std::string> season;
+  std::optional<int> size;
+  std::optional<double> dots_per_inch;
+  std::optional<std::uint64_t> seed;
+  int tile_size = 32;
+};
+
+void refuse_sheet_options(const Options& options) {
+  const char* given = nullptr;
+  if (options.size) given = "--size";
+  if (options.dots_per_inch) given = "--dpi";
+  if (!options.plan.empty()) given = "--plan";
+  if (given != nullptr)
+    throw Error(ErrorKind::usage, given, "it belongs to a sheet, and a scene is painted here",
+                "--set output.width=…, output.height and output.sheet_width_mm");
+}
+
+Coverage paint_scene(const Options& options, const RenderOptions& render, Progress& progress) {
+  refuse_sheet_options(options);
+  SceneOptions wish = options.scene;
+  if (options.season) wish.files.settings.push_back("palette=" + *options.season);
+  if (options.seed) wish.files.settings.push_back(fmt::format("seed={}", *options.seed));
+  return write_scene_exemplar(load(wish), render, progress);
+}
+
+Coverage paint_sheet_of(const Options& options, const RenderOptions& render, Progress& progress) {
+  if (!options.scene.files.settings.empty())
+    throw Error(ErrorKind::usage, "--set", "it changes a scene, and a sheet has none", "--plan with a sheet.toml of your own");
+  SheetPlan plan = options.plan.empty() ? built_in_sheet_plan() : read_sheet_plan(options.plan);
+  if (options.season) plan.palette = *options.season;
+  if (options.size) plan.width = plan.height = *options.size;
+  if (options.dots_per_inch) plan.dots_per_inch = *options.dots_per_inch;
+  if (options.seed) plan.seed = *options.seed;
+  return write_sheet_exemplar(plan, render, progress);
+}
+
+int run(const Options& options) {
+  const bool sheet = options.scene.scene.empty();
+  limit_memory(options.scene);
+  TerminalProgress progress(options.scene.quiet);
+  const RenderOptions render{.out_folder = options.out, .threads = options.scene.threads, .tile_size = options.tile_size};
+  const Coverage coverage = sheet ? paint_sheet_of(options, render, progress) : paint_scene(options, render, progress);
+  progress.end();
+
+  const std::vector<CoverageGap> gaps = find_gaps(coverage, built_in_demand(), {});
+  if (options.scene.json) {
+    print_out(coverage_json(coverage, gaps));
+  } else if (!options.scene.quiet) {
+    // What one view lacks is no fault of it: only a sheet is meant to have everything.
+    print_out(coverage_text(coverage, sheet ? gaps : std::vector<CoverageGap>{}, sheet));
+    for (const char* name :
+         {"painting.tif", "ground.tif", "painting.png", "guidance.exr", sheet ? "sheet.toml" : "scene.toml", "coverage.json"})
+      print_out((std::filesystem::path(options.out) / name).string() + "\n");
+  }
+  return 0;
+}
+
+}  // namespace
+
+Command add_exemplar_paint(CLI::App& program) {
+  CLI::App* command = exemplar_commands(program).add_subcommand(
+      "paint", "Paints an example for synthesis to copy: a sheet with everything on it, or a scene's view in strokes alone");
+  const auto options = std::make_shared<Options>();
+  add_scene_options(*command, options->scene, "A scene whose view is painted; without one a sheet of made-up views");
+  command->add_option("--out", options->out, "Folder for the results; made where it is missing")->type_name("DIR")->required();
+  command->add_option("--season", options->season, "Palette: summer, autumn, winter, desert or a .toml file; of a sheet summer by default")
+      ->type_name("PALETTE");
+  command->add_option("--size", options->size, "Side of the sheet in pixels; 4096 by default")
+      ->type_name("PX")
+      ->check(CLI::Range(256, 16384));
+  command
+      ->add_option("--dpi", options->dots_per_inch,
+                   "Resolution the sheet's strokes are sized for: that of the panorama that shall copy them; 50.8 by default")
+      ->type_name("DPI")
+      ->check(CLI::Range(5.0, 2540.0));
+  command->add_option("--seed", options->seed, "Another number gives other mountains and strokes")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{0}, SheetPlan::largest_seed));
+  command->add_option("--plan", options->plan, "A sheet.toml: paints that sheet instead of the built-in one")->type_name("FILE");
+  command->add_option("--tile", options->tile_size, "Side of the tiles that threads work on, in pixels. Changes no pixel")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(8, 4096));
+  command->footer(
+      "Writes painting.tif, ground.tif (without trees and houses), painting.png, guidance.exr, sheet.toml or\n"
+      "scene.toml (what made it) and coverage.json (what there is to copy). A scene copies it with\n"
+      "[[exemplar]] picture = \"ground.tif\", guidance = \"guidance.exr\".\n\n"
+      "  belvedere exemplar paint --season autumn --out sheet\n"
+      "  belvedere exemplar paint scenes/karwendel.toml --data ../data --out karwendel_strokes");
+  return {command, [options] { return run(*options); }};
+}
+
+}  // namespace belvedere::tools

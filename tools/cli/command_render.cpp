@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "base/json.h"
+#include "renderer/pipeline/pipeline.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/scene_options.h"
+#include "tools/cli/terminal.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  SceneOptions scene;
+  std::string out;
+  int tile_size = 32;
+};
+
+using Job = void (*)(const LoadedScene&, const RenderOptions&, Progress&);
+
+int run_job(const Options& options, Job job, const std::vector<std::string>& results) {
+  const LoadedScene scene = load(options.scene);
+  const std::string folder = options.out.empty() ? scene.name : options.out;
+  TerminalProgress progress(options.scene.quiet);
+  job(scene, {.out_folder = folder, .threads = options.scene.threads, .tile_size = options.tile_size}, progress);
+  progress.end();
+
+  std::vector<std::string> paths;
+  paths.reserve(results.size());
+  for (const std::string& name : results) paths.push_back((std::filesystem::path(folder) / name).string());
+  if (options.scene.json) {
+    Json files = Json::array();
+    for (const std::string& path : paths)
+      files.add(Json::object().add("path", Json::text(path)).add("bytes", Json::raw(fmt::format("{}", std::filesystem::file_size(path)))));
+    print_out(Json::object()
+                  .add("scene", Json::text(scene.name))
+                  .add("width", Json::number(scene.scene.output.width))
+                  .add("height", Json::number(scene.scene.output.height))
+                  .add("files", std::move(files))
+                  .str() +
+              "\n");
+  } else if (!options.scene.quiet) {
+    for (const std::string& path : paths) print_out(path + "\n");
+  }
+  return 0;
+}
+
+Command add_job(CLI::App& program, const char* name, const char* meaning, const char* footer, Job job, std::vector<std::string> results) {
+  CLI::App* command = program.add_subcommand(name, meaning);
+  const auto options = std::make_shared<Options>();
+  add_scene_options(*command, options->scene);
+  command->add_option("--out", options->out, "Folder for the results; made where it is missing. Default: one named like the scene")
+      ->type_name("DIR");
+  command->add_option("--tile", options->tile_size, "Side of the tiles that threads work on, in pixels. Changes no pixel")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(8, 4096));
+  command->footer(footer);
+  return {command, [options, job, results = std::move(results)] { return run_job(*options, job, results); }};
+}
+
+}  // namespace
+
+Command add_render(CLI::App& program) {
+  return add_job(program, "render", "Renders a scene: panorama.tif for print, .png for screens, .exr for further work",
+                 "Writes panorama.tif (16 bit, with profile and resolution), panorama.png, panorama.exr (scene-linear)\n"
+                 "and guidance.exr (depth, classes, light … of every pixel).\n\n"
+                 "  belvedere render scenes/karwendel.toml --data ../data --out karwendel\n"
+                 "  belvedere render scenes/karwendel.toml --data ../data --set output.width=1200 --set output.height=550",
+                 render, {"panorama.tif", "panorama.png", "panorama.exr", "guidance.exr"});
+}
+
+Command add_guidance(CLI::App& program) {
+  return add_job(program, "guidance", "Makes only guidance.exr: depth, classes, light … of every pixel, for other tools",
+                 "The channels and their units are described in the header: belvedere info guidance.exr\n\n"
+                 "  belvedere guidance scenes/karwendel.toml --data ../data --out karwendel",
+                 render_guidance, {"guidance.exr"});
+}
+
+}  // namespace belvedere::tools

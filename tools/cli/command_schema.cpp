@@ -1,0 +1,23 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "renderer/scene/scene_file.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/terminal.h"
+
+namespace belvedere::tools {
+
+Command add_schema(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("schema", "Prints what a scene file may say, for editors or for reading");
+  const auto markdown = std::make_shared<bool>(false);
+  command->add_flag("--markdown", *markdown, "As a reference in Markdown instead of a JSON Schema (draft 4)");
+  command->footer(
+      "  belvedere schema > scene.schema.json     editors then complete keys and check values\n"
+      "  belvedere schema --markdown | less");
+  return {command, [markdown] {
+            print_out(*markdown ? scene_reference() : scene_json_schema());
+            return 0;
+          }};
+}
+
+}  // namespace belvedere::tools

@@ -1,0 +1,327 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <tuple>
+
+#include "base/error.h"
+#include "base/json.h"
+#include "base/parallel.h"
+#include "renderer/image/provenance.h"
+#include "texture/synthesis/class_supply.h"
+#include "texture/synthesis/synthesize.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/synthesis_files.h"
+#include "tools/cli/synthesis_sweep.h"
+#include "tools/cli/synthesize_replay.h"
+#include "tools/cli/terminal.h"
+#include "tools/report/synthesis_report_page.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  SynthesisFiles files;
+  std::vector<std::tuple<std::string, std::string, std::string, double>> guides;
+  std::vector<std::pair<int, int>> fallback;
+  std::string out;
+  std::string match;
+  std::string replay;
+  std::string report;
+  std::vector<std::string> sweeps;
+  SynthesisParameters parameters;
+  int threads = 0;
+  int memory_mib = 0;
+  bool quiet = false;
+  bool json = false;
+};
+
+void check_result_name(const std::string& path) {
+  const std::string ending = ending_of(path);
+  if (ending != ".png" && ending != ".tif" && ending != ".tiff")
+    throw Error(ErrorKind::usage, "--out " + path, "is no name of a picture the program writes", ".png (8 bit) or .tif (16 bit)");
+}
+
+// Without folders: the same files give the same header wherever they lie.
+FileNotes make_notes(const Options& options) {
+  std::map<std::string, std::string> inputs;
+  const auto add = [&](const std::string& path) { inputs[std::filesystem::path(path).filename().string()] = path; };
+  for (const std::string& picture : options.files.pictures) add(picture);
+  for (const auto& [source, target] : options.files.labels) {
+    add(source);
+    add(target);
+  }
+  for (const std::string& mask : options.files.exclusions)
+    if (mask != "-") add(mask);
+  for (const GuidePair& guide : options.files.guides) {
+    add(guide.source);
+    add(guide.target);
+  }
+  FileNotes notes = to_notes(make_provenance("", inputs));
+  std::string weights;
+  for (const GuidePair& guide : options.files.guides) weights += fmt::format(" {} {}", guide.name, guide.weight);
+  notes["belvedere:synthesis"] = fmt::format(
+      "seed {} levels {} reuse {} copy_cap {} surroundings {} harmonize {} weights{}", options.parameters.seed, options.parameters.levels,
+      options.parameters.reuse, options.parameters.copy_cap, options.parameters.surroundings, options.files.harmonize, weights);
+  return notes;
+}
+
+std::vector<MatchedPicture> matched_pictures(const SynthesisInputs& inputs) {
+  std::vector<MatchedPicture> pictures;
+  for (const Exemplar& exemplar : inputs.exemplars)
+    pictures.push_back({exemplar.name, exemplar.picture.width(), exemplar.picture.height()});
+  return pictures;
+}
+
+std::string class_name_of(std::uint8_t label) { return fmt::format("class {}", label); }
+
+// What was asked for as it would be typed, without folders: the same on every machine.
+std::string describe_command(const Options& options) {
+  const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+  std::string out = "belvedere synthesize";
+  for (std::size_t i = 0; i < options.files.pictures.size(); ++i)
+    out += fmt::format(" --picture {} --label {} {}", name(options.files.pictures[i]), name(options.files.labels[i].first),
+                       name(options.files.labels[i].second));
+  for (const GuidePair& guide : options.files.guides)
+    out += fmt::format(" --guide {} {} {} {}", guide.name, name(guide.source), name(guide.target), guide.weight);
+  for (const std::string& mask : options.files.exclusions) out += fmt::format(" --exclude {}", name(mask));
+  if (options.files.harmonize != "off") out += fmt::format(" --harmonize {}", options.files.harmonize);
+  for (const auto& [from, to] : options.fallback) out += fmt::format(" --fallback {} {}", from, to);
+  const SynthesisParameters& p = options.parameters;
+  return out + fmt::format(" --seed {} --levels {} --reuse {} --copy-cap {} --surroundings {} --out {}", p.seed, p.levels, p.reuse,
+                           p.copy_cap, p.surroundings, name(options.out));
+}
+
+// Messages and --fallback speak of labels by number.
+void note_colours(const std::vector<Rgb8>& colours, Progress& progress) {
+  std::string list;
+  for (std::size_t k = 0; k < colours.size(); ++k)
+    list += fmt::format("{} {} is #{:02x}{:02x}{:02x}", k == 0 ? "" : ",", k, colours[k][0], colours[k][1], colours[k][2]);
+  if (!list.empty()) progress.note("labels by colour:" + list);
+}
+
+void print_result(const Options& options, int width, int height, std::size_t empty, Progress& progress) {
+  if (empty > 0) progress.note(fmt::format("{} pixels stay black: nothing may be copied there", empty));
+  if (!options.json) return;
+  print_out(Json::object()
+                .add("out", Json::text(options.out))
+                .add("match", Json::text(options.match))
+                .add("width", Json::number(width))
+                .add("height", Json::number(height))
+                .add("pixels_without_texel", Json::number(static_cast<double>(empty)))
+                .str() +
+            "\n");
+}
+
+int run_replay(const Options& options) {
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  const ReplayResult result = replay_layers({options.replay, options.files.pictures, options.out}, progress);
+  print_result(options, result.width, result.height, result.without_texel, progress);
+  return 0;
+}
+
+int run_sweep(const Options& options, const SynthesisInputs& inputs, Progress& progress) {
+  std::vector<std::string> guides;
+  for (const Guide& guide : inputs.target.guides) guides.push_back(guide.name);
+  std::vector<SweepAxis> axes;
+  std::string command = describe_command(options);
+  for (const std::string& sweep : options.sweeps) {
+    axes.push_back(parse_sweep(sweep, guides));
+    command += " --sweep " + sweep;
+  }
+  if (axes.size() > 2) throw Error(ErrorKind::usage, "--sweep", fmt::format("stands {} times", axes.size()), "once or twice");
+  if (axes.size() == 2 && axes[0].name == axes[1].name)
+    throw Error(ErrorKind::usage, "--sweep", fmt::format("{} twice", axes[0].name), "two different ones");
+  const int count = write_sweep(options.out,
+                                {.title = std::filesystem::path(options.out).lexically_normal().filename().string(),
+                                 .command = command,
+                                 .axes = axes,
+                                 .exemplars = inputs.exemplars,
+                                 .target = inputs.target,
+                                 .parameters = options.parameters},
+                                progress);
+  if (options.json) print_out(Json::object().add("out", Json::text(options.out)).add("syntheses", Json::number(count)).str() + "\n");
+  return 0;
+}
+
+int run(Options& options) {
+  if (options.memory_mib > 0) setenv("BELVEDERE_MEMORY_MIB", std::to_string(options.memory_mib).c_str(), 1);
+  if (!options.replay.empty()) return run_replay(options);
+  if (options.sweeps.empty()) {
+    check_result_name(options.out);
+    check_place(options.out);
+  } else {
+    const std::string ending = ending_of(options.out);
+    if (ending == ".png" || ending == ".tif" || ending == ".tiff" || ending == ".exr" || ending == ".jpg")
+      throw Error(ErrorKind::usage, "--out " + options.out, "is no name of a folder", "with --sweep a folder for all results");
+    check_output_folder(options.out);
+  }
+  check_place(options.match);
+  if (!options.report.empty()) check_output_folder(options.report);
+  for (const auto& [name, source, target, weight] : options.guides) options.files.guides.push_back({name, source, target, weight});
+  for (const auto& [from, to] : options.fallback) {
+    if (from < 0 || from >= unused_label || to < 0 || to >= unused_label || from == to)
+      throw Error(ErrorKind::usage, fmt::format("--fallback {} {}", from, to), "is no pair of labels", "two different ones, 0 … 254");
+    options.parameters.fallback[static_cast<std::uint8_t>(from)] = static_cast<std::uint8_t>(to);
+  }
+
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  progress.begin("reading", 0.0);
+  SynthesisInputs inputs = read_synthesis(options.files);
+  options.parameters.weights = inputs.weights;
+  note_colours(inputs.label_colours, progress);
+  const FileNotes notes = make_notes(options);
+  const std::string scarcity =
+      describe_scarcity(class_supply(inputs.exemplars, inputs.target.label, options.parameters.fallback), class_name_of);
+  if (!scarcity.empty()) progress.note(scarcity);
+  if (!options.sweeps.empty()) return run_sweep(options, inputs, progress);
+  const MatchField matches = synthesize(inputs.exemplars, inputs.target, options.parameters, progress);
+
+  progress.begin("writing", 0.0);
+  std::vector<const Grid<glm::vec3>*> layers;
+  for (const Grid<glm::vec3>& picture : inputs.pictures) layers.push_back(&picture);
+  const Grid<glm::vec3> picture = replay(matches, layers, Grid<glm::vec3>());  // black where nothing could be copied
+  const PictureFileOptions file{.icc_profile = inputs.profile, .notes = notes};
+  if (ending_of(options.out) == ".png")
+    write_png8(options.out, picture, file);
+  else
+    write_tiff16(options.out, picture, file);
+  if (!options.match.empty()) write_matches(options.match, matches, matched_pictures(inputs), notes);
+  if (!options.report.empty())
+    write_synthesis_report(options.report,
+                           {.title = std::filesystem::path(options.out).filename().string(),
+                            .command = describe_command(options),
+                            .exemplars = inputs.exemplars,
+                            .target = inputs.target,
+                            .parameters = options.parameters,
+                            .matches = matches,
+                            .class_name = class_name_of},
+                           progress);
+  const auto empty = std::count_if(matches.begin(), matches.end(), [](const Match& m) { return m.exemplar == Match::none; });
+  print_result(options, picture.width(), picture.height(), static_cast<std::size_t>(empty), progress);
+  return 0;
+}
+
+}  // namespace
+
+namespace {
+
+// An option of several words takes the next option's name where one of its own is missing, and the message would be about something else.
+CLI::Validator no_option_among(const char* words) {
+  return CLI::Validator(
+      [words](const std::string& word) {
+        return word.starts_with("--") ? fmt::format("takes {}, and {} comes too early", words, word) : "";
+      },
+      "");
+}
+
+}  // namespace
+
+Command add_synthesize(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("synthesize", "Lays a painting's texture over a label map; works on image files alone");
+  const auto options = std::make_shared<Options>();
+  SynthesisParameters& parameters = options->parameters;
+  command->add_option("--picture", options->files.pictures, "The painting (PNG, TIFF, JPEG); may be repeated")
+      ->type_name("STYLE")
+      ->required()
+      ->allow_extra_args(false);
+  CLI::Option* label =
+      command
+          ->add_option(
+              "--label", options->files.labels,
+              "Label images of the painting and of the target: grey, one number a class, 255 is never used, or drawn in flat colours; "
+              "one for each --picture")
+          ->type_name("STYLE TARGET")
+          ->check(no_option_among("two files, of the painting and of the target"))
+          ->allow_extra_args(false);
+  CLI::Option* guide =
+      command
+          ->add_option("--guide", options->guides,
+                       "A further guide: name, grey image of the painting, of the target, and weight 0…100; may be repeated")
+          ->type_name("NAME STYLE TARGET WEIGHT")
+          ->check(no_option_among("a name, two files and a weight"))
+          ->allow_extra_args(false);
+  command->add_option("--out", options->out, "The result: .png (8 bit) or .tif (16 bit); with --replay also .exr")
+      ->type_name("FILE")
+      ->required();
+  CLI::Option* match =
+      command->add_option("--match", options->match, "Also where each pixel was copied from: OpenEXR with channels exemplar, x, y")
+          ->type_name("FILE");
+  CLI::Option* report =
+      command
+          ->add_option("--report", options->report,
+                       "Also a folder with index.html: how good the result is, where it comes from, what each guide costs, worst places")
+          ->type_name("DIR");
+  command
+      ->add_option(
+          "--exclude", options->files.exclusions,
+          "Grey image of the painting's size: what is not black is never copied (lettering, frames, figures); the first belongs to "
+          "the first --picture …, - is none")
+      ->type_name("MASK")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--harmonize", options->files.harmonize,
+                   "Brings the colours of several paintings together first, label by label: off, common, or like the first")
+      ->type_name("HOW")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"off", "common", "first"}));
+  command->add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
+      ->type_name("LABEL LABEL")
+      ->allow_extra_args(false);
+  command->add_option("--seed", parameters.seed, "Another number gives another result")->type_name("N")->capture_default_str();
+  command->add_option("--levels", parameters.levels, "Steps from coarse to fine")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 8));
+  command->add_option("--reuse", parameters.reuse, "How hard repetition is avoided")
+      ->type_name("X")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 10.0));
+  command->add_option("--copy-cap", parameters.copy_cap, "Largest piece copied whole, in pixels of area")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(16, 100000));
+  command->add_option("--surroundings", parameters.surroundings, "How much the classes around a place count")
+      ->type_name("X")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 100.0));
+  CLI::Option* replay =
+      command
+          ->add_option("--replay", options->replay,
+                       "Lays other layers of the same paintings, one --picture each, exactly where a --match file says; needs no labels")
+          ->type_name("MATCH")
+          ->excludes(label, guide, match, report);
+  command
+      ->add_option("--sweep", options->sweeps,
+                   "Tries several values of seed, levels, reuse, copy-cap, surroundings or of a guide's weight; --out is a folder then. "
+                   "Twice for two at once")
+      ->type_name("NAME=V,V…")
+      ->allow_extra_args(false)
+      ->excludes(match, report, replay);
+  command->add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096));
+  command->add_option("--memory", options->memory_mib, "Memory that pictures may take; 0, the default, is three quarters of the machine's")
+      ->type_name("MIB")
+      ->check(CLI::Range(0, 1 << 30));
+  command->add_flag("--quiet,-q", options->quiet, "No progress, no notes");
+  command->add_flag("--json", options->json, "The result as JSON on standard output");
+  command->footer(
+      "  belvedere synthesize --picture style.png --label style_class.png target_class.png \\\n"
+      "    --guide altitude style_alt.png target_alt.png 1.0 --out out.png --match match.exr\n\n"
+      "With several paintings, the first --label and the first --guide of a name belong to the first\n"
+      "--picture, the second to the second, and so on; they all name the same target.\n\n"
+      "  belvedere synthesize --replay match.exr --picture style_16bit.tif --out out_16bit.tif\n\n"
+      "lays another layer of the same painting (its 16-bit scan, its guidance.exr) with all its\n"
+      "bits; the layer has the painting's size.\n\n"
+      "  belvedere synthesize --picture style.png --label style_class.png target_class.png \\\n"
+      "    --guide altitude style_alt.png target_alt.png 1.0 --sweep altitude=0.3,1,3 --sweep reuse=0,1 --out sweep\n\n"
+      "puts six results beside each other: sweep/sheet.png, and their figures in sweep/index.html.");
+  return {command, [options] { return run(*options); }};
+}
+
+}  // namespace belvedere::tools

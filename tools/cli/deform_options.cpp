@@ -1,0 +1,149 @@
+#include "tools/cli/deform_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <filesystem>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/json.h"
+
+namespace belvedere::tools {
+namespace {
+
+// Independent of the locale.
+double parse_number(std::string_view text, const std::string& option) {
+  double value = 0.0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc() || end != text.data() + text.size())
+    throw Error(ErrorKind::usage, option, fmt::format("\"{}\"", text), "a number");
+  return value;
+}
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, at);)
+    if (!part.empty()) parts.push_back(part);
+  return parts;
+}
+
+// "10000:25,40000:12,80000:0": distance and inclination.
+void add_bend(const std::string& text, std::vector<std::string>& settings) {
+  int i = 0;
+  for (const std::string& point : split(text, ',')) {
+    const std::vector<std::string> parts = split(point, ':');
+    if (parts.size() != 2)
+      throw Error(ErrorKind::usage, "--bend", fmt::format("\"{}\"", point), "DISTANCE:INCLINATION, such as 10000:25,40000:12,80000:0");
+    settings.push_back(fmt::format("deform.bend.points.{}.distance_m={}", i, parse_number(parts[0], "--bend")));
+    settings.push_back(fmt::format("deform.bend.points.{}.inclination_deg={}", i++, parse_number(parts[1], "--bend")));
+  }
+}
+
+// "672000,5250000 radius=6000 core=2000 rotate=50 move=500,0 scale=1.1 raise=100"
+void add_handle(const std::string& text, std::size_t i, std::vector<std::string>& settings) {
+  const char* allowed = "\"E,N radius=M\", and as wanted core=M rotate=DEG move=E,N scale=F raise=M";
+  const std::vector<std::string> words = split(text, ' ');
+  if (words.empty()) throw Error(ErrorKind::usage, "--handle", "nothing", allowed);
+  const auto set = [&](const char* key, const std::string& value) {
+    settings.push_back(fmt::format("deform.handles.{}.{}={}", i, key, value));
+  };
+  const auto pair = [](const std::string& value) {
+    const glm::dvec2 p = parse_pair(value, "--handle");
+    return fmt::format("[{}, {}]", p.x, p.y);
+  };
+  set("position", pair(words[0]));
+  for (std::size_t k = 1; k < words.size(); ++k) {
+    const std::size_t equals = words[k].find('=');
+    const std::string key = words[k].substr(0, equals);
+    const std::string value = equals == std::string::npos ? "" : words[k].substr(equals + 1);
+    const auto number = [&] { return fmt::format("{}", parse_number(value, "--handle " + key)); };
+    if (key == "radius")
+      set("radius_m", number());
+    else if (key == "core")
+      set("core_m", number());
+    else if (key == "rotate")
+      set("rotate_deg", number());
+    else if (key == "scale")
+      set("scale", number());
+    else if (key == "raise")
+      set("raise_m", number());
+    else if (key == "move")
+      set("move_m", pair(value));
+    else
+      throw Error(ErrorKind::usage, "--handle", fmt::format("\"{}\"", words[k]), allowed);
+  }
+}
+
+}  // namespace
+
+void add_deform_options(CLI::App& command, DeformOptions& options) {
+  add_scene_options(command, options.scene);
+  command.get_option("SCENE")->description("A scene file, or a DEM (GeoTIFF, ESRI ASCII …); without one the built-in demo");
+  command.add_option("OUT", options.dem_out, "Writes the deformed ground as a DEM: GeoTIFF, or ESRI ASCII where it ends in .asc");
+  const auto one = [&](const char* name, std::string& value, const char* meaning, const char* type) {
+    command.add_option(name, value, meaning)->type_name(type);
+  };
+  const auto many = [&](const char* name, std::vector<std::string>& values, const char* meaning, const char* type) {
+    command.add_option(name, values, meaning)->type_name(type)->allow_extra_args(false);
+  };
+  one("--viewer", options.viewer, "Where distances count from, instead of the scene's camera", "E,N");
+  one("--exaggeration", options.exaggeration, "Vertical exaggeration", "FACTOR");
+  one("--bend", options.bend, "A bend through distances (m) and inclinations (degrees) of level ground", "M:DEG,M:DEG…");
+  many("--handle", options.handles,
+       "A piece of ground to move: \"E,N radius=M core=M rotate=DEG move=E,N scale=F raise=M\"; may be repeated", "HANDLE");
+  many("--locate", options.locate, "Says where in the picture a place lies, and whether it is seen; may be repeated", "E,N");
+  many("--at", options.at, "Says which place a pixel of the picture shows; may be repeated", "X,Y");
+  command.add_flag("--search-bend", options.search_bend, "Searches the bend that shows most valley floor, and prints its keys");
+  command.add_option("--max-distortion", options.max_distortion_deg, "With --search-bend: greatest tilt of level ground, degrees")
+      ->type_name("DEG")
+      ->capture_default_str();
+  command.add_option("--max-bending", options.max_bending_deg, "With --search-bend: greatest change of tilt, degrees in 10 km")
+      ->type_name("DEG")
+      ->capture_default_str();
+  command.add_option("--points", options.points, "With --search-bend: control points, 3 to 8")->type_name("N")->capture_default_str();
+  one("--out", options.picture, "With --search-bend: a small picture of the ground before (above) and after (below)", "FILE.png");
+}
+
+glm::dvec2 parse_pair(const std::string& text, const char* option) {
+  const std::vector<std::string> parts = split(text, ',');
+  if (parts.size() != 2) throw Error(ErrorKind::usage, option, fmt::format("\"{}\"", text), "two numbers with a comma between");
+  return {parse_number(parts[0], option), parse_number(parts[1], option)};
+}
+
+bool is_scene(const DeformOptions& options) { return options.scene.scene.empty() || options.scene.scene.ends_with(".toml"); }
+
+LoadedScene load(const DeformOptions& options) {
+  SceneOptions scene = options.scene;
+  std::vector<std::string> asked;
+  if (!options.exaggeration.empty())
+    asked.push_back(fmt::format("deform.exaggeration={}", parse_number(options.exaggeration, "--exaggeration")));
+  if (!options.bend.empty()) {
+    // Instead of the scene's own.
+    asked.insert(asked.end(), {"deform.bend.points=[]", "deform.bend.radius_m=0", "deform.bend.far_amount_per_m=0"});
+    add_bend(options.bend, asked);
+  }
+  if (!options.handles.empty()) asked.push_back("deform.handles=[]");
+  for (std::size_t i = 0; i < options.handles.size(); ++i) add_handle(options.handles[i], i, asked);
+  if (!options.viewer.empty()) {
+    const glm::dvec2 viewer = parse_pair(options.viewer, "--viewer");
+    asked.push_back(fmt::format("camera.position=[{}, {}]", viewer.x, viewer.y));
+  }
+  scene.files.settings.insert(scene.files.settings.begin(), asked.begin(), asked.end());
+  if (is_scene(options)) return load(scene);
+
+  const std::filesystem::path dem(scene.scene);
+  const std::string text = fmt::format("version = 1\n[[terrain.sources]]\nfile = {}\n", json_quoted(dem.filename().string()));
+  LoadedScene loaded = parse_scene(text, scene.scene, dem.parent_path().string(), scene.files);
+  const DeformParameters& ground = loaded.scene.deform.ground;
+  const bool by_distance = ground.bend.radius_m > 0.0 || ground.bend.far_amount_per_m > 0.0 || !ground.bend.points.empty() ||
+                           ground.earth_curvature || ground.background_exaggeration;
+  if (by_distance && !loaded.scene.camera.position && !loaded.scene.camera.position_lonlat)
+    throw Error(ErrorKind::usage, "command line", "no viewer for a deformation that goes by distance", "--viewer E,N");
+  if (!loaded.scene.camera.position && !loaded.scene.camera.position_lonlat) loaded.scene.camera.position = glm::dvec2(0.0);
+  return loaded;
+}
+
+}  // namespace belvedere::tools

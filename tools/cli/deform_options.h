@@ -1,0 +1,41 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/cli/scene_options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace belvedere::tools {
+
+// What `deform` is asked on the command line.
+struct DeformOptions {
+  SceneOptions scene;  // its `scene` is a scene file or a DEM
+  std::string dem_out;
+  std::string viewer;
+  std::string exaggeration;
+  std::string bend;
+  std::vector<std::string> handles;
+  std::vector<std::string> locate;
+  std::vector<std::string> at;
+  bool search_bend = false;
+  double max_distortion_deg = 20.0;
+  double max_bending_deg = 6.0;
+  int points = 5;
+  std::string picture;
+};
+void add_deform_options(CLI::App& command, DeformOptions& options);
+
+// "692000,5302000" to a pair. Throws Error(usage) naming the option.
+glm::dvec2 parse_pair(const std::string& text, const char* option);
+// The scene that is asked for: the file's, or one that holds the DEM alone; --exaggeration, --bend and --handle become settings of it, so
+// that they are checked as a scene's keys are. Throws Error(usage).
+LoadedScene load(const DeformOptions& options);
+// Whether the input is a scene file, or the demo, and no DEM.
+bool is_scene(const DeformOptions& options);
+
+}  // namespace belvedere::tools

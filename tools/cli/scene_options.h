@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "renderer/scene/scene_file.h"
+
+namespace CLI {
+class App;
+}
+
+namespace belvedere::tools {
+
+// What every command that takes a scene has in common.
+struct SceneOptions {
+  std::string scene;  // path; empty: the built-in demo
+  SceneFileOptions files;
+  int threads = 0;     // 0: all
+  int memory_mib = 0;  // 0: three quarters of the machine's
+  bool quiet = false;
+  bool json = false;
+};
+
+// meaning: of the scene, in the command's help.
+void add_scene_options(CLI::App& command, SceneOptions& options,
+                       const std::string& meaning = "The scene file; without one the built-in demo");
+// Tells the library of the memory limit.
+void limit_memory(const SceneOptions& options);
+// Reads the scene, or the demo, and tells the library of the memory limit.
+LoadedScene load(const SceneOptions& options);
+
+}  // namespace belvedere::tools

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "base/progress.h"
+
+namespace belvedere::tools {
+
+// What the program owes its surroundings before anything else: closed standard streams are replaced by /dev/null, so that no file of
+// ours becomes "the terminal"; a closed pipe is an error code and no signal; SIGINT and SIGTERM ask to stop, a second one ends at once.
+void prepare_process();
+// Whether SIGINT or SIGTERM came.
+bool interrupted();
+
+// Text to stdout. What cannot be written is remembered; finish_output() flushes and throws Error(output), or does nothing where the
+// reader simply closed the pipe.
+void print_out(std::string_view text);
+void finish_output();
+// Text to stderr; nobody can be told where that fails.
+void print_error(std::string_view text);
+
+// Stages on stderr: a bar with percent and time left on a terminal, else one line a stage. advance() throws Error(interrupted)
+// after a signal, quiet or not.
+class TerminalProgress : public Progress {
+ public:
+  explicit TerminalProgress(bool quiet);
+  ~TerminalProgress() override;
+  TerminalProgress(const TerminalProgress&) = delete;
+  TerminalProgress& operator=(const TerminalProgress&) = delete;
+
+  void begin(std::string_view stage, double total) override;
+  void advance(double amount) override;
+  void note(std::string_view text) override;
+  // Ends the last stage; the destructor does so too.
+  void end();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void close_stage();
+  void draw(Clock::time_point now);
+
+  std::mutex mutex_;
+  bool quiet_;
+  bool terminal_;
+  bool drawn_ = false;  // a bar stands on the current line
+  std::string stage_;
+  double total_ = 0.0;
+  double done_ = 0.0;
+  Clock::time_point begun_;
+  Clock::time_point drawn_at_;
+};
+
+// "3 s", "2 min 05 s", "1 h 20 min"
+std::string describe_seconds(double seconds);
+
+}  // namespace belvedere::tools

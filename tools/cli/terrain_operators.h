@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "base/grid.h"
+#include "base/progress.h"
+#include "terrain/io/raster.h"
+
+namespace CLI {
+class App;
+}
+
+namespace belvedere::tools {
+
+// What a command does to a DEM before and after the bands are weighted, and what it writes of the result besides the DEM.
+struct TerrainOperators {
+  bool destripe = false;
+  bool line_integral = false;
+  float widen_valleys_m = 0.F;
+  std::string hillshade;  // file, empty: none
+  std::string contours;   // file, empty: none
+  double contour_interval_m = 100.0;
+};
+
+// --destripe, --line-integral, --widen-valleys, --hillshade, --contours, --contour-interval.
+void add_terrain_operators(CLI::App& command, TerrainOperators& operators);
+
+// Cells finite, m. `keep`: lakes, which stay; empty: none.
+Grid<float> operate_before_bands(Grid<float> altitude_m, double cell_m, const TerrainOperators& operators, Progress& progress);
+Grid<float> operate_after_bands(const Grid<float>& altitude_m, const Grid<std::uint8_t>& keep, double cell_m,
+                                const TerrainOperators& operators, Progress& progress);
+// Hillshade and contours of the result; voids are NaN, its CRS metric.
+void write_products(const Raster<float>& result, const TerrainOperators& operators, Progress& progress);
+
+}  // namespace belvedere::tools

@@ -1,0 +1,184 @@
+#include "tools/report/exemplar_verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace belvedere::tools {
+namespace {
+
+constexpr std::size_t least_texels = 2500;  // 50 × 50: a few patches of a dozen strokes
+constexpr double uneven_clique = 0.2;       // of halves, and
+constexpr double uneven_ratio = 2.5;        // against what chance makes
+constexpr double low_coverage = 0.9;
+
+// 12 345 678
+std::string grouped(double number) {
+  std::string digits = fmt::format("{:.0f}", number);
+  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, " ");
+  return digits;
+}
+
+Json halves_json(const HalvesDistance& halves) {
+  if (!halves.known) return Json::raw("null");
+  return Json::object().add("clique_distance", Json::number(halves.clique)).add("colour_distance", Json::number(halves.colour));
+}
+
+Json class_json(const ClassSurvey& of, const ExemplarFindings& findings) {
+  Json guides = Json::array();
+  for (const GuideCoverage& guide : of.guides) {
+    Json gaps = Json::array();
+    for (const GuideCoverage::Gap& gap : guide.gaps) gaps.add(Json::array({Json::number(gap.from), Json::number(gap.to)}));
+    guides.add(Json::object()
+                   .add("name", Json::text(guide.name))
+                   .add("lowest", Json::number(guide.lowest))
+                   .add("percentile_5", Json::number(guide.low))
+                   .add("percentile_95", Json::number(guide.high))
+                   .add("highest", Json::number(guide.highest))
+                   .add("gaps", std::move(gaps)));
+  }
+  return Json::object()
+      .add("label", Json::number(of.label))
+      .add("name", Json::text(findings.name(of.label)))
+      .add("texels", Json::number(static_cast<double>(of.texels)))
+      .add("texels_inside", Json::number(static_cast<double>(of.inside)))
+      .add("serves_pixels", Json::number(static_cast<double>(of.texels * pixels_per_texel)))
+      .add("sharpness", Json::number(of.sharpness))
+      .add("stroke_run_px", Json::number(of.stroke_run_px))
+      .add("left_against_right", halves_json(of.left_right))
+      .add("checkerboard", halves_json(of.checkerboard))
+      .add("guides", std::move(guides))
+      .add("flaws", Json::texts(describe_flaws(of, findings)));
+}
+
+std::string halves_text(const HalvesDistance& halves) { return halves.known ? fmt::format("{:.3f}", halves.clique) : "–"; }
+
+// A column as wide as its widest cell; UTF-8 of one column a character.
+std::string table_text(const std::vector<std::vector<std::string>>& rows) {
+  const auto length = [](const std::string& text) {
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+  };
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const auto& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], length(row[c]));
+  std::string out;
+  for (const auto& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string space(widths[c] - length(row[c]), ' ');
+      out += c == 0 ? "  " + row[c] + space : "  " + space + row[c];
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> describe_flaws(const ClassSurvey& of, const ExemplarFindings& findings) {
+  std::vector<std::string> flaws;
+  if (of.texels < least_texels)
+    flaws.push_back(fmt::format("only {} texels: at least some {} are needed to take strokes from", grouped(static_cast<double>(of.texels)),
+                                grouped(static_cast<double>(least_texels))));
+  if (of.inside == 0) flaws.emplace_back("no place farther than 8 texels from another class: its strokes are seen along borders alone");
+  if (of.left_right.known && of.left_right.clique > std::max(uneven_clique, uneven_ratio * of.checkerboard.clique))
+    flaws.push_back(fmt::format("left and right are painted unlike each other ({:.2f}, chance makes {:.2f}): both will lie side by side",
+                                of.left_right.clique, of.checkerboard.clique));
+  for (const GuideCoverage& guide : of.guides) {
+    if (guide.name != "altitude") continue;
+    for (const GuideCoverage::Gap& gap : guide.gaps)
+      flaws.push_back(
+          fmt::format("no texels at altitudes {} to {}", findings.value(guide.name, gap.from), findings.value(guide.name, gap.to)));
+  }
+  return flaws;
+}
+
+std::string describe_service(const ClassSurvey& of) {
+  return fmt::format("serves up to {} pixels", grouped(static_cast<double>(of.texels * pixels_per_texel)));
+}
+
+std::string describe_demand(const ClassDemand& demand) {
+  const ClassSupply& supply = demand.supply;
+  std::string text =
+      supply.enough()
+          ? fmt::format("enough: {} pixels want it, {} can be served", grouped(static_cast<double>(supply.pixels)),
+                        grouped(static_cast<double>(supply.serves())))
+          : fmt::format("too few, strokes will repeat: {} pixels want it, {} can be served; {} texels would be needed, there are {}",
+                        grouped(static_cast<double>(supply.pixels)), grouped(static_cast<double>(supply.serves())),
+                        grouped(static_cast<double>(supply.texels_needed())), grouped(static_cast<double>(supply.texels)));
+  if (demand.altitude_covered >= 0.0 && demand.altitude_covered < low_coverage)
+    text += fmt::format("; only {:.0f} % of its pixels find texels of their altitude", 100.0 * demand.altitude_covered);
+  return text;
+}
+
+std::string findings_text(const ExemplarFindings& findings) {
+  std::string out;
+  for (const ExemplarFindings::Painting& painting : findings.paintings) {
+    const ExemplarSurvey& survey = painting.survey;
+    out += fmt::format("{}: {} × {} texels, {:.1f} % of them never a source\n", painting.name, painting.width, painting.height,
+                       100.0 * static_cast<double>(survey.excluded) / static_cast<double>(survey.texels));
+    const bool altitude = !survey.classes.empty() && std::any_of(survey.classes[0].guides.begin(), survey.classes[0].guides.end(),
+                                                                 [](const GuideCoverage& guide) { return guide.name == "altitude"; });
+    std::vector<std::vector<std::string>> rows{
+        {"class", "texels", "inside", "pixels served", "sharpness", "stroke, px", "left | right", "chance"}};
+    if (altitude) rows[0].emplace_back("altitudes (5–95 %)");
+    for (const ClassSurvey& of : survey.classes) {
+      rows.push_back({findings.name(of.label), grouped(static_cast<double>(of.texels)), grouped(static_cast<double>(of.inside)),
+                      grouped(static_cast<double>(of.texels * pixels_per_texel)), of.inside > 0 ? fmt::format("{:.1f}", of.sharpness) : "–",
+                      of.inside > 0 ? fmt::format("{:.1f}", of.stroke_run_px) : "–", halves_text(of.left_right),
+                      halves_text(of.checkerboard)});
+      for (const GuideCoverage& guide : of.guides)
+        if (guide.name == "altitude")
+          rows.back().push_back(fmt::format("{} … {}", findings.value(guide.name, guide.low), findings.value(guide.name, guide.high)));
+    }
+    out += table_text(rows);
+    for (const ClassSurvey& of : survey.classes)
+      for (const std::string& flaw : describe_flaws(of, findings)) out += fmt::format("  {}: {}\n", findings.name(of.label), flaw);
+  }
+  if (!findings.target_known)
+    return out + fmt::format("a texel serves up to {} pixels before strokes are seen to repeat\n", pixels_per_texel);
+  out += "for this picture\n";
+  for (const ClassDemand& demand : findings.demands)
+    out += fmt::format("  {}: {}\n", findings.name(demand.supply.label), describe_demand(demand));
+  for (const auto& [label, pixels] : findings.missing)
+    out += fmt::format("  {}: no texels at all, and {} pixels want it\n", findings.name(label), grouped(pixels));
+  return out;
+}
+
+std::string findings_json(const ExemplarFindings& findings) {
+  Json paintings = Json::array();
+  for (const ExemplarFindings::Painting& painting : findings.paintings) {
+    Json classes = Json::array();
+    for (const ClassSurvey& of : painting.survey.classes) classes.add(class_json(of, findings));
+    paintings.add(Json::object()
+                      .add("name", Json::text(painting.name))
+                      .add("width", Json::number(painting.width))
+                      .add("height", Json::number(painting.height))
+                      .add("excluded_texels", Json::number(static_cast<double>(painting.survey.excluded)))
+                      .add("classes", std::move(classes)));
+  }
+  Json out = Json::object().add("paintings", std::move(paintings)).add("pixels_per_texel", Json::number(pixels_per_texel));
+  if (findings.target_known) {
+    Json demands = Json::array();
+    for (const ClassDemand& demand : findings.demands) {
+      const ClassSupply& supply = demand.supply;
+      demands.add(Json::object()
+                      .add("label", Json::number(supply.label))
+                      .add("name", Json::text(findings.name(supply.label)))
+                      .add("pixels", Json::number(static_cast<double>(supply.pixels)))
+                      .add("texels", Json::number(static_cast<double>(supply.texels)))
+                      .add("texels_needed", Json::number(static_cast<double>(supply.texels_needed())))
+                      .add("enough", Json::boolean(supply.enough()))
+                      .add("altitude_covered", demand.altitude_covered < 0.0 ? Json::raw("null") : Json::number(demand.altitude_covered)));
+    }
+    Json missing = Json::array();
+    for (const auto& [label, pixels] : findings.missing)
+      missing.add(Json::object()
+                      .add("label", Json::number(label))
+                      .add("name", Json::text(findings.name(label)))
+                      .add("pixels", Json::number(pixels)));
+    out.add("asked", std::move(demands)).add("missing", std::move(missing));
+  }
+  return out.str() + "\n";
+}
+
+}  // namespace belvedere::tools

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "tools/report/generalize_report_page.h"
+#include "tools/report/report_folder.h"
+
+namespace belvedere::tools {
+
+// The windows that a report's pictures look through.
+struct FigureWindows {
+  PixelRect ridges;     // most ridge lines
+  PixelRect near, far;  // most ridge lines of the near and of the far quarter
+};
+FigureWindows choose_windows(const Grid<float>& altitude_m, glm::dvec2 cell_m, const Grid<float>& share);
+
+// Figures 1 to 5 of Jenny, Jenny & Hurni 2011 from the terrain before. `share`: what figure 4 takes for near.
+void add_paper_figures(ReportFolder& page, const GeneralizeReportInput& in, const Grid<float>& share, const FigureWindows& windows,
+                       Progress& progress);
+
+}  // namespace belvedere::tools

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/parallel.h"
+#include "texture/quality/quality.h"
+#include "texture/synthesis/class_supply.h"
+#include "tools/report/synthesis_report_page.h"
+
+namespace belvedere::tools {
+
+inline constexpr int worst_place_side = 64;  // pixels
+
+// What a guide asks and costs, over the pixels that have a texel.
+struct GuideFindings {
+  std::string name;
+  double weight = 1.0;
+  double error_mean = 0.0;
+  float error_95 = 0.F;
+  double cost_mean = 0.0;
+};
+
+// A place that is worth a look, with where most of it was copied from.
+struct Place {
+  std::string letter;
+  std::string why;
+  std::string guide;  // it is bad for; empty: none
+  PixelRect window;
+  std::size_t exemplar = 0;
+  PixelRect source;
+  std::size_t piece = 0;  // pixels of the window copied by the source's offset
+};
+
+// What a report tells in numbers, and the maps they are taken from.
+struct SynthesisFindings {
+  SynthesisQuality quality;
+  std::vector<ClassSupply> supply;
+  std::vector<GuideFindings> guides;  // the dearest first
+  double seam_mean = 0.0;
+  std::vector<Place> places;
+  Grid<float> seams;                      // cost by pixel
+  std::vector<Grid<std::uint32_t>> uses;  // of texels, by exemplar
+  Grid<float> use_counts;                 // by pixel: of its texel
+};
+
+SynthesisFindings look_at_synthesis(const SynthesisReportInput& input, Progress& progress);
+
+// What that guide costs by pixel, at the weight it had.
+Grid<float> guide_cost_map(const SynthesisReportInput& input, const std::string& guide);
+
+}  // namespace belvedere::tools

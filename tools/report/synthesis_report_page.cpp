@@ -1,0 +1,315 @@
+#include "tools/report/synthesis_report_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "tools/report/bitmap_text.h"
+#include "tools/report/report_folder.h"
+#include "tools/report/report_pictures.h"
+#include "tools/report/synthesis_findings.h"
+
+namespace belvedere::tools {
+namespace {
+
+constexpr int map_px = 600;    // longest side of a map
+constexpr int crop_times = 4;  // worst places are shown so many times as large
+
+Grid<glm::vec3> grey_picture(const Grid<std::uint8_t>& values) {
+  Grid<glm::vec3> out(values.width(), values.height());
+  std::transform(values.begin(), values.end(), out.begin(), [](std::uint8_t v) { return glm::vec3(static_cast<float>(v) / 255.F); });
+  return out;
+}
+
+// Only of guides that are there on both sides.
+const Grid<std::uint8_t>& guide_values(const GuideStack& stack, const std::string& name) {
+  const Grid<std::uint8_t>* values = stack.find(name);
+  if (values == nullptr) throw Error(ErrorKind::bug, "report", "guide \"" + name + "\" is missing");
+  return *values;
+}
+
+// A texel's place as a colour: red from left to right, green from top to bottom, blue by the number of the painting.
+glm::vec3 place_colour(std::size_t exemplar, std::size_t count, int x, int y, int width, int height) {
+  const auto share = [](double a, double b) { return static_cast<float>(a / std::max(1.0, b)); };
+  return {share(x, width - 1), share(y, height - 1),
+          count < 2 ? 0.5F : share(static_cast<double>(exemplar), static_cast<double>(count - 1))};
+}
+
+Grid<glm::vec3> field_picture(const MatchField& matches, const std::vector<Exemplar>& exemplars) {
+  Grid<glm::vec3> out(matches.width(), matches.height(), glm::vec3(0.F));
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const Match& m = matches[i];
+    if (m.exemplar == Match::none) continue;
+    const Grid<Rgb8>& picture = exemplars[m.exemplar].picture;
+    out[i] = place_colour(m.exemplar, exemplars.size(), m.x, m.y, picture.width(), picture.height());
+  }
+  return out;
+}
+
+// A frame with a letter, in a map `factor` times smaller than the picture.
+void mark(Grid<glm::vec3>& map, const Place& place, int factor) {
+  const glm::vec3 yellow(1.F, 0.9F, 0.1F);
+  const PixelRect r{place.window.x0 / factor, place.window.y0 / factor, place.window.x1 / factor, place.window.y1 / factor};
+  const auto dot = [&](int x, int y, glm::vec3 colour) {
+    if (map.contains(x, y)) map(x, y) = colour;
+  };
+  for (int x = r.x0; x <= r.x1; ++x) {
+    dot(x, r.y0, yellow);
+    dot(x, r.y1, yellow);
+  }
+  for (int y = r.y0; y <= r.y1; ++y) {
+    dot(r.x0, y, yellow);
+    dot(r.x1, y, yellow);
+  }
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 9; ++x) dot(r.x0 + 1 + x, r.y0 + 1 + y, glm::vec3(0.F));
+  draw_text(map, r.x0 + 3, r.y0 + 2, place.letter, yellow, 1);
+}
+
+std::string number_text(double value) { return value == std::floor(value) ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value); }
+
+std::string range_text(const QualityFigure& figure) {
+  if (std::isinf(figure.most)) return "–";
+  if (figure.least == figure.most) return number_text(figure.most);
+  return figure.least == 0.0 ? "≤ " + number_text(figure.most)
+                             : fmt::format("{} – {}", number_text(figure.least), number_text(figure.most));
+}
+
+std::string coloured(const std::string& text, bool good) { return good ? text : "<b style=\"color:#b03\">" + text + "</b>"; }
+
+void add_overview(ReportFolder& page, const SynthesisReportInput& in, const Grid<glm::vec3>& picture, const SynthesisFindings& found) {
+  page.begin_figure("overview", "The picture and what it was made of",
+                    "Left the classes asked for, then the picture; the frames are the places shown at the end. Below the paintings with "
+                    "their classes; what is excluded is near black.");
+  page.picture("target_classes", reduced_picture(label_picture(in.target.label), map_px), "classes of the target");
+  Grid<glm::vec3> small = reduced_picture(picture, map_px);
+  const int factor = std::max(1, (std::max(picture.width(), picture.height()) + map_px - 1) / map_px);
+  for (const Place& place : found.places) mark(small, place, factor);
+  page.picture("picture", small, "the picture");
+  for (std::size_t e = 0; e < in.exemplars.size(); ++e) {
+    const Exemplar& exemplar = in.exemplars[e];
+    page.next_row();
+    page.picture(fmt::format("painting_{}_classes", e + 1), reduced_picture(label_picture(exemplar.guides.label), map_px),
+                 "classes of the painting");
+    page.picture(fmt::format("painting_{}", e + 1), reduced_picture(to_picture(exemplar.picture), map_px), html_escaped(exemplar.name));
+  }
+  page.end_figure();
+}
+
+void add_seams(ReportFolder& page, const SeamsOfKinds& seams) {
+  page.add("<section id=\"seams\"><h2>Seams between paintings</h2>");
+  page.add(
+      "<p>Neighbours that were not side by side in a painting, and how far apart their colours are. Visibility is that step against what "
+      "neighbours of the same classes are apart in the paintings themselves: at 1 a seam steps as the painting does, above it shows. "
+      "Silhouettes do not count.</p>");
+  std::string table = "<table>" + html_row({"seams", "pairs", "step, levels", "visibility"}, "th");
+  const auto row = [&table](const char* name, const SeamVisibility& of) {
+    table += html_row({name, fmt::format("{}", of.pairs), of.pairs == 0 ? "–" : fmt::format("{:.1f}", of.step),
+                       of.compared == 0 ? "–" : fmt::format("{:.2f}", of.visibility)});
+  };
+  row("from one painting to another", seams.between);
+  row("inside a painting", seams.within);
+  page.add(table + "</table></section>");
+}
+
+void add_figures(ReportFolder& page, const SynthesisReportInput& in, const SynthesisFindings& found) {
+  page.add("<section id=\"figures\"><h2>Figures</h2>");
+  page.add(
+      "<p>What is measured against what eyes are content with; red is outside. No figure is enough alone, and none replaces looking: blur "
+      "pleases some of them.</p>");
+  std::string table = "<table>" + html_row({"figure", "this picture", "wanted"}, "th");
+  for (const QualityFigure& figure : key_figures(found.quality))
+    table += html_row({figure.name, coloured(number_text(figure.value), figure.good()), range_text(figure)});
+  page.add(table + "</table></section>");
+  if (found.quality.exemplars > 1) add_seams(page, found.quality.seams);
+
+  page.add("<section id=\"classes\"><h2>Class by class</h2>");
+  page.add(fmt::format(
+      "<p>Against the painting: sharpness and length of strokes are ratios, clique and colour distance grow from 0. The floor is what the "
+      "painting would differ by from itself at the target's altitudes and borders, the figure after it what the synthesis adds. A texel "
+      "serves up to {} pixels before strokes are seen to repeat.</p>",
+      pixels_per_texel));
+  table =
+      "<table>" +
+      html_row({"class", "pixels", "texels", "needed", "sharpness", "strokes", "clique", "floor, beyond", "colour", "floor, beyond"}, "th");
+  for (const ClassQuality& of : found.quality.classes) {
+    const auto supply = std::find_if(found.supply.begin(), found.supply.end(), [&](const ClassSupply& s) { return s.label == of.label; });
+    const auto ratio = [](double v, double least, double most) {
+      return v == 0.0 ? std::string("–") : coloured(fmt::format("{:.2f}", v), v >= least && v <= most);
+    };
+    table += html_row({html_escaped(in.class_name(of.label)), fmt::format("{}", of.pixels), fmt::format("{}", of.texels),
+                       supply == found.supply.end() ? "–" : coloured(fmt::format("{}", supply->texels_needed()), supply->enough()),
+                       ratio(of.sharpness, 0.95, 1.05), ratio(of.stroke_run, 0.85, 1.15),
+                       coloured(fmt::format("{:.3f}", of.clique_distance), of.clique_distance <= 0.08),
+                       fmt::format("{:.3f}, {:.3f}", of.clique_floor, of.clique_beyond_floor),
+                       coloured(fmt::format("{:.1f}", of.colour_distance), of.colour_distance <= 3.0),
+                       fmt::format("{:.1f}, {:.1f}", of.colour_floor, of.colour_beyond_floor)});
+  }
+  page.add(table + "</table></section>");
+}
+
+void add_field(ReportFolder& page, const SynthesisReportInput& in) {
+  page.begin_figure(
+      "field", "Where texels come from",
+      "Every place of the painting has a colour (right: red grows to the right, green downwards, blue tells paintings apart); "
+      "left each pixel has the colour of its texel's place. Patches of one colour are pieces copied together.");
+  page.picture("field", reduced_picture(field_picture(in.matches, in.exemplars), map_px), "the picture, by where its texels come from");
+  for (std::size_t e = 0; e < in.exemplars.size(); ++e) {
+    const int width = in.exemplars[e].picture.width();
+    const int height = in.exemplars[e].picture.height();
+    Grid<glm::vec3> key(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) key(x, y) = place_colour(e, in.exemplars.size(), x, y, width, height);
+    page.picture(fmt::format("field_key_{}", e + 1), reduced_picture(key, 200), html_escaped(in.exemplars[e].name));
+  }
+  page.end_figure();
+}
+
+void add_reuse(ReportFolder& page, const SynthesisReportInput& in, const SynthesisFindings& found) {
+  const float full = static_cast<float>(std::max(4, found.quality.most_used));
+  page.begin_figure(
+      "reuse", "How often texels are used",
+      fmt::format("Black is never, white {:.0f} times. Left the picture by how often each pixel's texel is used in all, right "
+                  "the paintings: what is black was of no use, what is bright is much in demand.",
+                  static_cast<double>(full)));
+  page.picture("reuse", reduced_picture(heat_picture(found.use_counts, full), map_px), "the picture");
+  for (std::size_t e = 0; e < found.uses.size(); ++e) {
+    Grid<float> counts(found.uses[e].width(), found.uses[e].height());
+    std::transform(found.uses[e].begin(), found.uses[e].end(), counts.begin(), [](std::uint32_t n) { return static_cast<float>(n); });
+    page.picture(fmt::format("reuse_painting_{}", e + 1), reduced_picture(heat_picture(counts, full), map_px),
+                 html_escaped(in.exemplars[e].name));
+  }
+  page.end_figure();
+}
+
+void add_costs(ReportFolder& page, const SynthesisReportInput& in, const SynthesisFindings& found) {
+  page.begin_figure("costs", "What each wish costs",
+                    "Seams: how ill the texels around each pixel go together. Guides: weight times the squared difference between what is "
+                    "asked and what was found. A guide whose share is small could as well have more weight; one that outweighs seams tears "
+                    "strokes apart. White is the 99th percentile of each map.");
+  double total = found.seam_mean;
+  for (const GuideFindings& guide : found.guides) total += guide.cost_mean;
+  const auto share = [total](double cost) { return total > 0.0 ? fmt::format("{:.0f} %", 100.0 * cost / total) : std::string("–"); };
+  std::string table = "<table>" + html_row({"wish", "weight", "off by, mean", "off by, 95 %", "cost, mean", "share"}, "th");
+  table += html_row({"seams", "–", "–", "–", fmt::format("{:.0f}", found.seam_mean), share(found.seam_mean)});
+  for (const GuideFindings& guide : found.guides)
+    table += html_row({html_escaped(guide.name), fmt::format("{:.3g}", guide.weight), fmt::format("{:.2f}", guide.error_mean),
+                       fmt::format("{:.0f}", static_cast<double>(guide.error_95)), fmt::format("{:.0f}", guide.cost_mean),
+                       share(guide.cost_mean)});
+  page.add("</div>" + table + "</table><p></p><div class=\"row\">");
+  const auto map = [&](const std::string& file, const Grid<float>& cost, const std::string& caption) {
+    page.picture(file, reduced_picture(heat_picture(cost, percentile(cost, 0.99)), map_px), caption);
+  };
+  map("cost_seams", found.seams, "seams");
+  for (std::size_t g = 0; g < found.guides.size(); ++g) {
+    if (g % 2 == 1) page.next_row();
+    map(fmt::format("cost_guide_{}", g + 1), guide_cost_map(in, found.guides[g].name), html_escaped(found.guides[g].name));
+  }
+  page.end_figure();
+}
+
+void add_worst_places(ReportFolder& page, const SynthesisReportInput& in, const Grid<glm::vec3>& picture, const SynthesisFindings& found) {
+  page.begin_figure("worst", "The worst places",
+                    fmt::format("Each {0} × {0} pixels, {1} times as large, and beside it where most of it was copied from.",
+                                worst_place_side, crop_times));
+  const float seam_full = percentile(found.seams, 0.99);
+  const float use_full = static_cast<float>(std::max(4, found.quality.most_used));
+  bool first = true;
+  for (const Place& place : found.places) {
+    if (!first) page.next_row();
+    first = false;
+    const auto show = [&](const char* what, const Grid<glm::vec3>& crop, const std::string& caption) {
+      page.picture(fmt::format("place_{}_{}", place.letter, what), enlarged(crop, crop_times), caption);
+    };
+    show("picture", cut(picture, place.window),
+         fmt::format("{}: {}, at {}, {}", place.letter, html_escaped(place.why), place.window.x0, place.window.y0));
+    const Exemplar& exemplar = in.exemplars[place.exemplar];
+    show("source", to_picture(cut(exemplar.picture, place.source)),
+         fmt::format("{} of its pixels: {} at {}, {}", place.piece, html_escaped(exemplar.name), place.source.x0, place.source.y0));
+    show("field", field_picture(cut(in.matches, place.window), in.exemplars), "where its texels come from");
+    if (!place.guide.empty()) {
+      std::vector<const Grid<std::uint8_t>*> offered;
+      for (const Exemplar& from : in.exemplars) offered.push_back(&guide_values(from.guides, place.guide));
+      const Grid<std::uint8_t> wanted = cut(guide_values(in.target, place.guide), place.window);
+      show("asked", grey_picture(wanted), html_escaped(place.guide) + " asked for");
+      show("found", grey_picture(replay(cut(in.matches, place.window), offered, Grid<std::uint8_t>())),
+           html_escaped(place.guide) + " found");
+    } else if (place.why == "seams") {
+      show("cost", heat_picture(cut(found.seams, place.window), seam_full), "seams");
+    } else {
+      show("uses", heat_picture(cut(found.use_counts, place.window), use_full), "uses of its texels");
+    }
+  }
+  page.end_figure();
+}
+
+Json rect_json(const PixelRect& r) {
+  return Json::array({Json::number(r.x0), Json::number(r.y0), Json::number(r.width()), Json::number(r.height())});
+}
+
+std::string as_json(const SynthesisReportInput& in, const SynthesisFindings& found) {
+  Json guides = Json::array();
+  for (const GuideFindings& guide : found.guides)
+    guides.add(Json::object()
+                   .add("name", Json::text(guide.name))
+                   .add("weight", Json::number(guide.weight))
+                   .add("error_mean", Json::number(guide.error_mean))
+                   .add("error_95", Json::number(static_cast<double>(guide.error_95)))
+                   .add("cost_mean", Json::number(guide.cost_mean)));
+  Json supply = Json::array();
+  for (const ClassSupply& of : found.supply)
+    supply.add(Json::object()
+                   .add("label", Json::number(of.label))
+                   .add("pixels", Json::number(static_cast<double>(of.pixels)))
+                   .add("texels", Json::number(static_cast<double>(of.texels)))
+                   .add("texels_needed", Json::number(static_cast<double>(of.texels_needed())))
+                   .add("enough", Json::boolean(of.enough())));
+  Json places = Json::array();
+  for (const Place& place : found.places)
+    places.add(Json::object()
+                   .add("letter", Json::text(place.letter))
+                   .add("why", Json::text(place.why))
+                   .add("window", rect_json(place.window))
+                   .add("painting", Json::text(in.exemplars[place.exemplar].name))
+                   .add("source", rect_json(place.source))
+                   .add("pixels_from_source", Json::number(static_cast<double>(place.piece))));
+  return Json::object()
+             .add("title", Json::text(in.title))
+             .add("command", Json::text(in.command))
+             .add("width", Json::number(in.matches.width()))
+             .add("height", Json::number(in.matches.height()))
+             .add("quality", quality_json(found.quality, in.class_name))
+             .add("supply", std::move(supply))
+             .add("seam_cost_mean", Json::number(found.seam_mean))
+             .add("guides", std::move(guides))
+             .add("worst_places", std::move(places))
+             .str() +
+         "\n";
+}
+
+}  // namespace
+
+void write_synthesis_report(const std::string& folder, const SynthesisReportInput& in, Progress& progress) {
+  const SynthesisFindings found = look_at_synthesis(in, progress);
+  progress.begin("writing the report", 0.0);
+  std::vector<const Grid<Rgb8>*> layers;
+  for (const Exemplar& exemplar : in.exemplars) layers.push_back(&exemplar.picture);
+  const Grid<glm::vec3> picture = to_picture(replay(in.matches, layers, Grid<Rgb8>()));
+  ReportFolder page(folder);
+  add_overview(page, in, picture, found);
+  add_figures(page, in, found);
+  add_costs(page, in, found);
+  add_field(page, in);
+  add_reuse(page, in, found);
+  add_worst_places(page, in, picture, found);
+  page.write("report.json", as_json(in, found));
+  page.write_page(in.title, "Synthesis of " + in.title,
+                  fmt::format("{} × {} pixels from {} painting{}.", in.matches.width(), in.matches.height(), in.exemplars.size(),
+                              in.exemplars.size() == 1 ? "" : "s"),
+                  in.command);
+}
+
+}  // namespace belvedere::tools
