@@ -8,8 +8,8 @@
 
 namespace belvedere {
 
-// A facet of the surface (see renderer/trace/tracer.h: the cell's north-western or south-eastern triangle) that handles turned over in plan:
-// its posts no longer run the same way round, or lie in a line. There the ground covers itself.
+// A facet of the surface (see renderer/trace/tracer.h: the cell's north-western or south-eastern triangle) that handles turned over in
+// plan: its posts no longer run the same way round, or lie in a line. There the ground covers itself.
 struct Fold {
   int column = 0;  // of the cell's north-western post
   int row = 0;
