@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <mutex>
+#include <set>
 
 #include "base/error.h"
 
@@ -23,9 +25,29 @@ std::uint64_t control_group_bytes() {
   return file >> bytes && bytes > 0 ? bytes : UINT64_MAX;
 }
 
+// Limits that are alive; few, and asked for once a file.
+std::mutex limits_mutex;
+std::multiset<std::uint64_t> limits;
+
 }  // namespace
 
+MemoryLimit::MemoryLimit(std::uint64_t bytes) : bytes_(bytes) {
+  if (bytes_ == 0) return;
+  const std::lock_guard lock(limits_mutex);
+  limits.insert(bytes_);
+}
+
+MemoryLimit::~MemoryLimit() {
+  if (bytes_ == 0) return;
+  const std::lock_guard lock(limits_mutex);
+  limits.erase(limits.find(bytes_));
+}
+
 std::uint64_t memory_budget_bytes() {
+  {
+    const std::lock_guard lock(limits_mutex);
+    if (!limits.empty()) return *limits.begin();
+  }
   if (const char* text = std::getenv("BELVEDERE_MEMORY_MIB"); text != nullptr && *text != 0) {
     std::uint64_t value = 0;
     const char* end = text + std::strlen(text);
@@ -43,8 +65,9 @@ std::uint64_t memory_budget_bytes() {
 void check_memory(const std::string& where, double bytes) {
   const auto limit = static_cast<double>(memory_budget_bytes());
   if (bytes <= limit) return;
-  throw Error(ErrorKind::limit, where, fmt::format("needs {:.0f} MiB of memory", bytes / mib),
-              fmt::format("up to {:.0f} MiB here; a smaller extent, larger cells, or another BELVEDERE_MEMORY_MIB", limit / mib));
+  throw Error(
+      ErrorKind::limit, where, fmt::format("needs {:.0f} MiB of memory", bytes / mib),
+      fmt::format("up to {:.0f} MiB here; a smaller extent, larger cells, or more memory (--memory, BELVEDERE_MEMORY_MIB)", limit / mib));
 }
 
 }  // namespace belvedere

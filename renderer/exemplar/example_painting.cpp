@@ -7,8 +7,9 @@
 
 namespace belvedere {
 
-ExamplePainting paint_example(const Stage& stage, LitPicture picture, const ExampleLayers& layers, Progress& progress) {
-  const StrokeParameters strokes = to_stroke_parameters(stage);
+ExamplePainting paint_example(const World& world, const Palette& palette, LitPicture picture, const ExampleLayers& layers,
+                              Progress& progress) {
+  const StrokeParameters strokes = to_stroke_parameters(world, palette);
   ExamplePainting example;
   Painting ground =
       paint_strokes(picture.ground.colour, picture.guidance, picture.ground,

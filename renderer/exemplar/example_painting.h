@@ -4,6 +4,10 @@
 
 namespace belvedere {
 
+// The header note of a painting's file that says which of its layers it is, and its value for the one without trees.
+inline constexpr const char* exemplar_layer_note = "belvedere:layer";
+inline constexpr const char* exemplar_ground_layer = "ground";
+
 // A view painted in strokes alone, and everything its painter knows of every pixel.
 struct ExamplePainting {
   GuidanceBuffers guidance;  // with painted_class, painted_from, stroke and ground_from
@@ -18,7 +22,8 @@ struct ExampleLayers {
 };
 
 // picture: of the whole view. The same bits for any number of threads.
-ExamplePainting paint_example(const Stage& stage, LitPicture picture, const ExampleLayers& layers, Progress& progress);
+ExamplePainting paint_example(const World& world, const Palette& palette, LitPicture picture, const ExampleLayers& layers,
+                              Progress& progress);
 
 // Base colour and class of the paint on every pixel, from the pixels it grew from: what residual and labels of an exemplar go by.
 PaintedClasses classes_of_paint(const GuidanceBuffers& guidance, const Grid<std::uint32_t>& from);

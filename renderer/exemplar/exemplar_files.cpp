@@ -18,7 +18,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
 #include "renderer/image/provenance.h"
-#include "renderer/pipeline/stage_notes.h"
+#include "renderer/world/world_notes.h"
 
 namespace belvedere {
 namespace {
@@ -63,36 +63,39 @@ void write_coverage(const Coverage& coverage, const std::string& folder) {
 
 }  // namespace
 
-Coverage write_scene_exemplar(const LoadedScene& loaded, const RenderOptions& options, Progress& progress) {
-  const ThreadLimit threads(options.threads);
+Coverage write_scene_exemplar(const LoadedScene& loaded, const std::string& out_folder, const Run& run) {
+  const RunLimits limits(run);
+  Progress& progress = run.progress;
   require_scene_files(loaded);
   const SceneOutput& output = loaded.scene.output;
   check_memory("output", paint_bytes_per_pixel * output.width * output.height);
-  check_output_folder(options.out_folder);
+  check_output_folder(out_folder);
 
-  const Stage stage = set_stage(loaded, progress);
-  const FileNotes notes = make_stage_notes(loaded, stage);
-  LitPicture picture = make_lit_picture(stage, {0, 0, output.width, output.height}, options.tile_size, progress);
-  const ExamplePainting example = paint_example(stage, std::move(picture), {}, progress);
+  const Palette palette = read_palette(find_named_file(loaded, "palettes", loaded.scene.palette));
+  const World world(loaded, progress);
+  const FileNotes notes = make_world_notes(loaded, world);
+  LitPicture picture = make_lit_picture(world, palette, {0, 0, output.width, output.height}, run);
+  const ExamplePainting example = paint_example(world, palette, std::move(picture), {}, progress);
   Coverage coverage;
   count(coverage, example.guidance, 0);
-  write_layers(example, output.width / output.sheet_width_mm * 25.4, notes, options.out_folder, progress);
+  write_layers(example, output.width / output.sheet_width_mm * 25.4, notes, out_folder, progress);
   progress.begin("writing guidance", 0.0);
-  write_guidance(join(options.out_folder, "guidance.exr"), example.guidance, notes);
-  write_text(join(options.out_folder, "scene.toml"), write_scene(loaded.scene));
-  write_coverage(coverage, options.out_folder);
+  write_guidance(join(out_folder, "guidance.exr"), example.guidance, notes);
+  write_text(join(out_folder, "scene.toml"), write_scene(loaded.scene));
+  write_coverage(coverage, out_folder);
   return coverage;
 }
 
-Coverage write_sheet_exemplar(const SheetPlan& plan, const RenderOptions& options, Progress& progress) {
-  const ThreadLimit threads(options.threads);
+Coverage write_sheet_exemplar(const SheetPlan& plan, const std::string& out_folder, const Run& run) {
+  const RunLimits limits(run);
+  Progress& progress = run.progress;
   const Palette palette = read_palette(plan.palette);
   const double rows = static_cast<double>(plan.panels.size()) / plan.columns;
   if (plan.height < ExrWriter::band_rows * rows)
     throw Error(ErrorKind::usage, "sheet", fmt::format("{} rows of panels in {} pixels of height", rows, plan.height),
                 fmt::format("at least {} pixels a row", ExrWriter::band_rows));
   check_memory("sheet", (paint_bytes_per_pixel / rows + kept_bytes_per_pixel) * plan.width * plan.height);
-  check_output_folder(options.out_folder);
+  check_output_folder(out_folder);
 
   const std::string text = write_sheet_plan(plan);
   std::map<std::string, std::string> inputs;
@@ -107,11 +110,11 @@ Coverage write_sheet_exemplar(const SheetPlan& plan, const RenderOptions& option
   progress.begin("painting the sheet", static_cast<double>(plan.panels.size()));
   for (int row = 0; row < painter.rows(); ++row) {
     const auto [y0, y1] = painter.row_span(row);
-    const ExamplePainting part = painter.paint_row(row, {}, progress);
+    const ExamplePainting part = painter.paint_row(row, {}, run);
     if (!writer) {
       provenance.instruction_set = painter.instruction_set();
       notes = to_notes(provenance);
-      writer.emplace(join(options.out_folder, "guidance.exr"), plan.width, plan.height, notes);
+      writer.emplace(join(out_folder, "guidance.exr"), plan.width, plan.height, notes);
     }
     count(coverage, part.guidance, static_cast<std::uint32_t>(y0) * static_cast<std::uint32_t>(plan.width));
     std::copy(part.painting.begin(), part.painting.end(), whole.painting.row(y0));
@@ -119,9 +122,9 @@ Coverage write_sheet_exemplar(const SheetPlan& plan, const RenderOptions& option
     writer->write_rows(part.guidance, 0, y1 - y0, y0);
   }
   writer->finish();
-  write_layers(whole, plan.dots_per_inch, notes, options.out_folder, progress);
-  write_text(join(options.out_folder, "sheet.toml"), text);
-  write_coverage(coverage, options.out_folder);
+  write_layers(whole, plan.dots_per_inch, notes, out_folder, progress);
+  write_text(join(out_folder, "sheet.toml"), text);
+  write_coverage(coverage, out_folder);
   return coverage;
 }
 

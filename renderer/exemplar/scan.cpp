@@ -11,11 +11,10 @@
 
 #include "base/error.h"
 #include "renderer/exemplar/example_painting.h"
-#include "renderer/exemplar/exemplar_files.h"
-#include "renderer/exemplar/exemplars.h"
 #include "renderer/exemplar/harmonize.h"
 #include "renderer/exemplar/painting_strokes.h"
 #include "renderer/exemplar/painting_tone.h"
+#include "renderer/exemplar/seam_picture.h"
 #include "renderer/exemplar/shadow_texels.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"

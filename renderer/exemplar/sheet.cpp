@@ -5,20 +5,21 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
-#include "renderer/exemplar/exemplars.h"
+#include "renderer/exemplar/seam_picture.h"
 #include "renderer/image/srgb.h"
 #include "renderer/paint/composite.h"
-#include "renderer/world/ground.h"
+#include "renderer/world/lit_picture.h"
+#include "renderer/world/scene_terrain.h"
 
 namespace belvedere {
 namespace {
 
 const glm::vec3 paper{0.957F, 0.937F, 0.886F};  // encoded sRGB
-constexpr int trace_tile_px = 32;
 
 // A sheet is one stage for those who watch, not sixteen times ten; remarks about its panels are not theirs either.
 class OneStage : public Progress {
@@ -113,30 +114,31 @@ void insert_panel(ExamplePainting& row, ExamplePainting panel, int x0, int y0, i
 struct SheetPainter::State {
   SheetPlan plan;
   SheetHand hand;
-  std::map<std::string, Dem> dems;
-  std::map<std::string, LandCover> covers;
+  std::map<std::string, std::shared_ptr<const Dem>> dems;
+  std::map<std::string, std::shared_ptr<const LandCover>> covers;
   std::uint32_t strokes = 0;  // laid so far on the sheet
   std::string instruction_set;
 
-  ExamplePainting paint_panel(int panel, const ExampleLayers& layers, Progress& progress) {
+  ExamplePainting paint_panel(int panel, const ExampleLayers& layers, const Run& run) {
+    Progress& progress = run.progress;
     LoadedScene loaded = panel_scene(plan, panel, hand.palette.winter);
     if (hand.light) loaded.scene.light = *hand.light;
     const SyntheticParameters& wish = loaded.scene.terrain.synthetic.value();
     const std::string terrain =
         fmt::format("{} {} {} {} {} {}", wish.width, wish.height, wish.cell_m, wish.lowest_m, wish.highest_m, wish.seed);
     auto dem = dems.find(terrain);
-    if (dem == dems.end()) dem = dems.emplace(terrain, make_scene_dem(loaded, progress)).first;
+    if (dem == dems.end()) dem = dems.emplace(terrain, std::make_shared<const Dem>(make_scene_dem(loaded, progress))).first;
     std::string rules = terrain + " " + loaded.scene.land_cover.rules;
     for (const auto& [key, value] : loaded.scene.land_cover.settings) rules += fmt::format(" {}={}", key, value);
     auto cover = covers.find(rules);
-    if (cover == covers.end()) cover = covers.emplace(rules, make_scene_land_cover(loaded, dem->second, progress)).first;
+    if (cover == covers.end())
+      cover = covers.emplace(rules, std::make_shared<const LandCover>(make_scene_land_cover(loaded, *dem->second, progress))).first;
 
-    Stage stage = set_stage(loaded, dem->second, cover->second, progress);
-    instruction_set = stage.tracer->description();
-    stage.palette = hand.palette;
-    stage.scene.seed = plan.seed + 1000ULL * static_cast<std::uint64_t>(panel + 1);  // no two panels have strokes at the same places
+    loaded.scene.seed = plan.seed + 1000ULL * static_cast<std::uint64_t>(panel + 1);  // no two panels have strokes at the same places
+    const World world(loaded, dem->second, cover->second, progress);
+    instruction_set = world.tracer.description();
     const PixelRect whole{0, 0, loaded.scene.output.width, loaded.scene.output.height};
-    ExamplePainting painted = paint_example(stage, make_lit_picture(stage, whole, trace_tile_px, progress), layers, progress);
+    ExamplePainting painted = paint_example(world, hand.palette, make_lit_picture(world, hand.palette, whole, run), layers, progress);
     std::uint32_t most = 0;
     for (std::uint32_t& stroke : painted.guidance.stroke) {
       most = std::max(most, stroke);
@@ -165,29 +167,30 @@ std::pair<int, int> SheetPainter::row_span(int row) const {
   return {cell.y0, cell.y1};
 }
 
-ExamplePainting SheetPainter::paint_row(int row, const ExampleLayers& layers, Progress& progress) {
+ExamplePainting SheetPainter::paint_row(int row, const ExampleLayers& layers, const Run& run) {
   const SheetPlan& plan = state_->plan;
   const auto [y0, y1] = row_span(row);
   ExamplePainting whole;
   whole.ground = Grid<glm::vec3>(plan.width, y1 - y0, paper);
-  OneStage quiet(progress);
+  OneStage watcher(run.progress);
+  const Run quiet{run.threads, run.memory_bytes, run.tile_px, watcher};
   for (int column = 0; column < plan.columns; ++column) {
     const int panel = row * plan.columns + column;
     const PixelRect rect = panel_rect(plan, panel);
     insert_panel(whole, state_->paint_panel(panel, layers, quiet), rect.x0, rect.y0 - y0, y0, plan);
-    progress.advance(1.0);
+    run.progress.advance(1.0);
   }
   return whole;
 }
 
-PaintedExemplar paint_sheet(const SceneExemplar& wish, const Stage& target, Progress& progress) {
+PaintedExemplar paint_sheet(const SceneExemplar& wish, const Scene& scene, const View& view, const Palette& palette, Progress& progress) {
   SheetPlan plan = built_in_sheet_plan();
   plan.width = wish.width;
   plan.height = wish.height;
   plan.seed = wish.seed;
-  plan.dots_per_inch = 50.8 * target.scene.pixels_per_unit();  // strokes as large as the target's
-  plan.light_from_deg = target.view.sun.azimuth_deg - target.view.camera.azimuth_deg;
-  SheetPainter painter(plan, {target.palette, target.scene.light});
+  plan.dots_per_inch = 50.8 * scene.pixels_per_unit();  // strokes as large as the picture's
+  plan.light_from_deg = view.sun.azimuth_deg - view.camera.azimuth_deg;
+  SheetPainter painter(plan, {palette, scene.light});
   progress.begin("painting a sheet to copy from", static_cast<double>(plan.panels.size()));
 
   PaintedExemplar painted;
@@ -197,7 +200,7 @@ PaintedExemplar paint_sheet(const SceneExemplar& wish, const Stage& target, Prog
   guides.label = Grid<std::uint8_t>(plan.width, plan.height);
   for (int row = 0; row < painter.rows(); ++row) {
     const auto [y0, y1] = painter.row_span(row);
-    ExamplePainting part = painter.paint_row(row, {.painting = false, .sky = false}, progress);
+    ExamplePainting part = painter.paint_row(row, {.painting = false, .sky = false}, {.progress = progress});
     // find_painted_classes wants indices in the part.
     const auto first = static_cast<std::uint32_t>(y0) * static_cast<std::uint32_t>(plan.width);
     for (std::uint32_t& from : part.guidance.ground_from) from -= first;
@@ -210,7 +213,7 @@ PaintedExemplar paint_sheet(const SceneExemplar& wish, const Stage& target, Prog
       for (const Guide& guide : of_part.guides) guides.guides.push_back({guide.name, Grid<std::uint8_t>(plan.width, plan.height)});
     for (std::size_t g = 0; g < of_part.guides.size(); ++g) copy_part(guides.guides[g].values, of_part.guides[g].values, 0, y0);
   }
-  painted.exemplar.picture = seam_picture(painted, guides.label, target.scene.synthesis.residual);
+  painted.exemplar.picture = seam_picture(painted, guides.label, scene.synthesis.residual);
   return painted;
 }
 

@@ -5,12 +5,12 @@
 #include <string>
 #include <utility>
 
-#include "base/progress.h"
+#include "base/run.h"
 #include "renderer/exemplar/example_painting.h"
 #include "renderer/exemplar/sheet_plan.h"
 #include "renderer/paint/paint.h"
 #include "renderer/scene/scene.h"
-#include "renderer/world/lit_picture.h"
+#include "renderer/world/view.h"
 
 namespace belvedere {
 
@@ -35,7 +35,7 @@ class SheetPainter {
   const std::string& instruction_set() const;
   // A row of panels with their margins, as wide as the sheet. painted_from and ground_from count in the pixels of the whole sheet. Margins
   // are bare paper: they count as sky, and nothing is copied from them.
-  ExamplePainting paint_row(int row, const ExampleLayers& layers, Progress& progress);
+  ExamplePainting paint_row(int row, const ExampleLayers& layers, const Run& run);
 
  private:
   struct State;
@@ -44,6 +44,6 @@ class SheetPainter {
 
 // The sheet that is painted for a picture: with its palette, light and size of stroke, so that every guide of it is exactly known. It
 // carries no trees, no houses and no sky: those are painted on the target last.
-PaintedExemplar paint_sheet(const SceneExemplar& wish, const Stage& target, Progress& progress);
+PaintedExemplar paint_sheet(const SceneExemplar& wish, const Scene& scene, const View& view, const Palette& palette, Progress& progress);
 
 }  // namespace belvedere

@@ -7,18 +7,19 @@
 #include <utility>
 #include <vector>
 
-#include "base/memory_limit.h"
 #include "renderer/exemplar/exemplars.h"
 #include "renderer/image/color.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
+#include "renderer/image/output_file.h"
 #include "renderer/paint/composite.h"
+#include "renderer/pipeline/copied_ground.h"
 #include "renderer/pipeline/output_color.h"
-#include "renderer/pipeline/stage_notes.h"
+#include "renderer/pipeline/scene_paint.h"
 #include "renderer/world/lit_picture.h"
+#include "renderer/world/world.h"
+#include "renderer/world/world_notes.h"
 #include "texture/strokes/stroke_painter.h"
-#include "texture/synthesis/class_supply.h"
-#include "texture/synthesis/synthesize.h"
 
 namespace belvedere {
 namespace {
@@ -54,51 +55,7 @@ int choose_band_rows(const Scene& scene) {
   return rows;
 }
 
-SynthesisParameters to_synthesis_parameters(const Scene& scene) {
-  SynthesisParameters parameters;
-  parameters.seed = scene.seed;
-  parameters.levels = scene.synthesis.levels;
-  // What a scene says of one guide leaves the defaults of the others.
-  parameters.weights = SceneSynthesis{}.weights;
-  for (const auto& wanted : scene.synthesis.weights) {
-    const auto known = std::find_if(parameters.weights.begin(), parameters.weights.end(),
-                                    [&](const auto& weight) { return weight.first == wanted.first; });
-    if (known != parameters.weights.end())
-      known->second = wanted.second;
-    else
-      parameters.weights.push_back(wanted);
-  }
-  parameters.reuse = scene.synthesis.reuse;
-  parameters.copy_cap = scene.synthesis.copy_cap;
-  for (const auto& [from, to] : scene.synthesis.fallback)
-    parameters.fallback[static_cast<std::uint8_t>(from)] = static_cast<std::uint8_t>(to);
-  return parameters;
-}
-
-// The ground of the picture in the exemplars' hand: synthesized texture as a residual over the base picture.
-Grid<glm::vec3> synthesize_ground(const LoadedScene& loaded, const Stage& stage, const LitPicture& picture,
-                                  std::vector<ScannedPainting> scans, Progress& progress) {
-  const std::vector<PaintedExemplar> painted = make_exemplars(loaded, stage, std::move(scans), progress);
-  std::vector<Exemplar> exemplars;
-  exemplars.reserve(painted.size());
-  for (const PaintedExemplar& p : painted) exemplars.push_back(p.exemplar);
-  // A first painting of strokes tells where each class's paint would lie: borders get the shape of strokes.
-  const Painting draft = paint_strokes(picture.ground.colour, picture.guidance, picture.ground,
-                                       {.sky = false, .breaks = false, .upright = false}, to_stroke_parameters(stage), progress);
-  const PaintedClasses classes = find_painted_classes(draft.sources, picture.guidance, picture.ground.colour);
-  const GuideStack guides = make_guide_stack(picture.guidance, classes.land_cover);
-  const SynthesisParameters parameters = to_synthesis_parameters(stage.scene);
-  const std::string scarcity = describe_scarcity(class_supply(exemplars, guides.label, parameters.fallback), [](std::uint8_t label) {
-    return std::string(class_name(static_cast<LandCoverClass>(label)));
-  });
-  if (!scarcity.empty()) progress.note(scarcity);
-  const MatchField matches = synthesize(exemplars, guides, parameters, progress);
-  const Grid<glm::vec3> copied = transfer_residual(matches, painted, classes.base, picture.ground.haze, stage.scene.synthesis.residual);
-  return mix_borders(copied, draft, classes.land_cover, picture.guidance.land_cover, picture.ground.colour);
-}
-
-// Colours may be a painting's even where its strokes are not used.
-bool reads_paintings(const Scene& scene) { return scene.synthesis.enabled || scene.synthesis.colours == "painting"; }
+PixelRect whole_picture(const Scene& scene) { return {0, 0, scene.output.width, scene.output.height}; }
 
 void write_panorama(const Grid<glm::vec3>& picture, const Scene& scene, const OutputColor& color, const FileNotes& notes,
                     const std::string& folder, Progress& progress) {
@@ -121,52 +78,55 @@ void write_panorama(const Grid<glm::vec3>& picture, const Scene& scene, const Ou
 
 }  // namespace
 
-void render(const LoadedScene& loaded, const RenderOptions& options, Progress& progress) {
-  const ThreadLimit threads(options.threads);
-  require_scene_files(loaded);
+void render(const LoadedScene& loaded, const std::string& out_folder, const Run& run) {
+  const RunLimits limits(run);
+  Progress& progress = run.progress;
   check_memory(loaded.scene);
+  require_inputs(loaded);
   const OutputColor color = read_output_color(loaded);
-  if (reads_paintings(loaded.scene)) check_paintings(loaded);
-  check_output_folder(options.out_folder);
+  check_output_folder(out_folder);
 
-  Stage stage = set_stage(loaded, progress);
-  std::vector<ScannedPainting> scans;
-  if (reads_paintings(loaded.scene)) scans = read_scans(loaded, progress);
-  if (loaded.scene.synthesis.colours == "painting") stage.palette = take_colours(stage.palette, scans, loaded.scene.synthesis.fallback);
-  const FileNotes notes = make_stage_notes(loaded, stage);
-  const PixelRect whole{0, 0, loaded.scene.output.width, loaded.scene.output.height};
-  const LitPicture picture = make_lit_picture(stage, whole, options.tile_size, progress);
+  ScenePaint paint = read_scene_paint(loaded, progress);
+  const Palette& palette = paint.palette;
+  const World world(loaded, progress);  // world.h names what it is made of, one from the other:
+  const auto& [scene, dem, view, camera, land_cover, deformation, terrain, surface, tracer, horizon_px] = world;
+  const FileNotes notes = make_world_notes(loaded, world);
+
+  const LitPicture lit = make_lit_picture(world, palette, whole_picture(scene), run);  // traced guidance → tone → base picture
   progress.begin("writing guidance", 0.0);
-  write_guidance(join(options.out_folder, "guidance.exr"), picture.guidance, notes);
+  write_guidance(join(out_folder, "guidance.exr"), lit.guidance, notes);
 
-  const bool copied = stage.scene.synthesis.enabled;
-  Grid<glm::vec3> ground = copied ? synthesize_ground(loaded, stage, picture, std::move(scans), progress) : picture.ground.colour;
+  const bool copied = scene.synthesis.enabled;
+  Grid<glm::vec3> ground = !copied ? lit.ground.colour : [&] {
+    const std::vector<PaintedExemplar> exemplars = make_exemplars(loaded, view, palette, std::move(paint.paintings), progress);
+    const PaintDraft draft = draft_paint(world, palette, lit, progress);
+    const MatchField matches = match_exemplars(exemplars, scene, lit, draft, progress);
+    return copy_ground(matches, exemplars, scene, lit, draft);
+  }();
   // What the exemplar cannot give is painted last, far to near: sky, trees, houses; without an exemplar everything is.
   const StrokeLayers layers{.sky = true, .ground = !copied, .accents = true, .breaks = true, .upright = true};
-  const Painting painted =
-      paint_strokes(std::move(ground), picture.guidance, picture.ground, layers, to_stroke_parameters(stage), progress);
-  const Grid<glm::vec3> panorama = blend_edges(painted.picture, picture.guidance);
-  write_panorama(panorama, stage.scene, color, notes, options.out_folder, progress);
+  const Painting strokes =
+      paint_strokes(std::move(ground), lit.guidance, lit.ground, layers, to_stroke_parameters(world, palette), progress);
+  const Grid<glm::vec3> panorama = blend_edges(strokes.picture, lit.guidance);
+  write_panorama(panorama, scene, color, notes, out_folder, progress);
 }
 
-void render_guidance(const LoadedScene& loaded, const RenderOptions& options, Progress& progress) {
-  const ThreadLimit threads(options.threads);
-  require_scene_files(loaded);
+void render_guidance(const LoadedScene& loaded, const std::string& out_folder, const Run& run) {
+  const RunLimits limits(run);
   const int band_rows = choose_band_rows(loaded.scene);
-  check_output_folder(options.out_folder);
+  require_inputs(loaded);
+  check_output_folder(out_folder);
 
-  Stage stage = set_stage(loaded, progress);
-  if (loaded.scene.synthesis.colours == "painting")
-    stage.palette = take_colours(stage.palette, read_scans(loaded, progress), loaded.scene.synthesis.fallback);
-  const int width = loaded.scene.output.width;
-  const int height = loaded.scene.output.height;
-  const int margin = lit_margin_px(stage.scene);
-  GuidanceWriter writer(join(options.out_folder, "guidance.exr"), width, height, make_stage_notes(loaded, stage));
-  for (int y0 = 0; y0 < height; y0 += band_rows) {
-    const int y1 = std::min(height, y0 + band_rows);
-    const PixelRect band{0, std::max(0, y0 - margin), width, std::min(height, y1 + margin)};
-    const LitPicture picture = make_lit_picture(stage, band, options.tile_size, progress);
-    writer.write_rows(picture.guidance, y0 - band.y0, y1 - y0, y0);
+  const Palette palette = read_scene_palette(loaded, run.progress);
+  const World world(loaded, run.progress);
+  const PixelRect whole = whole_picture(world.scene);
+  const int margin = lit_margin_px(world.scene);
+  GuidanceWriter writer(join(out_folder, "guidance.exr"), whole.x1, whole.y1, make_world_notes(loaded, world));
+  for (int y0 = 0; y0 < whole.y1; y0 += band_rows) {
+    const int y1 = std::min(whole.y1, y0 + band_rows);
+    const PixelRect band{0, std::max(0, y0 - margin), whole.x1, std::min(whole.y1, y1 + margin)};
+    const LitPicture lit = make_lit_picture(world, palette, band, run);
+    writer.write_rows(lit.guidance, y0 - band.y0, y1 - y0, y0);
   }
   writer.finish();
 }

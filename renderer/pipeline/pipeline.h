@@ -2,20 +2,14 @@
 
 #include <string>
 
-#include "base/progress.h"
+#include "base/run.h"
 #include "renderer/scene/scene_file.h"
 
 namespace belvedere {
 
-struct RenderOptions {
-  std::string out_folder;
-  int threads = 0;     // 0: all
-  int tile_size = 32;  // changes no bit of the result
-};
-
-// The whole main job: reads top to bottom as named values. Writes panorama.tif, panorama.png, panorama.exr and guidance.exr.
-void render(const LoadedScene& scene, const RenderOptions& options, Progress& progress);
-// Only guidance.exr, band by band, so that memory does not grow with the picture.
-void render_guidance(const LoadedScene& scene, const RenderOptions& options, Progress& progress);
+// The whole main job, top to bottom as named values. Writes panorama.tif, panorama.png, panorama.exr and guidance.exr into the folder.
+void render(const LoadedScene& scene, const std::string& out_folder, const Run& run);
+// Walks the same way and stops at guidance.exr, band by band, so that memory does not grow with the picture.
+void render_guidance(const LoadedScene& scene, const std::string& out_folder, const Run& run);
 
 }  // namespace belvedere

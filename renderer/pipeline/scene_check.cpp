@@ -6,9 +6,10 @@
 
 #include "base/error.h"
 #include "renderer/exemplar/exemplars.h"
-#include "renderer/image/image_io.h"
 #include "renderer/pipeline/output_color.h"
+#include "renderer/pipeline/scene_paint.h"
 #include "renderer/world/lit_picture.h"
+#include "renderer/world/scene_terrain.h"
 #include "terrain/io/raster_io.h"
 
 namespace belvedere {
@@ -35,6 +36,8 @@ LoadedScene small(const LoadedScene& scene) {
   return out;
 }
 
+PixelRect whole_picture(const LoadedScene& view) { return {0, 0, view.scene.output.width, view.scene.output.height}; }
+
 std::vector<bool> labels_of(const std::vector<PaintedExemplar>& exemplars) {
   std::vector<bool> found(256, false);
   for (const PaintedExemplar& painted : exemplars)
@@ -45,24 +48,21 @@ std::vector<bool> labels_of(const std::vector<PaintedExemplar>& exemplars) {
 }  // namespace
 
 SceneReport check_scene(const LoadedScene& scene, Progress& progress) {
-  require_scene_files(scene);
+  require_inputs(scene);
   read_output_color(scene);
-  if (scene.scene.synthesis.enabled) check_paintings(scene);
   SceneReport report;
   report.inputs = scene_inputs(scene);
   const LoadedScene view = small(scene);
-  const Stage stage = set_stage(view, progress);
-  std::vector<ScannedPainting> scans;
-  if (scene.scene.synthesis.enabled) scans = read_scans(view, progress);
-  if (scene.scene.land_cover.patches.smallest_m2 > 0.0)
-    report.land_cover = make_scene_patches(scene, stage.ground.model.dem, progress).areas;
-  report.view = stage.view;
-  report.crs = stage.ground.model.dem.crs.empty() ? std::string("none") : describe_crs(stage.ground.model.dem.crs);
-  report.cells_wide = stage.ground.model.dem.width();
-  report.cells_high = stage.ground.model.dem.height();
-  report.cell_m = stage.ground.model.dem.cell_m();
+  ScenePaint paint = read_scene_paint(view, progress);
+  const World world(view, progress);
+  if (scene.scene.land_cover.patches.smallest_m2 > 0.0) report.land_cover = make_scene_patches(scene, *world.dem, progress).areas;
+  report.view = world.view;
+  report.crs = world.dem->crs.empty() ? std::string("none") : describe_crs(world.dem->crs);
+  report.cells_wide = world.dem->width();
+  report.cells_high = world.dem->height();
+  report.cell_m = world.dem->cell_m();
 
-  const LitPicture picture = make_lit_picture(stage, {0, 0, view.scene.output.width, view.scene.output.height}, 32, progress);
+  const LitPicture picture = make_lit_picture(world, paint.palette, whole_picture(view), {.progress = progress});
   std::array<double, land_cover_class_count> count{};
   for (const LandCoverClass id : picture.guidance.land_cover) count[static_cast<std::size_t>(id)] += 1.0;
   for (const LandCoverClassInfo& info : land_cover_classes())
@@ -71,7 +71,7 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress) {
       report.classes.emplace_back(info.id, share);
   if (!scene.scene.synthesis.enabled) return report;
 
-  const std::vector<PaintedExemplar> exemplars = make_exemplars(view, stage, std::move(scans), progress);
+  const std::vector<PaintedExemplar> exemplars = make_exemplars(view, world.view, paint.palette, std::move(paint.paintings), progress);
   for (const PaintedExemplar& painted : exemplars) report.exemplars.push_back(painted.exemplar.name);
   const std::vector<bool> has = labels_of(exemplars);
   std::vector<std::string> missing;
@@ -94,12 +94,12 @@ SceneExemplars look_at_exemplars(const LoadedScene& scene, Progress& progress) {
   require_scene_files(scene);
   check_paintings(scene);
   const LoadedScene view = small(scene);
-  Stage stage = set_stage(view, progress);
-  const LitPicture picture = make_lit_picture(stage, {0, 0, view.scene.output.width, view.scene.output.height}, 32, progress);
-  // Sheets are painted for the picture itself: their strokes are as large as its.
-  stage.scene = scene.scene;
+  const Palette palette = read_scene_palette(scene, progress);
+  const World world(view, progress);
+  const LitPicture picture = make_lit_picture(world, palette, whole_picture(view), {.progress = progress});
   const double small_pixels = static_cast<double>(view.scene.output.width) * view.scene.output.height;
-  return {.exemplars = make_exemplars(scene, stage, read_scans(scene, progress), progress),
+  // Sheets are painted for the picture itself: their strokes are as large as its.
+  return {.exemplars = make_exemplars(scene, world.view, palette, read_scans(scene, progress), progress),
           .view = make_guide_stack(picture.guidance, picture.guidance.land_cover),
           .pixels_of_picture = static_cast<double>(scene.scene.output.width) * scene.scene.output.height / small_pixels};
 }

@@ -58,8 +58,8 @@ struct Seen {
 
 LandCoverClass class_at(const TerrainModel& terrain, double column, double row) {
   const glm::dvec2 origin = origin_of(terrain, column, row);
-  const glm::dvec2 place = terrain.dem.transform.to_crs(origin.x, origin.y);
-  const LandCoverClass found = terrain.land_cover.at(place.x, place.y);
+  const glm::dvec2 place = terrain.dem->transform.to_crs(origin.x, origin.y);
+  const LandCoverClass found = terrain.land_cover->at(place.x, place.y);
   return found == LandCoverClass::sky ? LandCoverClass::rock : found;
 }
 
@@ -244,23 +244,24 @@ Grid<float> rim_distance(const Dem& dem) {
 
 }  // namespace
 
-TerrainModel make_terrain_model(Dem dem, Grid<float> generalized_m, LandCover land_cover, double exaggeration) {
-  if (!dem.altitude_m.same_size(generalized_m)) {
+TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> generalized_m, std::shared_ptr<const LandCover> land_cover,
+                                double exaggeration) {
+  if (!dem->altitude_m.same_size(generalized_m)) {
     throw Error(ErrorKind::bug, "terrain model",
                 fmt::format("a generalized grid of {} × {} cells", generalized_m.width(), generalized_m.height()),
-                fmt::format("the DEM's {} × {}", dem.width(), dem.height()));
+                fmt::format("the DEM's {} × {}", dem->width(), dem->height()));
   }
   TerrainModel model;
-  const double cell_m = dem.cell_m();
-  const Grid<float>& z = dem.altitude_m;
+  const double cell_m = dem->cell_m();
+  const Grid<float>& z = dem->altitude_m;
   model.detail_smooth_m = gaussian_blur(z, 60.0 / cell_m);
   model.shape_smooth_m = gaussian_blur(generalized_m, 120.0 / cell_m);
   model.relief_s_m = relief(z, cell_m, 30.0, 180.0);
   model.relief_m_m = relief(z, cell_m, 30.0, 750.0);
   model.relief_l_m = relief(z, cell_m, 120.0, 1800.0);
   model.valley_height_m = height_above_valley(z, cell_m, 900.0);
-  model.rim_m = rim_distance(dem);
-  model.floor_plan = plan_floor(land_cover, dem);
+  model.rim_m = rim_distance(*dem);
+  model.floor_plan = plan_floor(*land_cover, *dem);
   model.dem = std::move(dem);
   model.generalized_m = std::move(generalized_m);
   model.land_cover = std::move(land_cover);
@@ -276,7 +277,7 @@ GuidanceBuffers trace_guidance(const TerrainModel& terrain, const DeformedSurfac
     throw Error(ErrorKind::bug, "guidance", fmt::format("pixels {}…{} × {}…{}", region.x0, region.x1, region.y0, region.y1),
                 fmt::format("a part of {} × {}", size.x, size.y));
   }
-  if (!surface.vertices_m.same_size(terrain.dem.altitude_m)) throw Error(ErrorKind::bug, "guidance", "surface and terrain differ in size");
+  if (!surface.vertices_m.same_size(terrain.dem->altitude_m)) throw Error(ErrorKind::bug, "guidance", "surface and terrain differ in size");
 
   const Tracing tracing{terrain,
                         surface,

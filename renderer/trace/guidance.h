@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -18,7 +19,7 @@ namespace belvedere {
 
 // All the ground values a pixel may ask for, made once from the DEM; every grid has the DEM's size.
 struct TerrainModel {
-  Dem dem;                                         // undeformed, ungeneralized
+  std::shared_ptr<const Dem> dem;                  // undeformed, ungeneralized
   Grid<float> generalized_m;                       // after generalize()
   Grid<glm::vec2> came_from;                       // where widening of valleys took each cell's ground from, columns and rows; may be empty
   Grid<float> detail_smooth_m;                     // dem after a Gaussian of 60 m: slope and aspect
@@ -26,7 +27,7 @@ struct TerrainModel {
   Grid<float> relief_s_m, relief_m_m, relief_l_m;  // z(30 m) - z(180 m), z(30 m) - z(750 m), z(120 m) - z(1800 m)
   Grid<float> valley_height_m;                     // above the lowest ground within 900 m
   Grid<float> rim_m;                               // distance to where the known terrain ends
-  LandCover land_cover;
+  std::shared_ptr<const LandCover> land_cover;
   FloorPlan floor_plan;       // how valley floors are laid out
   double exaggeration = 1.0;  // of light's normals
   // Given where the ground is not only exaggerated alike everywhere: then light's normals are those of the rearranged shape.
@@ -35,7 +36,8 @@ struct TerrainModel {
 };
 
 // Makes the derived grids from dem, generalized and land cover. Throws Error(bug) where the two grids differ in size.
-TerrainModel make_terrain_model(Dem dem, Grid<float> generalized_m, LandCover land_cover, double exaggeration);
+TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> generalized_m, std::shared_ptr<const LandCover> land_cover,
+                                double exaggeration);
 
 struct GuidanceParameters {
   int pixel_samples = 4;  // primary rays a pixel, 1, 4, 9 or 16

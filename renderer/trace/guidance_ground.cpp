@@ -63,7 +63,7 @@ glm::vec3 shape_normal(const glm::dmat3& jacobian, glm::dvec2 slope) {
 // A place of the smoothed shape in the deformed world: the shape exaggerated, moved as the surface's own posts were moved. (The posts
 // themselves would give the fall line of every bump.)
 glm::dvec3 smooth_deformed(const TerrainModel& terrain, const DeformedSurface& surface, double column, double row) {
-  const GeoTransform& transform = terrain.dem.transform;
+  const GeoTransform& transform = terrain.dem->transform;
   const Corners at = corners(terrain.generalized_m, column, row);
   if (terrain.local) return terrain.local->point({transform.to_crs(column, row), bilinear(terrain.shape_smooth_m, at)});
   const glm::dvec3 moved = at.blend([&](int x, int y) {
@@ -80,7 +80,7 @@ glm::vec2 image_fall_line(const TerrainModel& terrain, const DeformedSurface& su
   const double steepness = glm::length(slope);
   if (steepness < flat_gradient) return glm::vec2(0.F);
   const glm::dvec2 downhill = -slope / steepness * fall_line_step_m;
-  const GeoTransform& transform = terrain.dem.transform;
+  const GeoTransform& transform = terrain.dem->transform;
   const auto from = camera.project(smooth_deformed(terrain, surface, column, row));
   const auto to =
       camera.project(smooth_deformed(terrain, surface, column + downhill.x / transform.cell_x, row - downhill.y / transform.cell_y));
@@ -104,15 +104,15 @@ glm::dvec2 origin_of(const TerrainModel& terrain, double column, double row) {
 }
 
 GroundValues sample_ground(const TerrainModel& terrain, const DeformedSurface& surface, const Camera& camera, double column, double row) {
-  const GeoTransform& transform = terrain.dem.transform;
+  const GeoTransform& transform = terrain.dem->transform;
   const Corners at = corners(terrain.generalized_m, column, row);
   const glm::dvec2 origin = origin_of(terrain, column, row);
-  const Corners known = corners(terrain.dem.altitude_m, origin.x, origin.y);
+  const Corners known = corners(terrain.dem->altitude_m, origin.x, origin.y);
   GroundValues ground;
-  ground.place = glm::dvec3(transform.to_crs(column, row), bilinear(terrain.dem.altitude_m, known));
+  ground.place = glm::dvec3(transform.to_crs(column, row), bilinear(terrain.dem->altitude_m, known));
 
   const glm::dvec2 slope_shown = gradient(terrain.generalized_m, transform, at);
-  const glm::dvec2 slope_detail = gradient(terrain.dem.altitude_m, transform, known);
+  const glm::dvec2 slope_detail = gradient(terrain.dem->altitude_m, transform, known);
   const glm::dvec2 shape = gradient(terrain.shape_smooth_m, transform, at);
   if (terrain.local) {
     const glm::dmat3 jacobian = terrain.local->shape_jacobian({glm::dvec2(ground.place), bilinear(terrain.generalized_m, at)});

@@ -7,7 +7,7 @@
 
 #include "base/filter.h"
 #include "base/parallel.h"
-#include "renderer/world/ground.h"
+#include "renderer/world/scene_terrain.h"
 #include "terrain/deform/deform.h"
 #include "terrain/generalize/line_integral_generalize.h"
 #include "terrain/generalize/mask.h"

@@ -10,7 +10,7 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "renderer/world/generalize_view.h"
-#include "renderer/world/ground.h"
+#include "renderer/world/scene_terrain.h"
 
 namespace belvedere {
 namespace {

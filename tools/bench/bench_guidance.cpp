@@ -25,8 +25,10 @@ std::vector<Measurement> bench_guidance(const Options& options) {
       cover.classes.cells[i] = z < 1700.F ? LandCoverClass::forest : z < 2300.F ? LandCoverClass::alpine_grass : LandCoverClass::rock;
     }
     Grid<float> generalized = dem.altitude_m;
+    const auto shared_dem = std::make_shared<const Dem>(std::move(dem));
+    const auto shared_cover = std::make_shared<const LandCover>(std::move(cover));
     TerrainModel terrain;
-    const Cost model = measure([&] { terrain = make_terrain_model(std::move(dem), std::move(generalized), std::move(cover), 1.6); });
+    const Cost model = measure([&] { terrain = make_terrain_model(shared_dem, std::move(generalized), shared_cover, 1.6); });
     out.push_back({name + "/terrain_model", static_cast<double>(surface.vertices_m.size()) / model.cpu_s * 1e-6, "Mcells/CPU s"});
     GuidanceBuffers buffers;
     const std::vector<Cost> trace =

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "base/json.h"
-#include "base/parallel.h"
 #include "renderer/pipeline/scene_check.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"
@@ -83,7 +82,7 @@ Command add_check(CLI::App& program) {
       "  belvedere check scenes/karwendel.toml --data ../data");
   return {command, [options] {
             const LoadedScene scene = load(*options);
-            const ThreadLimit threads(options->threads);
+            const RunLimits limits(make_run(*options));
             TerminalProgress progress(options->quiet);
             const SceneReport report = check_scene(scene, progress);
             progress.end();

@@ -13,7 +13,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/trace/relief_sketch.h"
 #include "renderer/world/generalize_view.h"
-#include "renderer/world/ground.h"
+#include "renderer/world/scene_terrain.h"
 #include "renderer/world/valley_view.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/io/surface_raster.h"
@@ -226,7 +226,7 @@ int run(const DeformOptions& options) {
   if (!options.picture.empty() && !options.search_bend)
     throw Error(ErrorKind::usage, "--out", "no --search-bend beside it", "--search-bend --out FILE.png");
   const LoadedScene scene = load(options);
-  const ThreadLimit threads(options.scene.threads);
+  const RunLimits limits(make_run(options.scene));
   TerminalProgress progress(options.scene.quiet);
   require_scene_files(scene);
   Report report;

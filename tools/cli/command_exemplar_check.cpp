@@ -135,8 +135,7 @@ int run(const Options& options) {
   check_scene_or_files(options);
 
   if (!options.report.empty()) check_output_folder(options.report);
-  if (options.scene.memory_mib > 0) setenv("BELVEDERE_MEMORY_MIB", std::to_string(options.scene.memory_mib).c_str(), 1);
-  const ThreadLimit threads(options.scene.threads);
+  const RunLimits limits(make_run(options.scene));
   TerminalProgress progress(options.scene.quiet);
   if (of_files) progress.begin("reading", 0.0);
   const Subject subject = of_files ? from_files(options) : from_scene(options, progress);

@@ -36,15 +36,15 @@ void refuse_sheet_options(const Options& options) {
                 "--set output.width=…, output.height and output.sheet_width_mm");
 }
 
-Coverage paint_scene(const Options& options, const RenderOptions& render, Progress& progress) {
+Coverage paint_scene(const Options& options, const Run& run) {
   refuse_sheet_options(options);
   SceneOptions wish = options.scene;
   if (options.season) wish.files.settings.push_back("palette=" + *options.season);
   if (options.seed) wish.files.settings.push_back(fmt::format("seed={}", *options.seed));
-  return write_scene_exemplar(load(wish), render, progress);
+  return write_scene_exemplar(load(wish), options.out, run);
 }
 
-Coverage paint_sheet_of(const Options& options, const RenderOptions& render, Progress& progress) {
+Coverage paint_sheet_of(const Options& options, const Run& run) {
   if (!options.scene.files.settings.empty())
     throw Error(ErrorKind::usage, "--set", "it changes a scene, and a sheet has none", "--plan with a sheet.toml of your own");
   SheetPlan plan = options.plan.empty() ? built_in_sheet_plan() : read_sheet_plan(options.plan);
@@ -52,15 +52,15 @@ Coverage paint_sheet_of(const Options& options, const RenderOptions& render, Pro
   if (options.size) plan.width = plan.height = *options.size;
   if (options.dots_per_inch) plan.dots_per_inch = *options.dots_per_inch;
   if (options.seed) plan.seed = *options.seed;
-  return write_sheet_exemplar(plan, render, progress);
+  return write_sheet_exemplar(plan, options.out, run);
 }
 
 int run(const Options& options) {
   const bool sheet = options.scene.scene.empty();
-  limit_memory(options.scene);
   TerminalProgress progress(options.scene.quiet);
-  const RenderOptions render{.out_folder = options.out, .threads = options.scene.threads, .tile_size = options.tile_size};
-  const Coverage coverage = sheet ? paint_sheet_of(options, render, progress) : paint_scene(options, render, progress);
+  const Run run = make_run(options.scene, options.tile_size, progress);
+  const RunLimits limits(run);
+  const Coverage coverage = sheet ? paint_sheet_of(options, run) : paint_scene(options, run);
   progress.end();
 
   const std::vector<CoverageGap> gaps = find_gaps(coverage, built_in_demand(), {});

@@ -19,13 +19,13 @@ struct Options {
   int tile_size = 32;
 };
 
-using Job = void (*)(const LoadedScene&, const RenderOptions&, Progress&);
+using Job = void (*)(const LoadedScene&, const std::string& out_folder, const Run&);
 
 int run_job(const Options& options, Job job, const std::vector<std::string>& results) {
   const LoadedScene scene = load(options.scene);
   const std::string folder = options.out.empty() ? scene.name : options.out;
   TerminalProgress progress(options.scene.quiet);
-  job(scene, {.out_folder = folder, .threads = options.scene.threads, .tile_size = options.tile_size}, progress);
+  job(scene, folder, make_run(options.scene, options.tile_size, progress));
   progress.end();
 
   std::vector<std::string> paths;

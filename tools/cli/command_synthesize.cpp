@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/json.h"
+#include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "renderer/image/provenance.h"
 #include "texture/synthesis/class_supply.h"
@@ -148,7 +149,7 @@ int run_sweep(const Options& options, const SynthesisInputs& inputs, Progress& p
 }
 
 int run(Options& options) {
-  if (options.memory_mib > 0) setenv("BELVEDERE_MEMORY_MIB", std::to_string(options.memory_mib).c_str(), 1);
+  const MemoryLimit memory(static_cast<std::uint64_t>(options.memory_mib) << 20);
   if (!options.replay.empty()) return run_replay(options);
   if (options.sweeps.empty()) {
     check_result_name(options.out);

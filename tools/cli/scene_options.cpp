@@ -1,7 +1,7 @@
 #include "tools/cli/scene_options.h"
 
 #include <CLI/CLI.hpp>
-#include <cstdlib>
+#include <cstdint>
 
 #include "base/embedded.h"
 #include "base/error.h"
@@ -30,14 +30,18 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
   command.add_flag("--json", options.json, "The result as JSON on standard output");
 }
 
-void limit_memory(const SceneOptions& options) {
-  if (options.memory_mib > 0) setenv("BELVEDERE_MEMORY_MIB", std::to_string(options.memory_mib).c_str(), 1);
+LoadedScene load(const SceneOptions& options) {
+  if (!options.scene.empty()) return read_scene(options.scene, options.files);
+  const std::string demo(embedded_file("scenes/demo/demo.toml"));
+  return parse_scene(demo, "demo.toml", ".", options.files);
 }
 
-LoadedScene load(const SceneOptions& options) {
-  limit_memory(options);
-  if (!options.scene.empty()) return read_scene(options.scene, options.files);
-  return parse_scene(std::string(embedded_file("scenes/demo/demo.toml")), "demo.toml", ".", options.files);
+Run make_run(const SceneOptions& options, int tile_px, Progress& progress) {
+  constexpr int mib_bits = 20;
+  return {.threads = options.threads,
+          .memory_bytes = static_cast<std::uint64_t>(options.memory_mib) << mib_bits,
+          .tile_px = tile_px,
+          .progress = progress};
 }
 
 }  // namespace belvedere::tools

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "base/run.h"
 #include "renderer/scene/scene_file.h"
 
 namespace CLI {
@@ -23,9 +24,9 @@ struct SceneOptions {
 // meaning: of the scene, in the command's help.
 void add_scene_options(CLI::App& command, SceneOptions& options,
                        const std::string& meaning = "The scene file; without one the built-in demo");
-// Tells the library of the memory limit.
-void limit_memory(const SceneOptions& options);
-// Reads the scene, or the demo, and tells the library of the memory limit.
+// Reads the scene, or the demo.
 LoadedScene load(const SceneOptions& options);
+// How the job is to be done, as the command line says.
+Run make_run(const SceneOptions& options, int tile_px = Run{}.tile_px, Progress& progress = silent_progress());
 
 }  // namespace belvedere::tools

@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 
 #include "base/random.h"
-#include "renderer/exemplar/exemplars.h"
 #include "renderer/exemplar/harmonize.h"
+#include "renderer/exemplar/seam_picture.h"
 #include "renderer/image/image_io.h"
 #include "tests/renderer/image/picture_bytes.h"
 #include "texture/synthesis/guide_stack.h"

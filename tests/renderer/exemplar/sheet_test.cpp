@@ -127,7 +127,7 @@ TEST(SheetPlan, WinterLaysSnowWherePanelsSaySo) {
 TEST(SheetPainter, IndicesOfPaintCountInTheWholeSheet) {
   SheetPainter painter(small_plan(), {read_palette("summer"), std::nullopt});
   ASSERT_EQ(painter.rows(), 1);
-  const ExamplePainting row = painter.paint_row(0, {}, silent_progress());
+  const ExamplePainting row = painter.paint_row(0, {}, {});
   const GuidanceBuffers& g = row.guidance;
   ASSERT_EQ(g.width(), 256);
   const PixelRect right = panel_rect(painter.plan(), 1);
@@ -190,7 +190,7 @@ TEST(SheetPainter, PanelsHaveTheTerrainRulesAndStrokesOfTheirOwn) {
   };
   const auto painted = [&] {
     SheetPainter painter(plan, {read_palette("summer"), std::nullopt});
-    return painter.paint_row(0, {.painting = false, .sky = false}, silent_progress());
+    return painter.paint_row(0, {.painting = false, .sky = false}, {});
   };
   const ExamplePainting twins = painted();
   EXPECT_EQ(alike(twins, twins.guidance.altitude_m), 1.0);
@@ -209,7 +209,7 @@ TEST(SheetPainter, PaintsInTheHandOfWhoeverWantsTheSheet) {
   const SheetPlan plan = small_plan();
   const auto mean_tone_and_blue = [&](const char* palette, const std::optional<SceneLight>& light) {
     SheetPainter painter(plan, {read_palette(palette), light});
-    const ExamplePainting row = painter.paint_row(0, {.painting = false, .sky = false}, silent_progress());
+    const ExamplePainting row = painter.paint_row(0, {.painting = false, .sky = false}, {});
     glm::dvec2 sum(0.0);
     double ground = 0.0;
     for (std::size_t i = 0; i < row.ground.size(); ++i) {
@@ -228,7 +228,7 @@ class ExemplarFiles : public testing::Test {
  protected:
   std::string out(const std::string& name) const { return folder_ / name; }
   void paint(const std::string& name, int threads, int tile) const {
-    write_sheet_exemplar(small_plan(), {.out_folder = out(name), .threads = threads, .tile_size = tile}, silent_progress());
+    write_sheet_exemplar(small_plan(), out(name), {.threads = threads, .tile_px = tile});
   }
   static LoadedScene copying(const std::string& picture, const std::string& guidance, const std::string& folder) {
     return parse_scene("version = 1\n[[exemplar]]\npicture = \"" + picture + "\"\nguidance = \"" + guidance + "\"\n", "s.toml", folder, {});
@@ -238,7 +238,7 @@ class ExemplarFiles : public testing::Test {
 
 TEST_F(ExemplarFiles, SameBytesForAnyThreadsAndWhenMadeAgainFromTheirPlan) {
   paint("a", 1, 32);
-  write_sheet_exemplar(read_sheet_plan(out("a/sheet.toml")), {.out_folder = out("b"), .threads = 2, .tile_size = 64}, silent_progress());
+  write_sheet_exemplar(read_sheet_plan(out("a/sheet.toml")), out("b"), {.threads = 2, .tile_px = 64});
   for (const char* file : {"painting.tif", "ground.tif", "painting.png", "guidance.exr", "sheet.toml", "coverage.json"}) {
     const std::string left = test::read_bytes(out(std::string("a/") + file));
     EXPECT_FALSE(left.empty()) << file;
@@ -249,7 +249,7 @@ TEST_F(ExemplarFiles, SameBytesForAnyThreadsAndWhenMadeAgainFromTheirPlan) {
 TEST_F(ExemplarFiles, AreReadAsTheSheetThatWasPainted) {
   paint("a", 0, 32);
   SheetPainter painter(small_plan(), {read_palette("summer"), std::nullopt});
-  const ExamplePainting row = painter.paint_row(0, {}, silent_progress());
+  const ExamplePainting row = painter.paint_row(0, {}, {});
   for (const char* layer : {"ground.tif", "painting.tif"}) {
     const bool ground = std::string(layer) == "ground.tif";
     const PaintedExemplar read = read_scans(copying(layer, "guidance.exr", out("a")), silent_progress()).at(0).painted;
@@ -289,7 +289,7 @@ TEST_F(ExemplarFiles, AreReadAsTheSheetThatWasPainted) {
 }
 
 TEST_F(ExemplarFiles, CountedIsTheClassOfThePaintThatIsCopied) {
-  const Coverage counted = write_sheet_exemplar(small_plan(), {.out_folder = out("a")}, silent_progress());
+  const Coverage counted = write_sheet_exemplar(small_plan(), out("a"), {});
   const GuidanceBuffers guidance = read_guidance(out("a/guidance.exr"));
   Coverage of_ground_paint;
   Coverage of_classes;
@@ -306,7 +306,7 @@ TEST_F(ExemplarFiles, GuidanceOfAnotherPaintingIsRefused) {
   paint("a", 0, 32);
   SheetPlan plan = small_plan();
   plan.panels[1].settings.emplace_back("sun.altitude_deg=25");
-  write_sheet_exemplar(plan, {.out_folder = out("b")}, silent_progress());
+  write_sheet_exemplar(plan, out("b"), {});
   std::filesystem::copy_file(out("b/guidance.exr"), out("a/guidance.exr"), std::filesystem::copy_options::overwrite_existing);
   try {
     read_scans(copying("ground.tif", "guidance.exr", out("a")), silent_progress());

@@ -53,7 +53,7 @@ class Pipeline : public testing::Test {
   static void SetUpTestSuite() {
     folder_of_all_ = std::make_unique<test::Folder>();
     rendered_ = folder_of_all_->path();
-    render(parse_scene(small_scene, "small.toml", ".", {}), {.out_folder = rendered_, .threads = 1, .tile_size = 32}, silent_progress());
+    render(parse_scene(small_scene, "small.toml", ".", {}), rendered_, {.threads = 1, .tile_px = 32});
   }
   static void TearDownTestSuite() { folder_of_all_.reset(); }
   static inline std::unique_ptr<test::Folder> folder_of_all_;
@@ -95,7 +95,7 @@ class Pipeline : public testing::Test {
 };
 
 TEST_F(Pipeline, SameBytesForAnyThreadsAndTiles) {
-  render(scene(), {.out_folder = out("b"), .threads = 2, .tile_size = 64}, silent_progress());
+  render(scene(), out("b"), {.threads = 2, .tile_px = 64});
   expect_same_files(rendered_, out("b"));
 }
 
@@ -103,8 +103,8 @@ TEST_F(Pipeline, GuidanceAloneEqualsGuidanceOfTheWholeRender) {
   // Taller than one band of the streamed file, with a margin on both sides of its seams.
   const std::vector<std::string> tall = {"output.height=1100", "output.width=96", "output.sheet_width_mm=96", "synthesis.enabled=false",
                                          "sampling.pixel_samples=1"};
-  render(scene(tall), {.out_folder = out("a")}, silent_progress());
-  render_guidance(scene(tall), {.out_folder = out("b")}, silent_progress());
+  render(scene(tall), out("a"), {});
+  render_guidance(scene(tall), out("b"), {});
   EXPECT_TRUE(read_bytes(out("a/guidance.exr")) == read_bytes(out("b/guidance.exr")));
 }
 
@@ -145,7 +145,7 @@ TEST_F(Pipeline, ColoursOfAPaintingReachTheBasePicture) {
   const auto redness = [&](const std::string& colours) {
     render_guidance(scene({painting, "synthesis.colours=" + colours, "synthesis.enabled=false", "air.haze=0", "air.range_mist=0",
                            "sampling.pixel_samples=1", "output.width=96", "output.height=64", "output.sheet_width_mm=96"}),
-                    {.out_folder = out(colours)}, silent_progress());
+                    out(colours), {});
     const GuidanceBuffers guidance = read_guidance(out(colours) + "/guidance.exr");
     double sum = 0.0;
     int count = 0;
@@ -187,7 +187,7 @@ move_m = [0, 400]
 rotate_deg = 60
 raise_m = 250
 )";
-  render(parse_scene(std::string(small_scene) + turned, "turned.toml", ".", {}), {.out_folder = out("turned")}, silent_progress());
+  render(parse_scene(std::string(small_scene) + turned, "turned.toml", ".", {}), out("turned"), {});
   expect_golden(out("turned/panorama.png"), "turned_mountain.png");
 }
 
@@ -203,7 +203,7 @@ TEST_F(Pipeline, EveryFileSaysWhatMadeIt) {
 TEST_F(Pipeline, AnOutputThatCannotBeWrittenIsRefusedBeforeTheWork) {
   folder_.write("file", "no folder");
   try {
-    render(scene(), {.out_folder = out("file") + "/below"}, silent_progress());
+    render(scene(), out("file") + "/below", {});
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::output);
@@ -212,7 +212,7 @@ TEST_F(Pipeline, AnOutputThatCannotBeWrittenIsRefusedBeforeTheWork) {
 
 TEST_F(Pipeline, APictureBeyondMemoryIsRefusedWithTheEstimate) {
   try {
-    render(scene({"output.width=60000", "output.height=60000"}), {.out_folder = out("a")}, silent_progress());
+    render(scene({"output.width=60000", "output.height=60000"}), out("a"), {});
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::limit);
@@ -222,7 +222,7 @@ TEST_F(Pipeline, APictureBeyondMemoryIsRefusedWithTheEstimate) {
 
 TEST_F(Pipeline, AnEyeBelowTheGroundIsRefusedWithTheHeight) {
   try {
-    render(scene({"camera.position=[9000, 9000]", "camera.height_m=-500"}), {.out_folder = out("a")}, silent_progress());
+    render(scene({"camera.position=[9000, 9000]", "camera.height_m=-500"}), out("a"), {});
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
@@ -235,7 +235,7 @@ TEST_F(Pipeline, ASunBelowTheHorizonIsNotedAndLeavesSkyLight) {
     std::string all;
     void note(std::string_view text) override { all += text; }
   } notes;
-  render_guidance(scene({"sun.altitude_deg=-5"}), {.out_folder = out("a")}, notes);
+  render_guidance(scene({"sun.altitude_deg=-5"}), out("a"), {.progress = notes});
   EXPECT_NE(notes.all.find("below the horizon"), std::string::npos);
   const GuidanceBuffers guidance = read_guidance(out("a/guidance.exr"));
   for (std::size_t i = 0; i < guidance.shadow.size(); ++i) {

@@ -11,7 +11,7 @@
 #include "base/noise.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/trace/guidance.h"
-#include "renderer/world/ground.h"
+#include "renderer/world/fold_check.h"
 
 namespace belvedere {
 namespace {
@@ -42,13 +42,13 @@ DeformParameters everything() {
 }
 
 struct World {
-  Ground ground;
+  Deformation deformation;
+  TerrainModel terrain;
+  DeformedSurface surface;
   std::unique_ptr<Camera> camera;
   std::unique_ptr<Tracer> tracer;
 
-  GeoMap map() const {
-    return {ground.model.dem.altitude_m, ground.model.dem.transform, ground.deformation, ground.surface, *camera, *tracer};
-  }
+  GeoMap map() const { return {terrain.dem->altitude_m, terrain.dem->transform, deformation, surface, *camera, *tracer}; }
 };
 
 std::unique_ptr<World> make_world(const DeformParameters& deform_parameters, double relief_m = 250.0) {
@@ -67,10 +67,11 @@ std::unique_ptr<World> make_world(const DeformParameters& deform_parameters, dou
   auto world = std::make_unique<World>();
   Dem dem = make_dem(std::move(raster));
   Grid<float> shown = dem.altitude_m;
-  world->ground.deformation = Deformation(deform_parameters, viewer);
-  world->ground.surface = deform(shown, frame, glm::dvec3(viewer, 0.0), world->ground.deformation);
-  world->ground.model = make_terrain_model(std::move(dem), std::move(shown), std::move(cover), deform_parameters.exaggeration);
-  if (world->ground.deformation.is_local()) world->ground.model.local = world->ground.deformation;
+  world->deformation = Deformation(deform_parameters, viewer);
+  world->surface = deform(shown, frame, glm::dvec3(viewer, 0.0), world->deformation);
+  world->terrain = make_terrain_model(std::make_shared<const Dem>(std::move(dem)), std::move(shown),
+                                      std::make_shared<const LandCover>(std::move(cover)), deform_parameters.exaggeration);
+  if (world->deformation.is_local()) world->terrain.local = world->deformation;
   CameraParameters camera;
   camera.width = 240;
   camera.height = 160;
@@ -78,7 +79,7 @@ std::unique_ptr<World> make_world(const DeformParameters& deform_parameters, dou
   camera.azimuth_deg = 180.0;
   camera.pitch_deg = -33.0;
   world->camera = make_camera(camera);
-  world->tracer = std::make_unique<Tracer>(world->ground.surface);
+  world->tracer = std::make_unique<Tracer>(world->surface);
   return world;
 }
 
@@ -87,8 +88,7 @@ GuidanceBuffers trace(const World& world) {
   parameters.pixel_samples = 1;
   parameters.shadow_rays = 1;
   parameters.sky_directions = 0;
-  return trace_guidance(world.ground.model, world.ground.surface, *world.tracer, *world.camera, parameters, {0, 0, 240, 160},
-                        silent_progress());
+  return trace_guidance(world.terrain, world.surface, *world.tracer, *world.camera, parameters, {0, 0, 240, 160}, silent_progress());
 }
 
 TEST(GeoMap, FromPixelToPlaceAndBackIsTheSamePixel) {
@@ -136,10 +136,10 @@ TEST(GeoMap, APointOnThePostsIsTheSameByAltitudeAndByGround) {
     for (int x = 10; x < 210; x += 13) {
       const glm::dvec2 place = frame.to_crs(x, y);
       const auto ground = map.to_image(place);
-      const auto point = map.to_image(glm::dvec3(place, world->ground.model.dem.altitude_m(x, y)));
+      const auto point = map.to_image(glm::dvec3(place, world->terrain.dem->altitude_m(x, y)));
       ASSERT_TRUE(ground && point);
       ASSERT_LT(glm::length(ground->pixel - point->pixel), 0.01);
-      const auto above = map.to_image(glm::dvec3(place, world->ground.model.dem.altitude_m(x, y) + 50.F));
+      const auto above = map.to_image(glm::dvec3(place, world->terrain.dem->altitude_m(x, y) + 50.F));
       ASSERT_LT(above->pixel.y, point->pixel.y);
     }
 }
@@ -203,12 +203,12 @@ TEST(Deformation, LightFallsOnTheTurnedSlope) {
   p.bend.points = {{2000.0, std::nullopt, 18.0}, {8000.0, std::nullopt, 0.0}};
   p.handles = {{.center = mountain, .rotate_deg = 50.0, .radius_m = 2500.0, .core_m = 1000.0}};
   const auto world = make_world(p, 0.0);
-  Grid<float>& z = world->ground.model.generalized_m;
+  Grid<float>& z = world->terrain.generalized_m;
   for (int y = 0; y < 260; ++y)
     for (int x = 0; x < 220; ++x) z(x, y) = static_cast<float>(0.4 * cell * x);
-  world->ground.model.detail_smooth_m = z;
-  world->ground.surface = deform(z, frame, glm::dvec3(viewer, 0.0), world->ground.deformation);
-  Tracer tracer(world->ground.surface);
+  world->terrain.detail_smooth_m = z;
+  world->surface = deform(z, frame, glm::dvec3(viewer, 0.0), world->deformation);
+  Tracer tracer(world->surface);
   *world->tracer = std::move(tracer);
   const auto at = world->map().to_image(mountain);
   ASSERT_TRUE(at && at->visible);
@@ -230,7 +230,7 @@ TEST(Deformation, FoldsInThePictureAreRefusedUnlessAllowed) {
   Scene scene;
   scene.deform.handles.emplace_back().name = "Hochkar";
   try {
-    check_folds(scene, world->ground, *world->camera, silent_progress());
+    check_folds(scene.deform, world->terrain, world->deformation, *world->camera, silent_progress());
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
@@ -243,7 +243,7 @@ TEST(Deformation, FoldsInThePictureAreRefusedUnlessAllowed) {
     std::vector<std::string> notes;
   } notes;
   scene.deform.allow_folds = true;
-  check_folds(scene, world->ground, *world->camera, notes);
+  check_folds(scene.deform, world->terrain, world->deformation, *world->camera, notes);
   ASSERT_EQ(notes.notes.size(), 1U);
   EXPECT_THAT(notes.notes[0], ::testing::HasSubstr("Hochkar"));
 }

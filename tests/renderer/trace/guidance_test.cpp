@@ -52,7 +52,8 @@ World make_world(int width, int height, Altitude&& altitude, Cover&& cover, Defo
   world.deform_parameters = deform_parameters;
   world.viewer = viewer;
   world.surface = deform(generalized, dem.transform, viewer, {viewer, 0.0}, deform_parameters);
-  world.terrain = make_terrain_model(std::move(dem), std::move(generalized), std::move(land_cover), deform_parameters.exaggeration);
+  world.terrain = make_terrain_model(std::make_shared<const Dem>(std::move(dem)), std::move(generalized),
+                                     std::make_shared<const LandCover>(std::move(land_cover)), deform_parameters.exaggeration);
   world.tracer = std::make_unique<Tracer>(world.surface);
   return world;
 }
@@ -204,7 +205,7 @@ TEST(Guidance, RimIsTheDistanceToTheEndOfTheKnownTerrain) {
   for (std::size_t i = 0; i < b.depth_m.size(); ++i) {
     if (b.is_sky(i)) continue;
     const glm::dvec3 place = glm::dvec3(b.position_m[i]) + world.surface.origin;
-    const glm::dvec2 at = world.terrain.dem.transform.to_cell(place.x, place.y);
+    const glm::dvec2 at = world.terrain.dem->transform.to_cell(place.x, place.y);
     std::array<double, 4> sides = {at.x, at.y, side - 1 - at.x, side - 1 - at.y};
     std::sort(sides.begin(), sides.end());
     const double border = sides[0];
@@ -262,7 +263,7 @@ TEST(Guidance, RampHasItsSlopeAspectNormalsAndSkyView) {
   for (std::size_t i = 0; i < b.depth_m.size(); ++i) {
     if (b.is_sky(i)) continue;
     const glm::dvec3 place = glm::dvec3(b.position_m[i]) + world.surface.origin;
-    const glm::dvec2 at = world.terrain.dem.transform.to_cell(place.x, place.y);
+    const glm::dvec2 at = world.terrain.dem->transform.to_cell(place.x, place.y);
     if (at.x < 70.0 || at.y < 70.0 || at.x > 330.0 || at.y > 330.0) continue;  // the Gaussians see the rim
     ++inner;
     ASSERT_NEAR(b.slope_deg[i], to_degrees(std::atan(std::hypot(east, south))), 0.05);
@@ -367,8 +368,8 @@ TEST(Guidance, MostSamplesWinThePixelAndItsValuesComeFromOneOfThem) {
         const Ray ray = camera->ray(glm::dvec2(x, y) + place);
         Hit hit;
         world.tracer->intersect({&ray, 1}, {&hit, 1});
-        const glm::dvec2 at = world.terrain.dem.transform.to_crs(hit.column, hit.row);
-        seen.emplace_back(hit.found ? world.terrain.land_cover.at(at.x, at.y) : LandCoverClass::sky,
+        const glm::dvec2 at = world.terrain.dem->transform.to_crs(hit.column, hit.row);
+        seen.emplace_back(hit.found ? world.terrain.land_cover->at(at.x, at.y) : LandCoverClass::sky,
                           hit.found ? hit.distance_m : std::numeric_limits<double>::infinity());
         ++votes[static_cast<std::size_t>(seen.back().first)];
       }

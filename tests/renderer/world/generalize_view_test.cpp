@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "renderer/world/ground.h"
+#include "renderer/world/scene_terrain.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
 

@@ -1,4 +1,4 @@
-#include "renderer/pipeline/stage_notes.h"
+#include "renderer/world/world_notes.h"
 
 #include <fmt/format.h>
 
@@ -10,19 +10,19 @@
 
 namespace belvedere {
 
-FileNotes make_stage_notes(const LoadedScene& loaded, const Stage& stage) {
+FileNotes make_world_notes(const LoadedScene& loaded, const World& world) {
   std::map<std::string, std::string> inputs;
   for (const SceneInput& input : scene_inputs(loaded))
     if (!input.path.empty()) inputs[input.file] = input.path;
   Provenance provenance = make_provenance(write_scene(loaded.scene), inputs);
-  provenance.instruction_set = stage.tracer->description();
+  provenance.instruction_set = world.tracer.description();
   FileNotes notes = to_notes(provenance);
-  const CameraParameters& camera = stage.view.camera;
+  const CameraParameters& camera = world.view.camera;
   notes["belvedere:camera"] =
       fmt::format("{} eye {:.3f} {:.3f} {:.3f} azimuth {:.6f} pitch {:.6f} field {:.4f}", camera.projection, camera.eye.x, camera.eye.y,
                   camera.eye.z, camera.azimuth_deg, camera.pitch_deg, camera.field_of_view_deg);
-  notes["belvedere:crs"] = stage.ground.model.dem.crs.empty() ? "none" : describe_crs(stage.ground.model.dem.crs);
-  notes["belvedere:sun"] = fmt::format("azimuth {:.4f} altitude {:.4f}", stage.view.sun.azimuth_deg, stage.view.sun.altitude_deg);
+  notes["belvedere:crs"] = world.dem->crs.empty() ? "none" : describe_crs(world.dem->crs);
+  notes["belvedere:sun"] = fmt::format("azimuth {:.4f} altitude {:.4f}", world.view.sun.azimuth_deg, world.view.sun.altitude_deg);
   return notes;
 }
 

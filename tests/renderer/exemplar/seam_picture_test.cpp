@@ -1,4 +1,4 @@
-#include "renderer/exemplar/exemplars.h"
+#include "renderer/exemplar/seam_picture.h"
 
 #include <gtest/gtest.h>
 

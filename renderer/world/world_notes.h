@@ -1,11 +1,11 @@
 #pragma once
 
 #include "renderer/image/image_io.h"
-#include "renderer/world/lit_picture.h"
+#include "renderer/world/world.h"
 
 namespace belvedere {
 
 // What the header of every file of a picture says: provenance (scene, versions, hashes of the inputs), camera, coordinate system, sun.
-FileNotes make_stage_notes(const LoadedScene& loaded, const Stage& stage);
+FileNotes make_world_notes(const LoadedScene& loaded, const World& world);
 
 }  // namespace belvedere

@@ -1,4 +1,4 @@
-#include "renderer/world/ground.h"
+#include "renderer/world/scene_terrain.h"
 
 #include "renderer/world/generalize_view.h"
 

@@ -1,22 +1,13 @@
-#include "renderer/world/ground.h"
-
-#include <fmt/format.h>
+#include "renderer/world/scene_terrain.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "renderer/paint/palette.h"
-#include "renderer/world/generalize_view.h"
 #include "terrain/cover/class_rules.h"
-#include "terrain/deform/fold.h"
 #include "terrain/generalize/destripe.h"
-#include "terrain/generalize/generalize.h"
-#include "terrain/generalize/line_integral_generalize.h"
-#include "terrain/generalize/widen_valleys.h"
-#include "terrain/shape/hydrology.h"
 
 namespace belvedere {
 namespace {
@@ -115,42 +106,6 @@ LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progr
 
 PatchResult make_scene_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
   return remove_small_patches(make_full_cover(loaded, dem, progress), loaded.scene.land_cover.patches);
-}
-
-Ground make_ground(const LoadedScene& loaded, Dem dem, LandCover land_cover, const View& view, Progress& progress) {
-  GeneralizedTerrain shown = generalize_for_view(loaded, dem, &land_cover, view, progress);
-  // The eye's place at altitude 0 is the origin of everything that becomes float.
-  const glm::dvec3 origin{view.viewer_xy, 0.0};
-  Deformation deformation(view.deform, view.viewer_xy);
-  DeformedSurface surface = deform(shown.altitude_m, dem.transform, origin, deformation);
-  TerrainModel model = make_terrain_model(std::move(dem), std::move(shown.altitude_m), std::move(land_cover), view.deform.exaggeration);
-  model.came_from = std::move(shown.came_from);
-  if (deformation.is_local()) model.local = deformation;
-  return {std::move(deformation), std::move(model), std::move(surface)};
-}
-
-void check_folds(const Scene& scene, const Ground& ground, const Camera& camera, Progress& progress) {
-  const Dem& dem = ground.model.dem;
-  const Deformation& deformation = ground.deformation;
-  const std::vector<Fold> folds = find_folds(ground.model.generalized_m, dem.transform, deformation);
-  if (folds.empty()) return;
-  std::vector<Fold> in_picture;
-  for (const Fold& fold : folds) {
-    const double altitude = static_cast<double>(ground.model.generalized_m(fold.column, fold.row));
-    const auto at = camera.project(deformation.point({fold.place, altitude}));
-    if (at && at->x >= 0.0 && at->y >= 0.0 && at->x <= camera.size().x && at->y <= camera.size().y) in_picture.push_back(fold);
-  }
-  const bool refuse = !in_picture.empty() && !scene.deform.allow_folds;
-  for (const FoldSummary& summary : summarize_folds(refuse ? in_picture : folds, deformation.parameters().handles)) {
-    const std::string& name = scene.deform.handles[summary.handle].name;
-    const std::string where = fmt::format("deform.handles.{}{}", summary.handle, name.empty() ? "" : " (" + name + ")");
-    const std::string found = fmt::format("folds the ground over itself{} around E {:.0f} N {:.0f}, {} facets",
-                                          refuse ? " in the picture" : "", summary.middle.x, summary.middle.y, summary.facets);
-    if (refuse)
-      throw Error(ErrorKind::usage, where, found,
-                  "a smaller move_m, rotate_deg or scale, a larger radius_m, a smaller core_m, or deform.allow_folds = true");
-    progress.note(where + " " + found);
-  }
 }
 
 }  // namespace belvedere

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+#include "base/memory_limit.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+
+namespace belvedere {
+
+// How a job is done: by how many, with how much, and who is told. Changes no bit of what it makes.
+struct Run {
+  int threads = 0;                 // 0: all of the machine
+  std::uint64_t memory_bytes = 0;  // what pictures and rasters may take; 0: the default of base/memory_limit.h
+  int tile_px = 32;                // side of the tiles that threads work on, 8…4096
+  Progress& progress = silent_progress();
+};
+
+// Holds the process to a run's threads and memory while it lives.
+class RunLimits {
+ public:
+  explicit RunLimits(const Run& run) : threads_(run.threads), memory_(run.memory_bytes) {}
+
+ private:
+  ThreadLimit threads_;
+  MemoryLimit memory_;
+};
+
+}  // namespace belvedere

@@ -1,0 +1,31 @@
+#include "renderer/pipeline/scene_paint.h"
+
+namespace belvedere {
+namespace {
+
+bool takes_colours(const Scene& scene) { return scene.synthesis.colours == "painting"; }
+// Colours may be a painting's even where its strokes are not used.
+bool reads_paintings(const Scene& scene) { return scene.synthesis.enabled || takes_colours(scene); }
+
+Palette named_palette(const LoadedScene& loaded) { return read_palette(find_named_file(loaded, "palettes", loaded.scene.palette)); }
+
+}  // namespace
+
+ScenePaint read_scene_paint(const LoadedScene& loaded, Progress& progress) {
+  ScenePaint paint;
+  paint.palette = named_palette(loaded);
+  if (reads_paintings(loaded.scene)) paint.paintings = read_scans(loaded, progress);
+  if (takes_colours(loaded.scene)) paint.palette = take_colours(paint.palette, paint.paintings, loaded.scene.synthesis.fallback);
+  return paint;
+}
+
+Palette read_scene_palette(const LoadedScene& loaded, Progress& progress) {
+  return takes_colours(loaded.scene) ? read_scene_paint(loaded, progress).palette : named_palette(loaded);
+}
+
+void require_inputs(const LoadedScene& loaded) {
+  require_scene_files(loaded);
+  if (reads_paintings(loaded.scene)) check_paintings(loaded);
+}
+
+}  // namespace belvedere

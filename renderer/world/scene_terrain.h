@@ -1,0 +1,18 @@
+#pragma once
+
+#include "base/progress.h"
+#include "renderer/scene/scene_file.h"
+#include "terrain/cover/land_cover.h"
+#include "terrain/cover/land_cover_patches.h"
+#include "terrain/io/dem.h"
+
+namespace belvedere {
+
+// The DEM of a scene: its sources read and mosaicked, or a terrain made up; stripes taken off where the scene asks for it.
+Dem make_scene_dem(const LoadedScene& scene, Progress& progress);
+// Its land cover: from sources and a legend, or by rules.
+LandCover make_scene_land_cover(const LoadedScene& scene, const Dem& dem, Progress& progress);
+// The same, and what became of each class when small patches were taken out ([land_cover] smallest_patch_m2).
+PatchResult make_scene_patches(const LoadedScene& scene, const Dem& dem, Progress& progress);
+
+}  // namespace belvedere

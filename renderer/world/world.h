@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+
+#include "base/progress.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/trace/camera.h"
+#include "renderer/trace/guidance.h"
+#include "renderer/trace/tracer.h"
+#include "renderer/world/view.h"
+#include "terrain/cover/land_cover.h"
+#include "terrain/deform/deform.h"
+#include "terrain/io/dem.h"
+
+namespace belvedere {
+
+// What a scene is made into before its first pixel, each value from those above it, in the order in which they are made. Owned in one place
+// because pixels of any part of the picture need all of it; nothing changes after it is made.
+struct World {
+  // Reads, generalizes and bends the terrain, sets up camera and sun, builds the acceleration structure. Throws Error for whatever is wrong
+  // with scene or data as soon as it can be known: the machine's instruction set first, the camera's place before land cover is made.
+  World(const LoadedScene& loaded, Progress& progress);
+  // The same on terrain that is already there: several views of one made-up terrain.
+  World(const LoadedScene& loaded, std::shared_ptr<const Dem> dem, std::shared_ptr<const LandCover> land_cover, Progress& progress);
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  const Scene scene;
+  const std::shared_ptr<const Dem> dem;
+  const View view;  // camera and sun on this DEM
+  const std::unique_ptr<const Camera> camera;
+  const std::shared_ptr<const LandCover> land_cover;
+  const Deformation deformation;
+  const TerrainModel terrain;     // generalized as this view wants it, and all that a pixel may ask of the ground
+  const DeformedSurface surface;  // what is traced: generalized, exaggerated, bent; its origin is the eye's place at altitude 0
+  const Tracer tracer;
+  const double horizon_px;  // row of the skyline's median
+};
+
+}  // namespace belvedere
