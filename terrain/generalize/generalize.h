@@ -5,6 +5,7 @@
 
 #include "base/grid.h"
 #include "base/progress.h"
+#include "terrain/generalize/pixel_ground.h"
 
 namespace belvedere {
 
@@ -42,12 +43,6 @@ struct GeneralizeParameters {
   // The shortest landform that the print shows, in output pixels: with GeneralizeGrids::pixel_ground, bands whose wavelength
   // (four of their cells) is shorter fade, and are gone at half of it. 0.5…20.
   float print_pixels = 2.5F;
-};
-
-// Ground metres that an output pixel shows, which change slowly: known at every so many cells of the DEM, linear between them.
-struct PixelGround {
-  Grid<float> m_per_pixel;  // cell (i, j) is the DEM's (step_cells i, step_cells j); the last ones hold on beyond. Empty: every band prints
-  int step_cells = 1;       // ≥ 1
 };
 
 // What varies from place to place. Each grid is empty or of the DEM's size.

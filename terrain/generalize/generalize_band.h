@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/grid.h"
-#include "terrain/generalize/generalize.h"
 #include "terrain/generalize/generalize_rows.h"
+#include "terrain/generalize/pixel_ground.h"
 
 namespace belvedere {
 

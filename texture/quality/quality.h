@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "texture/quality/picture_measures.h"
+#include "texture/quality/seam_visibility.h"
 #include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/guide_stack.h"
 #include "texture/synthesis/match_field.h"
@@ -29,22 +31,6 @@ struct ClassQuality {
   double colour_floor = 0.0;         // as clique_floor
   double colour_beyond_floor = 0.0;  // as clique_beyond_floor
   double stroke_run = 0.0;           // mean run along the strokes, output / exemplar; 0: no inside
-};
-
-// How much seams show: pixels side by side that were not side by side in a painting. Each step (|R − R'| + |G − G'| + |B − B'|) / 3 is set
-// against what neighbours of the same two classes are apart in the paintings it comes from (the mean of the two paintings' means).
-// Where neither has these classes side by side: what texels of the two classes are apart by chance, times the share of that by which the
-// paintings' other borders step; a painting of another tone does not show there, for nothing tells how the classes would meet. 1: seams
-// step as neighbours of the painting do.
-struct SeamVisibility {
-  std::size_t pairs = 0;     // of 4-neighbours, those across silhouettes left out: there the land itself steps
-  std::size_t compared = 0;  // of those, the ones whose paintings have something to compare with
-  double step = 0.0;         // mean over pairs, levels of 255
-  double visibility = 0.0;   // sum of steps / sum of the paintings' own, over compared pairs; 0: none, or paintings without any step
-};
-struct SeamsOfKinds {
-  SeamVisibility within;   // both pixels from one painting
-  SeamVisibility between;  // from different paintings
 };
 
 struct SynthesisQuality {
@@ -76,32 +62,7 @@ struct QualityParameters {
 SynthesisQuality measure_quality(const MatchField& matches, const std::vector<Exemplar>& exemplars, const GuideStack& target,
                                  const QualityParameters& parameters = {});
 
-// The parts, for one picture each.
-
-// Squared distance to the nearest pixel on a border of classes (one that differs from its left or upper neighbour), at most 255.
-Grid<std::uint8_t> border_distance_squared(const Grid<std::uint8_t>& labels);
-// The parts below take it as `borders`.
-// Mean grey gradient (central differences) inside a class; NaN where there is no inside.
-double mean_gradient(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& borders, std::uint8_t label);
-// Mean length, in pixels, of the run through every third pixel inside a class, along the direction in which it is longest: the pixels of
-// a run stay in the class and within `tolerance` (of r + g + b) of the pixel. At most 65. NaN where there is no inside.
-double stroke_run(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& borders, std::uint8_t label,
-                  int tolerance);
-// The tolerance that goes with an exemplar's class: half its median deviation of r + g + b over 7 × 7 pixels.
-int stroke_tolerance(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, std::uint8_t label);
-// Share of pixels that stand out from the median of their 3 × 3, inside classes and at borders.
-struct SpeckShares {
-  double inside = 0.0;
-  double border = 0.0;
-};
-SpeckShares speck_shares(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& borders);
 // Sizes of the 4-connected pieces of constant offset, largest first.
 std::vector<std::size_t> piece_sizes(const MatchField& matches);
-// Seams inside paintings and between them. Matches must lie inside the exemplars; depth_m may be empty: no silhouettes.
-SeamsOfKinds seam_visibility(const MatchField& matches, const std::vector<Exemplar>& exemplars, const Grid<float>& depth_m,
-                             float depth_ratio);
-// Mean over sampled 7 × 7 patches of the root mean squared difference to the most alike patch (every second pixel each way, every
-// fourth in pictures over 1024 rows) that lies 16 pixels or more away.
-double self_distance(const Grid<Rgb8>& picture, int samples);
 
 }  // namespace belvedere

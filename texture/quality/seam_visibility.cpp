@@ -1,10 +1,10 @@
+#include "texture/quality/seam_visibility.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <map>
 #include <numeric>
-
-#include "texture/quality/quality.h"
 
 namespace belvedere {
 namespace {

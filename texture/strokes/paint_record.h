@@ -6,7 +6,7 @@
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
 #include "base/parallel.h"
-#include "texture/strokes/brush.h"
+#include "texture/strokes/stroke.h"
 
 namespace belvedere {
 

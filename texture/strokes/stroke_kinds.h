@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "texture/strokes/brush.h"
+#include "texture/strokes/stroke.h"
 #include "texture/strokes/stroke_seeds.h"
 
 namespace belvedere {

@@ -1,35 +1,13 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
+#include <glm/vec3.hpp>
 
 #include "base/guidance_buffers.h"
 #include "base/progress.h"
-#include "texture/strokes/brush.h"
+#include "texture/strokes/paint_ground.h"
+#include "texture/strokes/stroke.h"
 
 namespace belvedere {
-
-// What strokes are painted from. All images in encoded sRGB 0…1, because paint mixes there; same size as the guidance.
-struct PaintGround {
-  Grid<glm::vec3> colour;    // base picture at the pixel's tone
-  Grid<glm::vec3> darker;    // … at tone - .17
-  Grid<glm::vec3> lighter;   // … at tone + .17
-  Grid<float> accent;        // -1 hollow … +1 edge: where accents go
-  Grid<float> tree_density;  // 0…1: trees in forest, dwarf pines on alpine grass and shrubland
-  Grid<float> haze;          // 0…1
-};
-
-// Forest with a smaller tree_density is a glade: grass without trees.
-inline constexpr float glade_density = 0.08F;
-
-struct StrokeParameters {
-  double pixels_per_unit = 1.0;  // a unit is 0.5 mm of the sheet: 1 at 2400 px on 1.2 m; 0.1…50
-  bool winter = false;
-  double sun_side = 1.0;  // -1 light from the left … +1 from the right of the picture
-  std::uint64_t seed = 1;
-  std::vector<glm::vec3> leaves;  // colours of leafy trees in full light, of bare twigs in winter, encoded sRGB; none: only the ground's
-  double leaf_share = 0.0;        // how far leafy trees take them, 0…1
-};
 
 // Which kinds of stroke to paint.
 struct StrokeLayers {

@@ -4,10 +4,11 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "base/guidance_buffers.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "texture/strokes/brush.h"
-#include "texture/strokes/stroke_painter.h"
+#include "texture/strokes/paint_ground.h"
+#include "texture/strokes/stroke.h"
 
 namespace belvedere {
 

@@ -8,19 +8,11 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "base/random.h"
 #include "texture/synthesis/synth_bins.h"
-#include "texture/synthesis/synth_level.h"
+#include "texture/synthesis/synth_state.h"
 
 // What the parts of a level's work share; not for others.
 namespace belvedere::synth {
-
-// Keys of the random numbers of different purposes on a level.
-enum class Purpose : std::uint64_t { start = 1, expectation = 2, moves = 3, cells = 4, errors = 5, alone = 6, pass = 16 };
-
-inline std::uint64_t key_for(const LevelSettings& settings, Purpose purpose, int number = 0) {
-  return random_bits(settings.seed, settings.level, number, static_cast<std::uint64_t>(purpose));
-}
 
 using BinCounts = std::vector<std::int32_t>;
 

@@ -13,6 +13,7 @@
 #include "base/random.h"
 #include "texture/synthesis/synth_bins.h"
 #include "texture/synthesis/synth_level.h"
+#include "texture/synthesis/synth_replace.h"
 
 namespace belvedere::synth {
 namespace {

@@ -1,0 +1,151 @@
+#include "texture/synthesis/synth_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <utility>
+
+#include "texture/synthesis/synth_bins.h"
+
+namespace belvedere::synth {
+namespace {
+
+// The guides' weights for 32-bit prices; empty where these could overflow, and where one or two are priced as fast singly.
+std::vector<std::uint32_t> vector_weights_of(const std::vector<GuideRole>& guides) {
+  std::vector<std::uint32_t> weights(vector_guides, 0);
+  std::int64_t largest_price = 0;
+  for (const GuideRole& guide : guides) largest_price += guide.weight_q4 * 255 * 255;
+  if (guides.size() <= 2 || guides.size() > weights.size() || largest_price > INT32_MAX) return {};
+  for (std::size_t g = 0; g < guides.size(); ++g) weights[g] = static_cast<std::uint32_t>(guides[g].weight_q4);
+  return weights;
+}
+
+// The median error of each guide over the picks of a sample of a class's pixels.
+std::vector<std::uint8_t> usual_errors_of_picks(const LevelState& state, int classes) {
+  constexpr int samples_across = 256;
+  const std::size_t guides = static_cast<std::size_t>(state.exemplars.guide_count);
+  const Plane::Part& part = state.target.parts[0];
+  const KernelView view = state.view(0);
+  const std::uint64_t key = key_for(state.settings, Purpose::errors);
+  std::vector<std::int32_t> counts(static_cast<std::size_t>(classes) * guides * 256, 0);
+  for (int y = 0; y < part.height; y += std::max(1, part.height / samples_across)) {
+    for (int x = 0; x < part.width; x += std::max(1, part.width / samples_across)) {
+      const std::uint32_t at = state.target.index(0, x, y);
+      const std::uint32_t label_class = class_of(state.target.words[at]);
+      if (label_class == no_class) continue;
+      const std::uint8_t* wanted = state.target.guides_at(at);
+      const std::uint8_t* offered = state.exemplars.guides_at(draw_texel(view, at, key, x, y, make_slack(view, at)));
+      for (std::size_t g = 0; g < guides; ++g) {
+        ++counts[(label_class * guides + g) * 256 + static_cast<std::size_t>(std::abs(wanted[g] - offered[g]))];
+      }
+    }
+  }
+  std::vector<std::uint8_t> medians(static_cast<std::size_t>(classes) * guides, 0);
+  for (std::size_t i = 0; i < medians.size(); ++i) {
+    const auto first = counts.begin() + static_cast<std::ptrdiff_t>(i * 256);
+    const std::int64_t total = std::accumulate(first, first + 256, std::int64_t{0});
+    std::int64_t below = first[0];
+    int error = 0;
+    while (error < 255 && 2 * below < total) below += first[++error];
+    medians[i] = static_cast<std::uint8_t>(error);
+  }
+  return medians;
+}
+
+}  // namespace
+
+LevelSettings settings_for_level(int level, std::uint64_t seed, int copy_cap, double reuse) {
+  LevelSettings settings;
+  settings.level = level;
+  settings.seed = seed;
+  settings.passes = level == 1 ? 5 : 4;
+  settings.replacing_passes = level == 0 ? 2 : level == 1 ? 1 : 0;
+  const int shift = 2 * level;  // a level has a quarter of the pixels
+  settings.copy_cap = std::max<std::int64_t>(1, (static_cast<std::int64_t>(copy_cap) + (1LL << shift) / 2) >> shift);
+  settings.reuse_price = std::llround(static_cast<double>(price::reuse) * reuse);
+  settings.least_window = std::max(16, 64 >> shift);
+  settings.surroundings_radius = std::max(2, 8 >> level);
+  return settings;
+}
+
+LevelState::LevelState(const LevelSettings& level_settings, const std::vector<GuideRole>& guide_roles, int classes,
+                       const Plane& exemplar_plane, Plane& target_plane, std::vector<std::uint8_t> surface_links,
+                       const SurroundingsPrice& surroundings_price)
+    : LevelState(level_settings, guide_roles, classes, exemplar_plane, target_plane, std::move(surface_links), surroundings_price,
+                 surroundings_price.is_free() ? std::vector<Surroundings>{}
+                                              : make_surroundings(exemplar_plane, level_settings.surroundings_radius, classes)) {}
+
+LevelState::LevelState(const LevelSettings& level_settings, const std::vector<GuideRole>& guide_roles, int classes,
+                       const Plane& exemplar_plane, Plane& target_plane, std::vector<std::uint8_t> surface_links,
+                       const SurroundingsPrice& surroundings_price, const std::vector<Surroundings>& offered_around)
+    : settings(level_settings),
+      guides(guide_roles),
+      vector_weights(vector_weights_of(guide_roles)),
+      exemplars(exemplar_plane),
+      target(target_plane),
+      links(std::move(surface_links)),
+      around_price(surroundings_price),
+      texels(exemplars, make_bins(exemplars, classes), offered_around),
+      lists(exemplars, target, classes, guides, settings.least_window, offered_around),
+      match(target.words.size(), exemplars.nowhere()),
+      bins_expected(static_cast<std::size_t>(classes) * bins_per_class, 0),
+      bins_actual(bins_expected),
+      bin_cost(bins_expected),
+      bin_cost_kept(bins_expected),
+      reuse_q4(static_cast<std::size_t>(classes), 0),
+      most_uses(static_cast<std::size_t>(classes), 0xffffffffU),
+      pieces(target) {
+  const Plane::Part& part = target.parts[0];
+  next.resize(static_cast<std::size_t>((part.width + 1) / 2) * static_cast<std::size_t>((part.height + 1) / 2));
+  for (int c = 0; c < classes; ++c) {
+    // Price / max(1/4, pixels per texel of the class): reuse is dear where it can be avoided.
+    const std::uint32_t label_class = static_cast<std::uint32_t>(c);
+    const std::int64_t texels_of_class = lists.texel_count(label_class);
+    const std::int64_t pixels = lists.pixel_count(label_class);
+    const std::int64_t full = settings.reuse_price * 16;
+    reuse_q4[label_class] = 4 * pixels <= texels_of_class ? 4 * full : full * texels_of_class / pixels;
+    // Where reuse is priced at all, no texel may serve more than 6 + 3 × pixels per texel.
+    if (settings.reuse_price > 0 && texels_of_class > 0)
+      most_uses[label_class] = static_cast<std::uint32_t>(6 + 3 * pixels / texels_of_class);
+  }
+  target.for_each([&](std::uint32_t at) {
+    const std::uint32_t c = class_of(target.words[at]);
+    if (c != no_class && !lists.has_class(c)) target.words[at] |= no_class << 24;
+  });
+  if (!around_price.is_free()) {
+    wanted_around = make_surroundings(target, settings.surroundings_radius, classes);
+  }
+  usual_error = usual_errors_of_picks(*this, classes);
+}
+
+KernelView LevelState::view(int pass) const {
+  KernelView view;
+  view.target = &target;
+  view.exemplars = &exemplars;
+  view.lists = &lists;
+  view.links = links.empty() ? nullptr : links.data();
+  if (!wanted_around.empty()) {
+    view.wanted_around = wanted_around.data();
+    view.around_price = &around_price;
+    view.border_draws = settings.border_draws;
+  }
+  view.guides = guides.data();
+  view.vector_weights = vector_weights.empty() ? nullptr : vector_weights.data();
+  view.usual_error = usual_error.empty() ? nullptr : usual_error.data();
+  view.match = match.data();
+  view.piece_size = pieces.size().data();
+  view.texels = &texels;
+  view.bin_cost = bin_cost.data();
+  view.reuse_q4 = reuse_q4.data();
+  view.most_uses = most_uses.data();
+  view.copy_cap = settings.copy_cap;
+  view.replaces_pieces = settings.replacing_passes > 0;
+  view.draws = settings.draws;
+  view.fitting_draws = settings.fitting_draws;
+  view.key = key_for(settings, Purpose::pass, pass);
+  view.pass = pass;
+  return view;
+}
+
+}  // namespace belvedere::synth

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/random.h"
+#include "texture/synthesis/synth_kernel.h"
+#include "texture/synthesis/synth_lists.h"
+#include "texture/synthesis/synth_pieces.h"
+#include "texture/synthesis/synth_plane.h"
+#include "texture/synthesis/synth_texels.h"
+
+namespace belvedere::synth {
+
+// What one level of the pyramid is worked with.
+struct LevelSettings {
+  int level = 0;  // 0 is the finest
+  std::uint64_t seed = 1;
+  int passes = 4;
+  int replacing_passes = 0;   // further ones; pieces over the cap are moved as a whole before the last 1 + this many
+  std::int64_t copy_cap = 1;  // pixels
+  std::int64_t reuse_price = price::reuse;
+  int draws = 1;          // texels drawn for one pick
+  int border_draws = 4;   // and where other classes lie around
+  int fitting_draws = 4;  // and in sub-passes, which look at what is painted around
+  int least_window = 16;  // texels a pick's window must hold
+  int surroundings_radius = 8;
+  int tile = 0;  // side of the tiles that sub-passes work in, even; 0: whole rows. Changes no bit
+};
+// The settings of the recipe for a level; cap and reuse as SynthesisParameters has them.
+LevelSettings settings_for_level(int level, std::uint64_t seed, int copy_cap, double reuse);
+
+// Keys of the random numbers of different purposes on a level.
+enum class Purpose : std::uint64_t { start = 1, expectation = 2, moves = 3, cells = 4, errors = 5, alone = 6, pass = 16 };
+
+inline std::uint64_t key_for(const LevelSettings& settings, Purpose purpose, int number = 0) {
+  return random_bits(settings.seed, settings.level, number, static_cast<std::uint64_t>(purpose));
+}
+
+// The state of a level. The exemplars and the target's classes and guides come in; the match field, and with it the target's colours,
+// is what passes change. All sums kept along (uses, bins) commute, so no order of work shows in them.
+struct LevelState {
+  LevelSettings settings;
+  std::vector<GuideRole> guides;
+  std::vector<std::uint32_t> vector_weights;  // empty: guides are priced one by one
+  const Plane& exemplars;
+  Plane& target;
+  std::vector<std::uint8_t> links;  // empty: no silhouettes
+  SurroundingsPrice around_price;
+  TexelRecords texels;
+  PickLists lists;
+  std::vector<Surroundings> wanted_around;  // by target index; empty: surroundings are not priced
+  std::vector<std::uint8_t> usual_error;    // by class × guide: median error of picks
+  std::vector<std::uint32_t> match;         // by target index: exemplar index, exemplars.nowhere() in padding and without class
+  std::vector<std::uint32_t> next;          // matches found by a sub-pass: every second pixel of every second row
+  std::vector<std::int32_t> bins_expected;  // by class × 64 + bin: how often picks alone would draw it
+  std::vector<std::int32_t> bins_actual;
+  std::vector<std::int32_t> bin_cost;
+  std::vector<std::int32_t> bin_cost_kept;  // from round to round
+  std::vector<std::int64_t> reuse_q4;       // by class
+  std::vector<std::uint32_t> most_uses;     // by class
+  Pieces pieces;
+
+  // Target classes without texels on this level become no_class. `links` may be empty.
+  LevelState(const LevelSettings& settings, const std::vector<GuideRole>& guides, int classes, const Plane& exemplars, Plane& target,
+             std::vector<std::uint8_t> links, const SurroundingsPrice& around_price = no_surroundings());
+  KernelView view(int pass) const;
+
+ private:
+  LevelState(const LevelSettings& settings, const std::vector<GuideRole>& guides, int classes, const Plane& exemplars, Plane& target,
+             std::vector<std::uint8_t> links, const SurroundingsPrice& around_price, const std::vector<Surroundings>& offered_around);
+};
+
+}  // namespace belvedere::synth
