@@ -90,9 +90,9 @@ bool below_rib(const StrokeScene& scene, const IceFlow& flow, glm::vec2 place, s
 
 }  // namespace
 
-std::vector<Stroke> glacier_flow_lines(const StrokeScene& scene) {
+std::vector<Stroke> glacier_flow_lines(const StrokeScene& scene, Stream stream) {
   const IceFlow flow = find_ice_flow(scene);
-  return sow(scene, 12.F, 17, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+  return sow(scene, 12.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != glacier || scene.slope_deg(i) > 30.F) return;
     const bool blue = seed.uniform() < 0.6F;
     const bool band = seed.uniform() < 0.4F;
@@ -108,9 +108,9 @@ std::vector<Stroke> glacier_flow_lines(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> glacier_moraines(const StrokeScene& scene) {
+std::vector<Stroke> glacier_moraines(const StrokeScene& scene, Stream stream) {
   const IceFlow flow = find_ice_flow(scene);
-  return sow(scene, 6.F, 36, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+  return sow(scene, 6.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != glacier || !below_rib(scene, flow, place, i) || seed.uniform() > 0.30F) return;
     const int steps = 3 * (7 + static_cast<int>(seed.uniform() * 12.F));
     const std::vector<glm::vec2> way = trace_ice(scene, flow, place, 5.F * scene.scale(), steps);
@@ -129,9 +129,9 @@ std::vector<Stroke> glacier_moraines(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> glacier_crevasses(const StrokeScene& scene) {
+std::vector<Stroke> glacier_crevasses(const StrokeScene& scene, Stream stream) {
   const IceFlow flow = find_ice_flow(scene);
-  return sow(scene, 15.F, 18, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+  return sow(scene, 15.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != glacier) return;
     const float share = torn(scene, place, i);
     if (seed.uniform() > 1.8F * share) return;
@@ -201,9 +201,9 @@ std::vector<Stroke> glacier_crevasses(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> glacier_edges(const StrokeScene& scene) {
+std::vector<Stroke> glacier_edges(const StrokeScene& scene, Stream stream) {
   const IceFlow flow = find_ice_flow(scene);
-  return sow(scene, 3.8F, 19, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+  return sow(scene, 3.8F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != glacier || scene.slope_deg(i) > 34.F) return;
     const float scale = scene.scale();
     const glm::vec2 down = flow.at(place);

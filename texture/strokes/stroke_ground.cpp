@@ -24,8 +24,8 @@ float cloud_edge(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
 
 }  // namespace
 
-std::vector<Stroke> sky_strokes(const StrokeScene& scene) {
-  return sow(scene, 5.F, 1, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> sky_strokes(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 5.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (!scene.guidance.is_sky(i)) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.gate = StrokeGate::sky;
@@ -43,8 +43,8 @@ std::vector<Stroke> sky_strokes(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> wash_strokes(const StrokeScene& scene) {
-  return sow(scene, 4.4F, 2, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> wash_strokes(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 4.4F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
     if (id == sky || id == water) return;
     Stroke stroke = ground_stroke(scene, i, seed);
@@ -64,8 +64,8 @@ std::vector<Stroke> wash_strokes(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> meadow_strokes(const StrokeScene& scene) {
-  return sow(scene, 4.2F, 3, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> meadow_strokes(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 4.2F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
     if (!is_grass(id)) return;
     Stroke stroke = ground_stroke(scene, i, seed);
@@ -85,8 +85,8 @@ std::vector<Stroke> meadow_strokes(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> grass_flecks(const StrokeScene& scene) {
-  return sow(scene, 3.4F, 27, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> grass_flecks(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 3.4F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
     if (id != alpine_grass && id != pasture && id != shrub) return;
     // Tussocks, alder and juniper gather in patches and hollows; flecks of light lie between.
@@ -111,8 +111,8 @@ std::vector<Stroke> grass_flecks(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> scree_strokes(const StrokeScene& scene) {
-  return sow(scene, 3.2F, 7, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> scree_strokes(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 3.2F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != scree) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.depth_tolerance = tight_depth;
@@ -125,8 +125,8 @@ std::vector<Stroke> scree_strokes(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> broken_colour(const StrokeScene& scene) {
-  return sow(scene, 4.F, 21, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> broken_colour(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 4.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
     if (id == sky || id == water || id == settlement || seed.uniform() > 0.62F) return;
     Stroke stroke = ground_stroke(scene, i, seed);
@@ -152,8 +152,8 @@ std::vector<Stroke> broken_colour(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> water_strokes(const StrokeScene& scene) {
-  return sow(scene, 3.2F, 9, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> water_strokes(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 3.2F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != water) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.gate = StrokeGate::water;
@@ -165,8 +165,8 @@ std::vector<Stroke> water_strokes(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> accent_strokes(const StrokeScene& scene) {
-  return sow(scene, 2.6F, 10, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> accent_strokes(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 2.6F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const float edge = scene.ground.accent[i];
     const LandCoverClass id = scene.class_at(i);
     if (std::abs(edge) < 0.25F || seed.uniform() > std::abs(edge)) return;

@@ -17,9 +17,9 @@ constexpr glm::vec3 shaded_rock{0.42F, 0.40F, 0.50F};
 
 }  // namespace
 
-std::vector<Stroke> snow_strokes(const StrokeScene& scene) {
+std::vector<Stroke> snow_strokes(const StrokeScene& scene, Stream stream) {
   const IceFlow flow = find_ice_flow(scene);
-  return sow(scene, 5.6F, 8, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+  return sow(scene, 5.6F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
     if (!is_ice(id)) return;
     Stroke stroke = ground_stroke(scene, i, seed);
@@ -39,9 +39,9 @@ std::vector<Stroke> snow_strokes(const StrokeScene& scene) {
 }
 
 // A rib of rock: a shaded body down the fall line, broken at its edges, and the lit faces of its blocks towards the sun.
-std::vector<Stroke> snow_ribs(const StrokeScene& scene) {
+std::vector<Stroke> snow_ribs(const StrokeScene& scene, Stream stream) {
   const IceFlow flow = find_ice_flow(scene);
-  return sow(scene, 22.F, 16, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+  return sow(scene, 22.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != snow) return;
     const float bare = std::clamp((scene.slope_deg(i) - 30.F) / 12.F, 0.F, 1.F) * std::clamp(scene.relief_m(i) / 20.F - 0.15F, 0.F, 1.F);
     // Ribs gather; single ones would be flies on the snow.

@@ -34,8 +34,8 @@ Bed bed_at(const StrokeScene& scene, std::size_t i) {
 
 }  // namespace
 
-std::vector<Stroke> rock_facets(const StrokeScene& scene) {
-  return sow(scene, 4.6F, 4, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> rock_facets(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 4.6F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != rock) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     const float tone = scene.guidance.tone[i];
@@ -58,8 +58,8 @@ std::vector<Stroke> rock_facets(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> rock_hatching(const StrokeScene& scene) {
-  return sow(scene, 3.4F, 5, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> rock_hatching(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 3.4F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != rock) return;
     const float edge = scene.ground.accent[i];
     if (seed.uniform() > 0.30F + 0.60F * std::min(1.F, std::abs(edge))) return;
@@ -75,8 +75,8 @@ std::vector<Stroke> rock_hatching(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> rock_ledges(const StrokeScene& scene) {
-  return sow(scene, 5.5F, 15, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> rock_ledges(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 5.5F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != rock) return;
     const Bed bed = bed_at(scene, i);
     // On a riser ledges run one behind the other; elsewhere beds crop out in stretches.
@@ -106,9 +106,9 @@ std::vector<Stroke> rock_ledges(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> rock_snow(const StrokeScene& scene) {
+std::vector<Stroke> rock_snow(const StrokeScene& scene, Stream stream) {
   if (!scene.parameters.winter) return {};
-  return sow(scene, 4.4F, 20, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+  return sow(scene, 4.4F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != rock) return;
     // It holds in gullies and on ledges and slides off what is steeper than 60°.
     const float hollow = std::clamp(0.5F - scene.relief_m(i) / 60.F, 0.F, 1.F);
@@ -129,8 +129,8 @@ std::vector<Stroke> rock_snow(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> rock_fissures(const StrokeScene& scene) {
-  return sow(scene, 6.2F, 6, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> rock_fissures(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 6.2F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != rock) return;
     const float tone = scene.guidance.tone[i];
     // Shade swallows most of them.

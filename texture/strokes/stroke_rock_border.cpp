@@ -45,8 +45,8 @@ constexpr float far_units = 11.F;
 
 }  // namespace
 
-std::vector<Stroke> rock_turf(const StrokeScene& scene) {
-  return sow(scene, 3.0F, 40, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> rock_turf(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 3.0F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != rock) return;
     // Tongues of turf from above: a rim is nowhere a line.
     const float reach = seed.uniform() < 0.6F ? 3.F : 7.F;
@@ -85,8 +85,8 @@ std::vector<Stroke> rock_turf(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> rock_drifts(const StrokeScene& scene) {
-  return sow(scene, 3.2F, 43, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> rock_drifts(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 3.2F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != rock) return;
     const float up = seed.uniform() < 0.65F ? 1.F : -1.F;
     const float reach = seed.between(2.5F, 7.F);
@@ -109,8 +109,8 @@ std::vector<Stroke> rock_drifts(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> rock_rubble(const StrokeScene& scene) {
-  return sow(scene, 3.4F, 41, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> rock_rubble(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 3.4F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != rock) return;
     const auto below = along_slope(scene, place, i, 4.F);
     if (!below || !grows(scene.class_at(*below))) return;
@@ -134,8 +134,8 @@ std::vector<Stroke> rock_rubble(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> rock_trees(const StrokeScene& scene) {
-  return sow(scene, 3.4F, 42, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> rock_trees(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 3.4F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != rock) return;
     const auto is_forest = [&](std::size_t k) { return scene.class_at(k) == forest && on_same_slope(scene, i, k); };
     const float close = share_around(scene, place, near_units, is_forest);

@@ -7,6 +7,7 @@
 #include "base/guidance_buffers.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/random_streams.h"
 #include "texture/strokes/paint_ground.h"
 #include "texture/strokes/stroke.h"
 
@@ -71,14 +72,14 @@ void lay_line(Stroke& stroke, const StrokeScene& scene, glm::vec2 place, float l
 // One seed in every cell of spacing_units, jittered; make(seed, place, pixel index, strokes) appends what grows there. Rows of cells
 // run in parallel and are joined in order.
 template <class Make>
-std::vector<Stroke> sow(const StrokeScene& scene, float spacing_units, std::uint64_t kind, Make&& make) {
+std::vector<Stroke> sow(const StrokeScene& scene, float spacing_units, Stream stream, Make&& make) {
   const float spacing = spacing_units * scene.scale();
   const int across = static_cast<int>(static_cast<float>(scene.guidance.width()) / spacing) + 1;
   const int down = static_cast<int>(static_cast<float>(scene.guidance.height()) / spacing) + 1;
   std::vector<std::vector<Stroke>> rows(static_cast<std::size_t>(down));
   parallel_rows(down, [&](int j) {
     for (int i = 0; i < across; ++i) {
-      StrokeSeed seed(mix_bits(scene.parameters.seed * 0x9e3779b97f4a7c15ULL + kind), i, j);
+      StrokeSeed seed(mix_bits(scene.parameters.seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(stream)), i, j);
       const glm::vec2 place{(static_cast<float>(i) + seed.uniform()) * spacing, (static_cast<float>(j) + seed.uniform()) * spacing};
       if (scene.on_canvas(place)) make(seed, place, scene.pixel(place), rows[static_cast<std::size_t>(j)]);
     }

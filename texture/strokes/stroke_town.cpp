@@ -77,7 +77,7 @@ struct Plot {
 // A pitch that holds `wanted_m`, in steps of the square root of 2: neighbours agree on it.
 double pitch_m(double wanted_m) { return std::exp2(0.5 * std::ceil(2.0 * std::log2(std::max(wanted_m, 1.0)))); }
 
-bool find_plot(const StrokeScene& scene, glm::vec2 at, Plot& plot) {
+bool find_plot(const StrokeScene& scene, Stream stream, glm::vec2 at, Plot& plot) {
   const std::size_t i = scene.pixel(at);
   if (scene.class_at(i) != settlement) return false;
   const Lie lie = lie_at(scene, at, i);
@@ -101,8 +101,8 @@ bool find_plot(const StrokeScene& scene, glm::vec2 at, Plot& plot) {
   const double v = glm::dot(here, across) / depth;
   const auto column = static_cast<std::int64_t>(std::floor(u));
   const auto row = static_cast<std::int64_t>(std::floor(v));
-  plot.key =
-      random_bits(scene.parameters.seed + 55, column, row, static_cast<std::uint64_t>(turn * 4096 + std::lround(length + 64.0 * depth)));
+  plot.key = random_bits(scene.parameters.seed + static_cast<std::uint64_t>(stream), column, row,
+                         static_cast<std::uint64_t>(turn * 4096 + std::lround(length + 64.0 * depth)));
   // Rows are straighter than the gaps in them.
   const double aside = 0.5 + 0.30 * (random_uniform(plot.key, 0, 0) - 0.5);
   const double back = 0.5 + 0.16 * (random_uniform(plot.key, 0, 1) - 0.5);
@@ -118,7 +118,7 @@ bool find_plot(const StrokeScene& scene, glm::vec2 at, Plot& plot) {
 }
 
 // All plots of the picture, each once: found from the nearest pixel of a net that is finer than they are.
-std::vector<Plot> find_plots(const StrokeScene& scene) {
+std::vector<Plot> find_plots(const StrokeScene& scene, Stream stream) {
   const float step = std::max(1.F, 1.4F * scene.scale());
   const int across = static_cast<int>(static_cast<float>(scene.guidance.width()) / step);
   const int down = static_cast<int>(static_cast<float>(scene.guidance.height()) / step);
@@ -126,7 +126,7 @@ std::vector<Plot> find_plots(const StrokeScene& scene) {
   parallel_rows(down, [&](int y) {
     for (int x = 0; x < across; ++x) {
       Plot plot{};
-      if (find_plot(scene, (glm::vec2(x, y) + 0.5F) * step, plot)) rows[static_cast<std::size_t>(y)].push_back(plot);
+      if (find_plot(scene, stream, (glm::vec2(x, y) + 0.5F) * step, plot)) rows[static_cast<std::size_t>(y)].push_back(plot);
     }
   });
   std::vector<Plot> plots;
@@ -260,9 +260,9 @@ void build_church(const StrokeScene& scene, glm::vec2 foot, float unit, std::siz
 
 }  // namespace
 
-std::vector<Stroke> houses(const StrokeScene& scene) {
+std::vector<Stroke> houses(const StrokeScene& scene, Stream stream) {
   std::vector<Stroke> all;
-  for (const Plot& plot : find_plots(scene)) {
+  for (const Plot& plot : find_plots(scene, stream)) {
     StrokeSeed seed(plot.key, 1, 0);
     const float built = built_at(scene, plot.place, plot.pixel);
     const float quarter = 0.12F * ground_noise(scene, plot.pixel, 54, 160.0);
@@ -280,16 +280,19 @@ std::vector<Stroke> houses(const StrokeScene& scene) {
     const std::size_t roof = large ? 3 : r < 0.44F ? 0 : r < 0.72F ? 1 : r < 0.90F ? 2 : 3;
     build(scene, {plot.place, width * scene.scale(), height * scene.scale(), roof}, plot.pixel, seed, all);
   }
-  // A church in the middle of every village, a few in a town.
+  return all;
+}
+
+// A church in the middle of every village, a few in a town.
+std::vector<Stroke> churches(const StrokeScene& scene, Stream stream) {
   const bool known = !scene.guidance.built.empty();
   std::vector<glm::vec2> built_already;
-  std::vector<Stroke> churches = sow(scene, 24.F, 24, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+  std::vector<Stroke> all = sow(scene, 24.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != settlement || seed.uniform() > 0.45F) return;
     const auto stands = [&](std::size_t k) { return scene.class_at(k) == settlement; };
     if (share_around(scene, place, 3.F, stands) < 1.F || (known && scene.guidance.built[i] < 0.5F)) return;
     build_church(scene, place, seed.between(0.9F, 1.15F) * scene.scale(), i, seed, out);
   });
-  all.insert(all.end(), churches.begin(), churches.end());
   if (!known) return all;
   const float step = 6.F * scene.scale();
   for (float y = 0.5F * step; y < static_cast<float>(scene.guidance.height()); y += step)
@@ -311,8 +314,8 @@ std::vector<Stroke> houses(const StrokeScene& scene) {
 }
 
 // Single farms on floors and gentle slopes, with a barn or a tree beside them.
-std::vector<Stroke> farms(const StrokeScene& scene) {
-  return sow(scene, 13.F, 27, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> farms(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 13.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
     const bool level = scene.slope_deg(i) < (id == pasture ? 15.F : 6.F);
     if ((id != valley_floor && id != pasture && !(id == snow && scene.parameters.winter)) || !level || scene.altitude_m(i) > 1250.F) return;

@@ -66,40 +66,10 @@ void plant_in_forest(const StrokeScene& scene, glm::vec2 foot, std::size_t i, bo
     plant_spruce(scene, tree, i, tone, seed, out);
 }
 
-// Grass of the glades, over whatever lies there: short strokes down the slope and across it.
-std::vector<Stroke> glade_grass(const StrokeScene& scene) {
-  return sow(scene, 3.6F, 26, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
-    if (scene.class_at(i) != forest || !is_grassy(scene, i)) return;
-    Stroke stroke = ground_stroke(scene, i, seed);
-    stroke.order += 2.F;  // before the trees around
-    const float turn = seed.uniform() < 0.5F ? 0.F : quarter_turn;
-    const float length = seed.between(4.F, 9.F);
-    lay_line(stroke, scene, place, length, turn + 0.3F * seed.normal(), 0.2F, true, seed);
-    take_brush(stroke, scene, seed.between(1.6F, 2.8F), {.taper = 0.5F, .alpha = 0.6F, .bristle = 0.4F, .wetness = 0.03F});
-    stroke.colour = scene.colour(i, mixed_tone(0.28F, 0.20F, seed), paint_jitter * 1.3F, seed);
-    out.push_back(stroke);
-  });
-}
-
-// Trees that stand like a wall where the forest ends on meadow.
-std::vector<Stroke> forest_edges(const StrokeScene& scene) {
-  return sow(scene, 3.4F, 25, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
-    if (scene.class_at(i) != forest || is_grassy(scene, i)) return;
-    const glm::vec2 below = place + glm::vec2(0.F, 3.2F * scene.scale());
-    if (!scene.on_canvas(below)) return;
-    const std::size_t ground = scene.pixel(below);
-    if (!on_same_slope(scene, i, ground) || !is_grassy(scene, ground) || scene.class_at(ground) == alpine_grass) return;
-    const float group = patch_noise(scene, i, 69, 5.0);
-    if (seed.uniform() > 0.62F + 0.35F * group) return;
-    const float lighter = 0.15F * seed.normal() - 0.2F;
-    plant_in_forest(scene, place, i, is_leafy(scene, i, patch_noise(scene, i, 64, 8.0)), lighter, 0.F, seed, out);
-  });
-}
-
 }  // namespace
 
-std::vector<Stroke> forest_trees(const StrokeScene& scene) {
-  std::vector<Stroke> trees = sow(scene, 7.F, 11, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> forest_trees(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 7.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != forest) return;
     const float scale = scene.scale();
     // Whole groups are lighter or darker, single trees little: then a slope reads as masses of wood, not as fur.
@@ -122,12 +92,40 @@ std::vector<Stroke> forest_trees(const StrokeScene& scene) {
       foot += scene.fall_line(foot) * (5.2F * seed.between(0.8F, 1.2F) * scale);
     }
   });
-  for (const std::vector<Stroke>& more : {forest_edges(scene), glade_grass(scene)}) trees.insert(trees.end(), more.begin(), more.end());
-  return trees;
 }
 
-std::vector<Stroke> scattered_trees(const StrokeScene& scene) {
-  return sow(scene, 4.2F, 12, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+// Trees that stand like a wall where the forest ends on meadow.
+std::vector<Stroke> forest_edges(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 3.4F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != forest || is_grassy(scene, i)) return;
+    const glm::vec2 below = place + glm::vec2(0.F, 3.2F * scene.scale());
+    if (!scene.on_canvas(below)) return;
+    const std::size_t ground = scene.pixel(below);
+    if (!on_same_slope(scene, i, ground) || !is_grassy(scene, ground) || scene.class_at(ground) == alpine_grass) return;
+    const float group = patch_noise(scene, i, 69, 5.0);
+    if (seed.uniform() > 0.62F + 0.35F * group) return;
+    const float lighter = 0.15F * seed.normal() - 0.2F;
+    plant_in_forest(scene, place, i, is_leafy(scene, i, patch_noise(scene, i, 64, 8.0)), lighter, 0.F, seed, out);
+  });
+}
+
+// Grass of the glades, over whatever lies there: short strokes down the slope and across it.
+std::vector<Stroke> glade_grass(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 3.6F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != forest || !is_grassy(scene, i)) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.order += 2.F;  // before the trees around
+    const float turn = seed.uniform() < 0.5F ? 0.F : quarter_turn;
+    const float length = seed.between(4.F, 9.F);
+    lay_line(stroke, scene, place, length, turn + 0.3F * seed.normal(), 0.2F, true, seed);
+    take_brush(stroke, scene, seed.between(1.6F, 2.8F), {.taper = 0.5F, .alpha = 0.6F, .bristle = 0.4F, .wetness = 0.03F});
+    stroke.colour = scene.colour(i, mixed_tone(0.28F, 0.20F, seed), paint_jitter * 1.3F, seed);
+    out.push_back(stroke);
+  });
+}
+
+std::vector<Stroke> scattered_trees(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 4.2F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
     if (!is_grass(id) || id == shrub) return;
     const auto is = [&](LandCoverClass wanted) { return [&scene, wanted](std::size_t k) { return scene.class_at(k) == wanted; }; };
@@ -191,8 +189,8 @@ std::vector<Stroke> scattered_trees(const StrokeScene& scene) {
   });
 }
 
-std::vector<Stroke> low_bushes(const StrokeScene& scene) {
-  return sow(scene, 4.2F, 13, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+std::vector<Stroke> low_bushes(const StrokeScene& scene, Stream stream) {
+  return sow(scene, 4.2F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
     if ((id != alpine_grass && id != shrub) || seed.uniform() > scene.ground.tree_density[i]) return;
     const float scale = scene.scale();

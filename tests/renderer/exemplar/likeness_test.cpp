@@ -12,7 +12,6 @@
 #include "renderer/paint/paint.h"
 #include "renderer/paint/palette.h"
 #include "tests/renderer/exemplar/painted_hills.h"
-#include "texture/strokes/stroke_kinds.h"
 #include "texture/strokes/stroke_painter.h"
 
 namespace belvedere {

@@ -6,7 +6,7 @@
 
 #include "renderer/paint/paint.h"
 #include "tests/renderer/exemplar/painted_hills.h"
-#include "texture/strokes/stroke_kinds.h"
+#include "tests/texture/strokes/stroke_picture.h"
 
 namespace belvedere {
 namespace {
@@ -33,7 +33,7 @@ double dispersion(Density&& density_of) {
   const StrokeParameters parameters;
   constexpr int cell = 40;
   Grid<int> counts(800 / cell, 600 / cell, 0);
-  for (const Stroke& s : forest_trees({g, ground, parameters}))
+  for (const Stroke& s : wood_strokes({g, ground, parameters}))
     if (s.gate == StrokeGate::upright && s.start_width > 2.4F && s.alpha > 0.85F)  // bodies
       ++counts(std::clamp(static_cast<int>(s.points[0].x), 0, 799) / cell, std::clamp(static_cast<int>(s.points[0].y), 0, 599) / cell);
   double sum = 0.0;

@@ -8,7 +8,6 @@
 #include "base/random.h"
 #include "tests/texture/strokes/stroke_picture.h"
 #include "texture/strokes/ice_flow.h"
-#include "texture/strokes/stroke_kinds.h"
 #include "texture/strokes/stroke_painter.h"
 
 namespace belvedere {
@@ -58,7 +57,7 @@ TEST(IceFlow, FollowsTheBroadFallOfItsBed) {
       EXPECT_NEAR(glm::length(at), 1.F, 1e-5F);
       EXPECT_LT(angle_deg(at, mean), 6.0) << x << ", " << y;
     }
-  for (const Stroke& s : snow_strokes(scene)) {
+  for (const Stroke& s : grow_strokes("snow", scene)) {
     if (std::abs(s.points[1].x - 160.F) > 90.F || std::abs(s.points[1].y - 120.F) > 60.F) continue;
     EXPECT_LT(angle_deg(axis_of(s), mean), 14.0);
   }
@@ -86,7 +85,7 @@ TEST(Ice, SnowIsLaidInLongStrokes) {
   const StrokeParameters parameters;
   double sum = 0.0;
   int count = 0;
-  for (const Stroke& s : snow_strokes({p.guidance, p.ground, parameters})) {
+  for (const Stroke& s : grow_strokes("snow", {p.guidance, p.ground, parameters})) {
     sum += glm::length(axis_of(s));
     ++count;
   }
@@ -98,11 +97,11 @@ TEST(Ice, CrevassesLieAcrossTheFlowAndOnlyWhereIceIsTorn) {
   const glm::vec2 flow(0.6F, 0.8F);
   set_flow(p, flow);
   const StrokeParameters parameters;
-  const auto torn = glacier_crevasses({p.guidance, p.ground, parameters});
+  const auto torn = grow_strokes("glacier crevasses", {p.guidance, p.ground, parameters});
   EXPECT_GT(torn.size(), 100U);
   for (const Stroke& s : torn) EXPECT_GE(angle_deg(axis_of(s), flow), 50.0);
   for (float& slope : p.guidance.slope_deg) slope = 3.F;
-  EXPECT_TRUE(glacier_crevasses({p.guidance, p.ground, parameters}).empty());
+  EXPECT_TRUE(grow_strokes("glacier crevasses", {p.guidance, p.ground, parameters}).empty());
 }
 
 // They come in fields, with whole ice between: counts over squares vary far more than those of evenly strewn ones.
@@ -111,7 +110,7 @@ TEST(Ice, CrevassesComeInFields) {
   const StrokeParameters parameters;
   constexpr int cell = 60;
   Grid<int> counts(900 / cell, 600 / cell, 0);
-  for (const Stroke& s : glacier_crevasses({p.guidance, p.ground, parameters}))
+  for (const Stroke& s : grow_strokes("glacier crevasses", {p.guidance, p.ground, parameters}))
     if (s.points[0].x > 0.F && s.points[0].x < 900.F && s.points[0].y > 0.F && s.points[0].y < 600.F)
       ++counts(static_cast<int>(s.points[0].x) / cell, static_cast<int>(s.points[0].y) / cell);
   int empty = 0;
@@ -142,7 +141,7 @@ TEST(Ice, FlowLinesAreLongAndFollowTheIce) {
   const glm::vec2 flow(0.6F, 0.8F);
   set_flow(p, flow);
   const StrokeParameters parameters;
-  const auto lines = glacier_flow_lines({p.guidance, p.ground, parameters});
+  const auto lines = grow_strokes("glacier flow lines", {p.guidance, p.ground, parameters});
   ASSERT_GT(lines.size(), 100U);
   for (const Stroke& s : lines) {
     EXPECT_GT(glm::length(axis_of(s)), 20.F);
@@ -154,9 +153,9 @@ TEST(Ice, FlowLinesAreLongAndFollowTheIce) {
 TEST(Ice, MedialMorainesBeginBelowRibs) {
   Picture p = one_class(glacier, 10.F, 320, 400);
   const StrokeParameters parameters;
-  EXPECT_TRUE(glacier_moraines({p.guidance, p.ground, parameters}).empty());
+  EXPECT_TRUE(grow_strokes("glacier moraines", {p.guidance, p.ground, parameters}).empty());
   set_class(p, 152, 0, 168, 120, rock);
-  const auto lines = glacier_moraines({p.guidance, p.ground, parameters});
+  const auto lines = grow_strokes("glacier moraines", {p.guidance, p.ground, parameters});
   ASSERT_GT(lines.size(), 4U);
   float lowest = 0.F;
   for (const Stroke& s : lines) {
@@ -175,7 +174,7 @@ TEST(Ice, GlaciersAreLinedWithRubbleWhereTheyEndOnGroundNotOnSnow) {
     Picture p = one_class(glacier, 12.F);
     set_class(p, 160, 0, 320, 240, beyond);
     const StrokeParameters parameters;
-    return glacier_edges({p.guidance, p.ground, parameters});
+    return grow_strokes("glacier edges", {p.guidance, p.ground, parameters});
   };
   EXPECT_TRUE(edges(snow).empty());
   const auto strokes = edges(scree);
@@ -189,7 +188,7 @@ TEST(Ice, TonguesEndBlueAndDirty) {
   set_class(p, 0, 150, 320, 240, scree);
   const StrokeParameters parameters;
   int walls = 0, dirt = 0, rubble = 0;
-  for (const Stroke& s : glacier_edges({p.guidance, p.ground, parameters})) {
+  for (const Stroke& s : grow_strokes("glacier edges", {p.guidance, p.ground, parameters})) {
     EXPECT_GT(s.points[1].y, 150.F - 32.F) << "only at the tongue";
     const bool across = angle_deg(axis_of(s), {1.F, 0.F}) < 30.0;
     const bool blue = s.colour.b > s.colour.r + 0.05F;
@@ -216,7 +215,7 @@ TEST(Ice, RibsAreFewAndBigWithALitAndADarkSide) {
   for (const double sun : {-1.0, 1.0}) {
     StrokeParameters parameters;
     parameters.sun_side = sun;
-    const auto strokes = snow_ribs({p.guidance, p.ground, parameters});
+    const auto strokes = grow_strokes("snow ribs", {p.guidance, p.ground, parameters});
     ASSERT_GT(strokes.size(), 300U);
     double lit = 0.0, dark = 0.0;
     int lit_count = 0, dark_count = 0, pairs = 0, sunward = 0;
@@ -242,10 +241,10 @@ TEST(Ice, RibsAreFewAndBigWithALitAndADarkSide) {
     EXPECT_LT(ribs, 900 * 600 / (30 * 30)) << "few";
   }
   p.guidance.slope_deg = Grid<float>(900, 600, 25.F);
-  EXPECT_TRUE(snow_ribs({p.guidance, p.ground, {}}).empty());
+  EXPECT_TRUE(grow_strokes("snow ribs", {p.guidance, p.ground, {}}).empty());
   p.guidance.slope_deg = Grid<float>(900, 600, 40.F);
   p.guidance.relief_s_m = Grid<float>(900, 600, -10.F);
-  EXPECT_TRUE(snow_ribs({p.guidance, p.ground, {}}).empty());
+  EXPECT_TRUE(grow_strokes("snow ribs", {p.guidance, p.ground, {}}).empty());
 }
 
 TEST(Ice, GrowsWithTheSheet) {
@@ -259,9 +258,9 @@ TEST(Ice, GrowsWithTheSheet) {
     for (const Stroke& s : strokes) sum += glm::length(axis_of(s));
     return sum / static_cast<double>(strokes.size());
   };
-  for (const auto kind : {snow_strokes, glacier_flow_lines, glacier_crevasses}) {
-    const auto one = kind({small.guidance, small.ground, {}});
-    const auto two = kind({large.guidance, large.ground, at_two});
+  for (const std::string_view name : {"snow", "glacier flow lines", "glacier crevasses"}) {
+    const auto one = grow_strokes(name, {small.guidance, small.ground, {}});
+    const auto two = grow_strokes(name, {large.guidance, large.ground, at_two});
     ASSERT_FALSE(one.empty());
     EXPECT_NEAR(static_cast<double>(two.size()) / static_cast<double>(one.size()), 1.0, 0.15);
     EXPECT_NEAR(length(two) / length(one), 2.0, 0.2);

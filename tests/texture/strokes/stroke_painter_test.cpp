@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "tests/texture/strokes/stroke_picture.h"
-#include "texture/strokes/stroke_kinds.h"
 
 namespace belvedere {
 namespace {
@@ -44,7 +44,7 @@ TEST(StrokePainter, TreesStandUprightWhateverTheSlope) {
   Picture p = one_class(forest);
   for (auto& d : p.guidance.fall_line) d = glm::vec2(0.8F, 0.6F);  // a slope that falls to the right
   const StrokeParameters parameters;
-  const auto trees = forest_trees({p.guidance, p.ground, parameters});
+  const auto trees = wood_strokes({p.guidance, p.ground, parameters});
   int bodies = 0;
   for (const Stroke& s : trees) {
     if (s.gate != StrokeGate::upright) continue;
@@ -65,7 +65,7 @@ TEST(StrokePainter, TreesAreAsTallFarAsNear) {
   Picture p = one_class(forest);
   raise(p, 1700.F);  // spruces only: where leafy trees grow varies over the ground
   const StrokeParameters parameters;
-  const auto trees = forest_trees({p.guidance, p.ground, parameters});
+  const auto trees = wood_strokes({p.guidance, p.ground, parameters});
   EXPECT_NEAR(mean_height(trees, 0.F, 80.F) / mean_height(trees, 160.F, 240.F), 1.0, 0.05);
 }
 
@@ -83,7 +83,7 @@ TEST(StrokePainter, TrunksStandInRowsDownTheFallLine) {
   const StrokeParameters parameters;
   // Bodies are the wide upright strokes; the next in the list is the next of its row where it stands a step away.
   std::vector<glm::vec2> feet;
-  for (const Stroke& s : forest_trees({p.guidance, p.ground, parameters}))
+  for (const Stroke& s : wood_strokes({p.guidance, p.ground, parameters}))
     if (s.gate == StrokeGate::upright && s.start_width > 2.5F) feet.push_back(s.points[0]);
   int steps = 0;
   int along = 0;
@@ -106,7 +106,7 @@ TEST(StrokePainter, LowForestIsLeafyAndWarmer) {
   const StrokeParameters parameters;
   const auto warmest = [&](const Picture& p) {
     float most = -1.F;
-    for (const Stroke& s : forest_trees({p.guidance, p.ground, parameters})) most = std::max(most, s.colour.x - s.colour.z);
+    for (const Stroke& s : wood_strokes({p.guidance, p.ground, parameters})) most = std::max(most, s.colour.x - s.colour.z);
     return most;
   };
   EXPECT_GT(warmest(low), warmest(high) + 0.1F);  // yellow dots
@@ -117,7 +117,7 @@ TEST(StrokePainter, TreesOfTheValleyFloorStandInGroups) {
   const StrokeParameters parameters;
   constexpr int cell = 25;
   Grid<int> counts(600 / cell, 400 / cell, 0);
-  for (const Stroke& s : scattered_trees({p.guidance, p.ground, parameters}))
+  for (const Stroke& s : grow_strokes("scattered trees", {p.guidance, p.ground, parameters}))
     if (s.gate == StrokeGate::upright && s.start_width > 1.5F)
       ++counts(std::min(599, static_cast<int>(s.points[0].x)) / cell, std::min(399, static_cast<int>(s.points[0].y)) / cell);
   double sum = 0.0;
@@ -135,19 +135,19 @@ TEST(StrokePainter, TreesOfTheValleyFloorStandInGroups) {
 // 10 … 30 % of the strokes are of the next darker tone, so that no area is flat.
 TEST(StrokePainter, DarkerStrokesAreMixedIn) {
   const StrokeParameters parameters;
-  const auto darker_share = [&](LandCoverClass id, auto&& kind) {
+  const auto darker_share = [&](LandCoverClass id, std::string_view kind) {
     const Picture p = one_class(id);
-    const auto strokes = kind(StrokeScene{p.guidance, p.ground, parameters});
+    const auto strokes = grow_strokes(kind, {p.guidance, p.ground, parameters});
     // Half a step down from the base at .5, the darker picture at .4.
     const auto dark = std::count_if(strokes.begin(), strokes.end(), [](const Stroke& s) { return s.colour.y < 0.455F; });
     return static_cast<double>(dark) / static_cast<double>(strokes.size());
   };
   for (const LandCoverClass id : {pasture, alpine_grass, valley_floor, snow, glacier, scree})
-    EXPECT_THAT(darker_share(id, wash_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30))) << class_name(id);
+    EXPECT_THAT(darker_share(id, "wash"), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30))) << class_name(id);
   for (const LandCoverClass id : {pasture, alpine_grass, valley_floor, shrub})
-    EXPECT_THAT(darker_share(id, meadow_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30))) << class_name(id);
-  EXPECT_THAT(darker_share(scree, scree_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)));
-  EXPECT_THAT(darker_share(snow, snow_strokes), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)));
+    EXPECT_THAT(darker_share(id, "meadow"), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30))) << class_name(id);
+  EXPECT_THAT(darker_share(scree, "scree"), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)));
+  EXPECT_THAT(darker_share(snow, "snow"), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)));
 }
 
 // A round settlement of this radius on the valley floor.
@@ -165,7 +165,7 @@ TEST(StrokePainter, TownsDifferFromVillages) {
   const auto widest = [&](float radius) {
     const Picture p = town(radius);
     float most = 0.F;
-    for (const Stroke& s : houses({p.guidance, p.ground, parameters}))
+    for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters}))
       if (s.gate == StrokeGate::surface && s.point_count == 2)
         most = std::max(most, std::abs(s.points[1].x - s.points[0].x) + (s.tip == StrokeTip::square ? 0.F : s.start_width));
     return most;
@@ -179,7 +179,7 @@ TEST(StrokePainter, TownsAreDenserInTheirMiddle) {
   const StrokeParameters parameters;
   int inside = 0;
   int edge = 0;
-  for (const Stroke& s : houses({p.guidance, p.ground, parameters})) {
+  for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters})) {
     if (s.alpha < 0.9F || s.gate != StrokeGate::surface) continue;  // walls and roofs
     const float r = std::hypot(s.points[0].x - 160.F, s.points[0].y - 120.F);
     inside += r < 55.F ? 1 : 0;
@@ -196,7 +196,7 @@ TEST(StrokePainter, TheSkyIsDrawnOutLevel) {
   const StrokeParameters parameters;
   double clear = 0.0, dabbed = 0.0;
   int clear_count = 0, dab_count = 0;
-  for (const Stroke& s : sky_strokes({p.guidance, p.ground, parameters})) {
+  for (const Stroke& s : grow_strokes("sky", {p.guidance, p.ground, parameters})) {
     const glm::vec2 axis = s.points[3] - s.points[0];
     EXPECT_LE(std::abs(std::atan2(axis.y, axis.x)) * 57.2958F, 3.F);
     const glm::vec2 middle = 0.5F * (s.points[0] + s.points[3]);
@@ -216,8 +216,8 @@ TEST(StrokePainter, StrokesGrowWithTheSheet) {
   const StrokeParameters at_one;
   StrokeParameters at_two;
   at_two.pixels_per_unit = 2.0;
-  const auto a = forest_trees({small.guidance, small.ground, at_one});
-  const auto b = forest_trees({large.guidance, large.ground, at_two});
+  const auto a = wood_strokes({small.guidance, small.ground, at_one});
+  const auto b = wood_strokes({large.guidance, large.ground, at_two});
   EXPECT_NEAR(mean_height(b, 0.F, 400.F) / mean_height(a, 0.F, 200.F), 2.0, 0.05);
   EXPECT_NEAR(static_cast<double>(b.size()) / static_cast<double>(a.size()), 1.0, 0.1);
 }
@@ -229,7 +229,7 @@ TEST(StrokePainter, LightSideFollowsTheSun) {
   const StrokeParameters from_right;
   const auto offset = [&](const StrokeParameters& parameters) {
     // The lit stroke stands right behind its dark body in the list.
-    const auto trees = forest_trees({p.guidance, p.ground, parameters});
+    const auto trees = wood_strokes({p.guidance, p.ground, parameters});
     double sum = 0.0;
     for (std::size_t i = 1; i < trees.size(); ++i)
       if (trees[i].gate == StrokeGate::upright && trees[i - 1].gate == StrokeGate::upright &&
@@ -246,12 +246,12 @@ TEST(StrokePainter, EachClassGrowsItsOwnStrokesOnly) {
   for (const LandCoverClassInfo& info : land_cover_classes()) {
     const Picture p = one_class(info.id);
     const StrokeScene scene{p.guidance, p.ground, parameters};
-    EXPECT_EQ(forest_trees(scene).empty(), info.id != forest) << info.name;
-    EXPECT_EQ(rock_facets(scene).empty(), info.id != rock) << info.name;
-    EXPECT_EQ(water_strokes(scene).empty(), info.id != water) << info.name;
-    EXPECT_EQ(houses(scene).empty(), info.id != settlement) << info.name;
-    EXPECT_EQ(sky_strokes(scene).empty(), info.id != sky) << info.name;
-    EXPECT_EQ(snow_strokes(scene).empty(), info.id != snow && info.id != glacier) << info.name;
+    EXPECT_EQ(wood_strokes(scene).empty(), info.id != forest) << info.name;
+    EXPECT_EQ(grow_strokes("rock facets", scene).empty(), info.id != rock) << info.name;
+    EXPECT_EQ(grow_strokes("water", scene).empty(), info.id != water) << info.name;
+    EXPECT_EQ(town_strokes(scene).empty(), info.id != settlement) << info.name;
+    EXPECT_EQ(grow_strokes("sky", scene).empty(), info.id != sky) << info.name;
+    EXPECT_EQ(grow_strokes("snow", scene).empty(), info.id != snow && info.id != glacier) << info.name;
   }
 }
 
@@ -262,7 +262,7 @@ TEST(StrokePainter, RockIsHatchedAlongTheFallLine) {
   const StrokeParameters parameters;
   int along = 0;
   int all = 0;
-  for (const Stroke& s : rock_hatching({p.guidance, p.ground, parameters})) {
+  for (const Stroke& s : grow_strokes("rock hatching", {p.guidance, p.ground, parameters})) {
     const glm::vec2 axis = s.points[3] - s.points[0];
     const float cosine = std::abs(axis.x * down.x + axis.y * down.y) / std::hypot(axis.x, axis.y);
     along += cosine > std::cos(0.6F) ? 1 : 0;
@@ -277,10 +277,10 @@ TEST(StrokePainter, RockHoldsSnowInWinterButNotOnTheSteepest) {
   const StrokeParameters summer;
   StrokeParameters winter;
   winter.winter = true;
-  EXPECT_TRUE(rock_snow({p.guidance, p.ground, summer}).empty());
-  EXPECT_GT(rock_snow({p.guidance, p.ground, winter}).size(), 100U);
+  EXPECT_TRUE(grow_strokes("rock snow", {p.guidance, p.ground, summer}).empty());
+  EXPECT_GT(grow_strokes("rock snow", {p.guidance, p.ground, winter}).size(), 100U);
   for (float& slope : p.guidance.slope_deg) slope = 66.F;
-  EXPECT_TRUE(rock_snow({p.guidance, p.ground, winter}).empty());
+  EXPECT_TRUE(grow_strokes("rock snow", {p.guidance, p.ground, winter}).empty());
 }
 
 TEST(StrokePainter, BrokenColourIsSmallAndLiesEveryWay) {
@@ -288,7 +288,7 @@ TEST(StrokePainter, BrokenColourIsSmallAndLiesEveryWay) {
   const StrokeParameters parameters;
   int steep = 0;
   int all = 0;
-  for (const Stroke& s : broken_colour({p.guidance, p.ground, parameters})) {
+  for (const Stroke& s : grow_strokes("broken colour", {p.guidance, p.ground, parameters})) {
     const glm::vec2 axis = s.points[3] - s.points[0];
     EXPECT_LT(std::hypot(axis.x, axis.y), 5.F);
     steep += angle_deg(axis, {0.F, 1.F}) < 45.0 ? 1 : 0;
@@ -322,12 +322,14 @@ TEST(StrokePainter, MeanColourStaysNearTheBase) {
 
 // All kinds, by the layer they belong to; a kind that is not painted is a class without its brush.
 TEST(StrokePainter, EveryKindOfStrokeIsPaintedInItsLayer) {
-  using Kind = std::vector<Stroke> (*)(const StrokeScene&);
-  const std::vector<Kind> ground = {wash_strokes, meadow_strokes, rock_facets, rock_hatching, rock_ledges,  rock_fissures, rock_snow,
-                                    rock_rubble,  rock_turf,      rock_drifts, scree_strokes, snow_strokes, broken_colour, water_strokes};
-  const std::vector<Kind> breaks = {snow_ribs, glacier_flow_lines, glacier_edges, glacier_moraines, glacier_crevasses};
-  const std::vector<Kind> over_copied = {rock_ledges, rock_fissures};  // where the ground is not painted
-  const std::vector<Kind> upright = {forest_trees, scattered_trees, low_bushes, rock_trees, grass_flecks, houses, farms};
+  using Names = std::vector<std::string_view>;
+  const Names ground = {"wash",        "meadow",    "rock facets", "rock hatching", "rock ledges", "rock fissures", "rock snow",
+                        "rock rubble", "rock turf", "rock drifts", "scree",         "snow",        "broken colour", "water"};
+  const Names breaks = {"snow ribs", "glacier flow lines", "glacier edges", "glacier moraines", "glacier crevasses"};
+  const Names over_copied = {"rock ledges", "rock fissures"};  // where the ground is not painted
+  const Names upright = {"forest trees", "forest edges", "glade grass", "scattered trees", "low bushes",
+                         "rock trees",   "grass flecks", "houses",      "churches",        "farms"};
+  EXPECT_EQ(ground.size() + breaks.size() + upright.size() + 2, stroke_kinds().size()) << "sky and accents are the other two";
   StrokeParameters winter;
   winter.winter = true;
   for (const LandCoverClassInfo& info : land_cover_classes()) {
@@ -339,22 +341,23 @@ TEST(StrokePainter, EveryKindOfStrokeIsPaintedInItsLayer) {
     const auto count = [&](const StrokeLayers& layers) {
       return static_cast<std::size_t>(paint_strokes(p.ground.colour, p.guidance, p.ground, layers, winter, silent_progress()).stroke_count);
     };
-    const auto sum = [&](const std::vector<Kind>& kinds) {
+    const auto sum = [&](const Names& names) {
       std::size_t all = 0;
-      for (const Kind kind : kinds) all += kind(scene).size();
+      for (const std::string_view name : names) all += grow_strokes(name, scene).size();
       return all;
     };
     const auto only = [](StrokeLayers wanted) {
       wanted.accents = false;
       return wanted;
     };
-    EXPECT_EQ(count(only({.sky = true, .ground = false, .breaks = false, .upright = false})), sky_strokes(scene).size()) << info.name;
+    EXPECT_EQ(count(only({.sky = true, .ground = false, .breaks = false, .upright = false})), grow_strokes("sky", scene).size())
+        << info.name;
     EXPECT_EQ(count(only({.sky = false, .ground = true, .breaks = false, .upright = false})), sum(ground)) << info.name;
     EXPECT_EQ(count(only({.sky = false, .ground = false, .breaks = true, .upright = false})), sum(breaks) + sum(over_copied)) << info.name;
     EXPECT_EQ(count(only({.sky = false, .ground = true, .breaks = true, .upright = false})), sum(ground) + sum(breaks)) << info.name;
     EXPECT_EQ(count(only({.sky = false, .ground = false, .breaks = false, .upright = true})), sum(upright)) << info.name;
     EXPECT_EQ(count({.sky = false, .ground = true, .accents = true, .breaks = false, .upright = false}),
-              sum(ground) + accent_strokes(scene).size())
+              sum(ground) + grow_strokes("accents", scene).size())
         << info.name;
   }
 }
@@ -366,7 +369,7 @@ TEST(StrokePainter, HousesInTheHazeTakeTheColourOfTheAir) {
   const auto farthest = [&](float haze) {
     p.ground.haze = Grid<float>(320, 240, haze);
     float most = 0.F;
-    for (const Stroke& s : houses({p.guidance, p.ground, parameters}))
+    for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters}))
       if (s.tip == StrokeTip::square) most = std::max(most, std::abs(s.colour.x - 0.5F));
     return most;
   };
@@ -379,7 +382,7 @@ TEST(StrokePainter, StrokesCurveSlightlyAndAreEdgedOnEitherSide) {
   const StrokeParameters parameters;
   double bend = 0.0;
   int right = 0;
-  const auto strokes = wash_strokes({p.guidance, p.ground, parameters});
+  const auto strokes = grow_strokes("wash", {p.guidance, p.ground, parameters});
   for (const Stroke& s : strokes) {
     const glm::vec2 chord = s.points[3] - s.points[0];
     const glm::vec2 middle = 0.5F * (s.points[1] + s.points[2]) - s.points[0];

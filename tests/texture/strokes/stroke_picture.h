@@ -4,11 +4,14 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <string_view>
+#include <vector>
 
 #include "base/guidance_buffers.h"
 #include "texture/strokes/brush.h"
 #include "texture/strokes/stroke_painter.h"
 #include "texture/strokes/stroke_seeds.h"
+#include "texture/strokes/stroke_table.h"
 
 namespace belvedere {
 
@@ -37,6 +40,27 @@ inline Picture plain_picture(LandCoverClass id, int width, int height) {
   p.ground.haze = Grid<float>(width, height, 0.F);
   return p;
 }
+
+// What a kind of stroke paints by itself.
+inline std::vector<Stroke> grow_strokes(std::string_view name, const StrokeScene& scene) {
+  const StrokeKind& kind = find_stroke_kind(name);
+  return kind.grow(scene, kind.stream);
+}
+
+inline std::vector<Stroke> grow_all(const std::vector<std::string_view>& names, const StrokeScene& scene) {
+  std::vector<Stroke> all;
+  for (const std::string_view name : names) {
+    const std::vector<Stroke> more = grow_strokes(name, scene);
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
+}
+
+// A wood with its edges and glades; a town with its churches.
+inline std::vector<Stroke> wood_strokes(const StrokeScene& scene) {
+  return grow_all({"forest trees", "forest edges", "glade grass"}, scene);
+}
+inline std::vector<Stroke> town_strokes(const StrokeScene& scene) { return grow_all({"houses", "churches"}, scene); }
 
 // From a stroke's first point to its last, px.
 inline glm::vec2 axis_of(const Stroke& s) { return s.points[static_cast<std::size_t>(s.point_count - 1)] - s.points[0]; }

@@ -6,7 +6,6 @@
 #include "base/noise.h"
 #include "tests/texture/strokes/stroke_picture.h"
 #include "texture/strokes/beds.h"
-#include "texture/strokes/stroke_kinds.h"
 #include "texture/strokes/stroke_painter.h"
 #include "texture/strokes/stroke_parts.h"
 
@@ -57,19 +56,19 @@ TEST(StrokeRock, LedgesLieAlongBeds) {
     return sum / static_cast<double>(ledges.size());
   };
   EXPECT_NEAR(edges, 0.15, 0.05);
-  const auto ledges = rock_ledges({p.guidance, p.ground, parameters});
+  const auto ledges = grow_strokes("rock ledges", {p.guidance, p.ground, parameters});
   EXPECT_GT(ledges.size(), 100U);
   EXPECT_GT(share(ledges), 2.0 * edges);
   // Where a bed is thinner than a few strokes, ledges lie anywhere.
   Picture far = slope_of(rock);
   far.guidance.footprint_m = Grid<float>(width, height, 80.F);
-  EXPECT_NEAR(share(rock_ledges({far.guidance, far.ground, parameters})), edges, 0.5 * edges);
+  EXPECT_NEAR(share(grow_strokes("rock ledges", {far.guidance, far.ground, parameters})), edges, 0.5 * edges);
 }
 
 TEST(StrokeRock, TurfHangsOverTheUpperRim) {
   const Picture p = two_bands(alpine_grass, rock);
   const StrokeParameters parameters;
-  const auto turf = rock_turf({p.guidance, p.ground, parameters});
+  const auto turf = grow_strokes("rock turf", {p.guidance, p.ground, parameters});
   int hanging = 0;
   for (const Stroke& s : turf) {
     EXPECT_EQ(p.guidance.land_cover[s.source], alpine_grass);
@@ -80,16 +79,16 @@ TEST(StrokeRock, TurfHangsOverTheUpperRim) {
   EXPECT_GT(hanging, width / 12);
   // At the foot of a wall nothing hangs, and grass lies on its lowest ledges only.
   const Picture foot = two_bands(rock, alpine_grass);
-  for (const Stroke& s : rock_turf({foot.guidance, foot.ground, parameters}))
+  for (const Stroke& s : grow_strokes("rock turf", {foot.guidance, foot.ground, parameters}))
     EXPECT_NEAR(std::abs(s.points[3].x - s.points[0].x) / (std::abs(s.points[3].y - s.points[0].y) + 0.5F), 6.F, 6.01F);
   const Picture wall = slope_of(rock);
-  EXPECT_TRUE(rock_turf({wall.guidance, wall.ground, parameters}).empty());
+  EXPECT_TRUE(grow_strokes("rock turf", {wall.guidance, wall.ground, parameters}).empty());
 }
 
 TEST(StrokeRock, SnowReachesUpIntoTheWallAndThinsOutThere) {
   const Picture p = two_bands(rock, snow);
   const StrokeParameters parameters;
-  const auto drifts = rock_drifts({p.guidance, p.ground, parameters});
+  const auto drifts = grow_strokes("rock drifts", {p.guidance, p.ground, parameters});
   EXPECT_GT(drifts.size(), 20U);
   for (const Stroke& s : drifts) {
     EXPECT_EQ(p.guidance.land_cover[s.source], snow);
@@ -100,17 +99,17 @@ TEST(StrokeRock, SnowReachesUpIntoTheWallAndThinsOutThere) {
   }
   // A cornice over the rim runs down.
   const Picture rim = two_bands(snow, rock);
-  const auto cornices = rock_drifts({rim.guidance, rim.ground, parameters});
+  const auto cornices = grow_strokes("rock drifts", {rim.guidance, rim.ground, parameters});
   EXPECT_GT(cornices.size(), 10U);
   for (const Stroke& s : cornices) EXPECT_GT(s.points[3].y, s.points[0].y);
   const Picture wood = two_bands(rock, forest);
-  EXPECT_TRUE(rock_drifts({wood.guidance, wood.ground, parameters}).empty());
+  EXPECT_TRUE(grow_strokes("rock drifts", {wood.guidance, wood.ground, parameters}).empty());
 }
 
 TEST(StrokeRock, RubbleRunsFromTheFootIntoTheWood) {
   const Picture p = two_bands(rock, forest);
   const StrokeParameters parameters;
-  const auto rubble = rock_rubble({p.guidance, p.ground, parameters});
+  const auto rubble = grow_strokes("rock rubble", {p.guidance, p.ground, parameters});
   EXPECT_GT(rubble.size(), 15U);
   float deepest = 0.F;
   for (const Stroke& s : rubble) {
@@ -120,13 +119,13 @@ TEST(StrokeRock, RubbleRunsFromTheFootIntoTheWood) {
   }
   EXPECT_GT(deepest, 6.F);
   const Picture above = two_bands(forest, rock);
-  EXPECT_TRUE(rock_rubble({above.guidance, above.ground, parameters}).empty());
+  EXPECT_TRUE(grow_strokes("rock rubble", {above.guidance, above.ground, parameters}).empty());
 }
 
 // Trees, each counted by its body, on pixels of rock.
 int trees_on_rock(const Picture& p) {
   int count = 0;
-  for (const Stroke& s : rock_trees({p.guidance, p.ground, {}})) {
+  for (const Stroke& s : grow_strokes("rock trees", {p.guidance, p.ground, {}})) {
     EXPECT_EQ(p.guidance.land_cover[s.source], forest) << "painted in the wood's colours";
     const int y = static_cast<int>(s.points[0].y);
     const int x = std::clamp(static_cast<int>(s.points[0].x), 0, width - 1);
@@ -141,7 +140,7 @@ TEST(StrokeRock, SingleTreesStandOnRockNearTheWoodOnly) {
   EXPECT_EQ(trees_on_rock(slope_of(rock)), 0);
   const Picture p = two_bands(rock, forest);
   EXPECT_GT(trees_on_rock(p), 15);
-  for (const Stroke& s : rock_trees({p.guidance, p.ground, {}})) EXPECT_GT(s.points[0].y, height / 2 - 20.F);
+  for (const Stroke& s : grow_strokes("rock trees", {p.guidance, p.ground, {}})) EXPECT_GT(s.points[0].y, height / 2 - 20.F);
   // In hollows more than on ribs.
   Picture gully = p;
   for (float& relief : gully.guidance.relief_s_m) relief = -20.F;

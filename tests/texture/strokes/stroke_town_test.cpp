@@ -4,7 +4,6 @@
 #include <complex>
 
 #include "tests/texture/strokes/stroke_picture.h"
-#include "texture/strokes/stroke_kinds.h"
 
 namespace belvedere {
 namespace {
@@ -50,7 +49,7 @@ TEST(Towns, HousesStandInRowsAlongTheGrain) {
   Picture p = level(settlement);
   // 2^6.5 m hold 3 units of 20 m and a garden.
   const double pitch_px = std::exp2(6.5) / 20.0;
-  const auto strokes = [&] { return houses({p.guidance, p.ground, parameters}); };
+  const auto strokes = [&] { return town_strokes({p.guidance, p.ground, parameters}); };
   EXPECT_GT(rowed(strokes(), false, pitch_px), 0.75);
   for (glm::vec2& grain : p.guidance.grain) grain = {0.F, 1.F};  // 45°
   EXPECT_LT(rowed(strokes(), false, pitch_px), 0.3);
@@ -62,7 +61,7 @@ TEST(Towns, HaveNoTwoHousesOnOnePlot) {
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < 240; ++x) p.guidance.built(x, y) = 0.45F - 0.0005F * std::hypot(x - 120.F, y - 100.F);  // one church
   std::vector<glm::vec2> feet;
-  for (const Stroke& s : houses({p.guidance, p.ground, parameters}))
+  for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters}))
     if (is_wall(s)) feet.push_back(0.5F * (s.points[0] + s.points[1]));
   int too_near = 0;
   for (std::size_t a = 0; a < feet.size(); ++a)
@@ -77,7 +76,7 @@ TEST(Towns, AreDenserAndLargerInTheirMiddle) {
     for (float& b : p.guidance.built) b = built;
     double width = 0.0;
     int count = 0;
-    for (const Stroke& s : houses({p.guidance, p.ground, parameters})) {
+    for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters})) {
       if (!is_wall(s)) continue;
       width += std::abs(s.points[1].x - s.points[0].x);
       ++count;
@@ -102,7 +101,7 @@ TEST(Towns, EveryVillageHasItsChurchInItsMiddle) {
         p.guidance.built(middle.x + x, middle.y + y) = 0.35F - 0.02F * away;
       }
   std::vector<glm::vec2> spires;
-  for (const Stroke& s : houses({p.guidance, p.ground, parameters}))
+  for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters}))
     if (is_spire(s)) spires.push_back(s.points[0]);
   ASSERT_EQ(spires.size(), 2U);
   EXPECT_NEAR(spires[0].x, 60.F, 5.F);
@@ -114,7 +113,7 @@ TEST(Towns, FarmsAreFewAndOnGentleLowGround) {
   const StrokeParameters parameters;
   const auto count = [&](const Picture& p) {
     int walls = 0;
-    for (const Stroke& s : farms({p.guidance, p.ground, parameters})) walls += is_wall(s) ? 1 : 0;
+    for (const Stroke& s : grow_strokes("farms", {p.guidance, p.ground, parameters})) walls += is_wall(s) ? 1 : 0;
     return walls;
   };
   Picture p = level(valley_floor, 400, 400);

@@ -6,7 +6,6 @@
 
 #include "base/progress.h"
 #include "tests/texture/strokes/stroke_picture.h"
-#include "texture/strokes/stroke_kinds.h"
 #include "texture/strokes/stroke_painter.h"
 #include "texture/strokes/stroke_parts.h"
 #include "texture/strokes/stroke_trees.h"
@@ -152,7 +151,7 @@ TEST(Wood, GladesAreGrassWithoutTrees) {
   fill(p.ground.tree_density, 100, 60, 220, 180, 0.02F);
   int inside = 0;
   int grass = 0;
-  for (const Stroke& s : forest_trees(p.scene())) {
+  for (const Stroke& s : wood_strokes(p.scene())) {
     const glm::vec2 at = s.point_count == 2 ? s.points[0] : 0.5F * (s.points[0] + s.points[3]);
     const bool in_glade = at.x > 104.F && at.x < 216.F && at.y > 64.F && at.y < 176.F;
     if (s.point_count == 2) inside += in_glade && is_body(s);
@@ -172,7 +171,7 @@ TEST(Wood, StandsLikeAWallBeforeMeadowButNotAtTheTreeline) {
     for (float& d : p.ground.tree_density) d = 0.3F;
     fill(p.guidance.land_cover, 0, 120, width, height, beyond);
     int count = 0;
-    for (const Stroke& s : forest_trees(p.scene())) count += is_body(s) && s.points[0].y > 114.F;
+    for (const Stroke& s : wood_strokes(p.scene())) count += is_body(s) && s.points[0].y > 114.F;
     return count;
   };
   EXPECT_GT(near_edge(pasture), 2 * near_edge(alpine_grass));
@@ -184,7 +183,7 @@ TEST(Wood, LightsItsRimTowardsTheSun) {
   Picture p = slope_of(forest);
   fill(p.guidance.land_cover, 0, 0, 100, height, pasture);
   fill(p.guidance.land_cover, 220, 0, width, height, pasture);
-  const auto trees = forest_trees(p.scene());
+  const auto trees = wood_strokes(p.scene());
   const auto lit_between = [&](float x0, float x1) {
     double sum = 0.0;
     int count = 0;
@@ -202,7 +201,7 @@ TEST(Wood, LeafyTreesStandInGroupsOfTheirOwn) {
   constexpr int cell = 16;
   Grid<int> leafy(width / cell, height / cell, 0);
   Grid<int> all(width / cell, height / cell, 0);
-  for (const Stroke& s : forest_trees(p.scene())) {
+  for (const Stroke& s : wood_strokes(p.scene())) {
     if (!is_body(s)) continue;
     const int x = std::clamp(static_cast<int>(s.points[0].x), 0, width - 1) / cell;
     const int y = std::clamp(static_cast<int>(s.points[0].y), 0, height - 1) / cell;
@@ -231,7 +230,7 @@ TEST(Wood, ValleyTreesFollowTheBrook) {
   fill(p.guidance.land_cover, 0, 118, width, 122, water);
   int banks = 0;
   int open = 0;
-  for (const Stroke& s : scattered_trees(p.scene())) {
+  for (const Stroke& s : grow_strokes("scattered trees", p.scene())) {
     if (s.gate != StrokeGate::upright) continue;
     const float y = s.points[0].y;
     banks += std::abs(y - 120.F) < 8.F;
@@ -251,7 +250,7 @@ TEST(Meadow, StrokesFollowTheSlopeDownOrAcrossAndLieLevelOnTheFloor) {
     int across = 0;
     int level = 0;
     int all = 0;
-    for (const Stroke& s : meadow_strokes(p.scene())) {
+    for (const Stroke& s : grow_strokes("meadow", p.scene())) {
       along += angle_deg(axis_of(s), fall) < 25.0;
       across += angle_deg(axis_of(s), fall) > 65.0;
       level += angle_deg(axis_of(s), {1.F, 0.F}) < 20.0;
@@ -272,7 +271,7 @@ TEST(Meadow, TussocksLieInHollowsAndAcrossTheSlope) {
     Picture p = slope_of(alpine_grass);
     for (float& r : p.guidance.relief_s_m) r = relief_m;
     int dark = 0;
-    for (const Stroke& s : grass_flecks(p.scene())) {
+    for (const Stroke& s : grow_strokes("grass flecks", p.scene())) {
       EXPECT_GT(angle_deg(axis_of(s), {0.F, 1.F}), 10.0);
       dark += luma(s.colour) < 0.45F;
     }
@@ -280,22 +279,22 @@ TEST(Meadow, TussocksLieInHollowsAndAcrossTheSlope) {
   };
   EXPECT_GT(dark_flecks(-6.F), dark_flecks(6.F) * 3 / 2);
   EXPECT_GT(dark_flecks(0.F), 100);
-  EXPECT_TRUE(grass_flecks(slope_of(forest).scene()).empty());
-  EXPECT_TRUE(grass_flecks(slope_of(valley_floor).scene()).empty());
+  EXPECT_TRUE(grow_strokes("grass flecks", slope_of(forest).scene()).empty());
+  EXPECT_TRUE(grow_strokes("grass flecks", slope_of(valley_floor).scene()).empty());
 }
 
 TEST(Shrub, BushesAreLowDarkAndAsManyAsTheirDensity) {
   Picture p = slope_of(shrub);
-  const auto bushes = low_bushes(p.scene());
+  const auto bushes = grow_strokes("low bushes", p.scene());
   ASSERT_GT(bushes.size(), 1000U);
   for (const Stroke& s : bushes) {
     EXPECT_LT(luma(s.colour), 0.5F);
     EXPECT_LT(std::abs(axis_of(s).y), 0.5F * s.start_width) << "wider than tall";
   }
   for (float& d : p.ground.tree_density) d = 0.19F;
-  EXPECT_NEAR(static_cast<double>(low_bushes(p.scene()).size()), 0.2 * static_cast<double>(bushes.size()),
+  EXPECT_NEAR(static_cast<double>(grow_strokes("low bushes", p.scene()).size()), 0.2 * static_cast<double>(bushes.size()),
               0.06 * static_cast<double>(bushes.size()));
-  EXPECT_TRUE(low_bushes(slope_of(pasture).scene()).empty());
+  EXPECT_TRUE(grow_strokes("low bushes", slope_of(pasture).scene()).empty());
 }
 
 TEST(Scree, IsSmallStonesDownTheSlope) {
@@ -303,7 +302,7 @@ TEST(Scree, IsSmallStonesDownTheSlope) {
   const glm::vec2 fall(0.6F, 0.8F);
   for (auto& d : p.guidance.fall_line) d = fall;
   int all = 0;
-  for (const Stroke& s : scree_strokes(p.scene())) {
+  for (const Stroke& s : grow_strokes("scree", p.scene())) {
     EXPECT_LT(glm::length(axis_of(s)), 6.F);
     EXPECT_LT(s.start_width, 2.5F);
     EXPECT_LT(angle_deg(axis_of(s), fall), 45.0);

@@ -1,0 +1,92 @@
+#include "texture/strokes/stroke_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <limits>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "tests/texture/strokes/stroke_picture.h"
+#include "texture/strokes/stroke_painter.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int width = 512;
+constexpr int height = 384;
+
+// Blocks of all classes beside each other, on gentle ground and steep, with glades in the forest and ribs of rock in the ice: somewhere
+// each kind of stroke finds what it grows on.
+Picture patchwork() {
+  constexpr int block = 32;
+  Picture p = plain_picture(LandCoverClass::rock, width, height);
+  p.parameters.winter = true;
+  p.guidance.slope_deg = Grid<float>(width, height);
+  p.guidance.relief_s_m = Grid<float>(width, height, 25.F);
+  p.guidance.footprint_m = Grid<float>(width, height, 15.F);
+  p.ground.accent = Grid<float>(width, height, -0.8F);
+  const auto& classes = land_cover_classes();
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int row = y / block;
+      const int column = x / (2 * block);
+      const auto drawn = random_index(static_cast<std::uint32_t>(classes.size()), 3, column, row);
+      LandCoverClass id = classes[drawn].id;
+      if (column < 2) id = row % 6 < 3 ? LandCoverClass::glacier : LandCoverClass::snow;
+      if (column == 0 && row % 3 == 0 && x > 28 && x < 37) id = LandCoverClass::rock;  // a rib above a stretch of ice
+      p.guidance.land_cover(x, y) = id;
+      p.guidance.slope_deg(x, y) = column == 1 ? 42.F : row % 2 == 0 ? 5.F : 20.F;
+      p.guidance.depth_m(x, y) = id == LandCoverClass::sky ? std::numeric_limits<float>::infinity() : 8000.F;
+      p.guidance.position_m(x, y) = glm::vec3(12.F * static_cast<float>(x), -12.F * static_cast<float>(y), 900.F);
+      p.ground.tree_density(x, y) = x % (2 * block) < block ? 0.95F : 0.02F;
+    }
+  return p;
+}
+
+TEST(StrokeTable, EveryKindPaintsInItsLayerAndInNoOther) {
+  const Picture p = patchwork();
+  const StrokeScene scene = p.scene();
+  const auto strokes_of = [&](const StrokeLayers& layers) {
+    return static_cast<std::size_t>(
+        paint_strokes(p.ground.colour, p.guidance, p.ground, layers, p.parameters, silent_progress()).stroke_count);
+  };
+  const StrokeLayers none{.sky = false, .ground = false, .accents = false, .breaks = false, .upright = false};
+  EXPECT_EQ(strokes_of(none), 0U);
+  for (bool StrokeLayers::*const layer :
+       {&StrokeLayers::sky, &StrokeLayers::ground, &StrokeLayers::accents, &StrokeLayers::breaks, &StrokeLayers::upright}) {
+    StrokeLayers one = none;
+    one.*layer = true;
+    std::size_t grown = 0;
+    for (const StrokeKind& kind : stroke_kinds()) {
+      if (!is_painted(kind, one)) continue;
+      const std::size_t count = grow_strokes(kind.name, scene).size();
+      EXPECT_GT(count, 0U) << kind.name;
+      grown += count;
+    }
+    EXPECT_EQ(strokes_of(one), grown);
+  }
+}
+
+TEST(StrokeTable, NamesAreUniqueAndFound) {
+  std::set<std::string_view> names;
+  for (const StrokeKind& kind : stroke_kinds()) {
+    EXPECT_FALSE(kind.name.empty());
+    EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
+    EXPECT_EQ(&find_stroke_kind(kind.name), &kind);
+  }
+  EXPECT_THROW(find_stroke_kind("clouds of dust"), Error);
+}
+
+TEST(StrokeTable, LinesOfWallsArePaintedOverCopiedGround) {
+  const StrokeLayers over_copied{.sky = true, .ground = false, .accents = true, .breaks = true, .upright = true};
+  EXPECT_TRUE(is_painted(find_stroke_kind("rock ledges"), over_copied));
+  EXPECT_FALSE(is_painted(find_stroke_kind("rock facets"), over_copied));
+  EXPECT_FALSE(is_painted(find_stroke_kind("rock ledges"), {.ground = false, .breaks = false}));
+}
+
+}  // namespace
+}  // namespace belvedere
