@@ -22,7 +22,8 @@ float smooth_step(float from, float to, float value) {
 // What clouds are measured in: the height of the sky, but no more than a narrow picture can carry.
 double cloud_scale_px(const SkyParameters& p) { return std::min(p.horizon_px, 0.09 * p.picture_size.x); }
 
-// Random numbers in the order they are drawn, a pure function of seed and cell.
+// Random numbers in the order they are drawn, a pure function of seed and cell. One draw a statement: C++ leaves open which of two
+// arguments comes first.
 class Draws {
  public:
   Draws(std::uint64_t seed, std::int64_t cell) : seed_(seed), cell_(cell) {}
@@ -54,7 +55,9 @@ struct Outline {
 
 Outline make_outline(Draws& draws) {
   Outline outline;
-  outline.arches.push_back({draws.between(-0.45, 0.45), draws.between(0.35, 0.75), 1.0});
+  const double main_middle = draws.between(-0.45, 0.45);
+  const double main_half_width = draws.between(0.35, 0.75);
+  outline.arches.push_back({main_middle, main_half_width, 1.0});
   const int more = static_cast<int>(draws.between(1.0, 4.0));
   for (int k = 0; k < more; ++k) {
     const double middle = draws.between(-0.8, 0.8);
@@ -87,7 +90,9 @@ Cloud make_cloud(const SkyParameters& p, Draws& draws, glm::dvec2 middle_px, dou
   for (int k = 0; k < skirts; ++k) {
     const double u = draws.between(-1.1, 1.1);
     const double length = width_px * draws.between(0.12, 0.34) * (1.3 - 0.6 * heaped);
-    add(u, height_px * draws.between(0.02, 0.22), {length, length * draws.between(0.05, 0.10)});
+    const double thickness = length * draws.between(0.05, 0.10);
+    const double rise = height_px * draws.between(0.02, 0.22);
+    add(u, rise, {length, thickness});
   }
   std::stable_sort(cloud.heads.begin(), cloud.heads.end(), [](const CloudHead& a, const CloudHead& b) { return a.centre.y < b.centre.y; });
   cloud.from = glm::vec2(1e9F);

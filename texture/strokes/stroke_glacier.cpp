@@ -231,7 +231,9 @@ std::vector<Stroke> glacier_edges(const StrokeScene& scene, Stream stream) {
           out.push_back(rubble);
         }
       } else if (chance < 0.8F * (1.F - ahead / 24.F)) {
-        lay_flow(stroke, flow, place, seed.between(9.F, 18.F) * scale, 0.12F * seed.normal());
+        const float aside = 0.12F * seed.normal();
+        const float length = seed.between(9.F, 18.F);
+        lay_flow(stroke, flow, place, length * scale, aside);
         take_brush(stroke, scene, seed.between(3.F, 7.F),
                    {.taper = 0.6F, .alpha = 0.17F, .bristle = 0.6F, .wetness = 0.02F, .load = 0.4F, .edge = 0.1F});
         stroke.colour = dirt(i, value);

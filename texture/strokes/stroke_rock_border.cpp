@@ -59,7 +59,9 @@ std::vector<Stroke> rock_turf(const StrokeScene& scene, Stream stream) {
       stroke.order -= 12.F;
       const glm::vec2 start = place - scene.fall_line(place) * (0.45F * reach * scene.scale());
       if (!scene.on_canvas(start)) return;
-      lay_line(stroke, scene, start, reach + seed.between(1.F, 6.F), 0.3F * seed.normal(), 0.3F, true, seed);
+      const float aside = 0.3F * seed.normal();
+      const float length = reach + seed.between(1.F, 6.F);
+      lay_line(stroke, scene, start, length, aside, 0.3F, true, seed);
       take_brush(stroke, scene, seed.between(1.2F, 2.4F), {.taper = 0.3F, .alpha = 0.8F, .bristle = 0.25F});
       const float m = scene.class_at(*above) == forest ? -0.6F + 0.4F * seed.normal() : mixed_tone(0.3F, 0.15F, seed);
       stroke.colour = scene.colour(*above, m, paint_jitter, seed);
@@ -76,7 +78,9 @@ std::vector<Stroke> rock_turf(const StrokeScene& scene, Stream stream) {
       stroke.source = static_cast<std::uint32_t>(*there);
       stroke.depth_tolerance = tight_depth;
       stroke.order -= 12.F;
-      lay_line(stroke, scene, place, seed.between(3.F, 8.F), quarter_turn + 0.3F * seed.normal(), 0.3F, true, seed);
+      const float across = quarter_turn + 0.3F * seed.normal();
+      const float length = seed.between(3.F, 8.F);
+      lay_line(stroke, scene, place, length, across, 0.3F, true, seed);
       take_brush(stroke, scene, seed.between(0.9F, 2.0F), {.taper = 0.4F, .alpha = 0.7F, .bristle = 0.3F});
       stroke.colour = scene.colour(*there, -0.2F + 0.4F * seed.normal(), paint_jitter, seed);
       out.push_back(stroke);
@@ -101,7 +105,9 @@ std::vector<Stroke> rock_drifts(const StrokeScene& scene, Stream stream) {
     stroke.order -= 12.F;
     const glm::vec2 middle = place + scene.fall_line(place) * (0.4F * up * reach * scene.scale());
     if (!scene.on_canvas(middle)) return;
-    lay_line(stroke, scene, middle, reach + seed.between(2.F, 6.F), 0.2F * seed.normal(), 0.25F, true, seed);
+    const float aside = 0.2F * seed.normal();
+    const float length = reach + seed.between(2.F, 6.F);
+    lay_line(stroke, scene, middle, length, aside, 0.25F, true, seed);
     if (up > 0.F) std::reverse(stroke.points.begin(), stroke.points.end());  // it thins out upwards
     take_brush(stroke, scene, seed.between(2.2F, 4.2F), {.taper = 0.3F, .alpha = 0.85F, .bristle = 0.2F});
     stroke.colour = scene.colour(*snow_pixel, 0.25F * seed.normal(), paint_jitter, seed);
@@ -124,7 +130,8 @@ std::vector<Stroke> rock_rubble(const StrokeScene& scene, Stream stream) {
       stroke.order -= 3.F + 2.5F * scene.metres_per_unit(i);
     else
       stroke.order -= 3.F;
-    const float length = seed.between(5.F, 9.F) + 9.F * gathered * seed.uniform();
+    const float shortest = seed.between(5.F, 9.F);
+    const float length = shortest + 9.F * gathered * seed.uniform();
     const glm::vec2 middle = place + scene.fall_line(place) * (0.42F * length * scene.scale());
     if (!scene.on_canvas(middle)) return;
     lay_line(stroke, scene, middle, length, 0.22F * seed.normal(), 0.2F, true, seed);

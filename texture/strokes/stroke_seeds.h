@@ -80,7 +80,9 @@ std::vector<Stroke> sow(const StrokeScene& scene, float spacing_units, Stream st
   parallel_rows(down, [&](int j) {
     for (int i = 0; i < across; ++i) {
       StrokeSeed seed(mix_bits(scene.parameters.seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(stream)), i, j);
-      const glm::vec2 place{(static_cast<float>(i) + seed.uniform()) * spacing, (static_cast<float>(j) + seed.uniform()) * spacing};
+      const float x = (static_cast<float>(i) + seed.uniform()) * spacing;
+      const float y = (static_cast<float>(j) + seed.uniform()) * spacing;
+      const glm::vec2 place{x, y};
       if (scene.on_canvas(place)) make(seed, place, scene.pixel(place), rows[static_cast<std::size_t>(j)]);
     }
   });

@@ -322,10 +322,14 @@ std::vector<Stroke> farms(const StrokeScene& scene, Stream stream) {
     const float dense = 0.10F + 0.09F * ground_noise(scene, i, 57, 900.0);
     if (seed.uniform() > dense) return;
     const float scale = scene.scale();
-    build(scene, {place, seed.between(2.4F, 3.2F) * scale, seed.between(2.0F, 2.5F) * scale, seed.uniform() < 0.6F ? 0U : 2U}, i, seed,
-          out);
+    const float width = seed.between(2.4F, 3.2F) * scale;
+    const float height = seed.between(2.0F, 2.5F) * scale;
+    const std::size_t roof = seed.uniform() < 0.6F ? 0 : 2;
+    build(scene, {place, width, height, roof}, i, seed, out);
     const float right = seed.uniform() < 0.5F ? 1.F : -1.F;
-    const glm::vec2 beside = place + glm::vec2(right * seed.between(3.F, 4.5F), seed.between(-1.F, 1.F)) * scale;
+    const float down = seed.between(-1.F, 1.F);
+    const float away = seed.between(3.F, 4.5F);
+    const glm::vec2 beside = place + glm::vec2(right * away, down) * scale;
     if (!scene.on_canvas(beside)) return;
     const std::size_t k = scene.pixel(beside);
     if (scene.class_at(k) != id || std::abs(scene.guidance.depth_m[k] / scene.guidance.depth_m[i] - 1.F) > 0.03F) return;
