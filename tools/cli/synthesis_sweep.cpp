@@ -12,7 +12,7 @@
 #include "tools/report/bitmap_text.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
-#include "tools/report/synthesis_report_page.h"
+#include "tools/report/synthesis_figures.h"
 
 namespace belvedere::tools {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "tools/report/generalize_report_page.h"
+#include "base/progress.h"
+#include "tools/report/generalize_report_input.h"
 #include "tools/report/report_folder.h"
 
 namespace belvedere::tools {

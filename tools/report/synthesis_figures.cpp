@@ -1,10 +1,8 @@
-#include <fmt/format.h>
+#include "tools/report/synthesis_figures.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "tools/report/synthesis_report_page.h"
 
 namespace belvedere::tools {
 namespace {
@@ -24,10 +22,6 @@ double largest(const SynthesisQuality& quality, double ClassQuality::*value) {
   for (const ClassQuality& of : quality.classes) worst = std::max(worst, of.*value);
   return worst;
 }
-
-}  // namespace
-
-namespace {
 
 Json seams_json(const SeamVisibility& seams) {
   return Json::object()

@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "texture/quality/quality.h"
 #include "texture/synthesis/class_supply.h"
-#include "tools/report/synthesis_report_page.h"
+#include "tools/report/synthesis_report_input.h"
 
 namespace belvedere::tools {
 

@@ -10,6 +10,7 @@
 #include "tools/report/bitmap_text.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
+#include "tools/report/synthesis_figures.h"
 #include "tools/report/synthesis_findings.h"
 
 namespace belvedere::tools {

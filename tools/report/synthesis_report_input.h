@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "texture/synthesis/match_field.h"
+#include "texture/synthesis/synthesize.h"
+
+namespace belvedere::tools {
+
+// What a report on a synthesis speaks of.
+struct SynthesisReportInput {
+  std::string title;    // as people call the result
+  std::string command;  // that makes it, without folders
+  const std::vector<Exemplar>& exemplars;
+  const GuideStack& target;
+  const SynthesisParameters& parameters;  // as the result was made with
+  const MatchField& matches;
+  std::function<std::string(std::uint8_t)> class_name;
+};
+
+}  // namespace belvedere::tools
