@@ -72,23 +72,22 @@ std::string as_text(const LoadedScene& scene, const SceneReport& report) {
 
 }  // namespace
 
-Command add_check(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("check", "Says whether a scene can be rendered, without rendering it");
+Action add_check(CLI::App& command) {
   const auto options = std::make_shared<SceneOptions>();
-  add_scene_options(*command, *options);
-  command->footer(
+  add_scene_options(command, *options);
+  command.footer(
       "Looks at the scene's keys, its files, the terrain, the camera's place, and whether the exemplars\n"
       "show every class that is in the picture. Exit status 0: in order.\n\n"
       "  belvedere check scenes/karwendel.toml --data ../data");
-  return {command, [options] {
-            const LoadedScene scene = load(*options);
-            const RunLimits limits(make_run(*options));
-            TerminalProgress progress(options->quiet);
-            const SceneReport report = check_scene(scene, progress);
-            progress.end();
-            print_out(options->json ? as_json(scene, report) : as_text(scene, report));
-            return 0;
-          }};
+  return [options] {
+    const LoadedScene scene = load(*options);
+    const RunLimits limits(make_run(*options));
+    TerminalProgress progress(options->quiet);
+    const SceneReport report = check_scene(scene, progress);
+    progress.end();
+    print_out(options->json ? as_json(scene, report) : as_text(scene, report));
+    return 0;
+  };
 }
 
 }  // namespace belvedere::tools

@@ -239,12 +239,10 @@ int run(const DeformOptions& options) {
 
 }  // namespace
 
-Command add_deform(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("deform", "Bends, exaggerates and moves ground: a DEM to a deformed DEM; finds bends and places");
+Action add_deform(CLI::App& command) {
   const auto options = std::make_shared<DeformOptions>();
-  add_deform_options(*command, *options);
-  command->footer(
+  add_deform_options(command, *options);
+  command.footer(
       "Of a scene it says how much valley floor is seen, how strong the bend is, and where handles fold the ground.\n"
       "A deformed DEM keeps frame, CRS and voids; where ground lies over ground it has the higher one. A scene's is\n"
       "generalized as in the picture.\n\n"
@@ -252,7 +250,7 @@ Command add_deform(CLI::App& program) {
       "  belvedere deform scenes/karwendel.toml --data ../data --locate 681500,5237300 --at 1200,700\n"
       "  belvedere deform dem.tif bent.tif --viewer 692000,5302000 --exaggeration 1.6 --bend 30000:20,60000:8,90000:0\n"
       "  belvedere deform dem.tif turned.tif --handle \"674000,5253500 radius=12000 core=4000 rotate=50\"");
-  return {command, [options] { return run(*options); }};
+  return [options] { return run(*options); };
 }
 
 }  // namespace belvedere::tools

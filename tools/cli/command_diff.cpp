@@ -60,29 +60,28 @@ std::string as_text(const PictureDifference& difference, bool same) {
 
 }  // namespace
 
-Command add_diff(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("diff", "Compares two pictures or guidance files, with thresholds");
+Action add_diff(CLI::App& command) {
   const auto options = std::make_shared<Options>();
-  command->add_option("A", options->a, "A picture: OpenEXR, TIFF, PNG or JPEG")->required();
-  command->add_option("B", options->b, "Another of the same size")->required();
-  command->add_option("--max-mean", options->max_mean, "Largest mean difference of any channel that still counts as the same")
+  command.add_option("A", options->a, "A picture: OpenEXR, TIFF, PNG or JPEG")->required();
+  command.add_option("B", options->b, "Another of the same size")->required();
+  command.add_option("--max-mean", options->max_mean, "Largest mean difference of any channel that still counts as the same")
       ->type_name("X")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--max-max", options->max_max, "Largest difference of any single pixel that still counts as the same")
+  command.add_option("--max-max", options->max_max, "Largest difference of any single pixel that still counts as the same")
       ->type_name("X")
       ->check(CLI::NonNegativeNumber);
-  command->add_flag("--json", options->json, "As JSON");
-  command->footer(
+  command.add_flag("--json", options->json, "As JSON");
+  command.footer(
       "Exit status 0: the same within the thresholds (without any: equal in every pixel); 1: different.\n"
       "Values are 0…1 in PNG, TIFF and JPEG, and as they stand in OpenEXR. Class numbers are equal or not:\n"
       "for them --max-mean is the share of pixels that may differ, and --max-max does not hold.\n\n"
       "  belvedere diff before/panorama.png after/panorama.png --max-mean 0.002");
-  return {command, [options] {
-            const PictureDifference difference = compare_pictures(options->a, options->b);
-            const bool same = is_same(difference, limits_of(*options));
-            print_out(options->json ? as_json(difference, same) : as_text(difference, same));
-            return same ? 0 : 1;
-          }};
+  return [options] {
+    const PictureDifference difference = compare_pictures(options->a, options->b);
+    const bool same = is_same(difference, limits_of(*options));
+    print_out(options->json ? as_json(difference, same) : as_text(difference, same));
+    return same ? 0 : 1;
+  };
 }
 
 }  // namespace belvedere::tools

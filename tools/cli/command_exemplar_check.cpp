@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <tuple>
 
@@ -12,6 +11,7 @@
 #include "base/parallel.h"
 #include "renderer/pipeline/scene_check.h"
 #include "tools/cli/commands.h"
+#include "tools/cli/file_names.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/synthesis_files.h"
 #include "tools/cli/terminal.h"
@@ -117,15 +117,14 @@ void ask(const Subject& subject, GuideStack& asked, ExemplarFindings& findings) 
 
 // As it would be typed, without folders.
 std::string describe_command(const Options& options) {
-  const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
   std::string out = "belvedere exemplar check";
-  if (!options.scene.scene.empty()) out += " " + name(options.scene.scene);
+  if (!options.scene.scene.empty()) out += " " + file_name(options.scene.scene);
   for (const std::string& setting : options.scene.files.settings) out += " --set " + setting;
   for (std::size_t i = 0; i < options.pictures.size(); ++i)
-    out += fmt::format(" --picture {} --label {}", name(options.pictures[i]), name(options.labels[i]));
-  for (const auto& [guide, file] : options.guides) out += fmt::format(" --guide {} {}", guide, name(file));
-  if (!options.target.empty()) out += " --target " + name(options.target);
-  for (const auto& [guide, file] : options.target_guides) out += fmt::format(" --target-guide {} {}", guide, name(file));
+    out += fmt::format(" --picture {} --label {}", file_name(options.pictures[i]), file_name(options.labels[i]));
+  for (const auto& [guide, file] : options.guides) out += fmt::format(" --guide {} {}", guide, file_name(file));
+  if (!options.target.empty()) out += " --target " + file_name(options.target);
+  for (const auto& [guide, file] : options.target_guides) out += fmt::format(" --target-guide {} {}", guide, file_name(file));
   for (const auto& [from, to] : options.fallback) out += fmt::format(" --fallback {} {}", from, to);
   return out;
 }
@@ -166,37 +165,35 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_exemplar_check(CLI::App& program) {
-  CLI::App* command =
-      exemplar_commands(program).add_subcommand("check", "Tells what a painting can serve before anything is copied from it");
+Action add_exemplar_check(CLI::App& command) {
   const auto options = std::make_shared<Options>();
-  add_scene_options(*command, options->scene);
-  command->add_option("--picture", options->pictures, "Instead of a scene: a painting (PNG, TIFF, JPEG); may be repeated")
+  add_scene_options(command, options->scene);
+  command.add_option("--picture", options->pictures, "Instead of a scene: a painting (PNG, TIFF, JPEG); may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command->add_option("--label", options->labels, "Its label image: grey, one number a class, 255 is never used; one for each --picture")
+  command.add_option("--label", options->labels, "Its label image: grey, one number a class, 255 is never used; one for each --picture")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command->add_option("--guide", options->guides, "A guide of it: name (altitude is judged) and grey image; may be repeated")
+  command.add_option("--guide", options->guides, "A guide of it: name (altitude is judged) and grey image; may be repeated")
       ->type_name("NAME FILE")
       ->allow_extra_args(false);
-  command->add_option("--target", options->target, "Label image of the picture to be made: is there enough for it?")->type_name("FILE");
-  command->add_option("--target-guide", options->target_guides, "A guide of the picture to be made")
+  command.add_option("--target", options->target, "Label image of the picture to be made: is there enough for it?")->type_name("FILE");
+  command.add_option("--target-guide", options->target_guides, "A guide of the picture to be made")
       ->type_name("NAME FILE")
       ->allow_extra_args(false);
-  command->add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
+  command.add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
       ->type_name("LABEL LABEL")
       ->allow_extra_args(false);
-  command->add_option("--report", options->report, "Also a folder with index.html: the paintings, a swatch of each class, coverage charts")
+  command.add_option("--report", options->report, "Also a folder with index.html: the paintings, a swatch of each class, coverage charts")
       ->type_name("DIR");
-  command->footer(
+  command.footer(
       "Of each class: how many texels it has and how many of them lie well inside, how many pixels they serve\n"
       "before strokes repeat, how sharp its paint is and how long its strokes are, at which altitudes it was\n"
       "painted, and whether left and right were painted alike (0 … 2; chance is what random halves differ by).\n\n"
       "  belvedere exemplar check scenes/karwendel.toml --data ../data\n"
       "  belvedere exemplar check --picture style.png --label style_class.png --guide altitude style_alt.png \\\n"
       "    --target target_class.png --target-guide altitude target_alt.png");
-  return {command, [options] { return run(*options); }};
+  return [options] { return run(*options); };
 }
 
 }  // namespace belvedere::tools

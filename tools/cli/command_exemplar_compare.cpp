@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <memory>
 
@@ -13,6 +12,7 @@
 #include "renderer/exemplar/painting_figures.h"
 #include "renderer/image/image_io.h"
 #include "tools/cli/commands.h"
+#include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
 #include "tools/report/report_pictures.h"
 
@@ -112,7 +112,7 @@ Compared measure(const std::string& path, double scale, const std::vector<double
   }
   picture = shrink_picture(picture, scale);
   try {
-    return {std::filesystem::path(path).filename().string(), scale, picture.width(), picture.height(), measure_painting(picture)};
+    return {file_name(path), scale, picture.width(), picture.height(), measure_painting(picture)};
   } catch (const Error& error) {
     throw Error(error.kind(), path, error.found() + (scale < 1.0 || part != nullptr ? " after scaling and cutting" : ""), error.allowed());
   }
@@ -201,44 +201,41 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_exemplar_compare(CLI::App& program) {
-  CLI::App* command =
-      exemplar_commands(program).add_subcommand("compare", "Sets figures of pictures side by side: what gives one away as computed?");
+Action add_exemplar_compare(CLI::App& command) {
   const auto options = std::make_shared<Options>();
   command
-      ->add_option("PICTURE", options->pictures,
-                   "Pictures, PNG, TIFF or JPEG: the one in question first, then paintings to compare it with")
+      .add_option("PICTURE", options->pictures, "Pictures, PNG, TIFF or JPEG: the one in question first, then paintings to compare it with")
       ->required();
-  command->add_option("--scale", options->scales, "Makes pictures smaller before they are measured, 0…1: once for each, in their order")
+  command.add_option("--scale", options->scales, "Makes pictures smaller before they are measured, 0…1: once for each, in their order")
       ->type_name("X")
       ->allow_extra_args(false)
       ->check(CLI::Range(0.001, 1.0));
   command
-      ->add_option("--mm", options->widths_mm,
-                   "Widths of the originals: all pictures are brought to the pixels a millimetre of the coarsest")
+      .add_option("--mm", options->widths_mm,
+                  "Widths of the originals: all pictures are brought to the pixels a millimetre of the coarsest")
       ->type_name("MM")
       ->allow_extra_args(false)
       ->check(CLI::Range(1.0, 1e6));
-  command->add_option("--part", options->parts, "Left, top, right, bottom, 0…1, of what is measured: once for each picture, in their order")
+  command.add_option("--part", options->parts, "Left, top, right, bottom, 0…1, of what is measured: once for each picture, in their order")
       ->type_name("L T R B")
       ->type_size(4)
       ->allow_extra_args(false);
-  command->add_option("--own", options->own, "How many of the pictures, from the first on, are in question; 1 by default")
+  command.add_option("--own", options->own, "How many of the pictures, from the first on, are in question; 1 by default")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--threads", options->threads, "How many processor threads to use; 0, the default, takes all. Changes no figure")
+  command.add_option("--threads", options->threads, "How many processor threads to use; 0, the default, takes all. Changes no figure")
       ->type_name("N")
       ->check(CLI::Range(0, 4096));
-  command->add_flag("-q,--quiet", options->quiet, "No progress");
-  command->add_flag("--json", options->json, "As JSON");
-  command->footer(
+  command.add_flag("-q,--quiet", options->quiet, "No progress");
+  command.add_flag("--json", options->json, "As JSON");
+  command.footer(
       "Sharpness: 0 soft, 1 hard edges, 1.6 to 2 detail of every size as in paintings, to 4 grain; whatever the\n"
       "contrast. Stroke length and width, and how far a direction holds: in pixels, so bring pictures to strokes\n"
       "of one size. Coherence: 0 every way, 1 combed. Unevenness: how contrast differs from place to place.\n"
       "The last column says which of those in question lie outside of all the others.\n\n"
       "  belvedere exemplar compare out/panorama.png bruegel.png segantini.jpg\n"
       "  belvedere exemplar compare sheet/painting.png rubens.jpg --mm 1024 --mm 2290");
-  return {command, [options] { return run(*options); }};
+  return [options] { return run(*options); };
 }
 
 }  // namespace belvedere::tools

@@ -78,37 +78,35 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_exemplar_paint(CLI::App& program) {
-  CLI::App* command = exemplar_commands(program).add_subcommand(
-      "paint", "Paints an example for synthesis to copy: a sheet with everything on it, or a scene's view in strokes alone");
+Action add_exemplar_paint(CLI::App& command) {
   const auto options = std::make_shared<Options>();
-  add_scene_options(*command, options->scene, "A scene whose view is painted; without one a sheet of made-up views");
-  command->add_option("--out", options->out, "Folder for the results; made where it is missing")->type_name("DIR")->required();
-  command->add_option("--season", options->season, "Palette: summer, autumn, winter, desert or a .toml file; of a sheet summer by default")
+  add_scene_options(command, options->scene, "A scene whose view is painted; without one a sheet of made-up views");
+  command.add_option("--out", options->out, "Folder for the results; made where it is missing")->type_name("DIR")->required();
+  command.add_option("--season", options->season, "Palette: summer, autumn, winter, desert or a .toml file; of a sheet summer by default")
       ->type_name("PALETTE");
-  command->add_option("--size", options->size, "Side of the sheet in pixels; 4096 by default")
+  command.add_option("--size", options->size, "Side of the sheet in pixels; 4096 by default")
       ->type_name("PX")
       ->check(CLI::Range(256, 16384));
   command
-      ->add_option("--dpi", options->dots_per_inch,
-                   "Resolution the sheet's strokes are sized for: that of the panorama that shall copy them; 50.8 by default")
+      .add_option("--dpi", options->dots_per_inch,
+                  "Resolution the sheet's strokes are sized for: that of the panorama that shall copy them; 50.8 by default")
       ->type_name("DPI")
       ->check(CLI::Range(5.0, 2540.0));
-  command->add_option("--seed", options->seed, "Another number gives other mountains and strokes")
+  command.add_option("--seed", options->seed, "Another number gives other mountains and strokes")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{0}, SheetPlan::largest_seed));
-  command->add_option("--plan", options->plan, "A sheet.toml: paints that sheet instead of the built-in one")->type_name("FILE");
-  command->add_option("--tile", options->tile_size, "Side of the tiles that threads work on, in pixels. Changes no pixel")
+  command.add_option("--plan", options->plan, "A sheet.toml: paints that sheet instead of the built-in one")->type_name("FILE");
+  command.add_option("--tile", options->tile_size, "Side of the tiles that threads work on, in pixels. Changes no pixel")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(8, 4096));
-  command->footer(
+  command.footer(
       "Writes painting.tif, ground.tif (without trees and houses), painting.png, guidance.exr, sheet.toml or\n"
       "scene.toml (what made it) and coverage.json (what there is to copy). A scene copies it with\n"
       "[[exemplar]] picture = \"ground.tif\", guidance = \"guidance.exr\".\n\n"
       "  belvedere exemplar paint --season autumn --out sheet\n"
       "  belvedere exemplar paint scenes/karwendel.toml --data ../data --out karwendel_strokes");
-  return {command, [options] { return run(*options); }};
+  return [options] { return run(*options); };
 }
 
 }  // namespace belvedere::tools

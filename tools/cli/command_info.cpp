@@ -87,17 +87,16 @@ std::string as_text(const std::string& file, const ImageInfo& info) {
 
 }  // namespace
 
-Command add_info(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("info", "Says what a picture or guidance file holds and how it was made");
+Action add_info(CLI::App& command) {
   const auto options = std::make_shared<Options>();
-  command->add_option("FILE", options->file, "An OpenEXR, TIFF, PNG or JPEG file")->required();
-  command->add_flag("--json", options->json, "As JSON");
-  command->footer("  belvedere info karwendel/guidance.exr      size, channels, camera, scene, versions, hashes of the inputs");
-  return {command, [options] {
-            const ImageInfo info = read_image_info(options->file);
-            print_out(options->json ? as_json(options->file, info) : as_text(options->file, info));
-            return 0;
-          }};
+  command.add_option("FILE", options->file, "An OpenEXR, TIFF, PNG or JPEG file")->required();
+  command.add_flag("--json", options->json, "As JSON");
+  command.footer("  belvedere info karwendel/guidance.exr      size, channels, camera, scene, versions, hashes of the inputs");
+  return [options] {
+    const ImageInfo info = read_image_info(options->file);
+    print_out(options->json ? as_json(options->file, info) : as_text(options->file, info));
+    return 0;
+  };
 }
 
 }  // namespace belvedere::tools

@@ -48,24 +48,23 @@ int run_job(const Options& options, Job job, const std::vector<std::string>& res
   return 0;
 }
 
-Command add_job(CLI::App& program, const char* name, const char* meaning, const char* footer, Job job, std::vector<std::string> results) {
-  CLI::App* command = program.add_subcommand(name, meaning);
+Action add_job(CLI::App& command, const char* footer, Job job, std::vector<std::string> results) {
   const auto options = std::make_shared<Options>();
-  add_scene_options(*command, options->scene);
-  command->add_option("--out", options->out, "Folder for the results; made where it is missing. Default: one named like the scene")
+  add_scene_options(command, options->scene);
+  command.add_option("--out", options->out, "Folder for the results; made where it is missing. Default: one named like the scene")
       ->type_name("DIR");
-  command->add_option("--tile", options->tile_size, "Side of the tiles that threads work on, in pixels. Changes no pixel")
+  command.add_option("--tile", options->tile_size, "Side of the tiles that threads work on, in pixels. Changes no pixel")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(8, 4096));
-  command->footer(footer);
-  return {command, [options, job, results = std::move(results)] { return run_job(*options, job, results); }};
+  command.footer(footer);
+  return [options, job, results = std::move(results)] { return run_job(*options, job, results); };
 }
 
 }  // namespace
 
-Command add_render(CLI::App& program) {
-  return add_job(program, "render", "Renders a scene: panorama.tif for print, .png for screens, .exr for further work",
+Action add_render(CLI::App& command) {
+  return add_job(command,
                  "Writes panorama.tif (16 bit, with profile and resolution), panorama.png, panorama.exr (scene-linear)\n"
                  "and guidance.exr (depth, classes, light … of every pixel).\n\n"
                  "  belvedere render scenes/karwendel.toml --data ../data --out karwendel\n"
@@ -73,8 +72,8 @@ Command add_render(CLI::App& program) {
                  render, {"panorama.tif", "panorama.png", "panorama.exr", "guidance.exr"});
 }
 
-Command add_guidance(CLI::App& program) {
-  return add_job(program, "guidance", "Makes only guidance.exr: depth, classes, light … of every pixel, for other tools",
+Action add_guidance(CLI::App& command) {
+  return add_job(command,
                  "The channels and their units are described in the header: belvedere info guidance.exr\n\n"
                  "  belvedere guidance scenes/karwendel.toml --data ../data --out karwendel",
                  render_guidance, {"guidance.exr"});

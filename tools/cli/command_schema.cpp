@@ -7,17 +7,16 @@
 
 namespace belvedere::tools {
 
-Command add_schema(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("schema", "Prints what a scene file may say, for editors or for reading");
+Action add_schema(CLI::App& command) {
   const auto markdown = std::make_shared<bool>(false);
-  command->add_flag("--markdown", *markdown, "As a reference in Markdown instead of a JSON Schema (draft 4)");
-  command->footer(
+  command.add_flag("--markdown", *markdown, "As a reference in Markdown instead of a JSON Schema (draft 4)");
+  command.footer(
       "  belvedere schema > scene.schema.json     editors then complete keys and check values\n"
       "  belvedere schema --markdown | less");
-  return {command, [markdown] {
-            print_out(*markdown ? scene_reference() : scene_json_schema());
-            return 0;
-          }};
+  return [markdown] {
+    print_out(*markdown ? scene_reference() : scene_json_schema());
+    return 0;
+  };
 }
 
 }  // namespace belvedere::tools

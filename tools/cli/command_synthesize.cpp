@@ -14,6 +14,7 @@
 #include "texture/synthesis/class_supply.h"
 #include "texture/synthesis/synthesize.h"
 #include "tools/cli/commands.h"
+#include "tools/cli/file_names.h"
 #include "tools/cli/synthesis_files.h"
 #include "tools/cli/synthesis_sweep.h"
 #include "tools/cli/synthesize_replay.h"
@@ -48,7 +49,7 @@ void check_result_name(const std::string& path) {
 // Without folders: the same files give the same header wherever they lie.
 FileNotes make_notes(const Options& options) {
   std::map<std::string, std::string> inputs;
-  const auto add = [&](const std::string& path) { inputs[std::filesystem::path(path).filename().string()] = path; };
+  const auto add = [&](const std::string& path) { inputs[file_name(path)] = path; };
   for (const std::string& picture : options.files.pictures) add(picture);
   for (const auto& [source, target] : options.files.labels) {
     add(source);
@@ -80,19 +81,18 @@ std::string class_name_of(std::uint8_t label) { return fmt::format("class {}", l
 
 // What was asked for as it would be typed, without folders: the same on every machine.
 std::string describe_command(const Options& options) {
-  const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
   std::string out = "belvedere synthesize";
   for (std::size_t i = 0; i < options.files.pictures.size(); ++i)
-    out += fmt::format(" --picture {} --label {} {}", name(options.files.pictures[i]), name(options.files.labels[i].first),
-                       name(options.files.labels[i].second));
+    out += fmt::format(" --picture {} --label {} {}", file_name(options.files.pictures[i]), file_name(options.files.labels[i].first),
+                       file_name(options.files.labels[i].second));
   for (const GuidePair& guide : options.files.guides)
-    out += fmt::format(" --guide {} {} {} {}", guide.name, name(guide.source), name(guide.target), guide.weight);
-  for (const std::string& mask : options.files.exclusions) out += fmt::format(" --exclude {}", name(mask));
+    out += fmt::format(" --guide {} {} {} {}", guide.name, file_name(guide.source), file_name(guide.target), guide.weight);
+  for (const std::string& mask : options.files.exclusions) out += fmt::format(" --exclude {}", file_name(mask));
   if (options.files.harmonize != "off") out += fmt::format(" --harmonize {}", options.files.harmonize);
   for (const auto& [from, to] : options.fallback) out += fmt::format(" --fallback {} {}", from, to);
   const SynthesisParameters& p = options.parameters;
   return out + fmt::format(" --seed {} --levels {} --reuse {} --copy-cap {} --surroundings {} --out {}", p.seed, p.levels, p.reuse,
-                           p.copy_cap, p.surroundings, name(options.out));
+                           p.copy_cap, p.surroundings, file_name(options.out));
 }
 
 // Messages and --fallback speak of labels by number.
@@ -194,7 +194,7 @@ int run(Options& options) {
   if (!options.match.empty()) write_matches(options.match, matches, matched_pictures(inputs), notes);
   if (!options.report.empty())
     write_synthesis_report(options.report,
-                           {.title = std::filesystem::path(options.out).filename().string(),
+                           {.title = file_name(options.out),
                             .command = describe_command(options),
                             .exemplars = inputs.exemplars,
                             .target = inputs.target,
@@ -207,10 +207,6 @@ int run(Options& options) {
   return 0;
 }
 
-}  // namespace
-
-namespace {
-
 // An option of several words takes the next option's name where one of its own is missing, and the message would be about something else.
 CLI::Validator no_option_among(const char* words) {
   return CLI::Validator(
@@ -222,17 +218,16 @@ CLI::Validator no_option_among(const char* words) {
 
 }  // namespace
 
-Command add_synthesize(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("synthesize", "Lays a painting's texture over a label map; works on image files alone");
+Action add_synthesize(CLI::App& command) {
   const auto options = std::make_shared<Options>();
   SynthesisParameters& parameters = options->parameters;
-  command->add_option("--picture", options->files.pictures, "The painting (PNG, TIFF, JPEG); may be repeated")
+  command.add_option("--picture", options->files.pictures, "The painting (PNG, TIFF, JPEG); may be repeated")
       ->type_name("STYLE")
       ->required()
       ->allow_extra_args(false);
   CLI::Option* label =
       command
-          ->add_option(
+          .add_option(
               "--label", options->files.labels,
               "Label images of the painting and of the target: grey, one number a class, 255 is never used, or drawn in flat colours; "
               "one for each --picture")
@@ -241,77 +236,76 @@ Command add_synthesize(CLI::App& program) {
           ->allow_extra_args(false);
   CLI::Option* guide =
       command
-          ->add_option("--guide", options->guides,
-                       "A further guide: name, grey image of the painting, of the target, and weight 0…100; may be repeated")
+          .add_option("--guide", options->guides,
+                      "A further guide: name, grey image of the painting, of the target, and weight 0…100; may be repeated")
           ->type_name("NAME STYLE TARGET WEIGHT")
           ->check(no_option_among("a name, two files and a weight"))
           ->allow_extra_args(false);
-  command->add_option("--out", options->out, "The result: .png (8 bit) or .tif (16 bit); with --replay also .exr")
+  command.add_option("--out", options->out, "The result: .png (8 bit) or .tif (16 bit); with --replay also .exr")
       ->type_name("FILE")
       ->required();
   CLI::Option* match =
-      command->add_option("--match", options->match, "Also where each pixel was copied from: OpenEXR with channels exemplar, x, y")
+      command.add_option("--match", options->match, "Also where each pixel was copied from: OpenEXR with channels exemplar, x, y")
           ->type_name("FILE");
   CLI::Option* report =
       command
-          ->add_option("--report", options->report,
-                       "Also a folder with index.html: how good the result is, where it comes from, what each guide costs, worst places")
+          .add_option("--report", options->report,
+                      "Also a folder with index.html: how good the result is, where it comes from, what each guide costs, worst places")
           ->type_name("DIR");
   command
-      ->add_option(
-          "--exclude", options->files.exclusions,
-          "Grey image of the painting's size: what is not black is never copied (lettering, frames, figures); the first belongs to "
-          "the first --picture …, - is none")
+      .add_option("--exclude", options->files.exclusions,
+                  "Grey image of the painting's size: what is not black is never copied (lettering, frames, figures); the first belongs to "
+                  "the first --picture …, - is none")
       ->type_name("MASK")
       ->allow_extra_args(false);
   command
-      ->add_option("--harmonize", options->files.harmonize,
-                   "Brings the colours of several paintings together first, label by label: off, common, or like the first")
+      .add_option("--harmonize", options->files.harmonize,
+                  "Brings the colours of several paintings together first, label by label: off, common, or like the first")
       ->type_name("HOW")
       ->capture_default_str()
       ->check(CLI::IsMember({"off", "common", "first"}));
-  command->add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
+  command.add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
       ->type_name("LABEL LABEL")
       ->allow_extra_args(false);
-  command->add_option("--seed", parameters.seed, "Another number gives another result")->type_name("N")->capture_default_str();
-  command->add_option("--levels", parameters.levels, "Steps from coarse to fine")
+  command.add_option("--seed", parameters.seed, "Another number gives another result")->type_name("N")->capture_default_str();
+  command.add_option("--levels", parameters.levels, "Steps from coarse to fine")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 8));
-  command->add_option("--reuse", parameters.reuse, "How hard repetition is avoided")
+  command.add_option("--reuse", parameters.reuse, "How hard repetition is avoided")
       ->type_name("X")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 10.0));
-  command->add_option("--copy-cap", parameters.copy_cap, "Largest piece copied whole, in pixels of area")
+  command.add_option("--copy-cap", parameters.copy_cap, "Largest piece copied whole, in pixels of area")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(16, 100000));
-  command->add_option("--surroundings", parameters.surroundings, "How much the classes around a place count")
+  command.add_option("--surroundings", parameters.surroundings, "How much the classes around a place count")
       ->type_name("X")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 100.0));
   CLI::Option* replay =
       command
-          ->add_option("--replay", options->replay,
-                       "Lays other layers of the same paintings, one --picture each, exactly where a --match file says; needs no labels")
+          .add_option("--replay", options->replay,
+                      "Lays other layers of the same paintings, one --picture each, exactly where a --match file says; needs no labels")
           ->type_name("MATCH")
           ->excludes(label, guide, match, report);
   command
-      ->add_option("--sweep", options->sweeps,
-                   "Tries several values of seed, levels, reuse, copy-cap, surroundings or of a guide's weight; --out is a folder then. "
-                   "Twice for two at once")
+      .add_option("--sweep", options->sweeps,
+                  "Tries several values of seed, levels, reuse, copy-cap, surroundings or of a guide's weight; --out is a folder then. "
+                  "Twice for two at once")
       ->type_name("NAME=V,V…")
       ->allow_extra_args(false)
       ->excludes(match, report, replay);
-  command->add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")
       ->type_name("N")
       ->check(CLI::Range(0, 4096));
-  command->add_option("--memory", options->memory_mib, "Memory that pictures may take; 0, the default, is three quarters of the machine's")
+  command.add_option("--memory", options->memory_mib, "Memory that pictures may take; 0, the default, is three quarters of the machine's")
       ->type_name("MIB")
       ->check(CLI::Range(0, 1 << 30));
-  command->add_flag("--quiet,-q", options->quiet, "No progress, no notes");
-  command->add_flag("--json", options->json, "The result as JSON on standard output");
-  command->footer(
+  command.add_flag("--quiet,-q", options->quiet, "No progress, no notes");
+  command.add_flag("--json", options->json, "The result as JSON on standard output");
+  command.footer(
       "  belvedere synthesize --picture style.png --label style_class.png target_class.png \\\n"
       "    --guide altitude style_alt.png target_alt.png 1.0 --out out.png --match match.exr\n\n"
       "With several paintings, the first --label and the first --guide of a name belong to the first\n"
@@ -322,7 +316,7 @@ Command add_synthesize(CLI::App& program) {
       "  belvedere synthesize --picture style.png --label style_class.png target_class.png \\\n"
       "    --guide altitude style_alt.png target_alt.png 1.0 --sweep altitude=0.3,1,3 --sweep reuse=0,1 --out sweep\n\n"
       "puts six results beside each other: sweep/sheet.png, and their figures in sweep/index.html.");
-  return {command, [options] { return run(*options); }};
+  return [options] { return run(*options); };
 }
 
 }  // namespace belvedere::tools

@@ -1,20 +1,32 @@
 #include "tools/cli/commands.h"
 
-#include <CLI/CLI.hpp>
-
 namespace belvedere::tools {
 
-const std::vector<AddCommand>& all_commands() {
-  static const std::vector<AddCommand> commands = {add_render,         add_guidance, add_generalize,     add_synthesize,
-                                                   add_check,          add_deform,   add_exemplar_check, add_exemplar_compare,
-                                                   add_exemplar_paint, add_info,     add_diff,           add_schema};
+// In the order of the help.
+const std::vector<Command>& all_commands() {
+  static const std::vector<Command> commands = {
+      {"", "render", "Renders a scene: panorama.tif for print, .png for screens, .exr for further work", add_render},
+      {"", "guidance", "Makes only guidance.exr: depth, classes, light … of every pixel, for other tools", add_guidance},
+      {"", "generalize", "Simplifies a DEM for a map: weights landforms by their size, keeps ridges sharp", add_generalize},
+      {"", "synthesize", "Lays a painting's texture over a label map; works on image files alone", add_synthesize},
+      {"", "check", "Says whether a scene can be rendered, without rendering it", add_check},
+      {"", "deform", "Bends, exaggerates and moves ground: a DEM to a deformed DEM; finds bends and places", add_deform},
+      {"exemplar", "check", "Tells what a painting can serve before anything is copied from it", add_exemplar_check},
+      {"exemplar", "compare", "Sets figures of pictures side by side: what gives one away as computed?", add_exemplar_compare},
+      {"exemplar", "paint", "Paints an example for synthesis to copy: a sheet with everything on it, or a scene's view in strokes alone",
+       add_exemplar_paint},
+      {"", "info", "Says what a picture or guidance file holds and how it was made", add_info},
+      {"", "diff", "Compares two pictures or guidance files, with thresholds", add_diff},
+      {"", "schema", "Prints what a scene file may say, for editors or for reading", add_schema},
+      {"", "man", "Prints the manual page", add_man},
+      {"", "completion", "Prints what makes a shell complete commands, options and files", add_completion},
+  };
   return commands;
 }
 
-CLI::App& exemplar_commands(CLI::App& program) {
-  const auto groups = program.get_subcommands([](const CLI::App* command) { return command->get_name() == "exemplar"; });
-  if (!groups.empty()) return *groups.front();
-  return *program.add_subcommand("exemplar", "About example paintings: what they can serve, and painting one")->require_subcommand(1);
+const std::vector<CommandGroup>& command_groups() {
+  static const std::vector<CommandGroup> groups = {{"exemplar", "About example paintings: what they can serve, and painting one"}};
+  return groups;
 }
 
 }  // namespace belvedere::tools

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace CLI {
@@ -10,30 +9,40 @@ class App;
 
 namespace belvedere::tools {
 
-// A subcommand: its options are added to the program, and what it does runs when it was chosen. `run` returns the exit status of a
-// command whose answer is a status (diff); 0 otherwise. Errors are thrown.
+// What a command does once its options are read. Returns the exit status of a command whose answer is one (diff), else 0. Errors are
+// thrown.
+using Action = std::function<int()>;
+
+// A row of the table that everything about commands comes from: help, the question after a misspelt word, the manual page, completion.
 struct Command {
-  CLI::App* options;
-  std::function<int()> run;
+  const char* group;                 // the word before its name; empty: none
+  const char* name;                  // what people type
+  const char* meaning;               // one line of help
+  Action (*add)(CLI::App& command);  // gives it options and footer
 };
-using AddCommand = Command (*)(CLI::App& program);
+const std::vector<Command>& all_commands();
 
-// One file and one line in commands.cpp a subcommand.
-Command add_render(CLI::App& program);
-Command add_guidance(CLI::App& program);
-Command add_generalize(CLI::App& program);
-Command add_synthesize(CLI::App& program);
-Command add_check(CLI::App& program);
-Command add_deform(CLI::App& program);
-Command add_exemplar_check(CLI::App& program);
-Command add_exemplar_compare(CLI::App& program);
-Command add_info(CLI::App& program);
-Command add_diff(CLI::App& program);
-Command add_schema(CLI::App& program);
-Command add_exemplar_paint(CLI::App& program);
-const std::vector<AddCommand>& all_commands();
+// A word that commands stand behind: `belvedere exemplar check`.
+struct CommandGroup {
+  const char* name;
+  const char* meaning;
+};
+const std::vector<CommandGroup>& command_groups();
 
-// The group `exemplar`, which commands about example paintings are added to: `belvedere exemplar check`. Made by the first that asks.
-CLI::App& exemplar_commands(CLI::App& program);
+// One file and one row in commands.cpp a command.
+Action add_check(CLI::App& command);
+Action add_completion(CLI::App& command);
+Action add_deform(CLI::App& command);
+Action add_diff(CLI::App& command);
+Action add_exemplar_check(CLI::App& command);
+Action add_exemplar_compare(CLI::App& command);
+Action add_exemplar_paint(CLI::App& command);
+Action add_generalize(CLI::App& command);
+Action add_guidance(CLI::App& command);
+Action add_info(CLI::App& command);
+Action add_man(CLI::App& command);
+Action add_render(CLI::App& command);
+Action add_schema(CLI::App& command);
+Action add_synthesize(CLI::App& command);
 
 }  // namespace belvedere::tools

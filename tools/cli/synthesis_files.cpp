@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <filesystem>
 #include <glm/vec2.hpp>
 #include <map>
 #include <optional>
@@ -14,6 +13,7 @@
 #include "base/error.h"
 #include "renderer/exemplar/harmonize.h"
 #include "renderer/image/label_image.h"
+#include "tools/cli/file_names.h"
 
 namespace belvedere::tools {
 namespace {
@@ -89,8 +89,7 @@ SynthesisInputs read_synthesis(const SynthesisFiles& files) {
     inputs.pictures = harmonize(painted, files.harmonize == "first" ? std::optional<std::size_t>(0) : std::nullopt);
   }
   for (std::size_t i = 0; i < inputs.pictures.size(); ++i) {
-    inputs.exemplars.push_back(
-        {.name = std::filesystem::path(files.pictures[i]).filename().string(), .picture = to_rgb8(inputs.pictures[i]), .guides = {}});
+    inputs.exemplars.push_back({.name = file_name(files.pictures[i]), .picture = to_rgb8(inputs.pictures[i]), .guides = {}});
     inputs.exemplars.back().guides.label = std::move(labels.labels[i]);
   }
 
@@ -219,18 +218,6 @@ Grid<Rgb8> to_rgb8(const Grid<glm::vec3>& encoded) {
     return Rgb8{level(colour.x), level(colour.y), level(colour.z)};
   });
   return out;
-}
-
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return ending;
-}
-
-void check_place(const std::string& path) {
-  if (path.empty()) return;
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  check_output_folder(folder.empty() ? "." : folder);
 }
 
 }  // namespace belvedere::tools

@@ -63,9 +63,4 @@ std::uint8_t to_label(const std::string& option, int number);
 // 8-bit encoded sRGB, as synthesis compares pictures.
 Grid<Rgb8> to_rgb8(const Grid<glm::vec3>& encoded);
 
-// The ending of a file name in small letters, with its point.
-std::string ending_of(const std::string& path);
-// Tries the folder of a result before the work begins: Error(output). An empty path is none.
-void check_place(const std::string& path);
-
 }  // namespace belvedere::tools

@@ -4,18 +4,16 @@
 
 #include <algorithm>
 #include <bit>
-#include <filesystem>
 #include <set>
 
 #include "base/error.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/provenance.h"
+#include "tools/cli/file_names.h"
 #include "tools/cli/synthesis_files.h"
 
 namespace belvedere::tools {
 namespace {
-
-std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
 [[noreturn]] void refuse(const std::string& where, const std::string& found, const std::string& allowed) {
   throw Error(ErrorKind::usage, where, found, allowed);

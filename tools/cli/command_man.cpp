@@ -1,0 +1,21 @@
+#include <CLI/CLI.hpp>
+
+#include "renderer/image/provenance.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/man_page.h"
+#include "tools/cli/program.h"
+#include "tools/cli/terminal.h"
+
+namespace belvedere::tools {
+
+Action add_man(CLI::App& command) {
+  command.footer(
+      "An installed program has it already: man belvedere\n\n"
+      "  belvedere man | man -l -");
+  return [] {
+    print_out(man_page(describe_program(), "belvedere " + program_version()));
+    return 0;
+  };
+}
+
+}  // namespace belvedere::tools

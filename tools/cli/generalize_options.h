@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "terrain/generalize/generalize.h"
+#include "terrain/generalize/mask.h"
+#include "tools/cli/terrain_operators.h"
+
+namespace CLI {
+class App;
+}
+
+namespace belvedere::tools {
+
+// What `generalize` is asked on the command line. Weights go from the largest landforms to the smallest; empty: not given.
+struct GeneralizeOptions {
+  std::string in;
+  std::string out;
+  std::string preset;
+  std::vector<float> global, ridges, valleys;
+  std::vector<float> background_global, background_ridges, background_valleys;
+  std::string curvature = "bounded";
+  GeneralizeParameters bands;
+  std::vector<double> viewer;     // E, N
+  std::vector<double> distances;  // near, far, m
+  std::string mask;
+  std::vector<double> mask_slope;
+  bool automatic_mask = false;
+  bool change_lakes = false;
+  TerrainOperators operators;
+  std::string report;
+  std::string equalizer;
+  int threads = 0;
+  bool quiet = false;
+  bool json = false;
+};
+
+void add_generalize_options(CLI::App& command, GeneralizeOptions& options);
+
+// The weights asked for. A page with sliders begins with the terrain as it is. Error(usage) where there are none, where sets differ in
+// number, a weight is out of range, or weights differ near and far and nobody looks.
+GeneralizeParameters resolve_bands(const GeneralizeOptions& options);
+// The slopes that are masked as asked for; nothing: none are.
+std::optional<SlopeRange> masked_slopes(const GeneralizeOptions& options);
+// Whether nothing is exaggerated at the foot of slopes.
+bool masks_slope_feet(const GeneralizeOptions& options);
+// The weights and masks as they would be typed, without folders: the same on every machine.
+std::string describe_generalize(const GeneralizeOptions& options, const GeneralizeParameters& bands);
+
+}  // namespace belvedere::tools
