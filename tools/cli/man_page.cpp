@@ -82,10 +82,13 @@ std::string synopsis(const CommandDescription& command) {
   return out + " [\\fIOPTION\\fR ...]\n";
 }
 
+// A line of help has no point at its end.
+std::string sentence(const std::string& text) { return text + (text.ends_with('?') || text.ends_with('.') ? "" : "."); }
+
 void add_command(const CommandDescription& command, std::string& out) {
   for (const CommandDescription& one : command.commands) add_command(one, out);
   if (!command.commands.empty()) return;
-  out += ".SS " + escaped(command.name) + "\n" + line(command.meaning + ".") + ".PP\n" + synopsis(command);
+  out += ".SS " + escaped(command.name) + "\n" + line(sentence(command.meaning)) + ".PP\n" + synopsis(command);
   for (const bool positional : {true, false})
     for (const OptionDescription& option : command.options)
       if (option.positional == positional) out += option_entry(option);

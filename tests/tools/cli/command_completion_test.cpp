@@ -1,0 +1,23 @@
+// `belvedere completion` as users meet it; what scripts do is tested in shell_completion_test.cpp.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/tools/program.h"
+#include "tools/cli/program.h"
+#include "tools/cli/shell_completion.h"
+
+namespace belvedere {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST_F(Program, CompletionPrintsTheScript) {
+  for (const std::string& shell : tools::completed_shells())
+    EXPECT_EQ(run({"completion", shell}).out, tools::shell_completion(tools::describe_program(), shell));
+  const Outcome other = run({"completion", "csh"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("bash,fish,zsh"));
+}
+
+}  // namespace
+}  // namespace belvedere

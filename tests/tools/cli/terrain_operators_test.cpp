@@ -1,0 +1,72 @@
+#include "tools/cli/terrain_operators.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "terrain/io/raster_io.h"
+#include "tests/files.h"
+
+namespace belvedere::tools {
+namespace {
+
+using ::testing::HasSubstr;
+
+TerrainOperators read(const std::string& line) {
+  CLI::App command;
+  TerrainOperators operators;
+  add_terrain_operators(command, operators);
+  command.parse(line);
+  return operators;
+}
+
+// A cone with stripes of ±1 m along rows.
+Grid<float> striped_cone() {
+  Grid<float> cells(60, 50);
+  for (int y = 0; y < 50; ++y)
+    for (int x = 0; x < 60; ++x) cells(x, y) = static_cast<float>(900.0 - 8.0 * std::hypot(x - 30, y - 25) + (y % 2 == 0 ? 1.0 : -1.0));
+  return cells;
+}
+
+TEST(TerrainOperators, AreOffUnlessAskedFor) {
+  const Grid<float> cone = striped_cone();
+  Progress progress;
+  EXPECT_EQ(operate_before_bands(cone, 30.0, read(""), progress), cone);
+  EXPECT_EQ(operate_after_bands(cone, {}, 30.0, read(""), progress), cone);
+}
+
+TEST(TerrainOperators, EachChangesTheGround) {
+  const Grid<float> cone = striped_cone();
+  Progress progress;
+  const Grid<float> plain = operate_before_bands(cone, 30.0, read("--destripe"), progress);
+  EXPECT_LT(std::abs(plain(10, 24) - plain(10, 25)), 0.5F * std::abs(cone(10, 24) - cone(10, 25)));
+  EXPECT_NE(operate_before_bands(cone, 30.0, read("--line-integral"), progress), cone);
+  EXPECT_EQ(read("--widen-valleys 60").widen_valleys_m, 60.F);
+}
+
+TEST(TerrainOperators, ContoursNeedAFileForTheirInterval) {
+  EXPECT_EQ(read("--contours a.gpkg --contour-interval 20").contour_interval_m, 20.0);
+  EXPECT_THROW(read("--contour-interval 20"), CLI::ParseError);
+}
+
+TEST(TerrainOperators, ProductsLieInTheGridOfTheResult) {
+  const test::Folder folder;
+  Raster<float> cone{striped_cone(), {600000.0, 5200000.0, 30.0, 30.0}, normalize_crs("EPSG:32632")};
+  TerrainOperators operators;
+  operators.hillshade = folder / "relief.tif";
+  operators.contours = folder / "lines.geojson";
+  Progress progress;
+  write_products(cone, operators, progress);
+  RasterSource source;
+  source.path = operators.hillshade;
+  const Raster<float> relief = read_raster(source);
+  EXPECT_EQ(relief.transform, cone.transform);
+  EXPECT_EQ(relief.cells.width(), 60);
+  EXPECT_THAT(test::read_bytes(operators.contours), HasSubstr("LineString"));
+  EXPECT_EQ(folder.count(), 2U);
+}
+
+}  // namespace
+}  // namespace belvedere::tools

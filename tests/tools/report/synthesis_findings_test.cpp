@@ -1,0 +1,87 @@
+#include "tools/report/synthesis_findings.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "texture/synthesis/match_cost.h"
+
+namespace belvedere::tools {
+namespace {
+
+// A painting of 160 × 160 whose altitude is its column; a target of 128 × 128 that copies its left upper part, but for one square that
+// copies one and the same texel, and asks for altitudes that are off by 10 in its right half.
+class SynthesisFindingsTest : public ::testing::Test {
+ protected:
+  SynthesisFindingsTest() {
+    Exemplar painting{.name = "p.png", .picture = Grid<Rgb8>(160, 160), .guides = {}};
+    painting.guides.label = Grid<std::uint8_t>(160, 160, 1);
+    Grid<std::uint8_t> columns(160, 160);
+    for (int y = 0; y < 160; ++y) {
+      for (int x = 0; x < 160; ++x) {
+        columns(x, y) = static_cast<std::uint8_t>(x);
+        painting.picture(x, y) = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), 9};
+      }
+    }
+    painting.guides.guides.push_back({"altitude", columns});
+    paintings_.push_back(std::move(painting));
+    target_.label = Grid<std::uint8_t>(128, 128, 1);
+    Grid<std::uint8_t> asked(128, 128);
+    matches_ = MatchField(128, 128);
+    for (int y = 0; y < 128; ++y) {
+      for (int x = 0; x < 128; ++x) {
+        asked(x, y) = static_cast<std::uint8_t>(x < 64 ? x : x + 10);
+        matches_(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
+        if (x < 16 && y < 16) matches_(x, y) = {0, 3, 3};
+      }
+    }
+    target_.guides.push_back({"altitude", asked});
+    target_.guides.push_back({"weightless", asked});
+    parameters_.weights = {{"altitude", 2.0}};
+  }
+  SynthesisReportInput input() const {
+    return {"t", "c", paintings_, target_, parameters_, matches_, [](std::uint8_t) { return "class"; }};
+  }
+
+  std::vector<Exemplar> paintings_;
+  GuideStack target_;
+  SynthesisParameters parameters_;
+  MatchField matches_;
+};
+
+TEST_F(SynthesisFindingsTest, GuidesCostByTheSquareOfWhatTheyAreOff) {
+  const Grid<float> cost = guide_cost_map(input(), "altitude");
+  EXPECT_EQ(cost(40, 40), 0.F);
+  EXPECT_EQ(cost(100, 40), guide_cost(10, 2.0));
+  const SynthesisFindings found = look_at_synthesis(input(), silent_progress());
+  ASSERT_EQ(found.guides.size(), 1U) << "only guides that the painting has too";
+  // 10 in half of the pixels; in the square of 16 × 16 |x − 3|: 6 + 78 a row.
+  EXPECT_NEAR(found.guides[0].error_mean, (10.0 * 64 * 128 + 84.0 * 16) / (128.0 * 128.0), 1e-9);
+  EXPECT_EQ(found.guides[0].error_95, 10.F);
+  EXPECT_EQ(found.guides[0].weight, 2.0);
+}
+
+TEST_F(SynthesisFindingsTest, TexelsThatServeManyAreFoundWithTheirPlace) {
+  const SynthesisFindings found = look_at_synthesis(input(), silent_progress());
+  EXPECT_EQ(found.use_counts(5, 5), 256.F);
+  EXPECT_EQ(found.use_counts(50, 50), 1.F);
+  bool seen = false;
+  for (const Place& place : found.places) {
+    EXPECT_GE(place.window.x0, 0);
+    EXPECT_LE(place.window.x1, 128);
+    if (place.why == "texels used often" && place.window == PixelRect{0, 0, 64, 64}) seen = true;
+    if (place.why == "altitude off") {
+      EXPECT_GE(place.window.x0, 64);
+      EXPECT_NEAR(place.source.x0, place.window.x0, 1) << "all of it by one offset";
+      EXPECT_NEAR(place.source.y0, place.window.y0, 1);
+      EXPECT_EQ(place.piece, 64U * 64U);
+    }
+  }
+  // The seams of the square take that window first: no place stands twice.
+  for (std::size_t i = 0; i < found.places.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(found.places[i].window == found.places[k].window);
+  EXPECT_TRUE(seen || found.places.front().window == (PixelRect{0, 0, 64, 64}));
+}
+
+}  // namespace
+}  // namespace belvedere::tools
