@@ -49,7 +49,7 @@ std::string hash_file(const std::string& path) {
   return hexadecimal(XXH3_128bits_digest(state.get()));
 }
 
-std::string hash_bytes(const std::string& bytes) { return hexadecimal(XXH3_128bits(bytes.data(), bytes.size())); }
+std::string hash_bytes(std::string_view bytes) { return hexadecimal(XXH3_128bits(bytes.data(), bytes.size())); }
 
 Provenance make_provenance(const std::string& scene_text, const std::map<std::string, std::string>& inputs) {
   Provenance provenance{.program_version = program_version(),

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace belvedere {
@@ -16,7 +17,7 @@ struct Provenance {
   std::map<std::string, std::string> inputs;  // file name as the scene writes it → hash_file of its bytes
 };
 
-// "0.1.0"
+// "0.2.0"
 std::string program_version();
 // The foreign libraries the program was built with, "Embree 3.13.5, …".
 std::string library_versions();
@@ -24,7 +25,7 @@ std::string library_versions();
 // grow with the file.
 std::string hash_file(const std::string& path);
 // The same of bytes in memory.
-std::string hash_bytes(const std::string& bytes);
+std::string hash_bytes(std::string_view bytes);
 // Version, libraries and instruction set of this program on this machine, the scene's text and the hash of each input.
 // inputs: name as the scene writes it → path.
 Provenance make_provenance(const std::string& scene_text, const std::map<std::string, std::string>& inputs);

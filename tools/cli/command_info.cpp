@@ -6,6 +6,7 @@
 
 #include "base/json.h"
 #include "renderer/image/image_io.h"
+#include "renderer/image/picture_hash.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
 
@@ -14,6 +15,7 @@ namespace {
 
 struct Options {
   std::string file;
+  bool hash = false;
   bool json = false;
 };
 
@@ -33,7 +35,7 @@ const char* type_name(ChannelType type) {
   return "?";
 }
 
-std::string as_json(const std::string& file, const ImageInfo& info) {
+std::string as_json(const std::string& file, const ImageInfo& info, const PictureHash& hash) {
   Json parts = Json::array();
   for (const PartSpec& part : info.parts) {
     Json channels = Json::array();
@@ -43,20 +45,24 @@ std::string as_json(const std::string& file, const ImageInfo& info) {
   }
   Json notes = Json::object();
   for (const auto& [key, text] : info.notes) notes.add(key, Json::text(text));
-  return Json::object()
-             .add("file", Json::text(file))
-             .add("format", Json::text(info.format))
-             .add("width", Json::number(info.width))
-             .add("height", Json::number(info.height))
-             .add("dots_per_inch", Json::number(info.dots_per_inch))
-             .add("icc_profile_bytes", Json::number(static_cast<double>(info.icc_profile.size())))
-             .add("parts", std::move(parts))
-             .add("notes", std::move(notes))
-             .str() +
-         "\n";
+  Json out = Json::object()
+                 .add("file", Json::text(file))
+                 .add("format", Json::text(info.format))
+                 .add("width", Json::number(info.width))
+                 .add("height", Json::number(info.height))
+                 .add("dots_per_inch", Json::number(info.dots_per_inch))
+                 .add("icc_profile_bytes", Json::number(static_cast<double>(info.icc_profile.size())))
+                 .add("parts", std::move(parts))
+                 .add("notes", std::move(notes));
+  if (!hash.whole.empty()) {
+    Json channels = Json::object();
+    for (const ChannelHash& one : hash.channels) channels.add(one.channel, Json::text(one.hash));
+    out.add("hash", Json::text(hash.whole)).add("channel_hashes", std::move(channels));
+  }
+  return out.str() + "\n";
 }
 
-std::string as_text(const std::string& file, const ImageInfo& info) {
+std::string as_text(const std::string& file, const ImageInfo& info, const PictureHash& hash) {
   std::string out = fmt::format("{}: {}, {} × {} pixels", file, info.format, info.width, info.height);
   if (info.dots_per_inch > 0.0) {
     constexpr double mm_per_inch = 25.4;
@@ -70,6 +76,8 @@ std::string as_text(const std::string& file, const ImageInfo& info) {
     for (const ChannelSpec& channel : part.channels) out += fmt::format(" {} ({})", channel.name, type_name(channel.type));
     out += "\n";
   }
+  if (!hash.whole.empty()) out += fmt::format("hash of the pixels: {}\n", hash.whole);
+  for (const ChannelHash& one : hash.channels) out += fmt::format("  {} {}\n", one.hash, one.channel);
   for (const auto& [key, text] : info.notes) {
     // Long notes, as the scene, begin on a line of their own.
     const bool lines = text.find('\n') != std::string::npos;
@@ -90,11 +98,14 @@ std::string as_text(const std::string& file, const ImageInfo& info) {
 Action add_info(CLI::App& command) {
   const auto options = std::make_shared<Options>();
   command.add_option("FILE", options->file, "An OpenEXR, TIFF, PNG or JPEG file")->required();
+  command.add_flag("--hash", options->hash,
+                   "Also what the pixels hash to, by channel: the same for the same pixels, whatever the header says");
   command.add_flag("--json", options->json, "As JSON");
   command.footer("  belvedere info karwendel/guidance.exr      size, channels, camera, scene, versions, hashes of the inputs");
   return [options] {
     const ImageInfo info = read_image_info(options->file);
-    print_out(options->json ? as_json(options->file, info) : as_text(options->file, info));
+    const PictureHash hash = options->hash ? hash_picture(options->file) : PictureHash();
+    print_out(options->json ? as_json(options->file, info, hash) : as_text(options->file, info, hash));
     return 0;
   };
 }

@@ -2,12 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "renderer/image/picture_hash.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 TEST_F(Program, InfoTellsSizeChannelsAndNotes) {
@@ -19,6 +21,14 @@ TEST_F(Program, InfoTellsSizeChannelsAndNotes) {
   EXPECT_THAT(words.out, HasSubstr("R (uint16)"));
   EXPECT_THAT(words.out, HasSubstr("k: one\n"));
   EXPECT_THAT(run({"info", path("a.tif"), "--json"}).out, HasSubstr("\"k\": \"one\""));
+}
+
+TEST_F(Program, InfoHashesPixels) {
+  const std::string a = write_picture("a.png", 8, 8, [](int x, int) { return glm::vec3(static_cast<float>(x) / 8.F); });
+  const std::string hash = hash_picture(a).whole;
+  EXPECT_THAT(run({"info", a, "--hash"}).out, HasSubstr("hash of the pixels: " + hash + "\n"));
+  EXPECT_THAT(run({"info", a, "--hash", "--json"}).out, HasSubstr("\"hash\": \"" + hash + "\""));
+  EXPECT_THAT(run({"info", a}).out, Not(HasSubstr(hash))) << "reading all pixels takes its time";
 }
 
 }  // namespace
