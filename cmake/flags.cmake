@@ -1,6 +1,5 @@
-# How everything of ours is compiled: an interface target that each of our targets links privately.
+# How everything of ours is compiled: an interface target that each of our targets links privately; nobody else is compiled so.
 add_library(belvedere_flags INTERFACE)
-target_include_directories(belvedere_flags INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(belvedere_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference -Werror
   # GCC 12 sees overlapping copies in the string concatenations of its own library at -O3 (GCC bug 105651).
