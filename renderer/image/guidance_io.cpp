@@ -10,6 +10,7 @@
 #include <span>
 
 #include "base/error.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "renderer/image/image_io.h"
-#include "renderer/image/image_io_detail.h"
+#include "renderer/image/png_check.h"
 #include "texture/synthesis/guide_stack.h"
 
 namespace belvedere {

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "renderer/image/image_io.h"
 
 namespace belvedere {
 namespace {

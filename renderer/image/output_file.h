@@ -27,4 +27,7 @@ class OutputFile {
   bool committed_ = false;
 };
 
+// Error(output) unless a file could be created in the folder (made where it is missing).
+void check_output_folder(const std::string& folder);
+
 }  // namespace belvedere

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "terrain/io/crs.h"
 #include "terrain/io/raster_file.h"
 #include "terrain/io/raster_io.h"
 

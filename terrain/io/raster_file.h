@@ -8,12 +8,11 @@
 #include <vector>
 
 #include "base/grid.h"
-#include "terrain/io/raster_io.h"
+#include "terrain/io/raster_source.h"
 
 namespace belvedere {
 
-// What stands between the foreign library (raster_io.cpp, raster_io_write.cpp, raster_io_crs.cpp) and the resampling (warp.cpp). Private to
-// terrain/.
+// What stands between the foreign library (gdal/raster_file.cpp) and the resampling (warp.cpp). Private to terrain/.
 
 // Cells of a file in its CRS: a corner-based affine map, which may be rotated, mirrored or south-up.
 //   x = x0 + x_column · column + x_row · row        y = y0 + y_column · column + y_row · row
@@ -65,35 +64,5 @@ class RasterFile {
   struct State;
   std::unique_ptr<State> state_;
 };
-
-// Coordinates from one CRS to another; longitude before latitude. Equal CRS (and empty ones) leave points as they are.
-// For one thread at a time.
-class PointTransform {
- public:
-  PointTransform(const std::string& from_crs, const std::string& to_crs);
-  ~PointTransform();
-  PointTransform(PointTransform&&) noexcept;
-  PointTransform& operator=(PointTransform&&) noexcept;
-
-  // In one call for all, because the operation between two datums is chosen for the mean of the points. Points that
-  // have no image become NaN.
-  void apply(std::vector<glm::dvec2>& points) const;
-  glm::dvec2 apply(glm::dvec2 point) const;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
-
-struct CrsTraits {
-  bool geographic = false;  // degrees
-  bool metric = false;      // projected, in metres
-};
-CrsTraits crs_traits(const std::string& crs);
-bool same_crs(const std::string& a, const std::string& b);
-// WGS 84 / UTM, or the polar stereographic CRS beyond 84° of latitude.
-std::string utm_crs(glm::dvec2 lon_lat);
-// How many metres of the CRS are one metre of ground at a point (of that CRS): 1.47 for Web Mercator at 47° N.
-double scale_of_crs(const std::string& crs, glm::dvec2 point);
 
 }  // namespace belvedere

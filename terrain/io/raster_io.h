@@ -2,26 +2,16 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/vec2.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/progress.h"
+#include "terrain/io/crs.h"
 #include "terrain/io/raster.h"
+#include "terrain/io/raster_source.h"
 
 namespace belvedere {
-
-// One raster file and what a scene says of it. raster_io*.cpp are the only files of the project that know GDAL.
-struct RasterSource {
-  std::string path;
-  int band = 1;                  // from 1
-  std::string crs;               // overrides or supplies the file's CRS ("EPSG:26911" or WKT); empty: the file's own
-  double unit_to_m = 0.0;        // metres per unit of the values; 0: by the band's unit (feet known), metres if it has none
-  std::optional<double> nodata;  // overrides the file's
-  // Altitudes beyond these are void: for files with wrong values that look like right ones.
-  std::optional<double> lowest_m, highest_m;
-};
 
 // What a file says of itself, without reading its cells.
 struct RasterInfo {
@@ -65,16 +55,6 @@ Raster<std::int32_t> warp_codes(const std::vector<RasterSource>& sources, const 
 // UTM zone, or the given CRS; cell_m 0 means the finest source's. extent: min x, min y, max x, max y in that CRS, optional.
 RasterFrame choose_frame(const std::vector<RasterSource>& sources, const std::string& crs, double cell_m,
                          const std::optional<std::array<double, 4>>& extent);
-
-// Width and height of a cell on the ground, m, in the middle of a raster of that size: of degrees, feet or a map that stretches. Cells of a
-// metric CRS that is true within 3 %, and cells of no CRS, count as they are.
-glm::dvec2 ground_cell_m(const GeoTransform& transform, const std::string& crs, int width, int height);
-// A point between two CRS; geographic CRS are in longitude, latitude order.
-glm::dvec2 transform_point(const std::string& from_crs, const std::string& to_crs, glm::dvec2 point);
-// "EPSG:4326" and the like to WKT2; Error(usage) where it means nothing.
-std::string normalize_crs(const std::string& crs);
-// A short name for people, "EPSG:32632" or the CRS's name.
-std::string describe_crs(const std::string& crs);
 
 // GeoTIFF (tiled, deflate) or ESRI ASCII by the ending; temporary file and rename. Voids are written as `nodata`, or as -9999 where none is
 // given, where it is the altitude of a cell or where the format cannot hold it.

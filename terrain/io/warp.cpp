@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
+#include "terrain/io/crs.h"
 #include "terrain/io/raster_file.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/io/resample.h"

@@ -12,6 +12,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/random.h"
 #include "tests/renderer/image/picture_bytes.h"
 

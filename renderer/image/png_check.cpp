@@ -1,10 +1,14 @@
+#include "renderer/image/png_check.h"
+
 // What a PNG says of itself, read without libpng: that prints where data is missing, and does not miss the end of a file.
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <fstream>
 #include <string_view>
+#include <vector>
 
-#include "renderer/image/image_io_detail.h"
+#include "renderer/image/image_file_parts.h"
 
 namespace belvedere::image_io {
 namespace {

@@ -1,11 +1,11 @@
+#include "terrain/io/contours.h"
+
 #include <cpl_string.h>
 #include <fmt/format.h>
-#include <gdal.h>
 #include <gdal_alg.h>
 #include <ogr_api.h>
 #include <ogr_spatialref.h>
 
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -14,8 +14,7 @@
 
 #include "base/error.h"
 #include "base/grid.h"
-#include "terrain/io/contours.h"
-#include "terrain/io/raster_io_errors.h"
+#include "terrain/io/gdal/gdal_files.h"
 
 namespace belvedere {
 namespace {
@@ -25,14 +24,8 @@ namespace fs = std::filesystem;
 constexpr float void_m = -32768.F;  // what GDAL leaves out
 const char* const altitude_field = "altitude_m";
 
-using Dataset = std::unique_ptr<void, void (*)(GDALDatasetH)>;
-Dataset owned(GDALDatasetH open) {
-  return {open, [](GDALDatasetH dataset) { GDALClose(dataset); }};
-}
-
 const char* driver_for(const fs::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = lower_ending(path.string());
   if (ending == ".gpkg") return "GPKG";
   if (ending == ".geojson" || ending == ".json") return "GeoJSON";
   if (ending == ".shp") return "ESRI Shapefile";
@@ -62,7 +55,7 @@ ContourSummary write_lines(const std::string& path, const char* driver, const Ra
   Grid<float> cells = raster.cells;
   for (float& z : cells)
     if (!std::isfinite(z)) z = void_m;
-  const Dataset memory = owned(GDALCreate(GDALGetDriverByName("MEM"), "", cells.width(), cells.height(), 0, GDT_Float32, nullptr));
+  const Dataset memory(GDALCreate(GDALGetDriverByName("MEM"), "", cells.width(), cells.height(), 0, GDT_Float32, nullptr));
   check(memory != nullptr);
   char pointer[64] = {};
   pointer[CPLPrintPointer(pointer, cells.data(), sizeof pointer - 1)] = 0;
@@ -73,7 +66,7 @@ ContourSummary write_lines(const std::string& path, const char* driver, const Ra
   double affine[6] = {t.origin_x, t.cell_x, 0.0, t.origin_y, 0.0, -t.cell_y};
   check(GDALSetGeoTransform(memory.get(), affine) == CE_None);
 
-  Dataset file = owned(GDALCreate(GDALGetDriverByName(driver), path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  Dataset file(GDALCreate(GDALGetDriverByName(driver), path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
   check(file != nullptr);
   OGRLayerH layer = GDALDatasetCreateLayer(file.get(), "contours", raster.crs.empty() ? nullptr : &crs, wkbLineString, nullptr);
   check(layer != nullptr);
@@ -96,7 +89,7 @@ ContourSummary write_lines(const std::string& path, const char* driver, const Ra
   check(true);
 
   // What was written, read again.
-  file = owned(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
+  file.reset(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
   check(file != nullptr && GDALDatasetGetLayerCount(file.get()) == 1);
   const ContourSummary summary = measure(GDALDatasetGetLayer(file.get(), 0));
   check(true);

@@ -1,13 +1,16 @@
 #pragma once
 
 #include <cpl_error.h>
+#include <gdal.h>
 
+#include <memory>
 #include <string>
 
 namespace belvedere {
 
-// While it lives, GDAL prints nothing in this thread, and the first failure it reports is kept in its own words. Included
-// by raster_io*.cpp only, the files that know GDAL.
+// What the files of this folder share, the only one of the project that knows GDAL. Nothing outside of it includes this header.
+
+// While it lives, GDAL prints nothing in this thread, and the first failure it reports is kept in its own words.
 class GdalErrors {
  public:
   GdalErrors() {
@@ -36,5 +39,13 @@ class GdalErrors {
 
 // Makes GDAL's formats known, once a process.
 void register_gdal();
+
+struct CloseDataset {
+  void operator()(GDALDatasetH dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<void, CloseDataset>;
+
+// ".tif" of "a/B.TIF": formats are known by it.
+std::string lower_ending(const std::string& path);
 
 }  // namespace belvedere

@@ -1,3 +1,5 @@
+#include "terrain/io/crs.h"
+
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
@@ -7,8 +9,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "terrain/io/raster_file.h"
-#include "terrain/io/raster_io_errors.h"
+#include "terrain/io/gdal/gdal_files.h"
 
 namespace belvedere {
 namespace {
@@ -22,7 +23,7 @@ OGRSpatialReference parse(const std::string& text) {
     throw Error(ErrorKind::usage, "crs", errors.say(fmt::format("\"{}\" names no coordinate system", text.substr(0, 80))),
                 "a code such as \"EPSG:32632\", or WKT");
   }
-  // Heights are dealt with apart from places (raster_io).
+  // Heights are dealt with apart from places (raster_file.cpp).
   if (crs.IsCompound() != 0) crs.StripVertical();
   crs.DemoteTo2D(nullptr);
   if (crs.IsGeographic() == 0 && crs.IsProjected() == 0) {

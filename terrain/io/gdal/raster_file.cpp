@@ -1,23 +1,21 @@
-#include "terrain/io/raster_io.h"
+#include "terrain/io/raster_file.h"
 
 #include <cpl_conv.h>
 #include <cpl_minixml.h>
 #include <cpl_string.h>
 #include <fmt/format.h>
-#include <gdal.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <mutex>
 #include <string_view>
 
 #include "base/error.h"
 #include "base/memory_limit.h"
-#include "terrain/io/raster_file.h"
-#include "terrain/io/raster_io_errors.h"
+#include "terrain/io/crs.h"
+#include "terrain/io/gdal/gdal_files.h"
 
 namespace belvedere {
 namespace {
@@ -33,11 +31,6 @@ constexpr const char* drivers[] = {"GTiff", "AAIGrid", "SRTMHGT", "HFA",  "ENVI"
 constexpr const char* driver_names =
     "GeoTIFF, ESRI ASCII grid, SRTM .hgt, Erdas Imagine, ENVI, EHdr .bil, netCDF, PNG, USGS DEM, DTED, Surfer grid, or VRT named .vrt";
 
-struct CloseDataset {
-  void operator()(GDALDatasetH dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<void, CloseDataset>;
-
 // Settings of this thread that make reads strict: damaged blocks and short raw files are errors, no threads of its own.
 void make_strict() {
   register_gdal();
@@ -46,12 +39,6 @@ void make_strict() {
   CPLSetThreadLocalConfigOption("GDAL_NUM_THREADS", "1");
   CPLSetThreadLocalConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
   CPLSetThreadLocalConfigOption("GDAL_NETCDF_VERIFY_DIMS", "STRICT");
-}
-
-std::string lower_ending(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
 }
 
 Dataset open_checked(const std::string& path, int nesting);
@@ -130,11 +117,6 @@ double metres_per_unit(std::string_view unit) {
 }
 
 }  // namespace
-
-void register_gdal() {
-  static std::once_flag registered;
-  std::call_once(registered, [] { GDALAllRegister(); });
-}
 
 struct RasterFile::State {
   RasterSource source;

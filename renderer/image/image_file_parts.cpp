@@ -1,14 +1,15 @@
-// What all formats share: limits, notes as text, numbers from colours, which format a file has.
+#include "renderer/image/image_file_parts.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <string_view>
 #include <system_error>
 
-#include "base/error.h"
 #include "base/memory_limit.h"
-#include "renderer/image/image_io_detail.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 namespace {
@@ -46,19 +47,18 @@ std::string unescape(std::string_view text) {
 
 namespace image_io {
 
-std::string find_format(const std::string& path) {
+std::string first_bytes(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(ErrorKind::input, path, "cannot be opened: " + std::generic_category().message(errno));
-  char head[8] = {};
-  file.read(head, sizeof head);
-  const std::string_view bytes(head, static_cast<std::size_t>(file.gcount()));
-  if (bytes.starts_with("\x76\x2f\x31\x01")) return "openexr";
-  if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return "png";
-  if (bytes.starts_with("\xff\xd8\xff")) return "jpeg";
-  const std::string_view four = bytes.substr(0, 4);
-  using std::string_view_literals::operator""sv;
-  if (four == "II*\0"sv || four == "MM\0*"sv || four == "II+\0"sv || four == "MM\0+"sv) return "tiff";
-  return {};
+  std::string head(16, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  return head;
+}
+
+Error no_grey_picture(const std::string& path) {
+  return {ErrorKind::input, path, "is no grey or palette picture of at most 16 bits",
+          "PNG or TIFF, grey, 1 to 16 bits; PNG with a palette"};
 }
 
 void throw_damaged(const std::string& path, const std::string& reason) {

@@ -1,3 +1,5 @@
+#include "renderer/image/tiff_file.h"
+
 // The one file that knows libtiff (and libdeflate, which compresses its tiles on all threads). See image_io.h for why not OpenImageIO.
 #include <libdeflate.h>
 #include <tiffio.h>
@@ -10,7 +12,8 @@
 #include <memory>
 
 #include "base/error.h"
-#include "renderer/image/image_io_detail.h"
+#include "base/parallel.h"
+#include "renderer/image/image_file_parts.h"
 #include "renderer/image/output_file.h"
 
 namespace belvedere {

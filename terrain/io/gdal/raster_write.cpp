@@ -1,10 +1,8 @@
 #include <cpl_string.h>
 #include <fmt/format.h>
-#include <gdal.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -16,12 +14,11 @@
 #include <vector>
 
 #include "base/error.h"
+#include "terrain/io/gdal/gdal_files.h"
 #include "terrain/io/raster_file.h"
 #include "terrain/io/raster_io.h"
-#include "terrain/io/raster_io_errors.h"
 
 namespace belvedere {
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -55,9 +52,7 @@ void write_geotiff(const std::string& path, const Raster<T>& raster, const Grid<
   const auto check = [&](bool good) {
     if (!good || errors.failed()) throw Error(ErrorKind::output, path, errors.say("cannot be written"));
   };
-  std::unique_ptr<void, void (*)(GDALDatasetH)> dataset(
-      GDALCreate(GDALGetDriverByName("GTiff"), path.c_str(), cells.width(), cells.height(), 1, type, options.List()),
-      [](GDALDatasetH open) { GDALClose(open); });
+  Dataset dataset(GDALCreate(GDALGetDriverByName("GTiff"), path.c_str(), cells.width(), cells.height(), 1, type, options.List()));
   check(dataset != nullptr);
   const GeoTransform& t = raster.transform;
   double affine[6] = {t.origin_x, t.cell_x, 0.0, t.origin_y, 0.0, -t.cell_y};
@@ -140,12 +135,6 @@ void check_written(const std::string& path, const Grid<T>& cells, T void_value) 
   }
 }
 
-std::string ending_of(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
-
 // The temporary name keeps the ending, by which formats are known, and lies in the same folder, so that a rename suffices.
 std::string temporary_beside(const fs::path& target, const char* ending) {
   return (target.parent_path() / target.stem()).string() + ".tmp" + ending;
@@ -168,7 +157,7 @@ void write_and_rename(const std::string& path, const std::vector<std::pair<std::
 }  // namespace
 
 void write_raster(const std::string& path, const Raster<float>& raster, std::optional<double> nodata) {
-  const std::string ending = ending_of(path);
+  const std::string ending = lower_ending(path);
   const bool ascii = ending == ".asc";
   if (!ascii && ending != ".tif" && ending != ".tiff") throw Error(ErrorKind::output, path, "has an unknown ending", ".tif, .tiff or .asc");
   if (raster.cells.empty()) throw Error(ErrorKind::output, path, "is to hold no cells");
@@ -188,7 +177,7 @@ void write_raster(const std::string& path, const Raster<float>& raster, std::opt
 }
 
 void write_raster(const std::string& path, const Raster<std::uint8_t>& raster) {
-  const std::string ending = ending_of(path);
+  const std::string ending = lower_ending(path);
   if (ending != ".tif" && ending != ".tiff") throw Error(ErrorKind::output, path, "has an unknown ending", ".tif or .tiff");
   if (raster.cells.empty()) throw Error(ErrorKind::output, path, "is to hold no cells");
   register_gdal();

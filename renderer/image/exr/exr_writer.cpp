@@ -1,4 +1,5 @@
-// Writes OpenEXR. This file and image_io_exr_read.cpp are the ones that know that library.
+#include "renderer/image/exr/exr_writer.h"
+
 #include <Iex.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -26,8 +27,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/random.h"
-#include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
 
 namespace belvedere {

@@ -2,16 +2,19 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "renderer/image/image_io.h"
+#include "base/error.h"
+#include "base/image.h"
+#include "renderer/image/image_file.h"
 
-// What the image_io_*.cpp files say to each other; no other file includes this. Standard types only: each library stays in its own .cpp.
+// What the files of one format each share with those of the others.
 namespace belvedere::image_io {
 
-// Known by its first bytes: "openexr", "tiff", "png", "jpeg", or empty.
-std::string find_format(const std::string& path);
+// The first bytes of a file, at most 16: formats are known by them. Error(input) where it cannot be opened.
+std::string first_bytes(const std::string& path);
+// For a file that read_grey refuses.
+Error no_grey_picture(const std::string& path);
 [[noreturn]] void throw_damaged(const std::string& path, const std::string& reason);
 // Error(limit) where `bytes`, needed to read this width × height picture, are over memory_budget_bytes().
 void check_memory(const std::string& path, std::int64_t width, std::int64_t height, double bytes);
@@ -24,18 +27,5 @@ FileNotes split_notes(const std::string& text);
 // Rows [y0, y1) of a picture as whole numbers 0…`highest`, rounded; `row_pixels` ≥ width pixels to a row, the rest 0.
 template <class Number>
 void quantize_rows(const Grid<glm::vec3>& encoded, int y0, int y1, int row_pixels, std::vector<Number>& out);
-
-// image_io_exr_read.cpp
-ImageInfo read_exr_info(const std::string& path);
-Grid<glm::vec3> read_exr_picture(const std::string& path, Grid<float>* alpha);
-// image_io_png_check.cpp: whether a PNG reaches its end, all checksums right.
-bool is_png_complete(const std::string& path);
-struct PngKind {
-  int bits = 8;  // a channel, 1…16
-  bool palette = false;
-};
-PngKind read_png_kind(const std::string& path);
-// image_io_palette.cpp: the indices of a PNG with a palette.
-Grid<std::uint16_t> read_palette_png(const std::string& path);
 
 }  // namespace belvedere::image_io

@@ -1,4 +1,6 @@
-// Reads OpenEXR. Sizes are taken from a header of our own reading: opening a file with the library allocates tables of the size it claims.
+#include "renderer/image/exr/exr_reader.h"
+
+// Sizes are taken from a header of our own reading: opening a file with the library allocates tables of the size it claims.
 #include <Iex.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -18,11 +20,14 @@
 #include <utility>
 
 #include "base/error.h"
-#include "renderer/image/image_io_detail.h"
+#include "base/parallel.h"
+#include "renderer/image/image_file_parts.h"
 
 namespace belvedere {
-namespace image_io {
 namespace {
+
+using image_io::check_memory;
+using image_io::throw_damaged;
 
 struct PartHeader {
   Imf::Header header;
@@ -55,7 +60,8 @@ std::uint32_t read_word(Imf::IStream& stream) {
 
 // The headers of all parts: nothing beyond them is touched.
 std::vector<PartHeader> read_headers(const std::string& path) {
-  if (find_format(path) != "openexr") throw Error(ErrorKind::input, path, "is no OpenEXR file", "an OpenEXR file (.exr)");
+  if (!image_io::first_bytes(path).starts_with("\x76\x2f\x31\x01"))
+    throw Error(ErrorKind::input, path, "is no OpenEXR file", "an OpenEXR file (.exr)");
   return guarded(path, [&] {
     Imf::StdIFStream stream(path.c_str());
     read_word(stream);
@@ -242,16 +248,14 @@ Grid<glm::vec3> read_exr_picture(const std::string& path, Grid<float>* alpha) {
   throw Error(ErrorKind::input, path, "holds no picture but " + list_channels(parts), "channels R, G, B or Y");
 }
 
-}  // namespace image_io
-
-Grid<float> read_channel(const std::string& path, const std::string& channel) { return image_io::read_one<float>(path, channel, false); }
+Grid<float> read_channel(const std::string& path, const std::string& channel) { return read_one<float>(path, channel, false); }
 
 std::vector<Grid<float>> read_channels(const std::string& path, const std::vector<std::string>& channels) {
-  return image_io::read_some<float>(path, image_io::read_headers(path), channels, false);
+  return read_some<float>(path, read_headers(path), channels, false);
 }
 
 Grid<std::uint32_t> read_id_channel(const std::string& path, const std::string& channel) {
-  return image_io::read_one<std::uint32_t>(path, channel, true);
+  return read_one<std::uint32_t>(path, channel, true);
 }
 
 }  // namespace belvedere

@@ -1,11 +1,15 @@
+#include "renderer/image/png_palette.h"
+
 // The one file that knows libpng, for the one thing OpenImageIO does not give: the indices of a palette image. Masks drawn in a painting
 // program are often saved that way.
 #include <png.h>
 
 #include <cstring>
+#include <vector>
 
 #include "base/error.h"
-#include "renderer/image/image_io_detail.h"
+#include "renderer/image/image_file_parts.h"
+#include "renderer/image/png_check.h"
 
 namespace belvedere::image_io {
 namespace {

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "base/image.h"
+#include "renderer/image/image_file.h"
+
+namespace belvedere {
+
+// As read_image_info, read_picture and read_grey of image_io.h; format: "png", "tiff" or "jpeg", as its first bytes say.
+ImageInfo read_oiio_info(const std::string& path, const std::string& format);
+Grid<glm::vec3> read_oiio_picture(const std::string& path, const std::string& format, Grid<float>* alpha);
+Grid<std::uint16_t> read_oiio_grey(const std::string& path, const std::string& format);
+// Encoded RGB 0…1 as 8-bit PNG, marked as sRGB where it has no profile. Values, checks and errors as of write_tiff16 (tiff_file.h).
+void write_png8(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options);
+
+}  // namespace belvedere

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace belvedere {
+
+// One raster file and what a scene says of it.
+struct RasterSource {
+  std::string path;
+  int band = 1;                  // from 1
+  std::string crs;               // overrides or supplies the file's CRS ("EPSG:26911" or WKT); empty: the file's own
+  double unit_to_m = 0.0;        // metres per unit of the values; 0: by the band's unit (feet known), metres if it has none
+  std::optional<double> nodata;  // overrides the file's
+  // Altitudes beyond these are void: for files with wrong values that look like right ones.
+  std::optional<double> lowest_m, highest_m;
+};
+
+}  // namespace belvedere
