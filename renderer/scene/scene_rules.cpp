@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "renderer/trace/camera.h"
 #include "terrain/generalize/generalize_presets.h"
 
 namespace belvedere {
@@ -113,11 +114,13 @@ class Rules {
     if (camera.look_at_altitude_m && !camera.look_at && !camera.look_at_lonlat)
       refuse("camera.look_at_altitude_m", "camera.look_at_altitude_m has no point to belong to",
              "camera.look_at or camera.look_at_lonlat beside it");
-    constexpr double widest_perspective = 150.0;
-    if (camera.projection == "perspective" && camera.field_of_view_deg > widest_perspective)
-      refuse("camera.field_of_view_deg",
-             fmt::format("camera.field_of_view_deg is {} with a perspective projection", camera.field_of_view_deg),
-             fmt::format("1 … {}°, or projection = \"cylindrical\"", widest_perspective));
+    const Projection* projection = find_projection(camera.projection);
+    if (projection == nullptr || projection->widest_deg == 0.0 || camera.field_of_view_deg <= projection->widest_deg) return;
+    std::string allowed = fmt::format("1 … {}°", projection->widest_deg);
+    for (const Projection& wider : projections())
+      if (camera.field_of_view_deg <= wider.widest_deg) allowed += fmt::format(", or projection = \"{}\"", wider.name);
+    refuse("camera.field_of_view_deg",
+           fmt::format("camera.field_of_view_deg is {} with a {} projection", camera.field_of_view_deg, camera.projection), allowed);
   }
 
   void exemplars() {

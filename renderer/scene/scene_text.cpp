@@ -243,8 +243,10 @@ std::string scene_reference() {
       if (exclusion.section == section.name)
         out += fmt::format("\n`{}` and `{}` exclude each other.\n", fmt::join(exclusion.these, "`, `"), fmt::join(exclusion.those, "`, `"));
   }
-  out += "\n## Projections\n\n| name | what it does |\n|---|---|\n";
-  for (const Projection& projection : projections()) out += fmt::format("| `{}` | {} |\n", projection.name, table_cell(projection.meaning));
+  out += "\n## Projections\n\n| name | what it does | field of view |\n|---|---|---|\n";
+  for (const Projection& projection : projections())
+    out += fmt::format("| `{}` | {} | {} |\n", projection.name, table_cell(projection.meaning),
+                       projection.widest_deg > 0.0 ? fmt::format("up to {}°", projection.widest_deg) : "none, but `view_width_m`");
   out += "\n## Classes\n\nThe number is what class images (`exemplar.classes`) hold.\n\n| number | class |\n|---|---|\n";
   for (const LandCoverClassInfo& info : land_cover_classes()) out += fmt::format("| {} | `{}` |\n", static_cast<int>(info.id), info.name);
   return out;

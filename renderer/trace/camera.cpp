@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/angle.h"
@@ -15,12 +16,16 @@ std::unique_ptr<Camera> make_cylindrical_camera(const CameraParameters&);
 
 const std::vector<Projection>& projections() {
   static const std::vector<Projection> all = {
-      {"perspective", "central perspective, as the eye or a photograph sees", &make_perspective_camera},
-      {"oblique", "plan oblique: parallel rays, the ground true to scale as on a map, heights drawn upwards", &make_oblique_camera},
-      {"cylindrical", "panorama on an upright cylinder: azimuth runs evenly across the picture, up to 360 degrees",
-       &make_cylindrical_camera},
+      {"perspective", "central perspective, as the eye or a photograph sees", 150.0, &make_perspective_camera},
+      {"oblique", "plan oblique: parallel rays, the ground true to scale as on a map, heights drawn upwards", 0.0, &make_oblique_camera},
+      {"cylindrical", "panorama on an upright cylinder: azimuth runs evenly across the picture", 360.0, &make_cylindrical_camera},
   };
   return all;
+}
+
+const Projection* find_projection(std::string_view name) {
+  const auto found = std::find_if(projections().begin(), projections().end(), [&](const Projection& p) { return p.name == name; });
+  return found == projections().end() ? nullptr : &*found;
 }
 
 ViewAxes view_axes(const CameraParameters& parameters) {
@@ -43,11 +48,13 @@ std::unique_ptr<Camera> make_camera(const CameraParameters& parameters) {
   check_camera_value("camera.position (N)", parameters.eye.y, -1e8, 1e8);
   check_camera_value("camera.height_m", parameters.eye.z, -1e7, 1e7);
   check_camera_value("camera.azimuth_deg", parameters.azimuth_deg, -360, 360);
-  std::string names;
-  for (const Projection& projection : projections()) {
-    if (projection.name == parameters.projection) return projection.make(parameters);
-    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", projection.name);
+  if (const Projection* projection = find_projection(parameters.projection)) {
+    if (projection->widest_deg > 0.0)
+      check_camera_value("camera.field_of_view_deg", parameters.field_of_view_deg, 1, projection->widest_deg);
+    return projection->make(parameters);
   }
+  std::string names;
+  for (const Projection& projection : projections()) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", projection.name);
   throw Error(ErrorKind::usage, "camera.projection", fmt::format("\"{}\"", parameters.projection), names);
 }
 

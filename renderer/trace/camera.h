@@ -35,7 +35,7 @@ struct CameraParameters {
   glm::dvec3 eye{0.0};                     // deformed world, m; the picture's middle ray passes through it
   double azimuth_deg = 0.0;                // view direction, clockwise from north
   double pitch_deg = -20.0;                // perspective -90 straight down … 90, oblique -90…-5, cylindrical -80…80
-  double field_of_view_deg = 50.0;         // horizontal; perspective 1…150, cylindrical 1…360
+  double field_of_view_deg = 50.0;         // horizontal; 1…widest_deg of the projection
   double view_width_m = 20000.0;           // oblique: width of the picture on the ground, 1…1e7
 };
 
@@ -44,9 +44,12 @@ using ProjectionMaker = std::unique_ptr<Camera> (*)(const CameraParameters&);
 struct Projection {
   std::string_view name;
   std::string_view meaning;  // a line for the documentation
-  ProjectionMaker make;
+  double widest_deg = 0.0;   // greatest field of view; 0: rays are parallel, and the width of the view is in metres
+  ProjectionMaker make = nullptr;
 };
 const std::vector<Projection>& projections();
+// Null where there is none of that name.
+const Projection* find_projection(std::string_view name);
 
 // Throws Error(usage) for an unknown projection or values out of range, naming the scene's key.
 std::unique_ptr<Camera> make_camera(const CameraParameters& parameters);

@@ -50,7 +50,6 @@ class CylindricalCamera final : public Camera {
 
 std::unique_ptr<Camera> make_cylindrical_camera(const CameraParameters& parameters) {
   check_camera_value("camera.pitch_deg", parameters.pitch_deg, -80, 80);
-  check_camera_value("camera.field_of_view_deg", parameters.field_of_view_deg, 1, 360);
   return std::make_unique<CylindricalCamera>(parameters);
 }
 

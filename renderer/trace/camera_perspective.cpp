@@ -47,7 +47,6 @@ class PerspectiveCamera final : public Camera {
 
 std::unique_ptr<Camera> make_perspective_camera(const CameraParameters& parameters) {
   check_camera_value("camera.pitch_deg", parameters.pitch_deg, -90, 90);
-  check_camera_value("camera.field_of_view_deg", parameters.field_of_view_deg, 1, 150);
   return std::make_unique<PerspectiveCamera>(parameters);
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "renderer/trace/camera.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/scene_terrain.h"
 
@@ -70,9 +71,12 @@ void bend_anew(BareView& bare, const BendCurve& bend) {
 }
 
 std::vector<SightLine> sight_lines(const CameraParameters& parameters, int count) {
-  if (parameters.projection == "oblique")
-    throw Error(ErrorKind::usage, "camera.projection", "\"oblique\", whose lines of sight are parallel",
-                "\"perspective\" or \"cylindrical\"");
+  if (const Projection* projection = find_projection(parameters.projection); projection != nullptr && projection->widest_deg == 0.0) {
+    std::string central;
+    for (const Projection& other : projections())
+      if (other.widest_deg > 0.0) central += fmt::format("{}\"{}\"", central.empty() ? "" : " or ", other.name);
+    throw Error(ErrorKind::usage, "camera.projection", fmt::format("\"{}\", whose lines of sight are parallel", projection->name), central);
+  }
   const std::unique_ptr<Camera> camera = make_camera(parameters);
   // First how wide the picture looks, then evenly over that.
   constexpr int quarters = 720;  // half a turn in quarters of a degree, to either side
