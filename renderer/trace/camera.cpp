@@ -13,12 +13,15 @@ namespace belvedere {
 std::unique_ptr<Camera> make_perspective_camera(const CameraParameters&);
 std::unique_ptr<Camera> make_oblique_camera(const CameraParameters&);
 std::unique_ptr<Camera> make_cylindrical_camera(const CameraParameters&);
+std::unique_ptr<Camera> make_panini_camera(const CameraParameters&);
 
 const std::vector<Projection>& projections() {
   static const std::vector<Projection> all = {
       {"perspective", "central perspective, as the eye or a photograph sees", 150.0, &make_perspective_camera},
       {"oblique", "plan oblique: parallel rays, the ground true to scale as on a map, heights drawn upwards", 0.0, &make_oblique_camera},
       {"cylindrical", "panorama on an upright cylinder: azimuth runs evenly across the picture", 360.0, &make_cylindrical_camera},
+      {"panini", "wide views whose edges are not stretched: upright lines stay upright, lines to the middle stay straight", 240.0,
+       &make_panini_camera},
   };
   return all;
 }

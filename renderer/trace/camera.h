@@ -34,7 +34,7 @@ struct CameraParameters {
   int height = 1100;                       // px, 16…65535
   glm::dvec3 eye{0.0};                     // deformed world, m; the picture's middle ray passes through it
   double azimuth_deg = 0.0;                // view direction, clockwise from north
-  double pitch_deg = -20.0;                // perspective -90 straight down … 90, oblique -90…-5, cylindrical -80…80
+  double pitch_deg = -20.0;                // perspective -90 straight down … 90, oblique -90…-5, cylindrical and panini -80…80
   double field_of_view_deg = 50.0;         // horizontal; 1…widest_deg of the projection
   double view_width_m = 20000.0;           // oblique: width of the picture on the ground, 1…1e7
 };
