@@ -8,7 +8,7 @@
 
 namespace belvedere {
 
-// Colour management. color.cpp is the only file that knows OpenColorIO, icc.cpp the only one that knows lcms2.
+// Colour management: color.cpp by OpenColorIO, icc.cpp by lcms2.
 struct ColorParameters {
   std::string config;                // an OCIO config file; empty: $OCIO, else the program's own config, built in memory
   std::string working = "lin_srgb";  // scene-linear space, role or alias in it

@@ -15,16 +15,15 @@
 
 namespace belvedere {
 
-// Each format's library is known to one file: OpenImageIO (reads PNG, TIFF, JPEG, writes PNG) to oiio_file.cpp, OpenEXR to the folder exr/,
-// libtiff to tiff_file.cpp, libpng to png_palette.cpp. OpenEXR and TIFF are written without OpenImageIO, because it can write the parts
+// picture_formats.h has the table of formats. OpenEXR and TIFF are written without OpenImageIO, because it can write the parts
 // of a file only one after the other, each whole, and because bytes of its TIFF files depend on the date, on the number of threads and on
 // memory that was never set.
 
-// PNG, TIFF, JPEG or OpenEXR, known by their first bytes whatever the name. Error(input) for anything else or a damaged header.
+// A file of any format of the table, known by its first bytes whatever the name. Error(input) for anything else or a damaged header.
 ImageInfo read_image_info(const std::string& path);
-// A picture from PNG, TIFF, JPEG or OpenEXR (channels R G B or Y), as it stands in the file: values 0…1 for integer formats. Colours are
-// not converted, and not multiplied by alpha. Grey becomes RGB, palettes are looked up, alpha is dropped (`alpha` gets it where asked for;
-// 1 where the file has none). Size checked before allocating: Error(limit). Error(input): missing, another format, CMYK, cut off.
+// A picture of any format of the table (OpenEXR: channels R G B or Y), as it stands in the file: values 0…1 for integer formats. Colours
+// are not converted, and not multiplied by alpha. Grey becomes RGB, palettes are looked up, alpha is dropped (`alpha` gets it where asked
+// for; 1 where the file has none). Size checked before allocating: Error(limit). Error(input): missing, another format, CMYK, cut off.
 Grid<glm::vec3> read_picture(const std::string& path, Grid<float>* alpha = nullptr);
 // A grey image of 16 bits or fewer (PNG, TIFF) as numbers, unscaled: label masks, altitude guides. A palette PNG gives its indices.
 // Error(input) for colour pictures and what read_picture refuses.

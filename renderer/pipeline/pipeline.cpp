@@ -10,8 +10,8 @@
 #include "renderer/exemplar/exemplars.h"
 #include "renderer/image/color.h"
 #include "renderer/image/guidance_io.h"
-#include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
+#include "renderer/image/picture_formats.h"
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/copied_ground.h"
 #include "renderer/pipeline/output_color.h"
@@ -60,20 +60,9 @@ PixelRect whole_picture(const Scene& scene) { return {0, 0, scene.output.width, 
 void write_panorama(const Grid<glm::vec3>& picture, const Scene& scene, const OutputColor& color, const FileNotes& notes,
                     const std::string& folder, Progress& progress) {
   progress.begin("writing the panorama", 0.0);
-  const Image linear = decode_srgb(picture);
-  const Grid<glm::vec3> display = to_display(linear, color.display);
-  PictureFileOptions options;
-  options.dots_per_inch = scene.output.width / scene.output.sheet_width_mm * 25.4;
-  options.notes = notes;
-  options.icc_profile = srgb_profile();
-  write_png8(join(folder, "panorama.png"), display, options);
-  if (color.profile.empty()) {
-    write_tiff16(join(folder, "panorama.tif"), display, options);
-  } else {
-    options.icc_profile = color.profile;
-    write_tiff16(join(folder, "panorama.tif"), to_profile(display, options.icc_profile), options);
-  }
-  write_exr(join(folder, "panorama.exr"), linear, notes);
+  const double dots_per_inch = scene.output.width / scene.output.sheet_width_mm * 25.4;
+  write_pictures(join(folder, "panorama"), scene.output.formats, decode_srgb(picture), {color.display, color.profile}, dots_per_inch,
+                 notes);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 namespace belvedere {
 
-// The whole main job, top to bottom as named values. Writes panorama.tif, panorama.png, panorama.exr and guidance.exr into the folder.
+// The whole main job, top to bottom as named values. Writes guidance.exr, and the panorama in the formats of output.formats.
 void render(const LoadedScene& scene, const std::string& out_folder, const Run& run);
 // Walks the same way and stops at guidance.exr, band by band, so that memory does not grow with the picture.
 void render_guidance(const LoadedScene& scene, const std::string& out_folder, const Run& run);

@@ -186,8 +186,9 @@ struct SceneSynthesis {
 struct SceneOutput {
   int width = 2400;
   int height = 1100;
-  double sheet_width_mm = 1200.0;  // strokes are sized in mm of this sheet; dpi follows
-  std::string profile;             // ICC file to convert the TIFF to; empty: sRGB
+  double sheet_width_mm = 1200.0;                            // strokes are sized in mm of this sheet; dpi follows
+  std::vector<std::string> formats = {"tif", "png", "exr"};  // endings of the picture's files (renderer/image/picture_formats.h)
+  std::string profile;                                       // ICC file to convert the TIFF to; empty: sRGB
   std::string ocio_config;
 };
 

@@ -64,6 +64,21 @@ class ValueReader {
     field->clear();
     for (const ConfigValue& entry : *array) field->push_back(class_of(entry));
   }
+  void operator()(std::vector<std::string>* field) const {
+    const auto* array = std::get_if<ConfigArray>(&value_.value);
+    if (array == nullptr || array->empty()) wrong(value_);
+    field->clear();
+    const std::vector<std::string> names = key_choices(key_);
+    for (const ConfigValue& entry : *array) {
+      const std::string* name = std::get_if<std::string>(&entry.value);
+      if (name == nullptr) wrong(entry);
+      if (std::find(names.begin(), names.end(), *name) == names.end())
+        refuse(entry, fmt::format("{} has \"{}\"{}", key_name_, *name, suggestion(*name, names)), listed(names));
+      if (std::find(field->begin(), field->end(), *name) != field->end())
+        refuse(entry, fmt::format("{} has \"{}\" twice", key_name_, *name), "each once");
+      field->push_back(*name);
+    }
+  }
   void operator()(std::vector<std::pair<std::string, double>>* field) const {
     field->clear();
     for (const ConfigEntry& entry : table()) {

@@ -88,6 +88,7 @@ std::string describe_type(const SceneKey& key) {
     std::string operator()(std::vector<float>*) const { return "1 to 12 numbers, [a, b, …]"; }
     std::string operator()(std::optional<LandCoverClass>*) const { return "a class name"; }
     std::string operator()(std::vector<LandCoverClass>*) const { return "a list of class names"; }
+    std::string operator()(std::vector<std::string>*) const { return fmt::format("a list of {}", fmt::join(key_choices(key), ", ")); }
     std::string operator()(std::vector<std::pair<std::string, double>>*) const {
       return key.choices.empty() ? "a table of names and numbers" : fmt::format("a table of numbers for {}", fmt::join(key.choices, ", "));
     }

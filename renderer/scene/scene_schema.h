@@ -19,10 +19,11 @@ namespace belvedere {
 // all read it; a new key is one row in scene_table.cpp (or scene_table_deform.cpp) and nothing else.
 
 // The value of a key inside a Scene. Its C++ type decides the type in the file; defaults are those of a fresh Scene.
-using SceneField = std::variant<bool*, int*, std::uint64_t*, double*, float*, std::string*, std::optional<double>*,
-                                std::optional<glm::dvec2>*, std::array<double, 2>*, std::optional<std::array<double, 4>>*,
-                                std::vector<float>*, std::optional<LandCoverClass>*, std::vector<LandCoverClass>*,
-                                std::vector<std::pair<std::string, double>>*, std::vector<std::pair<LandCoverClass, LandCoverClass>>*>;
+using SceneField =
+    std::variant<bool*, int*, std::uint64_t*, double*, float*, std::string*, std::optional<double>*, std::optional<glm::dvec2>*,
+                 std::array<double, 2>*, std::optional<std::array<double, 4>>*, std::vector<float>*, std::optional<LandCoverClass>*,
+                 std::vector<LandCoverClass>*, std::vector<std::string>*, std::vector<std::pair<std::string, double>>*,
+                 std::vector<std::pair<LandCoverClass, LandCoverClass>>*>;
 
 // What a text means, so that it can be checked.
 enum class TextKind {
@@ -48,8 +49,9 @@ struct SceneKey {
   std::string_view unit = {};     // "m", "°", "px"; empty: a plain number
   std::string_view meaning = {};  // one line, for cartographers
   TextKind text = TextKind::plain;
-  std::vector<std::string> choices = {};  // of TextKind::choice, and of the names in a table of numbers (empty there: any)
-  std::string_view choices_from = {};     // embedded folder of TextKind::built_in
+  std::vector<std::string> choices =
+      {};                              // of TextKind::choice, of a list of names, and of the names in a table of numbers (empty there: any)
+  std::string_view choices_from = {};  // embedded folder of TextKind::built_in
   bool required = false;
   bool lonlat = false;  // a pair of longitude and latitude
 };

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/instruction_set.h"
+#include "renderer/image/picture_formats.h"
 #include "renderer/scene/scene_table.h"
 #include "renderer/trace/camera.h"
 
@@ -495,6 +496,10 @@ std::vector<SceneSection> make_scene_sections() {
             .range = {10, 20000},
             .unit = "mm",
             .meaning = "Width in print; strokes and trees are sized for it, and the resolution in dpi follows."},
+           {.name = "formats",
+            .field = AT(output.formats),
+            .meaning = "What the picture is written as, by the endings of its files; see below.",
+            .choices = picture_endings()},
            {.name = "profile",
             .field = AT(output.profile),
             .meaning = "ICC file of the printer that the TIFF is converted to; without it sRGB.",

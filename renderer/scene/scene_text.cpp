@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/json.h"
+#include "renderer/image/picture_formats.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/scene/scene_schema.h"
 #include "renderer/trace/camera.h"
@@ -44,6 +45,11 @@ struct ValueWriter {
   std::string operator()(const std::vector<LandCoverClass>* field) const {
     std::vector<std::string> entries;
     for (const LandCoverClass id : *field) entries.push_back(json_quoted(class_name(id)));
+    return bracketed(entries);
+  }
+  std::string operator()(const std::vector<std::string>* field) const {
+    std::vector<std::string> entries;
+    for (const std::string& name : *field) entries.push_back(json_quoted(name));
     return bracketed(entries);
   }
   std::string operator()(const std::vector<std::pair<std::string, double>>* field) const {
@@ -121,6 +127,12 @@ struct SchemaOfField {
   Json operator()(std::vector<float>*) const { return list(1, 12); }
   Json operator()(std::optional<LandCoverClass>*) const { return classes(); }
   Json operator()(std::vector<LandCoverClass>*) const { return typed("array").add("items", classes()); }
+  Json operator()(std::vector<std::string>*) const {
+    return typed("array")
+        .add("items", typed("string").add("enum", Json::texts(key_choices(key))))
+        .add("minItems", Json::number(1))
+        .add("uniqueItems", Json::boolean(true));
+  }
   Json operator()(std::vector<std::pair<std::string, double>>*) const {
     if (key.choices.empty()) return typed("object").add("additionalProperties", number_schema("number", key.range));
     Json names = Json::object();
@@ -247,6 +259,9 @@ std::string scene_reference() {
   for (const Projection& projection : projections())
     out += fmt::format("| `{}` | {} | {} |\n", projection.name, table_cell(projection.meaning),
                        projection.widest_deg > 0.0 ? fmt::format("up to {}°", projection.widest_deg) : "none, but `view_width_m`");
+  out += "\n## Formats\n\n| ending | what it is for | what it holds |\n|---|---|---|\n";
+  for (const PictureFormat& format : picture_formats())
+    if (format.write != nullptr) out += fmt::format("| `{}` | {} | {} |\n", format.ending, format.meaning, describe_format(format));
   out += "\n## Classes\n\nThe number is what class images (`exemplar.classes`) hold.\n\n| number | class |\n|---|---|\n";
   for (const LandCoverClassInfo& info : land_cover_classes()) out += fmt::format("| {} | `{}` |\n", static_cast<int>(info.id), info.name);
   return out;

@@ -20,8 +20,9 @@ struct Options {
 };
 
 using Job = void (*)(const LoadedScene&, const std::string& out_folder, const Run&);
+using Results = std::vector<std::string> (*)(const Scene&);  // names of the files that a job makes
 
-int run_job(const Options& options, Job job, const std::vector<std::string>& results) {
+int run_job(const Options& options, Job job, Results results) {
   const LoadedScene scene = load(options.scene);
   const std::string folder = options.out.empty() ? scene.name : options.out;
   TerminalProgress progress(options.scene.quiet);
@@ -29,8 +30,7 @@ int run_job(const Options& options, Job job, const std::vector<std::string>& res
   progress.end();
 
   std::vector<std::string> paths;
-  paths.reserve(results.size());
-  for (const std::string& name : results) paths.push_back((std::filesystem::path(folder) / name).string());
+  for (const std::string& name : results(scene.scene)) paths.push_back((std::filesystem::path(folder) / name).string());
   if (options.scene.json) {
     Json files = Json::array();
     for (const std::string& path : paths)
@@ -48,7 +48,7 @@ int run_job(const Options& options, Job job, const std::vector<std::string>& res
   return 0;
 }
 
-Action add_job(CLI::App& command, const char* footer, Job job, std::vector<std::string> results) {
+Action add_job(CLI::App& command, const char* footer, Job job, Results results) {
   const auto options = std::make_shared<Options>();
   add_scene_options(command, options->scene);
   command.add_option("--out", options->out, "Folder for the results; made where it is missing. Default: one named like the scene")
@@ -58,25 +58,30 @@ Action add_job(CLI::App& command, const char* footer, Job job, std::vector<std::
       ->capture_default_str()
       ->check(CLI::Range(8, 4096));
   command.footer(footer);
-  return [options, job, results = std::move(results)] { return run_job(*options, job, results); };
+  return [options, job, results] { return run_job(*options, job, results); };
 }
 
 }  // namespace
 
 Action add_render(CLI::App& command) {
   return add_job(command,
-                 "Writes panorama.tif (16 bit, with profile and resolution), panorama.png, panorama.exr (scene-linear)\n"
-                 "and guidance.exr (depth, classes, light … of every pixel).\n\n"
+                 "Writes panorama.tif (16 bit, with profile and resolution), panorama.png, panorama.exr (scene-linear),\n"
+                 "or what output.formats names, and guidance.exr (depth, classes, light … of every pixel).\n\n"
                  "  belvedere render scenes/karwendel.toml --data ../data --out karwendel\n"
                  "  belvedere render scenes/karwendel.toml --data ../data --set output.width=1200 --set output.height=550",
-                 render, {"panorama.tif", "panorama.png", "panorama.exr", "guidance.exr"});
+                 render, [](const Scene& scene) {
+                   std::vector<std::string> names;
+                   for (const std::string& ending : scene.output.formats) names.push_back("panorama." + ending);
+                   names.emplace_back("guidance.exr");
+                   return names;
+                 });
 }
 
 Action add_guidance(CLI::App& command) {
   return add_job(command,
                  "The channels and their units are described in the header: belvedere info guidance.exr\n\n"
                  "  belvedere guidance scenes/karwendel.toml --data ../data --out karwendel",
-                 render_guidance, {"guidance.exr"});
+                 render_guidance, [](const Scene&) { return std::vector<std::string>{"guidance.exr"}; });
 }
 
 }  // namespace belvedere::tools

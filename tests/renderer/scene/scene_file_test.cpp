@@ -192,6 +192,17 @@ TEST(SceneFile, KeysThatExcludeEachOther) {
   EXPECT_NO_THROW(scene_of("[sun]\ntime = \"\"\nazimuth_deg = 3\n"));
 }
 
+TEST(SceneFile, FormatsOfThePictureAreThoseOfTheTable) {
+  EXPECT_EQ(scene_of("").output.formats, (std::vector<std::string>{"tif", "png", "exr"}));
+  EXPECT_EQ(scene_of("[output]\nformats = [\"png\"]\n").output.formats, std::vector<std::string>{"png"});
+  EXPECT_EQ(scene_of("[output]\nformats = [\"exr\", \"tif\"]\n").output.formats, (std::vector<std::string>{"exr", "tif"}));
+  EXPECT_THAT(refused("[output]\nformats = [\"png\", \"gif\"]\n"),
+              AllOf(StartsWith("s.toml:3:19: "), HasSubstr("gif"), HasSubstr("tif, png, exr")));
+  EXPECT_THAT(refused("[output]\nformats = [\"png\", \"png\"]\n"), HasSubstr("twice"));
+  EXPECT_THAT(refused("[output]\nformats = []\n"), HasSubstr("a list of tif, png, exr"));
+  EXPECT_THAT(refused("[output]\nformats = \"png\"\n"), HasSubstr("a list of"));
+}
+
 TEST(SceneFile, KeysThatBelongTogether) {
   EXPECT_THAT(refused("[generalize]\nforeground = [1, 1]\nbackground = [1]\n"), StartsWith("s.toml:4:14: "));
   EXPECT_THAT(refused("[generalize]\nforeground_to_m = 90000\n"), HasSubstr("beyond"));
