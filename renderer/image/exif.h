@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace belvedere {
+
+// What the program says and reads in Exif (CIPA DC-008), the small TIFF that many formats carry for the purpose.
+struct ExifTags {
+  std::string description;     // ImageDescription
+  std::string software;        // Software
+  double dots_per_inch = 0.0;  // XResolution and YResolution, to 1/10000; 0: not stated
+  bool operator==(const ExifTags&) const = default;
+};
+
+std::vector<std::uint8_t> write_exif(const ExifTags& tags);
+// Of any program, in either order of bytes. What is damaged reads as not stated.
+ExifTags read_exif(const std::vector<std::uint8_t>& bytes);
+
+}  // namespace belvedere
