@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <map>
 
+#include "base/math.h"
 #include "base/parallel.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
@@ -23,11 +24,6 @@ constexpr double clump_sigma_units = 4.5;
 constexpr double track_sigma_units = 3.0;
 constexpr double stand_sigma_units = 20.0;
 constexpr float metres_per_unit_unknown = 20.0F;
-
-float smooth(float low, float high, float x) {
-  const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
-  return t * t * (3.0F - 2.0F * t);
-}
 
 // Ground above which forest thins out, in contrast to meadows that people keep clear.
 bool is_open_high(Class id) {
@@ -121,7 +117,7 @@ ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParamet
       // Steep slopes are not cleared.
       const float glade_noise =
           glades(place.x, place.y, glade_sigma_units * metres) + 0.45F * clump - 0.025F * std::max(slope - 25.0F, 0.0F);
-      float glade = smooth(1.42F, 1.64F, glade_noise);
+      float glade = smoothstep(1.42F, 1.64F, glade_noise);
       float thin = 0.0F;
       if (up.left_after > 0 && is_open_high(g.land_cover[up.end])) {
         // The treeline frays: groups run up into the open, gaps reach down.
@@ -131,11 +127,11 @@ ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParamet
         const glm::dvec3 head = glm::dvec3(g.position_m[up.end]) + g.origin_m;
         const float force = tracks(head.x, head.y, track_sigma_units * metres) + 0.02F * (slope - 28.0F);
         const float reach = 14.0F * (force - 0.75F);  // steps
-        if (slope > 18.0F) glade = std::max(glade, smooth(-0.5F, 1.5F, reach - static_cast<float>(up.left_after)));
+        if (slope > 18.0F) glade = std::max(glade, smoothstep(-0.5F, 1.5F, reach - static_cast<float>(up.left_after)));
       }
       // Whole stands are lighter than others.
-      const float open_stand = smooth(0.2F, 1.6F, stands(place.x, place.y, stand_sigma_units * metres));
-      const float bare_lane = smooth(0.9F, 1.5F, -lane - 0.25F * clump);
+      const float open_stand = smoothstep(0.2F, 1.6F, stands(place.x, place.y, stand_sigma_units * metres));
+      const float bare_lane = smoothstep(0.9F, 1.5F, -lane - 0.25F * clump);
       const float hollow = g.relief_s_m.empty() ? 0.0F : std::clamp(-g.relief_s_m[i] / 10.0F, -1.0F, 1.0F);
       float density = 0.93F + 0.14F * hollow + 0.24F * std::clamp(clump + 0.3F, -2.2F, 0.4F);
       density =

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include "base/error.h"
+#include "base/math.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "renderer/paint/forest_cover.h"
@@ -158,10 +159,7 @@ glm::vec3 air_colour(const BaseParameters& p, const Palette& palette, double dep
 }
 
 // 1 at the rim of the terrain, 0 from `fade_m` inwards.
-float rim_share(float rim_m, double fade_m) {
-  const auto t = static_cast<float>(std::clamp(rim_m / fade_m, 0.0, 1.0));
-  return 1.0F - t * t * (3.0F - 2.0F * t);
-}
+float rim_share(float rim_m, double fade_m) { return 1.0F - smoothstep(static_cast<float>(unit(rim_m / fade_m))); }
 
 // How the terrain ends: not in a cliff, and not rubbed out either. Towards its end it stands ever deeper in air, so that mountains turn
 // into blue silhouettes with their crests; only the last strip dissolves in what lies beyond, low ground before high.

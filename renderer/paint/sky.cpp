@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/math.h"
 #include "base/noise.h"
 #include "base/parallel.h"
 #include "base/random.h"
@@ -13,11 +14,6 @@
 
 namespace belvedere {
 namespace {
-
-float smooth_step(float from, float to, float value) {
-  const float t = std::clamp((value - from) / (to - from), 0.0F, 1.0F);
-  return t * t * (3.0F - 2.0F * t);
-}
 
 // What clouds are measured in: the height of the sky, but no more than a narrow picture can carry.
 double cloud_scale_px(const SkyParameters& p) { return std::min(p.horizon_px, 0.09 * p.picture_size.x); }
@@ -141,17 +137,17 @@ Layer cloud_at(const Cloud& cloud, glm::vec2 place, glm::vec2 wobble, const Pale
     const glm::vec2 offset = (place - head.centre) / head.radius + wobble;
     const float distance = glm::length(offset);
     if (distance >= 1.25F) continue;
-    const float cover = 1.0F - smooth_step(0.45F, 1.25F, distance);
+    const float cover = 1.0F - smoothstep(0.45F, 1.25F, distance);
     const float lit = std::clamp(0.52F + 0.55F * glm::dot(offset, towards_light), 0.0F, 1.0F);
     // The foot of the heap lies in its own shade.
-    const float raised = smooth_step(-0.05F, 0.75F, (cloud.base_px - place.y) / height);
+    const float raised = smoothstep(-0.05F, 0.75F, (cloud.base_px - place.y) / height);
     const float light = std::clamp(lit * 0.62F + raised * 0.62F - 0.12F, 0.0F, 1.0F);
     const glm::vec3 colour = glm::mix(palette.cloud_shade, palette.cloud_light, light);
     layer.colour = layer.alpha + cover > 0.0F ? glm::mix(layer.colour, colour, layer.alpha == 0.0F ? 1.0F : cover) : colour;
     layer.alpha = layer.alpha + cover * (1.0F - layer.alpha);
   }
   // The flat base: it ends in a soft line.
-  layer.alpha *= smooth_step(-0.10F, 0.12F, (cloud.base_px - place.y) / height - 0.02F * wobble.x) * cloud.opacity;
+  layer.alpha *= smoothstep(-0.10F, 0.12F, (cloud.base_px - place.y) / height - 0.02F * wobble.x) * cloud.opacity;
   return layer;
 }
 
@@ -171,7 +167,7 @@ float veil_at(const SkyParameters& p, double x_px, double elevation, VeilNoises&
   const float fine = noises.threads(x / 0.4, rise / 0.035);
   const float where = noises.patches(x / 1.5, rise / 0.40);
   const float density = 0.40F * broad + 0.18F * fine + 0.80F * where - 0.48F + 0.5F * static_cast<float>(p.clouds - 1.0);
-  return 0.42F * smooth_step(0.0F, 1.5F, density) * smooth_step(0.05F, 0.30F, static_cast<float>(elevation));
+  return 0.42F * smoothstep(0.0F, 1.5F, density) * smoothstep(0.05F, 0.30F, static_cast<float>(elevation));
 }
 
 // How the edges of clouds billow: two sizes of bulges, in shares of a head's radius.
@@ -212,7 +208,7 @@ glm::vec3 sky_gradient(const Palette& palette, double place) {
 
 glm::vec3 air_beyond(const Palette& palette, double place) {
   const glm::vec3 sky = sky_gradient(palette, place);
-  return glm::mix(sky, palette.haze_far, 0.6F * smooth_step(1.0F, 1.7F, static_cast<float>(place)));
+  return glm::mix(sky, palette.haze_far, 0.6F * smoothstep(1.0F, 1.7F, static_cast<float>(place)));
 }
 
 std::vector<Cloud> make_clouds(const SkyParameters& p) {
@@ -278,7 +274,7 @@ Grid<glm::vec3> make_sky(const Grid<float>& depth_m, const Palette& palette, con
           const glm::vec2 wobble = edges[static_cast<std::size_t>(cloud->grain)].at(u, w);
           const Layer layer = cloud_at(*cloud, at, wobble, palette, towards_light);
           // Low clouds stand far away, in the air of the horizon.
-          const float air = 0.45F * smooth_step(0.55F, 1.0F, static_cast<float>(v));
+          const float air = 0.45F * smoothstep(0.55F, 1.0F, static_cast<float>(v));
           colour = glm::mix(colour, glm::mix(layer.colour, sky_gradient(palette, 1.0), air), 0.88F * layer.alpha);
         }
       }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/filter.h"
+#include "base/math.h"
 #include "base/parallel.h"
 #include "renderer/world/scene_terrain.h"
 #include "terrain/deform/deform.h"
@@ -27,8 +28,7 @@ Grid<float> foreground_share(const Dem& dem, glm::dvec2 viewer_xy, const SceneGe
     for (int x = 0; x < dem.width(); ++x) {
       const glm::dvec2 place = dem.transform.to_crs(x, y);
       const double distance = std::hypot(place.x - viewer_xy.x, place.y - viewer_xy.y);
-      const double t = std::clamp((distance - wish.foreground_to_m) / span, 0.0, 1.0);
-      share(x, y) = static_cast<float>(1.0 - t * t * (3.0 - 2.0 * t));
+      share(x, y) = static_cast<float>(1.0 - smoothstep((distance - wish.foreground_to_m) / span));
     }
   });
   return share;

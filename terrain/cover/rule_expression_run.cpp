@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/math.h"
 #include "terrain/cover/rule_expression.h"
 
 namespace belvedere {
@@ -67,8 +68,7 @@ void RuleExpression::run(Operation operation, const float* const* o, float* out)
     case Operation::smooth_step:
       return each(o[0], o[1], o[2], out, [](float x, float low, float high) {
         if (!(low < high)) return x < low ? 0.F : 1.F;
-        const float t = std::clamp((x - low) / (high - low), 0.F, 1.F);
-        return t * t * (3.F - 2.F * t);
+        return smoothstep(low, high, x);
       });
     case Operation::hat:
       for (int i = 0; i < rule_block; ++i) {

@@ -6,6 +6,7 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
+#include "base/math.h"
 #include "base/parallel.h"
 
 namespace belvedere {
@@ -47,8 +48,7 @@ double Deformation::exaggeration(double distance_m) const {
   if (!parameters_.background_exaggeration || distance_m <= parameters_.foreground_to_m) return near;
   const double far = *parameters_.background_exaggeration;
   if (distance_m >= parameters_.background_from_m) return far;
-  const double t = (distance_m - parameters_.foreground_to_m) / (parameters_.background_from_m - parameters_.foreground_to_m);
-  return near + (far - near) * (t * t * (3.0 - 2.0 * t));
+  return near + (far - near) * smoothstep(parameters_.foreground_to_m, parameters_.background_from_m, distance_m);
 }
 
 double Deformation::raised_by_summits_m(glm::dvec3 point) const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "base/filter.h"
+#include "base/math.h"
 #include "base/parallel.h"
 
 namespace belvedere {
@@ -18,9 +19,6 @@ constexpr int block_cells = 4;
 constexpr double mean_cells = 10.0;
 // What is left of the change at the shore itself fades in over so many cells.
 constexpr float shore_cells = 6.0F;
-float unit(float v) { return std::clamp(v, 0.F, 1.F); }
-
-float smoothstep(float t) { return t * t * (3.F - 2.F * t); }
 
 // Beyond the reach of the pull's last blur.
 constexpr int reach_cells = 48;
@@ -79,7 +77,7 @@ Grid<float> pull_of_lakes(const Grid<float>& change, const Grid<unsigned char>& 
     for (int x = 0; x < pull.width(); ++x) {
       const int middle_x = std::min(x * block_cells + block_cells / 2, change.width() - 1);
       const int middle_y = std::min(y * block_cells + block_cells / 2, change.height() - 1);
-      const float fade = 1.F - smoothstep(unit(shore_distance(squares, middle_x, middle_y) / surroundings_cells));
+      const float fade = 1.F - smoothstep(shore_distance(squares, middle_x, middle_y) / surroundings_cells);
       pull(x, y) = count(x, y) > 0.F ? fade * pull(x, y) / count(x, y) : 0.F;
     }
   });
@@ -98,7 +96,7 @@ void settle_around_lakes(Grid<float>& change, const Grid<unsigned char>& keep) {
       // Block centres lie at 1.5, 5.5, 9.5… cells.
       const double u = (x - 0.5 * (block_cells - 1)) / block_cells;
       const double v = (y - 0.5 * (block_cells - 1)) / block_cells;
-      change(x, y) = (change(x, y) - sample_bspline(pull, u, v)) * smoothstep(unit(distance / shore_cells));
+      change(x, y) = (change(x, y) - sample_bspline(pull, u, v)) * smoothstep(distance / shore_cells);
     }
   });
 }

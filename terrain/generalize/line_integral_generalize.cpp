@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/math.h"
 #include "base/parallel.h"
 #include "terrain/shape/derivatives.h"
 
@@ -73,10 +74,7 @@ Grid<float> find_slopes(const Grid<float>& altitude_m, double cell_m, const Line
   }
   // A blur alone would lift the rim of a flat to one half: only what is above the half counts.
   Grid<float> share = gaussian_blur(steep, 3.0);
-  for (float& v : share) {
-    const float t = std::clamp(2.F * v - 1.F, 0.F, 1.F);
-    v = t * t * (3.F - 2.F * t);
-  }
+  for (float& v : share) v = smoothstep(2.F * v - 1.F);
   return share;
 }
 

@@ -9,16 +9,15 @@
 
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/math.h"
 #include "base/parallel.h"
 #include "terrain/shape/derivatives.h"
 
 namespace belvedere {
 namespace {
 
-float smoothstep(double from, double to, double v) {
-  const double t = std::clamp((v - from) / (to - from), 0.0, 1.0);
-  return static_cast<float>(t * t * (3.0 - 2.0 * t));
-}
+// 0 up to `from`, 1 from `to` on.
+float share_between(double from, double to, double v) { return static_cast<float>(smoothstep(from, to, v)); }
 
 template <class F>
 void change_cells(Grid<float>& grid, F&& f) {
@@ -40,7 +39,7 @@ Grid<float> slope_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, const S
                 "0° ≤ lower < upper < 90°");
   }
   Grid<float> mask = smooth_slope(altitude_m, cell_m, 1.0);
-  change_cells(mask, [&](float slope, int, int) { return smoothstep(range.original_to_deg, range.generalized_from_deg, slope); });
+  change_cells(mask, [&](float slope, int, int) { return share_between(range.original_to_deg, range.generalized_from_deg, slope); });
   return mask;
 }
 
@@ -54,11 +53,11 @@ Grid<float> slope_foot_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, in
   const int reach = std::clamp(reach_cells, 2, 256);
   Grid<float> slope = smooth_slope(altitude_m, cell_m, 1.5);
   Grid<float> near_steep = slope;
-  change_cells(near_steep, [](float s, int, int) { return smoothstep(12.0, 20.0, s); });
+  change_cells(near_steep, [](float s, int, int) { return share_between(12.0, 20.0, s); });
   // Fades outwards, over as much again.
   near_steep = gaussian_blur(window_maximum(near_steep, reach), 0.35 * reach);
   Grid<float> mask = std::move(slope);
-  change_cells(mask, [](float s, int, int) { return 1.F - smoothstep(3.0, 12.0, s); });
+  change_cells(mask, [](float s, int, int) { return 1.F - share_between(3.0, 12.0, s); });
   // The foot itself is concave and steeper than the flat: it belongs to what is kept. Narrow flats, ledges and passes do not.
   mask = window_maximum(window_minimum(mask, 1), 6);
   mask = gaussian_blur(mask, 3.0);

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/math.h"
 #include "base/parallel.h"
 #include "terrain/shape/hydrology.h"
 
@@ -19,11 +20,6 @@ namespace {
 constexpr double floor_smoothing_cells = 3.0;
 // So far beside the course lies the water with its banks: it does not become as wide as the new floor.
 constexpr float water_cells = 1.5F;
-
-float smoothstep(float t) {
-  t = std::clamp(t, 0.F, 1.F);
-  return t * t * (3.F - 2.F * t);
-}
 
 // Where a cell takes its altitude from: cells, relative to itself.
 struct Shift {

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+
+namespace belvedere {
+
+// Small formulas that many stages share. All are plain arithmetic in the type they are given, so the same bits everywhere.
+
+template <std::floating_point T>
+constexpr T square(T v) {
+  return v * v;
+}
+
+// The value held within 0…1.
+template <std::floating_point T>
+constexpr T unit(T v) {
+  return std::clamp(v, T{0}, T{1});
+}
+
+// 3t² - 2t³ with t held within 0…1: rises from 0 to 1, level at both ends.
+template <std::floating_point T>
+constexpr T smoothstep(T t) {
+  t = unit(t);
+  return t * t * (T{3} - T{2} * t);
+}
+
+// The same between two places: 0 up to low, 1 from high on; low < high.
+template <std::floating_point T>
+constexpr T smoothstep(T low, T high, T x) {
+  return smoothstep((x - low) / (high - low));
+}
+
+}  // namespace belvedere
