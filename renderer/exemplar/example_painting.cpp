@@ -11,13 +11,13 @@ ExamplePainting paint_example(const World& world, const Palette& palette, LitPic
                               Progress& progress) {
   const StrokeParameters strokes = to_stroke_parameters(world, palette);
   ExamplePainting example;
-  Painting ground =
-      paint_strokes(picture.ground.colour, picture.guidance, picture.ground,
+  Painting ground_layer =
+      paint_strokes(picture.base.colour, picture.guidance, picture.base,
                     {.sky = layers.sky, .ground = true, .accents = true, .breaks = false, .upright = false}, strokes, progress);
-  example.ground = std::move(ground.picture);
-  picture.guidance.ground_from = std::move(ground.sources);
+  example.ground_layer = std::move(ground_layer.picture);
+  picture.guidance.ground_from = std::move(ground_layer.sources);
   if (layers.painting) {
-    Painting painting = paint_strokes(picture.ground.colour, picture.guidance, picture.ground, {.sky = layers.sky}, strokes, progress);
+    Painting painting = paint_strokes(picture.base.colour, picture.guidance, picture.base, {.sky = layers.sky}, strokes, progress);
     example.painting = blend_edges(painting.picture, picture.guidance);
     picture.guidance.painted_class = picture.guidance.land_cover;
     for (std::size_t i = 0; i < painting.sources.size(); ++i)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/paint/paint.h"
 #include "renderer/world/lit_picture.h"
 
 namespace belvedere {
@@ -10,9 +11,9 @@ inline constexpr const char* exemplar_ground_layer = "ground";
 
 // A view painted in strokes alone, and everything its painter knows of every pixel.
 struct ExamplePainting {
-  GuidanceBuffers guidance;  // with painted_class, painted_from, stroke and ground_from
-  Grid<glm::vec3> painting;  // encoded sRGB, edges of depth softened
-  Grid<glm::vec3> ground;    // without trees, dwarf pines, houses and breaks of the ice, edges hard: what synthesis copies
+  GuidanceBuffers guidance;      // with painted_class, painted_from, stroke and ground_from
+  Grid<glm::vec3> painting;      // encoded sRGB, edges of depth softened
+  Grid<glm::vec3> ground_layer;  // without trees, dwarf pines, houses and breaks of the ice, edges hard: what synthesis copies
 };
 
 // Which layers are wanted: each costs a painting of its own.

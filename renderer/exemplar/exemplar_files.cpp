@@ -23,7 +23,7 @@
 namespace belvedere {
 namespace {
 
-// Bytes a pixel takes while it is painted: buffers, paint ground, canvases and strokes of both layers.
+// Bytes a pixel takes while it is painted: buffers, base picture, canvases and strokes of both layers.
 constexpr double paint_bytes_per_pixel = 420.0;
 constexpr double kept_bytes_per_pixel = 24.0;  // of the sheet's pixels outside the row in work: both layers
 
@@ -47,7 +47,7 @@ void write_layers(const ExamplePainting& example, double dots_per_inch, const Fi
   write_tiff16(join(folder, "painting.tif"), example.painting, options);
   write_png8(join(folder, "painting.png"), example.painting, options);
   options.notes[exemplar_layer_note] = exemplar_ground_layer;
-  write_tiff16(join(folder, "ground.tif"), example.ground, options);
+  write_tiff16(join(folder, "ground.tif"), example.ground_layer, options);
 }
 
 // Which class counts is that of the paint: what synthesis copies by. `first` is the index of the part's first pixel in the picture.
@@ -103,7 +103,7 @@ Coverage write_sheet_exemplar(const SheetPlan& plan, const std::string& out_fold
   Provenance provenance = make_provenance(text, inputs);
   SheetPainter painter(plan, {palette, std::nullopt});
   ExamplePainting whole;
-  whole.painting = whole.ground = Grid<glm::vec3>(plan.width, plan.height);
+  whole.painting = whole.ground_layer = Grid<glm::vec3>(plan.width, plan.height);
   Coverage coverage;
   std::optional<GuidanceWriter> writer;
   FileNotes notes;
@@ -118,7 +118,7 @@ Coverage write_sheet_exemplar(const SheetPlan& plan, const std::string& out_fold
     }
     count(coverage, part.guidance, static_cast<std::uint32_t>(y0) * static_cast<std::uint32_t>(plan.width));
     std::copy(part.painting.begin(), part.painting.end(), whole.painting.row(y0));
-    std::copy(part.ground.begin(), part.ground.end(), whole.ground.row(y0));
+    std::copy(part.ground_layer.begin(), part.ground_layer.end(), whole.ground_layer.row(y0));
     writer->write_rows(part.guidance, 0, y1 - y0, y0);
   }
   writer->finish();

@@ -81,7 +81,7 @@ void insert_panel(ExamplePainting& row, ExamplePainting panel, int x0, int y0, i
     const auto& part = panel.guidance.*channel;
     auto& whole = row.guidance.*channel;
     if (part.empty()) return;
-    if (whole.empty()) whole = std::decay_t<decltype(whole)>(row.ground.width(), row.ground.height(), blank);
+    if (whole.empty()) whole = std::decay_t<decltype(whole)>(row.ground_layer.width(), row.ground_layer.height(), blank);
     copy_part(whole, part, x0, y0);
   });
   // Indices in the panel become indices in the sheet.
@@ -91,7 +91,7 @@ void insert_panel(ExamplePainting& row, ExamplePainting panel, int x0, int y0, i
     Grid<std::uint32_t>& whole = row.guidance.*from;
     const auto width = static_cast<std::uint32_t>(plan.width);
     if (whole.empty()) {
-      whole = Grid<std::uint32_t>(row.ground.width(), row.ground.height());
+      whole = Grid<std::uint32_t>(row.ground_layer.width(), row.ground_layer.height());
       for (std::size_t i = 0; i < whole.size(); ++i) whole[i] = static_cast<std::uint32_t>(row_y0) * width + static_cast<std::uint32_t>(i);
     }
     const auto part_width = static_cast<std::uint32_t>(part.width());
@@ -102,9 +102,9 @@ void insert_panel(ExamplePainting& row, ExamplePainting panel, int x0, int y0, i
             (static_cast<std::uint32_t>(row_y0 + y0) + index / part_width) * width + static_cast<std::uint32_t>(x0) + index % part_width;
       }
   }
-  copy_part(row.ground, panel.ground, x0, y0);
+  copy_part(row.ground_layer, panel.ground_layer, x0, y0);
   if (!panel.painting.empty()) {
-    if (row.painting.empty()) row.painting = Grid<glm::vec3>(row.ground.width(), row.ground.height(), paper);
+    if (row.painting.empty()) row.painting = Grid<glm::vec3>(row.ground_layer.width(), row.ground_layer.height(), paper);
     copy_part(row.painting, panel.painting, x0, y0);
   }
 }
@@ -171,7 +171,7 @@ ExamplePainting SheetPainter::paint_row(int row, const ExampleLayers& layers, co
   const SheetPlan& plan = state_->plan;
   const auto [y0, y1] = row_span(row);
   ExamplePainting whole;
-  whole.ground = Grid<glm::vec3>(plan.width, y1 - y0, paper);
+  whole.ground_layer = Grid<glm::vec3>(plan.width, y1 - y0, paper);
   OneStage watcher(run.progress);
   const Run quiet{run.threads, run.memory_bytes, run.tile_px, watcher};
   for (int column = 0; column < plan.columns; ++column) {
@@ -206,7 +206,7 @@ PaintedExemplar paint_sheet(const SceneExemplar& wish, const Scene& scene, const
     for (std::uint32_t& from : part.guidance.ground_from) from -= first;
     const PaintedClasses classes = classes_of_paint(part.guidance, part.guidance.ground_from);
     const GuideStack of_part = make_guide_stack(part.guidance, classes.land_cover);
-    copy_part(painted.picture, part.ground, 0, y0);
+    copy_part(painted.picture, part.ground_layer, 0, y0);
     copy_part(painted.base, classes.base, 0, y0);
     copy_part(guides.label, of_part.label, 0, y0);
     if (guides.guides.empty())

@@ -24,6 +24,7 @@ constexpr double clump_sigma_units = 4.5;
 constexpr double track_sigma_units = 3.0;
 constexpr double stand_sigma_units = 20.0;
 constexpr float metres_per_unit_unknown = 20.0F;
+constexpr double high_grass_m = 1600.0;  // above, the grass of glades is that of the heights
 
 // Ground above which forest thins out, in contrast to meadows that people keep clear.
 bool is_open_high(Class id) {
@@ -145,6 +146,16 @@ ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParamet
 
 int forest_cover_margin_px(double pixels_per_unit) {
   return static_cast<int>(std::ceil(steps_up * step_units * pixels_per_unit)) + steps_up;
+}
+
+glm::vec3 glade_colour(const Palette& palette, double altitude_m, double light) {
+  return palette_colour(palette, altitude_m > high_grass_m ? Class::alpine_grass : Class::pasture, altitude_m, light - 0.06);
+}
+
+float bush_density(Class id, float wood, const Patches& p) {
+  if (id == Class::alpine_grass) return std::clamp(0.75F * wood + 0.06F * p.n3 * (wood > 0.02F ? 1.0F : 0.0F), 0.0F, 0.35F);
+  if (id == Class::shrub) return std::clamp(0.45F + 0.22F * p.n8 + 0.12F * p.n3, 0.1F, 0.85F);
+  return 0.0F;
 }
 
 }  // namespace belvedere

@@ -5,6 +5,8 @@
 
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
+#include "renderer/paint/ground_hues.h"
+#include "renderer/paint/palette.h"
 
 namespace belvedere {
 
@@ -25,5 +27,11 @@ struct ForestCover {
 // a part with that margin equals the whole bit for bit.
 ForestCover make_forest_cover(const GuidanceBuffers& guidance, const ForestCoverParameters& parameters, glm::ivec2 origin_px);
 int forest_cover_margin_px(double pixels_per_unit);
+
+// Grass among trees: a little darker than that of the open. Encoded sRGB at a tone.
+glm::vec3 glade_colour(const Palette& palette, double altitude_m, double light);
+
+// Dwarf pines on alpine grass and bushes on shrubland, 0…1; `wood` is the share of forest around.
+float bush_density(LandCoverClass id, float wood, const Patches& patches);
 
 }  // namespace belvedere

@@ -1,45 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/vec2.hpp>
-#include <string>
-#include <vector>
+#include <glm/vec3.hpp>
 
 #include "base/guidance_buffers.h"
-#include "base/progress.h"
-#include "renderer/paint/palette.h"
-#include "texture/strokes/stroke_painter.h"
 #include "texture/synthesis/exemplar.h"
+#include "texture/synthesis/guide_stack.h"
 
 namespace belvedere {
-
-// Air, fields and hue drift of look/recipe.md: what turns ramps into the base picture. Distances are along the ray.
-struct BaseParameters {
-  double haze = 0.85;             // greatest share of air, 0…1
-  double haze_from_m = 34000.0;   // air begins here, and the foreground's warmth ends about twice as far; ≥ 0
-  double haze_scale_m = 62000.0;  // over this distance more the air closes to 1 - 1/e; > 0
-  double haze_floor_m = 600.0;    // altitude up to which air is densest
-  double range_mist = 1.0;        // separation of ranges, 0…3
-  double warm_near = 1.0;         // 0…3
-  double hue_drift = 1.0;         // 0…3: slow changes of hue over the ground, fields
-  double rim_fade_m = 4000.0;     // over this distance the terrain stands ever deeper in air towards its end; 0 off
-  double clouds = 1.0;            // 0 (none)…2
-  double horizon_px = 0.0;        // row of the horizon in the whole picture (skyline_row_px of sky.h); 0: 0.18 of its height
-  double sun_image_x = 1.0;       // as in ToneParameters
-  double pixels_per_unit = 1.0;
-  std::uint64_t seed = 1;
-};
-
-// Base picture (encoded sRGB) at the pixel's tone and at ∓ .17, with accents, tree density and haze; sky pixels get sky and clouds.
-// Reads depth, position, altitude, land cover, tone and relief_s, and footprint where it is there (fields too small to see then fade).
-// `origin_px`, `picture_size`: where the buffers lie in the whole picture. Local up to base_margin_px(): a part with that margin equals
-// the whole bit for bit.
-PaintGround make_paint_ground(const GuidanceBuffers& guidance, const Palette& palette, const BaseParameters& parameters,
-                              glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress);
-int base_margin_px(const BaseParameters& parameters);
-
-// Share of air in front of a place, 0…1, before the palette's share.
-double haze_share(const BaseParameters& parameters, double depth_m, double altitude_m);
 
 // An exemplar with everything a composite needs: where buffers meet pictures.
 struct PaintedExemplar {

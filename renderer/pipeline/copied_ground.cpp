@@ -35,9 +35,9 @@ SynthesisParameters to_synthesis_parameters(const Scene& scene) {
 
 PaintDraft draft_paint(const World& world, const Palette& palette, const LitPicture& lit, Progress& progress) {
   PaintDraft draft;
-  draft.painting = paint_strokes(lit.ground.colour, lit.guidance, lit.ground, {.sky = false, .breaks = false, .upright = false},
+  draft.painting = paint_strokes(lit.base.colour, lit.guidance, lit.base, {.sky = false, .breaks = false, .upright = false},
                                  to_stroke_parameters(world, palette), progress);
-  draft.classes = find_painted_classes(draft.painting.sources, lit.guidance, lit.ground.colour);
+  draft.classes = find_painted_classes(draft.painting.sources, lit.guidance, lit.base.colour);
   return draft;
 }
 
@@ -57,8 +57,8 @@ MatchField match_exemplars(const std::vector<PaintedExemplar>& exemplars, const 
 
 Grid<glm::vec3> copy_ground(const MatchField& matches, const std::vector<PaintedExemplar>& exemplars, const Scene& scene,
                             const LitPicture& lit, const PaintDraft& draft) {
-  const Grid<glm::vec3> copied = transfer_residual(matches, exemplars, draft.classes.base, lit.ground.haze, scene.synthesis.residual);
-  return mix_borders(copied, draft.painting, draft.classes.land_cover, lit.guidance.land_cover, lit.ground.colour);
+  const Grid<glm::vec3> copied = transfer_residual(matches, exemplars, draft.classes.base, lit.base.haze, scene.synthesis.residual);
+  return mix_borders(copied, draft.painting, draft.classes.land_cover, lit.guidance.land_cover, lit.base.colour);
 }
 
 }  // namespace belvedere

@@ -26,7 +26,7 @@ namespace {
 
 std::string join(const std::string& folder, const char* file) { return folder.empty() ? file : folder + "/" + file; }
 
-// Bytes a whole picture takes while it is painted: buffers, paint ground, canvases, strokes.
+// Bytes a whole picture takes while it is painted: buffers, base picture, canvases, strokes.
 constexpr std::uint64_t render_bytes_per_pixel = 320;
 
 void check_memory(const Scene& scene) {
@@ -86,7 +86,7 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
   write_guidance(join(out_folder, "guidance.exr"), lit.guidance, notes);
 
   const bool copied = scene.synthesis.enabled;
-  Grid<glm::vec3> ground = !copied ? lit.ground.colour : [&] {
+  Grid<glm::vec3> ground = !copied ? lit.base.colour : [&] {
     const std::vector<PaintedExemplar> exemplars = make_exemplars(loaded, view, palette, std::move(paint.paintings), progress);
     const PaintDraft draft = draft_paint(world, palette, lit, progress);
     const MatchField matches = match_exemplars(exemplars, scene, lit, draft, progress);
@@ -95,7 +95,7 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
   // What the exemplar cannot give is painted last, far to near: sky, trees, houses; without an exemplar everything is.
   const StrokeLayers layers{.sky = true, .ground = !copied, .accents = true, .breaks = true, .upright = true};
   const Painting strokes =
-      paint_strokes(std::move(ground), lit.guidance, lit.ground, layers, to_stroke_parameters(world, palette), progress);
+      paint_strokes(std::move(ground), lit.guidance, lit.base, layers, to_stroke_parameters(world, palette), progress);
   const Grid<glm::vec3> panorama = blend_edges(strokes.picture, lit.guidance);
   write_panorama(panorama, scene, color, notes, out_folder, progress);
 }

@@ -75,8 +75,8 @@ LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRec
   picture.guidance = trace_guidance(world.terrain, world.surface, world.tracer, *world.camera, to_guidance_parameters(world, run.tile_px),
                                     region, run.progress);
   picture.guidance.tone = make_tone(picture.guidance, to_tone_parameters(world), origin_px, run.progress);
-  picture.ground = make_paint_ground(picture.guidance, palette, to_base_parameters(world), origin_px, world.camera->size(), run.progress);
-  picture.guidance.base = decode_srgb(picture.ground.colour);
+  picture.base = make_base_picture(picture.guidance, palette, to_base_parameters(world), origin_px, world.camera->size(), run.progress);
+  picture.guidance.base = decode_srgb(picture.base.colour);
   return picture;
 }
 

@@ -17,7 +17,7 @@ float cloud_edge(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
     const glm::vec2 there = place + glm::vec2(reach * scene.scale(), 0.F);
     if (!scene.on_canvas(there)) continue;
     const std::size_t k = scene.pixel(there);
-    if (scene.guidance.is_sky(k)) most = std::max(most, std::abs(scene.ground.colour[k].x - scene.ground.colour[i].x));
+    if (scene.guidance.is_sky(k)) most = std::max(most, std::abs(scene.base.colour[k].x - scene.base.colour[i].x));
   }
   return most;
 }
@@ -99,7 +99,7 @@ std::vector<Stroke> grass_flecks(const StrokeScene& scene, Stream stream) {
     const float length = dark ? seed.between(1.6F, 4.2F) : seed.between(1.2F, 2.8F);
     lay_line(stroke, scene, place, length, quarter_turn + 0.35F * seed.normal(), 0.2F, true, seed);
     take_brush(stroke, scene, dark ? seed.between(1.2F, 2.2F) : seed.between(0.7F, 1.3F), {.taper = 0.5F, .alpha = dark ? 0.62F : 0.7F});
-    const float clear = 1.F - std::clamp(scene.ground.haze[i], 0.F, 1.F);
+    const float clear = 1.F - std::clamp(scene.base.haze[i], 0.F, 1.F);
     if (dark) {
       stroke.colour = scene.colour(i, -seed.between(0.7F, 1.4F), paint_jitter, seed);
       if (!scene.parameters.winter) stroke.colour *= through_air_factor(scene, i, glm::vec3(0.80F, 0.92F, 0.82F));
@@ -142,7 +142,7 @@ std::vector<Stroke> broken_colour(const StrokeScene& scene, Stream stream) {
     const float n = seed.normal();
     stroke.colour = scene.colour(i, n < 0.F ? -seed.between(0.3F, 1.1F) : seed.between(0.3F, 1.1F), paint_jitter, seed);
     // Warm beside cool: ochre and rose in the light of rock and grass, violet in the shade, rose and blue on snow.
-    const float clear = 1.F - std::clamp(scene.ground.haze[i], 0.F, 1.F);
+    const float clear = 1.F - std::clamp(scene.base.haze[i], 0.F, 1.F);
     const float warm = seed.normal() + 1.2F * (tone - 0.5F);
     const glm::vec3 turn = is_ice(id)                    ? glm::vec3(0.018F, -0.008F, 0.004F)
                            : id == forest || id == shrub ? glm::vec3(0.045F, 0.018F, -0.020F)
@@ -167,7 +167,7 @@ std::vector<Stroke> water_strokes(const StrokeScene& scene, Stream stream) {
 
 std::vector<Stroke> accent_strokes(const StrokeScene& scene, Stream stream) {
   return sow(scene, 2.6F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
-    const float edge = scene.ground.accent[i];
+    const float edge = scene.base.accent[i];
     const LandCoverClass id = scene.class_at(i);
     if (std::abs(edge) < 0.25F || seed.uniform() > std::abs(edge)) return;
     if (id == sky || id == water || id == settlement || id == forest) return;

@@ -11,24 +11,24 @@
 namespace belvedere {
 namespace {
 
-void check_sizes(const Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance, const PaintGround& ground) {
+void check_sizes(const Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance, const BasePicture& base) {
   const bool same = canvas.same_size(guidance.depth_m) && canvas.same_size(guidance.land_cover) && canvas.same_size(guidance.fall_line) &&
-                    canvas.same_size(guidance.tone) && canvas.same_size(guidance.position_m) && canvas.same_size(ground.colour) &&
-                    canvas.same_size(ground.darker) && canvas.same_size(ground.lighter) && canvas.same_size(ground.accent) &&
-                    canvas.same_size(ground.tree_density) && canvas.same_size(ground.haze);
-  if (!same) throw Error(ErrorKind::bug, "paint_strokes", "canvas, guidance and ground differ in size");
+                    canvas.same_size(guidance.tone) && canvas.same_size(guidance.position_m) && canvas.same_size(base.colour) &&
+                    canvas.same_size(base.darker) && canvas.same_size(base.lighter) && canvas.same_size(base.accent) &&
+                    canvas.same_size(base.tree_density) && canvas.same_size(base.haze);
+  if (!same) throw Error(ErrorKind::bug, "paint_strokes", "canvas, guidance and base picture differ in size");
 }
 
 }  // namespace
 
-Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const PaintGround& ground, const StrokeLayers& layers,
+Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const BasePicture& base, const StrokeLayers& layers,
                        const StrokeParameters& parameters, Progress& progress) {
-  check_sizes(canvas, guidance, ground);
+  check_sizes(canvas, guidance, base);
   Painting painting = begin_painting(std::move(canvas));
-  const StrokeScene scene{guidance, ground, parameters};
+  const StrokeScene scene{guidance, base, parameters};
   const auto paint = [&](std::vector<Stroke> strokes) {
     // In the far, air evens out what loads of paint differ by.
-    for (Stroke& stroke : strokes) stroke.load *= 1.F - 0.8F * std::clamp(ground.haze[stroke.source], 0.F, 1.F);
+    for (Stroke& stroke : strokes) stroke.load *= 1.F - 0.8F * std::clamp(base.haze[stroke.source], 0.F, 1.F);
     if (!strokes.empty()) paint_in_order(painting, guidance, std::move(strokes), parameters.pixels_per_unit, progress);
   };
 

@@ -4,7 +4,7 @@
 
 #include "base/guidance_buffers.h"
 #include "base/progress.h"
-#include "texture/strokes/paint_ground.h"
+#include "texture/strokes/base_picture.h"
 #include "texture/strokes/stroke.h"
 #include "texture/strokes/stroke_table.h"
 
@@ -12,7 +12,7 @@ namespace belvedere {
 
 // Paints strokes over `canvas` (encoded sRGB), far to near, and returns the painting. look/recipe.md, table Strokes. Needs the channels
 // depth, land cover, fall line, tone, slope. Throws Error(bug) where sizes disagree.
-Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const PaintGround& ground, const StrokeLayers& layers,
+Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const BasePicture& base, const StrokeLayers& layers,
                        const StrokeParameters& parameters, Progress& progress);
 
 }  // namespace belvedere

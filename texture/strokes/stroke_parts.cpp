@@ -42,11 +42,11 @@ void set_line(Stroke& stroke, glm::vec2 from, glm::vec2 to, float start_width, f
 }
 
 glm::vec3 through_air(const StrokeScene& scene, std::size_t i, glm::vec3 paint) {
-  return paint + (scene.ground.colour[i] - paint) * std::clamp(scene.ground.haze[i], 0.F, 1.F);
+  return paint + (scene.base.colour[i] - paint) * std::clamp(scene.base.haze[i], 0.F, 1.F);
 }
 
 glm::vec3 through_air_factor(const StrokeScene& scene, std::size_t i, glm::vec3 factor) {
-  return factor + (1.F - factor) * std::clamp(scene.ground.haze[i], 0.F, 1.F);
+  return factor + (1.F - factor) * std::clamp(scene.base.haze[i], 0.F, 1.F);
 }
 
 glm::vec3 fresh_snow(float tone) {
@@ -77,7 +77,7 @@ float patch_noise(const StrokeScene& scene, std::size_t i, std::uint64_t kind, d
 
 bool is_grassy(const StrokeScene& scene, std::size_t i) {
   const LandCoverClass id = scene.class_at(i);
-  return is_grass(id) || (id == LandCoverClass::forest && scene.ground.tree_density[i] < glade_density);
+  return is_grass(id) || (id == LandCoverClass::forest && scene.base.tree_density[i] < glade_density);
 }
 
 float sheet_noise(const StrokeScene& scene, glm::vec2 place, std::uint64_t kind, double sigma_units) {

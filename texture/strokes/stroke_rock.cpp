@@ -61,7 +61,7 @@ std::vector<Stroke> rock_facets(const StrokeScene& scene, Stream stream) {
 std::vector<Stroke> rock_hatching(const StrokeScene& scene, Stream stream) {
   return sow(scene, 3.4F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != rock) return;
-    const float edge = scene.ground.accent[i];
+    const float edge = scene.base.accent[i];
     if (seed.uniform() > 0.30F + 0.60F * std::min(1.F, std::abs(edge))) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.depth_tolerance = tight_depth;

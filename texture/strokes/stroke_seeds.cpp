@@ -13,8 +13,8 @@ glm::vec2 StrokeScene::fall_line(glm::vec2 place) const {
 }
 
 glm::vec3 StrokeScene::colour(std::size_t i, float m, float jitter, StrokeSeed& seed) const {
-  const glm::vec3 here = ground.colour[i];
-  const glm::vec3 there = m < 0.F ? ground.darker[i] : ground.lighter[i];
+  const glm::vec3 here = base.colour[i];
+  const glm::vec3 there = m < 0.F ? base.darker[i] : base.lighter[i];
   const float value = seed.normal() * jitter;
   const float warmth = seed.normal() * jitter * 0.6F;
   return here + (there - here) * std::min(1.5F, std::abs(m)) + glm::vec3(value + warmth, value, value - warmth);

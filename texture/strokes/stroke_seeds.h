@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
-#include "texture/strokes/paint_ground.h"
+#include "texture/strokes/base_picture.h"
 #include "texture/strokes/stroke.h"
 
 namespace belvedere {
@@ -36,7 +36,7 @@ class StrokeSeed {
 // The picture strokes are laid on, with what they are steered by.
 struct StrokeScene {
   const GuidanceBuffers& guidance;
-  const PaintGround& ground;
+  const BasePicture& base;
   const StrokeParameters& parameters;
 
   float scale() const { return static_cast<float>(parameters.pixels_per_unit); }

@@ -94,7 +94,7 @@ void plant_spruce(const StrokeScene& scene, const Tree& tree, std::size_t i, con
     lit.alpha = std::min(0.95F, 0.34F + 0.50F * light + 0.15F * tone.rim);
     const float warm = light * light * (0.6F + 0.8F * tone.rim);
     lit.colour = scene.colour(i, std::min(1.5F, 1.30F * light - 0.05F + tone.lighter + 0.5F * tone.rim), paint_jitter, seed);
-    lit.colour += (1.F - std::min(1.F, scene.ground.haze[i])) * warm * glm::vec3(0.060F, 0.040F, -0.030F);
+    lit.colour += (1.F - std::min(1.F, scene.base.haze[i])) * warm * glm::vec3(0.060F, 0.040F, -0.030F);
     lit.order -= 0.5F;
     out.push_back(lit);
   }
@@ -105,7 +105,7 @@ void plant_spruce(const StrokeScene& scene, const Tree& tree, std::size_t i, con
              tree.foot + glm::vec2(0.05F * side * tree.width, -0.90F * tree.height), tree.width * 0.42F, tree.width * 0.16F);
     dab.alpha = 0.16F + 0.42F * light;
     const glm::vec3 snow_paint = fresh_snow(light);
-    dab.colour = snow_paint + (scene.ground.colour[i] - snow_paint) * 0.3F;
+    dab.colour = snow_paint + (scene.base.colour[i] - snow_paint) * 0.3F;
     dab.order -= 0.7F;
     out.push_back(dab);
   }
@@ -114,7 +114,7 @@ void plant_spruce(const StrokeScene& scene, const Tree& tree, std::size_t i, con
 void plant_leafy(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, StrokeSeed& seed,
                  std::vector<Stroke>& out) {
   const float light = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
-  const float clear = 1.F - std::min(1.F, scene.ground.haze[i]);
+  const float clear = 1.F - std::min(1.F, scene.base.haze[i]);
   const auto side = static_cast<float>(scene.parameters.sun_side);
   const bool bare = scene.parameters.winter;
   const Leaves leaves = leaves_at(scene, i, seed);

@@ -83,7 +83,7 @@ std::vector<Stroke> forest_trees(const StrokeScene& scene, Stream stream) {
     for (int k = 0; k < count && scene.on_canvas(foot); ++k) {
       const std::size_t here = scene.pixel(foot);
       if (scene.class_at(here) != forest || !on_same_slope(scene, i, here)) break;
-      if (!is_grassy(scene, here) && seed.uniform() < scene.ground.tree_density[here]) {
+      if (!is_grassy(scene, here) && seed.uniform() < scene.base.tree_density[here]) {
         const float down = seed.normal();  // drawn one by one: see stroke_seeds.h
         const float right = seed.normal();
         const float tone = row_tone + 0.22F * seed.normal();
@@ -192,7 +192,7 @@ std::vector<Stroke> scattered_trees(const StrokeScene& scene, Stream stream) {
 std::vector<Stroke> low_bushes(const StrokeScene& scene, Stream stream) {
   return sow(scene, 4.2F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
-    if ((id != alpine_grass && id != shrub) || seed.uniform() > scene.ground.tree_density[i]) return;
+    if ((id != alpine_grass && id != shrub) || seed.uniform() > scene.base.tree_density[i]) return;
     const float scale = scene.scale();
     const float width = 2.6F * scale * seed.between(0.6F, 1.4F);
     Stroke stroke;

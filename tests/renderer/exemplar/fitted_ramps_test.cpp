@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "renderer/exemplar/painting_tone.h"
+#include "renderer/paint/base_picture.h"
 #include "renderer/paint/light.h"
 #include "renderer/paint/paint.h"
 #include "tests/renderer/exemplar/painted_hills.h"
@@ -123,10 +124,10 @@ TEST(FitRamps, RecoversTheBaseOfAPaintingOfTheProgramsOwn) {
   constexpr int height = 260;
   GuidanceBuffers guidance = test::make_hills(width, height);
   guidance.tone = make_tone(guidance, {}, {0, 0}, silent_progress());
-  const PaintGround ground =
-      make_paint_ground(guidance, read_palette("summer"), {.rim_fade_m = 0.0}, {0, 0}, {width, height}, silent_progress());
-  const Painting painting = paint_strokes(ground.colour, guidance, ground, {.sky = false, .upright = false}, {}, silent_progress());
-  const PaintedClasses classes = find_painted_classes(painting.sources, guidance, ground.colour);
+  const BasePicture base =
+      make_base_picture(guidance, read_palette("summer"), {.rim_fade_m = 0.0}, {0, 0}, {width, height}, silent_progress());
+  const Painting painting = paint_strokes(base.colour, guidance, base, {.sky = false, .upright = false}, {}, silent_progress());
+  const PaintedClasses classes = find_painted_classes(painting.sources, guidance, base.colour);
   const GuideStack guides = make_guide_stack(guidance, classes.land_cover);
   const Grid<std::uint8_t>* distance = guides.find("distance");
   ASSERT_NE(distance, nullptr);

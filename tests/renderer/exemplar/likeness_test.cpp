@@ -8,8 +8,8 @@
 #include "base/filter.h"
 #include "base/progress.h"
 #include "renderer/exemplar/painting_figures.h"
+#include "renderer/paint/base_picture.h"
 #include "renderer/paint/light.h"
-#include "renderer/paint/paint.h"
 #include "renderer/paint/palette.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "texture/strokes/stroke_painter.h"
@@ -22,7 +22,7 @@ constexpr int height_units = 160;
 
 struct Print {
   GuidanceBuffers guidance;
-  PaintGround ground;
+  BasePicture base;
   StrokeParameters strokes;
   Grid<glm::vec3> picture;
 };
@@ -36,10 +36,10 @@ Print print_at(double pixels_per_unit, bool upright = true) {
   print.guidance.tone = make_tone(print.guidance, tone, {0, 0}, silent_progress());
   BaseParameters base;
   base.pixels_per_unit = pixels_per_unit;
-  print.ground = make_paint_ground(print.guidance, read_palette("summer"), base, {0, 0}, size, silent_progress());
+  print.base = make_base_picture(print.guidance, read_palette("summer"), base, {0, 0}, size, silent_progress());
   print.strokes.pixels_per_unit = pixels_per_unit;
   print.picture =
-      paint_strokes(print.ground.colour, print.guidance, print.ground, {.upright = upright}, print.strokes, silent_progress()).picture;
+      paint_strokes(print.base.colour, print.guidance, print.base, {.upright = upright}, print.strokes, silent_progress()).picture;
   return print;
 }
 
@@ -145,7 +145,7 @@ StrokeSizes sizes_of(const std::vector<Stroke>& strokes, double pixels_per_unit)
 }
 
 TEST(Likeness, EveryKindOfStrokeHasItsNumberAndItsSizeInMillimetres) {
-  const auto scene = [](const Print& p) { return StrokeScene{p.guidance, p.ground, p.strokes}; };
+  const auto scene = [](const Print& p) { return StrokeScene{p.guidance, p.base, p.strokes}; };
   using Kind = std::vector<Stroke> (*)(const StrokeScene&);
   const std::vector<std::pair<const char*, Kind>> kinds = {
       {"sky", sky_strokes},       {"wash", wash_strokes},           {"meadow", meadow_strokes},

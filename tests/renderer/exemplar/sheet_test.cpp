@@ -147,7 +147,7 @@ TEST(SheetPainter, IndicesOfPaintCountInTheWholeSheet) {
   // Margins are paper: nothing is copied from them.
   EXPECT_TRUE(g.is_sky(g.depth_m.index(128, 128)));
   EXPECT_EQ(g.land_cover(128, 128), LandCoverClass::sky);
-  EXPECT_EQ(row.ground(0, 0), row.painting(128, 128));
+  EXPECT_EQ(row.ground_layer(0, 0), row.painting(128, 128));
   // No stroke has a number twice: the panels' numbers do not meet.
   std::set<std::uint32_t> left_strokes;
   std::set<std::uint32_t> right_strokes;
@@ -195,7 +195,7 @@ TEST(SheetPainter, PanelsHaveTheTerrainRulesAndStrokesOfTheirOwn) {
   const ExamplePainting twins = painted();
   EXPECT_EQ(alike(twins, twins.guidance.altitude_m), 1.0);
   EXPECT_EQ(alike(twins, twins.guidance.land_cover), 1.0);
-  EXPECT_LT(alike(twins, twins.ground), 0.3);  // but no stroke lies where one of the other panel does
+  EXPECT_LT(alike(twins, twins.ground_layer), 0.3);  // but no stroke lies where one of the other panel does
   plan.panels[1].settings.emplace_back("land_cover.settings.treeline_m=900");
   const ExamplePainting other_rules = painted();
   EXPECT_EQ(alike(other_rules, other_rules.guidance.altitude_m), 1.0);
@@ -212,9 +212,9 @@ TEST(SheetPainter, PaintsInTheHandOfWhoeverWantsTheSheet) {
     const ExamplePainting row = painter.paint_row(0, {.painting = false, .sky = false}, {});
     glm::dvec2 sum(0.0);
     double ground = 0.0;
-    for (std::size_t i = 0; i < row.ground.size(); ++i) {
+    for (std::size_t i = 0; i < row.ground_layer.size(); ++i) {
       if (row.guidance.is_sky(i)) continue;
-      sum += glm::dvec2(row.guidance.tone[i], row.ground[i].z);
+      sum += glm::dvec2(row.guidance.tone[i], row.ground_layer[i].z);
       ground += 1.0;
     }
     return sum / ground;
@@ -253,7 +253,7 @@ TEST_F(ExemplarFiles, AreReadAsTheSheetThatWasPainted) {
   for (const char* layer : {"ground.tif", "painting.tif"}) {
     const bool ground = std::string(layer) == "ground.tif";
     const PaintedExemplar read = read_scans(copying(layer, "guidance.exr", out("a")), silent_progress()).at(0).painted;
-    const Grid<glm::vec3>& picture = ground ? row.ground : row.painting;
+    const Grid<glm::vec3>& picture = ground ? row.ground_layer : row.painting;
     const PaintedClasses classes = classes_of_paint(row.guidance, ground ? row.guidance.ground_from : row.guidance.painted_from);
     const GuideStack guides = make_guide_stack(row.guidance, classes.land_cover);
     ASSERT_TRUE(read.picture.same_size(picture));

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "renderer/paint/paint.h"
+#include "renderer/paint/base_picture.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "tests/texture/strokes/stroke_picture.h"
 
@@ -28,12 +28,12 @@ GuidanceBuffers wood(int width, int height, float ppu = 1.0F) {
 template <class Density>
 double dispersion(Density&& density_of) {
   GuidanceBuffers g = wood(800, 600);
-  PaintGround ground = make_paint_ground(g, read_palette("summer"), {}, {0, 0}, {800, 600}, silent_progress());
-  density_of(ground.tree_density);
+  BasePicture base = make_base_picture(g, read_palette("summer"), {}, {0, 0}, {800, 600}, silent_progress());
+  density_of(base.tree_density);
   const StrokeParameters parameters;
   constexpr int cell = 40;
   Grid<int> counts(800 / cell, 600 / cell, 0);
-  for (const Stroke& s : wood_strokes({g, ground, parameters}))
+  for (const Stroke& s : wood_strokes({g, base, parameters}))
     if (s.gate == StrokeGate::upright && s.start_width > 2.4F && s.alpha > 0.85F)  // bodies
       ++counts(std::clamp(static_cast<int>(s.points[0].x), 0, 799) / cell, std::clamp(static_cast<int>(s.points[0].y), 0, 599) / cell);
   double sum = 0.0;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/paint/paint.h"
+#include "renderer/paint/base_picture.h"
 #include "renderer/paint/palette.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
@@ -44,12 +44,12 @@ TEST(Reflection, DarkensTheWaterBelowADarkShore) {
   GuidanceBuffers g = lake();
   BaseParameters p;
   p.haze = p.range_mist = p.warm_near = p.hue_drift = p.clouds = 0.0;
-  const PaintGround ground = make_paint_ground(g, read_palette("summer"), p, {0, 0}, {80, 140}, silent_progress());
+  const BasePicture base = make_base_picture(g, read_palette("summer"), p, {0, 0}, {80, 140}, silent_progress());
   double near_shore = 0.0;
   double open = 0.0;
   for (int x = 0; x < 80; ++x) {
-    near_shore += ground.colour(x, 64).g / 80.0;
-    open += ground.colour(x, 95).g / 80.0;
+    near_shore += base.colour(x, 64).g / 80.0;
+    open += base.colour(x, 95).g / 80.0;
   }
   EXPECT_LT(near_shore, open - 0.1);
 }
@@ -82,12 +82,12 @@ TEST(Reflection, WaterIsPalerFarAwayWithADarkLineUnderTheShoreAndAPaleOneBeforeU
   for (float& slope : g.slope_deg) slope = 1.0F;  // no image
   BaseParameters p;
   p.haze = p.range_mist = p.warm_near = p.hue_drift = p.clouds = 0.0;
-  const PaintGround ground = make_paint_ground(g, read_palette("summer"), p, {0, 0}, {80, 140}, silent_progress());
+  const BasePicture base = make_base_picture(g, read_palette("summer"), p, {0, 0}, {80, 140}, silent_progress());
   // Means over some rows: streaks of wind go their own way.
   const auto rows = [&](int first, int last) {
     double sum = 0.0;
     for (int y = first; y <= last; ++y)
-      for (int x = 0; x < 80; ++x) sum += ground.colour(x, y).r / 80.0;
+      for (int x = 0; x < 80; ++x) sum += base.colour(x, y).r / 80.0;
     return sum / (last - first + 1);
   };
   EXPECT_LT(rows(60, 60), rows(62, 72) - 0.05);

@@ -18,7 +18,7 @@ namespace belvedere {
 // What strokes are tested on.
 struct Picture {
   GuidanceBuffers guidance;
-  PaintGround ground;
+  BasePicture ground;
   StrokeParameters parameters;
   StrokeScene scene() const { return {guidance, ground, parameters}; }
 };

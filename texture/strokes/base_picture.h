@@ -9,7 +9,7 @@
 namespace belvedere {
 
 // What strokes are painted from. All images in encoded sRGB 0…1, because paint mixes there; same size as the guidance.
-struct PaintGround {
+struct BasePicture {
   Grid<glm::vec3> colour;    // base picture at the pixel's tone
   Grid<glm::vec3> darker;    // … at tone - .17
   Grid<glm::vec3> lighter;   // … at tone + .17

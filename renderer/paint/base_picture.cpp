@@ -1,0 +1,237 @@
+#include "renderer/paint/base_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "base/parallel.h"
+#include "renderer/paint/air.h"
+#include "renderer/paint/fields.h"
+#include "renderer/paint/forest_cover.h"
+#include "renderer/paint/ground_hues.h"
+#include "renderer/paint/picture_filter.h"
+#include "renderer/paint/picture_noise.h"
+#include "renderer/paint/range_edges.h"
+#include "renderer/paint/reflection.h"
+#include "renderer/paint/sky.h"
+#include "renderer/paint/terrain_end.h"
+#include "renderer/paint/town_ground.h"
+#include "renderer/paint/water_look.h"
+#include "texture/strokes/parcels.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double tone_step = 0.17;              // to the darker and the lighter picture
+constexpr double range_sigma_units = 14.0;      // width of mist behind an edge
+constexpr double krummholz_sigma_units = 12.0;  // dwarf pine stands about the treeline
+constexpr double brook_sigma_units = 1.8;       // what this blur of the water leaves pale is a brook
+constexpr float high_m = 260.0F;                // what stands so far above its surroundings is a crest
+
+using Class = LandCoverClass;
+
+void check_channels(const GuidanceBuffers& g) {
+  const auto& size = g.depth_m;
+  if (!size.same_size(g.position_m) || !size.same_size(g.altitude_m) || !size.same_size(g.land_cover) || !size.same_size(g.tone) ||
+      !size.same_size(g.relief_s_m) || !size.same_size(g.fall_line))
+    throw Error(ErrorKind::bug, "base picture", "a guidance channel is missing or has another size",
+                "depth, position, altitude, land cover, fall line, tone and relief");
+}
+
+// 1 where a class lies, else 0.
+Grid<float> class_mask(const GuidanceBuffers& g, Class id) {
+  Grid<float> mask(g.width(), g.height(), 0.0F);
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = g.land_cover[i] == id ? 1.0F : 0.0F;
+  return mask;
+}
+
+// What a pixel cannot see by itself: the picture around it.
+struct Surroundings {
+  Grid<float> log_depth;
+  Grid<float> mean_log_depth;
+  Grid<float> wood;   // share of forest around
+  ForestCover cover;  // of forest pixels
+  Grid<float> water;  // share of water around, on the same surface
+  Mirrored mirrored;  // of water pixels
+  Grid<float> streaks;
+  Grid<glm::vec3> sky;  // of sky pixels
+};
+
+Surroundings look_around(const GuidanceBuffers& g, const Palette& palette, const BaseParameters& p, const SkyParameters& sky,
+                         glm::ivec2 origin_px) {
+  const double ppu = p.pixels_per_unit;
+  const double range_sigma_px = range_sigma_units * ppu;
+  Surroundings around;
+  around.log_depth = log_depths(g, blur_reach_px(range_sigma_px));
+  around.mean_log_depth = blur_in_picture(around.log_depth, range_sigma_px, origin_px);
+  around.wood = blur_in_picture(class_mask(g, Class::forest), krummholz_sigma_units * ppu, origin_px);
+  around.cover = make_forest_cover(g, {ppu, p.seed}, origin_px);
+  around.water = blur_on_surface(class_mask(g, Class::water), g.depth_m, brook_sigma_units * ppu);
+  around.mirrored = find_reflections(g, ppu);
+  around.streaks = make_image_noise(p.seed + 29, origin_px, g.width(), g.height(), ppu, 26.0, 1.6);
+  around.sky = make_sky(g.depth_m, palette, sky, origin_px);
+  return around;
+}
+
+// What all three tones of a pixel have in common.
+struct PixelColour {
+  glm::vec3 added;   // grasses
+  glm::vec3 factor;  // drift of hue, warm foreground, fields
+  glm::vec3 air_colour;
+  float air = 0.0F;
+  float stale = 0.0F;  // greens: how much of their freshness is gone, 0…1
+  RangeEdge edge;
+  TerrainEnd end;
+  glm::vec3 beyond;  // what is seen where the terrain has ended
+
+  glm::vec3 finish(glm::vec3 colour, glm::vec3 range_mist) const {
+    colour = glm::clamp(colour + added, 0.0F, 1.0F) * factor;
+    const float grey = 0.30F * colour.r + 0.59F * colour.g + 0.11F * colour.b;
+    colour = glm::mix(colour, glm::vec3(1.03F, 0.99F, 1.04F) * grey, 0.12F * stale);
+    colour = glm::mix(colour, air_colour, air);
+    colour = glm::mix(colour, range_mist, edge.mist);
+    colour = glm::mix(colour, air_colour, end.air);
+    colour = glm::clamp(colour * (1.0F - glm::vec3(0.40F, 0.35F, 0.27F) * edge.dark), 0.0F, 1.0F);
+    return glm::mix(colour, beyond, end.dissolved);
+  }
+  // Share of the finished colour that is not the ground's own.
+  float veiled() const { return 1.0F - (1.0F - air) * (1.0F - std::min(edge.mist, 1.0F)) * (1.0F - end.air) * (1.0F - end.dissolved); }
+};
+
+// One pixel of the picture.
+struct BasePixel {
+  glm::vec3 colour, darker, lighter;
+  float accent = 0.0F;
+  float tree_density = 0.0F;
+  float haze = 0.0F;
+};
+
+BasePixel sky_pixel(glm::vec3 sky) { return {sky, sky * 0.97F, glm::min(sky * 1.03F, glm::vec3(1.0F))}; }
+
+// All that pixels are painted from.
+struct Scenery {
+  const GuidanceBuffers& guidance;
+  const Palette& palette;
+  const BaseParameters& parameters;
+  const Surroundings& around;
+  double horizon_px;
+  glm::ivec2 origin_px;
+
+  bool has_rim() const { return guidance.rim_m.same_size(guidance.depth_m) && parameters.rim_fade_m > 0.0; }
+  // Metres of ground that a unit of the sheet shows; 0 where that is not known.
+  float metres_per_unit(std::size_t i) const {
+    return guidance.footprint_m.same_size(guidance.depth_m) ? guidance.footprint_m[i] * static_cast<float>(parameters.pixels_per_unit)
+                                                            : 0.0F;
+  }
+  glm::dvec3 place_m(std::size_t i) const { return glm::dvec3(guidance.position_m[i]) + guidance.origin_m; }
+  // How a place stands against its surroundings: -1 valley … 1 crest.
+  float raised(std::size_t i) const {
+    return guidance.relief_l_m.empty() ? 0.0F : std::clamp(guidance.relief_l_m[i] / high_m, -1.0F, 1.0F);
+  }
+};
+
+PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& patches) {
+  const GuidanceBuffers& g = s.guidance;
+  const BaseParameters& p = s.parameters;
+  const Class id = g.land_cover[i];
+  const double depth = g.depth_m[i];
+  const auto drift = static_cast<float>(p.hue_drift);
+  const auto separation = static_cast<float>(p.range_mist);
+  const float warm = foreground_warmth(p, depth) * static_cast<float>(p.warm_near * s.palette.warm_share) * warmth_share(id) * g.tone[i];
+  const float far = farness(p, depth) * separation;
+  const float raised = s.raised(i);
+  PixelColour pixel{};
+  pixel.added = grass_shift(id, patches, g.relief_s_m[i]) * drift * static_cast<float>(s.palette.ground_drift_share);
+  pixel.factor = hue_drift(id, patches, s.palette, drift) * (1.0F + glm::vec3(0.06F, 0.03F, -0.07F) * warm);
+  if (is_green(id)) pixel.stale = green_staleness(p, depth) * static_cast<float>(p.warm_near);
+  pixel.air_colour = air_colour(p, s.palette, depth);
+  pixel.air = air_share(p, s.palette, depth, g.altitude_m[i], far, raised);
+  pixel.edge = range_edge(s.around.log_depth[i] - s.around.mean_log_depth[i], far, raised, separation);
+  pixel.beyond = air_beyond(s.palette, (y + s.origin_px.y + 0.5) / s.horizon_px);
+  if (s.has_rim()) pixel.end = terrain_end_at(g.rim_m[i], p.rim_fade_m, raised);
+  if (id == Class::valley_floor && !s.palette.winter) {
+    const glm::dvec3 place = s.place_m(i);
+    const glm::vec2 grain = g.grain.empty() ? glm::vec2(0.0F) : g.grain[i];
+    const float slope = g.slope_deg.empty() ? 0.0F : g.slope_deg[i];
+    const float metres_per_unit = s.metres_per_unit(i);
+    const Parcel parcel = parcel_at(p.seed, place.x, place.y, metres_per_unit, grain);
+    pixel.factor *= field_colour(parcel, slope, metres_per_unit, pixel.air, drift);
+  }
+  return pixel;
+}
+
+BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
+  const GuidanceBuffers& g = s.guidance;
+  const std::size_t i = g.depth_m.index(x, y);
+  const Class id = g.land_cover[i];
+  const double altitude = g.altitude_m[i];
+  const Patches patches = patches_at(noises, s.place_m(i), s.metres_per_unit(i));
+  const PixelColour pixel = pixel_colour(s, i, y, patches);
+  const float built = g.built.empty() ? 0.5F : g.built[i];
+  const float glade = s.around.cover.glade[i];
+  const bool has_gravel = (id == Class::valley_floor || id == Class::pasture) && !s.palette.winter;
+  const float gravel = has_gravel ? gravel_share(s.around.water[i], patches) : 0.0F;
+  const WaterLook water =
+      id == Class::water ? water_look(g, s.palette, s.around.mirrored, i, s.around.water[i], s.around.streaks[i], patches) : WaterLook{};
+  const auto paint = [&](double step) {
+    const double light = g.tone[i] + static_cast<double>(water.tone_shift) + step;
+    glm::vec3 ramp = palette_colour(s.palette, id, altitude, light);
+    if (glade > 0.0F) ramp = glm::mix(ramp, glade_colour(s.palette, altitude, light), 0.85F * glade);
+    if (gravel > 0.0F) ramp = glm::mix(ramp, gravel_colour(light), gravel);
+    if (id == Class::settlement)
+      ramp = town_ground_colour(s.palette, ramp, built, altitude, light, static_cast<float>(s.parameters.hue_drift));
+    return pixel.finish(water.over(ramp), s.palette.range_mist);
+  };
+  const int step_px = std::max(1, static_cast<int>(std::lround(s.parameters.pixels_per_unit)));
+  return {.colour = paint(0.0),
+          .darker = paint(-tone_step),
+          .lighter = paint(tone_step),
+          .accent = accent_at(g, s.around.log_depth, x, y, step_px),
+          .tree_density = id == Class::forest ? s.around.cover.density[i] : bush_density(id, s.around.wood[i], patches),
+          .haze = pixel.veiled()};
+}
+
+}  // namespace
+
+BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& palette, const BaseParameters& parameters,
+                              glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress) {
+  check_channels(guidance);
+  const int width = guidance.width();
+  const int height = guidance.height();
+  progress.begin("base picture", height);
+  const double horizon_px = parameters.horizon_px > 0.0 ? parameters.horizon_px : 0.18 * picture_size.y;
+  const SkyParameters sky{picture_size, horizon_px, parameters.clouds, parameters.sun_image_x, parameters.seed};
+  const Surroundings around = look_around(guidance, palette, parameters, sky, origin_px);
+  const Scenery scenery{guidance, palette, parameters, around, horizon_px, origin_px};
+
+  BasePicture picture;
+  picture.colour = picture.darker = picture.lighter = Grid<glm::vec3>(width, height);
+  picture.accent = picture.tree_density = picture.haze = Grid<float>(width, height, 0.0F);
+  parallel_rows(height, [&](int y) {
+    GroundNoises noises(parameters.seed);
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = picture.colour.index(x, y);
+      const BasePixel pixel = guidance.is_sky(i) ? sky_pixel(around.sky[i]) : ground_pixel(scenery, noises, x, y);
+      picture.colour[i] = pixel.colour;
+      picture.darker[i] = pixel.darker;
+      picture.lighter[i] = pixel.lighter;
+      picture.accent[i] = pixel.accent;
+      picture.tree_density[i] = pixel.tree_density;
+      picture.haze[i] = pixel.haze;
+    }
+    progress.advance(1.0);
+  });
+  return picture;
+}
+
+int base_margin_px(const BaseParameters& parameters) {
+  const double ppu = parameters.pixels_per_unit;
+  const int ranges = 2 * blur_reach_px(range_sigma_units * ppu);  // the blur, and the sky's look down at the terrain
+  const int woods = blur_reach_px(krummholz_sigma_units * ppu);
+  const int waters = std::max(reflection_margin_px(ppu), blur_reach_px(brook_sigma_units * ppu));
+  return std::max({ranges, woods, waters, forest_cover_margin_px(ppu)}) + 3 * static_cast<int>(std::ceil(ppu)) + 2;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "base/guidance_buffers.h"
+#include "base/progress.h"
+#include "renderer/paint/base_parameters.h"
+#include "renderer/paint/palette.h"
+#include "texture/strokes/stroke_painter.h"
+
+namespace belvedere {
+
+// Base picture (encoded sRGB) at the pixel's tone and at ∓ .17, with accents, tree density and haze; sky pixels get sky and clouds.
+// Reads depth, position, altitude, land cover, tone and relief_s, and footprint where it is there (fields too small to see then fade).
+// `origin_px`, `picture_size`: where the buffers lie in the whole picture. Local up to base_margin_px(): a part with that margin equals
+// the whole bit for bit.
+BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& palette, const BaseParameters& parameters,
+                              glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress);
+int base_margin_px(const BaseParameters& parameters);
+
+}  // namespace belvedere

@@ -1,0 +1,95 @@
+#include "renderer/paint/ground_hues.h"
+
+#include <algorithm>
+
+#include "base/math.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double n3_sigma_m = 60.0;
+constexpr double n8_sigma_m = 210.0;
+constexpr double n25_sigma_m = 660.0;
+constexpr double n60_sigma_m = 1800.0;
+
+// 1 where `size_m` covers two units of the sheet or more, 0 where it covers less than 2/3.
+float visible(float size_m, float metres_per_unit) { return unit(1.5F - metres_per_unit / size_m); }
+
+// Grasses: + turns towards ripe yellow, - towards green.
+float ripeness(LandCoverClass id, const Patches& p) {
+  switch (id) {
+    case LandCoverClass::valley_floor:
+      return 0.12F * p.n8;
+    case LandCoverClass::pasture:
+      return 0.20F * p.n8 + 0.12F * p.n3 + 0.12F * p.n25 - 0.15F;
+    case LandCoverClass::alpine_grass:
+      return 0.22F * p.n8 + 0.14F * p.n3 + 0.12F * p.n25 - 0.15F;
+    case LandCoverClass::shrub:
+      return 0.22F * p.n8 + 0.14F * p.n3 + 0.10F * p.n25 - 0.05F;
+    default:
+      return 0.0F;
+  }
+}
+
+// Of high grass, added to its ripeness.
+float dryness(LandCoverClass id, float relief_s_m) {
+  if (id != LandCoverClass::alpine_grass && id != LandCoverClass::pasture && id != LandCoverClass::shrub) return 0.0F;
+  const float relief = std::clamp(relief_s_m / 12.0F, -1.0F, 1.0F);
+  return (relief > 0.0F ? 0.16F : 0.24F) * relief;
+}
+
+bool drifts(LandCoverClass id) { return is_green(id) || id == LandCoverClass::scree || id == LandCoverClass::rock; }
+
+}  // namespace
+
+GroundNoises::GroundNoises(std::uint64_t seed)
+    : n3(seed + 20, n3_sigma_m), n8(seed + 21, n8_sigma_m), n25(seed + 22, n25_sigma_m), n60(seed + 23, n60_sigma_m) {}
+
+Patches patches_at(GroundNoises& noises, glm::dvec3 place_m, float metres_per_unit) {
+  Patches p{};
+  p.n3 = noises.n3(place_m.x, place_m.y) * visible(static_cast<float>(n3_sigma_m), metres_per_unit);
+  p.n8 = noises.n8(place_m.x, place_m.y) * visible(static_cast<float>(n8_sigma_m), metres_per_unit);
+  p.n25 = noises.n25(place_m.x, place_m.y);
+  p.n60 = noises.n60(place_m.x, place_m.y);
+  return p;
+}
+
+glm::vec3 grass_shift(LandCoverClass id, const Patches& patches, float relief_s_m) {
+  const float shift = ripeness(id, patches) + dryness(id, relief_s_m);
+  // Ripe grass is yellow, fresh grass green, not blue.
+  return (shift > 0.0F ? glm::vec3(0.11F, 0.02F, -0.10F) : glm::vec3(0.10F, 0.01F, 0.02F)) * shift;
+}
+
+glm::vec3 hue_drift(LandCoverClass id, const Patches& p, const Palette& palette, float strength) {
+  glm::vec3 factor(1.0F);
+  if (drifts(id)) {
+    const float drift = std::clamp(0.7F * p.n60 + 0.5F * p.n25, -2.0F, 2.0F) * static_cast<float>(palette.ground_drift_share) * strength;
+    factor *= 1.0F + glm::vec3(0.035F, 0.02F, -0.03F) * drift;
+  }
+  if (id == LandCoverClass::rock) {
+    const float drift = std::clamp(0.6F * p.n25 + 0.4F * p.n8, -1.0F, 1.6F) * static_cast<float>(palette.rock_drift_share) * strength;
+    factor *= 1.0F + glm::vec3(0.042F, 0.0F, -0.045F) * drift;
+  }
+  if (id == LandCoverClass::forest) {
+    const float drift = std::clamp(0.7F * p.n25 + 0.5F * p.n8, -1.5F, 1.5F) * static_cast<float>(palette.forest_drift_share) * strength;
+    factor *= 1.0F + glm::vec3(0.07F, 0.01F, -0.05F) * drift;
+  }
+  return factor;
+}
+
+bool is_green(LandCoverClass id) {
+  switch (id) {
+    case LandCoverClass::valley_floor:
+    case LandCoverClass::forest:
+    case LandCoverClass::alpine_grass:
+    case LandCoverClass::pasture:
+    case LandCoverClass::shrub:
+      return true;
+    default:
+      return false;
+  }
+}
+
+float warmth_share(LandCoverClass id) { return id == LandCoverClass::rock ? 0.60F : 1.0F; }
+
+}  // namespace belvedere

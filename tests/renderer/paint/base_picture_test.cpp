@@ -1,0 +1,273 @@
+#include "renderer/paint/base_picture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/error.h"
+#include "renderer/paint/sky.h"
+#include "tests/renderer/exemplar/painted_hills.h"
+
+namespace belvedere {
+namespace {
+
+using test::cut;
+using test::make_hills;
+using test::make_slope;
+using test::with_margin;
+
+BasePicture picture_of(const GuidanceBuffers& g, const BaseParameters& p = {}, const char* palette = "summer") {
+  return make_base_picture(g, read_palette(palette), p, {0, 0}, {g.width(), g.height()}, silent_progress());
+}
+
+BaseParameters plain() {
+  BaseParameters p;
+  p.haze = p.range_mist = p.warm_near = p.hue_drift = p.clouds = 0.0;
+  return p;
+}
+
+float luma(glm::vec3 c) { return 0.2126F * c.r + 0.7152F * c.g + 0.0722F * c.b; }
+
+TEST(Base, IsTheRampWhereEverythingElseIsOff) {
+  const GuidanceBuffers g = make_slope(30, 20, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 10.0F);
+  const Palette palette = read_palette("summer");
+  const BasePicture base = picture_of(g, plain());
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(base.colour(15, 10)[k], palette_colour(palette, LandCoverClass::pasture, 1200.0, 0.6)[k], 1e-6F);
+    EXPECT_NEAR(base.darker(15, 10)[k], palette_colour(palette, LandCoverClass::pasture, 1200.0, 0.6 - 0.17)[k], 1e-6F);
+    EXPECT_NEAR(base.lighter(15, 10)[k], palette_colour(palette, LandCoverClass::pasture, 1200.0, 0.6 + 0.17)[k], 1e-6F);
+  }
+}
+
+TEST(Base, FarGroundTurnsIntoAirAndNearGroundIsWarm) {
+  BaseParameters p = plain();
+  p.haze = 1.0;
+  p.warm_near = 1.0;
+  GuidanceBuffers g = make_slope(8, 8, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 10.0F);
+  for (float& a : g.altitude_m) a = 500.0F;
+  const Palette palette = read_palette("summer");
+  const glm::vec3 ramp = palette_colour(palette, LandCoverClass::pasture, 500.0, 0.6);
+  const glm::vec3 near = picture_of(g, p).colour(4, 4);
+  EXPECT_NEAR(near.r, ramp.r * (1.0F + 0.06F * 0.6F), 1e-5F);
+  EXPECT_NEAR(near.b, ramp.b * (1.0F - 0.07F * 0.6F), 1e-5F);
+  for (float& d : g.depth_m) d = 900000.0F;
+  const BasePicture far = picture_of(g, p);
+  EXPECT_LT(glm::length(far.colour(4, 4) - palette.haze_far), 0.01F);
+  EXPECT_GT(far.haze(4, 4), 0.99F);
+}
+
+// Slopes of forest whose end runs down the picture: 500 m of ground a column.
+GuidanceBuffers make_end(float relief_l_m) {
+  GuidanceBuffers g = make_slope(9, 6, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 10.0F);
+  g.rim_m = Grid<float>(9, 6);
+  for (int y = 0; y < 6; ++y)
+    for (int x = 0; x < 9; ++x) g.rim_m(x, y) = 500.0F * static_cast<float>(x);
+  for (float& d : g.depth_m) d = 20000.0F;
+  g.relief_l_m = Grid<float>(9, 6, relief_l_m);
+  return g;
+}
+
+// Haze in depth, no eraser: on its way to the end low ground first turns into blue air, and only the last strip into what lies beyond.
+TEST(Base, TerrainEndsInAir) {
+  const Palette palette = read_palette("summer");
+  BaseParameters p = plain();
+  p.rim_fade_m = 0.0;
+  const BasePicture full = picture_of(make_end(0.0F), p);
+  p.rim_fade_m = 3000.0;
+  p.horizon_px = 4.0;
+  const BasePicture base = picture_of(make_end(0.0F), p);
+  const auto step = [](double t) { return static_cast<float>((3.0 - 2.0 * t) * t * t); };
+  for (int y = 0; y < 6; ++y)
+    for (int x = 0; x < 9; ++x) {
+      const float air = 0.86F * (1.0F - step(std::min(1.0, 500.0 * x / 3000.0)));
+      const float gone = 1.0F - step(std::min(1.0, 500.0 * x / (0.38 * 3000.0)));
+      const glm::vec3 beyond = air_beyond(palette, (y + 0.5) / 4.0);
+      const auto expected = [&](float colour, int k) {
+        return (colour * (1.0F - air) + palette.haze_near[k] * air) * (1.0F - gone) + beyond[k] * gone;
+      };
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_NEAR(base.colour(x, y)[k], expected(full.colour(x, y)[k], k), 1e-6F) << x << ", " << y;
+        ASSERT_NEAR(base.darker(x, y)[k], expected(full.darker(x, y)[k], k), 1e-6F);
+        ASSERT_NEAR(base.lighter(x, y)[k], expected(full.lighter(x, y)[k], k), 1e-6F);
+      }
+      ASSERT_NEAR(base.haze(x, y), 1.0F - (1.0F - air) * (1.0F - gone), 1e-6F);
+    }
+  EXPECT_GT(glm::length(base.colour(3, 2) - full.colour(3, 2)), 0.2F);
+}
+
+TEST(Base, MountainsAtTheEndStayAsSilhouettes) {
+  const Palette palette = read_palette("summer");
+  BaseParameters p = plain();
+  p.rim_fade_m = 4000.0;
+  p.horizon_px = 3.0;
+  const BasePicture low = picture_of(make_end(0.0F), p);
+  const BasePicture high = picture_of(make_end(400.0F), p);
+  for (int y = 2; y < 6; ++y) {
+    const glm::vec3 beyond = air_beyond(palette, (y + 0.5) / 3.0);
+    EXPECT_LT(glm::length(low.colour(0, y) - beyond), 0.01F) << "the ground is gone";
+    EXPECT_GT(glm::length(high.colour(0, y) - beyond), 0.05F) << "the crest is not";
+    EXPECT_LT(luma(high.colour(0, y)), luma(beyond)) << "and darker than the sky";
+    EXPECT_EQ(high.colour(6, y), low.colour(6, y)) << "farther in, both stand in the same air";
+  }
+}
+
+// Steep crests, one behind the other in clear air beyond the foreground: each lighter and bluer than the one before.
+TEST(Base, FarRangesGrowPale) {
+  const BaseParameters p;
+  const Palette palette = read_palette("summer");
+  float last = 0.0F;
+  for (const float depth : {50000.0F, 65000.0F, 80000.0F, 95000.0F, 110000.0F}) {
+    GuidanceBuffers g = make_slope(8, 8, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 30.0F);
+    for (float& d : g.depth_m) d = depth;
+    for (float& r : g.relief_l_m) r = 300.0F;
+    const glm::vec3 colour = picture_of(g, p).colour(4, 4);
+    EXPECT_GT(luma(colour), last + 0.015F) << depth;
+    last = luma(colour);
+    if (depth > 80000.0F) {
+      EXPECT_LT(glm::length(colour - palette.haze_far), 0.45F) << depth;
+    }
+  }
+}
+
+// Mist behind an edge lies in the valley and leaves a crest clear.
+TEST(Base, MistLiesInValleys) {
+  const auto behind_edge = [](float relief_l_m) {
+    GuidanceBuffers g = make_slope(20, 160, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 10.0F);
+    for (int y = 0; y < 80; ++y)
+      for (int x = 0; x < 20; ++x) g.depth_m(x, y) = 32000.0F;
+    for (float& r : g.relief_l_m) r = relief_l_m;
+    BaseParameters p = plain();
+    p.range_mist = 1.0;
+    const BasePicture base = picture_of(g, p);
+    return luma(base.colour(10, 78)) - luma(base.colour(10, 20));
+  };
+  EXPECT_GT(behind_edge(-100.0F), 0.05F);
+  EXPECT_EQ(behind_edge(-100.0F), behind_edge(0.0F));
+  EXPECT_NEAR(behind_edge(300.0F), 0.25F * behind_edge(0.0F), 0.02F);
+}
+
+// Grass of hollows is fresh, that of ridges ripe: greener and yellower than between.
+TEST(Base, GrassIsGreenerInHollows) {
+  GuidanceBuffers g = make_slope(60, 40, LandCoverClass::alpine_grass, {0.0F, 0.0F, 1.0F}, 20.0F);
+  BaseParameters p = plain();
+  p.hue_drift = 1.0;
+  const auto greenness = [&](float relief_m) {
+    for (float& r : g.relief_s_m) r = relief_m;
+    const glm::vec3 c = picture_of(g, p).colour(30, 20);
+    return c.g - c.r;
+  };
+  EXPECT_GT(greenness(-12.0F), greenness(0.0F) + 0.01F);
+  EXPECT_LT(greenness(12.0F), greenness(0.0F) - 0.005F);
+}
+
+TEST(Base, RangesReadApart) {
+  // A near range before a far one of the same colour: the far side lightens towards the edge, the near side darkens.
+  GuidanceBuffers g = make_slope(20, 160, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 10.0F);
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 20; ++x) g.depth_m(x, y) = 32000.0F;
+  BaseParameters p = plain();
+  p.range_mist = 1.0;
+  const BasePicture base = picture_of(g, p);
+  EXPECT_GT(luma(base.colour(10, 78)), luma(base.colour(10, 20)) + 0.05F);
+  EXPECT_LT(luma(base.colour(10, 81)), luma(base.colour(10, 140)) - 0.02F);
+  EXPECT_GT(base.accent(10, 80), 0.5F);
+  EXPECT_EQ(base.accent(10, 79), 0.0F);
+}
+
+TEST(Base, AccentsFollowRelief) {
+  GuidanceBuffers g = make_slope(12, 12, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 40.0F);
+  for (float& t : g.relief_s_m) t = -4.5F;
+  EXPECT_NEAR(picture_of(g).accent(6, 6), -0.45F, 1e-6F);
+  for (LandCoverClass& id : g.land_cover) id = LandCoverClass::snow;
+  EXPECT_NEAR(picture_of(g).accent(6, 6), -0.3F, 1e-6F);
+}
+
+TEST(Base, ForestThinsTowardsItsBorderAndDwarfPineStandsThere) {
+  GuidanceBuffers g = make_slope(60, 60, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 20.0F);
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x) {
+      g.position_m(x, y) = glm::vec3(40.0F * x, -40.0F * y, 1800.0F);
+      if (y < 30) g.land_cover(x, y) = LandCoverClass::alpine_grass;
+    }
+  const BasePicture base = picture_of(g);
+  double inside = 0.0, border = 0.0, above = 0.0, high = 0.0;
+  for (int x = 0; x < 60; ++x) {
+    inside += base.tree_density(x, 55) / 60.0;
+    border += base.tree_density(x, 31) / 60.0;
+    above += base.tree_density(x, 26) / 60.0;
+    high += base.tree_density(x, 0) / 60.0;
+  }
+  EXPECT_GT(inside, 0.65);
+  EXPECT_LT(border, 0.7 * inside);
+  EXPECT_GT(above, 0.1);
+  EXPECT_LT(high, 0.05);
+}
+
+TEST(Base, RiversHaveBanksOfGravelHereAndThere) {
+  GuidanceBuffers g = make_slope(60, 600, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 1.0F);
+  for (int y = 0; y < 600; ++y)
+    for (int x = 0; x < 60; ++x) {
+      g.position_m(x, y) = glm::vec3(20.0F * static_cast<float>(x), -20.0F * static_cast<float>(y), 600.0F);
+      if (x >= 28 && x < 32) g.land_cover(x, y) = LandCoverClass::water;
+    }
+  const BasePicture base = picture_of(g, plain());
+  int gravel = 0;
+  for (int y = 0; y < 600; ++y) {
+    const float blue = base.colour(5, y).b;  // gravel is greyer than grass
+    gravel += base.colour(32, y).b > blue + 0.1F ? 1 : 0;
+    EXPECT_NEAR(base.colour(40, y).b, blue, 1e-6F);
+  }
+  EXPECT_GT(gravel, 100);
+  EXPECT_LT(gravel, 450);
+}
+
+TEST(Base, PartEqualsWhole) {
+  for (const double ppu : {1.0, 2.5}) {
+    const int width = ppu > 1.0 ? 640 : 300;
+    const int height = ppu > 1.0 ? 560 : 260;
+    GuidanceBuffers hills = make_hills(width, height, ppu);
+    for (std::size_t i = 0; i < hills.tone.size(); ++i) hills.tone[i] = hills.sky_view[i] * 0.8F;
+    BaseParameters p;
+    p.pixels_per_unit = ppu;
+    const Palette palette = read_palette("summer");
+    const BasePicture whole = picture_of(hills, p);
+    const PixelRect wanted{width / 2 - 20, height / 2 - 30, width / 2 + 21, height / 2 + 9};
+    const PixelRect part = with_margin(wanted, base_margin_px(p), width, height);
+    ASSERT_GT(part.x0, 0);
+    const BasePicture base = make_base_picture(cut(hills, part), palette, p, {part.x0, part.y0}, {width, height}, silent_progress());
+    for (int y = wanted.y0; y < wanted.y1; ++y)
+      for (int x = wanted.x0; x < wanted.x1; ++x) {
+        const int px = x - part.x0, py = y - part.y0;
+        ASSERT_EQ(base.colour(px, py), whole.colour(x, y)) << x << " " << y << " ppu " << ppu;
+        ASSERT_EQ(base.darker(px, py), whole.darker(x, y));
+        ASSERT_EQ(base.lighter(px, py), whole.lighter(x, y));
+        ASSERT_EQ(base.accent(px, py), whole.accent(x, y));
+        ASSERT_EQ(base.tree_density(px, py), whole.tree_density(x, y));
+        ASSERT_EQ(base.haze(px, py), whole.haze(x, y));
+      }
+  }
+}
+
+TEST(Base, SameBitsForAnyThreads) {
+  const GuidanceBuffers hills = make_hills(180, 140);
+  BasePicture one;
+  {
+    const ThreadLimit limit(1);
+    one = picture_of(hills);
+  }
+  const ThreadLimit limit(2);
+  const BasePicture two = picture_of(hills);
+  EXPECT_EQ(two.colour, one.colour);
+  EXPECT_EQ(two.lighter, one.lighter);
+  EXPECT_EQ(two.tree_density, one.tree_density);
+}
+
+TEST(Base, MissingToneIsAnError) {
+  GuidanceBuffers g = make_slope(8, 8, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 10.0F);
+  g.tone = {};
+  EXPECT_THROW(picture_of(g), Error);
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,51 @@
+#include "renderer/paint/fields.h"
+
+#include <gtest/gtest.h>
+
+namespace belvedere {
+namespace {
+
+// A place in the middle of a field.
+Parcel open_field(Crop crop) {
+  return {.crop = crop, .shade = 0.0F, .border_m = 45.0F, .width_m = 90.0F, .lane_m = 400.0F, .hedged = false};
+}
+
+void expect_near(glm::vec3 a, glm::vec3 b) {
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], 1e-6F) << k;
+}
+
+TEST(Fields, AreCropsNearByAndOneColourFarAway) {
+  const glm::vec3 ripe = field_colour(open_field(Crop::ripe), 0.0F, 0.0F, 0.0F, 1.0F);
+  EXPECT_EQ(ripe, field_colour(open_field(Crop::ripe), 3.0F, 0.0F, 0.0F, 1.0F));
+  // On level ground all is hay meadow: crops stand on the gentle slopes between 3° and 5.5° … and on steep ones.
+  expect_near(ripe, crop_colour(Crop::hay));
+  const auto steep = [](float metres_per_unit, float air) {
+    return field_colour(open_field(Crop::ripe), 8.0F, metres_per_unit, air, 1.0F);
+  };
+  expect_near(steep(0.0F, 0.0F), mean_crop_colour() + 1.15F * (crop_colour(Crop::ripe) - mean_crop_colour()));
+  expect_near(steep(90.0F, 0.0F), mean_crop_colour() + 0.55F * (crop_colour(Crop::ripe) - mean_crop_colour()));
+  expect_near(steep(90.0F, 1.0F), mean_crop_colour() + 0.55F * 0.65F * (crop_colour(Crop::ripe) - mean_crop_colour()));
+}
+
+TEST(Fields, HaveDarkBordersAndPaleLanes) {
+  Parcel parcel = open_field(Crop::clover);
+  const glm::vec3 middle = field_colour(parcel, 8.0F, 18.0F, 0.0F, 1.0F);
+  parcel.border_m = 0.0F;
+  const glm::vec3 border = field_colour(parcel, 8.0F, 18.0F, 0.0F, 1.0F);
+  expect_near(border, middle * (1.0F - 0.05F * 0.55F));
+  parcel.hedged = true;
+  expect_near(field_colour(parcel, 8.0F, 18.0F, 0.0F, 1.0F), middle * (1.0F - 0.13F * 0.55F));
+  Parcel lane = open_field(Crop::clover);
+  lane.lane_m = 0.0F;
+  const float share = 0.55F * 0.55F;
+  expect_near(field_colour(lane, 8.0F, 18.0F, 0.0F, 1.0F), middle * (1.0F - share) + glm::vec3(1.02F, 0.99F, 1.05F) * share);
+}
+
+TEST(Fields, AreAsStrongAsHueDriftSays) {
+  EXPECT_EQ(field_colour(open_field(Crop::ploughed), 8.0F, 0.0F, 0.0F, 0.0F), glm::vec3(1.0F));
+  const glm::vec3 once = field_colour(open_field(Crop::ploughed), 8.0F, 0.0F, 0.0F, 1.0F);
+  expect_near(field_colour(open_field(Crop::ploughed), 8.0F, 0.0F, 0.0F, 2.0F), 1.0F + 2.0F * (once - 1.0F));
+}
+
+}  // namespace
+}  // namespace belvedere
