@@ -1,35 +1,26 @@
 #include "base/land_cover_class.h"
 
+#include <algorithm>
+
 namespace belvedere {
 
-const std::array<LandCoverClassInfo, land_cover_class_count>& land_cover_classes() {
-  using enum LandCoverClass;
-  static const std::array<LandCoverClassInfo, land_cover_class_count> classes = {{
-      {sky, "sky", 0xc8dcff},
-      {water, "water", 0x285ac8},
-      {valley_floor, "valley_floor", 0xe6dc6e},
-      {settlement, "settlement", 0xc83c3c},
-      {forest, "forest", 0x1e5a28},
-      {alpine_grass, "alpine_grass", 0x96aa46},
-      {scree, "scree", 0xbeb4aa},
-      {rock, "rock", 0x6e646e},
-      {snow, "snow", 0xffffff},
-      {glacier, "glacier", 0xb4e6ff},
-      {pasture, "pasture", 0xb4d25a},
-      {shrub, "shrub", 0x7d8246},
-  }};
-  return classes;
-}
-
 std::string_view class_name(LandCoverClass id) {
-  const auto i = static_cast<std::size_t>(id);
-  return i < land_cover_classes().size() ? land_cover_classes()[i].name : std::string_view("unknown");
+  return static_cast<std::size_t>(id) < land_cover_table.size() ? class_info(id).name : std::string_view("unknown");
 }
 
 std::optional<LandCoverClass> find_class(std::string_view name) {
-  for (const LandCoverClassInfo& info : land_cover_classes())
+  for (const LandCoverClassInfo& info : land_cover_table)
     if (info.name == name) return info.id;
   return std::nullopt;
+}
+
+ClassPairs with_stand_ins(ClassPairs fallback) {
+  const ClassPairs said = fallback;
+  for (const LandCoverClassInfo& info : land_cover_table) {
+    const bool is_said = std::any_of(said.begin(), said.end(), [&](const auto& pair) { return pair.first == info.id; });
+    if (info.stand_in != info.id && !is_said) fallback.emplace_back(info.id, info.stand_in);
+  }
+  return fallback;
 }
 
 }  // namespace belvedere

@@ -88,7 +88,7 @@ std::vector<CoverageGap> find_gaps(const Coverage& coverage, const CoverageDeman
   for (int k = 1; k < land_cover_class_count; ++k) {
     const auto id = static_cast<std::size_t>(k);
     const std::string name(class_name(static_cast<LandCoverClass>(k)));
-    want(true, coverage.texels[id], floors.texels * scale, [&] { return name; });
+    want(demand.texels[id], coverage.texels[id], floors.texels * scale, [&] { return name; });
     const double most = floors.largest_share * static_cast<double>(coverage.ground());
     if (static_cast<double>(coverage.texels[id]) > most)
       gaps.push_back({name + ", share of the ground", static_cast<double>(coverage.texels[id]), most, true});

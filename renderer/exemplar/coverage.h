@@ -48,10 +48,12 @@ struct CoverageFloors {
   double largest_share = 0.30;  // of the ground, one class
 };
 
-// What occurs in panoramas: measured on the program's own scenes (docs/exemplars.md). What never occurs need not be in a sheet.
+// What occurs in panoramas: measured on the program's own scenes (docs/exemplars.md). What never occurs need not be in a sheet, be it a
+// class or a light of one.
 struct CoverageDemand {
   template <class T>
   using ByClass = Coverage::ByClass<T>;
+  ByClass<bool> texels{};  // any at all
   ByClass<std::array<std::array<bool, Coverage::distances>, Coverage::tones>> light{};
   ByClass<std::array<bool, Coverage::directions>> direction{};
   ByClass<bool> shadow{};

@@ -39,6 +39,7 @@ CoverageDemand parse_demand(std::string_view text, const std::string& name) {
   for (const ConfigEntry& entry : table) {
     const std::size_t id = read_class_name(entry.key, entry.value, name);
     const ConfigTable& of_class = as_table(entry.value, name);
+    demand.texels[id] = true;
     allow_only(of_class, {"light", "direction", "shadow", "border"}, name);
     if (const ConfigValue* light = find(of_class, "light")) {
       const ConfigArray& rows = as_array(*light, name);

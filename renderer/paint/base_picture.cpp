@@ -139,13 +139,14 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& 
   const double depth = g.depth_m[i];
   const auto drift = static_cast<float>(p.hue_drift);
   const auto separation = static_cast<float>(p.range_mist);
-  const float warm = foreground_warmth(p, depth) * static_cast<float>(p.warm_near * s.palette.warm_share) * warmth_share(id) * g.tone[i];
+  const float warm =
+      foreground_warmth(p, depth) * static_cast<float>(p.warm_near * s.palette.warm_share) * class_info(id).hue.warmth * g.tone[i];
   const float far = farness(p, depth) * separation;
   const float raised = s.raised(i);
   PixelColour pixel{};
   pixel.added = grass_shift(id, patches, g.relief_s_m[i]) * drift * static_cast<float>(s.palette.ground_drift_share);
   pixel.factor = hue_drift(id, patches, s.palette, drift) * (1.0F + glm::vec3(0.06F, 0.03F, -0.07F) * warm);
-  if (is_green(id)) pixel.stale = green_staleness(p, depth) * static_cast<float>(p.warm_near);
+  if (has_trait(id, ClassTrait::stales)) pixel.stale = green_staleness(p, depth) * static_cast<float>(p.warm_near);
   pixel.air_colour = air_colour(p, s.palette, depth);
   pixel.air = air_share(p, s.palette, depth, g.altitude_m[i], far, raised);
   pixel.edge = range_edge(s.around.log_depth[i] - s.around.mean_log_depth[i], far, raised, separation);
@@ -171,7 +172,7 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
   const PixelColour pixel = pixel_colour(s, i, y, patches);
   const float built = g.built.empty() ? 0.5F : g.built[i];
   const float glade = s.around.cover.glade[i];
-  const bool has_gravel = (id == Class::valley_floor || id == Class::pasture) && !s.palette.winter;
+  const bool has_gravel = has_trait(id, ClassTrait::gravel_banks) && !s.palette.winter;
   const float gravel = has_gravel ? gravel_share(s.around.water[i], patches) : 0.0F;
   const WaterLook water =
       id == Class::water ? water_look(g, s.palette, s.around.mirrored, i, s.around.water[i], s.around.streaks[i], patches) : WaterLook{};

@@ -26,12 +26,6 @@ constexpr double stand_sigma_units = 20.0;
 constexpr float metres_per_unit_unknown = 20.0F;
 constexpr double high_grass_m = 1600.0;  // above, the grass of glades is that of the heights
 
-// Ground above which forest thins out, in contrast to meadows that people keep clear.
-bool is_open_high(Class id) {
-  return id == Class::alpine_grass || id == Class::shrub || id == Class::scree || id == Class::rock || id == Class::snow ||
-         id == Class::glacier;
-}
-
 // Noise that lies on the ground and yet has patches of one size on the sheet: of the two octaves next to the wanted size, mixed so that
 // the deviation stays 1. Remembers lattice values: one for each thread.
 class SheetSizedNoise {
@@ -120,7 +114,7 @@ ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParamet
           glades(place.x, place.y, glade_sigma_units * metres) + 0.45F * clump - 0.025F * std::max(slope - 25.0F, 0.0F);
       float glade = smoothstep(1.42F, 1.64F, glade_noise);
       float thin = 0.0F;
-      if (up.left_after > 0 && is_open_high(g.land_cover[up.end])) {
+      if (up.left_after > 0 && has_trait(g.land_cover[up.end], ClassTrait::open_high)) {
         // The treeline frays: groups run up into the open, gaps reach down.
         const float nearness = 1.0F - static_cast<float>(up.left_after) / 14.0F;
         if (nearness > 0.0F) thin = nearness * std::clamp(0.62F - 0.45F * clump, 0.1F, 1.0F);

@@ -15,30 +15,18 @@ constexpr double n60_sigma_m = 1800.0;
 // 1 where `size_m` covers two units of the sheet or more, 0 where it covers less than 2/3.
 float visible(float size_m, float metres_per_unit) { return unit(1.5F - metres_per_unit / size_m); }
 
-// Grasses: + turns towards ripe yellow, - towards green.
+// + turns towards ripe yellow, - towards green.
 float ripeness(LandCoverClass id, const Patches& p) {
-  switch (id) {
-    case LandCoverClass::valley_floor:
-      return 0.12F * p.n8;
-    case LandCoverClass::pasture:
-      return 0.20F * p.n8 + 0.12F * p.n3 + 0.12F * p.n25 - 0.15F;
-    case LandCoverClass::alpine_grass:
-      return 0.22F * p.n8 + 0.14F * p.n3 + 0.12F * p.n25 - 0.15F;
-    case LandCoverClass::shrub:
-      return 0.22F * p.n8 + 0.14F * p.n3 + 0.10F * p.n25 - 0.05F;
-    default:
-      return 0.0F;
-  }
+  const ClassRipeness& by = class_info(id).hue.ripeness;
+  return by.n8 * p.n8 + by.n3 * p.n3 + by.n25 * p.n25 + by.mean;
 }
 
 // Of high grass, added to its ripeness.
 float dryness(LandCoverClass id, float relief_s_m) {
-  if (id != LandCoverClass::alpine_grass && id != LandCoverClass::pasture && id != LandCoverClass::shrub) return 0.0F;
+  if (!has_trait(id, ClassTrait::bleaches)) return 0.0F;
   const float relief = std::clamp(relief_s_m / 12.0F, -1.0F, 1.0F);
   return (relief > 0.0F ? 0.16F : 0.24F) * relief;
 }
-
-bool drifts(LandCoverClass id) { return is_green(id) || id == LandCoverClass::scree || id == LandCoverClass::rock; }
 
 }  // namespace
 
@@ -62,7 +50,7 @@ glm::vec3 grass_shift(LandCoverClass id, const Patches& patches, float relief_s_
 
 glm::vec3 hue_drift(LandCoverClass id, const Patches& p, const Palette& palette, float strength) {
   glm::vec3 factor(1.0F);
-  if (drifts(id)) {
+  if (has_trait(id, ClassTrait::drifts)) {
     const float drift = std::clamp(0.7F * p.n60 + 0.5F * p.n25, -2.0F, 2.0F) * static_cast<float>(palette.ground_drift_share) * strength;
     factor *= 1.0F + glm::vec3(0.035F, 0.02F, -0.03F) * drift;
   }
@@ -76,20 +64,5 @@ glm::vec3 hue_drift(LandCoverClass id, const Patches& p, const Palette& palette,
   }
   return factor;
 }
-
-bool is_green(LandCoverClass id) {
-  switch (id) {
-    case LandCoverClass::valley_floor:
-    case LandCoverClass::forest:
-    case LandCoverClass::alpine_grass:
-    case LandCoverClass::pasture:
-    case LandCoverClass::shrub:
-      return true;
-    default:
-      return false;
-  }
-}
-
-float warmth_share(LandCoverClass id) { return id == LandCoverClass::rock ? 0.60F : 1.0F; }
 
 }  // namespace belvedere

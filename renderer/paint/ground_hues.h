@@ -31,9 +31,4 @@ glm::vec3 grass_shift(LandCoverClass id, const Patches& patches, float relief_s_
 // Slow drift of hue, as factors of the colour. `strength` is BaseParameters::hue_drift, 0…3.
 glm::vec3 hue_drift(LandCoverClass id, const Patches& patches, const Palette& palette, float strength);
 
-// Whether a class is a green that distance makes stale (air.h).
-bool is_green(LandCoverClass id);
-// Share of the foreground's warmth that a class takes, 0…1.
-float warmth_share(LandCoverClass id);
-
 }  // namespace belvedere

@@ -1,7 +1,6 @@
 #include "renderer/paint/light.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -16,37 +15,12 @@
 namespace belvedere {
 namespace {
 
-// How light falls on a class.
-struct ClassLight {
-  float detail;     // share of the detailed normal; the rest is the smooth one
-  bool own_relief;  // detail is the ungeneralized surface's, else the generalized one's
-  float edges;      // of relief_s: light on ridges, dark in hollows
-  float ribs;       // of ribs on slopes
-  float contrast;   // around tone .55
-};
-
-constexpr std::array<ClassLight, land_cover_class_count> class_lights = {{
-    {0.00F, false, 0.00F, 0.00F, 1.00F},  // sky
-    {0.45F, false, 0.07F, 0.00F, 0.55F},  // water
-    {0.45F, false, 0.07F, 0.00F, 0.55F},  // valley floor
-    {0.45F, false, 0.07F, 0.00F, 0.55F},  // settlement
-    {0.45F, false, 0.10F, 0.05F, 1.20F},  // forest
-    {0.45F, false, 0.07F, 0.10F, 1.00F},  // alpine grass
-    {0.60F, false, 0.07F, 0.10F, 1.00F},  // scree
-    {0.68F, true, 0.10F, 0.15F, 1.45F},   // rock
-    {0.55F, false, 0.07F, 0.05F, 1.30F},  // snow
-    {0.38F, false, 0.05F, 0.00F, 1.20F},  // glacier: thick and smooth
-    {0.45F, false, 0.07F, 0.00F, 1.00F},  // pasture
-    {0.45F, false, 0.09F, 0.07F, 1.05F},  // shrub
-}};
-
 constexpr double shadow_blur_units = 0.8;
 constexpr double sky_blur_units = 1.5;
 constexpr float raw_black = 0.14F;  // raw light that becomes tone 0 …
 constexpr float raw_range = 0.98F;  // … and how much more becomes tone 1
 constexpr float middle_tone = 0.55F;
 constexpr float brightest_tone = 1.02F;
-constexpr float floor_lift = 0.10F;  // valley floors glow
 constexpr float pool_strength = 0.035F;
 constexpr float plane_strength = 0.22F;  // of big planes on steep rock
 constexpr float bench_light = 0.11F;     // ledges, benches and floors of cirques lie open to the sky, and walls stand darker between them
@@ -57,8 +31,6 @@ constexpr float outcrop_shade = 0.20F;        // … and how much darker it is
 constexpr float bench_slope_deg = 42.0F;      // of walls and benches alike
 constexpr float calm_from_m = 16.0F;          // metres of ground in a unit of the sheet from which forms are simplified …
 constexpr float calm_to_m = 42.0F;            // … and at which they are simplest
-
-const ClassLight& light_of(LandCoverClass id) { return class_lights[static_cast<std::size_t>(id)]; }
 
 // How much of the ribs a slope shows: none on flats, all where it is steep.
 float steepness(float slope_deg) { return std::clamp((slope_deg - 18.0F) / 20.0F, 0.0F, 1.0F); }
@@ -88,8 +60,8 @@ float fineness(const GuidanceBuffers& g, std::size_t i, double pixels_per_unit) 
 
 // Light before contrast: sun, sky, relief and edges of one pixel.
 float raw_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky_view, float fine, const ToneParameters& p) {
-  const ClassLight& light = light_of(g.land_cover[i]);
-  const glm::vec3 detail = light.own_relief ? g.normal_detail[i] : g.normal[i];
+  const ClassTone& light = class_info(g.land_cover[i]).tone;
+  const glm::vec3 detail = has_trait(g.land_cover[i], ClassTrait::own_relief) ? g.normal_detail[i] : g.normal[i];
   const float share = light.detail * fine;
   const glm::vec3 normal = glm::normalize(detail * share + g.normal_smooth[i] * (1.0F - share));
   const auto wrap = static_cast<float>(p.wrap);
@@ -136,7 +108,7 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
   const Grid<float> sky_view = blur_on_surface(guidance.sky_view, guidance.depth_m, sky_blur_units * ppu);
   Grid<std::uint8_t> ribbed(width, height, 0);
   for (std::size_t i = 0; i < ribbed.size(); ++i)
-    ribbed[i] = light_of(guidance.land_cover[i]).ribs > 0.0F && steepness(guidance.slope_deg[i]) > 0.0F ? 1 : 0;
+    ribbed[i] = class_info(guidance.land_cover[i]).tone.ribs > 0.0F && steepness(guidance.slope_deg[i]) > 0.0F ? 1 : 0;
   const Grid<float> ribs = make_ribs(guidance, ribbed, {ppu, parameters.sun_image_x, parameters.seed}, origin_px);
   Grid<std::uint8_t> walls(width, height, 0);
   for (std::size_t i = 0; i < walls.size(); ++i) walls[i] = ribbed[i] != 0 && guidance.land_cover[i] == LandCoverClass::rock ? 1 : 0;
@@ -154,7 +126,7 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
       const std::size_t i = tone.index(x, y);
       if (guidance.is_sky(i)) continue;
       const LandCoverClass id = guidance.land_cover[i];
-      const ClassLight& light = light_of(id);
+      const ClassTone& light = class_info(id).tone;
       const float fine = fineness(guidance, i, ppu);
       float raw = raw_light(guidance, i, shadow[i], sky_view[i], fine, parameters);
       if (ribbed[i] != 0) {
@@ -170,7 +142,7 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
         raw += static_cast<float>(parameters.ribs) * (light.ribs * fine * rib + plane_strength * planes[i]) * steep;
       }
       float value = std::clamp((raw - raw_black) / raw_range, id == LandCoverClass::rock ? -0.3F : 0.0F, 1.05F);
-      if (id == LandCoverClass::valley_floor) value += floor_lift;
+      value += light.lift;
       value += pool_strength * pool[i];
       float contrast = light.contrast * static_cast<float>(parameters.contrast);
       if (id == LandCoverClass::rock) {

@@ -11,20 +11,6 @@ namespace {
 
 constexpr float unknown_sky_depth_m = 92000.0F;
 
-// How strongly ridges and hollows of a class are marked.
-float relief_accent(LandCoverClass id) {
-  switch (id) {
-    case LandCoverClass::rock:
-      return 0.9F;
-    case LandCoverClass::snow:
-    case LandCoverClass::glacier:
-    case LandCoverClass::scree:
-      return 0.6F;
-    default:
-      return 0.35F;
-  }
-}
-
 }  // namespace
 
 Grid<float> log_depths(const GuidanceBuffers& g, int reach_px) {
@@ -61,7 +47,7 @@ float accent_at(const GuidanceBuffers& g, const Grid<float>& log_depth, int x, i
   }
   const float edge = unit(14.0F * jump);
   if (edge > 0.3F) return (g.tone(x, y) > 0.45F ? 0.8F : -0.8F) * edge;
-  return relief_accent(g.land_cover(x, y)) * std::clamp(g.relief_s_m(x, y) / 9.0F, -1.0F, 1.0F);
+  return class_info(g.land_cover(x, y)).hue.relief_accent * std::clamp(g.relief_s_m(x, y) / 9.0F, -1.0F, 1.0F);
 }
 
 }  // namespace belvedere

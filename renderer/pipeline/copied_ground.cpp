@@ -26,7 +26,7 @@ SynthesisParameters to_synthesis_parameters(const Scene& scene) {
   }
   parameters.reuse = scene.synthesis.reuse;
   parameters.copy_cap = scene.synthesis.copy_cap;
-  for (const auto& [from, to] : scene.synthesis.fallback)
+  for (const auto& [from, to] : with_stand_ins(scene.synthesis.fallback))
     parameters.fallback[static_cast<std::uint8_t>(from)] = static_cast<std::uint8_t>(to);
   return parameters;
 }

@@ -77,7 +77,7 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress) {
   std::vector<std::string> missing;
   for (const auto& [id, share] : report.classes) {
     if (id == LandCoverClass::sky || has[static_cast<std::size_t>(id)]) continue;
-    const auto& fallback = scene.scene.synthesis.fallback;
+    const ClassPairs fallback = with_stand_ins(scene.scene.synthesis.fallback);
     const auto way_out =
         std::find_if(fallback.begin(), fallback.end(), [&, wanted = id](const auto& pair) { return pair.first == wanted; });
     if (way_out == fallback.end() || !has[static_cast<std::size_t>(way_out->second)]) missing.emplace_back(class_name(id));

@@ -46,17 +46,17 @@ std::vector<Stroke> sky_strokes(const StrokeScene& scene, Stream stream) {
 std::vector<Stroke> wash_strokes(const StrokeScene& scene, Stream stream) {
   return sow(scene, 4.4F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
-    if (id == sky || id == water) return;
+    const ClassStrokes& brush = class_info(id).strokes;
+    if (brush.wash_length <= 0.F) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     const bool wooded = id == forest && !is_grassy(scene, i);
-    const float length = is_ice(id) ? 20.F : id == rock ? 11.F : id == forest ? 8.F : 10.F;
-    stroke.depth_tolerance = id == rock || id == snow || id == glacier ? tight_depth : 0.03F;
+    stroke.depth_tolerance = has_trait(id, ClassTrait::tight) ? tight_depth : 0.03F;
     if (!wooded) stroke.tone = scene.guidance.tone[i];
     const float turn = is_grass(id) && !is_floor(id) && seed.uniform() < 0.35F ? quarter_turn : 0.F;
-    const float angle = turn + seed.normal() * (is_floor(id) ? 0.15F : is_grass(id) ? 0.3F : is_ice(id) ? 0.08F : 0.2F);
-    lay_line(stroke, scene, place, length * seed.between(0.7F, 1.3F), angle, 0.2F, !is_floor(id), seed);
+    const float angle = turn + seed.normal() * brush.wash_wander_rad;
+    lay_line(stroke, scene, place, brush.wash_length * seed.between(0.7F, 1.3F), angle, 0.2F, !is_floor(id), seed);
     const bool ice = is_ice(id);
-    take_brush(stroke, scene, (id == forest ? 4.F : 5.2F) * seed.between(0.7F, 1.3F),
+    take_brush(stroke, scene, brush.wash_width * seed.between(0.7F, 1.3F),
                {.taper = 0.6F, .alpha = 0.80F, .bristle = ice ? 0.25F : 0.35F, .wetness = ice ? 0.015F : 0.03F, .load = ice ? 0.4F : 1.F});
     stroke.colour = scene.colour(i, wooded ? -0.55F + 0.35F * seed.normal() : mixed_tone(0.22F, 0.15F, seed), paint_jitter, seed);
     stroke.order += seed.uniform() * 300.F;
@@ -69,17 +69,17 @@ std::vector<Stroke> meadow_strokes(const StrokeScene& scene, Stream stream) {
     const LandCoverClass id = scene.class_at(i);
     if (!is_grass(id)) return;
     Stroke stroke = ground_stroke(scene, i, seed);
-    const float length = (id == valley_floor ? 9.F : id == alpine_grass ? 7.6F : 8.F) * seed.between(0.6F, 1.4F);
-    if (id == valley_floor) {
+    const float length = class_info(id).strokes.meadow_length * seed.between(0.6F, 1.4F);
+    if (is_floor(id)) {
       lay_line(stroke, scene, place, length, seed.normal() * 0.12F, 0.1F, false, seed);
     } else {
       const float turn = seed.uniform() < 0.5F ? 0.F : quarter_turn;
       lay_line(stroke, scene, place, length, turn + 0.25F * seed.normal(), 0.2F, true, seed);
     }
-    take_brush(stroke, scene, (id == valley_floor ? 2.2F : 2.6F) * seed.between(0.7F, 1.3F),
+    take_brush(stroke, scene, (is_floor(id) ? 2.2F : 2.6F) * seed.between(0.7F, 1.3F),
                {.taper = 0.5F, .alpha = 0.6F, .bristle = 0.4F, .wetness = 0.03F});
     // Whole patches are darker or lighter, so that a slope has places and no even grain.
-    const float patch = id == valley_floor ? 0.F : 0.24F * patch_noise(scene, i, 71, 7.0);
+    const float patch = is_floor(id) ? 0.F : 0.24F * patch_noise(scene, i, 71, 7.0);
     stroke.colour = scene.colour(i, mixed_tone(0.19F, 0.18F, seed) + std::clamp(patch, -0.5F, 0.5F), paint_jitter * 1.3F, seed);
     out.push_back(stroke);
   });
@@ -88,7 +88,7 @@ std::vector<Stroke> meadow_strokes(const StrokeScene& scene, Stream stream) {
 std::vector<Stroke> grass_flecks(const StrokeScene& scene, Stream stream) {
   return sow(scene, 3.4F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
-    if (id != alpine_grass && id != pasture && id != shrub) return;
+    if (!is_grass(id) || is_floor(id)) return;
     // Tussocks, alder and juniper gather in patches and hollows; flecks of light lie between.
     const float patch = patch_noise(scene, i, 72, 6.0) - 0.10F * std::clamp(scene.relief_m(i), -10.F, 10.F);
     const bool dark = seed.uniform() < 0.6F;
@@ -128,7 +128,8 @@ std::vector<Stroke> scree_strokes(const StrokeScene& scene, Stream stream) {
 std::vector<Stroke> broken_colour(const StrokeScene& scene, Stream stream) {
   return sow(scene, 4.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
-    if (id == sky || id == water || id == settlement || seed.uniform() > 0.62F) return;
+    const DabHue dabs = class_info(id).strokes.dabs;
+    if (dabs == DabHue::none || seed.uniform() > 0.62F) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.depth_tolerance = tight_depth;
     // On walls just over what lies there, so that trees before them stay whole.
@@ -144,9 +145,9 @@ std::vector<Stroke> broken_colour(const StrokeScene& scene, Stream stream) {
     // Warm beside cool: ochre and rose in the light of rock and grass, violet in the shade, rose and blue on snow.
     const float clear = 1.F - std::clamp(scene.base.haze[i], 0.F, 1.F);
     const float warm = seed.normal() + 1.2F * (tone - 0.5F);
-    const glm::vec3 turn = is_ice(id)                    ? glm::vec3(0.018F, -0.008F, 0.004F)
-                           : id == forest || id == shrub ? glm::vec3(0.045F, 0.018F, -0.020F)
-                                                         : glm::vec3(0.050F, 0.004F, -0.035F);
+    const glm::vec3 turn = dabs == DabHue::ice      ? glm::vec3(0.018F, -0.008F, 0.004F)
+                           : dabs == DabHue::leaves ? glm::vec3(0.045F, 0.018F, -0.020F)
+                                                    : glm::vec3(0.050F, 0.004F, -0.035F);
     stroke.colour += turn * (warm * clear);
     out.push_back(stroke);
   });
@@ -170,7 +171,7 @@ std::vector<Stroke> accent_strokes(const StrokeScene& scene, Stream stream) {
     const float edge = scene.base.accent[i];
     const LandCoverClass id = scene.class_at(i);
     if (std::abs(edge) < 0.25F || seed.uniform() > std::abs(edge)) return;
-    if (id == sky || id == water || id == settlement || id == forest) return;
+    if (!has_trait(id, ClassTrait::accents)) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.depth_tolerance = 0.01F;
     // Over everything that lies on its own ground, and under what stands before it.

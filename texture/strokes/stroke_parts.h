@@ -37,12 +37,9 @@ glm::vec3 fresh_snow(float tone);
 // Painted after everything else on its own surface, but before what is nearer: what lies on top of long strokes.
 void lay_on_top(Stroke& stroke);
 
-inline bool is_floor(LandCoverClass id) { return id == LandCoverClass::valley_floor || id == LandCoverClass::settlement; }
-inline bool is_ice(LandCoverClass id) { return id == LandCoverClass::snow || id == LandCoverClass::glacier; }
-inline bool is_grass(LandCoverClass id) {
-  return id == LandCoverClass::valley_floor || id == LandCoverClass::pasture || id == LandCoverClass::alpine_grass ||
-         id == LandCoverClass::shrub;
-}
+inline bool is_floor(LandCoverClass id) { return has_trait(id, ClassTrait::level); }
+inline bool is_ice(LandCoverClass id) { return has_trait(id, ClassTrait::icy); }
+inline bool is_grass(LandCoverClass id) { return class_info(id).strokes.meadow_length > 0.F; }
 
 // Share, 0…1, of eight places on a circle around that satisfy `test(pixel index)`; places off the canvas count as the centre does.
 template <class Test>

@@ -12,7 +12,7 @@ namespace {
 
 using enum LandCoverClass;
 
-bool grows(LandCoverClass id) { return id == forest || id == shrub || id == pasture || id == alpine_grass; }
+bool grows(LandCoverClass id) { return has_trait(id, ClassTrait::turf); }
 
 bool on_same_slope(const StrokeScene& scene, std::size_t here, std::size_t there) {
   return std::abs(scene.guidance.depth_m[there] / scene.guidance.depth_m[here] - 1.F) <= 0.03F;

@@ -85,7 +85,7 @@ Subject from_scene(const Options& options, Progress& progress) {
   Subject subject;
   subject.target = std::move(found.view);
   subject.pixels_of_target = found.pixels_of_picture;
-  for (const auto& [from, to] : scene.scene.synthesis.fallback)
+  for (const auto& [from, to] : with_stand_ins(scene.scene.synthesis.fallback))
     subject.fallback[static_cast<std::uint8_t>(from)] = static_cast<std::uint8_t>(to);
   for (PaintedExemplar& painted : found.exemplars) {
     Exemplar exemplar = std::move(painted.exemplar);

@@ -49,10 +49,10 @@ TEST(GroundHues, DriftOnlyOverWhatGrowsAndOverStone) {
 }
 
 TEST(GroundHues, GreensGoStaleAndRockIsLessWarm) {
-  for (const LandCoverClass green : {valley_floor, forest, alpine_grass, pasture, shrub}) EXPECT_TRUE(is_green(green));
-  for (const LandCoverClass other : {water, settlement, scree, rock, snow, glacier}) EXPECT_FALSE(is_green(other));
-  EXPECT_EQ(warmth_share(rock), 0.6F);
-  EXPECT_EQ(warmth_share(forest), 1.0F);
+  for (const LandCoverClass green : {valley_floor, forest, alpine_grass, pasture, shrub}) EXPECT_TRUE(has_trait(green, ClassTrait::stales));
+  for (const LandCoverClass other : {water, settlement, scree, rock, snow, glacier}) EXPECT_FALSE(has_trait(other, ClassTrait::stales));
+  EXPECT_EQ(class_info(rock).hue.warmth, 0.6F);
+  EXPECT_EQ(class_info(forest).hue.warmth, 1.0F);
 }
 
 }  // namespace

@@ -1,0 +1,24 @@
+#include <gtest/gtest.h>
+
+#include "tests/texture/strokes/stroke_picture.h"
+#include "texture/strokes/stroke_painter.h"
+
+namespace belvedere {
+namespace {
+
+// Every class of the table is painted: strokes cover what lies on the canvas before them.
+TEST(ClassStrokes, CoverEveryClassOfGround) {
+  for (const LandCoverClassInfo& info : land_cover_classes()) {
+    if (info.id == LandCoverClass::sky) continue;
+    Picture p = plain_picture(info.id, 96, 72);
+    p.guidance.depth_m = Grid<float>(96, 72, 9000.F);
+    const Grid<glm::vec3> bare(96, 72, glm::vec3(1.F, 0.F, 1.F));
+    const Grid<glm::vec3> painted = paint_strokes(bare, p.guidance, p.scene().base, {}, p.parameters, silent_progress()).picture;
+    int covered = 0;
+    for (std::size_t i = 0; i < bare.size(); ++i) covered += painted[i].y > 0.1F ? 1 : 0;
+    EXPECT_GT(covered, 9 * static_cast<int>(bare.size()) / 10) << info.name;
+  }
+}
+
+}  // namespace
+}  // namespace belvedere
