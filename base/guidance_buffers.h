@@ -11,10 +11,10 @@
 
 namespace belvedere {
 
-// What one picture shows, pixel by pixel: the target of a synthesis has it, and so has an exemplar (design section 3).
+// What one picture shows, pixel by pixel: the target of a synthesis has it, and so has an exemplar.
 // It stands in base because texture/ and renderer/ both speak it. All grids have the picture's size, or are empty where a
 // channel is absent. Every value of a pixel comes from one and the same sample, the one that won the pixel, so nothing
-// mixes across a silhouette. Sky pixels hold: depth +inf, class sky, normal (0,0,1), everything else 0 (sky_view, shadow 1).
+// mixes across a silhouette. What each is called in a file, its unit and what sky pixels hold: guidance_channels.h.
 struct GuidanceBuffers {
   glm::dvec3 origin_m{0.0};       // what position_m is relative to, scene CRS
   Grid<float> depth_m;            // distance from the eye along the ray; +inf is sky

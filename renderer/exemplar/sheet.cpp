@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "base/error.h"
+#include "base/guidance_channels.h"
 #include "renderer/exemplar/seam_picture.h"
 #include "renderer/image/srgb.h"
 #include "renderer/paint/composite.h"
@@ -36,72 +38,52 @@ void copy_part(Grid<T>& whole, const Grid<T>& part, int x0, int y0) {
   for (int y = 0; y < part.height(); ++y) std::copy_n(part.row(y), part.width(), whole.row(y0 + y) + x0);
 }
 
-// Every channel but those of paint, with what bare paper has there.
-template <class F>
-void for_each_channel(F&& f) {
-  using B = GuidanceBuffers;
-  const glm::vec3 up{0.F, 0.F, 1.F};
-  const float far = std::numeric_limits<float>::infinity();
-  f(&B::depth_m, far);
-  f(&B::position_m, glm::vec3(0.F));
-  f(&B::normal, up);
-  f(&B::normal_detail, up);
-  f(&B::normal_smooth, up);
-  f(&B::altitude_m, 0.F);
-  f(&B::land_cover, LandCoverClass::sky);
-  f(&B::coverage, 0.F);
-  f(&B::front, 1.F);
-  f(&B::silhouette, 0.F);
-  f(&B::shadow, 1.F);
-  f(&B::sky_view, 0.F);  // unlike the sky's: paper sees none
-  f(&B::slope_deg, 0.F);
-  f(&B::aspect_deg, 0.F);
-  f(&B::fall_line, glm::vec2(0.F));
-  f(&B::footprint_m, 0.F);
-  f(&B::ridge, 0.F);
-  f(&B::relief_s_m, 0.F);
-  f(&B::relief_m_m, 0.F);
-  f(&B::relief_l_m, 0.F);
-  f(&B::valley_height_m, 0.F);
-  f(&B::rim_m, 0.F);
-  f(&B::built, 0.F);
-  f(&B::grain, glm::vec2(0.F));
-  f(&B::tone, 0.F);
-  f(&B::base, glm::vec3(static_cast<float>(srgb_decoded(static_cast<double>(paper.x))),
-                        static_cast<float>(srgb_decoded(static_cast<double>(paper.y))),
-                        static_cast<float>(srgb_decoded(static_cast<double>(paper.z)))));
-  f(&B::painted_class, LandCoverClass::sky);
-  f(&B::stroke, 0U);
+// What bare paper has in a channel.
+glm::vec3 paper_value(const GuidanceChannel& channel) {
+  if (channel.member == GuidanceMember(&GuidanceBuffers::base))
+    return {static_cast<float>(srgb_decoded(static_cast<double>(paper.x))), static_cast<float>(srgb_decoded(static_cast<double>(paper.y))),
+            static_cast<float>(srgb_decoded(static_cast<double>(paper.z)))};
+  return channel.paper.value_or(channel.sky);
 }
 
-void insert_panel(ExamplePainting& row, ExamplePainting panel, int x0, int y0, int row_y0, const SheetPlan& plan) {
+// Indices of pixels in the panel become indices in the sheet; bare paper grew where it lies.
+void insert_indices(Grid<std::uint32_t>& whole, const Grid<std::uint32_t>& part, glm::ivec2 row_size, int x0, int y0, int row_y0) {
+  const auto width = static_cast<std::uint32_t>(row_size.x);
+  if (whole.empty()) {
+    whole = Grid<std::uint32_t>(row_size.x, row_size.y);
+    for (std::size_t i = 0; i < whole.size(); ++i) whole[i] = static_cast<std::uint32_t>(row_y0) * width + static_cast<std::uint32_t>(i);
+  }
+  const auto part_width = static_cast<std::uint32_t>(part.width());
+  for (int y = 0; y < part.height(); ++y)
+    for (int x = 0; x < part.width(); ++x) {
+      const std::uint32_t index = part(x, y);
+      whole(x0 + x, y0 + y) =
+          (static_cast<std::uint32_t>(row_y0 + y0) + index / part_width) * width + static_cast<std::uint32_t>(x0) + index % part_width;
+    }
+}
+
+void insert_channel(const GuidanceChannel& channel, GuidanceBuffers& row, const GuidanceBuffers& panel, glm::ivec2 row_size, int x0, int y0,
+                    int row_y0) {
+  std::visit(
+      [&](auto member) {
+        const auto& part = panel.*member;
+        auto& whole = row.*member;
+        if (part.empty()) return;
+        if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Grid<std::uint32_t>>) {
+          if (channel.kind == ChannelKind::pixel_index) return insert_indices(whole, part, row_size, x0, y0, row_y0);
+        }
+        if (whole.empty()) fill_channel(row, channel, row_size.x, row_size.y, paper_value(channel));
+        copy_part(whole, part, x0, y0);
+      },
+      channel.member);
+}
+
+void insert_panel(ExamplePainting& row, ExamplePainting panel, int x0, int y0, int row_y0) {
   const glm::dvec3 shift = panel.guidance.origin_m - row.guidance.origin_m;
   for (glm::vec3& place : panel.guidance.position_m) place += glm::vec3(shift);
-  for_each_channel([&](auto channel, auto blank) {
-    const auto& part = panel.guidance.*channel;
-    auto& whole = row.guidance.*channel;
-    if (part.empty()) return;
-    if (whole.empty()) whole = std::decay_t<decltype(whole)>(row.ground_layer.width(), row.ground_layer.height(), blank);
-    copy_part(whole, part, x0, y0);
-  });
-  // Indices in the panel become indices in the sheet.
-  for (const auto from : {&GuidanceBuffers::painted_from, &GuidanceBuffers::ground_from}) {
-    const Grid<std::uint32_t>& part = panel.guidance.*from;
-    if (part.empty()) continue;
-    Grid<std::uint32_t>& whole = row.guidance.*from;
-    const auto width = static_cast<std::uint32_t>(plan.width);
-    if (whole.empty()) {
-      whole = Grid<std::uint32_t>(row.ground_layer.width(), row.ground_layer.height());
-      for (std::size_t i = 0; i < whole.size(); ++i) whole[i] = static_cast<std::uint32_t>(row_y0) * width + static_cast<std::uint32_t>(i);
-    }
-    const auto part_width = static_cast<std::uint32_t>(part.width());
-    for (int y = 0; y < part.height(); ++y)
-      for (int x = 0; x < part.width(); ++x) {
-        const std::uint32_t index = part(x, y);
-        whole(x0 + x, y0 + y) =
-            (static_cast<std::uint32_t>(row_y0 + y0) + index / part_width) * width + static_cast<std::uint32_t>(x0) + index % part_width;
-      }
-  }
+  const glm::ivec2 row_size{row.ground_layer.width(), row.ground_layer.height()};
+  for (const GuidanceChannel& channel : guidance_channels())
+    insert_channel(channel, row.guidance, panel.guidance, row_size, x0, y0, row_y0);
   copy_part(row.ground_layer, panel.ground_layer, x0, y0);
   if (!panel.painting.empty()) {
     if (row.painting.empty()) row.painting = Grid<glm::vec3>(row.ground_layer.width(), row.ground_layer.height(), paper);
@@ -177,7 +159,7 @@ ExamplePainting SheetPainter::paint_row(int row, const ExampleLayers& layers, co
   for (int column = 0; column < plan.columns; ++column) {
     const int panel = row * plan.columns + column;
     const PixelRect rect = panel_rect(plan, panel);
-    insert_panel(whole, state_->paint_panel(panel, layers, quiet), rect.x0, rect.y0 - y0, y0, plan);
+    insert_panel(whole, state_->paint_panel(panel, layers, quiet), rect.x0, rect.y0 - y0, y0);
     run.progress.advance(1.0);
   }
   return whole;

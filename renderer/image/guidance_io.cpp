@@ -7,127 +7,72 @@
 #include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <span>
+#include <type_traits>
+#include <variant>
 
 #include "base/error.h"
+#include "base/guidance_channels.h"
 #include "base/parallel.h"
 
 namespace belvedere {
 namespace {
 
-// One channel of the file and how it hangs together with the buffers. `component` of a vector, 0 for numbers.
-struct Channel {
-  const char* part;
-  const char* name;
+// A component of a grid as one channel of the file.
+struct FileChannel {
+  const GuidanceChannel* row;
+  int component;
+  std::string name;
   ChannelType type;
-  bool (*present)(const GuidanceBuffers&);
-  int (*width)(const GuidanceBuffers&);
-  int (*height)(const GuidanceBuffers&);
-  // Copies `count` values from index `first` on to out, out + step, …
-  void (*get)(const GuidanceBuffers&, std::size_t first, std::size_t count, float* out, std::size_t step);
-  // Puts a grid that was read in its place.
-  void (*set)(GuidanceBuffers&, const Grid<float>&);
 };
 
-template <class T, int component>
-auto& part_of(T& value) {
-  if constexpr (requires { value[component]; }) {
-    return value[component];
-  } else {
-    return value;
+ChannelType file_type(ChannelStorage storage) {
+  switch (storage) {
+    case ChannelStorage::half:
+      return ChannelType::half;
+    case ChannelStorage::float32:
+      return ChannelType::float32;
+    case ChannelStorage::uint32:
+      return ChannelType::uint32;
   }
+  return ChannelType::float32;
 }
 
-template <auto member, int component = 0>
-constexpr Channel channel(const char* part, const char* name, ChannelType type) {
-  return {part,
-          name,
-          type,
-          [](const GuidanceBuffers& g) { return !(g.*member).empty(); },
-          [](const GuidanceBuffers& g) { return (g.*member).width(); },
-          [](const GuidanceBuffers& g) { return (g.*member).height(); },
-          [](const GuidanceBuffers& g, std::size_t first, std::size_t count, float* out, std::size_t step) {
-            const auto* from = (g.*member).data() + first;
-            for (std::size_t i = 0; i < count; ++i, out += step) {
-              if constexpr (std::is_same_v<std::decay_t<decltype(*from)>, LandCoverClass>) {
-                *out = std::bit_cast<float>(std::uint32_t{static_cast<std::uint8_t>(from[i])});
-              } else if constexpr (std::is_same_v<std::decay_t<decltype(*from)>, std::uint32_t>) {
-                *out = std::bit_cast<float>(from[i]);
-              } else {
-                *out = part_of<decltype(*from), component>(from[i]);
-              }
-            }
-          },
-          [](GuidanceBuffers& g, const Grid<float>& values) {
-            auto& grid = g.*member;
-            using Value = typename std::decay_t<decltype(grid)>::value_type;
-            if constexpr (!std::is_same_v<Value, LandCoverClass> && !std::is_same_v<Value, std::uint32_t>) {
-              if (grid.empty()) grid = std::decay_t<decltype(grid)>(values.width(), values.height());
-              for (std::size_t i = 0; i < values.size(); ++i) part_of<Value, component>(grid[i]) = values[i];
-            }
-          }};
+const std::vector<FileChannel>& file_channels() {
+  static const std::vector<FileChannel> all = [] {
+    std::vector<FileChannel> list;
+    for (const GuidanceChannel& row : guidance_channels())
+      for (std::size_t k = 0; k < row.components(); ++k)
+        list.push_back({&row, static_cast<int>(k), std::string(row.names[k]), file_type(row.type)});
+    return list;
+  }();
+  return all;
 }
 
-constexpr const char* class_channel = "landcover.id";
-constexpr const char* painted_channel = "painted.id";
+template <class G>
+constexpr bool has_components =
+    !std::is_arithmetic_v<typename std::decay_t<G>::value_type> && !std::is_enum_v<typename std::decay_t<G>::value_type>;
 
-// Numbers that are written bit by bit and read by their own function.
-struct IdChannel {
-  const char* name;
-  Grid<std::uint32_t> GuidanceBuffers::*member;
-};
-constexpr IdChannel id_channels[] = {
-    {"painted.from", &GuidanceBuffers::painted_from},
-    {"stroke.id", &GuidanceBuffers::stroke},
-    {"ground.from", &GuidanceBuffers::ground_from},
-};
+// One component as the file takes it. Ids go bit by bit, as whole numbers.
+float file_value(float value, int) { return value; }
+float file_value(const glm::vec2& value, int component) { return value[component]; }
+float file_value(const glm::vec3& value, int component) { return value[component]; }
+float file_value(LandCoverClass id, int) { return std::bit_cast<float>(std::uint32_t{static_cast<std::uint8_t>(id)}); }
+float file_value(std::uint32_t id, int) { return std::bit_cast<float>(id); }
 
-using B = GuidanceBuffers;
-using enum ChannelType;
-const Channel channels[] = {
-    channel<&B::depth_m>("depth", "Z", float32),
-    channel<&B::coverage>("depth", "coverage.A", half),
-    channel<&B::front>("depth", "front.A", half),
-    channel<&B::silhouette>("depth", "silhouette.V", half),
-    channel<&B::footprint_m>("depth", "footprint.V", float32),
-    channel<&B::position_m, 0>("position", "P.X", float32),
-    channel<&B::position_m, 1>("position", "P.Y", float32),
-    channel<&B::position_m, 2>("position", "P.Z", float32),
-    channel<&B::altitude_m>("position", "altitude.V", float32),
-    channel<&B::normal, 0>("normal", "N.X", half),
-    channel<&B::normal, 1>("normal", "N.Y", half),
-    channel<&B::normal, 2>("normal", "N.Z", half),
-    channel<&B::normal_detail, 0>("normal", "Nd.X", half),
-    channel<&B::normal_detail, 1>("normal", "Nd.Y", half),
-    channel<&B::normal_detail, 2>("normal", "Nd.Z", half),
-    channel<&B::normal_smooth, 0>("normal", "Ns.X", half),
-    channel<&B::normal_smooth, 1>("normal", "Ns.Y", half),
-    channel<&B::normal_smooth, 2>("normal", "Ns.Z", half),
-    channel<&B::land_cover>("class", class_channel, uint32),
-    channel<&B::slope_deg>("terrain", "slope.V", half),
-    channel<&B::aspect_deg>("terrain", "aspect.V", half),
-    channel<&B::fall_line, 0>("terrain", "fallline.X", half),
-    channel<&B::fall_line, 1>("terrain", "fallline.Y", half),
-    channel<&B::ridge>("terrain", "ridge.V", half),
-    channel<&B::relief_s_m>("terrain", "relief.S", half),
-    channel<&B::relief_m_m>("terrain", "relief.M", half),
-    channel<&B::relief_l_m>("terrain", "relief.L", half),
-    channel<&B::valley_height_m>("terrain", "valley.V", half),
-    channel<&B::rim_m>("terrain", "rim.V", float32),
-    channel<&B::built>("terrain", "built.V", half),
-    channel<&B::grain, 0>("terrain", "grain.X", half),
-    channel<&B::grain, 1>("terrain", "grain.Y", half),
-    channel<&B::shadow>("light", "shadow.V", half),
-    channel<&B::sky_view>("light", "skyview.V", half),
-    channel<&B::tone>("light", "tone.V", half),
-    channel<&B::base, 0>("base", "base.R", half),
-    channel<&B::base, 1>("base", "base.G", half),
-    channel<&B::base, 2>("base", "base.B", half),
-    channel<&B::painted_class>("paint", painted_channel, uint32),
-    channel<&B::painted_from>("paint", "painted.from", uint32),
-    channel<&B::stroke>("paint", "stroke.id", uint32),
-    channel<&B::ground_from>("paint", "ground.from", uint32),
-};
+// Copies `count` values from index `first` on to out, out + step, …
+void copy_out(const GuidanceBuffers& guidance, const FileChannel& channel, std::size_t first, std::size_t count, float* out,
+              std::size_t step) {
+  std::visit(
+      [&](auto member) {
+        const auto* from = (guidance.*member).data() + first;
+        for (std::size_t i = 0; i < count; ++i, out += step) *out = file_value(from[i], channel.component);
+      },
+      channel.row->member);
+}
+
+glm::ivec2 size_of(const GuidanceBuffers& guidance, GuidanceMember member) {
+  return std::visit([&](auto grid) { return glm::ivec2((guidance.*grid).width(), (guidance.*grid).height()); }, member);
+}
 
 std::string make_legend() {
   std::string legend;
@@ -149,7 +94,31 @@ void make_unit(Grid<V>& directions) {
   });
 }
 
-Grid<LandCoverClass> make_classes(const std::string& path, const char* name, const Grid<std::uint32_t>& ids) {
+void make_unit(GuidanceBuffers& guidance, const GuidanceChannel& row) {
+  std::visit(
+      [&](auto member) {
+        if constexpr (has_components<decltype(guidance.*member)>) make_unit(guidance.*member);
+      },
+      row.member);
+}
+
+// Puts a component that was read in its place.
+void put_numbers(GuidanceBuffers& guidance, const FileChannel& channel, const Grid<float>& values) {
+  std::visit(
+      [&](auto member) {
+        auto& grid = guidance.*member;
+        using Values = std::decay_t<decltype(grid)>;
+        if constexpr (std::is_same_v<Values, Grid<float>>) {
+          grid = values;
+        } else if constexpr (has_components<Values>) {
+          if (grid.empty()) grid = Values(values.width(), values.height());
+          for (std::size_t i = 0; i < values.size(); ++i) grid[i][channel.component] = values[i];
+        }
+      },
+      channel.row->member);
+}
+
+Grid<LandCoverClass> make_classes(const std::string& path, const std::string& name, const Grid<std::uint32_t>& ids) {
   Grid<LandCoverClass> out(ids.width(), ids.height());
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (ids[i] >= static_cast<std::uint32_t>(land_cover_class_count)) {
@@ -161,9 +130,12 @@ Grid<LandCoverClass> make_classes(const std::string& path, const char* name, con
   return out;
 }
 
-}  // namespace
-
-namespace {
+void put_ids(const std::string& path, GuidanceBuffers& guidance, const FileChannel& channel, const Grid<std::uint32_t>& ids) {
+  if (const auto* classes = std::get_if<Grid<LandCoverClass> GuidanceBuffers::*>(&channel.row->member))
+    guidance.*(*classes) = make_classes(path, channel.name, ids);
+  else if (const auto* numbers = std::get_if<Grid<std::uint32_t> GuidanceBuffers::*>(&channel.row->member))
+    guidance.*(*numbers) = ids;
+}
 
 constexpr const char* origin_note = "origin";  // what P is relative to: easting, northing, altitude
 
@@ -188,12 +160,14 @@ GuidanceWriter::GuidanceWriter(const std::string& path, int width, int height, c
 }
 
 void GuidanceWriter::write_rows(const GuidanceBuffers& part, int first, int rows, int y0) {
+  const std::vector<FileChannel>& channels = file_channels();
   if (!writer_) {
     std::vector<PartSpec> specs;
-    for (std::size_t c = 0; c < std::size(channels); ++c) {
-      if (!channels[c].present(part)) continue;
-      if (specs.empty() || specs.back().name != channels[c].part) {
-        specs.push_back({channels[c].part, {}});
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const GuidanceChannel& row = *channels[c].row;
+      if (size_of(part, row.member).x == 0) continue;
+      if (specs.empty() || specs.back().name != row.part) {
+        specs.push_back({std::string(row.part), {}});
         parts_.emplace_back();
       }
       specs.back().channels.push_back({channels[c].name, channels[c].type});
@@ -211,14 +185,15 @@ void GuidanceWriter::write_rows(const GuidanceBuffers& part, int first, int rows
       const std::size_t row_values = step * static_cast<std::size_t>(width_);
       band.resize(row_values * static_cast<std::size_t>(band_rows));
       for (const std::size_t c : parts_[p]) {
-        if (channels[c].width(part) != width_ || channels[c].height(part) < first + rows) {
+        const glm::ivec2 size = size_of(part, channels[c].row->member);
+        if (size.x != width_ || size.y < first + rows) {
           throw Error(ErrorKind::bug, path_, fmt::format("channel {} has not the size of the picture", channels[c].name));
         }
       }
       parallel_rows(band_rows, [&](int r) {
         const std::size_t from = static_cast<std::size_t>(first + y + r) * static_cast<std::size_t>(width_);
         float* to = band.data() + row_values * static_cast<std::size_t>(r);
-        for (const std::size_t c : parts_[p]) channels[c].get(part, from, static_cast<std::size_t>(width_), to++, step);
+        for (const std::size_t c : parts_[p]) copy_out(part, channels[c], from, static_cast<std::size_t>(width_), to++, step);
       });
       writer_->write_rows(p, y0 + y, band_rows, band);
     }
@@ -231,14 +206,10 @@ void GuidanceWriter::finish() {
 }
 
 void write_guidance(const std::string& path, const GuidanceBuffers& guidance, const FileNotes& notes) {
-  int width = 0;
-  int height = 0;
-  for (const Channel& c : channels) {
-    width = std::max(width, c.width(guidance));
-    height = std::max(height, c.height(guidance));
-  }
-  GuidanceWriter writer(path, width, height, notes);
-  writer.write_rows(guidance, 0, height, 0);
+  glm::ivec2 size(0);
+  for (const GuidanceChannel& row : guidance_channels()) size = glm::max(size, size_of(guidance, row.member));
+  GuidanceWriter writer(path, size.x, size.y, notes);
+  writer.write_rows(guidance, 0, size.y, 0);
   writer.finish();
 }
 
@@ -253,41 +224,44 @@ GuidanceBuffers read_guidance(const std::string& path) {
       throw Error(ErrorKind::input, path, "its parts have different sizes", fmt::format("{} × {} pixels in each", info.width, info.height));
     }
   };
+  const auto holds = [&](const GuidanceChannel& row) {
+    const auto in_file = [&](std::string_view name) {
+      return std::any_of(info.parts.begin(), info.parts.end(), [&](const PartSpec& part) {
+        return std::any_of(part.channels.begin(), part.channels.end(), [&](const ChannelSpec& c) { return c.name == name; });
+      });
+    };
+    const auto count = static_cast<std::size_t>(std::count_if(row.names.begin(), row.names.end(), in_file));
+    if (count > 0 && count < row.components())
+      throw Error(ErrorKind::input, path, fmt::format("{} of the channels {}", count, fmt::join(row.names, " ")), "all of them, or none");
+    return count > 0;
+  };
   // Part by part, so that only one part is there twice.
-  const std::span<const Channel> all(channels);
-  for (auto begin = all.begin(); begin != all.end();) {
-    const auto end = std::find_if(begin, all.end(), [&](const Channel& c) { return std::string_view(c.part) != begin->part; });
+  const std::vector<FileChannel>& channels = file_channels();
+  for (auto begin = channels.begin(); begin != channels.end();) {
+    const auto end = std::find_if(begin, channels.end(), [&](const FileChannel& c) { return c.row->part != begin->row->part; });
+    std::vector<FileChannel> numbers;
     std::vector<std::string> names;
-    if (begin->type != uint32) {
-      for (auto c = begin; c != end; ++c) names.emplace_back(c->name);
+    for (auto c = begin; c != end; ++c) {
+      if (!holds(*c->row)) continue;
+      if (c->type == ChannelType::uint32) {
+        const Grid<std::uint32_t> ids = read_id_channel(path, c->name);
+        check_size(ids);
+        put_ids(path, out, *c, ids);
+      } else {
+        numbers.push_back(*c);
+        names.push_back(c->name);
+      }
     }
     const std::vector<Grid<float>> grids = read_channels(path, names);
     for (std::size_t i = 0; i < grids.size(); ++i) {
-      if (grids[i].empty()) continue;
       check_size(grids[i]);
-      begin[static_cast<std::ptrdiff_t>(i)].set(out, grids[i]);
+      put_numbers(out, numbers[i], grids[i]);
     }
     begin = end;
   }
-  const auto holds = [&](const char* name) {
-    return std::any_of(info.parts.begin(), info.parts.end(), [&](const PartSpec& part) {
-      return std::any_of(part.channels.begin(), part.channels.end(), [&](const ChannelSpec& c) { return c.name == name; });
-    });
-  };
-  const auto read_ids = [&](const char* name) {
-    Grid<std::uint32_t> ids = read_id_channel(path, name);
-    check_size(ids);
-    return ids;
-  };
-  if (holds(class_channel)) out.land_cover = make_classes(path, class_channel, read_ids(class_channel));
-  if (holds(painted_channel)) out.painted_class = make_classes(path, painted_channel, read_ids(painted_channel));
-  for (const IdChannel& c : id_channels)
-    if (holds(c.name)) out.*c.member = read_ids(c.name);
   if (!found) throw Error(ErrorKind::input, path, "holds no guidance", "an OpenEXR file with channels such as Z, altitude.V, landcover.id");
-  make_unit(out.normal);
-  make_unit(out.normal_detail);
-  make_unit(out.normal_smooth);
-  make_unit(out.fall_line);
+  for (const GuidanceChannel& row : guidance_channels())
+    if (row.kind == ChannelKind::direction) make_unit(out, row);
   return out;
 }
 

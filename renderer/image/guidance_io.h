@@ -9,16 +9,8 @@
 
 namespace belvedere {
 
-// Guidance buffers as one multi-part tiled OpenEXR. The parts, each with the channels that are used together, so that a reader unpacks no
-// more than it needs (name, type, meaning and unit as in GuidanceBuffers):
-//   depth     Z float, coverage.A front.A silhouette.V half, footprint.V float
-//   position  P.X P.Y P.Z altitude.V float
-//   normal    N.X…Z (normal), Nd.X…Z (normal_detail), Ns.X…Z (normal_smooth), half
-//   class     landcover.id uint
-//   terrain   slope.V aspect.V fallline.X fallline.Y ridge.V relief.S relief.M relief.L valley.V built.V grain.X grain.Y half, rim.V float
-//   light     shadow.V skyview.V tone.V, half
-//   base      base.R base.G base.B half
-//   paint     painted.id painted.from stroke.id ground.from uint (of paintings whose strokes are known)
+// Guidance buffers as one multi-part tiled OpenEXR: parts, channels and types as in the table of base/guidance_channels.h. A part holds
+// channels that are used together, so that a reader unpacks no more than it needs.
 // The header's note "legend" has a line `id name rrggbb` for each class.
 
 // Writes rows from top to bottom, streamed: memory holds one band of one part.
@@ -37,12 +29,12 @@ class GuidanceWriter {
   int height_;
   FileNotes notes_;
   std::optional<ExrWriter> writer_;              // made with the first rows
-  std::vector<std::vector<std::size_t>> parts_;  // for each part of the file its channels, as places in the table of all channels
+  std::vector<std::vector<std::size_t>> parts_;  // for each part of the file its channels, as places in the list of all file channels
 };
 
 void write_guidance(const std::string& path, const GuidanceBuffers& guidance, const FileNotes& notes);
-// Reads what the file has; absent channels stay empty grids (of a vector all of its channels count). Directions are made unit again, as
-// half is not exact. Error(input): no guidance at all, parts of different size, a class id without a meaning.
+// Reads what the file has; absent channels stay empty grids. Directions are made unit again, as half is not exact. Error(input): no
+// guidance at all, parts of different size, a vector without one of its components, a class id without a meaning.
 GuidanceBuffers read_guidance(const std::string& path);
 
 }  // namespace belvedere

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/guidance_buffers.h"
+#include "base/guidance_channels.h"
 #include "base/noise.h"
 #include "base/parallel.h"
 
@@ -75,26 +76,8 @@ Grid<T> cut(const Grid<T>& grid, PixelRect rect) {
 
 inline GuidanceBuffers cut(const GuidanceBuffers& g, PixelRect r) {
   GuidanceBuffers part;
-  part.depth_m = cut(g.depth_m, r);
-  part.position_m = cut(g.position_m, r);
-  part.normal = cut(g.normal, r);
-  part.normal_detail = cut(g.normal_detail, r);
-  part.normal_smooth = cut(g.normal_smooth, r);
-  part.altitude_m = cut(g.altitude_m, r);
-  part.land_cover = cut(g.land_cover, r);
-  part.shadow = cut(g.shadow, r);
-  part.sky_view = cut(g.sky_view, r);
-  part.slope_deg = cut(g.slope_deg, r);
-  part.fall_line = cut(g.fall_line, r);
-  part.footprint_m = cut(g.footprint_m, r);
-  part.relief_s_m = cut(g.relief_s_m, r);
-  part.relief_m_m = cut(g.relief_m_m, r);
-  part.relief_l_m = cut(g.relief_l_m, r);
-  part.valley_height_m = cut(g.valley_height_m, r);
-  part.rim_m = cut(g.rim_m, r);
-  part.built = cut(g.built, r);
-  part.grain = cut(g.grain, r);
-  part.tone = cut(g.tone, r);
+  for (const GuidanceChannel& channel : guidance_channels())
+    std::visit([&](auto member) { part.*member = cut(g.*member, r); }, channel.member);
   return part;
 }
 
@@ -117,6 +100,10 @@ inline GuidanceBuffers make_slope(int width, int height, LandCoverClass id, glm:
   g.land_cover = Grid<LandCoverClass>(width, height, id);
   g.fall_line = Grid<glm::vec2>(width, height, glm::vec2(0.0F, 1.0F));
   g.tone = Grid<float>(width, height, 0.6F);
+  g.footprint_m = Grid<float>(width, height, 15.0F);  // near enough for every form to be drawn
+  g.rim_m = Grid<float>(width, height, 1e6F);
+  g.built = Grid<float>(width, height, 0.5F);
+  g.grain = Grid<glm::vec2>(width, height, glm::vec2(0.0F));
   return g;
 }
 
