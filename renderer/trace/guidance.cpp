@@ -9,11 +9,10 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/filter.h"
+#include "base/guidance_channels.h"
 #include "renderer/trace/guidance_ground.h"
 #include "renderer/trace/guidance_rays.h"
 #include "renderer/trace/silhouette.h"
-#include "terrain/shape/derivatives.h"
 
 namespace belvedere {
 namespace {
@@ -90,18 +89,10 @@ float footprint(const Camera& camera, glm::dvec2 pixel, double distance_m) {
 }
 
 GuidanceBuffers make_buffers(int width, int height) {
-  GuidanceBuffers b;
-  b.depth_m = Grid<float>(width, height, std::numeric_limits<float>::infinity());
-  b.position_m = Grid<glm::vec3>(width, height, glm::vec3(0.F));
-  b.normal = b.normal_detail = b.normal_smooth = Grid<glm::vec3>(width, height, glm::vec3(0.F, 0.F, 1.F));
-  b.land_cover = Grid<LandCoverClass>(width, height, LandCoverClass::sky);
-  b.shadow = b.sky_view = Grid<float>(width, height, 1.F);
-  b.fall_line = b.grain = Grid<glm::vec2>(width, height, glm::vec2(0.F));
-  for (Grid<float>* channel : {&b.altitude_m, &b.coverage, &b.front, &b.slope_deg, &b.aspect_deg, &b.footprint_m, &b.ridge, &b.relief_s_m,
-                               &b.relief_m_m, &b.relief_l_m, &b.valley_height_m, &b.rim_m, &b.built}) {
-    *channel = Grid<float>(width, height, 0.F);
-  }
-  return b;
+  GuidanceBuffers buffers;
+  for (const GuidanceChannel& channel : guidance_channels())
+    if (channel.maker == ChannelMaker::trace) fill_channel(buffers, channel, width, height, channel.sky);
+  return buffers;
 }
 
 // Traces the primary rays of a block. samples[i] belongs to pixel i.
@@ -170,104 +161,16 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
     out.coverage[o] = static_cast<float>(terrain_samples) / static_cast<float>(per_pixel);
     out.front[o] = static_cast<float>(front_samples) / static_cast<float>(per_pixel);
     if (!winner.hit.found) continue;
-    const GroundValues ground = sample_ground(t.terrain, t.surface, t.camera, winner.hit.column, winner.hit.row);
     out.depth_m[o] = static_cast<float>(winner.hit.distance_m);
-    out.position_m[o] = glm::vec3(ground.place - t.surface.origin);
-    out.normal[o] = ground.normal;
-    out.normal_detail[o] = ground.normal_detail;
-    out.normal_smooth[o] = ground.normal_smooth;
-    out.altitude_m[o] = static_cast<float>(ground.place.z);
     out.land_cover[o] = winner.land_cover;
     out.shadow[o] = sun[i];
     out.sky_view[o] = sky[i];
-    out.slope_deg[o] = ground.slope_deg;
-    out.aspect_deg[o] = ground.aspect_deg;
-    out.fall_line[o] = ground.fall_line;
     out.footprint_m[o] = footprint(t.camera, glm::dvec2(pixel), winner.hit.distance_m);
-    out.ridge[o] = ground.ridge;
-    out.relief_s_m[o] = ground.relief_s_m;
-    out.relief_m_m[o] = ground.relief_m_m;
-    out.relief_l_m[o] = ground.relief_l_m;
-    out.valley_height_m[o] = ground.valley_height_m;
-    out.rim_m[o] = ground.rim_m;
-    out.built[o] = ground.built;
-    out.grain[o] = ground.grain;
+    sample_ground(t.terrain, t.surface, t.camera, winner.hit.column, winner.hit.row, out, o);
   }
 }
 
 }  // namespace
-
-namespace {
-
-// 1 where the known terrain ends: the border's own posts and the filled voids that reach the border. A void in the middle of known
-// terrain is a flaw that filling has mended, no end of the world.
-Grid<std::uint8_t> outside(const Dem& dem) {
-  const int width = dem.width();
-  const int height = dem.height();
-  Grid<std::uint8_t> out(width, height, 0);
-  std::vector<glm::ivec2> open;
-  const auto mark = [&](int x, int y) {
-    if (!out.contains(x, y) || out(x, y) != 0) return;
-    out(x, y) = 1;
-    open.emplace_back(x, y);
-  };
-  for (int x = 0; x < width; ++x) mark(x, 0), mark(x, height - 1);
-  for (int y = 0; y < height; ++y) mark(0, y), mark(width - 1, y);
-  if (dem.filled.empty()) return out;
-  while (!open.empty()) {
-    const glm::ivec2 at = open.back();
-    open.pop_back();
-    for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
-      const glm::ivec2 next = at + step;
-      if (dem.filled.contains(next.x, next.y) && dem.filled(next.x, next.y) != 0) mark(next.x, next.y);
-    }
-  }
-  return out;
-}
-
-// Distance of every post to the nearest that lies outside.
-Grid<float> rim_distance(const Dem& dem) {
-  const int width = dem.width();
-  const int height = dem.height();
-  const Grid<std::int32_t> nearest = nearest_marked(outside(dem));
-  Grid<float> distance(width, height);
-  parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const int at = nearest(x, y);
-      const int across = at % width - x;
-      const int down = at / width - y;
-      distance(x, y) = static_cast<float>(std::hypot(across * dem.transform.cell_x, down * dem.transform.cell_y));
-    }
-  });
-  return distance;
-}
-
-}  // namespace
-
-TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> generalized_m, std::shared_ptr<const LandCover> land_cover,
-                                double exaggeration) {
-  if (!dem->altitude_m.same_size(generalized_m)) {
-    throw Error(ErrorKind::bug, "terrain model",
-                fmt::format("a generalized grid of {} × {} cells", generalized_m.width(), generalized_m.height()),
-                fmt::format("the DEM's {} × {}", dem->width(), dem->height()));
-  }
-  TerrainModel model;
-  const double cell_m = dem->cell_m();
-  const Grid<float>& z = dem->altitude_m;
-  model.detail_smooth_m = gaussian_blur(z, 60.0 / cell_m);
-  model.shape_smooth_m = gaussian_blur(generalized_m, 120.0 / cell_m);
-  model.relief_s_m = relief(z, cell_m, 30.0, 180.0);
-  model.relief_m_m = relief(z, cell_m, 30.0, 750.0);
-  model.relief_l_m = relief(z, cell_m, 120.0, 1800.0);
-  model.valley_height_m = height_above_valley(z, cell_m, 900.0);
-  model.rim_m = rim_distance(*dem);
-  model.floor_plan = plan_floor(*land_cover, *dem);
-  model.dem = std::move(dem);
-  model.generalized_m = std::move(generalized_m);
-  model.land_cover = std::move(land_cover);
-  model.exaggeration = exaggeration;
-  return model;
-}
 
 GuidanceBuffers trace_guidance(const TerrainModel& terrain, const DeformedSurface& surface, const Tracer& tracer, const Camera& camera,
                                const GuidanceParameters& parameters, PixelRect region, Progress& progress) {

@@ -103,47 +103,48 @@ glm::dvec2 origin_of(const TerrainModel& terrain, double column, double row) {
   return origin + at.blend([&](int x, int y) { return glm::dvec2(terrain.came_from(x, y)); });
 }
 
-GroundValues sample_ground(const TerrainModel& terrain, const DeformedSurface& surface, const Camera& camera, double column, double row) {
+void sample_ground(const TerrainModel& terrain, const DeformedSurface& surface, const Camera& camera, double column, double row,
+                   GuidanceBuffers& out, std::size_t i) {
   const GeoTransform& transform = terrain.dem->transform;
   const Corners at = corners(terrain.generalized_m, column, row);
   const glm::dvec2 origin = origin_of(terrain, column, row);
   const Corners known = corners(terrain.dem->altitude_m, origin.x, origin.y);
-  GroundValues ground;
-  ground.place = glm::dvec3(transform.to_crs(column, row), bilinear(terrain.dem->altitude_m, known));
+  const glm::dvec3 place(transform.to_crs(column, row), bilinear(terrain.dem->altitude_m, known));
+  out.position_m[i] = glm::vec3(place - surface.origin);
+  out.altitude_m[i] = static_cast<float>(place.z);
 
   const glm::dvec2 slope_shown = gradient(terrain.generalized_m, transform, at);
   const glm::dvec2 slope_detail = gradient(terrain.dem->altitude_m, transform, known);
   const glm::dvec2 shape = gradient(terrain.shape_smooth_m, transform, at);
   if (terrain.local) {
-    const glm::dmat3 jacobian = terrain.local->shape_jacobian({glm::dvec2(ground.place), bilinear(terrain.generalized_m, at)});
-    ground.normal = shape_normal(jacobian, slope_shown);
-    ground.normal_detail = shape_normal(jacobian, slope_detail * terrain.detail_boost);
-    ground.normal_smooth = shape_normal(jacobian, shape);
+    const glm::dmat3 jacobian = terrain.local->shape_jacobian({glm::dvec2(place), bilinear(terrain.generalized_m, at)});
+    out.normal[i] = shape_normal(jacobian, slope_shown);
+    out.normal_detail[i] = shape_normal(jacobian, slope_detail * terrain.detail_boost);
+    out.normal_smooth[i] = shape_normal(jacobian, shape);
   } else {
-    ground.normal = upward_normal(slope_shown * terrain.exaggeration);
-    ground.normal_detail = upward_normal(slope_detail * (terrain.exaggeration * terrain.detail_boost));
-    ground.normal_smooth = upward_normal(shape * terrain.exaggeration);
+    out.normal[i] = upward_normal(slope_shown * terrain.exaggeration);
+    out.normal_detail[i] = upward_normal(slope_detail * (terrain.exaggeration * terrain.detail_boost));
+    out.normal_smooth[i] = upward_normal(shape * terrain.exaggeration);
   }
-  ground.fall_line = image_fall_line(terrain, surface, camera, column, row, shape);
+  out.fall_line[i] = image_fall_line(terrain, surface, camera, column, row, shape);
 
   const glm::dvec2 slope = gradient(terrain.detail_smooth_m, transform, known);
-  ground.slope_deg = static_cast<float>(to_degrees(std::atan(glm::length(slope))));
+  out.slope_deg[i] = static_cast<float>(to_degrees(std::atan(glm::length(slope))));
   // Downhill is against the gradient; flat ground has aspect 0.
   if (slope != glm::dvec2(0.0)) {
     const double aspect = to_degrees(std::atan2(-slope.x, -slope.y));
-    ground.aspect_deg = static_cast<float>(aspect < 0.0 ? aspect + 360.0 : aspect);
+    out.aspect_deg[i] = static_cast<float>(aspect < 0.0 ? aspect + 360.0 : aspect);
   }
-  ground.relief_s_m = bilinear(terrain.relief_s_m, known);
-  ground.relief_m_m = bilinear(terrain.relief_m_m, known);
-  ground.relief_l_m = bilinear(terrain.relief_l_m, known);
-  ground.ridge = ground.relief_s_m / (std::abs(ground.relief_s_m) + ridge_scale_m);
-  ground.valley_height_m = bilinear(terrain.valley_height_m, known);
-  ground.rim_m = bilinear(terrain.rim_m, at);
+  out.relief_s_m[i] = bilinear(terrain.relief_s_m, known);
+  out.relief_m_m[i] = bilinear(terrain.relief_m_m, known);
+  out.relief_l_m[i] = bilinear(terrain.relief_l_m, known);
+  out.ridge[i] = out.relief_s_m[i] / (std::abs(out.relief_s_m[i]) + ridge_scale_m);
+  out.valley_height_m[i] = bilinear(terrain.valley_height_m, known);
+  out.rim_m[i] = bilinear(terrain.rim_m, at);
   if (!terrain.floor_plan.built.empty()) {
-    ground.built = bilinear(terrain.floor_plan.built, known);
-    ground.grain = glm::vec2(known.blend([&](int x, int y) { return glm::dvec2(terrain.floor_plan.grain(x, y)); }));
+    out.built[i] = bilinear(terrain.floor_plan.built, known);
+    out.grain[i] = glm::vec2(known.blend([&](int x, int y) { return glm::dvec2(terrain.floor_plan.grain(x, y)); }));
   }
-  return ground;
 }
 
 }  // namespace belvedere

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "base/parallel.h"
 #include "base/random.h"
 
 namespace belvedere {

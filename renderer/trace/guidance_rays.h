@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/trace/guidance.h"
+#include "base/grid.h"
 #include "renderer/trace/tracer.h"
 
 namespace belvedere {

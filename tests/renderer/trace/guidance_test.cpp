@@ -11,9 +11,12 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <string_view>
+#include <variant>
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "base/guidance_channels.h"
 #include "base/random.h"
 #include "renderer/trace/guidance_rays.h"
 
@@ -480,9 +483,9 @@ TEST(Guidance, ShadowsWithoutPenumbraAreFoundByTwoRays) {
 }
 
 template <class T>
-void expect_same(const Grid<T>& whole, const Grid<T>& part, PixelRect region, PixelRect keep, const char* channel) {
-  ASSERT_EQ(part.width(), region.width());
-  ASSERT_EQ(part.height(), region.height());
+void expect_same(const Grid<T>& whole, const Grid<T>& part, PixelRect region, PixelRect keep, std::string_view channel) {
+  ASSERT_EQ(part.width(), region.width()) << channel;
+  ASSERT_EQ(part.height(), region.height()) << channel;
   for (int y = keep.y0; y < keep.y1; ++y) {
     for (int x = keep.x0; x < keep.x1; ++x) {
       ASSERT_EQ(std::memcmp(&whole(x, y), &part(x - region.x0, y - region.y0), sizeof(T)), 0) << channel << " at " << x << ' ' << y;
@@ -490,28 +493,23 @@ void expect_same(const Grid<T>& whole, const Grid<T>& part, PixelRect region, Pi
   }
 }
 
+// inner: where the channels that look at neighbours are the same.
 void expect_same_buffers(const GuidanceBuffers& whole, const GuidanceBuffers& part, PixelRect region, PixelRect inner) {
-  expect_same(whole.depth_m, part.depth_m, region, region, "depth");
-  expect_same(whole.position_m, part.position_m, region, region, "position");
-  expect_same(whole.normal, part.normal, region, region, "normal");
-  expect_same(whole.normal_detail, part.normal_detail, region, region, "normal detail");
-  expect_same(whole.normal_smooth, part.normal_smooth, region, region, "normal smooth");
-  expect_same(whole.altitude_m, part.altitude_m, region, region, "altitude");
-  expect_same(whole.land_cover, part.land_cover, region, region, "land cover");
-  expect_same(whole.coverage, part.coverage, region, region, "coverage");
-  expect_same(whole.front, part.front, region, region, "front");
-  expect_same(whole.shadow, part.shadow, region, region, "shadow");
-  expect_same(whole.slope_deg, part.slope_deg, region, region, "slope");
-  expect_same(whole.aspect_deg, part.aspect_deg, region, region, "aspect");
-  expect_same(whole.fall_line, part.fall_line, region, region, "fall line");
-  expect_same(whole.footprint_m, part.footprint_m, region, region, "footprint");
-  expect_same(whole.ridge, part.ridge, region, region, "ridge");
-  expect_same(whole.relief_s_m, part.relief_s_m, region, region, "relief s");
-  expect_same(whole.relief_m_m, part.relief_m_m, region, region, "relief m");
-  expect_same(whole.relief_l_m, part.relief_l_m, region, region, "relief l");
-  expect_same(whole.valley_height_m, part.valley_height_m, region, region, "valley height");
-  expect_same(whole.sky_view, part.sky_view, region, inner, "sky view");
-  expect_same(whole.silhouette, part.silhouette, region, inner, "silhouette");
+  for (const GuidanceChannel& channel : guidance_channels()) {
+    if (channel.maker != ChannelMaker::trace) continue;
+    const bool local =
+        channel.member != GuidanceMember(&GuidanceBuffers::sky_view) && channel.member != GuidanceMember(&GuidanceBuffers::silhouette);
+    std::visit([&](auto member) { expect_same(whole.*member, part.*member, region, local ? region : inner, channel.names[0]); },
+               channel.member);
+  }
+}
+
+TEST(Guidance, TracesTheChannelsOfItsShareOfTheTableAndNoOthers) {
+  const World world = make_world(
+      20, 20, [](double, double) { return 0.0; }, all_meadow);
+  const GuidanceBuffers b = trace(world, *make_camera(southward(16, 16)));
+  for (const GuidanceChannel& channel : guidance_channels())
+    EXPECT_EQ(has_channel(b, channel.member), channel.maker == ChannelMaker::trace) << channel.names[0];
 }
 
 TEST(Guidance, AnyRectangleTileSizeAndThreadCountGivesTheSameBits) {
