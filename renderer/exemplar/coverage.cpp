@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/guidance_channels.h"
 #include "renderer/exemplar/coverage_names.h"
 
 namespace belvedere {
@@ -37,9 +38,10 @@ bool same_surface(float a, float b) { return a <= same_surface_ratio * b && b <=
 std::int64_t Coverage::ground() const { return std::accumulate(texels.begin(), texels.end(), std::int64_t{0}); }
 
 void add_coverage(Coverage& coverage, const GuidanceBuffers& guidance, const Grid<LandCoverClass>& classes) {
+  using B = GuidanceBuffers;
+  require_channels(guidance, {&B::depth_m, &B::tone, &B::fall_line, &B::altitude_m, &B::shadow}, "coverage");
   const int width = guidance.width();
   const int height = guidance.height();
-  const auto has = [&](const auto& channel) { return channel.same_size(guidance.depth_m); };
   coverage.pixels += static_cast<std::int64_t>(guidance.depth_m.size());
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -48,11 +50,10 @@ void add_coverage(Coverage& coverage, const GuidanceBuffers& guidance, const Gri
       const auto id = static_cast<std::size_t>(classes[i]);
       const float depth = guidance.depth_m[i];
       ++coverage.texels[id];
-      if (has(guidance.tone)) ++coverage.by_light[id][tone_bin(guidance.tone[i])][bin_of(depth, Coverage::distance_bounds_m)];
-      if (has(guidance.fall_line) && guidance.fall_line[i] != glm::vec2(0.F))
-        ++coverage.by_direction[id][direction_bin(guidance.fall_line[i])];
-      if (has(guidance.altitude_m)) ++coverage.by_altitude[id][bin_of(guidance.altitude_m[i], Coverage::altitude_bounds_m)];
-      if (has(guidance.shadow) && guidance.shadow[i] < 0.5F) ++coverage.in_cast_shadow[id];
+      ++coverage.by_light[id][tone_bin(guidance.tone[i])][bin_of(depth, Coverage::distance_bounds_m)];
+      if (guidance.fall_line[i] != glm::vec2(0.F)) ++coverage.by_direction[id][direction_bin(guidance.fall_line[i])];
+      ++coverage.by_altitude[id][bin_of(guidance.altitude_m[i], Coverage::altitude_bounds_m)];
+      if (guidance.shadow[i] < 0.5F) ++coverage.in_cast_shadow[id];
 
       // A texel counts once for each other class around it.
       Coverage::ByClass<bool> beside{};

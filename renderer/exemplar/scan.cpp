@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/guidance_channels.h"
 #include "renderer/exemplar/example_painting.h"
 #include "renderer/exemplar/harmonize.h"
 #include "renderer/exemplar/painting_strokes.h"
@@ -107,6 +108,7 @@ Raw read_raw(const SceneExemplar& wish, const LoadedScene& scene) {
     const std::string path = find_scene_file(scene, wish.guidance);
     raw.guidance = read_guidance(path);
     raw.measured = true;
+    require_channels(raw.guidance, {&GuidanceBuffers::depth_m, &GuidanceBuffers::land_cover}, path, ErrorKind::input);
     check_same_size(path, raw.guidance.width(), raw.guidance.height(), raw.picture);
     take_paint(wish, scene, raw.guidance);
   } else {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "base/error.h"
+#include "base/guidance_channels.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "renderer/paint/air.h"
@@ -31,14 +31,6 @@ constexpr double brook_sigma_units = 1.8;       // what this blur of the water l
 constexpr float high_m = 260.0F;                // what stands so far above its surroundings is a crest
 
 using Class = LandCoverClass;
-
-void check_channels(const GuidanceBuffers& g) {
-  const auto& size = g.depth_m;
-  if (!size.same_size(g.position_m) || !size.same_size(g.altitude_m) || !size.same_size(g.land_cover) || !size.same_size(g.tone) ||
-      !size.same_size(g.relief_s_m) || !size.same_size(g.fall_line))
-    throw Error(ErrorKind::bug, "base picture", "a guidance channel is missing or has another size",
-                "depth, position, altitude, land cover, fall line, tone and relief");
-}
 
 // 1 where a class lies, else 0.
 Grid<float> class_mask(const GuidanceBuffers& g, Class id) {
@@ -119,17 +111,11 @@ struct Scenery {
   double horizon_px;
   glm::ivec2 origin_px;
 
-  bool has_rim() const { return guidance.rim_m.same_size(guidance.depth_m) && parameters.rim_fade_m > 0.0; }
-  // Metres of ground that a unit of the sheet shows; 0 where that is not known.
-  float metres_per_unit(std::size_t i) const {
-    return guidance.footprint_m.same_size(guidance.depth_m) ? guidance.footprint_m[i] * static_cast<float>(parameters.pixels_per_unit)
-                                                            : 0.0F;
-  }
+  // Metres of ground that a unit of the sheet shows.
+  float metres_per_unit(std::size_t i) const { return guidance.footprint_m[i] * static_cast<float>(parameters.pixels_per_unit); }
   glm::dvec3 place_m(std::size_t i) const { return glm::dvec3(guidance.position_m[i]) + guidance.origin_m; }
   // How a place stands against its surroundings: -1 valley … 1 crest.
-  float raised(std::size_t i) const {
-    return guidance.relief_l_m.empty() ? 0.0F : std::clamp(guidance.relief_l_m[i] / high_m, -1.0F, 1.0F);
-  }
+  float raised(std::size_t i) const { return std::clamp(guidance.relief_l_m[i] / high_m, -1.0F, 1.0F); }
 };
 
 PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& patches) {
@@ -151,14 +137,12 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& 
   pixel.air = air_share(p, s.palette, depth, g.altitude_m[i], far, raised);
   pixel.edge = range_edge(s.around.log_depth[i] - s.around.mean_log_depth[i], far, raised, separation);
   pixel.beyond = air_beyond(s.palette, (y + s.origin_px.y + 0.5) / s.horizon_px);
-  if (s.has_rim()) pixel.end = terrain_end_at(g.rim_m[i], p.rim_fade_m, raised);
+  if (p.rim_fade_m > 0.0) pixel.end = terrain_end_at(g.rim_m[i], p.rim_fade_m, raised);
   if (id == Class::valley_floor && !s.palette.winter) {
     const glm::dvec3 place = s.place_m(i);
-    const glm::vec2 grain = g.grain.empty() ? glm::vec2(0.0F) : g.grain[i];
-    const float slope = g.slope_deg.empty() ? 0.0F : g.slope_deg[i];
     const float metres_per_unit = s.metres_per_unit(i);
-    const Parcel parcel = parcel_at(p.seed, place.x, place.y, metres_per_unit, grain);
-    pixel.factor *= field_colour(parcel, slope, metres_per_unit, pixel.air, drift);
+    const Parcel parcel = parcel_at(p.seed, place.x, place.y, metres_per_unit, g.grain[i]);
+    pixel.factor *= field_colour(parcel, g.slope_deg[i], metres_per_unit, pixel.air, drift);
   }
   return pixel;
 }
@@ -170,7 +154,6 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
   const double altitude = g.altitude_m[i];
   const Patches patches = patches_at(noises, s.place_m(i), s.metres_per_unit(i));
   const PixelColour pixel = pixel_colour(s, i, y, patches);
-  const float built = g.built.empty() ? 0.5F : g.built[i];
   const float glade = s.around.cover.glade[i];
   const bool has_gravel = has_trait(id, ClassTrait::gravel_banks) && !s.palette.winter;
   const float gravel = has_gravel ? gravel_share(s.around.water[i], patches) : 0.0F;
@@ -182,7 +165,7 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
     if (glade > 0.0F) ramp = glm::mix(ramp, glade_colour(s.palette, altitude, light), 0.85F * glade);
     if (gravel > 0.0F) ramp = glm::mix(ramp, gravel_colour(light), gravel);
     if (id == Class::settlement)
-      ramp = town_ground_colour(s.palette, ramp, built, altitude, light, static_cast<float>(s.parameters.hue_drift));
+      ramp = town_ground_colour(s.palette, ramp, g.built[i], altitude, light, static_cast<float>(s.parameters.hue_drift));
     return pixel.finish(water.over(ramp), s.palette.range_mist);
   };
   const int step_px = std::max(1, static_cast<int>(std::lround(s.parameters.pixels_per_unit)));
@@ -198,7 +181,11 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
 
 BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& palette, const BaseParameters& parameters,
                               glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress) {
-  check_channels(guidance);
+  using B = GuidanceBuffers;
+  require_channels(guidance,
+                   {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::tone, &B::fall_line, &B::slope_deg, &B::footprint_m,
+                    &B::relief_s_m, &B::relief_l_m, &B::rim_m, &B::built, &B::grain},
+                   "base picture");
   const int width = guidance.width();
   const int height = guidance.height();
   progress.begin("base picture", height);

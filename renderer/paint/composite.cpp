@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/guidance_channels.h"
 #include "base/parallel.h"
 #include "renderer/image/srgb.h"
 
@@ -89,8 +90,8 @@ Grid<glm::vec3> mix_borders(const Grid<glm::vec3>& copied, const Painting& draft
 }
 
 Grid<glm::vec3> blend_edges(const Grid<glm::vec3>& picture, const GuidanceBuffers& guidance) {
-  if (guidance.front.empty()) return picture;
-  if (!picture.same_size(guidance.depth_m) || !picture.same_size(guidance.front)) {
+  require_channels(guidance, {&GuidanceBuffers::depth_m, &GuidanceBuffers::front}, "edges");
+  if (!picture.same_size(guidance.depth_m)) {
     throw Error(ErrorKind::bug, "composite", "the picture and its guidance have different sizes");
   }
   Grid<glm::vec3> out = picture;

@@ -27,7 +27,7 @@ Grid<glm::vec3> mix_borders(const Grid<glm::vec3>& copied, const Painting& draft
 // Softens depth edges and the skyline. A pixel of which only the part `front` shows the surface it was painted for gets the rest from those
 // of its eight neighbours that lie on another surface (depth differs by more than 3 %, or one is sky), in linear light, as an eye or lens
 // would mix them. Pixels with front 1, or with no other surface around, stay as they are. `picture` encoded sRGB. Needs depth_m and
-// front; without front the picture comes back unchanged.
+// front.
 Grid<glm::vec3> blend_edges(const Grid<glm::vec3>& picture, const GuidanceBuffers& guidance);
 // Rows that blend_edges looks at above and below, for pictures made in bands.
 inline constexpr int blend_margin_px = 1;

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <map>
 
+#include "base/guidance_channels.h"
 #include "base/math.h"
 #include "base/parallel.h"
 #include "renderer/paint/picture_filter.h"
@@ -23,7 +24,6 @@ constexpr double glade_sigma_units = 9.0;
 constexpr double clump_sigma_units = 4.5;
 constexpr double track_sigma_units = 3.0;
 constexpr double stand_sigma_units = 20.0;
-constexpr float metres_per_unit_unknown = 20.0F;
 constexpr double high_grass_m = 1600.0;  // above, the grass of glades is that of the heights
 
 // Noise that lies on the ground and yet has patches of one size on the sheet: of the two octaves next to the wanted size, mixed so that
@@ -82,13 +82,14 @@ Walk walk(const GuidanceBuffers& g, const Grid<float>& noise, int x, int y, floa
 }  // namespace
 
 ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParameters& parameters, glm::ivec2 origin_px) {
+  using B = GuidanceBuffers;
+  require_channels(g, {&B::depth_m, &B::position_m, &B::land_cover, &B::fall_line, &B::slope_deg, &B::footprint_m, &B::relief_s_m},
+                   "forest");
   const int width = g.width();
   const int height = g.height();
   const double ppu = parameters.pixels_per_unit;
   const std::uint64_t seed = parameters.seed + 400;
   const Grid<float> noise = make_image_noise(seed, origin_px, width, height, ppu, lane_sigma_units, lane_sigma_units);
-  const bool has_footprint = g.footprint_m.same_size(g.depth_m);
-  const bool has_slope = g.slope_deg.same_size(g.depth_m);
   const auto step_px = static_cast<float>(step_units * ppu);
   // Deviation of the sum of 25 samples 2 units apart of that noise: neighbours share exp(-1/4), the next exp(-1).
   constexpr float lane_deviation = 9.2F;
@@ -101,9 +102,9 @@ ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParamet
     for (int x = 0; x < width; ++x) {
       const std::size_t i = noise.index(x, y);
       if (g.land_cover[i] != Class::forest) continue;
-      const double metres = has_footprint ? static_cast<double>(g.footprint_m[i]) * ppu : static_cast<double>(metres_per_unit_unknown);
+      const double metres = static_cast<double>(g.footprint_m[i]) * ppu;
       const glm::dvec3 place = glm::dvec3(g.position_m[i]) + g.origin_m;
-      const float slope = has_slope ? g.slope_deg[i] : 25.0F;
+      const float slope = g.slope_deg[i];
       const Walk up = walk(g, noise, x, y, step_px, -1.0F, steps_up);
       const Walk down = walk(g, noise, x, y, step_px, 1.0F, steps_down);
       const float clump = clumps(place.x, place.y, clump_sigma_units * metres);
@@ -127,7 +128,7 @@ ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParamet
       // Whole stands are lighter than others.
       const float open_stand = smoothstep(0.2F, 1.6F, stands(place.x, place.y, stand_sigma_units * metres));
       const float bare_lane = smoothstep(0.9F, 1.5F, -lane - 0.25F * clump);
-      const float hollow = g.relief_s_m.empty() ? 0.0F : std::clamp(-g.relief_s_m[i] / 10.0F, -1.0F, 1.0F);
+      const float hollow = std::clamp(-g.relief_s_m[i] / 10.0F, -1.0F, 1.0F);
       float density = 0.93F + 0.14F * hollow + 0.24F * std::clamp(clump + 0.3F, -2.2F, 0.4F);
       density =
           std::clamp(density, 0.25F, 1.0F) * (1.0F - 0.55F * open_stand) * (1.0F - thin) * (1.0F - 0.92F * bare_lane) * (1.0F - glade);

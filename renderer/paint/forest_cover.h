@@ -23,8 +23,8 @@ struct ForestCover {
   Grid<float> glade;    // 0…1: how far grass shows instead of wood; 0 outside forest
 };
 
-// Reads depth, position, land cover, fall line, relief_s; slope and footprint where they are there. Local up to forest_cover_margin_px():
-// a part with that margin equals the whole bit for bit.
+// Needs depths, places, classes, fall lines, slopes, footprints and small relief. Local up to forest_cover_margin_px(): a part with that
+// margin equals the whole bit for bit.
 ForestCover make_forest_cover(const GuidanceBuffers& guidance, const ForestCoverParameters& parameters, glm::ivec2 origin_px);
 int forest_cover_margin_px(double pixels_per_unit);
 

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
+#include "base/guidance_channels.h"
 #include "base/parallel.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
@@ -35,15 +36,6 @@ constexpr float calm_to_m = 42.0F;            // … and at which they are simpl
 // How much of the ribs a slope shows: none on flats, all where it is steep.
 float steepness(float slope_deg) { return std::clamp((slope_deg - 18.0F) / 20.0F, 0.0F, 1.0F); }
 
-void check_channels(const GuidanceBuffers& g) {
-  const auto& size = g.depth_m;
-  if (!size.same_size(g.position_m) || !size.same_size(g.normal) || !size.same_size(g.normal_detail) || !size.same_size(g.normal_smooth) ||
-      !size.same_size(g.altitude_m) || !size.same_size(g.land_cover) || !size.same_size(g.shadow) || !size.same_size(g.sky_view) ||
-      !size.same_size(g.slope_deg) || !size.same_size(g.fall_line) || !size.same_size(g.relief_s_m) || !size.same_size(g.relief_m_m) ||
-      !size.same_size(g.relief_l_m))
-    throw Error(ErrorKind::bug, "tone", "a guidance channel is missing or has another size", "all traced channels");
-}
-
 // Rock's contrast drives its shade below the darkest paint, where a wall has no forms left: from `toe` down tones draw together instead.
 float keep_forms(float tone) {
   constexpr float toe = 0.26F;
@@ -53,7 +45,6 @@ float keep_forms(float tone) {
 // How fine the ground is drawn: 1 near, falling to .35 where a unit of the sheet covers so much ground that the DEM's small forms would
 // crumple a range into specks.
 float fineness(const GuidanceBuffers& g, std::size_t i, double pixels_per_unit) {
-  if (g.footprint_m.empty()) return 1.0F;
   const float metres_per_unit = g.footprint_m[i] * static_cast<float>(pixels_per_unit);
   return 1.0F - 0.65F * std::clamp((metres_per_unit - calm_from_m) / (calm_to_m - calm_from_m), 0.0F, 1.0F);
 }
@@ -98,7 +89,12 @@ Grid<float> lift_crests(const Grid<float>& tone, const GuidanceBuffers& g, doubl
 }  // namespace
 
 Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& parameters, glm::ivec2 origin_px, Progress& progress) {
-  check_channels(guidance);
+  using B = GuidanceBuffers;
+  require_channels(
+      guidance,
+      {&B::depth_m, &B::position_m, &B::normal, &B::normal_detail, &B::normal_smooth, &B::altitude_m, &B::land_cover, &B::shadow,
+       &B::sky_view, &B::slope_deg, &B::fall_line, &B::footprint_m, &B::relief_s_m, &B::relief_m_m, &B::relief_l_m},
+      "tone");
   const int width = guidance.width();
   const int height = guidance.height();
   const double ppu = parameters.pixels_per_unit;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/guidance_channels.h"
 #include "base/parallel.h"
 #include "renderer/paint/picture_filter.h"
 
@@ -21,12 +22,13 @@ bool is_water(const GuidanceBuffers& g, int x, int y) { return g.land_cover(x, y
 }  // namespace
 
 Mirrored find_reflections(const GuidanceBuffers& guidance, double pixels_per_unit) {
+  require_channels(guidance, {&GuidanceBuffers::depth_m, &GuidanceBuffers::land_cover, &GuidanceBuffers::slope_deg}, "reflections");
   const int width = guidance.width();
   const int height = guidance.height();
   const int reach_px = static_cast<int>(std::ceil(reflection_units * pixels_per_unit));
   const int meadow_px = static_cast<int>(std::ceil(meadow_units * pixels_per_unit));
   const auto ppu = static_cast<float>(pixels_per_unit);
-  const auto is_level = [&](int x, int y) { return !guidance.slope_deg.empty() && guidance.slope_deg(x, y) < level_deg; };
+  const auto is_level = [&](int x, int y) { return guidance.slope_deg(x, y) < level_deg; };
   Mirrored mirrored{Grid<std::int32_t>(width, height, -1), Grid<float>(width, height, 0.0F), Grid<float>(width, height, open_water),
                     Grid<float>(width, height, open_water)};
   parallel_rows(height, [&](int y) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/guidance_channels.h"
 #include "texture/strokes/brush.h"
 #include "texture/strokes/stroke_table.h"
 
@@ -12,10 +13,14 @@ namespace belvedere {
 namespace {
 
 void check_sizes(const Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance, const BasePicture& base) {
-  const bool same = canvas.same_size(guidance.depth_m) && canvas.same_size(guidance.land_cover) && canvas.same_size(guidance.fall_line) &&
-                    canvas.same_size(guidance.tone) && canvas.same_size(guidance.position_m) && canvas.same_size(base.colour) &&
-                    canvas.same_size(base.darker) && canvas.same_size(base.lighter) && canvas.same_size(base.accent) &&
-                    canvas.same_size(base.tree_density) && canvas.same_size(base.haze);
+  using B = GuidanceBuffers;
+  require_channels(guidance,
+                   {&B::depth_m, &B::position_m, &B::land_cover, &B::tone, &B::fall_line, &B::slope_deg, &B::footprint_m, &B::relief_s_m,
+                    &B::built, &B::grain},
+                   "strokes");
+  const bool same = canvas.same_size(guidance.depth_m) && canvas.same_size(base.colour) && canvas.same_size(base.darker) &&
+                    canvas.same_size(base.lighter) && canvas.same_size(base.accent) && canvas.same_size(base.tree_density) &&
+                    canvas.same_size(base.haze);
   if (!same) throw Error(ErrorKind::bug, "paint_strokes", "canvas, guidance and base picture differ in size");
 }
 

@@ -63,9 +63,7 @@ float ground_noise(const StrokeScene& scene, std::size_t i, std::uint64_t kind, 
 }
 
 float patch_noise(const StrokeScene& scene, std::size_t i, std::uint64_t kind, double sigma_units) {
-  constexpr double unknown_metres_per_unit = 20.0;
-  const double known = static_cast<double>(scene.metres_per_unit(i));
-  const double octave = std::log2(sigma_units * (known > 0.0 ? known : unknown_metres_per_unit));
+  const double octave = std::log2(sigma_units * static_cast<double>(scene.metres_per_unit(i)));
   const double below = std::floor(octave);
   const auto share = static_cast<float>(octave - below);
   // Two octaves, mixed so that the deviation stays 1.

@@ -22,7 +22,7 @@ struct Bed {
 Bed bed_at(const StrokeScene& scene, std::size_t i) {
   // Beds thinner than a few strokes are not drawn one by one.
   const float shown = std::clamp(2.F - scene.metres_per_unit(i) * 6.F / bed_thickness_m, 0.F, 1.F);
-  if (shown <= 0.F || scene.guidance.footprint_m.empty()) return {0.F};
+  if (shown <= 0.F) return {0.F};
   const glm::dvec3 p = glm::dvec3(scene.guidance.position_m[i]) + scene.guidance.origin_m;
   const auto noise = [&](unsigned kind, double sigma_m) {
     return static_cast<float>(gaussian_noise(scene.parameters.seed + kind, p.x, p.y, sigma_m));

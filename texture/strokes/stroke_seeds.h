@@ -47,14 +47,13 @@ struct StrokeScene {
     return place.x >= 0.F && place.y >= 0.F && place.x < static_cast<float>(guidance.width()) &&
            place.y < static_cast<float>(guidance.height());
   }
-  // Degrees; middling where the guidance has no slopes.
-  float slope_deg(std::size_t i) const { return guidance.slope_deg.empty() ? 25.F : guidance.slope_deg[i]; }
-  // Height above the ground within 180 m, m; 0 where the guidance has none.
-  float relief_m(std::size_t i) const { return guidance.relief_s_m.empty() ? 0.F : guidance.relief_s_m[i]; }
+  float slope_deg(std::size_t i) const { return guidance.slope_deg[i]; }
+  // Height above the ground within 180 m, m.
+  float relief_m(std::size_t i) const { return guidance.relief_s_m[i]; }
   // Altitude, m.
   float altitude_m(std::size_t i) const { return guidance.position_m[i].z + static_cast<float>(guidance.origin_m.z); }
-  // Metres of ground that a unit of the sheet shows; 0 where the guidance has no footprints.
-  float metres_per_unit(std::size_t i) const { return guidance.footprint_m.empty() ? 0.F : guidance.footprint_m[i] * scale(); }
+  // Metres of ground that a unit of the sheet shows.
+  float metres_per_unit(std::size_t i) const { return guidance.footprint_m[i] * scale(); }
   // Unit direction of the fall line, straight down where the ground is flat. Places outside take the border's.
   glm::vec2 fall_line(glm::vec2 place) const;
   // Paint for a stroke: the base colour moved by m towards the darker (m < 0) or lighter (m > 0) picture, |m| ≤ 1.5, and jittered.

@@ -26,12 +26,7 @@ constexpr float plot_height = 3.0F;   // … and upwards, with its garden
 constexpr double turn_step = 0.3927;  // rad, 22.5°: a quarter has one direction
 
 // 0 at the edge of a hamlet … .3 in a village … 1 in the middle of a large town.
-float built_at(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
-  if (!scene.guidance.built.empty()) return std::clamp(scene.guidance.built[i], 0.F, 1.F);
-  const auto houses_stand = [&](std::size_t k) { return scene.class_at(k) == settlement; };
-  const float near = share_around(scene, place, 6.F, houses_stand);
-  return 0.2F * near + (near < 0.5F ? 0.F : 0.8F * share_around(scene, place, 17.F, houses_stand));
-}
+float built_at(const StrokeScene& scene, std::size_t i) { return std::clamp(scene.guidance.built[i], 0.F, 1.F); }
 
 glm::dvec2 ground_at(const StrokeScene& scene, std::size_t i) {
   const glm::dvec3 p = glm::dvec3(scene.guidance.position_m[i]) + scene.guidance.origin_m;
@@ -83,7 +78,7 @@ bool find_plot(const StrokeScene& scene, Stream stream, glm::vec2 at, Plot& plot
   const Lie lie = lie_at(scene, at, i);
   if (std::abs(lie.area) < 1e-6) return false;
   // Streets run with the land; where nothing orders it each quarter has its own way.
-  const glm::vec2 grain = scene.guidance.grain.empty() ? glm::vec2(0.F) : scene.guidance.grain[i];
+  const glm::vec2 grain = scene.guidance.grain[i];
   double angle = 0.6 * static_cast<double>(ground_noise(scene, i, 53, 900.0));
   if (std::abs(grain.x) + std::abs(grain.y) > 0.1F) angle = 0.5 * std::atan2(static_cast<double>(grain.y), static_cast<double>(grain.x));
   const auto turn = static_cast<std::int64_t>(std::lround(angle / turn_step));
@@ -264,7 +259,7 @@ std::vector<Stroke> houses(const StrokeScene& scene, Stream stream) {
   std::vector<Stroke> all;
   for (const Plot& plot : find_plots(scene, stream)) {
     StrokeSeed seed(plot.key, 1, 0);
-    const float built = built_at(scene, plot.place, plot.pixel);
+    const float built = built_at(scene, plot.pixel);
     const float quarter = 0.12F * ground_noise(scene, plot.pixel, 54, 160.0);
     // Blocks between lanes in the middle, loose houses and gardens at the edge.
     const bool lane = plot.street && built > 0.3F;
@@ -285,15 +280,13 @@ std::vector<Stroke> houses(const StrokeScene& scene, Stream stream) {
 
 // A church in the middle of every village, a few in a town.
 std::vector<Stroke> churches(const StrokeScene& scene, Stream stream) {
-  const bool known = !scene.guidance.built.empty();
   std::vector<glm::vec2> built_already;
   std::vector<Stroke> all = sow(scene, 24.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != settlement || seed.uniform() > 0.45F) return;
     const auto stands = [&](std::size_t k) { return scene.class_at(k) == settlement; };
-    if (share_around(scene, place, 3.F, stands) < 1.F || (known && scene.guidance.built[i] < 0.5F)) return;
+    if (share_around(scene, place, 3.F, stands) < 1.F || scene.guidance.built[i] < 0.5F) return;
     build_church(scene, place, seed.between(0.9F, 1.15F) * scene.scale(), i, seed, out);
   });
-  if (!known) return all;
   const float step = 6.F * scene.scale();
   for (float y = 0.5F * step; y < static_cast<float>(scene.guidance.height()); y += step)
     for (float x = 0.5F * step; x < static_cast<float>(scene.guidance.width()); x += step) {

@@ -47,8 +47,7 @@ bool is_leafy(const StrokeScene& scene, std::size_t i, float group) {
 // 1 on the borders of some fields, where hedges grow.
 float hedge_at(const StrokeScene& scene, std::size_t i) {
   const glm::dvec3 p = glm::dvec3(scene.guidance.position_m[i]) + scene.guidance.origin_m;
-  const glm::vec2 grain = scene.guidance.grain.empty() ? glm::vec2(0.F) : scene.guidance.grain[i];
-  const Parcel parcel = parcel_at(scene.parameters.seed, p.x, p.y, scene.metres_per_unit(i), grain);
+  const Parcel parcel = parcel_at(scene.parameters.seed, p.x, p.y, scene.metres_per_unit(i), scene.guidance.grain[i]);
   return parcel.border_m < 0.09F * parcel.width_m && parcel.hedged ? 1.F : 0.F;
 }
 

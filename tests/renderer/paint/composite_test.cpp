@@ -251,7 +251,7 @@ TEST(BlendEdges, OneSurfaceIsNotBlurred) {
   guidance.depth_m = Grid<float>(8, 8, infinity);
   EXPECT_EQ(blend_edges(picture, guidance), picture) << "sky beside sky";
   guidance.front = {};
-  EXPECT_EQ(blend_edges(picture, guidance), picture) << "nothing known";
+  EXPECT_THROW(blend_edges(picture, guidance), Error) << "nothing known";
 }
 
 }  // namespace

@@ -150,12 +150,15 @@ TEST(StrokePainter, DarkerStrokesAreMixedIn) {
   EXPECT_THAT(darker_share(snow, "snow"), testing::AllOf(testing::Gt(0.10), testing::Lt(0.30)));
 }
 
-// A round settlement of this radius on the valley floor.
+// A round settlement of this radius on the valley floor, the denser the larger it is and the nearer to its middle.
 Picture town(float radius) {
   Picture p = one_class(valley_floor, 320, 240);
   for (int y = 0; y < 240; ++y)
     for (int x = 0; x < 320; ++x)
-      if (std::hypot(static_cast<float>(x) - 160.F, static_cast<float>(y) - 120.F) < radius) p.guidance.land_cover(x, y) = settlement;
+      if (const float r = std::hypot(static_cast<float>(x) - 160.F, static_cast<float>(y) - 120.F); r < radius) {
+        p.guidance.land_cover(x, y) = settlement;
+        p.guidance.built(x, y) = std::min(1.F, radius / 80.F) * (1.F - 0.7F * r / radius);
+      }
   p.guidance.footprint_m = Grid<float>(320, 240, 15.F);
   return p;
 }

@@ -23,8 +23,8 @@ struct Picture {
   StrokeScene scene() const { return {guidance, ground, parameters}; }
 };
 
-// One class all over, fall line straight down, tone .6, three greys to mix from, clear air, trees where trees grow. Depth and positions
-// are zero: each test lays its own ground.
+// One class all over, a slope of 25° straight down, tone .6, three greys to mix from, clear air, trees where trees grow. Depth and
+// positions are zero: each test lays its own ground.
 inline Picture plain_picture(LandCoverClass id, int width, int height) {
   Picture p;
   p.guidance.depth_m = Grid<float>(width, height, 0.F);
@@ -32,6 +32,10 @@ inline Picture plain_picture(LandCoverClass id, int width, int height) {
   p.guidance.fall_line = Grid<glm::vec2>(width, height, glm::vec2(0.F, 1.F));
   p.guidance.tone = Grid<float>(width, height, 0.6F);
   p.guidance.position_m = Grid<glm::vec3>(width, height);
+  p.guidance.slope_deg = Grid<float>(width, height, 25.F);
+  p.guidance.footprint_m = Grid<float>(width, height, 20.F);
+  p.guidance.relief_s_m = p.guidance.built = Grid<float>(width, height, 0.F);
+  p.guidance.grain = Grid<glm::vec2>(width, height);
   p.ground.colour = Grid<glm::vec3>(width, height, glm::vec3(0.5F));
   p.ground.darker = Grid<glm::vec3>(width, height, glm::vec3(0.4F));
   p.ground.lighter = Grid<glm::vec3>(width, height, glm::vec3(0.6F));
