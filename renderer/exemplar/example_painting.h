@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/paint/paint.h"
+#include "renderer/paint/guides.h"
 #include "renderer/world/lit_picture.h"
 
 namespace belvedere {

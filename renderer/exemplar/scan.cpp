@@ -21,6 +21,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/oklab.h"
 #include "renderer/paint/composite.h"
+#include "renderer/paint/guides.h"
 
 namespace belvedere {
 namespace {

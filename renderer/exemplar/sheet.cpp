@@ -15,6 +15,7 @@
 #include "renderer/exemplar/seam_picture.h"
 #include "renderer/image/srgb.h"
 #include "renderer/paint/composite.h"
+#include "renderer/paint/guides.h"
 #include "renderer/world/lit_picture.h"
 #include "renderer/world/scene_terrain.h"
 

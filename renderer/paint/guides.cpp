@@ -1,21 +1,56 @@
+#include "renderer/paint/guides.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include "base/error.h"
-#include "renderer/paint/paint.h"
 
 namespace belvedere {
 namespace {
 
-constexpr std::uint8_t excluded_label = 255;
+using B = GuidanceBuffers;
+
 constexpr float nearest_m = 500.0F;
 constexpr float farthest_m = 500000.0F;
+
+float log_distance(const GuidanceBuffers& g, std::size_t i) {
+  return std::log(std::max(g.depth_m[i], nearest_m) / nearest_m) / std::log(farthest_m / nearest_m);
+}
+
+// Relief, altitude and air come with the base picture, so guides only choose among strokes, lightly: heavier ones tear the texture to
+// grain. Tone leads, because strokes in shade differ from those in light, then the direction strokes run in.
+const GuideKind kinds[] = {
+    {"altitude", "20 m a step from 0 m", &B::altitude_m, [](const B& g, std::size_t i) { return g.altitude_m[i] / (20.0F * 255.0F); },
+     0.04},
+    {"tone", "light, 0…1", &B::tone, [](const B& g, std::size_t i) { return g.tone[i]; }, 0.15},
+    {"distance", "logarithm from 500 m to 500 km", &B::depth_m, log_distance, 0.02},
+    {"shadow", "0 in cast shadow … 1 lit", &B::shadow, [](const B& g, std::size_t i) { return g.shadow[i]; }, 0.02},
+    {"slope", "0…90°", &B::slope_deg, [](const B& g, std::size_t i) { return g.slope_deg[i] / 90.0F; }, 0.02},
+    {"fall_line_x", "of the unit direction, -1 (left) … 1; none is 128", &B::fall_line,
+     [](const B& g, std::size_t i) { return 0.5F + 0.5F * g.fall_line[i].x; }, 0.1},
+    {"fall_line_y", "of the unit direction, -1 (up) … 1; none is 128", &B::fall_line,
+     [](const B& g, std::size_t i) { return 0.5F + 0.5F * g.fall_line[i].y; }, 0.05},
+};
 
 // Value 0…1 in 256 steps.
 std::uint8_t quantize(float share) { return static_cast<std::uint8_t>(std::floor(std::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F)); }
 
 }  // namespace
+
+std::span<const GuideKind> guide_kinds() { return kinds; }
+
+std::vector<std::string> guide_names() {
+  std::vector<std::string> names;
+  for (const GuideKind& kind : kinds) names.emplace_back(kind.name);
+  return names;
+}
+
+std::vector<std::pair<std::string, double>> default_guide_weights() {
+  std::vector<std::pair<std::string, double>> weights;
+  for (const GuideKind& kind : kinds) weights.emplace_back(kind.name, kind.weight);
+  return weights;
+}
 
 PaintedClasses find_painted_classes(const Grid<std::uint32_t>& sources, const GuidanceBuffers& guidance, const Grid<glm::vec3>& base) {
   PaintedClasses painted{guidance.land_cover, base};
@@ -28,31 +63,20 @@ PaintedClasses find_painted_classes(const Grid<std::uint32_t>& sources, const Gu
 }
 
 GuideStack make_guide_stack(const GuidanceBuffers& guidance, const Grid<LandCoverClass>& land_cover) {
-  if (!guidance.depth_m.same_size(land_cover)) throw Error(ErrorKind::bug, "guides", "land cover is missing");
-  const int width = guidance.width();
-  const int height = guidance.height();
+  require_channels(guidance, {&B::depth_m}, "guides");
+  if (!guidance.depth_m.same_size(land_cover)) throw Error(ErrorKind::bug, "guides", "land cover of another size than the picture");
   GuideStack stack;
   stack.depth_m = guidance.depth_m;
-  stack.label = Grid<std::uint8_t>(width, height, excluded_label);
+  stack.label = Grid<std::uint8_t>(guidance.width(), guidance.height(), unused_label);
   for (std::size_t i = 0; i < stack.label.size(); ++i)
     if (!guidance.is_sky(i)) stack.label[i] = static_cast<std::uint8_t>(land_cover[i]);
-
-  const auto add = [&](const char* name, bool present, auto share) {
-    if (!present) return;
-    Guide guide{name, Grid<std::uint8_t>(width, height, 0)};
+  for (const GuideKind& kind : kinds) {
+    if (!has_channel(guidance, kind.channel)) continue;
+    Guide guide{std::string(kind.name), Grid<std::uint8_t>(guidance.width(), guidance.height(), 0)};
     for (std::size_t i = 0; i < guide.values.size(); ++i)
-      if (!guidance.is_sky(i)) guide.values[i] = quantize(share(i));
+      if (!guidance.is_sky(i)) guide.values[i] = quantize(kind.share(guidance, i));
     stack.guides.push_back(std::move(guide));
-  };
-  const float log_range = std::log(farthest_m / nearest_m);
-  const auto has = [&](const auto& channel) { return channel.same_size(guidance.depth_m); };
-  add("altitude", has(guidance.altitude_m), [&](std::size_t i) { return guidance.altitude_m[i] / (20.0F * 255.0F); });
-  add("tone", has(guidance.tone), [&](std::size_t i) { return guidance.tone[i]; });
-  add("distance", true, [&](std::size_t i) { return std::log(std::max(guidance.depth_m[i], nearest_m) / nearest_m) / log_range; });
-  add("shadow", has(guidance.shadow), [&](std::size_t i) { return guidance.shadow[i]; });
-  add("slope", has(guidance.slope_deg), [&](std::size_t i) { return guidance.slope_deg[i] / 90.0F; });
-  add("fall_line_x", has(guidance.fall_line), [&](std::size_t i) { return 0.5F + 0.5F * guidance.fall_line[i].x; });
-  add("fall_line_y", has(guidance.fall_line), [&](std::size_t i) { return 0.5F + 0.5F * guidance.fall_line[i].y; });
+  }
   return stack;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "renderer/paint/guides.h"
 #include "renderer/paint/paint.h"
 #include "renderer/world/lit_picture.h"
 #include "texture/synthesis/match_field.h"

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "renderer/exemplar/exemplars.h"
+#include "renderer/paint/guides.h"
 #include "renderer/pipeline/output_color.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/world/lit_picture.h"

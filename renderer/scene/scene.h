@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/land_cover_class.h"
+#include "renderer/paint/guides.h"
 #include "terrain/cover/land_cover_patches.h"
 #include "terrain/deform/deform.h"
 #include "terrain/generalize/generalize.h"
@@ -173,10 +174,7 @@ struct SceneSynthesis {
   std::string colours = "palette";  // whose colours the picture has: "palette" or "painting"
   std::string harmonize = "off";    // colours of several paintings: "off", "common" or like the "first"
   double residual = 0.75;           // how much of the base picture's difference is laid over the texel, 0…1
-  // By guide. Relief, altitude and air come with the base picture, so guides only choose among strokes, lightly: heavier ones tear the
-  // texture to grain. Tone leads, because strokes in shade differ from those in light, then the direction strokes run in.
-  std::vector<std::pair<std::string, double>> weights = {{"tone", 0.15},  {"altitude", 0.04},   {"distance", 0.02},   {"shadow", 0.02},
-                                                         {"slope", 0.02}, {"fall_line_x", 0.1}, {"fall_line_y", 0.05}};
+  std::vector<std::pair<std::string, double>> weights = default_guide_weights();  // by guide (renderer/paint/guides.h)
   std::vector<std::pair<LandCoverClass, LandCoverClass>> fallback;
   double reuse = 1.0;
   int copy_cap = 240;

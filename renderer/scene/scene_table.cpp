@@ -4,6 +4,7 @@
 
 #include "base/instruction_set.h"
 #include "renderer/image/picture_formats.h"
+#include "renderer/paint/guides.h"
 #include "renderer/scene/scene_table.h"
 #include "renderer/trace/camera.h"
 
@@ -470,7 +471,7 @@ std::vector<SceneSection> make_scene_sections() {
             .field = AT(synthesis.weights),
             .range = {0, 100},
             .meaning = "How strongly each guide steers, by name; a guide not named keeps the strength given here, 0 switches it off.",
-            .choices = {"altitude", "tone", "distance", "shadow", "slope", "fall_line_x", "fall_line_y"}},
+            .choices = guide_names()},
            {.name = "fallback",
             .field = AT(synthesis.fallback),
             .meaning = "Class to copy from for a class that no exemplar has: shrub = \"forest\"."},

@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "renderer/exemplar/painting_tone.h"
 #include "renderer/paint/base_picture.h"
+#include "renderer/paint/guides.h"
 #include "renderer/paint/light.h"
 #include "renderer/paint/paint.h"
 #include "tests/renderer/exemplar/painted_hills.h"

@@ -11,57 +11,5 @@ namespace {
 
 using test::make_slope;
 
-TEST(Guides, AreQuantizedAsDocumented) {
-  GuidanceBuffers g = make_slope(4, 1, LandCoverClass::scree, {0.0F, 0.0F, 1.0F}, 45.0F);
-  g.depth_m[0] = 500.0F;
-  g.depth_m[1] = 500000.0F;
-  g.depth_m[2] = 500.0F * std::sqrt(1000.0F);
-  g.depth_m[3] = std::numeric_limits<float>::infinity();
-  g.altitude_m[1] = -20.0F;
-  g.altitude_m[2] = 9000.0F;
-  g.fall_line[1] = {-1.0F, 0.0F};
-  const GuideStack stack = make_guide_stack(g, g.land_cover);
-  const auto guide = [&](const std::string& name) {
-    for (const Guide& each : stack.guides)
-      if (each.name == name) return each.values;
-    ADD_FAILURE() << name;
-    return Grid<std::uint8_t>(4, 1, 0);
-  };
-  EXPECT_EQ(stack.guides.size(), 7U);
-  EXPECT_EQ(stack.label[0], 6);
-  EXPECT_EQ(stack.label[3], 255);
-  EXPECT_EQ(stack.depth_m, g.depth_m);
-  EXPECT_EQ(guide("altitude")[0], 60);
-  EXPECT_EQ(guide("altitude")[1], 0);
-  EXPECT_EQ(guide("altitude")[2], 255);
-  EXPECT_EQ(guide("tone")[0], 153);
-  EXPECT_EQ(guide("distance")[0], 0);
-  EXPECT_EQ(guide("distance")[1], 255);
-  EXPECT_EQ(guide("distance")[2], 128);
-  EXPECT_EQ(guide("shadow")[0], 255);
-  EXPECT_EQ(guide("slope")[0], 128);
-  EXPECT_EQ(guide("fall_line_x")[0], 128);
-  EXPECT_EQ(guide("fall_line_y")[0], 255);
-  EXPECT_EQ(guide("fall_line_x")[1], 0);
-  g.shadow = {};
-  EXPECT_EQ(make_guide_stack(g, g.land_cover).guides.size(), 6U);
-}
-
-TEST(PaintedClasses, TakeClassAndBaseFromWhereThePaintCameFrom) {
-  GuidanceBuffers g = make_slope(3, 1, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 10.0F);
-  g.land_cover[2] = LandCoverClass::snow;
-  Grid<glm::vec3> base(3, 1);
-  for (int i = 0; i < 3; ++i) base(i, 0) = glm::vec3(0.1F * static_cast<float>(i));
-  Grid<std::uint32_t> sources(3, 1);
-  sources(0, 0) = 1;  // rock on rock
-  sources(1, 0) = 1;
-  sources(2, 0) = 0;  // rock on snow
-  const PaintedClasses painted = find_painted_classes(sources, g, base);
-  EXPECT_EQ(painted.land_cover(2, 0), LandCoverClass::rock);
-  EXPECT_EQ(painted.base(2, 0), base(0, 0));
-  EXPECT_EQ(painted.base(0, 0), base(0, 0)) << "its own base where the class is its own";
-  EXPECT_EQ(painted.base(1, 0), base(1, 0));
-}
-
 }  // namespace
 }  // namespace belvedere

@@ -1,0 +1,103 @@
+#include "renderer/paint/guides.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "base/error.h"
+#include "renderer/scene/scene.h"
+#include "renderer/scene/scene_schema.h"
+#include "tests/renderer/exemplar/painted_hills.h"
+
+namespace belvedere {
+namespace {
+
+using test::make_slope;
+
+TEST(Guides, AreNamedOnceAndSayWhatTheyMean) {
+  std::set<std::string_view> names;
+  for (const GuideKind& kind : guide_kinds()) {
+    EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
+    EXPECT_FALSE(kind.meaning.empty()) << kind.name;
+    EXPECT_TRUE(kind.share != nullptr) << kind.name;
+    EXPECT_GE(kind.weight, 0.0) << kind.name;
+    EXPECT_LE(kind.weight, 100.0) << kind.name;
+  }
+}
+
+TEST(Guides, OfAPictureWithEveryChannelAreTheWholeTable) {
+  const GuidanceBuffers hills = test::make_hills(40, 30);
+  std::vector<std::string> names;
+  for (const Guide& guide : make_guide_stack(hills, hills.land_cover).guides) names.push_back(guide.name);
+  EXPECT_EQ(names, guide_names());
+}
+
+TEST(Guides, OfScenesHaveTheWeightsOfTheTable) {
+  EXPECT_EQ(SceneSynthesis{}.weights, default_guide_weights());
+  EXPECT_EQ(default_guide_weights().size(), guide_kinds().size());
+}
+
+TEST(Guides, NeedDepthsAndClassesOfOneSize) {
+  GuidanceBuffers g = make_slope(4, 3, LandCoverClass::scree, {0.0F, 0.0F, 1.0F}, 45.0F);
+  EXPECT_THROW(make_guide_stack(g, Grid<LandCoverClass>(3, 3)), Error);
+  g.depth_m = {};
+  EXPECT_THROW(make_guide_stack(g, g.land_cover), Error);
+}
+
+TEST(Guides, AreQuantizedAsDocumented) {
+  GuidanceBuffers g = make_slope(4, 1, LandCoverClass::scree, {0.0F, 0.0F, 1.0F}, 45.0F);
+  g.depth_m[0] = 500.0F;
+  g.depth_m[1] = 500000.0F;
+  g.depth_m[2] = 500.0F * std::sqrt(1000.0F);
+  g.depth_m[3] = std::numeric_limits<float>::infinity();
+  g.altitude_m[1] = -20.0F;
+  g.altitude_m[2] = 9000.0F;
+  g.fall_line[1] = {-1.0F, 0.0F};
+  const GuideStack stack = make_guide_stack(g, g.land_cover);
+  const auto guide = [&](const std::string& name) {
+    for (const Guide& each : stack.guides)
+      if (each.name == name) return each.values;
+    ADD_FAILURE() << name;
+    return Grid<std::uint8_t>(4, 1, 0);
+  };
+  EXPECT_EQ(stack.label[0], 6);
+  EXPECT_EQ(stack.label[3], 255);
+  EXPECT_EQ(stack.depth_m, g.depth_m);
+  EXPECT_EQ(guide("altitude")[0], 60);
+  EXPECT_EQ(guide("altitude")[1], 0);
+  EXPECT_EQ(guide("altitude")[2], 255);
+  EXPECT_EQ(guide("tone")[0], 153);
+  EXPECT_EQ(guide("distance")[0], 0);
+  EXPECT_EQ(guide("distance")[1], 255);
+  EXPECT_EQ(guide("distance")[2], 128);
+  EXPECT_EQ(guide("shadow")[0], 255);
+  EXPECT_EQ(guide("slope")[0], 128);
+  EXPECT_EQ(guide("fall_line_x")[0], 128);
+  EXPECT_EQ(guide("fall_line_y")[0], 255);
+  EXPECT_EQ(guide("fall_line_x")[1], 0);
+  g.shadow = {};
+  EXPECT_EQ(make_guide_stack(g, g.land_cover).guides.size(), stack.guides.size() - 1);
+  EXPECT_EQ(make_guide_stack(g, g.land_cover).find("shadow"), nullptr) << "left out, as its channel is absent";
+}
+
+TEST(PaintedClasses, TakeClassAndBaseFromWhereThePaintCameFrom) {
+  GuidanceBuffers g = make_slope(3, 1, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 10.0F);
+  g.land_cover[2] = LandCoverClass::snow;
+  Grid<glm::vec3> base(3, 1);
+  for (int i = 0; i < 3; ++i) base(i, 0) = glm::vec3(0.1F * static_cast<float>(i));
+  Grid<std::uint32_t> sources(3, 1);
+  sources(0, 0) = 1;  // rock on rock
+  sources(1, 0) = 1;
+  sources(2, 0) = 0;  // rock on snow
+  const PaintedClasses painted = find_painted_classes(sources, g, base);
+  EXPECT_EQ(painted.land_cover(2, 0), LandCoverClass::rock);
+  EXPECT_EQ(painted.base(2, 0), base(0, 0));
+  EXPECT_EQ(painted.base(0, 0), base(0, 0)) << "its own base where the class is its own";
+  EXPECT_EQ(painted.base(1, 0), base(1, 0));
+}
+
+}  // namespace
+}  // namespace belvedere
