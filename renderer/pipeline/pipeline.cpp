@@ -94,8 +94,7 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
   }();
   // What the exemplar cannot give is painted last, far to near: sky, trees, houses; without an exemplar everything is.
   const StrokeLayers layers{.sky = true, .ground = !copied, .accents = true, .breaks = true, .upright = true};
-  const Painting strokes =
-      paint_strokes(std::move(ground), lit.guidance, lit.base, layers, to_stroke_parameters(world, palette), progress);
+  const Painting strokes = paint_strokes(std::move(ground), lit.guidance, lit.base, layers, to_stroke_parameters(world, palette), progress);
   const Grid<glm::vec3> panorama = blend_edges(strokes.picture, lit.guidance);
   write_panorama(panorama, scene, color, notes, out_folder, progress);
 }

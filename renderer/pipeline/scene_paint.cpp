@@ -15,7 +15,8 @@ ScenePaint read_scene_paint(const LoadedScene& loaded, Progress& progress) {
   ScenePaint paint;
   paint.palette = named_palette(loaded);
   if (reads_paintings(loaded.scene)) paint.paintings = read_scans(loaded, progress);
-  if (takes_colours(loaded.scene)) paint.palette = take_colours(paint.palette, paint.paintings, with_stand_ins(loaded.scene.synthesis.fallback));
+  if (takes_colours(loaded.scene))
+    paint.palette = take_colours(paint.palette, paint.paintings, with_stand_ins(loaded.scene.synthesis.fallback));
   return paint;
 }
 
