@@ -113,6 +113,7 @@ class ExifReader {
   std::size_t find(std::uint16_t tag) const {
     const std::size_t directory = number(4, 4);
     const std::size_t count = number(directory, 2);
+    if (directory + 2 + 12 * count > tiff_.size()) return 0;
     for (std::size_t i = 0; i < count; ++i)
       if (number(directory + 2 + 12 * i, 2) == tag) return directory + 2 + 12 * i;
     return 0;

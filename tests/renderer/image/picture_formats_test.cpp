@@ -49,7 +49,7 @@ TEST(PictureFormats, WhatIsWrittenReadsBackAsTheRowSays) {
   PictureFileOptions options;
   options.dots_per_inch = 301.5;
   options.icc_profile = srgb_profile();
-  options.notes = {{"scene", "a = 1\nb = 'x\\y: z'\n"}, {"version", "1"}};
+  options.notes = {{"scene", "a = 1\nb = 'x\\y: z'\n"}, {"palette", "1"}};
   for (const PictureFormat& format : picture_formats()) {
     if (format.write == nullptr) continue;
     SCOPED_TRACE(format.title);
@@ -68,7 +68,7 @@ TEST(PictureFormats, WhatIsWrittenReadsBackAsTheRowSays) {
     EXPECT_NEAR(info.dots_per_inch, format.resolution ? 301.5 : 0.0, 0.02);
     if (format.notes) {
       EXPECT_EQ(info.notes.at("scene"), options.notes.at("scene"));
-      EXPECT_EQ(info.notes.at("version"), "1");
+      EXPECT_EQ(info.notes.at("palette"), "1");
     }
     const Grid<glm::vec3> again = read_picture(path);
     ASSERT_TRUE(again.same_size(picture));
