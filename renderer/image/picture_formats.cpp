@@ -10,6 +10,7 @@
 #include "renderer/image/exr/exr_reader.h"
 #include "renderer/image/exr/exr_writer.h"
 #include "renderer/image/image_file_parts.h"
+#include "renderer/image/jxl_file.h"
 #include "renderer/image/oiio_file.h"
 #include "renderer/image/tiff_file.h"
 
@@ -72,6 +73,18 @@ const std::vector<PictureFormat>& picture_formats() {
        .read_picture = &read_exr_picture,
        .write = [](Path path, const Grid<glm::vec3>& linear,
                    const PictureFileOptions& options) { write_exr(path, linear, options.notes); }},
+      {.ending = "jxl",
+       .name = "jpegxl",
+       .title = "JPEG XL",
+       .meaning = "keeping and sending: every value of 16 bits in less space",
+       .bits = 16,
+       .profile = true,
+       .resolution = true,
+       .notes = true,
+       .is = [](Bytes b) { return b.starts_with("\xff\x0a") || b.starts_with("\0\0\0\x0cJXL \r\n\x87\n"sv); },
+       .read_info = &read_jxl_info,
+       .read_picture = &read_jxl_picture,
+       .write = &write_jxl16},
       {.ending = "jpg",
        .name = "jpeg",
        .title = "JPEG",

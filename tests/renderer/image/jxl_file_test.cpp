@@ -1,0 +1,72 @@
+#include "renderer/image/jxl_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "renderer/image/color.h"
+#include "tests/files.h"
+
+namespace belvedere {
+namespace {
+
+using test::Folder;
+
+Grid<glm::vec3> random_picture(int width, int height) {
+  Grid<glm::vec3> out(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c) out(x, y)[c] = static_cast<float>(random_uniform(9, x, y, static_cast<std::uint64_t>(c)));
+  return out;
+}
+
+TEST(Jxl, KeepsEveryValueAndRoundsToTheNearest) {
+  const Folder folder("jxl");
+  Grid<glm::vec3> picture = random_picture(530, 270);  // three groups of 256 across, the last one cut
+  picture(1, 0) = glm::vec3(0.49F / 65535.0F, 0.51F / 65535.0F, 1.0F);
+  write_jxl16(folder / "a.jxl", picture, {});
+  const Grid<glm::vec3> again = read_jxl_picture(folder / "a.jxl", nullptr);
+  ASSERT_TRUE(again.same_size(picture));
+  EXPECT_EQ(again(1, 0), glm::vec3(0.0F, 1.0F / 65535.0F, 1.0F));
+  for (std::size_t i = 0; i < picture.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      ASSERT_EQ(std::lround(again[i][c] * 65535.0), std::lround(static_cast<double>(picture[i][c]) * 65535.0)) << i;
+}
+
+TEST(Jxl, WithoutAProfileItIsMarkedSrgb) {
+  const Folder folder("jxl");
+  write_jxl16(folder / "plain.jxl", random_picture(20, 10), {});
+  EXPECT_TRUE(read_jxl_info(folder / "plain.jxl").icc_profile.empty());
+  PictureFileOptions options;
+  options.icc_profile = srgb_profile();
+  write_jxl16(folder / "profile.jxl", random_picture(20, 10), options);
+  EXPECT_EQ(read_jxl_info(folder / "profile.jxl").icc_profile, srgb_profile());
+}
+
+TEST(Jxl, RefusesAProfileThatIsNone) {
+  const Folder folder("jxl");
+  PictureFileOptions options;
+  options.icc_profile.assign(1000, 7);
+  try {
+    write_jxl16(folder / "a.jxl", random_picture(20, 10), options);
+    ADD_FAILURE() << "it was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::output);
+    EXPECT_NE(error.found().find("profile"), std::string::npos);
+  }
+  EXPECT_EQ(folder.count(), 0u) << "nothing stays behind";
+}
+
+TEST(Jxl, LongNotesComeWhole) {
+  const Folder folder("jxl");
+  const std::string scene(200000, 'x');  // longer than the pieces in which boxes are read
+  PictureFileOptions options;
+  options.notes = {{"scene", scene}};
+  write_jxl16(folder / "a.jxl", random_picture(20, 10), options);
+  EXPECT_EQ(read_jxl_info(folder / "a.jxl").notes.at("scene"), scene);
+}
+
+}  // namespace
+}  // namespace belvedere
