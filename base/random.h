@@ -16,7 +16,7 @@ constexpr std::uint64_t mix_bits(std::uint64_t z) {
   return z;
 }
 
-// Key: seed (with the stage folded in), two integer coordinates (pixel, cell or lattice point), draw number.
+// Key: the seed of a stream (random_streams.h), two integer coordinates (pixel, cell or lattice point), draw number.
 constexpr std::uint64_t random_bits(std::uint64_t seed, std::int64_t x, std::int64_t y, std::uint64_t draw = 0) {
   std::uint64_t h = mix_bits(seed + 0x9e3779b97f4a7c15ULL);
   h = mix_bits(h ^ (static_cast<std::uint64_t>(x) * 0xd6e8feb86659fd93ULL));

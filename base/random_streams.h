@@ -2,41 +2,135 @@
 
 #include <cstdint>
 
+#include "base/random.h"
+
 namespace belvedere {
 
-// What random numbers are drawn for.
-enum class Stream : std::uint64_t {
-  sky = 1,
-  wash = 2,
-  forest_trees = 11,
-  forest_edges = 25,
-  glade_grass = 26,
-  meadow = 3,
-  scattered_trees = 12,
-  low_bushes = 13,
-  rock_trees = 42,
-  grass_flecks = 27,
-  rock_facets = 4,
-  rock_hatching = 5,
-  rock_ledges = 15,
-  rock_fissures = 6,
-  rock_snow = 20,
-  rock_rubble = 41,
-  rock_turf = 40,
-  rock_drifts = 43,
-  scree = 7,
-  snow = 8,
-  broken_colour = 21,
-  water = 9,
-  snow_ribs = 16,
-  glacier_flow_lines = 17,
-  glacier_edges = 19,
-  glacier_moraines = 36,
-  glacier_crevasses = 18,
-  houses = 55,
-  churches = 24,
-  farms = 27,
-  accents = 10,
+// What random numbers are drawn for: each purpose has a stream of its own, so that no two things in a picture are alike by the accident
+// of one key. A stream's number is part of every picture: a new one goes to the end, and none is taken out.
+enum class Stream : std::uint16_t {
+  // Strokes, a stream for each kind (texture/strokes/stroke_table.cpp).
+  sky,
+  wash,
+  forest_trees,
+  forest_edges,
+  glade_grass,
+  meadow,
+  scattered_trees,
+  low_bushes,
+  rock_trees,
+  grass_flecks,
+  rock_facets,
+  rock_hatching,
+  rock_ledges,
+  rock_fissures,
+  rock_snow,
+  rock_rubble,
+  rock_turf,
+  rock_drifts,
+  scree,
+  snow,
+  broken_colour,
+  water,
+  snow_ribs,
+  glacier_flow_lines,
+  glacier_edges,
+  glacier_moraines,
+  glacier_crevasses,
+  houses,
+  churches,
+  farms,
+  accents,
+  // Noises that strokes are steered by: where they gather, how groups of them differ.
+  church_middles,
+  forest_masses,
+  forest_groups,
+  forest_edge_groups,
+  leafy_groups,
+  leaf_colours,
+  tree_stretches,
+  copses,
+  meadow_patches,
+  fleck_patches,
+  rock_joints,
+  rock_slants,
+  ledge_places,
+  bed_dips,
+  bed_wavering,  // of beds of rock, for their light and their strokes alike
+  bed_strengths,
+  rock_snow_places,
+  rock_tree_places,
+  turf_places,
+  drift_places,
+  rubble_places,
+  rib_places,
+  torn_ice,
+  street_directions,
+  house_density,
+  farm_density,
+  // Fields of the valley floor.
+  field_blocks,
+  field_bends,
+  field_kinds,
+  field_borders,
+  // The base picture and its light.
+  ground_patches,
+  water_streaks,
+  light_pools,
+  rib_lines,
+  rib_strengths,
+  rock_plane_edges,
+  rock_plane_tilts,
+  forest_lanes,
+  forest_glades,
+  forest_clumps,
+  forest_tracks,
+  forest_stands,
+  cloud_banks,
+  cloud_edges,
+  cloud_veils,
+  sky_bands,
+  // Rays.
+  sun_rays,
+  // Land cover by rules.
+  class_noise,
+  towns,
+  // Copying from paintings, and how copies are judged.
+  synthesis,
+  patch_samples,
+  // Example sheets.
+  sheet_panels,
+  sheet_terrains,
+  // Made-up terrain.
+  ridged_terrain,
+  valley_directions,
+  valley_lines,
+  valley_widths,
+  uplift_bends,
+  massifs,
+  ranges,
+  rock_softness,
+  first_relief,
+  rim_outlets,
+  drainage,
+  river_bends,
+  roughness,
+  slope_ribs,
+  floor_widths,
+  cirques,
+  aprons,
+  moraines,
+  dams,
+
+  count  // no stream: how many there are
 };
+
+// The seed of a stream in a picture whose seed is `seed`; `part` tells those of one purpose apart: octaves, layers, panels. Neighbouring
+// seeds share nothing.
+constexpr std::uint64_t stream_seed(std::uint64_t seed, Stream stream, std::uint64_t part = 0) {
+  std::uint64_t h = mix_bits(seed + 0x9e3779b97f4a7c15ULL);
+  h = mix_bits(h ^ ((static_cast<std::uint64_t>(stream) + 1) * 0xd6e8feb86659fd93ULL));
+  return mix_bits(h ^ (part * 0xa0761d6478bd642fULL));
+}
 
 }  // namespace belvedere

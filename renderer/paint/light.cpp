@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/guidance_channels.h"
 #include "base/parallel.h"
+#include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 #include "renderer/paint/ribs.h"
@@ -112,12 +113,12 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
   Grid<float> woods(width, height, 0.0F);
   for (std::size_t i = 0; i < woods.size(); ++i) woods[i] = guidance.land_cover[i] == LandCoverClass::forest ? 1.0F : 0.0F;
   woods = blur_on_surface(woods, guidance.depth_m, outcrop_sigma_units * ppu);
-  const Grid<float> pool = make_image_noise(parameters.seed + 5, origin_px, width, height, ppu, 140.0, 60.0);
+  const Grid<float> pool = make_image_noise(stream_seed(parameters.seed, Stream::light_pools), origin_px, width, height, ppu, 140.0, 60.0);
 
   Grid<float> tone(width, height, 0.0F);
   parallel_rows(height, [&](int y) {
-    GroundNoise n8(parameters.seed + bed_noise_seed_n8, 210.0);
-    GroundNoise n25(parameters.seed + bed_noise_seed_n25, 660.0);
+    GroundNoise n8(stream_seed(parameters.seed, Stream::bed_wavering), 210.0);
+    GroundNoise n25(stream_seed(parameters.seed, Stream::bed_strengths), 660.0);
     for (int x = 0; x < width; ++x) {
       const std::size_t i = tone.index(x, y);
       if (guidance.is_sky(i)) continue;

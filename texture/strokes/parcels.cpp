@@ -6,6 +6,7 @@
 
 #include "base/noise.h"
 #include "base/random.h"
+#include "base/random_streams.h"
 
 namespace belvedere {
 namespace {
@@ -28,13 +29,14 @@ struct BlockPlace {
 BlockPlace find_block(std::uint64_t seed, glm::dvec2 place, double size) {
   const auto ci = static_cast<std::int64_t>(std::floor(place.x / size));
   const auto cj = static_cast<std::int64_t>(std::floor(place.y / size));
+  const std::uint64_t key = stream_seed(seed, Stream::field_blocks);
   glm::dvec2 middles[9];
   int nearest = 0;
   for (int k = 0; k < 9; ++k) {
     const std::int64_t i = ci + k % 3 - 1;
     const std::int64_t j = cj + k / 3 - 1;
-    const double u = 0.12 + 0.76 * random_uniform(seed + 24, i, j, 0);
-    const double v = 0.12 + 0.76 * random_uniform(seed + 24, i, j, 1);
+    const double u = 0.12 + 0.76 * random_uniform(key, i, j, 0);
+    const double v = 0.12 + 0.76 * random_uniform(key, i, j, 1);
     middles[k] = (glm::dvec2(i, j) + glm::dvec2(u, v)) * size;
     if (glm::length(place - middles[k]) < glm::length(place - middles[nearest])) nearest = k;
   }
@@ -54,10 +56,10 @@ struct Part {
   std::int64_t number;
   double to_end;
 };
-Part uneven_part(double place, std::uint64_t seed, std::int64_t row) {
+Part uneven_part(double place, std::uint64_t key, std::int64_t row) {
   const double pair = std::floor(0.5 * place);
   const auto p = static_cast<std::int64_t>(pair);
-  const double cut = 2.0 * (0.32 + 0.36 * random_uniform(seed, p, row));
+  const double cut = 2.0 * (0.32 + 0.36 * random_uniform(key, p, row));
   const double within = place - 2.0 * pair;
   const bool first = within < cut;
   return {2 * p + (first ? 0 : 1), first ? std::min(within, cut - within) : std::min(within - cut, 2.0 - within)};
@@ -87,9 +89,10 @@ Parcel parcel_at(std::uint64_t seed, double east_m, double north_m, float metres
   const int halvings = std::ilogb(wanted);
   const double width = width_on_the_ground_m * std::ldexp(1.0, std::ldexp(1.0, halvings) < wanted ? halvings + 1 : halvings);
   // Borders of blocks are bent, as lanes are.
-  const double bend = 0.5 * width * gaussian_noise(seed + 25, east_m, north_m, 4.0 * width);
+  const double bend = 0.5 * width * gaussian_noise(stream_seed(seed, Stream::field_bends), east_m, north_m, 4.0 * width);
   const BlockPlace block = find_block(seed, {east_m + bend, north_m - bend}, block_widths * width);
-  const auto chance = [&](std::uint64_t draw) { return random_uniform(seed + 26, block.i, block.j, draw); };
+  const std::uint64_t kinds = stream_seed(seed, Stream::field_kinds);
+  const auto chance = [&](std::uint64_t draw) { return random_uniform(kinds, block.i, block.j, draw); };
   const double kind = chance(0);
   const double green = 0.55 + 0.45 * chance(1);
   Parcel parcel;
@@ -114,12 +117,14 @@ Parcel parcel_at(std::uint64_t seed, double east_m, double north_m, float metres
   const double breadth = width * (strips ? 0.75 + 0.35 * chance(9) : 1.6);
   const double u = glm::dot(block.from_middle_m, along) / length;
   const double v = (block.from_middle_m.y * along.x - block.from_middle_m.x * along.y) / breadth;
-  const std::uint64_t block_seed = mix_bits(seed + 27) ^ random_bits(seed + 27, block.i, block.j);
-  const Part row = uneven_part(v, block_seed, 0);
+  const std::uint64_t borders = stream_seed(seed, Stream::field_borders);
+  const auto block_key = [&](std::uint64_t draw) { return random_bits(borders, block.i, block.j, draw); };
+  const Part row = uneven_part(v, block_key(0), 0);
   // Strips of a row are shifted against those of the next.
-  const Part cell = uneven_part(u + 2.0 * random_uniform(block_seed + 1, row.number, 0), block_seed + 2, row.number);
+  const Part cell = uneven_part(u + 2.0 * random_uniform(block_key(1), row.number, 0), block_key(2), row.number);
   parcel.border_m = static_cast<float>(std::min({block.border_m, row.to_end * breadth, cell.to_end * length}));
-  const auto own = [&](std::uint64_t draw) { return random_uniform(block_seed + 3, cell.number, row.number, draw); };
+  const std::uint64_t crops = block_key(3);
+  const auto own = [&](std::uint64_t draw) { return random_uniform(crops, cell.number, row.number, draw); };
   parcel.crop = sow_crop(green, own(0), own(1));
   parcel.shade = static_cast<float>(2.0 * own(2) - 1.0);
   return parcel;

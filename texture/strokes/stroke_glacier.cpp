@@ -34,7 +34,7 @@ float torn(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
   const float steep = std::clamp((scene.slope_deg(i) - 9.F) / 15.F, 0.F, 1.F);
   const float moving = std::clamp((scene.slope_deg(i) - 4.F) / 5.F, 0.F, 1.F);
   const float over_edge = std::clamp(scene.relief_m(i) / 25.F, -0.3F, 0.5F);
-  return moving * std::clamp(0.55F * steep + over_edge + 0.55F * sheet_noise(scene, place, 63, 24.0) - 0.48F, 0.F, 1.F);
+  return moving * std::clamp(0.55F * steep + over_edge + 0.55F * sheet_noise(scene, place, Stream::torn_ice, 24.0) - 0.48F, 0.F, 1.F);
 }
 
 // A bow across the flow, its middle `sag_px` down the flow.

@@ -79,7 +79,7 @@ std::vector<Stroke> meadow_strokes(const StrokeScene& scene, Stream stream) {
     take_brush(stroke, scene, (is_floor(id) ? 2.2F : 2.6F) * seed.between(0.7F, 1.3F),
                {.taper = 0.5F, .alpha = 0.6F, .bristle = 0.4F, .wetness = 0.03F});
     // Whole patches are darker or lighter, so that a slope has places and no even grain.
-    const float patch = is_floor(id) ? 0.F : 0.24F * patch_noise(scene, i, 71, 7.0);
+    const float patch = is_floor(id) ? 0.F : 0.24F * patch_noise(scene, i, Stream::meadow_patches, 7.0);
     stroke.colour = scene.colour(i, mixed_tone(0.19F, 0.18F, seed) + std::clamp(patch, -0.5F, 0.5F), paint_jitter * 1.3F, seed);
     out.push_back(stroke);
   });
@@ -90,7 +90,7 @@ std::vector<Stroke> grass_flecks(const StrokeScene& scene, Stream stream) {
     const LandCoverClass id = scene.class_at(i);
     if (!is_grass(id) || is_floor(id)) return;
     // Tussocks, alder and juniper gather in patches and hollows; flecks of light lie between.
-    const float patch = patch_noise(scene, i, 72, 6.0) - 0.10F * std::clamp(scene.relief_m(i), -10.F, 10.F);
+    const float patch = patch_noise(scene, i, Stream::fleck_patches, 6.0) - 0.10F * std::clamp(scene.relief_m(i), -10.F, 10.F);
     const bool dark = seed.uniform() < 0.6F;
     if (seed.uniform() > (dark ? 0.60F * std::clamp(patch - 0.1F, 0.F, 1.3F) : 0.30F * std::clamp(0.6F - patch, 0.F, 1.F))) return;
     Stroke stroke = ground_stroke(scene, i, seed);

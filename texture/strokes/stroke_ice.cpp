@@ -45,7 +45,7 @@ std::vector<Stroke> snow_ribs(const StrokeScene& scene, Stream stream) {
     if (scene.class_at(i) != snow) return;
     const float bare = std::clamp((scene.slope_deg(i) - 30.F) / 12.F, 0.F, 1.F) * std::clamp(scene.relief_m(i) / 20.F - 0.15F, 0.F, 1.F);
     // Ribs gather; single ones would be flies on the snow.
-    const float gathered = std::clamp(1.2F * sheet_noise(scene, place, 65, 40.0) - 0.1F, 0.F, 1.F);
+    const float gathered = std::clamp(1.2F * sheet_noise(scene, place, Stream::rib_places, 40.0) - 0.1F, 0.F, 1.F);
     if (bare * gathered < 0.25F || seed.uniform() > 1.5F * bare * gathered) return;
     const float scale = scene.scale();
     const int steps = 9 + static_cast<int>(seed.uniform() * 9.F);

@@ -7,6 +7,16 @@
 #include "base/random.h"
 
 namespace belvedere {
+namespace {
+
+constexpr int lowest_octave = 64;  // patches of 2^-64 m are the smallest
+
+glm::dvec2 ground_place(const StrokeScene& scene, std::size_t i) {
+  const glm::dvec3 p = glm::dvec3(scene.guidance.position_m[i]) + scene.guidance.origin_m;
+  return {p.x, p.y};
+}
+
+}  // namespace
 
 void take_brush(Stroke& stroke, const StrokeScene& scene, float width_units, const Brush& brush) {
   stroke.start_width = width_units * scene.scale();
@@ -57,20 +67,23 @@ glm::vec3 fresh_snow(float tone) {
 
 void lay_on_top(Stroke& stroke) { stroke.order -= tight_depth * stroke.depth_m; }
 
-float ground_noise(const StrokeScene& scene, std::size_t i, std::uint64_t kind, double sigma_m) {
-  const glm::dvec3 p = glm::dvec3(scene.guidance.position_m[i]) + scene.guidance.origin_m;
-  return static_cast<float>(gaussian_noise(scene.parameters.seed + kind, p.x, p.y, sigma_m));
+float ground_noise(const StrokeScene& scene, std::size_t i, Stream stream, double sigma_m) {
+  const glm::dvec2 p = ground_place(scene, i);
+  return static_cast<float>(gaussian_noise(stream_seed(scene.parameters.seed, stream), p.x, p.y, sigma_m));
 }
 
-float patch_noise(const StrokeScene& scene, std::size_t i, std::uint64_t kind, double sigma_units) {
+float patch_noise(const StrokeScene& scene, std::size_t i, Stream stream, double sigma_units) {
   const double octave = std::log2(sigma_units * static_cast<double>(scene.metres_per_unit(i)));
   const double below = std::floor(octave);
   const auto share = static_cast<float>(octave - below);
+  const glm::dvec2 p = ground_place(scene, i);
   // Two octaves, mixed so that the deviation stays 1.
-  const auto of = [&](double power) {
-    return ground_noise(scene, i, kind + 1000U * static_cast<std::uint64_t>(power + 64.0), std::exp2(power));
+  const auto of = [&](int power) {
+    const std::uint64_t seed = stream_seed(scene.parameters.seed, stream, static_cast<std::uint64_t>(power + lowest_octave));
+    return static_cast<float>(gaussian_noise(seed, p.x, p.y, std::ldexp(1.0, power)));
   };
-  return std::sqrt(1.F - share) * of(below) + std::sqrt(share) * of(below + 1.0);
+  const int power = static_cast<int>(below);
+  return std::sqrt(1.F - share) * of(power) + std::sqrt(share) * of(power + 1);
 }
 
 bool is_grassy(const StrokeScene& scene, std::size_t i) {
@@ -78,8 +91,9 @@ bool is_grassy(const StrokeScene& scene, std::size_t i) {
   return is_grass(id) || (id == LandCoverClass::forest && scene.base.tree_density[i] < glade_density);
 }
 
-float sheet_noise(const StrokeScene& scene, glm::vec2 place, std::uint64_t kind, double sigma_units) {
-  return static_cast<float>(gaussian_noise(scene.parameters.seed + kind, static_cast<double>(place.x) / scene.parameters.pixels_per_unit,
+float sheet_noise(const StrokeScene& scene, glm::vec2 place, Stream stream, double sigma_units) {
+  return static_cast<float>(gaussian_noise(stream_seed(scene.parameters.seed, stream),
+                                           static_cast<double>(place.x) / scene.parameters.pixels_per_unit,
                                            static_cast<double>(place.y) / scene.parameters.pixels_per_unit, sigma_units));
 }
 

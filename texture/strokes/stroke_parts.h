@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "base/random_streams.h"
 #include "texture/strokes/stroke_seeds.h"
 
 namespace belvedere {
@@ -59,11 +60,11 @@ float share_around(const StrokeScene& scene, glm::vec2 place, float radius_units
 // Whether grass grows at pixel i: on meadows of every kind, and in the glades of forests.
 bool is_grassy(const StrokeScene& scene, std::size_t i);
 
-// Noise of deviation 1 on the ground, patches of sigma_m; a pure function of the painter's seed and the place.
-float ground_noise(const StrokeScene& scene, std::size_t i, std::uint64_t kind, double sigma_m);
+// Noise of deviation 1 on the ground, patches of sigma_m; a pure function of the painter's seed, the stream and the place.
+float ground_noise(const StrokeScene& scene, std::size_t i, Stream stream, double sigma_m);
 // The same with patches that have about sigma_units on the sheet at every distance, and yet lie on the ground as it is seen.
-float patch_noise(const StrokeScene& scene, std::size_t i, std::uint64_t kind, double sigma_units);
+float patch_noise(const StrokeScene& scene, std::size_t i, Stream stream, double sigma_units);
 // The same on the sheet, patches of sigma_units.
-float sheet_noise(const StrokeScene& scene, glm::vec2 place, std::uint64_t kind, double sigma_units);
+float sheet_noise(const StrokeScene& scene, glm::vec2 place, Stream stream, double sigma_units);
 
 }  // namespace belvedere

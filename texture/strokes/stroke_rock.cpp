@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/noise.h"
 #include "texture/strokes/beds.h"
 #include "texture/strokes/stroke_kinds.h"
 #include "texture/strokes/stroke_parts.h"
@@ -13,7 +12,7 @@ using enum LandCoverClass;
 
 // How far the grain of a wall is turned from its fall line, rad: joints run slanting for a stretch, then change sides. A wall hatched in
 // one direction throughout looks combed.
-float joint_angle(const StrokeScene& scene, glm::vec2 place) { return 0.24F * sheet_noise(scene, place, 61, 22.0); }
+float joint_angle(const StrokeScene& scene, glm::vec2 place) { return 0.24F * sheet_noise(scene, place, Stream::rock_joints, 22.0); }
 
 // Whether a place lies on the riser of a bed, 0…1.
 struct Bed {
@@ -23,12 +22,9 @@ Bed bed_at(const StrokeScene& scene, std::size_t i) {
   // Beds thinner than a few strokes are not drawn one by one.
   const float shown = std::clamp(2.F - scene.metres_per_unit(i) * 6.F / bed_thickness_m, 0.F, 1.F);
   if (shown <= 0.F) return {0.F};
-  const glm::dvec3 p = glm::dvec3(scene.guidance.position_m[i]) + scene.guidance.origin_m;
-  const auto noise = [&](unsigned kind, double sigma_m) {
-    return static_cast<float>(gaussian_noise(scene.parameters.seed + kind, p.x, p.y, sigma_m));
-  };
-  const float edge = bed_edge(bed_phase(scene.altitude_m(i), static_cast<float>(p.x), noise(bed_noise_seed_n8, 210.0)));
-  const float strength = bed_strength(noise(bed_noise_seed_n25, 660.0));
+  const auto east_m = static_cast<float>(static_cast<double>(scene.guidance.position_m[i].x) + scene.guidance.origin_m.x);
+  const float edge = bed_edge(bed_phase(scene.altitude_m(i), east_m, ground_noise(scene, i, Stream::bed_wavering, 210.0)));
+  const float strength = bed_strength(ground_noise(scene, i, Stream::bed_strengths, 660.0));
   return {shown * strength * edge};
 }
 
@@ -80,13 +76,13 @@ std::vector<Stroke> rock_ledges(const StrokeScene& scene, Stream stream) {
     if (scene.class_at(i) != rock) return;
     const Bed bed = bed_at(scene, i);
     // On a riser ledges run one behind the other; elsewhere beds crop out in stretches.
-    const float anywhere = std::clamp(0.05F + 0.12F * sheet_noise(scene, place, 62, 30.0), 0.01F, 0.25F);
+    const float anywhere = std::clamp(0.05F + 0.12F * sheet_noise(scene, place, Stream::ledge_places, 30.0), 0.01F, 0.25F);
     if (seed.uniform() > std::max(anywhere, 0.6F * bed.riser)) return;
     Stroke dark = ground_stroke(scene, i, seed);
     dark.depth_tolerance = tight_depth;
     dark.order -= 10.F;
     // All beds of a region dip to one side.
-    const float dip = 0.22F * sheet_noise(scene, place, 70, 45.0);
+    const float dip = 0.22F * sheet_noise(scene, place, Stream::bed_dips, 45.0);
     const float angle = quarter_turn + dip + (bed.riser > 0.F ? 0.08F : 0.16F) * seed.normal();
     const float length = seed.between(5.F, 14.F) + 6.F * bed.riser;
     lay_line(dark, scene, place, length, angle, 0.3F, true, seed);
@@ -113,7 +109,7 @@ std::vector<Stroke> rock_snow(const StrokeScene& scene, Stream stream) {
     // It holds in gullies and on ledges and slides off what is steeper than 60°.
     const float hollow = std::clamp(0.5F - scene.relief_m(i) / 60.F, 0.F, 1.F);
     const float holds = std::clamp((64.F - scene.slope_deg(i)) / 18.F, 0.F, 1.F);
-    const float gathered = std::clamp(0.55F + 0.6F * sheet_noise(scene, place, 66, 10.0), 0.F, 1.F);
+    const float gathered = std::clamp(0.55F + 0.6F * sheet_noise(scene, place, Stream::rock_snow_places, 10.0), 0.F, 1.F);
     const float on_bed = bed_at(scene, i).riser;
     if (seed.uniform() > holds * std::max(1.5F * hollow * gathered, 0.7F * on_bed)) return;
     Stroke stroke = ground_stroke(scene, i, seed);
@@ -140,7 +136,7 @@ std::vector<Stroke> rock_fissures(const StrokeScene& scene, Stream stream) {
     crack.order -= 5.F;
     // Two sets of joints: down the wall, and slanting to one side for a stretch.
     const bool slanting = seed.uniform() < 0.22F;
-    const float slant = sheet_noise(scene, place, 63, 26.0) < 0.F ? -0.75F : 0.75F;
+    const float slant = sheet_noise(scene, place, Stream::rock_slants, 26.0) < 0.F ? -0.75F : 0.75F;
     const float angle = joint_angle(scene, place) + (slanting ? slant + 0.12F * seed.normal() : 0.22F * seed.normal());
     const float length = slanting ? seed.between(4.F, 11.F) : seed.between(7.F, 21.F);
     lay_line(crack, scene, place, length, angle, 0.25F, true, seed);

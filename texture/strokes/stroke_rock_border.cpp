@@ -50,7 +50,7 @@ std::vector<Stroke> rock_turf(const StrokeScene& scene, Stream stream) {
     if (scene.class_at(i) != rock) return;
     // Tongues of turf from above: a rim is nowhere a line.
     const float reach = seed.uniform() < 0.6F ? 3.F : 7.F;
-    const float tufts = std::clamp(0.5F + 0.6F * sheet_noise(scene, place, 67, 7.0), 0.F, 1.F);
+    const float tufts = std::clamp(0.5F + 0.6F * sheet_noise(scene, place, Stream::turf_places, 7.0), 0.F, 1.F);
     if (const auto above = along_slope(scene, place, i, -reach); above && grows(scene.class_at(*above))) {
       if (seed.uniform() > (reach < 4.F ? 0.75F : 0.45F) * tufts) return;
       Stroke stroke = ground_stroke(scene, i, seed);
@@ -97,7 +97,8 @@ std::vector<Stroke> rock_drifts(const StrokeScene& scene, Stream stream) {
     const auto snow_pixel = along_slope(scene, place, i, up * reach);
     if (!snow_pixel || !is_ice(scene.class_at(*snow_pixel))) return;
     // Up the gullies in tongues; ribs stand out of it bare.
-    const float gathered = std::clamp(0.55F + 0.8F * sheet_noise(scene, place, 71, 6.0) - scene.relief_m(i) / 80.F, 0.05F, 1.F);
+    const float gathered =
+        std::clamp(0.55F + 0.8F * sheet_noise(scene, place, Stream::drift_places, 6.0) - scene.relief_m(i) / 80.F, 0.05F, 1.F);
     if (seed.uniform() > gathered) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.source = static_cast<std::uint32_t>(*snow_pixel);
@@ -121,7 +122,8 @@ std::vector<Stroke> rock_rubble(const StrokeScene& scene, Stream stream) {
     const auto below = along_slope(scene, place, i, 4.F);
     if (!below || !grows(scene.class_at(*below))) return;
     // It gathers under gullies, into cones; between them the wall stands straight in the wood.
-    const float gathered = std::clamp(0.35F + 0.9F * sheet_noise(scene, place, 68, 8.0) - scene.relief_m(i) / 60.F, 0.05F, 1.F);
+    const float gathered =
+        std::clamp(0.35F + 0.9F * sheet_noise(scene, place, Stream::rubble_places, 8.0) - scene.relief_m(i) / 60.F, 0.05F, 1.F);
     if (seed.uniform() > gathered) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.depth_tolerance = 0.02F;
@@ -150,7 +152,7 @@ std::vector<Stroke> rock_trees(const StrokeScene& scene, Stream stream) {
     if (close + wide <= 0.F) return;
     // They climb gullies and stand in files on ledges. A patch too small to be a wall they overgrow.
     const float gully = std::clamp(0.5F - scene.relief_m(i) / 40.F, 0.F, 1.F);
-    const float gathered = std::clamp(0.5F + 0.75F * sheet_noise(scene, place, 69, 6.0), 0.F, 1.3F);
+    const float gathered = std::clamp(0.5F + 0.75F * sheet_noise(scene, place, Stream::rock_tree_places, 6.0), 0.F, 1.3F);
     const float overgrown = std::clamp(2.5F * share_around(scene, place, 15.F, is_forest) - 1.5F, 0.F, 1.F);
     const float climbing = (0.75F * close + 0.45F * wide) * (0.4F + 0.8F * gully) * gathered;
     if (seed.uniform() > climbing + 0.5F * overgrown) return;

@@ -14,12 +14,12 @@
 namespace belvedere {
 
 // Everything a kind of stroke asks its surroundings, and the random numbers of one seed: draw k of a seed is a pure function of
-// the painter's seed, the kind of stroke and the cell the seed stands in, so canvas size and threads change nothing.
+// the painter's seed, the kind's stream and the cell the seed stands in, so canvas size and threads change nothing.
 // Two draws never stand among the arguments of one call or the terms of one sum: C++ leaves open which comes first, and the picture
 // would be the compiler's.
 class StrokeSeed {
  public:
-  StrokeSeed(std::uint64_t kind_seed, int cell_x, int cell_y) : key_(kind_seed), cell_x_(cell_x), cell_y_(cell_y) {}
+  StrokeSeed(std::uint64_t key, int cell_x, int cell_y) : key_(key), cell_x_(cell_x), cell_y_(cell_y) {}
   float uniform() { return static_cast<float>(random_uniform(key_, cell_x_, cell_y_, draw_++)); }
   float normal() { return static_cast<float>(random_normal(key_, cell_x_, cell_y_, draw_++)); }
   // lowest + span · uniform
@@ -76,9 +76,10 @@ std::vector<Stroke> sow(const StrokeScene& scene, float spacing_units, Stream st
   const int across = static_cast<int>(static_cast<float>(scene.guidance.width()) / spacing) + 1;
   const int down = static_cast<int>(static_cast<float>(scene.guidance.height()) / spacing) + 1;
   std::vector<std::vector<Stroke>> rows(static_cast<std::size_t>(down));
+  const std::uint64_t key = stream_seed(scene.parameters.seed, stream);
   parallel_rows(down, [&](int j) {
     for (int i = 0; i < across; ++i) {
-      StrokeSeed seed(mix_bits(scene.parameters.seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(stream)), i, j);
+      StrokeSeed seed(key, i, j);
       const float x = (static_cast<float>(i) + seed.uniform()) * spacing;
       const float y = (static_cast<float>(j) + seed.uniform()) * spacing;
       const glm::vec2 place{x, y};

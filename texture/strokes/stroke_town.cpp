@@ -79,7 +79,7 @@ bool find_plot(const StrokeScene& scene, Stream stream, glm::vec2 at, Plot& plot
   if (std::abs(lie.area) < 1e-6) return false;
   // Streets run with the land; where nothing orders it each quarter has its own way.
   const glm::vec2 grain = scene.guidance.grain[i];
-  double angle = 0.6 * static_cast<double>(ground_noise(scene, i, 53, 900.0));
+  double angle = 0.6 * static_cast<double>(ground_noise(scene, i, Stream::street_directions, 900.0));
   if (std::abs(grain.x) + std::abs(grain.y) > 0.1F) angle = 0.5 * std::atan2(static_cast<double>(grain.y), static_cast<double>(grain.x));
   const auto turn = static_cast<std::int64_t>(std::lround(angle / turn_step));
   angle = turn_step * static_cast<double>(turn);
@@ -96,7 +96,7 @@ bool find_plot(const StrokeScene& scene, Stream stream, glm::vec2 at, Plot& plot
   const double v = glm::dot(here, across) / depth;
   const auto column = static_cast<std::int64_t>(std::floor(u));
   const auto row = static_cast<std::int64_t>(std::floor(v));
-  plot.key = random_bits(scene.parameters.seed + static_cast<std::uint64_t>(stream), column, row,
+  plot.key = random_bits(stream_seed(scene.parameters.seed, stream), column, row,
                          static_cast<std::uint64_t>(turn * 4096 + std::lround(length + 64.0 * depth)));
   // Rows are straighter than the gaps in them.
   const double aside = 0.5 + 0.30 * (random_uniform(plot.key, 0, 0) - 0.5);
@@ -260,7 +260,7 @@ std::vector<Stroke> houses(const StrokeScene& scene, Stream stream) {
   for (const Plot& plot : find_plots(scene, stream)) {
     StrokeSeed seed(plot.key, 1, 0);
     const float built = built_at(scene, plot.pixel);
-    const float quarter = 0.12F * ground_noise(scene, plot.pixel, 54, 160.0);
+    const float quarter = 0.12F * ground_noise(scene, plot.pixel, Stream::house_density, 160.0);
     // Blocks between lanes in the middle, loose houses and gardens at the edge.
     const bool lane = plot.street && built > 0.3F;
     if (lane || seed.uniform() > std::clamp(0.34F + 0.75F * built + quarter, 0.15F, 0.97F)) {
@@ -287,6 +287,7 @@ std::vector<Stroke> churches(const StrokeScene& scene, Stream stream) {
     if (share_around(scene, place, 3.F, stands) < 1.F || scene.guidance.built[i] < 0.5F) return;
     build_church(scene, place, seed.between(0.9F, 1.15F) * scene.scale(), i, seed, out);
   });
+  const std::uint64_t key = stream_seed(scene.parameters.seed, Stream::church_middles);
   const float step = 6.F * scene.scale();
   for (float y = 0.5F * step; y < static_cast<float>(scene.guidance.height()); y += step)
     for (float x = 0.5F * step; x < static_cast<float>(scene.guidance.width()); x += step) {
@@ -298,9 +299,7 @@ std::vector<Stroke> churches(const StrokeScene& scene, Stream stream) {
                                      [&](glm::vec2 other) { return glm::length(other - middle) < 16.F * scene.scale(); });
       if (taken || scene.guidance.built[k] < 0.12F) continue;
       built_already.push_back(middle);
-      StrokeSeed seed(
-          random_bits(scene.parameters.seed + 56, static_cast<std::int64_t>(middle.x / step), static_cast<std::int64_t>(middle.y / step)),
-          0, 0);
+      StrokeSeed seed(key, static_cast<int>(middle.x / step), static_cast<int>(middle.y / step));
       build_church(scene, middle, (0.85F + 0.4F * scene.guidance.built[k]) * scene.scale(), k, seed, all);
     }
   return all;
@@ -312,7 +311,7 @@ std::vector<Stroke> farms(const StrokeScene& scene, Stream stream) {
     const LandCoverClass id = scene.class_at(i);
     const bool level = scene.slope_deg(i) < (id == pasture ? 15.F : 6.F);
     if ((id != valley_floor && id != pasture && !(id == snow && scene.parameters.winter)) || !level || scene.altitude_m(i) > 1250.F) return;
-    const float dense = 0.10F + 0.09F * ground_noise(scene, i, 57, 900.0);
+    const float dense = 0.10F + 0.09F * ground_noise(scene, i, Stream::farm_density, 900.0);
     if (seed.uniform() > dense) return;
     const float scale = scene.scale();
     const float width = seed.between(2.4F, 3.2F) * scale;

@@ -64,7 +64,7 @@ Leaves leaves_at(const StrokeScene& scene, std::size_t i, StrokeSeed& seed) {
   const float stray = seed.normal();
   if (colours.empty()) return {};
   const auto count = static_cast<float>(colours.size());
-  const float place = 0.5F + 0.33F * patch_noise(scene, i, 70, 7.0) + 0.12F * stray;
+  const float place = 0.5F + 0.33F * patch_noise(scene, i, Stream::leaf_colours, 7.0) + 0.12F * stray;
   const auto chosen = static_cast<std::size_t>(std::clamp(place * count, 0.F, count - 1.F));
   // Warm leaves shine in the sun; in the shade all woods are of one blue.
   const float light = std::clamp(scene.guidance.tone[i], 0.F, 1.F);

@@ -72,11 +72,11 @@ std::vector<Stroke> forest_trees(const StrokeScene& scene, Stream stream) {
     if (scene.class_at(i) != forest) return;
     const float scale = scene.scale();
     // Whole groups are lighter or darker, single trees little: then a slope reads as masses of wood, not as fur.
-    const float mass = patch_noise(scene, i, 51, 14.0);
-    const float group = patch_noise(scene, i, 52, 5.0);
+    const float mass = patch_noise(scene, i, Stream::forest_masses, 14.0);
+    const float group = patch_noise(scene, i, Stream::forest_groups, 5.0);
     const float row_tone = 0.18F * seed.normal() + 0.22F * std::clamp(mass, -1.6F, 1.6F);
     const float strays = 0.22F * seed.normal();
-    const bool leafy = is_leafy(scene, i, patch_noise(scene, i, 64, 8.0) + strays);
+    const bool leafy = is_leafy(scene, i, patch_noise(scene, i, Stream::leafy_groups, 8.0) + strays);
     const int count = 2 + static_cast<int>(seed.uniform() * 4.F);
     glm::vec2 foot = place;
     for (int k = 0; k < count && scene.on_canvas(foot); ++k) {
@@ -101,10 +101,10 @@ std::vector<Stroke> forest_edges(const StrokeScene& scene, Stream stream) {
     if (!scene.on_canvas(below)) return;
     const std::size_t ground = scene.pixel(below);
     if (!on_same_slope(scene, i, ground) || !is_grassy(scene, ground) || scene.class_at(ground) == alpine_grass) return;
-    const float group = patch_noise(scene, i, 69, 5.0);
+    const float group = patch_noise(scene, i, Stream::forest_edge_groups, 5.0);
     if (seed.uniform() > 0.62F + 0.35F * group) return;
     const float lighter = 0.15F * seed.normal() - 0.2F;
-    plant_in_forest(scene, place, i, is_leafy(scene, i, patch_noise(scene, i, 64, 8.0)), lighter, 0.F, seed, out);
+    plant_in_forest(scene, place, i, is_leafy(scene, i, patch_noise(scene, i, Stream::leafy_groups, 8.0)), lighter, 0.F, seed, out);
   });
 }
 
@@ -129,8 +129,8 @@ std::vector<Stroke> scattered_trees(const StrokeScene& scene, Stream stream) {
     if (!has_trait(id, ClassTrait::lone_trees)) return;
     const auto is = [&](LandCoverClass wanted) { return [&scene, wanted](std::size_t k) { return scene.class_at(k) == wanted; }; };
     // Stretches along brooks and fields that are planted, and places where copses stand; between them the land is bare.
-    const float stretch = patch_noise(scene, i, 67, 12.0);
-    const float copse = patch_noise(scene, i, 68, 5.0);
+    const float stretch = patch_noise(scene, i, Stream::tree_stretches, 12.0);
+    const float copse = patch_noise(scene, i, Stream::copses, 5.0);
     const float before_forest = share_around(scene, place, 7.F, is(forest));
     float share = 0.F;
     int most = 3;

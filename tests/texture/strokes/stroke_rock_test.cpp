@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/noise.h"
+#include "base/random_streams.h"
 #include "tests/texture/strokes/stroke_picture.h"
 #include "texture/strokes/beds.h"
 #include "texture/strokes/stroke_painter.h"
@@ -44,8 +45,8 @@ TEST(StrokeRock, LedgesLieAlongBeds) {
   const StrokeParameters parameters;
   const auto on_edge = [&](std::size_t i) {
     const glm::vec3 place = p.guidance.position_m[i];
-    const double n8 =
-        gaussian_noise(parameters.seed + bed_noise_seed_n8, static_cast<double>(place.x), static_cast<double>(place.y), 210.0);
+    const std::uint64_t seed = stream_seed(parameters.seed, Stream::bed_wavering);
+    const double n8 = gaussian_noise(seed, static_cast<double>(place.x), static_cast<double>(place.y), 210.0);
     return bed_edge(bed_phase(place.z, place.x, static_cast<float>(n8))) > 0.3F ? 1.0 : 0.0;
   };
   double edges = 0.0;  // share of the slope

@@ -71,11 +71,13 @@ TEST(StrokeTable, EveryKindPaintsInItsLayerAndInNoOther) {
   }
 }
 
-TEST(StrokeTable, NamesAreUniqueAndFound) {
+TEST(StrokeTable, NamesAndStreamsAreUnique) {
   std::set<std::string_view> names;
+  std::set<Stream> streams;
   for (const StrokeKind& kind : stroke_kinds()) {
     EXPECT_FALSE(kind.name.empty());
     EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
+    EXPECT_TRUE(streams.insert(kind.stream).second) << kind.name;
     EXPECT_EQ(&find_stroke_kind(kind.name), &kind);
   }
   EXPECT_THROW(find_stroke_kind("clouds of dust"), Error);
