@@ -10,6 +10,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/random_streams.h"
 #include "texture/quality/quality_parts.h"
 
 namespace belvedere {
@@ -176,9 +177,10 @@ double self_distance(const Grid<Rgb8>& picture, int samples) {
   if (width <= 2 * (radius + far_enough) || height <= 2 * (radius + far_enough)) return 0.0;
   const int step = height > 1024 ? 4 : 2;
   std::vector<double> nearest(static_cast<std::size_t>(samples), 0.0);
+  const std::uint64_t key = stream_seed(0, Stream::patch_samples);  // the same places in every picture of a size
   parallel_rows(samples, [&](int s) {
-    const int px = radius + static_cast<int>(random_index(static_cast<std::uint32_t>(width - 2 * radius), 1, s, 0));
-    const int py = radius + static_cast<int>(random_index(static_cast<std::uint32_t>(height - 2 * radius), 1, s, 1));
+    const int px = radius + static_cast<int>(random_index(static_cast<std::uint32_t>(width - 2 * radius), key, s, 0));
+    const int py = radius + static_cast<int>(random_index(static_cast<std::uint32_t>(height - 2 * radius), key, s, 1));
     int best = std::numeric_limits<int>::max();
     for (int y = radius; y < height - radius; y += step) {
       for (int x = radius; x < width - radius; x += step) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "base/random_streams.h"
 #include "texture/synthesis/synth_kernel.h"
 #include "texture/synthesis/synth_lists.h"
 #include "texture/synthesis/synth_pieces.h"
@@ -34,7 +35,7 @@ LevelSettings settings_for_level(int level, std::uint64_t seed, int copy_cap, do
 enum class Purpose : std::uint64_t { start = 1, expectation = 2, moves = 3, cells = 4, errors = 5, alone = 6, pass = 16 };
 
 inline std::uint64_t key_for(const LevelSettings& settings, Purpose purpose, int number = 0) {
-  return random_bits(settings.seed, settings.level, number, static_cast<std::uint64_t>(purpose));
+  return random_bits(stream_seed(settings.seed, Stream::synthesis), settings.level, number, static_cast<std::uint64_t>(purpose));
 }
 
 // The state of a level. The exemplars and the target's classes and guides come in; the match field, and with it the target's colours,
