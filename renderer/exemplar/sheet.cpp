@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/guidance_channels.h"
+#include "base/random_streams.h"
 #include "renderer/exemplar/seam_picture.h"
 #include "renderer/image/srgb.h"
 #include "renderer/paint/composite.h"
@@ -117,7 +118,8 @@ struct SheetPainter::State {
     if (cover == covers.end())
       cover = covers.emplace(rules, std::make_shared<const LandCover>(make_scene_land_cover(loaded, *dem->second, progress))).first;
 
-    loaded.scene.seed = plan.seed + 1000ULL * static_cast<std::uint64_t>(panel + 1);  // no two panels have strokes at the same places
+    // No two panels have strokes at the same places. Files hold no more than 53 bits of a seed.
+    loaded.scene.seed = stream_seed(plan.seed, Stream::sheet_panels, static_cast<std::uint64_t>(panel)) >> 11;
     const World world(loaded, dem->second, cover->second, progress);
     instruction_set = world.tracer.description();
     const PixelRect whole{0, 0, loaded.scene.output.width, loaded.scene.output.height};

@@ -10,6 +10,7 @@
 #include "base/embedded.h"
 #include "base/error.h"
 #include "base/json.h"
+#include "base/random_streams.h"
 
 namespace belvedere {
 namespace {
@@ -169,7 +170,7 @@ LoadedScene panel_scene(const SheetPlan& plan, int panel, bool winter) {
   // The terrains were chosen for the plan's own seed; another one makes others. Small panels show no more than coarse ones do.
   const SheetPlan usual;
   SyntheticParameters& terrain = scene.terrain.synthetic.value();
-  terrain.seed += plan.seed - usual.seed;
+  if (plan.seed != usual.seed) terrain.seed = stream_seed(terrain.seed, Stream::sheet_terrains, plan.seed) >> 11;
   const double coarser = std::clamp(fine_panel_px / std::min(rect.width(), rect.height()), 1.0, 4.0);
   terrain.width = static_cast<int>(std::lround(terrain.width / coarser));
   terrain.height = static_cast<int>(std::lround(terrain.height / coarser));

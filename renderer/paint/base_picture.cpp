@@ -7,6 +7,7 @@
 #include "base/guidance_channels.h"
 #include "base/math.h"
 #include "base/parallel.h"
+#include "base/random_streams.h"
 #include "renderer/paint/air.h"
 #include "renderer/paint/fields.h"
 #include "renderer/paint/forest_cover.h"
@@ -62,7 +63,7 @@ Surroundings look_around(const GuidanceBuffers& g, const Palette& palette, const
   around.cover = make_forest_cover(g, {ppu, p.seed}, origin_px);
   around.water = blur_on_surface(class_mask(g, Class::water), g.depth_m, brook_sigma_units * ppu);
   around.mirrored = find_reflections(g, ppu);
-  around.streaks = make_image_noise(p.seed + 29, origin_px, g.width(), g.height(), ppu, 26.0, 1.6);
+  around.streaks = make_image_noise(stream_seed(p.seed, Stream::water_streaks), origin_px, g.width(), g.height(), ppu, 26.0, 1.6);
   around.sky = make_sky(g.depth_m, palette, sky, origin_px);
   return around;
 }

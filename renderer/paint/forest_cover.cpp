@@ -8,6 +8,7 @@
 #include "base/guidance_channels.h"
 #include "base/math.h"
 #include "base/parallel.h"
+#include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 
@@ -30,7 +31,7 @@ constexpr double high_grass_m = 1600.0;  // above, the grass of glades is that o
 // the deviation stays 1. Remembers lattice values: one for each thread.
 class SheetSizedNoise {
  public:
-  explicit SheetSizedNoise(std::uint64_t seed) : seed_(seed) {}
+  SheetSizedNoise(std::uint64_t seed, Stream stream) : seed_(seed), stream_(stream) {}
   float operator()(double x_m, double y_m, double sigma_m) {
     const double octave = std::log2(std::max(sigma_m, 1e-3));
     const auto below = static_cast<int>(std::floor(octave));
@@ -41,9 +42,12 @@ class SheetSizedNoise {
 
  private:
   GroundNoise& of(int octave) {
-    return octaves_.try_emplace(octave, seed_ + static_cast<std::uint64_t>(octave + 64), std::ldexp(1.0, octave)).first->second;
+    const auto part = static_cast<std::uint64_t>(octave + lowest_octave);
+    return octaves_.try_emplace(octave, stream_seed(seed_, stream_, part), std::ldexp(1.0, octave)).first->second;
   }
+  static constexpr int lowest_octave = 64;  // patches of 2^-64 m are the smallest
   std::uint64_t seed_;
+  Stream stream_;
   std::map<int, GroundNoise> octaves_;
 };
 
@@ -88,17 +92,17 @@ ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParamet
   const int width = g.width();
   const int height = g.height();
   const double ppu = parameters.pixels_per_unit;
-  const std::uint64_t seed = parameters.seed + 400;
-  const Grid<float> noise = make_image_noise(seed, origin_px, width, height, ppu, lane_sigma_units, lane_sigma_units);
+  const Grid<float> noise = make_image_noise(stream_seed(parameters.seed, Stream::forest_lanes), origin_px, width, height, ppu,
+                                             lane_sigma_units, lane_sigma_units);
   const auto step_px = static_cast<float>(step_units * ppu);
   // Deviation of the sum of 25 samples 2 units apart of that noise: neighbours share exp(-1/4), the next exp(-1).
   constexpr float lane_deviation = 9.2F;
   ForestCover cover{Grid<float>(width, height, 0.0F), Grid<float>(width, height, 0.0F)};
   parallel_rows(height, [&](int y) {
-    SheetSizedNoise glades(seed + 1);
-    SheetSizedNoise clumps(seed + 201);
-    SheetSizedNoise tracks(seed + 401);
-    SheetSizedNoise stands(seed + 601);
+    SheetSizedNoise glades(parameters.seed, Stream::forest_glades);
+    SheetSizedNoise clumps(parameters.seed, Stream::forest_clumps);
+    SheetSizedNoise tracks(parameters.seed, Stream::forest_tracks);
+    SheetSizedNoise stands(parameters.seed, Stream::forest_stands);
     for (int x = 0; x < width; ++x) {
       const std::size_t i = noise.index(x, y);
       if (g.land_cover[i] != Class::forest) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/math.h"
+#include "base/random_streams.h"
 
 namespace belvedere {
 namespace {
@@ -31,7 +32,10 @@ float dryness(LandCoverClass id, float relief_s_m) {
 }  // namespace
 
 GroundNoises::GroundNoises(std::uint64_t seed)
-    : n3(seed + 20, n3_sigma_m), n8(seed + 21, n8_sigma_m), n25(seed + 22, n25_sigma_m), n60(seed + 23, n60_sigma_m) {}
+    : n3(stream_seed(seed, Stream::ground_patches, 0), n3_sigma_m),
+      n8(stream_seed(seed, Stream::ground_patches, 1), n8_sigma_m),
+      n25(stream_seed(seed, Stream::ground_patches, 2), n25_sigma_m),
+      n60(stream_seed(seed, Stream::ground_patches, 3), n60_sigma_m) {}
 
 Patches patches_at(GroundNoises& noises, glm::dvec3 place_m, float metres_per_unit) {
   Patches p{};

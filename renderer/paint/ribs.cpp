@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 
@@ -93,7 +94,8 @@ std::array<Grid<float>, 3> integrate_along_fall_line(const GuidanceBuffers& guid
   NoiseTriple scale(0.0F);
   for (int k = 0; k < 3; ++k) {
     const double sigma = rib_widths[k].sigma_units;
-    const Grid<float> one = make_image_noise(seed + static_cast<std::uint64_t>(k), origin_px, width, height, pixels_per_unit, sigma, sigma);
+    const std::uint64_t lines = stream_seed(seed, Stream::rib_lines, static_cast<std::uint64_t>(k));
+    const Grid<float> one = make_image_noise(lines, origin_px, width, height, pixels_per_unit, sigma, sigma);
     for (std::size_t i = 0; i < one.size(); ++i) noise[i][k] = one[i];
     scale[k] = static_cast<float>(1.0 / line_sum_deviation(2 * steps_each_way(rib_widths[k]) + 1, sigma));
   }
@@ -120,11 +122,13 @@ Grid<float> make_ribs(const GuidanceBuffers& guidance, const Grid<std::uint8_t>&
   const double ppu = parameters.pixels_per_unit;
   const int width = guidance.width();
   const int height = guidance.height();
-  std::array<Grid<float>, 3> fields = integrate_along_fall_line(guidance, wanted, parameters.seed + 10, origin_px, ppu);
+  std::array<Grid<float>, 3> fields = integrate_along_fall_line(guidance, wanted, parameters.seed, origin_px, ppu);
   for (Grid<float>& field : fields) field = blur_in_picture(field, blur_sigma_units * ppu, origin_px);
   // Slow random amplitudes: evenly strong ribs look like corrugated iron.
-  const Grid<float> slow_a = make_image_noise(parameters.seed + 1, origin_px, width, height, ppu, 14.0, 14.0);
-  const Grid<float> slow_b = make_image_noise(parameters.seed + 2, origin_px, width, height, ppu, 9.0, 9.0);
+  const Grid<float> slow_a =
+      make_image_noise(stream_seed(parameters.seed, Stream::rib_strengths, 0), origin_px, width, height, ppu, 14.0, 14.0);
+  const Grid<float> slow_b =
+      make_image_noise(stream_seed(parameters.seed, Stream::rib_strengths, 1), origin_px, width, height, ppu, 9.0, 9.0);
   const int reach_px = std::max(1, static_cast<int>(std::lround(ppu)));
   const auto reach_units = static_cast<float>(reach_px / ppu);
   const float side = parameters.sun_side < 0.0 ? -1.0F : 1.0F;

@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/random_streams.h"
 #include "renderer/paint/picture_noise.h"
 
 namespace belvedere {
@@ -51,8 +52,12 @@ Grid<float> make_rock_planes(const GuidanceBuffers& guidance, const Grid<std::ui
   const int width = guidance.width();
   const int height = guidance.height();
   const double ppu = parameters.pixels_per_unit;
-  const Grid<float> warp_x = make_image_noise(parameters.seed + 31, origin_px, width, height, ppu, warp_sigma_units, warp_sigma_units);
-  const Grid<float> warp_y = make_image_noise(parameters.seed + 32, origin_px, width, height, ppu, warp_sigma_units, warp_sigma_units);
+  const auto make_warp = [&](std::uint64_t axis) {
+    const std::uint64_t seed = stream_seed(parameters.seed, Stream::rock_plane_edges, axis);
+    return make_image_noise(seed, origin_px, width, height, ppu, warp_sigma_units, warp_sigma_units);
+  };
+  const Grid<float> warp_x = make_warp(0);
+  const Grid<float> warp_y = make_warp(1);
   Grid<float> planes(width, height, 0.0F);
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
@@ -64,7 +69,8 @@ Grid<float> make_rock_planes(const GuidanceBuffers& guidance, const Grid<std::ui
                              (origin_px.y + y + 0.5) / ppu + warp_units * warp_y(x, y));
       float light = 0.0F;
       for (std::size_t k = 0; k < plane_sizes.size(); ++k)
-        light += plane_sizes[k].strength * tilt_at(parameters.seed + 33 + k, place / plane_sizes[k].cell_units, fall);
+        light += plane_sizes[k].strength *
+                 tilt_at(stream_seed(parameters.seed, Stream::rock_plane_tilts, k), place / plane_sizes[k].cell_units, fall);
       planes(x, y) = parameters.sun_side < 0.0 ? -light : light;
     }
   });

@@ -10,6 +10,7 @@
 #include "base/noise.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/random_streams.h"
 #include "renderer/paint/picture_noise.h"
 
 namespace belvedere {
@@ -153,7 +154,11 @@ Layer cloud_at(const Cloud& cloud, glm::vec2 place, glm::vec2 wobble, const Pale
 
 // Fields of noise that veils are made of; one set a thread.
 struct VeilNoises {
-  explicit VeilNoises(std::uint64_t seed) : streaks(seed, 1.0), threads(seed + 1, 1.0), waver(seed + 2, 1.0), patches(seed + 3, 1.0) {}
+  explicit VeilNoises(std::uint64_t seed)
+      : streaks(stream_seed(seed, Stream::cloud_veils, 0), 1.0),
+        threads(stream_seed(seed, Stream::cloud_veils, 1), 1.0),
+        waver(stream_seed(seed, Stream::cloud_veils, 2), 1.0),
+        patches(stream_seed(seed, Stream::cloud_veils, 3), 1.0) {}
   GroundNoise streaks, threads, waver, patches;
 };
 
@@ -173,15 +178,18 @@ float veil_at(const SkyParameters& p, double x_px, double elevation, VeilNoises&
 // How the edges of clouds billow: two sizes of bulges, in shares of a head's radius.
 struct EdgeNoises {
   EdgeNoises(std::uint64_t seed, int grain)
-      : wobble_x(seed, std::ldexp(0.030, -grain)),
-        wobble_y(seed + 1, std::ldexp(0.030, -grain)),
-        ripple_x(seed + 2, std::ldexp(0.010, -grain)),
-        ripple_y(seed + 3, std::ldexp(0.010, -grain)) {}
+      : wobble_x(edge_seed(seed, grain, 0), std::ldexp(0.030, -grain)),
+        wobble_y(edge_seed(seed, grain, 1), std::ldexp(0.030, -grain)),
+        ripple_x(edge_seed(seed, grain, 2), std::ldexp(0.010, -grain)),
+        ripple_y(edge_seed(seed, grain, 3), std::ldexp(0.010, -grain)) {}
   // Place in cloud scales.
   glm::vec2 at(double u, double w) {
     const glm::vec2 wobble(wobble_x(u, w), wobble_y(u, w));
     const glm::vec2 ripple(ripple_x(u, w), ripple_y(u, w));
     return 0.16F * wobble + 0.07F * ripple;
+  }
+  static std::uint64_t edge_seed(std::uint64_t seed, int grain, int field) {
+    return stream_seed(seed, Stream::cloud_edges, static_cast<std::uint64_t>(4 * grain + field));
   }
   GroundNoise wobble_x, wobble_y, ripple_x, ripple_y;
 };
@@ -226,7 +234,7 @@ std::vector<Cloud> make_clouds(const SkyParameters& p) {
     const Band& band = bands[b];
     const double cell_px = band.stretch * scale_px;
     // Where stretches begin differs by seed, or every sky would have its gaps in the same places.
-    const std::uint64_t seed = mix_bits(p.seed * 16 + b + 100);
+    const std::uint64_t seed = stream_seed(p.seed, Stream::cloud_banks, b);
     const double shift = random_uniform(seed, -9, 0);
     const auto last = static_cast<std::int64_t>(p.picture_size.x / cell_px) + 2;
     for (std::int64_t cell = -2; cell <= last; ++cell) {
@@ -248,10 +256,10 @@ Grid<glm::vec3> make_sky(const Grid<float>& depth_m, const Palette& palette, con
   const double scale_px = cloud_scale_px(p);
   const glm::vec2 towards_light = glm::normalize(glm::vec2(p.sun_image_x < 0.0 ? -0.55F : 0.55F, -0.85F));
   parallel_rows(height, [&](int y) {
-    VeilNoises veil_noises(p.seed + 70);
-    GroundNoise bands(p.seed + 83, 1.0);
+    VeilNoises veil_noises(p.seed);
+    GroundNoise bands(stream_seed(p.seed, Stream::sky_bands), 1.0);
     std::vector<EdgeNoises> edges;
-    for (int grain = 0; grain < 4; ++grain) edges.emplace_back(p.seed + 84, grain);
+    for (int grain = 0; grain < 4; ++grain) edges.emplace_back(p.seed, grain);
     const double row_px = origin_px.y + y + 0.5;
     std::vector<const Cloud*> near_row;
     for (const Cloud& cloud : clouds)
