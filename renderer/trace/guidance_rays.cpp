@@ -7,13 +7,13 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/random_streams.h"
 
 namespace belvedere {
 namespace {
 
 constexpr double golden_turn = 2.0 * std::numbers::pi * 0.6180339887498949;
-constexpr std::uint64_t sun_seed = 0x73756e;  // "sun"
-constexpr float same_surface = 0.03F;         // depths that differ by less belong together
+constexpr float same_surface = 0.03F;  // depths that differ by less belong together
 
 // Rays gathered from pixels, traced at once, answers returned to (pixel, direction).
 class RayBatch {
@@ -100,9 +100,10 @@ BlockValues trace_sun(const Tracer& tracer, const BlockSurface& block, std::span
   const glm::dvec3 above = glm::cross(side, sun);
   const double spread = std::tan(sun_radius_rad);
   std::array<glm::dvec2, trace_block_pixels> turn;
+  const std::uint64_t turns = stream_seed(0, Stream::sun_rays);  // shadows are the same whatever the seed of strokes
   for (int i = 0; i < trace_block_pixels; ++i) {
     const glm::ivec2 at = block.corner + block_pixel(i);
-    const double angle = 2.0 * std::numbers::pi * random_uniform(sun_seed, at.x, at.y);
+    const double angle = 2.0 * std::numbers::pi * random_uniform(turns, at.x, at.y);
     turn[static_cast<std::size_t>(i)] = {std::cos(angle), std::sin(angle)};
   }
   const auto towards = [&](int pixel, int k) {
