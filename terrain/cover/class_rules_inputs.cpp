@@ -11,6 +11,7 @@
 #include "base/noise.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/random_streams.h"
 #include "terrain/cover/towns.h"
 #include "terrain/shape/derivatives.h"
 #include "terrain/shape/hydrology.h"
@@ -37,7 +38,7 @@ TownParameters to_town_parameters(const Parameters& parameters, std::uint64_t se
   TownParameters towns;
   towns.amount = parameter_or(parameters, "settlement", 0.0);
   towns.highest_m = parameter_or(parameters, "town_highest_m", 1300.0);
-  towns.seed = mix_bits(seed + 0x746f776eULL);
+  towns.seed = seed;
   for (int k = 1;; ++k) {
     const std::string name = "town_" + std::to_string(k);
     constexpr double absent = -1.0;
@@ -251,7 +252,7 @@ void fill_noise(int variable, std::uint64_t seed, const GeoTransform& transform,
   constexpr double sigma_m[4] = {60.0, 210.0, 660.0, 1800.0};
   const int k = variable - first_noise;
   const glm::dvec2 first = transform.to_crs(0.0, row);
-  gaussian_noise_row(mix_bits(seed + 0x636c617373ULL) + static_cast<std::uint64_t>(k), first.x, transform.cell_x, width, first.y,
+  gaussian_noise_row(stream_seed(seed, Stream::class_noise, static_cast<std::uint64_t>(k)), first.x, transform.cell_x, width, first.y,
                      sigma_m[k], out);
 }
 

@@ -8,6 +8,7 @@
 #include "base/filter.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/random_streams.h"
 
 namespace belvedere {
 namespace {
@@ -83,12 +84,13 @@ std::vector<Candidate> find_candidates(const TownGround& g, const TownParameters
   const Grid<float> room = gaussian_blur(g.floor, 800.0 / cell_m);
   const Grid<float> level = gaussian_blur(g.slope_deg, 120.0 / cell_m);
   const int block = std::max(1, static_cast<int>(block_m / cell_m));
+  const std::uint64_t key = stream_seed(p.seed, Stream::towns);
   std::vector<Candidate> candidates;
   for (int by = 0; by < height; by += block) {
     for (int bx = 0; bx < width; bx += block) {
       Candidate best{-1.F, -1, true};
       Candidate terrace{-1.F, -1, false};
-      const auto chance = static_cast<float>(random_uniform(p.seed, bx / block, by / block, 1));
+      const auto chance = static_cast<float>(random_uniform(key, bx / block, by / block, 1));
       for (int y = by; y < std::min(height, by + block); ++y) {
         for (int x = bx; x < std::min(width, bx + block); ++x) {
           const float z = g.altitude_m(x, y);
@@ -213,7 +215,8 @@ std::vector<TownSite> find_town_sites(const TownGround& g, const TownParameters&
     take_direction(g, c.cell, cell_m, site);
     sites.push_back(site);
   };
-  const auto chance = [&](const Candidate& c, std::uint64_t draw) { return random_uniform(p.seed, c.cell, 0, draw); };
+  const std::uint64_t key = stream_seed(p.seed, Stream::towns);
+  const auto chance = [&](const Candidate& c, std::uint64_t draw) { return random_uniform(key, c.cell, 0, draw); };
   for (const Candidate& c : candidates)
     if (c.on_floor && c.score > 1.45F && is_free(c, town_spacing_m * closer))
       settle(c, 260.0 + 330.0 * std::clamp(static_cast<double>(c.score) - 1.3, 0.0, 1.0) + 140.0 * chance(c, 2));
