@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cmath>
+#include "base/math_exact.h"
 
 namespace belvedere {
 
@@ -11,11 +11,15 @@ inline constexpr float bed_thickness_m = 26.F * 6.2832F;  // from one riser to t
 inline float bed_phase(float altitude_m, float east_m, float n8) { return (altitude_m + 35.F * n8 + 0.06F * east_m) / 26.F; }
 
 // Light on the bed, -.58 … 1.15: treads broad and light, risers dark.
-inline float bed_light(float phase) { return 0.8F * std::sin(phase) - 0.35F * std::cos(2.F * phase); }
+inline float bed_light(float phase) {
+  const exact::Turn turn = exact::turn(static_cast<double>(phase));
+  const auto sine = static_cast<float>(turn.sine);
+  return 0.8F * sine - 0.35F * (1.F - 2.F * sine * sine);
+}
 
 // 1 at the upper edge of a riser, where the tread above it begins, 0 from a twelfth of a bed away.
 inline float bed_edge(float phase) {
-  const float near = (std::cos(phase + 0.5F) - 0.87F) / 0.10F;
+  const float near = (static_cast<float>(exact::cos(static_cast<double>(phase) + 0.5)) - 0.87F) / 0.10F;
   return near < 0.F ? 0.F : near > 1.F ? 1.F : near;
 }
 

@@ -57,11 +57,10 @@ IceFlow find_ice_flow(const StrokeScene& scene) {
 }
 
 void lay_flow(Stroke& stroke, const IceFlow& flow, glm::vec2 place, float length_px, float aside_rad) {
-  const float c = std::cos(aside_rad);
-  const float s = std::sin(aside_rad);
+  const glm::vec2 turn = turn_by(aside_rad);
   const auto heading = [&](glm::vec2 at) {
     const glm::vec2 v = flow.at(at);
-    return glm::vec2(v.x * c - v.y * s, v.x * s + v.y * c);
+    return turned(v, turn);
   };
   const float step = length_px / 3.F;
   stroke.point_count = 4;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/math_exact.h"
 #include "base/noise.h"
 #include "base/random.h"
 #include "base/random_streams.h"
@@ -109,10 +110,11 @@ Parcel parcel_at(std::uint64_t seed, double east_m, double north_m, float metres
   // Most run along the river, the road or the foot of the slope, some across.
   double angle = 6.2832 * chance(6);
   if (glm::length(grain) > least_grain)
-    angle = angle_step * std::round(0.5 * std::atan2(static_cast<double>(grain.y), static_cast<double>(grain.x)) / angle_step) +
+    angle = angle_step * std::round(0.5 * exact::atan2(static_cast<double>(grain.y), static_cast<double>(grain.x)) / angle_step) +
             0.18 * (chance(6) - 0.5);
   if (chance(7) < 0.2) angle += 1.5708;
-  const glm::dvec2 along{std::cos(angle), std::sin(angle)};
+  const exact::Turn turn = exact::turn(angle);
+  const glm::dvec2 along{turn.cosine, turn.sine};
   const double length = width * (strips ? 3.0 + 2.5 * chance(8) : 2.2);
   const double breadth = width * (strips ? 0.75 + 0.35 * chance(9) : 1.6);
   const double u = glm::dot(block.from_middle_m, along) / length;

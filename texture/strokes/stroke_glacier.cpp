@@ -158,9 +158,7 @@ std::vector<Stroke> glacier_crevasses(const StrokeScene& scene, Stream stream) {
       if (scene.class_at(here) != glacier || !same_surface(scene, here, i)) break;
       const glm::vec2 down = flow.at(middle);
       const float turn = lean + 0.05F * seed.normal();
-      const float c = std::cos(turn);
-      const float s = std::sin(turn);
-      const glm::vec2 across{-down.y * c - down.x * s, down.x * c - down.y * s};
+      const glm::vec2 across = turned(glm::vec2(-down.y, down.x), turn_by(turn));
       const float middling = 1.F - std::abs((static_cast<float>(k) + 0.5F) / static_cast<float>(count) - 0.5F);
       const float length = longest * middling * seed.between(0.35F, 1.2F);
       Stroke gap = ice_stroke(scene, here, seed);

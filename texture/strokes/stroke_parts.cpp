@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math_exact.h"
 #include "base/noise.h"
 #include "base/random.h"
 
@@ -73,7 +74,7 @@ float ground_noise(const StrokeScene& scene, std::size_t i, Stream stream, doubl
 }
 
 float patch_noise(const StrokeScene& scene, std::size_t i, Stream stream, double sigma_units) {
-  const double octave = std::log2(sigma_units * static_cast<double>(scene.metres_per_unit(i)));
+  const double octave = exact::log2(sigma_units * static_cast<double>(scene.metres_per_unit(i)));
   const double below = std::floor(octave);
   const auto share = static_cast<float>(octave - below);
   const glm::dvec2 p = ground_place(scene, i);

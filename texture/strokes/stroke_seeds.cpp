@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/math_exact.h"
+
 namespace belvedere {
 
 glm::vec2 StrokeScene::fall_line(glm::vec2 place) const {
@@ -20,6 +22,11 @@ glm::vec3 StrokeScene::colour(std::size_t i, float m, float jitter, StrokeSeed& 
   return here + (there - here) * std::min(1.5F, std::abs(m)) + glm::vec3(value + warmth, value, value - warmth);
 }
 
+glm::vec2 turn_by(float angle_rad) {
+  const exact::Turn turn = exact::turn(static_cast<double>(angle_rad));
+  return {static_cast<float>(turn.cosine), static_cast<float>(turn.sine)};
+}
+
 float mixed_tone(float dark, float light, StrokeSeed& seed) {
   const float u = seed.uniform();
   if (u < dark) return -0.5F - 0.6F * seed.uniform();
@@ -30,10 +37,8 @@ float mixed_tone(float dark, float light, StrokeSeed& seed) {
 void lay_line(Stroke& stroke, const StrokeScene& scene, glm::vec2 place, float length_units, float angle_rad, float wobble_rad, bool follow,
               StrokeSeed& seed) {
   const float length_px = length_units * scene.scale();
-  const float c = std::cos(angle_rad);
-  const float s = std::sin(angle_rad);
-  const auto turned = [&](glm::vec2 v) { return glm::vec2(v.x * c - v.y * s, v.x * s + v.y * c); };
-  glm::vec2 heading = follow ? turned(scene.fall_line(place)) : glm::vec2(c, s);
+  const glm::vec2 turn = turn_by(angle_rad);
+  glm::vec2 heading = follow ? turned(scene.fall_line(place), turn) : turn;
   float bend = seed.normal() * wobble_rad;
   glm::vec2 point = place - heading * (length_px * 0.5F);
   stroke.point_count = Stroke::max_points;
@@ -41,14 +46,12 @@ void lay_line(Stroke& stroke, const StrokeScene& scene, glm::vec2 place, float l
     vertex = point;
     if (follow) {
       // Ease towards the local fall line, on the side the stroke already runs.
-      glm::vec2 local = turned(scene.fall_line(point));
+      glm::vec2 local = turned(scene.fall_line(point), turn);
       if (glm::dot(local, heading) < 0.F) local = -local;
       heading = 0.6F * heading + 0.4F * local;
       heading /= glm::length(heading) + 1e-6F;
     }
-    const float cb = std::cos(bend);
-    const float sb = std::sin(bend);
-    point += glm::vec2(heading.x * cb - heading.y * sb, heading.x * sb + heading.y * cb) * (length_px / 3.F);
+    point += turned(heading, turn_by(bend)) * (length_px / 3.F);
     bend *= 0.6F;
   }
 }

@@ -60,6 +60,10 @@ struct StrokeScene {
   glm::vec3 colour(std::size_t i, float m, float jitter, StrokeSeed& seed) const;
 };
 
+// Cosine and sine of an angle, and a vector turned by them (clockwise in the picture, whose y runs down); the same on every machine.
+glm::vec2 turn_by(float angle_rad);
+inline glm::vec2 turned(glm::vec2 v, glm::vec2 turn) { return {v.x * turn.x - v.y * turn.y, v.x * turn.y + v.y * turn.x}; }
+
 // "mix a/b": with probability dark -.5…-1.1, with probability light +.4…+1.0, else about 0.
 float mixed_tone(float dark, float light, StrokeSeed& seed);
 

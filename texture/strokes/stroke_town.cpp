@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/math_exact.h"
 #include "texture/strokes/stroke_kinds.h"
 #include "texture/strokes/stroke_parts.h"
 
@@ -70,7 +71,7 @@ struct Plot {
 };
 
 // A pitch that holds `wanted_m`, in steps of the square root of 2: neighbours agree on it.
-double pitch_m(double wanted_m) { return std::exp2(0.5 * std::ceil(2.0 * std::log2(std::max(wanted_m, 1.0)))); }
+double pitch_m(double wanted_m) { return exact::exp2(0.5 * std::ceil(2.0 * exact::log2(std::max(wanted_m, 1.0)))); }
 
 bool find_plot(const StrokeScene& scene, Stream stream, glm::vec2 at, Plot& plot) {
   const std::size_t i = scene.pixel(at);
@@ -80,14 +81,14 @@ bool find_plot(const StrokeScene& scene, Stream stream, glm::vec2 at, Plot& plot
   // Streets run with the land; where nothing orders it each quarter has its own way.
   const glm::vec2 grain = scene.guidance.grain[i];
   double angle = 0.6 * static_cast<double>(ground_noise(scene, i, Stream::street_directions, 900.0));
-  if (std::abs(grain.x) + std::abs(grain.y) > 0.1F) angle = 0.5 * std::atan2(static_cast<double>(grain.y), static_cast<double>(grain.x));
+  if (std::abs(grain.x) + std::abs(grain.y) > 0.1F) angle = 0.5 * exact::atan2(static_cast<double>(grain.y), static_cast<double>(grain.x));
   const auto turn = static_cast<std::int64_t>(std::lround(angle / turn_step));
-  angle = turn_step * static_cast<double>(turn);
-  const glm::dvec2 along{std::cos(angle), std::sin(angle)};
+  const exact::Turn street = exact::turn(turn_step * static_cast<double>(turn));
+  const glm::dvec2 along{street.cosine, street.sine};
   const glm::dvec2 across{-along.y, along.x};
   const auto plots_a_metre = [&](glm::dvec2 direction) {
     const glm::dvec2 d = lie.to_picture(direction) / static_cast<double>(scene.scale());
-    return std::hypot(d.x / static_cast<double>(plot_width), d.y / static_cast<double>(plot_height));
+    return glm::length(d / glm::dvec2(plot_width, plot_height));
   };
   const double length = pitch_m(1.0 / plots_a_metre(along));
   const double depth = pitch_m(1.15 / plots_a_metre(across));

@@ -1,0 +1,129 @@
+#include "base/math_exact.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace belvedere::exact {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+// π/2 in parts: the first has 33 bits, so that its products with the quarter turns of angles up to 1e6 are exact.
+constexpr double half_pi_high = 0x1.921fb544p+0;
+constexpr double half_pi_low = 0x1.0b4611a626331p-34;
+constexpr double ln2 = 0.69314718055994530942;
+constexpr double root_half = 0.70710678118654752440;
+
+// 1 / (n (n + 1)), from one term of the series of sine and cosine to the next, and 1 / n: divided once, when the program is compiled.
+constexpr auto step_parts = [] {
+  std::array<double, 18> of{};
+  for (int n = 1; n < 18; ++n) of[static_cast<std::size_t>(n)] = 1.0 / (n * (n + 1.0));
+  return of;
+}();
+constexpr auto parts = [] {
+  std::array<double, 24> of{};
+  for (int n = 1; n < 24; ++n) of[static_cast<std::size_t>(n)] = 1.0 / n;
+  return of;
+}();
+
+// Taylor's series of sine and cosine for |x| ≤ π/4: what is left out is below x^19 / 19! = 9e-20.
+Turn small_turn(double x) {
+  const double z = x * x;
+  double sine = 1.0;
+  for (std::size_t n = 16; n > 0; n -= 2) sine = 1.0 - z * step_parts[n] * sine;
+  double cosine = 1.0;
+  for (std::size_t n = 18; n > 0; n -= 2) cosine = 1.0 - z * step_parts[n - 1] * cosine;
+  return {cosine, x * sine};
+}
+
+// atan of 0 ≤ t ≤ 1. Two halvings of the angle, t → t / (1 + √(1 + t²)), bring it to .199; the series leaves out t^25 / 25 = 1e-19.
+double small_atan(double t) {
+  for (int halving = 0; halving < 2; ++halving) t = t / (1.0 + std::sqrt(1.0 + t * t));
+  const double z = t * t;
+  double sum = 0.0;
+  for (std::size_t n = 24; n > 0; n -= 2) sum = parts[n - 1] - z * sum;
+  return 4.0 * t * sum;
+}
+
+struct BinaryLog {
+  double whole;
+  double natural_rest;  // of what is left, -ln2/2 … ln2/2
+};
+
+// x = 2^whole · m with √½ ≤ m < √2; log m = 2 artanh((m - 1) / (m + 1)), where |…| ≤ .172: the series leaves out .172^23 / 23 = 1e-19.
+BinaryLog split_log(double x) {
+  int exponent = 0;
+  double m = std::frexp(x, &exponent);
+  if (m < root_half) {
+    m *= 2.0;
+    --exponent;
+  }
+  const double s = (m - 1.0) / (m + 1.0);
+  const double z = s * s;
+  double sum = 0.0;
+  for (std::size_t n = 22; n > 0; n -= 2) sum = parts[n - 1] + z * sum;
+  return {static_cast<double>(exponent), 2.0 * s * sum};
+}
+
+// 2^whole · e^rest for |rest| ≤ .36: the series leaves out rest^15 / 15! = 2e-19.
+double scaled_exp(double whole, double rest) {
+  double sum = 1.0;
+  for (std::size_t n = 14; n > 0; --n) sum = 1.0 + rest * parts[n] * sum;
+  return std::ldexp(sum, static_cast<int>(whole));
+}
+
+}  // namespace
+
+Turn turn(double angle_rad) {
+  const double quarters = std::floor(angle_rad / (0.5 * pi) + 0.5);
+  const Turn rest = small_turn((angle_rad - quarters * half_pi_high) - quarters * half_pi_low);
+  switch (static_cast<long long>(quarters) & 3) {
+    case 0:
+      return rest;
+    case 1:
+      return {-rest.sine, rest.cosine};
+    case 2:
+      return {-rest.cosine, -rest.sine};
+    default:
+      return {rest.sine, -rest.cosine};
+  }
+}
+
+double cos(double angle_rad) { return turn(angle_rad).cosine; }
+double sin(double angle_rad) { return turn(angle_rad).sine; }
+
+double atan2(double y, double x) {
+  const double across = std::abs(x);
+  const double up = std::abs(y);
+  if (across == 0.0 && up == 0.0) return 0.0;
+  double angle = up <= across ? small_atan(up / across) : 0.5 * pi - small_atan(across / up);
+  if (x < 0.0) angle = pi - angle;
+  return y < 0.0 ? -angle : angle;
+}
+
+double log2(double x) {
+  if (std::isinf(x)) return x;
+  const BinaryLog of = split_log(x);
+  return of.whole + of.natural_rest / ln2;
+}
+
+double log(double x) {
+  if (std::isinf(x)) return x;
+  const BinaryLog of = split_log(x);
+  return of.whole * ln2 + of.natural_rest;
+}
+
+double exp2(double exponent) {
+  if (std::isnan(exponent)) return exponent;
+  if (exponent < -1000.0) return 0.0;
+  if (exponent > 1000.0) return std::numeric_limits<double>::infinity();
+  const double whole = std::floor(exponent + 0.5);
+  return scaled_exp(whole, (exponent - whole) * ln2);
+}
+
+double exp(double exponent) { return exp2(exponent / ln2); }
+
+double pow(double base, double exponent) { return base > 0.0 ? exp2(exponent * log2(base)) : 0.0; }
+
+}  // namespace belvedere::exact

@@ -1,0 +1,32 @@
+#pragma once
+
+namespace belvedere::exact {
+
+// Functions whose bits are the same on every machine: made of sums, products, quotients and square roots of doubles alone, which IEEE 754
+// rounds exactly; those of a C library differ from one to the next in the last bit, and a pixel with them. Each states its largest error
+// against the true value. For whatever moves a pixel.
+
+struct Turn {
+  double cosine;
+  double sine;
+};
+// Both for an angle in radians, |angle| ≤ 1e6; error below 3e-16 up to |angle| = 10, beyond it below 1e-16 · |angle|.
+Turn turn(double angle_rad);
+double cos(double angle_rad);
+double sin(double angle_rad);
+
+// Angle of (x, y) counterclockwise from the x axis, -π…π; 0 at the origin. Error below 6e-16.
+double atan2(double y, double x);
+
+// Of x of at least 1e-300; infinity for infinity; relative error below 4e-16, absolute below 1e-16 near 1. log2 of a power of two is exact.
+double log2(double x);
+double log(double x);
+
+// Relative error below 4e-16 · (1 + |exponent|); 0 below exponents of 2 of -1000, infinite above 1000. exp2 of a whole number is exact.
+double exp2(double exponent);
+double exp(double exponent);
+
+// base ≥ 0, and 0 for 0 (exponent > 0); relative error below 1e-15 · (1 + |exponent · log2(base)|).
+double pow(double base, double exponent);
+
+}  // namespace belvedere::exact
