@@ -178,16 +178,17 @@ TEST(StrokePainter, TownsDifferFromVillages) {
 }
 
 TEST(StrokePainter, TownsAreDenserInTheirMiddle) {
-  const Picture p = town(80.F);
-  const StrokeParameters parameters;
+  Picture p = town(80.F);
   int inside = 0;
   int edge = 0;
-  for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters})) {
-    if (s.alpha < 0.9F || s.gate != StrokeGate::surface) continue;  // walls and roofs
-    const float r = std::hypot(s.points[0].x - 160.F, s.points[0].y - 120.F);
-    inside += r < 55.F ? 1 : 0;
-    edge += r > 70.F ? 1 : 0;
-  }
+  over_seeds(p, [&] {
+    for (const Stroke& s : town_strokes(p.scene())) {
+      if (s.alpha < 0.9F || s.gate != StrokeGate::surface) continue;  // walls and roofs
+      const float r = std::hypot(s.points[0].x - 160.F, s.points[0].y - 120.F);
+      inside += r < 55.F ? 1 : 0;
+      edge += r > 70.F ? 1 : 0;
+    }
+  });
   EXPECT_GT(inside / (55.0 * 55.0), 1.15 * edge / (80.0 * 80.0 - 70.0 * 70.0));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <string_view>
 #include <vector>
@@ -65,6 +66,14 @@ inline std::vector<Stroke> wood_strokes(const StrokeScene& scene) {
   return grow_all({"forest trees", "forest edges", "glade grass"}, scene);
 }
 inline std::vector<Stroke> town_strokes(const StrokeScene& scene) { return grow_all({"houses", "churches"}, scene); }
+
+// Does `look` with the picture painted from several seeds, for what is true of many pictures and not of each.
+inline constexpr std::uint64_t test_seeds = 12;
+template <class Look>
+void over_seeds(Picture& p, Look&& look) {
+  for (p.parameters.seed = 1; p.parameters.seed <= test_seeds; ++p.parameters.seed) look();
+  p.parameters.seed = 1;
+}
 
 // From a stroke's first point to its last, px.
 inline glm::vec2 axis_of(const Stroke& s) { return s.points[static_cast<std::size_t>(s.point_count - 1)] - s.points[0]; }

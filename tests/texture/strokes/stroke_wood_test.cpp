@@ -183,7 +183,11 @@ TEST(Wood, LightsItsRimTowardsTheSun) {
   Picture p = slope_of(forest);
   fill(p.guidance.land_cover, 0, 0, 100, height, pasture);
   fill(p.guidance.land_cover, 220, 0, width, height, pasture);
-  const auto trees = wood_strokes(p.scene());
+  std::vector<Stroke> trees;
+  over_seeds(p, [&] {
+    const std::vector<Stroke> more = wood_strokes(p.scene());
+    trees.insert(trees.end(), more.begin(), more.end());
+  });
   const auto lit_between = [&](float x0, float x1) {
     double sum = 0.0;
     int count = 0;
@@ -197,28 +201,30 @@ TEST(Wood, LightsItsRimTowardsTheSun) {
 }
 
 TEST(Wood, LeafyTreesStandInGroupsOfTheirOwn) {
-  const Picture p = slope_of(forest, 900.F);
+  Picture p = slope_of(forest, 900.F);
   constexpr int cell = 16;
-  Grid<int> leafy(width / cell, height / cell, 0);
-  Grid<int> all(width / cell, height / cell, 0);
-  for (const Stroke& s : wood_strokes(p.scene())) {
-    if (!is_body(s)) continue;
-    const int x = std::clamp(static_cast<int>(s.points[0].x), 0, width - 1) / cell;
-    const int y = std::clamp(static_cast<int>(s.points[0].y), 0, height - 1) / cell;
-    leafy(x, y) += s.end_width >= s.start_width;
-    ++all(x, y);
-  }
   int pure = 0;
   int cells = 0;
   double total = 0.0;
   double trees = 0.0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    total += leafy[i];
-    trees += all[i];
-    if (all[i] < 6) continue;
-    ++cells;
-    pure += leafy[i] * 10 <= all[i] || leafy[i] * 10 >= 9 * all[i];
-  }
+  over_seeds(p, [&] {
+    Grid<int> leafy(width / cell, height / cell, 0);
+    Grid<int> all(width / cell, height / cell, 0);
+    for (const Stroke& s : wood_strokes(p.scene())) {
+      if (!is_body(s)) continue;
+      const int x = std::clamp(static_cast<int>(s.points[0].x), 0, width - 1) / cell;
+      const int y = std::clamp(static_cast<int>(s.points[0].y), 0, height - 1) / cell;
+      leafy(x, y) += s.end_width >= s.start_width;
+      ++all(x, y);
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      total += leafy[i];
+      trees += all[i];
+      if (all[i] < 6) continue;
+      ++cells;
+      pure += leafy[i] * 10 <= all[i] || leafy[i] * 10 >= 9 * all[i];
+    }
+  });
   EXPECT_GT(total / trees, 0.15);
   EXPECT_LT(total / trees, 0.60);
   // Strewn evenly, hardly one cell in ten of some fifteen trees would be nearly pure.
@@ -230,13 +236,15 @@ TEST(Wood, ValleyTreesFollowTheBrook) {
   fill(p.guidance.land_cover, 0, 118, width, 122, water);
   int banks = 0;
   int open = 0;
-  for (const Stroke& s : grow_strokes("scattered trees", p.scene())) {
-    if (s.gate != StrokeGate::upright) continue;
-    const float y = s.points[0].y;
-    banks += std::abs(y - 120.F) < 8.F;
-    open += y < 100.F || y > 140.F;
-  }
-  EXPECT_GT(banks, 50);
+  over_seeds(p, [&] {
+    for (const Stroke& s : grow_strokes("scattered trees", p.scene())) {
+      if (s.gate != StrokeGate::upright) continue;
+      const float y = s.points[0].y;
+      banks += std::abs(y - 120.F) < 8.F;
+      open += y < 100.F || y > 140.F;
+    }
+  });
+  EXPECT_GT(banks, 50 * static_cast<int>(test_seeds));
   // Per area: 16 rows of bank, 200 rows of open land.
   EXPECT_GT(banks / 16.0, 4.0 * open / 200.0);
 }
