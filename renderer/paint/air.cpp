@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 
 #include "base/math.h"
+#include "base/math_exact.h"
 
 namespace belvedere {
 namespace {
@@ -16,9 +17,9 @@ constexpr double usual_haze = BaseParameters{}.haze;
 
 double haze_share(const BaseParameters& p, double depth_m, double altitude_m) {
   const double beyond = std::max(depth_m - p.haze_from_m, 0.0) / p.haze_scale_m;
-  const double by_distance = 1.0 - std::exp(-std::pow(beyond, 1.35));
+  const double by_distance = 1.0 - exact::exp(-exact::pow(beyond, 1.35));
   // Summits stand out of the air, valleys fill with it.
-  const double by_altitude = 0.58 + 0.42 * std::exp(-std::max(altitude_m - p.haze_floor_m, 0.0) / 900.0);
+  const double by_altitude = 0.58 + 0.42 * exact::exp(-std::max(altitude_m - p.haze_floor_m, 0.0) / 900.0);
   return p.haze * by_distance * by_altitude;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/guidance_channels.h"
 #include "base/math.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"
@@ -33,7 +34,7 @@ class SheetSizedNoise {
  public:
   SheetSizedNoise(std::uint64_t seed, Stream stream) : seed_(seed), stream_(stream) {}
   float operator()(double x_m, double y_m, double sigma_m) {
-    const double octave = std::log2(std::max(sigma_m, 1e-3));
+    const double octave = exact::log2(std::max(sigma_m, 1e-3));
     const auto below = static_cast<int>(std::floor(octave));
     const double share = octave - below;
     return static_cast<float>(std::sqrt(1.0 - share)) * of(below)(x_m, y_m) +

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/guidance_channels.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"
@@ -40,7 +41,7 @@ float steepness(float slope_deg) { return std::clamp((slope_deg - 18.0F) / 20.0F
 // Rock's contrast drives its shade below the darkest paint, where a wall has no forms left: from `toe` down tones draw together instead.
 float keep_forms(float tone) {
   constexpr float toe = 0.26F;
-  return tone >= toe ? tone : toe * std::exp((tone - toe) / toe);
+  return tone >= toe ? tone : toe * static_cast<float>(exact::exp(static_cast<double>((tone - toe) / toe)));
 }
 
 // How fine the ground is drawn: 1 near, falling to .35 where a unit of the sheet covers so much ground that the DEM's small forms would
@@ -60,7 +61,7 @@ float raw_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky
   const float towards = glm::dot(normal, glm::vec3(p.sun_direction));
   const float facing = std::clamp((towards + wrap) / (1.0F + wrap), 0.0F, 1.0F);
   const float sun = facing * (1.0F - static_cast<float>(p.shadow_depth) * (1.0F - shadow));
-  const float sky = std::pow(std::max(sky_view, 0.0F), 1.3F) * (0.6F + 0.4F * normal.z);
+  const float sky = static_cast<float>(exact::pow(static_cast<double>(std::max(sky_view, 0.0F)), 1.3)) * (0.6F + 0.4F * normal.z);
   const float relief = 0.5F * std::clamp(g.relief_m_m[i] / 70.0F, -1.0F, 1.0F) + 0.5F * std::clamp(g.relief_l_m[i] / 250.0F, -1.0F, 1.0F);
   const float edges = std::clamp(g.relief_s_m[i] / 10.0F, -1.2F, 1.2F);
   return static_cast<float>(p.sun_strength) * sun + static_cast<float>(p.sky_strength) * sky +

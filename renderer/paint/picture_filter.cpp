@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/math_exact.h"
 #include "base/parallel.h"
 
 namespace belvedere {
@@ -15,7 +16,7 @@ int kernel_radius(double sigma_px) { return static_cast<int>(std::ceil(3.0 * sig
 
 std::vector<float> half_kernel(double sigma_px) {
   std::vector<float> kernel;
-  for (int i = 0; i <= kernel_radius(sigma_px); ++i) kernel.push_back(static_cast<float>(std::exp(-0.5 * i * i / (sigma_px * sigma_px))));
+  for (int i = 0; i <= kernel_radius(sigma_px); ++i) kernel.push_back(static_cast<float>(exact::exp(-0.5 * i * i / (sigma_px * sigma_px))));
   return kernel;
 }
 

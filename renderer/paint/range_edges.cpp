@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 
 namespace belvedere {
@@ -26,7 +27,7 @@ Grid<float> log_depths(const GuidanceBuffers& g, int reach_px) {
             break;
           }
       }
-      logs(x, y) = std::log(std::max(depth, 1.0F));
+      logs(x, y) = static_cast<float>(exact::log(static_cast<double>(std::max(depth, 1.0F))));
     }
   });
   return logs;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"
@@ -21,7 +22,7 @@ double line_sum_deviation(int count, double sigma_units) {
   double variance = count;
   for (int k = 1; k < count; ++k) {
     const double r = k * step_units / sigma_units;
-    variance += 2.0 * (count - k) * std::exp(-0.25 * r * r);
+    variance += 2.0 * (count - k) * exact::exp(-0.25 * r * r);
   }
   return std::sqrt(variance);
 }

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/math.h"
+#include "base/math_exact.h"
 #include "base/noise.h"
 #include "base/parallel.h"
 #include "base/random.h"
@@ -167,7 +168,7 @@ float veil_at(const SkyParameters& p, double x_px, double elevation, VeilNoises&
   if (elevation < 0.05) return 0.0F;
   const double x = x_px / cloud_scale_px(p);
   const double bend = 0.020 * noises.waver(x * 0.35, elevation * 3.0);
-  const double rise = std::log(0.12 + elevation + bend);  // a layer seen from below: equal steps are ever thinner
+  const double rise = exact::log(0.12 + elevation + bend);  // a layer seen from below: equal steps are ever thinner
   const float broad = noises.streaks(x / 0.9, rise / 0.11);
   const float fine = noises.threads(x / 0.4, rise / 0.035);
   const float where = noises.patches(x / 1.5, rise / 0.40);
