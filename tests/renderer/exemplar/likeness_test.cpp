@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "base/filter.h"
 #include "base/progress.h"
@@ -13,6 +14,7 @@
 #include "renderer/paint/palette.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "texture/strokes/stroke_painter.h"
+#include "texture/strokes/stroke_table.h"
 
 namespace belvedere {
 namespace {
@@ -146,16 +148,10 @@ StrokeSizes sizes_of(const std::vector<Stroke>& strokes, double pixels_per_unit)
 
 TEST(Likeness, EveryKindOfStrokeHasItsNumberAndItsSizeInMillimetres) {
   const auto scene = [](const Print& p) { return StrokeScene{p.guidance, p.base, p.strokes}; };
-  using Kind = std::vector<Stroke> (*)(const StrokeScene&);
-  const std::vector<std::pair<const char*, Kind>> kinds = {
-      {"sky", sky_strokes},       {"wash", wash_strokes},           {"meadow", meadow_strokes},
-      {"scree", scree_strokes},   {"broken colour", broken_colour}, {"water", water_strokes},
-      {"accent", accent_strokes}, {"facet", rock_facets},           {"hatching", rock_hatching},
-      {"snow", snow_strokes},     {"tree", forest_trees},           {"scattered", scattered_trees},
-      {"house", houses}};
-  for (const auto& [name, kind] : kinds) {
-    const StrokeSizes small = sizes_of(kind(scene(small_print())), 1.0);
-    const StrokeSizes large = sizes_of(kind(scene(large_print())), 3.0);
+  for (const StrokeKind& kind : stroke_kinds()) {
+    const std::string_view name = kind.name;
+    const StrokeSizes small = sizes_of(kind.grow(scene(small_print()), kind.stream), 1.0);
+    const StrokeSizes large = sizes_of(kind.grow(scene(large_print()), kind.stream), 3.0);
     if (small.count < 40) continue;
     EXPECT_NEAR(static_cast<double>(large.count) / static_cast<double>(small.count), 1.0, small.count < 400 ? 0.15 : 0.05) << name;
     EXPECT_NEAR(large.length, small.length, (small.count < 400 ? 0.06 : 0.03) * small.length) << name;
