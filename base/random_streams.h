@@ -101,26 +101,8 @@ enum class Stream : std::uint16_t {
   // Example sheets.
   sheet_panels,
   sheet_terrains,
-  // Made-up terrain.
+  // Made-up terrain; its plan has numbers of its own (terrain/synthetic/synthetic_plan.h).
   ridged_terrain,
-  valley_directions,
-  valley_lines,
-  valley_widths,
-  uplift_bends,
-  massifs,
-  ranges,
-  rock_softness,
-  first_relief,
-  rim_outlets,
-  drainage,
-  river_bends,
-  roughness,
-  slope_ribs,
-  floor_widths,
-  cirques,
-  aprons,
-  moraines,
-  dams,
 
   count  // no stream: how many there are
 };

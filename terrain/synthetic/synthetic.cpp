@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/parallel.h"
-#include "base/random.h"
+#include "base/random_streams.h"
 #include "terrain/synthetic/synthetic_erosion.h"
 #include "terrain/synthetic/synthetic_noise.h"
 #include "terrain/synthetic/synthetic_plan.h"
@@ -138,14 +138,15 @@ void open_rim(Level& level, const Plan& plan, bool set_levels) {
   const double spacing = 11000.0 * plan.unit_m();
   const int count = std::max(4, static_cast<int>(rim_m / spacing));
   for (int i = 0; i < count; ++i) {
-    const std::int32_t cell = rim_cell(level, (i + 0.2 + 0.6 * random_uniform(plan.seed(), i, 0, 5)) * rim_m / count);
+    const std::int32_t cell = rim_cell(level, (i + 0.2 + 0.6 * draw_uniform(plan.seed(), i, 0, TerrainDraw::outlet_place)) * rim_m / count);
     const bool taken = std::any_of(mouths.begin(), mouths.end(), [&](std::int32_t m) {
       return std::hypot(cell % w - m % w, cell / w - m / w) * level.cell_m < 6000.0 * plan.unit_m();
     });
     if (taken) continue;
     level.outlets.push_back(cell);
     if (set_levels)
-      level.altitude_m[static_cast<std::size_t>(cell)] = 120.F + 420.F * static_cast<float>(random_uniform(plan.seed(), i, 0, 6));
+      level.altitude_m[static_cast<std::size_t>(cell)] =
+          120.F + 420.F * static_cast<float>(draw_uniform(plan.seed(), i, 0, TerrainDraw::outlet_level));
   }
 }
 
@@ -163,10 +164,13 @@ void roughen(Level& level, const Plan& plan, float relief_m) {
       if (steep <= 0.F) continue;
       const double u = (x + 0.5) * level.cell_m / length;
       const double v = (y + 0.5) * level.cell_m / length;
-      const double wu = u + 0.6 * static_cast<double>(gradient_noise(plan.seed() + 81, u * 0.7, v * 0.7));
-      const double wv = v + 0.6 * static_cast<double>(gradient_noise(plan.seed() + 82, u * 0.7, v * 0.7));
+      const double wu =
+          u + 0.6 * static_cast<double>(gradient_noise(noise_seed(plan.seed(), TerrainNoise::roughness_bends_east), u * 0.7, v * 0.7));
+      const double wv =
+          v + 0.6 * static_cast<double>(gradient_noise(noise_seed(plan.seed(), TerrainNoise::roughness_bends_south), u * 0.7, v * 0.7));
       const float rock = 0.7F + 1.3F * smoothstep(0.35F, 0.65F, before(x, y) / relief_m);
-      level.altitude_m(x, y) += cell * rock * steep * (ridged_noise(plan.seed() + 83, wu, wv, 3, 0.6F) - 0.5F);
+      level.altitude_m(x, y) +=
+          cell * rock * steep * (ridged_noise(noise_seed(plan.seed(), TerrainNoise::roughness), wu, wv, 3, 0.6F) - 0.5F);
     }
   });
 }
@@ -201,7 +205,8 @@ void add_ribs(Level& level, const Plan& plan, float relief_m) {
       const float high = smoothstep(0.3F, 0.6F, smooth(x, y) / relief_m);
       steep(x, y) = smoothstep(0.35F, 0.9F, slope) * (0.35F + 0.65F * high);
       fall(x, y) = slope > 1e-6F ? glm::vec2(gx, gy) / slope : glm::vec2(0.F);
-      noise(x, y) = gradient_noise(plan.seed() + 91, x / 3.1, y / 3.1) + 0.8F * gradient_noise(plan.seed() + 92, x / 7.3, y / 7.3);
+      noise(x, y) = gradient_noise(noise_seed(plan.seed(), TerrainNoise::slope_ribs), x / 3.1, y / 3.1) +
+                    0.8F * gradient_noise(noise_seed(plan.seed(), TerrainNoise::broad_slope_ribs), x / 7.3, y / 7.3);
     }
   });
   parallel_rows(height, [&](int y) {
@@ -272,9 +277,9 @@ Dem make_synthetic_terrain(const SyntheticParameters& parameters, Progress& prog
       const double py = (y + 0.5) * level.cell_m;
       const float rise = plan.uplift(px, py);
       level.uplift_m(x, y) = 30.F * rise * static_cast<float>(unit_m);
-      level.altitude_m(x, y) =
-          static_cast<float>(unit_m) *
-          (60.F + 500.F * rise + 120.F * fractal_noise(plan.seed() + 90, px / (3000.0 * unit_m), py / (3000.0 * unit_m), 5));
+      level.altitude_m(x, y) = static_cast<float>(unit_m) * (60.F + 500.F * rise +
+                                                             120.F * fractal_noise(noise_seed(plan.seed(), TerrainNoise::first_relief),
+                                                                                   px / (3000.0 * unit_m), py / (3000.0 * unit_m), 5));
     }
   });
 
@@ -298,8 +303,8 @@ Dem make_synthetic_terrain(const SyntheticParameters& parameters, Progress& prog
       level.uplift_m = refine(level.uplift_m);
       level.cell_m *= 0.5;
       if (l > 0) {
-        level.altitude_m = bend(level.altitude_m, plan.seed() + 200 + static_cast<std::uint64_t>(10 * l));
-        level.uplift_m = bend(level.uplift_m, plan.seed() + 200 + static_cast<std::uint64_t>(10 * l));
+        level.altitude_m = bend(level.altitude_m, noise_seed(plan.seed(), TerrainNoise::river_bends) + static_cast<std::uint64_t>(10 * l));
+        level.uplift_m = bend(level.uplift_m, noise_seed(plan.seed(), TerrainNoise::river_bends) + static_cast<std::uint64_t>(10 * l));
       }
       roughen(level, plan, relief);
     }
@@ -376,11 +381,12 @@ Dem make_ridged_noise(const SyntheticParameters& parameters) {
   // Ranges every nine kilometres, or four across a smaller map; as many octaves as the cells can show, seven at most.
   const double length = std::min(9000.0, 0.25 * std::max(parameters.width, parameters.height) * parameters.cell_m);
   const int octaves = std::clamp(static_cast<int>(std::log2(length / (2.0 * parameters.cell_m))), 1, 7);
+  const std::uint64_t seed = stream_seed(parameters.seed, Stream::ridged_terrain);
   parallel_rows(parameters.height, [&](int y) {
     for (int x = 0; x < parameters.width; ++x) {
       const double u = x * parameters.cell_m / length;
       const double v = y * parameters.cell_m / length;
-      dem.altitude_m(x, y) = lowest + relief * ridged_noise(parameters.seed, u, v, octaves);
+      dem.altitude_m(x, y) = lowest + relief * ridged_noise(seed, u, v, octaves);
     }
   });
   return dem;

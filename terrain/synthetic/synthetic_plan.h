@@ -2,7 +2,52 @@
 
 #include <cstdint>
 
+#include "base/random.h"
+
 namespace belvedere::synthetic {
+
+// What noise is drawn for, as a number added to the plan's seed, which is hashed from the scene's; octaves take the numbers that follow.
+// The numbers stay: terrains and views of the example sheet and of the demo were chosen for what they make.
+enum class TerrainNoise : std::uint64_t {
+  valley_bends = 11,
+  valley_wavering = 12,
+  valley_widths = 13,
+  range_bends_east = 20,
+  range_bends_south = 30,
+  massifs = 40,
+  ranges = 50,
+  soft_rock = 60,
+  soft_patches = 70,
+  roughness_bends_east = 81,
+  roughness_bends_south = 82,
+  roughness = 83,
+  first_relief = 90,
+  slope_ribs = 91,
+  broad_slope_ribs = 92,
+  floor_widths = 101,
+  cirques = 102,
+  moraines = 103,
+  aprons = 104,
+  river_bends = 200,
+};
+constexpr std::uint64_t noise_seed(std::uint64_t plan_seed, TerrainNoise noise) { return plan_seed + static_cast<std::uint64_t>(noise); }
+
+// Draw numbers of what is drawn once for a place: a valley, an outlet, a dam.
+enum class TerrainDraw : std::uint64_t {
+  valley_direction = 1,
+  valley_place = 2,
+  outlet_place = 5,
+  outlet_level = 6,
+  dam_order = 31,
+  dam_size = 32,
+  dam_share = 33
+};
+constexpr double draw_uniform(std::uint64_t plan_seed, std::int64_t x, std::int64_t y, TerrainDraw draw) {
+  return random_uniform(plan_seed, x, y, static_cast<std::uint64_t>(draw));
+}
+constexpr std::uint64_t draw_bits(std::uint64_t plan_seed, std::int64_t x, std::int64_t y, TerrainDraw draw) {
+  return random_bits(plan_seed, x, y, static_cast<std::uint64_t>(draw));
+}
 
 // The plan of a landscape: where mountains rise and where the main valleys run. Places in metres from the padded map's
 // north-west corner, x east, y south; `unit_m` shrinks it for maps smaller than a mountain range.

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "base/random.h"
 #include "terrain/synthetic/synthetic_noise.h"
+#include "terrain/synthetic/synthetic_plan.h"
 
 namespace belvedere::synthetic {
 namespace {
@@ -55,10 +55,12 @@ float floor_half_width_m(const ValleyParameters& p, double x_m, double y_m, floa
   const double v = y_m / p.unit_m;
   const float area = catchment_km2 / static_cast<float>(p.unit_m * p.unit_m);
   // Basins and narrows follow each other every few kilometres.
-  const float swell = std::clamp(0.85F + 0.9F * gradient_noise(p.seed + 101, u / 3700.0, v / 3700.0), 0.25F, 1.6F);
+  const float swell =
+      std::clamp(0.85F + 0.9F * gradient_noise(noise_seed(p.seed, TerrainNoise::floor_widths), u / 3700.0, v / 3700.0), 0.25F, 1.6F);
   const float river = 62.F * std::pow(area, 0.41F) * swell * smoothstep(1.F, 8.F, area);
-  const float cirque = 170.F * smoothstep(0.42F, 0.62F, altitude_m / p.relief_m) * smoothstep(0.25F, 0.9F, area) *
-                       std::clamp(0.8F + 0.7F * gradient_noise(p.seed + 102, u / 1500.0, v / 1500.0), 0.F, 1.5F);
+  const float cirque =
+      170.F * smoothstep(0.42F, 0.62F, altitude_m / p.relief_m) * smoothstep(0.25F, 0.9F, area) *
+      std::clamp(0.8F + 0.7F * gradient_noise(noise_seed(p.seed, TerrainNoise::cirques), u / 1500.0, v / 1500.0), 0.F, 1.5F);
   return static_cast<float>(p.unit_m) * (river + cirque);
 }
 
@@ -85,7 +87,7 @@ Grid<float> carve_valleys(Grid<float>& altitude_m, const Drainage& drainage, con
     for (int x = 0; x < width; ++x) {
       const double u = (x + 0.5) * p.cell_m / (1300.0 * p.unit_m);
       const double v = (y + 0.5) * p.cell_m / (1300.0 * p.unit_m);
-      apron(x, y) = 0.004F + 0.05F * std::max(0.F, gradient_noise(p.seed + 104, u, v));
+      apron(x, y) = 0.004F + 0.05F * std::max(0.F, gradient_noise(noise_seed(p.seed, TerrainNoise::aprons), u, v));
     }
   });
   constexpr int band = 32;
@@ -119,7 +121,7 @@ void dam_valleys(Grid<float>& altitude_m, const Drainage& drainage, const Grid<f
   for (const std::int32_t i : drainage.order) {
     const float area = catchment_km2[at(i)] / unit2;
     if (area < 6.F || area > 220.F || altitude_m[at(i)] > 0.55F * p.relief_m) continue;
-    places.emplace_back(random_bits(p.seed, i % width, i / width, 31), i);
+    places.emplace_back(draw_bits(p.seed, i % width, i / width, TerrainDraw::dam_order), i);
   }
   std::sort(places.begin(), places.end());
 
@@ -136,7 +138,8 @@ void dam_valleys(Grid<float>& altitude_m, const Drainage& drainage, const Grid<f
     if (near) continue;
     // The lowest dam that holds a lake of the wanted size.
     const double area_m2 =
-        (0.35 + 3.4 * random_uniform(p.seed, cx, cy, 32) * random_uniform(p.seed, cx, cy, 33)) * 1e6 * static_cast<double>(unit2);
+        (0.35 + 3.4 * draw_uniform(p.seed, cx, cy, TerrainDraw::dam_size) * draw_uniform(p.seed, cx, cy, TerrainDraw::dam_share)) * 1e6 *
+        static_cast<double>(unit2);
     const auto cells = static_cast<std::size_t>(std::max(24.0, area_m2 / (p.cell_m * p.cell_m)));
     float level = 0.F;
     for (float dam = 6.F; dam <= 90.F && level == 0.F; dam *= 1.25F)
@@ -163,7 +166,7 @@ void dam_valleys(Grid<float>& altitude_m, const Drainage& drainage, const Grid<f
         const double u = (x + 0.5) * p.cell_m / (260.0 * p.unit_m);
         const double v = (y + 0.5) * p.cell_m / (260.0 * p.unit_m);
         const auto away = static_cast<float>(std::max(0.0, std::hypot(along, across) - 90.0 * p.unit_m));
-        const float top = level + 5.F * std::abs(fractal_noise(p.seed + 103, u, v, 3)) - 0.08F * away;
+        const float top = level + 5.F * std::abs(fractal_noise(noise_seed(p.seed, TerrainNoise::moraines), u, v, 3)) - 0.08F * away;
         altitude_m(x, y) = std::max(altitude_m(x, y), top);
       }
     }
