@@ -41,6 +41,7 @@ struct GuidanceBuffers {
   Grid<float> rim_m;            // distance on the ground to where the known terrain ends
   Grid<float> built;            // how densely houses stand: 0 open land, .3 a village, 1 the middle of a large town
   Grid<glm::vec2> grain;  // which way fields and streets run on the ground: (cos 2a, sin 2a) times how sure that is, 0…1; a from east
+  Grid<float> flow;       // base-10 logarithm of the upstream area in m²
   Grid<float> tone;       // the scalar light that indexes palettes, 0…1
   Image base;             // strokeless base picture, scene-linear
   // Of a painting whose strokes are known. Strokes overlap the borders of classes, so what a pixel shows is not always what stands there.

@@ -140,6 +140,7 @@ void sample_ground(const TerrainModel& terrain, const DeformedSurface& surface, 
   out.relief_l_m[i] = bilinear(terrain.relief_l_m, known);
   out.ridge[i] = out.relief_s_m[i] / (std::abs(out.relief_s_m[i]) + ridge_scale_m);
   out.valley_height_m[i] = bilinear(terrain.valley_height_m, known);
+  out.flow[i] = bilinear(terrain.flow, known);
   out.rim_m[i] = bilinear(terrain.rim_m, at);
   if (!terrain.floor_plan.built.empty()) {
     out.built[i] = bilinear(terrain.floor_plan.built, known);

@@ -22,6 +22,7 @@ struct TerrainModel {
   Grid<float> relief_s_m, relief_m_m, relief_l_m;  // z(30 m) - z(180 m), z(30 m) - z(750 m), z(120 m) - z(1800 m)
   Grid<float> valley_height_m;                     // above the lowest ground within 900 m
   Grid<float> rim_m;                               // distance to where the known terrain ends
+  Grid<float> flow;                                // base-10 logarithm of the upstream area in m²
   std::shared_ptr<const LandCover> land_cover;
   FloorPlan floor_plan;       // how valley floors are laid out
   double exaggeration = 1.0;  // of light's normals
