@@ -31,6 +31,8 @@ const GuideKind kinds[] = {
      [](const B& g, std::size_t i) { return 0.5F + 0.5F * g.fall_line[i].x; }, 0.1},
     {"fall_line_y", "of the unit direction, -1 (up) … 1; none is 128", &B::fall_line,
      [](const B& g, std::size_t i) { return 0.5F + 0.5F * g.fall_line[i].y; }, 0.05},
+    {"flow", "upstream area, logarithm from 100 m² to 100 000 km²", &B::flow,
+     [](const B& g, std::size_t i) { return (g.flow[i] - 2.0F) / 9.0F; }, 0.0},
 };
 
 // Value 0…1 in 256 steps.

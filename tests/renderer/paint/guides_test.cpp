@@ -8,9 +8,11 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/random.h"
 #include "renderer/scene/scene.h"
 #include "renderer/scene/scene_schema.h"
 #include "tests/renderer/exemplar/painted_hills.h"
+#include "texture/synthesis/synthesize.h"
 
 namespace belvedere {
 namespace {
@@ -82,6 +84,40 @@ TEST(Guides, AreQuantizedAsDocumented) {
   g.shadow = {};
   EXPECT_EQ(make_guide_stack(g, g.land_cover).guides.size(), stack.guides.size() - 1);
   EXPECT_EQ(make_guide_stack(g, g.land_cover).find("shadow"), nullptr) << "left out, as its channel is absent";
+}
+
+// A meadow whose left half drains little ground and whose right half much, of one grey grain; a target that drains `wanted` all over. How
+// much of it is copied from the right half when that guide weighs `weight`.
+double copied_from_the_brook(float wanted, double weight) {
+  GuidanceBuffers g = make_slope(96, 64, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 10.0F);
+  g.flow = Grid<float>(96, 64, 3.0F);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 48; x < 96; ++x) g.flow(x, y) = 8.0F;
+  Exemplar exemplar{"meadow", Grid<Rgb8>(96, 64), make_guide_stack(g, g.land_cover)};
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 96; ++x) {
+      const auto grey = static_cast<std::uint8_t>(100.0 + 50.0 * random_uniform(9, x, y));
+      exemplar.picture(x, y) = {grey, grey, grey};
+    }
+  GuidanceBuffers target = make_slope(48, 48, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 10.0F);
+  target.flow = Grid<float>(48, 48, wanted);
+  SynthesisParameters parameters;
+  parameters.weights = default_guide_weights();
+  for (auto& [name, value] : parameters.weights)
+    if (name == "flow") value = weight;
+  const MatchField matches = synthesize({exemplar}, make_guide_stack(target, target.land_cover), parameters, silent_progress());
+  double right = 0.0;
+  for (const Match& m : matches) right += m.x >= 48 ? 1.0 : 0.0;
+  return right / static_cast<double>(matches.size());
+}
+
+TEST(Guides, FlowChoosesAmongTexelsByTheWaterTheySee) {
+  EXPECT_LT(copied_from_the_brook(3.0F, 1.0), 0.02);
+  EXPECT_GT(copied_from_the_brook(8.0F, 1.0), 0.98);
+  const double unasked = copied_from_the_brook(8.0F, 0.0);
+  EXPECT_GT(unasked, 0.2);
+  EXPECT_LT(unasked, 0.8);
+  EXPECT_EQ(unasked, copied_from_the_brook(3.0F, 0.0)) << "off where a scene says nothing";
 }
 
 TEST(PaintedClasses, TakeClassAndBaseFromWhereThePaintCameFrom) {
