@@ -4,7 +4,7 @@
 
 #include "base/progress.h"
 #include "renderer/exemplar/scan.h"
-#include "renderer/paint/paint.h"
+#include "renderer/paint/composite.h"
 #include "renderer/paint/palette.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/view.h"

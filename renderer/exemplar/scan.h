@@ -6,7 +6,7 @@
 
 #include "base/progress.h"
 #include "renderer/exemplar/fitted_ramps.h"
-#include "renderer/paint/paint.h"
+#include "renderer/paint/composite.h"
 #include "renderer/paint/palette.h"
 #include "renderer/scene/scene_file.h"
 

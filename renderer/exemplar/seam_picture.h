@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "base/grid.h"
-#include "renderer/paint/paint.h"
+#include "renderer/paint/composite.h"
 
 namespace belvedere {
 

@@ -8,7 +8,7 @@
 #include "base/run.h"
 #include "renderer/exemplar/example_painting.h"
 #include "renderer/exemplar/sheet_plan.h"
-#include "renderer/paint/paint.h"
+#include "renderer/paint/composite.h"
 #include "renderer/scene/scene.h"
 #include "renderer/world/view.h"
 
@@ -17,7 +17,7 @@ namespace belvedere {
 // What a sheet takes over from the picture that will copy it.
 struct SheetHand {
   Palette palette;
-  std::optional<SceneLight> light;  // else each panel's own
+  std::optional<LightParameters> light;  // else each panel's own
 };
 
 // Paints the panels of a sheet, row by row. Terrains that several panels show are made once.

@@ -124,21 +124,21 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& 
   const BaseParameters& p = s.parameters;
   const Class id = g.land_cover[i];
   const double depth = g.depth_m[i];
-  const auto drift = static_cast<float>(p.hue_drift);
-  const auto separation = static_cast<float>(p.range_mist);
+  const auto drift = static_cast<float>(p.air.hue_drift);
+  const auto separation = static_cast<float>(p.air.range_mist);
   const float warm =
-      foreground_warmth(p, depth) * static_cast<float>(p.warm_near * s.palette.warm_share) * class_info(id).hue.warmth * g.tone[i];
-  const float far = farness(p, depth) * separation;
+      foreground_warmth(p.air, depth) * static_cast<float>(p.air.warm_near * s.palette.warm_share) * class_info(id).hue.warmth * g.tone[i];
+  const float far = farness(p.air, depth) * separation;
   const float raised = s.raised(i);
   PixelColour pixel{};
   pixel.added = grass_shift(id, patches, g.relief_s_m[i]) * drift * static_cast<float>(s.palette.ground_drift_share);
   pixel.factor = hue_drift(id, patches, s.palette, drift) * (1.0F + glm::vec3(0.06F, 0.03F, -0.07F) * warm);
-  if (has_trait(id, ClassTrait::stales)) pixel.stale = green_staleness(p, depth) * static_cast<float>(p.warm_near);
-  pixel.air_colour = air_colour(p, s.palette, depth);
-  pixel.air = air_share(p, s.palette, depth, g.altitude_m[i], far, raised);
+  if (has_trait(id, ClassTrait::stales)) pixel.stale = green_staleness(p.air, depth) * static_cast<float>(p.air.warm_near);
+  pixel.air_colour = air_colour(p.air, s.palette, depth);
+  pixel.air = air_share(p.air, s.palette, depth, g.altitude_m[i], far, raised);
   pixel.edge = range_edge(s.around.log_depth[i] - s.around.mean_log_depth[i], far, raised, separation);
   pixel.beyond = air_beyond(s.palette, (y + s.origin_px.y + 0.5) / s.horizon_px);
-  if (p.rim_fade_m > 0.0) pixel.end = terrain_end_at(g.rim_m[i], p.rim_fade_m, raised);
+  if (p.air.rim_fade_m > 0.0) pixel.end = terrain_end_at(g.rim_m[i], p.air.rim_fade_m, raised);
   if (id == Class::valley_floor && !s.palette.winter) {
     const glm::dvec3 place = s.place_m(i);
     const float metres_per_unit = s.metres_per_unit(i);
@@ -166,7 +166,7 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
     if (glade > 0.0F) ramp = glm::mix(ramp, glade_colour(s.palette, altitude, light), 0.85F * glade);
     if (gravel > 0.0F) ramp = glm::mix(ramp, gravel_colour(light), gravel);
     if (id == Class::settlement)
-      ramp = town_ground_colour(s.palette, ramp, g.built[i], altitude, light, static_cast<float>(s.parameters.hue_drift));
+      ramp = town_ground_colour(s.palette, ramp, g.built[i], altitude, light, static_cast<float>(s.parameters.air.hue_drift));
     return pixel.finish(water.over(ramp), s.palette.range_mist);
   };
   const int step_px = std::max(1, static_cast<int>(std::lround(s.parameters.pixels_per_unit)));
@@ -191,7 +191,7 @@ BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& pa
   const int height = guidance.height();
   progress.begin("base picture", height);
   const double horizon_px = parameters.horizon_px > 0.0 ? parameters.horizon_px : 0.18 * picture_size.y;
-  const SkyParameters sky{picture_size, horizon_px, parameters.clouds, parameters.sun_image_x, parameters.seed};
+  const SkyParameters sky{picture_size, horizon_px, parameters.air.clouds, parameters.sun_image_x, parameters.seed};
   const Surroundings around = look_around(guidance, palette, parameters, sky, origin_px);
   const Scenery scenery{guidance, palette, parameters, around, horizon_px, origin_px};
 

@@ -1,14 +1,24 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 
 #include "base/guidance_buffers.h"
 #include "base/progress.h"
-#include "renderer/paint/base_parameters.h"
+#include "renderer/paint/air_parameters.h"
 #include "renderer/paint/palette.h"
 #include "texture/strokes/stroke_painter.h"
 
 namespace belvedere {
+
+// What turns ramps into the base picture.
+struct BaseParameters {
+  AirParameters air;
+  double horizon_px = 0.0;   // row of the horizon in the whole picture (skyline_row_px of sky.h); 0: 0.18 of its height
+  double sun_image_x = 1.0;  // as in ToneParameters
+  double pixels_per_unit = 1.0;
+  std::uint64_t seed = 1;
+};
 
 // Base picture (encoded sRGB) at the pixel's tone and at ∓ .17, with accents, tree density and haze; sky pixels get sky and clouds.
 // Reads depth, position, altitude, land cover, tone and relief_s, and footprint where it is there (fields too small to see then fade).

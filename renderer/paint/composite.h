@@ -4,11 +4,18 @@
 
 #include "base/guidance_buffers.h"
 #include "base/image.h"
-#include "renderer/paint/paint.h"
 #include "texture/strokes/brush.h"
+#include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/match_field.h"
 
 namespace belvedere {
+
+// An exemplar with everything a composite needs: where buffers meet pictures.
+struct PaintedExemplar {
+  Exemplar exemplar;        // what synthesis compares
+  Grid<glm::vec3> picture;  // encoded sRGB, full depth, without trees and sky strokes
+  Grid<glm::vec3> base;     // its base picture, encoded sRGB; empty for a scan
+};
 
 // paint = texel + residual · (base_target - base_exemplar), in encoded sRGB (look/recipe.md, From an exemplar), cut to 0…1. residual 0…1.
 // Air lies over paint as it lies over the base: out = base_target + (1 - haze) · (paint - base_target); target_haze empty: no air.

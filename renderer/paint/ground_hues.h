@@ -28,7 +28,7 @@ Patches patches_at(GroundNoises& noises, glm::dvec3 place_m, float metres_per_un
 // bleached on ridges (`relief_s_m`, height above the ground around).
 glm::vec3 grass_shift(LandCoverClass id, const Patches& patches, float relief_s_m);
 
-// Slow drift of hue, as factors of the colour. `strength` is BaseParameters::hue_drift, 0…3.
+// Slow drift of hue, as factors of the colour. `strength` is AirParameters::hue_drift, 0…3.
 glm::vec3 hue_drift(LandCoverClass id, const Patches& patches, const Palette& palette, float strength);
 
 }  // namespace belvedere

@@ -60,12 +60,12 @@ float raw_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky
   const auto wrap = static_cast<float>(p.wrap);
   const float towards = glm::dot(normal, glm::vec3(p.sun_direction));
   const float facing = std::clamp((towards + wrap) / (1.0F + wrap), 0.0F, 1.0F);
-  const float sun = facing * (1.0F - static_cast<float>(p.shadow_depth) * (1.0F - shadow));
+  const float sun = facing * (1.0F - static_cast<float>(p.light.shadow_depth) * (1.0F - shadow));
   const float sky = static_cast<float>(exact::pow(static_cast<double>(std::max(sky_view, 0.0F)), 1.3)) * (0.6F + 0.4F * normal.z);
   const float relief = 0.5F * std::clamp(g.relief_m_m[i] / 70.0F, -1.0F, 1.0F) + 0.5F * std::clamp(g.relief_l_m[i] / 250.0F, -1.0F, 1.0F);
   const float edges = std::clamp(g.relief_s_m[i] / 10.0F, -1.2F, 1.2F);
-  return static_cast<float>(p.sun_strength) * sun + static_cast<float>(p.sky_strength) * sky +
-         static_cast<float>(p.relief_strength) * relief + light.edges * fine * edges;
+  return static_cast<float>(p.light.sun) * sun + static_cast<float>(p.light.sky) * sky + static_cast<float>(p.light.relief) * relief +
+         light.edges * fine * edges;
 }
 
 // The crest rule: the topmost pixels of a silhouette look away from the eye and would draw a dark line along every ridge, so they
@@ -142,7 +142,7 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
       float value = std::clamp((raw - raw_black) / raw_range, id == LandCoverClass::rock ? -0.3F : 0.0F, 1.05F);
       value += light.lift;
       value += pool_strength * pool[i];
-      float contrast = light.contrast * static_cast<float>(parameters.contrast);
+      float contrast = light.contrast * static_cast<float>(parameters.light.contrast);
       if (id == LandCoverClass::rock) {
         const float outcrop = std::clamp((woods[i] - 0.15F) / 0.4F, 0.0F, 1.0F);
         contrast *= 1.0F - outcrop_calm * outcrop;

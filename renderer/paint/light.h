@@ -9,16 +9,20 @@
 
 namespace belvedere {
 
-// The light of look/recipe.md, section Tone: one scalar a pixel from sun, cast shadow, sky view, relief and ribs. It indexes palette
-// ramps; it is no radiance.
+// How strong each part of the light is.
+struct LightParameters {
+  double sun = 0.80;           // 0…2
+  double sky = 0.30;           // 0…2
+  double relief = 0.08;        // how much heights are lighter and hollows darker, 0…1
+  double shadow_depth = 0.78;  // how much of the sun a cast shadow takes, 0…1
+  double contrast = 1.0;       // around tone .55, 0.2…3
+};
+
+// The light of a picture: one scalar a pixel from sun, cast shadow, sky view, relief and ribs. It indexes palette ramps; it is no radiance.
 struct ToneParameters {
+  LightParameters light;
   glm::dvec3 sun_direction{-0.612, 0.612, 0.5};  // unit, towards the sun (x east, y north, z up)
   double sun_image_x = 1.0;                      // sun_direction · the camera's right: > 0 light from the right of the picture, -1…1
-  double sun_strength = 0.80;                    // 0…2
-  double sky_strength = 0.30;                    // 0…2
-  double relief_strength = 0.08;                 // 0…1
-  double shadow_depth = 0.78;                    // how much of the sun a cast shadow takes, 0…1
-  double contrast = 1.0;                         // around tone .55, 0.2…3
   double ribs = 1.0;                             // strength of ribs and gullies, 0…3
   double pixels_per_unit = 1.0;                  // as in StrokeParameters: pixels in 0.5 mm of the sheet
   double wrap = 0.22;                            // light beyond the terminator, 0…1

@@ -44,7 +44,7 @@ struct Palette {
   glm::vec3 haze_far{0.73F, 0.80F, 0.89F};    // far away
   glm::vec3 range_mist{0.79F, 0.84F, 0.90F};  // between ranges
   GrowthColours growth;
-  // Shares of what BaseParameters ask for, 0…2: snow takes less drift of hue than grass, winter air is clearer.
+  // Shares of what AirParameters ask for, 0…2: snow takes less drift of hue than grass, winter air is clearer.
   double haze_share = 1.0;
   double warm_share = 1.0;
   double ground_drift_share = 1.0;

@@ -12,7 +12,7 @@ namespace belvedere {
 Grid<float> log_depths(const GuidanceBuffers& guidance, int reach_px);
 
 // What the edge does to a pixel whose log depth exceeds the mean around it by `behind`. `far` and `raised` as in air_share: mist lies in
-// valleys, crests stay clear. `strength` is BaseParameters::range_mist, 0…3.
+// valleys, crests stay clear. `strength` is AirParameters::range_mist, 0…3.
 struct RangeEdge {
   float mist = 0.0F;  // share of the colour between ranges
   float dark = 0.0F;  // 0…1, of the near side

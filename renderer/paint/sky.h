@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/guidance_buffers.h"
+#include "renderer/paint/air_parameters.h"
 #include "renderer/paint/palette.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/tracer.h"
@@ -16,10 +17,10 @@ namespace belvedere {
 // the horizon. No two clouds are alike, and every seed has a sky of its own. Sizes follow the height of the sky, so all resolutions look
 // alike.
 struct SkyParameters {
-  glm::ivec2 picture_size{2400, 1100};  // px, the whole picture
-  double horizon_px = 198.0;            // row of the horizon in the whole picture, > 0; see skyline_row_px
-  double clouds = 1.0;                  // how many, 0 (none)…2
-  double sun_image_x = 1.0;             // > 0: the right sides of clouds are lit, -1…1
+  glm::ivec2 picture_size{CameraParameters{}.width, CameraParameters{}.height};  // px, the whole picture
+  double horizon_px = 198.0;               // row of the horizon in the whole picture, > 0; see skyline_row_px
+  double clouds = AirParameters{}.clouds;  // how many, 0 (none)…2
+  double sun_image_x = 1.0;                // > 0: the right sides of clouds are lit, -1…1
   std::uint64_t seed = 1;
 };
 

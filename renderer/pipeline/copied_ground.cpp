@@ -11,21 +11,18 @@ namespace belvedere {
 namespace {
 
 SynthesisParameters to_synthesis_parameters(const Scene& scene) {
-  SynthesisParameters parameters;
+  SynthesisParameters parameters = scene.synthesis.search;
   parameters.seed = scene.seed;
-  parameters.levels = scene.synthesis.levels;
   // What a scene says of one guide leaves the defaults of the others.
   parameters.weights = SceneSynthesis{}.weights;
-  for (const auto& wanted : scene.synthesis.weights) {
-    const auto known = std::find_if(parameters.weights.begin(), parameters.weights.end(),
-                                    [&](const auto& weight) { return weight.first == wanted.first; });
+  for (const auto& given : scene.synthesis.weights) {
+    const auto known =
+        std::find_if(parameters.weights.begin(), parameters.weights.end(), [&](const auto& weight) { return weight.first == given.first; });
     if (known != parameters.weights.end())
-      known->second = wanted.second;
+      known->second = given.second;
     else
-      parameters.weights.push_back(wanted);
+      parameters.weights.push_back(given);
   }
-  parameters.reuse = scene.synthesis.reuse;
-  parameters.copy_cap = scene.synthesis.copy_cap;
   for (const auto& [from, to] : with_stand_ins(scene.synthesis.fallback))
     parameters.fallback[static_cast<std::uint8_t>(from)] = static_cast<std::uint8_t>(to);
   return parameters;

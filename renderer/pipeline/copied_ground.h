@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "renderer/paint/composite.h"
 #include "renderer/paint/guides.h"
-#include "renderer/paint/paint.h"
 #include "renderer/world/lit_picture.h"
 #include "texture/synthesis/match_field.h"
 #include "texture/synthesis/synthesize.h"

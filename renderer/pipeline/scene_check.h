@@ -7,7 +7,7 @@
 
 #include "base/land_cover_class.h"
 #include "base/progress.h"
-#include "renderer/paint/paint.h"
+#include "renderer/paint/composite.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/view.h"
 #include "terrain/cover/land_cover_patches.h"

@@ -9,26 +9,34 @@
 #include <vector>
 
 #include "base/land_cover_class.h"
+#include "renderer/paint/air_parameters.h"
 #include "renderer/paint/guides.h"
+#include "renderer/paint/light.h"
+#include "renderer/trace/camera.h"
+#include "renderer/trace/sampling.h"
+#include "renderer/trace/sun.h"
+#include "renderer/trace/tracer.h"
 #include "terrain/cover/land_cover_patches.h"
 #include "terrain/deform/deform.h"
 #include "terrain/generalize/generalize.h"
 #include "terrain/generalize/widen_valleys.h"
+#include "terrain/io/dem.h"
 #include "terrain/synthetic/synthetic.h"
+#include "texture/synthesis/synthesize.h"
 
 namespace belvedere {
 
 // A whole picture as plain values with defaults: what a scene file says. scene_file turns TOML into it and checks every range; the
 // table there is the reference of keys. Lengths in metres, angles in degrees.
+//
+// What a stage takes from the scene as it stands is a member of the stage's own type, so each default is written once, beside the stage.
+// Where a scene says something in another way (a place by longitude and latitude), the field here takes its default from there.
 
-struct SceneSource {  // a file and where it comes from
-  std::string file;   // relative to the scene file or a --data folder
-  int band = 1;
-  std::string crs;   // where the file has none, or to override it
-  std::string unit;  // "m", "ft", "us-ft" or empty: what the file says
-  std::optional<double> nodata;
-  std::optional<double> lowest_m, highest_m;  // heights outside are voids
-  std::string origin;                         // who made the data
+struct SceneSource {    // a file and where it comes from
+  std::string file;     // relative to the scene file or a --data folder
+  std::string unit;     // "m", "ft", "us-ft" or empty: what the file says
+  RasterSource raster;  // without path and unit
+  std::string origin;   // who made the data
   std::string licence;
   std::string get_from;  // where to get it; shown when it is missing
 };
@@ -36,10 +44,7 @@ struct SceneSource {  // a file and where it comes from
 struct SceneTerrain {
   std::vector<SceneSource> sources;  // empty: synthetic
   std::optional<SyntheticParameters> synthetic;
-  std::string crs;                              // metric; empty: the data's own or its UTM zone
-  double cell_m = 0.0;                          // 0: the data's
-  std::optional<std::array<double, 4>> extent;  // min E, min N, max E, max N
-  double max_void_share = 0.25;
+  DemParameters dem;  // without sources
 };
 
 struct SceneLandCover {
@@ -75,79 +80,46 @@ struct SceneSummit {  // a summit with an exaggeration of its own
   std::string name;
   std::optional<glm::dvec2> position;         // E, N in the scene's CRS
   std::optional<glm::dvec2> position_lonlat;  // or longitude, latitude
-  double radius_m = 5000.0;
-  double factor = 1.3;
-  double base_m = 0.0;
+  SummitExaggeration summit;                  // without its centre
 };
 
 struct SceneHandle {  // a piece of ground that is moved: see terrain/deform/handles.h
   std::string name;
   std::optional<glm::dvec2> position;
   std::optional<glm::dvec2> position_lonlat;
-  double radius_m = 5000.0;
-  std::optional<double> core_m;  // else half of the radius
-  std::array<double, 2> move_m = {0.0, 0.0};
-  double rotate_deg = 0.0;
-  double scale = 1.0;
-  double raise_m = 0.0;
-  bool pin = false;
+  std::optional<double> core_m;               // else half of the radius
+  std::array<double, 2> move_m = {0.0, 0.0};  // east, north
+  DeformHandle handle{.radius_m = 5000.0};    // without centre, core and move; a scene has to ask for a handle without an end
 };
 
 struct SceneDeform {
-  DeformParameters ground;  // without summits and handles: make_view puts them there, at places of the scene's CRS
+  DeformParameters ground;  // without summits and handles: resolve_deform puts them there, at places of the scene's CRS
   std::vector<SceneSummit> summits;
   std::vector<SceneHandle> handles;
   bool allow_folds = false;  // ground in the picture that handles fold over itself is a note instead of an error
 };
 
 struct SceneCamera {
-  std::string projection = "perspective";
+  std::string projection = CameraParameters{}.projection;
   std::optional<glm::dvec2> position;         // E, N in the scene's CRS
   std::optional<glm::dvec2> position_lonlat;  // or longitude, latitude
   double height_m = 3000.0;
   bool height_above_ground = false;   // else above the datum
   std::optional<glm::dvec2> look_at;  // E, N: a point on the ground
   std::optional<glm::dvec2> look_at_lonlat;
-  std::optional<double> look_at_altitude_m;  // else the ground's, unbent
-  double azimuth_deg = 0.0;                  // without look_at
-  double pitch_deg = -20.0;
+  std::optional<double> look_at_altitude_m;             // else the ground's, unbent
+  double azimuth_deg = CameraParameters{}.azimuth_deg;  // without look_at
+  double pitch_deg = CameraParameters{}.pitch_deg;
   double tilt_deg = 0.0;  // added to the pitch in either case
-  double field_of_view_deg = 50.0;
-  double view_width_m = 20000.0;
+  double field_of_view_deg = CameraParameters{}.field_of_view_deg;
+  double view_width_m = CameraParameters{}.view_width_m;
 };
 
 struct SceneSun {
   double azimuth_deg = 315.0;
   double altitude_deg = 30.0;
-  std::string time;          // ISO 8601 with zone; then azimuth and altitude are computed for the scene's middle
-  double radius_deg = 1.72;  // of the disc: softness of cast shadows (the true sun has 0.27)
-};
-
-struct SceneSampling {
-  int pixel_samples = 4;
-  int shadow_rays = 8;
-  int sky_directions = 16;
-  double sky_reach_m = 12000.0;
-  std::string instruction_set = "any";  // see base/instruction_set.h; pinned where other machines must give the same picture
-};
-
-struct SceneLight {
-  double sun = 0.80;
-  double sky = 0.30;
-  double relief = 0.08;
-  double shadow_depth = 0.78;
-  double contrast = 1.0;
-};
-
-struct SceneAir {
-  double haze = 0.85;
-  double from_m = 34000.0;
-  double scale_m = 62000.0;
-  double range_mist = 1.0;
-  double warm_near = 1.0;
-  double hue_drift = 1.0;
-  double rim_fade_m = 4000.0;  // over this distance terrain stands ever deeper in haze towards its end
-  double clouds = 1.0;
+  std::string time;                            // ISO 8601 with zone; then azimuth and altitude are computed for the scene's middle
+  double radius_deg = painted_sun_radius_deg;  // of the disc: softness of cast shadows
 };
 
 // One exemplar: painted by the program (picture empty), or a picture with a class mask and perhaps guides.
@@ -176,14 +148,12 @@ struct SceneSynthesis {
   double residual = 0.75;           // how much of the base picture's difference is laid over the texel, 0…1
   std::vector<std::pair<std::string, double>> weights = default_guide_weights();  // by guide (renderer/paint/guides.h)
   std::vector<std::pair<LandCoverClass, LandCoverClass>> fallback;
-  double reuse = 1.0;
-  int copy_cap = 240;
-  int levels = 6;
+  SynthesisParameters search;  // without seed, weights and fallback
 };
 
 struct SceneOutput {
-  int width = 2400;
-  int height = 1100;
+  int width = CameraParameters{}.width;
+  int height = CameraParameters{}.height;
   double sheet_width_mm = 1200.0;                            // strokes are sized in mm of this sheet; dpi follows
   std::vector<std::string> formats = {"tif", "png", "exr"};  // endings of the picture's files (renderer/image/picture_formats.h)
   std::string profile;                                       // ICC file to convert the TIFF to; empty: sRGB
@@ -200,9 +170,10 @@ struct Scene {
   SceneDeform deform;
   SceneCamera camera;
   SceneSun sun;
-  SceneSampling sampling;
-  SceneLight light;
-  SceneAir air;
+  SamplingParameters sampling;
+  TracerParameters tracing;  // its instruction set is pinned where other machines must give the same picture
+  LightParameters light;
+  AirParameters air;
   std::string palette = "summer";        // built-in name or file
   std::vector<SceneExemplar> exemplars;  // empty: one painted by the program
   SceneSynthesis synthesis;

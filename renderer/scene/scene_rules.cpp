@@ -26,13 +26,13 @@ class Rules {
              fmt::format("terrain.synthetic.highest_m ({} m) is not above lowest_m ({} m)", terrain.synthetic->highest_m,
                          terrain.synthetic->lowest_m),
              "a highest summit above the lowest valley");
-    if (terrain.extent) {
-      const auto& [min_e, min_n, max_e, max_n] = *terrain.extent;
+    if (terrain.dem.extent) {
+      const auto& [min_e, min_n, max_e, max_n] = *terrain.dem.extent;
       if (min_e >= max_e || min_n >= max_n)
         refuse("terrain.extent", "terrain.extent holds no area", "[min E, min N, max E, max N], each min below its max");
     }
-    if (terrain.cell_m > 0.0 && terrain.cell_m < 0.1)
-      refuse("terrain.cell_m", fmt::format("terrain.cell_m is {}", terrain.cell_m), "0 for the data's own, or 0.1 … 10000 m");
+    if (terrain.dem.cell_m > 0.0 && terrain.dem.cell_m < 0.1)
+      refuse("terrain.cell_m", fmt::format("terrain.cell_m is {}", terrain.dem.cell_m), "0 for the data's own, or 0.1 … 10000 m");
   }
 
   void land_cover() {
@@ -43,10 +43,10 @@ class Rules {
 
   void generalize() {
     apply_preset();
-    SceneGeneralize& wish = scene_.generalize;
-    const std::vector<float>& foreground = wish.bands.foreground;
-    const std::vector<float>& background = wish.bands.background;
-    wish.bands.curvature = wish.curvature == "plan" ? CurvatureForm::plan : CurvatureForm::bounded;
+    SceneGeneralize& settings = scene_.generalize;
+    const std::vector<float>& foreground = settings.bands.foreground;
+    const std::vector<float>& background = settings.bands.background;
+    settings.bands.curvature = settings.curvature == "plan" ? CurvatureForm::plan : CurvatureForm::bounded;
     if (foreground.size() != background.size())
       refuse("generalize.background",
              fmt::format("generalize.background has {} weights, generalize.foreground has {}", background.size(), foreground.size()),
@@ -56,23 +56,24 @@ class Rules {
         refuse(key, fmt::format("{} has {} weights, generalize.foreground has {}", key, weights.size(), foreground.size()),
                "as many weights in both");
     };
-    fits("generalize.foreground_ridges", wish.bands.foreground_ridges);
-    fits("generalize.foreground_valleys", wish.bands.foreground_valleys);
-    fits("generalize.background_ridges", wish.bands.background_ridges);
-    fits("generalize.background_valleys", wish.bands.background_valleys);
-    if (wish.mask_slope_deg[1] > 0.0 && wish.mask_slope_deg[0] >= wish.mask_slope_deg[1])
+    fits("generalize.foreground_ridges", settings.bands.foreground_ridges);
+    fits("generalize.foreground_valleys", settings.bands.foreground_valleys);
+    fits("generalize.background_ridges", settings.bands.background_ridges);
+    fits("generalize.background_valleys", settings.bands.background_valleys);
+    if (settings.mask_slope_deg[1] > 0.0 && settings.mask_slope_deg[0] >= settings.mask_slope_deg[1])
       refuse("generalize.mask_slope_deg",
-             fmt::format("generalize.mask_slope_deg goes from {}° to {}°", wish.mask_slope_deg[0], wish.mask_slope_deg[1]),
+             fmt::format("generalize.mask_slope_deg goes from {}° to {}°", settings.mask_slope_deg[0], settings.mask_slope_deg[1]),
              "[flatter, steeper], or [0, 0] for no mask");
-    if (wish.print_detail_px > 0.0 && wish.print_detail_px < 0.5)
-      refuse("generalize.print_detail_px", fmt::format("generalize.print_detail_px is {}", wish.print_detail_px), "0 for off, or 0.5 … 20");
-    if (wish.bands.full_curvature > 0.F && wish.bands.full_curvature < 0.001F)
-      refuse("generalize.full_curvature", fmt::format("generalize.full_curvature is {}", wish.bands.full_curvature),
+    if (settings.print_detail_px > 0.0 && settings.print_detail_px < 0.5)
+      refuse("generalize.print_detail_px", fmt::format("generalize.print_detail_px is {}", settings.print_detail_px),
+             "0 for off, or 0.5 … 20");
+    if (settings.bands.full_curvature > 0.F && settings.bands.full_curvature < 0.001F)
+      refuse("generalize.full_curvature", fmt::format("generalize.full_curvature is {}", settings.bands.full_curvature),
              "0 for the usual one, or 0.001 … 10");
-    if (scene_.generalize.foreground_to_m >= scene_.generalize.background_from_m)
+    if (settings.foreground_to_m >= settings.background_from_m)
       refuse(written("generalize.background_from_m") ? "generalize.background_from_m" : "generalize.foreground_to_m",
-             fmt::format("generalize.background_from_m ({} m) is not beyond generalize.foreground_to_m ({} m)",
-                         scene_.generalize.background_from_m, scene_.generalize.foreground_to_m),
+             fmt::format("generalize.background_from_m ({} m) is not beyond generalize.foreground_to_m ({} m)", settings.background_from_m,
+                         settings.foreground_to_m),
              "a background that begins beyond the foreground");
   }
 
@@ -89,8 +90,9 @@ class Rules {
       const SceneHandle& handle = scene_.deform.handles[i];
       const std::string name = fmt::format("deform.handles.{}", i);
       require_position(name, handle.position, handle.position_lonlat);
-      if (handle.radius_m > 0.0 && handle.core_m && *handle.core_m >= handle.radius_m)
-        refuse(name + ".core_m", fmt::format("{}.core_m ({} m) is not less than radius_m ({} m)", name, *handle.core_m, handle.radius_m),
+      const double radius_m = handle.handle.radius_m;
+      if (radius_m > 0.0 && handle.core_m && *handle.core_m >= radius_m)
+        refuse(name + ".core_m", fmt::format("{}.core_m ({} m) is not less than radius_m ({} m)", name, *handle.core_m, radius_m),
                "a core smaller than the radius");
     }
     for (std::size_t i = 0; i < scene_.deform.summits.size(); ++i)
@@ -147,22 +149,22 @@ class Rules {
  private:
   // What the file does not write itself comes from the preset it names.
   void apply_preset() {
-    SceneGeneralize& wish = scene_.generalize;
-    const GeneralizePreset* preset = find_generalize_preset(wish.preset);
+    SceneGeneralize& settings = scene_.generalize;
+    const GeneralizePreset* preset = find_generalize_preset(settings.preset);
     const auto set = [&](const char* key, const std::vector<float>& weights) {
       return written(key) == nullptr ? std::vector<float>() : weights;
     };
-    const WrittenWeights weights{.foreground = set("generalize.foreground", wish.bands.foreground),
-                                 .foreground_ridges = set("generalize.foreground_ridges", wish.bands.foreground_ridges),
-                                 .foreground_valleys = set("generalize.foreground_valleys", wish.bands.foreground_valleys),
-                                 .background = set("generalize.background", wish.bands.background),
-                                 .background_ridges = set("generalize.background_ridges", wish.bands.background_ridges),
-                                 .background_valleys = set("generalize.background_valleys", wish.bands.background_valleys)};
-    choose_weights(wish.bands, weights, preset);
+    const WrittenWeights weights{.foreground = set("generalize.foreground", settings.bands.foreground),
+                                 .foreground_ridges = set("generalize.foreground_ridges", settings.bands.foreground_ridges),
+                                 .foreground_valleys = set("generalize.foreground_valleys", settings.bands.foreground_valleys),
+                                 .background = set("generalize.background", settings.bands.background),
+                                 .background_ridges = set("generalize.background_ridges", settings.bands.background_ridges),
+                                 .background_valleys = set("generalize.background_valleys", settings.bands.background_valleys)};
+    choose_weights(settings.bands, weights, preset);
     if (preset == nullptr) return;
-    if (written("generalize.automatic_mask") == nullptr) wish.automatic_mask = preset->automatic_mask;
+    if (written("generalize.automatic_mask") == nullptr) settings.automatic_mask = preset->automatic_mask;
     if (preset->slope_mask && written("generalize.mask_slope_deg") == nullptr)
-      wish.mask_slope_deg = {preset->slope_mask->original_to_deg, preset->slope_mask->generalized_from_deg};
+      settings.mask_slope_deg = {preset->slope_mask->original_to_deg, preset->slope_mask->generalized_from_deg};
   }
 
   // The value at a dotted path, numbers counting list elements; null where nobody wrote it.

@@ -16,7 +16,7 @@
 namespace belvedere {
 
 // The one table of what a scene file may say. Validation, defaults, the JSON Schema, the written reference and write_scene
-// all read it; a new key is one row in scene_table.cpp (or scene_table_deform.cpp) and nothing else.
+// all read it; a new key is one row in the scene_table_*.cpp of its part and nothing else.
 
 // The value of a key inside a Scene. Its C++ type decides the type in the file; defaults are those of a fresh Scene.
 using SceneField =
@@ -78,7 +78,7 @@ struct SceneExclusion {
   std::vector<std::string_view> those;
 };
 
-// Builds the table (scene_table.cpp); everybody else reads scene_sections().
+// Builds the table (scene_table.cpp from the parts beside it); everybody else reads scene_sections().
 std::vector<SceneSection> make_scene_sections();
 // Parents before children, in the order of the reference.
 const std::vector<SceneSection>& scene_sections();

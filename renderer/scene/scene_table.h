@@ -8,14 +8,26 @@ namespace belvedere {
 
 // Part of the table of what a scene file may say: what its files share.
 
-constexpr double largest_m = 1e8;  // farther than around the Earth
+constexpr double largest_m = 1e8;                    // farther than around the Earth
+constexpr double largest_seed = 9007199254740991.0;  // 2⁵³ - 1: what JSON and every editor hold exactly
 
 // A row's accessor: AT(camera.pitch_deg) is where the value lies in a Scene `s`; `i` counts list elements.
 #define AT(place) [](Scene& s, [[maybe_unused]] std::size_t i) -> SceneField { return &s.place; }
 
-// [generalize].
-SceneSection make_generalize_section();
-// [deform] and what belongs to it.
+// The rows of each part of a scene, in a file of the part's name.
+std::vector<SceneSection> make_terrain_sections();
+std::vector<SceneSection> make_land_cover_sections();
+std::vector<SceneSection> make_generalize_sections();
 std::vector<SceneSection> make_deform_sections();
+std::vector<SceneSection> make_camera_sections();  // and the sun
+std::vector<SceneSection> make_sampling_sections();
+std::vector<SceneSection> make_light_sections();
+std::vector<SceneSection> make_air_sections();
+std::vector<SceneSection> make_exemplar_sections();
+std::vector<SceneSection> make_synthesis_sections();
+std::vector<SceneSection> make_output_sections();
+
+// Keys of a raster that is named: of heights, or of land cover. Only heights have a unit and bounds.
+std::vector<SceneKey> make_source_keys(bool heights);
 
 }  // namespace belvedere

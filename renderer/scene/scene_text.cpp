@@ -9,7 +9,7 @@
 #include "renderer/scene/scene_schema.h"
 #include "renderer/trace/camera.h"
 
-// What the table of scene_table.cpp looks like from outside: a scene as TOML, the JSON Schema, the reference.
+// What the table of scene_sections() looks like from outside: a scene as TOML, the JSON Schema, the reference.
 namespace belvedere {
 namespace {
 

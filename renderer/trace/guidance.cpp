@@ -25,14 +25,14 @@ void check_range(const char* key, double value, double lowest, double highest) {
 }
 
 void check_parameters(const GuidanceParameters& p) {
-  if (p.pixel_samples != 1 && p.pixel_samples != 4 && p.pixel_samples != 9 && p.pixel_samples != 16) {
-    throw Error(ErrorKind::usage, "sampling.pixel_samples", fmt::format("{}", p.pixel_samples), "1, 4, 9 or 16");
+  if (p.sampling.pixel_samples != 1 && p.sampling.pixel_samples != 4 && p.sampling.pixel_samples != 9 && p.sampling.pixel_samples != 16) {
+    throw Error(ErrorKind::usage, "sampling.pixel_samples", fmt::format("{}", p.sampling.pixel_samples), "1, 4, 9 or 16");
   }
-  check_range("sampling.shadow_rays", p.shadow_rays, 1, 64);
-  check_range("sampling.sky_directions", p.sky_directions, 0, 256);
-  check_range("sampling.sky_reach_m", p.sky_reach_m, 1, 1e6);
+  check_range("sampling.shadow_rays", p.sampling.shadow_rays, 1, 64);
+  check_range("sampling.sky_directions", p.sampling.sky_directions, 0, 256);
+  check_range("sampling.sky_reach_m", p.sampling.sky_reach_m, 1, 1e6);
   check_range("shadow bias", p.shadow_bias_m, 0, 100);
-  check_range("sun.radius_deg", p.sun_radius_rad, 0, 0.5);
+  check_range("sun_radius_rad", p.sun_radius_rad, 0, 0.5);
   check_range("length of the sun's direction", glm::length(p.sun_direction), 0.5, 2.0);
   check_range("tile size", p.tile_size, trace_block_px, 4096);
 }
@@ -141,7 +141,7 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
     if (t.parameters.sun_direction.z > 0.0) {
       sun = trace_sun(t.tracer, block, t.sun_places, t.parameters.sun_direction, t.parameters.sun_radius_rad);
     }
-    sky = trace_sky(t.tracer, block, t.sky_directions, t.parameters.sky_reach_m);
+    sky = trace_sky(t.tracer, block, t.sky_directions, t.parameters.sampling.sky_reach_m);
   }
 
   for (int p = 0; p < trace_block_pixels; ++p) {
@@ -187,9 +187,9 @@ GuidanceBuffers trace_guidance(const TerrainModel& terrain, const DeformedSurfac
                         tracer,
                         camera,
                         parameters,
-                        pixel_sample_places(parameters.pixel_samples),
-                        disc_places(parameters.shadow_rays),
-                        sky_directions((parameters.sky_directions + 3) / 4)};
+                        pixel_sample_places(parameters.sampling.pixel_samples),
+                        disc_places(parameters.sampling.shadow_rays),
+                        sky_directions((parameters.sampling.sky_directions + 3) / 4)};
   GuidanceBuffers out = make_buffers(region.width(), region.height());
   out.origin_m = surface.origin;
   progress.begin("trace", static_cast<double>(region.width()) * region.height());
@@ -207,7 +207,7 @@ GuidanceBuffers trace_guidance(const TerrainModel& terrain, const DeformedSurfac
     progress.advance(static_cast<double>(blocks.width()) * blocks.height() * trace_block_pixels * region.width() * region.height() /
                      (static_cast<double>(across) * down * trace_block_pixels));
   });
-  if (parameters.sky_directions > 0) out.sky_view = mean_of_squares(out.sky_view, out.depth_m);
+  if (parameters.sampling.sky_directions > 0) out.sky_view = mean_of_squares(out.sky_view, out.depth_m);
   out.silhouette = find_silhouettes(out.depth_m);
   return out;
 }

@@ -5,6 +5,9 @@
 
 namespace belvedere {
 
+// Radius of the sun's disc as pictures are lit: painters' shadows have softer edges than the true sun's, which has 0.27°.
+inline constexpr double painted_sun_radius_deg = 1.72;
+
 struct SunPosition {
   double azimuth_deg = 0.0;   // 0…360, clockwise from north
   double altitude_deg = 0.0;  // -90…90, above the horizon, of the sun's centre, seen from the ground, without refraction

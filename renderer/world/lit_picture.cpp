@@ -11,14 +11,10 @@ namespace belvedere {
 namespace {
 
 ToneParameters to_tone_parameters(const World& world) {
-  const SceneLight& light = world.scene.light;
   ToneParameters parameters;
+  parameters.light = world.scene.light;
+  if (world.view.sun.altitude_deg <= 0.0) parameters.light.sun = 0.0;
   parameters.sun_direction = world.view.sun_direction;
-  parameters.sun_strength = world.view.sun.altitude_deg > 0.0 ? light.sun : 0.0;
-  parameters.sky_strength = light.sky;
-  parameters.relief_strength = light.relief;
-  parameters.shadow_depth = light.shadow_depth;
-  parameters.contrast = light.contrast;
   parameters.pixels_per_unit = world.scene.pixels_per_unit();
   parameters.sun_image_x = world.view.sun_image_x;
   parameters.seed = world.scene.seed;
@@ -26,16 +22,8 @@ ToneParameters to_tone_parameters(const World& world) {
 }
 
 BaseParameters to_base_parameters(const World& world) {
-  const SceneAir& air = world.scene.air;
   BaseParameters parameters;
-  parameters.haze = air.haze;
-  parameters.haze_from_m = air.from_m;
-  parameters.haze_scale_m = air.scale_m;
-  parameters.range_mist = air.range_mist;
-  parameters.warm_near = air.warm_near;
-  parameters.hue_drift = air.hue_drift;
-  parameters.rim_fade_m = air.rim_fade_m;
-  parameters.clouds = air.clouds;
+  parameters.air = world.scene.air;
   parameters.horizon_px = world.horizon_px;
   parameters.sun_image_x = world.view.sun_image_x;
   parameters.pixels_per_unit = world.scene.pixels_per_unit();
@@ -44,12 +32,8 @@ BaseParameters to_base_parameters(const World& world) {
 }
 
 GuidanceParameters to_guidance_parameters(const World& world, int tile_px) {
-  const SceneSampling& sampling = world.scene.sampling;
   GuidanceParameters parameters;
-  parameters.pixel_samples = sampling.pixel_samples;
-  parameters.shadow_rays = sampling.shadow_rays;
-  parameters.sky_directions = sampling.sky_directions;
-  parameters.sky_reach_m = sampling.sky_reach_m;
+  parameters.sampling = world.scene.sampling;
   parameters.sun_direction = world.view.sun_direction;
   parameters.sun_radius_rad = to_radians(world.scene.sun.radius_deg);
   parameters.tile_size = tile_px;

@@ -15,13 +15,8 @@ namespace {
 constexpr const char* winter_setting = "winter";
 
 RasterSource to_raster_source(const LoadedScene& scene, const SceneSource& source) {
-  RasterSource raster;
+  RasterSource raster = source.raster;
   raster.path = find_scene_file(scene, source.file);
-  raster.band = source.band;
-  raster.crs = source.crs;
-  raster.nodata = source.nodata;
-  raster.lowest_m = source.lowest_m;
-  raster.highest_m = source.highest_m;
   if (source.unit == "m") raster.unit_to_m = 1.0;
   if (source.unit == "ft") raster.unit_to_m = 0.3048;
   if (source.unit == "us-ft") raster.unit_to_m = 1200.0 / 3937.0;
@@ -83,12 +78,8 @@ LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, Progress& p
 Dem read_scene_dem(const LoadedScene& loaded, Progress& progress) {
   const SceneTerrain& terrain = loaded.scene.terrain;
   if (terrain.synthetic) return make_synthetic_terrain(*terrain.synthetic, progress);
-  DemParameters parameters;
+  DemParameters parameters = terrain.dem;
   parameters.sources = to_raster_sources(loaded, terrain.sources);
-  parameters.crs = terrain.crs;
-  parameters.cell_m = terrain.cell_m;
-  parameters.extent = terrain.extent;
-  parameters.max_void_share = terrain.max_void_share;
   return read_dem(parameters, progress);
 }
 

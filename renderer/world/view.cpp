@@ -65,25 +65,20 @@ void look_towards(CameraParameters& camera, glm::dvec3 point) {
 
 }  // namespace
 
-DeformParameters resolve_deform(const SceneDeform& wish, const Dem& dem) {
-  DeformParameters deform = wish.ground;
-  for (std::size_t i = 0; i < wish.summits.size(); ++i) {
-    const SceneSummit& summit = wish.summits[i];
-    const glm::dvec2 place = resolve_place(dem, summit.position, summit.position_lonlat, fmt::format("deform.summits.{}", i));
-    deform.summits.push_back({place, summit.radius_m, summit.factor, summit.base_m});
+DeformParameters resolve_deform(const SceneDeform& scene_deform, const Dem& dem) {
+  DeformParameters deform = scene_deform.ground;
+  for (std::size_t i = 0; i < scene_deform.summits.size(); ++i) {
+    const SceneSummit& given = scene_deform.summits[i];
+    SummitExaggeration& summit = deform.summits.emplace_back(given.summit);
+    summit.center = resolve_place(dem, given.position, given.position_lonlat, fmt::format("deform.summits.{}", i));
   }
-  for (std::size_t i = 0; i < wish.handles.size(); ++i) {
-    const SceneHandle& handle = wish.handles[i];
-    const glm::dvec2 place = resolve_place(dem, handle.position, handle.position_lonlat, fmt::format("deform.handles.{}", i));
+  for (std::size_t i = 0; i < scene_deform.handles.size(); ++i) {
+    const SceneHandle& given = scene_deform.handles[i];
+    DeformHandle& handle = deform.handles.emplace_back(given.handle);
     constexpr double core_share = 0.5;
-    deform.handles.push_back({.center = place,
-                              .move_m = {handle.move_m[0], handle.move_m[1]},
-                              .rotate_deg = handle.rotate_deg,
-                              .scale = handle.scale,
-                              .raise_m = handle.raise_m,
-                              .radius_m = handle.radius_m,
-                              .core_m = handle.core_m.value_or(core_share * handle.radius_m),
-                              .pin = handle.pin});
+    handle.center = resolve_place(dem, given.position, given.position_lonlat, fmt::format("deform.handles.{}", i));
+    handle.move_m = {given.move_m[0], given.move_m[1]};
+    handle.core_m = given.core_m.value_or(core_share * handle.radius_m);
   }
   return deform;
 }

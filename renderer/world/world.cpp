@@ -15,7 +15,7 @@ constexpr double usual_horizon = 0.18;  // of the picture's height from its top,
 
 // What this machine lacks is said before the work.
 const Scene& runnable(const Scene& scene) {
-  choose_instruction_set(scene.sampling.instruction_set);
+  choose_instruction_set(scene.tracing.instruction_set);
   return scene;
 }
 
@@ -30,9 +30,7 @@ TerrainModel make_terrain(const World& world, GeneralizedTerrain generalized) {
 TracerParameters tracer_parameters(const World& world, Progress& progress) {
   check_folds(world.scene.deform, world.terrain, world.deformation, *world.camera, progress);
   progress.begin("building the ray tracer", 0.0);
-  TracerParameters parameters;
-  parameters.instruction_set = world.scene.sampling.instruction_set;
-  return parameters;
+  return world.scene.tracing;
 }
 
 template <class T>

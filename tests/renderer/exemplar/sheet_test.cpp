@@ -207,7 +207,7 @@ TEST(SheetPainter, PanelsHaveTheTerrainRulesAndStrokesOfTheirOwn) {
 
 TEST(SheetPainter, PaintsInTheHandOfWhoeverWantsTheSheet) {
   const SheetPlan plan = small_plan();
-  const auto mean_tone_and_blue = [&](const char* palette, const std::optional<SceneLight>& light) {
+  const auto mean_tone_and_blue = [&](const char* palette, const std::optional<LightParameters>& light) {
     SheetPainter painter(plan, {read_palette(palette), light});
     const ExamplePainting row = painter.paint_row(0, {.painting = false, .sky = false}, {});
     glm::dvec2 sum(0.0);
@@ -221,7 +221,7 @@ TEST(SheetPainter, PaintsInTheHandOfWhoeverWantsTheSheet) {
   };
   const glm::dvec2 summer = mean_tone_and_blue("summer", std::nullopt);
   EXPECT_GT(mean_tone_and_blue("winter", std::nullopt).y, summer.y + 0.05);
-  EXPECT_LT(mean_tone_and_blue("summer", SceneLight{.sun = 0.4}).x, summer.x - 0.05);
+  EXPECT_LT(mean_tone_and_blue("summer", LightParameters{.sun = 0.4}).x, summer.x - 0.05);
 }
 
 class ExemplarFiles : public testing::Test {

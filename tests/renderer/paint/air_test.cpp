@@ -8,22 +8,22 @@ namespace belvedere {
 namespace {
 
 TEST(Haze, GrowsWithDistanceAndSaturates) {
-  const BaseParameters p;
+  const AirParameters p;
   EXPECT_EQ(haze_share(p, 0.0, 600.0), 0.0);
-  EXPECT_EQ(haze_share(p, p.haze_from_m, 600.0), 0.0);
+  EXPECT_EQ(haze_share(p, p.from_m, 600.0), 0.0);
   double last = 0.0;
   for (double depth = 40000.0; depth < 400000.0; depth += 20000.0) {
     EXPECT_GT(haze_share(p, depth, 600.0), last);
     last = haze_share(p, depth, 600.0);
   }
-  EXPECT_NEAR(haze_share(p, p.haze_from_m + p.haze_scale_m, 600.0), 0.85 * (1.0 - std::exp(-1.0)), 1e-12);
-  EXPECT_NEAR(haze_share(p, p.haze_from_m + 0.5 * p.haze_scale_m, 600.0), 0.85 * (1.0 - std::exp(-std::pow(0.5, 1.35))), 1e-12);
+  EXPECT_NEAR(haze_share(p, p.from_m + p.scale_m, 600.0), 0.85 * (1.0 - std::exp(-1.0)), 1e-12);
+  EXPECT_NEAR(haze_share(p, p.from_m + 0.5 * p.scale_m, 600.0), 0.85 * (1.0 - std::exp(-std::pow(0.5, 1.35))), 1e-12);
   EXPECT_NEAR(haze_share(p, 1e7, 600.0), 0.85, 1e-9);
   EXPECT_NEAR(haze_share(p, 1e7, 600.0 + 900.0), 0.85 * (0.58 + 0.42 * std::exp(-1.0)), 1e-9);
 }
 
 TEST(Haze, IsThickenedAmongFarRangesAndThinnerOnTheirCrests) {
-  const BaseParameters p;
+  const AirParameters p;
   const Palette palette = read_palette("summer");
   const auto share = [&](float far, float raised) { return static_cast<double>(air_share(p, palette, 70000.0, 600.0, far, raised)); };
   const double plain = haze_share(p, 70000.0, 600.0);
@@ -39,31 +39,31 @@ TEST(Haze, IsThickenedAmongFarRangesAndThinnerOnTheirCrests) {
 }
 
 TEST(Haze, FarnessBeginsBehindTheForeground) {
-  const BaseParameters p;
-  EXPECT_EQ(farness(p, p.haze_from_m + 0.3 * p.haze_scale_m), 0.0F);
-  EXPECT_NEAR(farness(p, p.haze_from_m + 0.55 * p.haze_scale_m), 0.5F, 1e-6F);
-  EXPECT_EQ(farness(p, p.haze_from_m + p.haze_scale_m), 1.0F);
+  const AirParameters p;
+  EXPECT_EQ(farness(p, p.from_m + 0.3 * p.scale_m), 0.0F);
+  EXPECT_NEAR(farness(p, p.from_m + 0.55 * p.scale_m), 0.5F, 1e-6F);
+  EXPECT_EQ(farness(p, p.from_m + p.scale_m), 1.0F);
 }
 
 TEST(Air, TurnsFromItsNearToItsFarColour) {
-  const BaseParameters p;
+  const AirParameters p;
   const Palette palette = read_palette("summer");
   EXPECT_EQ(air_colour(p, palette, 0.0), palette.haze_near);
   EXPECT_EQ(air_colour(p, palette, 1e6), palette.haze_far);
-  const double middle_m = 0.5 * (0.88 * p.haze_from_m + p.haze_from_m + 1.06 * p.haze_scale_m);
+  const double middle_m = 0.5 * (0.88 * p.from_m + p.from_m + 1.06 * p.scale_m);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(air_colour(p, palette, middle_m)[k], 0.5F * (palette.haze_near[k] + palette.haze_far[k]), 1e-6F);
 }
 
 TEST(Air, WarmthEndsWhereGreensHaveGoneStale) {
-  const BaseParameters p;
-  EXPECT_EQ(foreground_warmth(p, 0.82 * p.haze_from_m), 1.0F);
-  EXPECT_NEAR(foreground_warmth(p, (0.82 + 0.515) * p.haze_from_m), 0.5F, 1e-6F);
-  EXPECT_EQ(foreground_warmth(p, 1.86 * p.haze_from_m), 0.0F);
-  EXPECT_EQ(green_staleness(p, 0.75 * p.haze_from_m), 0.0F);
-  EXPECT_NEAR(green_staleness(p, 1.125 * p.haze_from_m), 0.5F, 1e-6F);
-  EXPECT_EQ(green_staleness(p, 1.5 * p.haze_from_m), 1.0F);
-  EXPECT_EQ(foreground_warmth({.haze_from_m = 0.0}, 10.0), 0.0F) << "air from the eye on leaves no foreground";
-  EXPECT_EQ(green_staleness({.haze_from_m = 0.0}, 10.0), 0.0F);
+  const AirParameters p;
+  EXPECT_EQ(foreground_warmth(p, 0.82 * p.from_m), 1.0F);
+  EXPECT_NEAR(foreground_warmth(p, (0.82 + 0.515) * p.from_m), 0.5F, 1e-6F);
+  EXPECT_EQ(foreground_warmth(p, 1.86 * p.from_m), 0.0F);
+  EXPECT_EQ(green_staleness(p, 0.75 * p.from_m), 0.0F);
+  EXPECT_NEAR(green_staleness(p, 1.125 * p.from_m), 0.5F, 1e-6F);
+  EXPECT_EQ(green_staleness(p, 1.5 * p.from_m), 1.0F);
+  EXPECT_EQ(foreground_warmth({.from_m = 0.0}, 10.0), 0.0F) << "air from the eye on leaves no foreground";
+  EXPECT_EQ(green_staleness({.from_m = 0.0}, 10.0), 0.0F);
 }
 
 }  // namespace

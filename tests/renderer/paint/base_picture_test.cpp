@@ -23,7 +23,7 @@ BasePicture picture_of(const GuidanceBuffers& g, const BaseParameters& p = {}, c
 
 BaseParameters plain() {
   BaseParameters p;
-  p.haze = p.range_mist = p.warm_near = p.hue_drift = p.clouds = 0.0;
+  p.air.haze = p.air.range_mist = p.air.warm_near = p.air.hue_drift = p.air.clouds = 0.0;
   return p;
 }
 
@@ -42,8 +42,8 @@ TEST(Base, IsTheRampWhereEverythingElseIsOff) {
 
 TEST(Base, FarGroundTurnsIntoAirAndNearGroundIsWarm) {
   BaseParameters p = plain();
-  p.haze = 1.0;
-  p.warm_near = 1.0;
+  p.air.haze = 1.0;
+  p.air.warm_near = 1.0;
   GuidanceBuffers g = make_slope(8, 8, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 10.0F);
   for (float& a : g.altitude_m) a = 500.0F;
   const Palette palette = read_palette("summer");
@@ -72,9 +72,9 @@ GuidanceBuffers make_end(float relief_l_m) {
 TEST(Base, TerrainEndsInAir) {
   const Palette palette = read_palette("summer");
   BaseParameters p = plain();
-  p.rim_fade_m = 0.0;
+  p.air.rim_fade_m = 0.0;
   const BasePicture full = picture_of(make_end(0.0F), p);
-  p.rim_fade_m = 3000.0;
+  p.air.rim_fade_m = 3000.0;
   p.horizon_px = 4.0;
   const BasePicture base = picture_of(make_end(0.0F), p);
   const auto step = [](double t) { return static_cast<float>((3.0 - 2.0 * t) * t * t); };
@@ -99,7 +99,7 @@ TEST(Base, TerrainEndsInAir) {
 TEST(Base, MountainsAtTheEndStayAsSilhouettes) {
   const Palette palette = read_palette("summer");
   BaseParameters p = plain();
-  p.rim_fade_m = 4000.0;
+  p.air.rim_fade_m = 4000.0;
   p.horizon_px = 3.0;
   const BasePicture low = picture_of(make_end(0.0F), p);
   const BasePicture high = picture_of(make_end(400.0F), p);
@@ -138,7 +138,7 @@ TEST(Base, MistLiesInValleys) {
       for (int x = 0; x < 20; ++x) g.depth_m(x, y) = 32000.0F;
     for (float& r : g.relief_l_m) r = relief_l_m;
     BaseParameters p = plain();
-    p.range_mist = 1.0;
+    p.air.range_mist = 1.0;
     const BasePicture base = picture_of(g, p);
     return luma(base.colour(10, 78)) - luma(base.colour(10, 20));
   };
@@ -151,7 +151,7 @@ TEST(Base, MistLiesInValleys) {
 TEST(Base, GrassIsGreenerInHollows) {
   GuidanceBuffers g = make_slope(60, 40, LandCoverClass::alpine_grass, {0.0F, 0.0F, 1.0F}, 20.0F);
   BaseParameters p = plain();
-  p.hue_drift = 1.0;
+  p.air.hue_drift = 1.0;
   const auto greenness = [&](float relief_m) {
     for (float& r : g.relief_s_m) r = relief_m;
     const glm::vec3 c = picture_of(g, p).colour(30, 20);
@@ -167,7 +167,7 @@ TEST(Base, RangesReadApart) {
   for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 20; ++x) g.depth_m(x, y) = 32000.0F;
   BaseParameters p = plain();
-  p.range_mist = 1.0;
+  p.air.range_mist = 1.0;
   const BasePicture base = picture_of(g, p);
   EXPECT_GT(luma(base.colour(10, 78)), luma(base.colour(10, 20)) + 0.05F);
   EXPECT_LT(luma(base.colour(10, 81)), luma(base.colour(10, 140)) - 0.02F);

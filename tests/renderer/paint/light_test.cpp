@@ -46,10 +46,10 @@ TEST(Tone, ShadowTakesItsShareOfTheSun) {
   GuidanceBuffers dark = lit;
   for (float& s : dark.shadow) s = 0.0F;
   ToneParameters p;
-  p.sun_strength = 0.6;  // full light must not clip here
+  p.light.sun = 0.6;  // full light must not clip here
   // The sun alone gives sun_strength on this slope; a cast shadow takes shadow_depth of it, and tone is light / 0.98.
   for (const double depth : {0.3, 0.78}) {
-    p.shadow_depth = depth;
+    p.light.shadow_depth = depth;
     EXPECT_NEAR(mean(tone_of(lit, p)) - mean(tone_of(dark, p)), 0.6 * depth / 0.98, 1e-3);
   }
 }
@@ -110,7 +110,7 @@ TEST(Tone, OutcropsInTheWoodAreCalmerThanWalls) {
 TEST(Tone, BenchesOfRockAreLighterThanWalls) {
   ToneParameters p;
   p.ribs = 0.0;
-  p.sun_strength = 0.4;  // nothing clips
+  p.light.sun = 0.4;  // nothing clips
   const auto tone = [&](LandCoverClass id, float slope_deg) {
     return mean(tone_of(make_slope(24, 24, id, sun_side_normal, slope_deg), p));
   };

@@ -43,7 +43,7 @@ TEST(Reflection, IsNotOfWhatStandsBeforeTheWater) {
 TEST(Reflection, DarkensTheWaterBelowADarkShore) {
   GuidanceBuffers g = lake();
   BaseParameters p;
-  p.haze = p.range_mist = p.warm_near = p.hue_drift = p.clouds = 0.0;
+  p.air.haze = p.air.range_mist = p.air.warm_near = p.air.hue_drift = p.air.clouds = 0.0;
   const BasePicture base = make_base_picture(g, read_palette("summer"), p, {0, 0}, {80, 140}, silent_progress());
   double near_shore = 0.0;
   double open = 0.0;
@@ -81,7 +81,7 @@ TEST(Reflection, WaterIsPalerFarAwayWithADarkLineUnderTheShoreAndAPaleOneBeforeU
   GuidanceBuffers g = lake();
   for (float& slope : g.slope_deg) slope = 1.0F;  // no image
   BaseParameters p;
-  p.haze = p.range_mist = p.warm_near = p.hue_drift = p.clouds = 0.0;
+  p.air.haze = p.air.range_mist = p.air.warm_near = p.air.hue_drift = p.air.clouds = 0.0;
   const BasePicture base = make_base_picture(g, read_palette("summer"), p, {0, 0}, {80, 140}, silent_progress());
   // Means over some rows: streaks of wind go their own way.
   const auto rows = [&](int first, int last) {

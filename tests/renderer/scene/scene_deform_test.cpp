@@ -83,7 +83,7 @@ TEST(SceneDeform, KeysBecomeADeformation) {
 
 TEST(SceneDeform, WrittenReadsBackAndSettingsReachEachElement) {
   const Scene scene = scene_of(everything, {"deform.handles.0.rotate_deg=-30", "deform.bend.points.1.inclination_deg=-2"});
-  EXPECT_EQ(scene.deform.handles[0].rotate_deg, -30.0);
+  EXPECT_EQ(scene.deform.handles[0].handle.rotate_deg, -30.0);
   EXPECT_EQ(scene.deform.ground.bend.points[1].inclination_deg, -2.0);
   const std::string written = write_scene(scene);
   EXPECT_EQ(write_scene(parse_scene(written, "again.toml", ".", {}).scene), written);

@@ -81,7 +81,7 @@ fallback = { shrub = "forest" }
   EXPECT_EQ(scene.title, "Über den Bergen");
   EXPECT_EQ(scene.seed, 9007199254740991U);
   EXPECT_EQ(scene.palette, "winter");
-  EXPECT_EQ(scene.terrain.extent, (std::array{0.0, 1.0, 2000.0, 3.0}));
+  EXPECT_EQ(scene.terrain.dem.extent, (std::array{0.0, 1.0, 2000.0, 3.0}));
   ASSERT_TRUE(scene.terrain.synthetic);
   EXPECT_EQ(scene.terrain.synthetic->width, 64);
   EXPECT_EQ(scene.terrain.synthetic->cell_m, 45.0);
@@ -246,7 +246,7 @@ TEST(SceneFile, SettingsOverride) {
   EXPECT_EQ(scene.title, "2024");
   EXPECT_EQ(scene.palette, "winter");
   EXPECT_EQ(scene.land_cover.unknown, LandCoverClass::rock);
-  EXPECT_TRUE(scene.terrain.extent);
+  EXPECT_TRUE(scene.terrain.dem.extent);
 }
 
 TEST(SceneFile, BadSettingsNameThemselves) {

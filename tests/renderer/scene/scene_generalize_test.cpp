@@ -78,31 +78,31 @@ widen_valleys_m = 350
 )";
 
 TEST(SceneGeneralizeKeys, EachArrivesWhereItIsMeant) {
-  const SceneGeneralize wish = scene_of(everything).generalize;
-  EXPECT_EQ(wish.preset, "figure4");
-  EXPECT_EQ(wish.bands.foreground, (Weights{1.1F, .9F, .333333F}));
-  EXPECT_EQ(wish.bands.background, (Weights{1.3F, .2F, 0.F}));
-  EXPECT_EQ(wish.bands.foreground_ridges, (Weights{0.F, .25F, 1.5F}));
-  EXPECT_EQ(wish.bands.foreground_valleys, (Weights{.1F, -.25F, .7F}));
-  EXPECT_EQ(wish.bands.background_ridges, (Weights{.2F, .6F, -5.F}));
-  EXPECT_EQ(wish.bands.background_valleys, (Weights{.05F, 0.F, 5.F}));
-  EXPECT_EQ(wish.foreground_to_m, 4000.5);
-  EXPECT_EQ(wish.background_from_m, 9000.25);
-  EXPECT_EQ(wish.print_detail_px, 2.25);
-  EXPECT_EQ(wish.bands.curvature, CurvatureForm::plan);
-  EXPECT_EQ(wish.bands.full_curvature, .4F);
-  EXPECT_EQ(wish.bands.blur_cells, 1.75F);
-  EXPECT_EQ(wish.bands.exponent, .6F);
-  EXPECT_EQ(wish.bands.crest, .4F);
-  EXPECT_EQ(wish.mask_slope_deg, (std::array{3.5, 11.0}));
-  EXPECT_TRUE(wish.automatic_mask);
-  EXPECT_EQ(wish.mask, "where.tif");
-  ASSERT_EQ(wish.mask_classes.size(), 2U);
-  for (const auto& [name, share] : wish.mask_classes) EXPECT_EQ(share, name == "water" ? 0.0 : 0.2) << name;
-  EXPECT_FALSE(wish.keep_lakes);
-  EXPECT_TRUE(wish.destripe);
-  EXPECT_TRUE(wish.line_integral);
-  EXPECT_EQ(wish.valleys.width_m, 350.F);
+  const SceneGeneralize read = scene_of(everything).generalize;
+  EXPECT_EQ(read.preset, "figure4");
+  EXPECT_EQ(read.bands.foreground, (Weights{1.1F, .9F, .333333F}));
+  EXPECT_EQ(read.bands.background, (Weights{1.3F, .2F, 0.F}));
+  EXPECT_EQ(read.bands.foreground_ridges, (Weights{0.F, .25F, 1.5F}));
+  EXPECT_EQ(read.bands.foreground_valleys, (Weights{.1F, -.25F, .7F}));
+  EXPECT_EQ(read.bands.background_ridges, (Weights{.2F, .6F, -5.F}));
+  EXPECT_EQ(read.bands.background_valleys, (Weights{.05F, 0.F, 5.F}));
+  EXPECT_EQ(read.foreground_to_m, 4000.5);
+  EXPECT_EQ(read.background_from_m, 9000.25);
+  EXPECT_EQ(read.print_detail_px, 2.25);
+  EXPECT_EQ(read.bands.curvature, CurvatureForm::plan);
+  EXPECT_EQ(read.bands.full_curvature, .4F);
+  EXPECT_EQ(read.bands.blur_cells, 1.75F);
+  EXPECT_EQ(read.bands.exponent, .6F);
+  EXPECT_EQ(read.bands.crest, .4F);
+  EXPECT_EQ(read.mask_slope_deg, (std::array{3.5, 11.0}));
+  EXPECT_TRUE(read.automatic_mask);
+  EXPECT_EQ(read.mask, "where.tif");
+  ASSERT_EQ(read.mask_classes.size(), 2U);
+  for (const auto& [name, share] : read.mask_classes) EXPECT_EQ(share, name == "water" ? 0.0 : 0.2) << name;
+  EXPECT_FALSE(read.keep_lakes);
+  EXPECT_TRUE(read.destripe);
+  EXPECT_TRUE(read.line_integral);
+  EXPECT_EQ(read.valleys.width_m, 350.F);
 }
 
 TEST(SceneGeneralizeKeys, WrittenReadBackTheSame) {

@@ -85,9 +85,9 @@ std::unique_ptr<World> make_world(const DeformParameters& deform_parameters, dou
 
 GuidanceBuffers trace(const World& world) {
   GuidanceParameters parameters;
-  parameters.pixel_samples = 1;
-  parameters.shadow_rays = 1;
-  parameters.sky_directions = 0;
+  parameters.sampling.pixel_samples = 1;
+  parameters.sampling.shadow_rays = 1;
+  parameters.sampling.sky_directions = 0;
   return trace_guidance(world.terrain, world.surface, *world.tracer, *world.camera, parameters, {0, 0, 240, 160}, silent_progress());
 }
 

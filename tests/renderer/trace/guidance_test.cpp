@@ -257,7 +257,7 @@ TEST(Guidance, RampHasItsSlopeAspectNormalsAndSkyView) {
   p.eye.z = 6000.0;
   const auto camera = make_camera(p);
   GuidanceParameters parameters;
-  parameters.sky_directions = 64;
+  parameters.sampling.sky_directions = 64;
   const GuidanceBuffers b = trace(world, *camera, parameters);
   // Gradients point uphill: to the east, and to the south, which is against north.
   const glm::dvec3 normal = glm::normalize(glm::dvec3(-1.6 * east, 1.6 * south, 1.0));
@@ -356,8 +356,8 @@ TEST(Guidance, MostSamplesWinThePixelAndItsValuesComeFromOneOfThem) {
   CameraParameters p = southward(120, 72, -14.0);
   const auto camera = make_camera(p);
   GuidanceParameters parameters;
-  parameters.sky_directions = 0;
-  parameters.shadow_rays = 1;
+  parameters.sampling.sky_directions = 0;
+  parameters.sampling.shadow_rays = 1;
   const GuidanceBuffers b = trace(world, *camera, parameters);
   const auto places = pixel_sample_places(4);
   int mixed = 0;
@@ -416,8 +416,8 @@ TEST(Guidance, PenumbraOfAWallIsAsWideAsTheDisc) {
   p.eye = {654500.0, 5320000.0 - 5000.0, 3000.0};
   const auto camera = make_camera(p);
   GuidanceParameters parameters;
-  parameters.shadow_rays = 32;
-  parameters.sky_directions = 0;
+  parameters.sampling.shadow_rays = 32;
+  parameters.sampling.sky_directions = 0;
   parameters.sun_radius_rad = 0.05;
   const double altitude = to_radians(30.0);
   parameters.sun_direction = {0.0, -std::cos(altitude), std::sin(altitude)};  // from the south: the shadow falls north
@@ -449,8 +449,8 @@ TEST(Guidance, ShadowsWithoutPenumbraAreFoundByTwoRays) {
   const World world = rough_world();
   const auto camera = make_camera(southward(160, 96, -18.0));
   GuidanceParameters parameters;
-  parameters.pixel_samples = 1;
-  parameters.sky_directions = 0;
+  parameters.sampling.pixel_samples = 1;
+  parameters.sampling.sky_directions = 0;
   parameters.sun_direction = glm::normalize(glm::dvec3(-0.7, 0.5, 0.35));
   const GuidanceBuffers b = trace(world, *camera, parameters);
   double difference = 0.0;
@@ -552,11 +552,11 @@ TEST(Guidance, RefusesParametersOutOfRange) {
       EXPECT_THAT(error.where(), testing::HasSubstr(key));
     }
   };
-  refused([](auto& p) { p.pixel_samples = 5; }, "pixel_samples");
-  refused([](auto& p) { p.shadow_rays = 0; }, "shadow_rays");
-  refused([](auto& p) { p.sky_directions = 300; }, "sky_directions");
-  refused([](auto& p) { p.sky_reach_m = -1.0; }, "sky_reach_m");
-  refused([](auto& p) { p.sun_radius_rad = std::numeric_limits<double>::quiet_NaN(); }, "radius_deg");
+  refused([](auto& p) { p.sampling.pixel_samples = 5; }, "pixel_samples");
+  refused([](auto& p) { p.sampling.shadow_rays = 0; }, "shadow_rays");
+  refused([](auto& p) { p.sampling.sky_directions = 300; }, "sky_directions");
+  refused([](auto& p) { p.sampling.sky_reach_m = -1.0; }, "sky_reach_m");
+  refused([](auto& p) { p.sun_radius_rad = std::numeric_limits<double>::quiet_NaN(); }, "sun_radius_rad");
   refused([](auto& p) { p.sun_direction = glm::dvec3(0.0); }, "sun");
   EXPECT_THROW(trace_guidance(world.terrain, world.surface, *world.tracer, *camera, {}, {0, 0, 17, 16}, silent_progress()), Error);
 }

@@ -1,0 +1,35 @@
+#include "renderer/scene/scene_table.h"
+
+namespace belvedere {
+
+std::vector<SceneSection> make_air_sections() {
+  std::vector<SceneSection> sections;
+  sections.push_back(
+      {.name = "air",
+       .meaning = "What distance does to colour.",
+       .keys = {
+           {.name = "haze", .field = AT(air.haze), .range = {0, 1}, .meaning = "Greatest share of haze at the horizon."},
+           {.name = "from_m", .field = AT(air.from_m), .range = {0, 1e7}, .unit = "m", .meaning = "Distance at which haze begins."},
+           {.name = "scale_m",
+            .field = AT(air.scale_m),
+            .range = {0, 1e7, true},
+            .unit = "m",
+            .meaning = "Distance over which it thickens to two thirds."},
+           {.name = "range_mist", .field = AT(air.range_mist), .range = {0, 3}, .meaning = "Mist between ranges that sets them apart."},
+           {.name = "warm_near", .field = AT(air.warm_near), .range = {0, 3}, .meaning = "Warmth of the foreground's colours."},
+           {.name = "hue_drift",
+            .field = AT(air.hue_drift),
+            .range = {0, 3},
+            .meaning = "Slow change of hue across fields, forest and rock."},
+           {.name = "rim_fade_m",
+            .field = AT(air.rim_fade_m),
+            .range = {0, 1e6},
+            .meaning =
+                "Over this distance the terrain stands ever deeper in haze towards its end, mountains as blue silhouettes, so that it "
+                "does not end in a cliff; 0 is off."},
+           {.name = "clouds", .field = AT(air.clouds), .range = {0, 2}, .meaning = "How many clouds; 0 is a clear sky."},
+       }});
+  return sections;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,110 @@
+#include "renderer/scene/scene_table.h"
+#include "renderer/trace/camera.h"
+
+namespace belvedere {
+namespace {
+
+std::vector<std::string> projection_choices() {
+  std::vector<std::string> names;
+  for (const Projection& projection : projections()) names.emplace_back(projection.name);
+  return names;
+}
+
+}  // namespace
+
+std::vector<SceneSection> make_camera_sections() {
+  std::vector<SceneSection> sections;
+  sections.push_back({.name = "camera",
+                      .meaning = "Where the viewer stands and where the view goes.",
+                      .keys = {
+                          {.name = "projection",
+                           .field = AT(camera.projection),
+                           .meaning = "Kind of perspective; see below.",
+                           .text = TextKind::choice,
+                           .choices = projection_choices()},
+                          {.name = "position",
+                           .field = AT(camera.position),
+                           .range = {-largest_m, largest_m},
+                           .unit = "m",
+                           .meaning = "Viewpoint, [E, N] in the scene's CRS."},
+                          {.name = "position_lonlat",
+                           .field = AT(camera.position_lonlat),
+                           .unit = "°",
+                           .meaning = "Viewpoint, [longitude, latitude]; instead of position.",
+                           .lonlat = true},
+                          {.name = "height_m",
+                           .field = AT(camera.height_m),
+                           .range = {-1000, 1e6},
+                           .unit = "m",
+                           .meaning = "Height of the viewpoint above sea level, not exaggerated."},
+                          {.name = "height_above_ground",
+                           .field = AT(camera.height_above_ground),
+                           .meaning = "Counts the height from the ground under the viewpoint instead of from sea level."},
+                          {.name = "look_at",
+                           .field = AT(camera.look_at),
+                           .range = {-largest_m, largest_m},
+                           .unit = "m",
+                           .meaning = "Point in the middle of the picture, [E, N] in the scene's CRS; instead of azimuth and pitch."},
+                          {.name = "look_at_lonlat",
+                           .field = AT(camera.look_at_lonlat),
+                           .unit = "°",
+                           .meaning = "The same as [longitude, latitude].",
+                           .lonlat = true},
+                          {.name = "look_at_altitude_m",
+                           .field = AT(camera.look_at_altitude_m),
+                           .range = {-12000, 1e5},
+                           .unit = "m",
+                           .meaning = "Altitude of that point; without it, it lies on the ground."},
+                          {.name = "azimuth_deg",
+                           .field = AT(camera.azimuth_deg),
+                           .range = {-360, 360},
+                           .unit = "°",
+                           .meaning = "Direction of view, clockwise from north: 180 looks south."},
+                          {.name = "pitch_deg",
+                           .field = AT(camera.pitch_deg),
+                           .range = {-90, 90},
+                           .unit = "°",
+                           .meaning = "Direction of view against the horizontal: -90 straight down."},
+                          {.name = "tilt_deg",
+                           .field = AT(camera.tilt_deg),
+                           .range = {-45, 45},
+                           .unit = "°",
+                           .meaning = "Added to the pitch, with look_at as well: more than 0 raises the view and shows more sky."},
+                          {.name = "field_of_view_deg",
+                           .field = AT(camera.field_of_view_deg),
+                           .range = {1, 360},
+                           .unit = "°",
+                           .meaning = "Width of the view; perspective up to 150, cylindrical up to 360."},
+                          {.name = "view_width_m",
+                           .field = AT(camera.view_width_m),
+                           .range = {1, 1e7},
+                           .unit = "m",
+                           .meaning = "Width of the view on the ground, for parallel projections."},
+                      }});
+  sections.push_back({.name = "sun",
+                      .meaning = "The sun, by direction or by date and time.",
+                      .keys = {
+                          {.name = "azimuth_deg",
+                           .field = AT(sun.azimuth_deg),
+                           .range = {-360, 360},
+                           .unit = "°",
+                           .meaning = "Where the light comes from, clockwise from north: 315 is the northwest."},
+                          {.name = "altitude_deg",
+                           .field = AT(sun.altitude_deg),
+                           .range = {-90, 90},
+                           .unit = "°",
+                           .meaning = "Height above the horizon; below 0 only the sky lights the land."},
+                          {.name = "time",
+                           .field = AT(sun.time),
+                           .meaning = "Date and time with zone, \"2024-06-21T17:30:00+02:00\"; instead of azimuth and altitude.",
+                           .text = TextKind::time},
+                          {.name = "radius_deg",
+                           .field = AT(sun.radius_deg),
+                           .range = {0, 10},
+                           .unit = "°",
+                           .meaning = "Radius of the sun's disc: larger gives softer edges of cast shadows (the true sun has 0.27)."},
+                      }});
+  return sections;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,56 @@
+#include "renderer/scene/scene_table.h"
+
+namespace belvedere {
+
+std::vector<SceneSection> make_land_cover_sections() {
+  std::vector<SceneSection> sections;
+  sections.push_back(
+      {.name = "land_cover",
+       .meaning = "What the ground is: from rasters with a legend, or, where there are none, by rules from the terrain itself.",
+       .keys = {
+           {.name = "refine",
+            .field = AT(land_cover.refine),
+            .meaning = "What a raster does not tell apart: glacier = \"rock\" makes glacier of what the raster calls rock where the rules "
+                       "see a glacier."},
+           {.name = "legend",
+            .field = AT(land_cover.legend),
+            .meaning = "What the raster's codes mean: a built-in legend or a .toml or .csv file. Needed where there is a source.",
+            .text = TextKind::built_in,
+            .choices_from = "legends"},
+           {.name = "rules",
+            .field = AT(land_cover.rules),
+            .meaning =
+                "Rules that tell the classes from altitude, slope and exposure where there is no source: a built-in name or a .toml file.",
+            .text = TextKind::built_in,
+            .choices_from = "layers"},
+           {.name = "unknown",
+            .field = AT(land_cover.unknown),
+            .meaning = "Class of codes that the legend lacks; without it they are an error."},
+           {.name = "nodata",
+            .field = AT(land_cover.nodata),
+            .meaning = "Class where the raster has nothing; without it that of the nearest known cell."},
+           {.name = "smallest_patch_m2",
+            .field = AT(land_cover.patches.smallest_m2),
+            .range = {0, 1e10},
+            .unit = "m²",
+            .meaning = "Smaller patches of a class go to what lies around them; 0 leaves them. `belvedere check` says what became of each "
+                       "class."},
+           {.name = "keep_patches",
+            .field = AT(land_cover.patches.keep),
+            .meaning =
+                "Classes whose small patches matter: they stay, and grow by up to three cells until they are large enough to be seen."},
+           {.name = "settings",
+            .field = AT(land_cover.settings),
+            .range = {-1e9, 1e9},
+            .meaning = "Parameters of the rules by name, such as the altitude of the treeline; the rules' file lists them."},
+       }});
+  sections.push_back({.name = "land_cover.sources",
+                      .kind = SectionKind::list,
+                      .meaning = "One block for each land-cover raster. Where several overlap, the first one wins.",
+                      .keys = make_source_keys(false),
+                      .count = [](const Scene& s) { return s.land_cover.sources.size(); },
+                      .resize = [](Scene& s, std::size_t n) { s.land_cover.sources.resize(n); }});
+  return sections;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,51 @@
+#include "renderer/paint/guides.h"
+#include "renderer/scene/scene_table.h"
+
+namespace belvedere {
+
+std::vector<SceneSection> make_synthesis_sections() {
+  std::vector<SceneSection> sections;
+  sections.push_back(
+      {.name = "synthesis",
+       .meaning = "How the painting's texture is laid over the land.",
+       .keys = {
+           {.name = "enabled", .field = AT(synthesis.enabled), .meaning = "false paints everything as strokes, without exemplars."},
+           {.name = "colours",
+            .field = AT(synthesis.colours),
+            .meaning = "Whose colours the picture has: the scene's palette, or the paintings' own, by class and light, with their sky.",
+            .text = TextKind::choice,
+            .choices = {"palette", "painting"}},
+           {.name = "harmonize",
+            .field = AT(synthesis.harmonize),
+            .meaning =
+                "Colours of several paintings, class by class, before they are used: as they are, brought to a common mean and spread, "
+                "or to those of the first painting.",
+            .text = TextKind::choice,
+            .choices = {"off", "common", "first"}},
+           {.name = "residual",
+            .field = AT(synthesis.residual),
+            .range = {0, 1},
+            .meaning = "How far the scene's own light and air correct the texture: 0 is the painting's colour as it is."},
+           {.name = "weights",
+            .field = AT(synthesis.weights),
+            .range = {0, 100},
+            .meaning = "How strongly each guide steers, by name; a guide not named keeps the strength given here, 0 switches it off.",
+            .choices = guide_names()},
+           {.name = "fallback",
+            .field = AT(synthesis.fallback),
+            .meaning = "Class to copy from for a class that no exemplar has: shrub = \"forest\"."},
+           {.name = "reuse", .field = AT(synthesis.search.reuse), .range = {0, 10}, .meaning = "How hard repetition is avoided."},
+           {.name = "copy_cap",
+            .field = AT(synthesis.search.copy_cap),
+            .range = {16, 100000},
+            .unit = "px",
+            .meaning = "Largest piece of the painting that may be copied whole, in pixels of area."},
+           {.name = "levels",
+            .field = AT(synthesis.search.levels),
+            .range = {1, 8},
+            .meaning = "Steps from coarse to fine; more carries larger patterns over."},
+       }});
+  return sections;
+}
+
+}  // namespace belvedere

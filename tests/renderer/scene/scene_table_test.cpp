@@ -1,0 +1,119 @@
+#include "renderer/scene/scene_table.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <type_traits>
+
+#include "renderer/paint/composite.h"
+#include "renderer/paint/sky.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/trace/guidance.h"
+
+namespace belvedere {
+namespace {
+
+using testing::HasSubstr;
+
+// What a stage takes as it stands is of one type, so there is no second default to drift.
+static_assert(std::is_same_v<decltype(Scene::air), decltype(BaseParameters::air)>);
+static_assert(std::is_same_v<decltype(Scene::light), decltype(ToneParameters::light)>);
+static_assert(std::is_same_v<decltype(Scene::sampling), decltype(GuidanceParameters::sampling)>);
+
+double number(const SceneField& field) {
+  if (const auto* real = std::get_if<double*>(&field)) return **real;
+  if (const auto* single = std::get_if<float*>(&field)) return static_cast<double>(**single);
+  if (const auto* whole = std::get_if<int*>(&field)) return **whole;
+  ADD_FAILURE() << "no number";
+  return 0.0;
+}
+
+// The default of a key, by its full name.
+double default_of(const std::string& name) {
+  Scene scene;
+  const std::size_t dot = name.rfind('.');
+  const SceneSection* section = find_section(name.substr(0, dot));
+  const SceneKey* key = section == nullptr ? nullptr : find_key(*section, name.substr(dot + 1));
+  if (key == nullptr) {
+    ADD_FAILURE() << name;
+    return 0.0;
+  }
+  if (section->resize != nullptr) section->resize(scene, 1);
+  return number(key->field(scene, 0));
+}
+
+// Where a stage's default is changed, that of the scene follows: each is written once.
+TEST(SceneTable, DefaultsAreThoseOfTheStages) {
+  const std::map<std::string, double> of_stages = {
+      {"air.haze", BaseParameters{}.air.haze},
+      {"air.from_m", BaseParameters{}.air.from_m},
+      {"air.scale_m", BaseParameters{}.air.scale_m},
+      {"air.range_mist", BaseParameters{}.air.range_mist},
+      {"air.warm_near", BaseParameters{}.air.warm_near},
+      {"air.hue_drift", BaseParameters{}.air.hue_drift},
+      {"air.rim_fade_m", BaseParameters{}.air.rim_fade_m},
+      {"air.clouds", SkyParameters{}.clouds},
+      {"light.sun", ToneParameters{}.light.sun},
+      {"light.sky", ToneParameters{}.light.sky},
+      {"light.relief", ToneParameters{}.light.relief},
+      {"light.shadow_depth", ToneParameters{}.light.shadow_depth},
+      {"light.contrast", ToneParameters{}.light.contrast},
+      {"sampling.pixel_samples", GuidanceParameters{}.sampling.pixel_samples},
+      {"sampling.shadow_rays", GuidanceParameters{}.sampling.shadow_rays},
+      {"sampling.sky_directions", GuidanceParameters{}.sampling.sky_directions},
+      {"sampling.sky_reach_m", GuidanceParameters{}.sampling.sky_reach_m},
+      {"synthesis.reuse", SynthesisParameters{}.reuse},
+      {"synthesis.copy_cap", SynthesisParameters{}.copy_cap},
+      {"synthesis.levels", SynthesisParameters{}.levels},
+      {"camera.azimuth_deg", CameraParameters{}.azimuth_deg},
+      {"camera.pitch_deg", CameraParameters{}.pitch_deg},
+      {"camera.field_of_view_deg", CameraParameters{}.field_of_view_deg},
+      {"camera.view_width_m", CameraParameters{}.view_width_m},
+      {"output.width", SkyParameters{}.picture_size.x},
+      {"output.height", CameraParameters{}.height},
+      {"terrain.cell_m", DemParameters{}.cell_m},
+      {"terrain.max_void_share", DemParameters{}.max_void_share},
+      {"terrain.sources.band", RasterSource{}.band},
+      {"land_cover.sources.band", RasterSource{}.band},
+      {"terrain.synthetic.cell_m", SyntheticParameters{}.cell_m},
+      {"land_cover.smallest_patch_m2", PatchParameters{}.smallest_m2},
+      {"generalize.crest", GeneralizeParameters{}.crest},
+      {"generalize.widen_valleys_m", WidenValleysParameters{}.width_m},
+      {"deform.exaggeration", DeformParameters{}.exaggeration},
+      {"deform.refraction", DeformParameters{}.refraction},
+      {"deform.bend.radius_m", BendCurve{}.radius_m},
+      {"deform.summits.radius_m", SummitExaggeration{}.radius_m},
+      {"deform.summits.factor", SummitExaggeration{}.factor},
+      {"deform.handles.scale", DeformHandle{}.scale},
+  };
+  for (const auto& [name, value] : of_stages) EXPECT_EQ(default_of(name), value) << name;
+  EXPECT_DOUBLE_EQ(to_radians(default_of("sun.radius_deg")), GuidanceParameters{}.sun_radius_rad);
+  EXPECT_EQ(Scene{}.camera.projection, CameraParameters{}.projection);
+  EXPECT_EQ(Scene{}.tracing.instruction_set, TracerParameters{}.instruction_set);
+}
+
+// What people read says the same.
+TEST(SceneTable, DefaultsReachSchemaReferenceAndWrittenScene) {
+  const double haze = AirParameters{}.haze;
+  EXPECT_THAT(write_scene(Scene{}), HasSubstr(fmt::format("\n[air]\nhaze = {}\n", haze)));
+  EXPECT_THAT(scene_reference(), HasSubstr(fmt::format("| `haze` | a number; 0 … 1 | `{}` |", haze)));
+  const std::string schema = scene_json_schema();
+  const std::size_t at = schema.find("\"haze\"");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_THAT(schema.substr(at, 300), HasSubstr(fmt::format("\"default\": {}", haze)));
+}
+
+TEST(SceneTable, NamesEachSectionAndKeyOnce) {
+  std::map<std::string, int> names;
+  for (const SceneSection& section : scene_sections()) {
+    ++names[std::string(section.name)];
+    for (const SceneKey& key : section.keys) ++names[join_key(section.name, key.name)];
+  }
+  for (const auto& [name, count] : names) EXPECT_EQ(count, 1) << name;
+}
+
+}  // namespace
+}  // namespace belvedere
