@@ -58,9 +58,8 @@ std::string instruction_set_title(const std::string& name) {
 std::string choose_instruction_set(const std::string& pinned) {
   std::string widest = machine_instruction_set();
   if (pinned == "any") return widest;
-  if (known_rank(pinned, "sampling.instruction_set", " or any") > rank_of(widest))
-    throw Error(ErrorKind::limit, "sampling.instruction_set",
-                fmt::format("the scene is pinned to {}, which this processor lacks", instruction_set_title(pinned)),
+  if (known_rank(pinned, "instruction_set", " or any") > rank_of(widest))
+    throw Error(ErrorKind::limit, "instruction_set", fmt::format("pinned to {}, which this processor lacks", instruction_set_title(pinned)),
                 fmt::format("a machine that has it, or \"{}\" or less, or \"any\"", widest));
   return pinned;
 }

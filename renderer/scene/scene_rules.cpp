@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "renderer/scene/scene_error.h"
 #include "renderer/trace/camera.h"
 #include "terrain/generalize/generalize_presets.h"
 
@@ -98,8 +99,8 @@ class Rules {
     for (std::size_t i = 0; i < scene_.deform.summits.size(); ++i)
       require_position(fmt::format("deform.summits.{}", i), scene_.deform.summits[i].position, scene_.deform.summits[i].position_lonlat);
     try {
-      const BendProfile curve(ground.bend);
-    } catch (const Error& error) {
+      in_section("deform.bend", [&] { return BendProfile(ground.bend); });
+    } catch (const Error& error) {  // to the line where it is written
       refuse(error.where(), error.where() + ": " + error.found(), error.allowed());
     }
   }

@@ -38,27 +38,26 @@ ViewAxes view_axes(const CameraParameters& parameters) {
   return {{std::cos(azimuth), -std::sin(azimuth), 0.0}, ahead, ahead * std::cos(pitch) + glm::dvec3(0.0, 0.0, std::sin(pitch))};
 }
 
-void check_camera_value(std::string_view key, double value, double lowest, double highest) {
+void check_camera_value(std::string_view field, double value, double lowest, double highest) {
   if (value >= lowest && value <= highest) return;
-  throw Error(ErrorKind::usage, std::string(key), fmt::format("{}", value), fmt::format("{} to {}", lowest, highest));
+  throw Error(ErrorKind::usage, std::string(field), fmt::format("{}", value), fmt::format("{} to {}", lowest, highest));
 }
 
 std::unique_ptr<Camera> make_camera(const CameraParameters& parameters) {
-  check_camera_value("output.width", parameters.width, 16, 65535);
-  check_camera_value("output.height", parameters.height, 16, 65535);
+  check_camera_value("width", parameters.width, 16, 65535);
+  check_camera_value("height", parameters.height, 16, 65535);
   // Beyond these a place is no projected coordinate on earth, and float distances would lose more than metres.
-  check_camera_value("camera.position (E)", parameters.eye.x, -1e8, 1e8);
-  check_camera_value("camera.position (N)", parameters.eye.y, -1e8, 1e8);
-  check_camera_value("camera.height_m", parameters.eye.z, -1e7, 1e7);
-  check_camera_value("camera.azimuth_deg", parameters.azimuth_deg, -360, 360);
+  check_camera_value("eye.x", parameters.eye.x, -1e8, 1e8);
+  check_camera_value("eye.y", parameters.eye.y, -1e8, 1e8);
+  check_camera_value("eye.z", parameters.eye.z, -1e7, 1e7);
+  check_camera_value("azimuth_deg", parameters.azimuth_deg, -360, 360);
   if (const Projection* projection = find_projection(parameters.projection)) {
-    if (projection->widest_deg > 0.0)
-      check_camera_value("camera.field_of_view_deg", parameters.field_of_view_deg, 1, projection->widest_deg);
+    if (projection->widest_deg > 0.0) check_camera_value("field_of_view_deg", parameters.field_of_view_deg, 1, projection->widest_deg);
     return projection->make(parameters);
   }
   std::string names;
   for (const Projection& projection : projections()) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", projection.name);
-  throw Error(ErrorKind::usage, "camera.projection", fmt::format("\"{}\"", parameters.projection), names);
+  throw Error(ErrorKind::usage, "projection", fmt::format("\"{}\"", parameters.projection), names);
 }
 
 }  // namespace belvedere

@@ -51,7 +51,7 @@ const std::vector<Projection>& projections();
 // Null where there is none of that name.
 const Projection* find_projection(std::string_view name);
 
-// Throws Error(usage) for an unknown projection or values out of range, naming the scene's key.
+// Throws Error(usage) for an unknown projection or values out of range, naming the field.
 std::unique_ptr<Camera> make_camera(const CameraParameters& parameters);
 
 // Unit vectors of a view, for the makers. `right` and `ahead` are level whatever the pitch, so looking straight down still has the
@@ -63,7 +63,7 @@ struct ViewAxes {
 };
 ViewAxes view_axes(const CameraParameters& parameters);
 
-// Throws Error(usage) unless lowest <= value <= highest (so NaN as well); for the makers. key: "camera.pitch_deg".
-void check_camera_value(std::string_view key, double value, double lowest, double highest);
+// Throws Error(usage) unless lowest <= value <= highest (so NaN as well); for the makers. field: "pitch_deg".
+void check_camera_value(std::string_view field, double value, double lowest, double highest);
 
 }  // namespace belvedere

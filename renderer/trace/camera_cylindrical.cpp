@@ -49,7 +49,7 @@ class CylindricalCamera final : public Camera {
 }  // namespace
 
 std::unique_ptr<Camera> make_cylindrical_camera(const CameraParameters& parameters) {
-  check_camera_value("camera.pitch_deg", parameters.pitch_deg, -80, 80);
+  check_camera_value("pitch_deg", parameters.pitch_deg, -80, 80);
   return std::make_unique<CylindricalCamera>(parameters);
 }
 

@@ -47,8 +47,8 @@ class ObliqueCamera final : public Camera {
 }  // namespace
 
 std::unique_ptr<Camera> make_oblique_camera(const CameraParameters& parameters) {
-  check_camera_value("camera.pitch_deg", parameters.pitch_deg, -90, -5);
-  check_camera_value("camera.view_width_m", parameters.view_width_m, 1, 1e7);
+  check_camera_value("pitch_deg", parameters.pitch_deg, -90, -5);
+  check_camera_value("view_width_m", parameters.view_width_m, 1, 1e7);
   return std::make_unique<ObliqueCamera>(parameters);
 }
 

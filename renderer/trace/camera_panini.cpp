@@ -64,7 +64,7 @@ class PaniniCamera final : public Camera {
 }  // namespace
 
 std::unique_ptr<Camera> make_panini_camera(const CameraParameters& parameters, double distance) {
-  check_camera_value("camera.pitch_deg", parameters.pitch_deg, -80, 80);
+  check_camera_value("pitch_deg", parameters.pitch_deg, -80, 80);
   return std::make_unique<PaniniCamera>(parameters, distance);
 }
 

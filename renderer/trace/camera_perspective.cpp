@@ -46,7 +46,7 @@ class PerspectiveCamera final : public Camera {
 }  // namespace
 
 std::unique_ptr<Camera> make_perspective_camera(const CameraParameters& parameters) {
-  check_camera_value("camera.pitch_deg", parameters.pitch_deg, -90, 90);
+  check_camera_value("pitch_deg", parameters.pitch_deg, -90, 90);
   return std::make_unique<PerspectiveCamera>(parameters);
 }
 

@@ -26,11 +26,11 @@ void check_range(const char* key, double value, double lowest, double highest) {
 
 void check_parameters(const GuidanceParameters& p) {
   if (p.sampling.pixel_samples != 1 && p.sampling.pixel_samples != 4 && p.sampling.pixel_samples != 9 && p.sampling.pixel_samples != 16) {
-    throw Error(ErrorKind::usage, "sampling.pixel_samples", fmt::format("{}", p.sampling.pixel_samples), "1, 4, 9 or 16");
+    throw Error(ErrorKind::usage, "pixel_samples", fmt::format("{}", p.sampling.pixel_samples), "1, 4, 9 or 16");
   }
-  check_range("sampling.shadow_rays", p.sampling.shadow_rays, 1, 64);
-  check_range("sampling.sky_directions", p.sampling.sky_directions, 0, 256);
-  check_range("sampling.sky_reach_m", p.sampling.sky_reach_m, 1, 1e6);
+  check_range("shadow_rays", p.sampling.shadow_rays, 1, 64);
+  check_range("sky_directions", p.sampling.sky_directions, 0, 256);
+  check_range("sky_reach_m", p.sampling.sky_reach_m, 1, 1e6);
   check_range("shadow bias", p.shadow_bias_m, 0, 100);
   check_range("sun_radius_rad", p.sun_radius_rad, 0, 0.5);
   check_range("length of the sun's direction", glm::length(p.sun_direction), 0.5, 2.0);

@@ -6,6 +6,7 @@
 #include "base/angle.h"
 #include "renderer/paint/composite.h"
 #include "renderer/paint/light.h"
+#include "renderer/scene/scene_error.h"
 
 namespace belvedere {
 namespace {

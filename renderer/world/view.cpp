@@ -8,6 +8,7 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/filter.h"
+#include "renderer/scene/scene_error.h"
 #include "terrain/io/raster_io.h"
 
 namespace belvedere {
@@ -80,6 +81,7 @@ DeformParameters resolve_deform(const SceneDeform& scene_deform, const Dem& dem)
     handle.move_m = {given.move_m[0], given.move_m[1]};
     handle.core_m = given.core_m.value_or(core_share * handle.radius_m);
   }
+  in_section("deform", [&] { return HandleField(deform.handles); });
   return deform;
 }
 
@@ -135,6 +137,7 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress) {
     view.camera.pitch_deg = wish.pitch_deg;
   }
   view.camera.pitch_deg += wish.tilt_deg;
+  in_section("camera", [&] { return make_camera(view.camera); });
 
   view.sun = resolve_sun(scene.sun, dem);
   view.sun_direction = sun_direction(view.sun);

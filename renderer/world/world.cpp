@@ -4,6 +4,7 @@
 
 #include "base/instruction_set.h"
 #include "renderer/paint/sky.h"
+#include "renderer/scene/scene_error.h"
 #include "renderer/world/fold_check.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/scene_terrain.h"
@@ -15,7 +16,7 @@ constexpr double usual_horizon = 0.18;  // of the picture's height from its top,
 
 // What this machine lacks is said before the work.
 const Scene& runnable(const Scene& scene) {
-  choose_instruction_set(scene.tracing.instruction_set);
+  in_section("sampling", [&] { return choose_instruction_set(scene.tracing.instruction_set); });
   return scene;
 }
 

@@ -62,7 +62,7 @@ Grid<LandCoverClass> classify(const Grid<std::int32_t>& codes, const Legend& leg
   const std::string where = parameters.sources[0].path;
   if (!parameters.unknown) {
     throw Error(ErrorKind::input, where, fmt::format("codes that the legend {} lacks: {}", legend.name, list),
-                "the legend's codes; another legend, or the key `unknown` with the class to paint them as");
+                "the legend's codes; another legend, or `unknown`, the class to paint them as");
   }
   progress.note(
       fmt::format("{}: painted as {}, because the legend {} lacks them: {}", where, class_name(*parameters.unknown), legend.name, list));

@@ -50,7 +50,7 @@ Cubic hermite(double run, double y0, double y1, double m0, double m1) {
 
 void check_points(const BendCurve& curve) {
   const auto refuse = [](std::size_t i, const std::string& found, const char* allowed) {
-    throw Error(ErrorKind::usage, fmt::format("deform.bend.points.{}", i), found, allowed);
+    throw Error(ErrorKind::usage, fmt::format("points.{}", i), found, allowed);
   };
   if (curve.radius_m > 0.0 || curve.far_amount_per_m > 0.0)
     refuse(0, "control points beside radius_m or far_amount_per_m", "control points, or the parabola");

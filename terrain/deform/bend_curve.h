@@ -27,7 +27,8 @@ struct BendCurve {
   std::vector<BendPoint> points = {};  // none, or two and more by distance, all with drops or all with inclinations
 };
 
-// A bend made ready: cheap to ask for each vertex of a terrain. Throws Error(usage) for points that are no curve, or beside a parabola.
+// A bend made ready: cheap to ask for each vertex of a terrain. Throws Error(usage), naming the field (points.0), for points that are no
+// curve, or beside a parabola.
 class BendProfile {
  public:
   explicit BendProfile(const BendCurve& curve);

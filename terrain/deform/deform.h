@@ -44,7 +44,7 @@ struct DeformParameters {
 class Deformation {
  public:
   Deformation() : Deformation({}, {0.0, 0.0}) {}
-  // viewer_xy: the eye in the DEM's CRS. Throws Error(usage) for a bend or handles that are none, naming the scene's key.
+  // viewer_xy: the eye in the DEM's CRS. Throws Error(usage) for a bend or handles that are none, as BendProfile and HandleField do.
   Deformation(const DeformParameters& parameters, glm::dvec2 viewer_xy);
 
   // x, y, altitude in; place in the deformed world out.

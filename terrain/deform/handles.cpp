@@ -26,7 +26,7 @@ double quintic_smoothstep(double t) { return t * t * t * (10.0 + t * (6.0 * t - 
 
 void check(const std::vector<DeformHandle>& handles) {
   const auto refuse = [](std::size_t i, const std::string& found, const std::string& allowed) {
-    throw Error(ErrorKind::usage, fmt::format("deform.handles.{}", i), found, allowed);
+    throw Error(ErrorKind::usage, fmt::format("handles.{}", i), found, allowed);
   };
   for (std::size_t i = 0; i < handles.size(); ++i) {
     const DeformHandle& h = handles[i];
@@ -40,8 +40,7 @@ void check(const std::vector<DeformHandle>& handles) {
       const double apart = glm::length(h.center - handles[k].center);
       const double needed = (h.pin ? 0.0 : h.core_m) + (handles[k].pin ? 0.0 : handles[k].core_m);
       if (apart <= needed)
-        refuse(i,
-               fmt::format("its core and that of deform.handles.{} overlap: {:.0f} m apart, the cores together {:.0f} m", k, apart, needed),
+        refuse(i, fmt::format("its core and that of handles.{} overlap: {:.0f} m apart, the cores together {:.0f} m", k, apart, needed),
                "smaller cores, or places farther apart");
     }
   }

@@ -14,7 +14,7 @@ struct DeformHandle {
   double raise_m = 0.0;     // before exaggeration, ±5000
   double radius_m = 0.0;    // where its effect ends; 0: nowhere, the whole plane follows
   double core_m = 0.0;      // up to this distance from the centre the ground moves as one rigid piece; less than radius_m
-  // A pin holds only its centre; the ground around it turns as the other handles want (the point handle of Schaefer 2006). Its core,
+  // A pin holds only its centre; the ground around it turns with the other handles (the point handle of Schaefer 2006). Its core,
   // rotation and scale do not count.
   bool pin = false;
 };
@@ -34,7 +34,8 @@ struct DeformHandle {
 class HandleField {
  public:
   HandleField() = default;
-  // Throws Error(usage) for a core that is not within its radius, cores that overlap, and values that are not finite.
+  // Throws Error(usage), naming the field (handles.0), for a core that is not within its radius, cores that overlap, and values that are
+  // not finite.
   explicit HandleField(std::vector<DeformHandle> handles);
 
   struct Moved {

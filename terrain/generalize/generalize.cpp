@@ -45,8 +45,8 @@ class Levels {
 
 void check_number(std::string_view key, const std::vector<float>& weights, std::size_t bands) {
   if (weights.size() == bands || (weights.empty() && key != "background")) return;
-  throw Error(ErrorKind::usage, fmt::format("generalize.{}", key), fmt::format("{} weights", weights.size()),
-              fmt::format("as many as generalize.foreground has, {}", bands));
+  throw Error(ErrorKind::usage, std::string(key), fmt::format("{} weights", weights.size()),
+              fmt::format("as many as foreground has, {}", bands));
 }
 
 void check(const Grid<float>& altitude_m, const GeneralizeGrids& grids, const GeneralizeParameters& parameters) {

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/view.h"
+#include "tests/files.h"
 
 namespace belvedere {
 namespace {
@@ -79,6 +80,11 @@ TEST(SceneDeform, KeysBecomeADeformation) {
   // Longitude and latitude need a CRS.
   const Scene lonlat = scene_of("[[deform.handles]]\nposition_lonlat = [11.4, 47.3]\n");
   EXPECT_THROW(resolve_deform(lonlat.deform, dem), Error);
+  // What only the deformation can tell gets the scene's key.
+  const Scene overlap = scene_of("[[deform.handles]]\nposition = [0, 0]\n[[deform.handles]]\nposition = [4000, 0]\n");
+  const Error error = test::error_of([&] { resolve_deform(overlap.deform, dem); });
+  EXPECT_EQ(error.where(), "deform.handles.1");
+  EXPECT_THAT(error.found(), HasSubstr("handles.0 overlap"));
 }
 
 TEST(SceneDeform, WrittenReadsBackAndSettingsReachEachElement) {

@@ -4,14 +4,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "renderer/paint/composite.h"
 #include "renderer/paint/sky.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/trace/guidance.h"
+#include "tests/paths.h"
 
 namespace belvedere {
 namespace {
@@ -113,6 +117,40 @@ TEST(SceneTable, NamesEachSectionAndKeyOnce) {
     for (const SceneKey& key : section.keys) ++names[join_key(section.name, key.name)];
   }
   for (const auto& [name, count] : names) EXPECT_EQ(count, 1) << name;
+}
+
+// What lies below the scene names its own fields in messages; the scene's keys are put to them above.
+TEST(SceneTable, LowerLayersDoNotSpeakSceneKeys) {
+  std::vector<std::string> keys;
+  for (const SceneSection& section : scene_sections()) {
+    if (section.name.find('.') != std::string_view::npos) keys.emplace_back(section.name);
+    for (const SceneKey& key : section.keys)
+      if (!section.name.empty()) keys.push_back(join_key(section.name, key.name));
+  }
+  ASSERT_GT(keys.size(), 100U);
+  int files = 0;
+  for (const char* folder : {"base", "terrain", "texture", "renderer/image", "renderer/trace", "renderer/paint"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(test::source_folder() + "/" + folder)) {
+      if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
+      ++files;
+      std::ifstream source(entry.path());
+      for (std::string line; std::getline(source, line);) {
+        if (line.starts_with("#include")) continue;
+        // What stands between quotes.
+        bool quoted = false;
+        std::string text;
+        for (std::size_t i = 0; i < line.size(); ++i) {
+          if (line[i] == '"' && (i == 0 || line[i - 1] != '\\')) {
+            quoted = !quoted;
+            text += ' ';
+          } else if (quoted) {
+            text += line[i];
+          }
+        }
+        for (const std::string& key : keys) EXPECT_EQ(text.find(key), std::string::npos) << entry.path() << ": " << key << " in " << line;
+      }
+    }
+  EXPECT_GT(files, 200);
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ TEST(Camera, NothingBehindThePerspectiveEye) {
   EXPECT_FALSE(camera->project(ray.origin));
 }
 
-TEST(Camera, RefusesValuesOutOfRangeNamingTheKey) {
+TEST(Camera, RefusesValuesOutOfRangeNamingTheField) {
   const auto refused = [](auto change, const char* key, const char* projection = "perspective") {
     CameraParameters p = base(projection);
     change(p);
@@ -184,7 +184,7 @@ TEST(Camera, RefusesValuesOutOfRangeNamingTheKey) {
   refused([](auto& p) { p.pitch_deg = 90.0; }, "pitch_deg", "cylindrical");
   refused([](auto& p) { p.view_width_m = 0.0; }, "view_width_m", "oblique");
   refused([nan](auto& p) { p.azimuth_deg = nan; }, "azimuth_deg");
-  refused([nan](auto& p) { p.eye.z = nan; }, "height_m");
+  refused([nan](auto& p) { p.eye.z = nan; }, "eye.z");
   refused([](auto& p) { p.projection = "fisheye"; }, "projection");
 }
 

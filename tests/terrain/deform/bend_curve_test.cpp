@@ -113,7 +113,7 @@ TEST(BendCurve, RefusesWhatIsNoCurve) {
       FAIL();
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::usage);
-      EXPECT_EQ(error.where().rfind("deform.bend.points.", 0), 0U);
+      EXPECT_EQ(error.where().rfind("points.", 0), 0U);
     }
   }
 }
