@@ -47,11 +47,20 @@ struct SceneTerrain {
   DemParameters dem;  // without sources
 };
 
+struct SceneTown {  // a town that is known: see terrain/cover/towns.h
+  std::string name;
+  std::optional<glm::dvec2> position;         // E, N in the scene's CRS
+  std::optional<glm::dvec2> position_lonlat;  // or longitude, latitude
+  double radius_m = 0.0;                      // a scene has to say it
+};
+
 struct SceneLandCover {
   std::vector<SceneSource> sources;                      // empty: by rules
   std::string legend;                                    // "nlcd", "corine", "esa_worldcover", "fbfm40", or a .csv or .toml file
   std::string rules = "alpine";                          // where there is no source: built-in name or file
   std::vector<std::pair<std::string, double>> settings;  // parameters of the rules
+  std::vector<SceneTown> towns;                          // what rules know of towns …
+  std::string towns_file;                                // … and a table of further ones; empty: none
   // What a raster does not tell: {glacier, rock} makes glacier of what the raster calls rock and the rules call glacier.
   std::vector<std::pair<LandCoverClass, LandCoverClass>> refine;
   std::optional<LandCoverClass> unknown;

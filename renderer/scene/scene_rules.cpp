@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "renderer/scene/scene_error.h"
 #include "renderer/trace/camera.h"
+#include "terrain/cover/class_rules.h"
 #include "terrain/generalize/generalize_presets.h"
 
 namespace belvedere {
@@ -40,6 +41,13 @@ class Rules {
     if (!scene_.land_cover.sources.empty() && scene_.land_cover.legend.empty())
       refuse("land_cover.sources", "land_cover.sources needs land_cover.legend, which says what the raster's codes mean",
              "legend = \"nlcd\", \"corine\", \"esa_worldcover\", \"fbfm40\" or a file");
+    for (const auto& [name, value] : scene_.land_cover.settings)
+      if (names_old_town(name))
+        refuse("land_cover.settings." + name, fmt::format("towns are no settings of the rules any more: {}", name),
+               "[[land_cover.towns]] with name, position = [E, N] and radius_m for each town");
+    for (std::size_t i = 0; i < scene_.land_cover.towns.size(); ++i)
+      require_position(fmt::format("land_cover.towns.{}", i), scene_.land_cover.towns[i].position,
+                       scene_.land_cover.towns[i].position_lonlat);
   }
 
   void generalize() {

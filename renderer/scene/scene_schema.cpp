@@ -22,6 +22,7 @@ const std::vector<SceneExclusion>& scene_exclusions() {
       {"camera", {"look_at"}, {"look_at_lonlat"}},
       {"camera", {"look_at", "look_at_lonlat"}, {"azimuth_deg", "pitch_deg"}},
       {"deform.bend.points", {"drop_m"}, {"inclination_deg"}},
+      {"land_cover.towns", {"position"}, {"position_lonlat"}},
       {"deform.summits", {"position"}, {"position_lonlat"}},
       {"deform.handles", {"position"}, {"position_lonlat"}},
       {"sun", {"time"}, {"azimuth_deg", "altitude_deg"}},

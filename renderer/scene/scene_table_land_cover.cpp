@@ -1,4 +1,5 @@
 #include "renderer/scene/scene_table.h"
+#include "terrain/cover/towns.h"
 
 namespace belvedere {
 
@@ -39,6 +40,12 @@ std::vector<SceneSection> make_land_cover_sections() {
             .field = AT(land_cover.patches.keep),
             .meaning =
                 "Classes whose small patches matter: they stay, and grow by up to three cells until they are large enough to be seen."},
+           {.name = "towns_file",
+            .field = AT(land_cover.towns_file),
+            .meaning =
+                "Towns that are known, besides those of [[land_cover.towns]]: a .csv file or a layer of points (.gpkg, .geojson, .shp, "
+                ".fgb) with columns name, radius_m or population; see class_rules.md.",
+            .text = TextKind::file},
            {.name = "settings",
             .field = AT(land_cover.settings),
             .range = {-1e9, 1e9},
@@ -50,6 +57,33 @@ std::vector<SceneSection> make_land_cover_sections() {
                       .keys = make_source_keys(false),
                       .count = [](const Scene& s) { return s.land_cover.sources.size(); },
                       .resize = [](Scene& s, std::size_t n) { s.land_cover.sources.resize(n); }});
+  sections.push_back(
+      {.name = "land_cover.towns",
+       .kind = SectionKind::list,
+       .meaning =
+           "One block for each town that is known. Rules give it its place and keep villages that they find themselves away from it.",
+       .keys =
+           {
+               {.name = "name", .field = AT(land_cover.towns[i].name), .meaning = "For messages."},
+               {.name = "position",
+                .field = AT(land_cover.towns[i].position),
+                .range = {-largest_m, largest_m},
+                .unit = "m",
+                .meaning = "Its middle, [E, N] in the scene's CRS."},
+               {.name = "position_lonlat",
+                .field = AT(land_cover.towns[i].position_lonlat),
+                .unit = "°",
+                .meaning = "Its middle, [longitude, latitude]; instead of position.",
+                .lonlat = true},
+               {.name = "radius_m",
+                .field = AT(land_cover.towns[i].radius_m),
+                .range = {0, largest_town_radius_m, true},
+                .unit = "m",
+                .meaning = "Radius of a circle as large as the built-up area.",
+                .required = true},
+           },
+       .count = [](const Scene& s) { return s.land_cover.towns.size(); },
+       .resize = [](Scene& s, std::size_t n) { s.land_cover.towns.resize(n); }});
   return sections;
 }
 

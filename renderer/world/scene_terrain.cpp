@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "renderer/paint/palette.h"
+#include "renderer/world/scene_towns.h"
 #include "terrain/cover/class_rules.h"
 #include "terrain/generalize/destripe.h"
 
@@ -31,16 +32,16 @@ std::vector<RasterSource> to_raster_sources(const LoadedScene& scene, const std:
 }
 
 LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
-  const SceneLandCover& wish = loaded.scene.land_cover;
-  const ClassRules rules = read_class_rules(find_named_file(loaded, "layers", wish.rules));
-  auto settings = wish.settings;
+  const ClassRules rules = read_class_rules(find_named_file(loaded, "layers", loaded.scene.land_cover.rules));
+  auto settings = loaded.scene.land_cover.settings;
   // A palette of winter brings its snow along, unless the scene says otherwise or the rules know no winter.
   const auto is_winter = [](const auto& setting) { return setting.first == winter_setting; };
   if (std::none_of(settings.begin(), settings.end(), is_winter) &&
       std::any_of(rules.parameters.begin(), rules.parameters.end(), is_winter) &&
       read_palette(find_named_file(loaded, "palettes", loaded.scene.palette)).winter)
     settings.emplace_back(winter_setting, 1.0);
-  return apply_class_rules(rules, settings, dem, loaded.scene.seed, progress);
+  return apply_class_rules(
+      rules, {.settings = std::move(settings), .towns = make_scene_towns(loaded, dem, progress), .seed = loaded.scene.seed}, dem, progress);
 }
 
 // {to, from}: cells of class `from` where the rules see `to` become `to`.
@@ -71,7 +72,10 @@ LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, Progress& p
   parameters.unknown = wish.unknown;
   parameters.nodata = wish.nodata;
   LandCover cover = read_land_cover(parameters, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);
-  if (!wish.refine.empty()) refine_by_rules(cover, make_rule_cover(loaded, dem, progress), wish.refine);
+  if (!wish.refine.empty())
+    refine_by_rules(cover, make_rule_cover(loaded, dem, progress), wish.refine);
+  else if (!wish.towns.empty() || !wish.towns_file.empty())
+    progress.note("the scene's towns are not used: rules build them, and the land cover comes from rasters");
   return cover;
 }
 

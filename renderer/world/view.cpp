@@ -9,17 +9,11 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "renderer/scene/scene_error.h"
+#include "renderer/world/scene_place.h"
 #include "terrain/io/raster_io.h"
 
 namespace belvedere {
 namespace {
-
-constexpr const char* longitude_latitude = "EPSG:4326";
-
-glm::dvec2 to_scene(const Dem& dem, glm::dvec2 lonlat, const char* key) {
-  if (dem.crs.empty()) throw Error(ErrorKind::usage, key, "longitude and latitude on a terrain without CRS", "easting and northing");
-  return transform_point(normalize_crs(longitude_latitude), dem.crs, lonlat);
-}
 
 bool on_terrain(const Dem& dem, glm::dvec2 place) {
   const glm::dvec2 cell = dem.transform.to_cell(place.x, place.y);
@@ -33,8 +27,8 @@ double ground_altitude_m(const Dem& dem, glm::dvec2 place) {
 
 // Grid north against true north at a place: the azimuth of the meridian in the grid.
 double meridian_azimuth_deg(const Dem& dem, glm::dvec2 lonlat) {
-  const glm::dvec2 here = to_scene(dem, lonlat, "sun.time");
-  const glm::dvec2 north = to_scene(dem, lonlat + glm::dvec2(0.0, 1e-3), "sun.time");
+  const glm::dvec2 here = place_of_lonlat(dem, lonlat, "sun.time");
+  const glm::dvec2 north = place_of_lonlat(dem, lonlat + glm::dvec2(0.0, 1e-3), "sun.time");
   return to_degrees(std::atan2(north.x - here.x, north.y - here.y));
 }
 
@@ -42,17 +36,10 @@ SunPosition resolve_sun(const SceneSun& sun, const Dem& dem) {
   if (sun.time.empty()) return {sun.azimuth_deg, sun.altitude_deg};
   if (dem.crs.empty()) throw Error(ErrorKind::usage, "sun.time", "a time on a terrain without CRS", "sun.azimuth_deg and sun.altitude_deg");
   const glm::dvec2 middle = dem.transform.to_crs(0.5 * (dem.width() - 1), 0.5 * (dem.height() - 1));
-  const glm::dvec2 lonlat = transform_point(dem.crs, normalize_crs(longitude_latitude), middle);
+  const glm::dvec2 lonlat = transform_point(dem.crs, normalize_crs("EPSG:4326"), middle);
   SunPosition position = sun_position(lonlat.x, lonlat.y, sun.time);
   position.azimuth_deg += meridian_azimuth_deg(dem, lonlat);
   return position;
-}
-
-glm::dvec2 resolve_place(const Dem& dem, const std::optional<glm::dvec2>& place, const std::optional<glm::dvec2>& lonlat,
-                         const std::string& key) {
-  if (place) return *place;
-  if (!lonlat) throw Error(ErrorKind::usage, key, "no position", "position or position_lonlat");
-  return to_scene(dem, *lonlat, (key + ".position_lonlat").c_str());
 }
 
 // Pitch and azimuth towards a point.
@@ -97,7 +84,7 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress) {
   if (wish.position)
     view.viewer_xy = *wish.position;
   else if (wish.position_lonlat)
-    view.viewer_xy = to_scene(dem, *wish.position_lonlat, "camera.position_lonlat");
+    view.viewer_xy = place_of_lonlat(dem, *wish.position_lonlat, "camera.position_lonlat");
   else
     throw Error(ErrorKind::usage, "camera", "no position", "camera.position or camera.position_lonlat");
 
@@ -125,7 +112,7 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress) {
   }
 
   if (wish.look_at || wish.look_at_lonlat) {
-    const glm::dvec2 place = wish.look_at ? *wish.look_at : to_scene(dem, *wish.look_at_lonlat, "camera.look_at_lonlat");
+    const glm::dvec2 place = wish.look_at ? *wish.look_at : place_of_lonlat(dem, *wish.look_at_lonlat, "camera.look_at_lonlat");
     // On the exaggerated ground before it is bent or rearranged, so that those alone decide what moves in the picture.
     DeformParameters plain = view.deform;
     plain.summits.clear();

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <regex>
 
 #include "base/config.h"
 #include "base/embedded.h"
@@ -120,14 +121,14 @@ struct Row {
   RuleExpression::Scratch scratch;
 };
 
-// Makes the wanted slots of a row; `classes` is the row so far, or null. Terms come last, in their order.
-void fill_row(const Run& run, const std::vector<bool>& wanted, int y, const LandCoverClass* classes, Row& row) {
+// Makes the needed slots of a row; `classes` is the row so far, or null. Terms come last, in their order.
+void fill_row(const Run& run, const std::vector<bool>& needed, int y, const LandCoverClass* classes, Row& row) {
   const int width = run.dem.width();
   const std::size_t variables = variable_names().size();
   const std::size_t padded = (static_cast<std::size_t>(width) + rule_block - 1) / rule_block * rule_block;
-  row.slots.resize(wanted.size());
-  for (std::size_t v = 0; v < wanted.size(); ++v) {
-    if (!wanted[v]) continue;
+  row.slots.resize(needed.size());
+  for (std::size_t v = 0; v < needed.size(); ++v) {
+    if (!needed[v]) continue;
     std::vector<float>& out = row.slots[v];
     out.resize(padded, 0.F);
     const int variable = static_cast<int>(v);
@@ -144,7 +145,7 @@ void fill_row(const Run& run, const std::vector<bool>& wanted, int y, const Land
       const auto id = static_cast<LandCoverClass>(variable - first_class);
       for (int x = 0; x < width; ++x) out[static_cast<std::size_t>(x)] = classes != nullptr && classes[x] == id ? 1.F : 0.F;
     } else {
-      std::vector<const float*> pointers(wanted.size(), nullptr);
+      std::vector<const float*> pointers(needed.size(), nullptr);
       for (std::size_t begin = 0; begin < padded; begin += rule_block) {
         for (std::size_t i = 0; i < v; ++i) pointers[i] = row.slots[i].empty() ? nullptr : row.slots[i].data() + begin;
         run.program.terms[v - variables].evaluate(pointers, out.data() + begin, row.scratch);
@@ -165,18 +166,18 @@ void apply_layers(const Run& run, std::size_t from, std::size_t to, Grid<LandCov
   if (from == to) return;
   const std::size_t variables = variable_names().size();
   const std::size_t slots = variables + run.rules.terms.size();
-  const std::vector<bool> wanted = union_of(run.program.layer_needs, from, to, slots);
+  const std::vector<bool> needed = union_of(run.program.layer_needs, from, to, slots);
   const auto first = static_cast<std::size_t>(first_class);
   parallel_ranges(classes.height(), 16, [&](int y0, int y1) {
     Row row;
     std::array<float, rule_block> hit{};
     for (int y = y0; y != y1; ++y) {
       LandCoverClass* line = classes.row(y);
-      fill_row(run, wanted, y, line, row);
+      fill_row(run, needed, y, line, row);
       std::vector<const float*> pointers(slots, nullptr);
       for (int begin = 0; begin < classes.width(); begin += rule_block) {
         const int count = std::min(rule_block, classes.width() - begin);
-        for (std::size_t i = 0; i < slots; ++i) pointers[i] = wanted[i] ? row.slots[i].data() + begin : nullptr;
+        for (std::size_t i = 0; i < slots; ++i) pointers[i] = needed[i] ? row.slots[i].data() + begin : nullptr;
         for (std::size_t k = from; k < to; ++k) {
           const auto painted = static_cast<std::size_t>(run.rules.layers[k].painted_as);
           run.program.layers[k].evaluate(pointers, hit.data(), row.scratch);
@@ -186,8 +187,8 @@ void apply_layers(const Run& run, std::size_t from, std::size_t to, Grid<LandCov
             const auto place = static_cast<std::size_t>(at);
             const auto old = static_cast<std::size_t>(line[place]);
             // Later layers of this pass see the class so far.
-            if (wanted[first + old]) row.slots[first + old][place] = 0.F;
-            if (wanted[first + painted]) row.slots[first + painted][place] = 1.F;
+            if (needed[first + old]) row.slots[first + old][place] = 0.F;
+            if (needed[first + painted]) row.slots[first + painted][place] = 1.F;
             line[place] = run.rules.layers[k].painted_as;
           }
         }
@@ -198,14 +199,14 @@ void apply_layers(const Run& run, std::size_t from, std::size_t to, Grid<LandCov
 
 // The values of one term on all cells.
 Grid<float> evaluate_term(const Run& run, std::size_t term) {
-  std::vector<bool> wanted = run.program.term_needs[term];
+  std::vector<bool> needed = run.program.term_needs[term];
   const std::size_t slot = variable_names().size() + term;
-  wanted[slot] = true;
+  needed[slot] = true;
   Grid<float> out(run.dem.width(), run.dem.height());
   parallel_ranges(out.height(), 16, [&](int y0, int y1) {
     Row row;
     for (int y = y0; y != y1; ++y) {
-      fill_row(run, wanted, y, nullptr, row);
+      fill_row(run, needed, y, nullptr, row);
       std::copy_n(row.slots[slot].begin(), out.width(), out.row(y));
     }
   });
@@ -248,6 +249,9 @@ ClassRules read_class_rules(const std::string& name_or_path) {
   if (const ConfigValue* parameters = find(root, "parameters"))
     for (const ConfigEntry& entry : as_table(*parameters, where)) {
       take_name(entry);
+      if (names_old_town(entry.key))
+        throw Error(ErrorKind::usage, config_where(where, entry.key_place), "towns are no parameters of rules any more: " + entry.key,
+                    "towns of the scene, with name, position and radius");
       rules.parameters.emplace_back(entry.key, as_number(entry.value, where));
     }
   if (const ConfigValue* terms = find(root, "terms"))
@@ -284,27 +288,31 @@ ClassRules read_class_rules(const std::string& name_or_path) {
   return rules;
 }
 
-LandCover apply_class_rules(const ClassRules& rules, const std::vector<std::pair<std::string, double>>& settings, const Dem& dem,
-                            std::uint64_t seed, Progress& progress) {
-  const Parameters parameters = with_settings(rules, settings);
+bool names_old_town(const std::string& parameter) {
+  static const std::regex old_town("town_[0-9]+_(east|north|radius_m)");
+  return std::regex_match(parameter, old_town);
+}
+
+LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem, Progress& progress) {
+  const Parameters parameters = with_settings(rules, given.settings);
   const Program program = compile(rules, parameters, rules.name, {});
   const std::size_t variables = variable_names().size();
   const std::size_t slots = variables + rules.terms.size();
   progress.begin("class rules", 4.0);
 
   // Ice needs the balance of snow and melting, and that needs variables of its own.
-  std::vector<bool> wanted = union_of(program.layer_needs, 0, program.layers.size(), slots);
+  std::vector<bool> needed = union_of(program.layer_needs, 0, program.layers.size(), slots);
   const auto balance = std::find_if(rules.terms.begin(), rules.terms.end(), [](const auto& t) { return t.first == balance_term; });
-  const bool has_ice = wanted[ice] && balance != rules.terms.end();
+  const bool has_ice = needed[ice] && balance != rules.terms.end();
   if (has_ice) {
     const std::vector<bool>& needs = program.term_needs[static_cast<std::size_t>(balance - rules.terms.begin())];
-    for (std::size_t i = 0; i < slots; ++i) wanted[i] = wanted[i] || needs[i];
+    for (std::size_t i = 0; i < slots; ++i) needed[i] = needed[i] || needs[i];
   }
-  Run run{rules, program, dem, seed, make_terrain_inputs(dem, wanted, parameters, seed)};
+  Run run{rules, program, dem, given.seed, make_terrain_inputs(dem, needed, parameters, given.towns, given.seed)};
   progress.advance(1.0);
   if (has_ice)
     run.inputs[ice] = flowing_ice(evaluate_term(run, static_cast<std::size_t>(balance - rules.terms.begin())), dem);
-  else if (wanted[ice])
+  else if (needed[ice])
     run.inputs[ice] = Grid<float>(dem.width(), dem.height(), 0.F);
   progress.advance(1.0);
 

@@ -7,13 +7,14 @@
 
 #include "base/progress.h"
 #include "terrain/cover/land_cover.h"
+#include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
 
 namespace belvedere {
 
 // Land cover for a DEM that has none, from rules in a file of their own (data/layers/alpine.toml): surface layers in order, each with a
-// class and conditions over altitude, slope, exposure, relief, noise and water; later layers win (look/recipe.md, Classes; requirements
-// P02). docs/class_rules.md describes the file and the variables.
+// class and conditions over altitude, slope, exposure, relief, noise and water; later layers win. docs/class_rules.md describes the file
+// and the variables.
 struct ClassRules {
   struct Layer {
     LandCoverClass painted_as;
@@ -28,10 +29,19 @@ struct ClassRules {
 // Built-in name ("alpine") or a .toml file. Every expression is checked: Error(usage) with file:line:column and the nearest known name.
 ClassRules read_class_rules(const std::string& name_or_path);
 
+// Whether a name is one by which rules once knew towns: town_1_east, town_1_north, town_1_radius_m, town_2_…
+bool names_old_town(const std::string& parameter);
+
+// What rules are given besides the terrain.
+struct ClassRuleParameters {
+  std::vector<std::pair<std::string, double>> settings;  // override the rules' parameters by name
+  std::vector<KnownTown> towns;                          // where people are known to live
+  std::uint64_t seed = 1;                                // of noise and of the villages that are found
+};
+
 // Evaluates the rules on the DEM's grid, cleans up specks, and returns land cover; cells that no layer covers take the nearest class.
-// `settings` override the rules' parameters by name; Error(usage) for an unknown one, with the nearest known.
-// Noise depends on `seed` and the place in the CRS alone, so a part of a DEM gets the same ragged treelines as the whole.
-LandCover apply_class_rules(const ClassRules& rules, const std::vector<std::pair<std::string, double>>& settings, const Dem& dem,
-                            std::uint64_t seed, Progress& progress);
+// Error(usage) for a setting that is no parameter of the rules, with the nearest known.
+// Noise depends on the seed and the place in the CRS alone, so a part of a DEM gets the same ragged treelines as the whole.
+LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& parameters, const Dem& dem, Progress& progress);
 
 }  // namespace belvedere

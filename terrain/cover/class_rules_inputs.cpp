@@ -12,7 +12,6 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
-#include "terrain/cover/towns.h"
 #include "terrain/shape/derivatives.h"
 #include "terrain/shape/hydrology.h"
 
@@ -33,19 +32,13 @@ glm::vec2 rise(const Grid<float>& z, int x, int y, double cell_x, double cell_y)
   return {static_cast<float>(gx), static_cast<float>(gy)};
 }
 
-// Towns are those that rules name town_1_east, town_1_north, town_1_radius_m, town_2_…, as far as the numbers go.
-TownParameters to_town_parameters(const Parameters& parameters, std::uint64_t seed) {
+TownParameters to_town_parameters(const Parameters& parameters, const std::vector<KnownTown>& known, std::uint64_t seed) {
   TownParameters towns;
   towns.amount = parameter_or(parameters, "settlement", 0.0);
   towns.highest_m = parameter_or(parameters, "town_highest_m", 1300.0);
   towns.seed = seed;
-  for (int k = 1;; ++k) {
-    const std::string name = "town_" + std::to_string(k);
-    constexpr double absent = -1.0;
-    const double radius_m = parameter_or(parameters, name + "_radius_m", absent);
-    if (radius_m == absent) return towns;
-    towns.known.push_back({{parameter_or(parameters, name + "_east", 0.0), parameter_or(parameters, name + "_north", 0.0)}, radius_m});
-  }
+  towns.known = known;
+  return towns;
 }
 
 }  // namespace
@@ -67,24 +60,24 @@ double parameter_or(const Parameters& parameters, const std::string& name, doubl
   return otherwise;
 }
 
-std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& wanted, const Parameters& parameters,
-                                             std::uint64_t seed) {
+std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
+                                             const std::vector<KnownTown>& towns, std::uint64_t seed) {
   const double cell = dem.cell_m();
   const double cell_x = dem.transform.cell_x;
   const double cell_y = dem.transform.cell_y;
   const Grid<float>& z = dem.altitude_m;
   std::vector<Grid<float>> inputs(first_noise);
-  const auto is_wanted = [&](int v) { return static_cast<bool>(wanted[static_cast<std::size_t>(v)]); };
+  const auto is_needed = [&](int v) { return static_cast<bool>(needed[static_cast<std::size_t>(v)]); };
   const auto grid = [&](int v) -> Grid<float>& { return inputs[static_cast<std::size_t>(v)]; };
 
-  if (is_wanted(altitude)) grid(altitude) = z;
-  const bool needs_floor = is_wanted(valley_floor) || is_wanted(town);
-  if (is_wanted(valley_height) || needs_floor) grid(valley_height) = height_above_valley(z, cell, 900.0);
+  if (is_needed(altitude)) grid(altitude) = z;
+  const bool needs_floor = is_needed(valley_floor) || is_needed(town);
+  if (is_needed(valley_height) || needs_floor) grid(valley_height) = height_above_valley(z, cell, 900.0);
   {
     const Grid<float> smooth = gaussian_blur(z, 60.0 / cell);
-    if (is_wanted(slope) || is_wanted(slope_smooth) || needs_floor) grid(slope) = slope_deg(smooth, cell_x, cell_y);
-    if (is_wanted(slope_smooth)) grid(slope_smooth) = gaussian_blur(grid(slope), 90.0 / cell);
-    if (is_wanted(south) || is_wanted(town)) {
+    if (is_needed(slope) || is_needed(slope_smooth) || needs_floor) grid(slope) = slope_deg(smooth, cell_x, cell_y);
+    if (is_needed(slope_smooth)) grid(slope_smooth) = gaussian_blur(grid(slope), 90.0 / cell);
+    if (is_needed(south) || is_needed(town)) {
       grid(south) = Grid<float>(z.width(), z.height());
       each_cell(grid(south), [&](int x, int y) {
         // Ground that rises to the north (against the rows) faces south. The small number fades exposure out on flat ground.
@@ -93,15 +86,15 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
       });
     }
   }
-  if (is_wanted(relief_180) || is_wanted(relief_750)) {
+  if (is_needed(relief_180) || is_needed(relief_750)) {
     const Grid<float> inner = gaussian_blur(z, 30.0 / cell);
     for (const auto& [variable, outer_m] : {std::pair{relief_180, 180.0}, std::pair{relief_750, 750.0}}) {
-      if (!is_wanted(variable)) continue;
+      if (!is_needed(variable)) continue;
       grid(variable) = gaussian_blur(z, outer_m / cell);
       each_cell(grid(variable), [&, v = variable](int x, int y) { return inner(x, y) - grid(v)(x, y); });
     }
   }
-  if (is_wanted(relief_1800)) grid(relief_1800) = relief(z, cell, 120.0, 1800.0);
+  if (is_needed(relief_1800)) grid(relief_1800) = relief(z, cell, 120.0, 1800.0);
   if (needs_floor) {
     const auto steepest = static_cast<float>(parameter_or(parameters, "floor_slope_deg", 5.5));
     const auto highest = static_cast<float>(parameter_or(parameters, "floor_highest_m", 1450.0));
@@ -112,14 +105,14 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
     });
     grid(valley_floor) = gaussian_blur(flat, 60.0 / cell);
   }
-  if (is_wanted(lake) || is_wanted(shore)) {
+  if (is_needed(lake) || is_needed(shore)) {
     LakeParameters lakes;
     lakes.max_range_m = static_cast<float>(parameter_or(parameters, "lake_range_m", 0.25));
     lakes.min_cells = static_cast<int>(parameter_or(parameters, "lake_min_cells", 150.0));
     const Grid<std::uint8_t> mask = find_lakes(z, lakes);
     grid(lake) = Grid<float>(z.width(), z.height());
     each_cell(grid(lake), [&](int x, int y) { return mask(x, y) != 0 ? 1.F : 0.F; });
-    if (is_wanted(shore)) {
+    if (is_needed(shore)) {
       Grid<std::uint8_t> land(z.width(), z.height());
       for (std::size_t i = 0; i < land.size(); ++i) land[i] = mask[i] != 0 ? 0 : 1;
       const Grid<std::int32_t> nearest = nearest_marked(land);
@@ -130,12 +123,12 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
       });
     }
   }
-  if (is_wanted(river) || is_wanted(town)) {
+  if (is_needed(river) || is_needed(town)) {
     const Grid<float> catchment_km2 = flow_accumulation_km2(z, cell);
-    if (is_wanted(river)) grid(river) = river_mask(catchment_km2, cell);
-    if (is_wanted(town)) {
+    if (is_needed(river)) grid(river) = river_mask(catchment_km2, cell);
+    if (is_needed(town)) {
       const TownGround ground{z, grid(valley_floor), catchment_km2, grid(slope), grid(south), dem.transform};
-      grid(town) = town_field(find_town_sites(ground, to_town_parameters(parameters, seed)), ground);
+      grid(town) = town_field(find_town_sites(ground, to_town_parameters(parameters, towns, seed)), ground);
     }
   }
   return inputs;

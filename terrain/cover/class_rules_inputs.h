@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/land_cover_class.h"
+#include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
 
 // What class rules can know of the terrain. Private to class_rules.
@@ -45,9 +46,9 @@ const std::vector<std::string>& variable_names();
 // A parameter, or what it is where the rules do not name it.
 double parameter_or(const Parameters& parameters, const std::string& name, double otherwise);
 
-// The grids that are wanted (by slot), all of the DEM's size; others stay empty. ice and below_rock depend on the rules and stay empty.
-std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& wanted, const Parameters& parameters,
-                                             std::uint64_t seed);
+// The grids that are needed (by slot), all of the DEM's size; others stay empty. ice and below_rock depend on the rules and stay empty.
+std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
+                                             const std::vector<KnownTown>& towns, std::uint64_t seed);
 
 // 1 just below rock, falling to 0 over `reach_m` down the fall line.
 Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, double reach_m);

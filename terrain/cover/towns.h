@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <string>
 #include <vector>
 
 #include "base/grid.h"
@@ -21,8 +22,10 @@ struct TownSite {
 
 struct KnownTown {
   glm::dvec2 place{0.0};  // scene CRS, m
-  double radius_m = 0.0;  // of the built-up area; 0: none
+  double radius_m = 0.0;  // of a circle as large as the built-up area, up to largest_town_radius_m; 0: none
+  std::string name = {};  // for messages
 };
+inline constexpr double largest_town_radius_m = 50000.0;  // larger than any city
 
 struct TownParameters {
   double amount = 0.0;        // -1 none but those known, 0 as in the Alps, 1 as dense as it gets

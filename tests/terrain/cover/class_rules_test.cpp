@@ -28,8 +28,9 @@ Dem ground(int size, const std::function<double(double, double)>& altitude) {
   return dem;
 }
 
-Grid<LandCoverClass> apply(const ClassRules& rules, const Dem& dem, const std::vector<std::pair<std::string, double>>& settings = {}) {
-  return apply_class_rules(rules, settings, dem, 7, silent_progress()).classes.cells;
+Grid<LandCoverClass> apply(const ClassRules& rules, const Dem& dem, const std::vector<std::pair<std::string, double>>& settings = {},
+                           const std::vector<KnownTown>& towns = {}) {
+  return apply_class_rules(rules, {.settings = settings, .towns = towns, .seed = 7}, dem, silent_progress()).classes.cells;
 }
 
 // A cone of 25° with its summit in the middle.
@@ -185,10 +186,8 @@ TEST(ClassRules, TownsAreWhereTheSceneSaysAndNowhereElse) {
   const Dem plain = ground(200, [](double e, double) { return 700.0 + 0.0133 * e; });
   const ClassRules rules = read_class_rules("alpine");
   const glm::dvec2 town = plain.transform.to_crs(60, 140);
-  const std::vector<std::pair<std::string, double>> settings = {
-      {"town_1_east", town.x}, {"town_1_north", town.y}, {"town_1_radius_m", 900.0}, {"settlement", -1.0}};
   EXPECT_EQ(share(apply(rules, plain, {{"settlement", -1.0}}), settlement), 0.0);
-  const Grid<LandCoverClass> with = apply(rules, plain, settings);
+  const Grid<LandCoverClass> with = apply(rules, plain, {{"settlement", -1.0}}, {{town, 900.0}});
   // As large as a circle of that radius, less the river; ragged by a fifth of the radius.
   EXPECT_NEAR(share(with, settlement) * 6000.0 * 6000.0, 3.14159 * 900.0 * 900.0, 0.25 * 3.14159 * 900.0 * 900.0);
   for (int y = 0; y < 200; ++y)
@@ -197,6 +196,15 @@ TEST(ClassRules, TownsAreWhereTheSceneSaysAndNowhereElse) {
         ASSERT_LT(std::hypot(x - 60, y - 140) * 30.0, 2600.0);
       }
   EXPECT_EQ(with(60, 140), settlement);
+}
+
+TEST(ClassRules, TownsAreNoParametersAnyMore) {
+  const test::Folder folder;
+  const std::string file =
+      folder.write("r.toml", "version = 1\n[parameters]\ntown_1_east = 5\n[[layers]]\nclass = \"forest\"\nwhen = \"1\"\n");
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { read_class_rules(file); }),
+              testing::AllOf(testing::HasSubstr("r.toml:3:"), testing::HasSubstr("town_1_east"), testing::HasSubstr("towns of the scene")));
+  for (const char* name : {"town_highest_m", "town_1", "my_town_1_east"}) EXPECT_FALSE(names_old_town(name)) << name;
 }
 
 TEST(ClassRules, VillagesStandOnValleyFloorsAndInClearings) {

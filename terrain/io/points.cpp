@@ -1,0 +1,81 @@
+#include "terrain/io/points.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "base/error.h"
+#include "terrain/io/csv.h"
+#include "terrain/io/raster_file.h"
+
+namespace belvedere {
+namespace {
+
+constexpr const char* longitude_latitude = "EPSG:4326";
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+double number_of(const std::string& text, const std::string& where, const std::string& column, double most) {
+  double value = 0.0;
+  const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc() || stop != text.data() + text.size() || !(std::abs(value) <= most))
+    throw Error(ErrorKind::usage, where, fmt::format("{} is \"{}\"", column, text),
+                fmt::format("a number, -{} … {}, with a point before decimals", most, most));
+  return value;
+}
+
+PointTable read_csv_points(const std::string& path, const std::string& crs) {
+  const CsvTable csv = read_csv(path);
+  const int longitude = csv.find_any({"lon", "longitude"});
+  const int latitude = csv.find_any({"lat", "latitude"});
+  const int east = csv.find_any({"east", "easting"});
+  const int north = csv.find_any({"north", "northing"});
+  const bool degrees = longitude >= 0 && latitude >= 0;
+  if (!degrees && (east < 0 || north < 0))
+    throw Error(ErrorKind::usage, path + ":1", fmt::format("no columns of places among {}", fmt::join(csv.columns, ", ")),
+                "lon and lat, or east and north");
+  if (degrees && crs.empty())
+    throw Error(ErrorKind::usage, path, "longitude and latitude for a terrain without CRS", "columns east and north");
+  constexpr double farthest_m = 1e8;  // farther than around the Earth
+  PointTable table{.file = path, .columns = csv.columns, .points = {}};
+  std::vector<glm::dvec2> places;
+  for (const CsvTable::Row& row : csv.rows) {
+    const std::string where = fmt::format("{}:{}", path, row.line);
+    const auto value = [&](int column, double most) {
+      const auto at = static_cast<std::size_t>(column);
+      return number_of(row.fields[at], where, csv.columns[at], most);
+    };
+    const double x = degrees ? value(longitude, 180.0) : value(east, farthest_m);
+    const double y = degrees ? value(latitude, 90.0) : value(north, farthest_m);
+    places.emplace_back(x, y);
+    table.points.push_back({.where = where, .place = {}, .values = row.fields});
+  }
+  if (degrees) PointTransform(longitude_latitude, crs).apply(places);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!std::isfinite(places[i].x)) throw Error(ErrorKind::input, table.points[i].where, "the place lies outside of " + describe_crs(crs));
+    table.points[i].place = places[i];
+  }
+  return table;
+}
+
+}  // namespace
+
+int PointTable::find(std::string_view column) const {
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const std::string& c) { return lower(c) == lower(column); });
+  return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
+}
+
+PointTable read_points(const std::string& path, const std::string& crs) {
+  return lower(std::filesystem::path(path).extension().string()) == ".csv" ? read_csv_points(path, crs) : read_point_layer(path, crs);
+}
+
+}  // namespace belvedere
