@@ -77,7 +77,7 @@ std::string find_named_file(const LoadedScene& scene, const std::string& folder,
 
 std::vector<SceneInput> scene_inputs(const LoadedScene& scene) {
   std::vector<SceneInput> inputs;
-  Scene values = scene.scene;  // the table's accessors want one to write to
+  Scene values = scene.scene;  // the table's accessors need one to write to
   for (const SceneSection& section : scene_sections()) {
     const std::size_t count = section.count == nullptr ? 1 : section.count(values);
     for (std::size_t i = 0; i < count; ++i) {

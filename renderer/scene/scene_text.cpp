@@ -201,7 +201,7 @@ std::string table_cell(std::string_view text) {
 }  // namespace
 
 std::string write_scene(const Scene& scene) {
-  Scene values = scene;  // the accessors want one to write to
+  Scene values = scene;  // the accessors need one to write to
   std::string out;
   for (const SceneSection& section : scene_sections()) {
     const std::size_t count = section.count == nullptr ? 1 : section.count(values);

@@ -39,8 +39,8 @@ const Dem& cone() {
   return dem;
 }
 
-double share(const Grid<LandCoverClass>& classes, LandCoverClass wanted) {
-  return static_cast<double>(std::count(classes.begin(), classes.end(), wanted)) / static_cast<double>(classes.size());
+double share(const Grid<LandCoverClass>& classes, LandCoverClass id) {
+  return static_cast<double>(std::count(classes.begin(), classes.end(), id)) / static_cast<double>(classes.size());
 }
 
 TEST(ClassRules, AlpineIsReadAndNamesItsParameters) {
