@@ -5,22 +5,20 @@
 #include <ogr_srs_api.h>
 
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "base/error.h"
+#include "terrain/io/crs.h"
+#include "terrain/io/gdal/gdal_files.h"
 #include "terrain/io/points.h"
-#include "terrain/io/raster_file.h"
-#include "terrain/io/raster_io_errors.h"
 
 namespace belvedere {
 namespace {
 
 namespace fs = std::filesystem;
 
-using Dataset = std::unique_ptr<void, void (*)(GDALDatasetH)>;
 using Feature = std::unique_ptr<void, void (*)(OGRFeatureH)>;
 
 struct VectorFormat {
@@ -34,8 +32,7 @@ constexpr const char* usual_layer = "towns";  // of several
 
 // Only the driver that the ending names: a file that looks harmless must not send GDAL to others.
 Dataset open_layers(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = lower_ending(path);
   const char* driver = nullptr;
   for (const VectorFormat& format : formats)
     if (ending == format.ending) driver = format.driver;
@@ -45,8 +42,7 @@ Dataset open_layers(const std::string& path) {
   register_gdal();
   const GdalErrors errors;
   const char* const allowed[] = {driver, nullptr};
-  Dataset file(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, allowed, nullptr, nullptr),
-               [](GDALDatasetH dataset) { GDALClose(dataset); });
+  Dataset file(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, allowed, nullptr, nullptr));
   if (file == nullptr) throw Error(ErrorKind::input, path, errors.say(fmt::format("cannot be read as {}", driver)));
   return file;
 }
