@@ -25,6 +25,7 @@ enum class LandCoverClass : std::uint8_t {
   glacier = 9,
   pasture = 10,
   shrub = 11,
+  sand = 12,
 };
 
 // What is so of a class or not.
@@ -206,6 +207,15 @@ inline constexpr auto land_cover_table = [] {
        .tone = {.detail = 0.45F, .edges = 0.09F, .ribs = 0.07F, .contrast = 1.05F, .lift = 0.00F},
        .hue = {.ripeness = {0.14F, 0.22F, 0.10F, -0.05F}, .warmth = 1.00F, .relief_accent = 0.35F},
        .strokes = {.wash_length = 10.0F, .wash_width = 5.2F, .wash_wander_rad = 0.30F, .meadow_length = 8.0F, .dabs = DabHue::leaves}},
+      {.id = sand,
+       .name = "sand",
+       .meaning = "beaches, dunes, river bars",
+       .rgb = 0xf0d296,
+       .stand_in = scree,
+       .traits = drifts | level | accents,
+       .tone = {.detail = 0.50F, .edges = 0.08F, .ribs = 0.00F, .contrast = 0.85F, .lift = 0.05F},
+       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.50F},
+       .strokes = {.wash_length = 14.0F, .wash_width = 5.2F, .wash_wander_rad = 0.10F, .meadow_length = 0.0F, .dabs = DabHue::earth}},
   });
 }();
 inline constexpr int land_cover_class_count = static_cast<int>(land_cover_table.size());

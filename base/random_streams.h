@@ -103,6 +103,9 @@ enum class Stream : std::uint16_t {
   sheet_terrains,
   // Made-up terrain; its plan has numbers of its own (terrain/synthetic/synthetic_plan.h).
   ridged_terrain,
+  // What came later: their numbers are their places.
+  sand,
+  sand_patches,
 
   count  // no stream: how many there are
 };

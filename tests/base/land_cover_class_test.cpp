@@ -71,6 +71,12 @@ TEST(LandCoverClass, WhatASceneSaysGoesBeforeStandIns) {
   }
 }
 
+// Paintings older than sand have none.
+TEST(LandCoverClass, SandIsCopiedFromScreeWhereNothingIsSaid) {
+  EXPECT_EQ(with_stand_ins({}), (ClassPairs{{sand, scree}}));
+  EXPECT_EQ(with_stand_ins({{sand, rock}}), (ClassPairs{{sand, rock}}));
+}
+
 // docs/legends.md has a row a class, in these words.
 TEST(LandCoverClass, TheLegendsPageNamesEveryClass) {
   const std::string page = test::read_bytes(test::source_folder() + "/docs/legends.md");

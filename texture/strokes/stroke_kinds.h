@@ -15,6 +15,7 @@ std::vector<Stroke> wash_strokes(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> meadow_strokes(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> grass_flecks(const StrokeScene& scene, Stream stream);  // tussocks and flecks of light on pastures and high grass
 std::vector<Stroke> scree_strokes(const StrokeScene& scene, Stream stream);
+std::vector<Stroke> sand_strokes(const StrokeScene& scene, Stream stream);   // ripples of the wind
 std::vector<Stroke> broken_colour(const StrokeScene& scene, Stream stream);  // small dabs every way, warm beside cool
 std::vector<Stroke> water_strokes(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> accent_strokes(const StrokeScene& scene, Stream stream);

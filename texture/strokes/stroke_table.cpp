@@ -32,6 +32,7 @@ constexpr StrokeKind kinds[] = {
     {.name = "rock turf", .layer = &StrokeLayers::ground, .stream = Stream::rock_turf, .grow = rock_turf},
     {.name = "rock drifts", .layer = &StrokeLayers::ground, .stream = Stream::rock_drifts, .grow = rock_drifts},
     {.name = "scree", .layer = &StrokeLayers::ground, .stream = Stream::scree, .grow = scree_strokes},
+    {.name = "sand", .layer = &StrokeLayers::ground, .stream = Stream::sand, .grow = sand_strokes},
     {.name = "snow", .layer = &StrokeLayers::ground, .stream = Stream::snow, .grow = snow_strokes},
     {.name = "broken colour", .layer = &StrokeLayers::ground, .stream = Stream::broken_colour, .grow = broken_colour},
     {.name = "water", .layer = &StrokeLayers::ground, .stream = Stream::water, .grow = water_strokes},

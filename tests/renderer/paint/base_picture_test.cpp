@@ -40,6 +40,18 @@ TEST(Base, IsTheRampWhereEverythingElseIsOff) {
   }
 }
 
+// Pale and warm in every season, and never as white as snow.
+TEST(Base, SandIsPaleAndWarm) {
+  const GuidanceBuffers g = make_slope(30, 20, LandCoverClass::sand, {0.0F, 0.0F, 1.0F}, 2.0F);
+  for (const char* season : {"summer", "autumn", "winter", "desert"}) {
+    const Palette palette = read_palette(season);
+    const glm::vec3 colour = picture_of(g, plain(), season).colour(15, 10);
+    EXPECT_GT(luma(colour), luma(palette_colour(palette, LandCoverClass::rock, 1200.0, 0.6))) << season;
+    EXPECT_LT(luma(colour), luma(palette_colour(palette, LandCoverClass::snow, 1200.0, 0.6))) << season;
+    EXPECT_GT(colour.r, colour.b) << season;
+  }
+}
+
 TEST(Base, FarGroundTurnsIntoAirAndNearGroundIsWarm) {
   BaseParameters p = plain();
   p.air.haze = 1.0;

@@ -57,6 +57,7 @@ TEST_F(Legends, CorineTakesItsCodesAndItsRasterNumbers) {
   EXPECT_EQ(class_of(legend, 312), forest);
   EXPECT_EQ(class_of(legend, 34), glacier);
   EXPECT_EQ(class_of(legend, 523), water);
+  EXPECT_EQ(class_of(legend, 331), sand);
 }
 
 TEST_F(Legends, UnknownNamesAreErrorsWithTheNearest) {

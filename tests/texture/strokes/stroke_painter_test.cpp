@@ -327,8 +327,9 @@ TEST(StrokePainter, MeanColourStaysNearTheBase) {
 // All kinds, by the layer they belong to; a kind that is not painted is a class without its brush.
 TEST(StrokePainter, EveryKindOfStrokeIsPaintedInItsLayer) {
   using Names = std::vector<std::string_view>;
-  const Names ground = {"wash",        "meadow",    "rock facets", "rock hatching", "rock ledges", "rock fissures", "rock snow",
-                        "rock rubble", "rock turf", "rock drifts", "scree",         "snow",        "broken colour", "water"};
+  const Names ground = {"wash",          "meadow",    "rock facets", "rock hatching", "rock ledges",
+                        "rock fissures", "rock snow", "rock rubble", "rock turf",     "rock drifts",
+                        "scree",         "sand",      "snow",        "broken colour", "water"};
   const Names breaks = {"snow ribs", "glacier flow lines", "glacier edges", "glacier moraines", "glacier crevasses"};
   const Names over_copied = {"rock ledges", "rock fissures"};  // where the ground is not painted
   const Names upright = {"forest trees", "forest edges", "glade grass", "scattered trees", "low bushes",

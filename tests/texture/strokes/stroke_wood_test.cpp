@@ -321,7 +321,7 @@ TEST(Scree, IsSmallStonesDownTheSlope) {
 
 // No area is flat: of windows of 4 mm on every class of ground hardly one is of a single colour.
 TEST(Ground, NoWindowIsFlat) {
-  for (const LandCoverClass id : {valley_floor, forest, pasture, alpine_grass, shrub, scree, rock, snow, glacier}) {
+  for (const LandCoverClass id : {valley_floor, forest, pasture, alpine_grass, shrub, scree, sand, rock, snow, glacier}) {
     Picture p = slope_of(id);
     const auto picture = paint_strokes(p.ground.colour, p.guidance, p.ground, {}, p.parameters, silent_progress()).picture;
     int flat = 0;
