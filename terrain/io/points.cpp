@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "terrain/io/crs.h"
 #include "terrain/io/csv.h"
 #include "terrain/io/raster_file.h"
 
