@@ -162,8 +162,14 @@ TEST(SheetPlan, SeedAndResolutionChangeEveryPanel) {
   SheetPlan plan = small_plan();
   const Scene usual = panel_scene(plan, 1, false).scene;
   EXPECT_EQ(usual.terrain.synthetic->seed, 4U);  // as the panel says, for the plan's own seed
-  plan.seed += 5;
-  EXPECT_EQ(panel_scene(plan, 1, false).scene.terrain.synthetic->seed, 9U);
+  // Another seed makes other terrains, and no terrain of a neighbouring seed's. Seeds stay within what files hold exactly.
+  std::set<std::uint64_t> terrains = {usual.terrain.synthetic->seed};
+  for (int k = 0; k < 5; ++k) {
+    ++plan.seed;
+    terrains.insert(panel_scene(plan, 1, false).scene.terrain.synthetic->seed);
+  }
+  EXPECT_EQ(terrains.size(), 6U);
+  EXPECT_LE(*terrains.rbegin(), SheetPlan::largest_seed);
   EXPECT_NE(panel_scene(plan, 1, false).scene.seed, usual.seed);
   // Strokes are sized in millimetres: 25.4 dpi are a pixel a millimetre, half a unit.
   EXPECT_NEAR(usual.pixels_per_unit(), 0.5, 1e-9);
