@@ -1,4 +1,5 @@
 #include "renderer/scene/scene_table.h"
+#include "renderer/paint/base_picture.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -26,7 +26,8 @@ TerrainModel model_of(int width, int height, Altitude&& altitude) {
   land_cover.classes.cells = Grid<LandCoverClass>(width, height, LandCoverClass::alpine_grass);
   Dem dem = make_dem(std::move(raster));
   Grid<float> generalized = dem.altitude_m;
-  return make_terrain_model(std::move(dem), std::move(generalized), std::move(land_cover), 1.0);
+  return make_terrain_model(std::make_shared<const Dem>(std::move(dem)), std::move(generalized),
+                            std::make_shared<const LandCover>(std::move(land_cover)), 1.0);
 }
 
 TEST(TerrainModel, FlowOnATiltedPlaneIsTheLogarithmOfTheStripAbove) {
@@ -46,7 +47,7 @@ TEST(TerrainModel, FlowGathersInAValley) {
 TEST(TerrainModel, FlowIsReadWhereTheGroundCameFrom) {
   TerrainModel model = model_of(40, 60, [](int, int y) { return 500.0 - 3.0 * y; });
   const glm::dvec2 viewer{650600.0, 5319000.0};
-  const DeformedSurface surface = deform(model.generalized_m, model.dem.transform, viewer, {viewer, 0.0}, DeformParameters{});
+  const DeformedSurface surface = deform(model.generalized_m, model.dem->transform, viewer, {viewer, 0.0}, DeformParameters{});
   CameraParameters p;
   p.width = p.height = 16;
   p.eye = {650600.0, 5323000.0, 3500.0};

@@ -44,10 +44,10 @@ TEST(DeformOptions, BecomeSettingsOfTheScene) {
   EXPECT_EQ(*ground.bend.points[1].inclination_deg, 12.0);
   const auto& handles = loaded.scene.deform.handles;
   ASSERT_EQ(handles.size(), 2U);
-  EXPECT_EQ(handles[0].radius_m, 6000.0);
-  EXPECT_EQ(handles[0].rotate_deg, 50.0);
-  EXPECT_EQ(handles[0].raise_m, 100.0);
-  EXPECT_EQ(handles[1].radius_m, 100.0);
+  EXPECT_EQ(handles[0].handle.radius_m, 6000.0);
+  EXPECT_EQ(handles[0].handle.rotate_deg, 50.0);
+  EXPECT_EQ(handles[0].handle.raise_m, 100.0);
+  EXPECT_EQ(handles[1].handle.radius_m, 100.0);
   ASSERT_TRUE(loaded.scene.camera.position);
   EXPECT_EQ(*loaded.scene.camera.position, glm::dvec2(3000.0, -9000.0));
 }
