@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -36,22 +37,26 @@ void trace_hill(const std::string& folder) {
   RasterSource source;
   source.path = folder + "/hill.asc";
   source.crs = "EPSG:32632";
-  Dem dem = read_dem({.sources = {source}, .crs = {}, .cell_m = 0.0, .extent = {}}, progress);
+  const auto dem = std::make_shared<const Dem>(read_dem({.sources = {source}, .crs = {}, .cell_m = 0.0, .extent = {}}, progress));
 
   GeneralizeParameters bands;
   bands.foreground = bands.background = {1.F, 1.F, 0.5F, 0.F};
-  Grid<float> generalized_m = generalize(dem.altitude_m, {dem.transform.cell_x, dem.transform.cell_y}, {}, bands, progress);
+  Grid<float> generalized_m = generalize(dem->altitude_m, {dem->transform.cell_x, dem->transform.cell_y}, {}, bands, progress);
 
   const glm::dvec2 viewer(601800.0, 5196000.0);  // south of it
-  const DeformedSurface surface = deform(generalized_m, dem.transform, viewer, {viewer, 0.0}, {});
+  const DeformedSurface surface = deform(generalized_m, dem->transform, viewer, {viewer, 0.0}, {});
   const Tracer tracer(surface);
   CameraParameters view;
   view.width = 96;
   view.height = 64;
   view.eye = {viewer, 2500.0};
-  const TerrainModel terrain = make_terrain_model(std::move(dem), std::move(generalized_m), {}, 1.0);
+  LandCover meadow;
+  meadow.classes.transform = dem->transform;
+  meadow.classes.cells = Grid<LandCoverClass>(dem->width(), dem->height(), LandCoverClass::alpine_grass);
+  const TerrainModel terrain = make_terrain_model(dem, std::move(generalized_m), std::make_shared<const LandCover>(std::move(meadow)), 1.0);
   const GuidanceBuffers guidance =
       trace_guidance(terrain, surface, tracer, *make_camera(view), {}, {0, 0, view.width, view.height}, progress);
+  if (guidance.is_sky(guidance.depth_m.index(48, 32))) throw Error(ErrorKind::bug, "consumer", "no hill in the middle of the picture");
   write_guidance(folder + "/guidance.exr", guidance, {{"made_by", "consumer"}});
 }
 
