@@ -94,7 +94,8 @@ std::vector<Measurement> bench_synthesis(const Options& options) {
     SynthesisParameters seven;
     seven.weights = {{"tone", 3.0},  {"altitude", 1.0},    {"distance", 0.3},   {"shadow", 0.3},
                      {"slope", 0.3}, {"fall_line_x", 0.2}, {"fall_line_y", 0.2}};
-    for (const auto& [name, parameters] : {std::pair{"one_guide", one}, std::pair{"seven_guides", seven}}) {
+    for (const auto& [name, of] : {std::pair{"one_guide", one}, std::pair{"seven_guides", seven}}) {
+      const auto& parameters = of;  // clang 14 captures no name of a structured binding
       MatchField field;
       reset_peak_memory();
       const Cost cost =
