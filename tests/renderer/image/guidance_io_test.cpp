@@ -168,7 +168,7 @@ TEST(GuidanceIo, RefusesWhatIsNone) {
   EXPECT_EQ(kind("picture.exr"), ErrorKind::input);
   EXPECT_EQ(kind("absent.exr"), ErrorKind::input);
   ExrWriter writer(folder / "id.exr", 2, 1, {{"class", {{"landcover.id", ChannelType::uint32}}}}, {});
-  writer.write_rows(0, 0, 1, {std::bit_cast<float>(3u), std::bit_cast<float>(12u)});
+  writer.write_rows(0, 0, 1, {std::bit_cast<float>(3u), std::bit_cast<float>(static_cast<std::uint32_t>(land_cover_class_count))});
   writer.finish();
   EXPECT_EQ(kind("id.exr"), ErrorKind::input);
 }

@@ -28,6 +28,7 @@ Picture patchwork() {
   p.guidance.slope_deg = Grid<float>(width, height);
   p.guidance.relief_s_m = Grid<float>(width, height, 25.F);
   p.guidance.footprint_m = Grid<float>(width, height, 15.F);
+  p.guidance.built = Grid<float>(width, height, 0.6F);
   p.ground.accent = Grid<float>(width, height, -0.8F);
   const auto& classes = land_cover_classes();
   for (int y = 0; y < height; ++y)
@@ -36,6 +37,8 @@ Picture patchwork() {
       const int column = x / (2 * block);
       const auto drawn = random_index(static_cast<std::uint32_t>(classes.size()), 3, column, row);
       LandCoverClass id = classes[drawn].id;
+      // What needs neighbours of its own does not wait for the draw: woods over pastures, towns large enough for a church.
+      if (column == 2) id = row % 6 == 0 ? LandCoverClass::forest : row % 6 == 1 ? LandCoverClass::pasture : LandCoverClass::settlement;
       if (column < 2) id = row % 6 < 3 ? LandCoverClass::glacier : LandCoverClass::snow;
       if (column == 0 && row % 3 == 0 && x > 28 && x < 37) id = LandCoverClass::rock;  // a rib above a stretch of ice
       p.guidance.land_cover(x, y) = id;
