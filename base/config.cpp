@@ -230,14 +230,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return previous[b.size()];
 }
 
-[[noreturn]] void wrong_type(const ConfigValue& value, const std::string& name, const std::string& wanted) {
-  throw Error(ErrorKind::usage, config_where(name, value.place), "this is " + describe(value), wanted);
+[[noreturn]] void wrong_type(const ConfigValue& value, const std::string& name, const std::string& allowed) {
+  throw Error(ErrorKind::usage, config_where(name, value.place), "this is " + describe(value), allowed);
 }
 
 template <class T>
-const T& as(const ConfigValue& value, const std::string& name, const std::string& wanted) {
+const T& as(const ConfigValue& value, const std::string& name, const std::string& allowed) {
   const T* found = std::get_if<T>(&value.value);
-  if (found == nullptr) wrong_type(value, name, wanted);
+  if (found == nullptr) wrong_type(value, name, allowed);
   return *found;
 }
 
@@ -328,14 +328,14 @@ std::string describe(const ConfigValue& value) {
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest = 64;  // no key of ours is nearly as long; keeps the distance cheap
   if (word.empty() || word.size() > longest) return {};
-  const std::string wanted = lower(word);
+  const std::string given = lower(word);
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3 + 1);  // so many edits are no slip any more
   for (const std::string& candidate : candidates) {
     const std::string known = lower(candidate);
     // A unit too much or too little (pitch_deg for pitch) is a small slip, however long it is.
-    const bool same_stem = wanted.starts_with(known + "_") || known.starts_with(wanted + "_");
-    const std::size_t distance = same_stem ? 1 : edit_distance(wanted, known);
+    const bool same_stem = given.starts_with(known + "_") || known.starts_with(given + "_");
+    const std::size_t distance = same_stem ? 1 : edit_distance(given, known);
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;

@@ -50,7 +50,7 @@ std::string describe(const ConfigValue& value);
 // The candidate closest to `word` by edit distance, or an empty string where none is near.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
 
-// Strict access for small documents (legends, palettes, rules). Each throws Error(usage) naming place, finding and wanted type.
+// Strict access for small documents (legends, palettes, rules). Each throws Error(usage) naming place, finding and allowed type.
 const ConfigTable& as_table(const ConfigValue& value, const std::string& name);
 const ConfigArray& as_array(const ConfigValue& value, const std::string& name);
 const std::string& as_string(const ConfigValue& value, const std::string& name);

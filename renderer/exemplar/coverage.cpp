@@ -83,31 +83,31 @@ std::vector<CoverageGap> find_gaps(const Coverage& coverage, const CoverageDeman
   std::vector<CoverageGap> gaps;
   const double scale = static_cast<double>(coverage.pixels) / (counted_size * counted_size);
   const double length_scale = std::sqrt(scale);  // borders are lines: they grow with a painting's side
-  const auto want = [&](bool wanted, std::int64_t found, double floor, const auto& name) {
-    if (wanted && static_cast<double>(found) < floor) gaps.push_back({name(), static_cast<double>(found), floor});
+  const auto require = [&](bool needed, std::int64_t found, double floor, const auto& name) {
+    if (needed && static_cast<double>(found) < floor) gaps.push_back({name(), static_cast<double>(found), floor});
   };
   for (int k = 1; k < land_cover_class_count; ++k) {
     const auto id = static_cast<std::size_t>(k);
     const std::string name(class_name(static_cast<LandCoverClass>(k)));
-    want(demand.texels[id], coverage.texels[id], floors.texels * scale, [&] { return name; });
+    require(demand.texels[id], coverage.texels[id], floors.texels * scale, [&] { return name; });
     const double most = floors.largest_share * static_cast<double>(coverage.ground());
     if (static_cast<double>(coverage.texels[id]) > most)
       gaps.push_back({name + ", share of the ground", static_cast<double>(coverage.texels[id]), most, true});
     for (std::size_t t = 0; t < Coverage::tones; ++t)
       for (std::size_t d = 0; d < Coverage::distances; ++d)
-        want(demand.light[id][t][d], coverage.by_light[id][t][d], floors.light * scale,
-             [&] { return fmt::format("{}, tone {:.1f}–{:.1f}, {}", name, 0.2 * t, 0.2 * (t + 1), distance_name(d)); });
+        require(demand.light[id][t][d], coverage.by_light[id][t][d], floors.light * scale,
+                [&] { return fmt::format("{}, tone {:.1f}–{:.1f}, {}", name, 0.2 * t, 0.2 * (t + 1), distance_name(d)); });
     for (std::size_t n = 0; n < Coverage::directions; ++n)
-      want(demand.direction[id][n], coverage.by_direction[id][n], floors.direction * scale,
-           [&] { return fmt::format("{}, fall line {}", name, direction_name(n)); });
-    want(demand.shadow[id], coverage.in_cast_shadow[id], floors.shadow * scale, [&] { return name + ", in cast shadow"; });
+      require(demand.direction[id][n], coverage.by_direction[id][n], floors.direction * scale,
+              [&] { return fmt::format("{}, fall line {}", name, direction_name(n)); });
+    require(demand.shadow[id], coverage.in_cast_shadow[id], floors.shadow * scale, [&] { return name + ", in cast shadow"; });
     for (std::size_t other = id + 1; other < static_cast<std::size_t>(land_cover_class_count); ++other)
-      want(demand.border[id][other], coverage.border[id][other], floors.border * length_scale,
-           [&] { return fmt::format("border of {} and {}", name, class_name(static_cast<LandCoverClass>(other))); });
+      require(demand.border[id][other], coverage.border[id][other], floors.border * length_scale,
+              [&] { return fmt::format("border of {} and {}", name, class_name(static_cast<LandCoverClass>(other))); });
   }
   const auto forest = static_cast<std::size_t>(LandCoverClass::forest);
   for (std::size_t a = 0; a < Coverage::altitudes; ++a)
-    want(true, coverage.by_altitude[forest][a], floors.altitude * scale, [&] { return "forest, " + altitude_name(a); });
+    require(true, coverage.by_altitude[forest][a], floors.altitude * scale, [&] { return "forest, " + altitude_name(a); });
   return gaps;
 }
 

@@ -67,7 +67,7 @@ CoverageDemand parse_demand(std::string_view text, const std::string& name);
 struct CoverageGap {
   std::string what;       // "rock, tone 0.8-1, nearer than 16 km"
   double found = 0.0;     // texels
-  double wanted = 0.0;    // texels for this painting's size
+  double needed = 0.0;    // texels for this painting's size
   bool too_much = false;  // a class over its largest share
 };
 std::vector<CoverageGap> find_gaps(const Coverage& coverage, const CoverageDemand& demand, const CoverageFloors& floors);

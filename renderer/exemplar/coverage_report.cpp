@@ -50,7 +50,7 @@ std::string coverage_json(const Coverage& coverage, const std::vector<CoverageGa
     lacking.add(Json::object()
                     .add("what", Json::text(gap.what))
                     .add("found", Json::number(gap.found))
-                    .add(gap.too_much ? "at_most" : "wanted", Json::number(gap.wanted)));
+                    .add(gap.too_much ? "at_most" : "wanted", Json::number(gap.needed)));
   return Json::object()
              .add("pixels", Json::number(static_cast<double>(coverage.pixels)))
              .add("ground", Json::number(static_cast<double>(coverage.ground())))
@@ -86,8 +86,8 @@ std::string coverage_text(const Coverage& coverage, const std::vector<CoverageGa
   if (gaps.empty()) return out + "Every floor is met.\n";
   out += fmt::format("\n{} floors are not met:\n", gaps.size());
   for (const CoverageGap& gap : gaps)
-    out += gap.too_much ? fmt::format("  {}: {:.0f}, at most {:.0f}\n", gap.what, gap.found, gap.wanted)
-                        : fmt::format("  {}: {:.0f} of {:.0f}\n", gap.what, gap.found, gap.wanted);
+    out += gap.too_much ? fmt::format("  {}: {:.0f}, at most {:.0f}\n", gap.what, gap.found, gap.needed)
+                        : fmt::format("  {}: {:.0f} of {:.0f}\n", gap.what, gap.found, gap.needed);
   return out;
 }
 

@@ -16,7 +16,7 @@ struct ExamplePainting {
   Grid<glm::vec3> ground_layer;  // without trees, dwarf pines, houses and breaks of the ice, edges hard: what synthesis copies
 };
 
-// Which layers are wanted: each costs a painting of its own.
+// Which layers to paint: each costs a painting of its own.
 struct ExampleLayers {
   bool painting = true;  // else painting, painted_class, painted_from and stroke stay empty
   bool sky = true;       // else sky keeps the base picture's

@@ -38,7 +38,7 @@ void write_text(const std::string& path, const std::string& text) {
   file.commit();
 }
 
-// 16 bit for copying from, 8 bit to look at. An exemplar is in sRGB, whatever a scene's printer wants.
+// 16 bit for copying from, 8 bit to look at. An exemplar is in sRGB, whatever a scene's prints are in.
 void write_layers(const ExamplePainting& example, double dots_per_inch, const FileNotes& notes, const std::string& folder,
                   Progress& progress) {
   progress.begin("writing the painting", 0.0);

@@ -112,47 +112,47 @@ Grid<glm::dvec3> to_lab(const Grid<glm::vec3>& picture) {
 }
 
 // What each label shall be like, and how many paintings have it.
-struct Wish {
+struct Goal {
   Statistics look;
   int paintings = 0;
 };
 
-std::array<Wish, 256> find_wishes(const std::vector<LabelStatistics>& all, std::optional<std::size_t> reference) {
-  std::array<Wish, 256> wishes;
+std::array<Goal, 256> find_goals(const std::vector<LabelStatistics>& all, std::optional<std::size_t> reference) {
+  std::array<Goal, 256> goals;
   for (std::size_t label = 0; label < unused_label; ++label) {
-    Wish& wish = wishes[label];
+    Goal& goal = goals[label];
     for (const LabelStatistics& one : all) {
       const Statistics& s = one[label];
       if (s.count < least_texels) continue;
-      ++wish.paintings;
+      ++goal.paintings;
       const double count = static_cast<double>(s.count);
-      wish.look.count += s.count;
-      wish.look.mean += count * s.mean;
-      wish.look.covariance += count * s.covariance;
+      goal.look.count += s.count;
+      goal.look.mean += count * s.mean;
+      goal.look.covariance += count * s.covariance;
     }
-    if (wish.look.count > 0) {
-      wish.look.mean /= static_cast<double>(wish.look.count);
-      wish.look.covariance = wish.look.covariance / static_cast<double>(wish.look.count);
+    if (goal.look.count > 0) {
+      goal.look.mean /= static_cast<double>(goal.look.count);
+      goal.look.covariance = goal.look.covariance / static_cast<double>(goal.look.count);
     }
     if (reference && all[*reference][label].count >= least_texels)
-      wish.look = all[*reference][label];
+      goal.look = all[*reference][label];
     else if (reference)
-      wish.paintings = 0;  // nothing to be like
+      goal.paintings = 0;  // nothing to be like
   }
-  return wishes;
+  return goals;
 }
 
-std::array<ColourMap, 256> find_maps(const LabelStatistics& own, const std::array<Wish, 256>& wishes) {
+std::array<ColourMap, 256> find_maps(const LabelStatistics& own, const std::array<Goal, 256>& goals) {
   std::array<ColourMap, 256> maps;
   glm::dvec3 shift(0.0);
   double count = 0.0;
-  const auto shared = [&](std::size_t label) { return own[label].count >= least_texels && wishes[label].paintings > 1; };
+  const auto shared = [&](std::size_t label) { return own[label].count >= least_texels && goals[label].paintings > 1; };
   for (std::size_t label = 0; label < unused_label; ++label) {
     if (!shared(label)) continue;
-    const Statistics& wish = wishes[label].look;
-    maps[label].matrix = spread_map(own[label].covariance, wish.covariance);
-    maps[label].shift = wish.mean - maps[label].matrix * own[label].mean;
-    shift += static_cast<double>(own[label].count) * (wish.mean - own[label].mean);
+    const Statistics& goal = goals[label].look;
+    maps[label].matrix = spread_map(own[label].covariance, goal.covariance);
+    maps[label].shift = goal.mean - maps[label].matrix * own[label].mean;
+    shift += static_cast<double>(own[label].count) * (goal.mean - own[label].mean);
     count += static_cast<double>(own[label].count);
   }
   for (std::size_t label = 0; label < unused_label; ++label)
@@ -205,13 +205,13 @@ std::vector<Grid<glm::vec3>> harmonize(const std::vector<LabelledPicture>& pictu
     labs.push_back(to_lab(*painting.picture));
     statistics.push_back(measure(labs.back(), *painting.labels));
   }
-  const std::array<Wish, 256> wishes = find_wishes(statistics, reference);
+  const std::array<Goal, 256> goals = find_goals(statistics, reference);
   std::vector<Grid<glm::vec3>> out;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     if (reference && i == *reference)
       out.push_back(*pictures[i].picture);
     else
-      out.push_back(apply_maps(pictures[i], labs[i], find_maps(statistics[i], wishes)));
+      out.push_back(apply_maps(pictures[i], labs[i], find_maps(statistics[i], goals)));
   }
   return out;
 }

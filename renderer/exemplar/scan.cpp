@@ -55,8 +55,8 @@ Grid<float> read_share(const std::string& path, const Grid<glm::vec3>& picture) 
   return share;
 }
 
-void read_masks(const SceneExemplar& wish, const LoadedScene& scene, Raw& raw) {
-  const std::string path = find_scene_file(scene, wish.classes);
+void read_masks(const SceneExemplar& settings, const LoadedScene& scene, Raw& raw) {
+  const std::string path = find_scene_file(scene, settings.classes);
   const Grid<std::uint16_t> ids = read_grey(path);
   check_same_size(path, ids.width(), ids.height(), raw.picture);
   GuidanceBuffers& guidance = raw.guidance;
@@ -66,11 +66,11 @@ void read_masks(const SceneExemplar& wish, const LoadedScene& scene, Raw& raw) {
     guidance.land_cover[i] = static_cast<LandCoverClass>(std::min<std::uint16_t>(ids[i], unused_label));
     if (guidance.land_cover[i] == LandCoverClass::sky) guidance.depth_m[i] = std::numeric_limits<float>::infinity();
   }
-  if (wish.altitude.empty()) return;
-  guidance.altitude_m = read_share(find_scene_file(scene, wish.altitude), raw.picture);
+  if (settings.altitude.empty()) return;
+  guidance.altitude_m = read_share(find_scene_file(scene, settings.altitude), raw.picture);
   for (float& value : guidance.altitude_m)
-    value =
-        static_cast<float>(wish.altitude_range_m[0] + (wish.altitude_range_m[1] - wish.altitude_range_m[0]) * static_cast<double>(value));
+    value = static_cast<float>(settings.altitude_range_m[0] +
+                               (settings.altitude_range_m[1] - settings.altitude_range_m[0]) * static_cast<double>(value));
 }
 
 // Two files of one painting by the program say that the same scene made them. A disk that ran full between them, or a copy of one alone,
@@ -85,9 +85,9 @@ void check_same_painting(const FileNotes& picture, const FileNotes& guidance, co
 
 // A painting the program painted knows where its paint grew: class and base colour are those of that place. The file of the layer without
 // trees says in its header that it is that.
-void take_paint(const SceneExemplar& wish, const LoadedScene& scene, GuidanceBuffers& guidance) {
-  const FileNotes notes = read_image_info(find_scene_file(scene, wish.picture)).notes;
-  const std::string path = find_scene_file(scene, wish.guidance);
+void take_paint(const SceneExemplar& settings, const LoadedScene& scene, GuidanceBuffers& guidance) {
+  const FileNotes notes = read_image_info(find_scene_file(scene, settings.picture)).notes;
+  const std::string path = find_scene_file(scene, settings.guidance);
   check_same_painting(notes, read_image_info(path).notes, path);
   const auto layer = notes.find(exemplar_layer_note);
   const bool ground = layer != notes.end() && layer->second == exemplar_ground_layer;
@@ -102,28 +102,28 @@ void take_paint(const SceneExemplar& wish, const LoadedScene& scene, GuidanceBuf
   guidance.base = decode_srgb(classes.base);
 }
 
-Raw read_raw(const SceneExemplar& wish, const LoadedScene& scene) {
+Raw read_raw(const SceneExemplar& settings, const LoadedScene& scene) {
   Raw raw;
-  raw.picture = read_picture(find_scene_file(scene, wish.picture));
-  if (!wish.guidance.empty()) {
-    const std::string path = find_scene_file(scene, wish.guidance);
+  raw.picture = read_picture(find_scene_file(scene, settings.picture));
+  if (!settings.guidance.empty()) {
+    const std::string path = find_scene_file(scene, settings.guidance);
     raw.guidance = read_guidance(path);
     raw.measured = true;
     require_channels(raw.guidance, {&GuidanceBuffers::depth_m, &GuidanceBuffers::land_cover}, path, ErrorKind::input);
     check_same_size(path, raw.guidance.width(), raw.guidance.height(), raw.picture);
-    take_paint(wish, scene, raw.guidance);
+    take_paint(settings, scene, raw.guidance);
   } else {
-    read_masks(wish, scene, raw);
+    read_masks(settings, scene, raw);
   }
-  if (!wish.shadow.empty()) raw.guidance.shadow = read_share(find_scene_file(scene, wish.shadow), raw.picture);
+  if (!settings.shadow.empty()) raw.guidance.shadow = read_share(find_scene_file(scene, settings.shadow), raw.picture);
   raw.labels = Grid<std::uint8_t>(raw.picture.width(), raw.picture.height());
   for (std::size_t i = 0; i < raw.labels.size(); ++i)
     raw.labels[i] = raw.guidance.is_sky(i) ? sky_label : static_cast<std::uint8_t>(raw.guidance.land_cover[i]);
   // Bare paper between the panels of a sheet is neither ground nor sky.
   for (std::size_t i = 0; i < raw.guidance.sky_view.size(); ++i)
     if (raw.guidance.is_sky(i) && raw.guidance.sky_view[i] <= 0.F) raw.labels[i] = unused_label;
-  if (!wish.exclude.empty()) {
-    const Grid<float> mask = read_share(find_scene_file(scene, wish.exclude), raw.picture);
+  if (!settings.exclude.empty()) {
+    const Grid<float> mask = read_share(find_scene_file(scene, settings.exclude), raw.picture);
     for (std::size_t i = 0; i < mask.size(); ++i)
       if (mask[i] > 0.F) raw.labels[i] = unused_label;
   }
@@ -192,23 +192,23 @@ const Grid<std::uint8_t>& values_of(const GuideStack& guides, const char* name) 
   return found == nullptr ? none : *found;
 }
 
-ScannedPainting finish_scan(const SceneExemplar& wish, Raw raw, double residual, Progress& progress) {
+ScannedPainting finish_scan(const SceneExemplar& settings, Raw raw, double residual, Progress& progress) {
   ScannedPainting scan;
   learn_sky(raw, scan);
   for (std::uint8_t& label : raw.labels)
     if (label == sky_label) label = unused_label;  // the sky is painted, not copied
   GuidanceBuffers& guidance = raw.guidance;
-  if (guidance.tone.empty()) guidance.tone = estimate_tone(raw.picture, raw.labels, wish.stroke_px);
-  if (guidance.shadow.empty() && wish.found_shadow != "ignore") {
-    guidance.shadow = find_shadow(raw.picture, raw.labels, wish.stroke_px);
+  if (guidance.tone.empty()) guidance.tone = estimate_tone(raw.picture, raw.labels, settings.stroke_px);
+  if (guidance.shadow.empty() && settings.found_shadow != "ignore") {
+    guidance.shadow = find_shadow(raw.picture, raw.labels, settings.stroke_px);
     std::size_t shaded = 0;
     for (std::size_t i = 0; i < raw.labels.size(); ++i) shaded += raw.labels[i] != unused_label && guidance.shadow[i] < lit_from ? 1 : 0;
-    progress.note(fmt::format("{}: {:.1f} % of it is taken for cast shadow", wish.picture,
+    progress.note(fmt::format("{}: {:.1f} % of it is taken for cast shadow", settings.picture,
                               100.0 * static_cast<double>(shaded) / static_cast<double>(raw.labels.size())));
   }
-  if (guidance.fall_line.empty()) guidance.fall_line = find_stroke_direction(raw.picture, raw.labels, wish.stroke_px);
+  if (guidance.fall_line.empty()) guidance.fall_line = find_stroke_direction(raw.picture, raw.labels, settings.stroke_px);
   PaintedExemplar& painted = scan.painted;
-  painted.exemplar.name = wish.picture;
+  painted.exemplar.name = settings.picture;
   painted.exemplar.guides = make_guide_stack(guidance, guidance.land_cover);
   GuideStack& guides = painted.exemplar.guides;
   if (!raw.measured) std::erase_if(guides.guides, [](const Guide& guide) { return guide.name == "distance"; });
@@ -218,10 +218,10 @@ ScannedPainting finish_scan(const SceneExemplar& wish, Raw raw, double residual,
     painted.base = encode_srgb(guidance.base);
   else
     painted.base = make_ramp_base(scan.ramps, raw.picture, raw.labels, guidance.tone, distance);
-  const bool leave_shadow = wish.found_shadow == "exclude" && !guidance.shadow.empty();
+  const bool leave_shadow = settings.found_shadow == "exclude" && !guidance.shadow.empty();
   for (std::size_t i = 0; i < raw.labels.size(); ++i) {
     const auto id = static_cast<LandCoverClass>(raw.labels[i]);
-    const bool served = wish.serves.empty() || std::find(wish.serves.begin(), wish.serves.end(), id) != wish.serves.end();
+    const bool served = settings.serves.empty() || std::find(settings.serves.begin(), settings.serves.end(), id) != settings.serves.end();
     if (!served || (leave_shadow && guidance.shadow[i] < lit_from)) raw.labels[i] = unused_label;
   }
   guides.label = std::move(raw.labels);
@@ -235,9 +235,9 @@ ScannedPainting finish_scan(const SceneExemplar& wish, Raw raw, double residual,
 // at least this share of the palette's range of lightness (OKLab), about its middle, hue and saturation kept; stretched at most threefold.
 constexpr double least_range_share = 0.8;
 constexpr double largest_stretch = 3.0;
-ToneRamp stretch(const ToneRamp& ramp, const ToneRamp& wanted) {
+ToneRamp stretch(const ToneRamp& ramp, const ToneRamp& target) {
   const auto range = [](const ToneRamp& r) { return to_oklab(r.back()).x - to_oklab(r.front()).x; };
-  const double factor = std::clamp(least_range_share * range(wanted) / std::max(range(ramp), 1e-3), 1.0, largest_stretch);
+  const double factor = std::clamp(least_range_share * range(target) / std::max(range(ramp), 1e-3), 1.0, largest_stretch);
   double middle = 0.0;
   for (const glm::vec3& colour : ramp) middle += to_oklab(colour).x / static_cast<double>(ramp.size());
   ToneRamp out = ramp;
@@ -262,35 +262,35 @@ glm::vec3 gradient_at(const std::vector<std::pair<double, glm::vec3>>& gradient,
 }  // namespace
 
 std::vector<ScannedPainting> read_scans(const LoadedScene& scene, Progress& progress) {
-  const std::vector<SceneExemplar>& wishes = scene.scene.exemplars;
-  std::vector<Raw> raws(wishes.size());
-  for (std::size_t i = 0; i < wishes.size(); ++i) {
-    if (wishes[i].picture.empty()) continue;
-    if (find_scene_file(scene, wishes[i].picture).empty()) {
+  const std::vector<SceneExemplar>& paintings = scene.scene.exemplars;
+  std::vector<Raw> raws(paintings.size());
+  for (std::size_t i = 0; i < paintings.size(); ++i) {
+    if (paintings[i].picture.empty()) continue;
+    if (find_scene_file(scene, paintings[i].picture).empty()) {
       // Missing files that are not optional were refused before the work began.
-      progress.note(fmt::format("exemplar {} is not there and is left out; get it from {}", wishes[i].picture, wishes[i].get_from));
+      progress.note(fmt::format("exemplar {} is not there and is left out; get it from {}", paintings[i].picture, paintings[i].get_from));
       continue;
     }
-    raws[i] = read_raw(wishes[i], scene);
+    raws[i] = read_raw(paintings[i], scene);
   }
   harmonize_all(raws, scene.scene.synthesis.harmonize, progress);
-  std::vector<ScannedPainting> scans(wishes.size());
-  for (std::size_t i = 0; i < wishes.size(); ++i)
-    if (!raws[i].picture.empty()) scans[i] = finish_scan(wishes[i], std::move(raws[i]), scene.scene.synthesis.residual, progress);
+  std::vector<ScannedPainting> scans(paintings.size());
+  for (std::size_t i = 0; i < paintings.size(); ++i)
+    if (!raws[i].picture.empty()) scans[i] = finish_scan(paintings[i], std::move(raws[i]), scene.scene.synthesis.residual, progress);
   return scans;
 }
 
 void check_paintings(const LoadedScene& scene) {
-  for (const SceneExemplar& wish : scene.scene.exemplars) {
-    const std::string path = wish.picture.empty() ? std::string() : find_scene_file(scene, wish.picture);
+  for (const SceneExemplar& settings : scene.scene.exemplars) {
+    const std::string path = settings.picture.empty() ? std::string() : find_scene_file(scene, settings.picture);
     if (path.empty()) continue;
     const Grid<glm::vec3> picture = read_picture(path);
-    for (const std::string* file : {&wish.guidance, &wish.classes, &wish.altitude, &wish.shadow, &wish.exclude}) {
+    for (const std::string* file : {&settings.guidance, &settings.classes, &settings.altitude, &settings.shadow, &settings.exclude}) {
       if (file->empty()) continue;
       const std::string guide = find_scene_file(scene, *file);
       const ImageInfo info = read_image_info(guide);
       check_same_size(guide, info.width, info.height, picture);
-      if (file != &wish.guidance) read_grey(guide);
+      if (file != &settings.guidance) read_grey(guide);
     }
   }
 }

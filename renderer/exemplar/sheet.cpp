@@ -107,9 +107,9 @@ struct SheetPainter::State {
     Progress& progress = run.progress;
     LoadedScene loaded = panel_scene(plan, panel, hand.palette.winter);
     if (hand.light) loaded.scene.light = *hand.light;
-    const SyntheticParameters& wish = loaded.scene.terrain.synthetic.value();
-    const std::string terrain =
-        fmt::format("{} {} {} {} {} {}", wish.width, wish.height, wish.cell_m, wish.lowest_m, wish.highest_m, wish.seed);
+    const SyntheticParameters& synthetic = loaded.scene.terrain.synthetic.value();
+    const std::string terrain = fmt::format("{} {} {} {} {} {}", synthetic.width, synthetic.height, synthetic.cell_m, synthetic.lowest_m,
+                                            synthetic.highest_m, synthetic.seed);
     auto dem = dems.find(terrain);
     if (dem == dems.end()) dem = dems.emplace(terrain, std::make_shared<const Dem>(make_scene_dem(loaded, progress))).first;
     std::string rules = terrain + " " + loaded.scene.land_cover.rules;
@@ -168,11 +168,12 @@ ExamplePainting SheetPainter::paint_row(int row, const ExampleLayers& layers, co
   return whole;
 }
 
-PaintedExemplar paint_sheet(const SceneExemplar& wish, const Scene& scene, const View& view, const Palette& palette, Progress& progress) {
+PaintedExemplar paint_sheet(const SceneExemplar& settings, const Scene& scene, const View& view, const Palette& palette,
+                            Progress& progress) {
   SheetPlan plan = built_in_sheet_plan();
-  plan.width = wish.width;
-  plan.height = wish.height;
-  plan.seed = wish.seed;
+  plan.width = settings.width;
+  plan.height = settings.height;
+  plan.seed = settings.seed;
   plan.dots_per_inch = 50.8 * scene.pixels_per_unit();  // strokes as large as the picture's
   plan.light_from_deg = view.sun.azimuth_deg - view.camera.azimuth_deg;
   SheetPainter painter(plan, {palette, scene.light});
@@ -186,7 +187,7 @@ PaintedExemplar paint_sheet(const SceneExemplar& wish, const Scene& scene, const
   for (int row = 0; row < painter.rows(); ++row) {
     const auto [y0, y1] = painter.row_span(row);
     ExamplePainting part = painter.paint_row(row, {.painting = false, .sky = false}, {.progress = progress});
-    // find_painted_classes wants indices in the part.
+    // classes_of_paint takes indices in the part.
     const auto first = static_cast<std::uint32_t>(y0) * static_cast<std::uint32_t>(plan.width);
     for (std::uint32_t& from : part.guidance.ground_from) from -= first;
     const PaintedClasses classes = classes_of_paint(part.guidance, part.guidance.ground_from);

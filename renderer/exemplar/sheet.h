@@ -44,6 +44,7 @@ class SheetPainter {
 
 // The sheet that is painted for a picture: with its palette, light and size of stroke, so that every guide of it is exactly known. It
 // carries no trees, no houses and no sky: those are painted on the target last.
-PaintedExemplar paint_sheet(const SceneExemplar& wish, const Scene& scene, const View& view, const Palette& palette, Progress& progress);
+PaintedExemplar paint_sheet(const SceneExemplar& settings, const Scene& scene, const View& view, const Palette& palette,
+                            Progress& progress);
 
 }  // namespace belvedere

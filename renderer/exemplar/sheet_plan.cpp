@@ -42,15 +42,15 @@ Named read_named(const ConfigTable& root, const char* key, const std::string& na
 void append_named(SheetPanel& panel, const ConfigTable& table, const char* key, const Named& named, const std::string& name) {
   const ConfigValue* value = find(table, key);
   if (value == nullptr) return;
-  const std::string& wanted = as_string(*value, name);
-  const auto found = std::find_if(named.begin(), named.end(), [&](const auto& n) { return n.first == wanted; });
+  const std::string& given = as_string(*value, name);
+  const auto found = std::find_if(named.begin(), named.end(), [&](const auto& n) { return n.first == given; });
   if (found == named.end()) {
     std::string known;
     for (const auto& n : named) known += (known.empty() ? "" : ", ") + n.first;
-    fail(*value, name, fmt::format("no {} \"{}\"", key, wanted), known);
+    fail(*value, name, fmt::format("no {} \"{}\"", key, given), known);
   }
   panel.settings.insert(panel.settings.end(), found->second.begin(), found->second.end());
-  panel.name += (panel.name.empty() ? "" : ", ") + wanted;
+  panel.name += (panel.name.empty() ? "" : ", ") + given;
 }
 
 template <class T>
@@ -151,18 +151,18 @@ PixelRect panel_rect(const SheetPlan& plan, int panel) {
 }
 
 LoadedScene panel_scene(const SheetPlan& plan, int panel, bool winter) {
-  const SheetPanel& wish = plan.panels[static_cast<std::size_t>(panel)];
+  const SheetPanel& shown = plan.panels[static_cast<std::size_t>(panel)];
   SceneFileOptions options;
   // A winter sheet has every class all the same, for land cover that comes from maps; panels say where snow lies over them.
   options.settings.emplace_back("land_cover.settings.winter=0");
-  options.settings.insert(options.settings.end(), wish.settings.begin(), wish.settings.end());
-  if (winter) options.settings.insert(options.settings.end(), wish.snow_settings.begin(), wish.snow_settings.end());
+  options.settings.insert(options.settings.end(), shown.settings.begin(), shown.settings.end());
+  if (winter) options.settings.insert(options.settings.end(), shown.snow_settings.begin(), shown.snow_settings.end());
   const PixelRect rect = panel_rect(plan, panel);
   options.settings.push_back(fmt::format("output.width={}", rect.width()));
   options.settings.push_back(fmt::format("output.height={}", rect.height()));
   LoadedScene loaded = parse_scene(plan.scene, "sheet", ".", options);
   Scene& scene = loaded.scene;
-  scene.title = wish.name;
+  scene.title = shown.name;
   scene.palette = plan.palette;
   scene.output.sheet_width_mm = rect.width() / plan.dots_per_inch * 25.4;
   scene.sun.azimuth_deg = std::remainder(scene.camera.azimuth_deg + plan.light_from_deg, 360.0);

@@ -203,7 +203,7 @@ Bytes pack(const OutputFile& output, const std::vector<std::uint16_t>& numbers, 
     check(marked ? JXL_ENC_SUCCESS : JXL_ENC_ERROR, "the colour profile");
     check(JxlEncoderSetICCProfile(e, options.icc_profile.data(), options.icc_profile.size()), "the colour profile");
   }
-  // Before the pixels, so that who wants to know need not unpack them.
+  // Before the pixels, so that who asks need not unpack them.
   const Bytes exif = exif_box(options);
   const JxlBoxType type = {'E', 'x', 'i', 'f'};
   check(JxlEncoderAddBox(e, type, exif.data(), exif.size(), JXL_FALSE), "the notes");

@@ -25,9 +25,9 @@ class Reader {
     if (format_ == "png" && !image_io::is_png_complete(path)) image_io::throw_damaged(path, "a piece is missing or has a wrong checksum");
     input_ = OIIO::ImageInput::create(format_);
     if (input_ == nullptr) throw Error(ErrorKind::bug, path, "OpenImageIO cannot read " + format_);
-    OIIO::ImageSpec wishes;
-    wishes.attribute("oiio:UnassociatedAlpha", 1);  // colours as they stand in the file, not multiplied by alpha
-    if (!input_->open(path, spec_, wishes)) image_io::throw_damaged(path, input_->geterror());
+    OIIO::ImageSpec settings;
+    settings.attribute("oiio:UnassociatedAlpha", 1);  // colours as they stand in the file, not multiplied by alpha
+    if (!input_->open(path, spec_, settings)) image_io::throw_damaged(path, input_->geterror());
     image_io::check_memory(path, spec_.width, spec_.height, 0.0);
     const std::string coding = spec_.get_string_attribute("jpeg:ColorSpace");
     const bool separated = spec_.get_int_attribute("tiff:PhotometricInterpretation") == 5;

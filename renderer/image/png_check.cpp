@@ -49,8 +49,8 @@ bool is_png_complete(const std::string& path) {
       add(buffer.data(), count);
       left -= count;
     }
-    std::array<char, 4> wanted{};
-    if (!file.read(wanted.data(), 4) || big_endian(wanted.data()) != ~crc) return false;
+    std::array<char, 4> expected{};
+    if (!file.read(expected.data(), 4) || big_endian(expected.data()) != ~crc) return false;
     if (std::string_view(head.data() + 4, 4) == "IEND") return true;
   }
   return false;

@@ -103,10 +103,10 @@ void read_back(const OutputFile& output, const Grid<glm::vec3>& encoded, int acr
   std::string message;
   const Tiff tiff = open_tiff(output.temporary(), "r", message);
   if (tiff == nullptr) output.fail(message);
-  std::vector<std::uint16_t> wanted;
+  std::vector<std::uint16_t> expected;
   for (int y = 0; y < encoded.height(); y += tile_size) {
-    image_io::quantize_rows(encoded, y, std::min(y + tile_size, encoded.height()), across * tile_size, wanted);
-    wanted.resize(static_cast<std::size_t>(across) * tile_values);
+    image_io::quantize_rows(encoded, y, std::min(y + tile_size, encoded.height()), across * tile_size, expected);
+    expected.resize(static_cast<std::size_t>(across) * tile_values);
     std::vector<std::uint16_t> tile(tile_values);
     for (int t = 0; t < across; ++t) {
       const auto bytes = static_cast<tmsize_t>(tile.size() * 2);
@@ -114,8 +114,9 @@ void read_back(const OutputFile& output, const Grid<glm::vec3>& encoded, int acr
       bool same = TIFFReadEncodedTile(tiff.get(), number, tile.data(), bytes) == bytes;
       for (std::size_t r = 0; same && r < tile_size; ++r) {
         const std::size_t at = (r * static_cast<std::size_t>(across) + static_cast<std::size_t>(t)) * row_values;
-        same = std::equal(wanted.begin() + static_cast<std::ptrdiff_t>(at), wanted.begin() + static_cast<std::ptrdiff_t>(at + row_values),
-                          tile.begin() + static_cast<std::ptrdiff_t>(r * row_values));
+        same =
+            std::equal(expected.begin() + static_cast<std::ptrdiff_t>(at), expected.begin() + static_cast<std::ptrdiff_t>(at + row_values),
+                       tile.begin() + static_cast<std::ptrdiff_t>(r * row_values));
       }
       if (!same) output.fail(message.empty() ? "it reads otherwise than it was written" : message);
     }

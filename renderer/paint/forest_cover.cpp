@@ -28,7 +28,7 @@ constexpr double track_sigma_units = 3.0;
 constexpr double stand_sigma_units = 20.0;
 constexpr double high_grass_m = 1600.0;  // above, the grass of glades is that of the heights
 
-// Noise that lies on the ground and yet has patches of one size on the sheet: of the two octaves next to the wanted size, mixed so that
+// Noise that lies on the ground and yet has patches of one size on the sheet: of the two octaves next to the requested size, mixed so that
 // the deviation stays 1. Remembers lattice values: one for each thread.
 class SheetSizedNoise {
  public:

@@ -149,13 +149,13 @@ Palette build_palette(const ConfigValue& root, const std::string& name) {
   const ConfigValue* base = find(table, "based_on");
   if (base != nullptr) {
     // Built-in palettes only: a chain of files could end in a circle.
-    const std::string& wanted = as_string(*base, name);
+    const std::string& given = as_string(*base, name);
     const std::vector<std::string> names = embedded_names("palettes");
     std::string allowed = "a built-in palette:";
     for (const std::string& each : names) allowed += " " + each;
-    const std::string near = nearest_word(wanted, names);
-    if (!is_built_in(wanted)) fail(*base, name, "the palette \"" + wanted + "\"", allowed + (near.empty() ? "" : "; nearest is " + near));
-    palette = read_palette(wanted);
+    const std::string near = nearest_word(given, names);
+    if (!is_built_in(given)) fail(*base, name, "the palette \"" + given + "\"", allowed + (near.empty() ? "" : "; nearest is " + near));
+    palette = read_palette(given);
   }
   if (const ConfigValue* value = find(table, "name")) palette.name = as_string(*value, name);
   if (palette.name.empty()) palette.name = name;

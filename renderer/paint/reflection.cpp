@@ -50,14 +50,16 @@ Mirrored find_reflections(const GuidanceBuffers& guidance, double pixels_per_uni
              same_surface(guidance.depth_m(x, foot), guidance.depth_m(x, foot - 1)))
         --foot;
       if (is_level(x, foot) || is_water(guidance, x, foot)) continue;
-      const int wanted = std::max(foot - static_cast<int>(std::lround(foreshortening * static_cast<float>(above))), 0);
+      const int mirrored_row = std::max(foot - static_cast<int>(std::lround(foreshortening * static_cast<float>(above))), 0);
       int top = foot;
-      while (top > wanted && !is_water(guidance, x, top - 1) && same_surface(guidance.depth_m(x, top), guidance.depth_m(x, top - 1))) --top;
+      while (top > mirrored_row && !is_water(guidance, x, top - 1) && same_surface(guidance.depth_m(x, top), guidance.depth_m(x, top - 1)))
+        --top;
       mirrored.source(x, y) = static_cast<std::int32_t>(guidance.depth_m.index(x, top));
       // Steep shores have dark images, level ones hardly any: the image of a meadow is a line.
       const float into_units = static_cast<float>(above / pixels_per_unit);
       const float cut_short =
-          top > wanted ? std::max(0.0F, 1.0F - static_cast<float>(top - wanted) / static_cast<float>(pixels_per_unit) / 6.0F) : 1.0F;
+          top > mirrored_row ? std::max(0.0F, 1.0F - static_cast<float>(top - mirrored_row) / static_cast<float>(pixels_per_unit) / 6.0F)
+                             : 1.0F;
       mirrored.share(x, y) =
           std::max(0.0F, 1.0F - into_units / fade_units) * cut_short / (1.0F + static_cast<float>(shore - foot) / ppu / meadow_half_units);
     }

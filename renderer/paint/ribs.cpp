@@ -87,7 +87,7 @@ float slope_across(const Grid<float>& field, const Grid<float>& depth_m, int x, 
 
 }  // namespace
 
-std::array<Grid<float>, 3> integrate_along_fall_line(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& wanted, std::uint64_t seed,
+std::array<Grid<float>, 3> integrate_along_fall_line(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& marked, std::uint64_t seed,
                                                      glm::ivec2 origin_px, double pixels_per_unit) {
   const int width = guidance.width();
   const int height = guidance.height();
@@ -106,7 +106,7 @@ std::array<Grid<float>, 3> integrate_along_fall_line(const GuidanceBuffers& guid
   std::array<Grid<float>, 3> fields;
   for (Grid<float>& field : fields) field = Grid<float>(width, height, 0.0F);
   parallel_tiles(width, height, 16, [&](PixelRect tile) {
-    if (!any_marked(wanted, {tile.x0 - reach, tile.y0 - reach, tile.x1 + reach, tile.y1 + reach})) return;
+    if (!any_marked(marked, {tile.x0 - reach, tile.y0 - reach, tile.x1 + reach, tile.y1 + reach})) return;
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
         const NoiseTriple down = integrate_one_way(guidance, noise, x, y, step_px, 1.0F);
@@ -118,12 +118,12 @@ std::array<Grid<float>, 3> integrate_along_fall_line(const GuidanceBuffers& guid
   return fields;
 }
 
-Grid<float> make_ribs(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& wanted, const RibParameters& parameters,
+Grid<float> make_ribs(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& marked, const RibParameters& parameters,
                       glm::ivec2 origin_px) {
   const double ppu = parameters.pixels_per_unit;
   const int width = guidance.width();
   const int height = guidance.height();
-  std::array<Grid<float>, 3> fields = integrate_along_fall_line(guidance, wanted, parameters.seed, origin_px, ppu);
+  std::array<Grid<float>, 3> fields = integrate_along_fall_line(guidance, marked, parameters.seed, origin_px, ppu);
   for (Grid<float>& field : fields) field = blur_in_picture(field, blur_sigma_units * ppu, origin_px);
   // Slow random amplitudes: evenly strong ribs look like corrugated iron.
   const Grid<float> slow_a =
@@ -136,7 +136,7 @@ Grid<float> make_ribs(const GuidanceBuffers& guidance, const Grid<std::uint8_t>&
   Grid<float> ribs(width, height, 0.0F);
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
-      if (wanted(x, y) == 0) continue;
+      if (marked(x, y) == 0) continue;
       const std::array<float, 3> amplitude = {std::clamp(0.55F + 0.45F * slow_a(x, y), 0.05F, 1.3F),
                                               std::clamp(0.5F + 0.5F * slow_b(x, y), 0.0F, 1.3F), 1.0F};
       float light = 0.0F;

@@ -47,7 +47,7 @@ float tilt_at(std::uint64_t seed, glm::dvec2 place, glm::vec2 fall) {
 
 }  // namespace
 
-Grid<float> make_rock_planes(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& wanted, const PlaneParameters& parameters,
+Grid<float> make_rock_planes(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& marked, const PlaneParameters& parameters,
                              glm::ivec2 origin_px) {
   const int width = guidance.width();
   const int height = guidance.height();
@@ -61,7 +61,7 @@ Grid<float> make_rock_planes(const GuidanceBuffers& guidance, const Grid<std::ui
   Grid<float> planes(width, height, 0.0F);
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
-      if (wanted(x, y) == 0) continue;
+      if (marked(x, y) == 0) continue;
       glm::vec2 fall = guidance.fall_line(x, y);
       const float length = glm::length(fall);
       fall = length > 1e-3F ? fall / length : glm::vec2(0.0F, 1.0F);

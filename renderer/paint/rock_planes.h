@@ -16,8 +16,9 @@ struct PlaneParameters {
   std::uint64_t seed = 1;
 };
 
-// Light on the planes, -1 … 1, mean 0, where `wanted` is marked; 0 elsewhere. Every pixel stands alone; `origin_px` as in make_image_noise.
-Grid<float> make_rock_planes(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& wanted, const PlaneParameters& parameters,
+// Light on the planes, -1 … 1, mean 0, where pixels are `marked`; 0 elsewhere. Every pixel stands alone; `origin_px` as in
+// make_image_noise.
+Grid<float> make_rock_planes(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& marked, const PlaneParameters& parameters,
                              glm::ivec2 origin_px);
 
 }  // namespace belvedere

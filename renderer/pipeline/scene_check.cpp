@@ -18,7 +18,7 @@ namespace {
 
 constexpr int check_width_px = 480;
 
-// The view with few pixels and no more light than it takes: classes are all that is wanted.
+// The view with few pixels and no more light than it takes: classes are all that is looked at.
 LoadedScene small(const LoadedScene& scene) {
   LoadedScene out = scene;
   const int width = std::min(scene.scene.output.width, check_width_px);
@@ -80,7 +80,7 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress) {
     if (id == LandCoverClass::sky || has[static_cast<std::size_t>(id)]) continue;
     const ClassPairs fallback = with_stand_ins(scene.scene.synthesis.fallback);
     const auto way_out =
-        std::find_if(fallback.begin(), fallback.end(), [&, wanted = id](const auto& pair) { return pair.first == wanted; });
+        std::find_if(fallback.begin(), fallback.end(), [&, without = id](const auto& pair) { return pair.first == without; });
     if (way_out == fallback.end() || !has[static_cast<std::size_t>(way_out->second)]) missing.emplace_back(class_name(id));
   }
   if (!missing.empty())

@@ -14,7 +14,7 @@
 namespace belvedere {
 namespace {
 
-// Reads a text from left to right; every reader says whether it found what it wanted.
+// Reads a text from left to right; every reader says whether it found what it reads.
 class TimeReader {
  public:
   explicit TimeReader(std::string_view text) : rest_(text) {}

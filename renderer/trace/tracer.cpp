@@ -22,7 +22,7 @@ namespace {
 constexpr int bundle = 16;  // rays handed to Embree at once
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Embree wants denormal floats flushed (FTZ, bit 15) and read as zero (DAZ, bit 6) in every thread that traces.
+// Embree needs denormal floats flushed (FTZ, bit 15) and read as zero (DAZ, bit 6) in every thread that traces.
 class FlushDenormals {
  public:
   FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040U); }
@@ -293,11 +293,11 @@ Tracer::Tracer(const DeformedSurface& surface, const TracerParameters& parameter
   const glm::dvec3 across = state.post(posts.width() - 1, posts.height() - 1) - state.post(0, 0);
   state.side = glm::length(across) / std::hypot(posts.width() - 1.0, posts.height() - 1.0);
   // About 40 bytes a cell while building (23 are kept); Embree's ids of posts have 32 bits.
-  const double wanted = 40.0 * static_cast<double>(posts.size());
+  const double needed = 40.0 * static_cast<double>(posts.size());
   const double present = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  if (wanted > present || posts.size() > std::numeric_limits<std::uint32_t>::max() / 12) {
+  if (needed > present || posts.size() > std::numeric_limits<std::uint32_t>::max() / 12) {
     throw Error(ErrorKind::limit, "ray tracing",
-                fmt::format("a terrain of {} × {} posts needs about {:.1f} GB", posts.width(), posts.height(), wanted * 1e-9),
+                fmt::format("a terrain of {} × {} posts needs about {:.1f} GB", posts.width(), posts.height(), needed * 1e-9),
                 fmt::format("{:.1f} GB of memory, {} posts", present * 1e-9, std::numeric_limits<std::uint32_t>::max() / 12));
   }
   // Embree falls back silently where the processor lacks what is asked for; this does not.

@@ -21,14 +21,14 @@ namespace {
 constexpr int step_cells = 16;
 
 // 1 near, 0 far, smoothstep between (requirements G15, G16).
-Grid<float> foreground_share(const Dem& dem, glm::dvec2 viewer_xy, const SceneGeneralize& wish) {
+Grid<float> foreground_share(const Dem& dem, glm::dvec2 viewer_xy, const SceneGeneralize& settings) {
   Grid<float> share(dem.width(), dem.height());
-  const double span = std::max(1.0, wish.background_from_m - wish.foreground_to_m);
+  const double span = std::max(1.0, settings.background_from_m - settings.foreground_to_m);
   parallel_rows(dem.height(), [&](int y) {
     for (int x = 0; x < dem.width(); ++x) {
       const glm::dvec2 place = dem.transform.to_crs(x, y);
       const double distance = std::hypot(place.x - viewer_xy.x, place.y - viewer_xy.y);
-      share(x, y) = static_cast<float>(1.0 - smoothstep((distance - wish.foreground_to_m) / span));
+      share(x, y) = static_cast<float>(1.0 - smoothstep((distance - settings.foreground_to_m) / span));
     }
   });
   return share;
@@ -54,19 +54,19 @@ double pixels_per_m(const Camera& camera, const Deformation& deformation, glm::d
 }
 
 Grid<float> mask_for_scene(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, Progress& progress) {
-  const SceneGeneralize& wish = loaded.scene.generalize;
+  const SceneGeneralize& settings = loaded.scene.generalize;
   const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
   Grid<float> mask;
-  if (wish.mask_slope_deg[1] > 0.0) mask = slope_mask(dem.altitude_m, cell_m, {wish.mask_slope_deg[0], wish.mask_slope_deg[1]});
-  if (!wish.mask.empty()) {
+  if (settings.mask_slope_deg[1] > 0.0) mask = slope_mask(dem.altitude_m, cell_m, {settings.mask_slope_deg[0], settings.mask_slope_deg[1]});
+  if (!settings.mask.empty()) {
     RasterSource source;
-    source.path = find_scene_file(loaded, wish.mask);
+    source.path = find_scene_file(loaded, settings.mask);
     mask = combine_masks(std::move(mask), read_mask(source, {dem.transform, dem.width(), dem.height(), dem.crs}, progress));
   }
-  if (!wish.mask_classes.empty()) {
+  if (!settings.mask_classes.empty()) {
     ClassShares shares;
     shares.fill(1.F);
-    for (const auto& [name, share] : wish.mask_classes) shares[static_cast<std::size_t>(*find_class(name))] = static_cast<float>(share);
+    for (const auto& [name, share] : settings.mask_classes) shares[static_cast<std::size_t>(*find_class(name))] = static_cast<float>(share);
     const LandCover made = land_cover == nullptr ? make_scene_land_cover(loaded, dem, progress) : LandCover();
     mask = combine_masks(std::move(mask), class_mask((land_cover == nullptr ? made : *land_cover).classes.cells, shares));
   }
@@ -103,28 +103,28 @@ PixelGround ground_m_per_pixel(const Dem& dem, const View& view) {
 
 GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
                                        Progress& progress) {
-  const SceneGeneralize& wish = loaded.scene.generalize;
+  const SceneGeneralize& settings = loaded.scene.generalize;
   const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
-  GeneralizeParameters bands = wish.bands;
+  GeneralizeParameters bands = settings.bands;
   // What takes most memory on its way comes first.
-  Grid<float> plain = wish.line_integral ? generalize_along_slope_lines(dem.altitude_m, dem.cell_m(), {}, progress) : Grid<float>();
+  Grid<float> plain = settings.line_integral ? generalize_along_slope_lines(dem.altitude_m, dem.cell_m(), {}, progress) : Grid<float>();
   GeneralizeGrids grids;
-  if (wish.automatic_mask) {
+  if (settings.automatic_mask) {
     grids.amplification_mask = slope_foot_mask(dem.altitude_m, cell_m, 1 << std::min<std::size_t>(bands.foreground.size(), 6));
   }
-  if (wish.keep_lakes) grids.keep = find_lakes(dem.altitude_m, {});
+  if (settings.keep_lakes) grids.keep = find_lakes(dem.altitude_m, {});
   grids.mask = mask_for_scene(loaded, dem, land_cover, progress);
-  if (wish.print_detail_px > 0.0) {
+  if (settings.print_detail_px > 0.0) {
     grids.pixel_ground = ground_m_per_pixel(dem, view);
-    bands.print_pixels = static_cast<float>(wish.print_detail_px);
+    bands.print_pixels = static_cast<float>(settings.print_detail_px);
   }
-  grids.foreground_share = foreground_share(dem, view.viewer_xy, wish);
-  Grid<float> out = generalize(wish.line_integral ? plain : dem.altitude_m, cell_m, grids, bands, progress);
+  grids.foreground_share = foreground_share(dem, view.viewer_xy, settings);
+  Grid<float> out = generalize(settings.line_integral ? plain : dem.altitude_m, cell_m, grids, bands, progress);
   plain = {};
   const Grid<unsigned char> lakes = std::move(grids.keep);
   grids = {};
-  if (wish.valleys.width_m <= 0.F) return {std::move(out), {}};
-  WidenedValleys wide = widen_valleys(out, lakes, dem.cell_m(), wish.valleys, progress);
+  if (settings.valleys.width_m <= 0.F) return {std::move(out), {}};
+  WidenedValleys wide = widen_valleys(out, lakes, dem.cell_m(), settings.valleys, progress);
   return {std::move(wide.altitude_m), std::move(wide.came_from)};
 }
 

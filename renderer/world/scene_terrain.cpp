@@ -63,18 +63,18 @@ void refine_by_rules(LandCover& cover, const LandCover& rules, const std::vector
 
 // With every patch, however small.
 LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
-  const SceneLandCover& wish = loaded.scene.land_cover;
-  if (wish.sources.empty()) return make_rule_cover(loaded, dem, progress);
+  const SceneLandCover& settings = loaded.scene.land_cover;
+  if (settings.sources.empty()) return make_rule_cover(loaded, dem, progress);
   LandCoverParameters parameters;
-  parameters.sources = to_raster_sources(loaded, wish.sources);
-  parameters.legend = find_named_file(loaded, "legends", wish.legend);
+  parameters.sources = to_raster_sources(loaded, settings.sources);
+  parameters.legend = find_named_file(loaded, "legends", settings.legend);
   parameters.folders = loaded.allowed_folders;
-  parameters.unknown = wish.unknown;
-  parameters.nodata = wish.nodata;
+  parameters.unknown = settings.unknown;
+  parameters.nodata = settings.nodata;
   LandCover cover = read_land_cover(parameters, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);
-  if (!wish.refine.empty())
-    refine_by_rules(cover, make_rule_cover(loaded, dem, progress), wish.refine);
-  else if (!wish.towns.empty() || !wish.towns_file.empty())
+  if (!settings.refine.empty())
+    refine_by_rules(cover, make_rule_cover(loaded, dem, progress), settings.refine);
+  else if (!settings.towns.empty() || !settings.towns_file.empty())
     progress.note("the scene's towns are not used: rules build them, and the land cover comes from rasters");
   return cover;
 }

@@ -73,18 +73,18 @@ DeformParameters resolve_deform(const SceneDeform& scene_deform, const Dem& dem)
 }
 
 View make_view(const Scene& scene, const Dem& dem, Progress& progress) {
-  const SceneCamera& wish = scene.camera;
+  const SceneCamera& camera = scene.camera;
   View view;
-  view.camera.projection = wish.projection;
+  view.camera.projection = camera.projection;
   view.camera.width = scene.output.width;
   view.camera.height = scene.output.height;
-  view.camera.field_of_view_deg = wish.field_of_view_deg;
-  view.camera.view_width_m = wish.view_width_m;
+  view.camera.field_of_view_deg = camera.field_of_view_deg;
+  view.camera.view_width_m = camera.view_width_m;
 
-  if (wish.position)
-    view.viewer_xy = *wish.position;
-  else if (wish.position_lonlat)
-    view.viewer_xy = place_of_lonlat(dem, *wish.position_lonlat, "camera.position_lonlat");
+  if (camera.position)
+    view.viewer_xy = *camera.position;
+  else if (camera.position_lonlat)
+    view.viewer_xy = place_of_lonlat(dem, *camera.position_lonlat, "camera.position_lonlat");
   else
     throw Error(ErrorKind::usage, "camera", "no position", "camera.position or camera.position_lonlat");
 
@@ -94,8 +94,8 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress) {
   const glm::dvec2 below = deformation.source_of(view.viewer_xy).value_or(view.viewer_xy);
   const bool known_ground = on_terrain(dem, below);
   const glm::dvec3 ground{below, known_ground ? ground_altitude_m(dem, below) : 0.0};
-  double eye_m = wish.height_m;
-  if (wish.height_above_ground) {
+  double eye_m = camera.height_m;
+  if (camera.height_above_ground) {
     if (!known_ground)
       throw Error(ErrorKind::usage, "camera.height_above_ground", "a position outside the terrain, whose ground is not known",
                   "a position on the terrain, or height_above_ground = false");
@@ -111,19 +111,19 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress) {
                   fmt::format("more than {:.0f} m above the datum", ground_m));
   }
 
-  if (wish.look_at || wish.look_at_lonlat) {
-    const glm::dvec2 place = wish.look_at ? *wish.look_at : place_of_lonlat(dem, *wish.look_at_lonlat, "camera.look_at_lonlat");
+  if (camera.look_at || camera.look_at_lonlat) {
+    const glm::dvec2 place = camera.look_at ? *camera.look_at : place_of_lonlat(dem, *camera.look_at_lonlat, "camera.look_at_lonlat");
     // On the exaggerated ground before it is bent or rearranged, so that those alone decide what moves in the picture.
     DeformParameters plain = view.deform;
     plain.summits.clear();
     plain.handles.clear();
-    const double altitude = wish.look_at_altitude_m ? *wish.look_at_altitude_m : ground_altitude_m(dem, place);
+    const double altitude = camera.look_at_altitude_m ? *camera.look_at_altitude_m : ground_altitude_m(dem, place);
     look_towards(view.camera, Deformation(plain, view.viewer_xy).unbent({place, altitude}));
   } else {
-    view.camera.azimuth_deg = wish.azimuth_deg;
-    view.camera.pitch_deg = wish.pitch_deg;
+    view.camera.azimuth_deg = camera.azimuth_deg;
+    view.camera.pitch_deg = camera.pitch_deg;
   }
-  view.camera.pitch_deg += wish.tilt_deg;
+  view.camera.pitch_deg += camera.tilt_deg;
   in_section("camera", [&] { return make_camera(view.camera); });
 
   view.sun = resolve_sun(scene.sun, dem);

@@ -31,7 +31,7 @@ struct World {
   const std::unique_ptr<const Camera> camera;
   const std::shared_ptr<const LandCover> land_cover;
   const Deformation deformation;
-  const TerrainModel terrain;     // generalized as this view wants it, and all that a pixel may ask of the ground
+  const TerrainModel terrain;     // generalized for this view, and all that a pixel may ask of the ground
   const DeformedSurface surface;  // what is traced: generalized, exaggerated, bent; its origin is the eye's place at altitude 0
   const Tracer tracer;
   const double horizon_px;  // row of the skyline's median

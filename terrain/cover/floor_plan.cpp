@@ -16,14 +16,14 @@ constexpr double edge_m = 60.0;          // softness of banks and slope feet bef
 constexpr double grain_m = 340.0;        // how far a bank or a slope foot orders the land
 constexpr float least_gradient = 1e-5F;  // squared, a cell; less is no edge at all
 
-Grid<float> class_mask(const LandCover& cover, const Dem& dem, LandCoverClass wanted) {
+Grid<float> class_mask(const LandCover& cover, const Dem& dem, LandCoverClass requested) {
   const Grid<LandCoverClass>& cells = cover.classes.cells;
   Grid<float> mask(dem.width(), dem.height());
   parallel_rows(dem.height(), [&](int y) {
     for (int x = 0; x < dem.width(); ++x) {
       const glm::dvec2 place = dem.transform.to_crs(x, y);
       const glm::dvec2 at = cover.classes.transform.to_cell(place.x, place.y);
-      mask(x, y) = cells.clamped(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y))) == wanted ? 1.F : 0.F;
+      mask(x, y) = cells.clamped(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y))) == requested ? 1.F : 0.F;
     }
   });
   return mask;

@@ -71,7 +71,7 @@ int label_column(const CsvTable& table) {
   return table.find_any({"label", "name", "descriptive_name", "description", "class_name", "class_names"});
 }
 
-int wanted_column(const CsvTable& table, const std::string& column, const std::string& where) {
+int required_column(const CsvTable& table, const std::string& column, const std::string& where) {
   const int found = table.find(column);
   if (found >= 0) return found;
   const std::string near = nearest_word(column, table.columns);
@@ -169,7 +169,7 @@ void add_csv_rows(Legend& legend, const ConfigTable& root, const std::string& na
   const CsvTable table = read_csv(find_beside(as_string(file, name), folders, config_where(name, file.place)));
   const auto column = [&](const char* key, int guess) {
     const ConfigValue* value = find(root, key);
-    return value == nullptr ? guess : wanted_column(table, as_string(*value, name), config_where(name, value->place));
+    return value == nullptr ? guess : required_column(table, as_string(*value, name), config_where(name, value->place));
   };
   const int codes = column("code", code_column(table));
   const int labels = column("label", label_column(table));
@@ -180,7 +180,7 @@ void add_csv_rows(Legend& legend, const ConfigTable& root, const std::string& na
   if (const ConfigValue* match = find(root, "match")) {
     const ConfigArray one = match->is_array() ? ConfigArray{} : ConfigArray{*match};
     for (const ConfigValue& value : match->is_array() ? as_array(*match, name) : one)
-      searched.push_back(wanted_column(table, as_string(value, name), config_where(name, value.place)));
+      searched.push_back(required_column(table, as_string(value, name), config_where(name, value.place)));
   } else if (labels >= 0) {
     searched.push_back(labels);
   }

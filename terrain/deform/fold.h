@@ -21,7 +21,7 @@ struct Fold {
 // All of them, by rows. Without handles there is none, as all else moves points up and down only.
 std::vector<Fold> find_folds(const Grid<float>& altitude_m, const GeoTransform& transform, const Deformation& deformation);
 
-// What people want to know of them, by the handle whose edge (core or radius) is nearest.
+// What a message says of them, by the handle whose edge (core or radius) is nearest.
 struct FoldSummary {
   std::size_t handle = 0;  // index in DeformParameters::handles
   std::size_t facets = 0;

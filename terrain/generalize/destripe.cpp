@@ -166,7 +166,7 @@ double refine_tilt(const Detail& detail, const Stripes& stripes) {
 // The strongest stripes near this axis.
 Stripes find_stripes(const Detail& detail, bool columns, const DestripeParameters& parameters) {
   const int steps = static_cast<int>(std::lround(parameters.most_tilt / scan_step));
-  // What lies outside the wanted tilts still says how coherent plain terrain is.
+  // What lies outside the tilts looked for still says how coherent plain terrain is.
   const int scanned = std::max(steps, 30);
   std::vector<double> tilts;
   for (int i = -scanned; i <= scanned; ++i) tilts.push_back(i * scan_step);

@@ -78,12 +78,12 @@ const GeneralizePreset* find_generalize_preset(std::string_view name) {
 
 void choose_weights(GeneralizeParameters& bands, const WrittenWeights& written, const GeneralizePreset* preset) {
   using Set = Weights GeneralizeParameters::*;
-  const auto choose_near = [&](const Weights& wish, Set near_set, const Weights& otherwise) {
-    return !wish.empty() ? wish : preset != nullptr ? preset->bands.*near_set : otherwise;
+  const auto choose_near = [&](const Weights& own_set, Set near_set, const Weights& otherwise) {
+    return !own_set.empty() ? own_set : preset != nullptr ? preset->bands.*near_set : otherwise;
   };
-  const auto choose_far = [&](const Weights& wish, Set far_set, Set near_set) {
+  const auto choose_far = [&](const Weights& own_set, Set far_set, Set near_set) {
     const bool own = preset != nullptr && preset->bands.*far_set != preset->bands.*near_set;
-    return !wish.empty() ? wish : own ? preset->bands.*far_set : bands.*near_set;
+    return !own_set.empty() ? own_set : own ? preset->bands.*far_set : bands.*near_set;
   };
   using P = GeneralizeParameters;
   const std::size_t count = written.background.empty() ? P().foreground.size() : written.background.size();

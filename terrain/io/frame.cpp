@@ -82,7 +82,7 @@ glm::dvec2 middle_of(const std::vector<RasterFile>& files) {
   return PointTransform(files[0].crs(), "EPSG:4326").apply(middle_of(files[0]));
 }
 
-std::string choose_crs(const std::vector<RasterFile>& files, const std::string& wanted) {
+std::string choose_crs(const std::vector<RasterFile>& files, const std::string& requested) {
   const RasterFile& first = files[0];
   const std::string& own = first.required_crs();
   const glm::dvec2 middle = middle_of(files);
@@ -94,8 +94,8 @@ std::string choose_crs(const std::vector<RasterFile>& files, const std::string& 
     const glm::dvec2 there = PointTransform("EPSG:4326", crs).apply(middle);
     return crs_traits(crs).metric && std::isfinite(there.x) && true_to_scale(crs, there);
   };
-  if (wanted.empty()) return fits(own) ? own : utm;
-  std::string crs = normalize_crs(wanted);
+  if (requested.empty()) return fits(own) ? own : utm;
+  std::string crs = normalize_crs(requested);
   if (fits(crs)) return crs;
   throw Error(ErrorKind::usage, "crs", fmt::format("{} does not give true metres here", describe_crs(crs)),
               fmt::format("a metric coordinate system made for this region, such as {}", describe_crs(utm)));

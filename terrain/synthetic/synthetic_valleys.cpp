@@ -126,17 +126,17 @@ void dam_valleys(Grid<float>& altitude_m, const Drainage& drainage, const Grid<f
   std::sort(places.begin(), places.end());
 
   const double map_km2 = static_cast<double>(altitude_m.size()) * p.cell_m * p.cell_m * 1e-6 / static_cast<double>(unit2);
-  const auto wanted = static_cast<std::size_t>(std::max(2.0, std::round(map_km2 / 260.0)));
+  const auto target_count = static_cast<std::size_t>(std::max(2.0, std::round(map_km2 / 260.0)));
   std::vector<std::int32_t> dams;
   for (const auto& [chance, i] : places) {
-    if (dams.size() >= wanted) break;
+    if (dams.size() >= target_count) break;
     const int cx = i % width;
     const int cy = i / width;
     const bool near = std::any_of(dams.begin(), dams.end(), [&](std::int32_t d) {
       return std::hypot(d % width - cx, d / width - cy) * p.cell_m < 5000.0 * p.unit_m;
     });
     if (near) continue;
-    // The lowest dam that holds a lake of the wanted size.
+    // The lowest dam that holds a lake of the size sought.
     const double area_m2 =
         (0.35 + 3.4 * draw_uniform(p.seed, cx, cy, TerrainDraw::dam_size) * draw_uniform(p.seed, cx, cy, TerrainDraw::dam_share)) * 1e6 *
         static_cast<double>(unit2);

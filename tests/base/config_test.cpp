@@ -158,7 +158,7 @@ TEST(Config, CommandLineValues) {
   EXPECT_THAT(usage_of([] { parse_config_value("1\nother = 2", "--set x"); }), HasSubstr("one value"));
 }
 
-TEST(Config, StrictAccessNamesFindingAndWish) {
+TEST(Config, StrictAccessNamesFindingAndWhatIsAllowed) {
   const ConfigValue root = parse_config("n = \"abc\"\nx = nan\ni = 1.5\n", "p.toml");
   const ConfigTable& table = as_table(root, "p.toml");
   EXPECT_THAT(usage_of([&] { as_number(*find(table, "n"), "p.toml"); }),

@@ -130,13 +130,13 @@ double covered_share(const std::vector<Exemplar>& exemplars, const GuideStack& t
       for (int v = std::max(0, values[i] - reach); v <= std::min(255, values[i] + reach); ++v) served[static_cast<std::size_t>(v)] = true;
     }
   }
-  const Grid<std::uint8_t>& wanted = values_of(target);
+  const Grid<std::uint8_t>& requested = values_of(target);
   std::size_t pixels = 0;
   std::size_t covered = 0;
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
+  for (std::size_t i = 0; i < requested.size(); ++i) {
     if (target.label[i] != label) continue;
     ++pixels;
-    covered += served[wanted[i]] ? 1 : 0;
+    covered += served[requested[i]] ? 1 : 0;
   }
   return pixels == 0 ? 1.0 : static_cast<double>(covered) / static_cast<double>(pixels);
 }

@@ -43,7 +43,7 @@ double ratio(double output, double exemplar) {
 
 void measure_copying(const MatchField& matches, const std::vector<Exemplar>& exemplars, const GuideStack& target,
                      const QualityParameters& parameters, SynthesisQuality& quality) {
-  const Grid<std::uint8_t>* wanted = target.find(parameters.guide);
+  const Grid<std::uint8_t>* requested = target.find(parameters.guide);
   std::array<std::size_t, 256> errors{};
   std::vector<Grid<std::uint32_t>> uses;
   uses.reserve(exemplars.size());
@@ -62,7 +62,7 @@ void measure_copying(const MatchField& matches, const std::vector<Exemplar>& exe
     if (source.label(m.x, m.y) == unused_label) ++quality.excluded_used;
     quality.most_used = std::max(quality.most_used, static_cast<int>(++uses[m.exemplar](m.x, m.y)));
     const Grid<std::uint8_t>* offered = source.find(parameters.guide);
-    if (wanted != nullptr && offered != nullptr) ++errors[static_cast<std::size_t>(std::abs((*wanted)[i] - (*offered)(m.x, m.y)))];
+    if (requested != nullptr && offered != nullptr) ++errors[static_cast<std::size_t>(std::abs((*requested)[i] - (*offered)(m.x, m.y)))];
   }
   if (matched > 0) quality.label_agreement = static_cast<double>(agreeing) / static_cast<double>(matched);
   std::size_t used = 0;
@@ -130,11 +130,11 @@ void weigh_texels(const std::vector<Exemplar>& exemplars, const GuideStack& targ
   };
   bool shared = target.find(guide) != nullptr;
   for (const Exemplar& exemplar : exemplars) shared = shared && exemplar.guides.find(guide) != nullptr;
-  std::array<double, guide_steps * border_steps> wanted{};
+  std::array<double, guide_steps * border_steps> requested{};
   std::array<double, guide_steps * border_steps> offered{};
   const Grid<std::uint8_t>* values = shared ? target.find(guide) : nullptr;
   for (std::size_t i = 0; i < target.label.size(); ++i) {
-    if (target.label[i] == label) ++wanted[cell(values, borders.target, i)];
+    if (target.label[i] == label) ++requested[cell(values, borders.target, i)];
   }
   for (int pass = 0; pass < 2; ++pass) {
     for (std::size_t e = 0; e < exemplars.size(); ++e) {
@@ -146,7 +146,7 @@ void weigh_texels(const std::vector<Exemplar>& exemplars, const GuideStack& targ
         if (pass == 0)
           ++offered[at];
         else
-          weights[e][i] = static_cast<float>(wanted[at] / offered[at]);
+          weights[e][i] = static_cast<float>(requested[at] / offered[at]);
       }
     }
   }

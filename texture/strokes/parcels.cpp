@@ -86,9 +86,9 @@ constexpr std::array<glm::vec3, crop_count> colours = {{
 
 Parcel parcel_at(std::uint64_t seed, double east_m, double north_m, float metres_per_unit, glm::vec2 grain) {
   // Powers of two: neighbours at the same distance agree, and between two distances there is one clean change.
-  const double wanted = std::max(1.0, narrowest_units * static_cast<double>(metres_per_unit) / width_on_the_ground_m);
-  const int halvings = std::ilogb(wanted);
-  const double width = width_on_the_ground_m * std::ldexp(1.0, std::ldexp(1.0, halvings) < wanted ? halvings + 1 : halvings);
+  const double least_factor = std::max(1.0, narrowest_units * static_cast<double>(metres_per_unit) / width_on_the_ground_m);
+  const int halvings = std::ilogb(least_factor);
+  const double width = width_on_the_ground_m * std::ldexp(1.0, std::ldexp(1.0, halvings) < least_factor ? halvings + 1 : halvings);
   // Borders of blocks are bent, as lanes are.
   const double bend = 0.5 * width * gaussian_noise(stream_seed(seed, Stream::field_bends), east_m, north_m, 4.0 * width);
   const BlockPlace block = find_block(seed, {east_m + bend, north_m - bend}, block_widths * width);

@@ -70,8 +70,8 @@ struct Plot {
   bool street;  // left open: a lane across the rows
 };
 
-// A pitch that holds `wanted_m`, in steps of the square root of 2: neighbours agree on it.
-double pitch_m(double wanted_m) { return exact::exp2(0.5 * std::ceil(2.0 * exact::log2(std::max(wanted_m, 1.0)))); }
+// A pitch that holds `least_m`, in steps of the square root of 2: neighbours agree on it.
+double pitch_m(double least_m) { return exact::exp2(0.5 * std::ceil(2.0 * exact::log2(std::max(least_m, 1.0)))); }
 
 bool find_plot(const StrokeScene& scene, Stream stream, glm::vec2 at, Plot& plot) {
   const std::size_t i = scene.pixel(at);

@@ -127,7 +127,7 @@ std::vector<Stroke> scattered_trees(const StrokeScene& scene, Stream stream) {
   return sow(scene, 4.2F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
     if (!has_trait(id, ClassTrait::lone_trees)) return;
-    const auto is = [&](LandCoverClass wanted) { return [&scene, wanted](std::size_t k) { return scene.class_at(k) == wanted; }; };
+    const auto is = [&](LandCoverClass asked) { return [&scene, asked](std::size_t k) { return scene.class_at(k) == asked; }; };
     // Stretches along brooks and fields that are planted, and places where copses stand; between them the land is bare.
     const float stretch = patch_noise(scene, i, Stream::tree_stretches, 12.0);
     const float copse = patch_noise(scene, i, Stream::copses, 5.0);

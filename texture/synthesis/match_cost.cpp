@@ -100,17 +100,17 @@ Grid<std::uint8_t> guide_error(const MatchField& matches, const std::vector<Exem
                                const std::string& guide) {
   check_matches(matches, exemplars);
   check_size(matches, target.width(), target.height());
-  const Grid<std::uint8_t>* wanted = target.find(guide);
+  const Grid<std::uint8_t>* requested = target.find(guide);
   std::vector<const Grid<std::uint8_t>*> offered;
   offered.reserve(exemplars.size());
   for (const Exemplar& exemplar : exemplars) offered.push_back(exemplar.guides.find(guide));
-  if (wanted == nullptr || std::find(offered.begin(), offered.end(), nullptr) != offered.end())
+  if (requested == nullptr || std::find(offered.begin(), offered.end(), nullptr) != offered.end())
     throw Error(ErrorKind::usage, "costs of a match field", fmt::format("guide \"{}\" is missing on one side", guide),
                 "guides of the target and of every exemplar");
   Grid<std::uint8_t> out(matches.width(), matches.height(), 0);
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const Match& m = matches[i];
-    if (m.exemplar != Match::none) out[i] = static_cast<std::uint8_t>(std::abs((*wanted)[i] - (*offered[m.exemplar])(m.x, m.y)));
+    if (m.exemplar != Match::none) out[i] = static_cast<std::uint8_t>(std::abs((*requested)[i] - (*offered[m.exemplar])(m.x, m.y)));
   }
   return out;
 }

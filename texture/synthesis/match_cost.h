@@ -11,8 +11,8 @@
 namespace belvedere {
 
 // What a match field costs where it stands, in the units of synthesis (synth_kernel.h: 1 is an eighth of a weighted squared 8-bit
-// difference). Costs are as wished, without what synthesis lets pass because no texel could do better. All throw Error(usage) where
-// sizes disagree. Pixels without a texel cost 0.
+// difference). Costs are of what is asked for, without what synthesis lets pass because no texel could do better. All throw Error(usage)
+// where sizes disagree. Pixels without a texel cost 0.
 
 // How often each texel is copied, by exemplar.
 std::vector<Grid<std::uint32_t>> texel_uses(const MatchField& matches, const std::vector<Exemplar>& exemplars);

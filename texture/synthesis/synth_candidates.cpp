@@ -54,14 +54,14 @@ namespace {
 // The cheapest of the first `draws` entries of a run, by guides, surroundings and what `further` adds.
 template <class F>
 std::uint32_t cheapest_entry(const KernelView& view, std::uint32_t pixel, const PickRun& run, int draws, Slack slack, F&& further) {
-  const std::uint8_t* wanted = view.target->guides_at(pixel);
+  const std::uint8_t* requested = view.target->guides_at(pixel);
   slack.others = nullptr;  // picks are as good as they can be
   std::uint32_t best = view.exemplars->nowhere();
   std::int64_t best_cost = INT64_MAX;
   for (std::uint32_t i = 0; i < std::min(run.count, static_cast<std::uint32_t>(draws)); ++i) {
     const PickLists::Entry entry = view.lists->entry(run.entry(i));
     const std::int64_t cost =
-        guide_cost(view, wanted, entry.guides(), slack) + surroundings_cost(view, pixel, entry.around()) + further(entry);
+        guide_cost(view, requested, entry.guides(), slack) + surroundings_cost(view, pixel, entry.around()) + further(entry);
     if (cost < best_cost) {
       best_cost = cost;
       best = entry.texel();
@@ -71,7 +71,7 @@ std::uint32_t cheapest_entry(const KernelView& view, std::uint32_t pixel, const 
 }
 
 int draws_at(const KernelView& view, std::uint32_t pixel) {
-  const bool at_border = view.around_price != nullptr && view.wanted_around[pixel].others > border_others;
+  const bool at_border = view.around_price != nullptr && view.target_around[pixel].others > border_others;
   return at_border ? std::max(view.draws, view.border_draws) : view.draws;
 }
 

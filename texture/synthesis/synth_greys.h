@@ -31,11 +31,11 @@ inline Greys greys_around(const Plane& plane, std::uint32_t at) {
   return greys;
 }
 
-// Sum of squared differences at the places that count in `wanted`.
-inline std::int32_t grey_distance(const Greys& wanted, const std::uint8_t* offered) {
+// Sum of squared differences at the places that count in `requested`.
+inline std::int32_t grey_distance(const Greys& requested, const std::uint8_t* offered) {
   std::int32_t sum = 0;
   for (std::size_t i = 0; i < grey_places; ++i) {
-    const std::int32_t off = std::abs(wanted.values[i] - offered[i]) & wanted.counts[i];
+    const std::int32_t off = std::abs(requested.values[i] - offered[i]) & requested.counts[i];
     sum += off * off;
   }
   return sum;

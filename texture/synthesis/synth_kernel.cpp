@@ -122,7 +122,7 @@ HWY_INLINE std::int64_t PatchCost(const Patch& patch, const std::uint32_t* texel
 struct Search {
   const KernelView* view = nullptr;
   std::uint32_t label_class = no_class;
-  const std::uint8_t* wanted = nullptr;
+  const std::uint8_t* requested = nullptr;
   Slack slack;
   alignas(8) std::uint8_t free[vector_guides] = {};  // slack of each guide, for GuideCost
   Surroundings around;
@@ -137,7 +137,7 @@ struct Search {
   HWY_INLINE void Begin(const KernelView& state, std::uint32_t pixel) {
     view = &state;
     label_class = class_of(state.target->words[pixel]);
-    wanted = state.target->guides_at(pixel);
+    requested = state.target->guides_at(pixel);
     slack = make_slack(state, pixel);
     if (state.vector_weights != nullptr) {
       const int count = std::min(state.exemplars->guide_count, vector_guides);
@@ -145,7 +145,7 @@ struct Search {
       free[1] = static_cast<std::uint8_t>(std::min(255, slack.bucketed));
       for (int g = 2; g < count && slack.others != nullptr; ++g) free[g] = slack.others[g];
     }
-    if (state.around_price != nullptr) around = state.wanted_around[pixel];
+    if (state.around_price != nullptr) around = state.target_around[pixel];
     if (state.links != nullptr && (state.links[pixel] & link::all) != link::all) forbidden = forbidden_texels(state, pixel);
     own = best = state.match[pixel];
     LoadPatch(state, pixel, patch);
@@ -153,14 +153,14 @@ struct Search {
 
   // guide_cost, for up to 8 guides at once where their prices fit 32 bits.
   HWY_INLINE std::int64_t GuideCost(const std::uint8_t* offered) const {
-    if (view->vector_weights == nullptr) return guide_cost(*view, wanted, offered, slack);
+    if (view->vector_weights == nullptr) return guide_cost(*view, requested, offered, slack);
     const hn::CappedTag<std::uint32_t, 4> d32;
     const hn::CappedTag<std::uint16_t, 8> d16;
     const hn::Rebind<std::uint8_t, decltype(d16)> d8;
     const hn::Rebind<std::uint16_t, decltype(d32)> half;
     auto sum = hn::Zero(d32);
     for (std::size_t i = 0; i < vector_guides; i += hn::Lanes(d16)) {
-      const auto a = hn::LoadU(d8, wanted + i);
+      const auto a = hn::LoadU(d8, requested + i);
       const auto b = hn::LoadU(d8, offered + i);
       const auto off = hn::SaturatedSub(hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)), hn::LoadU(d8, free + i));
       const auto wide = hn::PromoteTo(d16, off);
@@ -309,7 +309,7 @@ int BestMove(const KernelView& view, const std::vector<PieceSample>& samples, co
       }
       const TexelRecords::Record record = view.texels->at(texel);
       const std::int64_t others = record.uses();
-      cost += guide_cost(view, search.wanted, record.guides(), search.slack) + search.AroundCost(record.around()) +
+      cost += guide_cost(view, search.requested, record.guides(), search.slack) + search.AroundCost(record.around()) +
               (others * (others + 1) / 2 * view.reuse_q4[search.label_class] >> 4) + view.bin_cost[search.label_class * 64 + record.bin()];
       cost += PatchCost(search.patch, exemplars.words.data() + texel, exemplars.stride, no_price);
     }

@@ -45,7 +45,7 @@ struct KernelView {
   const Plane* exemplars = nullptr;
   const PickLists* lists = nullptr;
   const std::uint8_t* links = nullptr;          // by target index; null: no silhouettes
-  const Surroundings* wanted_around = nullptr;  // by target index: classes around; null: not priced
+  const Surroundings* target_around = nullptr;  // by target index: classes around; null: not priced
   const SurroundingsPrice* around_price = nullptr;
   const GuideRole* guides = nullptr;              // exemplars->guide_count of them
   const std::uint32_t* vector_weights = nullptr;  // vector_guides weights, 0 beyond the last; null: one by one
@@ -75,9 +75,9 @@ struct Slack {
   const std::uint8_t* others = nullptr;  // by guide, from 2 on; null: nothing
 };
 Slack make_slack(const KernelView& view, std::uint32_t pixel);
-inline std::int64_t guide_cost(const KernelView& view, const std::uint8_t* wanted, const std::uint8_t* offered, Slack slack) {
+inline std::int64_t guide_cost(const KernelView& view, const std::uint8_t* requested, const std::uint8_t* offered, Slack slack) {
   const auto price_of = [&](int g, int free) {
-    const std::int32_t off = std::max(0, std::abs(wanted[g] - offered[g]) - free);
+    const std::int32_t off = std::max(0, std::abs(requested[g] - offered[g]) - free);
     return view.guides[g].weight_q4 * off * off;
   };
   const int count = view.exemplars->guide_count;
@@ -99,7 +99,7 @@ std::uint32_t finish_fitting_draw(const KernelView& view, std::uint32_t pixel, c
 
 // What the classes around a texel cost; 0 where they are not priced.
 inline std::int64_t surroundings_cost(const KernelView& view, std::uint32_t pixel, Surroundings offered) {
-  return view.around_price == nullptr ? 0 : (*view.around_price)(view.wanted_around[pixel], offered);
+  return view.around_price == nullptr ? 0 : (*view.around_price)(view.target_around[pixel], offered);
 }
 
 // Texels that a pixel must not copy, because a neighbour across a silhouette copies by the same offset: no piece runs on behind a ridge.

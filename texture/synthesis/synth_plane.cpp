@@ -125,12 +125,12 @@ Grid<float> halve_depth(const Grid<float>& depth_m, const Plane& fine, const Pla
   Grid<float> out(coarse.parts[0].width, coarse.parts[0].height);
   for (int y = 0; y < out.height(); ++y) {
     for (int x = 0; x < out.width(); ++x) {
-      const std::uint32_t wanted = class_of(coarse.words[coarse.index(0, x, y)]);
+      const std::uint32_t label_class = class_of(coarse.words[coarse.index(0, x, y)]);
       out(x, y) = depth_m(2 * x, 2 * y);
       for (int child = 0; child < 4; ++child) {
         const int fx = std::min(2 * x + (child & 1), depth_m.width() - 1);
         const int fy = std::min(2 * y + (child >> 1), depth_m.height() - 1);
-        if (class_of(fine.words[fine.index(0, fx, fy)]) == wanted) {
+        if (class_of(fine.words[fine.index(0, fx, fy)]) == label_class) {
           out(x, y) = depth_m(fx, fy);
           break;
         }

@@ -30,7 +30,7 @@ void find_moves(const LevelState& state, const KernelView& view, const Member* m
                 std::vector<Move>& moves) {
   constexpr int picks = 24;
   constexpr int far_enough = 8;  // texels from where the group copies from now
-  constexpr int samples_wanted = 12;
+  constexpr int target_samples = 12;
   const Plane& exemplars = state.exemplars;
   const Member& middle = members[count / 2];
   const std::uint32_t pixel = state.target.index(0, middle.x, middle.y);
@@ -44,7 +44,7 @@ void find_moves(const LevelState& state, const KernelView& view, const Member* m
     if (place.part == now.part && std::abs(place.x - now.x) < far_enough && std::abs(place.y - now.y) < far_enough) continue;
     candidates.push_back(texel);
   }
-  const int step = std::max(1, count / samples_wanted);
+  const int step = std::max(1, count / target_samples);
   std::vector<PieceSample> samples;
   for (int i = step / 2; i < count; i += step) {
     samples.push_back({state.target.index(0, members[i].x, members[i].y), members[i].x - middle.x, members[i].y - middle.y});

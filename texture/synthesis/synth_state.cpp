@@ -34,10 +34,10 @@ std::vector<std::uint8_t> usual_errors_of_picks(const LevelState& state, int cla
       const std::uint32_t at = state.target.index(0, x, y);
       const std::uint32_t label_class = class_of(state.target.words[at]);
       if (label_class == no_class) continue;
-      const std::uint8_t* wanted = state.target.guides_at(at);
+      const std::uint8_t* requested = state.target.guides_at(at);
       const std::uint8_t* offered = state.exemplars.guides_at(draw_texel(view, at, key, x, y, make_slack(view, at)));
       for (std::size_t g = 0; g < guides; ++g) {
-        ++counts[(label_class * guides + g) * 256 + static_cast<std::size_t>(std::abs(wanted[g] - offered[g]))];
+        ++counts[(label_class * guides + g) * 256 + static_cast<std::size_t>(std::abs(requested[g] - offered[g]))];
       }
     }
   }
@@ -114,7 +114,7 @@ LevelState::LevelState(const LevelSettings& level_settings, const std::vector<Gu
     if (c != no_class && !lists.has_class(c)) target.words[at] |= no_class << 24;
   });
   if (!around_price.is_free()) {
-    wanted_around = make_surroundings(target, settings.surroundings_radius, classes);
+    target_around = make_surroundings(target, settings.surroundings_radius, classes);
   }
   usual_error = usual_errors_of_picks(*this, classes);
 }
@@ -125,8 +125,8 @@ KernelView LevelState::view(int pass) const {
   view.exemplars = &exemplars;
   view.lists = &lists;
   view.links = links.empty() ? nullptr : links.data();
-  if (!wanted_around.empty()) {
-    view.wanted_around = wanted_around.data();
+  if (!target_around.empty()) {
+    view.target_around = target_around.data();
     view.around_price = &around_price;
     view.border_draws = settings.border_draws;
   }

@@ -50,7 +50,7 @@ struct LevelState {
   SurroundingsPrice around_price;
   TexelRecords texels;
   PickLists lists;
-  std::vector<Surroundings> wanted_around;  // by target index; empty: surroundings are not priced
+  std::vector<Surroundings> target_around;  // by target index; empty: surroundings are not priced
   std::vector<std::uint8_t> usual_error;    // by class × guide: median error of picks
   std::vector<std::uint32_t> match;         // by target index: exemplar index, exemplars.nowhere() in padding and without class
   std::vector<std::uint32_t> next;          // matches found by a sub-pass: every second pixel of every second row

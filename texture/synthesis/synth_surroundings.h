@@ -25,11 +25,12 @@ class SurroundingsPrice {
   SurroundingsPrice(std::int64_t weight_q8, std::vector<std::uint8_t> pairs, int classes)
       : weight_q8_(weight_q8), pairs_(std::move(pairs)), classes_(static_cast<std::size_t>(classes)) {}
   bool is_free() const { return weight_q8_ == 0; }
-  std::int64_t operator()(Surroundings wanted, Surroundings offered) const {
-    const std::int64_t u = wanted.others;
+  std::int64_t operator()(Surroundings requested, Surroundings offered) const {
+    const std::int64_t u = requested.others;
     const std::int64_t v = offered.others;
     std::int64_t sum = 2 * (u - v) * (u - v);
-    if (wanted.commonest != offered.commonest && u * v > 0) sum += u * v * pairs_[wanted.commonest * classes_ + offered.commonest] / 8;
+    if (requested.commonest != offered.commonest && u * v > 0)
+      sum += u * v * pairs_[requested.commonest * classes_ + offered.commonest] / 8;
     return sum * weight_q8_ >> 8;
   }
 

@@ -102,11 +102,11 @@ struct Classes {
 Classes number_classes(const std::vector<Exemplar>& exemplars, const GuideStack& target, const SynthesisParameters& parameters,
                        Progress& progress) {
   std::array<bool, 256> offered{};
-  std::array<std::size_t, 256> wanted{};
+  std::array<std::size_t, 256> requested{};
   for (const Exemplar& exemplar : exemplars) {
     for (const std::uint8_t label : exemplar.guides.label) offered[label] = true;
   }
-  for (const std::uint8_t label : target.label) ++wanted[label];
+  for (const std::uint8_t label : target.label) ++requested[label];
   Classes classes;
   classes.of_exemplar.fill(synth::no_class);
   classes.of_target.fill(synth::no_class);
@@ -115,15 +115,15 @@ Classes number_classes(const std::vector<Exemplar>& exemplars, const GuideStack&
   }
   for (std::size_t label = 0; label < unused_label; ++label) {
     classes.of_target[label] = classes.of_exemplar[label];
-    if (wanted[label] == 0 || offered[label]) continue;
+    if (requested[label] == 0 || offered[label]) continue;
     const auto fallback = parameters.fallback.find(static_cast<std::uint8_t>(label));
     if (fallback != parameters.fallback.end() && classes.of_exemplar[fallback->second] != synth::no_class) {
       classes.of_target[label] = classes.of_exemplar[fallback->second];
       progress.note(
-          fmt::format("class {} has no texels in any exemplar: {} pixels copy from class {}", label, wanted[label], fallback->second));
+          fmt::format("class {} has no texels in any exemplar: {} pixels copy from class {}", label, requested[label], fallback->second));
     } else {
       progress.note(
-          fmt::format("class {} has no texels in any exemplar and no fallback: {} pixels stay without texture", label, wanted[label]));
+          fmt::format("class {} has no texels in any exemplar and no fallback: {} pixels stay without texture", label, requested[label]));
     }
   }
   return classes;
@@ -175,11 +175,11 @@ synth::Plane target_plane(const GuideStack& target, const std::vector<PairedGuid
   return plane;
 }
 
-int level_count(const std::vector<Exemplar>& exemplars, const GuideStack& target, int wanted) {
+int level_count(const std::vector<Exemplar>& exemplars, const GuideStack& target, int requested) {
   int side = std::min(target.width(), target.height());
   for (const Exemplar& exemplar : exemplars) side = std::min({side, exemplar.picture.width(), exemplar.picture.height()});
   int levels = 1;
-  while (levels < wanted && (side >> levels) >= least_side) ++levels;
+  while (levels < requested && (side >> levels) >= least_side) ++levels;
   return levels;
 }
 

@@ -112,14 +112,14 @@ int run(int argc, char** argv) {
   app.add_option("--threads", threads, "Threads; 0 for all")->check(CLI::Range(0, 1024));
   app.add_option("section", only, "The section to run; all by default");
   CLI11_PARSE(app, argc, argv);
-  const auto wanted = [&](const Section& section) { return only.empty() || section.name == only; };
-  if (std::none_of(sections().begin(), sections().end(), wanted)) throw Error(ErrorKind::usage, "section", only, sections_text);
+  const auto requested = [&](const Section& section) { return only.empty() || section.name == only; };
+  if (std::none_of(sections().begin(), sections().end(), requested)) throw Error(ErrorKind::usage, "section", only, sections_text);
   const ThreadLimit limit(threads);
 
   std::string body;
   double peak = 0.0;
   for (const Section& section : sections()) {
-    if (!wanted(section)) continue;
+    if (!requested(section)) continue;
     std::string lines;
     const std::vector<Measurement> measured = section.run(options);
     peak = std::max(peak, peak_memory_mb());

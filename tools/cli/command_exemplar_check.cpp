@@ -67,7 +67,8 @@ Subject from_files(const Options& options) {
   for (const auto& [name, file] : options.target_guides) {
     if (options.target.empty())
       throw Error(ErrorKind::usage, "command line", fmt::format("there is --target-guide {} and no --target", name), "--target LABELS");
-    if (std::none_of(files.guides.begin(), files.guides.end(), [&, wanted = name](const GuidePair& guide) { return guide.name == wanted; }))
+    if (std::none_of(files.guides.begin(), files.guides.end(),
+                     [&, target_guide = name](const GuidePair& guide) { return guide.name == target_guide; }))
       throw Error(ErrorKind::usage, "command line", fmt::format("there is --target-guide {} and no --guide {}", name, name),
                   "the same guide of the painting");
   }

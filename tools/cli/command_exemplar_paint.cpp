@@ -38,10 +38,10 @@ void refuse_sheet_options(const Options& options) {
 
 Coverage paint_scene(const Options& options, const Run& run) {
   refuse_sheet_options(options);
-  SceneOptions wish = options.scene;
-  if (options.season) wish.files.settings.push_back("palette=" + *options.season);
-  if (options.seed) wish.files.settings.push_back(fmt::format("seed={}", *options.seed));
-  return write_scene_exemplar(load(wish), options.out, run);
+  SceneOptions scene = options.scene;
+  if (options.season) scene.files.settings.push_back("palette=" + *options.season);
+  if (options.seed) scene.files.settings.push_back(fmt::format("seed={}", *options.seed));
+  return write_scene_exemplar(load(scene), options.out, run);
 }
 
 Coverage paint_sheet_of(const Options& options, const Run& run) {

@@ -39,11 +39,11 @@ void check_layers(const ReplayFiles& files, const StoredMatches& stored, const s
            fmt::format("{}, a layer of each painting {} copies from, in this order: {}", stored.pictures.size(), files.match, names));
   }
   for (std::size_t i = 0; i < stored.pictures.size(); ++i) {
-    const MatchedPicture& wanted = stored.pictures[i];
-    if (infos[i].width != wanted.width || infos[i].height != wanted.height)
+    const MatchedPicture& painting = stored.pictures[i];
+    if (infos[i].width != painting.width || infos[i].height != painting.height)
       refuse(files.layers[i], fmt::format("has {} × {} pixels", infos[i].width, infos[i].height),
-             fmt::format("{} × {}, as {}, which {} copies from: a layer lies on its painting texel for texel", wanted.width, wanted.height,
-                         wanted.name, files.match));
+             fmt::format("{} × {}, as {}, which {} copies from: a layer lies on its painting texel for texel", painting.width,
+                         painting.height, painting.name, files.match));
   }
   // Without that note in the file only what is copied can tell.
   for (std::size_t i = 0; i < stored.matches.size(); ++i) {

@@ -57,7 +57,7 @@ void fill(Grid<glm::vec3>& picture, int x0, int y0, int width, int height, glm::
 // values.
 Grid<glm::vec3> coverage_chart(const Exemplar& exemplar, const ExemplarSurvey& survey, const Guide& guide, const GuideStack& asked,
                                const ExemplarFindings& findings) {
-  const Grid<std::uint8_t>* wanted = asked.label.empty() ? nullptr : asked.find(guide.name);
+  const Grid<std::uint8_t>* requested = asked.label.empty() ? nullptr : asked.find(guide.name);
   const int rows = static_cast<int>(survey.classes.size());
   constexpr int pitch = row_px + 8;
   Grid<glm::vec3> chart(names_px + 256 * step_px, rows * pitch + row_px, glm::vec3(1.F));
@@ -66,7 +66,7 @@ Grid<glm::vec3> coverage_chart(const Exemplar& exemplar, const ExemplarSurvey& s
     const int y0 = r * pitch;
     draw_text(chart, 2, y0 + 4, findings.name(label), glm::vec3(0.F), 1);
     const Counts texels = count_values(guide.values, exemplar.guides.label, label);
-    const Counts pixels = wanted == nullptr ? Counts{} : count_values(*wanted, asked.label, label);
+    const Counts pixels = requested == nullptr ? Counts{} : count_values(*requested, asked.label, label);
     Grid<float> shares(256, 1);
     const float most = common_count(texels);
     // The root lets few texels be seen beside many.

@@ -11,7 +11,7 @@ namespace belvedere::tools {
 
 // The findings of `exemplar check` with pictures, in a folder that can be moved and read without a network: index.html, report.json, each
 // painting beside its classes, a swatch of every class, and for each guide at which values a class was painted and, where `asked` has
-// labels (those pixels copy from) and the guide, at which it is wanted. exemplars: those of the findings. Throws Error(output).
+// labels (those pixels copy from) and the guide, at which it is asked for. exemplars: those of the findings. Throws Error(output).
 void write_exemplar_report(const std::string& folder, const std::vector<Exemplar>& exemplars, const GuideStack& asked,
                            const ExemplarFindings& findings, const std::string& command);
 

@@ -187,14 +187,14 @@ void add_reuse(ReportFolder& page, const SynthesisReportInput& in, const Synthes
 }
 
 void add_costs(ReportFolder& page, const SynthesisReportInput& in, const SynthesisFindings& found) {
-  page.begin_figure("costs", "What each wish costs",
+  page.begin_figure("costs", "What seams and guides cost",
                     "Seams: how ill the texels around each pixel go together. Guides: weight times the squared difference between what is "
                     "asked and what was found. A guide whose share is small could as well have more weight; one that outweighs seams tears "
                     "strokes apart. White is the 99th percentile of each map.");
   double total = found.seam_mean;
   for (const GuideFindings& guide : found.guides) total += guide.cost_mean;
   const auto share = [total](double cost) { return total > 0.0 ? fmt::format("{:.0f} %", 100.0 * cost / total) : std::string("–"); };
-  std::string table = "<table>" + html_row({"wish", "weight", "off by, mean", "off by, 95 %", "cost, mean", "share"}, "th");
+  std::string table = "<table>" + html_row({"term", "weight", "off by, mean", "off by, 95 %", "cost, mean", "share"}, "th");
   table += html_row({"seams", "–", "–", "–", fmt::format("{:.0f}", found.seam_mean), share(found.seam_mean)});
   for (const GuideFindings& guide : found.guides)
     table += html_row({html_escaped(guide.name), fmt::format("{:.3g}", guide.weight), fmt::format("{:.2f}", guide.error_mean),
@@ -234,8 +234,8 @@ void add_worst_places(ReportFolder& page, const SynthesisReportInput& in, const 
     if (!place.guide.empty()) {
       std::vector<const Grid<std::uint8_t>*> offered;
       for (const Exemplar& from : in.exemplars) offered.push_back(&guide_values(from.guides, place.guide));
-      const Grid<std::uint8_t> wanted = cut(guide_values(in.target, place.guide), place.window);
-      show("asked", grey_picture(wanted), html_escaped(place.guide) + " asked for");
+      const Grid<std::uint8_t> asked = cut(guide_values(in.target, place.guide), place.window);
+      show("asked", grey_picture(asked), html_escaped(place.guide) + " asked for");
       show("found", grey_picture(replay(cut(in.matches, place.window), offered, Grid<std::uint8_t>())),
            html_escaped(place.guide) + " found");
     } else if (place.why == "seams") {

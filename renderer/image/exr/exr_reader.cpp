@@ -162,7 +162,7 @@ std::vector<Grid<T>> read_some(const std::string& path, const std::vector<PartHe
                                bool ids) {
   std::vector<Grid<T>> out(channels.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    std::vector<std::size_t> wanted;
+    std::vector<std::size_t> present;
     for (std::size_t c = 0; c < channels.size(); ++c) {
       const Imf::Channel* found = out[c].empty() ? find_channel(path, parts[p], channels[c]) : nullptr;
       if (found == nullptr) continue;
@@ -170,12 +170,12 @@ std::vector<Grid<T>> read_some(const std::string& path, const std::vector<PartHe
         throw Error(ErrorKind::input, path, "channel " + channels[c] + (ids ? " holds no ids" : " holds ids"),
                     ids ? "32-bit whole numbers" : "half or float");
       }
-      wanted.push_back(c);
+      present.push_back(c);
     }
-    if (wanted.empty()) continue;
-    check_part(path, parts[p], static_cast<int>(sizeof(T) * wanted.size()));
+    if (present.empty()) continue;
+    check_part(path, parts[p], static_cast<int>(sizeof(T) * present.size()));
     std::vector<Target> targets;
-    for (const std::size_t c : wanted) {
+    for (const std::size_t c : present) {
       out[c] = Grid<T>(static_cast<int>(parts[p].width), static_cast<int>(parts[p].height));
       targets.push_back({channels[c], ids ? Imf::UINT : Imf::FLOAT, reinterpret_cast<char*>(out[c].data()), sizeof(T)});
     }

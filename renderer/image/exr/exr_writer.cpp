@@ -186,8 +186,8 @@ struct Band {
 // OpenEXR has threads of its own; they follow the limit of the others.
 void set_threads() {
   const int threads = static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-  const int wanted = threads > 1 ? threads : 0;
-  if (Imf::globalThreadCount() != wanted) Imf::setGlobalThreadCount(wanted);
+  const int requested = threads > 1 ? threads : 0;
+  if (Imf::globalThreadCount() != requested) Imf::setGlobalThreadCount(requested);
 }
 
 }  // namespace

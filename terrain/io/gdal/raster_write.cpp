@@ -29,8 +29,8 @@ float choose_void(const Grid<float>& cells, std::optional<double> nodata, bool a
   if (!nodata) return usual;
   if (std::isnan(*nodata)) return ascii ? usual : std::numeric_limits<float>::quiet_NaN();
   if (!(std::abs(*nodata) <= static_cast<double>(std::numeric_limits<float>::max()))) return usual;
-  const float wanted = static_cast<float>(*nodata);
-  return std::find(cells.begin(), cells.end(), wanted) == cells.end() ? wanted : usual;
+  const float given = static_cast<float>(*nodata);
+  return std::find(cells.begin(), cells.end(), given) == cells.end() ? given : usual;
 }
 
 // Cells as a file holds them.
@@ -124,9 +124,9 @@ void check_written(const std::string& path, const Grid<T>& cells, T void_value) 
       const Grid<float> back = file.read_values({0, y0, cells.width(), rows});
       for (int y = 0; y < rows; ++y)
         for (int x = 0; x < cells.width(); ++x) {
-          const T wanted = cells(x, y0 + y);
-          const bool hole = wanted == void_value || wanted != wanted;  // NaN equals nothing
-          if (back(x, y) != static_cast<float>(wanted) && !(hole && std::isnan(back(x, y))))
+          const T expected = cells(x, y0 + y);
+          const bool hole = expected == void_value || expected != expected;  // NaN equals nothing
+          if (back(x, y) != static_cast<float>(expected) && !(hole && std::isnan(back(x, y))))
             throw Error(ErrorKind::output, path, "holds other values");
         }
     }

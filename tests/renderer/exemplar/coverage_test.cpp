@@ -99,7 +99,7 @@ TEST(Coverage, NamesWhatIsMissingAndWhatIsTooMuch) {
   ASSERT_EQ(gaps.size(), 1U);
   EXPECT_EQ(gaps[0].what, "rock, tone 0.0–0.2, 16–28 km");
   EXPECT_EQ(gaps[0].found, 0);
-  EXPECT_NEAR(gaps[0].wanted, 4.0, 1e-9);
+  EXPECT_NEAR(gaps[0].needed, 4.0, 1e-9);
   CoverageFloors narrow = floors;
   narrow.light = 0;
   narrow.largest_share = 0.4;
@@ -160,7 +160,7 @@ TEST(CoverageDemand, IsReadStrictly) {
   for (const char* wrong : {"[rook]\n", "[rock]\nlight = [\"1\"]\n", "[rock]\nlight = [\"1...\",\"1..x\",\"....\",\"....\",\"....\"]\n",
                             "[rock]\nborder = [\"sky\"]\n", "[rock]\nlicht = 1\n"})
     EXPECT_THROW(parse_demand(wrong, "d"), Error) << wrong;
-  // Every class of the built-in one is wanted in some light; of a class that it leaves out, another's texels are copied.
+  // Every class of the built-in one is asked for in some light; of a class that it leaves out, another's texels are copied.
   for (const LandCoverClassInfo& info : land_cover_classes()) {
     const auto k = static_cast<std::size_t>(info.id);
     if (info.id == Class::sky) continue;
@@ -168,10 +168,10 @@ TEST(CoverageDemand, IsReadStrictly) {
       EXPECT_NE(info.stand_in, info.id) << info.name;
       continue;
     }
-    int wanted = 0;
+    int asked_for = 0;
     for (const auto& row : built_in_demand().light[k])
-      for (const bool flag : row) wanted += flag ? 1 : 0;
-    EXPECT_GT(wanted, 0) << info.name;
+      for (const bool flag : row) asked_for += flag ? 1 : 0;
+    EXPECT_GT(asked_for, 0) << info.name;
   }
 }
 

@@ -65,8 +65,8 @@ TEST(EstimateTone, FollowsTheLightOfEachLabelAndNotItsPaint) {
     }
   const Grid<float> tone = estimate_tone(picture, labels, 6.0);
   for (const int left : {0, width / 2})
-    for (const auto& [share, wanted] : {std::pair{0.25, 0.43}, {0.5, 0.64}, {0.75, 0.86}})
-      EXPECT_NEAR(tone(left + static_cast<int>(share * width / 2), height / 2), wanted, 0.02) << left;
+    for (const auto& [share, expected] : {std::pair{0.25, 0.43}, {0.5, 0.64}, {0.75, 0.86}})
+      EXPECT_NEAR(tone(left + static_cast<int>(share * width / 2), height / 2), expected, 0.02) << left;
   // Strokes leave hardly a trace.
   for (int x = 0; x < width; ++x) EXPECT_NEAR(tone(x, 40), tone(x, 42), 0.02) << x;
   // … which they do where they count as light.

@@ -211,7 +211,7 @@ TEST(SheetPainter, PanelsHaveTheTerrainRulesAndStrokesOfTheirOwn) {
   EXPECT_LT(alike(other_terrain, other_terrain.guidance.altitude_m), 0.2);
 }
 
-TEST(SheetPainter, PaintsInTheHandOfWhoeverWantsTheSheet) {
+TEST(SheetPainter, PaintsInTheHandOfItsPicture) {
   const SheetPlan plan = small_plan();
   const auto mean_tone_and_blue = [&](const char* palette, const std::optional<LightParameters>& light) {
     SheetPainter painter(plan, {read_palette(palette), light});

@@ -56,8 +56,8 @@ TEST_F(Color, OwnConfigIsTheExactCurve) {
   const Image linear = ramp(70001, 0.0, 1.0);
   const Grid<glm::vec3> encoded = to_display(linear, {});
   for (std::size_t i = 0; i < linear.size(); ++i) {
-    const double wanted = encode(static_cast<double>(linear[i].x));
-    ASSERT_NEAR(encoded[i].x, wanted, 1e-6) << linear[i].x;
+    const double expected = encode(static_cast<double>(linear[i].x));
+    ASSERT_NEAR(encoded[i].x, expected, 1e-6) << linear[i].x;
     ASSERT_EQ(encoded[i].x, encoded[i].y) << "grey stays grey";
     ASSERT_EQ(encoded[i].x, encoded[i].z);
   }

@@ -99,9 +99,9 @@ TEST(GuidanceIo, HeaderNamesChannelsTypesAndClasses) {
   for (const PartSpec& part : info.parts) {
     for (const ChannelSpec& c : part.channels) found[part.name + "/" + c.name] = c.type;
   }
-  std::size_t wanted = 0;
-  for (const GuidanceChannel& channel : guidance_channels()) wanted += channel.components();
-  EXPECT_EQ(found.size(), wanted);
+  std::size_t expected = 0;
+  for (const GuidanceChannel& channel : guidance_channels()) expected += channel.components();
+  EXPECT_EQ(found.size(), expected);
   EXPECT_EQ(found.at("depth/Z"), ChannelType::float32);
   EXPECT_EQ(found.at("position/P.Y"), ChannelType::float32);
   EXPECT_EQ(found.at("normal/Nd.Z"), ChannelType::half);

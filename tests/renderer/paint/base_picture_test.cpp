@@ -244,12 +244,12 @@ TEST(Base, PartEqualsWhole) {
     p.pixels_per_unit = ppu;
     const Palette palette = read_palette("summer");
     const BasePicture whole = picture_of(hills, p);
-    const PixelRect wanted{width / 2 - 20, height / 2 - 30, width / 2 + 21, height / 2 + 9};
-    const PixelRect part = with_margin(wanted, base_margin_px(p), width, height);
+    const PixelRect kept{width / 2 - 20, height / 2 - 30, width / 2 + 21, height / 2 + 9};
+    const PixelRect part = with_margin(kept, base_margin_px(p), width, height);
     ASSERT_GT(part.x0, 0);
     const BasePicture base = make_base_picture(cut(hills, part), palette, p, {part.x0, part.y0}, {width, height}, silent_progress());
-    for (int y = wanted.y0; y < wanted.y1; ++y)
-      for (int x = wanted.x0; x < wanted.x1; ++x) {
+    for (int y = kept.y0; y < kept.y1; ++y)
+      for (int x = kept.x0; x < kept.x1; ++x) {
         const int px = x - part.x0, py = y - part.y0;
         ASSERT_EQ(base.colour(px, py), whole.colour(x, y)) << x << " " << y << " ppu " << ppu;
         ASSERT_EQ(base.darker(px, py), whole.darker(x, y));

@@ -47,14 +47,14 @@ TEST(TransferResidual, AddsAPartOfTheDifferenceOfBases) {
   matches(2, 0) = {1, 2, 1};
   const Grid<glm::vec3> base(4, 1, glm::vec3(0.6f, 0.8f, 0.2f));
   const Grid<glm::vec3> out = transfer_residual(matches, exemplars, base, {}, 0.75);
-  const glm::vec3 wanted[] = {
+  const glm::vec3 expected[] = {
       {0.65f, 0.9f, 0.55f},  // .5 + .75 (.6 - .4) …
       {0.25f, 1.0f, 0.25f},  // green would be 1.2
       {0.1f, 0.9f, 0.4f},    // a scan has no base
       {0.6f, 0.8f, 0.2f},    // no match
   };
   for (int x = 0; x < 4; ++x) {
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(out(x, 0)[c], wanted[x][c], 1e-6) << x;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(out(x, 0)[c], expected[x][c], 1e-6) << x;
   }
 }
 
@@ -209,8 +209,8 @@ TEST(BlendEdges, GivesTheLightOfTheCoveredArea) {
       for (int y = 0; y < out.height(); ++y) {
         for (int x = 0; x < out.width(); ++x) {
           const float part = e.coverage(x, y);
-          const glm::vec3 wanted = part * pure(0, 0) + (1.0f - part) * sky(0, 0);
-          for (int c = 0; c < 3; ++c) largest = std::max(largest, static_cast<double>(std::abs(out(x, y)[c] - wanted[c]) / sky(0, 0)[c]));
+          const glm::vec3 expected = part * pure(0, 0) + (1.0f - part) * sky(0, 0);
+          for (int c = 0; c < 3; ++c) largest = std::max(largest, static_cast<double>(std::abs(out(x, y)[c] - expected[c]) / sky(0, 0)[c]));
         }
       }
       EXPECT_LT(largest, 0.05) << slope << " " << far_depth;

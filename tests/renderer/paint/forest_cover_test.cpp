@@ -133,7 +133,7 @@ TEST(ForestCover, OtherGroundHasNone) {
   EXPECT_EQ(cover.glade, Grid<float>(40, 30, 0.0F));
 }
 
-// A treeline above the part wanted, out of reach of a small margin: tracks and thinning depend on it.
+// A treeline above the part that is compared, out of reach of a small margin: tracks and thinning depend on it.
 TEST(ForestCover, PartEqualsWhole) {
   GuidanceBuffers g = wood(360, 400);
   for (auto& d : g.fall_line) d = glm::vec2(0.28F, 0.96F);
@@ -141,13 +141,13 @@ TEST(ForestCover, PartEqualsWhole) {
     for (int x = 0; x < 360; ++x) g.land_cover(x, y) = rock;
   for (float& slope : g.slope_deg) slope = 40.0F;
   const ForestCover whole = make_forest_cover(g, {}, {0, 0});
-  const PixelRect wanted{130, 165, 230, 240};
-  const PixelRect part = test::with_margin(wanted, forest_cover_margin_px(1.0), 360, 400);
+  const PixelRect kept{130, 165, 230, 240};
+  const PixelRect part = test::with_margin(kept, forest_cover_margin_px(1.0), 360, 400);
   ASSERT_GT(part.x0, 0);
   ASSERT_GT(part.y0, 0);
   const ForestCover cover = make_forest_cover(test::cut(g, part), {}, {part.x0, part.y0});
-  for (int y = wanted.y0; y < wanted.y1; ++y)
-    for (int x = wanted.x0; x < wanted.x1; ++x) {
+  for (int y = kept.y0; y < kept.y1; ++y)
+    for (int x = kept.x0; x < kept.x1; ++x) {
       ASSERT_EQ(cover.density(x - part.x0, y - part.y0), whole.density(x, y));
       ASSERT_EQ(cover.glade(x - part.x0, y - part.y0), whole.glade(x, y));
     }

@@ -86,9 +86,9 @@ TEST(Guides, AreQuantizedAsDocumented) {
   EXPECT_EQ(make_guide_stack(g, g.land_cover).find("shadow"), nullptr) << "left out, as its channel is absent";
 }
 
-// A meadow whose left half drains little ground and whose right half much, of one grey grain; a target that drains `wanted` all over. How
+// A meadow whose left half drains little ground and whose right half much, of one grey grain; a target whose flow is `flow` all over. How
 // much of it is copied from the right half when that guide weighs `weight`.
-double copied_from_the_brook(float wanted, double weight) {
+double copied_from_the_brook(float flow, double weight) {
   GuidanceBuffers g = make_slope(96, 64, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 10.0F);
   g.flow = Grid<float>(96, 64, 3.0F);
   for (int y = 0; y < 64; ++y)
@@ -100,7 +100,7 @@ double copied_from_the_brook(float wanted, double weight) {
       exemplar.picture(x, y) = {grey, grey, grey};
     }
   GuidanceBuffers target = make_slope(48, 48, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 10.0F);
-  target.flow = Grid<float>(48, 48, wanted);
+  target.flow = Grid<float>(48, 48, flow);
   SynthesisParameters parameters;
   parameters.weights = default_guide_weights();
   for (auto& [name, value] : parameters.weights)

@@ -179,12 +179,12 @@ TEST(Tone, PartEqualsWhole) {
     ToneParameters p;
     p.pixels_per_unit = ppu;
     const Grid<float> whole = tone_of(hills, p);
-    const PixelRect wanted{width / 2 - 21, height / 2 - 30, width / 2 + 20, height / 2 + 17};
-    const PixelRect part = with_margin(wanted, tone_margin_px(p), width, height);
+    const PixelRect kept{width / 2 - 21, height / 2 - 30, width / 2 + 20, height / 2 + 17};
+    const PixelRect part = with_margin(kept, tone_margin_px(p), width, height);
     ASSERT_GT(part.x0, 0);
     const Grid<float> tone = make_tone(cut(hills, part), p, {part.x0, part.y0}, silent_progress());
-    for (int y = wanted.y0; y < wanted.y1; ++y)
-      for (int x = wanted.x0; x < wanted.x1; ++x) ASSERT_EQ(tone(x - part.x0, y - part.y0), whole(x, y)) << x << " " << y << " ppu " << ppu;
+    for (int y = kept.y0; y < kept.y1; ++y)
+      for (int x = kept.x0; x < kept.x1; ++x) ASSERT_EQ(tone(x - part.x0, y - part.y0), whole(x, y)) << x << " " << y << " ppu " << ppu;
   }
 }
 

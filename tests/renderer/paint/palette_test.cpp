@@ -17,8 +17,8 @@ using testing::HasSubstr;
 
 glm::vec3 rgb(unsigned code) { return glm::vec3((code >> 16) & 255U, (code >> 8) & 255U, code & 255U) / 255.0F; }
 
-void expect_colour(glm::vec3 found, glm::vec3 wanted) {
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[k], wanted[k], 1e-6F) << "channel " << k;
+void expect_colour(glm::vec3 found, glm::vec3 expected) {
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[k], expected[k], 1e-6F) << "channel " << k;
 }
 
 std::string error_of(const std::string& text) {

@@ -77,18 +77,18 @@ class Pipeline : public testing::Test {
   static void expect_golden(const std::string& picture, const std::string& name) {
     const std::string golden = test::source_folder() + "/tests/golden/" + name;
     if (std::getenv("BELVEDERE_WRITE_GOLDEN") != nullptr) fs::copy_file(picture, golden, fs::copy_options::overwrite_existing);
-    const Grid<glm::vec3> wanted = read_picture(golden);
+    const Grid<glm::vec3> expected = read_picture(golden);
     const Grid<glm::vec3> found = read_picture(picture);
-    ASSERT_TRUE(found.same_size(wanted));
+    ASSERT_TRUE(found.same_size(expected));
     double sum = 0.0;
     int far_off = 0;
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-      const glm::vec3 d = glm::abs(found[i] - wanted[i]);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const glm::vec3 d = glm::abs(found[i] - expected[i]);
       sum += (d.x + d.y + d.z) / 3.0;
       far_off += std::max({d.x, d.y, d.z}) > 0.1F ? 1 : 0;
     }
-    EXPECT_LT(sum / static_cast<double>(wanted.size()), 0.003);
-    EXPECT_LT(far_off, static_cast<int>(wanted.size() / 100));
+    EXPECT_LT(sum / static_cast<double>(expected.size()), 0.003);
+    EXPECT_LT(far_off, static_cast<int>(expected.size() / 100));
   }
 
   test::Folder folder_;

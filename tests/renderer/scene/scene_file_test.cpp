@@ -123,7 +123,7 @@ TEST(SceneFile, UnknownKeysNameThePlaceAndTheNearestKey) {
   EXPECT_THAT(refused("[deform.bend]\nradus_m = 1\n"), HasSubstr("did you mean \"radius_m\""));
 }
 
-TEST(SceneFile, WrongTypesSayWhatIsWanted) {
+TEST(SceneFile, WrongTypesSayWhatIsAllowed) {
   EXPECT_THAT(refused("[camera]\npitch_deg = \"steep\"\n"),
               AllOf(StartsWith("s.toml:3:13: camera.pitch_deg is the string \"steep\""), HasSubstr("a number"), HasSubstr("-90 … 90°")));
   EXPECT_THAT(refused("[output]\nwidth = 2400.5\n"), HasSubstr("a whole number"));

@@ -213,10 +213,10 @@ TEST(Guidance, RimIsTheDistanceToTheEndOfTheKnownTerrain) {
     std::sort(sides.begin(), sides.end());
     const double border = sides[0];
     const double bay = std::hypot(std::max(at.x - 60.0, 0.0), std::max({70.0 - at.y, at.y - 90.0, 0.0}));
-    const double wanted = cell * std::max(0.0, std::min(border, bay));
+    const double expected = cell * std::max(0.0, std::min(border, bay));
     // Bilinear between posts: exact by a straight side, up to half a cell off around corners and where two ends are as near.
     const bool one_side = std::min(sides[1], bay) > border + 2.0;
-    ASSERT_NEAR(b.rim_m[i], wanted, one_side ? 0.05 : 0.75 * cell) << at.x << ", " << at.y;
+    ASSERT_NEAR(b.rim_m[i], expected, one_side ? 0.05 : 0.75 * cell) << at.x << ", " << at.y;
     exact += one_side ? 1 : 0;
     ++ground;
     at_bay += bay < border ? 1 : 0;

@@ -91,9 +91,9 @@ class ViewedGround : public testing::Test {
         ground_.cells(x, y) = static_cast<float>(900.0 + 3.0 * x + 20.0 * std::sin(x * 1.9) * std::cos(y * 1.3) + 30.0 * std::sin(y * .4));
     write_raster(folder_ / "dem.tif", ground_);
   }
-  LoadedScene scene(const std::string& wishes, const std::string& camera = "position = [508000, 5190000]") const {
+  LoadedScene scene(const std::string& settings, const std::string& camera = "position = [508000, 5190000]") const {
     return parse_scene(
-        "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n[camera]\nheight_m = 5000\n" + camera + "\n[generalize]\n" + wishes,
+        "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n[camera]\nheight_m = 5000\n" + camera + "\n[generalize]\n" + settings,
         "s.toml", folder_.path(), {});
   }
   Grid<float> seen(const LoadedScene& loaded, const View* view = nullptr) const {
@@ -136,10 +136,10 @@ TEST_F(ViewedGround, BandsFinerThanThePrintGoAndOthersStay) {
 }
 
 TEST_F(ViewedGround, TwoViewsOfOneSceneHaveEachItsOwn) {
-  const std::string wishes =
+  const std::string settings =
       "keep_lakes = false\nforeground = [1, 1, 1]\nbackground = [1, 0.5, 0]\nforeground_to_m = 4000\nbackground_from_m = 7000\n";
-  const Grid<float> from_south_west = seen(scene(wishes, "position = [501000, 5181000]"));
-  const Grid<float> from_north_east = seen(scene(wishes, "position = [515000, 5199000]"));
+  const Grid<float> from_south_west = seen(scene(settings, "position = [501000, 5181000]"));
+  const Grid<float> from_north_east = seen(scene(settings, "position = [515000, 5199000]"));
   const Grid<float> all_far = seen(scene("keep_lakes = false\nforeground = [1, 0.5, 0]\nbackground = [1, 0.5, 0]\n"));
   EXPECT_GT(largest_difference(from_south_west, from_north_east), 15.0);
   for (int y = 0; y < 15; ++y)

@@ -55,10 +55,10 @@ TEST_F(RefinedLandCover, ChangesTheNamedClassWhereTheRulesSeeTheOther) {
       const bool east_of = (x + 0.5) * 0.4 > 10.0;
       const bool north_of = (y + 0.5) * 0.4 < 10.0;
       const LandCoverClass read = as_read(x);
-      const LandCoverClass wanted = read == rock && east_of && !north_of ? glacier : read == pasture && north_of ? snow : read;
-      ASSERT_EQ(cover.classes.cells(x, y), wanted) << x << ", " << y;
-      glaciers += wanted == glacier ? 1 : 0;
-      snows += wanted == snow ? 1 : 0;
+      const LandCoverClass expected = read == rock && east_of && !north_of ? glacier : read == pasture && north_of ? snow : read;
+      ASSERT_EQ(cover.classes.cells(x, y), expected) << x << ", " << y;
+      glaciers += expected == glacier ? 1 : 0;
+      snows += expected == snow ? 1 : 0;
     }
   EXPECT_GT(glaciers, 100);
   EXPECT_GT(snows, 200);
@@ -70,7 +70,7 @@ TEST_F(RefinedLandCover, WithoutTheKeyTheRasterHoldsAlone) {
     for (int x = 0; x < 50; ++x) ASSERT_EQ(cover.classes.cells(x, y), as_read(x));
 }
 
-// A valley between ridges whose rows stand too high and too low in turn, read by a scene with these wishes.
+// A valley between ridges whose rows stand too high and too low in turn, read by a scene with these settings.
 class TerrainOperators : public testing::Test {
  protected:
   void SetUp() override {
@@ -89,11 +89,12 @@ class TerrainOperators : public testing::Test {
             static_cast<float>(900.0 - y + 18.0 * std::abs(x - 80.0) + gullies_m * std::sin(x / 3.0) * std::sin(y / 11.0 + x));
     return raster;
   }
-  LoadedScene scene(const std::string& file, const std::string& wishes) const {
-    return parse_scene("version = 1\n[[terrain.sources]]\nfile = \"" + file + "\"\n[generalize]\n" + wishes, "s.toml", folder_.path(), {});
+  LoadedScene scene(const std::string& file, const std::string& settings) const {
+    return parse_scene("version = 1\n[[terrain.sources]]\nfile = \"" + file + "\"\n[generalize]\n" + settings, "s.toml", folder_.path(),
+                       {});
   }
-  Grid<float> generalized(const std::string& wishes) const {
-    const LoadedScene loaded = scene("clean.tif", wishes);
+  Grid<float> generalized(const std::string& settings) const {
+    const LoadedScene loaded = scene("clean.tif", settings);
     return generalize_for_view(loaded, make_scene_dem(loaded, silent_progress()), nullptr, {}, silent_progress()).altitude_m;
   }
 
@@ -110,9 +111,9 @@ TEST_F(TerrainOperators, StripesLeaveTheDemItself) {
   const Grid<float> before = make_scene_dem(scene("striped.tif", ""), silent_progress()).altitude_m;
   const Grid<float> after = make_scene_dem(scene("striped.tif", "destripe = true\n"), silent_progress()).altitude_m;
   const auto error = [](const Grid<float>& z) {
-    const Grid<float> wanted = valley(0.0).cells;
+    const Grid<float> expected = valley(0.0).cells;
     double sum = 0.0;
-    for (std::size_t i = 0; i < z.size(); ++i) sum += std::abs(z[i] - wanted[i]);
+    for (std::size_t i = 0; i < z.size(); ++i) sum += std::abs(z[i] - expected[i]);
     return sum;
   };
   EXPECT_LT(error(after), 0.5 * error(before));

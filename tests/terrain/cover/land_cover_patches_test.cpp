@@ -60,7 +60,7 @@ TEST(LandCoverPatches, RiversAndHamletsStayAndHamletsGrow) {
 
 TEST(LandCoverPatches, GrowthHasAnEndAndSparesWhatIsKept) {
   const Rows rows = {"wwwwwwwwwww", "wwwwwwwwwww", "fffffhfffff", "fffffffffff", "fffffffffff", "fffffffffff", "fffffffffff"};
-  // 22 cells are wanted; three to each side of what is no water make 16.
+  // 22 cells are asked for; three to each side of what is no water make 16.
   EXPECT_EQ(picture(remove_small_patches(drawn(rows), {.smallest_m2 = 2200.0}).cover),
             (Rows{"wwwwwwwwwww", "wwwwwwwwwww", "ffhhhhhhhff", "fffhhhhhfff", "ffffhhhffff", "fffffhfffff", "fffffffffff"}));
 }

@@ -167,9 +167,9 @@ TEST_F(LandCoverFiles, OutsideOfTheDataIsAnError) {
   EXPECT_EQ(error_of([&] { read_land_cover(parameters, far, silent_progress()); }).kind(), ErrorKind::input);
 }
 
-double share(const LandCover& cover, LandCoverClass wanted) {
+double share(const LandCover& cover, LandCoverClass id) {
   const auto& cells = cover.classes.cells;
-  return static_cast<double>(std::count(cells.begin(), cells.end(), wanted)) / static_cast<double>(cells.size());
+  return static_cast<double>(std::count(cells.begin(), cells.end(), id)) / static_cast<double>(cells.size());
 }
 
 LandCover read_real(const std::string& dem_file, const std::string& cover_file, int band, const std::string& crs, const std::string& legend,

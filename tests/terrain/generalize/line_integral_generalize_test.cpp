@@ -76,7 +76,7 @@ TEST(LineIntegral, SidesBecomePlainAndTheCrestStaysSharperThanUnderABlur) {
   EXPECT_GT(crest_bend(out), 1.5 * crest_bend(gaussian_blur(terrain, sigma)));
 }
 
-TEST(LineIntegral, SharpnessOfRidgesIsAWish) {
+TEST(LineIntegral, SharpnessOfRidgesIsAParameter) {
   const Grid<float> terrain = make_grid(161, 60, roof);
   LineIntegralParameters blunt;
   blunt.ridge_sharpness = 0.F;

@@ -35,7 +35,7 @@ Grid<float> make_valley(double floor_m) {
   return grid;
 }
 
-WidenValleysParameters wish(float width_m) {
+WidenValleysParameters valleys_of(float width_m) {
   WidenValleysParameters parameters;
   parameters.width_m = width_m;
   parameters.least_catchment_km2 = 4.F;
@@ -65,13 +65,13 @@ double pit_volume(const Grid<float>& z) {
   return sum;
 }
 
-TEST(WidenValleys, OffReturnsTheInput) { EXPECT_EQ(widen(make_valley(0.0), wish(0.F)), make_valley(0.0)); }
+TEST(WidenValleys, OffReturnsTheInput) { EXPECT_EQ(widen(make_valley(0.0), valleys_of(0.F)), make_valley(0.0)); }
 
 TEST(WidenValleys, TheFloorGrowsByTheWidthAskedFor) {
   for (const double floor_m : {0.0, 300.0}) {
     const Grid<float> valley = make_valley(floor_m);
     for (const float width_m : {240.F, 480.F}) {
-      const Grid<float> out = widen(valley, wish(width_m));
+      const Grid<float> out = widen(valley, valleys_of(width_m));
       EXPECT_NEAR(width_at(out, 200, 40.0) - width_at(valley, 200, 40.0), width_m, 0.1 * width_m) << floor_m;
       // High on the walls it changes less.
       EXPECT_LT(width_at(out, 200, 900.0) - width_at(valley, 200, 900.0), 0.5 * width_m);
@@ -81,7 +81,7 @@ TEST(WidenValleys, TheFloorGrowsByTheWidthAskedFor) {
 
 TEST(WidenValleys, RidgesKeepHeightAndPlaceAndWallsHaveNoSteps) {
   const Grid<float> valley = make_valley(0.0);
-  const Grid<float> out = widen(valley, wish(480.F));
+  const Grid<float> out = widen(valley, valleys_of(480.F));
   // Away from the mouth, where nobody knows how the valley goes on.
   double lost = 0.0;
   for (int y = 60; y < 250; ++y) {
@@ -98,7 +98,7 @@ TEST(WidenValleys, RidgesKeepHeightAndPlaceAndWallsHaveNoSteps) {
 
 TEST(WidenValleys, FloorsAreLevelAcrossAndDrain) {
   const Grid<float> valley = make_valley(0.0);
-  const Grid<float> out = widen(valley, wish(480.F));
+  const Grid<float> out = widen(valley, valleys_of(480.F));
   for (int y = 60; y < 260; ++y) {
     EXPECT_NEAR(out(97, y), out(103, y), 0.5);
     EXPECT_GT(out(100, y - 1), out(100, y)) << y;
@@ -114,7 +114,7 @@ TEST(WidenValleys, LakesStay) {
       keep(x, y) = 1;
       valley(x, y) = valley(100, 159);
     }
-  const Grid<float> out = widen(valley, wish(480.F), keep);
+  const Grid<float> out = widen(valley, valleys_of(480.F), keep);
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (keep[i] != 0) {
       EXPECT_EQ(out[i], valley[i]);
@@ -126,7 +126,7 @@ TEST(WidenValleys, EachCellKnowsWhereItsGroundCameFrom) {
   const Grid<float> valley = make_valley(0.0);
   Grid<std::uint8_t> keep(valley.width(), valley.height());
   keep(95, 100) = 1;
-  const WidenedValleys wide = widen_valleys(valley, keep, cell_m, wish(480.F), silent_progress());
+  const WidenedValleys wide = widen_valleys(valley, keep, cell_m, valleys_of(480.F), silent_progress());
   ASSERT_TRUE(wide.came_from.same_size(valley));
   for (int y = 120; y < 240; y += 10) {
     // What lay on the wall 12 cells beside the course lies 8 cells farther off now, half of 480 m.
@@ -145,20 +145,20 @@ TEST(WidenValleys, EachCellKnowsWhereItsGroundCameFrom) {
     }
   }
   EXPECT_EQ(wide.came_from(95, 100), glm::vec2(0.F));
-  EXPECT_TRUE(widen_valleys(valley, {}, cell_m, wish(0.F), silent_progress()).came_from.empty());
+  EXPECT_TRUE(widen_valleys(valley, {}, cell_m, valleys_of(0.F), silent_progress()).came_from.empty());
 }
 
 TEST(WidenValleys, OneOrTwoThreadsAndFaults) {
   const auto with = [&](int threads) {
     const ThreadLimit limit(threads);
-    return widen(make_valley(150.0), wish(300.F));
+    return widen(make_valley(150.0), valleys_of(300.F));
   };
   EXPECT_EQ(with(1), with(2));
-  WidenValleysParameters parameters = wish(100.F);
+  WidenValleysParameters parameters = valleys_of(100.F);
   parameters.fade_height = 0.F;
   EXPECT_THROW(widen(make_valley(0.0), parameters), Error);
   // No catchment is large enough: nothing changes.
-  parameters = wish(100.F);
+  parameters = valleys_of(100.F);
   parameters.least_catchment_km2 = 9000.F;
   parameters.full_catchment_km2 = 10000.F;
   EXPECT_EQ(widen(make_valley(0.0), parameters), make_valley(0.0));

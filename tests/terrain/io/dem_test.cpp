@@ -150,21 +150,21 @@ struct RealDem {
 class RealDems : public testing::TestWithParam<RealDem> {};
 
 TEST_P(RealDems, AreReadWhole) {
-  const RealDem& wanted = GetParam();
+  const RealDem& real = GetParam();
   DemParameters parameters;
   parameters.sources.resize(1);
-  parameters.sources[0].path = test::data_folder() + "/" + wanted.file;
-  parameters.sources[0].crs = wanted.crs;
+  parameters.sources[0].path = test::data_folder() + "/" + real.file;
+  parameters.sources[0].crs = real.crs;
   if (!std::filesystem::exists(parameters.sources[0].path)) GTEST_SKIP() << "no " << parameters.sources[0].path;
   const Dem dem = read_dem(parameters, silent_progress());
-  EXPECT_EQ(describe_crs(dem.crs), wanted.frame_crs);
-  EXPECT_EQ(dem.width(), wanted.width);
-  EXPECT_EQ(dem.height(), wanted.height);
+  EXPECT_EQ(describe_crs(dem.crs), real.frame_crs);
+  EXPECT_EQ(dem.width(), real.width);
+  EXPECT_EQ(dem.height(), real.height);
   const auto [low, high] = std::minmax_element(dem.altitude_m.begin(), dem.altitude_m.end());
-  EXPECT_NEAR(*low, wanted.lowest, 1.0);
-  EXPECT_NEAR(*high, wanted.highest, 1.0);
+  EXPECT_NEAR(*low, real.lowest, 1.0);
+  EXPECT_NEAR(*high, real.highest, 1.0);
   const auto filled = std::count(dem.filled.begin(), dem.filled.end(), 1);
-  EXPECT_NEAR(static_cast<double>(filled) / static_cast<double>(dem.filled.size()), wanted.void_share, 0.001);
+  EXPECT_NEAR(static_cast<double>(filled) / static_cast<double>(dem.filled.size()), real.void_share, 0.001);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RealDems,

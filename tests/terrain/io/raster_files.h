@@ -21,7 +21,7 @@ class RasterFiles : public testing::Test {
   std::string path(const std::string& name) const { return folder_ / name; }
   std::string write_text(const std::string& name, const std::string& text) const { return folder_.write(name, text); }
   std::string read_text(const std::string& name) const { return test::read_bytes(path(name)); }
-  // An ESRI ASCII grid of 1-unit… cells, its lower left corner at (x, y); a .prj beside it where a CRS is wanted is not needed:
+  // An ESRI ASCII grid of 1-unit… cells, its lower left corner at (x, y); a .prj beside it for its CRS is not needed:
   // sources can say theirs.
   std::string write_ascii(const std::string& name, int width, int height, double x, double y, double cell,
                           const std::function<std::string(int, int)>& value, const std::string& nodata = "") const {

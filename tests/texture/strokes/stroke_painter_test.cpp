@@ -351,9 +351,9 @@ TEST(StrokePainter, EveryKindOfStrokeIsPaintedInItsLayer) {
       for (const std::string_view name : names) all += grow_strokes(name, scene).size();
       return all;
     };
-    const auto only = [](StrokeLayers wanted) {
-      wanted.accents = false;
-      return wanted;
+    const auto only = [](StrokeLayers layers) {
+      layers.accents = false;
+      return layers;
     };
     EXPECT_EQ(count(only({.sky = true, .ground = false, .breaks = false, .upright = false})), grow_strokes("sky", scene).size())
         << info.name;

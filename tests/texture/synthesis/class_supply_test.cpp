@@ -27,7 +27,7 @@ TEST(ClassSupply, CountsTexelsOfAllExemplarsAndPixelsThatFallBack) {
     target(x, 0) = 2;
     target(x, 1) = 7;             // has none and falls back to 2
     target(x, 2) = 9;             // has none and nowhere to go
-    target(x, 3) = unused_label;  // wants none
+    target(x, 3) = unused_label;  // needs none
   }
   const std::map<std::uint8_t, std::uint8_t> fallback{{7, 2}, {9, 8}, {2, 1}, {unused_label, 1}};  // 2 has texels: its own count
   const std::vector<ClassSupply> supply = class_supply(exemplars, target, fallback);

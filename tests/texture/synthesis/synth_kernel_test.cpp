@@ -285,7 +285,7 @@ void expect_cheapest_candidates(bool with_silhouettes) {
         const std::int64_t n = static_cast<std::int64_t>(before.texels.at(texel).uses()) - (texel == before.match[pixel] ? 1 : 0);
         const std::int64_t cost = join + (guide >> 4) + ((n * (n + 1) / 2 * before.reuse_q4[c]) >> 4) +
                                   bin_cost[c * 64 + before.texels.at(texel).bin()] +
-                                  before.around_price(before.wanted_around[pixel], offered_around[texel]) +
+                                  before.around_price(before.target_around[pixel], offered_around[texel]) +
                                   naive_patch_cost(target_before, pixel, exemplars, texel, counts);
         if (cost < best_cost) {  // the set is in index order: ties go to the lower index
           best_cost = cost;
@@ -357,11 +357,12 @@ TEST(Surroundings, PriceIsTheSquaredDifferenceOfCounts) {
   for (int u = 0; u <= 255; u += 15) {
     for (int v = 0; v <= 255; v += 17) {
       for (const std::uint8_t a : {std::uint8_t{1}, std::uint8_t{2}}) {
-        const Surroundings wanted{static_cast<std::uint8_t>(u), a};
+        const Surroundings requested{static_cast<std::uint8_t>(u), a};
         const Surroundings offered{static_cast<std::uint8_t>(v), 2};
         std::int64_t sum = 0;
-        for (std::size_t k = 0; k < 4; ++k) sum += (counts(wanted)[k] - counts(offered)[k]) * (counts(wanted)[k] - counts(offered)[k]);
-        ASSERT_EQ(price(wanted, offered), sum);
+        for (std::size_t k = 0; k < 4; ++k)
+          sum += (counts(requested)[k] - counts(offered)[k]) * (counts(requested)[k] - counts(offered)[k]);
+        ASSERT_EQ(price(requested, offered), sum);
       }
     }
   }
@@ -381,11 +382,11 @@ TEST(PickLists, WindowsHoldEnoughTexelsForTheDemand) {
     for (int n = 0; n < 200; ++n) {
       const std::uint32_t pixel = target.index(0, static_cast<int>(random_index(90, 1, n, 0)), static_cast<int>(random_index(80, 2, n, 0)));
       const std::uint32_t c = class_of(target.words[pixel]);
-      const std::uint8_t* wanted = target.guides_at(pixel);
-      const PickWindow window = lists.window(c, wanted);
+      const std::uint8_t* requested = target.guides_at(pixel);
+      const PickWindow window = lists.window(c, requested);
       const auto inside = [&](const std::uint8_t* guide) {
-        if (std::abs(guide[0] - wanted[0]) > window.slack + 1) return false;
-        return !lists.keys().bucketed || std::abs(guide[1] / 16 - wanted[1] / 16) <= window.buckets;
+        if (std::abs(guide[0] - requested[0]) > window.slack + 1) return false;
+        return !lists.keys().bucketed || std::abs(guide[1] / 16 - requested[1] / 16) <= window.buckets;
       };
       std::int64_t texels = 0;
       std::int64_t pixels = 0;
@@ -395,7 +396,7 @@ TEST(PickLists, WindowsHoldEnoughTexelsForTheDemand) {
       EXPECT_GE(texels, 16);
       const double ratio = 1.5 * static_cast<double>(lists.pixel_count(c)) / static_cast<double>(lists.texel_count(c));
       EXPECT_LE(static_cast<double>(pixels), static_cast<double>(texels) * std::max(4.0, ratio));
-      const std::uint32_t texel = lists.entry(lists.pick(c, wanted, static_cast<std::uint32_t>(random_bits(3, n, 0))).entry(0)).texel();
+      const std::uint32_t texel = lists.entry(lists.pick(c, requested, static_cast<std::uint32_t>(random_bits(3, n, 0))).entry(0)).texel();
       EXPECT_EQ(class_of(exemplars.words[texel]), c);
       EXPECT_TRUE(inside(exemplars.guides_at(texel)));
     }
@@ -458,7 +459,7 @@ TEST(PickLists, DrawsAreTheCheapestOfTheirRun) {
     if (c == no_class) return;
     const PickRun run = begin_draw(view, pixel, 77, static_cast<int>(pixel), 3);
     ASSERT_GT(run.count, 0U);
-    const int draws = state.wanted_around[pixel].others > border_others ? 7 : 4;
+    const int draws = state.target_around[pixel].others > border_others ? 7 : 4;
     wrapped += run.start + static_cast<std::uint32_t>(draws) > run.count ? 1 : 0;
     Slack slack = make_slack(view, pixel);
     slack.others = nullptr;
@@ -476,16 +477,16 @@ TEST(PickLists, DrawsAreTheCheapestOfTheirRun) {
       ASSERT_TRUE(std::equal(of_texel, of_texel + 5, state.texels.at(texel).guides()));
       if (i >= 7) continue;
       const std::int64_t cost =
-          guide_cost(view, target.guides_at(pixel), of_texel, slack) + state.around_price(state.wanted_around[pixel], around[texel]);
+          guide_cost(view, target.guides_at(pixel), of_texel, slack) + state.around_price(state.target_around[pixel], around[texel]);
       std::int64_t squares = 0;
       for (int dy = -2; dy <= 2; ++dy) {
         for (int dx = -2; dx <= 2; ++dx) {
           if (!(std::abs(dx * dy) == 1 || (dx * dy == 0 && std::abs(dx + dy) == 2))) continue;
           const std::int64_t step_target = dx + static_cast<std::int64_t>(dy) * target.stride;
           const std::int64_t step_texel = dx + static_cast<std::int64_t>(dy) * exemplars.stride;
-          const std::uint32_t wanted = target.words[static_cast<std::size_t>(pixel + step_target)];
-          if (class_of(wanted) == no_class) continue;
-          const std::int64_t off = grey(wanted) - grey(exemplars.words[static_cast<std::size_t>(texel + step_texel)]);
+          const std::uint32_t requested = target.words[static_cast<std::size_t>(pixel + step_target)];
+          if (class_of(requested) == no_class) continue;
+          const std::int64_t off = grey(requested) - grey(exemplars.words[static_cast<std::size_t>(texel + step_texel)]);
           squares += off * off;
         }
       }

@@ -71,17 +71,17 @@ Exemplar painting(int width, int height, std::uint64_t seed) {
 
 struct Notes : Progress {
   void begin(std::string_view stage, double total) override {
-    EXPECT_EQ(done, wanted) << "a stage began before the last was done";
+    EXPECT_EQ(done, announced) << "a stage began before the last was done";
     stages.emplace_back(stage);
     done = 0;
-    wanted = total;
+    announced = total;
   }
   void advance(double amount) override { done += amount; }
   void note(std::string_view text) override { notes.emplace_back(text); }
   std::vector<std::string> stages;
   std::vector<std::string> notes;
   double done = 0;
-  double wanted = 0;
+  double announced = 0;
 };
 
 MatchField run(const std::vector<Exemplar>& exemplars, const GuideStack& target, const SynthesisParameters& parameters = {}) {
@@ -117,7 +117,7 @@ TEST(Synthesize, CopiesFromTheSameClassAlways) {
     ASSERT_EQ(exemplars[0].guides.label(field[i].x, field[i].y), target.label[i]);
   }
   EXPECT_EQ(notes.stages.size(), 3U) << "97 / 4 is 24; a further half would be under 16";
-  EXPECT_EQ(notes.done, notes.wanted);
+  EXPECT_EQ(notes.done, notes.announced);
   EXPECT_TRUE(notes.notes.empty());
 }
 

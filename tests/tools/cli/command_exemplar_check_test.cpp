@@ -69,14 +69,14 @@ TEST_F(ExemplarCheck, ThePageShowsPaintsAndWhereTheyAreMissing) {
   const std::string page = read_bytes(path("report/index.html"));
   EXPECT_THAT(page, AllOf(HasSubstr("id=\"verdict\""), HasSubstr("class 5: only 464 texels"), HasSubstr("swatch_1_5.png"),
                           HasSubstr("belvedere exemplar check --picture style.png --label label.tif"), Not(HasSubstr(path("")))));
-  // The second class's row: texels up to 59, wanted up to 127.
+  // The second class's row: texels up to 59, asked for up to 127.
   const Grid<glm::vec3> chart = read_picture(path("report/coverage_1_1.png"));
   const auto has_texels = [&](int value) { return chart(130 + 3 * value + 1, 24 + 8).x > 0.F; };
-  const auto is_wanted = [&](int value) { return chart(130 + 3 * value + 1, 24 + 18).x < 0.5F; };
+  const auto is_asked_for = [&](int value) { return chart(130 + 3 * value + 1, 24 + 18).x < 0.5F; };
   for (const int value : {5, 30, 59, 160, 219}) EXPECT_TRUE(has_texels(value)) << value;
   for (const int value : {0, 60, 100, 159, 220}) EXPECT_FALSE(has_texels(value)) << value;
-  for (const int value : {0, 30, 127}) EXPECT_TRUE(is_wanted(value)) << value;
-  for (const int value : {128, 255}) EXPECT_FALSE(is_wanted(value)) << value;
+  for (const int value : {0, 30, 127}) EXPECT_TRUE(is_asked_for(value)) << value;
+  for (const int value : {128, 255}) EXPECT_FALSE(is_asked_for(value)) << value;
   EXPECT_THAT(read_bytes(path("report/report.json")), HasSubstr("\"altitude_covered\": 0."));
 }
 

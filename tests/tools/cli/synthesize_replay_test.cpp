@@ -21,7 +21,7 @@ class Replay : public Program {
   static constexpr int width = 48;
   static constexpr int height = 40;
 
-  // A painting of two classes, a target that wants a third besides, and the matches between them.
+  // A painting of two classes, a target that has a third besides, and the matches between them.
   void SetUp() override {
     style_ = write_picture("style.png", width, height, [](int x, int y) {
       return glm::vec3(x < 24 ? 0.9F : 0.2F, static_cast<float>((x * 7 + y * 13) % 32) / 64.F, static_cast<float>(y) / 64.F);
@@ -74,8 +74,8 @@ TEST_F(Replay, SixteenBitsComeThroughExactly) {
   const Grid<glm::vec3> out = read_picture(path("out.tif"));
   ASSERT_TRUE(out.same_size(exemplar_));
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const glm::vec3 wanted = exemplar_[i] == 0 ? source(static_cast<int>(x_[i]), static_cast<int>(y_[i])) : glm::vec3(0.F);
-    EXPECT_EQ(out[i], wanted);
+    const glm::vec3 expected = exemplar_[i] == 0 ? source(static_cast<int>(x_[i]), static_cast<int>(y_[i])) : glm::vec3(0.F);
+    EXPECT_EQ(out[i], expected);
   }
   // A PNG cannot hold them, and says so.
   const Outcome png = replay({path("layer.tif")}, path("out.png"));
