@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/memory_limit.h"
 #include "renderer/exemplar/example_painting.h"
-#include "renderer/exemplar/sheet.h"
+#include "renderer/exemplar/example_sheet.h"
 #include "renderer/image/color.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
@@ -25,7 +25,7 @@ namespace {
 
 // Bytes a pixel takes while it is painted: buffers, base picture, canvases and strokes of both layers.
 constexpr double paint_bytes_per_pixel = 420.0;
-constexpr double kept_bytes_per_pixel = 24.0;  // of the sheet's pixels outside the row in work: both layers
+constexpr double kept_bytes_per_pixel = 24.0;  // of the example sheet's pixels outside the row in work: both layers
 
 std::string join(const std::string& folder, const char* file) { return folder + "/" + file; }
 
@@ -51,19 +51,19 @@ void write_layers(const ExamplePainting& example, double dots_per_inch, const Fi
 }
 
 // Which class counts is that of the paint: what synthesis copies by. `first` is the index of the part's first pixel in the picture.
-void count(Coverage& coverage, const GuidanceBuffers& guidance, std::uint32_t first) {
+void count(TexelSupply& supply, const GuidanceBuffers& guidance, std::uint32_t first) {
   Grid<LandCoverClass> classes = guidance.land_cover;
   for (std::size_t i = 0; i < classes.size(); ++i) classes[i] = guidance.land_cover[guidance.ground_from[i] - first];
-  add_coverage(coverage, guidance, classes);
+  add_supply(supply, guidance, classes);
 }
 
-void write_coverage(const Coverage& coverage, const std::string& folder) {
-  write_text(join(folder, "coverage.json"), coverage_json(coverage, find_gaps(coverage, built_in_demand(), {})));
+void write_supply(const TexelSupply& supply, const std::string& folder) {
+  write_text(join(folder, "coverage.json"), supply_json(supply, find_gaps(supply, built_in_demand(), {})));
 }
 
 }  // namespace
 
-Coverage write_scene_exemplar(const LoadedScene& loaded, const std::string& out_folder, const Run& run) {
+TexelSupply write_scene_exemplar(const LoadedScene& loaded, const std::string& out_folder, const Run& run) {
   const RunLimits limits(run);
   Progress& progress = run.progress;
   require_scene_files(loaded);
@@ -76,17 +76,17 @@ Coverage write_scene_exemplar(const LoadedScene& loaded, const std::string& out_
   const FileNotes notes = make_world_notes(loaded, world);
   LitPicture picture = make_lit_picture(world, palette, {0, 0, output.width, output.height}, run);
   const ExamplePainting example = paint_example(world, palette, std::move(picture), {}, progress);
-  Coverage coverage;
-  count(coverage, example.guidance, 0);
+  TexelSupply supply;
+  count(supply, example.guidance, 0);
   write_layers(example, output.width / output.sheet_width_mm * 25.4, notes, out_folder, progress);
   progress.begin("writing guidance", 0.0);
   write_guidance(join(out_folder, "guidance.exr"), example.guidance, notes);
   write_text(join(out_folder, "scene.toml"), write_scene(loaded.scene));
-  write_coverage(coverage, out_folder);
-  return coverage;
+  write_supply(supply, out_folder);
+  return supply;
 }
 
-Coverage write_sheet_exemplar(const SheetPlan& plan, const std::string& out_folder, const Run& run) {
+TexelSupply write_example_sheet(const ExampleSheetPlan& plan, const std::string& out_folder, const Run& run) {
   const RunLimits limits(run);
   Progress& progress = run.progress;
   const Palette palette = read_palette(plan.palette);
@@ -97,14 +97,14 @@ Coverage write_sheet_exemplar(const SheetPlan& plan, const std::string& out_fold
   check_memory("sheet", (paint_bytes_per_pixel / rows + kept_bytes_per_pixel) * plan.width * plan.height);
   check_output_folder(out_folder);
 
-  const std::string text = write_sheet_plan(plan);
+  const std::string text = write_example_sheet_plan(plan);
   std::map<std::string, std::string> inputs;
   if (plan.palette.ends_with(".toml")) inputs[plan.palette] = plan.palette;
   Provenance provenance = make_provenance(text, inputs);
-  SheetPainter painter(plan, {palette, std::nullopt});
+  ExampleSheetPainter painter(plan, {palette, std::nullopt});
   ExamplePainting whole;
   whole.painting = whole.ground_layer = Grid<glm::vec3>(plan.width, plan.height);
-  Coverage coverage;
+  TexelSupply supply;
   std::optional<GuidanceWriter> writer;
   FileNotes notes;
   progress.begin("painting the sheet", static_cast<double>(plan.panels.size()));
@@ -116,7 +116,7 @@ Coverage write_sheet_exemplar(const SheetPlan& plan, const std::string& out_fold
       notes = to_notes(provenance);
       writer.emplace(join(out_folder, "guidance.exr"), plan.width, plan.height, notes);
     }
-    count(coverage, part.guidance, static_cast<std::uint32_t>(y0) * static_cast<std::uint32_t>(plan.width));
+    count(supply, part.guidance, static_cast<std::uint32_t>(y0) * static_cast<std::uint32_t>(plan.width));
     std::copy(part.painting.begin(), part.painting.end(), whole.painting.row(y0));
     std::copy(part.ground_layer.begin(), part.ground_layer.end(), whole.ground_layer.row(y0));
     writer->write_rows(part.guidance, 0, y1 - y0, y0);
@@ -124,8 +124,8 @@ Coverage write_sheet_exemplar(const SheetPlan& plan, const std::string& out_fold
   writer->finish();
   write_layers(whole, plan.dots_per_inch, notes, out_folder, progress);
   write_text(join(out_folder, "sheet.toml"), text);
-  write_coverage(coverage, out_folder);
-  return coverage;
+  write_supply(supply, out_folder);
+  return supply;
 }
 
 }  // namespace belvedere

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "renderer/exemplar/sheet.h"
+#include "renderer/exemplar/example_sheet.h"
 
 namespace belvedere {
 
@@ -12,11 +12,11 @@ std::vector<PaintedExemplar> make_exemplars(const LoadedScene& loaded, const Vie
   std::vector<PaintedExemplar> exemplars;
   for (std::size_t i = 0; i < scene.exemplars.size(); ++i) {
     if (scene.exemplars[i].picture.empty())
-      exemplars.push_back(paint_sheet(scene.exemplars[i], scene, view, palette, progress));
+      exemplars.push_back(paint_example_sheet(scene.exemplars[i], scene, view, palette, progress));
     else if (i < scans.size() && !scans[i].painted.picture.empty())
       exemplars.push_back(std::move(scans[i].painted));
   }
-  if (exemplars.empty()) exemplars.push_back(paint_sheet({}, scene, view, palette, progress));
+  if (exemplars.empty()) exemplars.push_back(paint_example_sheet({}, scene, view, palette, progress));
   return exemplars;
 }
 

@@ -11,8 +11,8 @@
 
 namespace belvedere {
 
-// All exemplars of a scene: its paintings (read_scans), and sheets in the hand of its view for the blocks that name none; one painted sheet
-// where there is nothing else.
+// All exemplars of a scene: its paintings (read_scans), and example sheets in the hand of its view for the blocks that name none; one
+// example sheet where there is nothing else.
 std::vector<PaintedExemplar> make_exemplars(const LoadedScene& scene, const View& view, const Palette& palette,
                                             std::vector<ScannedPainting> scans, Progress& progress);
 

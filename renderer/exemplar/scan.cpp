@@ -90,8 +90,8 @@ void take_paint(const SceneExemplar& settings, const LoadedScene& scene, Guidanc
   const std::string path = find_scene_file(scene, settings.guidance);
   check_same_painting(notes, read_image_info(path).notes, path);
   const auto layer = notes.find(exemplar_layer_note);
-  const bool ground = layer != notes.end() && layer->second == exemplar_ground_layer;
-  const Grid<std::uint32_t>& from = ground ? guidance.ground_from : guidance.painted_from;
+  const bool without_trees = layer != notes.end() && layer->second == exemplar_ground_layer;
+  const Grid<std::uint32_t>& from = without_trees ? guidance.ground_from : guidance.painted_from;
   if (from.empty() || guidance.base.empty()) return;
   for (const std::uint32_t index : from)
     if (index >= from.size())
@@ -119,7 +119,7 @@ Raw read_raw(const SceneExemplar& settings, const LoadedScene& scene) {
   raw.labels = Grid<std::uint8_t>(raw.picture.width(), raw.picture.height());
   for (std::size_t i = 0; i < raw.labels.size(); ++i)
     raw.labels[i] = raw.guidance.is_sky(i) ? sky_label : static_cast<std::uint8_t>(raw.guidance.land_cover[i]);
-  // Bare paper between the panels of a sheet is neither ground nor sky.
+  // Bare paper between the panels of an example sheet is neither ground nor sky.
   for (std::size_t i = 0; i < raw.guidance.sky_view.size(); ++i)
     if (raw.guidance.is_sky(i) && raw.guidance.sky_view[i] <= 0.F) raw.labels[i] = unused_label;
   if (!settings.exclude.empty()) {

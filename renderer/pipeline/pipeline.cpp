@@ -86,7 +86,7 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
   write_guidance(join(out_folder, "guidance.exr"), lit.guidance, notes);
 
   const bool copied = scene.synthesis.enabled;
-  Grid<glm::vec3> ground = !copied ? lit.base.colour : [&] {
+  Grid<glm::vec3> canvas = !copied ? lit.base.colour : [&] {
     const std::vector<PaintedExemplar> exemplars = make_exemplars(loaded, view, palette, std::move(paint.paintings), progress);
     const PaintDraft draft = draft_paint(world, palette, lit, progress);
     const MatchField matches = match_exemplars(exemplars, scene, lit, draft, progress);
@@ -94,7 +94,7 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
   }();
   // What the exemplar cannot give is painted last, far to near: sky, trees, houses; without an exemplar everything is.
   const StrokeLayers layers{.sky = true, .ground = !copied, .accents = true, .breaks = true, .upright = true};
-  const Painting strokes = paint_strokes(std::move(ground), lit.guidance, lit.base, layers, to_stroke_parameters(world, palette), progress);
+  const Painting strokes = paint_strokes(std::move(canvas), lit.guidance, lit.base, layers, to_stroke_parameters(world, palette), progress);
   const Grid<glm::vec3> panorama = blend_edges(strokes.picture, lit.guidance);
   write_panorama(panorama, scene, color, notes, out_folder, progress);
 }

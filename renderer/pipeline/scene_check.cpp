@@ -25,7 +25,7 @@ LoadedScene small(const LoadedScene& scene) {
   out.scene.output.height =
       std::max(16, static_cast<int>(static_cast<double>(scene.scene.output.height) * width / scene.scene.output.width));
   out.scene.output.width = width;
-  // Sheets are painted at half their size: enough to see which classes they have.
+  // Example sheets are painted at half their size: enough to see which classes they have.
   if (out.scene.exemplars.empty()) out.scene.exemplars.emplace_back();
   for (SceneExemplar& exemplar : out.scene.exemplars) {
     exemplar.width /= 2;
@@ -99,7 +99,7 @@ SceneExemplars look_at_exemplars(const LoadedScene& scene, Progress& progress) {
   const World world(view, progress);
   const LitPicture picture = make_lit_picture(world, palette, whole_picture(view), {.progress = progress});
   const double small_pixels = static_cast<double>(view.scene.output.width) * view.scene.output.height;
-  // Sheets are painted for the picture itself: their strokes are as large as its.
+  // Example sheets are painted for the picture itself: their strokes are as large as its.
   return {.exemplars = make_exemplars(scene, world.view, palette, read_scans(scene, progress), progress),
           .view = make_guide_stack(picture.guidance, picture.guidance.land_cover),
           .pixels_of_picture = static_cast<double>(scene.scene.output.width) * scene.scene.output.height / small_pixels};

@@ -56,11 +56,11 @@ HalvesDistance compare_halves(const Exemplar& a, const Exemplar& b, std::uint8_t
   return distance;
 }
 
-GuideCoverage cover(const Guide& guide, const Grid<std::uint8_t>& labels, std::uint8_t label) {
+GuideSupply cover(const Guide& guide, const Grid<std::uint8_t>& labels, std::uint8_t label) {
   std::array<std::size_t, 256> counts{};
   for (std::size_t i = 0; i < labels.size(); ++i)
     if (labels[i] == label) ++counts[guide.values[i]];
-  GuideCoverage out;
+  GuideSupply out;
   out.name = guide.name;
   out.low = static_cast<std::uint8_t>(std::lround(quality::quantile(counts.data(), counts.size(), 0.05)));
   out.high = static_cast<std::uint8_t>(std::lround(quality::quantile(counts.data(), counts.size(), 0.95)));
@@ -119,7 +119,7 @@ double covered_share(const std::vector<Exemplar>& exemplars, const GuideStack& t
                      int reach) {
   const auto values_of = [&](const GuideStack& stack) -> const Grid<std::uint8_t>& {
     const Grid<std::uint8_t>* values = stack.find(guide);
-    if (values == nullptr) throw Error(ErrorKind::usage, "coverage", fmt::format("guide \"{}\" is missing on one side", guide));
+    if (values == nullptr) throw Error(ErrorKind::usage, "guides", fmt::format("guide \"{}\" is missing on one side", guide));
     return *values;
   };
   std::array<bool, 256> served{};

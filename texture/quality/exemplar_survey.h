@@ -12,7 +12,7 @@ namespace belvedere {
 // What a painting can serve, told before anything is copied from it.
 
 // Where a guide's values of a class lie.
-struct GuideCoverage {
+struct GuideSupply {
   std::string name;
   std::uint8_t lowest = 0;
   std::uint8_t highest = 0;
@@ -42,7 +42,7 @@ struct ClassSurvey {
   double stroke_run_px = 0.0;   // mean length of strokes inside (quality.h); 0: no inside
   HalvesDistance left_right;    // one hand all over?
   HalvesDistance checkerboard;  // of squares of 32 texels: what chance alone makes
-  std::vector<GuideCoverage> guides;
+  std::vector<GuideSupply> guides;
 };
 
 struct ExemplarSurvey {

@@ -71,7 +71,7 @@ void measure_copying(const MatchField& matches, const std::vector<Exemplar>& exe
     texels += counts.size();
     used += counts.size() - static_cast<std::size_t>(std::count(counts.begin(), counts.end(), 0U));
   }
-  quality.coverage = static_cast<double>(used) / static_cast<double>(texels);
+  quality.texels_used = static_cast<double>(used) / static_cast<double>(texels);
   const std::size_t count = std::accumulate(errors.begin(), errors.end(), std::size_t{0});
   if (count > 0) {
     double sum = 0.0;

@@ -40,7 +40,7 @@ struct SynthesisQuality {
   std::size_t without_texel = 0;    // pixels
   std::size_t excluded_used = 0;    // pixels that copy an excluded texel; must be 0
   int most_used = 0;                // pixels that copy one and the same texel
-  double coverage = 0.0;            // share of texels that are used at all
+  double texels_used = 0.0;         // share of texels that are used at all
   std::size_t largest_piece = 0;    // pixels copied by one offset, 4-connected
   double coherence = 0.0;           // share of 4-neighbours copied by one offset
   double across_silhouettes = 0.0;  // the same share among neighbours of different surfaces; must be 0

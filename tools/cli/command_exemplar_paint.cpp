@@ -26,51 +26,51 @@ struct Options {
   int tile_size = 32;
 };
 
-void refuse_sheet_options(const Options& options) {
+void refuse_example_sheet_options(const Options& options) {
   const char* given = nullptr;
   if (options.size) given = "--size";
   if (options.dots_per_inch) given = "--dpi";
   if (!options.plan.empty()) given = "--plan";
   if (given != nullptr)
-    throw Error(ErrorKind::usage, given, "it belongs to a sheet, and a scene is painted here",
+    throw Error(ErrorKind::usage, given, "it belongs to an example sheet, and a scene is painted here",
                 "--set output.width=…, output.height and output.sheet_width_mm");
 }
 
-Coverage paint_scene(const Options& options, const Run& run) {
-  refuse_sheet_options(options);
+TexelSupply paint_scene(const Options& options, const Run& run) {
+  refuse_example_sheet_options(options);
   SceneOptions scene = options.scene;
   if (options.season) scene.files.settings.push_back("palette=" + *options.season);
   if (options.seed) scene.files.settings.push_back(fmt::format("seed={}", *options.seed));
   return write_scene_exemplar(load(scene), options.out, run);
 }
 
-Coverage paint_sheet_of(const Options& options, const Run& run) {
+TexelSupply paint_example_sheet_of(const Options& options, const Run& run) {
   if (!options.scene.files.settings.empty())
-    throw Error(ErrorKind::usage, "--set", "it changes a scene, and a sheet has none", "--plan with a sheet.toml of your own");
-  SheetPlan plan = options.plan.empty() ? built_in_sheet_plan() : read_sheet_plan(options.plan);
+    throw Error(ErrorKind::usage, "--set", "it changes a scene, and an example sheet has none", "--plan with a sheet.toml of your own");
+  ExampleSheetPlan plan = options.plan.empty() ? built_in_example_sheet_plan() : read_example_sheet_plan(options.plan);
   if (options.season) plan.palette = *options.season;
   if (options.size) plan.width = plan.height = *options.size;
   if (options.dots_per_inch) plan.dots_per_inch = *options.dots_per_inch;
   if (options.seed) plan.seed = *options.seed;
-  return write_sheet_exemplar(plan, options.out, run);
+  return write_example_sheet(plan, options.out, run);
 }
 
 int run(const Options& options) {
-  const bool sheet = options.scene.scene.empty();
+  const bool example_sheet = options.scene.scene.empty();
   TerminalProgress progress(options.scene.quiet);
   const Run run = make_run(options.scene, options.tile_size, progress);
   const RunLimits limits(run);
-  const Coverage coverage = sheet ? paint_sheet_of(options, run) : paint_scene(options, run);
+  const TexelSupply supply = example_sheet ? paint_example_sheet_of(options, run) : paint_scene(options, run);
   progress.end();
 
-  const std::vector<CoverageGap> gaps = find_gaps(coverage, built_in_demand(), {});
+  const std::vector<SupplyGap> gaps = find_gaps(supply, built_in_demand(), {});
   if (options.scene.json) {
-    print_out(coverage_json(coverage, gaps));
+    print_out(supply_json(supply, gaps));
   } else if (!options.scene.quiet) {
-    // What one view lacks is no fault of it: only a sheet is meant to have everything.
-    print_out(coverage_text(coverage, sheet ? gaps : std::vector<CoverageGap>{}, sheet));
+    // What one view lacks is no fault of it: only an example sheet is meant to have everything.
+    print_out(supply_text(supply, example_sheet ? gaps : std::vector<SupplyGap>{}, example_sheet));
     for (const char* name :
-         {"painting.tif", "ground.tif", "painting.png", "guidance.exr", sheet ? "sheet.toml" : "scene.toml", "coverage.json"})
+         {"painting.tif", "ground.tif", "painting.png", "guidance.exr", example_sheet ? "sheet.toml" : "scene.toml", "coverage.json"})
       print_out((std::filesystem::path(options.out) / name).string() + "\n");
   }
   return 0;
@@ -80,22 +80,24 @@ int run(const Options& options) {
 
 Action add_exemplar_paint(CLI::App& command) {
   const auto options = std::make_shared<Options>();
-  add_scene_options(command, options->scene, "A scene whose view is painted; without one a sheet of made-up views");
+  add_scene_options(command, options->scene, "A scene whose view is painted; without one an example sheet of made-up views");
   command.add_option("--out", options->out, "Folder for the results; made where it is missing")->type_name("DIR")->required();
-  command.add_option("--season", options->season, "Palette: summer, autumn, winter, desert or a .toml file; of a sheet summer by default")
+  command
+      .add_option("--season", options->season,
+                  "Palette: summer, autumn, winter, desert or a .toml file; of an example sheet summer by default")
       ->type_name("PALETTE");
-  command.add_option("--size", options->size, "Side of the sheet in pixels; 4096 by default")
+  command.add_option("--size", options->size, "Side of the example sheet in pixels; 4096 by default")
       ->type_name("PX")
       ->check(CLI::Range(256, 16384));
   command
       .add_option("--dpi", options->dots_per_inch,
-                  "Resolution the sheet's strokes are sized for: that of the panorama that shall copy them; 50.8 by default")
+                  "Resolution the example sheet's strokes are sized for: that of the panorama that shall copy them; 50.8 by default")
       ->type_name("DPI")
       ->check(CLI::Range(5.0, 2540.0));
   command.add_option("--seed", options->seed, "Another number gives other mountains and strokes")
       ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{0}, SheetPlan::largest_seed));
-  command.add_option("--plan", options->plan, "A sheet.toml: paints that sheet instead of the built-in one")->type_name("FILE");
+      ->check(CLI::Range(std::uint64_t{0}, ExampleSheetPlan::largest_seed));
+  command.add_option("--plan", options->plan, "A sheet.toml: paints that example sheet instead of the built-in one")->type_name("FILE");
   command.add_option("--tile", options->tile_size, "Side of the tiles that threads work on, in pixels. Changes no pixel")
       ->type_name("N")
       ->capture_default_str()

@@ -26,9 +26,9 @@ Json halves_json(const HalvesDistance& halves) {
 
 Json class_json(const ClassSurvey& of, const ExemplarFindings& findings) {
   Json guides = Json::array();
-  for (const GuideCoverage& guide : of.guides) {
+  for (const GuideSupply& guide : of.guides) {
     Json gaps = Json::array();
-    for (const GuideCoverage::Gap& gap : guide.gaps) gaps.add(Json::array({Json::number(gap.from), Json::number(gap.to)}));
+    for (const GuideSupply::Gap& gap : guide.gaps) gaps.add(Json::array({Json::number(gap.from), Json::number(gap.to)}));
     guides.add(Json::object()
                    .add("name", Json::text(guide.name))
                    .add("lowest", Json::number(guide.lowest))
@@ -83,9 +83,9 @@ std::vector<std::string> describe_flaws(const ClassSurvey& of, const ExemplarFin
   if (of.left_right.known && of.left_right.clique > std::max(uneven_clique, uneven_ratio * of.checkerboard.clique))
     flaws.push_back(fmt::format("left and right are painted unlike each other ({:.2f}, chance makes {:.2f}): both will lie side by side",
                                 of.left_right.clique, of.checkerboard.clique));
-  for (const GuideCoverage& guide : of.guides) {
+  for (const GuideSupply& guide : of.guides) {
     if (guide.name != "altitude") continue;
-    for (const GuideCoverage::Gap& gap : guide.gaps)
+    for (const GuideSupply::Gap& gap : guide.gaps)
       flaws.push_back(
           fmt::format("no texels at altitudes {} to {}", findings.value(guide.name, gap.from), findings.value(guide.name, gap.to)));
   }
@@ -117,7 +117,7 @@ std::string findings_text(const ExemplarFindings& findings) {
     out += fmt::format("{}: {} × {} texels, {:.1f} % of them never a source\n", painting.name, painting.width, painting.height,
                        100.0 * static_cast<double>(survey.excluded) / static_cast<double>(survey.texels));
     const bool altitude = !survey.classes.empty() && std::any_of(survey.classes[0].guides.begin(), survey.classes[0].guides.end(),
-                                                                 [](const GuideCoverage& guide) { return guide.name == "altitude"; });
+                                                                 [](const GuideSupply& guide) { return guide.name == "altitude"; });
     std::vector<std::vector<std::string>> rows{
         {"class", "texels", "inside", "pixels served", "sharpness", "stroke, px", "left | right", "chance"}};
     if (altitude) rows[0].emplace_back("altitudes (5–95 %)");
@@ -126,7 +126,7 @@ std::string findings_text(const ExemplarFindings& findings) {
                       grouped(static_cast<double>(of.texels * pixels_per_texel)), of.inside > 0 ? fmt::format("{:.1f}", of.sharpness) : "–",
                       of.inside > 0 ? fmt::format("{:.1f}", of.stroke_run_px) : "–", halves_text(of.left_right),
                       halves_text(of.checkerboard)});
-      for (const GuideCoverage& guide : of.guides)
+      for (const GuideSupply& guide : of.guides)
         if (guide.name == "altitude")
           rows.back().push_back(fmt::format("{} … {}", findings.value(guide.name, guide.low), findings.value(guide.name, guide.high)));
     }

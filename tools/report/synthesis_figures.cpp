@@ -48,7 +48,7 @@ std::vector<QualityFigure> key_figures(const SynthesisQuality& q) {
       {"self_repeat", "self-repetition against the painting", "repetition", q.self_repeat, 0.9, 1.1},
       {"specks_inside", "specks inside classes against the painting", "specks", q.specks_inside, 0.0, 1.2},
       {"specks_border", "specks at borders against the painting", "specks, border", q.specks_border, 0.0, 1.2},
-      {"coverage", "texels used at all, share", "texels", q.coverage, 0.0, any},
+      {"coverage", "texels used at all, share", "texels", q.texels_used, 0.0, any},
       {"coherence", "neighbours copied together, share", "together", q.coherence, 0.0, any},
       {"across_silhouettes", "of those across silhouettes, share", "silhouettes", q.across_silhouettes, 0.0, 0.0},
       {"without_texel", "pixels without a texel", "empty", static_cast<double>(q.without_texel), 0.0, 0.0},

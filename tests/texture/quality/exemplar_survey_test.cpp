@@ -42,7 +42,7 @@ TEST(ExemplarSurvey, HalvesOfOneHandAreAlikeAndOfTwoAreNot) {
 TEST(ExemplarSurvey, GuidesAreToldWithTheirGaps) {
   const ClassSurvey of = survey_exemplar(two_hands(60, 60)).classes.at(0);
   ASSERT_EQ(of.guides.size(), 1U);
-  const GuideCoverage& altitude = of.guides[0];
+  const GuideSupply& altitude = of.guides[0];
   EXPECT_EQ(altitude.lowest, 20);
   EXPECT_EQ(altitude.highest, 179);
   EXPECT_EQ(altitude.low, 26);  // 5 % of 120 rows

@@ -61,7 +61,7 @@ TEST(Quality, AnExemplarAgainstItselfIsFaultless) {
   EXPECT_EQ(q.label_agreement, 1.0);
   EXPECT_EQ(q.guide_error_mean, 0.0);
   EXPECT_EQ(q.most_used, 1);
-  EXPECT_EQ(q.coverage, 1.0);
+  EXPECT_EQ(q.texels_used, 1.0);
   EXPECT_EQ(q.largest_piece, 120U * 90U);
   EXPECT_EQ(q.coherence, 1.0);
   EXPECT_EQ(q.without_texel, 0U);

@@ -1,4 +1,4 @@
-#include "renderer/exemplar/coverage.h"
+#include "renderer/exemplar/texel_supply.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "base/guidance_channels.h"
-#include "renderer/exemplar/coverage_names.h"
+#include "renderer/exemplar/texel_supply_names.h"
 
 namespace belvedere {
 namespace {
@@ -22,41 +22,41 @@ std::size_t bin_of(float value, const std::array<float, bounds>& limits) {
 }
 
 std::size_t tone_bin(float tone) {
-  return static_cast<std::size_t>(std::clamp(static_cast<int>(tone * Coverage::tones), 0, Coverage::tones - 1));
+  return static_cast<std::size_t>(std::clamp(static_cast<int>(tone * TexelSupply::tones), 0, TexelSupply::tones - 1));
 }
 
 std::size_t direction_bin(glm::vec2 direction) {
   const float turns = std::atan2(direction.y, direction.x) / (2.F * std::numbers::pi_v<float>);
-  const int bin = static_cast<int>(std::floor(turns * Coverage::directions + 0.5F));
-  return static_cast<std::size_t>((bin + Coverage::directions) % Coverage::directions);
+  const int bin = static_cast<int>(std::floor(turns * TexelSupply::directions + 0.5F));
+  return static_cast<std::size_t>((bin + TexelSupply::directions) % TexelSupply::directions);
 }
 
 bool same_surface(float a, float b) { return a <= same_surface_ratio * b && b <= same_surface_ratio * a; }
 
 }  // namespace
 
-std::int64_t Coverage::ground() const { return std::accumulate(texels.begin(), texels.end(), std::int64_t{0}); }
+std::int64_t TexelSupply::ground() const { return std::accumulate(texels.begin(), texels.end(), std::int64_t{0}); }
 
-void add_coverage(Coverage& coverage, const GuidanceBuffers& guidance, const Grid<LandCoverClass>& classes) {
+void add_supply(TexelSupply& supply, const GuidanceBuffers& guidance, const Grid<LandCoverClass>& classes) {
   using B = GuidanceBuffers;
-  require_channels(guidance, {&B::depth_m, &B::tone, &B::fall_line, &B::altitude_m, &B::shadow}, "coverage");
+  require_channels(guidance, {&B::depth_m, &B::tone, &B::fall_line, &B::altitude_m, &B::shadow}, "supply");
   const int width = guidance.width();
   const int height = guidance.height();
-  coverage.pixels += static_cast<std::int64_t>(guidance.depth_m.size());
+  supply.pixels += static_cast<std::int64_t>(guidance.depth_m.size());
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const std::size_t i = classes.index(x, y);
       if (guidance.is_sky(i) || classes[i] == LandCoverClass::sky) continue;
       const auto id = static_cast<std::size_t>(classes[i]);
       const float depth = guidance.depth_m[i];
-      ++coverage.texels[id];
-      ++coverage.by_light[id][tone_bin(guidance.tone[i])][bin_of(depth, Coverage::distance_bounds_m)];
-      if (guidance.fall_line[i] != glm::vec2(0.F)) ++coverage.by_direction[id][direction_bin(guidance.fall_line[i])];
-      ++coverage.by_altitude[id][bin_of(guidance.altitude_m[i], Coverage::altitude_bounds_m)];
-      if (guidance.shadow[i] < 0.5F) ++coverage.in_cast_shadow[id];
+      ++supply.texels[id];
+      ++supply.by_light[id][tone_bin(guidance.tone[i])][bin_of(depth, TexelSupply::distance_bounds_m)];
+      if (guidance.fall_line[i] != glm::vec2(0.F)) ++supply.by_direction[id][direction_bin(guidance.fall_line[i])];
+      ++supply.by_altitude[id][bin_of(guidance.altitude_m[i], TexelSupply::altitude_bounds_m)];
+      if (guidance.shadow[i] < 0.5F) ++supply.in_cast_shadow[id];
 
       // A texel counts once for each other class around it.
-      Coverage::ByClass<bool> beside{};
+      TexelSupply::ByClass<bool> beside{};
       bool edge = false;
       const auto look = [&](int nx, int ny) {
         if (!classes.contains(nx, ny)) return;
@@ -69,19 +69,19 @@ void add_coverage(Coverage& coverage, const GuidanceBuffers& guidance, const Gri
       look(x + 1, y);
       look(x, y - 1);
       look(x, y + 1);
-      coverage.at_silhouette += edge ? 1 : 0;
+      supply.at_silhouette += edge ? 1 : 0;
       for (std::size_t k = 0; k < beside.size(); ++k) {
         if (!beside[k]) continue;
-        ++coverage.border[id][k];
-        ++coverage.border[k][id];
+        ++supply.border[id][k];
+        ++supply.border[k][id];
       }
     }
   }
 }
 
-std::vector<CoverageGap> find_gaps(const Coverage& coverage, const CoverageDemand& demand, const CoverageFloors& floors) {
-  std::vector<CoverageGap> gaps;
-  const double scale = static_cast<double>(coverage.pixels) / (counted_size * counted_size);
+std::vector<SupplyGap> find_gaps(const TexelSupply& supply, const SupplyDemand& demand, const SupplyFloors& floors) {
+  std::vector<SupplyGap> gaps;
+  const double scale = static_cast<double>(supply.pixels) / (counted_size * counted_size);
   const double length_scale = std::sqrt(scale);  // borders are lines: they grow with a painting's side
   const auto require = [&](bool needed, std::int64_t found, double floor, const auto& name) {
     if (needed && static_cast<double>(found) < floor) gaps.push_back({name(), static_cast<double>(found), floor});
@@ -89,25 +89,25 @@ std::vector<CoverageGap> find_gaps(const Coverage& coverage, const CoverageDeman
   for (int k = 1; k < land_cover_class_count; ++k) {
     const auto id = static_cast<std::size_t>(k);
     const std::string name(class_name(static_cast<LandCoverClass>(k)));
-    require(demand.texels[id], coverage.texels[id], floors.texels * scale, [&] { return name; });
-    const double most = floors.largest_share * static_cast<double>(coverage.ground());
-    if (static_cast<double>(coverage.texels[id]) > most)
-      gaps.push_back({name + ", share of the ground", static_cast<double>(coverage.texels[id]), most, true});
-    for (std::size_t t = 0; t < Coverage::tones; ++t)
-      for (std::size_t d = 0; d < Coverage::distances; ++d)
-        require(demand.light[id][t][d], coverage.by_light[id][t][d], floors.light * scale,
+    require(demand.texels[id], supply.texels[id], floors.texels * scale, [&] { return name; });
+    const double most = floors.largest_share * static_cast<double>(supply.ground());
+    if (static_cast<double>(supply.texels[id]) > most)
+      gaps.push_back({name + ", share of the ground", static_cast<double>(supply.texels[id]), most, true});
+    for (std::size_t t = 0; t < TexelSupply::tones; ++t)
+      for (std::size_t d = 0; d < TexelSupply::distances; ++d)
+        require(demand.light[id][t][d], supply.by_light[id][t][d], floors.light * scale,
                 [&] { return fmt::format("{}, tone {:.1f}–{:.1f}, {}", name, 0.2 * t, 0.2 * (t + 1), distance_name(d)); });
-    for (std::size_t n = 0; n < Coverage::directions; ++n)
-      require(demand.direction[id][n], coverage.by_direction[id][n], floors.direction * scale,
+    for (std::size_t n = 0; n < TexelSupply::directions; ++n)
+      require(demand.direction[id][n], supply.by_direction[id][n], floors.direction * scale,
               [&] { return fmt::format("{}, fall line {}", name, direction_name(n)); });
-    require(demand.shadow[id], coverage.in_cast_shadow[id], floors.shadow * scale, [&] { return name + ", in cast shadow"; });
+    require(demand.shadow[id], supply.in_cast_shadow[id], floors.shadow * scale, [&] { return name + ", in cast shadow"; });
     for (std::size_t other = id + 1; other < static_cast<std::size_t>(land_cover_class_count); ++other)
-      require(demand.border[id][other], coverage.border[id][other], floors.border * length_scale,
+      require(demand.border[id][other], supply.border[id][other], floors.border * length_scale,
               [&] { return fmt::format("border of {} and {}", name, class_name(static_cast<LandCoverClass>(other))); });
   }
   const auto forest = static_cast<std::size_t>(LandCoverClass::forest);
-  for (std::size_t a = 0; a < Coverage::altitudes; ++a)
-    require(true, coverage.by_altitude[forest][a], floors.altitude * scale, [&] { return "forest, " + altitude_name(a); });
+  for (std::size_t a = 0; a < TexelSupply::altitudes; ++a)
+    require(true, supply.by_altitude[forest][a], floors.altitude * scale, [&] { return "forest, " + altitude_name(a); });
   return gaps;
 }
 

@@ -5,7 +5,7 @@
 
 namespace belvedere {
 
-// The bins of Coverage in words.
+// The bins of TexelSupply in words.
 std::string distance_name(std::size_t bin);
 std::string direction_name(std::size_t bin);
 std::string altitude_name(std::size_t bin);

@@ -1,4 +1,4 @@
-#include "renderer/exemplar/sheet.h"
+#include "renderer/exemplar/example_sheet.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <set>
 
 #include "base/error.h"
-#include "renderer/exemplar/coverage.h"
 #include "renderer/exemplar/exemplar_files.h"
 #include "renderer/exemplar/exemplars.h"
 #include "renderer/exemplar/scan.h"
+#include "renderer/exemplar/texel_supply.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
 #include "renderer/paint/composite.h"
@@ -56,11 +56,11 @@ view = "right"
 set = ["sun.altitude_deg=20"]
 )";
 
-SheetPlan small_plan() { return parse_sheet_plan(two_panels, "two.toml"); }
+ExampleSheetPlan small_plan() { return parse_example_sheet_plan(two_panels, "two.toml"); }
 
-TEST(SheetPlan, PanelsCoverTheSheetWithMarginsBetweenThem) {
+TEST(ExampleSheetPlan, PanelsCoverTheSheetWithMarginsBetweenThem) {
   for (const int size : {256, 266, 1000, 4096}) {
-    SheetPlan plan = built_in_sheet_plan();
+    ExampleSheetPlan plan = built_in_example_sheet_plan();
     plan.width = plan.height = size;
     Grid<int> covered(plan.width, plan.height, 0);
     for (int p = 0; p < static_cast<int>(plan.panels.size()); ++p) {
@@ -77,42 +77,42 @@ TEST(SheetPlan, PanelsCoverTheSheetWithMarginsBetweenThem) {
   }
 }
 
-TEST(SheetPlan, IsWrittenAsItIsRead) {
-  SheetPlan plan = built_in_sheet_plan();
+TEST(ExampleSheetPlan, IsWrittenAsItIsRead) {
+  ExampleSheetPlan plan = built_in_example_sheet_plan();
   plan.width = 777;
   plan.palette = "winter";
   plan.seed = 12;
   plan.dots_per_inch = 101.6;
-  const SheetPlan again = parse_sheet_plan(write_sheet_plan(plan), "again");
-  EXPECT_EQ(write_sheet_plan(again), write_sheet_plan(plan));
+  const ExampleSheetPlan again = parse_example_sheet_plan(write_example_sheet_plan(plan), "again");
+  EXPECT_EQ(write_example_sheet_plan(again), write_example_sheet_plan(plan));
   ASSERT_EQ(again.panels.size(), plan.panels.size());
   for (int p = 0; p < static_cast<int>(plan.panels.size()); ++p)
     for (const bool winter : {false, true})
       EXPECT_EQ(write_scene(panel_scene(again, p, winter).scene), write_scene(panel_scene(plan, p, winter).scene)) << p;
 }
 
-TEST(SheetPlan, RefusesWhatItDoesNotUnderstand) {
+TEST(ExampleSheetPlan, RefusesWhatItDoesNotUnderstand) {
   const auto with = [](const std::string& more) { return std::string("columns = 1\n") + more; };
-  EXPECT_NO_THROW(parse_sheet_plan(with("[[panels]]\n"), "p"));
+  EXPECT_NO_THROW(parse_example_sheet_plan(with("[[panels]]\n"), "p"));
   for (const char* wrong : {"", "rows = 2\n[[panels]]\n", "width = 10\n[[panels]]\n", "[[panels]]\nterrain = \"none\"\n",
                             "[[panels]]\nsets = []\n", "palette = 3\n[[panels]]\n"})
-    EXPECT_THROW(parse_sheet_plan(with(wrong), "p"), Error) << wrong;
-  EXPECT_THROW(parse_sheet_plan("columns = 2\n[[panels]]\n", "p"), Error);  // a row that is not full
-  SheetPlan plan = small_plan();
+    EXPECT_THROW(parse_example_sheet_plan(with(wrong), "p"), Error) << wrong;
+  EXPECT_THROW(parse_example_sheet_plan("columns = 2\n[[panels]]\n", "p"), Error);  // a row that is not full
+  ExampleSheetPlan plan = small_plan();
   plan.panels[0].settings.emplace_back("camera.colour=red");
   EXPECT_THROW(panel_scene(plan, 0, false), Error);
 }
 
-TEST(SheetPlan, LightFallsFromTheSameSideInAllPanels) {
-  const SheetPlan plan = built_in_sheet_plan();
+TEST(ExampleSheetPlan, LightFallsFromTheSameSideInAllPanels) {
+  const ExampleSheetPlan plan = built_in_example_sheet_plan();
   for (int p = 0; p < static_cast<int>(plan.panels.size()); ++p) {
     const Scene scene = panel_scene(plan, p, false).scene;
     EXPECT_NEAR(std::remainder(scene.sun.azimuth_deg - scene.camera.azimuth_deg - plan.light_from_deg, 360.0), 0.0, 1e-9) << p;
   }
 }
 
-TEST(SheetPlan, WinterLaysSnowWherePanelsSaySo) {
-  const SheetPlan plan = built_in_sheet_plan();
+TEST(ExampleSheetPlan, WinterLaysSnowWherePanelsSaySo) {
+  const ExampleSheetPlan plan = built_in_example_sheet_plan();
   const auto snowed = [&](bool winter) {
     int count = 0;
     for (int p = 0; p < static_cast<int>(plan.panels.size()); ++p)
@@ -124,8 +124,8 @@ TEST(SheetPlan, WinterLaysSnowWherePanelsSaySo) {
   EXPECT_LT(snowed(true), static_cast<int>(plan.panels.size()) / 2);  // or winter would have too little of everything else
 }
 
-TEST(SheetPainter, IndicesOfPaintCountInTheWholeSheet) {
-  SheetPainter painter(small_plan(), {read_palette("summer"), std::nullopt});
+TEST(ExampleSheetPainter, IndicesOfPaintCountInTheWholeSheet) {
+  ExampleSheetPainter painter(small_plan(), {read_palette("summer"), std::nullopt});
   ASSERT_EQ(painter.rows(), 1);
   const ExamplePainting row = painter.paint_row(0, {}, {});
   const GuidanceBuffers& g = row.guidance;
@@ -158,8 +158,8 @@ TEST(SheetPainter, IndicesOfPaintCountInTheWholeSheet) {
   EXPECT_LT(*left_strokes.rbegin(), *right_strokes.begin());
 }
 
-TEST(SheetPlan, SeedAndResolutionChangeEveryPanel) {
-  SheetPlan plan = small_plan();
+TEST(ExampleSheetPlan, SeedAndResolutionChangeEveryPanel) {
+  ExampleSheetPlan plan = small_plan();
   const Scene usual = panel_scene(plan, 1, false).scene;
   EXPECT_EQ(usual.terrain.synthetic->seed, 4U);  // as the panel says, for the plan's own seed
   // Another seed makes other terrains, and no terrain of a neighbouring seed's. Seeds stay within what files hold exactly.
@@ -169,7 +169,7 @@ TEST(SheetPlan, SeedAndResolutionChangeEveryPanel) {
     terrains.insert(panel_scene(plan, 1, false).scene.terrain.synthetic->seed);
   }
   EXPECT_EQ(terrains.size(), 6U);
-  EXPECT_LE(*terrains.rbegin(), SheetPlan::largest_seed);
+  EXPECT_LE(*terrains.rbegin(), ExampleSheetPlan::largest_seed);
   EXPECT_NE(panel_scene(plan, 1, false).scene.seed, usual.seed);
   // Strokes are sized in millimetres: 25.4 dpi are a pixel a millimetre, half a unit.
   EXPECT_NEAR(usual.pixels_per_unit(), 0.5, 1e-9);
@@ -177,8 +177,8 @@ TEST(SheetPlan, SeedAndResolutionChangeEveryPanel) {
   EXPECT_NEAR(panel_scene(plan, 1, false).scene.pixels_per_unit(), 2.0, 1e-9);
 }
 
-TEST(SheetPainter, PanelsHaveTheTerrainRulesAndStrokesOfTheirOwn) {
-  SheetPlan plan = small_plan();
+TEST(ExampleSheetPainter, PanelsHaveTheTerrainRulesAndStrokesOfTheirOwn) {
+  ExampleSheetPlan plan = small_plan();
   plan.panels[1] = plan.panels[0];  // alike at first
   const PixelRect left = panel_rect(plan, 0);
   const PixelRect right = panel_rect(plan, 1);
@@ -195,7 +195,7 @@ TEST(SheetPainter, PanelsHaveTheTerrainRulesAndStrokesOfTheirOwn) {
     return static_cast<double>(same) / ground;
   };
   const auto painted = [&] {
-    SheetPainter painter(plan, {read_palette("summer"), std::nullopt});
+    ExampleSheetPainter painter(plan, {read_palette("summer"), std::nullopt});
     return painter.paint_row(0, {.painting = false, .sky = false}, {});
   };
   const ExamplePainting twins = painted();
@@ -211,10 +211,10 @@ TEST(SheetPainter, PanelsHaveTheTerrainRulesAndStrokesOfTheirOwn) {
   EXPECT_LT(alike(other_terrain, other_terrain.guidance.altitude_m), 0.2);
 }
 
-TEST(SheetPainter, PaintsInTheHandOfItsPicture) {
-  const SheetPlan plan = small_plan();
+TEST(ExampleSheetPainter, PaintsInTheHandOfItsPicture) {
+  const ExampleSheetPlan plan = small_plan();
   const auto mean_tone_and_blue = [&](const char* palette, const std::optional<LightParameters>& light) {
-    SheetPainter painter(plan, {read_palette(palette), light});
+    ExampleSheetPainter painter(plan, {read_palette(palette), light});
     const ExamplePainting row = painter.paint_row(0, {.painting = false, .sky = false}, {});
     glm::dvec2 sum(0.0);
     double ground = 0.0;
@@ -234,7 +234,7 @@ class ExemplarFiles : public testing::Test {
  protected:
   std::string out(const std::string& name) const { return folder_ / name; }
   void paint(const std::string& name, int threads, int tile) const {
-    write_sheet_exemplar(small_plan(), out(name), {.threads = threads, .tile_px = tile});
+    write_example_sheet(small_plan(), out(name), {.threads = threads, .tile_px = tile});
   }
   static LoadedScene copying(const std::string& picture, const std::string& guidance, const std::string& folder) {
     return parse_scene("version = 1\n[[exemplar]]\npicture = \"" + picture + "\"\nguidance = \"" + guidance + "\"\n", "s.toml", folder, {});
@@ -244,7 +244,7 @@ class ExemplarFiles : public testing::Test {
 
 TEST_F(ExemplarFiles, SameBytesForAnyThreadsAndWhenMadeAgainFromTheirPlan) {
   paint("a", 1, 32);
-  write_sheet_exemplar(read_sheet_plan(out("a/sheet.toml")), out("b"), {.threads = 2, .tile_px = 64});
+  write_example_sheet(read_example_sheet_plan(out("a/sheet.toml")), out("b"), {.threads = 2, .tile_px = 64});
   for (const char* file : {"painting.tif", "ground.tif", "painting.png", "guidance.exr", "sheet.toml", "coverage.json"}) {
     const std::string left = test::read_bytes(out(std::string("a/") + file));
     EXPECT_FALSE(left.empty()) << file;
@@ -254,7 +254,7 @@ TEST_F(ExemplarFiles, SameBytesForAnyThreadsAndWhenMadeAgainFromTheirPlan) {
 
 TEST_F(ExemplarFiles, AreReadAsTheSheetThatWasPainted) {
   paint("a", 0, 32);
-  SheetPainter painter(small_plan(), {read_palette("summer"), std::nullopt});
+  ExampleSheetPainter painter(small_plan(), {read_palette("summer"), std::nullopt});
   const ExamplePainting row = painter.paint_row(0, {}, {});
   for (const char* layer : {"ground.tif", "painting.tif"}) {
     const bool ground = std::string(layer) == "ground.tif";
@@ -295,24 +295,24 @@ TEST_F(ExemplarFiles, AreReadAsTheSheetThatWasPainted) {
 }
 
 TEST_F(ExemplarFiles, CountedIsTheClassOfThePaintThatIsCopied) {
-  const Coverage counted = write_sheet_exemplar(small_plan(), out("a"), {});
+  const TexelSupply counted = write_example_sheet(small_plan(), out("a"), {});
   const GuidanceBuffers guidance = read_guidance(out("a/guidance.exr"));
-  Coverage of_ground_paint;
-  Coverage of_classes;
-  add_coverage(of_ground_paint, guidance, classes_of_paint(guidance, guidance.ground_from).land_cover);
-  add_coverage(of_classes, guidance, guidance.land_cover);
+  TexelSupply of_ground_paint;
+  TexelSupply of_classes;
+  add_supply(of_ground_paint, guidance, classes_of_paint(guidance, guidance.ground_from).land_cover);
+  add_supply(of_classes, guidance, guidance.land_cover);
   EXPECT_EQ(counted.pixels, 256 * 256);
   EXPECT_EQ(counted.texels, of_ground_paint.texels);
   EXPECT_EQ(counted.border, of_ground_paint.border);
   EXPECT_NE(counted.texels, of_classes.texels);
-  EXPECT_EQ(test::read_bytes(out("a/coverage.json")), coverage_json(counted, find_gaps(counted, built_in_demand(), {})));
+  EXPECT_EQ(test::read_bytes(out("a/coverage.json")), supply_json(counted, find_gaps(counted, built_in_demand(), {})));
 }
 
 TEST_F(ExemplarFiles, GuidanceOfAnotherPaintingIsRefused) {
   paint("a", 0, 32);
-  SheetPlan plan = small_plan();
+  ExampleSheetPlan plan = small_plan();
   plan.panels[1].settings.emplace_back("sun.altitude_deg=25");
-  write_sheet_exemplar(plan, out("b"), {});
+  write_example_sheet(plan, out("b"), {});
   std::filesystem::copy_file(out("b/guidance.exr"), out("a/guidance.exr"), std::filesystem::copy_options::overwrite_existing);
   try {
     read_scans(copying("ground.tif", "guidance.exr", out("a")), silent_progress());

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/json.h"
-#include "renderer/exemplar/coverage.h"
-#include "renderer/exemplar/coverage_names.h"
+#include "renderer/exemplar/texel_supply.h"
+#include "renderer/exemplar/texel_supply_names.h"
 
 namespace belvedere {
 namespace {
@@ -25,67 +25,67 @@ std::string thousands(std::int64_t count) {
 
 }  // namespace
 
-std::string coverage_json(const Coverage& coverage, const std::vector<CoverageGap>& gaps) {
+std::string supply_json(const TexelSupply& supply, const std::vector<SupplyGap>& gaps) {
   Json classes = Json::object();
   for (int k = 1; k < land_cover_class_count; ++k) {
     const auto id = static_cast<std::size_t>(k);
     Json light = Json::array();
-    for (const auto& row : coverage.by_light[id]) light.add(counts_json(row));
+    for (const auto& row : supply.by_light[id]) light.add(counts_json(row));
     Json border = Json::object();
     for (int other = 1; other < land_cover_class_count; ++other)
-      if (coverage.border[id][static_cast<std::size_t>(other)] > 0)
+      if (supply.border[id][static_cast<std::size_t>(other)] > 0)
         border.add(class_name(static_cast<LandCoverClass>(other)),
-                   Json::number(static_cast<double>(coverage.border[id][static_cast<std::size_t>(other)])));
+                   Json::number(static_cast<double>(supply.border[id][static_cast<std::size_t>(other)])));
     classes.add(class_name(static_cast<LandCoverClass>(k)),
                 Json::object()
-                    .add("texels", Json::number(static_cast<double>(coverage.texels[id])))
-                    .add("in_cast_shadow", Json::number(static_cast<double>(coverage.in_cast_shadow[id])))
+                    .add("texels", Json::number(static_cast<double>(supply.texels[id])))
+                    .add("in_cast_shadow", Json::number(static_cast<double>(supply.in_cast_shadow[id])))
                     .add("by_tone_and_distance", std::move(light))
-                    .add("by_direction", counts_json(coverage.by_direction[id]))
-                    .add("by_altitude", counts_json(coverage.by_altitude[id]))
+                    .add("by_direction", counts_json(supply.by_direction[id]))
+                    .add("by_altitude", counts_json(supply.by_altitude[id]))
                     .add("border", std::move(border)));
   }
   Json lacking = Json::array();
-  for (const CoverageGap& gap : gaps)
+  for (const SupplyGap& gap : gaps)
     lacking.add(Json::object()
                     .add("what", Json::text(gap.what))
                     .add("found", Json::number(gap.found))
                     .add(gap.too_much ? "at_most" : "wanted", Json::number(gap.needed)));
   return Json::object()
-             .add("pixels", Json::number(static_cast<double>(coverage.pixels)))
-             .add("ground", Json::number(static_cast<double>(coverage.ground())))
-             .add("at_silhouette", Json::number(static_cast<double>(coverage.at_silhouette)))
+             .add("pixels", Json::number(static_cast<double>(supply.pixels)))
+             .add("ground", Json::number(static_cast<double>(supply.ground())))
+             .add("at_silhouette", Json::number(static_cast<double>(supply.at_silhouette)))
              .add("tone_bounds", Json::array({Json::number(0.2), Json::number(0.4), Json::number(0.6), Json::number(0.8)}))
-             .add("distance_bounds_m", counts_json(Coverage::distance_bounds_m))
-             .add("altitude_bounds_m", counts_json(Coverage::altitude_bounds_m))
+             .add("distance_bounds_m", counts_json(TexelSupply::distance_bounds_m))
+             .add("altitude_bounds_m", counts_json(TexelSupply::altitude_bounds_m))
              .add("classes", std::move(classes))
              .add("gaps", std::move(lacking))
              .str() +
          "\n";
 }
 
-std::string coverage_text(const Coverage& coverage, const std::vector<CoverageGap>& gaps, bool judge) {
-  const double ground = std::max(1.0, static_cast<double>(coverage.ground()));
+std::string supply_text(const TexelSupply& supply, const std::vector<SupplyGap>& gaps, bool judge) {
+  const double ground = std::max(1.0, static_cast<double>(supply.ground()));
   std::string out = fmt::format("Thousands of texels, {:.2f} million in all; tones from dark to light\n\n{:14}{:>7}{:>7}{:>7}   {}\n",
                                 ground / 1e6, "class", "share", "all", "shadow", "at each distance: tones");
   for (int k = 1; k < land_cover_class_count; ++k) {
     const auto id = static_cast<std::size_t>(k);
     out += fmt::format("{:14}{:6.1f}%{:>7}{:>7}  ", class_name(static_cast<LandCoverClass>(k)),
-                       100.0 * static_cast<double>(coverage.texels[id]) / ground, thousands(coverage.texels[id]),
-                       thousands(coverage.in_cast_shadow[id]));
-    for (std::size_t d = 0; d < Coverage::distances; ++d) {
+                       100.0 * static_cast<double>(supply.texels[id]) / ground, thousands(supply.texels[id]),
+                       thousands(supply.in_cast_shadow[id]));
+    for (std::size_t d = 0; d < TexelSupply::distances; ++d) {
       out += " |";
-      for (std::size_t t = 0; t < Coverage::tones; ++t) out += fmt::format("{:>5}", thousands(coverage.by_light[id][t][d]));
+      for (std::size_t t = 0; t < TexelSupply::tones; ++t) out += fmt::format("{:>5}", thousands(supply.by_light[id][t][d]));
     }
     out += "\n";
   }
   out += "\nThe distances: ";
-  for (std::size_t d = 0; d < Coverage::distances; ++d) out += (d == 0 ? "" : ", ") + distance_name(d);
+  for (std::size_t d = 0; d < TexelSupply::distances; ++d) out += (d == 0 ? "" : ", ") + distance_name(d);
   out += "\n";
   if (!judge) return out;
   if (gaps.empty()) return out + "Every floor is met.\n";
   out += fmt::format("\n{} floors are not met:\n", gaps.size());
-  for (const CoverageGap& gap : gaps)
+  for (const SupplyGap& gap : gaps)
     out += gap.too_much ? fmt::format("  {}: {:.0f}, at most {:.0f}\n", gap.what, gap.found, gap.needed)
                         : fmt::format("  {}: {:.0f} of {:.0f}\n", gap.what, gap.found, gap.needed);
   return out;

@@ -1,4 +1,4 @@
-#include "renderer/exemplar/sheet_plan.h"
+#include "renderer/exemplar/example_sheet_plan.h"
 
 #include <fmt/format.h>
 
@@ -39,7 +39,7 @@ Named read_named(const ConfigTable& root, const char* key, const std::string& na
   return named;
 }
 
-void append_named(SheetPanel& panel, const ConfigTable& table, const char* key, const Named& named, const std::string& name) {
+void append_named(ExampleSheetPanel& panel, const ConfigTable& table, const char* key, const Named& named, const std::string& name) {
   const ConfigValue* value = find(table, key);
   if (value == nullptr) return;
   const std::string& given = as_string(*value, name);
@@ -68,29 +68,29 @@ std::string quoted_list(const std::vector<std::string>& texts) {
   return out + "]";
 }
 
-int rows_of(const SheetPlan& plan) { return static_cast<int>(plan.panels.size()) / plan.columns; }
+int rows_of(const ExampleSheetPlan& plan) { return static_cast<int>(plan.panels.size()) / plan.columns; }
 
-int row_top(const SheetPlan& plan, int row) {
+int row_top(const ExampleSheetPlan& plan, int row) {
   const int rows = rows_of(plan);
   if (row == rows) return plan.height;
   const int step = plan.height >= row_px * rows ? row_px : 1;
   return static_cast<int>(std::lround(static_cast<double>(plan.height) * row / rows / step)) * step;
 }
 
-int column_left(const SheetPlan& plan, int column) {
+int column_left(const ExampleSheetPlan& plan, int column) {
   return static_cast<int>(std::lround(static_cast<double>(plan.width) * column / plan.columns));
 }
 
-SheetPlan build_plan(const ConfigValue& root, const std::string& name) {
+ExampleSheetPlan build_plan(const ConfigValue& root, const std::string& name) {
   const ConfigTable& table = as_table(root, name);
   allow_only(table,
              {"width", "height", "dots_per_inch", "palette", "seed", "light_from_deg", "columns", "scene", "terrains", "views", "panels"},
              name);
-  SheetPlan plan;
+  ExampleSheetPlan plan;
   read_number(table, "width", 256, 16384, name, plan.width);
   read_number(table, "height", 256, 16384, name, plan.height);
   read_number(table, "dots_per_inch", 5, 2540, name, plan.dots_per_inch);
-  read_number(table, "seed", 0, static_cast<double>(SheetPlan::largest_seed), name, plan.seed);
+  read_number(table, "seed", 0, static_cast<double>(ExampleSheetPlan::largest_seed), name, plan.seed);
   read_number(table, "light_from_deg", -360, 360, name, plan.light_from_deg);
   read_number(table, "columns", 1, 16, name, plan.columns);
   if (const ConfigValue* palette = find(table, "palette")) plan.palette = as_string(*palette, name);
@@ -103,7 +103,7 @@ SheetPlan build_plan(const ConfigValue& root, const std::string& name) {
   for (const ConfigValue& value : as_array(*panels, name)) {
     const ConfigTable& one = as_table(value, name);
     allow_only(one, {"name", "terrain", "view", "set", "set_in_winter"}, name);
-    SheetPanel panel;
+    ExampleSheetPanel panel;
     append_named(panel, one, "terrain", terrains, name);
     append_named(panel, one, "view", views, name);
     if (const ConfigValue* own = find(one, "name")) panel.name = as_string(*own, name);
@@ -119,30 +119,32 @@ SheetPlan build_plan(const ConfigValue& root, const std::string& name) {
 
 }  // namespace
 
-SheetPlan parse_sheet_plan(std::string_view text, const std::string& name) { return build_plan(parse_config(text, name), name); }
+ExampleSheetPlan parse_example_sheet_plan(std::string_view text, const std::string& name) {
+  return build_plan(parse_config(text, name), name);
+}
 
-SheetPlan built_in_sheet_plan() { return parse_sheet_plan(embedded_file("sheet/plan.toml"), "sheet/plan.toml"); }
+ExampleSheetPlan built_in_example_sheet_plan() { return parse_example_sheet_plan(embedded_file("sheet/plan.toml"), "sheet/plan.toml"); }
 
-SheetPlan read_sheet_plan(const std::string& path) { return build_plan(read_config(path), path); }
+ExampleSheetPlan read_example_sheet_plan(const std::string& path) { return build_plan(read_config(path), path); }
 
-std::string write_sheet_plan(const SheetPlan& plan) {
+std::string write_example_sheet_plan(const ExampleSheetPlan& plan) {
   std::string out = "# An example sheet: belvedere exemplar paint --plan THIS_FILE --out DIR paints it again.\n";
   out += fmt::format("width = {}\nheight = {}\ndots_per_inch = {}\npalette = {}\nseed = {}\nlight_from_deg = {}\ncolumns = {}\n",
                      plan.width, plan.height, plan.dots_per_inch, json_quoted(plan.palette), plan.seed, plan.light_from_deg, plan.columns);
   out += "# What all panels have in common.\nscene = '''\n" + plan.scene + "'''\n";
-  for (const SheetPanel& panel : plan.panels)
+  for (const ExampleSheetPanel& panel : plan.panels)
     out += fmt::format("\n[[panels]]\nname = {}\nset = {}\nset_in_winter = {}\n", json_quoted(panel.name), quoted_list(panel.settings),
                        quoted_list(panel.snow_settings));
   return out;
 }
 
-PixelRect panel_cell(const SheetPlan& plan, int panel) {
+PixelRect panel_cell(const ExampleSheetPlan& plan, int panel) {
   const int column = panel % plan.columns;
   const int row = panel / plan.columns;
   return {column_left(plan, column), row_top(plan, row), column_left(plan, column + 1), row_top(plan, row + 1)};
 }
 
-PixelRect panel_rect(const SheetPlan& plan, int panel) {
+PixelRect panel_rect(const ExampleSheetPlan& plan, int panel) {
   const PixelRect cell = panel_cell(plan, panel);
   const int margin = std::max(1, static_cast<int>(std::lround(0.5 * margin_mm * plan.dots_per_inch / 25.4)));
   const int across = std::min(margin, (cell.width() - 16) / 2);
@@ -150,10 +152,10 @@ PixelRect panel_rect(const SheetPlan& plan, int panel) {
   return {cell.x0 + across, cell.y0 + down, cell.x1 - across, cell.y1 - down};
 }
 
-LoadedScene panel_scene(const SheetPlan& plan, int panel, bool winter) {
-  const SheetPanel& shown = plan.panels[static_cast<std::size_t>(panel)];
+LoadedScene panel_scene(const ExampleSheetPlan& plan, int panel, bool winter) {
+  const ExampleSheetPanel& shown = plan.panels[static_cast<std::size_t>(panel)];
   SceneFileOptions options;
-  // A winter sheet has every class all the same, for land cover that comes from maps; panels say where snow lies over them.
+  // A winter example sheet has every class all the same, for land cover that comes from maps; panels say where snow lies over them.
   options.settings.emplace_back("land_cover.settings.winter=0");
   options.settings.insert(options.settings.end(), shown.settings.begin(), shown.settings.end());
   if (winter) options.settings.insert(options.settings.end(), shown.snow_settings.begin(), shown.snow_settings.end());
@@ -168,7 +170,7 @@ LoadedScene panel_scene(const SheetPlan& plan, int panel, bool winter) {
   scene.sun.azimuth_deg = std::remainder(scene.camera.azimuth_deg + plan.light_from_deg, 360.0);
   if (scene.sun.azimuth_deg < 0.0) scene.sun.azimuth_deg += 360.0;
   // The terrains were chosen for the plan's own seed; another one makes others. Small panels show no more than coarse ones do.
-  const SheetPlan usual;
+  const ExampleSheetPlan usual;
   SyntheticParameters& terrain = scene.terrain.synthetic.value();
   if (plan.seed != usual.seed) terrain.seed = stream_seed(terrain.seed, Stream::sheet_terrains, plan.seed) >> 11;
   const double coarser = std::clamp(fine_panel_px / std::min(rect.width(), rect.height()), 1.0, 4.0);

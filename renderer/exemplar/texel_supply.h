@@ -12,7 +12,7 @@ namespace belvedere {
 
 // What a painting has to copy from: texels of each class by the light, distance, direction and altitude they show, and along the borders
 // of classes. Sky counts nowhere.
-struct Coverage {
+struct TexelSupply {
   static constexpr int tones = 5;       // 0…1 in equal steps
   static constexpr int distances = 4;   // parted at distance_bounds_m
   static constexpr int directions = 8;  // of the fall line in the image: 0 right, 2 down, 4 left, 6 up
@@ -35,10 +35,10 @@ struct Coverage {
 };
 
 // Counts what `guidance` shows, each texel with the class in `classes`: what stands there or what is painted there. Adds up over parts.
-void add_coverage(Coverage& coverage, const GuidanceBuffers& guidance, const Grid<LandCoverClass>& classes);
+void add_supply(TexelSupply& supply, const GuidanceBuffers& guidance, const Grid<LandCoverClass>& classes);
 
 // How many texels an exemplar needs, for a painting of 4096 × 4096; smaller ones need their share of it, by area, of borders by length.
-struct CoverageFloors {
+struct SupplyFloors {
   double texels = 60000;
   double light = 20000;      // each tone and distance of a class that occurs
   double direction = 20000;  // each direction of a class that occurs
@@ -48,33 +48,33 @@ struct CoverageFloors {
   double largest_share = 0.30;  // of the ground, one class
 };
 
-// What occurs in panoramas: measured on the program's own scenes (docs/exemplars.md). What never occurs need not be in a sheet, be it a
-// class or a light of one.
-struct CoverageDemand {
+// What occurs in panoramas: measured on the program's own scenes (docs/exemplars.md). What never occurs need not be in an example sheet, be
+// it a class or a light of one.
+struct SupplyDemand {
   template <class T>
-  using ByClass = Coverage::ByClass<T>;
+  using ByClass = TexelSupply::ByClass<T>;
   ByClass<bool> texels{};  // any at all
-  ByClass<std::array<std::array<bool, Coverage::distances>, Coverage::tones>> light{};
-  ByClass<std::array<bool, Coverage::directions>> direction{};
+  ByClass<std::array<std::array<bool, TexelSupply::distances>, TexelSupply::tones>> light{};
+  ByClass<std::array<bool, TexelSupply::directions>> direction{};
   ByClass<bool> shadow{};
   ByClass<ByClass<bool>> border{};
 };
 // The built-in demand (data/sheet/demand.toml), or one of that form.
-const CoverageDemand& built_in_demand();
-CoverageDemand parse_demand(std::string_view text, const std::string& name);
+const SupplyDemand& built_in_demand();
+SupplyDemand parse_demand(std::string_view text, const std::string& name);
 
 // One thing a painting lacks.
-struct CoverageGap {
+struct SupplyGap {
   std::string what;       // "rock, tone 0.8-1, nearer than 16 km"
   double found = 0.0;     // texels
   double needed = 0.0;    // texels for this painting's size
   bool too_much = false;  // a class over its largest share
 };
-std::vector<CoverageGap> find_gaps(const Coverage& coverage, const CoverageDemand& demand, const CoverageFloors& floors);
+std::vector<SupplyGap> find_gaps(const TexelSupply& supply, const SupplyDemand& demand, const SupplyFloors& floors);
 
-// For machines (coverage.json) and for people: tables in plain text.
-std::string coverage_json(const Coverage& coverage, const std::vector<CoverageGap>& gaps);
+// For machines, in the file that users know as coverage.json, and for people: tables in plain text.
+std::string supply_json(const TexelSupply& supply, const std::vector<SupplyGap>& gaps);
 // judge: whether the gaps are said.
-std::string coverage_text(const Coverage& coverage, const std::vector<CoverageGap>& gaps, bool judge);
+std::string supply_text(const TexelSupply& supply, const std::vector<SupplyGap>& gaps, bool judge);
 
 }  // namespace belvedere

@@ -5,8 +5,8 @@
 #include "base/config.h"
 #include "base/embedded.h"
 #include "base/error.h"
-#include "renderer/exemplar/coverage.h"
-#include "renderer/exemplar/coverage_names.h"
+#include "renderer/exemplar/texel_supply.h"
+#include "renderer/exemplar/texel_supply_names.h"
 
 namespace belvedere {
 namespace {
@@ -32,10 +32,10 @@ void read_flags(const ConfigValue& value, const std::string& name, std::array<bo
 
 }  // namespace
 
-CoverageDemand parse_demand(std::string_view text, const std::string& name) {
+SupplyDemand parse_demand(std::string_view text, const std::string& name) {
   const ConfigValue root = parse_config(text, name);
   const ConfigTable& table = as_table(root, name);
-  CoverageDemand demand;
+  SupplyDemand demand;
   for (const ConfigEntry& entry : table) {
     const std::size_t id = read_class_name(entry.key, entry.value, name);
     const ConfigTable& of_class = as_table(entry.value, name);
@@ -43,7 +43,7 @@ CoverageDemand parse_demand(std::string_view text, const std::string& name) {
     allow_only(of_class, {"light", "direction", "shadow", "border"}, name);
     if (const ConfigValue* light = find(of_class, "light")) {
       const ConfigArray& rows = as_array(*light, name);
-      if (rows.size() != Coverage::tones) fail(*light, name, fmt::format("{} rows", rows.size()), "one for each of five tones");
+      if (rows.size() != TexelSupply::tones) fail(*light, name, fmt::format("{} rows", rows.size()), "one for each of five tones");
       for (std::size_t t = 0; t < rows.size(); ++t) read_flags(rows[t], name, demand.light[id][t]);
     }
     if (const ConfigValue* direction = find(of_class, "direction")) read_flags(*direction, name, demand.direction[id]);
@@ -57,27 +57,27 @@ CoverageDemand parse_demand(std::string_view text, const std::string& name) {
   return demand;
 }
 
-const CoverageDemand& built_in_demand() {
-  static const CoverageDemand demand = parse_demand(embedded_file("sheet/demand.toml"), "sheet/demand.toml");
+const SupplyDemand& built_in_demand() {
+  static const SupplyDemand demand = parse_demand(embedded_file("sheet/demand.toml"), "sheet/demand.toml");
   return demand;
 }
 
 std::string distance_name(std::size_t bin) {
   const auto km = [](float m) { return static_cast<int>(m / 1000.F); };
-  const auto& bounds = Coverage::distance_bounds_m;
+  const auto& bounds = TexelSupply::distance_bounds_m;
   if (bin == 0) return fmt::format("nearer than {} km", km(bounds[0]));
   if (bin == bounds.size()) return fmt::format("beyond {} km", km(bounds.back()));
   return fmt::format("{}–{} km", km(bounds[bin - 1]), km(bounds[bin]));
 }
 
 std::string direction_name(std::size_t bin) {
-  static constexpr std::array<const char*, Coverage::directions> names = {"right", "down right", "down", "down left",
-                                                                          "left",  "up left",    "up",   "up right"};
+  static constexpr std::array<const char*, TexelSupply::directions> names = {"right", "down right", "down", "down left",
+                                                                             "left",  "up left",    "up",   "up right"};
   return names[bin];
 }
 
 std::string altitude_name(std::size_t bin) {
-  const auto& bounds = Coverage::altitude_bounds_m;
+  const auto& bounds = TexelSupply::altitude_bounds_m;
   if (bin == 0) return fmt::format("below {:.0f} m", bounds[0]);
   if (bin == bounds.size()) return fmt::format("above {:.0f} m", bounds.back());
   return fmt::format("{:.0f}–{:.0f} m", bounds[bin - 1], bounds[bin]);

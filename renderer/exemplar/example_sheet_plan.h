@@ -10,14 +10,14 @@
 
 namespace belvedere {
 
-// What a sheet shows: panels side by side, each a small view of its own. One text with `scene`, the scene that all panels have in common,
-// and for each panel what it sets differently. docs/exemplars.md describes the file.
-struct SheetPanel {
+// What an example sheet shows: panels side by side, each a small view of its own. One text with `scene`, the scene that all panels have in
+// common, and for each panel what it sets differently. docs/exemplars.md describes the file.
+struct ExampleSheetPanel {
   std::string name;
   std::vector<std::string> settings;       // key.path=value, as --set takes them
   std::vector<std::string> snow_settings;  // more of them where the palette is one of winter
 };
-struct SheetPlan {
+struct ExampleSheetPlan {
   static constexpr std::uint64_t largest_seed = (std::uint64_t{1} << 53) - 1;  // what every reader of numbers holds exactly
   int width = 4096;                                                            // px
   int height = 4096;
@@ -26,23 +26,23 @@ struct SheetPlan {
   std::uint64_t seed = 7;          // of terrains and strokes; at most largest_seed
   double light_from_deg = -125.0;  // the sun's azimuth, clockwise from where each panel looks to: the same side in all of them
   int columns = 4;
-  std::string scene;               // TOML
-  std::vector<SheetPanel> panels;  // row by row
+  std::string scene;                      // TOML
+  std::vector<ExampleSheetPanel> panels;  // row by row
 };
 
-// The sheet the program knows (data/sheet/).
-SheetPlan built_in_sheet_plan();
+// The example sheet the program knows (data/sheet/).
+ExampleSheetPlan built_in_example_sheet_plan();
 // Strict: Error(usage) with place for unknown keys, a panel that names no terrain or view of the file, rows that are not full.
-SheetPlan parse_sheet_plan(std::string_view text, const std::string& name);
-SheetPlan read_sheet_plan(const std::string& path);
+ExampleSheetPlan parse_example_sheet_plan(std::string_view text, const std::string& name);
+ExampleSheetPlan read_example_sheet_plan(const std::string& path);
 // Reads back to the same plan.
-std::string write_sheet_plan(const SheetPlan& plan);
+std::string write_example_sheet_plan(const ExampleSheetPlan& plan);
 
-// Where a panel's picture lies; around it is a margin of bare paper. Rows of panels begin at multiples of 64 pixels where the sheet is
-// large enough, so that files can be written row by row.
-PixelRect panel_cell(const SheetPlan& plan, int panel);  // with its margin
-PixelRect panel_rect(const SheetPlan& plan, int panel);
+// Where a panel's picture lies; around it is a margin of bare paper. Rows of panels begin at multiples of 64 pixels where the example sheet
+// is large enough, so that files can be written row by row.
+PixelRect panel_cell(const ExampleSheetPlan& plan, int panel);  // with its margin
+PixelRect panel_rect(const ExampleSheetPlan& plan, int panel);
 // The scene of a panel. winter: of the palette. Error(usage) naming the panel where a setting is bad.
-LoadedScene panel_scene(const SheetPlan& plan, int panel, bool winter);
+LoadedScene panel_scene(const ExampleSheetPlan& plan, int panel, bool winter);
 
 }  // namespace belvedere

@@ -1,4 +1,4 @@
-#include "renderer/exemplar/sheet.h"
+#include "renderer/exemplar/example_sheet.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ namespace {
 
 const glm::vec3 paper{0.957F, 0.937F, 0.886F};  // encoded sRGB
 
-// A sheet is one stage for those who watch, not sixteen times ten; remarks about its panels are not theirs either.
+// An example sheet is one stage for those who watch, not sixteen times ten; remarks about its panels are not theirs either.
 class OneStage : public Progress {
  public:
   explicit OneStage(Progress& watcher) : watcher_(watcher) {}
@@ -48,7 +48,7 @@ glm::vec3 paper_value(const GuidanceChannel& channel) {
   return channel.paper.value_or(channel.sky);
 }
 
-// Indices of pixels in the panel become indices in the sheet; bare paper grew where it lies.
+// Indices of pixels in the panel become indices in the example sheet; bare paper grew where it lies.
 void insert_indices(Grid<std::uint32_t>& whole, const Grid<std::uint32_t>& part, glm::ivec2 row_size, int x0, int y0, int row_y0) {
   const auto width = static_cast<std::uint32_t>(row_size.x);
   if (whole.empty()) {
@@ -95,12 +95,12 @@ void insert_panel(ExamplePainting& row, ExamplePainting panel, int x0, int y0, i
 
 }  // namespace
 
-struct SheetPainter::State {
-  SheetPlan plan;
-  SheetHand hand;
+struct ExampleSheetPainter::State {
+  ExampleSheetPlan plan;
+  ExampleSheetHand hand;
   std::map<std::string, std::shared_ptr<const Dem>> dems;
   std::map<std::string, std::shared_ptr<const LandCover>> covers;
-  std::uint32_t strokes = 0;  // laid so far on the sheet
+  std::uint32_t strokes = 0;  // laid so far on the example sheet
   std::string instruction_set;
 
   ExamplePainting paint_panel(int panel, const ExampleLayers& layers, const Run& run) {
@@ -134,26 +134,26 @@ struct SheetPainter::State {
   }
 };
 
-SheetPainter::SheetPainter(SheetPlan plan, SheetHand hand) : state_(std::make_unique<State>()) {
+ExampleSheetPainter::ExampleSheetPainter(ExampleSheetPlan plan, ExampleSheetHand hand) : state_(std::make_unique<State>()) {
   state_->plan = std::move(plan);
   state_->hand = std::move(hand);
 }
-SheetPainter::~SheetPainter() = default;
-SheetPainter::SheetPainter(SheetPainter&&) noexcept = default;
+ExampleSheetPainter::~ExampleSheetPainter() = default;
+ExampleSheetPainter::ExampleSheetPainter(ExampleSheetPainter&&) noexcept = default;
 
-const SheetPlan& SheetPainter::plan() const { return state_->plan; }
+const ExampleSheetPlan& ExampleSheetPainter::plan() const { return state_->plan; }
 
-const std::string& SheetPainter::instruction_set() const { return state_->instruction_set; }
+const std::string& ExampleSheetPainter::instruction_set() const { return state_->instruction_set; }
 
-int SheetPainter::rows() const { return static_cast<int>(state_->plan.panels.size()) / state_->plan.columns; }
+int ExampleSheetPainter::rows() const { return static_cast<int>(state_->plan.panels.size()) / state_->plan.columns; }
 
-std::pair<int, int> SheetPainter::row_span(int row) const {
+std::pair<int, int> ExampleSheetPainter::row_span(int row) const {
   const PixelRect cell = panel_cell(state_->plan, row * state_->plan.columns);
   return {cell.y0, cell.y1};
 }
 
-ExamplePainting SheetPainter::paint_row(int row, const ExampleLayers& layers, const Run& run) {
-  const SheetPlan& plan = state_->plan;
+ExamplePainting ExampleSheetPainter::paint_row(int row, const ExampleLayers& layers, const Run& run) {
+  const ExampleSheetPlan& plan = state_->plan;
   const auto [y0, y1] = row_span(row);
   ExamplePainting whole;
   whole.ground_layer = Grid<glm::vec3>(plan.width, y1 - y0, paper);
@@ -168,15 +168,15 @@ ExamplePainting SheetPainter::paint_row(int row, const ExampleLayers& layers, co
   return whole;
 }
 
-PaintedExemplar paint_sheet(const SceneExemplar& settings, const Scene& scene, const View& view, const Palette& palette,
-                            Progress& progress) {
-  SheetPlan plan = built_in_sheet_plan();
+PaintedExemplar paint_example_sheet(const SceneExemplar& settings, const Scene& scene, const View& view, const Palette& palette,
+                                    Progress& progress) {
+  ExampleSheetPlan plan = built_in_example_sheet_plan();
   plan.width = settings.width;
   plan.height = settings.height;
   plan.seed = settings.seed;
   plan.dots_per_inch = 50.8 * scene.pixels_per_unit();  // strokes as large as the picture's
   plan.light_from_deg = view.sun.azimuth_deg - view.camera.azimuth_deg;
-  SheetPainter painter(plan, {palette, scene.light});
+  ExampleSheetPainter painter(plan, {palette, scene.light});
   progress.begin("painting a sheet to copy from", static_cast<double>(plan.panels.size()));
 
   PaintedExemplar painted;

@@ -1,4 +1,4 @@
-#include "renderer/exemplar/coverage.h"
+#include "renderer/exemplar/texel_supply.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,17 +34,17 @@ GuidanceBuffers small_view() {
   return g;
 }
 
-Coverage coverage_of(const GuidanceBuffers& g) {
-  Coverage c;
-  add_coverage(c, g, g.land_cover);
+TexelSupply coverage_of(const GuidanceBuffers& g) {
+  TexelSupply c;
+  add_supply(c, g, g.land_cover);
   return c;
 }
 
 constexpr auto forest = static_cast<std::size_t>(Class::forest);
 constexpr auto rock = static_cast<std::size_t>(Class::rock);
 
-TEST(Coverage, CountsEachTexelInItsBins) {
-  const Coverage c = coverage_of(small_view());
+TEST(TexelSupply, CountsEachTexelInItsBins) {
+  const TexelSupply c = coverage_of(small_view());
   EXPECT_EQ(c.pixels, 32);
   EXPECT_EQ(c.ground(), 24);
   EXPECT_EQ(c.texels[forest], 12);
@@ -58,7 +58,7 @@ TEST(Coverage, CountsEachTexelInItsBins) {
   EXPECT_EQ(c.in_cast_shadow[forest], 3);
 }
 
-TEST(Coverage, CountsBordersOnOneSurfaceOnly) {
+TEST(TexelSupply, CountsBordersOnOneSurfaceOnly) {
   GuidanceBuffers g = small_view();
   // Three rows, a texel on each side.
   EXPECT_EQ(coverage_of(g).border[forest][rock], 6);
@@ -71,15 +71,15 @@ TEST(Coverage, CountsBordersOnOneSurfaceOnly) {
   EXPECT_EQ(coverage_of(g).at_silhouette, 8 + 2);
 }
 
-TEST(Coverage, AddsUpOverParts) {
+TEST(TexelSupply, AddsUpOverParts) {
   const GuidanceBuffers g = small_view();
-  Coverage twice = coverage_of(g);
-  add_coverage(twice, g, g.land_cover);
+  TexelSupply twice = coverage_of(g);
+  add_supply(twice, g, g.land_cover);
   EXPECT_EQ(twice.texels[rock], 24);
   EXPECT_EQ(twice.pixels, 64);
 }
 
-TEST(Coverage, FallLinesFallIntoEightSectors) {
+TEST(TexelSupply, FallLinesFallIntoEightSectors) {
   GuidanceBuffers g = small_view();
   const glm::vec2 towards[8] = {{1, 0}, {.7F, .7F}, {0, 1}, {-.7F, .7F}, {-1, 0}, {-.7F, -.7F}, {0, -1}, {.7F, -.7F}};
   for (std::size_t n = 0; n < 8; ++n) {
@@ -88,39 +88,39 @@ TEST(Coverage, FallLinesFallIntoEightSectors) {
   }
 }
 
-TEST(Coverage, NamesWhatIsMissingAndWhatIsTooMuch) {
-  CoverageDemand demand;
+TEST(TexelSupply, NamesWhatIsMissingAndWhatIsTooMuch) {
+  SupplyDemand demand;
   demand.light[rock][0][1] = true;
   demand.light[rock][1][1] = true;
   // 32 pixels of 4096²: floors are as much smaller, and a floor of a texel per two million becomes one of these 32.
   const double one = 4096.0 * 4096.0 / 32.0;
-  const CoverageFloors floors{.texels = 0, .light = 4 * one, .direction = 0, .shadow = 0, .altitude = 0, .border = 0, .largest_share = 0.5};
-  const std::vector<CoverageGap> gaps = find_gaps(coverage_of(small_view()), demand, floors);
+  const SupplyFloors floors{.texels = 0, .light = 4 * one, .direction = 0, .shadow = 0, .altitude = 0, .border = 0, .largest_share = 0.5};
+  const std::vector<SupplyGap> gaps = find_gaps(coverage_of(small_view()), demand, floors);
   ASSERT_EQ(gaps.size(), 1U);
   EXPECT_EQ(gaps[0].what, "rock, tone 0.0–0.2, 16–28 km");
   EXPECT_EQ(gaps[0].found, 0);
   EXPECT_NEAR(gaps[0].needed, 4.0, 1e-9);
-  CoverageFloors narrow = floors;
+  SupplyFloors narrow = floors;
   narrow.light = 0;
   narrow.largest_share = 0.4;
-  const std::vector<CoverageGap> much = find_gaps(coverage_of(small_view()), demand, narrow);
+  const std::vector<SupplyGap> much = find_gaps(coverage_of(small_view()), demand, narrow);
   ASSERT_EQ(much.size(), 2U);
   EXPECT_TRUE(much[0].too_much);
 }
 
-TEST(Coverage, EachFloorIsJudgedAndNamed) {
-  CoverageDemand demand;
+TEST(TexelSupply, EachFloorIsJudgedAndNamed) {
+  SupplyDemand demand;
   demand.direction[rock][2] = demand.direction[rock][4] = true;
   demand.shadow[forest] = demand.shadow[rock] = true;
   demand.border[forest][rock] = demand.border[rock][forest] = true;
   // Of 32 pixels: areas are 4096²/32 times smaller than the floors', lines the root of that.
   const double area = 4096.0 * 4096.0 / 32.0;
   const double length = std::sqrt(area);
-  CoverageFloors floors{
+  SupplyFloors floors{
       .texels = 0, .light = 0, .direction = 12 * area, .shadow = 3 * area, .altitude = 0, .border = 5.9 * length, .largest_share = 1.0};
-  const auto gaps = [&](const CoverageFloors& f) {
+  const auto gaps = [&](const SupplyFloors& f) {
     std::string names;
-    for (const CoverageGap& gap : find_gaps(coverage_of(small_view()), demand, f)) names += gap.what + "; ";
+    for (const SupplyGap& gap : find_gaps(coverage_of(small_view()), demand, f)) names += gap.what + "; ";
     return names;
   };
   EXPECT_EQ(gaps(floors), "rock, fall line left; rock, in cast shadow; ");
@@ -137,7 +137,7 @@ TEST(Coverage, EachFloorIsJudgedAndNamed) {
   EXPECT_EQ(gaps(floors), "scree; ");
 }
 
-TEST(Coverage, TheEdgesOfBins) {
+TEST(TexelSupply, TheEdgesOfBins) {
   GuidanceBuffers g = small_view();
   for (float& depth : g.depth_m) depth = std::isinf(depth) ? depth : 16000.F;  // belongs to what it opens
   for (float& tone : g.tone) tone = 1.F;                                       // and the lightest to the last bin
@@ -148,8 +148,8 @@ TEST(Coverage, TheEdgesOfBins) {
   EXPECT_EQ(coverage_of(g).by_light[rock][4][3], 12);
 }
 
-TEST(CoverageDemand, IsReadStrictly) {
-  const CoverageDemand demand =
+TEST(SupplyDemand, IsReadStrictly) {
+  const SupplyDemand demand =
       parse_demand("[rock]\nlight = [\"1...\", \"....\", \"....\", \"....\", \"...1\"]\nborder = [\"snow\"]\n", "d");
   EXPECT_TRUE(demand.light[rock][0][0]);
   EXPECT_TRUE(demand.light[rock][4][3]);
@@ -175,14 +175,14 @@ TEST(CoverageDemand, IsReadStrictly) {
   }
 }
 
-TEST(CoverageReport, SaysTheSameToPeopleAndMachines) {
-  const Coverage c = coverage_of(small_view());
-  const std::vector<CoverageGap> gaps = {{"rock, in cast shadow", 3, 5, false}};
-  EXPECT_THAT(coverage_text(c, gaps, true), ::testing::HasSubstr("rock, in cast shadow: 3 of 5"));
-  EXPECT_THAT(coverage_text(c, gaps, false), ::testing::Not(::testing::HasSubstr("3 of 5")));
-  EXPECT_THAT(coverage_text(c, {}, true), ::testing::HasSubstr("Every floor is met"));
-  EXPECT_THAT(coverage_json(c, gaps), ::testing::HasSubstr("\"forest\""));
-  EXPECT_THAT(coverage_json(c, gaps), ::testing::HasSubstr("\"wanted\": 5"));
+TEST(SupplyReport, SaysTheSameToPeopleAndMachines) {
+  const TexelSupply c = coverage_of(small_view());
+  const std::vector<SupplyGap> gaps = {{"rock, in cast shadow", 3, 5, false}};
+  EXPECT_THAT(supply_text(c, gaps, true), ::testing::HasSubstr("rock, in cast shadow: 3 of 5"));
+  EXPECT_THAT(supply_text(c, gaps, false), ::testing::Not(::testing::HasSubstr("3 of 5")));
+  EXPECT_THAT(supply_text(c, {}, true), ::testing::HasSubstr("Every floor is met"));
+  EXPECT_THAT(supply_json(c, gaps), ::testing::HasSubstr("\"forest\""));
+  EXPECT_THAT(supply_json(c, gaps), ::testing::HasSubstr("\"wanted\": 5"));
 }
 
 }  // namespace

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/run.h"
+#include "renderer/exemplar/example_painting.h"
+#include "renderer/exemplar/example_sheet_plan.h"
+#include "renderer/paint/composite.h"
+#include "renderer/scene/scene.h"
+#include "renderer/world/view.h"
+
+namespace belvedere {
+
+// What an example sheet takes over from the picture that will copy it.
+struct ExampleSheetHand {
+  Palette palette;
+  std::optional<LightParameters> light;  // else each panel's own
+};
+
+// Paints the panels of an example sheet, row by row. Terrains that several panels show are made once.
+class ExampleSheetPainter {
+ public:
+  ExampleSheetPainter(ExampleSheetPlan plan, ExampleSheetHand hand);
+  ~ExampleSheetPainter();
+  ExampleSheetPainter(ExampleSheetPainter&&) noexcept;
+
+  const ExampleSheetPlan& plan() const;
+  int rows() const;
+  // Rows of pixels that a row of panels covers, margins included.
+  std::pair<int, int> row_span(int row) const;
+  // What rays were traced with, for provenance; known after the first row.
+  const std::string& instruction_set() const;
+  // A row of panels with their margins, as wide as the example sheet. painted_from and ground_from count in the pixels of the whole of it.
+  // Margins are bare paper: they count as sky, and nothing is copied from them.
+  ExamplePainting paint_row(int row, const ExampleLayers& layers, const Run& run);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// The example sheet that is painted for a picture: with its palette, light and size of stroke, so that every guide of it is exactly known.
+// It carries no trees, no houses and no sky: those are painted on the target last.
+PaintedExemplar paint_example_sheet(const SceneExemplar& settings, const Scene& scene, const View& view, const Palette& palette,
+                                    Progress& progress);
+
+}  // namespace belvedere
