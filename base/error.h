@@ -5,7 +5,7 @@
 
 namespace belvedere {
 
-// What kind of thing went wrong. The value is the exit status of the program (design section 5).
+// What kind of thing went wrong. The value is the exit status of the program.
 enum class ErrorKind : int {
   usage = 2,         // command line or scene file
   input = 3,         // input data: missing, damaged, not allowed

@@ -6,7 +6,7 @@
 
 namespace belvedere {
 
-// Gaussian and Laplacian pyramids (Burt & Adelson 1983) with the 5-tap kernel [.05 .25 .4 .25 .05] (requirements G02, G03).
+// Gaussian and Laplacian pyramids (Burt & Adelson 1983) with the 5-tap kernel [.05 .25 .4 .25 .05].
 // Any grid size: a level of n cells has a coarser level of (n + 1) / 2, whose cell i lies over cell 2 i. Level 0 is the finest;
 // so band i holds features of about 2^i to 2^(i+1) cells.
 // Borders are extended linearly (2·edge - inner, a single cell is repeated), because replication bends a ramp when band weights

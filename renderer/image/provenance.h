@@ -7,8 +7,8 @@
 
 namespace belvedere {
 
-// Where a result came from: what every file's header carries (design sections 3 and 6). No time of day, no host, no folder: the same run
-// gives the same bytes, wherever its files lie.
+// Where a result came from: what every file's header carries, so that it can be made again. No time of day, no host, no folder: the same
+// run gives the same bytes, wherever its files lie.
 struct Provenance {
   std::string program_version;
   std::string libraries;                      // "Embree 3.13.5, GDAL 3.6.2 …"

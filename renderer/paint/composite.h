@@ -17,7 +17,7 @@ struct PaintedExemplar {
   Grid<glm::vec3> base;     // its base picture, encoded sRGB; empty for a scan
 };
 
-// paint = texel + residual · (base_target - base_exemplar), in encoded sRGB (look/recipe.md, From an exemplar), cut to 0…1. residual 0…1.
+// paint = texel + residual · (base_target - base_exemplar), in encoded sRGB (why: docs/architecture.md), cut to 0…1. residual 0…1.
 // Air lies over paint as it lies over the base: out = base_target + (1 - haze) · (paint - base_target); target_haze empty: no air.
 // Pixels without a match, sky among them, take the target's base; exemplars without a base (scans) give their texel as it is. Error(input)
 // for matches outside of the exemplars.

@@ -10,7 +10,7 @@
 namespace belvedere {
 
 // Ribs and gullies down the fall line, which give rock its form: image noise, smeared along the fall line (line integral convolution,
-// Cabral & Leedom 1993), taken as a relief and lit from one side. look/recipe.md, section Tone.
+// Cabral & Leedom 1993), taken as a relief and lit from one side.
 struct RibParameters {
   double pixels_per_unit = 1.0;  // a unit is 0.5 mm of the sheet
   double sun_side = 1.0;         // > 0: flanks that face right are lit, < 0: those that face left

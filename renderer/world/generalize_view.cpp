@@ -20,7 +20,7 @@ namespace {
 // The camera is asked at every so many cells: what it answers changes little from one to the next.
 constexpr int step_cells = 16;
 
-// 1 near, 0 far, smoothstep between (requirements G15, G16).
+// 1 near, 0 far, smoothstep between: the share u_d of equation 5 of Jenny, Jenny & Hurni 2011, with no edge where it begins or ends.
 Grid<float> foreground_share(const Dem& dem, glm::dvec2 viewer_xy, const SceneGeneralize& settings) {
   Grid<float> share(dem.width(), dem.height());
   const double span = std::max(1.0, settings.background_from_m - settings.foreground_to_m);

@@ -26,7 +26,7 @@ struct View {
 DeformParameters resolve_deform(const SceneDeform& deform, const Dem& dem);
 
 // Resolves longitude and latitude, heights above ground, look-at points and the time of day. Throws Error(usage) where the eye would stand
-// below the ground (fault 19, with the height) or outside the terrain where its height is counted from the ground; a sun below the
+// below the ground, naming the height, or outside the terrain where its height is counted from the ground; a sun below the
 // horizon is noted, and then only the sky gives light.
 View make_view(const Scene& scene, const Dem& dem, Progress& progress);
 

@@ -23,7 +23,7 @@ inline constexpr int rule_block = 256;
 //   + - * /    < > <= >=    and or not    ( )    numbers, names
 //   min(a, b, …) max(a, b, …) clip(x) clip(x, low, high) abs sin cos exp sqrt
 //   smoothstep(x, low, high)  0 below low, 1 above high, smooth between
-//   hat(x, low, high, width)  1 inside low…high, falling to 0 over `width` around each bound, where it is 1/2 (requirement P02)
+//   hat(x, low, high, width)  1 inside low…high, falling to 0 over `width` around each bound, where it is 1/2
 // clip without bounds is to 0…1; clamp is another word for it. Comparisons and logic give 1 or 0; what is > 0 counts as true.
 // Angles of sin and cos are radians. All values are floats.
 class RuleExpression {

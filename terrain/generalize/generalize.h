@@ -22,7 +22,7 @@ enum class CurvatureForm {
 struct GeneralizeParameters {
   std::vector<float> foreground = {1.F, 1.F, 1.F, 1.F, 1.F, 1.F};  // u, 0…5; their number is the number of bands
   std::vector<float> background = {1.F, 1.F, 1.F, 1.F, 1.F, 1.F};  // as many as foreground
-  // Sharpening of high crests (look/recipe.md): adds crest · high · clamp(b2 + b3 + .6 b4, 0, 60 m) · (1 - .2 (1 - foreground share)),
+  // Sharpening of high crests: adds crest · high · clamp(b2 + b3 + .6 b4, 0, 60 m) · (1 - .2 (1 - foreground share)),
   // high = clamp((b5 + b6 + base - 1200 m) / 700 m, 0, 1), bands unweighted. 0 is off; 0…3.
   float crest = 0.F;
 

@@ -12,7 +12,8 @@ namespace {
 
 float unit(float v) { return std::clamp(v, 0.F, 1.F); }
 
-// b2 + b3 + .6 b4 and b5 + b6 + … + base of the recipe, both at level 1; one row of expand brings them to level 0.
+// b2 + b3 + .6 b4 and b5 + b6 + … + base, the terms of GeneralizeParameters::crest, both at level 1; one row of expand brings them to
+// level 0.
 struct CrestTerms {
   Grid<float> detail_m;
   Grid<float> ground_m;

@@ -110,7 +110,7 @@ TEST(Pyramid, IsLinear) {
   EXPECT_LE(largest_difference(weighted_sum(make_laplacian_pyramid(mix, 4), weights), expected), 5e-3);
 }
 
-// The 5-tap kernel's answer to a wave of angular frequency w, radians a cell (design section 10).
+// The 5-tap kernel's answer to a wave of angular frequency w, radians a cell: the transform of [.05 .25 .4 .25 .05].
 double kernel_gain(double w) { return 0.4 + 0.5 * std::cos(w) + 0.1 * std::cos(2.0 * w); }
 
 // How much of cos(w x) band `level` of a wave along x has, measured far from the borders over whole periods.

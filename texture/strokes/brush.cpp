@@ -14,7 +14,7 @@ namespace belvedere {
 namespace {
 
 constexpr int tile_px = 128;
-constexpr float tone_gate_width = 0.16F;  // look/recipe.md, finding 2: without it rock turns to fur
+constexpr float tone_gate_width = 0.16F;  // tone, 0…1: without the gate rock turns to fur
 constexpr float dry_from = 0.5F;          // share of the stroke from which the brush runs dry
 constexpr float pressed_by = 0.18F;       // share of it over which the brush is set down
 constexpr float load_value = 0.04F;       // ±, encoded sRGB: how much lighter or darker …

@@ -10,7 +10,7 @@
 
 namespace belvedere {
 
-// Paints strokes over `canvas` (encoded sRGB), far to near, and returns the painting. look/recipe.md, table Strokes. Needs the channels
+// Paints strokes over `canvas` (encoded sRGB), far to near, and returns the painting; the kinds are in stroke_table.cpp. Needs the channels
 // depth, land cover, fall line, tone, slope. Throws Error(bug) where sizes disagree.
 Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const BasePicture& base, const StrokeLayers& layers,
                        const StrokeParameters& parameters, Progress& progress);

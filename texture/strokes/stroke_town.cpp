@@ -13,7 +13,7 @@ namespace {
 
 using enum LandCoverClass;
 
-// Roofs: brick, old brick, weathered wood, slate; walls; encoded sRGB in full light (look/recipe.md, warmer).
+// Roofs: brick, old brick, weathered wood, slate; walls; encoded sRGB in full light.
 constexpr std::array<glm::vec3, 4> roofs = {glm::vec3(0.76F, 0.37F, 0.26F), glm::vec3(0.64F, 0.30F, 0.22F), glm::vec3(0.49F, 0.31F, 0.27F),
                                             glm::vec3(0.42F, 0.44F, 0.50F)};
 constexpr glm::vec3 wall{0.97F, 0.93F, 0.84F};

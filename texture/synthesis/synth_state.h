@@ -28,7 +28,7 @@ struct LevelSettings {
   int surroundings_radius = 8;
   int tile = 0;  // side of the tiles that sub-passes work in, even; 0: whole rows. Changes no bit
 };
-// The settings of the recipe for a level; cap and reuse as SynthesisParameters has them.
+// The usual settings for a level; cap and reuse as SynthesisParameters has them.
 LevelSettings settings_for_level(int level, std::uint64_t seed, int copy_cap, double reuse);
 
 // Keys of the random numbers of different purposes on a level.

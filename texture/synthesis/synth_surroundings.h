@@ -7,7 +7,7 @@
 
 namespace belvedere::synth {
 
-// Which classes lie around a pixel: T08's counts n_k of the neighbourhood's pixels per class, kept as the share of other classes and the
+// Which classes lie around a pixel: counts n_k of the neighbourhood's pixels per class, kept as the share of other classes and the
 // commonest of them. Exact where the neighbourhood holds no more than two classes.
 struct Surroundings {
   std::uint8_t others = 0;            // share of other classes, 255: all

@@ -199,7 +199,7 @@ TEST_P(EachVectorWidth, PatchesEndAtSilhouettes) {
   }
 }
 
-// One sub-pass against an exhaustive search with the formula of the recipe: every pixel must end at the cheapest of all that it may
+// One sub-pass against an exhaustive search with the same prices, summed plainly: every pixel must end at the cheapest of all that it may
 // copy, and nothing else may change.
 void expect_cheapest_candidates(bool with_silhouettes) {
   const Plane exemplars = noise_plane({{26, 18}, {11, 30}}, 3, 5, true);
