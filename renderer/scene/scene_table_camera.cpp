@@ -74,7 +74,7 @@ std::vector<SceneSection> make_camera_sections() {
                            .field = AT(camera.field_of_view_deg),
                            .range = {1, 360},
                            .unit = "°",
-                           .meaning = "Width of the view; perspective up to 150, cylindrical up to 360."},
+                           .meaning = "Width of the view; how wide a projection goes stands below."},
                           {.name = "view_width_m",
                            .field = AT(camera.view_width_m),
                            .range = {1, 1e7},
