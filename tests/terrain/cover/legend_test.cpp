@@ -2,14 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "terrain/cover/land_cover.h"
-#include "terrain/io/csv.h"
 #include "tests/terrain/io/raster_files.h"
 
 namespace belvedere {
 namespace {
 
 using enum LandCoverClass;
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 class Legends : public RasterFiles {};
@@ -153,20 +151,6 @@ TEST_F(Legends, TablesAreFoundInTheFoldersGivenAndNowhereElse) {
   legend_naming("link.csv");
   std::filesystem::create_symlink(path("t.csv"), folder_ / "scene/link.csv");
   EXPECT_EQ(error_of([&] { read_legend(legend); }).kind(), ErrorKind::usage);
-}
-
-TEST(Csv, KeepsFieldsApart) {
-  const CsvTable table = parse_csv("a,b,c\n1,\"x,\ny\",3\n\n4\n", "t");
-  EXPECT_THAT(table.columns, ElementsAre("a", "b", "c"));
-  ASSERT_EQ(table.rows.size(), 2U);
-  EXPECT_THAT(table.rows[0].fields, ElementsAre("1", "x,\ny", "3"));
-  EXPECT_EQ(table.rows[0].line, 2);
-  EXPECT_THAT(table.rows[1].fields, ElementsAre("4", "", ""));
-  EXPECT_EQ(table.rows[1].line, 5);
-  EXPECT_EQ(parse_csv("a\tb\n1\t2", "t").rows[0].fields[1], "2");
-  EXPECT_EQ(table.find("B"), 1);
-  EXPECT_EQ(table.find("d"), -1);
-  EXPECT_TRUE(parse_csv("", "t").columns.empty());
 }
 
 }  // namespace

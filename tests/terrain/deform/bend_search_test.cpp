@@ -41,23 +41,6 @@ ValleySight sight(double eye_m, const DeformParameters& p = {}, int lines = 40) 
   return {ridges(), frame, Deformation(p, viewer), eye_m, northward(lines)};
 }
 
-TEST(ValleyFloor, IsTheFlatGroundBetweenTheRidges) {
-  const Grid<float> z = ridges();
-  const Grid<std::uint8_t> floor = find_valley_floor(z, 100.0);
-  for (int y = 20; y < height - 20; ++y) {
-    const double phase = std::abs(std::remainder(frame.to_crs(0, y).y - 10000.0, 8000.0));
-    if (phase < 800.0) {
-      EXPECT_EQ(floor(width / 2, y), 1) << y;
-    }
-    if (phase > 1300.0) {
-      EXPECT_EQ(floor(width / 2, y), 0) << y;
-    }
-  }
-  // A plain is no valley.
-  const Grid<std::uint8_t> plain = find_valley_floor(Grid<float>(100, 100, 500.F), 100.0);
-  for (const std::uint8_t cell : plain) EXPECT_EQ(cell, 0);
-}
-
 TEST(ValleySight, SeesWhatAStraightLineReaches) {
   // From high above all of it, from the ground nothing behind the first ridge.
   EXPECT_GT(sight(200000.0).visible_share(BendProfile({})), 0.999);

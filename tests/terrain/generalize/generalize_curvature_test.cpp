@@ -212,36 +212,8 @@ TEST(GeneralizeCurvature, SameBitsForAnyThreadCountAndAnySize) {
   }
 }
 
-TEST(GeneralizeCurvature, PresetsHaveWholeSets) {
-  for (const GeneralizePreset& preset : generalize_presets()) {
-    EXPECT_NO_THROW(run(alpine(64, 64), preset.bands)) << preset.name;
-    EXPECT_EQ(find_generalize_preset(preset.name), &preset);
-  }
-  EXPECT_EQ(find_generalize_preset("figure2")->bands.foreground, (Weights{1.F, 1.F, 2.F, .25F, 0.F}));
-  EXPECT_EQ(find_generalize_preset("nothing"), nullptr);
-}
-
-TEST(GeneralizePresets, FillWhatIsNotWritten) {
-  const auto choose = [](const WrittenWeights& written, const char* preset) {
-    GeneralizeParameters bands;
-    choose_weights(bands, written, find_generalize_preset(preset));
-    return bands;
-  };
-  WrittenWeights written;
-  written.foreground = {1.F, .5F, .5F, 1.F, 1.F, 1.F};
-  EXPECT_EQ(choose(written, "").background, written.foreground);
-  EXPECT_EQ(choose(written, "bold_ridges").background, written.foreground);
-  EXPECT_EQ(choose(written, "bold_ridges").foreground_ridges, find_generalize_preset("bold_ridges")->bands.foreground_ridges);
-  EXPECT_EQ(choose(written, "panorama").background, find_generalize_preset("panorama")->bands.background);
-  written.background = {0.F, 0.F, 0.F, 0.F, 0.F, .5F};
-  written.foreground_valleys = {0.F, 0.F, 0.F, 0.F, 1.F, 1.F};
-  for (const char* preset : {"", "bold_ridges", "panorama"}) EXPECT_EQ(choose(written, preset).background, written.background) << preset;
-  EXPECT_EQ(choose(written, "").background_valleys, written.foreground_valleys);
-  EXPECT_EQ(choose(written, "panorama").background_valleys, find_generalize_preset("panorama")->bands.background_valleys);
-  WrittenWeights far;
-  far.background = {1.F, 0.F};
-  EXPECT_EQ(choose(far, "").foreground, (Weights{1.F, 1.F}));
-  EXPECT_EQ(choose({}, "").foreground, Weights(6, 1.F));
+TEST(GeneralizeCurvature, EveryPresetIsInRange) {
+  for (const GeneralizePreset& preset : generalize_presets()) EXPECT_NO_THROW(run(alpine(64, 64), preset.bands)) << preset.name;
 }
 
 TEST(Mask, SlopeMaskKeepsFlatGround) {

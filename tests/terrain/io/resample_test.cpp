@@ -1,0 +1,109 @@
+#include "terrain/io/resample.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace belvedere {
+namespace {
+
+Grid<float> make(int width, int height, const std::function<double(int, int)>& value) {
+  Grid<float> grid(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) grid(x, y) = static_cast<float>(value(x, y));
+  return grid;
+}
+
+double bumps(double x, double y) { return 100.0 * std::sin(1.3 * x) * std::cos(0.9 * y); }
+
+TEST(Resampler, CopiesCellsToTheBitWhereTheyCoincide) {
+  const Grid<float> cells = make(12, 9, bumps);
+  for (const double scale : {0.3, 1.0, 1.0005}) {
+    const Resampler resampler({scale, scale});
+    for (int y = 0; y < 9; ++y)
+      for (int x = 0; x < 12; ++x) ASSERT_EQ(resampler.sample(cells, {x, y}), cells(x, y)) << scale << ' ' << x << ' ' << y;
+  }
+}
+
+// Keys 1981: with a = -1/2 polynomials of the second degree come back. Here they have no summit within reach, where the range would cut.
+TEST(Resampler, ReproducesParabolas) {
+  const auto parabola = [](double x, double y) { return 3.0 + 2.0 * x + 0.5 * y + 0.25 * x * x + 0.125 * y * y; };
+  const Grid<float> cells = make(12, 12, parabola);
+  const Resampler resampler({1.0, 1.0});
+  for (const double x : {4.0, 4.25, 5.5, 6.9})
+    for (const double y : {3.1, 5.0, 6.5}) EXPECT_NEAR(resampler.sample(cells, {x, y}), parabola(x, y), 1e-5) << x << ' ' << y;
+}
+
+TEST(Resampler, NeverLeavesTheRangeOfItsCells) {
+  const Grid<float> shore = make(12, 12, [](int x, int) { return x < 6 ? 400.0 : 900.0; });
+  for (const double scale : {1.0, 1.7, 3.0}) {
+    const Resampler resampler({scale, scale});
+    for (double x = 3.0; x < 9.0; x += 0.05) {
+      const float value = resampler.sample(shore, {x, 5.5});
+      if (std::isnan(value)) continue;
+      EXPECT_GE(value, 400.F);
+      EXPECT_LE(value, 900.F);
+    }
+  }
+}
+
+TEST(Resampler, AveragesWhatIsFinerThanItsSamples) {
+  // Stripes one cell wide, across which four cells make a sample: their mean; along them nothing is averaged.
+  const Grid<float> stripes = make(40, 40, [](int x, int) { return x % 2; });
+  EXPECT_NEAR(Resampler({4.0, 1.0}).sample(stripes, {20.0, 20.0}), 0.5, 0.02);
+  EXPECT_NEAR(Resampler({4.0, 1.0}).sample(stripes, {21.0, 20.0}), 0.5, 0.02);
+  EXPECT_EQ(Resampler({1.0, 4.0}).sample(stripes, {21.0, 20.0}), 1.F);
+}
+
+TEST(Resampler, BesideVoidsTakesTheMeanOfWhatIsKnown) {
+  Grid<float> cells = make(12, 12, [](int, int) { return 7.0; });
+  for (int y = 0; y < 12; ++y)
+    for (int x = 6; x < 12; ++x) cells(x, y) = NAN;
+  const Resampler resampler({1.0, 1.0});
+  EXPECT_EQ(resampler.sample(cells, {5.0, 5.0}), 7.F) << "on a centre";
+  EXPECT_EQ(resampler.sample(cells, {5.4, 5.0}), 7.F) << "more than half of the tent is known";
+  EXPECT_TRUE(std::isnan(resampler.sample(cells, {5.6, 5.0}))) << "less than half is";
+  EXPECT_TRUE(std::isnan(resampler.sample(cells, {7.0, 5.0})));
+}
+
+TEST(Resampler, KnowsNothingOutside) {
+  const Grid<float> cells = make(12, 9, bumps);
+  const Resampler resampler({1.0, 1.0});
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const glm::dvec2 at : {glm::dvec2{-1.0, 4.0}, glm::dvec2{12.0, 4.0}, glm::dvec2{4.0, 9.0}, glm::dvec2{1e300, 4.0},
+                              glm::dvec2{4.0, -infinity}, glm::dvec2{std::nan(""), 4.0}})
+    EXPECT_TRUE(std::isnan(resampler.sample(cells, at))) << at.x << ' ' << at.y;
+}
+
+// Whoever reads a window of a file trusts the reach: what lies beyond it changes nothing.
+TEST(Resampler, LooksNoFurtherThanItsReach) {
+  for (const double scale : {1.0, 1.5, 3.2}) {
+    const Resampler resampler({scale, 1.0});
+    const glm::ivec2 reach = resampler.reach();
+    const Grid<float> cells = make(40, 40, bumps);
+    for (const double x : {20.0, 20.3, 20.99}) {
+      Grid<float> other = cells;
+      for (int v = 0; v < 40; ++v)
+        for (int u = 0; u < 40; ++u)
+          if (std::abs(u - x) > reach.x || std::abs(v - 20.4) > reach.y) other(u, v) = NAN;
+      EXPECT_EQ(resampler.sample(other, {x, 20.4}), resampler.sample(cells, {x, 20.4})) << scale << ' ' << x;
+    }
+  }
+}
+
+TEST(SampleNearest, TakesTheCellThatHoldsThePlace) {
+  Grid<std::int32_t> codes(3, 2);
+  for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = static_cast<std::int32_t>(10 + i);
+  EXPECT_EQ(sample_nearest(codes, {0.0, 0.0}), 10);
+  EXPECT_EQ(sample_nearest(codes, {-0.5, -0.5}), 10);
+  EXPECT_EQ(sample_nearest(codes, {0.49, 0.51}), 13);
+  EXPECT_EQ(sample_nearest(codes, {2.49, 1.49}), 15);
+  for (const glm::dvec2 at :
+       {glm::dvec2{-0.51, 0.0}, glm::dvec2{2.5, 0.0}, glm::dvec2{0.0, 1.5}, glm::dvec2{1e300, 0.0}, glm::dvec2{std::nan(""), 0.0}})
+    EXPECT_EQ(sample_nearest(codes, at), -1) << at.x << ' ' << at.y;
+}
+
+}  // namespace
+}  // namespace belvedere
