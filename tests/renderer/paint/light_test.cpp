@@ -7,10 +7,6 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/noise.h"
-#include "renderer/paint/picture_filter.h"
-#include "renderer/paint/picture_noise.h"
-#include "renderer/paint/ribs.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
 namespace belvedere {
@@ -226,82 +222,6 @@ TEST(Tone, MissingChannelIsAnError) {
   GuidanceBuffers g = make_slope(8, 8, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 10.0F);
   g.sky_view = {};
   EXPECT_THROW(tone_of(g), Error);
-}
-
-TEST(PictureNoise, EqualsTheNoiseOfBase) {
-  const Grid<float> grid = make_image_noise(9, {-13, 250}, 70, 40, 1.7, 3.2, 7.0);
-  GroundNoise ground(9, 210.0);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 70; ++x) {
-      EXPECT_NEAR(grid(x, y), gaussian_noise(9, (x - 13 + 0.5) / 1.7, (y + 250 + 0.5) / 1.7, 3.2, 7.0), 2e-6);
-      const double e = 31.0 * x - 700.0, n = -57.0 * y;
-      EXPECT_NEAR(ground(e, n), gaussian_noise(9, e, n, 210.0), 2e-6);
-    }
-}
-
-TEST(Ribs, LineIntegralHasDeviationOne) {
-  const GuidanceBuffers g = make_slope(500, 300, LandCoverClass::rock, {0.0F, 0.3F, 1.0F}, 45.0F);
-  const Grid<std::uint8_t> all(500, 300, 1);
-  const std::array<Grid<float>, 3> fields = integrate_along_fall_line(g, all, 3, {0, 0}, 1.0);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Grid<float>& field = fields[k];
-    double squares = 0.0, along = 0.0, across = 0.0;
-    int count = 0;
-    for (int y = 60; y < 240; ++y)
-      for (int x = 60; x < 440; ++x, ++count) {
-        squares += field(x, y) * field(x, y);
-        along += field(x, y) * field(x, y + 5);
-        across += field(x, y) * field(x + 5, y);
-      }
-    EXPECT_NEAR(std::sqrt(squares / count), 1.0, 0.2) << "width " << k;
-    EXPECT_GT(along, across) << "the field must run down the fall line";
-  }
-}
-
-TEST(Ribs, DoNotCrossASilhouette) {
-  GuidanceBuffers g = make_slope(60, 120, LandCoverClass::rock, {0.0F, 0.3F, 1.0F}, 45.0F);
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 60; ++x) g.depth_m(x, y) = 50000.0F;
-  const Grid<std::uint8_t> all(60, 120, 1);
-  const Grid<float> before = integrate_along_fall_line(g, all, 3, {0, 0}, 1.0)[0];
-  // Turning the far range's fall line must not change the near one.
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 60; ++x) g.fall_line(x, y) = {0.8F, 0.6F};
-  const Grid<float> after = integrate_along_fall_line(g, all, 3, {0, 0}, 1.0)[0];
-  for (int x = 0; x < 60; ++x) EXPECT_EQ(after(x, 61), before(x, 61));
-  EXPECT_NE(after(30, 50), before(30, 50));
-}
-
-TEST(PictureFilter, GaussianHasItsDeviationAndPlace) {
-  for (const double sigma : {2.0, 9.0, 40.0}) {
-    const int size = 2 * blur_reach_px(sigma) + 41;
-    Grid<float> spot(size, size, 0.0F);
-    spot(size / 2, size / 2) = 1.0F;
-    const Grid<float> blurred = blur_in_picture(spot, sigma, {7, 3});
-    double sum = 0.0, moment = 0.0, square = 0.0;
-    for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x) {
-        sum += blurred(x, y);
-        moment += blurred(x, y) * (x - size / 2);
-        square += blurred(x, y) * (x - size / 2) * (x - size / 2);
-      }
-    EXPECT_NEAR(sum, 1.0, 1e-3);
-    EXPECT_NEAR(moment, 0.0, 0.1 * sigma);
-    EXPECT_NEAR(std::sqrt(square), sigma, 0.04 * sigma) << sigma;
-  }
-}
-
-TEST(PictureFilter, BlurOnASurfaceKeepsSurfacesApart) {
-  Grid<float> values(40, 20, 0.0F);
-  Grid<float> depth(40, 20, 10000.0F);
-  for (int y = 0; y < 20; ++y)
-    for (int x = 20; x < 40; ++x) {
-      values(x, y) = 1.0F;
-      depth(x, y) = 20000.0F;
-    }
-  EXPECT_EQ(blur_on_surface(values, depth, 3.0)(19, 10), 0.0F);
-  EXPECT_EQ(blur_on_surface(values, depth, 3.0)(20, 10), 1.0F);
-  EXPECT_NEAR(blur_in_picture(values, 3.0, {0, 0})(19, 10), 0.43F, 0.05F);
 }
 
 }  // namespace

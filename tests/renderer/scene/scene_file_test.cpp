@@ -31,19 +31,6 @@ std::string refused(const std::string& text, const std::vector<std::string>& set
   return message_of(ErrorKind::usage, [&] { scene_of(text, settings); });
 }
 
-class SceneFolders : public ::testing::Test {
- protected:
-  void SetUp() override {
-    for (const char* file : {"scenes/here.tif", "data/alps/dem.tif", "secret/x.tif"}) root_.write(file, "x");
-  }
-  std::string path(const std::string& relative) const { return root_ / relative; }
-  LoadedScene load(const std::string& text, bool with_data = true) const {
-    return parse_scene("version = 1\n" + text, "s.toml", path("scenes"),
-                       {.data_folders = with_data ? std::vector<std::string>{path("data")} : std::vector<std::string>{}, .settings = {}});
-  }
-  test::Folder root_;
-};
-
 TEST(SceneFile, ReadsEveryKindOfValue) {
   const Scene scene = scene_of(R"(
 title = "Über den Bergen"
@@ -304,71 +291,15 @@ TEST(SceneFile, WrittenScenesReadBack) {
   }
 }
 
-TEST_F(SceneFolders, FilesAreFoundBesideTheSceneAndInDataFolders) {
-  const LoadedScene scene = load("");
-  EXPECT_EQ(find_scene_file(scene, "here.tif"), fs::canonical(path("scenes/here.tif")));
-  EXPECT_EQ(find_scene_file(scene, "alps/dem.tif"), fs::canonical(path("data/alps/dem.tif")));
-  EXPECT_EQ(find_scene_file(scene, "../data/alps/dem.tif"), fs::canonical(path("data/alps/dem.tif")));
-  EXPECT_EQ(find_scene_file(scene, path("data/alps/dem.tif")), fs::canonical(path("data/alps/dem.tif")));
-  EXPECT_EQ(find_scene_file(scene, "alps/none.tif"), "");
-  EXPECT_EQ(find_scene_file(scene, ""), "");
-  EXPECT_EQ(find_named_file(scene, "palettes", "winter"), "winter");
-  EXPECT_THAT(message_of(ErrorKind::input, [&] { find_named_file(scene, "palettes", "none.toml"); }), HasSubstr("summer"));
-}
-
-TEST_F(SceneFolders, PathsMayNotLeaveTheAllowedFolders) {
-  for (const std::string& file :
-       {std::string("../secret/x.tif"), std::string("../secret/absent.tif"), path("secret/x.tif"), std::string("/etc/passwd"),
-        std::string("../../../../../../../../etc/passwd"), std::string("../scenes_not/x.tif"), std::string("..")})
-    EXPECT_THAT(message_of(ErrorKind::usage, [&] { load("[[terrain.sources]]\nfile = \"" + file + "\"\n"); }),
-                AllOf(StartsWith("s.toml:3:8: "), HasSubstr("outside"), HasSubstr("--data")))
-        << file;
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { load("[[terrain.sources]]\nfile = \"../data/alps/dem.tif\"\n", false); }),
-              HasSubstr("outside"));
-  // Links: to a file, to a folder, through two of them, and one that leads into an allowed folder.
-  fs::create_symlink("../secret/x.tif", path("scenes/link.tif"));
-  fs::create_directory_symlink(path("secret"), path("scenes/folder"));
-  fs::create_symlink("link.tif", path("scenes/link2.tif"));
-  fs::create_symlink("../data/alps/dem.tif", path("scenes/allowed.tif"));
-  const LoadedScene scene = load("");
-  for (const char* file : {"link.tif", "folder/x.tif", "link2.tif", "folder/none.tif"})
-    EXPECT_THAT(message_of(ErrorKind::usage, [&] { find_scene_file(scene, file); }), HasSubstr("outside")) << file;
-  EXPECT_EQ(find_scene_file(scene, "allowed.tif"), fs::canonical(path("data/alps/dem.tif")));
-  EXPECT_THAT(message_of(ErrorKind::usage, [&] { find_scene_file(scene, std::string("here.tif\0../x", 13)); }),
-              HasSubstr("control characters"));
-}
-
-TEST_F(SceneFolders, AllMissingFilesInOneMessage) {
-  const LoadedScene scene = load(R"(
-[[terrain.sources]]
-file = "alps/dem.tif"
-[[terrain.sources]]
-file = "alps/south.tif"
-origin = "Tyrol survey"
-licence = "CC0"
-get_from = "https://example.org/south"
-[output]
-profile = "press.icc"
-[[exemplar]]
-picture = "scan.png"
-classes = "mask.png"
-optional = true
-)");
-  const std::string message = message_of(ErrorKind::input, [&] { require_scene_files(scene); });
-  EXPECT_THAT(message, AllOf(HasSubstr("2 files"), HasSubstr("alps/south.tif (terrain.sources.1.file)"), HasSubstr("Tyrol survey"),
-                             HasSubstr("CC0"), HasSubstr("https://example.org/south"), HasSubstr("press.icc"), HasSubstr(path("data"))));
-  EXPECT_THAT(message, AllOf(Not(HasSubstr("alps/dem.tif")), Not(HasSubstr("scan.png"))));
-  EXPECT_EQ(scene_inputs(scene).size(), 5U);
-  EXPECT_NO_THROW(require_scene_files(load("[[terrain.sources]]\nfile = \"alps/dem.tif\"\n")));
-}
-
-TEST_F(SceneFolders, SceneFromAFile) {
-  root_.write("scenes/peak.toml", "version = 1\n[[terrain.sources]]\nfile = \"here.tif\"\n");
-  const LoadedScene scene = read_scene(path("scenes/peak.toml"), {});
+TEST(SceneFile, SceneFromAFile) {
+  const test::Folder folder;
+  folder.write("here.tif", "x");
+  const std::string path = folder.write("peak.toml", "version = 1\n[[terrain.sources]]\nfile = \"here.tif\"\n");
+  const LoadedScene scene = read_scene(path, {});
   EXPECT_EQ(scene.name, "peak");
-  EXPECT_EQ(scene.folder, path("scenes"));
-  EXPECT_EQ(find_scene_file(scene, scene.scene.terrain.sources.at(0).file), fs::canonical(path("scenes/here.tif")));
-  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_scene(path("scenes/none.toml"), {}); }), HasSubstr("none.toml"));
+  EXPECT_EQ(scene.folder, folder.path());
+  EXPECT_EQ(find_scene_file(scene, scene.scene.terrain.sources.at(0).file), fs::canonical(folder / "here.tif"));
+  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_scene(folder / "none.toml", {}); }), HasSubstr("none.toml"));
 }
 
 std::string text_of(const std::string& file) { return test::read_bytes(test::source_folder() + "/" + file); }

@@ -1,17 +1,13 @@
 #include "renderer/trace/geo_map.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "base/angle.h"
-#include "base/error.h"
 #include "base/noise.h"
-#include "renderer/scene/scene_file.h"
 #include "renderer/trace/guidance.h"
-#include "renderer/world/fold_check.h"
 
 namespace belvedere {
 namespace {
@@ -221,31 +217,6 @@ TEST(Deformation, LightFallsOnTheTurnedSlope) {
   const std::size_t pixel = guidance.slope_deg.index(static_cast<int>(at->pixel.x), static_cast<int>(at->pixel.y));
   EXPECT_NEAR(guidance.slope_deg[pixel], to_degrees(std::atan(0.4)), 0.01);
   EXPECT_NEAR(guidance.aspect_deg[pixel], 270.0, 0.1);
-}
-
-TEST(Deformation, FoldsInThePictureAreRefusedUnlessAllowed) {
-  DeformParameters p;
-  p.handles = {{.center = mountain, .move_m = {0.0, 2200.0}, .radius_m = 2500.0, .core_m = 1000.0}};
-  const auto world = make_world(p);
-  Scene scene;
-  scene.deform.handles.emplace_back().name = "Hochkar";
-  try {
-    check_folds(scene.deform, world->terrain, world->deformation, *world->camera, silent_progress());
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    EXPECT_EQ(error.where(), "deform.handles.0 (Hochkar)");
-    EXPECT_THAT(error.found(), ::testing::HasSubstr("in the picture around E 653"));
-    EXPECT_THAT(error.allowed(), ::testing::HasSubstr("allow_folds"));
-  }
-  struct Notes : Progress {
-    void note(std::string_view text) override { notes.emplace_back(text); }
-    std::vector<std::string> notes;
-  } notes;
-  scene.deform.allow_folds = true;
-  check_folds(scene.deform, world->terrain, world->deformation, *world->camera, notes);
-  ASSERT_EQ(notes.notes.size(), 1U);
-  EXPECT_THAT(notes.notes[0], ::testing::HasSubstr("Hochkar"));
 }
 
 }  // namespace

@@ -1,0 +1,81 @@
+// Files that appear whole or not at all. What writers of pictures make of full disks and forbidden places stands in image_io_test.cpp.
+#include "renderer/image/output_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/files.h"
+
+namespace belvedere {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class OutputFiles : public testing::Test {
+ protected:
+  std::string refused(const std::function<void()>& f) const { return test::message_of(ErrorKind::output, f); }
+  test::Folder folder_;
+};
+
+TEST_F(OutputFiles, TheOldOneStaysUntilTheNewOneIsWhole) {
+  const std::string path = folder_.write("a.tif", "old");
+  {
+    OutputFile file(path);
+    EXPECT_EQ(file.path(), path);
+    EXPECT_EQ(file.temporary(), folder_ / "a.tmp.tif") << "of the same ending, in the same folder";
+    test::write_bytes(file.temporary(), "new");
+    EXPECT_EQ(test::read_bytes(path), "old");
+    file.commit();
+    EXPECT_EQ(test::read_bytes(path), "new");
+  }
+  EXPECT_EQ(test::read_bytes(path), "new");
+  EXPECT_EQ(folder_.count(), 1U);
+}
+
+TEST_F(OutputFiles, WhatIsNotCommittedLeavesNothing) {
+  const std::string path = folder_.write("a.tif", "old");
+  {
+    const OutputFile file(path);
+    test::write_bytes(file.temporary(), "half");
+  }
+  EXPECT_EQ(test::read_bytes(path), "old");
+  EXPECT_EQ(folder_.count(), 1U);
+}
+
+TEST_F(OutputFiles, AreTriedAtOnce) {
+  EXPECT_THAT(refused([&] { OutputFile file(folder_ / "none/a.tif"); }), AllOf(HasSubstr("none/a.tif"), HasSubstr("No such file")));
+  EXPECT_THAT(refused([&] { OutputFile file(folder_.path() + "/"); }), HasSubstr("is a folder"));
+}
+
+TEST_F(OutputFiles, AFolderOfTheNameIsNotReplaced) {
+  fs::create_directories(folder_ / "a.tif");
+  {
+    OutputFile file(folder_ / "a.tif");
+    EXPECT_THAT(refused([&] { file.commit(); }), AllOf(HasSubstr("a.tif"), HasSubstr("cannot be replaced")));
+  }
+  EXPECT_TRUE(fs::is_directory(folder_ / "a.tif"));
+  EXPECT_EQ(folder_.count(), 1U);
+}
+
+TEST_F(OutputFiles, AFailureNamesTheFileAndTheFirstReason) {
+  const OutputFile file(folder_ / "a.tif");
+  EXPECT_THAT(refused([&] { file.fail("strip 3 is bad\nstrip 4 is bad"); }),
+              AllOf(HasSubstr("a.tif: cannot be written"), HasSubstr("strip 3"), Not(HasSubstr("a.tmp.tif")), Not(HasSubstr("strip 4"))));
+}
+
+TEST_F(OutputFiles, FoldersAreMadeAndLeftEmpty) {
+  check_output_folder(folder_ / "new/below");
+  EXPECT_TRUE(fs::is_directory(folder_ / "new/below"));
+  EXPECT_TRUE(fs::is_empty(folder_ / "new/below"));
+  folder_.write("file", "in the way");
+  EXPECT_THAT(refused([&] { check_output_folder(folder_ / "file/below"); }), HasSubstr("file/below"));
+  EXPECT_THAT(refused([&] { check_output_folder("/proc/self"); }), HasSubstr("/proc/self"));
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,86 @@
+#include "renderer/paint/picture_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/noise.h"
+#include "tests/renderer/exemplar/painted_hills.h"
+
+namespace belvedere {
+namespace {
+
+constexpr float sky = std::numeric_limits<float>::infinity();
+
+TEST(PictureFilter, GaussianHasItsDeviationAndPlace) {
+  for (const double sigma : {2.0, 9.0, 40.0}) {
+    const int size = 2 * blur_reach_px(sigma) + 41;
+    Grid<float> spot(size, size, 0.0F);
+    spot(size / 2, size / 2) = 1.0F;
+    const Grid<float> blurred = blur_in_picture(spot, sigma, {7, 3});
+    double sum = 0.0, moment = 0.0, square = 0.0;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) {
+        sum += blurred(x, y);
+        moment += blurred(x, y) * (x - size / 2);
+        square += blurred(x, y) * (x - size / 2) * (x - size / 2);
+      }
+    EXPECT_NEAR(sum, 1.0, 1e-3);
+    EXPECT_NEAR(moment, 0.0, 0.1 * sigma);
+    EXPECT_NEAR(std::sqrt(square), sigma, 0.04 * sigma) << sigma;
+  }
+}
+
+TEST(PictureFilter, BlurOnASurfaceKeepsSurfacesApart) {
+  Grid<float> values(40, 20, 0.0F);
+  Grid<float> depth(40, 20, 10000.0F);
+  for (int y = 0; y < 20; ++y)
+    for (int x = 20; x < 40; ++x) {
+      values(x, y) = 1.0F;
+      depth(x, y) = 20000.0F;
+    }
+  EXPECT_EQ(blur_on_surface(values, depth, 3.0)(19, 10), 0.0F);
+  EXPECT_EQ(blur_on_surface(values, depth, 3.0)(20, 10), 1.0F);
+  EXPECT_NEAR(blur_in_picture(values, 3.0, {0, 0})(19, 10), 0.43F, 0.05F);
+}
+
+TEST(PictureFilter, SurfacesPartAtThreeHundredthsOfTheNearerDistance) {
+  EXPECT_TRUE(same_surface(10000.F, 10299.F));
+  EXPECT_FALSE(same_surface(10000.F, 10301.F));
+  EXPECT_FALSE(same_surface(10301.F, 10000.F));
+  EXPECT_TRUE(same_surface(sky, sky));
+  EXPECT_FALSE(same_surface(sky, 1e9F));
+}
+
+TEST(PictureFilter, TheSkyTakesSkyOnly) {
+  Grid<float> values(20, 20, 0.F);
+  Grid<float> depth(20, 20, 10000.F);
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 20; ++x) {
+      values(x, y) = 5.F;
+      depth(x, y) = sky;
+    }
+  const Grid<float> blurred = blur_on_surface(values, depth, 2.0);
+  for (int y = 0; y < 20; ++y) EXPECT_NEAR(blurred(7, y), y < 10 ? 5.F : 0.F, 1e-5F) << y;
+}
+
+// Kernels of all kinds: direct ones, and wide ones over cells of the whole picture.
+TEST(PictureFilter, PartWithItsReachEqualsWhole) {
+  for (const double sigma : {1.5, 12.0, 17.0, 30.0}) {
+    const int reach = blur_reach_px(sigma);
+    const int size = 2 * reach + 120;
+    Grid<float> whole(size, size);
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) whole(x, y) = static_cast<float>(gaussian_noise(2, x, y, 5.0));
+    const PixelRect part{reach + 37, reach + 51, reach + 70, reach + 80};
+    const PixelRect wide = test::with_margin(part, reach, size, size);
+    const Grid<float> cut = blur_in_picture(test::cut(whole, wide), sigma, {wide.x0, wide.y0});
+    EXPECT_EQ(test::cut(cut, {reach, reach, reach + part.width(), reach + part.height()}),
+              test::cut(blur_in_picture(whole, sigma, {0, 0}), part))
+        << sigma;
+  }
+}
+
+}  // namespace
+}  // namespace belvedere
