@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/scene/scene_file.h"
+
+namespace belvedere::test {
+
+// A scene that is made in a second: hills of 12 × 12 km, seen from the south in 96 × 80 pixels of 1 mm.
+constexpr const char* small_scene_text = R"(version = 1
+[terrain.synthetic]
+width = 120
+height = 120
+cell_m = 100
+seed = 3
+[camera]
+position = [6000, -4000]
+height_m = 6000
+pitch_deg = -22
+[sampling]
+pixel_samples = 1
+shadow_rays = 2
+sky_directions = 4
+[output]
+width = 96
+height = 80
+sheet_width_mm = 96
+)";
+
+inline LoadedScene small_scene(const std::vector<std::string>& settings = {}, const std::string& folder = ".") {
+  return parse_scene(small_scene_text, "small.toml", folder, {.data_folders = {}, .settings = settings});
+}
+
+}  // namespace belvedere::test
