@@ -1,0 +1,90 @@
+#include "renderer/pipeline/scene_check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "renderer/pipeline/pipeline.h"
+#include "tests/files.h"
+#include "tests/renderer/pipeline/painted_scene.h"
+
+namespace belvedere {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::SizeIs;
+
+TEST(SceneCheck, SaysWhatIsKnownBeforeTheWork) {
+  const SceneReport report = check_scene(test::small_scene({"synthesis.enabled=false"}), silent_progress());
+  EXPECT_EQ(report.crs, "none");
+  EXPECT_EQ(report.cells_wide, 120);
+  EXPECT_EQ(report.cells_high, 120);
+  EXPECT_EQ(report.cell_m, 100.0);
+  EXPECT_EQ(report.view.camera.eye, glm::dvec3(6000.0, -4000.0, 6000.0));
+  EXPECT_THAT(report.inputs, IsEmpty());
+  EXPECT_THAT(report.exemplars, IsEmpty());
+  double shares = 0.0;
+  for (const auto& [id, share] : report.classes) {
+    EXPECT_GT(share, 0.0) << class_name(id);
+    shares += share;
+  }
+  EXPECT_NEAR(shares, 1.0, 1e-9);
+  EXPECT_EQ(report.classes.front().first, LandCoverClass::sky) << "in the order of the classes";
+}
+
+class PaintedSceneCheck : public testing::Test {
+ protected:
+  // Both refuse the scene in the same words, and nothing is written.
+  std::string refused(ErrorKind kind, const LoadedScene& scene) const {
+    const std::string check = test::message_of(kind, [&] { check_scene(scene, silent_progress()); });
+    const std::string render_message = test::message_of(kind, [&] { render(scene, folder_ / "out", {}); });
+    EXPECT_EQ(check, render_message);
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+    return check;
+  }
+  test::Folder folder_;
+};
+
+TEST_F(PaintedSceneCheck, RefusesWhatRenderingRefuses) {
+  test::write_painting(folder_);
+  fs::resize_file(folder_ / "red.png", fs::file_size(folder_ / "red.png") / 2);
+  EXPECT_THAT(refused(ErrorKind::input, test::painted_scene(folder_)), HasSubstr("red.png"));
+  EXPECT_THAT(refused(ErrorKind::input, test::painted_scene(folder_, {"synthesis.colours=painting", "synthesis.enabled=false"})),
+              HasSubstr("red.png"));
+  fs::remove(folder_ / "red.png");
+  EXPECT_THAT(refused(ErrorKind::input, test::painted_scene(folder_)), HasSubstr("exemplar.0.picture"));
+  folder_.write("printer.icc", "no profile");
+  EXPECT_THAT(refused(ErrorKind::input, test::small_scene({"output.profile=printer.icc"}, folder_.path())), HasSubstr("printer.icc"));
+}
+
+TEST_F(PaintedSceneCheck, AClassOfThePictureNeedsTexelsOrAFallback) {
+  test::write_painting(folder_);
+  const SceneReport whole = check_scene(test::painted_scene(folder_), silent_progress());
+  EXPECT_THAT(whole.exemplars, SizeIs(1));
+  EXPECT_THAT(whole.inputs, SizeIs(2));
+  // Water (1) and fields alone: what else the hills have is not to be painted.
+  test::write_painting(folder_, 2);
+  const std::string message = test::message_of(ErrorKind::usage, [&] { check_scene(test::painted_scene(folder_), silent_progress()); });
+  EXPECT_THAT(message, AllOf(HasSubstr("small"), HasSubstr("forest"), HasSubstr("fallback"), Not(HasSubstr("sky"))));
+}
+
+TEST_F(PaintedSceneCheck, AViewStandsForThePixelsOfItsPicture) {
+  test::write_painting(folder_);
+  const SceneExemplars looked =
+      look_at_exemplars(test::painted_scene(folder_, {"output.width=960", "output.height=800"}), silent_progress());
+  EXPECT_EQ(looked.view.width(), 480);
+  EXPECT_EQ(looked.view.height(), 400);
+  EXPECT_EQ(looked.pixels_of_picture, 4.0);
+  EXPECT_THAT(looked.exemplars, SizeIs(1));
+}
+
+}  // namespace
+}  // namespace belvedere
