@@ -86,12 +86,14 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
   write_guidance(join(out_folder, "guidance.exr"), lit.guidance, notes);
 
   const bool copied = scene.synthesis.enabled;
-  Grid<glm::vec3> canvas = !copied ? lit.base.colour : [&] {
+  // Its scene and view are named because clang 14 captures no bindings by itself.
+  const auto copy_exemplars = [&, &scene = scene, &view = view] {
     const std::vector<PaintedExemplar> exemplars = make_exemplars(loaded, view, palette, std::move(paint.paintings), progress);
     const PaintDraft draft = draft_paint(world, palette, lit, progress);
     const MatchField matches = match_exemplars(exemplars, scene, lit, draft, progress);
     return copy_ground(matches, exemplars, scene, lit, draft);
-  }();
+  };
+  Grid<glm::vec3> canvas = copied ? copy_exemplars() : lit.base.colour;
   // What the exemplar cannot give is painted last, far to near: sky, trees, houses; without an exemplar everything is.
   const StrokeLayers layers{.sky = true, .ground = !copied, .accents = true, .breaks = true, .upright = true};
   const Painting strokes = paint_strokes(std::move(canvas), lit.guidance, lit.base, layers, to_stroke_parameters(world, palette), progress);

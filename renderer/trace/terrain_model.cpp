@@ -78,6 +78,8 @@ TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> gene
                 fmt::format("a generalized grid of {} × {} cells", generalized_m.width(), generalized_m.height()),
                 fmt::format("the DEM's {} × {}", dem->width(), dem->height()));
   }
+  if (land_cover == nullptr || land_cover->classes.cells.empty())
+    throw Error(ErrorKind::bug, "terrain model", "land cover without cells", "classes for the DEM's ground");
   TerrainModel model;
   const double cell_m = dem->cell_m();
   const Grid<float>& z = dem->altitude_m;

@@ -31,7 +31,8 @@ struct TerrainModel {
   double detail_boost = 1.5;  // further exaggeration of normal_detail
 };
 
-// Makes the derived grids from dem, generalized and land cover. Throws Error(bug) where the two grids differ in size.
+// Makes the derived grids from dem, generalized and land cover. Throws Error(bug) where the two grids differ in size or land cover has no
+// cells.
 TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> generalized_m, std::shared_ptr<const LandCover> land_cover,
                                 double exaggeration);
 

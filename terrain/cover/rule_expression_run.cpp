@@ -39,9 +39,9 @@ void RuleExpression::run(Operation operation, const float* const* o, float* out)
     case Operation::less_equal:
       return each(o[0], o[1], out, [](float a, float b) { return a <= b ? 1.F : 0.F; });
     case Operation::both:
-      return each(o[0], o[1], out, [](float a, float b) { return (a > 0.F) & (b > 0.F) ? 1.F : 0.F; });
+      return each(o[0], o[1], out, [](float a, float b) { return ((a > 0.F) & (b > 0.F)) ? 1.F : 0.F; });
     case Operation::either:
-      return each(o[0], o[1], out, [](float a, float b) { return (a > 0.F) | (b > 0.F) ? 1.F : 0.F; });
+      return each(o[0], o[1], out, [](float a, float b) { return ((a > 0.F) | (b > 0.F)) ? 1.F : 0.F; });
     case Operation::negate:
       return each(o[0], out, [](float a) { return -a; });
     case Operation::invert:

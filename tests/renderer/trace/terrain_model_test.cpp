@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/error.h"
 #include "base/guidance_channels.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/guidance_ground.h"
@@ -28,6 +29,14 @@ TerrainModel model_of(int width, int height, Altitude&& altitude) {
   Grid<float> generalized = dem.altitude_m;
   return make_terrain_model(std::make_shared<const Dem>(std::move(dem)), std::move(generalized),
                             std::make_shared<const LandCover>(std::move(land_cover)), 1.0);
+}
+
+TEST(TerrainModel, LandCoverWithoutCellsIsRefused) {
+  Raster<float> raster;
+  raster.transform = {650000.0, 5320000.0, cell_m, cell_m};
+  raster.cells = Grid<float>(4, 4, 500.F);
+  const auto dem = std::make_shared<const Dem>(make_dem(std::move(raster)));
+  EXPECT_THROW(make_terrain_model(dem, dem->altitude_m, std::make_shared<const LandCover>(), 1.0), Error);
 }
 
 TEST(TerrainModel, FlowOnATiltedPlaneIsTheLogarithmOfTheStripAbove) {
