@@ -21,7 +21,7 @@ struct BaseParameters {
 };
 
 // Base picture (encoded sRGB) at the pixel's tone and at ∓ .17, with accents, tree density and haze; sky pixels get sky and clouds.
-// Reads depth, position, altitude, land cover, tone and relief_s, and footprint where it is there (fields too small to see then fade).
+// Needs depths, places, altitudes, classes, tone, fall lines, slopes, footprints, small and large relief, rim, built and grain.
 // `origin_px`, `picture_size`: where the buffers lie in the whole picture. Local up to base_margin_px(): a part with that margin equals
 // the whole bit for bit.
 BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& palette, const BaseParameters& parameters,
