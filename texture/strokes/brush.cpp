@@ -65,11 +65,8 @@ float gate_bell(float x) {
   return t4 * t4;
 }
 
-struct Bounds {
-  int x0, y0, x1, y1;  // half open
-};
-
-Bounds bounds_of(const Stroke& stroke, int width, int height) {
+// The pixels of the canvas that a stroke may touch, of those in `clip`; empty (x0 >= x1 or y0 >= y1) where it lies beside them.
+PixelRect bounds_of(const Stroke& stroke, glm::ivec2 origin, const PixelRect& clip) {
   glm::vec2 low = stroke.points[0];
   glm::vec2 high = low;
   for (int i = 1; i < stroke.point_count; ++i) {
@@ -77,8 +74,10 @@ Bounds bounds_of(const Stroke& stroke, int width, int height) {
     high = glm::max(high, stroke.points[static_cast<std::size_t>(i)]);
   }
   const float reach = std::max(stroke.start_width, stroke.end_width) * 0.58F + 1.F;  // wobble widens by up to 7.5 %
-  return {std::max(0, static_cast<int>(std::floor(low.x - reach))), std::max(0, static_cast<int>(std::floor(low.y - reach))),
-          std::min(width, static_cast<int>(std::ceil(high.x + reach))), std::min(height, static_cast<int>(std::ceil(high.y + reach)))};
+  return {std::max(clip.x0, static_cast<int>(std::floor(low.x - reach)) - origin.x),
+          std::max(clip.y0, static_cast<int>(std::floor(low.y - reach)) - origin.y),
+          std::min(clip.x1, static_cast<int>(std::ceil(high.x + reach)) - origin.x),
+          std::min(clip.y1, static_cast<int>(std::ceil(high.y + reach)) - origin.y)};
 }
 
 // How far a pixel lies from the stroke: the plain distance, and along and across in pixels. Before the start and beyond the end of the
@@ -113,9 +112,9 @@ StrokePlace place_on(const Stroke& stroke, const std::array<float, Stroke::max_p
   return place;
 }
 
-void paint_stroke(const Stroke& stroke, std::uint32_t number, const PixelRect& clip, Grid<glm::vec3>& canvas, PaintRecord& record,
-                  const GuidanceBuffers& guidance, float pixels_per_unit) {
-  const Bounds whole = bounds_of(stroke, canvas.width(), canvas.height());
+void paint_stroke(const Stroke& stroke, std::uint32_t number, glm::ivec2 origin, const PixelRect& clip, Grid<glm::vec3>& canvas,
+                  PaintRecord& record, const GuidanceBuffers& guidance, float pixels_per_unit) {
+  const PixelRect bounds = bounds_of(stroke, origin, clip);
   std::array<float, Stroke::max_points> length_before{};
   float length = 0.F;
   for (int i = 0; i + 1 < stroke.point_count; ++i) {
@@ -136,8 +135,8 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, const PixelRect& c
     colour += glm::vec3(value + warmth, value, value - warmth);
     ridge = stroke.load * ((stroke.seed & 0x100U) != 0U ? ridge_light : -ridge_light);
   }
-  for (int y = std::max(whole.y0, clip.y0); y < std::min(whole.y1, clip.y1); ++y) {
-    for (int x = std::max(whole.x0, clip.x0); x < std::min(whole.x1, clip.x1); ++x) {
+  for (int y = bounds.y0; y < bounds.y1; ++y) {
+    for (int x = bounds.x0; x < bounds.x1; ++x) {
       const std::size_t i = canvas.index(x, y);
       const float depth = guidance.depth_m[i];
       switch (stroke.gate) {
@@ -158,7 +157,8 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, const PixelRect& c
           if (guidance.land_cover[i] != LandCoverClass::water) continue;
           break;
       }
-      const StrokePlace place = place_on(stroke, length_before, {static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F});
+      const glm::vec2 centre{static_cast<float>(x + origin.x) + 0.5F, static_cast<float>(y + origin.y) + 0.5F};
+      const StrokePlace place = place_on(stroke, length_before, centre);
       if (place.distance > widest) continue;
       const float share = std::clamp(place.along_px / (length + 1e-6F), 0.F, 1.F);
       float half_width = 0.5F * (stroke.start_width + (stroke.end_width - stroke.start_width) * share);
@@ -215,29 +215,31 @@ Painting begin_painting(Grid<glm::vec3> canvas) {
 }
 
 void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::vector<Stroke> strokes, double pixels_per_unit,
-                    Progress& progress) {
+                    Progress& progress, const SheetWindow& window) {
   Grid<glm::vec3>& canvas = painting.picture;
   const std::uint32_t first_number = painting.stroke_count + 1;
   painting.stroke_count += static_cast<std::uint32_t>(strokes.size());
   std::stable_sort(strokes.begin(), strokes.end(), [](const Stroke& a, const Stroke& b) { return a.order > b.order; });
-  const int across = (canvas.width() + tile_px - 1) / tile_px;
-  const int down = (canvas.height() + tile_px - 1) / tile_px;
+  const PixelRect asked = window.asked == PixelRect{} ? PixelRect{0, 0, canvas.width(), canvas.height()} : window.asked;
+  const int across = (asked.width() + tile_px - 1) / tile_px;
+  const int down = (asked.height() + tile_px - 1) / tile_px;
   std::vector<std::vector<std::uint32_t>> tiles(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
   for (std::size_t s = 0; s < strokes.size(); ++s) {
-    const Bounds b = bounds_of(strokes[s], canvas.width(), canvas.height());
+    const PixelRect b = bounds_of(strokes[s], window.origin_px, asked);
     if (b.x0 >= b.x1 || b.y0 >= b.y1) continue;
-    for (int ty = b.y0 / tile_px; ty <= (b.y1 - 1) / tile_px; ++ty)
-      for (int tx = b.x0 / tile_px; tx <= (b.x1 - 1) / tile_px; ++tx)
+    for (int ty = (b.y0 - asked.y0) / tile_px; ty <= (b.y1 - 1 - asked.y0) / tile_px; ++ty)
+      for (int tx = (b.x0 - asked.x0) / tile_px; tx <= (b.x1 - 1 - asked.x0) / tile_px; ++tx)
         tiles[static_cast<std::size_t>(ty) * static_cast<std::size_t>(across) + static_cast<std::size_t>(tx)].push_back(
             static_cast<std::uint32_t>(s));
   }
   progress.begin("painting strokes", static_cast<double>(tiles.size()));
-  parallel_tiles(canvas.width(), canvas.height(), tile_px, [&](PixelRect tile) {
+  parallel_tiles(asked.width(), asked.height(), tile_px, [&](PixelRect part) {
     const auto t =
-        static_cast<std::size_t>(tile.y0 / tile_px) * static_cast<std::size_t>(across) + static_cast<std::size_t>(tile.x0 / tile_px);
+        static_cast<std::size_t>(part.y0 / tile_px) * static_cast<std::size_t>(across) + static_cast<std::size_t>(part.x0 / tile_px);
+    const PixelRect tile{asked.x0 + part.x0, asked.y0 + part.y0, asked.x0 + part.x1, asked.y0 + part.y1};
     PaintRecord record(painting, guidance, tile);
     for (const std::uint32_t s : tiles[t])
-      paint_stroke(strokes[s], first_number + s, tile, canvas, record, guidance, static_cast<float>(pixels_per_unit));
+      paint_stroke(strokes[s], first_number + s, window.origin_px, tile, canvas, record, guidance, static_cast<float>(pixels_per_unit));
     record.hand_back(painting);
     progress.advance(1.0);
   });

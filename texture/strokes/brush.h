@@ -5,6 +5,7 @@
 
 #include "base/guidance_buffers.h"
 #include "base/progress.h"
+#include "texture/strokes/sheet_window.h"
 #include "texture/strokes/stroke.h"
 
 namespace belvedere {
@@ -13,8 +14,9 @@ namespace belvedere {
 Painting begin_painting(Grid<glm::vec3> canvas);
 
 // Paints the strokes in order (ties: as listed) over the canvas. Each tile of the canvas paints the strokes that touch it in that
-// order, so threads and tiles change no bit. pixels_per_unit: see StrokeParameters.
+// order, so threads and tiles change no bit. pixels_per_unit: see StrokeParameters. Strokes lie on the sheet; the canvas and the guidance
+// are a window of it, of which no pixel is painted that is not asked for.
 void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::vector<Stroke> strokes, double pixels_per_unit,
-                    Progress& progress);
+                    Progress& progress, const SheetWindow& window = {});
 
 }  // namespace belvedere

@@ -12,11 +12,14 @@ namespace belvedere {
 struct IceFlow {
   Grid<glm::vec2> direction;  // not normalized; 0 where there is no ice
   float cell_px = 1.F;
+  glm::ivec2 first_cell{0};  // cells are counted from the sheet's corner: which one the grid begins with
 
-  // Unit direction at a place of the canvas, straight down where there is no ice near.
+  // Unit direction at a place of the sheet, straight down where there is no ice near.
   glm::vec2 at(glm::vec2 place) const;
 };
 IceFlow find_ice_flow(const StrokeScene& scene);
+// How far from a place the ground is that tells the flow there, px.
+double ice_flow_reach_px(double pixels_per_unit);
 
 // Lays a stroke of the length along the flow, its middle at `place`, turned aside by aside_rad.
 void lay_flow(Stroke& stroke, const IceFlow& flow, glm::vec2 place, float length_px, float aside_rad);

@@ -1,16 +1,45 @@
 #include "texture/strokes/stroke_painter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/guidance_channels.h"
 #include "texture/strokes/brush.h"
+#include "texture/strokes/ice_flow.h"
 #include "texture/strokes/stroke_table.h"
 
 namespace belvedere {
 namespace {
+
+// Edges of strokes are soft over a pixel, and places and steps are rounded to whole ones.
+constexpr int rounding_px = 4;
+
+int to_px(double units, const StrokeParameters& parameters) {
+  return static_cast<int>(std::ceil(units * parameters.pixels_per_unit)) + rounding_px;
+}
+
+// The most that any painted kind asks for, 0 where none is painted.
+template <class Reach>
+int most_of(const StrokeLayers& layers, Reach&& reach) {
+  int most = 0;
+  for (const StrokeKind& kind : stroke_kinds())
+    if (is_painted(kind, layers)) most = std::max(most, reach(kind));
+  return most;
+}
+
+void check_window(const SheetWindow& window, int width, int height) {
+  const bool whole = window.sheet_px == glm::ivec2(0) && window.origin_px == glm::ivec2(0);
+  const bool inside = window.origin_px.x >= 0 && window.origin_px.y >= 0 && window.origin_px.x + width <= window.sheet_px.x &&
+                      window.origin_px.y + height <= window.sheet_px.y;
+  if (!whole && !inside) throw Error(ErrorKind::bug, "paint_strokes", "the window does not lie on the sheet");
+  const PixelRect& asked = window.asked;
+  const bool held = asked == PixelRect{} || (asked.x0 >= 0 && asked.y0 >= 0 && asked.x0 < asked.x1 && asked.y0 < asked.y1 &&
+                                             asked.x1 <= width && asked.y1 <= height);
+  if (!held) throw Error(ErrorKind::bug, "paint_strokes", "pixels are asked for that the window does not hold");
+}
 
 void check_sizes(const Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance, const BasePicture& base) {
   using B = GuidanceBuffers;
@@ -27,19 +56,20 @@ void check_sizes(const Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance,
 }  // namespace
 
 Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const BasePicture& base, const StrokeLayers& layers,
-                       const StrokeParameters& parameters, Progress& progress) {
+                       const StrokeParameters& parameters, Progress& progress, const SheetWindow& window) {
   check_sizes(canvas, guidance, base);
+  check_window(window, guidance.width(), guidance.height());
   Painting painting = begin_painting(std::move(canvas));
-  const StrokeScene scene{guidance, base, parameters};
   const auto paint = [&](std::vector<Stroke> strokes) {
     // In the far, air evens out what loads of paint differ by.
     for (Stroke& stroke : strokes) stroke.load *= 1.F - 0.8F * std::clamp(base.haze[stroke.source], 0.F, 1.F);
-    if (!strokes.empty()) paint_in_order(painting, guidance, std::move(strokes), parameters.pixels_per_unit, progress);
+    if (!strokes.empty()) paint_in_order(painting, guidance, std::move(strokes), parameters.pixels_per_unit, progress, window);
   };
 
   std::vector<Stroke> body;
   for (const StrokeKind& kind : stroke_kinds()) {
     if (!is_painted(kind, layers)) continue;
+    const StrokeScene scene{guidance, base, parameters, window, stroke_margin_px(kind, parameters)};
     std::vector<Stroke> strokes = kind.grow(scene, kind.stream);
     if (kind.alone)
       paint(std::move(strokes));
@@ -48,6 +78,21 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
   }
   paint(std::move(body));
   return painting;
+}
+
+int stroke_margin_px(const StrokeKind& kind, const StrokeParameters& parameters) {
+  const int flow = kind.reach.along_ice ? static_cast<int>(std::ceil(ice_flow_reach_px(parameters.pixels_per_unit))) : 0;
+  return to_px(kind.reach.seen_units, parameters) + flow;
+}
+
+int stroke_margin_px(const StrokeLayers& layers, const StrokeParameters& parameters) {
+  return most_of(layers, [&](const StrokeKind& kind) { return stroke_margin_px(kind, parameters); });
+}
+
+int paint_source_reach_px(const StrokeKind& kind, const StrokeParameters& parameters) { return to_px(kind.reach.source_units, parameters); }
+
+int paint_source_reach_px(const StrokeLayers& layers, const StrokeParameters& parameters) {
+  return most_of(layers, [&](const StrokeKind& kind) { return paint_source_reach_px(kind, parameters); });
 }
 
 }  // namespace belvedere

@@ -39,6 +39,15 @@ Stroke ground_stroke(const StrokeScene& scene, std::size_t i, StrokeSeed& seed) 
   return stroke;
 }
 
+Stroke standing_stroke(const StrokeScene& scene, std::size_t i) {
+  Stroke stroke;
+  stroke.depth_m = scene.guidance.depth_m[i];
+  stroke.order = stroke.depth_m;
+  stroke.seed = static_cast<std::uint32_t>(mix_bits(scene.sheet_index(i) + 1U));
+  stroke.source = static_cast<std::uint32_t>(i);
+  return stroke;
+}
+
 void set_line(Stroke& stroke, glm::vec2 from, glm::vec2 to, float start_width, float end_width) {
   stroke.points[0] = from;
   stroke.points[1] = to;
@@ -48,8 +57,6 @@ void set_line(Stroke& stroke, glm::vec2 from, glm::vec2 to, float start_width, f
   if (stroke.tip == StrokeTip::round) stroke.tip = StrokeTip::hairs;  // what is square stays so
   stroke.edge = 0.5F;
   stroke.load = 0.5F;
-  // All parts of what stands in one place are of one load of paint.
-  if (stroke.seed == 0) stroke.seed = static_cast<std::uint32_t>(mix_bits(stroke.source + 1U));
 }
 
 glm::vec3 through_air(const StrokeScene& scene, std::size_t i, glm::vec3 paint) {

@@ -27,7 +27,9 @@ void take_brush(Stroke& stroke, const StrokeScene& scene, float width_units, con
 
 // A stroke that grows from pixel i, with what all of them share.
 Stroke ground_stroke(const StrokeScene& scene, std::size_t i, StrokeSeed& seed);
-// A straight tapered stroke of the brush between two places, px; its hairs are seeded by its source where it has no seed.
+// A stroke of what stands on pixel i. All its parts are of one load of paint: their hairs are seeded by the pixel.
+Stroke standing_stroke(const StrokeScene& scene, std::size_t i);
+// A straight tapered stroke of the brush between two places, px.
 void set_line(Stroke& stroke, glm::vec2 from, glm::vec2 to, float start_width, float end_width);
 // Paint seen through the air in front of pixel i: `paint` and the picture's colour mixed by the haze.
 glm::vec3 through_air(const StrokeScene& scene, std::size_t i, glm::vec3 paint);

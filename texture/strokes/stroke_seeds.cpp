@@ -8,8 +8,29 @@
 
 namespace belvedere {
 
+PixelRect StrokeScene::seeded() const {
+  const glm::ivec2 origin = window.origin_px;
+  const PixelRect held{origin.x, origin.y, origin.x + guidance.width(), origin.y + guidance.height()};
+  if (seed_reach_px < 0 || window.asked == PixelRect{}) return held;
+  return {std::max(held.x0, origin.x + window.asked.x0 - seed_reach_px), std::max(held.y0, origin.y + window.asked.y0 - seed_reach_px),
+          std::min(held.x1, origin.x + window.asked.x1 + seed_reach_px), std::min(held.y1, origin.y + window.asked.y1 + seed_reach_px)};
+}
+
+CellRange StrokeScene::cells_within(int first_px, int end_px, float spacing_px, int count) {
+  return {std::max(0, static_cast<int>(static_cast<float>(first_px) / spacing_px) - 1),
+          std::min(count - 1, static_cast<int>(static_cast<float>(end_px) / spacing_px) + 1)};
+}
+
+std::uint64_t StrokeScene::sheet_index(std::size_t i) const {
+  const auto width = static_cast<std::size_t>(guidance.width());
+  const std::uint64_t x = i % width + static_cast<std::uint64_t>(window.origin_px.x);
+  const std::uint64_t y = i / width + static_cast<std::uint64_t>(window.origin_px.y);
+  return y * static_cast<std::uint64_t>(sheet_px().x) + x;
+}
+
 glm::vec2 StrokeScene::fall_line(glm::vec2 place) const {
-  const glm::vec2 direction = guidance.fall_line.clamped(static_cast<int>(place.x), static_cast<int>(place.y));
+  const glm::vec2 direction =
+      guidance.fall_line.clamped(static_cast<int>(place.x) - window.origin_px.x, static_cast<int>(place.y) - window.origin_px.y);
   const float length = glm::length(direction);
   return length < 1e-3F ? glm::vec2(0.F, 1.F) : direction / length;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <vector>
@@ -9,12 +10,13 @@
 #include "base/random.h"
 #include "base/random_streams.h"
 #include "texture/strokes/base_picture.h"
+#include "texture/strokes/sheet_window.h"
 #include "texture/strokes/stroke.h"
 
 namespace belvedere {
 
 // Everything a kind of stroke asks its surroundings, and the random numbers of one seed: draw k of a seed is a pure function of
-// the painter's seed, the kind's stream and the cell the seed stands in, so canvas size and threads change nothing.
+// the painter's seed, the kind's stream and the cell of the sheet the seed stands in, so canvas size, window and threads change nothing.
 // Two draws never stand among the arguments of one call or the terms of one sum: C++ leaves open which comes first, and the picture
 // would be the compiler's.
 class StrokeSeed {
@@ -33,19 +35,44 @@ class StrokeSeed {
   std::uint64_t draw_ = 0;
 };
 
-// The picture strokes are laid on, with what they are steered by.
+// Cells in a row, first … last.
+struct CellRange {
+  int first = 0;
+  int last = -1;
+};
+
+// The picture strokes are laid on, with what they are steered by. A place is one of the sheet, px; an index is one of the buffers, which
+// hold a window of the sheet.
 struct StrokeScene {
   const GuidanceBuffers& guidance;
   const BasePicture& base;
   const StrokeParameters& parameters;
+  SheetWindow window{};
+  int seed_reach_px = -1;  // no seed farther from the asked pixels needs to grow; -1: all of the buffers
+
+  // Width and height of the sheet, px.
+  glm::ivec2 sheet_px() const {
+    return window.sheet_px.x > 0 && window.sheet_px.y > 0 ? window.sheet_px : glm::ivec2(guidance.width(), guidance.height());
+  }
+  // Where seeds are wanted, px of the sheet.
+  PixelRect seeded() const;
+  // Those of the `count` cells of spacing_px along one axis of the sheet that touch first_px … end_px, and one more on each side.
+  static CellRange cells_within(int first_px, int end_px, float spacing_px, int count);
+  // Row-major index on the sheet of a pixel of the buffers.
+  std::uint64_t sheet_index(std::size_t i) const;
 
   float scale() const { return static_cast<float>(parameters.pixels_per_unit); }
   LandCoverClass class_at(std::size_t i) const { return guidance.land_cover[i]; }
-  // Index of the pixel under a place; the place must be on the canvas.
-  std::size_t pixel(glm::vec2 place) const { return guidance.depth_m.index(static_cast<int>(place.x), static_cast<int>(place.y)); }
+  // Index of the pixel under a place; the place must be on the canvas. Whole pixels are told before the origin is taken off, so that no
+  // window rounds a place its own way.
+  std::size_t pixel(glm::vec2 place) const {
+    return guidance.depth_m.index(static_cast<int>(place.x) - window.origin_px.x, static_cast<int>(place.y) - window.origin_px.y);
+  }
+  // Whether the buffers hold a place. They end where the sheet ends, or farther from what is asked for than a stroke looks.
   bool on_canvas(glm::vec2 place) const {
-    return place.x >= 0.F && place.y >= 0.F && place.x < static_cast<float>(guidance.width()) &&
-           place.y < static_cast<float>(guidance.height());
+    return place.x >= static_cast<float>(window.origin_px.x) && place.y >= static_cast<float>(window.origin_px.y) &&
+           place.x < static_cast<float>(window.origin_px.x + guidance.width()) &&
+           place.y < static_cast<float>(window.origin_px.y + guidance.height());
   }
   float slope_deg(std::size_t i) const { return guidance.slope_deg[i]; }
   // Height above the ground within 180 m, m.
@@ -72,22 +99,28 @@ float mixed_tone(float dark, float light, StrokeSeed& seed);
 void lay_line(Stroke& stroke, const StrokeScene& scene, glm::vec2 place, float length_units, float angle_rad, float wobble_rad, bool follow,
               StrokeSeed& seed);
 
-// One seed in every cell of spacing_units, jittered; make(seed, place, pixel index, strokes) appends what grows there. Rows of cells
-// run in parallel and are joined in order.
+// One seed in every cell of spacing_units, jittered; make(seed, place, pixel index, strokes) appends what grows there. Cells are counted
+// from the sheet's corner, and only those near what is asked for are visited. Rows of cells run in parallel and are joined in order.
 template <class Make>
 std::vector<Stroke> sow(const StrokeScene& scene, float spacing_units, Stream stream, Make&& make) {
   const float spacing = spacing_units * scene.scale();
-  const int across = static_cast<int>(static_cast<float>(scene.guidance.width()) / spacing) + 1;
-  const int down = static_cast<int>(static_cast<float>(scene.guidance.height()) / spacing) + 1;
+  const glm::ivec2 sheet = scene.sheet_px();
+  const PixelRect seeded = scene.seeded();
+  const CellRange columns =
+      StrokeScene::cells_within(seeded.x0, seeded.x1, spacing, static_cast<int>(static_cast<float>(sheet.x) / spacing) + 1);
+  const CellRange lines =
+      StrokeScene::cells_within(seeded.y0, seeded.y1, spacing, static_cast<int>(static_cast<float>(sheet.y) / spacing) + 1);
+  const int down = std::max(0, lines.last - lines.first + 1);
   std::vector<std::vector<Stroke>> rows(static_cast<std::size_t>(down));
   const std::uint64_t key = stream_seed(scene.parameters.seed, stream);
-  parallel_rows(down, [&](int j) {
-    for (int i = 0; i < across; ++i) {
+  parallel_rows(down, [&](int row) {
+    const int j = lines.first + row;
+    for (int i = columns.first; i <= columns.last; ++i) {
       StrokeSeed seed(key, i, j);
       const float x = (static_cast<float>(i) + seed.uniform()) * spacing;
       const float y = (static_cast<float>(j) + seed.uniform()) * spacing;
       const glm::vec2 place{x, y};
-      if (scene.on_canvas(place)) make(seed, place, scene.pixel(place), rows[static_cast<std::size_t>(j)]);
+      if (scene.on_canvas(place)) make(seed, place, scene.pixel(place), rows[static_cast<std::size_t>(row)]);
     }
   });
   std::size_t total = 0;

@@ -116,13 +116,17 @@ bool find_plot(const StrokeScene& scene, Stream stream, glm::vec2 at, Plot& plot
 // All plots of the picture, each once: found from the nearest pixel of a net that is finer than they are.
 std::vector<Plot> find_plots(const StrokeScene& scene, Stream stream) {
   const float step = std::max(1.F, 1.4F * scene.scale());
-  const int across = static_cast<int>(static_cast<float>(scene.guidance.width()) / step);
-  const int down = static_cast<int>(static_cast<float>(scene.guidance.height()) / step);
-  std::vector<std::vector<Plot>> rows(static_cast<std::size_t>(std::max(down, 0)));
-  parallel_rows(down, [&](int y) {
-    for (int x = 0; x < across; ++x) {
+  const glm::ivec2 sheet = scene.sheet_px();
+  const PixelRect seeded = scene.seeded();
+  const CellRange columns = StrokeScene::cells_within(seeded.x0, seeded.x1, step, static_cast<int>(static_cast<float>(sheet.x) / step));
+  const CellRange lines = StrokeScene::cells_within(seeded.y0, seeded.y1, step, static_cast<int>(static_cast<float>(sheet.y) / step));
+  const int down = std::max(0, lines.last - lines.first + 1);
+  std::vector<std::vector<Plot>> rows(static_cast<std::size_t>(down));
+  parallel_rows(down, [&](int row) {
+    for (int x = columns.first; x <= columns.last; ++x) {
+      const glm::vec2 at = (glm::vec2(x, lines.first + row) + 0.5F) * step;
       Plot plot{};
-      if (find_plot(scene, stream, (glm::vec2(x, y) + 0.5F) * step, plot)) rows[static_cast<std::size_t>(y)].push_back(plot);
+      if (scene.on_canvas(at) && find_plot(scene, stream, at, plot)) rows[static_cast<std::size_t>(row)].push_back(plot);
     }
   });
   std::vector<Plot> plots;
@@ -145,9 +149,7 @@ void build(const StrokeScene& scene, const House& house, std::size_t i, StrokeSe
   const auto side = static_cast<float>(scene.parameters.sun_side);
   const float tone = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
   const float light = 0.62F + 0.42F * tone;
-  Stroke body;
-  body.depth_m = scene.guidance.depth_m[i];
-  body.source = static_cast<std::uint32_t>(i);
+  Stroke body = standing_stroke(scene, i);
   body.order = body.depth_m - 1.F;
   const float half = 0.5F * house.width;
   const float stripe = 0.5F * house.height;
@@ -198,9 +200,7 @@ void plant_garden(const StrokeScene& scene, glm::vec2 foot, float width, std::si
   const auto side = static_cast<float>(scene.parameters.sun_side);
   const float light = 0.62F + 0.42F * std::clamp(scene.guidance.tone[i], 0.F, 1.F);
   const glm::vec3 crown = (scene.parameters.winter ? bare : leaves) + 0.03F * seed.normal();
-  Stroke body;
-  body.depth_m = scene.guidance.depth_m[i];
-  body.source = static_cast<std::uint32_t>(i);
+  Stroke body = standing_stroke(scene, i);
   body.order = body.depth_m - 1.2F;
   body.gate = StrokeGate::upright;
   set_line(body, foot, foot - glm::vec2(0.F, 0.6F * width), width, 0.85F * width);
@@ -234,9 +234,7 @@ glm::vec2 find_middle(const StrokeScene& scene, glm::vec2 place) {
 // A church: nave and spire, which stands out over the roofs from afar.
 void build_church(const StrokeScene& scene, glm::vec2 foot, float unit, std::size_t i, StrokeSeed& seed, std::vector<Stroke>& out) {
   build(scene, {foot, 4.2F * unit, 2.6F * unit, 3}, i, seed, out);
-  Stroke tower;
-  tower.depth_m = scene.guidance.depth_m[i];
-  tower.source = static_cast<std::uint32_t>(i);
+  Stroke tower = standing_stroke(scene, i);
   tower.order = tower.depth_m - 3.F;
   tower.gate = StrokeGate::upright;
   const auto side = static_cast<float>(scene.parameters.sun_side);

@@ -12,9 +12,7 @@ namespace {
 constexpr glm::vec3 dark_leaves{0.56F, 0.68F, 0.84F};
 
 Stroke upright_stroke(const StrokeScene& scene, std::size_t i) {
-  Stroke stroke;
-  stroke.depth_m = scene.guidance.depth_m[i];
-  stroke.source = static_cast<std::uint32_t>(i);
+  Stroke stroke = standing_stroke(scene, i);
   // Fractions of a metre of depth keep the parts of one tree in order without moving it between others.
   stroke.order = stroke.depth_m - 0.5F;
   stroke.gate = StrokeGate::upright;

@@ -194,9 +194,7 @@ std::vector<Stroke> low_bushes(const StrokeScene& scene, Stream stream) {
     if ((id != alpine_grass && id != shrub) || seed.uniform() > scene.base.tree_density[i]) return;
     const float scale = scene.scale();
     const float width = 2.6F * scale * seed.between(0.6F, 1.4F);
-    Stroke stroke;
-    stroke.depth_m = scene.guidance.depth_m[i];
-    stroke.source = static_cast<std::uint32_t>(i);
+    Stroke stroke = standing_stroke(scene, i);
     stroke.order = stroke.depth_m - 0.5F;
     stroke.gate = StrokeGate::upright;
     set_line(stroke, place - glm::vec2(0.4F * width, 0.F), place + glm::vec2(0.5F * width, -0.4F * scale), width, width * 0.7F);
