@@ -13,6 +13,7 @@ using enum LandCoverClass;
 
 constexpr glm::vec3 moraine_paint{0.53F, 0.49F, 0.48F};  // rubble carried by ice, at tone 1/2
 constexpr glm::vec3 depth_of_ice{0.70F, 0.87F, 1.00F};   // what is deep in ice is blue: a factor
+constexpr float longest_flight = 45.F;                   // units from the first crevasse of a field to its last
 constexpr float ice_depth = 0.03F;                       // relative: one glacier, whatever its humps
 
 glm::vec3 by_tone(glm::vec3 paint, float tone) { return paint * (0.62F + 0.70F * std::clamp(tone, 0.F, 1.F)); }
@@ -153,7 +154,7 @@ std::vector<Stroke> glacier_crevasses(const StrokeScene& scene, Stream stream) {
     const float gap_between = seed.between(3.2F, 6.F) * scale;
     const float lean = 0.10F * seed.normal();
     glm::vec2 middle = place;
-    for (int k = 0; k < count && scene.on_canvas(middle); ++k) {
+    for (int k = 0; k < count && scene.on_canvas(middle) && glm::distance(middle, place) < longest_flight * scale; ++k) {
       const std::size_t here = scene.pixel(middle);
       if (scene.class_at(here) != glacier || !same_surface(scene, here, i)) break;
       const glm::vec2 down = flow.at(middle);

@@ -15,6 +15,8 @@ using enum LandCoverClass;
 constexpr glm::vec3 lit_rock{0.80F, 0.72F, 0.64F};
 constexpr glm::vec3 shaded_rock{0.42F, 0.40F, 0.50F};
 
+constexpr float most_drift_units = 15.F;  // of a rib's crest from the fall line; one in thousands comes so far
+
 }  // namespace
 
 std::vector<Stroke> snow_strokes(const StrokeScene& scene, Stream stream) {
@@ -60,7 +62,7 @@ std::vector<Stroke> snow_ribs(const StrokeScene& scene, Stream stream) {
       const glm::vec2 to_sun = glm::vec2(down.y > 0.F ? sunwards : -sunwards, 0.F);
       const float share = (static_cast<float>(k) + 0.5F) / static_cast<float>(crest.size() - 2);
       const float size = widest * (0.3F + 2.8F * share * (1.F - share)) * seed.between(0.45F, 1.3F);
-      drift += 0.9F * seed.normal();
+      drift = std::clamp(drift + 0.9F * seed.normal(), -most_drift_units, most_drift_units);
       const glm::vec2 at = crest[k] + to_sun * (drift * scale);
       const float tone = std::clamp(scene.guidance.tone[here], 0.F, 1.F);
       for (const bool is_lit : {false, true}) {
