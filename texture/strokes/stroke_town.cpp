@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "base/math_exact.h"
 #include "texture/strokes/stroke_kinds.h"
@@ -22,9 +23,10 @@ constexpr glm::vec3 dusk{0.33F, 0.36F, 0.50F};    // what lies in a house's shad
 constexpr glm::vec3 leaves{0.27F, 0.40F, 0.24F};  // garden trees
 constexpr glm::vec3 bare{0.38F, 0.38F, 0.42F};    // … in winter
 
-constexpr float plot_width = 3.7F;    // units of the sheet that a plot takes in a row …
-constexpr float plot_height = 3.0F;   // … and upwards, with its garden
-constexpr double turn_step = 0.3927;  // rad, 22.5°: a quarter has one direction
+constexpr float plot_width = 3.7F;      // units of the sheet that a plot takes in a row …
+constexpr float plot_height = 3.0F;     // … and upwards, with its garden
+constexpr float same_plot_units = 8.F;  // what is farther apart is not found twice but alike by chance
+constexpr double turn_step = 0.3927;    // rad, 22.5°: a quarter has one direction
 
 // 0 at the edge of a hamlet … .3 in a village … 1 in the middle of a large town.
 float built_at(const StrokeScene& scene, std::size_t i) { return std::clamp(scene.guidance.built[i], 0.F, 1.F); }
@@ -133,8 +135,14 @@ std::vector<Plot> find_plots(const StrokeScene& scene, Stream stream) {
   for (const auto& row : rows) plots.insert(plots.end(), row.begin(), row.end());
   std::stable_sort(plots.begin(), plots.end(),
                    [](const Plot& a, const Plot& b) { return a.key != b.key ? a.key < b.key : a.away_px < b.away_px; });
-  plots.erase(std::unique(plots.begin(), plots.end(), [](const Plot& a, const Plot& b) { return a.key == b.key; }), plots.end());
-  return plots;
+  std::vector<Plot> kept;
+  for (std::size_t k = 0; k < plots.size(); ++k) {
+    bool found_nearer = false;
+    for (std::size_t other = k; other-- > 0 && plots[other].key == plots[k].key && !found_nearer;)
+      found_nearer = glm::length(plots[other].place - plots[k].place) < same_plot_units * scene.scale();
+    if (!found_nearer) kept.push_back(plots[k]);
+  }
+  return kept;
 }
 
 struct House {
@@ -215,20 +223,41 @@ void plant_garden(const StrokeScene& scene, glm::vec2 foot, float width, std::si
   out.push_back(body);
 }
 
-// Climbs to where houses stand densest around: the middle of a village or a quarter.
-glm::vec2 find_middle(const StrokeScene& scene, glm::vec2 place) {
-  const float step = 2.F * scene.scale();
-  for (int k = 0; k < 24; ++k) {
-    glm::vec2 best = place;
-    for (const glm::vec2 way : {glm::vec2(1.F, 0.F), glm::vec2(-1.F, 0.F), glm::vec2(0.F, 1.F), glm::vec2(0.F, -1.F)}) {
-      const glm::vec2 there = place + way * step;
-      if (!scene.on_canvas(there) || scene.class_at(scene.pixel(there)) != settlement) continue;
-      if (scene.guidance.built[scene.pixel(there)] > scene.guidance.built[scene.pixel(best)]) best = there;
+// Middles of villages are looked for on a net over the sheet. Of two that are too near each other only the denser has a church, so that a
+// look around a place tells whether one stands there.
+constexpr float net_units = 2.F;
+constexpr int same_village = 8;  // nodes of the net
+constexpr float least_built = 0.12F;
+
+// How densely houses stand at a node of the net; nothing where there is no settlement.
+std::optional<float> built_on_net(const StrokeScene& scene, glm::ivec2 node) {
+  const glm::vec2 place = (glm::vec2(node) + 0.5F) * (net_units * scene.scale());
+  if (!scene.on_canvas(place)) return std::nullopt;
+  const std::size_t i = scene.pixel(place);
+  if (scene.class_at(i) != settlement) return std::nullopt;
+  return scene.guidance.built[i];
+}
+
+// The density at a node around which houses stand nowhere denser: the middle of a village or a quarter.
+std::optional<float> middle_at(const StrokeScene& scene, glm::ivec2 node) {
+  const std::optional<float> here = built_on_net(scene, node);
+  if (!here || *here < least_built) return std::nullopt;
+  for (const glm::ivec2 way : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)})
+    if (const std::optional<float> beside = built_on_net(scene, node + way); beside && *beside > *here) return std::nullopt;
+  return here;
+}
+
+// Whether another middle in the same village is denser; among equals a lot decides.
+bool is_outdone(const StrokeScene& scene, glm::ivec2 node, float built, std::uint64_t key) {
+  const std::uint64_t lot = random_bits(key, node.x, node.y);
+  for (int y = -same_village; y <= same_village; ++y)
+    for (int x = -same_village; x <= same_village; ++x) {
+      if ((x == 0 && y == 0) || x * x + y * y >= same_village * same_village) continue;
+      const glm::ivec2 other = node + glm::ivec2(x, y);
+      const std::optional<float> density = middle_at(scene, other);
+      if (density && (*density > built || (*density == built && random_bits(key, other.x, other.y) > lot))) return true;
     }
-    if (best == place) break;
-    place = best;
-  }
-  return place;
+  return false;
 }
 
 // A church: nave and spire, which stands out over the roofs from afar.
@@ -279,7 +308,6 @@ std::vector<Stroke> houses(const StrokeScene& scene, Stream stream) {
 
 // A church in the middle of every village, a few in a town.
 std::vector<Stroke> churches(const StrokeScene& scene, Stream stream) {
-  std::vector<glm::vec2> built_already;
   std::vector<Stroke> all = sow(scene, 24.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != settlement || seed.uniform() > 0.45F) return;
     const auto stands = [&](std::size_t k) { return scene.class_at(k) == settlement; };
@@ -287,19 +315,18 @@ std::vector<Stroke> churches(const StrokeScene& scene, Stream stream) {
     build_church(scene, place, seed.between(0.9F, 1.15F) * scene.scale(), i, seed, out);
   });
   const std::uint64_t key = stream_seed(scene.parameters.seed, Stream::church_middles);
-  const float step = 6.F * scene.scale();
-  for (float y = 0.5F * step; y < static_cast<float>(scene.guidance.height()); y += step)
-    for (float x = 0.5F * step; x < static_cast<float>(scene.guidance.width()); x += step) {
-      const std::size_t i = scene.pixel({x, y});
-      if (scene.class_at(i) != settlement) continue;
-      const glm::vec2 middle = find_middle(scene, {x, y});
-      const std::size_t k = scene.pixel(middle);
-      const bool taken = std::any_of(built_already.begin(), built_already.end(),
-                                     [&](glm::vec2 other) { return glm::length(other - middle) < 16.F * scene.scale(); });
-      if (taken || scene.guidance.built[k] < 0.12F) continue;
-      built_already.push_back(middle);
-      StrokeSeed seed(key, static_cast<int>(middle.x / step), static_cast<int>(middle.y / step));
-      build_church(scene, middle, (0.85F + 0.4F * scene.guidance.built[k]) * scene.scale(), k, seed, all);
+  const float step = net_units * scene.scale();
+  const glm::ivec2 sheet = scene.sheet_px();
+  const PixelRect seeded = scene.seeded();
+  const CellRange columns = StrokeScene::cells_within(seeded.x0, seeded.x1, step, static_cast<int>(static_cast<float>(sheet.x) / step) + 1);
+  const CellRange lines = StrokeScene::cells_within(seeded.y0, seeded.y1, step, static_cast<int>(static_cast<float>(sheet.y) / step) + 1);
+  for (int y = lines.first; y <= lines.last; ++y)
+    for (int x = columns.first; x <= columns.last; ++x) {
+      const std::optional<float> built = middle_at(scene, {x, y});
+      if (!built || is_outdone(scene, {x, y}, *built, key)) continue;
+      const glm::vec2 middle = (glm::vec2(x, y) + 0.5F) * step;
+      StrokeSeed seed(key, x, y);
+      build_church(scene, middle, (0.85F + 0.4F * *built) * scene.scale(), scene.pixel(middle), seed, all);
     }
   return all;
 }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -107,6 +108,28 @@ TEST(Towns, EveryVillageHasItsChurchInItsMiddle) {
   EXPECT_NEAR(spires[0].x, 60.F, 5.F);
   EXPECT_NEAR(spires[0].y, 60.F, 8.F);
   EXPECT_NEAR(spires[1].x, 170.F, 5.F);
+}
+
+TEST(Towns, OfTwoMiddlesInOneVillageTheDenserHasTheChurch) {
+  const StrokeParameters parameters;
+  Picture p = level(valley_floor);
+  // Two quarters 12 px apart, the right one denser; a third 40 px away.
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 240; ++x) {
+      const auto cone = [&](float at_x, float top) {
+        return top - 0.02F * std::hypot(static_cast<float>(x) - at_x, static_cast<float>(y) - 61.F);
+      };
+      const float built = std::max({cone(61.F, 0.30F), cone(73.F, 0.35F), cone(113.F, 0.25F)});
+      if (built < 0.05F) continue;
+      p.guidance.land_cover(x, y) = settlement;
+      p.guidance.built(x, y) = built;
+    }
+  std::vector<float> spires;
+  for (const Stroke& s : town_strokes({p.guidance, p.ground, parameters}))
+    if (is_spire(s)) spires.push_back(s.points[0].x);
+  ASSERT_EQ(spires.size(), 2U);
+  EXPECT_NEAR(spires[0], 73.F, 4.F);
+  EXPECT_NEAR(spires[1], 113.F, 4.F);
 }
 
 TEST(Towns, FarmsAreFewAndOnGentleLowGround) {
