@@ -225,7 +225,7 @@ void ImproveRow(const KernelView& view, int x0, int x1, int y, std::uint32_t* ne
     const int last = std::min(x1, first + 2 * batch);
     for (int x = first, i = 0; x < last; x += 2, ++i) {
       const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
-      if (class_of(target.words[pixel]) == no_class) continue;
+      if (class_of(target.words[pixel]) == no_class || view.is_fixed(pixel)) continue;
       PickRun& run = runs[static_cast<std::size_t>(i)];
       run = begin_draw(view, pixel, view.key, x, y);
       if (run.count == 0) continue;
@@ -251,7 +251,7 @@ void ImproveRow(const KernelView& view, int x0, int x1, int y, std::uint32_t* ne
     }
     const std::uint32_t pick = *next;
     *next = view.match[pixel];
-    if (class_of(target.words[pixel]) == no_class) continue;
+    if (class_of(target.words[pixel]) == no_class || view.is_fixed(pixel)) continue;
     Search search;
     search.Begin(view, pixel);
     // Where pieces are not moved as a whole, a piece over the cap is broken up from inside, by cells that alternate with the passes.

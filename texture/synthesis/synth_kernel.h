@@ -51,6 +51,7 @@ struct KernelView {
   const std::uint32_t* vector_weights = nullptr;  // vector_guides weights, 0 beyond the last; null: one by one
   const std::uint8_t* usual_error = nullptr;      // by class × guide_count + guide: what picks are usually off; null: not known yet
   const std::uint32_t* match = nullptr;           // by target index: exemplar index
+  const std::uint32_t* fixed = nullptr;           // by target index: the texel a pixel must keep, or nowhere; null: all are free
   const std::uint16_t* piece_size = nullptr;      // by target index: pixels of the piece copied in one, saturated
   const TexelRecords* texels = nullptr;           // uses, bins, surroundings and guides of the exemplars' texels
   const std::int32_t* bin_cost = nullptr;         // by class × 64 + bin
@@ -63,6 +64,8 @@ struct KernelView {
   int fitting_draws = 1;                          // and where what is painted around is looked at; 1: it is not
   std::uint64_t key = 0;                          // of the random numbers of this pass
   int pass = 0;
+
+  bool is_fixed(std::uint32_t pixel) const { return fixed != nullptr && fixed[pixel] != exemplars->nowhere(); }
 };
 
 // What a pixel's guides may be off without cost: about as much as picks are off (of the sorted one a step less, as copying along makes most

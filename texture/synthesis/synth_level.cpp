@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 #include "base/parallel.h"
 #include "texture/synthesis/synth_level_parts.h"
@@ -19,7 +20,7 @@ void start_from_picks(LevelState& state) {
       if (class_of(state.target.words[at]) != no_class) state.match[at] = draw_texel(view, at, key, x, y, make_slack(view, at));
     }
   });
-  recount(state);
+  count_matches(state);
 }
 
 void start_from_coarser(LevelState& state, const Plane& coarse_exemplars, const Plane& coarse_target,
@@ -34,6 +35,10 @@ void start_from_coarser(LevelState& state, const Plane& coarse_exemplars, const 
       const std::uint32_t at = state.target.index(0, x, y);
       const std::uint32_t label_class = class_of(state.target.words[at]);
       if (label_class == no_class) continue;
+      if (view.is_fixed(at)) {
+        state.match[at] = state.fixed[at];
+        continue;
+      }
       bool found = false;
       for (std::size_t p = 0; p < parents.size() && !found; ++p) {
         // Padding around the coarser target has no match, so parents beyond its border drop out by themselves.
@@ -52,11 +57,24 @@ void start_from_coarser(LevelState& state, const Plane& coarse_exemplars, const 
       if (!found) state.match[at] = draw_texel(view, at, key, x, y, make_slack(view, at));
     }
   });
-  recount(state);
+  count_matches(state);
 }
 
 void recount(LevelState& state) {
   state.texels.forget_uses();
+  count_matches(state);
+}
+
+void forget_uses_of(LevelState& state) {
+  const Plane::Part& part = state.target.parts[0];
+  parallel_rows(part.height, [&](int y) {
+    const std::uint32_t row = state.target.index(0, 0, y);
+    for (std::uint32_t at = row; at < row + static_cast<std::uint32_t>(part.width); ++at)
+      std::atomic_ref<std::uint32_t>(state.texels.uses(state.match[at])).store(0, std::memory_order_relaxed);
+  });
+}
+
+void count_matches(LevelState& state) {
   const Plane::Part& part = state.target.parts[0];
   const KernelView view = state.view(0);
   const std::uint64_t key = key_for(state.settings, Purpose::expectation);

@@ -34,9 +34,24 @@ class WindowCounts {
 
 }  // namespace
 
-PickLists::PickLists(const Plane& exemplars, const Plane& target, int classes, const std::vector<GuideRole>& guides, int minimum,
+Demand count_demand(const Plane& target, int classes, const std::vector<GuideRole>& guides) {
+  Demand demand;
+  demand.keys = choose_list_keys(guides);
+  const std::size_t buckets = static_cast<std::size_t>(demand.keys.buckets());
+  demand.counts.assign(static_cast<std::size_t>(classes) * buckets * 256, 0);
+  target.for_each([&](std::uint32_t at) {
+    const std::uint32_t c = class_of(target.words[at]);
+    if (c == no_class) return;
+    const std::uint8_t* values = target.guides_at(at);
+    const std::size_t bucket = demand.keys.bucketed ? values[1] / ListKeys::bucket_width : 0U;
+    ++demand.counts[(c * buckets + bucket) * 256 + (demand.keys.sorted ? values[0] : 0U)];
+  });
+  return demand;
+}
+
+PickLists::PickLists(const Plane& exemplars, const Demand& demand, int classes, const std::vector<GuideRole>& guides, int minimum,
                      const std::vector<Surroundings>& around)
-    : keys_(choose_list_keys(guides)), pixel_counts_(static_cast<std::size_t>(classes), 0) {
+    : keys_(demand.keys) {
   const int buckets = keys_.buckets();
   const std::size_t cells = static_cast<std::size_t>(classes) * static_cast<std::size_t>(buckets);
 
@@ -80,15 +95,6 @@ PickLists::PickLists(const Plane& exemplars, const Plane& target, int classes, c
     std::copy(values, values + guide_count, bytes + Entry::guides_from);
   }
 
-  std::vector<std::uint32_t> demand(cells * 256, 0);
-  target.for_each([&](std::uint32_t at) {
-    const std::uint32_t c = class_of(target.words[at]);
-    if (c == no_class) return;
-    const std::uint8_t* values = target.guides_at(at);
-    ++pixel_counts_[c];
-    ++demand[cell(c, bucket_of(values)) * 256 + static_cast<std::size_t>(value_of(values))];
-  });
-
   windows_.assign(cells * 256, PickWindow{255, static_cast<std::uint8_t>(buckets - 1)});
   const std::int64_t value_weight = keys_.sorted ? guides[0].weight_q4 : 0;
   const std::int64_t bucket_weight = keys_.bucketed ? guides[1].weight_q4 : 0;
@@ -96,24 +102,27 @@ PickLists::PickLists(const Plane& exemplars, const Plane& target, int classes, c
     const std::uint32_t label_class = static_cast<std::uint32_t>(c);
     WindowCounts sources(buckets);
     WindowCounts pixels(buckets);
+    std::int64_t all_pixels = 0;
     for (int b = 0; b < buckets; ++b) {
       for (int v = 0; v < 256; ++v) {
         sources.add(b, v, counts[cell(label_class, b) * 257 + static_cast<std::size_t>(v)]);
-        pixels.add(b, v, demand[cell(label_class, b) * 256 + static_cast<std::size_t>(v)]);
+        const std::int64_t asking = demand.pixels_each * demand.counts[cell(label_class, b) * 256 + static_cast<std::size_t>(v)];
+        pixels.add(b, v, asking);
+        all_pixels += asking;
       }
     }
     sources.sum_up(buckets);
     pixels.sum_up(buckets);
     // Uses of a texel that a window may ask for, in 256ths: max(4, 1.5 × pixels of the class per texel of it).
     const std::int64_t all_sources = std::max<std::int64_t>(1, texel_count(label_class));
-    const std::int64_t uses_q8 = std::clamp<std::int64_t>(384 * pixel_counts_[static_cast<std::size_t>(c)] / all_sources, 1024, 1LL << 31);
+    const std::int64_t uses_q8 = std::clamp<std::int64_t>(384 * all_pixels / all_sources, 1024, 1LL << 31);
     const auto wide_enough = [&](int b0, int b1, int v0, int v1) {
       const std::int64_t texels = sources.count(b0, b1, v0, v1);
       return texels >= minimum && texels * uses_q8 >= pixels.count(b0, b1, v0, v1) * 256;
     };
     for (int b = 0; b < buckets; ++b) {
       for (int v = 0; v < 256; ++v) {
-        if (demand[cell(label_class, b) * 256 + static_cast<std::size_t>(v)] == 0) continue;
+        if (demand.complete && demand.counts[cell(label_class, b) * 256 + static_cast<std::size_t>(v)] == 0) continue;
         // The window with the least cost of guides at its rim, over both guides.
         std::int64_t best = INT64_MAX;
         for (int s = 0; s < buckets; ++s) {

@@ -25,6 +25,15 @@ struct ListKeys {
 };
 ListKeys choose_list_keys(const std::vector<GuideRole>& guides);
 
+// How many pixels ask for which guides: the counts of a class by bucket and value, which say how wide the windows of picks must be.
+struct Demand {
+  ListKeys keys;
+  std::vector<std::uint32_t> counts;  // (class × keys.buckets() + bucket) × 256 + value
+  std::int64_t pixels_each = 1;       // pixels of the picture that is made, by pixel counted: over 1 where a smaller view was counted
+  bool complete = true;               // no pixel will ask for what nobody asked for here
+};
+Demand count_demand(const Plane& target, int classes, const std::vector<GuideRole>& guides);
+
 // How far a pick may lie from the pixel's own guides: wide enough that the window holds enough texels for all pixels that
 // draw from it. So no texel is in demand more than its class as a whole.
 struct PickWindow {
@@ -57,12 +66,11 @@ class PickLists {
   };
 
   // minimum: texels a window must hold. `around`, by exemplar index, may be empty.
-  PickLists(const Plane& exemplars, const Plane& target, int classes, const std::vector<GuideRole>& guides, int minimum,
+  PickLists(const Plane& exemplars, const Demand& demand, int classes, const std::vector<GuideRole>& guides, int minimum,
             const std::vector<Surroundings>& around = {});
 
   bool has_class(std::uint32_t label_class) const { return texel_count(label_class) > 0; }
   std::int64_t texel_count(std::uint32_t label_class) const;
-  std::int64_t pixel_count(std::uint32_t label_class) const { return pixel_counts_[label_class]; }
   // The texels of a class, 0 … texel_count - 1.
   std::uint32_t texel(std::uint32_t label_class, std::int64_t nth) const {
     return entry(static_cast<std::uint32_t>(start_[cell(label_class, 0) * 257] + nth)).texel();
@@ -84,10 +92,9 @@ class PickLists {
 
   ListKeys keys_;
   std::size_t entry_words_ = 2;
-  std::vector<std::uint32_t> entries_;      // by class, bucket, value
-  std::vector<std::uint32_t> start_;        // cell × 257: the entry where a value begins
-  std::vector<PickWindow> windows_;         // cell × 256
-  std::vector<std::int64_t> pixel_counts_;  // target pixels of a class
+  std::vector<std::uint32_t> entries_;  // by class, bucket, value
+  std::vector<std::uint32_t> start_;    // cell × 257: the entry where a value begins
+  std::vector<PickWindow> windows_;     // cell × 256
 };
 
 }  // namespace belvedere::synth

@@ -84,7 +84,7 @@ bool replace_pieces(LevelState& state, int pass, int round) {
     for (int y = std::max(0, (cell_y - 1) * cell_side); y < std::min(part.height, (cell_y + 2) * cell_side); ++y) {
       for (int x = 0; x < part.width; ++x) {
         const std::uint32_t at = state.target.index(0, x, y);
-        if (state.pieces.size()[at] <= state.settings.copy_cap) continue;
+        if (state.pieces.size()[at] <= state.settings.copy_cap || view.is_fixed(at)) continue;
         const Cell cell = cell_around(x, y, cell_key);
         if (cell.y != cell_y || cell.odd != (number & 1)) continue;
         const int column = cell.x + 1;
@@ -129,7 +129,7 @@ void isolate(LevelState& state, int number, F&& chosen) {
       for (int x = ox; x < part.width; x += 2, ++next) {
         const std::uint32_t at = state.target.index(0, x, y);
         *next = state.match[at];
-        if (class_of(state.target.words[at]) == no_class || !chosen(view, at, x, y)) continue;
+        if (class_of(state.target.words[at]) == no_class || view.is_fixed(at) || !chosen(view, at, x, y)) continue;
         const Forbidden forbidden = forbidden_texels(view, at, true);
         const Slack slack = make_slack(view, at);
         candidates.clear();
@@ -178,6 +178,14 @@ void finish_pieces(LevelState& state) {
   const int side = static_cast<int>(std::sqrt(static_cast<double>(cap))) + 1;
   isolate(state, 1, [&](const KernelView& view, std::uint32_t at, int x, int y) {
     return view.piece_size[at] > cap && (x % side == 0 || y % side == 0);
+  });
+  state.pieces.find(state.target, state.exemplars, state.match);
+  if (state.fixed.empty() || static_cast<std::int64_t>(state.pieces.largest()) <= cap) return;
+  // What is fixed cannot be cut; it was under the cap where it was made, so what was added to it is cut off.
+  isolate(state, 2, [&](const KernelView& view, std::uint32_t at, int, int) {
+    const std::uint32_t down = static_cast<std::uint32_t>(view.target->stride);
+    return view.piece_size[at] > cap &&
+           (view.is_fixed(at - 1) || view.is_fixed(at + 1) || view.is_fixed(at - down) || view.is_fixed(at + down));
   });
   state.pieces.find(state.target, state.exemplars, state.match);
 }

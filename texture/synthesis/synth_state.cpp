@@ -21,8 +21,10 @@ std::vector<std::uint32_t> vector_weights_of(const std::vector<GuideRole>& guide
   return weights;
 }
 
-// The median error of each guide over the picks of a sample of a class's pixels.
-std::vector<std::uint8_t> usual_errors_of_picks(const LevelState& state, int classes) {
+}  // namespace
+
+std::vector<std::uint8_t> usual_errors_of_picks(const LevelState& state) {
+  const int classes = state.source->classes;
   constexpr int samples_across = 256;
   const std::size_t guides = static_cast<std::size_t>(state.exemplars.guide_count);
   const Plane::Part& part = state.target.parts[0];
@@ -35,7 +37,7 @@ std::vector<std::uint8_t> usual_errors_of_picks(const LevelState& state, int cla
       const std::uint32_t label_class = class_of(state.target.words[at]);
       if (label_class == no_class) continue;
       const std::uint8_t* requested = state.target.guides_at(at);
-      const std::uint8_t* offered = state.exemplars.guides_at(draw_texel(view, at, key, x, y, make_slack(view, at)));
+      const std::uint8_t* offered = state.texels.at(draw_texel(view, at, key, x, y, make_slack(view, at))).guides();
       for (std::size_t g = 0; g < guides; ++g) {
         ++counts[(label_class * guides + g) * 256 + static_cast<std::size_t>(std::abs(requested[g] - offered[g]))];
       }
@@ -53,8 +55,6 @@ std::vector<std::uint8_t> usual_errors_of_picks(const LevelState& state, int cla
   return medians;
 }
 
-}  // namespace
-
 LevelSettings settings_for_level(int level, std::uint64_t seed, int copy_cap, double reuse) {
   LevelSettings settings;
   settings.level = level;
@@ -69,54 +69,68 @@ LevelSettings settings_for_level(int level, std::uint64_t seed, int copy_cap, do
   return settings;
 }
 
-LevelState::LevelState(const LevelSettings& level_settings, const std::vector<GuideRole>& guide_roles, int classes,
-                       const Plane& exemplar_plane, Plane& target_plane, std::vector<std::uint8_t> surface_links,
-                       const SurroundingsPrice& surroundings_price)
-    : LevelState(level_settings, guide_roles, classes, exemplar_plane, target_plane, std::move(surface_links), surroundings_price,
-                 surroundings_price.is_free() ? std::vector<Surroundings>{}
-                                              : make_surroundings(exemplar_plane, level_settings.surroundings_radius, classes)) {}
+LevelSource::LevelSource(const LevelSettings& settings, const std::vector<GuideRole>& guide_roles, int class_count,
+                         const Plane& exemplar_plane, const Demand& demand, const SurroundingsPrice& surroundings_price)
+    : LevelSource(settings, guide_roles, class_count, exemplar_plane, demand, surroundings_price,
+                  surroundings_price.is_free() ? std::vector<Surroundings>{}
+                                               : make_surroundings(exemplar_plane, settings.surroundings_radius, class_count)) {}
 
-LevelState::LevelState(const LevelSettings& level_settings, const std::vector<GuideRole>& guide_roles, int classes,
-                       const Plane& exemplar_plane, Plane& target_plane, std::vector<std::uint8_t> surface_links,
-                       const SurroundingsPrice& surroundings_price, const std::vector<Surroundings>& offered_around)
-    : settings(level_settings),
+LevelSource::LevelSource(const LevelSettings& settings, const std::vector<GuideRole>& guide_roles, int class_count,
+                         const Plane& exemplar_plane, const Demand& demand, const SurroundingsPrice& surroundings_price,
+                         const std::vector<Surroundings>& offered_around)
+    : exemplars(exemplar_plane),
+      classes(class_count),
       guides(guide_roles),
       vector_weights(vector_weights_of(guide_roles)),
-      exemplars(exemplar_plane),
+      around_price(surroundings_price),
+      texels(exemplars, make_bins(exemplars, class_count), offered_around),
+      lists(exemplars, demand, class_count, guides, settings.least_window, offered_around) {}
+
+LevelState::LevelState(const LevelSettings& level_settings, const std::vector<GuideRole>& guides, int classes, const Plane& exemplar_plane,
+                       Plane& target_plane, std::vector<std::uint8_t> surface_links, const SurroundingsPrice& around_price)
+    : LevelState(level_settings,
+                 std::make_shared<LevelSource>(level_settings, guides, classes, exemplar_plane, count_demand(target_plane, classes, guides),
+                                               around_price),
+                 target_plane, std::move(surface_links)) {
+  source->usual_error = usual_errors_of_picks(*this);
+}
+
+LevelState::LevelState(const LevelSettings& level_settings, std::shared_ptr<LevelSource> level_source, Plane& target_plane,
+                       std::vector<std::uint8_t> surface_links)
+    : settings(level_settings),
+      source(std::move(level_source)),
+      exemplars(source->exemplars),
+      texels(source->texels),
+      lists(source->lists),
       target(target_plane),
       links(std::move(surface_links)),
-      around_price(surroundings_price),
-      texels(exemplars, make_bins(exemplars, classes), offered_around),
-      lists(exemplars, target, classes, guides, settings.least_window, offered_around),
       match(target.words.size(), exemplars.nowhere()),
-      bins_expected(static_cast<std::size_t>(classes) * bins_per_class, 0),
+      bins_expected(static_cast<std::size_t>(source->classes) * bins_per_class, 0),
       bins_actual(bins_expected),
       bin_cost(bins_expected),
       bin_cost_kept(bins_expected),
-      reuse_q4(static_cast<std::size_t>(classes), 0),
-      most_uses(static_cast<std::size_t>(classes), 0xffffffffU),
+      reuse_q4(static_cast<std::size_t>(source->classes), 0),
+      most_uses(static_cast<std::size_t>(source->classes), 0xffffffffU),
       pieces(target) {
   const Plane::Part& part = target.parts[0];
   next.resize(static_cast<std::size_t>((part.width + 1) / 2) * static_cast<std::size_t>((part.height + 1) / 2));
-  for (int c = 0; c < classes; ++c) {
-    // Price / max(1/4, pixels per texel of the class): reuse is dear where it can be avoided.
-    const std::uint32_t label_class = static_cast<std::uint32_t>(c);
-    const std::int64_t texels_of_class = lists.texel_count(label_class);
-    const std::int64_t pixels = lists.pixel_count(label_class);
-    const std::int64_t full = settings.reuse_price * 16;
-    reuse_q4[label_class] = 4 * pixels <= texels_of_class ? 4 * full : full * texels_of_class / pixels;
-    // Where reuse is priced at all, no texel may serve more than 6 + 3 × pixels per texel.
-    if (settings.reuse_price > 0 && texels_of_class > 0)
-      most_uses[label_class] = static_cast<std::uint32_t>(6 + 3 * pixels / texels_of_class);
-  }
+  std::vector<std::int64_t> pixel_counts(static_cast<std::size_t>(source->classes), 0);
   target.for_each([&](std::uint32_t at) {
     const std::uint32_t c = class_of(target.words[at]);
-    if (c != no_class && !lists.has_class(c)) target.words[at] |= no_class << 24;
+    if (c == no_class) return;
+    ++pixel_counts[c];
+    if (!lists.has_class(c)) target.words[at] |= no_class << 24;
   });
-  if (!around_price.is_free()) {
-    target_around = make_surroundings(target, settings.surroundings_radius, classes);
+  for (std::size_t c = 0; c < pixel_counts.size(); ++c) {
+    // Price / max(1/4, pixels per texel of the class): reuse is dear where it can be avoided.
+    const std::int64_t texels_of_class = lists.texel_count(static_cast<std::uint32_t>(c));
+    const std::int64_t pixels = pixel_counts[c];
+    const std::int64_t full = settings.reuse_price * 16;
+    reuse_q4[c] = 4 * pixels <= texels_of_class ? 4 * full : full * texels_of_class / pixels;
+    // Where reuse is priced at all, no texel may serve more than 6 + 3 × pixels per texel.
+    if (settings.reuse_price > 0 && texels_of_class > 0) most_uses[c] = static_cast<std::uint32_t>(6 + 3 * pixels / texels_of_class);
   }
-  usual_error = usual_errors_of_picks(*this, classes);
+  if (!source->around_price.is_free()) target_around = make_surroundings(target, settings.surroundings_radius, source->classes);
 }
 
 KernelView LevelState::view(int pass) const {
@@ -127,13 +141,14 @@ KernelView LevelState::view(int pass) const {
   view.links = links.empty() ? nullptr : links.data();
   if (!target_around.empty()) {
     view.target_around = target_around.data();
-    view.around_price = &around_price;
+    view.around_price = &source->around_price;
     view.border_draws = settings.border_draws;
   }
-  view.guides = guides.data();
-  view.vector_weights = vector_weights.empty() ? nullptr : vector_weights.data();
-  view.usual_error = usual_error.empty() ? nullptr : usual_error.data();
+  view.guides = source->guides.data();
+  view.vector_weights = source->vector_weights.empty() ? nullptr : source->vector_weights.data();
+  view.usual_error = source->usual_error.empty() ? nullptr : source->usual_error.data();
   view.match = match.data();
+  view.fixed = fixed.empty() ? nullptr : fixed.data();
   view.piece_size = pieces.size().data();
   view.texels = &texels;
   view.bin_cost = bin_cost.data();

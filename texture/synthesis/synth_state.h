@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "base/random.h"
@@ -38,20 +39,38 @@ inline std::uint64_t key_for(const LevelSettings& settings, Purpose purpose, int
   return random_bits(stream_seed(settings.seed, Stream::synthesis), settings.level, number, static_cast<std::uint64_t>(purpose));
 }
 
+// What a level of the exemplars offers: made once, the same for every window of a sheet. Only the uses in its records change: those of the
+// one window that is worked on, all 0 before and after.
+struct LevelSource {
+  const Plane& exemplars;
+  int classes = 0;
+  std::vector<GuideRole> guides;
+  std::vector<std::uint32_t> vector_weights;  // empty: guides are priced one by one
+  SurroundingsPrice around_price;
+  TexelRecords texels;
+  PickLists lists;
+  std::vector<std::uint8_t> usual_error;  // by class × guide: median error of picks; empty: not known
+
+  LevelSource(const LevelSettings& settings, const std::vector<GuideRole>& guides, int classes, const Plane& exemplars,
+              const Demand& demand, const SurroundingsPrice& around_price);
+
+ private:
+  LevelSource(const LevelSettings& settings, const std::vector<GuideRole>& guides, int classes, const Plane& exemplars,
+              const Demand& demand, const SurroundingsPrice& around_price, const std::vector<Surroundings>& offered_around);
+};
+
 // The state of a level. The exemplars and the target's classes and guides come in; the match field, and with it the target's colours,
 // is what passes change. All sums kept along (uses, bins) commute, so no order of work shows in them.
 struct LevelState {
   LevelSettings settings;
-  std::vector<GuideRole> guides;
-  std::vector<std::uint32_t> vector_weights;  // empty: guides are priced one by one
-  const Plane& exemplars;
+  std::shared_ptr<LevelSource> source;  // copies of a state share it
+  const Plane& exemplars;               // of the source, as are the next two
+  TexelRecords& texels;
+  const PickLists& lists;
   Plane& target;
-  std::vector<std::uint8_t> links;  // empty: no silhouettes
-  SurroundingsPrice around_price;
-  TexelRecords texels;
-  PickLists lists;
+  std::vector<std::uint8_t> links;          // empty: no silhouettes
   std::vector<Surroundings> target_around;  // by target index; empty: surroundings are not priced
-  std::vector<std::uint8_t> usual_error;    // by class × guide: median error of picks
+  std::vector<std::uint32_t> fixed;         // by target index: the texel a pixel must keep, or exemplars.nowhere(); empty: all are free
   std::vector<std::uint32_t> match;         // by target index: exemplar index, exemplars.nowhere() in padding and without class
   std::vector<std::uint32_t> next;          // matches found by a sub-pass: every second pixel of every second row
   std::vector<std::int32_t> bins_expected;  // by class × 64 + bin: how often picks alone would draw it
@@ -63,13 +82,14 @@ struct LevelState {
   Pieces pieces;
 
   // Target classes without texels on this level become no_class. `links` may be empty.
+  LevelState(const LevelSettings& settings, std::shared_ptr<LevelSource> source, Plane& target, std::vector<std::uint8_t> links);
+  // With a source of its own, for what this target asks for.
   LevelState(const LevelSettings& settings, const std::vector<GuideRole>& guides, int classes, const Plane& exemplars, Plane& target,
              std::vector<std::uint8_t> links, const SurroundingsPrice& around_price = no_surroundings());
   KernelView view(int pass) const;
-
- private:
-  LevelState(const LevelSettings& settings, const std::vector<GuideRole>& guides, int classes, const Plane& exemplars, Plane& target,
-             std::vector<std::uint8_t> links, const SurroundingsPrice& around_price, const std::vector<Surroundings>& offered_around);
 };
+
+// By class × guide: the median error of each guide over the picks of a sample of a class's pixels.
+std::vector<std::uint8_t> usual_errors_of_picks(const LevelState& state);
 
 }  // namespace belvedere::synth

@@ -25,6 +25,8 @@ class SurroundingsPrice {
   SurroundingsPrice(std::int64_t weight_q8, std::vector<std::uint8_t> pairs, int classes)
       : weight_q8_(weight_q8), pairs_(std::move(pairs)), classes_(static_cast<std::size_t>(classes)) {}
   bool is_free() const { return weight_q8_ == 0; }
+  std::int64_t weight_q8() const { return weight_q8_; }
+  const std::vector<std::uint8_t>& pairs() const { return pairs_; }
   std::int64_t operator()(Surroundings requested, Surroundings offered) const {
     const std::int64_t u = requested.others;
     const std::int64_t v = offered.others;
