@@ -127,7 +127,7 @@ void improve(LevelState& state, Progress& progress) {
   const LevelSettings& settings = state.settings;
   const int passes = settings.passes + settings.replacing_passes;
   for (int pass = 0; pass < passes; ++pass) {
-    state.pieces.find(state.target, state.exemplars, state.match);
+    find_pieces(state);
     if (settings.replacing_passes > 0 && pass >= settings.passes - 1) {
       for (int round = 0; round < 2 && replace_pieces(state, pass, round); ++round) {
       }
@@ -136,7 +136,7 @@ void improve(LevelState& state, Progress& progress) {
     progress.advance(1);
   }
   if (settings.level == 0) {
-    state.pieces.find(state.target, state.exemplars, state.match);
+    find_pieces(state);
     finish_pieces(state);
   }
 }

@@ -60,6 +60,10 @@ inline void add_to(BinCounts& sums, const BinCounts& change) {
   std::transform(sums.begin(), sums.end(), change.begin(), sums.begin(), std::plus<>());
 }
 
+inline void find_pieces(LevelState& state) {
+  state.pieces.find(state.target, state.exemplars, state.match, state.fixed.empty() ? nullptr : state.fixed.data());
+}
+
 // Rows of a sub-pass that make a task of some use: on coarse levels fewer tasks than rows, so that threads do not wait more than work.
 inline int rows_per_task(int width) { return std::max(1, 8192 / std::max(1, width)); }
 

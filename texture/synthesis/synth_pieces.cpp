@@ -30,7 +30,7 @@ void Pieces::unite(std::uint32_t a, std::uint32_t b) {
   parent_[b] = static_cast<std::int32_t>(a);
 }
 
-void Pieces::find(const Plane& target, const Plane& exemplars, const std::vector<std::uint32_t>& match) {
+void Pieces::find(const Plane& target, const Plane& exemplars, const std::vector<std::uint32_t>& match, const std::uint32_t* fixed) {
   constexpr int band = 64;  // rows united by one thread; bands are sewn together afterwards
   const Plane::Part& part = target.parts[0];
   const std::uint32_t across = static_cast<std::uint32_t>(target.stride);
@@ -60,12 +60,20 @@ void Pieces::find(const Plane& target, const Plane& exemplars, const std::vector
       if (with_upper(at)) unite(at - across, at);
     }
   }
+  if (fixed != nullptr) {
+    fixed_count_.assign(parent_.size(), 0);
+    target.for_each([&](std::uint32_t at) {
+      if (fixed[at] != exemplars.nowhere()) ++fixed_count_[first_pixel(at)];
+    });
+  }
   std::vector<std::uint32_t> largest(static_cast<std::size_t>(bands), 0);
   parallel_rows(bands, [&](int i) {
     for (int y = i * band; y < std::min(part.height, (i + 1) * band); ++y) {
       const std::uint32_t row = target.index(0, 0, y);
       for (std::uint32_t at = row; at < row + static_cast<std::uint32_t>(part.width); ++at) {
-        const std::uint32_t size = static_cast<std::uint32_t>(-parent_[first_pixel(at)]);
+        const std::uint32_t first = first_pixel(at);
+        std::uint32_t size = static_cast<std::uint32_t>(-parent_[first]);
+        if (fixed != nullptr && fixed_count_[first] > 0) size += size - fixed_count_[first];
         size_[at] = static_cast<std::uint16_t>(std::min<std::uint32_t>(65535, size));
         largest[static_cast<std::size_t>(i)] = std::max(largest[static_cast<std::size_t>(i)], size);
       }

@@ -13,8 +13,10 @@ class Pieces {
   explicit Pieces(const Plane& target) : parent_(target.words.size(), 0), size_(target.words.size(), 0) {}
 
   // Finds the pieces of a match field (by target index). The same for any number of threads: a piece is named by its first pixel.
-  void find(const Plane& target, const Plane& exemplars, const std::vector<std::uint32_t>& match);
-  // Pixels of the piece that a pixel belongs to, at most 65535.
+  // fixed: by target index, nowhere for a free pixel; null: all are free.
+  void find(const Plane& target, const Plane& exemplars, const std::vector<std::uint32_t>& match, const std::uint32_t* fixed = nullptr);
+  // Pixels of the piece that a pixel belongs to, at most 65535. In a piece with fixed pixels the free ones count twice: beyond what is
+  // fixed as many may follow that are made apart from these, and the piece is to keep within the cap with both.
   const std::vector<std::uint16_t>& size() const { return size_; }
   std::uint32_t first_pixel(std::uint32_t pixel) const;
   std::uint32_t largest() const { return largest_; }
@@ -25,6 +27,7 @@ class Pieces {
 
   std::vector<std::int32_t> parent_;  // a root holds minus its size
   std::vector<std::uint16_t> size_;
+  std::vector<std::uint32_t> fixed_count_;  // of the piece, at its first pixel; empty: nothing is fixed
   std::uint32_t largest_ = 0;
 };
 

@@ -104,7 +104,7 @@ bool replace_pieces(LevelState& state, int pass, int round) {
   add_to(state.bins_actual, sum_bins(down + 2, state.bins_actual.size(), [&](int i, BinCounts& bins) {
            for (const Move& move : moves[static_cast<std::size_t>(i)]) move_pixel(state, move.pixel, move.texel, bins);
          }));
-  state.pieces.find(state.target, state.exemplars, state.match);
+  find_pieces(state);
   return true;
 }
 
@@ -163,7 +163,7 @@ void finish_pieces(LevelState& state) {
       return random_index(uses, key, x, y) >= most;
     });
     if (!any.load()) break;
-    state.pieces.find(state.target, state.exemplars, state.match);
+    find_pieces(state);
   }
   for (int round = 0; round < most_rounds && replace_pieces(state, first, round); ++round) {
   }
@@ -171,7 +171,7 @@ void finish_pieces(LevelState& state) {
     isolate(state, 0, [](const KernelView& view, std::uint32_t at, int, int) {
       return (view.links[at] & link::all) != link::all && forbidden_texels(view, at).has(view.match[at]);
     });
-    state.pieces.find(state.target, state.exemplars, state.match);
+    find_pieces(state);
   }
   if (static_cast<std::int64_t>(state.pieces.largest()) <= cap) return;
   // Nothing else helped: lines of single pixels cut what is left into squares under the cap.
@@ -179,7 +179,7 @@ void finish_pieces(LevelState& state) {
   isolate(state, 1, [&](const KernelView& view, std::uint32_t at, int x, int y) {
     return view.piece_size[at] > cap && (x % side == 0 || y % side == 0);
   });
-  state.pieces.find(state.target, state.exemplars, state.match);
+  find_pieces(state);
   if (state.fixed.empty() || static_cast<std::int64_t>(state.pieces.largest()) <= cap) return;
   // What is fixed cannot be cut; it was under the cap where it was made, so what was added to it is cut off.
   isolate(state, 2, [&](const KernelView& view, std::uint32_t at, int, int) {
@@ -187,7 +187,7 @@ void finish_pieces(LevelState& state) {
     return view.piece_size[at] > cap &&
            (view.is_fixed(at - 1) || view.is_fixed(at + 1) || view.is_fixed(at - down) || view.is_fixed(at + down));
   });
-  state.pieces.find(state.target, state.exemplars, state.match);
+  find_pieces(state);
 }
 
 }  // namespace belvedere::synth

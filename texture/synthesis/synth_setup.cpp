@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "texture/synthesis/match_field.h"
 #include "texture/synthesis/synth_level.h"
 
 namespace belvedere::synth {

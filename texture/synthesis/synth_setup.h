@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/synth_state.h"
-#include "texture/synthesis/synthesize.h"
+#include "texture/synthesis/synthesis_parameters.h"
 
 // What exemplars, target and parameters come to before the first level: which guides are paired, which numbers classes have.
 namespace belvedere::synth {

@@ -1,3 +1,5 @@
+#include "texture/sheet/synthesis_tile.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,19 +7,14 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "texture/sheet/plan_data.h"
 #include "texture/synthesis/synth_level.h"
-#include "texture/synthesis/synth_plan_data.h"
+#include "texture/synthesis/synthesize.h"
 
 // One tile of a plan: corners, lines and the tile itself, level by level.
 namespace belvedere {
 
 namespace {
-
-// At every level, in its own pixels: what is fixed on either side of a line between tiles, so that a patch of radius 3 and most of what
-// surroundings reach is seen by both tiles; and what is made around it, so that what is fixed has fitted neighbours. Even, so
-// that windows of a level begin at whole pixels of the next coarser one.
-constexpr int fixed_px = 4;
-constexpr int around_px = 12;
 
 // What is made in one go: a corner, a line between corners or a tile. Its rectangle is empty where it has no breadth.
 struct Area {
@@ -113,7 +110,7 @@ class UsesOfOneWindow {
   synth::LevelState& state_;
 };
 
-Matches make_level(const SynthesisPlan::Data& plan, const Guides& guides, const Area& area, int level, const Matches& coarse,
+Matches make_level(const SynthesisPlanData& plan, const Guides& guides, const Area& area, int level, const Matches& coarse,
                    const std::vector<const Made*>& fixed, Progress& progress) {
   const std::size_t l = static_cast<std::size_t>(level);
   const PixelRect rect = made_part(plan.sheet, area, level);
@@ -158,7 +155,7 @@ Matches make_level(const SynthesisPlan::Data& plan, const Guides& guides, const 
   return out;
 }
 
-Made make_area(const SynthesisPlan::Data& plan, const Guides& guides, const Matches& coarsest, const Area& area,
+Made make_area(const SynthesisPlanData& plan, const Guides& guides, const Matches& coarsest, const Area& area,
                const std::vector<const Made*>& fixed, Progress& progress) {
   Made made{area, std::vector<Matches>(static_cast<std::size_t>(plan.sheet.level))};
   for (int level = plan.sheet.level - 1; level >= 0; --level) {
@@ -168,7 +165,7 @@ Made make_area(const SynthesisPlan::Data& plan, const Guides& guides, const Matc
   return made;
 }
 
-Made make_tile(const SynthesisPlan::Data& plan, const Guides& guides, const Matches& coarsest, const PixelRect& tile, Progress& progress) {
+Made make_tile(const SynthesisPlanData& plan, const Guides& guides, const Matches& coarsest, const PixelRect& tile, Progress& progress) {
   const auto inner_x = [&](int x) { return x > 0 && x < plan.sheet.width; };
   const auto inner_y = [&](int y) { return y > 0 && y < plan.sheet.height; };
   std::vector<Made> corners;
@@ -210,22 +207,8 @@ class PartsOfOne : public Progress {
 
 }  // namespace
 
-PixelRect SynthesisSheet::tile(int column, int row) const {
-  return {column * tile_px, row * tile_px, std::min(width, (column + 1) * tile_px), std::min(height, (row + 1) * tile_px)};
-}
-
-int synthesis_margin_px(int level) {
-  // Of the coarsest level in tiles what is made around a line, and one pixel of the plan for what halving reads beyond.
-  return level == 0 ? 0 : ((fixed_px + around_px) << (level - 1)) + (1 << level);
-}
-
-PixelRect synthesis_window(const SynthesisSheet& sheet, const PixelRect& tile) {
-  const int margin = synthesis_margin_px(sheet.level);
-  return cut({tile.x0 - margin, tile.y0 - margin, tile.x1 + margin, tile.y1 + margin}, {0, 0, sheet.width, sheet.height});
-}
-
 MatchField synthesize_tile(SynthesisPlan& plan, const GuideStack& guides, const PixelRect& tile, Progress& progress) {
-  const SynthesisPlan::Data& data = plan.data();
+  const SynthesisPlanData& data = plan.data();
   const SynthesisSheet& sheet = data.sheet;
   if (tile.x0 < 0 || tile.y0 < 0 || !(sheet.tile(tile.x0 / sheet.tile_px, tile.y0 / sheet.tile_px) == tile) || tile.x0 >= sheet.width ||
       tile.y0 >= sheet.height) {
@@ -271,6 +254,12 @@ MatchField synthesize_tile(SynthesisPlan& plan, const GuideStack& guides, const 
   const Made made = make_tile(data, make_guides(data.setup, guides, window, sheet.level), coarsest, tile, parts);
   take(made.levels[0], data.exemplars[0]);
   return field;
+}
+
+std::size_t tile_bytes(const SynthesisSheet& sheet, int guides, bool with_depth) {
+  const std::size_t side = static_cast<std::size_t>(sheet.tile_px + 2 * synthesis_margin_px(sheet.level));
+  // The window's guides as planes, a third more of the coarser levels, beside the level that is worked on.
+  return synthesis_bytes(0, side * side, guides, with_depth) + side * side * (4 + static_cast<std::size_t>(guides) + 4) * 4 / 3;
 }
 
 }  // namespace belvedere
