@@ -155,6 +155,9 @@ SynthesisPlan unpack_plan(const std::vector<std::uint8_t>& bytes, const std::vec
   data->demand.keys = synth::choose_list_keys(data->setup.roles);
   for (int level = 0; level < data->sheet.level && classes.count > 0; ++level) data->usual_errors.push_back(in.list<std::uint8_t>());
   if (!in.at_end()) refuse("more than a plan");
+  const std::size_t pixels = static_cast<std::size_t>(data->sheet.plan_width()) * static_cast<std::size_t>(data->sheet.plan_height());
+  const std::size_t asked = static_cast<std::size_t>(classes.count) * static_cast<std::size_t>(data->demand.keys.buckets()) * 256;
+  if (data->matches.size() != pixels || data->demand.counts.size() != asked) refuse("tables of another size");
 
   for (const Exemplar& exemplar : exemplars) check_exemplar(exemplar);
   std::vector<synth::Plane> planes{synth::exemplar_plane(exemplars, data->setup)};
