@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -143,8 +144,7 @@ ocio::ConstCPUProcessorRcPtr make_processor(const ColorParameters& parameters, o
   }
 }
 
-Grid<glm::vec3> convert(Grid<glm::vec3> picture, const ColorParameters& parameters, ocio::TransformDirection direction) {
-  const ocio::ConstCPUProcessorRcPtr processor = make_processor(parameters, direction);
+Grid<glm::vec3> run(Grid<glm::vec3> picture, const ocio::ConstCPUProcessorRcPtr& processor) {
   // Pixels do not see each other, so bands of any height give the same.
   constexpr int band_rows = 16;
   parallel_rows((picture.height() + band_rows - 1) / band_rows, [&](int band) {
@@ -157,12 +157,21 @@ Grid<glm::vec3> convert(Grid<glm::vec3> picture, const ColorParameters& paramete
 
 }  // namespace
 
-Grid<glm::vec3> to_display(const Image& linear, const ColorParameters& parameters) {
-  return convert(linear, parameters, ocio::TRANSFORM_DIR_FORWARD);
-}
+struct DisplayConversion::State {
+  ocio::ConstCPUProcessorRcPtr processor;
+};
+
+DisplayConversion::DisplayConversion(const ColorParameters& parameters)
+    : state_(std::make_unique<State>(State{make_processor(parameters, ocio::TRANSFORM_DIR_FORWARD)})) {}
+DisplayConversion::~DisplayConversion() = default;
+DisplayConversion::DisplayConversion(DisplayConversion&&) noexcept = default;
+DisplayConversion& DisplayConversion::operator=(DisplayConversion&&) noexcept = default;
+Grid<glm::vec3> DisplayConversion::convert(Image linear) const { return run(std::move(linear), state_->processor); }
+
+Grid<glm::vec3> to_display(const Image& linear, const ColorParameters& parameters) { return DisplayConversion(parameters).convert(linear); }
 
 Image from_display(const Grid<glm::vec3>& encoded, const ColorParameters& parameters) {
-  return convert(encoded, parameters, ocio::TRANSFORM_DIR_INVERSE);
+  return run(encoded, make_processor(parameters, ocio::TRANSFORM_DIR_INVERSE));
 }
 
 std::string describe_color(const ColorParameters& parameters) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,20 @@ struct ColorParameters {
 // The program's own config knows lin_srgb, srgb (IEC 61966-2-1, exact), aces (ACES2065-1) and acescg; the last two are adapted to D65 by
 // Bradford. Every function throws Error(input) with the name of a config, a file that it needs, or a space that is missing or bad.
 
+// Makes scene-linear rows encoded 0…1, any number at a time: pixels do not see each other. For who has many: the config is read once.
+class DisplayConversion {
+ public:
+  explicit DisplayConversion(const ColorParameters& parameters);
+  ~DisplayConversion();
+  DisplayConversion(DisplayConversion&&) noexcept;
+  DisplayConversion& operator=(DisplayConversion&&) noexcept;
+  Grid<glm::vec3> convert(Image linear) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
 // Scene-linear to encoded 0…1. Not cut: values beyond white stay beyond 1. The same bits for any number of threads.
 Grid<glm::vec3> to_display(const Image& linear, const ColorParameters& parameters);
 Image from_display(const Grid<glm::vec3>& encoded, const ColorParameters& parameters);
@@ -27,6 +42,19 @@ std::string describe_color(const ColorParameters& parameters);
 std::vector<std::uint8_t> srgb_profile();
 // Reads an ICC file; Error(input) where it is missing, damaged or no profile of an RGB device.
 std::vector<std::uint8_t> read_icc_profile(const std::string& path);
+// Converts encoded sRGB as to_profile does, row by row.
+class ProfileConversion {
+ public:
+  explicit ProfileConversion(const std::vector<std::uint8_t>& profile);
+  ~ProfileConversion();
+  ProfileConversion(ProfileConversion&&) noexcept;
+  ProfileConversion& operator=(ProfileConversion&&) noexcept;
+  Grid<glm::vec3> convert(const Grid<glm::vec3>& encoded_srgb) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 // Encoded sRGB to the device space of an RGB profile, perceptual intent with black-point compensation, cut to 0…1. Error(input) for bytes
 // that are no profile of an RGB output. The same bits for any number of threads.
 Grid<glm::vec3> to_profile(const Grid<glm::vec3>& encoded_srgb, const std::vector<std::uint8_t>& profile);

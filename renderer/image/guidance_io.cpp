@@ -59,13 +59,12 @@ float file_value(const glm::vec3& value, int component) { return value[component
 float file_value(LandCoverClass id, int) { return std::bit_cast<float>(std::uint32_t{static_cast<std::uint8_t>(id)}); }
 float file_value(std::uint32_t id, int) { return std::bit_cast<float>(id); }
 
-// Copies `count` values from index `first` on to out, out + step, …
-void copy_out(const GuidanceBuffers& guidance, const FileChannel& channel, std::size_t first, std::size_t count, float* out,
-              std::size_t step) {
+// Copies `count` values from index `first` on.
+void copy_out(const GuidanceBuffers& guidance, const FileChannel& channel, std::size_t first, std::size_t count, float* out) {
   std::visit(
       [&](auto member) {
         const auto* from = (guidance.*member).data() + first;
-        for (std::size_t i = 0; i < count; ++i, out += step) *out = file_value(from[i], channel.component);
+        for (std::size_t i = 0; i < count; ++i) out[i] = file_value(from[i], channel.component);
       },
       channel.row->member);
 }
@@ -177,27 +176,21 @@ void GuidanceWriter::write_rows(const GuidanceBuffers& part, int first, int rows
     notes_[origin_note] = fmt::format("{:.17g} {:.17g} {:.17g}", part.origin_m.x, part.origin_m.y, part.origin_m.z);
     writer_.emplace(path_, width_, height_, specs, notes_);
   }
-  std::vector<float> band;
-  for (int y = 0; y < rows; y += ExrWriter::band_rows) {
-    const int band_rows = std::min(ExrWriter::band_rows, rows - y);
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-      const std::size_t step = parts_[p].size();
-      const std::size_t row_values = step * static_cast<std::size_t>(width_);
-      band.resize(row_values * static_cast<std::size_t>(band_rows));
-      for (const std::size_t c : parts_[p]) {
-        const glm::ivec2 size = size_of(part, channels[c].row->member);
-        if (size.x != width_ || size.y < first + rows) {
-          throw Error(ErrorKind::bug, path_, fmt::format("channel {} has not the size of the picture", channels[c].name));
-        }
-      }
-      parallel_rows(band_rows, [&](int r) {
-        const std::size_t from = static_cast<std::size_t>(first + y + r) * static_cast<std::size_t>(width_);
-        float* to = band.data() + row_values * static_cast<std::size_t>(r);
-        for (const std::size_t c : parts_[p]) copy_out(part, channels[c], from, static_cast<std::size_t>(width_), to++, step);
-      });
-      writer_->write_rows(p, y0 + y, band_rows, band);
+  for (const std::vector<std::size_t>& of_part : parts_)
+    for (const std::size_t c : of_part) {
+      const glm::ivec2 size = size_of(part, channels[c].row->member);
+      if (size.x != width_ || size.y < first + rows)
+        throw Error(ErrorKind::bug, path_, fmt::format("channel {} has not the size of the picture", channels[c].name));
     }
-  }
+  // Band by band, so that what is used together lies together in the file, however many rows come at once.
+  for (int y = 0; y < rows; y += ExrWriter::band_rows)
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      writer_->write_rows(p, y0 + y, std::min(ExrWriter::band_rows, rows - y),
+                          [&](std::size_t channel, int x, int row, int count, float* out) {
+                            const std::size_t from =
+                                static_cast<std::size_t>(first + row - y0) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+                            copy_out(part, channels[parts_[p][channel]], from, static_cast<std::size_t>(count), out);
+                          });
 }
 
 void GuidanceWriter::finish() {

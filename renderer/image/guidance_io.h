@@ -13,7 +13,7 @@ namespace belvedere {
 // channels that are used together, so that a reader unpacks no more than it needs.
 // The header's note "legend" has a line `id name rrggbb` for each class.
 
-// Writes rows from top to bottom, streamed: memory holds one band of one part.
+// Writes rows from top to bottom, streamed: beside the rows it is given, memory holds some packed tiles of one part.
 class GuidanceWriter {
  public:
   // notes: camera, CRS, origin, sun, resolved scene, versions, hashes; the legend is added here.

@@ -120,8 +120,13 @@ std::vector<std::uint8_t> read_icc_profile(const std::string& path) {
   return bytes;
 }
 
-Grid<glm::vec3> to_profile(const Grid<glm::vec3>& encoded_srgb, const std::vector<std::uint8_t>& profile) {
-  const Context context;
+struct ProfileConversion::State {
+  Context context;
+  std::unique_ptr<void, void (*)(void*)> transform{nullptr, cmsDeleteTransform};
+};
+
+ProfileConversion::ProfileConversion(const std::vector<std::uint8_t>& profile) : state_(std::make_unique<State>()) {
+  const Context& context = state_->context;
   // The saved profile and not lcms2's own in memory: its numbers are rounded as in files, so that sRGB to sRGB changes nothing.
   const std::vector<std::uint8_t> srgb = srgb_profile();
   const Profile from = open_profile(context, srgb);
@@ -129,18 +134,27 @@ Grid<glm::vec3> to_profile(const Grid<glm::vec3>& encoded_srgb, const std::vecto
   require_rgb("ICC profile", context, to);
   // Without the one-pixel cache a transform may be used by all threads at once.
   constexpr cmsUInt32Number flags = cmsFLAGS_BLACKPOINTCOMPENSATION | cmsFLAGS_NOCACHE | cmsFLAGS_NOOPTIMIZE;
-  const std::unique_ptr<void, void (*)(void*)> transform(
-      cmsCreateTransformTHR(context, from.get(), TYPE_RGB_FLT, to.get(), TYPE_RGB_FLT, INTENT_PERCEPTUAL, flags), cmsDeleteTransform);
-  if (transform == nullptr) throw Error(ErrorKind::input, "ICC profile", "cannot be used: " + context.message());
+  state_->transform.reset(cmsCreateTransformTHR(context, from.get(), TYPE_RGB_FLT, to.get(), TYPE_RGB_FLT, INTENT_PERCEPTUAL, flags));
+  if (state_->transform == nullptr) throw Error(ErrorKind::input, "ICC profile", "cannot be used: " + context.message());
+}
+ProfileConversion::~ProfileConversion() = default;
+ProfileConversion::ProfileConversion(ProfileConversion&&) noexcept = default;
+ProfileConversion& ProfileConversion::operator=(ProfileConversion&&) noexcept = default;
+
+Grid<glm::vec3> ProfileConversion::convert(const Grid<glm::vec3>& encoded_srgb) const {
   Grid<glm::vec3> out(encoded_srgb.width(), encoded_srgb.height());
   parallel_rows(out.height(), [&](int y) {
     glm::vec3* row = out.row(y);
-    cmsDoTransform(transform.get(), encoded_srgb.row(y), row, static_cast<cmsUInt32Number>(out.width()));
+    cmsDoTransform(state_->transform.get(), encoded_srgb.row(y), row, static_cast<cmsUInt32Number>(out.width()));
     for (int x = 0; x < out.width(); ++x) {
       for (int c = 0; c < 3; ++c) row[x][c] = std::clamp(row[x][c], 0.0f, 1.0f);
     }
   });
   return out;
+}
+
+Grid<glm::vec3> to_profile(const Grid<glm::vec3>& encoded_srgb, const std::vector<std::uint8_t>& profile) {
+  return ProfileConversion(profile).convert(encoded_srgb);
 }
 
 }  // namespace belvedere

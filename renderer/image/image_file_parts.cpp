@@ -107,13 +107,12 @@ FileNotes split_notes(const std::string& text) {
 }
 
 template <class Number>
-void quantize_rows(const Grid<glm::vec3>& encoded, int y0, int y1, int row_pixels, std::vector<Number>& out) {
+void quantize_rows(const Grid<glm::vec3>& encoded, int first, int rows, int row_pixels, Number* out) {
   constexpr double highest = static_cast<double>(std::numeric_limits<Number>::max());
   const std::size_t row_values = static_cast<std::size_t>(row_pixels) * 3;
-  out.assign(row_values * static_cast<std::size_t>(y1 - y0), Number{0});
-  parallel_rows(y1 - y0, [&](int r) {
-    const glm::vec3* from = encoded.row(y0 + r);
-    Number* to = out.data() + row_values * static_cast<std::size_t>(r);
+  parallel_rows(rows, [&](int r) {
+    const glm::vec3* from = encoded.row(first + r);
+    Number* to = out + row_values * static_cast<std::size_t>(r);
     for (int x = 0; x < encoded.width(); ++x) {
       for (int c = 0; c < 3; ++c) {
         const double v = from[x][c];
@@ -124,8 +123,8 @@ void quantize_rows(const Grid<glm::vec3>& encoded, int y0, int y1, int row_pixel
     }
   });
 }
-template void quantize_rows(const Grid<glm::vec3>&, int, int, int, std::vector<std::uint8_t>&);
-template void quantize_rows(const Grid<glm::vec3>&, int, int, int, std::vector<std::uint16_t>&);
+template void quantize_rows(const Grid<glm::vec3>&, int, int, int, std::uint8_t*);
+template void quantize_rows(const Grid<glm::vec3>&, int, int, int, std::uint16_t*);
 
 }  // namespace image_io
 }  // namespace belvedere

@@ -24,8 +24,9 @@ void check_memory(const std::string& path, std::int64_t width, std::int64_t heig
 std::string join_notes(const FileNotes& notes);
 FileNotes split_notes(const std::string& text);
 
-// Rows [y0, y1) of a picture as whole numbers 0…`highest`, rounded; `row_pixels` ≥ width pixels to a row, the rest 0.
+// Rows [first, first + rows) of a picture as whole numbers 0…`highest`, rounded; a row of `out` has room for row_pixels ≥ width pixels, of
+// which those beyond the picture stay as they are.
 template <class Number>
-void quantize_rows(const Grid<glm::vec3>& encoded, int y0, int y1, int row_pixels, std::vector<Number>& out);
+void quantize_rows(const Grid<glm::vec3>& encoded, int first, int rows, int row_pixels, Number* out);
 
 }  // namespace belvedere::image_io

@@ -4,6 +4,7 @@
 #include <jxl/decode.h>
 #include <jxl/encode.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstring>
@@ -19,6 +20,7 @@
 #include "renderer/image/exif.h"
 #include "renderer/image/image_file_parts.h"
 #include "renderer/image/output_file.h"
+#include "renderer/image/provenance.h"
 
 namespace belvedere {
 namespace {
@@ -230,32 +232,63 @@ Bytes pack(const OutputFile& output, const std::vector<std::uint16_t>& numbers, 
   }
 }
 
-}  // namespace
+// The library of Debian 12 takes a picture whole and packs it at the end, so all of it is one band.
+class JxlRows : public PictureRows {
+ public:
+  JxlRows(const std::string& path, int width, int height, const PictureFileOptions& options)
+      : PictureRows(path, width, height, height), output_(path), options_(options) {
+    numbers_.resize(row_values() * static_cast<std::size_t>(height));
+  }
 
-void write_jxl16(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options) {
-  if (encoded.empty()) throw Error(ErrorKind::bug, path, "a picture without pixels");
-  image_io::check_memory(path, encoded.width(), encoded.height(), packing_bytes_per_pixel * static_cast<double>(encoded.size()));
-  OutputFile output(path);
-  std::vector<std::uint16_t> numbers;
-  image_io::quantize_rows(encoded, 0, encoded.height(), encoded.width(), numbers);
-  {
-    const Bytes packed = pack(output, numbers, encoded.width(), encoded.height(), options);
-    std::ofstream file(output.temporary(), std::ios::binary);
+ private:
+  void take(const Grid<glm::vec3>& from, int first, int rows, int at) override {
+    image_io::quantize_rows(from, first, rows, width(), numbers_.data() + row_values() * static_cast<std::size_t>(at));
+  }
+  void write_band(int, int) override {
+    const Bytes packed = pack(output_, numbers_, width(), height(), options_);
+    std::ofstream file(output_.temporary(), std::ios::binary);
     file.write(reinterpret_cast<const char*>(packed.data()), static_cast<std::streamsize>(packed.size()));
     file.close();
-    if (!file) output.fail({});
+    if (!file) output_.fail({});
   }
-  try {
-    Reader reader(output.temporary(), true);
-    std::vector<std::uint16_t> again(numbers.size());
-    if (reader.info().xsize * std::size_t{3} * reader.info().ysize != numbers.size()) output.fail("it has another size");
-    reader.read<std::uint16_t>(JXL_TYPE_UINT16, again.data(), nullptr);
-    if (again != numbers) output.fail("it reads otherwise than it was written");
-  } catch (const Error& e) {
-    if (e.kind() != ErrorKind::input) throw;
-    output.fail(e.found());
+  void complete() override {
+    const std::string written = hash_numbers();
+    try {
+      Reader reader(output_.temporary(), true);
+      if (reader.info().xsize * std::size_t{3} * reader.info().ysize != numbers_.size()) output_.fail("it has another size");
+      std::fill(numbers_.begin(), numbers_.end(), std::uint16_t{0});  // the room serves once more, so that there is no second picture
+      reader.read<std::uint16_t>(JXL_TYPE_UINT16, numbers_.data(), nullptr);
+    } catch (const Error& e) {
+      if (e.kind() != ErrorKind::input) throw;
+      output_.fail(e.found());
+    }
+    if (hash_numbers() != written) output_.fail("it reads otherwise than it was written");
+    numbers_ = {};
+    output_.prepare();
   }
-  output.commit();
+  void replace() override { output_.commit(); }
+
+  std::string hash_numbers() const {
+    return hash_bytes({reinterpret_cast<const char*>(numbers_.data()), numbers_.size() * sizeof(std::uint16_t)});
+  }
+  std::size_t row_values() const { return static_cast<std::size_t>(width()) * 3; }
+
+  OutputFile output_;
+  PictureFileOptions options_;
+  std::vector<std::uint16_t> numbers_;
+};
+
+}  // namespace
+
+double jxl16_writer_bytes(int width, int height) { return packing_bytes_per_pixel * width * height; }
+
+std::unique_ptr<PictureRows> open_jxl16(const std::string& path, int width, int height, const PictureFileOptions& options) {
+  if (width > 0 && height > 0) image_io::check_memory(path, width, height, jxl16_writer_bytes(width, height));
+  return std::make_unique<JxlRows>(path, width, height, options);
+}
+
+void write_jxl16(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options) {
+  write_whole(*open_jxl16(path, encoded.width(), encoded.height(), options), encoded);
 }
 
 ImageInfo read_jxl_info(const std::string& path) {

@@ -1,15 +1,19 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "base/image.h"
 #include "renderer/image/image_file.h"
+#include "renderer/image/rows/picture_rows.h"
 
 namespace belvedere {
 
 // Encoded RGB 0…1 as 16-bit JPEG XL (ISO/IEC 18181) without loss; sRGB where it has no profile. Resolution and notes stand in an Exif box,
-// as cameras write them. Values, checks and errors as of write_tiff16 (tiff_file.h); besides, Error(limit) where the picture does not fit
-// into memory_budget_bytes(), because the library packs it whole.
+// as cameras write them. Values, checks and errors as of open_tiff16 (tiff_file.h). Rows may come one by one, but the library packs the
+// picture whole: Error(limit), before anything is written, where jxl16_writer_bytes are over memory_budget_bytes().
+std::unique_ptr<PictureRows> open_jxl16(const std::string& path, int width, int height, const PictureFileOptions& options);
+double jxl16_writer_bytes(int width, int height);
 void write_jxl16(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options);
 
 // As read_image_info and read_picture of image_io.h; of an animation the first picture.

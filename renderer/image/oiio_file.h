@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "base/image.h"
 #include "renderer/image/image_file.h"
+#include "renderer/image/rows/picture_rows.h"
 
 namespace belvedere {
 
@@ -12,7 +14,11 @@ namespace belvedere {
 ImageInfo read_oiio_info(const std::string& path, const std::string& format);
 Grid<glm::vec3> read_oiio_picture(const std::string& path, const std::string& format, Grid<float>* alpha);
 Grid<std::uint16_t> read_oiio_grey(const std::string& path, const std::string& format);
-// Encoded RGB 0…1 as 8-bit PNG, marked as sRGB where it has no profile. Values, checks and errors as of write_tiff16 (tiff_file.h).
+// Encoded RGB 0…1 as 8-bit PNG, row by row, marked as sRGB where it has no profile. Values, checks and errors as of open_tiff16
+// (tiff_file.h).
+std::unique_ptr<PictureRows> open_png8(const std::string& path, int width, int height, const PictureFileOptions& options);
+// The most that it holds: a band of rows.
+double png8_writer_bytes(int width, int height);
 void write_png8(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options);
 
 }  // namespace belvedere

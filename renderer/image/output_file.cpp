@@ -47,8 +47,15 @@ OutputFile::~OutputFile() {
   if (!committed_) ::unlink(temporary_.c_str());
 }
 
-void OutputFile::commit() {
+void OutputFile::prepare() {
   synchronize(temporary_, path_, false);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path_, ignored)) throw_system(path_, "cannot be replaced", EISDIR);
+  prepared_ = true;
+}
+
+void OutputFile::commit() {
+  if (!prepared_) prepare();
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw_system(path_, "cannot be replaced", errno);
   committed_ = true;
   const std::string folder = std::filesystem::path(path_).parent_path().string();

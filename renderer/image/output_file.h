@@ -16,7 +16,9 @@ class OutputFile {
 
   const std::string& path() const { return path_; }
   const std::string& temporary() const { return temporary_; }
-  // Brings the temporary file to disk and renames it.
+  // Brings the temporary file to disk. Who writes several files that belong together prepares all before the first is renamed.
+  void prepare();
+  // prepare(), where that was not done, and the rename.
   void commit();
   // Throws Error(output) for a library's `reason`, and says so where the disk is full: most libraries do not.
   [[noreturn]] void fail(const std::string& reason) const;
@@ -24,6 +26,7 @@ class OutputFile {
  private:
   std::string path_;
   std::string temporary_;
+  bool prepared_ = false;
   bool committed_ = false;
 };
 

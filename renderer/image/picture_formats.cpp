@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "base/error.h"
 #include "renderer/image/exr/exr_reader.h"
@@ -21,11 +20,8 @@ using std::string_view_literals::operator""sv;
 using Bytes = std::string_view;
 using Path = const std::string&;
 
-const PictureFormat& written_format(const std::string& ending) {
-  for (const PictureFormat& format : picture_formats())
-    if (format.write != nullptr && format.ending == ending) return format;
-  throw Error(ErrorKind::usage, "picture format", fmt::format("\"{}\"", ending), fmt::format("{}", fmt::join(picture_endings(), ", ")));
-}
+// A preview that opens at once, in browsers too.
+constexpr int preview_most_px = 8000;
 
 }  // namespace
 
@@ -47,7 +43,8 @@ const std::vector<PictureFormat>& picture_formats() {
        .read_info = [](Path path) { return read_oiio_info(path, "tiff"); },
        .read_picture = [](Path path, Grid<float>* alpha) { return read_oiio_picture(path, "tiff", alpha); },
        .read_grey = [](Path path) { return read_oiio_grey(path, "tiff"); },
-       .write = &write_tiff16},
+       .open = &open_tiff16,
+       .writer_bytes = &tiff16_writer_bytes},
       {.ending = "png",
        .name = "png",
        .title = "PNG",
@@ -60,7 +57,9 @@ const std::vector<PictureFormat>& picture_formats() {
        .read_info = [](Path path) { return read_oiio_info(path, "png"); },
        .read_picture = [](Path path, Grid<float>* alpha) { return read_oiio_picture(path, "png", alpha); },
        .read_grey = [](Path path) { return read_oiio_grey(path, "png"); },
-       .write = &write_png8},
+       .open = &open_png8,
+       .writer_bytes = &png8_writer_bytes,
+       .longest_px = preview_most_px},
       {.ending = "exr",
        .name = "openexr",
        .title = "OpenEXR",
@@ -71,8 +70,9 @@ const std::vector<PictureFormat>& picture_formats() {
        .is = [](Bytes b) { return b.starts_with("\x76\x2f\x31\x01"); },
        .read_info = &read_exr_info,
        .read_picture = &read_exr_picture,
-       .write = [](Path path, const Grid<glm::vec3>& linear,
-                   const PictureFileOptions& options) { write_exr(path, linear, options.notes); }},
+       .open = [](Path path, int width, int height,
+                  const PictureFileOptions& options) { return open_exr(path, width, height, options.notes); },
+       .writer_bytes = &exr_writer_bytes},
       {.ending = "jxl",
        .name = "jpegxl",
        .title = "JPEG XL",
@@ -84,7 +84,8 @@ const std::vector<PictureFormat>& picture_formats() {
        .is = [](Bytes b) { return b.starts_with("\xff\x0a") || b.starts_with("\0\0\0\x0cJXL \r\n\x87\n"sv); },
        .read_info = &read_jxl_info,
        .read_picture = &read_jxl_picture,
-       .write = &write_jxl16},
+       .open = &open_jxl16,
+       .writer_bytes = &jxl16_writer_bytes},
       {.ending = "jpg",
        .name = "jpeg",
        .title = "JPEG",
@@ -98,7 +99,7 @@ const std::vector<PictureFormat>& picture_formats() {
 std::vector<std::string> picture_endings() {
   std::vector<std::string> endings;
   for (const PictureFormat& format : picture_formats())
-    if (format.write != nullptr) endings.emplace_back(format.ending);
+    if (format.open != nullptr) endings.emplace_back(format.ending);
   return endings;
 }
 
@@ -117,29 +118,19 @@ std::string describe_format(const PictureFormat& format) {
   if (format.profile) carried.emplace_back(format.device ? "colour profile (the printer's, where one is given)" : "colour profile");
   if (format.resolution) carried.emplace_back("resolution");
   if (format.notes) carried.emplace_back("notes");
-  const std::string values = format.linear ? "scene-linear, half float" : fmt::format("{} bit", format.bits);
+  std::string values = format.linear ? "scene-linear, half float" : fmt::format("{} bit", format.bits);
+  if (format.longest_px > 0) values += fmt::format(", at most {} pixels a side: larger pictures are reduced", format.longest_px);
   return carried.empty() ? values : fmt::format("{}; {}", values, fmt::join(carried, ", "));
 }
 
-void write_pictures(const std::string& stem, const std::vector<std::string>& endings, const Image& linear, const PictureColors& colors,
-                    double dots_per_inch, const FileNotes& notes) {
-  std::vector<const PictureFormat*> formats;
-  for (const std::string& ending : endings) formats.push_back(&written_format(ending));
-  PictureFileOptions options;
-  options.dots_per_inch = dots_per_inch;
-  options.notes = notes;
-  Grid<glm::vec3> display;
-  if (std::any_of(formats.begin(), formats.end(), [](const PictureFormat* f) { return !f->linear; }))
-    display = to_display(linear, colors.display);
-  for (const PictureFormat* format : formats) {
-    const std::string path = fmt::format("{}.{}", stem, format->ending);
-    const bool converted = format->device && !colors.device_profile.empty();
-    options.icc_profile = !format->profile ? std::vector<std::uint8_t>{} : converted ? colors.device_profile : srgb_profile();
-    if (format->linear)
-      format->write(path, linear, options);
-    else
-      format->write(path, converted ? to_profile(display, colors.device_profile) : display, options);
-  }
+const PictureFormat& written_format(const std::string& ending) {
+  for (const PictureFormat& format : picture_formats())
+    if (format.open != nullptr && format.ending == ending) return format;
+  throw Error(ErrorKind::usage, "picture format", fmt::format("\"{}\"", ending), fmt::format("{}", fmt::join(picture_endings(), ", ")));
+}
+
+int reduction_factor(const PictureFormat& format, int width, int height) {
+  return format.longest_px == 0 ? 1 : std::max(1, (std::max(width, height) + format.longest_px - 1) / format.longest_px);
 }
 
 }  // namespace belvedere

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/image.h"
-#include "renderer/image/color.h"
 #include "renderer/image/image_file.h"
+#include "renderer/image/rows/picture_rows.h"
 
 namespace belvedere {
 
@@ -27,7 +28,12 @@ struct PictureFormat {
   ImageInfo (*read_info)(const std::string& path) = nullptr;
   Grid<glm::vec3> (*read_picture)(const std::string& path, Grid<float>* alpha) = nullptr;
   Grid<std::uint16_t> (*read_grey)(const std::string& path) = nullptr;  // null: holds no exact grey numbers
-  void (*write)(const std::string& path, const Grid<glm::vec3>& picture, const PictureFileOptions& options) = nullptr;
+  // Begins a file that is written row by row; null: it is only read.
+  std::unique_ptr<PictureRows> (*open)(const std::string& path, int width, int height, const PictureFileOptions& options) = nullptr;
+  // The most bytes that its writer holds. Does not grow with the height but where the library packs pictures whole: that one refuses, with
+  // Error(limit), what is over memory_budget_bytes().
+  double (*writer_bytes)(int width, int height) = nullptr;
+  int longest_px = 0;  // larger pictures are written reduced by a whole factor; 0: always of full size
 };
 const std::vector<PictureFormat>& picture_formats();
 
@@ -35,17 +41,12 @@ const std::vector<PictureFormat>& picture_formats();
 std::vector<std::string> picture_endings();
 // The format that a file has, known by its first bytes whatever its name; Error(input) where it is none.
 const PictureFormat& format_of_file(const std::string& path);
+// The format of an ending that is written; Error(usage) for another.
+const PictureFormat& written_format(const std::string& ending);
 // What a format holds and carries, for documents: "16 bit; colour profile, resolution, notes".
 std::string describe_format(const PictureFormat& format);
 
-// How a finished picture is written.
-struct PictureColors {
-  ColorParameters display;                   // scene-linear to encoded
-  std::vector<std::uint8_t> device_profile;  // ICC, of the printer; empty: none
-};
-// A scene-linear picture as STEM.ENDING for each of the endings. Encoded ones are sRGB and carry its profile, `device` formats the
-// printer's where there is one. Error(usage) for an unknown ending, before anything is written; Error(output).
-void write_pictures(const std::string& stem, const std::vector<std::string>& endings, const Image& linear, const PictureColors& colors,
-                    double dots_per_inch, const FileNotes& notes);
+// The whole factor by which a picture of that size is written smaller: 1 but above `longest_px`.
+int reduction_factor(const PictureFormat& format, int width, int height);
 
 }  // namespace belvedere

@@ -23,30 +23,37 @@ std::string hexadecimal(XXH128_hash_t hash) {
   return text;
 }
 
-struct FreeState {
-  void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
-};
-
 }  // namespace
 
 std::string program_version() { return BELVEDERE_VERSION; }
 
 std::string library_versions() { return fmt::format("{}, oneTBB {}.{}", BELVEDERE_LIBRARIES, TBB_VERSION_MAJOR, TBB_VERSION_MINOR); }
 
+struct ContentHash::State {
+  XXH3_state_t* hash = XXH3_createState();
+  ~State() { XXH3_freeState(hash); }
+};
+
+ContentHash::ContentHash() : state_(std::make_unique<State>()) {
+  if (state_->hash == nullptr || XXH3_128bits_reset(state_->hash) != XXH_OK) throw std::bad_alloc();
+}
+ContentHash::~ContentHash() = default;
+void ContentHash::add(std::string_view bytes) { XXH3_128bits_update(state_->hash, bytes.data(), bytes.size()); }
+std::string ContentHash::text() const { return hexadecimal(XXH3_128bits_digest(state_->hash)); }
+
 std::string hash_file(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw Error(ErrorKind::input, path, "this is a folder", "a file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(ErrorKind::input, path, "the file cannot be opened", "a file that exists and that you may read");
-  const std::unique_ptr<XXH3_state_t, FreeState> state(XXH3_createState());
-  if (state == nullptr || XXH3_128bits_reset(state.get()) != XXH_OK) throw std::bad_alloc();
+  ContentHash hash;
   std::string buffer(std::size_t{1} << 18, '\0');
   do {
     file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-    XXH3_128bits_update(state.get(), buffer.data(), static_cast<std::size_t>(file.gcount()));
+    hash.add(std::string_view(buffer).substr(0, static_cast<std::size_t>(file.gcount())));
   } while (file);
   if (file.bad()) throw Error(ErrorKind::input, path, "the file cannot be read to its end");
-  return hexadecimal(XXH3_128bits_digest(state.get()));
+  return hash.text();
 }
 
 std::string hash_bytes(std::string_view bytes) { return hexadecimal(XXH3_128bits(bytes.data(), bytes.size())); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,22 @@ struct Provenance {
 std::string program_version();
 // The foreign libraries the program was built with, "Embree 3.13.5, …".
 std::string library_versions();
+// XXH3-128 of bytes that come in pieces.
+class ContentHash {
+ public:
+  ContentHash();
+  ~ContentHash();
+  ContentHash(const ContentHash&) = delete;
+  ContentHash& operator=(const ContentHash&) = delete;
+
+  void add(std::string_view bytes);
+  // 32 hexadecimal digits.
+  std::string text() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 // XXH3-128 of a file's bytes, 32 hexadecimal digits as `xxhsum -H2` prints them; Error(input) where it cannot be read. Memory does not
 // grow with the file.
 std::string hash_file(const std::string& path);

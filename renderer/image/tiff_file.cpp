@@ -1,20 +1,22 @@
 #include "renderer/image/tiff_file.h"
 
-// The one file that knows libtiff (and libdeflate, which compresses its tiles on all threads). See image_io.h for why not OpenImageIO.
-#include <libdeflate.h>
+// The one file that knows libtiff; its tiles are packed on all threads before it gets them. See image_io.h for why not OpenImageIO.
 #include <tiffio.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <memory>
+#include <string_view>
+#include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "renderer/image/deflate.h"
 #include "renderer/image/image_file_parts.h"
 #include "renderer/image/output_file.h"
+#include "renderer/image/provenance.h"
 
 namespace belvedere {
 namespace {
@@ -23,6 +25,7 @@ constexpr int tile_size = 256;  // pixels; 384 KiB a tile, small enough for view
 constexpr std::size_t row_values = std::size_t{3} * tile_size;
 constexpr std::size_t tile_values = row_values * tile_size;
 constexpr int compression_level = 6;
+constexpr int tiles_at_once = 32;  // are packed together, then written: more would be held
 
 struct CloseTiff {
   void operator()(TIFF* tiff) const { TIFFClose(tiff); }
@@ -51,29 +54,24 @@ void difference(std::uint16_t* row) {
   for (int i = 3 * tile_size - 1; i >= 3; --i) row[i] = static_cast<std::uint16_t>(row[i] - row[i - 3]);
 }
 
-// One row of tiles, compressed; the same bytes whatever the number of threads. `band` has tile_size full rows.
-std::vector<std::vector<std::uint8_t>> compress_tiles(const std::vector<std::uint16_t>& band, int across) {
-  std::vector<std::vector<std::uint8_t>> out(static_cast<std::size_t>(across));
-  parallel_rows(across, [&](int t) {
+// Some tiles of a row of `across`, packed; the same bytes whatever the number of threads. `band` has tile_size full rows.
+std::vector<std::vector<std::uint8_t>> pack_tiles(const std::vector<std::uint16_t>& band, int across, int first, int count) {
+  std::vector<std::vector<std::uint8_t>> out(static_cast<std::size_t>(count));
+  parallel_rows(count, [&](int i) {
     std::vector<std::uint16_t> tile(tile_values);
     for (std::size_t y = 0; y < tile_size; ++y) {
-      const std::uint16_t* from = band.data() + (y * static_cast<std::size_t>(across) + static_cast<std::size_t>(t)) * row_values;
+      const std::uint16_t* from = band.data() + (y * static_cast<std::size_t>(across) + static_cast<std::size_t>(first + i)) * row_values;
       std::copy(from, from + row_values, tile.begin() + static_cast<std::ptrdiff_t>(y * row_values));
       difference(tile.data() + y * row_values);
     }
-    const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
-        libdeflate_alloc_compressor(compression_level), libdeflate_free_compressor);
-    if (compressor == nullptr) throw std::bad_alloc();
-    std::vector<std::uint8_t>& packed = out[static_cast<std::size_t>(t)];
-    packed.resize(libdeflate_zlib_compress_bound(compressor.get(), tile.size() * 2));
-    packed.resize(libdeflate_zlib_compress(compressor.get(), tile.data(), tile.size() * 2, packed.data(), packed.size()));
+    out[static_cast<std::size_t>(i)] = Deflater(compression_level).pack(tile.data(), tile.size() * 2);
   });
   return out;
 }
 
-bool set_fields(TIFF* tiff, const Grid<glm::vec3>& encoded, const PictureFileOptions& options) {
-  bool ok = TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(encoded.width())) != 0;
-  ok &= TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(encoded.height())) != 0;
+bool set_fields(TIFF* tiff, int width, int height, const PictureFileOptions& options) {
+  bool ok = TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(width)) != 0;
+  ok &= TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(height)) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_TILEWIDTH, static_cast<std::uint32_t>(tile_size)) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_TILELENGTH, static_cast<std::uint32_t>(tile_size)) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 16) != 0;
@@ -99,56 +97,89 @@ bool set_fields(TIFF* tiff, const Grid<glm::vec3>& encoded, const PictureFileOpt
   return ok;
 }
 
-void read_back(const OutputFile& output, const Grid<glm::vec3>& encoded, int across) {
-  std::string message;
-  const Tiff tiff = open_tiff(output.temporary(), "r", message);
-  if (tiff == nullptr) output.fail(message);
-  std::vector<std::uint16_t> expected;
-  for (int y = 0; y < encoded.height(); y += tile_size) {
-    image_io::quantize_rows(encoded, y, std::min(y + tile_size, encoded.height()), across * tile_size, expected);
-    expected.resize(static_cast<std::size_t>(across) * tile_values);
-    std::vector<std::uint16_t> tile(tile_values);
-    for (int t = 0; t < across; ++t) {
-      const auto bytes = static_cast<tmsize_t>(tile.size() * 2);
-      const ttile_t number = TIFFComputeTile(tiff.get(), static_cast<std::uint32_t>(t * tile_size), static_cast<std::uint32_t>(y), 0, 0);
-      bool same = TIFFReadEncodedTile(tiff.get(), number, tile.data(), bytes) == bytes;
-      for (std::size_t r = 0; same && r < tile_size; ++r) {
-        const std::size_t at = (r * static_cast<std::size_t>(across) + static_cast<std::size_t>(t)) * row_values;
-        same =
-            std::equal(expected.begin() + static_cast<std::ptrdiff_t>(at), expected.begin() + static_cast<std::ptrdiff_t>(at + row_values),
-                       tile.begin() + static_cast<std::ptrdiff_t>(r * row_values));
+std::string_view text_of(const std::vector<std::uint8_t>& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+class TiffRows : public PictureRows {
+ public:
+  TiffRows(const std::string& path, int width, int height, const PictureFileOptions& options)
+      : PictureRows(path, width, height, tile_size), output_(path), across_((width + tile_size - 1) / tile_size) {
+    const bool big = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * 6 >= options.big_tiff_from_bytes;
+    tiff_ = open_tiff(output_.temporary(), big ? "w8l" : "w4l", message_);  // l: little-endian on any machine
+    if (tiff_ == nullptr || !set_fields(tiff_.get(), width, height, options)) output_.fail(message_);
+    band_.resize(static_cast<std::size_t>(across_) * tile_values);
+  }
+
+ private:
+  void take(const Grid<glm::vec3>& from, int first, int rows, int at) override {
+    image_io::quantize_rows(from, first, rows, across_ * tile_size, band_.data() + row_at(at));
+  }
+  void write_band(int, int rows) override {
+    std::fill(band_.begin() + static_cast<std::ptrdiff_t>(row_at(rows)), band_.end(), std::uint16_t{0});
+    for (int t = 0; t < across_; t += tiles_at_once) {
+      for (std::vector<std::uint8_t>& packed : pack_tiles(band_, across_, t, std::min(tiles_at_once, across_ - t))) {
+        const auto bytes = static_cast<tmsize_t>(packed.size());
+        written_.add(text_of(packed));
+        if (TIFFWriteRawTile(tiff_.get(), tiles_++, packed.data(), bytes) != bytes) output_.fail(message_);
       }
-      if (!same) output.fail(message.empty() ? "it reads otherwise than it was written" : message);
     }
   }
-}
+  void complete() override {
+    // The directory is written here and not by closing, which cannot say that it failed.
+    if (TIFFWriteDirectory(tiff_.get()) == 0 || !message_.empty()) output_.fail(message_);
+    tiff_.reset();
+    read_back();
+    output_.prepare();
+  }
+  void replace() override { output_.commit(); }
+
+  // Every tile is found by the file's own directory and is as it was packed.
+  void read_back() {
+    const Tiff tiff = open_tiff(output_.temporary(), "r", message_);
+    if (tiff == nullptr) output_.fail(message_);
+    std::uint32_t wide = 0;
+    std::uint32_t high = 0;
+    TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &wide);
+    TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &high);
+    if (wide != static_cast<std::uint32_t>(width()) || high != static_cast<std::uint32_t>(height()) ||
+        TIFFNumberOfTiles(tiff.get()) != tiles_)
+      output_.fail("it has another size");
+    ContentHash read;
+    std::vector<std::uint8_t> packed;
+    for (ttile_t tile = 0; tile < tiles_; ++tile) {
+      const std::uint64_t bytes = TIFFGetStrileByteCount(tiff.get(), tile);
+      if (bytes == 0 || bytes > 2 * tile_values * sizeof(std::uint16_t)) output_.fail("a tile is missing");
+      packed.resize(bytes);
+      if (TIFFReadRawTile(tiff.get(), tile, packed.data(), static_cast<tmsize_t>(bytes)) != static_cast<tmsize_t>(bytes))
+        output_.fail(message_);
+      read.add(text_of(packed));
+    }
+    if (read.text() != written_.text()) output_.fail("it reads otherwise than it was written");
+  }
+  std::size_t row_at(int row) const { return static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) * row_values; }
+
+  OutputFile output_;
+  int across_;
+  std::string message_;
+  Tiff tiff_;  // after the message, which it writes to
+  std::vector<std::uint16_t> band_;
+  ttile_t tiles_ = 0;
+  ContentHash written_;  // of the packed tiles
+};
 
 }  // namespace
 
+std::unique_ptr<PictureRows> open_tiff16(const std::string& path, int width, int height, const PictureFileOptions& options) {
+  return std::make_unique<TiffRows>(path, width, height, options);
+}
+
+double tiff16_writer_bytes(int width, int) {
+  const int across = (width + tile_size - 1) / tile_size;
+  constexpr double tile_bytes = static_cast<double>(tile_values * sizeof(std::uint16_t));
+  return tile_bytes * (across + 2.0 * tiles_at_once);  // a row of tiles, those that are packed at once
+}
+
 void write_tiff16(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options) {
-  if (encoded.empty()) throw Error(ErrorKind::bug, path, "a picture without pixels");
-  OutputFile output(path);
-  const int across = (encoded.width() + tile_size - 1) / tile_size;
-  const bool big = static_cast<std::uint64_t>(encoded.size()) * 6 >= options.big_tiff_from_bytes;
-  std::string message;
-  {
-    const Tiff tiff = open_tiff(output.temporary(), big ? "w8l" : "w4l", message);  // l: little-endian on any machine
-    if (tiff == nullptr || !set_fields(tiff.get(), encoded, options)) output.fail(message);
-    std::vector<std::uint16_t> band;
-    ttile_t number = 0;
-    for (int y = 0; y < encoded.height(); y += tile_size) {
-      image_io::quantize_rows(encoded, y, std::min(y + tile_size, encoded.height()), across * tile_size, band);
-      band.resize(static_cast<std::size_t>(across) * tile_values);
-      for (std::vector<std::uint8_t>& packed : compress_tiles(band, across)) {
-        const auto bytes = static_cast<tmsize_t>(packed.size());
-        if (TIFFWriteRawTile(tiff.get(), number++, packed.data(), bytes) != bytes) output.fail(message);
-      }
-    }
-    // The directory is written here and not by closing, which cannot say that it failed.
-    if (TIFFWriteDirectory(tiff.get()) == 0 || !message.empty()) output.fail(message);
-  }
-  read_back(output, encoded, across);
-  output.commit();
+  write_whole(*open_tiff16(path, encoded.width(), encoded.height(), options), encoded);
 }
 
 }  // namespace belvedere

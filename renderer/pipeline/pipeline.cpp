@@ -11,7 +11,7 @@
 #include "renderer/image/color.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/output_file.h"
-#include "renderer/image/picture_formats.h"
+#include "renderer/image/rows/picture_files.h"
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/copied_ground.h"
 #include "renderer/pipeline/output_color.h"
@@ -60,6 +60,7 @@ PixelRect whole_picture(const Scene& scene) { return {0, 0, scene.output.width, 
 void write_panorama(const Grid<glm::vec3>& picture, const Scene& scene, const OutputColor& color, const FileNotes& notes,
                     const std::string& folder, Progress& progress) {
   progress.begin("writing the panorama", 0.0);
+  for (const std::string& note : reduction_notes("panorama", scene.output.formats, picture.width(), picture.height())) progress.note(note);
   const double dots_per_inch = scene.output.width / scene.output.sheet_width_mm * 25.4;
   write_pictures(join(folder, "panorama"), scene.output.formats, decode_srgb(picture), {color.display, color.profile}, dots_per_inch,
                  notes);

@@ -261,7 +261,7 @@ std::string scene_reference() {
                        projection.widest_deg > 0.0 ? fmt::format("up to {}°", projection.widest_deg) : "none, but `view_width_m`");
   out += "\n## Formats\n\n| ending | what it is for | what it holds |\n|---|---|---|\n";
   for (const PictureFormat& format : picture_formats())
-    if (format.write != nullptr) out += fmt::format("| `{}` | {} | {} |\n", format.ending, format.meaning, describe_format(format));
+    if (format.open != nullptr) out += fmt::format("| `{}` | {} | {} |\n", format.ending, format.meaning, describe_format(format));
   out += "\n## Classes\n\nThe number is what class images (`exemplar.classes`) hold.\n\n| number | class |\n|---|---|\n";
   for (const LandCoverClassInfo& info : land_cover_classes()) out += fmt::format("| {} | `{}` |\n", static_cast<int>(info.id), info.name);
   return out;

@@ -2,12 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <bit>
 #include <cmath>
-#include <csignal>
 #include <cstdlib>
 #include <functional>
 
@@ -15,12 +13,14 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "tests/renderer/image/picture_bytes.h"
+#include "tests/small_disk.h"
 
 namespace belvedere {
 namespace {
 
 using namespace std::string_literals;
 using test::Folder;
+using test::SmallDisk;
 
 ErrorKind kind_of(const std::function<void()>& f) {
   try {
@@ -42,27 +42,6 @@ Grid<glm::vec3> random_picture(int width, int height, std::uint64_t seed = 1) {
   }
   return out;
 }
-
-// A limit of file sizes stands for a full disk: writing fails in the middle of the file.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit small{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &small);
-  }
-  ~SmallDisk() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-
- private:
-  rlimit before_{};
-  void (*handler_)(int) = nullptr;
-};
 
 class MemoryLimit {
  public:

@@ -1,0 +1,136 @@
+#include "renderer/image/rows/picture_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "renderer/image/picture_formats.h"
+#include "renderer/image/rows/row_reducer.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int band_rows = 64;  // are converted at once
+
+struct OneFile {
+  const PictureFormat* format;
+  bool device;  // converted to the printer's colours
+  std::optional<RowReducer> reducer;
+  std::unique_ptr<PictureRows> rows;
+};
+
+std::vector<const PictureFormat*> formats_of(const std::vector<std::string>& endings) {
+  std::vector<const PictureFormat*> formats;
+  for (const std::string& ending : endings) formats.push_back(&written_format(ending));
+  return formats;
+}
+
+int reduced(int pixels, int factor) { return (pixels + factor - 1) / factor; }
+
+Image copy_rows(const Image& from, int first, int rows) {
+  Image out(from.width(), rows);
+  std::copy(from.row(first), from.row(first) + out.size(), out.data());
+  return out;
+}
+
+}  // namespace
+
+struct PictureFiles::State {
+  std::optional<DisplayConversion> display;
+  std::optional<ProfileConversion> device;
+  std::vector<OneFile> files;
+
+  // Files do not see each other: each is packed by a thread of its own, and most of them by more.
+  void write_band(const Image& linear) {
+    const bool any_whole =
+        std::any_of(files.begin(), files.end(), [](const OneFile& f) { return !f.format->linear && !f.reducer.has_value(); });
+    const Grid<glm::vec3> encoded = any_whole ? display->convert(linear) : Grid<glm::vec3>();
+    parallel_rows(static_cast<int>(files.size()), [&](int i) {
+      OneFile& file = files[static_cast<std::size_t>(i)];
+      Image small;
+      if (file.reducer) {
+        small = file.reducer->reduce(linear);
+        if (small.empty()) return;
+        if (!file.format->linear) small = display->convert(std::move(small));
+      }
+      const Grid<glm::vec3>& picture = file.reducer ? small : file.format->linear ? linear : encoded;
+      if (file.device)
+        file.rows->write_rows(device->convert(picture));
+      else
+        file.rows->write_rows(picture);
+    });
+  }
+};
+
+PictureFiles::PictureFiles(const std::string& stem, const std::vector<std::string>& endings, int width, int height,
+                           const PictureColors& colors, double dots_per_inch, const FileNotes& notes)
+    : state_(std::make_unique<State>()) {
+  const std::vector<const PictureFormat*> formats = formats_of(endings);
+  if (std::any_of(formats.begin(), formats.end(), [](const PictureFormat* f) { return !f->linear; }))
+    state_->display.emplace(colors.display);
+  for (const PictureFormat* format : formats) {
+    const bool device = format->device && !colors.device_profile.empty();
+    if (device && !state_->device) state_->device.emplace(colors.device_profile);
+    const int factor = reduction_factor(*format, width, height);
+    PictureFileOptions options;
+    options.dots_per_inch = dots_per_inch / factor;
+    options.icc_profile = !format->profile ? std::vector<std::uint8_t>{} : device ? colors.device_profile : srgb_profile();
+    options.notes = notes;
+    if (factor > 1) options.notes["belvedere:reduced"] = fmt::format("by {}, from {} × {} pixels", factor, width, height);
+    OneFile file{format,
+                 device,
+                 {},
+                 format->open(fmt::format("{}.{}", stem, format->ending), reduced(width, factor), reduced(height, factor), options)};
+    if (factor > 1) file.reducer.emplace(width, height, factor);
+    state_->files.push_back(std::move(file));
+  }
+}
+
+PictureFiles::~PictureFiles() = default;
+
+void PictureFiles::write_rows(const Image& linear) {
+  if (linear.height() <= band_rows) {
+    if (!linear.empty()) state_->write_band(linear);
+    return;
+  }
+  for (int y = 0; y < linear.height(); y += band_rows) state_->write_band(copy_rows(linear, y, std::min(band_rows, linear.height() - y)));
+}
+
+void PictureFiles::finish() {
+  std::vector<OneFile>& files = state_->files;
+  parallel_rows(static_cast<int>(files.size()), [&](int i) { files[static_cast<std::size_t>(i)].rows->finish(); });
+  for (OneFile& file : files) file.rows->commit();
+}
+
+double picture_files_bytes(const std::vector<std::string>& endings, int width, int height) {
+  // A band: its copy, encoded, in the printer's colours, reduced.
+  double bytes = 4.0 * band_rows * static_cast<double>(sizeof(glm::vec3)) * width;
+  for (const PictureFormat* format : formats_of(endings)) {
+    const int factor = reduction_factor(*format, width, height);
+    bytes += format->writer_bytes(reduced(width, factor), reduced(height, factor));
+  }
+  return bytes;
+}
+
+std::vector<std::string> reduction_notes(const std::string& name, const std::vector<std::string>& endings, int width, int height) {
+  std::vector<std::string> notes;
+  for (const PictureFormat* format : formats_of(endings)) {
+    const int factor = reduction_factor(*format, width, height);
+    if (factor > 1)
+      notes.push_back(fmt::format("{}.{} is {} × {} pixels, the picture reduced by {}", name, format->ending, reduced(width, factor),
+                                  reduced(height, factor), factor));
+  }
+  return notes;
+}
+
+void write_pictures(const std::string& stem, const std::vector<std::string>& endings, const Image& linear, const PictureColors& colors,
+                    double dots_per_inch, const FileNotes& notes) {
+  PictureFiles files(stem, endings, linear.width(), linear.height(), colors, dots_per_inch, notes);
+  files.write_rows(linear);
+  files.finish();
+}
+
+}  // namespace belvedere

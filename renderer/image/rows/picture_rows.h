@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+
+#include "base/grid.h"
+#include "base/image.h"
+
+namespace belvedere {
+
+// A picture file that is written from top to bottom, any number of rows at a time; how the rows come changes no byte of it. What the writer
+// holds of them is at most the band that its format packs at once. The rows go to a temporary name (output_file.h): without commit() an
+// older file stays as it is and the temporary one is removed. Throws Error(output), and Error(bug) for rows that do not fit.
+class PictureRows {
+ public:
+  virtual ~PictureRows() = default;
+  PictureRows(const PictureRows&) = delete;
+  PictureRows& operator=(const PictureRows&) = delete;
+
+  // Colours as the format takes them: encoded 0…1, or scene-linear.
+  void write_rows(const Grid<glm::vec3>& rows);
+  // Completes the file, brings it to disk and compares what can be read there with what was written, by a hash.
+  void finish();
+  // Puts it in the place of the older one; finish() before.
+  void commit();
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ protected:
+  PictureRows(std::string path, int width, int height, int band_rows);
+
+ private:
+  // Rows [first, first + rows) of `from`, which are next in the band, from its row `at` on.
+  virtual void take(const Grid<glm::vec3>& from, int first, int rows, int at) = 0;
+  // The band that begins at row y0 of the picture is full, or the picture ends with it.
+  virtual void write_band(int y0, int rows) = 0;
+  virtual void complete() = 0;
+  virtual void replace() = 0;
+
+  std::string path_;
+  int width_;
+  int height_;
+  int band_rows_;
+  int next_row_ = 0;
+  bool finished_ = false;
+};
+
+// All rows at once, finish(), commit().
+void write_whole(PictureRows& file, const Grid<glm::vec3>& picture);
+
+}  // namespace belvedere
