@@ -10,6 +10,14 @@ namespace belvedere {
 
 // What the files of this folder share, the only one of the project that knows GDAL. Nothing outside of it includes this header.
 
+// The other side of http_access.h: names of addresses as GDAL has them and back (empty: none), its settings for this thread, a warning that
+// may say that a try is repeated, and a failure in a user's words.
+std::string address_to_gdal(const std::string& address);
+std::string address_from_gdal(const std::string& path);
+void set_http_of_thread();
+void tell_http_retry(const char* text);
+std::string explain_http(const std::string& problem);
+
 // While it lives, GDAL prints nothing in this thread, and the first failure it reports is kept in its own words.
 class GdalErrors {
  public:
@@ -28,6 +36,7 @@ class GdalErrors {
  private:
   static void CPL_STDCALL collect(CPLErr severity, CPLErrorNum, const char* text) {
     auto* errors = static_cast<GdalErrors*>(CPLGetErrorHandlerUserData());
+    if (severity == CE_Warning) tell_http_retry(text);
     if (severity < CE_Failure || errors->failed_) return;  // debug messages and warnings
     errors->failed_ = true;
     errors->text_ = text;

@@ -10,12 +10,15 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <set>
 #include <string_view>
 
 #include "base/error.h"
 #include "base/memory_limit.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/gdal/gdal_files.h"
+#include "terrain/io/http_access.h"
+#include "terrain/io/raster_parts.h"
 
 namespace belvedere {
 namespace {
@@ -39,6 +42,7 @@ void make_strict() {
   CPLSetThreadLocalConfigOption("GDAL_NUM_THREADS", "1");
   CPLSetThreadLocalConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
   CPLSetThreadLocalConfigOption("GDAL_NETCDF_VERIFY_DIMS", "STRICT");
+  set_http_of_thread();
 }
 
 Dataset open_checked(const std::string& path, int nesting);
@@ -55,7 +59,9 @@ void check_vrt_node(const CPLXMLNode* node, const std::string& path, int nesting
       const bool relative = std::string_view(CPLGetXMLValue(node, "relativeToVRT", "0")) == "1";
       const fs::path file = CPLGetXMLValue(node, nullptr, "");
       try {
-        open_checked(relative ? (fs::path(path).parent_path() / file).string() : file.string(), nesting + 1);
+        const std::string address = address_from_gdal(file.string());
+        const bool beside = relative && address.empty();
+        open_checked(!address.empty() ? address : beside ? (fs::path(path).parent_path() / file).string() : file.string(), nesting + 1);
       } catch (const Error& error) {
         throw Error(error.kind(), path, fmt::format("its source \"{}\": {}", error.where(), error.found()), error.allowed());
       }
@@ -74,7 +80,27 @@ void check_vrt(const std::string& path, int nesting) {
   check_vrt_node(root.get(), path, nesting);
 }
 
+// A raster on a server. No VRT: what it names lies who knows where.
+Dataset open_address(const std::string& address) {
+  check_address(address);
+  if (!http_allowed())
+    throw Error(ErrorKind::input, address, "lies on a server, and servers may not be asked", "--allow-http, or a copy of the file here");
+  make_strict();
+  // Nothing but the file itself: no listing of the folder it lies in, no files beside it.
+  const CPLConfigOptionSetter alone("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR", false);
+  CPLStringList allowed;
+  for (const char* driver : drivers) allowed.AddString(driver);
+  const GdalErrors errors;
+  Dataset dataset(GDALOpenEx(address_to_gdal(address).c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, allowed.List(),
+                             nullptr, nullptr));
+  if (!dataset)
+    throw Error(ErrorKind::input, address, explain_http(errors.say("its server does not answer as it should, or it is no raster")),
+                driver_names);
+  return dataset;
+}
+
 Dataset open_checked(const std::string& path, int nesting) {
+  if (is_address(path)) return open_address(path);
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) throw Error(ErrorKind::input, path, "there is no such file", driver_names);
   make_strict();
@@ -245,7 +271,11 @@ Grid<T> RasterFile::State::read(GDALRasterBandH from, const CellWindow& window, 
   const CPLErr result =
       GDALRasterIO(from, GF_Read, window.x0, window.y0, window.width, window.height, cells.data(), window.width, window.height, type, 0, 0);
   // Some drivers report a failure and still return success.
-  if (result != CE_None || errors.failed()) throw Error(ErrorKind::input, source.path, errors.say("is damaged or cut short"));
+  if (result != CE_None || errors.failed()) {
+    const bool remote = is_address(source.path);
+    throw Error(ErrorKind::input, source.path,
+                explain_http(errors.say(remote ? "cannot be read to its end from its server" : "is damaged or cut short")));
+  }
   return cells;
 }
 
@@ -302,6 +332,35 @@ Grid<std::int32_t> RasterFile::read_codes(const CellWindow& window) const {
   for (std::size_t i = 0; i < codes.size(); ++i)
     if (s.is_void(raw[i]) || (!mask.empty() && mask[i] == 0) || codes[i] < 0) codes[i] = -1;
   return codes;
+}
+
+namespace {
+
+void gather_parts(const std::string& path, int nesting, std::set<std::string>& parts) {
+  if (!parts.insert(path).second || is_address(path)) return;
+  const Dataset dataset = open_checked(path, nesting);
+  const GdalErrors errors;
+  const CPLStringList files(GDALGetFileList(dataset.get()));
+  for (int i = 0; i < files.Count(); ++i) {
+    const std::string address = address_from_gdal(files[i]);
+    const std::string part = address.empty() ? files[i] : address;
+    // What a VRT names are rasters with files of their own; x.vrt.ovr and the like are its own.
+    if (lower_ending(path) == ".vrt" && !part.starts_with(path) && !parts.contains(part))
+      gather_parts(part, nesting + 1, parts);
+    else
+      parts.insert(part);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> raster_parts(const std::string& path) {
+  std::set<std::string> parts;
+  gather_parts(path, 0, parts);
+  parts.erase(path);
+  std::vector<std::string> all = {path};
+  all.insert(all.end(), parts.begin(), parts.end());
+  return all;
 }
 
 }  // namespace belvedere
