@@ -12,6 +12,7 @@
 #include "renderer/scene/scene_rules.h"
 #include "renderer/scene/scene_schema.h"
 #include "renderer/scene/scene_settings.h"
+#include "terrain/io/http_access.h"
 
 namespace belvedere {
 namespace {
@@ -188,6 +189,8 @@ class ValueReader {
 
   void check_file(const std::string& file) const {
     if (file.empty()) refuse(value_, key_name_ + " is empty", "a file name");
+    if (is_address(file) && !key_.raster)
+      refuse(value_, fmt::format("{} is {}", key_name_, describe(value_)), "a file here: only rasters are read from servers");
     try {
       find_scene_file(scene_, file);
     } catch (const Error& error) {

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/scene/scene_schema.h"
+#include "terrain/io/http_access.h"
 
 namespace belvedere {
 namespace {
@@ -43,6 +44,12 @@ std::string find_scene_file(const LoadedScene& scene, const std::string& file) {
   if (file.empty()) return {};
   if (std::any_of(file.begin(), file.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
     refuse("the file's name has control characters in it");
+  if (is_address(file)) {
+    check_address(file);
+    if (http_allowed()) return file;
+    throw Error(ErrorKind::usage, file, "the file lies on a server, and servers may not be asked",
+                "--allow-http, or a copy of the file here");
+  }
   std::vector<fs::path> folders;
   for (const std::string& folder : scene.allowed_folders) folders.push_back(resolved(folder.empty() ? "." : folder));
   const auto allowed = [&](const fs::path& path) {

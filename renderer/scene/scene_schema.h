@@ -54,6 +54,7 @@ struct SceneKey {
   std::string_view choices_from = {};  // embedded folder of TextKind::built_in
   bool required = false;
   bool lonlat = false;  // a pair of longitude and latitude
+  bool raster = false;  // a file that may also lie on a server
 };
 
 enum class SectionKind {

@@ -8,9 +8,10 @@ std::vector<SceneKey> make_source_keys(bool heights) {
   std::vector<SceneKey> keys = {
       {.name = "file",
        .field = source(AT(terrain.sources[i].file), AT(land_cover.sources[i].file)),
-       .meaning = "Raster in any common format (GeoTIFF, ESRI ASCII, HGT …).",
+       .meaning = "Raster in any common format (GeoTIFF, ESRI ASCII, HGT …); with --allow-http also its address, https://….",
        .text = TextKind::file,
-       .required = true},
+       .required = true,
+       .raster = true},
       {.name = "band",
        .field = source(AT(terrain.sources[i].raster.band), AT(land_cover.sources[i].raster.band)),
        .range = {1, 65535},

@@ -2,19 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <string>
 
 #include "renderer/image/provenance.h"
+#include "renderer/scene/input_hash.h"
 #include "terrain/io/raster_io.h"
 
 namespace belvedere {
 
 FileNotes make_world_notes(const LoadedScene& loaded, const World& world) {
-  std::map<std::string, std::string> inputs;
+  Provenance provenance = make_provenance(write_scene(loaded.scene), {});
   for (const SceneInput& input : scene_inputs(loaded))
-    if (!input.path.empty()) inputs[input.file] = input.path;
-  Provenance provenance = make_provenance(write_scene(loaded.scene), inputs);
+    if (!input.path.empty()) provenance.inputs[input.file] = hash_input(input.path).hash;
   provenance.instruction_set = world.tracer.description();
   FileNotes notes = to_notes(provenance);
   const CameraParameters& camera = world.view.camera;

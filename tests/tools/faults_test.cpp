@@ -13,6 +13,8 @@
 //   SIGINT, SIGTERM, a second one                 Program.SignalsStopItAndASecondOneEndsIt
 //   allocation that fails                         Program.TooLittleMemoryIsALimit
 //   bad ICC profiles and OpenColorIO configs      Icc.FaultsAreNamed, Color.FaultsAreNamed
+//   inputs that are not those of the lock file    Lock.ChangedInputsAreRefusedByAllThatAreHeldToTheLock
+//   servers: each way of reading from them        Http.*
 //   closed streams, other locales                 Program.ClosedStreamsDoNoHarm, Program.LocaleChangesNothing
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -24,6 +26,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -31,6 +34,7 @@
 
 #include "renderer/image/image_io.h"
 #include "terrain/io/raster_io.h"
+#include "tests/http_server.h"
 #include "tests/renderer/image/picture_bytes.h"
 #include "tests/tools/program.h"
 
@@ -275,6 +279,35 @@ TEST_F(Faults, BadColourFilesAreFoundBeforeTheWork) {
   EXPECT_EQ(good.status, 0) << good.err;
   fs::remove(path("show.ocio"));
   expect_refusal(scene(config), 3, HasSubstr("show.ocio"));
+}
+
+// ---- servers
+
+TEST_F(Faults, ServersThatFailAreAskedAgainAndThoseThatStallAreInputErrors) {
+  if (!test::has_python()) GTEST_SKIP() << "there is no python3 to serve files";
+  write_raster(path("hills.tif"), hills());
+  const auto scene = [&](const test::HttpServer& server) { return write_hills_scene(source(server.address("hills.tif")), strokes_only); };
+  const test::HttpServer fails(folder_.path(), {"fail=2"});
+  expect_refusal(scene(fails), 2, AllOf(HasSubstr("scene.toml:3:8"), HasSubstr("--allow-http")));
+  const Outcome retried = run({"guidance", scene(fails), "--out", path("served"), "--allow-http"});
+  EXPECT_EQ(retried.status, 0) << retried.err;
+  EXPECT_THAT(retried.err, AllOf(HasSubstr("note: "), HasSubstr("503"), HasSubstr("Retrying")));
+  ASSERT_EQ(run({"guidance", write_hills_scene(source("hills.tif")), "--out", path("local")}).status, 0);
+  EXPECT_EQ(read_channel(path("served/guidance.exr"), "altitude.V"), read_channel(path("local/guidance.exr"), "altitude.V"));
+  // The header knows the file by its bytes, wherever it lies.
+  const std::string hash = read_image_info(path("local/guidance.exr")).notes.at("belvedere:inputs").substr(0, 32);
+  EXPECT_EQ(read_image_info(path("served/guidance.exr")).notes.at("belvedere:inputs"), hash + "  " + fails.address("hills.tif") + "\n");
+
+  const test::HttpServer stalls(folder_.path(), {"stall"});
+  expect_refusal(scene(stalls), 3, HasSubstr(stalls.address("hills.tif")), {"--allow-http", "--http-silence", "1"});
+  // What fits into the first answer, 16 KiB, needs no parts; rough ground does not.
+  Raster<float> rough{Grid<float>(240, 240), {east, north, 20.0, 20.0}, normalize_crs("EPSG:32632")};
+  std::uint32_t state = 1;
+  for (float& z : rough.cells) z = 1000.F + static_cast<float>((state = state * 1664525U + 1013904223U) >> 8U) * 1e-5F;
+  write_raster(path("rough.tif"), rough);
+  const test::HttpServer whole(folder_.path(), {"no-ranges"});
+  expect_refusal(write_hills_scene(source(whole.address("rough.tif")), strokes_only), 3,
+                 AllOf(HasSubstr(whole.address("rough.tif")), HasSubstr("only whole")), {"--allow-http"});
 }
 
 // ---- light

@@ -75,6 +75,7 @@ std::string as_text(const LoadedScene& scene, const SceneReport& report) {
 Action add_check(CLI::App& command) {
   const auto options = std::make_shared<SceneOptions>();
   add_scene_options(command, *options);
+  add_locked_option(command, *options);
   command.footer(
       "Looks at the scene's keys, its files, the terrain, the camera's place, and whether the exemplars\n"
       "show every class that is in the picture. Exit status 0: in order.\n\n"

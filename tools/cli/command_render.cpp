@@ -51,6 +51,7 @@ int run_job(const Options& options, Job job, Results results) {
 Action add_job(CLI::App& command, const char* footer, Job job, Results results) {
   const auto options = std::make_shared<Options>();
   add_scene_options(command, options->scene);
+  add_locked_option(command, options->scene);
   command.add_option("--out", options->out, "Folder for the results; made where it is missing. Default: one named like the scene")
       ->type_name("DIR");
   command.add_option("--tile", options->tile_size, "Side of the tiles that threads work on, in pixels. Changes no pixel")

@@ -10,6 +10,8 @@ const std::vector<Command>& all_commands() {
       {"", "generalize", "Simplifies a DEM for a map: weights landforms by their size, keeps ridges sharp", add_generalize},
       {"", "synthesize", "Lays a painting's texture over a label map; works on image files alone", add_synthesize},
       {"", "check", "Says whether a scene can be rendered, without rendering it", add_check},
+      {"", "lock", "Writes down a scene's inputs and pixels, to tell later and elsewhere whether they are the same", add_lock},
+      {"", "verify", "Renders scenes small and compares inputs and pixels with what their locks say", add_verify},
       {"", "deform", "Bends, exaggerates and moves ground: a DEM to a deformed DEM; finds bends and places", add_deform},
       {"exemplar", "check", "Tells what a painting can serve before anything is copied from it", add_exemplar_check},
       {"exemplar", "compare", "Sets figures of pictures side by side: what gives one away as computed?", add_exemplar_compare},

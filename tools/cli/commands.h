@@ -40,9 +40,11 @@ Action add_exemplar_paint(CLI::App& command);
 Action add_generalize(CLI::App& command);
 Action add_guidance(CLI::App& command);
 Action add_info(CLI::App& command);
+Action add_lock(CLI::App& command);
 Action add_man(CLI::App& command);
 Action add_render(CLI::App& command);
 Action add_schema(CLI::App& command);
 Action add_synthesize(CLI::App& command);
+Action add_verify(CLI::App& command);
 
 }  // namespace belvedere::tools

@@ -28,7 +28,7 @@ constexpr const char* description =
     "  belvedere COMMAND --help                              all about one command";
 
 constexpr const char* footer =
-    "Exit status: 0 done, 2 command line or scene file, 3 input data, 4 output, 5 over a limit\n"
+    "Exit status: 0 done, 1 diff or verify found a difference, 2 command line or scene file, 3 input data, 4 output, 5 over a limit\n"
     "(memory, size), 75 stopped by you, 70 a fault of the program.";
 
 struct Program {

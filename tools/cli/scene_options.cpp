@@ -2,24 +2,30 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <memory>
 
 #include "base/embedded.h"
 #include "base/error.h"
+#include "renderer/scene/scene_lock.h"
+#include "terrain/io/http_access.h"
+#include "tools/cli/terminal.h"
 
 namespace belvedere::tools {
 
-void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& meaning) {
-  command.add_option("SCENE", options.scene, meaning);
+void add_file_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option("--data", options.files.data_folders,
                   "A folder in which the scene's files may lie, beside the scene's own; may be repeated")
       ->type_name("DIR")
       ->allow_extra_args(false);
-  command
-      .add_option("--set", options.files.settings,
-                  "Overrides a key of the scene: --set output.width=1200, --set exemplar.0.seed=3; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  command.add_flag("--allow-http", options.allow_http, "Rasters may be addresses, https://…; without it no server is asked for anything");
+  command.add_option("--http-silence", options.http_silence_s, "How long a server may send nothing before it counts as lost, in seconds")
+      ->type_name("S")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 3600));
+}
+
+void add_run_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--threads", options.threads, "How many processor threads to use; 0, the default, takes all. Changes no pixel")
       ->type_name("N")
       ->check(CLI::Range(0, 4096));
@@ -30,8 +36,38 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
   command.add_flag("--json", options.json, "The result as JSON on standard output");
 }
 
+void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& meaning) {
+  command.add_option("SCENE", options.scene, meaning);
+  add_file_options(command, options);
+  command
+      .add_option("--set", options.files.settings,
+                  "Overrides a key of the scene: --set output.width=1200, --set exemplar.0.seed=3; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  add_run_options(command, options);
+}
+
+void add_locked_option(CLI::App& command, SceneOptions& options) {
+  command.add_flag("--locked", options.locked, "Only with the inputs that the scene's lock file knows, byte for byte; see belvedere lock");
+}
+
+void allow_servers(const SceneOptions& options) {
+  if (!options.allow_http) return;
+  const bool quiet = options.quiet;
+  static std::unique_ptr<HttpAccess> access;  // as long as the program runs
+  access = std::make_unique<HttpAccess>(HttpParameters{.silence_s = options.http_silence_s, .tell = [quiet](const std::string& text) {
+                                                         if (!quiet) print_error("note: " + text + "\n");
+                                                       }});
+}
+
 LoadedScene load(const SceneOptions& options) {
-  if (!options.scene.empty()) return read_scene(options.scene, options.files);
+  allow_servers(options);
+  if (!options.scene.empty()) {
+    LoadedScene scene = read_scene(options.scene, options.files);
+    if (options.locked) require_locked_inputs(scene, read_lock(lock_path(options.scene)), options.scene);
+    return scene;
+  }
+  if (options.locked) throw Error(ErrorKind::usage, "--locked", "the built-in demo has no lock file", "a scene file");
   const std::string demo(embedded_file("scenes/demo/demo.toml"));
   return parse_scene(demo, "demo.toml", ".", options.files);
 }

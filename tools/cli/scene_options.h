@@ -15,8 +15,11 @@ namespace belvedere::tools {
 struct SceneOptions {
   std::string scene;  // path; empty: the built-in demo
   SceneFileOptions files;
-  int threads = 0;     // 0: all
-  int memory_mib = 0;  // 0: three quarters of the machine's
+  bool locked = false;      // inputs must be those of the scene's lock
+  bool allow_http = false;  // rasters may lie on servers
+  int http_silence_s = 30;  // s that a server may send nothing
+  int threads = 0;          // 0: all
+  int memory_mib = 0;       // 0: three quarters of the machine's
   bool quiet = false;
   bool json = false;
 };
@@ -24,7 +27,14 @@ struct SceneOptions {
 // meaning: of the scene, in the command's help.
 void add_scene_options(CLI::App& command, SceneOptions& options,
                        const std::string& meaning = "The scene file; without one the built-in demo");
-// Reads the scene, or the demo.
+// The parts of it that commands with several scenes take as well: --data and --allow-http, and threads, memory, quiet, json.
+void add_file_options(CLI::App& command, SceneOptions& options);
+void add_run_options(CLI::App& command, SceneOptions& options);
+// --locked, which load() then holds to.
+void add_locked_option(CLI::App& command, SceneOptions& options);
+// Opens the way to servers for the rest of the program, where the options allow it.
+void allow_servers(const SceneOptions& options);
+// Reads the scene, or the demo; its inputs are those of its lock where that is asked for.
 LoadedScene load(const SceneOptions& options);
 // How the job is to be done, as the command line says.
 Run make_run(const SceneOptions& options, int tile_px = Run{}.tile_px, Progress& progress = silent_progress());

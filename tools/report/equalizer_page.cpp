@@ -18,6 +18,7 @@
 #include "renderer/image/output_file.h"
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/generalize/generalize_report.h"
+#include "tools/report/data_uri.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
 
@@ -41,18 +42,6 @@ struct Preview {
   Grid<float> foot_mask, slope_mask, drawn_mask;
 };
 
-std::string base64(std::string_view bytes) {
-  static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve(bytes.size() / 3 * 4 + 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = (group << 8) | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) out += i + k > bytes.size() ? '=' : digits[(group >> (18 - 6 * k)) & 63U];
-  }
-  return out;
-}
-
 std::string base64(const Grid<float>& values) {
   std::string bytes;
   bytes.reserve(values.size() * 4);
@@ -60,10 +49,10 @@ std::string base64(const Grid<float>& values) {
     const auto bits = std::bit_cast<std::uint32_t>(v);  // little end first
     for (int i = 0; i < 4; ++i) bytes += static_cast<char>((bits >> (8 * i)) & 0xffU);
   }
-  return base64(std::string_view(bytes));
+  return tools::base64(bytes);
 }
 
-std::string base64(const Grid<unsigned char>& values) { return base64(std::string(values.begin(), values.end())); }
+std::string base64(const Grid<unsigned char>& values) { return tools::base64(std::string(values.begin(), values.end())); }
 
 // Cell i over cell 2 i, as reduce() takes altitudes.
 Grid<unsigned char> every_other(const Grid<unsigned char>& cells) {

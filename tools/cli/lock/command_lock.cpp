@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "base/error.h"
+#include "base/json.h"
+#include "renderer/image/output_file.h"
+#include "renderer/image/provenance.h"
+#include "renderer/pipeline/scene_lock_run.h"
+#include "renderer/scene/scene_lock.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/lock/scratch_folder.h"
+#include "tools/cli/scene_options.h"
+#include "tools/cli/terminal.h"
+
+namespace belvedere::tools {
+namespace {
+
+constexpr int usual_width_px = 800;  // quick, and every stage has its part in it
+
+struct Options {
+  SceneOptions scene;
+  int width = 0;  // 0: as before, else usual_width_px
+  bool update = false;
+};
+
+[[noreturn]] void refuse(const std::string& lock, const std::string& found) {
+  throw Error(ErrorKind::input, lock, found, "belvedere lock --update, where the new state is meant");
+}
+
+// The lock that is there already. With --update a broken one counts as none.
+std::optional<SceneLock> old_lock(const std::string& path, bool update) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return std::nullopt;
+  try {
+    return read_lock(path);
+  } catch (const Error&) {
+    if (!update) throw;
+    return std::nullopt;
+  }
+}
+
+// All that is not as it was, pixels apart: a lock that is to be kept shows it before anything is rendered.
+std::string describe_changes(const SceneLock& old, const SceneLock& now) {
+  std::string out = describe(compare_inputs(old.inputs, now.inputs));
+  const auto add = [&out](const char* what, const std::string& before, const std::string& after) {
+    if (before != after) out += fmt::format("\n  {}: {} in the lock, now {}", what, before, after);
+  };
+  add("size", fmt::format("{}×{}", old.width, old.height), fmt::format("{}×{}", now.width, now.height));
+  add("settings", fmt::format("[{}]", fmt::join(old.settings, ", ")), fmt::format("[{}]", fmt::join(now.settings, ", ")));
+  add("the scene with its defaults", old.scene, now.scene);
+  add("program", old.program, now.program);
+  return out;
+}
+
+int run_lock(Options options) {
+  const std::string path = lock_path(options.scene.scene);
+  check_output_folder(std::filesystem::path(path).parent_path().string());
+  const std::optional<SceneLock> old = old_lock(path, options.update);
+  // Locked again as it was locked before, unless the command line says otherwise.
+  if (old && options.scene.files.settings.empty()) options.scene.files.settings = old->settings;
+  const LoadedScene as_written = load(options.scene);
+  const int width = options.width > 0 ? options.width : old ? old->width : std::min(usual_width_px, as_written.scene.output.width);
+  const LoadedScene scene = at_width(as_written, width);
+  SceneLock lock{.program = program_version(),
+                 .scene = hash_scene(scene.scene),
+                 .width = scene.scene.output.width,
+                 .height = scene.scene.output.height,
+                 .settings = options.scene.files.settings,
+                 .inputs = find_inputs(scene),
+                 .products = {}};
+  if (old && !options.update)
+    if (const std::string changes = describe_changes(*old, lock); !changes.empty())
+      refuse(path, "the scene is not as it was locked:" + changes);
+
+  const ScratchFolder folder;
+  TerminalProgress progress(options.scene.quiet);
+  lock.products = render_and_hash(scene, folder.path(), make_run(options.scene, Run{}.tile_px, progress));
+  progress.end();
+  if (old && !options.update)
+    if (const std::string changes = describe(compare_products(old->products, lock.products)); !changes.empty())
+      refuse(path, "the pictures are not as they were locked:" + changes);
+  write_text_file(path, write_lock(lock));
+
+  if (options.scene.json)
+    print_out(Json::object()
+                  .add("lock", Json::text(path))
+                  .add("width", Json::number(lock.width))
+                  .add("height", Json::number(lock.height))
+                  .add("inputs", Json::number(static_cast<double>(lock.inputs.size())))
+                  .add("products", Json::number(static_cast<double>(lock.products.size())))
+                  .str() +
+              "\n");
+  else if (!options.scene.quiet)
+    print_out(
+        fmt::format("{}: {} inputs; {} files of {}×{} pixels\n", path, lock.inputs.size(), lock.products.size(), lock.width, lock.height));
+  return 0;
+}
+
+}  // namespace
+
+Action add_lock(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  add_scene_options(command, options->scene, "The scene file");
+  command.get_option("SCENE")->required();
+  command
+      .add_option(
+          "--width", options->width,
+          "Width of the picture that is verified, in pixels, its height in proportion. Default: as in the lock that is there, else 800, "
+          "or the scene's where that is less")
+      ->type_name("PX")
+      ->check(CLI::Range(16, 65535));
+  command.add_flag("--update", options->update, "Write the lock anew where something differs from the one that is there");
+  command.footer(
+      "Writes SCENE.lock beside SCENE.toml: size and hash of every file the scene reads, the program's version,\n"
+      "and what the pixels of the pictures hash to, channel by channel. Keep it with the scene. Then\n"
+      "  belvedere render --locked SCENE.toml   renders with those inputs or not at all\n"
+      "  belvedere verify *.toml                says whether the pictures are still the same\n"
+      "Where a lock is there and something differs, it says what (exit status 3) and leaves the lock as it is.\n\n"
+      "  belvedere lock scenes/karwendel.toml --data ../data");
+  return [options] { return run_lock(*options); };
+}
+
+}  // namespace belvedere::tools

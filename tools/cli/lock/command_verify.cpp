@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <optional>
+#include <set>
+
+#include "base/error.h"
+#include "base/json.h"
+#include "renderer/image/output_file.h"
+#include "renderer/image/provenance.h"
+#include "renderer/pipeline/scene_lock_run.h"
+#include "renderer/scene/scene_lock.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/lock/scratch_folder.h"
+#include "tools/cli/scene_options.h"
+#include "tools/cli/terminal.h"
+#include "tools/report/verification.h"
+
+namespace belvedere::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  SceneOptions scene;  // what the scenes have in common
+  std::vector<std::string> scenes;
+  std::string out, against, junit, page;
+};
+
+void compare(Verification& result, const Options& options) {
+  const SceneLock lock = read_lock(lock_path(result.scene));
+  SceneOptions one = options.scene;
+  one.scene = result.scene;
+  one.files.settings = settings_of(lock);
+  const LoadedScene scene = load(one);
+  require_locked_inputs(scene, lock, result.scene);
+  result.inputs = lock.inputs.size();
+  if (lock.program != program_version())
+    result.notes.push_back(fmt::format("locked by version {}, this is {}", lock.program, program_version()));
+  if (lock.scene != hash_scene(scene.scene))
+    result.notes.emplace_back("the scene, or what it leaves to the program, has changed since it was locked");
+
+  TerminalProgress progress(options.scene.quiet);
+  const std::vector<LockedProduct> products = render_and_hash(scene, result.folder, make_run(one, Run{}.tile_px, progress));
+  progress.end();
+  result.width = lock.width;
+  result.height = lock.height;
+  result.differences = compare_products(lock.products, products);
+  std::set<std::string> names;
+  for (const LockedProduct& product : lock.products) names.insert(product.file);
+  for (const LockedProduct& product : products) names.insert(product.file);
+  result.products.assign(names.begin(), names.end());
+}
+
+// A scene that cannot be compared keeps no other from it; only the user stops all.
+Verification verify(const std::string& scene, const std::string& name, const std::string& folder, const Options& options) {
+  const auto begun = std::chrono::steady_clock::now();
+  Verification result;
+  result.scene = scene;
+  result.name = name;
+  result.folder = (fs::path(folder) / name).string();
+  const auto fail = [&](ErrorKind kind, const std::string& text) {
+    result.error_status = static_cast<int>(kind);
+    result.error = text;
+  };
+  try {
+    compare(result, options);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::interrupted) throw;
+    fail(error.kind(), error.what());
+  } catch (const std::bad_alloc&) {
+    fail(ErrorKind::limit, "there is not enough memory");
+  } catch (const std::exception& error) {
+    fail(ErrorKind::bug, std::string("unexpected: ") + error.what());
+  }
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  return result;
+}
+
+// Two scenes of one name, from two folders, get folders of their own: alps, alps-2.
+std::string name_for(const std::string& scene, std::set<std::string>& used) {
+  const std::string stem = fs::path(scene).stem().string();
+  std::string name = stem;
+  for (int i = 2; !used.insert(name).second; ++i) name = fmt::format("{}-{}", stem, i);
+  return name;
+}
+
+std::string as_json(const std::vector<Verification>& all) {
+  Json scenes = Json::array();
+  for (const Verification& one : all) {
+    Json differences = Json::array();
+    for (const LockDifference& difference : one.differences)
+      differences.add(Json::object()
+                          .add("file", Json::text(difference.file))
+                          .add("channel", Json::text(difference.channel))
+                          .add("locked", Json::text(difference.locked))
+                          .add("found", Json::text(difference.found)));
+    scenes.add(Json::object()
+                   .add("scene", Json::text(one.scene))
+                   .add("same", Json::boolean(one.same()))
+                   .add("width", Json::number(one.width))
+                   .add("height", Json::number(one.height))
+                   .add("notes", Json::texts(one.notes))
+                   .add("differences", std::move(differences))
+                   .add("error_status", Json::number(one.error_status))
+                   .add("error", Json::text(one.error)));
+  }
+  return Json::object().add("scenes", std::move(scenes)).str() + "\n";
+}
+
+int run_verify(const Options& options) {
+  // What cannot be written is told before the work.
+  for (const std::string& file : {options.junit, options.page})
+    if (!file.empty()) check_output_folder(fs::path(file).parent_path().string());
+  if (!options.out.empty()) check_output_folder(options.out);
+  if (!options.against.empty() && !fs::is_directory(options.against))
+    throw Error(ErrorKind::input, options.against, "there is no such folder", "one that belvedere verify --out made");
+  const ScratchFolder scratch;
+  const std::string folder = options.out.empty() ? scratch.path() : options.out;
+  std::set<std::string> used;
+  std::vector<Verification> all;
+  for (const std::string& scene : options.scenes) {
+    all.push_back(verify(scene, name_for(scene, used), folder, options));
+    if (!options.scene.json) print_out(one_line(all.back()) + "\n");
+  }
+  if (options.scene.json) print_out(as_json(all));
+  if (!options.junit.empty()) write_text_file(options.junit, verification_junit(all));
+  if (!options.page.empty())
+    write_text_file(options.page, verification_page(all, {.against = options.against, .scratch_folder = scratch.path()}));
+  return exit_status(all);
+}
+
+}  // namespace
+
+Action add_verify(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("SCENE", options->scenes, "Scene files, each with its lock file beside it")->required();
+  add_file_options(command, options->scene);
+  command.add_option("--out", options->out, "Keeps the pictures, each scene's in a folder of its name")->type_name("DIR");
+  command.add_option("--against", options->against, "Pictures of an earlier run, as --out kept them: the page then shows what differs")
+      ->type_name("DIR");
+  command.add_option("--junit", options->junit, "Writes the results as JUnit XML, for services that show tests")->type_name("FILE");
+  command.add_option("--page", options->page, "Writes a page that needs no other file: what differs, with pictures")->type_name("FILE");
+  add_run_options(command, options->scene);
+  command.footer(
+      "Renders each scene at the size its lock says, with the settings it says, and compares every channel; a line a\n"
+      "scene. Exit status 0: all are the same; 1: something differs; else that of the first scene that could not be\n"
+      "compared: no lock, inputs that are not those of the lock (3), a fault in the scene (2) …. The others are\n"
+      "compared all the same.\n\n"
+      "  belvedere verify scenes/*.toml --data ../data --junit verify.xml --page verify.html");
+  return [options] { return run_verify(*options); };
+}
+
+}  // namespace belvedere::tools

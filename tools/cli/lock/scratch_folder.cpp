@@ -1,0 +1,38 @@
+#include "tools/cli/lock/scratch_folder.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "base/error.h"
+#include "renderer/image/output_file.h"
+
+namespace belvedere::tools {
+
+ScratchFolder::ScratchFolder() {
+  std::error_code problem;
+  const std::filesystem::path place = std::filesystem::temp_directory_path(problem);
+  if (problem) throw Error(ErrorKind::output, "TMPDIR", "no folder for temporary files: " + problem.message());
+  path_ = (place / "belvedere-XXXXXX").string();
+  if (::mkdtemp(path_.data()) == nullptr)
+    throw Error(ErrorKind::output, place.string(), "no folder can be made in it: " + std::generic_category().message(errno),
+                "another place, named by the variable TMPDIR");
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+void write_text_file(const std::string& path, const std::string& text) {
+  OutputFile file(path);
+  std::ofstream stream(file.temporary(), std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) file.fail("");
+  file.commit();
+}
+
+}  // namespace belvedere::tools
