@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "base/cache/cache.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/progress.h"
@@ -14,6 +15,7 @@ struct Run {
   std::uint64_t memory_bytes = 0;  // what pictures and rasters may take; 0: the default of base/memory_limit.h
   int tile_px = 32;                // side of the tiles that threads work on, 8…4096
   Progress& progress = silent_progress();
+  const Cache& cache = no_cache();  // what is slow and made from inputs alone, kept from earlier jobs
 };
 
 // Holds the process to a run's threads and memory while it lives.

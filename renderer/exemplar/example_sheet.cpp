@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -14,9 +15,11 @@
 #include "base/guidance_channels.h"
 #include "base/random_streams.h"
 #include "renderer/exemplar/seam_picture.h"
+#include "renderer/exemplar/texel_supply.h"
 #include "renderer/image/srgb.h"
 #include "renderer/paint/composite.h"
 #include "renderer/paint/guides.h"
+#include "renderer/world/cached_products.h"
 #include "renderer/world/lit_picture.h"
 #include "renderer/world/scene_terrain.h"
 
@@ -111,12 +114,13 @@ struct ExampleSheetPainter::State {
     const std::string terrain = fmt::format("{} {} {} {} {} {}", synthetic.width, synthetic.height, synthetic.cell_m, synthetic.lowest_m,
                                             synthetic.highest_m, synthetic.seed);
     auto dem = dems.find(terrain);
-    if (dem == dems.end()) dem = dems.emplace(terrain, std::make_shared<const Dem>(make_scene_dem(loaded, progress))).first;
+    if (dem == dems.end()) dem = dems.emplace(terrain, std::make_shared<const Dem>(make_scene_dem(loaded, progress, run.cache))).first;
     std::string rules = terrain + " " + loaded.scene.land_cover.rules;
     for (const auto& [key, value] : loaded.scene.land_cover.settings) rules += fmt::format(" {}={}", key, value);
     auto cover = covers.find(rules);
     if (cover == covers.end())
-      cover = covers.emplace(rules, std::make_shared<const LandCover>(make_scene_land_cover(loaded, *dem->second, progress))).first;
+      cover =
+          covers.emplace(rules, std::make_shared<const LandCover>(make_scene_land_cover(loaded, *dem->second, progress, run.cache))).first;
 
     // No two panels have strokes at the same places. Files hold no more than 53 bits of a seed.
     loaded.scene.seed = stream_seed(plan.seed, Stream::sheet_panels, static_cast<std::uint64_t>(panel)) >> 11;
@@ -158,7 +162,7 @@ ExamplePainting ExampleSheetPainter::paint_row(int row, const ExampleLayers& lay
   ExamplePainting whole;
   whole.ground_layer = Grid<glm::vec3>(plan.width, y1 - y0, paper);
   OneStage watcher(run.progress);
-  const Run quiet{run.threads, run.memory_bytes, run.tile_px, watcher};
+  const Run quiet{run.threads, run.memory_bytes, run.tile_px, watcher, run.cache};
   for (int column = 0; column < plan.columns; ++column) {
     const int panel = row * plan.columns + column;
     const PixelRect rect = panel_rect(plan, panel);
@@ -168,39 +172,130 @@ ExamplePainting ExampleSheetPainter::paint_row(int row, const ExampleLayers& lay
   return whole;
 }
 
-PaintedExemplar paint_example_sheet(const SceneExemplar& settings, const Scene& scene, const View& view, const Palette& palette,
-                                    Progress& progress) {
+namespace {
+
+ExampleSheetPlan plan_for(const SceneExemplar& settings, const Scene& scene, const View& view) {
   ExampleSheetPlan plan = built_in_example_sheet_plan();
   plan.width = settings.width;
   plan.height = settings.height;
   plan.seed = settings.seed;
   plan.dots_per_inch = 50.8 * scene.pixels_per_unit();  // strokes as large as the picture's
   plan.light_from_deg = view.sun.azimuth_deg - view.camera.azimuth_deg;
-  ExampleSheetPainter painter(plan, {palette, scene.light});
-  progress.begin("painting a sheet to copy from", static_cast<double>(plan.panels.size()));
+  return plan;
+}
 
-  PaintedExemplar painted;
-  painted.exemplar.name = "painted sheet";
-  GuideStack& guides = painted.exemplar.guides;
-  painted.picture = painted.base = Grid<glm::vec3>(plan.width, plan.height);
+// What is painted, before synthesis looks at it.
+struct SheetPaint {
+  Grid<glm::vec3> picture;
+  Grid<glm::vec3> base;
+  GuideStack guides;
+};
+
+SheetPaint paint_sheet(const ExampleSheetPlan& plan, const ExampleSheetHand& hand, Progress& progress, const Cache& cache) {
+  ExampleSheetPainter painter(plan, hand);
+  progress.begin("painting a sheet to copy from", static_cast<double>(plan.panels.size()));
+  SheetPaint sheet;
+  GuideStack& guides = sheet.guides;
+  sheet.picture = sheet.base = Grid<glm::vec3>(plan.width, plan.height);
   guides.label = Grid<std::uint8_t>(plan.width, plan.height);
   for (int row = 0; row < painter.rows(); ++row) {
     const auto [y0, y1] = painter.row_span(row);
-    ExamplePainting part = painter.paint_row(row, {.painting = false, .sky = false}, {.progress = progress});
+    ExamplePainting part = painter.paint_row(row, {.painting = false, .sky = false}, {.progress = progress, .cache = cache});
     // classes_of_paint takes indices in the part.
     const auto first = static_cast<std::uint32_t>(y0) * static_cast<std::uint32_t>(plan.width);
     for (std::uint32_t& from : part.guidance.ground_from) from -= first;
     const PaintedClasses classes = classes_of_paint(part.guidance, part.guidance.ground_from);
     const GuideStack of_part = make_guide_stack(part.guidance, classes.land_cover);
-    copy_part(painted.picture, part.ground_layer, 0, y0);
-    copy_part(painted.base, classes.base, 0, y0);
+    copy_part(sheet.picture, part.ground_layer, 0, y0);
+    copy_part(sheet.base, classes.base, 0, y0);
     copy_part(guides.label, of_part.label, 0, y0);
     if (guides.guides.empty())
       for (const Guide& guide : of_part.guides) guides.guides.push_back({guide.name, Grid<std::uint8_t>(plan.width, plan.height)});
     for (std::size_t g = 0; g < of_part.guides.size(); ++g) copy_part(guides.guides[g].values, of_part.guides[g].values, 0, y0);
   }
-  painted.exemplar.picture = seam_picture(painted, guides.label, scene.synthesis.residual);
+  return sheet;
+}
+
+}  // namespace
+
+void each_field(auto& bytes, FieldsOf<Guide> auto& guide) {
+  auto& [name, values] = guide;
+  bytes(name, values);
+}
+
+void each_field(auto& bytes, FieldsOf<GuideStack> auto& guides) {
+  auto& [label, stack, depth_m] = guides;
+  bytes(label, stack, depth_m);
+}
+
+void each_field(auto& bytes, FieldsOf<SheetPaint> auto& sheet) {
+  auto& [picture, base, guides] = sheet;
+  bytes(picture, base, guides);
+}
+
+namespace {
+
+// All that paint_sheet takes: the plan as its file would say it, the palette, the light. What the panels have from elsewhere (rules, the
+// instruction set of rays) is the program's own.
+CacheKey sheet_key(const ExampleSheetPlan& plan, const ExampleSheetHand& hand, const std::string& subject) {
+  CacheKeyText key;
+  key.add("plan", write_example_sheet_plan(plan));
+  const auto& [palette, light] = hand;
+  const auto& [name, winter, classes, sky, cloud_light, cloud_shade, haze_near, haze_far, range_mist, growth, haze_share, warm_share,
+               ground_drift_share, forest_drift_share, rock_drift_share] = palette;
+  key.add("palette", name).add("winter", winter);
+  for (const auto& [stops] : classes) {
+    key.add("class", stops.size());
+    for (const auto& [altitude_m, ramp] : stops) key.add("altitude_m", altitude_m).add("ramp", ramp);
+  }
+  key.add("sky", sky).add("cloud_light", cloud_light).add("cloud_shade", cloud_shade);
+  key.add("haze_near", haze_near).add("haze_far", haze_far).add("range_mist", range_mist);
+  const auto& [leaves, leaf_share] = growth;
+  key.add("leaves", leaves).add("leaf_share", leaf_share).add("haze_share", haze_share).add("warm_share", warm_share);
+  key.add("ground_drift_share", ground_drift_share).add("forest_drift_share", forest_drift_share);
+  key.add("rock_drift_share", rock_drift_share).add("own light", !light.has_value());
+  const auto& [sun, sky_light, relief, shadow_depth, contrast] = light.value_or(LightParameters());
+  key.add("sun", sun).add("sky light", sky_light).add("relief", relief).add("shadow_depth", shadow_depth).add("contrast", contrast);
+  return make_cache_key(CachedProduct::example_sheet, key, subject);
+}
+
+}  // namespace
+
+PaintedExemplar paint_example_sheet(const SceneExemplar& settings, const Scene& scene, const View& view, const Palette& palette,
+                                    Progress& progress, const Cache& cache) {
+  const ExampleSheetPlan plan = plan_for(settings, scene, view);
+  const ExampleSheetHand hand{palette, scene.light};
+  const std::string subject =
+      fmt::format("{}{}{}, {} × {} texels", scene.title, scene.title.empty() ? "" : ", ", palette.name, plan.width, plan.height);
+  SheetPaint sheet = cached<SheetPaint>(
+      cache, [&] { return sheet_key(plan, hand, subject); }, progress,
+      [&](Progress& watcher) { return paint_sheet(plan, hand, watcher, cache); });
+  PaintedExemplar painted;
+  painted.exemplar.name = example_sheet_name;
+  painted.exemplar.guides = std::move(sheet.guides);
+  painted.picture = std::move(sheet.picture);
+  painted.base = std::move(sheet.base);
+  painted.exemplar.picture = seam_picture(painted, painted.exemplar.guides.label, scene.synthesis.residual);
   return painted;
+}
+
+std::vector<LandCoverClass> classes_of_example_sheet(const SceneExemplar& settings, const Scene& scene, const View& view,
+                                                     const Palette& palette, Progress& progress, const Cache& cache) {
+  // What occurs in panoramas stands in the demand that the plan was made for, and a test holds sheets of this size to it.
+  constexpr int least_width = 500;
+  constexpr int least_height = 350;
+  std::vector<LandCoverClass> classes;
+  if (settings.width >= least_width && settings.height >= least_height) {
+    for (const LandCoverClassInfo& info : land_cover_classes())
+      if (built_in_demand().texels[static_cast<std::size_t>(info.id)]) classes.push_back(info.id);
+    return classes;
+  }
+  const PaintedExemplar painted = paint_example_sheet(settings, scene, view, palette, progress, cache);
+  std::array<bool, 256> found{};
+  for (const std::uint8_t label : painted.exemplar.guides.label) found[label] = true;
+  for (const LandCoverClassInfo& info : land_cover_classes())
+    if (found[static_cast<std::size_t>(info.id)]) classes.push_back(info.id);
+  return classes;
 }
 
 }  // namespace belvedere

@@ -4,7 +4,10 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "base/cache/cache.h"
+#include "base/land_cover_class.h"
 #include "base/run.h"
 #include "renderer/exemplar/example_painting.h"
 #include "renderer/exemplar/example_sheet_plan.h"
@@ -42,9 +45,17 @@ class ExampleSheetPainter {
   std::unique_ptr<State> state_;
 };
 
+// The name of its exemplar, in messages.
+inline constexpr const char* example_sheet_name = "painted sheet";
+
 // The example sheet that is painted for a picture: with its palette, light and size of stroke, so that every guide of it is exactly known.
-// It carries no trees, no houses and no sky: those are painted on the target last.
+// It carries no trees, no houses and no sky: those are painted on the target last. The cache keeps it, and the terrains of its panels with
+// their land cover: pictures with another sun, another palette or larger strokes share these.
 PaintedExemplar paint_example_sheet(const SceneExemplar& settings, const Scene& scene, const View& view, const Palette& palette,
-                                    Progress& progress);
+                                    Progress& progress, const Cache& cache = no_cache());
+
+// The classes that such a sheet has texels of, known without painting it where it is large enough; else it is painted.
+std::vector<LandCoverClass> classes_of_example_sheet(const SceneExemplar& settings, const Scene& scene, const View& view,
+                                                     const Palette& palette, Progress& progress, const Cache& cache = no_cache());
 
 }  // namespace belvedere

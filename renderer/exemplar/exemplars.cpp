@@ -7,17 +7,39 @@
 namespace belvedere {
 
 std::vector<PaintedExemplar> make_exemplars(const LoadedScene& loaded, const View& view, const Palette& palette,
-                                            std::vector<ScannedPainting> scans, Progress& progress) {
+                                            std::vector<ScannedPainting> scans, Progress& progress, const Cache& cache) {
   const Scene& scene = loaded.scene;
   std::vector<PaintedExemplar> exemplars;
   for (std::size_t i = 0; i < scene.exemplars.size(); ++i) {
     if (scene.exemplars[i].picture.empty())
-      exemplars.push_back(paint_example_sheet(scene.exemplars[i], scene, view, palette, progress));
+      exemplars.push_back(paint_example_sheet(scene.exemplars[i], scene, view, palette, progress, cache));
     else if (i < scans.size() && !scans[i].painted.picture.empty())
       exemplars.push_back(std::move(scans[i].painted));
   }
-  if (exemplars.empty()) exemplars.push_back(paint_example_sheet({}, scene, view, palette, progress));
+  if (exemplars.empty()) exemplars.push_back(paint_example_sheet({}, scene, view, palette, progress, cache));
   return exemplars;
+}
+
+ExemplarClasses look_at_classes(const LoadedScene& loaded, const View& view, const Palette& palette,
+                                const std::vector<ScannedPainting>& scans, Progress& progress, const Cache& cache) {
+  const Scene& scene = loaded.scene;
+  ExemplarClasses found;
+  const auto add_sheet = [&](const SceneExemplar& settings) {
+    found.names.emplace_back(example_sheet_name);
+    for (const LandCoverClass id : classes_of_example_sheet(settings, scene, view, palette, progress, cache))
+      found.offered[static_cast<std::size_t>(id)] = true;
+  };
+  for (std::size_t i = 0; i < scene.exemplars.size(); ++i) {
+    if (scene.exemplars[i].picture.empty()) {
+      add_sheet(scene.exemplars[i]);
+    } else if (i < scans.size() && !scans[i].painted.picture.empty()) {
+      found.names.push_back(scans[i].painted.exemplar.name);
+      for (const std::uint8_t label : scans[i].painted.exemplar.guides.label)
+        if (label < found.offered.size()) found.offered[label] = true;
+    }
+  }
+  if (found.names.empty()) add_sheet({});
+  return found;
 }
 
 }  // namespace belvedere

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <array>
+#include <string>
 #include <vector>
 
+#include "base/cache/cache.h"
+#include "base/land_cover_class.h"
 #include "base/progress.h"
 #include "renderer/exemplar/scan.h"
 #include "renderer/paint/composite.h"
@@ -14,6 +18,14 @@ namespace belvedere {
 // All exemplars of a scene: its paintings (read_scans), and example sheets in the hand of its view for the blocks that name none; one
 // example sheet where there is nothing else.
 std::vector<PaintedExemplar> make_exemplars(const LoadedScene& scene, const View& view, const Palette& palette,
-                                            std::vector<ScannedPainting> scans, Progress& progress);
+                                            std::vector<ScannedPainting> scans, Progress& progress, const Cache& cache = no_cache());
+
+// Names of those exemplars and which classes they have texels of, without painting the sheets.
+struct ExemplarClasses {
+  std::vector<std::string> names;
+  std::array<bool, land_cover_class_count> offered{};
+};
+ExemplarClasses look_at_classes(const LoadedScene& scene, const View& view, const Palette& palette,
+                                const std::vector<ScannedPainting>& scans, Progress& progress, const Cache& cache = no_cache());
 
 }  // namespace belvedere

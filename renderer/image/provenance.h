@@ -1,10 +1,10 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "base/cache/content_hash.h"
 
 namespace belvedere {
 
@@ -22,27 +22,6 @@ struct Provenance {
 std::string program_version();
 // The foreign libraries the program was built with, "Embree 3.13.5, …".
 std::string library_versions();
-// XXH3-128 of bytes that come in pieces.
-class ContentHash {
- public:
-  ContentHash();
-  ~ContentHash();
-  ContentHash(const ContentHash&) = delete;
-  ContentHash& operator=(const ContentHash&) = delete;
-
-  void add(std::string_view bytes);
-  // 32 hexadecimal digits.
-  std::string text() const;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
-// XXH3-128 of a file's bytes, 32 hexadecimal digits as `xxhsum -H2` prints them; Error(input) where it cannot be read. Memory does not
-// grow with the file.
-std::string hash_file(const std::string& path);
-// The same of bytes in memory.
-std::string hash_bytes(std::string_view bytes);
 // Version, libraries and instruction set of this program on this machine, the scene's text and the hash of each input.
 // inputs: name as the scene writes it → path.
 Provenance make_provenance(const std::string& scene_text, const std::map<std::string, std::string>& inputs);

@@ -78,7 +78,7 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
 
   ScenePaint paint = read_scene_paint(loaded, progress);
   const Palette& palette = paint.palette;
-  const World world(loaded, progress);  // world.h names what it is made of, one from the other:
+  const World world(loaded, progress, run.cache);  // world.h names what it is made of, one from the other:
   const auto& [scene, dem, view, camera, land_cover, deformation, terrain, surface, tracer, horizon_px] = world;
   const FileNotes notes = make_world_notes(loaded, world);
 
@@ -89,7 +89,7 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
   const bool copied = scene.synthesis.enabled;
   // Its scene and view are named because clang 14 captures no bindings by itself.
   const auto copy_exemplars = [&, &scene = scene, &view = view] {
-    const std::vector<PaintedExemplar> exemplars = make_exemplars(loaded, view, palette, std::move(paint.paintings), progress);
+    const std::vector<PaintedExemplar> exemplars = make_exemplars(loaded, view, palette, std::move(paint.paintings), progress, run.cache);
     const PaintDraft draft = draft_paint(world, palette, lit, progress);
     const MatchField matches = match_exemplars(exemplars, scene, lit, draft, progress);
     return copy_ground(matches, exemplars, scene, lit, draft);
@@ -109,7 +109,7 @@ void render_guidance(const LoadedScene& loaded, const std::string& out_folder, c
   check_output_folder(out_folder);
 
   const Palette palette = read_scene_palette(loaded, run.progress);
-  const World world(loaded, run.progress);
+  const World world(loaded, run.progress, run.cache);
   const PixelRect whole = whole_picture(world.scene);
   const int margin = lit_margin_px(world.scene);
   GuidanceWriter writer(join(out_folder, "guidance.exr"), whole.x1, whole.y1, make_world_notes(loaded, world));

@@ -3,12 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "base/error.h"
+#include "base/instruction_set.h"
 #include "renderer/exemplar/exemplars.h"
 #include "renderer/paint/guides.h"
 #include "renderer/pipeline/output_color.h"
 #include "renderer/pipeline/scene_paint.h"
+#include "renderer/scene/scene_error.h"
+#include "renderer/trace/class_view.h"
+#include "renderer/world/fold_check.h"
+#include "renderer/world/generalize_view.h"
 #include "renderer/world/lit_picture.h"
 #include "renderer/world/scene_terrain.h"
 #include "terrain/io/raster_io.h"
@@ -18,19 +25,18 @@ namespace {
 
 constexpr int check_width_px = 480;
 
-// The view with few pixels and no more light than it takes: classes are all that is looked at.
+int small_width(const SceneOutput& output) { return std::min(output.width, check_width_px); }
+
+int small_height(const SceneOutput& output) {
+  constexpr int least = 16;
+  return std::max(least, static_cast<int>(static_cast<double>(output.height) * small_width(output) / output.width));
+}
+
+// The view with few pixels and no more light than guides take.
 LoadedScene small(const LoadedScene& scene) {
   LoadedScene out = scene;
-  const int width = std::min(scene.scene.output.width, check_width_px);
-  out.scene.output.height =
-      std::max(16, static_cast<int>(static_cast<double>(scene.scene.output.height) * width / scene.scene.output.width));
-  out.scene.output.width = width;
-  // Example sheets are painted at half their size: enough to see which classes they have.
-  if (out.scene.exemplars.empty()) out.scene.exemplars.emplace_back();
-  for (SceneExemplar& exemplar : out.scene.exemplars) {
-    exemplar.width /= 2;
-    exemplar.height /= 2;
-  }
+  out.scene.output.width = small_width(scene.scene.output);
+  out.scene.output.height = small_height(scene.scene.output);
   out.scene.sampling.pixel_samples = 1;
   out.scene.sampling.shadow_rays = 1;
   out.scene.sampling.sky_directions = 0;
@@ -39,49 +45,72 @@ LoadedScene small(const LoadedScene& scene) {
 
 PixelRect whole_picture(const LoadedScene& view) { return {0, 0, view.scene.output.width, view.scene.output.height}; }
 
-std::vector<bool> labels_of(const std::vector<PaintedExemplar>& exemplars) {
-  std::vector<bool> found(256, false);
-  for (const PaintedExemplar& painted : exemplars)
-    for (const std::uint8_t label : painted.exemplar.guides.label) found[label] = true;
-  return found;
+// What a World is made of, as far as one must know to see which classes are in its picture; refused where that would be refused.
+struct Sight {
+  std::shared_ptr<const Dem> dem;
+  View view;
+  std::vector<ClassArea> areas;
+  Grid<LandCoverClass> classes;  // of the small picture
+};
+
+Sight look(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
+  const Scene& scene = loaded.scene;
+  in_section("sampling", [&] { return choose_instruction_set(scene.tracing.instruction_set); });
+  Sight sight;
+  sight.dem = std::make_shared<const Dem>(make_scene_dem(loaded, progress, cache));
+  sight.view = make_view(scene, *sight.dem, progress);
+  PatchResult cover = make_scene_patches(loaded, *sight.dem, progress, cache);
+  if (scene.land_cover.patches.smallest_m2 > 0.0) sight.areas = std::move(cover.areas);
+
+  TerrainModel terrain;
+  terrain.dem = sight.dem;
+  terrain.land_cover = std::make_shared<const LandCover>(std::move(cover.cover));
+  GeneralizedTerrain ground = generalize_for_view(loaded, *sight.dem, terrain.land_cover.get(), sight.view, progress, cache);
+  terrain.generalized_m = std::move(ground.altitude_m);
+  terrain.came_from = std::move(ground.came_from);
+  const Deformation deformation(sight.view.deform, sight.view.viewer_xy);
+  check_folds(scene.deform, terrain, deformation, *make_camera(sight.view.camera), progress);
+  const DeformedSurface surface = deform(terrain.generalized_m, sight.dem->transform, glm::dvec3(sight.view.viewer_xy, 0.0), deformation);
+  CameraParameters camera = sight.view.camera;
+  camera.width = small_width(scene.output);
+  camera.height = small_height(scene.output);
+  progress.begin("looking", 0.0);
+  sight.classes = trace_classes(terrain, Tracer(surface, scene.tracing), *make_camera(camera));
+  return sight;
 }
 
 }  // namespace
 
-SceneReport check_scene(const LoadedScene& scene, Progress& progress) {
+SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cache& cache) {
   require_inputs(scene);
   read_output_color(scene);
   SceneReport report;
   report.inputs = scene_inputs(scene);
-  const LoadedScene view = small(scene);
-  ScenePaint paint = read_scene_paint(view, progress);
-  const World world(view, progress);
-  if (scene.scene.land_cover.patches.smallest_m2 > 0.0) report.land_cover = make_scene_patches(scene, *world.dem, progress).areas;
-  report.view = world.view;
-  report.crs = world.dem->crs.empty() ? std::string("none") : describe_crs(world.dem->crs);
-  report.cells_wide = world.dem->width();
-  report.cells_high = world.dem->height();
-  report.cell_m = world.dem->cell_m();
+  const ScenePaint paint = read_scene_paint(scene, progress);
+  Sight sight = look(scene, progress, cache);
+  report.view = sight.view;
+  report.crs = sight.dem->crs.empty() ? std::string("none") : describe_crs(sight.dem->crs);
+  report.cells_wide = sight.dem->width();
+  report.cells_high = sight.dem->height();
+  report.cell_m = sight.dem->cell_m();
+  report.land_cover = std::move(sight.areas);
 
-  const LitPicture picture = make_lit_picture(world, paint.palette, whole_picture(view), {.progress = progress});
   std::array<double, land_cover_class_count> count{};
-  for (const LandCoverClass id : picture.guidance.land_cover) count[static_cast<std::size_t>(id)] += 1.0;
+  for (const LandCoverClass id : sight.classes) count[static_cast<std::size_t>(id)] += 1.0;
   for (const LandCoverClassInfo& info : land_cover_classes())
-    if (const double share = count[static_cast<std::size_t>(info.id)] / static_cast<double>(picture.guidance.land_cover.size());
-        share > 0.0)
+    if (const double share = count[static_cast<std::size_t>(info.id)] / static_cast<double>(sight.classes.size()); share > 0.0)
       report.classes.emplace_back(info.id, share);
   if (!scene.scene.synthesis.enabled) return report;
 
-  const std::vector<PaintedExemplar> exemplars = make_exemplars(view, world.view, paint.palette, std::move(paint.paintings), progress);
-  for (const PaintedExemplar& painted : exemplars) report.exemplars.push_back(painted.exemplar.name);
-  const std::vector<bool> has = labels_of(exemplars);
+  const ExemplarClasses exemplars = look_at_classes(scene, sight.view, paint.palette, paint.paintings, progress, cache);
+  report.exemplars = exemplars.names;
   std::vector<std::string> missing;
   for (const auto& [id, share] : report.classes) {
-    if (id == LandCoverClass::sky || has[static_cast<std::size_t>(id)]) continue;
+    if (id == LandCoverClass::sky || exemplars.offered[static_cast<std::size_t>(id)]) continue;
     const ClassPairs fallback = with_stand_ins(scene.scene.synthesis.fallback);
     const auto way_out =
         std::find_if(fallback.begin(), fallback.end(), [&, without = id](const auto& pair) { return pair.first == without; });
-    if (way_out == fallback.end() || !has[static_cast<std::size_t>(way_out->second)]) missing.emplace_back(class_name(id));
+    if (way_out == fallback.end() || !exemplars.offered[static_cast<std::size_t>(way_out->second)]) missing.emplace_back(class_name(id));
   }
   if (!missing.empty())
     throw Error(ErrorKind::usage, scene.name,
@@ -91,16 +120,16 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress) {
   return report;
 }
 
-SceneExemplars look_at_exemplars(const LoadedScene& scene, Progress& progress) {
+SceneExemplars look_at_exemplars(const LoadedScene& scene, Progress& progress, const Cache& cache) {
   require_scene_files(scene);
   check_paintings(scene);
   const LoadedScene view = small(scene);
   const Palette palette = read_scene_palette(scene, progress);
-  const World world(view, progress);
+  const World world(view, progress, cache);
   const LitPicture picture = make_lit_picture(world, palette, whole_picture(view), {.progress = progress});
   const double small_pixels = static_cast<double>(view.scene.output.width) * view.scene.output.height;
   // Example sheets are painted for the picture itself: their strokes are as large as its.
-  return {.exemplars = make_exemplars(scene, world.view, palette, read_scans(scene, progress), progress),
+  return {.exemplars = make_exemplars(scene, world.view, palette, read_scans(scene, progress), progress, cache),
           .view = make_guide_stack(picture.guidance, picture.guidance.land_cover),
           .pixels_of_picture = static_cast<double>(scene.scene.output.width) * scene.scene.output.height / small_pixels};
 }

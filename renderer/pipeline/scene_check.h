@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cache/cache.h"
 #include "base/land_cover_class.h"
 #include "base/progress.h"
 #include "renderer/paint/composite.h"
@@ -28,9 +29,10 @@ struct SceneReport {
 };
 
 // Everything about a scene that shows without rendering it: files, data, terrain, the camera's place, the palette, and, from a small trace
-// of the view, whether some exemplar has texels of each class in the picture. Throws what rendering would throw, and Error(usage) for
-// classes that have neither texels nor a fallback that has.
-SceneReport check_scene(const LoadedScene& scene, Progress& progress);
+// of the view, whether some exemplar has texels of each class in the picture. Nothing is painted, and the ground is the picture's own, so
+// that with a cache rendering finds it made. Throws what rendering would throw, and Error(usage) for classes that have neither texels nor a
+// fallback that has.
+SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cache& cache = no_cache());
 
 // The exemplars of a scene as rendering would have them, and what its picture asks of them, from a small trace of the view.
 struct SceneExemplars {
@@ -39,6 +41,6 @@ struct SceneExemplars {
   double pixels_of_picture = 1.0;  // that each pixel of `view` stands for
 };
 // Throws what check_scene throws for files; classes without texels are no error here.
-SceneExemplars look_at_exemplars(const LoadedScene& scene, Progress& progress);
+SceneExemplars look_at_exemplars(const LoadedScene& scene, Progress& progress, const Cache& cache = no_cache());
 
 }  // namespace belvedere

@@ -55,13 +55,6 @@ struct Seen {
   LandCoverClass land_cover = LandCoverClass::sky;
 };
 
-LandCoverClass class_at(const TerrainModel& terrain, double column, double row) {
-  const glm::dvec2 origin = origin_of(terrain, column, row);
-  const glm::dvec2 place = terrain.dem->transform.to_crs(origin.x, origin.y);
-  const LandCoverClass found = terrain.land_cover->at(place.x, place.y);
-  return found == LandCoverClass::sky ? LandCoverClass::rock : found;
-}
-
 // The sample that gives the pixel its values: of the class that most samples saw (ties to the lower id) the one nearest the
 // pixel's middle (ties to the first).
 std::size_t choose_sample(std::span<const Seen> samples, std::span<const glm::dvec2> places) {

@@ -103,6 +103,13 @@ glm::dvec2 origin_of(const TerrainModel& terrain, double column, double row) {
   return origin + at.blend([&](int x, int y) { return glm::dvec2(terrain.came_from(x, y)); });
 }
 
+LandCoverClass class_at(const TerrainModel& terrain, double column, double row) {
+  const glm::dvec2 origin = origin_of(terrain, column, row);
+  const glm::dvec2 place = terrain.dem->transform.to_crs(origin.x, origin.y);
+  const LandCoverClass found = terrain.land_cover->at(place.x, place.y);
+  return found == LandCoverClass::sky ? LandCoverClass::rock : found;
+}
+
 void sample_ground(const TerrainModel& terrain, const DeformedSurface& surface, const Camera& camera, double column, double row,
                    GuidanceBuffers& out, std::size_t i) {
   const GeoTransform& transform = terrain.dem->transform;

@@ -8,6 +8,7 @@
 #include "base/filter.h"
 #include "base/math.h"
 #include "base/parallel.h"
+#include "renderer/world/cached_products.h"
 #include "renderer/world/scene_terrain.h"
 #include "terrain/deform/deform.h"
 #include "terrain/generalize/line_integral_generalize.h"
@@ -15,6 +16,12 @@
 #include "terrain/shape/hydrology.h"
 
 namespace belvedere {
+
+void each_field(auto& bytes, FieldsOf<GeneralizedTerrain> auto& ground) {
+  auto& [altitude_m, came_from] = ground;
+  bytes(altitude_m, came_from);
+}
+
 namespace {
 
 // The camera is asked at every so many cells: what it answers changes little from one to the next.
@@ -53,7 +60,7 @@ double pixels_per_m(const Camera& camera, const Deformation& deformation, glm::d
   return std::isfinite(square) ? std::sqrt(square) : 0.0;
 }
 
-Grid<float> mask_for_scene(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, Progress& progress) {
+Grid<float> mask_for_scene(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, Progress& progress, const Cache& cache) {
   const SceneGeneralize& settings = loaded.scene.generalize;
   const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
   Grid<float> mask;
@@ -67,10 +74,53 @@ Grid<float> mask_for_scene(const LoadedScene& loaded, const Dem& dem, const Land
     ClassShares shares;
     shares.fill(1.F);
     for (const auto& [name, share] : settings.mask_classes) shares[static_cast<std::size_t>(*find_class(name))] = static_cast<float>(share);
-    const LandCover made = land_cover == nullptr ? make_scene_land_cover(loaded, dem, progress) : LandCover();
+    const LandCover made = land_cover == nullptr ? make_scene_land_cover(loaded, dem, progress, cache) : LandCover();
     mask = combine_masks(std::move(mask), class_mask((land_cover == nullptr ? made : *land_cover).classes.cells, shares));
   }
   return mask;
+}
+
+// What of scene and view goes into the generalized ground beside the DEM, whose making is cheap beside that of the ground itself.
+struct ViewOfGround {
+  Grid<float> mask;
+  PixelGround pixel_ground;  // empty where the print's detail is not asked for
+  glm::dvec2 viewer_xy{0.0};
+};
+
+GeneralizedTerrain make_ground(const SceneGeneralize& settings, const Dem& dem, const ViewOfGround& seen, Progress& progress) {
+  const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
+  GeneralizeParameters bands = settings.bands;
+  // What takes most memory on its way comes first.
+  Grid<float> plain = settings.line_integral ? generalize_along_slope_lines(dem.altitude_m, dem.cell_m(), {}, progress) : Grid<float>();
+  GeneralizeGrids grids;
+  if (settings.automatic_mask) {
+    grids.amplification_mask = slope_foot_mask(dem.altitude_m, cell_m, 1 << std::min<std::size_t>(bands.foreground.size(), 6));
+  }
+  if (settings.keep_lakes) grids.keep = find_lakes(dem.altitude_m, {});
+  grids.mask = seen.mask;
+  grids.pixel_ground = seen.pixel_ground;
+  if (settings.print_detail_px > 0.0) bands.print_pixels = static_cast<float>(settings.print_detail_px);
+  grids.foreground_share = foreground_share(dem, seen.viewer_xy, settings);
+  Grid<float> out = generalize(settings.line_integral ? plain : dem.altitude_m, cell_m, grids, bands, progress);
+  plain = {};
+  const Grid<unsigned char> lakes = std::move(grids.keep);
+  grids = {};
+  if (settings.valleys.width_m <= 0.F) return {std::move(out), {}};
+  WidenedValleys wide = widen_valleys(out, lakes, dem.cell_m(), settings.valleys, progress);
+  return {std::move(wide.altitude_m), std::move(wide.came_from)};
+}
+
+// All that make_ground takes. Every key of [generalize] counts, by what a scene with nothing else in it says: so none can be forgotten.
+CacheKey ground_key(const LoadedScene& loaded, const Dem& dem, const ViewOfGround& seen) {
+  Scene settings;
+  settings.generalize = loaded.scene.generalize;
+  const auto& [mask, pixel_ground, viewer_xy] = seen;
+  const auto& [m_per_pixel, step] = pixel_ground;
+  CacheKeyText key;
+  key.add("settings", write_scene(settings)).add("mask", mask).add("viewer", viewer_xy);
+  key.add("m_per_pixel", m_per_pixel).add("step_cells", step);
+  add_dem(key, dem);
+  return make_cache_key(CachedProduct::generalized_ground, key, subject_of(loaded));
 }
 
 }  // namespace
@@ -102,30 +152,13 @@ PixelGround ground_m_per_pixel(const Dem& dem, const View& view) {
 }
 
 GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
-                                       Progress& progress) {
+                                       Progress& progress, const Cache& cache) {
   const SceneGeneralize& settings = loaded.scene.generalize;
-  const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
-  GeneralizeParameters bands = settings.bands;
-  // What takes most memory on its way comes first.
-  Grid<float> plain = settings.line_integral ? generalize_along_slope_lines(dem.altitude_m, dem.cell_m(), {}, progress) : Grid<float>();
-  GeneralizeGrids grids;
-  if (settings.automatic_mask) {
-    grids.amplification_mask = slope_foot_mask(dem.altitude_m, cell_m, 1 << std::min<std::size_t>(bands.foreground.size(), 6));
-  }
-  if (settings.keep_lakes) grids.keep = find_lakes(dem.altitude_m, {});
-  grids.mask = mask_for_scene(loaded, dem, land_cover, progress);
-  if (settings.print_detail_px > 0.0) {
-    grids.pixel_ground = ground_m_per_pixel(dem, view);
-    bands.print_pixels = static_cast<float>(settings.print_detail_px);
-  }
-  grids.foreground_share = foreground_share(dem, view.viewer_xy, settings);
-  Grid<float> out = generalize(settings.line_integral ? plain : dem.altitude_m, cell_m, grids, bands, progress);
-  plain = {};
-  const Grid<unsigned char> lakes = std::move(grids.keep);
-  grids = {};
-  if (settings.valleys.width_m <= 0.F) return {std::move(out), {}};
-  WidenedValleys wide = widen_valleys(out, lakes, dem.cell_m(), settings.valleys, progress);
-  return {std::move(wide.altitude_m), std::move(wide.came_from)};
+  ViewOfGround seen{.mask = mask_for_scene(loaded, dem, land_cover, progress, cache), .pixel_ground = {}, .viewer_xy = view.viewer_xy};
+  if (settings.print_detail_px > 0.0) seen.pixel_ground = ground_m_per_pixel(dem, view);
+  return cached<GeneralizedTerrain>(
+      cache, [&] { return ground_key(loaded, dem, seen); }, progress,
+      [&](Progress& watcher) { return make_ground(settings, dem, seen, watcher); });
 }
 
 }  // namespace belvedere

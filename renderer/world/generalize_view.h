@@ -2,6 +2,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "base/cache/cache.h"
 #include "base/progress.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/view.h"
@@ -16,9 +17,10 @@ struct GeneralizedTerrain {
 };
 
 // A DEM generalized as the scene asks for one view: by the distance from the viewer, by what its print can show, and by masks. `land_cover`
-// is looked at where the scene masks by class; null: it is made then. Its cells are the DEM's.
+// is looked at where the scene masks by class; null: it is made then. Its cells are the DEM's. The cache keeps it: of the view it depends
+// on the viewer's place, and on the camera only where the print's detail is asked for.
 GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
-                                       Progress& progress);
+                                       Progress& progress, const Cache& cache = no_cache());
 
 // Ground metres that an output pixel shows, at every 16th cell of the DEM, in the direction in which the picture shows most: what is
 // finer cannot be seen however the ground lies. Behind the eye it goes on as the distance does. Empty where no ground is before it.

@@ -6,11 +6,23 @@
 
 #include "base/parallel.h"
 #include "renderer/paint/palette.h"
+#include "renderer/world/cached_products.h"
 #include "renderer/world/scene_towns.h"
 #include "terrain/cover/class_rules.h"
 #include "terrain/generalize/destripe.h"
 
 namespace belvedere {
+
+void each_field(auto& bytes, FieldsOf<Dem> auto& dem) {
+  auto& [altitude_m, filled, transform, crs] = dem;
+  bytes(altitude_m, filled, transform, crs);
+}
+
+void each_field(auto& bytes, FieldsOf<LandCover> auto& cover) {
+  auto& [cells, transform, crs] = cover.classes;
+  bytes(cells, transform, crs);
+}
+
 namespace {
 
 constexpr const char* winter_setting = "winter";
@@ -31,7 +43,19 @@ std::vector<RasterSource> to_raster_sources(const LoadedScene& scene, const std:
   return rasters;
 }
 
-LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
+CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules, const ClassRuleParameters& parameters, const Dem& dem) {
+  CacheKeyText key;
+  const auto& [name, known_parameters, terms, layers] = rules;
+  key.add("rules", name).add("parameters", known_parameters).add("terms", terms);
+  for (const auto& [painted_as, when] : layers) key.add("layer", painted_as).add("when", when);
+  const auto& [settings, towns, seed] = parameters;
+  key.add("settings", settings).add("seed", seed);
+  for (const auto& [place, radius_m, town] : towns) key.add("town", town).add("place", place).add("radius_m", radius_m);
+  add_dem(key, dem);
+  return make_cache_key(CachedProduct::land_cover, key, subject_of(loaded));
+}
+
+LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
   const ClassRules rules = read_class_rules(find_named_file(loaded, "layers", loaded.scene.land_cover.rules));
   auto settings = loaded.scene.land_cover.settings;
   // A palette of winter brings its snow along, unless the scene says otherwise or the rules know no winter.
@@ -40,8 +64,11 @@ LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, Progress& p
       std::any_of(rules.parameters.begin(), rules.parameters.end(), is_winter) &&
       read_palette(find_named_file(loaded, "palettes", loaded.scene.palette)).winter)
     settings.emplace_back(winter_setting, 1.0);
-  return apply_class_rules(
-      rules, {.settings = std::move(settings), .towns = make_scene_towns(loaded, dem, progress), .seed = loaded.scene.seed}, dem, progress);
+  const ClassRuleParameters parameters{
+      .settings = std::move(settings), .towns = make_scene_towns(loaded, dem, progress), .seed = loaded.scene.seed};
+  return cached<LandCover>(
+      cache, [&] { return rule_cover_key(loaded, rules, parameters, dem); }, progress,
+      [&](Progress& watcher) { return apply_class_rules(rules, parameters, dem, watcher); });
 }
 
 // {to, from}: cells of class `from` where the rules see `to` become `to`.
@@ -62,9 +89,9 @@ void refine_by_rules(LandCover& cover, const LandCover& rules, const std::vector
 }
 
 // With every patch, however small.
-LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
+LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
   const SceneLandCover& settings = loaded.scene.land_cover;
-  if (settings.sources.empty()) return make_rule_cover(loaded, dem, progress);
+  if (settings.sources.empty()) return make_rule_cover(loaded, dem, progress, cache);
   LandCoverParameters parameters;
   parameters.sources = to_raster_sources(loaded, settings.sources);
   parameters.legend = find_named_file(loaded, "legends", settings.legend);
@@ -73,15 +100,26 @@ LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, Progress& p
   parameters.nodata = settings.nodata;
   LandCover cover = read_land_cover(parameters, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);
   if (!settings.refine.empty())
-    refine_by_rules(cover, make_rule_cover(loaded, dem, progress), settings.refine);
+    refine_by_rules(cover, make_rule_cover(loaded, dem, progress, cache), settings.refine);
   else if (!settings.towns.empty() || !settings.towns_file.empty())
     progress.note("the scene's towns are not used: rules build them, and the land cover comes from rasters");
   return cover;
 }
 
-Dem read_scene_dem(const LoadedScene& loaded, Progress& progress) {
+CacheKey synthetic_key(const LoadedScene& loaded) {
+  const auto& [width, height, cell_m, lowest_m, highest_m, seed] = *loaded.scene.terrain.synthetic;
+  CacheKeyText key;
+  key.add("width", width).add("height", height).add("cell_m", cell_m);
+  key.add("lowest_m", lowest_m).add("highest_m", highest_m).add("seed", seed);
+  return make_cache_key(CachedProduct::synthetic_terrain, key, subject_of(loaded));
+}
+
+Dem read_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   const SceneTerrain& terrain = loaded.scene.terrain;
-  if (terrain.synthetic) return make_synthetic_terrain(*terrain.synthetic, progress);
+  if (terrain.synthetic)
+    return cached<Dem>(
+        cache, [&] { return synthetic_key(loaded); }, progress,
+        [&](Progress& watcher) { return make_synthetic_terrain(*terrain.synthetic, watcher); });
   DemParameters parameters = terrain.dem;
   parameters.sources = to_raster_sources(loaded, terrain.sources);
   return read_dem(parameters, progress);
@@ -89,18 +127,25 @@ Dem read_scene_dem(const LoadedScene& loaded, Progress& progress) {
 
 }  // namespace
 
-Dem make_scene_dem(const LoadedScene& loaded, Progress& progress) {
-  Dem dem = read_scene_dem(loaded, progress);
+Dem make_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
+  Dem dem = read_scene_dem(loaded, progress, cache);
   if (loaded.scene.generalize.destripe) dem.altitude_m = destripe(dem.altitude_m, {}, progress);
   return dem;
 }
 
-LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
-  return make_scene_patches(loaded, dem, progress).cover;
+LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
+  return make_scene_patches(loaded, dem, progress, cache).cover;
 }
 
-PatchResult make_scene_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
-  return remove_small_patches(make_full_cover(loaded, dem, progress), loaded.scene.land_cover.patches);
+PatchResult make_scene_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
+  return remove_small_patches(make_full_cover(loaded, dem, progress, cache), loaded.scene.land_cover.patches);
+}
+
+void add_dem(CacheKeyText& key, const Dem& dem) {
+  const auto& [altitude_m, filled, transform, crs] = dem;
+  const auto& [origin_x, origin_y, cell_x, cell_y] = transform;
+  key.add("altitude_m", altitude_m).add("filled", filled).add("crs", crs);
+  key.add("origin_x", origin_x).add("origin_y", origin_y).add("cell_x", cell_x).add("cell_y", cell_y);
 }
 
 }  // namespace belvedere

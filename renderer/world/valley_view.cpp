@@ -51,12 +51,12 @@ std::optional<SightLine> shown(const Camera& camera, double azimuth_deg) {
 
 }  // namespace
 
-BareView make_bare_view(const LoadedScene& loaded, Progress& progress) {
+BareView make_bare_view(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   BareView bare;
-  bare.dem = make_scene_dem(loaded, progress);
+  bare.dem = make_scene_dem(loaded, progress, cache);
   bare.view = make_view(loaded.scene, bare.dem, progress);
   bare.camera = make_camera(bare.view.camera);
-  bare.generalized_m = generalize_for_view(loaded, bare.dem, nullptr, bare.view, progress).altitude_m;
+  bare.generalized_m = generalize_for_view(loaded, bare.dem, nullptr, bare.view, progress, cache).altitude_m;
   bend_anew(bare, bare.view.deform.bend);
   return bare;
 }

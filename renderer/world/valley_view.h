@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/cache/cache.h"
 #include "base/progress.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/trace/camera.h"
@@ -25,7 +26,7 @@ struct BareView {
 
   GeoMap geo_map() const { return {dem.altitude_m, dem.transform, deformation, *surface, *camera, *tracer}; }
 };
-BareView make_bare_view(const LoadedScene& loaded, Progress& progress);
+BareView make_bare_view(const LoadedScene& loaded, Progress& progress, const Cache& cache = no_cache());
 // The same ground under another bend.
 void bend_anew(BareView& bare, const BendCurve& bend);
 

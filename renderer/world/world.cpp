@@ -41,17 +41,17 @@ std::shared_ptr<const T> shared(T value) {
 
 }  // namespace
 
-World::World(const LoadedScene& loaded, Progress& progress) : World(loaded, nullptr, nullptr, progress) {}
+World::World(const LoadedScene& loaded, Progress& progress, const Cache& cache) : World(loaded, nullptr, nullptr, progress, cache) {}
 
 World::World(const LoadedScene& loaded, std::shared_ptr<const Dem> known_dem, std::shared_ptr<const LandCover> known_cover,
-             Progress& progress)
+             Progress& progress, const Cache& cache)
     : scene(runnable(loaded.scene)),
-      dem(known_dem ? std::move(known_dem) : shared(make_scene_dem(loaded, progress))),
+      dem(known_dem ? std::move(known_dem) : shared(make_scene_dem(loaded, progress, cache))),
       view(make_view(scene, *dem, progress)),
       camera(make_camera(view.camera)),
-      land_cover(known_cover ? std::move(known_cover) : shared(make_scene_land_cover(loaded, *dem, progress))),
+      land_cover(known_cover ? std::move(known_cover) : shared(make_scene_land_cover(loaded, *dem, progress, cache))),
       deformation(view.deform, view.viewer_xy),
-      terrain(make_terrain(*this, generalize_for_view(loaded, *dem, land_cover.get(), view, progress))),
+      terrain(make_terrain(*this, generalize_for_view(loaded, *dem, land_cover.get(), view, progress, cache))),
       surface(deform(terrain.generalized_m, dem->transform, glm::dvec3(view.viewer_xy, 0.0), deformation)),
       tracer(surface, tracer_parameters(*this, progress)),
       horizon_px(skyline_row_px(*camera, tracer, usual_horizon * scene.output.height)) {}

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "base/cache/cache.h"
 #include "base/progress.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/trace/camera.h"
@@ -19,9 +20,10 @@ namespace belvedere {
 struct World {
   // Reads, generalizes and bends the terrain, sets up camera and sun, builds the acceleration structure. Throws Error for whatever is wrong
   // with scene or data as soon as it can be known: the machine's instruction set first, the camera's place before land cover is made.
-  World(const LoadedScene& loaded, Progress& progress);
+  World(const LoadedScene& loaded, Progress& progress, const Cache& cache = no_cache());
   // The same on terrain that is already there: several views of one made-up terrain.
-  World(const LoadedScene& loaded, std::shared_ptr<const Dem> dem, std::shared_ptr<const LandCover> land_cover, Progress& progress);
+  World(const LoadedScene& loaded, std::shared_ptr<const Dem> dem, std::shared_ptr<const LandCover> land_cover, Progress& progress,
+        const Cache& cache = no_cache());
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 

@@ -78,13 +78,13 @@ Action add_check(CLI::App& command) {
   add_locked_option(command, *options);
   command.footer(
       "Looks at the scene's keys, its files, the terrain, the camera's place, and whether the exemplars\n"
-      "show every class that is in the picture. Exit status 0: in order.\n\n"
+      "show every class that is in the picture. Nothing is painted. Exit status 0: in order.\n\n"
       "  belvedere check scenes/karwendel.toml --data ../data");
   return [options] {
     const LoadedScene scene = load(*options);
     const RunLimits limits(make_run(*options));
     TerminalProgress progress(options->quiet);
-    const SceneReport report = check_scene(scene, progress);
+    const SceneReport report = check_scene(scene, progress, make_cache(*options));
     progress.end();
     print_out(options->json ? as_json(scene, report) : as_text(scene, report));
     return 0;

@@ -164,11 +164,11 @@ void shrink(LoadedScene& scene) {
   output.width = width_px;
 }
 
-void examine(const LoadedScene& loaded, const DeformOptions& options, Report& report, Progress& progress) {
+void examine(const LoadedScene& loaded, const DeformOptions& options, Report& report, Progress& progress, const Cache& cache) {
   LoadedScene scene = loaded;
   const bool places = !options.locate.empty() || !options.at.empty();
   if (options.search_bend && !places) shrink(scene);
-  BareView bare = make_bare_view(scene, progress);
+  BareView bare = make_bare_view(scene, progress, cache);
   report_folds(bare.generalized_m, bare.dem.transform, bare.deformation, report);
   if (places) report_places(bare, options, report);
   if (places && !options.search_bend) return;
@@ -177,14 +177,14 @@ void examine(const LoadedScene& loaded, const DeformOptions& options, Report& re
   if (options.search_bend) search(bare, sight, options, report, progress);
 }
 
-void write_dem(const LoadedScene& loaded, const DeformOptions& options, Report& report, Progress& progress) {
-  const Dem dem = make_scene_dem(loaded, progress);
+void write_dem(const LoadedScene& loaded, const DeformOptions& options, Report& report, Progress& progress, const Cache& cache) {
+  const Dem dem = make_scene_dem(loaded, progress, cache);
   Grid<float> ground = known_altitude(dem);
   std::optional<glm::dvec2> viewer = loaded.scene.camera.position;
   if (is_scene(options)) {
     const View view = make_view(loaded.scene, dem, progress);
     viewer = view.viewer_xy;
-    const Grid<float> shown = generalize_for_view(loaded, dem, nullptr, view, progress).altitude_m;
+    const Grid<float> shown = generalize_for_view(loaded, dem, nullptr, view, progress, cache).altitude_m;
     for (std::size_t i = 0; i < ground.size(); ++i)
       if (!std::isnan(ground[i])) ground[i] = shown[i];
   }
@@ -227,11 +227,12 @@ int run(const DeformOptions& options) {
     throw Error(ErrorKind::usage, "--out", "no --search-bend beside it", "--search-bend --out FILE.png");
   const LoadedScene scene = load(options);
   const RunLimits limits(make_run(options.scene));
+  const Cache cache = make_cache(options.scene);
   TerminalProgress progress(options.scene.quiet);
   require_scene_files(scene);
   Report report;
-  if (!options.dem_out.empty()) write_dem(scene, options, report, progress);
-  if (options.dem_out.empty() || asks_view) examine(scene, options, report, progress);
+  if (!options.dem_out.empty()) write_dem(scene, options, report, progress, cache);
+  if (options.dem_out.empty() || asks_view) examine(scene, options, report, progress, cache);
   progress.end();
   print_out(options.scene.json ? report.json.str() + "\n" : report.text);
   return 0;

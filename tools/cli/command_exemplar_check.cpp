@@ -82,7 +82,7 @@ Subject from_files(const Options& options) {
 
 Subject from_scene(const Options& options, Progress& progress) {
   const LoadedScene scene = load(options.scene);
-  SceneExemplars found = look_at_exemplars(scene, progress);
+  SceneExemplars found = look_at_exemplars(scene, progress, make_cache(options.scene));
   Subject subject;
   subject.target = std::move(found.view);
   subject.pixels_of_target = found.pixels_of_picture;

@@ -58,7 +58,8 @@ TexelSupply paint_example_sheet_of(const Options& options, const Run& run) {
 int run(const Options& options) {
   const bool example_sheet = options.scene.scene.empty();
   TerminalProgress progress(options.scene.quiet);
-  const Run run = make_run(options.scene, options.tile_size, progress);
+  const Cache cache = make_cache(options.scene);
+  const Run run = make_run(options.scene, options.tile_size, progress, cache);
   const RunLimits limits(run);
   const TexelSupply supply = example_sheet ? paint_example_sheet_of(options, run) : paint_scene(options, run);
   progress.end();

@@ -26,7 +26,8 @@ int run_job(const Options& options, Job job, Results results) {
   const LoadedScene scene = load(options.scene);
   const std::string folder = options.out.empty() ? scene.name : options.out;
   TerminalProgress progress(options.scene.quiet);
-  job(scene, folder, make_run(options.scene, options.tile_size, progress));
+  const Cache cache = make_cache(options.scene);
+  job(scene, folder, make_run(options.scene, options.tile_size, progress, cache));
   progress.end();
 
   std::vector<std::string> paths;

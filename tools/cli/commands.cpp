@@ -13,6 +13,8 @@ const std::vector<Command>& all_commands() {
       {"", "lock", "Writes down a scene's inputs and pixels, to tell later and elsewhere whether they are the same", add_lock},
       {"", "verify", "Renders scenes small and compares inputs and pixels with what their locks say", add_verify},
       {"", "deform", "Bends, exaggerates and moves ground: a DEM to a deformed DEM; finds bends and places", add_deform},
+      {"cache", "list", "Lists what is kept from earlier runs to make the next ones faster", add_cache_list},
+      {"cache", "clear", "Removes what is kept from earlier runs, or what was not used for long", add_cache_clear},
       {"exemplar", "check", "Tells what a painting can serve before anything is copied from it", add_exemplar_check},
       {"exemplar", "compare", "Sets figures of pictures side by side: what gives one away as computed?", add_exemplar_compare},
       {"exemplar", "paint", "Paints an example for synthesis to copy: a sheet with everything on it, or a scene's view in strokes alone",
@@ -27,7 +29,8 @@ const std::vector<Command>& all_commands() {
 }
 
 const std::vector<CommandGroup>& command_groups() {
-  static const std::vector<CommandGroup> groups = {{"exemplar", "About example paintings: what they can serve, and painting one"}};
+  static const std::vector<CommandGroup> groups = {{"cache", "About what is kept from earlier runs: land cover, terrain, example sheets"},
+                                                   {"exemplar", "About example paintings: what they can serve, and painting one"}};
   return groups;
 }
 

@@ -30,6 +30,8 @@ struct CommandGroup {
 const std::vector<CommandGroup>& command_groups();
 
 // One file and one row in commands.cpp a command.
+Action add_cache_clear(CLI::App& command);
+Action add_cache_list(CLI::App& command);
 Action add_check(CLI::App& command);
 Action add_completion(CLI::App& command);
 Action add_deform(CLI::App& command);

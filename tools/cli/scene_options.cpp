@@ -32,6 +32,7 @@ void add_run_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--memory", options.memory_mib, "Memory that pictures may take; 0, the default, is three quarters of the machine's")
       ->type_name("MIB")
       ->check(CLI::Range(0, 1 << 30));
+  command.add_flag("--no-cache", options.no_cache, "Makes everything anew and keeps nothing; see belvedere cache list. Changes no pixel");
   command.add_flag("--quiet,-q", options.quiet, "No progress, no notes");
   command.add_flag("--json", options.json, "The result as JSON on standard output");
 }
@@ -72,12 +73,17 @@ LoadedScene load(const SceneOptions& options) {
   return parse_scene(demo, "demo.toml", ".", options.files);
 }
 
-Run make_run(const SceneOptions& options, int tile_px, Progress& progress) {
+Cache make_cache(const SceneOptions& options) {
+  return Cache({.folder = options.no_cache ? std::string() : user_cache_folder(), .limit_bytes = 0});
+}
+
+Run make_run(const SceneOptions& options, int tile_px, Progress& progress, const Cache& cache) {
   constexpr int mib_bits = 20;
   return {.threads = options.threads,
           .memory_bytes = static_cast<std::uint64_t>(options.memory_mib) << mib_bits,
           .tile_px = tile_px,
-          .progress = progress};
+          .progress = progress,
+          .cache = cache};
 }
 
 }  // namespace belvedere::tools

@@ -22,6 +22,7 @@ struct SceneOptions {
   int memory_mib = 0;       // 0: three quarters of the machine's
   bool quiet = false;
   bool json = false;
+  bool no_cache = false;
 };
 
 // meaning: of the scene, in the command's help.
@@ -36,7 +37,10 @@ void add_locked_option(CLI::App& command, SceneOptions& options);
 void allow_servers(const SceneOptions& options);
 // Reads the scene, or the demo; its inputs are those of its lock where that is asked for.
 LoadedScene load(const SceneOptions& options);
+// The user's cache; none where the command line says so.
+Cache make_cache(const SceneOptions& options);
 // How the job is to be done, as the command line says.
-Run make_run(const SceneOptions& options, int tile_px = Run{}.tile_px, Progress& progress = silent_progress());
+Run make_run(const SceneOptions& options, int tile_px = Run{}.tile_px, Progress& progress = silent_progress(),
+             const Cache& cache = no_cache());
 
 }  // namespace belvedere::tools

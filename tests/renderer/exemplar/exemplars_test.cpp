@@ -3,14 +3,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/cache/cache.h"
+#include "tests/files.h"
 #include "tests/renderer/world/small_world.h"
 
 namespace belvedere {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::SizeIs;
 
@@ -48,6 +53,93 @@ TEST(Exemplars, ABlockWithoutAPictureIsASheetOfItsSize) {
   EXPECT_EQ(both[0].picture.height(), 256);
   EXPECT_TRUE(both[0].base.same_size(both[0].picture)) << "what the program painted has its base picture";
   EXPECT_EQ(both[1].exemplar.name, "b");
+}
+
+std::vector<std::string> products_in(const test::Folder& folder) {
+  std::vector<std::string> products;
+  for (const CacheEntry& entry : cache_entries(folder.path())) products.push_back(entry.product);
+  return products;
+}
+
+// The sheet itself, or only the terrains of its panels, come from the cache; the picture is the same in each case.
+TEST(Exemplars, SheetsAreTheSameFromAColdOrAWarmCacheOrNone) {
+  const test::Folder folder("cache");
+  const Cache cache({.folder = folder.path(), .limit_bytes = 0});
+  const auto sheet = [](const Cache& from, const std::vector<std::string>& settings, const View& view) {
+    std::vector<std::string> all = {"exemplar.0={ width = 256, height = 256 }"};
+    all.insert(all.end(), settings.begin(), settings.end());
+    const LoadedScene scene = test::small_scene(all);
+    return std::move(make_exemplars(scene, view, read_palette(scene.scene.palette), {}, silent_progress(), from).front());
+  };
+  const auto expect_same = [](const PaintedExemplar& a, const PaintedExemplar& b) {
+    EXPECT_EQ(a.exemplar.name, b.exemplar.name);
+    EXPECT_EQ(a.exemplar.picture, b.exemplar.picture);
+    EXPECT_EQ(a.picture, b.picture);
+    EXPECT_EQ(a.base, b.base);
+    EXPECT_EQ(a.exemplar.guides.label, b.exemplar.guides.label);
+    ASSERT_EQ(a.exemplar.guides.guides.size(), b.exemplar.guides.guides.size());
+    for (std::size_t g = 0; g < a.exemplar.guides.guides.size(); ++g) {
+      EXPECT_EQ(a.exemplar.guides.guides[g].name, b.exemplar.guides.guides[g].name);
+      EXPECT_EQ(a.exemplar.guides.guides[g].values, b.exemplar.guides.guides[g].values);
+    }
+  };
+  const PaintedExemplar none = sheet(no_cache(), {}, {});
+  expect_same(sheet(cache, {}, {}), none);
+  const auto first = products_in(folder);
+  EXPECT_THAT(first, Contains("example sheet").Times(1));
+  EXPECT_THAT(first, Contains("synthetic terrain"));
+  expect_same(sheet(cache, {}, {}), none);
+  EXPECT_EQ(products_in(folder).size(), first.size());
+
+  // Neither the sun's height nor how far the base is carried over is in the painting: the second is in what seams are judged by.
+  View low_sun;
+  low_sun.sun.altitude_deg = 3.0;
+  expect_same(sheet(cache, {}, low_sun), none);
+  expect_same(sheet(cache, {"synthesis.residual=0.5"}, {}), sheet(no_cache(), {"synthesis.residual=0.5"}, {}));
+  EXPECT_EQ(products_in(folder).size(), first.size());
+  // What is in it makes another sheet on the same terrains.
+  std::size_t sheets = 1;
+  View other_side;
+  other_side.sun.azimuth_deg = 90.0;
+  const std::vector<std::pair<std::string, View>> others = {
+      {"palette=autumn", {}}, {"light.sun=0.5", {}}, {"output.sheet_width_mm=60", {}}, {"seed=5", other_side}};
+  for (const auto& [setting, view] : others) {
+    expect_same(sheet(cache, {setting}, view), sheet(no_cache(), {setting}, view));
+    EXPECT_THAT(products_in(folder), Contains("example sheet").Times(++sheets)) << setting;
+    EXPECT_EQ(products_in(folder).size(), first.size() + sheets - 1) << setting;
+  }
+}
+
+// What a check goes by without painting: each class that it promises is on a sheet of the least size it promises for.
+TEST(Exemplars, SheetsHaveTheClassesThatAreToldWithoutPainting) {
+  for (const char* palette : {"summer", "winter"}) {
+    const LoadedScene scene = test::small_scene({"exemplar.0={ width = 500, height = 350 }", std::string("palette=") + palette});
+    struct Painted : Progress {
+      void begin(std::string_view, double) override { ++stages; }
+      int stages = 0;
+    } told;
+    const ExemplarClasses known = look_at_classes(scene, {}, read_palette(palette), {}, told);
+    EXPECT_EQ(told.stages, 0);
+    EXPECT_THAT(known.names, ElementsAre("painted sheet"));
+    std::array<bool, land_cover_class_count> found{};
+    const std::vector<PaintedExemplar> painted = make_exemplars(scene, {}, read_palette(palette), {}, silent_progress());
+    for (const std::uint8_t label : painted.front().exemplar.guides.label)
+      if (label < found.size()) found[label] = true;
+    EXPECT_EQ(found, known.offered) << palette;
+    EXPECT_EQ(painted.front().exemplar.name, known.names.front());
+  }
+}
+
+TEST(Exemplars, PaintingsAndSmallSheetsAreLookedAtThemselves) {
+  ScannedPainting painting = scan("a");
+  painting.painted.exemplar.guides.label = Grid<std::uint8_t>(4, 3, static_cast<std::uint8_t>(LandCoverClass::sand));
+  const ExemplarClasses found =
+      look_at_classes(test::small_scene({"exemplar.0={ picture = \"a.png\", " + files + " }", "exemplar.1={ width = 256, height = 256 }"}),
+                      View{}, read_palette("summer"), {painting, {}}, silent_progress());
+  EXPECT_THAT(found.names, ElementsAre("a", "painted sheet"));
+  EXPECT_TRUE(found.offered[static_cast<std::size_t>(LandCoverClass::sand)]);
+  EXPECT_TRUE(found.offered[static_cast<std::size_t>(LandCoverClass::forest)]);
+  EXPECT_FALSE(found.offered[static_cast<std::size_t>(LandCoverClass::sky)]);
 }
 
 }  // namespace

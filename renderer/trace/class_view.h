@@ -1,0 +1,16 @@
+#pragma once
+
+#include "base/grid.h"
+#include "base/land_cover_class.h"
+#include "renderer/trace/camera.h"
+#include "renderer/trace/terrain_model.h"
+#include "renderer/trace/tracer.h"
+
+namespace belvedere {
+
+// What class each pixel of a picture shows, by one ray through its middle, and nothing else: to know what is in a picture before it is
+// made. Equals GuidanceBuffers::land_cover of one sample a pixel bit for bit. Of `terrain` it reads dem, generalized_m, came_from and
+// land_cover; the others may be empty.
+Grid<LandCoverClass> trace_classes(const TerrainModel& terrain, const Tracer& tracer, const Camera& camera);
+
+}  // namespace belvedere

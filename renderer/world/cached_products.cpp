@@ -1,0 +1,49 @@
+#include "renderer/world/cached_products.h"
+
+#include <array>
+#include <fstream>
+
+#include "base/instruction_set.h"
+#include "renderer/image/provenance.h"
+
+namespace belvedere {
+namespace {
+
+constexpr std::array<CachedProductInfo, 4> table = {{
+    {CachedProduct::synthetic_terrain, "synthetic terrain", 1},
+    {CachedProduct::land_cover, "land cover by rules", 1},
+    {CachedProduct::generalized_ground, "generalized ground", 1},
+    {CachedProduct::example_sheet, "example sheet", 1},
+}};
+
+// Two builds of one version may differ, so the file that runs counts. Where it cannot be read the version must do.
+std::string hash_of_program() {
+  const std::string file = "/proc/self/exe";
+  return std::ifstream(file).good() ? hash_file(file) : std::string();
+}
+
+const CacheKeyText& program_text() {
+  static const CacheKeyText text = CacheKeyText()
+                                       .add("program", program_version())
+                                       .add("libraries", library_versions())
+                                       .add("instruction set", instruction_set_title(machine_instruction_set()))
+                                       .add("file", hash_of_program());
+  return text;
+}
+
+}  // namespace
+
+std::span<const CachedProductInfo> cached_products() { return table; }
+
+CacheKey make_cache_key(CachedProduct product, const CacheKeyText& made_from, std::string subject) {
+  const CachedProductInfo& info = table[static_cast<std::size_t>(product)];
+  const CacheKeyText format = CacheKeyText().add("format", info.format);
+  return {std::string(info.name), std::move(subject), program_text().str() + format.str() + made_from.str()};
+}
+
+std::string subject_of(const LoadedScene& scene) {
+  const std::string& title = scene.scene.title;
+  return title.empty() || title == scene.name ? scene.name : scene.name + " (" + title + ")";
+}
+
+}  // namespace belvedere

@@ -1,0 +1,197 @@
+#include "base/cache/cache.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+#include "base/cache/content_hash.h"
+#include "base/error.h"
+#include "tests/files.h"
+
+namespace belvedere {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+struct Notes : Progress {
+  void note(std::string_view text) override { all.emplace_back(text); }
+  std::vector<std::string> all;
+};
+
+Bytes bytes_of(const std::string& text) {
+  Bytes bytes(text.size());
+  std::transform(text.begin(), text.end(), bytes.begin(), [](char c) { return static_cast<std::byte>(c); });
+  return bytes;
+}
+
+class CacheTest : public ::testing::Test {
+ protected:
+  static CacheKey key(const std::string& text) { return {"land cover", "karwendel", text}; }
+  void store(const std::string& text, const std::string& value) { cache_.store(key(text), bytes_of(value), notes_); }
+  std::optional<Bytes> find(const std::string& text) { return cache_.find(key(text), notes_); }
+  std::string path_of(const std::string& text) const { return fs::path(folder_.path()) / (hash_bytes("land cover\n" + text) + ".cache"); }
+  void make_older(const std::string& text, int hours) const {
+    fs::last_write_time(path_of(text), fs::file_time_type::clock::now() - std::chrono::hours(hours));
+  }
+
+  test::Folder folder_;
+  Notes notes_;
+  Cache cache_{{.folder = folder_.path(), .limit_bytes = 0}};
+};
+
+TEST_F(CacheTest, GivesBackWhatWasStoredWithTheKey) {
+  EXPECT_FALSE(find("a"));
+  store("a", "forest");
+  store("b", "");
+  EXPECT_EQ(find("a"), bytes_of("forest"));
+  EXPECT_EQ(find("b"), bytes_of(""));
+  EXPECT_FALSE(find("c"));
+  EXPECT_FALSE(cache_.find({"sheet", "karwendel", "a"}, notes_)) << "another product";
+  EXPECT_EQ(cache_.find({"land cover", "another name", "a"}, notes_), bytes_of("forest")) << "whose it is does not count";
+  const std::vector<Bytes> parts = {bytes_of("two "), bytes_of("parts")};
+  const std::vector<std::span<const std::byte>> spans(parts.begin(), parts.end());
+  cache_.store(key("a"), spans, notes_);
+  EXPECT_EQ(find("a"), bytes_of("two parts"));
+  EXPECT_EQ(folder_.count(), 2U) << "nothing temporary is left";
+  EXPECT_THAT(notes_.all, IsEmpty());
+}
+
+// Whichever byte is wrong, and wherever the file ends.
+TEST_F(CacheTest, DamageIsFoundAndTheEntryRemoved) {
+  store("a", "forest and rock");
+  const std::string whole = test::read_bytes(path_of("a"));
+  const std::size_t subject = whole.find("karwendel");
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    std::string damaged = whole;
+    damaged[i] ^= 0x10;
+    test::write_bytes(path_of("a"), damaged);
+    const bool named = i >= subject && i < subject + 9;  // for people only
+    EXPECT_EQ(find("a").has_value(), named) << i;
+    EXPECT_EQ(fs::exists(path_of("a")), named) << i;
+    refused += named ? 0 : 1;
+    test::write_bytes(path_of("a"), whole.substr(0, i));
+    EXPECT_FALSE(find("a")) << i;
+  }
+  test::write_bytes(path_of("a"), whole + "x");
+  EXPECT_FALSE(find("a"));
+  EXPECT_THAT(notes_.all, SizeIs(refused + whole.size() + 1));
+  EXPECT_THAT(notes_.all.front(), AllOf(HasSubstr("damaged"), HasSubstr("land cover of karwendel")));
+  // An entry of another key under this name.
+  store("b", "sheet");
+  fs::rename(path_of("b"), path_of("a"));
+  EXPECT_FALSE(find("a"));
+}
+
+TEST_F(CacheTest, WhatIsNoFileIsNoEntry) {
+  fs::create_directories(path_of("a"));
+  EXPECT_FALSE(find("a"));
+  ASSERT_EQ(::mkfifo(path_of("b").c_str(), 0600), 0);
+  EXPECT_FALSE(find("b")) << "and does not wait for a writer";
+}
+
+TEST_F(CacheTest, OverItsLimitTheLeastUsedGo) {
+  const std::string kib(1024, 'x');
+  for (const char* text : {"a", "b", "c"}) store(text, kib);
+  make_older("a", 3);
+  make_older("b", 2);
+  make_older("c", 1);
+  EXPECT_TRUE(find("a")) << "which is a use";
+  const Cache small({.folder = folder_.path(), .limit_bytes = 3700});
+  small.store(key("d"), bytes_of(kib), notes_);
+  EXPECT_TRUE(find("a"));
+  EXPECT_FALSE(find("b"));
+  EXPECT_TRUE(find("c"));
+  EXPECT_TRUE(find("d"));
+  // What could never stay drives nothing out.
+  small.store(key("e"), bytes_of(std::string(4000, 'x')), notes_);
+  EXPECT_FALSE(find("e"));
+  EXPECT_EQ(folder_.count(), 3U);
+}
+
+TEST_F(CacheTest, AFolderThatCannotBeUsedIsNotedOnce) {
+  const Cache blocked({.folder = folder_.write("file", "") + "/cache", .limit_bytes = 0});
+  EXPECT_FALSE(blocked.find(key("a"), notes_));
+  blocked.store(key("a"), bytes_of("forest"), notes_);
+  blocked.store(key("b"), bytes_of("forest"), notes_);
+  EXPECT_FALSE(blocked.find(key("a"), notes_));
+  EXPECT_THAT(notes_.all, ElementsAre(AllOf(HasSubstr("file/cache"), HasSubstr("not used"))));
+}
+
+TEST_F(CacheTest, WithoutAFolderNothingIsKept) {
+  no_cache().store(key("a"), bytes_of("forest"), notes_);
+  EXPECT_FALSE(no_cache().find(key("a"), notes_));
+  EXPECT_FALSE(no_cache().is_on());
+  EXPECT_THAT(notes_.all, IsEmpty());
+  EXPECT_EQ(folder_.count(), 0U);
+}
+
+// Everybody reads whole entries while others replace, remove and trim them.
+TEST_F(CacheTest, ManyAtOnceFindWholeEntriesOrNone) {
+  const std::string value(100'000, 'v');
+  std::atomic<int> wrong = 0;
+  std::vector<std::thread> users;
+  for (int user = 0; user < 4; ++user)
+    users.emplace_back([&, user] {
+      Notes own;
+      const Cache cache({.folder = folder_.path(), .limit_bytes = 350'000});
+      for (int round = 0; round < 40; ++round) {
+        const std::string name = std::to_string((user + round) % 5);
+        cache.store(key(name), bytes_of(value + name), own);
+        const std::optional<Bytes> found = cache.find(key(name), own);
+        if (found && *found != bytes_of(value + name)) ++wrong;
+      }
+      wrong += static_cast<int>(own.all.size());
+    });
+  for (std::thread& user : users) user.join();
+  EXPECT_EQ(wrong, 0);
+  EXPECT_LE(folder_.count(), 3U);
+}
+
+TEST_F(CacheTest, EntriesAreListedAndClearedByAge) {
+  EXPECT_THAT(cache_entries(folder_ / "nowhere"), IsEmpty());
+  store("old", "1");
+  store("new", "22");
+  make_older("old", 50);
+  folder_.write("letter.txt", "mine");
+  folder_.write("0123456789abcdef0123456789abcdef-1-0.cache-tmp", "of a program that runs");
+  const std::string left = folder_.write("0123456789abcdef0123456789abcdef-2-0.cache-tmp", "of one that was killed");
+  fs::last_write_time(left, fs::file_time_type::clock::now() - std::chrono::hours(25));
+  const std::vector<CacheEntry> entries = cache_entries(folder_.path());
+  ASSERT_THAT(entries, SizeIs(2));
+  EXPECT_EQ(entries[0].path, path_of("new")) << "the last used first";
+  EXPECT_EQ(entries[0].bytes, entries[1].bytes + 1);
+  EXPECT_EQ(entries[1].product, "land cover");
+  EXPECT_EQ(entries[1].subject, "karwendel");
+  EXPECT_EQ(std::chrono::duration_cast<std::chrono::hours>(entries[1].age).count(), 50);
+
+  EXPECT_THAT(clear_cache(folder_.path(), std::chrono::hours(51)), IsEmpty());
+  EXPECT_FALSE(fs::exists(left));
+  const std::vector<CacheEntry> removed = clear_cache(folder_.path(), std::chrono::hours(49));
+  ASSERT_THAT(removed, SizeIs(1));
+  EXPECT_EQ(removed[0].path, path_of("old"));
+  EXPECT_FALSE(find("old"));
+  EXPECT_TRUE(find("new"));
+  EXPECT_THAT(clear_cache(folder_.path()), SizeIs(1));
+  EXPECT_EQ(folder_.count(), 2U) << "what is not the cache's stays";
+}
+
+TEST_F(CacheTest, MayGrowToATenthOfTheDiskAtMost) {
+  const fs::space_info space = fs::space(folder_.path());
+  EXPECT_LE(default_cache_limit(folder_.path()), std::uint64_t{20} << 30);
+  EXPECT_LE(static_cast<double>(default_cache_limit(folder_.path())), 0.11 * static_cast<double>(space.capacity));
+  EXPECT_GT(default_cache_limit(folder_.path()), 0U);
+}
+
+}  // namespace
+}  // namespace belvedere

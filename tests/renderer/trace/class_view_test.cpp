@@ -1,0 +1,31 @@
+#include "renderer/trace/class_view.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "renderer/world/world.h"
+#include "tests/renderer/world/small_world.h"
+
+namespace belvedere {
+namespace {
+
+TEST(ClassView, IsTheClassThatOneSampleSees) {
+  // Valleys are widened, so that ground lies elsewhere than its classes; a width that is no multiple of a bundle.
+  for (const char* setting : {"generalize.widen_valleys_m=0", "generalize.widen_valleys_m=900"}) {
+    const World world(test::small_scene({setting, "output.width=93"}), silent_progress());
+    const GuidanceBuffers guidance = trace_guidance(world.terrain, world.surface, world.tracer, *world.camera,
+                                                    {.sampling = world.scene.sampling}, {0, 0, 93, 80}, silent_progress());
+    TerrainModel bare;
+    bare.dem = world.dem;
+    bare.generalized_m = world.terrain.generalized_m;
+    bare.came_from = world.terrain.came_from;
+    bare.land_cover = world.land_cover;
+    const Grid<LandCoverClass> seen = trace_classes(bare, world.tracer, *world.camera);
+    EXPECT_EQ(seen, guidance.land_cover) << setting;
+    EXPECT_GT(std::set<LandCoverClass>(seen.begin(), seen.end()).size(), 3U);
+  }
+}
+
+}  // namespace
+}  // namespace belvedere

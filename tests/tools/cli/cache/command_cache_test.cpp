@@ -1,0 +1,82 @@
+// `belvedere cache` and --no-cache as users meet them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/tools/program.h"
+
+namespace belvedere {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class CacheProgram : public Program {
+ protected:
+  Outcome run_with_cache(const std::vector<std::string>& arguments) const {
+    return run(arguments, [folder = path("cache")] { setenv("BELVEDERE_CACHE", folder.c_str(), 1); });
+  }
+};
+
+TEST_F(CacheProgram, SecondRunsAreTheSameWithoutTheSlowStages) {
+  const std::string scene = write_scene_file("title = \"Test hills\"\n");
+  const Outcome none = run_with_cache({"guidance", scene, "--out", path("none"), "--no-cache"});
+  ASSERT_EQ(none.status, 0) << none.err;
+  EXPECT_THAT(run_with_cache({"cache", "list"}).out, HasSubstr("0 entries"));
+  const Outcome cold = run_with_cache({"guidance", scene, "--out", path("cold")});
+  const Outcome warm = run_with_cache({"guidance", scene, "--out", path("warm")});
+  EXPECT_THAT(cold.err, HasSubstr("class rules"));
+  EXPECT_THAT(warm.err, Not(HasSubstr("class rules")));
+  for (const char* name : {"cold/guidance.exr", "warm/guidance.exr"})
+    EXPECT_EQ(read_bytes(path(name)), read_bytes(path("none/guidance.exr"))) << name;
+  // What a check made, rendering has, and the other way round.
+  EXPECT_THAT(run_with_cache({"check", scene}).err, AllOf(Not(HasSubstr("class rules")), Not(HasSubstr("generalize"))));
+  EXPECT_THAT(run_with_cache({"check", scene, "--no-cache"}).err, HasSubstr("class rules"));
+}
+
+TEST_F(CacheProgram, IsListedAndCleared) {
+  const std::string scene = write_scene_file("title = \"Test hills\"\n");
+  ASSERT_EQ(run_with_cache({"check", scene}).status, 0);
+  const Outcome list = run_with_cache({"cache", "list"});
+  EXPECT_EQ(list.status, 0);
+  EXPECT_THAT(list.out, AllOf(HasSubstr("land cover by rules"), HasSubstr("generalized ground"), HasSubstr("Test hills"),
+                              HasSubstr("3 entries"), HasSubstr(path("cache"))));
+  EXPECT_THAT(run_with_cache({"cache", "list", "--json"}).out,
+              AllOf(HasSubstr("\"product\": \"synthetic terrain\""), HasSubstr("\"unused_s\": ")));
+  EXPECT_THAT(run_with_cache({"cache", "clear", "--older-than", "1"}).out, HasSubstr("removed 0 entries"));
+  EXPECT_THAT(run_with_cache({"cache", "clear"}).out, HasSubstr("removed 3 entries"));
+  EXPECT_THAT(run_with_cache({"cache", "list"}).out, HasSubstr("0 entries"));
+  EXPECT_EQ(run_with_cache({"cache", "clear", "--older-than", "-1"}).status, 2);
+}
+
+TEST_F(CacheProgram, WithoutAFolderWorkGoesOn) {
+  const std::string scene = write_scene_file();
+  const Outcome blocked = run({"check", scene}, [file = write("file", "")] { setenv("BELVEDERE_CACHE", (file + "/cache").c_str(), 1); });
+  EXPECT_EQ(blocked.status, 0);
+  EXPECT_THAT(blocked.err, HasSubstr("not used"));
+  const Outcome off = run({"check", scene});
+  EXPECT_EQ(off.status, 0);
+  EXPECT_THAT(off.err, Not(HasSubstr("cache")));
+  EXPECT_EQ(run({"cache", "list"}).status, 2);
+}
+
+// The standard of desktops: XDG_CACHE_HOME where it is an absolute path, else .cache at home.
+TEST_F(CacheProgram, LiesWhereCachesLie) {
+  const std::string home = path("home");
+  const auto folder = [&](const std::string& xdg) {
+    return run({"cache", "list"},
+               [&] {
+                 unsetenv("BELVEDERE_CACHE");
+                 setenv("HOME", home.c_str(), 1);
+                 setenv("XDG_CACHE_HOME", xdg.c_str(), 1);
+               })
+        .out;
+  };
+  EXPECT_THAT(folder(path("xdg")), HasSubstr(path("xdg/belvedere")));
+  EXPECT_THAT(folder("relative"), HasSubstr(home + "/.cache/belvedere"));
+}
+
+}  // namespace
+}  // namespace belvedere

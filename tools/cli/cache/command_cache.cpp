@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "base/cache/cache.h"
+#include "base/error.h"
+#include "base/json.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/terminal.h"
+
+namespace belvedere::tools {
+namespace {
+
+using Entries = std::vector<CacheEntry>;
+
+constexpr int seconds_per_day = 86400;
+
+std::string required_folder() {
+  std::string folder = user_cache_folder();
+  if (folder.empty())
+    throw Error(ErrorKind::usage, "cache", "the user has no folder for it", "HOME, XDG_CACHE_HOME or BELVEDERE_CACHE in the environment");
+  return folder;
+}
+
+std::uint64_t sum_of(const Entries& entries) {
+  return std::accumulate(entries.begin(), entries.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const CacheEntry& entry) { return sum + entry.bytes; });
+}
+
+std::string describe_bytes(std::uint64_t bytes) {
+  constexpr double mib = 1024.0 * 1024.0;
+  return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / mib);
+}
+
+std::string describe_age(std::chrono::seconds age) {
+  const double seconds = static_cast<double>(age.count());
+  return age.count() < 2 * seconds_per_day ? describe_seconds(seconds) : fmt::format("{:.0f} days", seconds / seconds_per_day);
+}
+
+std::string describe_entries(const Entries& entries) {
+  return fmt::format("{} {}, {}", entries.size(), entries.size() == 1 ? "entry" : "entries", describe_bytes(sum_of(entries)));
+}
+
+std::string as_text(const std::string& folder, const Entries& entries) {
+  std::string out;
+  for (const CacheEntry& entry : entries)
+    out +=
+        fmt::format("{:<20} {:>11}  used {} ago  {}\n", entry.product, describe_bytes(entry.bytes), describe_age(entry.age), entry.subject);
+  return out + fmt::format("{}: {}; it may grow to {}\n", folder, describe_entries(entries), describe_bytes(default_cache_limit(folder)));
+}
+
+Json as_json(const Entries& entries) {
+  Json list = Json::array();
+  for (const CacheEntry& entry : entries)
+    list.add(Json::object()
+                 .add("product", Json::text(entry.product))
+                 .add("subject", Json::text(entry.subject))
+                 .add("path", Json::text(entry.path))
+                 .add("bytes", Json::raw(fmt::format("{}", entry.bytes)))
+                 .add("unused_s", Json::raw(fmt::format("{}", entry.age.count()))));
+  return list;
+}
+
+}  // namespace
+
+Action add_cache_list(CLI::App& command) {
+  const auto json = std::make_shared<bool>(false);
+  command.add_flag("--json", *json, "As JSON");
+  command.footer(
+      "What takes long and is made from a scene's inputs alone is kept: made-up terrain, land cover by rules,\n"
+      "generalized ground, example sheets. Which files it is kept in says nothing; this does. It lies in\n"
+      "~/.cache/belvedere ($XDG_CACHE_HOME/belvedere, $BELVEDERE_CACHE) and may be deleted at any time. Commands\n"
+      "that take a scene do without it where --no-cache is given.\n\n"
+      "  belvedere cache list");
+  return [json] {
+    const std::string folder = required_folder();
+    const Entries entries = cache_entries(folder);
+    print_out(*json ? Json::object()
+                              .add("folder", Json::text(folder))
+                              .add("bytes", Json::raw(fmt::format("{}", sum_of(entries))))
+                              .add("limit_bytes", Json::raw(fmt::format("{}", default_cache_limit(folder))))
+                              .add("entries", as_json(entries))
+                              .str() +
+                          "\n"
+                    : as_text(folder, entries));
+    return 0;
+  };
+}
+
+Action add_cache_clear(CLI::App& command) {
+  const auto days = std::make_shared<int>(0);
+  command.add_option("--older-than", *days, "Only what was not used for so many days")->type_name("DAYS")->check(CLI::Range(0, 36500));
+  command.footer(
+      "Costs nothing but time: what is needed again is made again.\n\n"
+      "  belvedere cache clear\n"
+      "  belvedere cache clear --older-than 30");
+  return [days] {
+    const Entries removed = clear_cache(required_folder(), std::chrono::seconds(std::int64_t{seconds_per_day} * *days));
+    print_out(fmt::format("removed {}\n", describe_entries(removed)));
+    return 0;
+  };
+}
+
+}  // namespace belvedere::tools
