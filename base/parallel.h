@@ -37,8 +37,17 @@ struct PixelRect {
   int y1 = 0;
   int width() const { return x1 - x0; }
   int height() const { return y1 - y0; }
+  bool empty() const { return x1 <= x0 || y1 <= y0; }
   bool operator==(const PixelRect&) const = default;
 };
+inline PixelRect intersection(const PixelRect& a, const PixelRect& b) {
+  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
+// A rectangle and what lies within `margin` of it.
+inline PixelRect grown(const PixelRect& rect, int margin) {
+  return {rect.x0 - margin, rect.y0 - margin, rect.x1 + margin, rect.y1 + margin};
+}
+inline PixelRect moved(const PixelRect& rect, int x, int y) { return {rect.x0 + x, rect.y0 + y, rect.x1 + x, rect.y1 + y}; }
 
 // Calls f(begin, end) for ranges that cover 0 <= i < count, none split that is `grain` or shorter; each must write only values of its own.
 #if defined(__SANITIZE_THREAD__)

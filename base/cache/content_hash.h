@@ -22,6 +22,7 @@ class ContentHash {
   ContentHash& operator=(ContentHash&&) noexcept;
 
   void add(const void* bytes, std::size_t count);
+  void add(std::string_view bytes) { add(bytes.data(), bytes.size()); }
   // Of all that was added.
   std::string digits() const;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "base/grid_part.h"
 #include "base/guidance_channels.h"
 #include "base/math.h"
 #include "base/parallel.h"
@@ -49,22 +50,22 @@ struct Surroundings {
   Grid<float> water;  // share of water around, on the same surface
   Mirrored mirrored;  // of water pixels
   Grid<float> streaks;
-  Grid<glm::vec3> sky;  // of sky pixels
+  Grid<glm::vec3> sky;  // of the wanted sky pixels
 };
 
 Surroundings look_around(const GuidanceBuffers& g, const Palette& palette, const BaseParameters& p, const SkyParameters& sky,
-                         glm::ivec2 origin_px) {
+                         glm::ivec2 origin_px, PixelRect wanted) {
   const double ppu = p.pixels_per_unit;
   const double range_sigma_px = range_sigma_units * ppu;
   Surroundings around;
   around.log_depth = log_depths(g, blur_reach_px(range_sigma_px));
   around.mean_log_depth = blur_in_picture(around.log_depth, range_sigma_px, origin_px);
   around.wood = blur_in_picture(class_mask(g, Class::forest), krummholz_sigma_units * ppu, origin_px);
-  around.cover = make_forest_cover(g, {ppu, p.seed}, origin_px);
-  around.water = blur_on_surface(class_mask(g, Class::water), g.depth_m, brook_sigma_units * ppu);
-  around.mirrored = find_reflections(g, ppu);
+  around.cover = make_forest_cover(g, {ppu, p.seed}, origin_px, wanted);
+  around.water = blur_on_surface(class_mask(g, Class::water), g.depth_m, brook_sigma_units * ppu, wanted);
+  around.mirrored = find_reflections(g, ppu, wanted);
   around.streaks = make_image_noise(stream_seed(p.seed, Stream::water_streaks), origin_px, g.width(), g.height(), ppu, 26.0, 1.6);
-  around.sky = make_sky(g.depth_m, palette, sky, origin_px);
+  around.sky = make_sky(part_of(g.depth_m, wanted), palette, sky, origin_px + glm::ivec2(wanted.x0, wanted.y0));
   return around;
 }
 
@@ -181,18 +182,19 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
 }  // namespace
 
 BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& palette, const BaseParameters& parameters,
-                              glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress) {
+                              glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress, PixelRect wanted) {
   using B = GuidanceBuffers;
   require_channels(guidance,
                    {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::tone, &B::fall_line, &B::slope_deg, &B::footprint_m,
                     &B::relief_s_m, &B::relief_l_m, &B::rim_m, &B::built, &B::grain},
                    "base picture");
-  const int width = guidance.width();
-  const int height = guidance.height();
+  if (wanted.empty()) wanted = {0, 0, guidance.width(), guidance.height()};
+  const int width = wanted.width();
+  const int height = wanted.height();
   progress.begin("base picture", height);
   const double horizon_px = parameters.horizon_px > 0.0 ? parameters.horizon_px : 0.18 * picture_size.y;
   const SkyParameters sky{picture_size, horizon_px, parameters.air.clouds, parameters.sun_image_x, parameters.seed};
-  const Surroundings around = look_around(guidance, palette, parameters, sky, origin_px);
+  const Surroundings around = look_around(guidance, palette, parameters, sky, origin_px, wanted);
   const Scenery scenery{guidance, palette, parameters, around, horizon_px, origin_px};
 
   BasePicture picture;
@@ -202,7 +204,8 @@ BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& pa
     GroundNoises noises(parameters.seed);
     for (int x = 0; x < width; ++x) {
       const std::size_t i = picture.colour.index(x, y);
-      const BasePixel pixel = guidance.is_sky(i) ? sky_pixel(around.sky[i]) : ground_pixel(scenery, noises, x, y);
+      const bool is_sky = guidance.is_sky(guidance.depth_m.index(wanted.x0 + x, wanted.y0 + y));
+      const BasePixel pixel = is_sky ? sky_pixel(around.sky[i]) : ground_pixel(scenery, noises, wanted.x0 + x, wanted.y0 + y);
       picture.colour[i] = pixel.colour;
       picture.darker[i] = pixel.darker;
       picture.lighter[i] = pixel.lighter;

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 
 #include "base/guidance_buffers.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "renderer/paint/air_parameters.h"
 #include "renderer/paint/palette.h"
@@ -23,9 +24,9 @@ struct BaseParameters {
 // Base picture (encoded sRGB) at the pixel's tone and at ∓ .17, with accents, tree density and haze; sky pixels get sky and clouds.
 // Needs depths, places, altitudes, classes, tone, fall lines, slopes, footprints, small and large relief, rim, built and grain.
 // `origin_px`, `picture_size`: where the buffers lie in the whole picture. Local up to base_margin_px(): a part with that margin equals
-// the whole bit for bit.
+// the whole bit for bit. Of the buffers' pixels only those `wanted` (empty: all) are made: the result has their size.
 BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& palette, const BaseParameters& parameters,
-                              glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress);
+                              glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress, PixelRect wanted = {});
 int base_margin_px(const BaseParameters& parameters);
 
 }  // namespace belvedere

@@ -86,12 +86,13 @@ Walk walk(const GuidanceBuffers& g, const Grid<float>& noise, int x, int y, floa
 
 }  // namespace
 
-ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParameters& parameters, glm::ivec2 origin_px) {
+ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParameters& parameters, glm::ivec2 origin_px, PixelRect wanted) {
   using B = GuidanceBuffers;
   require_channels(g, {&B::depth_m, &B::position_m, &B::land_cover, &B::fall_line, &B::slope_deg, &B::footprint_m, &B::relief_s_m},
                    "forest");
   const int width = g.width();
   const int height = g.height();
+  if (wanted.empty()) wanted = {0, 0, width, height};
   const double ppu = parameters.pixels_per_unit;
   const Grid<float> noise = make_image_noise(stream_seed(parameters.seed, Stream::forest_lanes), origin_px, width, height, ppu,
                                              lane_sigma_units, lane_sigma_units);
@@ -99,12 +100,13 @@ ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParamet
   // Deviation of the sum of 25 samples 2 units apart of that noise: neighbours share exp(-1/4), the next exp(-1).
   constexpr float lane_deviation = 9.2F;
   ForestCover cover{Grid<float>(width, height, 0.0F), Grid<float>(width, height, 0.0F)};
-  parallel_rows(height, [&](int y) {
+  parallel_rows(wanted.height(), [&](int row) {
+    const int y = wanted.y0 + row;
     SheetSizedNoise glades(parameters.seed, Stream::forest_glades);
     SheetSizedNoise clumps(parameters.seed, Stream::forest_clumps);
     SheetSizedNoise tracks(parameters.seed, Stream::forest_tracks);
     SheetSizedNoise stands(parameters.seed, Stream::forest_stands);
-    for (int x = 0; x < width; ++x) {
+    for (int x = wanted.x0; x < wanted.x1; ++x) {
       const std::size_t i = noise.index(x, y);
       if (g.land_cover[i] != Class::forest) continue;
       const double metres = static_cast<double>(g.footprint_m[i]) * ppu;

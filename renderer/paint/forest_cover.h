@@ -5,6 +5,7 @@
 
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
+#include "base/parallel.h"
 #include "renderer/paint/ground_hues.h"
 #include "renderer/paint/palette.h"
 
@@ -25,7 +26,9 @@ struct ForestCover {
 
 // Needs depths, places, classes, fall lines, slopes, footprints and small relief. Local up to forest_cover_margin_px(): a part with that
 // margin equals the whole bit for bit.
-ForestCover make_forest_cover(const GuidanceBuffers& guidance, const ForestCoverParameters& parameters, glm::ivec2 origin_px);
+// Pixels outside `wanted` (empty: all) hold 0.
+ForestCover make_forest_cover(const GuidanceBuffers& guidance, const ForestCoverParameters& parameters, glm::ivec2 origin_px,
+                              PixelRect wanted = {});
 int forest_cover_margin_px(double pixels_per_unit);
 
 // Grass among trees: a little darker than that of the open. Encoded sRGB at a tone.

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "base/error.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 namespace {
@@ -35,6 +36,14 @@ const GuideKind kinds[] = {
      [](const B& g, std::size_t i) { return (g.flow[i] - 2.0F) / 9.0F; }, 0.0},
 };
 
+// Calls f(i) for the pixels of a grid, row by row side by side.
+template <class G, class F>
+void for_each_pixel(const G& grid, F&& f) {
+  parallel_rows(grid.height(), [&](int y) {
+    for (std::size_t i = grid.index(0, y); i < grid.index(0, y + 1); ++i) f(i);
+  });
+}
+
 // Value 0…1 in 256 steps.
 std::uint8_t quantize(float share) { return static_cast<std::uint8_t>(std::floor(std::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F)); }
 
@@ -56,11 +65,11 @@ std::vector<std::pair<std::string, double>> default_guide_weights() {
 
 PaintedClasses find_painted_classes(const Grid<std::uint32_t>& sources, const GuidanceBuffers& guidance, const Grid<glm::vec3>& base) {
   PaintedClasses painted{guidance.land_cover, base};
-  for (std::size_t i = 0; i < sources.size(); ++i) {
+  for_each_pixel(sources, [&](std::size_t i) {
     const std::uint32_t source = sources[i];
     painted.land_cover[i] = guidance.land_cover[source];
     if (guidance.land_cover[i] != painted.land_cover[i]) painted.base[i] = base[source];
-  }
+  });
   return painted;
 }
 
@@ -70,13 +79,15 @@ GuideStack make_guide_stack(const GuidanceBuffers& guidance, const Grid<LandCove
   GuideStack stack;
   stack.depth_m = guidance.depth_m;
   stack.label = Grid<std::uint8_t>(guidance.width(), guidance.height(), unused_label);
-  for (std::size_t i = 0; i < stack.label.size(); ++i)
+  for_each_pixel(stack.label, [&](std::size_t i) {
     if (!guidance.is_sky(i)) stack.label[i] = static_cast<std::uint8_t>(land_cover[i]);
+  });
   for (const GuideKind& kind : kinds) {
     if (!has_channel(guidance, kind.channel)) continue;
     Guide guide{std::string(kind.name), Grid<std::uint8_t>(guidance.width(), guidance.height(), 0)};
-    for (std::size_t i = 0; i < guide.values.size(); ++i)
+    for_each_pixel(guide.values, [&](std::size_t i) {
       if (!guidance.is_sky(i)) guide.values[i] = quantize(kind.share(guidance, i));
+    });
     stack.guides.push_back(std::move(guide));
   }
   return stack;

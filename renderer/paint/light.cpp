@@ -68,21 +68,28 @@ float raw_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky
          light.edges * fine * edges;
 }
 
+// The crest rule looks so far up for a silhouette, and takes its tone from so far below, px.
+int crest_px(double pixels_per_unit) { return std::max(1, static_cast<int>(std::lround(2.0 * pixels_per_unit))); }
+int below_crest_px(double pixels_per_unit) {
+  return std::max(crest_px(pixels_per_unit) + 1, static_cast<int>(std::lround(3.0 * pixels_per_unit)));
+}
+
 // The crest rule: the topmost pixels of a silhouette look away from the eye and would draw a dark line along every ridge, so they
-// take the tone from below where that is lighter.
-Grid<float> lift_crests(const Grid<float>& tone, const GuidanceBuffers& g, double pixels_per_unit) {
-  const int crest_px = std::max(1, static_cast<int>(std::lround(2.0 * pixels_per_unit)));
-  const int below_px = std::max(crest_px + 1, static_cast<int>(std::lround(3.0 * pixels_per_unit)));
-  Grid<float> lifted = tone;
-  parallel_rows(tone.height(), [&](int y) {
-    const int below = y + below_px;
-    if (below >= tone.height()) return;
-    for (int x = 0; x < tone.width(); ++x) {
+// take the tone from below where that is lighter. Of the wanted pixels alone.
+Grid<float> lift_crests(const Grid<float>& tone, const GuidanceBuffers& g, double pixels_per_unit, PixelRect wanted) {
+  const int reach = crest_px(pixels_per_unit);
+  Grid<float> lifted(wanted.width(), wanted.height());
+  parallel_rows(wanted.height(), [&](int row) {
+    const int y = wanted.y0 + row;
+    const int below = y + below_crest_px(pixels_per_unit);
+    for (int x = wanted.x0; x < wanted.x1; ++x) {
+      float& out = lifted(x - wanted.x0, row);
+      out = tone(x, y);
       const float depth = g.depth_m(x, y);
-      if (std::isinf(depth) || !same_surface(depth, g.depth_m(x, below))) continue;
+      if (below >= tone.height() || std::isinf(depth) || !same_surface(depth, g.depth_m(x, below))) continue;
       bool crest = false;
-      for (int k = 1; k <= crest_px && y - k >= 0 && !crest; ++k) crest = g.depth_m(x, y - k) > depth * (1.0F + surface_tolerance);
-      if (crest) lifted(x, y) = std::max(tone(x, y), tone(x, below));
+      for (int k = 1; k <= reach && y - k >= 0 && !crest; ++k) crest = g.depth_m(x, y - k) > depth * (1.0F + surface_tolerance);
+      if (crest) out = std::max(tone(x, y), tone(x, below));
     }
   });
   return lifted;
@@ -90,7 +97,8 @@ Grid<float> lift_crests(const Grid<float>& tone, const GuidanceBuffers& g, doubl
 
 }  // namespace
 
-Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& parameters, glm::ivec2 origin_px, Progress& progress) {
+Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& parameters, glm::ivec2 origin_px, Progress& progress,
+                      PixelRect wanted) {
   using B = GuidanceBuffers;
   require_channels(
       guidance,
@@ -100,27 +108,35 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
   const int width = guidance.width();
   const int height = guidance.height();
   const double ppu = parameters.pixels_per_unit;
-  progress.begin("light", height);
+  const PixelRect whole{0, 0, width, height};
+  if (wanted.empty()) wanted = whole;
+  // The crest rule asks for the tone of pixels below.
+  const PixelRect made = intersection(whole, {wanted.x0, wanted.y0, wanted.x1, wanted.y1 + below_crest_px(ppu)});
+  progress.begin("light", made.height());
 
-  const Grid<float> shadow = blur_on_surface(guidance.shadow, guidance.depth_m, shadow_blur_units * ppu);
-  const Grid<float> sky_view = blur_on_surface(guidance.sky_view, guidance.depth_m, sky_blur_units * ppu);
+  const Grid<float> shadow = blur_on_surface(guidance.shadow, guidance.depth_m, shadow_blur_units * ppu, made);
+  const Grid<float> sky_view = blur_on_surface(guidance.sky_view, guidance.depth_m, sky_blur_units * ppu, made);
   Grid<std::uint8_t> ribbed(width, height, 0);
-  for (std::size_t i = 0; i < ribbed.size(); ++i)
-    ribbed[i] = class_info(guidance.land_cover[i]).tone.ribs > 0.0F && steepness(guidance.slope_deg[i]) > 0.0F ? 1 : 0;
+  for (int y = made.y0; y < made.y1; ++y)
+    for (int x = made.x0; x < made.x1; ++x) {
+      const std::size_t i = ribbed.index(x, y);
+      ribbed[i] = class_info(guidance.land_cover[i]).tone.ribs > 0.0F && steepness(guidance.slope_deg[i]) > 0.0F ? 1 : 0;
+    }
   const Grid<float> ribs = make_ribs(guidance, ribbed, {ppu, parameters.sun_image_x, parameters.seed}, origin_px);
   Grid<std::uint8_t> walls(width, height, 0);
   for (std::size_t i = 0; i < walls.size(); ++i) walls[i] = ribbed[i] != 0 && guidance.land_cover[i] == LandCoverClass::rock ? 1 : 0;
   const Grid<float> planes = make_rock_planes(guidance, walls, {ppu, parameters.sun_image_x, parameters.seed}, origin_px);
   Grid<float> woods(width, height, 0.0F);
   for (std::size_t i = 0; i < woods.size(); ++i) woods[i] = guidance.land_cover[i] == LandCoverClass::forest ? 1.0F : 0.0F;
-  woods = blur_on_surface(woods, guidance.depth_m, outcrop_sigma_units * ppu);
+  woods = blur_on_surface(woods, guidance.depth_m, outcrop_sigma_units * ppu, made);
   const Grid<float> pool = make_image_noise(stream_seed(parameters.seed, Stream::light_pools), origin_px, width, height, ppu, 140.0, 60.0);
 
   Grid<float> tone(width, height, 0.0F);
-  parallel_rows(height, [&](int y) {
+  parallel_rows(made.height(), [&](int row) {
+    const int y = made.y0 + row;
     GroundNoise n8(stream_seed(parameters.seed, Stream::bed_wavering), 210.0);
     GroundNoise n25(stream_seed(parameters.seed, Stream::bed_strengths), 660.0);
-    for (int x = 0; x < width; ++x) {
+    for (int x = made.x0; x < made.x1; ++x) {
       const std::size_t i = tone.index(x, y);
       if (guidance.is_sky(i)) continue;
       const LandCoverClass id = guidance.land_cover[i];
@@ -153,14 +169,14 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
     }
     progress.advance(1.0);
   });
-  return lift_crests(tone, guidance, ppu);
+  return lift_crests(tone, guidance, ppu, wanted);
 }
 
 int tone_margin_px(const ToneParameters& parameters) {
   const double ppu = parameters.pixels_per_unit;
-  const int crest = static_cast<int>(std::ceil(3.0 * ppu)) + 2;
-  const int blur = static_cast<int>(std::ceil(3.0 * std::max(sky_blur_units, outcrop_sigma_units) * ppu)) + 1;
-  return std::max(rib_margin_px(ppu), blur) + crest;
+  const int blur = surface_reach_px(outcrop_sigma_units * ppu);
+  static_assert(outcrop_sigma_units > sky_blur_units && outcrop_sigma_units > shadow_blur_units);
+  return std::max(rib_margin_px(ppu), blur) + below_crest_px(ppu) + 1;
 }
 
 }  // namespace belvedere

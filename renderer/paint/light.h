@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "base/guidance_buffers.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 
 namespace belvedere {
@@ -32,8 +33,10 @@ struct ToneParameters {
 // Tone of every terrain pixel, 0…1.02 (above 1 colours stay those of full light, strokes do not); sky 0. Reads depth, position, the three
 // normals, altitude, land cover, shadow, sky view, slope, fall line and relief, all of the buffers' size: Error(bug) otherwise.
 // `origin_px` is where the buffers' (0,0) lies in the whole picture, so that noise stays in place in parts of a picture. Local: a pixel
-// depends on neighbours within tone_margin_px() only, so a part with that margin equals the whole bit for bit.
-Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& parameters, glm::ivec2 origin_px, Progress& progress);
+// depends on neighbours within tone_margin_px() only, so a part with that margin equals the whole bit for bit. Of the buffers' pixels only
+// those `wanted` (empty: all) are made: the result has their size.
+Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& parameters, glm::ivec2 origin_px, Progress& progress,
+                      PixelRect wanted = {});
 int tone_margin_px(const ToneParameters& parameters);
 
 }  // namespace belvedere

@@ -61,20 +61,25 @@ Grid<float> blur_directly(const Grid<float>& values, double sigma) {
   return blurred;
 }
 
+// Neighbours that a blur on a surface takes lie so far apart: an eighth of sigma at most, which no eye tells from all of them.
+int surface_stride_px(double sigma_px) { return std::max(1, static_cast<int>(std::floor(sigma_px / (0.5 * widest_direct_sigma_px)))); }
+
 int floor_divide(int value, int divisor) { return value >= 0 ? value / divisor : -((-value + divisor - 1) / divisor); }
 
 }  // namespace
 
-Grid<float> blur_on_surface(const Grid<float>& values, const Grid<float>& depth_m, double sigma_px) {
-  const std::vector<float> kernel = half_kernel(sigma_px);
+Grid<float> blur_on_surface(const Grid<float>& values, const Grid<float>& depth_m, double sigma_px, PixelRect wanted) {
+  const int stride = surface_stride_px(sigma_px);
+  const std::vector<float> kernel = half_kernel(sigma_px / stride);
   const int radius = static_cast<int>(kernel.size()) - 1;
-  const int width = values.width();
-  const int height = values.height();
+  const PixelRect whole{0, 0, values.width(), values.height()};
+  if (wanted.empty()) wanted = whole;
   // One pass along a line; each pass asks for the surface of its own centre.
-  const auto pass = [&](const Grid<float>& in, int step_x, int step_y) {
-    Grid<float> out(width, height);
-    parallel_rows(height, [&](int y) {
-      for (int x = 0; x < width; ++x) {
+  const auto pass = [&](const Grid<float>& in, PixelRect at, int step_x, int step_y) {
+    Grid<float> out(whole.x1, whole.y1);
+    parallel_rows(at.height(), [&](int row) {
+      const int y = at.y0 + row;
+      for (int x = at.x0; x < at.x1; ++x) {
         const float depth = depth_m(x, y);
         float sum = kernel[0] * in(x, y);
         float total = kernel[0];
@@ -92,7 +97,13 @@ Grid<float> blur_on_surface(const Grid<float>& values, const Grid<float>& depth_
     });
     return out;
   };
-  return pass(pass(values, 1, 0), 0, 1);
+  const PixelRect rows = intersection(whole, {wanted.x0, wanted.y0 - radius * stride, wanted.x1, wanted.y1 + radius * stride});
+  return pass(pass(values, rows, stride, 0), wanted, 0, stride);
+}
+
+int surface_reach_px(double sigma_px) {
+  const int stride = surface_stride_px(sigma_px);
+  return kernel_radius(sigma_px / stride) * stride;
 }
 
 Grid<float> blur_in_picture(const Grid<float>& values, double sigma_px, glm::ivec2 origin_px) {

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "base/grid.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 
@@ -17,8 +18,11 @@ inline bool same_surface(float depth_a_m, float depth_b_m) {
   return depth_a_m == depth_b_m || std::abs(depth_a_m - depth_b_m) <= surface_tolerance * std::min(depth_a_m, depth_b_m);
 }
 
-// Gaussian of sigma_px that takes no value from another surface; reach 3 sigma. A sky pixel (depth +inf) takes sky only.
-Grid<float> blur_on_surface(const Grid<float>& values, const Grid<float>& depth_m, double sigma_px);
+// Gaussian of sigma_px that takes no value from another surface; reach surface_reach_px(sigma_px). A sky pixel (depth +inf) takes sky only.
+// Wide ones take every n-th neighbour, so that a pixel costs the same whatever the size of the print. Pixels outside `wanted` (empty: all)
+// hold 0.
+Grid<float> blur_on_surface(const Grid<float>& values, const Grid<float>& depth_m, double sigma_px, PixelRect wanted = {});
+int surface_reach_px(double sigma_px);
 
 // Plain Gaussian, borders replicated. Wide kernels work on means of square cells that are aligned to the whole picture, hence the
 // origin. Reach: blur_reach_px(sigma_px).

@@ -21,18 +21,20 @@ bool is_water(const GuidanceBuffers& g, int x, int y) { return g.land_cover(x, y
 
 }  // namespace
 
-Mirrored find_reflections(const GuidanceBuffers& guidance, double pixels_per_unit) {
+Mirrored find_reflections(const GuidanceBuffers& guidance, double pixels_per_unit, PixelRect wanted) {
   require_channels(guidance, {&GuidanceBuffers::depth_m, &GuidanceBuffers::land_cover, &GuidanceBuffers::slope_deg}, "reflections");
   const int width = guidance.width();
   const int height = guidance.height();
+  if (wanted.empty()) wanted = {0, 0, width, height};
   const int reach_px = static_cast<int>(std::ceil(reflection_units * pixels_per_unit));
   const int meadow_px = static_cast<int>(std::ceil(meadow_units * pixels_per_unit));
   const auto ppu = static_cast<float>(pixels_per_unit);
   const auto is_level = [&](int x, int y) { return guidance.slope_deg(x, y) < level_deg; };
   Mirrored mirrored{Grid<std::int32_t>(width, height, -1), Grid<float>(width, height, 0.0F), Grid<float>(width, height, open_water),
                     Grid<float>(width, height, open_water)};
-  parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
+  parallel_rows(wanted.height(), [&](int row) {
+    const int y = wanted.y0 + row;
+    for (int x = wanted.x0; x < wanted.x1; ++x) {
       if (!is_water(guidance, x, y)) continue;
       int below = 1;
       while (below <= reach_px && y + below < height && is_water(guidance, x, y + below)) ++below;

@@ -4,6 +4,7 @@
 
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 
@@ -19,7 +20,8 @@ struct Mirrored {
 // Looks up each column of water for its far shore, at most reflection_units away, and from there the same way up again, never across the
 // next silhouette (a farther range is not in the water at this bank). A level shore has no image, the slope behind it has a weaker one.
 // Water that is narrower than some units mirrors little: a brook shows the sky. Reach: reflection_margin_px().
-Mirrored find_reflections(const GuidanceBuffers& guidance, double pixels_per_unit);
+// Pixels outside `wanted` (empty: all) show nothing.
+Mirrored find_reflections(const GuidanceBuffers& guidance, double pixels_per_unit, PixelRect wanted = {});
 int reflection_margin_px(double pixels_per_unit);
 
 }  // namespace belvedere
