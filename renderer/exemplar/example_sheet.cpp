@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -176,8 +177,9 @@ namespace {
 
 ExampleSheetPlan plan_for(const SceneExemplar& settings, const Scene& scene, const View& view) {
   ExampleSheetPlan plan = built_in_example_sheet_plan();
-  plan.width = settings.width;
-  plan.height = settings.height;
+  const glm::ivec2 size = example_sheet_size(settings, scene.output);
+  plan.width = size.x;
+  plan.height = size.y;
   plan.seed = settings.seed;
   plan.dots_per_inch = 50.8 * scene.pixels_per_unit();  // strokes as large as the picture's
   plan.light_from_deg = view.sun.azimuth_deg - view.camera.azimuth_deg;
@@ -279,13 +281,28 @@ PaintedExemplar paint_example_sheet(const SceneExemplar& settings, const Scene& 
   return painted;
 }
 
+glm::ivec2 example_sheet_size(const SceneExemplar& settings, const SceneOutput& output) {
+  constexpr double pixels_per_texel = 8.0;
+  constexpr double least_texels = 2000.0 * 1400.0;
+  constexpr double most_texels = 24e6;
+  constexpr double wide = 10.0 / 7.0;
+  constexpr int least_side = 64;
+  const auto side = [&](double px) { return std::max(least_side, static_cast<int>(std::lround(px))); };
+  if (settings.width > 0 && settings.height > 0) return {side(settings.width), side(settings.height)};
+  if (settings.width > 0) return {side(settings.width), side(settings.width / wide)};
+  if (settings.height > 0) return {side(settings.height * wide), side(settings.height)};
+  const double pixels = static_cast<double>(output.width) * output.height;
+  const double texels = std::clamp(pixels / pixels_per_texel, least_texels, most_texels);
+  return {side(std::sqrt(texels * wide)), side(std::sqrt(texels / wide))};
+}
+
 std::vector<LandCoverClass> classes_of_example_sheet(const SceneExemplar& settings, const Scene& scene, const View& view,
                                                      const Palette& palette, Progress& progress, const Cache& cache) {
   // What occurs in panoramas stands in the demand that the plan was made for, and a test holds sheets of this size to it.
   constexpr int least_width = 500;
   constexpr int least_height = 350;
   std::vector<LandCoverClass> classes;
-  if (settings.width >= least_width && settings.height >= least_height) {
+  if (const glm::ivec2 size = example_sheet_size(settings, scene.output); size.x >= least_width && size.y >= least_height) {
     for (const LandCoverClassInfo& info : land_cover_classes())
       if (built_in_demand().texels[static_cast<std::size_t>(info.id)]) classes.push_back(info.id);
     return classes;

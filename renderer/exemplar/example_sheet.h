@@ -54,6 +54,10 @@ inline constexpr const char* example_sheet_name = "painted sheet";
 PaintedExemplar paint_example_sheet(const SceneExemplar& settings, const Scene& scene, const View& view, const Palette& palette,
                                     Progress& progress, const Cache& cache = no_cache());
 
+// Width and height of the sheet that is painted for a print of that many pixels: as the scene says, else a texel for eight pixels of it,
+// 10 : 7, from 2000 × 1400 to 24 Mpx. Fewer, and a large print repeats; what more would cost is not seen.
+glm::ivec2 example_sheet_size(const SceneExemplar& settings, const SceneOutput& output);
+
 // The classes that such a sheet has texels of, known without painting it where it is large enough; else it is painted.
 std::vector<LandCoverClass> classes_of_example_sheet(const SceneExemplar& settings, const Scene& scene, const View& view,
                                                      const Palette& palette, Progress& progress, const Cache& cache = no_cache());

@@ -233,7 +233,7 @@ class PngRows : public PictureRows {
       if (e.kind() != ErrorKind::input) throw;
       output_.fail(e.found());
     }
-    if (read.text() != written_.text()) output_.fail("it reads otherwise than it was written");
+    if (read.digits() != written_.digits()) output_.fail("it reads otherwise than it was written");
     output_.prepare();
   }
   void replace() override { output_.commit(); }

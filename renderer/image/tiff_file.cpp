@@ -153,7 +153,7 @@ class TiffRows : public PictureRows {
         output_.fail(message_);
       read.add(text_of(packed));
     }
-    if (read.text() != written_.text()) output_.fail("it reads otherwise than it was written");
+    if (read.digits() != written_.digits()) output_.fail("it reads otherwise than it was written");
   }
   std::size_t row_at(int row) const { return static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) * row_values; }
 

@@ -18,7 +18,7 @@ InputHash hash_address(const std::string& address) {
   if (const auto found = known.find(address); found != known.end()) return found->second;
   ContentHash hash;
   const std::uint64_t bytes = read_address(address, [&](std::string_view piece) { hash.add(piece); });
-  return known[address] = {bytes, hash.text()};
+  return known[address] = {bytes, hash.digits()};
 }
 
 }  // namespace

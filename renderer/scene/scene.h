@@ -145,8 +145,8 @@ struct SceneExemplar {
   double stroke_px = 6.0;              // what is larger than this is light, what is smaller a stroke
   std::string origin, licence, get_from;
   bool optional = false;  // missing file: left out with a note instead of an error
-  int width = 2000;       // px of a painted one
-  int height = 1400;
+  int width = 0;          // px of a painted one, 64…16384; 0: from the other at 10 : 7, or both as the print needs
+  int height = 0;
   std::uint64_t seed = 7;
 };
 
@@ -157,6 +157,7 @@ struct SceneSynthesis {
   double residual = 0.75;           // how much of the base picture's difference is laid over the texel, 0…1
   std::vector<std::pair<std::string, double>> weights = default_guide_weights();  // by guide (renderer/paint/guides.h)
   std::vector<std::pair<LandCoverClass, LandCoverClass>> fallback;
+  double plan_mpx = 4.0;       // Mpx, 0.001…64: texels are chosen for the sheet as a whole on a picture of it of at most that size
   SynthesisParameters search;  // without seed, weights and fallback
 };
 

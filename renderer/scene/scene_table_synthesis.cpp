@@ -44,6 +44,13 @@ std::vector<SceneSection> make_synthesis_sections() {
             .field = AT(synthesis.search.levels),
             .range = {1, 8},
             .meaning = "Steps from coarse to fine; more carries larger patterns over."},
+           {.name = "plan_mpx",
+            .field = AT(synthesis.plan_mpx),
+            .range = {0.001, 64},
+            .unit = "Mpx",
+            .meaning =
+                "Texture is chosen for the sheet as a whole on a picture of it of at most this size, and then refined in tiles of 1024 "
+                "pixels. Larger sheets repeat less with more; a part of the sheet takes longer."},
        }});
   return sections;
 }

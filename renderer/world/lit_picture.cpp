@@ -5,47 +5,44 @@
 
 #include "base/angle.h"
 #include "renderer/paint/composite.h"
-#include "renderer/paint/light.h"
 #include "renderer/scene/scene_error.h"
 
 namespace belvedere {
-namespace {
 
-ToneParameters to_tone_parameters(const World& world) {
+SheetView view_of(const World& world) { return {*world.camera, world.scene.pixels_per_unit(), world.horizon_px}; }
+
+SheetView reduced_view(const World& world, const Camera& reduced, int factor) {
+  return {reduced, world.scene.pixels_per_unit() / factor, world.horizon_px / factor};
+}
+
+ToneParameters to_tone_parameters(const World& world, const SheetView& view) {
   ToneParameters parameters;
   parameters.light = world.scene.light;
   if (world.view.sun.altitude_deg <= 0.0) parameters.light.sun = 0.0;
   parameters.sun_direction = world.view.sun_direction;
-  parameters.pixels_per_unit = world.scene.pixels_per_unit();
+  parameters.pixels_per_unit = view.pixels_per_unit;
   parameters.sun_image_x = world.view.sun_image_x;
   parameters.seed = world.scene.seed;
   return parameters;
 }
 
-BaseParameters to_base_parameters(const World& world) {
+BaseParameters to_base_parameters(const World& world, const SheetView& view) {
   BaseParameters parameters;
   parameters.air = world.scene.air;
-  parameters.horizon_px = world.horizon_px;
+  parameters.horizon_px = view.horizon_px;
   parameters.sun_image_x = world.view.sun_image_x;
-  parameters.pixels_per_unit = world.scene.pixels_per_unit();
+  parameters.pixels_per_unit = view.pixels_per_unit;
   parameters.seed = world.scene.seed;
   return parameters;
 }
 
-GuidanceParameters to_guidance_parameters(const World& world, int tile_px) {
-  GuidanceParameters parameters;
-  parameters.sampling = world.scene.sampling;
-  parameters.sun_direction = world.view.sun_direction;
-  parameters.sun_radius_rad = to_radians(world.scene.sun.radius_deg);
-  parameters.tile_size = tile_px;
-  return parameters;
+StrokeParameters to_stroke_parameters(const World& world, const Palette& palette) {
+  return to_stroke_parameters(world, palette, view_of(world));
 }
 
-}  // namespace
-
-StrokeParameters to_stroke_parameters(const World& world, const Palette& palette) {
+StrokeParameters to_stroke_parameters(const World& world, const Palette& palette, const SheetView& view) {
   StrokeParameters parameters;
-  parameters.pixels_per_unit = world.scene.pixels_per_unit();
+  parameters.pixels_per_unit = view.pixels_per_unit;
   parameters.winter = palette.winter;
   parameters.sun_side = world.view.sun_image_x < 0.0 ? -1.0 : 1.0;
   parameters.seed = world.scene.seed;
@@ -54,13 +51,23 @@ StrokeParameters to_stroke_parameters(const World& world, const Palette& palette
   return parameters;
 }
 
+GuidanceBuffers trace_view(const World& world, const SheetView& view, PixelRect region, const Run& run) {
+  GuidanceParameters parameters;
+  parameters.sampling = world.scene.sampling;
+  parameters.sun_direction = world.view.sun_direction;
+  parameters.sun_radius_rad = to_radians(world.scene.sun.radius_deg);
+  parameters.tile_size = run.tile_px;
+  return trace_guidance(world.terrain, world.surface, world.tracer, view.camera, parameters, region, run.progress);
+}
+
 LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRect region, const Run& run) {
+  const SheetView view = view_of(world);
   const glm::ivec2 origin_px{region.x0, region.y0};
   LitPicture picture;
-  picture.guidance = trace_guidance(world.terrain, world.surface, world.tracer, *world.camera, to_guidance_parameters(world, run.tile_px),
-                                    region, run.progress);
-  picture.guidance.tone = make_tone(picture.guidance, to_tone_parameters(world), origin_px, run.progress);
-  picture.base = make_base_picture(picture.guidance, palette, to_base_parameters(world), origin_px, world.camera->size(), run.progress);
+  picture.guidance = trace_view(world, view, region, run);
+  picture.guidance.tone = make_tone(picture.guidance, to_tone_parameters(world, view), origin_px, run.progress);
+  picture.base =
+      make_base_picture(picture.guidance, palette, to_base_parameters(world, view), origin_px, view.camera.size(), run.progress);
   picture.guidance.base = decode_srgb(picture.base.colour);
   return picture;
 }

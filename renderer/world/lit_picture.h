@@ -4,10 +4,27 @@
 #include "base/parallel.h"
 #include "base/run.h"
 #include "renderer/paint/base_picture.h"
+#include "renderer/paint/light.h"
 #include "renderer/paint/palette.h"
 #include "renderer/world/world.h"
 
 namespace belvedere {
+
+// How the pixels of a picture look at the world: all of them, or fewer that are as many times as large.
+struct SheetView {
+  const Camera& camera;
+  double pixels_per_unit;  // pixels of this view in 0.5 mm of the sheet
+  double horizon_px;       // row of the skyline's median, as World::horizon_px
+};
+SheetView view_of(const World& world);
+// The same through a camera of make_reduced_camera(*world.camera, factor).
+SheetView reduced_view(const World& world, const Camera& reduced, int factor);
+
+// The stages of a lit picture, each of a rectangle of the view: the traced channels …
+GuidanceBuffers trace_view(const World& world, const SheetView& view, PixelRect region, const Run& run);
+// … and what light and base picture are made with.
+ToneParameters to_tone_parameters(const World& world, const SheetView& view);
+BaseParameters to_base_parameters(const World& world, const SheetView& view);
 
 // The traced channels with light and base picture: complete guidance buffers, and the base picture that strokes are painted on.
 struct LitPicture {
@@ -20,5 +37,6 @@ int lit_margin_px(const Scene& scene);
 
 // The hand in which the strokes of a world are painted.
 StrokeParameters to_stroke_parameters(const World& world, const Palette& palette);
+StrokeParameters to_stroke_parameters(const World& world, const Palette& palette, const SheetView& view);
 
 }  // namespace belvedere

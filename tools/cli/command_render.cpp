@@ -17,9 +17,12 @@ struct Options {
   SceneOptions scene;
   std::string out;
   int tile_size = 32;
+  std::vector<int> part;  // x, y, width, height
+  bool resume = false;
+  int piece_px = 0;
 };
 
-using Job = void (*)(const LoadedScene&, const std::string& out_folder, const Run&);
+using Job = void (*)(const LoadedScene&, const std::string& out_folder, const Run&, const SheetRequest&);
 using Results = std::vector<std::string> (*)(const Scene&);  // names of the files that a job makes
 
 int run_job(const Options& options, Job job, Results results) {
@@ -27,7 +30,14 @@ int run_job(const Options& options, Job job, Results results) {
   const std::string folder = options.out.empty() ? scene.name : options.out;
   TerminalProgress progress(options.scene.quiet);
   const Cache cache = make_cache(options.scene);
-  job(scene, folder, make_run(options.scene, options.tile_size, progress, cache));
+  SheetRequest request;
+  request.resume = options.resume;
+  request.piece_px = options.piece_px;
+  if (!options.part.empty()) {
+    const std::vector<int>& p = options.part;
+    request.part = PixelRect{p[0], p[1], p[0] + p[2], p[1] + p[3]};
+  }
+  job(scene, folder, make_run(options.scene, options.tile_size, progress, cache), request);
   progress.end();
 
   std::vector<std::string> paths;
@@ -59,6 +69,19 @@ Action add_job(CLI::App& command, const char* footer, Job job, Results results) 
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(8, 4096));
+  command
+      .add_option("--part", options->part,
+                  "Only a rectangle of the sheet, as x,y,width,height in its pixels: a proof of what the whole will be")
+      ->type_name("X,Y,W,H")
+      ->delimiter(',')
+      ->expected(4);
+  command
+      .add_option("--piece", options->piece_px,
+                  "Side of the pieces that are finished one after the other, in pixels; 0, the default, is 1024. Changes no pixel")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096));
+  command.add_flag("--resume", options->resume,
+                   "Go on where a run into this folder was stopped; the files are the same as if it had not been");
   command.footer(footer);
   return [options, job, results] { return run_job(*options, job, results); };
 }
@@ -70,7 +93,8 @@ Action add_render(CLI::App& command) {
                  "Writes panorama.tif (16 bit, with profile and resolution), panorama.png, panorama.exr (scene-linear),\n"
                  "or what output.formats names, and guidance.exr (depth, classes, light … of every pixel).\n\n"
                  "  belvedere render scenes/karwendel.toml --data ../data --out karwendel\n"
-                 "  belvedere render scenes/karwendel.toml --data ../data --set output.width=1200 --set output.height=550",
+                 "  belvedere render scenes/karwendel.toml --data ../data --set output.width=1200 --set output.height=550\n"
+                 "  belvedere render scenes/karwendel.toml --data ../data --part 800,300,400,400 --out proof",
                  render, [](const Scene& scene) {
                    std::vector<std::string> names;
                    for (const std::string& ending : scene.output.formats) names.push_back("panorama." + ending);

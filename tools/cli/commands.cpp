@@ -7,6 +7,9 @@ const std::vector<Command>& all_commands() {
   static const std::vector<Command> commands = {
       {"", "render", "Renders a scene: panorama.tif for print, .png for screens, .exr for further work", add_render},
       {"", "guidance", "Makes only guidance.exr: depth, classes, light … of every pixel, for other tools", add_guidance},
+      {"", "plan", "Prepares a sheet that several machines make together", add_plan},
+      {"", "part", "Makes one part of a planned sheet", add_part},
+      {"", "join", "Joins the parts of a planned sheet to its files", add_join},
       {"", "generalize", "Simplifies a DEM for a map: weights landforms by their size, keeps ridges sharp", add_generalize},
       {"", "synthesize", "Lays a painting's texture over a label map; works on image files alone", add_synthesize},
       {"", "check", "Says whether a scene can be rendered, without rendering it", add_check},

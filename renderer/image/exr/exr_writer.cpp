@@ -315,7 +315,7 @@ void ExrWriter::State::verify() const {
     again.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     read.add(std::string_view(bytes).substr(0, static_cast<std::size_t>(again.gcount())));
   } while (again);
-  if (again.bad() || read.text() != written.text()) complain();
+  if (again.bad() || read.digits() != written.digits()) complain();
 }
 
 ExrWriter::ExrWriter(const std::string& path, int width, int height, const std::vector<PartSpec>& parts, const FileNotes& notes) {

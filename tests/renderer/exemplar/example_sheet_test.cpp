@@ -334,5 +334,22 @@ TEST_F(ExemplarFiles, GuidanceWithPaintFromBeyondThePictureIsRefused) {
   EXPECT_THROW(read_scans(copying("p.png", "g.exr", folder_.path()), silent_progress()), Error);
 }
 
+TEST(ExampleSheetSize, GrowsWithThePrint) {
+  const auto size = [](int width, int height, const SceneExemplar& settings = {}) {
+    SceneOutput output;
+    output.width = width;
+    output.height = height;
+    return example_sheet_size(settings, output);
+  };
+  EXPECT_EQ(size(800, 400), glm::ivec2(2000, 1400)) << "never less";
+  EXPECT_EQ(size(20000, 8000), glm::ivec2(5345, 3742)) << "a texel for eight pixels";
+  EXPECT_EQ(size(60000, 30000), size(40000, 16000)) << "never more";
+  SceneExemplar wide;
+  wide.width = 700;
+  EXPECT_EQ(size(20000, 8000, wide), glm::ivec2(700, 490));
+  wide.height = 300;
+  EXPECT_EQ(size(20000, 8000, wide), glm::ivec2(700, 300));
+}
+
 }  // namespace
 }  // namespace belvedere

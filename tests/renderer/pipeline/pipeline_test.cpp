@@ -212,7 +212,7 @@ TEST_F(Pipeline, AnOutputThatCannotBeWrittenIsRefusedBeforeTheWork) {
 
 TEST_F(Pipeline, APictureBeyondMemoryIsRefusedWithTheEstimate) {
   try {
-    render(scene({"output.width=60000", "output.height=60000"}), out("a"), {});
+    render(scene({"output.width=60000", "output.height=60000"}), out("a"), {.memory_bytes = 100U << 20U});
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::limit);

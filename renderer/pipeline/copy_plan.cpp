@@ -1,0 +1,115 @@
+#include "renderer/pipeline/copy_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "renderer/exemplar/exemplars.h"
+#include "renderer/trace/camera_reduced.h"
+#include "texture/synthesis/class_supply.h"
+
+namespace belvedere {
+namespace {
+
+constexpr const char* plan_name = "plan";
+
+// Bytes that a pixel of a stage's window takes while the stage works: the widest is the base picture's.
+constexpr double window_bytes_per_pixel = 180.0;
+constexpr int largest_tile_px = 1024;
+constexpr int smallest_tile_px = 128;
+constexpr double share_of_windows = 0.4;  // of the memory that may be used; the world, the exemplars and kept tiles take the rest
+
+void note_scarcity(const std::vector<Exemplar>& exemplars, const GuideStack& guides, const SynthesisParameters& parameters,
+                   Progress& progress) {
+  const std::string scarcity = describe_scarcity(class_supply(exemplars, guides.label, parameters.fallback), [](std::uint8_t label) {
+    return std::string(class_name(static_cast<LandCoverClass>(label)));
+  });
+  if (!scarcity.empty()) progress.note(scarcity);
+}
+
+// What synthesis compares is in its plan; pictures are still copied from.
+void forget_compared(std::vector<PaintedExemplar>& exemplars) {
+  for (PaintedExemplar& painted : exemplars) {
+    painted.exemplar.picture = {};
+    painted.exemplar.guides = {};
+  }
+}
+
+}  // namespace
+
+SynthesisParameters to_synthesis_parameters(const Scene& scene) {
+  SynthesisParameters parameters = scene.synthesis.search;
+  parameters.seed = scene.seed;
+  // What a scene says of one guide leaves the defaults of the others.
+  parameters.weights = SceneSynthesis{}.weights;
+  for (const auto& given : scene.synthesis.weights) {
+    const auto known =
+        std::find_if(parameters.weights.begin(), parameters.weights.end(), [&](const auto& weight) { return weight.first == given.first; });
+    if (known != parameters.weights.end())
+      known->second = given.second;
+    else
+      parameters.weights.push_back(given);
+  }
+  for (const auto& [from, to] : with_stand_ins(scene.synthesis.fallback))
+    parameters.fallback[static_cast<std::uint8_t>(from)] = static_cast<std::uint8_t>(to);
+  return parameters;
+}
+
+int choose_tile_px(const Scene& scene, double pixels_per_unit) {
+  const auto budget = static_cast<double>(memory_budget_bytes());
+  BaseParameters base;
+  base.pixels_per_unit = pixels_per_unit;
+  const int margin = base_margin_px(base);
+  const auto bytes = [&](int tile) {
+    const double wide = std::min(scene.output.width, tile + 2 * margin);
+    const double high = std::min(scene.output.height, tile + 2 * margin);
+    return wide * high * window_bytes_per_pixel;
+  };
+  int tile = largest_tile_px;
+  while (tile > smallest_tile_px && bytes(tile) > share_of_windows * budget) tile /= 2;
+  if (bytes(tile) > share_of_windows * budget)
+    throw Error(ErrorKind::limit, "output",
+                fmt::format("a picture of {}×{} pixels needs about {:.0f} MiB", scene.output.width, scene.output.height,
+                            bytes(tile) / share_of_windows / 1048576.0),
+                fmt::format("at most {} MiB: a smaller output.width, or --memory", memory_budget_bytes() >> 20));
+  return tile;
+}
+
+CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePaint& paint, SheetGround& ground, TileStore::Place& place,
+                        const WorkFolder& work, const Run& run) {
+  CopyPlan plan;
+  plan.residual = world.scene.synthesis.residual;
+  plan.exemplars = make_exemplars(loaded, world.view, paint.palette, std::move(paint.paintings), run.progress, run.cache);
+  std::vector<Exemplar> copied_from;
+  copied_from.reserve(plan.exemplars.size());
+  for (const PaintedExemplar& painted : plan.exemplars) copied_from.push_back(painted.exemplar);
+  const SynthesisParameters parameters = to_synthesis_parameters(world.scene);
+  const glm::ivec2 sheet = world.camera->size();
+  if (work.has_bytes(plan_name)) {
+    const std::string bytes = work.read_bytes(plan_name);
+    plan.synthesis = unpack_plan({bytes.begin(), bytes.end()}, copied_from);
+    forget_compared(plan.exemplars);
+    return plan;
+  }
+  const SynthesisSheet division = divide_sheet(sheet.x, sheet.y, std::llround(world.scene.synthesis.plan_mpx * 1e6));
+  const auto reduced_guides = [&] {
+    const int factor = 1 << division.level;
+    const std::unique_ptr<const Camera> camera = make_reduced_camera(*world.camera, factor);
+    const SheetView view = reduced_view(world, *camera, factor);
+    SheetGround small(world, view, paint.palette, place, run, choose_tile_px(world.scene, view.pixels_per_unit));
+    return small.read_guides(small.sheet());
+  };
+  const GuideStack guides = division.level == 0 ? ground.read_guides(ground.sheet()) : reduced_guides();
+  note_scarcity(copied_from, guides, parameters, run.progress);
+  plan.synthesis = plan_synthesis(copied_from, guides, division, parameters, run.progress);
+  const std::vector<std::uint8_t> packed = pack_plan(*plan.synthesis);
+  work.keep_bytes(plan_name, {packed.begin(), packed.end()});
+  forget_compared(plan.exemplars);
+  return plan;
+}
+
+}  // namespace belvedere

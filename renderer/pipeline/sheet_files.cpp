@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/grid_part.h"
+#include "renderer/image/guidance_io.h"
+#include "renderer/image/rows/picture_files.h"
+#include "renderer/paint/composite.h"
+#include "renderer/pipeline/output_color.h"
+#include "renderer/pipeline/sheet_job.h"
+#include "renderer/sheet/guidance_pack.h"
+
+namespace belvedere {
+namespace {
+
+std::string join(const std::string& folder, const char* file) { return folder.empty() ? file : folder + "/" + file; }
+
+// Rows that are joined at once: a row of tiles of the files.
+constexpr int band_rows = 64;
+
+// Calls f(piece) for the pieces that the rows [y0, y1) of the sheet lie in.
+template <class F>
+void for_rows(const std::vector<PixelRect>& pieces, int y0, int y1, F&& f) {
+  for (const PixelRect& piece : pieces)
+    if (piece.y0 < y1 && piece.y1 > y0) f(piece);
+}
+
+// What positions count from, as the notes say.
+glm::dvec3 parse_origin(const FileNotes& notes) {
+  std::istringstream text(notes.at("origin"));
+  glm::dvec3 origin(0.0);
+  text >> origin.x >> origin.y >> origin.z;
+  return origin;
+}
+
+Planes from_row(const Planes& planes, int row) {
+  Planes rows = planes;
+  for (Plane& plane : rows) plane.values += plane.row_bytes() * static_cast<std::size_t>(row);
+  return rows;
+}
+
+// Rows [y0, y1) of a product over the whole width of the region, into planes of that size.
+void read_rows(const WorkFolder& work, const std::string& product, const std::vector<PixelRect>& pieces, PixelRect region, int y0, int y1,
+               const Planes& to) {
+  for_rows(pieces, y0, y1, [&](const PixelRect& piece) {
+    const int first = std::max(y0, piece.y0);
+    read_piece_rows(work.path(product, piece), work.key(product, piece), first, std::min(y1, piece.y1), region.x0,
+                    from_row(to, first - y0));
+  });
+}
+
+void require_pieces(const WorkFolder& work, const SheetRequest& request, const std::vector<PixelRect>& pieces, Progress& progress) {
+  std::string missing;
+  int count = 0;
+  const std::vector<std::string> products = products_of(request);
+  progress.begin("looking through the pieces", static_cast<double>(pieces.size() * products.size()));
+  for (const PixelRect& piece : pieces)
+    for (const std::string& product : products) {
+      if (!work.has(product, piece) && count++ < 5)
+        missing += fmt::format("{}{} at {},{}", missing.empty() ? "" : ", ", product, piece.x0, piece.y0);
+      progress.advance(1.0);
+    }
+  if (count > 0)
+    throw Error(ErrorKind::input, work.folder(),
+                fmt::format("{} of {} pieces are missing: {}{}", count, pieces.size() * products.size(), missing, count > 5 ? " …" : ""),
+                "the parts that make them, run again");
+}
+
+}  // namespace
+
+void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const std::string& out_folder,
+                       const Run& run) {
+  const Scene& scene = loaded.scene;
+  const PixelRect region = region_of(scene, request);
+  const std::vector<PixelRect> pieces = pieces_of(region, request);
+  require_pieces(work, request, pieces, run.progress);
+  const FileNotes notes = job_from_text(work.read_bytes("notes"));
+  FileNotes file_notes = notes;
+  file_notes.erase("origin");  // of positions, which guidance alone has
+
+  run.progress.begin("writing guidance", region.height());
+  GuidanceWriter guidance(join(out_folder, "guidance.exr"), region.width(), region.height(), file_notes);
+  const GuidanceBuffers like = sheet_guidance_like(parse_origin(notes));
+  for (int y0 = region.y0; y0 < region.y1; y0 += band_rows) {
+    const int y1 = std::min(region.y1, y0 + band_rows);
+    const PackedGuidance packed = blank_packed(like, region.width(), y1 - y0);
+    read_rows(work, "guidance", pieces, region, y0, y1, packed.planes);
+    guidance.write_rows(unpack_guidance(packed, like), 0, y1 - y0, y0 - region.y0);
+    run.progress.advance(y1 - y0);
+  }
+  guidance.finish();
+  if (!request.panorama) return;
+
+  run.progress.begin("writing the panorama", region.height());
+  const OutputColor color = read_output_color(loaded);
+  const double dots_per_inch = scene.output.width / scene.output.sheet_width_mm * 25.4;
+  for (const std::string& note : reduction_notes("panorama", scene.output.formats, region.width(), region.height()))
+    run.progress.note(note);
+  PictureFiles panorama(join(out_folder, "panorama"), scene.output.formats, region.width(), region.height(), {color.display, color.profile},
+                        dots_per_inch, file_notes);
+  for (int y0 = region.y0; y0 < region.y1; y0 += band_rows) {
+    const int y1 = std::min(region.y1, y0 + band_rows);
+    Grid<glm::vec3> rows(region.width(), y1 - y0);
+    read_rows(work, "panorama", pieces, region, y0, y1, {plane_of(rows)});
+    panorama.write_rows(decode_srgb(rows));
+    run.progress.advance(y1 - y0);
+  }
+  panorama.finish();
+}
+
+}  // namespace belvedere

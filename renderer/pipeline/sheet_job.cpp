@@ -1,0 +1,120 @@
+#include "renderer/pipeline/sheet_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "base/error.h"
+#include "renderer/image/guidance_io.h"
+#include "renderer/pipeline/copy_plan.h"
+#include "renderer/pipeline/scene_paint.h"
+#include "renderer/sheet/guidance_pack.h"
+#include "renderer/sheet/sheet_picture.h"
+#include "renderer/world/world_notes.h"
+
+namespace belvedere {
+namespace {
+
+constexpr const char* notes_bytes = "notes";
+constexpr const char* origin_note = "origin";  // what positions count from
+
+// Few pieces: every stage of each is told of. Many: one bar for all of them, and what a stage remarks, once.
+class PieceProgress final : public Progress {
+ public:
+  PieceProgress(Progress& outer, bool every_stage) : outer_(outer), every_stage_(every_stage) {}
+  void begin(std::string_view stage, double total) override {
+    if (every_stage_) outer_.begin(stage, total);
+  }
+  void advance(double amount) override { outer_.advance(every_stage_ ? amount : 0.0); }
+  void note(std::string_view text) override {
+    if (told_.insert(std::string(text)).second) outer_.note(text);
+  }
+
+ private:
+  Progress& outer_;
+  bool every_stage_;
+  std::set<std::string> told_;
+};
+
+// What the headers of all files say.
+void keep_notes(const LoadedScene& loaded, const World& world, const WorkFolder& work) {
+  if (work.has_bytes(notes_bytes)) return;
+  FileNotes notes = make_world_notes(loaded, world);
+  const glm::dvec3 origin = world.surface.origin;
+  notes[origin_note] = fmt::format("{:.17g} {:.17g} {:.17g}", origin.x, origin.y, origin.z);
+  work.keep_bytes(notes_bytes, to_text(notes));
+}
+
+// Of the tiles that stages keep in memory, of what may be used.
+constexpr double share_of_tiles = 0.2;
+
+// The largest rectangle that pieces from number `next` on lie in.
+PixelRect still_to_make(std::span<const PixelRect> pieces, std::size_t next) {
+  PixelRect all = pieces[next];
+  for (const PixelRect& piece : pieces.subspan(next))
+    all = {std::min(all.x0, piece.x0), std::min(all.y0, piece.y0), std::max(all.x1, piece.x1), std::max(all.y1, piece.y1)};
+  return all;
+}
+
+bool is_made(const WorkFolder& work, const SheetRequest& request, PixelRect piece) {
+  const std::vector<std::string> products = products_of(request);
+  return std::all_of(products.begin(), products.end(), [&](const std::string& product) { return work.has(product, piece); });
+}
+
+}  // namespace
+
+void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::span<const PixelRect> pieces, const WorkFolder& work,
+                 const Run& run) {
+  std::vector<PixelRect> missing;
+  std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(missing),
+               [&](const PixelRect& piece) { return !is_made(work, request, piece); });
+  if (missing.empty() && work.has_bytes(notes_bytes)) return;
+
+  ScenePaint paint = request.panorama ? read_scene_paint(loaded, run.progress) : ScenePaint{{}, read_scene_palette(loaded, run.progress)};
+  const World world(loaded, run.progress, run.cache);
+  keep_notes(loaded, world, work);
+
+  TileStore::Place place{work.folder(), static_cast<std::uint64_t>(share_of_tiles * static_cast<double>(memory_budget_bytes()))};
+  const bool few = pieces.size() <= 4;
+  PieceProgress progress(run.progress, few);
+  const Run stage_run{run.threads, run.memory_bytes, run.tile_px, progress, run.cache};
+  const SheetView view = view_of(world);
+  const int tile_px = request.stage_tile_px > 0 ? request.stage_tile_px : choose_tile_px(world.scene, view.pixels_per_unit);
+  SheetGround ground(world, view, paint.palette, place, stage_run, tile_px);
+  const bool copied = request.panorama && world.scene.synthesis.enabled;
+  CopyPlan plan = copied ? make_copy_plan(loaded, world, paint, ground, place, work, run) : CopyPlan{};
+  SheetPicture picture(ground, copied ? &plan : nullptr, place, stage_run);
+
+  const double all = static_cast<double>(missing.size());
+  if (!few) run.progress.begin(request.panorama ? "painting the sheet" : "tracing the sheet", all);
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    const PixelRect piece = missing[i];
+    // Nobody asks again for what only earlier pieces looked at.
+    if (i > 0) request.panorama ? picture.keep_only(still_to_make(missing, i)) : ground.keep_only(still_to_make(missing, i));
+    if (!work.has("guidance", piece)) {
+      PackedGuidance packed = pack_guidance(ground.read_all_guidance(piece));
+      work.keep("guidance", piece, packed.planes);
+    }
+    if (request.panorama && !work.has("panorama", piece)) {
+      Grid<glm::vec3> painted = picture.make(piece);
+      work.keep("panorama", piece, {plane_of(painted)});
+    }
+    if (!few) run.progress.advance(1.0);
+  }
+}
+
+void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run) {
+  ScenePaint paint = read_scene_paint(loaded, run.progress);
+  const World world(loaded, run.progress, run.cache);
+  keep_notes(loaded, world, work);
+  if (!request.panorama || !world.scene.synthesis.enabled) return;
+  TileStore::Place place{work.folder(), static_cast<std::uint64_t>(share_of_tiles * static_cast<double>(memory_budget_bytes()))};
+  const SheetView view = view_of(world);
+  SheetGround ground(world, view, paint.palette, place, run, choose_tile_px(world.scene, view.pixels_per_unit));
+  make_copy_plan(loaded, world, paint, ground, place, work, run);
+}
+
+}  // namespace belvedere

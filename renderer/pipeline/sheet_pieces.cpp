@@ -1,0 +1,66 @@
+#include "renderer/pipeline/sheet_pieces.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "renderer/image/provenance.h"
+#include "renderer/scene/input_hash.h"
+#include "texture/sheet/synthesis_plan.h"
+
+namespace belvedere {
+namespace {
+
+// Side of a piece: those of synthesis, so that each of its tiles is made for one piece.
+constexpr int usual_piece_px = SynthesisSheet{}.tile_px;
+
+}  // namespace
+
+PixelRect region_of(const Scene& scene, const SheetRequest& request) {
+  const PixelRect sheet{0, 0, scene.output.width, scene.output.height};
+  if (!request.part) return sheet;
+  const PixelRect& part = *request.part;
+  if (part.empty() || intersection(part, sheet) != part)
+    throw Error(ErrorKind::usage, "--part", fmt::format("{},{},{},{}", part.x0, part.y0, part.width(), part.height()),
+                fmt::format("x,y,width,height of at least one pixel inside the sheet of {} × {} pixels", sheet.x1, sheet.y1));
+  return part;
+}
+
+std::vector<std::string> products_of(const SheetRequest& request) {
+  if (request.panorama) return {"guidance", "panorama"};
+  return {"guidance"};
+}
+
+std::vector<PixelRect> pieces_of(PixelRect region, const SheetRequest& request) {
+  const int piece_px = request.piece_px > 0 ? request.piece_px : usual_piece_px;
+  const int column0 = region.x0 / piece_px;
+  const int column1 = (region.x1 - 1) / piece_px;
+  const int row0 = region.y0 / piece_px;
+  const int row1 = (region.y1 - 1) / piece_px;
+  std::vector<PixelRect> pieces;
+  const auto add = [&](int column, int row) {
+    pieces.push_back(intersection(region, {column * piece_px, row * piece_px, (column + 1) * piece_px, (row + 1) * piece_px}));
+  };
+  if (region.width() > region.height()) {
+    for (int column = column0; column <= column1; ++column)
+      for (int row = row0; row <= row1; ++row) add(column, row);
+  } else {
+    for (int row = row0; row <= row1; ++row)
+      for (int column = column0; column <= column1; ++column) add(column, row);
+  }
+  return pieces;
+}
+
+JobIdentity identify(const LoadedScene& loaded, const SheetRequest& request) {
+  JobIdentity identity;
+  const PixelRect region = region_of(loaded.scene, request);
+  identity["program"] = program_version() + ", " + library_versions();
+  identity["scene"] = write_scene(loaded.scene);
+  identity["part"] = fmt::format("{},{},{},{}", region.x0, region.y0, region.width(), region.height());
+  identity["results"] = fmt::format("{}", fmt::join(products_of(request), ", "));
+  identity["piece"] = fmt::format("{} px", request.piece_px);
+  for (const SceneInput& input : scene_inputs(loaded))
+    if (!input.path.empty()) identity[input.file] = hash_input(input.path).hash;
+  return identity;
+}
+
+}  // namespace belvedere

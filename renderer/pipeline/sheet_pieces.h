@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/parallel.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/sheet/work_folder.h"
+
+namespace belvedere {
+
+// What is asked of a sheet.
+struct SheetRequest {
+  bool panorama = true;           // else guidance alone
+  std::optional<PixelRect> part = {};  // of the sheet, px; absent: all of it
+  bool resume = false;            // go on from the pieces of a run that ended
+  int piece_px = 0;               // side of a piece, 64…4096; 0: 1024. Changes no pixel
+  int stage_tile_px = 0;          // side of the tiles that stages are made in, 64…4096; 0: what memory allows. Changes no pixel
+};
+
+// The pixels asked for. Error(usage) for a part that does not lie on the sheet.
+PixelRect region_of(const Scene& scene, const SheetRequest& request);
+// Products whose pieces are made.
+std::vector<std::string> products_of(const SheetRequest& request);
+// The squares of the sheet's fixed grid that the region touches, cut to it, in the order in which they are made: along the shorter side,
+// so that what must be kept of the stages before is least.
+std::vector<PixelRect> pieces_of(PixelRect region, const SheetRequest& request);
+// All that the pixels of a request hang on.
+JobIdentity identify(const LoadedScene& loaded, const SheetRequest& request);
+
+}  // namespace belvedere

@@ -1,0 +1,114 @@
+#include "renderer/sheet/guidance_pack.h"
+
+#include <cstdint>
+#include <cstring>
+#include <variant>
+
+#include "base/guidance_channels.h"
+#include "renderer/image/exr/half_floats.h"
+
+namespace belvedere {
+namespace {
+
+std::size_t bytes_of(ChannelStorage type) { return type == ChannelStorage::half ? 2 : 4; }
+
+// Calls f(channel, grid, component) for every component that the buffers have.
+template <class Buffers, class F>
+void for_each_component(Buffers& guidance, F&& f) {
+  for (const GuidanceChannel& channel : guidance_channels())
+    std::visit(
+        [&](auto member) {
+          auto& grid = guidance.*member;
+          if (grid.empty()) return;
+          for (std::size_t k = 0; k < channel.components(); ++k) f(channel, grid, k);
+        },
+        channel.member);
+}
+
+// Numbers of one component between its values: one for plain numbers.
+template <class T>
+constexpr std::size_t stride = std::is_same_v<T, glm::vec2>   ? 2
+                               : std::is_same_v<T, glm::vec3> ? 3
+                                                              : 1;
+
+template <class T>
+constexpr bool is_number = std::is_same_v<T, float> || std::is_same_v<T, glm::vec2> || std::is_same_v<T, glm::vec3>;
+
+void add_plane(PackedGuidance& packed, ChannelStorage type, int width, int height) {
+  const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  packed.values.emplace_back(count * bytes_of(type));
+  packed.planes.push_back({packed.values.back().data(), bytes_of(type), width, height});
+}
+
+}  // namespace
+
+GuidanceBuffers sheet_guidance_like(glm::dvec3 origin_m) {
+  GuidanceBuffers like;
+  like.origin_m = origin_m;
+  for (const GuidanceChannel& channel : guidance_channels())
+    if (channel.maker != ChannelMaker::strokes) fill_channel(like, channel, 1, 1, channel.sky);
+  return like;
+}
+
+PackedGuidance blank_packed(const GuidanceBuffers& like, int width, int height) {
+  PackedGuidance packed;
+  for_each_component(like,
+                     [&](const GuidanceChannel& channel, const auto&, std::size_t) { add_plane(packed, channel.type, width, height); });
+  return packed;
+}
+
+PackedGuidance pack_guidance(const GuidanceBuffers& guidance) {
+  PackedGuidance packed = blank_packed(guidance, guidance.width(), guidance.height());
+  std::size_t p = 0;
+  for_each_component(guidance, [&](const GuidanceChannel& channel, const auto& grid, std::size_t k) {
+    using T = typename std::decay_t<decltype(grid)>::value_type;
+    std::byte* to = packed.values[p++].data();
+    if constexpr (is_number<T>) {
+      const float* from = reinterpret_cast<const float*>(grid.data()) + k;
+      if (channel.type == ChannelStorage::half)
+        to_halves(from, stride<T>, grid.size(), reinterpret_cast<std::uint16_t*>(to));
+      else
+        for (std::size_t i = 0; i < grid.size(); ++i) std::memcpy(to + 4 * i, from + stride<T> * i, 4);
+    } else {
+      for (std::size_t i = 0; i < grid.size(); ++i) {
+        const auto id = static_cast<std::uint32_t>(grid[i]);
+        std::memcpy(to + 4 * i, &id, 4);
+      }
+    }
+  });
+  return packed;
+}
+
+GuidanceBuffers unpack_guidance(const PackedGuidance& packed, const GuidanceBuffers& like) {
+  GuidanceBuffers guidance;
+  guidance.origin_m = like.origin_m;
+  const int width = packed.planes.front().width;
+  const int height = packed.planes.front().height;
+  for (const GuidanceChannel& channel : guidance_channels())
+    std::visit(
+        [&](auto member) {
+          if (!(like.*member).empty()) guidance.*member = typename std::decay_t<decltype(guidance.*member)>(width, height);
+        },
+        channel.member);
+  std::size_t p = 0;
+  for_each_component(guidance, [&](const GuidanceChannel& channel, auto& grid, std::size_t k) {
+    using T = typename std::decay_t<decltype(grid)>::value_type;
+    const std::byte* from = packed.values[p++].data();
+    if constexpr (is_number<T>) {
+      float* to = reinterpret_cast<float*>(grid.data()) + k;
+      if (channel.type == ChannelStorage::half)
+        from_halves(reinterpret_cast<const std::uint16_t*>(from), grid.size(), to, stride<T>);
+      else
+        for (std::size_t i = 0; i < grid.size(); ++i) std::memcpy(to + stride<T> * i, from + 4 * i, 4);
+    } else {
+      for (std::size_t i = 0; i < grid.size(); ++i) {
+        std::uint32_t id = 0;
+        std::memcpy(&id, from + 4 * i, 4);
+        grid[i] = static_cast<T>(id);
+      }
+    }
+  });
+  return guidance;
+}
+
+}  // namespace belvedere

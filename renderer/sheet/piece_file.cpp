@@ -1,0 +1,157 @@
+#include "renderer/sheet/piece_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "base/error.h"
+#include "renderer/image/provenance.h"
+
+namespace belvedere {
+namespace {
+
+constexpr std::size_t hash_chars = 32;
+constexpr std::size_t longest_head = 4096;
+
+std::string head_of(const PieceKey& key) {
+  return fmt::format("belvedere piece 1\njob {}\nproduct {}\nrectangle {} {} {} {}\n", key.job, key.product, key.rect.x0, key.rect.y0,
+                     key.rect.x1, key.rect.y1);
+}
+
+[[noreturn]] void fail(const std::string& path, const char* what, int code) {
+  throw Error(ErrorKind::output, path, fmt::format("{}: {}", what, std::generic_category().message(code)));
+}
+
+// A name that no other process and no other thread of this one takes at the same time.
+std::string temporary_name(const std::string& path) {
+  static std::atomic<unsigned> count{0};
+  return fmt::format("{}.{}-{}.tmp", path, static_cast<long>(::getpid()), count.fetch_add(1));
+}
+
+struct OpenFile {
+  explicit OpenFile(int file) : descriptor(file) {}
+  ~OpenFile() {
+    if (descriptor >= 0) ::close(descriptor);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  int descriptor;
+};
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return file ? std::move(text).str() : std::string();
+}
+
+void read_at(int file, std::byte* to, std::size_t count, std::uint64_t at, const std::string& path) {
+  while (count > 0) {
+    const ::ssize_t got = ::pread(file, to, count, static_cast<::off_t>(at));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) throw Error(ErrorKind::input, path, "this finished piece cannot be read");
+    to += got;
+    at += static_cast<std::uint64_t>(got);
+    count -= static_cast<std::size_t>(got);
+  }
+}
+
+}  // namespace
+
+void write_piece(const std::string& path, const PieceKey& key, const Planes& planes) {
+  std::string content = head_of(key) + "planes";
+  std::size_t bytes = 0;
+  for (const Plane& plane : planes) {
+    content += fmt::format(" {}", plane.value_bytes);
+    bytes += plane.bytes();
+  }
+  content += "\n\n";
+  content.reserve(content.size() + bytes + hash_chars);
+  for (const Plane& plane : planes) content.append(reinterpret_cast<const char*>(plane.values), plane.bytes());
+  content += hash_bytes(content);
+
+  const std::string temporary = temporary_name(path);
+  OpenFile file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (file.descriptor < 0) fail(path, "cannot be created", errno);
+  const auto give_up = [&](const char* what, int code) {
+    ::unlink(temporary.c_str());
+    fail(path, what, code);
+  };
+  for (std::size_t at = 0; at < content.size();) {
+    const ::ssize_t written = ::write(file.descriptor, content.data() + at, content.size() - at);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) give_up("cannot be written", written < 0 ? errno : ENOSPC);
+    at += static_cast<std::size_t>(written);
+  }
+  // Some systems tell of a full disk only now.
+  if (::fdatasync(file.descriptor) != 0) give_up("cannot be brought to disk", errno);
+  const int closed = ::close(file.descriptor);
+  file.descriptor = -1;
+  if (closed != 0) give_up("cannot be closed", errno);
+  if (::rename(temporary.c_str(), path.c_str()) != 0) give_up("cannot be renamed", errno);
+}
+
+bool is_whole_piece(const std::string& path, const PieceKey& key) {
+  const std::string content = read_file(path);
+  const std::string head = head_of(key);
+  if (content.size() < head.size() + hash_chars || content.compare(0, head.size(), head) != 0) return false;
+  const std::string_view all(content);
+  return hash_bytes(all.substr(0, all.size() - hash_chars)) == all.substr(all.size() - hash_chars);
+}
+
+PieceLayout read_piece_layout(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string head(longest_head, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  const std::size_t planes = head.find("\nplanes");
+  const std::size_t end = head.find("\n\n", planes);
+  if (planes == std::string::npos || end == std::string::npos) throw Error(ErrorKind::input, path, "is no finished piece");
+  PieceLayout layout;
+  std::istringstream numbers(head.substr(planes + 7, end - planes - 7));
+  for (std::size_t bytes = 0; numbers >> bytes;) layout.value_bytes.push_back(bytes);
+  layout.begin = end + 2;
+  std::error_code code;
+  const std::uint64_t size = std::filesystem::file_size(path, code);
+  if (code || size < layout.begin + hash_chars) throw Error(ErrorKind::input, path, "is cut off");
+  layout.bytes = size - layout.begin - hash_chars;
+  return layout;
+}
+
+void read_piece_rows(const std::string& path, const PieceKey& key, int y0, int y1, int origin_x, const Planes& to) {
+  const PieceLayout layout = read_piece_layout(path);
+  const OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.descriptor < 0) throw Error(ErrorKind::input, path, "this finished piece cannot be opened");
+  if (layout.value_bytes.size() != to.size()) throw Error(ErrorKind::bug, path, "other planes than asked for");
+  const auto width = static_cast<std::size_t>(key.rect.width());
+  std::uint64_t start = layout.begin;
+  std::vector<std::byte> rows;
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    const std::size_t size = layout.value_bytes[i];
+    rows.resize(width * size * static_cast<std::size_t>(y1 - y0));
+    read_at(file.descriptor, rows.data(), rows.size(), start + width * size * static_cast<std::uint64_t>(y0 - key.rect.y0), path);
+    for (int y = 0; y < y1 - y0; ++y)
+      std::memcpy(to[i].values + to[i].row_bytes() * static_cast<std::size_t>(y) + size * static_cast<std::size_t>(key.rect.x0 - origin_x),
+                  rows.data() + width * size * static_cast<std::size_t>(y), width * size);
+    start += width * size * static_cast<std::uint64_t>(key.rect.height());
+  }
+}
+
+std::string read_piece_bytes(const std::string& path) {
+  const PieceLayout layout = read_piece_layout(path);
+  const std::string content = read_file(path);
+  if (content.size() < layout.begin + layout.bytes) throw Error(ErrorKind::input, path, "is cut off");
+  return content.substr(layout.begin, layout.bytes);
+}
+
+}  // namespace belvedere

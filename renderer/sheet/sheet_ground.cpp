@@ -1,0 +1,165 @@
+#include "renderer/sheet/sheet_ground.h"
+
+#include <utility>
+#include <variant>
+
+#include "base/grid_part.h"
+#include "renderer/paint/composite.h"
+#include "renderer/paint/guides.h"
+
+namespace belvedere {
+namespace {
+
+using B = GuidanceBuffers;
+
+// Grids of the traced channels in the order of the table; those that the buffers lack have no values.
+Planes traced_planes(GuidanceBuffers& guidance) {
+  Planes planes;
+  for (const GuidanceChannel& channel : guidance_channels())
+    if (channel.maker == ChannelMaker::trace)
+      std::visit([&](auto member) { planes.push_back(plane_of(guidance.*member)); }, channel.member);
+  for (Plane& plane : planes)
+    if (plane.width == 0) plane.values = nullptr;
+  return planes;
+}
+
+void make_channel(GuidanceBuffers& guidance, GuidanceMember member, int width, int height) {
+  std::visit([&](auto grid) { guidance.*grid = typename std::decay_t<decltype(guidance.*grid)>(width, height); }, member);
+}
+
+GuidanceBuffers blank_traced(int width, int height) {
+  GuidanceBuffers guidance;
+  for (const GuidanceChannel& channel : guidance_channels())
+    if (channel.maker == ChannelMaker::trace) make_channel(guidance, channel.member, width, height);
+  return guidance;
+}
+
+template <class Product, class... Grids>
+typename SheetStage<Product>::Making making_of(std::function<Product(PixelRect)> make, Grids Product::*... grids) {
+  return {.make = std::move(make),
+          .blank =
+              [grids...](int width, int height) {
+                Product product;
+                ((product.*grids = Grids(width, height)), ...);
+                return product;
+              },
+          .planes = [grids...](Product& product) { return Planes{plane_of(product.*grids)...}; }};
+}
+
+}  // namespace
+
+std::initializer_list<GuidanceMember> stroke_channels() {
+  static const std::initializer_list<GuidanceMember> channels = {
+      &B::depth_m, &B::position_m, &B::land_cover, &B::fall_line, &B::slope_deg, &B::footprint_m, &B::relief_s_m, &B::built, &B::grain};
+  return channels;
+}
+
+SheetGround::SheetGround(const World& world, const SheetView& view, const Palette& palette, TileStore::Place& place, const Run& run,
+                         int tile_px)
+    : world_(world),
+      view_(view),
+      palette_(palette),
+      run_(run),
+      tone_parameters_(to_tone_parameters(world, view)),
+      base_parameters_(to_base_parameters(world, view)),
+      strokes_(to_stroke_parameters(world, palette, view)),
+      traced_(place, view.camera.size().x, view.camera.size().y, tile_px,
+              {.make = [this](PixelRect tile) { return make_traced(tile); }, .blank = blank_traced, .planes = traced_planes}),
+      tone_(place, view.camera.size().x, view.camera.size().y, tile_px,
+            {.make = [this](PixelRect tile) { return make_tone_tile(tile); },
+             .blank = [](int width, int height) { return Grid<float>(width, height); },
+             .planes = [](Grid<float>& tone) { return Planes{plane_of(tone)}; }}),
+      base_(place, view.camera.size().x, view.camera.size().y, tile_px,
+            making_of<BasePicture>([this](PixelRect tile) { return make_base(tile); }, &BasePicture::colour, &BasePicture::darker,
+                                   &BasePicture::lighter, &BasePicture::accent, &BasePicture::tree_density, &BasePicture::haze)),
+      draft_(place, view.camera.size().x, view.camera.size().y, tile_px,
+             making_of<PaintDraft>([this](PixelRect tile) { return make_draft(tile); }, &PaintDraft::land_cover, &PaintDraft::base,
+                                   &PaintDraft::under, &PaintDraft::under_share)) {}
+
+GuidanceBuffers SheetGround::make_traced(PixelRect tile) {
+  const PixelRect window = intersection(sheet(), grown(tile, guidance_margin_px()));
+  GuidanceBuffers wide = trace_view(world_, view_, window, run_);
+  GuidanceBuffers traced;
+  traced.origin_m = wide.origin_m;
+  for (const GuidanceChannel& channel : guidance_channels())
+    if (channel.maker == ChannelMaker::trace)
+      std::visit([&](auto grid) { traced.*grid = part_of(wide.*grid, moved(tile, -window.x0, -window.y0)); }, channel.member);
+  return traced;
+}
+
+GuidanceBuffers SheetGround::read_guidance(PixelRect rect, std::initializer_list<GuidanceMember> channels, bool with_tone) {
+  GuidanceBuffers guidance;
+  guidance.origin_m = world_.surface.origin;
+  for (const GuidanceMember member : channels) make_channel(guidance, member, rect.width(), rect.height());
+  traced_.read_into(rect, traced_planes(guidance));
+  if (with_tone) guidance.tone = tone_.read(rect);
+  return guidance;
+}
+
+GuidanceBuffers SheetGround::read_all_guidance(PixelRect rect) {
+  GuidanceBuffers guidance = traced_.read(rect);
+  guidance.origin_m = world_.surface.origin;
+  guidance.tone = tone_.read(rect);
+  guidance.base = decode_srgb(base_.read(rect).colour);
+  return guidance;
+}
+
+Grid<float> SheetGround::make_tone_tile(PixelRect tile) {
+  const PixelRect window = intersection(sheet(), grown(tile, tone_margin_px(tone_parameters_)));
+  const GuidanceBuffers guidance = read_guidance(
+      window,
+      {&B::depth_m, &B::position_m, &B::normal, &B::normal_detail, &B::normal_smooth, &B::altitude_m, &B::land_cover, &B::shadow,
+       &B::sky_view, &B::slope_deg, &B::fall_line, &B::footprint_m, &B::relief_s_m, &B::relief_m_m, &B::relief_l_m},
+      false);
+  return make_tone(guidance, tone_parameters_, {window.x0, window.y0}, run_.progress, moved(tile, -window.x0, -window.y0));
+}
+
+BasePicture SheetGround::make_base(PixelRect tile) {
+  const PixelRect window = intersection(sheet(), grown(tile, base_margin_px(base_parameters_)));
+  const GuidanceBuffers guidance = read_guidance(window,
+                                                 {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::fall_line, &B::slope_deg,
+                                                  &B::footprint_m, &B::relief_s_m, &B::relief_l_m, &B::rim_m, &B::built, &B::grain},
+                                                 true);
+  return make_base_picture(guidance, palette_, base_parameters_, {window.x0, window.y0}, view_.camera.size(), run_.progress,
+                           moved(tile, -window.x0, -window.y0));
+}
+
+PaintDraft SheetGround::make_draft(PixelRect tile) {
+  const PixelRect window = intersection(sheet(), grown(tile, stroke_margin_px(draft_layers, strokes_)));
+  const PixelRect wanted = moved(tile, -window.x0, -window.y0);
+  const GuidanceBuffers guidance = read_guidance(window, stroke_channels(), true);
+  const BasePicture base = base_.read(window);
+  const SheetWindow place{.origin_px = {window.x0, window.y0}, .sheet_px = view_.camera.size(), .asked = wanted};
+  const Painting painting = paint_strokes(base.colour, guidance, base, draft_layers, strokes_, run_.progress, place);
+  const PaintedClasses classes = find_painted_classes(painting.sources, guidance, base.colour);
+  PaintDraft draft{part_of(classes.land_cover, wanted), part_of(classes.base, wanted), part_of(painting.under, wanted),
+                   part_of(painting.under_share, wanted)};
+  const auto width = static_cast<std::uint32_t>(window.width());
+  for (std::uint32_t& from : draft.under)
+    from = sheet_place(window.x0 + static_cast<int>(from % width), window.y0 + static_cast<int>(from / width));
+  return draft;
+}
+
+GuideStack SheetGround::read_guides(PixelRect rect) {
+  GuidanceBuffers guidance;
+  guidance.origin_m = world_.surface.origin;
+  make_channel(guidance, &B::depth_m, rect.width(), rect.height());
+  for (const GuideKind& kind : guide_kinds())
+    if (channel_of(kind.channel).maker == ChannelMaker::trace) make_channel(guidance, kind.channel, rect.width(), rect.height());
+  traced_.read_into(rect, traced_planes(guidance));
+  guidance.tone = tone_.read(rect);
+  return make_guide_stack(guidance, draft_.read(rect).land_cover);
+}
+
+void SheetGround::keep_only(PixelRect still) {
+  traced_.keep_only(grown(still, base_reach_px()));
+  tone_.keep_only(grown(still, base_reach_px()));
+  base_.keep_only(still);
+  draft_.keep_only(still);
+}
+
+int SheetGround::base_reach_px() const { return base_margin_px(base_parameters_) + tone_margin_px(tone_parameters_); }
+
+int SheetGround::draft_reach_px() const { return stroke_margin_px(draft_layers, strokes_); }
+
+}  // namespace belvedere

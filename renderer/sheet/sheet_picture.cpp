@@ -1,0 +1,87 @@
+#include "renderer/sheet/sheet_picture.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/grid_part.h"
+
+namespace belvedere {
+namespace {
+
+using B = GuidanceBuffers;
+
+// What the exemplar cannot give is painted last, far to near: sky, trees, houses; without an exemplar everything is.
+StrokeLayers finishing_layers(bool copied) { return {.sky = true, .ground = !copied, .accents = true, .breaks = true, .upright = true}; }
+
+// The draft as a painting of a window of the sheet, for mix_borders: paint that comes from outside of the window is left out.
+Painting to_painting(const PaintDraft& draft, PixelRect window) {
+  Painting painting;
+  painting.under = Grid<std::uint32_t>(window.width(), window.height());
+  painting.under_share = draft.under_share;
+  for (std::size_t i = 0; i < painting.under.size(); ++i) {
+    const int x = static_cast<int>(draft.under[i] & 0xffffU) - window.x0;
+    const int y = static_cast<int>(draft.under[i] >> 16U) - window.y0;
+    const bool inside = painting.under.contains(x, y);
+    painting.under[i] = static_cast<std::uint32_t>(inside ? painting.under.index(x, y) : i);
+    if (!inside) painting.under_share[i] = 0;
+  }
+  return painting;
+}
+
+}  // namespace
+
+SheetPicture::SheetPicture(SheetGround& ground, CopyPlan* plan, TileStore::Place& place, const Run& run)
+    : ground_(ground),
+      plan_(plan),
+      run_(run),
+      layers_(finishing_layers(plan != nullptr)),
+      matches_(place, ground.sheet().x1, ground.sheet().y1, plan == nullptr ? SynthesisSheet{}.tile_px : plan->synthesis->sheet().tile_px,
+               {.make = [this](PixelRect tile) { return make_matches(tile); },
+                .blank = [](int width, int height) { return MatchField(width, height); },
+                .planes = [](MatchField& field) { return Planes{plane_of(field)}; }}) {}
+
+MatchField SheetPicture::make_matches(PixelRect tile) {
+  SynthesisPlan& plan = *plan_->synthesis;
+  // A plan of the whole size has all that is asked.
+  if (plan.sheet().level == 0) return synthesize_tile(plan, {}, tile, run_.progress);
+  return synthesize_tile(plan, ground_.read_guides(synthesis_window(plan.sheet(), tile)), tile, run_.progress);
+}
+
+Grid<glm::vec3> SheetPicture::copy_ground(PixelRect rect) {
+  const PixelRect window = intersection(ground_.sheet(), grown(rect, paint_source_reach_px(draft_layers, ground_.strokes())));
+  const PaintDraft draft = ground_.read_draft(window);
+  const BasePicture base = ground_.read_base(window);
+  const GuidanceBuffers guidance = ground_.read_guidance(window, {&B::depth_m, &B::land_cover}, false);
+  const Grid<glm::vec3> copied = transfer_residual(matches_.read(window), plan_->exemplars, draft.base, base.haze, plan_->residual);
+  const Grid<glm::vec3> mixed = mix_borders(copied, to_painting(draft, window), draft.land_cover, guidance.land_cover, base.colour);
+  return part_of(mixed, moved(rect, -window.x0, -window.y0));
+}
+
+Grid<glm::vec3> SheetPicture::make(PixelRect rect) {
+  const PixelRect painted = intersection(ground_.sheet(), grown(rect, blend_margin_px));
+  const PixelRect window = intersection(ground_.sheet(), grown(painted, stroke_margin_px(layers_, ground_.strokes())));
+  const PixelRect inside = moved(painted, -window.x0, -window.y0);
+  const GuidanceBuffers guidance = ground_.read_guidance(window, stroke_channels(), true);
+  const BasePicture base = ground_.read_base(window);
+  Grid<glm::vec3> canvas = base.colour;
+  if (plan_ != nullptr) {
+    const Grid<glm::vec3> copied = copy_ground(painted);
+    for (int y = 0; y < copied.height(); ++y) std::copy_n(copied.row(y), copied.width(), canvas.row(inside.y0 + y) + inside.x0);
+  }
+  const SheetWindow place{.origin_px = {window.x0, window.y0}, .sheet_px = ground_.view().camera.size(), .asked = inside};
+  const Painting strokes = paint_strokes(std::move(canvas), guidance, base, layers_, ground_.strokes(), run_.progress, place);
+  const GuidanceBuffers edges = ground_.read_guidance(painted, {&B::depth_m, &B::front}, false);
+  return part_of(blend_edges(part_of(strokes.picture, inside), edges), moved(rect, -painted.x0, -painted.y0));
+}
+
+void SheetPicture::keep_only(PixelRect still) {
+  // What the finishing strokes, and the draft below copied ground, look at.
+  const int strokes = stroke_margin_px(layers_, ground_.strokes()) + blend_margin_px;
+  const int copied = plan_ == nullptr ? 0
+                                      : paint_source_reach_px(draft_layers, ground_.strokes()) + plan_->synthesis->sheet().tile_px +
+                                            synthesis_margin_px(plan_->synthesis->sheet().level) + ground_.draft_reach_px();
+  matches_.keep_only(grown(still, paint_source_reach_px(draft_layers, ground_.strokes())));
+  ground_.keep_only(grown(still, std::max(strokes, copied)));
+}
+
+}  // namespace belvedere

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "renderer/paint/composite.h"
+#include "renderer/sheet/sheet_ground.h"
+#include "texture/synthesis/match_field.h"
+#include "texture/sheet/synthesis_plan.h"
+#include "texture/sheet/synthesis_tile.h"
+
+namespace belvedere {
+
+// What the ground is copied from, and how it was chosen for the sheet as a whole.
+struct CopyPlan {
+  std::vector<PaintedExemplar> exemplars;
+  std::optional<SynthesisPlan> synthesis;
+  double residual = 0.75;  // how much of the base picture's difference is laid over a texel, 0…1
+};
+
+// The finished picture of a sheet in any rectangles, with the same bits as in one piece: copied ground, strokes over it, softened edges.
+class SheetPicture {
+ public:
+  // Without a plan everything is painted as strokes. All arguments must outlive it.
+  SheetPicture(SheetGround& ground, CopyPlan* plan, TileStore::Place& place, const Run& run);
+
+  // Encoded sRGB.
+  Grid<glm::vec3> make(PixelRect rect);
+  // The same for matches alone.
+  MatchField read_matches(PixelRect rect) { return matches_.read(rect); }
+
+  // Forgets what only places outside of `still` need.
+  void keep_only(PixelRect still);
+
+ private:
+  MatchField make_matches(PixelRect tile);
+  Grid<glm::vec3> copy_ground(PixelRect rect);
+
+  SheetGround& ground_;
+  CopyPlan* plan_;
+  const Run& run_;
+  const StrokeLayers layers_;
+  SheetStage<MatchField> matches_;
+};
+
+}  // namespace belvedere

@@ -1,0 +1,156 @@
+#include "renderer/sheet/tile_store.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <numeric>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace belvedere {
+namespace {
+
+[[noreturn]] void fail(const std::string& folder, const char* what, int code) {
+  throw Error(ErrorKind::output, folder, fmt::format("{}: {}", what, std::generic_category().message(code)),
+              "room for what is worked on: a larger disk, another --out, or more --memory");
+}
+
+// A file without a name.
+int open_scratch(const std::string& folder) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  std::string name = folder + "/scratch-XXXXXX";
+  const int file = ::mkstemp(name.data());
+  if (file < 0) fail(folder, "no scratch file can be made in this folder", errno);
+  ::unlink(name.c_str());
+  return file;
+}
+
+void write_all(int file, const std::byte* bytes, std::size_t count, std::uint64_t at, const std::string& folder) {
+  while (count > 0) {
+    const ::ssize_t written = ::pwrite(file, bytes, count, static_cast<::off_t>(at));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) fail(folder, "a scratch file cannot be written", written < 0 ? errno : ENOSPC);
+    bytes += written;
+    count -= static_cast<std::size_t>(written);
+    at += static_cast<std::uint64_t>(written);
+  }
+}
+
+void read_all(int file, std::byte* bytes, std::size_t count, std::uint64_t at, const std::string& folder) {
+  while (count > 0) {
+    const ::ssize_t got = ::pread(file, bytes, count, static_cast<::off_t>(at));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) fail(folder, "a scratch file cannot be read", got < 0 ? errno : EIO);
+    bytes += got;
+    count -= static_cast<std::size_t>(got);
+    at += static_cast<std::uint64_t>(got);
+  }
+}
+
+}  // namespace
+
+TileStore::TileStore(Place& place, int sheet_width, int sheet_height, int tile_px, std::vector<std::size_t> value_bytes)
+    : place_(place),
+      width_(sheet_width),
+      height_(sheet_height),
+      tile_px_(tile_px),
+      across_((sheet_width + tile_px - 1) / tile_px),
+      down_((sheet_height + tile_px - 1) / tile_px),
+      value_bytes_(std::move(value_bytes)),
+      tiles_(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_)) {
+  const std::size_t bytes = std::accumulate(value_bytes_.begin(), value_bytes_.end(), std::size_t{0});
+  slot_bytes_ = bytes * static_cast<std::size_t>(tile_px_) * static_cast<std::size_t>(tile_px_);
+}
+
+TileStore::~TileStore() {
+  for (const Tile& tile : tiles_) place_.memory_bytes += tile.memory.size();
+  if (file_ >= 0) ::close(file_);
+}
+
+TileStore::Tile& TileStore::tile(int column, int row) {
+  return tiles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(column)];
+}
+const TileStore::Tile& TileStore::tile(int column, int row) const {
+  return tiles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(column)];
+}
+
+PixelRect TileStore::rect(int column, int row) const {
+  return {column * tile_px_, row * tile_px_, std::min(width_, (column + 1) * tile_px_), std::min(height_, (row + 1) * tile_px_)};
+}
+
+bool TileStore::has(int column, int row) const { return tile(column, row).known; }
+
+void TileStore::put(int column, int row, const Planes& planes) {
+  const PixelRect area = rect(column, row);
+  std::size_t bytes = 0;
+  for (std::size_t i = 0; i < value_bytes_.size(); ++i) {
+    if (i >= planes.size() || planes[i].value_bytes != value_bytes_[i] || planes[i].width != area.width() ||
+        planes[i].height != area.height())
+      throw Error(ErrorKind::bug, "tiles", "planes that are not the store's");
+    bytes += planes[i].bytes();
+  }
+  Tile& to = tile(column, row);
+  if (to.known) return;
+  if (bytes <= place_.memory_bytes) {
+    place_.memory_bytes -= bytes;
+    to.memory.resize(bytes);
+    std::byte* at = to.memory.data();
+    for (std::size_t i = 0; i < value_bytes_.size(); at += planes[i].bytes(), ++i) std::memcpy(at, planes[i].values, planes[i].bytes());
+  } else {
+    if (file_ < 0) file_ = open_scratch(place_.folder);
+    if (free_slots_.empty()) free_slots_.push_back(slots_++);
+    to.slot = free_slots_.back();
+    free_slots_.pop_back();
+    std::uint64_t at = static_cast<std::uint64_t>(to.slot) * slot_bytes_;
+    for (std::size_t i = 0; i < value_bytes_.size(); at += planes[i].bytes(), ++i)
+      write_all(file_, planes[i].values, planes[i].bytes(), at, place_.folder);
+  }
+  to.known = true;
+}
+
+void TileStore::get(int column, int row, PixelRect from, int origin_x, int origin_y, const Planes& wanted) const {
+  const PixelRect area = rect(column, row);
+  const Tile& held = tile(column, row);
+  std::size_t start = 0;  // of the plane in the tile
+  std::vector<std::byte> rows;
+  for (std::size_t i = 0; i < value_bytes_.size(); ++i) {
+    const std::size_t size = value_bytes_[i];
+    const std::size_t row_bytes = size * static_cast<std::size_t>(area.width());
+    const Plane& to = wanted[i];
+    if (to.values != nullptr) {
+      const std::size_t first = start + row_bytes * static_cast<std::size_t>(from.y0 - area.y0);
+      const std::byte* source = nullptr;
+      if (held.slot < 0) {
+        source = held.memory.data() + first;
+      } else {
+        rows.resize(row_bytes * static_cast<std::size_t>(from.height()));
+        read_all(file_, rows.data(), rows.size(), static_cast<std::uint64_t>(held.slot) * slot_bytes_ + first, place_.folder);
+        source = rows.data();
+      }
+      for (int y = 0; y < from.height(); ++y)
+        std::memcpy(to.values + to.row_bytes() * static_cast<std::size_t>(from.y0 + y - origin_y) +
+                        size * static_cast<std::size_t>(from.x0 - origin_x),
+                    source + row_bytes * static_cast<std::size_t>(y) + size * static_cast<std::size_t>(from.x0 - area.x0),
+                    size * static_cast<std::size_t>(from.width()));
+    }
+    start += row_bytes * static_cast<std::size_t>(area.height());
+  }
+}
+
+void TileStore::drop(int column, int row) {
+  Tile& old = tile(column, row);
+  if (!old.known) return;
+  place_.memory_bytes += old.memory.size();
+  if (old.slot >= 0) free_slots_.push_back(old.slot);
+  old = {};
+}
+
+}  // namespace belvedere

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "renderer/sheet/piece_file.h"
+
+namespace belvedere {
+
+// All that the pixels of a job hang on, in words: version of the program, scene, inputs, size, part. Two jobs with the same entries have
+// the same pieces.
+using JobIdentity = std::map<std::string, std::string>;
+
+// How a folder of pieces is opened.
+enum class WorkMode {
+  begin,   // what another run left is thrown away; nobody else may work here
+  resume,  // what is there and whole is kept; nobody else may work here
+  join,    // many may work here at once, each on pieces of its own; the job must be there
+};
+
+// The pieces of a job beside its results, so that a run that ended goes on, and several machines can work on one sheet. Throws
+// Error(output) where another run works in the folder, Error(usage) where the pieces are of another job, naming what differs, Error(output)
+// where the folder cannot be written.
+class WorkFolder {
+ public:
+  WorkFolder(std::string folder, const JobIdentity& identity, WorkMode mode);
+  ~WorkFolder();
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+
+  const std::string& folder() const { return folder_; }
+  PieceKey key(const std::string& product, PixelRect rect) const { return {job_, product, rect}; }
+  std::string path(const std::string& product, PixelRect rect) const;
+  // Whether the piece is there and whole: read and hashed. A damaged one is removed.
+  bool has(const std::string& product, PixelRect rect) const;
+  void keep(const std::string& product, PixelRect rect, const Planes& planes) const;
+  // Bytes that are no picture: the plan.
+  bool has_bytes(const std::string& product) const { return has(product, {}); }
+  std::string read_bytes(const std::string& product) const { return read_piece_bytes(path(product, {})); }
+  void keep_bytes(const std::string& product, const std::string& bytes) const;
+  // Removes the folder: the job is done.
+  void clear();
+
+ private:
+  std::string folder_;
+  std::string job_;
+  int lock_ = -1;
+};
+
+// Entries as text, one line each, and back.
+std::string to_text(const JobIdentity& identity);
+JobIdentity job_from_text(const std::string& text);
+
+// Puts the identity of a job in a new folder for WorkMode::join; Error(usage) where another job is there.
+void begin_shared_work(const std::string& folder, const JobIdentity& identity);
+
+}  // namespace belvedere

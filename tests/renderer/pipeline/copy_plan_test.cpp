@@ -1,0 +1,41 @@
+#include "renderer/pipeline/copy_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/memory_limit.h"
+#include "tests/files.h"
+#include "tests/renderer/world/small_world.h"
+
+namespace belvedere {
+namespace {
+
+TEST(CopyPlan, WhatASceneSaysOfOneGuideLeavesTheOthers) {
+  const SynthesisParameters usual = to_synthesis_parameters(test::small_scene().scene);
+  const SynthesisParameters given = to_synthesis_parameters(test::small_scene({"synthesis.weights={ tone = 3 }"}).scene);
+  ASSERT_EQ(usual.weights.size(), given.weights.size());
+  for (std::size_t i = 0; i < usual.weights.size(); ++i) {
+    EXPECT_EQ(usual.weights[i].first, given.weights[i].first);
+    EXPECT_EQ(given.weights[i].second, given.weights[i].first == "tone" ? 3.0 : usual.weights[i].second);
+  }
+}
+
+TEST(CopyPlan, AFallbackOfTheSceneStandsInForAClass) {
+  const SynthesisParameters given = to_synthesis_parameters(test::small_scene({"synthesis.fallback={ rock = \"water\" }"}).scene);
+  EXPECT_EQ(given.fallback.at(static_cast<std::uint8_t>(LandCoverClass::rock)), static_cast<std::uint8_t>(LandCoverClass::water));
+}
+
+TEST(CopyPlan, LessMemoryMakesSmallerTilesAndTooLittleIsRefused) {
+  const Scene scene = test::small_scene({"output.width=20000", "output.height=8000", "output.sheet_width_mm=1200"}).scene;
+  const auto tile = [&](std::uint64_t mib) {
+    const MemoryLimit limit(mib << 20U);
+    return choose_tile_px(scene, scene.pixels_per_unit());
+  };
+  EXPECT_EQ(tile(6144), 1024);
+  EXPECT_LT(tile(2048), 1024);
+  EXPECT_NE(test::message_of(ErrorKind::limit, [&] { tile(200); }).find("MiB"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace belvedere

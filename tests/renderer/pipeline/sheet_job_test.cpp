@@ -1,0 +1,144 @@
+#include "renderer/pipeline/sheet_job.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "base/grid_part.h"
+#include "base/guidance_channels.h"
+#include "renderer/image/guidance_io.h"
+#include "renderer/image/image_io.h"
+#include "renderer/pipeline/pipeline.h"
+#include "tests/files.h"
+
+namespace belvedere {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+// Synthesis in two levels of tiles, over the border between two of them; everything that stands, flows or mirrors.
+constexpr const char* wide_scene = R"(
+version = 1
+[terrain.synthetic]
+width = 200
+height = 160
+cell_m = 90
+seed = 3
+[camera]
+position = [9000, -6000]
+height_m = 7000
+pitch_deg = -24
+[sampling]
+pixel_samples = 4
+shadow_rays = 2
+sky_directions = 4
+[[exemplar]]
+width = 240
+height = 180
+[synthesis]
+plan_mpx = 0.02
+[output]
+width = 1100
+height = 130
+sheet_width_mm = 550
+formats = ["tif", "exr", "png"]
+)";
+
+// The whole sheet, made once.
+class SheetJob : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    all_ = std::make_unique<test::Folder>();
+    render(scene(), whole(), {});
+  }
+  static void TearDownTestSuite() { all_.reset(); }
+  static LoadedScene scene(const std::vector<std::string>& settings = {}) {
+    return parse_scene(wide_scene, "wide.toml", ".", {.data_folders = {}, .settings = settings});
+  }
+  static std::string whole() { return all_->path(); }
+  static void expect_same_files(const std::string& a, const std::string& b) {
+    for (const char* file : {"panorama.tif", "panorama.png", "panorama.exr", "guidance.exr"}) {
+      const std::string left = test::read_bytes(a + "/" + file);
+      EXPECT_FALSE(left.empty()) << file;
+      EXPECT_TRUE(left == test::read_bytes(b + "/" + file)) << file;
+    }
+    EXPECT_FALSE(fs::exists(work_folder_of(b)) && fs::exists(work_folder_of(a)));
+  }
+  static inline std::unique_ptr<test::Folder> all_;
+  test::Folder folder_;
+};
+
+TEST_F(SheetJob, APartIsThePixelsOfTheWholeInEveryFile) {
+  const GuidanceBuffers guidance = read_guidance(whole() + "/guidance.exr");
+  int number = 0;
+  // A pixel, across the border of pieces and tiles, corners, edges.
+  for (const PixelRect part : {PixelRect{1023, 64, 1024, 65}, {990, 40, 1060, 110}, {0, 0, 37, 29}, {1040, 100, 1100, 130}}) {
+    const std::string out = folder_ / std::to_string(number++);
+    render(scene(), out, {}, {.part = part});
+    for (const char* file : {"/panorama.tif", "/panorama.png", "/panorama.exr"})
+      EXPECT_TRUE(read_picture(out + file) == part_of(read_picture(whole() + file), part)) << file << " " << number;
+    const GuidanceBuffers cut = read_guidance(out + "/guidance.exr");
+    for (const GuidanceChannel& channel : guidance_channels())
+      std::visit(
+          [&](auto member) {
+            if ((guidance.*member).empty()) return;
+            EXPECT_TRUE(cut.*member == part_of(guidance.*member, part)) << channel.names[0];
+          },
+          channel.member);
+  }
+}
+
+TEST_F(SheetJob, APartOutsideOfTheSheetIsRefused) {
+  for (const PixelRect part : {PixelRect{0, 0, 0, 5}, {1090, 0, 1101, 5}, {-1, 0, 5, 5}})
+    EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(scene(), folder_.path(), {}, {.part = part}); }), HasSubstr("1100 × 130"));
+}
+
+TEST_F(SheetJob, PiecesAndTilesOfStagesChangeNoByte) {
+  render(scene(), folder_ / "small", {.threads = 1}, {.piece_px = 200, .stage_tile_px = 96});
+  expect_same_files(whole(), folder_ / "small");
+}
+
+// Stops after so many steps, as a user or the system would.
+struct Stopping : Progress {
+  explicit Stopping(int steps) : left(steps) {}
+  void advance(double) override {
+    if (--left < 0) throw Error(ErrorKind::interrupted, "", "stopped");
+  }
+  int left;
+};
+
+TEST_F(SheetJob, ARunThatWasStoppedGoesOnToTheSameBytes) {
+  const SheetRequest request{.resume = true, .piece_px = 200};
+  int stops = 0;
+  for (int steps = 400;; steps += 700) {
+    Stopping progress(steps);
+    try {
+      render(scene(), folder_.path(), {.progress = progress}, request);
+      break;
+    } catch (const Error& error) {
+      ASSERT_EQ(error.kind(), ErrorKind::interrupted) << error.what();
+      ++stops;
+    }
+  }
+  EXPECT_GT(stops, 2);
+  expect_same_files(whole(), folder_.path());
+}
+
+TEST_F(SheetJob, PartsInAnyOrderJoinToTheSameBytes) {
+  plan_sheet(scene(), folder_.path(), {});
+  for (const int part : {3, 1, 3}) make_part(scene(), folder_.path(), part, 3, {});
+  // What is missing is named; a damaged piece is missing.
+  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { join_parts(scene(), folder_.path(), folder_.path(), {}); }), HasSubstr("missing"));
+  make_part(scene(), folder_.path(), 2, 3, {});
+  join_parts(scene(), folder_.path(), folder_.path(), {});
+  expect_same_files(whole(), folder_.path());
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_part(scene({"seed=9"}), folder_.path(), 1, 3, {}); }),
+              HasSubstr("scene differs"));
+  test::message_of(ErrorKind::usage, [&] { make_part(scene(), folder_.path(), 4, 3, {}); });
+}
+
+}  // namespace
+}  // namespace belvedere

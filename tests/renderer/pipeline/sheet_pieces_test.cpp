@@ -1,0 +1,40 @@
+#include "renderer/pipeline/sheet_pieces.h"
+
+#include <gtest/gtest.h>
+
+#include "base/grid.h"
+#include "tests/renderer/world/small_world.h"
+
+namespace belvedere {
+namespace {
+
+TEST(SheetPieces, CoverTheRegionOnce) {
+  for (const PixelRect region : {PixelRect{0, 0, 500, 210}, {99, 100, 101, 400}, {7, 7, 8, 8}}) {
+    Grid<int> count(region.width(), region.height(), 0);
+    for (const PixelRect& piece : pieces_of(region, {.piece_px = 100})) {
+      EXPECT_EQ(piece.x0 / 100, (piece.x1 - 1) / 100) << "of one square of the sheet's grid";
+      EXPECT_EQ(piece.y0 / 100, (piece.y1 - 1) / 100);
+      for (int y = piece.y0; y < piece.y1; ++y)
+        for (int x = piece.x0; x < piece.x1; ++x) ++count(x - region.x0, y - region.y0);
+    }
+    for (const int n : count) ASSERT_EQ(n, 1);
+  }
+}
+
+TEST(SheetPieces, FollowEachOtherAlongTheShorterSide) {
+  const std::vector<PixelRect> wide = pieces_of({0, 0, 400, 200}, {.piece_px = 100});
+  EXPECT_EQ(wide[1], (PixelRect{0, 100, 100, 200}));
+  const std::vector<PixelRect> high = pieces_of({0, 0, 200, 400}, {.piece_px = 100});
+  EXPECT_EQ(high[1], (PixelRect{100, 0, 200, 100}));
+}
+
+TEST(SheetPieces, TheIdentityHangsOnSceneAndPart) {
+  const LoadedScene scene = test::small_scene();
+  EXPECT_EQ(identify(scene, {}), identify(scene, {.resume = true}));
+  EXPECT_NE(identify(scene, {}), identify(scene, {.part = PixelRect{0, 0, 4, 4}}));
+  EXPECT_NE(identify(scene, {}), identify(test::small_scene({"seed=4"}), {}));
+  EXPECT_NE(identify(scene, {}), identify(scene, {.panorama = false}));
+}
+
+}  // namespace
+}  // namespace belvedere

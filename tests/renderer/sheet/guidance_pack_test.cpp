@@ -1,0 +1,36 @@
+#include "renderer/sheet/guidance_pack.h"
+
+#include <gtest/gtest.h>
+
+#include "base/guidance_channels.h"
+#include "renderer/image/guidance_io.h"
+#include "renderer/world/lit_picture.h"
+#include "tests/files.h"
+#include "tests/renderer/world/small_world.h"
+
+namespace belvedere {
+namespace {
+
+// A file written from packed guidance is the file of the guidance itself.
+TEST(GuidancePack, KeepsAllThatTheFileKeeps) {
+  const World world(test::small_scene(), silent_progress());
+  const GuidanceBuffers guidance = make_lit_picture(world, read_palette("summer"), {0, 0, 96, 80}, {}).guidance;
+  const GuidanceBuffers back = unpack_guidance(pack_guidance(guidance), guidance);
+  const test::Folder folder;
+  write_guidance(folder / "a.exr", guidance, {});
+  write_guidance(folder / "b.exr", back, {});
+  EXPECT_TRUE(test::read_bytes(folder / "a.exr") == test::read_bytes(folder / "b.exr"));
+  EXPECT_EQ(back.origin_m, guidance.origin_m);
+}
+
+TEST(GuidancePack, ASheetsGuidanceHasTheChannelsOfTracingAndLight) {
+  const World world(test::small_scene(), silent_progress());
+  const GuidanceBuffers guidance = make_lit_picture(world, read_palette("summer"), {0, 0, 96, 80}, {}).guidance;
+  const GuidanceBuffers like = sheet_guidance_like(guidance.origin_m);
+  for (const GuidanceChannel& channel : guidance_channels())
+    std::visit([&](auto member) { EXPECT_EQ((like.*member).empty(), (guidance.*member).empty()) << channel.names[0]; }, channel.member);
+  EXPECT_EQ(blank_packed(like, 5, 4).planes.size(), pack_guidance(guidance).planes.size());
+}
+
+}  // namespace
+}  // namespace belvedere

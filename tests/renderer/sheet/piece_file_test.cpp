@@ -1,0 +1,82 @@
+#include "renderer/sheet/piece_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "tests/files.h"
+
+namespace belvedere {
+namespace {
+
+const PieceKey key{"0123", "panorama", {10, 20, 17, 25}};
+
+struct Values {
+  Grid<float> light = Grid<float>(7, 5);
+  Grid<std::uint8_t> id = Grid<std::uint8_t>(7, 5);
+  Values() {
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      light[i] = 0.5F * static_cast<float>(i);
+      id[i] = static_cast<std::uint8_t>(i);
+    }
+  }
+  Planes planes() { return {plane_of(light), plane_of(id)}; }
+};
+
+class PieceFile : public testing::Test {
+ protected:
+  PieceFile() { write_piece(path_, key, values_.planes()); }
+  test::Folder folder_;
+  std::string path_ = folder_ / "a.piece";
+  Values values_;
+};
+
+TEST_F(PieceFile, RowsComeBackWhereTheyBelong) {
+  EXPECT_TRUE(is_whole_piece(path_, key));
+  Grid<float> light(12, 2, -1.F);
+  Grid<std::uint8_t> id(12, 2, 99);
+  read_piece_rows(path_, key, 22, 24, 7, {plane_of(light), plane_of(id)});
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 12; ++x) {
+      const bool inside = x >= 3 && x < 10;
+      EXPECT_EQ(light(x, y), inside ? values_.light(x - 3, y + 2) : -1.F);
+      EXPECT_EQ(id(x, y), inside ? values_.id(x - 3, y + 2) : 99);
+    }
+}
+
+TEST_F(PieceFile, OnlyTheRightPieceIsWhole) {
+  EXPECT_FALSE(is_whole_piece(path_, {"other", key.product, key.rect}));
+  EXPECT_FALSE(is_whole_piece(path_, {key.job, "guidance", key.rect}));
+  EXPECT_FALSE(is_whole_piece(path_, {key.job, key.product, {10, 20, 17, 26}}));
+  EXPECT_FALSE(is_whole_piece(folder_ / "none", key));
+}
+
+// Whatever byte is lost or turned, and wherever the file ends.
+TEST_F(PieceFile, ADamagedPieceIsFound) {
+  const std::string whole = test::read_bytes(path_);
+  for (std::size_t i = 0; i < whole.size(); i += 7) {
+    std::string damaged = whole;
+    damaged[i] = static_cast<char>(damaged[i] ^ 1);
+    test::write_bytes(path_, damaged);
+    EXPECT_FALSE(is_whole_piece(path_, key)) << "byte " << i;
+    test::write_bytes(path_, whole.substr(0, i));
+    EXPECT_FALSE(is_whole_piece(path_, key)) << "cut at " << i;
+  }
+  test::write_bytes(path_, whole);
+  EXPECT_TRUE(is_whole_piece(path_, key));
+}
+
+TEST_F(PieceFile, NothingElseIsLeft) { EXPECT_EQ(folder_.count(), 1U); }
+
+TEST_F(PieceFile, AFolderThatIsNotThereIsAnErrorOfTheOutput) {
+  test::message_of(ErrorKind::output, [&] { write_piece(folder_ / "none/a.piece", key, values_.planes()); });
+}
+
+TEST_F(PieceFile, BytesComeBack) {
+  Grid<std::uint8_t> bytes(1000, 1, 7);
+  write_piece(path_, key, {plane_of(bytes)});
+  EXPECT_EQ(read_piece_bytes(path_), std::string(1000, '\7'));
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,69 @@
+#include "renderer/sheet/sheet_ground.h"
+
+#include <gtest/gtest.h>
+
+#include "base/grid_part.h"
+#include "tests/files.h"
+#include "tests/renderer/world/small_world.h"
+
+namespace belvedere {
+namespace {
+
+// Pixels in tiles of several sizes, asked for in any order, against the picture made in one piece.
+class SheetGroundTest : public testing::TestWithParam<int> {
+ protected:
+  SheetGroundTest()
+      : world_(test::small_scene({"output.width=230", "output.height=210", "output.sheet_width_mm=115"}), silent_progress()) {}
+  const Palette palette_ = read_palette("summer");
+  const World world_;
+  const test::Folder folder_;
+  TileStore::Place place_{folder_.path(), 1U << 20U};
+  const belvedere::Run run_;
+};
+
+TEST_P(SheetGroundTest, AnyRectangleEqualsThePictureInOnePiece) {
+  const PixelRect sheet{0, 0, 230, 210};
+  const LitPicture whole = make_lit_picture(world_, palette_, sheet, {});
+  SheetGround ground(world_, view_of(world_), palette_, place_, run_, GetParam());
+  for (const PixelRect rect : {PixelRect{200, 150, 230, 210}, PixelRect{63, 63, 65, 66}, PixelRect{0, 0, 1, 1}, sheet}) {
+    const GuidanceBuffers guidance = ground.read_all_guidance(rect);
+    EXPECT_EQ(guidance.origin_m, whole.guidance.origin_m);
+    for (const GuidanceChannel& channel : guidance_channels())
+      std::visit(
+          [&](auto member) {
+            if (!(whole.guidance.*member).empty()) {
+              EXPECT_TRUE(guidance.*member == part_of(whole.guidance.*member, rect)) << channel.names[0];
+            }
+          },
+          channel.member);
+    const BasePicture base = ground.read_base(rect);
+    EXPECT_TRUE(base.darker == part_of(whole.base.darker, rect));
+    EXPECT_TRUE(base.tree_density == part_of(whole.base.tree_density, rect));
+  }
+}
+
+TEST_P(SheetGroundTest, TheDraftIsThatOfTheWhole) {
+  SheetGround one(world_, view_of(world_), palette_, place_, run_, 4096);
+  SheetGround many(world_, view_of(world_), palette_, place_, run_, GetParam());
+  const PixelRect rect{40, 90, 190, 200};
+  const PaintDraft whole = one.read_draft(rect);
+  const PaintDraft part = many.read_draft(rect);
+  EXPECT_TRUE(part.land_cover == whole.land_cover);
+  EXPECT_TRUE(part.base == whole.base);
+  EXPECT_TRUE(part.under == whole.under);
+  EXPECT_TRUE(part.under_share == whole.under_share);
+  std::size_t reached_over = 0;
+  const Grid<LandCoverClass> own = many.read_guidance(rect, {&GuidanceBuffers::land_cover}, false).land_cover;
+  for (std::size_t i = 0; i < own.size(); ++i) reached_over += own[i] != whole.land_cover[i] ? 1 : 0;
+  EXPECT_GT(reached_over, 0U) << "strokes reach over borders of classes";
+  const GuideStack a = one.read_guides(rect);
+  const GuideStack b = many.read_guides(rect);
+  EXPECT_TRUE(a.label == b.label);
+  ASSERT_EQ(a.guides.size(), b.guides.size());
+  for (std::size_t i = 0; i < a.guides.size(); ++i) EXPECT_TRUE(a.guides[i].values == b.guides[i].values) << a.guides[i].name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Tiles, SheetGroundTest, testing::Values(64, 100, 1024));
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,104 @@
+#include "renderer/sheet/tile_store.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "renderer/sheet/sheet_stage.h"
+#include "tests/files.h"
+
+namespace belvedere {
+namespace {
+
+// Two planes of different types whose values say their place on the sheet.
+struct Product {
+  Grid<std::uint32_t> place;
+  Grid<std::uint8_t> column;
+};
+Product product_of(PixelRect rect) {
+  Product product{Grid<std::uint32_t>(rect.width(), rect.height()), Grid<std::uint8_t>(rect.width(), rect.height())};
+  for (int y = 0; y < rect.height(); ++y)
+    for (int x = 0; x < rect.width(); ++x) {
+      product.place(x, y) = static_cast<std::uint32_t>((rect.y0 + y) * 1000 + rect.x0 + x);
+      product.column(x, y) = static_cast<std::uint8_t>(rect.x0 + x);
+    }
+  return product;
+}
+
+class Stage {
+ public:
+  Stage(const std::string& folder, std::uint64_t memory)
+      : place_{folder, memory},
+        stage_(place_, 70, 45, 16,
+               {.make =
+                    [this](PixelRect tile) {
+                      ++made;
+                      return product_of(tile);
+                    },
+                .blank =
+                    [](int w, int h) {
+                      return Product{Grid<std::uint32_t>(w, h), Grid<std::uint8_t>(w, h)};
+                    },
+                .planes =
+                    [](Product& p) {
+                      return Planes{plane_of(p.place), plane_of(p.column)};
+                    }}) {}
+  void expect(PixelRect rect) {
+    const Product got = stage_.read(rect);
+    const Product right = product_of(rect);
+    EXPECT_TRUE(got.place == right.place);
+    EXPECT_TRUE(got.column == right.column);
+  }
+  int made = 0;
+  TileStore::Place place_;
+  SheetStage<Product> stage_;
+};
+
+class SheetStageMemory : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(SheetStageMemory, AnyRectangleIsWhatTheTilesHold) {
+  const test::Folder folder;
+  Stage stage(folder.path(), GetParam());
+  stage.expect({69, 44, 70, 45});
+  EXPECT_EQ(stage.made, 1) << "only what is looked at is made";
+  stage.expect({15, 15, 17, 33});
+  stage.expect({0, 0, 70, 45});
+  EXPECT_EQ(stage.made, 5 * 3) << "and each tile once";
+  EXPECT_EQ(folder.count(), 0U) << "scratch files have no name";
+}
+
+TEST_P(SheetStageMemory, WhatWasDroppedIsMadeAgain) {
+  const test::Folder folder;
+  Stage stage(folder.path(), GetParam());
+  const std::uint64_t free = stage.place_.memory_bytes;
+  stage.expect({0, 0, 70, 45});
+  stage.stage_.keep_only({32, 16, 33, 17});
+  stage.expect({32, 16, 48, 32});
+  EXPECT_EQ(stage.made, 15);
+  stage.expect({0, 0, 70, 45});
+  EXPECT_EQ(stage.made, 15 + 14);
+  stage.stage_.keep_only({});
+  EXPECT_EQ(stage.place_.memory_bytes, free);
+}
+
+// Nothing, two tiles, everything.
+INSTANTIATE_TEST_SUITE_P(TileStore, SheetStageMemory, testing::Values(0U, 2U * 5U * 256U, 1U << 20U));
+
+TEST(TileStore, AFolderThatCannotBeWrittenIsAnErrorOfTheOutput) {
+  const std::string message = test::message_of(ErrorKind::output, [] {
+    Stage stage("/proc/nowhere", 0);
+    stage.stage_.read({0, 0, 1, 1});
+  });
+  EXPECT_NE(message.find("scratch"), std::string::npos) << message;
+}
+
+TEST(TileStore, PlanesOfAnotherSizeAreRefused) {
+  const test::Folder folder;
+  TileStore::Place place{folder.path(), 1000};
+  TileStore store(place, 10, 10, 8, {1});
+  Grid<std::uint8_t> wrong(7, 8);
+  test::message_of(ErrorKind::bug, [&] { store.put(0, 0, {plane_of(wrong)}); });
+}
+
+}  // namespace
+}  // namespace belvedere

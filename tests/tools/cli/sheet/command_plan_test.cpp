@@ -1,0 +1,57 @@
+// `belvedere plan`, `part` and `join` as users meet them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/tools/program.h"
+
+namespace belvedere {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+TEST_F(Program, APlannedSheetIsThatOfOneRun) {
+  const std::string scene = write_scene_file("[[exemplar]]\nwidth = 240\nheight = 180\n");
+  ASSERT_EQ(run({"render", scene, "-q", "--out", path("one")}).status, 0);
+  const Outcome plan = run({"plan", scene, "--out", path("many"), "--parts", "2", "-q"});
+  ASSERT_EQ(plan.status, 0) << plan.err;
+  const Outcome early = run({"join", path("many"), "-q"});
+  EXPECT_EQ(early.status, 3);
+  EXPECT_THAT(early.err, HasSubstr("missing"));
+  for (const char* part : {"2", "1", "1"}) ASSERT_EQ(run({"part", path("many"), part, "-q"}).status, 0);
+  ASSERT_EQ(run({"join", path("many"), "-q", "--out", path("joined")}).status, 0);
+  for (const char* file : {"/panorama.tif", "/panorama.png", "/panorama.exr", "/guidance.exr"})
+    EXPECT_TRUE(read_bytes(path("one") + file) == read_bytes(path("joined") + file)) << file;
+}
+
+TEST_F(Program, PartsNeedAPlan) {
+  fs::create_directories(path("empty"));
+  for (const char* command : {"part", "join"}) {
+    std::vector<std::string> line{command, path("empty")};
+    if (command == std::string("part")) line.emplace_back("1");
+    const Outcome outcome = run(line);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("belvedere plan"));
+  }
+}
+
+TEST_F(Program, APartIsGivenAsFourNumbers) {
+  const std::string scene = write_scene_file();
+  EXPECT_EQ(run({"guidance", scene, "-q", "--part", "10,20,30,8", "--out", path("part")}).status, 0);
+  EXPECT_THAT(run({"info", path("part/guidance.exr")}).out, HasSubstr("30 × 8 pixels"));
+  EXPECT_EQ(run({"guidance", scene, "-q", "--part", "10,20,30", "--out", path("part")}).status, 2);
+  EXPECT_EQ(run({"guidance", scene, "-q", "--part", "90,20,30,8", "--out", path("part")}).status, 2);
+}
+
+TEST_F(Program, AStoppedRunGoesOn) {
+  const std::string scene = write_scene_file();
+  fs::create_directories(path("out/.belvedere"));
+  const Outcome outcome = run({"guidance", scene, "-q", "--resume", "--out", path("out")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_FALSE(fs::exists(path("out/.belvedere"))) << "nothing is left of a run that came to its end";
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <utility>
+
+#include "base/error.h"
+#include "renderer/image/output_file.h"
+#include "renderer/pipeline/pipeline.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/scene_options.h"
+#include "tools/cli/terminal.h"
+
+namespace belvedere::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  SceneOptions scene;  // of plan; part and join read what the plan noted
+  std::string folder;
+  std::string out;
+  int parts = 8;
+  int part = 1;
+};
+
+// What a plan notes for the parts: which scene, where its data lie, how many parts.
+struct Order {
+  std::string scene;
+  SceneFileOptions files;
+  bool allow_http = false;
+  int parts = 1;
+};
+
+std::string order_path(const std::string& folder) { return (fs::path(folder) / "order.txt").string(); }
+
+void write_order(const std::string& folder, const Order& order) {
+  JobIdentity entries;
+  entries["scene"] = order.scene;
+  entries["parts"] = fmt::format("{}", order.parts);
+  if (order.allow_http) entries["servers"] = "allowed";
+  for (std::size_t i = 0; i < order.files.data_folders.size(); ++i) entries[fmt::format("data {:04}", i)] = order.files.data_folders[i];
+  for (std::size_t i = 0; i < order.files.settings.size(); ++i) entries[fmt::format("set {:04}", i)] = order.files.settings[i];
+  OutputFile file(order_path(folder));
+  std::ofstream stream(file.temporary(), std::ios::binary);
+  stream << to_text(entries);
+  stream.close();
+  if (!stream) file.fail("");
+  file.commit();
+}
+
+Order read_order(const std::string& folder) {
+  const std::string path = order_path(folder);
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  const JobIdentity entries = job_from_text(text.str());
+  const auto known = entries.find("parts");
+  if (known == entries.end())
+    throw Error(ErrorKind::usage, folder, "no sheet is planned in this folder", "a folder made by belvedere plan");
+  Order order;
+  std::from_chars(known->second.data(), known->second.data() + known->second.size(), order.parts);
+  for (const auto& [name, value] : entries) {
+    if (name == "scene") order.scene = value;
+    if (name == "servers") order.allow_http = true;
+    if (name.starts_with("data ")) order.files.data_folders.push_back(value);
+    if (name.starts_with("set ")) order.files.settings.push_back(value);
+  }
+  return order;
+}
+
+// The scene as it was planned; the demo has no file.
+LoadedScene load_order(const Order& order, SceneOptions options) {
+  options.scene = order.scene;
+  options.files = order.files;
+  options.allow_http = order.allow_http;
+  return load(options);
+}
+
+std::string absolute(const std::string& path) { return path.empty() ? path : fs::absolute(path).lexically_normal().string(); }
+
+// What part and join take from the command line: the folder, and this machine's side of a run.
+void add_shared_folder(CLI::App& command, Options& options) {
+  command.add_option("DIR", options.folder, "The folder of the plan")->required();
+  add_run_options(command, options.scene);
+}
+
+}  // namespace
+
+Action add_plan(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  add_scene_options(command, options->scene);
+  add_locked_option(command, options->scene);
+  command
+      .add_option("--out", options->folder, "Folder that every machine sees; made where it is missing. Default: one named like the scene")
+      ->type_name("DIR");
+  command.add_option("--parts", options->parts, "How many parts the sheet is made in")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  command.footer(
+      "Chooses what is global, once. The parts can then be made in any order, by any number of machines at once, and be made again:\n"
+      "what is there and whole is skipped. Scene and data must lie under the same names for all of them.\n\n"
+      "  belvedere plan scenes/karwendel.toml --data ../data --out karwendel --parts 8\n"
+      "  for i in 1 2 3 4 5 6 7 8; do belvedere part karwendel $i; done\n"
+      "  belvedere join karwendel");
+  return [options] {
+    const LoadedScene scene = load(options->scene);
+    const std::string folder = options->folder.empty() ? scene.name : options->folder;
+    TerminalProgress progress(options->scene.quiet);
+    const Cache cache = make_cache(options->scene);
+    Order order{absolute(options->scene.scene), options->scene.files, options->scene.allow_http, options->parts};
+    for (std::string& data : order.files.data_folders) data = absolute(data);
+    plan_sheet(load_order(order, options->scene), folder, make_run(options->scene, Run{}.tile_px, progress, cache));
+    write_order(folder, order);
+    progress.end();
+    if (!options->scene.quiet) print_out(fmt::format("{}: {} parts\n", folder, options->parts));
+    return 0;
+  };
+}
+
+Action add_part(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  add_shared_folder(command, *options);
+  command.add_option("NUMBER", options->part, "Which part, from 1 on")->required();
+  command.footer("  belvedere part karwendel 3");
+  return [options] {
+    const Order order = read_order(options->folder);
+    TerminalProgress progress(options->scene.quiet);
+    const Cache cache = make_cache(options->scene);
+    make_part(load_order(order, options->scene), options->folder, options->part, order.parts,
+              make_run(options->scene, Run{}.tile_px, progress, cache));
+    return 0;
+  };
+}
+
+Action add_join(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  add_shared_folder(command, *options);
+  command.add_option("--out", options->out, "Folder for the results. Default: that of the plan")->type_name("DIR");
+  command.footer(
+      "Names the pieces that are missing. The pieces stay; remove the folder's .belvedere when the files are good.\n\n  belvedere join "
+      "karwendel");
+  return [options] {
+    const Order order = read_order(options->folder);
+    TerminalProgress progress(options->scene.quiet);
+    const Cache cache = make_cache(options->scene);
+    join_parts(load_order(order, options->scene), options->folder, options->out.empty() ? options->folder : options->out,
+               make_run(options->scene, Run{}.tile_px, progress, cache));
+    return 0;
+  };
+}
+
+}  // namespace belvedere::tools
