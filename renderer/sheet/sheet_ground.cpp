@@ -6,6 +6,7 @@
 #include "base/grid_part.h"
 #include "renderer/paint/composite.h"
 #include "renderer/paint/guides.h"
+#include "renderer/sheet/sheet_ice.h"
 
 namespace belvedere {
 namespace {
@@ -129,7 +130,7 @@ PaintDraft SheetGround::make_draft(PixelRect tile) {
   const PixelRect wanted = moved(tile, -window.x0, -window.y0);
   const GuidanceBuffers guidance = read_guidance(window, stroke_channels(), true);
   const BasePicture base = base_.read(window);
-  const SheetWindow place{.origin_px = {window.x0, window.y0}, .sheet_px = view_.camera.size(), .asked = wanted};
+  const SheetWindow place{.origin_px = {window.x0, window.y0}, .sheet_px = view_.camera.size(), .asked = wanted, .ice = &ice()};
   const Painting painting = paint_strokes(base.colour, guidance, base, draft_layers, strokes_, run_.progress, place);
   const PaintedClasses classes = find_painted_classes(painting.sources, guidance, base.colour);
   PaintDraft draft{part_of(classes.land_cover, wanted), part_of(classes.base, wanted), part_of(painting.under, wanted),
@@ -149,6 +150,11 @@ GuideStack SheetGround::read_guides(PixelRect rect) {
   traced_.read_into(rect, traced_planes(guidance));
   guidance.tone = tone_.read(rect);
   return make_guide_stack(guidance, draft_.read(rect).land_cover);
+}
+
+const IcePlan& SheetGround::ice() {
+  if (!ice_) ice_ = make_ice_plan(world_, run_);
+  return *ice_;
 }
 
 void SheetGround::keep_only(PixelRect still) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 
 #include "base/guidance_channels.h"
 #include "base/run.h"
@@ -8,6 +9,7 @@
 #include "renderer/sheet/sheet_stage.h"
 #include "renderer/world/lit_picture.h"
 #include "renderer/world/world.h"
+#include "texture/strokes/ice_plan.h"
 #include "texture/strokes/stroke_painter.h"
 #include "texture/synthesis/guide_stack.h"
 
@@ -42,6 +44,9 @@ class SheetGround {
   // What synthesis is steered by.
   GuideStack read_guides(PixelRect rect);
 
+  // How ice runs on the sheet, made when first asked for.
+  const IcePlan& ice();
+
   // Forgets what only places outside of `still` were made for; to be asked for again costs time alone.
   void keep_only(PixelRect still);
   // How far a pixel of the base picture, and one of the draft, looks around, all stages below together, px.
@@ -65,6 +70,7 @@ class SheetGround {
   SheetStage<Grid<float>> tone_;
   SheetStage<BasePicture> base_;
   SheetStage<PaintDraft> draft_;
+  std::optional<IcePlan> ice_;
 };
 
 // Strokes of the draft: of the ground as it is copied. What stands up, breaks or belongs to the sky is painted over it later.

@@ -68,7 +68,8 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect) {
     const Grid<glm::vec3> copied = copy_ground(painted);
     for (int y = 0; y < copied.height(); ++y) std::copy_n(copied.row(y), copied.width(), canvas.row(inside.y0 + y) + inside.x0);
   }
-  const SheetWindow place{.origin_px = {window.x0, window.y0}, .sheet_px = ground_.view().camera.size(), .asked = inside};
+  const SheetWindow place{
+      .origin_px = {window.x0, window.y0}, .sheet_px = ground_.view().camera.size(), .asked = inside, .ice = &ground_.ice()};
   const Painting strokes = paint_strokes(std::move(canvas), guidance, base, layers_, ground_.strokes(), run_.progress, place);
   const GuidanceBuffers edges = ground_.read_guidance(painted, {&B::depth_m, &B::front}, false);
   return part_of(blend_edges(part_of(strokes.picture, inside), edges), moved(rect, -painted.x0, -painted.y0));

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
+#include <optional>
 
-#include "texture/strokes/ice_flow.h"
+#include "texture/strokes/ice_ways.h"
 #include "texture/strokes/stroke_kinds.h"
 #include "texture/strokes/stroke_parts.h"
 
@@ -13,29 +13,19 @@ using enum LandCoverClass;
 
 constexpr glm::vec3 moraine_paint{0.53F, 0.49F, 0.48F};  // rubble carried by ice, at tone 1/2
 constexpr glm::vec3 depth_of_ice{0.70F, 0.87F, 1.00F};   // what is deep in ice is blue: a factor
-constexpr float longest_flight = 45.F;                   // units from the first crevasse of a field to its last
-constexpr float ice_depth = 0.03F;                       // relative: one glacier, whatever its humps
 
 glm::vec3 by_tone(glm::vec3 paint, float tone) { return paint * (0.62F + 0.70F * std::clamp(tone, 0.F, 1.F)); }
 
 Stroke ice_stroke(const StrokeScene& scene, std::size_t i, StrokeSeed& seed) {
   Stroke stroke = ground_stroke(scene, i, seed);
   stroke.gate = StrokeGate::same_class;
-  stroke.depth_tolerance = ice_depth;
+  stroke.depth_tolerance = same_ice_depth;
   lay_on_top(stroke);
   return stroke;
 }
 
 bool same_surface(const StrokeScene& scene, std::size_t a, std::size_t b) {
-  return std::abs(scene.guidance.depth_m[a] / scene.guidance.depth_m[b] - 1.F) < ice_depth;
-}
-
-// Ice is torn where it falls steeply or over an edge; 0 … 1. It comes in fields, with whole ice between.
-float torn(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
-  const float steep = std::clamp((scene.slope_deg(i) - 9.F) / 15.F, 0.F, 1.F);
-  const float moving = std::clamp((scene.slope_deg(i) - 4.F) / 5.F, 0.F, 1.F);
-  const float over_edge = std::clamp(scene.relief_m(i) / 25.F, -0.3F, 0.5F);
-  return moving * std::clamp(0.55F * steep + over_edge + 0.55F * sheet_noise(scene, place, Stream::torn_ice, 24.0) - 0.48F, 0.F, 1.F);
+  return std::abs(scene.guidance.depth_m[a] / scene.guidance.depth_m[b] - 1.F) < same_ice_depth;
 }
 
 // A bow across the flow, its middle `sag_px` down the flow.
@@ -46,15 +36,19 @@ void lay_bow(Stroke& stroke, glm::vec2 middle, glm::vec2 across, glm::vec2 down,
     stroke.points[k] = middle + across * (places[k] * length_px) + down * (sag_px * (1.F - 4.F * places[k] * places[k]));
 }
 
-// A line along a way, as strokes of four places that join; `load` gives each its brush and colour.
+// A line along a way, as strokes of four places that join; `load` gives each its brush and colour. Lines on one way are told apart by
+// `line`, 0…2.
 template <class Load>
-void draw_way(const StrokeScene& scene, const std::vector<glm::vec2>& way, StrokeSeed& seed, std::vector<Stroke>& out, Load&& load) {
-  for (std::size_t k = 0; k + 3 < way.size(); k += 3) {
-    const std::size_t here = scene.pixel(way[k + 1]);
-    Stroke stroke = ice_stroke(scene, here, seed);
+void draw_way(const StrokeScene& scene, const IceWay& way, std::size_t line, std::vector<Stroke>& out, Load&& load) {
+  for (std::size_t k = 0; k + 3 < way.places.size(); k += 3) {
+    std::optional<std::size_t> here = way_pixel(scene, way, k + 1);
+    if (!here) here = way_pixel(scene, way, k + 2);  // a stone in the ice is no end of a line
+    if (!here) continue;
+    StrokeSeed seed = way_seed(scene, way, 1 + k + line);
+    Stroke stroke = ice_stroke(scene, *here, seed);
     stroke.point_count = 4;
-    for (std::size_t j = 0; j < 4; ++j) stroke.points[j] = way[k + j];
-    load(stroke, here, static_cast<float>(k) / static_cast<float>(way.size()));
+    for (std::size_t j = 0; j < 4; ++j) stroke.points[j] = way_place(scene, way, k + j);
+    load(stroke, *here, static_cast<float>(k) / static_cast<float>(way.places.size()), seed);
     out.push_back(stroke);
   }
 }
@@ -71,56 +65,34 @@ float end_within(const StrokeScene& scene, glm::vec2 place, std::size_t i, glm::
   return 0.F;
 }
 
-// A rib of rock that ends in the ice just above a place: from there the rubble of two glaciers runs down as one line.
-bool below_rib(const StrokeScene& scene, const IceFlow& flow, glm::vec2 place, std::size_t i) {
-  const glm::vec2 down = flow.at(place);
-  const glm::vec2 across{-down.y, down.x};
-  const float scale = scene.scale();
-  const auto is_rock = [&](glm::vec2 there) {
-    if (!scene.on_canvas(there)) return false;
-    const std::size_t k = scene.pixel(there);
-    return (scene.class_at(k) == rock || scene.class_at(k) == scree) && same_surface(scene, k, i);
-  };
-  if (!is_rock(place - down * (6.F * scale)) && !is_rock(place - down * (9.F * scale))) return false;
-  for (const float side : {-10.F, 10.F}) {
-    const glm::vec2 there = place + across * (side * scale);
-    if (!scene.on_canvas(there) || !is_ice(scene.class_at(scene.pixel(there)))) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::vector<Stroke> glacier_flow_lines(const StrokeScene& scene, Stream stream) {
-  const IceFlow flow = find_ice_flow(scene);
-  return sow(scene, 12.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
-    if (scene.class_at(i) != glacier || scene.slope_deg(i) > 30.F) return;
-    const bool blue = seed.uniform() < 0.6F;
-    const bool band = seed.uniform() < 0.4F;
-    const int steps = 3 * (2 + static_cast<int>(seed.uniform() * 4.F));
-    const std::vector<glm::vec2> way = trace_ice(scene, flow, place, 7.F * scene.scale(), steps);
-    const float width = band ? seed.between(3.F, 6.5F) : seed.between(0.9F, 1.7F);
-    const float m = blue ? -seed.between(0.4F, 0.95F) : seed.between(0.5F, 1.1F);
-    draw_way(scene, way, seed, out, [&](Stroke& stroke, std::size_t here, float share) {
+  std::vector<Stroke> out;
+  along_ways(scene, stream, [&](const IceWay& way) {
+    StrokeSeed looks = way_seed(scene, way, 0);
+    const bool blue = looks.uniform() < 0.6F;
+    const bool band = looks.uniform() < 0.4F;
+    const float width = band ? looks.between(3.F, 6.5F) : looks.between(0.9F, 1.7F);
+    const float m = blue ? -looks.between(0.4F, 0.95F) : looks.between(0.5F, 1.1F);
+    draw_way(scene, way, 0, out, [&](Stroke& stroke, std::size_t here, float share, StrokeSeed& seed) {
       const float fade = 1.F - 0.6F * share;
       take_brush(stroke, scene, width, {.taper = 0.85F, .alpha = (band ? 0.30F : 0.40F) * fade, .bristle = 0.3F, .wetness = 0.01F});
       stroke.colour = scene.colour(here, m, paint_jitter * 0.4F, seed);
     });
   });
+  return out;
 }
 
 std::vector<Stroke> glacier_moraines(const StrokeScene& scene, Stream stream) {
-  const IceFlow flow = find_ice_flow(scene);
-  return sow(scene, 6.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
-    if (scene.class_at(i) != glacier || !below_rib(scene, flow, place, i) || seed.uniform() > 0.30F) return;
-    const int steps = 3 * (7 + static_cast<int>(seed.uniform() * 12.F));
-    const std::vector<glm::vec2> way = trace_ice(scene, flow, place, 5.F * scene.scale(), steps);
-    if (way.size() < 10) return;
-    const float width = seed.between(1.4F, 2.8F);
-    const float value = 0.03F * seed.normal();
+  std::vector<Stroke> out;
+  along_ways(scene, stream, [&](const IceWay& way) {
+    StrokeSeed looks = way_seed(scene, way, 0);
+    const float width = looks.between(1.4F, 2.8F);
+    const float value = 0.03F * looks.normal();
     // A band of dirty ice, and the line itself on it.
     for (const bool line : {false, true})
-      draw_way(scene, way, seed, out, [&](Stroke& stroke, std::size_t here, float share) {
+      draw_way(scene, way, line ? 1 : 0, out, [&](Stroke& stroke, std::size_t here, float share, StrokeSeed&) {
         const float fade = std::min(1.F, 0.45F + 2.5F * share) * (1.F - 0.45F * share);
         take_brush(
             stroke, scene, (line ? 1.F : 3.4F) * width,
@@ -128,84 +100,82 @@ std::vector<Stroke> glacier_moraines(const StrokeScene& scene, Stream stream) {
         stroke.colour = through_air(scene, here, by_tone(moraine_paint, scene.guidance.tone[here]) + value);
       });
   });
+  return out;
 }
 
 std::vector<Stroke> glacier_crevasses(const StrokeScene& scene, Stream stream) {
-  const IceFlow flow = find_ice_flow(scene);
-  return sow(scene, 15.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
-    if (scene.class_at(i) != glacier) return;
-    const float share = torn(scene, place, i);
-    if (seed.uniform() > 1.8F * share) return;
-    const float scale = scene.scale();
-    const auto blue = [&](std::size_t here, float m) {
-      return scene.colour(here, m, paint_jitter * 0.4F, seed) * through_air_factor(scene, here, depth_of_ice);
-    };
+  const float scale = scene.scale();
+  const auto blue = [&](std::size_t here, float m, StrokeSeed& seed) {
+    return scene.colour(here, m, paint_jitter * 0.4F, seed) * through_air_factor(scene, here, depth_of_ice);
+  };
+  std::vector<Stroke> out;
+  along_ways(scene, stream, [&](const IceWay& flight) {
+    StrokeSeed looks = way_seed(scene, flight, 0);
+    const float lean = 0.10F * looks.normal();
     // From afar a torn field is a blue shade across the ice …
-    const glm::vec2 fall = flow.at(place);
-    Stroke field = ice_stroke(scene, i, seed);
-    lay_bow(field, place, {-fall.y, fall.x}, fall, seed.between(16.F, 32.F) * scale, -2.F * scale);
-    take_brush(field, scene, seed.between(6.F, 11.F), {.taper = 0.8F, .alpha = 0.16F + 0.22F * share, .bristle = 0.3F});
-    field.colour = blue(i, -0.7F);
-    out.push_back(field);
+    if (const auto i = way_pixel(scene, flight, 0)) {
+      const glm::vec2 place = way_place(scene, flight, 0);
+      const glm::vec2 fall = ice_direction(scene, place);
+      Stroke field = ice_stroke(scene, *i, looks);
+      lay_bow(field, place, {-fall.y, fall.x}, fall, looks.between(16.F, 32.F) * scale, -2.F * scale);
+      take_brush(field, scene, looks.between(6.F, 11.F), {.taper = 0.8F, .alpha = 0.16F + 0.22F * flight.strength, .bristle = 0.3F});
+      field.colour = blue(*i, -0.7F, looks);
+      out.push_back(field);
+    }
     // … from near a flight of bows, one below the other, the longest in the middle.
-    const int count = 2 + static_cast<int>(seed.uniform() * (2.F + 5.F * share));
-    const float u = seed.uniform();
-    const float longest = (7.F + 26.F * u * u * (0.4F + share)) * scale;
-    const float gap_between = seed.between(3.2F, 6.F) * scale;
-    const float lean = 0.10F * seed.normal();
-    glm::vec2 middle = place;
-    for (int k = 0; k < count && scene.on_canvas(middle) && glm::distance(middle, place) < longest_flight * scale; ++k) {
-      const std::size_t here = scene.pixel(middle);
-      if (scene.class_at(here) != glacier || !same_surface(scene, here, i)) break;
-      const glm::vec2 down = flow.at(middle);
+    const std::size_t count = flight.places.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto here = way_pixel(scene, flight, k);
+      if (!here) continue;
+      StrokeSeed seed = way_seed(scene, flight, 1 + k);
+      const glm::vec2 middle = way_place(scene, flight, k);
+      const glm::vec2 down = ice_direction(scene, middle);
       const float turn = lean + 0.05F * seed.normal();
       const glm::vec2 across = turned(glm::vec2(-down.y, down.x), turn_by(turn));
       const float middling = 1.F - std::abs((static_cast<float>(k) + 0.5F) / static_cast<float>(count) - 0.5F);
-      const float length = longest * middling * seed.between(0.35F, 1.2F);
-      Stroke gap = ice_stroke(scene, here, seed);
+      const float length = flight.size_units * scale * middling * seed.between(0.35F, 1.2F);
+      Stroke gap = ice_stroke(scene, *here, seed);
       lay_bow(gap, middle, across, down, length, -0.13F * length);
       for (auto& point : gap.points) point += down * (0.035F * length * seed.normal());  // no crack is a compass's arc
       const float width = seed.between(0.6F, 1.1F) + 0.035F * length / scale;
       take_brush(gap, scene, width, {.taper = 0.35F, .alpha = seed.between(0.5F, 0.85F)});
-      gap.colour = blue(here, -1.4F);
+      gap.colour = blue(*here, -1.4F, seed);
       Stroke lip = gap;
       for (auto& point : lip.points) point += down * (0.95F * gap.start_width);
       lip.start_width *= 0.8F;
       lip.end_width *= 0.8F;
       lip.alpha = 0.55F;
-      lip.colour = scene.colour(here, 1.3F, paint_jitter * 0.4F, seed);
+      lip.colour = scene.colour(*here, 1.3F, paint_jitter * 0.4F, seed);
       out.push_back(gap);
       out.push_back(lip);
       // Where it breaks to pieces, towers of ice stand between the cracks: a white head over a blue wall.
-      if (share > 0.45F && seed.uniform() < 0.7F) {
-        const glm::vec2 at = middle + across * (seed.between(-0.4F, 0.4F) * length) + down * (0.5F * gap_between);
+      if (flight.strength > 0.45F && seed.uniform() < 0.7F) {
+        const float aside = seed.between(-0.4F, 0.4F) * length;
+        const glm::vec2 at = middle + across * aside + down * (seed.between(1.6F, 3.F) * scale);
         const float size = seed.between(1.6F, 3.2F) * scale;
-        Stroke wall = ice_stroke(scene, here, seed);
+        Stroke wall = ice_stroke(scene, *here, seed);
         set_line(wall, at - across * (0.5F * size), at + across * (0.5F * size), 0.9F * size, 0.7F * size);
         wall.alpha = 0.7F;
-        wall.colour = blue(here, -1.1F);
+        wall.colour = blue(*here, -1.1F, seed);
         Stroke head = wall;
         for (auto& point : head.points) point -= glm::vec2(0.F, 0.45F * size);
         head.start_width *= 0.7F;
         head.end_width *= 0.7F;
         head.alpha = 0.9F;
-        head.colour = scene.colour(here, 1.5F, paint_jitter * 0.4F, seed);
+        head.colour = scene.colour(*here, 1.5F, paint_jitter * 0.4F, seed);
         out.push_back(wall);
         out.push_back(head);
       }
-      middle += down * (gap_between * seed.between(0.6F, 1.5F));
-      const float aside = 0.22F * seed.normal() * longest;
-      middle += across * aside;
     }
   });
+  return out;
 }
 
 std::vector<Stroke> glacier_edges(const StrokeScene& scene, Stream stream) {
-  const IceFlow flow = find_ice_flow(scene);
   return sow(scene, 3.8F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != glacier || scene.slope_deg(i) > 34.F) return;
     const float scale = scene.scale();
-    const glm::vec2 down = flow.at(place);
+    const glm::vec2 down = ice_direction(scene, place);
     const glm::vec2 across{-down.y, down.x};
     const auto dirt = [&](std::size_t here, float value) {
       return through_air(scene, here, by_tone(moraine_paint, scene.guidance.tone[here]) + value);
@@ -222,7 +192,7 @@ std::vector<Stroke> glacier_edges(const StrokeScene& scene, Stream stream) {
         out.push_back(stroke);
         if (chance < 0.6F) {
           Stroke rubble = ground_stroke(scene, i, seed);
-          rubble.depth_tolerance = ice_depth;
+          rubble.depth_tolerance = same_ice_depth;
           lay_on_top(rubble);
           lay_bow(rubble, place + down * ((ahead + 2.F) * scale), across, down, seed.between(5.F, 13.F) * scale, 1.2F * scale);
           take_brush(rubble, scene, seed.between(1.8F, 4.2F), {.taper = 0.5F, .alpha = 0.6F, .bristle = 0.6F, .wetness = 0.03F});
@@ -232,7 +202,7 @@ std::vector<Stroke> glacier_edges(const StrokeScene& scene, Stream stream) {
       } else if (chance < 0.8F * (1.F - ahead / 24.F)) {
         const float aside = 0.12F * seed.normal();
         const float length = seed.between(9.F, 18.F);
-        lay_flow(stroke, flow, place, length * scale, aside);
+        lay_flow(stroke, scene, place, length * scale, aside);
         take_brush(stroke, scene, seed.between(3.F, 7.F),
                    {.taper = 0.6F, .alpha = 0.17F, .bristle = 0.6F, .wetness = 0.02F, .load = 0.4F, .edge = 0.1F});
         stroke.colour = dirt(i, value);
@@ -253,7 +223,7 @@ std::vector<Stroke> glacier_edges(const StrokeScene& scene, Stream stream) {
     stroke.depth_tolerance = tight_depth;
     const glm::vec2 at = rubble ? place + across * (side * 0.8F * scale) : place;
     const float length = rubble ? seed.between(7.F, 18.F) : seed.between(12.F, 28.F);
-    lay_flow(stroke, flow, at, length * scale, 0.05F * seed.normal());
+    lay_flow(stroke, scene, at, length * scale, 0.05F * seed.normal());
     const float width = rubble ? seed.between(1.6F, 3.6F) : seed.between(1.6F, 3.4F);
     take_brush(stroke, scene, width, {.taper = 0.45F, .alpha = rubble ? 0.6F : 0.45F, .bristle = rubble ? 0.6F : 0.3F, .wetness = 0.02F});
     const float value = 0.04F * seed.normal();

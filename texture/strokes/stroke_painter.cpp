@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/guidance_channels.h"
 #include "texture/strokes/brush.h"
-#include "texture/strokes/ice_flow.h"
+#include "texture/strokes/ice_plan.h"
 #include "texture/strokes/stroke_table.h"
 
 namespace belvedere {
@@ -28,6 +29,22 @@ int most_of(const StrokeLayers& layers, Reach&& reach) {
   for (const StrokeKind& kind : stroke_kinds())
     if (is_painted(kind, layers)) most = std::max(most, reach(kind));
   return most;
+}
+
+bool is_whole(const SheetWindow& window, int width, int height) {
+  return window.origin_px == glm::ivec2(0) && (window.sheet_px == glm::ivec2(0) || window.sheet_px == glm::ivec2(width, height));
+}
+
+// The plan of a sheet that is whole and has none yet, where it will be asked for.
+std::optional<IcePlan> missing_plan(const GuidanceBuffers& guidance, const StrokeLayers& layers, const StrokeParameters& parameters,
+                                    const SheetWindow& window) {
+  const std::span<const StrokeKind> kinds = stroke_kinds();
+  const bool asked =
+      std::any_of(kinds.begin(), kinds.end(), [&](const StrokeKind& kind) { return kind.on_ice && is_painted(kind, layers); });
+  if (!asked || window.ice != nullptr) return std::nullopt;
+  if (!is_whole(window, guidance.width(), guidance.height()))
+    throw Error(ErrorKind::bug, "paint_strokes", "a window of the sheet without the plan of its ice");
+  return plan_ice(guidance, parameters);
 }
 
 void check_window(const SheetWindow& window, int width, int height) {
@@ -56,9 +73,12 @@ void check_sizes(const Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance,
 }  // namespace
 
 Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const BasePicture& base, const StrokeLayers& layers,
-                       const StrokeParameters& parameters, Progress& progress, const SheetWindow& window) {
+                       const StrokeParameters& parameters, Progress& progress, const SheetWindow& given) {
   check_sizes(canvas, guidance, base);
-  check_window(window, guidance.width(), guidance.height());
+  check_window(given, guidance.width(), guidance.height());
+  const std::optional<IcePlan> own_plan = missing_plan(guidance, layers, parameters, given);
+  SheetWindow window = given;
+  if (own_plan) window.ice = &*own_plan;
   Painting painting = begin_painting(std::move(canvas));
   const auto paint = [&](std::vector<Stroke> strokes) {
     // In the far, air evens out what loads of paint differ by.
@@ -80,10 +100,7 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
   return painting;
 }
 
-int stroke_margin_px(const StrokeKind& kind, const StrokeParameters& parameters) {
-  const int flow = kind.reach.along_ice ? static_cast<int>(std::ceil(ice_flow_reach_px(parameters.pixels_per_unit))) : 0;
-  return to_px(kind.reach.seen_units, parameters) + flow;
-}
+int stroke_margin_px(const StrokeKind& kind, const StrokeParameters& parameters) { return to_px(kind.reach.seen_units, parameters); }
 
 int stroke_margin_px(const StrokeLayers& layers, const StrokeParameters& parameters) {
   return most_of(layers, [&](const StrokeKind& kind) { return stroke_margin_px(kind, parameters); });

@@ -12,7 +12,8 @@
 namespace belvedere {
 
 // Paints strokes over `canvas` (encoded sRGB), far to near, and returns the painting; the kinds are in stroke_table.cpp. Needs the channels
-// depth, land cover, fall line, tone, slope. Throws Error(bug) where sizes disagree.
+// depth, land cover, fall line, tone, slope. Throws Error(bug) where sizes disagree, and where a window without a plan of the sheet's ice
+// shall get strokes that follow it.
 // The buffers may hold a window of the sheet: pixels that lie stroke_margin_px or more inside of the window, or whose window ends at the
 // sheet's own border, have picture, sources, under and under_share of the whole, bit for bit (sources and under as indices of the window);
 // `strokes` is counted in each window anew.

@@ -26,6 +26,7 @@ class StrokeSeed {
   float normal() { return static_cast<float>(random_normal(key_, cell_x_, cell_y_, draw_++)); }
   // lowest + span · uniform
   float between(float low, float high) { return low + (high - low) * uniform(); }
+  glm::ivec2 cell() const { return {cell_x_, cell_y_}; }
   std::uint32_t bits() { return static_cast<std::uint32_t>(random_bits(key_, cell_x_, cell_y_, draw_++)); }
 
  private:
@@ -101,8 +102,9 @@ void lay_line(Stroke& stroke, const StrokeScene& scene, glm::vec2 place, float l
 
 // One seed in every cell of spacing_units, jittered; make(seed, place, pixel index, strokes) appends what grows there. Cells are counted
 // from the sheet's corner, and only those near what is asked for are visited. Rows of cells run in parallel and are joined in order.
-template <class Make>
-std::vector<Stroke> sow(const StrokeScene& scene, float spacing_units, Stream stream, Make&& make) {
+// What grows are strokes, or in a plan whatever they are to follow.
+template <class Grown = Stroke, class Make>
+std::vector<Grown> sow(const StrokeScene& scene, float spacing_units, Stream stream, Make&& make) {
   const float spacing = spacing_units * scene.scale();
   const glm::ivec2 sheet = scene.sheet_px();
   const PixelRect seeded = scene.seeded();
@@ -111,7 +113,7 @@ std::vector<Stroke> sow(const StrokeScene& scene, float spacing_units, Stream st
   const CellRange lines =
       StrokeScene::cells_within(seeded.y0, seeded.y1, spacing, static_cast<int>(static_cast<float>(sheet.y) / spacing) + 1);
   const int down = std::max(0, lines.last - lines.first + 1);
-  std::vector<std::vector<Stroke>> rows(static_cast<std::size_t>(down));
+  std::vector<std::vector<Grown>> rows(static_cast<std::size_t>(down));
   const std::uint64_t key = stream_seed(scene.parameters.seed, stream);
   parallel_rows(down, [&](int row) {
     const int j = lines.first + row;
@@ -125,10 +127,10 @@ std::vector<Stroke> sow(const StrokeScene& scene, float spacing_units, Stream st
   });
   std::size_t total = 0;
   for (const auto& row : rows) total += row.size();
-  std::vector<Stroke> strokes;
-  strokes.reserve(total);
-  for (const auto& row : rows) strokes.insert(strokes.end(), row.begin(), row.end());
-  return strokes;
+  std::vector<Grown> all;
+  all.reserve(total);
+  for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
+  return all;
 }
 
 }  // namespace belvedere

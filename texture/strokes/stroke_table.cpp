@@ -11,10 +11,10 @@ namespace belvedere {
 namespace {
 
 // How far strokes reach: the longest and widest of a kind, as its own file draws them, and how far its seeds look beyond. A brush wobbles
-// by a little more than half its width.
+// by a little more than half its width. How ice runs, and where lines on it begin and end, the plan of the sheet tells: it counts for
+// nothing here.
 constexpr double half_width = 0.54;
 constexpr StrokeReach around(double painted, double seen_beyond = 0.0) { return {painted, painted + seen_beyond}; }
-constexpr StrokeReach on_ice(double painted, double seen_beyond) { return {painted, painted + seen_beyond, true}; }
 constexpr StrokeReach level(double longest, double widest, double seen_beyond = 0.0) {
   return around(0.52 * longest + half_width * widest, seen_beyond);
 }
@@ -115,7 +115,7 @@ constexpr StrokeKind kinds[] = {
      .reach = downhill(13.0, 4.2, 0.25, 4.2)},
     {.name = "scree", .layer = &StrokeLayers::ground, .stream = Stream::scree, .grow = scree_strokes, .reach = downhill(5.5, 2.2, 0.1)},
     {.name = "sand", .layer = &StrokeLayers::ground, .stream = Stream::sand, .grow = sand_strokes, .reach = downhill(9.0, 1.6, 0.05, 1.3)},
-    {.name = "snow", .layer = &StrokeLayers::ground, .stream = Stream::snow, .grow = snow_strokes, .reach = on_ice(37.9, 64.0 / 3.0)},
+    {.name = "snow", .layer = &StrokeLayers::ground, .stream = Stream::snow, .grow = snow_strokes, .reach = around(37.9), .on_ice = true},
     {.name = "broken colour",
      .layer = &StrokeLayers::ground,
      .stream = Stream::broken_colour,
@@ -127,27 +127,32 @@ constexpr StrokeKind kinds[] = {
      .layer = &StrokeLayers::breaks,
      .stream = Stream::snow_ribs,
      .grow = snow_ribs,
-     .reach = on_ice(15.0 + 15.0, 51.0)},
+     .reach = around(15.0 + 15.0),
+     .on_ice = true},
     {.name = "glacier flow lines",
      .layer = &StrokeLayers::breaks,
      .stream = Stream::glacier_flow_lines,
      .grow = glacier_flow_lines,
-     .reach = on_ice(14.0 + 3.6, 105.0 - 14.0)},
+     .reach = around(14.0 + 3.6),
+     .on_ice = true},
     {.name = "glacier edges",
      .layer = &StrokeLayers::breaks,
      .stream = Stream::glacier_edges,
      .grow = glacier_edges,
-     .reach = on_ice(16.1, 20.0)},
+     .reach = around(16.1, 20.0),
+     .on_ice = true},
     {.name = "glacier moraines",
      .layer = &StrokeLayers::breaks,
      .stream = Stream::glacier_moraines,
      .grow = glacier_moraines,
-     .reach = on_ice(10.0 + 5.2, 270.0)},
+     .reach = around(10.0 + 5.2),
+     .on_ice = true},
     {.name = "glacier crevasses",
      .layer = &StrokeLayers::breaks,
      .stream = Stream::glacier_crevasses,
      .grow = glacier_crevasses,
-     .reach = on_ice(32.0, 45.0)},
+     .reach = around(32.0),
+     .on_ice = true},
     {.name = "houses", .layer = &StrokeLayers::upright, .stream = Stream::houses, .grow = houses, .reach = around(8.0, 8.0 + 5.6)},
     {.name = "churches", .layer = &StrokeLayers::upright, .stream = Stream::churches, .grow = churches, .reach = around(11.0, 16.0 + 2.0)},
     {.name = "farms", .layer = &StrokeLayers::upright, .stream = Stream::farms, .grow = farms, .reach = around(5.0, 4.7)},

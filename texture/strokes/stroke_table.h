@@ -21,9 +21,8 @@ struct StrokeLayers {
 
 // How far a painted pixel may lie from what it is made of, in units of the sheet.
 struct StrokeReach {
-  double source_units;     // from the pixel its stroke grew from …
-  double seen_units;       // … and from any place that was looked at for that stroke to come about
-  bool along_ice = false;  // it follows the flow of ice: how far this is gathered from comes on top
+  double source_units;  // from the pixel its stroke grew from …
+  double seen_units;    // … and from any place that was looked at for that stroke to come about
 };
 
 // A kind of stroke.
@@ -33,6 +32,7 @@ struct StrokeKind {
   Stream stream;  // of its random numbers, its own
   std::vector<Stroke> (*grow)(const StrokeScene& scene, Stream stream);
   StrokeReach reach;
+  bool on_ice = false;       // asks the plan of the sheet's ice
   bool alone = false;        // painted whole before what follows; else far to near in one list with its neighbours
   bool over_copied = false;  // of the ground, and painted with the breaks where the ground is copied from a painting
 };

@@ -15,6 +15,7 @@
 #include "renderer/paint/light.h"
 #include "renderer/paint/palette.h"
 #include "tests/renderer/exemplar/painted_hills.h"
+#include "texture/strokes/ice_plan.h"
 #include "texture/strokes/stroke_painter.h"
 #include "texture/strokes/stroke_table.h"
 
@@ -193,7 +194,8 @@ TEST(Likeness, KindsOfStrokeHaveTheirNumberAndTheirSizeInMillimetres) {
       for (const Print& print : prints)
         for (const std::string_view name : names) {
           const StrokeKind& kind = find_stroke_kind(name);
-          const std::vector<Stroke> more = kind.grow(StrokeScene{print.guidance, print.base, print.strokes}, kind.stream);
+          const IcePlan ice = plan_ice(print.guidance, print.strokes);
+          const std::vector<Stroke> more = kind.grow(StrokeScene{print.guidance, print.base, print.strokes, {.ice = &ice}}, kind.stream);
           all.insert(all.end(), more.begin(), more.end());
         }
       return sizes_of(all, pixels_per_unit);

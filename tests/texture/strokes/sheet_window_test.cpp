@@ -174,7 +174,8 @@ Painting paint_kind(const StrokeKind& kind, const Picture& p, const SheetWindow&
 
 // Differences of a kind's windows, with `share` of the margin that it asks for.
 int kind_differences(const StrokeKind& kind, const Picture& p, int windows, double share) {
-  const Painting whole = paint_kind(kind, p, {});
+  const IcePlan ice = kind.on_ice ? plan_ice(p.guidance, p.parameters) : IcePlan{};
+  const Painting whole = paint_kind(kind, p, {.ice = &ice});
   EXPECT_GT(whole.stroke_count, 0U) << kind.name << ": nothing grows here";
   if (whole.stroke_count == 0) return 0;
   const int margin = static_cast<int>(share * stroke_margin_px(kind, p.parameters));
@@ -182,7 +183,8 @@ int kind_differences(const StrokeKind& kind, const Picture& p, int windows, doub
   int farthest = 0;
   bool asks = false;
   for (const PixelRect& inner : rectangles(whole, p.ground.colour, windows)) {
-    const Part part = part_of(p, inner, margin, asks);
+    Part part = part_of(p, inner, margin, asks);
+    part.window.ice = &ice;
     asks = !asks;
     different += count_differences(whole, paint_kind(kind, cut(p, part.held), part.window), part, farthest);
   }
@@ -194,7 +196,7 @@ struct Sheet {
   double pixels_per_unit;
   int width_units, height_units;
 };
-// The long ones are longer than the longest moraine and its surroundings.
+// The long ones hold the longest moraine.
 constexpr Sheet sheets[] = {{0.7, 170, 1000}, {1.0, 170, 1000}, {3.0, 125, 460}};
 
 TEST(SheetWindow, EachKindPaintsInAWindowWhatItPaintsOnTheWhole) {
@@ -210,6 +212,7 @@ TEST(SheetWindow, EachKindPaintsInAWindowWhatItPaintsOnTheWhole) {
 TEST(SheetWindow, LayersTogetherEqualTheWhole) {
   for (const Sheet& sheet : sheets) {
     const Picture p = make_sheet(sheet.width_units, sheet.height_units, sheet.pixels_per_unit);
+    const IcePlan ice = plan_ice(p.guidance, p.parameters);
     const StrokeLayers draft{.sky = false, .breaks = false, .upright = false};
     for (const StrokeLayers& layers : {StrokeLayers{}, draft}) {
       const Painting whole = paint_strokes(p.ground.colour, p.guidance, p.ground, layers, p.parameters, silent_progress());
@@ -218,7 +221,8 @@ TEST(SheetWindow, LayersTogetherEqualTheWhole) {
       int farthest = 0;
       bool asks = true;
       for (const PixelRect& inner : rectangles(whole, p.ground.colour, 12)) {
-        const Part part = part_of(p, inner, margin, asks);
+        Part part = part_of(p, inner, margin, asks);
+        part.window.ice = &ice;
         const Picture held = cut(p, part.held);
         const Painting window =
             paint_strokes(held.ground.colour, held.guidance, held.ground, layers, held.parameters, silent_progress(), part.window);
@@ -230,6 +234,12 @@ TEST(SheetWindow, LayersTogetherEqualTheWhole) {
       EXPECT_GT(farthest, paint_source_reach_px(layers, p.parameters) / 3);
     }
   }
+}
+
+// No kind looks far: pieces of a print are painted with what lies within 2 cm of them, 4 cm where the sky is painted.
+TEST(SheetWindow, NothingLooksFar) {
+  for (const StrokeKind& kind : stroke_kinds())
+    EXPECT_LE(kind.reach.seen_units, kind.layer == &StrokeLayers::sky ? 63.0 : 45.0) << kind.name;
 }
 
 // What is told of a margin is not much more than what is needed: with a seventh of it windows of every kind fail.
@@ -263,12 +273,29 @@ TEST(SheetWindow, MarginsGrowWithTheSheetAndWithWhatIsPainted) {
   EXPECT_EQ(stroke_margin_px(none, small), 0);
   EXPECT_LT(stroke_margin_px(draft, small), stroke_margin_px(StrokeLayers{}, small));
   EXPECT_NEAR(stroke_margin_px(draft, large), 8 * stroke_margin_px(draft, small), 50);
-  EXPECT_LT(paint_source_reach_px(draft, small), stroke_margin_px(draft, small));
+  EXPECT_LE(paint_source_reach_px(draft, small), stroke_margin_px(draft, small));
+  EXPECT_LT(paint_source_reach_px(StrokeLayers{}, small), stroke_margin_px(StrokeLayers{}, small));
+}
+
+// A plan of the ice serves every window of its sheet; a window cannot make one.
+TEST(SheetWindow, PaintsNoIceWithoutThePlan) {
+  const Picture p = plain_picture(glacier, 8, 6);
+  const StrokeLayers upright{.sky = false, .ground = false, .accents = false, .breaks = false, .upright = true};
+  const auto paint = [&](const StrokeLayers& layers, const SheetWindow& window) {
+    return paint_strokes(p.ground.colour, p.guidance, p.ground, layers, p.parameters, silent_progress(), window);
+  };
+  const IcePlan ice;
+  EXPECT_THROW(paint({}, {.origin_px = {2, 4}, .sheet_px = {10, 10}}), Error);
+  EXPECT_NO_THROW(paint({}, {.origin_px = {2, 4}, .sheet_px = {10, 10}, .ice = &ice}));
+  EXPECT_NO_THROW(paint(upright, {.origin_px = {2, 4}, .sheet_px = {10, 10}}));
+  EXPECT_NO_THROW(paint({}, {.sheet_px = {8, 6}}));
 }
 
 TEST(SheetWindow, RefusesWindowsBesideTheSheet) {
   const Picture p = plain_picture(rock, 8, 6);
-  const auto paint = [&](const SheetWindow& window) {
+  const IcePlan ice;
+  const auto paint = [&](SheetWindow window) {
+    window.ice = &ice;
     return paint_strokes(p.ground.colour, p.guidance, p.ground, {}, p.parameters, silent_progress(), window);
   };
   EXPECT_NO_THROW(paint({{2, 4}, {10, 10}, {0, 0, 8, 6}}));

@@ -10,6 +10,7 @@
 
 #include "base/guidance_buffers.h"
 #include "texture/strokes/brush.h"
+#include "texture/strokes/ice_plan.h"
 #include "texture/strokes/stroke_painter.h"
 #include "texture/strokes/stroke_seeds.h"
 #include "texture/strokes/stroke_table.h"
@@ -46,10 +47,14 @@ inline Picture plain_picture(LandCoverClass id, int width, int height) {
   return p;
 }
 
-// What a kind of stroke paints by itself.
+// What a kind of stroke paints by itself on the whole of a sheet.
 inline std::vector<Stroke> grow_strokes(std::string_view name, const StrokeScene& scene) {
   const StrokeKind& kind = find_stroke_kind(name);
-  return kind.grow(scene, kind.stream);
+  if (!kind.on_ice) return kind.grow(scene, kind.stream);
+  const IcePlan plan = plan_ice(scene.guidance, scene.parameters);
+  StrokeScene planned = scene;
+  planned.window.ice = &plan;
+  return kind.grow(planned, kind.stream);
 }
 
 inline std::vector<Stroke> grow_all(const std::vector<std::string_view>& names, const StrokeScene& scene) {

@@ -1,0 +1,146 @@
+#include "texture/strokes/ice_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <iterator>
+#include <utility>
+
+#include "texture/strokes/stroke_parts.h"
+
+namespace belvedere {
+namespace {
+
+using enum LandCoverClass;
+
+bool same_surface(const StrokeScene& scene, std::size_t a, std::size_t b) {
+  return std::abs(scene.guidance.depth_m[a] / scene.guidance.depth_m[b] - 1.F) < same_ice_depth;
+}
+
+// The way along places of the scene's sheet, px; all of them are on the canvas.
+IceWay way_along(const StrokeScene& scene, Stream stream, const StrokeSeed& seed, const std::vector<glm::vec2>& places) {
+  IceWay way{.stream = stream, .cell = seed.cell(), .land_cover = scene.class_at(scene.pixel(places.front()))};
+  way.places.reserve(places.size());
+  way.depth_m.reserve(places.size());
+  way.lowest = way.highest = places.front() / scene.scale();
+  for (const glm::vec2 place : places) {
+    way.places.push_back(place / scene.scale());
+    way.depth_m.push_back(scene.guidance.depth_m[scene.pixel(place)]);
+    way.lowest = glm::min(way.lowest, way.places.back());
+    way.highest = glm::max(way.highest, way.places.back());
+  }
+  return way;
+}
+
+// A rib of rock that ends in the ice just above a place: from there the rubble of two glaciers runs down as one line.
+bool below_rib(const StrokeScene& scene, const IceFlow& flow, glm::vec2 place, std::size_t i) {
+  const float scale = scene.scale();
+  const glm::vec2 down = flow.at(place / scale);
+  const glm::vec2 across{-down.y, down.x};
+  const auto is_rock = [&](glm::vec2 there) {
+    if (!scene.on_canvas(there)) return false;
+    const std::size_t k = scene.pixel(there);
+    return (scene.class_at(k) == rock || scene.class_at(k) == scree) && same_surface(scene, k, i);
+  };
+  if (!is_rock(place - down * (6.F * scale)) && !is_rock(place - down * (9.F * scale))) return false;
+  for (const float side : {-10.F, 10.F}) {
+    const glm::vec2 there = place + across * (side * scale);
+    if (!scene.on_canvas(there) || !is_ice(scene.class_at(scene.pixel(there)))) return false;
+  }
+  return true;
+}
+
+// Ice is torn where it falls steeply or over an edge; 0 … 1. It comes in fields, with whole ice between.
+float torn(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
+  const float steep = std::clamp((scene.slope_deg(i) - 9.F) / 15.F, 0.F, 1.F);
+  const float moving = std::clamp((scene.slope_deg(i) - 4.F) / 5.F, 0.F, 1.F);
+  const float over_edge = std::clamp(scene.relief_m(i) / 25.F, -0.3F, 0.5F);
+  return moving * std::clamp(0.55F * steep + over_edge + 0.55F * sheet_noise(scene, place, Stream::torn_ice, 24.0) - 0.48F, 0.F, 1.F);
+}
+
+std::vector<IceWay> flow_lines(const StrokeScene& scene, const IceFlow& flow, Stream stream) {
+  return sow<IceWay>(scene, 12.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<IceWay>& out) {
+    if (scene.class_at(i) != glacier || scene.slope_deg(i) > 30.F) return;
+    const int steps = 3 * (2 + static_cast<int>(seed.uniform() * 4.F));
+    const std::vector<glm::vec2> places = trace_ice(scene, flow, place, 7.F * scene.scale(), steps);
+    if (places.size() > 3) out.push_back(way_along(scene, stream, seed, places));
+  });
+}
+
+std::vector<IceWay> moraines(const StrokeScene& scene, const IceFlow& flow, Stream stream) {
+  return sow<IceWay>(scene, 6.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<IceWay>& out) {
+    if (scene.class_at(i) != glacier || !below_rib(scene, flow, place, i) || seed.uniform() > 0.30F) return;
+    const int steps = 3 * (7 + static_cast<int>(seed.uniform() * 12.F));
+    const std::vector<glm::vec2> places = trace_ice(scene, flow, place, 5.F * scene.scale(), steps);
+    if (places.size() >= 10) out.push_back(way_along(scene, stream, seed, places));
+  });
+}
+
+// A flight of bows, one below the other.
+std::vector<IceWay> crevasses(const StrokeScene& scene, const IceFlow& flow, Stream stream) {
+  return sow<IceWay>(scene, 15.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<IceWay>& out) {
+    if (scene.class_at(i) != glacier) return;
+    const float share = torn(scene, place, i);
+    if (seed.uniform() > 1.8F * share) return;
+    const int count = 2 + static_cast<int>(seed.uniform() * (2.F + 5.F * share));
+    const float u = seed.uniform();
+    const float longest_units = 7.F + 26.F * u * u * (0.4F + share);
+    const float gap_between = seed.between(3.2F, 6.F) * scene.scale();
+    std::vector<glm::vec2> middles;
+    glm::vec2 middle = place;
+    for (int k = 0; k < count && scene.on_canvas(middle); ++k) {
+      const std::size_t here = scene.pixel(middle);
+      if (scene.class_at(here) != glacier || (k > 0 && !same_surface(scene, here, i))) break;
+      middles.push_back(middle);
+      const glm::vec2 down = flow.at(middle / scene.scale());
+      middle += down * (gap_between * seed.between(0.6F, 1.5F));
+      const float aside = 0.22F * seed.normal() * longest_units * scene.scale();
+      middle += glm::vec2(-down.y, down.x) * aside;
+    }
+    IceWay way = way_along(scene, stream, seed, middles);
+    way.strength = share;
+    way.size_units = longest_units;
+    out.push_back(std::move(way));
+  });
+}
+
+// Crests of rock that stand out of steep snow.
+std::vector<IceWay> ribs(const StrokeScene& scene, const IceFlow& flow, Stream stream) {
+  return sow<IceWay>(scene, 22.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<IceWay>& out) {
+    if (scene.class_at(i) != snow) return;
+    const float bare = std::clamp((scene.slope_deg(i) - 30.F) / 12.F, 0.F, 1.F) * std::clamp(scene.relief_m(i) / 20.F - 0.15F, 0.F, 1.F);
+    // Ribs gather; single ones would be flies on the snow.
+    const float gathered = std::clamp(1.2F * sheet_noise(scene, place, Stream::rib_places, 40.0) - 0.1F, 0.F, 1.F);
+    if (bare * gathered < 0.25F || seed.uniform() > 1.5F * bare * gathered) return;
+    const int steps = 9 + static_cast<int>(seed.uniform() * 9.F);
+    const std::vector<glm::vec2> places = trace_ice(scene, flow, place, 3.F * scene.scale(), steps);
+    if (places.size() >= 9) out.push_back(way_along(scene, stream, seed, places));
+  });
+}
+
+// Kinds of strokes that lie along ways, by their streams.
+struct WayKind {
+  Stream stream;
+  std::vector<IceWay> (*find)(const StrokeScene& scene, const IceFlow& flow, Stream stream);
+};
+constexpr WayKind way_kinds[] = {{Stream::snow_ribs, ribs},
+                                 {Stream::glacier_flow_lines, flow_lines},
+                                 {Stream::glacier_moraines, moraines},
+                                 {Stream::glacier_crevasses, crevasses}};
+
+}  // namespace
+
+IcePlan plan_ice(const GuidanceBuffers& guidance, const StrokeParameters& parameters) {
+  const BasePicture no_paint;
+  const StrokeScene scene{guidance, no_paint, parameters};
+  IcePlan plan;
+  plan.flow = find_ice_flow(scene);
+  if (plan.flow.direction.empty()) return plan;
+  for (const WayKind& kind : way_kinds) {
+    std::vector<IceWay> found = kind.find(scene, plan.flow, kind.stream);
+    std::move(found.begin(), found.end(), std::back_inserter(plan.ways));
+  }
+  return plan;
+}
+
+}  // namespace belvedere
