@@ -12,8 +12,12 @@ namespace {
 // Pixels in tiles of several sizes, asked for in any order, against the picture made in one piece.
 class SheetGroundTest : public testing::TestWithParam<int> {
  protected:
+  // Ice among the hills: its strokes hang on the sheet as a whole.
   SheetGroundTest()
-      : world_(test::small_scene({"output.width=230", "output.height=210", "output.sheet_width_mm=115"}), silent_progress()) {}
+      : world_(test::small_scene({"output.width=230", "output.height=210", "output.sheet_width_mm=115", "terrain.synthetic.highest_m=3900",
+                                  "land_cover.settings.ice_line_m=900", "land_cover.settings.snowline_m=1100",
+                                  "land_cover.settings.treeline_m=400"}),
+               silent_progress()) {}
   const Palette palette_ = read_palette("summer");
   const World world_;
   const test::Folder folder_;
