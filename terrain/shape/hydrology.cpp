@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <queue>
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/rising_queue.h"
 
 namespace belvedere {
 namespace {
@@ -21,113 +19,179 @@ struct Step {
 // The eight neighbours; the opposite of neighbour k is 7 - k.
 constexpr std::array<Step, 8> neighbours{{{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
 constexpr std::uint8_t drains_out = 8;  // leaves the grid
-constexpr std::uint8_t not_seen = 255;
+constexpr std::uint8_t no_way = 255;    // none found so far
+constexpr std::uint8_t done_waiting = 255;
 
-// Bits that sort as the floats do.
-std::uint64_t sortable(float altitude) {
-  const auto bits = std::bit_cast<std::uint32_t>(altitude + 0.F);  // one zero only
-  return bits & 0x80000000U ? ~bits : bits | 0x80000000U;
+// Calls f(k, index) for the neighbours of a cell that lie within the grid. Inside, which is nearly everywhere, it asks no further.
+template <class F>
+void each_neighbour(int width, int height, std::size_t cell, F&& f) {
+  const auto stride = static_cast<std::size_t>(width);
+  const int x = static_cast<int>(cell % stride);
+  const int y = static_cast<int>(cell / stride);
+  const bool inside = x > 0 && y > 0 && x + 1 < width && y + 1 < height;
+  for (std::size_t k = 0; k < neighbours.size(); ++k) {
+    const int u = x + neighbours[k].x;
+    const int v = y + neighbours[k].y;
+    if (!inside && (u < 0 || v < 0 || u >= width || v >= height)) continue;
+    f(k,
+      static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + neighbours[k].y * static_cast<std::ptrdiff_t>(width) + neighbours[k].x));
+  }
 }
 
-// A flooded terrain: where each cell drains to, and all cells in an order in which nothing drains upwards.
-struct Flood {
-  Grid<float> level_m;               // altitude with its hollows filled
-  Grid<std::uint8_t> towards;        // which neighbour, or drains_out
-  std::vector<std::uint32_t> order;  // rising levels
-};
-
-Flood flood_from_rim(const Grid<float>& altitude_m) {
+// Altitudes with hollows filled up to their outlets. A flood from the rim must take its cells in the order of their altitudes only where it
+// has to decide over which outlet a hollow runs: whatever stands no lower than a flooded neighbour keeps its altitude, in whatever order it
+// is reached. So the sorted queue holds but the rim and cells with ground below them that is still dry (Zhou, Sun & Fu 2016).
+Grid<float> flood_from_rim(const Grid<float>& altitude_m) {
   const int width = altitude_m.width();
   const int height = altitude_m.height();
-  Flood flood{altitude_m, Grid<std::uint8_t>(width, height, not_seen), {}};
-  flood.order.reserve(altitude_m.size());
-  // Altitude above, cell below: equal altitudes come in the order of their cells.
-  std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>> rising;
-  const auto push = [&](std::size_t cell) { rising.push(sortable(flood.level_m[cell]) << 32 | cell); };
+  Grid<float> level_m = altitude_m;
+  Grid<std::uint8_t> flooded(width, height, 0);
+  RisingQueue rising;
+  const auto push = [&](std::size_t cell) { rising.push(rising_key(level_m[cell], static_cast<std::uint32_t>(cell))); };
   for (int y = 0; y < height; ++y) {
     const bool whole_row = y == 0 || y == height - 1;
     for (int x = 0; x < width; x += whole_row ? 1 : std::max(1, width - 1)) {
-      flood.towards(x, y) = drains_out;
+      flooded(x, y) = 1;
       push(altitude_m.index(x, y));
     }
   }
-  // Cells of a hollow need no sorting: all stand at the level of its outlet. They wait at the end of `order` itself.
-  std::size_t next = 0;
-  while (next < flood.order.size() || !rising.empty()) {
-    if (next == flood.order.size()) {
-      flood.order.push_back(static_cast<std::uint32_t>(rising.top() & 0xffffffffU));
-      rising.pop();
+  std::vector<std::uint32_t> hollow;
+  std::vector<std::uint32_t> slope;
+  while (!rising.empty()) {
+    hollow.assign(1, static_cast<std::uint32_t>(rising.pop() & 0xffffffffU));
+    slope.clear();
+    const float level = level_m[hollow[0]];
+    for (std::size_t i = 0; i < hollow.size(); ++i) {
+      each_neighbour(width, height, hollow[i], [&](std::size_t, std::size_t other) {
+        if (flooded[other] != 0) return;
+        flooded[other] = 1;
+        if (level_m[other] <= level) {
+          level_m[other] = level;
+          hollow.push_back(static_cast<std::uint32_t>(other));
+        } else {
+          slope.push_back(static_cast<std::uint32_t>(other));
+        }
+      });
     }
-    const std::size_t cell = flood.order[next++];
-    const float level = flood.level_m[cell];
-    const int x = static_cast<int>(cell % static_cast<std::size_t>(width));
-    const int y = static_cast<int>(cell / static_cast<std::size_t>(width));
-    for (std::size_t k = 0; k < neighbours.size(); ++k) {
-      const int u = x + neighbours[k].x;
-      const int v = y + neighbours[k].y;
-      if (!altitude_m.contains(u, v) || flood.towards(u, v) != not_seen) continue;
-      flood.towards(u, v) = static_cast<std::uint8_t>(7 - k);
-      const std::size_t other = altitude_m.index(u, v);
-      if (flood.level_m[other] <= level) {
-        flood.level_m[other] = level;
-        flood.order.push_back(static_cast<std::uint32_t>(other));
-      } else {
-        push(other);
+    for (std::size_t i = 0; i < slope.size(); ++i) {
+      const std::size_t cell = slope[i];
+      const float here = level_m[cell];
+      bool above_dry_ground = false;
+      each_neighbour(width, height, cell, [&](std::size_t, std::size_t other) {
+        if (flooded[other] != 0) return;
+        if (level_m[other] < here) {
+          above_dry_ground = true;
+          return;
+        }
+        flooded[other] = 1;
+        slope.push_back(static_cast<std::uint32_t>(other));
+      });
+      if (above_dry_ground) push(cell);
+    }
+  }
+  return level_m;
+}
+
+// Where each cell of a flooded terrain drains to: which neighbour, or drains_out. Where it falls, water takes the steepest way, also
+// inwards from the rim; what leaves the rim else leaves the grid. Level ground drains to the outlets from which a flood of one level
+// reaches it first: from outlet after outlet, in the order of their cells, wave after wave. So no way leads upwards, and none is a circle.
+Grid<std::uint8_t> find_ways(const Grid<float>& level_m) {
+  const int width = level_m.width();
+  const int height = level_m.height();
+  Grid<std::uint8_t> towards(width, height, no_way);
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const std::size_t cell = level_m.index(x, y);
+      float steepest = 0.F;
+      std::uint8_t way = x == 0 || y == 0 || x == width - 1 || y == height - 1 ? drains_out : no_way;
+      each_neighbour(width, height, cell, [&](std::size_t k, std::size_t other) {
+        const float fall = level_m[cell] - level_m[other];
+        const float slope = neighbours[k].x != 0 && neighbours[k].y != 0 ? fall * 0.70710678F : fall;
+        if (slope > steepest) {
+          steepest = slope;
+          way = static_cast<std::uint8_t>(k);
+        }
+      });
+      towards[cell] = way;
+    }
+  });
+  // Level ground is scarce: its cells are found row by row, and only outlets beside them are looked at.
+  std::vector<std::vector<std::uint32_t>> outlets(static_cast<std::size_t>(height));
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const std::size_t cell = level_m.index(x, y);
+      if (towards[cell] == no_way) continue;
+      bool beside = false;
+      each_neighbour(width, height, cell, [&](std::size_t, std::size_t other) {
+        beside = beside || (towards[other] == no_way && level_m[other] == level_m[cell]);
+      });
+      if (beside) outlets[static_cast<std::size_t>(y)].push_back(static_cast<std::uint32_t>(cell));
+    }
+  });
+  std::vector<std::uint32_t> wave;
+  for (const std::vector<std::uint32_t>& row : outlets) {
+    for (const std::uint32_t outlet : row) {
+      wave.assign(1, outlet);
+      for (std::size_t i = 0; i < wave.size(); ++i) {
+        each_neighbour(width, height, wave[i], [&](std::size_t k, std::size_t other) {
+          if (towards[other] != no_way || level_m[other] != level_m[outlet]) return;
+          towards[other] = static_cast<std::uint8_t>(7 - k);
+          wave.push_back(static_cast<std::uint32_t>(other));
+        });
       }
     }
   }
-  return flood;
-}
-
-// Where the flooded surface falls, water takes the steepest way, also inwards from the rim. A lower cell was flooded earlier, so
-// the order still holds and there is no circle.
-void turn_to_steepest_descent(Flood& flood) {
-  parallel_rows(flood.level_m.height(), [&](int y) {
-    for (int x = 0; x < flood.level_m.width(); ++x) {
-      float steepest = 0.F;
-      for (std::size_t k = 0; k < neighbours.size(); ++k) {
-        const auto [dx, dy] = neighbours[k];
-        if (!flood.level_m.contains(x + dx, y + dy)) continue;
-        const float fall = flood.level_m(x, y) - flood.level_m(x + dx, y + dy);
-        const float slope = dx != 0 && dy != 0 ? fall * 0.70710678F : fall;
-        if (slope > steepest) {
-          steepest = slope;
-          flood.towards(x, y) = static_cast<std::uint8_t>(k);
-        }
-      }
-    }
-  });
+  return towards;
 }
 
 using Mask = Grid<std::uint8_t>;
 
 // One step of erosion (a cell stays if its four neighbours are set) or dilation (it comes if one is); outside is like the border.
+// Masks hold 0 and 1.
 template <bool erode>
 Mask morph(const Mask& mask) {
-  Mask out(mask.width(), mask.height());
+  const int width = mask.width();
+  Mask out(width, mask.height());
+  const auto both = [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(erode ? a & b : a | b); };
   parallel_rows(mask.height(), [&](int y) {
-    for (int x = 0; x < mask.width(); ++x) {
-      const std::array<std::uint8_t, 5> cross{mask(x, y), mask.clamped(x - 1, y), mask.clamped(x + 1, y), mask.clamped(x, y - 1),
-                                              mask.clamped(x, y + 1)};
-      const auto set = [](std::uint8_t m) { return m != 0; };
-      out(x, y) = erode ? std::all_of(cross.begin(), cross.end(), set) : std::any_of(cross.begin(), cross.end(), set);
-    }
+    const std::uint8_t* here = mask.row(y);
+    const std::uint8_t* north = mask.row(std::max(y - 1, 0));
+    const std::uint8_t* south = mask.row(std::min(y + 1, mask.height() - 1));
+    std::uint8_t* to = out.row(y);
+    for (int x = 0; x < width; ++x) to[x] = both(here[x], both(north[x], south[x]));
+    for (int x = 1; x < width; ++x) to[x] = both(to[x], here[x - 1]);
+    for (int x = 0; x + 1 < width; ++x) to[x] = both(to[x], here[x + 1]);
   });
   return out;
 }
 
 Mask find_flat_cells(const Grid<float>& altitude_m, float max_range_m) {
-  Mask flat(altitude_m.width(), altitude_m.height());
-  parallel_rows(altitude_m.height(), [&](int y) {
-    for (int x = 0; x < altitude_m.width(); ++x) {
-      float low = altitude_m(x, y);
-      float high = low;
-      for (const auto& [dx, dy] : neighbours) {
-        const float z = altitude_m.clamped(x + dx, y + dy);
-        low = std::min(low, z);
-        high = std::max(high, z);
+  const int width = altitude_m.width();
+  Mask flat(width, altitude_m.height());
+  parallel_ranges(altitude_m.height(), 16, [&](int y0, int y1) {
+    // Extremes of three cells of a column, a column more at each end.
+    std::vector<float> low(static_cast<std::size_t>(width) + 2);
+    std::vector<float> high(low.size());
+    for (int y = y0; y != y1; ++y) {
+      const float* north = altitude_m.row(std::max(y - 1, 0));
+      const float* here = altitude_m.row(y);
+      const float* south = altitude_m.row(std::min(y + 1, altitude_m.height() - 1));
+      float* low_in = low.data() + 1;
+      float* high_in = high.data() + 1;
+      for (int x = 0; x < width; ++x) {
+        low_in[x] = std::min(here[x], std::min(north[x], south[x]));
+        high_in[x] = std::max(here[x], std::max(north[x], south[x]));
       }
-      flat(x, y) = high - low < max_range_m;
+      low.front() = low_in[0];
+      high.front() = high_in[0];
+      low.back() = low_in[width - 1];
+      high.back() = high_in[width - 1];
+      std::uint8_t* to = flat.row(y);
+      for (int x = 0; x < width; ++x) {
+        const float lowest = std::min(low_in[x], std::min(low_in[x - 1], low_in[x + 1]));
+        const float highest = std::max(high_in[x], std::max(high_in[x - 1], high_in[x + 1]));
+        to[x] = highest - lowest < max_range_m ? 1 : 0;
+      }
     }
   });
   return flat;
@@ -212,28 +276,48 @@ void remove_what_is_no_lake(Mask& mask, const Grid<float>& altitude_m, const Lak
 }  // namespace
 
 Grid<float> flow_accumulation_km2(const Grid<float>& altitude_m, double cell_m) {
-  Grid<float> catchment(altitude_m.width(), altitude_m.height());
-  Flood flood = flood_from_rim(altitude_m);
-  turn_to_steepest_descent(flood);
-  flood.level_m = {};
-  // Whole cells are counted, exactly; then turned into km².
-  Grid<std::uint32_t> cells(altitude_m.width(), altitude_m.height(), 1);
+  const int width = altitude_m.width();
+  const int height = altitude_m.height();
+  const Grid<std::uint8_t> towards = find_ways(flood_from_rim(altitude_m));
+  const auto target_of = [&](std::size_t cell) {
+    const Step& step = neighbours[towards[cell]];
+    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + step.x + static_cast<std::ptrdiff_t>(step.y) * width);
+  };
+  // How many neighbours drain into each cell.
+  Grid<std::uint8_t> waiting(width, height);
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      std::uint8_t count = 0;
+      each_neighbour(width, height, towards.index(x, y), [&](std::size_t k, std::size_t other) {
+        count = static_cast<std::uint8_t>(count + (towards[other] == 7 - k ? 1 : 0));
+      });
+      waiting(x, y) = count;
+    }
+  });
+  // Whole cells are counted, exactly; then turned into km². From every spring down to where another water is still to come: whichever
+  // comes last goes on, and neither sums of whole numbers nor the larger of two ask which it was.
+  Grid<float> catchment(width, height);
+  Grid<std::uint32_t> cells(width, height, 1);
   const double cell_km2 = cell_m * cell_m * 1e-6;
-  for (auto i = flood.order.rbegin(); i != flood.order.rend(); ++i) {
-    const std::size_t cell = *i;
-    // Above 2^24 cells a float cannot tell n from n + 1: what came from upstream is the least it may be.
-    catchment[cell] = std::max(catchment[cell], static_cast<float>(cells[cell] * cell_km2));
-    const std::uint8_t k = flood.towards[cell];
-    if (k == drains_out) continue;
-    const auto target = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + neighbours[k].x +
-                                                 static_cast<std::ptrdiff_t>(neighbours[k].y) * altitude_m.width());
-    cells[target] += cells[cell];
-    catchment[target] = std::max(catchment[target], std::nextafter(catchment[cell], std::numeric_limits<float>::infinity()));
+  for (std::size_t spring = 0; spring < cells.size(); ++spring) {
+    if (waiting[spring] != 0) continue;
+    for (std::size_t cell = spring;;) {
+      // Above 2^24 cells a float cannot tell n from n + 1: what came from upstream is the least it may be.
+      catchment[cell] = std::max(catchment[cell], static_cast<float>(cells[cell] * cell_km2));
+      if (towards[cell] == drains_out) break;
+      const std::size_t target = target_of(cell);
+      cells[target] += cells[cell];
+      catchment[target] = std::max(catchment[target], std::nextafter(catchment[cell], std::numeric_limits<float>::infinity()));
+      // One that has been gone through waits for none and is no spring.
+      if (--waiting[target] != 0) break;
+      waiting[target] = done_waiting;
+      cell = target;
+    }
   }
   return catchment;
 }
 
-Grid<float> fill_hollows(const Grid<float>& altitude_m) { return flood_from_rim(altitude_m).level_m; }
+Grid<float> fill_hollows(const Grid<float>& altitude_m) { return flood_from_rim(altitude_m); }
 
 Grid<std::uint8_t> find_lakes(const Grid<float>& altitude_m, const LakeParameters& parameters) {
   Mask lakes = find_flat_cells(altitude_m, parameters.max_range_m);
@@ -242,7 +326,16 @@ Grid<std::uint8_t> find_lakes(const Grid<float>& altitude_m, const LakeParameter
   // The neighbourhood of a flat cell is flat as well: a cell at its rim still stands at the lake's level.
   Mask grown = lakes;
   parallel_rows(lakes.height(), [&](int y) {
+    const std::uint8_t* north = lakes.row(std::max(y - 1, 0));
+    const std::uint8_t* here = lakes.row(y);
+    const std::uint8_t* south = lakes.row(std::min(y + 1, lakes.height() - 1));
+    // Nearly everywhere there is no lake in three columns and rows, and nothing grows.
+    std::vector<std::uint8_t> column(static_cast<std::size_t>(lakes.width()) + 2, 0);
+    for (int x = 0; x < lakes.width(); ++x)
+      column[static_cast<std::size_t>(x) + 1] = static_cast<std::uint8_t>(north[x] | here[x] | south[x]);
     for (int x = 0; x < lakes.width(); ++x) {
+      const std::uint8_t* around = column.data() + x;
+      if ((around[0] | around[1] | around[2]) == 0) continue;
       for (const auto& [dx, dy] : neighbours) {
         if (lakes.clamped(x + dx, y + dy) == 0) continue;
         if (std::abs(altitude_m.clamped(x + dx, y + dy) - altitude_m(x, y)) < parameters.max_range_m) grown(x, y) = 1;
