@@ -1,5 +1,6 @@
 #include "base/noise.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -48,24 +49,36 @@ double gaussian_noise(std::uint64_t seed, double x, double y, double sigma_x, do
 
 double gaussian_noise(std::uint64_t seed, double x, double y, double sigma) { return gaussian_noise(seed, x, y, sigma, sigma); }
 
-void gaussian_noise_row(std::uint64_t seed, double x, double step, int count, double y, double sigma, float* out) {
-  if (count <= 0) return;
-  const double spacing = sigma * spacing_per_sigma;
-  const SplineWeights sy = spline_weights(y / spacing);
-  const std::int64_t first = spline_weights(x / spacing).first;
-  const std::int64_t last = spline_weights((x + step * (count - 1)) / spacing).first + 3;
-  // The lattice under this row, summed up over y once.
-  std::vector<double> columns(static_cast<std::size_t>(last - first + 1));
-  for (std::int64_t i = first; i <= last; ++i) {
-    double sum = 0.0;
-    for (int j = 0; j < 4; ++j) sum += sy.weight[static_cast<std::size_t>(j)] * random_normal(seed, i, sy.first + j);
-    columns[static_cast<std::size_t>(i - first)] = sum * sy.inverse_deviation;
-  }
+NoiseColumns plan_noise_columns(double x, double step, int count, double sigma) {
+  NoiseColumns places;
+  places.spacing = sigma * spacing_per_sigma;
+  if (count <= 0) return places;
+  places.first_column = spline_weights(x / places.spacing).first;
+  places.lattice_columns = static_cast<int>(spline_weights((x + step * (count - 1)) / places.spacing).first + 3 - places.first_column) + 1;
+  places.columns.resize(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
-    const SplineWeights sx = spline_weights((x + step * k) / spacing);
-    const double* c = columns.data() + (sx.first - first);
-    const double sum = sx.weight[0] * c[0] + sx.weight[1] * c[1] + sx.weight[2] * c[2] + sx.weight[3] * c[3];
-    out[k] = static_cast<float>(sum * sx.inverse_deviation);
+    const SplineWeights s = spline_weights((x + step * k) / places.spacing);
+    NoiseColumns::Column& column = places.columns[static_cast<std::size_t>(k)];
+    column.first = static_cast<int>(s.first - places.first_column);
+    std::copy(s.weight.begin(), s.weight.end(), column.weight);
+    column.inverse_deviation = s.inverse_deviation;
+  }
+  return places;
+}
+
+void gaussian_noise_row(const NoiseColumns& places, std::uint64_t seed, double y, float* out) {
+  const SplineWeights sy = spline_weights(y / places.spacing);
+  // The lattice under this row, summed up over y once.
+  std::vector<double> lattice(static_cast<std::size_t>(places.lattice_columns));
+  for (int i = 0; i < places.lattice_columns; ++i) {
+    double sum = 0.0;
+    for (int j = 0; j < 4; ++j) sum += sy.weight[static_cast<std::size_t>(j)] * random_normal(seed, places.first_column + i, sy.first + j);
+    lattice[static_cast<std::size_t>(i)] = sum * sy.inverse_deviation;
+  }
+  for (const NoiseColumns::Column& column : places.columns) {
+    const double* c = lattice.data() + column.first;
+    const double sum = column.weight[0] * c[0] + column.weight[1] * c[1] + column.weight[2] * c[2] + column.weight[3] * c[3];
+    *out++ = static_cast<float>(sum * column.inverse_deviation);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace belvedere {
 
@@ -13,8 +14,23 @@ double gaussian_noise(std::uint64_t seed, double x, double y, double sigma);
 // The same with different widths along x and y.
 double gaussian_noise(std::uint64_t seed, double x, double y, double sigma_x, double sigma_y);
 
-// gaussian_noise at the `count` places x + i · step of one row, into out: equal up to rounding, at a tenth of the cost where the step
-// is no longer than sigma. step > 0.
-void gaussian_noise_row(std::uint64_t seed, double x, double step, int count, double y, double sigma, float* out);
+// What gaussian_noise needs to know of the places x + i · step, i < count, in every row of a grid: it hangs on neither row nor seed.
+struct NoiseColumns {
+  struct Column {
+    int first;                 // lattice column of the first of four, from first_column on
+    double weight[4];          // of the B-spline
+    double inverse_deviation;  // 1 / sqrt(sum of their squares)
+  };
+  double spacing = 0.0;  // of the lattice
+  std::int64_t first_column = 0;
+  int lattice_columns = 0;
+  std::vector<Column> columns;
+};
+// step > 0.
+NoiseColumns plan_noise_columns(double x, double step, int count, double sigma);
+
+// gaussian_noise at those places of the row y, into out: equal up to rounding, at a small part of the cost where the step is no longer
+// than sigma.
+void gaussian_noise_row(const NoiseColumns& places, std::uint64_t seed, double y, float* out);
 
 }  // namespace belvedere

@@ -113,6 +113,7 @@ struct Run {
   const Dem& dem;
   std::uint64_t seed;
   std::vector<Grid<float>> inputs;
+  std::vector<NoiseColumns> noise;  // of each noise variable
 };
 
 // Slots of one row, whole blocks long; each thread has its own.
@@ -121,21 +122,29 @@ struct Row {
   RuleExpression::Scratch scratch;
 };
 
+// Where the block of a slot begins at a column. Grids are read where they are, but for the last block, which must be whole.
+const float* block_of(const Run& run, const Row& row, std::size_t slot, int y, int begin) {
+  if (slot < static_cast<std::size_t>(first_noise) && begin + rule_block <= run.dem.width()) return run.inputs[slot].row(y) + begin;
+  return row.slots[slot].data() + begin;
+}
+
 // Makes the needed slots of a row; `classes` is the row so far, or null. Terms come last, in their order.
 void fill_row(const Run& run, const std::vector<bool>& needed, int y, const LandCoverClass* classes, Row& row) {
   const int width = run.dem.width();
   const std::size_t variables = variable_names().size();
-  const std::size_t padded = (static_cast<std::size_t>(width) + rule_block - 1) / rule_block * rule_block;
+  const int padded = (width + rule_block - 1) / rule_block * rule_block;
   row.slots.resize(needed.size());
+  std::vector<const float*> pointers(needed.size(), nullptr);
   for (std::size_t v = 0; v < needed.size(); ++v) {
     if (!needed[v]) continue;
     std::vector<float>& out = row.slots[v];
-    out.resize(padded, 0.F);
+    out.resize(static_cast<std::size_t>(padded), 0.F);
     const int variable = static_cast<int>(v);
     if (variable < first_noise) {
-      std::copy_n(run.inputs[v].row(y), width, out.begin());
+      const int last = padded - rule_block;
+      std::copy_n(run.inputs[v].row(y) + last, width - last, out.begin() + last);
     } else if (variable < east) {
-      fill_noise(variable, run.seed, run.dem.transform, y, width, out.data());
+      fill_noise(variable, run.noise[static_cast<std::size_t>(variable - first_noise)], run.seed, run.dem.transform, y, out.data());
     } else if (variable < first_class) {
       for (int x = 0; x < width; ++x) {
         const glm::dvec2 place = run.dem.transform.to_crs(x, y);
@@ -145,9 +154,8 @@ void fill_row(const Run& run, const std::vector<bool>& needed, int y, const Land
       const auto id = static_cast<LandCoverClass>(variable - first_class);
       for (int x = 0; x < width; ++x) out[static_cast<std::size_t>(x)] = classes != nullptr && classes[x] == id ? 1.F : 0.F;
     } else {
-      std::vector<const float*> pointers(needed.size(), nullptr);
-      for (std::size_t begin = 0; begin < padded; begin += rule_block) {
-        for (std::size_t i = 0; i < v; ++i) pointers[i] = row.slots[i].empty() ? nullptr : row.slots[i].data() + begin;
+      for (int begin = 0; begin < padded; begin += rule_block) {
+        for (std::size_t i = 0; i < v; ++i) pointers[i] = needed[i] ? block_of(run, row, i, y, begin) : nullptr;
         run.program.terms[v - variables].evaluate(pointers, out.data() + begin, row.scratch);
       }
     }
@@ -177,7 +185,7 @@ void apply_layers(const Run& run, std::size_t from, std::size_t to, Grid<LandCov
       std::vector<const float*> pointers(slots, nullptr);
       for (int begin = 0; begin < classes.width(); begin += rule_block) {
         const int count = std::min(rule_block, classes.width() - begin);
-        for (std::size_t i = 0; i < slots; ++i) pointers[i] = needed[i] ? row.slots[i].data() + begin : nullptr;
+        for (std::size_t i = 0; i < slots; ++i) pointers[i] = needed[i] ? block_of(run, row, i, y, begin) : nullptr;
         for (std::size_t k = from; k < to; ++k) {
           const auto painted = static_cast<std::size_t>(run.rules.layers[k].painted_as);
           run.program.layers[k].evaluate(pointers, hit.data(), row.scratch);
@@ -308,7 +316,9 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
     const std::vector<bool>& needs = program.term_needs[static_cast<std::size_t>(balance - rules.terms.begin())];
     for (std::size_t i = 0; i < slots; ++i) needed[i] = needed[i] || needs[i];
   }
-  Run run{rules, program, dem, given.seed, make_terrain_inputs(dem, needed, parameters, given.towns, given.seed)};
+  Run run{rules, program, dem, given.seed, make_terrain_inputs(dem, needed, parameters, given.towns, given.seed), {}};
+  for (int v = first_noise; v < east; ++v)
+    run.noise.push_back(needed[static_cast<std::size_t>(v)] ? plan_noise(v, dem.transform, dem.width()) : NoiseColumns{});
   progress.advance(1.0);
   if (has_ice)
     run.inputs[ice] = flowing_ice(evaluate_term(run, static_cast<std::size_t>(balance - rules.terms.begin())), dem);

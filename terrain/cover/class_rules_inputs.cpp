@@ -12,18 +12,22 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
+#include "base/rising_queue.h"
 #include "terrain/shape/derivatives.h"
 #include "terrain/shape/hydrology.h"
 
 namespace belvedere::class_rules {
 namespace {
 
-template <class F>
-void each_cell(Grid<float>& grid, F&& f) {
+template <class T, class F>
+void each_cell(Grid<T>& grid, F&& f) {
   parallel_rows(grid.height(), [&](int y) {
     for (int x = 0; x < grid.width(); ++x) grid(x, y) = f(x, y);
   });
 }
+
+constexpr float lasting_balance = -8.F;    // where more melts, no ice comes
+constexpr double widest_stream_m = 900.0;  // of ice, each side
 
 // Rise towards the east and towards the south, metres a metre.
 glm::vec2 rise(const Grid<float>& z, int x, int y, double cell_x, double cell_y) {
@@ -41,32 +45,12 @@ TownParameters to_town_parameters(const Parameters& parameters, const std::vecto
   return towns;
 }
 
-}  // namespace
-
-const std::vector<std::string>& variable_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> n = {"altitude",      "slope",        "slope_smooth", "south", "relief_180", "relief_750", "relief_1800",
-                                  "valley_height", "valley_floor", "lake",         "shore", "river",      "town",       "ice",
-                                  "below_rock",    "n60",          "n210",         "n660",  "n1800",      "east",       "north"};
-    for (const LandCoverClassInfo& c : land_cover_classes()) n.push_back("is_" + std::string(c.name));
-    return n;
-  }();
-  return names;
-}
-
-double parameter_or(const Parameters& parameters, const std::string& name, double otherwise) {
-  for (const auto& [key, value] : parameters)
-    if (key == name) return value;
-  return otherwise;
-}
-
-std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
-                                             const std::vector<KnownTown>& towns, std::uint64_t seed) {
+// The grids that hang on the shape of the ground alone, not on where its water runs.
+void make_shape_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters, std::vector<Grid<float>>& inputs) {
   const double cell = dem.cell_m();
   const double cell_x = dem.transform.cell_x;
   const double cell_y = dem.transform.cell_y;
   const Grid<float>& z = dem.altitude_m;
-  std::vector<Grid<float>> inputs(first_noise);
   const auto is_needed = [&](int v) { return static_cast<bool>(needed[static_cast<std::size_t>(v)]); };
   const auto grid = [&](int v) -> Grid<float>& { return inputs[static_cast<std::size_t>(v)]; };
 
@@ -114,22 +98,56 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
     each_cell(grid(lake), [&](int x, int y) { return mask(x, y) != 0 ? 1.F : 0.F; });
     if (is_needed(shore)) {
       Grid<std::uint8_t> land(z.width(), z.height());
-      for (std::size_t i = 0; i < land.size(); ++i) land[i] = mask[i] != 0 ? 0 : 1;
+      each_cell(land, [&](int x, int y) { return static_cast<std::uint8_t>(mask(x, y) != 0 ? 0 : 1); });
       const Grid<std::int32_t> nearest = nearest_marked(land);
       grid(shore) = Grid<float>(z.width(), z.height());
       each_cell(grid(shore), [&](int x, int y) {
+        if (mask(x, y) == 0) return 0.F;
         const std::int32_t at = nearest(x, y);
         return at < 0 ? 1e6F : static_cast<float>(cell * std::hypot(at % z.width() - x, at / z.width() - y));
       });
     }
   }
-  if (is_needed(river) || is_needed(town)) {
-    const Grid<float> catchment_km2 = flow_accumulation_km2(z, cell);
-    if (is_needed(river)) grid(river) = river_mask(catchment_km2, cell);
-    if (is_needed(town)) {
-      const TownGround ground{z, grid(valley_floor), catchment_km2, grid(slope), grid(south), dem.transform};
-      grid(town) = town_field(find_town_sites(ground, to_town_parameters(parameters, towns, seed)), ground);
+}
+
+}  // namespace
+
+const std::vector<std::string>& variable_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> n = {"altitude",      "slope",        "slope_smooth", "south", "relief_180", "relief_750", "relief_1800",
+                                  "valley_height", "valley_floor", "lake",         "shore", "river",      "town",       "ice",
+                                  "below_rock",    "n60",          "n210",         "n660",  "n1800",      "east",       "north"};
+    for (const LandCoverClassInfo& c : land_cover_classes()) n.push_back("is_" + std::string(c.name));
+    return n;
+  }();
+  return names;
+}
+
+double parameter_or(const Parameters& parameters, const std::string& name, double otherwise) {
+  for (const auto& [key, value] : parameters)
+    if (key == name) return value;
+  return otherwise;
+}
+
+std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
+                                             const std::vector<KnownTown>& towns, std::uint64_t seed) {
+  const Grid<float>& z = dem.altitude_m;
+  std::vector<Grid<float>> inputs(first_noise);
+  const bool needs_town = needed[town];
+  Grid<float> catchment_km2;
+  // Water finds its way one cell after the other, on one thread: the rest is made beside it.
+  parallel_ranges(2, 1, [&](int begin, int end) {
+    for (int part = begin; part != end; ++part) {
+      if (part == 1)
+        make_shape_inputs(dem, needed, parameters, inputs);
+      else if (needed[river] || needs_town)
+        catchment_km2 = flow_accumulation_km2(z, dem.cell_m());
     }
+  });
+  if (needed[river]) inputs[river] = river_mask(catchment_km2, dem.cell_m());
+  if (needs_town) {
+    const TownGround ground{z, inputs[valley_floor], catchment_km2, inputs[slope], inputs[south], dem.transform};
+    inputs[town] = town_field(find_town_sites(ground, to_town_parameters(parameters, towns, seed)), ground);
   }
   return inputs;
 }
@@ -179,20 +197,18 @@ Grid<float> flowing_ice(const Grid<float>& balance, const Dem& dem) {
   const double cell = dem.cell_m();
   // Ice does not follow every gully of its bed.
   const Grid<float> surface = gaussian_blur(dem.altitude_m, 90.0 / cell);
-  std::vector<std::int32_t> order;
+  // Highest first, equal ones in the order of their cells.
+  std::vector<std::uint64_t> falling;
   for (std::size_t i = 0; i < balance.size(); ++i)
-    if (balance[i] > -8.F) order.push_back(static_cast<std::int32_t>(i));
-  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    const float za = surface[static_cast<std::size_t>(a)];
-    const float zb = surface[static_cast<std::size_t>(b)];
-    return za != zb ? za > zb : a < b;
-  });
+    if (balance[i] > lasting_balance) falling.push_back(rising_key(-surface[i], static_cast<std::uint32_t>(i)));
+  std::sort(falling.begin(), falling.end());
 
   // Down all lower neighbours, more to the steeper ones (Freeman 1991), in km² of snow field.
   const auto own = static_cast<float>(cell * cell * 1e-6);
   Grid<float> flux(width, height, 0.F);
-  for (const std::int32_t i : order) {
-    const std::size_t here = static_cast<std::size_t>(i);
+  for (const std::uint64_t key : falling) {
+    const auto i = static_cast<std::int32_t>(key & 0xffffffffU);
+    const auto here = static_cast<std::size_t>(i);
     flux[here] = std::max(0.F, flux[here] + own * std::min(balance[here], 1.F));
     if (flux[here] <= 0.F) continue;
     float shares[8];
@@ -220,58 +236,129 @@ Grid<float> flowing_ice(const Grid<float>& balance, const Dem& dem) {
     }
   }
 
+  falling = {};
+
   // The stream has a thickness that grows with what flows, and covers the bed beside it up to its level.
-  Grid<float> covered(width, height, 0.F);
-  constexpr int band = 32;
-  parallel_rows((height + band - 1) / band, [&](int b) {
-    for (const std::int32_t i : order) {
-      const float f = flux[static_cast<std::size_t>(i)];
-      if (f < 0.02F) continue;
-      const int cx = i % width;
-      const int cy = i / width;
+  struct IceStream {
+    int x;
+    int reach;  // cells
+    float level_m;
+  };
+  std::vector<std::vector<IceStream>> streams(static_cast<std::size_t>(height));  // of each row
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const float f = flux(x, y);
+      if (f < 0.02F || !(balance(x, y) > lasting_balance)) continue;
       const float thickness = 45.F * std::pow(f, 0.3F);
-      const int reach = static_cast<int>(std::min(900.0, 420.0 * std::sqrt(static_cast<double>(f))) / cell);
-      const float level = surface[static_cast<std::size_t>(i)] + thickness;
-      for (int y = std::max(b * band, cy - reach); y < std::min({height, (b + 1) * band, cy + reach + 1}); ++y)
-        for (int x = std::max(0, cx - reach); x < std::min(width, cx + reach + 1); ++x)
-          if ((x - cx) * (x - cx) + (y - cy) * (y - cy) <= reach * reach && dem.altitude_m(x, y) < level && balance(x, y) > -8.F)
-            covered(x, y) = 1.F;
+      const int reach = static_cast<int>(std::min(widest_stream_m, 420.0 * std::sqrt(static_cast<double>(f))) / cell);
+      streams[static_cast<std::size_t>(y)].push_back({x, reach, surface(x, y) + thickness});
+    }
+  });
+  Grid<float> covered(width, height, 0.F);
+  const int farthest = static_cast<int>(widest_stream_m / cell);
+  parallel_rows(height, [&](int y) {
+    const float* bed = dem.altitude_m.row(y);
+    const float* melts = balance.row(y);
+    float* out = covered.row(y);
+    for (int cy = std::max(0, y - farthest); cy < std::min(height, y + farthest + 1); ++cy) {
+      const int dy = y - cy;
+      for (const IceStream& stream : streams[static_cast<std::size_t>(cy)]) {
+        const int left = stream.reach * stream.reach - dy * dy;
+        if (left < 0) continue;
+        int half = static_cast<int>(std::sqrt(static_cast<float>(left)));
+        while (half * half > left) --half;
+        while ((half + 1) * (half + 1) <= left) ++half;
+        const int end = std::min(width, stream.x + half + 1);
+        for (int x = std::max(0, stream.x - half); x < end; ++x)
+          out[x] = ((bed[x] < stream.level_m) & (melts[x] > lasting_balance)) != 0 ? 1.F : out[x];
+      }
     }
   });
   return gaussian_blur(covered, 60.0 / cell);
 }
 
-void fill_noise(int variable, std::uint64_t seed, const GeoTransform& transform, int row, int width, float* out) {
+NoiseColumns plan_noise(int variable, const GeoTransform& transform, int width) {
   constexpr double sigma_m[4] = {60.0, 210.0, 660.0, 1800.0};
-  const int k = variable - first_noise;
-  const glm::dvec2 first = transform.to_crs(0.0, row);
-  gaussian_noise_row(stream_seed(seed, Stream::class_noise, static_cast<std::uint64_t>(k)), first.x, transform.cell_x, width, first.y,
-                     sigma_m[k], out);
+  return plan_noise_columns(transform.to_crs(0.0, 0.0).x, transform.cell_x, width, sigma_m[variable - first_noise]);
+}
+
+void fill_noise(int variable, const NoiseColumns& places, std::uint64_t seed, const GeoTransform& transform, int row, float* out) {
+  const auto k = static_cast<std::uint64_t>(variable - first_noise);
+  gaussian_noise_row(places, stream_seed(seed, Stream::class_noise, k), transform.to_crs(0.0, row).y, out);
 }
 
 void remove_specks(Grid<LandCoverClass>& classes, int window) {
   const int radius = window / 2;
   if (radius < 1) return;
-  const int majority = ((2 * radius + 1) * (2 * radius + 1) + 1) / 2;
-  Grid<std::uint8_t> keeps(classes.width(), classes.height());
-  parallel_rows(classes.height(), [&](int y) {
-    for (int x = 0; x < classes.width(); ++x) {
-      const LandCoverClass own = classes(x, y);
-      if (own == LandCoverClass::sky) continue;
-      int same = 0;
-      for (int dy = -radius; dy <= radius; ++dy)
-        for (int dx = -radius; dx <= radius; ++dx) same += classes.clamped(x + dx, y + dy) == own ? 1 : 0;
-      keeps(x, y) = same >= majority || own == LandCoverClass::water || own == LandCoverClass::settlement ? 1 : 0;
+  const int window_size = 2 * radius + 1;
+  const int majority = (window_size * window_size + 1) / 2;
+  const int width = classes.width();
+  const int height = classes.height();
+  const auto holds_on = [](LandCoverClass id) { return id == LandCoverClass::water || id == LandCoverClass::settlement; };
+  Grid<std::uint8_t> keeps(width, height);
+  parallel_ranges(height, 16, [&](int y0, int y1) {
+    // Rows with their ends replicated, and how many of the window are like its middle.
+    const int padded = width + 2 * radius;
+    std::vector<std::vector<LandCoverClass>> window_rows(static_cast<std::size_t>(window_size), std::vector<LandCoverClass>(padded));
+    std::vector<std::uint16_t> same(static_cast<std::size_t>(width));
+    const auto row_of = [&](int y) -> std::vector<LandCoverClass>& {
+      return window_rows[static_cast<std::size_t>((y + window_size) % window_size)];
+    };
+    const auto load = [&](int y) {
+      const LandCoverClass* from = classes.row(std::clamp(y, 0, height - 1));
+      std::vector<LandCoverClass>& to = row_of(y);
+      std::fill_n(to.begin(), radius, from[0]);
+      std::copy_n(from, width, to.begin() + radius);
+      std::fill_n(to.begin() + radius + width, radius, from[width - 1]);
+    };
+    for (int y = y0 - radius; y < y0 + radius; ++y) load(y);
+    for (int y = y0; y != y1; ++y) {
+      load(y + radius);
+      const LandCoverClass* own = classes.row(y);
+      std::fill(same.begin(), same.end(), std::uint16_t{0});
+      for (int dy = -radius; dy <= radius; ++dy) {
+        const LandCoverClass* line = row_of(y + dy).data();
+        for (int dx = 0; dx <= 2 * radius; ++dx)
+          for (int x = 0; x < width; ++x) same[static_cast<std::size_t>(x)] += line[x + dx] == own[x] ? 1 : 0;
+      }
+      for (int x = 0; x < width; ++x)
+        keeps(x, y) = own[x] != LandCoverClass::sky && (same[static_cast<std::size_t>(x)] >= majority || holds_on(own[x])) ? 1 : 0;
     }
   });
-  // Water and settlement hold on to their cells but do not spread into holes.
-  Grid<std::uint8_t> gives = keeps;
-  for (std::size_t i = 0; i < gives.size(); ++i)
-    if (classes[i] == LandCoverClass::water || classes[i] == LandCoverClass::settlement) gives[i] = 0;
-  const Grid<std::int32_t> nearest = nearest_marked(gives);
+
+  // Water and settlement hold on to their cells but do not spread into holes. Nearly always the nearest cell that gives is a few cells
+  // away: places about one in the order of their distance, ties in the order of the grid.
+  struct Offset {
+    int x;
+    int y;
+  };
+  constexpr int near = 12;
+  std::vector<Offset> offsets;
+  for (int y = -near; y <= near; ++y)
+    for (int x = -near; x <= near; ++x)
+      if (x * x + y * y <= near * near) offsets.push_back({x, y});
+  std::stable_sort(offsets.begin(), offsets.end(), [](Offset a, Offset b) { return a.x * a.x + a.y * a.y < b.x * b.x + b.y * b.y; });
   const Grid<LandCoverClass> before = classes;
-  for (std::size_t i = 0; i < classes.size(); ++i)
-    if (keeps[i] == 0 && nearest[i] >= 0) classes[i] = before[static_cast<std::size_t>(nearest[i])];
+  const auto gives = [&](int x, int y) { return keeps(x, y) != 0 && !holds_on(before(x, y)); };
+  std::vector<std::vector<int>> far(static_cast<std::size_t>(height));  // cells that found none, by rows
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      if (keeps(x, y) != 0) continue;
+      const auto found = std::find_if(offsets.begin(), offsets.end(),
+                                      [&](Offset o) { return keeps.contains(x + o.x, y + o.y) && gives(x + o.x, y + o.y); });
+      if (found != offsets.end())
+        classes(x, y) = before(x + found->x, y + found->y);
+      else
+        far[static_cast<std::size_t>(y)].push_back(x);
+    }
+  });
+  if (std::all_of(far.begin(), far.end(), [](const std::vector<int>& row) { return row.empty(); })) return;
+  Grid<std::uint8_t> giving(width, height);
+  each_cell(giving, [&](int x, int y) { return static_cast<std::uint8_t>(gives(x, y) ? 1 : 0); });
+  const Grid<std::int32_t> nearest = nearest_marked(giving);
+  for (int y = 0; y < height; ++y)
+    for (const int x : far[static_cast<std::size_t>(y)])
+      if (nearest(x, y) >= 0) classes(x, y) = before[static_cast<std::size_t>(nearest(x, y))];
 }
 
 }  // namespace belvedere::class_rules

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/land_cover_class.h"
+#include "base/noise.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
 
@@ -57,8 +58,9 @@ Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, doub
 // through until it has melted: tongues.
 Grid<float> flowing_ice(const Grid<float>& balance, const Dem& dem);
 
-// One row of a noise variable.
-void fill_noise(int variable, std::uint64_t seed, const GeoTransform& transform, int row, int width, float* out);
+// A noise variable: its places in every row, and one row of it.
+NoiseColumns plan_noise(int variable, const GeoTransform& transform, int width);
+void fill_noise(int variable, const NoiseColumns& places, std::uint64_t seed, const GeoTransform& transform, int row, float* out);
 
 // Cells whose (window × window) neighbourhood holds no majority of their class take the class of the nearest cell that is not
 // so; window odd, below 3 off. Water and settlement keep every cell.

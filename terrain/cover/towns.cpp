@@ -174,14 +174,65 @@ double open_share(const TownGround& g, glm::dvec2 a, glm::dvec2 b) {
   return static_cast<double>(open) / (steps + 1);
 }
 
-// Runs f(x, y, place) over the cells of a box around a segment.
-template <class F>
-void each_cell_near(const TownGround& g, glm::dvec2 a, glm::dvec2 b, double margin_m, F&& f) {
+// The cells around a segment, half open.
+PixelRect cells_near(const TownGround& g, glm::dvec2 a, glm::dvec2 b, double margin_m) {
   const glm::dvec2 low = g.transform.to_cell(std::min(a.x, b.x) - margin_m, std::max(a.y, b.y) + margin_m);
   const glm::dvec2 high = g.transform.to_cell(std::max(a.x, b.x) + margin_m, std::min(a.y, b.y) - margin_m);
-  for (int y = std::max(0, static_cast<int>(low.y)); y <= std::min(g.floor.height() - 1, static_cast<int>(high.y) + 1); ++y)
-    for (int x = std::max(0, static_cast<int>(low.x)); x <= std::min(g.floor.width() - 1, static_cast<int>(high.x) + 1); ++x)
-      f(x, y, g.transform.to_crs(x, y));
+  return {std::max(0, static_cast<int>(low.x)), std::max(0, static_cast<int>(low.y)),
+          std::min(g.floor.width() - 1, static_cast<int>(high.x) + 1) + 1,
+          std::min(g.floor.height() - 1, static_cast<int>(high.y) + 1) + 1};
+}
+
+// Fields take the largest of what towns and ways give a cell. Roots and quotients are worked out only where a bound, wider than the true
+// value by far more than rounding can be, says that something may come of it.
+constexpr double slack = 1e-4;
+
+// One town: 1 - distance / radius, the distance along its streets shortened by its stretch.
+void raise_town(const TownGround& g, const TownSite& site, const PixelRect& box, Grid<float>& field) {
+  const glm::dvec2 along{std::cos(site.along_rad), std::sin(site.along_rad)};
+  const double per_stretch2 = 1.0 / (site.stretch * site.stretch);
+  for (int y = box.y0; y < box.y1; ++y) {
+    float* out = field.row(y);
+    for (int x = box.x0; x < box.x1; ++x) {
+      const glm::dvec2 off = g.transform.to_crs(x, y) - site.place;
+      const double stretched = glm::dot(off, along);
+      const double v = off.x * along.y - off.y * along.x;
+      const double within = (1.0 + slack - static_cast<double>(out[x])) * site.radius_m;
+      if (stretched * stretched * per_stretch2 + v * v > within * within) continue;
+      const double u = stretched / site.stretch;
+      out[x] = std::max(out[x], static_cast<float>(1.0 - std::sqrt(u * u + v * v) / site.radius_m));
+    }
+  }
+}
+
+// Houses along the way between two towns, fewer the farther out.
+struct TownLink {
+  const TownSite* from;
+  const TownSite* to;
+  PixelRect cells;
+};
+
+void raise_link(const TownGround& g, const TownLink& link, const PixelRect& box, Grid<float>& field) {
+  const TownSite* sites[2] = {link.from, link.to};
+  const glm::dvec2 way = link.to->place - link.from->place;
+  const double length = glm::length(way);
+  const double widest = length * (40.0 + 0.10 * std::max(link.from->radius_m, link.to->radius_m));
+  for (int y = box.y0; y < box.y1; ++y) {
+    float* out = field.row(y);
+    for (int x = box.x0; x < box.x1; ++x) {
+      const glm::dvec2 off = g.transform.to_crs(x, y) - link.from->place;
+      // The line through both is never farther than the way between them.
+      if (std::abs(off.x * way.y - off.y * way.x) > widest * (1.0 + slack - static_cast<double>(out[x]))) continue;
+      const double t = std::clamp(glm::dot(off, way) / (length * length), 0.0, 1.0);
+      const double aside = glm::length(off - t * way);
+      const double gone_m[2] = {t * length, (1.0 - t) * length};
+      for (int k = 0; k < 2; ++k) {
+        const double half = 40.0 + 0.10 * sites[k]->radius_m;
+        const double left = 1.0 - gone_m[k] / (2.1 * sites[k]->radius_m * std::sqrt(sites[k]->stretch));
+        out[x] = std::max(out[x], static_cast<float>(std::min(0.45 * left, 1.0 - aside / half)));
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -236,37 +287,27 @@ std::vector<TownSite> find_town_sites(const TownGround& g, const TownParameters&
 }
 
 Grid<float> town_field(const std::vector<TownSite>& sites, const TownGround& g) {
-  Grid<float> field(g.floor.width(), g.floor.height(), outermost);
-  for (const TownSite& site : sites) {
-    const glm::dvec2 along{std::cos(site.along_rad), std::sin(site.along_rad)};
-    const double reach = site.radius_m * site.stretch * 5.0;
-    each_cell_near(g, site.place, site.place, reach, [&](int x, int y, glm::dvec2 place) {
-      const glm::dvec2 off = place - site.place;
-      const double u = glm::dot(off, along) / site.stretch;
-      const double v = off.x * along.y - off.y * along.x;
-      field(x, y) = std::max(field(x, y), static_cast<float>(1.0 - std::sqrt(u * u + v * v) / site.radius_m));
-    });
-  }
-  // Houses follow the ways out of a town towards its neighbours, fewer the farther.
+  std::vector<PixelRect> boxes;
+  for (const TownSite& site : sites) boxes.push_back(cells_near(g, site.place, site.place, site.radius_m * site.stretch * 5.0));
+  // Houses follow the ways out of a town towards its neighbours.
+  std::vector<TownLink> links;
   for (std::size_t a = 0; a < sites.size(); ++a) {
     for (std::size_t b = a + 1; b < sites.size(); ++b) {
       if (!sites[a].on_floor || !sites[b].on_floor) continue;
-      const glm::dvec2 way = sites[b].place - sites[a].place;
-      const double length = glm::length(way);
+      const double length = glm::length(sites[b].place - sites[a].place);
       if (length > link_m + 2.0 * (sites[a].radius_m + sites[b].radius_m) || length < 1.0) continue;
       if (open_share(g, sites[a].place, sites[b].place) < 0.85) continue;
-      each_cell_near(g, sites[a].place, sites[b].place, 200.0, [&](int x, int y, glm::dvec2 place) {
-        const glm::dvec2 off = place - sites[a].place;
-        const double t = std::clamp(glm::dot(off, way) / (length * length), 0.0, 1.0);
-        const double aside = glm::length(off - t * way);
-        for (const auto& [site, gone] : {std::pair{&sites[a], t * length}, std::pair{&sites[b], (1.0 - t) * length}}) {
-          const double half = 40.0 + 0.10 * site->radius_m;
-          const double out = 1.0 - gone / (2.1 * site->radius_m * std::sqrt(site->stretch));
-          field(x, y) = std::max(field(x, y), static_cast<float>(std::min(0.45 * out, 1.0 - aside / half)));
-        }
-      });
+      links.push_back({&sites[a], &sites[b], cells_near(g, sites[a].place, sites[b].place, 200.0)});
     }
   }
+  // The largest of several does not depend on their order, so bands of rows may be done at the same time.
+  Grid<float> field(g.floor.width(), g.floor.height(), outermost);
+  constexpr int band = 64;
+  parallel_rows((field.height() + band - 1) / band, [&](int b) {
+    const PixelRect rows{0, b * band, field.width(), std::min(field.height(), (b + 1) * band)};
+    for (std::size_t i = 0; i < sites.size(); ++i) raise_town(g, sites[i], intersection(boxes[i], rows), field);
+    for (const TownLink& link : links) raise_link(g, link, intersection(link.cells, rows), field);
+  });
   return field;
 }
 
