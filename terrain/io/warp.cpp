@@ -96,7 +96,11 @@ class LatticeMap {
     }
     for (glm::dvec2& point : points_) point = affine_.to_cell(point) - glm::dvec2{0.5, 0.5};
     find_scale(frame);
+    find_offset();
   }
+
+  // Where every cell of the frame is a cell of the lattice: the lattice's cell under the frame's first.
+  const std::optional<glm::ivec2>& offset() const { return offset_; }
 
   glm::dvec2 operator()(int x, int y) const {
     const int i = x / step_;
@@ -106,7 +110,7 @@ class LatticeMap {
     const glm::dvec2* p = points_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(across_) + i;
     const glm::dvec2 at = (1.0 - v) * ((1.0 - u) * p[0] + u * p[1]) + v * ((1.0 - u) * p[across_] + u * p[across_ + 1]);
     // Cells that coincide are copied to the bit: rounding of the coordinates must not interpolate them.
-    const auto snap = [](double c) { return std::abs(c - std::round(c)) < 1e-5 ? std::round(c) : c; };
+    const auto snap = [](double c) { return std::abs(c - std::round(c)) < snapping ? std::round(c) : c; };
     return {snap(at.x), snap(at.y)};
   }
 
@@ -132,7 +136,21 @@ class LatticeMap {
     if (!std::isfinite(scale_.x) || !std::isfinite(scale_.y)) scale_ = {1.0, 1.0};
   }
 
+  void find_offset() {
+    const glm::dvec2 first = glm::round(points_[0]);
+    if (!(std::abs(first.x) < 1e8 && std::abs(first.y) < 1e8)) return;
+    // Half of what is snapped: places in between are as near as the points around them, but for rounding.
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      const auto across = static_cast<std::size_t>(across_);
+      const glm::dvec2 whole = first + static_cast<double>(step_) * glm::dvec2{k % across, k / across};
+      if (!(std::abs(points_[k].x - whole.x) < 0.5 * snapping && std::abs(points_[k].y - whole.y) < 0.5 * snapping)) return;
+    }
+    offset_ = glm::ivec2(first);
+  }
+
+  static constexpr double snapping = 1e-5;  // cells
   CellAffine affine_;
+  std::optional<glm::ivec2> offset_;
   int step_ = 1;
   int across_ = 0;
   std::vector<glm::dvec2> points_;
@@ -171,6 +189,7 @@ Grid<T> read_window(const Layer& layer, const CellWindow& window) {
       cells = part.file.read_values(inner);
     else
       cells = part.file.read_codes(inner);
+    if (cells.same_size(out) && layer.parts.size() == 1) return cells;
     for (int y = 0; y < cells.height(); ++y)
       for (int x = 0; x < cells.width(); ++x) {
         T& to = out(x0 - window.x0 + x, y0 - window.y0 + y);
@@ -178,6 +197,19 @@ Grid<T> read_window(const Layer& layer, const CellWindow& window) {
       }
   }
   return out;
+}
+
+// The same where cells of the frame are cells of the layer: no kernel of one cell's width, and of nothing at the others' centres, is asked.
+template <class T>
+void copy_tile(const Layer& layer, glm::ivec2 offset, const PixelRect& tile, Grid<T>& out) {
+  const PixelRect known = intersection(moved(tile, offset.x, offset.y), {layer.x0, layer.y0, layer.x1, layer.y1});
+  if (known.empty()) return;
+  const Grid<T> cells = read_window<T>(layer, {known.x0, known.y0, known.width(), known.height()});
+  for (int y = 0; y < cells.height(); ++y) {
+    const T* from = cells.row(y);
+    T* to = out.row(known.y0 - offset.y + y) + (known.x0 - offset.x);
+    for (int x = 0; x < cells.width(); ++x) to[x] = is_void(to[x]) ? from[x] : to[x];
+  }
 }
 
 // Fills what is still void in one tile of the frame from a layer. Halves the tile where its cells of the layer are too many
@@ -248,7 +280,7 @@ Raster<T> warp_layers(std::vector<Layer>& layers, const RasterFrame& frame, Prog
     for (int y = 0; y < frame.height; y += side)
       for (int x = 0; x < frame.width; x += side) {
         const PixelRect tile{x, y, std::min(x + side, frame.width), std::min(y + side, frame.height)};
-        warp_tile(layer, map, tile, out.cells);
+        map.offset() ? copy_tile(layer, *map.offset(), tile, out.cells) : warp_tile(layer, map, tile, out.cells);
         progress.advance(static_cast<double>(tile.width()) * tile.height());
       }
   }
