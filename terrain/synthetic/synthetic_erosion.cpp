@@ -1,15 +1,13 @@
 #include "terrain/synthetic/synthetic_erosion.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <limits>
-#include <queue>
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/rising_queue.h"
 
 namespace belvedere::synthetic {
 namespace {
@@ -21,12 +19,6 @@ constexpr bool is_diagonal[8] = {true, false, true, false, false, true, false, t
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-// Bits of a float as an integer of the same order, negative altitudes included.
-std::uint32_t ordered_bits(float value) {
-  const auto bits = std::bit_cast<std::uint32_t>(value);
-  return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
-}
 
 // Length of the way to the receiver in cells.
 float step_cells(std::int32_t from, std::int32_t to, int width) {
@@ -59,29 +51,28 @@ Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>&
   std::vector<std::uint8_t> reached(altitude_m.size(), 0);
 
   // Lowest first; ties go to the lower index.
-  using Key = std::uint64_t;
-  std::priority_queue<Key, std::vector<Key>, std::greater<>> front;
-  const auto push = [&](std::int32_t i) {
-    front.push((static_cast<Key>(ordered_bits(altitude_m[at(i)])) << 32) | static_cast<Key>(static_cast<std::uint32_t>(i)));
-  };
+  RisingQueue front;
+  const auto push = [&](std::int32_t i) { front.push(rising_key(altitude_m[at(i)], static_cast<std::uint32_t>(i))); };
   for (const std::int32_t i : outlets) {
     if (reached[at(i)] != 0) continue;
     reached[at(i)] = 1;
     push(i);
   }
+  const auto is_inside = [&](int x, int y) { return x > 0 && y > 0 && x + 1 < width && y + 1 < height; };
   while (!front.empty()) {
-    const auto i = static_cast<std::int32_t>(front.top() & 0xffffffffU);
-    front.pop();
+    const auto i = static_cast<std::int32_t>(front.pop() & 0xffffffffU);
     drainage.order.push_back(i);
     const int x = i % width;
     const int y = i / width;
+    const bool inside = is_inside(x, y);
+    const float level = altitude_m[at(i)];
     for (int k = 0; k < 8; ++k) {
-      if (!altitude_m.contains(x + neighbour_x[k], y + neighbour_y[k])) continue;
+      if (!inside && !altitude_m.contains(x + neighbour_x[k], y + neighbour_y[k])) continue;
       const std::int32_t j = i + neighbour_y[k] * width + neighbour_x[k];
       if (reached[at(j)] != 0) continue;
       reached[at(j)] = 1;
       drainage.receiver[at(j)] = i;
-      altitude_m[at(j)] = std::max(altitude_m[at(j)], altitude_m[at(i)]);
+      altitude_m[at(j)] = std::max(altitude_m[at(j)], level);
       push(j);
     }
   }
@@ -89,17 +80,19 @@ Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>&
   // A strictly lower neighbour was taken from the front earlier, so the order holds for these receivers as well.
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
-      const std::size_t i = altitude_m.index(x, y);
-      if (drainage.receiver[i] < 0) continue;
-      const float chance = static_cast<float>(random_uniform(seed, x, y));
+      const auto i = static_cast<std::int32_t>(altitude_m.index(x, y));
+      if (drainage.receiver[at(i)] < 0) continue;
+      const bool inside = is_inside(x, y);
+      const float diagonal = 1.F / (2.F - static_cast<float>(random_uniform(seed, x, y)));
+      const float here = altitude_m[at(i)];
       float steepest = 0.F;
       for (int k = 0; k < 8; ++k) {
-        if (!altitude_m.contains(x + neighbour_x[k], y + neighbour_y[k])) continue;
-        const std::size_t j = altitude_m.index(x + neighbour_x[k], y + neighbour_y[k]);
-        const float drop = (altitude_m[i] - altitude_m[j]) * (is_diagonal[k] ? 1.F / (2.F - chance) : 1.F);
+        if (!inside && !altitude_m.contains(x + neighbour_x[k], y + neighbour_y[k])) continue;
+        const std::int32_t j = i + neighbour_y[k] * width + neighbour_x[k];
+        const float drop = (here - altitude_m[at(j)]) * (is_diagonal[k] ? diagonal : 1.F);
         if (drop > steepest) {
           steepest = drop;
-          drainage.receiver[i] = static_cast<std::int32_t>(j);
+          drainage.receiver[at(i)] = j;
         }
       }
     }

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <queue>
 #include <utility>
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/rising_queue.h"
 #include "terrain/synthetic/synthetic_noise.h"
 #include "terrain/synthetic/synthetic_plan.h"
 
@@ -207,21 +207,20 @@ Grid<std::uint8_t> fill_pits(Grid<float>& altitude_m, int min_lake_cells) {
   // A second flood gives everything else a fall; a lake takes the level of the cell through which it is reached first, and all of
   // it is reached before anything higher.
   constexpr float fall_m = 0.004F;
-  using Entry = std::pair<float, std::int32_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+  RisingQueue front;
+  const auto push = [&](std::int32_t i) { front.push(rising_key(altitude_m[at(i)], static_cast<std::uint32_t>(i))); };
   std::vector<std::uint8_t> reached(altitude_m.size(), 0);
   for (const std::int32_t i : rim) {
     reached[at(i)] = 1;
-    front.emplace(altitude_m[at(i)], i);
+    push(i);
   }
   while (!front.empty()) {
-    const std::int32_t i = front.top().second;
-    front.pop();
+    const auto i = static_cast<std::int32_t>(front.pop() & 0xffffffffU);
     for_neighbours(altitude_m, i, [&](std::int32_t j) {
       if (reached[at(j)] != 0) return;
       reached[at(j)] = 1;
       altitude_m[at(j)] = std::max(altitude_m[at(j)], lake[at(j)] != 0 ? altitude_m[at(i)] : altitude_m[at(i)] + fall_m);
-      front.emplace(altitude_m[at(j)], j);
+      push(j);
     });
   }
   return lake;
