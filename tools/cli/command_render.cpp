@@ -3,9 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "base/json.h"
 #include "renderer/pipeline/pipeline.h"
+#include "renderer/scene/draft.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
@@ -20,13 +22,15 @@ struct Options {
   std::vector<int> part;  // x, y, width, height
   bool resume = false;
   int piece_px = 0;
+  bool draft = false;
 };
 
 using Job = void (*)(const LoadedScene&, const std::string& out_folder, const Run&, const SheetRequest&);
 using Results = std::vector<std::string> (*)(const Scene&);  // names of the files that a job makes
 
 int run_job(const Options& options, Job job, Results results) {
-  const LoadedScene scene = load(options.scene);
+  LoadedScene scene = load(options.scene);
+  if (options.draft) scene.scene = make_draft(std::move(scene.scene));
   const std::string folder = options.out.empty() ? scene.name : options.out;
   TerminalProgress progress(options.scene.quiet);
   const Cache cache = make_cache(options.scene);
@@ -59,7 +63,9 @@ int run_job(const Options& options, Job job, Results results) {
   return 0;
 }
 
-Action add_job(CLI::App& command, const char* footer, Job job, Results results) {
+enum class Drafts { no, yes };
+
+Action add_job(CLI::App& command, const char* footer, Drafts drafts, Job job, Results results) {
   const auto options = std::make_shared<Options>();
   add_scene_options(command, options->scene);
   add_locked_option(command, options->scene);
@@ -82,6 +88,10 @@ Action add_job(CLI::App& command, const char* footer, Job job, Results results) 
       ->check(CLI::Range(0, 4096));
   command.add_flag("--resume", options->resume,
                    "Go on where a run into this folder was stopped; the files are the same as if it had not been");
+  if (drafts == Drafts::yes)
+    command.add_flag("--draft", options->draft,
+                     "A first look, in seconds: a third of the pixels a side, one line of sight a pixel, less of the sky's light, strokes "
+                     "alone without texture");
   command.footer(footer);
   return [options, job, results] { return run_job(*options, job, results); };
 }
@@ -93,9 +103,10 @@ Action add_render(CLI::App& command) {
                  "Writes panorama.tif (16 bit, with profile and resolution), panorama.png, panorama.exr (scene-linear),\n"
                  "or what output.formats names, and guidance.exr (depth, classes, light … of every pixel).\n\n"
                  "  belvedere render scenes/karwendel.toml --data ../data --out karwendel\n"
+                 "  belvedere render scenes/karwendel.toml --data ../data --draft --out draft\n"
                  "  belvedere render scenes/karwendel.toml --data ../data --set output.width=1200 --set output.height=550\n"
                  "  belvedere render scenes/karwendel.toml --data ../data --part 800,300,400,400 --out proof",
-                 render, [](const Scene& scene) {
+                 Drafts::yes, render, [](const Scene& scene) {
                    std::vector<std::string> names;
                    for (const std::string& ending : scene.output.formats) names.push_back("panorama." + ending);
                    names.emplace_back("guidance.exr");
@@ -107,7 +118,7 @@ Action add_guidance(CLI::App& command) {
   return add_job(command,
                  "The channels and their units are described in the header: belvedere info guidance.exr\n\n"
                  "  belvedere guidance scenes/karwendel.toml --data ../data --out karwendel",
-                 render_guidance, [](const Scene&) { return std::vector<std::string>{"guidance.exr"}; });
+                 Drafts::no, render_guidance, [](const Scene&) { return std::vector<std::string>{"guidance.exr"}; });
 }
 
 }  // namespace belvedere::tools

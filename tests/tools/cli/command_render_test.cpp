@@ -40,6 +40,16 @@ TEST_F(Program, GuidanceIsWrittenAndTold) {
   EXPECT_EQ(diff.status, 0) << diff.out;
 }
 
+TEST_F(Program, DraftIsRendered) {
+  const std::string scene = write_scene_file("title = \"Test hills\"\n");
+  const Outcome outcome = run({"render", scene, "--draft", "--out", path("draft"), "--json", "--set", "output.width=210", "--set",
+                               "output.height=195", "--set", "output.formats=[\"png\"]"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("\"width\": 70"));
+  EXPECT_THAT(outcome.out, HasSubstr("\"height\": 65"));
+  EXPECT_THAT(run({"info", path("draft/guidance.exr")}).out, HasSubstr("70 × 65 pixels"));
+}
+
 TEST_F(Program, UnwritableFolderIsAnOutputError) {
   write("file", "in the way");
   const Outcome outcome = run({"guidance", write_scene_file(), "--out", path("file/result")});

@@ -1,0 +1,25 @@
+#include "renderer/scene/draft.h"
+
+#include <algorithm>
+
+namespace belvedere {
+namespace {
+
+int third(int px) {
+  constexpr int least_px = 64;
+  return std::min(px, std::max(least_px, (px + 1) / 3));  // rounded: thirds are never halves
+}
+
+}  // namespace
+
+Scene make_draft(Scene scene) {
+  // The width of the sheet stays, so strokes keep their size on it.
+  scene.output.width = third(scene.output.width);
+  scene.output.height = third(scene.output.height);
+  scene.sampling.pixel_samples = 1;
+  scene.sampling.sky_directions = (scene.sampling.sky_directions + 3) / 4;  // 0 stays none
+  scene.synthesis.enabled = false;
+  return scene;
+}
+
+}  // namespace belvedere
