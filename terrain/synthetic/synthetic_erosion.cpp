@@ -45,17 +45,26 @@ double upwind_rise(double c, double d, double a, double limit) {
 Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed) {
   const int width = altitude_m.width();
   const int height = altitude_m.height();
+  // The flood jumps about the map, so what it asks of a cell lies together: one wait for memory instead of three.
+  struct Cell {
+    float altitude_m;
+    std::int32_t receiver;
+  };
+  constexpr std::int32_t nowhere = -1;
+  constexpr std::int32_t not_reached = -2;
+  std::vector<Cell> cells(altitude_m.size());
+  parallel_ranges(cells.size(), std::size_t{1} << 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) cells[i] = {altitude_m[i], not_reached};
+  });
   Drainage drainage;
-  drainage.receiver.assign(altitude_m.size(), -1);
-  drainage.order.reserve(altitude_m.size());
-  std::vector<std::uint8_t> reached(altitude_m.size(), 0);
+  drainage.order.reserve(cells.size());
 
   // Lowest first; ties go to the lower index.
   RisingQueue front;
-  const auto push = [&](std::int32_t i) { front.push(rising_key(altitude_m[at(i)], static_cast<std::uint32_t>(i))); };
+  const auto push = [&](std::int32_t i) { front.push(rising_key(cells[at(i)].altitude_m, static_cast<std::uint32_t>(i))); };
   for (const std::int32_t i : outlets) {
-    if (reached[at(i)] != 0) continue;
-    reached[at(i)] = 1;
+    if (cells[at(i)].receiver != not_reached) continue;
+    cells[at(i)].receiver = nowhere;
     push(i);
   }
   const auto is_inside = [&](int x, int y) { return x > 0 && y > 0 && x + 1 < width && y + 1 < height; };
@@ -65,36 +74,38 @@ Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>&
     const int x = i % width;
     const int y = i / width;
     const bool inside = is_inside(x, y);
-    const float level = altitude_m[at(i)];
+    const float level = cells[at(i)].altitude_m;
     for (int k = 0; k < 8; ++k) {
       if (!inside && !altitude_m.contains(x + neighbour_x[k], y + neighbour_y[k])) continue;
       const std::int32_t j = i + neighbour_y[k] * width + neighbour_x[k];
-      if (reached[at(j)] != 0) continue;
-      reached[at(j)] = 1;
-      drainage.receiver[at(j)] = i;
-      altitude_m[at(j)] = std::max(altitude_m[at(j)], level);
+      Cell& cell = cells[at(j)];
+      if (cell.receiver != not_reached) continue;
+      cell = {std::max(cell.altitude_m, level), i};
       push(j);
     }
   }
 
   // A strictly lower neighbour was taken from the front earlier, so the order holds for these receivers as well.
+  drainage.receiver.resize(cells.size());
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const auto i = static_cast<std::int32_t>(altitude_m.index(x, y));
-      if (drainage.receiver[at(i)] < 0) continue;
-      const bool inside = is_inside(x, y);
-      const float diagonal = 1.F / (2.F - static_cast<float>(random_uniform(seed, x, y)));
-      const float here = altitude_m[at(i)];
-      float steepest = 0.F;
-      for (int k = 0; k < 8; ++k) {
-        if (!inside && !altitude_m.contains(x + neighbour_x[k], y + neighbour_y[k])) continue;
-        const std::int32_t j = i + neighbour_y[k] * width + neighbour_x[k];
-        const float drop = (here - altitude_m[at(j)]) * (is_diagonal[k] ? diagonal : 1.F);
-        if (drop > steepest) {
-          steepest = drop;
-          drainage.receiver[at(i)] = j;
+      const float here = cells[at(i)].altitude_m;
+      std::int32_t receiver = std::max(cells[at(i)].receiver, nowhere);
+      altitude_m[at(i)] = here;
+      if (receiver != nowhere) {
+        const bool inside = is_inside(x, y);
+        const float diagonal = 1.F / (2.F - static_cast<float>(random_uniform(seed, x, y)));
+        float steepest = 0.F;
+        for (int k = 0; k < 8; ++k) {
+          if (!inside && !altitude_m.contains(x + neighbour_x[k], y + neighbour_y[k])) continue;
+          const std::int32_t j = i + neighbour_y[k] * width + neighbour_x[k];
+          const float drop = (here - cells[at(j)].altitude_m) * (is_diagonal[k] ? diagonal : 1.F);
+          receiver = drop > steepest ? j : receiver;
+          steepest = drop > steepest ? drop : steepest;
         }
       }
+      drainage.receiver[at(i)] = receiver;
     }
   });
   return drainage;
@@ -115,46 +126,57 @@ void erode(Grid<float>& altitude_m, const Drainage& drainage, const Grid<float>&
   const int width = altitude_m.width();
   const auto reach = static_cast<float>(240.0 * parameters.unit_m / parameters.cell_m);
   const auto area_unit = static_cast<float>(parameters.unit_m * parameters.unit_m);
-  Grid<float> incision(width, altitude_m.height());
+  // What the walk in the water's order asks of a cell lies together, as in find_drainage.
+  struct Cell {
+    float altitude_m;  // new; infinity where it is not known so far
+    float risen_m;
+    float incision;
+    float limit_m;  // steepest rise, metres a cell
+    std::int32_t receiver;
+  };
+  constexpr float unknown = std::numeric_limits<float>::infinity();
+  Grid<Cell> cells(width, altitude_m.height());
   parallel_rows(altitude_m.height(), [&](int y) {
     for (int x = 0; x < width; ++x) {
       const std::size_t i = altitude_m.index(x, y);
       const float area = catchment_km2[i] / area_unit + parameters.hillslope_km2;
-      incision[i] = reach * parameters.step * softness[i] * std::pow(area, 0.6F);
+      cells[i] = {unknown, altitude_m[i] + parameters.step * uplift_m[i], reach * parameters.step * softness[i] * std::pow(area, 0.6F),
+                  parameters.steepest * static_cast<float>(parameters.cell_m) * (0.6F + 0.4F / softness[i]), drainage.receiver[i]};
     }
   });
-  std::vector<std::uint8_t> done(altitude_m.size(), 0);
   // New altitude of the lower of two opposite neighbours, of those that are done; else infinity.
   const auto lower = [&](bool one, std::size_t a, bool two, std::size_t b) {
-    double z = infinity;
-    if (one && done[a] != 0) z = static_cast<double>(altitude_m[a]);
-    if (two && done[b] != 0) z = std::min(z, static_cast<double>(altitude_m[b]));
-    return z;
+    const float z = one ? cells[a].altitude_m : unknown;
+    return static_cast<double>(two ? std::min(z, cells[b].altitude_m) : z);
   };
   const auto stride = static_cast<std::size_t>(width);
-  for (const std::int32_t cell : drainage.order) {
-    const std::size_t i = at(cell);
-    done[i] = 1;
-    const std::int32_t r = drainage.receiver[i];
-    if (r < 0) continue;
-    const int x = cell % width;
-    const int y = cell / width;
-    const float risen = altitude_m[i] + parameters.step * uplift_m[i];
-    const float limit = parameters.steepest * static_cast<float>(parameters.cell_m) * (0.6F + 0.4F / softness[i]);
+  for (const std::int32_t index : drainage.order) {
+    const std::size_t i = at(index);
+    Cell& cell = cells[i];
+    if (cell.receiver < 0) {
+      cell.altitude_m = altitude_m[i];
+      continue;
+    }
+    const int x = index % width;
+    const int y = index / width;
     // Along the water's way: what counts in a channel.
-    const float length = step_cells(cell, r, width);
-    const float f = incision[i] / length;
-    const float below = altitude_m[at(r)];
-    float z = std::min((risen + f * below) / (1.F + f), below + limit * length);
+    const float length = step_cells(index, cell.receiver, width);
+    const float f = cell.incision / length;
+    const float below = cells[at(cell.receiver)].altitude_m;
+    float z = std::min((cell.risen_m + f * below) / (1.F + f), below + cell.limit_m * length);
     // Along the true gradient: what counts on a slope.
     const double lower_x = lower(x > 0, i - 1, x + 1 < width, i + 1);
     const double lower_y = lower(y > 0, i - stride, y + 1 < altitude_m.height(), i + stride);
     const double low = std::min(lower_x, lower_y);
     if (low < infinity)
-      z = std::min(z, static_cast<float>(low + upwind_rise(static_cast<double>(risen) - low, std::max(lower_x, lower_y) - low,
-                                                           static_cast<double>(incision[i]), static_cast<double>(limit))));
-    altitude_m[i] = z;
+      z = std::min(z, static_cast<float>(low + upwind_rise(static_cast<double>(cell.risen_m) - low, std::max(lower_x, lower_y) - low,
+                                                           static_cast<double>(cell.incision), static_cast<double>(cell.limit_m))));
+    cell.altitude_m = z;
   }
+  parallel_rows(altitude_m.height(), [&](int y) {
+    for (int x = 0; x < width; ++x)
+      if (cells(x, y).altitude_m < unknown) altitude_m(x, y) = cells(x, y).altitude_m;
+  });
 }
 
 void creep(Grid<float>& altitude_m, float rate) {
