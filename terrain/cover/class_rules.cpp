@@ -189,6 +189,9 @@ void apply_layers(const Run& run, std::size_t from, std::size_t to, Grid<LandCov
         for (std::size_t k = from; k < to; ++k) {
           const auto painted = static_cast<std::size_t>(run.rules.layers[k].painted_as);
           run.program.layers[k].evaluate(pointers, hit.data(), row.scratch);
+          int hits = 0;
+          for (const float h : hit) hits |= h > 0.F ? 1 : 0;
+          if (hits == 0) continue;
           for (int x = 0; x < count; ++x) {
             if (!(hit[static_cast<std::size_t>(x)] > 0.F)) continue;
             const int at = begin + x;

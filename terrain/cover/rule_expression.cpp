@@ -190,9 +190,23 @@ class RuleCompiler {
     return value;
   }
   Value parse_and() {
+    const std::size_t steps = out_.steps_.size();
+    const int top = top_;
     Value value = parse_not();
-    while (accept("and")) value = emit(Operation::both, {value, parse_not()});
+    while (accept("and")) {
+      const Value right = parse_not();
+      const bool never = is_false(value) || is_false(right);
+      value = emit(Operation::both, {value, right});
+      if (!never) continue;
+      // What a parameter turns off takes no time; its variables stay named, so that whether a rule is allowed hangs on no parameter.
+      out_.steps_.resize(steps);
+      top_ = top;
+      value = constant(0.0);
+    }
     return value;
+  }
+  bool is_false(const Value& value) const {
+    return value.operand.kind == Operand::Kind::constant && !(constants_[static_cast<std::size_t>(value.operand.index)] > 0.F);
   }
   Value parse_not() {
     const Depth depth(*this);
