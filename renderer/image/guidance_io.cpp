@@ -194,9 +194,16 @@ void GuidanceWriter::write_rows(const GuidanceBuffers& part, int first, int rows
 }
 
 void GuidanceWriter::finish() {
-  if (!writer_) throw Error(ErrorKind::bug, path_, "guidance without rows");
-  writer_->finish();
+  complete();
+  commit();
 }
+
+void GuidanceWriter::complete() {
+  if (!writer_) throw Error(ErrorKind::bug, path_, "guidance without rows");
+  writer_->complete();
+}
+
+void GuidanceWriter::commit() { writer_->commit(); }
 
 void write_guidance(const std::string& path, const GuidanceBuffers& guidance, const FileNotes& notes) {
   glm::ivec2 size(0);

@@ -22,6 +22,9 @@ class GuidanceWriter {
   // empty in the first call decide which channels the file has; Error(bug) where a later call lacks one.
   void write_rows(const GuidanceBuffers& part, int first, int rows, int y0);
   void finish();
+  // The same in two steps, for files that appear together: complete() writes the rest and checks it, commit() takes the older one's place.
+  void complete();
+  void commit();
 
  private:
   std::string path_;

@@ -90,8 +90,8 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, c
     guidance.write_rows(unpack_guidance(packed, like), 0, y1 - y0, y0 - region.y0);
     run.progress.advance(y1 - y0);
   }
-  guidance.finish();
-  if (!request.panorama) return;
+  if (!request.panorama) return guidance.finish();
+  guidance.complete();  // takes its place when the panorama does
 
   run.progress.begin("writing the panorama", region.height());
   const OutputColor color = read_output_color(loaded);
@@ -108,6 +108,7 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, c
     run.progress.advance(y1 - y0);
   }
   panorama.finish();
+  guidance.commit();
 }
 
 }  // namespace belvedere
