@@ -21,7 +21,7 @@ constexpr const char* plan_name = "plan";
 constexpr double window_bytes_per_pixel = 180.0;
 constexpr int largest_tile_px = 1024;
 constexpr int smallest_tile_px = 128;
-constexpr double share_of_windows = 0.4;  // of the memory that may be used; the world, the exemplars and kept tiles take the rest
+constexpr double share_of_windows = 0.5;  // of the memory that may be used; the world, the exemplars and kept tiles take the rest
 
 void note_scarcity(const std::vector<Exemplar>& exemplars, const GuideStack& guides, const SynthesisParameters& parameters,
                    Progress& progress) {

@@ -25,6 +25,8 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
   const std::vector<PixelRect> pieces = pieces_of(region_of(loaded.scene, request), request);
   check_output_folder(out_folder);
 
+  if (!request.resume && holds_work(work_folder_of(out_folder)))
+    run.progress.note("the pieces of a run that was stopped are thrown away; --resume would have gone on from them");
   WorkFolder work(work_folder_of(out_folder), identify(loaded, request), request.resume ? WorkMode::resume : WorkMode::begin);
   make_pieces(loaded, request, pieces, work, run);
   write_sheet_files(loaded, request, work, out_folder, run);

@@ -49,7 +49,7 @@ void keep_notes(const LoadedScene& loaded, const World& world, const WorkFolder&
 }
 
 // Of the tiles that stages keep in memory, of what may be used.
-constexpr double share_of_tiles = 0.2;
+constexpr double share_of_tiles = 0.15;
 
 // The largest rectangle that pieces from number `next` on lie in.
 PixelRect still_to_make(std::span<const PixelRect> pieces, std::size_t next) {

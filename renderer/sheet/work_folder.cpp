@@ -96,6 +96,16 @@ void remove_all_but_lock(const std::string& folder) {
     if (entry.path().filename() != lock_file) fs::remove_all(entry.path(), code);
 }
 
+// Whether something is there that a run that resumes would not have to make again: more than what headers say.
+bool holds_pieces(const std::string& folder) {
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
+    const fs::path name = entry.path().filename();
+    if (name.extension() == ".piece" && !name.string().starts_with("notes")) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 WorkFolder::WorkFolder(std::string folder, const JobIdentity& identity, WorkMode mode)
@@ -108,6 +118,7 @@ WorkFolder::WorkFolder(std::string folder, const JobIdentity& identity, WorkMode
   }
   make_folder(folder_);
   lock_ = take_lock(folder_, true);
+  alone_ = true;
   try {
     if (mode == WorkMode::resume && fs::exists(known)) {
       require_same(folder_, job_from_text(read_text(known)), identity);
@@ -122,6 +133,8 @@ WorkFolder::WorkFolder(std::string folder, const JobIdentity& identity, WorkMode
 }
 
 WorkFolder::~WorkFolder() {
+  // A run that came to nothing leaves nothing.
+  if (alone_ && !holds_pieces(folder_)) clear();
   if (lock_ >= 0) ::close(lock_);
 }
 
@@ -181,6 +194,11 @@ JobIdentity job_from_text(const std::string& text) {
     identity[line.substr(0, tab)] = value;
   }
   return identity;
+}
+
+bool holds_work(const std::string& folder) {
+  std::error_code code;
+  return fs::exists(fs::path(folder) / identity_file, code);
 }
 
 void begin_shared_work(const std::string& folder, const JobIdentity& identity) {

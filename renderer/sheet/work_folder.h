@@ -45,12 +45,15 @@ class WorkFolder {
   std::string folder_;
   std::string job_;
   int lock_ = -1;
+  bool alone_ = false;
 };
 
 // Entries as text, one line each, and back.
 std::string to_text(const JobIdentity& identity);
 JobIdentity job_from_text(const std::string& text);
 
+// Whether some run left its job in a folder.
+bool holds_work(const std::string& folder);
 // Puts the identity of a job in a new folder for WorkMode::join; Error(usage) where another job is there.
 void begin_shared_work(const std::string& folder, const JobIdentity& identity);
 

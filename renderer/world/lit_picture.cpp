@@ -66,18 +66,9 @@ LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRec
   LitPicture picture;
   picture.guidance = trace_view(world, view, region, run);
   picture.guidance.tone = make_tone(picture.guidance, to_tone_parameters(world, view), origin_px, run.progress);
-  picture.base =
-      make_base_picture(picture.guidance, palette, to_base_parameters(world, view), origin_px, view.camera.size(), run.progress);
+  picture.base = make_base_picture(picture.guidance, palette, to_base_parameters(world, view), origin_px, view.camera.size(), run.progress);
   picture.guidance.base = decode_srgb(picture.base.colour);
   return picture;
-}
-
-int lit_margin_px(const Scene& scene) {
-  ToneParameters tone;
-  tone.pixels_per_unit = scene.pixels_per_unit();
-  BaseParameters base;
-  base.pixels_per_unit = scene.pixels_per_unit();
-  return guidance_margin_px() + std::max(tone_margin_px(tone), base_margin_px(base));
 }
 
 }  // namespace belvedere

@@ -31,9 +31,8 @@ struct LitPicture {
   GuidanceBuffers guidance;  // tone and base included
   BasePicture base;
 };
-// A rectangle of the picture. Where it is only a part, the outer lit_margin_px() pixels are not final.
+// A small picture at once. Where the region is only a part, its rim lacks what lies around: parts of a sheet are made by SheetGround.
 LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRect region, const Run& run);
-int lit_margin_px(const Scene& scene);
 
 // The hand in which the strokes of a world are painted.
 StrokeParameters to_stroke_parameters(const World& world, const Palette& palette);

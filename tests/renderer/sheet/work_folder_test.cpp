@@ -83,6 +83,16 @@ TEST_F(WorkFolderTest, ManyMayJoinAPlan) {
   test::message_of(ErrorKind::usage, [&] { begin_shared_work(place_, {{"scene", "other"}}); });
 }
 
+TEST_F(WorkFolderTest, ARunThatCameToNothingLeavesNothing) {
+  { const WorkFolder work(place_, job, WorkMode::begin); }
+  EXPECT_FALSE(std::filesystem::exists(place_));
+  {
+    const WorkFolder work(place_, job, WorkMode::begin);
+    work.keep_bytes("notes", "of headers");
+  }
+  EXPECT_FALSE(std::filesystem::exists(place_));
+}
+
 TEST_F(WorkFolderTest, WhatIsDoneIsRemoved) {
   WorkFolder work(place_, job, WorkMode::begin);
   keep(work, 1);

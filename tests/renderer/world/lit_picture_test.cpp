@@ -16,30 +16,6 @@ using test::small_scene;
 
 PixelRect whole_picture(const Scene& scene) { return {0, 0, scene.output.width, scene.output.height}; }
 
-// Guidance is streamed in bands, so a part must not know that it is one.
-TEST(LitPicture, APartWithItsMarginEqualsTheWhole) {
-  const World world(small_scene({"output.width=230", "output.height=240", "output.sheet_width_mm=460"}), silent_progress());
-  const Palette palette = read_palette("summer");
-  const LitPicture whole = make_lit_picture(world, palette, whole_picture(world.scene), {});
-  const int margin = lit_margin_px(world.scene);
-  const PixelRect part{100, 104, 130, 136};
-  const PixelRect wide{part.x0 - margin, part.y0 - margin, part.x1 + margin, part.y1 + margin};
-  ASSERT_TRUE(wide.x0 > 0 && wide.y0 > 0 && wide.x1 < 230 && wide.y1 < 240) << "nothing is cut off by a margin of " << margin;
-  const LitPicture cut = make_lit_picture(world, palette, wide, {.tile_px = 16});
-  const PixelRect inner{margin, margin, margin + part.width(), margin + part.height()};
-  int channels = 0;
-  for (const GuidanceChannel& channel : guidance_channels())
-    std::visit(
-        [&](auto member) {
-          if ((whole.guidance.*member).empty()) return;
-          ++channels;
-          EXPECT_TRUE(test::cut(cut.guidance.*member, inner) == test::cut(whole.guidance.*member, part)) << channel.names[0];
-        },
-        channel.member);
-  EXPECT_GT(channels, 20);
-  EXPECT_TRUE(test::cut(cut.base.colour, inner) == test::cut(whole.base.colour, part));
-}
-
 TEST(LitPicture, ItsGuidanceHasToneAndBase) {
   const World world(small_scene(), silent_progress());
   const LitPicture lit = make_lit_picture(world, read_palette("summer"), whole_picture(world.scene), {});
