@@ -50,7 +50,7 @@ inline constexpr const char* example_sheet_name = "painted sheet";
 
 // The example sheet that is painted for a picture: with its palette, light and size of stroke, so that every guide of it is exactly known.
 // It carries no trees, no houses and no sky: those are painted on the target last. The cache keeps it, and the terrains of its panels with
-// their land cover: pictures with another sun, another palette or larger strokes share these.
+// their land cover: pictures with another sun or another palette share these.
 PaintedExemplar paint_example_sheet(const SceneExemplar& settings, const Scene& scene, const View& view, const Palette& palette,
                                     Progress& progress, const Cache& cache = no_cache());
 

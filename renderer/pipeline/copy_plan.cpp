@@ -9,7 +9,9 @@
 
 #include "base/error.h"
 #include "renderer/exemplar/exemplars.h"
+#include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/trace/camera_reduced.h"
+#include "renderer/world/cached_products.h"
 #include "texture/synthesis/class_supply.h"
 
 namespace belvedere {
@@ -21,6 +23,7 @@ constexpr const char* plan_name = "plan";
 constexpr double window_bytes_per_pixel = 180.0;
 constexpr int largest_tile_px = 1024;
 constexpr int smallest_tile_px = 128;
+constexpr int part_tile_px = 256;         // of small parts of a sheet
 constexpr double share_of_windows = 0.5;  // of the memory that may be used; the world, the exemplars and kept tiles take the rest
 
 void note_scarcity(const std::vector<Exemplar>& exemplars, const GuideStack& guides, const SynthesisParameters& parameters,
@@ -59,7 +62,7 @@ SynthesisParameters to_synthesis_parameters(const Scene& scene) {
   return parameters;
 }
 
-int choose_tile_px(const Scene& scene, double pixels_per_unit) {
+int choose_tile_px(const Scene& scene, double pixels_per_unit, PixelRect region) {
   const auto budget = static_cast<double>(memory_budget_bytes());
   BaseParameters base;
   base.pixels_per_unit = pixels_per_unit;
@@ -69,7 +72,9 @@ int choose_tile_px(const Scene& scene, double pixels_per_unit) {
     const double high = std::min(scene.output.height, tile + 2 * margin);
     return wide * high * window_bytes_per_pixel;
   };
+  // Small parts ask for little beyond their margins: coarse tiles would make much that nobody sees.
   int tile = largest_tile_px;
+  while (!region.empty() && tile > part_tile_px && tile > std::max(region.width(), region.height()) / 4) tile /= 2;
   while (tile > smallest_tile_px && bytes(tile) > share_of_windows * budget) tile /= 2;
   if (bytes(tile) > share_of_windows * budget)
     throw Error(ErrorKind::limit, "output",
@@ -96,18 +101,28 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
     return plan;
   }
   const SynthesisSheet division = divide_sheet(sheet.x, sheet.y, std::llround(world.scene.synthesis.plan_mpx * 1e6));
-  const auto reduced_guides = [&] {
-    const int factor = 1 << division.level;
-    const std::unique_ptr<const Camera> camera = make_reduced_camera(*world.camera, factor);
-    const SheetView view = reduced_view(world, *camera, factor);
-    SheetGround small(world, view, paint.palette, place, run, choose_tile_px(world.scene, view.pixels_per_unit));
-    return small.read_guides(small.sheet());
+  const auto choose = [&](Progress& progress) {
+    const Run told{run.threads, run.memory_bytes, run.tile_px, progress, run.cache};
+    const auto reduced_guides = [&] {
+      const int factor = 1 << division.level;
+      const std::unique_ptr<const Camera> camera = make_reduced_camera(*world.camera, factor);
+      const SheetView view = reduced_view(world, *camera, factor);
+      SheetGround small(world, view, paint.palette, place, told, choose_tile_px(world.scene, view.pixels_per_unit));
+      return small.read_guides(small.sheet());
+    };
+    const GuideStack guides = division.level == 0 ? ground.read_guides(ground.sheet()) : reduced_guides();
+    note_scarcity(copied_from, guides, parameters, progress);
+    plan.synthesis = plan_synthesis(copied_from, guides, division, parameters, progress);
+    const std::vector<std::uint8_t> packed = pack_plan(*plan.synthesis);
+    return std::string(packed.begin(), packed.end());
   };
-  const GuideStack guides = division.level == 0 ? ground.read_guides(ground.sheet()) : reduced_guides();
-  note_scarcity(copied_from, guides, parameters, run.progress);
-  plan.synthesis = plan_synthesis(copied_from, guides, division, parameters, run.progress);
-  const std::vector<std::uint8_t> packed = pack_plan(*plan.synthesis);
-  work.keep_bytes(plan_name, {packed.begin(), packed.end()});
+  // Proofs of one sheet share what was chosen for the whole of it; a small sheet is chosen as fast as it is read.
+  const auto key = [&] {
+    return make_cache_key(CachedProduct::synthesis_plan, CacheKeyText().add("sheet", to_text(identify(loaded, {}))), subject_of(loaded));
+  };
+  const std::string packed = division.level == 0 ? choose(run.progress) : cached<std::string>(run.cache, key, run.progress, choose);
+  if (!plan.synthesis) plan.synthesis = unpack_plan({packed.begin(), packed.end()}, copied_from);
+  work.keep_bytes(plan_name, packed);
   forget_compared(plan.exemplars);
   return plan;
 }

@@ -17,7 +17,7 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
 SynthesisParameters to_synthesis_parameters(const Scene& scene);
 
 // Side of the tiles that the stages of a sheet are made in, px: the larger, the less is made twice at their margins. Error(limit) where not
-// even small ones fit the memory.
-int choose_tile_px(const Scene& scene, double pixels_per_unit);
+// even small ones fit the memory. region: the part of the sheet that is made; empty: all of it.
+int choose_tile_px(const Scene& scene, double pixels_per_unit, PixelRect region = {});
 
 }  // namespace belvedere

@@ -41,8 +41,15 @@ class PieceProgress final : public Progress {
 
 // What the headers of all files say.
 void keep_notes(const LoadedScene& loaded, const World& world, const WorkFolder& work) {
-  if (work.has_bytes(notes_bytes)) return;
   FileNotes notes = make_world_notes(loaded, world);
+  if (work.has_bytes(notes_bytes)) {
+    const JobIdentity known = job_from_text(work.read_bytes(notes_bytes));
+    const auto inputs = known.find("belvedere:inputs");
+    if ((inputs == known.end() ? std::string() : inputs->second) != notes["belvedere:inputs"])
+      throw Error(ErrorKind::input, work.folder(), "the pieces there were made from other data than lie there now",
+                  "a run without --resume");
+    return;
+  }
   const glm::dvec3 origin = world.surface.origin;
   notes[origin_note] = fmt::format("{:.17g} {:.17g} {:.17g}", origin.x, origin.y, origin.z);
   work.keep_bytes(notes_bytes, to_text(notes));
@@ -82,7 +89,8 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
   PieceProgress progress(run.progress, few);
   const Run stage_run{run.threads, run.memory_bytes, run.tile_px, progress, run.cache};
   const SheetView view = view_of(world);
-  const int tile_px = request.stage_tile_px > 0 ? request.stage_tile_px : choose_tile_px(world.scene, view.pixels_per_unit);
+  const int tile_px = request.stage_tile_px > 0 ? request.stage_tile_px
+                                                : choose_tile_px(world.scene, view.pixels_per_unit, region_of(world.scene, request));
   SheetGround ground(world, view, paint.palette, place, stage_run, tile_px);
   const bool copied = request.panorama && world.scene.synthesis.enabled;
   CopyPlan plan = copied ? make_copy_plan(loaded, world, paint, ground, place, work, run) : CopyPlan{};

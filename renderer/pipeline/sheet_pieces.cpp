@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "renderer/image/provenance.h"
 #include "renderer/scene/input_hash.h"
+#include "terrain/io/http_access.h"
 #include "texture/sheet/synthesis_plan.h"
 
 namespace belvedere {
@@ -58,8 +59,9 @@ JobIdentity identify(const LoadedScene& loaded, const SheetRequest& request) {
   identity["part"] = fmt::format("{},{},{},{}", region.x0, region.y0, region.width(), region.height());
   identity["results"] = fmt::format("{}", fmt::join(products_of(request), ", "));
   identity["piece"] = fmt::format("{} px", request.piece_px);
+  // A file on a server is read before it is hashed, so that a server that cannot serve is found: keep_notes compares it.
   for (const SceneInput& input : scene_inputs(loaded))
-    if (!input.path.empty()) identity[input.file] = hash_input(input.path).hash;
+    if (!input.path.empty()) identity[input.file] = is_address(input.path) ? input.path : hash_input(input.path).hash;
   return identity;
 }
 

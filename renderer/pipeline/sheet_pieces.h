@@ -11,11 +11,11 @@ namespace belvedere {
 
 // What is asked of a sheet.
 struct SheetRequest {
-  bool panorama = true;           // else guidance alone
+  bool panorama = true;                // else guidance alone
   std::optional<PixelRect> part = {};  // of the sheet, px; absent: all of it
-  bool resume = false;            // go on from the pieces of a run that ended
-  int piece_px = 0;               // side of a piece, 64…4096; 0: 1024. Changes no pixel
-  int stage_tile_px = 0;          // side of the tiles that stages are made in, 64…4096; 0: what memory allows. Changes no pixel
+  bool resume = false;                 // go on from the pieces of a run that ended
+  int piece_px = 0;                    // side of a piece, 64…4096; 0: 1024. Changes no pixel
+  int stage_tile_px = 0;               // side of the tiles that stages are made in, 64…4096; 0: what memory allows. Changes no pixel
 };
 
 // The pixels asked for. Error(usage) for a part that does not lie on the sheet.

@@ -9,11 +9,12 @@
 namespace belvedere {
 namespace {
 
-constexpr std::array<CachedProductInfo, 4> table = {{
+constexpr std::array<CachedProductInfo, 5> table = {{
     {CachedProduct::synthetic_terrain, "synthetic terrain", 1},
     {CachedProduct::land_cover, "land cover by rules", 1},
     {CachedProduct::generalized_ground, "generalized ground", 1},
     {CachedProduct::example_sheet, "example sheet", 1},
+    {CachedProduct::synthesis_plan, "choice of texture", 1},
 }};
 
 // Two builds of one version may differ, so the file that runs counts. Where it cannot be read the version must do.
