@@ -5,9 +5,9 @@
 
 #include "renderer/paint/composite.h"
 #include "renderer/sheet/sheet_ground.h"
-#include "texture/synthesis/match_field.h"
 #include "texture/sheet/synthesis_plan.h"
 #include "texture/sheet/synthesis_tile.h"
+#include "texture/synthesis/match_field.h"
 
 namespace belvedere {
 
