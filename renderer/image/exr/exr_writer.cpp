@@ -10,7 +10,6 @@
 #include <ImfStringAttribute.h>
 #include <ImfTileDescriptionAttribute.h>
 #include <ImfVersion.h>
-#include <half.h>
 
 #include <algorithm>
 #include <array>
@@ -28,6 +27,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "renderer/image/deflate.h"
+#include "renderer/image/exr/half_floats.h"
 #include "renderer/image/output_file.h"
 #include "renderer/image/provenance.h"
 
@@ -152,12 +152,6 @@ Imf::Header make_header(const std::string& path, int width, int height, const Pa
   return header;
 }
 
-// A half that is never infinite where the number was not.
-half to_half(float v) {
-  if (std::isfinite(v)) v = std::clamp(v, -static_cast<float>(HALF_MAX), static_cast<float>(HALF_MAX));
-  return half(v);
-}
-
 std::size_t value_bytes(const ChannelSpec& channel) { return channel.type == ChannelType::half ? 2 : 4; }
 
 // The library's order of the channels in a file: by name.
@@ -176,12 +170,12 @@ Bytes tile_values(const PartSpec& part, const std::vector<std::size_t>& order, c
   Bytes out(pixel_bytes * width * static_cast<std::size_t>(tile.height()));
   std::uint8_t* to = out.data();
   std::array<float, tile_size> row{};
-  std::array<half, tile_size> halves{};
+  std::array<std::uint16_t, tile_size> halves{};
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (const std::size_t c : order) {
       values(c, tile.x0, y, tile.width(), row.data());
       const bool narrow = part.channels[c].type == ChannelType::half;
-      if (narrow) std::transform(row.begin(), row.begin() + tile.width(), halves.begin(), to_half);
+      if (narrow) to_halves(row.data(), 1, width, halves.data());
       const std::size_t bytes = width * value_bytes(part.channels[c]);
       // As bits: an id may look like a signalling NaN.
       std::memcpy(to, narrow ? static_cast<const void*>(halves.data()) : row.data(), bytes);
