@@ -6,15 +6,9 @@
 #include <limits>
 
 #include "base/parallel.h"
-#include "base/random.h"
-#include "base/rising_queue.h"
 
 namespace belvedere::synthetic {
 namespace {
-
-constexpr int neighbour_x[8] = {-1, 0, 1, -1, 1, -1, 0, 1};
-constexpr int neighbour_y[8] = {-1, -1, -1, 0, 0, 1, 1, 1};
-constexpr bool is_diagonal[8] = {true, false, true, false, false, true, false, true};
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -41,85 +35,6 @@ double upwind_rise(double c, double d, double a, double limit) {
 }
 
 }  // namespace
-
-Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed) {
-  const int width = altitude_m.width();
-  const int height = altitude_m.height();
-  // The flood jumps about the map, so what it asks of a cell lies together: one wait for memory instead of three.
-  struct Cell {
-    float altitude_m;
-    std::int32_t receiver;
-  };
-  constexpr std::int32_t nowhere = -1;
-  constexpr std::int32_t not_reached = -2;
-  std::vector<Cell> cells(altitude_m.size());
-  parallel_ranges(cells.size(), std::size_t{1} << 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i != end; ++i) cells[i] = {altitude_m[i], not_reached};
-  });
-  Drainage drainage;
-  drainage.order.reserve(cells.size());
-
-  // Lowest first; ties go to the lower index.
-  RisingQueue front;
-  const auto push = [&](std::int32_t i) { front.push(rising_key(cells[at(i)].altitude_m, static_cast<std::uint32_t>(i))); };
-  for (const std::int32_t i : outlets) {
-    if (cells[at(i)].receiver != not_reached) continue;
-    cells[at(i)].receiver = nowhere;
-    push(i);
-  }
-  const auto is_inside = [&](int x, int y) { return x > 0 && y > 0 && x + 1 < width && y + 1 < height; };
-  while (!front.empty()) {
-    const auto i = static_cast<std::int32_t>(front.pop() & 0xffffffffU);
-    drainage.order.push_back(i);
-    const int x = i % width;
-    const int y = i / width;
-    const bool inside = is_inside(x, y);
-    const float level = cells[at(i)].altitude_m;
-    for (int k = 0; k < 8; ++k) {
-      if (!inside && !altitude_m.contains(x + neighbour_x[k], y + neighbour_y[k])) continue;
-      const std::int32_t j = i + neighbour_y[k] * width + neighbour_x[k];
-      Cell& cell = cells[at(j)];
-      if (cell.receiver != not_reached) continue;
-      cell = {std::max(cell.altitude_m, level), i};
-      push(j);
-    }
-  }
-
-  // A strictly lower neighbour was taken from the front earlier, so the order holds for these receivers as well.
-  drainage.receiver.resize(cells.size());
-  parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const auto i = static_cast<std::int32_t>(altitude_m.index(x, y));
-      const float here = cells[at(i)].altitude_m;
-      std::int32_t receiver = std::max(cells[at(i)].receiver, nowhere);
-      altitude_m[at(i)] = here;
-      if (receiver != nowhere) {
-        const bool inside = is_inside(x, y);
-        const float diagonal = 1.F / (2.F - static_cast<float>(random_uniform(seed, x, y)));
-        float steepest = 0.F;
-        for (int k = 0; k < 8; ++k) {
-          if (!inside && !altitude_m.contains(x + neighbour_x[k], y + neighbour_y[k])) continue;
-          const std::int32_t j = i + neighbour_y[k] * width + neighbour_x[k];
-          const float drop = (here - cells[at(j)].altitude_m) * (is_diagonal[k] ? diagonal : 1.F);
-          receiver = drop > steepest ? j : receiver;
-          steepest = drop > steepest ? drop : steepest;
-        }
-      }
-      drainage.receiver[at(i)] = receiver;
-    }
-  });
-  return drainage;
-}
-
-Grid<float> catchments_km2(const Drainage& drainage, const Grid<float>& inflow_km2, double cell_m) {
-  // The caller's grid gives the shape; without inflow every cell just has its own area.
-  Grid<float> catchment = inflow_km2;
-  const auto own = static_cast<float>(cell_m * cell_m * 1e-6);
-  for (float& c : catchment) c += own;
-  for (auto i = drainage.order.rbegin(); i != drainage.order.rend(); ++i)
-    if (drainage.receiver[at(*i)] >= 0) catchment[at(drainage.receiver[at(*i)])] += catchment[at(*i)];
-  return catchment;
-}
 
 void erode(Grid<float>& altitude_m, const Drainage& drainage, const Grid<float>& catchment_km2, const Grid<float>& uplift_m,
            const Grid<float>& softness, const ErosionParameters& parameters) {
@@ -150,7 +65,15 @@ void erode(Grid<float>& altitude_m, const Drainage& drainage, const Grid<float>&
     return static_cast<double>(two ? std::min(z, cells[b].altitude_m) : z);
   };
   const auto stride = static_cast<std::size_t>(width);
-  for (const std::int32_t index : drainage.order) {
+  constexpr std::size_t ahead = 16;  // cells whose surroundings are on their way from memory
+  for (std::size_t k = 0; k < drainage.order.size(); ++k) {
+    if (k + ahead < drainage.order.size()) {
+      const std::size_t next = at(drainage.order[k + ahead]);
+      __builtin_prefetch(&cells[next]);
+      if (next >= stride) __builtin_prefetch(&cells[next - stride]);
+      if (next + stride < cells.size()) __builtin_prefetch(&cells[next + stride]);
+    }
+    const std::int32_t index = drainage.order[k];
     const std::size_t i = at(index);
     Cell& cell = cells[i];
     if (cell.receiver < 0) {

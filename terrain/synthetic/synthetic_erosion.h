@@ -1,26 +1,10 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "base/grid.h"
+#include "terrain/synthetic/synthetic_drainage.h"
 
 // Rivers cut made-up terrain. All functions give the same bits for any number of threads.
 namespace belvedere::synthetic {
-
-// Where the water goes. Only outlets have no receiver.
-struct Drainage {
-  std::vector<std::int32_t> receiver;  // index of the cell that takes a cell's water, -1 for outlets
-  std::vector<std::int32_t> order;     // all cells, receivers before their donors
-};
-
-// Receivers by steepest descent on the surface filled by priority flood (Barnes, Lehman & Mulla 2014) from the outlets;
-// diagonal drops are weighed by chance (Fairfield & Leymarie 1991, rho8), fixed for each cell, so that
-// valleys do not prefer the eight directions of the grid. Pits in altitude_m are filled up to their spill level.
-Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed);
-
-// Catchment of each cell, km²; `inflow_km2` (empty or of the grid's size) is what comes from outside.
-Grid<float> catchments_km2(const Drainage& drainage, const Grid<float>& inflow_km2, double cell_m);
 
 struct ErosionParameters {
   double cell_m = 30.0;

@@ -183,7 +183,7 @@ Grid<std::uint8_t> fill_pits(Grid<float>& altitude_m, int min_lake_cells) {
 
   // Hollows: connected cells that the flood lifts by more than a hand's breadth, all to the same spill level.
   Grid<float> filled = altitude_m;
-  find_drainage(filled, rim, 0);
+  fill_to_spill_level(filled, rim);
   Grid<std::uint8_t> lake(width, height, 0);
   std::vector<std::uint8_t> seen(altitude_m.size(), 0);
   std::vector<std::int32_t> hollow;
