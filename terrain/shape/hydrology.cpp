@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "base/rising_queue.h"
+#include "terrain/shape/spill_level.h"
 
 namespace belvedere {
 namespace {
@@ -38,57 +38,17 @@ void each_neighbour(int width, int height, std::size_t cell, F&& f) {
   }
 }
 
-// Altitudes with hollows filled up to their outlets. A flood from the rim must take its cells in the order of their altitudes only where it
-// has to decide over which outlet a hollow runs: whatever stands no lower than a flooded neighbour keeps its altitude, in whatever order it
-// is reached. So the sorted queue holds but the rim and cells with ground below them that is still dry (Zhou, Sun & Fu 2016).
+// Altitudes with hollows filled up to their outlets on the rim.
 Grid<float> flood_from_rim(const Grid<float>& altitude_m) {
   const int width = altitude_m.width();
   const int height = altitude_m.height();
-  Grid<float> level_m = altitude_m;
-  Grid<std::uint8_t> flooded(width, height, 0);
-  RisingQueue rising;
-  const auto push = [&](std::size_t cell) { rising.push(rising_key(level_m[cell], static_cast<std::uint32_t>(cell))); };
+  std::vector<std::int32_t> rim;
   for (int y = 0; y < height; ++y) {
     const bool whole_row = y == 0 || y == height - 1;
-    for (int x = 0; x < width; x += whole_row ? 1 : std::max(1, width - 1)) {
-      flooded(x, y) = 1;
-      push(altitude_m.index(x, y));
-    }
+    for (int x = 0; x < width; x += whole_row ? 1 : std::max(1, width - 1)) rim.push_back(y * width + x);
   }
-  std::vector<std::uint32_t> hollow;
-  std::vector<std::uint32_t> slope;
-  while (!rising.empty()) {
-    hollow.assign(1, static_cast<std::uint32_t>(rising.pop() & 0xffffffffU));
-    slope.clear();
-    const float level = level_m[hollow[0]];
-    for (std::size_t i = 0; i < hollow.size(); ++i) {
-      each_neighbour(width, height, hollow[i], [&](std::size_t, std::size_t other) {
-        if (flooded[other] != 0) return;
-        flooded[other] = 1;
-        if (level_m[other] <= level) {
-          level_m[other] = level;
-          hollow.push_back(static_cast<std::uint32_t>(other));
-        } else {
-          slope.push_back(static_cast<std::uint32_t>(other));
-        }
-      });
-    }
-    for (std::size_t i = 0; i < slope.size(); ++i) {
-      const std::size_t cell = slope[i];
-      const float here = level_m[cell];
-      bool above_dry_ground = false;
-      each_neighbour(width, height, cell, [&](std::size_t, std::size_t other) {
-        if (flooded[other] != 0) return;
-        if (level_m[other] < here) {
-          above_dry_ground = true;
-          return;
-        }
-        flooded[other] = 1;
-        slope.push_back(static_cast<std::uint32_t>(other));
-      });
-      if (above_dry_ground) push(cell);
-    }
-  }
+  Grid<float> level_m = altitude_m;
+  fill_to_spill_level(level_m, rim);
   return level_m;
 }
 

@@ -6,7 +6,7 @@
 
 namespace belvedere {
 
-// Catchment area of every cell, km², its own cell included. Priority flood from the rim (Barnes, Lehman & Mulla 2014) fills hollows
+// Catchment area of every cell, km², its own cell included. A flood from the rim (spill_level.h) fills hollows
 // up to their outlet, so that every cell drains; then each cell flows to the neighbour of steepest descent (D8), and across
 // filled hollows and flats back along the flood. Values grow strictly downstream, so they also say which way water runs.
 // What lies outside the grid is unknown: a river that enters at the rim begins there. Cells finite; fewer than 2^31 cells.

@@ -20,9 +20,6 @@ struct Drainage {
 // valleys do not prefer the eight directions of the grid. Pits in altitude_m are filled up to their spill level.
 Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed);
 
-// Raises pits to the level at which they spill towards an outlet; nothing else changes.
-void fill_to_spill_level(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets);
-
 // Catchment of each cell, km²; `inflow_km2` (empty or of the grid's size) is what comes from outside.
 Grid<float> catchments_km2(const Drainage& drainage, const Grid<float>& inflow_km2, double cell_m);
 

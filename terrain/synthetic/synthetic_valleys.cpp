@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/rising_queue.h"
+#include "terrain/shape/spill_level.h"
 #include "terrain/synthetic/synthetic_noise.h"
 #include "terrain/synthetic/synthetic_plan.h"
 
