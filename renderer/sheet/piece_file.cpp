@@ -16,6 +16,7 @@
 
 #include "base/error.h"
 #include "renderer/image/provenance.h"
+#include "renderer/sheet/file_bytes.h"
 
 namespace belvedere {
 namespace {
@@ -55,17 +56,6 @@ std::string read_file(const std::string& path) {
   return file ? std::move(text).str() : std::string();
 }
 
-void read_at(int file, std::byte* to, std::size_t count, std::uint64_t at, const std::string& path) {
-  while (count > 0) {
-    const ::ssize_t got = ::pread(file, to, count, static_cast<::off_t>(at));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) throw Error(ErrorKind::input, path, "this finished piece cannot be read");
-    to += got;
-    at += static_cast<std::uint64_t>(got);
-    count -= static_cast<std::size_t>(got);
-  }
-}
-
 }  // namespace
 
 void write_piece(const std::string& path, const PieceKey& key, const Planes& planes) {
@@ -87,12 +77,8 @@ void write_piece(const std::string& path, const PieceKey& key, const Planes& pla
     ::unlink(temporary.c_str());
     fail(path, what, code);
   };
-  for (std::size_t at = 0; at < content.size();) {
-    const ::ssize_t written = ::write(file.descriptor, content.data() + at, content.size() - at);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) give_up("cannot be written", written < 0 ? errno : ENOSPC);
-    at += static_cast<std::size_t>(written);
-  }
+  const auto* bytes_of_content = reinterpret_cast<const std::byte*>(content.data());
+  if (const int code = write_bytes_at(file.descriptor, bytes_of_content, content.size(), 0); code != 0) give_up("cannot be written", code);
   // Some systems tell of a full disk only now.
   if (::fdatasync(file.descriptor) != 0) give_up("cannot be brought to disk", errno);
   const int closed = ::close(file.descriptor);
@@ -139,7 +125,9 @@ void read_piece_rows(const std::string& path, const PieceKey& key, int y0, int y
   for (std::size_t i = 0; i < to.size(); ++i) {
     const std::size_t size = layout.value_bytes[i];
     rows.resize(width * size * static_cast<std::size_t>(y1 - y0));
-    read_at(file.descriptor, rows.data(), rows.size(), start + width * size * static_cast<std::uint64_t>(y0 - key.rect.y0), path);
+    const std::uint64_t first = start + width * size * static_cast<std::uint64_t>(y0 - key.rect.y0);
+    if (read_bytes_at(file.descriptor, rows.data(), rows.size(), first) != 0)
+      throw Error(ErrorKind::input, path, "this finished piece cannot be read");
     for (int y = 0; y < y1 - y0; ++y)
       std::memcpy(to[i].values + to[i].row_bytes() * static_cast<std::size_t>(y) + size * static_cast<std::size_t>(key.rect.x0 - origin_x),
                   rows.data() + width * size * static_cast<std::size_t>(y), width * size);

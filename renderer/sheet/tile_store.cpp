@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "renderer/sheet/file_bytes.h"
 
 namespace belvedere {
 namespace {
@@ -31,28 +32,6 @@ int open_scratch(const std::string& folder) {
   if (file < 0) fail(folder, "no scratch file can be made in this folder", errno);
   ::unlink(name.c_str());
   return file;
-}
-
-void write_all(int file, const std::byte* bytes, std::size_t count, std::uint64_t at, const std::string& folder) {
-  while (count > 0) {
-    const ::ssize_t written = ::pwrite(file, bytes, count, static_cast<::off_t>(at));
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) fail(folder, "a scratch file cannot be written", written < 0 ? errno : ENOSPC);
-    bytes += written;
-    count -= static_cast<std::size_t>(written);
-    at += static_cast<std::uint64_t>(written);
-  }
-}
-
-void read_all(int file, std::byte* bytes, std::size_t count, std::uint64_t at, const std::string& folder) {
-  while (count > 0) {
-    const ::ssize_t got = ::pread(file, bytes, count, static_cast<::off_t>(at));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) fail(folder, "a scratch file cannot be read", got < 0 ? errno : EIO);
-    bytes += got;
-    count -= static_cast<std::size_t>(got);
-    at += static_cast<std::uint64_t>(got);
-  }
 }
 
 }  // namespace
@@ -111,7 +90,8 @@ void TileStore::put(int column, int row, const Planes& planes) {
     free_slots_.pop_back();
     std::uint64_t at = static_cast<std::uint64_t>(to.slot) * slot_bytes_;
     for (std::size_t i = 0; i < value_bytes_.size(); at += planes[i].bytes(), ++i)
-      write_all(file_, planes[i].values, planes[i].bytes(), at, place_.folder);
+      if (const int code = write_bytes_at(file_, planes[i].values, planes[i].bytes(), at); code != 0)
+        fail(place_.folder, "a scratch file cannot be written", code);
   }
   to.known = true;
 }
@@ -132,7 +112,9 @@ void TileStore::get(int column, int row, PixelRect from, int origin_x, int origi
         source = held.memory.data() + first;
       } else {
         rows.resize(row_bytes * static_cast<std::size_t>(from.height()));
-        read_all(file_, rows.data(), rows.size(), static_cast<std::uint64_t>(held.slot) * slot_bytes_ + first, place_.folder);
+        const std::uint64_t place = static_cast<std::uint64_t>(held.slot) * slot_bytes_ + first;
+        if (const int code = read_bytes_at(file_, rows.data(), rows.size(), place); code != 0)
+          fail(place_.folder, "a scratch file cannot be read", code);
         source = rows.data();
       }
       for (int y = 0; y < from.height(); ++y)
