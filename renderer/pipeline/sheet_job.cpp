@@ -71,6 +71,39 @@ bool is_made(const WorkFolder& work, const SheetRequest& request, PixelRect piec
   return std::all_of(products.begin(), products.end(), [&](const std::string& product) { return work.has(product, piece); });
 }
 
+// What every piece is made from. Its members know each other by address.
+struct SheetWork {
+  SheetWork(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run, const Run& stage_run);
+  ScenePaint paint;
+  World world;
+  TileStore::Place place;
+  SheetView view;
+  SheetGround ground;
+};
+
+ScenePaint paint_for(const LoadedScene& loaded, const SheetRequest& request, Progress& progress) {
+  return request.panorama ? read_scene_paint(loaded, progress) : ScenePaint{{}, read_scene_palette(loaded, progress)};
+}
+
+int tile_px_for(const Scene& scene, const SheetView& view, const SheetRequest& request) {
+  return request.stage_tile_px > 0 ? request.stage_tile_px : choose_tile_px(scene, view.pixels_per_unit, region_of(scene, request));
+}
+
+SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run, const Run& stage_run)
+    : paint(paint_for(loaded, request, run.progress)),
+      world(loaded, run.progress, run.cache),
+      place{work.folder(), static_cast<std::uint64_t>(share_of_tiles * static_cast<double>(memory_budget_bytes()))},
+      view(view_of(world)),
+      ground(world, view, paint.palette, place, stage_run, tile_px_for(world.scene, view, request)) {
+  keep_notes(loaded, world, work);
+}
+
+bool is_copied(const Scene& scene, const SheetRequest& request) { return request.panorama && scene.synthesis.enabled; }
+
+CopyPlan plan_copies(const LoadedScene& loaded, SheetWork& sheet, const WorkFolder& work, const Run& run) {
+  return make_copy_plan(loaded, sheet.world, sheet.paint, sheet.ground, sheet.place, work, run);
+}
+
 }  // namespace
 
 void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::span<const PixelRect> pieces, const WorkFolder& work,
@@ -80,30 +113,22 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
                [&](const PixelRect& piece) { return !is_made(work, request, piece); });
   if (missing.empty() && work.has_bytes(notes_bytes)) return;
 
-  ScenePaint paint = request.panorama ? read_scene_paint(loaded, run.progress) : ScenePaint{{}, read_scene_palette(loaded, run.progress)};
-  const World world(loaded, run.progress, run.cache);
-  keep_notes(loaded, world, work);
-
-  TileStore::Place place{work.folder(), static_cast<std::uint64_t>(share_of_tiles * static_cast<double>(memory_budget_bytes()))};
   const bool few = pieces.size() <= 4;
   PieceProgress progress(run.progress, few);
   const Run stage_run{run.threads, run.memory_bytes, run.tile_px, progress, run.cache};
-  const SheetView view = view_of(world);
-  const int tile_px = request.stage_tile_px > 0 ? request.stage_tile_px
-                                                : choose_tile_px(world.scene, view.pixels_per_unit, region_of(world.scene, request));
-  SheetGround ground(world, view, paint.palette, place, stage_run, tile_px);
-  const bool copied = request.panorama && world.scene.synthesis.enabled;
-  CopyPlan plan = copied ? make_copy_plan(loaded, world, paint, ground, place, work, run) : CopyPlan{};
-  SheetPicture picture(ground, copied ? &plan : nullptr, place, stage_run);
+  SheetWork sheet(loaded, request, work, run, stage_run);
+  const bool copied = is_copied(sheet.world.scene, request);
+  CopyPlan plan = copied ? plan_copies(loaded, sheet, work, run) : CopyPlan{};
+  SheetPicture picture(sheet.ground, copied ? &plan : nullptr, sheet.place, stage_run);
 
   const double all = static_cast<double>(missing.size());
   if (!few) run.progress.begin(request.panorama ? "painting the sheet" : "tracing the sheet", all);
   for (std::size_t i = 0; i < missing.size(); ++i) {
     const PixelRect piece = missing[i];
     // Nobody asks again for what only earlier pieces looked at.
-    if (i > 0) request.panorama ? picture.keep_only(still_to_make(missing, i)) : ground.keep_only(still_to_make(missing, i));
+    if (i > 0) request.panorama ? picture.keep_only(still_to_make(missing, i)) : sheet.ground.keep_only(still_to_make(missing, i));
     if (!work.has("guidance", piece)) {
-      PackedGuidance packed = pack_guidance(ground.read_all_guidance(piece));
+      PackedGuidance packed = pack_guidance(sheet.ground.read_all_guidance(piece));
       work.keep("guidance", piece, packed.planes);
     }
     if (request.panorama && !work.has("panorama", piece)) {
@@ -115,14 +140,8 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
 }
 
 void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run) {
-  ScenePaint paint = read_scene_paint(loaded, run.progress);
-  const World world(loaded, run.progress, run.cache);
-  keep_notes(loaded, world, work);
-  if (!request.panorama || !world.scene.synthesis.enabled) return;
-  TileStore::Place place{work.folder(), static_cast<std::uint64_t>(share_of_tiles * static_cast<double>(memory_budget_bytes()))};
-  const SheetView view = view_of(world);
-  SheetGround ground(world, view, paint.palette, place, run, choose_tile_px(world.scene, view.pixels_per_unit));
-  make_copy_plan(loaded, world, paint, ground, place, work, run);
+  SheetWork sheet(loaded, request, work, run, run);
+  if (is_copied(sheet.world.scene, request)) plan_copies(loaded, sheet, work, run);
 }
 
 }  // namespace belvedere
