@@ -2,34 +2,18 @@
 
 #include <algorithm>
 
+#include "tools/report/report_folder.h"
 #include "tools/report/verification.h"
 
 namespace belvedere::tools {
 namespace {
 
-// XML 1.0 has no way at all to write control characters.
+// In attributes: XML 1.0 has no way at all to write other control characters.
 std::string xml_escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\n':
-        out += "&#10;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-    }
+  for (const char c : html_escaped(text)) {
+    const bool control = static_cast<unsigned char>(c) < 0x20;
+    out += c == '\n' ? "&#10;" : std::string(1, control ? '?' : c);
   }
   return out;
 }
