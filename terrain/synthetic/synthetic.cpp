@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/math.h"
 #include "base/parallel.h"
 #include "base/random_streams.h"
 #include "terrain/synthetic/synthetic_erosion.h"
@@ -21,11 +22,6 @@ namespace belvedere {
 namespace {
 
 using namespace synthetic;
-
-float smoothstep(float low, float high, float x) {
-  const float t = std::clamp((x - low) / (high - low), 0.F, 1.F);
-  return t * t * (3.F - 2.F * t);
-}
 
 void check(const SyntheticParameters& p) {
   const auto refuse = [](const std::string& key, double found, const std::string& allowed) {

@@ -3,17 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
 #include "terrain/synthetic/synthetic_noise.h"
 
 namespace belvedere::synthetic {
-namespace {
-
-float smoothstep(float low, float high, float x) {
-  const float t = std::clamp((x - low) / (high - low), 0.F, 1.F);
-  return t * t * (3.F - 2.F * t);
-}
-
-}  // namespace
 
 Plan::Plan(double height_m, double unit_m, std::uint64_t seed) : height_m_(height_m), unit_m_(unit_m), seed_(mix_bits(seed)) {
   valleys_ = std::max(1, static_cast<int>(std::lround(height_m / (38000.0 * unit_m))));

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/math.h"
 #include "base/parallel.h"
 #include "base/rising_queue.h"
 #include "terrain/shape/spill_level.h"
@@ -16,11 +17,6 @@ namespace belvedere::synthetic {
 namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-float smoothstep(float low, float high, float x) {
-  const float t = std::clamp((x - low) / (high - low), 0.F, 1.F);
-  return t * t * (3.F - 2.F * t);
-}
 
 template <class F>
 void for_neighbours(const Grid<float>& grid, std::int32_t i, F&& f) {

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/math.h"
 #include "base/parallel.h"
 #include "texture/strokes/paint_record.h"
 
@@ -34,8 +35,7 @@ std::uint32_t hash32(std::uint32_t x) {
 float hair_noise(float x, std::uint32_t seed) {
   const float base = std::floor(x);
   const auto i = static_cast<std::uint32_t>(static_cast<std::int32_t>(base));
-  float t = x - base;
-  t = t * t * (3.F - 2.F * t);
+  const float t = smoothstep(x - base);
   const auto at = [&](std::uint32_t k) { return static_cast<float>(hash32(k * 374761393U + seed) & 0xffffU) / 65535.F; };
   const float a = at(i);
   return a + (at(i + 1U) - a) * t;

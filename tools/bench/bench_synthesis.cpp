@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "texture/synthesis/synthesize.h"
@@ -18,9 +19,8 @@ namespace {
 double smooth_noise(std::uint64_t seed, int x, int y, int cell) {
   const int i = x / cell;
   const int j = y / cell;
-  const auto ease = [](double t) { return t * t * (3.0 - 2.0 * t); };
-  const double u = ease(static_cast<double>(x % cell) / cell);
-  const double v = ease(static_cast<double>(y % cell) / cell);
+  const double u = smoothstep(static_cast<double>(x % cell) / cell);
+  const double v = smoothstep(static_cast<double>(y % cell) / cell);
   const double top = random_uniform(seed, i, j) * (1.0 - u) + random_uniform(seed, i + 1, j) * u;
   const double bottom = random_uniform(seed, i, j + 1) * (1.0 - u) + random_uniform(seed, i + 1, j + 1) * u;
   return top * (1.0 - v) + bottom * v;

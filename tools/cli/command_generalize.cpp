@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/json.h"
+#include "base/math.h"
 #include "base/parallel.h"
 #include "renderer/image/image_io.h"
 #include "terrain/generalize/generalize_presets.h"
@@ -63,8 +64,7 @@ Grid<float> share_by_distance(const GeneralizeOptions& options, const Dem& dem, 
   Grid<float> share(dem.width(), dem.height());
   parallel_rows(dem.height(), [&](int y) {
     for (int x = 0; x < dem.width(); ++x) {
-      const double t = std::clamp((distance_m(x, y) - near) / (far - near), 0.0, 1.0);
-      share(x, y) = static_cast<float>(1.0 - t * t * (3.0 - 2.0 * t));
+      share(x, y) = static_cast<float>(1.0 - smoothstep(near, far, distance_m(x, y)));
     }
   });
   return share;

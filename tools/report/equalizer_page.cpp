@@ -14,6 +14,7 @@
 #include "base/embedded.h"
 #include "base/filter.h"
 #include "base/json.h"
+#include "base/math.h"
 #include "base/pyramid.h"
 #include "renderer/image/output_file.h"
 #include "terrain/generalize/generalize_presets.h"
@@ -160,8 +161,7 @@ Grid<float> share_of(const Preview& preview, glm::dvec2 distances_m) {
   for (int y = 0; y < share.height(); ++y) {
     for (int x = 0; x < share.width(); ++x) {
       const double d = std::hypot((x - preview.viewer_cell.x) * preview.cell_m.x, (y - preview.viewer_cell.y) * preview.cell_m.y);
-      const double t = std::clamp((d - distances_m.x) / (distances_m.y - distances_m.x), 0.0, 1.0);
-      share(x, y) = static_cast<float>(1.0 - t * t * (3.0 - 2.0 * t));
+      share(x, y) = static_cast<float>(1.0 - smoothstep(distances_m.x, distances_m.y, d));
     }
   }
   return share;
