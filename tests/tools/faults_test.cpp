@@ -15,6 +15,7 @@
 //   bad ICC profiles and OpenColorIO configs      Icc.FaultsAreNamed, Color.FaultsAreNamed
 //   inputs that are not those of the lock file    Lock.ChangedInputsAreRefusedByAllThatAreHeldToTheLock
 //   servers: each way of reading from them        Http.*
+//   a damaged piece of a sheet                    WorkFolderTest.ADamagedPieceIsRemoved, SheetJob.PartsInAnyOrder…
 //   closed streams, other locales                 Program.ClosedStreamsDoNoHarm, Program.LocaleChangesNothing
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -308,6 +309,50 @@ TEST_F(Faults, ServersThatFailAreAskedAgainAndThoseThatStallAreInputErrors) {
   const test::HttpServer whole(folder_.path(), {"no-ranges"});
   expect_refusal(write_hills_scene(source(whole.address("rough.tif")), strokes_only), 3,
                  AllOf(HasSubstr(whole.address("rough.tif")), HasSubstr("only whole")), {"--allow-http"});
+}
+
+// The pieces of a run that was stopped, and another file under its address before it goes on: the sheet would show two grounds.
+TEST_F(Faults, DataThatChangedOnItsServerIsNotGoneOnWith) {
+  if (!test::has_python()) GTEST_SKIP() << "there is no python3 to serve files";
+  write_raster(path("hills.tif"), hills());
+  fs::copy_file(path("hills.tif"), path("first.tif"));
+  const test::HttpServer server(folder_.path());
+  const std::string scene = write_hills_scene(source(server.address("hills.tif")), strokes_only);
+  const Outcome plan = run({"plan", scene, "--out", path("sheet"), "--parts", "1", "-q", "--allow-http"});
+  ASSERT_EQ(plan.status, 0) << plan.err;
+  Raster<float> others = hills();
+  others.cells(20, 20) += 50.F;
+  write_raster(path("hills.tif"), others);
+  const std::vector<std::vector<std::string>> lines = {{"part", path("sheet"), "1", "-q"},
+                                                       {"render", scene, "--resume", "--out", path("sheet"), "-q", "--allow-http"}};
+  for (const auto& line : lines) {
+    const Outcome changed = run(line);
+    EXPECT_EQ(changed.status, 3) << line[0] << ": " << changed.err;
+    EXPECT_THAT(changed.err, AllOf(HasSubstr("other data"), HasSubstr("without --resume"))) << line[0];
+  }
+  fs::copy_file(path("first.tif"), path("hills.tif"), fs::copy_options::overwrite_existing);
+  const Outcome as_before = run(lines[1]);
+  EXPECT_EQ(as_before.status, 0) << as_before.err;
+}
+
+// ---- two runs
+
+TEST_F(Faults, TheSecondRunIntoAFolderEndsAtOnceAndLeavesTheFirstAlone) {
+  // Small terrain, a picture that takes minutes with one thread.
+  const std::string scene =
+      write("large.toml",
+            "version = 1\n[terrain.synthetic]\nwidth = 96\nheight = 96\ncell_m = 200\n[camera]\nposition = [9000, -9000]\n"
+            "height_m = 9000\npitch_deg = -25\n[output]\nwidth = 16000\nheight = 8000\n");
+  const std::vector<std::string> line = {"guidance", scene, "--out", path("result"), "--threads", "1"};
+  const pid_t first = start(line);
+  for (int i = 0; i < 1000 && read_bytes(path("stderr")).find("building the ray tracer") == std::string::npos; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const Outcome second = run(line);
+  EXPECT_EQ(second.status, 4) << second.err;
+  EXPECT_THAT(second.err, AllOf(HasSubstr(path("result")), HasSubstr("another run")));
+  EXPECT_EQ(kill(first, 0), 0) << "the first one runs on";
+  kill(first, SIGINT);
+  EXPECT_EQ(finish(first).status, 75);
 }
 
 // ---- light
