@@ -2,109 +2,23 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <limits>
-#include <map>
-#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/random.h"
+#include "tests/texture/synthesis/made_up_land.h"
 #include "texture/quality/quality.h"
 #include "texture/synthesis/synth_kernel.h"
 
 namespace belvedere {
 namespace {
 
-// Smooth noise 0…255 with features of about `scale` pixels.
-std::uint8_t smooth_noise(std::uint64_t seed, int x, int y, int scale) {
-  const int cx = x / scale;
-  const int cy = y / scale;
-  const auto corner = [&](int i, int j) { return random_uniform(seed, cx + i, cy + j); };
-  const double fx = static_cast<double>(x % scale) / scale;
-  const double fy = static_cast<double>(y % scale) / scale;
-  const double top = corner(0, 0) * (1 - fx) + corner(1, 0) * fx;
-  const double bottom = corner(0, 1) * (1 - fx) + corner(1, 1) * fx;
-  return static_cast<std::uint8_t>(255.0 * (top * (1 - fy) + bottom * fy));
-}
-
-// Guides of a made-up land: classes 3, 7 and 9 by altitude, altitude and tone.
-GuideStack land(int width, int height, std::uint64_t seed) {
-  GuideStack stack;
-  stack.label = Grid<std::uint8_t>(width, height);
-  Grid<std::uint8_t> altitude(width, height);
-  Grid<std::uint8_t> tone(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      altitude(x, y) = smooth_noise(seed, x, y, 30);
-      tone(x, y) = smooth_noise(seed + 1, x, y, 17);
-      stack.label(x, y) = altitude(x, y) < 100 ? 3 : altitude(x, y) < 150 ? 7 : 9;
-    }
-  }
-  stack.guides = {{"altitude", altitude}, {"tone", tone}};
-  return stack;
-}
-
-// Its painting: a hue a class, streaks that differ by class, brighter with tone.
-Exemplar painting(int width, int height, std::uint64_t seed) {
-  Exemplar exemplar;
-  exemplar.name = "painting " + std::to_string(seed);
-  exemplar.guides = land(width, height, seed);
-  exemplar.picture = Grid<Rgb8>(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const int label = exemplar.guides.label(x, y);
-      const int streak = static_cast<int>(label == 3   ? random_index(80, seed + 2, x / 5, y)
-                                          : label == 7 ? random_index(80, seed + 2, x, y / 4)
-                                                       : random_index(80, seed + 2, x / 2, y / 2));
-      const int bright = streak + exemplar.guides.guides[1].values(x, y) / 3;
-      exemplar.picture(x, y) = {static_cast<std::uint8_t>(bright + (label == 9 ? 90 : 0)),
-                                static_cast<std::uint8_t>(bright + (label == 7 ? 90 : 0)),
-                                static_cast<std::uint8_t>(bright + (label == 3 ? 90 : 0))};
-    }
-  }
-  return exemplar;
-}
-
-struct Notes : Progress {
-  void begin(std::string_view stage, double total) override {
-    EXPECT_EQ(done, announced) << "a stage began before the last was done";
-    stages.emplace_back(stage);
-    done = 0;
-    announced = total;
-  }
-  void advance(double amount) override { done += amount; }
-  void note(std::string_view text) override { notes.emplace_back(text); }
-  std::vector<std::string> stages;
-  std::vector<std::string> notes;
-  double done = 0;
-  double announced = 0;
-};
-
-MatchField run(const std::vector<Exemplar>& exemplars, const GuideStack& target, const SynthesisParameters& parameters = {}) {
-  return synthesize(exemplars, target, parameters, silent_progress());
-}
-
-double mean_guide_error(const MatchField& field, const std::vector<Exemplar>& exemplars, const GuideStack& target, std::size_t guide) {
-  double sum = 0;
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    const Match m = field[i];
-    sum += std::abs(static_cast<double>(exemplars[m.exemplar].guides.guides[guide].values(m.x, m.y)) - target.guides[guide].values[i]);
-  }
-  return sum / static_cast<double>(field.size());
-}
-
-int most_used(const MatchField& field) {
-  std::map<std::tuple<int, int, int>, int> uses;
-  int most = 0;
-  for (const Match& m : field) {
-    if (m.exemplar != Match::none) most = std::max(most, ++uses[{m.exemplar, m.x, m.y}]);
-  }
-  return most;
-}
+using namespace test;
 
 TEST(Synthesize, CopiesFromTheSameClassAlways) {
   const std::vector<Exemplar> exemplars{painting(140, 120, 1)};
@@ -151,54 +65,6 @@ TEST(Synthesize, SameBitsForAnyThreadsAndVectorWidth) {
   SynthesisParameters other;
   other.seed = 2;
   EXPECT_NE(run(exemplars, target, other), reference);
-}
-
-TEST(Synthesize, ExcludedTexelsAreNeverUsedAndUnusedPixelsGetNone) {
-  Exemplar exemplar = painting(140, 120, 1);
-  for (int y = 0; y < 120; ++y) {
-    for (int x = 0; x < 140; ++x) {
-      if ((x / 9 + y / 7) % 3 == 0) exemplar.guides.label(x, y) = unused_label;
-    }
-  }
-  GuideStack target = land(100, 100, 40);
-  for (int y = 0; y < 30; ++y) {
-    for (int x = 0; x < 100; ++x) target.label(x, y) = unused_label;
-  }
-  const MatchField field = run({exemplar}, target);
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    if (target.label[i] == unused_label) {
-      ASSERT_EQ(field[i], Match{});
-      continue;
-    }
-    ASSERT_EQ(field[i].exemplar, 0);
-    ASSERT_EQ(exemplar.guides.label(field[i].x, field[i].y), target.label[i]);
-  }
-}
-
-TEST(Synthesize, ClassesWithoutTexelsFallBackOrStayWithout) {
-  const std::vector<Exemplar> exemplars{painting(140, 120, 1)};
-  GuideStack target = land(80, 80, 40);
-  for (int y = 20; y < 40; ++y) {
-    for (int x = 0; x < 80; ++x) target.label(x, y) = x < 40 ? 100 : 101;
-  }
-  SynthesisParameters parameters;
-  parameters.fallback = {{100, 9}};
-  Notes notes;
-  const MatchField field = synthesize(exemplars, target, parameters, notes);
-  for (int y = 0; y < 80; ++y) {
-    for (int x = 0; x < 80; ++x) {
-      const Match m = field(x, y);
-      if (target.label(x, y) == 101) {
-        ASSERT_EQ(m, Match{});
-      } else {
-        ASSERT_EQ(m.exemplar, 0);
-        ASSERT_EQ(exemplars[0].guides.label(m.x, m.y), target.label(x, y) == 100 ? 9 : target.label(x, y));
-      }
-    }
-  }
-  ASSERT_EQ(notes.notes.size(), 2U);
-  EXPECT_NE(notes.notes[0].find("class 100"), std::string::npos);
-  EXPECT_NE(notes.notes[1].find("class 101"), std::string::npos);
 }
 
 // With guides that tell every texel apart and nothing against quotation, an exemplar's own guides give it back.
@@ -259,33 +125,6 @@ TEST(Synthesize, GuidesOfOneSideAreNotedOnce) {
   EXPECT_EQ(run(exemplars, target), with);
 }
 
-TEST(Synthesize, SeveralExemplarsShareTheWork) {
-  const std::vector<Exemplar> one{painting(100, 100, 1)};
-  const std::vector<Exemplar> two{one[0], painting(90, 110, 2)};
-  const GuideStack target = land(128, 128, 40);
-  const MatchField field = run(two, target);
-  int second = 0;
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    const Match m = field[i];
-    ASSERT_LT(m.exemplar, 2);
-    ASSERT_EQ(two[m.exemplar].guides.label(m.x, m.y), target.label[i]);
-    second += m.exemplar;
-  }
-  EXPECT_GT(second, 128 * 128 / 4);
-  EXPECT_LT(second, 128 * 128 * 3 / 4);
-  EXPECT_LT(mean_guide_error(field, two, target, 0), mean_guide_error(run(one, target), one, target, 0));
-
-  // A class that only the second painting has comes wholly from there.
-  std::vector<Exemplar> split = two;
-  for (std::uint8_t& label : split[0].guides.label) label = label == 7 ? unused_label : label;
-  const MatchField from_second = run(split, target);
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    if (target.label[i] == 7) {
-      ASSERT_EQ(from_second[i].exemplar, 1);
-    }
-  }
-}
-
 TEST(Synthesize, NoPieceRunsOnAcrossADepthJump) {
   const std::vector<Exemplar> exemplars{painting(160, 160, 1)};
   GuideStack target = land(120, 120, 40);
@@ -308,42 +147,6 @@ TEST(Synthesize, NoPieceRunsOnAcrossADepthJump) {
     EXPECT_EQ(measure_quality(field, exemplars, target, quick).across_silhouettes, 0.0);
     EXPECT_EQ(measure_quality(field, exemplars, target, quick).label_agreement, 1.0);
   }
-}
-
-// A target of the exemplar's own guides tempts to copy the whole of it.
-TEST(Synthesize, CapHoldsStrictlyEvenForTheExemplarsOwnGuides) {
-  const Exemplar exemplar = painting(128, 128, 1);
-  for (const int cap : {16, 64, 240}) {
-    SynthesisParameters parameters;
-    parameters.copy_cap = cap;
-    const std::vector<std::size_t> sizes = piece_sizes(run({exemplar}, exemplar.guides, parameters));
-    EXPECT_LE(sizes.front(), static_cast<std::size_t>(cap));
-    EXPECT_GE(sizes.front(), static_cast<std::size_t>(cap / 2)) << "nothing hangs together";
-  }
-  // Where there is next to nothing to choose from as well.
-  Exemplar small = painting(18, 17, 3);
-  for (std::uint8_t& label : small.guides.label) label = 3;
-  GuideStack target = small.guides;
-  SynthesisParameters parameters;
-  parameters.copy_cap = 16;
-  EXPECT_LE(piece_sizes(run({small}, target, parameters)).front(), 16U);
-}
-
-TEST(Synthesize, NoTexelIsUsedTooOften) {
-  // Half of the target lies higher than all but a few texels.
-  const std::vector<Exemplar> exemplars{painting(128, 128, 1)};
-  GuideStack target = land(128, 128, 40);
-  for (std::uint8_t& label : target.label) label = 9;
-  for (int y = 0; y < 64; ++y) {
-    for (int x = 0; x < 128; ++x) target.guides[0].values(x, y) = 255;
-  }
-  const std::size_t texels = static_cast<std::size_t>(std::count(exemplars[0].guides.label.begin(), exemplars[0].guides.label.end(), 9));
-  const MatchField field = run(exemplars, target);
-  const int most = measure_quality(field, exemplars, target, {.repeat_samples = 0}).most_used;
-  EXPECT_LE(most, static_cast<int>(6 + 3 * target.label.size() / texels));
-  SynthesisParameters free;
-  free.reuse = 0;
-  EXPECT_GT(measure_quality(run(exemplars, target, free), exemplars, target, {.repeat_samples = 0}).most_used, 2 * most);
 }
 
 TEST(Synthesize, SurroundingsDecideWhatBordersOnWhat) {
@@ -377,31 +180,6 @@ TEST(Synthesize, SurroundingsDecideWhatBordersOnWhat) {
   EXPECT_LT(from_the_left(0, 1), 0.88);
   EXPECT_GT(from_the_left(100, 1), 0.95);
   EXPECT_LT(from_the_left(100, 0), 0.9) << "7 and 9 are said to be alike";
-}
-
-TEST(Synthesize, ReuseAndPiecesStayBounded) {
-  // One guide that changes slowly: nothing but the prices keeps whole passages from being quoted.
-  std::vector<Exemplar> exemplars{painting(128, 128, 1)};
-  GuideStack target = land(160, 160, 40);
-  exemplars[0].guides.guides.resize(1);
-  target.guides.resize(1);
-  const auto largest = [](const MatchField& field) { return static_cast<int>(piece_sizes(field).front()); };
-  SynthesisParameters capped;
-  capped.copy_cap = 64;
-  const MatchField field = run(exemplars, target, capped);
-  EXPECT_LE(most_used(field), 18);
-  EXPECT_LE(largest(field), 64);
-  EXPECT_GE(largest(field), 32) << "nothing hangs together";
-  SynthesisParameters free;
-  free.reuse = 0;
-  free.copy_cap = 100000;
-  const MatchField unbounded = run(exemplars, target, free);
-  RecordProperty("largest", largest(field));
-  RecordProperty("largest_free", largest(unbounded));
-  RecordProperty("used", most_used(field));
-  RecordProperty("used_free", most_used(unbounded));
-  EXPECT_GT(largest(unbounded), 64 * 3 / 2);
-  EXPECT_GT(most_used(unbounded), 24);
 }
 
 // Weak guides that no texel can meet all at once must not take from what the strongest one reaches.

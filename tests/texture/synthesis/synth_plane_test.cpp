@@ -1,0 +1,52 @@
+#include "texture/synthesis/synth_plane.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+
+#include "tests/texture/synthesis/noise_plane.h"
+
+namespace belvedere::synth {
+namespace {
+
+using namespace test;
+
+TEST(Plane, StepsOutOfAPictureLandOnNoClass) {
+  const Plane plane = noise_plane({{5, 7}, {9, 3}, {1, 1}}, 2, 5, false);
+  for (int p = 0; p < 3; ++p) {
+    const Plane::Part& part = plane.parts[static_cast<std::size_t>(p)];
+    for (int y = -padding; y < part.height + padding; ++y) {
+      for (int x = -padding; x < part.width + padding; ++x) {
+        const bool inside = x >= 0 && y >= 0 && x < part.width && y < part.height;
+        const std::uint32_t at = plane.index(p, x, y);
+        ASSERT_EQ(class_of(plane.words[at]) != no_class, inside);
+        if (!inside) continue;
+        const Plane::Place place = plane.place(at);
+        ASSERT_EQ(std::make_tuple(place.part, place.x, place.y), std::make_tuple(p, x, y));
+      }
+    }
+  }
+}
+
+TEST(Plane, HalvesByClassAndMean) {
+  Plane plane = make_plane({{5, 4}}, 1);
+  plane.for_each([&](std::uint32_t at) {
+    plane.words[at] = 0x02804020U;
+    plane.guides[at] = 77;
+  });
+  plane.words[plane.index(0, 0, 0)] = 0x01ffffffU;
+  plane.words[plane.index(0, 1, 1)] = 0x01ffffffU;  // two of two: the lower class
+  plane.words[plane.index(0, 3, 3)] = 0xff123456U;  // excluded: its colour counts nowhere
+  pad(plane);
+  const Plane coarse = halve(plane);
+  EXPECT_EQ(coarse.parts[0].width, 3);
+  EXPECT_EQ(coarse.parts[0].height, 2);
+  EXPECT_EQ(class_of(coarse.words[coarse.index(0, 0, 0)]), 1U);
+  EXPECT_EQ(coarse.words[coarse.index(0, 2, 1)], 0x02804020U);
+  EXPECT_EQ(coarse.words[coarse.index(0, 1, 1)] >> 24, 2U);
+  coarse.for_each([&](std::uint32_t at) { EXPECT_EQ(coarse.guides[at], 77); });
+}
+
+}  // namespace
+}  // namespace belvedere::synth

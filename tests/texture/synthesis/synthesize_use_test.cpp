@@ -1,0 +1,156 @@
+// Which texels synthesis takes, and how often.
+#include "texture/synthesis/synthesize.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/texture/synthesis/made_up_land.h"
+#include "texture/quality/quality.h"
+
+namespace belvedere {
+namespace {
+
+using namespace test;
+
+TEST(Synthesize, ExcludedTexelsAreNeverUsedAndUnusedPixelsGetNone) {
+  Exemplar exemplar = painting(140, 120, 1);
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 140; ++x) {
+      if ((x / 9 + y / 7) % 3 == 0) exemplar.guides.label(x, y) = unused_label;
+    }
+  }
+  GuideStack target = land(100, 100, 40);
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 100; ++x) target.label(x, y) = unused_label;
+  }
+  const MatchField field = run({exemplar}, target);
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    if (target.label[i] == unused_label) {
+      ASSERT_EQ(field[i], Match{});
+      continue;
+    }
+    ASSERT_EQ(field[i].exemplar, 0);
+    ASSERT_EQ(exemplar.guides.label(field[i].x, field[i].y), target.label[i]);
+  }
+}
+
+TEST(Synthesize, ClassesWithoutTexelsFallBackOrStayWithout) {
+  const std::vector<Exemplar> exemplars{painting(140, 120, 1)};
+  GuideStack target = land(80, 80, 40);
+  for (int y = 20; y < 40; ++y) {
+    for (int x = 0; x < 80; ++x) target.label(x, y) = x < 40 ? 100 : 101;
+  }
+  SynthesisParameters parameters;
+  parameters.fallback = {{100, 9}};
+  Notes notes;
+  const MatchField field = synthesize(exemplars, target, parameters, notes);
+  for (int y = 0; y < 80; ++y) {
+    for (int x = 0; x < 80; ++x) {
+      const Match m = field(x, y);
+      if (target.label(x, y) == 101) {
+        ASSERT_EQ(m, Match{});
+      } else {
+        ASSERT_EQ(m.exemplar, 0);
+        ASSERT_EQ(exemplars[0].guides.label(m.x, m.y), target.label(x, y) == 100 ? 9 : target.label(x, y));
+      }
+    }
+  }
+  ASSERT_EQ(notes.notes.size(), 2U);
+  EXPECT_NE(notes.notes[0].find("class 100"), std::string::npos);
+  EXPECT_NE(notes.notes[1].find("class 101"), std::string::npos);
+}
+
+TEST(Synthesize, SeveralExemplarsShareTheWork) {
+  const std::vector<Exemplar> one{painting(100, 100, 1)};
+  const std::vector<Exemplar> two{one[0], painting(90, 110, 2)};
+  const GuideStack target = land(128, 128, 40);
+  const MatchField field = run(two, target);
+  int second = 0;
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    const Match m = field[i];
+    ASSERT_LT(m.exemplar, 2);
+    ASSERT_EQ(two[m.exemplar].guides.label(m.x, m.y), target.label[i]);
+    second += m.exemplar;
+  }
+  EXPECT_GT(second, 128 * 128 / 4);
+  EXPECT_LT(second, 128 * 128 * 3 / 4);
+  EXPECT_LT(mean_guide_error(field, two, target, 0), mean_guide_error(run(one, target), one, target, 0));
+
+  // A class that only the second painting has comes wholly from there.
+  std::vector<Exemplar> split = two;
+  for (std::uint8_t& label : split[0].guides.label) label = label == 7 ? unused_label : label;
+  const MatchField from_second = run(split, target);
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    if (target.label[i] == 7) {
+      ASSERT_EQ(from_second[i].exemplar, 1);
+    }
+  }
+}
+
+// A target of the exemplar's own guides tempts to copy the whole of it.
+TEST(Synthesize, CapHoldsStrictlyEvenForTheExemplarsOwnGuides) {
+  const Exemplar exemplar = painting(128, 128, 1);
+  for (const int cap : {16, 64, 240}) {
+    SynthesisParameters parameters;
+    parameters.copy_cap = cap;
+    const std::vector<std::size_t> sizes = piece_sizes(run({exemplar}, exemplar.guides, parameters));
+    EXPECT_LE(sizes.front(), static_cast<std::size_t>(cap));
+    EXPECT_GE(sizes.front(), static_cast<std::size_t>(cap / 2)) << "nothing hangs together";
+  }
+  // Where there is next to nothing to choose from as well.
+  Exemplar small = painting(18, 17, 3);
+  for (std::uint8_t& label : small.guides.label) label = 3;
+  GuideStack target = small.guides;
+  SynthesisParameters parameters;
+  parameters.copy_cap = 16;
+  EXPECT_LE(piece_sizes(run({small}, target, parameters)).front(), 16U);
+}
+
+TEST(Synthesize, NoTexelIsUsedTooOften) {
+  // Half of the target lies higher than all but a few texels.
+  const std::vector<Exemplar> exemplars{painting(128, 128, 1)};
+  GuideStack target = land(128, 128, 40);
+  for (std::uint8_t& label : target.label) label = 9;
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 128; ++x) target.guides[0].values(x, y) = 255;
+  }
+  const std::size_t texels = static_cast<std::size_t>(std::count(exemplars[0].guides.label.begin(), exemplars[0].guides.label.end(), 9));
+  const MatchField field = run(exemplars, target);
+  const int most = measure_quality(field, exemplars, target, {.repeat_samples = 0}).most_used;
+  EXPECT_LE(most, static_cast<int>(6 + 3 * target.label.size() / texels));
+  SynthesisParameters free;
+  free.reuse = 0;
+  EXPECT_GT(measure_quality(run(exemplars, target, free), exemplars, target, {.repeat_samples = 0}).most_used, 2 * most);
+}
+
+TEST(Synthesize, ReuseAndPiecesStayBounded) {
+  // One guide that changes slowly: nothing but the prices keeps whole passages from being quoted.
+  std::vector<Exemplar> exemplars{painting(128, 128, 1)};
+  GuideStack target = land(160, 160, 40);
+  exemplars[0].guides.guides.resize(1);
+  target.guides.resize(1);
+  const auto largest = [](const MatchField& field) { return static_cast<int>(piece_sizes(field).front()); };
+  SynthesisParameters capped;
+  capped.copy_cap = 64;
+  const MatchField field = run(exemplars, target, capped);
+  EXPECT_LE(most_used(field), 18);
+  EXPECT_LE(largest(field), 64);
+  EXPECT_GE(largest(field), 32) << "nothing hangs together";
+  SynthesisParameters free;
+  free.reuse = 0;
+  free.copy_cap = 100000;
+  const MatchField unbounded = run(exemplars, target, free);
+  RecordProperty("largest", largest(field));
+  RecordProperty("largest_free", largest(unbounded));
+  RecordProperty("used", most_used(field));
+  RecordProperty("used_free", most_used(unbounded));
+  EXPECT_GT(largest(unbounded), 64 * 3 / 2);
+  EXPECT_GT(most_used(unbounded), 24);
+}
+
+}  // namespace
+}  // namespace belvedere
