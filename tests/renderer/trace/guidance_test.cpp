@@ -9,98 +9,22 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 #include <set>
 #include <string_view>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/guidance_channels.h"
-#include "base/random.h"
 #include "renderer/trace/guidance_rays.h"
+#include "tests/renderer/trace/made_up_ground.h"
 
 namespace belvedere {
 namespace {
 
-constexpr double cell = 30.0;
-
-// A made-up world: altitude and land cover as functions of metres east and south of the first post.
-struct World {
-  TerrainModel terrain;
-  DeformedSurface surface;
-  std::unique_ptr<Tracer> tracer;
-  DeformParameters deform_parameters;
-  glm::dvec2 viewer{0.0};
-};
-
-template <class Altitude, class Cover>
-World make_world(int width, int height, Altitude&& altitude, Cover&& cover, DeformParameters deform_parameters = {},
-                 glm::dvec2 viewer = {652000.0, 5330000.0}) {
-  Raster<float> raster;
-  raster.transform = {650000.0, 5320000.0, cell, cell};
-  raster.cells = Grid<float>(width, height);
-  LandCover land_cover;
-  land_cover.classes.transform = raster.transform;
-  land_cover.classes.cells = Grid<LandCoverClass>(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      raster.cells(x, y) = static_cast<float>(altitude(x * cell, y * cell));
-      land_cover.classes.cells(x, y) = cover(x * cell, y * cell);
-    }
-  }
-  World world;
-  Dem dem = make_dem(std::move(raster));
-  Grid<float> generalized = dem.altitude_m;
-  world.deform_parameters = deform_parameters;
-  world.viewer = viewer;
-  world.surface = deform(generalized, dem.transform, viewer, {viewer, 0.0}, deform_parameters);
-  world.terrain = make_terrain_model(std::make_shared<const Dem>(std::move(dem)), std::move(generalized),
-                                     std::make_shared<const LandCover>(std::move(land_cover)), deform_parameters.exaggeration);
-  world.tracer = std::make_unique<Tracer>(world.surface);
-  return world;
-}
-
-LandCoverClass all_meadow(double, double) { return LandCoverClass::alpine_grass; }
-
-double rough(double x, double y) {
-  double sum = 0.0;
-  for (int octave = 0; octave < 4; ++octave) {
-    const double wave = 3000.0 / (1 << octave);
-    const auto ix = static_cast<std::int64_t>(std::floor(x / wave));
-    const auto iy = static_cast<std::int64_t>(std::floor(y / wave));
-    const double fx = x / wave - static_cast<double>(ix);
-    const double fy = y / wave - static_cast<double>(iy);
-    const auto at = [&](int i, int j) { return random_uniform(5 + octave, ix + i, iy + j); };
-    sum += ((at(0, 0) * (1 - fx) + at(1, 0) * fx) * (1 - fy) + (at(0, 1) * (1 - fx) + at(1, 1) * fx) * fy) * wave * 0.5;
-  }
-  return sum;
-}
-
-// Looks south from 3 km north of the terrain's northern rim.
-CameraParameters southward(int width, int height, double pitch_deg = -20.0) {
-  CameraParameters p;
-  p.width = width;
-  p.height = height;
-  p.eye = {653000.0, 5323000.0, 3500.0};
-  p.azimuth_deg = 180.0;
-  p.pitch_deg = pitch_deg;
-  return p;
-}
-
-GuidanceBuffers trace(const World& world, const Camera& camera, const GuidanceParameters& parameters = {}) {
-  return trace_guidance(world.terrain, world.surface, *world.tracer, camera, parameters, {0, 0, camera.size().x, camera.size().y},
-                        silent_progress());
-}
-
-World rough_world() {
-  DeformParameters d;
-  d.exaggeration = 1.6;
-  d.bend = {60000.0, 9000.0, 8000.0, 1e-5};
-  return make_world(220, 260, rough,
-                    [](double x, double y) { return rough(x + 9000.0, y) > 1400.0 ? LandCoverClass::forest : LandCoverClass::rock; }, d,
-                    {653000.0, 5323000.0});
-}
+using namespace test;
 
 TEST(Guidance, PixelPlacesShareNoColumnAndNoRow) {
   for (const int n : {1, 4, 9, 16}) {
@@ -117,25 +41,6 @@ TEST(Guidance, PixelPlacesShareNoColumnAndNoRow) {
     EXPECT_EQ(rows.size(), static_cast<std::size_t>(n));
     EXPECT_GE(*columns.begin(), 0);
     EXPECT_LT(*columns.rbegin(), n);
-  }
-}
-
-TEST(Guidance, SkyDirectionsAreCosineWeightedAndDealtOutEvenly) {
-  for (const int per_pixel : {1, 4, 16}) {
-    const auto all = sky_directions(per_pixel);
-    ASSERT_EQ(all.size(), static_cast<std::size_t>(16 * per_pixel));
-    std::array<int, 16> dealt{};
-    glm::dvec3 mean(0.0);
-    for (const SkyDirection& d : all) {
-      ++dealt[static_cast<std::size_t>(d.lane)];
-      EXPECT_NEAR(glm::length(d.direction), 1.0, 1e-12);
-      EXPECT_GT(d.direction.z, 0.0);
-      mean += d.direction / static_cast<double>(all.size());
-    }
-    EXPECT_THAT(dealt, testing::Each(per_pixel));
-    EXPECT_NEAR(mean.z, 2.0 / 3.0, 0.01);
-    EXPECT_NEAR(mean.x, 0.0, 0.05);
-    EXPECT_NEAR(mean.y, 0.0, 0.05);
   }
 }
 
@@ -392,94 +297,6 @@ TEST(Guidance, MostSamplesWinThePixelAndItsValuesComeFromOneOfThem) {
   }
   EXPECT_GT(mixed, 100);
   EXPECT_GT(edges, 50);
-}
-
-TEST(Guidance, SunBelowTheHorizonLeavesAllTerrainInShadow) {
-  const World world = rough_world();
-  GuidanceParameters parameters;
-  parameters.sun_direction = glm::normalize(glm::dvec3(-0.7, 0.7, -0.05));
-  const GuidanceBuffers b = trace(world, *make_camera(southward(64, 48)), parameters);
-  for (std::size_t i = 0; i < b.depth_m.size(); ++i) EXPECT_EQ(b.shadow[i], b.is_sky(i) ? 1.F : 0.F);
-}
-
-// A wall across a plain: the umbra ends where the disc's upper edge passes the crest, the penumbra where its lower edge does.
-TEST(Guidance, PenumbraOfAWallIsAsWideAsTheDisc) {
-  const double wall = 400.0;
-  const World world = make_world(
-      300, 300, [&](double, double y) { return y >= 6000.0 && y <= 6030.0 ? wall : 0.0; }, all_meadow);
-  CameraParameters p;
-  p.projection = "oblique";  // straight down: a map, 10 m a pixel
-  p.pitch_deg = -90.0;
-  p.width = 64;
-  p.height = 256;
-  p.view_width_m = 640.0;
-  p.eye = {654500.0, 5320000.0 - 5000.0, 3000.0};
-  const auto camera = make_camera(p);
-  GuidanceParameters parameters;
-  parameters.sampling.shadow_rays = 32;
-  parameters.sampling.sky_directions = 0;
-  parameters.sun_radius_rad = 0.05;
-  const double altitude = to_radians(30.0);
-  parameters.sun_direction = {0.0, -std::cos(altitude), std::sin(altitude)};  // from the south: the shadow falls north
-  const GuidanceBuffers b = trace(world, *camera, parameters);
-  const auto length = [&](double angle) { return wall / std::tan(angle); };
-  for (int y = 0; y < b.height(); ++y) {
-    double lit = 0.0;
-    double from_wall = 0.0;
-    for (int x = 0; x < b.width(); ++x) {
-      const std::size_t i = b.depth_m.index(x, y);
-      lit += b.shadow[i] / b.width();
-      from_wall = b.position_m[i].y + world.surface.origin.y - (5320000.0 - 15.0 - 6000.0);
-    }
-    if (from_wall > length(altitude - 0.05) + 20.0) {
-      EXPECT_EQ(lit, 1.0) << from_wall;
-    }
-    if (from_wall < length(altitude + 0.05) - 20.0 && from_wall > 40.0) {
-      EXPECT_EQ(lit, 0.0) << from_wall;
-    }
-    // In the middle of the penumbra half of the disc is seen.
-    if (std::abs(from_wall - length(altitude)) < 6.0) {
-      EXPECT_NEAR(lit, 0.5, 0.12);
-    }
-  }
-}
-
-// The two probing rays a pixel must not change the picture: against all rays traced one by one.
-TEST(Guidance, ShadowsWithoutPenumbraAreFoundByTwoRays) {
-  const World world = rough_world();
-  const auto camera = make_camera(southward(160, 96, -18.0));
-  GuidanceParameters parameters;
-  parameters.sampling.pixel_samples = 1;
-  parameters.sampling.sky_directions = 0;
-  parameters.sun_direction = glm::normalize(glm::dvec3(-0.7, 0.5, 0.35));
-  const GuidanceBuffers b = trace(world, *camera, parameters);
-  double difference = 0.0;
-  int ground = 0;
-  int partly = 0;
-  const auto places = disc_places(64);
-  for (int y = 0; y < b.height(); ++y) {
-    for (int x = 0; x < b.width(); ++x) {
-      const std::size_t i = b.depth_m.index(x, y);
-      if (b.is_sky(i)) continue;
-      ++ground;
-      partly += b.shadow[i] > 0.F && b.shadow[i] < 1.F ? 1 : 0;
-      const Ray ray = camera->ray({x + 0.5, y + 0.5});
-      Hit hit;
-      world.tracer->intersect({&ray, 1}, {&hit, 1});
-      const glm::dvec3 start = ray.origin + ray.direction * hit.distance_m + 0.05 * hit.facet_normal();
-      const glm::dvec3 side = glm::normalize(glm::cross(parameters.sun_direction, glm::dvec3(0, 0, 1)));
-      const glm::dvec3 above = glm::cross(side, parameters.sun_direction);
-      std::vector<Ray> rays;
-      for (const glm::dvec2 p : places)
-        rays.push_back({start, glm::normalize(parameters.sun_direction + 0.03 * (side * p.x + above * p.y))});
-      std::vector<std::uint8_t> blocked(rays.size());
-      world.tracer->occluded(rays, 1e9, blocked);
-      const auto free = std::count(blocked.begin(), blocked.end(), 0);
-      difference += std::abs(static_cast<double>(free) / 64.0 - b.shadow[i]);
-    }
-  }
-  EXPECT_GT(partly, 100);
-  EXPECT_LT(difference / ground, 0.012);
 }
 
 template <class T>
