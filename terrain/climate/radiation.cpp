@@ -12,6 +12,7 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/math_exact.h"
+#include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "terrain/climate/horizon_sweep.h"
 
@@ -108,6 +109,7 @@ Radiation potential_radiation(const Grid<float>& altitude_m, const MapPlace& pla
   if (place.width != width || place.height != height)
     throw Error(ErrorKind::bug, "radiation",
                 fmt::format("a place of {} × {} cells for a grid of {} × {}", place.width, place.height, width, height));
+  check_memory("radiation", 2.0 * sizeof(float) * static_cast<double>(altitude_m.size()));
   const auto [lowest, highest] = range_of_altitudes(altitude_m);
   const auto [south, north] = range_of_corners(place.latitude_deg, width, height);
   const double grid_north_deg = place.grid_north_deg.at(0.5 * (width - 1), 0.5 * (height - 1));

@@ -98,7 +98,9 @@ TEST(Radiation, IsWhatRaysThatMarchOverTheGroundFind) {
   const std::string path = test::data_folder() + "/innsbruck/innsbruck_utm32_30m.tif";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "needs " << path;
   // The Karwendel: walls of 1000 m. A map of its own, so that rays end where sweeps do.
-  const Grid<float> whole = read_raster({.path = path}).cells;
+  RasterSource source;
+  source.path = path;
+  const Grid<float> whole = read_raster(source).cells;
   constexpr int size = 300;
   Grid<float> ground(size, size);
   for (int y = 0; y < size; ++y)

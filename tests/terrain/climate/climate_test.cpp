@@ -1,0 +1,164 @@
+#include "terrain/climate/climate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "terrain/io/crs.h"
+#include "terrain/io/raster_io.h"
+#include "tests/files.h"
+#include "tests/paths.h"
+
+namespace belvedere {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+// A ridge across the map, 300 m cells.
+Dem make_ridge(int width, int height) {
+  Raster<float> raster;
+  raster.cells = Grid<float>(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      raster.cells(x, y) = static_cast<float>(500.0 + 1500.0 * std::exp(-0.5 * std::pow((x - 0.5 * width) * 0.3 / 6.0, 2.0)));
+  raster.transform = {.origin_x = 600000.0, .origin_y = 5250000.0, .cell_x = 300.0, .cell_y = 300.0};
+  raster.crs = normalize_crs("EPSG:32632");
+  return make_dem(std::move(raster));
+}
+
+// Colder northwards by .7 K a degree, 5 … 6.5 K/km, 800 mm and 100 mm/km.
+ClimateColumn made_up(glm::dvec2 lonlat) {
+  ClimateColumn column;
+  for (std::size_t m = 0; m < 12; ++m) {
+    column.sea_level_c[m] = 12.0 - 0.7 * (lonlat.y - 47.0) + (m >= 5 && m <= 7 ? 8.0 : 0.0);
+    column.lapse_k_per_km[m] = m >= 5 && m <= 7 ? 6.5 : 5.0;
+  }
+  for (std::size_t km = 0; km < 8; ++km) column.rain_mm_at_km[km] = 800.0 + 100.0 * static_cast<double>(km);
+  return column;
+}
+
+RasterSource source_of(const std::string& path) {
+  RasterSource source;
+  source.path = path;
+  return source;
+}
+
+std::string join(const std::vector<std::string>& lines) {
+  std::string all;
+  for (const std::string& line : lines) all += line + "\n";
+  return all;
+}
+
+TEST(Climate, WithoutSourcesItIsTheDefaultAtEachPlace) {
+  const Dem dem = make_ridge(60, 400);
+  const Climate climate = make_climate(dem, {.upslope = {.strength = 0.0}}, made_up, silent_progress());
+  for (const int row : {0, 170, 399}) {
+    const double latitude = climate.place.latitude_deg.at(30, row);
+    const ClimateColumn column = climate.at(30, row);
+    EXPECT_NEAR(column.temperature_c(0, 2000.0), 12.0 - 0.7 * (latitude - 47.0) - 10.0, 1e-3);
+    EXPECT_NEAR(column.temperature_c(6, 2000.0), 20.0 - 0.7 * (latitude - 47.0) - 13.0, 1e-3);
+    EXPECT_NEAR(column.rain_mm(2500.0), 1050.0, 1e-9);
+    EXPECT_NEAR(column.rain_mm(-100.0), 800.0, 1e-9);
+    EXPECT_NEAR(column.rain_mm(9000.0), 1500.0, 1e-9);
+    EXPECT_NEAR(column.summer_share, 0.5, 1e-12);
+  }
+  EXPECT_THAT(join(climate.sources), AllOf(HasSubstr("temperature: by latitude"), HasSubstr("rain: by latitude")));
+}
+
+TEST(Climate, WindSharesRainOutOnLargeMapsOrWhereItIsAskedFor) {
+  // 60 km wide: westerlies of themselves.
+  const Climate large = make_climate(make_ridge(200, 60), {}, made_up, silent_progress());
+  EXPECT_EQ(large.wind_from_deg, 270.0);
+  EXPECT_GT(large.at(80, 30).rain_mm(1000.0), 1.2 * large.at(120, 30).rain_mm(1000.0));
+  const Climate turned = make_climate(make_ridge(200, 60), {.wind_from_deg = 90.0}, made_up, silent_progress());
+  EXPECT_LT(1.2 * turned.at(80, 30).rain_mm(1000.0), turned.at(120, 30).rain_mm(1000.0));
+  const Climate small = make_climate(make_ridge(60, 60), {}, made_up, silent_progress());
+  EXPECT_TRUE(small.rain_share.empty());
+  EXPECT_FALSE(make_climate(make_ridge(60, 60), {.wind_from_deg = 200.0}, made_up, silent_progress()).rain_share.empty());
+  EXPECT_EQ(usual_wind_from_deg(-3.0), 90.0);
+  EXPECT_EQ(usual_wind_from_deg(-45.0), 270.0);
+}
+
+TEST(Climate, ARasterOfMonthsIsMetAtItsOwnAltitudes) {
+  // A raster that is the truth of another climate at this ground: 6 K/km, in tenths of a kelvin.
+  const Dem dem = make_ridge(200, 60);
+  const test::Folder folder;
+  Raster<float> month{Grid<float>(200, 60), dem.transform, dem.crs};
+  for (std::size_t i = 0; i < month.cells.size(); ++i) month.cells[i] = 10.0F * (273.15F + 15.0F - 6e-3F * dem.altitude_m[i]);
+  write_raster(folder / "month.tif", month);
+  std::string vrt =
+      "<VRTDataset rasterXSize=\"200\" rasterYSize=\"60\"><SRS>EPSG:32632</SRS><GeoTransform>600000,300,0,5250000,0,-300</GeoTransform>";
+  for (int band = 1; band <= 12; ++band)
+    vrt += "<VRTRasterBand dataType=\"Float32\" band=\"" + std::to_string(band) +
+           "\"><SimpleSource><SourceFilename "
+           "relativeToVRT=\"1\">month.tif</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand>";
+  ClimateParameters parameters;
+  parameters.temperature = source_of(folder.write("months.vrt", vrt + "</VRTDataset>"));
+  parameters.temperature_factor = 0.1;
+  const Climate climate = make_climate(dem, parameters, made_up, silent_progress());
+  for (int y = 5; y < 55; y += 7)
+    for (int x = 5; x < 195; x += 11) {
+      const ClimateColumn column = climate.at(x, y);
+      EXPECT_NEAR(column.temperature_c(3, dem.altitude_m(x, y)), 15.0 - 6e-3 * dem.altitude_m(x, y), 0.15) << x << ' ' << y;
+      EXPECT_NEAR(column.lapse_k_per_km[3], 6.0, 0.1);
+    }
+  EXPECT_THAT(join(climate.sources), HasSubstr("in kelvin"));
+  parameters.temperature = source_of(folder / "month.tif");
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_climate(dem, parameters, made_up, silent_progress()); }),
+              HasSubstr("12, the means"));
+  // Rain of the year in one band.
+  for (float& value : month.cells) value = 640.0F;
+  write_raster(folder / "rain.tif", month);
+  const Climate wet = make_climate(dem, {.rain = source_of(folder / "rain.tif")}, made_up, silent_progress());
+  EXPECT_NEAR(wet.at(20, 30).rain_mm(dem.altitude_m(20, 30)), 640.0, 5.0);
+}
+
+TEST(Climate, StationsHaveTheFirstWordAndTellHowSureTheyAre) {
+  const std::string folder = test::data_folder() + "/oetztal/";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "needs " << folder;
+  DemParameters where;
+  where.sources = {source_of(folder + "srtm_oetztal.tif")};
+  const Dem dem = read_dem(where, silent_progress());
+  const Climate climate = make_climate(dem, {.stations = folder + "HISTALP_oetztal.nc"}, made_up, silent_progress());
+  EXPECT_THAT(join(climate.sources), AllOf(HasSubstr("falls 5.74 K/km"), HasSubstr("5.5"), HasSubstr("resampled stations"),
+                                           HasSubstr("mm a km higher"), HasSubstr("wind from 270°")));
+  const ClimateColumn middle = climate.at(0.5 * dem.width(), 0.5 * dem.height());
+  double year = 0.0;
+  for (std::size_t m = 0; m < 12; ++m) year += middle.temperature_c(m, 1938.0) / 12.0;
+  EXPECT_NEAR(year, 2.4, 1.0) << "Obergurgl, 1938 m, has 2.6 °C";
+  EXPECT_NEAR(middle.rain_mm(1938.0), 900.0, 350.0);
+}
+
+TEST(Climate, MeansOfTheYearTakeTheirCourseFromTheDefaultAndTheSceneHasTheLastWordOnTheLapse) {
+  const test::Folder folder;
+  std::string text = "east,north,altitude,t_year\n";
+  for (int i = 0; i < 9; ++i)
+    text += "610000,5240000," + std::to_string(400 + 250 * i) + "," + std::to_string(9.0 - 0.006 * 250 * i) + "\n";
+  ClimateParameters parameters;
+  parameters.stations = folder.write("s.csv", text);
+  const Dem dem = make_ridge(60, 60);
+  const ClimateColumn column = make_climate(dem, parameters, made_up, silent_progress()).at(30, 30);
+  double year = 0.0;
+  double lapse = 0.0;
+  for (std::size_t m = 0; m < 12; ++m) {
+    year += column.temperature_c(m, 1400.0) / 12.0;
+    lapse += column.lapse_k_per_km[m] / 12.0;
+  }
+  EXPECT_NEAR(year, 3.0, 1e-6);
+  EXPECT_NEAR(lapse, 6.0, 1e-6);
+  EXPECT_NEAR(column.sea_level_c[6] - column.sea_level_c[0], 8.0, 1e-9);
+  parameters.lapse_k_per_km = 4.0;
+  const ClimateColumn said = make_climate(dem, parameters, made_up, silent_progress()).at(30, 30);
+  EXPECT_EQ(said.lapse_k_per_km[0], 4.0);
+  parameters.lapse_k_per_km = 40.0;
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_climate(dem, parameters, made_up, silent_progress()); }),
+              HasSubstr("climate.lapse"));
+}
+
+}  // namespace
+}  // namespace belvedere
