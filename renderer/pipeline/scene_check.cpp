@@ -17,6 +17,7 @@
 #include "renderer/world/fold_check.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/lit_picture.h"
+#include "renderer/world/scene_climate.h"
 #include "renderer/world/scene_terrain.h"
 #include "terrain/io/raster_io.h"
 
@@ -94,6 +95,7 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cach
   report.cells_high = sight.dem->height();
   report.cell_m = sight.dem->cell_m();
   report.land_cover = std::move(sight.areas);
+  if (names_climate(scene.scene)) make_scene_climate(scene, *sight.dem, progress);
 
   std::array<double, land_cover_class_count> count{};
   for (const LandCoverClass id : sight.classes) count[static_cast<std::size_t>(id)] += 1.0;

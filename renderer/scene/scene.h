@@ -16,6 +16,7 @@
 #include "renderer/trace/sampling.h"
 #include "renderer/trace/sun.h"
 #include "renderer/trace/tracer.h"
+#include "terrain/climate/climate.h"
 #include "terrain/cover/land_cover_patches.h"
 #include "terrain/deform/deform.h"
 #include "terrain/generalize/generalize.h"
@@ -66,6 +67,18 @@ struct SceneLandCover {
   std::optional<LandCoverClass> unknown;
   std::optional<LandCoverClass> nodata;
   PatchParameters patches;  // generalization: small patches go, those that matter stay
+};
+
+struct SceneClimate {       // see terrain/climate/climate.h; where nothing is said, the climate of the place
+  std::string stations;     // a table of stations or a history of the climate; empty: none
+  std::string temperature;  // raster of 12 months; empty: none
+  double temperature_factor = ClimateParameters{}.temperature_factor;
+  std::string rain;  // raster of 12 months or of the year; empty: none
+  std::optional<double> lapse_k_per_km;
+  std::optional<double> wind_from_deg;
+  std::optional<double> latitude_deg;  // of a terrain without CRS
+
+  bool operator==(const SceneClimate&) const = default;
 };
 
 struct SceneGeneralize {
@@ -176,6 +189,7 @@ struct Scene {
   std::uint64_t seed = 1;
   SceneTerrain terrain;
   SceneLandCover land_cover;
+  SceneClimate climate;
   SceneGeneralize generalize;
   SceneDeform deform;
   SceneCamera camera;

@@ -17,6 +17,7 @@ constexpr double largest_seed = 9007199254740991.0;  // 2⁵³ - 1: what JSON an
 // The rows of each part of a scene, in a file of the part's name.
 std::vector<SceneSection> make_terrain_sections();
 std::vector<SceneSection> make_land_cover_sections();
+std::vector<SceneSection> make_climate_sections();
 std::vector<SceneSection> make_generalize_sections();
 std::vector<SceneSection> make_deform_sections();
 std::vector<SceneSection> make_camera_sections();  // and the sun

@@ -53,6 +53,7 @@ double default_of(const std::string& name) {
 // Where a stage's default is changed, that of the scene follows: each is written once.
 TEST(SceneTable, DefaultsAreThoseOfTheStages) {
   const std::map<std::string, double> of_stages = {
+      {"climate.temperature_factor", ClimateParameters{}.temperature_factor},
       {"air.haze", BaseParameters{}.air.haze},
       {"air.from_m", BaseParameters{}.air.from_m},
       {"air.scale_m", BaseParameters{}.air.scale_m},
