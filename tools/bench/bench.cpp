@@ -16,6 +16,7 @@
 
 namespace belvedere::bench {
 
+std::vector<Measurement> bench_climate(const Options&);
 std::vector<Measurement> bench_deform(const Options&);
 std::vector<Measurement> bench_files(const Options&);
 std::vector<Measurement> bench_generalize(const Options&);
@@ -31,6 +32,7 @@ const std::vector<Section>& sections() {
       {"guidance", "a whole picture's guidance buffers", &bench_guidance},
       {"generalize", "generalization of the terrain", &bench_generalize},
       {"deform", "bending the terrain, and moving pieces of it", &bench_deform},
+      {"climate", "the sun of a year over the terrain, and rain driven up it by wind", &bench_climate},
       {"synthesis", "painting by example, with one guide and with seven", &bench_synthesis},
       {"files", "writing and reading TIFF, PNG and OpenEXR", &bench_files},
   };
