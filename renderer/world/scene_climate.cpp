@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/error.h"
 #include "base/math_exact.h"
 
 namespace belvedere {
@@ -24,6 +25,9 @@ ClimateColumn plain_climate(glm::dvec2 lonlat_deg) {
 
 Climate make_scene_climate(const LoadedScene& loaded, const Dem& dem, const DefaultClimate& fallback, Progress& progress) {
   const SceneClimate& settings = loaded.scene.climate;
+  if (dem.crs.empty() && !settings.latitude_deg)
+    throw Error(ErrorKind::usage, "climate.latitude_deg", "a terrain without coordinate system does not say how far north it lies",
+                "its latitude, -90 … 90");
   const auto raster = [&](const std::string& file) -> std::optional<RasterSource> {
     if (file.empty()) return {};
     RasterSource source;

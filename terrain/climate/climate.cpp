@@ -78,10 +78,9 @@ class Maker {
     const auto require = [](bool good, const char* where, double found, const char* allowed) {
       if (!good) throw Error(ErrorKind::usage, where, fmt::format("{}", found), allowed);
     };
-    require(p_.temperature_factor >= 0.001 && p_.temperature_factor <= 1000.0, "climate.temperature_factor", p_.temperature_factor,
-            "0.001 … 1000");
+    require(p_.temperature_factor >= 0.001 && p_.temperature_factor <= 1000.0, "temperature_factor", p_.temperature_factor, "0.001 … 1000");
     if (p_.lapse_k_per_km)
-      require(*p_.lapse_k_per_km >= least_lapse && *p_.lapse_k_per_km <= largest_lapse, "climate.lapse_k_per_km", *p_.lapse_k_per_km,
+      require(*p_.lapse_k_per_km >= least_lapse && *p_.lapse_k_per_km <= largest_lapse, "lapse_k_per_km", *p_.lapse_k_per_km,
               "-5 … 12 K/km");
     climate_.place = make_map_place(dem.transform, dem.crs, dem.width(), dem.height(), p_.latitude_deg);
     const MapPlace& place = climate_.place;

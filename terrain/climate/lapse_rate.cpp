@@ -82,7 +82,7 @@ LapseRate fit_lapse_rate(const std::vector<double>& altitude_m, const std::vecto
     if (!std::isnan(altitude_m[i]) && !std::isnan(temperature_c[i])) samples.push_back({altitude_m[i], temperature_c[i]});
   const std::optional<Line> line = samples.size() < 3 ? std::nullopt : theil_sen(samples);
   if (!line)
-    throw Error(ErrorKind::input, "climate.stations", fmt::format("{} stations with a temperature, or all at one altitude", samples.size()),
+    throw Error(ErrorKind::input, "stations", fmt::format("{} stations with a temperature, or all at one altitude", samples.size()),
                 "at least 3 stations, some of them 50 m higher than others");
   LapseRate rate{.sea_level_c = line->at_zero, .k_per_km = -1000.0 * line->per_m, .stations = static_cast<int>(samples.size())};
 

@@ -32,8 +32,7 @@ MapPlace make_map_place(const GeoTransform& transform, const std::string& crs, i
   place.height = height;
   if (crs.empty()) {
     if (!latitude_deg)
-      throw Error(ErrorKind::usage, "climate.latitude_deg", "a terrain without CRS does not say how high the sun stands",
-                  "its latitude, -90 … 90");
+      throw Error(ErrorKind::usage, "latitude", "a terrain without CRS does not say how high the sun stands", "its latitude, -90 … 90");
     place.cell_m = {transform.cell_x, transform.cell_y};
     place.latitude_deg.at_first = *latitude_deg;
     return place;

@@ -93,7 +93,7 @@ RainPlane fit_rain(const std::vector<Station>& all, int bootstrap_samples) {
   std::vector<Station> stations;
   for (const Station& station : all)
     if (!std::isnan(station.rain_mm)) stations.push_back(station);
-  if (stations.empty()) throw Error(ErrorKind::input, "climate.stations", "no station knows its rain", "a column rain_mm with numbers");
+  if (stations.empty()) throw Error(ErrorKind::input, "stations", "no station knows its rain", "a column rain_mm with numbers");
   RainPlane plane;
   plane.stations = static_cast<int>(stations.size());
   const auto count = static_cast<double>(stations.size());

@@ -157,7 +157,7 @@ TEST(Climate, MeansOfTheYearTakeTheirCourseFromTheDefaultAndTheSceneHasTheLastWo
   EXPECT_EQ(said.lapse_k_per_km[0], 4.0);
   parameters.lapse_k_per_km = 40.0;
   EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_climate(dem, parameters, made_up, silent_progress()); }),
-              HasSubstr("climate.lapse"));
+              HasSubstr("lapse_k_per_km"));
 }
 
 }  // namespace
