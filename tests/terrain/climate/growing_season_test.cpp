@@ -1,0 +1,143 @@
+#include "terrain/climate/growing_season.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "terrain/climate/zonal_climate.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// Monthly means, in closed form, of mean + swing · cos(2π · waves · (t - phase)), t in years.
+Months means_of_wave(double mean, double swing, int waves, double phase) {
+  Months months{};
+  for (std::size_t m = 0; m < 12; ++m) {
+    const double w = 2.0 * pi * waves;
+    const double from = static_cast<double>(m) / 12.0 - phase;
+    months[m] = mean + swing * 12.0 / w * (std::sin(w * (from + 1.0 / 12.0)) - std::sin(w * from));
+  }
+  return months;
+}
+
+Months constant(double celsius) {
+  Months months{};
+  months.fill(celsius);
+  return months;
+}
+
+TEST(DailyCourse, IsTheWaveWhoseMeansWereGiven) {
+  for (const int waves : {1, 2, 5}) {
+    const auto days = daily_c(means_of_wave(3.0, 9.0, waves, 0.07));
+    for (std::size_t d = 0; d < 365; d += 7) {
+      const double t = (static_cast<double>(d) + 0.5) / 365.0 - 0.07;
+      EXPECT_NEAR(days[d], 3.0 + 9.0 * std::cos(2.0 * pi * waves * t), 1e-9) << waves << " " << d;
+    }
+  }
+}
+
+TEST(GrowingSeason, OfAWaveIsItsClosedForm) {
+  // Of 10 · cos above .9: cos θ = .09 on each side; the mean is 10 · sin θ / θ.
+  const GrowingSeason season = growing_season(means_of_wave(0.0, 10.0, 1, 0.55));
+  const double half = std::acos(0.09);
+  EXPECT_NEAR(season.days, 365.0 * half / pi, 0.02);
+  EXPECT_NEAR(season.mean_c, 10.0 * std::sin(half) / half, 2e-3);
+}
+
+TEST(GrowingSeason, WithoutSeasons) {
+  EXPECT_NEAR(growing_season(constant(7.0)).days, 365.0, 1e-9);
+  EXPECT_NEAR(growing_season(constant(7.0)).mean_c, 7.0, 1e-9);
+  EXPECT_EQ(growing_season(constant(0.5)).days, 0.0);
+  EXPECT_EQ(growing_season(constant(0.5)).mean_c, 0.0);
+}
+
+TEST(Treeline, ExcessCountsKelvin) {
+  EXPECT_NEAR(treeline_excess_k(constant(6.4)), 0.0, 1e-5);
+  EXPECT_NEAR(treeline_excess_k(constant(1.4)), 5.0, 1e-5);
+  EXPECT_NEAR(treeline_excess_k(constant(26.4)), -20.0, 1e-5);
+  const Months wave = means_of_wave(-2.0, 14.0, 1, 0.55);
+  Months colder = wave;
+  for (double& t : colder) t -= 3.25;
+  EXPECT_NEAR(treeline_excess_k(colder) - treeline_excess_k(wave), 3.25, 1e-5);
+}
+
+TEST(Treeline, ShortSummersNeedTheirDays) {
+  // Summers of 14 K above a cold year: warm enough, but shorter than 94 days, so that days decide and not the mean.
+  const Months wave = means_of_wave(-31.0, 45.0, 1, 0.55);
+  const double excess = treeline_excess_k(wave);
+  Months at_line = wave;
+  for (double& t : at_line) t += excess;
+  const GrowingSeason season = growing_season(at_line);
+  EXPECT_NEAR(season.days, 94.0, 0.01);
+  EXPECT_GT(season.mean_c, 6.4);
+}
+
+TEST(Treeline, IsWhereTheExcessIsNone) {
+  PlaceClimate place;
+  place.sea_level_c = means_of_wave(11.0, 10.0, 1, 0.55);
+  place.lapse_k_per_km.fill(5.5);
+  const double line = treeline_m(place);
+  EXPECT_NEAR(treeline_excess_k(monthly_c(place, line)), 0.0, 1e-4);
+  // A kelvin is worth 1000 / 5.5 m.
+  EXPECT_NEAR(treeline_m(place, 1.0) - line, 1000.0 / 5.5, 0.05);
+  // Without seasons: 6.4 °C.
+  place.sea_level_c = constant(28.4);
+  EXPECT_NEAR(treeline_m(place), 4000.0, 0.05);
+}
+
+TEST(Treeline, SunnySlopesAreHigher) {
+  EXPECT_DOUBLE_EQ(radiation_warmth_k(1.0, SlopeWarmth{}.trees_k), 0.0);
+  EXPECT_DOUBLE_EQ(radiation_warmth_k(1.25, 2.0), 0.5);
+  EXPECT_DOUBLE_EQ(radiation_warmth_k(0.5, 2.0), -1.0);
+}
+
+TEST(Dryness, KnowsWoodsFromDeserts) {
+  const auto at = [](double longitude, double latitude, double altitude_m) {
+    const PlaceClimate place = default_climate(longitude, latitude);
+    return dryness(monthly_c(place, altitude_m), rain_mm(place, altitude_m));
+  };
+  EXPECT_GT(at(8.6, 47.4, 600.0).forest, 0.9);      // Zürich
+  EXPECT_GT(at(-60.0, -3.1, 70.0).forest, 0.9);     // Manaus
+  EXPECT_GT(at(-122.3, 47.5, 100.0).forest, 0.9);   // Seattle
+  EXPECT_GT(at(129.7, 62.0, 200.0).forest, 0.5);    // Yakutsk: larch woods on 235 mm
+  EXPECT_LT(at(-104.9, 39.8, 1600.0).forest, 0.6);  // Denver
+  EXPECT_LT(at(32.9, 40.0, 900.0).forest, 0.5);     // Ankara
+  EXPECT_EQ(at(31.4, 30.1, 80.0).forest, 0.0);      // Cairo
+  EXPECT_GT(at(31.4, 30.1, 80.0).desert, 0.9);
+  EXPECT_EQ(at(8.6, 47.4, 600.0).desert, 0.0);
+}
+
+TEST(Dryness, IsHoldridgesRatio) {
+  const Dryness dry = dryness(constant(10.0), 589.3);
+  EXPECT_NEAR(dry.biotemperature_c, 10.0, 1e-12);
+  EXPECT_NEAR(dry.thirst, 1.0, 1e-12);
+  EXPECT_NEAR(dry.martonne, 589.3 / 20.0, 1e-9);
+  EXPECT_EQ(dry.forest, 1.0);
+}
+
+TEST(Dryness, WoodsBeginAboveTheSteppe) {
+  PlaceClimate place;
+  place.sea_level_c = constant(22.0);
+  place.lapse_k_per_km.fill(6.0);
+  place.rain_mm_at_km.fill(500.0);
+  const double lower = lower_treeline_m(place);
+  // Half of the ground is wood where the ratio is 1.4.
+  EXPECT_NEAR(58.93 * (22.0 - 0.006 * lower) / 500.0, 1.4, 1e-3);
+  place.rain_mm_at_km.fill(3000.0);
+  EXPECT_EQ(lower_treeline_m(place), -2000.0);
+  place.rain_mm_at_km.fill(50.0);
+  EXPECT_EQ(lower_treeline_m(place), 9000.0);
+}
+
+TEST(HighestAltitude, IsFoundToAMillimetre) {
+  EXPECT_NEAR(highest_m([](double m) { return m < 1234.567; }), 1234.567, 2e-3);
+  EXPECT_NEAR(highest_m([](double m) { return m < -50.0 || (m > 3000.0 && m < 3333.3); }), 3333.3, 2e-3);
+  EXPECT_EQ(highest_m([](double) { return true; }), 9000.0);
+  EXPECT_EQ(highest_m([](double) { return false; }), -2000.0);
+}
+
+}  // namespace
+}  // namespace belvedere

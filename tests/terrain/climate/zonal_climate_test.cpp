@@ -1,0 +1,192 @@
+#include "terrain/climate/zonal_climate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "terrain/climate/growing_season.h"
+#include "terrain/climate/snow_balance.h"
+#include "tests/terrain/climate/published_lines.h"
+
+namespace belvedere {
+namespace {
+
+using test::published_lines;
+using test::PublishedLine;
+using testing::HasSubstr;
+
+struct Misses {
+  double rms_m = 0.0;
+  double mean_m = 0.0;
+};
+
+template <class F>
+Misses misses_of(const std::vector<PublishedLine>& lines, F&& line_of) {
+  Misses misses;
+  for (const PublishedLine& line : lines) {
+    const double found = line_of(line);
+    const double miss = found - line.altitude_m;
+    misses.rms_m += miss * miss;
+    misses.mean_m += miss;
+  }
+  const auto n = static_cast<double>(lines.size());
+  misses = {std::sqrt(misses.rms_m / n), misses.mean_m / n};
+  return misses;
+}
+
+double km_between(double lat_a, double lon_a, double lat_b, double lon_b) {
+  const double c = std::sin(to_radians(lat_a)) * std::sin(to_radians(lat_b)) +
+                   std::cos(to_radians(lat_a)) * std::cos(to_radians(lat_b)) * std::cos(to_radians(lon_a - lon_b));
+  return 6371.0 * std::acos(std::clamp(c, -1.0, 1.0));
+}
+
+// Stations farther than that from a place.
+std::vector<ClimateStation> stations_away(const PublishedLine& line, double least_km) {
+  std::vector<ClimateStation> away;
+  for (const ClimateStation& s : read_climate_stations())
+    if (km_between(s.latitude_deg, s.longitude_deg, line.latitude_deg, line.longitude_deg) > least_km) away.push_back(s);
+  return away;
+}
+
+TEST(ZonalClimate, TreelinesAreThePublishedOnes) {
+  const std::vector<PublishedLine> lines = published_lines("treelines");
+  ASSERT_GE(lines.size(), 27U);
+  const Misses misses =
+      misses_of(lines, [](const PublishedLine& l) { return treeline_m(default_climate(l.longitude_deg, l.latitude_deg)); });
+  EXPECT_LT(misses.rms_m, 300.0);
+  EXPECT_LT(std::abs(misses.mean_m), 50.0);
+}
+
+TEST(ZonalClimate, SnowLinesAreThePublishedOnes) {
+  const std::vector<PublishedLine> lines = published_lines("snow_lines");
+  ASSERT_GE(lines.size(), 30U);
+  const Misses misses =
+      misses_of(lines, [](const PublishedLine& l) { return snow_line_m(default_climate(l.longitude_deg, l.latitude_deg)); });
+  EXPECT_LT(misses.rms_m, 300.0);
+  EXPECT_LT(std::abs(misses.mean_m), 50.0);
+}
+
+// No line hangs on a station beside it.
+TEST(ZonalClimate, LinesHoldWithoutTheStationsNearThem) {
+  const auto every_third = [](std::vector<PublishedLine> lines) {
+    std::vector<PublishedLine> some;
+    for (std::size_t k = 0; k < lines.size(); k += 3) some.push_back(lines[k]);
+    return some;
+  };
+  const auto climate_without = [](const PublishedLine& l) {
+    return place_climate(make_climate_field(stations_away(l, 100.0)), l.longitude_deg, l.latitude_deg);
+  };
+  EXPECT_LT(
+      misses_of(every_third(published_lines("treelines")), [&](const PublishedLine& l) { return treeline_m(climate_without(l)); }).rms_m,
+      330.0);
+  EXPECT_LT(
+      misses_of(every_third(published_lines("snow_lines")), [&](const PublishedLine& l) { return snow_line_m(climate_without(l)); }).rms_m,
+      450.0);
+}
+
+// A lone cone of 3800 m at 35° N keeps no snow on its open slopes; neither does a desert range.
+TEST(ZonalClimate, NoSnowStaysOnASubtropicalVolcano) {
+  SnowParameters open;
+  open.gathering = 1.0;
+  EXPECT_GT(snow_line_m(default_climate(138.73, 35.36), open), 3776.0);
+  EXPECT_GT(snow_line_m(default_climate(-111.68, 35.33)), 3851.0);
+}
+
+TEST(ZonalClimate, StationsAreToldByTheOthers) {
+  const std::vector<ClimateStation> stations = read_climate_stations();
+  ASSERT_GT(stations.size(), 400U);
+  // Every tenth is left out and told by the rest, at its own altitude.
+  double july = 0.0;
+  double rain = 0.0;
+  int count = 0;
+  for (std::size_t fold = 0; fold < 3; ++fold) {
+    std::vector<ClimateStation> kept;
+    for (std::size_t k = 0; k < stations.size(); ++k)
+      if (k % 10 != fold) kept.push_back(stations[k]);
+    const ClimateField field = make_climate_field(kept);
+    for (std::size_t k = fold; k < stations.size(); k += 10) {
+      const ClimateStation& s = stations[k];
+      if (s.rain_mm < 100.0 || std::abs(s.latitude_deg) > 75.0) continue;
+      const PlaceClimate place = place_climate(field, s.longitude_deg, s.latitude_deg);
+      july += std::pow(monthly_c(place, s.altitude_m)[6] - s.season_c[2], 2.0);
+      rain += std::pow(std::log(rain_mm(place, s.altitude_m) / s.rain_mm), 2.0);
+      ++count;
+    }
+  }
+  EXPECT_LT(std::sqrt(july / count), 2.5);
+  EXPECT_LT(std::exp(std::sqrt(rain / count)), 2.1);
+}
+
+TEST(ZonalClimate, IsSmoothOverTheGlobe) {
+  // Across the date line, round the poles, and in steps of a tenth of a degree anywhere.
+  const auto near = [](const PlaceClimate& a, const PlaceClimate& b, double kelvin) {
+    for (std::size_t m = 0; m < 12; ++m) EXPECT_NEAR(a.sea_level_c[m], b.sea_level_c[m], kelvin);
+    for (std::size_t k = 0; k < 8; ++k)
+      EXPECT_NEAR(a.rain_mm_at_km[k], b.rain_mm_at_km[k], 1e-3 + kelvin * (2.0 + 0.1 * a.rain_mm_at_km[k]));
+  };
+  near(default_climate(180.0, 66.0), default_climate(-180.0, 66.0), 1e-6);
+  near(default_climate(10.0, 90.0), default_climate(-150.0, 90.0), 1e-6);
+  near(default_climate(10.0, -90.0), default_climate(-150.0, -90.0), 1e-6);
+  for (double latitude = -85.0; latitude < 86.0; latitude += 19.0)
+    for (double longitude = -177.0; longitude < 180.0; longitude += 43.0)
+      near(default_climate(longitude, latitude), default_climate(longitude + 0.1, latitude + 0.1), 1.5);
+}
+
+TEST(ZonalClimate, IsSoundEverywhere) {
+  for (double latitude = -90.0; latitude <= 90.0; latitude += 15.0)
+    for (double longitude = -180.0; longitude < 180.0; longitude += 30.0) {
+      const PlaceClimate place = default_climate(longitude, latitude);
+      for (std::size_t m = 0; m < 12; ++m) {
+        EXPECT_GT(place.sea_level_c[m], -75.0) << latitude << " " << longitude;
+        EXPECT_LT(place.sea_level_c[m], 55.0) << latitude << " " << longitude;
+      }
+      for (const double rain : place.rain_mm_at_km) {
+        EXPECT_GE(rain, 0.0);
+        EXPECT_LT(rain, 8000.0);
+      }
+      EXPECT_LE(snow_line_m(place, {1.0, 0.0}), 9000.0);
+    }
+}
+
+TEST(ZonalClimate, MonthsAndRainFollowTheLines) {
+  PlaceClimate place;
+  place.sea_level_c.fill(20.0);
+  place.lapse_k_per_km.fill(6.0);
+  place.rain_mm_at_km = {1000.0, 1200.0, 1600.0, 1600.0, 1600.0, 1600.0, 1600.0, 800.0};
+  place.summer_share = 0.7;
+  EXPECT_DOUBLE_EQ(monthly_c(place, 2500.0)[4], 5.0);
+  EXPECT_NEAR(rain_mm(place, 1250.0), 1300.0, 1e-9);
+  EXPECT_NEAR(rain_mm(place, -400.0), 1000.0, 1e-9);
+  EXPECT_NEAR(rain_mm(place, 8800.0), 800.0, 1e-9);
+  const Months rain = monthly_rain_mm(place, 1000.0);
+  double year = 0.0;
+  double summer = 0.0;
+  for (std::size_t m = 0; m < 12; ++m) {
+    year += rain[m];
+    if (m >= 3 && m < 9) summer += rain[m];
+  }
+  EXPECT_NEAR(year, 1200.0, 1e-9);
+  EXPECT_NEAR(summer, 0.7 * 1200.0, 1e-9);
+}
+
+TEST(ZonalClimate, BadStationsNameTheirLine) {
+  const auto message_of = [](const std::string& text) {
+    try {
+      climate_stations_from_toml(text, "s.toml");
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message_of("version = 1\nstations = [\n[\"A\", 95.0, 0, 0, 1, 2, 3, 2, 500, 0.5]]"), HasSubstr("s.toml:3"));
+  EXPECT_THAT(message_of("version = 1\nstations = [\n[\"A\", 45.0, 0]]"), HasSubstr("s.toml:3"));
+  EXPECT_THAT(message_of("version = 2\nstations = []"), HasSubstr("version = 1"));
+  EXPECT_THROW(make_climate_field({}), Error);
+}
+
+}  // namespace
+}  // namespace belvedere
