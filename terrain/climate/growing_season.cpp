@@ -4,17 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <vector>
 
-#include "base/math.h"
 #include "base/math_exact.h"
-#include "terrain/climate/zonal_climate.h"
 
 namespace belvedere {
 namespace {
-
-constexpr double lowest_m = -2000.0;
-constexpr double greatest_m = 9000.0;
 
 using DayWeights = std::array<std::array<double, 12>, 365>;
 
@@ -86,51 +80,20 @@ double treeline_excess_k(const Months& months, const TreelineParameters& paramet
 }
 
 double highest_m(const std::function<bool(double)>& holds) {
-  double no = greatest_m;
+  double no = highest_line_m;
   if (holds(no)) return no;
   double yes = no;
-  while (yes > lowest_m) {
+  while (yes > lowest_line_m) {
     yes -= 100.0;
     if (holds(yes)) break;
     no = yes;
   }
-  if (no <= lowest_m) return lowest_m;
+  if (no <= lowest_line_m) return lowest_line_m;
   while (no - yes > 1e-3) {
     const double middle = 0.5 * (no + yes);
     (holds(middle) ? yes : no) = middle;
   }
   return yes;
-}
-
-double treeline_m(const PlaceClimate& climate, double warmer_k, const TreelineParameters& parameters) {
-  return highest_m([&](double m) {
-    const GrowingSeason season = season_of(daily_c(monthly_c(climate, m)), warmer_k, parameters.limit_c);
-    return season.days >= parameters.least_days && season.mean_c >= parameters.least_mean_c;
-  });
-}
-
-double radiation_warmth_k(double share, double kelvin_a_share) { return (std::clamp(share, 0.0, 1.6) - 1.0) * kelvin_a_share; }
-
-Dryness dryness(const Months& months, double rain_mm) {
-  Dryness dry;
-  double mean = 0.0;
-  for (const double t : months) {
-    dry.biotemperature_c += std::clamp(t, 0.0, 30.0) / 12.0;
-    mean += t / 12.0;
-  }
-  dry.thirst = std::min(100.0, 58.93 * dry.biotemperature_c / std::max(rain_mm, 1.0));
-  dry.martonne = mean > -9.0 ? rain_mm / (mean + 10.0) : 0.0;
-  // Holdridge's dry forests lie between 1 and 2, his steppe and scrub between 2 and 4, deserts beyond; woods thin out over these.
-  dry.forest = 1.0 - smoothstep(1.0, 1.8, dry.thirst);
-  dry.desert = smoothstep(3.5, 8.0, dry.thirst);
-  return dry;
-}
-
-double lower_treeline_m(const PlaceClimate& climate) {
-  const double top = treeline_m(climate);
-  const auto too_dry = [&](double m) { return dryness(monthly_c(climate, m), rain_mm(climate, m)).forest < 0.5; };
-  if (too_dry(top)) return greatest_m;
-  return highest_m([&](double m) { return m < top && too_dry(m); });
 }
 
 }  // namespace belvedere

@@ -10,7 +10,6 @@
 #include "base/embedded.h"
 #include "base/error.h"
 #include "base/math_exact.h"
-#include "terrain/climate/growing_season.h"
 
 // Universal kriging (Cressie 1993): a value is a trend of latitude and altitude, and a sum over stations of how akin the place is to each.
 // Kinship falls with distance as 1 / (1 + d² / 2L²) (rational quadratic), which is made of sums and quotients alone, is smooth at the

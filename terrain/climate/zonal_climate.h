@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "terrain/climate/growing_season.h"
+
 namespace belvedere {
 
 // The climate of any place on Earth, where nothing better is known, from some 440 places whose climate is (data/climate/stations.toml).
 // docs/life_zones.md says how it is made and how far it is right.
-
-using Months = std::array<double, 12>;  // January … December
 
 struct ClimateStation {
   std::string name;

@@ -8,7 +8,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
-#include "terrain/climate/growing_season.h"
+#include "terrain/climate/life_zones.h"
 #include "terrain/climate/snow_balance.h"
 #include "tests/terrain/climate/published_lines.h"
 
