@@ -1,0 +1,358 @@
+#include "terrain/shape/sea.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "base/filter.h"
+#include "base/parallel.h"
+
+namespace belvedere {
+namespace {
+
+using Mask = Grid<std::uint8_t>;
+
+constexpr float farthest_level_m = 1.5F;  // of the sea from the datum: tides, and what geoids differ by
+constexpr int fine = 2;                   // radii of means, cells
+constexpr int wide = 12;
+// By which wide means of level water differ over 2 · wide cells: noise of 2 m leaves .065 m rms; ground that rises 1 in 3600 (30 m cells)
+// more.
+constexpr float wide_range_m = 0.2F;
+
+// Mean over a (2 radius + 1)² window, borders replicated: rows, then columns, each by a running sum in double that starts anew every row
+// (column), so that threads do not matter.
+Grid<float> box_mean(const Grid<float>& values, int radius) {
+  const int width = values.width();
+  const int height = values.height();
+  const double share = 1.0 / (2 * radius + 1);
+  Grid<float> rows(width, height);
+  parallel_rows(height, [&](int y) {
+    double sum = 0.0;
+    for (int x = -radius; x <= radius; ++x) sum += values.clamped(x, y);
+    for (int x = 0; x < width; ++x) {
+      rows(x, y) = static_cast<float>(sum * share);
+      sum += values.clamped(x + radius + 1, y) - static_cast<double>(values.clamped(x - radius, y));
+    }
+  });
+  // Columns in strips, whose sums lie beside each other.
+  Grid<float> mean(width, height);
+  constexpr int strip = 256;
+  parallel_ranges((width + strip - 1) / strip, 1, [&](int begin, int end) {
+    for (int part = begin; part != end; ++part) {
+      const int x0 = part * strip;
+      const int count = std::min(strip, width - x0);
+      std::array<double, strip> sum{};
+      for (int y = -radius; y <= radius; ++y)
+        for (int k = 0; k < count; ++k) sum[static_cast<std::size_t>(k)] += rows(x0 + k, std::clamp(y, 0, height - 1));
+      for (int y = 0; y < height; ++y) {
+        const float* in = rows.row(std::min(y + radius + 1, height - 1)) + x0;
+        const float* out = rows.row(std::max(y - radius, 0)) + x0;
+        for (int k = 0; k < count; ++k) {
+          double& s = sum[static_cast<std::size_t>(k)];
+          mean(x0 + k, y) = static_cast<float>(s * share);
+          s += in[k] - static_cast<double>(out[k]);
+        }
+      }
+    }
+  });
+  return mean;
+}
+
+// Cells (4-connected) that can be reached from those marked through cells that `open` lets in; they are marked as well.
+template <class Open>
+void flood(Mask& mask, std::vector<std::int32_t> from, Open&& open) {
+  const int width = mask.width();
+  while (!from.empty()) {
+    const std::int32_t at = from.back();
+    from.pop_back();
+    const int x = at % width;
+    const int y = at / width;
+    for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
+      if (!mask.contains(x + dx, y + dy) || mask(x + dx, y + dy) != 0 || !open(x + dx, y + dy)) continue;
+      mask(x + dx, y + dy) = 1;
+      from.push_back((y + dy) * width + x + dx);
+    }
+  }
+}
+
+bool at_edge(const Mask& mask, int x, int y) { return x == 0 || y == 0 || x == mask.width() - 1 || y == mask.height() - 1; }
+
+// Pieces (4-connected) of the cells marked `wanted`: f gets the cells of each, in the order of the first.
+template <class F>
+void each_piece(const Mask& mask, std::uint8_t wanted, F&& f) {
+  Mask seen(mask.width(), mask.height(), 0);
+  std::vector<std::int32_t> cells;
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x) {
+      if (mask(x, y) != wanted || seen(x, y) != 0) continue;
+      cells.assign(1, y * mask.width() + x);
+      seen(x, y) = 1;
+      for (std::size_t k = 0; k < cells.size(); ++k) {
+        const int cx = cells[k] % mask.width();
+        const int cy = cells[k] / mask.width();
+        for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
+          if (!mask.contains(cx + dx, cy + dy) || mask(cx + dx, cy + dy) != wanted || seen(cx + dx, cy + dy) != 0) continue;
+          seen(cx + dx, cy + dy) = 1;
+          cells.push_back((cy + dy) * mask.width() + cx + dx);
+        }
+      }
+      f(cells);
+    }
+}
+
+// The altitude that most known cells have (by their fine means), within farthest_level_m of 0; nothing where fewer than `least` have any.
+std::optional<float> most_common_level(const Grid<float>& fine_mean, const Mask& filled, int least) {
+  constexpr float bin_m = 0.05F;
+  constexpr int bins = 60;  // 2 · farthest_level_m / bin_m
+  std::array<std::size_t, bins + 4> count{};
+  for (std::size_t i = 0; i < fine_mean.size(); ++i) {
+    const float z = fine_mean[i];
+    if (filled[i] != 0 || !(std::abs(z) < farthest_level_m)) continue;
+    ++count[static_cast<std::size_t>((z + farthest_level_m) / bin_m) + 2];
+  }
+  std::size_t best = 0;
+  std::size_t most = 0;
+  for (std::size_t b = 2; b < bins + 2; ++b) {
+    const std::size_t near = count[b - 2] + count[b - 1] + count[b] + count[b + 1] + count[b + 2];
+    if (near > most) {
+      most = near;
+      best = b;
+    }
+  }
+  if (most < static_cast<std::size_t>(least)) return std::nullopt;
+  const float middle = (static_cast<float>(best) - 1.5F) * bin_m - farthest_level_m;
+  // The mean of what is about there; rows are summed alone, then one after the other.
+  std::vector<double> sums(static_cast<std::size_t>(fine_mean.height()), 0.0);
+  std::vector<double> counts(sums.size(), 0.0);
+  parallel_rows(fine_mean.height(), [&](int y) {
+    for (int x = 0; x < fine_mean.width(); ++x) {
+      const float z = fine_mean(x, y);
+      if (filled(x, y) != 0 || !(std::abs(z - middle) < 2.5F * bin_m)) continue;
+      sums[static_cast<std::size_t>(y)] += z;
+      counts[static_cast<std::size_t>(y)] += 1.0;
+    }
+  });
+  double sum = 0.0;
+  double all = 0.0;
+  for (std::size_t y = 0; y < sums.size(); ++y) {
+    sum += sums[y];
+    all += counts[y];
+  }
+  return static_cast<float>(sum / all);
+}
+
+// How far the marked cells stray from a level: 95 of 100 by less, to .05 m.
+float spread_m(const Grid<float>& z, const Mask& mask, const Mask& filled, float level) {
+  constexpr float bin_m = 0.05F;
+  std::array<std::size_t, 200> count{};
+  std::size_t all = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    if (mask[i] == 0 || filled[i] != 0) continue;
+    ++count[static_cast<std::size_t>(std::min(199.F, std::abs(z[i] - level) / bin_m))];
+    ++all;
+  }
+  std::size_t below = 0;
+  for (std::size_t b = 0; b < count.size(); ++b) {
+    below += count[b];
+    if (20 * below >= 19 * all) return b == 0 ? 0.F : static_cast<float>(b + 1) * bin_m;
+  }
+  return 0.F;
+}
+
+// Level water about a level: exactly so, as made by whoever levelled the DEM's water, or rough water whose wide means hardly change.
+Mask level_ground(const Grid<float>& z, const Grid<float>& fine_mean, const Grid<float>& wide_mean, const Mask& filled, float level) {
+  constexpr float exact_m = 0.01F;
+  Mask mask(z.width(), z.height(), 0);
+  parallel_rows(mask.height(), [&](int y) {
+    const auto is_level = [y](const Grid<float>& grid, int x, int reach, float most) {
+      const float here = grid(x, y);
+      return std::abs(grid.clamped(x + reach, y) - here) <= most && std::abs(grid.clamped(x - reach, y) - here) <= most &&
+             std::abs(grid.clamped(x, y + reach) - here) <= most && std::abs(grid.clamped(x, y - reach) - here) <= most;
+    };
+    for (int x = 0; x < mask.width(); ++x) {
+      if (filled(x, y) != 0 || std::abs(fine_mean(x, y) - level) > 1.F) continue;
+      const bool exact = std::abs(z(x, y) - level) <= wide_range_m && is_level(z, x, fine, exact_m) && is_level(z, x, 1, exact_m);
+      const bool rough = std::abs(wide_mean(x, y) - level) <= wide_range_m && is_level(wide_mean, x, 2 * wide, wide_range_m);
+      mask(x, y) = exact || rough ? 1 : 0;
+    }
+  });
+  return mask;
+}
+
+// The middle one of the marked cells' altitudes: exact where water has been levelled.
+float median_of(const Grid<float>& z, const std::vector<std::int32_t>& cells) {
+  std::vector<float> values;
+  values.reserve(cells.size());
+  for (const std::int32_t at : cells) values.push_back(z[static_cast<std::size_t>(at)]);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Holes in the data that are sea: by the edge or by level water, and low around.
+void mark_holes(Mask& mask, const Dem& dem, float highest_shore_m) {
+  const Mask& filled = dem.filled;
+  std::vector<std::int32_t> sea;
+  each_piece(filled, 1, [&](const std::vector<std::int32_t>& cells) {
+    std::size_t around = 0;
+    std::size_t low = 0;
+    bool open = false;
+    for (const std::int32_t at : cells) {
+      const int x = at % mask.width();
+      const int y = at / mask.width();
+      open = open || at_edge(mask, x, y);
+      for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
+        if (!mask.contains(x + dx, y + dy) || filled(x + dx, y + dy) != 0) continue;
+        ++around;
+        low += dem.altitude_m(x + dx, y + dy) <= highest_shore_m ? 1 : 0;
+        open = open || mask(x + dx, y + dy) != 0;
+      }
+    }
+    if (open && around > 0 && 4 * low >= around) sea.insert(sea.end(), cells.begin(), cells.end());
+  });
+  for (const std::int32_t at : sea) mask[static_cast<std::size_t>(at)] = 1;
+}
+
+std::vector<std::int32_t> marked(const Mask& mask) {
+  std::vector<std::int32_t> cells;
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (mask[i] != 0) cells.push_back(static_cast<std::int32_t>(i));
+  return cells;
+}
+
+// Noise leaves specks of land on the water and water short of the shore: both are closed.
+void close_shores(Mask& mask, const Grid<float>& z, float highest_m) {
+  for (int round = 0; round < fine; ++round) {
+    const Mask before = mask;
+    parallel_rows(mask.height(), [&](int y) {
+      for (int x = 0; x < mask.width(); ++x) {
+        if (before(x, y) != 0 || z(x, y) > highest_m) continue;
+        int near = 0;
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx) near += before.clamped(x + dx, y + dy);
+        if (near >= 3) mask(x, y) = 1;
+      }
+    });
+  }
+}
+
+Sea finish(Mask mask, float level, float noise) {
+  Sea sea;
+  std::size_t count = 0;
+  for (const std::uint8_t cell : mask) count += cell;
+  if (count == 0) return sea;
+  sea.share = static_cast<double>(count) / static_cast<double>(mask.size());
+  sea.level_m = level;
+  sea.noise_m = noise;
+  sea.mask = std::move(mask);
+  return sea;
+}
+
+// All that lies no higher than the level and is connected with the edge.
+Sea below_level(const Dem& dem, float level) {
+  const Grid<float>& z = dem.altitude_m;
+  constexpr float over_m = 0.25F;
+  Mask mask(z.width(), z.height(), 0);
+  mark_holes(mask, dem, level + 2.F);
+  for (int y = 0; y < z.height(); ++y)
+    for (int x = 0; x < z.width(); ++x)
+      if (at_edge(mask, x, y) && dem.filled(x, y) == 0 && z(x, y) <= level + over_m) mask(x, y) = 1;
+  flood(mask, marked(mask), [&](int x, int y) { return z(x, y) <= level + over_m; });
+  return finish(std::move(mask), level, 0.F);
+}
+
+}  // namespace
+
+Sea find_sea(const Dem& dem, const SeaParameters& parameters) {
+  const Grid<float>& z = dem.altitude_m;
+  if (!parameters.look || z.empty()) return {};
+  if (parameters.level_m) return below_level(dem, static_cast<float>(*parameters.level_m));
+  // Nearly every map lies high above.
+  const bool any_low = std::any_of(z.begin(), z.end(), [](float altitude) { return altitude < farthest_level_m + 2.F; });
+  if (!any_low) return {};
+
+  Mask mask(z.width(), z.height(), 0);
+  float level = 0.F;
+  float noise = 0.F;
+  const Grid<float> fine_mean = box_mean(z, fine);
+  if (const auto common = most_common_level(fine_mean, dem.filled, parameters.least_cells)) {
+    level = *common;
+    const Mask ground = level_ground(z, fine_mean, box_mean(z, wide), dem.filled, level);
+    std::vector<std::int32_t> open_water;
+    each_piece(ground, 1, [&](const std::vector<std::int32_t>& cells) {
+      if (cells.size() < static_cast<std::size_t>(parameters.least_cells)) return;
+      const bool opens = std::any_of(cells.begin(), cells.end(), [&](std::int32_t at) {
+        const int x = at % z.width();
+        const int y = at / z.width();
+        // Means by holes are no longer level: these are looked for a wide window off.
+        for (const auto& [dx, dy] : {std::pair{0, 0}, std::pair{wide, 0}, std::pair{-wide, 0}, std::pair{0, wide}, std::pair{0, -wide}})
+          if (dem.filled.clamped(x + dx, y + dy) != 0) return true;
+        return at_edge(ground, x, y);
+      });
+      if (opens) open_water.insert(open_water.end(), cells.begin(), cells.end());
+    });
+    for (const std::int32_t at : open_water) mask[static_cast<std::size_t>(at)] = 1;
+    if (!open_water.empty()) level = median_of(z, open_water);
+    noise = spread_m(z, mask, dem.filled, level);
+  }
+  mark_holes(mask, dem, level + 2.F + noise);
+
+  // Calm water is told from the land by its altitude; noise only by means, and single cells that stand out of it are rocks.
+  const bool calm = noise < 0.3F;
+  const float highest = level + (calm ? 0.3F : 1.25F * noise);
+  const float highest_mean = level + (calm ? 1e9F : 0.4F * noise);
+  flood(mask, marked(mask), [&](int x, int y) { return z(x, y) <= highest && fine_mean(x, y) <= highest_mean; });
+  if (!calm) close_shores(mask, z, highest);
+  return finish(std::move(mask), level, noise);
+}
+
+void level_sea(Dem& dem, const Sea& sea) {
+  if (sea.empty()) return;
+  const auto level = static_cast<float>(sea.level_m);
+  parallel_rows(dem.height(), [&](int y) {
+    for (int x = 0; x < dem.width(); ++x) {
+      if (sea.mask(x, y) == 0) continue;
+      dem.altitude_m(x, y) = level;
+      dem.filled(x, y) = 0;
+    }
+  });
+}
+
+Grid<std::uint8_t> find_hole_lakes(const Dem& dem, int least_cells) {
+  Mask lakes(dem.width(), dem.height(), 0);
+  std::vector<float> shore;
+  each_piece(dem.filled, 1, [&](const std::vector<std::int32_t>& cells) {
+    if (cells.size() < static_cast<std::size_t>(std::max(1, least_cells))) return;
+    shore.clear();
+    for (const std::int32_t at : cells) {
+      const int x = at % dem.width();
+      const int y = at / dem.width();
+      if (at_edge(lakes, x, y)) return;  // who knows what is beyond
+      for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}})
+        if (dem.filled.contains(x + dx, y + dy) && dem.filled(x + dx, y + dy) == 0) shore.push_back(dem.altitude_m(x + dx, y + dy));
+    }
+    if (shore.size() < 4) return;
+    std::sort(shore.begin(), shore.end());
+    if (shore[shore.size() / 2] - shore[shore.size() / 20] > 1.F) return;
+    for (const std::int32_t at : cells) lakes[static_cast<std::size_t>(at)] = 1;
+  });
+  return lakes;
+}
+
+Grid<float> distance_to_sea_m(const Grid<std::uint8_t>& sea, double cell_m) {
+  const Grid<std::int32_t> nearest = nearest_marked(sea);
+  Grid<float> distance(sea.width(), sea.height());
+  parallel_rows(sea.height(), [&](int y) {
+    for (int x = 0; x < sea.width(); ++x) {
+      const std::int32_t at = nearest(x, y);
+      const double dx = at % sea.width() - x;
+      const double dy = at / sea.width() - y;
+      distance(x, y) = at < 0 ? 1e6F : static_cast<float>(cell_m * std::sqrt(dx * dx + dy * dy));
+    }
+  });
+  return distance;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "terrain/io/dem.h"
+
+namespace belvedere {
+
+// The sea in a DEM: level ground at about 0 m that reaches the edge of the data or a hole in it, and what lies lower and is connected with
+// it. Ground below 0 m inland (behind dikes, in basins without a way to the sea) is land. docs/class_rules.md.
+
+struct SeaParameters {
+  bool look = true;  // false: there is none
+  // Where the sea stands, m; then all ground from there down that is connected with the edge of the data is sea, level or not, as where
+  // the DEM knows the sea's bed. Empty: found as the level that most level ground by the edge has, within 1.5 m of 0.
+  std::optional<double> level_m = {};
+  int least_cells = 400;  // > 0: of level sea in one piece
+};
+
+struct Sea {
+  Grid<std::uint8_t> mask;  // 1 sea, 0 land, as large as the DEM; empty where there is no sea
+  double level_m = 0.0;
+  double noise_m = 0.0;  // how far the DEM's sea strays from its level: 95 of 100 cells by less
+  double share = 0.0;    // 0…1 of all cells
+
+  bool empty() const { return mask.empty(); }
+};
+
+// Robust against noise of ± 2 m on the water and against holes in the data over it: a hole (filled or not) is sea where it touches the
+// edge or level sea, and at least a quarter of the ground around it lies no higher than the shore. Same bits for any number of threads;
+// memory: 14 bytes a cell.
+Sea find_sea(const Dem& dem, const SeaParameters& parameters = {});
+
+// Level water: what is sea gets the sea's level, and holes there are no holes any more.
+void level_sea(Dem& dem, const Sea& sea);
+
+// Lakes that the data have no altitudes of: holes of at least `least_cells` whose shore is level (the lower half of the cells around them
+// within 1 m). 1 in such a lake.
+Grid<std::uint8_t> find_hole_lakes(const Dem& dem, int least_cells = 150);
+
+// How far each cell of land is from the sea, m (centres of cells); 0 at sea, 1e6 where there is none.
+Grid<float> distance_to_sea_m(const Grid<std::uint8_t>& sea, double cell_m);
+
+}  // namespace belvedere

@@ -1,0 +1,248 @@
+#include "terrain/shape/sea.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace belvedere {
+namespace {
+
+constexpr int size = 400;
+constexpr double cell = 30.0;
+
+// A number of -1…1 for a cell.
+float noise_at(int x, int y) {
+  const std::uint32_t h = (static_cast<std::uint32_t>(x) * 2654435761U) ^ (static_cast<std::uint32_t>(y) * 2246822519U);
+  const std::uint32_t g = (h ^ (h >> 15U)) * 2654435769U;
+  return static_cast<float>((g ^ (g >> 13U)) & 0xffffU) / 32767.5F - 1.F;
+}
+
+// Land, m, of a coast: the sea in the west, a beach of 1 %, hills, a cliff in the south, an island; < 0 is the sea's bed.
+float land_at(int x, int y) {
+  const double shore = 140.0 + 25.0 * std::sin(y * 0.035) + 12.0 * std::sin(y * 0.11);
+  const double inland = (x - shore) * cell;
+  double z = y > 300 ? (inland > 0.0 ? 60.0 + 0.05 * inland : -30.0) : (inland < 900.0 ? 0.01 * inland : 9.0 + 0.12 * (inland - 900.0));
+  const double island = std::hypot(x - 60.0, y - 120.0) * cell;
+  if (island < 450.0) z = std::max(z, 45.0 - 0.1 * island);
+  return static_cast<float>(z);
+}
+
+// The coast as a DEM has it, the sea at `level` and as rough as that.
+Dem coast(float level, float roughness) {
+  Raster<float> raster;
+  raster.cells = Grid<float>(size, size);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const float land = land_at(x, y);
+      raster.cells(x, y) = land < 0.F ? level + roughness * noise_at(x, y) : level + land + 0.3F * roughness * noise_at(x, y);
+    }
+  raster.transform = {0.0, 0.0, cell, cell};
+  return make_dem(std::move(raster));
+}
+
+// Shares of the true sea that is found, and of the land (from `sure_m` up) that is taken for sea.
+struct Score {
+  double found = 0.0;
+  double wrong = 0.0;
+};
+Score score_of(const Sea& sea, float sure_m) {
+  double all = 0.0;
+  double land = 0.0;
+  Score score;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const float z = land_at(x, y);
+      const bool is_sea = !sea.empty() && sea.mask(x, y) != 0;
+      if (z < 0.F) {
+        all += 1.0;
+        score.found += is_sea ? 1.0 : 0.0;
+      } else if (z > sure_m) {
+        land += 1.0;
+        score.wrong += is_sea ? 1.0 : 0.0;
+      }
+    }
+  return {score.found / all, score.wrong / land};
+}
+
+TEST(Sea, OfACalmCoastIsExact) {
+  const Sea sea = find_sea(coast(0.F, 0.F));
+  ASSERT_FALSE(sea.empty());
+  EXPECT_NEAR(sea.level_m, 0.0, 1e-3);
+  EXPECT_EQ(sea.noise_m, 0.0);
+  const Score score = score_of(sea, 0.31F);
+  EXPECT_EQ(score.found, 1.0);
+  EXPECT_EQ(score.wrong, 0.0);
+}
+
+TEST(Sea, IsFoundUnderTwoMetresOfNoise) {
+  for (const float level : {0.F, 0.6F, -0.9F}) {
+    const Sea sea = find_sea(coast(level, 2.F));
+    ASSERT_FALSE(sea.empty()) << level;
+    EXPECT_NEAR(sea.level_m, level, 0.1);
+    EXPECT_NEAR(sea.noise_m, 1.9, 0.15);
+    const Score score = score_of(sea, 3.F);
+    EXPECT_GT(score.found, 0.995) << level;
+    EXPECT_LT(score.wrong, 1e-4) << level;
+  }
+}
+
+TEST(Sea, IslandsAndCliffsStayLand) {
+  for (const float roughness : {0.F, 2.F}) {
+    const Sea sea = find_sea(coast(0.F, roughness));
+    ASSERT_FALSE(sea.empty());
+    EXPECT_EQ(sea.mask(60, 120), 0);
+    EXPECT_EQ(sea.mask(60, 126), 0);
+    EXPECT_EQ(sea.mask(60, 140), 1);
+    EXPECT_EQ(sea.mask(10, 350), 1);
+    EXPECT_EQ(sea.mask(200, 350), 0);
+  }
+}
+
+// A polder behind a dike, and a basin far below the sea that reaches the edge of the data.
+TEST(Sea, LandBelowItIsLand) {
+  for (const float roughness : {0.F, 2.F}) {
+    Dem dem = coast(0.F, roughness);
+    for (int y = 40; y < 110; ++y)
+      for (int x = 190; x < 260; ++x)
+        dem.altitude_m(x, y) = x < 193 || y < 43 || x > 256 || y > 106 ? 6.F : -2.5F + 0.3F * roughness * noise_at(x, y);
+    for (int y = 150; y < 250; ++y)
+      for (int x = 330; x < size; ++x) dem.altitude_m(x, y) = -80.F;
+    const Sea sea = find_sea(dem);
+    ASSERT_FALSE(sea.empty());
+    EXPECT_NEAR(sea.level_m, 0.0, 0.1);
+    for (int y = 45; y < 105; ++y)
+      for (int x = 195; x < 255; ++x) ASSERT_EQ(sea.mask(x, y), 0);
+    EXPECT_EQ(sea.mask(380, 200), 0);
+    EXPECT_GT(score_of(sea, 3.F).found, 0.995);
+  }
+}
+
+// Flats that dry at low tide: below the level they are sea, above it land, and channels in them are sea.
+TEST(Sea, TidalFlatsEndAtItsLevel) {
+  Dem dem = coast(0.F, 0.F);
+  for (int y = 20; y < 80; ++y)
+    for (int x = 90; x < 190; ++x) dem.altitude_m(x, y) = -0.8F + 0.02F * static_cast<float>(x - 90);
+  const Sea sea = find_sea(dem);
+  ASSERT_FALSE(sea.empty());
+  EXPECT_EQ(sea.mask(100, 50), 1);
+  EXPECT_EQ(sea.mask(130, 50), 1);
+  EXPECT_EQ(sea.mask(160, 50), 0);
+}
+
+TEST(Sea, PlainsThatRiseGentlyAreNone) {
+  // 1 in 2000 from -3 m up to the edge, and the same with noise.
+  for (const float roughness : {0.F, 0.5F}) {
+    Raster<float> raster;
+    raster.cells = Grid<float>(size, size);
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) raster.cells(x, y) = -3.F + 0.015F * static_cast<float>(x) + roughness * noise_at(x, y);
+    raster.transform = {0.0, 0.0, cell, cell};
+    EXPECT_TRUE(find_sea(make_dem(std::move(raster))).empty()) << roughness;
+  }
+}
+
+TEST(Sea, LakesByTheSeaAreNone) {
+  // A lagoon at the sea's level that touches neither.
+  Dem dem = coast(0.F, 0.F);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x)
+      if (std::hypot(x - 300.0, y - 150.0) < 30.0) dem.altitude_m(x, y) = 0.F;
+  const Sea sea = find_sea(dem);
+  EXPECT_EQ(sea.mask(300, 150), 0);
+  EXPECT_EQ(sea.mask(10, 150), 1);
+}
+
+TEST(Sea, HolesBesideItAreSea) {
+  // All of the sea west of column 60 is void, or all of it.
+  for (const int known_from : {60, 1000}) {
+    Raster<float> raster;
+    raster.cells = Grid<float>(size, size);
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) {
+        const float land = land_at(x, y);
+        raster.cells(x, y) = land >= 0.F ? land : x < known_from ? NAN : 0.F;
+      }
+    // A hole on a mountain by the edge is none.
+    for (int y = 180; y < 220; ++y)
+      for (int x = 380; x < size; ++x) raster.cells(x, y) = NAN;
+    raster.transform = {0.0, 0.0, cell, cell};
+    Dem dem = make_dem(std::move(raster));
+    const Sea sea = find_sea(dem);
+    ASSERT_FALSE(sea.empty()) << known_from;
+    EXPECT_EQ(score_of(sea, 0.31F).found, 1.0) << known_from;
+    EXPECT_LT(score_of(sea, 2.5F).wrong, 1e-4) << known_from;
+    EXPECT_EQ(sea.mask(390, 200), 0);
+    level_sea(dem, sea);
+    EXPECT_EQ(dem.altitude_m(20, 20), static_cast<float>(sea.level_m));
+    EXPECT_EQ(dem.filled(20, 20), 0);
+    EXPECT_EQ(dem.filled(390, 200), 1);
+  }
+}
+
+TEST(Sea, StaysWhereItIsOnceLevel) {
+  Dem dem = coast(0.3F, 2.F);
+  const Sea sea = find_sea(dem);
+  level_sea(dem, sea);
+  const Sea again = find_sea(dem);
+  ASSERT_FALSE(again.empty());
+  EXPECT_NEAR(again.level_m, sea.level_m, 1e-3);
+  std::size_t lost = 0;
+  for (std::size_t i = 0; i < sea.mask.size(); ++i) lost += sea.mask[i] != 0 && again.mask[i] == 0 ? 1 : 0;
+  EXPECT_EQ(lost, 0U);
+}
+
+TEST(Sea, StandsWhereTheSceneSays) {
+  // The bed is known: nothing is level.
+  Raster<float> raster;
+  raster.cells = Grid<float>(size, size);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) raster.cells(x, y) = 0.2F * static_cast<float>(x - 100);
+  raster.transform = {0.0, 0.0, cell, cell};
+  const Dem dem = make_dem(std::move(raster));
+  EXPECT_TRUE(find_sea(dem).empty());
+  const Sea sea = find_sea(dem, {.level_m = 4.0});
+  EXPECT_EQ(sea.mask(119, 7), 1);
+  EXPECT_EQ(sea.mask(123, 7), 0);
+  EXPECT_DOUBLE_EQ(sea.level_m, 4.0);
+  EXPECT_NEAR(sea.share, 122.0 / size, 1e-9);
+  EXPECT_TRUE(find_sea(coast(0.F, 0.F), {.look = false}).empty());
+}
+
+TEST(Sea, MountainsHaveNone) {
+  Dem dem = coast(600.F, 0.F);
+  EXPECT_TRUE(find_sea(dem).empty());
+}
+
+TEST(HoleLakes, HaveLevelShores) {
+  // A lake in a bowl, and a shadow of the radar across a slope.
+  Raster<float> raster;
+  raster.cells = Grid<float>(size, size);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const double out = std::hypot(x - 100.0, y - 100.0) - 30.0;
+      raster.cells(x, y) = out < 0.0 ? NAN : static_cast<float>(500.0 + 0.8 * std::min(out, 200.0));
+      if (std::hypot(x - 300.0, y - 300.0) < 20.0) raster.cells(x, y) = NAN;
+    }
+  for (int y = 250; y < 350; ++y)
+    for (int x = 250; x < 350; ++x)
+      if (!std::isnan(raster.cells(x, y))) raster.cells(x, y) = 700.F + 5.F * static_cast<float>(x - 250);
+  raster.transform = {0.0, 0.0, cell, cell};
+  const Dem dem = make_dem(std::move(raster));
+  const Grid<std::uint8_t> lakes = find_hole_lakes(dem);
+  EXPECT_EQ(lakes(100, 100), 1);
+  EXPECT_EQ(lakes(300, 300), 0);
+  EXPECT_EQ(lakes(140, 100), 0);
+}
+
+TEST(DistanceToSea, IsMetresFromItsCells) {
+  Grid<std::uint8_t> sea(10, 4, 0);
+  EXPECT_EQ(distance_to_sea_m(sea, 30.0)(3, 3), 1e6F);
+  sea(0, 0) = 1;
+  const Grid<float> distance = distance_to_sea_m(sea, 30.0);
+  EXPECT_EQ(distance(0, 0), 0.F);
+  EXPECT_FLOAT_EQ(distance(3, 0), 90.F);
+  EXPECT_FLOAT_EQ(distance(4, 3), 150.F);
+}
+
+}  // namespace
+}  // namespace belvedere
