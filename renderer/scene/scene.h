@@ -61,6 +61,8 @@ struct SceneLandCover {
   std::string rules = "alpine";                          // where there is no source: built-in name or file
   std::vector<std::pair<std::string, double>> settings;  // parameters of the rules
   std::vector<SceneTown> towns;                          // what rules know of towns …
+  std::string sea = "auto";                              // "auto" or "none"
+  std::optional<double> sea_level_m;                     // where the scene knows it
   std::string towns_file;                                // … and a table of further ones; empty: none
   // What a raster does not tell: {glacier, rock} makes glacier of what the raster calls rock and the rules call glacier.
   std::vector<std::pair<LandCoverClass, LandCoverClass>> refine;

@@ -46,6 +46,18 @@ std::vector<SceneSection> make_land_cover_sections() {
                 "Towns that are known, besides those of [[land_cover.towns]]: a .csv file or a layer of points (.gpkg, .geojson, .shp, "
                 ".fgb) with columns name, radius_m or population; see class_rules.md.",
             .text = TextKind::file},
+           {.name = "sea",
+            .field = AT(land_cover.sea),
+            .meaning = "auto finds the sea: level ground at about 0 m that reaches the edge of the data or a hole in it, also under noise. "
+                       "none: there is no sea.",
+            .text = TextKind::choice,
+            .choices = {"auto", "none"}},
+           {.name = "sea_level_m",
+            .field = AT(land_cover.sea_level_m),
+            .range = {-500, 9000},
+            .unit = "m",
+            .meaning = "Where the sea stands, for data that know its bed or count from elsewhere: all ground below that is connected with "
+                       "the edge of the data is sea. Without it the level is found."},
            {.name = "settings",
             .field = AT(land_cover.settings),
             .range = {-1e9, 1e9},

@@ -14,6 +14,7 @@
 #include "terrain/generalize/line_integral_generalize.h"
 #include "terrain/generalize/mask.h"
 #include "terrain/shape/hydrology.h"
+#include "terrain/shape/sea.h"
 
 namespace belvedere {
 
@@ -87,7 +88,17 @@ struct ViewOfGround {
   glm::dvec2 viewer_xy{0.0};
 };
 
-GeneralizedTerrain make_ground(const SceneGeneralize& settings, const Dem& dem, const ViewOfGround& seen, Progress& progress) {
+// Where water keeps its level: on lakes, at sea.
+Grid<unsigned char> level_water(const Dem& dem, const SeaParameters& sea) {
+  Grid<unsigned char> water = find_lakes(dem.altitude_m, {});
+  const Sea found = find_sea(dem, sea);
+  if (!found.empty())
+    for (std::size_t i = 0; i < water.size(); ++i) water[i] = static_cast<unsigned char>(water[i] | found.mask[i]);
+  return water;
+}
+
+GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParameters& sea, const Dem& dem, const ViewOfGround& seen,
+                               Progress& progress) {
   const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
   GeneralizeParameters bands = settings.bands;
   // What takes most memory on its way comes first.
@@ -96,7 +107,7 @@ GeneralizedTerrain make_ground(const SceneGeneralize& settings, const Dem& dem, 
   if (settings.automatic_mask) {
     grids.amplification_mask = slope_foot_mask(dem.altitude_m, cell_m, 1 << std::min<std::size_t>(bands.foreground.size(), 6));
   }
-  if (settings.keep_lakes) grids.keep = find_lakes(dem.altitude_m, {});
+  if (settings.keep_lakes) grids.keep = level_water(dem, sea);
   grids.mask = seen.mask;
   grids.pixel_ground = seen.pixel_ground;
   if (settings.print_detail_px > 0.0) bands.print_pixels = static_cast<float>(settings.print_detail_px);
@@ -119,6 +130,7 @@ CacheKey ground_key(const LoadedScene& loaded, const Dem& dem, const ViewOfGroun
   CacheKeyText key;
   key.add("settings", write_scene(settings)).add("mask", mask).add("viewer", viewer_xy);
   key.add("m_per_pixel", m_per_pixel).add("step_cells", step);
+  add_sea(key, scene_sea(loaded.scene.land_cover));
   add_dem(key, dem);
   return make_cache_key(CachedProduct::generalized_ground, key, subject_of(loaded));
 }
@@ -158,7 +170,7 @@ GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem
   if (settings.print_detail_px > 0.0) seen.pixel_ground = ground_m_per_pixel(dem, view);
   return cached<GeneralizedTerrain>(
       cache, [&] { return ground_key(loaded, dem, seen); }, progress,
-      [&](Progress& watcher) { return make_ground(settings, dem, seen, watcher); });
+      [&](Progress& watcher) { return make_ground(settings, scene_sea(loaded.scene.land_cover), dem, seen, watcher); });
 }
 
 }  // namespace belvedere

@@ -1,5 +1,7 @@
 #include "renderer/world/scene_terrain.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -48,8 +50,9 @@ CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules, cons
   const auto& [name, known_parameters, terms, layers] = rules;
   key.add("rules", name).add("parameters", known_parameters).add("terms", terms);
   for (const auto& [painted_as, when] : layers) key.add("layer", painted_as).add("when", when);
-  const auto& [settings, towns, seed] = parameters;
+  const auto& [settings, towns, sea, seed] = parameters;
   key.add("settings", settings).add("seed", seed);
+  add_sea(key, sea);
   for (const auto& [place, radius_m, town] : towns) key.add("town", town).add("place", place).add("radius_m", radius_m);
   add_dem(key, dem);
   return make_cache_key(CachedProduct::land_cover, key, subject_of(loaded));
@@ -64,8 +67,10 @@ LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, Progress& p
       std::any_of(rules.parameters.begin(), rules.parameters.end(), is_winter) &&
       read_palette(find_named_file(loaded, "palettes", loaded.scene.palette)).winter)
     settings.emplace_back(winter_setting, 1.0);
-  const ClassRuleParameters parameters{
-      .settings = std::move(settings), .towns = make_scene_towns(loaded, dem, progress), .seed = loaded.scene.seed};
+  const ClassRuleParameters parameters{.settings = std::move(settings),
+                                       .towns = make_scene_towns(loaded, dem, progress),
+                                       .sea = scene_sea(loaded.scene.land_cover),
+                                       .seed = loaded.scene.seed};
   return cached<LandCover>(
       cache, [&] { return rule_cover_key(loaded, rules, parameters, dem); }, progress,
       [&](Progress& watcher) { return apply_class_rules(rules, parameters, dem, watcher); });
@@ -130,8 +135,16 @@ Dem read_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& c
 Dem make_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   Dem dem = read_scene_dem(loaded, progress, cache);
   if (loaded.scene.generalize.destripe) dem.altitude_m = destripe(dem.altitude_m, {}, progress);
+  const Sea sea = find_sea(dem, scene_sea(loaded.scene.land_cover));
+  if (!sea.empty()) {
+    progress.note(fmt::format("sea: {:.1f} % of the terrain, at {:.1f} m{}", 100.0 * sea.share, sea.level_m,
+                              sea.noise_m >= 0.3 ? fmt::format(", levelled from ± {:.1f} m", sea.noise_m) : ""));
+    level_sea(dem, sea);
+  }
   return dem;
 }
+
+SeaParameters scene_sea(const SceneLandCover& settings) { return {.look = settings.sea != "none", .level_m = settings.sea_level_m}; }
 
 LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
   return make_scene_patches(loaded, dem, progress, cache).cover;
@@ -139,6 +152,11 @@ LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progr
 
 PatchResult make_scene_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
   return remove_small_patches(make_full_cover(loaded, dem, progress, cache), loaded.scene.land_cover.patches);
+}
+
+void add_sea(CacheKeyText& key, const SeaParameters& sea) {
+  const auto& [look, level_m, least_cells] = sea;
+  key.add("sea", look).add("known", level_m.has_value()).add("level_m", level_m.value_or(0.0)).add("least_cells", least_cells);
 }
 
 void add_dem(CacheKeyText& key, const Dem& dem) {

@@ -319,7 +319,7 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
     const std::vector<bool>& needs = program.term_needs[static_cast<std::size_t>(balance - rules.terms.begin())];
     for (std::size_t i = 0; i < slots; ++i) needed[i] = needed[i] || needs[i];
   }
-  Run run{rules, program, dem, given.seed, make_terrain_inputs(dem, needed, parameters, given.towns, given.seed), {}};
+  Run run{rules, program, dem, given.seed, make_terrain_inputs(dem, needed, parameters, given.towns, given.sea, given.seed), {}};
   for (int v = first_noise; v < east; ++v)
     run.noise.push_back(needed[static_cast<std::size_t>(v)] ? plan_noise(v, dem.transform, dem.width()) : NoiseColumns{});
   progress.advance(1.0);

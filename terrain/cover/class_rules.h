@@ -9,6 +9,7 @@
 #include "terrain/cover/land_cover.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
+#include "terrain/shape/sea.h"
 
 namespace belvedere {
 
@@ -36,6 +37,7 @@ bool names_old_town(const std::string& parameter);
 struct ClassRuleParameters {
   std::vector<std::pair<std::string, double>> settings;  // override the rules' parameters by name
   std::vector<KnownTown> towns;                          // where people are known to live
+  SeaParameters sea;                                     // where rules speak of it
   std::uint64_t seed = 1;                                // of noise and of the villages that are found
 };
 

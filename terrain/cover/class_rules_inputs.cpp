@@ -45,8 +45,19 @@ TownParameters to_town_parameters(const Parameters& parameters, const std::vecto
   return towns;
 }
 
+// 1 at sea, and how far from it the land is, m.
+void make_sea_inputs(const Dem& dem, const Sea& found, const std::vector<bool>& needed, std::vector<Grid<float>>& inputs) {
+  if (needed[sea]) {
+    inputs[sea] = Grid<float>(dem.width(), dem.height(), 0.F);
+    if (!found.empty()) each_cell(inputs[sea], [&](int x, int y) { return found.mask(x, y) != 0 ? 1.F : 0.F; });
+  }
+  if (needed[coast])
+    inputs[coast] = found.empty() ? Grid<float>(dem.width(), dem.height(), 1e6F) : distance_to_sea_m(found.mask, dem.cell_m());
+}
+
 // The grids that hang on the shape of the ground alone, not on where its water runs.
-void make_shape_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters, std::vector<Grid<float>>& inputs) {
+void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>& needed, const Parameters& parameters,
+                       std::vector<Grid<float>>& inputs) {
   const double cell = dem.cell_m();
   const double cell_x = dem.transform.cell_x;
   const double cell_y = dem.transform.cell_y;
@@ -85,6 +96,7 @@ void make_shape_inputs(const Dem& dem, const std::vector<bool>& needed, const Pa
     const auto rise_m = static_cast<float>(parameter_or(parameters, "floor_height_m", 70.0));
     Grid<float> flat(z.width(), z.height());
     each_cell(flat, [&](int x, int y) {
+      if (!found.empty() && found.mask(x, y) != 0) return 0.F;
       return grid(slope)(x, y) < steepest && grid(valley_height)(x, y) < rise_m && z(x, y) < highest ? 1.F : 0.F;
     });
     grid(valley_floor) = gaussian_blur(flat, 60.0 / cell);
@@ -93,7 +105,10 @@ void make_shape_inputs(const Dem& dem, const std::vector<bool>& needed, const Pa
     LakeParameters lakes;
     lakes.max_range_m = static_cast<float>(parameter_or(parameters, "lake_range_m", 0.25));
     lakes.min_cells = static_cast<int>(parameter_or(parameters, "lake_min_cells", 150.0));
-    const Grid<std::uint8_t> mask = find_lakes(z, lakes);
+    Grid<std::uint8_t> mask = find_lakes(z, lakes);
+    const Grid<std::uint8_t> holes = find_hole_lakes(dem, lakes.min_cells);
+    for (std::size_t i = 0; i < mask.size(); ++i)
+      mask[i] = static_cast<std::uint8_t>(!found.empty() && found.mask[i] != 0 ? 0 : mask[i] | holes[i]);
     grid(lake) = Grid<float>(z.width(), z.height());
     each_cell(grid(lake), [&](int x, int y) { return mask(x, y) != 0 ? 1.F : 0.F; });
     if (is_needed(shore)) {
@@ -114,9 +129,10 @@ void make_shape_inputs(const Dem& dem, const std::vector<bool>& needed, const Pa
 
 const std::vector<std::string>& variable_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> n = {"altitude",      "slope",        "slope_smooth", "south", "relief_180", "relief_750", "relief_1800",
-                                  "valley_height", "valley_floor", "lake",         "shore", "river",      "town",       "ice",
-                                  "below_rock",    "n60",          "n210",         "n660",  "n1800",      "east",       "north"};
+    std::vector<std::string> n = {"altitude",    "slope",         "slope_smooth", "south", "relief_180", "relief_750",
+                                  "relief_1800", "valley_height", "valley_floor", "lake",  "shore",      "river",
+                                  "town",        "ice",           "below_rock",   "sea",   "coast",      "n60",
+                                  "n210",        "n660",          "n1800",        "east",  "north"};
     for (const LandCoverClassInfo& c : land_cover_classes()) n.push_back("is_" + std::string(c.name));
     return n;
   }();
@@ -130,16 +146,19 @@ double parameter_or(const Parameters& parameters, const std::string& name, doubl
 }
 
 std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
-                                             const std::vector<KnownTown>& towns, std::uint64_t seed) {
+                                             const std::vector<KnownTown>& towns, const SeaParameters& sea_parameters, std::uint64_t seed) {
   const Grid<float>& z = dem.altitude_m;
   std::vector<Grid<float>> inputs(first_noise);
   const bool needs_town = needed[town];
+  // Only rules that speak of the sea have one.
+  const Sea found = needed[sea] || needed[coast] ? find_sea(dem, sea_parameters) : Sea();
+  make_sea_inputs(dem, found, needed, inputs);
   Grid<float> catchment_km2;
   // Water finds its way one cell after the other, on one thread: the rest is made beside it.
   parallel_ranges(2, 1, [&](int begin, int end) {
     for (int part = begin; part != end; ++part) {
       if (part == 1)
-        make_shape_inputs(dem, needed, parameters, inputs);
+        make_shape_inputs(dem, found, needed, parameters, inputs);
       else if (needed[river] || needs_town)
         catchment_km2 = flow_accumulation_km2(z, dem.cell_m());
     }

@@ -9,6 +9,7 @@
 #include "base/noise.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
+#include "terrain/shape/sea.h"
 
 // What class rules can know of the terrain. Private to class_rules.
 namespace belvedere::class_rules {
@@ -32,6 +33,8 @@ enum Variable : int {
   town,
   ice,
   below_rock,
+  sea,
+  coast,
   first_noise,
   n60 = first_noise,
   n210,
@@ -49,7 +52,7 @@ double parameter_or(const Parameters& parameters, const std::string& name, doubl
 
 // The grids that are needed (by slot), all of the DEM's size; others stay empty. ice and below_rock depend on the rules and stay empty.
 std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
-                                             const std::vector<KnownTown>& towns, std::uint64_t seed);
+                                             const std::vector<KnownTown>& towns, const SeaParameters& sea_parameters, std::uint64_t seed);
 
 // 1 just below rock, falling to 0 over `reach_m` down the fall line.
 Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, double reach_m);

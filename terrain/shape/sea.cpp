@@ -15,11 +15,7 @@ namespace {
 using Mask = Grid<std::uint8_t>;
 
 constexpr float farthest_level_m = 1.5F;  // of the sea from the datum: tides, and what geoids differ by
-constexpr int fine = 2;                   // radii of means, cells
-constexpr int wide = 12;
-// By which wide means of level water differ over 2 · wide cells: noise of 2 m leaves .065 m rms; ground that rises 1 in 3600 (30 m cells)
-// more.
-constexpr float wide_range_m = 0.2F;
+constexpr int fine = 2;
 
 // Mean over a (2 radius + 1)² window, borders replicated: rows, then columns, each by a running sum in double that starts anew every row
 // (column), so that threads do not matter.
@@ -161,9 +157,19 @@ float spread_m(const Grid<float>& z, const Mask& mask, const Mask& filled, float
   return 0.F;
 }
 
-// Level water about a level: exactly so, as made by whoever levelled the DEM's water, or rough water whose wide means hardly change.
-Mask level_ground(const Grid<float>& z, const Grid<float>& fine_mean, const Grid<float>& wide_mean, const Mask& filled, float level) {
+// How level water looks under noise: means over (2 radius + 1)² cells keep to the level and to those beside them by so much.
+struct RoughWater {
+  int radius;
+  float range_m;
+};
+// Noise of 2 m leaves .065 m rms between means of open water; ground that rises 1 in 3600 (30 m cells) leaves more. Bays are narrower.
+constexpr RoughWater open_sea{12, 0.2F};
+constexpr RoughWater bay{4, 0.5F};
+
+// Level water about a level: exactly so, as made by whoever levelled the DEM's water, or rough.
+Mask level_ground(const Grid<float>& z, const Grid<float>& fine_mean, const Mask& filled, float level, const RoughWater& water) {
   constexpr float exact_m = 0.01F;
+  const Grid<float> mean = box_mean(z, water.radius);
   Mask mask(z.width(), z.height(), 0);
   parallel_rows(mask.height(), [&](int y) {
     const auto is_level = [y](const Grid<float>& grid, int x, int reach, float most) {
@@ -173,8 +179,8 @@ Mask level_ground(const Grid<float>& z, const Grid<float>& fine_mean, const Grid
     };
     for (int x = 0; x < mask.width(); ++x) {
       if (filled(x, y) != 0 || std::abs(fine_mean(x, y) - level) > 1.F) continue;
-      const bool exact = std::abs(z(x, y) - level) <= wide_range_m && is_level(z, x, fine, exact_m) && is_level(z, x, 1, exact_m);
-      const bool rough = std::abs(wide_mean(x, y) - level) <= wide_range_m && is_level(wide_mean, x, 2 * wide, wide_range_m);
+      const bool exact = std::abs(z(x, y) - level) <= 0.2F && is_level(z, x, fine, exact_m) && is_level(z, x, 1, exact_m);
+      const bool rough = std::abs(mean(x, y) - level) <= water.range_m && is_level(mean, x, 2 * water.radius, water.range_m);
       mask(x, y) = exact || rough ? 1 : 0;
     }
   });
@@ -279,15 +285,16 @@ Sea find_sea(const Dem& dem, const SeaParameters& parameters) {
   const Grid<float> fine_mean = box_mean(z, fine);
   if (const auto common = most_common_level(fine_mean, dem.filled, parameters.least_cells)) {
     level = *common;
-    const Mask ground = level_ground(z, fine_mean, box_mean(z, wide), dem.filled, level);
+    const Mask ground = level_ground(z, fine_mean, dem.filled, level, open_sea);
     std::vector<std::int32_t> open_water;
     each_piece(ground, 1, [&](const std::vector<std::int32_t>& cells) {
       if (cells.size() < static_cast<std::size_t>(parameters.least_cells)) return;
       const bool opens = std::any_of(cells.begin(), cells.end(), [&](std::int32_t at) {
         const int x = at % z.width();
         const int y = at / z.width();
-        // Means by holes are no longer level: these are looked for a wide window off.
-        for (const auto& [dx, dy] : {std::pair{0, 0}, std::pair{wide, 0}, std::pair{-wide, 0}, std::pair{0, wide}, std::pair{0, -wide}})
+        // Means by holes are no longer level: these are looked for two windows off.
+        for (const auto& [dx, dy] : {std::pair{0, 0}, std::pair{2 * open_sea.radius, 0}, std::pair{-2 * open_sea.radius, 0},
+                                     std::pair{0, 2 * open_sea.radius}, std::pair{0, -2 * open_sea.radius}})
           if (dem.filled.clamped(x + dx, y + dy) != 0) return true;
         return at_edge(ground, x, y);
       });
@@ -303,8 +310,28 @@ Sea find_sea(const Dem& dem, const SeaParameters& parameters) {
   const bool calm = noise < 0.3F;
   const float highest = level + (calm ? 0.3F : 1.25F * noise);
   const float highest_mean = level + (calm ? 1e9F : 0.4F * noise);
-  flood(mask, marked(mask), [&](int x, int y) { return z(x, y) <= highest && fine_mean(x, y) <= highest_mean; });
-  if (!calm) close_shores(mask, z, highest);
+  const auto is_low = [&](int x, int y) { return z(x, y) <= highest && fine_mean(x, y) <= highest_mean; };
+  flood(mask, marked(mask), is_low);
+  if (!calm) {
+    // Noise closes narrow ways into bays and lagoons: level water a short way behind the shore is sea as well. Calm lagoons are lakes.
+    constexpr int farthest = 48;  // cells
+    const Grid<std::int32_t> nearest = nearest_marked(mask);
+    const auto is_near = [&](std::int32_t at) {
+      const std::int32_t shore = nearest[static_cast<std::size_t>(at)];
+      if (shore < 0) return false;
+      const int dx = shore % z.width() - at % z.width();
+      const int dy = shore / z.width() - at / z.width();
+      return dx * dx + dy * dy <= farthest * farthest;
+    };
+    std::vector<std::int32_t> bays;
+    each_piece(level_ground(z, fine_mean, dem.filled, level, bay), 1, [&](const std::vector<std::int32_t>& cells) {
+      if (cells.size() >= static_cast<std::size_t>(parameters.least_cells) && std::any_of(cells.begin(), cells.end(), is_near))
+        bays.insert(bays.end(), cells.begin(), cells.end());
+    });
+    for (const std::int32_t at : bays) mask[static_cast<std::size_t>(at)] = 1;
+    flood(mask, bays, is_low);
+    close_shores(mask, z, highest);
+  }
   return finish(std::move(mask), level, noise);
 }
 

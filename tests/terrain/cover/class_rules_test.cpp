@@ -151,6 +151,53 @@ TEST(ClassRules, WaterLiesOverAll) {
   }
 }
 
+// A coast that runs north: sea in the west, under noise of 2 m, a plain of 1 %, hills.
+const Dem& shore_of_the_sea() {
+  static const Dem dem = ground(300, [](double e, double n) {
+    const double wave = 2.0 * std::sin(0.7 * e + 1.3 * n) * std::sin(2.9 * e - 0.8 * n);
+    if (e < -1000.0) return wave;
+    return e < 2000.0 ? 1.0 + 0.01 * (e + 1000.0) : 31.0 + 0.2 * (e - 2000.0);
+  });
+  return dem;
+}
+
+TEST(ClassRules, TheSeaIsWaterWithABeach) {
+  ClassRules rules = read_class_rules("alpine");
+  const Dem& dem = shore_of_the_sea();
+  // A town at the shore, half of it at sea.
+  const Grid<LandCoverClass> c = apply(rules, dem, {}, {{.place = dem.transform.to_crs(118.0, 150.0), .radius_m = 600.0}});
+  double water_at_sea = 0.0;
+  double water_on_land = 0.0;
+  double sand_by_the_sea = 0.0;
+  for (int y = 0; y < 300; ++y)
+    for (int x = 0; x < 300; ++x) {
+      const double e = 30.0 * (x - 150);
+      if (e < -1000.0) water_at_sea += c(x, y) == water ? 1.0 : 0.0;
+      if (e > -900.0) water_on_land += c(x, y) == water ? 1.0 : 0.0;
+      if (e > -1000.0 && e < -850.0) sand_by_the_sea += c(x, y) == sand ? 1.0 : 0.0;
+      if (e > -300.0) EXPECT_NE(c(x, y), sand);
+    }
+  EXPECT_GT(water_at_sea / (300.0 * 117.0), 0.995);
+  EXPECT_LT(water_on_land, 30.0);
+  EXPECT_GT(sand_by_the_sea / (300.0 * 5.0), 0.4);
+  EXPECT_EQ(c(100, 150), water);  // no houses in it
+  EXPECT_GT(share(c, settlement), 0.0);
+  // Where there is none, fields and houses stand there, as on any plain.
+  const Grid<LandCoverClass> dry = apply_class_rules(rules, {.sea = {.look = false}, .seed = 7}, dem, silent_progress()).classes.cells;
+  EXPECT_LT(share(dry, water), 0.02);
+  EXPECT_EQ(share(dry, sand), 0.0);
+}
+
+TEST(ClassRules, VariablesOfTheSea) {
+  ClassRules rules{"toy", {{"speck_cells", 0.0}}, {}, {{forest, "1"}, {sand, "coast > 0 and coast < 100"}, {water, "sea"}}};
+  const Grid<LandCoverClass> c = apply(rules, shore_of_the_sea());
+  EXPECT_EQ(c(20, 20), water);
+  EXPECT_EQ(c(120, 20), sand);  // noise moves the shore by up to two cells
+  EXPECT_EQ(c(126, 20), forest);
+  // Far from any sea.
+  EXPECT_EQ(share(apply(rules, cone()), forest), 1.0);
+}
+
 TEST(ClassRules, ReedsGrowIntoLakesFromTheShore) {
   const Dem dem = ground(160, [](double e, double n) { return std::max(600.0, 560.0 + 0.05 * std::hypot(e, n)); });
   const ClassRules rules = read_class_rules("alpine");

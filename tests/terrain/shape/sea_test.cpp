@@ -152,6 +152,16 @@ TEST(Sea, LakesByTheSeaAreNone) {
   EXPECT_EQ(sea.mask(10, 150), 1);
 }
 
+TEST(Sea, RoughBaysBehindASpitAreSea) {
+  for (const int farther : {0, 100}) {
+    Dem dem = coast(0.F, 2.F);
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x)
+        if (std::hypot(x - 190.0 - farther, y - 100.0) < 50.0) dem.altitude_m(x, y) = 2.F * noise_at(x, y);
+    EXPECT_EQ(find_sea(dem).mask(190 + farther, 100), farther == 0 ? 1 : 0);
+  }
+}
+
 TEST(Sea, HolesBesideItAreSea) {
   // All of the sea west of column 60 is void, or all of it.
   for (const int known_from : {60, 1000}) {
