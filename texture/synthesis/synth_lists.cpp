@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "texture/synthesis/large_pages.h"
+
 namespace belvedere::synth {
 
 ListKeys choose_list_keys(const std::vector<GuideRole>& guides) {
@@ -72,13 +74,22 @@ PickLists::PickLists(const Plane& exemplars, const Demand& demand, int classes, 
   const std::size_t guide_count = static_cast<std::size_t>(exemplars.guide_count);
   entry_words_ = 1 + (Entry::guides_from + guide_count + 3) / 4;
   entries_.assign(total * entry_words_ + 2, 0U);  // eight guides may be read from the last one, too
+  prefer_large_pages(entries_);
   std::vector<std::uint32_t> next = start_;
   // Texels are gone through by golden steps, so that those which follow each other in the list lie far apart in the picture.
   const std::uint64_t words = exemplars.words.size();
   std::uint64_t step = words * 618 / 1000 | 1;
   while (std::gcd(step, words) != 1) step += 2;
+  const auto after = [&](std::uint64_t texel) { return texel + step < words ? texel + step : texel + step - words; };
+  // Each step goes to a place that no cache holds: they are asked for some steps ahead.
+  constexpr int fetch_ahead = 16;
   std::uint64_t here = 0;
-  for (std::uint64_t i = 0; i < words; ++i, here = here + step < words ? here + step : here + step - words) {
+  std::uint64_t ahead = 0;
+  for (int i = 0; i < fetch_ahead; ++i) ahead = after(ahead);
+  const std::size_t guides_each = static_cast<std::size_t>(exemplars.guide_count);
+  for (std::uint64_t i = 0; i < words; ++i, here = after(here), ahead = after(ahead)) {
+    __builtin_prefetch(exemplars.words.data() + ahead);
+    __builtin_prefetch(exemplars.guides.data() + ahead * guides_each);
     const std::uint32_t c = class_of(exemplars.words[here]);
     if (c == no_class) continue;
     const std::uint8_t* values = exemplars.guides_at(static_cast<std::uint32_t>(here));

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "texture/synthesis/large_pages.h"
 #include "texture/synthesis/match_field.h"
 #include "texture/synthesis/synth_level.h"
 
@@ -198,6 +199,7 @@ Plane exemplar_plane(const std::vector<Exemplar>& exemplars, const Setup& setup)
     });
   }
   pad(plane);
+  prefer_large_pages(plane.words);
   return plane;
 }
 
