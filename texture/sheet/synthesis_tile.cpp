@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <memory>
 #include <utility>
 
 #include "base/error.h"
@@ -16,13 +18,6 @@ namespace belvedere {
 
 namespace {
 
-// What is made in one go: a corner, a line between corners or a tile. Its rectangle is empty where it has no breadth.
-struct Area {
-  PixelRect rect;         // of the sheet
-  bool across_x = false;  // is a line that goes down, or a corner: made with neighbours to the left and right
-  bool across_y = false;
-};
-
 PixelRect cut(const PixelRect& a, const PixelRect& b) {
   return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
@@ -35,28 +30,13 @@ PixelRect at_level(const SynthesisSheet& sheet, const PixelRect& rect, int level
              {0, 0, coarser(sheet.width, level), coarser(sheet.height, level)});
 }
 
-PixelRect fixed_part(const SynthesisSheet& sheet, const Area& area, int level) {
+PixelRect fixed_part(const SynthesisSheet& sheet, const SynthesisArea& area, int level) {
   return at_level(sheet, area.rect, level, fixed_px, fixed_px);
 }
 
-PixelRect made_part(const SynthesisSheet& sheet, const Area& area, int level) {
+PixelRect made_part(const SynthesisSheet& sheet, const SynthesisArea& area, int level) {
   return at_level(sheet, area.rect, level, fixed_px + (area.across_x ? around_px : 0), fixed_px + (area.across_y ? around_px : 0));
 }
-
-// Matches of a level in a rectangle of its picture.
-struct Matches {
-  PixelRect rect;
-  std::vector<std::uint32_t> texels;
-  std::uint32_t at(int x, int y) const {
-    return texels[static_cast<std::size_t>(y - rect.y0) * static_cast<std::size_t>(rect.width()) + static_cast<std::size_t>(x - rect.x0)];
-  }
-  bool contains(int x, int y) const { return x >= rect.x0 && y >= rect.y0 && x < rect.x1 && y < rect.y1; }
-};
-
-struct Made {
-  Area area;
-  std::vector<Matches> levels;  // of made_part
-};
 
 // The guides of a tile's window and their coarser levels. Halving reads a pixel beyond, so those of a level are the sheet's own but for a
 // rim that the margin leaves room for.
@@ -110,8 +90,8 @@ class UsesOfOneWindow {
   synth::LevelState& state_;
 };
 
-Matches make_level(const SynthesisPlanData& plan, const Guides& guides, const Area& area, int level, const Matches& coarse,
-                   const std::vector<const Made*>& fixed, Progress& progress) {
+LevelMatches make_level(const SynthesisPlanData& plan, const Guides& guides, const SynthesisArea& area, int level,
+                        const LevelMatches& coarse, const std::vector<const MadeArea*>& fixed, Progress& progress) {
   const std::size_t l = static_cast<std::size_t>(level);
   const PixelRect rect = made_part(plan.sheet, area, level);
   const int x0 = rect.x0 - (guides.window.x0 >> level);
@@ -127,7 +107,7 @@ Matches make_level(const SynthesisPlanData& plan, const Guides& guides, const Ar
 
   const std::uint32_t free = state.exemplars.nowhere();
   if (!fixed.empty()) state.fixed.assign(target.words.size(), free);
-  for (const Made* made : fixed) {
+  for (const MadeArea* made : fixed) {
     const PixelRect part = cut(rect, fixed_part(plan.sheet, made->area, level));
     for (int y = part.y0; y < part.y1; ++y)
       for (int x = part.x0; x < part.x1; ++x) state.fixed[target.index(0, x - rect.x0, y - rect.y0)] = made->levels[l].at(x, y);
@@ -149,15 +129,34 @@ Matches make_level(const SynthesisPlanData& plan, const Guides& guides, const Ar
   const UsesOfOneWindow uses(state);
   synth::start_from_coarser(state, coarse_exemplars, below, coarse_match);
   synth::improve(state, progress);
-  Matches out{rect, {}};
+  LevelMatches out{rect, {}};
   out.texels.reserve(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()));
   target.for_each([&](std::uint32_t at) { out.texels.push_back(state.match[at]); });
   return out;
 }
 
-Made make_area(const SynthesisPlanData& plan, const Guides& guides, const Matches& coarsest, const Area& area,
-               const std::vector<const Made*>& fixed, Progress& progress) {
-  Made made{area, std::vector<Matches>(static_cast<std::size_t>(plan.sheet.level))};
+// Of all guides that a corner or a line is made with.
+std::uint64_t digest_of(const SynthesisSheet& sheet, const Guides& guides, const SynthesisArea& area) {
+  std::uint64_t digest = random_bits(area.rect.x0, area.rect.y0, area.rect.x1, area.rect.y1);
+  for (int level = 0; level < sheet.level; ++level) {
+    const std::size_t l = static_cast<std::size_t>(level);
+    const synth::Plane& plane = guides.planes[l];
+    const std::size_t each = static_cast<std::size_t>(plane.guide_count);
+    const PixelRect rect = moved(made_part(sheet, area, level), -(guides.window.x0 >> level), -(guides.window.y0 >> level));
+    for (int y = rect.y0; y < rect.y1; ++y)
+      for (int x = rect.x0; x < rect.x1; ++x) {
+        const std::size_t at = plane.index(0, x, y);
+        digest = mix_bits(digest ^ plane.words[at]);
+        for (std::size_t g = 0; g < each; ++g) digest = digest * 1099511628211ULL + plane.guides[at * each + g];
+        if (!guides.depths.empty()) digest = mix_bits(digest ^ std::bit_cast<std::uint32_t>(guides.depths[l](x, y)));
+      }
+  }
+  return digest;
+}
+
+MadeArea make_area(const SynthesisPlanData& plan, const Guides& guides, const LevelMatches& coarsest, const SynthesisArea& area,
+                   const std::vector<const MadeArea*>& fixed, Progress& progress) {
+  MadeArea made{area, 0, std::vector<LevelMatches>(static_cast<std::size_t>(plan.sheet.level))};
   for (int level = plan.sheet.level - 1; level >= 0; --level) {
     const std::size_t l = static_cast<std::size_t>(level);
     made.levels[l] = make_level(plan, guides, area, level, level + 1 == plan.sheet.level ? coarsest : made.levels[l + 1], fixed, progress);
@@ -165,32 +164,40 @@ Made make_area(const SynthesisPlanData& plan, const Guides& guides, const Matche
   return made;
 }
 
-Made make_tile(const SynthesisPlanData& plan, const Guides& guides, const Matches& coarsest, const PixelRect& tile, Progress& progress) {
+MadeArea make_tile(SynthesisPlanData& plan, const Guides& guides, const LevelMatches& coarsest, const PixelRect& tile, Progress& progress) {
   const auto inner_x = [&](int x) { return x > 0 && x < plan.sheet.width; };
   const auto inner_y = [&](int y) { return y > 0 && y < plan.sheet.height; };
-  std::vector<Made> corners;
-  corners.reserve(4);
+  // What a tile beside this one has made already, or made now.
+  const auto made_once = [&](const SynthesisArea& area, const std::vector<const MadeArea*>& fixed) {
+    std::uint64_t digest = digest_of(plan.sheet, guides, area);
+    for (const MadeArea* end : fixed) digest = mix_bits(digest ^ end->guides);
+    if (std::shared_ptr<const MadeArea> made = plan.between_tiles.find(area.rect, digest)) return made;
+    MadeArea made = make_area(plan, guides, coarsest, area, fixed, silent_progress());
+    made.guides = digest;
+    plan.between_tiles.keep(std::make_shared<const MadeArea>(std::move(made)));
+    return plan.between_tiles.find(area.rect, digest);
+  };
+  std::vector<std::shared_ptr<const MadeArea>> corners;
   for (const int y : {tile.y0, tile.y1}) {
     for (const int x : {tile.x0, tile.x1}) {
-      if (inner_x(x) && inner_y(y)) corners.push_back(make_area(plan, guides, coarsest, {{x, y, x, y}, true, true}, {}, silent_progress()));
+      if (inner_x(x) && inner_y(y)) corners.push_back(made_once({{x, y, x, y}, true, true}, {}));
     }
   }
-  std::vector<Made> lines;
-  lines.reserve(4);
-  const auto make_line = [&](const Area& area) {
-    std::vector<const Made*> ends;
-    for (const Made& corner : corners) {
-      const PixelRect& at = corner.area.rect;
-      if (at.x0 >= area.rect.x0 && at.x0 <= area.rect.x1 && at.y0 >= area.rect.y0 && at.y0 <= area.rect.y1) ends.push_back(&corner);
+  std::vector<std::shared_ptr<const MadeArea>> lines;
+  const auto make_line = [&](const SynthesisArea& area) {
+    std::vector<const MadeArea*> ends;
+    for (const std::shared_ptr<const MadeArea>& corner : corners) {
+      const PixelRect& at = corner->area.rect;
+      if (at.x0 >= area.rect.x0 && at.x0 <= area.rect.x1 && at.y0 >= area.rect.y0 && at.y0 <= area.rect.y1) ends.push_back(corner.get());
     }
-    lines.push_back(make_area(plan, guides, coarsest, area, ends, silent_progress()));
+    lines.push_back(made_once(area, ends));
   };
   for (const int x : {tile.x0, tile.x1})
     if (inner_x(x)) make_line({{x, tile.y0, x, tile.y1}, true, false});
   for (const int y : {tile.y0, tile.y1})
     if (inner_y(y)) make_line({{tile.x0, y, tile.x1, y}, false, true});
-  std::vector<const Made*> around;
-  for (const Made& line : lines) around.push_back(&line);
+  std::vector<const MadeArea*> around;
+  for (const std::shared_ptr<const MadeArea>& line : lines) around.push_back(line.get());
   return make_area(plan, guides, coarsest, {tile, false, false}, around, progress);
 }
 
@@ -207,8 +214,21 @@ class PartsOfOne : public Progress {
 
 }  // namespace
 
+std::shared_ptr<const MadeArea> MadeBetweenTiles::find(const PixelRect& rect, std::uint64_t guides) const {
+  const auto found =
+      std::find_if(made_.begin(), made_.end(), [&](const auto& made) { return made->area.rect == rect && made->guides == guides; });
+  return found == made_.end() ? nullptr : *found;
+}
+
+void MadeBetweenTiles::keep(std::shared_ptr<const MadeArea> made) {
+  // Of a sheet made column by column, those of the column before: three to a tile.
+  constexpr std::size_t most = 128;
+  made_.push_back(std::move(made));
+  if (made_.size() > most) made_.pop_front();
+}
+
 MatchField synthesize_tile(SynthesisPlan& plan, const GuideStack& guides, const PixelRect& tile, Progress& progress) {
-  const SynthesisPlanData& data = plan.data();
+  SynthesisPlanData& data = plan.data();
   const SynthesisSheet& sheet = data.sheet;
   if (tile.x0 < 0 || tile.y0 < 0 || !(sheet.tile(tile.x0 / sheet.tile_px, tile.y0 / sheet.tile_px) == tile) || tile.x0 >= sheet.width ||
       tile.y0 >= sheet.height) {
@@ -216,7 +236,7 @@ MatchField synthesize_tile(SynthesisPlan& plan, const GuideStack& guides, const 
                 "a tile of the sheet's division");
   }
   MatchField field(tile.width(), tile.height());
-  const auto take = [&](const Matches& matches, const synth::Plane& exemplars) {
+  const auto take = [&](const LevelMatches& matches, const synth::Plane& exemplars) {
     parallel_rows(tile.height(), [&](int y) {
       for (int x = 0; x < tile.width(); ++x) {
         const std::uint32_t texel = matches.at(tile.x0 + x, tile.y0 + y);
@@ -229,7 +249,7 @@ MatchField synthesize_tile(SynthesisPlan& plan, const GuideStack& guides, const 
   if (data.setup.classes.count == 0) return field;
   const PixelRect window = synthesis_window(sheet, tile);
   // Of the plan what lies below the window and one pixel around.
-  Matches coarsest;
+  LevelMatches coarsest;
   coarsest.rect = at_level(sheet, window, sheet.level, 1, 1);
   for (int y = coarsest.rect.y0; y < coarsest.rect.y1; ++y) {
     const auto row = data.matches.begin() + static_cast<std::ptrdiff_t>(y) * sheet.plan_width();
@@ -251,7 +271,7 @@ MatchField synthesize_tile(SynthesisPlan& plan, const GuideStack& guides, const 
     passes += settings.passes + settings.replacing_passes;
   }
   PartsOfOne parts(progress, passes);
-  const Made made = make_tile(data, make_guides(data.setup, guides, window, sheet.level), coarsest, tile, parts);
+  const MadeArea made = make_tile(data, make_guides(data.setup, guides, window, sheet.level), coarsest, tile, parts);
   take(made.levels[0], data.exemplars[0]);
   return field;
 }

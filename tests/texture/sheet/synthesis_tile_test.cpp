@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "tests/texture/sheet/sheet_samples.h"
 #include "texture/quality/quality.h"
+#include "texture/sheet/plan_data.h"
 
 namespace belvedere {
 namespace {
@@ -128,6 +129,26 @@ TEST(SynthesisTile, ReadsItsWindowAlone) {
   EXPECT_EQ(tile_of(plan, other, tile), field);
   other.guides[0].values(tile.x0 + 5, tile.y0 + 5) ^= 64;
   EXPECT_NE(tile_of(plan, other, tile), field);
+}
+
+// What lies between tiles is made by the first of them and taken by the others, where it is made of the same guides.
+TEST(SynthesisTile, WhatNeighboursHaveMadeIsTaken) {
+  const std::vector<Exemplar> exemplars{painting(150, 120, 1)};
+  const GuideStack target = land(400, 390, 40);
+  const SynthesisSheet sheet{400, 390, 2, 128};
+  SynthesisPlan fresh = plan_of(exemplars, target, sheet);
+  const MatchField alone = tile_of(fresh, target, sheet.tile(2, 2));
+  SynthesisPlan plan = plan_of(exemplars, target, sheet);
+  tile_of(plan, target, sheet.tile(1, 1));
+  EXPECT_EQ(plan.data().between_tiles.count(), 8U) << "four corners, four lines";
+  tile_of(plan, target, sheet.tile(2, 1));
+  EXPECT_EQ(plan.data().between_tiles.count(), 13U) << "two corners, three lines more";
+  tile_of(plan, target, sheet.tile(1, 2));
+  EXPECT_EQ(tile_of(plan, target, sheet.tile(2, 2)), alone);
+  const std::size_t before = plan.data().between_tiles.count();
+  const GuideStack other = land(400, 390, 90);
+  EXPECT_EQ(tile_of(plan, other, sheet.tile(2, 2)), tile_of(fresh, other, sheet.tile(2, 2)));
+  EXPECT_GT(plan.data().between_tiles.count(), before) << "other guides";
 }
 
 TEST(SynthesisTile, RefusesOtherTilesAndWindows) {
