@@ -1,6 +1,7 @@
 #include "renderer/sheet/sheet_picture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/grid_part.h"
@@ -57,9 +58,18 @@ Grid<glm::vec3> SheetPicture::copy_ground(PixelRect rect) {
   return part_of(mixed, moved(rect, -window.x0, -window.y0));
 }
 
+StrokeLayers SheetPicture::layers_around(PixelRect rect) {
+  StrokeLayers layers = layers_;
+  const PixelRect widest = intersection(ground_.sheet(), grown(rect, stroke_margin_px(layers_, ground_.strokes())));
+  const Grid<float> depth_m = ground_.read_guidance(widest, {&B::depth_m}, false).depth_m;
+  layers.sky = layers.sky && std::any_of(depth_m.begin(), depth_m.end(), [](float depth) { return std::isinf(depth); });
+  return layers;
+}
+
 Grid<glm::vec3> SheetPicture::make(PixelRect rect) {
   const PixelRect painted = intersection(ground_.sheet(), grown(rect, blend_margin_px));
-  const PixelRect window = intersection(ground_.sheet(), grown(painted, stroke_margin_px(layers_, ground_.strokes())));
+  const StrokeLayers layers = layers_around(painted);
+  const PixelRect window = intersection(ground_.sheet(), grown(painted, stroke_margin_px(layers, ground_.strokes())));
   const PixelRect inside = moved(painted, -window.x0, -window.y0);
   const GuidanceBuffers guidance = ground_.read_guidance(window, stroke_channels(), true);
   const BasePicture base = ground_.read_base(window);
@@ -70,7 +80,7 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect) {
   }
   const SheetWindow place{
       .origin_px = {window.x0, window.y0}, .sheet_px = ground_.view().camera.size(), .asked = inside, .ice = &ground_.ice()};
-  const Painting strokes = paint_strokes(std::move(canvas), guidance, base, layers_, ground_.strokes(), run_.progress, place);
+  const Painting strokes = paint_strokes(std::move(canvas), guidance, base, layers, ground_.strokes(), run_.progress, place);
   const GuidanceBuffers edges = ground_.read_guidance(painted, {&B::depth_m, &B::front}, false);
   return part_of(blend_edges(part_of(strokes.picture, inside), edges), moved(rect, -painted.x0, -painted.y0));
 }

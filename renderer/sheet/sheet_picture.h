@@ -35,6 +35,8 @@ class SheetPicture {
  private:
   MatchField make_matches(PixelRect tile);
   Grid<glm::vec3> copy_ground(PixelRect rect);
+  // Kinds of strokes that can reach a rectangle: those of the sky, by far the longest, begin where sky is seen.
+  StrokeLayers layers_around(PixelRect rect);
 
   SheetGround& ground_;
   CopyPlan* plan_;
