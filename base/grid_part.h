@@ -11,7 +11,9 @@ namespace belvedere {
 template <class T>
 Grid<T> part_of(const Grid<T>& grid, PixelRect rect) {
   Grid<T> part(rect.width(), rect.height());
-  for (int y = 0; y < rect.height(); ++y) std::copy_n(grid.row(rect.y0 + y) + rect.x0, rect.width(), part.row(y));
+  parallel_ranges(rect.height(), 64, [&](int begin, int end) {
+    for (int y = begin; y != end; ++y) std::copy_n(grid.row(rect.y0 + y) + rect.x0, rect.width(), part.row(y));
+  });
   return part;
 }
 

@@ -23,6 +23,14 @@ namespace {
               "room for what is worked on: a larger disk, another --out, or more --memory");
 }
 
+// What makes a task of some use: memory that is written for the first time is slow, and all threads can write it.
+constexpr std::size_t bytes_per_task = std::size_t{1} << 18;
+constexpr int rows_per_task = 64;
+
+void copy_block(std::byte* to, const std::byte* from, std::size_t bytes) {
+  parallel_ranges(bytes, bytes_per_task, [&](std::size_t begin, std::size_t end) { std::memcpy(to + begin, from + begin, end - begin); });
+}
+
 // A file without a name.
 int open_scratch(const std::string& folder) {
   std::error_code code;
@@ -82,7 +90,7 @@ void TileStore::put(int column, int row, const Planes& planes) {
     place_.memory_bytes -= bytes;
     to.memory.resize(bytes);
     std::byte* at = to.memory.data();
-    for (std::size_t i = 0; i < value_bytes_.size(); at += planes[i].bytes(), ++i) std::memcpy(at, planes[i].values, planes[i].bytes());
+    for (std::size_t i = 0; i < value_bytes_.size(); at += planes[i].bytes(), ++i) copy_block(at, planes[i].values, planes[i].bytes());
   } else {
     if (file_ < 0) file_ = open_scratch(place_.folder);
     if (free_slots_.empty()) free_slots_.push_back(slots_++);
@@ -117,11 +125,13 @@ void TileStore::get(int column, int row, PixelRect from, int origin_x, int origi
           fail(place_.folder, "a scratch file cannot be read", code);
         source = rows.data();
       }
-      for (int y = 0; y < from.height(); ++y)
-        std::memcpy(to.values + to.row_bytes() * static_cast<std::size_t>(from.y0 + y - origin_y) +
-                        size * static_cast<std::size_t>(from.x0 - origin_x),
-                    source + row_bytes * static_cast<std::size_t>(y) + size * static_cast<std::size_t>(from.x0 - area.x0),
-                    size * static_cast<std::size_t>(from.width()));
+      parallel_ranges(from.height(), rows_per_task, [&](int begin, int end) {
+        for (int y = begin; y != end; ++y)
+          std::memcpy(to.values + to.row_bytes() * static_cast<std::size_t>(from.y0 + y - origin_y) +
+                          size * static_cast<std::size_t>(from.x0 - origin_x),
+                      source + row_bytes * static_cast<std::size_t>(y) + size * static_cast<std::size_t>(from.x0 - area.x0),
+                      size * static_cast<std::size_t>(from.width()));
+      });
     }
     start += row_bytes * static_cast<std::size_t>(area.height());
   }
