@@ -37,7 +37,9 @@ using Class = LandCoverClass;
 // 1 where a class lies, else 0.
 Grid<float> class_mask(const GuidanceBuffers& g, Class id) {
   Grid<float> mask(g.width(), g.height(), 0.0F);
-  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = g.land_cover[i] == id ? 1.0F : 0.0F;
+  parallel_ranges(mask.size(), std::size_t{65536}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) mask[i] = g.land_cover[i] == id ? 1.0F : 0.0F;
+  });
   return mask;
 }
 
@@ -45,26 +47,37 @@ Grid<float> class_mask(const GuidanceBuffers& g, Class id) {
 struct Surroundings {
   Grid<float> log_depth;
   Grid<float> mean_log_depth;
-  Grid<float> wood;   // share of forest around
-  ForestCover cover;  // of forest pixels
-  Grid<float> water;  // share of water around, on the same surface
-  Mirrored mirrored;  // of water pixels
-  Grid<float> streaks;
+  Grid<float> wood;     // share of forest around
+  ForestCover cover;    // of forest pixels
+  Grid<float> water;    // share of water around, on the same surface
+  Mirrored mirrored;    // of water pixels; empty where there is none
+  Grid<float> streaks;  // the same
   Grid<glm::vec3> sky;  // of the wanted sky pixels
 };
 
-Surroundings look_around(const GuidanceBuffers& g, const Palette& palette, const BaseParameters& p, const SkyParameters& sky,
-                         glm::ivec2 origin_px, PixelRect wanted) {
+// 1 where any pixel is water: of most windows none is, and what water asks for need not be made.
+bool has_water(const GuidanceBuffers& g) { return std::find(g.land_cover.begin(), g.land_cover.end(), Class::water) != g.land_cover.end(); }
+
+Surroundings look_around(const GuidanceBuffers& g, const WideView& wide, const Palette& palette, const BaseParameters& p,
+                         const SkyParameters& sky, glm::ivec2 origin_px, PixelRect wanted) {
   const double ppu = p.pixels_per_unit;
-  const double range_sigma_px = range_sigma_units * ppu;
+  const double wide_ppu = ppu / wide.factor;
+  const double range_sigma_px = range_sigma_units * wide_ppu;
+  const PixelRect window{origin_px.x, origin_px.y, origin_px.x + g.width(), origin_px.y + g.height()};
+  const Grid<float> wide_logs = log_depths(wide.seen, blur_reach_px(range_sigma_px));
   Surroundings around;
-  around.log_depth = log_depths(g, blur_reach_px(range_sigma_px));
-  around.mean_log_depth = blur_in_picture(around.log_depth, range_sigma_px, origin_px);
-  around.wood = blur_in_picture(class_mask(g, Class::forest), krummholz_sigma_units * ppu, origin_px);
-  around.cover = make_forest_cover(g, {ppu, p.seed}, origin_px, wanted);
-  around.water = blur_on_surface(class_mask(g, Class::water), g.depth_m, brook_sigma_units * ppu, wanted);
-  around.mirrored = find_reflections(g, ppu, wanted);
-  around.streaks = make_image_noise(stream_seed(p.seed, Stream::water_streaks), origin_px, g.width(), g.height(), ppu, 26.0, 1.6);
+  around.log_depth = log_depths(g, 0);  // nobody asks what the sky has here
+  around.mean_log_depth = enlarge(wide, blur_in_picture(wide_logs, range_sigma_px, wide.origin_px), window);
+  around.wood =
+      enlarge(wide, blur_in_picture(class_mask(wide.seen, Class::forest), krummholz_sigma_units * wide_ppu, wide.origin_px), window);
+  around.cover = make_forest_cover(g, wide, {ppu, p.seed}, origin_px, wanted);
+  if (has_water(g)) {
+    around.water = blur_on_surface(class_mask(g, Class::water), g.depth_m, brook_sigma_units * ppu, wanted);
+    around.mirrored = find_reflections(g, ppu, wanted);
+    around.streaks = make_image_noise(stream_seed(p.seed, Stream::water_streaks), origin_px, g.width(), g.height(), ppu, 26.0, 1.6);
+  } else {
+    around.water = Grid<float>(g.width(), g.height(), 0.0F);
+  }
   around.sky = make_sky(part_of(g.depth_m, wanted), palette, sky, origin_px + glm::ivec2(wanted.x0, wanted.y0));
   return around;
 }
@@ -183,6 +196,12 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
 
 BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& palette, const BaseParameters& parameters,
                               glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress, PixelRect wanted) {
+  return make_base_picture(guidance, {guidance, 1, origin_px}, palette, parameters, origin_px, picture_size, progress, wanted);
+}
+
+BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& wide, const Palette& palette,
+                              const BaseParameters& parameters, glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress,
+                              PixelRect wanted) {
   using B = GuidanceBuffers;
   require_channels(guidance,
                    {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::tone, &B::fall_line, &B::slope_deg, &B::footprint_m,
@@ -194,7 +213,7 @@ BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& pa
   progress.begin("base picture", height);
   const double horizon_px = parameters.horizon_px > 0.0 ? parameters.horizon_px : 0.18 * picture_size.y;
   const SkyParameters sky{picture_size, horizon_px, parameters.air.clouds, parameters.sun_image_x, parameters.seed};
-  const Surroundings around = look_around(guidance, palette, parameters, sky, origin_px, wanted);
+  const Surroundings around = look_around(guidance, wide, palette, parameters, sky, origin_px, wanted);
   const Scenery scenery{guidance, palette, parameters, around, horizon_px, origin_px};
 
   BasePicture picture;
@@ -220,10 +239,21 @@ BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& pa
 
 int base_margin_px(const BaseParameters& parameters) {
   const double ppu = parameters.pixels_per_unit;
-  const int ranges = 2 * blur_reach_px(range_sigma_units * ppu);  // the blur, and the sky's look down at the terrain
-  const int woods = blur_reach_px(krummholz_sigma_units * ppu);
-  const int waters = std::max(reflection_margin_px(ppu), blur_reach_px(brook_sigma_units * ppu));
-  return std::max({ranges, woods, waters, forest_cover_margin_px(ppu)}) + 3 * static_cast<int>(std::ceil(ppu)) + 2;
+  const int factor = wide_factor(ppu);
+  // The blur, and the sky's look down at the terrain; beyond, what lies between the middles of wide pixels.
+  const int ranges = factor * (2 * blur_reach_px(range_sigma_units * ppu / factor) + 2);
+  const int woods = factor * (blur_reach_px(krummholz_sigma_units * ppu / factor) + 2);
+  const int waters = std::max(reflection_margin_px(ppu), surface_reach_px(brook_sigma_units * ppu));
+  return std::max({ranges, woods, waters, forest_cover_margin_px(ppu) + factor}) + 3 * static_cast<int>(std::ceil(ppu)) + 2;
+}
+
+PixelRect base_window(PixelRect wanted, bool has_water, const BaseParameters& parameters) {
+  const double ppu = parameters.pixels_per_unit;
+  PixelRect window = grown(wanted, surface_reach_px(brook_sigma_units * ppu) + 3 * static_cast<int>(std::ceil(ppu)) + 2);
+  if (!has_water) return window;
+  window.y0 = std::min(window.y0, wanted.y0 - reflection_margin_px(ppu));
+  window.y1 = std::max(window.y1, wanted.y1 + reflection_margin_px(ppu));
+  return window;
 }
 
 }  // namespace belvedere

@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "renderer/paint/air_parameters.h"
 #include "renderer/paint/palette.h"
+#include "renderer/trace/wide_view.h"
 #include "texture/strokes/stroke_painter.h"
 
 namespace belvedere {
@@ -24,9 +25,16 @@ struct BaseParameters {
 // Base picture (encoded sRGB) at the pixel's tone and at ∓ .17, with accents, tree density and haze; sky pixels get sky and clouds.
 // Needs depths, places, altitudes, classes, tone, fall lines, slopes, footprints, small and large relief, rim, built and grain.
 // `origin_px`, `picture_size`: where the buffers lie in the whole picture. Local up to base_margin_px(): a part with that margin equals
-// the whole bit for bit. Of the buffers' pixels only those `wanted` (empty: all) are made: the result has their size.
+// the whole bit for bit. Of the buffers' pixels only those `wanted` (empty: all) are made: the result has their size. Where a wide view is
+// given, it is what must reach so far; the buffers themselves need no more than base_window(wanted).
+BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& wide, const Palette& palette,
+                              const BaseParameters& parameters, glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress,
+                              PixelRect wanted = {});
 BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& palette, const BaseParameters& parameters,
                               glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress, PixelRect wanted = {});
 int base_margin_px(const BaseParameters& parameters);
+// Wanted pixels and what is asked around them, where a wide view is given. has_water: whether any of them is water, which looks up and down
+// for its shores.
+PixelRect base_window(PixelRect wanted, bool has_water, const BaseParameters& parameters);
 
 }  // namespace belvedere

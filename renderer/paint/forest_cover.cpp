@@ -56,24 +56,34 @@ class SheetSizedNoise {
 struct Walk {
   float noise_sum = 0.0F;  // over the lane's length, without the pixel itself
   int left_after = 0;      // steps after which the forest ended, 0: it did not
-  std::size_t end = 0;     // the first pixel beyond
+  std::size_t end = 0;     // the first wide pixel beyond
 };
 
-Walk walk(const GuidanceBuffers& g, const Grid<float>& noise, int x, int y, float step_px, float sign, int steps) {
+// Where a walk begins: a pixel of the sheet, and what is known of it.
+struct Start {
+  glm::ivec2 sheet_px;
+  glm::vec2 fall;
+  float depth_m;
+};
+
+// noise: of wide pixels.
+Walk walk(const WideView& wide, const Grid<float>& noise, const Start& start, float step_px, float sign, int steps) {
+  const GuidanceBuffers& g = wide.seen;
   Walk result;
   glm::vec2 offset(0.0F);
   glm::vec2 direction(0.0F, sign);
-  std::size_t here = noise.index(x, y);
+  glm::vec2 fall = start.fall;
+  float depth_m = start.depth_m;
   for (int k = 1; k <= steps; ++k) {
-    const glm::vec2 fall = g.fall_line[here];
     if (fall.x != 0.0F || fall.y != 0.0F) direction = fall * sign;
     offset += direction * step_px;
-    const int nx = x + static_cast<int>(std::floor(offset.x + 0.5F));
-    const int ny = y + static_cast<int>(std::floor(offset.y + 0.5F));
-    if (!noise.contains(nx, ny)) break;
-    const std::size_t next = noise.index(nx, ny);
-    if (!same_surface(g.depth_m[here], g.depth_m[next])) break;
-    here = next;
+    const int nx = start.sheet_px.x + static_cast<int>(std::floor(offset.x + 0.5F));
+    const int ny = start.sheet_px.y + static_cast<int>(std::floor(offset.y + 0.5F));
+    if (!wide.holds(nx, ny)) break;
+    const std::size_t here = wide.index(nx, ny);
+    if (!same_surface(depth_m, g.depth_m[here])) break;
+    depth_m = g.depth_m[here];
+    fall = g.fall_line[here];
     if (k <= steps_down) result.noise_sum += noise[here];
     if (g.land_cover[here] != Class::forest) {
       result.left_after = k;
@@ -86,7 +96,8 @@ Walk walk(const GuidanceBuffers& g, const Grid<float>& noise, int x, int y, floa
 
 }  // namespace
 
-ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParameters& parameters, glm::ivec2 origin_px, PixelRect wanted) {
+ForestCover make_forest_cover(const GuidanceBuffers& g, const WideView& wide, const ForestCoverParameters& parameters, glm::ivec2 origin_px,
+                              PixelRect wanted) {
   using B = GuidanceBuffers;
   require_channels(g, {&B::depth_m, &B::position_m, &B::land_cover, &B::fall_line, &B::slope_deg, &B::footprint_m, &B::relief_s_m},
                    "forest");
@@ -94,8 +105,8 @@ ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParamet
   const int height = g.height();
   if (wanted.empty()) wanted = {0, 0, width, height};
   const double ppu = parameters.pixels_per_unit;
-  const Grid<float> noise = make_image_noise(stream_seed(parameters.seed, Stream::forest_lanes), origin_px, width, height, ppu,
-                                             lane_sigma_units, lane_sigma_units);
+  const Grid<float> noise = make_image_noise(stream_seed(parameters.seed, Stream::forest_lanes), wide.origin_px, wide.seen.width(),
+                                             wide.seen.height(), ppu / wide.factor, lane_sigma_units, lane_sigma_units);
   const auto step_px = static_cast<float>(step_units * ppu);
   // Deviation of the sum of 25 samples 2 units apart of that noise: neighbours share exp(-1/4), the next exp(-1).
   constexpr float lane_deviation = 9.2F;
@@ -107,27 +118,28 @@ ForestCover make_forest_cover(const GuidanceBuffers& g, const ForestCoverParamet
     SheetSizedNoise tracks(parameters.seed, Stream::forest_tracks);
     SheetSizedNoise stands(parameters.seed, Stream::forest_stands);
     for (int x = wanted.x0; x < wanted.x1; ++x) {
-      const std::size_t i = noise.index(x, y);
+      const std::size_t i = g.depth_m.index(x, y);
       if (g.land_cover[i] != Class::forest) continue;
       const double metres = static_cast<double>(g.footprint_m[i]) * ppu;
       const glm::dvec3 place = glm::dvec3(g.position_m[i]) + g.origin_m;
       const float slope = g.slope_deg[i];
-      const Walk up = walk(g, noise, x, y, step_px, -1.0F, steps_up);
-      const Walk down = walk(g, noise, x, y, step_px, 1.0F, steps_down);
+      const Start start{origin_px + glm::ivec2(x, y), g.fall_line[i], g.depth_m[i]};
+      const Walk up = walk(wide, noise, start, step_px, -1.0F, steps_up);
+      const Walk down = walk(wide, noise, start, step_px, 1.0F, steps_down);
       const float clump = clumps(place.x, place.y, clump_sigma_units * metres);
-      const float lane = (noise[i] + up.noise_sum + down.noise_sum) / lane_deviation;
+      const float lane = (noise[wide.index(start.sheet_px.x, start.sheet_px.y)] + up.noise_sum + down.noise_sum) / lane_deviation;
 
       // Steep slopes are not cleared.
       const float glade_noise =
           glades(place.x, place.y, glade_sigma_units * metres) + 0.45F * clump - 0.025F * std::max(slope - 25.0F, 0.0F);
       float glade = smoothstep(1.42F, 1.64F, glade_noise);
       float thin = 0.0F;
-      if (up.left_after > 0 && has_trait(g.land_cover[up.end], ClassTrait::open_high)) {
+      if (up.left_after > 0 && has_trait(wide.seen.land_cover[up.end], ClassTrait::open_high)) {
         // The treeline frays: groups run up into the open, gaps reach down.
         const float nearness = 1.0F - static_cast<float>(up.left_after) / 14.0F;
         if (nearness > 0.0F) thin = nearness * std::clamp(0.62F - 0.45F * clump, 0.1F, 1.0F);
         // What starts at one gap of the treeline is one track, straight down to where the slope or its force ends.
-        const glm::dvec3 head = glm::dvec3(g.position_m[up.end]) + g.origin_m;
+        const glm::dvec3 head = glm::dvec3(wide.seen.position_m[up.end]) + g.origin_m;
         const float force = tracks(head.x, head.y, track_sigma_units * metres) + 0.02F * (slope - 28.0F);
         const float reach = 14.0F * (force - 0.75F);  // steps
         if (slope > 18.0F) glade = std::max(glade, smoothstep(-0.5F, 1.5F, reach - static_cast<float>(up.left_after)));

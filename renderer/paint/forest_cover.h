@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "renderer/paint/ground_hues.h"
 #include "renderer/paint/palette.h"
+#include "renderer/trace/wide_view.h"
 
 namespace belvedere {
 
@@ -25,10 +26,10 @@ struct ForestCover {
 };
 
 // Needs depths, places, classes, fall lines, slopes, footprints and small relief. Local up to forest_cover_margin_px(): a part with that
-// margin equals the whole bit for bit.
+// margin equals the whole bit for bit. It is the wide view that must reach so far; of the buffers a pixel needs itself alone.
 // Pixels outside `wanted` (empty: all) hold 0.
-ForestCover make_forest_cover(const GuidanceBuffers& guidance, const ForestCoverParameters& parameters, glm::ivec2 origin_px,
-                              PixelRect wanted = {});
+ForestCover make_forest_cover(const GuidanceBuffers& guidance, const WideView& wide, const ForestCoverParameters& parameters,
+                              glm::ivec2 origin_px, PixelRect wanted = {});
 int forest_cover_margin_px(double pixels_per_unit);
 
 // Grass among trees: a little darker than that of the open. Encoded sRGB at a tone.

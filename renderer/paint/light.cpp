@@ -95,10 +95,24 @@ Grid<float> lift_crests(const Grid<float>& tone, const GuidanceBuffers& g, doubl
   return lifted;
 }
 
+// How much forest lies around each wide pixel that touches a rectangle of the sheet, 0…1; other pixels hold 0.
+Grid<float> woods_around(const WideView& wide, double pixels_per_unit, PixelRect sheet_rect) {
+  Grid<float> woods(wide.seen.width(), wide.seen.height(), 0.0F);
+  for (std::size_t i = 0; i < woods.size(); ++i) woods[i] = wide.seen.land_cover[i] == LandCoverClass::forest ? 1.0F : 0.0F;
+  const PixelRect asked = moved(wide_rect(sheet_rect, wide.factor), -wide.origin_px.x, -wide.origin_px.y);
+  return blur_on_surface(woods, wide.seen.depth_m, outcrop_sigma_units * pixels_per_unit / wide.factor,
+                         intersection({0, 0, woods.width(), woods.height()}, asked));
+}
+
 }  // namespace
 
 Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& parameters, glm::ivec2 origin_px, Progress& progress,
                       PixelRect wanted) {
+  return make_tone(guidance, {guidance, 1, origin_px}, parameters, origin_px, progress, wanted);
+}
+
+Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide, const ToneParameters& parameters, glm::ivec2 origin_px,
+                      Progress& progress, PixelRect wanted) {
   using B = GuidanceBuffers;
   require_channels(
       guidance,
@@ -117,19 +131,20 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
   const Grid<float> shadow = blur_on_surface(guidance.shadow, guidance.depth_m, shadow_blur_units * ppu, made);
   const Grid<float> sky_view = blur_on_surface(guidance.sky_view, guidance.depth_m, sky_blur_units * ppu, made);
   Grid<std::uint8_t> ribbed(width, height, 0);
-  for (int y = made.y0; y < made.y1; ++y)
-    for (int x = made.x0; x < made.x1; ++x) {
-      const std::size_t i = ribbed.index(x, y);
-      ribbed[i] = class_info(guidance.land_cover[i]).tone.ribs > 0.0F && steepness(guidance.slope_deg[i]) > 0.0F ? 1 : 0;
-    }
-  const Grid<float> ribs = make_ribs(guidance, ribbed, {ppu, parameters.sun_image_x, parameters.seed}, origin_px);
   Grid<std::uint8_t> walls(width, height, 0);
-  for (std::size_t i = 0; i < walls.size(); ++i) walls[i] = ribbed[i] != 0 && guidance.land_cover[i] == LandCoverClass::rock ? 1 : 0;
+  parallel_ranges(made.height(), 16, [&](int begin, int end) {
+    for (int y = made.y0 + begin; y < made.y0 + end; ++y)
+      for (int x = made.x0; x < made.x1; ++x) {
+        const std::size_t i = ribbed.index(x, y);
+        ribbed[i] = class_info(guidance.land_cover[i]).tone.ribs > 0.0F && steepness(guidance.slope_deg[i]) > 0.0F ? 1 : 0;
+        walls[i] = ribbed[i] != 0 && guidance.land_cover[i] == LandCoverClass::rock ? 1 : 0;
+      }
+  });
+  const Grid<float> ribs = make_ribs(guidance, wide, ribbed, {ppu, parameters.sun_image_x, parameters.seed}, origin_px);
   const Grid<float> planes = make_rock_planes(guidance, walls, {ppu, parameters.sun_image_x, parameters.seed}, origin_px);
-  Grid<float> woods(width, height, 0.0F);
-  for (std::size_t i = 0; i < woods.size(); ++i) woods[i] = guidance.land_cover[i] == LandCoverClass::forest ? 1.0F : 0.0F;
-  woods = blur_on_surface(woods, guidance.depth_m, outcrop_sigma_units * ppu, made);
-  const Grid<float> pool = make_image_noise(stream_seed(parameters.seed, Stream::light_pools), origin_px, width, height, ppu, 140.0, 60.0);
+  const Grid<float> woods = woods_around(wide, ppu, moved(made, origin_px.x, origin_px.y));
+  const Grid<float> pool = make_image_noise(stream_seed(parameters.seed, Stream::light_pools), origin_px + glm::ivec2(made.x0, made.y0),
+                                            made.width(), made.height(), ppu, 140.0, 60.0);
 
   Grid<float> tone(width, height, 0.0F);
   parallel_rows(made.height(), [&](int row) {
@@ -157,10 +172,11 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
       }
       float value = std::clamp((raw - raw_black) / raw_range, id == LandCoverClass::rock ? -0.3F : 0.0F, 1.05F);
       value += light.lift;
-      value += pool_strength * pool[i];
+      value += pool_strength * pool(x - made.x0, row);
       float contrast = light.contrast * static_cast<float>(parameters.light.contrast);
       if (id == LandCoverClass::rock) {
-        const float outcrop = std::clamp((woods[i] - 0.15F) / 0.4F, 0.0F, 1.0F);
+        const float wood = value_on_surface(wide, woods, origin_px.x + x, origin_px.y + y, guidance.depth_m[i]);
+        const float outcrop = std::clamp((wood - 0.15F) / 0.4F, 0.0F, 1.0F);
         contrast *= 1.0F - outcrop_calm * outcrop;
         value -= outcrop_shade * outcrop;
       }
@@ -172,11 +188,18 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& par
   return lift_crests(tone, guidance, ppu, wanted);
 }
 
+int tone_near_margin_px(const ToneParameters& parameters) {
+  const double ppu = parameters.pixels_per_unit;
+  static_assert(sky_blur_units > shadow_blur_units);
+  return std::max(rib_near_margin_px(ppu), surface_reach_px(sky_blur_units * ppu)) + below_crest_px(ppu) + 1;
+}
+
 int tone_margin_px(const ToneParameters& parameters) {
   const double ppu = parameters.pixels_per_unit;
-  const int blur = surface_reach_px(outcrop_sigma_units * ppu);
-  static_assert(outcrop_sigma_units > sky_blur_units && outcrop_sigma_units > shadow_blur_units);
-  return std::max(rib_margin_px(ppu), blur) + below_crest_px(ppu) + 1;
+  const int factor = wide_factor(ppu);
+  const int blur = factor * (surface_reach_px(outcrop_sigma_units * ppu / factor) + 2);
+  const int looked_up = std::max(rib_margin_px(ppu), blur) + below_crest_px(ppu) + 1;
+  return std::max(looked_up, tone_near_margin_px(parameters));
 }
 
 }  // namespace belvedere

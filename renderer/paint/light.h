@@ -7,6 +7,7 @@
 #include "base/guidance_buffers.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "renderer/trace/wide_view.h"
 
 namespace belvedere {
 
@@ -34,9 +35,13 @@ struct ToneParameters {
 // normals, altitude, land cover, shadow, sky view, slope, fall line and relief, all of the buffers' size: Error(bug) otherwise.
 // `origin_px` is where the buffers' (0,0) lies in the whole picture, so that noise stays in place in parts of a picture. Local: a pixel
 // depends on neighbours within tone_margin_px() only, so a part with that margin equals the whole bit for bit. Of the buffers' pixels only
-// those `wanted` (empty: all) are made: the result has their size.
+// those `wanted` (empty: all) are made: the result has their size. Where a wide view is given, it is what must reach so far; the buffers
+// themselves need no more than tone_near_margin_px().
+Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide, const ToneParameters& parameters, glm::ivec2 origin_px,
+                      Progress& progress, PixelRect wanted = {});
 Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& parameters, glm::ivec2 origin_px, Progress& progress,
                       PixelRect wanted = {});
 int tone_margin_px(const ToneParameters& parameters);
+int tone_near_margin_px(const ToneParameters& parameters);
 
 }  // namespace belvedere

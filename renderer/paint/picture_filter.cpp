@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/grid_part.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 
@@ -64,7 +65,35 @@ Grid<float> blur_directly(const Grid<float>& values, double sigma) {
 // Neighbours that a blur on a surface takes lie so far apart: an eighth of sigma at most, which no eye tells from all of them.
 int surface_stride_px(double sigma_px) { return std::max(1, static_cast<int>(std::floor(sigma_px / (0.5 * widest_direct_sigma_px)))); }
 
+// Adds to each sum in x0 … x1 its neighbour dx pixels to the right in another row, where that lies on the same surface. Without a branch,
+// so that compilers make vectors of it.
+void add_neighbours(float* __restrict sum, float* __restrict total, const float* __restrict depth_m, const float* other_depth_m,
+                    const float* other, int dx, float weight, int x0, int x1) {
+  for (int x = x0; x < x1; ++x) {
+    const float a = depth_m[x];
+    const float b = other_depth_m[x + dx];
+    const bool same = static_cast<bool>(static_cast<int>(a == b) | static_cast<int>(std::abs(a - b) <= surface_tolerance * std::min(a, b)));
+    const float share = same ? weight : 0.0F;
+    sum[x] += share * other[x + dx];
+    total[x] += share;
+  }
+}
+
 int floor_divide(int value, int divisor) { return value >= 0 ? value / divisor : -((-value + divisor - 1) / divisor); }
+
+// Two neighbouring wide pixels, and how far from the first a pixel of the sheet lies; a function of its absolute place alone.
+struct Between {
+  int low = 0;
+  int high = 0;
+  float share = 0.0F;
+};
+
+Between between(int sheet, int factor, int origin, int count) {
+  const int twice = 2 * sheet + 1 - factor;  // twice the distance from the middle of wide pixel 0, in pixels of the sheet
+  const int first = twice >= 0 ? twice / (2 * factor) : -1;
+  return {std::clamp(first - origin, 0, count - 1), std::clamp(first + 1 - origin, 0, count - 1),
+          static_cast<float>(twice - first * 2 * factor) / static_cast<float>(2 * factor)};
+}
 
 }  // namespace
 
@@ -74,25 +103,29 @@ Grid<float> blur_on_surface(const Grid<float>& values, const Grid<float>& depth_
   const int radius = static_cast<int>(kernel.size()) - 1;
   const PixelRect whole{0, 0, values.width(), values.height()};
   if (wanted.empty()) wanted = whole;
-  // One pass along a line; each pass asks for the surface of its own centre.
+  // One pass along a line; each pass asks for the surface of its own centre. Rows of sums go through one neighbour after the other.
   const auto pass = [&](const Grid<float>& in, PixelRect at, int step_x, int step_y) {
     Grid<float> out(whole.x1, whole.y1);
-    parallel_rows(at.height(), [&](int row) {
-      const int y = at.y0 + row;
-      for (int x = at.x0; x < at.x1; ++x) {
-        const float depth = depth_m(x, y);
-        float sum = kernel[0] * in(x, y);
-        float total = kernel[0];
-        const auto add = [&](int nx, int ny, float weight) {
-          if (!in.contains(nx, ny) || !same_surface(depth, depth_m(nx, ny))) return;
-          sum += weight * in(nx, ny);
-          total += weight;
+    parallel_ranges(at.height(), 8, [&](int begin, int end) {
+      std::vector<float> totals(static_cast<std::size_t>(whole.x1));
+      for (int y = at.y0 + begin; y < at.y0 + end; ++y) {
+        const float* depth = depth_m.row(y);
+        float* sum = out.row(y);
+        float* total = totals.data();
+        for (int x = at.x0; x < at.x1; ++x) {
+          sum[x] = kernel[0] * in(x, y);
+          total[x] = kernel[0];
+        }
+        const auto add = [&](int dx, int dy, float weight) {
+          if (y + dy < 0 || y + dy >= whole.y1) return;
+          add_neighbours(sum, total, depth, depth_m.row(y + dy), in.row(y + dy), dx, weight, std::max(at.x0, -dx),
+                         std::min(at.x1, whole.x1 - dx));
         };
         for (int k = 1; k <= radius; ++k) {
-          add(x - k * step_x, y - k * step_y, kernel[static_cast<std::size_t>(k)]);
-          add(x + k * step_x, y + k * step_y, kernel[static_cast<std::size_t>(k)]);
+          add(-k * step_x, -k * step_y, kernel[static_cast<std::size_t>(k)]);
+          add(k * step_x, k * step_y, kernel[static_cast<std::size_t>(k)]);
         }
-        out(x, y) = sum / total;
+        for (int x = at.x0; x < at.x1; ++x) sum[x] /= total[x];
       }
     });
     return out;
@@ -154,6 +187,45 @@ Grid<float> blur_in_picture(const Grid<float>& values, double sigma_px, glm::ive
 int blur_reach_px(double sigma_px) {
   const int side = cell_side_px(sigma_px);
   return side == 1 ? kernel_radius(sigma_px) : (kernel_radius(sigma_px / side) + 3) * side;
+}
+
+Grid<float> enlarge(const WideView& wide, const Grid<float>& values, PixelRect rect) {
+  if (wide.factor == 1) return part_of(values, moved(rect, -wide.origin_px.x, -wide.origin_px.y));
+  std::vector<Between> columns;
+  columns.reserve(static_cast<std::size_t>(rect.width()));
+  for (int x = rect.x0; x < rect.x1; ++x) columns.push_back(between(x, wide.factor, wide.origin_px.x, values.width()));
+  Grid<float> out(rect.width(), rect.height());
+  parallel_ranges(rect.height(), 16, [&](int begin, int end) {
+    std::vector<float> line(static_cast<std::size_t>(values.width()));
+    for (int y = begin; y != end; ++y) {
+      const Between rows = between(rect.y0 + y, wide.factor, wide.origin_px.y, values.height());
+      const float* above = values.row(rows.low);
+      const float* below = values.row(rows.high);
+      for (int x = 0; x < values.width(); ++x) line[static_cast<std::size_t>(x)] = above[x] * (1.0F - rows.share) + below[x] * rows.share;
+      float* to = out.row(y);
+      for (const Between& at : columns)
+        *to++ = line[static_cast<std::size_t>(at.low)] * (1.0F - at.share) + line[static_cast<std::size_t>(at.high)] * at.share;
+    }
+  });
+  return out;
+}
+
+float value_on_surface(const WideView& wide, const Grid<float>& values, int sheet_x, int sheet_y, float depth_m) {
+  if (wide.factor == 1) return values[wide.index(sheet_x, sheet_y)];
+  const Between columns = between(sheet_x, wide.factor, wide.origin_px.x, values.width());
+  const Between rows = between(sheet_y, wide.factor, wide.origin_px.y, values.height());
+  float sum = 0.0F;
+  float total = 0.0F;
+  const auto add = [&](int x, int y, float weight) {
+    if (!same_surface(depth_m, wide.seen.depth_m(x, y))) return;
+    sum += weight * values(x, y);
+    total += weight;
+  };
+  add(columns.low, rows.low, (1.0F - columns.share) * (1.0F - rows.share));
+  add(columns.high, rows.low, columns.share * (1.0F - rows.share));
+  add(columns.low, rows.high, (1.0F - columns.share) * rows.share);
+  add(columns.high, rows.high, columns.share * rows.share);
+  return total > 0.0F ? sum / total : values[wide.index(sheet_x, sheet_y)];
 }
 
 }  // namespace belvedere

@@ -6,6 +6,7 @@
 
 #include "base/grid.h"
 #include "base/parallel.h"
+#include "renderer/trace/wide_view.h"
 
 namespace belvedere {
 
@@ -28,5 +29,10 @@ int surface_reach_px(double sigma_px);
 // origin. Reach: blur_reach_px(sigma_px).
 Grid<float> blur_in_picture(const Grid<float>& values, double sigma_px, glm::ivec2 origin_px);
 int blur_reach_px(double sigma_px);
+
+// Values of wide pixels at the pixels of a rectangle of the sheet, bilinearly between their middles.
+Grid<float> enlarge(const WideView& wide, const Grid<float>& values, PixelRect sheet_rect);
+// The same at one pixel, from those wide pixels alone that lie on the surface at `depth_m`; the one that holds it where there is none.
+float value_on_surface(const WideView& wide, const Grid<float>& values, int sheet_x, int sheet_y, float depth_m);
 
 }  // namespace belvedere

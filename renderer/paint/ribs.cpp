@@ -39,9 +39,16 @@ int steps_each_way(const RibWidth& width) { return static_cast<int>(width.length
 // The noises of the three widths at one pixel, side by side, because every step reads all of them.
 using NoiseTriple = glm::vec3;
 
-// Sums of the noises at the places down (sign 1) or up the fall line from a pixel, without the pixel itself: each width as far as its own
-// length. Places are kept relative to the pixel, so that rounding does not depend on where the part of the picture lies.
-NoiseTriple integrate_one_way(const GuidanceBuffers& guidance, const Grid<NoiseTriple>& noise, int x, int y, float step_px, float sign) {
+// Where a streamline begins: a pixel of the sheet, and what is known of it.
+struct Start {
+  glm::ivec2 sheet_px;
+  glm::vec2 fall;
+  float depth_m;
+};
+
+// Sums of the noises (of wide pixels) at the places down (sign 1) or up the fall line from a pixel, without the pixel itself: each width as
+// far as its own length. Places are kept relative to the pixel, so that rounding does not depend on where the part of the picture lies.
+NoiseTriple integrate_one_way(const WideView& wide, const Grid<NoiseTriple>& noise, const Start& start, float step_px, float sign) {
   // By falling length: the widest runs on when the others have ended.
   constexpr int longest = 2;
   constexpr int middle = 0;
@@ -54,20 +61,22 @@ NoiseTriple integrate_one_way(const GuidanceBuffers& guidance, const Grid<NoiseT
   glm::vec2 offset(0.0F);
   glm::vec2 direction(0.0F);
   bool bound = true;  // still on the surface it set out on
-  std::size_t here = noise.index(x, y);
+  glm::vec2 fall = start.fall;
+  float depth_m = start.depth_m;
   NoiseTriple sum(0.0F);
   for (int k = 0; k < steps_long; ++k) {
     if (bound) {
-      const glm::vec2 fall = guidance.fall_line[here];
       if (fall.x != 0.0F || fall.y != 0.0F) direction = fall * sign;
     }
     offset += direction * step_px;
-    const int next_x = std::clamp(x + static_cast<int>(std::floor(offset.x + 0.5F)), 0, noise.width() - 1);
-    const int next_y = std::clamp(y + static_cast<int>(std::floor(offset.y + 0.5F)), 0, noise.height() - 1);
-    const std::size_t next = noise.index(next_x, next_y);
-    if (bound && !same_surface(guidance.depth_m[here], guidance.depth_m[next])) bound = false;
-    here = next;
-    const NoiseTriple& value = noise[here];
+    const std::size_t next = wide.index(start.sheet_px.x + static_cast<int>(std::floor(offset.x + 0.5F)),
+                                        start.sheet_px.y + static_cast<int>(std::floor(offset.y + 0.5F)));
+    if (bound) {
+      bound = same_surface(depth_m, wide.seen.depth_m[next]);
+      depth_m = wide.seen.depth_m[next];
+      fall = wide.seen.fall_line[next];
+    }
+    const NoiseTriple& value = noise[next];
     if (k < steps_short) sum[shortest] += value[shortest];
     if (k < steps_middle) sum[middle] += value[middle];
     sum[longest] += value[longest];
@@ -87,43 +96,49 @@ float slope_across(const Grid<float>& field, const Grid<float>& depth_m, int x, 
 
 }  // namespace
 
-std::array<Grid<float>, 3> integrate_along_fall_line(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& marked, std::uint64_t seed,
-                                                     glm::ivec2 origin_px, double pixels_per_unit) {
+std::array<Grid<float>, 3> integrate_along_fall_line(const GuidanceBuffers& guidance, const WideView& wide,
+                                                     const Grid<std::uint8_t>& marked, std::uint64_t seed, glm::ivec2 origin_px,
+                                                     double pixels_per_unit) {
   const int width = guidance.width();
   const int height = guidance.height();
-  Grid<NoiseTriple> noise(width, height);
+  std::array<Grid<float>, 3> fields;
+  for (Grid<float>& field : fields) field = Grid<float>(width, height, 0.0F);
+  if (!any_marked(marked, {0, 0, width, height})) return fields;
+  Grid<NoiseTriple> noise(wide.seen.width(), wide.seen.height());
   NoiseTriple scale(0.0F);
   for (int k = 0; k < 3; ++k) {
     const double sigma = rib_widths[k].sigma_units;
     const std::uint64_t lines = stream_seed(seed, Stream::rib_lines, static_cast<std::uint64_t>(k));
-    const Grid<float> one = make_image_noise(lines, origin_px, width, height, pixels_per_unit, sigma, sigma);
+    const Grid<float> one =
+        make_image_noise(lines, wide.origin_px, noise.width(), noise.height(), pixels_per_unit / wide.factor, sigma, sigma);
     for (std::size_t i = 0; i < one.size(); ++i) noise[i][k] = one[i];
     scale[k] = static_cast<float>(1.0 / line_sum_deviation(2 * steps_each_way(rib_widths[k]) + 1, sigma));
   }
   const auto step_px = static_cast<float>(step_units * pixels_per_unit);
   // Neighbours that slopes and the blur will ask for.
   const int reach = static_cast<int>(std::ceil(pixels_per_unit)) + blur_reach_px(blur_sigma_units * pixels_per_unit);
-  std::array<Grid<float>, 3> fields;
-  for (Grid<float>& field : fields) field = Grid<float>(width, height, 0.0F);
   parallel_tiles(width, height, 16, [&](PixelRect tile) {
     if (!any_marked(marked, {tile.x0 - reach, tile.y0 - reach, tile.x1 + reach, tile.y1 + reach})) return;
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
-        const NoiseTriple down = integrate_one_way(guidance, noise, x, y, step_px, 1.0F);
-        const NoiseTriple up = integrate_one_way(guidance, noise, x, y, step_px, -1.0F);
-        const NoiseTriple all = (noise(x, y) + down + up) * scale;
+        const Start start{origin_px + glm::ivec2(x, y), guidance.fall_line(x, y), guidance.depth_m(x, y)};
+        const NoiseTriple down = integrate_one_way(wide, noise, start, step_px, 1.0F);
+        const NoiseTriple up = integrate_one_way(wide, noise, start, step_px, -1.0F);
+        const NoiseTriple all = (noise[wide.index(start.sheet_px.x, start.sheet_px.y)] + down + up) * scale;
         for (int k = 0; k < 3; ++k) fields[k](x, y) = all[k];
       }
   });
   return fields;
 }
 
-Grid<float> make_ribs(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& marked, const RibParameters& parameters,
-                      glm::ivec2 origin_px) {
+Grid<float> make_ribs(const GuidanceBuffers& guidance, const WideView& wide, const Grid<std::uint8_t>& marked,
+                      const RibParameters& parameters, glm::ivec2 origin_px) {
   const double ppu = parameters.pixels_per_unit;
   const int width = guidance.width();
   const int height = guidance.height();
-  std::array<Grid<float>, 3> fields = integrate_along_fall_line(guidance, marked, parameters.seed, origin_px, ppu);
+  Grid<float> ribs(width, height, 0.0F);
+  if (!any_marked(marked, {0, 0, width, height})) return ribs;
+  std::array<Grid<float>, 3> fields = integrate_along_fall_line(guidance, wide, marked, parameters.seed, origin_px, ppu);
   for (Grid<float>& field : fields) field = blur_in_picture(field, blur_sigma_units * ppu, origin_px);
   // Slow random amplitudes: evenly strong ribs look like corrugated iron.
   const Grid<float> slow_a =
@@ -133,7 +148,6 @@ Grid<float> make_ribs(const GuidanceBuffers& guidance, const Grid<std::uint8_t>&
   const int reach_px = std::max(1, static_cast<int>(std::lround(ppu)));
   const auto reach_units = static_cast<float>(reach_px / ppu);
   const float side = parameters.sun_side < 0.0 ? -1.0F : 1.0F;
-  Grid<float> ribs(width, height, 0.0F);
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       if (marked(x, y) == 0) continue;
@@ -152,10 +166,13 @@ Grid<float> make_ribs(const GuidanceBuffers& guidance, const Grid<std::uint8_t>&
   return ribs;
 }
 
+int rib_near_margin_px(double pixels_per_unit) {
+  return blur_reach_px(blur_sigma_units * pixels_per_unit) + std::max(1, static_cast<int>(std::lround(pixels_per_unit))) + 2;
+}
+
 int rib_margin_px(double pixels_per_unit) {
   const double longest_units = rib_widths[2].length_units / 2.0 + 1.0;
-  return static_cast<int>(std::ceil(longest_units * pixels_per_unit)) + blur_reach_px(blur_sigma_units * pixels_per_unit) +
-         std::max(1, static_cast<int>(std::lround(pixels_per_unit))) + 2;
+  return static_cast<int>(std::ceil(longest_units * pixels_per_unit)) + rib_near_margin_px(pixels_per_unit);
 }
 
 }  // namespace belvedere

@@ -6,6 +6,7 @@
 
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
+#include "renderer/trace/wide_view.h"
 
 namespace belvedere {
 
@@ -27,13 +28,17 @@ inline constexpr std::array<RibWidth, 3> rib_widths = {{{3.2, 44.0, 0.50F}, {1.6
 
 // Noise of each width, integrated down the fall line through each pixel; mean 0, deviation 1 where the fall line is straight (the sum of
 // correlated samples is normalized analytically). A streamline that comes to another surface, or to where there is no fall line, goes
-// straight on, so nothing crosses a silhouette. Pixels far from any that is `marked` hold 0.
-std::array<Grid<float>, 3> integrate_along_fall_line(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& marked, std::uint64_t seed,
-                                                     glm::ivec2 origin_px, double pixels_per_unit);
+// straight on, so nothing crosses a silhouette. Its way beyond the pixel is looked up in the wide view. Pixels far from any that is
+// `marked` hold 0.
+std::array<Grid<float>, 3> integrate_along_fall_line(const GuidanceBuffers& guidance, const WideView& wide,
+                                                     const Grid<std::uint8_t>& marked, std::uint64_t seed, glm::ivec2 origin_px,
+                                                     double pixels_per_unit);
 
-// The light on the ribs: about -1 … 1, mean 0. Only valid where pixels are `marked`. Reach: rib_margin_px().
-Grid<float> make_ribs(const GuidanceBuffers& guidance, const Grid<std::uint8_t>& marked, const RibParameters& parameters,
-                      glm::ivec2 origin_px);
+// The light on the ribs: about -1 … 1, mean 0. Only valid where pixels are `marked`. Reach: rib_near_margin_px() in the pixels,
+// rib_margin_px() in the wide view.
+Grid<float> make_ribs(const GuidanceBuffers& guidance, const WideView& wide, const Grid<std::uint8_t>& marked,
+                      const RibParameters& parameters, glm::ivec2 origin_px);
+int rib_near_margin_px(double pixels_per_unit);
 int rib_margin_px(double pixels_per_unit);
 
 }  // namespace belvedere

@@ -1,5 +1,6 @@
 #include "renderer/sheet/sheet_ground.h"
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -7,6 +8,7 @@
 #include "renderer/paint/composite.h"
 #include "renderer/paint/guides.h"
 #include "renderer/sheet/sheet_ice.h"
+#include "renderer/trace/camera_reduced.h"
 
 namespace belvedere {
 namespace {
@@ -34,6 +36,21 @@ GuidanceBuffers blank_traced(int width, int height) {
     if (channel.maker == ChannelMaker::trace) make_channel(guidance, channel.member, width, height);
   return guidance;
 }
+
+// What a WideView holds.
+GuidanceBuffers blank_wide(int width, int height) {
+  GuidanceBuffers guidance;
+  for (const GuidanceMember member : std::initializer_list<GuidanceMember>{&B::depth_m, &B::position_m, &B::land_cover, &B::fall_line})
+    make_channel(guidance, member, width, height);
+  return guidance;
+}
+
+Planes wide_planes(GuidanceBuffers& g) {
+  return {plane_of(g.depth_m), plane_of(g.position_m), plane_of(g.land_cover), plane_of(g.fall_line)};
+}
+
+// Side of the tiles of the wide view, in its own pixels.
+int wide_tile_px(int tile_px, int factor) { return std::max(64, tile_px / factor); }
 
 template <class Product, class... Grids>
 typename SheetStage<Product>::Making making_of(std::function<Product(PixelRect)> make, Grids Product::*... grids) {
@@ -64,8 +81,14 @@ SheetGround::SheetGround(const World& world, const SheetView& view, const Palett
       tone_parameters_(to_tone_parameters(world, view)),
       base_parameters_(to_base_parameters(world, view)),
       strokes_(to_stroke_parameters(world, palette, view)),
+      factor_(wide_factor(view.pixels_per_unit)),
+      wide_camera_(make_reduced_camera(view.camera, factor_)),
       traced_(place, view.camera.size().x, view.camera.size().y, tile_px,
               {.make = [this](PixelRect tile) { return make_traced(tile); }, .blank = blank_traced, .planes = traced_planes}),
+      wide_(place, wide_camera_->size().x, wide_camera_->size().y, wide_tile_px(tile_px, factor_),
+            {.make = [this](PixelRect tile) { return trace_forms(world_, *wide_camera_, tile, run_); },
+             .blank = blank_wide,
+             .planes = wide_planes}),
       tone_(place, view.camera.size().x, view.camera.size().y, tile_px,
             {.make = [this](PixelRect tile) { return make_tone_tile(tile); },
              .blank = [](int width, int height) { return Grid<float>(width, height); },
@@ -105,24 +128,43 @@ GuidanceBuffers SheetGround::read_all_guidance(PixelRect rect) {
   return guidance;
 }
 
+SheetGround::Wide SheetGround::read_wide(PixelRect rect) {
+  Wide wide;
+  if (factor_ == 1) {
+    rect = intersection(sheet(), rect);
+    wide.seen = read_guidance(rect, {&B::depth_m, &B::position_m, &B::land_cover, &B::fall_line}, false);
+  } else {
+    rect = intersection(wide_.sheet(), wide_rect(rect, factor_));
+    wide.seen = wide_.read(rect);
+    wide.seen.origin_m = world_.surface.origin;
+  }
+  wide.origin_px = {rect.x0, rect.y0};
+  return wide;
+}
+
 Grid<float> SheetGround::make_tone_tile(PixelRect tile) {
-  const PixelRect window = intersection(sheet(), grown(tile, tone_margin_px(tone_parameters_)));
+  const Wide wide = read_wide(grown(tile, tone_margin_px(tone_parameters_)));
+  const PixelRect window = intersection(sheet(), grown(tile, tone_near_margin_px(tone_parameters_)));
   const GuidanceBuffers guidance = read_guidance(
       window,
       {&B::depth_m, &B::position_m, &B::normal, &B::normal_detail, &B::normal_smooth, &B::altitude_m, &B::land_cover, &B::shadow,
        &B::sky_view, &B::slope_deg, &B::fall_line, &B::footprint_m, &B::relief_s_m, &B::relief_m_m, &B::relief_l_m},
       false);
-  return make_tone(guidance, tone_parameters_, {window.x0, window.y0}, run_.progress, moved(tile, -window.x0, -window.y0));
+  return make_tone(guidance, {wide.seen, factor_, wide.origin_px}, tone_parameters_, {window.x0, window.y0}, run_.progress,
+                   moved(tile, -window.x0, -window.y0));
 }
 
 BasePicture SheetGround::make_base(PixelRect tile) {
-  const PixelRect window = intersection(sheet(), grown(tile, base_margin_px(base_parameters_)));
+  const Wide wide = read_wide(grown(tile, base_margin_px(base_parameters_)));
+  const GuidanceBuffers itself = read_guidance(tile, {&B::land_cover}, false);
+  const bool has_water = std::find(itself.land_cover.begin(), itself.land_cover.end(), LandCoverClass::water) != itself.land_cover.end();
+  const PixelRect window = intersection(sheet(), base_window(tile, has_water, base_parameters_));
   const GuidanceBuffers guidance = read_guidance(window,
                                                  {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::fall_line, &B::slope_deg,
                                                   &B::footprint_m, &B::relief_s_m, &B::relief_l_m, &B::rim_m, &B::built, &B::grain},
                                                  true);
-  return make_base_picture(guidance, palette_, base_parameters_, {window.x0, window.y0}, view_.camera.size(), run_.progress,
-                           moved(tile, -window.x0, -window.y0));
+  return make_base_picture(guidance, {wide.seen, factor_, wide.origin_px}, palette_, base_parameters_, {window.x0, window.y0},
+                           view_.camera.size(), run_.progress, moved(tile, -window.x0, -window.y0));
 }
 
 PaintDraft SheetGround::make_draft(PixelRect tile) {
@@ -158,13 +200,13 @@ const IcePlan& SheetGround::ice() {
 }
 
 void SheetGround::keep_only(PixelRect still) {
-  traced_.keep_only(grown(still, base_reach_px()));
-  tone_.keep_only(grown(still, base_reach_px()));
+  const PixelRect lit = base_window(still, true, base_parameters_);
+  traced_.keep_only(grown(lit, tone_near_margin_px(tone_parameters_)));
+  wide_.keep_only(wide_rect(grown(lit, base_margin_px(base_parameters_)), factor_));
+  tone_.keep_only(lit);
   base_.keep_only(still);
   draft_.keep_only(still);
 }
-
-int SheetGround::base_reach_px() const { return base_margin_px(base_parameters_) + tone_margin_px(tone_parameters_); }
 
 int SheetGround::draft_reach_px() const { return stroke_margin_px(draft_layers, strokes_); }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <memory>
 #include <optional>
 
 #include "base/guidance_channels.h"
@@ -49,12 +50,17 @@ class SheetGround {
 
   // Forgets what only places outside of `still` were made for; to be asked for again costs time alone.
   void keep_only(PixelRect still);
-  // How far a pixel of the base picture, and one of the draft, looks around, all stages below together, px.
-  int base_reach_px() const;
+  // How far a pixel of the draft looks around at the base picture, px.
   int draft_reach_px() const;
 
  private:
   GuidanceBuffers make_traced(PixelRect tile);
+  // What a rectangle of the sheet is seen with from afar, and where it begins (WideView::origin_px).
+  struct Wide {
+    GuidanceBuffers seen;
+    glm::ivec2 origin_px;
+  };
+  Wide read_wide(PixelRect rect);
   Grid<float> make_tone_tile(PixelRect tile);
   BasePicture make_base(PixelRect tile);
   PaintDraft make_draft(PixelRect tile);
@@ -66,7 +72,10 @@ class SheetGround {
   const ToneParameters tone_parameters_;
   const BaseParameters base_parameters_;
   const StrokeParameters strokes_;
+  const int factor_;  // of wide views
+  const std::unique_ptr<const Camera> wide_camera_;
   SheetStage<GuidanceBuffers> traced_;
+  SheetStage<GuidanceBuffers> wide_;  // unused where the factor is 1: the pixels themselves are looked at
   SheetStage<Grid<float>> tone_;
   SheetStage<BasePicture> base_;
   SheetStage<PaintDraft> draft_;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "renderer/trace/camera_reduced.h"
+#include "renderer/world/lit_picture.h"
 
 namespace belvedere {
 namespace {
@@ -23,10 +24,6 @@ bool has_ice(const LandCover& land_cover) {
 
 // What a plan asks of the sheet as a camera shows it: one ray a pixel, and no light.
 GuidanceBuffers look_at(const World& world, const Camera& camera, const Run& run) {
-  GuidanceParameters parameters;
-  parameters.sampling = {.pixel_samples = 1, .shadow_rays = 1, .sky_directions = 0};
-  parameters.sun_direction = {0.0, 0.0, -1.0};
-  parameters.tile_size = run.tile_px;
   const glm::ivec2 size = camera.size();
   GuidanceBuffers seen;
   seen.origin_m = world.surface.origin;
@@ -35,7 +32,7 @@ GuidanceBuffers look_at(const World& world, const Camera& camera, const Run& run
   seen.fall_line = Grid<glm::vec2>(size.x, size.y);
   for (int y = 0; y < size.y; y += band_px) {
     const PixelRect band{0, y, size.x, std::min(y + band_px, size.y)};
-    const GuidanceBuffers rows = trace_guidance(world.terrain, world.surface, world.tracer, camera, parameters, band, run.progress);
+    const GuidanceBuffers rows = trace_forms(world, camera, band, run);
     put_rows(seen.depth_m, y, rows.depth_m);
     put_rows(seen.slope_deg, y, rows.slope_deg);
     put_rows(seen.relief_s_m, y, rows.relief_s_m);

@@ -60,6 +60,14 @@ GuidanceBuffers trace_view(const World& world, const SheetView& view, PixelRect 
   return trace_guidance(world.terrain, world.surface, world.tracer, view.camera, parameters, region, run.progress);
 }
 
+GuidanceBuffers trace_forms(const World& world, const Camera& camera, PixelRect region, const Run& run) {
+  GuidanceParameters parameters;
+  parameters.sampling = {.pixel_samples = 1, .shadow_rays = 1, .sky_directions = 0};
+  parameters.sun_direction = {0.0, 0.0, -1.0};
+  parameters.tile_size = run.tile_px;
+  return trace_guidance(world.terrain, world.surface, world.tracer, camera, parameters, region, run.progress);
+}
+
 LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRect region, const Run& run) {
   const SheetView view = view_of(world);
   const glm::ivec2 origin_px{region.x0, region.y0};

@@ -22,6 +22,8 @@ SheetView reduced_view(const World& world, const Camera& reduced, int factor);
 
 // The stages of a lit picture, each of a rectangle of the view: the traced channels …
 GuidanceBuffers trace_view(const World& world, const SheetView& view, PixelRect region, const Run& run);
+// … those of them that form alone decides (no light), a ray a pixel …
+GuidanceBuffers trace_forms(const World& world, const Camera& camera, PixelRect region, const Run& run);
 // … and what light and base picture are made with.
 ToneParameters to_tone_parameters(const World& world, const SheetView& view);
 BaseParameters to_base_parameters(const World& world, const SheetView& view);

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
 #include "renderer/paint/sky.h"
 #include "tests/renderer/exemplar/painted_hills.h"
+#include "tests/renderer/paint/hills_print.h"
 
 namespace belvedere {
 namespace {
@@ -259,6 +261,39 @@ TEST(Base, PartEqualsWhole) {
         ASSERT_EQ(base.haze(px, py), whole.haze(x, y));
       }
   }
+}
+
+TEST(Base, OfAPrintLooksAroundInItsWideView) {
+  test::Print print;
+  for (std::size_t i = 0; i < print.near.tone.size(); ++i) print.near.tone[i] = print.near.sky_view[i] * 0.8F;
+  BaseParameters p;
+  p.pixels_per_unit = test::print_ppu;
+  const Palette palette = read_palette("summer");
+  // A lake, which looks up and down for its shores, and level ground above it, which looks for water.
+  for (int y = 690; y < 1000; ++y)
+    for (int x = 300; x < 1100; ++x) print.near.land_cover(x, y) = y < 760 ? LandCoverClass::valley_floor : LandCoverClass::water;
+  const glm::ivec2 size{print.width, print.height};
+  const BasePicture whole = make_base_picture(print.near, {print.far, test::print_factor}, palette, p, {0, 0}, size, silent_progress());
+  for (const PixelRect kept : {PixelRect{640, 520, 700, 570}, PixelRect{640, 735, 700, 758}, PixelRect{640, 880, 700, 900}}) {
+    const Grid<LandCoverClass> classes = test::cut(print.near.land_cover, kept);
+    const bool has_water = std::find(classes.begin(), classes.end(), LandCoverClass::water) != classes.end();
+    const test::Window near = test::window_of(print.near, base_window(kept, has_water, p));
+    const test::Window far = test::window_of(print.far, wide_rect(grown(kept, base_margin_px(p)), test::print_factor));
+    const BasePicture part =
+        make_base_picture(near.held, {far.held, test::print_factor, {far.rect.x0, far.rect.y0}}, palette, p, {near.rect.x0, near.rect.y0},
+                          size, silent_progress(), moved(kept, -near.rect.x0, -near.rect.y0));
+    EXPECT_TRUE(part.colour == test::cut(whole.colour, kept));
+    EXPECT_TRUE(part.accent == test::cut(whole.accent, kept));
+    EXPECT_TRUE(part.tree_density == test::cut(whole.tree_density, kept));
+    EXPECT_TRUE(part.haze == test::cut(whole.haze, kept));
+  }
+  const BasePicture own = make_base_picture(print.near, palette, p, {0, 0}, size, silent_progress());
+  double squares = 0.0;
+  for (std::size_t i = 0; i < own.colour.size(); ++i) {
+    const glm::vec3 off = own.colour[i] - whole.colour[i];
+    squares += glm::dot(off, off) / 3.0F;
+  }
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(own.colour.size())), 0.01);
 }
 
 TEST(Base, SameBitsForAnyThreads) {

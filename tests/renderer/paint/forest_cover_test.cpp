@@ -57,7 +57,8 @@ TEST(ForestCover, TreesStandInGroupsWithGaps) {
 }
 
 TEST(ForestCover, GladesAreBareAndFew) {
-  const ForestCover cover = make_forest_cover(wood(800, 600), {}, {0, 0});
+  const GuidanceBuffers g = wood(800, 600);
+  const ForestCover cover = make_forest_cover(g, {g}, {}, {0, 0});
   int glades = 0;
   for (std::size_t i = 0; i < cover.glade.size(); ++i) {
     if (cover.glade[i] < 0.95F) continue;
@@ -76,7 +77,7 @@ TEST(ForestCover, ThinsToTheTreelineNotToTheMeadow) {
     for (int y = 0; y < 160; ++y)
       for (int x = 0; x < 600; ++x)
         if (above ? y < 40 : y >= 120) g.land_cover(x, y) = beyond;
-    const ForestCover cover = make_forest_cover(g, {}, {0, 0});
+    const ForestCover cover = make_forest_cover(g, {g}, {}, {0, 0});
     double sum = 0.0;
     for (int k = 0; k < 8; ++k)
       for (int x = 0; x < 600; ++x) sum += cover.density(x, above ? 40 + k : 119 - k);
@@ -95,7 +96,7 @@ TEST(ForestCover, TracksRunDownTheFallLine) {
   for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 600; ++x) g.land_cover(x, y) = rock;
   for (float& slope : g.slope_deg) slope = 40.0F;
-  const ForestCover cover = make_forest_cover(g, {}, {0, 0});
+  const ForestCover cover = make_forest_cover(g, {g}, {}, {0, 0});
   double along = 0.0;
   double across = 0.0;
   for (int y = 32; y < 60; ++y)
@@ -111,14 +112,16 @@ TEST(ForestCover, HollowsAreFullerThanRidges) {
   const auto mean_density = [](float relief_m) {
     GuidanceBuffers g = wood(300, 200);
     for (float& r : g.relief_s_m) r = relief_m;
-    return test::mean(make_forest_cover(g, {}, {0, 0}).density);
+    return test::mean(make_forest_cover(g, {g}, {}, {0, 0}).density);
   };
   EXPECT_GT(mean_density(-8.0F), mean_density(8.0F) + 0.08);
 }
 
 TEST(ForestCover, KeepsItsSizeOnTheSheet) {
-  const ForestCover small = make_forest_cover(wood(200, 150), {}, {0, 0});
-  const ForestCover large = make_forest_cover(wood(800, 600, 4.0F), {.pixels_per_unit = 4.0}, {0, 0});
+  const GuidanceBuffers few = wood(200, 150);
+  const GuidanceBuffers many = wood(800, 600, 4.0F);
+  const ForestCover small = make_forest_cover(few, {few}, {}, {0, 0});
+  const ForestCover large = make_forest_cover(many, {many}, {.pixels_per_unit = 4.0}, {0, 0});
   double difference = 0.0;
   for (int y = 10; y < 140; ++y)
     for (int x = 10; x < 190; ++x) difference += std::abs(small.density(x, y) - large.density(4 * x + 2, 4 * y + 2)) / (180.0 * 130.0);
@@ -128,7 +131,7 @@ TEST(ForestCover, KeepsItsSizeOnTheSheet) {
 TEST(ForestCover, OtherGroundHasNone) {
   GuidanceBuffers g = wood(40, 30);
   for (auto& id : g.land_cover) id = pasture;
-  const ForestCover cover = make_forest_cover(g, {}, {0, 0});
+  const ForestCover cover = make_forest_cover(g, {g}, {}, {0, 0});
   EXPECT_EQ(cover.density, Grid<float>(40, 30, 0.0F));
   EXPECT_EQ(cover.glade, Grid<float>(40, 30, 0.0F));
 }
@@ -140,12 +143,13 @@ TEST(ForestCover, PartEqualsWhole) {
   for (int y = 0; y < 150; ++y)
     for (int x = 0; x < 360; ++x) g.land_cover(x, y) = rock;
   for (float& slope : g.slope_deg) slope = 40.0F;
-  const ForestCover whole = make_forest_cover(g, {}, {0, 0});
+  const ForestCover whole = make_forest_cover(g, {g}, {}, {0, 0});
   const PixelRect kept{130, 165, 230, 240};
   const PixelRect part = test::with_margin(kept, forest_cover_margin_px(1.0), 360, 400);
   ASSERT_GT(part.x0, 0);
   ASSERT_GT(part.y0, 0);
-  const ForestCover cover = make_forest_cover(test::cut(g, part), {}, {part.x0, part.y0});
+  const GuidanceBuffers held = test::cut(g, part);
+  const ForestCover cover = make_forest_cover(held, {held, 1, {part.x0, part.y0}}, {}, {part.x0, part.y0});
   for (int y = kept.y0; y < kept.y1; ++y)
     for (int x = kept.x0; x < kept.x1; ++x) {
       ASSERT_EQ(cover.density(x - part.x0, y - part.y0), whole.density(x, y));

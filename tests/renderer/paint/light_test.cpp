@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "tests/renderer/exemplar/painted_hills.h"
+#include "tests/renderer/paint/hills_print.h"
 
 namespace belvedere {
 namespace {
@@ -182,6 +183,26 @@ TEST(Tone, PartEqualsWhole) {
     for (int y = kept.y0; y < kept.y1; ++y)
       for (int x = kept.x0; x < kept.x1; ++x) ASSERT_EQ(tone(x - part.x0, y - part.y0), whole(x, y)) << x << " " << y << " ppu " << ppu;
   }
+}
+
+TEST(Tone, OfAPrintLooksAroundInItsWideView) {
+  const test::Print print;
+  ToneParameters p;
+  p.pixels_per_unit = test::print_ppu;
+  const Grid<float> whole = make_tone(print.near, {print.far, test::print_factor}, p, {0, 0}, silent_progress());
+  const PixelRect kept{640, 560, 700, 610};
+  const test::Window near = test::window_of(print.near, grown(kept, tone_near_margin_px(p)));
+  const test::Window far = test::window_of(print.far, wide_rect(grown(kept, tone_margin_px(p)), test::print_factor));
+  ASSERT_GT(far.rect.x0, 0);
+  ASSERT_GT(far.rect.y0, 0);
+  const Grid<float> part = make_tone(near.held, {far.held, test::print_factor, {far.rect.x0, far.rect.y0}}, p, {near.rect.x0, near.rect.y0},
+                                     silent_progress(), moved(kept, -near.rect.x0, -near.rect.y0));
+  EXPECT_TRUE(part == test::cut(whole, kept));
+  // And it is the light that every pixel's own surroundings give, to the eye.
+  const Grid<float> own = make_tone(print.near, p, {0, 0}, silent_progress());
+  double squares = 0.0;
+  for (std::size_t i = 0; i < own.size(); ++i) squares += (own[i] - whole[i]) * (own[i] - whole[i]);
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(own.size())), 0.02);
 }
 
 TEST(Tone, SameBitsForAnyThreads) {

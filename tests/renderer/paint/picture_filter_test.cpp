@@ -82,5 +82,57 @@ TEST(PictureFilter, PartWithItsReachEqualsWhole) {
   }
 }
 
+// A wide view whose depth is the same everywhere.
+GuidanceBuffers level_view(int width, int height) {
+  return test::make_slope(width, height, LandCoverClass::rock, {0.0F, 0.3F, 1.0F}, 45.0F);
+}
+constexpr int factor = 4;
+
+TEST(PictureFilter, ARampIsEnlargedToARamp) {
+  const GuidanceBuffers g = level_view(20, 16);
+  Grid<float> values(20, 16);
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 20; ++x) values(x, y) = static_cast<float>(3 * x - 2 * y);
+  const WideView wide{g, factor, {100, 50}};
+  const PixelRect rect{402, 203, 470, 258};  // inside the middles of the outer pixels
+  const Grid<float> large = enlarge(wide, values, rect);
+  for (int y = 0; y < large.height(); ++y)
+    for (int x = 0; x < large.width(); ++x) {
+      const double u = (rect.x0 + x + 0.5) / factor - 0.5 - 100.0;
+      const double v = (rect.y0 + y + 0.5) / factor - 0.5 - 50.0;
+      ASSERT_NEAR(large(x, y), 3.0 * u - 2.0 * v, 1e-4);
+      ASSERT_NEAR(value_on_surface(wide, values, rect.x0 + x, rect.y0 + y, 20000.0F), 3.0 * u - 2.0 * v, 1e-4);
+    }
+}
+
+TEST(PictureFilter, OfFactorOneItIsThePixelsThemselves) {
+  const GuidanceBuffers g = test::make_hills(60, 50);
+  const WideView wide{g, 1, {7, 9}};
+  const PixelRect rect{11, 20, 40, 44};
+  const Grid<float> same = enlarge(wide, g.slope_deg, rect);
+  for (int y = 0; y < same.height(); ++y)
+    for (int x = 0; x < same.width(); ++x) {
+      ASSERT_EQ(same(x, y), g.slope_deg(4 + x, 11 + y));
+      ASSERT_EQ(value_on_surface(wide, g.slope_deg, 11 + x, 20 + y, g.depth_m(4 + x, 11 + y)), g.slope_deg(4 + x, 11 + y));
+    }
+  EXPECT_EQ(wide_rect(rect, 1), rect);
+}
+
+TEST(PictureFilter, NothingIsMixedAcrossASilhouette) {
+  GuidanceBuffers g = level_view(8, 8);
+  Grid<float> values(8, 8, 1.0F);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 8; ++x) {
+      g.depth_m(x, y) = 50000.0F;
+      values(x, y) = 0.0F;
+    }
+  const WideView wide{g, factor, {0, 0}};
+  for (int y = 14; y < 18; ++y) {  // between the middles of the two rows
+    EXPECT_EQ(value_on_surface(wide, values, 15, y, 20000.0F), 1.0F) << y;
+    EXPECT_EQ(value_on_surface(wide, values, 15, y, 50000.0F), 0.0F) << y;
+  }
+  EXPECT_EQ(value_on_surface(wide, values, 15, 25, 35000.0F), 1.0F) << "on no surface that is seen: the pixel that holds it";
+}
+
 }  // namespace
 }  // namespace belvedere

@@ -14,7 +14,7 @@ namespace {
 TEST(Ribs, LineIntegralHasDeviationOne) {
   const GuidanceBuffers g = test::make_slope(500, 300, LandCoverClass::rock, {0.0F, 0.3F, 1.0F}, 45.0F);
   const Grid<std::uint8_t> all(500, 300, 1);
-  const std::array<Grid<float>, 3> fields = integrate_along_fall_line(g, all, 3, {0, 0}, 1.0);
+  const std::array<Grid<float>, 3> fields = integrate_along_fall_line(g, {g}, all, 3, {0, 0}, 1.0);
   for (std::size_t k = 0; k < 3; ++k) {
     const Grid<float>& field = fields[k];
     double squares = 0.0, along = 0.0, across = 0.0;
@@ -35,11 +35,11 @@ TEST(Ribs, DoNotCrossASilhouette) {
   for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 60; ++x) g.depth_m(x, y) = 50000.0F;
   const Grid<std::uint8_t> all(60, 120, 1);
-  const Grid<float> before = integrate_along_fall_line(g, all, 3, {0, 0}, 1.0)[0];
+  const Grid<float> before = integrate_along_fall_line(g, {g}, all, 3, {0, 0}, 1.0)[0];
   // Turning the far range's fall line must not change the near one.
   for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 60; ++x) g.fall_line(x, y) = {0.8F, 0.6F};
-  const Grid<float> after = integrate_along_fall_line(g, all, 3, {0, 0}, 1.0)[0];
+  const Grid<float> after = integrate_along_fall_line(g, {g}, all, 3, {0, 0}, 1.0)[0];
   for (int x = 0; x < 60; ++x) EXPECT_EQ(after(x, 61), before(x, 61));
   EXPECT_NE(after(30, 50), before(30, 50));
 }
@@ -47,12 +47,13 @@ TEST(Ribs, DoNotCrossASilhouette) {
 TEST(Ribs, PartWithItsMarginEqualsWhole) {
   const GuidanceBuffers whole = test::make_hills(260, 200, 1.0);
   const Grid<std::uint8_t> all(260, 200, 1);
-  const Grid<float> ribs = make_ribs(whole, all, {}, {0, 0});
+  const Grid<float> ribs = make_ribs(whole, {whole}, all, {}, {0, 0});
   const int margin = rib_margin_px(1.0);
   const PixelRect part{90, 70, 140, 120};
   const PixelRect wide = test::with_margin(part, margin, 260, 200);
   ASSERT_GT(wide.x0, 0) << "else nothing is cut off";
-  const Grid<float> cut = make_ribs(test::cut(whole, wide), test::cut(all, wide), {}, {wide.x0, wide.y0});
+  const GuidanceBuffers held = test::cut(whole, wide);
+  const Grid<float> cut = make_ribs(held, {held, 1, {wide.x0, wide.y0}}, test::cut(all, wide), {}, {wide.x0, wide.y0});
   EXPECT_EQ(test::cut(cut, {part.x0 - wide.x0, part.y0 - wide.y0, part.x1 - wide.x0, part.y1 - wide.y0}), test::cut(ribs, part));
 }
 
@@ -60,8 +61,8 @@ TEST(Ribs, PartWithItsMarginEqualsWhole) {
 TEST(Ribs, TheOtherSunTurnsThemOver) {
   const GuidanceBuffers g = test::make_slope(160, 120, LandCoverClass::rock, {0.0F, 0.3F, 1.0F}, 45.0F);
   const Grid<std::uint8_t> all(160, 120, 1);
-  const Grid<float> right = make_ribs(g, all, {.sun_side = 0.4}, {0, 0});
-  const Grid<float> left = make_ribs(g, all, {.sun_side = -1.0}, {0, 0});
+  const Grid<float> right = make_ribs(g, {g}, all, {.sun_side = 0.4}, {0, 0});
+  const Grid<float> left = make_ribs(g, {g}, all, {.sun_side = -1.0}, {0, 0});
   float strongest = 0.F;
   for (std::size_t i = 0; i < right.size(); ++i) {
     ASSERT_LE(right[i] + left[i], 1e-5F);
@@ -76,8 +77,8 @@ TEST(Ribs, StandOnlyWhereTheyAreWanted) {
   Grid<std::uint8_t> left_half(80, 60, 0);
   for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 40; ++x) left_half(x, y) = 1;
-  const Grid<float> some = make_ribs(g, left_half, {}, {0, 0});
-  const Grid<float> everywhere = make_ribs(g, Grid<std::uint8_t>(80, 60, 1), {}, {0, 0});
+  const Grid<float> some = make_ribs(g, {g}, left_half, {}, {0, 0});
+  const Grid<float> everywhere = make_ribs(g, {g}, Grid<std::uint8_t>(80, 60, 1), {}, {0, 0});
   for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 80; ++x) ASSERT_EQ(some(x, y), x < 40 ? everywhere(x, y) : 0.F) << x << ' ' << y;
 }
