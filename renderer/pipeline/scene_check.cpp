@@ -58,8 +58,9 @@ Sight look(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   const Scene& scene = loaded.scene;
   in_section("sampling", [&] { return choose_instruction_set(scene.tracing.instruction_set); });
   Sight sight;
-  sight.dem = std::make_shared<const Dem>(make_scene_dem(loaded, progress, cache));
-  sight.view = make_view(scene, *sight.dem, progress);
+  SceneDem opened = open_scene_dem(loaded, progress, cache);
+  sight.view = make_view(scene, opened.dem, progress, ground_altitude_of(opened));
+  sight.dem = std::make_shared<const Dem>(std::move(opened.dem));
   PatchResult cover = make_scene_patches(loaded, *sight.dem, progress, cache);
   if (scene.land_cover.patches.smallest_m2 > 0.0) sight.areas = std::move(cover.areas);
 

@@ -45,7 +45,8 @@ struct SceneSource {    // a file and where it comes from
 struct SceneTerrain {
   std::vector<SceneSource> sources;  // empty: synthetic
   std::optional<SyntheticParameters> synthetic;
-  DemParameters dem;  // without sources
+  DemParameters dem;         // without sources
+  double most_mcells = 0.0;  // millions of cells that the ground may have; 0: by memory
 };
 
 struct SceneTown {  // a town that is known: see terrain/cover/towns.h

@@ -27,6 +27,12 @@ std::vector<SceneSection> make_terrain_sections() {
             .field = AT(terrain.dem.max_void_share),
             .range = {0, 1},
             .meaning = "Holes in the data are filled; if they are more than this share of the area, it is an error instead."},
+           {.name = "most_mcells",
+            .field = AT(terrain.most_mcells),
+            .range = {0, 1e6},
+            .unit = "millions of cells",
+            .meaning = "Rasters of more cells are taken in coarser ones where the picture shows no more; 0 goes by --memory. Give a "
+                       "number where several machines make one sheet, so that all see the same ground."},
        }});
   sections.push_back(
       {.name = "terrain.sources",

@@ -22,6 +22,12 @@ bool has_ice(const LandCover& land_cover) {
                      [](LandCoverClass id) { return has_trait(id, ClassTrait::icy); });
 }
 
+// In the terrain or a window of it, whose finer cells may know smaller glaciers.
+bool has_ice(const TerrainModel& terrain) {
+  return has_ice(*terrain.land_cover) || std::any_of(terrain.windows.begin(), terrain.windows.end(),
+                                                     [](const TerrainWindow& window) { return has_ice(*window.ground.land_cover); });
+}
+
 // What a plan asks of the sheet as a camera shows it: one ray a pixel, and no light.
 GuidanceBuffers look_at(const World& world, const Camera& camera, const Run& run) {
   const glm::ivec2 size = camera.size();
@@ -45,7 +51,7 @@ GuidanceBuffers look_at(const World& world, const Camera& camera, const Run& run
 }  // namespace
 
 IcePlan make_ice_plan(const World& world, const Run& run) {
-  if (!has_ice(*world.terrain.land_cover)) return {};
+  if (!has_ice(world.terrain)) return {};
   int factor = 1;
   while (world.scene.pixels_per_unit() / factor > most_pixels_per_unit) factor *= 2;
   const std::unique_ptr<const Camera> camera = make_reduced_camera(*world.camera, factor);

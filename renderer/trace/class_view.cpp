@@ -23,7 +23,7 @@ Grid<LandCoverClass> trace_classes(const TerrainModel& terrain, const Tracer& tr
       for (std::size_t i = 0; i < count; ++i) rays[i] = camera.ray(glm::dvec2(x0 + static_cast<int>(i), y) + place);
       tracer.intersect(std::span(rays).first(count), std::span(hits).first(count));
       for (std::size_t i = 0; i < count; ++i)
-        if (hits[i].found) classes(x0 + static_cast<int>(i), y) = class_at(terrain, hits[i].column, hits[i].row);
+        if (hits[i].found) classes(x0 + static_cast<int>(i), y) = class_at(ground_of(terrain, hits[i].window), hits[i].column, hits[i].row);
     }
   });
   return classes;

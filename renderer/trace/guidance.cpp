@@ -103,7 +103,7 @@ void trace_primary(const Tracing& t, glm::ivec2 corner, BlockSamples& samples) {
     for (std::size_t i = 0; i < trace_block_pixels; ++i) {
       Seen& seen = samples[i * per_pixel + k];
       seen.hit = hits[i];
-      if (hits[i].found) seen.land_cover = class_at(t.terrain, hits[i].column, hits[i].row);
+      if (hits[i].found) seen.land_cover = class_at(ground_of(t.terrain, hits[i].window), hits[i].column, hits[i].row);
     }
   }
 }
@@ -159,7 +159,7 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
     out.shadow[o] = sun[i];
     out.sky_view[o] = sky[i];
     out.footprint_m[o] = footprint(t.camera, glm::dvec2(pixel), winner.hit.distance_m);
-    sample_ground(t.terrain, t.surface, t.camera, winner.hit.column, winner.hit.row, out, o);
+    sample_ground(ground_of(t.terrain, winner.hit.window), t.surface, t.camera, winner.hit.column, winner.hit.row, out, o);
   }
 }
 
@@ -174,6 +174,10 @@ GuidanceBuffers trace_guidance(const TerrainModel& terrain, const DeformedSurfac
                 fmt::format("a part of {} × {}", size.x, size.y));
   }
   if (!surface.vertices_m.same_size(terrain.dem->altitude_m)) throw Error(ErrorKind::bug, "guidance", "surface and terrain differ in size");
+  if (surface.windows.size() != terrain.windows.size()) throw Error(ErrorKind::bug, "guidance", "surface and terrain differ in windows");
+  // Posts of windows belong to grids of their own: there only the deformation itself can tell where a place went.
+  for (const TerrainWindow& window : terrain.windows)
+    if (!window.ground.local) throw Error(ErrorKind::bug, "guidance", "a window of the terrain without its deformation");
 
   const Tracing tracing{terrain,
                         surface,

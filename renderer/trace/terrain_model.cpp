@@ -62,7 +62,7 @@ Grid<float> rim_distance(const Dem& dem) {
 // enter at the rim they begin there.
 Grid<float> log_upstream_area(const Dem& dem) {
   constexpr double m2_per_km2 = 1e6;
-  Grid<float> area = flow_accumulation_km2(dem.altitude_m, dem.cell_m());
+  Grid<float> area = flow_accumulation_km2(dem.altitude_m, dem.cell_m(), dem.entries);
   parallel_rows(area.height(), [&](int y) {
     for (int x = 0; x < area.width(); ++x) area(x, y) = static_cast<float>(std::log10(m2_per_km2 * static_cast<double>(area(x, y))));
   });
@@ -97,6 +97,10 @@ TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> gene
   model.land_cover = std::move(land_cover);
   model.exaggeration = exaggeration;
   return model;
+}
+
+const TerrainModel& ground_of(const TerrainModel& terrain, int window) {
+  return window == 0 ? terrain : terrain.windows[static_cast<std::size_t>(window) - 1].ground;
 }
 
 }  // namespace belvedere

@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "base/grid.h"
 #include "terrain/cover/floor_plan.h"
@@ -11,6 +12,8 @@
 #include "terrain/io/dem.h"
 
 namespace belvedere {
+
+struct TerrainWindow;
 
 // All the ground values a pixel may ask for, made once from the DEM; every grid has the DEM's size.
 struct TerrainModel {
@@ -28,8 +31,19 @@ struct TerrainModel {
   double exaggeration = 1.0;  // of light's normals
   // Given where the ground is not only exaggerated alike everywhere: then light's normals are those of the rearranged shape.
   std::optional<Deformation> local;
-  double detail_boost = 1.5;  // further exaggeration of normal_detail
+  double detail_boost = 1.5;                // further exaggeration of normal_detail
+  std::vector<TerrainWindow> windows = {};  // of finer cells, as those of the surface: Hit::window tells which holds a place
 };
+
+// Ground in finer cells: see SurfaceWindow. Where its part begins every value is that of the coarser ground, and becomes its own inwards.
+struct TerrainWindow {
+  TerrainModel ground;  // without windows
+  PixelRect part;
+  PixelRect replaces;
+};
+
+// The ground that a ray met: column and row of the hit are places of its grids.
+const TerrainModel& ground_of(const TerrainModel& terrain, int window);
 
 // Makes the derived grids from dem, generalized and land cover. Throws Error(bug) where the two grids differ in size or land cover has no
 // cells.

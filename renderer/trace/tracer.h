@@ -20,6 +20,7 @@ struct Hit {
   double distance_m = 0.0;  // along the unit direction
   double column = 0.0;      // fractional vertex of the grid, barycentric in the undeformed grid: place before deformation
   double row = 0.0;
+  int window = 0;  // of which grid: 0 the surface's own, n the n-th of its windows
   // Normal of the deformed facet towards its upper side, twice its area long: of many hits only few are asked for the unit normal.
   glm::dvec3 facet_area{0.0};
 
@@ -38,6 +39,7 @@ struct TracerParameters {
 //
 // Facets: vertices (x, y) of the surface are posts; the cell between posts (x, y) and (x+1, y+1) is two triangles,
 // (x, y) (x+1, y) (x, y+1) and (x+1, y+1) (x, y+1) (x+1, y), so the diagonal runs from the north-east to the south-west post.
+// Cells that a window of finer ones replaces are not there; see SurfaceWindow for how both meet.
 class Tracer {
  public:
   // Reads the surface's posts whenever it traces: the surface must outlive the tracer and stay as it is.

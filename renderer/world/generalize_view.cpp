@@ -42,25 +42,6 @@ Grid<float> foreground_share(const Dem& dem, glm::dvec2 viewer_xy, const SceneGe
   return share;
 }
 
-// Pixels that a metre of ground at `place` takes at most: the larger singular value of the map from ground to picture, whose derivatives
-// are central differences over ±step_m. 0 behind the eye.
-double pixels_per_m(const Camera& camera, const Deformation& deformation, glm::dvec2 place, double altitude_m, double step_m) {
-  const auto seen = [&](double east, double north) {
-    return camera.project(deformation.point({place + glm::dvec2(east, north), altitude_m}));
-  };
-  const auto east = seen(step_m, 0.0);
-  const auto west = seen(-step_m, 0.0);
-  const auto north = seen(0.0, step_m);
-  const auto south = seen(0.0, -step_m);
-  if (!east || !west || !north || !south) return 0.0;
-  const glm::dvec2 a = (*east - *west) / (2.0 * step_m);
-  const glm::dvec2 b = (*north - *south) / (2.0 * step_m);
-  const double half_trace = 0.5 * (glm::dot(a, a) + glm::dot(b, b));
-  const double determinant = a.x * b.y - a.y * b.x;
-  const double square = half_trace + std::sqrt(std::max(0.0, half_trace * half_trace - determinant * determinant));
-  return std::isfinite(square) ? std::sqrt(square) : 0.0;
-}
-
 Grid<float> mask_for_scene(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, Progress& progress, const Cache& cache) {
   const SceneGeneralize& settings = loaded.scene.generalize;
   const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
@@ -101,6 +82,7 @@ GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParamet
                                Progress& progress) {
   const glm::dvec2 cell_m{dem.transform.cell_x, dem.transform.cell_y};
   GeneralizeParameters bands = settings.bands;
+  bands.finest_band = dem.halved;
   // What takes most memory on its way comes first.
   Grid<float> plain = settings.line_integral ? generalize_along_slope_lines(dem.altitude_m, dem.cell_m(), {}, progress) : Grid<float>();
   GeneralizeGrids grids;
@@ -136,6 +118,24 @@ CacheKey ground_key(const LoadedScene& loaded, const Dem& dem, const ViewOfGroun
 }
 
 }  // namespace
+
+// The larger singular value of the map from ground to picture, whose derivatives are central differences.
+double pixels_per_m(const Camera& camera, const Deformation& deformation, glm::dvec2 place, double altitude_m, double step_m) {
+  const auto seen = [&](double east, double north) {
+    return camera.project(deformation.point({place + glm::dvec2(east, north), altitude_m}));
+  };
+  const auto east = seen(step_m, 0.0);
+  const auto west = seen(-step_m, 0.0);
+  const auto north = seen(0.0, step_m);
+  const auto south = seen(0.0, -step_m);
+  if (!east || !west || !north || !south) return 0.0;
+  const glm::dvec2 a = (*east - *west) / (2.0 * step_m);
+  const glm::dvec2 b = (*north - *south) / (2.0 * step_m);
+  const double half_trace = 0.5 * (glm::dot(a, a) + glm::dot(b, b));
+  const double determinant = a.x * b.y - a.y * b.x;
+  const double square = half_trace + std::sqrt(std::max(0.0, half_trace * half_trace - determinant * determinant));
+  return std::isfinite(square) ? std::sqrt(square) : 0.0;
+}
 
 PixelGround ground_m_per_pixel(const Dem& dem, const View& view) {
   const std::unique_ptr<Camera> camera = make_camera(view.camera);

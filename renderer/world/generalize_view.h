@@ -5,8 +5,10 @@
 #include "base/cache/cache.h"
 #include "base/progress.h"
 #include "renderer/scene/scene_file.h"
+#include "renderer/trace/camera.h"
 #include "renderer/world/view.h"
 #include "terrain/cover/land_cover.h"
+#include "terrain/deform/deform.h"
 #include "terrain/generalize/generalize.h"
 
 namespace belvedere {
@@ -21,6 +23,9 @@ struct GeneralizedTerrain {
 // on the viewer's place, and on the camera only where the print's detail is asked for.
 GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
                                        Progress& progress, const Cache& cache = no_cache());
+
+// Pixels that a metre of ground at `place` takes at most, from differences over ±step_m; 0 behind the eye.
+double pixels_per_m(const Camera& camera, const Deformation& deformation, glm::dvec2 place, double altitude_m, double step_m);
 
 // Ground metres that an output pixel shows, at every 16th cell of the DEM, in the direction in which the picture shows most: what is
 // finer cannot be seen however the ground lies. Behind the eye it goes on as the distance does. Empty where no ground is before it.

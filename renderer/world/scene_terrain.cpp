@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <utility>
 
+#include "base/filter.h"
+#include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "renderer/paint/palette.h"
 #include "renderer/world/cached_products.h"
@@ -16,8 +19,8 @@
 namespace belvedere {
 
 void each_field(auto& bytes, FieldsOf<Dem> auto& dem) {
-  auto& [altitude_m, filled, transform, crs] = dem;
-  bytes(altitude_m, filled, transform, crs);
+  auto& [altitude_m, filled, transform, crs, entries, halved] = dem;
+  bytes(altitude_m, filled, transform, crs);  // made-up terrain is whole and as it was made
 }
 
 void each_field(auto& bytes, FieldsOf<LandCover> auto& cover) {
@@ -50,16 +53,22 @@ CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules, cons
   const auto& [name, known_parameters, terms, layers] = rules;
   key.add("rules", name).add("parameters", known_parameters).add("terms", terms);
   for (const auto& [painted_as, when] : layers) key.add("layer", painted_as).add("when", when);
-  const auto& [settings, towns, sea, seed] = parameters;
+  const auto& [settings, towns, sea, seed, sites] = parameters;
   key.add("settings", settings).add("seed", seed);
   add_sea(key, sea);
   for (const auto& [place, radius_m, town] : towns) key.add("town", town).add("place", place).add("radius_m", radius_m);
+  if (sites)
+    for (const auto& [place, radius_m, stretch, along_rad, on_floor] : *sites)
+      key.add("site", place).add("radius_m", radius_m).add("stretch", stretch).add("along", along_rad).add("on_floor", on_floor ? 1 : 0);
   add_dem(key, dem);
   return make_cache_key(CachedProduct::land_cover, key, subject_of(loaded));
 }
 
-LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
-  const ClassRules rules = read_class_rules(find_named_file(loaded, "layers", loaded.scene.land_cover.rules));
+ClassRules read_scene_rules(const LoadedScene& loaded) {
+  return read_class_rules(find_named_file(loaded, "layers", loaded.scene.land_cover.rules));
+}
+
+ClassRuleParameters rule_parameters(const LoadedScene& loaded, const ClassRules& rules, const Dem& dem, Progress& progress) {
   auto settings = loaded.scene.land_cover.settings;
   // A palette of winter brings its snow along, unless the scene says otherwise or the rules know no winter.
   const auto is_winter = [](const auto& setting) { return setting.first == winter_setting; };
@@ -67,10 +76,17 @@ LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, Progress& p
       std::any_of(rules.parameters.begin(), rules.parameters.end(), is_winter) &&
       read_palette(find_named_file(loaded, "palettes", loaded.scene.palette)).winter)
     settings.emplace_back(winter_setting, 1.0);
-  const ClassRuleParameters parameters{.settings = std::move(settings),
-                                       .towns = make_scene_towns(loaded, dem, progress),
-                                       .sea = scene_sea(loaded.scene.land_cover),
-                                       .seed = loaded.scene.seed};
+  return {.settings = std::move(settings),
+          .towns = make_scene_towns(loaded, dem, progress),
+          .sea = scene_sea(loaded.scene.land_cover),
+          .seed = loaded.scene.seed};
+}
+
+LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, const std::vector<TownSite>* sites, Progress& progress,
+                          const Cache& cache) {
+  const ClassRules rules = read_scene_rules(loaded);
+  ClassRuleParameters parameters = rule_parameters(loaded, rules, dem, progress);
+  if (sites != nullptr) parameters.sites = *sites;
   return cached<LandCover>(
       cache, [&] { return rule_cover_key(loaded, rules, parameters, dem); }, progress,
       [&](Progress& watcher) { return apply_class_rules(rules, parameters, dem, watcher); });
@@ -94,18 +110,20 @@ void refine_by_rules(LandCover& cover, const LandCover& rules, const std::vector
 }
 
 // With every patch, however small.
-LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
+LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, const std::vector<TownSite>* sites, Progress& progress,
+                          const Cache& cache) {
   const SceneLandCover& settings = loaded.scene.land_cover;
-  if (settings.sources.empty()) return make_rule_cover(loaded, dem, progress, cache);
+  if (settings.sources.empty()) return make_rule_cover(loaded, dem, sites, progress, cache);
   LandCoverParameters parameters;
   parameters.sources = to_raster_sources(loaded, settings.sources);
   parameters.legend = find_named_file(loaded, "legends", settings.legend);
   parameters.folders = loaded.allowed_folders;
   parameters.unknown = settings.unknown;
   parameters.nodata = settings.nodata;
+  parameters.finest_cell_m = dem.halved > 0 ? dem.cell_m() : 0.0;
   LandCover cover = read_land_cover(parameters, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);
   if (!settings.refine.empty())
-    refine_by_rules(cover, make_rule_cover(loaded, dem, progress, cache), settings.refine);
+    refine_by_rules(cover, make_rule_cover(loaded, dem, sites, progress, cache), settings.refine);
   else if (!settings.towns.empty() || !settings.towns_file.empty())
     progress.note("the scene's towns are not used: rules build them, and the land cover comes from rasters");
   return cover;
@@ -119,29 +137,77 @@ CacheKey synthetic_key(const LoadedScene& loaded) {
   return make_cache_key(CachedProduct::synthetic_terrain, key, subject_of(loaded));
 }
 
-Dem read_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
+// Bytes that a cell takes from reading to rays: TerrainModel 69, surface 12, structure of the tracer 23, and some of what rules and
+// generalization make on their way.
+constexpr double ground_bytes_per_cell = 160.0;
+
+// Cells that the terrain of a scene may have. Automatic limits are powers of the root of two, so that machines that are nearly alike agree.
+double most_ground_cells(const SceneTerrain& terrain, double cells) {
+  if (terrain.most_mcells > 0.0) return 1e6 * terrain.most_mcells;
+  const double fit = static_cast<double>(memory_budget_bytes()) / ground_bytes_per_cell;
+  constexpr double share_of_whole = 0.8;
+  if (cells <= share_of_whole * fit) return cells;
+  constexpr double share_of_windows = 0.5;
+  return std::exp2(0.5 * std::floor(2.0 * std::log2(std::max(share_of_windows * fit, 1.0))));
+}
+
+SceneDem read_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   const SceneTerrain& terrain = loaded.scene.terrain;
   if (terrain.synthetic)
-    return cached<Dem>(
-        cache, [&] { return synthetic_key(loaded); }, progress,
-        [&](Progress& watcher) { return make_synthetic_terrain(*terrain.synthetic, watcher); });
+    return {cached<Dem>(
+                cache, [&] { return synthetic_key(loaded); }, progress,
+                [&](Progress& watcher) { return make_synthetic_terrain(*terrain.synthetic, watcher); }),
+            nullptr, 0.0};
   DemParameters parameters = terrain.dem;
   parameters.sources = to_raster_sources(loaded, terrain.sources);
-  return read_dem(parameters, progress);
+  const RasterFrame frame = choose_frame(parameters.sources, parameters.crs, parameters.cell_m, parameters.extent);
+  const double cells = static_cast<double>(frame.width) * frame.height;
+  const double most = most_ground_cells(terrain, cells);
+  const int coarsest = coarsest_level(frame, most);
+  if (coarsest == 0) return {read_dem(parameters, progress), nullptr, 0.0};
+  // A third of what the finished ground will take, and gone before it is finished.
+  auto levels = std::make_shared<DemLevels>(parameters, frame, coarsest, most * ground_bytes_per_cell / 3.0 / sizeof(float), progress);
+  Dem whole = levels->whole();
+  return {std::move(whole), std::move(levels), most};
 }
 
 }  // namespace
 
-Dem make_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
-  Dem dem = read_scene_dem(loaded, progress, cache);
-  if (loaded.scene.generalize.destripe) dem.altitude_m = destripe(dem.altitude_m, {}, progress);
-  const Sea sea = find_sea(dem, scene_sea(loaded.scene.land_cover));
-  if (!sea.empty()) {
+SceneDem open_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
+  SceneDem opened = read_scene_dem(loaded, progress, cache);
+  const Sea sea = prepare_scene_dem(opened.dem, loaded, progress);
+  if (!sea.empty())
     progress.note(fmt::format("sea: {:.1f} % of the terrain, at {:.1f} m{}", 100.0 * sea.share, sea.level_m,
                               sea.noise_m >= 0.3 ? fmt::format(", levelled from ± {:.1f} m", sea.noise_m) : ""));
-    level_sea(dem, sea);
-  }
-  return dem;
+  return opened;
+}
+
+GroundAltitude ground_altitude_of(const SceneDem& scene) {
+  if (!scene.levels) return {};
+  return [&scene](glm::dvec2 place) {
+    const RasterFrame& frame = scene.levels->frame();
+    const glm::dvec2 at =
+        glm::clamp(frame.transform.to_cell(place.x, place.y), glm::dvec2(0.0), glm::dvec2(frame.width - 1.0, frame.height - 1.0));
+    const int x = std::min(static_cast<int>(at.x), frame.width - 2);
+    const int y = std::min(static_cast<int>(at.y), frame.height - 2);
+    const Dem cells = scene.levels->window(0, {x, y, x + 2, y + 2}, scene.dem);
+    return static_cast<double>(sample_bilinear(cells.altitude_m, at.x - x, at.y - y));
+  };
+}
+
+Dem make_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
+  SceneDem opened = open_scene_dem(loaded, progress, cache);
+  if (opened.levels)
+    progress.note(fmt::format("elevation {} × {} cells is more than memory holds: looked at in cells of {:.0f} m here",
+                              opened.levels->frame().width, opened.levels->frame().height, opened.dem.cell_m()));
+  return std::move(opened.dem);
+}
+
+Sea prepare_scene_dem(Dem& dem, const LoadedScene& loaded, Progress& progress) {
+  if (loaded.scene.generalize.destripe && dem.halved == 0) dem.altitude_m = destripe(dem.altitude_m, {}, progress);
+  Sea sea = find_sea(dem, scene_sea(loaded.scene.land_cover));
+  if (!sea.empty()) level_sea(dem, sea);
+  return sea;
 }
 
 SeaParameters scene_sea(const SceneLandCover& settings) { return {.look = settings.sea != "none", .level_m = settings.sea_level_m}; }
@@ -151,7 +217,19 @@ LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progr
 }
 
 PatchResult make_scene_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
-  return remove_small_patches(make_full_cover(loaded, dem, progress, cache), loaded.scene.land_cover.patches);
+  return remove_small_patches(make_full_cover(loaded, dem, nullptr, progress, cache), loaded.scene.land_cover.patches);
+}
+
+std::vector<TownSite> find_scene_settlements(const LoadedScene& loaded, const Dem& dem) {
+  const SceneLandCover& settings = loaded.scene.land_cover;
+  if (!settings.sources.empty() && settings.refine.empty()) return {};
+  const ClassRules rules = read_scene_rules(loaded);
+  return find_rule_towns(rules, rule_parameters(loaded, rules, dem, silent_progress()), dem);
+}
+
+LandCover make_window_cover(const LoadedScene& loaded, const Dem& window, const std::vector<TownSite>& sites, Progress& progress,
+                            const Cache& cache) {
+  return remove_small_patches(make_full_cover(loaded, window, &sites, progress, cache), loaded.scene.land_cover.patches).cover;
 }
 
 void add_sea(CacheKeyText& key, const SeaParameters& sea) {
@@ -160,9 +238,10 @@ void add_sea(CacheKeyText& key, const SeaParameters& sea) {
 }
 
 void add_dem(CacheKeyText& key, const Dem& dem) {
-  const auto& [altitude_m, filled, transform, crs] = dem;
+  const auto& [altitude_m, filled, transform, crs, entries, halved] = dem;
   const auto& [origin_x, origin_y, cell_x, cell_y] = transform;
-  key.add("altitude_m", altitude_m).add("filled", filled).add("crs", crs);
+  key.add("halved", halved).add("altitude_m", altitude_m).add("filled", filled).add("crs", crs);
+  for (const auto& [x, y, km2] : entries) key.add("entry_x", x).add("entry_y", y).add("km2", km2);
   key.add("origin_x", origin_x).add("origin_y", origin_y).add("cell_x", cell_x).add("cell_y", cell_y);
 }
 

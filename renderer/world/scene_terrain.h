@@ -1,15 +1,38 @@
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "base/cache/cache.h"
 #include "base/cache/cache_key.h"
 #include "base/progress.h"
 #include "renderer/scene/scene_file.h"
+#include "renderer/world/view.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/cover/land_cover_patches.h"
+#include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
+#include "terrain/io/dem_levels.h"
 #include "terrain/shape/sea.h"
 
 namespace belvedere {
+
+// A scene's DEM. Where it has more cells than its ground may take, `dem` is the whole in coarser ones, and finer windows are made from the
+// levels.
+struct SceneDem {
+  Dem dem;
+  std::shared_ptr<DemLevels> levels;  // null: dem is all there is
+  double most_cells = 0.0;            // of the ground with its windows
+};
+// Altitudes of the data themselves; for make_view.
+GroundAltitude ground_altitude_of(const SceneDem& scene);
+SceneDem open_scene_dem(const LoadedScene& scene, Progress& progress, const Cache& cache = no_cache());
+// Takes off the stripes, where the scene asks for it and the cells are those of the data, and levels the sea. Returns the sea.
+Sea prepare_scene_dem(Dem& dem, const LoadedScene& scene, Progress& progress);
+// The settlements that the rules find on the whole DEM, and the land cover of a window of it with those.
+std::vector<TownSite> find_scene_settlements(const LoadedScene& scene, const Dem& dem);
+LandCover make_window_cover(const LoadedScene& scene, const Dem& window, const std::vector<TownSite>& sites, Progress& progress,
+                            const Cache& cache = no_cache());
 
 // The DEM of a scene: its sources read and mosaicked, or a terrain made up; stripes taken off where the scene asks for it, the sea
 // levelled. The cache keeps made-up terrains.

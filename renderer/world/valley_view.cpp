@@ -53,8 +53,9 @@ std::optional<SightLine> shown(const Camera& camera, double azimuth_deg) {
 
 BareView make_bare_view(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   BareView bare;
-  bare.dem = make_scene_dem(loaded, progress, cache);
-  bare.view = make_view(loaded.scene, bare.dem, progress);
+  SceneDem opened = open_scene_dem(loaded, progress, cache);
+  bare.view = make_view(loaded.scene, opened.dem, progress, ground_altitude_of(opened));
+  bare.dem = std::move(opened.dem);
   bare.camera = make_camera(bare.view.camera);
   bare.generalized_m = generalize_for_view(loaded, bare.dem, nullptr, bare.view, progress, cache).altitude_m;
   bend_anew(bare, bare.view.deform.bend);

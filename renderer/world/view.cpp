@@ -72,7 +72,10 @@ DeformParameters resolve_deform(const SceneDeform& scene_deform, const Dem& dem)
   return deform;
 }
 
-View make_view(const Scene& scene, const Dem& dem, Progress& progress) {
+View make_view(const Scene& scene, const Dem& dem, Progress& progress, const GroundAltitude& known_m) {
+  const auto altitude_m = [&](glm::dvec2 place) {
+    return known_m && on_terrain(dem, place) ? known_m(place) : ground_altitude_m(dem, place);
+  };
   const SceneCamera& camera = scene.camera;
   View view;
   view.camera.projection = camera.projection;
@@ -93,7 +96,7 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress) {
   // Handles may have brought other ground under the eye.
   const glm::dvec2 below = deformation.source_of(view.viewer_xy).value_or(view.viewer_xy);
   const bool known_ground = on_terrain(dem, below);
-  const glm::dvec3 ground{below, known_ground ? ground_altitude_m(dem, below) : 0.0};
+  const glm::dvec3 ground{below, known_ground ? altitude_m(below) : 0.0};
   double eye_m = camera.height_m;
   if (camera.height_above_ground) {
     if (!known_ground)
@@ -117,7 +120,7 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress) {
     DeformParameters plain = view.deform;
     plain.summits.clear();
     plain.handles.clear();
-    const double altitude = camera.look_at_altitude_m ? *camera.look_at_altitude_m : ground_altitude_m(dem, place);
+    const double altitude = camera.look_at_altitude_m ? *camera.look_at_altitude_m : altitude_m(place);
     look_towards(view.camera, Deformation(plain, view.viewer_xy).unbent({place, altitude}));
   } else {
     view.camera.azimuth_deg = camera.azimuth_deg;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -28,6 +29,8 @@ DeformParameters resolve_deform(const SceneDeform& deform, const Dem& dem);
 // Resolves longitude and latitude, heights above ground, look-at points and the time of day. Throws Error(usage) where the eye would stand
 // below the ground, naming the height, or outside the terrain where its height is counted from the ground; a sun below the
 // horizon is noted, and then only the sky gives light.
-View make_view(const Scene& scene, const Dem& dem, Progress& progress);
+// `ground_m` knows altitudes better than the DEM does, where that is a coarse one of a larger whole; empty: the DEM's.
+using GroundAltitude = std::function<double(glm::dvec2 place)>;
+View make_view(const Scene& scene, const Dem& dem, Progress& progress, const GroundAltitude& ground_m = {});
 
 }  // namespace belvedere

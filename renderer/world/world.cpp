@@ -7,6 +7,8 @@
 #include "renderer/scene/scene_error.h"
 #include "renderer/world/fold_check.h"
 #include "renderer/world/generalize_view.h"
+#include "renderer/world/ground_plan.h"
+#include "renderer/world/ground_windows.h"
 #include "renderer/world/scene_terrain.h"
 
 namespace belvedere {
@@ -20,10 +22,28 @@ const Scene& runnable(const Scene& scene) {
   return scene;
 }
 
+// Opens the scene's DEM; the levels of one that is larger than memory stay for its windows.
+std::shared_ptr<const Dem> take_dem(const LoadedScene& loaded, SceneDem& opened, Progress& progress, const Cache& cache) {
+  opened = open_scene_dem(loaded, progress, cache);
+  return std::make_shared<const Dem>(opened.levels ? opened.dem : std::move(opened.dem));
+}
+
 TerrainModel make_terrain(const World& world, GeneralizedTerrain generalized) {
   TerrainModel terrain = make_terrain_model(world.dem, std::move(generalized.altitude_m), world.land_cover, world.view.deform.exaggeration);
   terrain.came_from = std::move(generalized.came_from);
   if (world.deformation.is_local()) terrain.local = world.deformation;
+  return terrain;
+}
+
+// The same with its windows, if there are any; then nobody asks for the levels any more.
+TerrainModel with_windows(TerrainModel terrain, const LoadedScene& loaded, const World& world, SceneDem& opened, Progress& progress,
+                          const Cache& cache) {
+  if (!opened.levels) return terrain;
+  const RasterFrame& frame = opened.levels->frame();
+  const GroundPlan plan = plan_ground(frame, *world.dem, world.view, opened.most_cells);
+  progress.note(describe(plan, frame));
+  add_ground_windows(terrain, plan, {loaded, world.view, world.deformation, *opened.levels, progress, cache});
+  opened = {};
   return terrain;
 }
 
@@ -41,18 +61,23 @@ std::shared_ptr<const T> shared(T value) {
 
 }  // namespace
 
-World::World(const LoadedScene& loaded, Progress& progress, const Cache& cache) : World(loaded, nullptr, nullptr, progress, cache) {}
+World::World(const LoadedScene& loaded, Progress& progress, const Cache& cache) : World(loaded, nullptr, nullptr, {}, progress, cache) {}
 
 World::World(const LoadedScene& loaded, std::shared_ptr<const Dem> known_dem, std::shared_ptr<const LandCover> known_cover,
              Progress& progress, const Cache& cache)
+    : World(loaded, std::move(known_dem), std::move(known_cover), {}, progress, cache) {}
+
+World::World(const LoadedScene& loaded, std::shared_ptr<const Dem> known_dem, std::shared_ptr<const LandCover> known_cover, SceneDem opened,
+             Progress& progress, const Cache& cache)
     : scene(runnable(loaded.scene)),
-      dem(known_dem ? std::move(known_dem) : shared(make_scene_dem(loaded, progress, cache))),
-      view(make_view(scene, *dem, progress)),
+      dem(known_dem ? std::move(known_dem) : take_dem(loaded, opened, progress, cache)),
+      view(make_view(scene, *dem, progress, ground_altitude_of(opened))),
       camera(make_camera(view.camera)),
       land_cover(known_cover ? std::move(known_cover) : shared(make_scene_land_cover(loaded, *dem, progress, cache))),
       deformation(view.deform, view.viewer_xy),
-      terrain(make_terrain(*this, generalize_for_view(loaded, *dem, land_cover.get(), view, progress, cache))),
-      surface(deform(terrain.generalized_m, dem->transform, glm::dvec3(view.viewer_xy, 0.0), deformation)),
+      terrain(with_windows(make_terrain(*this, generalize_for_view(loaded, *dem, land_cover.get(), view, progress, cache)), loaded, *this,
+                           opened, progress, cache)),
+      surface(deform_ground(terrain, glm::dvec3(view.viewer_xy, 0.0), deformation)),
       tracer(surface, tracer_parameters(*this, progress)),
       horizon_px(skyline_row_px(*camera, tracer, usual_horizon * scene.output.height)) {}
 

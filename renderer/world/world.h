@@ -8,6 +8,7 @@
 #include "renderer/trace/camera.h"
 #include "renderer/trace/guidance.h"
 #include "renderer/trace/tracer.h"
+#include "renderer/world/scene_terrain.h"
 #include "renderer/world/view.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/deform/deform.h"
@@ -28,8 +29,8 @@ struct World {
   World& operator=(const World&) = delete;
 
   const Scene scene;
-  const std::shared_ptr<const Dem> dem;
-  const View view;  // camera and sun on this DEM
+  const std::shared_ptr<const Dem> dem;  // of a DEM that is larger than memory the whole in coarse cells: terrain has finer windows
+  const View view;                       // camera and sun on this DEM
   const std::unique_ptr<const Camera> camera;
   const std::shared_ptr<const LandCover> land_cover;
   const Deformation deformation;
@@ -37,6 +38,10 @@ struct World {
   const DeformedSurface surface;  // what is traced: generalized, exaggerated, bent; its origin is the eye's place at altitude 0
   const Tracer tracer;
   const double horizon_px;  // row of the skyline's median
+
+ private:
+  World(const LoadedScene& loaded, std::shared_ptr<const Dem> dem, std::shared_ptr<const LandCover> land_cover, SceneDem opened,
+        Progress& progress, const Cache& cache);
 };
 
 }  // namespace belvedere

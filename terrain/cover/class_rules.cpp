@@ -319,7 +319,8 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
     const std::vector<bool>& needs = program.term_needs[static_cast<std::size_t>(balance - rules.terms.begin())];
     for (std::size_t i = 0; i < slots; ++i) needed[i] = needed[i] || needs[i];
   }
-  Run run{rules, program, dem, given.seed, make_terrain_inputs(dem, needed, parameters, given.towns, given.sea, given.seed), {}};
+  const Settlers settlers{given.towns, given.seed, given.sites ? &*given.sites : nullptr};
+  Run run{rules, program, dem, given.seed, make_terrain_inputs(dem, needed, parameters, settlers, given.sea), {}};
   for (int v = first_noise; v < east; ++v)
     run.noise.push_back(needed[static_cast<std::size_t>(v)] ? plan_noise(v, dem.transform, dem.width()) : NoiseColumns{});
   progress.advance(1.0);
@@ -342,6 +343,18 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
   remove_specks(classes, static_cast<int>(parameter_or(parameters, "speck_cells", 5.0)));
   progress.advance(1.0);
   return {{std::move(classes), dem.transform, dem.crs}};
+}
+
+std::vector<TownSite> find_rule_towns(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem) {
+  const Parameters parameters = with_settings(rules, given.settings);
+  const Program program = compile(rules, parameters, rules.name, {});
+  const std::size_t slots = variable_names().size() + rules.terms.size();
+  std::vector<TownSite> found;
+  if (!union_of(program.layer_needs, 0, program.layers.size(), slots)[town]) return found;
+  std::vector<bool> needed(slots, false);
+  for (const int variable : {town, slope, south, valley_floor}) needed[static_cast<std::size_t>(variable)] = true;
+  make_terrain_inputs(dem, needed, parameters, {given.towns, given.seed}, given.sea, &found);
+  return found;
 }
 
 }  // namespace belvedere

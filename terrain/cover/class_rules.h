@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,11 +40,15 @@ struct ClassRuleParameters {
   std::vector<KnownTown> towns;                          // where people are known to live
   SeaParameters sea;                                     // where rules speak of it
   std::uint64_t seed = 1;                                // of noise and of the villages that are found
+  std::optional<std::vector<TownSite>> sites = {};       // all settlements, where they were found on a larger DEM that this one is part of
 };
 
 // Evaluates the rules on the DEM's grid, cleans up specks, and returns land cover; cells that no layer covers take the nearest class.
 // Error(usage) for a setting that is no parameter of the rules, with the nearest known.
 // Noise depends on the seed and the place in the CRS alone, so a part of a DEM gets the same ragged treelines as the whole.
 LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& parameters, const Dem& dem, Progress& progress);
+
+// The settlements that the rules see on a DEM; none where they ask for none.
+std::vector<TownSite> find_rule_towns(const ClassRules& rules, const ClassRuleParameters& parameters, const Dem& dem);
 
 }  // namespace belvedere

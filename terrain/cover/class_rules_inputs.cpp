@@ -146,7 +146,8 @@ double parameter_or(const Parameters& parameters, const std::string& name, doubl
 }
 
 std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
-                                             const std::vector<KnownTown>& towns, const SeaParameters& sea_parameters, std::uint64_t seed) {
+                                             const Settlers& settlers, const SeaParameters& sea_parameters,
+                                             std::vector<TownSite>* settlements) {
   const Grid<float>& z = dem.altitude_m;
   std::vector<Grid<float>> inputs(first_noise);
   const bool needs_town = needed[town];
@@ -160,13 +161,17 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
       if (part == 1)
         make_shape_inputs(dem, found, needed, parameters, inputs);
       else if (needed[river] || needs_town)
-        catchment_km2 = flow_accumulation_km2(z, dem.cell_m());
+        catchment_km2 = flow_accumulation_km2(z, dem.cell_m(), dem.entries);
     }
   });
   if (needed[river]) inputs[river] = river_mask(catchment_km2, dem.cell_m());
   if (needs_town) {
     const TownGround ground{z, inputs[valley_floor], catchment_km2, inputs[slope], inputs[south], dem.transform};
-    inputs[town] = town_field(find_town_sites(ground, to_town_parameters(parameters, towns, seed)), ground);
+    const std::vector<TownSite> sites = settlers.sites != nullptr
+                                            ? *settlers.sites
+                                            : find_town_sites(ground, to_town_parameters(parameters, settlers.known, settlers.seed));
+    inputs[town] = town_field(sites, ground);
+    if (settlements != nullptr) *settlements = sites;
   }
   return inputs;
 }

@@ -50,9 +50,18 @@ const std::vector<std::string>& variable_names();
 // A parameter, or what it is where the rules do not name it.
 double parameter_or(const Parameters& parameters, const std::string& name, double otherwise);
 
+// Who lives where: settlements that are found already, or else what they are looked for with.
+struct Settlers {
+  const std::vector<KnownTown>& known;
+  std::uint64_t seed = 1;
+  const std::vector<TownSite>* sites = nullptr;  // null: they are looked for
+};
+
 // The grids that are needed (by slot), all of the DEM's size; others stay empty. ice and below_rock depend on the rules and stay empty.
+// `settlements` gets the settlements, where it is given and `town` is needed.
 std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
-                                             const std::vector<KnownTown>& towns, const SeaParameters& sea_parameters, std::uint64_t seed);
+                                             const Settlers& settlers, const SeaParameters& sea_parameters,
+                                             std::vector<TownSite>* settlements = nullptr);
 
 // 1 just below rock, falling to 0 over `reach_m` down the fall line.
 Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, double reach_m);

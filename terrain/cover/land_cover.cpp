@@ -130,7 +130,8 @@ LandCover read_land_cover(const LandCoverParameters& parameters, const RasterFra
   // At the sources' own resolution, over the frame.
   const GeoTransform& t = frame.transform;
   const std::array<double, 4> extent = {t.origin_x, t.origin_y - t.cell_y * frame.height, t.origin_x + t.cell_x * frame.width, t.origin_y};
-  const RasterFrame own = choose_frame(parameters.sources, frame.crs, 0.0, extent);
+  RasterFrame own = choose_frame(parameters.sources, frame.crs, 0.0, extent);
+  if (own.transform.cell_x < parameters.finest_cell_m) own = choose_frame(parameters.sources, frame.crs, parameters.finest_cell_m, extent);
   const Raster<std::int32_t> codes = warp_codes(parameters.sources, own, progress);
   LandCover cover;
   cover.classes.cells = classify(codes.cells, legend, parameters, progress);

@@ -45,6 +45,7 @@ struct LandCoverParameters {
   std::string legend;                     // built-in name or file
   std::vector<std::string> folders;       // where a CSV file that the legend names is looked for, after the legend's own folder
   std::optional<LandCoverClass> unknown;  // class of codes that the legend lacks; none: they are an error (exit 3, codes and counts)
+  double finest_cell_m = 0.0;             // nothing finer is read; 0: all that the sources have
   std::optional<LandCoverClass> nodata;   // class where the raster has nothing; none: filled from the nearest known cell
 };
 

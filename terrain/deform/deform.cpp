@@ -154,4 +154,13 @@ DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transf
   return deform(altitude_m, transform, origin, Deformation(parameters, viewer_xy));
 }
 
+void join_window(SurfaceWindow& window, const DeformedSurface& coarser) {
+  const PixelRect& part = window.part;
+  const auto join = [&](int x, int y) {
+    window.surface.vertices_m(part.x0 + x, part.y0 + y) = coarser.vertices_m(window.replaces.x0 + x / 2, window.replaces.y0 + y / 2);
+  };
+  for (int x = 0; x < part.width(); ++x) join(x, 0), join(x, part.height() - 1);
+  for (int y = 0; y < part.height(); ++y) join(0, y), join(part.width() - 1, y);
+}
+
 }  // namespace belvedere

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/grid.h"
+#include "base/parallel.h"
 #include "terrain/deform/bend_curve.h"
 #include "terrain/deform/handles.h"
 #include "terrain/io/raster.h"
@@ -83,10 +84,24 @@ glm::dvec3 deform_point(glm::dvec3 point, glm::dvec2 viewer_xy, const DeformPara
 
 // Vertices that moved in three dimensions; vertex (x, y) belongs to cell centre (x, y) of the DEM and so keeps its undeformed
 // place. Positions are relative to `origin`, subtracted in double before they become float.
+struct SurfaceWindow;
 struct DeformedSurface {
   Grid<glm::vec3> vertices_m;
   glm::dvec3 origin;
+  std::vector<SurfaceWindow> windows = {};  // of finer cells; each lies inside the one before, the first inside this surface
 };
+
+// A finer piece of a surface, in the place of cells of the one before it: post (x, y) of its part lies on post (x / 2, y / 2) there, where
+// both are even. Posts along the part's edge that the coarser side does not have are not met: a facet there goes on to the next one that
+// both have, so both sides share their edges to the bit and no ray slips between them.
+struct SurfaceWindow {
+  DeformedSurface surface;  // without windows; posts around the part are for derivatives alone
+  PixelRect part;           // of its posts that is traced: an odd number of them either way, 5 or more
+  PixelRect replaces;       // posts of the surface before it that are the part's corners; the cells between them are not traced
+};
+
+// Makes the posts along the part's edge those of the surface that it is laid into.
+void join_window(SurfaceWindow& window, const DeformedSurface& coarser);
 
 // Deformation::point of every vertex (which differs from it by the rounding to float alone). origin: usually the eye's place at altitude 0.
 DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transform, glm::dvec3 origin, const Deformation& deformation);

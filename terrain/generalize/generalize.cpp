@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -56,6 +57,8 @@ void check(const Grid<float>& altitude_m, const GeneralizeGrids& grids, const Ge
   check_number("foreground_valleys", parameters.foreground_valleys, bands);
   check_number("background_ridges", parameters.background_ridges, bands);
   check_number("background_valleys", parameters.background_valleys, bands);
+  if (parameters.finest_band < 0 || parameters.finest_band > 16)
+    throw Error(ErrorKind::bug, "generalize", fmt::format("a finest band of {}", parameters.finest_band), "0 to 16");
   const auto fits = [&](const auto& grid) { return grid.empty() || grid.same_size(altitude_m); };
   if (!fits(grids.foreground_share) || !fits(grids.keep) || !fits(grids.mask) || !fits(grids.amplification_mask)) {
     throw Error(ErrorKind::bug, "generalize", "a foreground, lake or mask grid whose size is not the DEM's");
@@ -64,7 +67,8 @@ void check(const Grid<float>& altitude_m, const GeneralizeGrids& grids, const Ge
 
 // Weights of the band at a level, 0 the finest.
 BandWeights weights_of(const GeneralizeParameters& parameters, int level, double cell_m) {
-  const std::size_t i = parameters.foreground.size() - 1 - static_cast<std::size_t>(level);  // weights begin with the coarsest band
+  // Weights begin with the coarsest band.
+  const std::size_t i = parameters.foreground.size() - 1 - static_cast<std::size_t>(parameters.finest_band + level);
   const auto at = [i](const std::vector<float>& weights) { return weights.empty() ? 0.F : weights[i]; };
   BandWeights weights;
   weights.near = {parameters.foreground[i], at(parameters.foreground_ridges), at(parameters.foreground_valleys)};
@@ -100,10 +104,13 @@ Grid<float> without_lakes(const Grid<float>& mask, const Grid<unsigned char>& ke
 Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m, const GeneralizeGrids& grids,
                        const GeneralizeParameters& parameters, Progress& progress) {
   check(altitude_m, grids, parameters);
-  const int weights = static_cast<int>(parameters.foreground.size());
+  const int skipped = parameters.finest_band;
+  const int weights = std::max(static_cast<int>(parameters.foreground.size()) - skipped, 0);
   const int possible = most_bands(altitude_m.width(), altitude_m.height());
   const int bands = std::min(weights, possible);
-  const int reductions = parameters.crest > 0.F ? std::min(std::max(weights, crest_bands), possible) : bands;
+  // The lowest of the bands that crests are made of needs a level below it.
+  const float crest = skipped < crest_bands ? parameters.crest : 0.F;
+  const int reductions = crest > 0.F ? std::min(std::max(weights, crest_bands - skipped), possible) : bands;
   const bool has_lakes = std::any_of(grids.keep.begin(), grids.keep.end(), [](unsigned char k) { return k != 0; });
   progress.begin("generalize", 2.0 * reductions + 1.0);
 
@@ -130,12 +137,16 @@ Grid<float> generalize(const Grid<float>& altitude_m, glm::dvec2 cell_m, const G
     band.level_cells = 1 << i;
     change = add_band(band, weights_of(parameters, i, 0.5 * (cell_m.x + cell_m.y)), break_lines_of(parameters, i, cell_m));
     for (Levels* levels : {&share, &mask, &amplify}) levels->drop(i);
-    if (parameters.crest <= 0.F || i >= crest_bands) levels_m[static_cast<std::size_t>(i)] = {};
+    if (crest <= 0.F || i >= crest_bands - skipped) levels_m[static_cast<std::size_t>(i)] = {};
     progress.advance(1.0);
   }
-  if (parameters.crest > 0.F && reductions > 0) {
+  if (crest > 0.F && reductions > 0) {
     if (change.empty()) change = Grid<float>(altitude_m.width(), altitude_m.height());
-    add_crests(change, std::move(levels_m), share.at(0), mask.at(0), amplify.at(0), parameters.crest);
+    std::vector<Grid<float>> levels;
+    levels.reserve(levels_m.size() + 1);
+    if (skipped > 0) levels.push_back(altitude_m);
+    std::move(levels_m.begin(), levels_m.end(), std::back_inserter(levels));
+    add_crests(change, std::move(levels), skipped, share.at(0), mask.at(0), amplify.at(0), crest);
   }
   levels_m = {};
   if (change.empty()) return altitude_m;

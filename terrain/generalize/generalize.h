@@ -40,6 +40,10 @@ struct GeneralizeParameters {
   float blur_cells = 1.F;  // standard deviation of the blur of c, in cells of its band; 0…10, 0 is none
   float exponent = 1.F;    // of c, 0…4: 0 treats slopes like ridges (w = u + v), 1 only break lines
 
+  // How many times the DEM at hand was halved (base/pyramid.h) from the one that the weights are meant for: so many of the finest weights
+  // are left out, and what is left is what the finer DEM would have got in those bands. 0…16.
+  int finest_band = 0;
+
   // The shortest landform that the print shows, in output pixels: with GeneralizeGrids::pixel_ground, bands whose wavelength
   // (four of their cells) is shorter fade, and are gone at half of it. 0.5…20.
   float print_pixels = 2.5F;

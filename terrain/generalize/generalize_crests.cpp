@@ -12,21 +12,21 @@ namespace {
 
 float unit(float v) { return std::clamp(v, 0.F, 1.F); }
 
-// b2 + b3 + .6 b4 and b5 + b6 + … + base, the terms of GeneralizeParameters::crest, both at level 1; one row of expand brings them to
-// level 0.
+// b2 + b3 + .6 b4 and b5 + b6 + … + base, the terms of GeneralizeParameters::crest, both at the finest level given; from level 1 one row of
+// expand brings them to level 0.
 struct CrestTerms {
   Grid<float> detail_m;
   Grid<float> ground_m;
 };
 
-CrestTerms find_crests(std::vector<Grid<float>> levels) {
+CrestTerms find_crests(std::vector<Grid<float>> levels, int first) {  // the finest level given
   CrestTerms crests;
-  const int top = std::min(static_cast<int>(levels.size()), crest_bands) - 1;
+  const int top = std::min(static_cast<int>(levels.size()), crest_bands - first + 1) - 1;
   crests.ground_m = levels[static_cast<std::size_t>(top)];
   for (int i = top - 1; i >= 0; --i) {
     const Grid<float>& coarser = levels[static_cast<std::size_t>(i) + 1];
-    const float weight = i == crest_bands - 2 ? 0.6F : 1.F;
-    // Level 1 is not asked for again: row by row it becomes the detail.
+    const float weight = i + first == crest_bands - 1 ? 0.6F : 1.F;
+    // The finest is not asked for again: row by row it becomes the detail.
     Grid<float> detail = i == 0 ? std::move(levels[0]) : levels[static_cast<std::size_t>(i)];
     const int width = detail.width();
     Grid<float> ground(width, detail.height());
@@ -46,15 +46,20 @@ CrestTerms find_crests(std::vector<Grid<float>> levels) {
 
 }  // namespace
 
-void add_crests(Grid<float>& change, std::vector<Grid<float>> levels, const Grid<float>* share, const Grid<float>* mask,
+void add_crests(Grid<float>& change, std::vector<Grid<float>> levels, int halved, const Grid<float>* share, const Grid<float>* mask,
                 const Grid<float>* amplify, float strength) {
-  const CrestTerms crests = find_crests(std::move(levels));
+  const CrestTerms crests = find_crests(std::move(levels), std::max(halved, 1));
   const int width = change.width();
   parallel_rows(change.height(), [&](int y) {
     std::vector<float> detail(static_cast<std::size_t>(width));
     std::vector<float> ground(static_cast<std::size_t>(width));
-    expand_change_row(crests.detail_m, y, width, detail.data());
-    expand_row(crests.ground_m, y, width, ground.data());
+    if (halved == 0) {
+      expand_change_row(crests.detail_m, y, width, detail.data());
+      expand_row(crests.ground_m, y, width, ground.data());
+    } else {
+      if (!crests.detail_m.empty()) std::copy_n(crests.detail_m.row(y), width, detail.begin());
+      std::copy_n(crests.ground_m.row(y), width, ground.begin());
+    }
     float* out = change.row(y);
     for (int x = 0; x < width; ++x) {
       const float high = unit((ground[x] - 1200.F) / 700.F);

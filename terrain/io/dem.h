@@ -12,12 +12,21 @@
 
 namespace belvedere {
 
+// Water that comes from beyond a DEM which is a window of a larger one.
+struct RiverEntry {
+  int x = 0, y = 0;  // the cell in which it arrives
+  double km2 = 0.0;  // what it has gathered outside
+};
+
 // A digital elevation model ready for work: metric CRS, square-ish cells, no voids left.
 struct Dem {
   Grid<float> altitude_m;     // above the vertical datum; finite everywhere
   Grid<std::uint8_t> filled;  // 1 where a void was filled: such terrain is painted but dissolves in haze at the rim
   GeoTransform transform;
   std::string crs;  // WKT2
+  // Of terrain that is larger than memory (dem_levels.h):
+  std::vector<RiverEntry> entries;  // empty where nothing is known of what lies outside
+  int halved = 0;                   // how many times the data were halved to these cells
 
   int width() const { return altitude_m.width(); }
   int height() const { return altitude_m.height(); }

@@ -12,6 +12,7 @@
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_file.h"
 #include "terrain/io/raster_io.h"
+#include "terrain/io/raster_windows.h"
 #include "terrain/io/resample.h"
 
 namespace belvedere {
@@ -99,10 +100,15 @@ class LatticeMap {
     find_offset();
   }
 
-  // Where every cell of the frame is a cell of the lattice: the lattice's cell under the frame's first.
-  const std::optional<glm::ivec2>& offset() const { return offset_; }
+  // From now on cells are counted from this one of the frame: of a window of it, whose values must be those of the whole.
+  void begin_at(glm::ivec2 corner) { corner_ = corner; }
+
+  // Where every cell of the frame is a cell of the lattice: the lattice's cell under the first that is counted.
+  std::optional<glm::ivec2> offset() const { return offset_ ? std::optional(*offset_ + corner_) : std::nullopt; }
 
   glm::dvec2 operator()(int x, int y) const {
+    x += corner_.x;
+    y += corner_.y;
     const int i = x / step_;
     const int j = y / step_;
     const double u = static_cast<double>(x - i * step_) / step_;
@@ -151,6 +157,7 @@ class LatticeMap {
   static constexpr double snapping = 1e-5;  // cells
   CellAffine affine_;
   std::optional<glm::ivec2> offset_;
+  glm::ivec2 corner_{0, 0};
   int step_ = 1;
   int across_ = 0;
   std::vector<glm::dvec2> points_;
@@ -269,20 +276,27 @@ void check_frame(const RasterFrame& frame, double bytes_per_cell) {
   check_memory(where, bytes_per_cell * frame.width * frame.height);
 }
 
+constexpr int tile_side = 512;
+
+// Fills what is still void of a window of the frame, which begins where the map does. Tiles one after another, because a file is read by
+// one thread; rows of a tile in parallel.
+template <class T>
+void fill_from_layer(const Layer& layer, const LatticeMap& map, Grid<T>& out, Progress& progress) {
+  for (int y = 0; y < out.height(); y += tile_side)
+    for (int x = 0; x < out.width(); x += tile_side) {
+      const PixelRect tile{x, y, std::min(x + tile_side, out.width()), std::min(y + tile_side, out.height())};
+      map.offset() ? copy_tile(layer, *map.offset(), tile, out) : warp_tile(layer, map, tile, out);
+      progress.advance(static_cast<double>(tile.width()) * tile.height());
+    }
+}
+
 template <class T>
 Raster<T> warp_layers(std::vector<Layer>& layers, const RasterFrame& frame, Progress& progress) {
   check_frame(frame, sizeof(T));
   Raster<T> out{Grid<T>(frame.width, frame.height, void_of<T>()), frame.transform, frame.crs};
   for (const Layer& layer : layers) {
     const LatticeMap map(layer, frame, !layer.crs.empty() && crs_traits(layer.crs).geographic);
-    // Tiles one after another, because a file is read by one thread; rows of a tile in parallel.
-    constexpr int side = 512;
-    for (int y = 0; y < frame.height; y += side)
-      for (int x = 0; x < frame.width; x += side) {
-        const PixelRect tile{x, y, std::min(x + side, frame.width), std::min(y + side, frame.height)};
-        map.offset() ? copy_tile(layer, *map.offset(), tile, out.cells) : warp_tile(layer, map, tile, out.cells);
-        progress.advance(static_cast<double>(tile.width()) * tile.height());
-      }
+    fill_from_layer(layer, map, out.cells, progress);
   }
   return out;
 }
@@ -354,6 +368,36 @@ Raster<float> warp_rasters(const std::vector<RasterSource>& sources, const Raste
 
 Raster<std::int32_t> warp_codes(const std::vector<RasterSource>& sources, const RasterFrame& frame, Progress& progress) {
   return warp<std::int32_t>(sources, frame, progress, "read land cover");
+}
+
+struct RasterWindows::State {
+  std::vector<Layer> layers;
+  std::vector<LatticeMap> maps;  // of each layer
+};
+
+RasterWindows::RasterWindows(const std::vector<RasterSource>& sources, const RasterFrame& frame)
+    : frame_(frame), state_(std::make_unique<State>()) {
+  check_frame(frame, 0.0);
+  state_->layers = make_layers(sources);
+  for (const Layer& layer : state_->layers) {
+    for (const Layer::Part& part : layer.parts) part.file.required_crs();
+    state_->maps.emplace_back(layer, frame, crs_traits(layer.crs).geographic);
+  }
+}
+
+RasterWindows::~RasterWindows() = default;
+
+Grid<float> RasterWindows::read(const PixelRect& window) {
+  if (window.empty() || intersection(window, {0, 0, frame_.width, frame_.height}) != window)
+    throw Error(ErrorKind::bug, "raster windows", "a window beyond the frame");
+  check_memory(fmt::format("terrain of {} × {} cells", window.width(), window.height()),
+               static_cast<double>(sizeof(float)) * window.width() * window.height());
+  Grid<float> out(window.width(), window.height(), void_of<float>());
+  for (std::size_t i = 0; i < state_->layers.size(); ++i) {
+    state_->maps[i].begin_at({window.x0, window.y0});
+    fill_from_layer(state_->layers[i], state_->maps[i], out, silent_progress());
+  }
+  return out;
 }
 
 }  // namespace belvedere

@@ -235,7 +235,7 @@ void remove_what_is_no_lake(Mask& mask, const Grid<float>& altitude_m, const Lak
 
 }  // namespace
 
-Grid<float> flow_accumulation_km2(const Grid<float>& altitude_m, double cell_m) {
+Grid<float> flow_accumulation_km2(const Grid<float>& altitude_m, double cell_m, const std::vector<RiverEntry>& entries) {
   const int width = altitude_m.width();
   const int height = altitude_m.height();
   const Grid<std::uint8_t> towards = find_ways(flood_from_rim(altitude_m));
@@ -259,6 +259,8 @@ Grid<float> flow_accumulation_km2(const Grid<float>& altitude_m, double cell_m) 
   Grid<float> catchment(width, height);
   Grid<std::uint32_t> cells(width, height, 1);
   const double cell_km2 = cell_m * cell_m * 1e-6;
+  for (const RiverEntry& entry : entries)
+    if (cells.contains(entry.x, entry.y)) cells(entry.x, entry.y) += static_cast<std::uint32_t>(std::lround(entry.km2 / cell_km2));
   for (std::size_t spring = 0; spring < cells.size(); ++spring) {
     if (waiting[spring] != 0) continue;
     for (std::size_t cell = spring;;) {

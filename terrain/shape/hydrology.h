@@ -2,15 +2,19 @@
 
 #include <cstdint>
 
+#include <vector>
+
 #include "base/grid.h"
+#include "terrain/io/dem.h"
 
 namespace belvedere {
 
 // Catchment area of every cell, km², its own cell included. A flood from the rim (spill_level.h) fills hollows
 // up to their outlet, so that every cell drains; then each cell flows to the neighbour of steepest descent (D8), and across
 // filled hollows and flats back along the flood. Values grow strictly downstream, so they also say which way water runs.
-// What lies outside the grid is unknown: a river that enters at the rim begins there. Cells finite; fewer than 2^31 cells.
-Grid<float> flow_accumulation_km2(const Grid<float>& altitude_m, double cell_m);
+// What lies outside the grid is unknown: a river that enters at the rim begins there, unless it is among the entries, whose areas count as
+// whole cells. Cells finite; fewer than 2^31 cells.
+Grid<float> flow_accumulation_km2(const Grid<float>& altitude_m, double cell_m, const std::vector<RiverEntry>& entries = {});
 
 // Altitudes with every hollow filled up to its outlet by the same flood; what it adds is the depth of pits.
 Grid<float> fill_hollows(const Grid<float>& altitude_m);

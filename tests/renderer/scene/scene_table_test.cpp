@@ -82,6 +82,7 @@ TEST(SceneTable, DefaultsAreThoseOfTheStages) {
       {"output.height", CameraParameters{}.height},
       {"terrain.cell_m", DemParameters{}.cell_m},
       {"terrain.max_void_share", DemParameters{}.max_void_share},
+      {"terrain.most_mcells", SceneTerrain{}.most_mcells},
       {"terrain.sources.band", RasterSource{}.band},
       {"land_cover.sources.band", RasterSource{}.band},
       {"terrain.synthetic.cell_m", SyntheticParameters{}.cell_m},

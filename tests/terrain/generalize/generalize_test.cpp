@@ -236,6 +236,54 @@ TEST(Generalize, CrestEqualsItsFormula) {
   EXPECT_LE(largest_difference(out, expected), 5e-3);
 }
 
+// The parts of a DEM that is larger than memory are generalized apart, at several sizes of cells.
+TEST(Generalize, AHalvedDemGetsWhatTheWholeGetsInItsBands) {
+  const Grid<float> terrain = alpine(129, 111);
+  GeneralizeParameters parameters;
+  parameters.foreground = {1.3F, 0.6F, 1.2F, 0.7F, 1.F};  // the finest band is left as it is
+  parameters.background = parameters.foreground;
+  parameters.foreground_ridges = {0.F, 0.3F, 0.4F, 0.2F, 0.F};
+  parameters.background_ridges = parameters.foreground_ridges;
+  const Grid<float> whole = generalize(terrain, parameters);
+  const Grid<float> half = reduce(terrain);
+  parameters.finest_band = 1;
+  Grid<float> change = generalize(half, {60.0, 60.0}, {}, parameters, silent_progress());
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] -= half[i];
+  Grid<float> expected = expand(change, terrain.width(), terrain.height());
+  for (std::size_t i = 0; i < expected.size(); ++i) expected[i] += terrain[i];
+  EXPECT_LE(largest_difference(whole, expected), 2e-3);
+  EXPECT_GT(largest_difference(whole, terrain), 5.0);
+  // Halved so often that no band is left.
+  parameters.finest_band = 5;
+  EXPECT_EQ(generalize(half, {60.0, 60.0}, {}, parameters, silent_progress()), half);
+}
+
+TEST(Generalize, CrestsOfAHalvedDemAreMadeOfTheBandsItHas) {
+  Grid<float> terrain = alpine(97, 110);
+  for (float& v : terrain) v += 500.F;
+  for (const int halved : {1, 2, 3}) {
+    GeneralizeParameters parameters;
+    parameters.crest = 1.5F;
+    parameters.finest_band = halved;
+    const Grid<float> out = generalize(terrain, parameters);
+    // Bands 2, 3 and (by .6) 4 of what was halved, whose first ones are lost.
+    LaplacianPyramid detail = make_laplacian_pyramid(terrain, 4 - halved);
+    LaplacianPyramid ground = detail;
+    for (std::size_t i = 0; i < detail.bands.size(); ++i) {
+      const float weight = i + 1 == detail.bands.size() ? .6F : 1.F;
+      for (float& v : detail.bands[i]) v *= weight;
+      std::fill(ground.bands[i].begin(), ground.bands[i].end(), 0.F);
+    }
+    std::fill(detail.base.begin(), detail.base.end(), 0.F);
+    const Grid<float> fine = reconstruct(detail);
+    const Grid<float> low = reconstruct(ground);
+    Grid<float> expected = terrain;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      expected[i] += 1.5F * std::clamp((low[i] - 1200.F) / 700.F, 0.F, 1.F) * std::clamp(fine[i], 0.F, 60.F);
+    EXPECT_LE(largest_difference(out, expected), 5e-3) << halved;
+  }
+}
+
 TEST(Generalize, SaysWhatIsWrong) {
   EXPECT_THROW(generalize(Grid<float>(9, 9), {{1, 1}, {1}, 0.F}), Error);
   EXPECT_THROW(generalize(Grid<float>(9, 9), {}, Grid<float>(8, 9)), Error);

@@ -1,0 +1,221 @@
+#include "renderer/world/ground_windows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "base/filter.h"
+#include "base/grid_part.h"
+#include "base/math.h"
+#include "base/parallel.h"
+#include "renderer/world/generalize_view.h"
+#include "renderer/world/scene_terrain.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int collar_cells = 32;  // from a window's edge to where its values are its own
+constexpr int apron_cells = 4;    // posts kept around the part, which derivatives at its edge look at
+
+// Where the grids of a ground lie on the cells of their level.
+struct Lattice {
+  int level = 0;
+  PixelRect kept;
+};
+
+// Rivers of the whole that enter a window of a finer level: where the largest neighbour downstream of a cell outside lies inside.
+std::vector<RiverEntry> find_entries(const TerrainModel& whole, const Dem& window, const PixelRect& cells, int halvings) {
+  const Grid<float>& flow = whole.flow;  // logarithm of m²
+  const int factor = 1 << halvings;
+  const PixelRect inside = {(cells.x0 + factor - 1) / factor, (cells.y0 + factor - 1) / factor, (cells.x1 - 1) / factor + 1,
+                            (cells.y1 - 1) / factor + 1};
+  const double own_m2 = whole.dem->transform.cell_x * whole.dem->transform.cell_y;
+  std::vector<RiverEntry> entries;
+  const auto is_inside = [&](int x, int y) { return x >= inside.x0 && y >= inside.y0 && x < inside.x1 && y < inside.y1; };
+  const auto look = [&](int x, int y) {  // at a cell outside, beside the window
+    if (!flow.contains(x, y) || flow(x, y) < std::log10(4.0 * own_m2)) return;
+    glm::ivec2 next(x, y);
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i)
+        if (flow.contains(x + i, y + j) && flow(x + i, y + j) > flow(next.x, next.y)) next = {x + i, y + j};
+    if (!is_inside(next.x, next.y)) return;
+    // It runs where the ground is lowest around there.
+    const glm::ivec2 at = glm::ivec2(next * factor) - glm::ivec2(cells.x0, cells.y0);
+    RiverEntry entry{std::clamp(at.x, 0, window.width() - 1), std::clamp(at.y, 0, window.height() - 1), 1e-6 * std::pow(10.0, flow(x, y))};
+    const glm::ivec2 middle(entry.x, entry.y);
+    for (int v = -factor / 2; v <= factor / 2; ++v)
+      for (int u = -factor / 2; u <= factor / 2; ++u) {
+        const glm::ivec2 other = middle + glm::ivec2(u, v);
+        if (!window.altitude_m.contains(other.x, other.y)) continue;
+        if (window.altitude_m(other.x, other.y) < window.altitude_m(entry.x, entry.y)) entry.x = other.x, entry.y = other.y;
+      }
+    entries.push_back(entry);
+  };
+  for (int x = inside.x0 - 1; x <= inside.x1; ++x) look(x, inside.y0 - 1), look(x, inside.y1);
+  for (int y = inside.y0; y < inside.y1; ++y) look(inside.x0 - 1, y), look(inside.x1, y);
+  return entries;
+}
+
+// A finer lattice's place in a grid of twice its cells, whose posts it meets at even places and lies between at odd ones.
+template <class T>
+T between(const Grid<T>& coarse, int x, int y) {
+  // Catmull and Rom's cubic half way: through the posts, and as steep there as central differences are.
+  constexpr std::array<float, 4> half = {-0.0625F, 0.5625F, 0.5625F, -0.0625F};
+  const auto across = [&](int row) {
+    if ((x & 1) == 0) return coarse.clamped(x / 2, row);
+    T sum{};
+    for (int k = 0; k < 4; ++k) sum += half[static_cast<std::size_t>(k)] * coarse.clamped(x / 2 - 1 + k, row);
+    return sum;
+  };
+  if ((y & 1) == 0) return across(y / 2);
+  T sum{};
+  for (int k = 0; k < 4; ++k) sum += half[static_cast<std::size_t>(k)] * across(y / 2 - 1 + k);
+  return sum;
+}
+
+// Lays the grids of a window into those of the ground before it.
+class Joint {
+ public:
+  Joint(const Lattice& fine, const PixelRect& part, const Lattice& coarse)
+      : shift_{fine.kept.x0 - 2 * coarse.kept.x0, fine.kept.y0 - 2 * coarse.kept.y0}, share_(fine.kept.width(), fine.kept.height()) {
+    for (int y = 0; y < share_.height(); ++y)
+      for (int x = 0; x < share_.width(); ++x) {
+        const int from_edge = std::min(std::min(fine.kept.x0 + x - part.x0, part.x1 - 1 - fine.kept.x0 - x),
+                                       std::min(fine.kept.y0 + y - part.y0, part.y1 - 1 - fine.kept.y0 - y));
+        share_(x, y) = static_cast<float>(smoothstep(static_cast<double>(from_edge) / collar_cells));
+      }
+  }
+  // `scale`: units of the coarse grid in those of the fine.
+  template <class T>
+  void operator()(Grid<T>& fine, const Grid<T>& coarse, float scale = 1.F) const {
+    if (coarse.empty() && fine.empty()) return;
+    if (fine.empty()) fine = Grid<T>(share_.width(), share_.height(), T{});
+    parallel_rows(fine.height(), [&](int y) {
+      for (int x = 0; x < fine.width(); ++x) {
+        const float share = share_(x, y);
+        if (share >= 1.F) continue;
+        const T there = coarse.empty() ? T{} : scale * between(coarse, shift_.x + x, shift_.y + y);
+        fine(x, y) = share <= 0.F ? there : there + share * (fine(x, y) - there);
+      }
+    });
+  }
+
+ private:
+  glm::ivec2 shift_;
+  Grid<float> share_;  // of the fine ground
+};
+
+template <class T>
+void cut(Grid<T>& grid, const PixelRect& rect) {
+  if (!grid.empty()) grid = part_of(grid, rect);
+}
+
+// Cells of a land cover that lies on the cells of a DEM; one on cells of its own stays.
+void cut(LandCover& cover, const Dem& dem, const PixelRect& rect) {
+  if (!cover.classes.cells.same_size(dem.altitude_m)) return;
+  const glm::dvec2 first = cover.classes.transform.to_crs(rect.x0 - 0.5, rect.y0 - 0.5);
+  cover.classes.transform.origin_x = first.x;
+  cover.classes.transform.origin_y = first.y;
+  cut(cover.classes.cells, rect);
+}
+
+TerrainModel make_window(const TerrainModel& whole, const TerrainModel& coarser, const Lattice& coarser_at, const GroundWindow& planned,
+                         const std::vector<TownSite>& sites, const WindowMaking& making, Lattice& at) {
+  const RasterFrame frame = level_frame(making.levels.frame(), planned.level);
+  const PixelRect all = {0, 0, frame.width, frame.height};
+  const PixelRect made = intersection(grown(planned.part, ground_halo_cells), all);
+  Progress& quiet = silent_progress();
+  Dem dem = making.levels.window(planned.level, made, *whole.dem);
+  prepare_scene_dem(dem, making.loaded, quiet);
+  dem.entries = find_entries(whole, dem, made, whole.dem->halved - planned.level);
+  LandCover cover = make_window_cover(making.loaded, dem, sites, quiet, making.cache);
+  GeneralizedTerrain ground = generalize_for_view(making.loaded, dem, &cover, making.view, quiet, making.cache);
+  const auto halo = std::make_shared<const Dem>(std::move(dem));
+  TerrainModel model = make_terrain_model(halo, std::move(ground.altitude_m), std::make_shared<const LandCover>(cover), whole.exaggeration);
+  model.came_from = std::move(ground.came_from);
+  model.local = making.deformation;
+
+  // Ground that was moved is looked up where it came from, at most the width of a valley away.
+  const double moved_cells = making.loaded.scene.generalize.valleys.width_m / halo->cell_m();
+  const int apron = std::min(ground_halo_cells, apron_cells + static_cast<int>(std::ceil(moved_cells)));
+  at = {planned.level,
+        intersection(intersection(grown(planned.part, apron), made),
+                     {2 * coarser_at.kept.x0, 2 * coarser_at.kept.y0, 2 * coarser_at.kept.x1 - 1, 2 * coarser_at.kept.y1 - 1})};
+  const PixelRect kept = moved(at.kept, -made.x0, -made.y0);
+  Dem window;
+  window.altitude_m = part_of(halo->altitude_m, kept);
+  window.filled = part_of(halo->filled, kept);
+  const glm::dvec2 first = halo->transform.to_crs(kept.x0 - 0.5, kept.y0 - 0.5);
+  window.transform = {first.x, first.y, halo->transform.cell_x, halo->transform.cell_y};
+  window.crs = halo->crs;
+  window.halved = halo->halved;
+  cut(cover, *halo, kept);
+  model.land_cover = std::make_shared<const LandCover>(std::move(cover));
+  for (Grid<float>* grid : {&model.generalized_m, &model.detail_smooth_m, &model.shape_smooth_m, &model.relief_s_m, &model.relief_m_m,
+                            &model.relief_l_m, &model.valley_height_m, &model.rim_m, &model.flow, &model.floor_plan.built})
+    cut(*grid, kept);
+  cut(model.came_from, kept);
+  cut(model.floor_plan.grain, kept);
+  // Where the terrain ends the whole knows alone.
+  const double factor = std::ldexp(1.0, whole.dem->halved - planned.level);
+  parallel_rows(model.rim_m.height(), [&](int y) {
+    for (int x = 0; x < model.rim_m.width(); ++x)
+      model.rim_m(x, y) = sample_bilinear(whole.rim_m, (at.kept.x0 + x) / factor, (at.kept.y0 + y) / factor);
+  });
+
+  const Joint join(at, planned.part, coarser_at);
+  join(window.altitude_m, coarser.dem->altitude_m);
+  join(model.generalized_m, coarser.generalized_m);
+  join(model.came_from, coarser.came_from, 2.F);
+  join(model.detail_smooth_m, coarser.detail_smooth_m);
+  join(model.shape_smooth_m, coarser.shape_smooth_m);
+  join(model.relief_s_m, coarser.relief_s_m);
+  join(model.relief_m_m, coarser.relief_m_m);
+  join(model.relief_l_m, coarser.relief_l_m);
+  join(model.valley_height_m, coarser.valley_height_m);
+  join(model.flow, coarser.flow);
+  join(model.floor_plan.built, coarser.floor_plan.built);
+  join(model.floor_plan.grain, coarser.floor_plan.grain);
+  model.dem = std::make_shared<const Dem>(std::move(window));
+  return model;
+}
+
+}  // namespace
+
+void add_ground_windows(TerrainModel& terrain, const GroundPlan& plan, const WindowMaking& making) {
+  if (plan.windows.empty()) return;
+  making.progress.begin("finer ground", static_cast<double>(plan.windows.size()));
+  const std::vector<TownSite> sites = find_scene_settlements(making.loaded, *terrain.dem);
+  std::vector<TerrainWindow> windows;
+  windows.reserve(plan.windows.size());
+  Lattice before{plan.coarsest, {0, 0, terrain.dem->width(), terrain.dem->height()}};
+  for (const GroundWindow& planned : plan.windows) {
+    Lattice at;
+    TerrainWindow window;
+    window.ground = make_window(terrain, windows.empty() ? terrain : windows.back().ground, before, planned, sites, making, at);
+    window.part = moved(planned.part, -at.kept.x0, -at.kept.y0);
+    window.replaces = moved({planned.part.x0 / 2, planned.part.y0 / 2, planned.part.x1 / 2 + 1, planned.part.y1 / 2 + 1}, -before.kept.x0,
+                            -before.kept.y0);
+    windows.push_back(std::move(window));
+    before = at;
+    making.progress.advance(1.0);
+  }
+  terrain.windows = std::move(windows);
+}
+
+DeformedSurface deform_ground(const TerrainModel& terrain, glm::dvec3 origin, const Deformation& deformation) {
+  DeformedSurface surface = deform(terrain.generalized_m, terrain.dem->transform, origin, deformation);
+  surface.windows.reserve(terrain.windows.size());
+  for (const TerrainWindow& window : terrain.windows) {
+    const TerrainModel& ground = window.ground;
+    SurfaceWindow made{deform(ground.generalized_m, ground.dem->transform, origin, deformation), window.part, window.replaces};
+    join_window(made, surface.windows.empty() ? surface : surface.windows.back().surface);
+    surface.windows.push_back(std::move(made));
+  }
+  return surface;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "base/cache/cache.h"
+#include "base/progress.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/trace/terrain_model.h"
+#include "renderer/world/ground_plan.h"
+#include "renderer/world/view.h"
+#include "terrain/deform/deform.h"
+#include "terrain/io/dem_levels.h"
+
+namespace belvedere {
+
+// What windows are made with.
+struct WindowMaking {
+  const LoadedScene& loaded;
+  const View& view;
+  const Deformation& deformation;
+  DemLevels& levels;
+  Progress& progress;
+  const Cache& cache;
+};
+
+// Reads, covers and generalizes each window of the plan with a halo, as the whole was, and lays it into the ground before it: along the
+// edge of its part its values are the coarser ones, 32 cells inwards its own. Rivers that enter bring along what the whole knows of them,
+// settlements are those of the whole. `terrain` is the whole's.
+void add_ground_windows(TerrainModel& terrain, const GroundPlan& plan, const WindowMaking& making);
+
+// The terrain's generalized ground and that of its windows, deformed and joined.
+DeformedSurface deform_ground(const TerrainModel& terrain, glm::dvec3 origin, const Deformation& deformation);
+
+}  // namespace belvedere
