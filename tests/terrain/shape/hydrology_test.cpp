@@ -291,5 +291,16 @@ TEST(Hydrology, SameBitsForAnyThreadCount) {
   EXPECT_EQ(run(1), run(2));
 }
 
+TEST(FlowAccumulation, WhatEntersAtTheRimIsCarriedDownstreamAlone) {
+  // A valley that runs south, of cells of 1 km²; 250 km² come in at its head.
+  Grid<float> valley(11, 30);
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 11; ++x) valley(x, y) = 500.F - 3.F * static_cast<float>(y) + 10.F * static_cast<float>(std::abs(x - 5));
+  const Grid<float> own = flow_accumulation_km2(valley, 1000.0);
+  const Grid<float> with = flow_accumulation_km2(valley, 1000.0, {{5, 0, 250.0}, {400, 3, 9.0}});
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 11; ++x) EXPECT_FLOAT_EQ(with(x, y), own(x, y) + (x == 5 ? 250.F : 0.F)) << x << ' ' << y;
+}
+
 }  // namespace
 }  // namespace belvedere
