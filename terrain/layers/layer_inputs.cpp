@@ -1,0 +1,347 @@
+#include "terrain/layers/layer_inputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "base/error.h"
+#include "base/filter.h"
+#include "base/grid_part.h"
+#include "base/math_exact.h"
+#include "terrain/layers/layer_input_table.h"
+#include "terrain/shape/derivatives.h"
+#include "terrain/shape/hydrology.h"
+
+namespace belvedere {
+namespace {
+
+// Deviations of the Gaussians that the ground goes through first, m: slopes of a raw DEM show its stripes and steps.
+constexpr double slope_smooth_m = 45.0;
+constexpr double relief_smooth_m = 30.0;
+constexpr double valley_radius_m = 900.0;
+constexpr double valley_smooth_m = 300.0;
+constexpr double rough_mean_m = 90.0;
+constexpr double rough_smooth_m = 120.0;
+// Level ground has no exposure: around this gradient it fades out.
+constexpr double exposure_fade = 0.02;
+// Water is followed on at most so many cells; beyond them on blocks.
+constexpr std::size_t most_catchment_cells = 36'000'000;
+constexpr int tile_cells = 512;
+
+const Grid<float>* given_grid(const LayerClimate& climate, LayerInputKind kind) {
+  switch (kind) {
+    case LayerInputKind::temperature:
+      return climate.temperature_c;
+    case LayerInputKind::rain:
+      return climate.rain_mm;
+    case LayerInputKind::radiation:
+      return climate.radiation;
+    case LayerInputKind::sky_view:
+      return climate.sky_view;
+    default:
+      return nullptr;
+  }
+}
+bool is_given(LayerInputKind kind) { return kind >= LayerInputKind::temperature; }
+
+// The largest power of two that is at most `size`, 1 and more.
+int block_for(double size) {
+  int factor = 1;
+  while (2.0 * factor <= size) factor *= 2;
+  return factor;
+}
+
+// Means of blocks of factor × factor cells of f(row, y), which fills a row; blocks at the rim are of what there is.
+template <class FillRow>
+Grid<float> block_means(int width, int height, int factor, FillRow&& fill_row) {
+  Grid<float> out((width + factor - 1) / factor, (height + factor - 1) / factor);
+  parallel_rows(out.height(), [&](int j) {
+    std::vector<float> row(static_cast<std::size_t>(width));
+    std::vector<double> sums(static_cast<std::size_t>(out.width()), 0.0);
+    const int y1 = std::min(height, (j + 1) * factor);
+    for (int y = j * factor; y < y1; ++y) {
+      fill_row(y, row.data());
+      for (int i = 0; i < out.width(); ++i) {
+        const int x1 = std::min(width, (i + 1) * factor);
+        for (int x = i * factor; x < x1; ++x) sums[static_cast<std::size_t>(i)] += static_cast<double>(row[static_cast<std::size_t>(x)]);
+      }
+    }
+    for (int i = 0; i < out.width(); ++i) {
+      const int count = (std::min(width, (i + 1) * factor) - i * factor) * (y1 - j * factor);
+      out(i, j) = static_cast<float>(sums[static_cast<std::size_t>(i)] / count);
+    }
+  });
+  return out;
+}
+Grid<float> block_means(const Grid<float>& values, int factor) {
+  if (factor == 1) return values;
+  return block_means(values.width(), values.height(), factor, [&](int y, float* row) { std::copy_n(values.row(y), values.width(), row); });
+}
+
+// Four cells of a coarse grid around a fine one, and their weights of the cubic B-spline.
+struct Taps {
+  int first = 0;
+  float weight[4] = {};
+};
+Taps taps_at(int cell, int factor) {
+  const double at = (cell + 0.5) / factor - 0.5;
+  const double whole = std::floor(at);
+  const double t = at - whole;
+  const double u = 1.0 - t;
+  return {static_cast<int>(whole) - 1,
+          {static_cast<float>(u * u * u / 6.0), static_cast<float>((4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0),
+           static_cast<float>((4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0), static_cast<float>(t * t * t / 6.0)}};
+}
+
+// The values of a coarse grid at fine cells: the same bits for any rectangle.
+Grid<float> enlarged(const LayerGround::Coarse& coarse, const PixelRect& cells) {
+  const Grid<float>& from = coarse.values;
+  std::vector<Taps> columns;
+  columns.reserve(static_cast<std::size_t>(cells.width()));
+  for (int x = cells.x0; x < cells.x1; ++x) columns.push_back(taps_at(x, coarse.factor));
+  const int first_row = taps_at(cells.y0, coarse.factor).first;
+  const int last_row = taps_at(cells.y1 - 1, coarse.factor).first + 3;
+  Grid<float> across(cells.width(), last_row - first_row + 1);
+  for (int j = 0; j < across.height(); ++j) {
+    const float* row = from.row(std::clamp(first_row + j, 0, from.height() - 1));
+    float* out = across.row(j);
+    for (int x = 0; x < cells.width(); ++x) {
+      const Taps& taps = columns[static_cast<std::size_t>(x)];
+      float sum = 0.F;
+      for (int k = 0; k < 4; ++k) sum += taps.weight[k] * row[std::clamp(taps.first + k, 0, from.width() - 1)];
+      out[x] = sum;
+    }
+  }
+  Grid<float> out(cells.width(), cells.height());
+  for (int y = 0; y < out.height(); ++y) {
+    const Taps taps = taps_at(cells.y0 + y, coarse.factor);
+    const float* a = across.row(taps.first - first_row);
+    const float* b = across.row(taps.first + 1 - first_row);
+    const float* c = across.row(taps.first + 2 - first_row);
+    const float* d = across.row(taps.first + 3 - first_row);
+    float* target = out.row(y);
+    for (int x = 0; x < out.width(); ++x)
+      target[x] = (taps.weight[0] * a[x] + taps.weight[1] * b[x]) + (taps.weight[2] * c[x] + taps.weight[3] * d[x]);
+  }
+  return out;
+}
+
+// The deviation in blocks of the blur that is left when blocks and the spline between them have done their part: a box of f cells has the
+// variance (f² - 1) / 12, the cubic B-spline of blocks f² / 3.
+double blur_left(double sigma_cells, int factor) {
+  const double f2 = static_cast<double>(factor) * factor;
+  return std::sqrt(std::max(0.0, (sigma_cells * sigma_cells - (f2 - 1.0) / 12.0 - f2 / 3.0) / f2));
+}
+
+LayerGround::Coarse wide_mean(const Dem& dem, double sigma_m) {
+  const double sigma = sigma_m / dem.cell_m();
+  const int factor = block_for(sigma / 4.0);
+  return {factor, gaussian_blur(block_means(dem.altitude_m, factor), blur_left(sigma, factor))};
+}
+
+LayerGround::Coarse lowest_around(const Dem& dem) {
+  const double cell = dem.cell_m();
+  const int factor = block_for(std::min(valley_radius_m / 16.0, valley_smooth_m / 4.0) / cell);
+  const double block_m = cell * factor;
+  const double box_m = cell * std::sqrt((static_cast<double>(factor) * factor - 1.0) / 12.0);
+  const double left_m = std::sqrt(std::max(0.0, slope_smooth_m * slope_smooth_m - box_m * box_m));
+  const Grid<float> smooth = gaussian_blur(block_means(dem.altitude_m, factor), left_m / block_m);
+  const int radius = std::max(1, static_cast<int>(std::lround(valley_radius_m / block_m)));
+  return {factor, gaussian_blur(window_minimum(smooth, radius), blur_left(valley_smooth_m / cell, factor))};
+}
+
+LayerGround::Coarse catchments(const Dem& dem) {
+  int factor = 1;
+  while (dem.altitude_m.size() / static_cast<std::size_t>(factor) / static_cast<std::size_t>(factor) > most_catchment_cells) factor *= 2;
+  Grid<float> area = flow_accumulation_km2(gaussian_blur(block_means(dem.altitude_m, factor), 1.5), dem.cell_m() * factor);
+  parallel_rows(area.height(), [&](int y) {
+    for (int x = 0; x < area.width(); ++x) area(x, y) = static_cast<float>(exact::log2(std::max(1e-12, static_cast<double>(area(x, y)))));
+  });
+  return {factor, gaussian_blur(area, 0.8)};
+}
+
+LayerGround::Coarse departures(const Dem& dem) {
+  const double sigma = rough_smooth_m / dem.cell_m();
+  const int factor = block_for(sigma / 4.0);
+  const LayerGround::Coarse mean = wide_mean(dem, rough_mean_m);
+  const Grid<float> blocks = block_means(dem.width(), dem.height(), factor, [&](int y, float* row) {
+    const Grid<float> around = enlarged(mean, {0, y, dem.width(), y + 1});
+    for (int x = 0; x < dem.width(); ++x) row[x] = std::abs(dem.altitude_m(x, y) - around(x, 0));
+  });
+  return {factor, gaussian_blur(blocks, blur_left(sigma, factor))};
+}
+
+// The blurred ground at some cells, with a rim of one cell where there is one: of a window that begins on the lattice to which wide blurs
+// halve the resolution, and large enough, so that the bits are those of the whole.
+struct BlurredPart {
+  Grid<float> z;
+  int x0 = 0, y0 = 0;  // the DEM's cell that z(0, 0) is
+};
+BlurredPart blurred_ground(const Dem& dem, const PixelRect& cells, double sigma_m) {
+  const double sigma = sigma_m / dem.cell_m();
+  const int step = 2 * block_for(sigma / 4.0);
+  const int reach = static_cast<int>(std::ceil(6.0 * sigma)) + 8;
+  PixelRect window = intersection(grown(cells, reach), {0, 0, dem.width(), dem.height()});
+  window.x0 -= window.x0 % step;
+  window.y0 -= window.y0 % step;
+  return {gaussian_blur(part_of(dem.altitude_m, window), sigma), window.x0, window.y0};
+}
+
+Grid<float> moved_part(const BlurredPart& from, const Grid<float>& values, const PixelRect& cells) {
+  return part_of(values, moved(cells, -from.x0, -from.y0));
+}
+
+float log1p_of(float value) { return static_cast<float>(exact::log(1.0 + static_cast<double>(value))); }
+
+Grid<float> flatness_of(const Dem& dem, const PixelRect& cells) {
+  const PixelRect window = intersection(grown(cells, 2), {0, 0, dem.width(), dem.height()});
+  const Grid<float> z = part_of(dem.altitude_m, window);
+  const Grid<float> low = window_minimum(z, 2);
+  const Grid<float> high = window_maximum(z, 2);
+  Grid<float> out(cells.width(), cells.height());
+  for (int y = 0; y < out.height(); ++y)
+    for (int x = 0; x < out.width(); ++x) {
+      const int wx = cells.x0 + x - window.x0;
+      const int wy = cells.y0 + y - window.y0;
+      out(x, y) = log1p_of(high(wx, wy) - low(wx, wy));
+    }
+  return out;
+}
+
+Grid<float> exposure_of(const BlurredPart& ground, const Dem& dem, const PixelRect& cells, bool east) {
+  Grid<float> out(cells.width(), cells.height());
+  const double cell_x = dem.transform.cell_x;
+  const double cell_y = dem.transform.cell_y;
+  const auto z = [&](int x, int y) {
+    return static_cast<double>(ground.z(std::clamp(x, 0, dem.width() - 1) - ground.x0, std::clamp(y, 0, dem.height() - 1) - ground.y0));
+  };
+  for (int y = 0; y < out.height(); ++y)
+    for (int x = 0; x < out.width(); ++x) {
+      const int cx = cells.x0 + x;
+      const int cy = cells.y0 + y;
+      const double gx = (z(cx + 1, cy) - z(cx - 1, cy)) / (2.0 * cell_x);
+      const double gy = (z(cx, cy + 1) - z(cx, cy - 1)) / (2.0 * cell_y);
+      // Rows run south: ground that rises with them faces north.
+      out(x, y) = static_cast<float>((east ? -gx : gy) / (std::sqrt(gx * gx + gy * gy) + exposure_fade));
+    }
+  return out;
+}
+
+void subtract(Grid<float>& from, const Grid<float>& what) {
+  for (std::size_t i = 0; i < from.size(); ++i) from[i] -= what[i];
+}
+
+}  // namespace
+
+LayerGround make_layer_ground(const Dem& dem, const LayerClimate& climate, const std::vector<std::string>& names) {
+  LayerGround ground{&dem, climate, names, std::vector<LayerGround::Coarse>(names.size())};
+  for (const std::string& name : names) {
+    require_layer_input(name, "inputs");
+    const LayerInputKind kind = find_layer_input(name)->kind;
+    if (!is_given(kind)) continue;
+    const Grid<float>* grid = given_grid(climate, kind);
+    if (grid == nullptr) throw Error(ErrorKind::usage, "input " + name, "a climate that does not know it", "a climate with " + name);
+    if (!grid->same_size(dem.altitude_m)) throw Error(ErrorKind::bug, "input " + name, "a grid of another size than the DEM's");
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const LayerInputInfo& info = *find_layer_input(names[i]);
+    if (info.kind == LayerInputKind::relief)
+      ground.coarse[i] = wide_mean(dem, info.reach_m);
+    else if (info.kind == LayerInputKind::valley_height)
+      ground.coarse[i] = lowest_around(dem);
+    else if (info.kind == LayerInputKind::catchment)
+      ground.coarse[i] = catchments(dem);
+    else if (info.kind == LayerInputKind::roughness)
+      ground.coarse[i] = departures(dem);
+  }
+  return ground;
+}
+
+std::vector<Grid<float>> layer_inputs(const LayerGround& ground, const PixelRect& cells) {
+  const Dem& dem = *ground.dem;
+  std::vector<Grid<float>> out;
+  BlurredPart smooth;  // by slope_smooth_m, made when first asked for
+  BlurredPart fine;    // by relief_smooth_m
+  const auto made = [&](BlurredPart& part, double sigma_m) -> const BlurredPart& {
+    if (part.z.empty()) part = blurred_ground(dem, cells, sigma_m);
+    return part;
+  };
+  for (std::size_t i = 0; i < ground.names.size(); ++i) {
+    const LayerInputKind kind = find_layer_input(ground.names[i])->kind;
+    switch (kind) {
+      case LayerInputKind::altitude:
+        out.push_back(part_of(dem.altitude_m, cells));
+        break;
+      case LayerInputKind::slope: {
+        const BlurredPart& from = made(smooth, slope_smooth_m);
+        out.push_back(moved_part(from, slope_deg(from.z, dem.transform.cell_x, dem.transform.cell_y), cells));
+        break;
+      }
+      case LayerInputKind::north:
+      case LayerInputKind::east:
+        out.push_back(exposure_of(made(smooth, slope_smooth_m), dem, cells, kind == LayerInputKind::east));
+        break;
+      case LayerInputKind::relief: {
+        const BlurredPart& from = made(fine, relief_smooth_m);
+        out.push_back(moved_part(from, from.z, cells));
+        subtract(out.back(), enlarged(ground.coarse[i], cells));
+        break;
+      }
+      case LayerInputKind::valley_height: {
+        const BlurredPart& from = made(smooth, slope_smooth_m);
+        out.push_back(moved_part(from, from.z, cells));
+        subtract(out.back(), enlarged(ground.coarse[i], cells));
+        break;
+      }
+      case LayerInputKind::catchment:
+        out.push_back(enlarged(ground.coarse[i], cells));
+        break;
+      case LayerInputKind::flatness:
+        out.push_back(flatness_of(dem, cells));
+        break;
+      case LayerInputKind::roughness:
+        out.push_back(enlarged(ground.coarse[i], cells));
+        for (float& value : out.back()) value = log1p_of(std::max(0.F, value));
+        break;
+      default:
+        out.push_back(part_of(*given_grid(ground.climate, kind), cells));
+    }
+  }
+  return out;
+}
+
+std::vector<Grid<float>> layer_inputs(const LayerGround& ground) {
+  const int width = ground.dem->width();
+  const int height = ground.dem->height();
+  std::vector<Grid<float>> out(ground.names.size(), Grid<float>(width, height));
+  parallel_tiles(width, height, tile_cells, [&](const PixelRect& tile) {
+    const std::vector<Grid<float>> part = layer_inputs(ground, tile);
+    for (std::size_t i = 0; i < part.size(); ++i)
+      for (int y = 0; y < tile.height(); ++y) std::copy_n(part[i].row(y), tile.width(), out[i].row(tile.y0 + y) + tile.x0);
+  });
+  return out;
+}
+
+LayerInput layer_input_range(const std::string& name, const Grid<float>& values, const Grid<std::uint8_t>* use) {
+  std::vector<float> used;
+  used.reserve(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if ((use == nullptr || (*use)[i] != 0) && std::isfinite(values[i])) used.push_back(values[i]);
+  if (used.empty()) throw Error(ErrorKind::input, "input " + name, "no ground to take its range from", "at least one cell");
+  const auto at = [&](double share) {
+    const auto place = used.begin() + static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(used.size() - 1)));
+    std::nth_element(used.begin(), place, used.end());
+    return static_cast<double>(*place);
+  };
+  LayerInput range{name, at(0.001), at(0.999)};
+  if (!(range.low < range.high)) {
+    const double wider = std::max(1e-3, std::abs(range.low) * 1e-3);
+    range.low -= wider;
+    range.high += wider;
+  }
+  return range;
+}
+
+}  // namespace belvedere
