@@ -1,0 +1,335 @@
+#include "terrain/layers/layer_coverage.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "base/error.h"
+#include "base/math_exact.h"
+#include "base/random.h"
+#include "base/random_streams.h"
+#include "terrain/layers/layer_noise.h"
+
+namespace belvedere {
+namespace {
+
+// e^x for x ≤ 0 by sums and products alone, so the same everywhere: 2^n times the series of 2^f, |f| ≤ 1/2. Relative error below 3e-7;
+// 0 below -80.
+float exp_of(float x) {
+  if (!(x > -80.F)) return 0.F;
+  const float turned = x * 1.44269504F;
+  const float whole = std::floor(turned + 0.5F);
+  const float f = turned - whole;
+  const float series =
+      1.F +
+      f * (0.693147181F + f * (0.240226507F + f * (0.0555041087F + f * (0.00961812911F + f * (0.00133335581F + f * 0.000154035304F)))));
+  return series * std::bit_cast<float>(static_cast<std::uint32_t>(static_cast<int>(whole) + 127) << 23U);
+}
+
+// One field of noise for siblings of equal scale and octaves.
+struct NoiseField {
+  int parent;
+  double scale_m;
+  int octaves;
+  LayerNoiseRows rows;
+  std::vector<float> line;
+  bool filled = false;  // for the row at hand
+};
+
+std::uint64_t seed_of_name(const std::string& name) {
+  std::uint64_t h = 0;
+  for (const char c : name) h = mix_bits(h ^ static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+  return h;
+}
+
+// Places in tables of one input along a row.
+struct Places {
+  std::vector<std::uint8_t> sample;
+  std::vector<float> part;
+};
+
+// The evaluation of one rectangle, row by row.
+class Evaluation {
+ public:
+  Evaluation(const LayerProgram& program, const std::vector<Grid<float>>& inputs, const GeoTransform& transform, const PixelRect& cells,
+             std::uint64_t seed)
+      : program_(program), layers_(program.layers), inputs_(inputs), cells_(cells), width_(static_cast<std::size_t>(cells.width())) {
+    const std::size_t count = layers_.layers.size();
+    field_of_.assign(count, -1);
+    for (std::size_t k = 0; k < count; ++k) {
+      const SurfaceLayer& layer = layers_.layers[k];
+      if (layer.noise.amplitude == 0.0) continue;
+      const auto same = std::find_if(fields_.begin(), fields_.end(), [&](const NoiseField& f) {
+        return f.parent == layer.parent && f.scale_m == layer.noise.scale_m && f.octaves == layer.noise.octaves;
+      });
+      field_of_[k] = static_cast<int>(same - fields_.begin());
+      if (same != fields_.end()) continue;
+      const std::string& parent = layer.parent < 0 ? layers_.name : layers_.layers[static_cast<std::size_t>(layer.parent)].name;
+      const std::uint64_t own =
+          stream_seed(seed, Stream::class_noise, seed_of_name(parent) ^ std::bit_cast<std::uint64_t>(layer.noise.scale_m));
+      fields_.push_back({layer.parent, layer.noise.scale_m, layer.noise.octaves, LayerNoiseRows(layer.noise, own, transform, cells),
+                         std::vector<float>(width_)});
+    }
+    if (!program.expressions.empty() ||
+        std::any_of(layers_.layers.begin(), layers_.layers.end(), [](const auto& l) { return !l.when.empty(); })) {
+      std::vector<const Grid<float>*> read;
+      for (const std::size_t i : program.expression_inputs) read.push_back(&inputs[i]);
+      when_ = evaluate_layer_expressions(program.expressions, read, transform, cells, seed);
+    }
+    places_.resize(layers_.inputs.size());
+    used_.assign(layers_.inputs.size(), false);
+    for (const std::vector<int>& tables : program.table_of)
+      for (std::size_t i = 0; i < tables.size(); ++i) used_[i] = used_[i] || tables[i] >= 0;
+    for (Places& p : places_) {
+      p.sample.resize(width_);
+      p.part.resize(width_);
+    }
+    coverage_.assign(count, Grid<float>(cells.width(), cells.height()));
+    if (layers_.model == LayerModel::additive) scores_.assign(count, std::vector<float>(width_));
+  }
+
+  std::vector<Grid<float>> run() {
+    for (int y = 0; y < cells_.height(); ++y) {
+      for (NoiseField& field : fields_) field.filled = false;
+      for (std::size_t i = 0; i < places_.size(); ++i)
+        if (used_[i]) find_places(i, y);
+      if (layers_.model == LayerModel::product)
+        for (std::size_t k = 0; k < layers_.layers.size(); ++k) product_row(k, y);
+      else
+        additive_row(y);
+    }
+    return std::move(coverage_);
+  }
+
+ private:
+  void find_places(std::size_t input, int y) {
+    const LayerInput& range = layers_.inputs[input];
+    const auto low = static_cast<float>(range.low);
+    const auto scale = static_cast<float>(256.0 / (range.high - range.low));
+    const float* values = inputs_[input].row(y);
+    Places& places = places_[input];
+    for (std::size_t x = 0; x < width_; ++x) {
+      const float at = std::clamp((values[x] - low) * scale - 0.5F, 0.F, 255.F);
+      const int sample = static_cast<int>(at);
+      places.sample[x] = static_cast<std::uint8_t>(sample);
+      places.part[x] = at - static_cast<float>(sample);
+    }
+  }
+
+  const float* noise_row(std::size_t layer, int y) {
+    if (field_of_[layer] < 0) return nullptr;
+    NoiseField& field = fields_[static_cast<std::size_t>(field_of_[layer])];
+    if (!field.filled) field.rows.fill(cells_.y0 + y, field.line.data());
+    field.filled = true;
+    return field.line.data();
+  }
+
+  // f(x, value of the function at cell x) for each cell.
+  template <class F>
+  void each_value(std::size_t layer, std::size_t input, int y, F&& f) {
+    const LayerFunction& function = layers_.layers[layer].functions[input];
+    if (const int t = program_.table_of[layer][input]; t >= 0) {
+      const auto& samples = program_.tables[static_cast<std::size_t>(t)].samples;
+      const std::uint8_t* sample = places_[input].sample.data();
+      const float* part = places_[input].part.data();
+      for (std::size_t x = 0; x < width_; ++x) {
+        const std::array<float, 2>& s = samples[sample[x]];
+        f(x, s[0] + part[x] * s[1]);
+      }
+    } else if (std::holds_alternative<LayerHat>(function)) {
+      const float* values = inputs_[input].row(y);
+      for (std::size_t x = 0; x < width_; ++x)
+        f(x, static_cast<float>(layer_function_value(function, layers_.inputs[input], layers_.model, static_cast<double>(values[x]))));
+    }
+  }
+
+  void product_row(std::size_t k, int y) {
+    const SurfaceLayer& layer = layers_.layers[k];
+    float* out = coverage_[k].row(y);
+    const float* parent = layer.parent < 0 ? nullptr : coverage_[static_cast<std::size_t>(layer.parent)].row(y);
+    const bool lies_bare = parent != nullptr && std::all_of(parent, parent + width_, [](float c) { return c == 0.F; });
+    if (lies_bare) return;  // grids begin as 0
+    std::fill_n(out, width_, 1.F);
+    for (std::size_t i = 0; i < layer.functions.size(); ++i) each_value(k, i, y, [&](std::size_t x, float value) { out[x] *= value; });
+    if (!layer.when.empty()) {
+      const std::uint8_t* when = when_[k].row(y);
+      for (std::size_t x = 0; x < width_; ++x) out[x] = when[x] != 0 ? out[x] : 0.F;
+    }
+    const auto bias = static_cast<float>(layer.noise.bias);
+    const auto amplitude = static_cast<float>(layer.noise.amplitude);
+    const bool nothing = std::all_of(out, out + width_, [](float p) { return p == 0.F; });
+    if (const float* noise = nothing ? nullptr : noise_row(k, y))
+      for (std::size_t x = 0; x < width_; ++x) out[x] *= bias + amplitude * noise[x];
+    else
+      for (std::size_t x = 0; x < width_; ++x) out[x] *= bias;
+    for (std::size_t x = 0; x < width_; ++x) out[x] = std::clamp(out[x], 0.F, 1.F);
+    if (parent != nullptr)
+      for (std::size_t x = 0; x < width_; ++x) out[x] *= parent[x];
+  }
+
+  // Shares first, in `coverage_`: softmax of siblings times their parent's share. Then coverages, from the bottom up.
+  void additive_row(int y) {
+    const std::size_t count = layers_.layers.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const SurfaceLayer& layer = layers_.layers[k];
+      float* score = scores_[k].data();
+      std::fill_n(score, width_, static_cast<float>(layer.noise.bias));
+      for (std::size_t i = 0; i < layer.functions.size(); ++i) each_value(k, i, y, [&](std::size_t x, float value) { score[x] += value; });
+      const auto amplitude = static_cast<float>(layer.noise.amplitude);
+      if (const float* noise = noise_row(k, y))
+        for (std::size_t x = 0; x < width_; ++x) score[x] += amplitude * noise[x];
+      if (layer.when.empty()) continue;
+      const std::uint8_t* when = when_[k].row(y);
+      for (std::size_t x = 0; x < width_; ++x) score[x] = when[x] != 0 ? score[x] : -1e30F;
+    }
+    std::vector<float> left(width_, 1.F);  // of the ground: what no painted layer takes
+    std::vector<float> top(width_), sum(width_);
+    for (int parent = -1; parent < static_cast<int>(count); ++parent) {
+      std::vector<std::size_t> siblings;
+      for (std::size_t k = 0; k < count; ++k)
+        if (layers_.layers[k].parent == parent) siblings.push_back(k);
+      if (siblings.empty()) continue;
+      std::fill(top.begin(), top.end(), -1e29F);
+      std::fill(sum.begin(), sum.end(), 0.F);
+      for (const std::size_t k : siblings)
+        for (std::size_t x = 0; x < width_; ++x) top[x] = std::max(top[x], scores_[k][x]);
+      for (const std::size_t k : siblings)
+        for (std::size_t x = 0; x < width_; ++x) sum[x] += scores_[k][x] = exp_of(scores_[k][x] - top[x]);
+      const float* whole = parent < 0 ? nullptr : coverage_[static_cast<std::size_t>(parent)].row(y);
+      for (const std::size_t k : siblings) {
+        float* share = coverage_[k].row(y);
+        for (std::size_t x = 0; x < width_; ++x)
+          share[x] = sum[x] > 0.F ? scores_[k][x] / sum[x] * (whole != nullptr ? whole[x] : 1.F) : 0.F;
+      }
+    }
+    for (std::size_t k = 0; k < count; ++k)
+      if (program_.paints[k])
+        for (std::size_t x = 0; x < width_; ++x) left[x] -= coverage_[k](static_cast<int>(x), y);
+    // What the sum of rounded shares leaves over is nothing.
+    for (float& l : left) l = l > 1e-5F ? l : 0.F;
+    for (std::size_t k = 0; k < count; ++k) {
+      float* c = coverage_[k].row(y);
+      const int p = layers_.layers[k].parent;
+      const float* parent = p < 0 ? nullptr : coverage_[static_cast<std::size_t>(p)].row(y);
+      for (std::size_t x = 0; x < width_; ++x) {
+        const float all = c[x] + left[x];
+        if (program_.paints[k]) left[x] = all;
+        const float covered = all > 0.F ? c[x] / all : 0.F;
+        c[x] = parent != nullptr ? std::min(covered, parent[x]) : covered;
+      }
+    }
+  }
+
+  const LayerProgram& program_;
+  const SurfaceLayers& layers_;
+  const std::vector<Grid<float>>& inputs_;
+  PixelRect cells_;
+  std::size_t width_;
+  std::vector<NoiseField> fields_;
+  std::vector<int> field_of_;
+  std::vector<Grid<std::uint8_t>> when_;
+  std::vector<Places> places_;
+  std::vector<bool> used_;
+  std::vector<std::vector<float>> scores_;
+  std::vector<Grid<float>> coverage_;
+};
+
+glm::vec3 encoded(std::uint32_t rgb) {
+  return {static_cast<float>(rgb >> 16U & 255U), static_cast<float>(rgb >> 8U & 255U), static_cast<float>(rgb & 255U)};
+}
+
+}  // namespace
+
+LayerProgram compile_layers(const SurfaceLayers& layers) {
+  const std::string where = layers.name.empty() ? "layers" : layers.name;
+  check_surface_layers(layers, where);
+  LayerProgram program;
+  program.layers = layers;
+  program.expressions = compile_layer_expressions(layers, where);
+  for (const LayerInput& input : layers.inputs) program.inputs.push_back(input.name);
+  for (std::size_t v = 0; v < program.expressions.inputs; ++v) {
+    const std::string& name = program.expressions.variables[v];
+    const auto found = std::find(program.inputs.begin(), program.inputs.end(), name);
+    program.expression_inputs.push_back(static_cast<std::size_t>(found - program.inputs.begin()));
+    if (found == program.inputs.end()) program.inputs.push_back(name);
+  }
+  for (const SurfaceLayer& layer : layers.layers) {
+    program.table_of.emplace_back(layers.inputs.size(), -1);
+    for (std::size_t i = 0; i < layers.inputs.size(); ++i) {
+      const auto* samples = std::get_if<LayerSamples>(&layer.functions[i]);
+      if (samples == nullptr) continue;
+      program.table_of.back()[i] = static_cast<int>(program.tables.size());
+      LayerProgram::Table& table = program.tables.emplace_back();
+      const auto value = [&](std::size_t s) { return samples->at_0 + samples->samples[s] / 255.0 * (samples->at_255 - samples->at_0); };
+      for (std::size_t s = 0; s < 256; ++s)
+        table.samples[s] = {static_cast<float>(value(s)), s < 255 ? static_cast<float>(value(s + 1) - value(s)) : 0.F};
+    }
+    program.paints.push_back(true);
+    if (layer.parent >= 0 && layers.model == LayerModel::additive) program.paints[static_cast<std::size_t>(layer.parent)] = false;
+  }
+  return program;
+}
+
+std::vector<Grid<float>> layer_coverage(const LayerProgram& program, const std::vector<Grid<float>>& inputs, const GeoTransform& transform,
+                                        const PixelRect& cells, std::uint64_t seed) {
+  if (inputs.size() != program.inputs.size()) throw Error(ErrorKind::bug, "layer_coverage", "inputs that are not the program's");
+  return Evaluation(program, inputs, transform, cells, seed).run();
+}
+
+std::vector<Grid<float>> layer_shares(const LayerProgram& program, const std::vector<Grid<float>>& coverage) {
+  std::vector<Grid<float>> shares(coverage.size() + 1);
+  if (coverage.empty()) return shares;
+  Grid<float> open(coverage[0].width(), coverage[0].height(), 1.F);  // not yet covered by what lies above
+  for (std::size_t k = coverage.size(); k-- > 0;) {
+    shares[k + 1] = Grid<float>(open.width(), open.height());
+    if (!program.paints[k]) continue;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      shares[k + 1][i] = open[i] * coverage[k][i];
+      open[i] *= 1.F - coverage[k][i];
+    }
+  }
+  shares[0] = std::move(open);
+  return shares;
+}
+
+Grid<glm::vec3> layer_colour(const LayerProgram& program, const std::vector<Grid<float>>& coverage) {
+  if (coverage.empty()) return {};
+  Grid<glm::vec3> colour(coverage[0].width(), coverage[0].height(), encoded(program.layers.ground_rgb));
+  for (std::size_t k = 0; k < coverage.size(); ++k) {
+    if (!program.paints[k]) continue;
+    const glm::vec3 own = encoded(program.layers.layers[k].rgb);
+    for (std::size_t i = 0; i < colour.size(); ++i) colour[i] += coverage[k][i] * (own - colour[i]);
+  }
+  return colour;
+}
+
+std::vector<Grid<float>> class_shares(const LayerProgram& program, const std::vector<Grid<float>>& shares) {
+  std::vector<Grid<float>> out(static_cast<std::size_t>(land_cover_class_count));
+  if (shares.empty() || shares[0].empty()) return out;
+  for (Grid<float>& grid : out) grid = Grid<float>(shares[0].width(), shares[0].height());
+  const auto add = [&](std::optional<LandCoverClass> id, const Grid<float>& share) {
+    Grid<float>& sum = out[static_cast<std::size_t>(id.value_or(LandCoverClass::sky))];
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += share[i];
+  };
+  add(program.layers.ground_painted_as, shares[0]);
+  for (std::size_t k = 0; k + 1 < shares.size(); ++k) add(layer_class(program.layers, k), shares[k + 1]);
+  return out;
+}
+
+std::vector<double> share_outside(const LayerProgram& program, const std::vector<Grid<float>>& inputs) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < program.layers.inputs.size(); ++i) {
+    const LayerInput& range = program.layers.inputs[i];
+    std::size_t outside = 0;
+    for (const float value : inputs[i]) {
+      const auto v = static_cast<double>(value);
+      outside += v < range.low || v > range.high ? 1U : 0U;
+    }
+    out.push_back(inputs[i].empty() ? 0.0 : static_cast<double>(outside) / static_cast<double>(inputs[i].size()));
+  }
+  return out;
+}
+
+}  // namespace belvedere

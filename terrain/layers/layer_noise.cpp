@@ -1,0 +1,103 @@
+#include "terrain/layers/layer_noise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "base/random.h"
+#include "base/random_streams.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double loudness = 2.0;
+
+std::array<double, 4> spline_weights(double t) {
+  const double u = 1.0 - t;
+  return {u * u * u / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0, t * t * t / 6.0};
+}
+
+// Uniform in -1…1.
+float lattice_value(std::uint64_t seed, std::int64_t x, std::int64_t y) {
+  return static_cast<float>(2.0 * random_uniform(seed, x, y) - 1.0);
+}
+
+}  // namespace
+
+LayerNoiseRows::LayerNoiseRows(const LayerNoise& noise, std::uint64_t seed, const GeoTransform& transform, const PixelRect& cells)
+    : transform_(transform), cells_(cells) {
+  const double cell = 0.5 * (transform.cell_x + transform.cell_y);
+  double weights = 0.0;
+  double weight = 1.0;
+  for (int i = 0; i < noise.octaves; ++i, weight *= 0.5) weights += weight;
+  weight = 1.0;
+  double spacing = noise.scale_m;
+  for (int i = 0; i < noise.octaves; ++i, weight *= 0.5, spacing *= 0.5) {
+    const double seen = std::clamp(spacing / cell - 1.0, 0.0, 1.0);
+    if (!(seen > 0.0)) break;
+    Octave octave;
+    octave.spacing_m = spacing;
+    octave.weight = static_cast<float>(loudness * seen * weight / weights);
+    octave.seed = stream_seed(seed, Stream::class_noise, 1000 + static_cast<std::uint64_t>(i));
+    const std::size_t width = static_cast<std::size_t>(cells.width());
+    octave.at.resize(width);
+    octave.weights.resize(width);
+    std::int64_t last = 0;
+    for (std::size_t x = 0; x < width; ++x) {
+      // Of the cell's own number, so that it does not matter where the rectangle begins.
+      const double place = transform.to_crs(cells.x0 + static_cast<int>(x), 0.0).x / spacing;
+      const double whole = std::floor(place);
+      const auto first = static_cast<std::int64_t>(whole) - 1;
+      if (x == 0) octave.first_column = first;
+      octave.at[x] = static_cast<std::int32_t>(first - octave.first_column);
+      const std::array<double, 4> w = spline_weights(place - whole);
+      for (std::size_t k = 0; k < 4; ++k) octave.weights[x][k] = static_cast<float>(w[k]);
+      last = first + 3;
+    }
+    const auto columns = static_cast<std::size_t>(last - octave.first_column + 1);
+    for (std::vector<float>& row : octave.lattice) row.resize(columns);
+    octave.line.resize(columns);
+    octaves_.push_back(std::move(octave));
+  }
+}
+
+void LayerNoiseRows::fill(int y, float* out) {
+  const int width = cells_.width();
+  std::fill_n(out, width, 0.F);
+  for (Octave& octave : octaves_) {
+    const double place = transform_.to_crs(0.0, y).y / octave.spacing_m;
+    const double whole = std::floor(place);
+    const auto first = static_cast<std::int64_t>(whole) - 1;
+    const std::size_t columns = octave.line.size();
+    if (!octave.filled || octave.first_row != first) {
+      // Rows of the raster go south, rows of the lattice north: what was the first row before is often the second now.
+      const bool next = octave.filled && first == octave.first_row - 1;
+      if (next) std::rotate(octave.lattice, octave.lattice + 3, octave.lattice + 4);
+      for (std::size_t k = 0; k < (next ? 1U : 4U); ++k)
+        for (std::size_t i = 0; i < columns; ++i)
+          octave.lattice[k][i] =
+              lattice_value(octave.seed, octave.first_column + static_cast<std::int64_t>(i), first + static_cast<std::int64_t>(k));
+      octave.first_row = first;
+      octave.filled = true;
+    }
+    const std::array<double, 4> w = spline_weights(place - whole);
+    float v[4];
+    for (std::size_t k = 0; k < 4; ++k) v[k] = static_cast<float>(w[k]) * octave.weight;
+    const float* a = octave.lattice[0].data();
+    const float* b = octave.lattice[1].data();
+    const float* c = octave.lattice[2].data();
+    const float* d = octave.lattice[3].data();
+    float* line = octave.line.data();
+    for (std::size_t i = 0; i < columns; ++i) line[i] = (v[0] * a[i] + v[1] * b[i]) + (v[2] * c[i] + v[3] * d[i]);
+    for (int x = 0; x < width; ++x) {
+      const float* at = line + octave.at[static_cast<std::size_t>(x)];
+      const std::array<float, 4>& u = octave.weights[static_cast<std::size_t>(x)];
+      out[x] += (u[0] * at[0] + u[1] * at[1]) + (u[2] * at[2] + u[3] * at[3]);
+    }
+  }
+  for (int x = 0; x < width; ++x) out[x] = std::clamp(out[x], -1.F, 1.F);
+}
+
+}  // namespace belvedere

@@ -1,0 +1,414 @@
+#include "terrain/layers/layers_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/config.h"
+#include "base/error.h"
+#include "terrain/layers/layer_expressions.h"
+#include "terrain/layers/layer_input_table.h"
+
+namespace belvedere {
+namespace {
+
+constexpr std::string_view base64_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+// RFC 4648. 256 bytes are 85 whole groups of three and one byte, hence "==" at the end.
+std::string to_base64(const std::array<std::uint8_t, 256>& bytes) {
+  std::string out;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto at = [&](std::size_t k) { return i + k < bytes.size() ? static_cast<std::uint32_t>(bytes[i + k]) : 0U; };
+    const std::uint32_t group = at(0) << 16U | at(1) << 8U | at(2);
+    for (unsigned k = 0; k < 4; ++k) out += base64_digits[group >> (18U - 6U * k) & 63U];
+  }
+  out.replace(out.size() - 2, 2, "==");
+  return out;
+}
+
+std::optional<std::array<std::uint8_t, 256>> from_base64(std::string_view text) {
+  constexpr std::size_t length = 344;
+  if (text.size() != length || !text.ends_with("==")) return std::nullopt;
+  std::array<std::uint8_t, 256> bytes{};
+  std::uint32_t held = 0;
+  unsigned bits = 0;
+  std::size_t count = 0;
+  for (const char c : text.substr(0, length - 2)) {
+    const std::size_t digit = base64_digits.find(c);
+    if (digit == std::string_view::npos) return std::nullopt;
+    held = held << 6U | static_cast<std::uint32_t>(digit);
+    bits += 6;
+    if (bits < 8) continue;
+    bits -= 8;
+    bytes[count++] = static_cast<std::uint8_t>(held >> bits & 255U);
+    held &= (1U << bits) - 1U;
+  }
+  return held == 0 ? std::optional(bytes) : std::nullopt;  // bits left over are 0, so that one value has one text
+}
+
+// What a reader knows of its document.
+struct Reader {
+  const std::string& where;
+
+  [[noreturn]] void fail(ConfigPlace place, const std::string& found, const std::string& allowed) const {
+    throw Error(ErrorKind::usage, config_where(where, place), found, allowed);
+  }
+  // `what` is what the word should be one of.
+  [[noreturn]] void fail_unknown(ConfigPlace place, const std::string& what, const std::string& word,
+                                 const std::vector<std::string>& known) const {
+    const std::string near = nearest_word(word, known);
+    fail(place, fmt::format("unknown {} \"{}\"{}", what, word, near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+         fmt::format("{}", fmt::join(known, ", ")));
+  }
+
+  double number(const ConfigValue& value) const {
+    const double read = as_number(value, where);
+    if (!std::isfinite(read)) fail(value.place, describe(value), "a finite number");
+    return read;
+  }
+  double number_or(const ConfigTable& table, std::string_view key, double otherwise) const {
+    const ConfigValue* value = find(table, key);
+    return value == nullptr ? otherwise : number(*value);
+  }
+  std::string text_or(const ConfigTable& table, std::string_view key, const std::string& otherwise) const {
+    const ConfigValue* value = find(table, key);
+    return value == nullptr ? otherwise : as_string(*value, where);
+  }
+  const ConfigValue& required(const ConfigTable& table, std::string_view key, ConfigPlace place, const std::string& of) const {
+    const ConfigValue* value = find(table, key);
+    if (value == nullptr) fail(place, fmt::format("{} without {}", of, key), std::string(key));
+    return *value;
+  }
+
+  std::uint32_t colour(const ConfigValue& value) const {
+    const std::string& text = as_string(value, where);
+    const bool good = text.size() == 7 && text[0] == '#' &&
+                      std::all_of(text.begin() + 1, text.end(), [](char c) { return std::isxdigit(static_cast<unsigned char>(c)) != 0; });
+    if (!good) fail(value.place, describe(value), "a colour as \"#rrggbb\"");
+    return static_cast<std::uint32_t>(std::stoul(text.substr(1), nullptr, 16));
+  }
+  LandCoverClass land_cover_class(const ConfigValue& value) const {
+    const std::string& word = as_string(value, where);
+    const std::optional<LandCoverClass> found = find_class(word);
+    if (found && *found != LandCoverClass::sky) return *found;
+    std::vector<std::string> known;
+    for (const LandCoverClassInfo& info : land_cover_classes())
+      if (info.id != LandCoverClass::sky) known.emplace_back(info.name);
+    fail_unknown(value.place, "class", word, known);
+  }
+
+  LayerInput input(const ConfigValue& value) const {
+    const ConfigTable& table = as_table(value, where);
+    allow_only(table, {"name", "low", "high"}, where);
+    const ConfigValue& name = required(table, "name", value.place, "an input");
+    if (find_layer_input(as_string(name, where)) == nullptr) require_layer_input(as_string(name, where), config_where(where, name.place));
+    LayerInput read{as_string(name, where), number(required(table, "low", value.place, "an input")),
+                    number(required(table, "high", value.place, "an input"))};
+    if (!(read.low < read.high)) fail(value.place, fmt::format("{} from {} to {}", read.name, read.low, read.high), "low < high");
+    return read;
+  }
+
+  LayerFunction function(const ConfigValue& value, LayerModel model) const {
+    const ConfigTable& table = as_table(value, where);
+    const ConfigValue* samples = find(table, "samples");
+    if (samples == nullptr) {
+      allow_only(table, {"low", "high", "width", "low_width", "high_width"}, where);
+      constexpr double far = std::numeric_limits<double>::infinity();
+      const double width = number_or(table, "width", 0.0);
+      const LayerHat hat{number_or(table, "low", -far), number_or(table, "high", far), number_or(table, "low_width", width),
+                         number_or(table, "high_width", width)};
+      if (!(hat.low <= hat.high)) fail(value.place, fmt::format("a function from {} to {}", hat.low, hat.high), "low ≤ high");
+      if (!(hat.low_width >= 0.0) || !(hat.high_width >= 0.0)) fail(value.place, "a width below 0", "0 or more");
+      return hat;
+    }
+    allow_only(table, {"samples", "from", "to"}, where);
+    LayerSamples read{number_or(table, "from", 0.0), number_or(table, "to", 1.0), {}};
+    if (model == LayerModel::product && (std::min(read.at_0, read.at_255) < 0.0 || std::max(read.at_0, read.at_255) > 1.0))
+      fail(value.place, fmt::format("samples from {} to {}", read.at_0, read.at_255), "0…1 in a product");
+    const auto bytes = from_base64(as_string(*samples, where));
+    if (!bytes) fail(samples->place, "samples that are not 256 bytes in base64", "344 characters, the last two ==");
+    read.samples = *bytes;
+    return read;
+  }
+
+  LayerNoise noise(const ConfigValue& value) const {
+    const ConfigTable& table = as_table(value, where);
+    allow_only(table, {"scale_m", "octaves", "amplitude", "bias"}, where);
+    LayerNoise read;
+    read.scale_m = number_or(table, "scale_m", read.scale_m);
+    if (const ConfigValue* octaves = find(table, "octaves")) {
+      const std::int64_t count = as_integer(*octaves, where);
+      if (count < 1 || count > 12) fail(octaves->place, describe(*octaves), "1…12");
+      read.octaves = static_cast<int>(count);
+    }
+    read.amplitude = number_or(table, "amplitude", read.amplitude);
+    read.bias = number_or(table, "bias", read.bias);
+    if (!(read.scale_m > 0.0)) fail(value.place, fmt::format("noise of {} m", read.scale_m), "more than 0 m");
+    return read;
+  }
+};
+
+// A layer as it stands in the file, before parents are found.
+struct ReadLayer {
+  SurfaceLayer layer;
+  std::string parent;  // empty: the ground
+  ConfigPlace place, parent_place, when_place;
+};
+
+ReadLayer read_layer(const Reader& reader, const ConfigValue& value, const SurfaceLayers& file) {
+  const ConfigTable& table = as_table(value, reader.where);
+  allow_only(table, {"name", "parent", "class", "colour", "roughness", "noise", "functions", "when"}, reader.where);
+  ReadLayer read;
+  read.place = value.place;
+  read.layer.name = as_string(reader.required(table, "name", value.place, "a layer"), reader.where);
+  if (read.layer.name.empty()) reader.fail(value.place, "a layer whose name is empty", "a name");
+  if (const ConfigValue* parent = find(table, "parent")) {
+    read.parent = as_string(*parent, reader.where);
+    read.parent_place = parent->place;
+  }
+  if (const ConfigValue* painted = find(table, "class")) read.layer.painted_as = reader.land_cover_class(*painted);
+  if (const ConfigValue* colour = find(table, "colour")) {
+    read.layer.rgb = reader.colour(*colour);
+  } else if (read.layer.painted_as) {
+    read.layer.rgb = class_info(*read.layer.painted_as).rgb;
+  }
+  if (const ConfigValue* roughness = find(table, "roughness")) {
+    const ConfigTable& of = as_table(*roughness, reader.where);
+    allow_only(of, {"height_m", "length_m"}, reader.where);
+    read.layer.roughness_m = reader.number_or(of, "height_m", read.layer.roughness_m);
+    read.layer.roughness_scale_m = reader.number_or(of, "length_m", read.layer.roughness_scale_m);
+    if (!(read.layer.roughness_m >= 0.0) || !(read.layer.roughness_scale_m > 0.0))
+      reader.fail(roughness->place, fmt::format("a roughness of {} m, {} m long", read.layer.roughness_m, read.layer.roughness_scale_m),
+                  "0 m or more, longer than 0 m");
+  }
+  if (const ConfigValue* noise = find(table, "noise")) read.layer.noise = reader.noise(*noise);
+  read.layer.functions.resize(file.inputs.size());
+  if (const ConfigValue* functions = find(table, "functions"))
+    for (const ConfigEntry& entry : as_table(*functions, reader.where)) {
+      const auto input = std::find_if(file.inputs.begin(), file.inputs.end(), [&](const LayerInput& i) { return i.name == entry.key; });
+      if (input == file.inputs.end()) {
+        std::vector<std::string> known;
+        for (const LayerInput& i : file.inputs) known.push_back(i.name);
+        reader.fail_unknown(entry.key_place, "input of this file", entry.key, known);
+      }
+      read.layer.functions[static_cast<std::size_t>(input - file.inputs.begin())] = reader.function(entry.value, file.model);
+    }
+  if (const ConfigValue* when = find(table, "when")) {
+    read.layer.when = as_string(*when, reader.where);
+    read.when_place = when->place;
+    if (read.layer.when.empty()) reader.fail(when->place, "an empty expression", "an expression");
+  }
+  return read;
+}
+
+// The layers depth first, siblings in the order of the file, with their parents; and the places of their expressions.
+void order_layers(const Reader& reader, const std::vector<ReadLayer>& read, SurfaceLayers& file, std::vector<ConfigPlace>& when_places) {
+  std::vector<std::string> names;
+  for (const ReadLayer& layer : read) {
+    if (std::find(names.begin(), names.end(), layer.layer.name) != names.end())
+      reader.fail(layer.place, "a second layer named \"" + layer.layer.name + "\"", "a name for each layer");
+    names.push_back(layer.layer.name);
+  }
+  std::vector<int> parents;
+  for (const ReadLayer& layer : read) {
+    const auto found = std::find(names.begin(), names.end(), layer.parent);
+    if (!layer.parent.empty() && found == names.end()) reader.fail_unknown(layer.parent_place, "layer", layer.parent, names);
+    parents.push_back(layer.parent.empty() ? -1 : static_cast<int>(found - names.begin()));
+  }
+  // Children last in, first out: a stack of layers to come keeps depth first without recursion.
+  std::vector<std::pair<int, int>> open;  // layer of the file, its parent in the result
+  const auto push_children = [&](int of, int at) {
+    for (int i = static_cast<int>(read.size()) - 1; i >= 0; --i)
+      if (parents[static_cast<std::size_t>(i)] == of) open.emplace_back(i, at);
+  };
+  std::vector<bool> reached(read.size(), false);
+  push_children(-1, -1);
+  while (!open.empty()) {
+    const auto [from, parent] = open.back();
+    open.pop_back();
+    const ReadLayer& layer = read[static_cast<std::size_t>(from)];
+    reached[static_cast<std::size_t>(from)] = true;
+    file.layers.push_back(layer.layer);
+    file.layers.back().parent = parent;
+    when_places.push_back(layer.when_place);
+    push_children(from, static_cast<int>(file.layers.size()) - 1);
+  }
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    if (reached[i]) continue;
+    // Go up until a layer comes again: that is in the circle, not only under it.
+    std::vector<bool> seen(read.size(), false);
+    std::size_t at = i;
+    while (!seen[at]) {
+      seen[at] = true;
+      at = static_cast<std::size_t>(parents[at]);
+    }
+    std::string circle = read[at].layer.name;
+    std::size_t next = at;
+    do {
+      next = static_cast<std::size_t>(parents[next]);
+      circle += " → " + read[next].layer.name;
+    } while (next != at);
+    reader.fail(read[at].parent_place, "a layer that is its own ancestor: " + circle, "parents that end at the ground");
+  }
+}
+
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      out += {'\\', c};
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+    else
+      out += c;
+  }
+  return out + "\"";
+}
+
+std::string coloured(std::uint32_t rgb) { return fmt::format("\"#{:06x}\"", rgb & 0xffffffU); }
+
+std::string function_text(const LayerFunction& function) {
+  if (const auto* hat = std::get_if<LayerHat>(&function)) {
+    std::vector<std::string> parts;
+    if (std::isfinite(hat->low)) parts.push_back(fmt::format("low = {}", hat->low));
+    if (std::isfinite(hat->high)) parts.push_back(fmt::format("high = {}", hat->high));
+    if (hat->low_width == hat->high_width) {
+      if (hat->low_width != 0.0) parts.push_back(fmt::format("width = {}", hat->low_width));
+    } else {
+      parts.push_back(fmt::format("low_width = {}, high_width = {}", hat->low_width, hat->high_width));
+    }
+    return fmt::format("{{ {} }}", fmt::join(parts, ", "));
+  }
+  const auto& samples = std::get<LayerSamples>(function);
+  const std::string range =
+      samples.at_0 == 0.0 && samples.at_255 == 1.0 ? "" : fmt::format("from = {}, to = {}, ", samples.at_0, samples.at_255);
+  return fmt::format("{{ {}samples = \"{}\" }}", range, to_base64(samples.samples));
+}
+
+std::string layer_text(const SurfaceLayers& file, const SurfaceLayer& layer) {
+  std::string out = fmt::format("\n[[layers]]\nname = {}\n", quoted(layer.name));
+  if (layer.parent >= 0) out += fmt::format("parent = {}\n", quoted(file.layers[static_cast<std::size_t>(layer.parent)].name));
+  if (layer.painted_as) out += fmt::format("class = \"{}\"\n", class_name(*layer.painted_as));
+  out += fmt::format("colour = {}\n", coloured(layer.rgb));
+  const SurfaceLayer usual;
+  if (layer.roughness_m != usual.roughness_m || layer.roughness_scale_m != usual.roughness_scale_m)
+    out += fmt::format("roughness = {{ height_m = {}, length_m = {} }}\n", layer.roughness_m, layer.roughness_scale_m);
+  const LayerNoise& n = layer.noise;
+  if (n.scale_m != usual.noise.scale_m || n.octaves != usual.noise.octaves || n.amplitude != usual.noise.amplitude ||
+      n.bias != usual.noise.bias)
+    out += fmt::format("noise = {{ scale_m = {}, octaves = {}, amplitude = {}, bias = {} }}\n", n.scale_m, n.octaves, n.amplitude, n.bias);
+  if (!layer.when.empty()) out += fmt::format("when = {}\n", quoted(layer.when));
+  bool first = true;
+  for (std::size_t i = 0; i < layer.functions.size(); ++i) {
+    if (std::holds_alternative<std::monostate>(layer.functions[i])) continue;
+    if (first) out += "[layers.functions]\n";
+    first = false;
+    out += fmt::format("{} = {}\n", file.inputs[i].name, function_text(layer.functions[i]));
+  }
+  return out;
+}
+
+// Words that expressions know by themselves.
+constexpr std::array<std::string_view, 18> taken_words = {"and", "or",  "not",  "min",        "max", "clip", "clamp", "abs",  "sin",
+                                                          "cos", "exp", "sqrt", "smoothstep", "hat", "n60",  "n210",  "n660", "n1800"};
+
+// The name of a parameter or a term: new, and one that an expression can write.
+void take_name(const Reader& reader, const ConfigEntry& entry, std::vector<std::string>& taken) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  const bool good = !entry.key.empty() && letter(entry.key[0]) &&
+                    std::all_of(entry.key.begin(), entry.key.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+  if (!good) reader.fail(entry.key_place, "the name " + quoted(entry.key), "letters, digits and _, no digit first");
+  if (std::find(taken_words.begin(), taken_words.end(), entry.key) != taken_words.end() || find_layer_input(entry.key) != nullptr ||
+      std::find(taken.begin(), taken.end(), entry.key) != taken.end())
+    reader.fail(entry.key_place, "the name \"" + entry.key + "\" already means something", "another name");
+  taken.push_back(entry.key);
+}
+
+SurfaceLayers read_document(const ConfigValue& document, const std::string& where) {
+  const Reader reader{where};
+  const ConfigTable& root = as_table(document, where);
+  allow_only(root, {"version", "name", "model", "ground", "inputs", "parameters", "terms", "layers"}, where);
+  const ConfigValue* version = find(root, "version");
+  if (version == nullptr || as_integer(*version, where) != 1)
+    reader.fail(version == nullptr ? ConfigPlace{} : version->place, version == nullptr ? "no version" : describe(*version), "version = 1");
+
+  SurfaceLayers file;
+  file.name = reader.text_or(root, "name", "");
+  if (const ConfigValue* model = find(root, "model")) {
+    const std::string& word = as_string(*model, where);
+    if (word != "product" && word != "additive") reader.fail_unknown(model->place, "model", word, {"product", "additive"});
+    file.model = word == "product" ? LayerModel::product : LayerModel::additive;
+  }
+  if (const ConfigValue* ground = find(root, "ground")) {
+    const ConfigTable& of = as_table(*ground, where);
+    allow_only(of, {"colour", "class"}, where);
+    if (const ConfigValue* painted = find(of, "class")) {
+      file.ground_painted_as = reader.land_cover_class(*painted);
+      file.ground_rgb = class_info(*file.ground_painted_as).rgb;
+    }
+    if (const ConfigValue* colour = find(of, "colour")) file.ground_rgb = reader.colour(*colour);
+  }
+  if (const ConfigValue* inputs = find(root, "inputs"))
+    for (const ConfigValue& value : as_array(*inputs, where)) {
+      LayerInput input = reader.input(value);
+      for (const LayerInput& other : file.inputs)
+        if (other.name == input.name) reader.fail(value.place, "the input \"" + input.name + "\" a second time", "each input once");
+      file.inputs.push_back(std::move(input));
+    }
+  std::vector<std::string> taken;
+  if (const ConfigValue* parameters = find(root, "parameters"))
+    for (const ConfigEntry& entry : as_table(*parameters, where)) {
+      take_name(reader, entry, taken);
+      file.parameters.emplace_back(entry.key, reader.number(entry.value));
+    }
+  LayerExpressionPlaces places;
+  if (const ConfigValue* terms = find(root, "terms"))
+    for (const ConfigEntry& entry : as_table(*terms, where)) {
+      take_name(reader, entry, taken);
+      file.terms.emplace_back(entry.key, as_string(entry.value, where));
+      places.terms.push_back(entry.value.place);
+    }
+  const ConfigValue* layers = find(root, "layers");
+  if (layers == nullptr) reader.fail({}, "no layers", "[[layers]]");
+  std::vector<ReadLayer> read;
+  for (const ConfigValue& value : as_array(*layers, where)) read.push_back(read_layer(reader, value, file));
+  order_layers(reader, read, file, places.when);
+  compile_layer_expressions(file, where, places);
+  check_surface_layers(file, where);
+  return file;
+}
+
+}  // namespace
+
+SurfaceLayers parse_surface_layers(std::string_view text, const std::string& where) {
+  return read_document(parse_config(text, where), where);
+}
+
+SurfaceLayers read_surface_layers(const std::string& path) { return read_document(read_config(path), path); }
+
+std::string surface_layers_text(const SurfaceLayers& layers) {
+  check_surface_layers(layers, layers.name.empty() ? "layers" : layers.name);
+  std::string out = "# Surface layers: what covers the ground, said by what is known of each place (docs/layers.md).\nversion = 1\n";
+  if (!layers.name.empty()) out += fmt::format("name = {}\n", quoted(layers.name));
+  out += fmt::format("model = \"{}\"\n", layers.model == LayerModel::product ? "product" : "additive");
+  out += layers.ground_painted_as ? fmt::format("ground = {{ class = \"{}\", colour = {} }}\n", class_name(*layers.ground_painted_as),
+                                                coloured(layers.ground_rgb))
+                                  : fmt::format("ground = {{ colour = {} }}\n", coloured(layers.ground_rgb));
+  if (layers.layers.empty()) out += "layers = []\n";
+  for (const LayerInput& input : layers.inputs)
+    out += fmt::format("\n[[inputs]]\nname = \"{}\"\nlow = {}\nhigh = {}\n", input.name, input.low, input.high);
+  if (!layers.parameters.empty()) out += "\n[parameters]\n";
+  for (const auto& [name, value] : layers.parameters) out += fmt::format("{} = {}\n", name, value);
+  if (!layers.terms.empty()) out += "\n[terms]\n";
+  for (const auto& [name, text] : layers.terms) out += fmt::format("{} = {}\n", name, quoted(text));
+  for (const SurfaceLayer& layer : layers.layers) out += layer_text(layers, layer);
+  return out;
+}
+
+}  // namespace belvedere

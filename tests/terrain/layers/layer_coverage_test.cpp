@@ -1,0 +1,233 @@
+#include "terrain/layers/layer_coverage.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/grid_part.h"
+#include "base/random.h"
+
+namespace belvedere {
+namespace {
+
+const GeoTransform metres{600'000.0, 5'200'000.0, 10.0, 10.0};
+
+SurfaceLayer layer(const std::string& name, int parent, std::uint32_t rgb, double bias = 1.0) {
+  SurfaceLayer made;
+  made.name = name;
+  made.parent = parent;
+  made.rgb = rgb;
+  made.noise.bias = bias;
+  return made;
+}
+
+std::vector<Grid<float>> coverage_of(const SurfaceLayers& layers, const std::vector<Grid<float>>& inputs, const PixelRect& cells,
+                                     const GeoTransform& transform = metres, std::uint64_t seed = 7) {
+  return layer_coverage(compile_layers(layers), inputs, transform, cells, seed);
+}
+
+// Smooth random functions of five inputs for twelve layers in three generations, with noise of four octaves.
+SurfaceLayers twelve_layers(LayerModel model) {
+  SurfaceLayers layers;
+  layers.model = model;
+  layers.inputs = {{"altitude", 0.0, 1.0}, {"slope", 0.0, 1.0}, {"north", 0.0, 1.0}, {"east", 0.0, 1.0}, {"flatness", 0.0, 1.0}};
+  constexpr int parents[12] = {-1, 0, 1, 0, -1, 4, 4, -1, 7, 8, 8, -1};
+  for (int k = 0; k < 12; ++k) {
+    SurfaceLayer made = layer("layer " + std::to_string(k), parents[k], static_cast<std::uint32_t>(random_bits(1, k, 0) & 0xffffffU), 0.9);
+    made.noise.amplitude = 0.8;
+    made.noise.scale_m = 300.0;
+    for (int i = 0; i < 5; ++i) {
+      LayerSamples samples;
+      if (model == LayerModel::additive) {
+        samples.at_0 = -4.0;
+        samples.at_255 = 4.0;
+      }
+      const double phase = 6.0 * random_uniform(2, k, i);
+      for (int s = 0; s < 256; ++s)
+        samples.samples[static_cast<std::size_t>(s)] = static_cast<std::uint8_t>(std::lround(200.0 + 55.0 * std::sin(0.02 * s + phase)));
+      made.functions.emplace_back(samples);
+    }
+    layers.layers.push_back(made);
+  }
+  return layers;
+}
+
+// Slow waves, so that a raster of another resolution has the same inputs.
+std::vector<Grid<float>> waves(int count, const PixelRect& cells, const GeoTransform& transform) {
+  std::vector<Grid<float>> inputs;
+  for (int i = 0; i < count; ++i) {
+    Grid<float>& grid = inputs.emplace_back(cells.width(), cells.height());
+    for (int y = 0; y < grid.height(); ++y)
+      for (int x = 0; x < grid.width(); ++x) {
+        const glm::dvec2 at = transform.to_crs(cells.x0 + x, cells.y0 + y);
+        grid(x, y) = static_cast<float>(0.5 + 0.5 * std::sin(at.x / (700.0 + 90.0 * i) + at.y / (900.0 - 70.0 * i) + i));
+      }
+  }
+  return inputs;
+}
+
+// RGB' = (1 - C) RGB + C RGB_S, three layers of known coverage, by hand.
+TEST(LayerCoverage, ThreeLayersInClosedForm) {
+  SurfaceLayers layers;
+  layers.ground_rgb = 0x646464;  // 100
+  layers.layers = {layer("a", -1, 0xc80000, 0.5), layer("b", 0, 0x00c800, 0.5), layer("c", -1, 0x0000c8, 0.25)};
+  for (SurfaceLayer& l : layers.layers) l.functions.clear();
+  const LayerProgram program = compile_layers(layers);
+  const auto c = layer_coverage(program, {}, metres, {0, 0, 3, 2}, 1);
+  EXPECT_EQ(c[0](2, 1), 0.5F);
+  EXPECT_EQ(c[1](2, 1), 0.25F);  // half of the half that its parent covers
+  EXPECT_EQ(c[2](2, 1), 0.25F);
+  // Red: 100 → 150 → 112.5 → 84.375. Green: 100 → 50 → 87.5 → 65.625. Blue: 100 → 50 → 37.5 → 78.125.
+  const glm::vec3 colour = layer_colour(program, c)(2, 1);
+  EXPECT_EQ(colour, glm::vec3(84.375F, 65.625F, 78.125F));
+  // Shares: c .25; b .25 · .75; a .5 · .75 · .75; the ground the rest.
+  const auto shares = layer_shares(program, c);
+  EXPECT_EQ(shares[3](0, 0), 0.25F);
+  EXPECT_EQ(shares[2](0, 0), 0.1875F);
+  EXPECT_EQ(shares[1](0, 0), 0.28125F);
+  EXPECT_EQ(shares[0](0, 0), 0.28125F);
+}
+
+// The hierarchy of the paper's figure 4: rock; grass with dark and dry grass; sand and its like after. Height and colour go from each layer
+// to the next, coverage to children alone: what fails its conditions changes nothing and lets no child appear.
+TEST(LayerCoverage, CoverageGoesToChildrenAlone) {
+  SurfaceLayers layers;
+  layers.inputs = {{"altitude", 0.0, 1000.0}};
+  const auto hat = [](double low, double high) { return std::vector<LayerFunction>{LayerHat{low, high, 0.0, 0.0}}; };
+  layers.layers = {layer("grass", -1, 0x00ff00, 0.8), layer("dark grass", 0, 0x008000, 0.5), layer("dry grass", 1, 0x808000, 0.5),
+                   layer("light grass", 0, 0x80ff80, 0.25), layer("sand", -1, 0xffff00, 1.0)};
+  layers.layers[0].functions = hat(0.0, 600.0);
+  layers.layers[1].functions = hat(0.0, 300.0);
+  layers.layers[2].functions = hat(0.0, 1000.0);
+  layers.layers[3].functions = hat(0.0, 1000.0);
+  layers.layers[4].functions = hat(500.0, 1000.0);
+  Grid<float> altitude(3, 1);
+  altitude(0, 0) = 100.F;  // all but sand
+  altitude(1, 0) = 400.F;  // no dark grass, hence no dry grass in it
+  altitude(2, 0) = 800.F;  // no grass at all: sand on the bare ground
+  const auto c = coverage_of(layers, {altitude}, {0, 0, 3, 1});
+  EXPECT_FLOAT_EQ(c[0](0, 0), 0.8F);
+  EXPECT_FLOAT_EQ(c[1](0, 0), 0.4F);
+  EXPECT_FLOAT_EQ(c[2](0, 0), 0.2F);
+  EXPECT_FLOAT_EQ(c[3](0, 0), 0.2F);  // of grass's .8, not of what dry grass left
+  EXPECT_EQ(c[4](0, 0), 0.F);
+  EXPECT_EQ(c[1](1, 0), 0.F);
+  EXPECT_EQ(c[2](1, 0), 0.F);
+  EXPECT_FLOAT_EQ(c[3](1, 0), 0.2F);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(c[k](2, 0), 0.F);
+  EXPECT_EQ(c[4](2, 0), 1.F);
+  const Grid<glm::vec3> colour = layer_colour(compile_layers(layers), c);
+  EXPECT_EQ(colour(2, 0), glm::vec3(255.F, 255.F, 0.F));
+}
+
+TEST(LayerCoverage, TablesAndHatsEqualTheirDefinition) {
+  SurfaceLayers layers;
+  layers.inputs = {{"altitude", -100.0, 3000.0}, {"slope", 0.0, 60.0}};
+  SurfaceLayer made = layer("one", -1, 0);
+  LayerSamples samples;
+  for (int i = 0; i < 256; ++i) samples.samples[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(random_bits(4, i, 0));
+  made.functions = {samples, LayerHat{10.0, 40.0, 5.0, 12.0}};
+  layers.layers = {made};
+  Grid<float> altitude(500, 1), slope(500, 1);
+  for (int x = 0; x < 500; ++x) {
+    altitude(x, 0) = static_cast<float>(-500.0 + 8.1 * x);
+    slope(x, 0) = static_cast<float>(0.13 * x);
+  }
+  const auto c = coverage_of(layers, {altitude, slope}, {0, 0, 500, 1});
+  for (int x = 0; x < 500; ++x) {
+    const double expected = layer_function_value(made.functions[0], layers.inputs[0], layers.model, static_cast<double>(altitude(x, 0))) *
+                            layer_function_value(made.functions[1], layers.inputs[1], layers.model, static_cast<double>(slope(x, 0)));
+    EXPECT_NEAR(c[0](x, 0), expected, 2e-5) << x;
+  }
+}
+
+// Shares of an additive file are the softmax of siblings times the parent's, whatever the order of painting.
+TEST(LayerCoverage, AdditiveSharesAreExact) {
+  SurfaceLayers layers;
+  layers.model = LayerModel::additive;
+  layers.layers = {layer("rock", -1, 0x808080, std::log(1.0)), layer("wood", -1, 0x008000, std::log(3.0)),
+                   layer("spruce", 1, 0x004000, std::log(1.0)), layer("beech", 1, 0x00a000, std::log(2.0)),
+                   layer("ice", -1, 0xffffff, 0.0)};
+  const LayerProgram program = compile_layers(layers);
+  const auto c = layer_coverage(program, {}, metres, {0, 0, 1, 1}, 1);
+  const auto shares = layer_shares(program, c);
+  EXPECT_NEAR(shares[0](0, 0), 0.0, 1e-6);
+  EXPECT_NEAR(shares[1](0, 0), 0.2, 1e-6);
+  EXPECT_EQ(shares[2](0, 0), 0.F);
+  EXPECT_NEAR(shares[3](0, 0), 0.2, 1e-6);
+  EXPECT_NEAR(shares[4](0, 0), 0.4, 1e-6);
+  EXPECT_NEAR(shares[5](0, 0), 0.2, 1e-6);
+  EXPECT_EQ(c[0](0, 0), 1.F);  // nothing lies under it
+  EXPECT_NEAR(c[1](0, 0), 0.75, 1e-6);
+}
+
+TEST(LayerCoverage, NeverMoreThanTheParentAndSharesAreOne) {
+  const PixelRect cells{0, 0, 200, 150};
+  for (const LayerModel model : {LayerModel::product, LayerModel::additive}) {
+    const SurfaceLayers layers = twelve_layers(model);
+    const LayerProgram program = compile_layers(layers);
+    const auto c = layer_coverage(program, waves(5, cells, metres), metres, cells, 3);
+    const auto shares = layer_shares(program, c);
+    double between = 0.0;  // that the test sees more than zeros and ones
+    for (std::size_t i = 0; i < c[0].size(); ++i) {
+      double sum = static_cast<double>(shares[0][i]);
+      for (std::size_t k = 0; k < c.size(); ++k) {
+        ASSERT_GE(c[k][i], 0.F);
+        const int parent = layers.layers[k].parent;
+        ASSERT_LE(c[k][i], parent < 0 ? 1.F : c[static_cast<std::size_t>(parent)][i]) << k;
+        sum += static_cast<double>(shares[k + 1][i]);
+        between += c[k][i] > 0.01F && c[k][i] < 0.99F ? 1.0 : 0.0;
+      }
+      ASSERT_NEAR(sum, 1.0, 1e-5);
+    }
+    EXPECT_GT(between / static_cast<double>(c[0].size()), 3.0);
+  }
+}
+
+TEST(LayerCoverage, AnyRectangleHasTheBitsOfTheWhole) {
+  SurfaceLayers layers = twelve_layers(LayerModel::product);
+  layers.layers[4].when = "altitude > 0.3 + 0.2 * n210";
+  const PixelRect whole{0, 0, 300, 200};
+  const PixelRect part{37, 61, 251, 130};
+  const auto inputs = waves(5, whole, metres);
+  std::vector<Grid<float>> cut;
+  for (const Grid<float>& grid : inputs) cut.push_back(part_of(grid, part));
+  const auto c = coverage_of(layers, inputs, whole);
+  const auto d = coverage_of(layers, cut, part);
+  for (std::size_t k = 0; k < c.size(); ++k) ASSERT_EQ(part_of(c[k], part), d[k]) << k;
+}
+
+// Detail beyond the raster's resolution changes nothing on the mean: a cell of 20 m against 8 × 8 cells of 2.5 m.
+TEST(LayerCoverage, MeanColourDoesNotHangOnResolution) {
+  for (const LayerModel model : {LayerModel::product, LayerModel::additive}) {
+    const SurfaceLayers layers = twelve_layers(model);
+    const LayerProgram program = compile_layers(layers);
+    const GeoTransform coarse{600'000.0, 5'200'000.0, 20.0, 20.0};
+    const GeoTransform fine{600'000.0, 5'200'000.0, 2.5, 2.5};
+    const auto mean_of = [&](const GeoTransform& transform, int size) {
+      const PixelRect cells{0, 0, size, size};
+      const auto colour = layer_colour(program, layer_coverage(program, waves(5, cells, transform), transform, cells, 5));
+      glm::dvec3 sum(0.0);
+      for (const glm::vec3& c : colour) sum += glm::dvec3(c);
+      return sum / static_cast<double>(colour.size());
+    };
+    const glm::dvec3 a = mean_of(coarse, 160);
+    const glm::dvec3 b = mean_of(fine, 1280);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], 0.1) << (model == LayerModel::product ? "product" : "additive");
+  }
+}
+
+TEST(LayerCoverage, SaysHowMuchLiesOutsideItsRange) {
+  SurfaceLayers layers;
+  layers.inputs = {{"altitude", 100.0, 200.0}};
+  Grid<float> altitude(4, 1);
+  altitude(0, 0) = 50.F;
+  altitude(1, 0) = 100.F;
+  altitude(2, 0) = 200.F;
+  altitude(3, 0) = 201.F;
+  EXPECT_THAT(share_outside(compile_layers(layers), {altitude}), testing::ElementsAre(0.5));
+}
+
+}  // namespace
+}  // namespace belvedere
