@@ -9,6 +9,7 @@
 #include "base/noise.h"
 #include "base/random_streams.h"
 #include "terrain/layers/layer_input_table.h"
+#include "terrain/layers/layer_noise.h"
 
 namespace belvedere {
 namespace {
@@ -45,17 +46,6 @@ void compile(const SurfaceLayers& layers, const std::vector<std::string>& names,
     out.when.emplace_back();
     if (!layer.when.empty()) out.when.back() = one(layer.when, "layer " + layer.name, places.when, i);
   }
-}
-
-// Places of the rectangle's columns, counted from the raster's first column, so that their rounding hangs on no rectangle.
-NoiseColumns plan_columns(const GeoTransform& transform, const PixelRect& cells, double sigma_m) {
-  NoiseColumns plan = plan_noise_columns(transform.to_crs(0.0, 0.0).x, transform.cell_x, cells.x1, sigma_m);
-  plan.columns.erase(plan.columns.begin(), plan.columns.begin() + cells.x0);
-  const int skipped = plan.columns.front().first;
-  for (NoiseColumns::Column& column : plan.columns) column.first -= skipped;
-  plan.first_column += skipped;
-  plan.lattice_columns -= skipped;
-  return plan;
 }
 
 }  // namespace
@@ -96,7 +86,7 @@ std::vector<Grid<std::uint8_t>> evaluate_layer_expressions(const LayerExpression
   std::vector<std::uint64_t> seeds;
   for (std::size_t v = expressions.inputs; v < terms_from; ++v) {
     const auto noise = std::find_if(noises.begin(), noises.end(), [&](const NamedNoise& n) { return expressions.variables[v] == n.name; });
-    plans.push_back(plan_columns(transform, cells, noise->sigma_m));
+    plans.push_back(plan_raster_noise(transform, cells, noise->sigma_m));
     seeds.push_back(stream_seed(seed, Stream::class_noise, static_cast<std::uint64_t>(noise - noises.begin())));
   }
   const int padded = (cells.width() + rule_block - 1) / rule_block * rule_block;

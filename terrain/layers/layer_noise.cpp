@@ -26,6 +26,16 @@ float lattice_value(std::uint64_t seed, std::int64_t x, std::int64_t y) {
 
 }  // namespace
 
+NoiseColumns plan_raster_noise(const GeoTransform& transform, const PixelRect& cells, double sigma_m) {
+  NoiseColumns plan = plan_noise_columns(transform.to_crs(0.0, 0.0).x, transform.cell_x, cells.x1, sigma_m);
+  plan.columns.erase(plan.columns.begin(), plan.columns.begin() + cells.x0);
+  const int skipped = plan.columns.front().first;
+  for (NoiseColumns::Column& column : plan.columns) column.first -= skipped;
+  plan.first_column += skipped;
+  plan.lattice_columns -= skipped;
+  return plan;
+}
+
 LayerNoiseRows::LayerNoiseRows(const LayerNoise& noise, std::uint64_t seed, const GeoTransform& transform, const PixelRect& cells)
     : transform_(transform), cells_(cells) {
   const double cell = 0.5 * (transform.cell_x + transform.cell_y);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/noise.h"
 #include "base/parallel.h"
 #include "terrain/io/raster.h"
 #include "terrain/layers/surface_layers.h"
@@ -38,5 +39,9 @@ class LayerNoiseRows {
   PixelRect cells_;
   std::vector<Octave> octaves_;
 };
+
+// What gaussian_noise_row needs for the columns of a rectangle of a raster, counted from the raster's first column, so that their rounding
+// hangs on no rectangle.
+NoiseColumns plan_raster_noise(const GeoTransform& transform, const PixelRect& cells, double sigma_m);
 
 }  // namespace belvedere
