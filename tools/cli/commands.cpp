@@ -22,6 +22,7 @@ const std::vector<Command>& all_commands() {
       {"exemplar", "compare", "Sets figures of pictures side by side: what gives one away as computed?", add_exemplar_compare},
       {"exemplar", "paint", "Paints an example for synthesis to copy: a sheet with everything on it, or a scene's view in strokes alone",
        add_exemplar_paint},
+      {"layers", "apply", "Lays surface layers over a DEM: classes, colours and coverages as GeoTIFF", add_layers_apply},
       {"", "info", "Says what a picture or guidance file holds and how it was made", add_info},
       {"", "diff", "Compares two pictures or guidance files, with thresholds", add_diff},
       {"", "schema", "Prints what a scene file may say, for editors or for reading", add_schema},
@@ -33,7 +34,8 @@ const std::vector<Command>& all_commands() {
 
 const std::vector<CommandGroup>& command_groups() {
   static const std::vector<CommandGroup> groups = {{"cache", "About what is kept from earlier runs: land cover, terrain, example sheets"},
-                                                   {"exemplar", "About example paintings: what they can serve, and painting one"}};
+                                                   {"exemplar", "About example paintings: what they can serve, and painting one"},
+                                                   {"layers", "About surface layers: what covers the ground, said by what is known of it"}};
   return groups;
 }
 

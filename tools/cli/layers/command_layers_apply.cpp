@@ -1,0 +1,201 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "base/error.h"
+#include "base/json.h"
+#include "base/parallel.h"
+#include "renderer/image/output_file.h"
+#include "terrain/io/byte_raster_rows.h"
+#include "terrain/layers/layer_apply.h"
+#include "terrain/layers/layers_file.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/file_names.h"
+#include "tools/cli/lock/scratch_folder.h"
+#include "tools/cli/terminal.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  std::string layers, dem, out, colour, shares;
+  std::string temperature, rain, radiation, sky_view;
+  LayerApplyParameters apply;
+  int threads = 0;
+  bool quiet = false;
+  bool json = false;
+};
+
+// Grids that the ground alone does not say, on the DEM's cells.
+struct ClimateGrids {
+  Grid<float> temperature_c, rain_mm, radiation, sky_view;
+  LayerClimate climate() const {
+    const auto known = [](const Grid<float>& grid) { return grid.empty() ? nullptr : &grid; };
+    return {known(temperature_c), known(rain_mm), known(radiation), known(sky_view)};
+  }
+};
+
+Grid<float> read_grid(const std::string& path, const RasterFrame& frame, Progress& progress) {
+  if (path.empty()) return {};
+  RasterSource source;
+  source.path = path;
+  source.unit_to_m = 1.0;  // no altitudes: as they are
+  Raster<float> raster = warp_rasters({source}, frame, progress);
+  // Filled as a DEM's voids are: smoothly from their rims.
+  return make_dem(std::move(raster)).altitude_m;
+}
+
+ByteRasterLayout class_layout(const RasterFrame& frame) {
+  ByteRasterLayout layout{.frame = frame, .bands = {{.name = "class"}}, .zero_is_void = true};
+  for (const LandCoverClassInfo& info : land_cover_classes())
+    if (info.id != LandCoverClass::sky) layout.codes.push_back({static_cast<std::uint8_t>(info.id), std::string(info.name), info.rgb});
+  return layout;
+}
+
+// So that a scene can read the classes as land cover.
+std::string legend_text(const std::string& name) {
+  std::string out = fmt::format("# What the codes of {} mean.\nname = {}\nnodata = [0]\n\n[codes]\n", name, json_quoted(name));
+  for (const LandCoverClassInfo& info : land_cover_classes())
+    if (info.id != LandCoverClass::sky)
+      out += fmt::format("{} = {{ label = {}, class = \"{}\" }}\n", static_cast<int>(info.id), json_quoted(info.meaning), info.name);
+  return out;
+}
+
+// All names are different, and none is what is read.
+void check_names(const Options& options, const std::string& legend) {
+  std::set<std::string> names = {options.layers, options.dem};
+  for (const std::string& path : {options.out, options.colour, options.shares, legend}) {
+    if (path.empty()) continue;
+    check_place(path);
+    if (!names.insert(path).second) throw Error(ErrorKind::usage, path, "the same file twice", "a file of its own for each");
+  }
+}
+
+std::string as_text(const Options& options, const SurfaceLayers& layers, const Dem& dem, const LayerApplyResult& result) {
+  std::string out = fmt::format("{}: {}×{} cells\n", options.out, dem.width(), dem.height());
+  for (const LandCoverClassInfo& info : land_cover_classes())
+    if (const double share = result.class_share[static_cast<std::size_t>(info.id)]; share > 0.0)
+      out += fmt::format("  {:<14} {:5.1f} %\n", info.id == LandCoverClass::sky ? "(no class)" : info.name, 100.0 * share);
+  if (!layers.inputs.empty()) out += "outside the range that the layers know:\n";
+  for (std::size_t i = 0; i < layers.inputs.size(); ++i)
+    out += fmt::format("  {:<14} {:5.1f} %\n", layers.inputs[i].name, 100.0 * result.outside[i]);
+  return out;
+}
+
+std::string as_json(const Options& options, const SurfaceLayers& layers, const Dem& dem, const LayerApplyResult& result) {
+  Json classes = Json::object();
+  for (const LandCoverClassInfo& info : land_cover_classes())
+    if (info.id != LandCoverClass::sky) classes.add(info.name, Json::number(result.class_share[static_cast<std::size_t>(info.id)]));
+  Json outside = Json::object();
+  for (std::size_t i = 0; i < layers.inputs.size(); ++i) outside.add(layers.inputs[i].name, Json::number(result.outside[i]));
+  return Json::object()
+             .add("out", Json::text(options.out))
+             .add("width", Json::number(dem.width()))
+             .add("height", Json::number(dem.height()))
+             .add("classes", std::move(classes))
+             .add("outside", std::move(outside))
+             .add("warnings", Json::texts(range_warnings(layers, result)))
+             .str() +
+         "\n";
+}
+
+int run(const Options& options) {
+  const std::string legend = std::filesystem::path(options.out).replace_extension(".legend.toml").string();
+  check_names(options, legend);
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  const SurfaceLayers layers = read_surface_layers(options.layers);
+  DemParameters parameters;
+  parameters.sources.emplace_back().path = options.dem;
+  parameters.max_void_share = 1.0;  // voids stay without a class
+  const Dem dem = read_dem(parameters, progress);
+  const RasterFrame frame{dem.transform, dem.width(), dem.height(), dem.crs};
+  ClimateGrids grids;
+  grids.temperature_c = read_grid(options.temperature, frame, progress);
+  grids.rain_mm = read_grid(options.rain, frame, progress);
+  grids.radiation = read_grid(options.radiation, frame, progress);
+  grids.sky_view = read_grid(options.sky_view, frame, progress);
+
+  LayerApplyParameters apply = options.apply;
+  apply.colour = !options.colour.empty();
+  apply.coverage = !options.shares.empty();
+  ByteRasterRows classes(options.out, class_layout(frame));
+  std::optional<ByteRasterRows> colour;
+  if (apply.colour) colour.emplace(options.colour, ByteRasterLayout{.frame = frame, .bands = {{}, {}, {}}, .is_colour = true});
+  std::optional<ByteRasterRows> shares;
+  if (apply.coverage) {
+    ByteRasterLayout layout{.frame = frame};
+    for (const SurfaceLayer& layer : layers.layers) layout.bands.push_back({layer.name, 1.0 / 255.0});
+    shares.emplace(options.shares, layout);
+  }
+  const LayerApplyResult result = apply_layers(
+      layers, dem, grids.climate(), apply,
+      [&](const LayerStrip& strip) {
+        Grid<std::uint8_t> codes(strip.classes.width(), strip.classes.height());
+        for (int y = 0; y < codes.height(); ++y)
+          for (int x = 0; x < codes.width(); ++x)
+            codes(x, y) = dem.filled(x, strip.y0 + y) != 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(strip.classes(x, y));
+        classes.write(strip.y0, {codes});
+        if (colour) colour->write(strip.y0, strip.colour);
+        if (shares) shares->write(strip.y0, strip.coverage);
+      },
+      progress);
+  progress.begin("writing", 0.0);
+  classes.prepare();
+  if (colour) colour->prepare();
+  if (shares) shares->prepare();
+  write_text_file(legend, legend_text(file_name(options.out)));
+  classes.commit();
+  if (colour) colour->commit();
+  if (shares) shares->commit();
+  for (const std::string& warning : range_warnings(layers, result)) progress.note("warning: " + warning);
+  progress.end();
+  if (options.json)
+    print_out(as_json(options, layers, dem, result));
+  else if (!options.quiet)
+    print_out(as_text(options, layers, dem, result));
+  return 0;
+}
+
+}  // namespace
+
+Action add_layers_apply(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("LAYERS", options->layers, "The layers: a .toml file (docs/layers.md)")->required()->type_name("FILE");
+  command.add_option("--dem", options->dem, "The ground: a DEM; the results lie on its cells, in metres")->required()->type_name("FILE");
+  command.add_option("--out", options->out, "The classes: a GeoTIFF of bytes, and beside it a legend, so that scenes can read it")
+      ->required()
+      ->type_name("TIF");
+  command.add_option("--colour", options->colour, "The colours of the layers, blended as much as they cover: a GeoTIFF")->type_name("TIF");
+  command.add_option("--shares", options->shares, "How much of each cell each layer covers: a GeoTIFF with a band for each, 255 is all")
+      ->type_name("TIF");
+  command.add_option("--temperature", options->temperature, "Mean temperature of the year, °C, for layers that ask for it: a raster")
+      ->type_name("FILE");
+  command.add_option("--rain", options->rain, "Rain of the year, mm: a raster")->type_name("FILE");
+  command
+      .add_option("--radiation", options->radiation,
+                  "Potential direct radiation of the year, in the unit the layers were fitted with: a raster")
+      ->type_name("FILE");
+  command.add_option("--sky-view", options->sky_view, "Share of the sky that is seen, 0 … 1: a raster")->type_name("FILE");
+  LayerDrawingParameters& drawing = options->apply.drawing;
+  command
+      .add_option("--sharpen", drawing.power, "How little classes mix where shares are divided: 1 as much as shares say … 4. Default: 2")
+      ->type_name("POWER");
+  command.add_option("--patches", drawing.spectrum, "Size of patches: 0, the default, speckled, to 4, large with smooth borders")
+      ->type_name("SIZE");
+  command.add_option("--seed", options->apply.seed, "Another seed, another draw; default 1")->type_name("N");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no cell")->type_name("N");
+  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
+  command.add_flag("--json", options->json, "Say what came out as JSON");
+  command.footer(
+      "Says how much of the ground each class covers, and how much of it lies outside the range of altitudes, slopes … that the\n"
+      "layers know; beyond 10 % it warns, because there they guess.\n\n"
+      "  belvedere layers apply innsbruck.layers.toml --dem innsbruck.tif --out classes.tif --colour colour.tif");
+  return [options] { return run(*options); };
+}
+
+}  // namespace belvedere::tools
