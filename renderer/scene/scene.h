@@ -60,7 +60,8 @@ struct SceneLandCover {
   std::vector<SceneSource> sources;                      // empty: by rules
   std::string legend;                                    // "nlcd", "corine", "esa_worldcover", "fbfm40", or a .csv or .toml file
   std::string rules = "alpine";                          // where there is no source: built-in name or file
-  std::vector<std::pair<std::string, double>> settings;  // parameters of the rules
+  std::string layers;                                    // a file of surface layers, instead of rules; empty: none
+  std::vector<std::pair<std::string, double>> settings;  // parameters of the rules or layers
   std::vector<SceneTown> towns;                          // what rules know of towns …
   std::string sea = "auto";                              // "auto" or "none"
   std::optional<double> sea_level_m;                     // where the scene knows it

@@ -24,6 +24,11 @@ std::vector<SceneSection> make_land_cover_sections() {
                 "Rules that tell the classes from altitude, slope and exposure where there is no source: a built-in name or a .toml file.",
             .text = TextKind::built_in,
             .choices_from = "layers"},
+           {.name = "layers",
+            .field = AT(land_cover.layers),
+            .meaning = "Surface layers that say what the ground is, instead of rules: a .layers.toml file, written by hand or fitted to a "
+                       "picture; see layers.md.",
+            .text = TextKind::file},
            {.name = "unknown",
             .field = AT(land_cover.unknown),
             .meaning = "Class of codes that the legend lacks; without it they are an error."},
@@ -61,7 +66,7 @@ std::vector<SceneSection> make_land_cover_sections() {
            {.name = "settings",
             .field = AT(land_cover.settings),
             .range = {-1e9, 1e9},
-            .meaning = "Parameters of the rules by name, such as the altitude of the treeline; the rules' file lists them."},
+            .meaning = "Parameters of the rules or layers by name, such as the altitude of the treeline; their file lists them."},
        }});
   sections.push_back({.name = "land_cover.sources",
                       .kind = SectionKind::list,

@@ -15,6 +15,8 @@
 #include "renderer/world/scene_towns.h"
 #include "terrain/cover/class_rules.h"
 #include "terrain/generalize/destripe.h"
+#include "terrain/layers/layer_apply.h"
+#include "terrain/layers/layers_file.h"
 
 namespace belvedere {
 
@@ -92,6 +94,33 @@ LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, const std::
       [&](Progress& watcher) { return apply_class_rules(rules, parameters, dem, watcher); });
 }
 
+CacheKey layer_cover_key(const LoadedScene& loaded, const SurfaceLayers& layers, const LayerApplyParameters& parameters, const Dem& dem) {
+  const auto& [seed, drawing, colour, coverage] = parameters;
+  const auto& [power, finest_cells, octaves, spectrum, drawing_seed] = drawing;
+  CacheKeyText key;
+  key.add("surface layers", surface_layers_text(layers)).add("seed", seed).add("colour", colour).add("coverage", coverage);
+  key.add("power", power).add("finest_cells", finest_cells).add("octaves", octaves).add("spectrum", spectrum).add("drawing", drawing_seed);
+  add_dem(key, dem);
+  return make_cache_key(CachedProduct::land_cover, key, subject_of(loaded));
+}
+
+LandCover make_layer_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
+  SurfaceLayers layers = read_surface_layers(find_scene_file(loaded, loaded.scene.land_cover.layers));
+  set_layer_parameters(layers, loaded.scene.land_cover.settings);
+  LayerApplyParameters parameters;
+  parameters.seed = loaded.scene.seed;
+  return cached<LandCover>(
+      cache, [&] { return layer_cover_key(loaded, layers, parameters, dem); }, progress,
+      [&](Progress& watcher) { return layer_land_cover(layers, dem, {}, parameters, watcher); });
+}
+
+// What the ground is where no raster says it: by surface layers, or by rules.
+LandCover make_modelled_cover(const LoadedScene& loaded, const Dem& dem, const std::vector<TownSite>* sites, Progress& progress,
+                              const Cache& cache) {
+  return loaded.scene.land_cover.layers.empty() ? make_rule_cover(loaded, dem, sites, progress, cache)
+                                                : make_layer_cover(loaded, dem, progress, cache);
+}
+
 // {to, from}: cells of class `from` where the rules see `to` become `to`.
 void refine_by_rules(LandCover& cover, const LandCover& rules, const std::vector<std::pair<LandCoverClass, LandCoverClass>>& refine) {
   Grid<LandCoverClass>& cells = cover.classes.cells;
@@ -113,7 +142,7 @@ void refine_by_rules(LandCover& cover, const LandCover& rules, const std::vector
 LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, const std::vector<TownSite>* sites, Progress& progress,
                           const Cache& cache) {
   const SceneLandCover& settings = loaded.scene.land_cover;
-  if (settings.sources.empty()) return make_rule_cover(loaded, dem, sites, progress, cache);
+  if (settings.sources.empty()) return make_modelled_cover(loaded, dem, sites, progress, cache);
   LandCoverParameters parameters;
   parameters.sources = to_raster_sources(loaded, settings.sources);
   parameters.legend = find_named_file(loaded, "legends", settings.legend);
@@ -123,7 +152,7 @@ LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, const std::
   parameters.finest_cell_m = dem.halved > 0 ? dem.cell_m() : 0.0;
   LandCover cover = read_land_cover(parameters, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);
   if (!settings.refine.empty())
-    refine_by_rules(cover, make_rule_cover(loaded, dem, sites, progress, cache), settings.refine);
+    refine_by_rules(cover, make_modelled_cover(loaded, dem, sites, progress, cache), settings.refine);
   else if (!settings.towns.empty() || !settings.towns_file.empty())
     progress.note("the scene's towns are not used: rules build them, and the land cover comes from rasters");
   return cover;

@@ -28,6 +28,8 @@ float exp_of(float x) {
   return series * std::bit_cast<float>(static_cast<std::uint32_t>(static_cast<int>(whole) + 127) << 23U);
 }
 
+constexpr int bump_octaves = 4;
+
 // One field of noise for siblings of equal scale and octaves.
 struct NoiseField {
   int parent;
@@ -54,8 +56,13 @@ struct Places {
 class Evaluation {
  public:
   Evaluation(const LayerProgram& program, const std::vector<Grid<float>>& inputs, const GeoTransform& transform, const PixelRect& cells,
-             std::uint64_t seed)
-      : program_(program), layers_(program.layers), inputs_(inputs), cells_(cells), width_(static_cast<std::size_t>(cells.width())) {
+             std::uint64_t seed, Grid<float>* height_m)
+      : program_(program),
+        layers_(program.layers),
+        inputs_(inputs),
+        cells_(cells),
+        width_(static_cast<std::size_t>(cells.width())),
+        height_(height_m) {
     const std::size_t count = layers_.layers.size();
     field_of_.assign(count, -1);
     for (std::size_t k = 0; k < count; ++k) {
@@ -72,6 +79,14 @@ class Evaluation {
       fields_.push_back({layer.parent, layer.noise.scale_m, layer.noise.octaves, LayerNoiseRows(layer.noise, own, transform, cells),
                          std::vector<float>(width_)});
     }
+    if (height_ != nullptr)
+      for (const SurfaceLayer& layer : layers_.layers) {
+        const LayerNoise bumps{layer.roughness_scale_m, bump_octaves, 1.0, 0.0};
+        const std::uint64_t own = stream_seed(seed, Stream::class_noise, ~seed_of_name(layer.name));
+        bumps_.emplace_back(bumps, own, transform, cells);
+      }
+    for (std::size_t i = 0; i < layers_.inputs.size(); ++i)
+      if (layers_.inputs[i].name == "altitude") altitude_ = static_cast<int>(i);
     if (!program.expressions.empty() ||
         std::any_of(layers_.layers.begin(), layers_.layers.end(), [](const auto& l) { return !l.when.empty(); })) {
       std::vector<const Grid<float>*> read;
@@ -95,10 +110,11 @@ class Evaluation {
       for (NoiseField& field : fields_) field.filled = false;
       for (std::size_t i = 0; i < places_.size(); ++i)
         if (used_[i]) find_places(i, y);
-      if (layers_.model == LayerModel::product)
-        for (std::size_t k = 0; k < layers_.layers.size(); ++k) product_row(k, y);
-      else
-        additive_row(y);
+      if (layers_.model == LayerModel::additive) additive_row(y);
+      for (std::size_t k = 0; k < layers_.layers.size(); ++k) {
+        if (layers_.model == LayerModel::product) product_row(k, y);
+        if (height_ != nullptr && program_.paints[k] && layers_.layers[k].roughness_m > 0.0) raise_row(k, y);
+      }
     }
     return std::move(coverage_);
   }
@@ -108,7 +124,7 @@ class Evaluation {
     const LayerInput& range = layers_.inputs[input];
     const auto low = static_cast<float>(range.low);
     const auto scale = static_cast<float>(256.0 / (range.high - range.low));
-    const float* values = inputs_[input].row(y);
+    const float* values = values_of(input, y);
     Places& places = places_[input];
     for (std::size_t x = 0; x < width_; ++x) {
       const float at = std::clamp((values[x] - low) * scale - 0.5F, 0.F, 255.F);
@@ -116,6 +132,22 @@ class Evaluation {
       places.sample[x] = static_cast<std::uint8_t>(sample);
       places.part[x] = at - static_cast<float>(sample);
     }
+  }
+
+  const float* values_of(std::size_t input, int y) const {
+    const bool raised = height_ != nullptr && static_cast<int>(input) == altitude_ && layers_.model == LayerModel::product;
+    return raised ? height_->row(y) : inputs_[input].row(y);
+  }
+
+  void raise_row(std::size_t k, int y) {
+    bump_line_.resize(width_);
+    bumps_[k].fill(cells_.y0 + y, bump_line_.data());
+    const auto roughness = static_cast<float>(layers_.layers[k].roughness_m);
+    const float* c = coverage_[k].row(y);
+    float* height = height_->row(y);
+    for (std::size_t x = 0; x < width_; ++x) height[x] += c[x] * roughness * bump_line_[x];
+    if (altitude_ >= 0 && used_[static_cast<std::size_t>(altitude_)] && layers_.model == LayerModel::product)
+      find_places(static_cast<std::size_t>(altitude_), y);
   }
 
   const float* noise_row(std::size_t layer, int y) {
@@ -139,7 +171,7 @@ class Evaluation {
         f(x, s[0] + part[x] * s[1]);
       }
     } else if (std::holds_alternative<LayerHat>(function)) {
-      const float* values = inputs_[input].row(y);
+      const float* values = values_of(input, y);
       for (std::size_t x = 0; x < width_; ++x)
         f(x, static_cast<float>(layer_function_value(function, layers_.inputs[input], layers_.model, static_cast<double>(values[x]))));
     }
@@ -227,6 +259,10 @@ class Evaluation {
   const std::vector<Grid<float>>& inputs_;
   PixelRect cells_;
   std::size_t width_;
+  Grid<float>* height_;  // null: no bumps
+  int altitude_ = -1;    // which input it is
+  std::vector<LayerNoiseRows> bumps_;
+  std::vector<float> bump_line_;
   std::vector<NoiseField> fields_;
   std::vector<int> field_of_;
   std::vector<Grid<std::uint8_t>> when_;
@@ -275,7 +311,14 @@ LayerProgram compile_layers(const SurfaceLayers& layers) {
 std::vector<Grid<float>> layer_coverage(const LayerProgram& program, const std::vector<Grid<float>>& inputs, const GeoTransform& transform,
                                         const PixelRect& cells, std::uint64_t seed) {
   if (inputs.size() != program.inputs.size()) throw Error(ErrorKind::bug, "layer_coverage", "inputs that are not the program's");
-  return Evaluation(program, inputs, transform, cells, seed).run();
+  return Evaluation(program, inputs, transform, cells, seed, nullptr).run();
+}
+
+std::vector<Grid<float>> layer_coverage_and_height(const LayerProgram& program, const std::vector<Grid<float>>& inputs,
+                                                   const GeoTransform& transform, const PixelRect& cells, std::uint64_t seed,
+                                                   Grid<float>& height_m) {
+  if (inputs.size() != program.inputs.size()) throw Error(ErrorKind::bug, "layer_coverage", "inputs that are not the program's");
+  return Evaluation(program, inputs, transform, cells, seed, &height_m).run();
 }
 
 std::vector<Grid<float>> layer_shares(const LayerProgram& program, const std::vector<Grid<float>>& coverage) {

@@ -36,6 +36,12 @@ LayerProgram compile_layers(const SurfaceLayers& layers);
 std::vector<Grid<float>> layer_coverage(const LayerProgram& program, const std::vector<Grid<float>>& inputs, const GeoTransform& transform,
                                         const PixelRect& cells, std::uint64_t seed);
 
+// The same, and the bumps of the layers: H' = H + C · roughness · D with D of each layer's own noise, layer by layer. `height_m` holds the
+// ground at the rectangle's cells and gets what lies on it. In a product later layers see the altitude with the bumps of those before.
+std::vector<Grid<float>> layer_coverage_and_height(const LayerProgram& program, const std::vector<Grid<float>>& inputs,
+                                                   const GeoTransform& transform, const PixelRect& cells, std::uint64_t seed,
+                                                   Grid<float>& height_m);
+
 // What is seen of the ground and of each layer when all are painted over each other, RGB' = (1 - C) RGB + C RGB of the layer: the ground
 // first, then the layers; together 1.
 std::vector<Grid<float>> layer_shares(const LayerProgram& program, const std::vector<Grid<float>>& coverage);

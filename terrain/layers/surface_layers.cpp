@@ -1,6 +1,7 @@
 #include "terrain/layers/surface_layers.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +65,23 @@ std::optional<LandCoverClass> layer_class(const SurfaceLayers& layers, std::size
   for (int i = static_cast<int>(layer); i >= 0; i = layers.layers[static_cast<std::size_t>(i)].parent)
     if (const auto& own = layers.layers[static_cast<std::size_t>(i)].painted_as) return own;
   return layers.ground_painted_as;
+}
+
+void set_layer_parameters(SurfaceLayers& layers, const std::vector<std::pair<std::string, double>>& settings) {
+  for (const auto& [name, value] : settings) {
+    const auto found =
+        std::find_if(layers.parameters.begin(), layers.parameters.end(), [&, &key = name](const auto& p) { return p.first == key; });
+    if (found != layers.parameters.end()) {
+      found->second = value;
+      continue;
+    }
+    std::vector<std::string> known;
+    for (const auto& parameter : layers.parameters) known.push_back(parameter.first);
+    const std::string near = nearest_word(name, known);
+    fail("setting " + name,
+         fmt::format("unknown parameter of the layers \"{}\"{}", layers.name, near.empty() ? "" : "; did you mean \"" + near + "\"?"),
+         known.empty() ? "none: the file has no parameters" : fmt::format("{}", fmt::join(known, ", ")));
+  }
 }
 
 void check_surface_layers(const SurfaceLayers& layers, const std::string& where) {

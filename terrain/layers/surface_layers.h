@@ -97,6 +97,9 @@ double layer_function_value(const LayerFunction& function, const LayerInput& inp
 // The class that a layer is painted as: its own, or that of the nearest ancestor that has one, or the ground's.
 std::optional<LandCoverClass> layer_class(const SurfaceLayers& layers, std::size_t layer);
 
+// Gives parameters of the file other values; Error(usage) for a name that is none, with the nearest known.
+void set_layer_parameters(SurfaceLayers& layers, const std::vector<std::pair<std::string, double>>& settings);
+
 // Throws Error(usage) naming the layer where something does not hold together: an unknown or repeated input, names repeated, ranges out of
 // order, a parent that does not come before its child, an order that is not depth first, functions and inputs that differ in number, values
 // out of the ranges above. `where` is the file or what stands for it. Expressions are not looked into.

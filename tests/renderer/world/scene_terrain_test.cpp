@@ -137,5 +137,28 @@ TEST_F(TerrainOperators, SlopesBecomePlainAndValleysWide) {
   EXPECT_GT(lower / (60.0 * 21.0), 8.0);
 }
 
+// A scene's layers stand in for rules; its settings are theirs.
+TEST(LayeredLandCover, LayersOfTheSceneSayWhatTheGroundIs) {
+  const test::Folder folder;
+  folder.write(
+      "two.layers.toml",
+      "version = 1\nground = { class = \"forest\" }\n[[inputs]]\nname = \"altitude\"\nlow = 0\nhigh = 3000\n[parameters]\nline_m = 5000\n"
+      "[[layers]]\nname = \"ice\"\nclass = \"glacier\"\nwhen = \"altitude > line_m\"\n");
+  Grid<float> altitude(20, 20, 1000.F);
+  for (int y = 0; y < 20; ++y)
+    for (int x = 12; x < 20; ++x) altitude(x, y) = 2000.F;
+  const Dem dem = make_dem({altitude, {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")});
+  const auto cover = [&](const std::string& settings) {
+    const LoadedScene scene =
+        parse_scene("version = 1\n[land_cover]\nlayers = \"two.layers.toml\"\n" + settings, "s.toml", folder.path(), {});
+    return make_scene_land_cover(scene, dem, silent_progress()).classes.cells;
+  };
+  for (const LandCoverClass id : cover("")) ASSERT_EQ(id, forest);
+  const Grid<LandCoverClass> low = cover("settings = { line_m = 1500 }\n");
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 20; ++x) ASSERT_EQ(low(x, y), x < 12 ? forest : glacier) << x << ", " << y;
+  EXPECT_THROW(cover("settings = { line = 1500 }\n"), Error);
+}
+
 }  // namespace
 }  // namespace belvedere
