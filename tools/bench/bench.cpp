@@ -21,6 +21,7 @@ std::vector<Measurement> bench_deform(const Options&);
 std::vector<Measurement> bench_files(const Options&);
 std::vector<Measurement> bench_generalize(const Options&);
 std::vector<Measurement> bench_guidance(const Options&);
+std::vector<Measurement> bench_layers(const Options&);
 std::vector<Measurement> bench_synthesis(const Options&);
 std::vector<Measurement> bench_trace(const Options&);
 
@@ -33,6 +34,7 @@ const std::vector<Section>& sections() {
       {"generalize", "generalization of the terrain", &bench_generalize},
       {"deform", "bending the terrain, and moving pieces of it", &bench_deform},
       {"climate", "the sun of a year over the terrain, and rain driven up it by wind", &bench_climate},
+      {"layers", "surface layers: inputs, coverage, classes", &bench_layers},
       {"synthesis", "painting by example, with one guide and with seven", &bench_synthesis},
       {"files", "writing and reading TIFF, PNG and OpenEXR", &bench_files},
   };

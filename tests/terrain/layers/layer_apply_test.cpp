@@ -1,0 +1,115 @@
+#include "terrain/layers/layer_apply.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "terrain/layers/layer_coverage.h"
+
+namespace belvedere {
+namespace {
+
+using enum LandCoverClass;
+
+// Two tiles and a bit each way.
+Dem hills() {
+  Dem dem;
+  dem.altitude_m = Grid<float>(1100, 700);
+  dem.filled = Grid<std::uint8_t>(1100, 700, 0);
+  dem.transform = {500'000.0, 5'200'000.0, 20.0, 20.0};
+  for (int y = 0; y < 700; ++y)
+    for (int x = 0; x < 1100; ++x)
+      dem.altitude_m(x, y) = static_cast<float>(1500.0 + 700.0 * std::sin(x / 80.0) * std::cos(y / 60.0) + 0.5 * x);
+  return dem;
+}
+
+SurfaceLayers three() {
+  SurfaceLayers layers;
+  layers.name = "three";
+  layers.ground_painted_as = rock;
+  layers.inputs = {{"altitude", 0.0, 4000.0}, {"relief_750", -300.0, 300.0}};
+  layers.layers.resize(2);
+  layers.layers[0].name = "wood";
+  layers.layers[0].painted_as = forest;
+  layers.layers[0].noise = {300.0, 4, 0.6, 0.8};
+  layers.layers[0].functions = {LayerHat{-INFINITY, 1700.0, 0.0, 600.0}, {}};
+  layers.layers[1].name = "ice";
+  layers.layers[1].painted_as = glacier;
+  layers.layers[1].noise = {300.0, 4, 0.6, 0.8};
+  layers.layers[1].functions = {LayerHat{2000.0, INFINITY, 500.0, 0.0}, LayerHat{-INFINITY, 0.0, 0.0, 80.0}};
+  return layers;
+}
+
+// How often classes are drawn is how much they cover, sharpened or not.
+TEST(LayerApply, FrequenciesAreShares) {
+  const Dem dem = hills();
+  const LayerProgram program = compile_layers(three());
+  const LayerGround ground = make_layer_ground(dem, {}, program.inputs);
+  const auto coverage = layer_coverage(program, layer_inputs(ground), dem.transform, {0, 0, 1100, 700}, 1);
+  const auto shares = class_shares(program, layer_shares(program, coverage));
+  const LayerApplyResult result = apply_layers(
+      three(), dem, {}, {}, [](const LayerStrip&) {}, silent_progress());
+  for (const LandCoverClass id : {rock, forest, glacier}) {
+    const Grid<float>& share = shares[static_cast<std::size_t>(id)];
+    double mean = 0.0;
+    for (const float s : share) mean += static_cast<double>(s) / static_cast<double>(share.size());
+    EXPECT_GT(mean, 0.05) << class_name(id);
+    EXPECT_NEAR(result.class_share[static_cast<std::size_t>(id)], mean, 0.03) << class_name(id);
+  }
+}
+
+// Strips and tiles are the program's own business: coverages and colours are those of the whole, whatever the threads.
+TEST(LayerApply, TilesAndThreadsLeaveNoTrace) {
+  const Dem dem = hills();
+  const LayerProgram program = compile_layers(three());
+  const LayerGround ground = make_layer_ground(dem, {}, program.inputs);
+  const auto coverage = layer_coverage(program, layer_inputs(ground, {0, 0, 1100, 700}), dem.transform, {0, 0, 1100, 700}, 1);
+  LayerApplyParameters parameters;
+  parameters.coverage = true;
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    Grid<LandCoverClass> classes(1100, 700);
+    apply_layers(
+        three(), dem, {}, parameters,
+        [&](const LayerStrip& strip) {
+          std::copy(strip.classes.begin(), strip.classes.end(), classes.row(strip.y0));
+          for (std::size_t k = 0; k < coverage.size(); ++k)
+            for (int y = 0; y < strip.coverage[k].height(); ++y)
+              for (int x = 0; x < 1100; ++x)
+                ASSERT_EQ(strip.coverage[k](x, y), static_cast<int>(255.F * coverage[k](x, strip.y0 + y) + 0.5F)) << x << ' ' << y;
+        },
+        silent_progress());
+    return classes;
+  };
+  EXPECT_EQ(run(1), run(4));
+}
+
+TEST(LayerApply, CellsWithoutAClassTakeTheNearest) {
+  SurfaceLayers layers = three();
+  layers.ground_painted_as.reset();
+  const LandCover cover = layer_land_cover(layers, hills(), {}, {}, silent_progress());
+  EXPECT_EQ(std::count(cover.classes.cells.begin(), cover.classes.cells.end(), sky), 0);
+  EXPECT_EQ(std::count(cover.classes.cells.begin(), cover.classes.cells.end(), rock), 0);
+  for (SurfaceLayer& layer : layers.layers) layer.painted_as.reset();
+  EXPECT_THROW(layer_land_cover(layers, hills(), {}, {}, silent_progress()), Error);
+}
+
+TEST(LayerApply, SettingsAreOfTheFilesParameters) {
+  SurfaceLayers layers = three();
+  layers.parameters = {{"line_m", 1000.0}};
+  set_layer_parameters(layers, {{"line_m", 1200.0}});
+  EXPECT_EQ(layers.parameters[0].second, 1200.0);
+  try {
+    set_layer_parameters(layers, {{"lime_m", 1.0}});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.found(), testing::HasSubstr("did you mean \"line_m\""));
+  }
+}
+
+}  // namespace
+}  // namespace belvedere
