@@ -9,7 +9,6 @@
 
 #include "base/error.h"
 #include "base/math_exact.h"
-#include "base/noise.h"
 #include "base/random_streams.h"
 #include "terrain/layers/layer_noise.h"
 
@@ -124,34 +123,27 @@ Grid<LandCoverClass> draw_classes(const LayerDrawing& drawing, const std::vector
   static const ExponentialOfNormal exponential;
   const LayerDrawingParameters& parameters = drawing.parameters;
   const double cell = 0.5 * (transform.cell_x + transform.cell_y);
-  std::vector<NoiseColumns> octaves;
-  std::vector<float> weights;
+  std::vector<LayerNoiseRows::GaussianOctave> octaves;
   double squares = 0.0;
   for (int i = 0; i < parameters.octaves; ++i) {
     const double size = exact::exp2(i);
-    octaves.push_back(plan_raster_noise(transform, cells, cell * parameters.finest_cells * size));
-    const double weight = exact::pow(size, 0.5 * parameters.spectrum);
-    weights.push_back(static_cast<float>(weight));
-    squares += weight * weight;
+    octaves.push_back({cell * parameters.finest_cells * size, exact::pow(size, 0.5 * parameters.spectrum), 0});
+    squares += octaves.back().weight * octaves.back().weight;
   }
-  for (float& weight : weights) weight = static_cast<float>(static_cast<double>(weight) / std::sqrt(squares));
+  for (LayerNoiseRows::GaussianOctave& octave : octaves) octave.weight /= std::sqrt(squares);
 
   Grid<LandCoverClass> out(cells.width(), cells.height(), LandCoverClass::sky);
   Grid<float> least(cells.width(), cells.height(), std::numeric_limits<float>::infinity());
   const auto width = static_cast<std::size_t>(cells.width());
   std::vector<float> noise(width);
-  std::vector<float> octave(width);
   for (std::size_t k = 1; k < class_count; ++k) {
+    if (std::all_of(shares[k].begin(), shares[k].end(), [](float p) { return !(p > 0.F); })) continue;
+    for (std::size_t i = 0; i < octaves.size(); ++i) octaves[i].seed = stream_seed(parameters.seed, Stream::class_noise, 100 * (k + 1) + i);
+    LayerNoiseRows rows(octaves, transform, cells);
     for (int y = 0; y < cells.height(); ++y) {
       const float* share = shares[k].row(y);
       if (std::all_of(share, share + width, [](float p) { return !(p > 0.F); })) continue;
-      std::fill(noise.begin(), noise.end(), 0.F);
-      const double at = transform.to_crs(0.0, cells.y0 + y).y;
-      for (std::size_t i = 0; i < octaves.size(); ++i) {
-        const std::uint64_t seed = stream_seed(parameters.seed, Stream::class_noise, 100 * (k + 1) + i);
-        gaussian_noise_row(octaves[i], seed, at, octave.data());
-        for (std::size_t x = 0; x < width; ++x) noise[x] += weights[i] * octave[x];
-      }
+      rows.fill(cells.y0 + y, noise.data());
       for (std::size_t x = 0; x < width; ++x) {
         if (!(share[x] > 0.F)) continue;
         const float late = exponential(noise[x]) / (drawing.factor[k] * sharpened(share[x], parameters.power));

@@ -13,15 +13,19 @@ namespace belvedere {
 namespace {
 
 constexpr double loudness = 2.0;
+constexpr double spacing_per_sigma = 1.7320508075688772;  // the B-spline's deviation is spacing / sqrt(3)
 
 std::array<double, 4> spline_weights(double t) {
   const double u = 1.0 - t;
   return {u * u * u / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0, t * t * t / 6.0};
 }
 
-// Uniform in -1…1.
-float lattice_value(std::uint64_t seed, std::int64_t x, std::int64_t y) {
-  return static_cast<float>(2.0 * random_uniform(seed, x, y) - 1.0);
+// What a sum of independent values of deviation 1 with these weights is multiplied by to have deviation 1 itself.
+double inverse_deviation(const std::array<double, 4>& w) { return 1.0 / std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2] + w[3] * w[3]); }
+
+// Normal, or uniform in -1…1.
+float lattice_value(bool gaussian, std::uint64_t seed, std::int64_t x, std::int64_t y) {
+  return static_cast<float>(gaussian ? random_normal(seed, x, y) : 2.0 * random_uniform(seed, x, y) - 1.0);
 }
 
 }  // namespace
@@ -47,30 +51,40 @@ LayerNoiseRows::LayerNoiseRows(const LayerNoise& noise, std::uint64_t seed, cons
   for (int i = 0; i < noise.octaves; ++i, weight *= 0.5, spacing *= 0.5) {
     const double seen = std::clamp(spacing / cell - 1.0, 0.0, 1.0);
     if (!(seen > 0.0)) break;
-    Octave octave;
-    octave.spacing_m = spacing;
-    octave.weight = static_cast<float>(loudness * seen * weight / weights);
-    octave.seed = stream_seed(seed, Stream::class_noise, 1000 + static_cast<std::uint64_t>(i));
-    const std::size_t width = static_cast<std::size_t>(cells.width());
-    octave.at.resize(width);
-    octave.weights.resize(width);
-    std::int64_t last = 0;
-    for (std::size_t x = 0; x < width; ++x) {
-      // Of the cell's own number, so that it does not matter where the rectangle begins.
-      const double place = transform.to_crs(cells.x0 + static_cast<int>(x), 0.0).x / spacing;
-      const double whole = std::floor(place);
-      const auto first = static_cast<std::int64_t>(whole) - 1;
-      if (x == 0) octave.first_column = first;
-      octave.at[x] = static_cast<std::int32_t>(first - octave.first_column);
-      const std::array<double, 4> w = spline_weights(place - whole);
-      for (std::size_t k = 0; k < 4; ++k) octave.weights[x][k] = static_cast<float>(w[k]);
-      last = first + 3;
-    }
-    const auto columns = static_cast<std::size_t>(last - octave.first_column + 1);
-    for (std::vector<float>& row : octave.lattice) row.resize(columns);
-    octave.line.resize(columns);
-    octaves_.push_back(std::move(octave));
+    add_octave(spacing, loudness * seen * weight / weights, stream_seed(seed, Stream::class_noise, 1000 + static_cast<std::uint64_t>(i)));
   }
+}
+
+LayerNoiseRows::LayerNoiseRows(const std::vector<GaussianOctave>& octaves, const GeoTransform& transform, const PixelRect& cells)
+    : transform_(transform), cells_(cells), gaussian_(true) {
+  for (const GaussianOctave& octave : octaves) add_octave(octave.sigma_m * spacing_per_sigma, octave.weight, octave.seed);
+}
+
+void LayerNoiseRows::add_octave(double spacing_m, double weight, std::uint64_t seed) {
+  Octave octave;
+  octave.spacing_m = spacing_m;
+  octave.weight = static_cast<float>(weight);
+  octave.seed = seed;
+  const auto width = static_cast<std::size_t>(cells_.width());
+  octave.at.resize(width);
+  octave.weights.resize(width);
+  std::int64_t last = 0;
+  for (std::size_t x = 0; x < width; ++x) {
+    // Of the cell's own number, so that it does not matter where the rectangle begins.
+    const double place = transform_.to_crs(cells_.x0 + static_cast<int>(x), 0.0).x / spacing_m;
+    const double whole = std::floor(place);
+    const auto first = static_cast<std::int64_t>(whole) - 1;
+    if (x == 0) octave.first_column = first;
+    octave.at[x] = static_cast<std::int32_t>(first - octave.first_column);
+    const std::array<double, 4> w = spline_weights(place - whole);
+    const double louder = gaussian_ ? inverse_deviation(w) : 1.0;
+    for (std::size_t k = 0; k < 4; ++k) octave.weights[x][k] = static_cast<float>(w[k] * louder);
+    last = first + 3;
+  }
+  const auto columns = static_cast<std::size_t>(last - octave.first_column + 1);
+  for (std::vector<float>& row : octave.lattice) row.resize(columns);
+  octave.line.resize(columns);
+  octaves_.push_back(std::move(octave));
 }
 
 void LayerNoiseRows::fill(int y, float* out) {
@@ -87,14 +101,15 @@ void LayerNoiseRows::fill(int y, float* out) {
       if (next) std::rotate(octave.lattice, octave.lattice + 3, octave.lattice + 4);
       for (std::size_t k = 0; k < (next ? 1U : 4U); ++k)
         for (std::size_t i = 0; i < columns; ++i)
-          octave.lattice[k][i] =
-              lattice_value(octave.seed, octave.first_column + static_cast<std::int64_t>(i), first + static_cast<std::int64_t>(k));
+          octave.lattice[k][i] = lattice_value(gaussian_, octave.seed, octave.first_column + static_cast<std::int64_t>(i),
+                                               first + static_cast<std::int64_t>(k));
       octave.first_row = first;
       octave.filled = true;
     }
     const std::array<double, 4> w = spline_weights(place - whole);
     float v[4];
-    for (std::size_t k = 0; k < 4; ++k) v[k] = static_cast<float>(w[k]) * octave.weight;
+    const double louder = gaussian_ ? inverse_deviation(w) : 1.0;
+    for (std::size_t k = 0; k < 4; ++k) v[k] = static_cast<float>(w[k] * louder) * octave.weight;
     const float* a = octave.lattice[0].data();
     const float* b = octave.lattice[1].data();
     const float* c = octave.lattice[2].data();
@@ -107,6 +122,7 @@ void LayerNoiseRows::fill(int y, float* out) {
       out[x] += (u[0] * at[0] + u[1] * at[1]) + (u[2] * at[2] + u[3] * at[3]);
     }
   }
+  if (gaussian_) return;
   for (int x = 0; x < width; ++x) out[x] = std::clamp(out[x], -1.F, 1.F);
 }
 

@@ -19,6 +19,15 @@ class LayerNoiseRows {
  public:
   LayerNoiseRows(const LayerNoise& noise, std::uint64_t seed, const GeoTransform& transform, const PixelRect& cells);
 
+  // A smooth Gaussian field instead, of deviation 1 at every place and without bounds: octaves of normal lattice values. The squares of
+  // the weights sum to 1.
+  struct GaussianOctave {
+    double sigma_m = 1.0;  // as gaussian_noise: the lattice's spacing over √3
+    double weight = 1.0;
+    std::uint64_t seed = 0;
+  };
+  LayerNoiseRows(const std::vector<GaussianOctave>& octaves, const GeoTransform& transform, const PixelRect& cells);
+
   // The row `y` of the raster, in cells.y0…cells.y1, at the columns of the rectangle.
   void fill(int y, float* out);
 
@@ -35,8 +44,11 @@ class LayerNoiseRows {
     bool filled = false;
     std::vector<float> line;  // the four rows at the height of the row
   };
+  void add_octave(double spacing_m, double weight, std::uint64_t seed);
+
   GeoTransform transform_;
   PixelRect cells_;
+  bool gaussian_ = false;
   std::vector<Octave> octaves_;
 };
 

@@ -57,7 +57,7 @@ TEST(LayerApply, FrequenciesAreShares) {
     const Grid<float>& share = shares[static_cast<std::size_t>(id)];
     double mean = 0.0;
     for (const float s : share) mean += static_cast<double>(s) / static_cast<double>(share.size());
-    EXPECT_GT(mean, 0.05) << class_name(id);
+    EXPECT_GT(mean, 0.015) << class_name(id);
     EXPECT_NEAR(result.class_share[static_cast<std::size_t>(id)], mean, 0.03) << class_name(id);
   }
 }

@@ -47,6 +47,22 @@ TEST(LayerNoise, IsAFunctionOfThePlaceAlone) {
     for (int x = 0; x < 40; ++x) ASSERT_NEAR(other(x, y), whole(x + 16, y + 8), 1e-5);
 }
 
+// The Gaussian field is that of base/noise.h, octave by octave.
+TEST(LayerNoise, GaussianRowsAreGaussianNoise) {
+  const GeoTransform transform{600'000.0, 5'200'000.0, 10.0, 10.0};
+  const PixelRect cells{5, 9, 80, 70};
+  LayerNoiseRows rows({{5.0, 0.6, 11}, {40.0, 0.8, 12}}, transform, cells);
+  std::vector<float> line(75);
+  for (int y = 9; y < 70; ++y) {
+    rows.fill(y, line.data());
+    for (int x = 5; x < 80; ++x) {
+      const glm::dvec2 at = transform.to_crs(x, y);
+      ASSERT_NEAR(line[static_cast<std::size_t>(x - 5)],
+                  0.6 * gaussian_noise(11, at.x, at.y, 5.0) + 0.8 * gaussian_noise(12, at.x, at.y, 40.0), 1e-5);
+    }
+  }
+}
+
 // What is shorter than a cell is left out: nothing is drawn by chance at single places.
 TEST(LayerNoise, OctavesShorterThanACellAreLeftOut) {
   const GeoTransform coarse{0.0, 0.0, 60.0, 60.0};
