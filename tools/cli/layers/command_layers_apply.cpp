@@ -109,6 +109,7 @@ int run(const Options& options) {
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const SurfaceLayers layers = read_surface_layers(options.layers);
+  if (layers.layers.empty()) throw Error(ErrorKind::usage, options.layers, "no layers", "at least one [[layers]]");
   DemParameters parameters;
   parameters.sources.emplace_back().path = options.dem;
   parameters.max_void_share = 1.0;  // voids stay without a class

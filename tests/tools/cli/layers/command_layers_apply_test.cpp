@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/land_cover_class.h"
 #include "terrain/io/dem.h"
 #include "terrain/io/raster_io.h"
 #include "tests/tools/program.h"
