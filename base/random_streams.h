@@ -106,6 +106,7 @@ enum class Stream : std::uint16_t {
   // What came later: their numbers are their places.
   sand,
   sand_patches,
+  layers_fit,  // which cells surface layers are fitted on, where clusters begin
 
   count  // no stream: how many there are
 };

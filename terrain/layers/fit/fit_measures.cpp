@@ -1,0 +1,222 @@
+#include "terrain/layers/fit/fit_measures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "base/math_exact.h"
+#include "base/parallel.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+double linear(double encoded) {
+  const double v = encoded / 255.0;
+  return v <= 0.04045 ? v / 12.92 : exact::pow((v + 0.055) / 1.055, 2.4);
+}
+double lab_curve(double t) { return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; }
+
+}  // namespace
+
+double area_under_curve(std::span<const float> scores, std::span<const std::uint8_t> is_class) {
+  std::vector<std::pair<float, std::uint8_t>> sorted(scores.size());
+  for (std::size_t i = 0; i != sorted.size(); ++i) sorted[i] = {scores[i], is_class[i]};
+  std::sort(sorted.begin(), sorted.end());
+  double below = 0.0;  // cells of other classes with a smaller score
+  double wins = 0.0;
+  double own = 0.0;
+  for (std::size_t i = 0; i != sorted.size();) {
+    std::size_t end = i;
+    double hits = 0.0;
+    while (end != sorted.size() && sorted[end].first == sorted[i].first) hits += sorted[end++].second != 0 ? 1.0 : 0.0;
+    const double others = static_cast<double>(end - i) - hits;
+    wins += hits * (below + 0.5 * others);
+    below += others;
+    own += hits;
+    i = end;
+  }
+  return own > 0.0 && below > 0.0 ? wins / (own * below) : std::numeric_limits<double>::quiet_NaN();
+}
+
+ClassMeasures measure_classes(const ClassShares& shares, std::span<const std::uint8_t> labels, std::span<const double> offsets) {
+  const auto classes = static_cast<std::size_t>(shares.classes);
+  const std::vector<std::uint8_t> likely = most_likely(shares, offsets);
+  ClassMeasures measures;
+  measures.counts.assign(classes, std::vector<std::size_t>(classes, 0));
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i != labels.size(); ++i) {
+    if (labels[i] == no_class) continue;
+    used.push_back(i);
+    ++measures.counts[labels[i]][likely[i]];
+  }
+  measures.cells = used.size();
+  std::size_t right = 0;
+  measures.iou.assign(classes, 0.0);
+  measures.auc.assign(classes, 0.0);
+  for (std::size_t k = 0; k != classes; ++k) {
+    right += measures.counts[k][k];
+    std::size_t either = 0;
+    for (std::size_t j = 0; j != classes; ++j) either += measures.counts[k][j] + measures.counts[j][k];
+    either -= measures.counts[k][k];
+    measures.iou[k] = static_cast<double>(measures.counts[k][k]) / static_cast<double>(std::max<std::size_t>(either, 1));
+    measures.mean_iou += measures.iou[k] / static_cast<double>(classes);
+  }
+  measures.accuracy = static_cast<double>(right) / static_cast<double>(std::max<std::size_t>(used.size(), 1));
+  parallel_ranges(classes, std::size_t{1}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k != end; ++k) {
+      std::vector<float> scores(used.size());
+      std::vector<std::uint8_t> own(used.size());
+      for (std::size_t i = 0; i != used.size(); ++i) {
+        scores[i] = shares.of(used[i])[k];
+        own[i] = labels[used[i]] == k ? 1 : 0;
+      }
+      measures.auc[k] = area_under_curve(scores, own);
+    }
+  });
+  double known = 0.0;
+  for (const double auc : measures.auc) {
+    if (std::isnan(auc)) continue;
+    measures.mean_auc += auc;
+    known += 1.0;
+  }
+  if (known > 0.0) measures.mean_auc /= known;
+  return measures;
+}
+
+double adjusted_rand_index(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
+  std::map<std::pair<int, int>, double> both;
+  std::map<int, double> of_a;
+  std::map<int, double> of_b;
+  for (std::size_t i = 0; i != a.size(); ++i) {
+    both[{a[i], b[i]}] += 1.0;
+    of_a[a[i]] += 1.0;
+    of_b[b[i]] += 1.0;
+  }
+  const auto pairs = [](const auto& counts) {
+    double sum = 0.0;
+    for (const auto& [key, n] : counts) sum += 0.5 * n * (n - 1.0);
+    return sum;
+  };
+  const double all = 0.5 * static_cast<double>(a.size()) * (static_cast<double>(a.size()) - 1.0);
+  const double together = pairs(both);
+  const double in_a = pairs(of_a);
+  const double in_b = pairs(of_b);
+  const double expected = in_a * in_b / std::max(all, 1.0);
+  const double most = 0.5 * (in_a + in_b);
+  return most == expected ? 1.0 : (together - expected) / (most - expected);
+}
+
+LabColour lab_of_srgb(double r, double g, double b) {
+  const double lr = linear(r);
+  const double lg = linear(g);
+  const double lb = linear(b);
+  const double x = lab_curve((0.4124564 * lr + 0.3575761 * lg + 0.1804375 * lb) / 0.95047);
+  const double y = lab_curve(0.2126729 * lr + 0.7151522 * lg + 0.0721750 * lb);
+  const double z = lab_curve((0.0193339 * lr + 0.1191920 * lg + 0.9503041 * lb) / 1.08883);
+  return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
+}
+
+double colour_difference(const LabColour& one, const LabColour& other) {
+  const double chroma_mean = 0.5 * (std::hypot(one.a, one.b) + std::hypot(other.a, other.b));
+  const double c7 = std::pow(chroma_mean, 7.0);
+  const double g = 0.5 * (1.0 - std::sqrt(c7 / (c7 + 6103515625.0)));  // 25^7
+  const double a1 = (1.0 + g) * one.a;
+  const double a2 = (1.0 + g) * other.a;
+  const double c1 = std::hypot(a1, one.b);
+  const double c2 = std::hypot(a2, other.b);
+  const auto hue = [](double a, double b) {
+    if (a == 0.0 && b == 0.0) return 0.0;
+    const double h = std::atan2(b, a) * 180.0 / pi;
+    return h < 0.0 ? h + 360.0 : h;
+  };
+  const double h1 = hue(a1, one.b);
+  const double h2 = hue(a2, other.b);
+  double dh = c1 * c2 == 0.0 ? 0.0 : h2 - h1;
+  if (dh > 180.0) dh -= 360.0;
+  if (dh < -180.0) dh += 360.0;
+  double h_mean = h1 + h2;
+  if (c1 * c2 != 0.0) {
+    if (std::abs(h1 - h2) > 180.0) h_mean += h_mean < 360.0 ? 360.0 : -360.0;
+    h_mean *= 0.5;
+  }
+  const double dl = other.l - one.l;
+  const double dc = c2 - c1;
+  const double dhh = 2.0 * std::sqrt(c1 * c2) * std::sin(0.5 * dh * pi / 180.0);
+  const auto cosine = [](double degrees) { return std::cos(degrees * pi / 180.0); };
+  const double t = 1.0 - 0.17 * cosine(h_mean - 30.0) + 0.24 * cosine(2.0 * h_mean) + 0.32 * cosine(3.0 * h_mean + 6.0) -
+                   0.20 * cosine(4.0 * h_mean - 63.0);
+  const double l50 = (0.5 * (one.l + other.l) - 50.0) * (0.5 * (one.l + other.l) - 50.0);
+  const double sl = 1.0 + 0.015 * l50 / std::sqrt(20.0 + l50);
+  const double cm = 0.5 * (c1 + c2);
+  const double sc = 1.0 + 0.045 * cm;
+  const double sh = 1.0 + 0.015 * cm * t;
+  const double turn = 30.0 * std::exp(-((h_mean - 275.0) / 25.0) * ((h_mean - 275.0) / 25.0));
+  const double cm7 = std::pow(cm, 7.0);
+  const double rt = -2.0 * std::sqrt(cm7 / (cm7 + 6103515625.0)) * std::sin(2.0 * turn * pi / 180.0);
+  const double l = dl / sl;
+  const double c = dc / sc;
+  const double h = dhh / sh;
+  return std::sqrt(l * l + c * c + h * h + rt * c * h);
+}
+
+BlockDifference block_difference(const RgbPlanes& picture, const RgbPlanes& other, const Grid<std::uint8_t>* use, int block) {
+  constexpr double least_used = 0.3;
+  std::vector<double> differences;
+  for (int y0 = 0; y0 < picture.r.height(); y0 += block)
+    for (int x0 = 0; x0 < picture.r.width(); x0 += block) {
+      std::array<double, 6> sum{};
+      double used = 0.0;
+      double cells = 0.0;
+      for (int y = y0; y < std::min(y0 + block, picture.r.height()); ++y)
+        for (int x = x0; x < std::min(x0 + block, picture.r.width()); ++x) {
+          cells += 1.0;
+          if (use != nullptr && (*use)(x, y) == 0) continue;
+          used += 1.0;
+          const std::array<float, 6> values{picture.r(x, y), picture.g(x, y), picture.b(x, y), other.r(x, y), other.g(x, y), other.b(x, y)};
+          for (std::size_t i = 0; i != 6; ++i) sum[i] += static_cast<double>(values[i]);
+        }
+      if (used < 1.0 || used < least_used * cells) continue;
+      for (double& s : sum) s /= used;
+      differences.push_back(colour_difference(lab_of_srgb(sum[0], sum[1], sum[2]), lab_of_srgb(sum[3], sum[4], sum[5])));
+    }
+  BlockDifference result{block, 0.0, 0.0, differences.size()};
+  if (differences.empty()) return result;
+  result.mean = std::accumulate(differences.begin(), differences.end(), 0.0) / static_cast<double>(differences.size());
+  const auto at = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(differences.size() - 1));
+  std::nth_element(differences.begin(), differences.begin() + at, differences.end());
+  result.p95 = differences[static_cast<std::size_t>(at)];
+  return result;
+}
+
+double gradient_energy(const RgbPlanes& picture, const Grid<std::uint8_t>* use) {
+  const int width = picture.r.width();
+  const int height = picture.r.height();
+  Grid<double> lightness(width, height);
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x != width; ++x)
+      lightness(x, y) =
+          lab_of_srgb(static_cast<double>(picture.r(x, y)), static_cast<double>(picture.g(x, y)), static_cast<double>(picture.b(x, y))).l;
+  });
+  double sum = 0.0;
+  double pairs = 0.0;
+  const auto add = [&](int x, int y, int x2, int y2) {
+    if (x2 == width || y2 == height || (use != nullptr && ((*use)(x, y) == 0 || (*use)(x2, y2) == 0))) return;
+    const double d = lightness(x2, y2) - lightness(x, y);
+    sum += d * d;
+    pairs += 1.0;
+  };
+  for (int y = 0; y != height; ++y)
+    for (int x = 0; x != width; ++x) {
+      add(x, y, x + 1, y);
+      add(x, y, x, y + 1);
+    }
+  return pairs > 0.0 ? sum / pairs : 0.0;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/grid.h"
+#include "terrain/layers/fit/fit_cells.h"
+
+namespace belvedere {
+
+// How well shares tell the classes of cells.
+struct ClassMeasures {
+  std::size_t cells = 0;                         // compared
+  double accuracy = 0.0;                         // share of cells whose most likely class is the true one
+  double mean_iou = 0.0;                         // over classes: cells of both over cells of either, most likely class against true
+  double mean_auc = 0.0;                         // over the classes that occur and are not all
+  std::vector<double> iou;                       // [class]
+  std::vector<double> auc;                       // [class]; NaN where a class does not occur, or nothing else does
+  std::vector<std::vector<std::size_t>> counts;  // [true class][most likely class]
+};
+// Cells whose label is no_class are left out. Offsets as for most_likely.
+ClassMeasures measure_classes(const ClassShares& shares, std::span<const std::uint8_t> labels, std::span<const double> offsets = {});
+
+// The chance that a cell of the class has a larger score than one of another class, ties counting half (the area under the curve of hits
+// over false alarms; Mann and Whitney 1947). NaN where there are none of either kind.
+double area_under_curve(std::span<const float> scores, std::span<const std::uint8_t> is_class);
+
+// How alike two divisions of the same things are, corrected for chance: 1 alike, 0 as by chance (Hubert and Arabie 1985).
+double adjusted_rand_index(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
+
+// 0xrrggbb-like picture in three planes of 0…255, sRGB.
+struct RgbPlanes {
+  Grid<float> r;
+  Grid<float> g;
+  Grid<float> b;
+};
+struct LabColour {
+  double l = 0.0;
+  double a = 0.0;
+  double b = 0.0;
+};
+// CIE L*a*b* under D65 of an sRGB colour of 0…255.
+LabColour lab_of_srgb(double r, double g, double b);
+// CIEDE2000 (Sharma, Wu and Dalal 2005).
+double colour_difference(const LabColour& one, const LabColour& other);
+
+struct BlockDifference {
+  int block = 1;           // cells on a side
+  double mean = 0.0;       // ΔE00 of the mean colours of blocks
+  double p95 = 0.0;        // exceeded by one block in twenty
+  std::size_t blocks = 0;  // with at least .3 of their cells used
+};
+// Over blocks of the used cells (use != 0; null: all).
+BlockDifference block_difference(const RgbPlanes& picture, const RgbPlanes& other, const Grid<std::uint8_t>* use, int block);
+// Mean squared difference of neighbouring cells' lightness, both used: of a picture over another's, it says how much of the detail is
+// there.
+double gradient_energy(const RgbPlanes& picture, const Grid<std::uint8_t>* use);
+
+}  // namespace belvedere
