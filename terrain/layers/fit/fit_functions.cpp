@@ -378,7 +378,7 @@ ClassFunctions histogram_functions(const FitCells& cells, const HistogramParamet
   return made;
 }
 
-ClassShares class_shares(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs) {
+ClassShares predict_shares(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs) {
   const std::size_t classes = functions.bias.size();
   const std::size_t cells = inputs.empty() ? 0 : inputs[0].size();
   const bool product = functions.model == LayerModel::product;

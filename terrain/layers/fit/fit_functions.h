@@ -42,7 +42,7 @@ struct HistogramParameters {
 ClassFunctions histogram_functions(const FitCells& cells, const HistogramParameters& parameters = {});
 
 // Of every cell of `inputs` ([input][cell]), by the model's own rule.
-ClassShares class_shares(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs);
+ClassShares predict_shares(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs);
 
 // Classes from the largest to the smallest; ties to the lower class.
 std::vector<int> by_falling_area(const std::vector<std::size_t>& counts);

@@ -155,7 +155,7 @@ Forest fit_forest(const FitCells& cells, const ForestParameters& parameters) {
   return forest;
 }
 
-ClassShares class_shares(const Forest& forest, const std::vector<std::vector<std::uint8_t>>& inputs) {
+ClassShares predict_shares(const Forest& forest, const std::vector<std::vector<std::uint8_t>>& inputs) {
   const auto classes = static_cast<std::size_t>(forest.classes);
   const std::size_t cells = inputs.empty() ? 0 : inputs[0].size();
   ClassShares shares{forest.classes, std::vector<float>(cells * classes, 0.0F)};

@@ -8,9 +8,9 @@
 namespace belvedere {
 
 struct ForestParameters {
-  int trees = 30;          // ≥ 1
-  int depth = 11;          // splits from root to leaf at most, ≥ 1
-  int leaf = 25;           // cells in a leaf at least, ≥ 1
+  int trees = 50;          // ≥ 1
+  int depth = 14;          // splits from root to leaf at most, ≥ 1
+  int leaf = 6;            // cells in a leaf at least, ≥ 1
   std::uint64_t seed = 0;  // part of the stream layers_fit
 };
 
@@ -31,6 +31,6 @@ struct Forest {
   std::vector<ForestTree> trees;
 };
 Forest fit_forest(const FitCells& cells, const ForestParameters& parameters = {});
-ClassShares class_shares(const Forest& forest, const std::vector<std::vector<std::uint8_t>>& inputs);
+ClassShares predict_shares(const Forest& forest, const std::vector<std::vector<std::uint8_t>>& inputs);
 
 }  // namespace belvedere

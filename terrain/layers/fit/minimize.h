@@ -9,7 +9,7 @@ namespace belvedere {
 struct MinimizeParameters {
   int steps = 150;          // at most, ≥ 0
   int memory = 10;          // pairs of steps and changes of the gradient that are remembered, ≥ 1
-  double tolerance = 1e-7;  // stops where a step gains less than this share of the value, ≥ 0
+  double tolerance = 1e-9;  // stops where a step gains less than this share of the value, ≥ 0
 };
 struct MinimizeResult {
   std::vector<double> at;

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/grid.h"
+#include "base/land_cover_class.h"
+#include "terrain/layers/fit/fit_cells.h"
+#include "terrain/layers/fit/fit_functions.h"
+#include "terrain/layers/fit/fit_measures.h"
+#include "terrain/layers/fit/forest.h"
+#include "terrain/layers/fit/picture_sun.h"
+#include "terrain/layers/surface_layers.h"
+
+namespace belvedere {
+
+struct FitClass {
+  std::string name;
+  std::optional<LandCoverClass> painted_as;
+  std::uint32_t rgb = 0x808080;  // where no picture gives its colours
+};
+
+// A picture of the ground, cell for cell.
+struct FitPicture {
+  RgbPlanes rgb;
+  std::optional<double> sun_azimuth_deg;  // as clouds' shadows tell it
+};
+
+// Ground whose classes are known: what is learned from. All grids are of one size.
+struct KnownGround {
+  double cell_m = 0.0;
+  Grid<float> altitude_m;
+  std::vector<std::string> input_names;
+  std::vector<Grid<float>> inputs;
+  std::vector<FitClass> classes;
+  std::vector<std::uint8_t> labels;   // no_class: not to be learned from
+  std::optional<FitPicture> picture;  // without one, layers have the colours of their classes and no children
+};
+
+enum class FunctionSource : std::uint8_t {
+  fitted,     // by likelihood
+  histogram,  // as published
+};
+struct GroundFitParameters {
+  LayerModel model = LayerModel::product;
+  FunctionSource functions = FunctionSource::fitted;
+  int children = 4;           // of a class, by colour; half as many where it covers less than a twentieth; 1: none
+  double forest_share = 0.0;  // 0…1: of a forest in the mean with the model's shares; no file can hold that
+};
+
+// What was learned: functions of classes, and within each class functions of its colours.
+struct GroundFit {
+  std::vector<LayerInput> ranges;
+  ClassFunctions classes;
+  std::vector<ClassFunctions> children;        // [class]; without functions where it has one colour
+  std::vector<int> parent;                     // [leaf]: its class; leaves of a class stand together
+  std::vector<std::array<double, 3>> colours;  // [leaf], 0…255, as on level ground under the picture's sun
+  std::vector<std::size_t> cells;              // [leaf] that it was learned from
+  PictureSun sun;
+  LightAnswers light;  // [class]
+  double forest_share = 0.0;
+  Forest forest;  // of leaves
+};
+// From the cells where `learn` is not 0 (null: everywhere). Error(input) where fewer than 100 cells or fewer than two classes are left.
+GroundFit fit_ground(const KnownGround& ground, const GroundFitParameters& parameters, const Grid<std::uint8_t>* learn = nullptr);
+
+// Places of values in their ranges as samples: what functions of a file are asked with.
+std::vector<std::vector<std::uint8_t>> sample_indices(const std::vector<Grid<float>>& inputs, const std::vector<LayerInput>& ranges);
+
+struct GroundPrediction {
+  ClassShares classes;
+  RgbPlanes even;      // expected colours on level ground (with a picture)
+  RgbPlanes expected;  // … in the light of the picture's sun
+};
+GroundPrediction predict_ground(const KnownGround& ground, const GroundFit& fit);
+
+// As a file holds it. A class is a layer, its colours are layers under it (P27, P32).
+SurfaceLayers surface_layers_of(const KnownGround& ground, const GroundFit& fit, const std::string& name);
+
+}  // namespace belvedere
