@@ -1,0 +1,107 @@
+#include "terrain/layers/fit/colour_regions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "base/config.h"
+#include "base/error.h"
+
+namespace belvedere {
+namespace {
+
+std::array<double, 2> as_pair(const ConfigValue& value, const std::string& name, double lowest, double highest) {
+  const ConfigArray& numbers = as_array(value, name);
+  const std::string allowed = fmt::format("two numbers, {}…{}", lowest, highest);
+  if (numbers.size() != 2)
+    throw Error(ErrorKind::usage, config_where(name, value.place), fmt::format("{} values", numbers.size()), allowed);
+  std::array<double, 2> pair{};
+  for (std::size_t i = 0; i != 2; ++i) {
+    pair[i] = as_number(numbers[i], name);
+    if (!(pair[i] >= lowest && pair[i] <= highest))
+      throw Error(ErrorKind::usage, config_where(name, numbers[i].place), describe(numbers[i]), allowed);
+  }
+  return pair;
+}
+
+// Even–odd rule in the plane, where saturation is the distance and hue the direction.
+bool inside(const std::vector<std::array<double, 2>>& polygon, const HueSaturation& colour) {
+  const auto place = [](double hue, double saturation) { return hue_saturation_place({hue, saturation, 1.0, false}); };
+  const PlanePlace at = place(colour.hue_deg, colour.saturation);
+  bool odd = false;
+  for (std::size_t i = 0, j = polygon.size() - 1; i != polygon.size(); j = i++) {
+    const PlanePlace a = place(polygon[i][0], polygon[i][1]);
+    const PlanePlace b = place(polygon[j][0], polygon[j][1]);
+    if ((a.y > at.y) != (b.y > at.y) && at.x < a.x + (at.y - a.y) * (b.x - a.x) / (b.y - a.y)) odd = !odd;
+  }
+  return odd;
+}
+
+ColourRegion region_of(const ConfigTable& table, ConfigPlace place, const std::string& name) {
+  allow_only(table, {"name", "class", "colour", "grey", "hue_deg", "saturation", "value", "polygon", "lowest_m"}, name);
+  ColourRegion region;
+  const ConfigValue* title = find(table, "name");
+  if (title == nullptr) throw Error(ErrorKind::usage, config_where(name, place), "a region without a name", "name = \"…\"");
+  region.of.name = as_string(*title, name);
+  if (const ConfigValue* painted_as = find(table, "class")) {
+    const std::string& word = as_string(*painted_as, name);
+    region.of.painted_as = find_class(word);
+    if (!region.of.painted_as) {
+      std::vector<std::string> known;
+      for (const LandCoverClassInfo& info : land_cover_table) known.emplace_back(info.name);
+      const std::string near = nearest_word(word, known);
+      throw Error(ErrorKind::usage, config_where(name, painted_as->place), fmt::format("unknown class \"{}\"", word),
+                  near.empty() ? "a class of docs/legends.md" : near);
+    }
+  }
+  if (const ConfigValue* grey = find(table, "grey")) region.grey = as_bool(*grey, name);
+  if (const ConfigValue* hue = find(table, "hue_deg")) region.hue_deg = as_pair(*hue, name, 0.0, 360.0);
+  if (const ConfigValue* saturation = find(table, "saturation")) region.saturation = as_pair(*saturation, name, 0.0, 1.01);
+  if (const ConfigValue* value = find(table, "value")) region.value = as_pair(*value, name, 0.0, 1.01);
+  if (const ConfigValue* lowest = find(table, "lowest_m")) region.lowest_m = as_number(*lowest, name);
+  if (const ConfigValue* polygon = find(table, "polygon")) {
+    for (const ConfigValue& corner : as_array(*polygon, name)) {
+      const ConfigArray& numbers = as_array(corner, name);
+      if (numbers.size() != 2)
+        throw Error(ErrorKind::usage, config_where(name, corner.place), "no corner", "[hue in degrees, saturation 0…1]");
+      region.polygon.push_back({as_number(numbers[0], name), as_number(numbers[1], name)});
+    }
+    if (region.polygon.size() < 3)
+      throw Error(ErrorKind::usage, config_where(name, polygon->place), fmt::format("{} corners", region.polygon.size()), "at least 3");
+  }
+  return region;
+}
+
+std::vector<ColourRegion> regions_of(const ConfigValue& root, const std::string& name) {
+  const ConfigTable& table = as_table(root, name);
+  allow_only(table, {"region"}, name);
+  std::vector<ColourRegion> regions;
+  if (const ConfigValue* list = find(table, "region"))
+    for (const ConfigValue& value : as_array(*list, name)) regions.push_back(region_of(as_table(value, name), value.place, name));
+  // A name may come twice: a class of several regions.
+  if (regions.empty()) throw Error(ErrorKind::usage, name, "no region", "[[region]] tables");
+  return regions;
+}
+
+}  // namespace
+
+bool holds(const ColourRegion& region, const HueSaturation& colour, double altitude_m) {
+  if (region.grey && *region.grey != colour.grey) return false;
+  if (altitude_m < region.lowest_m) return false;
+  if (colour.saturation < region.saturation[0] || colour.saturation >= region.saturation[1]) return false;
+  if (colour.value < region.value[0] || colour.value >= region.value[1]) return false;
+  if (region.hue_deg) {
+    const auto [from, to] = *region.hue_deg;
+    const bool in = from <= to ? colour.hue_deg >= from && colour.hue_deg < to : colour.hue_deg >= from || colour.hue_deg < to;
+    if (!in) return false;
+  }
+  return region.polygon.empty() || inside(region.polygon, colour);
+}
+
+std::vector<ColourRegion> parse_colour_regions(std::string_view text, const std::string& name) {
+  return regions_of(parse_config(text, name), name);
+}
+std::vector<ColourRegion> read_colour_regions(const std::string& path) { return regions_of(read_config(path), path); }
+
+}  // namespace belvedere

@@ -1,0 +1,165 @@
+#include "terrain/layers/fit/picture_classes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "base/math_exact.h"
+
+namespace belvedere {
+namespace {
+
+std::array<double, 3> colour_at(const RgbPlanes& picture, std::size_t i) {
+  return {static_cast<double>(picture.r[i]), static_cast<double>(picture.g[i]), static_cast<double>(picture.b[i])};
+}
+
+// The name that people would give a mean colour.
+std::string colour_word(const std::array<double, 3>& rgb) {
+  const HueSaturation c = hue_saturation_of(rgb[0], rgb[1], rgb[2]);
+  const char* hue = c.grey || c.saturation < 0.08 ? (c.value > 0.75 ? "white" : "grey")
+                    : c.hue_deg < 20.0            ? "red"
+                    : c.hue_deg < 48.0            ? "brown"
+                    : c.hue_deg < 66.0            ? "olive"
+                    : c.hue_deg < 165.0           ? "green"
+                    : c.hue_deg < 200.0           ? "cyan"
+                    : c.hue_deg < 265.0           ? "blue"
+                    : c.hue_deg < 330.0           ? "purple"
+                                                  : "red";
+  return c.value < 0.25 ? fmt::format("dark {}", hue) : hue;
+}
+
+// Classes get the names of their mean colours, numbered where two would be alike.
+std::vector<FitClass> named_by_colour(const RgbPlanes& picture, const std::vector<std::uint8_t>& labels, int classes) {
+  std::vector<std::array<double, 3>> sums(static_cast<std::size_t>(classes), std::array<double, 3>{});
+  for (std::size_t i = 0; i != labels.size(); ++i) {
+    if (labels[i] == no_class) continue;
+    const std::array<double, 3> rgb = colour_at(picture, i);
+    for (std::size_t c = 0; c != 3; ++c) sums[labels[i]][c] += rgb[c];
+  }
+  const std::vector<std::size_t> counts = count_labels(labels, classes);
+  std::vector<FitClass> named;
+  for (std::size_t k = 0; k != sums.size(); ++k) {
+    for (double& v : sums[k]) v /= static_cast<double>(std::max<std::size_t>(counts[k], 1));
+    const std::string word = colour_word(sums[k]);
+    std::string name = word;
+    for (int n = 2; std::any_of(named.begin(), named.end(), [&](const FitClass& c) { return c.name == name; }); ++n)
+      name = fmt::format("{} {}", word, n);
+    named.push_back({name, std::nullopt, 0x808080});
+  }
+  return named;
+}
+
+// Greys and snow have no hue that would tell them apart: their lightness does, once it is freed of the sun.
+std::vector<std::uint8_t> labels_by_lightness(const RgbPlanes& picture, const Grid<float>& altitude_m, double cell_m,
+                                              const Grid<std::uint8_t>& use, const Clouds& clouds, int classes) {
+  constexpr std::size_t most = 20'000;
+  Grid<float> brightness(use.width(), use.height());
+  std::vector<std::uint8_t> all(use.size());
+  for (std::size_t i = 0; i != use.size(); ++i) {
+    brightness[i] = (picture.r[i] + picture.g[i] + picture.b[i]) / 3.0F;
+    all[i] = use[i] != 0 ? 0 : no_class;
+  }
+  const PictureSun sun =
+      find_sun(altitude_m, cell_m, brightness, {}, use, clouds.found ? std::optional<double>(clouds.sun_azimuth_deg) : std::nullopt);
+  const Grid<float> light = sunlight(altitude_m, cell_m, sun);
+  const RgbPlanes even =
+      lit_evenly(picture, light, exact::sin(to_radians(sun.elevation_deg)), all, light_answers(picture, light, all, 1, use));
+  for (std::size_t i = 0; i != all.size(); ++i)
+    if (!(light[i] > 0.05F)) all[i] = no_class;
+  const auto place_of = [&](std::size_t i) {
+    const std::array<double, 3> rgb = colour_at(even, i);
+    const LabColour lab = lab_of_srgb(std::clamp(rgb[0], 0.0, 255.0), std::clamp(rgb[1], 0.0, 255.0), std::clamp(rgb[2], 0.0, 255.0));
+    return ClusterPlace{lab.l, lab.a, lab.b};
+  };
+  std::vector<ClusterPlace> places;
+  for (const std::uint32_t i : draw_labelled(all, most, 3)) places.push_back(place_of(i));
+  std::vector<ClusterPlace> means = cluster_means(places, classes, {.part = 3});
+  std::sort(means.begin(), means.end());  // the darkest first
+  for (std::size_t i = 0; i != all.size(); ++i)
+    if (all[i] != no_class) all[i] = nearest_mean(place_of(i), means);
+  return all;
+}
+
+}  // namespace
+
+PictureClasses picture_classes(const RgbPlanes& picture, const Grid<float>& altitude_m, double cell_m, const Grid<std::uint8_t>& use,
+                               const PictureClassParameters& parameters) {
+  constexpr double least_used = 0.01;
+  PictureClasses found;
+  found.clouds = find_clouds(picture, cell_m, parameters.clouds);
+  const RgbPlanes smooth = smooth_chroma(picture, parameters.chroma_sigma_cells);
+  Grid<std::uint8_t> clear = use;
+  std::vector<HueSaturation> colours(use.size());
+  std::size_t used = 0;
+  std::size_t greys = 0;
+  for (std::size_t i = 0; i != use.size(); ++i) {
+    if (found.clouds.found && (found.clouds.cloud[i] != 0 || found.clouds.shadow[i] != 0)) clear[i] = 0;
+    if (clear[i] == 0) continue;
+    const std::array<double, 3> rgb = colour_at(smooth, i);
+    colours[i] = hue_saturation_of(rgb[0], rgb[1], rgb[2]);
+    ++used;
+    if (colours[i].grey) ++greys;
+  }
+  found.used_share = static_cast<double>(used) / static_cast<double>(std::max<std::size_t>(use.size(), 1));
+  found.grey_share = static_cast<double>(greys) / static_cast<double>(std::max<std::size_t>(used, 1));
+  if (found.used_share < least_used)
+    throw Error(
+        ErrorKind::input, "picture",
+        fmt::format("{:.1f} % of it shows ground: the rest is cloud, shadow, masked or without altitudes", 100.0 * found.used_share),
+        "a clearer picture, at least 1 %");
+  found.labels.assign(use.size(), no_class);
+  if (!parameters.regions.empty()) {
+    std::vector<std::size_t> class_of;  // of each region
+    for (const ColourRegion& region : parameters.regions) {
+      const auto same =
+          std::find_if(found.classes.begin(), found.classes.end(), [&](const FitClass& c) { return c.name == region.of.name; });
+      class_of.push_back(static_cast<std::size_t>(same - found.classes.begin()));
+      if (same == found.classes.end()) found.classes.push_back(region.of);
+    }
+    for (std::size_t i = 0; i != use.size(); ++i) {
+      if (clear[i] == 0) continue;
+      for (std::size_t r = 0; r != class_of.size() && found.labels[i] == no_class; ++r)
+        if (holds(parameters.regions[r], colours[i], static_cast<double>(altitude_m[i])))
+          found.labels[i] = static_cast<std::uint8_t>(class_of[r]);
+    }
+  } else {
+    std::vector<PlanePlace> places;
+    places.reserve(used);
+    for (std::size_t i = 0; i != use.size(); ++i)
+      if (clear[i] != 0) places.push_back(hue_saturation_place(colours[i]));
+    const Clusters clusters = find_clusters(places);
+    const std::vector<std::uint8_t> at = clusters_at(places, clusters);
+    found.parts = static_cast<int>(clusters.parts.size());
+    const std::vector<std::size_t> counts = count_labels(at, clusters.classes);
+    const std::size_t largest = *std::max_element(counts.begin(), counts.end());
+    if (static_cast<double>(largest) > parameters.one_colour * static_cast<double>(used)) {
+      found.lightness = true;
+      found.labels = labels_by_lightness(picture, altitude_m, cell_m, clear, found.clouds, parameters.by_lightness);
+    } else {
+      for (std::size_t i = 0, next = 0; i != use.size(); ++i)
+        if (clear[i] != 0) found.labels[i] = at[next++];
+    }
+    // Numbers without gaps.
+    std::array<std::uint8_t, 256> number{};
+    number.fill(no_class);
+    std::uint8_t classes = 0;
+    for (std::uint8_t& label : found.labels) {
+      if (label == no_class) continue;
+      if (number[label] == no_class) number[label] = classes++;
+      label = number[label];
+    }
+    found.classes = named_by_colour(picture, found.labels, classes);
+  }
+  const std::vector<std::size_t> counts = count_labels(found.labels, static_cast<int>(found.classes.size()));
+  if (std::count_if(counts.begin(), counts.end(), [](std::size_t c) { return c > 0; }) < 2)
+    throw Error(ErrorKind::input, "picture", "one class only: its colours do not tell ground apart",
+                "a picture of more than one colour, or regions that divide it");
+  return found;
+}
+
+}  // namespace belvedere
