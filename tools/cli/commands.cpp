@@ -22,6 +22,7 @@ const std::vector<Command>& all_commands() {
       {"exemplar", "compare", "Sets figures of pictures side by side: what gives one away as computed?", add_exemplar_compare},
       {"exemplar", "paint", "Paints an example for synthesis to copy: a sheet with everything on it, or a scene's view in strokes alone",
        add_exemplar_paint},
+      {"layers", "fit", "Learns surface layers from a satellite picture or a land-cover map and a DEM", add_layers_fit},
       {"layers", "apply", "Lays surface layers over a DEM: classes, colours and coverages as GeoTIFF", add_layers_apply},
       {"", "info", "Says what a picture or guidance file holds and how it was made", add_info},
       {"", "diff", "Compares two pictures or guidance files, with thresholds", add_diff},

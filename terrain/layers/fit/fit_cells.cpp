@@ -45,6 +45,18 @@ std::vector<std::size_t> count_labels(std::span<const std::uint8_t> labels, int 
   return count;
 }
 
+std::vector<double> mean_shares(const ClassShares& shares, std::span<const std::uint8_t> labels) {
+  std::vector<double> mean(static_cast<std::size_t>(shares.classes), 0.0);
+  double cells = 0.0;
+  for (std::size_t i = 0; i != labels.size(); ++i) {
+    if (labels[i] == no_class) continue;
+    cells += 1.0;
+    for (std::size_t k = 0; k != mean.size(); ++k) mean[k] += static_cast<double>(shares.of(i)[k]);
+  }
+  for (double& m : mean) m /= std::max(cells, 1.0);
+  return mean;
+}
+
 ClassShares mix_shares(const ClassShares& a, const ClassShares& b, double weight) {
   ClassShares mixed = a;
   const auto of_a = static_cast<float>(weight);

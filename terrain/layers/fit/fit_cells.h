@@ -39,6 +39,8 @@ struct ClassShares {
     return std::span(values).subspan(cell * static_cast<std::size_t>(classes), static_cast<std::size_t>(classes));
   }
 };
+// The mean share of each class over the cells that have a label.
+std::vector<double> mean_shares(const ClassShares& shares, std::span<const std::uint8_t> labels);
 // weight · a + (1 - weight) · b.
 ClassShares mix_shares(const ClassShares& a, const ClassShares& b, double weight);
 // The most likely class of each cell, its share times the class's offset (empty: 1 each); ties to the lower class.

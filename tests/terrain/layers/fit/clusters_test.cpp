@@ -1,0 +1,76 @@
+#include "terrain/layers/fit/clusters.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "terrain/layers/fit/fit_measures.h"
+#include "tests/terrain/layers/fit/made_up_picture.h"
+
+namespace belvedere {
+namespace {
+
+std::vector<PlanePlace> places_of(const RgbPlanes& rgb) {
+  std::vector<PlanePlace> places;
+  for (std::size_t i = 0; i != rgb.r.size(); ++i)
+    places.push_back(hue_saturation_place(
+        hue_saturation_of(static_cast<double>(rgb.r[i]), static_cast<double>(rgb.g[i]), static_cast<double>(rgb.b[i]))));
+  return places;
+}
+
+TEST(ClusterMeans, FindHeapsFarApart) {
+  std::vector<ClusterPlace> places;
+  for (int i = 0; i != 300; ++i) {
+    const double heap = i % 3;
+    places.push_back({10.0 * heap + 0.1 * random_normal(1, i, 0), heap * heap + 0.1 * random_normal(1, i, 1), 0.0});
+  }
+  std::vector<ClusterPlace> means = cluster_means(places, 3);
+  std::sort(means.begin(), means.end());
+  for (std::size_t k = 0; k != 3; ++k) {
+    EXPECT_NEAR(means[k][0], 10.0 * static_cast<double>(k), 0.05);
+    EXPECT_NEAR(means[k][1], static_cast<double>(k * k), 0.05);
+  }
+  EXPECT_EQ(cluster_means(std::vector<ClusterPlace>(20, ClusterPlace{1.0, 2.0, 3.0}), 4).size(), 1U);
+}
+
+TEST(FindClusters, MadeUpPictureIsDividedAsItWasMade) {
+  const Grid<float> ground = made_up::hills(256, 256);
+  const made_up::Picture picture = made_up::seven_classes(ground, {140.0, 40.0, 0.0}, 4.0);
+  const std::vector<PlanePlace> places = places_of(smooth_chroma(picture.rgb, 2.5));
+  const Clusters clusters = find_clusters(places);
+  EXPECT_GE(clusters.classes, 4);
+  EXPECT_LE(clusters.classes, static_cast<int>(clusters.parts.size()));
+  EXPECT_GE(adjusted_rand_index(clusters_at(places, clusters), picture.classes), 0.73);
+}
+
+// One class along a bent gradient needs several Gaussians, and is one class all the same.
+TEST(FindClusters, PartsThatOverlapAreJoined) {
+  std::vector<PlanePlace> places;
+  for (int i = 0; i != 6'000; ++i) {
+    const double t = random_uniform(4, i, 0);
+    const double spread = 0.02;
+    if (i % 3 == 0)
+      places.push_back({-0.6 + spread * random_normal(4, i, 1), 0.1 + spread * random_normal(4, i, 2)});
+    else
+      places.push_back({0.2 + 0.4 * t + spread * random_normal(4, i, 1), 0.8 * t * (1.0 - t) + spread * random_normal(4, i, 2)});
+  }
+  const Clusters joined = find_clusters(places);
+  EXPECT_EQ(joined.classes, 2);
+  EXPECT_GT(joined.parts.size(), 2U);
+  EXPECT_GT(find_clusters(places, {.join = 2.0}).classes, 2);
+}
+
+TEST(FindClusters, OneThreadOrTwoGiveTheSameParts) {
+  const std::vector<PlanePlace> places = places_of(made_up::seven_classes(made_up::hills(96, 96), {140.0, 40.0, 0.0}, 4.0).rgb);
+  const auto first_mean = [&](int threads) {
+    const ThreadLimit limit(threads);
+    const Clusters clusters = find_clusters(places);
+    return std::pair(clusters.parts[0].mean.x, clusters.parts[0].xx);
+  };
+  EXPECT_EQ(first_mean(1), first_mean(2));
+}
+
+TEST(FindClusters, TooFewPlacesAreAnError) { EXPECT_THROW(find_clusters(std::vector<PlanePlace>(10)), Error); }
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,61 @@
+#include "terrain/layers/fit/colour_regions.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+
+namespace belvedere {
+namespace {
+
+TEST(ColourRegions, BoundsPolygonsGreysAndAltitude) {
+  const std::vector<ColourRegion> regions = parse_colour_regions(R"(
+[[region]]
+name = "ice"
+class = "glacier"
+hue_deg = [165, 215]
+saturation = [0.3, 1.01]
+lowest_m = 3600
+[[region]]
+name = "red"
+hue_deg = [340, 20]
+[[region]]
+name = "meadow"
+polygon = [[80, 0.2], [160, 0.2], [160, 1], [80, 1]]
+[[region]]
+name = "rock"
+grey = true
+)",
+                                                                 "regions.toml");
+  ASSERT_EQ(regions.size(), 4U);
+  EXPECT_EQ(regions[0].of.painted_as, LandCoverClass::glacier);
+  const HueSaturation cyan{190.0, 0.6, 0.8, false};
+  EXPECT_TRUE(holds(regions[0], cyan, 4000.0));
+  EXPECT_FALSE(holds(regions[0], cyan, 3000.0));  // clouds are not snow
+  EXPECT_TRUE(holds(regions[1], {350.0, 0.5, 0.5, false}, 0.0));
+  EXPECT_TRUE(holds(regions[1], {10.0, 0.5, 0.5, false}, 0.0));
+  EXPECT_FALSE(holds(regions[1], {60.0, 0.5, 0.5, false}, 0.0));
+  EXPECT_TRUE(holds(regions[2], {120.0, 0.4, 0.5, false}, 0.0));
+  EXPECT_FALSE(holds(regions[2], {120.0, 0.02, 0.5, false}, 0.0));
+  EXPECT_FALSE(holds(regions[2], {300.0, 0.4, 0.5, false}, 0.0));
+  EXPECT_TRUE(holds(regions[3], {300.0, 0.04, 0.5, true}, 0.0));
+  EXPECT_FALSE(holds(regions[3], {300.0, 0.4, 0.5, false}, 0.0));
+}
+
+TEST(ColourRegions, FaultsNameTheirPlace) {
+  const auto message = [](const char* text) {
+    try {
+      parse_colour_regions(text, "r.toml");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message("[[region]]\nname = \"a\"\nclass = \"glacer\"").find("r.toml:3"), std::string::npos);
+  EXPECT_NE(message("[[region]]\nname = \"a\"\npolygon = [[1, 1], [2, 1]]").find("2 corners"), std::string::npos);
+  EXPECT_NE(message("[[region]]\nhue_deg = [1, 2]").find("name"), std::string::npos);
+  EXPECT_NE(message("[[region]]\nname = \"a\"\nhue_deg = [1, 400]").find("400"), std::string::npos);
+  EXPECT_NE(message("").find("no region"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace belvedere

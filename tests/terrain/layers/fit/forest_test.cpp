@@ -1,0 +1,50 @@
+#include "terrain/layers/fit/forest.h"
+
+#include <gtest/gtest.h>
+
+#include "base/parallel.h"
+#include "terrain/layers/fit/fit_measures.h"
+#include "tests/terrain/layers/fit/made_up.h"
+
+namespace belvedere {
+namespace {
+
+// A class of a square in the middle: no sum of functions of one input each says so exactly, trees do.
+FitCells square(std::size_t count, std::uint64_t seed) {
+  FitCells cells = made_up::two_classes(count, seed);
+  for (std::size_t i = 0; i != count; ++i) {
+    const bool in = cells.inputs[0][i] >= 64 && cells.inputs[0][i] < 192;
+    const bool too = cells.inputs[1][i] >= 64 && cells.inputs[1][i] < 192;
+    cells.labels[i] = in != too ? 1 : 0;
+  }
+  return cells;
+}
+
+TEST(Forest, LearnsWhatHangsOnTwoInputsTogether) {
+  const FitCells judged = square(5'000, 12);
+  const ClassShares shares = predict_shares(fit_forest(square(20'000, 11)), judged.inputs);
+  EXPECT_GT(measure_classes(shares, judged.labels).accuracy, 0.97);
+}
+
+TEST(Forest, LeavesAreNoSmallerThanAsked) {
+  const FitCells cells = square(4'000, 3);
+  const Forest forest = fit_forest(cells, {.trees = 3, .depth = 20, .leaf = 50});
+  for (const ForestTree& tree : forest.trees) {
+    std::size_t leaves = 0;
+    for (const ForestNode& node : tree.nodes) leaves += node.child < 0 ? 1 : 0;
+    EXPECT_LE(leaves, 2'000U / 50U);
+    EXPECT_GT(leaves, 4U);
+  }
+}
+
+TEST(Forest, OneThreadOrTwoGiveTheSameShares) {
+  const FitCells cells = square(6'000, 5);
+  const auto shares = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return predict_shares(fit_forest(cells, {.trees = 8}), cells.inputs).values;
+  };
+  EXPECT_EQ(shares(1), shares(2));
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,51 @@
+#include "terrain/layers/fit/picture_classes.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "tests/terrain/layers/fit/made_up_picture.h"
+
+namespace belvedere {
+namespace {
+
+TEST(PictureClasses, FindsTheClassesOfAMadeUpPicture) {
+  const Grid<float> ground = made_up::hills(200, 200);
+  const made_up::Picture picture = made_up::seven_classes(ground, {140.0, 40.0}, 4.0);
+  Grid<std::uint8_t> use(200, 200, 1);
+  for (int y = 0; y != 200; ++y) use(0, y) = 0;
+  const PictureClasses found = picture_classes(picture.rgb, ground, 30.0, use);
+  EXPECT_FALSE(found.clouds.found);
+  EXPECT_FALSE(found.lightness);
+  EXPECT_NEAR(found.used_share, 0.995, 1e-9);
+  EXPECT_EQ(found.labels[0], no_class);  // not in use
+  EXPECT_GE(found.classes.size(), 4U);
+  EXPECT_GT(adjusted_rand_index(found.labels, picture.classes), 0.65);
+}
+
+TEST(PictureClasses, OneHueIsDividedByLightness) {
+  const Grid<float> ground = made_up::hills(160, 160);
+  RgbPlanes snow{Grid<float>(160, 160), Grid<float>(160, 160), Grid<float>(160, 160)};
+  for (std::size_t i = 0; i != snow.r.size(); ++i) {
+    const float light = (ground[i] > 0.0F ? 200.0F : 90.0F) + static_cast<float>(4.0 * random_normal(8, static_cast<std::int64_t>(i), 0));
+    snow.r[i] = 0.5F * light;
+    snow.g[i] = 0.8F * light;
+    snow.b[i] = light;
+  }
+  const PictureClasses found = picture_classes(snow, ground, 30.0, Grid<std::uint8_t>(160, 160, 1), {.by_lightness = 2});
+  EXPECT_TRUE(found.lightness);
+  EXPECT_EQ(found.classes.size(), 2U);
+  std::size_t high = 0;
+  for (std::size_t i = 0; i != found.labels.size(); ++i)
+    if (found.labels[i] != no_class && (found.labels[i] == found.labels[0]) == ((ground[i] > 0.0F) == (ground[0] > 0.0F))) ++high;
+  EXPECT_GT(high, 160U * 160U * 9U / 10U);
+}
+
+TEST(PictureClasses, NothingToLearnFromIsAnError) {
+  const Grid<float> ground = made_up::hills(64, 64);
+  const RgbPlanes grey{Grid<float>(64, 64, 90.0F), Grid<float>(64, 64, 90.0F), Grid<float>(64, 64, 90.0F)};
+  EXPECT_THROW(picture_classes(grey, ground, 30.0, Grid<std::uint8_t>(64, 64, 0)), Error);
+  EXPECT_THROW(picture_classes(grey, ground, 30.0, Grid<std::uint8_t>(64, 64, 1)), Error);  // one class only
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,388 @@
+#include "tools/report/layers_fit_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <utility>
+
+#include "base/json.h"
+#include "terrain/layers/fit/held_out.h"
+#include "terrain/layers/fit/hue_saturation.h"
+#include "terrain/layers/layer_coverage.h"
+#include "tools/report/report_folder.h"
+#include "tools/report/report_pictures.h"
+
+namespace belvedere::tools {
+namespace {
+
+constexpr int map_px = 480;  // longest side of a small map
+
+Grid<glm::vec3> picture_of(const RgbPlanes& rgb) {
+  Grid<glm::vec3> out(rgb.r.width(), rgb.r.height());
+  for (std::size_t i = 0; i != out.size(); ++i) out[i] = glm::vec3(rgb.r[i], rgb.g[i], rgb.b[i]) / 255.0F;
+  return out;
+}
+
+glm::vec3 unpacked(std::uint32_t rgb) {
+  return glm::vec3(static_cast<float>(rgb >> 16U), static_cast<float>(rgb >> 8U & 255U), static_cast<float>(rgb & 255U)) / 255.0F;
+}
+std::string css(const glm::vec3& rgb) {
+  const auto byte = [](float v) { return static_cast<int>(std::clamp(v, 0.0F, 1.0F) * 255.0F + 0.5F); };
+  return fmt::format("#{:02x}{:02x}{:02x}", byte(rgb.x), byte(rgb.y), byte(rgb.z));
+}
+
+// Each class in the mean of its leaves' colours.
+std::vector<glm::vec3> class_colours(const KnownGround& ground, const GroundFit& fit) {
+  std::vector<glm::vec3> colours(ground.classes.size(), glm::vec3(0.0F));
+  std::vector<float> cells(colours.size(), 0.0F);
+  for (std::size_t j = 0; j != fit.parent.size(); ++j) {
+    const auto k = static_cast<std::size_t>(fit.parent[j]);
+    const auto n = static_cast<float>(fit.cells[j]);
+    colours[k] +=
+        n * glm::vec3(static_cast<float>(fit.colours[j][0]), static_cast<float>(fit.colours[j][1]), static_cast<float>(fit.colours[j][2])) /
+        255.0F;
+    cells[k] += n;
+  }
+  for (std::size_t k = 0; k != colours.size(); ++k) colours[k] = cells[k] > 0.0F ? colours[k] / cells[k] : unpacked(ground.classes[k].rgb);
+  return colours;
+}
+
+Grid<glm::vec3> class_map(const Grid<float>& like, const std::vector<std::uint8_t>& labels, const std::vector<glm::vec3>& colours) {
+  Grid<glm::vec3> map(like.width(), like.height(), glm::vec3(0.0F));
+  for (std::size_t i = 0; i != map.size(); ++i)
+    if (labels[i] != no_class) map[i] = colours[labels[i]];
+  return map;
+}
+
+// How many cells have each colour of the hue–saturation plane, dark where few, in the colour of the class that has most of them.
+Grid<glm::vec3> plane_picture(const KnownGround& ground, const std::vector<glm::vec3>& colours) {
+  constexpr int side = 256;
+  const RgbPlanes smooth = smooth_chroma(ground.picture->rgb);
+  std::vector<std::vector<float>> counts(colours.size(), std::vector<float>(static_cast<std::size_t>(side) * side, 0.0F));
+  for (std::size_t i = 0; i != ground.labels.size(); ++i) {
+    if (ground.labels[i] == no_class) continue;
+    const PlanePlace at = hue_saturation_place(
+        hue_saturation_of(static_cast<double>(smooth.r[i]), static_cast<double>(smooth.g[i]), static_cast<double>(smooth.b[i])));
+    const int x = std::clamp(static_cast<int>((0.5 + 0.5 * at.x) * side), 0, side - 1);
+    const int y = std::clamp(static_cast<int>((0.5 - 0.5 * at.y) * side), 0, side - 1);
+    counts[ground.labels[i]][static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)] += 1.0F;
+  }
+  Grid<glm::vec3> picture(side, side, glm::vec3(0.05F));
+  for (std::size_t p = 0; p != picture.size(); ++p) {
+    float total = 0.0F;
+    std::size_t most = 0;
+    for (std::size_t k = 0; k != counts.size(); ++k) {
+      total += counts[k][p];
+      if (counts[k][p] > counts[most][p]) most = k;
+    }
+    if (total > 0.0F) picture[p] = colours[most] * std::min(1.0F, 0.35F + 0.1F * std::log2(1.0F + total)) + 0.05F;
+  }
+  return picture;
+}
+
+double value_at(const LayerSamples& function, std::size_t i) {
+  return function.at_0 + (function.at_255 - function.at_0) * static_cast<double>(function.samples[i]) / 255.0;
+}
+
+// A function as a line over its input's range; behind it, in grey, where the class occurs.
+std::string function_chart(const LayerSamples& function, const std::vector<std::size_t>& histogram, const std::string& colour, double low,
+                           double high) {
+  constexpr double width = 128.0;
+  constexpr double height = 64.0;
+  const auto most = static_cast<double>(std::max<std::size_t>(*std::max_element(histogram.begin(), histogram.end()), 1));
+  std::string area;
+  std::string line;
+  for (std::size_t i = 0; i != 256; i += 2) {
+    const double x = width * layer_sample_place(static_cast<int>(i));
+    area += fmt::format("{:.1f},{:.1f} ", x, height - height * static_cast<double>(histogram[i] + histogram[i + 1]) / (2.0 * most));
+    line += fmt::format("{:.1f},{:.1f} ", x,
+                        height - (height - 2.0) * std::clamp((value_at(function, i) - low) / std::max(high - low, 1e-9), 0.0, 1.0) - 1.0);
+  }
+  return fmt::format(
+      "<svg width=\"{0:.0f}\" height=\"{1:.0f}\"><rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#f4f4f4\"/>"
+      "<polygon points=\"0,{1:.0f} {2}{0:.0f},{1:.0f}\" fill=\"#cccccc\"/><polyline points=\"{3}\" fill=\"none\" stroke=\"{4}\" "
+      "stroke-width=\"2\"/></svg>",
+      width, height, area, line, colour);
+}
+
+void add_inputs(ReportFolder& page, const KnownGround& ground, const GroundFit& fit) {
+  page.begin_figure("inputs", "What is known of the ground",
+                    "The inputs that functions are of, black at the low end of the range that functions cover and white at the high end.");
+  for (std::size_t a = 0; a != ground.inputs.size(); ++a) {
+    Grid<float> cells = ground.inputs[a];
+    const LayerInput& range = fit.ranges[a];
+    Grid<glm::vec3> grey(cells.width(), cells.height());
+    for (std::size_t i = 0; i != cells.size(); ++i)
+      grey[i] = glm::vec3(static_cast<float>(std::clamp((static_cast<double>(cells[i]) - range.low) / (range.high - range.low), 0.0, 1.0)));
+    page.picture(fmt::format("input_{}", range.name), reduced_picture(grey, map_px / 2),
+                 fmt::format("{}: {:.4g} … {:.4g}", range.name, range.low, range.high));
+  }
+  page.end_figure();
+}
+
+void add_classes(ReportFolder& page, const KnownGround& ground, const std::vector<glm::vec3>& colours) {
+  page.begin_figure(
+      "classes", "Classes",
+      ground.picture
+          ? "The picture, what it was taken for (black: cloud, shadow, masked or too dark to tell), and how many cells have each "
+            "colour of the hue–saturation plane, red to the right, green upwards to the left."
+          : "What the land-cover map says (black: nothing to be learned from).");
+  if (ground.picture) page.picture("picture", reduced_picture(picture_of(ground.picture->rgb), map_px), "picture");
+  page.picture("classes", reduced_picture(class_map(ground.altitude_m, ground.labels, colours), map_px), "classes");
+  if (ground.picture) page.picture("plane", plane_picture(ground, colours), "hue and saturation");
+  page.end_figure();
+}
+
+void add_functions(ReportFolder& page, const KnownGround& ground, const GroundFit& fit, const std::vector<glm::vec3>& colours) {
+  page.add(
+      "<section id=\"functions\"><h2>Functions</h2>\n<p>Line: what the file holds, for each class and input. Grey: where the class "
+      "occurs.</p>\n<table>");
+  std::vector<std::string> head = {""};
+  for (const LayerInput& range : fit.ranges) head.push_back(html_escaped(range.name));
+  page.add(html_row(head, "th"));
+  const std::vector<std::vector<std::uint8_t>> samples = sample_indices(ground.inputs, fit.ranges);
+  for (std::size_t rank = ground.classes.size(); rank-- != 0;) {
+    const auto k = static_cast<std::size_t>(fit.classes.order[rank]);
+    std::vector<std::string> row = {html_escaped(ground.classes[k].name)};
+    double low = 0.0;
+    double high = 1.0;
+    if (fit.classes.model == LayerModel::additive)
+      for (const LayerSamples& f : fit.classes.functions[k]) {
+        low = std::min(low, f.at_0);
+        high = std::max(high, f.at_255);
+      }
+    for (std::size_t a = 0; a != samples.size(); ++a) {
+      std::vector<std::size_t> histogram(256, 0);
+      for (std::size_t i = 0; i != ground.labels.size(); ++i)
+        if (ground.labels[i] == k) ++histogram[samples[a][i]];
+      row.push_back(function_chart(fit.classes.functions[k][a], histogram, css(colours[k]), low, high));
+    }
+    page.add(html_row(row));
+  }
+  page.add("</table></section>");
+}
+
+// The cell where most layers lie over each other to some extent: the first of equals.
+void add_trace(ReportFolder& page, const LayersFitReportInput& in) {
+  const LayerProgram program = compile_layers(in.layers);
+  std::vector<Grid<float>> inputs;
+  for (const std::string& name : program.inputs) {
+    const auto at = std::find(in.ground->input_names.begin(), in.ground->input_names.end(), name);
+    if (at == in.ground->input_names.end()) return;  // a file that asks for more than it was fitted on: nothing to trace it with
+    inputs.push_back(in.ground->inputs[static_cast<std::size_t>(at - in.ground->input_names.begin())]);
+  }
+  const PixelRect all{0, 0, in.ground->altitude_m.width(), in.ground->altitude_m.height()};
+  const std::vector<Grid<float>> coverage = layer_coverage(program, inputs, {}, all, 1);
+  std::size_t cell = 0;
+  int most = -1;
+  for (std::size_t i = 0; i != in.ground->altitude_m.size(); i += 7) {
+    int partly = 0;
+    for (const Grid<float>& c : coverage) partly += c[i] > 0.1F && c[i] < 0.9F ? 1 : 0;
+    if (partly > most) {
+      most = partly;
+      cell = i;
+    }
+  }
+  page.add(
+      fmt::format("<section id=\"trace\"><h2>One place, layer by layer</h2>\n<p>Cell {}, {}: its colour as each layer is laid on, RGB' = "
+                  "(1 − C) RGB + C "
+                  "RGB of the layer. C is never more than the parent's.</p>\n<table>",
+                  cell % static_cast<std::size_t>(all.x1), cell / static_cast<std::size_t>(all.x1)));
+  page.add(html_row({"layer", "under", "C of the parent", "C", "its colour", "colour so far"}, "th"));
+  glm::vec3 colour = unpacked(in.layers.ground_rgb);
+  const auto swatch = [](const glm::vec3& rgb) { return fmt::format("<span style=\"background:{0}\">&emsp;&emsp;</span> {0}", css(rgb)); };
+  page.add(html_row({"ground", "", "", "1", swatch(colour), swatch(colour)}));
+  for (std::size_t l = 0; l != in.layers.layers.size(); ++l) {
+    const SurfaceLayer& layer = in.layers.layers[l];
+    const float c = coverage[l][cell];
+    if (program.paints[l]) colour = (1.0F - c) * colour + c * unpacked(layer.rgb);
+    const bool child = layer.parent >= 0;
+    page.add(html_row({html_escaped(layer.name), child ? html_escaped(in.layers.layers[static_cast<std::size_t>(layer.parent)].name) : "",
+                       child ? fmt::format("{:.3f}", coverage[static_cast<std::size_t>(layer.parent)][cell]) : "1",
+                       fmt::format("{:.3f}", c), swatch(unpacked(layer.rgb)), swatch(colour)}));
+  }
+  page.add("</table></section>");
+}
+
+struct Judged {
+  std::string model;
+  std::vector<HeldOutResult> results;  // of each way to hold out
+};
+
+std::string number(double v, int digits = 3) { return std::isnan(v) ? "–" : fmt::format("{:.{}f}", v, digits); }
+
+HeldOutResult mean_of(const HeldOutResult& a, const HeldOutResult& b) {
+  HeldOutResult mean = a;
+  const auto half = [](double& x, double y) { x = 0.5 * (x + y); };
+  half(mean.measures.accuracy, b.measures.accuracy);
+  half(mean.measures.mean_auc, b.measures.mean_auc);
+  half(mean.measures.mean_iou, b.measures.mean_iou);
+  half(mean.matched.mean_iou, b.matched.mean_iou);
+  half(mean.gradient_share, b.gradient_share);
+  for (std::size_t i = 0; i != mean.differences.size(); ++i) {
+    half(mean.differences[i].mean, b.differences[i].mean);
+    half(mean.differences[i].p95, b.differences[i].p95);
+  }
+  return mean;
+}
+
+std::vector<Judged> judge_models(const LayersFitReportInput& in, Progress& progress) {
+  const int width = in.ground->altitude_m.width();
+  const int height = in.ground->altitude_m.height();
+  // Squares of 64 cells; smaller ones where the ground has not four of them a side.
+  const int square = std::clamp(std::min(width, height) / 4, 8, 64);
+  const std::vector<HoldOut> ways = {chessboard(width, height, square), west_and_east(width, height), north_and_south(width, height)};
+  GroundFitParameters as_file = in.parameters;
+  GroundFitParameters other = as_file;
+  other.functions = FunctionSource::fitted;
+  other.model = as_file.model == LayerModel::product ? LayerModel::additive : LayerModel::product;
+  GroundFitParameters published = as_file;
+  published.functions = FunctionSource::histogram;
+  published.model = LayerModel::product;
+  GroundFitParameters best = as_file;
+  best.functions = FunctionSource::fitted;
+  best.model = LayerModel::additive;
+  best.forest_share = 0.65;
+  std::vector<std::pair<std::string, GroundFitParameters>> models = {{"as in the file", as_file}, {"histograms, as published", published}};
+  models.emplace_back(other.model == LayerModel::additive ? "additive" : "product", other);
+  models.emplace_back("additive .35 and forest .65 (no file holds it)", best);
+  progress.begin("judging on ground not seen", static_cast<double>((models.size() + 1) * ways.size()));
+  std::vector<Judged> judged(1, {"altitude bands alone", {}});
+  for (const HoldOut& way : ways) {
+    judged[0].results.push_back(judge_bands(*in.ground, way));
+    progress.advance(1.0);
+  }
+  for (const auto& [name, parameters] : models) {
+    Judged one{name, {}};
+    for (const HoldOut& way : ways) {
+      one.results.push_back(judge_held_out(*in.ground, parameters, way));
+      progress.advance(1.0);
+    }
+    judged.push_back(std::move(one));
+  }
+  for (Judged& one : judged) one.results = {one.results[0], mean_of(one.results[1], one.results[2])};
+  return judged;
+}
+
+void add_judgement(ReportFolder& page, const LayersFitReportInput& in, const std::vector<Judged>& judged) {
+  page.add(
+      "<section id=\"judgement\"><h2>On ground that the fit has not seen</h2>\n<p>Tiles: fitted on one colour of a chessboard, judged on "
+      "the other, both "
+      "ways; neighbouring tiles look alike, so this flatters. Halves: west by east, north by south and back, which is to extrapolate. "
+      "Accuracy: "
+      "cells whose most likely class is the true one. AUC: the chance that a cell of a class gets a larger share of it than another cell. "
+      "IoU: cells "
+      "of both over cells of either; matched: with shares scaled so that each class covers its true area.</p>\n<table>");
+  page.add(html_row({"", "tiles: accuracy", "AUC", "IoU", "matched", "halves: accuracy", "AUC", "IoU", "matched"}, "th"));
+  for (const Judged& one : judged) {
+    std::vector<std::string> row = {html_escaped(one.model)};
+    for (const HeldOutResult& r : one.results)
+      row.insert(row.end(),
+                 {number(r.measures.accuracy), number(r.measures.mean_auc), number(r.measures.mean_iou), number(r.matched.mean_iou)});
+    page.add(html_row(row));
+  }
+  page.add("</table>");
+  const ClassMeasures& own = judged[1].results[0].measures;
+  page.add("<h3>Class by class, as in the file, tiles</h3>\n<table>");
+  std::vector<std::string> head = {"true \\ most likely"};
+  for (const FitClass& c : in.ground->classes) head.push_back(html_escaped(c.name));
+  head.insert(head.end(), {"AUC", "IoU"});
+  page.add(html_row(head, "th"));
+  for (std::size_t k = 0; k != own.counts.size(); ++k) {
+    std::vector<std::string> row = {html_escaped(in.ground->classes[k].name)};
+    for (const std::size_t n : own.counts[k]) row.push_back(fmt::format("{}", n));
+    row.insert(row.end(), {number(own.auc[k]), number(own.iou[k])});
+    page.add(html_row(row));
+  }
+  page.add("</table>");
+  if (in.ground->picture) {
+    page.add(
+        "<h3>Colour difference ΔE00 of the means of blocks, lit again by the sun found (exceeded by one block in twenty)</h3>\n<table>");
+    page.add(html_row({"", "cell", "16 cells", "32 cells", "64 cells", "halves: 32 cells", "gradient energy, of the picture's"}, "th"));
+    for (const Judged& one : judged) {
+      if (one.results[0].differences.empty()) continue;
+      std::vector<std::string> row = {html_escaped(one.model)};
+      for (const BlockDifference& d : one.results[0].differences) row.push_back(fmt::format("{:.2f} ({:.1f})", d.mean, d.p95));
+      row.push_back(fmt::format("{:.2f} ({:.1f})", one.results[1].differences[2].mean, one.results[1].differences[2].p95));
+      row.push_back(number(one.results[0].gradient_share, 2));
+      page.add(html_row(row));
+    }
+    page.add("</table>");
+  }
+  page.add("</section>");
+}
+
+void add_reproduction(ReportFolder& page, const LayersFitReportInput& in, const HeldOutResult& held_out,
+                      const std::vector<glm::vec3>& colours) {
+  const std::vector<std::uint8_t> likely = most_likely(held_out.prediction.classes);
+  page.begin_figure("reproduction", "Original and reproduction",
+                    "Everything is painted by a fit that has not seen the place. Drag the slider.");
+  const Grid<glm::vec3> original =
+      in.ground->picture ? picture_of(in.ground->picture->rgb) : class_map(in.ground->altitude_m, in.ground->labels, colours);
+  const Grid<glm::vec3> made =
+      in.ground->picture ? picture_of(held_out.prediction.expected) : class_map(in.ground->altitude_m, likely, colours);
+  const Grid<glm::vec3> left = reduced_picture(original, 2 * map_px);
+  page.write_picture("original", left);
+  page.write_picture("reproduction", reduced_picture(made, 2 * map_px));
+  page.add(fmt::format(
+      "<div style=\"position:relative;width:{0}px;height:{1}px\"><img src=\"reproduction.png\" alt=\"reproduction\" "
+      "style=\"position:absolute\">"
+      "<img id=\"original\" src=\"original.png\" alt=\"original\" style=\"position:absolute;clip-path:inset(0 50% 0 0)\"></div>\n"
+      "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" style=\"width:{0}px\" aria-label=\"original on the left, reproduction on "
+      "the right\" "
+      "oninput=\"document.getElementById('original').style.clipPath='inset(0 '+(100-this.value)+'% 0 0)'\">",
+      left.width(), left.height()));
+  page.end_figure();
+  page.begin_figure("likely", "Most likely classes", "Beside the classes they are judged against.");
+  page.picture("true_classes", reduced_picture(class_map(in.ground->altitude_m, in.ground->labels, colours), map_px), "true");
+  page.picture("likely_classes", reduced_picture(class_map(in.ground->altitude_m, likely, colours), map_px), "most likely, not seen");
+  page.end_figure();
+}
+
+std::string as_json(const LayersFitReportInput& in, const std::vector<Judged>& judged) {
+  Json models = Json::array();
+  for (const Judged& one : judged) {
+    Json model = Json::object();
+    model.add("model", Json::text(one.model));
+    const std::array<const char*, 2> ways = {"tiles", "halves"};
+    for (std::size_t w = 0; w != ways.size(); ++w) {
+      const HeldOutResult& r = one.results[w];
+      Json way = Json::object();
+      way.add("accuracy", Json::number(r.measures.accuracy)).add("auc", Json::number(r.measures.mean_auc));
+      way.add("iou", Json::number(r.measures.mean_iou)).add("iou_matched", Json::number(r.matched.mean_iou));
+      for (const BlockDifference& d : r.differences) way.add(fmt::format("delta_e00_{}", d.block), Json::number(d.mean));
+      if (!r.differences.empty()) way.add("gradient_share", Json::number(r.gradient_share));
+      model.add(ways[w], std::move(way));
+    }
+    models.add(std::move(model));
+  }
+  return Json::object().add("title", Json::text(in.title)).add("notes", Json::texts(in.notes)).add("models", std::move(models)).str() +
+         "\n";
+}
+
+}  // namespace
+
+void write_layers_fit_report(const std::string& folder, const LayersFitReportInput& input, Progress& progress) {
+  const std::vector<Judged> judged = judge_models(input, progress);
+  progress.begin("writing the report", 0.0);
+  const std::vector<glm::vec3> colours = class_colours(*input.ground, *input.fit);
+  ReportFolder page(folder);
+  page.add("<ul>");
+  for (const std::string& note : input.notes) page.add("<li>" + html_escaped(note) + "</li>");
+  page.add("</ul>");
+  add_reproduction(page, input, judged[1].results[0], colours);
+  add_judgement(page, input, judged);
+  add_classes(page, *input.ground, colours);
+  add_functions(page, *input.ground, *input.fit, colours);
+  add_trace(page, input);
+  add_inputs(page, *input.ground, *input.fit);
+  page.write("report.json", as_json(input, judged));
+  page.write_page("Surface layers", input.title, "What surface layers learned, and how well they tell ground they have not seen.",
+                  input.command);
+}
+
+}  // namespace belvedere::tools
