@@ -134,7 +134,9 @@ Clouds find_clouds(const RgbPlanes& picture, double cell_m, const CloudParameter
     };
   };
   const int reach = static_cast<int>(most / factor);
-  const Match coarse = best_offset(reduced(white, factor), reduced(dark, factor), -reach, reach, -reach, reach, within(factor));
+  const Grid<float> white_coarse = reduced(white, factor);
+  const Grid<float> dark_coarse = reduced(dark, factor);
+  const Match coarse = best_offset(white_coarse, dark_coarse, -reach, reach, -reach, reach, within(factor));
   if (coarse.correlation <= -1.0) return clouds;
   const Match fine = best_offset(reduced(white, 1), reduced(dark, 1), factor * (coarse.x - 1), factor * (coarse.x + 1),
                                  factor * (coarse.y - 1), factor * (coarse.y + 1), within(1));
@@ -143,7 +145,11 @@ Clouds find_clouds(const RgbPlanes& picture, double cell_m, const CloudParameter
   clouds.shadow_y = fine.y;
   const double towards = to_degrees(exact::atan2(-static_cast<double>(fine.x), static_cast<double>(fine.y)));
   clouds.sun_azimuth_deg = towards < 0.0 ? towards + 360.0 : towards;
-  clouds.found = fine.correlation >= parameters.least_match;
+  // Beside the peak lie the shadows of clouds' own sizes; what matches as well farther off is no shadow.
+  const int own = coarse_size / 10;
+  const auto elsewhere = [&](int dx, int dy) { return within(factor)(dx, dy) && std::hypot(dx - coarse.x, dy - coarse.y) > own; };
+  clouds.elsewhere = best_offset(white_coarse, dark_coarse, -reach, reach, -reach, reach, elsewhere).correlation;
+  clouds.found = fine.correlation >= parameters.least_match && clouds.elsewhere <= parameters.distinct * fine.correlation;
   if (!clouds.found) return clouds;
   Grid<std::uint8_t> moved(width, height, 0);
   for (int y = 0; y != height; ++y)

@@ -378,7 +378,10 @@ ClassFunctions histogram_functions(const FitCells& cells, const HistogramParamet
   return made;
 }
 
-ClassShares predict_shares(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs) {
+namespace {
+
+// Coverage of a product, shares of a sum.
+ClassShares evaluate(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs) {
   const std::size_t classes = functions.bias.size();
   const std::size_t cells = inputs.empty() ? 0 : inputs[0].size();
   const bool product = functions.model == LayerModel::product;
@@ -400,14 +403,8 @@ ClassShares predict_shares(const ClassFunctions& functions, const std::vector<st
       }
       float* to = &shares.values[c * classes];
       if (product) {
-        // What is seen of each: those painted later lie over those before; what is left is ground.
-        double rest = 1.0;
-        for (std::size_t rank = classes; rank-- != 1;) {
-          const auto k = static_cast<std::size_t>(functions.order[rank]);
-          to[k] = static_cast<float>(of[k] * rest);
-          rest *= 1.0 - of[k];
-        }
-        to[static_cast<std::size_t>(functions.order[0])] = static_cast<float>(rest);
+        for (std::size_t k = 0; k != classes; ++k) to[k] = static_cast<float>(of[k]);
+        to[static_cast<std::size_t>(functions.order[0])] = 1.0F;
       } else {
         double total = 0.0;
         for (const double v : of) total += v;
@@ -415,6 +412,30 @@ ClassShares predict_shares(const ClassFunctions& functions, const std::vector<st
       }
     }
   });
+  return shares;
+}
+
+}  // namespace
+
+ClassShares predict_coverage(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs) {
+  return evaluate(functions, inputs);
+}
+
+ClassShares predict_shares(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs) {
+  ClassShares shares = evaluate(functions, inputs);
+  if (functions.model != LayerModel::product) return shares;
+  const std::size_t classes = functions.bias.size();
+  for (std::size_t c = 0; c != shares.size(); ++c) {
+    // What is seen of each: those painted later lie over those before; what is left is ground.
+    float* of = &shares.values[c * classes];
+    double rest = 1.0;
+    for (std::size_t rank = classes; rank-- != 0;) {
+      const auto k = static_cast<std::size_t>(functions.order[rank]);
+      const auto coverage = static_cast<double>(of[k]);
+      of[k] = static_cast<float>(coverage * rest);
+      rest *= 1.0 - coverage;
+    }
+  }
   return shares;
 }
 

@@ -41,6 +41,8 @@ struct HistogramParameters {
 // mean is 1/2. Where more than half of the samples are empty that cannot be: the function is 1 where the class occurs, and counted.
 ClassFunctions histogram_functions(const FitCells& cells, const HistogramParameters& parameters = {});
 
+// Of a product: the coverage C of each class in each cell, before any lies over another; 1 for the ground.
+ClassShares predict_coverage(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs);
 // Of every cell of `inputs` ([input][cell]), by the model's own rule.
 ClassShares predict_shares(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs);
 

@@ -123,6 +123,60 @@ void set_functions(SurfaceLayer& layer, const ClassFunctions& functions, std::si
   layer.functions.assign(functions.functions[of].begin(), functions.functions[of].end());
 }
 
+// First leaf of each class, and after the last the number of leaves.
+std::vector<std::size_t> first_leaves(const GroundFit& fit) {
+  std::vector<std::size_t> first(fit.children.size() + 1, fit.parent.size());
+  for (std::size_t j = fit.parent.size(); j-- != 0;) first[static_cast<std::size_t>(fit.parent[j])] = j;
+  return first;
+}
+
+// The classes' shares, each shared out among its leaves.
+ClassShares shared_leaves(const GroundFit& fit, const std::vector<std::vector<std::uint8_t>>& samples) {
+  const ClassShares of_classes = predict_shares(fit.classes, samples);
+  const std::vector<std::size_t> first = first_leaves(fit);
+  const std::size_t leaves = fit.parent.size();
+  ClassShares shares{static_cast<int>(leaves), std::vector<float>(of_classes.size() * leaves)};
+  for (std::size_t k = 0; k != fit.children.size(); ++k) {
+    const std::size_t count = first[k + 1] - first[k];
+    const ClassShares within = count > 1 ? predict_shares(fit.children[k], samples) : ClassShares{};
+    for (std::size_t i = 0; i != of_classes.size(); ++i)
+      for (std::size_t j = 0; j != count; ++j)
+        shares.values[i * leaves + first[k] + j] = of_classes.of(i)[k] * (count > 1 ? within.of(i)[j] : 1.0F);
+  }
+  return shares;
+}
+
+// As a file of a product is painted: a class with the colour of its first child, then its other children, each over all that is there and
+// never more than their class (P04, P05).
+ClassShares painted_leaves(const GroundFit& fit, const std::vector<std::vector<std::uint8_t>>& samples) {
+  const ClassShares of_classes = predict_coverage(fit.classes, samples);
+  const std::vector<std::size_t> first = first_leaves(fit);
+  const std::size_t leaves = fit.parent.size();
+  ClassShares shares{static_cast<int>(leaves), std::vector<float>(of_classes.size() * leaves, 0.0F)};
+  const auto paint = [&](std::size_t cell, std::size_t leaf, float coverage) {
+    float* const of = &shares.values[cell * leaves];
+    for (std::size_t j = 0; j != leaves; ++j) of[j] *= 1.0F - coverage;
+    of[leaf] += coverage;
+  };
+  for (const int k_int : fit.classes.order) {
+    const auto k = static_cast<std::size_t>(k_int);
+    const std::size_t count = first[k + 1] - first[k];
+    const ClassShares within = count > 1 ? predict_coverage(fit.children[k], samples) : ClassShares{};
+    const std::size_t own = count > 1 ? static_cast<std::size_t>(fit.children[k].order[0]) : 0;
+    parallel_ranges(of_classes.size(), std::size_t{16384}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i != end; ++i) {
+        const float coverage = of_classes.of(i)[k];
+        paint(i, first[k] + own, coverage);
+        for (std::size_t rank = 1; rank < count; ++rank) {
+          const auto j = static_cast<std::size_t>(fit.children[k].order[rank]);
+          paint(i, first[k] + j, coverage * within.of(i)[j]);
+        }
+      }
+    });
+  }
+  return shares;
+}
+
 }  // namespace
 
 std::vector<std::vector<std::uint8_t>> sample_indices(const std::vector<Grid<float>>& inputs, const std::vector<LayerInput>& ranges) {
@@ -198,25 +252,14 @@ GroundPrediction predict_ground(const KnownGround& ground, const GroundFit& fit)
   const std::size_t leaves = fit.parent.size();
   const std::size_t cells = ground.altitude_m.size();
   GroundPrediction prediction;
-  prediction.classes = predict_shares(fit.classes, samples);
-  ClassShares of_leaves{static_cast<int>(leaves), std::vector<float>(cells * leaves)};
-  for (std::size_t k = 0, first = 0; k != classes; ++k) {
-    std::size_t count = 0;
-    while (first + count != leaves && fit.parent[first + count] == static_cast<int>(k)) ++count;
-    const ClassShares within = count > 1 ? predict_shares(fit.children[k], samples) : ClassShares{};
-    for (std::size_t i = 0; i != cells; ++i)
-      for (std::size_t j = 0; j != count; ++j)
-        of_leaves.values[i * leaves + first + j] =
-            prediction.classes.values[i * classes + k] * (count > 1 ? within.values[i * count + j] : 1.0F);
-    first += count;
-  }
+  ClassShares of_leaves = fit.classes.model == LayerModel::product ? painted_leaves(fit, samples) : shared_leaves(fit, samples);
+  prediction.classes = {static_cast<int>(classes), std::vector<float>(cells * classes, 0.0F)};
   if (fit.forest_share > 0.0) {
     of_leaves = mix_shares(predict_shares(fit.forest, samples), of_leaves, fit.forest_share);
-    std::fill(prediction.classes.values.begin(), prediction.classes.values.end(), 0.0F);
-    for (std::size_t i = 0; i != cells; ++i)
-      for (std::size_t j = 0; j != leaves; ++j)
-        prediction.classes.values[i * classes + static_cast<std::size_t>(fit.parent[j])] += of_leaves.values[i * leaves + j];
   }
+  for (std::size_t i = 0; i != cells; ++i)
+    for (std::size_t j = 0; j != leaves; ++j)
+      prediction.classes.values[i * classes + static_cast<std::size_t>(fit.parent[j])] += of_leaves.values[i * leaves + j];
   const int width = ground.altitude_m.width();
   const int height = ground.altitude_m.height();
   prediction.even = {Grid<float>(width, height), Grid<float>(width, height), Grid<float>(width, height)};

@@ -42,6 +42,7 @@ struct Options {
   std::string model = "product";
   std::vector<std::string> inputs;
   std::optional<double> latitude_deg;
+  int classes_band = 1;
   int children = 4;
   int threads = 0;
   bool quiet = false;
@@ -209,7 +210,7 @@ void classes_of_picture(const Options& options, const Ground& ground, KnownGroun
 
 void classes_of_map(const Options& options, const Ground& ground, KnownGround& known, Findings& findings, Progress& progress) {
   const Legend legend = read_legend(options.legend);
-  const Raster<std::int32_t> codes = warp_codes({source_of(options.classes)}, frame_of(ground.dem), progress);
+  const Raster<std::int32_t> codes = warp_codes({source_of(options.classes, options.classes_band)}, frame_of(ground.dem), progress);
   known.labels.assign(ground.use.size(), no_class);
   std::array<int, 256> number{};
   number.fill(-1);
@@ -408,6 +409,7 @@ Action add_layers_fit(CLI::App& command) {
           "A satellite picture of it: a GeoTIFF (the DEM is brought onto its cells), or PNG or JPEG with a pixel for each cell of the DEM")
       ->type_name("FILE");
   command.add_option("--classes", options->classes, "Instead of a picture: a land-cover raster")->type_name("FILE");
+  command.add_option("--classes-band", options->classes_band, "Which band of it; default 1")->type_name("N")->check(CLI::PositiveNumber);
   command.add_option("--legend", options->legend, "What its codes mean: a legend's name or file (docs/legends.md)")->type_name("NAME");
   command.add_option("--out", options->out, "The layers: a .toml file of some KB, which needs the picture no more")
       ->required()
