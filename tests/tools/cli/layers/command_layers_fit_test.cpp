@@ -1,0 +1,137 @@
+// `belvedere layers fit` as users meet it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "base/random.h"
+#include "terrain/io/crs.h"
+#include "terrain/io/raster_io.h"
+#include "terrain/layers/layers_file.h"
+#include "tests/tools/program.h"
+
+namespace belvedere {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class LayersFitCommand : public Program {
+ protected:
+  static constexpr int size = 80;
+
+  // A cone: its upper half is rock, its lower half meadow.
+  void SetUp() override {
+    Raster<float> dem;
+    dem.transform = {680000.0, 5260000.0, 30.0, 30.0};
+    dem.crs = normalize_crs("EPSG:32632");
+    dem.cells = Grid<float>(size, size);
+    Raster<std::uint8_t> classes;
+    classes.transform = dem.transform;
+    classes.crs = dem.crs;
+    classes.cells = Grid<std::uint8_t>(size, size);
+    for (int y = 0; y != size; ++y)
+      for (int x = 0; x != size; ++x) {
+        dem.cells(x, y) = static_cast<float>(2500.0 - 12.0 * std::hypot(x - 40.3, y - 39.7) + 3.0 * random_normal(1, x, y));
+        classes.cells(x, y) = dem.cells(x, y) > 2150.0F ? 2 : 1;
+      }
+    write_raster(path("dem.tif"), dem);
+    write_raster(path("classes.tif"), classes);
+    write("legend.toml", "name = \"test\"\n[codes]\n1 = \"meadow\"\n2 = \"rock\"\n");
+    write_picture("picture.png", size, size, [&](int x, int y) {
+      const float n = 0.01F * static_cast<float>(random_normal(2, x, y));
+      return classes.cells(x, y) == 2 ? glm::vec3(0.55F + n, 0.40F + n, 0.28F + n) : glm::vec3(0.25F + n, 0.48F + n, 0.20F + n);
+    });
+  }
+  Outcome fit(std::vector<std::string> more) const {
+    std::vector<std::string> arguments = {"layers", "fit", "--dem", path("dem.tif"), "--out", path("out.layers.toml")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+  bool nothing_written() const { return !std::filesystem::exists(path("out.layers.toml")); }
+  std::vector<std::string> by_map() const { return {"--classes", path("classes.tif"), "--legend", path("legend.toml")}; }
+};
+
+TEST_F(LayersFitCommand, LearnsALandCoverMap) {
+  const Outcome outcome = fit(by_map());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const SurfaceLayers layers = read_surface_layers(path("out.layers.toml"));
+  ASSERT_EQ(layers.layers.size(), 2U);
+  EXPECT_EQ(layers.ground_painted_as, LandCoverClass::meadow);
+  EXPECT_EQ(layers.layers[1].painted_as, LandCoverClass::rock);
+  // Rock's function of altitude is open at the top and shut at the foot.
+  EXPECT_GT(layer_function_value(layers.layers[1].functions[0], layers.inputs[0], layers.model, 2400.0), 0.8);
+  EXPECT_LT(layer_function_value(layers.layers[1].functions[0], layers.inputs[0], layers.model, 1950.0), 0.2);
+  EXPECT_LT(std::filesystem::file_size(path("out.layers.toml")), 20'000U);
+}
+
+TEST_F(LayersFitCommand, LearnsAPictureAndSaysWhatItFound) {
+  const Outcome outcome = fit({"--image", path("picture.png"), "--model", "additive"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("lies on the cells of the DEM"), HasSubstr("no clouds"), HasSubstr("green"), HasSubstr("brown"),
+                                 HasSubstr("sun found")));
+  EXPECT_EQ(read_surface_layers(path("out.layers.toml")).model, LayerModel::additive);
+}
+
+TEST_F(LayersFitCommand, WritesTheSameFileForAnyThreads) {
+  std::vector<std::string> arguments = {"--image", path("picture.png"), "--threads", "1"};
+  ASSERT_EQ(fit(arguments).status, 0);
+  const std::string one = read_bytes(path("out.layers.toml"));
+  arguments.back() = "2";
+  ASSERT_EQ(fit(arguments).status, 0);
+  EXPECT_EQ(one, read_bytes(path("out.layers.toml")));
+}
+
+TEST_F(LayersFitCommand, ReportHoldsItsPage) {
+  std::vector<std::string> arguments = by_map();
+  arguments.insert(arguments.end(), {"--report", path("report")});
+  ASSERT_EQ(fit(arguments).status, 0);
+  const std::string page = read_bytes(path("report/index.html"));
+  for (const char* part : {"judgement", "functions", "trace", "inputs", "reproduction", "type=\"range\""})
+    EXPECT_THAT(page, HasSubstr(part));
+  EXPECT_THAT(page, Not(HasSubstr(path(""))));
+  EXPECT_TRUE(std::filesystem::exists(path("report/original.png")));
+}
+
+TEST_F(LayersFitCommand, FaultsAreSaidAndNothingIsWritten) {
+  const auto fails = [&](const std::vector<std::string>& arguments, int status, const std::string& words) {
+    const Outcome outcome = fit(arguments);
+    EXPECT_EQ(outcome.status, status) << words;
+    EXPECT_THAT(outcome.err, HasSubstr(words));
+    EXPECT_TRUE(nothing_written());
+  };
+  fails({}, 2, "--image");
+  fails({"--classes", path("classes.tif")}, 2, "--legend");
+  fails({"--image", path("picture.png"), "--model", "sum"}, 2, "product, additive");
+  fails({"--image", path("picture.png"), "--inputs", "altitud"}, 2, "altitude");
+  write_picture("small.png", 20, 20, [](int, int) { return glm::vec3(0.5F); });
+  fails({"--image", path("small.png")}, 3, "20×20 pixels");
+  write_picture("one.png", size, size, [](int, int) { return glm::vec3(0.5F, 0.4F, 0.2F); });
+  fails({"--image", path("one.png")}, 3, "one class only");
+  Raster<std::uint8_t> far;
+  far.transform = {100000.0, 4000000.0, 30.0, 30.0};
+  far.crs = normalize_crs("EPSG:32632");
+  far.cells = Grid<std::uint8_t>(10, 10, 1);
+  write_raster(path("far.tif"), far);
+  fails({"--classes", path("far.tif"), "--legend", path("legend.toml")}, 3, "does not overlap");
+}
+
+TEST_F(LayersFitCommand, MaskedCellsAreNotLearnedFrom) {
+  Raster<std::uint8_t> mask;
+  mask.transform = {680000.0, 5260000.0, 30.0, 30.0};
+  mask.crs = normalize_crs("EPSG:32632");
+  mask.cells = Grid<std::uint8_t>(size, size, 0);
+  for (int y = 0; y != size; ++y)
+    for (int x = 0; x != size / 2; ++x) mask.cells(x, y) = 1;
+  write_raster(path("mask.tif"), mask);
+  std::vector<std::string> arguments = by_map();
+  arguments.insert(arguments.end(), {"--mask", path("mask.tif")});
+  const Outcome outcome = fit(arguments);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("50.0 % of the cells are masked"));
+}
+
+}  // namespace
+}  // namespace belvedere
