@@ -43,25 +43,6 @@ ClassFunctions fit_functions(const FitCells& cells, const GroundFitParameters& p
   return fit_additive(cells, {.roughness = 2e-3, .steps = 120, .most = most});
 }
 
-// Scales b so that, on the ground learned from, every class covers what it does there: from the top down, since what lies over a layer
-// decides what is seen of it. A sum does so by itself: that is where its likelihood is flat.
-void match_mean_shares(ClassFunctions& functions, const FitCells& cells) {
-  const std::size_t classes = functions.bias.size();
-  const std::vector<std::size_t> counts = count_labels(cells.labels, cells.classes);
-  std::vector<double> rest(cells.size(), 1.0);
-  std::vector<double> coverage(cells.size());
-  for (std::size_t rank = classes; rank-- > 1;) {
-    const auto k = static_cast<std::size_t>(functions.order[rank]);
-    std::fill(coverage.begin(), coverage.end(), 1.0);
-    for (std::size_t a = 0; a != cells.inputs.size(); ++a)
-      for (std::size_t i = 0; i != cells.size(); ++i)
-        coverage[i] *= static_cast<double>(functions.functions[k][a].samples[cells.inputs[a][i]]) / 255.0;
-    const double seen = deterministic_sum(cells.size(), [&](std::size_t i) { return coverage[i] * rest[i]; });
-    functions.bias[k] = seen > 0.0 ? std::min(1.0, static_cast<double>(counts[k]) / seen) : 0.0;
-    for (std::size_t i = 0; i != cells.size(); ++i) rest[i] *= 1.0 - functions.bias[k] * coverage[i];
-  }
-}
-
 // Divides each class by its colours on level ground: leaf labels of the cells learned from, functions of the leaves within their class.
 void fit_children(const KnownGround& ground, const GroundFitParameters& parameters, const std::vector<std::vector<std::uint8_t>>& samples,
                   const std::vector<std::uint8_t>& labels, GroundFit& fit, std::vector<std::uint8_t>& leaves) {
@@ -177,6 +158,41 @@ ClassShares painted_leaves(const GroundFit& fit, const std::vector<std::vector<s
   return shares;
 }
 
+// Scales b of each class so that on the ground learned from it covers what it does there, children and all: a child of coverage C lies over
+// what is under its class as well, so that classes with children would come out too large. From the top down, since what lies over a layer
+// decides what is seen of it. A sum does so by itself: that is where its likelihood is flat.
+void match_painted_areas(GroundFit& fit, const FitCells& all) {
+  constexpr std::size_t most = 40'000;
+  constexpr int halvings = 16;
+  const FitCells cells = select_cells(all, draw_labelled(all.labels, most, 4));
+  const std::vector<std::size_t> counts = count_labels(cells.labels, cells.classes);
+  ClassFunctions unscaled = fit.classes;
+  std::fill(unscaled.bias.begin(), unscaled.bias.end(), 1.0);
+  const ClassShares products = predict_coverage(unscaled, cells.inputs);
+  std::vector<double> rest(cells.size(), 1.0);
+  for (std::size_t rank = fit.classes.order.size(); rank-- > 1;) {
+    const auto k = static_cast<std::size_t>(fit.classes.order[rank]);
+    const bool divided = !fit.children[k].order.empty();
+    const ClassShares within = divided ? predict_coverage(fit.children[k], cells.inputs) : ClassShares{};
+    const auto painted = [&](std::size_t i, double bias) {
+      const double coverage = bias * static_cast<double>(products.of(i)[k]);
+      double left = 1.0 - coverage;
+      for (std::size_t r = 1; divided && r != fit.children[k].order.size(); ++r)
+        left *= 1.0 - coverage * static_cast<double>(within.of(i)[static_cast<std::size_t>(fit.children[k].order[r])]);
+      return 1.0 - left;
+    };
+    double low = 0.0;
+    double high = 1.0;
+    for (int step = 0; step != halvings; ++step) {
+      const double bias = 0.5 * (low + high);
+      const double seen = deterministic_sum(cells.size(), [&](std::size_t i) { return painted(i, bias) * rest[i]; });
+      (seen < static_cast<double>(counts[k]) ? low : high) = bias;
+    }
+    fit.classes.bias[k] = 0.5 * (low + high);
+    for (std::size_t i = 0; i != cells.size(); ++i) rest[i] *= 1.0 - painted(i, fit.classes.bias[k]);
+  }
+}
+
 }  // namespace
 
 std::vector<std::vector<std::uint8_t>> sample_indices(const std::vector<Grid<float>>& inputs, const std::vector<LayerInput>& ranges) {
@@ -226,7 +242,6 @@ GroundFit fit_ground(const KnownGround& ground, const GroundFitParameters& param
   const std::vector<std::vector<std::uint8_t>> samples = sample_indices(ground.inputs, fit.ranges);
   const FitCells cells = cells_of(samples, labels, classes);
   fit.classes = fit_functions(cells, parameters, 60'000);
-  if (parameters.functions == FunctionSource::fitted && parameters.model == LayerModel::product) match_mean_shares(fit.classes, cells);
   std::vector<std::uint8_t> leaves = labels;
   if (ground.picture) {
     fit_children(ground, parameters, samples, labels, fit, leaves);
@@ -239,6 +254,7 @@ GroundFit fit_ground(const KnownGround& ground, const GroundFitParameters& param
       fit.children.emplace_back();
     }
   }
+  if (parameters.functions == FunctionSource::fitted && parameters.model == LayerModel::product) match_painted_areas(fit, cells);
   if (parameters.forest_share > 0.0) {
     fit.forest_share = parameters.forest_share;
     fit.forest = fit_forest(cells_of(samples, std::move(leaves), static_cast<int>(fit.parent.size())));
