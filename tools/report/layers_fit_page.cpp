@@ -179,7 +179,7 @@ void add_trace(ReportFolder& page, const LayersFitReportInput& in) {
   const std::vector<Grid<float>> coverage = layer_coverage(program, inputs, {}, all, 1);
   std::size_t cell = 0;
   int most = -1;
-  for (std::size_t i = 0; i != in.ground->altitude_m.size(); i += 7) {
+  for (std::size_t i = 0; i < in.ground->altitude_m.size(); i += 7) {
     int partly = 0;
     for (const Grid<float>& c : coverage) partly += c[i] > 0.1F && c[i] < 0.9F ? 1 : 0;
     if (partly > most) {

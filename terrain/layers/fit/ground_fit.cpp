@@ -334,7 +334,7 @@ SurfaceLayers surface_layers_of(const KnownGround& ground, const GroundFit& fit,
     for (std::size_t rank = product ? 1 : 0; count > 1 && rank != count; ++rank) {
       const auto j = static_cast<std::size_t>(fit.children[k].order[rank]);
       SurfaceLayer child;
-      child.name = fmt::format("{} {}", layer.name, rank + 1);
+      child.name = fmt::format("{}, colour {}", layer.name, rank + 1);
       child.parent = index;
       child.rgb = packed(fit.colours[first + j]);
       set_functions(child, fit.children[k], j);

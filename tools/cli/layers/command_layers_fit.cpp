@@ -324,7 +324,7 @@ void note_fit(const KnownGround& known, const GroundFit& fit, Findings& findings
   const std::vector<std::size_t> counts = count_labels(known.labels, static_cast<int>(known.classes.size()));
   std::size_t total = 0;
   for (const std::size_t c : counts) total += c;
-  const std::vector<double> predicted = mean_shares(predict_shares(fit.classes, sample_indices(known.inputs, fit.ranges)), known.labels);
+  const std::vector<double> predicted = mean_shares(predict_ground(known, fit).classes, known.labels);
   for (const int k_int : fit.classes.order) {
     const auto k = static_cast<std::size_t>(k_int);
     findings.note("{}: {:.1f} % of the ground, {:.1f} % as fitted, {} colours", known.classes[k].name,

@@ -39,7 +39,7 @@ class LayersFitCommand : public Program {
       }
     write_raster(path("dem.tif"), dem);
     write_raster(path("classes.tif"), classes);
-    write("legend.toml", "name = \"test\"\n[codes]\n1 = \"meadow\"\n2 = \"rock\"\n");
+    write("legend.toml", "name = \"test\"\n[codes]\n1 = \"pasture\"\n2 = \"rock\"\n");
     write_picture("picture.png", size, size, [&](int x, int y) {
       const float n = 0.01F * static_cast<float>(random_normal(2, x, y));
       return classes.cells(x, y) == 2 ? glm::vec3(0.55F + n, 0.40F + n, 0.28F + n) : glm::vec3(0.25F + n, 0.48F + n, 0.20F + n);
@@ -59,7 +59,8 @@ TEST_F(LayersFitCommand, LearnsALandCoverMap) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const SurfaceLayers layers = read_surface_layers(path("out.layers.toml"));
   ASSERT_EQ(layers.layers.size(), 2U);
-  EXPECT_EQ(layers.ground_painted_as, LandCoverClass::meadow);
+  // The larger is the ground that the other is painted on.
+  EXPECT_EQ(layers.ground_painted_as, LandCoverClass::pasture);
   EXPECT_EQ(layers.layers[1].painted_as, LandCoverClass::rock);
   // Rock's function of altitude is open at the top and shut at the foot.
   EXPECT_GT(layer_function_value(layers.layers[1].functions[0], layers.inputs[0], layers.model, 2400.0), 0.8);
