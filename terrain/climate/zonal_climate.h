@@ -35,8 +35,8 @@ std::vector<ClimateStation> read_climate_stations();
 std::vector<ClimateStation> climate_stations_from_toml(const std::string& text, const std::string& name);
 
 // How likely climates hang together over distance. Temperatures and the logarithm of rain, each: a wide and a near part with standard
-// deviations and reaches, a part that grows with altitude, and what a station has for itself. Found by the stations alone (how well each
-// is told by all others), none by treelines or glaciers.
+// deviations and reaches, a part that grows with altitude, and what a station has for itself. Rounded from what tells
+// stations best from all others; docs/life_zones.md says what else they were judged by.
 struct ClimateKinship {
   double wide = 4.0;  // K, or of ln(mm)
   double wide_km = 2000.0;
