@@ -7,7 +7,7 @@
 namespace belvedere {
 
 // The files below data/ and scenes/demo/ that are built into the program, so that it runs from anywhere:
-// "palettes/summer.toml", "legends/nlcd.toml", "layers/alpine.toml", "scenes/demo/demo.toml" … Throws Error(bug) for an unknown name.
+// "palettes/summer.toml", "legends/nlcd.toml", "layers/life_zones.toml", "scenes/demo/demo.toml" … Throws Error(bug) for an unknown name.
 std::string_view embedded_file(std::string_view name);
 // All names in a folder, without folder and ending: embedded_names("legends") has "nlcd".
 std::vector<std::string> embedded_names(std::string_view folder);

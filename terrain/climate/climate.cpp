@@ -24,7 +24,7 @@ constexpr double least_map_for_wind_m = 40000.0;
 constexpr double least_lapse = -5.0;
 constexpr double largest_lapse = 12.0;
 
-void add(ClimateColumn& sum, const ClimateColumn& other, double weight) {
+void add(PlaceClimate& sum, const PlaceClimate& other, double weight) {
   for (std::size_t m = 0; m < months; ++m) {
     sum.sea_level_c[m] += weight * other.sea_level_c[m];
     sum.lapse_k_per_km[m] += weight * other.lapse_k_per_km[m];
@@ -95,7 +95,7 @@ class Maker {
   void set_default(const DefaultClimate& fallback) {
     const MapPlace& place = climate_.place;
     const auto count = [](int cells, double cell_m) { return 2 + static_cast<int>(cells * cell_m / node_spacing_m); };
-    climate_.nodes = Grid<ClimateColumn>(count(place.width, place.cell_m.x), count(place.height, place.cell_m.y));
+    climate_.nodes = Grid<PlaceClimate>(count(place.width, place.cell_m.x), count(place.height, place.cell_m.y));
     for (int y = 0; y < climate_.nodes.height(); ++y)
       for (int x = 0; x < climate_.nodes.width(); ++x) {
         const glm::dvec2 cell = cell_of_node(x, y);
@@ -167,7 +167,7 @@ class Maker {
         "is left out to {:.2f} K",
         named(), year.k_per_km, year.low_k_per_km, year.high_k_per_km, year.left_out_k));
     if (!stations().has_months()) {
-      for (ClimateColumn& node : climate_.nodes) {
+      for (PlaceClimate& node : climate_.nodes) {
         // The default's course of the year about the stations' mean.
         const auto mean = [](const std::array<double, months>& of) { return std::accumulate(of.begin(), of.end(), 0.0) / 12.0; };
         const double warmer = year.sea_level_c - mean(node.sea_level_c);
@@ -185,7 +185,7 @@ class Maker {
       std::vector<double> month_c;
       for (const Station& station : stations().stations) month_c.push_back(station.temperature_c[m]);
       const LapseRate rate = fit_lapse_rate(altitude_m, month_c, 0);
-      for (ClimateColumn& node : climate_.nodes) {
+      for (PlaceClimate& node : climate_.nodes) {
         node.sea_level_c[m] = rate.sea_level_c;
         node.lapse_k_per_km[m] = rate.k_per_km;
       }
@@ -227,16 +227,16 @@ class Maker {
       constexpr double least_relief_m = 300.0;
       if (*high - *low >= least_relief_m) {
         const double rate = std::clamp(fit_lapse_rate(altitude_m, known_c, 0).k_per_km, least_lapse, largest_lapse);
-        for (ClimateColumn& node : climate_.nodes) node.lapse_k_per_km[m] = rate;
+        for (PlaceClimate& node : climate_.nodes) node.lapse_k_per_km[m] = rate;
       }
       // What it says at the mean altitude of its cells, over what the nodes say.
       const auto cells = static_cast<double>(climate_.coarse_cells);
       for (int y = 0; y < grid.height(); ++y)
         for (int x = 0; x < grid.width(); ++x) {
-          const ClimateColumn column = climate_.at((x + 0.5) * cells - 0.5, (y + 0.5) * cells - 0.5);
+          const PlaceClimate column = climate_.at((x + 0.5) * cells - 0.5, (y + 0.5) * cells - 0.5);
           const double here = static_cast<double>(grid(x, y)) * p_.temperature_factor - kelvin;
           grid(x, y) = std::isnan(grid(x, y)) ? std::numeric_limits<float>::quiet_NaN()
-                                              : static_cast<float>(here - column.temperature_c(m, static_cast<double>(ground_m_(x, y))));
+                                              : static_cast<float>(here - monthly_c(column, static_cast<double>(ground_m_(x, y)))[m]);
         }
       pending_warmer_[m] = make_dem({std::move(grid), coarse_, dem_.crs}).altitude_m;  // cells it does not reach: smooth continuation
     }
@@ -248,7 +248,7 @@ class Maker {
     // Turned about the ground's mean altitude, where the other source is right.
     double mean_m = 0.0;
     for (const float z : ground_m_) mean_m += static_cast<double>(z) / static_cast<double>(ground_m_.size());
-    for (ClimateColumn& node : climate_.nodes)
+    for (PlaceClimate& node : climate_.nodes)
       for (std::size_t m = 0; m < months; ++m) {
         node.sea_level_c[m] += (*p_.lapse_k_per_km - node.lapse_k_per_km[m]) * mean_m / 1000.0;
         node.lapse_k_per_km[m] = *p_.lapse_k_per_km;
@@ -262,7 +262,7 @@ class Maker {
       for (int x = 0; x < climate_.nodes.width(); ++x) {
         const glm::dvec2 cell = cell_of_node(x, y);
         const glm::dvec2 place = dem_.transform.to_crs(cell.x, cell.y);
-        ClimateColumn& node = climate_.nodes(x, y);
+        PlaceClimate& node = climate_.nodes(x, y);
         for (std::size_t km = 0; km < node.rain_mm_at_km.size(); ++km)
           node.rain_mm_at_km[km] = plane.at(place, 1000.0 * static_cast<double>(km));
       }
@@ -289,7 +289,8 @@ class Maker {
     const auto cells = static_cast<double>(climate_.coarse_cells);
     for (int y = 0; y < year.height(); ++y)
       for (int x = 0; x < year.width(); ++x) {
-        const double column = climate_.at((x + 0.5) * cells - 0.5, (y + 0.5) * cells - 0.5).rain_mm(static_cast<double>(ground_m_(x, y)));
+        const double column =
+            belvedere::rain_mm(climate_.at((x + 0.5) * cells - 0.5, (y + 0.5) * cells - 0.5), static_cast<double>(ground_m_(x, y)));
         year(x, y) = static_cast<float>(std::max(0.0, static_cast<double>(year(x, y))) / std::max(1.0, column));
       }
     climate_.rain_share = make_dem({std::move(year), coarse_, dem_.crs}).altitude_m;
@@ -321,16 +322,10 @@ class Maker {
 
 }  // namespace
 
-double ClimateColumn::rain_mm(double altitude_m) const {
-  const Between at = between(altitude_m / 1000.0, static_cast<int>(rain_mm_at_km.size()));
-  return rain_mm_at_km[static_cast<std::size_t>(at.first)] * (1.0 - at.share) +
-         rain_mm_at_km[static_cast<std::size_t>(at.second)] * at.share;
-}
-
-ClimateColumn Climate::at(double column, double row) const {
+PlaceClimate Climate::at(double column, double row) const {
   const Between x = between(place.width > 1 ? column / (place.width - 1) * (nodes.width() - 1) : 0.0, nodes.width());
   const Between y = between(place.height > 1 ? row / (place.height - 1) * (nodes.height() - 1) : 0.0, nodes.height());
-  ClimateColumn here{.sea_level_c = {}, .lapse_k_per_km = {}, .rain_mm_at_km = {}, .summer_share = 0.0};
+  PlaceClimate here{.sea_level_c = {}, .lapse_k_per_km = {}, .rain_mm_at_km = {}, .summer_share = 0.0};
   add(here, nodes(x.first, y.first), (1.0 - x.share) * (1.0 - y.share));
   add(here, nodes(x.second, y.first), x.share * (1.0 - y.share));
   add(here, nodes(x.first, y.second), (1.0 - x.share) * y.share);

@@ -11,26 +11,14 @@
 #include "base/progress.h"
 #include "terrain/climate/map_place.h"
 #include "terrain/climate/rain.h"
+#include "terrain/climate/zonal_climate.h"
 #include "terrain/io/dem.h"
 #include "terrain/io/raster_source.h"
 
 namespace belvedere {
 
-// The climate over one place, by altitude: temperatures on straight lines, rain straight between whole kilometres.
-struct ClimateColumn {
-  std::array<double, 12> sea_level_c{};     // means of January … December, continued to 0 m
-  std::array<double, 12> lapse_k_per_km{};  // how much colder it is 1 km higher, by month
-  std::array<double, 8> rain_mm_at_km{};    // rain and snow of a mean year at 0 … 7 km; beyond, the nearest
-  double summer_share = 0.5;                // 0…1: of it from April to September
-
-  double temperature_c(std::size_t month, double altitude_m) const {
-    return sea_level_c[month] - lapse_k_per_km[month] * altitude_m / 1000.0;
-  }
-  double rain_mm(double altitude_m) const;
-};
-
 // What is taken where nothing better is known: longitude and latitude in degrees.
-using DefaultClimate = std::function<ClimateColumn(glm::dvec2 lonlat_deg)>;
+using DefaultClimate = std::function<PlaceClimate(glm::dvec2 lonlat_deg)>;
 
 struct ClimateParameters {
   std::string stations = {};                     // a file of terrain/climate/stations.h; empty: none
@@ -47,7 +35,7 @@ struct ClimateParameters {
 // about a kilometre what rasters and wind say besides.
 struct Climate {
   MapPlace place;
-  Grid<ClimateColumn> nodes;             // at the map's corners and evenly between
+  Grid<PlaceClimate> nodes;              // at the map's corners and evenly between
   int coarse_cells = 1;                  // cells of the map on a side of a cell of the grids below
   std::array<Grid<float>, 12> warmer_k;  // that months are, by a raster; empty without
   Grid<float> rain_share;                // of the column's rain, ≥ 0; empty: 1
@@ -55,7 +43,7 @@ struct Climate {
   std::vector<std::string> sources;      // what it was made from and how sure that is, a line each, for people
 
   // At a place in cells of the map, which need not be whole.
-  ClimateColumn at(double column, double row) const;
+  PlaceClimate at(double column, double row) const;
 };
 
 // From the best source there is, for temperature and for rain each: stations, else a raster, else the default. Rain is shared out by wind

@@ -106,12 +106,32 @@ Parameters with_settings(const ClassRules& rules, const Parameters& settings) {
   return parameters;
 }
 
+// Altitudes that rules leave open (0) and of which a map has one: so far below the treeline in its middle.
+void resolve_altitudes(Parameters& parameters, const RuleClimate& climate, const Dem& dem) {
+  struct Below {
+    const char* parameter;
+    double treeline_m;
+  };
+  constexpr std::array<Below, 2> open = {{{"town_highest_m", 520.0}, {"floor_highest_m", 370.0}}};
+  double line = parameter_or(parameters, "treeline_m", 0.0);
+  if (line <= 0.0) {
+    std::vector<float> row(static_cast<std::size_t>(dem.width()));
+    const int middle = dem.height() / 2;
+    fill_climate_row(climate, ClimateVariable::treeline, dem.transform, middle, dem.width(), dem.altitude_m.row(middle), row.data());
+    line = row[static_cast<std::size_t>(dem.width() / 2)];
+  }
+  for (auto& [name, value] : parameters)
+    for (const Below& below : open)
+      if (name == below.parameter && value == 0.0) value = line - below.treeline_m;
+}
+
 // The state of one run over the DEM.
 struct Run {
   const ClassRules& rules;
   const Program& program;
   const Dem& dem;
   std::uint64_t seed;
+  const RuleClimate& climate;
   std::vector<Grid<float>> inputs;
   std::vector<NoiseColumns> noise;  // of each noise variable
 };
@@ -145,11 +165,14 @@ void fill_row(const Run& run, const std::vector<bool>& needed, int y, const Land
       std::copy_n(run.inputs[v].row(y) + last, width - last, out.begin() + last);
     } else if (variable < east) {
       fill_noise(variable, run.noise[static_cast<std::size_t>(variable - first_noise)], run.seed, run.dem.transform, y, out.data());
-    } else if (variable < first_class) {
+    } else if (variable < first_climate) {
       for (int x = 0; x < width; ++x) {
         const glm::dvec2 place = run.dem.transform.to_crs(x, y);
         out[static_cast<std::size_t>(x)] = static_cast<float>(variable == east ? place.x : place.y);
       }
+    } else if (variable < first_class) {
+      fill_climate_row(run.climate, static_cast<ClimateVariable>(variable - first_climate), run.dem.transform, y, width,
+                       run.dem.altitude_m.row(y), out.data());
     } else if (v < variables) {
       const auto id = static_cast<LandCoverClass>(variable - first_class);
       for (int x = 0; x < width; ++x) out[static_cast<std::size_t>(x)] = classes != nullptr && classes[x] == id ? 1.F : 0.F;
@@ -299,13 +322,23 @@ ClassRules read_class_rules(const std::string& name_or_path) {
   return rules;
 }
 
+bool uses_variable(const ClassRules& rules, const std::string& variable) {
+  const Program program = compile(rules, rules.parameters, rules.name, {});
+  const std::size_t slots = variable_names().size() + rules.terms.size();
+  const std::vector<bool> needed = union_of(program.layer_needs, 0, program.layers.size(), slots);
+  for (std::size_t v = 0; v < variable_names().size(); ++v)
+    if (variable_names()[v] == variable) return needed[v];
+  return false;
+}
+
 bool names_old_town(const std::string& parameter) {
   static const std::regex old_town("town_[0-9]+_(east|north|radius_m)");
   return std::regex_match(parameter, old_town);
 }
 
 LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem, Progress& progress) {
-  const Parameters parameters = with_settings(rules, given.settings);
+  Parameters parameters = with_settings(rules, given.settings);
+  resolve_altitudes(parameters, given.climate, dem);
   const Program program = compile(rules, parameters, rules.name, {});
   const std::size_t variables = variable_names().size();
   const std::size_t slots = variables + rules.terms.size();
@@ -320,7 +353,8 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
     for (std::size_t i = 0; i < slots; ++i) needed[i] = needed[i] || needs[i];
   }
   const Settlers settlers{given.towns, given.seed, given.sites ? &*given.sites : nullptr};
-  Run run{rules, program, dem, given.seed, make_terrain_inputs(dem, needed, parameters, settlers, given.sea), {}};
+  Run run{rules, program, dem, given.seed, given.climate, make_terrain_inputs(dem, needed, parameters, settlers, given.sea, given.climate),
+          {}};
   for (int v = first_noise; v < east; ++v)
     run.noise.push_back(needed[static_cast<std::size_t>(v)] ? plan_noise(v, dem.transform, dem.width()) : NoiseColumns{});
   progress.advance(1.0);
@@ -346,14 +380,15 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
 }
 
 std::vector<TownSite> find_rule_towns(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem) {
-  const Parameters parameters = with_settings(rules, given.settings);
+  Parameters parameters = with_settings(rules, given.settings);
+  resolve_altitudes(parameters, given.climate, dem);
   const Program program = compile(rules, parameters, rules.name, {});
   const std::size_t slots = variable_names().size() + rules.terms.size();
   std::vector<TownSite> found;
   if (!union_of(program.layer_needs, 0, program.layers.size(), slots)[town]) return found;
   std::vector<bool> needed(slots, false);
   for (const int variable : {town, slope, south, valley_floor}) needed[static_cast<std::size_t>(variable)] = true;
-  make_terrain_inputs(dem, needed, parameters, {given.towns, given.seed}, given.sea, &found);
+  make_terrain_inputs(dem, needed, parameters, {given.towns, given.seed}, given.sea, given.climate, &found);
   return found;
 }
 

@@ -8,15 +8,16 @@
 
 #include "base/progress.h"
 #include "terrain/cover/land_cover.h"
+#include "terrain/cover/rule_climate.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
 #include "terrain/shape/sea.h"
 
 namespace belvedere {
 
-// Land cover for a DEM that has none, from rules in a file of their own (data/layers/alpine.toml): surface layers in order, each with a
-// class and conditions over altitude, slope, exposure, relief, noise and water; later layers win. docs/class_rules.md describes the file
-// and the variables.
+// Land cover for a DEM that has none, from rules in a file of their own (data/layers/life_zones.toml): surface layers in order, each with a
+// class and conditions over altitude, slope, exposure, relief, climate, noise and water; later layers win. docs/class_rules.md describes
+// the file and the variables.
 struct ClassRules {
   struct Layer {
     LandCoverClass painted_as;
@@ -28,8 +29,12 @@ struct ClassRules {
   std::vector<Layer> layers;
 };
 
-// Built-in name ("alpine") or a .toml file. Every expression is checked: Error(usage) with file:line:column and the nearest known name.
+// Built-in name ("life_zones") or a .toml file. Every expression is checked: Error(usage) with file:line:column and the nearest
+// known name.
 ClassRules read_class_rules(const std::string& name_or_path);
+
+// Whether the rules look at a variable of docs/class_rules.md, be it through a term.
+bool uses_variable(const ClassRules& rules, const std::string& variable);
 
 // Whether a name is one by which rules once knew towns: town_1_east, town_1_north, town_1_radius_m, town_2_…
 bool names_old_town(const std::string& parameter);
@@ -40,9 +45,11 @@ struct ClassRuleParameters {
   std::vector<KnownTown> towns;                          // where people are known to live
   SeaParameters sea;                                     // where rules speak of it
   std::uint64_t seed = 1;                                // of noise and of the villages that are found
-  std::optional<std::vector<TownSite>> sites = {};       // all settlements, where they were found on a larger DEM that this one is part of
+  RuleClimate climate = alpine_climate();
+  std::optional<std::vector<TownSite>> sites = {};  // all settlements, where they were found on a larger DEM that this one is part of
 };
 
+// Parameters town_highest_m and floor_highest_m that are 0 hang on the treeline in the middle of the map: 520 and 370 m below it.
 // Evaluates the rules on the DEM's grid, cleans up specks, and returns land cover; cells that no layer covers take the nearest class.
 // Error(usage) for a setting that is no parameter of the rules, with the nearest known.
 // Noise depends on the seed and the place in the CRS alone, so a part of a DEM gets the same ragged treelines as the whole.

@@ -57,7 +57,7 @@ void make_sea_inputs(const Dem& dem, const Sea& found, const std::vector<bool>& 
 
 // The grids that hang on the shape of the ground alone, not on where its water runs.
 void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>& needed, const Parameters& parameters,
-                       std::vector<Grid<float>>& inputs) {
+                       const RuleClimate& climate, std::vector<Grid<float>>& inputs) {
   const double cell = dem.cell_m();
   const double cell_x = dem.transform.cell_x;
   const double cell_y = dem.transform.cell_y;
@@ -70,15 +70,24 @@ void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>
   if (is_needed(valley_height) || needs_floor) grid(valley_height) = height_above_valley(z, cell, 900.0);
   {
     const Grid<float> smooth = gaussian_blur(z, 60.0 / cell);
-    if (is_needed(slope) || is_needed(slope_smooth) || needs_floor) grid(slope) = slope_deg(smooth, cell_x, cell_y);
+    const bool needs_sun = is_needed(sun) && climate.sun.empty();
+    if (is_needed(slope) || is_needed(slope_smooth) || needs_floor || needs_sun) grid(slope) = slope_deg(smooth, cell_x, cell_y);
     if (is_needed(slope_smooth)) grid(slope_smooth) = gaussian_blur(grid(slope), 90.0 / cell);
-    if (is_needed(south) || is_needed(town)) {
+    if (is_needed(south) || is_needed(town) || needs_sun) {
       grid(south) = Grid<float>(z.width(), z.height());
       each_cell(grid(south), [&](int x, int y) {
         // Ground that rises to the north (against the rows) faces south. The small number fades exposure out on flat ground.
         const glm::vec2 g = rise(smooth, x, y, cell_x, cell_y);
         return -g.y / (std::sqrt(g.x * g.x + g.y * g.y) + 1e-3F);
       });
+    }
+    if (is_needed(sun)) {
+      grid(sun) = climate.sun;
+      // About what a year's sun is at 47° N: a third more on a steep southern slope than on level ground.
+      if (needs_sun) {
+        grid(sun) = Grid<float>(z.width(), z.height());
+        each_cell(grid(sun), [&](int x, int y) { return 1.F + grid(south)(x, y) * std::clamp(grid(slope)(x, y) / 25.F, 0.F, 1.F) / 2.6F; });
+      }
     }
   }
   if (is_needed(relief_180) || is_needed(relief_750)) {
@@ -129,10 +138,11 @@ void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>
 
 const std::vector<std::string>& variable_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> n = {"altitude",    "slope",         "slope_smooth", "south", "relief_180", "relief_750",
-                                  "relief_1800", "valley_height", "valley_floor", "lake",  "shore",      "river",
-                                  "town",        "ice",           "below_rock",   "sea",   "coast",      "n60",
-                                  "n210",        "n660",          "n1800",        "east",  "north"};
+    std::vector<std::string> n = {"altitude",      "slope",        "slope_smooth", "south",    "relief_180", "relief_750", "relief_1800",
+                                  "valley_height", "valley_floor", "lake",         "shore",    "river",      "town",       "ice",
+                                  "below_rock",    "sea",          "coast",        "sun",      "n60",        "n210",       "n660",
+                                  "n1800",         "east",         "north",        "treeline", "iceline",    "snowline",   "season_snow",
+                                  "moisture",      "temperature",  "rain"};
     for (const LandCoverClassInfo& c : land_cover_classes()) n.push_back("is_" + std::string(c.name));
     return n;
   }();
@@ -146,7 +156,7 @@ double parameter_or(const Parameters& parameters, const std::string& name, doubl
 }
 
 std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
-                                             const Settlers& settlers, const SeaParameters& sea_parameters,
+                                             const Settlers& settlers, const SeaParameters& sea_parameters, const RuleClimate& climate,
                                              std::vector<TownSite>* settlements) {
   const Grid<float>& z = dem.altitude_m;
   std::vector<Grid<float>> inputs(first_noise);
@@ -159,7 +169,7 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
   parallel_ranges(2, 1, [&](int begin, int end) {
     for (int part = begin; part != end; ++part) {
       if (part == 1)
-        make_shape_inputs(dem, found, needed, parameters, inputs);
+        make_shape_inputs(dem, found, needed, parameters, climate, inputs);
       else if (needed[river] || needs_town)
         catchment_km2 = flow_accumulation_km2(z, dem.cell_m(), dem.entries);
     }

@@ -7,6 +7,7 @@
 
 #include "base/land_cover_class.h"
 #include "base/noise.h"
+#include "terrain/cover/rule_climate.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
 #include "terrain/shape/sea.h"
@@ -16,7 +17,7 @@ namespace belvedere::class_rules {
 
 using Parameters = std::vector<std::pair<std::string, double>>;
 
-// The variables of rules. Those before `first_noise` are grids; noise, places and classes are made row by row.
+// The variables of rules. Those before `first_noise` are grids; noise, places, climate and classes are made row by row.
 enum Variable : int {
   altitude,
   slope,
@@ -35,6 +36,7 @@ enum Variable : int {
   below_rock,
   sea,
   coast,
+  sun,
   first_noise,
   n60 = first_noise,
   n210,
@@ -42,6 +44,14 @@ enum Variable : int {
   n1800,
   east,
   north,
+  first_climate,
+  treeline = first_climate,
+  iceline,
+  snowline,
+  season_snow,
+  moisture,
+  temperature,
+  rain,
   first_class
 };
 // Their names by slot; is_<class> follow from first_class on.
@@ -60,7 +70,7 @@ struct Settlers {
 // The grids that are needed (by slot), all of the DEM's size; others stay empty. ice and below_rock depend on the rules and stay empty.
 // `settlements` gets the settlements, where it is given and `town` is needed.
 std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
-                                             const Settlers& settlers, const SeaParameters& sea_parameters,
+                                             const Settlers& settlers, const SeaParameters& sea_parameters, const RuleClimate& climate,
                                              std::vector<TownSite>* settlements = nullptr);
 
 // 1 just below rock, falling to 0 over `reach_m` down the fall line.

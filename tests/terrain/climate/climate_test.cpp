@@ -32,8 +32,8 @@ Dem make_ridge(int width, int height) {
 }
 
 // Colder northwards by .7 K a degree, 5 … 6.5 K/km, 800 mm and 100 mm/km.
-ClimateColumn made_up(glm::dvec2 lonlat) {
-  ClimateColumn column;
+PlaceClimate made_up(glm::dvec2 lonlat) {
+  PlaceClimate column;
   for (std::size_t m = 0; m < 12; ++m) {
     column.sea_level_c[m] = 12.0 - 0.7 * (lonlat.y - 47.0) + (m >= 5 && m <= 7 ? 8.0 : 0.0);
     column.lapse_k_per_km[m] = m >= 5 && m <= 7 ? 6.5 : 5.0;
@@ -59,12 +59,12 @@ TEST(Climate, WithoutSourcesItIsTheDefaultAtEachPlace) {
   const Climate climate = make_climate(dem, {.upslope = {.strength = 0.0}}, made_up, silent_progress());
   for (const int row : {0, 170, 399}) {
     const double latitude = climate.place.latitude_deg.at(30, row);
-    const ClimateColumn column = climate.at(30, row);
-    EXPECT_NEAR(column.temperature_c(0, 2000.0), 12.0 - 0.7 * (latitude - 47.0) - 10.0, 1e-3);
-    EXPECT_NEAR(column.temperature_c(6, 2000.0), 20.0 - 0.7 * (latitude - 47.0) - 13.0, 1e-3);
-    EXPECT_NEAR(column.rain_mm(2500.0), 1050.0, 1e-9);
-    EXPECT_NEAR(column.rain_mm(-100.0), 800.0, 1e-9);
-    EXPECT_NEAR(column.rain_mm(9000.0), 1500.0, 1e-9);
+    const PlaceClimate column = climate.at(30, row);
+    EXPECT_NEAR(monthly_c(column, 2000.0)[0], 12.0 - 0.7 * (latitude - 47.0) - 10.0, 1e-3);
+    EXPECT_NEAR(monthly_c(column, 2000.0)[6], 20.0 - 0.7 * (latitude - 47.0) - 13.0, 1e-3);
+    EXPECT_NEAR(rain_mm(column, 2500.0), 1050.0, 1e-9);
+    EXPECT_NEAR(rain_mm(column, -100.0), 800.0, 1e-9);
+    EXPECT_NEAR(rain_mm(column, 9000.0), 1500.0, 1e-9);
     EXPECT_NEAR(column.summer_share, 0.5, 1e-12);
   }
   EXPECT_THAT(join(climate.sources), AllOf(HasSubstr("temperature: by latitude"), HasSubstr("rain: by latitude")));
@@ -74,9 +74,9 @@ TEST(Climate, WindSharesRainOutOnLargeMapsOrWhereItIsAskedFor) {
   // 60 km wide: westerlies of themselves.
   const Climate large = make_climate(make_ridge(200, 60), {}, made_up, silent_progress());
   EXPECT_EQ(large.wind_from_deg, 270.0);
-  EXPECT_GT(large.at(80, 30).rain_mm(1000.0), 1.2 * large.at(120, 30).rain_mm(1000.0));
+  EXPECT_GT(rain_mm(large.at(80, 30), 1000.0), 1.2 * rain_mm(large.at(120, 30), 1000.0));
   const Climate turned = make_climate(make_ridge(200, 60), {.wind_from_deg = 90.0}, made_up, silent_progress());
-  EXPECT_LT(1.2 * turned.at(80, 30).rain_mm(1000.0), turned.at(120, 30).rain_mm(1000.0));
+  EXPECT_LT(1.2 * rain_mm(turned.at(80, 30), 1000.0), rain_mm(turned.at(120, 30), 1000.0));
   const Climate small = make_climate(make_ridge(60, 60), {}, made_up, silent_progress());
   EXPECT_TRUE(small.rain_share.empty());
   EXPECT_FALSE(make_climate(make_ridge(60, 60), {.wind_from_deg = 200.0}, made_up, silent_progress()).rain_share.empty());
@@ -103,8 +103,8 @@ TEST(Climate, ARasterOfMonthsIsMetAtItsOwnAltitudes) {
   const Climate climate = make_climate(dem, parameters, made_up, silent_progress());
   for (int y = 5; y < 55; y += 7)
     for (int x = 5; x < 195; x += 11) {
-      const ClimateColumn column = climate.at(x, y);
-      EXPECT_NEAR(column.temperature_c(3, dem.altitude_m(x, y)), 15.0 - 6e-3 * dem.altitude_m(x, y), 0.15) << x << ' ' << y;
+      const PlaceClimate column = climate.at(x, y);
+      EXPECT_NEAR(monthly_c(column, dem.altitude_m(x, y))[3], 15.0 - 6e-3 * dem.altitude_m(x, y), 0.15) << x << ' ' << y;
       EXPECT_NEAR(column.lapse_k_per_km[3], 6.0, 0.1);
     }
   EXPECT_THAT(join(climate.sources), HasSubstr("in kelvin"));
@@ -115,7 +115,7 @@ TEST(Climate, ARasterOfMonthsIsMetAtItsOwnAltitudes) {
   for (float& value : month.cells) value = 640.0F;
   write_raster(folder / "rain.tif", month);
   const Climate wet = make_climate(dem, {.rain = source_of(folder / "rain.tif")}, made_up, silent_progress());
-  EXPECT_NEAR(wet.at(20, 30).rain_mm(dem.altitude_m(20, 30)), 640.0, 5.0);
+  EXPECT_NEAR(rain_mm(wet.at(20, 30), dem.altitude_m(20, 30)), 640.0, 5.0);
 }
 
 TEST(Climate, StationsHaveTheFirstWordAndTellHowSureTheyAre) {
@@ -127,11 +127,11 @@ TEST(Climate, StationsHaveTheFirstWordAndTellHowSureTheyAre) {
   const Climate climate = make_climate(dem, {.stations = folder + "HISTALP_oetztal.nc"}, made_up, silent_progress());
   EXPECT_THAT(join(climate.sources), AllOf(HasSubstr("falls 5.74 K/km"), HasSubstr("5.5"), HasSubstr("resampled stations"),
                                            HasSubstr("mm a km higher"), HasSubstr("wind from 270°")));
-  const ClimateColumn middle = climate.at(0.5 * dem.width(), 0.5 * dem.height());
+  const PlaceClimate middle = climate.at(0.5 * dem.width(), 0.5 * dem.height());
   double year = 0.0;
-  for (std::size_t m = 0; m < 12; ++m) year += middle.temperature_c(m, 1938.0) / 12.0;
+  for (std::size_t m = 0; m < 12; ++m) year += monthly_c(middle, 1938.0)[m] / 12.0;
   EXPECT_NEAR(year, 2.4, 1.0) << "Obergurgl, 1938 m, has 2.6 °C";
-  EXPECT_NEAR(middle.rain_mm(1938.0), 900.0, 350.0);
+  EXPECT_NEAR(rain_mm(middle, 1938.0), 900.0, 350.0);
 }
 
 TEST(Climate, MeansOfTheYearTakeTheirCourseFromTheDefaultAndTheSceneHasTheLastWordOnTheLapse) {
@@ -142,18 +142,18 @@ TEST(Climate, MeansOfTheYearTakeTheirCourseFromTheDefaultAndTheSceneHasTheLastWo
   ClimateParameters parameters;
   parameters.stations = folder.write("s.csv", text);
   const Dem dem = make_ridge(60, 60);
-  const ClimateColumn column = make_climate(dem, parameters, made_up, silent_progress()).at(30, 30);
+  const PlaceClimate column = make_climate(dem, parameters, made_up, silent_progress()).at(30, 30);
   double year = 0.0;
   double lapse = 0.0;
   for (std::size_t m = 0; m < 12; ++m) {
-    year += column.temperature_c(m, 1400.0) / 12.0;
+    year += monthly_c(column, 1400.0)[m] / 12.0;
     lapse += column.lapse_k_per_km[m] / 12.0;
   }
   EXPECT_NEAR(year, 3.0, 1e-6);
   EXPECT_NEAR(lapse, 6.0, 1e-6);
   EXPECT_NEAR(column.sea_level_c[6] - column.sea_level_c[0], 8.0, 1e-9);
   parameters.lapse_k_per_km = 4.0;
-  const ClimateColumn said = make_climate(dem, parameters, made_up, silent_progress()).at(30, 30);
+  const PlaceClimate said = make_climate(dem, parameters, made_up, silent_progress()).at(30, 30);
   EXPECT_EQ(said.lapse_k_per_km[0], 4.0);
   parameters.lapse_k_per_km = 40.0;
   EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_climate(dem, parameters, made_up, silent_progress()); }),

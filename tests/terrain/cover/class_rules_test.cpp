@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -30,7 +32,11 @@ Dem ground(int size, const std::function<double(double, double)>& altitude) {
 
 Grid<LandCoverClass> apply(const ClassRules& rules, const Dem& dem, const std::vector<std::pair<std::string, double>>& settings = {},
                            const std::vector<KnownTown>& towns = {}) {
-  return apply_class_rules(rules, {.settings = settings, .towns = towns, .seed = 7}, dem, silent_progress()).classes.cells;
+  ClassRuleParameters parameters;
+  parameters.settings = settings;
+  parameters.towns = towns;
+  parameters.seed = 7;
+  return apply_class_rules(rules, parameters, dem, silent_progress()).classes.cells;
 }
 
 // A cone of 25° with its summit in the middle.
@@ -44,8 +50,8 @@ double share(const Grid<LandCoverClass>& classes, LandCoverClass id) {
 }
 
 TEST(ClassRules, AlpineIsReadAndNamesItsParameters) {
-  const ClassRules rules = read_class_rules("alpine");
-  EXPECT_EQ(rules.name, "alpine");
+  const ClassRules rules = read_class_rules("life_zones");
+  EXPECT_EQ(rules.name, "life_zones");
   EXPECT_THAT(rules.parameters, testing::Contains(testing::Pair("treeline_m", 1820.0)));
   EXPECT_GT(rules.layers.size(), 12U);
 }
@@ -105,7 +111,7 @@ TEST(ClassRules, ScreeBelowRockOnly) {
 }
 
 TEST(ClassRules, ForestEndsAtARaggedTreeline) {
-  const ClassRules rules = read_class_rules("alpine");
+  const ClassRules rules = read_class_rules("life_zones");
   const Grid<LandCoverClass> c = apply(rules, cone());
   double lowest_grass = 1e9;
   double highest_forest = -1e9;
@@ -129,7 +135,7 @@ TEST(ClassRules, ForestEndsAtARaggedTreeline) {
 
 TEST(ClassRules, SnowReachesLowerOnTheNorthSide) {
   const Dem high = ground(240, [](double e, double n) { return 3500.0 - 0.4663 * std::hypot(e, n); });
-  const Grid<LandCoverClass> c = apply(read_class_rules("alpine"), high, {{"ice_line_m", 9000.0}});
+  const Grid<LandCoverClass> c = apply(read_class_rules("life_zones"), high, {{"ice_line_m", 9000.0}});
   const auto lowest_snow = [&](bool north_side) {
     double lowest = 1e9;
     for (int y = 0; y < 240; ++y)
@@ -145,7 +151,7 @@ TEST(ClassRules, SnowReachesLowerOnTheNorthSide) {
 TEST(ClassRules, WaterLiesOverAll) {
   const Dem dem = ground(160, [](double e, double n) { return std::max(600.0, 560.0 + 0.1 * std::hypot(e, n)); });
   for (const double winter : {0.0, 1.0}) {
-    const Grid<LandCoverClass> c = apply(read_class_rules("alpine"), dem, {{"winter", winter}});
+    const Grid<LandCoverClass> c = apply(read_class_rules("life_zones"), dem, {{"winter", winter}});
     EXPECT_EQ(c(80, 80), water);
     EXPECT_NEAR(share(c, water), 3.14159 * 400.0 * 400.0 / (4800.0 * 4800.0), 0.006);
   }
@@ -162,7 +168,7 @@ const Dem& shore_of_the_sea() {
 }
 
 TEST(ClassRules, TheSeaIsWaterWithABeach) {
-  ClassRules rules = read_class_rules("alpine");
+  ClassRules rules = read_class_rules("life_zones");
   const Dem& dem = shore_of_the_sea();
   // A town at the shore, half of it at sea.
   const Grid<LandCoverClass> c = apply(rules, dem, {}, {{.place = dem.transform.to_crs(118.0, 150.0), .radius_m = 600.0}});
@@ -175,7 +181,9 @@ TEST(ClassRules, TheSeaIsWaterWithABeach) {
       if (e < -1000.0) water_at_sea += c(x, y) == water ? 1.0 : 0.0;
       if (e > -900.0) water_on_land += c(x, y) == water ? 1.0 : 0.0;
       if (e > -1000.0 && e < -850.0) sand_by_the_sea += c(x, y) == sand ? 1.0 : 0.0;
-      if (e > -300.0) EXPECT_NE(c(x, y), sand);
+      if (e > -300.0) {
+        EXPECT_NE(c(x, y), sand);
+      }
     }
   EXPECT_GT(water_at_sea / (300.0 * 117.0), 0.995);
   EXPECT_LT(water_on_land, 30.0);
@@ -183,7 +191,10 @@ TEST(ClassRules, TheSeaIsWaterWithABeach) {
   EXPECT_EQ(c(100, 150), water);  // no houses in it
   EXPECT_GT(share(c, settlement), 0.0);
   // Where there is none, fields and houses stand there, as on any plain.
-  const Grid<LandCoverClass> dry = apply_class_rules(rules, {.sea = {.look = false}, .seed = 7}, dem, silent_progress()).classes.cells;
+  ClassRuleParameters without_sea;
+  without_sea.sea.look = false;
+  without_sea.seed = 7;
+  const Grid<LandCoverClass> dry = apply_class_rules(rules, without_sea, dem, silent_progress()).classes.cells;
   EXPECT_LT(share(dry, water), 0.02);
   EXPECT_EQ(share(dry, sand), 0.0);
 }
@@ -200,7 +211,7 @@ TEST(ClassRules, VariablesOfTheSea) {
 
 TEST(ClassRules, ReedsGrowIntoLakesFromTheShore) {
   const Dem dem = ground(160, [](double e, double n) { return std::max(600.0, 560.0 + 0.05 * std::hypot(e, n)); });
-  const ClassRules rules = read_class_rules("alpine");
+  const ClassRules rules = read_class_rules("life_zones");
   const Grid<LandCoverClass> open = apply(rules, dem);
   const Grid<LandCoverClass> grown = apply(rules, dem, {{"reeds", 1.0}});
   EXPECT_LT(share(grown, water), 0.95 * share(open, water));
@@ -218,7 +229,7 @@ TEST(ClassRules, ReedsGrowIntoLakesFromTheShore) {
 }
 
 TEST(ClassRules, WinterCoversMeadowsAndLeavesForest) {
-  const ClassRules rules = read_class_rules("alpine");
+  const ClassRules rules = read_class_rules("life_zones");
   const Grid<LandCoverClass> summer = apply(rules, cone());
   const Grid<LandCoverClass> winter = apply(rules, cone(), {{"winter", 1.0}});
   EXPECT_GT(share(summer, alpine_grass), 0.1);
@@ -231,7 +242,7 @@ TEST(ClassRules, WinterCoversMeadowsAndLeavesForest) {
 TEST(ClassRules, TownsAreWhereTheSceneSaysAndNowhereElse) {
   // A plain that falls to the west: level, but no lake.
   const Dem plain = ground(200, [](double e, double) { return 700.0 + 0.0133 * e; });
-  const ClassRules rules = read_class_rules("alpine");
+  const ClassRules rules = read_class_rules("life_zones");
   const glm::dvec2 town = plain.transform.to_crs(60, 140);
   EXPECT_EQ(share(apply(rules, plain, {{"settlement", -1.0}}), settlement), 0.0);
   const Grid<LandCoverClass> with = apply(rules, plain, {{"settlement", -1.0}}, {{town, 900.0}});
@@ -259,7 +270,7 @@ TEST(ClassRules, VillagesStandOnValleyFloorsAndInClearings) {
   const Dem dem = ground(240, [](double e, double n) {
     return 650.0 + 0.012 * n + 0.5 * std::max(0.0, std::abs(e) - 900.0) - 0.35 * std::max(0.0, std::abs(e) - 1700.0);
   });
-  const ClassRules rules = read_class_rules("alpine");
+  const ClassRules rules = read_class_rules("life_zones");
   const Grid<LandCoverClass> some = apply(rules, dem);
   EXPECT_GT(share(some, settlement), 0.001);
   EXPECT_LT(share(some, settlement), 0.1);
@@ -275,7 +286,7 @@ TEST(ClassRules, VillagesStandOnValleyFloorsAndInClearings) {
 // Wooded slopes of one steepness all around, 700 m … 1400 m.
 Grid<LandCoverClass> wooded_cone(double slope_deg, const std::vector<std::pair<std::string, double>>& settings) {
   const double fall = std::tan(slope_deg * 0.017453292519943295);
-  return apply(read_class_rules("alpine"), ground(160, [&](double e, double n) { return 1400.0 - fall * std::hypot(e, n); }), settings);
+  return apply(read_class_rules("life_zones"), ground(160, [&](double e, double n) { return 1400.0 - fall * std::hypot(e, n); }), settings);
 }
 
 TEST(ClassRules, CragsStandOutOfWoodedSlopesTheMoreTheSteeper) {
@@ -304,7 +315,7 @@ TEST(ClassRules, FirnHidesIceAboveTheLineButNotOnSteps) {
   const auto shares = [&](double gradient) {
     // A trough that falls to the south, its middle at the line.
     const Dem dem = ground(200, [&](double e, double n) { return 3000.0 + gradient * n + 0.0002 * e * e; });
-    const Grid<LandCoverClass> c = apply(read_class_rules("alpine"), dem, settings);
+    const Grid<LandCoverClass> c = apply(read_class_rules("life_zones"), dem, settings);
     double firn_above = 0.0, ice_above = 0.0, firn_below = 0.0, ice_below = 0.0;
     for (std::size_t i = 0; i < c.size(); ++i) {
       if (std::abs(static_cast<int>(i % 200) - 100) > 15) continue;
@@ -324,7 +335,7 @@ TEST(ClassRules, FirnHidesIceAboveTheLineButNotOnSteps) {
 
 // Above the last grass lies rubble, even where it is level, and so it does about the tongues of glaciers; never in lower woods.
 TEST(ClassRules, RubbleLiesAboveTheGrassAndAboutTheIce) {
-  const ClassRules rules = read_class_rules("alpine");
+  const ClassRules rules = read_class_rules("life_zones");
   const Dem gentle = ground(200, [](double, double n) { return 2000.0 + 0.3 * n; });
   const Grid<LandCoverClass> c = apply(rules, gentle, {{"raggedness", 0.0}, {"snowline_m", 9000.0}, {"ice_line_m", 9000.0}});
   double highest_grass = 0.0;
@@ -353,7 +364,7 @@ TEST(ClassRules, RubbleLiesAboveTheGrassAndAboutTheIce) {
 TEST(ClassRules, GlaciersFlowDownValleysInTongues) {
   // A valley that falls to the south from a snow field: its ice reaches far below the ice line, that of the ridges beside it does not.
   const Dem dem = ground(200, [](double e, double n) { return 2700.0 + 0.25 * n + 0.00045 * e * e; });
-  const Grid<LandCoverClass> c = apply(read_class_rules("alpine"), dem, {{"ice_line_m", 3000.0}, {"raggedness", 0.0}});
+  const Grid<LandCoverClass> c = apply(read_class_rules("life_zones"), dem, {{"ice_line_m", 3000.0}, {"raggedness", 0.0}});
   double lowest_ice = 1e9;
   int column = 0;
   for (int y = 0; y < 200; ++y)
@@ -381,7 +392,7 @@ TEST(ClassRules, SpecksGoAndWaterStays) {
 }
 
 TEST(ClassRules, SameForAnyNumberOfThreads) {
-  const ClassRules rules = read_class_rules("alpine");
+  const ClassRules rules = read_class_rules("life_zones");
   const Grid<LandCoverClass> many = apply(rules, cone());
   const ThreadLimit limit(1);
   EXPECT_EQ(apply(rules, cone()), many);
@@ -389,7 +400,7 @@ TEST(ClassRules, SameForAnyNumberOfThreads) {
 
 TEST(ClassRules, UnknownSettingNamesTheNearest) {
   try {
-    apply(read_class_rules("alpine"), cone(), {{"tree_line_m", 1.0}});
+    apply(read_class_rules("life_zones"), cone(), {{"tree_line_m", 1.0}});
     FAIL();
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::usage);
@@ -428,6 +439,93 @@ TEST(ClassRules, FilesAreRefusedWithTheirPlace) {
   EXPECT_THAT(refused(head), testing::HasSubstr("no layers"));
   EXPECT_THAT(refused("version = 2\n"), testing::HasSubstr("the number 2"));
   EXPECT_THROW(read_class_rules("alpin"), Error);
+}
+
+// Climate of one place everywhere, with other lines and water.
+RuleClimate climate(float treeline_m, float snow_m, float moisture) {
+  RuleClimate c = alpine_climate();
+  c.treeline_m(0, 0) = treeline_m;
+  c.ice_line_m(0, 0) = c.snow_line_m(0, 0) = snow_m;
+  for (Grid<float>& level : c.moisture) level(0, 0) = moisture;
+  return c;
+}
+
+Grid<LandCoverClass> apply_in(const RuleClimate& where, const Dem& dem, const std::vector<std::pair<std::string, double>>& settings = {}) {
+  ClassRuleParameters parameters;
+  parameters.settings = settings;
+  parameters.seed = 7;
+  parameters.climate = where;
+  return apply_class_rules(read_class_rules("life_zones"), parameters, dem, silent_progress()).classes.cells;
+}
+
+// Mean altitude of the highest tenth of forest cells.
+double forest_top(const Grid<LandCoverClass>& classes, const Dem& dem) {
+  std::vector<float> altitudes;
+  for (std::size_t i = 0; i < classes.size(); ++i)
+    if (classes[i] == forest) altitudes.push_back(dem.altitude_m[i]);
+  std::sort(altitudes.rbegin(), altitudes.rend());
+  const std::size_t count = std::max<std::size_t>(1, altitudes.size() / 10);
+  return std::accumulate(altitudes.begin(), altitudes.begin() + static_cast<std::ptrdiff_t>(count), 0.0) / static_cast<double>(count);
+}
+
+TEST(LifeZones, TheTreelineIsThatOfTheClimateUnlessTheSceneHasItsOwn) {
+  const Dem dem = ground(240, [](double e, double n) { return 4500.0 - 0.9 * std::hypot(e, n); });
+  for (const float treeline : {2000.F, 3000.F}) {
+    EXPECT_NEAR(forest_top(apply_in(climate(treeline, 5500.F, 1.F), dem), dem), treeline, 200.0) << treeline;
+    EXPECT_NEAR(forest_top(apply_in(climate(treeline, 5500.F, 1.F), dem, {{"treeline_m", 2400.0}}), dem), 2400.0, 200.0);
+  }
+}
+
+TEST(LifeZones, ForestClimbsHigherOnSunnySlopes) {
+  const Dem dem = ground(240, [](double e, double n) { return 2900.0 - 0.4663 * std::hypot(e, n); });
+  const Grid<LandCoverClass> c = apply_in(climate(1900.F, 4500.F, 1.F), dem, {{"raggedness", 0.0}});
+  const auto highest = [&](int from, int to) {
+    float top = 0.F;
+    for (int y = from; y < to; ++y)
+      for (int x = 100; x < 140; ++x)
+        if (c(x, y) == forest) top = std::max(top, dem.altitude_m(x, y));
+    return top;
+  };
+  EXPECT_GT(highest(120, 240), highest(0, 120) + 100.F);  // rows run south
+}
+
+TEST(LifeZones, NoSnowWhereTheLineIsAboveAllGround) {
+  const Dem volcano = ground(240, [](double e, double n) { return 3800.0 - 0.6 * std::hypot(e, n); });
+  const Grid<LandCoverClass> dry = apply_in(climate(3000.F, 4600.F, 0.9F), volcano);
+  EXPECT_EQ(share(dry, snow) + share(dry, glacier), 0.0);
+  const Grid<LandCoverClass> wet = apply_in(climate(2000.F, 2600.F, 1.F), volcano);
+  EXPECT_GT(share(wet, snow) + share(wet, glacier), 0.01);
+}
+
+TEST(LifeZones, WhereWaterIsScarceForestGivesWayToBushesGrassAndSand) {
+  const Dem hills = ground(240, [](double e, double n) { return 900.0 + 120.0 * std::cos(e / 500.0) * std::cos(n / 700.0) + 0.02 * e; });
+  const auto shares = [&](float moisture) { return apply_in(climate(3500.F, 5000.F, moisture), hills, {{"settlement", -1.0}}); };
+  const auto wet = shares(1.F);
+  const auto bushes = shares(0.5F);
+  const auto steppe = shares(0.36F);
+  const auto desert = shares(0.08F);
+  EXPECT_GT(share(wet, forest), 0.5);
+  EXPECT_LT(share(bushes, forest), 0.1);
+  EXPECT_GT(share(bushes, shrub), 0.3);
+  EXPECT_GT(share(steppe, alpine_grass), 0.4);
+  EXPECT_EQ(share(desert, forest), 0.0);
+  EXPECT_GT(share(desert, sand) + share(desert, scree) + share(desert, rock), 0.8);
+}
+
+TEST(LifeZones, TheDatesSnowLiesOnOpenGroundAboveItsLine) {
+  const Dem dem = ground(240, [](double e, double n) { return 2900.0 - 0.4663 * std::hypot(e, n); });
+  RuleClimate october = climate(1820.F, 4000.F, 1.F);
+  october.season_snow_m(0, 0) = 2100.F;
+  const Grid<LandCoverClass> c = apply_in(october, dem);
+  double above = 0.0;
+  double white = 0.0;
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    if (dem.altitude_m[i] > 2450.F) above += 1.0, white += c[i] == snow ? 1.0 : 0.0;
+    if (dem.altitude_m[i] < 1600.F) {
+      ASSERT_NE(c[i], snow);
+    }
+  }
+  EXPECT_GT(white / above, 0.7);
 }
 
 }  // namespace

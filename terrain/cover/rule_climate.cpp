@@ -1,0 +1,99 @@
+#include "terrain/cover/rule_climate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace belvedere {
+namespace {
+
+// Where between which posts a coordinate lies; `count` posts.
+struct Between {
+  int low;
+  int high;
+  float share;  // of `high`
+};
+Between between(double at, int count) {
+  const double held = std::clamp(at, 0.0, static_cast<double>(count - 1));
+  const int low = std::min(static_cast<int>(held), std::max(0, count - 2));
+  return {low, std::min(low + 1, count - 1), static_cast<float>(held - low)};
+}
+
+float mix(float a, float b, float share) { return a + (b - a) * share; }
+
+// A row of a grid of posts at a place between two of its rows.
+float at_post(const Grid<float>& grid, const Between& row, int x) { return mix(grid(x, row.low), grid(x, row.high), row.share); }
+
+bool is_line(ClimateVariable variable) { return variable <= ClimateVariable::season_snow; }
+
+// The grids of a variable: one, or one for each altitude.
+std::span<const Grid<float>> levels_of(const RuleClimate& climate, ClimateVariable variable) {
+  switch (variable) {
+    case ClimateVariable::treeline:
+      return {&climate.treeline_m, 1};
+    case ClimateVariable::ice_line:
+      return {&climate.ice_line_m, 1};
+    case ClimateVariable::snow_line:
+      return {&climate.snow_line_m, 1};
+    case ClimateVariable::season_snow:
+      return {&climate.season_snow_m, 1};
+    case ClimateVariable::moisture:
+      return climate.moisture;
+    case ClimateVariable::temperature:
+      return climate.temperature_c;
+    case ClimateVariable::rain:
+      return climate.rain_mm;
+  }
+  return {&climate.treeline_m, 1};
+}
+
+}  // namespace
+
+RuleClimate alpine_climate() {
+  // The Karwendel as it is painted in summer; rain by far enough for forest.
+  const auto one = [](float value) { return Grid<float>(1, 1, value); };
+  RuleClimate climate;
+  climate.line_posts = climate.table_posts = {0.0, 0.0, 1.0, 1.0};
+  climate.treeline_m = one(1820.F);
+  climate.ice_line_m = one(2750.F);
+  climate.snow_line_m = one(2500.F);
+  climate.season_snow_m = one(no_season_snow_m);
+  climate.step_m = 4000.0;
+  climate.moisture = {one(1.F), one(1.F)};
+  climate.temperature_c = {one(11.5F), one(-10.5F)};  // 5.5 K a km
+  climate.rain_mm = {one(1000.F), one(2000.F)};
+  return climate;
+}
+
+void fill_climate_row(const RuleClimate& climate, ClimateVariable variable, const GeoTransform& transform, int y, int width,
+                      const float* altitude_m, float* out) {
+  const std::span<const Grid<float>> levels = levels_of(climate, variable);
+  const Grid<float>& first = levels.front();
+  const GeoTransform& posts_at = is_line(variable) ? climate.line_posts : climate.table_posts;
+  const glm::dvec2 start = posts_at.to_cell(transform.to_crs(0.0, y).x, transform.to_crs(0.0, y).y);
+  const double step = transform.cell_x / posts_at.cell_x;
+  const Between row = between(start.y, first.height());
+
+  // The row of each altitude between its two rows of posts: then a cell takes two posts of two altitudes.
+  const auto posts = static_cast<std::size_t>(first.width());
+  std::vector<float> values(levels.size() * posts);
+  for (std::size_t k = 0; k < levels.size(); ++k)
+    for (int x = 0; x < first.width(); ++x) values[k * posts + static_cast<std::size_t>(x)] = at_post(levels[k], row, x);
+
+  for (int x = 0; x < width; ++x) {
+    const Between column = between(start.x + step * x, first.width());
+    const auto along = [&](std::size_t k) {
+      const float* of_level = values.data() + k * posts;
+      return mix(of_level[column.low], of_level[column.high], column.share);
+    };
+    if (is_line(variable)) {
+      out[x] = along(0);
+      continue;
+    }
+    const Between up = between((static_cast<double>(altitude_m[x]) - climate.lowest_m) / climate.step_m, static_cast<int>(levels.size()));
+    out[x] = mix(along(static_cast<std::size_t>(up.low)), along(static_cast<std::size_t>(up.high)), up.share);
+  }
+}
+
+}  // namespace belvedere

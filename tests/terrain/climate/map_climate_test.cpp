@@ -1,0 +1,86 @@
+#include "terrain/climate/map_climate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "base/parallel.h"
+#include "terrain/climate/life_zones.h"
+#include "terrain/climate/snow_balance.h"
+#include "terrain/climate/water_balance.h"
+#include "terrain/io/crs.h"
+
+namespace belvedere {
+namespace {
+
+// Ground in Tyrol from a formula of metres east and north of the north-western corner.
+Dem ground(int width, int height, double cell_m, const std::function<double(double, double)>& altitude) {
+  Raster<float> raster{Grid<float>(width, height), {680000.0, 5240000.0, cell_m, cell_m}, normalize_crs("EPSG:32632")};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) raster.cells(x, y) = static_cast<float>(altitude(x * cell_m, -y * cell_m));
+  return make_dem(std::move(raster));
+}
+
+Climate climate_of(const Dem& dem) {
+  return make_climate(
+      dem, {}, [](glm::dvec2 lonlat) { return default_climate(lonlat.x, lonlat.y); }, silent_progress());
+}
+
+MapPlace place_of(const Dem& dem) { return make_map_place(dem.transform, dem.crs, dem.width(), dem.height(), {}); }
+
+TEST(MapClimate, PostsHoldTheLinesOfTheirPlaces) {
+  const Dem dem = ground(400, 300, 90.0, [](double e, double) { return 600.0 + 0.02 * e; });
+  const Climate climate = climate_of(dem);
+  const RuleClimate rules = make_map_climate(dem, climate, {.day_of_season = 20});
+  const PlaceClimate corner = climate.at(0.0, 0.0);
+  EXPECT_NEAR(rules.treeline_m(0, 0), treeline_m(corner), 0.05);
+  EXPECT_NEAR(rules.ice_line_m(0, 0), snow_line_m(corner), 0.05);
+  EXPECT_GT(rules.snow_line_m(0, 0), rules.ice_line_m(0, 0)) << "open ground gathers less snow";
+  EXPECT_NEAR(rules.season_snow_m(0, 0), snow_line_of_day_m(corner, 20), 0.05);
+  EXPECT_LT(rules.season_snow_m(0, 0), 1500.F) << "in January";
+  EXPECT_EQ(make_map_climate(dem, climate, {}).season_snow_m(0, 0), no_season_snow_m);
+  // The last post stands on the last cell.
+  std::vector<float> altitude(400, 1000.F);
+  std::vector<float> row(400);
+  fill_climate_row(rules, ClimateVariable::treeline, dem.transform, 299, 400, altitude.data(), row.data());
+  EXPECT_NEAR(row[399], treeline_m(climate.at(399.0, 299.0)), 0.05);
+  fill_climate_row(rules, ClimateVariable::moisture, dem.transform, 0, 400, altitude.data(), row.data());
+  EXPECT_NEAR(row[0], plant_water_share(corner, 1000.0), 0.01);
+}
+
+TEST(MapClimate, LevelGroundGetsLevelGroundsSunAtAnyAltitude) {
+  for (const double altitude : {0.0, 3000.0}) {
+    const Dem dem = ground(60, 60, 100.0, [&](double, double) { return altitude; });
+    const Grid<float> share = sun_share(dem, place_of(dem), {});
+    EXPECT_NEAR(share(30, 30), 1.F, 2e-3F) << altitude;
+  }
+  // Also beside ground of other altitudes that throws no shadow: a very gentle ramp.
+  const Dem ramp = ground(200, 60, 100.0, [](double e, double) { return 0.1 * e; });
+  EXPECT_NEAR(sun_share(ramp, place_of(ramp), {})(150, 30), 1.F, 0.03F);
+}
+
+TEST(MapClimate, SunnySlopesGetMoreAndShadedOnesLess) {
+  const Dem south = ground(60, 60, 100.0, [](double, double n) { return 4000.0 + 0.4 * n; });
+  const Dem north = ground(60, 60, 100.0, [](double, double n) { return 1000.0 - 0.4 * n; });
+  EXPECT_GT(sun_share(south, place_of(south), {})(30, 30), 1.15F);
+  EXPECT_LT(sun_share(north, place_of(north), {})(30, 30), 0.7F);
+}
+
+TEST(MapClimate, IsTheSameForAnyThreads) {
+  const Dem dem = ground(300, 200, 50.0, [](double e, double n) { return 1500.0 + 700.0 * std::sin(e / 900.0) * std::cos(n / 700.0); });
+  const auto make = [&](int threads) {
+    const ThreadLimit limit(threads);
+    RuleClimate climate = make_map_climate(dem, climate_of(dem), {});
+    climate.sun = sun_share(dem, place_of(dem), {});
+    return climate;
+  };
+  const RuleClimate one = make(1);
+  const RuleClimate two = make(2);
+  EXPECT_EQ(one.sun, two.sun);
+  EXPECT_EQ(one.treeline_m, two.treeline_m);
+  EXPECT_EQ(one.moisture, two.moisture);
+}
+
+}  // namespace
+}  // namespace belvedere

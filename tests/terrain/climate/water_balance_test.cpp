@@ -1,0 +1,56 @@
+#include "terrain/climate/water_balance.h"
+
+#include <gtest/gtest.h>
+
+namespace belvedere {
+namespace {
+
+// The same all the year and at every altitude.
+PlaceClimate even(double mean_c, double rain_mm) {
+  PlaceClimate climate;
+  climate.sea_level_c.fill(mean_c);
+  climate.lapse_k_per_km.fill(0.0);
+  climate.rain_mm_at_km.fill(rain_mm);
+  return climate;
+}
+
+TEST(WaterBalance, EvenRainIsSharedAsItFalls) {
+  // 10 °C could use 650 mm.
+  EXPECT_NEAR(plant_water_share(even(10.0, 325.0), 0.0), 0.5, 1e-9);
+  EXPECT_NEAR(plant_water_share(even(10.0, 650.0), 0.0), 1.0, 1e-9);
+  EXPECT_NEAR(plant_water_share(even(10.0, 2000.0), 0.0), 1.0, 1e-9);
+  EXPECT_NEAR(plant_water_share(even(20.0, 325.0), 0.0), 0.25, 1e-9);
+  EXPECT_NEAR(plant_water_share(even(10.0, 0.0), 0.0), 0.0, 1e-9);
+}
+
+TEST(WaterBalance, WhereNothingGrowsNothingLacks) { EXPECT_EQ(plant_water_share(even(-3.0, 0.0), 0.0), 1.0); }
+
+TEST(WaterBalance, WinterRainServesSummerOnlyAsFarAsTheSoilHoldsIt) {
+  PlaceClimate summer_rain = even(10.0, 600.0);
+  for (std::size_t m = 3; m < 9; ++m) summer_rain.sea_level_c[m] = 20.0;
+  PlaceClimate winter_rain = summer_rain;
+  summer_rain.summer_share = 0.8;
+  winter_rain.summer_share = 0.1;
+  EXPECT_GT(plant_water_share(summer_rain, 0.0), plant_water_share(winter_rain, 0.0) + 0.05);
+  // A deeper soil carries more of it into the summer.
+  EXPECT_GT(plant_water_share(winter_rain, 0.0, {.soil_mm = 300.0}), plant_water_share(winter_rain, 0.0) + 0.05);
+}
+
+TEST(WaterBalance, SnowWaitsForTheThaw) {
+  PlaceClimate cold = even(8.0, 300.0);
+  for (const std::size_t m : {0U, 1U, 2U, 9U, 10U, 11U}) cold.sea_level_c[m] = -8.0;
+  cold.summer_share = 0.0;  // all of it falls as snow
+  // 260 mm could be used; of the 300 mm of snow that melt in April the soil keeps 120 beside what April uses.
+  const double april_mm = 8.0 * 65.0 / 12.0;
+  EXPECT_NEAR(plant_water_share(cold, 0.0), (april_mm + 120.0) / (6.0 * april_mm), 0.02);
+}
+
+TEST(WaterBalance, HigherUpIsWetter) {
+  const double low = plant_water_share(default_climate(-113.0, 37.3), 800.0);
+  const double high = plant_water_share(default_climate(-113.0, 37.3), 2800.0);
+  EXPECT_LT(low, 0.4);   // St. George, Utah: desert
+  EXPECT_GT(high, 0.8);  // forest on the plateau
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,63 @@
+#include "terrain/cover/rule_climate.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace belvedere {
+namespace {
+
+// Posts 300 m apart on cells of 100 m: the second post stands on the fourth cell.
+RuleClimate climate() {
+  RuleClimate c = alpine_climate();
+  c.line_posts = c.table_posts = {-100.0, 1100.0, 300.0, 300.0};
+  c.treeline_m = Grid<float>(2, 2);
+  c.treeline_m(0, 0) = 1000.F;
+  c.treeline_m(1, 0) = 1300.F;
+  c.treeline_m(0, 1) = 1600.F;
+  c.treeline_m(1, 1) = 1900.F;
+  c.lowest_m = 0.0;
+  c.step_m = 1000.0;
+  c.moisture.clear();
+  for (const float at_level : {0.2F, 0.6F}) c.moisture.emplace_back(2, 2, at_level);
+  return c;
+}
+constexpr GeoTransform cells{0.0, 1000.0, 100.0, 100.0};
+
+TEST(RuleClimate, LinesAreStraightBetweenPostsAndConstantBeyond) {
+  const std::array<float, 6> altitude{};
+  std::array<float, 6> row{};
+  fill_climate_row(climate(), ClimateVariable::treeline, cells, 0, 6, altitude.data(), row.data());
+  EXPECT_NEAR(row[0], 1000.F, 1e-3F);
+  EXPECT_NEAR(row[1], 1100.F, 1e-3F);
+  EXPECT_NEAR(row[3], 1300.F, 1e-3F);
+  EXPECT_NEAR(row[5], 1300.F, 1e-3F);
+  fill_climate_row(climate(), ClimateVariable::treeline, cells, 1, 6, altitude.data(), row.data());
+  EXPECT_NEAR(row[0], 1200.F, 1e-3F);
+  fill_climate_row(climate(), ClimateVariable::treeline, cells, 9, 6, altitude.data(), row.data());
+  EXPECT_NEAR(row[3], 1900.F, 1e-3F);
+}
+
+TEST(RuleClimate, TablesAreStraightOverAltitude) {
+  const std::array<float, 4> altitude = {-500.F, 250.F, 1000.F, 4000.F};
+  std::array<float, 4> row{};
+  fill_climate_row(climate(), ClimateVariable::moisture, cells, 2, 4, altitude.data(), row.data());
+  EXPECT_NEAR(row[0], 0.2F, 1e-6F);
+  EXPECT_NEAR(row[1], 0.3F, 1e-6F);
+  EXPECT_NEAR(row[2], 0.6F, 1e-6F);
+  EXPECT_NEAR(row[3], 0.6F, 1e-6F);
+}
+
+TEST(RuleClimate, WithoutAPlaceItIsTheNorthernAlps) {
+  const std::array<float, 2> altitude = {500.F, 2500.F};
+  std::array<float, 2> row{};
+  fill_climate_row(alpine_climate(), ClimateVariable::treeline, cells, 0, 2, altitude.data(), row.data());
+  EXPECT_EQ(row[1], 1820.F);
+  fill_climate_row(alpine_climate(), ClimateVariable::temperature, cells, 0, 2, altitude.data(), row.data());
+  EXPECT_NEAR(row[0] - row[1], 11.F, 1e-4F);  // 5.5 K a km
+  fill_climate_row(alpine_climate(), ClimateVariable::season_snow, cells, 0, 2, altitude.data(), row.data());
+  EXPECT_EQ(row[0], no_season_snow_m);
+}
+
+}  // namespace
+}  // namespace belvedere
