@@ -18,6 +18,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
 #include "renderer/image/provenance.h"
+#include "renderer/world/scene_season.h"
 #include "renderer/world/world_notes.h"
 
 namespace belvedere {
@@ -71,8 +72,9 @@ TexelSupply write_scene_exemplar(const LoadedScene& loaded, const std::string& o
   check_memory("output", paint_bytes_per_pixel * output.width * output.height);
   check_output_folder(out_folder);
 
-  const Palette palette = read_palette(find_named_file(loaded, "palettes", loaded.scene.palette));
+  const Palette named = read_palette(find_named_file(loaded, "palettes", loaded.scene.palette));
   const World world(loaded, progress, run.cache);
+  const Palette palette = palette_of_place(named, loaded, *world.dem);
   const FileNotes notes = make_world_notes(loaded, world);
   LitPicture picture = make_lit_picture(world, palette, {0, 0, output.width, output.height}, run);
   const ExamplePainting example = paint_example(world, palette, std::move(picture), {}, progress);

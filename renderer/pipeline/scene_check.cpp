@@ -18,6 +18,7 @@
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/lit_picture.h"
 #include "renderer/world/scene_climate.h"
+#include "renderer/world/scene_season.h"
 #include "renderer/world/scene_terrain.h"
 #include "terrain/io/raster_io.h"
 
@@ -88,8 +89,9 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cach
   read_output_color(scene);
   SceneReport report;
   report.inputs = scene_inputs(scene);
-  const ScenePaint paint = read_scene_paint(scene, progress);
+  ScenePaint paint = read_scene_paint(scene, progress);
   Sight sight = look(scene, progress, cache);
+  paint.palette = palette_of_place(paint.palette, scene, *sight.dem);
   report.view = sight.view;
   report.crs = sight.dem->crs.empty() ? std::string("none") : describe_crs(sight.dem->crs);
   report.cells_wide = sight.dem->width();
@@ -127,8 +129,9 @@ SceneExemplars look_at_exemplars(const LoadedScene& scene, Progress& progress, c
   require_scene_files(scene);
   check_paintings(scene);
   const LoadedScene view = small(scene);
-  const Palette palette = read_scene_palette(scene, progress);
+  const Palette named = read_scene_palette(scene, progress);
   const World world(view, progress, cache);
+  const Palette palette = palette_of_place(named, scene, *world.dem);
   const LitPicture picture = make_lit_picture(world, palette, whole_picture(view), {.progress = progress});
   const double small_pixels = static_cast<double>(view.scene.output.width) * view.scene.output.height;
   // Example sheets are painted for the picture itself: their strokes are as large as its.

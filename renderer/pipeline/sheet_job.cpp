@@ -13,6 +13,7 @@
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/sheet/guidance_pack.h"
 #include "renderer/sheet/sheet_picture.h"
+#include "renderer/world/scene_season.h"
 #include "renderer/world/world_notes.h"
 
 namespace belvedere {
@@ -85,6 +86,12 @@ ScenePaint paint_for(const LoadedScene& loaded, const SheetRequest& request, Pro
   return request.panorama ? read_scene_paint(loaded, progress) : ScenePaint{{}, read_scene_palette(loaded, progress)};
 }
 
+// Paint is read before the world, so that wrong files are refused early; what its colours hang on is known after it.
+const Palette& bring_to_place(Palette& palette, const LoadedScene& loaded, const World& world) {
+  palette = palette_of_place(palette, loaded, *world.dem);
+  return palette;
+}
+
 int tile_px_for(const Scene& scene, const SheetView& view, const SheetRequest& request) {
   return request.stage_tile_px > 0 ? request.stage_tile_px : choose_tile_px(scene, view.pixels_per_unit, region_of(scene, request));
 }
@@ -94,7 +101,7 @@ SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, con
       world(loaded, run.progress, run.cache),
       place{work.folder(), static_cast<std::uint64_t>(share_of_tiles * static_cast<double>(memory_budget_bytes()))},
       view(view_of(world)),
-      ground(world, view, paint.palette, place, stage_run, tile_px_for(world.scene, view, request)) {
+      ground(world, view, bring_to_place(paint.palette, loaded, world), place, stage_run, tile_px_for(world.scene, view, request)) {
   keep_notes(loaded, world, work);
 }
 

@@ -59,7 +59,7 @@ struct SceneTown {  // a town that is known: see terrain/cover/towns.h
 struct SceneLandCover {
   std::vector<SceneSource> sources;                      // empty: by rules
   std::string legend;                                    // "nlcd", "corine", "esa_worldcover", "fbfm40", or a .csv or .toml file
-  std::string rules = "alpine";                          // where there is no source: built-in name or file
+  std::string rules = "life_zones";                      // where there is no source: built-in name or file
   std::string layers;                                    // a file of surface layers, instead of rules; empty: none
   std::vector<std::pair<std::string, double>> settings;  // parameters of the rules or layers
   std::vector<SceneTown> towns;                          // what rules know of towns …
@@ -71,6 +71,10 @@ struct SceneLandCover {
   std::optional<LandCoverClass> unknown;
   std::optional<LandCoverClass> nodata;
   PatchParameters patches;  // generalization: small patches go, those that matter stay
+};
+
+struct SceneSeason {
+  std::string date;  // "MM-DD"; empty: high summer, with what snow lasts through it
 };
 
 struct SceneClimate {       // see terrain/climate/climate.h; where nothing is said, the climate of the place
@@ -193,6 +197,7 @@ struct Scene {
   std::uint64_t seed = 1;
   SceneTerrain terrain;
   SceneLandCover land_cover;
+  SceneSeason season;
   SceneClimate climate;
   SceneGeneralize generalize;
   SceneDeform deform;

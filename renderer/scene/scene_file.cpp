@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <regex>
@@ -179,12 +180,24 @@ class ValueReader {
       check_file(text);
     }
     if (key_.text == TextKind::file) check_file(text);
+    if (key_.text == TextKind::date) check_date(text);
     if (key_.text == TextKind::time) {
       static const std::regex moment(R"(\d{4}-\d\d-\d\dT\d\d:\d\d(:\d\d(\.\d{1,9})?)?(Z|[+-]\d\d:\d\d))");
       if (!std::regex_match(text, moment))
         refuse(value_, fmt::format("{} is {}", key_name_, describe(value_)),
                "ISO 8601 with a zone, such as \"2024-06-21T17:30:00+02:00\" or \"2024-06-21T15:30:00Z\"");
     }
+  }
+
+  // A day that some year has.
+  void check_date(const std::string& text) const {
+    static const std::regex day(R"(\d\d-\d\d)");
+    constexpr std::array<int, 12> days = {31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    const bool formed = std::regex_match(text, day);
+    const int month = formed ? std::stoi(text.substr(0, 2)) : 0;
+    const int of_month = formed ? std::stoi(text.substr(3)) : 0;
+    if (month < 1 || month > 12 || of_month < 1 || of_month > days[static_cast<std::size_t>(month - 1)])
+      refuse(value_, fmt::format("{} is {}", key_name_, describe(value_)), "month and day, such as \"10-05\" for the fifth of October");
   }
 
   void check_file(const std::string& file) const {

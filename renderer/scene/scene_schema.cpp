@@ -102,6 +102,7 @@ std::string describe_type(const SceneKey& key) {
       }
       if (key.text == TextKind::file) return "a file name";
       if (key.text == TextKind::time) return "date, time and zone as text";
+      if (key.text == TextKind::date) return "month and day as text";
       return "text";
     }
   };

@@ -33,6 +33,7 @@ enum class TextKind {
   built_in,  // a name from the embedded folder `choices_from`, or a .toml or .csv file
   crs,       // a coordinate reference system; GDAL judges it when data are read
   time,      // ISO 8601 with zone
+  date,      // month and day, "10-05"
 };
 
 struct SceneRange {

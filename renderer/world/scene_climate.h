@@ -10,14 +10,11 @@ namespace belvedere {
 // Whether a scene says anything of its climate.
 bool names_climate(const Scene& scene);
 
+// Whether it is known where on Earth a scene's terrain lies: by its coordinate system, or by climate.latitude_deg.
+bool knows_place(const Scene& scene, const Dem& dem);
+
 // The climate of a scene's terrain, from [climate] and what is known of the place. What it was made from and how sure that is goes to
 // `progress` as notes. Throws what make_climate throws.
-Climate make_scene_climate(const LoadedScene& loaded, const Dem& dem, const DefaultClimate& fallback, Progress& progress);
-// With the plain default below.
 Climate make_scene_climate(const LoadedScene& loaded, const Dem& dem, Progress& progress);
-
-// A climate by latitude alone: sea level's mean of the year 27 - .0082 φ² °C and half a range of .14 φ K between its warmest and coldest
-// month, 5.6 K/km, 1000 mm. Right to some kelvins, so that there is never none.
-ClimateColumn plain_climate(glm::dvec2 lonlat_deg);
 
 }  // namespace belvedere

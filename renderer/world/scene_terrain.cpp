@@ -12,7 +12,10 @@
 #include "base/parallel.h"
 #include "renderer/paint/palette.h"
 #include "renderer/world/cached_products.h"
+#include "renderer/world/scene_climate.h"
+#include "renderer/world/scene_season.h"
 #include "renderer/world/scene_towns.h"
+#include "terrain/climate/map_climate.h"
 #include "terrain/cover/class_rules.h"
 #include "terrain/generalize/destripe.h"
 #include "terrain/layers/layer_apply.h"
@@ -55,10 +58,20 @@ CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules, cons
   const auto& [name, known_parameters, terms, layers] = rules;
   key.add("rules", name).add("parameters", known_parameters).add("terms", terms);
   for (const auto& [painted_as, when] : layers) key.add("layer", painted_as).add("when", when);
-  const auto& [settings, towns, sea, seed, sites] = parameters;
+  const auto& [settings, towns, sea, seed, climate, sites] = parameters;
   key.add("settings", settings).add("seed", seed);
   add_sea(key, sea);
   for (const auto& [place, radius_m, town] : towns) key.add("town", town).add("place", place).add("radius_m", radius_m);
+  const auto& [line_posts, treeline_m, ice_line_m, snow_line_m, season_snow_m, table_posts, lowest_m, step_m, moisture, temperature_c,
+               rain_mm, sun] = climate;
+  key.add("treeline_m", treeline_m).add("ice_line_m", ice_line_m).add("snow_line_m", snow_line_m).add("season_snow_m", season_snow_m);
+  key.add("lowest_m", lowest_m).add("step_m", step_m).add("moisture", moisture).add("temperature_c", temperature_c).add("rain_mm", rain_mm);
+  key.add("sun", sun);
+  for (const GeoTransform& posts : {line_posts, table_posts}) {
+    const auto& [origin_x, origin_y, cell_x, cell_y] = posts;
+    key.add("origin_x", origin_x).add("origin_y", origin_y).add("cell_x", cell_x).add("cell_y", cell_y);
+  }
+  key.add("latitude_deg", loaded.scene.climate.latitude_deg);
   if (sites)
     for (const auto& [place, radius_m, stretch, along_rad, on_floor] : *sites)
       key.add("site", place).add("radius_m", radius_m).add("stretch", stretch).add("along", along_rad).add("on_floor", on_floor ? 1 : 0);
@@ -68,6 +81,16 @@ CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules, cons
 
 ClassRules read_scene_rules(const LoadedScene& loaded) {
   return read_class_rules(find_named_file(loaded, "layers", loaded.scene.land_cover.rules));
+}
+
+bool takes_climate(const LoadedScene& loaded, const ClassRules& rules, const Dem& dem) {
+  return uses_variable(rules, "treeline") && knows_place(loaded.scene, dem);
+}
+
+// Without the sun, which takes longest and which only the land cover asks for.
+RuleClimate rule_climate(const LoadedScene& loaded, const ClassRules& rules, const Dem& dem) {
+  if (!takes_climate(loaded, rules, dem)) return alpine_climate();
+  return make_map_climate(dem, make_scene_climate(loaded, dem, silent_progress()), {.day_of_season = day_of_season(loaded.scene.season)});
 }
 
 ClassRuleParameters rule_parameters(const LoadedScene& loaded, const ClassRules& rules, const Dem& dem, Progress& progress) {
@@ -81,7 +104,8 @@ ClassRuleParameters rule_parameters(const LoadedScene& loaded, const ClassRules&
   return {.settings = std::move(settings),
           .towns = make_scene_towns(loaded, dem, progress),
           .sea = scene_sea(loaded.scene.land_cover),
-          .seed = loaded.scene.seed};
+          .seed = loaded.scene.seed,
+          .climate = rule_climate(loaded, rules, dem)};
 }
 
 LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, const std::vector<TownSite>* sites, Progress& progress,
@@ -91,7 +115,14 @@ LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, const std::
   if (sites != nullptr) parameters.sites = *sites;
   return cached<LandCover>(
       cache, [&] { return rule_cover_key(loaded, rules, parameters, dem); }, progress,
-      [&](Progress& watcher) { return apply_class_rules(rules, parameters, dem, watcher); });
+      [&](Progress& watcher) {
+        // What the sun does follows from the terrain and its place alone, which the key has.
+        if (takes_climate(loaded, rules, dem)) {
+          const MapPlace place = make_map_place(dem.transform, dem.crs, dem.width(), dem.height(), loaded.scene.climate.latitude_deg);
+          parameters.climate.sun = sun_share(dem, place, {}, watcher);
+        }
+        return apply_class_rules(rules, parameters, dem, watcher);
+      });
 }
 
 CacheKey layer_cover_key(const LoadedScene& loaded, const SurfaceLayers& layers, const LayerApplyParameters& parameters, const Dem& dem) {

@@ -1,0 +1,71 @@
+#include "renderer/world/scene_season.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include "renderer/world/palette_season.h"
+#include "renderer/world/scene_climate.h"
+#include "terrain/climate/growing_season.h"
+#include "terrain/climate/life_zones.h"
+#include "terrain/cover/class_rules.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double first_turns_c = 11.5;
+constexpr double all_turned_c = 6.5;
+constexpr double turning_fall_k = 6.0;
+constexpr int autumn_days = 230;  // after the warmest one: until then nothing grows again
+
+bool has_alpine_altitudes(const std::string& palette) { return palette == "summer" || palette == "autumn" || palette == "winter"; }
+
+// Whether rules paint the scene, with the treeline of its climate.
+bool takes_treeline(const LoadedScene& loaded) {
+  const SceneLandCover& cover = loaded.scene.land_cover;
+  if (!cover.sources.empty() || !uses_variable(read_class_rules(find_named_file(loaded, "layers", cover.rules)), "treeline")) return false;
+  return std::none_of(cover.settings.begin(), cover.settings.end(),
+                      [](const auto& setting) { return setting.first == "treeline_m" && setting.second > 0.0; });
+}
+
+}  // namespace
+
+std::optional<int> day_of_season(const SceneSeason& season) {
+  if (season.date.empty()) return std::nullopt;
+  constexpr std::array<int, 12> before = {0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
+  const int month = std::stoi(season.date.substr(0, 2));
+  const int day = std::stoi(season.date.substr(3));
+  return before[static_cast<std::size_t>(month - 1)] + (month == 2 ? std::min(day, 28) : day) - 1;
+}
+
+double autumn_share(const std::array<double, 365>& days_c, int day) {
+  const auto warmest = std::max_element(days_c.begin(), days_c.end());
+  const int since = (day - static_cast<int>(warmest - days_c.begin()) + 365) % 365;
+  if (since > autumn_days) return 0.0;
+  const double now_c = days_c[static_cast<std::size_t>(day)];
+  const double cold = (first_turns_c - now_c) / (first_turns_c - all_turned_c);
+  const double fallen = (*warmest - now_c) / turning_fall_k;
+  return std::clamp(std::min(cold, fallen), 0.0, 1.0);
+}
+
+Palette palette_of_place(const Palette& palette, const LoadedScene& loaded, const Dem& dem) {
+  const Scene& scene = loaded.scene;
+  const std::optional<int> day = day_of_season(scene.season);
+  const bool moves = has_alpine_altitudes(scene.palette) && takes_treeline(loaded);
+  const bool turns = day && scene.palette == "summer" && scene.synthesis.colours == "palette";
+  if ((!moves && !turns) || !knows_place(scene, dem)) return palette;
+
+  const Climate climate = make_scene_climate(loaded, dem, silent_progress());
+  const PlaceClimate middle = climate.at(0.5 * (dem.width() - 1), 0.5 * (dem.height() - 1));
+  const double higher_m = moves ? treeline_m(middle) - palette_treeline_m : 0.0;
+  const Palette moved = palette_at_other_altitudes(palette, higher_m);
+  if (!turns) return moved;
+
+  const auto [lowest, highest] = std::minmax_element(dem.altitude_m.begin(), dem.altitude_m.end());
+  const Palette autumn = palette_at_other_altitudes(read_palette("autumn"), higher_m);
+  const auto share = [&](double altitude_m) { return autumn_share(daily_c(monthly_c(middle, altitude_m)), *day); };
+  return mix_palettes(moved, autumn, share, static_cast<double>(*lowest), static_cast<double>(*highest));
+}
+
+}  // namespace belvedere

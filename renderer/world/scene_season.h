@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+
+#include "base/progress.h"
+#include "renderer/paint/palette.h"
+#include "renderer/scene/scene_file.h"
+#include "terrain/io/dem.h"
+
+namespace belvedere {
+
+// The day of the year of a scene's date, 0…364; the 29th of February counts as the 28th.
+std::optional<int> day_of_season(const SceneSeason& season);
+
+// A palette as it is at the place and time of a scene. "summer", "autumn" and "winter" have altitudes of the northern Alps: where rules
+// take the treeline from the climate they move with it. On a date "summer" turns to "autumn" from the heights down: by how far the day's
+// mean has fallen from the warmest day's (all of 6 K) and below 11.5 °C (all at 6.5 °C), whichever is less; not from midwinter to
+// midsummer. Other palettes, and terrain of no known place, stay as they are.
+Palette palette_of_place(const Palette& palette, const LoadedScene& loaded, const Dem& dem);
+
+// How far autumn has come where days have such means: 0…1.
+double autumn_share(const std::array<double, 365>& days_c, int day);
+
+}  // namespace belvedere
