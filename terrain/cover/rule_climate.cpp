@@ -57,7 +57,7 @@ RuleClimate alpine_climate() {
   climate.line_posts = climate.table_posts = {0.0, 0.0, 1.0, 1.0};
   climate.treeline_m = one(1820.F);
   climate.ice_line_m = one(2750.F);
-  climate.snow_line_m = one(2500.F);
+  climate.snow_line_m = one(2670.F);
   climate.season_snow_m = one(no_season_snow_m);
   climate.step_m = 4000.0;
   climate.moisture = {one(1.F), one(1.F)};

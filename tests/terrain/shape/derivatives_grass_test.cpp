@@ -38,12 +38,13 @@ TEST(PlanCurvature, IsTheNegativeOfGrassPlanc) {
     return test::read_bytes(folder / name);
   };
   // Now and then a run of r.param.scale goes wrong: two that agree are right.
-  std::string bytes = planc("0.bin");
+  std::vector<std::string> runs;
+  std::string bytes;
   bool agreed = false;
-  for (int i = 1; i < 6 && !agreed; ++i) {
-    const std::string again = planc(std::to_string(i) + ".bin");
-    agreed = again == bytes;
-    bytes = again;
+  for (int i = 0; i < 8 && !agreed; ++i) {
+    bytes = planc(std::to_string(i) + ".bin");
+    agreed = std::find(runs.begin(), runs.end(), bytes) != runs.end();
+    runs.push_back(bytes);
   }
   ASSERT_TRUE(agreed);
   ASSERT_EQ(bytes.size(), hills.size() * sizeof(float));
