@@ -93,6 +93,16 @@ RuleClimate rule_climate(const LoadedScene& loaded, const ClassRules& rules, con
   return make_map_climate(dem, make_scene_climate(loaded, dem, silent_progress()), {.day_of_season = day_of_season(loaded.scene.season)});
 }
 
+// For people: the lines in the middle of the map.
+std::string describe_lines(const RuleClimate& climate) {
+  const auto middle = [](const Grid<float>& line) { return static_cast<double>(line(line.width() / 2, line.height() / 2)); };
+  const double season_m = middle(climate.season_snow_m);
+  return fmt::format(
+      "by the climate of the place forest ends at {:.0f} m, snow lasts from {:.0f} m, glaciers begin at {:.0f} m{}",
+      middle(climate.treeline_m), middle(climate.snow_line_m), middle(climate.ice_line_m),
+      season_m < static_cast<double>(no_season_snow_m) ? fmt::format("; on that day snow lies from {:.0f} m", season_m) : "");
+}
+
 ClassRuleParameters rule_parameters(const LoadedScene& loaded, const ClassRules& rules, const Dem& dem, Progress& progress) {
   auto settings = loaded.scene.land_cover.settings;
   // A palette of winter brings its snow along, unless the scene says otherwise or the rules know no winter.
@@ -112,7 +122,10 @@ LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, const std::
                           const Cache& cache) {
   const ClassRules rules = read_scene_rules(loaded);
   ClassRuleParameters parameters = rule_parameters(loaded, rules, dem, progress);
-  if (sites != nullptr) parameters.sites = *sites;
+  if (sites != nullptr)
+    parameters.sites = *sites;
+  else if (takes_climate(loaded, rules, dem))
+    progress.note(describe_lines(parameters.climate));
   return cached<LandCover>(
       cache, [&] { return rule_cover_key(loaded, rules, parameters, dem); }, progress,
       [&](Progress& watcher) {
