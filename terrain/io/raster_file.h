@@ -36,6 +36,9 @@ struct CellWindow {
   int x0 = 0, y0 = 0, width = 0, height = 0;
 };
 
+// Memory that blocks of all open files may take, by what the program may.
+std::uint64_t raster_cache_bytes();
+
 // An open raster file, one band of it. For one thread at a time. Throws as raster_io.h says.
 class RasterFile {
  public:

@@ -46,7 +46,8 @@ class GdalErrors {
   std::string text_;
 };
 
-// Makes GDAL's formats known, once a process.
+// Makes GDAL's formats known, once a process, and holds its cache of blocks to a sixteenth of memory_budget_bytes(), which may have changed
+// since: to be called before a file is opened.
 void register_gdal();
 
 struct CloseDataset {

@@ -363,4 +363,9 @@ std::vector<std::string> raster_parts(const std::string& path) {
   return all;
 }
 
+std::uint64_t raster_cache_bytes() {
+  register_gdal();
+  return static_cast<std::uint64_t>(GDALGetCacheMax64());
+}
+
 }  // namespace belvedere

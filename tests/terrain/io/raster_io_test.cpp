@@ -460,5 +460,14 @@ TEST_F(RasterIo, CodesAreNeverBlended) {
   EXPECT_GT(known, 25000U);
 }
 
+TEST_F(RasterIo, KeepsNoMoreBlocksThanASixteenthOfTheMemory) {
+  setenv("BELVEDERE_MEMORY_MIB", "2048", 1);
+  EXPECT_EQ(raster_cache_bytes(), std::uint64_t{128} << 20);
+  setenv("BELVEDERE_MEMORY_MIB", "512", 1);
+  EXPECT_EQ(raster_cache_bytes(), std::uint64_t{32} << 20) << "a budget that shrinks is heard";
+  setenv("BELVEDERE_MEMORY_MIB", "64", 1);
+  EXPECT_EQ(raster_cache_bytes(), std::uint64_t{16} << 20) << "but some rows of blocks must fit";
+}
+
 }  // namespace
 }  // namespace belvedere
