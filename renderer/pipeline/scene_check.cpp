@@ -16,6 +16,7 @@
 #include "renderer/trace/class_view.h"
 #include "renderer/world/fold_check.h"
 #include "renderer/world/generalize_view.h"
+#include "renderer/world/ground_plan.h"
 #include "renderer/world/lit_picture.h"
 #include "renderer/world/scene_climate.h"
 #include "renderer/world/scene_season.h"
@@ -50,6 +51,7 @@ PixelRect whole_picture(const LoadedScene& view) { return {0, 0, view.scene.outp
 // What a World is made of, as far as one must know to see which classes are in its picture; refused where that would be refused.
 struct Sight {
   std::shared_ptr<const Dem> dem;
+  std::string levels;  // that rendering would take of a DEM which is larger than memory
   View view;
   std::vector<ClassArea> areas;
   Grid<LandCoverClass> classes;  // of the small picture
@@ -61,7 +63,12 @@ Sight look(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   Sight sight;
   SceneDem opened = open_scene_dem(loaded, progress, cache);
   sight.view = make_view(scene, opened.dem, progress, ground_altitude_of(opened));
+  if (opened.levels) {
+    const RasterFrame& frame = opened.levels->frame();
+    sight.levels = describe(plan_ground(frame, opened.dem, sight.view, opened.most_cells), frame);
+  }
   sight.dem = std::make_shared<const Dem>(std::move(opened.dem));
+  opened = {};
   PatchResult cover = make_scene_patches(loaded, *sight.dem, progress, cache);
   if (scene.land_cover.patches.smallest_m2 > 0.0) sight.areas = std::move(cover.areas);
 
@@ -97,6 +104,7 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cach
   report.cells_wide = sight.dem->width();
   report.cells_high = sight.dem->height();
   report.cell_m = sight.dem->cell_m();
+  report.larger_than_memory = std::move(sight.levels);
   report.land_cover = std::move(sight.areas);
   if (names_climate(scene.scene)) make_scene_climate(scene, *sight.dem, progress);
 

@@ -22,6 +22,7 @@ struct SceneReport {
   int cells_wide = 0;
   int cells_high = 0;
   double cell_m = 0.0;
+  std::string larger_than_memory;  // cells that the picture would be made from, where it cannot be those of the data; else empty
   View view;
   std::vector<std::pair<LandCoverClass, double>> classes;  // seen in the picture, with their share of its area
   std::vector<ClassArea> land_cover;                       // where small patches are taken out: each class before and after

@@ -238,6 +238,10 @@ SceneDem read_scene_dem(const LoadedScene& loaded, Progress& progress, const Cac
   const double most = most_ground_cells(terrain, cells);
   const int coarsest = coarsest_level(frame, most);
   if (coarsest == 0) return {read_dem(parameters, progress), nullptr, 0.0};
+  // As coarse as a landscape may be it still has to fit.
+  const RasterFrame whole_frame = level_frame(frame, coarsest);
+  check_memory(fmt::format("terrain of {} × {} cells, even in cells of {:g} m", frame.width, frame.height, whole_frame.transform.cell_x),
+               reading_bytes(frame) + ground_bytes_per_cell * whole_frame.width * whole_frame.height);
   // A third of what the finished ground will take, and gone before it is finished.
   auto levels = std::make_shared<DemLevels>(parameters, frame, coarsest, most * ground_bytes_per_cell / 3.0 / sizeof(float), progress);
   Dem whole = levels->whole();

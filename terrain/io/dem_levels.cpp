@@ -106,6 +106,11 @@ int coarsest_level(const RasterFrame& frame, double most_cells) {
   return level;
 }
 
+double reading_bytes(const RasterFrame& frame) {
+  constexpr double strips = 3.0;  // as read, with the rows kept for it, and what is made of it
+  return strips * sizeof(float) * std::min(strip_rows, frame.height) * static_cast<double>(frame.width);
+}
+
 RasterFrame level_frame(const RasterFrame& frame, int level) {
   RasterFrame out = frame;
   const double factor = std::ldexp(1.0, level);

@@ -19,6 +19,8 @@ namespace belvedere {
 int level_cells(int cells, int level);
 // The level at which the whole takes a quarter of `most_cells`, which leaves the rest to windows; 0 where all cells of the data fit.
 int coarsest_level(const RasterFrame& frame, double most_cells);
+// Memory that reading takes at least, beside the whole at its coarsest level: strips of rows, whole width.
+double reading_bytes(const RasterFrame& frame);
 // Where the cells of a level lie.
 RasterFrame level_frame(const RasterFrame& frame, int level);
 

@@ -38,6 +38,7 @@ std::string as_json(const LoadedScene& scene, const SceneReport& report) {
              .add("crs", Json::text(report.crs))
              .add("cells", Json::array({Json::number(report.cells_wide), Json::number(report.cells_high)}))
              .add("cell_m", Json::number(report.cell_m))
+             .add("larger_than_memory", Json::text(report.larger_than_memory))
              .add("eye", Json::array({Json::number(camera.eye.x), Json::number(camera.eye.y), Json::number(camera.eye.z)}))
              .add("azimuth_deg", Json::number(camera.azimuth_deg))
              .add("pitch_deg", Json::number(camera.pitch_deg))
@@ -57,6 +58,8 @@ std::string as_text(const LoadedScene& scene, const SceneReport& report) {
                        input.origin.empty() ? "" : " (" + input.origin + ")");
   const CameraParameters& camera = report.view.camera;
   out += fmt::format("terrain: {} × {} cells of {:.4g} m, {}\n", report.cells_wide, report.cells_high, report.cell_m, report.crs);
+  if (!report.larger_than_memory.empty())
+    out += fmt::format("terrain: looked at here in those cells alone; in the picture {}\n", report.larger_than_memory);
   out += fmt::format("camera: E {:.0f} N {:.0f}, {:.0f} m; looks to {:.1f}°, pitch {:.1f}°\n", camera.eye.x, camera.eye.y, camera.eye.z,
                      camera.azimuth_deg, camera.pitch_deg);
   out += fmt::format("sun: azimuth {:.1f}°, {:.1f}° high\n", report.view.sun.azimuth_deg, report.view.sun.altitude_deg);

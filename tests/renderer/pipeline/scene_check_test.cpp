@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/pipeline/pipeline.h"
+#include "terrain/io/raster_io.h"
 #include "tests/files.h"
 #include "tests/renderer/pipeline/painted_scene.h"
 
@@ -38,6 +39,25 @@ TEST(SceneCheck, SaysWhatIsKnownBeforeTheWork) {
   }
   EXPECT_NEAR(shares, 1.0, 1e-9);
   EXPECT_EQ(report.classes.front().first, LandCoverClass::sky) << "in the order of the classes";
+}
+
+TEST(SceneCheck, SaysWhatThePictureTakesOfTerrainLargerThanMemory) {
+  test::Folder folder;
+  Raster<float> raster{Grid<float>(600, 600), {600000.0, 5200000.0, 30.0, 30.0}, normalize_crs("EPSG:32632")};
+  for (int y = 0; y < 600; ++y)
+    for (int x = 0; x < 600; ++x) raster.cells(x, y) = 900.F + static_cast<float>(x + y);
+  write_raster(folder / "terrain.tif", raster);
+  const auto check = [&](const char* most) {
+    return check_scene(parse_scene("version = 1\n[[terrain.sources]]\nfile = \"terrain.tif\"\n[camera]\nposition = [609000, 5181000]\n"
+                                   "height_m = 4000\npitch_deg = -14\n[synthesis]\nenabled = false\n[output]\nwidth = 100\nheight = 80\n",
+                                   "big.toml", folder / "", {.data_folders = {folder / ""}, .settings = {most}}),
+                       silent_progress());
+  };
+  const SceneReport report = check("terrain.most_mcells=0.25");
+  EXPECT_THAT(report.larger_than_memory, HasSubstr("600 × 600 cells is more than memory holds: read at"));
+  EXPECT_GT(report.cell_m, 30.0) << "looked at";
+  EXPECT_LT(report.cells_wide, 600);
+  EXPECT_EQ(check("terrain.most_mcells=1").larger_than_memory, "");
 }
 
 class PaintedSceneCheck : public testing::Test {
