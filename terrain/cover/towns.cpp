@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <glm/geometric.hpp>
+#include <unordered_map>
 
 #include "base/filter.h"
 #include "base/parallel.h"
@@ -74,6 +76,28 @@ Grid<float> distance_to_rivers(const TownGround& g, double cell_m) {
   });
   return distance;
 }
+
+// Places by squares of the map, so that those near another are found among any number: a terrain as wide as a continent has a hundred
+// thousand settlements.
+class NearPlaces {
+ public:
+  void add(glm::dvec2 place, std::size_t index) { squares_[square(column(place.x), column(place.y))].push_back(index); }
+  // Whether f says yes to the index of any place in the squares that a circle touches; some are farther off.
+  template <class F>
+  bool any_near(glm::dvec2 place, double reach_m, F&& f) const {
+    for (std::int64_t y = column(place.y - reach_m); y <= column(place.y + reach_m); ++y)
+      for (std::int64_t x = column(place.x - reach_m); x <= column(place.x + reach_m); ++x)
+        if (const auto found = squares_.find(square(x, y)); found != squares_.end())
+          if (std::any_of(found->second.begin(), found->second.end(), f)) return true;
+    return false;
+  }
+
+ private:
+  static constexpr double side_m = 4000.0;
+  static std::int64_t column(double along) { return static_cast<std::int64_t>(std::floor(along / side_m)); }
+  static std::int64_t square(std::int64_t x, std::int64_t y) { return y * (std::int64_t{1} << 24) + x; }
+  std::unordered_map<std::int64_t, std::vector<std::size_t>> squares_;
+};
 
 // The best cell of each block, if it can be lived on.
 std::vector<Candidate> find_candidates(const TownGround& g, const TownParameters& p, double cell_m) {
@@ -240,6 +264,13 @@ void raise_link(const TownGround& g, const TownLink& link, const PixelRect& box,
 std::vector<TownSite> find_town_sites(const TownGround& g, const TownParameters& p) {
   const double cell_m = 0.5 * (g.transform.cell_x + g.transform.cell_y);
   std::vector<TownSite> sites;
+  NearPlaces places;
+  double widest_m = 0.0;  // of all sites
+  const auto found = [&](const TownSite& site) {
+    widest_m = std::max(widest_m, site.radius_m * site.stretch);
+    places.add(site.place, sites.size());
+    sites.push_back(site);
+  };
   for (const KnownTown& town : p.known) {
     if (town.radius_m <= 0.0) continue;
     TownSite site{town.place, town.radius_m, 1.0, 0.0, true};
@@ -249,13 +280,16 @@ std::vector<TownSite> find_town_sites(const TownGround& g, const TownParameters&
     if (g.floor.contains(x, y)) take_direction(g, static_cast<std::int32_t>(g.floor.index(x, y)), cell_m, site);
     // The radius is that of a circle as large as the town.
     site.radius_m /= std::sqrt(site.stretch);
-    sites.push_back(site);
+    found(site);
   }
   if (p.amount <= -1.0) return sites;
 
   const std::vector<Candidate> candidates = find_candidates(g, p, cell_m);
   const auto is_free = [&](const Candidate& c, double spacing_m) {
-    return std::none_of(sites.begin(), sites.end(), [&](const TownSite& site) {
+    const glm::dvec2 here = g.transform.to_crs(c.cell % g.floor.width(), c.cell / g.floor.width());
+    const double reach_m = 1.0 + std::max(spacing_m, 0.5 * spacing_m + 1.3 * widest_m);
+    return !places.any_near(here, reach_m, [&](std::size_t index) {
+      const TownSite& site = sites[index];
       return distance_m(g, site.place, c.cell) < std::max(spacing_m, 0.5 * spacing_m + 1.3 * site.radius_m * site.stretch);
     });
   };
@@ -264,7 +298,7 @@ std::vector<TownSite> find_town_sites(const TownGround& g, const TownParameters&
   const auto settle = [&](const Candidate& c, double radius_m) {
     TownSite site{g.transform.to_crs(c.cell % g.floor.width(), c.cell / g.floor.width()), radius_m * larger, 1.0, 0.0, c.on_floor};
     take_direction(g, c.cell, cell_m, site);
-    sites.push_back(site);
+    found(site);
   };
   const std::uint64_t key = stream_seed(p.seed, Stream::towns);
   const auto chance = [&](const Candidate& c, std::uint64_t draw) { return random_uniform(key, c.cell, 0, draw); };
@@ -291,14 +325,20 @@ Grid<float> town_field(const std::vector<TownSite>& sites, const TownGround& g) 
   for (const TownSite& site : sites) boxes.push_back(cells_near(g, site.place, site.place, site.radius_m * site.stretch * 5.0));
   // Houses follow the ways out of a town towards its neighbours.
   std::vector<TownLink> links;
-  for (std::size_t a = 0; a < sites.size(); ++a) {
-    for (std::size_t b = a + 1; b < sites.size(); ++b) {
-      if (!sites[a].on_floor || !sites[b].on_floor) continue;
+  NearPlaces before;
+  double widest_m = 0.0;
+  for (std::size_t b = 0; b < sites.size(); ++b) {
+    if (!sites[b].on_floor) continue;
+    before.any_near(sites[b].place, 1.0 + link_m + 2.0 * (sites[b].radius_m + widest_m), [&](std::size_t a) {
       const double length = glm::length(sites[b].place - sites[a].place);
-      if (length > link_m + 2.0 * (sites[a].radius_m + sites[b].radius_m) || length < 1.0) continue;
-      if (open_share(g, sites[a].place, sites[b].place) < 0.85) continue;
-      links.push_back({&sites[a], &sites[b], cells_near(g, sites[a].place, sites[b].place, 200.0)});
-    }
+      if (length > link_m + 2.0 * (sites[a].radius_m + sites[b].radius_m) || length < 1.0) return false;
+      const PixelRect cells = cells_near(g, sites[a].place, sites[b].place, 200.0);
+      if (cells.empty() || open_share(g, sites[a].place, sites[b].place) < 0.85) return false;
+      links.push_back({&sites[a], &sites[b], cells});
+      return false;
+    });
+    before.add(sites[b].place, b);
+    widest_m = std::max(widest_m, sites[b].radius_m);
   }
   // The largest of several does not depend on their order, so bands of rows may be done at the same time.
   Grid<float> field(g.floor.width(), g.floor.height(), outermost);
