@@ -10,7 +10,6 @@
 #include "base/filter.h"
 #include "base/parallel.h"
 #include "terrain/shape/derivatives.h"
-#include "terrain/shape/hydrology.h"
 
 namespace belvedere {
 namespace {
@@ -60,9 +59,8 @@ Grid<float> rim_distance(const Dem& dem) {
 
 // A logarithm, because areas run from a cell to a province and a picture can tell a rill from a brook, not 500 km² from 501. Where rivers
 // enter at the rim they begin there.
-Grid<float> log_upstream_area(const Dem& dem) {
+Grid<float> log_upstream_area(Grid<float> area) {
   constexpr double m2_per_km2 = 1e6;
-  Grid<float> area = flow_accumulation_km2(dem.altitude_m, dem.cell_m(), dem.entries);
   parallel_rows(area.height(), [&](int y) {
     for (int x = 0; x < area.width(); ++x) area(x, y) = static_cast<float>(std::log10(m2_per_km2 * static_cast<double>(area(x, y))));
   });
@@ -72,7 +70,7 @@ Grid<float> log_upstream_area(const Dem& dem) {
 }  // namespace
 
 TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> generalized_m, std::shared_ptr<const LandCover> land_cover,
-                                double exaggeration) {
+                                double exaggeration, Catchments* catchments) {
   if (!dem->altitude_m.same_size(generalized_m)) {
     throw Error(ErrorKind::bug, "terrain model",
                 fmt::format("a generalized grid of {} × {} cells", generalized_m.width(), generalized_m.height()),
@@ -90,7 +88,8 @@ TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> gene
   model.relief_l_m = relief(z, cell_m, 120.0, 1800.0);
   model.valley_height_m = height_above_valley(z, cell_m, 900.0);
   model.rim_m = rim_distance(*dem);
-  model.flow = log_upstream_area(*dem);
+  Catchments own(*dem);
+  model.flow = log_upstream_area((catchments != nullptr ? *catchments : own).take_km2());
   model.floor_plan = plan_floor(*land_cover, *dem);
   model.dem = std::move(dem);
   model.generalized_m = std::move(generalized_m);

@@ -10,6 +10,7 @@
 #include "terrain/cover/land_cover.h"
 #include "terrain/deform/deform.h"
 #include "terrain/io/dem.h"
+#include "terrain/shape/catchments.h"
 
 namespace belvedere {
 
@@ -46,8 +47,8 @@ struct TerrainWindow {
 const TerrainModel& ground_of(const TerrainModel& terrain, int window);
 
 // Makes the derived grids from dem, generalized and land cover. Throws Error(bug) where the two grids differ in size or land cover has no
-// cells.
+// cells. `catchments`: the DEM's, where somebody asked for them before; taken.
 TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> generalized_m, std::shared_ptr<const LandCover> land_cover,
-                                double exaggeration);
+                                double exaggeration, Catchments* catchments = nullptr);
 
 }  // namespace belvedere

@@ -104,7 +104,7 @@ GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParamet
 }
 
 // All that make_ground takes. Every key of [generalize] counts, by what a scene with nothing else in it says: so none can be forgotten.
-CacheKey ground_key(const LoadedScene& loaded, const Dem& dem, const ViewOfGround& seen) {
+CacheKey ground_key(const LoadedScene& loaded, const Dem& dem, const SeaParameters& sea, const ViewOfGround& seen) {
   Scene settings;
   settings.generalize = loaded.scene.generalize;
   const auto& [mask, pixel_ground, viewer_xy] = seen;
@@ -112,7 +112,7 @@ CacheKey ground_key(const LoadedScene& loaded, const Dem& dem, const ViewOfGroun
   CacheKeyText key;
   key.add("settings", write_scene(settings)).add("mask", mask).add("viewer", viewer_xy);
   key.add("m_per_pixel", m_per_pixel).add("step_cells", step);
-  add_sea(key, scene_sea(loaded.scene.land_cover));
+  add_sea(key, sea);
   add_dem(key, dem);
   return make_cache_key(CachedProduct::generalized_ground, key, subject_of(loaded));
 }
@@ -164,13 +164,14 @@ PixelGround ground_m_per_pixel(const Dem& dem, const View& view) {
 }
 
 GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
-                                       Progress& progress, const Cache& cache) {
+                                       Progress& progress, const Cache& cache, const SeaParameters* given_sea) {
+  const SeaParameters sea = given_sea != nullptr ? *given_sea : scene_sea(loaded.scene.land_cover);
   const SceneGeneralize& settings = loaded.scene.generalize;
   ViewOfGround seen{.mask = mask_for_scene(loaded, dem, land_cover, progress, cache), .pixel_ground = {}, .viewer_xy = view.viewer_xy};
   if (settings.print_detail_px > 0.0) seen.pixel_ground = ground_m_per_pixel(dem, view);
   return cached<GeneralizedTerrain>(
-      cache, [&] { return ground_key(loaded, dem, seen); }, progress,
-      [&](Progress& watcher) { return make_ground(settings, scene_sea(loaded.scene.land_cover), dem, seen, watcher); });
+      cache, [&] { return ground_key(loaded, dem, sea, seen); }, progress,
+      [&](Progress& watcher) { return make_ground(settings, sea, dem, seen, watcher); });
 }
 
 }  // namespace belvedere

@@ -10,6 +10,7 @@
 #include "terrain/cover/land_cover.h"
 #include "terrain/deform/deform.h"
 #include "terrain/generalize/generalize.h"
+#include "terrain/shape/sea.h"
 
 namespace belvedere {
 
@@ -20,9 +21,9 @@ struct GeneralizedTerrain {
 
 // A DEM generalized as the scene asks for one view: by the distance from the viewer, by what its print can show, and by masks. `land_cover`
 // is looked at where the scene masks by class; null: it is made then. Its cells are the DEM's. The cache keeps it: of the view it depends
-// on the viewer's place, and on the camera only where the print's detail is asked for.
+// on the viewer's place, and on the camera only where the print's detail is asked for. `sea`: of a window of a larger DEM, its own.
 GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem, const LandCover* land_cover, const View& view,
-                                       Progress& progress, const Cache& cache = no_cache());
+                                       Progress& progress, const Cache& cache = no_cache(), const SeaParameters* sea = nullptr);
 
 // Pixels that a metre of ground at `place` takes at most, from differences over ±step_m; 0 behind the eye.
 double pixels_per_m(const Camera& camera, const Deformation& deformation, glm::dvec2 place, double altitude_m, double step_m);

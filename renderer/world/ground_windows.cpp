@@ -123,18 +123,20 @@ void cut(LandCover& cover, const Dem& dem, const PixelRect& rect) {
 }
 
 TerrainModel make_window(const TerrainModel& whole, const TerrainModel& coarser, const Lattice& coarser_at, const GroundWindow& planned,
-                         const std::vector<TownSite>& sites, const WindowMaking& making, Lattice& at) {
+                         const WholeTerrain& known, const WindowMaking& making, Lattice& at) {
   const RasterFrame frame = level_frame(making.levels.frame(), planned.level);
   const PixelRect all = {0, 0, frame.width, frame.height};
   const PixelRect made = intersection(grown(planned.part, ground_halo_cells), all);
   Progress& quiet = silent_progress();
   Dem dem = making.levels.window(planned.level, made, *whole.dem);
-  prepare_scene_dem(dem, making.loaded, quiet);
+  const SeaParameters sea = prepare_window_dem(dem, making.loaded, known);
   dem.entries = find_entries(whole, dem, made, whole.dem->halved - planned.level);
-  LandCover cover = make_window_cover(making.loaded, dem, sites, quiet, making.cache);
-  GeneralizedTerrain ground = generalize_for_view(making.loaded, dem, &cover, making.view, quiet, making.cache);
   const auto halo = std::make_shared<const Dem>(std::move(dem));
-  TerrainModel model = make_terrain_model(halo, std::move(ground.altitude_m), std::make_shared<const LandCover>(cover), whole.exaggeration);
+  Catchments catchments(*halo);
+  LandCover cover = make_window_cover(making.loaded, *halo, sea, known, catchments, quiet, making.cache);
+  GeneralizedTerrain ground = generalize_for_view(making.loaded, *halo, &cover, making.view, quiet, making.cache, &sea);
+  TerrainModel model =
+      make_terrain_model(halo, std::move(ground.altitude_m), std::make_shared<const LandCover>(cover), whole.exaggeration, &catchments);
   model.came_from = std::move(ground.came_from);
   model.local = making.deformation;
 
@@ -188,14 +190,14 @@ TerrainModel make_window(const TerrainModel& whole, const TerrainModel& coarser,
 void add_ground_windows(TerrainModel& terrain, const GroundPlan& plan, const WindowMaking& making) {
   if (plan.windows.empty()) return;
   making.progress.begin("finer ground", static_cast<double>(plan.windows.size()));
-  const std::vector<TownSite> sites = find_scene_settlements(making.loaded, *terrain.dem);
+  const WholeTerrain known = know_whole(making.loaded, *terrain.dem, making.sea);
   std::vector<TerrainWindow> windows;
   windows.reserve(plan.windows.size());
   Lattice before{plan.coarsest, {0, 0, terrain.dem->width(), terrain.dem->height()}};
   for (const GroundWindow& planned : plan.windows) {
     Lattice at;
     TerrainWindow window;
-    window.ground = make_window(terrain, windows.empty() ? terrain : windows.back().ground, before, planned, sites, making, at);
+    window.ground = make_window(terrain, windows.empty() ? terrain : windows.back().ground, before, planned, known, making, at);
     window.part = moved(planned.part, -at.kept.x0, -at.kept.y0);
     window.replaces = moved({planned.part.x0 / 2, planned.part.y0 / 2, planned.part.x1 / 2 + 1, planned.part.y1 / 2 + 1}, -before.kept.x0,
                             -before.kept.y0);

@@ -8,6 +8,7 @@
 #include "renderer/world/view.h"
 #include "terrain/deform/deform.h"
 #include "terrain/io/dem_levels.h"
+#include "terrain/shape/sea.h"
 
 namespace belvedere {
 
@@ -16,6 +17,7 @@ struct WindowMaking {
   const LoadedScene& loaded;
   const View& view;
   const Deformation& deformation;
+  const Sea& sea;  // of the whole
   DemLevels& levels;
   Progress& progress;
   const Cache& cache;
@@ -23,7 +25,7 @@ struct WindowMaking {
 
 // Reads, covers and generalizes each window of the plan with a halo, as the whole was, and lays it into the ground before it: along the
 // edge of its part its values are the coarser ones, 32 cells inwards its own. Rivers that enter bring along what the whole knows of them,
-// settlements are those of the whole. `terrain` is the whole's.
+// settlements, climate and the sea are those of the whole. `terrain` is the whole's.
 void add_ground_windows(TerrainModel& terrain, const GroundPlan& plan, const WindowMaking& making);
 
 // The terrain's generalized ground and that of its windows, deformed and joined.

@@ -16,7 +16,6 @@
 #include "renderer/world/scene_season.h"
 #include "renderer/world/scene_towns.h"
 #include "terrain/climate/map_climate.h"
-#include "terrain/cover/class_rules.h"
 #include "terrain/generalize/destripe.h"
 #include "terrain/layers/layer_apply.h"
 #include "terrain/layers/layers_file.h"
@@ -53,12 +52,20 @@ std::vector<RasterSource> to_raster_sources(const LoadedScene& scene, const std:
   return rasters;
 }
 
-CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules, const ClassRuleParameters& parameters, const Dem& dem) {
+// What a land cover is made with besides scene and DEM.
+struct CoverContext {
+  Catchments* catchments = nullptr;
+  const WholeTerrain* whole = nullptr;  // of a window: what it is part of …
+  const SeaParameters* sea = nullptr;   // … and its sea
+};
+
+CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules, const ClassRuleParameters& parameters, const Dem& dem,
+                        const WholeTerrain* whole) {
   CacheKeyText key;
   const auto& [name, known_parameters, terms, layers] = rules;
   key.add("rules", name).add("parameters", known_parameters).add("terms", terms);
   for (const auto& [painted_as, when] : layers) key.add("layer", painted_as).add("when", when);
-  const auto& [settings, towns, sea, seed, climate, sites] = parameters;
+  const auto& [settings, towns, sea, seed, climate, sites, catchments] = parameters;
   key.add("settings", settings).add("seed", seed);
   add_sea(key, sea);
   for (const auto& [place, radius_m, town] : towns) key.add("town", town).add("place", place).add("radius_m", radius_m);
@@ -76,6 +83,7 @@ CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules, cons
     for (const auto& [place, radius_m, stretch, along_rad, on_floor] : *sites)
       key.add("site", place).add("radius_m", radius_m).add("stretch", stretch).add("along", along_rad).add("on_floor", on_floor ? 1 : 0);
   add_dem(key, dem);
+  if (whole != nullptr) add_dem(key, whole->dem);  // throws shadows
   return make_cache_key(CachedProduct::land_cover, key, subject_of(loaded));
 }
 
@@ -118,22 +126,23 @@ ClassRuleParameters rule_parameters(const LoadedScene& loaded, const ClassRules&
           .climate = rule_climate(loaded, rules, dem)};
 }
 
-LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, const std::vector<TownSite>* sites, Progress& progress,
-                          const Cache& cache) {
+Grid<float> sun_of(const LoadedScene& loaded, const Dem& dem, const WholeTerrain* whole, Progress& progress) {
+  const auto& latitude_deg = loaded.scene.climate.latitude_deg;
+  if (whole != nullptr) return sun_share(dem, whole->dem, latitude_deg, {}, progress);
+  return sun_share(dem, make_map_place(dem.transform, dem.crs, dem.width(), dem.height(), latitude_deg), {}, progress);
+}
+
+LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, const CoverContext& context, Progress& progress, const Cache& cache) {
   const ClassRules rules = read_scene_rules(loaded);
-  ClassRuleParameters parameters = rule_parameters(loaded, rules, dem, progress);
-  if (sites != nullptr)
-    parameters.sites = *sites;
-  else if (takes_climate(loaded, rules, dem))
-    progress.note(describe_lines(parameters.climate));
+  ClassRuleParameters parameters = context.whole != nullptr ? context.whole->rules : rule_parameters(loaded, rules, dem, progress);
+  if (context.sea != nullptr) parameters.sea = *context.sea;
+  parameters.catchments = context.catchments;
+  if (context.whole == nullptr && takes_climate(loaded, rules, dem)) progress.note(describe_lines(parameters.climate));
   return cached<LandCover>(
-      cache, [&] { return rule_cover_key(loaded, rules, parameters, dem); }, progress,
+      cache, [&] { return rule_cover_key(loaded, rules, parameters, dem, context.whole); }, progress,
       [&](Progress& watcher) {
         // What the sun does follows from the terrain and its place alone, which the key has.
-        if (takes_climate(loaded, rules, dem)) {
-          const MapPlace place = make_map_place(dem.transform, dem.crs, dem.width(), dem.height(), loaded.scene.climate.latitude_deg);
-          parameters.climate.sun = sun_share(dem, place, {}, watcher);
-        }
+        if (takes_climate(loaded, rules, dem)) parameters.climate.sun = sun_of(loaded, dem, context.whole, watcher);
         return apply_class_rules(rules, parameters, dem, watcher);
       });
 }
@@ -159,9 +168,9 @@ LandCover make_layer_cover(const LoadedScene& loaded, const Dem& dem, Progress& 
 }
 
 // What the ground is where no raster says it: by surface layers, or by rules.
-LandCover make_modelled_cover(const LoadedScene& loaded, const Dem& dem, const std::vector<TownSite>* sites, Progress& progress,
+LandCover make_modelled_cover(const LoadedScene& loaded, const Dem& dem, const CoverContext& context, Progress& progress,
                               const Cache& cache) {
-  return loaded.scene.land_cover.layers.empty() ? make_rule_cover(loaded, dem, sites, progress, cache)
+  return loaded.scene.land_cover.layers.empty() ? make_rule_cover(loaded, dem, context, progress, cache)
                                                 : make_layer_cover(loaded, dem, progress, cache);
 }
 
@@ -183,10 +192,9 @@ void refine_by_rules(LandCover& cover, const LandCover& rules, const std::vector
 }
 
 // With every patch, however small.
-LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, const std::vector<TownSite>* sites, Progress& progress,
-                          const Cache& cache) {
+LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, const CoverContext& context, Progress& progress, const Cache& cache) {
   const SceneLandCover& settings = loaded.scene.land_cover;
-  if (settings.sources.empty()) return make_modelled_cover(loaded, dem, sites, progress, cache);
+  if (settings.sources.empty()) return make_modelled_cover(loaded, dem, context, progress, cache);
   LandCoverParameters parameters;
   parameters.sources = to_raster_sources(loaded, settings.sources);
   parameters.legend = find_named_file(loaded, "legends", settings.legend);
@@ -196,7 +204,7 @@ LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, const std::
   parameters.finest_cell_m = dem.halved > 0 ? dem.cell_m() : 0.0;
   LandCover cover = read_land_cover(parameters, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);
   if (!settings.refine.empty())
-    refine_by_rules(cover, make_modelled_cover(loaded, dem, sites, progress, cache), settings.refine);
+    refine_by_rules(cover, make_modelled_cover(loaded, dem, context, progress, cache), settings.refine);
   else if (!settings.towns.empty() || !settings.towns_file.empty())
     progress.note("the scene's towns are not used: rules build them, and the land cover comes from rasters");
   return cover;
@@ -230,14 +238,16 @@ SceneDem read_scene_dem(const LoadedScene& loaded, Progress& progress, const Cac
     return {cached<Dem>(
                 cache, [&] { return synthetic_key(loaded); }, progress,
                 [&](Progress& watcher) { return make_synthetic_terrain(*terrain.synthetic, watcher); }),
-            nullptr, 0.0};
+            nullptr,
+            0.0,
+            {}};
   DemParameters parameters = terrain.dem;
   parameters.sources = to_raster_sources(loaded, terrain.sources);
   const RasterFrame frame = choose_frame(parameters.sources, parameters.crs, parameters.cell_m, parameters.extent);
   const double cells = static_cast<double>(frame.width) * frame.height;
   const double most = most_ground_cells(terrain, cells);
   const int coarsest = coarsest_level(frame, most);
-  if (coarsest == 0) return {read_dem(parameters, progress), nullptr, 0.0};
+  if (coarsest == 0) return {read_dem(parameters, progress), nullptr, 0.0, {}};
   // As coarse as a landscape may be it still has to fit.
   const RasterFrame whole_frame = level_frame(frame, coarsest);
   check_memory(fmt::format("terrain of {} × {} cells, even in cells of {:g} m", frame.width, frame.height, whole_frame.transform.cell_x),
@@ -245,17 +255,23 @@ SceneDem read_scene_dem(const LoadedScene& loaded, Progress& progress, const Cac
   // A third of what the finished ground will take, and gone before it is finished.
   auto levels = std::make_shared<DemLevels>(parameters, frame, coarsest, most * ground_bytes_per_cell / 3.0 / sizeof(float), progress);
   Dem whole = levels->whole();
-  return {std::move(whole), std::move(levels), most};
+  return {std::move(whole), std::move(levels), most, {}};
+}
+
+// Stripes are in the cells of the data.
+void take_stripes_off(Dem& dem, const LoadedScene& loaded, Progress& progress) {
+  if (loaded.scene.generalize.destripe && dem.halved == 0) dem.altitude_m = destripe(dem.altitude_m, {}, progress);
 }
 
 }  // namespace
 
 SceneDem open_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   SceneDem opened = read_scene_dem(loaded, progress, cache);
-  const Sea sea = prepare_scene_dem(opened.dem, loaded, progress);
+  Sea sea = prepare_scene_dem(opened.dem, loaded, progress);
   if (!sea.empty())
     progress.note(fmt::format("sea: {:.1f} % of the terrain, at {:.1f} m{}", 100.0 * sea.share, sea.level_m,
                               sea.noise_m >= 0.3 ? fmt::format(", levelled from ± {:.1f} m", sea.noise_m) : ""));
+  if (opened.levels) opened.sea = std::move(sea);
   return opened;
 }
 
@@ -281,7 +297,7 @@ Dem make_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& c
 }
 
 Sea prepare_scene_dem(Dem& dem, const LoadedScene& loaded, Progress& progress) {
-  if (loaded.scene.generalize.destripe && dem.halved == 0) dem.altitude_m = destripe(dem.altitude_m, {}, progress);
+  take_stripes_off(dem, loaded, progress);
   Sea sea = find_sea(dem, scene_sea(loaded.scene.land_cover));
   if (!sea.empty()) level_sea(dem, sea);
   return sea;
@@ -289,29 +305,41 @@ Sea prepare_scene_dem(Dem& dem, const LoadedScene& loaded, Progress& progress) {
 
 SeaParameters scene_sea(const SceneLandCover& settings) { return {.look = settings.sea != "none", .level_m = settings.sea_level_m}; }
 
-LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
-  return make_scene_patches(loaded, dem, progress, cache).cover;
+LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache, Catchments* catchments) {
+  return make_scene_patches(loaded, dem, progress, cache, catchments).cover;
 }
 
-PatchResult make_scene_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
-  return remove_small_patches(make_full_cover(loaded, dem, nullptr, progress, cache), loaded.scene.land_cover.patches);
+PatchResult make_scene_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache, Catchments* catchments) {
+  return remove_small_patches(make_full_cover(loaded, dem, {.catchments = catchments}, progress, cache), loaded.scene.land_cover.patches);
 }
 
-std::vector<TownSite> find_scene_settlements(const LoadedScene& loaded, const Dem& dem) {
+WholeTerrain know_whole(const LoadedScene& loaded, const Dem& dem, const Sea& sea) {
+  WholeTerrain whole{dem, sea, {}};
   const SceneLandCover& settings = loaded.scene.land_cover;
-  if (!settings.sources.empty() && settings.refine.empty()) return {};
+  if (!settings.layers.empty() || (!settings.sources.empty() && settings.refine.empty())) return whole;  // without rules
   const ClassRules rules = read_scene_rules(loaded);
-  return find_rule_towns(rules, rule_parameters(loaded, rules, dem, silent_progress()), dem);
+  whole.rules = parameters_for_parts(rules, rule_parameters(loaded, rules, dem, silent_progress()), dem);
+  return whole;
 }
 
-LandCover make_window_cover(const LoadedScene& loaded, const Dem& window, const std::vector<TownSite>& sites, Progress& progress,
-                            const Cache& cache) {
-  return remove_small_patches(make_full_cover(loaded, window, &sites, progress, cache), loaded.scene.land_cover.patches).cover;
+SeaParameters prepare_window_dem(Dem& window, const LoadedScene& loaded, const WholeTerrain& whole) {
+  take_stripes_off(window, loaded, silent_progress());
+  SeaParameters sea = scene_sea(loaded.scene.land_cover);
+  sea.known = std::make_shared<const Sea>(continue_sea(window, whole.dem, whole.sea, sea));
+  level_sea(window, *sea.known);
+  return sea;
+}
+
+LandCover make_window_cover(const LoadedScene& loaded, const Dem& window, const SeaParameters& sea, const WholeTerrain& whole,
+                            Catchments& catchments, Progress& progress, const Cache& cache) {
+  const CoverContext context{.catchments = &catchments, .whole = &whole, .sea = &sea};
+  return remove_small_patches(make_full_cover(loaded, window, context, progress, cache), loaded.scene.land_cover.patches).cover;
 }
 
 void add_sea(CacheKeyText& key, const SeaParameters& sea) {
-  const auto& [look, level_m, least_cells] = sea;
+  const auto& [look, level_m, least_cells, found] = sea;
   key.add("sea", look).add("known", level_m.has_value()).add("level_m", level_m.value_or(0.0)).add("least_cells", least_cells);
+  if (found) key.add("sea mask", found->mask).add("sea level_m", found->level_m);
 }
 
 void add_dem(CacheKeyText& key, const Dem& dem) {

@@ -28,8 +28,16 @@ std::shared_ptr<const Dem> take_dem(const LoadedScene& loaded, SceneDem& opened,
   return std::make_shared<const Dem>(opened.levels ? opened.dem : std::move(opened.dem));
 }
 
-TerrainModel make_terrain(const World& world, GeneralizedTerrain generalized) {
-  TerrainModel terrain = make_terrain_model(world.dem, std::move(generalized.altitude_m), world.land_cover, world.view.deform.exaggeration);
+// Class rules and the terrain's model both ask where water runs: it is found once.
+std::shared_ptr<const LandCover> make_cover(const LoadedScene& loaded, const Dem& dem, std::unique_ptr<Catchments>& catchments,
+                                            Progress& progress, const Cache& cache) {
+  catchments = std::make_unique<Catchments>(dem);
+  return std::make_shared<const LandCover>(make_scene_land_cover(loaded, dem, progress, cache, catchments.get()));
+}
+
+TerrainModel make_terrain(const World& world, GeneralizedTerrain generalized, Catchments* catchments) {
+  TerrainModel terrain =
+      make_terrain_model(world.dem, std::move(generalized.altitude_m), world.land_cover, world.view.deform.exaggeration, catchments);
   terrain.came_from = std::move(generalized.came_from);
   if (world.deformation.is_local()) terrain.local = world.deformation;
   return terrain;
@@ -42,7 +50,7 @@ TerrainModel with_windows(TerrainModel terrain, const LoadedScene& loaded, const
   const RasterFrame& frame = opened.levels->frame();
   const GroundPlan plan = plan_ground(frame, *world.dem, world.view, opened.most_cells);
   progress.note(describe(plan, frame));
-  add_ground_windows(terrain, plan, {loaded, world.view, world.deformation, *opened.levels, progress, cache});
+  add_ground_windows(terrain, plan, {loaded, world.view, world.deformation, opened.sea, *opened.levels, progress, cache});
   opened = {};
   return terrain;
 }
@@ -54,29 +62,26 @@ TracerParameters tracer_parameters(const World& world, Progress& progress) {
   return world.scene.tracing;
 }
 
-template <class T>
-std::shared_ptr<const T> shared(T value) {
-  return std::make_shared<const T>(std::move(value));
-}
-
 }  // namespace
 
-World::World(const LoadedScene& loaded, Progress& progress, const Cache& cache) : World(loaded, nullptr, nullptr, {}, progress, cache) {}
+World::World(const LoadedScene& loaded, Progress& progress, const Cache& cache)
+    : World(loaded, nullptr, nullptr, {}, nullptr, progress, cache) {}
 
 World::World(const LoadedScene& loaded, std::shared_ptr<const Dem> known_dem, std::shared_ptr<const LandCover> known_cover,
              Progress& progress, const Cache& cache)
-    : World(loaded, std::move(known_dem), std::move(known_cover), {}, progress, cache) {}
+    : World(loaded, std::move(known_dem), std::move(known_cover), {}, nullptr, progress, cache) {}
 
 World::World(const LoadedScene& loaded, std::shared_ptr<const Dem> known_dem, std::shared_ptr<const LandCover> known_cover, SceneDem opened,
-             Progress& progress, const Cache& cache)
+             std::unique_ptr<Catchments> catchments, Progress& progress, const Cache& cache)
     : scene(runnable(loaded.scene)),
       dem(known_dem ? std::move(known_dem) : take_dem(loaded, opened, progress, cache)),
       view(make_view(scene, *dem, progress, ground_altitude_of(opened))),
       camera(make_camera(view.camera)),
-      land_cover(known_cover ? std::move(known_cover) : shared(make_scene_land_cover(loaded, *dem, progress, cache))),
+      land_cover(known_cover ? std::move(known_cover) : make_cover(loaded, *dem, catchments, progress, cache)),
       deformation(view.deform, view.viewer_xy),
-      terrain(with_windows(make_terrain(*this, generalize_for_view(loaded, *dem, land_cover.get(), view, progress, cache)), loaded, *this,
-                           opened, progress, cache)),
+      terrain(
+          with_windows(make_terrain(*this, generalize_for_view(loaded, *dem, land_cover.get(), view, progress, cache), catchments.get()),
+                       loaded, *this, opened, progress, cache)),
       surface(deform_ground(terrain, glm::dvec3(view.viewer_xy, 0.0), deformation)),
       tracer(surface, tracer_parameters(*this, progress)),
       horizon_px(skyline_row_px(*camera, tracer, usual_horizon * scene.output.height)) {}

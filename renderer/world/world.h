@@ -41,7 +41,7 @@ struct World {
 
  private:
   World(const LoadedScene& loaded, std::shared_ptr<const Dem> dem, std::shared_ptr<const LandCover> land_cover, SceneDem opened,
-        Progress& progress, const Cache& cache);
+        std::unique_ptr<Catchments> catchments, Progress& progress, const Cache& cache);
 };
 
 }  // namespace belvedere

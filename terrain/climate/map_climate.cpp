@@ -47,34 +47,32 @@ GeoTransform transform_of(const Posts& posts, GeoTransform cells) {
   return transform;
 }
 
-}  // namespace
-
-Grid<float> sun_share(const Dem& dem, const MapPlace& place, const SunShareParameters& given, Progress& progress) {
-  const int width = dem.width();
-  const int height = dem.height();
-  // Means of blocks: what throws shadows over kilometres is there, and slopes of 90 m are what plants and snow feel.
-  const int block = std::max(1, static_cast<int>(std::floor(given.cell_m / dem.cell_m() + 0.5)));
-  const int columns = (width + block - 1) / block;
-  const int rows = (height + block - 1) / block;
-  Grid<float> coarse(columns, rows);
-  parallel_rows(rows, [&](int row) {
-    for (int column = 0; column < columns; ++column) {
+// Means of blocks of cells: what throws shadows over kilometres is there, and slopes of 90 m are what plants and snow feel.
+Grid<float> block_means(const Grid<float>& altitude_m, int block) {
+  const int width = altitude_m.width();
+  const int height = altitude_m.height();
+  Grid<float> coarse((width + block - 1) / block, (height + block - 1) / block);
+  parallel_rows(coarse.height(), [&](int row) {
+    for (int column = 0; column < coarse.width(); ++column) {
       double sum = 0.0;
       int count = 0;
       for (int y = row * block; y < std::min(height, (row + 1) * block); ++y)
-        for (int x = column * block; x < std::min(width, (column + 1) * block); ++x, ++count) sum += dem.altitude_m(x, y);
+        for (int x = column * block; x < std::min(width, (column + 1) * block); ++x, ++count) sum += altitude_m(x, y);
       coarse(column, row) = static_cast<float>(sum / count);
     }
   });
-  MapPlace coarse_place = place;
-  coarse_place.width = columns;
-  coarse_place.height = rows;
-  coarse_place.cell_m = place.cell_m * static_cast<double>(block);
-  const double middle = 0.5 * (block - 1);
-  for (MapPlane* plane : {&coarse_place.longitude_deg, &coarse_place.latitude_deg, &coarse_place.grid_north_deg})
-    *plane = {plane->at(middle, middle), plane->per_column * block, plane->per_row * block};
+  return coarse;
+}
 
-  const RadiationParameters parameters{.azimuths = given.azimuths, .sun = {}};
+int block_of(const Dem& dem, const SunShareParameters& parameters) {
+  return std::max(1, static_cast<int>(std::floor(parameters.cell_m / dem.cell_m() + 0.5)));
+}
+
+// On all cells of a terrain.
+Grid<float> share_of_cells(const Grid<float>& coarse, const MapPlace& coarse_place, int azimuths, Progress& progress) {
+  const int columns = coarse.width();
+  const int rows = coarse.height();
+  const RadiationParameters parameters{.azimuths = azimuths, .sun = {}};
   const Grid<float> direct = potential_radiation(coarse, coarse_place, parameters, progress).direct_mj_m2;
   // Level ground in the open at the rows' latitudes: maps of one column at three altitudes, a parabola between them, because the air above
   // is thinner higher up.
@@ -98,9 +96,65 @@ Grid<float> sun_share(const Dem& dem, const MapPlace& place, const SunShareParam
       coarse_share(x, y) = std::min(2.F, direct(x, y) / level);
     }
   });
-  Grid<float> share(width, height);
-  parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) share(x, y) = sample_bilinear(coarse_share, (x - middle) / block, (y - middle) / block);
+  return coarse_share;
+}
+
+}  // namespace
+
+Grid<float> sun_share(const Dem& dem, const MapPlace& place, const SunShareParameters& given, Progress& progress) {
+  const int block = block_of(dem, given);
+  const Grid<float> coarse = block_means(dem.altitude_m, block);
+  MapPlace coarse_place = place;
+  coarse_place.width = coarse.width();
+  coarse_place.height = coarse.height();
+  coarse_place.cell_m = place.cell_m * static_cast<double>(block);
+  const double middle = 0.5 * (block - 1);
+  for (MapPlane* plane : {&coarse_place.longitude_deg, &coarse_place.latitude_deg, &coarse_place.grid_north_deg})
+    *plane = {plane->at(middle, middle), plane->per_column * block, plane->per_row * block};
+  const Grid<float> coarse_share = share_of_cells(coarse, coarse_place, given.azimuths, progress);
+  Grid<float> share(dem.width(), dem.height());
+  parallel_rows(dem.height(), [&](int y) {
+    for (int x = 0; x < dem.width(); ++x) share(x, y) = sample_bilinear(coarse_share, (x - middle) / block, (y - middle) / block);
+  });
+  return share;
+}
+
+Grid<float> sun_share(const Dem& window, const Dem& whole, std::optional<double> latitude_deg, const SunShareParameters& given,
+                      Progress& progress) {
+  // Beyond, what stands 2000 m higher hides five degrees of sky: a fiftieth of a year's sun.
+  constexpr double reach_m = 24000.0;
+  const int block = block_of(window, given);
+  const double middle = 0.5 * (block - 1);
+  const Grid<float> own = block_means(window.altitude_m, block);
+  // As many blocks on each side as the whole has ground for.
+  const GeoTransform& t = window.transform;
+  const auto fit = [&](double room_m, double cell_m) {
+    return static_cast<int>(std::floor(std::clamp(room_m, 0.0, reach_m) / (block * cell_m) + 1e-6));
+  };
+  const GeoTransform& all = whole.transform;
+  const int left = fit(t.origin_x - all.origin_x, t.cell_x);
+  const int top = fit(all.origin_y - t.origin_y, t.cell_y);
+  const int right = fit(all.origin_x + whole.width() * all.cell_x - t.origin_x - own.width() * block * t.cell_x, t.cell_x);
+  const int bottom = fit(t.origin_y - own.height() * block * t.cell_y - all.origin_y + whole.height() * all.cell_y, t.cell_y);
+  Grid<float> coarse(left + own.width() + right, top + own.height() + bottom);
+  const GeoTransform at{t.origin_x - left * block * t.cell_x, t.origin_y + top * block * t.cell_y, block * t.cell_x, block * t.cell_y};
+  parallel_rows(coarse.height(), [&](int y) {
+    for (int x = 0; x < coarse.width(); ++x) {
+      if (own.contains(x - left, y - top)) {
+        coarse(x, y) = own(x - left, y - top);
+        continue;
+      }
+      const glm::dvec2 place = at.to_crs(x, y);
+      const glm::dvec2 cell = all.to_cell(place.x, place.y);
+      coarse(x, y) = sample_bilinear(whole.altitude_m, cell.x, cell.y);
+    }
+  });
+  const MapPlace place = make_map_place(at, window.crs, coarse.width(), coarse.height(), latitude_deg);
+  const Grid<float> coarse_share = share_of_cells(coarse, place, given.azimuths, progress);
+  Grid<float> share(window.width(), window.height());
+  parallel_rows(window.height(), [&](int y) {
+    for (int x = 0; x < window.width(); ++x)
+      share(x, y) = sample_bilinear(coarse_share, (x - middle) / block + left, (y - middle) / block + top);
   });
   return share;
 }

@@ -25,5 +25,8 @@ struct SunShareParameters {
 };
 // Direct sun of the year over that of level open ground at the same place, 0 … some 2, on coarser cells, interpolated.
 Grid<float> sun_share(const Dem& dem, const MapPlace& place, const SunShareParameters& parameters, Progress& progress = silent_progress());
+// The same on a window of a larger terrain, of which 24 km around the window throw their shadows into it. `latitude_deg`: make_map_place.
+Grid<float> sun_share(const Dem& window, const Dem& whole, std::optional<double> latitude_deg, const SunShareParameters& parameters,
+                      Progress& progress = silent_progress());
 
 }  // namespace belvedere

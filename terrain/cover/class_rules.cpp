@@ -353,7 +353,8 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
     for (std::size_t i = 0; i < slots; ++i) needed[i] = needed[i] || needs[i];
   }
   const Settlers settlers{given.towns, given.seed, given.sites ? &*given.sites : nullptr};
-  Run run{rules, program, dem, given.seed, given.climate, make_terrain_inputs(dem, needed, parameters, settlers, given.sea, given.climate),
+  Run run{rules,      program,       dem,
+          given.seed, given.climate, make_terrain_inputs(dem, needed, parameters, settlers, given.sea, given.climate, given.catchments),
           {}};
   for (int v = first_noise; v < east; ++v)
     run.noise.push_back(needed[static_cast<std::size_t>(v)] ? plan_noise(v, dem.transform, dem.width()) : NoiseColumns{});
@@ -388,8 +389,17 @@ std::vector<TownSite> find_rule_towns(const ClassRules& rules, const ClassRulePa
   if (!union_of(program.layer_needs, 0, program.layers.size(), slots)[town]) return found;
   std::vector<bool> needed(slots, false);
   for (const int variable : {town, slope, south, valley_floor}) needed[static_cast<std::size_t>(variable)] = true;
-  make_terrain_inputs(dem, needed, parameters, {given.towns, given.seed}, given.sea, given.climate, &found);
+  make_terrain_inputs(dem, needed, parameters, {given.towns, given.seed}, given.sea, given.climate, given.catchments, &found);
   return found;
+}
+
+ClassRuleParameters parameters_for_parts(const ClassRules& rules, const ClassRuleParameters& given, const Dem& whole) {
+  ClassRuleParameters parts = given;
+  parts.settings = with_settings(rules, given.settings);
+  resolve_altitudes(parts.settings, given.climate, whole);
+  if (!parts.sites) parts.sites = find_rule_towns(rules, parts, whole);
+  parts.catchments = nullptr;
+  return parts;
 }
 
 }  // namespace belvedere

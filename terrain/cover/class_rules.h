@@ -11,6 +11,7 @@
 #include "terrain/cover/rule_climate.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
+#include "terrain/shape/catchments.h"
 #include "terrain/shape/sea.h"
 
 namespace belvedere {
@@ -47,6 +48,7 @@ struct ClassRuleParameters {
   std::uint64_t seed = 1;                                // of noise and of the villages that are found
   RuleClimate climate = alpine_climate();
   std::optional<std::vector<TownSite>> sites = {};  // all settlements, where they were found on a larger DEM that this one is part of
+  Catchments* catchments = nullptr;                 // of the DEM, where somebody else asks for them as well
 };
 
 // Parameters town_highest_m and floor_highest_m that are 0 hang on the treeline in the middle of the map: 520 and 370 m below it.
@@ -57,5 +59,9 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
 
 // The settlements that the rules see on a DEM; none where they ask for none.
 std::vector<TownSite> find_rule_towns(const ClassRules& rules, const ClassRuleParameters& parameters, const Dem& dem);
+
+// The parameters with all that is found once on a map: altitudes that the rules leave open, and settlements. With them, parts of the DEM
+// are given what the whole is given.
+ClassRuleParameters parameters_for_parts(const ClassRules& rules, const ClassRuleParameters& parameters, const Dem& whole);
 
 }  // namespace belvedere

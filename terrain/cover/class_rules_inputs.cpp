@@ -157,26 +157,27 @@ double parameter_or(const Parameters& parameters, const std::string& name, doubl
 
 std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
                                              const Settlers& settlers, const SeaParameters& sea_parameters, const RuleClimate& climate,
-                                             std::vector<TownSite>* settlements) {
+                                             Catchments* catchments, std::vector<TownSite>* settlements) {
   const Grid<float>& z = dem.altitude_m;
   std::vector<Grid<float>> inputs(first_noise);
   const bool needs_town = needed[town];
   // Only rules that speak of the sea have one.
   const Sea found = needed[sea] || needed[coast] ? find_sea(dem, sea_parameters) : Sea();
   make_sea_inputs(dem, found, needed, inputs);
-  Grid<float> catchment_km2;
+  Catchments own(dem);
+  Catchments& waters = catchments != nullptr ? *catchments : own;
   // Water finds its way one cell after the other, on one thread: the rest is made beside it.
   parallel_ranges(2, 1, [&](int begin, int end) {
     for (int part = begin; part != end; ++part) {
       if (part == 1)
         make_shape_inputs(dem, found, needed, parameters, climate, inputs);
       else if (needed[river] || needs_town)
-        catchment_km2 = flow_accumulation_km2(z, dem.cell_m(), dem.entries);
+        waters.km2();
     }
   });
-  if (needed[river]) inputs[river] = river_mask(catchment_km2, dem.cell_m());
+  if (needed[river]) inputs[river] = river_mask(waters.km2(), dem.cell_m());
   if (needs_town) {
-    const TownGround ground{z, inputs[valley_floor], catchment_km2, inputs[slope], inputs[south], dem.transform};
+    const TownGround ground{z, inputs[valley_floor], waters.km2(), inputs[slope], inputs[south], dem.transform};
     const std::vector<TownSite> sites = settlers.sites != nullptr
                                             ? *settlers.sites
                                             : find_town_sites(ground, to_town_parameters(parameters, settlers.known, settlers.seed));

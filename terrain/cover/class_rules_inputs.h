@@ -10,6 +10,7 @@
 #include "terrain/cover/rule_climate.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
+#include "terrain/shape/catchments.h"
 #include "terrain/shape/sea.h"
 
 // What class rules can know of the terrain. Private to class_rules.
@@ -68,10 +69,10 @@ struct Settlers {
 };
 
 // The grids that are needed (by slot), all of the DEM's size; others stay empty. ice and below_rock depend on the rules and stay empty.
-// `settlements` gets the settlements, where it is given and `town` is needed.
+// `catchments`: the DEM's, null: they are found here. `settlements` gets the settlements, where it is given and `town` is needed.
 std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
                                              const Settlers& settlers, const SeaParameters& sea_parameters, const RuleClimate& climate,
-                                             std::vector<TownSite>* settlements = nullptr);
+                                             Catchments* catchments = nullptr, std::vector<TownSite>* settlements = nullptr);
 
 // 1 just below rock, falling to 0 over `reach_m` down the fall line.
 Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, double reach_m);

@@ -197,8 +197,11 @@ float median_of(const Grid<float>& z, const std::vector<std::int32_t>& cells) {
   return *middle;
 }
 
+// Whether what touches the edge of a DEM is open to the sea: the edge of the data is, that of a window is not.
+enum class Edge { open, of_window };
+
 // Holes in the data that are sea: by the edge or by level water, and low around.
-void mark_holes(Mask& mask, const Dem& dem, float highest_shore_m) {
+void mark_holes(Mask& mask, const Dem& dem, float highest_shore_m, Edge edge) {
   const Mask& filled = dem.filled;
   std::vector<std::int32_t> sea;
   each_piece(filled, 1, [&](const std::vector<std::int32_t>& cells) {
@@ -208,7 +211,7 @@ void mark_holes(Mask& mask, const Dem& dem, float highest_shore_m) {
     for (const std::int32_t at : cells) {
       const int x = at % mask.width();
       const int y = at / mask.width();
-      open = open || at_edge(mask, x, y);
+      open = open || (edge == Edge::open && at_edge(mask, x, y));
       for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
         if (!mask.contains(x + dx, y + dy) || filled(x + dx, y + dy) != 0) continue;
         ++around;
@@ -256,12 +259,55 @@ Sea finish(Mask mask, float level, float noise) {
   return sea;
 }
 
+// What is known of a sea of which some cells are found.
+struct AboutSea {
+  float level_m;
+  float noise_m;
+  int least_cells;
+  Edge edge;
+};
+
+// From open water over all that belongs to it.
+void spread_sea(Mask& mask, const Dem& dem, const Grid<float>& fine_mean, const AboutSea& about) {
+  const Grid<float>& z = dem.altitude_m;
+  const float level = about.level_m;
+  const float noise = about.noise_m;
+  mark_holes(mask, dem, level + 2.F + noise, about.edge);
+
+  // Calm water is told from the land by its altitude; noise only by means, and single cells that stand out of it are rocks.
+  const bool calm = noise < 0.3F;
+  const float highest = level + (calm ? 0.3F : 1.25F * noise);
+  const float highest_mean = level + (calm ? 1e9F : 0.4F * noise);
+  const auto is_low = [&](int x, int y) { return z(x, y) <= highest && fine_mean(x, y) <= highest_mean; };
+  flood(mask, marked(mask), is_low);
+  if (!calm) {
+    // Noise closes narrow ways into bays and lagoons: level water a short way behind the shore is sea as well. Calm lagoons are lakes.
+    constexpr int farthest = 48;  // cells
+    const Grid<std::int32_t> nearest = nearest_marked(mask);
+    const auto is_near = [&](std::int32_t at) {
+      const std::int32_t shore = nearest[static_cast<std::size_t>(at)];
+      if (shore < 0) return false;
+      const int dx = shore % z.width() - at % z.width();
+      const int dy = shore / z.width() - at / z.width();
+      return dx * dx + dy * dy <= farthest * farthest;
+    };
+    std::vector<std::int32_t> bays;
+    each_piece(level_ground(z, fine_mean, dem.filled, level, bay), 1, [&](const std::vector<std::int32_t>& cells) {
+      if (cells.size() >= static_cast<std::size_t>(about.least_cells) && std::any_of(cells.begin(), cells.end(), is_near))
+        bays.insert(bays.end(), cells.begin(), cells.end());
+    });
+    for (const std::int32_t at : bays) mask[static_cast<std::size_t>(at)] = 1;
+    flood(mask, bays, is_low);
+    close_shores(mask, z, highest);
+  }
+}
+
 // All that lies no higher than the level and is connected with the edge.
 Sea below_level(const Dem& dem, float level) {
   const Grid<float>& z = dem.altitude_m;
   constexpr float over_m = 0.25F;
   Mask mask(z.width(), z.height(), 0);
-  mark_holes(mask, dem, level + 2.F);
+  mark_holes(mask, dem, level + 2.F, Edge::open);
   for (int y = 0; y < z.height(); ++y)
     for (int x = 0; x < z.width(); ++x)
       if (at_edge(mask, x, y) && dem.filled(x, y) == 0 && z(x, y) <= level + over_m) mask(x, y) = 1;
@@ -273,6 +319,7 @@ Sea below_level(const Dem& dem, float level) {
 
 Sea find_sea(const Dem& dem, const SeaParameters& parameters) {
   const Grid<float>& z = dem.altitude_m;
+  if (parameters.known) return *parameters.known;
   if (!parameters.look || z.empty()) return {};
   if (parameters.level_m) return below_level(dem, static_cast<float>(*parameters.level_m));
   // Nearly every map lies high above.
@@ -304,34 +351,35 @@ Sea find_sea(const Dem& dem, const SeaParameters& parameters) {
     if (!open_water.empty()) level = median_of(z, open_water);
     noise = spread_m(z, mask, dem.filled, level);
   }
-  mark_holes(mask, dem, level + 2.F + noise);
+  spread_sea(mask, dem, fine_mean, {level, noise, parameters.least_cells, Edge::open});
+  return finish(std::move(mask), level, noise);
+}
 
-  // Calm water is told from the land by its altitude; noise only by means, and single cells that stand out of it are rocks.
-  const bool calm = noise < 0.3F;
-  const float highest = level + (calm ? 0.3F : 1.25F * noise);
-  const float highest_mean = level + (calm ? 1e9F : 0.4F * noise);
-  const auto is_low = [&](int x, int y) { return z(x, y) <= highest && fine_mean(x, y) <= highest_mean; };
-  flood(mask, marked(mask), is_low);
-  if (!calm) {
-    // Noise closes narrow ways into bays and lagoons: level water a short way behind the shore is sea as well. Calm lagoons are lakes.
-    constexpr int farthest = 48;  // cells
-    const Grid<std::int32_t> nearest = nearest_marked(mask);
-    const auto is_near = [&](std::int32_t at) {
-      const std::int32_t shore = nearest[static_cast<std::size_t>(at)];
-      if (shore < 0) return false;
-      const int dx = shore % z.width() - at % z.width();
-      const int dy = shore / z.width() - at / z.width();
-      return dx * dx + dy * dy <= farthest * farthest;
-    };
-    std::vector<std::int32_t> bays;
-    each_piece(level_ground(z, fine_mean, dem.filled, level, bay), 1, [&](const std::vector<std::int32_t>& cells) {
-      if (cells.size() >= static_cast<std::size_t>(parameters.least_cells) && std::any_of(cells.begin(), cells.end(), is_near))
-        bays.insert(bays.end(), cells.begin(), cells.end());
-    });
-    for (const std::int32_t at : bays) mask[static_cast<std::size_t>(at)] = 1;
-    flood(mask, bays, is_low);
-    close_shores(mask, z, highest);
-  }
+Sea continue_sea(const Dem& window, const Dem& whole, const Sea& sea, const SeaParameters& parameters) {
+  if (sea.empty() || window.altitude_m.empty()) return {};
+  const Grid<float>& z = window.altitude_m;
+  const auto level = static_cast<float>(sea.level_m);
+  // Where the whole has sea: in the cell of it that the window's lies in.
+  Mask known(z.width(), z.height(), 0);
+  parallel_rows(z.height(), [&](int y) {
+    for (int x = 0; x < z.width(); ++x) {
+      const glm::dvec2 place = window.transform.to_crs(x, y);
+      const glm::dvec2 at = whole.transform.to_cell(place.x, place.y);
+      known(x, y) = sea.mask.clamped(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y)));
+    }
+  });
+  if (std::none_of(known.begin(), known.end(), [](std::uint8_t cell) { return cell != 0; })) return {};
+
+  // The whole's cells are means of many, and calmer.
+  const Grid<float> fine_mean = box_mean(z, fine);
+  Mask mask = level_ground(z, fine_mean, window.filled, level, open_sea);
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = static_cast<std::uint8_t>(mask[i] & known[i]);
+  const float noise = std::max(spread_m(z, mask, window.filled, level), static_cast<float>(sea.noise_m));
+  // Shores of the whole's cells are steps: land in its sea is land where it is higher than water strays.
+  const float highest = level + std::max(0.3F, 1.25F * noise);
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (known[i] != 0 && (window.filled[i] != 0 || z[i] <= highest)) mask[i] = 1;
+  spread_sea(mask, window, fine_mean, {level, noise, parameters.least_cells, Edge::of_window});
   return finish(std::move(mask), level, noise);
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "renderer/trace/guidance.h"
 #include "renderer/world/world.h"
@@ -220,6 +221,91 @@ TEST_F(GroundWindows, ADemThatFitsStaysWhole) {
   const World plenty(scene({"terrain.most_mcells=1"}), silent_progress());
   EXPECT_TRUE(plenty.terrain.windows.empty());
   EXPECT_EQ(plenty.terrain.generalized_m, World(scene(), silent_progress()).terrain.generalized_m);
+}
+
+// The same mountains sunk until the sea reaches far into them.
+class GroundWindowsByTheSea : public GroundWindows {
+ protected:
+  static void SetUpTestSuite() {
+    GroundWindows::SetUpTestSuite();
+    RasterSource source;
+    source.path = *folder_ / "terrain.tif";
+    Raster<float> raster = read_raster(source);
+    std::vector<float> sorted(raster.cells.begin(), raster.cells.end());
+    const auto fourth = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 4);
+    std::nth_element(sorted.begin(), fourth, sorted.end());
+    for (float& z : raster.cells) z = std::max(0.F, z - *fourth);
+    write_raster(*folder_ / "terrain.tif", raster);
+  }
+};
+
+// Shares of the finest window's cells, in a frame of so many around its part's edge and inside of it, that have the class of the coarser
+// ground below.
+struct Agreement {
+  double at_edge = 0.0;
+  double inside = 0.0;
+};
+Agreement agreement_of(const World& parts, std::size_t index) {
+  const TerrainWindow& window = parts.terrain.windows[index];
+  const LandCover& fine = *window.ground.land_cover;
+  const TerrainModel& before = index == 0 ? parts.terrain : parts.terrain.windows[index - 1].ground;
+  const LandCover& coarser = *before.land_cover;
+  const auto class_at = [](const LandCover& cover, glm::dvec2 place) {
+    const glm::ivec2 at(glm::round(cover.classes.transform.to_cell(place.x, place.y)));
+    return cover.classes.cells.clamped(at.x, at.y);
+  };
+  std::array<double, 2> same{};
+  std::array<double, 2> all{};
+  for (int y = 0; y < window.part.height(); ++y)
+    for (int x = 0; x < window.part.width(); ++x) {
+      const int from_edge = std::min({x, y, window.part.width() - 1 - x, window.part.height() - 1 - y});
+      const std::size_t where = from_edge < 6 ? 0 : 1;
+      const glm::dvec2 place = window.ground.dem->transform.to_crs(window.part.x0 + x, window.part.y0 + y);
+      same[where] += class_at(fine, place) == class_at(coarser, place) ? 1.0 : 0.0;
+      all[where] += 1.0;
+    }
+  return {same[0] / all[0], same[1] / all[1]};
+}
+
+TEST_F(GroundWindowsByTheSea, HaveTheWholesSeaAndClimate) {
+  Notes notes;
+  const World whole(scene(), notes);
+  const World parts(scene({few_cells}), silent_progress());
+  EXPECT_NE(notes.all.find("sea: "), std::string::npos) << notes.all;
+  const GuidanceBuffers a = guidance_of(whole);
+  const GuidanceBuffers b = guidance_of(parts);
+  int ground = 0;
+  int same = 0;
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 320; ++x) {
+      if (is_sky(a, x, y) || is_sky(b, x, y) || std::abs(a.depth_m(x, y) - b.depth_m(x, y)) > 0.02 * a.depth_m(x, y)) continue;
+      ++ground;
+      same += a.land_cover(x, y) == b.land_cover(x, y) ? 1 : 0;
+    }
+  EXPECT_GE(same, 0.9 * ground);
+  for (std::size_t i = 0; i < parts.terrain.windows.size(); ++i) {
+    const Agreement agreement = agreement_of(parts, i);
+    EXPECT_GT(agreement.at_edge, agreement.inside - 0.05) << "window " << i << ": a line would be seen at its joint";
+    // Water at the sea's level is sea in the whole's cells and in the window's.
+    const TerrainModel& ground_i = parts.terrain.windows[i].ground;
+    int sea = 0;
+    int wet = 0;
+    for (int y = 0; y < ground_i.dem->height(); ++y)
+      for (int x = 0; x < ground_i.dem->width(); ++x) {
+        if (ground_i.dem->altitude_m(x, y) != 0.F) continue;
+        ++sea;
+        wet += ground_i.land_cover->classes.cells(x, y) == LandCoverClass::water ? 1 : 0;
+      }
+    EXPECT_GT(sea, 1000);
+    EXPECT_GT(wet, 0.98 * sea);
+  }
+}
+
+TEST_F(GroundWindows, ABudgetThatHoldsNotEvenTheCoarsestIsRefused) {
+  const MemoryLimit limit(std::uint64_t{8} << 20);
+  const std::string message = test::message_of(ErrorKind::limit, [] { World(scene(), silent_progress()); });
+  EXPECT_NE(message.find("900 × 900 cells, even in cells of 120 m"), std::string::npos) << message;
+  EXPECT_NE(message.find("--memory"), std::string::npos) << message;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -80,6 +81,33 @@ TEST(MapClimate, IsTheSameForAnyThreads) {
   EXPECT_EQ(one.sun, two.sun);
   EXPECT_EQ(one.treeline_m, two.treeline_m);
   EXPECT_EQ(one.moisture, two.moisture);
+}
+
+TEST(MapClimate, AWindowHasTheSunThatTheWholeGivesIt) {
+  // A range in the south, 2500 m over a plain with small hills, of which the window sees none.
+  const auto altitude = [](double e, double n) {
+    return 600.0 + 2500.0 * std::exp(-std::pow((n + 21000.0) / 1500.0, 2.0)) + 40.0 * std::sin(e / 900.0) * std::cos(n / 700.0);
+  };
+  const Dem whole = ground(300, 300, 90.0, altitude);
+  const Grid<float> of_whole = sun_share(whole, place_of(whole), {});
+  Dem window = whole;
+  window.altitude_m = Grid<float>(90, 80);
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 90; ++x) window.altitude_m(x, y) = whole.altitude_m(100 + x, 120 + y);
+  window.transform.origin_x += 100 * 90.0;
+  window.transform.origin_y -= 120 * 90.0;
+  const Grid<float> share = sun_share(window, whole, {}, {});
+  const Grid<float> alone = sun_share(window, place_of(window), {});
+  ASSERT_TRUE(share.same_size(window.altitude_m));
+  float apart = 0.F;
+  float apart_alone = 0.F;
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 90; ++x) {
+      apart = std::max(apart, std::abs(share(x, y) - of_whole(100 + x, 120 + y)));
+      apart_alone = std::max(apart_alone, std::abs(alone(x, y) - of_whole(100 + x, 120 + y)));
+    }
+  EXPECT_LT(apart, 0.004F);
+  EXPECT_GT(apart_alone, 0.02F) << "the range throws shadows into it";
 }
 
 }  // namespace

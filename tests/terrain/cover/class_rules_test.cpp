@@ -530,5 +530,29 @@ TEST(LifeZones, TheDatesSnowLiesOnOpenGroundAboveItsLine) {
   EXPECT_GT(white / above, 0.7);
 }
 
+TEST(ClassRules, PartsAreGivenWhatTheWholeFinds) {
+  const ClassRules rules = read_class_rules("life_zones");
+  ClassRuleParameters parameters;
+  // A treeline that rises to the east: open altitudes hang on it in the middle of the map.
+  parameters.climate.line_posts = {1000.0, 5000.0, 7200.0, 7200.0};
+  parameters.climate.treeline_m = Grid<float>(2, 1);
+  parameters.climate.treeline_m(0, 0) = 1500.F;
+  parameters.climate.treeline_m(1, 0) = 1900.F;
+  parameters.settings = {{"treeline_m", 0.0}, {"town_highest_m", 0.0}, {"floor_highest_m", 1111.0}};
+  const ClassRuleParameters parts = parameters_for_parts(rules, parameters, cone());
+  std::vector<float> row(240);
+  fill_climate_row(parameters.climate, ClimateVariable::treeline, cone().transform, 120, 240, cone().altitude_m.row(120), row.data());
+  const auto setting = [&](const std::string& name) {
+    const auto at = std::find_if(parts.settings.begin(), parts.settings.end(), [&](const auto& p) { return p.first == name; });
+    return at == parts.settings.end() ? std::nan("") : at->second;
+  };
+  EXPECT_EQ(setting("town_highest_m"), row[120] - 520.0);
+  EXPECT_EQ(setting("floor_highest_m"), 1111.0) << "what is said holds";
+  ASSERT_TRUE(parts.sites.has_value());
+  // On the whole itself nothing is different.
+  EXPECT_EQ(apply_class_rules(rules, parts, cone(), silent_progress()).classes.cells,
+            apply_class_rules(rules, parameters, cone(), silent_progress()).classes.cells);
+}
+
 }  // namespace
 }  // namespace belvedere

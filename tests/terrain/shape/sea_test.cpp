@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <utility>
 
 namespace belvedere {
 namespace {
@@ -252,6 +254,82 @@ TEST(DistanceToSea, IsMetresFromItsCells) {
   EXPECT_EQ(distance(0, 0), 0.F);
   EXPECT_FLOAT_EQ(distance(3, 0), 90.F);
   EXPECT_FLOAT_EQ(distance(4, 3), 150.F);
+}
+
+// A part of a DEM, as a window of the same cells.
+Dem part(const Dem& dem, int x0, int y0, int width, int height) {
+  Dem out;
+  out.altitude_m = Grid<float>(width, height);
+  out.filled = Grid<std::uint8_t>(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      out.altitude_m(x, y) = dem.altitude_m(x0 + x, y0 + y);
+      out.filled(x, y) = dem.filled(x0 + x, y0 + y);
+    }
+  out.transform = {dem.transform.origin_x + x0 * cell, dem.transform.origin_y - y0 * cell, cell, cell};
+  return out;
+}
+
+// Means of four by four cells.
+Dem coarse(const Dem& dem) {
+  Raster<float> raster{Grid<float>(size / 4, size / 4), {dem.transform.origin_x, dem.transform.origin_y, 4 * cell, 4 * cell}, {}};
+  for (int y = 0; y < size / 4; ++y)
+    for (int x = 0; x < size / 4; ++x) {
+      float sum = 0.F;
+      for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 4; ++i) sum += dem.altitude_m(4 * x + i, 4 * y + j) / 16.F;
+      raster.cells(x, y) = sum;
+    }
+  return make_dem(std::move(raster));
+}
+
+TEST(SeaOfAWindow, IsThatOfTheWholeAtItsLevel) {
+  for (const float roughness : {0.F, 1.F}) {
+    const Dem dem = coast(0.4F, roughness);
+    const Dem whole = coarse(dem);
+    // Steps of the whole's cells; a sea of 35 of them is too narrow to be told from noise there.
+    Sea of_whole = find_sea(dem);
+    const Grid<std::uint8_t> fine = std::exchange(of_whole.mask, Grid<std::uint8_t>(size / 4, size / 4));
+    for (int y = 0; y < size / 4; ++y)
+      for (int x = 0; x < size / 4; ++x) of_whole.mask(x, y) = fine(4 * x + 1, 4 * y + 2);
+    const Dem window = part(dem, 60, 40, 220, 240);
+    const Sea sea = continue_sea(window, whole, of_whole);
+    ASSERT_FALSE(sea.empty()) << roughness;
+    EXPECT_EQ(sea.level_m, of_whole.level_m);
+    int wet = 0;
+    int found = 0;
+    int wrong = 0;
+    for (int y = 0; y < 240; ++y)
+      for (int x = 0; x < 220; ++x) {
+        const float land = land_at(60 + x, 40 + y);
+        wet += land < 0.F ? 1 : 0;
+        found += land < 0.F && sea.mask(x, y) != 0 ? 1 : 0;
+        wrong += land > 1.F + 2.F * roughness && sea.mask(x, y) != 0 ? 1 : 0;
+      }
+    EXPECT_GT(found, 0.99 * wet) << roughness;
+    EXPECT_LT(wrong, 0.005 * wet) << roughness << ": its shore is the window's, not the whole's steps";
+    EXPECT_EQ(find_sea(window, {.known = std::make_shared<const Sea>(sea)}).mask, sea.mask) << "nothing else is looked for";
+  }
+}
+
+TEST(SeaOfAWindow, LevelGroundAtItsRimIsNone) {
+  // A basin at 0 m inland, cut by the window's rim: alone the window takes it for sea.
+  Dem dem = coast(0.F, 0.F);
+  for (int y = 60; y < 180; ++y)
+    for (int x = 250; x < 390; ++x) dem.altitude_m(x, y) = 0.F;
+  const Dem whole = coarse(dem);
+  const Sea of_whole = find_sea(whole, {.least_cells = 100});
+  ASSERT_FALSE(of_whole.empty());
+  EXPECT_EQ(of_whole.mask(320 / 4, 120 / 4), 0);
+  const Dem window = part(dem, 230, 40, 100, 160);
+  ASSERT_FALSE(find_sea(window).empty());
+  EXPECT_TRUE(continue_sea(window, whole, of_whole).empty());
+  EXPECT_TRUE(continue_sea(part(dem, 0, 0, 300, 300), whole, {}).empty()) << "nor is there any where the whole has none";
+  const Dem both = part(dem, 60, 40, 270, 160);
+  const Sea sea = continue_sea(both, whole, of_whole);
+  ASSERT_FALSE(sea.empty());
+  EXPECT_EQ(sea.mask(320 - 60, 120 - 40), 0);
+  EXPECT_EQ(sea.mask(10, 10), 1);
 }
 
 }  // namespace
