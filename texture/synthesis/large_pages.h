@@ -13,5 +13,15 @@ template <class T>
 void prefer_large_pages(const std::vector<T>& values) {
   prefer_large_pages(values.data(), values.size() * sizeof(T));
 }
+// So many equal values in a vector that is held so. The system is asked before they are written: it then clears large pages at once instead
+// of small ones that it would move afterwards.
+template <class T>
+void assign_in_large_pages(std::vector<T>& values, std::size_t count, T value) {
+  values.clear();
+  values.reserve(count);
+  prefer_large_pages(values.data(), count * sizeof(T));
+  values.assign(count, value);
+  prefer_large_pages(values);
+}
 
 }  // namespace belvedere

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
+#include "base/parallel.h"
 #include "texture/synthesis/large_pages.h"
 
 namespace belvedere::synth {
@@ -34,6 +36,21 @@ class WindowCounts {
   std::vector<std::int64_t> sums_;
 };
 
+// Stretches of the way through the exemplars; a table of 257 numbers by class and bucket each.
+constexpr std::size_t stretches = 16;
+
+// All of so many texels once, each .618 of them after the last.
+struct GoldenWay {
+  explicit GoldenWay(std::uint64_t texels) : count(texels), step(texels * 618 / 1000 | 1) {
+    while (std::gcd(step, count) != 1) step += 2;
+  }
+  // The one at a place of the way, which begins anew at its end.
+  std::uint64_t texel(std::uint64_t place) const { return place % count * (step % count) % count; }
+  std::uint64_t after(std::uint64_t texel) const { return texel + step < count ? texel + step : texel + step - count; }
+  std::uint64_t count;
+  std::uint64_t step;
+};
+
 }  // namespace
 
 Demand count_demand(const Plane& target, int classes, const std::vector<GuideRole>& guides) {
@@ -57,54 +74,60 @@ PickLists::PickLists(const Plane& exemplars, const Demand& demand, int classes, 
   const int buckets = keys_.buckets();
   const std::size_t cells = static_cast<std::size_t>(classes) * static_cast<std::size_t>(buckets);
 
-  // A counting sort.
-  std::vector<std::uint32_t> counts(cells * 257, 0);
-  exemplars.for_each([&](std::uint32_t at) {
-    const std::uint32_t c = class_of(exemplars.words[at]);
-    if (c == no_class) return;
-    const std::uint8_t* values = exemplars.guides_at(at);
-    ++counts[cell(c, bucket_of(values)) * 257 + static_cast<std::size_t>(value_of(values))];
-  });
-  start_.assign(cells * 257, 0);
-  std::uint32_t total = 0;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    start_[i] = total;
-    total += counts[i];
-  }
+  // A counting sort of texels gone through by golden steps, so that those which follow each other in the list lie far apart in the picture.
+  // In fixed stretches of the way: each counts what it meets, and then knows where its texels go after those of the stretches before.
+  const GoldenWay way(exemplars.words.size());
+  const std::size_t each = way.count / stretches + 1;
+  const std::size_t kinds = cells * 257;
+  const auto kind_of = [&](std::uint32_t c, const std::uint8_t* values) {
+    return cell(c, bucket_of(values)) * 257 + static_cast<std::size_t>(value_of(values));
+  };
   const std::size_t guide_count = static_cast<std::size_t>(exemplars.guide_count);
-  entry_words_ = 1 + (Entry::guides_from + guide_count + 3) / 4;
-  entries_.assign(total * entry_words_ + 2, 0U);  // eight guides may be read from the last one, too
-  prefer_large_pages(entries_);
-  std::vector<std::uint32_t> next = start_;
-  // Texels are gone through by golden steps, so that those which follow each other in the list lie far apart in the picture.
-  const std::uint64_t words = exemplars.words.size();
-  std::uint64_t step = words * 618 / 1000 | 1;
-  while (std::gcd(step, words) != 1) step += 2;
-  const auto after = [&](std::uint64_t texel) { return texel + step < words ? texel + step : texel + step - words; };
-  // Each step goes to a place that no cache holds: they are asked for some steps ahead.
-  constexpr int fetch_ahead = 16;
-  std::uint64_t here = 0;
-  std::uint64_t ahead = 0;
-  for (int i = 0; i < fetch_ahead; ++i) ahead = after(ahead);
-  const std::size_t guides_each = static_cast<std::size_t>(exemplars.guide_count);
-  for (std::uint64_t i = 0; i < words; ++i, here = after(here), ahead = after(ahead)) {
-    __builtin_prefetch(exemplars.words.data() + ahead);
-    __builtin_prefetch(exemplars.guides.data() + ahead * guides_each);
-    const std::uint32_t c = class_of(exemplars.words[here]);
-    if (c == no_class) continue;
-    const std::uint8_t* values = exemplars.guides_at(static_cast<std::uint32_t>(here));
-    const std::size_t nth = next[cell(c, bucket_of(values)) * 257 + static_cast<std::size_t>(value_of(values))]++;
-    std::uint32_t* entry = entries_.data() + nth * entry_words_;
-    entry[0] = static_cast<std::uint32_t>(here);
-    std::uint8_t* bytes = reinterpret_cast<std::uint8_t*>(entry + 1);
-    if (!around.empty()) {
-      bytes[0] = around[here].others;
-      bytes[1] = around[here].commonest;
+  // Calls f(texel, class, guides) along a stretch. Each step goes to a place that no cache holds: they are asked for some steps ahead.
+  const auto go = [&](std::size_t stretch, auto&& f) {
+    constexpr std::uint64_t fetch_ahead = 16;
+    const std::uint64_t end = std::min(way.count, (stretch + 1) * each);
+    std::uint64_t here = way.texel(stretch * each);
+    std::uint64_t ahead = way.texel(stretch * each + fetch_ahead);
+    for (std::uint64_t i = stretch * each; i < end; ++i, here = way.after(here), ahead = way.after(ahead)) {
+      __builtin_prefetch(exemplars.words.data() + ahead);
+      __builtin_prefetch(exemplars.guides.data() + ahead * guide_count);
+      const std::uint32_t c = class_of(exemplars.words[here]);
+      if (c != no_class) f(static_cast<std::uint32_t>(here), c, exemplars.guides_at(static_cast<std::uint32_t>(here)));
     }
-    const Greys greys = greys_around(exemplars, static_cast<std::uint32_t>(here));
-    std::copy(greys.values.begin(), greys.values.end(), bytes + 2);
-    std::copy(values, values + guide_count, bytes + Entry::guides_from);
+  };
+  std::vector<std::vector<std::uint32_t>> next(stretches);
+  parallel_rows(static_cast<int>(stretches), [&](int s) {
+    std::vector<std::uint32_t>& met = next[static_cast<std::size_t>(s)];
+    met.assign(kinds, 0);
+    go(static_cast<std::size_t>(s), [&](std::uint32_t, std::uint32_t c, const std::uint8_t* values) { ++met[kind_of(c, values)]; });
+  });
+  std::vector<std::uint32_t> counts(kinds, 0);
+  start_.assign(kinds, 0);
+  std::uint32_t total = 0;
+  for (std::size_t i = 0; i < kinds; ++i) {
+    start_[i] = total;
+    for (std::vector<std::uint32_t>& met : next) total += std::exchange(met[i], total);
+    counts[i] = total - start_[i];
   }
+  entry_words_ = 1 + (Entry::guides_from + guide_count + 3) / 4;
+  assign_in_large_pages(entries_, total * entry_words_ + 2, 0U);  // eight guides may be read from the last one, too
+  parallel_rows(static_cast<int>(stretches), [&](int s) {
+    std::vector<std::uint32_t>& place = next[static_cast<std::size_t>(s)];
+    go(static_cast<std::size_t>(s), [&](std::uint32_t here, std::uint32_t c, const std::uint8_t* values) {
+      const std::size_t nth = place[kind_of(c, values)]++;
+      std::uint32_t* entry = entries_.data() + nth * entry_words_;
+      entry[0] = here;
+      std::uint8_t* bytes = reinterpret_cast<std::uint8_t*>(entry + 1);
+      if (!around.empty()) {
+        bytes[0] = around[here].others;
+        bytes[1] = around[here].commonest;
+      }
+      const Greys greys = greys_around(exemplars, here);
+      std::copy(greys.values.begin(), greys.values.end(), bytes + 2);
+      std::copy(values, values + guide_count, bytes + Entry::guides_from);
+    });
+  });
 
   windows_.assign(cells * 256, PickWindow{255, static_cast<std::uint8_t>(buckets - 1)});
   const std::int64_t value_weight = keys_.sorted ? guides[0].weight_q4 : 0;

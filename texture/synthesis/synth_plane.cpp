@@ -123,7 +123,7 @@ Plane halve(const Plane& fine) {
 
 Grid<float> halve_depth(const Grid<float>& depth_m, const Plane& fine, const Plane& coarse) {
   Grid<float> out(coarse.parts[0].width, coarse.parts[0].height);
-  for (int y = 0; y < out.height(); ++y) {
+  parallel_rows(out.height(), [&](int y) {
     for (int x = 0; x < out.width(); ++x) {
       const std::uint32_t label_class = class_of(coarse.words[coarse.index(0, x, y)]);
       out(x, y) = depth_m(2 * x, 2 * y);
@@ -136,7 +136,7 @@ Grid<float> halve_depth(const Grid<float>& depth_m, const Plane& fine, const Pla
         }
       }
     }
-  }
+  });
   return out;
 }
 

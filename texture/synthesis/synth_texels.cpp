@@ -17,8 +17,7 @@ TexelRecords::TexelRecords(const Plane& exemplars, const std::vector<std::uint8_
   const std::size_t guides = static_cast<std::size_t>(exemplars.guide_count);
   record_words_ = guides <= 1 ? 2 : 2 + (guides - 1 + 7) / 8 * 2;
   const std::size_t count = exemplars.words.size();
-  words_.assign(count * record_words_ + 2, 0U);  // eight guides may be read from the last one, too
-  prefer_large_pages(words_);
+  assign_in_large_pages(words_, count * record_words_ + 2, 0U);  // eight guides may be read from the last one, too
   parallel_ranges(static_cast<int>((count + band - 1) / band), 1, [&](int begin, int end) {
     const std::size_t last = std::min(count, static_cast<std::size_t>(end) * band);
     for (std::size_t i = static_cast<std::size_t>(begin) * band; i < last; ++i) {

@@ -29,6 +29,18 @@ bool system_takes_advice() {
   return all.find("[madvise]") != std::string::npos;
 }
 
+TEST(LargePages, HoldATableFromItsFirstValueOn) {
+  for (const std::size_t count : {std::size_t{0}, std::size_t{5}, std::size_t{16} << 20U}) {
+    std::vector<std::uint32_t> values{1, 2, 3};
+    const long before = large_kib();
+    assign_in_large_pages(values, count, 7U);
+    EXPECT_EQ(values, std::vector<std::uint32_t>(count, 7U));
+    if (count > (1U << 20U) && before >= 0 && system_takes_advice()) {
+      EXPECT_GT(large_kib(), before);
+    }
+  }
+}
+
 TEST(LargePages, HoldATableThatIsWrittenAlready) {
   std::vector<std::uint32_t> values(16U << 20U);
   std::iota(values.begin(), values.end(), 7U);

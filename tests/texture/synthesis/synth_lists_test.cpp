@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "base/random.h"
@@ -51,6 +53,29 @@ TEST(PickLists, WindowsHoldEnoughTexelsForTheDemand) {
       EXPECT_TRUE(inside(exemplars.guides_at(texel)));
     }
   }
+}
+
+// Texels of one class, bucket and value stand in the order of one walk through the plane by golden steps, however many walk at once.
+TEST(PickLists, StandInTheOrderOfOneWalk) {
+  const Plane exemplars = noise_plane({{60, 50}, {31, 77}}, 3, 5, true);
+  const std::vector<GuideRole> guides{{2880}, {1000}, {200}};
+  const PickLists lists(exemplars, count_demand(exemplars, classes, guides), classes, guides, 16);
+  std::map<std::tuple<std::uint32_t, int, int>, std::vector<std::uint32_t>> kinds;
+  const std::uint64_t count = exemplars.words.size();
+  std::uint64_t step = count * 618 / 1000 | 1;
+  while (std::gcd(step, count) != 1) step += 2;
+  for (std::uint64_t i = 0, at = 0; i < count; ++i, at = (at + step) % count) {
+    const std::uint32_t c = class_of(exemplars.words[at]);
+    if (c == no_class) continue;
+    const std::uint8_t* values = exemplars.guides_at(static_cast<std::uint32_t>(at));
+    kinds[{c, values[1] / ListKeys::bucket_width, values[0]}].push_back(static_cast<std::uint32_t>(at));
+  }
+  std::uint32_t nth = 0;
+  for (const auto& [kind, texels] : kinds)
+    for (const std::uint32_t texel : texels) ASSERT_EQ(lists.entry(nth++).texel(), texel) << "entry " << nth;
+  std::int64_t all = 0;
+  for (std::uint32_t c = 0; c < classes; ++c) all += lists.texel_count(c);
+  EXPECT_EQ(nth, all);
 }
 
 // A draw looks at texels that follow each other in the list: all of a window's bucket once, whatever the beginning, each with what it is
