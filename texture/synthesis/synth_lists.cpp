@@ -132,7 +132,7 @@ PickLists::PickLists(const Plane& exemplars, const Demand& demand, int classes, 
   windows_.assign(cells * 256, PickWindow{255, static_cast<std::uint8_t>(buckets - 1)});
   const std::int64_t value_weight = keys_.sorted ? guides[0].weight_q4 : 0;
   const std::int64_t bucket_weight = keys_.bucketed ? guides[1].weight_q4 : 0;
-  for (int c = 0; c < classes; ++c) {
+  parallel_rows(classes, [&](int c) {
     const std::uint32_t label_class = static_cast<std::uint32_t>(c);
     WindowCounts sources(buckets);
     WindowCounts pixels(buckets);
@@ -175,7 +175,7 @@ PickLists::PickLists(const Plane& exemplars, const Demand& demand, int classes, 
         }
       }
     }
-  }
+  });
 }
 
 std::int64_t PickLists::texel_count(std::uint32_t label_class) const {
