@@ -67,6 +67,50 @@ TEST_P(SheetGroundTest, TheDraftIsThatOfTheWhole) {
   for (std::size_t i = 0; i < a.guides.size(); ++i) EXPECT_TRUE(a.guides[i].values == b.guides[i].values) << a.guides[i].name;
 }
 
+// Four pixels a unit and more: light and base picture look around in a wide view, whose pixels no window and no tile may move. The sheet is
+// wider than what any of them looks at.
+class PrintGroundTest : public testing::TestWithParam<const char*> {
+ protected:
+  PrintGroundTest()
+      : world_(test::small_scene({"output.width=1100", "output.height=620", GetParam(), "terrain.synthetic.highest_m=3900",
+                                  "land_cover.settings.ice_line_m=2900", "land_cover.settings.snowline_m=2500",
+                                  "land_cover.settings.treeline_m=1700", "sampling.sky_directions=2"}),
+               silent_progress()) {}
+  const Palette palette_ = read_palette("summer");
+  const World world_;
+  const test::Folder folder_;
+  TileStore::Place place_{folder_.path(), 1U << 28U};
+  const belvedere::Run run_;
+};
+
+TEST_P(PrintGroundTest, APartIsThatOfTheWhole) {
+  SheetGround one(world_, view_of(world_), palette_, place_, run_, 4096);
+  const GuidanceBuffers seen = one.read_all_guidance(one.sheet());
+  const BasePicture painted = one.read_base(one.sheet());
+  for (const int tile_px : {64, 100}) {
+    for (const PixelRect rect : {PixelRect{0, 300, 30, 340}, PixelRect{1075, 330, 1100, 371}, PixelRect{590, 560, 650, 620}}) {
+      SheetGround part(world_, view_of(world_), palette_, place_, run_, tile_px);
+      const PaintDraft draft = part.read_draft(rect);
+      const PaintDraft whole = one.read_draft(rect);
+      EXPECT_TRUE(draft.land_cover == whole.land_cover);
+      EXPECT_TRUE(draft.base == whole.base);
+      EXPECT_TRUE(draft.under == whole.under);
+      const GuidanceBuffers guidance = part.read_all_guidance(rect);
+      EXPECT_TRUE(guidance.tone == part_of(seen.tone, rect)) << "light, tiles of " << tile_px << ", column " << rect.x0;
+      EXPECT_TRUE(guidance.base == part_of(seen.base, rect)) << "tiles of " << tile_px << ", column " << rect.x0;
+      const BasePicture base = part.read_base(rect);
+      EXPECT_TRUE(base.darker == part_of(painted.darker, rect));
+      EXPECT_TRUE(base.lighter == part_of(painted.lighter, rect));
+      EXPECT_TRUE(base.accent == part_of(painted.accent, rect));
+      EXPECT_TRUE(base.tree_density == part_of(painted.tree_density, rect));
+      EXPECT_TRUE(base.haze == part_of(painted.haze, rect));
+    }
+  }
+}
+
+// 4 and 6 pixels a unit: wide pixels of 2 × 2 and 3 × 3.
+INSTANTIATE_TEST_SUITE_P(Prints, PrintGroundTest, testing::Values("output.sheet_width_mm=137.5", "output.sheet_width_mm=91.6"));
+
 INSTANTIATE_TEST_SUITE_P(Tiles, SheetGroundTest, testing::Values(64, 100, 1024));
 
 }  // namespace
