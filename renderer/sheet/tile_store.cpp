@@ -58,7 +58,7 @@ TileStore::TileStore(Place& place, int sheet_width, int sheet_height, int tile_p
 }
 
 TileStore::~TileStore() {
-  for (const Tile& tile : tiles_) place_.memory_bytes += tile.memory.size();
+  for (const Tile& tile : tiles_) place_.memory_bytes += tile.memory_bytes;
   if (file_ >= 0) ::close(file_);
 }
 
@@ -88,8 +88,9 @@ void TileStore::put(int column, int row, const Planes& planes) {
   if (to.known) return;
   if (bytes <= place_.memory_bytes) {
     place_.memory_bytes -= bytes;
-    to.memory.resize(bytes);
-    std::byte* at = to.memory.data();
+    to.memory = std::make_unique_for_overwrite<std::byte[]>(bytes);  // whoever copies a part writes it for the first time
+    to.memory_bytes = bytes;
+    std::byte* at = to.memory.get();
     for (std::size_t i = 0; i < value_bytes_.size(); at += planes[i].bytes(), ++i) copy_block(at, planes[i].values, planes[i].bytes());
   } else {
     if (file_ < 0) file_ = open_scratch(place_.folder);
@@ -108,29 +109,30 @@ void TileStore::get(int column, int row, PixelRect from, int origin_x, int origi
   const PixelRect area = rect(column, row);
   const Tile& held = tile(column, row);
   std::size_t start = 0;  // of the plane in the tile
-  std::vector<std::byte> rows;
   for (std::size_t i = 0; i < value_bytes_.size(); ++i) {
     const std::size_t size = value_bytes_[i];
     const std::size_t row_bytes = size * static_cast<std::size_t>(area.width());
     const Plane& to = wanted[i];
     if (to.values != nullptr) {
       const std::size_t first = start + row_bytes * static_cast<std::size_t>(from.y0 - area.y0);
-      const std::byte* source = nullptr;
-      if (held.slot < 0) {
-        source = held.memory.data() + first;
-      } else {
-        rows.resize(row_bytes * static_cast<std::size_t>(from.height()));
-        const std::uint64_t place = static_cast<std::uint64_t>(held.slot) * slot_bytes_ + first;
-        if (const int code = read_bytes_at(file_, rows.data(), rows.size(), place); code != 0)
-          fail(place_.folder, "a scratch file cannot be read", code);
-        source = rows.data();
-      }
       parallel_ranges(from.height(), rows_per_task, [&](int begin, int end) {
-        for (int y = begin; y != end; ++y)
+        const std::size_t skipped = first + row_bytes * static_cast<std::size_t>(begin);
+        const std::byte* source = nullptr;
+        std::unique_ptr<std::byte[]> rows;
+        if (held.slot >= 0) {
+          const std::size_t bytes = row_bytes * static_cast<std::size_t>(end - begin);
+          rows = std::make_unique_for_overwrite<std::byte[]>(bytes);
+          source = rows.get();
+          const std::uint64_t place = static_cast<std::uint64_t>(held.slot) * slot_bytes_ + skipped;
+          if (const int code = read_bytes_at(file_, rows.get(), bytes, place); code != 0)
+            fail(place_.folder, "a scratch file cannot be read", code);
+        } else {
+          source = held.memory.get() + skipped;
+        }
+        for (int y = begin; y != end; ++y, source += row_bytes)
           std::memcpy(to.values + to.row_bytes() * static_cast<std::size_t>(from.y0 + y - origin_y) +
                           size * static_cast<std::size_t>(from.x0 - origin_x),
-                      source + row_bytes * static_cast<std::size_t>(y) + size * static_cast<std::size_t>(from.x0 - area.x0),
-                      size * static_cast<std::size_t>(from.width()));
+                      source + size * static_cast<std::size_t>(from.x0 - area.x0), size * static_cast<std::size_t>(from.width()));
       });
     }
     start += row_bytes * static_cast<std::size_t>(area.height());
@@ -140,7 +142,7 @@ void TileStore::get(int column, int row, PixelRect from, int origin_x, int origi
 void TileStore::drop(int column, int row) {
   Tile& old = tile(column, row);
   if (!old.known) return;
-  place_.memory_bytes += old.memory.size();
+  place_.memory_bytes += old.memory_bytes;
   if (old.slot >= 0) free_slots_.push_back(old.slot);
   old = {};
 }

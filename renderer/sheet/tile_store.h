@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,9 @@ class TileStore {
 
  private:
   struct Tile {
-    std::vector<std::byte> memory;  // planes one after the other, or
-    std::int64_t slot = -1;         // place in the scratch file, in slots; -1: none
+    std::unique_ptr<std::byte[]> memory;  // planes one after the other, or
+    std::size_t memory_bytes = 0;
+    std::int64_t slot = -1;  // place in the scratch file, in slots; -1: none
     bool known = false;
   };
   Tile& tile(int column, int row);
