@@ -9,11 +9,15 @@ bool names_climate(const Scene& scene) { return scene.climate != SceneClimate{};
 
 bool knows_place(const Scene& scene, const Dem& dem) { return !dem.crs.empty() || scene.climate.latitude_deg.has_value(); }
 
-Climate make_scene_climate(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
-  const SceneClimate& settings = loaded.scene.climate;
-  if (!knows_place(loaded.scene, dem))
+void require_place(const Scene& scene, const Dem& dem) {
+  if (!knows_place(scene, dem))
     throw Error(ErrorKind::usage, "climate.latitude_deg", "a terrain without coordinate system does not say how far north it lies",
                 "its latitude, -90 … 90");
+}
+
+Climate make_scene_climate(const LoadedScene& loaded, const Dem& dem, Progress& progress) {
+  const SceneClimate& settings = loaded.scene.climate;
+  require_place(loaded.scene, dem);
   const auto raster = [&](const std::string& file) -> std::optional<RasterSource> {
     if (file.empty()) return {};
     RasterSource source;

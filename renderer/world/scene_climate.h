@@ -12,6 +12,8 @@ bool names_climate(const Scene& scene);
 
 // Whether it is known where on Earth a scene's terrain lies: by its coordinate system, or by climate.latitude_deg.
 bool knows_place(const Scene& scene, const Dem& dem);
+// Error(usage) naming climate.latitude_deg where it is not.
+void require_place(const Scene& scene, const Dem& dem);
 
 // The climate of a scene's terrain, from [climate] and what is known of the place. What it was made from and how sure that is goes to
 // `progress` as notes. Throws what make_climate throws.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <optional>
 #include <utility>
 
 #include "base/filter.h"
@@ -18,6 +19,8 @@
 #include "terrain/climate/map_climate.h"
 #include "terrain/generalize/destripe.h"
 #include "terrain/layers/layer_apply.h"
+#include "terrain/layers/layer_climate.h"
+#include "terrain/layers/layer_coverage.h"
 #include "terrain/layers/layers_file.h"
 
 namespace belvedere {
@@ -147,12 +150,20 @@ LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, const Cover
       });
 }
 
-CacheKey layer_cover_key(const LoadedScene& loaded, const SurfaceLayers& layers, const LayerApplyParameters& parameters, const Dem& dem) {
+CacheKey layer_cover_key(const LoadedScene& loaded, const SurfaceLayers& layers, const LayerApplyParameters& parameters,
+                         const std::optional<Climate>& climate, const Dem& dem) {
   const auto& [seed, drawing, colour, coverage] = parameters;
   const auto& [power, finest_cells, octaves, spectrum, drawing_seed] = drawing;
   CacheKeyText key;
   key.add("surface layers", surface_layers_text(layers)).add("seed", seed).add("colour", colour).add("coverage", coverage);
   key.add("power", power).add("finest_cells", finest_cells).add("octaves", octaves).add("spectrum", spectrum).add("drawing", drawing_seed);
+  // Place and sun follow from the DEM and the latitude.
+  key.add("latitude_deg", loaded.scene.climate.latitude_deg);
+  if (climate) {
+    for (const auto& [sea_level_c, lapse_k_per_km, rain_mm_at_km, summer_share] : climate->nodes)
+      key.add("sea_level_c", sea_level_c).add("lapse", lapse_k_per_km).add("rain", rain_mm_at_km).add("summer", summer_share);
+    key.add("nodes_across", climate->nodes.width()).add("warmer_k", climate->warmer_k).add("rain_share", climate->rain_share);
+  }
   add_dem(key, dem);
   return make_cache_key(CachedProduct::land_cover, key, subject_of(loaded));
 }
@@ -162,9 +173,17 @@ LandCover make_layer_cover(const LoadedScene& loaded, const Dem& dem, Progress& 
   set_layer_parameters(layers, loaded.scene.land_cover.settings);
   LayerApplyParameters parameters;
   parameters.seed = loaded.scene.seed;
+  const std::vector<std::string> inputs = compile_layers(layers).inputs;
+  if (needs_place(inputs, {})) require_place(loaded.scene, dem);
+  std::optional<Climate> climate;
+  if (needs_climate(inputs, {})) climate = make_scene_climate(loaded, dem, silent_progress());
   return cached<LandCover>(
-      cache, [&] { return layer_cover_key(loaded, layers, parameters, dem); }, progress,
-      [&](Progress& watcher) { return layer_land_cover(layers, dem, {}, parameters, watcher); });
+      cache, [&] { return layer_cover_key(loaded, layers, parameters, climate, dem); }, progress,
+      [&](Progress& watcher) {
+        const LayerClimateGrids grids = make_layer_climate(
+            dem, inputs, {}, loaded.scene.climate.latitude_deg, [&] { return *climate; }, watcher);
+        return layer_land_cover(layers, dem, grids.view(), parameters, watcher);
+      });
 }
 
 // What the ground is where no raster says it: by surface layers, or by rules.

@@ -15,7 +15,7 @@ const std::vector<LayerInputInfo>& layer_input_table() {
       {"slope", "°", "of the ground smoothed by 45 m", slope},
       {"temperature", "°C", "mean of the year", temperature},
       {"rain", "mm", "of the year, snow as water", rain},
-      {"radiation", "", "potential direct radiation of the year", radiation},
+      {"radiation", "MJ/m²", "potential direct radiation of the year, with shadows", radiation},
       {"sky_view", "", "share of the sky that is seen, 0…1", sky_view},
       {"north", "", "exposure: 1 on slopes that face north, -1 south, 0 on level ground", north},
       {"east", "", "exposure: 1 on slopes that face east, -1 west, 0 on level ground", east},

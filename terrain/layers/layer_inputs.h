@@ -14,7 +14,7 @@ namespace belvedere {
 struct LayerClimate {
   const Grid<float>* temperature_c = nullptr;  // mean of the year
   const Grid<float>* rain_mm = nullptr;        // of the year
-  const Grid<float>* radiation = nullptr;      // potential direct, of the year, in one unit for fitting and applying
+  const Grid<float>* radiation = nullptr;      // potential direct, of the year, MJ/m²; any unit that fitting and applying share
   const Grid<float>* sky_view = nullptr;       // 0…1
 };
 

@@ -12,9 +12,11 @@
 #include "renderer/image/output_file.h"
 #include "terrain/io/byte_raster_rows.h"
 #include "terrain/layers/layer_apply.h"
+#include "terrain/layers/layer_coverage.h"
 #include "terrain/layers/layers_file.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
+#include "tools/cli/layers/ground_climate_options.h"
 #include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/terminal.h"
 
@@ -23,31 +25,12 @@ namespace {
 
 struct Options {
   std::string layers, dem, out, colour, shares;
-  std::string temperature, rain, radiation, sky_view;
+  GroundClimateOptions climate;
   LayerApplyParameters apply;
   int threads = 0;
   bool quiet = false;
   bool json = false;
 };
-
-// Grids that the ground alone does not say, on the DEM's cells.
-struct ClimateGrids {
-  Grid<float> temperature_c, rain_mm, radiation, sky_view;
-  LayerClimate climate() const {
-    const auto known = [](const Grid<float>& grid) { return grid.empty() ? nullptr : &grid; };
-    return {known(temperature_c), known(rain_mm), known(radiation), known(sky_view)};
-  }
-};
-
-Grid<float> read_grid(const std::string& path, const RasterFrame& frame, Progress& progress) {
-  if (path.empty()) return {};
-  RasterSource source;
-  source.path = path;
-  source.unit_to_m = 1.0;  // no altitudes: as they are
-  Raster<float> raster = warp_rasters({source}, frame, progress);
-  // Filled as a DEM's voids are: smoothly from their rims.
-  return make_dem(std::move(raster)).altitude_m;
-}
 
 ByteRasterLayout class_layout(const RasterFrame& frame) {
   ByteRasterLayout layout{.frame = frame, .bands = {{.name = "class"}}, .zero_is_void = true};
@@ -110,16 +93,9 @@ int run(const Options& options) {
   TerminalProgress progress(options.quiet);
   const SurfaceLayers layers = read_surface_layers(options.layers);
   if (layers.layers.empty()) throw Error(ErrorKind::usage, options.layers, "no layers", "at least one [[layers]]");
-  DemParameters parameters;
-  parameters.sources.emplace_back().path = options.dem;
-  parameters.max_void_share = 1.0;  // voids stay without a class
-  const Dem dem = read_dem(parameters, progress);
+  const Dem dem = read_layer_dem(options.dem, progress);  // voids stay without a class
   const RasterFrame frame{dem.transform, dem.width(), dem.height(), dem.crs};
-  ClimateGrids grids;
-  grids.temperature_c = read_grid(options.temperature, frame, progress);
-  grids.rain_mm = read_grid(options.rain, frame, progress);
-  grids.radiation = read_grid(options.radiation, frame, progress);
-  grids.sky_view = read_grid(options.sky_view, frame, progress);
+  const LayerClimateGrids climate = climate_of(options.climate, dem, compile_layers(layers).inputs, progress);
 
   LayerApplyParameters apply = options.apply;
   apply.colour = !options.colour.empty();
@@ -134,7 +110,7 @@ int run(const Options& options) {
     shares.emplace(options.shares, layout);
   }
   const LayerApplyResult result = apply_layers(
-      layers, dem, grids.climate(), apply,
+      layers, dem, climate.view(), apply,
       [&](const LayerStrip& strip) {
         Grid<std::uint8_t> codes(strip.classes.width(), strip.classes.height());
         for (int y = 0; y < codes.height(); ++y)
@@ -174,14 +150,7 @@ Action add_layers_apply(CLI::App& command) {
   command.add_option("--colour", options->colour, "The colours of the layers, blended as much as they cover: a GeoTIFF")->type_name("TIF");
   command.add_option("--shares", options->shares, "How much of each cell each layer covers: a GeoTIFF with a band for each, 255 is all")
       ->type_name("TIF");
-  command.add_option("--temperature", options->temperature, "Mean temperature of the year, °C, for layers that ask for it: a raster")
-      ->type_name("FILE");
-  command.add_option("--rain", options->rain, "Rain of the year, mm: a raster")->type_name("FILE");
-  command
-      .add_option("--radiation", options->radiation,
-                  "Potential direct radiation of the year, in the unit the layers were fitted with: a raster")
-      ->type_name("FILE");
-  command.add_option("--sky-view", options->sky_view, "Share of the sky that is seen, 0 … 1: a raster")->type_name("FILE");
+  add_ground_climate(command, options->climate);
   LayerDrawingParameters& drawing = options->apply.drawing;
   command
       .add_option("--sharpen", drawing.power, "How little classes mix where shares are divided: 1 as much as shares say … 4. Default: 2")

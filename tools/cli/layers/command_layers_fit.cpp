@@ -11,13 +11,9 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/filter.h"
 #include "base/json.h"
 #include "base/parallel.h"
 #include "renderer/image/image_io.h"
-#include "terrain/climate/lapse_rate.h"
-#include "terrain/climate/radiation.h"
-#include "terrain/climate/rain.h"
 #include "terrain/climate/stations.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/io/raster_io.h"
@@ -28,6 +24,7 @@
 #include "terrain/layers/layers_file.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
+#include "tools/cli/layers/ground_climate_options.h"
 #include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/terminal.h"
 #include "tools/report/layers_fit_page.h"
@@ -36,12 +33,11 @@ namespace belvedere::tools {
 namespace {
 
 struct Options {
-  std::string dem, image, classes, legend, out, stations, mask, regions, report;
-  std::string temperature, rain;
+  std::string dem, image, classes, legend, out, mask, regions, report;
+  GroundClimateOptions climate;
   std::string functions = "fitted";
   std::string model = "product";
   std::vector<std::string> inputs;
-  std::optional<double> latitude_deg;
   int classes_band = 1;
   int children = 4;
   int threads = 0;
@@ -80,9 +76,7 @@ void check_options(const Options& options) {
   if (options.functions == "histogram" && options.model != "product")
     refuse("--functions", "histograms are functions of a product", "--model product");
   if (options.children < 1 || options.children > 12) refuse("--children", fmt::format("{}", options.children), "1…12");
-  if (!options.stations.empty() && (!options.temperature.empty() || !options.rain.empty()))
-    refuse("--stations", "temperature and rain are said twice", "stations, or rasters");
-  std::set<std::string> read = {options.dem, options.image, options.classes, options.mask, options.regions, options.stations};
+  std::set<std::string> read = {options.dem, options.image, options.classes, options.mask, options.regions, options.climate.stations};
   if (read.contains(options.out)) refuse(options.out, "is read as well", "another name for the result");
   if (!options.out.ends_with(".toml")) refuse(options.out, "is no name of a layers file", "NAME.layers.toml");
   check_place(options.out);
@@ -102,13 +96,6 @@ struct Ground {
 
 RasterFrame frame_of(const Dem& dem) { return {dem.transform, dem.width(), dem.height(), dem.crs}; }
 
-Dem read_ground(const std::string& path, Progress& progress) {
-  DemParameters parameters;
-  parameters.sources = {source_of(path)};
-  parameters.max_void_share = 1.0;  // voids are not learned from
-  return read_dem(parameters, progress);
-}
-
 RgbPlanes planes_of(const Grid<glm::vec3>& picture) {
   RgbPlanes planes{Grid<float>(picture.width(), picture.height()), Grid<float>(picture.width(), picture.height()),
                    Grid<float>(picture.width(), picture.height())};
@@ -124,7 +111,7 @@ RgbPlanes planes_of(const Grid<glm::vec3>& picture) {
 Ground read_picture_ground(const Options& options, Findings& findings, Progress& progress) {
   Ground ground;
   if (!has_geography(options.image)) {
-    ground.dem = read_ground(options.dem, progress);
+    ground.dem = read_layer_dem(options.dem, progress);
     const Grid<glm::vec3> picture = read_picture(options.image);
     if (picture.width() != ground.dem.width() || picture.height() != ground.dem.height())
       throw Error(ErrorKind::input, options.image,
@@ -245,64 +232,17 @@ void classes_of_map(const Options& options, const Ground& ground, KnownGround& k
   for (const auto& [code, cells] : unknown) findings.note("code {} ({} cells) is not in the legend and left out", code, cells);
 }
 
-// What the ground alone does not say.
-struct ClimateGrids {
-  Grid<float> temperature_c, rain_mm;
-  Radiation radiation;
-};
-Grid<float> read_climate_raster(const std::string& path, const RasterFrame& frame, Progress& progress) {
-  RasterSource source = source_of(path);
-  source.unit_to_m = 1.0;  // no altitudes
-  return make_dem(warp_rasters({source}, frame, progress)).altitude_m;
-}
-ClimateGrids climate_of(const Options& options, const Dem& dem, Findings& findings, Progress& progress) {
-  constexpr double smoothing_m = 45.0;  // stripes of scanned DEMs are steep
-  ClimateGrids grids;
-  const MapPlace place = make_map_place(dem.transform, dem.crs, dem.width(), dem.height(), options.latitude_deg);
-  const Grid<float> smooth = gaussian_blur(dem.altitude_m, smoothing_m / dem.cell_m());
-  grids.radiation = potential_radiation(smooth, place, {}, progress);
-  if (!options.temperature.empty()) grids.temperature_c = read_climate_raster(options.temperature, frame_of(dem), progress);
-  if (!options.rain.empty()) grids.rain_mm = read_climate_raster(options.rain, frame_of(dem), progress);
-  if (options.stations.empty()) return grids;
-  const StationTable table = read_stations(options.stations, dem.crs, progress);
-  if (static_cast<int>(table.stations.size()) < fewest_stations)
-    findings.note("{} stations: with fewer than {} a lapse rate is a guess", table.stations.size(), fewest_stations);
-  if (table.has_temperature()) {
-    std::vector<double> altitude_m;
-    std::vector<double> temperature_c;
-    for (const Station& s : table.stations) {
-      altitude_m.push_back(s.altitude_m);
-      temperature_c.push_back(s.temperature_year_c);
-    }
-    const LapseRate lapse = fit_lapse_rate(altitude_m, temperature_c);
-    findings.note("temperature falls by {:.2f} K/km ({:.2f}…{:.2f}), {:.1f} °C at sea level", lapse.k_per_km, lapse.low_k_per_km,
-                  lapse.high_k_per_km, lapse.sea_level_c);
-    grids.temperature_c = Grid<float>(dem.width(), dem.height());
-    for (std::size_t i = 0; i != grids.temperature_c.size(); ++i)
-      grids.temperature_c[i] = static_cast<float>(lapse.at(static_cast<double>(dem.altitude_m[i])));
-  }
-  if (table.has_rain()) {
-    const RainPlane plane = fit_rain(table.stations);
-    findings.note("rain rises by {:.0f} mm/km ({:.0f}…{:.0f})", plane.mm_per_km_up, plane.low_mm_per_km_up, plane.high_mm_per_km_up);
-    const Grid<float> upslope = upslope_rain(smooth, place.cell_m, {});
-    grids.rain_mm = Grid<float>(dem.width(), dem.height());
-    parallel_rows(dem.height(), [&](int y) {
-      for (int x = 0; x != dem.width(); ++x)
-        grids.rain_mm(x, y) = static_cast<float>(plane.at(dem.transform.to_crs(x, y), static_cast<double>(smooth(x, y)))) *
-                              std::max(least_rain_share, 1.0F + upslope(x, y));
-    });
-  }
-  return grids;
-}
-
-std::vector<std::string> inputs_of(const Options& options, const ClimateGrids& climate) {
+std::vector<std::string> inputs_of(const Options& options, const Dem& dem) {
   if (!options.inputs.empty()) {
     for (const std::string& name : options.inputs) require_layer_input(name, "--inputs");
     return options.inputs;
   }
   std::vector<std::string> names = {"altitude", "slope"};
-  if (!climate.temperature_c.empty()) names.emplace_back("temperature");
-  if (!climate.rain_mm.empty()) names.emplace_back("rain");
+  // What somebody measured; the climate that is computed follows from altitude and adds nothing within one region.
+  StationTable stations;
+  if (!options.climate.stations.empty()) stations = read_stations(options.climate.stations, dem.crs, silent_progress());
+  if (!options.climate.files.temperature.empty() || stations.has_temperature()) names.emplace_back("temperature");
+  if (!options.climate.files.rain.empty() || stations.has_rain()) names.emplace_back("rain");
   names.emplace_back("radiation");
   if (options.model == "product") {
     // A product of functions up to 1 can only veto: more inputs gain nothing there.
@@ -345,7 +285,7 @@ int run(const Options& options) {
   if (!options.image.empty()) {
     ground = read_picture_ground(options, findings, progress);
   } else {
-    ground.dem = read_ground(options.dem, progress);
+    ground.dem = read_layer_dem(options.dem, progress);
     ground.use = Grid<std::uint8_t>(ground.dem.width(), ground.dem.height());
     for (std::size_t i = 0; i != ground.use.size(); ++i) ground.use[i] = ground.dem.filled[i] == 0 ? 1 : 0;
   }
@@ -358,12 +298,10 @@ int run(const Options& options) {
     classes_of_picture(options, ground, known, findings);
   else
     classes_of_map(options, ground, known, findings, progress);
-  const ClimateGrids climate = climate_of(options, ground.dem, findings, progress);
-  const auto given = [](const Grid<float>& grid) { return grid.empty() ? nullptr : &grid; };
-  const LayerClimate layer_climate{given(climate.temperature_c), given(climate.rain_mm), &climate.radiation.direct_mj_m2,
-                                   &climate.radiation.sky_view};
-  known.input_names = inputs_of(options, climate);
-  known.inputs = layer_inputs(make_layer_ground(ground.dem, layer_climate, known.input_names));
+  known.input_names = inputs_of(options, ground.dem);
+  const LayerClimateGrids climate = climate_of(options.climate, ground.dem, known.input_names, progress);
+  for (const std::string& source : climate.sources) findings.note("{}", source);
+  known.inputs = layer_inputs(make_layer_ground(ground.dem, climate.view(), known.input_names));
   progress.begin("fitting functions", 0.0);
   GroundFitParameters parameters;
   parameters.model = options.model == "product" ? LayerModel::product : LayerModel::additive;
@@ -414,11 +352,7 @@ Action add_layers_fit(CLI::App& command) {
   command.add_option("--out", options->out, "The layers: a .toml file of some KB, which needs the picture no more")
       ->required()
       ->type_name("TOML");
-  command
-      .add_option("--stations", options->stations, "Weather stations, for temperature and rain as inputs: CSV or netCDF (docs/climate.md)")
-      ->type_name("FILE");
-  command.add_option("--temperature", options->temperature, "Or mean temperature of the year, °C: a raster")->type_name("FILE");
-  command.add_option("--rain", options->rain, "Or rain of the year, mm: a raster")->type_name("FILE");
+  add_ground_climate(command, options->climate);
   command.add_option("--mask", options->mask, "Cells above 0 are not learned from: fields, towns")->type_name("FILE");
   command
       .add_option("--regions", options->regions,
@@ -437,8 +371,6 @@ Action add_layers_fit(CLI::App& command) {
       ->delimiter(',')
       ->type_name("NAMES");
   command.add_option("--children", options->children, "Colours of a class, 1…12; default 4")->type_name("N");
-  command.add_option("--latitude", options->latitude_deg, "Where the ground lies, for files without a coordinate system, degrees")
-      ->type_name("DEG");
   command
       .add_option("--report", options->report, "A folder for a page on what was learned and how it does on ground not seen; takes a minute")
       ->type_name("DIR");

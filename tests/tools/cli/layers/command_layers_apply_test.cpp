@@ -2,10 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "base/land_cover_class.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/world/scene_terrain.h"
 #include "terrain/io/dem.h"
 #include "terrain/io/raster_io.h"
 #include "tests/tools/program.h"
@@ -100,7 +103,6 @@ TEST_F(LayersApply, NothingIsWrittenWhereSomethingIsWrong) {
       EXPECT_FALSE(std::filesystem::exists(path(name))) << name;
   };
   refused("version = 1\n[[layers]]\nname = \"a\"\nparent = \"a\"\n", "two.layers.toml:4:10: a layer that is its own ancestor: a → a");
-  refused("version = 1\n[[inputs]]\nname = \"rain\"\nlow = 0\nhigh = 1\n[[layers]]\nname = \"a\"\n", "input rain");
   refused("version = 1\nlayers = []\n", "no layers");
   const Outcome twice = run({"layers", "apply", write_layers(), "--dem", dem, "--out", path("c.tif"), "--colour", path("c.tif")});
   EXPECT_EQ(twice.status, 2);
@@ -119,6 +121,98 @@ TEST_F(LayersApply, ThreadsChangeNoCell) {
   EXPECT_EQ(codes("a.tif").cells, codes("b.tif").cells);
   ASSERT_EQ(run({"layers", "apply", layers, "--dem", dem, "--out", path("c.tif"), "--seed", "2"}).status, 0);
   EXPECT_NE(codes("a.tif").cells, codes("c.tif").cells);
+}
+
+// A cone of 30 m cells whose classes hang on each input that is computed; thresholds from the file, not from the test.
+class LayersOfClimate : public LayersApply {
+ protected:
+  std::string write_cone(const std::string& crs = "EPSG:32632") const {
+    Raster<float> raster{Grid<float>(90, 80), {680000.0, 5260000.0, 30.0, 30.0}, crs.empty() ? crs : normalize_crs(crs)};
+    for (int y = 0; y < 80; ++y)
+      for (int x = 0; x < 90; ++x) raster.cells(x, y) = 2500.F - 15.F * static_cast<float>(std::hypot(x - 45.3, y - 39.7));
+    write_raster(path("cone.tif"), raster);
+    return path("cone.tif");
+  }
+  std::string write_sunny() const {
+    test::write_bytes(path("sunny.layers.toml"), R"(version = 1
+ground = { class = "rock" }
+[[inputs]]
+name = "radiation"
+low = 0
+high = 10000
+[[layers]]
+name = "dry"
+class = "pasture"
+noise = { scale_m = 300, amplitude = 0.4, bias = 0.8 }
+[layers.functions]
+radiation = { low = 4500, width = 500 }
+[[layers]]
+name = "cold"
+class = "snow"
+when = "temperature < 0"
+[[layers]]
+name = "wet"
+class = "forest"
+when = "rain > 900 and sky_view < 0.9 and temperature > 3"
+)");
+    return path("sunny.layers.toml");
+  }
+};
+
+TEST_F(LayersOfClimate, ClimateIsComputedWhereItIsNotGiven) {
+  const Outcome outcome = run({"layers", "apply", write_sunny(), "--dem", write_cone(), "--out", path("c.tif")});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Grid<std::int32_t> cells = codes("c.tif").cells;
+  // Sun on the south side, none on the north side; the top is cold.
+  EXPECT_EQ(cells(45, 70), static_cast<int>(LandCoverClass::pasture));
+  EXPECT_EQ(cells(45, 10), static_cast<int>(LandCoverClass::rock));
+  EXPECT_EQ(cells(45, 39), static_cast<int>(LandCoverClass::snow));
+  ASSERT_EQ(run({"layers", "apply", write_sunny(), "--dem", write_cone(), "--out", path("one.tif"), "--threads", "1"}).status, 0);
+  EXPECT_EQ(cells, codes("one.tif").cells);
+}
+
+TEST_F(LayersOfClimate, ASceneGetsTheSameClasses) {
+  const Outcome outcome = run({"layers", "apply", write_sunny(), "--dem", write_cone(), "--out", path("c.tif"), "--seed", "5"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const LoadedScene scene =
+      parse_scene("version = 1\nseed = 5\n[[terrain.sources]]\nfile = \"cone.tif\"\n[land_cover]\nlayers = \"sunny.layers.toml\"\n",
+                  "s.toml", path(""), {});
+  const LandCover cover = make_scene_land_cover(scene, make_scene_dem(scene, silent_progress()), silent_progress());
+  const Grid<std::int32_t> applied = codes("c.tif").cells;
+  ASSERT_EQ(cover.classes.cells.size(), applied.size());
+  for (std::size_t i = 0; i < applied.size(); ++i) ASSERT_EQ(static_cast<int>(cover.classes.cells[i]), applied[i]) << i;
+}
+
+TEST_F(LayersOfClimate, StationsAndRastersWin) {
+  const std::string dem = write_cone();
+  const auto snow = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"layers", "apply", write_sunny(), "--dem", dem, "--out", path("c.tif")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const Grid<std::int32_t> cells = codes("c.tif").cells;
+    return std::count(cells.begin(), cells.end(), static_cast<int>(LandCoverClass::snow));
+  };
+  Raster<float> warm{Grid<float>(90, 80, 12.F), {680000.0, 5260000.0, 30.0, 30.0}, normalize_crs("EPSG:32632")};
+  write_raster(path("warm.tif"), warm);
+  EXPECT_GT(snow({}), 0);
+  EXPECT_EQ(snow({"--temperature", path("warm.tif")}), 0);
+  // 0 °C at 2000 m by ten stations: snow above that alone.
+  std::string text = "name,lon,lat,altitude_m,t_year\n";
+  for (int i = 0; i < 10; ++i)
+    text += "S,11.4,47." + std::to_string(30 + i) + "," + std::to_string(500 + 200 * i) + "," + std::to_string(9.0 - 1.2 * i) + "\n";
+  test::write_bytes(path("stations.csv"), text);
+  EXPECT_NEAR(static_cast<double>(snow({"--stations", path("stations.csv")})), 3.14159 * 500.0 * 500.0 / 225.0, 60.0);
+}
+
+TEST_F(LayersOfClimate, GroundWithoutCoordinateSystemNeedsItsLatitude) {
+  const std::string dem = write_cone("");
+  const Outcome outcome = run({"layers", "apply", write_sunny(), "--dem", dem, "--out", path("c.tif")});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--latitude"));
+  EXPECT_FALSE(std::filesystem::exists(path("c.tif")));
+  const Outcome placed = run({"layers", "apply", write_sunny(), "--dem", dem, "--out", path("c.tif"), "--latitude", "47"});
+  EXPECT_EQ(placed.status, 0) << placed.err;
 }
 
 }  // namespace

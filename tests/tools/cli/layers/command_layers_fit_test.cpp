@@ -134,5 +134,54 @@ TEST_F(LayersFitCommand, MaskedCellsAreNotLearnedFrom) {
   EXPECT_THAT(outcome.out, HasSubstr("50.0 % of the cells are masked"));
 }
 
+// Sun and climate of fitting and applying are the same numbers: what was learned of sun alone gives its classes back, and ranges, which
+// leave out a thousandth at each end, fit to the cell.
+TEST_F(LayersFitCommand, AppliedToItsOwnGroundItFindsItsClasses) {
+  Raster<std::uint8_t> sides;
+  sides.transform = {680000.0, 5260000.0, 30.0, 30.0};
+  sides.crs = normalize_crs("EPSG:32632");
+  sides.cells = Grid<std::uint8_t>(size, size, 1);
+  for (int y = size / 2; y != size; ++y)
+    for (int x = 0; x != size; ++x) sides.cells(x, y) = 2;
+  write_raster(path("classes.tif"), sides);
+  std::vector<std::string> arguments = by_map();
+  arguments.insert(arguments.end(), {"--inputs", "radiation,temperature,rain,sky_view", "--model", "additive"});
+  const Outcome fitted = fit(arguments);
+  ASSERT_EQ(fitted.status, 0) << fitted.err;
+  EXPECT_THAT(fitted.out, HasSubstr("rain: by latitude"));
+  const Outcome applied =
+      run({"layers", "apply", path("out.layers.toml"), "--dem", path("dem.tif"), "--out", path("c.tif"), "--shares", path("s.tif")});
+  ASSERT_EQ(applied.status, 0) << applied.err;
+  for (const char* name : {"radiation", "temperature", "rain", "sky_view"}) {
+    const std::size_t at = applied.out.find(std::string("  ") + name, applied.out.find("outside"));
+    ASSERT_NE(at, std::string::npos) << name;
+    // 6400 cells: 6 or 7 at each end.
+    EXPECT_NEAR(std::stod(applied.out.substr(at + 16)), 0.2, 0.051) << applied.out;
+  }
+  RasterSource source;
+  source.path = path("c.tif");
+  const Grid<std::int32_t> classes = read_codes(source).cells;
+  int right = 0;
+  for (std::size_t i = 0; i != classes.size(); ++i)
+    right += classes[i] == static_cast<int>(sides.cells[i] == 1 ? LandCoverClass::pasture : LandCoverClass::rock) ? 1 : 0;
+  EXPECT_GT(right, 0.9 * size * size);
+}
+
+TEST_F(LayersFitCommand, GroundWithoutCoordinateSystemNeedsItsLatitude) {
+  Raster<float> dem;
+  dem.transform = {0.0, 0.0, 30.0, 30.0};
+  dem.cells = Grid<float>(size, size);
+  for (int y = 0; y != size; ++y)
+    for (int x = 0; x != size; ++x) dem.cells(x, y) = static_cast<float>(2500.0 - 12.0 * std::hypot(x - 40.3, y - 39.7));
+  write_raster(path("dem.tif"), dem);
+  const Outcome outcome = fit({"--image", path("picture.png")});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--latitude"));
+  EXPECT_TRUE(nothing_written());
+  EXPECT_EQ(fit({"--image", path("picture.png"), "--latitude", "47"}).status, 0);
+  // Nothing is computed that nobody asks for.
+  EXPECT_EQ(fit({"--image", path("picture.png"), "--inputs", "altitude,slope"}).status, 0);
+}
+
 }  // namespace
 }  // namespace belvedere

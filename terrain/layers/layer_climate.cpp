@@ -1,0 +1,106 @@
+#include "terrain/layers/layer_climate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "base/filter.h"
+#include "base/parallel.h"
+#include "terrain/climate/radiation.h"
+#include "terrain/io/raster_io.h"
+#include "terrain/layers/layer_input_table.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double smoothing_m = 45.0;  // deviation; slopes of scanned DEMs show their stripes
+constexpr double parts = 65536.0;     // of a unit, that are told apart
+
+bool named(const std::vector<std::string>& names, LayerInputKind kind) {
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    const LayerInputInfo* info = find_layer_input(name);
+    return info != nullptr && info->kind == kind;
+  });
+}
+
+struct Computed {
+  bool temperature, rain, radiation, sky_view;
+};
+Computed computed(const std::vector<std::string>& names, const LayerClimateFiles& files) {
+  using enum LayerInputKind;
+  return {named(names, temperature) && files.temperature.empty(), named(names, rain) && files.rain.empty(),
+          named(names, radiation) && files.radiation.empty(), named(names, sky_view) && files.sky_view.empty()};
+}
+
+Grid<float> read_grid(const std::string& path, const Dem& dem, Progress& progress) {
+  RasterSource source;
+  source.path = path;
+  source.unit_to_m = 1.0;  // no altitudes: as they are
+  // Voids are filled as a DEM's are: smoothly from their rims.
+  return make_dem(warp_rasters({source}, {dem.transform, dem.width(), dem.height(), dem.crs}, progress)).altitude_m;
+}
+
+// A value of the climate at each cell's place and altitude.
+template <class Value>
+Grid<float> from_climate(const Dem& dem, const Climate& climate, Value&& value) {
+  Grid<float> out(dem.width(), dem.height());
+  parallel_rows(dem.height(), [&](int y) {
+    for (int x = 0; x != dem.width(); ++x)
+      out(x, y) = static_cast<float>(std::round(value(climate.at(x, y), static_cast<double>(dem.altitude_m(x, y))) * parts) / parts);
+  });
+  return out;
+}
+
+double year_c(const PlaceClimate& place, double altitude_m) {
+  double sum = 0.0;
+  for (const double month_c : monthly_c(place, altitude_m)) sum += month_c;
+  return sum / 12.0;
+}
+
+}  // namespace
+
+LayerClimate LayerClimateGrids::view() const {
+  const auto known = [](const Grid<float>& grid) { return grid.empty() ? nullptr : &grid; };
+  return {known(temperature_c), known(rain_mm), known(radiation), known(sky_view)};
+}
+
+bool needs_climate(const std::vector<std::string>& names, const LayerClimateFiles& files) {
+  const Computed is = computed(names, files);
+  return is.temperature || is.rain;
+}
+
+bool needs_place(const std::vector<std::string>& names, const LayerClimateFiles& files) {
+  const Computed is = computed(names, files);
+  return is.temperature || is.rain || is.radiation || is.sky_view;
+}
+
+LayerClimateGrids make_layer_climate(const Dem& dem, const std::vector<std::string>& names, const LayerClimateFiles& files,
+                                     std::optional<double> latitude_deg, const ClimateMaker& climate, Progress& progress) {
+  using enum LayerInputKind;
+  LayerClimateGrids grids;
+  const auto read = [&](LayerInputKind kind, const std::string& file, Grid<float>& grid) {
+    if (!file.empty() && named(names, kind)) grid = read_grid(file, dem, progress);
+  };
+  read(temperature, files.temperature, grids.temperature_c);
+  read(rain, files.rain, grids.rain_mm);
+  read(radiation, files.radiation, grids.radiation);
+  read(sky_view, files.sky_view, grids.sky_view);
+  const Computed is = computed(names, files);
+  if (is.temperature || is.rain) {
+    const Climate here = climate();
+    grids.sources = here.sources;
+    if (is.temperature) grids.temperature_c = from_climate(dem, here, year_c);
+    if (is.rain)
+      grids.rain_mm = from_climate(dem, here, [](const PlaceClimate& place, double altitude_m) { return rain_mm(place, altitude_m); });
+  }
+  if (is.radiation || is.sky_view) {
+    const MapPlace place = make_map_place(dem.transform, dem.crs, dem.width(), dem.height(), latitude_deg);
+    Radiation sun = potential_radiation(gaussian_blur(dem.altitude_m, smoothing_m / dem.cell_m()), place, {}, progress);
+    if (is.radiation) grids.radiation = std::move(sun.direct_mj_m2);
+    if (is.sky_view) grids.sky_view = std::move(sun.sky_view);
+  }
+  return grids;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,146 @@
+#include "terrain/layers/layer_climate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "terrain/climate/sun_year.h"
+#include "terrain/io/raster_io.h"
+#include "tests/files.h"
+
+namespace belvedere {
+namespace {
+
+// A tent: a ridge from west to east, 30° steep on both sides, 90 cells of 20 m each way, in Tyrol.
+constexpr int width = 60;
+constexpr int height = 181;
+Dem tent(const std::string& crs = "EPSG:32632") {
+  Raster<float> raster{Grid<float>(width, height), {680000.0, 5240000.0, 20.0, 20.0}, crs.empty() ? crs : normalize_crs(crs)};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) raster.cells(x, y) = 2500.F - static_cast<float>(20.0 * std::abs(y - 90) * std::numbers::inv_sqrt3);
+  return make_dem(std::move(raster));
+}
+
+// Everywhere the same: months of which the means are -2 … 9 °C at sea level, 6 K/km; 700 mm below, 100 mm more every km.
+Climate even_climate(const Dem& dem) {
+  PlaceClimate column;
+  for (std::size_t m = 0; m < 12; ++m) {
+    column.sea_level_c[m] = static_cast<double>(m) - 2.0;
+    column.lapse_k_per_km[m] = 6.0;
+  }
+  for (std::size_t km = 0; km < 8; ++km) column.rain_mm_at_km[km] = 700.0 + 100.0 * static_cast<double>(km);
+  Climate climate;
+  climate.place = make_map_place(dem.transform, dem.crs, dem.width(), dem.height(), {});
+  climate.nodes = Grid<PlaceClimate>(2, 2, column);
+  climate.sources = {"made up"};
+  return climate;
+}
+
+const ClimateMaker nobody = []() -> Climate {
+  ADD_FAILURE() << "nobody needs the climate";
+  return {};
+};
+
+TEST(LayerClimate, TemperatureAndRainAreTheYearsAtEachCellsAltitude) {
+  const Dem dem = tent();
+  int asked = 0;
+  const LayerClimateGrids grids = make_layer_climate(
+      dem, {"temperature", "altitude", "rain"}, {}, {},
+      [&] {
+        ++asked;
+        return even_climate(dem);
+      },
+      silent_progress());
+  EXPECT_EQ(asked, 1);
+  EXPECT_THAT(grids.sources, testing::ElementsAre("made up"));
+  for (int y = 0; y < height; y += 9)
+    for (int x = 0; x < width; x += 7) {
+      const auto km = static_cast<double>(dem.altitude_m(x, y)) / 1000.0;
+      ASSERT_NEAR(static_cast<double>(grids.temperature_c(x, y)), 3.5 - 6.0 * km, 2e-5);
+      ASSERT_NEAR(static_cast<double>(grids.rain_mm(x, y)), 700.0 + 100.0 * km, 1e-3);
+    }
+  // What was not asked for is not there.
+  EXPECT_TRUE(grids.radiation.empty());
+  EXPECT_TRUE(grids.sky_view.empty());
+  EXPECT_EQ(grids.view().radiation, nullptr);
+}
+
+// On each side of a long straight tent the whole year's sun above the plane and above the horizon: summed here without tables.
+TEST(LayerClimate, RadiationIsThatOfTheGroundInAYear) {
+  const Dem dem = tent();
+  const LayerClimateGrids grids = make_layer_climate(dem, {"radiation", "sky_view"}, {}, {}, nobody, silent_progress());
+  EXPECT_TRUE(grids.temperature_c.empty());
+  const MapPlace place = make_map_place(dem.transform, dem.crs, dem.width(), dem.height(), {});
+  const auto expected = [&](int row) {
+    const double north_deg = place.grid_north_deg.at(30, row);
+    const double sine = row < 90 ? 0.5 : -0.5;  // of the slope towards north: rows run south
+    double sum = 0.0;
+    for (const SunMoment& sun : sun_moments(place.latitude_deg.at(30, row), {})) {
+      const double towards_north = sun.cosine * std::cos(sun.azimuth_rad - north_deg * std::numbers::pi / 180.0);
+      const double on_plane = 0.5 * std::numbers::sqrt3 * sun.sine + sine * towards_north;
+      if (on_plane > 0.0) sum += sun.exposure_mj * clear_share(0.75, sun.air_mass, static_cast<double>(dem.altitude_m(30, row))) * on_plane;
+    }
+    return sum;
+  };
+  // Away from the crest, which the blur rounds, and from the rims. The ridge is 60 cells long, which lets sun around its ends.
+  EXPECT_NEAR(static_cast<double>(grids.radiation(30, 130)), expected(130), 0.02 * expected(130));
+  EXPECT_NEAR(static_cast<double>(grids.radiation(30, 50)), expected(50), 0.06 * expected(50));
+  EXPECT_GT(grids.radiation(30, 130), 2.F * grids.radiation(30, 50));
+  // Half of the sky behind the slope: (1 + cos 30°) / 2 for the sky that the plane sees, cos² of horizons for level ground 0.93.
+  EXPECT_NEAR(static_cast<double>(grids.sky_view(30, 130)), static_cast<double>(grids.sky_view(30, 50)), 0.01);
+  EXPECT_LT(grids.sky_view(30, 130), 0.95F);
+}
+
+TEST(LayerClimate, WhatAUserGivesWins) {
+  const Dem dem = tent();
+  const test::Folder folder;
+  Raster<float> given{Grid<float>(width, height, 7.25F), dem.transform, dem.crs};
+  write_raster(folder / "given.tif", given);
+  const std::string file = folder / "given.tif";
+  const LayerClimateFiles files{.temperature = file, .rain = file, .radiation = file, .sky_view = file};
+  const std::vector<std::string> all = {"temperature", "rain", "radiation", "sky_view"};
+  const LayerClimateGrids grids = make_layer_climate(dem, all, files, {}, nobody, silent_progress());
+  for (const Grid<float>* grid : {&grids.temperature_c, &grids.rain_mm, &grids.radiation, &grids.sky_view}) {
+    ASSERT_TRUE(grid->same_size(dem.altitude_m));
+    EXPECT_EQ((*grid)(11, 13), 7.25F);
+  }
+  EXPECT_FALSE(needs_place(all, files));
+  EXPECT_TRUE(needs_place({"slope", "sky_view"}, {.radiation = file}));
+  EXPECT_FALSE(needs_climate({"slope", "sky_view"}, {}));
+  EXPECT_TRUE(needs_climate({"rain"}, {.temperature = file}));
+}
+
+TEST(LayerClimate, GroundWithoutCrsLiesAtTheLatitudeGiven) {
+  const Dem dem = tent("");
+  EXPECT_THROW(make_layer_climate(dem, {"radiation"}, {}, {}, nobody, silent_progress()), Error);
+  const auto at = [&](double latitude_deg) {
+    return make_layer_climate(dem, {"radiation"}, {}, latitude_deg, nobody, silent_progress()).radiation(30, 130);
+  };
+  EXPECT_GT(at(35.0), at(65.0));
+  EXPECT_NEAR(static_cast<double>(at(47.3)),
+              static_cast<double>(make_layer_climate(tent(), {"radiation"}, {}, {}, nobody, silent_progress()).radiation(30, 130)), 60.0);
+}
+
+TEST(LayerClimate, TheSameForAnyThreads) {
+  const Dem dem = tent();
+  const std::vector<std::string> all = {"temperature", "rain", "radiation", "sky_view"};
+  const auto made = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return make_layer_climate(
+        dem, all, {}, {}, [&] { return even_climate(dem); }, silent_progress());
+  };
+  const LayerClimateGrids one = made(1);
+  const LayerClimateGrids three = made(3);
+  EXPECT_EQ(one.temperature_c, three.temperature_c);
+  EXPECT_EQ(one.rain_mm, three.rain_mm);
+  EXPECT_EQ(one.radiation, three.radiation);
+  EXPECT_EQ(one.sky_view, three.sky_view);
+}
+
+}  // namespace
+}  // namespace belvedere
