@@ -160,5 +160,48 @@ TEST(LayeredLandCover, LayersOfTheSceneSayWhatTheGroundIs) {
   EXPECT_THROW(cover("settings = { line = 1500 }\n"), Error);
 }
 
+// Layers that ask for the climate get that of the scene, and the cache tells one climate from another.
+TEST(LayersInAScene, HangOnItsClimateAlsoFromTheCache) {
+  const test::Folder folder;
+  folder.write("cold.layers.toml",
+               "version = 1\nground = { class = \"rock\" }\n[[layers]]\nname = \"cold\"\nclass = \"snow\"\nwhen = \"temperature < 0\"\n");
+  std::string stations = "name,lon,lat,altitude_m,t_year\n";
+  for (int i = 0; i < 10; ++i)  // 0 °C at 1500 m, at 2500 m where they are warmer
+    stations +=
+        "S,9.1,46." + std::to_string(90 + i % 10) + "," + std::to_string(500 + 200 * i) + "," + std::to_string(6.0 - 1.2 * i) + "\n";
+  folder.write("stations.csv", stations);
+  Grid<float> altitude(40, 20);
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 40; ++x) altitude(x, y) = 100.F * static_cast<float>(x);
+  const auto made = [&](const std::string& climate, const std::string& crs, const Cache& cache) {
+    const Dem dem = make_dem({altitude, {500000.0, 5200000.0, 100.0, 100.0}, crs.empty() ? crs : normalize_crs(crs)});
+    const LoadedScene scene =
+        parse_scene("version = 1\n[land_cover]\nlayers = \"cold.layers.toml\"\n[climate]\n" + climate, "s.toml", folder.path(), {});
+    return make_scene_land_cover(scene, dem, silent_progress(), cache).classes.cells;
+  };
+  const Cache cache({.folder = folder / "cache", .limit_bytes = 0});
+  for (int run = 0; run < 2; ++run) {
+    const Grid<LandCoverClass> here = made("", "EPSG:32632", cache);
+    const Grid<LandCoverClass> cool = made("stations = \"stations.csv\"\n", "EPSG:32632", cache);
+    const Grid<LandCoverClass> north = made("latitude_deg = 70\n", "", cache);
+    for (int x = 0; x < 40; ++x) {
+      ASSERT_EQ(cool(x, 10), x <= 15 ? rock : snow) << x;
+      // In the Alps the mean of the year is 0 °C between 2000 and 2700 m; at 70° N below 1000 m.
+      if (x < 20 || x > 27) {
+        ASSERT_EQ(here(x, 10), x < 20 ? rock : snow) << x;
+      }
+      if (x > 10) {
+        ASSERT_EQ(north(x, 10), snow) << x;
+      }
+    }
+  }
+  try {
+    made("", "", cache);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where(), "climate.latitude_deg");
+  }
+}
+
 }  // namespace
 }  // namespace belvedere
