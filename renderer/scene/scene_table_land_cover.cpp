@@ -101,14 +101,15 @@ std::vector<SceneSection> make_land_cover_sections() {
            },
        .count = [](const Scene& s) { return s.land_cover.towns.size(); },
        .resize = [](Scene& s, std::size_t n) { s.land_cover.towns.resize(n); }});
-  sections.push_back({.name = "season",
-                      .meaning = "The time of the year: which ground lies under snow, and how far autumn has come, by the climate of the place.",
-                      .keys = {{.name = "date",
-                                .field = AT(season.date),
-                                .meaning = "Month and day, \"10-05\". Rules lay the snow that lies on that day; the palette \"summer\" turns "
-                                           "to \"autumn\" from the heights down. Without it snow that lasts the summer, and the palette "
-                                           "as it is.",
-                                .text = TextKind::date}}});
+  sections.push_back(
+      {.name = "season",
+       .meaning = "The time of the year: which ground lies under snow, and how far autumn has come, by the climate of the place.",
+       .keys = {{.name = "date",
+                 .field = AT(season.date),
+                 .meaning = "Month and day, \"10-05\". Rules lay the snow that lies on that day; the palette \"summer\" turns "
+                            "to \"autumn\" from the heights down. Without it snow that lasts the summer, and the palette "
+                            "as it is.",
+                 .text = TextKind::date}}});
   return sections;
 }
 

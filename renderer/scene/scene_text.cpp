@@ -149,8 +149,7 @@ struct SchemaOfField {
     if (key.text == TextKind::built_in)
       return Json::object().add("anyOf", Json::array({typed("string").add("enum", Json::texts(key_choices(key))),
                                                       typed("string").add("pattern", Json::text(R"(\.(toml|csv)$)"))}));
-    if (key.text == TextKind::date)
-      return typed("string").add("pattern", Json::text(R"(^(0[1-9]|1[0-2])-(0[1-9]|[12]\d|3[01])$)"));
+    if (key.text == TextKind::date) return typed("string").add("pattern", Json::text(R"(^(0[1-9]|1[0-2])-(0[1-9]|[12]\d|3[01])$)"));
     if (key.text == TextKind::time)
       return typed("string").add("pattern", Json::text(R"(^\d{4}-\d\d-\d\dT\d\d:\d\d(:\d\d(\.\d{1,9})?)?(Z|[+-]\d\d:\d\d)$)"));
     return typed("string");
