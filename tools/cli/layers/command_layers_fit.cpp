@@ -349,7 +349,7 @@ Action add_layers_fit(CLI::App& command) {
   command.add_option("--classes", options->classes, "Instead of a picture: a land-cover raster")->type_name("FILE");
   command.add_option("--classes-band", options->classes_band, "Which band of it; default 1")->type_name("N")->check(CLI::PositiveNumber);
   command.add_option("--legend", options->legend, "What its codes mean: a legend's name or file (docs/legends.md)")->type_name("NAME");
-  command.add_option("--out", options->out, "The layers: a .toml file of some KB, which needs the picture no more")
+  command.add_option("--out", options->out, "The layers: a .toml file of some ten KB, which needs the picture no more")
       ->required()
       ->type_name("TOML");
   add_ground_climate(command, options->climate);
