@@ -12,7 +12,7 @@ struct SnowParameters {
   // Hollows where glaciers begin gather drifting snow and avalanches: they hold this many times what falls on the level (1 … 4). 1 is
   // open ground, below 1 ribs and lone cones that the wind sweeps. 2 is fitted to published equilibrium lines; see docs/life_zones.md.
   double gathering = 2.0;
-  double warmer_k = 0.0;  // of all months, as by radiation (radiation_warmth_k)
+  double warmer_k = 0.0;  // of all months, as by radiation
 };
 
 // What falls as snow in each month, mm of water: all of it below -1 °C, nothing above 3 °C, straight between (monthly means).

@@ -57,5 +57,18 @@ TEST(WaterBalance, HigherUpIsWetter) {
   EXPECT_GT(high, 0.8);  // forest on the plateau
 }
 
+TEST(WaterBalance, KnowsWoodsFromSteppesAndDeserts) {
+  const auto at = [](double longitude, double latitude, double altitude_m) {
+    return plant_water_share(default_climate(longitude, latitude), altitude_m);
+  };
+  // Rules have closed forest from .72 on, bare ground from .26 down.
+  EXPECT_GT(at(8.6, 47.4, 600.0), 0.9);       // Zürich
+  EXPECT_GT(at(-60.0, -3.1, 70.0), 0.72);     // Manaus
+  EXPECT_GT(at(-122.3, 47.5, 800.0), 0.72);   // Cascades above Seattle
+  EXPECT_LT(at(-104.9, 39.8, 1600.0), 0.72);  // Denver
+  EXPECT_LT(at(32.9, 40.0, 900.0), 0.72);     // Ankara
+  EXPECT_LT(at(31.4, 30.1, 80.0), 0.1);       // Cairo
+}
+
 }  // namespace
 }  // namespace belvedere
