@@ -42,8 +42,13 @@ struct GuidanceBuffers {
   Grid<float> built;            // how densely houses stand: 0 open land, .3 a village, 1 the middle of a large town
   Grid<glm::vec2> grain;  // which way fields and streets run on the ground: (cos 2a, sin 2a) times how sure that is, 0…1; a from east
   Grid<float> flow;       // base-10 logarithm of the upstream area in m²
-  Grid<float> tone;       // the scalar light that indexes palettes, 0…1
-  Image base;             // strokeless base picture, scene-linear
+  // Of rock: relief that the DEM does not hold (renderer/rock). All 0 where there is no rock.
+  Grid<float> rock_height;         // units of the sheet (0.5 mm)
+  Grid<std::uint32_t> rock_facet;  // number of the plane a pixel lies on; planes of one large spur have the upper half in common
+  Grid<float> rock_tone;           // light on that relief, before the picture's
+  Grid<glm::vec2> rock_cover;      // shares of turf and of snow that lie on it, 0…1
+  Grid<float> tone;                // the scalar light that indexes palettes, 0…1
+  Image base;                      // strokeless base picture, scene-linear
   // Of a painting whose strokes are known. Strokes overlap the borders of classes, so what a pixel shows is not always what stands there.
   Grid<LandCoverClass> painted_class;  // whose paint lies thickest
   Grid<std::uint32_t> painted_from;    // row-major index of a pixel of that class that the paint grew from; base colour and class are its

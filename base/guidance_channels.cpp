@@ -131,6 +131,25 @@ const GuidanceChannel channels[] = {
      .part = "base",
      .maker = ChannelMaker::light,
      .meaning = "the picture without strokes, scene-linear"},
+    {.member = &B::rock_height,
+     .names = {"rock.V"},
+     .part = "rock",
+     .maker = ChannelMaker::relief,
+     .unit = "0.5 mm",
+     .meaning = "height of the spurs that rock is drawn with, above their wall"},
+    {.member = &B::rock_facet,
+     .names = {"rock.id"},
+     .part = "rock",
+     .type = uint32,
+     .maker = ChannelMaker::relief,
+     .unit = "id",
+     .meaning = "plane of rock; planes of one large spur have the upper 16 bits in common; 0: no rock"},
+    {.member = &B::rock_tone, .names = {"rock.tone"}, .part = "rock", .maker = ChannelMaker::relief, .meaning = "light on those spurs"},
+    {.member = &B::rock_cover,
+     .names = {"rock.turf", "rock.snow"},
+     .part = "rock",
+     .maker = ChannelMaker::relief,
+     .meaning = "shares of turf and of snow on the treads of rock, 0…1"},
     {.member = &B::painted_class,
      .names = {"painted.id"},
      .part = "paint",
@@ -169,6 +188,8 @@ const char* made_by(ChannelMaker maker) {
   switch (maker) {
     case ChannelMaker::trace:
       return "trace_guidance fills it";
+    case ChannelMaker::relief:
+      return "make_rock_relief gives it";
     case ChannelMaker::light:
       return "make_tone and make_paint_ground give it";
     case ChannelMaker::strokes:

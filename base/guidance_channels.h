@@ -38,6 +38,7 @@ enum class ChannelStorage { half, float32, uint32 };
 // Who fills a channel, and so who may lack it. Scanned paintings have what was drawn or found for them, of whatever kind.
 enum class ChannelMaker {
   trace,    // trace_guidance: every picture of a terrain has it
+  relief,   // renderer/rock: every picture with light
   light,    // tone and base picture: every picture with light
   strokes,  // example paintings whose strokes the program laid itself; no other picture
 };

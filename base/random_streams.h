@@ -107,6 +107,17 @@ enum class Stream : std::uint16_t {
   sand,
   sand_patches,
   layers_fit,  // which cells surface layers are fitted on, where clusters begin
+  rock_spurs,
+  rock_funnels,
+  rock_bands,
+  rock_warp,
+  rock_beds,
+  rock_lines,
+  rock_calm,
+  rock_cover,
+  rock_diagonals,
+  rock_dabs,
+  rock_chips,
 
   count  // no stream: how many there are
 };

@@ -174,9 +174,16 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
   const float gravel = has_gravel ? gravel_share(s.around.water[i], patches) : 0.0F;
   const WaterLook water =
       id == Class::water ? water_look(g, s.palette, s.around.mirrored, i, s.around.water[i], s.around.streaks[i], patches) : WaterLook{};
+  const bool bare = id == Class::rock && !g.rock_facet.empty();
+  const glm::vec2 cover = bare ? g.rock_cover[i] : glm::vec2(0.0F);
+  const glm::vec3 hue = bare ? rock_hue(*s.parameters.rock, g.rock_facet[i], 1.0F - smoothstep(0.10F, 0.42F, g.tone[i])) : glm::vec3(1.0F);
   const auto paint = [&](double step) {
     const double light = g.tone[i] + static_cast<double>(water.tone_shift) + step;
-    glm::vec3 ramp = palette_colour(s.palette, id, altitude, light);
+    glm::vec3 ramp = palette_colour(s.palette, id, altitude, light) * hue;
+    // Turf is never as light as the wall it hangs on; snow takes the light of the wall.
+    if (cover.x > 0.0F)
+      ramp = glm::mix(ramp, palette_colour(s.palette, Class::alpine_grass, altitude, std::min(light, 0.75) - 0.05), cover.x);
+    if (cover.y > 0.0F) ramp = glm::mix(ramp, palette_colour(s.palette, Class::snow, altitude, light + 0.06), cover.y);
     if (glade > 0.0F) ramp = glm::mix(ramp, glade_colour(s.palette, altitude, light), 0.85F * glade);
     if (gravel > 0.0F) ramp = glm::mix(ramp, gravel_colour(light), gravel);
     if (id == Class::settlement)

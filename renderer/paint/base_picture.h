@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "renderer/paint/air_parameters.h"
 #include "renderer/paint/palette.h"
+#include "renderer/paint/rock_kinds.h"
 #include "renderer/trace/wide_view.h"
 #include "texture/strokes/stroke_painter.h"
 
@@ -16,8 +17,9 @@ namespace belvedere {
 // What turns ramps into the base picture.
 struct BaseParameters {
   AirParameters air;
-  double horizon_px = 0.0;   // row of the horizon in the whole picture (skyline_row_px of sky.h); 0: 0.18 of its height
-  double sun_image_x = 1.0;  // as in ToneParameters
+  const RockKind* rock = &rock_kinds().front();  // whose hues rock has
+  double horizon_px = 0.0;                       // row of the horizon in the whole picture (skyline_row_px of sky.h); 0: 0.18 of its height
+  double sun_image_x = 1.0;                      // as in ToneParameters
   double pixels_per_unit = 1.0;
   std::uint64_t seed = 1;
 };

@@ -40,7 +40,8 @@ Image decode_srgb(const Grid<glm::vec3>& encoded) { return map_channels(encoded,
 Grid<glm::vec3> encode_srgb(const Image& linear) { return map_channels(linear, srgb_encoded); }
 
 Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<PaintedExemplar>& exemplars,
-                                  const Grid<glm::vec3>& target_base, const Grid<float>& target_haze, double residual) {
+                                  const Grid<glm::vec3>& target_base, const Grid<float>& target_haze, double residual,
+                                  const Grid<LandCoverClass>& shown) {
   if (!matches.same_size(target_base)) throw Error(ErrorKind::bug, "composite", "the match field and the base have different sizes");
   if (!target_haze.empty() && !target_haze.same_size(target_base))
     throw Error(ErrorKind::bug, "composite", "air and base have different sizes");
@@ -49,7 +50,7 @@ Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<P
       throw Error(ErrorKind::input, "exemplar " + e.exemplar.name, "its base has another size than its picture");
     }
   }
-  const auto r = static_cast<float>(residual);
+  if (!shown.empty() && !shown.same_size(target_base)) throw Error(ErrorKind::bug, "composite", "classes and base have different sizes");
   Grid<glm::vec3> out(target_base.width(), target_base.height());
   parallel_rows(out.height(), [&](int y) {
     for (int x = 0; x < out.width(); ++x) {
@@ -62,6 +63,8 @@ Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<P
         throw Error(ErrorKind::input, "match field", "a match outside the exemplars");
       }
       const PaintedExemplar& e = exemplars[m.exemplar];
+      const bool bare = !shown.empty() && shown(x, y) == LandCoverClass::rock;
+      const auto r = static_cast<float>(bare ? std::max(residual, rock_residual) : residual);
       glm::vec3 v = e.picture(m.x, m.y);
       if (!e.base.empty()) v += r * (target_base(x, y) - e.base(m.x, m.y));
       if (!target_haze.empty()) v = glm::mix(v, target_base(x, y), std::clamp(target_haze(x, y), 0.0F, 1.0F));

@@ -17,12 +17,17 @@ struct PaintedExemplar {
   Grid<glm::vec3> base;     // its base picture, encoded sRGB; empty for a scan
 };
 
-// paint = texel + residual · (base_target - base_exemplar), in encoded sRGB (why: docs/architecture.md), cut to 0…1. residual 0…1.
+// What rock takes of the base picture's difference: all, so that of a texel's own planes nothing is left but the strokes on them.
+inline constexpr double rock_residual = 1.0;
+
+// paint = texel + residual · (base_target - base_exemplar), in encoded sRGB (why: docs/architecture.md), cut to 0…1. residual 0…1; where
+// `shown` (empty: nowhere) is rock, rock_residual.
 // Air lies over paint as it lies over the base: out = base_target + (1 - haze) · (paint - base_target); target_haze empty: no air.
 // Pixels without a match, sky among them, take the target's base; exemplars without a base (scans) give their texel as it is. Error(input)
 // for matches outside of the exemplars.
 Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<PaintedExemplar>& exemplars,
-                                  const Grid<glm::vec3>& target_base, const Grid<float>& target_haze, double residual);
+                                  const Grid<glm::vec3>& target_base, const Grid<float>& target_haze, double residual,
+                                  const Grid<LandCoverClass>& shown = {});
 
 // Borders of classes as strokes leave them. A texel is of one class, and a picture of texels alone is torn like paper where classes meet.
 // Where in `draft` two classes share a pixel, the other one's paint is mixed in by its share, in the colour of the place its stroke grew

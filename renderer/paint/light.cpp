@@ -12,8 +12,6 @@
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 #include "renderer/paint/ribs.h"
-#include "renderer/paint/rock_planes.h"
-#include "texture/strokes/beds.h"
 
 namespace belvedere {
 namespace {
@@ -25,13 +23,10 @@ constexpr float raw_range = 0.98F;  // … and how much more becomes tone 1
 constexpr float middle_tone = 0.55F;
 constexpr float brightest_tone = 1.02F;
 constexpr float pool_strength = 0.035F;
-constexpr float plane_strength = 0.22F;  // of big planes on steep rock
-constexpr float bench_light = 0.11F;     // ledges, benches and floors of cirques lie open to the sky, and walls stand darker between them
 // Rock that looks out of forest is weathered and mossy: what is small and white there reads as a stone or an egg, not as a cliff.
 constexpr double outcrop_sigma_units = 12.0;  // forest within this is "around"
 constexpr float outcrop_calm = 0.50F;         // share of contrast it takes …
 constexpr float outcrop_shade = 0.20F;        // … and how much darker it is
-constexpr float bench_slope_deg = 42.0F;      // of walls and benches alike
 constexpr float calm_from_m = 16.0F;          // metres of ground in a unit of the sheet from which forms are simplified …
 constexpr float calm_to_m = 42.0F;            // … and at which they are simplest
 
@@ -127,21 +122,19 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide, con
   // The crest rule asks for the tone of pixels below.
   const PixelRect made = intersection(whole, {wanted.x0, wanted.y0, wanted.x1, wanted.y1 + below_crest_px(ppu)});
   progress.begin("light", made.height());
+  const bool has_relief = has_channel(guidance, &B::rock_tone);
 
   const Grid<float> shadow = blur_on_surface(guidance.shadow, guidance.depth_m, shadow_blur_units * ppu, made);
   const Grid<float> sky_view = blur_on_surface(guidance.sky_view, guidance.depth_m, sky_blur_units * ppu, made);
   Grid<std::uint8_t> ribbed(width, height, 0);
-  Grid<std::uint8_t> walls(width, height, 0);
   parallel_ranges(made.height(), 16, [&](int begin, int end) {
     for (int y = made.y0 + begin; y < made.y0 + end; ++y)
       for (int x = made.x0; x < made.x1; ++x) {
         const std::size_t i = ribbed.index(x, y);
         ribbed[i] = class_info(guidance.land_cover[i]).tone.ribs > 0.0F && steepness(guidance.slope_deg[i]) > 0.0F ? 1 : 0;
-        walls[i] = ribbed[i] != 0 && guidance.land_cover[i] == LandCoverClass::rock ? 1 : 0;
       }
   });
   const Grid<float> ribs = make_ribs(guidance, wide, ribbed, {ppu, parameters.sun_image_x, parameters.seed}, origin_px);
-  const Grid<float> planes = make_rock_planes(guidance, walls, {ppu, parameters.sun_image_x, parameters.seed}, origin_px);
   const Grid<float> woods = woods_around(wide, ppu, moved(made, origin_px.x, origin_px.y));
   const Grid<float> pool = make_image_noise(stream_seed(parameters.seed, Stream::light_pools), origin_px + glm::ivec2(made.x0, made.y0),
                                             made.width(), made.height(), ppu, 140.0, 60.0);
@@ -149,28 +142,22 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide, con
   Grid<float> tone(width, height, 0.0F);
   parallel_rows(made.height(), [&](int row) {
     const int y = made.y0 + row;
-    GroundNoise n8(stream_seed(parameters.seed, Stream::bed_wavering), 210.0);
-    GroundNoise n25(stream_seed(parameters.seed, Stream::bed_strengths), 660.0);
     for (int x = made.x0; x < made.x1; ++x) {
       const std::size_t i = tone.index(x, y);
       if (guidance.is_sky(i)) continue;
       const LandCoverClass id = guidance.land_cover[i];
       const ClassTone& light = class_info(id).tone;
-      const float fine = fineness(guidance, i, ppu);
-      float raw = raw_light(guidance, i, shadow[i], sky_view[i], fine, parameters);
-      if (ribbed[i] != 0) {
-        float rib = ribs[i];
-        if (id == LandCoverClass::rock) {
-          const glm::dvec3 place = glm::dvec3(guidance.position_m[i]) + guidance.origin_m;
-          rib += 0.45F * bed_strength(n25(place.x, place.y)) *
-                 bed_light(bed_phase(guidance.altitude_m[i], static_cast<float>(place.x), n8(place.x, place.y)));
-        }
-        if (id == LandCoverClass::rock)
-          raw += bench_light * fine * std::clamp((bench_slope_deg - guidance.slope_deg[i]) / 13.0F, -0.6F, 1.0F);
-        const float steep = steepness(guidance.slope_deg[i]);
-        raw += static_cast<float>(parameters.ribs) * (light.ribs * fine * rib + plane_strength * planes[i]) * steep;
+      // Rock whose relief was made has its light from there.
+      const bool relief = has_relief && id == LandCoverClass::rock;
+      float value = 0.0F;
+      if (relief) {
+        value = middle_tone + (guidance.rock_tone[i] - middle_tone) / light.contrast;
+      } else {
+        const float fine = fineness(guidance, i, ppu);
+        float raw = raw_light(guidance, i, shadow[i], sky_view[i], fine, parameters);
+        if (ribbed[i] != 0) raw += static_cast<float>(parameters.ribs) * light.ribs * fine * ribs[i] * steepness(guidance.slope_deg[i]);
+        value = std::clamp((raw - raw_black) / raw_range, id == LandCoverClass::rock ? -0.3F : 0.0F, 1.05F);
       }
-      float value = std::clamp((raw - raw_black) / raw_range, id == LandCoverClass::rock ? -0.3F : 0.0F, 1.05F);
       value += light.lift;
       value += pool_strength * pool(x - made.x0, row);
       float contrast = light.contrast * static_cast<float>(parameters.light.contrast);

@@ -31,7 +31,8 @@ struct ToneParameters {
   std::uint64_t seed = 1;
 };
 
-// Tone of every terrain pixel, 0…1.02 (above 1 colours stay those of full light, strokes do not); sky 0. Reads depth, position, the three
+// Tone of every terrain pixel; that of rock comes from its relief (rock_tone) where there is one.
+// Of the rest: tone, 0…1.02 (above 1 colours stay those of full light, strokes do not); sky 0. Reads depth, position, the three
 // normals, altitude, land cover, shadow, sky view, slope, fall line and relief, all of the buffers' size: Error(bug) otherwise.
 // `origin_px` is where the buffers' (0,0) lies in the whole picture, so that noise stays in place in parts of a picture. Local: a pixel
 // depends on neighbours within tone_margin_px() only, so a part with that margin equals the whole bit for bit. Of the buffers' pixels only

@@ -63,6 +63,7 @@ struct SceneLandCover {
   std::string layers;                                    // a file of surface layers, instead of rules; empty: none
   std::vector<std::pair<std::string, double>> settings;  // parameters of the rules or layers
   std::vector<SceneTown> towns;                          // what rules know of towns …
+  std::string rock = "limestone";                        // a kind of rock_kinds.h
   std::string sea = "auto";                              // "auto" or "none"
   std::optional<double> sea_level_m;                     // where the scene knows it
   std::string towns_file;                                // … and a table of further ones; empty: none

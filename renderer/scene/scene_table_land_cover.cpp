@@ -51,6 +51,12 @@ std::vector<SceneSection> make_land_cover_sections() {
                 "Towns that are known, besides those of [[land_cover.towns]]: a .csv file or a layer of points (.gpkg, .geojson, .shp, "
                 ".fgb) with columns name, radius_m or population; see class_rules.md.",
             .text = TextKind::file},
+           {.name = "rock",
+            .field = AT(land_cover.rock),
+            .meaning = "What rock is drawn as. limestone: towers and buttresses, pale. granite (also gneiss): slabs and cracks, grey. "
+                       "sandstone: walls and benches in beds that run through, red. volcanic: ribs with much debris between, brown.",
+            .text = TextKind::choice,
+            .choices = {"limestone", "granite", "sandstone", "volcanic"}},
            {.name = "sea",
             .field = AT(land_cover.sea),
             .meaning = "auto finds the sea: level ground at about 0 m that reaches the edge of the data or a hole in it, also under noise. "

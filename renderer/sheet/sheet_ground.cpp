@@ -37,16 +37,37 @@ GuidanceBuffers blank_traced(int width, int height) {
   return guidance;
 }
 
+// Grids of the relief of rock in the order of their stage; class and fall line are those that rock has changed.
+Planes relief_planes(GuidanceBuffers& g) {
+  Planes planes = {plane_of(g.land_cover), plane_of(g.fall_line), plane_of(g.rock_height),
+                   plane_of(g.rock_facet), plane_of(g.rock_tone), plane_of(g.rock_cover)};
+  for (Plane& plane : planes)
+    if (plane.width == 0) plane.values = nullptr;
+  return planes;
+}
+
+// Grids that are as traced, whatever rock has made of the place.
+Planes unchanged_planes(GuidanceBuffers& guidance) {
+  Planes planes = traced_planes(guidance);
+  for (Plane& plane : planes)
+    if (plane.values == reinterpret_cast<std::byte*>(guidance.land_cover.data()) ||
+        plane.values == reinterpret_cast<std::byte*>(guidance.fall_line.data()))
+      plane.values = nullptr;
+  return planes;
+}
+
 // What a WideView holds.
+constexpr std::initializer_list<GuidanceMember> wide_channels = {&B::depth_m,   &B::position_m, &B::land_cover,
+                                                                 &B::fall_line, &B::normal,     &B::footprint_m};
 GuidanceBuffers blank_wide(int width, int height) {
   GuidanceBuffers guidance;
-  for (const GuidanceMember member : std::initializer_list<GuidanceMember>{&B::depth_m, &B::position_m, &B::land_cover, &B::fall_line})
-    make_channel(guidance, member, width, height);
+  for (const GuidanceMember member : wide_channels) make_channel(guidance, member, width, height);
   return guidance;
 }
 
 Planes wide_planes(GuidanceBuffers& g) {
-  return {plane_of(g.depth_m), plane_of(g.position_m), plane_of(g.land_cover), plane_of(g.fall_line)};
+  return {plane_of(g.depth_m),   plane_of(g.position_m), plane_of(g.land_cover),
+          plane_of(g.fall_line), plane_of(g.normal),     plane_of(g.footprint_m)};
 }
 
 // Side of the tiles of the wide view, in its own pixels.
@@ -67,8 +88,9 @@ typename SheetStage<Product>::Making making_of(std::function<Product(PixelRect)>
 }  // namespace
 
 std::initializer_list<GuidanceMember> stroke_channels() {
-  static const std::initializer_list<GuidanceMember> channels = {
-      &B::depth_m, &B::position_m, &B::land_cover, &B::fall_line, &B::slope_deg, &B::footprint_m, &B::relief_s_m, &B::built, &B::grain};
+  static const std::initializer_list<GuidanceMember> channels = {&B::depth_m,   &B::position_m,  &B::land_cover, &B::fall_line,
+                                                                 &B::slope_deg, &B::footprint_m, &B::relief_s_m, &B::built,
+                                                                 &B::grain,     &B::rock_facet};
   return channels;
 }
 
@@ -78,6 +100,7 @@ SheetGround::SheetGround(const World& world, const SheetView& view, const Palett
       view_(view),
       palette_(palette),
       run_(run),
+      rock_parameters_(to_rock_parameters(world, palette, view)),
       tone_parameters_(to_tone_parameters(world, view)),
       base_parameters_(to_base_parameters(world, view)),
       strokes_(to_stroke_parameters(world, palette, view)),
@@ -89,6 +112,9 @@ SheetGround::SheetGround(const World& world, const SheetView& view, const Palett
             {.make = [this](PixelRect tile) { return trace_forms(world_, *wide_camera_, tile, run_); },
              .blank = blank_wide,
              .planes = wide_planes}),
+      relief_(place, view.camera.size().x, view.camera.size().y, tile_px,
+              making_of<RockRelief>([this](PixelRect tile) { return make_relief(tile); }, &RockRelief::land_cover, &RockRelief::fall_line,
+                                    &RockRelief::height, &RockRelief::facet, &RockRelief::tone, &RockRelief::cover)),
       tone_(place, view.camera.size().x, view.camera.size().y, tile_px,
             {.make = [this](PixelRect tile) { return make_tone_tile(tile); },
              .blank = [](int width, int height) { return Grid<float>(width, height); },
@@ -115,7 +141,10 @@ GuidanceBuffers SheetGround::read_guidance(PixelRect rect, std::initializer_list
   GuidanceBuffers guidance;
   guidance.origin_m = world_.surface.origin;
   for (const GuidanceMember member : channels) make_channel(guidance, member, rect.width(), rect.height());
-  traced_.read_into(rect, traced_planes(guidance));
+  traced_.read_into(rect, unchanged_planes(guidance));
+  const Planes relief = relief_planes(guidance);
+  if (std::any_of(relief.begin(), relief.end(), [](const Plane& plane) { return plane.values != nullptr; }))
+    relief_.read_into(rect, relief);
   if (with_tone) guidance.tone = tone_.read(rect);
   return guidance;
 }
@@ -123,6 +152,7 @@ GuidanceBuffers SheetGround::read_guidance(PixelRect rect, std::initializer_list
 GuidanceBuffers SheetGround::read_all_guidance(PixelRect rect) {
   GuidanceBuffers guidance = traced_.read(rect);
   guidance.origin_m = world_.surface.origin;
+  take_relief(guidance, relief_.read(rect));
   guidance.tone = tone_.read(rect);
   guidance.base = decode_srgb(base_.read(rect).colour);
   return guidance;
@@ -132,7 +162,9 @@ SheetGround::Wide SheetGround::read_wide(PixelRect rect) {
   Wide wide;
   if (factor_ == 1) {
     rect = intersection(sheet(), rect);
-    wide.seen = read_guidance(rect, {&B::depth_m, &B::position_m, &B::land_cover, &B::fall_line}, false);
+    wide.seen.origin_m = world_.surface.origin;
+    for (const GuidanceMember member : wide_channels) make_channel(wide.seen, member, rect.width(), rect.height());
+    traced_.read_into(rect, traced_planes(wide.seen));
   } else {
     rect = intersection(wide_.sheet(), wide_rect(rect, factor_));
     wide.seen = wide_.read(rect);
@@ -142,13 +174,24 @@ SheetGround::Wide SheetGround::read_wide(PixelRect rect) {
   return wide;
 }
 
+RockRelief SheetGround::make_relief(PixelRect tile) {
+  const Wide wide = read_wide(grown(tile, rock_margin_px(rock_parameters_)));
+  const PixelRect window = intersection(sheet(), grown(tile, rock_near_margin_px(rock_parameters_)));
+  GuidanceBuffers guidance;
+  guidance.origin_m = world_.surface.origin;
+  for (const GuidanceMember member : rock_channels()) make_channel(guidance, member, window.width(), window.height());
+  traced_.read_into(window, traced_planes(guidance));
+  return make_rock_relief(guidance, {wide.seen, factor_, wide.origin_px}, rock_parameters_, {window.x0, window.y0}, run_.progress,
+                          moved(tile, -window.x0, -window.y0));
+}
+
 Grid<float> SheetGround::make_tone_tile(PixelRect tile) {
   const Wide wide = read_wide(grown(tile, tone_margin_px(tone_parameters_)));
   const PixelRect window = intersection(sheet(), grown(tile, tone_near_margin_px(tone_parameters_)));
   const GuidanceBuffers guidance = read_guidance(
       window,
       {&B::depth_m, &B::position_m, &B::normal, &B::normal_detail, &B::normal_smooth, &B::altitude_m, &B::land_cover, &B::shadow,
-       &B::sky_view, &B::slope_deg, &B::fall_line, &B::footprint_m, &B::relief_s_m, &B::relief_m_m, &B::relief_l_m},
+       &B::sky_view, &B::slope_deg, &B::fall_line, &B::footprint_m, &B::relief_s_m, &B::relief_m_m, &B::relief_l_m, &B::rock_tone},
       false);
   return make_tone(guidance, {wide.seen, factor_, wide.origin_px}, tone_parameters_, {window.x0, window.y0}, run_.progress,
                    moved(tile, -window.x0, -window.y0));
@@ -159,10 +202,11 @@ BasePicture SheetGround::make_base(PixelRect tile) {
   const GuidanceBuffers itself = read_guidance(tile, {&B::land_cover}, false);
   const bool has_water = std::find(itself.land_cover.begin(), itself.land_cover.end(), LandCoverClass::water) != itself.land_cover.end();
   const PixelRect window = intersection(sheet(), base_window(tile, has_water, base_parameters_));
-  const GuidanceBuffers guidance = read_guidance(window,
-                                                 {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::fall_line, &B::slope_deg,
-                                                  &B::footprint_m, &B::relief_s_m, &B::relief_l_m, &B::rim_m, &B::built, &B::grain},
-                                                 true);
+  const GuidanceBuffers guidance =
+      read_guidance(window,
+                    {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::fall_line, &B::slope_deg, &B::footprint_m,
+                     &B::relief_s_m, &B::relief_l_m, &B::rim_m, &B::built, &B::grain, &B::rock_facet, &B::rock_cover},
+                    true);
   return make_base_picture(guidance, {wide.seen, factor_, wide.origin_px}, palette_, base_parameters_, {window.x0, window.y0},
                            view_.camera.size(), run_.progress, moved(tile, -window.x0, -window.y0));
 }
@@ -189,7 +233,8 @@ GuideStack SheetGround::read_guides(PixelRect rect) {
   make_channel(guidance, &B::depth_m, rect.width(), rect.height());
   for (const GuideKind& kind : guide_kinds())
     if (channel_of(kind.channel).maker == ChannelMaker::trace) make_channel(guidance, kind.channel, rect.width(), rect.height());
-  traced_.read_into(rect, traced_planes(guidance));
+  traced_.read_into(rect, unchanged_planes(guidance));
+  if (!guidance.fall_line.empty()) relief_.read_into(rect, relief_planes(guidance));
   guidance.tone = tone_.read(rect);
   return make_guide_stack(guidance, draft_.read(rect).land_cover);
 }
@@ -201,8 +246,10 @@ const IcePlan& SheetGround::ice() {
 
 void SheetGround::keep_only(PixelRect still) {
   const PixelRect lit = base_window(still, true, base_parameters_);
-  traced_.keep_only(grown(lit, tone_near_margin_px(tone_parameters_)));
-  wide_.keep_only(wide_rect(grown(lit, base_margin_px(base_parameters_)), factor_));
+  const PixelRect raised = grown(lit, tone_near_margin_px(tone_parameters_));
+  traced_.keep_only(grown(raised, rock_near_margin_px(rock_parameters_)));
+  wide_.keep_only(wide_rect(grown(raised, std::max(base_margin_px(base_parameters_), rock_margin_px(rock_parameters_))), factor_));
+  relief_.keep_only(raised);
   tone_.keep_only(lit);
   base_.keep_only(still);
   draft_.keep_only(still);

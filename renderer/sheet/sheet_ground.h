@@ -25,8 +25,8 @@ struct PaintDraft {
 };
 
 // Everything of a sheet that needs no exemplar, made where it is asked for, in any rectangles, with the same bits as in one piece: traced
-// guidance, light, base picture, draft. Memory and scratch files hold what was made until it is dropped. Each stage asks the one before it
-// for its own rectangle and the margin that its paint or filter reaches.
+// guidance, relief of rock, light, base picture, draft. Memory and scratch files hold what was made until it is dropped. Each stage asks
+// the one before it for its own rectangle and the margin that its paint or filter reaches.
 class SheetGround {
  public:
   // All arguments must outlive it. tile_px: side of the tiles that are made at once, 64…4096; changes no bit.
@@ -55,6 +55,7 @@ class SheetGround {
 
  private:
   GuidanceBuffers make_traced(PixelRect tile);
+  RockRelief make_relief(PixelRect tile);
   // What a rectangle of the sheet is seen with from afar, and where it begins (WideView::origin_px).
   struct Wide {
     GuidanceBuffers seen;
@@ -69,6 +70,7 @@ class SheetGround {
   const SheetView view_;
   const Palette& palette_;
   const Run& run_;
+  const RockParameters rock_parameters_;
   const ToneParameters tone_parameters_;
   const BaseParameters base_parameters_;
   const StrokeParameters strokes_;
@@ -76,6 +78,7 @@ class SheetGround {
   const std::unique_ptr<const Camera> wide_camera_;
   SheetStage<GuidanceBuffers> traced_;
   SheetStage<GuidanceBuffers> wide_;  // unused where the factor is 1: the pixels themselves are looked at
+  SheetStage<RockRelief> relief_;
   SheetStage<Grid<float>> tone_;
   SheetStage<BasePicture> base_;
   SheetStage<PaintDraft> draft_;

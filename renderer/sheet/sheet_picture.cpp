@@ -53,7 +53,8 @@ Grid<glm::vec3> SheetPicture::copy_ground(PixelRect rect) {
   const PaintDraft draft = ground_.read_draft(window);
   const BasePicture base = ground_.read_base(window);
   const GuidanceBuffers guidance = ground_.read_guidance(window, {&B::depth_m, &B::land_cover}, false);
-  const Grid<glm::vec3> copied = transfer_residual(matches_.read(window), plan_->exemplars, draft.base, base.haze, plan_->residual);
+  const Grid<glm::vec3> copied =
+      transfer_residual(matches_.read(window), plan_->exemplars, draft.base, base.haze, plan_->residual, draft.land_cover);
   const Grid<glm::vec3> mixed = mix_borders(copied, to_painting(draft, window), draft.land_cover, guidance.land_cover, base.colour);
   return part_of(mixed, moved(rect, -window.x0, -window.y0));
 }

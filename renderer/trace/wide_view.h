@@ -12,7 +12,7 @@ namespace belvedere {
 // What a stage looks at beyond its own pixels: the same picture in pixels that are `factor` times as wide and high, one ray each. What
 // reaches far (ribs, lanes of forests, mist between ranges, wood around) is smooth over half a unit of the sheet, so a print need not look
 // at every pixel of its surroundings; where a unit is less than four pixels the factor is 1 and these are the pixels themselves.
-// Holds depth, place, class and fall line.
+// Holds depth, place, class as mapped, fall line, normal and footprint (of its own pixels).
 struct WideView {
   const GuidanceBuffers& seen;
   int factor = 1;
@@ -32,6 +32,11 @@ struct WideView {
  private:
   int place(int sheet, int origin, int count) const { return std::clamp(std::max(sheet, 0) / factor - origin, 0, count - 1); }
 };
+
+// Every `times`-th pixel each way of a wide view, those of the same places whatever window it holds; pixels at its rim stand for cells that
+// it holds in part. Without places.
+GuidanceBuffers thin_out(const WideView& wide, int times);
+glm::ivec2 thinned_origin(const WideView& wide, int times);
 
 // Pixels of the sheet to a pixel of the wide view: as many as leave two to a unit of the sheet.
 int wide_factor(double pixels_per_unit);

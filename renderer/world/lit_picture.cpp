@@ -26,10 +26,15 @@ ToneParameters to_tone_parameters(const World& world, const SheetView& view) {
   return parameters;
 }
 
+RockParameters to_rock_parameters(const World& world, const Palette& palette, const SheetView& view) {
+  return {to_tone_parameters(world, view), &find_rock_kind(world.scene.land_cover.rock), palette.winter};
+}
+
 BaseParameters to_base_parameters(const World& world, const SheetView& view) {
   BaseParameters parameters;
   parameters.air = world.scene.air;
   parameters.horizon_px = view.horizon_px;
+  parameters.rock = &find_rock_kind(world.scene.land_cover.rock);
   parameters.sun_image_x = world.view.sun_image_x;
   parameters.pixels_per_unit = view.pixels_per_unit;
   parameters.seed = world.scene.seed;
@@ -73,6 +78,8 @@ LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRec
   const glm::ivec2 origin_px{region.x0, region.y0};
   LitPicture picture;
   picture.guidance = trace_view(world, view, region, run);
+  take_relief(picture.guidance, make_rock_relief(picture.guidance, {picture.guidance, 1, origin_px},
+                                                 to_rock_parameters(world, palette, view), origin_px, run.progress));
   picture.guidance.tone = make_tone(picture.guidance, to_tone_parameters(world, view), origin_px, run.progress);
   picture.base = make_base_picture(picture.guidance, palette, to_base_parameters(world, view), origin_px, view.camera.size(), run.progress);
   picture.guidance.base = decode_srgb(picture.base.colour);

@@ -6,6 +6,7 @@
 #include "renderer/paint/base_picture.h"
 #include "renderer/paint/light.h"
 #include "renderer/paint/palette.h"
+#include "renderer/rock/rock_relief.h"
 #include "renderer/world/world.h"
 
 namespace belvedere {
@@ -25,6 +26,7 @@ GuidanceBuffers trace_view(const World& world, const SheetView& view, PixelRect 
 // … those of them that form alone decides (no light), a ray a pixel …
 GuidanceBuffers trace_forms(const World& world, const Camera& camera, PixelRect region, const Run& run);
 // … and what light and base picture are made with.
+RockParameters to_rock_parameters(const World& world, const Palette& palette, const SheetView& view);
 ToneParameters to_tone_parameters(const World& world, const SheetView& view);
 BaseParameters to_base_parameters(const World& world, const SheetView& view);
 

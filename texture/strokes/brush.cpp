@@ -15,12 +15,12 @@ namespace belvedere {
 namespace {
 
 constexpr int tile_px = 128;
-constexpr float tone_gate_width = 0.16F;  // tone, 0…1: without the gate rock turns to fur
-constexpr float dry_from = 0.5F;          // share of the stroke from which the brush runs dry
-constexpr float pressed_by = 0.18F;       // share of it over which the brush is set down
-constexpr float load_value = 0.04F;       // ±, encoded sRGB: how much lighter or darker …
-constexpr float load_warmth = 0.03F;      // … and warmer or cooler a load of paint is than the one asked for
-constexpr float ridge_light = 0.05F;      // encoded sRGB, of a ridge of paint
+constexpr float beyond_facet = 0.2F;  // share of the paint that crosses the edge of a plane of rock
+constexpr float dry_from = 0.5F;      // share of the stroke from which the brush runs dry
+constexpr float pressed_by = 0.18F;   // share of it over which the brush is set down
+constexpr float load_value = 0.04F;   // ±, encoded sRGB: how much lighter or darker …
+constexpr float load_warmth = 0.03F;  // … and warmer or cooler a load of paint is than the one asked for
+constexpr float ridge_light = 0.05F;  // encoded sRGB, of a ridge of paint
 
 // A cheap 32-bit hash: bristles ask for it millions of times.
 std::uint32_t hash32(std::uint32_t x) {
@@ -193,8 +193,9 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, glm::ivec2 origin,
       alpha *= std::clamp(0.5F - outside, 0.F, std::min(1.F, 2.F * half_width));
       if (alpha <= 0.F) continue;
       if (stroke.tone >= 0.F) {
-        alpha *= gate_bell((guidance.tone[i] - stroke.tone) / tone_gate_width);
+        alpha *= gate_bell((guidance.tone[i] - stroke.tone) / stroke.tone_width);
       }
+      if (stroke.facet != 0 && guidance.rock_facet[i] != stroke.facet) alpha *= beyond_facet;
       if (alpha < 0.004F) continue;
       canvas[i] += alpha * (colour + tint - canvas[i]);
       record.cover(x, y, stroke, number, alpha);

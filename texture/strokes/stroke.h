@@ -41,7 +41,9 @@ struct Stroke {
   glm::vec3 colour{0.F};  // encoded sRGB
   float depth_m = 0.F;
   float depth_tolerance = 0.045F;  // relative
-  float tone = -1.F;               // tone of the seed: alpha falls as exp(-((tone_px - tone)/.16)⁴); < 0: no tone gate
+  float tone = -1.F;               // tone of the seed: alpha falls as exp(-((tone_px - tone)/tone_width)⁴); < 0: no tone gate
+  float tone_width = 0.16F;        // of that gate: without it rock turns to fur
+  std::uint32_t facet = 0;         // plane of rock it belongs to: beyond that plane a fifth of its paint is left; 0: none
   StrokeGate gate = StrokeGate::surface;
   float order = 0.F;         // larger is painted first: usually depth
   std::uint32_t seed = 0;    // of its bristles

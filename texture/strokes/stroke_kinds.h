@@ -19,11 +19,10 @@ std::vector<Stroke> sand_strokes(const StrokeScene& scene, Stream stream);   // 
 std::vector<Stroke> broken_colour(const StrokeScene& scene, Stream stream);  // small dabs every way, warm beside cool
 std::vector<Stroke> water_strokes(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> accent_strokes(const StrokeScene& scene, Stream stream);
-// Rock (stroke_rock.cpp): planes, hatching down the wall, beds across it with their lit tops, cracks.
+// Rock (stroke_rock.cpp): its planes, laid broadly, then dabs, then chips of light and dark; crests, gullies and beds are in the light.
 std::vector<Stroke> rock_facets(const StrokeScene& scene, Stream stream);
-std::vector<Stroke> rock_hatching(const StrokeScene& scene, Stream stream);
-std::vector<Stroke> rock_ledges(const StrokeScene& scene, Stream stream);
-std::vector<Stroke> rock_fissures(const StrokeScene& scene, Stream stream);
+std::vector<Stroke> rock_dabs(const StrokeScene& scene, Stream stream);
+std::vector<Stroke> rock_chips(const StrokeScene& scene, Stream stream);
 // Where rock meets what grows (stroke_rock_border.cpp): turf and undergrowth hang over its upper rim and lie on its ledges, rubble runs
 // down from its foot, single trees stand on it.
 std::vector<Stroke> rock_turf(const StrokeScene& scene, Stream stream);
@@ -31,7 +30,6 @@ std::vector<Stroke> rock_drifts(const StrokeScene& scene,
                                 Stream stream);  // snow that reaches up into a wall from its foot and hangs over its rim
 std::vector<Stroke> rock_rubble(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> rock_trees(const StrokeScene& scene, Stream stream);
-std::vector<Stroke> rock_snow(const StrokeScene& scene, Stream stream);  // in winter only
 // Snow and ice (stroke_ice.cpp, stroke_glacier.cpp). Flow lines, moraines, crevasses and edges of glaciers, and the ribs that are bare
 // of snow, are drawn on top.
 std::vector<Stroke> snow_strokes(const StrokeScene& scene, Stream stream);

@@ -74,30 +74,17 @@ constexpr StrokeKind kinds[] = {
      .layer = &StrokeLayers::ground,
      .stream = Stream::rock_facets,
      .grow = rock_facets,
-     .reach = downhill(22.0, 11.0, 0.1)},
-    {.name = "rock hatching",
+     .reach = downhill(16.0, 5.7, 0.05)},
+    {.name = "rock dabs",
      .layer = &StrokeLayers::ground,
-     .stream = Stream::rock_hatching,
-     .grow = rock_hatching,
-     .reach = downhill(17.0, 2.5, 0.12)},
-    // Texels keep a wall's colours and lose its lines, which are longer than what is copied in one piece.
-    {.name = "rock ledges",
+     .stream = Stream::rock_dabs,
+     .grow = rock_dabs,
+     .reach = downhill(8.4, 3.0, 0.05)},
+    {.name = "rock chips",
      .layer = &StrokeLayers::ground,
-     .stream = Stream::rock_ledges,
-     .grow = rock_ledges,
-     .reach = downhill(20.0, 1.9, 0.3, 1.9),
-     .over_copied = true},
-    {.name = "rock fissures",
-     .layer = &StrokeLayers::ground,
-     .stream = Stream::rock_fissures,
-     .grow = rock_fissures,
-     .reach = downhill(21.0, 1.7, 0.25, 1.2),
-     .over_copied = true},
-    {.name = "rock snow",
-     .layer = &StrokeLayers::ground,
-     .stream = Stream::rock_snow,
-     .grow = rock_snow,
-     .reach = downhill(20.0, 3.2, 0.2)},
+     .stream = Stream::rock_chips,
+     .grow = rock_chips,
+     .reach = downhill(5.0, 1.7, 0.05)},
     {.name = "rock rubble",
      .layer = &StrokeLayers::ground,
      .stream = Stream::rock_rubble,
@@ -173,6 +160,6 @@ const StrokeKind& find_stroke_kind(std::string_view name) {
   return *found;
 }
 
-bool is_painted(const StrokeKind& kind, const StrokeLayers& layers) { return layers.*kind.layer || (kind.over_copied && layers.breaks); }
+bool is_painted(const StrokeKind& kind, const StrokeLayers& layers) { return layers.*kind.layer; }
 
 }  // namespace belvedere

@@ -34,7 +34,6 @@ struct StrokeKind {
   StrokeReach reach;
   bool on_ice = false;       // asks the plan of the sheet's ice
   bool alone = false;        // painted whole before what follows; else far to near in one list with its neighbours
-  bool over_copied = false;  // of the ground, and painted with the breaks where the ground is copied from a painting
 };
 
 // All kinds, in the order of painting.

@@ -184,7 +184,7 @@ TEST(Likeness, KindsOfStrokeHaveTheirNumberAndTheirSizeInMillimetres) {
                                      {"snow"},
                                      {"accents"},
                                      {"rock facets"},
-                                     {"rock hatching"},
+                                     {"rock dabs"},
                                      {"forest trees", "forest edges", "glade grass"},
                                      {"scattered trees"},
                                      {"houses", "churches"}};

@@ -65,6 +65,17 @@ TEST(TransferResidual, SameBaseGivesTheTexel) {
   EXPECT_EQ(out(0, 0), exemplars[0].picture(2, 1));
 }
 
+// Of a texel's own planes of rock nothing is left but the strokes on them.
+TEST(TransferResidual, RockTakesAllOfTheLightOfItsOwnPlace) {
+  const std::vector<PaintedExemplar> exemplars = {make_exemplar(true)};
+  const MatchField matches(2, 1, Match{0, 0, 0});
+  Grid<LandCoverClass> shown(2, 1, LandCoverClass::scree);
+  shown(1, 0) = LandCoverClass::rock;
+  const Grid<glm::vec3> out = transfer_residual(matches, exemplars, Grid<glm::vec3>(2, 1, glm::vec3(0.6F)), {}, 0.5, shown);
+  EXPECT_NEAR(out(0, 0).x, 0.5F + 0.5F * 0.2F, 1e-6F);
+  EXPECT_NEAR(out(1, 0).x, 0.5F + 0.2F, 1e-6F);
+}
+
 TEST(TransferResidual, RefusesMatchesOutside) {
   const std::vector<PaintedExemplar> exemplars = {make_exemplar(true)};
   const Grid<glm::vec3> base(1, 1);

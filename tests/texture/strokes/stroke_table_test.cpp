@@ -86,12 +86,5 @@ TEST(StrokeTable, NamesAndStreamsAreUnique) {
   EXPECT_THROW(find_stroke_kind("clouds of dust"), Error);
 }
 
-TEST(StrokeTable, LinesOfWallsArePaintedOverCopiedGround) {
-  const StrokeLayers over_copied{.sky = true, .ground = false, .accents = true, .breaks = true, .upright = true};
-  EXPECT_TRUE(is_painted(find_stroke_kind("rock ledges"), over_copied));
-  EXPECT_FALSE(is_painted(find_stroke_kind("rock facets"), over_copied));
-  EXPECT_FALSE(is_painted(find_stroke_kind("rock ledges"), {.ground = false, .breaks = false}));
-}
-
 }  // namespace
 }  // namespace belvedere

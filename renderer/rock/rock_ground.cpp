@@ -1,0 +1,68 @@
+#include "renderer/rock/rock_ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.h"
+#include "renderer/paint/picture_filter.h"
+
+namespace belvedere {
+namespace {
+
+using Class = LandCoverClass;
+
+// Widths of the blurs, units.
+constexpr double rock_sigma_units = 5.1;
+constexpr double turf_sigma_units = 13.6;
+constexpr double snow_sigma_units = 12.0;
+
+constexpr float tongue = 0.75F;      // how far spurs and gullies move the border
+constexpr float keeps_rock = 0.42F;  // below it rock gives way …
+constexpr float inside = 0.93F;      // … but not in the middle of a wall
+constexpr float becomes_rock = 0.62F;
+constexpr float cone_share = 0.20F;  // by which debris reaches up beneath a funnel
+
+bool is_turf(Class id) { return id == Class::alpine_grass || id == Class::pasture || id == Class::forest || id == Class::shrub; }
+bool is_snow(Class id) { return id == Class::snow || id == Class::glacier; }
+bool gives_way(Class id) {
+  return id == Class::scree || id == Class::alpine_grass || id == Class::pasture || id == Class::shrub || id == Class::snow;
+}
+
+template <class Test>
+Grid<float> share_around_of(const WideView& wide, double sigma_px, PixelRect wanted, Test&& test) {
+  Grid<float> mask(wide.seen.width(), wide.seen.height(), 0.0F);
+  bool any = false;
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (test(wide.seen.land_cover[i])) {
+      mask[i] = 1.0F;
+      any = true;
+    }
+  return any ? blur_on_surface(mask, wide.seen.depth_m, sigma_px, wanted) : mask;
+}
+
+}  // namespace
+
+RockAround look_around_rock(const WideView& wide, double pixels_per_unit, PixelRect wanted) {
+  const double scale = pixels_per_unit / wide.factor;
+  return {.rock = share_around_of(wide, rock_sigma_units * scale, wanted, [](Class id) { return id == Class::rock; }),
+          .turf = share_around_of(wide, turf_sigma_units * scale, wanted, is_turf),
+          .snow = share_around_of(wide, snow_sigma_units * scale, wanted, is_snow)};
+}
+
+int rock_around_reach(double pixels_per_unit, int factor) { return surface_reach_px(turf_sigma_units * pixels_per_unit / factor); }
+
+LandCoverClass rock_border(const RockPlace& place) {
+  const float r = place.rock;
+  const float edge = 1.0F - 0.6F * std::abs(2.0F * r - 1.0F);
+  const float under = smoothstep(0.05F, 0.4F, place.above);  // the foot of a wall
+  const float cone = cone_share * place.cones * under * smoothstep(0.2F, 1.2F, -place.funnel);
+  const float m = r + tongue * std::clamp(1.4F * place.stands, -0.6F, 0.6F) * edge - cone;
+  if (place.mapped == Class::rock) {
+    if (m > keeps_rock || (r > inside && cone <= 0.0F)) return Class::rock;
+    if (place.snow > 0.30F && place.snow > place.turf) return Class::snow;
+    return under < 0.35F ? Class::rock : Class::scree;
+  }
+  return gives_way(place.mapped) && m > becomes_rock ? Class::rock : place.mapped;
+}
+
+}  // namespace belvedere

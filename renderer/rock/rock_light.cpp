@@ -1,0 +1,213 @@
+#include "renderer/rock/rock_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "base/math.h"
+#include "base/math_exact.h"
+#include "base/random.h"
+#include "base/random_streams.h"
+
+namespace belvedere {
+namespace {
+
+constexpr float black = 0.14F;  // as in make_tone
+constexpr float range = 0.98F;
+constexpr float middle = 0.55F;
+constexpr float lift = 0.10F;
+constexpr float fill_strength = 0.30F;  // sky and ground opposite the sun still model what lies in shade
+constexpr float flatness = 0.85F;       // how far a facet has one normal
+// By how much each size may move the tone, and how that differs in shade, which has large planes and little detail.
+constexpr std::array<float, spur_sizes> most_tone = {0.50F, 0.13F, 0.055F};
+constexpr std::array<float, spur_sizes> shade_factor = {1.8F, 1.2F, 0.5F};
+constexpr std::array<float, spur_sizes> calm_least = {1.0F, 0.6F, 0.25F};
+// Lines of the three sizes, units: half widths of light crests and dark gullies, and how strong they are.
+constexpr std::array<float, spur_sizes> crest_width = {0.84F, 0.60F, 0.36F};
+constexpr std::array<float, spur_sizes> gully_width = {1.20F, 0.72F, 0.40F};
+constexpr std::array<float, spur_sizes> crest_strength = {0.9F, 0.8F, 0.5F};
+constexpr std::array<float, spur_sizes> gully_strength = {1.0F, 0.85F, 0.5F};
+constexpr float crest_light = 0.22F;
+constexpr float gully_dark = 0.34F;
+
+// d held softly within ±most.
+float soft(float d, float most) {
+  const float x = d / most;
+  return d / std::sqrt(1.0F + x * x);
+}
+
+float hashed(std::uint32_t id, std::uint64_t salt) {
+  return static_cast<float>(mix_bits((static_cast<std::uint64_t>(id) << 8U) + salt) >> 40U) * 0x1.0p-24F;
+}
+
+// How much of a size is drawn: none where a spur is but a pixel or two wide.
+float drawn(const RockKind& kind, int size, const RockPixel& p) {
+  return smoothstep(1.6F, 4.5F, spur_spacing(kind, size, p.band) * p.scale);
+}
+
+struct Sun {
+  const ToneParameters& light;
+  glm::vec3 sun;
+  glm::vec3 fill;  // towards the sky opposite
+
+  explicit Sun(const ToneParameters& p) : light(p), sun(p.sun_direction), fill(glm::normalize(glm::vec3(-sun.x, -sun.y, 0.35F))) {}
+
+  // Tone of a normal.
+  float operator()(glm::vec3 normal, float shadow, float sky_share) const {
+    const auto wrap = static_cast<float>(light.wrap);
+    const float facing = unit((glm::dot(normal, sun) + wrap) / (1.0F + wrap));
+    const float direct = facing * (1.0F - static_cast<float>(light.light.shadow_depth) * (1.0F - shadow));
+    const float value = static_cast<float>(light.light.sun) * direct +
+                        static_cast<float>(light.light.sky) * sky_share * (0.6F + 0.4F * normal.z) +
+                        fill_strength * (0.5F * glm::dot(normal, fill) + 0.2F);
+    return middle + ((value - black) / range - middle) * class_info(LandCoverClass::rock).tone.contrast + lift;
+  }
+};
+
+// The bed at a place: how far it is drawn, and where in the bed the place lies, 0 its foot … 1 its upper edge.
+struct Bed {
+  float shown = 0.0F;
+  float height = 0.0F;
+  float strong = 0.0F;  // 0…1, of this bed
+};
+
+Bed bed_at(const RockKind& kind, const RockPixel& p, const SpurHits& hits) {
+  Bed bed;
+  const float steep = smoothstep(28.0F, 42.0F, p.slope_deg);
+  if (steep <= 0.0F || kind.beds <= 0.0F || hits[0].spur == nullptr) return bed;
+  // Thickness in metres goes by powers of two, so that one bed keeps it along a wall; a bed seen from above looks thinner.
+  constexpr float units_per_mm = 2.0F;
+  constexpr float foreshortened = 0.75F;
+  const float wanted_m = std::max(kind.bed_mm * units_per_mm * p.metres_per_unit * foreshortened, 0.5F);
+  float thick_m = 1.0F;
+  while (thick_m * 1.4142F < wanted_m) thick_m *= 2.0F;
+  const std::uint32_t large = hits[0].spur->id;
+  const std::uint32_t small = hits[1].spur != nullptr ? hits[1].spur->id : 0U;
+  // Beds are thrown a little at every gully, unless they run through.
+  const float thrown =
+      (1.0F - kind.through) * (hashed(large, 7) + 0.5F * (hashed(small, 3) - 0.5F)) + kind.through * 0.10F * hashed(large, 7);
+  const auto phase =
+      static_cast<float>((static_cast<double>(p.altitude_m) + 0.10 * p.east_m + 0.05 * p.north_m) / static_cast<double>(thick_m)) + thrown +
+      0.18F * p.bed_noise;
+  const float number = std::floor(phase);
+  bed.height = phase - number;
+  const auto bed_id = static_cast<std::uint32_t>(static_cast<std::int32_t>(number));
+  const float of_all = hashed(bed_id, 91);
+  const float of_spur = hashed(bed_id * 0x9e3779b9U ^ large, 91);
+  bed.strong = kind.through * of_all + (1.0F - kind.through) * of_spur;
+  bed.shown = smoothstep(0.10F, 0.45F, 0.5F * p.bed_show + 0.9F * (bed.strong - 0.62F) + 0.25F + 0.3F * kind.through) * steep;
+  if (hashed(bed_id * 0x85ebca6bU ^ small, 92) > 0.75F + 0.25F * kind.through) bed.shown = 0.0F;
+  bed.shown = std::min(1.0F, bed.shown * kind.beds);
+  return bed;
+}
+
+}  // namespace
+
+float stands_out(const SpurHits& hits) {
+  const auto raised = [](const SpurHit& hit) {
+    return hit.spur == nullptr ? 0.0F : std::min(hit.over_next / (2.0F * hit.steepness) / 0.40F, 1.0F) - 0.5F;
+  };
+  return 0.85F * raised(hits[0]) + 0.35F * raised(hits[1]);
+}
+
+RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool winter, const RockPixel& p, const SpurHits& hits) {
+  const Sun sun(light);
+  const float stands = stands_out(hits);
+  glm::vec3 base = p.normal;
+  if (hits[1].spur != nullptr) base = glm::normalize(p.normal * (1.0F - flatness) + hits[1].spur->normal * flatness);
+  const float sky_share = static_cast<float>(exact::pow(static_cast<double>(std::max(p.sky_view, 0.01F)), 1.3));
+  // The edge of a cast shadow follows the spurs it falls on.
+  const float shadow = smoothstep(
+      0.36F, 0.64F, p.shadow + 0.22F * std::clamp(2.0F * stands, -1.0F, 1.0F) * (p.shadow > 0.02F && p.shadow < 0.98F ? 1.0F : 0.0F));
+
+  // Axes of the wall: down its slope, and across it to the right of the picture.
+  const glm::vec3 downhill(base.x * base.z, base.y * base.z, base.z * base.z - 1.0F);
+  const float fall = glm::length(downhill);
+  const glm::vec3 down = fall > 1e-4F ? downhill / fall : glm::vec3(0.0F);
+  const glm::vec3 across = glm::cross(base, down);
+  const float strength = static_cast<float>(light.ribs) * (0.35F + 0.65F * smoothstep(18.0F, 40.0F, p.slope_deg));
+
+  const float calm = unit(0.55F + 0.42F * p.calm_noise);
+  float along_sum = 0.0F;
+  float across_sum = 0.0F;
+  float before = sun(base, shadow, sky_share);
+  const float shade = 1.0F - smoothstep(0.25F, 0.50F, before);
+  float tone = before;
+  glm::vec3 normal = base;
+  for (int size = 0; size < spur_sizes; ++size) {
+    const auto k = static_cast<std::size_t>(size);
+    const SpurHit& hit = hits[k];
+    if (hit.spur == nullptr) break;
+    const float share = drawn(kind, size, p);
+    if (share <= 0.0F) break;
+    const glm::vec2 f = hit.spur->fall;
+    along_sum += kind.tilt[k] * 0.8F * (hit.slope.x * f.x + hit.slope.y * f.y);
+    across_sum += kind.tilt[k] * (hit.slope.x * f.y - hit.slope.y * f.x);
+    normal = glm::normalize(base - (across * across_sum + down * along_sum) * strength);
+    const float now = sun(normal, shadow, sky_share);
+    const float factor = (1.0F + (shade_factor[k] - 1.0F) * shade) * (calm_least[k] + (1.0F - calm_least[k]) * calm) * share;
+    tone += factor * soft(now - before, most_tone[k]);
+    before = now;
+  }
+  tone += 0.05F * shade + 0.06F * std::clamp(2.0F * stands, -1.0F, 1.0F);
+
+  const Bed bed = bed_at(kind, p, hits);
+  float tread = 0.0F;
+  if (bed.shown > 0.0F) {
+    const float lit = unit((tone - 0.12F) / 0.5F);
+    tread = bed.shown * smoothstep(0.66F, 0.69F, bed.height) * (1.0F - smoothstep(0.84F + 0.1F * bed.strong, 0.98F, bed.height));
+    const float under = bed.shown * smoothstep(0.40F, 0.62F, bed.height) * (1.0F - smoothstep(0.64F, 0.67F, bed.height));
+    const glm::vec3 to_sky = glm::normalize(glm::mix(p.normal, glm::vec3(0.0F, 0.0F, 1.0F), kind.tread));
+    const float open = sun(to_sky, shadow, sky_share);
+    tone += tread * 0.75F * (std::max(open, tone + 0.05F) - tone) * (0.45F + 0.55F * lit) - under * 0.28F * (0.4F + 0.6F * lit);
+  }
+
+  RockLook look;
+  // Turf and snow lie where the ground is flat enough, as far as some is near.
+  const float turf_near = smoothstep(0.04F, 0.35F, p.turf);
+  if (turf_near > 0.0F && !winter)
+    look.turf = 0.5F * std::max(smoothstep(0.35F, 0.5F, tread) * smoothstep(0.3F, 0.6F, turf_near),
+                                turf_near * smoothstep(0.66F, 0.72F, normal.z + 0.12F * (turf_near - 0.6F) + 0.05F * p.cover_noise));
+  const float snow_near = winter ? std::max(0.75F, smoothstep(0.03F, 0.40F, p.snow)) : smoothstep(0.03F, 0.40F, p.snow);
+  if (snow_near > 0.0F) {
+    const float level = smoothstep(0.62F, 0.66F, normal.z + 0.14F * (snow_near - 0.55F) + 0.05F * p.cover_noise);
+    const float hollow = smoothstep(0.22F, 0.40F, -0.8F * stands + 0.35F * (snow_near - 0.6F) + 0.12F * p.cover_noise);
+    const float on_tread = winter ? smoothstep(0.3F, 0.5F, tread) : 0.0F;
+    look.snow = 0.95F * snow_near * std::max({level, hollow, on_tread});
+  }
+
+  // Light on crests, dark in gullies, broken along their length; where the hand rests there are fewer.
+  float crest = 0.0F;
+  float gully = 0.0F;
+  const float busy = smoothstep(0.45F, 0.85F, calm);
+  const std::array<float, spur_sizes> few = {1.0F, 0.45F + 0.55F * busy, 0.8F * busy};
+  const float broken = 0.5F + 0.5F * std::clamp(0.48F * p.line_noise + 0.2F, -1.0F, 1.0F);
+  const float soft_edge = 0.9F / p.scale * 0.5F + 0.18F;
+  for (int size = 0; size < spur_sizes; ++size) {
+    const auto k = static_cast<std::size_t>(size);
+    const SpurHit& hit = hits[k];
+    if (hit.spur == nullptr) break;
+    const float share = drawn(kind, size, p) * few[k];
+    if (share <= 0.0F) break;
+    const float spacing = spur_spacing(kind, size, p.band);
+    const float zoom = std::min(1.0F, spur_band_table[static_cast<std::size_t>(p.band)].factor);
+    if (hit.part == SpurPart::back && hashed(hit.spur->id, 9) < 0.75F) {
+      const float width = crest_width[k] * zoom * (0.3F + 0.9F * broken);
+      const float near = 1.0F - smoothstep(width - 0.04F, width + 2.0F * soft_edge, std::abs(hit.across) * spacing);
+      crest = std::max(crest, share * crest_strength[k] * near * unit(1.0F - 0.5F * std::abs(hit.along - 0.5F)) * (0.4F + 0.6F * broken));
+    }
+    if (hashed(hit.spur->id * 13U + hit.next_id, 11) < 0.8F) {
+      const float width = gully_width[k] * zoom * (0.15F + broken);
+      const float near = 1.0F - smoothstep(width - 0.08F, width + 2.0F * soft_edge, hit.over_next / (2.0F * hit.steepness) * spacing);
+      gully = std::max(gully, share * gully_strength[k] * near * (0.35F + 0.65F * broken));
+    }
+  }
+  const float lit = tone;
+  tone += crest_light * crest * smoothstep(0.32F, 0.60F, lit) - gully_dark * gully * (0.45F + 0.55F * smoothstep(0.15F, 0.5F, lit));
+  look.tone = tone;
+  return look;
+}
+
+}  // namespace belvedere

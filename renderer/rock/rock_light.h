@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "renderer/paint/light.h"
+#include "renderer/paint/rock_kinds.h"
+#include "renderer/rock/spurs.h"
+
+namespace belvedere {
+
+// All of one pixel that the light on rock asks for besides its spurs. Noises are of deviation 1.
+struct RockPixel {
+  glm::vec3 normal{0.0F, 0.0F, 1.0F};  // of the wall: detailed, generalized and smooth, mixed
+  float depth_m = 0.0F;
+  float slope_deg = 0.0F;
+  float shadow = 1.0F;    // 1 lit … 0 in cast shadow, a little blurred
+  float sky_view = 1.0F;  // 0…1
+  float altitude_m = 0.0F;
+  double east_m = 0.0, north_m = 0.0;
+  float metres_per_unit = 1.0F;
+  float turf = 0.0F, snow = 0.0F;  // shares around, 0…1
+  float calm_noise = 0.0F;         // where the hand rests
+  float bed_noise = 0.0F;          // of where beds lie …
+  float bed_show = 0.0F;           // … and where they are drawn
+  float line_noise = 0.0F;
+  float cover_noise = 0.0F;
+  int band = 0;
+  float scale = 1.0F;  // pixels in a unit: what is smaller than some pixels is left out
+};
+
+// What a place of rock shows.
+struct RockLook {
+  float tone = 0.0F;  // 0…1 and a little beyond, as ToneParameters make it
+  float turf = 0.0F;  // shares of the paint, 0…1
+  float snow = 0.0F;
+};
+
+// How a spur's crest or gully stands: -.6 in a gully … +.6 on a crest; both larger sizes.
+float stands_out(const SpurHits& hits);
+
+// Light on invented relief: each size turns the wall's normal, and may move the tone only so far, so that big planes carry the picture.
+// Beds with their treads, crests and gullies are part of it. `winter`: snow lies on every tread.
+RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool winter, const RockPixel& pixel, const SpurHits& hits);
+
+}  // namespace belvedere

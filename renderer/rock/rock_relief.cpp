@@ -1,0 +1,414 @@
+#include "renderer/rock/rock_relief.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
+#include <vector>
+
+#include "base/guidance_channels.h"
+#include "base/math.h"
+#include "base/random.h"
+#include "base/random_streams.h"
+#include "renderer/paint/picture_filter.h"
+#include "renderer/paint/picture_noise.h"
+#include "renderer/rock/rock_ground.h"
+#include "renderer/rock/rock_light.h"
+#include "renderer/rock/spurs.h"
+
+namespace belvedere {
+namespace {
+
+constexpr float units_per_mm = 2.0F;
+constexpr double apron_units = 24.0;  // beyond it no pixel is near to rock
+constexpr float least_rock = 0.02F;   // share of rock around from which relief is looked for
+constexpr double shadow_blur_units = 1.6;
+constexpr double sky_blur_units = 2.0;
+constexpr float band_cell_units = 90.0F;    // of the hidden partition by which sizes change
+constexpr float band_depth_ratio = 1.105F;  // cells reach across no greater step of depth
+constexpr float above_units = 6.0F;         // how far up and down the fall line rock is looked for
+// Edges of planes are broken, not curled: two waverings, by noise with straight flanks.
+constexpr float warp_units = 0.56F;
+constexpr float warp_cell_units = 6.4F;
+constexpr float small_warp = 0.45F;
+constexpr float stroke_feather = 0.6F;  // how far strokes turn down the flanks
+
+// Noise about -2…2, linear over the two triangles of a cell, for edges that break instead of curling.
+float broken_noise(std::uint64_t seed, float x, float y) {
+  const float floor_x = std::floor(x);
+  const float floor_y = std::floor(y);
+  const auto ix = static_cast<std::int64_t>(floor_x);
+  const auto iy = static_cast<std::int64_t>(floor_y);
+  const float fx = x - floor_x;
+  const float fy = y - floor_y;
+  const auto at = [&](std::int64_t a, std::int64_t b) { return static_cast<float>(random_bits(seed, a, b) >> 40U) * 0x1.0p-23F - 1.0F; };
+  const float b = at(ix + 1, iy);
+  const float c = at(ix, iy + 1);
+  if (fx + fy < 1.0F) {
+    const float a = at(ix, iy);
+    return 2.0F * (a + (b - a) * fx + (c - a) * fy);
+  }
+  const float d = at(ix + 1, iy + 1);
+  return 2.0F * (d + (c - d) * (1.0F - fx) + (b - d) * (1.0F - fy));
+}
+
+struct Warp {
+  std::array<std::uint64_t, 4> seeds;
+  explicit Warp(std::uint64_t seed) {
+    for (std::uint64_t k = 0; k < 4; ++k) seeds[k] = stream_seed(seed, Stream::rock_warp, k);
+  }
+  glm::vec2 operator()(glm::vec2 place, float scale) const {
+    const glm::vec2 q = place / warp_cell_units;
+    const glm::vec2 broad(broken_noise(seeds[0], q.x, q.y), broken_noise(seeds[1], q.x, q.y));
+    // Too fine to be seen where a unit has few pixels.
+    if (scale < 0.7F) return place + warp_units * broad;
+    const glm::vec2 fine(broken_noise(seeds[2], 2.9F * q.x, 2.3F * q.y), broken_noise(seeds[3], 2.9F * q.x, 2.3F * q.y));
+    return place + warp_units * (broad + small_warp * fine);
+  }
+};
+
+// A cell of the partition: where its point lies and what it sees there.
+struct BandCell {
+  glm::vec2 place{0.0F};
+  float depth_m = -1.0F;  // none: sky, or off the sheet
+  int band = 0;
+};
+
+// Which sizes spurs have at a pixel: those of the nearest cell point on about its own distance, so that no seam of sizes crosses a facet.
+struct BandPartition {
+  glm::ivec2 first{0};
+  glm::ivec2 count{0};
+  std::vector<BandCell> cells;
+
+  int at(glm::vec2 place, float depth_m, float metres_per_mm) const {
+    const int cx = static_cast<int>(std::floor(place.x / band_cell_units)) - first.x;
+    const int cy = static_cast<int>(std::floor(place.y / band_cell_units)) - first.y;
+    float nearest = 1e18F;
+    int band = -1;
+    for (int y = std::max(cy - 1, 0); y <= std::min(cy + 1, count.y - 1); ++y)
+      for (int x = std::max(cx - 1, 0); x <= std::min(cx + 1, count.x - 1); ++x) {
+        const BandCell& cell = cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(count.x) + static_cast<std::size_t>(x)];
+        if (cell.depth_m > depth_m * band_depth_ratio || cell.depth_m * band_depth_ratio < depth_m) continue;
+        const glm::vec2 offset = place - cell.place;
+        const float distance = glm::dot(offset, offset);
+        if (distance >= nearest) continue;
+        nearest = distance;
+        band = cell.band;
+      }
+    return band < 0 ? spur_band(metres_per_mm) : band;
+  }
+};
+
+BandPartition part_bands(const SpurGround& ground, PixelRect rect) {
+  const auto ppu = static_cast<float>(ground.pixels_per_unit);
+  const auto cell_at = [&](int px) { return static_cast<int>(std::floor(static_cast<float>(px) / ppu / band_cell_units)); };
+  BandPartition bands;
+  bands.first = {cell_at(rect.x0) - 1, cell_at(rect.y0) - 1};
+  bands.count = glm::ivec2(cell_at(rect.x1) + 2, cell_at(rect.y1) + 2) - bands.first;
+  const std::uint64_t key = stream_seed(ground.seed, Stream::rock_bands);
+  for (int y = bands.first.y; y < bands.first.y + bands.count.y; ++y)
+    for (int x = bands.first.x; x < bands.first.x + bands.count.x; ++x) {
+      BandCell cell;
+      cell.place.x = (static_cast<float>(x) + static_cast<float>(random_uniform(key, x, y, 0))) * band_cell_units;
+      cell.place.y = (static_cast<float>(y) + static_cast<float>(random_uniform(key, x, y, 1))) * band_cell_units;
+      const int px = static_cast<int>(std::floor(cell.place.x * ppu));
+      const int py = static_cast<int>(std::floor(cell.place.y * ppu));
+      if (ground.wide.holds(px, py)) {
+        const std::size_t i = ground.wide.index(px, py);
+        if (!ground.wide.seen.is_sky(i)) {
+          cell.depth_m = ground.wide.seen.depth_m[i];
+          cell.band = spur_band(ground.wide.seen.footprint_m[i] / static_cast<float>(ground.wide.factor) * ppu * units_per_mm);
+        }
+      }
+      bands.cells.push_back(cell);
+    }
+  return bands;
+}
+
+// Wide pixels to a pixel of what this stage looks at: all of it is smooth over a unit.
+int thinned_times(double pixels_per_unit, int factor) { return std::max(1, static_cast<int>(std::floor(pixels_per_unit / factor))); }
+
+// The pixels of the window about which there is rock, as a rectangle.
+PixelRect rocky_part(const GuidanceBuffers& guidance, const WideView& wide, PixelRect made, glm::ivec2 origin_px, int apron_px) {
+  PixelRect rocky{made.x1, made.y1, made.x0, made.y0};
+  const auto include = [&](PixelRect rect) {
+    rect = intersection(made, rect);
+    if (rect.empty()) return;
+    rocky = {std::min(rocky.x0, rect.x0), std::min(rocky.y0, rect.y0), std::max(rocky.x1, rect.x1), std::max(rocky.y1, rect.y1)};
+  };
+  for (int y = 0; y < wide.seen.height(); ++y)
+    for (int x = 0; x < wide.seen.width(); ++x) {
+      if (wide.seen.land_cover(x, y) != LandCoverClass::rock) continue;
+      const glm::ivec2 corner = (wide.origin_px + glm::ivec2(x, y)) * wide.factor - origin_px;
+      include(grown({corner.x, corner.y, corner.x + wide.factor, corner.y + wide.factor}, apron_px));
+    }
+  // What no look from afar has met.
+  for (int y = made.y0; y < made.y1; ++y)
+    for (int x = made.x0; x < made.x1; ++x)
+      if (guidance.land_cover(x, y) == LandCoverClass::rock) include({x, y, x + 1, y + 1});
+  return rocky;
+}
+
+std::uint32_t folded(std::uint32_t id) {
+  const std::uint64_t bits = mix_bits(id);
+  return static_cast<std::uint32_t>(bits >> 48U);
+}
+
+// The plane a place lies on, of the two larger sizes.
+std::uint32_t facet_of(const SpurHits& hits) {
+  const std::uint32_t large = folded(hits[0].flank_id());
+  const std::uint32_t small = folded(hits[1].flank_id() * 5U + static_cast<std::uint32_t>(hits[1].part));
+  return std::max(1U, large << 16U | small);
+}
+
+// All that tells two places apart for whom edges are drawn.
+std::uint32_t edge_key(const SpurHits& hits) {
+  std::uint32_t key = 0;
+  for (const SpurHit& hit : hits) key = key * 0x9e3779b1U + hit.flank_id() * 5U + static_cast<std::uint32_t>(hit.part);
+  return key;
+}
+
+// Everything of a window that pixels look up.
+struct RockScene {
+  const GuidanceBuffers& guidance;
+  const WideView& wide;  // thinned out
+  const RockParameters& parameters;
+  glm::ivec2 origin_px;
+  double pixels_per_unit;
+  RockAround around;
+  Grid<glm::vec2> fall;
+  BandPartition bands;
+  SpurField field;
+  Warp warp;
+  Grid<float> shadow, sky_view, calm, bed_place, bed_show, lines, cover, funnel;
+};
+
+glm::vec2 place_of(const RockScene& s, int x, int y, glm::dvec2 within) {
+  return {static_cast<float>((s.origin_px.x + x + within.x) / s.pixels_per_unit),
+          static_cast<float>((s.origin_px.y + y + within.y) / s.pixels_per_unit)};
+}
+
+SpurHits hits_at(const RockScene& s, const RockPixel& pixel, int x, int y, glm::dvec2 within) {
+  return find_spurs(s.field, pixel.band, s.warp(place_of(s, x, y, within), pixel.scale), pixel.depth_m);
+}
+
+RockPixel pixel_at(const RockScene& s, int x, int y, PixelRect made) {
+  const GuidanceBuffers& g = s.guidance;
+  const std::size_t i = g.depth_m.index(x, y);
+  const int u = x - made.x0;
+  const int v = y - made.y0;
+  const int sheet_x = s.origin_px.x + x;
+  const int sheet_y = s.origin_px.y + y;
+  RockPixel p;
+  p.depth_m = g.depth_m[i];
+  p.normal = glm::normalize(0.55F * g.normal_detail[i] + 0.30F * g.normal[i] + 0.15F * g.normal_smooth[i]);
+  p.slope_deg = g.slope_deg[i];
+  p.shadow = s.shadow(x, y);
+  p.sky_view = s.sky_view(x, y);
+  p.altitude_m = g.altitude_m[i];
+  p.east_m = static_cast<double>(g.position_m[i].x) + g.origin_m.x;
+  p.north_m = static_cast<double>(g.position_m[i].y) + g.origin_m.y;
+  p.metres_per_unit = g.footprint_m[i] * static_cast<float>(s.pixels_per_unit);
+  p.turf = value_on_surface(s.wide, s.around.turf, sheet_x, sheet_y, p.depth_m);
+  p.snow = value_on_surface(s.wide, s.around.snow, sheet_x, sheet_y, p.depth_m);
+  p.calm_noise = s.calm(u, v);
+  p.bed_noise = s.bed_place(u, v);
+  p.bed_show = s.bed_show(u, v);
+  p.line_noise = s.lines(u, v);
+  p.cover_noise = s.cover(u, v);
+  p.scale = static_cast<float>(s.pixels_per_unit);
+  p.band = s.bands.at(place_of(s, x, y, {0.5, 0.5}), p.depth_m, p.metres_per_unit * units_per_mm);
+  return p;
+}
+
+float rock_share(const RockScene& s, glm::vec2 sheet_px, float depth_m) {
+  return value_on_surface(s.wide, s.around.rock, static_cast<int>(std::floor(sheet_px.x)), static_cast<int>(std::floor(sheet_px.y)),
+                          depth_m);
+}
+
+RockPlace border_place(const RockScene& s, const RockPixel& p, int x, int y, float rock, const SpurHits& hits, float funnel) {
+  const glm::vec2 sheet_px(s.origin_px + glm::ivec2(x, y));
+  const glm::vec2 reach = s.fall[s.wide.index(s.origin_px.x + x, s.origin_px.y + y)] * (above_units * p.scale);
+  RockPlace place;
+  place.mapped = s.guidance.land_cover(x, y);
+  place.rock = rock;
+  place.turf = p.turf;
+  place.snow = p.snow;
+  place.above = rock_share(s, sheet_px - reach, p.depth_m) - rock_share(s, sheet_px + reach, p.depth_m);
+  place.stands = stands_out(hits);
+  place.funnel = funnel;
+  place.cones = s.parameters.kind->cones;
+  return place;
+}
+
+// The way strokes run on a plane: down the wall, and off the crests of its spurs.
+glm::vec2 plane_fall(const RockScene& s, const SpurHits& hits, glm::vec2 mapped) {
+  const SpurHit& large = hits[0];
+  if (large.spur == nullptr) return mapped;
+  glm::vec2 fall = (hits[1].spur != nullptr ? hits[1].spur->fall : large.spur->fall);
+  for (int size = 0; size < 2; ++size) {
+    const auto k = static_cast<std::size_t>(size);
+    if (hits[k].spur != nullptr) fall -= stroke_feather * s.parameters.kind->tilt[k] * hits[k].slope;
+  }
+  const float length = glm::length(fall);
+  return length > 1e-3F ? fall / length : mapped;
+}
+
+RockScene look_at_rock(const GuidanceBuffers& guidance, const WideView& wide, const RockParameters& parameters, glm::ivec2 origin_px,
+                       PixelRect made) {
+  const double ppu = parameters.light.pixels_per_unit;
+  const std::uint64_t seed = parameters.light.seed;
+  const PixelRect sheet_rect = moved(made, origin_px.x, origin_px.y);
+  const PixelRect whole{0, 0, wide.seen.width(), wide.seen.height()};
+  const auto wide_window = [&](double reach_units) {
+    const PixelRect asked = wide_rect(grown(sheet_rect, static_cast<int>(std::ceil(reach_units * ppu))), wide.factor);
+    return intersection(whole, moved(asked, -wide.origin_px.x, -wide.origin_px.y));
+  };
+  RockScene s{guidance, wide, parameters, origin_px, ppu, {}, {}, {}, {}, Warp(seed), {}, {}, {}, {}, {}, {}, {}, {}};
+  s.around = look_around_rock(wide, ppu, wide_window(above_units + 2.0));
+  s.fall = smooth_fall_lines(wide, ppu, wide_window(spur_margin_units(*parameters.kind)));
+  const SpurGround ground{wide, s.fall, ppu, seed};
+  s.bands = part_bands(ground, sheet_rect);
+  std::array<bool, spur_bands> asked{};
+  for (const BandCell& cell : s.bands.cells) asked[static_cast<std::size_t>(cell.band)] = true;
+  for (int y = made.y0; y < made.y1; ++y)
+    for (int x = made.x0; x < made.x1; ++x) {
+      const std::size_t i = guidance.depth_m.index(x, y);
+      if (!guidance.is_sky(i))
+        asked[static_cast<std::size_t>(spur_band(guidance.footprint_m[i] * static_cast<float>(ppu) * units_per_mm))] = true;
+    }
+  s.field = grow_spurs(ground, *parameters.kind, sheet_rect, asked);
+  s.shadow = blur_on_surface(guidance.shadow, guidance.depth_m, shadow_blur_units * ppu, made);
+  s.sky_view = blur_on_surface(guidance.sky_view, guidance.depth_m, sky_blur_units * ppu, made);
+  const auto noise = [&](Stream stream, double sigma_x, double sigma_y, std::uint64_t part = 0) {
+    return make_image_noise(stream_seed(seed, stream, part), origin_px + glm::ivec2(made.x0, made.y0), made.width(), made.height(), ppu,
+                            sigma_x, sigma_y);
+  };
+  s.calm = noise(Stream::rock_calm, 13.0, 13.0);
+  s.bed_place = noise(Stream::rock_beds, 9.0, 9.0, 0);
+  s.bed_show = noise(Stream::rock_beds, 10.0, 5.0, 1);
+  s.lines = noise(Stream::rock_lines, 1.3, 1.3);
+  s.cover = noise(Stream::rock_cover, 1.6, 1.0);
+  s.funnel = noise(Stream::rock_funnels, funnel_sigma_units.x, funnel_sigma_units.y);
+  return s;
+}
+
+}  // namespace
+
+std::initializer_list<GuidanceMember> rock_channels() {
+  using B = GuidanceBuffers;
+  static const std::initializer_list<GuidanceMember> channels = {&B::depth_m,       &B::position_m, &B::normal,     &B::normal_detail,
+                                                                 &B::normal_smooth, &B::altitude_m, &B::land_cover, &B::shadow,
+                                                                 &B::sky_view,      &B::slope_deg,  &B::fall_line,  &B::footprint_m};
+  return channels;
+}
+
+RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wide, const RockParameters& parameters, glm::ivec2 origin_px,
+                            Progress& progress, PixelRect wanted) {
+  using B = GuidanceBuffers;
+  require_channels(guidance, rock_channels(), "relief of rock");
+  require_channels(wide.seen, {&B::depth_m, &B::land_cover, &B::fall_line, &B::normal, &B::footprint_m}, "relief of rock");
+  const PixelRect whole{0, 0, guidance.width(), guidance.height()};
+  if (wanted.empty()) wanted = whole;
+  const int width = wanted.width();
+  const int height = wanted.height();
+  RockRelief relief{Grid<LandCoverClass>(width, height), Grid<glm::vec2>(width, height),
+                    Grid<float>(width, height, 0.0F),    Grid<std::uint32_t>(width, height, 0U),
+                    Grid<float>(width, height, 0.0F),    Grid<glm::vec2>(width, height, glm::vec2(0.0F))};
+  for (int y = 0; y < height; ++y) {
+    std::copy_n(guidance.land_cover.row(wanted.y0 + y) + wanted.x0, width, relief.land_cover.row(y));
+    std::copy_n(guidance.fall_line.row(wanted.y0 + y) + wanted.x0, width, relief.fall_line.row(y));
+  }
+  const double ppu = parameters.light.pixels_per_unit;
+  const int times = thinned_times(ppu, wide.factor);
+  const GuidanceBuffers thin = thin_out(wide, times);
+  const WideView far{thin, wide.factor * times, thinned_origin(wide, times)};
+  // A pixel more each way: edges are found by neighbours.
+  const PixelRect around = intersection(whole, grown(wanted, 1));
+  const PixelRect made = rocky_part(guidance, far, around, origin_px, static_cast<int>(std::ceil(apron_units * ppu)));
+  if (made.empty()) return relief;
+  progress.begin("relief of rock", 2.0 * made.height());
+  const RockScene scene = look_at_rock(guidance, far, parameters, origin_px, made);
+  Grid<std::uint32_t> edges(made.width(), made.height(), 0U);
+  Grid<std::uint8_t> bare(made.width(), made.height(), 0);
+  constexpr glm::dvec2 middle_of_pixel{0.5, 0.5};
+  parallel_rows(made.height(), [&](int row) {
+    const int y = made.y0 + row;
+    for (int x = made.x0; x < made.x1; ++x) {
+      const std::size_t i = guidance.depth_m.index(x, y);
+      if (guidance.is_sky(i)) continue;
+      const float rock = value_on_surface(far, scene.around.rock, origin_px.x + x, origin_px.y + y, guidance.depth_m[i]);
+      if (rock <= least_rock && guidance.land_cover[i] != LandCoverClass::rock) continue;
+      const RockPixel pixel = pixel_at(scene, x, y, made);
+      const SpurHits hits = hits_at(scene, pixel, x, y, middle_of_pixel);
+      const float funnel = scene.funnel(x - made.x0, row);
+      const LandCoverClass shown = rock_border(border_place(scene, pixel, x, y, rock, hits, funnel));
+      edges(x - made.x0, row) = edge_key(hits);
+      if (x < wanted.x0 || y < wanted.y0 || x >= wanted.x1 || y >= wanted.y1) continue;
+      const int u = x - wanted.x0;
+      const int v = y - wanted.y0;
+      relief.land_cover(u, v) = shown;
+      if (shown != LandCoverClass::rock) continue;
+      bare(x - made.x0, row) = 1;
+      relief.facet(u, v) = facet_of(hits);
+      for (int size = 0; size < 2; ++size)
+        if (hits[static_cast<std::size_t>(size)].spur != nullptr)
+          relief.height(u, v) += hits[static_cast<std::size_t>(size)].height * spur_spacing(*parameters.kind, size, pixel.band);
+      relief.fall_line(u, v) = plane_fall(scene, hits, guidance.fall_line[i]);
+      const RockLook look = light_rock(*parameters.kind, parameters.light, parameters.winter, pixel, hits);
+      relief.tone(u, v) = look.tone;
+      relief.cover(u, v) = {look.turf, look.snow};
+    }
+    progress.advance(1.0);
+  });
+  // Where planes meet, four looks a pixel: with one, crisp edges are stairs.
+  parallel_rows(made.height(), [&](int row) {
+    const int y = made.y0 + row;
+    for (int x = std::max(made.x0, wanted.x0); x < std::min(made.x1, wanted.x1); ++x) {
+      const int u = x - made.x0;
+      if (bare(u, row) == 0) continue;
+      const std::uint32_t own = edges(u, row);
+      const bool edge = (u > 0 && edges(u - 1, row) != own) || (u + 1 < made.width() && edges(u + 1, row) != own) ||
+                        (row > 0 && edges(u, row - 1) != own) || (row + 1 < made.height() && edges(u, row + 1) != own);
+      if (!edge) continue;
+      const RockPixel pixel = pixel_at(scene, x, y, made);
+      float tone = 0.0F;
+      glm::vec2 cover(0.0F);
+      for (const glm::dvec2 within : {glm::dvec2(0.25, 0.25), glm::dvec2(0.75, 0.25), glm::dvec2(0.25, 0.75), glm::dvec2(0.75, 0.75)}) {
+        const RockLook look = light_rock(*parameters.kind, parameters.light, parameters.winter, pixel, hits_at(scene, pixel, x, y, within));
+        tone += look.tone;
+        cover += glm::vec2(look.turf, look.snow);
+      }
+      relief.tone(x - wanted.x0, y - wanted.y0) = 0.25F * tone;
+      relief.cover(x - wanted.x0, y - wanted.y0) = 0.25F * cover;
+    }
+    progress.advance(1.0);
+  });
+  return relief;
+}
+
+int rock_near_margin_px(const RockParameters& parameters) {
+  return surface_reach_px(sky_blur_units * parameters.light.pixels_per_unit) + 3;
+}
+
+int rock_margin_px(const RockParameters& parameters) {
+  const double ppu = parameters.light.pixels_per_unit;
+  const int factor = wide_factor(ppu) * thinned_times(ppu, wide_factor(ppu));
+  const int spurs = static_cast<int>(std::ceil(spur_margin_units(*parameters.kind) * ppu));
+  const int looks = factor * (std::max(smooth_fall_reach(ppu, factor), rock_around_reach(ppu, factor)) + 3);
+  const int bands = static_cast<int>(std::ceil(2.0 * static_cast<double>(band_cell_units) * ppu)) + factor;
+  return std::max({spurs + looks, bands, rock_near_margin_px(parameters)}) + 2;
+}
+
+void take_relief(GuidanceBuffers& guidance, RockRelief relief) {
+  guidance.land_cover = std::move(relief.land_cover);
+  guidance.fall_line = std::move(relief.fall_line);
+  guidance.rock_height = std::move(relief.height);
+  guidance.rock_facet = std::move(relief.facet);
+  guidance.rock_tone = std::move(relief.tone);
+  guidance.rock_cover = std::move(relief.cover);
+}
+
+}  // namespace belvedere

@@ -1,0 +1,263 @@
+#include "renderer/rock/spurs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/noise.h"
+#include "base/random.h"
+#include "base/random_streams.h"
+#include "renderer/paint/picture_filter.h"
+
+namespace belvedere {
+namespace {
+
+// Spacing of the three sizes, mm of the sheet, before the band's and the kind's factor.
+constexpr std::array<float, spur_sizes> spacing_mm = {17.6F, 6.0F, 2.24F};
+constexpr float units_per_mm = 2.0F;
+constexpr double fall_sigma_units = 4.8;
+constexpr float least_down = 0.5F;          // of a fall line: 60° from straight down
+constexpr float least_spur_down = 0.3153F;  // of a spur: 72°
+constexpr float turn_sigma = 0.16F;         // rad, by which spurs stray from the fall line
+constexpr float funnel_turn = 0.30F;        // how far spurs turn apart about a funnel, so that its gullies draw together
+constexpr float beyond_parent = 0.4F;       // height that a spur loses across the border of a larger one
+constexpr float tolerance_share = 0.003F;   // of the depth …
+constexpr float tolerance_slope = 4.5F;     // … and metres a metre of ground
+constexpr float head_rise = 0.9F;
+constexpr float back_rise = 0.06F;
+// Cells around a place whose spurs can be highest there: those above it reach farther down than those below it up.
+constexpr int reach_across = 2;
+constexpr int reach_up = 3;
+constexpr int reach_down = 2;
+
+float largest_factor() {
+  float most = 0.0F;
+  for (const SpurBand& band : spur_band_table) most = std::max(most, band.factor);
+  return most;
+}
+
+// A direction no farther from straight down than its cosine says.
+glm::vec2 held_down(glm::vec2 direction, float least_cosine) {
+  const float length = std::sqrt(direction.x * direction.x + direction.y * direction.y);
+  if (length < 1e-3F) return {0.0F, 1.0F};
+  direction /= length;
+  if (direction.y >= least_cosine) return direction;
+  const float aside = std::sqrt(1.0F - least_cosine * least_cosine);
+  return {direction.x < 0.0F ? -aside : aside, least_cosine};
+}
+
+glm::ivec2 cell_of(glm::vec2 place, float spacing) {
+  return {static_cast<int>(std::floor(place.x / spacing)), static_cast<int>(std::floor(place.y / spacing))};
+}
+
+SpurHit highest_spur(const SpurCells& cells, const RockKind& kind, glm::vec2 place, float depth_m, std::uint32_t parent) {
+  SpurHit best;
+  const glm::ivec2 at = cell_of(place, cells.spacing);
+  const float inverse = 1.0F / cells.spacing;
+  float second = -1e9F;
+  const int x0 = std::max(at.x - reach_across - cells.first.x, 0);
+  const int x1 = std::min(at.x + reach_across - cells.first.x, cells.count.x - 1);
+  const int y0 = std::max(at.y - reach_up - cells.first.y, 0);
+  const int y1 = std::min(at.y + reach_down - cells.first.y, cells.count.y - 1);
+  for (int y = y0; y <= y1; ++y)
+    for (int x = x0; x <= x1; ++x) {
+      const Spur& spur = cells.spurs[static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.count.x) + static_cast<std::size_t>(x)];
+      if (!spur.grown) continue;
+      const glm::vec2 offset = (place - spur.place) * inverse;
+      const float v = (offset.x * spur.down.x + offset.y * spur.down.y) * kind.slender;
+      const float u = offset.x * spur.down.y - offset.y * spur.down.x;
+      const std::uint8_t side = u > 0.0F ? 1 : 0;
+      const float wide = std::abs(u);
+      // Heads and feet slant and come to a point: level ones would line up into horizontal bars.
+      const float head = spur.skew_head * u - 0.25F * wide;
+      const float tail = spur.length + spur.skew_foot * u + 0.35F * wide;
+      float height = spur.top;
+      float rise = 0.0F;   // of the height along
+      float drift = 0.0F;  // of the height across, from the slant
+      SpurPart part = SpurPart::back;
+      if (v < head) {
+        part = SpurPart::head;
+        height += head_rise * (v - head);
+        rise = head_rise;
+        drift = -head_rise * (spur.skew_head - (side != 0 ? 0.25F : -0.25F));
+      } else if (v < tail || tail < head) {
+        height += back_rise * (v - head);
+        rise = back_rise;
+      } else {
+        part = SpurPart::foot;
+        height += back_rise * (tail - head) - spur.foot * (v - tail);
+        rise = -spur.foot;
+        drift = spur.foot * (spur.skew_foot + (side != 0 ? 0.35F : -0.35F));
+      }
+      // Flanks open downhill: the lower the place, the broader the spur.
+      const float steepness = spur.flank[side] / (0.75F + 0.45F * std::clamp(v, -0.5F, 1.6F));
+      height -= steepness * wide;
+      if (spur.parent != parent) height -= beyond_parent;
+      if (height <= second) continue;
+      const float apart = std::sqrt(offset.x * offset.x + offset.y * offset.y);
+      if (std::abs(depth_m - spur.depth_m) > spur.tolerance_m * (0.6F + apart)) continue;
+      if (height <= best.height) {
+        second = height;
+        best.next_id = spur.id;
+        continue;
+      }
+      second = best.height;
+      best.next_id = best.spur == nullptr ? 0U : best.spur->id;
+      best.spur = &spur;
+      best.height = height;
+      best.across = u;
+      best.along = v;
+      best.steepness = steepness;
+      best.side = side;
+      best.part = part;
+      const float across = (side != 0 ? -steepness : steepness) + 0.7F * drift;
+      best.slope = {across * spur.down.y + rise * spur.down.x, -across * spur.down.x + rise * spur.down.y};
+    }
+  best.over_next = best.height - second;
+  return best;
+}
+
+// The mean normal of the wall about a spur, from wide pixels of its own surface.
+glm::vec3 wall_normal(const SpurGround& ground, const Spur& spur, float spacing) {
+  const WideView& wide = ground.wide;
+  const glm::vec2 aside{spur.fall.y, -spur.fall.x};
+  const std::array<glm::vec2, 5> around = {
+      {{0.0F, 0.0F}, spur.fall * 0.3F, spur.fall * 0.8F, aside * 0.3F + spur.fall * 0.3F, aside * -0.3F + spur.fall * 0.3F}};
+  glm::vec3 sum(0.0F);
+  for (const glm::vec2 offset : around) {
+    const glm::vec2 there = spur.place + offset * spacing;
+    const auto ppu = static_cast<float>(ground.pixels_per_unit);
+    const std::size_t i = wide.index(static_cast<int>(std::floor(there.x * ppu)), static_cast<int>(std::floor(there.y * ppu)));
+    if (std::abs(wide.seen.depth_m[i] - spur.depth_m) <= spur.tolerance_m * 1.6F) sum += wide.seen.normal[i];
+  }
+  return glm::normalize(sum);
+}
+
+Spur grow_spur(const SpurGround& ground, const SpurField& field, int band, int size, glm::ivec2 cell) {
+  const SpurCells& cells = field.bands[static_cast<std::size_t>(band)][static_cast<std::size_t>(size)];
+  const std::uint64_t key = stream_seed(ground.seed, Stream::rock_spurs, static_cast<std::uint64_t>(band * spur_sizes + size));
+  std::uint64_t draws = 0;
+  const auto uniform = [&] { return static_cast<float>(random_uniform(key, cell.x, cell.y, draws++)); };
+  const auto between = [&](float low, float high) { return low + (high - low) * uniform(); };
+  Spur spur;
+  spur.place.x = (static_cast<float>(cell.x) + between(0.05F, 0.95F)) * cells.spacing;
+  spur.place.y = (static_cast<float>(cell.y) + between(0.05F, 0.95F)) * cells.spacing;
+  const auto ppu = static_cast<float>(ground.pixels_per_unit);
+  const int x = static_cast<int>(std::floor(spur.place.x * ppu));
+  const int y = static_cast<int>(std::floor(spur.place.y * ppu));
+  if (!ground.wide.holds(x, y)) return spur;
+  const std::size_t i = ground.wide.index(x, y);
+  if (ground.wide.seen.is_sky(i)) return spur;
+  spur.grown = true;
+  spur.id = static_cast<std::uint32_t>(random_bits(key, cell.x, cell.y, draws++)) | 1U;
+  spur.top = between(0.0F, size == 0 ? 0.9F : 0.75F);
+  spur.flank[0] = between(0.7F, 1.6F);
+  spur.flank[1] = between(0.7F, 1.6F);
+  spur.length = between(0.5F, 1.5F);
+  spur.foot = between(0.7F, 1.6F);
+  spur.skew_foot = between(-0.35F, 0.35F);
+  spur.skew_head = between(-0.35F, 0.35F);
+  const float turn = turn_sigma * static_cast<float>(random_normal(key, cell.x, cell.y, draws++));
+  spur.depth_m = ground.wide.seen.depth_m[i];
+  const float metres_per_unit = ground.wide.seen.footprint_m[i] * ppu / static_cast<float>(ground.wide.factor);
+  spur.tolerance_m = metres_per_unit * cells.spacing * tolerance_slope + tolerance_share * spur.depth_m;
+  spur.fall = ground.fall[i];
+  spur.normal = wall_normal(ground, spur, cells.spacing);
+  const glm::vec2 aside(spur.fall.y, -spur.fall.x);
+  const float step = 0.5F * static_cast<float>(funnel_sigma_units.x);
+  const float leaning = funnel_at(ground.seed, spur.place + step * aside) - funnel_at(ground.seed, spur.place - step * aside);
+  spur.down = spur.fall + (turn - funnel_turn * leaning) * aside;
+  // Water runs off the crests of larger spurs.
+  for (int larger = 0; larger < size; ++larger) {
+    const SpurHit hit = highest_spur(field.bands[static_cast<std::size_t>(band)][static_cast<std::size_t>(larger)], *field.kind, spur.place,
+                                     spur.depth_m, spur.parent);
+    spur.parent = hit.flank_id();
+    if (hit.spur != nullptr) spur.down -= field.kind->feather * hit.slope;
+  }
+  spur.down = held_down(spur.down, least_spur_down);
+  return spur;
+}
+
+}  // namespace
+
+float funnel_at(std::uint64_t seed, glm::vec2 place) {
+  return static_cast<float>(gaussian_noise(stream_seed(seed, Stream::rock_funnels), static_cast<double>(place.x),
+                                           static_cast<double>(place.y), funnel_sigma_units.x, funnel_sigma_units.y));
+}
+
+int spur_band(float metres_per_mm) {
+  int band = 0;
+  while (band + 1 < spur_bands && metres_per_mm >= spur_band_table[static_cast<std::size_t>(band)].up_to_m) ++band;
+  return band;
+}
+
+float spur_spacing(const RockKind& kind, int size, int band) {
+  return spacing_mm[static_cast<std::size_t>(size)] * units_per_mm * kind.size * spur_band_table[static_cast<std::size_t>(band)].factor;
+}
+
+Grid<glm::vec2> smooth_fall_lines(const WideView& wide, double pixels_per_unit, PixelRect wanted) {
+  const GuidanceBuffers& seen = wide.seen;
+  Grid<float> along[2] = {Grid<float>(seen.width(), seen.height(), 0.0F), Grid<float>(seen.width(), seen.height(), 0.0F)};
+  for (std::size_t i = 0; i < seen.fall_line.size(); ++i) {
+    along[0][i] = seen.fall_line[i].x;
+    along[1][i] = seen.fall_line[i].y;
+  }
+  const double sigma = fall_sigma_units * pixels_per_unit / wide.factor;
+  for (Grid<float>& part : along) part = blur_on_surface(part, seen.depth_m, sigma, wanted);
+  Grid<glm::vec2> fall(seen.width(), seen.height(), glm::vec2(0.0F, 1.0F));
+  for (int y = wanted.y0; y < wanted.y1; ++y)
+    for (int x = wanted.x0; x < wanted.x1; ++x) fall(x, y) = held_down({along[0](x, y), along[1](x, y)}, least_down);
+  return fall;
+}
+
+int smooth_fall_reach(double pixels_per_unit, int factor) { return surface_reach_px(fall_sigma_units * pixels_per_unit / factor); }
+
+SpurField grow_spurs(const SpurGround& ground, const RockKind& kind, PixelRect rect, const std::array<bool, spur_bands>& bands) {
+  SpurField field;
+  field.kind = &kind;
+  for (int band = 0; band < spur_bands; ++band) {
+    if (!bands[static_cast<std::size_t>(band)]) continue;
+    for (int size = 0; size < spur_sizes; ++size) {
+      SpurCells& cells = field.bands[static_cast<std::size_t>(band)][static_cast<std::size_t>(size)];
+      cells.spacing = spur_spacing(kind, size, band);
+      // Smaller spurs ask where they stand on this size.
+      float grown = 1.0F;
+      for (int smaller = size + 1; smaller < spur_sizes; ++smaller)
+        grown += (static_cast<float>(reach_up) + 1.0F) * spur_spacing(kind, smaller, band);
+      const auto unit = [&](int px) { return static_cast<float>(px / ground.pixels_per_unit); };
+      const glm::ivec2 low = cell_of({unit(rect.x0) - grown, unit(rect.y0) - grown}, cells.spacing);
+      const glm::ivec2 high = cell_of({unit(rect.x1) + grown, unit(rect.y1) + grown}, cells.spacing);
+      cells.first = low - glm::ivec2(reach_across, reach_up);
+      cells.count = high - cells.first + glm::ivec2(reach_across + 1, reach_down + 1);
+      std::vector<Spur> spurs(static_cast<std::size_t>(cells.count.x) * static_cast<std::size_t>(cells.count.y));
+      parallel_rows(cells.count.y, [&](int y) {
+        for (int x = 0; x < cells.count.x; ++x)
+          spurs[static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.count.x) + static_cast<std::size_t>(x)] =
+              grow_spur(ground, field, band, size, cells.first + glm::ivec2(x, y));
+      });
+      cells.spurs = std::move(spurs);
+    }
+  }
+  return field;
+}
+
+double spur_margin_units(const RockKind& kind) {
+  double margin = 4.0;
+  for (int size = 0; size < spur_sizes; ++size)
+    margin +=
+        (reach_up + 2.0) * static_cast<double>(spacing_mm[static_cast<std::size_t>(size)] * units_per_mm * kind.size * largest_factor());
+  return margin;
+}
+
+SpurHits find_spurs(const SpurField& field, int band, glm::vec2 place, float depth_m) {
+  SpurHits hits;
+  std::uint32_t parent = 0;
+  for (int size = 0; size < spur_sizes; ++size) {
+    const auto k = static_cast<std::size_t>(size);
+    hits[k] = highest_spur(field.bands[static_cast<std::size_t>(band)][k], *field.kind, place, depth_m, parent);
+    parent = hits[k].flank_id();
+  }
+  return hits;
+}
+
+}  // namespace belvedere

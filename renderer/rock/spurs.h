@@ -1,0 +1,101 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "base/grid.h"
+#include "base/parallel.h"
+#include "renderer/paint/rock_kinds.h"
+#include "renderer/trace/wide_view.h"
+
+namespace belvedere {
+
+// Relief of rock that no DEM holds. A wall stands in spurs of three sizes; a spur is a roof: flat flanks, a sharp crest, and a sharp
+// gully where two meet. Smaller spurs run down the flanks of larger ones and stay within their borders. Spurs grow from jittered cells of
+// the sheet and hold on to the surface they grew on by its depth.
+// Places are in units of the sheet (0.5 mm), x right, y down; heights and slopes in shares of a spur's own spacing.
+inline constexpr int spur_sizes = 3;
+inline constexpr int spur_bands = 4;
+
+// How large spurs are by the metres of ground in a mm of the sheet: near walls have large ones, far ranges small ones.
+struct SpurBand {
+  float up_to_m;  // ground in a mm of the sheet
+  float factor;   // on all sizes
+};
+inline constexpr std::array<SpurBand, spur_bands> spur_band_table = {{{41.0F, 1.25F}, {51.5F, 0.95F}, {64.7F, 0.72F}, {1e9F, 0.55F}}};
+int spur_band(float metres_per_mm);
+// Mean distance of neighbouring spurs, units.
+float spur_spacing(const RockKind& kind, int size, int band);
+
+// Funnels: broad hollows of a wall, where gullies draw together. Noise of deviation 1 on the sheet; low in the middle of a funnel.
+inline constexpr glm::dvec2 funnel_sigma_units{26.0, 60.0};
+float funnel_at(std::uint64_t seed, glm::vec2 place);
+
+// What spurs grow on: a wide view with normals and footprints, and its fall lines, smoothed.
+struct SpurGround {
+  const WideView& wide;
+  const Grid<glm::vec2>& fall;  // unit, of the wide pixels; leaning no more than max_lean from straight down
+  double pixels_per_unit;
+  std::uint64_t seed;
+};
+// Fall lines of a wide view, blurred over 4.8 units of their surface and held to within 60° of straight down the sheet: what leans more
+// looks like a landslip. Of wide pixels in `wanted`; others point down.
+Grid<glm::vec2> smooth_fall_lines(const WideView& wide, double pixels_per_unit, PixelRect wanted);
+int smooth_fall_reach(double pixels_per_unit, int factor);  // wide pixels
+
+struct Spur {
+  bool grown = false;
+  glm::vec2 place{0.0F};
+  glm::vec2 down{0.0F, 1.0F};  // unit direction of its crest, downhill
+  glm::vec2 fall{0.0F, 1.0F};  // unit fall line of the wall it grew on
+  glm::vec3 normal{0.0F};      // of that wall, a mean over the spur
+  float top = 0.0F;            // height of its head
+  std::array<float, 2> flank{};
+  float length = 1.0F, foot = 1.0F;
+  float skew_foot = 0.0F, skew_head = 0.0F;
+  float depth_m = 0.0F, tolerance_m = 0.0F;
+  std::uint32_t id = 0;
+  std::uint32_t parent = 0;  // flank of the next larger spur that it stands on
+};
+
+enum class SpurPart : std::uint8_t { head, back, foot };
+
+// The spur that is highest at a place.
+struct SpurHit {
+  const Spur* spur = nullptr;  // none: nothing grows here
+  float height = -1e9F;
+  float over_next = 0.0F;  // height above the second highest: 0 in a gully
+  std::uint32_t next_id = 0;
+  float across = 0.0F;     // from the crest, in spacings; > 0 to the side of turned(down, -90°)
+  float along = 0.0F;      // from the head, in spacings of its slender form
+  float steepness = 1.0F;  // of the flank
+  glm::vec2 slope{0.0F};   // gradient of the height on the sheet, constant on each plane
+  std::uint8_t side = 0;
+  SpurPart part = SpurPart::back;
+  std::uint32_t flank_id() const { return spur == nullptr ? 0U : spur->id * 3U + side + 1U; }
+};
+using SpurHits = std::array<SpurHit, spur_sizes>;
+
+// Spurs of one band and size over a rectangle of cells.
+struct SpurCells {
+  float spacing = 1.0F;
+  glm::ivec2 first{0};
+  glm::ivec2 count{0};
+  std::vector<Spur> spurs;
+};
+struct SpurField {
+  const RockKind* kind = nullptr;
+  std::array<std::array<SpurCells, spur_sizes>, spur_bands> bands;
+};
+
+// Spurs of the bands asked for that can be seen in a rectangle of the sheet (px). Local up to spur_margin_units around it.
+SpurField grow_spurs(const SpurGround& ground, const RockKind& kind, PixelRect sheet_rect, const std::array<bool, spur_bands>& bands);
+double spur_margin_units(const RockKind& kind);
+
+// All three sizes at a place on the surface at depth_m.
+SpurHits find_spurs(const SpurField& field, int band, glm::vec2 place, float depth_m);
+
+}  // namespace belvedere

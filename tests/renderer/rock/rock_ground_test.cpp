@@ -1,0 +1,69 @@
+#include "renderer/rock/rock_ground.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/renderer/rock/rock_wall.h"
+
+namespace belvedere {
+namespace {
+
+using enum LandCoverClass;
+
+TEST(RockGround, SpursStandInTheMeadowAndGulliesLetDebrisUp) {
+  // Half rock, half meadow around; more rock above than below: the foot of a wall.
+  const auto shown = [](LandCoverClass mapped, float stands) {
+    return rock_border({.mapped = mapped, .rock = 0.5F, .turf = 0.4F, .above = 0.6F, .stands = stands});
+  };
+  EXPECT_EQ(shown(rock, 0.4F), rock);
+  EXPECT_EQ(shown(rock, -0.4F), scree);
+  EXPECT_EQ(shown(alpine_grass, 0.4F), rock);
+  EXPECT_EQ(shown(alpine_grass, -0.4F), alpine_grass);
+  EXPECT_EQ(shown(scree, 0.4F), rock);
+}
+
+TEST(RockGround, NothingChangesFarFromABorder) {
+  for (const float stands : {-0.6F, 0.6F}) {
+    EXPECT_EQ(rock_border({.mapped = rock, .rock = 1.0F, .stands = stands}), rock);
+    for (const LandCoverClass id : {alpine_grass, scree, snow, pasture, shrub})
+      EXPECT_EQ(rock_border({.mapped = id, .rock = 0.03F, .stands = stands}), id);
+  }
+}
+
+// What people or trees have made stays.
+TEST(RockGround, WoodsWatersAndVillagesStay) {
+  for (const LandCoverClass id : {forest, water, settlement, valley_floor, glacier})
+    EXPECT_EQ(rock_border({.mapped = id, .rock = 0.8F, .stands = 0.6F}), id);
+}
+
+TEST(RockGround, WhereSnowIsNearItFillsTheGullies) {
+  EXPECT_EQ(rock_border({.mapped = rock, .rock = 0.5F, .snow = 0.5F, .stands = -0.5F}), snow);
+  EXPECT_EQ(rock_border({.mapped = rock, .rock = 0.5F, .turf = 0.6F, .snow = 0.5F, .above = 0.6F, .stands = -0.5F}), scree);
+  EXPECT_EQ(rock_border({.mapped = rock, .rock = 0.5F, .stands = -0.5F}), rock) << "a rim above grass: no debris lies there";
+}
+
+TEST(RockGround, DebrisReachesUpBeneathFunnels) {
+  const auto at = [](float funnel, float cones) {
+    return rock_border({.mapped = rock, .rock = 0.5F, .above = 0.6F, .funnel = funnel, .cones = cones});
+  };
+  EXPECT_EQ(at(1.0F, 1.0F), rock);
+  EXPECT_EQ(at(-1.5F, 1.0F), scree);
+  EXPECT_EQ(at(-1.5F, 0.1F), rock);
+}
+
+TEST(RockGround, SharesAreOfTheOwnSurface) {
+  GuidanceBuffers g = test::make_wall(120, 80, 1.0);
+  // The right half is meadow, far behind.
+  for (int y = 0; y < 80; ++y)
+    for (int x = 60; x < 120; ++x) {
+      g.land_cover(x, y) = alpine_grass;
+      g.depth_m(x, y) *= 1.5F;
+    }
+  const RockAround around = look_around_rock({g, 1, {0, 0}}, 1.0, {0, 0, 120, 80});
+  EXPECT_FLOAT_EQ(around.rock(58, 40), 1.0F);
+  EXPECT_FLOAT_EQ(around.turf(58, 40), 0.0F);
+  EXPECT_FLOAT_EQ(around.rock(61, 40), 0.0F);
+  EXPECT_FLOAT_EQ(around.turf(61, 40), 1.0F);
+}
+
+}  // namespace
+}  // namespace belvedere

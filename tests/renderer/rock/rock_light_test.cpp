@@ -1,0 +1,145 @@
+#include "renderer/rock/rock_light.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace belvedere {
+namespace {
+
+const RockKind& limestone() { return find_rock_kind("limestone"); }
+
+// A wall that faces north, 60° steep; the eye looks south, so that east lies to the left of the picture.
+RockPixel wall_pixel() {
+  RockPixel p;
+  p.normal = glm::normalize(glm::vec3(0.0F, 1.0F, 0.6F));
+  p.slope_deg = 59.0F;
+  p.depth_m = 50000.0F;
+  p.metres_per_unit = 22.0F;
+  p.altitude_m = 2000.0F;
+  p.band = 1;
+  p.scale = 4.0F;
+  return p;
+}
+
+struct Flank {
+  Spur spur;
+  SpurHits hits{};
+
+  // A flank of a large spur that falls to the right (side 1) or left of the picture.
+  explicit Flank(std::uint8_t side) {
+    spur.grown = true;
+    spur.normal = wall_pixel().normal;
+    spur.id = 5;
+    SpurHit& hit = hits[0];
+    hit.spur = &spur;
+    hit.side = side;
+    hit.across = side != 0 ? 0.3F : -0.3F;
+    hit.over_next = 0.4F;
+    hit.height = 0.3F;
+    hit.slope = {side != 0 ? -1.0F : 1.0F, 0.0F};
+  }
+};
+
+ToneParameters sun_from(double east) {
+  ToneParameters p;
+  p.sun_direction = {east, 0.5, 0.5};
+  const double length = std::sqrt(east * east + 0.5);
+  p.sun_direction /= length;
+  return p;
+}
+
+float tone_of(const Flank& flank, const ToneParameters& light) {
+  return light_rock(limestone(), light, false, wall_pixel(), flank.hits).tone;
+}
+
+TEST(RockLight, FlanksThatFaceTheSunAreLit) {
+  // Left in the picture is east.
+  EXPECT_GT(tone_of(Flank(0), sun_from(0.7)), tone_of(Flank(1), sun_from(0.7)) + 0.25F);
+  EXPECT_GT(tone_of(Flank(1), sun_from(-0.7)), tone_of(Flank(0), sun_from(-0.7)) + 0.25F);
+  EXPECT_NEAR(tone_of(Flank(0), sun_from(0.7)), tone_of(Flank(1), sun_from(-0.7)), 1e-4F);
+}
+
+TEST(RockLight, NoSizeMovesTheToneByMoreThanItsShare) {
+  RockPixel p = wall_pixel();
+  p.calm_noise = 3.0F;
+  const ToneParameters light = sun_from(0.7);
+  Flank flank(0);
+  const float large = light_rock(limestone(), light, false, p, flank.hits).tone;
+  for (const float slope : {-3.0F, -0.5F, 0.5F, 3.0F}) {
+    flank.hits[1] = flank.hits[0];
+    flank.hits[1].slope = {slope, 0.0F};
+    // Its lines and its share of crest and gully are .06 and less.
+    EXPECT_NEAR(light_rock(limestone(), light, false, p, flank.hits).tone, large, 0.13F + 0.07F) << slope;
+  }
+}
+
+TEST(RockLight, ACastShadowTakesTheLight) {
+  RockPixel p = wall_pixel();
+  const Flank flank(0);
+  const float lit = light_rock(limestone(), sun_from(0.7), false, p, flank.hits).tone;
+  p.shadow = 0.0F;
+  const float shaded = light_rock(limestone(), sun_from(0.7), false, p, flank.hits).tone;
+  EXPECT_GT(lit, shaded + 0.4F);
+  // Shade still has forms.
+  EXPECT_GT(std::abs(light_rock(limestone(), sun_from(0.7), false, p, Flank(1).hits).tone - shaded), 0.02F);
+}
+
+TEST(RockLight, GulliesAreDarkLines) {
+  Flank flank(0);
+  flank.hits[0].next_id = 1;
+  float darkest = 1.0F;
+  // Four pairs of spurs in five have a line between them.
+  for (std::uint32_t next = 1; next < 20; ++next) {
+    flank.hits[0].next_id = next;
+    flank.hits[0].over_next = 0.0F;
+    darkest = std::min(darkest, tone_of(flank, sun_from(0.7)));
+  }
+  flank.hits[0].over_next = 0.5F;
+  EXPECT_GT(tone_of(flank, sun_from(0.7)), darkest + 0.2F);
+}
+
+TEST(RockLight, BedsOfSandstoneRunThroughTheWallAndThoseOfGraniteDoNotShow) {
+  const auto spread = [](const char* name, std::uint32_t id) {
+    Flank flank(0);
+    flank.spur.id = id;
+    RockPixel p = wall_pixel();
+    p.bed_show = 1.0F;
+    float low = 9.0F;
+    float high = -9.0F;
+    float at = 0.0F;
+    for (int k = 0; k < 400; ++k) {
+      p.altitude_m = 2000.0F + 2.0F * static_cast<float>(k);
+      const float tone = light_rock(find_rock_kind(name), sun_from(0.7), false, p, flank.hits).tone;
+      if (tone < low) at = p.altitude_m;
+      low = std::min(low, tone);
+      high = std::max(high, tone);
+    }
+    return std::pair(high - low, at);
+  };
+  EXPECT_GT(spread("sandstone", 5).first, 0.15F);
+  EXPECT_LT(spread("granite", 5).first, 0.08F);
+}
+
+TEST(RockLight, SnowLiesOnTreadsInWinterAndTurfInSummer) {
+  RockPixel p = wall_pixel();
+  p.normal = glm::normalize(glm::vec3(0.0F, 0.4F, 1.0F));
+  p.slope_deg = 22.0F;
+  p.turf = 0.6F;
+  const SpurHits none{};
+  const RockLook summer = light_rock(limestone(), sun_from(0.7), false, p, none);
+  const RockLook winter = light_rock(limestone(), sun_from(0.7), true, p, none);
+  EXPECT_GT(summer.turf, 0.3F);
+  EXPECT_EQ(summer.snow, 0.0F);
+  EXPECT_GT(winter.snow, 0.5F);
+  EXPECT_EQ(winter.turf, 0.0F);
+  // A wall sheds both.
+  p.normal = glm::normalize(glm::vec3(0.0F, 1.0F, 0.2F));
+  p.slope_deg = 79.0F;
+  EXPECT_LT(light_rock(limestone(), sun_from(0.7), true, p, none).snow, 0.05F);
+  EXPECT_LT(light_rock(limestone(), sun_from(0.7), false, p, none).turf, 0.05F);
+}
+
+}  // namespace
+}  // namespace belvedere

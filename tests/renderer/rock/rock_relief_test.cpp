@@ -1,0 +1,151 @@
+#include "renderer/rock/rock_relief.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "tests/renderer/paint/hills_print.h"
+#include "tests/renderer/rock/rock_wall.h"
+
+namespace belvedere {
+namespace {
+
+RockParameters parameters_of(double pixels_per_unit, const char* kind = "limestone") {
+  RockParameters p;
+  p.light.pixels_per_unit = pixels_per_unit;
+  p.kind = &find_rock_kind(kind);
+  return p;
+}
+
+RockRelief relief_of(const GuidanceBuffers& g, const RockParameters& p) {
+  return make_rock_relief(g, {g, 1, {0, 0}}, p, {0, 0}, silent_progress());
+}
+
+void expect_same(const RockRelief& a, const RockRelief& b) {
+  EXPECT_TRUE(a.land_cover == b.land_cover);
+  EXPECT_TRUE(a.fall_line == b.fall_line);
+  EXPECT_TRUE(a.height == b.height);
+  EXPECT_TRUE(a.facet == b.facet);
+  EXPECT_TRUE(a.tone == b.tone);
+  EXPECT_TRUE(a.cover == b.cover);
+}
+
+RockRelief cut(const RockRelief& r, PixelRect rect) {
+  return {test::cut(r.land_cover, rect), test::cut(r.fall_line, rect), test::cut(r.height, rect),
+          test::cut(r.facet, rect),      test::cut(r.tone, rect),      test::cut(r.cover, rect)};
+}
+
+TEST(RockRelief, WhereThereIsNoRockNothingChanges) {
+  const GuidanceBuffers g = test::make_wall(160, 120, 1.0, LandCoverClass::pasture);
+  const RockRelief relief = relief_of(g, parameters_of(1.0));
+  EXPECT_TRUE(relief.land_cover == g.land_cover);
+  EXPECT_TRUE(relief.fall_line == g.fall_line);
+  for (std::size_t i = 0; i < relief.facet.size(); ++i)
+    ASSERT_TRUE(relief.facet[i] == 0 && relief.tone[i] == 0.0F && relief.height[i] == 0.0F);
+}
+
+TEST(RockRelief, AWallStandsInPlanes) {
+  const GuidanceBuffers g = test::make_wall(300, 300, 2.0);
+  const RockRelief relief = relief_of(g, parameters_of(2.0));
+  std::map<std::uint32_t, int> planes;
+  double edges = 0.0;
+  for (int y = 0; y < 300; ++y)
+    for (int x = 1; x < 300; ++x) {
+      ++planes[relief.facet(x, y)];
+      edges += relief.facet(x, y) != relief.facet(x - 1, y) ? 1.0 : 0.0;
+    }
+  // Planes some units wide and high: neither specks nor one slab.
+  const double area_units = 300.0 * 299.0 / 4.0 / static_cast<double>(planes.size());
+  EXPECT_GT(area_units, 15.0);
+  EXPECT_LT(area_units, 250.0);
+  EXPECT_LT(edges / (300.0 * 299.0), 0.25);
+  // In light and shade.
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const float tone : relief.tone) {
+    sum += tone;
+    squares += tone * tone;
+  }
+  const double count = 300.0 * 300.0;
+  EXPECT_GT(std::sqrt(squares / count - sum * sum / count / count), 0.10);
+}
+
+TEST(RockRelief, StrokesRunDownThePlanes) {
+  const GuidanceBuffers g = test::make_wall(200, 200, 1.0);
+  const RockRelief relief = relief_of(g, parameters_of(1.0));
+  std::map<std::uint32_t, glm::vec2> ways;
+  int turned = 0;
+  for (std::size_t i = 0; i < relief.facet.size(); ++i) {
+    EXPECT_NEAR(std::hypot(relief.fall_line[i].x, relief.fall_line[i].y), 1.0F, 1e-4F);
+    turned += std::abs(relief.fall_line[i].x) > 0.1F ? 1 : 0;
+  }
+  EXPECT_GT(turned, 200 * 200 / 3);
+}
+
+TEST(RockRelief, OfAPartIsThatOfTheWhole) {
+  const test::Print print;
+  RockParameters p = parameters_of(test::print_ppu);
+  const RockRelief whole = make_rock_relief(print.near, {print.far, test::print_factor}, p, {0, 0}, silent_progress());
+  bool any = false;
+  for (const std::uint32_t facet : whole.facet) any = any || facet != 0;
+  ASSERT_TRUE(any);
+  for (const PixelRect kept : {PixelRect{640, 560, 700, 610}, PixelRect{0, 300, 3, 420}, PixelRect{900, 700, 901, 701}}) {
+    const test::Window near = test::window_of(print.near, grown(kept, rock_near_margin_px(p)));
+    const test::Window far = test::window_of(print.far, wide_rect(grown(kept, rock_margin_px(p)), test::print_factor));
+    const RockRelief part = make_rock_relief(near.held, {far.held, test::print_factor, {far.rect.x0, far.rect.y0}}, p,
+                                             {near.rect.x0, near.rect.y0}, silent_progress(), moved(kept, -near.rect.x0, -near.rect.y0));
+    expect_same(part, cut(whole, kept));
+  }
+}
+
+TEST(RockRelief, LooksNoFartherThanItsMargins) {
+  // A picture so large that the margins end within it, at a pixel a unit.
+  const GuidanceBuffers hills = test::make_hills(1100, 900, 1.0);
+  const RockParameters p = parameters_of(1.0);
+  const RockRelief whole = relief_of(hills, p);
+  const PixelRect kept{540, 440, 560, 456};
+  const test::Window near = test::window_of(hills, grown(kept, rock_near_margin_px(p)));
+  const test::Window far = test::window_of(hills, grown(kept, rock_margin_px(p)));
+  ASSERT_GT(far.rect.x0, 0);
+  ASSERT_LT(far.rect.y1, 900);
+  const RockRelief part = make_rock_relief(near.held, {far.held, 1, {far.rect.x0, far.rect.y0}}, p, {near.rect.x0, near.rect.y0},
+                                           silent_progress(), moved(kept, -near.rect.x0, -near.rect.y0));
+  expect_same(part, cut(whole, kept));
+}
+
+TEST(RockRelief, SameBitsForAnyThreads) {
+  const GuidanceBuffers hills = test::make_hills(200, 160, 1.0);
+  RockRelief one;
+  {
+    const ThreadLimit limit(1);
+    one = relief_of(hills, parameters_of(1.0));
+  }
+  const ThreadLimit limit(2);
+  expect_same(relief_of(hills, parameters_of(1.0)), one);
+}
+
+TEST(RockRelief, KindsOfRockDiffer) {
+  const GuidanceBuffers g = test::make_wall(200, 200, 1.0);
+  const RockRelief limestone = relief_of(g, parameters_of(1.0));
+  for (const char* kind : {"granite", "sandstone", "volcanic"}) {
+    const RockRelief other = relief_of(g, parameters_of(1.0, kind));
+    int same = 0;
+    for (std::size_t i = 0; i < other.tone.size(); ++i) same += other.tone[i] == limestone.tone[i] ? 1 : 0;
+    EXPECT_LT(same, 200 * 200 / 50) << kind;
+  }
+}
+
+TEST(RockRelief, IsTakenIntoTheGuidance) {
+  GuidanceBuffers g = test::make_wall(64, 64, 1.0);
+  const RockRelief relief = relief_of(g, parameters_of(1.0));
+  take_relief(g, relief);
+  EXPECT_TRUE(g.rock_facet == relief.facet);
+  EXPECT_TRUE(g.rock_tone == relief.tone);
+  EXPECT_TRUE(g.fall_line == relief.fall_line);
+  EXPECT_TRUE(has_channel(g, &GuidanceBuffers::rock_cover));
+}
+
+}  // namespace
+}  // namespace belvedere
