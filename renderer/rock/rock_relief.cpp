@@ -16,7 +16,7 @@
 #include "renderer/paint/picture_noise.h"
 #include "renderer/rock/rock_ground.h"
 #include "renderer/rock/rock_light.h"
-#include "renderer/rock/spurs.h"
+#include "renderer/rock/rock_view.h"
 
 namespace belvedere {
 namespace {
@@ -26,109 +26,8 @@ constexpr double apron_units = 24.0;  // beyond it no pixel is near to rock
 constexpr float least_rock = 0.02F;   // share of rock around from which relief is looked for
 constexpr double shadow_blur_units = 1.6;
 constexpr double sky_blur_units = 2.0;
-constexpr float band_cell_units = 90.0F;    // of the hidden partition by which sizes change
-constexpr float band_depth_ratio = 1.105F;  // cells reach across no greater step of depth
-constexpr float above_units = 6.0F;         // how far up and down the fall line rock is looked for
-// Edges of planes are broken, not curled: two waverings, by noise with straight flanks.
-constexpr float warp_units = 0.56F;
-constexpr float warp_cell_units = 6.4F;
-constexpr float small_warp = 0.45F;
+constexpr float above_units = 6.0F;     // how far up and down the fall line rock is looked for
 constexpr float stroke_feather = 0.6F;  // how far strokes turn down the flanks
-
-// Noise about -2…2, linear over the two triangles of a cell, for edges that break instead of curling.
-float broken_noise(std::uint64_t seed, float x, float y) {
-  const float floor_x = std::floor(x);
-  const float floor_y = std::floor(y);
-  const auto ix = static_cast<std::int64_t>(floor_x);
-  const auto iy = static_cast<std::int64_t>(floor_y);
-  const float fx = x - floor_x;
-  const float fy = y - floor_y;
-  const auto at = [&](std::int64_t a, std::int64_t b) { return static_cast<float>(random_bits(seed, a, b) >> 40U) * 0x1.0p-23F - 1.0F; };
-  const float b = at(ix + 1, iy);
-  const float c = at(ix, iy + 1);
-  if (fx + fy < 1.0F) {
-    const float a = at(ix, iy);
-    return 2.0F * (a + (b - a) * fx + (c - a) * fy);
-  }
-  const float d = at(ix + 1, iy + 1);
-  return 2.0F * (d + (c - d) * (1.0F - fx) + (b - d) * (1.0F - fy));
-}
-
-struct Warp {
-  std::array<std::uint64_t, 4> seeds;
-  explicit Warp(std::uint64_t seed) {
-    for (std::uint64_t k = 0; k < 4; ++k) seeds[k] = stream_seed(seed, Stream::rock_warp, k);
-  }
-  glm::vec2 operator()(glm::vec2 place, float scale) const {
-    const glm::vec2 q = place / warp_cell_units;
-    const glm::vec2 broad(broken_noise(seeds[0], q.x, q.y), broken_noise(seeds[1], q.x, q.y));
-    // Too fine to be seen where a unit has few pixels.
-    if (scale < 0.7F) return place + warp_units * broad;
-    const glm::vec2 fine(broken_noise(seeds[2], 2.9F * q.x, 2.3F * q.y), broken_noise(seeds[3], 2.9F * q.x, 2.3F * q.y));
-    return place + warp_units * (broad + small_warp * fine);
-  }
-};
-
-// A cell of the partition: where its point lies and what it sees there.
-struct BandCell {
-  glm::vec2 place{0.0F};
-  float depth_m = -1.0F;  // none: sky, or off the sheet
-  int band = 0;
-};
-
-// Which sizes spurs have at a pixel: those of the nearest cell point on about its own distance, so that no seam of sizes crosses a facet.
-struct BandPartition {
-  glm::ivec2 first{0};
-  glm::ivec2 count{0};
-  std::vector<BandCell> cells;
-
-  int at(glm::vec2 place, float depth_m, float metres_per_mm) const {
-    const int cx = static_cast<int>(std::floor(place.x / band_cell_units)) - first.x;
-    const int cy = static_cast<int>(std::floor(place.y / band_cell_units)) - first.y;
-    float nearest = 1e18F;
-    int band = -1;
-    for (int y = std::max(cy - 1, 0); y <= std::min(cy + 1, count.y - 1); ++y)
-      for (int x = std::max(cx - 1, 0); x <= std::min(cx + 1, count.x - 1); ++x) {
-        const BandCell& cell = cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(count.x) + static_cast<std::size_t>(x)];
-        if (cell.depth_m > depth_m * band_depth_ratio || cell.depth_m * band_depth_ratio < depth_m) continue;
-        const glm::vec2 offset = place - cell.place;
-        const float distance = glm::dot(offset, offset);
-        if (distance >= nearest) continue;
-        nearest = distance;
-        band = cell.band;
-      }
-    return band < 0 ? spur_band(metres_per_mm) : band;
-  }
-};
-
-BandPartition part_bands(const SpurGround& ground, PixelRect rect) {
-  const auto ppu = static_cast<float>(ground.pixels_per_unit);
-  const auto cell_at = [&](int px) { return static_cast<int>(std::floor(static_cast<float>(px) / ppu / band_cell_units)); };
-  BandPartition bands;
-  bands.first = {cell_at(rect.x0) - 1, cell_at(rect.y0) - 1};
-  bands.count = glm::ivec2(cell_at(rect.x1) + 2, cell_at(rect.y1) + 2) - bands.first;
-  const std::uint64_t key = stream_seed(ground.seed, Stream::rock_bands);
-  for (int y = bands.first.y; y < bands.first.y + bands.count.y; ++y)
-    for (int x = bands.first.x; x < bands.first.x + bands.count.x; ++x) {
-      BandCell cell;
-      cell.place.x = (static_cast<float>(x) + static_cast<float>(random_uniform(key, x, y, 0))) * band_cell_units;
-      cell.place.y = (static_cast<float>(y) + static_cast<float>(random_uniform(key, x, y, 1))) * band_cell_units;
-      const int px = static_cast<int>(std::floor(cell.place.x * ppu));
-      const int py = static_cast<int>(std::floor(cell.place.y * ppu));
-      if (ground.wide.holds(px, py)) {
-        const std::size_t i = ground.wide.index(px, py);
-        if (!ground.wide.seen.is_sky(i)) {
-          cell.depth_m = ground.wide.seen.depth_m[i];
-          cell.band = spur_band(ground.wide.seen.footprint_m[i] / static_cast<float>(ground.wide.factor) * ppu * units_per_mm);
-        }
-      }
-      bands.cells.push_back(cell);
-    }
-  return bands;
-}
-
-// Wide pixels to a pixel of what this stage looks at: all of it is smooth over a unit.
-int thinned_times(double pixels_per_unit, int factor) { return std::max(1, static_cast<int>(std::floor(pixels_per_unit / factor))); }
 
 // The pixels of the window about which there is rock, as a rectangle.
 PixelRect rocky_part(const GuidanceBuffers& guidance, const WideView& wide, PixelRect made, glm::ivec2 origin_px, int apron_px) {
@@ -173,15 +72,12 @@ std::uint32_t edge_key(const SpurHits& hits) {
 // Everything of a window that pixels look up.
 struct RockScene {
   const GuidanceBuffers& guidance;
-  const WideView& wide;  // thinned out
+  const RockView& view;
+  const WideView wide;  // of the view
   const RockParameters& parameters;
   glm::ivec2 origin_px;
   double pixels_per_unit;
   RockAround around;
-  Grid<glm::vec2> fall;
-  BandPartition bands;
-  SpurField field;
-  Warp warp;
   Grid<float> shadow, sky_view, calm, bed_place, bed_show, lines, cover, funnel;
 };
 
@@ -191,7 +87,7 @@ glm::vec2 place_of(const RockScene& s, int x, int y, glm::dvec2 within) {
 }
 
 SpurHits hits_at(const RockScene& s, const RockPixel& pixel, int x, int y, glm::dvec2 within) {
-  return find_spurs(s.field, pixel.band, s.warp(place_of(s, x, y, within), pixel.scale), pixel.depth_m);
+  return s.view.at(place_of(s, x, y, within), pixel.band, pixel.depth_m);
 }
 
 RockPixel pixel_at(const RockScene& s, int x, int y, PixelRect made) {
@@ -219,7 +115,7 @@ RockPixel pixel_at(const RockScene& s, int x, int y, PixelRect made) {
   p.line_noise = s.lines(u, v);
   p.cover_noise = s.cover(u, v);
   p.scale = static_cast<float>(s.pixels_per_unit);
-  p.band = s.bands.at(place_of(s, x, y, {0.5, 0.5}), p.depth_m, p.metres_per_unit * units_per_mm);
+  p.band = s.view.bands.at(place_of(s, x, y, {0.5, 0.5}), p.depth_m, p.metres_per_unit * units_per_mm);
   return p;
 }
 
@@ -230,7 +126,7 @@ float rock_share(const RockScene& s, glm::vec2 sheet_px, float depth_m) {
 
 RockPlace border_place(const RockScene& s, const RockPixel& p, int x, int y, float rock, const SpurHits& hits, float funnel) {
   const glm::vec2 sheet_px(s.origin_px + glm::ivec2(x, y));
-  const glm::vec2 reach = s.fall[s.wide.index(s.origin_px.x + x, s.origin_px.y + y)] * (above_units * p.scale);
+  const glm::vec2 reach = s.view.fall[s.wide.index(s.origin_px.x + x, s.origin_px.y + y)] * (above_units * p.scale);
   RockPlace place;
   place.mapped = s.guidance.land_cover(x, y);
   place.rock = rock;
@@ -256,30 +152,15 @@ glm::vec2 plane_fall(const RockScene& s, const SpurHits& hits, glm::vec2 mapped)
   return length > 1e-3F ? fall / length : mapped;
 }
 
-RockScene look_at_rock(const GuidanceBuffers& guidance, const WideView& wide, const RockParameters& parameters, glm::ivec2 origin_px,
+RockScene look_at_rock(const GuidanceBuffers& guidance, const RockView& view, const RockParameters& parameters, glm::ivec2 origin_px,
                        PixelRect made) {
   const double ppu = parameters.light.pixels_per_unit;
   const std::uint64_t seed = parameters.light.seed;
-  const PixelRect sheet_rect = moved(made, origin_px.x, origin_px.y);
-  const PixelRect whole{0, 0, wide.seen.width(), wide.seen.height()};
-  const auto wide_window = [&](double reach_units) {
-    const PixelRect asked = wide_rect(grown(sheet_rect, static_cast<int>(std::ceil(reach_units * ppu))), wide.factor);
-    return intersection(whole, moved(asked, -wide.origin_px.x, -wide.origin_px.y));
-  };
-  RockScene s{guidance, wide, parameters, origin_px, ppu, {}, {}, {}, {}, Warp(seed), {}, {}, {}, {}, {}, {}, {}, {}};
-  s.around = look_around_rock(wide, ppu, wide_window(above_units + 2.0));
-  s.fall = smooth_fall_lines(wide, ppu, wide_window(spur_margin_units(*parameters.kind)));
-  const SpurGround ground{wide, s.fall, ppu, seed};
-  s.bands = part_bands(ground, sheet_rect);
-  std::array<bool, spur_bands> asked{};
-  for (const BandCell& cell : s.bands.cells) asked[static_cast<std::size_t>(cell.band)] = true;
-  for (int y = made.y0; y < made.y1; ++y)
-    for (int x = made.x0; x < made.x1; ++x) {
-      const std::size_t i = guidance.depth_m.index(x, y);
-      if (!guidance.is_sky(i))
-        asked[static_cast<std::size_t>(spur_band(guidance.footprint_m[i] * static_cast<float>(ppu) * units_per_mm))] = true;
-    }
-  s.field = grow_spurs(ground, *parameters.kind, sheet_rect, asked);
+  RockScene s{guidance, view, view.far(), parameters, origin_px, ppu, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  const int reach_px = static_cast<int>(std::ceil((above_units + 2.0) * ppu));
+  const PixelRect asked = wide_rect(grown(moved(made, origin_px.x, origin_px.y), reach_px), s.wide.factor);
+  s.around = look_around_rock(
+      s.wide, ppu, intersection({0, 0, view.thin.width(), view.thin.height()}, moved(asked, -s.wide.origin_px.x, -s.wide.origin_px.y)));
   s.shadow = blur_on_surface(guidance.shadow, guidance.depth_m, shadow_blur_units * ppu, made);
   s.sky_view = blur_on_surface(guidance.sky_view, guidance.depth_m, sky_blur_units * ppu, made);
   const auto noise = [&](Stream stream, double sigma_x, double sigma_y, std::uint64_t part = 0) {
@@ -322,15 +203,13 @@ RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wid
     std::copy_n(guidance.fall_line.row(wanted.y0 + y) + wanted.x0, width, relief.fall_line.row(y));
   }
   const double ppu = parameters.light.pixels_per_unit;
-  const int times = thinned_times(ppu, wide.factor);
-  const GuidanceBuffers thin = thin_out(wide, times);
-  const WideView far{thin, wide.factor * times, thinned_origin(wide, times)};
   // A pixel more each way: edges are found by neighbours.
   const PixelRect around = intersection(whole, grown(wanted, 1));
-  const PixelRect made = rocky_part(guidance, far, around, origin_px, static_cast<int>(std::ceil(apron_units * ppu)));
+  const PixelRect made = rocky_part(guidance, wide, around, origin_px, static_cast<int>(std::ceil(apron_units * ppu)));
   if (made.empty()) return relief;
   progress.begin("relief of rock", 2.0 * made.height());
-  const RockScene scene = look_at_rock(guidance, far, parameters, origin_px, made);
+  const RockView view = view_rock(guidance, wide, parameters, origin_px, made);
+  const RockScene scene = look_at_rock(guidance, view, parameters, origin_px, made);
   Grid<std::uint32_t> edges(made.width(), made.height(), 0U);
   Grid<std::uint8_t> bare(made.width(), made.height(), 0);
   constexpr glm::dvec2 middle_of_pixel{0.5, 0.5};
@@ -339,7 +218,7 @@ RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wid
     for (int x = made.x0; x < made.x1; ++x) {
       const std::size_t i = guidance.depth_m.index(x, y);
       if (guidance.is_sky(i)) continue;
-      const float rock = value_on_surface(far, scene.around.rock, origin_px.x + x, origin_px.y + y, guidance.depth_m[i]);
+      const float rock = value_on_surface(scene.wide, scene.around.rock, origin_px.x + x, origin_px.y + y, guidance.depth_m[i]);
       if (rock <= least_rock && guidance.land_cover[i] != LandCoverClass::rock) continue;
       const RockPixel pixel = pixel_at(scene, x, y, made);
       const SpurHits hits = hits_at(scene, pixel, x, y, middle_of_pixel);
@@ -396,10 +275,9 @@ int rock_near_margin_px(const RockParameters& parameters) {
 int rock_margin_px(const RockParameters& parameters) {
   const double ppu = parameters.light.pixels_per_unit;
   const int factor = wide_factor(ppu) * thinned_times(ppu, wide_factor(ppu));
-  const int spurs = static_cast<int>(std::ceil(spur_margin_units(*parameters.kind) * ppu));
-  const int looks = factor * (std::max(smooth_fall_reach(ppu, factor), rock_around_reach(ppu, factor)) + 3);
-  const int bands = static_cast<int>(std::ceil(2.0 * static_cast<double>(band_cell_units) * ppu)) + factor;
-  return std::max({spurs + looks, bands, rock_near_margin_px(parameters)}) + 2;
+  const int around = static_cast<int>(std::ceil((above_units + 2.0) * ppu)) + factor * (rock_around_reach(ppu, factor) + 3);
+  const int apron = static_cast<int>(std::ceil(apron_units * ppu)) + factor;
+  return std::max({rock_view_margin_px(parameters), around, apron, rock_near_margin_px(parameters)}) + 2;
 }
 
 void take_relief(GuidanceBuffers& guidance, RockRelief relief) {

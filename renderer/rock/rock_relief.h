@@ -5,17 +5,10 @@
 #include "base/grid.h"
 #include "base/guidance_channels.h"
 #include "base/progress.h"
-#include "renderer/paint/light.h"
-#include "renderer/paint/rock_kinds.h"
+#include "renderer/rock/rock_view.h"
 #include "renderer/trace/wide_view.h"
 
 namespace belvedere {
-
-struct RockParameters {
-  ToneParameters light;
-  const RockKind* kind = nullptr;  // of rock_kinds()
-  bool winter = false;
-};
 
 // What invented relief makes of a picture's rock (spurs.h): everything downstream, from light to copying, sees the same rock.
 struct RockRelief {

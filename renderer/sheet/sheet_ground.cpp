@@ -46,16 +46,6 @@ Planes relief_planes(GuidanceBuffers& g) {
   return planes;
 }
 
-// Grids that are as traced, whatever rock has made of the place.
-Planes unchanged_planes(GuidanceBuffers& guidance) {
-  Planes planes = traced_planes(guidance);
-  for (Plane& plane : planes)
-    if (plane.values == reinterpret_cast<std::byte*>(guidance.land_cover.data()) ||
-        plane.values == reinterpret_cast<std::byte*>(guidance.fall_line.data()))
-      plane.values = nullptr;
-  return planes;
-}
-
 // What a WideView holds.
 constexpr std::initializer_list<GuidanceMember> wide_channels = {&B::depth_m,   &B::position_m, &B::land_cover,
                                                                  &B::fall_line, &B::normal,     &B::footprint_m};
@@ -112,6 +102,8 @@ SheetGround::SheetGround(const World& world, const SheetView& view, const Palett
             {.make = [this](PixelRect tile) { return trace_forms(world_, *wide_camera_, tile, run_); },
              .blank = blank_wide,
              .planes = wide_planes}),
+      crests_(place, view.camera.size().x, view.camera.size().y, tile_px,
+              making_of<CrestShift>([this](PixelRect tile) { return make_crests(tile); }, &CrestShift::rows, &CrestShift::front)),
       relief_(place, view.camera.size().x, view.camera.size().y, tile_px,
               making_of<RockRelief>([this](PixelRect tile) { return make_relief(tile); }, &RockRelief::land_cover, &RockRelief::fall_line,
                                     &RockRelief::height, &RockRelief::facet, &RockRelief::tone, &RockRelief::cover)),
@@ -141,7 +133,7 @@ GuidanceBuffers SheetGround::read_guidance(PixelRect rect, std::initializer_list
   GuidanceBuffers guidance;
   guidance.origin_m = world_.surface.origin;
   for (const GuidanceMember member : channels) make_channel(guidance, member, rect.width(), rect.height());
-  traced_.read_into(rect, unchanged_planes(guidance));
+  read_crested(rect, guidance);
   const Planes relief = relief_planes(guidance);
   if (std::any_of(relief.begin(), relief.end(), [](const Plane& plane) { return plane.values != nullptr; }))
     relief_.read_into(rect, relief);
@@ -150,8 +142,9 @@ GuidanceBuffers SheetGround::read_guidance(PixelRect rect, std::initializer_list
 }
 
 GuidanceBuffers SheetGround::read_all_guidance(PixelRect rect) {
-  GuidanceBuffers guidance = traced_.read(rect);
+  GuidanceBuffers guidance = blank_traced(rect.width(), rect.height());
   guidance.origin_m = world_.surface.origin;
+  read_crested(rect, guidance);
   take_relief(guidance, relief_.read(rect));
   guidance.tone = tone_.read(rect);
   guidance.base = decode_srgb(base_.read(rect).colour);
@@ -174,13 +167,53 @@ SheetGround::Wide SheetGround::read_wide(PixelRect rect) {
   return wide;
 }
 
+CrestShift SheetGround::make_crests(PixelRect tile) {
+  const double ppu = view_.pixels_per_unit;
+  const PixelRect window = intersection(sheet(), {tile.x0, tile.y0 - crest_margin_px(ppu), tile.x1, tile.y1 + crest_margin_px(ppu)});
+  GuidanceBuffers guidance;
+  for (const GuidanceMember member : std::initializer_list<GuidanceMember>{&B::depth_m, &B::front, &B::land_cover, &B::footprint_m})
+    make_channel(guidance, member, window.width(), window.height());
+  traced_.read_into(window, traced_planes(guidance));
+  const Wide wide = read_wide(grown(tile, crest_view_margin_px(rock_parameters_)));
+  return shift_crests(guidance, {wide.seen, factor_, wide.origin_px}, rock_parameters_, {window.x0, window.y0},
+                      moved(tile, -window.x0, -window.y0));
+}
+
+void SheetGround::read_crested(PixelRect rect, GuidanceBuffers& guidance) {
+  const CrestShift shift = crests_.read(rect);
+  if (std::all_of(shift.rows.begin(), shift.rows.end(), [](std::int16_t rows) { return rows == 0; })) {
+    traced_.read_into(rect, traced_planes(guidance));
+    if (!guidance.front.empty()) guidance.front = shift.front;
+    return;
+  }
+  const int reach = crest_reach_px(view_.pixels_per_unit);
+  const PixelRect window = intersection(sheet(), {rect.x0, rect.y0 - reach, rect.x1, rect.y1 + reach});
+  GuidanceBuffers traced;
+  traced.origin_m = guidance.origin_m;
+  for (const GuidanceChannel& channel : guidance_channels())
+    std::visit(
+        [&](auto member) {
+          if (channel.maker == ChannelMaker::trace && !(guidance.*member).empty())
+            make_channel(traced, channel.member, window.width(), window.height());
+        },
+        channel.member);
+  traced_.read_into(window, traced_planes(traced));
+  GuidanceBuffers shifted = gather_rows(traced, shift, moved(rect, -window.x0, -window.y0));
+  for (const GuidanceChannel& channel : guidance_channels())
+    std::visit(
+        [&](auto member) {
+          if (!(shifted.*member).empty()) guidance.*member = std::move(shifted.*member);
+        },
+        channel.member);
+}
+
 RockRelief SheetGround::make_relief(PixelRect tile) {
   const Wide wide = read_wide(grown(tile, rock_margin_px(rock_parameters_)));
   const PixelRect window = intersection(sheet(), grown(tile, rock_near_margin_px(rock_parameters_)));
   GuidanceBuffers guidance;
   guidance.origin_m = world_.surface.origin;
   for (const GuidanceMember member : rock_channels()) make_channel(guidance, member, window.width(), window.height());
-  traced_.read_into(window, traced_planes(guidance));
+  read_crested(window, guidance);
   return make_rock_relief(guidance, {wide.seen, factor_, wide.origin_px}, rock_parameters_, {window.x0, window.y0}, run_.progress,
                           moved(tile, -window.x0, -window.y0));
 }
@@ -233,7 +266,7 @@ GuideStack SheetGround::read_guides(PixelRect rect) {
   make_channel(guidance, &B::depth_m, rect.width(), rect.height());
   for (const GuideKind& kind : guide_kinds())
     if (channel_of(kind.channel).maker == ChannelMaker::trace) make_channel(guidance, kind.channel, rect.width(), rect.height());
-  traced_.read_into(rect, unchanged_planes(guidance));
+  read_crested(rect, guidance);
   if (!guidance.fall_line.empty()) relief_.read_into(rect, relief_planes(guidance));
   guidance.tone = tone_.read(rect);
   return make_guide_stack(guidance, draft_.read(rect).land_cover);
@@ -247,8 +280,12 @@ const IcePlan& SheetGround::ice() {
 void SheetGround::keep_only(PixelRect still) {
   const PixelRect lit = base_window(still, true, base_parameters_);
   const PixelRect raised = grown(lit, tone_near_margin_px(tone_parameters_));
-  traced_.keep_only(grown(raised, rock_near_margin_px(rock_parameters_)));
-  wide_.keep_only(wide_rect(grown(raised, std::max(base_margin_px(base_parameters_), rock_margin_px(rock_parameters_))), factor_));
+  const PixelRect crested = grown(raised, rock_near_margin_px(rock_parameters_));
+  traced_.keep_only(grown(crested, crest_margin_px(view_.pixels_per_unit)));
+  wide_.keep_only(wide_rect(
+      grown(raised, std::max(base_margin_px(base_parameters_), rock_margin_px(rock_parameters_)) + crest_view_margin_px(rock_parameters_)),
+      factor_));
+  crests_.keep_only(crested);
   relief_.keep_only(raised);
   tone_.keep_only(lit);
   base_.keep_only(still);

@@ -7,6 +7,7 @@
 #include "base/guidance_channels.h"
 #include "base/run.h"
 #include "renderer/paint/palette.h"
+#include "renderer/rock/crest_shift.h"
 #include "renderer/sheet/sheet_stage.h"
 #include "renderer/world/lit_picture.h"
 #include "renderer/world/world.h"
@@ -55,7 +56,10 @@ class SheetGround {
 
  private:
   GuidanceBuffers make_traced(PixelRect tile);
+  CrestShift make_crests(PixelRect tile);
   RockRelief make_relief(PixelRect tile);
+  // Traced channels with the crests of rock in place, before its relief.
+  void read_crested(PixelRect rect, GuidanceBuffers& guidance);
   // What a rectangle of the sheet is seen with from afar, and where it begins (WideView::origin_px).
   struct Wide {
     GuidanceBuffers seen;
@@ -78,6 +82,7 @@ class SheetGround {
   const std::unique_ptr<const Camera> wide_camera_;
   SheetStage<GuidanceBuffers> traced_;
   SheetStage<GuidanceBuffers> wide_;  // unused where the factor is 1: the pixels themselves are looked at
+  SheetStage<CrestShift> crests_;
   SheetStage<RockRelief> relief_;
   SheetStage<Grid<float>> tone_;
   SheetStage<BasePicture> base_;

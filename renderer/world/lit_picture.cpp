@@ -5,6 +5,7 @@
 
 #include "base/angle.h"
 #include "renderer/paint/composite.h"
+#include "renderer/rock/crest_shift.h"
 #include "renderer/scene/scene_error.h"
 
 namespace belvedere {
@@ -77,11 +78,14 @@ LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRec
   const SheetView view = view_of(world);
   const glm::ivec2 origin_px{region.x0, region.y0};
   LitPicture picture;
-  picture.guidance = trace_view(world, view, region, run);
-  take_relief(picture.guidance, make_rock_relief(picture.guidance, {picture.guidance, 1, origin_px},
-                                                 to_rock_parameters(world, palette, view), origin_px, run.progress));
-  picture.guidance.tone = make_tone(picture.guidance, to_tone_parameters(world, view), origin_px, run.progress);
-  picture.base = make_base_picture(picture.guidance, palette, to_base_parameters(world, view), origin_px, view.camera.size(), run.progress);
+  const GuidanceBuffers traced = trace_view(world, view, region, run);
+  const RockParameters rock = to_rock_parameters(world, palette, view);
+  const WideView wide{traced, 1, origin_px};
+  const PixelRect all{0, 0, traced.width(), traced.height()};
+  picture.guidance = gather_rows(traced, shift_crests(traced, wide, rock, origin_px, all), all);
+  take_relief(picture.guidance, make_rock_relief(picture.guidance, wide, rock, origin_px, run.progress));
+  picture.guidance.tone = make_tone(picture.guidance, wide, to_tone_parameters(world, view), origin_px, run.progress);
+  picture.base = make_base_picture(picture.guidance, wide, palette, to_base_parameters(world, view), origin_px, view.camera.size(), run.progress);
   picture.guidance.base = decode_srgb(picture.base.colour);
   return picture;
 }

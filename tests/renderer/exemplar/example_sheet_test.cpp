@@ -199,13 +199,14 @@ TEST(ExampleSheetPainter, PanelsHaveTheTerrainRulesAndStrokesOfTheirOwn) {
     return painter.paint_row(0, {.painting = false, .sky = false}, {});
   };
   const ExamplePainting twins = painted();
-  EXPECT_EQ(alike(twins, twins.guidance.altitude_m), 1.0);
-  EXPECT_EQ(alike(twins, twins.guidance.land_cover), 1.0);
+  // Rock differs a little: its spurs are the painter's.
+  EXPECT_GT(alike(twins, twins.guidance.altitude_m), 0.95);
+  EXPECT_GT(alike(twins, twins.guidance.land_cover), 0.95);
   EXPECT_LT(alike(twins, twins.ground_layer), 0.3);  // but no stroke lies where one of the other panel does
   plan.panels[1].settings.emplace_back("land_cover.settings.treeline_m=900");
   const ExamplePainting other_rules = painted();
-  EXPECT_EQ(alike(other_rules, other_rules.guidance.altitude_m), 1.0);
-  EXPECT_LT(alike(other_rules, other_rules.guidance.land_cover), 0.95);
+  EXPECT_GT(alike(other_rules, other_rules.guidance.altitude_m), 0.95);
+  EXPECT_LT(alike(other_rules, other_rules.guidance.land_cover), 0.93);
   plan.panels[1].settings.emplace_back("terrain.synthetic.seed=6");
   const ExamplePainting other_terrain = painted();
   EXPECT_LT(alike(other_terrain, other_terrain.guidance.altitude_m), 0.2);

@@ -33,18 +33,18 @@ std::string error_of(const std::string& text) {
 
 TEST(Palette, RampIsExactAtItsStops) {
   const Palette summer = read_palette("summer");
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.0), rgb(0x454b74));
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.34), rgb(0x726f88));
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.66), rgb(0xb7a49f));
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 1.0), rgb(0xf4e2d4));
+  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.0), rgb(0x475280));
+  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.34), rgb(0x7c7998));
+  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.66), rgb(0xc6b8ae));
+  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 1.0), rgb(0xfdf2e4));
   expect_colour(palette_colour(read_palette("winter"), LandCoverClass::snow, 2300.0, 0.34), rgb(0xa9b3da));
 }
 
 TEST(Palette, RampIsLinearBetweenStopsAndFlatBeyond) {
   const Palette summer = read_palette("summer");
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 0.0, 0.5), 0.5F * (rgb(0x726f88) + rgb(0xb7a49f)));
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 0.0, 1.4), rgb(0xf4e2d4));
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 0.0, -0.4), rgb(0x454b74));
+  expect_colour(palette_colour(summer, LandCoverClass::rock, 0.0, 0.5), 0.5F * (rgb(0x7c7998) + rgb(0xc6b8ae)));
+  expect_colour(palette_colour(summer, LandCoverClass::rock, 0.0, 1.4), rgb(0xfdf2e4));
+  expect_colour(palette_colour(summer, LandCoverClass::rock, 0.0, -0.4), rgb(0x475280));
 }
 
 TEST(Palette, BlendsByAltitude) {
