@@ -29,6 +29,7 @@ constexpr std::array<float, spur_sizes> crest_width = {0.84F, 0.60F, 0.36F};
 constexpr std::array<float, spur_sizes> gully_width = {1.20F, 0.72F, 0.40F};
 constexpr std::array<float, spur_sizes> crest_strength = {0.9F, 0.8F, 0.5F};
 constexpr std::array<float, spur_sizes> gully_strength = {1.0F, 0.85F, 0.5F};
+constexpr float cast_spacings = 0.40F;  // how far toward the sun a large spur is looked for
 constexpr float crest_light = 0.22F;
 constexpr float gully_dark = 0.34F;
 
@@ -112,15 +113,46 @@ float stands_out(const SpurHits& hits) {
   return 0.85F * raised(hits[0]) + 0.35F * raised(hits[1]);
 }
 
-RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool winter, const RockPixel& p, const SpurHits& hits) {
+SunWay way_to_sun(const RockKind& kind, const ToneParameters& light, const RockPixel& p, const SpurHits& hits) {
+  SunWay way;
+  if (hits[0].spur == nullptr) return way;
+  const glm::vec3 normal = hits[0].spur->normal;
+  const glm::vec3 sun(light.sun_direction);
+  const float out = glm::dot(normal, sun);
+  const glm::vec3 downhill(normal.x * normal.z, normal.y * normal.z, normal.z * normal.z - 1.0F);
+  const float fall = glm::length(downhill);
+  if (out <= 0.02F || fall < 0.2F) return way;
+  const glm::vec3 down = downhill / fall;
+  const glm::vec3 across = glm::cross(normal, down);
+  const float to_right = glm::dot(sun, across);
+  const float to_foot = glm::dot(sun, down);
+  const float level = std::sqrt(to_right * to_right + to_foot * to_foot);
+  if (level < 0.05F) return way;
+  const glm::vec2 f = hits[0].spur->fall;
+  const glm::vec2 a(f.y, -f.x);
+  way.offset = (a * to_right + f * to_foot) * (cast_spacings * spur_spacing(kind, 0, p.band) / level);
+  way.gained = cast_spacings * out / level;
+  return way;
+}
+
+float sun_past(const RockKind& kind, const SunWay& way, float height, float own_height) {
+  if (way.gained <= 0.0F || height < -1e8F) return 1.0F;
+  const float over = 1.6F * kind.tilt[0] * (height - own_height) - way.gained;
+  return 1.0F - 0.7F * smoothstep(-0.02F, 0.14F, over);
+}
+
+RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool winter, const RockPixel& p, const SpurHits& hits,
+                    float sun_share) {
   const Sun sun(light);
   const float stands = stands_out(hits);
   glm::vec3 base = p.normal;
   if (hits[1].spur != nullptr) base = glm::normalize(p.normal * (1.0F - flatness) + hits[1].spur->normal * flatness);
   const float sky_share = static_cast<float>(exact::pow(static_cast<double>(std::max(p.sky_view, 0.01F)), 1.3));
   // The edge of a cast shadow follows the spurs it falls on.
-  const float shadow = smoothstep(
-      0.36F, 0.64F, p.shadow + 0.22F * std::clamp(2.0F * stands, -1.0F, 1.0F) * (p.shadow > 0.02F && p.shadow < 0.98F ? 1.0F : 0.0F));
+  const float shadow =
+      smoothstep(0.36F, 0.64F,
+                 p.shadow + 0.22F * std::clamp(2.0F * stands, -1.0F, 1.0F) * (p.shadow > 0.02F && p.shadow < 0.98F ? 1.0F : 0.0F)) *
+      sun_share;
 
   // Axes of the wall: down its slope, and across it to the right of the picture.
   const glm::vec3 downhill(base.x * base.z, base.y * base.z, base.z * base.z - 1.0F);
@@ -203,6 +235,14 @@ RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool wint
       const float near = 1.0F - smoothstep(width - 0.08F, width + 2.0F * soft_edge, hit.over_next / (2.0F * hit.steepness) * spacing);
       gully = std::max(gully, share * gully_strength[k] * near * (0.35F + 0.65F * broken));
     }
+  }
+  // A ramp: a light tread over a dark undercut.
+  if (hits.ramp_strength > 0.0F) {
+    const float d = hits.below_ramp;
+    const float on_tread = smoothstep(-3.2F * broken - 0.8F, -0.4F, d) * (1.0F - smoothstep(-0.2F, 0.3F, d));
+    const float undercut = smoothstep(-0.2F, 0.3F, d) * (1.0F - smoothstep(0.8F, 1.2F + 3.0F * broken, d));
+    crest = std::max(crest, 0.8F * hits.ramp_strength * on_tread);
+    gully = std::max(gully, 0.9F * hits.ramp_strength * undercut);
   }
   const float lit = tone;
   tone += crest_light * crest * smoothstep(0.32F, 0.60F, lit) - gully_dark * gully * (0.45F + 0.55F * smoothstep(0.15F, 0.5F, lit));

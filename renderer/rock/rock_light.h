@@ -41,6 +41,18 @@ float stands_out(const SpurHits& hits);
 
 // Light on invented relief: each size turns the wall's normal, and may move the tone only so far, so that big planes carry the picture.
 // Beds with their treads, crests and gullies are part of it. `winter`: snow lies on every tread.
-RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool winter, const RockPixel& pixel, const SpurHits& hits);
+// `sun`: how much of it large spurs let through, 0…1.
+RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool winter, const RockPixel& pixel, const SpurHits& hits,
+                    float sun = 1.0F);
+
+// Where to look for a large spur that stands in the sun's way: a place beside the pixel's own, units away on the sheet, and the height that
+// the ray has gained there, in spacings of large spurs. Nothing (0 and 0) where the wall itself turns away.
+struct SunWay {
+  glm::vec2 offset{0.0F};
+  float gained = 0.0F;
+};
+SunWay way_to_sun(const RockKind& kind, const ToneParameters& light, const RockPixel& pixel, const SpurHits& hits);
+// The share of the sun that passes a spur of that height above the pixel's, both in spacings.
+float sun_past(const RockKind& kind, const SunWay& way, float height, float own_height);
 
 }  // namespace belvedere

@@ -22,8 +22,9 @@ namespace belvedere {
 namespace {
 
 constexpr float units_per_mm = 2.0F;
-constexpr double apron_units = 24.0;  // beyond it no pixel is near to rock
-constexpr float least_rock = 0.02F;   // share of rock around from which relief is looked for
+constexpr double cast_reach_units = 48.0;  // from how far away large spurs cast shadows, at most
+constexpr double apron_units = 24.0;       // beyond it no pixel is near to rock
+constexpr float least_rock = 0.02F;        // share of rock around from which relief is looked for
 constexpr double shadow_blur_units = 1.6;
 constexpr double sky_blur_units = 2.0;
 constexpr float above_units = 6.0F;     // how far up and down the fall line rock is looked for
@@ -65,7 +66,7 @@ std::uint32_t facet_of(const SpurHits& hits) {
 // All that tells two places apart for whom edges are drawn.
 std::uint32_t edge_key(const SpurHits& hits) {
   std::uint32_t key = 0;
-  for (const SpurHit& hit : hits) key = key * 0x9e3779b1U + hit.flank_id() * 5U + static_cast<std::uint32_t>(hit.part);
+  for (const SpurHit& hit : hits.sizes) key = key * 0x9e3779b1U + hit.flank_id() * 5U + static_cast<std::uint32_t>(hit.part);
   return key;
 }
 
@@ -88,6 +89,17 @@ glm::vec2 place_of(const RockScene& s, int x, int y, glm::dvec2 within) {
 
 SpurHits hits_at(const RockScene& s, const RockPixel& pixel, int x, int y, glm::dvec2 within) {
   return s.view.at(place_of(s, x, y, within), pixel.band, pixel.depth_m);
+}
+
+// A place of a pixel as it looks in the picture's light.
+RockLook look_of(const RockScene& s, const RockPixel& pixel, int x, int y, glm::dvec2 within, const SpurHits& hits) {
+  const RockKind& kind = *s.parameters.kind;
+  const SunWay way = way_to_sun(kind, s.parameters.light, pixel, hits);
+  float sun = 1.0F;
+  if (way.gained > 0.0F && pixel.shadow > 0.05F)
+    sun =
+        sun_past(kind, way, large_height(s.view.field, pixel.band, place_of(s, x, y, within) + way.offset, pixel.depth_m), hits[0].height);
+  return light_rock(kind, s.parameters.light, s.parameters.winter, pixel, hits, sun);
 }
 
 RockPixel pixel_at(const RockScene& s, int x, int y, PixelRect made) {
@@ -208,7 +220,8 @@ RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wid
   const PixelRect made = rocky_part(guidance, wide, around, origin_px, static_cast<int>(std::ceil(apron_units * ppu)));
   if (made.empty()) return relief;
   progress.begin("relief of rock", 2.0 * made.height());
-  const RockView view = view_rock(guidance, wide, parameters, origin_px, made);
+  // Spurs cast shadows from beyond.
+  const RockView view = view_rock(guidance, wide, parameters, origin_px, grown(made, static_cast<int>(std::ceil(cast_reach_units * ppu))));
   const RockScene scene = look_at_rock(guidance, view, parameters, origin_px, made);
   Grid<std::uint32_t> edges(made.width(), made.height(), 0U);
   Grid<std::uint8_t> bare(made.width(), made.height(), 0);
@@ -236,7 +249,7 @@ RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wid
         if (hits[static_cast<std::size_t>(size)].spur != nullptr)
           relief.height(u, v) += hits[static_cast<std::size_t>(size)].height * spur_spacing(*parameters.kind, size, pixel.band);
       relief.fall_line(u, v) = plane_fall(scene, hits, guidance.fall_line[i]);
-      const RockLook look = light_rock(*parameters.kind, parameters.light, parameters.winter, pixel, hits);
+      const RockLook look = look_of(scene, pixel, x, y, middle_of_pixel, hits);
       relief.tone(u, v) = look.tone;
       relief.cover(u, v) = {look.turf, look.snow};
     }
@@ -256,7 +269,7 @@ RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wid
       float tone = 0.0F;
       glm::vec2 cover(0.0F);
       for (const glm::dvec2 within : {glm::dvec2(0.25, 0.25), glm::dvec2(0.75, 0.25), glm::dvec2(0.25, 0.75), glm::dvec2(0.75, 0.75)}) {
-        const RockLook look = light_rock(*parameters.kind, parameters.light, parameters.winter, pixel, hits_at(scene, pixel, x, y, within));
+        const RockLook look = look_of(scene, pixel, x, y, within, hits_at(scene, pixel, x, y, within));
         tone += look.tone;
         cover += glm::vec2(look.turf, look.snow);
       }
@@ -277,7 +290,8 @@ int rock_margin_px(const RockParameters& parameters) {
   const int factor = wide_factor(ppu) * thinned_times(ppu, wide_factor(ppu));
   const int around = static_cast<int>(std::ceil((above_units + 2.0) * ppu)) + factor * (rock_around_reach(ppu, factor) + 3);
   const int apron = static_cast<int>(std::ceil(apron_units * ppu)) + factor;
-  return std::max({rock_view_margin_px(parameters), around, apron, rock_near_margin_px(parameters)}) + 2;
+  const int spurs = rock_view_margin_px(parameters) + static_cast<int>(std::ceil(cast_reach_units * ppu));
+  return std::max({spurs, around, apron, rock_near_margin_px(parameters)}) + 2;
 }
 
 void take_relief(GuidanceBuffers& guidance, RockRelief relief) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/math.h"
 #include "base/noise.h"
 #include "base/random.h"
 #include "base/random_streams.h"
@@ -23,6 +24,7 @@ constexpr float funnel_turn = 0.30F;        // how far spurs turn apart about a 
 constexpr float beyond_parent = 0.4F;       // height that a spur loses across the border of a larger one
 constexpr float tolerance_share = 0.003F;   // of the depth …
 constexpr float tolerance_slope = 4.5F;     // … and metres a metre of ground
+constexpr float ramp_cell_units = 64.0F;    // mean distance of ramps where every cell has one
 constexpr float head_rise = 0.9F;
 constexpr float back_rise = 0.06F;
 // Cells around a place whose spurs can be highest there: those above it reach farther down than those below it up.
@@ -117,6 +119,58 @@ SpurHit highest_spur(const SpurCells& cells, const RockKind& kind, glm::vec2 pla
   return best;
 }
 
+// Which side of which ramp a place lies on: the nearest that crosses its surface there.
+struct RampSide {
+  std::uint32_t id = 0;
+  float below = 1e9F;
+  float strength = 0.0F;
+};
+RampSide side_of_ramp(const RampCells& cells, glm::vec2 place, float depth_m) {
+  RampSide side;
+  const glm::ivec2 at = cell_of(place, ramp_cell_units) - cells.first;
+  float nearest = 1e9F;
+  for (int y = std::max(at.y - 1, 0); y <= std::min(at.y + 1, cells.count.y - 1); ++y)
+    for (int x = std::max(at.x - 1, 0); x <= std::min(at.x + 1, cells.count.x - 1); ++x) {
+      const Ramp& ramp = cells.ramps[static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.count.x) + static_cast<std::size_t>(x)];
+      if (!ramp.cut || std::abs(depth_m - ramp.depth_m) > ramp.tolerance_m) continue;
+      const glm::vec2 offset = place - ramp.place;
+      const float along = offset.x * ramp.along.x + offset.y * ramp.along.y;
+      const float below = offset.y * ramp.along.x - offset.x * ramp.along.y;
+      if (std::abs(along) >= ramp.half_length || std::abs(below) >= nearest || std::abs(below) > ramp_cell_units) continue;
+      nearest = std::abs(below);
+      side = {ramp.id * 2U + (below > 0.0F ? 1U : 0U), below, 1.0F - smoothstep(0.75F, 1.0F, std::abs(along) / ramp.half_length)};
+    }
+  return side;
+}
+
+Ramp cut_ramp(const SpurGround& ground, const RockKind& kind, glm::ivec2 cell) {
+  const std::uint64_t key = stream_seed(ground.seed, Stream::rock_diagonals);
+  std::uint64_t draws = 0;
+  const auto uniform = [&] { return static_cast<float>(random_uniform(key, cell.x, cell.y, draws++)); };
+  Ramp ramp;
+  ramp.place.x = (static_cast<float>(cell.x) + uniform()) * ramp_cell_units;
+  ramp.place.y = (static_cast<float>(cell.y) + uniform()) * ramp_cell_units;
+  const bool wanted = uniform() < 0.35F * kind.diagonals;
+  const auto ppu = static_cast<float>(ground.pixels_per_unit);
+  const int x = static_cast<int>(std::floor(ramp.place.x * ppu));
+  const int y = static_cast<int>(std::floor(ramp.place.y * ppu));
+  if (!wanted || !ground.wide.holds(x, y)) return ramp;
+  const std::size_t i = ground.wide.index(x, y);
+  if (ground.wide.seen.is_sky(i)) return ramp;
+  ramp.cut = true;
+  ramp.depth_m = ground.wide.seen.depth_m[i];
+  const float metres_per_unit = ground.wide.seen.footprint_m[i] * ppu / static_cast<float>(ground.wide.factor);
+  ramp.half_length = (0.35F + 0.25F * uniform()) * ramp_cell_units;
+  ramp.tolerance_m = 2.0F * metres_per_unit * ramp.half_length + tolerance_share * ramp.depth_m;
+  // 24° to 50° from level, up to the left or to the right.
+  const float rise = 0.45F + 0.75F * uniform();
+  const float way = uniform() < 0.5F ? -1.0F : 1.0F;
+  const float length = std::sqrt(1.0F + rise * rise);
+  ramp.along = {1.0F / length, way * rise / length};
+  ramp.id = static_cast<std::uint32_t>(random_bits(key, cell.x, cell.y, draws++)) | 1U;
+  return ramp;
+}
+
 // The mean normal of the wall about a spur, from wide pixels of its own surface.
 glm::vec3 wall_normal(const SpurGround& ground, const Spur& spur, float spacing) {
   const WideView& wide = ground.wide;
@@ -167,6 +221,7 @@ Spur grow_spur(const SpurGround& ground, const SpurField& field, int band, int s
   const float step = 0.5F * static_cast<float>(funnel_sigma_units.x);
   const float leaning = funnel_at(ground.seed, spur.place + step * aside) - funnel_at(ground.seed, spur.place - step * aside);
   spur.down = spur.fall + (turn - funnel_turn * leaning) * aside;
+  spur.parent = side_of_ramp(field.ramps, spur.place, spur.depth_m).id;
   // Water runs off the crests of larger spurs.
   for (int larger = 0; larger < size; ++larger) {
     const SpurHit hit = highest_spur(field.bands[static_cast<std::size_t>(band)][static_cast<std::size_t>(larger)], *field.kind, spur.place,
@@ -215,6 +270,15 @@ int smooth_fall_reach(double pixels_per_unit, int factor) { return surface_reach
 SpurField grow_spurs(const SpurGround& ground, const RockKind& kind, PixelRect rect, const std::array<bool, spur_bands>& bands) {
   SpurField field;
   field.kind = &kind;
+  float reach = 0.0F;
+  for (int size = 0; size < spur_sizes; ++size) reach += (static_cast<float>(reach_up) + 1.0F) * spur_spacing(kind, size, 0);
+  const auto ramp_cell = [&](int px, float units) {
+    return static_cast<int>(std::floor((static_cast<float>(px / ground.pixels_per_unit) + units) / ramp_cell_units));
+  };
+  field.ramps.first = glm::ivec2(ramp_cell(rect.x0, -reach), ramp_cell(rect.y0, -reach)) - 1;
+  field.ramps.count = glm::ivec2(ramp_cell(rect.x1, reach), ramp_cell(rect.y1, reach)) + 2 - field.ramps.first;
+  for (int y = 0; y < field.ramps.count.y; ++y)
+    for (int x = 0; x < field.ramps.count.x; ++x) field.ramps.ramps.push_back(cut_ramp(ground, kind, field.ramps.first + glm::ivec2(x, y)));
   for (int band = 0; band < spur_bands; ++band) {
     if (!bands[static_cast<std::size_t>(band)]) continue;
     for (int size = 0; size < spur_sizes; ++size) {
@@ -242,7 +306,7 @@ SpurField grow_spurs(const SpurGround& ground, const RockKind& kind, PixelRect r
 }
 
 double spur_margin_units(const RockKind& kind) {
-  double margin = 4.0;
+  double margin = 4.0 + 2.0 * static_cast<double>(ramp_cell_units);
   for (int size = 0; size < spur_sizes; ++size)
     margin +=
         (reach_up + 2.0) * static_cast<double>(spacing_mm[static_cast<std::size_t>(size)] * units_per_mm * kind.size * largest_factor());
@@ -251,13 +315,22 @@ double spur_margin_units(const RockKind& kind) {
 
 SpurHits find_spurs(const SpurField& field, int band, glm::vec2 place, float depth_m) {
   SpurHits hits;
-  std::uint32_t parent = 0;
+  const RampSide side = side_of_ramp(field.ramps, place, depth_m);
+  hits.below_ramp = side.below;
+  hits.ramp_strength = side.strength;
+  std::uint32_t parent = side.id;
   for (int size = 0; size < spur_sizes; ++size) {
     const auto k = static_cast<std::size_t>(size);
     hits[k] = highest_spur(field.bands[static_cast<std::size_t>(band)][k], *field.kind, place, depth_m, parent);
     parent = hits[k].flank_id();
   }
   return hits;
+}
+
+float large_height(const SpurField& field, int band, glm::vec2 place, float depth_m) {
+  return highest_spur(field.bands[static_cast<std::size_t>(band)][0], *field.kind, place, depth_m,
+                      side_of_ramp(field.ramps, place, depth_m).id)
+      .height;
 }
 
 }  // namespace belvedere

@@ -77,7 +77,29 @@ struct SpurHit {
   SpurPart part = SpurPart::back;
   std::uint32_t flank_id() const { return spur == nullptr ? 0U : spur->id * 3U + side + 1U; }
 };
-using SpurHits = std::array<SpurHit, spur_sizes>;
+// All three sizes at a place, and the ramp that is nearest.
+struct SpurHits {
+  std::array<SpurHit, spur_sizes> sizes;
+  float below_ramp = 1e9F;     // units below its edge; above it < 0
+  float ramp_strength = 0.0F;  // 0…1, falling to 0 at its ends
+  const SpurHit& operator[](std::size_t size) const { return sizes[size]; }
+  SpurHit& operator[](std::size_t size) { return sizes[size]; }
+};
+
+// A ramp or chimney that crosses a wall aslant: no spur runs on beyond it.
+struct Ramp {
+  bool cut = false;
+  glm::vec2 place{0.0F};
+  glm::vec2 along{1.0F, 0.0F};  // unit, to the right
+  float half_length = 1.0F;     // units
+  float depth_m = 0.0F, tolerance_m = 0.0F;
+  std::uint32_t id = 0;
+};
+struct RampCells {
+  glm::ivec2 first{0};
+  glm::ivec2 count{0};
+  std::vector<Ramp> ramps;
+};
 
 // Spurs of one band and size over a rectangle of cells.
 struct SpurCells {
@@ -88,6 +110,7 @@ struct SpurCells {
 };
 struct SpurField {
   const RockKind* kind = nullptr;
+  RampCells ramps;
   std::array<std::array<SpurCells, spur_sizes>, spur_bands> bands;
 };
 
@@ -97,5 +120,7 @@ double spur_margin_units(const RockKind& kind);
 
 // All three sizes at a place on the surface at depth_m.
 SpurHits find_spurs(const SpurField& field, int band, glm::vec2 place, float depth_m);
+// Height of the largest size alone, in its spacings; -1e9 where nothing grows.
+float large_height(const SpurField& field, int band, glm::vec2 place, float depth_m);
 
 }  // namespace belvedere

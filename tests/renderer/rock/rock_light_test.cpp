@@ -86,6 +86,34 @@ TEST(RockLight, ACastShadowTakesTheLight) {
   EXPECT_GT(std::abs(light_rock(limestone(), sun_from(0.7), false, p, Flank(1).hits).tone - shaded), 0.02F);
 }
 
+TEST(RockLight, LargeSpursStandInTheSunsWay) {
+  const Flank flank(0);
+  const ToneParameters light = sun_from(0.7);
+  const SunWay way = way_to_sun(limestone(), light, wall_pixel(), flank.hits);
+  // The sun stands to the east, left in the picture, and above.
+  EXPECT_LT(way.offset.x, -5.0F);
+  EXPECT_GT(way.gained, 0.0F);
+  EXPECT_EQ(sun_past(limestone(), way, 0.3F, 0.3F), 1.0F);
+  EXPECT_LT(sun_past(limestone(), way, 2.0F, 0.3F), 0.35F);
+  EXPECT_EQ(sun_past(limestone(), way, -1e9F, 0.3F), 1.0F) << "nothing stands there";
+  EXPECT_LT(light_rock(limestone(), light, false, wall_pixel(), flank.hits, 0.2F).tone,
+            light_rock(limestone(), light, false, wall_pixel(), flank.hits, 1.0F).tone - 0.2F);
+  // From behind the wall no sun comes at all.
+  ToneParameters behind;
+  behind.sun_direction = {0.0, -0.8, 0.6};
+  EXPECT_EQ(way_to_sun(limestone(), behind, wall_pixel(), flank.hits).gained, 0.0F);
+}
+
+TEST(RockLight, RampsHaveALightTreadAndADarkUndercut) {
+  Flank flank(0);
+  const float plain = tone_of(flank, sun_from(0.7));
+  flank.hits.ramp_strength = 1.0F;
+  flank.hits.below_ramp = -0.7F;
+  EXPECT_GT(tone_of(flank, sun_from(0.7)), plain + 0.03F);
+  flank.hits.below_ramp = 0.6F;
+  EXPECT_LT(tone_of(flank, sun_from(0.7)), plain - 0.1F);
+}
+
 TEST(RockLight, GulliesAreDarkLines) {
   Flank flank(0);
   flank.hits[0].next_id = 1;

@@ -102,14 +102,14 @@ TEST(RockRelief, OfAPartIsThatOfTheWhole) {
 
 TEST(RockRelief, LooksNoFartherThanItsMargins) {
   // A picture so large that the margins end within it, at a pixel a unit.
-  const GuidanceBuffers hills = test::make_hills(1100, 900, 1.0);
+  const GuidanceBuffers hills = test::make_hills(1300, 1200, 1.0);
   const RockParameters p = parameters_of(1.0);
   const RockRelief whole = relief_of(hills, p);
-  const PixelRect kept{540, 440, 560, 456};
+  const PixelRect kept{640, 600, 660, 616};
   const test::Window near = test::window_of(hills, grown(kept, rock_near_margin_px(p)));
   const test::Window far = test::window_of(hills, grown(kept, rock_margin_px(p)));
   ASSERT_GT(far.rect.x0, 0);
-  ASSERT_LT(far.rect.y1, 900);
+  ASSERT_LT(far.rect.y1, 1200);
   const RockRelief part = make_rock_relief(near.held, {far.held, 1, {far.rect.x0, far.rect.y0}}, p, {near.rect.x0, near.rect.y0},
                                            silent_progress(), moved(kept, -near.rect.x0, -near.rect.y0));
   expect_same(part, cut(whole, kept));
