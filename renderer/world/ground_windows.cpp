@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -122,21 +123,48 @@ void cut(LandCover& cover, const Dem& dem, const PixelRect& rect) {
   cut(cover.classes.cells, rect);
 }
 
-TerrainModel make_window(const TerrainModel& whole, const TerrainModel& coarser, const Lattice& coarser_at, const GroundWindow& planned,
-                         const WholeTerrain& known, const WindowMaking& making, Lattice& at) {
-  const RasterFrame frame = level_frame(making.levels.frame(), planned.level);
-  const PixelRect all = {0, 0, frame.width, frame.height};
-  const PixelRect made = intersection(grown(planned.part, ground_halo_cells), all);
+// The cells of a window with its halo.
+PixelRect made_cells(const GroundWindow& window, const RasterFrame& data) {
+  const RasterFrame frame = level_frame(data, window.level);
+  return intersection(grown(window.part, ground_halo_cells), {0, 0, frame.width, frame.height});
+}
+
+// What a window asks of the ground before it, of which `made` is there: cells all around the window's halo.
+PixelRect kept_for(const GroundWindow& window, const RasterFrame& data, const PixelRect& made) {
+  constexpr int beyond = 3;  // cells: streams of ice beside the window, and where these come from
+  const PixelRect halo = made_cells(window, data);
+  const PixelRect wanted = grown({halo.x0 / 2, halo.y0 / 2, (halo.x1 + 1) / 2, (halo.y1 + 1) / 2}, beyond);
+  return moved(intersection(wanted, made), -made.x0, -made.y0);
+}
+
+// A window's place in the nest.
+struct Nested {
+  const GroundWindow& planned;
+  const GroundWindow* next;  // null: the finest
+  const TerrainModel& coarser;
+  const Lattice& coarser_at;
+};
+
+TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const WholeTerrain& known, const WindowMaking& making,
+                         std::optional<SeenGround>& seen, Lattice& at) {
+  const auto& [planned, next, coarser, coarser_at] = nested;
+  const PixelRect made = made_cells(planned, making.levels.frame());
   Progress& quiet = silent_progress();
   Dem dem = making.levels.window(planned.level, made, *whole.dem);
-  const SeaParameters sea = prepare_window_dem(dem, making.loaded, known);
+  WindowGround window_ground;
+  window_ground.sea = prepare_window_dem(dem, making.loaded, known);
   dem.entries = find_entries(whole, dem, made, whole.dem->halved - planned.level);
   const auto halo = std::make_shared<const Dem>(std::move(dem));
-  Catchments catchments(*halo);
-  LandCover cover = make_window_cover(making.loaded, *halo, sea, known, catchments, quiet, making.cache);
-  GeneralizedTerrain ground = generalize_for_view(making.loaded, *halo, &cover, making.view, quiet, making.cache, &sea);
-  TerrainModel model =
-      make_terrain_model(halo, std::move(ground.altitude_m), std::make_shared<const LandCover>(cover), whole.exaggeration, &catchments);
+  window_ground.dem = halo;
+  window_ground.catchments = std::make_shared<Catchments>(*halo);
+  window_ground.part = moved(planned.part, -made.x0, -made.y0);
+  if (next != nullptr) window_ground.kept = kept_for(*next, making.levels.frame(), made);
+  window_ground.around = std::move(seen);
+  auto [cover, seen_here] = make_window_cover(making.loaded, window_ground, known, quiet, making.cache);
+  seen = std::move(seen_here);
+  GeneralizedTerrain ground = generalize_for_view(making.loaded, *halo, &cover, making.view, quiet, making.cache, &window_ground.sea);
+  TerrainModel model = make_terrain_model(halo, std::move(ground.altitude_m), std::make_shared<const LandCover>(cover), whole.exaggeration,
+                                          window_ground.catchments.get());
   model.came_from = std::move(ground.came_from);
   model.local = making.deformation;
 
@@ -194,10 +222,15 @@ void add_ground_windows(TerrainModel& terrain, const GroundPlan& plan, const Win
   std::vector<TerrainWindow> windows;
   windows.reserve(plan.windows.size());
   Lattice before{plan.coarsest, {0, 0, terrain.dem->width(), terrain.dem->height()}};
-  for (const GroundWindow& planned : plan.windows) {
+  std::optional<SeenGround> seen =
+      see_whole(making.loaded, known, kept_for(plan.windows.front(), making.levels.frame(), before.kept), making.cache);
+  for (std::size_t i = 0; i < plan.windows.size(); ++i) {
+    const GroundWindow& planned = plan.windows[i];
+    const GroundWindow* next = i + 1 < plan.windows.size() ? &plan.windows[i + 1] : nullptr;
     Lattice at;
     TerrainWindow window;
-    window.ground = make_window(terrain, windows.empty() ? terrain : windows.back().ground, before, planned, known, making, at);
+    window.ground =
+        make_window(terrain, {planned, next, windows.empty() ? terrain : windows.back().ground, before}, known, making, seen, at);
     window.part = moved(planned.part, -at.kept.x0, -at.kept.y0);
     window.replaces = moved({planned.part.x0 / 2, planned.part.y0 / 2, planned.part.x1 / 2 + 1, planned.part.y1 / 2 + 1}, -before.kept.x0,
                             -before.kept.y0);

@@ -58,17 +58,18 @@ std::vector<RasterSource> to_raster_sources(const LoadedScene& scene, const std:
 // What a land cover is made with besides scene and DEM.
 struct CoverContext {
   Catchments* catchments = nullptr;
-  const WholeTerrain* whole = nullptr;  // of a window: what it is part of …
-  const SeaParameters* sea = nullptr;   // … and its sea
+  const WholeTerrain* whole = nullptr;        // of a window: what it is part of
+  const WindowGround* window = nullptr;       // and the window
+  std::optional<SeenGround>* seen = nullptr;  // gets what rules saw of it
 };
 
 CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules, const ClassRuleParameters& parameters, const Dem& dem,
-                        const WholeTerrain* whole) {
+                        const WholeTerrain* whole, const WindowGround* window) {
   CacheKeyText key;
   const auto& [name, known_parameters, terms, layers] = rules;
   key.add("rules", name).add("parameters", known_parameters).add("terms", terms);
   for (const auto& [painted_as, when] : layers) key.add("layer", painted_as).add("when", when);
-  const auto& [settings, towns, sea, seed, climate, sites, catchments] = parameters;
+  const auto& [settings, towns, sea, seed, climate, sites, catchments, around] = parameters;
   key.add("settings", settings).add("seed", seed);
   add_sea(key, sea);
   for (const auto& [place, radius_m, town] : towns) key.add("town", town).add("place", place).add("radius_m", radius_m);
@@ -87,6 +88,10 @@ CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules, cons
       key.add("site", place).add("radius_m", radius_m).add("stretch", stretch).add("along", along_rad).add("on_floor", on_floor ? 1 : 0);
   add_dem(key, dem);
   if (whole != nullptr) add_dem(key, whole->dem);  // throws shadows
+  if (window != nullptr && window->around) {
+    const auto& [x0, y0, x1, y1] = window->part;
+    key.add("x0", x0).add("y0", y0).add("x1", x1).add("y1", y1).add("around", window->around->made_from);
+  }
   return make_cache_key(CachedProduct::land_cover, key, subject_of(loaded));
 }
 
@@ -135,24 +140,68 @@ Grid<float> sun_of(const LoadedScene& loaded, const Dem& dem, const WholeTerrain
   return sun_share(dem, make_map_place(dem.transform, dem.crs, dem.width(), dem.height(), latitude_deg), {}, progress);
 }
 
+// Class rules on a ground.
+struct RuleWork {
+  const LoadedScene& loaded;
+  ClassRules rules;
+  ClassRuleParameters parameters;
+  const Dem& dem;
+  const WholeTerrain* whole = nullptr;
+  const WindowGround* window = nullptr;
+
+  CacheKey key() const { return rule_cover_key(loaded, rules, parameters, dem, whole, window); }
+  // Does the work with what the key has already: what the sun does follows from the terrain and its place alone, and what rules saw around
+  // a window from its own key.
+  template <class Work>
+  auto with_all(Progress& progress, Work&& work) {
+    if (takes_climate(loaded, rules, dem)) parameters.climate.sun = sun_of(loaded, dem, whole, progress);
+    if (window == nullptr || !window->around) return work();
+    const RuleAround around{window->around->ground->get(), window->part};
+    parameters.around = &around;
+    auto result = work();
+    parameters.around = nullptr;
+    return result;
+  }
+  RuleGround see() {
+    return with_all(silent_progress(), [&] { return see_rule_ground(rules, parameters, dem); });
+  }
+};
+
 LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, const CoverContext& context, Progress& progress, const Cache& cache) {
   const ClassRules rules = read_scene_rules(loaded);
-  ClassRuleParameters parameters = context.whole != nullptr ? context.whole->rules : rule_parameters(loaded, rules, dem, progress);
-  if (context.sea != nullptr) parameters.sea = *context.sea;
-  parameters.catchments = context.catchments;
-  if (context.whole == nullptr && takes_climate(loaded, rules, dem)) progress.note(describe_lines(parameters.climate));
-  return cached<LandCover>(
-      cache, [&] { return rule_cover_key(loaded, rules, parameters, dem, context.whole); }, progress,
+  RuleWork work{loaded, rules,         context.whole != nullptr ? context.whole->rules : rule_parameters(loaded, rules, dem, progress),
+                dem,    context.whole, context.window};
+  if (context.window != nullptr) work.parameters.sea = context.window->sea;
+  work.parameters.catchments = context.catchments;
+  if (context.whole == nullptr && takes_climate(loaded, rules, dem)) progress.note(describe_lines(work.parameters.climate));
+  const bool keeps = context.seen != nullptr && !context.window->kept.empty();
+  std::optional<RuleGround> seen;
+  LandCover cover = cached<LandCover>(
+      cache, [&] { return work.key(); }, progress,
       [&](Progress& watcher) {
-        // What the sun does follows from the terrain and its place alone, which the key has.
-        if (takes_climate(loaded, rules, dem)) parameters.climate.sun = sun_of(loaded, dem, context.whole, watcher);
-        return apply_class_rules(rules, parameters, dem, watcher);
+        RuleGround ground;
+        LandCover made =
+            work.with_all(watcher, [&] { return apply_class_rules(rules, work.parameters, dem, watcher, keeps ? &ground : nullptr); });
+        if (keeps) seen = part_of(std::move(ground), context.window->kept);
+        return made;
       });
+  if (!keeps) return cover;
+  *context.seen = SeenGround{nullptr, cache.is_on() ? work.key().text : ""};
+  using Lazy = LazyValue<RuleGround>;
+  if (seen) {
+    (*context.seen)->ground = std::make_shared<const Lazy>(std::move(*seen));
+  } else {
+    (*context.seen)->ground =
+        std::make_shared<const Lazy>([&loaded, rules, parameters = work.parameters, whole = context.whole, window = *context.window] {
+          return part_of(RuleWork{loaded, rules, parameters, *window.dem, whole, &window}.see(), window.kept);
+        });
+  }
+  return cover;
 }
 
 CacheKey layer_cover_key(const LoadedScene& loaded, const SurfaceLayers& layers, const LayerApplyParameters& parameters,
                          const std::optional<Climate>& climate, const Dem& dem) {
-  const auto& [seed, drawing, colour, coverage] = parameters;
+  const auto& [seed, drawing, colour, coverage, whole, drawn] = parameters;
   const auto& [power, finest_cells, octaves, spectrum, drawing_seed] = drawing;
   CacheKeyText key;
   key.add("surface layers", surface_layers_text(layers)).add("seed", seed).add("colour", colour).add("coverage", coverage);
@@ -165,23 +214,34 @@ CacheKey layer_cover_key(const LoadedScene& loaded, const SurfaceLayers& layers,
     key.add("nodes_across", climate->nodes.width()).add("warmer_k", climate->warmer_k).add("rain_share", climate->rain_share);
   }
   add_dem(key, dem);
+  if (whole != nullptr) add_dem(key, *whole);  // how classes are drawn follows from it
   return make_cache_key(CachedProduct::land_cover, key, subject_of(loaded));
 }
 
-LandCover make_layer_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
+SurfaceLayers read_scene_layers(const LoadedScene& loaded) {
   SurfaceLayers layers = read_surface_layers(find_scene_file(loaded, loaded.scene.land_cover.layers));
   set_layer_parameters(layers, loaded.scene.land_cover.settings);
+  return layers;
+}
+
+LandCover make_layer_cover(const LoadedScene& loaded, const Dem& dem, const WholeTerrain* whole, Progress& progress, const Cache& cache) {
+  const SurfaceLayers layers = read_scene_layers(loaded);
   LayerApplyParameters parameters;
   parameters.seed = loaded.scene.seed;
+  parameters.whole = whole != nullptr ? &whole->dem : nullptr;
   const std::vector<std::string> inputs = compile_layers(layers).inputs;
   if (needs_place(inputs, {})) require_place(loaded.scene, dem);
   std::optional<Climate> climate;
-  if (needs_climate(inputs, {})) climate = make_scene_climate(loaded, dem, silent_progress());
+  if (whole != nullptr)
+    climate = whole->climate;
+  else if (needs_climate(inputs, {}))
+    climate = make_scene_climate(loaded, dem, silent_progress());
   return cached<LandCover>(
       cache, [&] { return layer_cover_key(loaded, layers, parameters, climate, dem); }, progress,
       [&](Progress& watcher) {
         const LayerClimateGrids grids = make_layer_climate(
-            dem, inputs, {}, loaded.scene.climate.latitude_deg, [&] { return *climate; }, watcher);
+            dem, inputs, {}, loaded.scene.climate.latitude_deg, [&] { return *climate; }, watcher, parameters.whole);
+        if (whole != nullptr) parameters.drawn = whole->drawn->get();
         return layer_land_cover(layers, dem, grids.view(), parameters, watcher);
       });
 }
@@ -190,7 +250,7 @@ LandCover make_layer_cover(const LoadedScene& loaded, const Dem& dem, Progress& 
 LandCover make_modelled_cover(const LoadedScene& loaded, const Dem& dem, const CoverContext& context, Progress& progress,
                               const Cache& cache) {
   return loaded.scene.land_cover.layers.empty() ? make_rule_cover(loaded, dem, context, progress, cache)
-                                                : make_layer_cover(loaded, dem, progress, cache);
+                                                : make_layer_cover(loaded, dem, context.whole, progress, cache);
 }
 
 // {to, from}: cells of class `from` where the rules see `to` become `to`.
@@ -335,10 +395,32 @@ PatchResult make_scene_patches(const LoadedScene& loaded, const Dem& dem, Progre
 WholeTerrain know_whole(const LoadedScene& loaded, const Dem& dem, const Sea& sea) {
   WholeTerrain whole{dem, sea, {}};
   const SceneLandCover& settings = loaded.scene.land_cover;
-  if (!settings.layers.empty() || (!settings.sources.empty() && settings.refine.empty())) return whole;  // without rules
-  const ClassRules rules = read_scene_rules(loaded);
-  whole.rules = parameters_for_parts(rules, rule_parameters(loaded, rules, dem, silent_progress()), dem);
+  if (!settings.sources.empty() && settings.refine.empty()) return whole;  // neither rules nor layers
+  if (settings.layers.empty()) {
+    const ClassRules rules = read_scene_rules(loaded);
+    whole.rules = parameters_for_parts(rules, rule_parameters(loaded, rules, dem, silent_progress()), dem);
+    return whole;
+  }
+  const SurfaceLayers layers = read_scene_layers(loaded);
+  const std::vector<std::string> inputs = compile_layers(layers).inputs;
+  if (needs_climate(inputs, {})) whole.climate = make_scene_climate(loaded, dem, silent_progress());
+  whole.drawn = std::make_shared<const LazyValue<LayerDrawing>>([&loaded, &dem, layers, inputs, climate = whole.climate] {
+    const LayerClimateGrids grids = make_layer_climate(
+        dem, inputs, {}, loaded.scene.climate.latitude_deg, [&] { return *climate; }, silent_progress());
+    LayerApplyParameters parameters;
+    parameters.seed = loaded.scene.seed;
+    return plan_drawing(layers, dem, grids.view(), parameters);
+  });
   return whole;
+}
+
+std::optional<SeenGround> see_whole(const LoadedScene& loaded, const WholeTerrain& whole, const PixelRect& kept, const Cache& cache) {
+  const SceneLandCover& settings = loaded.scene.land_cover;
+  if (!settings.layers.empty() || (!settings.sources.empty() && settings.refine.empty())) return {};
+  const ClassRules rules = read_scene_rules(loaded);
+  const RuleWork work{loaded, rules, whole.rules, whole.dem};
+  return SeenGround{std::make_shared<const LazyValue<RuleGround>>([work, kept] { return part_of(RuleWork(work).see(), kept); }),
+                    cache.is_on() ? work.key().text : ""};
 }
 
 SeaParameters prepare_window_dem(Dem& window, const LoadedScene& loaded, const WholeTerrain& whole) {
@@ -349,10 +431,12 @@ SeaParameters prepare_window_dem(Dem& window, const LoadedScene& loaded, const W
   return sea;
 }
 
-LandCover make_window_cover(const LoadedScene& loaded, const Dem& window, const SeaParameters& sea, const WholeTerrain& whole,
-                            Catchments& catchments, Progress& progress, const Cache& cache) {
-  const CoverContext context{.catchments = &catchments, .whole = &whole, .sea = &sea};
-  return remove_small_patches(make_full_cover(loaded, window, context, progress, cache), loaded.scene.land_cover.patches).cover;
+WindowCover make_window_cover(const LoadedScene& loaded, const WindowGround& window, const WholeTerrain& whole, Progress& progress,
+                              const Cache& cache) {
+  std::optional<SeenGround> seen;
+  const CoverContext context{.catchments = window.catchments.get(), .whole = &whole, .window = &window, .seen = &seen};
+  LandCover cover = make_full_cover(loaded, *window.dem, context, progress, cache);
+  return {remove_small_patches(std::move(cover), loaded.scene.land_cover.patches).cover, std::move(seen)};
 }
 
 void add_sea(CacheKeyText& key, const SeaParameters& sea) {

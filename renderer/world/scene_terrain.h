@@ -1,18 +1,23 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "base/cache/cache.h"
 #include "base/cache/cache_key.h"
 #include "base/progress.h"
 #include "renderer/scene/scene_file.h"
+#include "renderer/world/lazy_value.h"
 #include "renderer/world/view.h"
+#include "terrain/climate/climate.h"
 #include "terrain/cover/class_rules.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/cover/land_cover_patches.h"
 #include "terrain/io/dem.h"
 #include "terrain/io/dem_levels.h"
+#include "terrain/layers/layer_drawing.h"
 #include "terrain/shape/catchments.h"
 #include "terrain/shape/sea.h"
 
@@ -35,13 +40,36 @@ Sea prepare_scene_dem(Dem& dem, const LoadedScene& scene, Progress& progress);
 struct WholeTerrain {
   const Dem& dem;
   const Sea& sea;
-  ClassRuleParameters rules;  // with its climate, the altitudes that hang on it, and its settlements
+  ClassRuleParameters rules;                                  // with its climate, the altitudes that hang on it, and its settlements
+  std::optional<Climate> climate = {};                        // of surface layers that ask for one …
+  std::shared_ptr<const LazyValue<LayerDrawing>> drawn = {};  // … and how classes are drawn from them
 };
 WholeTerrain know_whole(const LoadedScene& scene, const Dem& dem, const Sea& sea);
 // A window with the whole's sea, levelled; and its land cover with what the whole knows.
 SeaParameters prepare_window_dem(Dem& window, const LoadedScene& scene, const WholeTerrain& whole);
-LandCover make_window_cover(const LoadedScene& scene, const Dem& window, const SeaParameters& sea, const WholeTerrain& whole,
-                            Catchments& catchments, Progress& progress, const Cache& cache = no_cache());
+// What class rules saw of a ground that windows lie in, made when a window first asks for it: one from the cache never does.
+struct SeenGround {
+  std::shared_ptr<const LazyValue<RuleGround>> ground;
+  std::string made_from;  // in the keys of what hangs on it
+};
+// Of the whole, in a rectangle of its cells: all around the next window's halo. Nothing where no rules are asked.
+std::optional<SeenGround> see_whole(const LoadedScene& scene, const WholeTerrain& whole, const PixelRect& kept,
+                                    const Cache& cache = no_cache());
+struct WindowCover {
+  LandCover cover;
+  std::optional<SeenGround> seen;
+};
+// What a window is made of.
+struct WindowGround {
+  std::shared_ptr<const Dem> dem;  // with its halo
+  SeaParameters sea;
+  std::shared_ptr<Catchments> catchments;
+  PixelRect part;                    // of its cells, which is shown
+  PixelRect kept;                    // of its cells, that the next window asks for
+  std::optional<SeenGround> around;  // the ground before it
+};
+WindowCover make_window_cover(const LoadedScene& scene, const WindowGround& window, const WholeTerrain& whole, Progress& progress,
+                              const Cache& cache = no_cache());
 
 // The DEM of a scene: its sources read and mosaicked, or a terrain made up; stripes taken off where the scene asks for it, the sea
 // levelled. The cache keeps made-up terrains.

@@ -11,6 +11,7 @@
 #include "terrain/climate/radiation.h"
 #include "terrain/climate/snow_balance.h"
 #include "terrain/climate/water_balance.h"
+#include "terrain/shape/surroundings.h"
 
 namespace belvedere {
 namespace {
@@ -125,36 +126,15 @@ Grid<float> sun_share(const Dem& window, const Dem& whole, std::optional<double>
   constexpr double reach_m = 24000.0;
   const int block = block_of(window, given);
   const double middle = 0.5 * (block - 1);
-  const Grid<float> own = block_means(window.altitude_m, block);
-  // As many blocks on each side as the whole has ground for.
   const GeoTransform& t = window.transform;
-  const auto fit = [&](double room_m, double cell_m) {
-    return static_cast<int>(std::floor(std::clamp(room_m, 0.0, reach_m) / (block * cell_m) + 1e-6));
-  };
-  const GeoTransform& all = whole.transform;
-  const int left = fit(t.origin_x - all.origin_x, t.cell_x);
-  const int top = fit(all.origin_y - t.origin_y, t.cell_y);
-  const int right = fit(all.origin_x + whole.width() * all.cell_x - t.origin_x - own.width() * block * t.cell_x, t.cell_x);
-  const int bottom = fit(t.origin_y - own.height() * block * t.cell_y - all.origin_y + whole.height() * all.cell_y, t.cell_y);
-  Grid<float> coarse(left + own.width() + right, top + own.height() + bottom);
-  const GeoTransform at{t.origin_x - left * block * t.cell_x, t.origin_y + top * block * t.cell_y, block * t.cell_x, block * t.cell_y};
-  parallel_rows(coarse.height(), [&](int y) {
-    for (int x = 0; x < coarse.width(); ++x) {
-      if (own.contains(x - left, y - top)) {
-        coarse(x, y) = own(x - left, y - top);
-        continue;
-      }
-      const glm::dvec2 place = at.to_crs(x, y);
-      const glm::dvec2 cell = all.to_cell(place.x, place.y);
-      coarse(x, y) = sample_bilinear(whole.altitude_m, cell.x, cell.y);
-    }
-  });
-  const MapPlace place = make_map_place(at, window.crs, coarse.width(), coarse.height(), latitude_deg);
-  const Grid<float> coarse_share = share_of_cells(coarse, place, given.azimuths, progress);
+  const Surrounded coarse =
+      surround(block_means(window.altitude_m, block), {t.origin_x, t.origin_y, block * t.cell_x, block * t.cell_y}, whole, reach_m);
+  const MapPlace place = make_map_place(coarse.transform, window.crs, coarse.altitude_m.width(), coarse.altitude_m.height(), latitude_deg);
+  const Grid<float> coarse_share = share_of_cells(coarse.altitude_m, place, given.azimuths, progress);
   Grid<float> share(window.width(), window.height());
   parallel_rows(window.height(), [&](int y) {
     for (int x = 0; x < window.width(); ++x)
-      share(x, y) = sample_bilinear(coarse_share, (x - middle) / block + left, (y - middle) / block + top);
+      share(x, y) = sample_bilinear(coarse_share, (x - middle) / block + coarse.left, (y - middle) / block + coarse.top);
   });
   return share;
 }

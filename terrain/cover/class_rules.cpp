@@ -15,6 +15,7 @@
 #include "base/parallel.h"
 #include "terrain/cover/class_rules_inputs.h"
 #include "terrain/cover/rule_expression.h"
+#include "terrain/cover/rule_ice.h"
 
 namespace belvedere {
 namespace {
@@ -336,14 +337,18 @@ bool names_old_town(const std::string& parameter) {
   return std::regex_match(parameter, old_town);
 }
 
-LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem, Progress& progress) {
+namespace {
+
+Parameters all_parameters(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem) {
   Parameters parameters = with_settings(rules, given.settings);
   resolve_altitudes(parameters, given.climate, dem);
-  const Program program = compile(rules, parameters, rules.name, {});
-  const std::size_t variables = variable_names().size();
-  const std::size_t slots = variables + rules.terms.size();
-  progress.begin("class rules", 4.0);
+  return parameters;
+}
 
+// Makes the run's inputs: what rules see of the ground, and in a window what they saw around it. Returns the ice.
+RuleIce make_inputs(Run& run, const Parameters& parameters, const ClassRuleParameters& given, Progress& progress) {
+  const auto& [rules, program, dem, seed, climate, inputs, noise] = run;
+  const std::size_t slots = variable_names().size() + rules.terms.size();
   // Ice needs the balance of snow and melting, and that needs variables of its own.
   std::vector<bool> needed = union_of(program.layer_needs, 0, program.layers.size(), slots);
   const auto balance = std::find_if(rules.terms.begin(), rules.terms.end(), [](const auto& t) { return t.first == balance_term; });
@@ -353,17 +358,49 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
     for (std::size_t i = 0; i < slots; ++i) needed[i] = needed[i] || needs[i];
   }
   const Settlers settlers{given.towns, given.seed, given.sites ? &*given.sites : nullptr};
-  Run run{rules,      program,       dem,
-          given.seed, given.climate, make_terrain_inputs(dem, needed, parameters, settlers, given.sea, given.climate, given.catchments),
-          {}};
+  const RuleGround* around = given.around != nullptr ? &given.around->ground : nullptr;
+  run.inputs = make_terrain_inputs(dem, needed, parameters, settlers, given.sea, climate, given.catchments, nullptr, around);
   for (int v = first_noise; v < east; ++v)
     run.noise.push_back(needed[static_cast<std::size_t>(v)] ? plan_noise(v, dem.transform, dem.width()) : NoiseColumns{});
   progress.advance(1.0);
-  if (has_ice)
-    run.inputs[ice] = flowing_ice(evaluate_term(run, static_cast<std::size_t>(balance - rules.terms.begin())), dem);
-  else if (needed[ice])
+  RuleIce made;
+  if (has_ice) {
+    const std::vector<IceEntry> entries = around != nullptr ? find_ice_entries(*around, dem) : std::vector<IceEntry>();
+    made = flowing_ice(evaluate_term(run, static_cast<std::size_t>(balance - rules.terms.begin())), dem, entries);
+    run.inputs[ice] = std::move(made.covered);
+  } else if (needed[ice]) {
     run.inputs[ice] = Grid<float>(dem.width(), dem.height(), 0.F);
+  }
+  if (around != nullptr) {
+    const Grid<float> share = own_share(*given.around, dem.transform, dem.width(), dem.height(), seed);
+    for (std::size_t v = 0; v < run.inputs.size(); ++v)
+      join_input(run.inputs[v], around->inputs[v], share, dem.transform, around->transform);
+  }
   progress.advance(1.0);
+  return made;
+}
+
+RuleGround seen_by(Run&& run, RuleIce&& ice) {
+  return {run.dem.transform, std::move(run.inputs), std::move(ice.km2), std::move(ice.surface_m)};
+}
+
+}  // namespace
+
+RuleGround see_rule_ground(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem) {
+  const Parameters parameters = all_parameters(rules, given, dem);
+  const Program program = compile(rules, parameters, rules.name, {});
+  Run run{rules, program, dem, given.seed, given.climate, {}, {}};
+  RuleIce ice = make_inputs(run, parameters, given, silent_progress());
+  return seen_by(std::move(run), std::move(ice));
+}
+
+LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem, Progress& progress,
+                            RuleGround* seen) {
+  const Parameters parameters = all_parameters(rules, given, dem);
+  const Program program = compile(rules, parameters, rules.name, {});
+  progress.begin("class rules", 4.0);
+  Run run{rules, program, dem, given.seed, given.climate, {}, {}};
+  RuleIce made_ice = make_inputs(run, parameters, given, progress);
 
   // Layers that ask for rock uphill wait until the rock is there.
   Grid<LandCoverClass> classes(dem.width(), dem.height(), LandCoverClass::sky);
@@ -377,6 +414,7 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
   progress.advance(1.0);
   remove_specks(classes, static_cast<int>(parameter_or(parameters, "speck_cells", 5.0)));
   progress.advance(1.0);
+  if (seen != nullptr) *seen = seen_by(std::move(run), std::move(made_ice));
   return {{std::move(classes), dem.transform, dem.crs}};
 }
 

@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/cover/rule_climate.h"
+#include "terrain/cover/rule_ground.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
 #include "terrain/shape/catchments.h"
@@ -49,13 +50,18 @@ struct ClassRuleParameters {
   RuleClimate climate = alpine_climate();
   std::optional<std::vector<TownSite>> sites = {};  // all settlements, where they were found on a larger DEM that this one is part of
   Catchments* catchments = nullptr;                 // of the DEM, where somebody else asks for them as well
+  const RuleAround* around = nullptr;               // of a window of a larger DEM
 };
 
 // Parameters town_highest_m and floor_highest_m that are 0 hang on the treeline in the middle of the map: 520 and 370 m below it.
 // Evaluates the rules on the DEM's grid, cleans up specks, and returns land cover; cells that no layer covers take the nearest class.
 // Error(usage) for a setting that is no parameter of the rules, with the nearest known.
 // Noise depends on the seed and the place in the CRS alone, so a part of a DEM gets the same ragged treelines as the whole.
-LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& parameters, const Dem& dem, Progress& progress);
+// `seen` gets what the rules saw, where it is given: for the windows in this ground.
+LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& parameters, const Dem& dem, Progress& progress,
+                            RuleGround* seen = nullptr);
+// What they see, without the classes.
+RuleGround see_rule_ground(const ClassRules& rules, const ClassRuleParameters& parameters, const Dem& dem);
 
 // The settlements that the rules see on a DEM; none where they ask for none.
 std::vector<TownSite> find_rule_towns(const ClassRules& rules, const ClassRuleParameters& parameters, const Dem& dem);

@@ -12,7 +12,6 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
-#include "base/rising_queue.h"
 #include "terrain/shape/derivatives.h"
 #include "terrain/shape/hydrology.h"
 
@@ -25,9 +24,6 @@ void each_cell(Grid<T>& grid, F&& f) {
     for (int x = 0; x < grid.width(); ++x) grid(x, y) = f(x, y);
   });
 }
-
-constexpr float lasting_balance = -8.F;    // where more melts, no ice comes
-constexpr double widest_stream_m = 900.0;  // of ice, each side
 
 // Rise towards the east and towards the south, metres a metre.
 glm::vec2 rise(const Grid<float>& z, int x, int y, double cell_x, double cell_y) {
@@ -55,9 +51,27 @@ void make_sea_inputs(const Dem& dem, const Sea& found, const std::vector<bool>& 
     inputs[coast] = found.empty() ? Grid<float>(dem.width(), dem.height(), 1e6F) : distance_to_sea_m(found.mask, dem.cell_m());
 }
 
+// Lakes are as large on coarser cells as on those of the data, down to what still is a patch and no speck.
+int lake_cells(int data_cells, int halved) {
+  constexpr int least = 25;
+  return halved == 0 ? data_cells : std::max(std::min(data_cells, least), data_cells >> (2 * halved));
+}
+
+// Where the ground around a window has lakes, in the window's cells; empty where nothing is known of it.
+Grid<std::uint8_t> known_lakes(const RuleGround* around, const Dem& dem) {
+  if (around == nullptr || around->inputs[lake].empty()) return {};
+  Grid<std::uint8_t> known(dem.width(), dem.height());
+  each_cell(known, [&](int x, int y) {
+    const glm::dvec2 place = dem.transform.to_crs(x, y);
+    const glm::dvec2 at = around->transform.to_cell(place.x, place.y);
+    return static_cast<std::uint8_t>(sample_bilinear(around->inputs[lake], at.x, at.y) > 0.5F ? 1 : 0);
+  });
+  return known;
+}
+
 // The grids that hang on the shape of the ground alone, not on where its water runs.
 void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>& needed, const Parameters& parameters,
-                       const RuleClimate& climate, std::vector<Grid<float>>& inputs) {
+                       const RuleClimate& climate, const RuleGround* around, std::vector<Grid<float>>& inputs) {
   const double cell = dem.cell_m();
   const double cell_x = dem.transform.cell_x;
   const double cell_y = dem.transform.cell_y;
@@ -113,9 +127,9 @@ void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>
   if (is_needed(lake) || is_needed(shore)) {
     LakeParameters lakes;
     lakes.max_range_m = static_cast<float>(parameter_or(parameters, "lake_range_m", 0.25));
-    lakes.min_cells = static_cast<int>(parameter_or(parameters, "lake_min_cells", 150.0));
+    lakes.min_cells = lake_cells(static_cast<int>(parameter_or(parameters, "lake_min_cells", 150.0)), dem.halved);
     Grid<std::uint8_t> mask = find_lakes(z, lakes);
-    const Grid<std::uint8_t> holes = find_hole_lakes(dem, lakes.min_cells);
+    const Grid<std::uint8_t> holes = find_hole_lakes(dem, lakes.min_cells, known_lakes(around, dem));
     for (std::size_t i = 0; i < mask.size(); ++i)
       mask[i] = static_cast<std::uint8_t>(!found.empty() && found.mask[i] != 0 ? 0 : mask[i] | holes[i]);
     grid(lake) = Grid<float>(z.width(), z.height());
@@ -157,7 +171,7 @@ double parameter_or(const Parameters& parameters, const std::string& name, doubl
 
 std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
                                              const Settlers& settlers, const SeaParameters& sea_parameters, const RuleClimate& climate,
-                                             Catchments* catchments, std::vector<TownSite>* settlements) {
+                                             Catchments* catchments, std::vector<TownSite>* settlements, const RuleGround* around) {
   const Grid<float>& z = dem.altitude_m;
   std::vector<Grid<float>> inputs(first_noise);
   const bool needs_town = needed[town];
@@ -170,7 +184,7 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
   parallel_ranges(2, 1, [&](int begin, int end) {
     for (int part = begin; part != end; ++part) {
       if (part == 1)
-        make_shape_inputs(dem, found, needed, parameters, climate, inputs);
+        make_shape_inputs(dem, found, needed, parameters, climate, around, inputs);
       else if (needed[river] || needs_town)
         waters.km2();
     }
@@ -224,92 +238,6 @@ Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, doub
     return 0.F;
   });
   return above;
-}
-
-Grid<float> flowing_ice(const Grid<float>& balance, const Dem& dem) {
-  const int width = dem.width();
-  const int height = dem.height();
-  const double cell = dem.cell_m();
-  // Ice does not follow every gully of its bed.
-  const Grid<float> surface = gaussian_blur(dem.altitude_m, 90.0 / cell);
-  // Highest first, equal ones in the order of their cells.
-  std::vector<std::uint64_t> falling;
-  for (std::size_t i = 0; i < balance.size(); ++i)
-    if (balance[i] > lasting_balance) falling.push_back(rising_key(-surface[i], static_cast<std::uint32_t>(i)));
-  std::sort(falling.begin(), falling.end());
-
-  // Down all lower neighbours, more to the steeper ones (Freeman 1991), in km² of snow field.
-  const auto own = static_cast<float>(cell * cell * 1e-6);
-  Grid<float> flux(width, height, 0.F);
-  for (const std::uint64_t key : falling) {
-    const auto i = static_cast<std::int32_t>(key & 0xffffffffU);
-    const auto here = static_cast<std::size_t>(i);
-    flux[here] = std::max(0.F, flux[here] + own * std::min(balance[here], 1.F));
-    if (flux[here] <= 0.F) continue;
-    float shares[8];
-    float total = 0.F;
-    int k = 0;
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        if (dx == 0 && dy == 0) continue;
-        shares[k] = 0.F;
-        if (surface.contains(i % width + dx, i / width + dy)) {
-          const float drop = surface[here] - surface(i % width + dx, i / width + dy);
-          if (drop > 0.F) shares[k] = std::pow(dx != 0 && dy != 0 ? drop * 0.7071F : drop, 1.3F);
-        }
-        total += shares[k++];
-      }
-    }
-    if (total <= 0.F) continue;
-    k = 0;
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        if (dx == 0 && dy == 0) continue;
-        if (shares[k] > 0.F) flux(i % width + dx, i / width + dy) += flux[here] * shares[k] / total;
-        ++k;
-      }
-    }
-  }
-
-  falling = {};
-
-  // The stream has a thickness that grows with what flows, and covers the bed beside it up to its level.
-  struct IceStream {
-    int x;
-    int reach;  // cells
-    float level_m;
-  };
-  std::vector<std::vector<IceStream>> streams(static_cast<std::size_t>(height));  // of each row
-  parallel_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const float f = flux(x, y);
-      if (f < 0.02F || !(balance(x, y) > lasting_balance)) continue;
-      const float thickness = 45.F * std::pow(f, 0.3F);
-      const int reach = static_cast<int>(std::min(widest_stream_m, 420.0 * std::sqrt(static_cast<double>(f))) / cell);
-      streams[static_cast<std::size_t>(y)].push_back({x, reach, surface(x, y) + thickness});
-    }
-  });
-  Grid<float> covered(width, height, 0.F);
-  const int farthest = static_cast<int>(widest_stream_m / cell);
-  parallel_rows(height, [&](int y) {
-    const float* bed = dem.altitude_m.row(y);
-    const float* melts = balance.row(y);
-    float* out = covered.row(y);
-    for (int cy = std::max(0, y - farthest); cy < std::min(height, y + farthest + 1); ++cy) {
-      const int dy = y - cy;
-      for (const IceStream& stream : streams[static_cast<std::size_t>(cy)]) {
-        const int left = stream.reach * stream.reach - dy * dy;
-        if (left < 0) continue;
-        int half = static_cast<int>(std::sqrt(static_cast<float>(left)));
-        while (half * half > left) --half;
-        while ((half + 1) * (half + 1) <= left) ++half;
-        const int end = std::min(width, stream.x + half + 1);
-        for (int x = std::max(0, stream.x - half); x < end; ++x)
-          out[x] = ((bed[x] < stream.level_m) & (melts[x] > lasting_balance)) != 0 ? 1.F : out[x];
-      }
-    }
-  });
-  return gaussian_blur(covered, 60.0 / cell);
 }
 
 NoiseColumns plan_noise(int variable, const GeoTransform& transform, int width) {

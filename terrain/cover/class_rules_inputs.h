@@ -8,6 +8,7 @@
 #include "base/land_cover_class.h"
 #include "base/noise.h"
 #include "terrain/cover/rule_climate.h"
+#include "terrain/cover/rule_ground.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
 #include "terrain/shape/catchments.h"
@@ -70,16 +71,14 @@ struct Settlers {
 
 // The grids that are needed (by slot), all of the DEM's size; others stay empty. ice and below_rock depend on the rules and stay empty.
 // `catchments`: the DEM's, null: they are found here. `settlements` gets the settlements, where it is given and `town` is needed.
+// `around`: of a window; what it cannot know of lakes that reach over its rim.
 std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
                                              const Settlers& settlers, const SeaParameters& sea_parameters, const RuleClimate& climate,
-                                             Catchments* catchments = nullptr, std::vector<TownSite>* settlements = nullptr);
+                                             Catchments* catchments = nullptr, std::vector<TownSite>* settlements = nullptr,
+                                             const RuleGround* around = nullptr);
 
 // 1 just below rock, falling to 0 over `reach_m` down the fall line.
 Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, double reach_m);
-
-// Where glaciers lie, 0…1: what falls and melts (`balance`, > 0 where more falls) flows downhill, and ice fills the valleys that it flows
-// through until it has melted: tongues.
-Grid<float> flowing_ice(const Grid<float>& balance, const Dem& dem);
 
 // A noise variable: its places in every row, and one row of it.
 NoiseColumns plan_noise(int variable, const GeoTransform& transform, int width);

@@ -90,6 +90,12 @@ Counts apply_tile(const LayerProgram& program, const LayerGround& ground, const 
 
 }  // namespace
 
+LayerDrawing plan_drawing(const SurfaceLayers& layers, const Dem& dem, const LayerClimate& climate,
+                          const LayerApplyParameters& parameters) {
+  const LayerProgram program = compile_layers(layers);
+  return plan_drawing(program, make_layer_ground(dem, climate, program.inputs, parameters.whole), parameters);
+}
+
 LayerApplyResult apply_layers(const SurfaceLayers& layers, const Dem& dem, const LayerClimate& climate,
                               const LayerApplyParameters& parameters, const std::function<void(const LayerStrip&)>& take,
                               Progress& progress) {
@@ -97,8 +103,8 @@ LayerApplyResult apply_layers(const SurfaceLayers& layers, const Dem& dem, const
   if (layers.layers.empty()) throw Error(ErrorKind::usage, layers.name.empty() ? "layers" : layers.name, "no layers", "at least one");
   const LayerProgram program = compile_layers(layers);
   progress.begin("looking at the ground", 0.0);
-  const LayerGround ground = make_layer_ground(dem, climate, program.inputs);
-  const LayerDrawing drawing = plan_drawing(program, ground, parameters);
+  const LayerGround ground = make_layer_ground(dem, climate, program.inputs, parameters.whole);
+  const LayerDrawing drawing = parameters.drawn ? *parameters.drawn : plan_drawing(program, ground, parameters);
 
   const int width = dem.width();
   const int across = (width + tile_cells - 1) / tile_cells;

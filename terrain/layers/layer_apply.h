@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct LayerApplyParameters {
   LayerDrawingParameters drawing;
   bool colour = false;    // make colours
   bool coverage = false;  // make coverages
+  // Of a window: the larger terrain that it is part of, and how classes are drawn there (plan_drawing).
+  const Dem* whole = nullptr;
+  std::optional<LayerDrawing> drawn = {};
 };
 
 // Rows of the result, the DEM's whole width.
@@ -42,6 +46,9 @@ struct LayerApplyResult {
 LayerApplyResult apply_layers(const SurfaceLayers& layers, const Dem& dem, const LayerClimate& climate,
                               const LayerApplyParameters& parameters, const std::function<void(const LayerStrip&)>& take,
                               Progress& progress);
+
+// How classes are drawn on a DEM, for windows of it.
+LayerDrawing plan_drawing(const SurfaceLayers& layers, const Dem& dem, const LayerClimate& climate, const LayerApplyParameters& parameters);
 
 // The classes as land cover; cells that no class covers take the nearest. Notes what lies outside of ranges. Error(usage) for layers that
 // have no class at all.

@@ -6,16 +6,20 @@
 #include <utility>
 
 #include "base/filter.h"
+#include "base/grid_part.h"
 #include "base/parallel.h"
 #include "terrain/climate/radiation.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/layers/layer_input_table.h"
+#include "terrain/shape/surroundings.h"
 
 namespace belvedere {
 namespace {
 
 constexpr double smoothing_m = 45.0;  // deviation; slopes of scanned DEMs show their stripes
 constexpr double parts = 65536.0;     // of a unit, that are told apart
+// Around a window, from which shadows fall into it: beyond its halo what stands 2000 m higher hides eight degrees of sky at most.
+constexpr double shadow_reach_m = 9000.0;
 
 bool named(const std::vector<std::string>& names, LayerInputKind kind) {
   return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
@@ -43,11 +47,17 @@ Grid<float> read_grid(const std::string& path, const Dem& dem, Progress& progres
 
 // A value of the climate at each cell's place and altitude.
 template <class Value>
-Grid<float> from_climate(const Dem& dem, const Climate& climate, Value&& value) {
+Grid<float> from_climate(const Dem& dem, const Dem& of_climate, const Climate& climate, Value&& value) {
   Grid<float> out(dem.width(), dem.height());
   parallel_rows(dem.height(), [&](int y) {
-    for (int x = 0; x != dem.width(); ++x)
-      out(x, y) = static_cast<float>(std::round(value(climate.at(x, y), static_cast<double>(dem.altitude_m(x, y))) * parts) / parts);
+    for (int x = 0; x != dem.width(); ++x) {
+      glm::dvec2 at(x, y);
+      if (&dem != &of_climate) {
+        const glm::dvec2 place = dem.transform.to_crs(x, y);
+        at = of_climate.transform.to_cell(place.x, place.y);
+      }
+      out(x, y) = static_cast<float>(std::round(value(climate.at(at.x, at.y), static_cast<double>(dem.altitude_m(x, y))) * parts) / parts);
+    }
   });
   return out;
 }
@@ -76,7 +86,8 @@ bool needs_place(const std::vector<std::string>& names, const LayerClimateFiles&
 }
 
 LayerClimateGrids make_layer_climate(const Dem& dem, const std::vector<std::string>& names, const LayerClimateFiles& files,
-                                     std::optional<double> latitude_deg, const ClimateMaker& climate, Progress& progress) {
+                                     std::optional<double> latitude_deg, const ClimateMaker& climate, Progress& progress,
+                                     const Dem* whole) {
   using enum LayerInputKind;
   LayerClimateGrids grids;
   const auto read = [&](LayerInputKind kind, const std::string& file, Grid<float>& grid) {
@@ -90,13 +101,20 @@ LayerClimateGrids make_layer_climate(const Dem& dem, const std::vector<std::stri
   if (is.temperature || is.rain) {
     const Climate here = climate();
     grids.sources = here.sources;
-    if (is.temperature) grids.temperature_c = from_climate(dem, here, year_c);
+    const Dem& of_climate = whole != nullptr ? *whole : dem;
+    if (is.temperature) grids.temperature_c = from_climate(dem, of_climate, here, year_c);
     if (is.rain)
-      grids.rain_mm = from_climate(dem, here, [](const PlaceClimate& place, double altitude_m) { return rain_mm(place, altitude_m); });
+      grids.rain_mm =
+          from_climate(dem, of_climate, here, [](const PlaceClimate& place, double altitude_m) { return rain_mm(place, altitude_m); });
   }
   if (is.radiation || is.sky_view) {
-    const MapPlace place = make_map_place(dem.transform, dem.crs, dem.width(), dem.height(), latitude_deg);
-    Radiation sun = potential_radiation(gaussian_blur(dem.altitude_m, smoothing_m / dem.cell_m()), place, {}, progress);
+    Surrounded ground{gaussian_blur(dem.altitude_m, smoothing_m / dem.cell_m()), dem.transform};
+    if (whole != nullptr) ground = surround(ground.altitude_m, dem.transform, *whole, shadow_reach_m);
+    const MapPlace place = make_map_place(ground.transform, dem.crs, ground.altitude_m.width(), ground.altitude_m.height(), latitude_deg);
+    Radiation sun = potential_radiation(ground.altitude_m, place, {}, progress);
+    if (whole != nullptr)
+      for (Grid<float>* grid : {&sun.direct_mj_m2, &sun.sky_view})
+        *grid = part_of(*grid, {ground.left, ground.top, ground.left + dem.width(), ground.top + dem.height()});
     if (is.radiation) grids.radiation = std::move(sun.direct_mj_m2);
     if (is.sky_view) grids.sky_view = std::move(sun.sky_view);
   }

@@ -13,6 +13,7 @@
 #include "terrain/layers/layer_input_table.h"
 #include "terrain/shape/derivatives.h"
 #include "terrain/shape/hydrology.h"
+#include "terrain/shape/surroundings.h"
 
 namespace belvedere {
 namespace {
@@ -141,6 +142,19 @@ LayerGround::Coarse wide_mean(const Dem& dem, double sigma_m) {
   return {factor, gaussian_blur(block_means(dem.altitude_m, factor), blur_left(sigma, factor))};
 }
 
+// The same in a window of a larger terrain, over what lies around it.
+LayerGround::Coarse wide_mean_of_part(const Dem& window, const Dem& whole, double sigma_m) {
+  const double sigma = sigma_m / window.cell_m();
+  const int factor = block_for(sigma / 4.0);
+  const GeoTransform& t = window.transform;
+  const Surrounded all = surround(block_means(window.altitude_m, factor), {t.origin_x, t.origin_y, factor * t.cell_x, factor * t.cell_y},
+                                  whole, 3.5 * sigma_m);
+  const int width = (window.width() + factor - 1) / factor;
+  const int height = (window.height() + factor - 1) / factor;
+  return {factor,
+          part_of(gaussian_blur(all.altitude_m, blur_left(sigma, factor)), {all.left, all.top, all.left + width, all.top + height})};
+}
+
 LayerGround::Coarse lowest_around(const Dem& dem) {
   const double cell = dem.cell_m();
   const int factor = block_for(std::min(valley_radius_m / 16.0, valley_smooth_m / 4.0) / cell);
@@ -155,7 +169,9 @@ LayerGround::Coarse lowest_around(const Dem& dem) {
 LayerGround::Coarse catchments(const Dem& dem) {
   int factor = 1;
   while (dem.altitude_m.size() / static_cast<std::size_t>(factor) / static_cast<std::size_t>(factor) > most_catchment_cells) factor *= 2;
-  Grid<float> area = flow_accumulation_km2(gaussian_blur(block_means(dem.altitude_m, factor), 1.5), dem.cell_m() * factor);
+  std::vector<RiverEntry> entries = dem.entries;
+  for (RiverEntry& entry : entries) entry.x /= factor, entry.y /= factor;
+  Grid<float> area = flow_accumulation_km2(gaussian_blur(block_means(dem.altitude_m, factor), 1.5), dem.cell_m() * factor, entries);
   parallel_rows(area.height(), [&](int y) {
     for (int x = 0; x < area.width(); ++x) area(x, y) = static_cast<float>(exact::log2(std::max(1e-12, static_cast<double>(area(x, y)))));
   });
@@ -235,7 +251,7 @@ void subtract(Grid<float>& from, const Grid<float>& what) {
 
 }  // namespace
 
-LayerGround make_layer_ground(const Dem& dem, const LayerClimate& climate, const std::vector<std::string>& names) {
+LayerGround make_layer_ground(const Dem& dem, const LayerClimate& climate, const std::vector<std::string>& names, const Dem* whole) {
   LayerGround ground{&dem, climate, names, std::vector<LayerGround::Coarse>(names.size())};
   for (const std::string& name : names) {
     require_layer_input(name, "inputs");
@@ -248,7 +264,7 @@ LayerGround make_layer_ground(const Dem& dem, const LayerClimate& climate, const
   for (std::size_t i = 0; i < names.size(); ++i) {
     const LayerInputInfo& info = *find_layer_input(names[i]);
     if (info.kind == LayerInputKind::relief)
-      ground.coarse[i] = wide_mean(dem, info.reach_m);
+      ground.coarse[i] = whole != nullptr ? wide_mean_of_part(dem, *whole, info.reach_m) : wide_mean(dem, info.reach_m);
     else if (info.kind == LayerInputKind::valley_height)
       ground.coarse[i] = lowest_around(dem);
     else if (info.kind == LayerInputKind::catchment)

@@ -31,8 +31,10 @@ struct LayerGround {
   std::vector<std::string> names;  // of the inputs, in the order in which layer_inputs() gives them
   std::vector<Coarse> coarse;      // one for each input
 };
-// Error(usage) naming the input that is unknown, or that the climate does not give.
-LayerGround make_layer_ground(const Dem& dem, const LayerClimate& climate, const std::vector<std::string>& names);
+// Error(usage) naming the input that is unknown, or that the climate does not give. `whole`: of a window, the larger terrain that it is
+// part of; means of more ground than the window's halo has are taken over it, and catchments have what flows in.
+LayerGround make_layer_ground(const Dem& dem, const LayerClimate& climate, const std::vector<std::string>& names,
+                              const Dem* whole = nullptr);
 
 // The inputs at the cells of a rectangle inside the DEM, a grid of its size each. Thread-safe.
 std::vector<Grid<float>> layer_inputs(const LayerGround& ground, const PixelRect& cells);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <string>
 #include <vector>
@@ -299,6 +300,84 @@ TEST_F(GroundWindowsByTheSea, HaveTheWholesSeaAndClimate) {
     EXPECT_GT(sea, 1000);
     EXPECT_GT(wet, 0.98 * sea);
   }
+}
+
+bool is_icy(LandCoverClass id) { return id == LandCoverClass::glacier || id == LandCoverClass::snow; }
+
+// The whole's class at a cell of a window.
+LandCoverClass class_of(const World& whole, const TerrainWindow& window, int x, int y) {
+  const Raster<LandCoverClass>& classes = whole.land_cover->classes;
+  const glm::dvec2 place = window.ground.dem->transform.to_crs(x, y);
+  const glm::ivec2 at(glm::round(classes.transform.to_cell(place.x, place.y)));
+  return classes.cells.clamped(at.x, at.y);
+}
+
+TEST_F(GroundWindows, IceGoesOnAcrossJoints) {
+  // Specks are cleaned on either side for itself, in cells of its own.
+  const std::vector<std::string> settings = {"land_cover.settings.ice_line_m=1700", "land_cover.settings.snowline_m=2400",
+                                             "land_cover.settings.speck_cells=0"};
+  std::vector<std::string> with_few = settings;
+  with_few.emplace_back(few_cells);
+  const World whole(scene(settings), silent_progress());
+  const World parts(scene(with_few), silent_progress());
+  ASSERT_EQ(parts.terrain.windows.size(), 2U);
+  const TerrainModel* coarser = &parts.terrain;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const TerrainWindow& window = parts.terrain.windows[i];
+    const Grid<LandCoverClass>& fine = window.ground.land_cover->classes.cells;
+    const Grid<LandCoverClass>& coarse = coarser->land_cover->classes.cells;
+    ASSERT_TRUE(fine.same_size(window.ground.dem->altitude_m));
+    // At the posts that both sides of the joint have.
+    int posts = 0, same = 0, icy = 0, same_ice = 0;
+    const auto compare = [&](int x, int y) {
+      const LandCoverClass here = fine(window.part.x0 + x, window.part.y0 + y);
+      const LandCoverClass there = coarse(window.replaces.x0 + x / 2, window.replaces.y0 + y / 2);
+      ++posts;
+      same += here == there ? 1 : 0;
+      icy += is_icy(here) || is_icy(there) ? 1 : 0;
+      same_ice += is_icy(here) && is_icy(there) ? 1 : 0;
+    };
+    for (int x = 0; x < window.part.width(); x += 2) compare(x, 0), compare(x, window.part.height() - 1);
+    for (int y = 0; y < window.part.height(); y += 2) compare(0, y), compare(window.part.width() - 1, y);
+    EXPECT_GT(icy, posts / 20);
+    EXPECT_GT(same, 0.98 * posts) << "window " << i;
+    EXPECT_GT(same_ice, 0.95 * icy) << "window " << i;
+    // And farther in, where the window's own cells count, ice is where the whole has it: as well as cells of twice the width know.
+    double both = 0.0, either = 0.0;
+    for (int y = window.part.y0 + 32; y < window.part.y1 - 32; ++y)
+      for (int x = window.part.x0 + 32; x < window.part.x1 - 32; ++x) {
+        const bool here = is_icy(fine(x, y));
+        const bool there = is_icy(class_of(whole, window, x, y));
+        both += here && there ? 1.0 : 0.0;
+        either += here || there ? 1.0 : 0.0;
+      }
+    EXPECT_GT(both, (i == 1 ? 0.9 : 0.5) * either) << "window " << i;
+    coarser = &window.ground;
+  }
+}
+
+TEST_F(GroundWindows, LayersSeeTheWholesClimateAndWideGround) {
+  folder_->write("high.layers.toml",
+                 "version = 1\nground = { class = \"rock\" }\n[[layers]]\nname = \"cold\"\nclass = \"snow\"\nwhen = \"temperature < 4\"\n"
+                 "[[layers]]\nname = \"high\"\nclass = \"glacier\"\nwhen = \"relief_4000 > 300\"\n"
+                 "[[layers]]\nname = \"sunny\"\nclass = \"pasture\"\nwhen = \"radiation > 6500\"\n");
+  const std::string layers = "land_cover.layers=\"high.layers.toml\"";
+  const World whole(scene({layers}), silent_progress());
+  const World parts(scene({layers, few_cells}), silent_progress());
+  const TerrainWindow& finest = parts.terrain.windows.back();
+  const Grid<LandCoverClass>& fine = finest.ground.land_cover->classes.cells;
+  std::array<double, land_cover_class_count> kinds{};
+  double same = 0.0;
+  double all = 0.0;
+  for (int y = finest.part.y0; y < finest.part.y1; ++y)
+    for (int x = finest.part.x0; x < finest.part.x1; ++x) {
+      all += 1.0;
+      same += fine(x, y) == class_of(whole, finest, x, y) ? 1.0 : 0.0;
+      kinds[static_cast<std::size_t>(fine(x, y))] += 1.0;
+    }
+  for (const LandCoverClass id : {LandCoverClass::rock, LandCoverClass::snow, LandCoverClass::glacier, LandCoverClass::pasture})
+    EXPECT_GT(kinds[static_cast<std::size_t>(id)], 0.02 * all) << static_cast<int>(id);
+  EXPECT_GT(same, 0.995 * all);
 }
 
 TEST_F(GroundWindows, ABudgetThatHoldsNotEvenTheCoarsestIsRefused) {

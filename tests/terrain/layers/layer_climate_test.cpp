@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 
 #include "base/error.h"
+#include "base/grid_part.h"
 #include "base/parallel.h"
 #include "terrain/climate/sun_year.h"
 #include "terrain/io/raster_io.h"
@@ -140,6 +142,34 @@ TEST(LayerClimate, TheSameForAnyThreads) {
   EXPECT_EQ(one.rain_mm, three.rain_mm);
   EXPECT_EQ(one.radiation, three.radiation);
   EXPECT_EQ(one.sky_view, three.sky_view);
+}
+
+// Cells of a larger terrain: its climate, and the shadows of what stands outside.
+TEST(LayerClimate, AWindowHasTheClimateOfTheWholeAndItsShadows) {
+  const Dem whole = tent();
+  Climate climate = even_climate(whole);
+  climate.nodes(1, 0).sea_level_c[0] += 24.0;  // 2 K warmer in the year's mean in one corner
+  const PixelRect cells{10, 20, 50, 60};       // on the northern slope
+  Dem window = whole;
+  window.altitude_m = part_of(whole.altitude_m, cells);
+  window.filled = part_of(whole.filled, cells);
+  window.transform.origin_x += 10 * 20.0;
+  window.transform.origin_y -= 20 * 20.0;
+  const std::vector<std::string> names = {"temperature", "radiation", "sky_view"};
+  const auto maker = [&] { return climate; };
+  const LayerClimateGrids of_whole = make_layer_climate(whole, names, {}, {}, maker, silent_progress());
+  const LayerClimateGrids joined = make_layer_climate(window, names, {}, {}, maker, silent_progress(), &whole);
+  const LayerClimateGrids alone = make_layer_climate(window, names, {}, {}, maker, silent_progress());
+  float apart_alone = 0.F;
+  ASSERT_TRUE(joined.radiation.same_size(window.altitude_m));
+  for (int y = 10; y < 30; ++y)
+    for (int x = 10; x < 30; ++x) {
+      EXPECT_NEAR(joined.temperature_c(x, y), of_whole.temperature_c(10 + x, 20 + y), 1e-4);
+      EXPECT_NEAR(joined.radiation(x, y), of_whole.radiation(10 + x, 20 + y), 0.01F * of_whole.radiation(10 + x, 20 + y));
+      EXPECT_NEAR(joined.sky_view(x, y), of_whole.sky_view(10 + x, 20 + y), 0.005F);
+      apart_alone = std::max(apart_alone, std::abs(alone.temperature_c(x, y) - of_whole.temperature_c(10 + x, 20 + y)));
+    }
+  EXPECT_GT(apart_alone, 0.2F) << "the climate is the whole's";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -33,6 +34,41 @@ std::vector<std::string> names_from_the_ground() {
   for (const LayerInputInfo& info : layer_input_table())
     if (info.kind < LayerInputKind::temperature) names.emplace_back(info.name);
   return names;
+}
+
+// A window of a larger terrain is given what the whole is, also by what reaches farther than the window.
+TEST(LayerInputs, WindowsLookBeyondThemselves) {
+  const Dem whole =
+      ground(480, 480, 60.0, [](double e, double n) { return 800.0 + 0.05 * e + 400.0 * std::sin(e / 2500.0) * std::cos(n / 3000.0); });
+  Dem window = whole;
+  const PixelRect cells{180, 200, 300, 310};
+  window.altitude_m = part_of(whole.altitude_m, cells);
+  window.filled = part_of(whole.filled, cells);
+  window.transform.origin_x += 180 * 60.0;
+  window.transform.origin_y -= 200 * 60.0;
+  for (const char* name : {"relief_750", "relief_4000"}) {
+    const Grid<float> of_whole = part_of(one(whole, name), cells);
+    const Grid<float> joined = layer_inputs(make_layer_ground(window, {}, {name}, &whole)).at(0);
+    const Grid<float> alone = one(window, name);
+    float apart = 0.F;
+    float apart_alone = 0.F;
+    for (int y = 15; y < 95; ++y)
+      for (int x = 15; x < 105; ++x) {
+        apart = std::max(apart, std::abs(joined(x, y) - of_whole(x, y)));
+        apart_alone = std::max(apart_alone, std::abs(alone(x, y) - of_whole(x, y)));
+      }
+    EXPECT_LT(apart, 1.5F) << name;
+    if (std::string(name) == "relief_4000") {
+      EXPECT_GT(apart_alone, 30.F);
+    }
+  }
+  // A river that enters brings its catchment along.
+  window.entries = {{60, 0, 500.0}};
+  const Grid<float> area = layer_inputs(make_layer_ground(window, {}, {"log_catchment"}, &whole)).at(0);
+  EXPECT_GT(*std::max_element(area.begin(), area.end()), 6.F);  // log2 of 64 km², blurred
+  window.entries = {};
+  const Grid<float> dry = layer_inputs(make_layer_ground(window, {}, {"log_catchment"}, &whole)).at(0);
+  EXPECT_LT(*std::max_element(dry.begin(), dry.end()), 4.F);
 }
 
 // Rows run south: on a cone the north side faces north.

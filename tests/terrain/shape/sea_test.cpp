@@ -246,6 +246,25 @@ TEST(HoleLakes, HaveLevelShores) {
   EXPECT_EQ(lakes(140, 100), 0);
 }
 
+// What reaches over a window's rim is a lake where the larger terrain has one.
+TEST(HoleLakes, OverTheRimAreKnownFromOutside) {
+  Dem dem;
+  dem.altitude_m = Grid<float>(80, 60, 500.F);
+  dem.filled = Grid<std::uint8_t>(80, 60, 0);
+  for (int y = 10; y < 40; ++y)
+    for (int x = 0; x < 20; ++x) dem.filled(x, y) = 1;
+  EXPECT_EQ(find_hole_lakes(dem)(10, 20), 0);
+  Grid<std::uint8_t> known(80, 60, 0);
+  EXPECT_EQ(find_hole_lakes(dem, 150, known)(10, 20), 0);
+  // Its shore there lies elsewhere, as coarser cells have it.
+  for (int y = 6; y < 36; ++y)
+    for (int x = 0; x < 16; ++x) known(x, y) = 1;
+  const Grid<std::uint8_t> lakes = find_hole_lakes(dem, 150, known);
+  EXPECT_EQ(lakes(10, 20), 1);
+  EXPECT_EQ(lakes(19, 39), 1);
+  EXPECT_EQ(lakes(10, 8), 0);
+}
+
 TEST(DistanceToSea, IsMetresFromItsCells) {
   Grid<std::uint8_t> sea(10, 4, 0);
   EXPECT_EQ(distance_to_sea_m(sea, 30.0)(3, 3), 1e6F);

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "base/grid.h"
+#include "terrain/io/dem.h"
+
+namespace belvedere {
+
+// A window of a larger terrain with what lies around it, for what looks far: shadows, wide means.
+struct Surrounded {
+  Grid<float> altitude_m;
+  GeoTransform transform;
+  int left = 0, top = 0;  // the window's first cell
+};
+
+// `own`: altitudes of the window's cells, or of blocks of them, at `transform`. Up to `reach_m` around, as far as there is any, lies the
+// whole's ground, read bilinearly.
+Surrounded surround(const Grid<float>& own, const GeoTransform& transform, const Dem& whole, double reach_m);
+
+}  // namespace belvedere

@@ -1,0 +1,86 @@
+#include "terrain/cover/rule_ground.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace belvedere {
+namespace {
+
+constexpr GeoTransform fine{10000.0, 20000.0, 30.0, 30.0};
+// Every second cell of it.
+constexpr GeoTransform coarse{10000.0 - 15.0, 20000.0 + 15.0, 60.0, 60.0};
+
+const RuleGround nothing;
+const RuleAround around{nothing, {20, 30, 180, 170}, 32};
+
+TEST(OwnShare, GrowsFromTheEdgeOfThePartAlongARaggedLine) {
+  const Grid<float> share = own_share(around, fine, 200, 200, 7);
+  float least = 1.F;
+  float most = 0.F;
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x) {
+      const int from_edge = std::min({x - 20, 179 - x, y - 30, 169 - y});
+      if (from_edge <= 0) {
+        EXPECT_EQ(share(x, y), 0.F) << x << ' ' << y;
+      }
+      if (from_edge >= 32) {
+        EXPECT_EQ(share(x, y), 1.F) << x << ' ' << y;
+      }
+    }
+  // Where a straight line would be half way.
+  for (int y = 70; y < 130; ++y) least = std::min(least, share(36, y)), most = std::max(most, share(36, y));
+  EXPECT_LT(least, 0.25F);
+  EXPECT_GT(most, 0.75F);
+}
+
+TEST(OwnShare, HangsOnPlacesAndSeed) {
+  const Grid<float> share = own_share(around, fine, 200, 200, 7);
+  // The same part in a window that begins elsewhere.
+  const GeoTransform moved{fine.origin_x - 5 * 30.0, fine.origin_y + 4 * 30.0, 30.0, 30.0};
+  const Grid<float> other = own_share({nothing, {25, 34, 185, 174}, 32}, moved, 205, 204, 7);
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x) EXPECT_NEAR(share(x, y), other(x + 5, y + 4), 1e-5F);
+  EXPECT_NE(share, own_share(around, fine, 200, 200, 8));
+}
+
+TEST(JoinInput, IsThatOfTheGroundAroundAtTheEdgeAndItsOwnInside) {
+  Grid<float> there(110, 110);
+  for (int y = 0; y < 110; ++y)
+    for (int x = 0; x < 110; ++x) there(x, y) = static_cast<float>(2 * x - 3 * y);
+  const Grid<float> share = own_share(around, fine, 200, 200, 7);
+  Grid<float> own(200, 200, 1000.F);
+  join_input(own, there, share, fine, coarse);
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x) {
+      const float expected = static_cast<float>(x) - 1.5F * static_cast<float>(y);
+      const int from_edge = std::min({x - 20, 179 - x, y - 30, 169 - y});
+      if (from_edge <= 0) {
+        EXPECT_NEAR(own(x, y), expected, 1e-3F) << x << ' ' << y;
+      }
+      if (from_edge >= 32) {
+        EXPECT_EQ(own(x, y), 1000.F);
+      }
+      EXPECT_GE(own(x, y), expected - 1e-3F);
+      EXPECT_LE(own(x, y), 1000.F);
+    }
+  Grid<float> none;
+  join_input(none, there, share, fine, coarse);
+  EXPECT_TRUE(none.empty());
+}
+
+TEST(RuleGround, PartsKeepTheirPlace) {
+  RuleGround ground{fine, {Grid<float>(), Grid<float>(50, 40)}, Grid<float>(50, 40), Grid<float>()};
+  ground.inputs[1](12, 9) = 3.F;
+  ground.ice_km2(12, 9) = 4.F;
+  const RuleGround part = part_of(std::move(ground), {10, 5, 30, 25});
+  EXPECT_TRUE(part.inputs[0].empty());
+  EXPECT_EQ(part.inputs[1].width(), 20);
+  EXPECT_EQ(part.inputs[1](2, 4), 3.F);
+  EXPECT_EQ(part.ice_km2(2, 4), 4.F);
+  EXPECT_EQ(part.transform.to_crs(2, 4), fine.to_crs(12, 9));
+}
+
+}  // namespace
+}  // namespace belvedere
