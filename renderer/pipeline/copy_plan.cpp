@@ -11,6 +11,7 @@
 #include "renderer/exemplar/exemplars.h"
 #include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/trace/camera_reduced.h"
+#include "renderer/trace/wide_view.h"
 #include "renderer/world/cached_products.h"
 #include "texture/synthesis/class_supply.h"
 
@@ -19,8 +20,9 @@ namespace {
 
 constexpr const char* plan_name = "plan";
 
-// Bytes that a pixel of a stage's window takes while the stage works: the widest is the base picture's.
+// Bytes that a pixel of a stage's window takes while the stage works, and one of a wide view.
 constexpr double window_bytes_per_pixel = 180.0;
+constexpr double wide_bytes_per_pixel = 40.0;
 constexpr int largest_tile_px = 1024;
 constexpr int smallest_tile_px = 128;
 constexpr int part_tile_px = 256;         // of small parts of a sheet
@@ -66,11 +68,23 @@ int choose_tile_px(const Scene& scene, double pixels_per_unit, PixelRect region)
   const auto budget = static_cast<double>(memory_budget_bytes());
   BaseParameters base;
   base.pixels_per_unit = pixels_per_unit;
-  const int margin = base_margin_px(base);
-  const auto bytes = [&](int tile) {
-    const double wide = std::min(scene.output.width, tile + 2 * margin);
-    const double high = std::min(scene.output.height, tile + 2 * margin);
-    return wide * high * window_bytes_per_pixel;
+  StrokeParameters strokes;
+  strokes.pixels_per_unit = pixels_per_unit;
+  // The widest windows are those of strokes below the sky and of base pictures with water, which look around in a wide view. One of the
+  // pixels' own size, where a unit has too few for a smaller one, is a window like others.
+  const int stroke_margin = stroke_margin_px(StrokeLayers{}, strokes);
+  const int wide_margin = base_margin_px(base);
+  const int factor = wide_factor(pixels_per_unit);
+  const PixelRect sheet{0, 0, scene.output.width, scene.output.height};
+  const auto area = [&](const PixelRect& window) {
+    return std::min<double>(window.width(), sheet.width()) * std::min<double>(window.height(), sheet.height());
+  };
+  const auto bytes = [&](int side) {
+    const PixelRect tile{0, 0, side, side};
+    const double wide = area(grown(tile, wide_margin));
+    const double near = std::max(area(grown(tile, stroke_margin)), area(base_window(tile, true, base)));
+    if (factor == 1) return std::max(wide, near) * window_bytes_per_pixel;
+    return near * window_bytes_per_pixel + wide / (factor * factor) * wide_bytes_per_pixel;
   };
   // Small parts ask for little beyond their margins: coarse tiles would make much that nobody sees.
   int tile = largest_tile_px;
