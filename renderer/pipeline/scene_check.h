@@ -9,6 +9,7 @@
 #include "base/land_cover_class.h"
 #include "base/progress.h"
 #include "renderer/paint/composite.h"
+#include "renderer/pipeline/view_judgement.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/view.h"
 #include "terrain/cover/land_cover_patches.h"
@@ -27,6 +28,7 @@ struct SceneReport {
   std::vector<std::pair<LandCoverClass, double>> classes;  // seen in the picture, with their share of its area
   std::vector<ClassArea> land_cover;                       // where small patches are taken out: each class before and after
   std::vector<std::string> exemplars;
+  ViewJudgement judgement;  // of the picture's composition
 };
 
 // Everything about a scene that shows without rendering it: files, data, terrain, the camera's place, the palette, and, from a small trace

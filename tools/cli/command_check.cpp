@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "base/json.h"
@@ -11,6 +12,54 @@
 
 namespace belvedere::tools {
 namespace {
+
+// A measure in the unit that people read it in.
+std::string in_words(TermUnit unit, double value) {
+  switch (unit) {
+    case TermUnit::share:
+      return fmt::format("{:.0f} %", 100.0 * value);
+    case TermUnit::degrees:
+      return fmt::format("{:.0f}°", value);
+    case TermUnit::pixels:
+      return fmt::format("{:.0f} px", value);
+    case TermUnit::number:
+      break;
+  }
+  return fmt::format("{:.1f}", value);
+}
+
+Json composition_json(const ViewJudgement& judgement) {
+  Json terms = Json::object();
+  for (const ScoreTerm& term : judgement.terms)
+    terms.add(std::string(term.name), Json::object()
+                                          .add("value", Json::number(term.value))
+                                          .add("good_from", Json::number(term.good.b))
+                                          .add("good_to", Json::number(std::min(term.good.c, 1e9)))
+                                          .add("advice", Json::text(std::string(term.advice()))));
+  return Json::object()
+      .add("judged", Json::boolean(judgement.judged()))
+      .add("merit", Json::number(judgement.merit))
+      .add("subject", Json::text(judgement.subject))
+      .add("near_m", Json::number(judgement.near_m))
+      .add("far_m", Json::number(judgement.far_m))
+      .add("measures", std::move(terms));
+}
+
+std::string composition_text(const ViewJudgement& judgement) {
+  if (!judgement.judged()) return "composition: not judged, " + judgement.why_not + "\n";
+  std::string out = fmt::format("composition: merit {:.1f} of 10; about {}; from {:.1f} km to a horizon at {:.1f} km\n", judgement.merit,
+                                judgement.subject, judgement.near_m / 1000.0, judgement.far_m / 1000.0);
+  const auto value = [&](std::string_view name) {
+    for (const ScoreTerm& term : judgement.terms)
+      if (term.name == name) return in_words(term.unit, term.value);
+    return std::string();
+  };
+  out += fmt::format("composition: sky {}, rim {}, valley floor seen {}, ranges apart {}, edge through mountains {}, haze {}\n",
+                     value("sky"), value("rim"), value("floor"), value("ranges"), value("cut"), value("haze"));
+  for (const ScoreTerm& term : judgement.terms)
+    if (!term.advice().empty()) out += fmt::format("  {}: {} {}\n", term.advice(), in_words(term.unit, term.value), term.meaning);
+  return out;
+}
 
 std::string as_json(const LoadedScene& scene, const SceneReport& report) {
   Json inputs = Json::array();
@@ -47,6 +96,7 @@ std::string as_json(const LoadedScene& scene, const SceneReport& report) {
              .add("classes", std::move(classes))
              .add("land_cover", std::move(areas))
              .add("exemplars", Json::texts(report.exemplars))
+             .add("composition", composition_json(report.judgement))
              .str() +
          "\n";
 }
@@ -70,7 +120,7 @@ std::string as_text(const LoadedScene& scene, const SceneReport& report) {
   for (const auto& [id, share] : report.classes) out += fmt::format(" {} {:.1f} %,", class_name(id), 100.0 * share);
   out.back() = '\n';
   for (const std::string& exemplar : report.exemplars) out += "painted after: " + exemplar + "\n";
-  return out + scene.name + " is in order\n";
+  return out + composition_text(report.judgement) + scene.name + " is in order\n";
 }
 
 }  // namespace
@@ -82,6 +132,8 @@ Action add_check(CLI::App& command) {
   command.footer(
       "Looks at the scene's keys, its files, the terrain, the camera's place, and whether the exemplars\n"
       "show every class that is in the picture. Nothing is painted. Exit status 0: in order.\n\n"
+      "It also judges the composition by the measures that belvedere new chooses views by, with a word on what is\n"
+      "outside of the good range; a picture may have its reasons, so that is no error.\n\n"
       "  belvedere check scenes/karwendel.toml --data ../data");
   return [options] {
     const LoadedScene scene = load(*options);

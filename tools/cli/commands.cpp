@@ -5,6 +5,7 @@ namespace belvedere::tools {
 // In the order of the help.
 const std::vector<Command>& all_commands() {
   static const std::vector<Command> commands = {
+      {"", "new", "Proposes views of a region from its elevation alone, and writes a scene", add_new},
       {"", "render", "Renders a scene: panorama.tif for print, .png for screens, .exr for further work", add_render},
       {"", "guidance", "Makes only guidance.exr: depth, classes, light … of every pixel, for other tools", add_guidance},
       {"", "plan", "Prepares a sheet that several machines make together", add_plan},

@@ -47,6 +47,7 @@ Action add_layers_apply(CLI::App& command);
 Action add_layers_fit(CLI::App& command);
 Action add_lock(CLI::App& command);
 Action add_man(CLI::App& command);
+Action add_new(CLI::App& command);
 Action add_part(CLI::App& command);
 Action add_plan(CLI::App& command);
 Action add_render(CLI::App& command);

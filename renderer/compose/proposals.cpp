@@ -1,0 +1,96 @@
+#include "renderer/compose/proposals.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace belvedere {
+namespace {
+
+double off_by(double a, double b) {
+  const double d = std::abs(a - b);
+  return std::min(d - 360.0 * std::floor(d / 360.0), 360.0 - (d - 360.0 * std::floor(d / 360.0)));
+}
+
+double distance(glm::dvec2 a, glm::dvec2 b) {
+  const glm::dvec2 d = a - b;
+  return std::sqrt(d.x * d.x + d.y * d.y);
+}
+
+bool differ(const ViewSearch& search, const Candidate& a, const Candidate& b, double degrees) {
+  const bool turned = off_by(a.view.azimuth_deg, b.view.azimuth_deg) > degrees;
+  const bool moved = distance(a.view.viewer, b.view.viewer) > 0.25 * search.ground.side_m;
+  const bool other = a.plan.anchor != b.plan.anchor;
+  if (search.wishes.from || search.wishes.towards_deg) return turned || other || moved;
+  return turned || (moved && other);
+}
+
+std::vector<Candidate> best_that_differ(const ViewSearch& search, std::vector<Candidate> candidates, std::size_t most, double degrees) {
+  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  std::vector<Candidate> out;
+  for (Candidate& candidate : candidates) {
+    if (out.size() == most) break;
+    if (std::all_of(out.begin(), out.end(), [&](const Candidate& other) { return differ(search, candidate, other, degrees); }))
+      out.push_back(std::move(candidate));
+  }
+  return out;
+}
+
+}  // namespace
+
+void require_region(const CoarseGround& ground, const Massifs& massifs, const std::string& name) {
+  constexpr double least_side_m = 8000.0;
+  constexpr double most_void = 0.6;
+  constexpr double least_relief = 0.008;  // of the side
+  if (ground.side_m < least_side_m)
+    throw Error(ErrorKind::input, name,
+                fmt::format("covers {:.1f} km × {:.1f} km: too little for a panorama", ground.side_m / 1000.0, ground.side_m / 1000.0),
+                "a region of 8 km or more a side, better 30 to 80: several files can be named, which are joined");
+  if (ground.void_share > most_void)
+    throw Error(ErrorKind::input, name, fmt::format("{:.0f} % of it is empty: nothing is known there", 100.0 * ground.void_share),
+                "a part of it that is filled (gdal_translate -projwin), or further files that fill the gaps");
+  if (ground.relief_m < least_relief * ground.side_m)
+    throw Error(ErrorKind::input, name,
+                fmt::format("is nearly flat: {:.0f} m between high and low on {:.0f} km", ground.relief_m, ground.side_m / 1000.0),
+                "a region with mountains, or a scene written by hand");
+  if (massifs.anchors.empty())
+    throw Error(ErrorKind::input, name, "all summits lie at its edge: there is no mountain to look at",
+                "a larger region around the mountains");
+}
+
+std::vector<Candidate> propose_views(const ViewSearch& search, const ProposalParameters& parameters) {
+  std::vector<Candidate> candidates = first_candidates(search);
+  if (candidates.empty()) {
+    std::string found = "no view fits: every one would show the end of the data";
+    std::string allowed = "a larger region";
+    if (search.wishes.from)
+      found = "no view from there fits: the ground it would show is not in the data",
+      allowed = "another place for --from, or a larger region";
+    else if (search.wishes.format.full_turn)
+      allowed = "a larger region, or a narrower picture (--format 3:1)";
+    else if (search.wishes.format.aspect > 2.5)
+      allowed = "a larger region, or a narrower picture (--format 2:1)";
+    if (search.wishes.towards_deg) allowed += ", or another direction";
+    throw Error(ErrorKind::input, "the region", found, allowed);
+  }
+  // More are refined than are wanted: some meet on the way.
+  const auto wanted = static_cast<std::size_t>(parameters.most);
+  constexpr double apart_before = 20.0, apart = 25.0;
+  std::vector<Candidate> starts = best_that_differ(search, std::move(candidates), wanted + 3, apart_before);
+  for (Candidate& start : starts) start = refine(search, std::move(start));
+  std::vector<Candidate> out = best_that_differ(search, std::move(starts), wanted, apart);
+  for (const ViewWishes::Place& place : search.wishes.include) {
+    const std::size_t at = search.massifs.anchors.size() + static_cast<std::size_t>(&place - search.wishes.include.data());
+    std::erase_if(out, [&](const Candidate& c) { return !c.measures.anchors[at].inside; });
+    if (out.empty())
+      throw Error(ErrorKind::input, "--include",
+                  fmt::format("no view of this region shows {}", place.name.empty() ? "that place" : place.name),
+                  "a place farther from the edge of the data, or a larger region");
+  }
+  return out;
+}
+
+}  // namespace belvedere

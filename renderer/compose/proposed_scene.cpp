@@ -1,0 +1,172 @@
+#include "renderer/compose/proposed_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/angle.h"
+#include "base/json.h"
+#include "renderer/compose/view_score.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double sun_left_deg = 112.0;  // of the view: light falls from the upper left, as on maps
+constexpr double sun_altitude_deg = 31.0;
+
+// Three figures: nobody reads more out of a picture.
+double rounded(double metres) {
+  double unit = 1.0;
+  while (metres / unit >= 10000.0) unit *= 10.0;
+  return std::round(metres / unit) * unit;
+}
+
+double turned(double degrees) { return degrees - 360.0 * std::floor(degrees / 360.0); }
+
+std::string_view compass(double azimuth_deg) {
+  constexpr std::array<std::string_view, 8> names = {"north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest"};
+  return names[static_cast<std::size_t>(std::floor(turned(azimuth_deg) / 45.0 + 0.5)) % 8];
+}
+
+double km(double metres) { return metres / 1000.0; }
+
+class Text {
+ public:
+  void line(const std::string& text = {}) { out_ += text + "\n"; }
+  // key = value, and why, in a column.
+  void value(const std::string& key, const std::string& value, const std::string& why = {}) {
+    std::string text = key + " = " + value;
+    constexpr std::size_t column = 34;
+    if (!why.empty()) text += std::string(text.size() < column ? column - text.size() : 2, ' ') + "# " + why;
+    line(text);
+  }
+  std::string str() && { return std::move(out_); }
+
+ private:
+  std::string out_;
+};
+
+std::string metres(double m) { return fmt::format("{:.0f}", rounded(m)); }
+std::string place(glm::dvec2 p) { return fmt::format("[{:.0f}, {:.0f}]", p.x, p.y); }
+
+void write_source(Text& text, const ProposedFile& source) {
+  text.value("file", json_quoted(source.file));
+  if (!source.crs.empty()) text.value("crs", json_quoted(source.crs), "the file does not say it");
+  if (source.lowest_m) text.value("lowest_m", fmt::format("{:.0f}", *source.lowest_m), "lower values are faults of the data");
+}
+
+std::string subject_words(const Anchor& anchor, const Massifs& massifs) {
+  switch (anchor.kind) {
+    case AnchorKind::canyon:
+      return fmt::format("a canyon cut {:.0f} m deep", anchor.stands_m);
+    case AnchorKind::shore:
+      return fmt::format("a shore under land that rises {:.0f} m", anchor.stands_m);
+    case AnchorKind::summit:
+      break;
+  }
+  if (massifs.lone > 0.5) return fmt::format("a lone mountain of {:.0f} m", anchor.altitude_m);
+  return fmt::format("a summit of {:.0f} m, {:.0f} m over its valleys", anchor.altitude_m, anchor.stands_m);
+}
+
+}  // namespace
+
+std::string describe_view(const ViewSearch& search, const Candidate& candidate) {
+  const ViewShape& v = candidate.view;
+  const Anchor& anchor = search.massifs.anchors[static_cast<std::size_t>(candidate.plan.anchor)];
+  const AnchorSight& sight = candidate.measures.anchors[static_cast<std::size_t>(candidate.plan.anchor)];
+  const std::string_view where = sight.place.x < 0.42   ? "left of the middle"
+                                 : sight.place.x > 0.58 ? "right of the middle"
+                                                        : "in the middle";
+  return fmt::format("{} ({:.0f}°), {:.0f} to {:.0f} km, {:.0f}° wide: {} {}; merit {:.1f}",
+                     v.field_of_view_deg >= 359.0 ? "all around from" : fmt::format("looks {}", compass(v.azimuth_deg)),
+                     turned(v.azimuth_deg), km(v.near_m), km(v.far_m), v.field_of_view_deg, subject_words(anchor, search.massifs), where,
+                     candidate.merit);
+}
+
+std::string proposed_scene_text(const ViewSearch& search, const Candidate& candidate, const ProposedScene& about) {
+  const ViewShape& v = candidate.view;
+  const Massifs& massifs = search.massifs;
+  const Anchor& main = massifs.anchors[static_cast<std::size_t>(candidate.plan.anchor)];
+  const ViewMeasures& m = candidate.measures;
+  Text text;
+  text.line(
+      fmt::format("# Proposed by belvedere new{}: {}.", about.number.empty() ? "" : ", " + about.number, describe_view(search, candidate)));
+  text.line(fmt::format("# Every length follows from the region: its side is {:.0f} km, the horizon of this view lies at {:.1f} km.",
+                        km(search.ground.side_m), km(v.far_m)));
+  text.value("version", "1");
+  text.value("title", json_quoted(about.title));
+  if (!about.palette.empty()) text.value("palette", json_quoted(about.palette), about.palette_why);
+  text.line();
+  if (!about.crs.empty() || search.ground.void_share > 0.2) {
+    text.line("[terrain]");
+    if (!about.crs.empty()) text.value("crs", json_quoted(about.crs), "metres, true to scale here; all places below are in it");
+    if (search.ground.void_share > 0.2)
+      text.value("max_void_share", fmt::format("{:.2f}", std::min(0.9, search.ground.void_share + 0.1)),
+                 fmt::format("{:.0f} % of the data's frame is empty", 100.0 * search.ground.void_share));
+    text.line();
+  }
+  for (const ProposedFile& source : about.sources) {
+    text.line("[[terrain.sources]]");
+    write_source(text, source);
+    text.line();
+  }
+  if (about.land_cover) {
+    text.line("[[land_cover.sources]]");
+    write_source(text, *about.land_cover);
+    text.line("[land_cover]");
+    text.value("legend", json_quoted(about.legend));
+    text.line();
+  }
+  text.line("# Large forms are raised a little near by; far away, where ranges stand close together, fine ones go.");
+  text.line("[generalize]");
+  text.line("foreground = [1.1, 1.1, 1.1, 1.0, 1.0, 0.9]");
+  text.line("background = [1.2, 1.2, 1.1, 0.8, 0.5, 0.3]");
+  text.value("foreground_to_m", metres(0.42 * v.far_m), "0.42 of the horizon's distance");
+  text.value("background_from_m", metres(0.95 * v.far_m), "0.95 of it");
+  text.value("crest", "0.4");
+  text.line();
+  text.line("[deform]");
+  text.value("exaggeration", fmt::format("{:.2f}", v.exaggeration),
+             fmt::format("forms then stand {:.0f} % of the picture high over their valleys", 100.0 * m.forms));
+  text.value("exaggeration_base_m", fmt::format("{:.0f}", v.base_m), "a tenth of the ground in view is lower: valleys stay where they are");
+  text.line("[deform.bend]");
+  text.value("radius_m", metres(v.radius_m), fmt::format("level ground at {:.1f} km then lies on the lower edge", km(v.near_m)));
+  text.value("crest_m", metres(v.crest_m), "level here, tipped towards the viewer before, sinking to the horizon behind");
+  text.line();
+  if (main.kind == AnchorKind::summit && massifs.lone < 0.99) {
+    text.line("[[deform.summits]]");
+    text.value("name", json_quoted("main summit"), subject_words(main, massifs));
+    text.value("position", place(main.place));
+    text.value("radius_m", metres(0.10 * v.far_m));
+    text.value("factor", fmt::format("{:.2f}", 1.0 + 0.15 * (1.0 - massifs.lone)), "a little more than its neighbours, so that it leads");
+    text.value("base_m", fmt::format("{:.0f}", v.base_m + 0.3 * (main.altitude_m - v.base_m)), "its upper part alone");
+    text.line();
+  }
+  text.line("[camera]");
+  if (v.cylinder) text.value("projection", "\"cylindrical\"", "a picture so wide would be stretched at its sides by a plane");
+  text.value("position", place(v.viewer), search.ground.at(v.viewer) == nullptr ? "outside of the data, which begin in front of it" : "");
+  text.value("height_m", fmt::format("{:.0f}", v.eye_m), "bent level ground touches the line of sight at the horizon");
+  text.value("azimuth_deg", fmt::format("{:.1f}", turned(v.azimuth_deg)), fmt::format("to the {}", compass(v.azimuth_deg)));
+  text.value("pitch_deg", fmt::format("{:.2f}", v.pitch_deg), fmt::format("{:.0f} % of the picture is sky", 100.0 * m.sky));
+  text.value("field_of_view_deg", fmt::format("{:.1f}", v.field_of_view_deg));
+  text.line();
+  text.line("[sun]");
+  text.value("azimuth_deg", fmt::format("{:.0f}", turned(v.azimuth_deg - sun_left_deg)), "from the upper left of the picture, as on maps");
+  text.value("altitude_deg", fmt::format("{:.0f}", sun_altitude_deg));
+  text.line();
+  text.line("[air]");
+  text.value("from_m", metres(air_from_m(v)), "behind the foreground");
+  text.value("scale_m", metres(air_scale_m(v)), "far ranges turn blue, and stay readable");
+  text.value("haze", "0.75");
+  text.value("rim_fade_m", metres(rim_fade_m(v)), "the end of the data goes under in haze");
+  text.line();
+  text.line("[output]");
+  text.value("width", fmt::format("{}", about.width_px));
+  text.value("height", fmt::format("{:.0f}", std::round(about.width_px / v.aspect)));
+  text.value("sheet_width_mm", fmt::format("{:.0f}", about.sheet_width_mm));
+  return std::move(text).str();
+}
+
+}  // namespace belvedere

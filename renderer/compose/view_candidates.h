@@ -1,0 +1,66 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/compose/coarse_ground.h"
+#include "renderer/compose/massifs.h"
+#include "renderer/compose/view_layout.h"
+#include "renderer/compose/view_measures.h"
+#include "renderer/compose/view_score.h"
+
+namespace belvedere {
+
+// What a user asks of the view.
+struct ViewWishes {
+  PictureFormat format = {};
+  std::optional<double> towards_deg = {};  // azimuth of the view, to 15° either way
+  std::optional<glm::dvec2> from = {};     // the viewer stands here, scene CRS
+  struct Place {
+    std::string name;
+    glm::dvec2 place{0.0};  // scene CRS
+  };
+  std::vector<Place> include = {};  // must be in the picture
+};
+
+// What a view is found by; all else follows.
+struct ViewPlan {
+  int anchor = 0;  // that the picture is about
+  double azimuth_deg = 0.0;
+  double field_of_view_deg = 44.0;
+  double far_m = 0.0;
+  double near_share = 0.42;  // of far
+  double crest_share = 0.80;
+  double anchor_share = 0.76;  // distance of the anchor
+  double across = 0.5;         // where the anchor is in the picture
+};
+
+// A view that was laid out and judged.
+struct Candidate {
+  ViewPlan plan;
+  ViewShape view;
+  ViewMeasures measures;  // of the massifs' anchors, then of the places to include
+  std::vector<ScoreTerm> terms;
+  double score = 0.0;
+  double merit = 0.0;  // 0…10
+};
+
+// The ground, what is on it, and what is asked of it: of one search.
+struct ViewSearch {
+  const CoarseGround& ground;
+  const Massifs& massifs;
+  ViewWishes wishes;
+};
+
+// The view that a plan means, without its layout.
+ViewShape shape_of(const ViewSearch& search, const ViewPlan& plan);
+// Laid out and judged; nothing where the data do not fill it.
+std::optional<Candidate> judge(const ViewSearch& search, const ViewPlan& plan, const MeasureParameters& measure = {});
+// All first candidates: anchors × azimuths × distances × places across × sizes. In a fixed order.
+std::vector<Candidate> first_candidates(const ViewSearch& search);
+// Steps from a candidate while they make it better, halved a few times.
+Candidate refine(const ViewSearch& search, Candidate from);
+
+}  // namespace belvedere

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "renderer/compose/coarse_ground.h"
+#include "renderer/compose/view_shape.h"
+
+namespace belvedere {
+
+// A view is laid out, not searched: sky, lower edge and horizon are constraints, and height of the eye, tilt and bend follow from them.
+//   eye = base + level + (F² - c²) / (2 R): bent level ground touches the line of sight exactly at F, so that F is the horizon.
+//   R = (F² - c² + (near - c)²) / (2 near tan(lower edge)): level ground at `near` lies on the lower edge.
+//   The upper edge lies a share of the height above most of the skyline, and above the highest summit by a margin.
+// F is far_m, c crest_m, R radius_m. The skyline hangs on R, so the three are found together as a fixed point.
+
+struct LayoutParameters {
+  double sky = 0.12;              // share of the picture above most of the skyline, 0…0.5
+  double most_of_skyline = 0.35;  // so much of the skyline may stand above that
+  double over_summit = 0.09;      // share of the picture above the highest summit; of a lone mountain a little less
+  int columns = 60, steps = 140, rounds = 7;
+};
+
+// The ground that a view shows, near to far: wider at the near end, as a tilted picture is. Rows of equal distance.
+struct WedgePoint {
+  glm::dvec2 place;
+  double depth = 0.0;  // 0 near … 1 far
+};
+std::vector<WedgePoint> wedge_points(const ViewShape& view);
+
+// Whether the data fill the wedge: 99 % of its nearer 60 % lie off the rim, and of all 93 % are data.
+bool fits_data(const CoarseGround& ground, const ViewShape& view);
+
+// Viewer, azimuth, field, near, far and crest in; the rest out. Nothing where the wedge holds too little ground.
+std::optional<ViewShape> lay_out(const CoarseGround& ground, ViewShape view, double lone, const LayoutParameters& parameters = {});
+
+}  // namespace belvedere

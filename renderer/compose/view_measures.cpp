@@ -1,0 +1,269 @@
+#include "renderer/compose/view_measures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/angle.h"
+#include "base/math.h"
+#include "base/math_exact.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double hidden = 99.0;      // a depression below all
+constexpr double lowest_seen = 3.0;  // tangent: what lies deeper is under the picture
+
+double unit_height(double y) { return std::clamp(y, 0.0, 1.0); }
+
+// Sums over the picture; a share is of the columns that show ground.
+struct Sums {
+  double columns = 0.0;
+  double rim = 0.0, rim_near = 0.0, floor = 0.0, water = 0.0, flat = 0.0, forms = 0.0, haze = 0.0, all = 0.0;
+  std::array<double, 4> floor_by_depth{};
+  std::array<double, 3> floor_by_third{};
+  double area = 0.0, area_seen = 0.0, area_floor = 0.0, area_floor_seen = 0.0;
+  double jumps = 0.0;
+  double edge_columns = 0.0, edge_empty = 0.0, edge_cut = 0.0;
+};
+
+struct Subject {  // canyon or shore: its cells within reach of the anchor
+  double area = 0.0, seen = 0.0;
+};
+
+double mean_of(const std::vector<double>& v, std::size_t from, std::size_t to) {
+  double sum = 0.0;
+  for (std::size_t i = from; i < to; ++i) sum += v[i];
+  return to > from ? sum / static_cast<double>(to - from) : 0.0;
+}
+
+double percentile(std::vector<double> values, double share) {
+  const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
+  return values[rank];
+}
+
+void measure_skyline(const std::vector<double>& skyline, ViewMeasures& out) {
+  if (skyline.empty()) return;
+  out.sky_low = percentile(skyline, 0.96);
+  out.sky_middle = percentile(skyline, 0.5);
+  out.sky_summit = *std::min_element(skyline.begin(), skyline.end());
+  out.sky = mean_of(skyline, 0, skyline.size());
+  double sum = 0.0;
+  for (const double y : skyline) sum += square(y - out.sky);
+  out.skyline = std::sqrt(sum / static_cast<double>(skyline.size()));
+  const std::size_t n = skyline.size();
+  const double middle = mean_of(skyline, n / 4, n - n / 4);
+  out.fall = std::max(mean_of(skyline, 0, n / 6), mean_of(skyline, n - n / 6, n)) - middle;
+}
+
+// The place of a point at a height, and whether ground before it hides it.
+AnchorSight sight_of(const CoarseGround& ground, const SightModel& sight, const Anchor& anchor) {
+  AnchorSight out;
+  const glm::dvec2 away = anchor.place - sight.viewer;
+  const double distance = std::sqrt(away.x * away.x + away.y * away.y);
+  out.distance_m = distance;
+  if (distance < 1.0) return out;
+  const auto index = [&](double d) {
+    const auto above = std::upper_bound(sight.distance_m.begin(), sight.distance_m.end(), d);
+    return std::clamp<std::ptrdiff_t>(above - sight.distance_m.begin() - 1, 0, static_cast<std::ptrdiff_t>(sight.distance_m.size()) - 2);
+  };
+  const auto between = [&](const std::vector<double>& v, double d) {
+    const auto i = static_cast<std::size_t>(index(d));
+    const double t = (d - sight.distance_m[i]) / (sight.distance_m[i + 1] - sight.distance_m[i]);
+    return v[i] + t * (v[i + 1] - v[i]);
+  };
+  const auto depression = [&](double altitude_m, double d) {
+    const double z = sight.base_m + between(sight.exaggeration, d) * (altitude_m - sight.base_m);
+    return (sight.eye_m - z + between(sight.drop_m, d)) / d;
+  };
+  const glm::dvec2 on_map = away / distance;
+  const glm::dvec2 direction = to_map(on_map, -sight.azimuth_deg);
+  const double own = depression(anchor.altitude_m, distance);
+  out.place = sight.picture.place(direction, own);
+  out.inside = out.place.x >= 0.0 && out.place.x <= 1.0 && out.place.y >= 0.0 && out.place.y <= 1.0;
+  out.size = between(sight.exaggeration, distance) * anchor.stands_m / (distance * sight.height);
+  out.along = std::abs(on_map.x * anchor.along.x + on_map.y * anchor.along.y);
+  if (!out.inside) return out;
+  constexpr int steps = 80;
+  out.seen = 1.0;
+  for (int k = 0; k < steps; ++k) {
+    const double d = distance * (0.3 + 0.685 * k / (steps - 1));
+    const GroundCell* c = ground.at(sight.viewer + d * on_map);
+    if (c != nullptr && c->known && depression(static_cast<double>(c->altitude_m), d) < own) out.seen = 0.0;
+  }
+  return out;
+}
+
+}  // namespace
+
+double rim_fade_m(const ViewShape& view) { return 0.035 * view.far_m; }
+double air_from_m(const ViewShape& view) { return 0.45 * view.far_m; }
+double air_scale_m(const ViewShape& view) { return 0.9 * view.far_m; }
+
+ViewMeasures measure_view(const CoarseGround& ground, const SightModel& sight, const std::vector<Anchor>& anchors) {
+  ViewMeasures out;
+  Sums sums;
+  std::vector<Subject> subjects(anchors.size());
+  std::vector<double> skyline;
+  const std::size_t steps = sight.distance_m.size();
+  std::vector<double> air(steps);
+  for (std::size_t i = 0; i < steps; ++i)
+    air[i] = sight.haze * (1.0 - exact::exp(-std::max(0.0, sight.distance_m[i] - sight.air_from_m) / sight.air_scale_m));
+  const double depth_of_view = std::max(1.0, sight.far_m - sight.near_m);
+  const double subject_reach = 0.09 * ground.side_m;
+  double far_sum = 0.0, far_count = 0.0, near_sum = 0.0, near_count = 0.0;
+
+  for (const glm::dvec2 direction : sight.directions) {
+    const glm::dvec2 on_map = to_map(direction, sight.azimuth_deg);
+    double before = hidden;
+    double last_seen = 0.0;
+    double top = 1.0;
+    bool any = false;
+    bool lower_edge = false, cuts = false;
+    const double level_x = sight.picture.place(direction, 0.3).x;
+    const bool central = level_x >= 0.0 && level_x <= 1.0;
+    for (std::size_t i = 0; i < steps; ++i) {
+      const double d = sight.distance_m[i];
+      const GroundCell* c = ground.at(sight.viewer + d * on_map);
+      if (c == nullptr || !c->known) continue;
+      const double altitude = static_cast<double>(c->altitude_m);
+      const double z = sight.base_m + sight.exaggeration[i] * (altitude - sight.base_m);
+      const double depression = (sight.eye_m - z + sight.drop_m[i]) / d;
+      const bool seen = depression < before;
+      const double was = before;
+      if (seen) before = depression;
+      const bool in_depth = d >= sight.near_m && d <= sight.far_m;
+      if (!seen && !in_depth) continue;
+      const glm::dvec2 at = sight.picture.place(direction, depression);
+      if (!(at.x >= 0.0 && at.x <= 1.0)) continue;
+      any = true;
+      const double area = d * d;  // samples lie at equal ratios, so each stands for ground that grows with d²
+      if (in_depth) {
+        sums.area += area;
+        if (seen) sums.area_seen += area;
+        if (c->floor) {
+          sums.area_floor += area;
+          if (seen) sums.area_floor_seen += area;
+        }
+        const double depth = (d - sight.near_m) / depth_of_view;
+        if (depth > 0.6) far_sum += d * altitude, far_count += d;
+        if (depth < 0.4) near_sum += d * altitude, near_count += d;
+        for (std::size_t k = 0; k < anchors.size(); ++k) {
+          const Anchor& a = anchors[k];
+          if (a.kind == AnchorKind::summit) continue;
+          const bool belongs = a.kind == AnchorKind::shore ? c->water : static_cast<double>(c->incision_m) > 0.6 * a.stands_m;
+          if (!belongs) continue;
+          const glm::dvec2 off = sight.viewer + d * on_map - a.place;
+          if (off.x * off.x + off.y * off.y > subject_reach * subject_reach) continue;
+          subjects[k].area += area;
+          if (seen && at.y <= 1.0) subjects[k].seen += area;
+        }
+      }
+      if (!seen) continue;
+      const double below = sight.picture.place(direction, std::min(was, lowest_seen)).y;
+      if (below > 1.0 && at.y < 1.0) {
+        lower_edge = true;
+        // A mountain whose upper part alone is in the picture: the ground on the edge stands high over its valleys.
+        cuts = static_cast<double>(c->above_m) > 0.40 * ground.relief_m;
+      }
+      top = std::min(top, unit_height(at.y));
+      const double height = std::max(0.0, unit_height(below) - unit_height(at.y));
+      if (last_seen > 0.0 && at.y < 1.0 && d / last_seen > 1.045 && central) sums.jumps += 1.0;
+      if (at.y < 1.0) last_seen = d;
+      if (height <= 0.0) continue;
+      const double depth = std::clamp((d - sight.near_m) / depth_of_view, 0.0, 1.0);
+      sums.all += height;
+      sums.haze += height * air[i];
+      if (static_cast<double>(c->rim_m) < sight.rim_fade_m) {
+        sums.rim += height;
+        if (depth < 0.55) sums.rim_near += height;
+      }
+      if (c->water) sums.water += height;
+      if (c->floor) {
+        sums.floor += height;
+        sums.floor_by_depth[std::min<std::size_t>(3, static_cast<std::size_t>(4.0 * depth))] += height;
+        sums.floor_by_third[std::min<std::size_t>(2, static_cast<std::size_t>(3.0 * at.x))] += height;
+      }
+      const double above = static_cast<double>(c->above_m);
+      if (above < 0.12 * ground.relief_m && !c->water) sums.flat += height;
+      sums.forms += height * square(sight.exaggeration[i] * above / (d * sight.height));
+    }
+    if (any) sums.columns += 1.0;
+    if (!central) continue;
+    skyline.push_back(any ? top : 1.0);
+    sums.edge_columns += 1.0;
+    if (!lower_edge) sums.edge_empty += 1.0;
+    if (cuts) sums.edge_cut += 1.0;
+  }
+
+  measure_skyline(skyline, out);
+  const double columns = std::max(1.0, sums.columns);
+  const double edge = std::max(1.0, sums.edge_columns);
+  out.empty_edge = sums.edge_empty / edge;
+  out.cut = sums.edge_cut / edge;
+  out.ranges = sums.jumps / edge;
+  out.rim = sums.rim / columns;
+  out.rim_near = sums.rim_near / columns;
+  out.floor = sums.floor / columns;
+  out.water = sums.water / columns;
+  out.flat = sums.flat / columns;
+  for (const double share : sums.floor_by_depth) out.floor_depth += 0.25 * std::min(1.0, share / columns / 0.012);
+  for (const double share : sums.floor_by_third) out.floor_across += std::min(1.0, share / columns / 0.015) / 3.0;
+  if (sums.area > 0.0) out.ground = sums.area_seen / sums.area;
+  if (sums.area_floor > 0.0) out.floor_open = sums.area_floor_seen / sums.area_floor;
+  if (sums.all > 0.0) {
+    out.forms = std::sqrt(sums.forms / sums.all);
+    out.haze = sums.haze / sums.all;
+  }
+  if (far_count > 0.0 && near_count > 0.0) out.rise = (far_sum / far_count - near_sum / near_count) / ground.relief_m;
+  out.area = 0.5 * sight.width * (square(sight.far_m) - square(sight.near_m)) / square(ground.side_m);
+  constexpr double judged_px = 2400.0;
+  out.cell_px = ground.source_cell_m / std::max(1e-6, sight.width * sight.near_m / judged_px);
+
+  // In the middle of the lower edge: the line of sight against the bent ground there.
+  std::size_t i = 0;
+  while (i + 2 < steps && sight.distance_m[i + 1] < sight.near_m) ++i;
+  const double slope = (sight.drop_m[i + 1] - sight.drop_m[i]) / (sight.distance_m[i + 1] - sight.distance_m[i]);
+  double low = 0.0, high = lowest_seen;  // depression of the lower edge, by halving
+  for (int k = 0; k < 40; ++k) {
+    const double middle = 0.5 * (low + high);
+    (sight.picture.place({0.0, 1.0}, middle).y < 1.0 ? low : high) = middle;
+  }
+  out.angle_deg = to_degrees(exact::atan2(low, 1.0) + exact::atan2(-slope, 1.0));
+
+  for (std::size_t k = 0; k < anchors.size(); ++k) {
+    AnchorSight placed = sight_of(ground, sight, anchors[k]);
+    if (anchors[k].kind != AnchorKind::summit && subjects[k].area > 0.0) placed.seen = subjects[k].seen / subjects[k].area;
+    out.anchors.push_back(placed);
+  }
+  return out;
+}
+
+ViewMeasures measure_view(const CoarseGround& ground, const ViewShape& view, const std::vector<Anchor>& anchors,
+                          const MeasureParameters& parameters) {
+  const ComposedPicture picture(view);
+  SightModel sight{.picture = picture,
+                   .viewer = view.viewer,
+                   .eye_m = view.eye_m,
+                   .azimuth_deg = view.azimuth_deg,
+                   .width = to_radians(view.field_of_view_deg),
+                   .height = picture_height(view),
+                   .near_m = view.near_m,
+                   .far_m = view.far_m,
+                   .directions = fan_directions(view.field_of_view_deg, view.cylinder, parameters.columns),
+                   .distance_m = growing_distances(0.7 * view.near_m, 1.12 * view.far_m, parameters.steps),
+                   .drop_m = {},
+                   .exaggeration = {},
+                   .base_m = view.base_m,
+                   .rim_fade_m = rim_fade_m(view),
+                   .air_from_m = air_from_m(view),
+                   .air_scale_m = air_scale_m(view),
+                   .haze = 0.75};
+  for (const double d : sight.distance_m) sight.drop_m.push_back(view.drop_m(d));
+  sight.exaggeration.assign(sight.distance_m.size(), view.exaggeration);
+  return measure_view(ground, sight, anchors);
+}
+
+}  // namespace belvedere

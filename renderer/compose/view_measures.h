@@ -1,0 +1,85 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <vector>
+
+#include "renderer/compose/coarse_ground.h"
+#include "renderer/compose/massifs.h"
+#include "renderer/compose/view_shape.h"
+
+namespace belvedere {
+
+// A view as measures see it: samples along level lines of sight. Bend and exaggeration leave azimuths alone, so each column of a picture is
+// one line over the ground; going outwards, what lies higher in the picture than all before it is seen.
+struct SightModel {
+  const PictureMap& picture;
+  glm::dvec2 viewer{0.0};
+  double eye_m = 0.0;
+  double azimuth_deg = 0.0;
+  double width = 1.0;                  // field of view, rad
+  double height = 0.4;                 // of the picture, rad (of a cylinder: tangents)
+  double near_m = 0.0, far_m = 0.0;    // lower edge and horizon
+  std::vector<glm::dvec2> directions;  // (right, ahead), columns
+  std::vector<double> distance_m;      // of the samples, growing
+  std::vector<double> drop_m;          // of the bend, at each
+  std::vector<double> exaggeration;    // at each
+  double base_m = 0.0;                 // that exaggeration keeps
+  double rim_fade_m = 0.0;
+  double air_from_m = 0.0, air_scale_m = 1.0, haze = 0.0;
+};
+
+// Where an anchor is in the picture.
+struct AnchorSight {
+  bool inside = false;
+  double seen = 0.0;      // of a summit 1 or 0; of canyons and shores the share of their floor, or water, that is seen
+  glm::dvec2 place{0.5};  // 0…1
+  double size = 0.0;      // how high or deep it is, in picture heights
+  double along = 0.0;     // |cosine| between the line of sight and the canyon
+  double distance_m = 0.0;
+};
+
+struct ViewMeasures {
+  double sky = 0.0;                  // mean share of the picture above the skyline
+  double sky_low = 0.0;              // the skyline's low places: 96 % of it are higher
+  double sky_middle = 0.0;           // its median
+  double sky_summit = 0.0;           // its highest
+  double skyline = 0.0;              // standard deviation of its height
+  double empty_edge = 0.0;           // share of the lower edge without ground
+  double rim = 0.0;                  // share of the picture nearer to the end of the data than the fade
+  double rim_near = 0.0;             // of that what lies in the nearer half
+  double ground = 0.0;               // share of the ground in view that is seen
+  double floor_open = 0.0;           // share of the valley floor in view that is seen
+  double floor = 0.0;                // share of the picture that is valley floor
+  double floor_depth = 0.0;          // 0…1: how evenly over near and far
+  double floor_across = 0.0;         // 0…1: how evenly from left to right
+  double water = 0.0;                // share of the picture that is water
+  double flat = 0.0;                 // share of the picture that is low ground
+  double ranges = 0.0;               // edges of one range before another, a column
+  double forms = 0.0;                // height of forms over their valleys, in picture heights: root of the mean square over the picture
+  double cut = 0.0;                  // share of the lower edge that cuts through mountains
+  double rise = 0.0;                 // how much higher the far ground is than the near, in reliefs
+  double area = 0.0;                 // ground in view, in areas of the region
+  double angle_deg = 0.0;            // in the middle of the lower edge, between line of sight and bent ground
+  double haze = 0.0;                 // mean of the air's share over the ground
+  double cell_px = 0.0;              // width of a cell of the data at the lower edge, on a picture 2400 wide
+  double fall = 0.0;                 // how much lower the skyline is at the sides than in the middle half, picture heights
+  std::vector<AnchorSight> anchors;  // of the massifs asked for, in their order
+};
+
+// `count` of the anchors are placed.
+ViewMeasures measure_view(const CoarseGround& ground, const SightModel& sight, const std::vector<Anchor>& anchors);
+
+// Of a view that was laid out. Columns × steps samples.
+struct MeasureParameters {
+  int columns = 150, steps = 260;
+};
+ViewMeasures measure_view(const CoarseGround& ground, const ViewShape& view, const std::vector<Anchor>& anchors,
+                          const MeasureParameters& parameters = {});
+
+// What follows from a view's distances: where the rim fades and air begins.
+double rim_fade_m(const ViewShape& view);
+double air_from_m(const ViewShape& view);
+double air_scale_m(const ViewShape& view);
+
+}  // namespace belvedere

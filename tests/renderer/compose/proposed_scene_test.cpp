@@ -1,0 +1,92 @@
+#include "renderer/compose/proposed_scene.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/progress.h"
+#include "renderer/compose/proposals.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/world/view.h"
+#include "tests/files.h"
+#include "tests/renderer/compose/made_up_region.h"
+
+namespace belvedere {
+namespace {
+
+using testing::HasSubstr;
+
+class ProposedScenes : public testing::Test {
+ protected:
+  ProposedScenes() {
+    about_.title = "A \"chain\"";
+    about_.sources.push_back({"chain.tif", "", {}});
+    about_.crs = "EPSG:32632";
+    best_ = propose_views(search_, {.most = 1}).front();
+  }
+  LoadedScene parsed() const { return parse_scene(proposed_scene_text(search_, best_, about_), "chain.toml", folder_.path(), {}); }
+
+  test::Folder folder_;
+  CoarseGround ground_ = test::chain_region();
+  Massifs massifs_ = find_massifs(ground_);
+  ViewSearch search_{ground_, massifs_, {}};
+  Candidate best_;
+  ProposedScene about_;
+};
+
+TEST_F(ProposedScenes, ReadsBackAsTheViewThatWasFound) {
+  const Scene scene = parsed().scene;
+  const ViewShape& view = best_.view;
+  EXPECT_EQ(scene.title, "A \"chain\"");
+  EXPECT_EQ(scene.terrain.dem.crs, "EPSG:32632");
+  ASSERT_TRUE(scene.camera.position);
+  EXPECT_NEAR(scene.camera.position->x, view.viewer.x, 0.5);
+  EXPECT_NEAR(scene.camera.height_m, view.eye_m, 0.5);
+  EXPECT_NEAR(scene.camera.pitch_deg, view.pitch_deg, 0.005);
+  EXPECT_NEAR(scene.deform.ground.bend.radius_m, view.radius_m, 0.001 * view.radius_m);
+  EXPECT_NEAR(scene.deform.ground.bend.crest_m, view.crest_m, 0.001 * view.crest_m);
+  EXPECT_NEAR(scene.deform.ground.exaggeration, view.exaggeration, 0.005);
+  EXPECT_EQ(scene.output.width, 2400);
+  EXPECT_EQ(scene.output.height, 1200);
+}
+
+// What was measured on the coarse ground is what the renderer's view shows.
+TEST_F(ProposedScenes, TheRenderersViewPutsTheMainSummitWhereItWasFound) {
+  const Scene scene = parsed().scene;
+  const Dem dem = make_dem(test::made_up_raster(60.0, test::chain));
+  const View view = make_view(scene, dem, silent_progress());
+  DeformParameters deform = view.deform;
+  deform.summits.clear();  // raised by the scene, on top of what was measured
+  const Anchor& main = massifs_.anchors[static_cast<std::size_t>(best_.plan.anchor)];
+  const glm::dvec3 place = deform_point({main.place, main.altitude_m}, view.viewer_xy, deform);
+  const auto at = make_camera(view.camera)->project(place);
+  ASSERT_TRUE(at);
+  const AnchorSight& sight = best_.measures.anchors[static_cast<std::size_t>(best_.plan.anchor)];
+  EXPECT_NEAR(at->x / scene.output.width, sight.place.x, 0.003);
+  EXPECT_NEAR(at->y / scene.output.height, sight.place.y, 0.004);
+}
+
+TEST_F(ProposedScenes, SaysWhyAndWhatElseWasAsked) {
+  about_.palette = "desert";
+  about_.palette_why = "dry";
+  about_.land_cover = ProposedFile{"cover.tif", "", {}};
+  about_.legend = "nlcd";
+  about_.sources[0].lowest_m = -5.0;
+  const std::string text = proposed_scene_text(search_, best_, about_);
+  EXPECT_THAT(text, HasSubstr("palette = \"desert\""));
+  EXPECT_THAT(text, HasSubstr("legend = \"nlcd\""));
+  EXPECT_THAT(text, HasSubstr("lowest_m = -5"));
+  EXPECT_THAT(text, HasSubstr("% of the picture is sky"));
+  EXPECT_EQ(parsed().scene.land_cover.legend, "nlcd");
+}
+
+TEST_F(ProposedScenes, WideOnesAreCylinders) {
+  const ViewSearch wide{ground_, massifs_, {.format = {.aspect = 10.0, .full_turn = true}}};
+  best_ = propose_views(wide, {.most = 1}).front();
+  const Scene scene = parse_scene(proposed_scene_text(wide, best_, about_), "chain.toml", folder_.path(), {}).scene;
+  EXPECT_EQ(scene.camera.projection, "cylindrical");
+  EXPECT_EQ(scene.camera.field_of_view_deg, 360.0);
+  EXPECT_EQ(scene.output.height, 240);
+}
+
+}  // namespace
+}  // namespace belvedere

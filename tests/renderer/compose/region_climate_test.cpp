@@ -1,0 +1,39 @@
+#include "renderer/compose/region_climate.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/renderer/compose/made_up_region.h"
+
+namespace belvedere {
+namespace {
+
+CoarseGround region_at(const char* crs) {
+  Raster<float> raster = test::made_up_raster(40.0, test::chain);
+  raster.crs = normalize_crs(crs);
+  return make_coarse_ground(raster, 200.0);
+}
+
+TEST(RegionClimate, TheAlpsAreWetTheNamibIsDry) {
+  const RegionClimate alps = region_climate(region_at("EPSG:32632"));
+  ASSERT_TRUE(alps.known);
+  EXPECT_GT(alps.moisture, 0.8);
+  EXPECT_FALSE(is_canyon_country(alps));
+  // The same northing below the Equator's false one of 10 000 km is 43° S; the desert lies on the other side of it.
+  Raster<float> raster = test::made_up_raster(40.0, test::chain);
+  raster.crs = normalize_crs("EPSG:32635");
+  raster.transform.origin_y = 2700000.0;  // 24° N in Egypt
+  const RegionClimate desert = region_climate(make_coarse_ground(raster, 200.0));
+  EXPECT_LT(desert.moisture, 0.4);
+  EXPECT_GT(desert.temperature_c, alps.temperature_c + 8.0);
+  EXPECT_TRUE(is_canyon_country(desert));
+}
+
+TEST(RegionClimate, NowhereIsNotKnown) {
+  Raster<float> raster = test::made_up_raster(40.0, test::chain);
+  raster.crs.clear();
+  EXPECT_FALSE(region_climate(make_coarse_ground(raster, 200.0)).known);
+  EXPECT_FALSE(is_canyon_country({}));
+}
+
+}  // namespace
+}  // namespace belvedere

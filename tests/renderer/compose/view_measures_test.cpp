@@ -1,0 +1,91 @@
+#include "renderer/compose/view_measures.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "renderer/compose/view_layout.h"
+#include "tests/renderer/compose/made_up_region.h"
+
+namespace belvedere {
+namespace {
+
+ViewShape view_of(const CoarseGround& ground, double east_km, double north_km, double azimuth_deg, double far_m, double lone = 0.0) {
+  ViewShape view;
+  view.viewer = test::place_km(east_km, north_km);
+  view.azimuth_deg = azimuth_deg;
+  view.far_m = far_m;
+  view.near_m = 0.42 * far_m;
+  view.crest_m = 0.8 * far_m;
+  const auto laid = lay_out(ground, view, lone);
+  EXPECT_TRUE(laid);
+  return laid.value_or(view);
+}
+
+TEST(ViewMeasures, OfAConeOnAPlain) {
+  const CoarseGround ground = test::cone_region();
+  const ViewShape view = view_of(ground, 30.0, -10.0, 0.0, 56000.0, 1.0);
+  const Massifs massifs = find_massifs(ground);
+  const ViewMeasures m = measure_view(ground, view, massifs.anchors);
+  EXPECT_TRUE(m.anchors[0].inside);
+  EXPECT_EQ(m.anchors[0].seen, 1.0);
+  EXPECT_NEAR(m.anchors[0].place.x, 0.5, 0.01);
+  EXPECT_NEAR(m.anchors[0].place.y, m.sky_summit, 0.02) << "the cone's top is the highest of the skyline";
+  EXPECT_NEAR(m.anchors[0].distance_m, 40000.0, 450.0);
+  // A plain that is bent convexly hides nothing of itself; only what lies behind the cone is hidden.
+  EXPECT_GT(m.ground, 0.75);
+  EXPECT_LT(m.ground, 0.999);
+  EXPECT_EQ(m.empty_edge, 0.0);
+  EXPECT_EQ(m.cut, 0.0);
+  EXPECT_GT(m.flat, 0.5) << "most of it is plain";
+  // Sector between the lower edge and the horizon, over the region.
+  EXPECT_NEAR(m.area, 0.5 * 0.7679 * (view.far_m * view.far_m - view.near_m * view.near_m) / (ground.side_m * ground.side_m), 1e-3);
+}
+
+TEST(ViewMeasures, WhatStandsBehindAWallIsHidden) {
+  // A wall of 3000 m from west to east, a hill behind it.
+  const CoarseGround ground =
+      make_coarse_ground(test::made_up_raster(60.0,
+                                              [](double e, double n) {
+                                                if (std::abs(n - 30.0) < 1.0) return 3500.0;
+                                                return 500.0 + std::max(0.0, 300.0 - 100.0 * std::hypot(e - 30.0, n - 34.0));
+                                              }),
+                         300.0);
+  const ViewShape view = view_of(ground, 30.0, -10.0, 0.0, 56000.0);
+  const Anchor hill{.place = test::place_km(30.0, 34.0), .altitude_m = 800.0, .stands_m = 300.0};
+  const Anchor before{.place = test::place_km(30.0, 24.0), .altitude_m = 500.0, .stands_m = 0.0};
+  const ViewMeasures m = measure_view(ground, view, {hill, before});
+  EXPECT_EQ(m.anchors[0].seen, 0.0);
+  EXPECT_EQ(m.anchors[1].seen, 1.0);
+  EXPECT_LT(m.ground, 0.75);
+}
+
+TEST(ViewMeasures, ACanyonIsSeenAlongAndHiddenAcross) {
+  const CoarseGround ground = test::canyon_region();
+  const Massifs massifs = find_massifs(ground);
+  std::size_t k = 0;
+  while (massifs.anchors[k].kind != AnchorKind::canyon) ++k;
+  const ViewMeasures along = measure_view(ground, view_of(ground, 20.0, -14.0, 0.0, 44000.0), massifs.anchors);
+  const ViewMeasures across = measure_view(ground, view_of(ground, -14.0, 18.0, 90.0, 44000.0), massifs.anchors);
+  EXPECT_GT(along.anchors[k].seen, across.anchors[k].seen + 0.2);
+  EXPECT_GT(along.anchors[k].along, 0.9);
+  EXPECT_LT(across.anchors[k].along, 0.45);
+}
+
+TEST(ViewMeasures, ALowerEdgeThroughMountainsIsCut) {
+  const CoarseGround ground = test::chain_region();
+  // The chain lies 20 km before the horizon's middle, or right on the lower edge.
+  EXPECT_EQ(measure_view(ground, view_of(ground, 30.0, -8.0, 0.0, 56000.0), {}).cut, 0.0);
+  EXPECT_GT(measure_view(ground, view_of(ground, 30.0, 18.0, 0.0, 30000.0), {}).cut, 0.3);
+}
+
+TEST(ViewMeasures, TheEndOfTheDataShows) {
+  const CoarseGround ground = test::chain_region();
+  const ViewMeasures inside = measure_view(ground, view_of(ground, 30.0, -8.0, 0.0, 56000.0), {});
+  const ViewMeasures corner = measure_view(ground, view_of(ground, 12.0, -8.0, 0.0, 56000.0), {});
+  EXPECT_GT(corner.empty_edge + corner.rim_near, inside.empty_edge + inside.rim_near);
+  EXPECT_LT(inside.empty_edge, 0.01);
+}
+
+}  // namespace
+}  // namespace belvedere

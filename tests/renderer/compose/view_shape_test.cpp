@@ -1,0 +1,81 @@
+#include "renderer/compose/view_shape.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "base/angle.h"
+#include "renderer/trace/camera.h"
+
+namespace belvedere {
+namespace {
+
+// The renderer's own cameras are another implementation of the same pictures.
+void expect_same_as_camera(const ViewShape& view, const char* projection) {
+  CameraParameters p;
+  p.projection = projection;
+  p.width = 2400;
+  p.height = static_cast<int>(std::lround(2400 / view.aspect));
+  p.eye = {1000.0, 2000.0, 5000.0};
+  p.azimuth_deg = view.azimuth_deg;
+  p.pitch_deg = view.pitch_deg;
+  p.field_of_view_deg = view.field_of_view_deg;
+  const std::unique_ptr<Camera> camera = make_camera(p);
+  const ComposedPicture picture(view);
+  for (const double off_deg : {-20.0, -7.0, 0.0, 3.0, 18.0})
+    for (const double depression : {0.02, 0.2, 0.5}) {
+      const glm::dvec2 direction(std::sin(to_radians(off_deg)), std::cos(to_radians(off_deg)));
+      const glm::dvec2 on_map = to_map(direction, view.azimuth_deg);
+      constexpr double far = 10000.0;
+      const auto there = camera->project(p.eye + far * glm::dvec3(on_map, -depression));
+      ASSERT_TRUE(there);
+      const glm::dvec2 here = picture.place(direction, depression);
+      EXPECT_NEAR(here.x, there->x / p.width, 1e-9) << projection << ' ' << off_deg << ' ' << depression;
+      EXPECT_NEAR(here.y, there->y / p.height, 1e-9) << projection << ' ' << off_deg << ' ' << depression;
+    }
+}
+
+TEST(ComposedPicture, IsThePerspectiveOfTheRenderer) {
+  expect_same_as_camera({.azimuth_deg = 217.0, .field_of_view_deg = 44.0, .aspect = 2.0, .pitch_deg = -18.0}, "perspective");
+}
+
+TEST(ComposedPicture, IsTheCylinderOfTheRenderer) {
+  expect_same_as_camera({.azimuth_deg = 31.0, .field_of_view_deg = 110.0, .aspect = 5.0, .cylinder = true, .pitch_deg = -12.0},
+                        "cylindrical");
+  expect_same_as_camera({.azimuth_deg = 31.0, .field_of_view_deg = 360.0, .aspect = 10.0, .cylinder = true, .pitch_deg = -12.0},
+                        "cylindrical");
+}
+
+TEST(ViewShape, FormatsGrowWiderWithTheirSheet) {
+  double last = 0.0;
+  for (const double aspect : {1.0, 1.414, 2.0, 3.0, 5.0}) {
+    const FormatLimits limits = limits_of({.aspect = aspect});
+    EXPECT_GT(limits.field_of_view_deg, last);
+    EXPECT_LT(limits.least_field_deg, limits.field_of_view_deg);
+    EXPECT_GT(limits.most_field_deg, limits.field_of_view_deg);
+    EXPECT_EQ(limits.cylinder, aspect > 3.5);
+    last = limits.field_of_view_deg;
+  }
+  EXPECT_NEAR(limits_of({.aspect = 2.0}).field_of_view_deg, 44.0, 1e-9);
+  EXPECT_EQ(limits_of({.aspect = 10.0, .full_turn = true}).field_of_view_deg, 360.0);
+}
+
+TEST(ViewShape, DistancesGrowEvenly) {
+  const std::vector<double> d = growing_distances(100.0, 1600.0, 5);
+  ASSERT_EQ(d.size(), 5U);
+  for (std::size_t i = 0; i < d.size(); ++i) EXPECT_NEAR(d[i], 100.0 * std::pow(2.0, static_cast<double>(i)), 1e-9);
+}
+
+TEST(ViewShape, FansReachBeyondTheEdges) {
+  const std::vector<glm::dvec2> fan = fan_directions(60.0, false, 31);
+  EXPECT_NEAR(fan[15].x, 0.0, 1e-12);
+  EXPECT_NEAR(fan.back().x / fan.back().y, 1.12 * std::tan(to_radians(30.0)), 1e-9);
+  const std::vector<glm::dvec2> ring = fan_directions(360.0, true, 36);
+  // All directions, none twice.
+  EXPECT_NEAR(std::atan2(ring.back().x, ring.back().y), to_radians(175.0), 1e-9);
+  EXPECT_NEAR(std::atan2(ring.front().x, ring.front().y), to_radians(-175.0), 1e-9);
+}
+
+}  // namespace
+}  // namespace belvedere

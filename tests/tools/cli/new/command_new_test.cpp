@@ -1,0 +1,116 @@
+// `belvedere new` as users meet it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "terrain/io/raster_io.h"
+#include "tests/renderer/compose/made_up_region.h"
+#include "tests/tools/program.h"
+
+namespace belvedere {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class New : public Program {
+ protected:
+  std::string write_dem(const std::string& name = "my_dem.tif", double side_km = 60.0) const {
+    write_raster(path(name),
+                 test::made_up_raster(side_km, [&](double e, double n) { return test::chain(e * 60.0 / side_km, n * 60.0 / side_km); }));
+    return path(name);
+  }
+};
+
+TEST_F(New, WritesASceneThatIsInOrderAndRenders) {
+  const Outcome made = run({"new", write_dem(), "--out", path("scene.toml")});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, AllOf(HasSubstr("* 1. "), HasSubstr("  2. "), HasSubstr("merit"), HasSubstr("next: belvedere render")));
+  const std::string text = read_bytes(path("scene.toml"));
+  EXPECT_THAT(text, AllOf(HasSubstr("file = \"my_dem.tif\""), HasSubstr("title = \"my dem\""), HasSubstr("crs = \"EPSG:32632\"")));
+  const Outcome check = run({"check", path("scene.toml"), "--set", "synthesis.enabled=false"});
+  ASSERT_EQ(check.status, 0) << check.err;
+  EXPECT_THAT(check.out, AllOf(HasSubstr("composition: merit"), HasSubstr("valley floor seen"), Not(HasSubstr("much sky"))));
+  const Outcome render =
+      run({"render", path("scene.toml"), "--draft", "--out", path("out"), "--set", "output.width=192", "--set", "output.height=96"});
+  EXPECT_EQ(render.status, 0) << render.err;
+}
+
+TEST_F(New, IsTheSameForAnyThreadsAndChoosesByNumber) {
+  const std::string dem = write_dem();
+  ASSERT_EQ(run({"new", dem, "--out", path("one.toml"), "--threads", "1"}).status, 0);
+  ASSERT_EQ(run({"new", dem, "--out", path("two.toml"), "--threads", "3"}).status, 0);
+  EXPECT_EQ(read_bytes(path("one.toml")), read_bytes(path("two.toml")));
+  ASSERT_EQ(run({"new", dem, "--out", path("other.toml"), "--choose", "2"}).status, 0);
+  EXPECT_NE(read_bytes(path("one.toml")), read_bytes(path("other.toml")));
+  const Outcome beyond = run({"new", dem, "--out", path("none.toml"), "--choose", "9"});
+  EXPECT_EQ(beyond.status, 2);
+  EXPECT_THAT(beyond.err, HasSubstr("--choose"));
+}
+
+TEST_F(New, KeepsAFileThatIsThere) {
+  const std::string dem = write_dem();
+  write("mine.toml", "precious");
+  const Outcome refused = run({"new", dem, "--out", path("mine.toml")});
+  EXPECT_EQ(refused.status, 4);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("mine.toml"), HasSubstr("--force")));
+  EXPECT_EQ(read_bytes(path("mine.toml")), "precious");
+  EXPECT_EQ(run({"new", dem, "--out", path("mine.toml"), "--force", "--quiet"}).status, 0);
+  EXPECT_THAT(read_bytes(path("mine.toml")), HasSubstr("version = 1"));
+}
+
+TEST_F(New, WishesAreHeldOrRefused) {
+  const std::string dem = write_dem();
+  // Peaks of the chain lie at N 5230 km: 47.2° N, 10.7° E.
+  const Outcome wished =
+      run({"new", dem, "--out", path("a.toml"), "--towards", "north", "--format", "3:1", "--include", "the peak|10.71,47.2"});
+  ASSERT_EQ(wished.status, 0) << wished.err;
+  EXPECT_THAT(read_bytes(path("a.toml")), HasSubstr("height = 800"));
+  const Outcome off = run({"new", dem, "--out", path("b.toml"), "--include", "Rome|12.5,41.9"});
+  EXPECT_EQ(off.status, 2);
+  EXPECT_THAT(off.err, AllOf(HasSubstr("--include"), HasSubstr("outside of the data")));
+  EXPECT_EQ(run({"new", dem, "--out", path("c.toml"), "--towards", "up"}).status, 2);
+  EXPECT_FALSE(std::filesystem::exists(path("c.toml")));
+}
+
+TEST_F(New, RegionsThatCannotDoAreRefusedInWords) {
+  const Outcome small = run({"new", write_dem("small.tif", 5.0), "--out", path("a.toml")});
+  EXPECT_EQ(small.status, 3);
+  EXPECT_THAT(small.err, AllOf(HasSubstr("small.tif"), HasSubstr("8 km")));
+  Raster<float> nowhere = test::made_up_raster(60.0, test::chain);
+  nowhere.crs.clear();
+  write_raster(path("nowhere.asc"), nowhere);
+  const Outcome lost = run({"new", path("nowhere.asc"), "--out", path("a.toml")});
+  EXPECT_EQ(lost.status, 3);
+  EXPECT_THAT(lost.err, HasSubstr("--crs"));
+  const Outcome given = run({"new", path("nowhere.asc"), "--out", path("a.toml"), "--crs", "EPSG:32632"});
+  EXPECT_EQ(given.status, 0) << given.err;
+  EXPECT_THAT(read_bytes(path("a.toml")), HasSubstr("# the file does not say it"));
+  const Outcome missing = run({"new", path("missing.tif"), "--out", path("b.toml")});
+  EXPECT_EQ(missing.status, 3);
+  EXPECT_THAT(missing.err, HasSubstr("missing.tif"));
+}
+
+TEST_F(New, PicturesAreOneNumberedSheet) {
+  const Outcome made = run({"new", write_dem(), "--out", path("a.toml"), "--pictures", path("views"), "--proposals", "2", "--json"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, AllOf(HasSubstr("\"proposals\": ["), HasSubstr("proposals.png"), HasSubstr("\"merit\": ")));
+  const Grid<glm::vec3> sheet = read_picture(path("views/proposals.png"));
+  EXPECT_EQ(sheet.width(), 2 * 560 + 3 * 12);
+}
+
+TEST_F(New, FilesElsewhereAreNamedByTheirDataFolder) {
+  std::filesystem::create_directories(path("data"));
+  std::filesystem::create_directories(path("scenes"));
+  write_dem("data/far.tif");
+  const Outcome made = run({"new", "far.tif", "--data", path("data"), "--out", path("scenes/a.toml")});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("--data " + path("data")));
+  EXPECT_EQ(run({"check", path("scenes/a.toml"), "--data", path("data"), "--set", "synthesis.enabled=false"}).status, 0);
+}
+
+}  // namespace
+}  // namespace belvedere

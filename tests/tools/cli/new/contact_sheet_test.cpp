@@ -1,0 +1,51 @@
+#include "tools/cli/new/contact_sheet.h"
+
+#include <gtest/gtest.h>
+
+#include "renderer/image/image_io.h"
+#include "tests/files.h"
+#include "tests/renderer/world/small_world.h"
+
+namespace belvedere::tools {
+namespace {
+
+TEST(ContactSheet, DraftsAreSmallAndOfCoarserGround) {
+  LoadedScene scene = test::small_scene();
+  scene.scene.output.width = 2400;
+  scene.scene.output.height = 1200;
+  const LoadedScene draft = make_small_draft(scene, 500, 90.0);
+  EXPECT_EQ(draft.scene.output.width, 500);
+  EXPECT_EQ(draft.scene.output.height, 250);
+  EXPECT_EQ(draft.scene.terrain.dem.cell_m, 90.0);
+  EXPECT_FALSE(draft.scene.synthesis.enabled);
+  EXPECT_EQ(draft.scene.output.formats, std::vector<std::string>{"png"});
+}
+
+TEST(ContactSheet, HoldsEveryPictureInItsPlace) {
+  const test::Folder folder;
+  const LoadedScene first = make_small_draft(test::small_scene(), 96, 0.0);
+  const LoadedScene second = make_small_draft(test::small_scene({"camera.azimuth_deg=30"}), 96, 0.0);
+  write_contact_sheet(folder / "both.png", {first, second, first}, {"1", "2", "3"}, {});
+  const Grid<glm::vec3> sheet = read_picture(folder / "both.png");
+  EXPECT_EQ(sheet.width(), 2 * 96 + 3 * 12);
+  EXPECT_GT(sheet.height(), 2 * 80);
+  // The third picture is the first again, below it; the second is another. Their numbers stand below them.
+  int rows = 0;
+  while (rows < 80 && sheet(12 + 48, 12 + rows) != sheet(0, 0)) ++rows;
+  EXPECT_GE(rows, 64);
+  int same = 0, other = 0, dark = 0;
+  const int down = (sheet.height() - 12) / 2;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 96; ++x) {
+      same += sheet(12 + x, 12 + y) == sheet(12 + x, 12 + down + y) ? 1 : 0;
+      other += sheet(12 + x, 12 + y) == sheet(12 + 96 + 12 + x, 12 + y) ? 1 : 0;
+    }
+  for (int y = 12 + rows; y < 12 + rows + 24; ++y)
+    for (int x = 12; x < 40; ++x) dark += sheet(x, y).x < 0.3F ? 1 : 0;
+  EXPECT_EQ(same, 96 * 64);
+  EXPECT_LT(other, 96 * 64 / 2);
+  EXPECT_GT(dark, 10);
+}
+
+}  // namespace
+}  // namespace belvedere::tools

@@ -1,0 +1,329 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "base/json.h"
+#include "renderer/compose/proposals.h"
+#include "renderer/compose/proposed_scene.h"
+#include "renderer/compose/region_climate.h"
+#include "renderer/image/output_file.h"
+#include "terrain/io/crs.h"
+#include "terrain/io/raster_io.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/file_names.h"
+#include "tools/cli/lock/scratch_folder.h"
+#include "tools/cli/new/contact_sheet.h"
+#include "tools/cli/new/view_options.h"
+#include "tools/cli/scene_options.h"
+#include "tools/cli/terminal.h"
+
+namespace belvedere::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  SceneOptions common;
+  std::vector<std::string> dems;
+  std::string out;
+  std::string pictures;
+  std::string title;
+  std::string crs;
+  std::optional<double> lowest_m;
+  int choose = 1;
+  int most = 5;
+  std::string towards, from, format = "2:1";
+  std::vector<std::string> include;
+  std::string land_cover, legend;
+  bool force = false;
+};
+
+bool is_address(const std::string& file) { return file.starts_with("http://") || file.starts_with("https://"); }
+
+// Where a file of the command line lies: as given, or in a --data folder.
+fs::path find_file(const Options& options, const std::string& file) {
+  std::error_code ignored;
+  if (is_address(file) || fs::exists(file, ignored)) return file;
+  for (const std::string& folder : options.common.files.data_folders)
+    if (fs::exists(fs::path(folder) / file, ignored)) return fs::path(folder) / file;
+  throw Error(ErrorKind::input, file, "there is no such file",
+              options.common.files.data_folders.empty() ? "" : "a file here or in a --data folder");
+}
+
+std::optional<std::string> inside(const fs::path& folder, const fs::path& file) {
+  std::error_code problem;
+  const fs::path from = fs::weakly_canonical(fs::absolute(folder), problem);
+  const fs::path relative = fs::weakly_canonical(fs::absolute(file), problem).lexically_relative(from);
+  if (problem || relative.empty() || *relative.begin() == "..") return std::nullopt;
+  return relative.generic_string();
+}
+
+// How the scene names its files, which must lie beside it or in a --data folder: `data` are the folders that rendering needs.
+class FileNames {
+ public:
+  explicit FileNames(const Options& options)
+      : folder_(fs::absolute(options.out).parent_path()), given_(options.common.files.data_folders) {}
+  std::string name(const fs::path& file) {
+    if (is_address(file.string())) return file.string();
+    if (const auto name = inside(folder_, file)) return *name;
+    for (const std::string& folder : given_)
+      if (const auto name = inside(folder, file)) return keep(folder, *name);
+    return keep(fs::absolute(file).parent_path().lexically_normal().string(), file.filename().string());
+  }
+  const std::vector<std::string>& data() const { return data_; }
+  std::string folder() const { return folder_.string(); }
+
+ private:
+  std::string keep(const std::string& folder, const std::string& name) {
+    if (std::find(data_.begin(), data_.end(), folder) == data_.end()) data_.push_back(folder);
+    return name;
+  }
+  fs::path folder_;
+  std::vector<std::string> given_;
+  std::vector<std::string> data_;
+};
+
+// Without a coordinate system nobody knows where the region lies, nor whether its cells are metres.
+void require_crs(const std::vector<RasterSource>& sources) {
+  for (const RasterSource& source : sources) {
+    if (!source.crs.empty() || !read_raster_info(source).crs.empty()) continue;
+    throw Error(ErrorKind::input, source.path, "does not say in which coordinate system it is",
+                "--crs with the code that the data's source names, such as --crs EPSG:32632, or a .prj file beside it");
+  }
+}
+
+// A short name of the metric system that the places of the scene are in; empty where only the data's own text names it.
+std::string short_crs(const std::string& crs) {
+  const std::string name = describe_crs(crs);
+  if (!name.starts_with("EPSG:")) return "";
+  return same_crs(normalize_crs(name), crs) ? name : "";
+}
+
+std::string title_of(const std::string& path) {
+  std::string title = fs::path(path).stem().string();
+  std::replace(title.begin(), title.end(), '_', ' ');
+  return title;
+}
+
+ViewWishes wishes_of(const Options& options, const PictureFormat& format, const CoarseGround& ground) {
+  ViewWishes out;
+  out.format = format;
+  if (!options.towards.empty()) out.towards_deg = read_direction(options.towards);
+  const std::string degrees = normalize_crs("EPSG:4326");
+  const auto place = [&](const std::string& option, glm::dvec2 lonlat) {
+    const glm::dvec2 at = transform_point(degrees, ground.crs, lonlat);
+    const GeoTransform& t = ground.transform;
+    const double width = ground.cells.width() * t.cell_x;
+    const double height = ground.cells.height() * t.cell_y;
+    // The viewer may stand outside of the data, what is to be seen may not.
+    const double slack = option == "--from" ? 2.0 * ground.side_m : 0.0;
+    if (!(at.x >= t.origin_x - slack && at.x <= t.origin_x + width + slack && at.y <= t.origin_y + slack &&
+          at.y >= t.origin_y - height - slack))
+      throw Error(ErrorKind::usage, option, fmt::format("{},{} lies outside of the data", lonlat.x, lonlat.y),
+                  "longitude before latitude, a place within the region");
+    return at;
+  };
+  if (!options.from.empty()) out.from = place("--from", read_lonlat("--from", options.from));
+  for (const std::string& text : options.include) {
+    const NamedPlace named = read_named_place(text);
+    out.include.push_back({named.name, place("--include", named.lonlat)});
+  }
+  return out;
+}
+
+std::string as_json(const ViewSearch& search, const std::vector<Candidate>& proposals, const Options& options, const std::string& sheet) {
+  Json list = Json::array();
+  for (const Candidate& c : proposals) {
+    Json terms = Json::object();
+    for (const ScoreTerm& term : c.terms) terms.add(std::string(term.name), Json::number(term.value));
+    list.add(Json::object()
+                 .add("what", Json::text(describe_view(search, c)))
+                 .add("merit", Json::number(c.merit))
+                 .add("viewer", Json::array({Json::number(c.view.viewer.x), Json::number(c.view.viewer.y), Json::number(c.view.eye_m)}))
+                 .add("azimuth_deg", Json::number(c.view.azimuth_deg))
+                 .add("measures", std::move(terms)));
+  }
+  return Json::object()
+             .add("scene", Json::text(options.out))
+             .add("chosen", Json::number(options.choose))
+             .add("pictures", Json::text(sheet))
+             .add("proposals", std::move(list))
+             .str() +
+         "\n";
+}
+
+// One size of cells for all drafts, so that land cover is found once: two pixels at the nearest lower edge. 0: those of the data.
+double draft_cell_m(const CoarseGround& ground, const std::vector<Candidate>& proposals, int width_px) {
+  constexpr double pixels = 2.0, worth_it = 1.3;
+  double least = 1e9;
+  for (const Candidate& c : proposals) least = std::min(least, pixels * c.view.near_m * to_radians(c.view.field_of_view_deg) / width_px);
+  return least > worth_it * ground.source_cell_m ? std::floor(least) : 0.0;
+}
+
+void note_limits(const CoarseGround& ground, const Massifs& massifs, Progress& progress) {
+  constexpr double much_void = 0.3;
+  if (ground.void_share > much_void)
+    progress.note(fmt::format("{:.0f} % of the data's frame is empty; views keep away from there", 100.0 * ground.void_share));
+  for (const Anchor& summit : massifs.at_the_rim)
+    progress.note(
+        fmt::format("the mountain that stands out most, {:.0f} m, lies at the edge of the data, where a picture fades out: with data "
+                    "that reach {:.0f} km farther it could be the main one",
+                    summit.altitude_m, std::ceil(0.15 * ground.side_m / 1000.0)));
+}
+
+int run_new(const Options& options) {
+  if (fs::exists(options.out) && !options.force)
+    throw Error(ErrorKind::output, options.out, "is there already", "another name, or --force to replace it");
+  if (options.land_cover.empty() != options.legend.empty())
+    throw Error(ErrorKind::usage, options.legend.empty() ? "--land-cover" : "--legend", "goes with the other of the two",
+                "--land-cover FILE --legend nlcd, corine, esa_worldcover, fbfm40 or a file");
+  const SheetFormat format = read_format(options.format);
+  check_place(options.out);
+  if (!options.pictures.empty()) check_output_folder(options.pictures);
+  allow_servers(options.common);
+  TerminalProgress progress(options.common.quiet);
+  const Cache cache = make_cache(options.common);
+  const Run run = make_run(options.common, Run{}.tile_px, progress, cache);
+  const RunLimits limits(run);
+
+  FileNames names(options);
+  ProposedScene about;
+  about.title = options.title.empty() ? title_of(options.dems.front()) : options.title;
+  about.width_px = format.width_px;
+  about.sheet_width_mm = format.sheet_width_mm;
+  DemParameters dem;
+  for (const std::string& file : options.dems) {
+    RasterSource source;
+    source.path = find_file(options, file).string();
+    source.crs = options.crs;
+    source.lowest_m = options.lowest_m;
+    about.sources.push_back({names.name(source.path), options.crs, options.lowest_m});
+    dem.sources.push_back(std::move(source));
+  }
+  require_crs(dem.sources);
+  const CoarseGround ground = read_coarse_ground(dem, progress);
+  about.crs = short_crs(ground.crs);
+  if (!options.land_cover.empty()) {
+    about.land_cover = ProposedFile{names.name(find_file(options, options.land_cover)), "", {}};
+    about.legend = options.legend;
+  }
+  progress.begin("looking for views", 0.0);
+  const Massifs massifs = find_massifs(ground);
+  require_region(ground, massifs, options.dems.front());
+  note_limits(ground, massifs, progress);
+  if (is_canyon_country(region_climate(ground))) {
+    about.palette = "desert";
+    about.palette_why = "the climate of the place is dry and warm";
+  }
+  const ViewSearch search{ground, massifs, wishes_of(options, format.picture, ground)};
+  const std::vector<Candidate> proposals = propose_views(search, {.most = options.most});
+  if (options.choose > static_cast<int>(proposals.size()))
+    throw Error(ErrorKind::usage, "--choose", fmt::format("{}, and there are {} proposals that differ", options.choose, proposals.size()),
+                fmt::format("1 … {}", proposals.size()));
+
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < proposals.size(); ++i) {
+    about.number = fmt::format("{} of {}", i + 1, proposals.size());
+    texts.push_back(proposed_scene_text(search, proposals[i], about));
+  }
+  // Read back as rendering will: a scene that does not parse is a fault of the program, and files that are not found are the user's.
+  SceneFileOptions files{.data_folders = names.data(), .settings = {}};
+  std::vector<LoadedScene> scenes;
+  for (const std::string& text : texts) scenes.push_back(parse_scene(text, fs::path(options.out).stem().string(), names.folder(), files));
+  std::string sheet;
+  if (!options.pictures.empty()) {
+    std::vector<LoadedScene> drafts;
+    std::vector<std::string> captions;
+    ContactSheetParameters look;
+    if (format.picture.aspect > 4.0) look = {.width_px = 1200, .columns = 1};
+    const double cell_m = draft_cell_m(ground, proposals, look.width_px);
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      drafts.push_back(make_small_draft(scenes[i], look.width_px, cell_m));
+      captions.push_back(fmt::format("{}   merit {:.1f}   azimuth {:.0f}, {:.0f} km", i + 1, proposals[i].merit,
+                                     proposals[i].view.azimuth_deg, proposals[i].view.far_m / 1000.0));
+    }
+    sheet = (fs::path(options.pictures) / "proposals.png").string();
+    write_contact_sheet(sheet, drafts, captions, run, look);
+  }
+  write_text_file(options.out, texts[static_cast<std::size_t>(options.choose - 1)]);
+  progress.end();
+
+  if (options.common.json) {
+    print_out(as_json(search, proposals, options, sheet));
+    return 0;
+  }
+  if (options.common.quiet) return 0;
+  for (std::size_t i = 0; i < proposals.size(); ++i)
+    print_out(
+        fmt::format("{} {}. {}\n", static_cast<int>(i) + 1 == options.choose ? "*" : " ", i + 1, describe_view(search, proposals[i])));
+  if (!sheet.empty()) print_out(sheet + "\n");
+  std::string data;
+  for (const std::string& folder : names.data()) data += " --data " + folder;
+  print_out(fmt::format("{}\nnext: belvedere render {}{}\n", options.out, options.out, data));
+  return 0;
+}
+
+}  // namespace
+
+Action add_new(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("DEM", options->dems, "Elevation of the region: one file, or several that are joined")->required();
+  command.add_option("--out", options->out, "The scene file to write")->type_name("FILE")->required();
+  command.add_flag("--force", options->force, "Replaces a scene file that is there");
+  command
+      .add_option("--pictures", options->pictures,
+                  "Renders small pictures of all proposals and writes them there as one sheet, proposals.png")
+      ->type_name("DIR");
+  command.add_option("--choose", options->choose, "Which of the proposals is written")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 12));
+  command.add_option("--proposals", options->most, "How many proposals to make, at most")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 12));
+  command
+      .add_option("--towards", options->towards, "Where to look: N, NE, southwest … or an azimuth in degrees; 15° either way are left free")
+      ->type_name("DIRECTION");
+  command.add_option("--from", options->from, "Where the viewer stands: longitude and latitude")->type_name("LON,LAT");
+  command
+      .add_option("--include", options->include,
+                  "A place that must be in the picture: \"Innsbruck|11.39,47.27\" or 11.39,47.27; may be repeated")
+      ->type_name("[NAME|]LON,LAT")
+      ->allow_extra_args(false);
+  command
+      .add_option("--format", options->format,
+                  "Shape of the sheet: 2:1, 3:1 …; A2, \"A2 upright\"; 2400x1200 pixels; cylinder, \"cylinder 8:1\" for a view all around")
+      ->type_name("FORMAT")
+      ->capture_default_str();
+  command.add_option("--title", options->title, "Title of the scene; without it the file's name")->type_name("TEXT");
+  command.add_option("--crs", options->crs, "Coordinate system of files that do not say it: EPSG:32632, or its definition")
+      ->type_name("CRS");
+  command.add_option("--lowest", options->lowest_m, "Altitudes below this are faults of the data, in metres")->type_name("M");
+  command.add_option("--land-cover", options->land_cover, "A raster of land cover; without it, climate and shape of the ground tell")
+      ->type_name("FILE");
+  command.add_option("--legend", options->legend, "What its codes mean: nlcd, corine, esa_worldcover, fbfm40, or a file")
+      ->type_name("NAME");
+  add_file_options(command, options->common);
+  add_run_options(command, options->common);
+  command.footer(
+      "Looks at the elevation alone and proposes views that differ: where to stand, where to look, how far to bend and raise\n"
+      "the ground. Sky, foreground and horizon are laid out by rule; mountains, canyons, lakes, open valleys and ranges decide\n"
+      "which view is best. The scene says at each value why it is so; change what you like, and belvedere check judges it\n"
+      "by the same measures.\n\n"
+      "  belvedere new my_dem.tif --out scene.toml\n"
+      "  belvedere new my_dem.tif --out scene.toml --pictures proposals\n"
+      "  belvedere new my_dem.tif --out scene.toml --choose 2 --force\n"
+      "  belvedere new my_dem.tif --out scene.toml --towards south --format 3:1 --include \"Innsbruck|11.39,47.27\"");
+  return [options] { return run_new(*options); };
+}
+
+}  // namespace belvedere::tools

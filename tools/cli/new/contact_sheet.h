@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/run.h"
+#include "renderer/scene/scene_file.h"
+
+namespace belvedere::tools {
+
+// Small, quick pictures of several views of one region, numbered, in one picture.
+struct ContactSheetParameters {
+  int width_px = 560;  // of each picture, 64…4000
+  int columns = 2;     // of the sheet
+};
+
+// The scene as a small draft: few pixels, strokes alone, ground in cells of `cell_m` (0: those of the data).
+LoadedScene make_small_draft(LoadedScene scene, int width_px, double cell_m);
+
+// Renders each scene (drafts, as make_small_draft makes them) and writes the sheet as PNG; what each picture is called stands below it.
+void write_contact_sheet(const std::string& path, const std::vector<LoadedScene>& drafts, const std::vector<std::string>& captions,
+                         const Run& run, const ContactSheetParameters& parameters = {});
+
+}  // namespace belvedere::tools
