@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -10,6 +11,7 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "terrain/io/raster_io.h"
+#include "terrain/io/raster_thinned.h"
 #include "terrain/io/surface_raster.h"
 
 namespace belvedere {
@@ -235,15 +237,63 @@ CoarseGround make_coarse_ground(Raster<float> raster, double source_cell_m) {
   return ground;
 }
 
+namespace {
+
+// Files of so many cells are looked at here and there instead of being read.
+constexpr double most_read_cells = 24e6;
+constexpr int looks_per_cell = 4;  // a side of a coarse cell
+
+// Means of the looks that lie in each coarse cell, of the first source that knows the place. Empty where a file cannot be looked at so.
+std::optional<Raster<float>> look_at_files(const DemParameters& dem, const RasterFrame& frame, int longest) {
+  Raster<float> out{Grid<float>(frame.width, frame.height, std::numeric_limits<float>::quiet_NaN()), frame.transform, frame.crs};
+  for (const RasterSource& source : dem.sources) {
+    const std::optional<Raster<float>> thin = read_thinned(source, longest);
+    if (!thin) return std::nullopt;
+    const PointTransform transform(frame.crs, thin->crs);
+    std::vector<glm::dvec2> middles;
+    for (int y = 0; y < frame.height; ++y)
+      for (int x = 0; x <= frame.width; ++x) middles.push_back(frame.transform.to_crs(x, y));
+    transform.apply(middles);
+    for (int y = 0; y < frame.height; ++y)
+      for (int x = 0; x < frame.width; ++x) {
+        const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width + 1) + static_cast<std::size_t>(x);
+        if (!std::isnan(out.cells(x, y)) || !std::isfinite(middles[i].x) || !std::isfinite(middles[i + 1].x)) continue;
+        const glm::dvec2 at = thin->transform.to_cell(middles[i].x, middles[i].y);
+        const glm::dvec2 next = thin->transform.to_cell(middles[i + 1].x, middles[i + 1].y);
+        if (at.x < -1.0 || at.y < -1.0 || at.x > thin->cells.width() || at.y > thin->cells.height()) continue;
+        const int reach = std::clamp(static_cast<int>(std::lround(0.5 * std::abs(next.x - at.x) - 0.5)), 0, 2 * looks_per_cell);
+        const int column = static_cast<int>(std::lround(at.x));
+        const int row = static_cast<int>(std::lround(at.y));
+        double sum = 0.0;
+        int count = 0, all = 0;
+        for (int j = -reach; j <= reach; ++j)
+          for (int k = -reach; k <= reach; ++k) {
+            ++all;
+            if (!thin->cells.contains(column + k, row + j) || std::isnan(thin->cells(column + k, row + j))) continue;
+            sum += static_cast<double>(thin->cells(column + k, row + j));
+            ++count;
+          }
+        if (2 * count >= all) out.cells(x, y) = static_cast<float>(sum / count);
+      }
+  }
+  return out;
+}
+
+}  // namespace
+
 CoarseGround read_coarse_ground(const DemParameters& dem, Progress& progress, const CoarseGroundParameters& parameters) {
   RasterFrame frame = choose_frame(dem.sources, dem.crs, dem.cell_m, dem.extent);
   const double source_cell_m = frame.transform.cell_x;
+  const bool look = !dem.extent && static_cast<double>(frame.width) * frame.height > most_read_cells;
   const double width_m = frame.width * frame.transform.cell_x;
   const double height_m = frame.height * frame.transform.cell_y;
   const double cell_m = std::max({frame.transform.cell_x, frame.transform.cell_y, std::max(width_m, height_m) / parameters.most_cells});
   frame.transform.cell_x = frame.transform.cell_y = cell_m;
   frame.width = std::max(2, static_cast<int>(std::ceil(width_m / cell_m - 1e-6)));
   frame.height = std::max(2, static_cast<int>(std::ceil(height_m / cell_m - 1e-6)));
+  if (look)
+    if (std::optional<Raster<float>> seen = look_at_files(dem, frame, looks_per_cell * parameters.most_cells))
+      return make_coarse_ground(std::move(*seen), source_cell_m);
   return make_coarse_ground(warp_rasters(dem.sources, frame, progress), source_cell_m);
 }
 

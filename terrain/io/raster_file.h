@@ -60,6 +60,8 @@ class RasterFile {
 
   // Metres, voids NaN; the window's own size.
   Grid<float> read_values(const CellWindow& window) const;
+  // The window in `width` × `height` cells, each one of those under it; from overviews where the file has some.
+  Grid<float> read_values(const CellWindow& window, int width, int height) const;
   // Codes from 0 up, -1 where there are none.
   Grid<std::int32_t> read_codes(const CellWindow& window) const;
 

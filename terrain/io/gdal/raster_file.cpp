@@ -161,11 +161,12 @@ struct RasterFile::State {
   void find_crs();
   void check_window(const CellWindow& window) const;
   template <class T>
-  Grid<T> read(GDALRasterBandH from, const CellWindow& window, GDALDataType type) const;
+  // In columns × rows cells, where these are fewer than the window's.
+  Grid<T> read(GDALRasterBandH from, const CellWindow& window, GDALDataType type, int columns, int rows) const;
   double unit_to_m() const;
   bool is_void(float raw) const;
   // 0 where the file's own mask hides a cell; empty where it has none beside nodata.
-  Grid<std::uint8_t> read_mask(const CellWindow& window) const;
+  Grid<std::uint8_t> read_mask(const CellWindow& window, int columns, int rows) const;
 };
 
 void RasterFile::State::find_place() {
@@ -262,14 +263,14 @@ void RasterFile::State::check_window(const CellWindow& window) const {
 }
 
 template <class T>
-Grid<T> RasterFile::State::read(GDALRasterBandH from, const CellWindow& window, GDALDataType type) const {
+Grid<T> RasterFile::State::read(GDALRasterBandH from, const CellWindow& window, GDALDataType type, int columns, int rows) const {
   check_window(window);
-  check_memory(source.path, static_cast<double>(window.width) * window.height * sizeof(T));
-  Grid<T> cells(window.width, window.height);
+  check_memory(source.path, static_cast<double>(columns) * rows * sizeof(T));
+  Grid<T> cells(columns, rows);
   make_strict();
   const GdalErrors errors;
   const CPLErr result =
-      GDALRasterIO(from, GF_Read, window.x0, window.y0, window.width, window.height, cells.data(), window.width, window.height, type, 0, 0);
+      GDALRasterIO(from, GF_Read, window.x0, window.y0, window.width, window.height, cells.data(), columns, rows, type, 0, 0);
   // Some drivers report a failure and still return success.
   if (result != CE_None || errors.failed()) {
     const bool remote = is_address(source.path);
@@ -299,17 +300,19 @@ bool RasterFile::State::is_void(float raw) const {
   return raw == -9999.0F || raw == -32768.0F || raw == 32767.0F;
 }
 
-Grid<std::uint8_t> RasterFile::State::read_mask(const CellWindow& window) const {
+Grid<std::uint8_t> RasterFile::State::read_mask(const CellWindow& window, int columns, int rows) const {
   const int flags = GDALGetMaskFlags(band);
   if ((flags & (GMF_ALL_VALID | GMF_NODATA)) != 0) return {};
-  return read<std::uint8_t>(GDALGetMaskBand(band), window, GDT_Byte);
+  return read<std::uint8_t>(GDALGetMaskBand(band), window, GDT_Byte, columns, rows);
 }
 
-Grid<float> RasterFile::read_values(const CellWindow& window) const {
+Grid<float> RasterFile::read_values(const CellWindow& window) const { return read_values(window, window.width, window.height); }
+
+Grid<float> RasterFile::read_values(const CellWindow& window, int width, int height) const {
   const State& s = *state_;
   const double unit = s.unit_to_m();
-  Grid<float> values = s.read<float>(s.band, window, GDT_Float32);
-  const Grid<std::uint8_t> mask = s.read_mask(window);
+  Grid<float> values = s.read<float>(s.band, window, GDT_Float32, width, height);
+  const Grid<std::uint8_t> mask = s.read_mask(window, width, height);
   const double gain = s.scale * unit;
   const double shift = s.offset * unit;
   const bool plain = gain == 1.0 && shift == 0.0;
@@ -326,9 +329,9 @@ Grid<float> RasterFile::read_values(const CellWindow& window) const {
 
 Grid<std::int32_t> RasterFile::read_codes(const CellWindow& window) const {
   const State& s = *state_;
-  const Grid<float> raw = s.read<float>(s.band, window, GDT_Float32);
-  Grid<std::int32_t> codes = s.read<std::int32_t>(s.band, window, GDT_Int32);
-  const Grid<std::uint8_t> mask = s.read_mask(window);
+  const Grid<float> raw = s.read<float>(s.band, window, GDT_Float32, window.width, window.height);
+  Grid<std::int32_t> codes = s.read<std::int32_t>(s.band, window, GDT_Int32, window.width, window.height);
+  const Grid<std::uint8_t> mask = s.read_mask(window, window.width, window.height);
   for (std::size_t i = 0; i < codes.size(); ++i)
     if (s.is_void(raw[i]) || (!mask.empty() && mask[i] == 0) || codes[i] < 0) codes[i] = -1;
   return codes;

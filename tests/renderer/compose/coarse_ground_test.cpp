@@ -91,6 +91,22 @@ TEST(CoarseGround, ReadsFilesInCoarseCells) {
   EXPECT_NEAR(ground.altitude_m(test::place_km(30.0, 33.0)), test::cone(30.0, 33.0), 3.0);
 }
 
+// 25 million cells are looked at here and there: the same landscape to what its slopes are over a few cells.
+TEST(CoarseGround, FilesTooLargeToReadAreLookedAt) {
+  test::Folder folder;
+  const auto slope = [](double e, double n) { return 500.0 + 20.0 * e + 5.0 * n; };
+  write_raster(folder / "large.tif", test::made_up_raster(60.0, slope, 5000));
+  DemParameters dem;
+  dem.sources.push_back({});
+  dem.sources.back().path = folder / "large.tif";
+  const CoarseGround ground = read_coarse_ground(dem, silent_progress());
+  EXPECT_EQ(ground.cells.width(), 420);
+  EXPECT_EQ(ground.void_share, 0.0);
+  EXPECT_NEAR(ground.source_cell_m, 12.0, 1e-9);
+  for (const auto& [e, n] : {std::pair{30.0, 35.0}, std::pair{1.0, 2.0}, std::pair{59.0, 58.0}})
+    EXPECT_NEAR(ground.altitude_m(test::place_km(e, n)), slope(e, n), 2.0);
+}
+
 TEST(CoarseGround, NothingKnownIsAnError) {
   EXPECT_THROW(make_coarse_ground(test::made_up_raster(60.0, [](double, double) { return NAN; }), 300.0), Error);
 }
