@@ -19,6 +19,7 @@
 #include "terrain/io/gdal/gdal_files.h"
 #include "terrain/io/http_access.h"
 #include "terrain/io/raster_parts.h"
+#include "terrain/io/stream_file.h"
 
 namespace belvedere {
 namespace {
@@ -99,8 +100,21 @@ Dataset open_address(const std::string& address) {
   return dataset;
 }
 
+// A GeoTIFF whose bytes come from a StreamFile: nothing lies beside it.
+Dataset open_stream(const std::string& path) {
+  make_strict();
+  const CPLConfigOptionSetter alone("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR", false);
+  CPLStringList allowed;
+  allowed.AddString("GTiff");
+  const GdalErrors errors;
+  Dataset dataset(GDALOpenEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, allowed.List(), nullptr, nullptr));
+  if (!dataset) throw Error(ErrorKind::input, path, errors.say("is no raster that can be read"), "GeoTIFF");
+  return dataset;
+}
+
 Dataset open_checked(const std::string& path, int nesting) {
   if (is_address(path)) return open_address(path);
+  if (is_stream(path)) return open_stream(path);
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) throw Error(ErrorKind::input, path, "there is no such file", driver_names);
   make_strict();

@@ -1,0 +1,78 @@
+#include "terrain/fetch/fetch_record.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/json.h"
+#include "terrain/io/crs.h"
+
+namespace belvedere {
+namespace {
+
+std::string line(const char* key, const std::string& text) { return fmt::format("{} = {}\n", key, json_quoted(text)); }
+
+std::string source_table(const char* section, const FetchedMap& map, const std::string& folder) {
+  return fmt::format("[[{}]]\n", section) + line("file", folder.empty() ? map.file : (std::filesystem::path(folder) / map.file).string()) +
+         line("origin", map.origin) + line("licence", map.licence) + line("get_from", map.get_from);
+}
+
+std::string map_record(const FetchedMap& map) {
+  const RasterFrame& frame = map.frame;
+  std::string out = "\n[[fetched]]\n" + line("file", map.file) + line("hash", map.hash) + line("source", map.source.id) +
+                    line("credit", map.source.credit) + line("licence", map.source.licence) + line("crs", describe_crs(frame.crs)) +
+                    fmt::format("width = {}\nheight = {}\ncell_m = {}\nwest = {}\nnorth = {}\n", frame.width, frame.height,
+                                frame.transform.cell_x, frame.transform.origin_x, frame.transform.origin_y);
+  for (const FetchedTile& tile : map.tiles) {
+    out += "\n[[fetched.tiles]]\n" + line("name", tile.name) + line("address", tile.address);
+    if (tile.about.missing) {
+      out += "missing = true\n";
+      continue;
+    }
+    out += fmt::format("bytes = {}\n", tile.about.bytes);
+    if (!tile.about.tag.empty()) out += line("tag", tile.about.tag);
+    out += line("cells_hash", tile.hash);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string scene_sources(const FetchedArea& area, const std::string& folder) {
+  std::string out = source_table("terrain.sources", area.elevation, folder);
+  if (area.land_cover)
+    out += "\n[land_cover]\n" + line("legend", area.land_cover->source.legend) + "\n" +
+           source_table("land_cover.sources", *area.land_cover, folder);
+  return out;
+}
+
+std::string fetch_record(const FetchParameters& parameters, const FetchedArea& area) {
+  std::string out =
+      "# Written by belvedere fetch. The tables down to [[fetched]] are ready for a scene; then where every cell comes from:\n"
+      "# hashes as of belvedere lock, tags as the servers give them.\n\n" +
+      scene_sources(area, "");
+  out += fmt::format("\n[request]\nat = [{}, {}]\nsize_km = [{}, {}]\n", parameters.at_lonlat.x, parameters.at_lonlat.y,
+                     parameters.size_km.x, parameters.size_km.y);
+  out += map_record(area.elevation);
+  if (area.land_cover) out += map_record(*area.land_cover);
+  return out;
+}
+
+void write_fetch_record(const std::string& path, const FetchParameters& parameters, const FetchedArea& area) {
+  const std::string temporary = path + ".tmp";
+  const std::string text = fetch_record(parameters, area);
+  std::ofstream file(temporary, std::ios::binary);
+  file << text;
+  file.close();
+  std::error_code problem;
+  if (file) std::filesystem::rename(temporary, path, problem);
+  if (file && !problem) return;
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
+  throw Error(ErrorKind::output, path, "cannot be written" + (problem ? ": " + problem.message() : std::string()));
+}
+
+}  // namespace belvedere
