@@ -11,6 +11,7 @@ const std::vector<Command>& all_commands() {
       {"", "plan", "Prepares a sheet that several machines make together", add_plan},
       {"", "part", "Makes one part of a planned sheet", add_part},
       {"", "join", "Joins the parts of a planned sheet to its files", add_join},
+      {"", "fetch", "Gets elevation and land cover of any place from open map services, with their licences", add_fetch},
       {"", "generalize", "Simplifies a DEM for a map: weights landforms by their size, keeps ridges sharp", add_generalize},
       {"", "synthesize", "Lays a painting's texture over a label map; works on image files alone", add_synthesize},
       {"", "check", "Says whether a scene can be rendered, without rendering it", add_check},

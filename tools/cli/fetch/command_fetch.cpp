@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "base/json.h"
+#include "terrain/fetch/fetch_record.h"
+#include "terrain/io/crs.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/fetch/fetch_options.h"
+#include "tools/cli/scene_options.h"
+#include "tools/cli/terminal.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  FetchOptions fetch;
+  SceneOptions run;  // threads, memory, cache, quiet, json
+  std::string out;
+};
+
+double mib(std::uint64_t bytes) {
+  constexpr double one = 1024.0 * 1024.0;
+  return static_cast<double>(bytes) / one;
+}
+
+std::size_t missing_tiles(const FetchedMap& map) {
+  return static_cast<std::size_t>(
+      std::count_if(map.tiles.begin(), map.tiles.end(), [](const FetchedTile& tile) { return tile.about.missing; }));
+}
+
+std::string as_text(const Options& options, const FetchedArea& area) {
+  std::string out;
+  for (const FetchedMap* map : {&area.elevation, area.land_cover ? &*area.land_cover : nullptr}) {
+    if (map == nullptr) continue;
+    out += fmt::format("{}/{}: {} × {} cells of {} m, {}; {}, {} tiles{}\n", options.out, map->file, map->frame.width, map->frame.height,
+                       map->frame.transform.cell_x, describe_crs(map->frame.crs), map->source.name, map->tiles.size(),
+                       missing_tiles(*map) > 0 ? fmt::format(", {} of them sea", missing_tiles(*map)) : "");
+    out += fmt::format("  {}\n", map->source.credit);
+  }
+  out += fmt::format("{}: where it comes from, and the tables for a scene\n{} questions, {:.1f} MiB\n", area.record, area.questions,
+                     mib(area.bytes));
+  return out;
+}
+
+Json map_json(const Options& options, const FetchedMap& map) {
+  Json tiles = Json::array();
+  for (const FetchedTile& tile : map.tiles)
+    tiles.add(Json::object().add("name", Json::text(tile.name)).add("missing", Json::boolean(tile.about.missing)));
+  Json out = Json::object()
+                 .add("file", Json::text(options.out + "/" + map.file))
+                 .add("hash", Json::text(map.hash))
+                 .add("source", Json::text(map.source.id))
+                 .add("origin", Json::text(map.origin))
+                 .add("licence", Json::text(map.licence))
+                 .add("crs", Json::text(describe_crs(map.frame.crs)))
+                 .add("width", Json::number(map.frame.width))
+                 .add("height", Json::number(map.frame.height))
+                 .add("cell_m", Json::number(map.frame.transform.cell_x));
+  if (!map.source.legend.empty()) out.add("legend", Json::text(map.source.legend));
+  return out.add("tiles", std::move(tiles));
+}
+
+std::string as_json(const Options& options, const FetchedArea& area) {
+  Json out = Json::object().add("elevation", map_json(options, area.elevation));
+  if (area.land_cover) out.add("land_cover", map_json(options, *area.land_cover));
+  return out.add("record", Json::text(area.record))
+             .add("questions", Json::number(static_cast<double>(area.questions)))
+             .add("bytes", Json::number(static_cast<double>(area.bytes)))
+             .str() +
+         "\n";
+}
+
+int run(const Options& options) {
+  TerminalProgress progress(options.run.quiet);
+  const Cache cache = make_cache(options.run);
+  const RunLimits limits(make_run(options.run, Run{}.tile_px, progress, cache));
+  const FetchedArea area = fetch_area(fetch_parameters(options.fetch), options.out, cache, progress);
+  progress.end();
+  if (options.run.json)
+    print_out(as_json(options, area));
+  else if (!options.run.quiet)
+    print_out(as_text(options, area));
+  return 0;
+}
+
+}  // namespace
+
+Action add_fetch(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  add_fetch_options(command, options->fetch);
+  command.get_option("--at")->required();
+  command.add_option("--out", options->out, "The folder for elevation.tif, land_cover.tif and fetched.toml; made where it is missing")
+      ->required()
+      ->type_name("DIR");
+  add_run_options(command, options->run);
+  command.footer(
+      "Asks the servers of Copernicus DEM GLO-30 and ESA WorldCover, or those of other sources, for the parts of their tiles that lie in\n"
+      "the area. What came is kept in the cache: after a failure the same command goes on where it ended, and the next time nothing is\n"
+      "asked. Whoever shows a picture of such data names the sources: fetched.toml has their words, and scenes take them along.\n\n"
+      "  belvedere fetch --at 11.4,47.35 --size 60 --out karwendel_data\n"
+      "  belvedere fetch --at -121.76,46.85 --size 80x60 --source copernicus_glo90 --no-land-cover --out rainier_data");
+  return [options] { return run(*options); };
+}
+
+}  // namespace belvedere::tools

@@ -1,0 +1,89 @@
+#include "tools/cli/fetch/fetch_options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+
+#include "base/error.h"
+#include "renderer/image/provenance.h"
+#include "tools/cli/deform_options.h"
+
+namespace belvedere::tools {
+namespace {
+
+// "60" or "80x50", km.
+glm::dvec2 parse_size(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  const auto number = [&](const std::string& part) {
+    std::size_t end = 0;
+    double value = 0.0;
+    try {
+      value = std::stod(part, &end);
+    } catch (const std::exception&) {
+      end = std::string::npos;
+    }
+    if (end != part.size()) throw Error(ErrorKind::usage, "--size", fmt::format("\"{}\"", text), "kilometres: 60, or 80x50");
+    return value;
+  };
+  if (cross == std::string::npos) return glm::dvec2(number(text));
+  return {number(text.substr(0, cross)), number(text.substr(cross + 1))};
+}
+
+}  // namespace
+
+void add_fetch_options(CLI::App& command, FetchOptions& options) {
+  command.add_option("--at", options.at, "The middle of the area: longitude and latitude in degrees, west and south negative")
+      ->type_name("LON,LAT");
+  command
+      .add_option("--size", options.size,
+                  "How large the area is, in km: a side of the square, or west to east x south to north; default 60")
+      ->type_name("KM");
+  command
+      .add_option(
+          "--source", options.sources,
+          fmt::format("Another source than copernicus_glo30 or esa_worldcover: {}, or a .toml file (docs/fetch.md); may be repeated",
+                      fmt::join(built_in_map_sources(), ", ")))
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  command.add_flag("--no-land-cover", options.no_land_cover, "Only the elevation");
+  command.add_option("--cell", options.cell_m, "Width of the elevation's cells in m; default: the source's, 30")->type_name("M");
+  command
+      .add_option("--cover-cell", options.cover_cell_m, "Width of the land cover's cells in m; default: the source's, 10, up to 80 × 80 km")
+      ->type_name("M");
+  command
+      .add_option("--mirror", options.mirror,
+                  "A server that has copies of the sources' files under the same paths, asked in their place; also $BELVEDERE_MIRROR")
+      ->type_name("URL")
+      ->envname("BELVEDERE_MIRROR");
+  command.add_flag("--refresh", options.refresh, "Asks whether files that are known have changed; else that is believed for 30 days");
+  command
+      .add_option("--http-silence", options.manners.silence_s, "How long a server may send nothing before it counts as lost, in seconds")
+      ->type_name("S")
+      ->capture_default_str();
+  command.add_option("--http-time", options.manners.answer_s, "How long one answer of a server may take, in seconds")
+      ->type_name("S")
+      ->capture_default_str();
+  command.add_option("--http-retries", options.manners.retries, "How often what failed is asked for again, later each time")
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+FetchParameters fetch_parameters(const FetchOptions& options) {
+  if (options.at.empty()) throw Error(ErrorKind::usage, "--at", "no place is given", "--at LON,LAT");
+  FetchParameters parameters;
+  parameters.at_lonlat = parse_pair(options.at, "--at");
+  parameters.size_km = parse_size(options.size);
+  for (const std::string& name : options.sources)
+    (read_map_source(name).kind == MapSourceKind::elevation ? parameters.elevation : parameters.land_cover) = name;
+  if (options.no_land_cover) parameters.land_cover.clear();
+  parameters.cell_m = options.cell_m;
+  parameters.cover_cell_m = options.cover_cell_m;
+  parameters.mirror = options.mirror;
+  parameters.refresh = options.refresh;
+  parameters.manners = options.manners;
+  parameters.manners.agent = fmt::format("Belvedere/{} (panorama maps)", program_version());
+  return parameters;
+}
+
+}  // namespace belvedere::tools
