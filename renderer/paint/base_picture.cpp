@@ -177,6 +177,9 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
   const bool bare = id == Class::rock && !g.rock_facet.empty();
   const glm::vec2 cover = bare ? g.rock_cover[i] : glm::vec2(0.0F);
   const glm::vec3 hue = bare ? rock_hue(*s.parameters.rock, g.rock_facet[i], 1.0F - smoothstep(0.10F, 0.42F, g.tone[i])) : glm::vec3(1.0F);
+  const TintShift tint = s.parameters.tint && id != Class::water
+                             ? tint_shift(*s.parameters.tint, s.palette, id, altitude, s.place_m(i), g.footprint_m[i])
+                             : TintShift{};
   const auto paint = [&](double step) {
     const double light = g.tone[i] + static_cast<double>(water.tone_shift) + step;
     glm::vec3 ramp = palette_colour(s.palette, id, altitude, light) * hue;
@@ -186,6 +189,7 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
     if (cover.y > 0.0F) ramp = glm::mix(ramp, palette_colour(s.palette, Class::snow, altitude, light + 0.06), cover.y);
     if (glade > 0.0F) ramp = glm::mix(ramp, glade_colour(s.palette, altitude, light), 0.85F * glade);
     if (gravel > 0.0F) ramp = glm::mix(ramp, gravel_colour(light), gravel);
+    ramp = tint.over(ramp);
     if (id == Class::settlement)
       ramp = town_ground_colour(s.palette, ramp, g.built[i], altitude, light, static_cast<float>(s.parameters.air.hue_drift));
     return pixel.finish(water.over(ramp), s.palette.range_mist);

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <memory>
 
 #include "base/guidance_buffers.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "renderer/paint/air_parameters.h"
+#include "renderer/paint/ground/ground_tint.h"
 #include "renderer/paint/palette.h"
 #include "renderer/paint/rock_kinds.h"
 #include "renderer/trace/wide_view.h"
@@ -22,6 +24,7 @@ struct BaseParameters {
   double sun_image_x = 1.0;                      // as in ToneParameters
   double pixels_per_unit = 1.0;
   std::uint64_t seed = 1;
+  std::shared_ptr<const GroundTint> tint = nullptr;  // colours of the ground's own that ramps are moved to; none: ramps as they are
 };
 
 // Base picture (encoded sRGB) at the pixel's tone and at ∓ .17, with accents, tree density and haze; sky pixels get sky and clouds.

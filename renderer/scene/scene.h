@@ -61,6 +61,9 @@ struct SceneLandCover {
   std::string legend;                                    // "nlcd", "corine", "esa_worldcover", "fbfm40", or a .csv or .toml file
   std::string rules = "life_zones";                      // where there is no source: built-in name or file
   std::string layers;                                    // a file of surface layers, instead of rules; empty: none
+  std::string colours = "palette";                       // what the ground's colours come from: "palette", "layers" or "image"
+  std::string colour_image;                              // the picture from above, for "image"
+  double colour_share = 1.0;                             // how far the palette's colours go over to those, 0…1
   std::vector<std::pair<std::string, double>> settings;  // parameters of the rules or layers
   std::vector<SceneTown> towns;                          // what rules know of towns …
   std::string rock = "limestone";                        // a kind of rock_kinds.h

@@ -41,6 +41,16 @@ class Rules {
     if (!scene_.land_cover.sources.empty() && scene_.land_cover.legend.empty())
       refuse("land_cover.sources", "land_cover.sources needs land_cover.legend, which says what the raster's codes mean",
              "legend = \"nlcd\", \"corine\", \"esa_worldcover\", \"fbfm40\" or a file");
+    const SceneLandCover& cover = scene_.land_cover;
+    if (cover.colours == "layers" && cover.layers.empty())
+      refuse("land_cover.colours", "land_cover.colours asks for the layers' colours, and there are no layers",
+             "land_cover.layers = \"NAME.layers.toml\" beside it");
+    if (cover.colours == "image" && cover.colour_image.empty())
+      refuse("land_cover.colours", "land_cover.colours asks for a picture's colours, and there is none",
+             "land_cover.colour_image = \"NAME.tif\" beside it");
+    if (cover.colours != "image" && !cover.colour_image.empty())
+      refuse("land_cover.colour_image", "land_cover.colour_image is there, and land_cover.colours does not ask for it",
+             "land_cover.colours = \"image\" beside it");
     for (const auto& [name, value] : scene_.land_cover.settings)
       if (names_old_town(name))
         refuse("land_cover.settings." + name, fmt::format("towns are no settings of the rules any more: {}", name),

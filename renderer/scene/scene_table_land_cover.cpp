@@ -29,6 +29,22 @@ std::vector<SceneSection> make_land_cover_sections() {
             .meaning = "Surface layers that say what the ground is, instead of rules: a .layers.toml file, written by hand or fitted to a "
                        "picture; see layers.md.",
             .text = TextKind::file},
+           {.name = "colours",
+            .field = AT(land_cover.colours),
+            .meaning = "Where the ground's colours come from: palette paints each class by its ramps; layers and image take what the "
+                       "surface layers, or a picture from above, have at each place, and paint them in the palette's light and at its mean "
+                       "lightness. Water stays as it is.",
+            .text = TextKind::choice,
+            .choices = {"palette", "layers", "image"}},
+           {.name = "colour_image",
+            .field = AT(land_cover.colour_image),
+            .meaning = "The picture from above for colours = \"image\", such as one from a satellite: a raster of red, green and blue, "
+                       "8 bits each, that says where it lies. Where it has nothing the palette's colours stay.",
+            .text = TextKind::file},
+           {.name = "colour_share",
+            .field = AT(land_cover.colour_share),
+            .range = {0, 1},
+            .meaning = "How far the palette's colours go over to those of layers or image."},
            {.name = "unknown",
             .field = AT(land_cover.unknown),
             .meaning = "Class of codes that the legend lacks; without it they are an error."},

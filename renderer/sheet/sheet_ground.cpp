@@ -92,7 +92,7 @@ SheetGround::SheetGround(const World& world, const SheetView& view, const Palett
       run_(run),
       rock_parameters_(to_rock_parameters(world, palette, view)),
       tone_parameters_(to_tone_parameters(world, view)),
-      base_parameters_(to_base_parameters(world, view)),
+      base_parameters_(to_base_parameters(world, view, palette)),
       strokes_(to_stroke_parameters(world, palette, view)),
       factor_(wide_factor(view.pixels_per_unit)),
       wide_camera_(make_reduced_camera(view.camera, factor_)),

@@ -114,13 +114,14 @@ void cut(Grid<T>& grid, const PixelRect& rect) {
   if (!grid.empty()) grid = part_of(grid, rect);
 }
 
-// Cells of a land cover that lies on the cells of a DEM; one on cells of its own stays.
-void cut(LandCover& cover, const Dem& dem, const PixelRect& rect) {
-  if (!cover.classes.cells.same_size(dem.altitude_m)) return;
-  const glm::dvec2 first = cover.classes.transform.to_crs(rect.x0 - 0.5, rect.y0 - 0.5);
-  cover.classes.transform.origin_x = first.x;
-  cover.classes.transform.origin_y = first.y;
-  cut(cover.classes.cells, rect);
+// Cells of a raster that lies on the cells of a DEM; one on cells of its own stays.
+template <class T>
+void cut(Raster<T>& raster, const Dem& dem, const PixelRect& rect) {
+  if (!raster.cells.same_size(dem.altitude_m)) return;
+  const glm::dvec2 first = raster.transform.to_crs(rect.x0 - 0.5, rect.y0 - 0.5);
+  raster.transform.origin_x = first.x;
+  raster.transform.origin_y = first.y;
+  cut(raster.cells, rect);
 }
 
 // The cells of a window with its halo.
@@ -182,7 +183,8 @@ TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const 
   window.transform = {first.x, first.y, halo->transform.cell_x, halo->transform.cell_y};
   window.crs = halo->crs;
   window.halved = halo->halved;
-  cut(cover, *halo, kept);
+  cut(cover.classes, *halo, kept);
+  cut(cover.colours, *halo, kept);
   model.land_cover = std::make_shared<const LandCover>(std::move(cover));
   for (Grid<float>* grid : {&model.generalized_m, &model.detail_smooth_m, &model.shape_smooth_m, &model.relief_s_m, &model.relief_m_m,
                             &model.relief_l_m, &model.valley_height_m, &model.rim_m, &model.flow, &model.floor_plan.built})

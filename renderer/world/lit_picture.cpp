@@ -31,7 +31,7 @@ RockParameters to_rock_parameters(const World& world, const Palette& palette, co
   return {to_tone_parameters(world, view), &find_rock_kind(world.scene.land_cover.rock), palette.winter};
 }
 
-BaseParameters to_base_parameters(const World& world, const SheetView& view) {
+BaseParameters to_base_parameters(const World& world, const SheetView& view, const Palette& palette) {
   BaseParameters parameters;
   parameters.air = world.scene.air;
   parameters.horizon_px = view.horizon_px;
@@ -39,6 +39,7 @@ BaseParameters to_base_parameters(const World& world, const SheetView& view) {
   parameters.sun_image_x = world.view.sun_image_x;
   parameters.pixels_per_unit = view.pixels_per_unit;
   parameters.seed = world.scene.seed;
+  parameters.tint = make_ground_tint(world.terrain, palette, world.scene.land_cover.colour_share);
   return parameters;
 }
 
@@ -85,7 +86,8 @@ LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRec
   picture.guidance = gather_rows(traced, shift_crests(traced, wide, rock, origin_px, all), all);
   take_relief(picture.guidance, make_rock_relief(picture.guidance, wide, rock, origin_px, run.progress));
   picture.guidance.tone = make_tone(picture.guidance, wide, to_tone_parameters(world, view), origin_px, run.progress);
-  picture.base = make_base_picture(picture.guidance, wide, palette, to_base_parameters(world, view), origin_px, view.camera.size(), run.progress);
+  picture.base = make_base_picture(picture.guidance, wide, palette, to_base_parameters(world, view, palette), origin_px, view.camera.size(),
+                                   run.progress);
   picture.guidance.base = decode_srgb(picture.base.colour);
   return picture;
 }

@@ -17,6 +17,7 @@
 #include "renderer/world/scene_season.h"
 #include "renderer/world/scene_towns.h"
 #include "terrain/climate/map_climate.h"
+#include "terrain/cover/ground_image.h"
 #include "terrain/generalize/destripe.h"
 #include "terrain/layers/layer_apply.h"
 #include "terrain/layers/layer_climate.h"
@@ -31,8 +32,10 @@ void each_field(auto& bytes, FieldsOf<Dem> auto& dem) {
 }
 
 void each_field(auto& bytes, FieldsOf<LandCover> auto& cover) {
-  auto& [cells, transform, crs] = cover.classes;
-  bytes(cells, transform, crs);
+  auto& [classes, colours] = cover;
+  auto& [cells, transform, crs] = classes;
+  auto& [colour_cells, colour_transform, colour_crs] = colours;
+  bytes(cells, transform, crs, colour_cells, colour_transform, colour_crs);
 }
 
 namespace {
@@ -229,6 +232,7 @@ LandCover make_layer_cover(const LoadedScene& loaded, const Dem& dem, const Whol
   LayerApplyParameters parameters;
   parameters.seed = loaded.scene.seed;
   parameters.whole = whole != nullptr ? &whole->dem : nullptr;
+  parameters.colour = loaded.scene.land_cover.colours == "layers";
   const std::vector<std::string> inputs = compile_layers(layers).inputs;
   if (needs_place(inputs, {})) require_place(loaded.scene, dem);
   std::optional<Climate> climate;
@@ -271,7 +275,8 @@ void refine_by_rules(LandCover& cover, const LandCover& rules, const std::vector
 }
 
 // With every patch, however small.
-LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, const CoverContext& context, Progress& progress, const Cache& cache) {
+LandCover make_full_classes(const LoadedScene& loaded, const Dem& dem, const CoverContext& context, Progress& progress,
+                            const Cache& cache) {
   const SceneLandCover& settings = loaded.scene.land_cover;
   if (settings.sources.empty()) return make_modelled_cover(loaded, dem, context, progress, cache);
   LandCoverParameters parameters;
@@ -282,10 +287,24 @@ LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, const Cover
   parameters.nodata = settings.nodata;
   parameters.finest_cell_m = dem.halved > 0 ? dem.cell_m() : 0.0;
   LandCover cover = read_land_cover(parameters, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);
-  if (!settings.refine.empty())
-    refine_by_rules(cover, make_modelled_cover(loaded, dem, context, progress, cache), settings.refine);
-  else if (!settings.towns.empty() || !settings.towns_file.empty())
+  const bool takes_colours = settings.colours == "layers";
+  if (!settings.refine.empty() || takes_colours) {
+    LandCover modelled = make_modelled_cover(loaded, dem, context, progress, cache);
+    refine_by_rules(cover, modelled, settings.refine);
+    cover.colours = std::move(modelled.colours);
+  }
+  if (settings.refine.empty() && (!settings.towns.empty() || !settings.towns_file.empty()))
     progress.note("the scene's towns are not used: rules build them, and the land cover comes from rasters");
+  return cover;
+}
+
+// And in the colours of a picture, where a scene drapes one over the ground. A window may lie beside it, the whole may not.
+LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, const CoverContext& context, Progress& progress, const Cache& cache) {
+  LandCover cover = make_full_classes(loaded, dem, context, progress, cache);
+  const SceneLandCover& settings = loaded.scene.land_cover;
+  if (settings.colours != "image") return cover;
+  cover.colours = read_ground_image(find_scene_file(loaded, settings.colour_image), {dem.transform, dem.width(), dem.height(), dem.crs},
+                                    context.whole == nullptr, progress);
   return cover;
 }
 

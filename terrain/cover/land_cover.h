@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec4.hpp>
 #include <map>
 #include <optional>
 #include <set>
@@ -30,9 +31,13 @@ struct Legend {
 // is wrong, Error(input) where a file is missing.
 Legend read_legend(const std::string& name_or_path, const std::vector<std::string>& folders = {});
 
+// What colour the ground has, as a picture from above shows it: encoded sRGB, and how much of it is known, 0 or 255.
+using GroundColour = glm::vec<4, std::uint8_t>;
+
 // Painted classes on their own grid, and the smooth borders between them.
 struct LandCover {
-  Raster<LandCoverClass> classes;  // sky where no land cover is known; never empty
+  Raster<LandCoverClass> classes;     // sky where no land cover is known; never empty
+  Raster<GroundColour> colours = {};  // on cells of their own; empty where nobody asked for them
 
   // The class at a place in the scene's CRS: membership of each class interpolated by cubic B-spline, then the largest (ties
   // to the lower id). Smooth borders, no stairs of the raster's cells; what is one cell wide becomes a little narrower, single

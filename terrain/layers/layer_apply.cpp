@@ -141,9 +141,15 @@ LandCover layer_land_cover(const SurfaceLayers& layers, const Dem& dem, const La
                            Progress& progress) {
   LandCover cover{{Grid<LandCoverClass>(dem.width(), dem.height()), dem.transform, dem.crs}};
   Grid<LandCoverClass>& cells = cover.classes.cells;
-  const LayerApplyResult result = apply_layers(
-      layers, dem, climate, parameters,
-      [&](const LayerStrip& strip) { std::copy(strip.classes.begin(), strip.classes.end(), cells.row(strip.y0)); }, progress);
+  if (parameters.colour) cover.colours = {Grid<GroundColour>(dem.width(), dem.height()), dem.transform, dem.crs};
+  const auto take = [&](const LayerStrip& strip) {
+    std::copy(strip.classes.begin(), strip.classes.end(), cells.row(strip.y0));
+    if (!parameters.colour) return;
+    GroundColour* colours = cover.colours.cells.row(strip.y0);
+    for (std::size_t i = 0; i < strip.classes.size(); ++i)
+      colours[i] = GroundColour(strip.colour[0][i], strip.colour[1][i], strip.colour[2][i], std::uint8_t{255});
+  };
+  const LayerApplyResult result = apply_layers(layers, dem, climate, parameters, take, progress);
   for (const std::string& warning : range_warnings(layers, result)) progress.note(warning);
   if (result.class_share[0] == 0.0) return cover;
   if (result.class_share[0] == 1.0)

@@ -50,7 +50,8 @@ LayerApplyResult apply_layers(const SurfaceLayers& layers, const Dem& dem, const
 // How classes are drawn on a DEM, for windows of it.
 LayerDrawing plan_drawing(const SurfaceLayers& layers, const Dem& dem, const LayerClimate& climate, const LayerApplyParameters& parameters);
 
-// The classes as land cover; cells that no class covers take the nearest. Notes what lies outside of ranges. Error(usage) for layers that
+// The classes as land cover, and where parameters ask for colours these with them; cells that no class covers take the nearest. Notes what
+// lies outside of ranges. Error(usage) for layers that
 // have no class at all.
 LandCover layer_land_cover(const SurfaceLayers& layers, const Dem& dem, const LayerClimate& climate, const LayerApplyParameters& parameters,
                            Progress& progress);

@@ -120,6 +120,9 @@ TEST(SceneFile, WrongTypesSayWhatIsAllowed) {
   EXPECT_THAT(refused("[exemplar]\nseed = 1\n"), HasSubstr("[[exemplar]]"));
   EXPECT_THAT(refused("[land_cover]\nunknown = \"rok\"\n"), AllOf(HasSubstr("did you mean \"rock\""), HasSubstr("glacier")));
   EXPECT_THAT(refused("[land_cover]\nunknown = \"sky\"\n"), HasSubstr("no class"));
+  EXPECT_THAT(refused("[land_cover]\ncolours = \"layers\"\n"), AllOf(StartsWith("s.toml:3:11: "), HasSubstr("there are no layers")));
+  EXPECT_THAT(refused("[land_cover]\ncolours = \"image\"\n"), HasSubstr("land_cover.colour_image = "));
+  EXPECT_THAT(refused("[land_cover]\ncolour_image = \"a.tif\"\n"), HasSubstr("does not ask for it"));
   EXPECT_THAT(refused("[camera]\nprojection = \"perspectiv\"\n"), HasSubstr("did you mean \"perspective\""));
   EXPECT_THAT(refused("palette = \"sumer\"\n"), AllOf(HasSubstr("did you mean \"summer\""), HasSubstr("\"winter\"")));
   EXPECT_THAT(refused("[sun]\ntime = \"yesterday\"\n"), HasSubstr("ISO 8601"));

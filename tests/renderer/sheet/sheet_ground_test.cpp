@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
+
 #include "base/grid_part.h"
 #include "tests/files.h"
 #include "tests/renderer/world/small_world.h"
@@ -65,6 +68,32 @@ TEST_P(SheetGroundTest, TheDraftIsThatOfTheWhole) {
   EXPECT_TRUE(a.label == b.label);
   ASSERT_EQ(a.guides.size(), b.guides.size());
   for (std::size_t i = 0; i < a.guides.size(); ++i) EXPECT_TRUE(a.guides[i].values == b.guides[i].values) << a.guides[i].name;
+}
+
+// Colours of the ground's own are looked up pixel by pixel, so no tile moves them.
+TEST_P(SheetGroundTest, ColoursOfLayersAreThoseOfTheWholeInAnyTiles) {
+  folder_.write("two.layers.toml",
+                "version = 1\nground = { class = \"pasture\", colour = \"#7a5a3a\" }\n[[layers]]\nname = \"high\"\nclass = \"rock\"\n"
+                "colour = \"#5a6a8a\"\nwhen = \"altitude > 1500 + 300 * n660\"\n");
+  const auto world = [&](const std::string& colours) {
+    return std::make_unique<World>(
+        test::small_scene({"output.width=230", "output.height=210", "output.sheet_width_mm=115", "terrain.synthetic.highest_m=3900",
+                           "land_cover.layers=two.layers.toml", "land_cover.colours=" + colours},
+                          folder_.path()),
+        silent_progress());
+  };
+  const PixelRect rect{40, 90, 190, 200};
+  const auto base = [&](const World& of, int tile_px) {
+    return SheetGround(of, view_of(of), palette_, place_, run_, tile_px).read_base(rect);
+  };
+  const auto tinted = world("layers");
+  const BasePicture whole = base(*tinted, 4096);
+  EXPECT_TRUE(base(*tinted, GetParam()).colour == whole.colour);
+  EXPECT_TRUE(base(*tinted, GetParam()).lighter == whole.lighter);
+  const Grid<glm::vec3> palette = base(*world("palette"), 4096).colour;
+  std::size_t differ = 0;
+  for (std::size_t i = 0; i < palette.size(); ++i) differ += palette[i] != whole.colour[i] ? 1 : 0;
+  EXPECT_GT(differ, palette.size() / 2) << "nearly all of it is ground";
 }
 
 // Four pixels a unit and more: light and base picture look around in a wide view, whose pixels no window and no tile may move. The sheet is

@@ -160,6 +160,29 @@ TEST(LayeredLandCover, LayersOfTheSceneSayWhatTheGroundIs) {
   EXPECT_THROW(cover("settings = { line = 1500 }\n"), Error);
 }
 
+// Colours come along only where a scene asks for them: of the layers, also where a raster has the classes, also from the cache.
+TEST_F(RefinedLandCover, TheLayersColoursComeWithLayersOrARaster) {
+  folder_.write("two.layers.toml",
+                "version = 1\nground = { class = \"forest\", colour = \"#102030\" }\n"
+                "[[layers]]\nname = \"ice\"\nclass = \"glacier\"\ncolour = \"#a0b0c0\"\nwhen = \"relief_180 > -1000\"\n");
+  const Cache cache({.folder = folder_ / "cache", .limit_bytes = 0});
+  const auto cover = [&](const std::string& keys) {
+    const LoadedScene scene = parse_scene("version = 1\n[land_cover]\nlayers = \"two.layers.toml\"\n" + keys, "s.toml", folder_.path(), {});
+    return make_scene_land_cover(scene, level(), silent_progress(), cache);
+  };
+  for (int run = 0; run < 2; ++run) {
+    EXPECT_TRUE(cover("").colours.cells.empty());
+    const LandCover made = cover("colours = \"layers\"\n");
+    ASSERT_EQ(made.colours.cells.width(), 20);
+    EXPECT_EQ(made.colours.transform, level().transform);
+    for (const GroundColour& colour : made.colours.cells) ASSERT_EQ(colour, GroundColour(0xa0, 0xb0, 0xc0, 255));
+  }
+  refined("");  // writes the raster
+  const LandCover both = cover("colours = \"layers\"\nlegend = \"esa_worldcover\"\n[[land_cover.sources]]\nfile = \"cover.tif\"\n");
+  for (int x = 0; x < 50; ++x) EXPECT_EQ(both.classes.cells(x, 7), as_read(x)) << "the raster's classes stay";
+  EXPECT_EQ(both.colours.cells(3, 3), GroundColour(0xa0, 0xb0, 0xc0, 255));
+}
+
 // Layers that ask for the climate get that of the scene, and the cache tells one climate from another.
 TEST(LayersInAScene, HangOnItsClimateAlsoFromTheCache) {
   const test::Folder folder;
