@@ -51,6 +51,7 @@ TEST_F(SceneSeasonTest, AutumnComesWithTheColdAndGoesWithTheWinter) {
   EXPECT_LT(autumn_share(valley, 260), autumn_share(valley, 285));
   EXPECT_EQ(autumn_share(valley, 330), 1.0);
   EXPECT_EQ(autumn_share(valley, 120), 0.0) << "spring";
+  EXPECT_EQ(autumn_share(valley, 40), 1.0) << "February: nothing grows yet";
   // Higher up it comes earlier; ground that is always cold does not turn in summer.
   EXPECT_GT(autumn_share(year(3.0, 9.0), 260), autumn_share(valley, 260));
   EXPECT_LT(autumn_share(year(-3.0, 8.0), 215), 0.1);

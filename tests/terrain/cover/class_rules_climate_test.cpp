@@ -37,11 +37,12 @@ Grid<LandCoverClass> apply_in(const RuleClimate& where, const Dem& dem, const st
   return apply_class_rules(read_class_rules("life_zones"), parameters, dem, silent_progress()).classes.cells;
 }
 
-// Mean altitude of the highest tenth of forest cells.
+// Mean altitude of the highest tenth of forest cells; 0 without forest.
 double forest_top(const Grid<LandCoverClass>& classes, const Dem& dem) {
   std::vector<float> altitudes;
   for (std::size_t i = 0; i < classes.size(); ++i)
     if (classes[i] == forest) altitudes.push_back(dem.altitude_m[i]);
+  if (altitudes.empty()) return 0.0;
   std::sort(altitudes.rbegin(), altitudes.rend());
   const std::size_t count = std::max<std::size_t>(1, altitudes.size() / 10);
   return std::accumulate(altitudes.begin(), altitudes.begin() + static_cast<std::ptrdiff_t>(count), 0.0) / static_cast<double>(count);
@@ -78,19 +79,26 @@ TEST(LifeZones, NoSnowWhereTheLineIsAboveAllGround) {
 
 TEST(LifeZones, WhereWaterIsScarceForestGivesWayToBushesGrassAndSand) {
   const Dem hills = ground(240, [](double e, double n) { return 900.0 + 120.0 * std::cos(e / 500.0) * std::cos(n / 700.0) + 0.02 * e; });
-  const auto shares = [&](float moisture) {
-    return apply_in(climate(3500.F, 5000.F, moisture), hills, {{"settlement", -1.0}, {"clearings", -1.0}});
+  const auto on = [&](const Dem& dem, float moisture) {
+    return apply_in(climate(3500.F, 5000.F, moisture), dem, {{"settlement", -1.0}, {"clearings", -1.0}});
   };
+  const auto shares = [&](float moisture) { return on(hills, moisture); };
   const auto wet = shares(1.F);
+  const auto open = shares(0.62F);
   const auto bushes = shares(0.5F);
   const auto steppe = shares(0.36F);
   const auto desert = shares(0.08F);
   EXPECT_GT(share(wet, forest), 0.5);
+  EXPECT_GT(share(open, forest), 0.15) << "woods stand on in patches";
+  EXPECT_GT(share(open, shrub), 0.1);
   EXPECT_LT(share(bushes, forest), 0.25);
   EXPECT_GT(share(bushes, shrub), 0.3);
   EXPECT_GT(share(steppe, alpine_grass), 0.4);
   EXPECT_EQ(share(desert, forest), 0.0);
   EXPECT_GT(share(desert, sand) + share(desert, scree) + share(desert, rock), 0.7);
+  const Dem slope = ground(240, [](double e, double n) { return 1500.0 + 0.45 * n + 30.0 * std::cos(e / 300.0); });  // 24°
+  EXPECT_GT(share(on(slope, 0.08F), rock), 0.6) << "nothing holds soil there";
+  EXPECT_LT(share(on(slope, 1.F), rock), 0.1);
 }
 
 TEST(LifeZones, TheDatesSnowLiesOnOpenGroundAboveItsLine) {
