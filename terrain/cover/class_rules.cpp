@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "terrain/cover/class_rules_inputs.h"
+#include "terrain/cover/layers_document.h"
 #include "terrain/cover/rule_expression.h"
 #include "terrain/cover/rule_ice.h"
 
@@ -37,12 +38,6 @@ struct Program {
   std::vector<std::vector<bool>> term_needs;  // slots a term reads, also through other terms
   std::vector<std::vector<bool>> layer_needs;
 };
-
-bool is_name(const std::string& text) {
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  return !text.empty() && letter(text[0]) &&
-         std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
-}
 
 Program compile(const ClassRules& rules, const Parameters& parameters, const std::string& where, const Places& places) {
   const std::vector<std::string>& variables = variable_names();
@@ -164,12 +159,12 @@ void fill_row(const Run& run, const std::vector<bool>& needed, int y, const Land
     if (variable < first_noise) {
       const int last = padded - rule_block;
       std::copy_n(run.inputs[v].row(y) + last, width - last, out.begin() + last);
-    } else if (variable < east) {
+    } else if (variable < easting) {
       fill_noise(variable, run.noise[static_cast<std::size_t>(variable - first_noise)], run.seed, run.dem.transform, y, out.data());
     } else if (variable < first_climate) {
       for (int x = 0; x < width; ++x) {
         const glm::dvec2 place = run.dem.transform.to_crs(x, y);
-        out[static_cast<std::size_t>(x)] = static_cast<float>(variable == east ? place.x : place.y);
+        out[static_cast<std::size_t>(x)] = static_cast<float>(variable == easting ? place.x : place.y);
       }
     } else if (variable < first_class) {
       fill_climate_row(run.climate, static_cast<ClimateVariable>(variable - first_climate), run.dem.transform, y, width,
@@ -261,63 +256,24 @@ ClassRules read_class_rules(const std::string& name_or_path) {
 
   ClassRules rules;
   Places places;
-  const ConfigTable& root = as_table(document, where);
-  allow_only(root, {"version", "name", "parameters", "terms", "layers"}, where);
-  const ConfigValue* version = find(root, "version");
-  if (version == nullptr || as_integer(*version, where) != 1)
-    throw Error(ErrorKind::usage, config_where(where, version == nullptr ? ConfigPlace{} : version->place),
-                version == nullptr ? "no version" : describe(*version), "version = 1");
-  const ConfigValue* name = find(root, "name");
-  rules.name = name != nullptr ? as_string(*name, where) : name_or_path;
-
-  std::vector<std::string> taken = variable_names();
-  const auto take_name = [&](const ConfigEntry& entry) {
-    const std::string place = config_where(where, entry.key_place);
-    constexpr std::array<const char*, 14> words = {"and", "or",  "not", "min", "max",  "clip",       "clamp",
-                                                   "abs", "sin", "cos", "exp", "sqrt", "smoothstep", "hat"};
-    if (!is_name(entry.key))
-      throw Error(ErrorKind::usage, place, "the name \"" + entry.key + "\"", "letters, digits and _, no digit first");
-    if (std::find(words.begin(), words.end(), entry.key) != words.end() || std::find(taken.begin(), taken.end(), entry.key) != taken.end())
-      throw Error(ErrorKind::usage, place, "the name \"" + entry.key + "\" already means something", "another name");
-    taken.push_back(entry.key);
-  };
-  if (const ConfigValue* parameters = find(root, "parameters"))
-    for (const ConfigEntry& entry : as_table(*parameters, where)) {
-      take_name(entry);
+  const LayersReader reader{where};
+  const LayersDocument common = read_layers_document(reader, document, {});
+  rules.name = common.name.empty() ? name_or_path : common.name;
+  rules.parameters = common.parameters;
+  rules.terms = common.terms;
+  places.terms = common.term_places;
+  if (const ConfigValue* parameters = find(as_table(document, where), "parameters"))
+    for (const ConfigEntry& entry : as_table(*parameters, where))
       if (names_old_town(entry.key))
-        throw Error(ErrorKind::usage, config_where(where, entry.key_place), "towns are no parameters of rules any more: " + entry.key,
+        reader.fail(entry.key_place, "towns are no parameters of rules any more: " + entry.key,
                     "towns of the scene, with name, position and radius");
-      rules.parameters.emplace_back(entry.key, as_number(entry.value, where));
-    }
-  if (const ConfigValue* terms = find(root, "terms"))
-    for (const ConfigEntry& entry : as_table(*terms, where)) {
-      take_name(entry);
-      rules.terms.emplace_back(entry.key, as_string(entry.value, where));
-      places.terms.push_back(entry.value.place);
-    }
-  const ConfigValue* layers = find(root, "layers");
-  if (layers == nullptr) throw Error(ErrorKind::usage, where, "no layers", "[[layers]] with class and when");
-  for (const ConfigValue& value : as_array(*layers, where)) {
+  for (const ConfigValue& value : layers_of(reader, document)) {
     const ConfigTable& layer = as_table(value, where);
-    allow_only(layer, {"class", "when"}, where);
-    const ConfigValue* painted = find(layer, "class");
-    const ConfigValue* when = find(layer, "when");
-    if (painted == nullptr || when == nullptr)
-      throw Error(ErrorKind::usage, config_where(where, value.place), painted == nullptr ? "a layer without class" : "a layer without when",
-                  "class and when");
-    const std::string& word = as_string(*painted, where);
-    const std::optional<LandCoverClass> found = find_class(word);
-    if (!found || *found == LandCoverClass::sky) {
-      std::vector<std::string> known;
-      for (const LandCoverClassInfo& c : land_cover_classes())
-        if (c.id != LandCoverClass::sky) known.emplace_back(c.name);
-      const std::string near = nearest_word(word, known);
-      throw Error(ErrorKind::usage, config_where(where, painted->place),
-                  fmt::format("unknown class \"{}\"{}", word, near.empty() ? "" : "; did you mean \"" + near + "\"?"),
-                  fmt::format("{}", fmt::join(known, ", ")));
-    }
-    rules.layers.push_back({*found, as_string(*when, where)});
-    places.layers.push_back(when->place);
+    allow_only(layer, {"name", "class", "when"}, where);
+    const LandCoverClass painted_as = reader.land_cover_class(reader.required(layer, "class", value.place, "a layer"));
+    const ConfigValue& when = reader.required(layer, "when", value.place, "a layer");
+    rules.layers.push_back({painted_as, reader.expression(when)});
+    places.layers.push_back(when.place);
   }
   compile(rules, rules.parameters, where, places);
   return rules;
@@ -360,7 +316,7 @@ RuleIce make_inputs(Run& run, const Parameters& parameters, const ClassRuleParam
   const Settlers settlers{given.towns, given.seed, given.sites ? &*given.sites : nullptr};
   const RuleGround* around = given.around != nullptr ? &given.around->ground : nullptr;
   run.inputs = make_terrain_inputs(dem, needed, parameters, settlers, given.sea, climate, given.catchments, nullptr, around);
-  for (int v = first_noise; v < east; ++v)
+  for (int v = first_noise; v < easting; ++v)
     run.noise.push_back(needed[static_cast<std::size_t>(v)] ? plan_noise(v, dem.transform, dem.width()) : NoiseColumns{});
   progress.advance(1.0);
   RuleIce made;

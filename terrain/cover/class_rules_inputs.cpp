@@ -12,6 +12,9 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
+#include "base/rising_queue.h"
+#include "terrain/cover/ground_variables.h"
+#include "terrain/cover/layer_inputs.h"
 #include "terrain/shape/derivatives.h"
 #include "terrain/shape/hydrology.h"
 
@@ -69,6 +72,21 @@ Grid<std::uint8_t> known_lakes(const RuleGround* around, const Dem& dem) {
   return known;
 }
 
+// Grids that rules have as layers have them. Slopes and reliefs are made with the others, from blurs that they share.
+void make_layer_inputs(const Dem& dem, const std::vector<bool>& needed, std::vector<Grid<float>>& inputs) {
+  std::vector<std::string> names;
+  std::vector<std::size_t> slots;
+  for (const int v : {north, east, relief_4000, above_valley, log_catchment, flatness, roughness}) {
+    const auto slot = static_cast<std::size_t>(v);
+    if (!needed[slot]) continue;
+    slots.push_back(slot);
+    names.push_back(variable_names()[slot]);
+  }
+  if (names.empty()) return;
+  std::vector<Grid<float>> made = layer_inputs(make_layer_ground(dem, {}, names));
+  for (std::size_t i = 0; i < slots.size(); ++i) inputs[slots[i]] = std::move(made[i]);
+}
+
 // The grids that hang on the shape of the ground alone, not on where its water runs.
 void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>& needed, const Parameters& parameters,
                        const RuleClimate& climate, const RuleGround* around, std::vector<Grid<float>>& inputs) {
@@ -83,7 +101,7 @@ void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>
   const bool needs_floor = is_needed(valley_floor) || is_needed(town);
   if (is_needed(valley_height) || needs_floor) grid(valley_height) = height_above_valley(z, cell, 900.0);
   {
-    const Grid<float> smooth = gaussian_blur(z, 60.0 / cell);
+    const Grid<float> smooth = gaussian_blur(z, slope_smooth_m / cell);
     const bool needs_sun = is_needed(sun) && climate.sun.empty();
     if (is_needed(slope) || is_needed(slope_smooth) || needs_floor || needs_sun) grid(slope) = slope_deg(smooth, cell_x, cell_y);
     if (is_needed(slope_smooth)) grid(slope_smooth) = gaussian_blur(grid(slope), 90.0 / cell);
@@ -152,11 +170,9 @@ void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>
 
 const std::vector<std::string>& variable_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> n = {"altitude",      "slope",        "slope_smooth", "south",    "relief_180", "relief_750", "relief_1800",
-                                  "valley_height", "valley_floor", "lake",         "shore",    "river",      "town",       "ice",
-                                  "below_rock",    "sea",          "coast",        "sun",      "n60",        "n210",       "n660",
-                                  "n1800",         "east",         "north",        "treeline", "iceline",    "snowline",   "season_snow",
-                                  "moisture",      "temperature",  "rain"};
+    std::vector<std::string> n;
+    for (const GroundVariable& row : ground_variables())
+      if (row.known_to != KnownTo::layers) n.emplace_back(row.name);
     for (const LandCoverClassInfo& c : land_cover_classes()) n.push_back("is_" + std::string(c.name));
     return n;
   }();
@@ -178,6 +194,7 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
   // Only rules that speak of the sea have one.
   const Sea found = needed[sea] || needed[coast] ? find_sea(dem, sea_parameters) : Sea();
   make_sea_inputs(dem, found, needed, inputs);
+  make_layer_inputs(dem, needed, inputs);
   Catchments own(dem);
   Catchments& waters = catchments != nullptr ? *catchments : own;
   // Water finds its way one cell after the other, on one thread: the rest is made beside it.
@@ -241,8 +258,8 @@ Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, doub
 }
 
 NoiseColumns plan_noise(int variable, const GeoTransform& transform, int width) {
-  constexpr double sigma_m[4] = {60.0, 210.0, 660.0, 1800.0};
-  return plan_noise_columns(transform.to_crs(0.0, 0.0).x, transform.cell_x, width, sigma_m[variable - first_noise]);
+  const GroundVariable& row = *find_ground_variable(variable_names()[static_cast<std::size_t>(variable)]);
+  return plan_noise_columns(transform.to_crs(0.0, 0.0).x, transform.cell_x, width, row.noise_m);
 }
 
 void fill_noise(int variable, const NoiseColumns& places, std::uint64_t seed, const GeoTransform& transform, int row, float* out) {

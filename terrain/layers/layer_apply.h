@@ -9,9 +9,9 @@
 
 #include "base/progress.h"
 #include "terrain/cover/land_cover.h"
+#include "terrain/cover/layer_inputs.h"
 #include "terrain/io/dem.h"
 #include "terrain/layers/layer_drawing.h"
-#include "terrain/layers/layer_inputs.h"
 #include "terrain/layers/surface_layers.h"
 
 namespace belvedere {
@@ -51,8 +51,7 @@ LayerApplyResult apply_layers(const SurfaceLayers& layers, const Dem& dem, const
 LayerDrawing plan_drawing(const SurfaceLayers& layers, const Dem& dem, const LayerClimate& climate, const LayerApplyParameters& parameters);
 
 // The classes as land cover, and where parameters ask for colours these with them; cells that no class covers take the nearest. Notes what
-// lies outside of ranges. Error(usage) for layers that
-// have no class at all.
+// lies outside of ranges. Error(usage) for layers that have no class at all.
 LandCover layer_land_cover(const SurfaceLayers& layers, const Dem& dem, const LayerClimate& climate, const LayerApplyParameters& parameters,
                            Progress& progress);
 

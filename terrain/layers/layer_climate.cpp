@@ -9,8 +9,8 @@
 #include "base/grid_part.h"
 #include "base/parallel.h"
 #include "terrain/climate/radiation.h"
+#include "terrain/cover/ground_variables.h"
 #include "terrain/io/raster_io.h"
-#include "terrain/layers/layer_input_table.h"
 #include "terrain/shape/surroundings.h"
 
 namespace belvedere {
@@ -22,10 +22,7 @@ constexpr double parts = 65536.0;     // of a unit, that are told apart
 constexpr double shadow_reach_m = 9000.0;
 
 bool named(const std::vector<std::string>& names, LayerInputKind kind) {
-  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-    const LayerInputInfo* info = find_layer_input(name);
-    return info != nullptr && info->kind == kind;
-  });
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return layer_input_kind(name) == kind; });
 }
 
 struct Computed {

@@ -8,8 +8,8 @@
 #include "base/grid.h"
 #include "base/progress.h"
 #include "terrain/climate/climate.h"
+#include "terrain/cover/layer_inputs.h"
 #include "terrain/io/dem.h"
-#include "terrain/layers/layer_inputs.h"
 
 namespace belvedere {
 

@@ -8,23 +8,24 @@
 
 #include "base/noise.h"
 #include "base/random_streams.h"
-#include "terrain/layers/layer_input_table.h"
+#include "terrain/cover/ground_variables.h"
 #include "terrain/layers/layer_noise.h"
 
 namespace belvedere {
 namespace {
 
-struct NamedNoise {
-  const char* name;
-  double sigma_m;
-};
-constexpr std::array<NamedNoise, 4> noises = {{{"n60", 60.0}, {"n210", 210.0}, {"n660", 660.0}, {"n1800", 1800.0}}};
+// Noises that expressions know.
+std::vector<GroundVariable> noises() {
+  std::vector<GroundVariable> rows;
+  for (const GroundVariable& row : ground_variables())
+    if (row.noise_m > 0.0) rows.push_back(row);
+  return rows;
+}
 
-// All names in the order of their slots: inputs of the table, noises, terms.
+// All names in the order of their slots: inputs, noises, terms.
 std::vector<std::string> all_names(const SurfaceLayers& layers) {
-  std::vector<std::string> names;
-  for (const LayerInputInfo& info : layer_input_table()) names.emplace_back(info.name);
-  for (const NamedNoise& noise : noises) names.emplace_back(noise.name);
+  std::vector<std::string> names = layer_input_names();
+  for (const GroundVariable& noise : noises()) names.emplace_back(noise.name);
   for (const auto& term : layers.terms) names.push_back(term.first);
   return names;
 }
@@ -63,8 +64,8 @@ LayerExpressions compile_layer_expressions(const SurfaceLayers& layers, const st
   for (const auto& when : all.when)
     if (when) mark(*when);
   LayerExpressions out;
-  const std::size_t inputs = layer_input_table().size();
-  const std::size_t before_terms = inputs + noises.size();
+  const std::size_t inputs = layer_input_names().size();
+  const std::size_t before_terms = inputs + noises().size();
   for (std::size_t i = 0; i < before_terms; ++i) {
     if (!read[i]) continue;
     out.variables.push_back(names[i]);
@@ -84,10 +85,12 @@ std::vector<Grid<std::uint8_t>> evaluate_layer_expressions(const LayerExpression
   const std::size_t terms_from = expressions.variables.size() - expressions.terms.size();
   std::vector<NoiseColumns> plans;
   std::vector<std::uint64_t> seeds;
+  const std::vector<GroundVariable> known = noises();
   for (std::size_t v = expressions.inputs; v < terms_from; ++v) {
-    const auto noise = std::find_if(noises.begin(), noises.end(), [&](const NamedNoise& n) { return expressions.variables[v] == n.name; });
-    plans.push_back(plan_raster_noise(transform, cells, noise->sigma_m));
-    seeds.push_back(stream_seed(seed, Stream::class_noise, static_cast<std::uint64_t>(noise - noises.begin())));
+    const auto noise =
+        std::find_if(known.begin(), known.end(), [&](const GroundVariable& n) { return expressions.variables[v] == n.name; });
+    plans.push_back(plan_raster_noise(transform, cells, noise->noise_m));
+    seeds.push_back(stream_seed(seed, Stream::class_noise, static_cast<std::uint64_t>(noise - known.begin())));
   }
   const int padded = (cells.width() + rule_block - 1) / rule_block * rule_block;
   std::vector<std::vector<float>> rows(expressions.variables.size(), std::vector<float>(static_cast<std::size_t>(padded), 0.F));

@@ -4,8 +4,8 @@
 #include <glm/vec3.hpp>
 
 #include "base/parallel.h"
+#include "terrain/cover/layer_inputs.h"
 #include "terrain/layers/layer_coverage.h"
-#include "terrain/layers/layer_inputs.h"
 
 namespace belvedere {
 

@@ -12,8 +12,9 @@
 
 #include "base/config.h"
 #include "base/error.h"
+#include "terrain/cover/ground_variables.h"
+#include "terrain/cover/layers_document.h"
 #include "terrain/layers/layer_expressions.h"
-#include "terrain/layers/layer_input_table.h"
 
 namespace belvedere {
 namespace {
@@ -52,40 +53,8 @@ std::optional<std::array<std::uint8_t, 256>> from_base64(std::string_view text) 
   return held == 0 ? std::optional(bytes) : std::nullopt;  // bits left over are 0, so that one value has one text
 }
 
-// What a reader knows of its document.
-struct Reader {
-  const std::string& where;
-
-  [[noreturn]] void fail(ConfigPlace place, const std::string& found, const std::string& allowed) const {
-    throw Error(ErrorKind::usage, config_where(where, place), found, allowed);
-  }
-  // `what` is what the word should be one of.
-  [[noreturn]] void fail_unknown(ConfigPlace place, const std::string& what, const std::string& word,
-                                 const std::vector<std::string>& known) const {
-    const std::string near = nearest_word(word, known);
-    fail(place, fmt::format("unknown {} \"{}\"{}", what, word, near.empty() ? "" : "; did you mean \"" + near + "\"?"),
-         fmt::format("{}", fmt::join(known, ", ")));
-  }
-
-  double number(const ConfigValue& value) const {
-    const double read = as_number(value, where);
-    if (!std::isfinite(read)) fail(value.place, describe(value), "a finite number");
-    return read;
-  }
-  double number_or(const ConfigTable& table, std::string_view key, double otherwise) const {
-    const ConfigValue* value = find(table, key);
-    return value == nullptr ? otherwise : number(*value);
-  }
-  std::string text_or(const ConfigTable& table, std::string_view key, const std::string& otherwise) const {
-    const ConfigValue* value = find(table, key);
-    return value == nullptr ? otherwise : as_string(*value, where);
-  }
-  const ConfigValue& required(const ConfigTable& table, std::string_view key, ConfigPlace place, const std::string& of) const {
-    const ConfigValue* value = find(table, key);
-    if (value == nullptr) fail(place, fmt::format("{} without {}", of, key), std::string(key));
-    return *value;
-  }
-
+// What only surface layers have.
+struct Reader : LayersReader {
   std::uint32_t colour(const ConfigValue& value) const {
     const std::string& text = as_string(value, where);
     const bool good = text.size() == 7 && text[0] == '#' &&
@@ -93,21 +62,12 @@ struct Reader {
     if (!good) fail(value.place, describe(value), "a colour as \"#rrggbb\"");
     return static_cast<std::uint32_t>(std::stoul(text.substr(1), nullptr, 16));
   }
-  LandCoverClass land_cover_class(const ConfigValue& value) const {
-    const std::string& word = as_string(value, where);
-    const std::optional<LandCoverClass> found = find_class(word);
-    if (found && *found != LandCoverClass::sky) return *found;
-    std::vector<std::string> known;
-    for (const LandCoverClassInfo& info : land_cover_classes())
-      if (info.id != LandCoverClass::sky) known.emplace_back(info.name);
-    fail_unknown(value.place, "class", word, known);
-  }
 
   LayerInput input(const ConfigValue& value) const {
     const ConfigTable& table = as_table(value, where);
     allow_only(table, {"name", "low", "high"}, where);
     const ConfigValue& name = required(table, "name", value.place, "an input");
-    if (find_layer_input(as_string(name, where)) == nullptr) require_layer_input(as_string(name, where), config_where(where, name.place));
+    require_layer_input(as_string(name, where), config_where(where, name.place));
     LayerInput read{as_string(name, where), number(required(table, "low", value.place, "an input")),
                     number(required(table, "high", value.place, "an input"))};
     if (!(read.low < read.high)) fail(value.place, fmt::format("{} from {} to {}", read.name, read.low, read.high), "low < high");
@@ -200,9 +160,8 @@ ReadLayer read_layer(const Reader& reader, const ConfigValue& value, const Surfa
       read.layer.functions[static_cast<std::size_t>(input - file.inputs.begin())] = reader.function(entry.value, file.model);
     }
   if (const ConfigValue* when = find(table, "when")) {
-    read.layer.when = as_string(*when, reader.where);
+    read.layer.when = reader.expression(*when);
     read.when_place = when->place;
-    if (read.layer.when.empty()) reader.fail(when->place, "an empty expression", "an expression");
   }
   return read;
 }
@@ -314,32 +273,16 @@ std::string layer_text(const SurfaceLayers& file, const SurfaceLayer& layer) {
   return out;
 }
 
-// Words that expressions know by themselves.
-constexpr std::array<std::string_view, 18> taken_words = {"and", "or",  "not",  "min",        "max", "clip", "clamp", "abs",  "sin",
-                                                          "cos", "exp", "sqrt", "smoothstep", "hat", "n60",  "n210",  "n660", "n1800"};
-
-// The name of a parameter or a term: new, and one that an expression can write.
-void take_name(const Reader& reader, const ConfigEntry& entry, std::vector<std::string>& taken) {
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  const bool good = !entry.key.empty() && letter(entry.key[0]) &&
-                    std::all_of(entry.key.begin(), entry.key.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
-  if (!good) reader.fail(entry.key_place, "the name " + quoted(entry.key), "letters, digits and _, no digit first");
-  if (std::find(taken_words.begin(), taken_words.end(), entry.key) != taken_words.end() || find_layer_input(entry.key) != nullptr ||
-      std::find(taken.begin(), taken.end(), entry.key) != taken.end())
-    reader.fail(entry.key_place, "the name \"" + entry.key + "\" already means something", "another name");
-  taken.push_back(entry.key);
-}
-
 SurfaceLayers read_document(const ConfigValue& document, const std::string& where) {
-  const Reader reader{where};
+  const Reader reader{{where}};
+  const LayersDocument common = read_layers_document(reader, document, {"model", "ground", "inputs"});
   const ConfigTable& root = as_table(document, where);
-  allow_only(root, {"version", "name", "model", "ground", "inputs", "parameters", "terms", "layers"}, where);
-  const ConfigValue* version = find(root, "version");
-  if (version == nullptr || as_integer(*version, where) != 1)
-    reader.fail(version == nullptr ? ConfigPlace{} : version->place, version == nullptr ? "no version" : describe(*version), "version = 1");
-
   SurfaceLayers file;
-  file.name = reader.text_or(root, "name", "");
+  file.name = common.name;
+  file.parameters = common.parameters;
+  file.terms = common.terms;
+  LayerExpressionPlaces places;
+  places.terms = common.term_places;
   if (const ConfigValue* model = find(root, "model")) {
     const std::string& word = as_string(*model, where);
     if (word != "product" && word != "additive") reader.fail_unknown(model->place, "model", word, {"product", "additive"});
@@ -361,23 +304,8 @@ SurfaceLayers read_document(const ConfigValue& document, const std::string& wher
         if (other.name == input.name) reader.fail(value.place, "the input \"" + input.name + "\" a second time", "each input once");
       file.inputs.push_back(std::move(input));
     }
-  std::vector<std::string> taken;
-  if (const ConfigValue* parameters = find(root, "parameters"))
-    for (const ConfigEntry& entry : as_table(*parameters, where)) {
-      take_name(reader, entry, taken);
-      file.parameters.emplace_back(entry.key, reader.number(entry.value));
-    }
-  LayerExpressionPlaces places;
-  if (const ConfigValue* terms = find(root, "terms"))
-    for (const ConfigEntry& entry : as_table(*terms, where)) {
-      take_name(reader, entry, taken);
-      file.terms.emplace_back(entry.key, as_string(entry.value, where));
-      places.terms.push_back(entry.value.place);
-    }
-  const ConfigValue* layers = find(root, "layers");
-  if (layers == nullptr) reader.fail({}, "no layers", "[[layers]]");
   std::vector<ReadLayer> read;
-  for (const ConfigValue& value : as_array(*layers, where)) read.push_back(read_layer(reader, value, file));
+  for (const ConfigValue& value : layers_of(reader, document)) read.push_back(read_layer(reader, value, file));
   order_layers(reader, read, file, places.when);
   compile_layer_expressions(file, where, places);
   check_surface_layers(file, where);

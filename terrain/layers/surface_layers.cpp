@@ -9,7 +9,7 @@
 
 #include "base/config.h"
 #include "base/error.h"
-#include "terrain/layers/layer_input_table.h"
+#include "terrain/cover/ground_variables.h"
 
 namespace belvedere {
 namespace {

@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "base/land_cover_class.h"
+#include "terrain/cover/ground_variables.h"
 
 namespace belvedere {
 
 // What covers the ground, layer over layer, said by what is known of each place: Dachsbacher, Bolch and Stamminger, "Procedural
 // reproduction of terrain textures with geographic data" (VMV 2006). A layer paints a colour, may be a class of land cover and raises the
-// ground a little; how much of a place it covers follows from functions of inputs (layer_input_table.h) and from noise, and is never more
+// ground a little; how much of a place it covers follows from functions of inputs (ground_variables.h) and from noise, and is never more
 // than its parent covers. docs/layers.md describes the file; layer_coverage.h evaluates it.
 
 // What the values of the functions mean.
@@ -26,13 +27,6 @@ enum class LayerModel : std::uint8_t {
   // are their softmax, times the parent's. A layer with children paints nothing itself, its children share out its ground. C of what is
   // painted is its share / (it + the shares of all that lies under it), which makes the shares come out exactly.
   additive,
-};
-
-// What a function is of: a row of the table of inputs, and the range that samples are spread over. Values beyond it count as its ends.
-struct LayerInput {
-  std::string name;
-  double low = 0.0;  // in the input's unit, low < high
-  double high = 1.0;
 };
 
 // 1 between low and high, falling in a straight line to 0 over a width around each bound, where it is 1/2 (as hat() of class rules): the

@@ -20,7 +20,7 @@ SurfaceLayers twelve_layers(LayerModel model, bool fields) {
   SurfaceLayers layers;
   layers.model = model;
   layers.inputs = {
-      {"altitude", 0.0, 3000.0}, {"slope", 0.0, 60.0}, {"north", -1.0, 1.0}, {"relief_750", -300.0, 300.0}, {"valley_height", 0.0, 800.0}};
+      {"altitude", 0.0, 3000.0}, {"slope", 0.0, 60.0}, {"north", -1.0, 1.0}, {"relief_750", -300.0, 300.0}, {"above_valley", 0.0, 800.0}};
   constexpr int parents[12] = {-1, 0, 1, 0, -1, 4, 4, -1, 7, 8, 8, -1};
   for (int k = 0; k < 12; ++k) {
     SurfaceLayer layer;

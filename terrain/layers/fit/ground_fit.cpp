@@ -12,7 +12,7 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "terrain/layers/fit/clusters.h"
-#include "terrain/layers/layer_inputs.h"
+#include "terrain/cover/layer_inputs.h"
 
 namespace belvedere {
 namespace {

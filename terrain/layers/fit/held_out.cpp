@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "base/error.h"
-#include "terrain/layers/layer_inputs.h"
+#include "terrain/cover/layer_inputs.h"
 
 namespace belvedere {
 namespace {

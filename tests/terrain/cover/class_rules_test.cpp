@@ -40,7 +40,7 @@ TEST(ClassRules, LifeZonesAreReadAndNameTheirParameters) {
 }
 
 TEST(ClassRules, LaterLayersWinAndSeeTheClassSoFar) {
-  ClassRules rules{"toy", {}, {}, {{forest, "1"}, {rock, "east > 2000"}, {scree, "is_rock and north > 3000"}, {snow, "is_rock"}}};
+  ClassRules rules{"toy", {}, {}, {{forest, "1"}, {rock, "easting > 2000"}, {scree, "is_rock and northing > 3000"}, {snow, "is_rock"}}};
   rules.parameters = {{"speck_cells", 0.0}};
   const Dem dem = ground(100, [](double, double) { return 100.0; });
   const Grid<LandCoverClass> c = apply(rules, dem);

@@ -19,8 +19,8 @@
 #include "terrain/io/raster_io.h"
 #include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/fit/picture_classes.h"
-#include "terrain/layers/layer_input_table.h"
-#include "terrain/layers/layer_inputs.h"
+#include "terrain/cover/ground_variables.h"
+#include "terrain/cover/layer_inputs.h"
 #include "terrain/layers/layers_file.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
@@ -251,7 +251,7 @@ std::vector<std::string> inputs_of(const Options& options, const Dem& dem) {
     return names;
   }
   names.insert(names.end(),
-               {"north", "east", "relief_180", "relief_750", "relief_1800", "relief_4000", "valley_height", "log_catchment", "sky_view"});
+               {"north", "east", "relief_180", "relief_750", "relief_1800", "relief_4000", "above_valley", "log_catchment", "sky_view"});
   // Lakes are flat; in pictures they are what is dark and blue.
   if (!options.classes.empty()) names.insert(names.end(), {"flatness", "roughness"});
   return names;

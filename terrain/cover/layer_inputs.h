@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "terrain/cover/ground_variables.h"
 #include "terrain/io/dem.h"
-#include "terrain/layers/surface_layers.h"
 
 namespace belvedere {
 

@@ -1,16 +1,17 @@
-#include "terrain/layers/layer_inputs.h"
+#include "terrain/cover/layer_inputs.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/grid_part.h"
 #include "base/math_exact.h"
-#include "terrain/layers/layer_input_table.h"
+#include "terrain/cover/ground_variables.h"
 #include "terrain/shape/derivatives.h"
 #include "terrain/shape/hydrology.h"
 #include "terrain/shape/surroundings.h"
@@ -18,15 +19,10 @@
 namespace belvedere {
 namespace {
 
-// Deviations of the Gaussians that the ground goes through first, m: slopes of a raw DEM show its stripes and steps.
-constexpr double slope_smooth_m = 45.0;
-constexpr double relief_smooth_m = 30.0;
 constexpr double valley_radius_m = 900.0;
 constexpr double valley_smooth_m = 300.0;
 constexpr double rough_mean_m = 90.0;
 constexpr double rough_smooth_m = 120.0;
-// Level ground has no exposure: around this gradient it fades out.
-constexpr double exposure_fade = 0.02;
 // Water is followed on at most so many cells; beyond them on blocks.
 constexpr std::size_t most_catchment_cells = 36'000'000;
 constexpr int tile_cells = 512;
@@ -226,7 +222,7 @@ Grid<float> flatness_of(const Dem& dem, const PixelRect& cells) {
   return out;
 }
 
-Grid<float> exposure_of(const BlurredPart& ground, const Dem& dem, const PixelRect& cells, bool east) {
+Grid<float> exposure_of(const BlurredPart& ground, const Dem& dem, const PixelRect& cells, LayerInputKind to) {
   Grid<float> out(cells.width(), cells.height());
   const double cell_x = dem.transform.cell_x;
   const double cell_y = dem.transform.cell_y;
@@ -240,7 +236,8 @@ Grid<float> exposure_of(const BlurredPart& ground, const Dem& dem, const PixelRe
       const double gx = (z(cx + 1, cy) - z(cx - 1, cy)) / (2.0 * cell_x);
       const double gy = (z(cx, cy + 1) - z(cx, cy - 1)) / (2.0 * cell_y);
       // Rows run south: ground that rises with them faces north.
-      out(x, y) = static_cast<float>((east ? -gx : gy) / (std::sqrt(gx * gx + gy * gy) + exposure_fade));
+      const double facing = to == LayerInputKind::east ? -gx : to == LayerInputKind::north ? gy : -gy;
+      out(x, y) = static_cast<float>(facing / (std::sqrt(gx * gx + gy * gy) + exposure_fade));
     }
   return out;
 }
@@ -255,21 +252,21 @@ LayerGround make_layer_ground(const Dem& dem, const LayerClimate& climate, const
   LayerGround ground{&dem, climate, names, std::vector<LayerGround::Coarse>(names.size())};
   for (const std::string& name : names) {
     require_layer_input(name, "inputs");
-    const LayerInputKind kind = find_layer_input(name)->kind;
+    const LayerInputKind kind = layer_input_kind(name);
     if (!is_given(kind)) continue;
     const Grid<float>* grid = given_grid(climate, kind);
     if (grid == nullptr) throw Error(ErrorKind::usage, "input " + name, "a climate that does not know it", "a climate with " + name);
     if (!grid->same_size(dem.altitude_m)) throw Error(ErrorKind::bug, "input " + name, "a grid of another size than the DEM's");
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const LayerInputInfo& info = *find_layer_input(names[i]);
-    if (info.kind == LayerInputKind::relief)
+    const GroundVariable& info = *find_ground_variable(names[i]);
+    if (info.input == LayerInputKind::relief)
       ground.coarse[i] = whole != nullptr ? wide_mean_of_part(dem, *whole, info.reach_m) : wide_mean(dem, info.reach_m);
-    else if (info.kind == LayerInputKind::valley_height)
+    else if (info.input == LayerInputKind::above_valley)
       ground.coarse[i] = lowest_around(dem);
-    else if (info.kind == LayerInputKind::catchment)
+    else if (info.input == LayerInputKind::catchment)
       ground.coarse[i] = catchments(dem);
-    else if (info.kind == LayerInputKind::roughness)
+    else if (info.input == LayerInputKind::roughness)
       ground.coarse[i] = departures(dem);
   }
   return ground;
@@ -278,14 +275,15 @@ LayerGround make_layer_ground(const Dem& dem, const LayerClimate& climate, const
 std::vector<Grid<float>> layer_inputs(const LayerGround& ground, const PixelRect& cells) {
   const Dem& dem = *ground.dem;
   std::vector<Grid<float>> out;
-  BlurredPart smooth;  // by slope_smooth_m, made when first asked for
-  BlurredPart fine;    // by relief_smooth_m
+  BlurredPart smooth;                  // by slope_smooth_m, made when first asked for
+  std::map<double, BlurredPart> fine;  // by what relief is taken from
   const auto made = [&](BlurredPart& part, double sigma_m) -> const BlurredPart& {
     if (part.z.empty()) part = blurred_ground(dem, cells, sigma_m);
     return part;
   };
   for (std::size_t i = 0; i < ground.names.size(); ++i) {
-    const LayerInputKind kind = find_layer_input(ground.names[i])->kind;
+    const GroundVariable& info = *find_ground_variable(ground.names[i]);
+    const LayerInputKind kind = info.input;
     switch (kind) {
       case LayerInputKind::altitude:
         out.push_back(part_of(dem.altitude_m, cells));
@@ -296,16 +294,17 @@ std::vector<Grid<float>> layer_inputs(const LayerGround& ground, const PixelRect
         break;
       }
       case LayerInputKind::north:
+      case LayerInputKind::south:
       case LayerInputKind::east:
-        out.push_back(exposure_of(made(smooth, slope_smooth_m), dem, cells, kind == LayerInputKind::east));
+        out.push_back(exposure_of(made(smooth, slope_smooth_m), dem, cells, kind));
         break;
       case LayerInputKind::relief: {
-        const BlurredPart& from = made(fine, relief_smooth_m);
+        const BlurredPart& from = made(fine[info.smooth_m], info.smooth_m);
         out.push_back(moved_part(from, from.z, cells));
         subtract(out.back(), enlarged(ground.coarse[i], cells));
         break;
       }
-      case LayerInputKind::valley_height: {
+      case LayerInputKind::above_valley: {
         const BlurredPart& from = made(smooth, slope_smooth_m);
         out.push_back(moved_part(from, from.z, cells));
         subtract(out.back(), enlarged(ground.coarse[i], cells));
