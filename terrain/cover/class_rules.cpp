@@ -382,7 +382,7 @@ std::vector<TownSite> find_rule_towns(const ClassRules& rules, const ClassRulePa
   std::vector<TownSite> found;
   if (!union_of(program.layer_needs, 0, program.layers.size(), slots)[town]) return found;
   std::vector<bool> needed(slots, false);
-  for (const int variable : {town, slope, south, valley_floor}) needed[static_cast<std::size_t>(variable)] = true;
+  for (const int variable : {town, slope, valley_floor}) needed[static_cast<std::size_t>(variable)] = true;
   make_terrain_inputs(dem, needed, parameters, {given.towns, given.seed}, given.sea, given.climate, given.catchments, &found);
   return found;
 }

@@ -76,7 +76,7 @@ Grid<std::uint8_t> known_lakes(const RuleGround* around, const Dem& dem) {
 void make_layer_inputs(const Dem& dem, const std::vector<bool>& needed, std::vector<Grid<float>>& inputs) {
   std::vector<std::string> names;
   std::vector<std::size_t> slots;
-  for (const int v : {north, east, relief_4000, above_valley, log_catchment, flatness, roughness}) {
+  for (const int v : {north, south, east, relief_4000, above_valley, log_catchment, flatness, roughness}) {
     const auto slot = static_cast<std::size_t>(v);
     if (!needed[slot]) continue;
     slots.push_back(slot);
@@ -89,7 +89,7 @@ void make_layer_inputs(const Dem& dem, const std::vector<bool>& needed, std::vec
 
 // The grids that hang on the shape of the ground alone, not on where its water runs.
 void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>& needed, const Parameters& parameters,
-                       const RuleClimate& climate, const RuleGround* around, std::vector<Grid<float>>& inputs) {
+                       const RuleClimate& climate, const RuleGround* around, std::vector<Grid<float>>& inputs, Grid<float>& faces_south) {
   const double cell = dem.cell_m();
   const double cell_x = dem.transform.cell_x;
   const double cell_y = dem.transform.cell_y;
@@ -105,10 +105,10 @@ void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>
     const bool needs_sun = is_needed(sun) && climate.sun.empty();
     if (is_needed(slope) || is_needed(slope_smooth) || needs_floor || needs_sun) grid(slope) = slope_deg(smooth, cell_x, cell_y);
     if (is_needed(slope_smooth)) grid(slope_smooth) = gaussian_blur(grid(slope), 90.0 / cell);
-    if (is_needed(south) || is_needed(town) || needs_sun) {
-      grid(south) = Grid<float>(z.width(), z.height());
-      each_cell(grid(south), [&](int x, int y) {
-        // Ground that rises to the north (against the rows) faces south. The small number fades exposure out on flat ground.
+    if (is_needed(town) || needs_sun) {
+      faces_south = Grid<float>(z.width(), z.height());
+      each_cell(faces_south, [&](int x, int y) {
+        // Ground that rises to the north (against the rows) faces south, be it nearly level: settlers feel the least of it.
         const glm::vec2 g = rise(smooth, x, y, cell_x, cell_y);
         return -g.y / (std::sqrt(g.x * g.x + g.y * g.y) + 1e-3F);
       });
@@ -118,7 +118,7 @@ void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>
       // About what a year's sun is at 47° N: a third more on a steep southern slope than on level ground.
       if (needs_sun) {
         grid(sun) = Grid<float>(z.width(), z.height());
-        each_cell(grid(sun), [&](int x, int y) { return 1.F + grid(south)(x, y) * std::clamp(grid(slope)(x, y) / 25.F, 0.F, 1.F) / 2.6F; });
+        each_cell(grid(sun), [&](int x, int y) { return 1.F + faces_south(x, y) * std::clamp(grid(slope)(x, y) / 25.F, 0.F, 1.F) / 2.6F; });
       }
     }
   }
@@ -195,20 +195,21 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
   const Sea found = needed[sea] || needed[coast] ? find_sea(dem, sea_parameters) : Sea();
   make_sea_inputs(dem, found, needed, inputs);
   make_layer_inputs(dem, needed, inputs);
+  Grid<float> faces_south;
   Catchments own(dem);
   Catchments& waters = catchments != nullptr ? *catchments : own;
   // Water finds its way one cell after the other, on one thread: the rest is made beside it.
   parallel_ranges(2, 1, [&](int begin, int end) {
     for (int part = begin; part != end; ++part) {
       if (part == 1)
-        make_shape_inputs(dem, found, needed, parameters, climate, around, inputs);
+        make_shape_inputs(dem, found, needed, parameters, climate, around, inputs, faces_south);
       else if (needed[river] || needs_town)
         waters.km2();
     }
   });
   if (needed[river]) inputs[river] = river_mask(waters.km2(), dem.cell_m());
   if (needs_town) {
-    const TownGround ground{z, inputs[valley_floor], waters.km2(), inputs[slope], inputs[south], dem.transform};
+    const TownGround ground{z, inputs[valley_floor], waters.km2(), inputs[slope], faces_south, dem.transform};
     const std::vector<TownSite> sites = settlers.sites != nullptr
                                             ? *settlers.sites
                                             : find_town_sites(ground, to_town_parameters(parameters, settlers.known, settlers.seed));

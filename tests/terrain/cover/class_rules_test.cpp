@@ -58,9 +58,12 @@ TEST(ClassRules, TerrainVariablesMeanWhatTheySay) {
     return apply(rules, ground(160, f))(80, 80) == rock;
   };
   const auto south_slope = [](double, double n) { return 1000.0 + 0.5 * n; };  // rises to the north
-  EXPECT_TRUE(at_middle("south > 0.99", south_slope));
-  EXPECT_FALSE(at_middle("south > 0.99", [](double, double n) { return 1000.0 - 0.5 * n; }));
+  EXPECT_TRUE(at_middle("south > 0.95", south_slope));
+  EXPECT_FALSE(at_middle("south > -0.95", [](double, double n) { return 1000.0 - 0.5 * n; }));
   EXPECT_TRUE(at_middle("abs(south) < 0.01", [](double e, double) { return 1000.0 + 0.5 * e; }));
+  EXPECT_TRUE(at_middle("north < -0.95 and abs(east) < 0.01 and abs(north + south) < 0.001", south_slope));
+  EXPECT_TRUE(at_middle("relief_4000 > 250 and roughness > 0 and flatness > 1 and above_valley > 300",
+                        [](double e, double) { return 1000.0 - 0.5 * std::abs(e); }));
   EXPECT_TRUE(at_middle("abs(slope - 26.565) < 0.01", south_slope));
   EXPECT_TRUE(at_middle("abs(altitude - 1000) < 0.01", south_slope));
   const auto ridge = [](double e, double) { return 1000.0 - 0.5 * std::abs(e); };
