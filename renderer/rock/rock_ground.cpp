@@ -20,6 +20,8 @@ constexpr float tongue = 0.75F;      // how far spurs and gullies move the borde
 constexpr float keeps_rock = 0.42F;  // below it rock gives way …
 constexpr float inside = 0.93F;      // … but not in the middle of a wall
 constexpr float becomes_rock = 0.62F;
+constexpr float bare_snow_deg = 50.0F;  // at which most crests are bare of snow
+constexpr float bare_share = 0.56F;
 constexpr float cone_share = 0.20F;  // by which debris reaches up beneath a funnel
 
 bool is_turf(Class id) { return id == Class::alpine_grass || id == Class::pasture || id == Class::forest || id == Class::shrub; }
@@ -62,6 +64,8 @@ LandCoverClass rock_border(const RockPlace& place) {
     if (place.snow > 0.30F && place.snow > place.turf) return Class::snow;
     return under < 0.35F ? Class::rock : Class::scree;
   }
+  if (place.mapped == Class::snow && m + bare_share * smoothstep(steep_snow_deg, bare_snow_deg, place.slope_deg) > becomes_rock)
+    return Class::rock;
   return gives_way(place.mapped) && m > becomes_rock ? Class::rock : place.mapped;
 }
 

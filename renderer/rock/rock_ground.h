@@ -23,7 +23,8 @@ int rock_around_reach(double pixels_per_unit, int factor);
 // What is so of a pixel where the border of rock is drawn.
 struct RockPlace {
   LandCoverClass mapped = LandCoverClass::rock;  // by the land cover
-  float rock = 0.0F;                             // shares around, 0…1
+  float slope_deg = 0.0F;
+  float rock = 0.0F;  // shares around, 0…1
   float turf = 0.0F;
   float snow = 0.0F;
   float above = 0.0F;   // how much more rock lies above than below, -1…1
@@ -34,5 +35,7 @@ struct RockPlace {
 // The class that a pixel shows once spurs stand out into the meadows and debris climbs the gullies. Only rock, scree, snow, grass, shrub
 // and pasture change places; forest stays.
 LandCoverClass rock_border(const RockPlace& place);
+// Snow so steep, degrees, that crests of rock may stand out of it, wherever the next rock is.
+inline constexpr float steep_snow_deg = 34.0F;
 
 }  // namespace belvedere

@@ -30,6 +30,11 @@ constexpr double sky_blur_units = 2.0;
 constexpr float above_units = 6.0F;     // how far up and down the fall line rock is looked for
 constexpr float stroke_feather = 0.6F;  // how far strokes turn down the flanks
 
+// Whether a pixel may show rock for what it is itself.
+bool may_be_bare(const GuidanceBuffers& g, std::size_t i) {
+  return g.land_cover[i] == LandCoverClass::rock || (g.land_cover[i] == LandCoverClass::snow && g.slope_deg[i] > steep_snow_deg);
+}
+
 // The pixels of the window about which there is rock, as a rectangle.
 PixelRect rocky_part(const GuidanceBuffers& guidance, const WideView& wide, PixelRect made, glm::ivec2 origin_px, int apron_px) {
   PixelRect rocky{made.x1, made.y1, made.x0, made.y0};
@@ -47,7 +52,7 @@ PixelRect rocky_part(const GuidanceBuffers& guidance, const WideView& wide, Pixe
   // What no look from afar has met.
   for (int y = made.y0; y < made.y1; ++y)
     for (int x = made.x0; x < made.x1; ++x)
-      if (guidance.land_cover(x, y) == LandCoverClass::rock) include({x, y, x + 1, y + 1});
+      if (may_be_bare(guidance, guidance.depth_m.index(x, y))) include({x, y, x + 1, y + 1});
   return rocky;
 }
 
@@ -141,6 +146,7 @@ RockPlace border_place(const RockScene& s, const RockPixel& p, int x, int y, flo
   const glm::vec2 reach = s.view.fall[s.wide.index(s.origin_px.x + x, s.origin_px.y + y)] * (above_units * p.scale);
   RockPlace place;
   place.mapped = s.guidance.land_cover(x, y);
+  place.slope_deg = p.slope_deg;
   place.rock = rock;
   place.turf = p.turf;
   place.snow = p.snow;
@@ -232,7 +238,7 @@ RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wid
       const std::size_t i = guidance.depth_m.index(x, y);
       if (guidance.is_sky(i)) continue;
       const float rock = value_on_surface(scene.wide, scene.around.rock, origin_px.x + x, origin_px.y + y, guidance.depth_m[i]);
-      if (rock <= least_rock && guidance.land_cover[i] != LandCoverClass::rock) continue;
+      if (rock <= least_rock && !may_be_bare(guidance, i)) continue;
       const RockPixel pixel = pixel_at(scene, x, y, made);
       const SpurHits hits = hits_at(scene, pixel, x, y, middle_of_pixel);
       const float funnel = scene.funnel(x - made.x0, row);

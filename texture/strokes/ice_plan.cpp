@@ -104,29 +104,13 @@ std::vector<IceWay> crevasses(const StrokeScene& scene, const IceFlow& flow, Str
   });
 }
 
-// Crests of rock that stand out of steep snow.
-std::vector<IceWay> ribs(const StrokeScene& scene, const IceFlow& flow, Stream stream) {
-  return sow<IceWay>(scene, 22.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<IceWay>& out) {
-    if (scene.class_at(i) != snow) return;
-    const float bare = std::clamp((scene.slope_deg(i) - 30.F) / 12.F, 0.F, 1.F) * std::clamp(scene.relief_m(i) / 20.F - 0.15F, 0.F, 1.F);
-    // Ribs gather; single ones would be flies on the snow.
-    const float gathered = std::clamp(1.2F * sheet_noise(scene, place, Stream::rib_places, 40.0) - 0.1F, 0.F, 1.F);
-    if (bare * gathered < 0.25F || seed.uniform() > 1.5F * bare * gathered) return;
-    const int steps = 9 + static_cast<int>(seed.uniform() * 9.F);
-    const std::vector<glm::vec2> places = trace_ice(scene, flow, place, 3.F * scene.scale(), steps);
-    if (places.size() >= 9) out.push_back(way_along(scene, stream, seed, places));
-  });
-}
-
 // Kinds of strokes that lie along ways, by their streams.
 struct WayKind {
   Stream stream;
   std::vector<IceWay> (*find)(const StrokeScene& scene, const IceFlow& flow, Stream stream);
 };
-constexpr WayKind way_kinds[] = {{Stream::snow_ribs, ribs},
-                                 {Stream::glacier_flow_lines, flow_lines},
-                                 {Stream::glacier_moraines, moraines},
-                                 {Stream::glacier_crevasses, crevasses}};
+constexpr WayKind way_kinds[] = {
+    {Stream::glacier_flow_lines, flow_lines}, {Stream::glacier_moraines, moraines}, {Stream::glacier_crevasses, crevasses}};
 
 }  // namespace
 

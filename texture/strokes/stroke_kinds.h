@@ -30,10 +30,8 @@ std::vector<Stroke> rock_drifts(const StrokeScene& scene,
                                 Stream stream);  // snow that reaches up into a wall from its foot and hangs over its rim
 std::vector<Stroke> rock_rubble(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> rock_trees(const StrokeScene& scene, Stream stream);
-// Snow and ice (stroke_ice.cpp, stroke_glacier.cpp). Flow lines, moraines, crevasses and edges of glaciers, and the ribs that are bare
-// of snow, are drawn on top.
+// Snow and ice (stroke_ice.cpp, stroke_glacier.cpp). Flow lines, moraines, crevasses and edges of glaciers are drawn on top.
 std::vector<Stroke> snow_strokes(const StrokeScene& scene, Stream stream);
-std::vector<Stroke> snow_ribs(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> glacier_flow_lines(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> glacier_moraines(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> glacier_crevasses(const StrokeScene& scene, Stream stream);

@@ -110,12 +110,6 @@ constexpr StrokeKind kinds[] = {
      .reach = downhill(4.6, 1.7, 0.3)},
     {.name = "water", .layer = &StrokeLayers::ground, .stream = Stream::water, .grow = water_strokes, .reach = level(26.0, 3.2)},
     // It lies where it must, which no copied texel knows: painted over copied ground, and left out of what is copied from.
-    {.name = "snow ribs",
-     .layer = &StrokeLayers::breaks,
-     .stream = Stream::snow_ribs,
-     .grow = snow_ribs,
-     .reach = around(15.0 + 15.0),
-     .on_ice = true},
     {.name = "glacier flow lines",
      .layer = &StrokeLayers::breaks,
      .stream = Stream::glacier_flow_lines,

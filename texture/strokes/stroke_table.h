@@ -32,8 +32,8 @@ struct StrokeKind {
   Stream stream;  // of its random numbers, its own
   std::vector<Stroke> (*grow)(const StrokeScene& scene, Stream stream);
   StrokeReach reach;
-  bool on_ice = false;       // asks the plan of the sheet's ice
-  bool alone = false;        // painted whole before what follows; else far to near in one list with its neighbours
+  bool on_ice = false;  // asks the plan of the sheet's ice
+  bool alone = false;   // painted whole before what follows; else far to near in one list with its neighbours
 };
 
 // All kinds, in the order of painting.

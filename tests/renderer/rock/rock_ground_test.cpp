@@ -41,6 +41,13 @@ TEST(RockGround, WhereSnowIsNearItFillsTheGullies) {
   EXPECT_EQ(rock_border({.mapped = rock, .rock = 0.5F, .stands = -0.5F}), rock) << "a rim above grass: no debris lies there";
 }
 
+TEST(RockGround, CrestsStandOutOfSteepSnow) {
+  const auto at = [](float slope_deg, float stands) { return rock_border({.mapped = snow, .slope_deg = slope_deg, .stands = stands}); };
+  EXPECT_EQ(at(50.0F, 0.5F), rock);
+  EXPECT_EQ(at(50.0F, -0.2F), snow);
+  EXPECT_EQ(at(30.0F, 0.6F), snow);
+}
+
 TEST(RockGround, DebrisReachesUpBeneathFunnels) {
   const auto at = [](float funnel, float cones) {
     return rock_border({.mapped = rock, .rock = 0.5F, .above = 0.6F, .funnel = funnel, .cones = cones});

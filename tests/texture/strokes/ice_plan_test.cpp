@@ -55,7 +55,7 @@ TEST(IcePlan, OfGroundWithoutIceIsEmpty) {
 TEST(IcePlan, WaysStayOnTheirGroundAndLieDownTheFlow) {
   const Picture p = valley(1.0);
   const IcePlan plan = plan_ice(p.guidance, p.parameters);
-  for (const Stream stream : {Stream::glacier_flow_lines, Stream::glacier_moraines, Stream::glacier_crevasses, Stream::snow_ribs}) {
+  for (const Stream stream : {Stream::glacier_flow_lines, Stream::glacier_moraines, Stream::glacier_crevasses}) {
     const std::vector<IceWay> ways = ways_of(plan, stream);
     EXPECT_FALSE(ways.empty()) << static_cast<int>(stream);
     for (const IceWay& way : ways) {
@@ -64,7 +64,7 @@ TEST(IcePlan, WaysStayOnTheirGroundAndLieDownTheFlow) {
         EXPECT_EQ(p.guidance.land_cover(static_cast<int>(at.x), static_cast<int>(at.y)), way.land_cover);
         EXPECT_TRUE(at.x >= way.lowest.x && at.y >= way.lowest.y && at.x <= way.highest.x && at.y <= way.highest.y);
       }
-      EXPECT_EQ(way.land_cover, stream == Stream::snow_ribs ? snow : glacier);
+      EXPECT_EQ(way.land_cover, glacier);
       if (stream == Stream::glacier_crevasses) continue;
       for (std::size_t k = 1; k < way.places.size(); ++k) EXPECT_LT(angle_deg(way.places[k] - way.places[k - 1], {0.28F, 0.96F}), 1.0);
     }

@@ -208,45 +208,6 @@ TEST(Ice, TonguesEndBlueAndDirty) {
   EXPECT_GT(rubble, 20);
 }
 
-// Few and big: a rib is many strokes, lit on the sun's side and dark on the other, down the fall line; none on gentle or hollow snow.
-TEST(Ice, RibsAreFewAndBigWithALitAndADarkSide) {
-  Picture p = one_class(snow, 40.F, 900, 600);
-  p.guidance.relief_s_m = Grid<float>(900, 600, 25.F);
-  for (const double sun : {-1.0, 1.0}) {
-    StrokeParameters parameters;
-    parameters.sun_side = sun;
-    const auto strokes = grow_strokes("snow ribs", {p.guidance, p.ground, parameters});
-    ASSERT_GT(strokes.size(), 300U);
-    double lit = 0.0, dark = 0.0;
-    int lit_count = 0, dark_count = 0, pairs = 0, sunward = 0;
-    for (const Stroke& s : strokes) (luma(s.colour) > 0.5F ? ++lit_count : ++dark_count);
-    // Neighbours of one crest: consecutive dark and lit strokes.
-    for (std::size_t k = 0; k + 1 < strokes.size(); ++k) {
-      if (luma(strokes[k].colour) > 0.5F || luma(strokes[k + 1].colour) < 0.5F) continue;
-      dark += strokes[k].points[1].x;
-      lit += strokes[k + 1].points[1].x;
-      ++pairs;
-      sunward += (strokes[k + 1].points[1].x - strokes[k].points[1].x) * sun > 0.0 ? 1 : 0;
-    }
-    EXPECT_GT(lit_count, dark_count / 2);
-    EXPECT_GT((lit - dark) * sun, 0.0);
-    EXPECT_GT(sunward, pairs * 9 / 10) << "now and then snow lies across one of the two";
-    // Sources of a rib follow each other downhill: how many ribs there are.
-    int ribs = 1;
-    for (std::size_t k = 0; k + 1 < strokes.size(); ++k) {
-      const glm::vec2 step = strokes[k + 1].points[0] - strokes[k].points[0];
-      ribs += glm::length(step) > 14.F ? 1 : 0;
-    }
-    EXPECT_GT(static_cast<double>(strokes.size()) / ribs, 8.0);
-    EXPECT_LT(ribs, 900 * 600 / (30 * 30)) << "few";
-  }
-  p.guidance.slope_deg = Grid<float>(900, 600, 25.F);
-  EXPECT_TRUE(grow_strokes("snow ribs", {p.guidance, p.ground, {}}).empty());
-  p.guidance.slope_deg = Grid<float>(900, 600, 40.F);
-  p.guidance.relief_s_m = Grid<float>(900, 600, -10.F);
-  EXPECT_TRUE(grow_strokes("snow ribs", {p.guidance, p.ground, {}}).empty());
-}
-
 TEST(Ice, GrowsWithTheSheet) {
   // Twice the pixels for the same paper: as many strokes, twice as long.
   const Picture small = one_class(glacier, 14.F, 320, 240);
