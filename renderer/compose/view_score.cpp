@@ -52,15 +52,17 @@ double plateau(double x, const Plateau& p) {
 }
 
 double ScoreTerm::points() const {
+  if (kind == TermKind::told) return 0.0;
   if (kind == TermKind::plateau) return weight * plateau(value, good);
   return -weight * (std::max(0.0, good.b - value) + std::max(0.0, value - good.c));
 }
 
 std::string_view ScoreTerm::advice() const {
-  // Up a ramp by three quarters is good enough to be left alone; so is a hundredth outside of what costs by its excess.
-  constexpr double slack = 0.25, slight = 0.01;
-  const double below = kind == TermKind::plateau ? good.b - slack * (good.b - good.a) : good.b - slight;
-  const double above = kind == TermKind::plateau ? good.c + slack * (good.d - good.c) : good.c + (unit == TermUnit::share ? slight : 0.0);
+  if (weight == 0.0 && kind != TermKind::told) return {};
+  // Half way up a ramp is good enough to be left alone; so is a hundredth outside of what costs by its excess.
+  constexpr double slack = 0.5, slight = 0.01;
+  const double below = kind != TermKind::excess ? good.b - slack * (good.b - good.a) : good.b - slight;
+  const double above = kind != TermKind::excess ? good.c + slack * (good.d - good.c) : good.c + (unit == TermUnit::share ? slight : 0.0);
   if (value < below) return too_low;
   if (value > above) return too_high;
   return {};
@@ -127,7 +129,7 @@ std::vector<ScoreTerm> score_terms(const ViewMeasures& m, const ScoreContext& co
        "", "the lower edge cuts through mountains: let it lie over a valley"},
       {"flat", 2.0, excess, {0, 0, 0.35, 1}, share, m.flat, "of the picture is low ground", "", "much of the picture is plain"},
       // What proposals have by their layout is judged in scenes of other hands alone.
-      {"haze", 0.0, plateau, {0.0, 0.06, 0.40, 0.8}, share, m.haze, "of the air's colour over the land, on the mean",
+      {"haze", 0.0, told, {0.0, 0.06, 0.40, 0.8}, share, m.haze, "of the air's colour over the land, on the mean",
        "no air between near and far: air.from_m or air.scale_m is too large for this region",
        "the land drowns in haze: air.from_m or air.scale_m is too small for this region"},
       {"empty", 10.0, excess, {0, 0, 0, 1}, share, m.empty_edge, "of the lower edge has no ground", "", "there are no data at the lower edge"},

@@ -23,8 +23,8 @@ struct Plateau {
 };
 double plateau(double x, const Plateau& p);
 
-// How a term's measure counts: by where it lies on its plateau, or by how far it lies outside of b…c.
-enum class TermKind : int { plateau, excess };
+// How a term's measure counts: by where it lies on its plateau; by how far it lies outside of b…c; or it is told alone.
+enum class TermKind : int { plateau, excess, told };
 enum class TermUnit : int { share, number, degrees, pixels };
 
 // A row of the one table of what makes a view good.

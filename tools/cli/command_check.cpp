@@ -57,7 +57,7 @@ std::string composition_text(const ViewJudgement& judgement) {
   out += fmt::format("composition: sky {}, rim {}, valley floor seen {}, ranges apart {}, edge through mountains {}, haze {}\n",
                      value("sky"), value("rim"), value("floor"), value("ranges"), value("cut"), value("haze"));
   for (const ScoreTerm& term : judgement.terms)
-    if (!term.advice().empty()) out += fmt::format("  {}: {} {}\n", term.advice(), in_words(term.unit, term.value), term.meaning);
+    if (!term.advice().empty()) out += fmt::format("  {} ({} {})\n", term.advice(), in_words(term.unit, term.value), term.meaning);
   return out;
 }
 

@@ -56,6 +56,24 @@ TEST(ViewScore, EveryMeasureCounts) {
   EXPECT_EQ(worse([](ViewMeasures& m) { m.haze = 0.9; }), 0.0) << "said, but follows from the layout in every proposal";
 }
 
+TEST(ViewScore, AdvisesWhereItIsNotGoodAlone) {
+  const auto advice = [](const ViewMeasures& m, std::string_view name) {
+    for (const ScoreTerm& term : score_terms(m, context()))
+      if (term.name == name) return std::string(term.advice());
+    return std::string("no such term");
+  };
+  for (const ScoreTerm& term : score_terms(good_measures(), context())) EXPECT_EQ(term.advice(), "") << term.name;
+  ViewMeasures m = good_measures();
+  m.sky = 0.3;
+  m.haze = 0.9;
+  m.anchors[0].along = 0.0;
+  EXPECT_NE(advice(m, "sky").find("much sky"), std::string::npos);
+  EXPECT_NE(advice(m, "haze").find("drowns"), std::string::npos);
+  EXPECT_EQ(advice(m, "along"), "") << "the subject is no canyon";
+  m.sky = 0.05;
+  EXPECT_NE(advice(m, "sky").find("little sky"), std::string::npos);
+}
+
 TEST(ViewScore, CanyonsLeadOnPlateausSummitsInMountains) {
   const auto points = [](AnchorKind kind, double plateau) {
     ScoreContext c = context();

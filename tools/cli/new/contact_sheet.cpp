@@ -41,9 +41,15 @@ LoadedScene make_small_draft(LoadedScene scene, int width_px, double cell_m) {
 
 void write_contact_sheet(const std::string& path, const std::vector<LoadedScene>& drafts, const std::vector<std::string>& captions,
                          const Run& run, const ContactSheetParameters& parameters) {
+  // Land cover hangs on the ground alone: the second picture finds what the first made, also where nothing is kept from run to run.
+  const ScratchFolder kept;
+  const Cache own({.folder = kept.path(), .limit_bytes = 0});
   // One stage to watch, instead of all stages of every picture.
-  const Run quiet{
-      .threads = run.threads, .memory_bytes = run.memory_bytes, .tile_px = run.tile_px, .progress = silent_progress(), .cache = run.cache};
+  const Run quiet{.threads = run.threads,
+                  .memory_bytes = run.memory_bytes,
+                  .tile_px = run.tile_px,
+                  .progress = silent_progress(),
+                  .cache = run.cache.is_on() ? run.cache : own};
   run.progress.begin("drawing the proposals", static_cast<double>(drafts.size()));
   std::vector<Grid<glm::vec3>> pictures;
   for (const LoadedScene& draft : drafts) {
