@@ -38,10 +38,27 @@ glm::vec2 rise(const Grid<float>& z, int x, int y, double cell_x, double cell_y)
 TownParameters to_town_parameters(const Parameters& parameters, const std::vector<KnownTown>& known, std::uint64_t seed) {
   TownParameters towns;
   towns.amount = parameter_or(parameters, "settlement", 0.0);
+  towns.guesses = std::clamp(parameter_or(parameters, "guesses", 0.0), 0.0, 1.0);
   towns.highest_m = parameter_or(parameters, "town_highest_m", 1300.0);
   towns.seed = seed;
   towns.known = known;
   return towns;
+}
+
+// How surely people live of the land at each cell, by its climate and what the scene says of dryness.
+Grid<float> living_map(const Dem& dem, const Parameters& parameters, const RuleClimate& climate) {
+  const auto drier = static_cast<float>(0.3 * parameter_or(parameters, "dryness", 0.0));
+  Grid<float> living(dem.width(), dem.height());
+  parallel_rows(dem.height(), [&](int y) {
+    std::vector<float> moisture(static_cast<std::size_t>(dem.width()));
+    std::vector<float> temperature(moisture.size());
+    const float* altitude_m = dem.altitude_m.row(y);
+    fill_climate_row(climate, ClimateVariable::moisture, dem.transform, y, dem.width(), altitude_m, moisture.data());
+    fill_climate_row(climate, ClimateVariable::temperature, dem.transform, y, dem.width(), altitude_m, temperature.data());
+    for (int x = 0; x < dem.width(); ++x)
+      living(x, y) = living_of_land(moisture[static_cast<std::size_t>(x)] - drier, temperature[static_cast<std::size_t>(x)]);
+  });
+  return living;
 }
 
 // 1 at sea, and how far from it the land is, m.
@@ -209,7 +226,10 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
   });
   if (needed[river]) inputs[river] = river_mask(waters.km2(), dem.cell_m());
   if (needs_town) {
-    const TownGround ground{z, inputs[valley_floor], waters.km2(), inputs[slope], faces_south, dem.transform};
+    const bool guesses = settlers.sites == nullptr && parameter_or(parameters, "settlement", 0.0) > -1.0;
+    const Grid<float> living = guesses ? living_map(dem, parameters, climate) : Grid<float>();
+    const TownGround ground{
+        z, inputs[valley_floor], waters.km2(), inputs[slope], faces_south, dem.transform, guesses ? &living : nullptr};
     const std::vector<TownSite> sites = settlers.sites != nullptr
                                             ? *settlers.sites
                                             : find_town_sites(ground, to_town_parameters(parameters, settlers.known, settlers.seed));

@@ -15,11 +15,18 @@
 namespace belvedere {
 namespace {
 
-constexpr double block_m = 300.0;          // one candidate in each block of the map
-constexpr double town_spacing_m = 6000.0;  // towns have markets; a day's walk there and back
-constexpr double village_spacing_m = 1700.0;
-constexpr double hamlet_spacing_m = 2000.0;
-constexpr double link_m = 5200.0;  // towns and villages within this distance are linked
+constexpr double block_m = 300.0;  // one candidate in each block of the map
+// Of guesses, and as it is in the Alps (TownParameters::guesses).
+struct Density {
+  double few, alpine;
+  double at(double guesses) const { return few + (alpine - few) * guesses; }
+};
+constexpr Density town_spacing_m{9000.0, 6000.0};  // towns have markets; a day's walk there and back
+constexpr Density village_spacing_m{2900.0, 1700.0};
+constexpr Density hamlet_spacing_m{3400.0, 2000.0};
+constexpr double plain_m = 2000.0;    // ground that is level as far as this is a plain
+constexpr float least_floor = 0.03F;  // of the ground within that distance of a hamlet: whom it trades with
+constexpr double link_m = 5200.0;     // towns and villages within this distance are linked
 constexpr float outermost = -4.F;
 constexpr float least_side_km2 = 3.F;  // catchment of a side stream whose mouth is a place to settle
 constexpr float largest_side_km2 = 400.F;
@@ -106,8 +113,10 @@ std::vector<Candidate> find_candidates(const TownGround& g, const TownParameters
   const Grid<float> mouths = valley_mouths(g, cell_m);
   const Grid<float> rivers = distance_to_rivers(g, cell_m);
   const Grid<float> room = gaussian_blur(g.floor, 800.0 / cell_m);
+  const Grid<float> around = gaussian_blur(g.floor, plain_m / cell_m);
   const Grid<float> level = gaussian_blur(g.slope_deg, 120.0 / cell_m);
   const int block = std::max(1, static_cast<int>(block_m / cell_m));
+  const auto few = static_cast<float>(1.0 - p.guesses);
   const std::uint64_t key = stream_seed(p.seed, Stream::towns);
   std::vector<Candidate> candidates;
   for (int by = 0; by < height; by += block) {
@@ -115,19 +124,23 @@ std::vector<Candidate> find_candidates(const TownGround& g, const TownParameters
       Candidate best{-1.F, -1, true};
       Candidate terrace{-1.F, -1, false};
       const auto chance = static_cast<float>(random_uniform(key, bx / block, by / block, 1));
+      const auto luck = static_cast<float>(random_uniform(key, bx / block, by / block, 7));
       for (int y = by; y < std::min(height, by + block); ++y) {
         for (int x = bx; x < std::min(width, bx + block); ++x) {
           const float z = g.altitude_m(x, y);
           const auto cell = static_cast<std::int32_t>(g.floor.index(x, y));
           if (static_cast<double>(z) > p.highest_m) continue;
+          if (g.living != nullptr && (*g.living)(x, y) + static_cast<float>(p.guesses) <= luck) continue;
           const float low = std::clamp((static_cast<float>(p.highest_m) - z) / 500.F, 0.F, 1.F);
           if (g.floor(x, y) >= 0.5F) {
             // Beside the river, not in it.
             const float away = rivers(x, y);
             const float bank = away < 130.F ? -0.6F : std::exp(-0.5F * (away - 350.F) * (away - 350.F) / (450.F * 450.F));
-            const float score = 0.95F * mouths(x, y) + 0.60F * bank + 0.70F * room(x, y) + 0.35F * low + 0.35F * chance;
+            // Room is good, but in the middle of a plain one place is as good as another: only rivers and edges say where villages are.
+            const float lost = few * std::clamp((around(x, y) - 0.75F) / 0.2F, 0.F, 1.F);
+            const float score = 0.95F * mouths(x, y) + 0.60F * bank + 0.70F * (room(x, y) - lost) + 0.35F * low + 0.35F * chance;
             if (score > best.score) best = {score, cell, true};
-          } else if (level(x, y) < 11.F) {
+          } else if (level(x, y) < 11.F && around(x, y) + static_cast<float>(p.guesses) > least_floor) {
             const float score = 0.5F * g.south(x, y) + 0.5F * low + chance - 0.03F * level(x, y);
             if (score > terrace.score) terrace = {score, cell, false};
           }
@@ -261,6 +274,16 @@ void raise_link(const TownGround& g, const TownLink& link, const PixelRect& box,
 
 }  // namespace
 
+float living_of_land(float moisture, float temperature_c) {
+  // Rain feeds fields where plants get half of the water they could use, and safely at two thirds; barley ripens down to some 2 °C in the
+  // mean of the year (the highest villages of the Alps and of Norway).
+  const auto ramp = [](float value, float none, float all) {
+    const float t = std::clamp((value - none) / (all - none), 0.F, 1.F);
+    return t * t * (3.F - 2.F * t);
+  };
+  return ramp(moisture, 0.45F, 0.66F) * ramp(temperature_c, 0.F, 3.5F);
+}
+
 std::vector<TownSite> find_town_sites(const TownGround& g, const TownParameters& p) {
   const double cell_m = 0.5 * (g.transform.cell_x + g.transform.cell_y);
   std::vector<TownSite> sites;
@@ -295,6 +318,7 @@ std::vector<TownSite> find_town_sites(const TownGround& g, const TownParameters&
   };
   const double closer = std::exp2(-0.9 * p.amount);
   const double larger = 1.0 + 0.35 * p.amount;
+  const double smaller = Density{0.72, 1.0}.at(p.guesses);
   const auto settle = [&](const Candidate& c, double radius_m) {
     TownSite site{g.transform.to_crs(c.cell % g.floor.width(), c.cell / g.floor.width()), radius_m * larger, 1.0, 0.0, c.on_floor};
     take_direction(g, c.cell, cell_m, site);
@@ -303,19 +327,19 @@ std::vector<TownSite> find_town_sites(const TownGround& g, const TownParameters&
   const std::uint64_t key = stream_seed(p.seed, Stream::towns);
   const auto chance = [&](const Candidate& c, std::uint64_t draw) { return random_uniform(key, c.cell, 0, draw); };
   for (const Candidate& c : candidates)
-    if (c.on_floor && c.score > 1.45F && is_free(c, town_spacing_m * closer))
-      settle(c, 260.0 + 330.0 * std::clamp(static_cast<double>(c.score) - 1.3, 0.0, 1.0) + 140.0 * chance(c, 2));
+    if (c.on_floor && c.score > 1.45F && is_free(c, town_spacing_m.at(p.guesses) * closer))
+      settle(c, smaller * (260.0 + 330.0 * std::clamp(static_cast<double>(c.score) - 1.3, 0.0, 1.0) + 140.0 * chance(c, 2)));
   for (const Candidate& c : candidates)
     if (c.on_floor && c.score > 0.75F - 0.25F * static_cast<float>(p.amount) &&
-        is_free(c, village_spacing_m * closer * (0.7 + 0.9 * chance(c, 3)))) {
+        is_free(c, village_spacing_m.at(p.guesses) * closer * (0.7 + 0.9 * chance(c, 3)))) {
       const double u = chance(c, 4);
-      settle(c, 95.0 + 170.0 * u * u);
+      settle(c, smaller * (95.0 + 170.0 * u * u));
     }
   for (const Candidate& c : candidates)
     if (!c.on_floor && c.score > 0.95F - 0.3F * static_cast<float>(p.amount) &&
-        is_free(c, hamlet_spacing_m * closer * (0.7 + 0.9 * chance(c, 5)))) {
+        is_free(c, hamlet_spacing_m.at(p.guesses) * closer * (0.7 + 0.9 * chance(c, 5)))) {
       const double u = chance(c, 6);
-      settle(c, 60.0 + 110.0 * u * u);
+      settle(c, smaller * (60.0 + 110.0 * u * u));
     }
   return sites;
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <numeric>
 
 #include "base/error.h"
@@ -267,6 +268,32 @@ TEST(ClassRules, VillagesStandOnValleyFloorsAndInClearings) {
     for (int x = 1; x < 239; ++x)
       if (some(x, y) == settlement && some(x + 1, y) == forest && some(x - 1, y) == forest) ++in_wood;
   EXPECT_EQ(in_wood, 0);
+}
+
+// A plain with one town that is known: fields about it, meadows beyond, and more of them where nobody is known.
+TEST(ClassRules, FieldsLieAboutTownsAndMeadowsBetween) {
+  const Dem plain = ground(240, [](double e, double) { return 500.0 + 0.015 * e; });
+  const ClassRules rules = read_class_rules("life_zones");
+  const glm::dvec2 town = plain.transform.to_crs(60, 120);
+  const Grid<LandCoverClass> c = apply(rules, plain, {{"settlement", -1.0}}, {{town, 500.0}});
+  int fields_near = 0, near = 0, fields_far = 0, meadows_far = 0, far = 0;
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 240; ++x) {
+      const double away = glm::length(plain.transform.to_crs(x, y) - town);
+      if (away > 700.0 && away < 1200.0) {
+        ++near;
+        fields_near += c(x, y) == LandCoverClass::valley_floor ? 1 : 0;
+      } else if (away > 3000.0) {
+        ++far;
+        fields_far += c(x, y) == LandCoverClass::valley_floor ? 1 : 0;
+        meadows_far += c(x, y) == LandCoverClass::pasture ? 1 : 0;
+      }
+    }
+  EXPECT_GT(fields_near, near * 9 / 10);
+  EXPECT_LT(fields_far, far / 50);
+  EXPECT_GT(meadows_far, far * 9 / 10);
+  // As in the Alps, fields everywhere.
+  EXPECT_EQ(share(apply(rules, plain, {{"settlement", -1.0}, {"guesses", 1.0}}), valley_floor), 1.0);
 }
 
 // Wooded slopes of one steepness all around, 700 m … 1400 m.

@@ -105,6 +105,105 @@ TEST(Towns, AmountRaisesWhatIsBuiltAndNothingIsHigherThanAsked) {
   EXPECT_EQ(built_km2(0.5, 590.0), 0.0);
 }
 
+// Level ground as far as one sees, a river of 600 km² through its middle from west to east.
+struct Plain {
+  static constexpr int side = 700;
+  static constexpr double cell_m = 30.0;
+  Grid<float> altitude_m{side, side, 400.F};
+  Grid<float> floor{side, side, 1.F};
+  Grid<float> catchment_km2{side, side, 0.1F};
+  Grid<float> slope{side, side, 0.F};
+  Grid<float> south{side, side, 0.F};
+  GeoTransform transform{0.0, side* cell_m, cell_m, cell_m};
+
+  Plain() {
+    for (int x = 0; x < side; ++x) catchment_km2(x, side / 2) = 600.F + 0.01F * static_cast<float>(x);
+  }
+  TownGround ground() const { return {altitude_m, floor, catchment_km2, slope, south, transform}; }
+};
+
+// A plain of 21 × 21 km could hold a hundred and fifty villages at the distance that they keep.
+TEST(Towns, PlainsAreNotFilledButWhereRiversAre) {
+  const Plain plain;
+  const std::vector<TownSite> sites = find_town_sites(plain.ground(), {});
+  EXPECT_GE(sites.size(), 3U);
+  EXPECT_LE(sites.size(), 14U);
+  for (const TownSite& site : sites) {
+    const double from_river = std::abs(plain.transform.to_cell(site.place.x, site.place.y).y - Plain::side / 2) * Plain::cell_m;
+    const double from_edge =
+        std::min({site.place.x, site.place.y, Plain::side * Plain::cell_m - site.place.x, Plain::side * Plain::cell_m - site.place.y});
+    EXPECT_LT(std::min(from_river, from_edge), 1500.0);
+  }
+  // As in the Alps: all over, and larger.
+  TownParameters alpine;
+  alpine.guesses = 1.0;
+  const std::vector<TownSite> many = find_town_sites(plain.ground(), alpine);
+  EXPECT_GT(many.size(), 60U);
+  const auto built_m2 = [](const std::vector<TownSite>& all) {
+    double sum = 0.0;
+    for (const TownSite& site : all) sum += site.radius_m * site.radius_m * site.stretch;
+    return sum;
+  };
+  const Valley valley;
+  EXPECT_GT(find_town_sites(valley.ground(), alpine).size(), find_town_sites(valley.ground(), {}).size());
+  EXPECT_GT(built_m2(find_town_sites(valley.ground(), alpine)), 1.5 * built_m2(find_town_sites(valley.ground(), {})));
+}
+
+TEST(Towns, NobodyIsGuessedWhereTheLandFeedsNobody) {
+  const Valley valley;
+  TownGround ground = valley.ground();
+  const Grid<float> none(Valley::width, Valley::height, 0.F);
+  const Grid<float> all(Valley::width, Valley::height, 1.F);
+  Grid<float> east = none;
+  for (int y = 0; y < Valley::height; ++y)
+    for (int x = 350; x < Valley::width; ++x) east(x, y) = 1.F;
+  TownParameters p;
+  p.known = {{{3000.0, 3300.0}, 700.0}};
+  const auto sites_with = [&](const Grid<float>* living) {
+    ground.living = living;
+    return find_town_sites(ground, p);
+  };
+  // What is known stays.
+  ASSERT_EQ(sites_with(&none).size(), 1U);
+  EXPECT_EQ(sites_with(&none)[0].place, glm::dvec2(3000.0, 3300.0));
+  EXPECT_EQ(sites_with(&all).size(), sites_with(nullptr).size());
+  const std::vector<TownSite> half = sites_with(&east);
+  EXPECT_GT(half.size(), 2U);
+  for (std::size_t i = 1; i < half.size(); ++i) EXPECT_GE(half[i].place.x, 350 * Valley::cell_m);
+}
+
+// By the climates of places: Innsbruck, Seattle, Kiruna's mountains, Death Valley, the steppe of Mongolia.
+TEST(Towns, LandFeedsPeopleByWaterAndWarmth) {
+  EXPECT_EQ(living_of_land(1.F, 9.F), 1.F);
+  EXPECT_EQ(living_of_land(0.8F, 11.F), 1.F);
+  EXPECT_EQ(living_of_land(1.F, -3.F), 0.F);
+  EXPECT_EQ(living_of_land(0.05F, 25.F), 0.F);
+  EXPECT_EQ(living_of_land(0.35F, 0.F), 0.F);
+  float before = 0.F;
+  for (float moisture = 0.F; moisture <= 1.F; moisture += 0.01F) {
+    EXPECT_GE(living_of_land(moisture, 8.F), before);
+    before = living_of_land(moisture, 8.F);
+  }
+}
+
+// A terrace far from any floor, in the hills, has no hamlet; one above a valley has.
+TEST(Towns, HamletsHaveAFloorWithinReach) {
+  Valley valley;
+  for (int y = 0; y < Valley::height; ++y)
+    for (int x = 0; x < Valley::width; ++x) {
+      valley.slope(x, y) = valley.floor(x, y) > 0.5F ? 0.F : 5.F;
+      valley.south(x, y) = 1.F;
+    }
+  const auto hamlets = [&] {
+    int count = 0;
+    for (const TownSite& site : find_town_sites(valley.ground(), {})) count += site.on_floor ? 0 : 1;
+    return count;
+  };
+  EXPECT_GT(hamlets(), 0);
+  for (float& f : valley.floor) f = 0.F;
+  EXPECT_EQ(hamlets(), 0);
+}
+
 TEST(Towns, KnownOnesComeFirstAndKeepOthersAway) {
   const Valley valley;
   TownParameters p;
