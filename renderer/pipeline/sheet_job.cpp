@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/sheet/guidance_pack.h"
+#include "renderer/sheet/piece_writer.h"
 #include "renderer/sheet/sheet_picture.h"
 #include "renderer/world/scene_season.h"
 #include "renderer/world/world_notes.h"
@@ -128,6 +130,7 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
   CopyPlan plan = copied ? plan_copies(loaded, sheet, work, run) : CopyPlan{};
   SheetPicture picture(sheet.ground, copied ? &plan : nullptr, sheet.place, stage_run);
 
+  PieceWriter writer(work);
   const double all = static_cast<double>(missing.size());
   if (!few) run.progress.begin(request.panorama ? "painting the sheet" : "tracing the sheet", all);
   for (std::size_t i = 0; i < missing.size(); ++i) {
@@ -135,15 +138,16 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
     // Nobody asks again for what only earlier pieces looked at.
     if (i > 0) request.panorama ? picture.keep_only(still_to_make(missing, i)) : sheet.ground.keep_only(still_to_make(missing, i));
     if (!work.has("guidance", piece)) {
-      PackedGuidance packed = pack_guidance(sheet.ground.read_all_guidance(piece));
-      work.keep("guidance", piece, packed.planes);
+      const auto packed = std::make_shared<PackedGuidance>(pack_guidance(sheet.ground.read_all_guidance(piece)));
+      writer.keep("guidance", piece, packed->planes, packed);
     }
     if (request.panorama && !work.has("panorama", piece)) {
-      Grid<glm::vec3> painted = picture.make(piece);
-      work.keep("panorama", piece, {plane_of(painted)});
+      const auto painted = std::make_shared<Grid<glm::vec3>>(picture.make(piece));
+      writer.keep("panorama", piece, {plane_of(*painted)}, painted);
     }
     if (!few) run.progress.advance(1.0);
   }
+  writer.finish();
 }
 
 void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run) {

@@ -2,9 +2,13 @@
 
 #include <cstdint>
 #include <cstring>
+#include <functional>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "base/guidance_channels.h"
+#include "base/parallel.h"
 #include "renderer/image/exr/half_floats.h"
 
 namespace belvedere {
@@ -34,10 +38,21 @@ constexpr std::size_t stride = std::is_same_v<T, glm::vec2>   ? 2
 template <class T>
 constexpr bool is_number = std::is_same_v<T, float> || std::is_same_v<T, glm::vec2> || std::is_same_v<T, glm::vec3>;
 
-void add_plane(PackedGuidance& packed, ChannelStorage type, int width, int height) {
+// The planes of the components that are there, each made and filled by fill(values) of its own, side by side.
+using FillPlane = std::function<void(std::vector<std::byte>& values)>;
+PackedGuidance make_planes(const std::vector<std::pair<ChannelStorage, FillPlane>>& components, int width, int height) {
   const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  packed.values.emplace_back(count * bytes_of(type));
-  packed.planes.push_back({packed.values.back().data(), bytes_of(type), width, height});
+  PackedGuidance packed;
+  packed.values.resize(components.size());
+  parallel_ranges(components.size(), std::size_t{1}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p != end; ++p) {
+      packed.values[p].resize(count * bytes_of(components[p].first));
+      components[p].second(packed.values[p]);
+    }
+  });
+  for (std::size_t p = 0; p < components.size(); ++p)
+    packed.planes.push_back({packed.values[p].data(), bytes_of(components[p].first), width, height});
+  return packed;
 }
 
 }  // namespace
@@ -51,32 +66,34 @@ GuidanceBuffers sheet_guidance_like(glm::dvec3 origin_m) {
 }
 
 PackedGuidance blank_packed(const GuidanceBuffers& like, int width, int height) {
-  PackedGuidance packed;
-  for_each_component(like,
-                     [&](const GuidanceChannel& channel, const auto&, std::size_t) { add_plane(packed, channel.type, width, height); });
-  return packed;
+  std::vector<std::pair<ChannelStorage, FillPlane>> components;
+  for_each_component(like, [&](const GuidanceChannel& channel, const auto&, std::size_t) {
+    components.emplace_back(channel.type, [](std::vector<std::byte>&) {});
+  });
+  return make_planes(components, width, height);
 }
 
 PackedGuidance pack_guidance(const GuidanceBuffers& guidance) {
-  PackedGuidance packed = blank_packed(guidance, guidance.width(), guidance.height());
-  std::size_t p = 0;
+  std::vector<std::pair<ChannelStorage, FillPlane>> components;
   for_each_component(guidance, [&](const GuidanceChannel& channel, const auto& grid, std::size_t k) {
-    using T = typename std::decay_t<decltype(grid)>::value_type;
-    std::byte* to = packed.values[p++].data();
-    if constexpr (is_number<T>) {
-      const float* from = reinterpret_cast<const float*>(grid.data()) + k;
-      if (channel.type == ChannelStorage::half)
-        to_halves(from, stride<T>, grid.size(), reinterpret_cast<std::uint16_t*>(to));
-      else
-        for (std::size_t i = 0; i < grid.size(); ++i) std::memcpy(to + 4 * i, from + stride<T> * i, 4);
-    } else {
-      for (std::size_t i = 0; i < grid.size(); ++i) {
-        const auto id = static_cast<std::uint32_t>(grid[i]);
-        std::memcpy(to + 4 * i, &id, 4);
+    components.emplace_back(channel.type, [&channel, &grid, k](std::vector<std::byte>& values) {
+      using T = typename std::decay_t<decltype(grid)>::value_type;
+      std::byte* to = values.data();
+      if constexpr (is_number<T>) {
+        const float* from = reinterpret_cast<const float*>(grid.data()) + k;
+        if (channel.type == ChannelStorage::half)
+          to_halves(from, stride<T>, grid.size(), reinterpret_cast<std::uint16_t*>(to));
+        else
+          for (std::size_t i = 0; i < grid.size(); ++i) std::memcpy(to + 4 * i, from + stride<T> * i, 4);
+      } else {
+        for (std::size_t i = 0; i < grid.size(); ++i) {
+          const auto id = static_cast<std::uint32_t>(grid[i]);
+          std::memcpy(to + 4 * i, &id, 4);
+        }
       }
-    }
+    });
   });
-  return packed;
+  return make_planes(components, guidance.width(), guidance.height());
 }
 
 GuidanceBuffers unpack_guidance(const PackedGuidance& packed, const GuidanceBuffers& like) {

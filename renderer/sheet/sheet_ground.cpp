@@ -1,10 +1,15 @@
 #include "renderer/sheet/sheet_ground.h"
 
 #include <algorithm>
+#include <array>
+#include <functional>
+#include <span>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "base/grid_part.h"
+#include "base/parallel.h"
 #include "renderer/paint/composite.h"
 #include "renderer/paint/guides.h"
 #include "renderer/sheet/sheet_ice.h"
@@ -30,10 +35,19 @@ void make_channel(GuidanceBuffers& guidance, GuidanceMember member, int width, i
   std::visit([&](auto grid) { guidance.*grid = typename std::decay_t<decltype(guidance.*grid)>(width, height); }, member);
 }
 
+// Several at once: new memory is first written by all threads, as it takes the system longer to give it than to fill it.
+void make_channels(GuidanceBuffers& guidance, std::span<const GuidanceMember> members, int width, int height) {
+  parallel_ranges(members.size(), std::size_t{1}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) make_channel(guidance, members[i], width, height);
+  });
+}
+
 GuidanceBuffers blank_traced(int width, int height) {
-  GuidanceBuffers guidance;
+  std::vector<GuidanceMember> members;
   for (const GuidanceChannel& channel : guidance_channels())
-    if (channel.maker == ChannelMaker::trace) make_channel(guidance, channel.member, width, height);
+    if (channel.maker == ChannelMaker::trace) members.push_back(channel.member);
+  GuidanceBuffers guidance;
+  make_channels(guidance, members, width, height);
   return guidance;
 }
 
@@ -51,7 +65,7 @@ constexpr std::initializer_list<GuidanceMember> wide_channels = {&B::depth_m,   
                                                                  &B::fall_line, &B::normal,     &B::footprint_m};
 GuidanceBuffers blank_wide(int width, int height) {
   GuidanceBuffers guidance;
-  for (const GuidanceMember member : wide_channels) make_channel(guidance, member, width, height);
+  make_channels(guidance, {wide_channels.begin(), wide_channels.size()}, width, height);
   return guidance;
 }
 
@@ -63,13 +77,21 @@ Planes wide_planes(GuidanceBuffers& g) {
 // Side of the tiles of the wide view, in its own pixels.
 int wide_tile_px(int tile_px, int factor) { return std::max(64, tile_px / factor); }
 
+template <class Product, class Values>
+std::function<void()> maker_of(Product& product, Values Product::*grid, int width, int height) {
+  return [&product, grid, width, height] { product.*grid = Values(width, height); };
+}
+
 template <class Product, class... Grids>
 typename SheetStage<Product>::Making making_of(std::function<Product(PixelRect)> make, Grids Product::*... grids) {
   return {.make = std::move(make),
           .blank =
               [grids...](int width, int height) {
                 Product product;
-                ((product.*grids = Grids(width, height)), ...);
+                const std::array<std::function<void()>, sizeof...(Grids)> make_grids = {maker_of(product, grids, width, height)...};
+                parallel_ranges(make_grids.size(), std::size_t{1}, [&](std::size_t begin, std::size_t end) {
+                  for (std::size_t i = begin; i != end; ++i) make_grids[i]();
+                });
                 return product;
               },
           .planes = [grids...](Product& product) { return Planes{plane_of(product.*grids)...}; }};
@@ -132,7 +154,7 @@ GuidanceBuffers SheetGround::make_traced(PixelRect tile) {
 GuidanceBuffers SheetGround::read_guidance(PixelRect rect, std::initializer_list<GuidanceMember> channels, bool with_tone) {
   GuidanceBuffers guidance;
   guidance.origin_m = world_.surface.origin;
-  for (const GuidanceMember member : channels) make_channel(guidance, member, rect.width(), rect.height());
+  make_channels(guidance, {channels.begin(), channels.size()}, rect.width(), rect.height());
   read_crested(rect, guidance);
   const Planes relief = relief_planes(guidance);
   if (std::any_of(relief.begin(), relief.end(), [](const Plane& plane) { return plane.values != nullptr; }))
@@ -156,7 +178,7 @@ SheetGround::Wide SheetGround::read_wide(PixelRect rect) {
   if (factor_ == 1) {
     rect = intersection(sheet(), rect);
     wide.seen.origin_m = world_.surface.origin;
-    for (const GuidanceMember member : wide_channels) make_channel(wide.seen, member, rect.width(), rect.height());
+    make_channels(wide.seen, {wide_channels.begin(), wide_channels.size()}, rect.width(), rect.height());
     traced_.read_into(rect, traced_planes(wide.seen));
   } else {
     rect = intersection(wide_.sheet(), wide_rect(rect, factor_));
@@ -212,7 +234,8 @@ RockRelief SheetGround::make_relief(PixelRect tile) {
   const PixelRect window = intersection(sheet(), grown(tile, rock_near_margin_px(rock_parameters_)));
   GuidanceBuffers guidance;
   guidance.origin_m = world_.surface.origin;
-  for (const GuidanceMember member : rock_channels()) make_channel(guidance, member, window.width(), window.height());
+  const std::initializer_list<GuidanceMember> channels = rock_channels();
+  make_channels(guidance, {channels.begin(), channels.size()}, window.width(), window.height());
   read_crested(window, guidance);
   return make_rock_relief(guidance, {wide.seen, factor_, wide.origin_px}, rock_parameters_, {window.x0, window.y0}, run_.progress,
                           moved(tile, -window.x0, -window.y0));

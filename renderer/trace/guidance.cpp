@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "base/error.h"
@@ -83,8 +84,12 @@ float footprint(const Camera& camera, glm::dvec2 pixel, double distance_m) {
 
 GuidanceBuffers make_buffers(int width, int height) {
   GuidanceBuffers buffers;
-  for (const GuidanceChannel& channel : guidance_channels())
-    if (channel.maker == ChannelMaker::trace) fill_channel(buffers, channel, width, height, channel.sky);
+  // New memory is first written by all threads.
+  const std::span<const GuidanceChannel> channels = guidance_channels();
+  parallel_ranges(channels.size(), std::size_t{1}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i)
+      if (channels[i].maker == ChannelMaker::trace) fill_channel(buffers, channels[i], width, height, channels[i].sky);
+  });
   return buffers;
 }
 

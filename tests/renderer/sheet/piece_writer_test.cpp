@@ -1,0 +1,64 @@
+#include "renderer/sheet/piece_writer.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "base/error.h"
+#include "tests/files.h"
+
+namespace belvedere {
+namespace {
+
+const JobIdentity job{{"scene", "a"}};
+const PixelRect square{0, 0, 64, 48};
+const PixelRect next{64, 0, 128, 48};
+
+std::shared_ptr<Grid<float>> made(float value) { return std::make_shared<Grid<float>>(64, 48, value); }
+
+TEST(PieceWriter, BringsPiecesToDiskAndKeepsTheirValuesUntilThen) {
+  const test::Folder folder;
+  const WorkFolder work(folder / "work", job, WorkMode::begin);
+  {
+    PieceWriter writer(work);
+    for (const PixelRect& rect : {square, next}) {
+      auto values = made(rect == square ? 1.F : 2.F);
+      writer.keep("panorama", rect, {plane_of(*values)}, values);
+    }
+    writer.finish();
+  }
+  EXPECT_TRUE(work.has("panorama", square));
+  Grid<float> read(64, 48);
+  read_piece_rows(work.path("panorama", next), work.key("panorama", next), 0, 48, 64, {plane_of(read)});
+  EXPECT_EQ(read, *made(2.F));
+}
+
+TEST(PieceWriter, WaitsWhenItGoes) {
+  const test::Folder folder;
+  const WorkFolder work(folder / "work", job, WorkMode::begin);
+  {
+    auto values = made(1.F);
+    PieceWriter writer(work);
+    writer.keep("panorama", square, {plane_of(*values)}, values);
+  }
+  EXPECT_TRUE(work.has("panorama", square));
+}
+
+TEST(PieceWriter, SaysWhatCouldNotBeWritten) {
+  const test::Folder folder;
+  const WorkFolder work(folder / "work", job, WorkMode::begin);
+  PieceWriter writer(work);
+  // The piece before is told of with the next one, the last at the end.
+  std::filesystem::remove_all(folder / "work");
+  const auto values = made(1.F);
+  writer.keep("panorama", square, {plane_of(*values)}, values);
+  test::message_of(ErrorKind::output, [&] { writer.keep("panorama", next, {plane_of(*values)}, values); });
+  writer.keep("panorama", next, {plane_of(*values)}, values);
+  const std::string message = test::message_of(ErrorKind::output, [&] { writer.finish(); });
+  EXPECT_NE(message.find("cannot be created"), std::string::npos) << message;
+  writer.finish();
+}
+
+}  // namespace
+}  // namespace belvedere
