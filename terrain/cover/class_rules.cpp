@@ -130,6 +130,7 @@ struct Run {
   const RuleClimate& climate;
   std::vector<Grid<float>> inputs;
   std::vector<NoiseColumns> noise;  // of each noise variable
+  ClimateColumns columns = plan_climate_columns(climate, dem.transform, dem.width());
 };
 
 // Slots of one row, whole blocks long; each thread has its own.
@@ -167,7 +168,7 @@ void fill_row(const Run& run, const std::vector<bool>& needed, int y, const Land
         out[static_cast<std::size_t>(x)] = static_cast<float>(variable == easting ? place.x : place.y);
       }
     } else if (variable < first_class) {
-      fill_climate_row(run.climate, static_cast<ClimateVariable>(variable - first_climate), run.dem.transform, y, width,
+      fill_climate_row(run.climate, run.columns, static_cast<ClimateVariable>(variable - first_climate), run.dem.transform, y,
                        run.dem.altitude_m.row(y), out.data());
     } else if (v < variables) {
       const auto id = static_cast<LandCoverClass>(variable - first_class);
@@ -303,7 +304,7 @@ Parameters all_parameters(const ClassRules& rules, const ClassRuleParameters& gi
 
 // Makes the run's inputs: what rules see of the ground, and in a window what they saw around it. Returns the ice.
 RuleIce make_inputs(Run& run, const Parameters& parameters, const ClassRuleParameters& given, Progress& progress) {
-  const auto& [rules, program, dem, seed, climate, inputs, noise] = run;
+  const auto& [rules, program, dem, seed, climate, inputs, noise, columns] = run;
   const std::size_t slots = variable_names().size() + rules.terms.size();
   // Ice needs the balance of snow and melting, and that needs variables of its own.
   std::vector<bool> needed = union_of(program.layer_needs, 0, program.layers.size(), slots);

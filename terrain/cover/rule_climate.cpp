@@ -8,12 +8,9 @@
 namespace belvedere {
 namespace {
 
+using Between = ClimateColumns::Between;
+
 // Where between which posts a coordinate lies; `count` posts.
-struct Between {
-  int low;
-  int high;
-  float share;  // of `high`
-};
 Between between(double at, int count) {
   const double held = std::clamp(at, 0.0, static_cast<double>(count - 1));
   const int low = std::min(static_cast<int>(held), std::max(0, count - 2));
@@ -66,14 +63,27 @@ RuleClimate alpine_climate() {
   return climate;
 }
 
-void fill_climate_row(const RuleClimate& climate, ClimateVariable variable, const GeoTransform& transform, int y, int width,
-                      const float* altitude_m, float* out) {
+ClimateColumns plan_climate_columns(const RuleClimate& climate, const GeoTransform& transform, int width) {
+  const auto plan = [&](const GeoTransform& posts_at, int posts) {
+    const glm::dvec2 first = transform.to_crs(0.0, 0.0);
+    const double start = posts_at.to_cell(first.x, first.y).x;
+    const double step = transform.cell_x / posts_at.cell_x;
+    std::vector<Between> columns;
+    columns.reserve(static_cast<std::size_t>(width));
+    for (int x = 0; x < width; ++x) columns.push_back(between(start + step * x, posts));
+    return columns;
+  };
+  return {plan(climate.line_posts, climate.treeline_m.width()),
+          plan(climate.table_posts, climate.moisture.empty() ? 1 : climate.moisture.front().width())};
+}
+
+void fill_climate_row(const RuleClimate& climate, const ClimateColumns& columns, ClimateVariable variable, const GeoTransform& transform,
+                      int y, const float* altitude_m, float* out) {
   const std::span<const Grid<float>> levels = levels_of(climate, variable);
   const Grid<float>& first = levels.front();
   const GeoTransform& posts_at = is_line(variable) ? climate.line_posts : climate.table_posts;
-  const glm::dvec2 start = posts_at.to_cell(transform.to_crs(0.0, y).x, transform.to_crs(0.0, y).y);
-  const double step = transform.cell_x / posts_at.cell_x;
-  const Between row = between(start.y, first.height());
+  const std::vector<Between>& places = is_line(variable) ? columns.lines : columns.tables;
+  const Between row = between(posts_at.to_cell(transform.to_crs(0.0, y).x, transform.to_crs(0.0, y).y).y, first.height());
 
   // The row of each altitude between its two rows of posts: then a cell takes two posts of two altitudes.
   const auto posts = static_cast<std::size_t>(first.width());
@@ -81,19 +91,23 @@ void fill_climate_row(const RuleClimate& climate, ClimateVariable variable, cons
   for (std::size_t k = 0; k < levels.size(); ++k)
     for (int x = 0; x < first.width(); ++x) values[k * posts + static_cast<std::size_t>(x)] = at_post(levels[k], row, x);
 
-  for (int x = 0; x < width; ++x) {
-    const Between column = between(start.x + step * x, first.width());
-    const auto along = [&](std::size_t k) {
-      const float* of_level = values.data() + k * posts;
-      return mix(of_level[column.low], of_level[column.high], column.share);
-    };
-    if (is_line(variable)) {
-      out[x] = along(0);
-      continue;
-    }
-    const Between up = between((static_cast<double>(altitude_m[x]) - climate.lowest_m) / climate.step_m, static_cast<int>(levels.size()));
-    out[x] = mix(along(static_cast<std::size_t>(up.low)), along(static_cast<std::size_t>(up.high)), up.share);
+  const auto along = [&](std::size_t k, const Between& column) {
+    const float* of_level = values.data() + k * posts;
+    return mix(of_level[column.low], of_level[column.high], column.share);
+  };
+  if (is_line(variable)) {
+    for (std::size_t x = 0; x < places.size(); ++x) out[x] = along(0, places[x]);
+    return;
   }
+  for (std::size_t x = 0; x < places.size(); ++x) {
+    const Between up = between((static_cast<double>(altitude_m[x]) - climate.lowest_m) / climate.step_m, static_cast<int>(levels.size()));
+    out[x] = mix(along(static_cast<std::size_t>(up.low), places[x]), along(static_cast<std::size_t>(up.high), places[x]), up.share);
+  }
+}
+
+void fill_climate_row(const RuleClimate& climate, ClimateVariable variable, const GeoTransform& transform, int y, int width,
+                      const float* altitude_m, float* out) {
+  fill_climate_row(climate, plan_climate_columns(climate, transform, width), variable, transform, y, altitude_m, out);
 }
 
 }  // namespace belvedere

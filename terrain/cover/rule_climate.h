@@ -32,7 +32,21 @@ enum class ClimateVariable : int { treeline, ice_line, snow_line, season_snow, m
 // The northern edge of the Alps, everywhere the same: for a terrain that is nowhere, and for tests.
 RuleClimate alpine_climate();
 
+// Where the columns of a DEM lie among the posts: the same in every row.
+struct ClimateColumns {
+  struct Between {
+    int low;
+    int high;
+    float share;  // of `high`
+  };
+  std::vector<Between> lines;
+  std::vector<Between> tables;
+};
+ClimateColumns plan_climate_columns(const RuleClimate& climate, const GeoTransform& transform, int width);
+
 // One row of a variable at the cells (0…width-1, y) of a DEM with that transform; `altitude_m` are their altitudes.
+void fill_climate_row(const RuleClimate& climate, const ClimateColumns& columns, ClimateVariable variable, const GeoTransform& transform,
+                      int y, const float* altitude_m, float* out);
 void fill_climate_row(const RuleClimate& climate, ClimateVariable variable, const GeoTransform& transform, int y, int width,
                       const float* altitude_m, float* out);
 
