@@ -118,6 +118,10 @@ enum class Stream : std::uint16_t {
   rock_diagonals,
   rock_dabs,
   rock_chips,
+  ground_stones,
+  stone_fields,
+  grass_tufts,
+  tuft_fields,
 
   count  // no stream: how many there are
 };

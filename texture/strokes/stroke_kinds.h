@@ -42,6 +42,9 @@ std::vector<Stroke> forest_edges(const StrokeScene& scene, Stream stream);  // t
 std::vector<Stroke> glade_grass(const StrokeScene& scene, Stream stream);   // over whatever lies in the glades
 std::vector<Stroke> scattered_trees(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> low_bushes(const StrokeScene& scene, Stream stream);
+// What only close views show (stroke_close.cpp): nothing where a unit of the sheet shows more than some metres.
+std::vector<Stroke> ground_stones(const StrokeScene& scene, Stream stream);
+std::vector<Stroke> grass_tufts(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> houses(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> churches(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> farms(const StrokeScene& scene, Stream stream);

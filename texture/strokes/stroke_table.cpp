@@ -134,6 +134,9 @@ constexpr StrokeKind kinds[] = {
      .grow = glacier_crevasses,
      .reach = around(32.0),
      .on_ice = true},
+    // Some 9 units large, and up to half a spacing from their seeds; whose neighbours tell how much ground there is.
+    {.name = "stones", .layer = &StrokeLayers::upright, .stream = Stream::ground_stones, .grow = ground_stones, .reach = around(9.0, 4.0)},
+    {.name = "tufts", .layer = &StrokeLayers::upright, .stream = Stream::grass_tufts, .grow = grass_tufts, .reach = around(15.0, 4.0)},
     {.name = "houses", .layer = &StrokeLayers::upright, .stream = Stream::houses, .grow = houses, .reach = around(8.0, 8.0 + 5.6)},
     {.name = "churches", .layer = &StrokeLayers::upright, .stream = Stream::churches, .grow = churches, .reach = around(11.0, 16.0 + 2.0)},
     {.name = "farms", .layer = &StrokeLayers::upright, .stream = Stream::farms, .grow = farms, .reach = around(5.0, 4.7)},
