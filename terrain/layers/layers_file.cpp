@@ -21,36 +21,37 @@ namespace {
 
 constexpr std::string_view base64_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-// RFC 4648. 256 bytes are 85 whole groups of three and one byte, hence "==" at the end.
-std::string to_base64(const std::array<std::uint8_t, 256>& bytes) {
+// RFC 4648: groups of three bytes as four digits; what is left over is filled up with "=".
+std::string to_base64(const std::uint8_t* bytes, std::size_t count) {
   std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto at = [&](std::size_t k) { return i + k < bytes.size() ? static_cast<std::uint32_t>(bytes[i + k]) : 0U; };
+  for (std::size_t i = 0; i < count; i += 3) {
+    const auto at = [&](std::size_t k) { return i + k < count ? static_cast<std::uint32_t>(bytes[i + k]) : 0U; };
     const std::uint32_t group = at(0) << 16U | at(1) << 8U | at(2);
-    for (unsigned k = 0; k < 4; ++k) out += base64_digits[group >> (18U - 6U * k) & 63U];
+    for (unsigned k = 0; k < 4; ++k) out += i + k <= count ? base64_digits[group >> (18U - 6U * k) & 63U] : '=';
   }
-  out.replace(out.size() - 2, 2, "==");
   return out;
 }
 
-std::optional<std::array<std::uint8_t, 256>> from_base64(std::string_view text) {
-  constexpr std::size_t length = 344;
-  if (text.size() != length || !text.ends_with("==")) return std::nullopt;
-  std::array<std::uint8_t, 256> bytes{};
+// 2…256 bytes; nothing for what is no such text.
+std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
+  if (text.empty() || text.size() % 4 != 0 || text.size() > 344) return std::nullopt;
+  const std::size_t filled = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;
+  std::vector<std::uint8_t> bytes;
   std::uint32_t held = 0;
   unsigned bits = 0;
-  std::size_t count = 0;
-  for (const char c : text.substr(0, length - 2)) {
+  for (const char c : text.substr(0, text.size() - filled)) {
     const std::size_t digit = base64_digits.find(c);
     if (digit == std::string_view::npos) return std::nullopt;
     held = held << 6U | static_cast<std::uint32_t>(digit);
     bits += 6;
     if (bits < 8) continue;
     bits -= 8;
-    bytes[count++] = static_cast<std::uint8_t>(held >> bits & 255U);
+    bytes.push_back(static_cast<std::uint8_t>(held >> bits & 255U));
     held &= (1U << bits) - 1U;
   }
-  return held == 0 ? std::optional(bytes) : std::nullopt;  // bits left over are 0, so that one value has one text
+  // Bits left over are 0, so that one value has one text.
+  if (held != 0 || bytes.size() < 2 || bytes.size() > 256) return std::nullopt;
+  return bytes;
 }
 
 // What only surface layers have.
@@ -88,12 +89,17 @@ struct Reader : LayersReader {
       return hat;
     }
     allow_only(table, {"samples", "from", "to"}, where);
-    LayerSamples read{number_or(table, "from", 0.0), number_or(table, "to", 1.0), {}};
+    LayerSamples read{number_or(table, "from", 0.0), number_or(table, "to", 1.0), {}, {}};
     if (model == LayerModel::product && (std::min(read.at_0, read.at_255) < 0.0 || std::max(read.at_0, read.at_255) > 1.0))
       fail(value.place, fmt::format("samples from {} to {}", read.at_0, read.at_255), "0…1 in a product");
     const auto bytes = from_base64(as_string(*samples, where));
-    if (!bytes) fail(samples->place, "samples that are not 256 bytes in base64", "344 characters, the last two ==");
-    read.samples = *bytes;
+    if (!bytes) fail(samples->place, "samples that are not bytes in base64", "2 … 256 of them, as 4 … 344 characters");
+    if (bytes->size() == 256) {
+      std::copy(bytes->begin(), bytes->end(), read.samples.begin());
+    } else {
+      read.samples = samples_of_knots(*bytes);
+      read.knots = *bytes;
+    }
     return read;
   }
 
@@ -247,7 +253,9 @@ std::string function_text(const LayerFunction& function) {
   const auto& samples = std::get<LayerSamples>(function);
   const std::string range =
       samples.at_0 == 0.0 && samples.at_255 == 1.0 ? "" : fmt::format("from = {}, to = {}, ", samples.at_0, samples.at_255);
-  return fmt::format("{{ {}samples = \"{}\" }}", range, to_base64(samples.samples));
+  return fmt::format("{{ {}samples = \"{}\" }}", range,
+                     samples.knots.empty() ? to_base64(samples.samples.data(), samples.samples.size())
+                                           : to_base64(samples.knots.data(), samples.knots.size()));
 }
 
 std::string layer_text(const SurfaceLayers& file, const SurfaceLayer& layer) {

@@ -43,6 +43,21 @@ void check_function(const LayerFunction& function, LayerModel model, const std::
 
 }  // namespace
 
+std::array<std::uint8_t, 256> samples_of_knots(const std::vector<std::uint8_t>& knots) {
+  std::array<std::uint8_t, 256> samples{};
+  const int steps = static_cast<int>(knots.size()) - 1;
+  for (int i = 0; i < 256; ++i) {
+    // Place (2 i + 1) / 512 of the range, in whole numbers: 512ths of the way from one knot to the next.
+    const int at = (2 * i + 1) * steps;
+    const int first = at / 512;
+    const int share = at % 512;
+    const int low = knots[static_cast<std::size_t>(first)];
+    const int high = knots[static_cast<std::size_t>(std::min(first + 1, steps))];
+    samples[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>((low * (512 - share) + high * share + 256) / 512);
+  }
+  return samples;
+}
+
 double layer_function_value(const LayerFunction& function, const LayerInput& input, LayerModel model, double x) {
   if (const auto* hat = std::get_if<LayerHat>(&function)) {
     const double value = std::clamp(std::min(ramp(x - hat->low, hat->low_width), ramp(hat->high - x, hat->high_width)), 0.0, 1.0);

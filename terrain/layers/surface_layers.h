@@ -44,7 +44,10 @@ struct LayerSamples {
   double at_0 = 0.0;
   double at_255 = 1.0;
   std::array<std::uint8_t, 256> samples{};
+  std::vector<std::uint8_t> knots = {};  // what files hold instead where it says all: the samples are samples_of_knots() then; empty: none
 };
+// 256 samples of so many values (2…256) spread evenly from one end of the range to the other, linear between them.
+std::array<std::uint8_t, 256> samples_of_knots(const std::vector<std::uint8_t>& knots);
 
 // Nothing (1 in a product, 0 in a sum), a hat, or samples. A hat in an additive model counts as its logarithm, at least -12.
 using LayerFunction = std::variant<std::monostate, LayerHat, LayerSamples>;

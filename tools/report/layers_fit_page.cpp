@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/json.h"
+#include "terrain/layers/fit/colour_regions.h"
 #include "terrain/layers/fit/held_out.h"
 #include "terrain/layers/fit/hue_saturation.h"
 #include "terrain/layers/layer_coverage.h"
@@ -65,11 +66,10 @@ Grid<glm::vec3> plane_picture(const KnownGround& ground, const std::vector<glm::
   std::vector<std::vector<float>> counts(colours.size(), std::vector<float>(static_cast<std::size_t>(side) * side, 0.0F));
   for (std::size_t i = 0; i != ground.labels.size(); ++i) {
     if (ground.labels[i] == no_class) continue;
-    const PlanePlace at = hue_saturation_place(
-        hue_saturation_of(static_cast<double>(smooth.r[i]), static_cast<double>(smooth.g[i]), static_cast<double>(smooth.b[i])));
-    const int x = std::clamp(static_cast<int>((0.5 + 0.5 * at.x) * side), 0, side - 1);
-    const int y = std::clamp(static_cast<int>((0.5 - 0.5 * at.y) * side), 0, side - 1);
-    counts[ground.labels[i]][static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)] += 1.0F;
+    const PlanePixel at =
+        plane_pixel(hue_saturation_of(static_cast<double>(smooth.r[i]), static_cast<double>(smooth.g[i]), static_cast<double>(smooth.b[i])),
+                    side, side);
+    counts[ground.labels[i]][static_cast<std::size_t>(at.y) * side + static_cast<std::size_t>(at.x)] += 1.0F;
   }
   Grid<glm::vec3> picture(side, side, glm::vec3(0.05F));
   for (std::size_t p = 0; p != picture.size(); ++p) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
+#include <glm/common.hpp>
 
 #include "base/config.h"
 #include "base/error.h"
@@ -38,7 +40,28 @@ bool inside(const std::vector<std::array<double, 2>>& polygon, const HueSaturati
   return odd;
 }
 
-ColourRegion region_of(const ConfigTable& table, ConfigPlace place, const std::string& name) {
+// The pixels of a picture of the plane that are painted in a colour, "#rrggbb". Painters' edges are soft: a pixel of less than a twelfth
+// of the way to white or black away counts.
+Grid<std::uint8_t> painted_in(const Grid<glm::vec3>& picture, const ConfigValue& colour, const std::string& name) {
+  const std::string& text = as_string(colour, name);
+  const bool good = text.size() == 7 && text[0] == '#' && text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+  if (!good) throw Error(ErrorKind::usage, config_where(name, colour.place), describe(colour), "a colour as \"#rrggbb\"");
+  const auto rgb = static_cast<std::uint32_t>(std::stoul(text.substr(1), nullptr, 16));
+  const glm::vec3 wanted = glm::vec3(rgb >> 16U & 255U, rgb >> 8U & 255U, rgb & 255U) / 255.F;
+  Grid<std::uint8_t> painted(picture.width(), picture.height());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i != picture.size(); ++i) {
+    const glm::vec3 away = glm::abs(picture[i] - wanted);
+    painted[i] = std::max({away.x, away.y, away.z}) < 1.F / 12.F ? 1 : 0;
+    count += painted[i];
+  }
+  if (count == 0)
+    throw Error(ErrorKind::usage, config_where(name, colour.place), fmt::format("no pixel of the picture is {}", text),
+                "a colour that the plane is painted in");
+  return painted;
+}
+
+ColourRegion region_of(const ConfigTable& table, ConfigPlace place, const std::string& name, const Grid<glm::vec3>& picture) {
   allow_only(table, {"name", "class", "colour", "grey", "hue_deg", "saturation", "value", "polygon", "lowest_m"}, name);
   ColourRegion region;
   const ConfigValue* title = find(table, "name");
@@ -54,6 +77,12 @@ ColourRegion region_of(const ConfigTable& table, ConfigPlace place, const std::s
       throw Error(ErrorKind::usage, config_where(name, painted_as->place), fmt::format("unknown class \"{}\"", word),
                   near.empty() ? "a class of docs/legends.md" : near);
     }
+  }
+  if (const ConfigValue* colour = find(table, "colour")) {
+    if (picture.empty())
+      throw Error(ErrorKind::usage, config_where(name, colour->place), "a colour, and no picture in which regions are painted",
+                  "image = \"NAME.png\" above the regions");
+    region.painted = painted_in(picture, *colour, name);
   }
   if (const ConfigValue* grey = find(table, "grey")) region.grey = as_bool(*grey, name);
   if (const ConfigValue* hue = find(table, "hue_deg")) region.hue_deg = as_pair(*hue, name, 0.0, 360.0);
@@ -73,12 +102,18 @@ ColourRegion region_of(const ConfigTable& table, ConfigPlace place, const std::s
   return region;
 }
 
-std::vector<ColourRegion> regions_of(const ConfigValue& root, const std::string& name) {
+std::vector<ColourRegion> regions_of(const ConfigValue& root, const std::string& name, const PictureReader& read_picture) {
   const ConfigTable& table = as_table(root, name);
-  allow_only(table, {"region"}, name);
+  allow_only(table, {"image", "region"}, name);
   std::vector<ColourRegion> regions;
+  Grid<glm::vec3> picture;
+  if (const ConfigValue* image = find(table, "image")) {
+    const std::filesystem::path path = as_string(*image, name);
+    if (!read_picture) throw Error(ErrorKind::bug, name, "regions are painted, and nobody reads pictures");
+    picture = read_picture(path.is_absolute() ? path.string() : (std::filesystem::path(name).parent_path() / path).string());
+  }
   if (const ConfigValue* list = find(table, "region"))
-    for (const ConfigValue& value : as_array(*list, name)) regions.push_back(region_of(as_table(value, name), value.place, name));
+    for (const ConfigValue& value : as_array(*list, name)) regions.push_back(region_of(as_table(value, name), value.place, name, picture));
   // A name may come twice: a class of several regions.
   if (regions.empty()) throw Error(ErrorKind::usage, name, "no region", "[[region]] tables");
   return regions;
@@ -96,12 +131,24 @@ bool holds(const ColourRegion& region, const HueSaturation& colour, double altit
     const bool in = from <= to ? colour.hue_deg >= from && colour.hue_deg < to : colour.hue_deg >= from || colour.hue_deg < to;
     if (!in) return false;
   }
+  if (!region.painted.empty()) {
+    const PlanePixel at = plane_pixel(colour, region.painted.width(), region.painted.height());
+    if (region.painted(at.x, at.y) == 0) return false;
+  }
   return region.polygon.empty() || inside(region.polygon, colour);
 }
 
-std::vector<ColourRegion> parse_colour_regions(std::string_view text, const std::string& name) {
-  return regions_of(parse_config(text, name), name);
+PlanePixel plane_pixel(const HueSaturation& colour, int width, int height) {
+  const PlanePlace at = hue_saturation_place(colour);
+  return {std::clamp(static_cast<int>((0.5 + 0.5 * at.x) * width), 0, width - 1),
+          std::clamp(static_cast<int>((0.5 - 0.5 * at.y) * height), 0, height - 1)};
 }
-std::vector<ColourRegion> read_colour_regions(const std::string& path) { return regions_of(read_config(path), path); }
+
+std::vector<ColourRegion> parse_colour_regions(std::string_view text, const std::string& name, const PictureReader& read_picture) {
+  return regions_of(parse_config(text, name), name, read_picture);
+}
+std::vector<ColourRegion> read_colour_regions(const std::string& path, const PictureReader& read_picture) {
+  return regions_of(read_config(path), path, read_picture);
+}
 
 }  // namespace belvedere

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/grid.h"
 #include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/fit/hue_saturation.h"
 
@@ -21,11 +25,22 @@ struct ColourRegion {
   std::array<double, 2> value = {0.0, 1.01};                   // from … up to
   std::vector<std::array<double, 2>> polygon;                  // hue in degrees, saturation: corners in the plane; empty: none
   double lowest_m = -std::numeric_limits<double>::infinity();  // no lower than this: clouds are not snow
+  Grid<std::uint8_t> painted;  // 1 where the region is painted in a picture of the plane (plane_pixel); empty: not painted
 };
+// Where a colour lies in a picture of the plane, as a report draws it: the middle is grey, red to the right, green upwards to the left.
+struct PlanePixel {
+  int x = 0;
+  int y = 0;
+};
+PlanePixel plane_pixel(const HueSaturation& colour, int width, int height);
 bool holds(const ColourRegion& region, const HueSaturation& colour, double altitude_m);
 
-// [[region]] tables (docs/layers_fit.md); the first that holds a colour has it. Error(usage) with file:line:column.
-std::vector<ColourRegion> parse_colour_regions(std::string_view text, const std::string& name);
-std::vector<ColourRegion> read_colour_regions(const std::string& path);
+// A picture of a path that a file of regions names, encoded sRGB 0…1; throws Error(input).
+using PictureReader = std::function<Grid<glm::vec3>(const std::string& path)>;
+
+// [[region]] tables (docs/layers_fit.md); the first that holds a colour has it. Error(usage) with file:line:column. Where regions are
+// painted, the picture lies beside the file.
+std::vector<ColourRegion> parse_colour_regions(std::string_view text, const std::string& name, const PictureReader& read_picture = {});
+std::vector<ColourRegion> read_colour_regions(const std::string& path, const PictureReader& read_picture = {});
 
 }  // namespace belvedere

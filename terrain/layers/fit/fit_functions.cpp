@@ -259,16 +259,13 @@ class AdditiveLoss {
   std::vector<double> prior_;
 };
 
-std::array<double, samples> sampled(const double* knots, std::size_t stride, const std::array<KnotPlace, samples>& places) {
-  std::array<double, samples> values;
-  for (std::size_t i = 0; i != samples; ++i) {
-    const double* at = knots + places[i].first * stride;
-    values[i] = at[0] + places[i].next * (at[stride] - at[0]);
-  }
-  return values;
-}
-
 std::uint8_t to_byte(double unit) { return static_cast<std::uint8_t>(std::floor(255.0 * std::clamp(unit, 0.0, 1.0) + 0.5)); }
+
+// What is fitted are knots: the file holds them alone, and the samples follow from their bytes.
+void set_knots(LayerSamples& function, std::vector<std::uint8_t> knots) {
+  function.samples = samples_of_knots(knots);
+  function.knots = std::move(knots);
+}
 
 double value_of(const LayerSamples& function, std::size_t sample) {
   return function.at_0 + (function.at_255 - function.at_0) * static_cast<double>(function.samples[sample]) / 255.0;
@@ -294,7 +291,6 @@ ClassFunctions fit_product(const FitCells& cells, const FitFunctionParameters& p
   for (const std::uint32_t i : use) of_class[cells.labels[i]].push_back(i);
   std::vector<std::uint32_t> under = of_class[static_cast<std::size_t>(fitted.order[0])];
   const auto knots = static_cast<std::size_t>(parameters.knots);
-  const std::array<KnotPlace, samples> places = knot_places(knots);
   for (std::size_t rank = 1; rank != classes; ++rank) {
     const auto k = static_cast<std::size_t>(fitted.order[rank]);
     if (of_class[k].empty()) {
@@ -307,8 +303,9 @@ ClassFunctions fit_product(const FitCells& cells, const FitFunctionParameters& p
     const MinimizeResult best = minimize(std::move(start), std::cref(loss), {.steps = parameters.steps});
     fitted.bias[k] = sigmoid(best.at[0]);
     for (std::size_t a = 0; a != inputs; ++a) {
-      const std::array<double, samples> logits = sampled(&best.at[1 + a * knots], 1, places);
-      for (std::size_t i = 0; i != samples; ++i) fitted.functions[k][a].samples[i] = to_byte(sigmoid(logits[i]));
+      std::vector<std::uint8_t> bytes(knots);
+      for (std::size_t j = 0; j != knots; ++j) bytes[j] = to_byte(sigmoid(best.at[1 + a * knots + j]));
+      set_knots(fitted.functions[k][a], std::move(bytes));
     }
     under.insert(under.end(), of_class[k].begin(), of_class[k].end());
   }
@@ -323,16 +320,20 @@ ClassFunctions fit_additive(const FitCells& cells, const FitFunctionParameters& 
   const MinimizeResult best = minimize(std::vector<double>(inputs * knots * classes, 0.0), std::cref(loss), {.steps = parameters.steps});
   ClassFunctions fitted{LayerModel::additive, by_falling_area(count_labels(cells.labels, cells.classes)), std::vector<double>(classes),
                         std::vector(classes, std::vector(inputs, LayerSamples{})), 0};
-  const std::array<KnotPlace, samples> places = knot_places(knots);
   for (std::size_t k = 0; k != classes; ++k) {
     fitted.bias[k] = exact::log(loss.prior()[k]);
     for (std::size_t a = 0; a != inputs; ++a) {
-      const std::array<double, samples> values = sampled(&best.at[a * knots * classes + k], classes, places);
+      std::vector<double> values(knots);
+      for (std::size_t j = 0; j != knots; ++j) values[j] = best.at[(a * knots + j) * classes + k];
       const auto [low, high] = std::minmax_element(values.begin(), values.end());
       LayerSamples& function = fitted.functions[k][a];
-      function.at_0 = *low;
-      function.at_255 = *high;
-      for (std::size_t i = 0; i != samples && *high > *low; ++i) function.samples[i] = to_byte((values[i] - *low) / (*high - *low));
+      // Thousandths are enough to tell shares apart, and short in a file.
+      function.at_0 = std::floor(*low * 1000.0) / 1000.0;
+      function.at_255 = std::ceil(*high * 1000.0) / 1000.0;
+      std::vector<std::uint8_t> bytes(knots);
+      for (std::size_t j = 0; j != knots && function.at_255 > function.at_0; ++j)
+        bytes[j] = to_byte((values[j] - function.at_0) / (function.at_255 - function.at_0));
+      set_knots(function, std::move(bytes));
     }
   }
   return fitted;

@@ -11,8 +11,8 @@
 #include "base/error.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "terrain/layers/fit/clusters.h"
 #include "terrain/cover/layer_inputs.h"
+#include "terrain/layers/fit/clusters.h"
 
 namespace belvedere {
 namespace {
@@ -99,9 +99,24 @@ std::uint32_t packed(const std::array<double, 3>& rgb) {
   return value;
 }
 
+// Functions that say nothing are left out: those of a product that are 1 throughout, and of a sum those that change a share by less than
+// two hundredths of itself from one end to the other.
 void set_functions(SurfaceLayer& layer, const ClassFunctions& functions, std::size_t of) {
+  constexpr double least_span = 0.02;
   layer.noise.bias = functions.bias[of];
-  layer.functions.assign(functions.functions[of].begin(), functions.functions[of].end());
+  layer.functions.clear();
+  for (const LayerSamples& function : functions.functions[of]) {
+    const auto [low, high] = std::minmax_element(function.samples.begin(), function.samples.end());
+    const double step = (function.at_255 - function.at_0) / 255.0;
+    if (functions.model == LayerModel::product && function.at_255 == 1.0 && *low == 255) {
+      layer.functions.emplace_back();
+    } else if (functions.model == LayerModel::additive && step * (*high - *low) < least_span) {
+      layer.noise.bias += function.at_0 + step * 0.5 * (*low + *high);
+      layer.functions.emplace_back();
+    } else {
+      layer.functions.emplace_back(function);
+    }
+  }
 }
 
 // First leaf of each class, and after the last the number of leaves.

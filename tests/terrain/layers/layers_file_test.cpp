@@ -3,7 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -134,6 +138,36 @@ TEST(LayersFile, SamplesAreBase64) {
   EXPECT_THAT(text, HasSubstr("8PHy8/T19vf4+fr7/P3+/w==\""));
 }
 
+// Fewer values stand at even distances from end to end, with straight lines between them.
+TEST(LayersFile, FewKnotsSayAllSamples) {
+  // 0 and 255: Python's base64 of those two bytes.
+  const std::string ramp = std::string(head) + "[[layers]]\nname = \"a\"\nfunctions = { altitude = { samples = \"AP8=\" } }\n";
+  const SurfaceLayers two = parse_surface_layers(ramp, "x.toml");
+  const auto& samples = std::get<LayerSamples>(two.layers[0].functions[0]);
+  EXPECT_EQ(samples.knots, (std::vector<std::uint8_t>{0, 255}));
+  for (int i = 0; i < 256; ++i) EXPECT_NEAR(samples.samples[static_cast<std::size_t>(i)], 255.0 * layer_sample_place(i), 0.5) << i;
+  for (const std::size_t count : {2U, 3U, 4U, 31U, 32U, 33U, 255U}) {
+    LayerSamples function;
+    for (std::size_t j = 0; j < count; ++j)
+      function.knots.push_back(static_cast<std::uint8_t>(random_bits(4, static_cast<std::int64_t>(j), static_cast<std::int64_t>(count))));
+    function.samples = samples_of_knots(function.knots);
+    SurfaceLayers layers = two;
+    layers.layers[0].functions[0] = function;
+    const std::string text = surface_layers_text(layers);
+    const auto read = std::get<LayerSamples>(parse_surface_layers(text, "x.toml").layers[0].functions[0]);
+    EXPECT_EQ(read.knots, function.knots) << count;
+    EXPECT_EQ(read.samples, function.samples) << count;
+    // Where two knots are at even places between, samples are on the line: exact in whole numbers.
+    for (int i = 0; i < 256; ++i) {
+      const double at = layer_sample_place(i) * static_cast<double>(count - 1);
+      const auto first = static_cast<std::size_t>(at);
+      const double low = function.knots[first];
+      const double high = function.knots[std::min(first + 1, count - 1)];
+      ASSERT_NEAR(function.samples[static_cast<std::size_t>(i)], low + (at - static_cast<double>(first)) * (high - low), 0.5001);
+    }
+  }
+}
+
 TEST(LayersFile, OrdersLayersDepthFirst) {
   const SurfaceLayers layers = parse_surface_layers(
       "version = "
@@ -158,8 +192,8 @@ TEST(LayersFile, FaultsNameTheirPlace) {
   expect_fault("version = 1\n[[inputs]]\nname = \"altitud\"\nlow = 0\nhigh = 1\n", "x.toml:3:8", "did you mean \"altitude\"");
   expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\n[layers.functions]\naltitute = { low = 3 }\n", "x.toml:9:1",
                "did you mean \"altitude\"");
-  expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\n[layers.functions]\naltitude = { samples = \"AAEC\" }\n", "x.toml:9:24",
-               "not 256 bytes");
+  expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\n[layers.functions]\naltitude = { samples = \"AAE_\" }\n", "x.toml:9:24",
+               "not bytes in base64");
   expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\nwhen = \"slop > 3\"\n", "x.toml:8:9", "did you mean \"slope\"");
   expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\ncolour = \"red\"\n", "x.toml:8:10", "red");
   expect_fault(std::string(head) + "[[layers]]\nname=\"a\"\n[[layers]]\nname=\"a\"\n", "x.toml:8:1", "second layer");

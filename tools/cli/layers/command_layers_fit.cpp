@@ -15,12 +15,12 @@
 #include "base/parallel.h"
 #include "renderer/image/image_io.h"
 #include "terrain/climate/stations.h"
+#include "terrain/cover/ground_variables.h"
 #include "terrain/cover/land_cover.h"
+#include "terrain/cover/layer_inputs.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/fit/picture_classes.h"
-#include "terrain/cover/ground_variables.h"
-#include "terrain/cover/layer_inputs.h"
 #include "terrain/layers/layers_file.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
@@ -170,7 +170,8 @@ void leave_out_masked(const Options& options, Ground& ground, Findings& findings
 
 void classes_of_picture(const Options& options, const Ground& ground, KnownGround& known, Findings& findings) {
   PictureClassParameters parameters;
-  if (!options.regions.empty()) parameters.regions = read_colour_regions(options.regions);
+  if (!options.regions.empty())
+    parameters.regions = read_colour_regions(options.regions, [](const std::string& path) { return read_picture(path); });
   PictureClasses found = picture_classes(*ground.rgb, known.altitude_m, known.cell_m, ground.use, parameters);
   const auto share = [](const Grid<std::uint8_t>& mask) {
     std::size_t set = 0;

@@ -41,6 +41,47 @@ grey = true
   EXPECT_FALSE(holds(regions[3], {300.0, 0.4, 0.5, false}, 0.0));
 }
 
+// The right half of the plane is painted red, the upper left quarter green; a soft edge between, and paper.
+TEST(ColourRegions, MayBePaintedOverAPictureOfThePlane) {
+  Grid<glm::vec3> plane(100, 100, glm::vec3(1.F));
+  for (int y = 0; y < 100; ++y)
+    for (int x = 0; x < 100; ++x) {
+      if (x >= 50) plane(x, y) = {0.97F, 0.02F, 0.F};  // a painter's red is not exact
+      if (x < 49 && y < 50) plane(x, y) = {0.F, 1.F, 0.F};
+    }
+  std::string asked;
+  const auto read = [&](const std::string& path) {
+    asked = path;
+    return plane;
+  };
+  const std::vector<ColourRegion> regions = parse_colour_regions(
+      "image = \"plane.png\"\n[[region]]\nname = \"rock\"\ncolour = \"#ff0000\"\n[[region]]\nname = \"wood\"\ncolour = \"#00ff00\"\n"
+      "lowest_m = 500\n",
+      "some/folder/regions.toml", read);
+  EXPECT_EQ(asked, "some/folder/plane.png");
+  ASSERT_EQ(regions.size(), 2U);
+  for (const double hue : {350.0, 0.0, 60.0, 85.0}) {
+    EXPECT_TRUE(holds(regions[0], {hue, 0.6, 0.5, false}, 1000.0)) << hue;
+    EXPECT_FALSE(holds(regions[1], {hue, 0.6, 0.5, false}, 1000.0)) << hue;
+  }
+  for (const double hue : {100.0, 135.0, 170.0}) {
+    EXPECT_FALSE(holds(regions[0], {hue, 0.6, 0.5, false}, 1000.0)) << hue;
+    EXPECT_TRUE(holds(regions[1], {hue, 0.6, 0.5, false}, 1000.0)) << hue;
+    EXPECT_FALSE(holds(regions[1], {hue, 0.6, 0.5, false}, 400.0)) << "altitude counts as well";
+  }
+  for (const ColourRegion& region : regions) EXPECT_FALSE(holds(region, {220.0, 0.6, 0.5, false}, 1000.0)) << "paper";
+  const auto refused = [&](const char* text) -> std::string {
+    try {
+      parse_colour_regions(text, "r.toml", read);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refused("image = \"p.png\"\n[[region]]\nname = \"a\"\ncolour = \"#0000ff\"").find("r.toml:4"), std::string::npos);
+  EXPECT_NE(refused("[[region]]\nname = \"a\"\ncolour = \"#0000ff\"").find("no picture"), std::string::npos);
+}
+
 TEST(ColourRegions, FaultsNameTheirPlace) {
   const auto message = [](const char* text) {
     try {
