@@ -318,8 +318,8 @@ TEST(StrokePainter, EveryKindOfStrokeIsPaintedInItsLayer) {
   const Names ground = {"wash",        "meadow", "rock facets", "rock dabs", "rock chips",    "rock rubble", "rock turf",
                         "rock drifts", "scree",  "sand",        "snow",      "broken colour", "water"};
   const Names breaks = {"glacier flow lines", "glacier edges", "glacier moraines", "glacier crevasses"};
-  const Names upright = {"forest trees", "forest edges", "glade grass", "scattered trees", "low bushes",
-                         "rock trees",   "grass flecks", "houses",      "churches",        "farms"};
+  const Names upright = {"forest trees", "forest edges", "glade grass", "scattered trees", "low bushes", "rock trees",
+                         "grass flecks", "stones",       "tufts",       "houses",          "churches",   "farms"};
   EXPECT_EQ(ground.size() + breaks.size() + upright.size() + 2, stroke_kinds().size()) << "sky and accents are the other two";
   StrokeParameters winter;
   winter.winter = true;
