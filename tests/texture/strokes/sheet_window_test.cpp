@@ -22,6 +22,9 @@ using enum LandCoverClass;
 
 double hash_at(int stream, int x, int y) { return random_uniform(static_cast<std::uint64_t>(stream), x, y); }
 
+// Ground on the left that is seen from close by, where there is no ice.
+bool is_close(int u, int v) { return u < 20 && v >= 32 && v < 160; }
+
 // What stands at a place of the sheet, units: above, blocks of all classes; below, a long glacier with ribs of rock and snow in it.
 LandCoverClass class_on(int u, int v, int ice_from) {
   const int row = v / 16;
@@ -30,6 +33,7 @@ LandCoverClass class_on(int u, int v, int ice_from) {
     if (u % 40 > 12 && u % 40 < 22 && v % 60 > 20 && v % 60 < 29 && hash_at(4, u / 40, v / 60) < 0.5) return rock;
     return column % 5 == 4 ? snow : glacier;
   }
+  if (is_close(u, v)) return row < 5 ? scree : alpine_grass;
   if (column == 2) return row % 4 == 0 ? forest : row % 4 == 1 ? pasture : settlement;
   if (column == 3) return row % 3 == 0 ? rock : row % 3 == 1 ? forest : snow;
   const auto& classes = land_cover_classes();
@@ -67,6 +71,10 @@ Picture make_sheet(int width_units, int height_units, double pixels_per_unit) {
       p.guidance.relief_s_m(x, y) = 22.F + 10.F * noise(11, 12.0);
       p.guidance.built(x, y) = std::clamp(0.55F + 0.25F * noise(12, 6.0), 0.F, 1.F);
       p.guidance.grain(x, y) = glm::vec2(noise(13, 60.0), noise(14, 60.0)) * 0.3F;
+      if (!ice_below && is_close(static_cast<int>(u), static_cast<int>(v))) {
+        p.guidance.footprint_m(x, y) = static_cast<float>(0.3 / pixels_per_unit);
+        p.guidance.position_m(x, y) = glm::vec3(0.3 * u, -0.3 * v, 900.0);
+      }
       p.ground.colour(x, y) = glm::vec3(0.4F + 0.2F * grain(15), 0.4F + 0.2F * grain(16), 0.4F + 0.2F * grain(17));
       p.ground.darker(x, y) = p.ground.colour(x, y) - 0.1F - 0.05F * grain(18);
       p.ground.lighter(x, y) = p.ground.colour(x, y) + 0.1F + 0.05F * grain(19);
