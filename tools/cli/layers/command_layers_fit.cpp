@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <memory>
 #include <optional>
@@ -179,9 +180,10 @@ void classes_of_picture(const Options& options, const Ground& ground, KnownGroun
     return 100.0 * static_cast<double>(set) / static_cast<double>(mask.size());
   };
   if (found.clouds.found)
-    findings.note("clouds cover {:.1f} %, their shadows {:.1f} %, {} cells east and {} south of them: the sun stands at azimuth {:.0f}°",
-                  share(found.clouds.cloud), share(found.clouds.shadow), found.clouds.shadow_x, found.clouds.shadow_y,
-                  found.clouds.sun_azimuth_deg);
+    findings.note("clouds cover {:.1f} %, their shadows {:.1f} %, {} cells {} and {} {} of them: the sun stands at azimuth {:.0f}°",
+                  share(found.clouds.cloud), share(found.clouds.shadow), std::abs(found.clouds.shadow_x),
+                  found.clouds.shadow_x < 0 ? "west" : "east", std::abs(found.clouds.shadow_y),
+                  found.clouds.shadow_y < 0 ? "north" : "south", found.clouds.sun_azimuth_deg);
   else
     findings.note("no clouds: nothing white has a shadow beside it");
   if (!parameters.regions.empty())
