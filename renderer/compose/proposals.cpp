@@ -21,11 +21,12 @@ double distance(glm::dvec2 a, glm::dvec2 b) {
 }
 
 bool differ(const ViewSearch& search, const Candidate& a, const Candidate& b, double degrees) {
-  const bool turned = off_by(a.view.azimuth_deg, b.view.azimuth_deg) > degrees;
-  const bool moved = distance(a.view.viewer, b.view.viewer) > 0.25 * search.ground.side_m;
-  const bool other = a.plan.anchor != b.plan.anchor;
-  if (search.wishes.from || search.wishes.towards_deg) return turned || other || moved;
-  return turned || (moved && other);
+  const double turn = off_by(a.view.azimuth_deg, b.view.azimuth_deg);
+  const double moved = distance(a.view.viewer, b.view.viewer) / search.ground.side_m;
+  if (turn > degrees) return true;
+  // Where the direction is given, another place, or another subject from a little farther off, is another view.
+  if (search.wishes.towards_deg) return moved > 0.25 || (moved > 0.12 && a.plan.anchor != b.plan.anchor);
+  return moved > 0.25 && a.plan.anchor != b.plan.anchor;
 }
 
 std::vector<Candidate> best_that_differ(const ViewSearch& search, std::vector<Candidate> candidates, std::size_t most, double degrees) {
@@ -39,6 +40,13 @@ std::vector<Candidate> best_that_differ(const ViewSearch& search, std::vector<Ca
   return out;
 }
 
+// From a given place some directions show nothing that leads; they count only where all do.
+void drop_views_of_nothing(const ViewSearch& search, std::vector<Candidate>& candidates) {
+  if (!search.wishes.from) return;
+  const auto shows_none = [](const Candidate& c) { return !c.measures.anchors[static_cast<std::size_t>(c.plan.anchor)].inside; };
+  if (!std::all_of(candidates.begin(), candidates.end(), shows_none)) std::erase_if(candidates, shows_none);
+}
+
 }  // namespace
 
 void require_region(const CoarseGround& ground, const Massifs& massifs, const std::string& name) {
@@ -47,7 +55,8 @@ void require_region(const CoarseGround& ground, const Massifs& massifs, const st
   constexpr double least_relief = 0.008;  // of the side
   if (ground.side_m < least_side_m)
     throw Error(ErrorKind::input, name,
-                fmt::format("covers {:.1f} km × {:.1f} km: too little for a panorama", ground.side_m / 1000.0, ground.side_m / 1000.0),
+                fmt::format("holds data of {:.0f} km², a square of {:.1f} km: too little for a panorama",
+                            ground.side_m * ground.side_m / 1e6, ground.side_m / 1000.0),
                 "a region of 8 km or more a side, better 30 to 80: several files can be named, which are joined");
   if (ground.void_share > most_void)
     throw Error(ErrorKind::input, name, fmt::format("{:.0f} % of it is empty: nothing is known there", 100.0 * ground.void_share),
@@ -76,11 +85,13 @@ std::vector<Candidate> propose_views(const ViewSearch& search, const ProposalPar
     if (search.wishes.towards_deg) allowed += ", or another direction";
     throw Error(ErrorKind::input, "the region", found, allowed);
   }
+  drop_views_of_nothing(search, candidates);
   // More are refined than are wanted: some meet on the way.
   const auto wanted = static_cast<std::size_t>(parameters.most);
   constexpr double apart_before = 20.0, apart = 25.0;
   std::vector<Candidate> starts = best_that_differ(search, std::move(candidates), wanted + 3, apart_before);
   for (Candidate& start : starts) start = refine(search, std::move(start));
+  drop_views_of_nothing(search, starts);
   std::vector<Candidate> out = best_that_differ(search, std::move(starts), wanted, apart);
   for (const ViewWishes::Place& place : search.wishes.include) {
     const std::size_t at = search.massifs.anchors.size() + static_cast<std::size_t>(&place - search.wishes.include.data());

@@ -16,8 +16,6 @@ constexpr double off_wish_deg = 15.0;  // that a wished azimuth leaves free
 double turned(double degrees) { return degrees - 360.0 * std::floor(degrees / 360.0); }
 double off_by(double a, double b) { return std::abs(turned(a - b + 180.0) - 180.0); }
 
-double length(glm::dvec2 v) { return std::sqrt(v.x * v.x + v.y * v.y); }
-
 // A place that a user wants to see, as an anchor: a summit's top is seen or hidden.
 Anchor anchor_of(const CoarseGround& ground, const ViewWishes::Place& place) {
   return {.kind = AnchorKind::summit,
@@ -78,8 +76,10 @@ std::optional<Candidate> judge(const ViewSearch& search, const ViewPlan& plan, c
   std::vector<Anchor> anchors = search.massifs.anchors;
   for (const ViewWishes::Place& place : search.wishes.include) anchors.push_back(anchor_of(search.ground, place));
   out.measures = measure_view(search.ground, *view, anchors, measure);
-  const ScoreContext context{
+  ScoreContext context{
       .lone = search.massifs.lone, .plateau = search.ground.plateau, .main = plan.anchor, .anchors = search.massifs.anchors};
+  // A viewer who stands where the user wants sees what there is: the picture is about what leads in it.
+  if (search.wishes.from) context.main = out.plan.anchor = leading_anchor(out.measures, context);
   out.terms = score_terms(out.measures, context);
   out.score = total(out.terms);
   out.merit = merit(out.terms, context);
@@ -102,6 +102,7 @@ std::vector<Candidate> first_candidates(const ViewSearch& search) {
   int summits = 0;
   for (std::size_t k = 0; k < anchors.size(); ++k) {
     if (anchors[k].kind == AnchorKind::summit && ++summits > 3) continue;
+    if (search.wishes.from && k > 0) break;  // only direction and size are left
     for (int a = 0; a < 24; ++a) {
       double azimuth = 15.0 * a;
       if (search.wishes.towards_deg) {
@@ -111,7 +112,7 @@ std::vector<Candidate> first_candidates(const ViewSearch& search) {
       const bool low = anchors[k].kind != AnchorKind::summit;  // canyons and shores lie in the middle distance
       for (const double share : low ? std::array{0.55, 0.66, 0.78} : std::array{0.62, 0.76, 0.90})
         for (const double across : {0.35, 0.5, 0.65}) {
-          if (search.wishes.from && (share != (low ? 0.55 : 0.62) || across != 0.5)) continue;
+          if (search.wishes.from && (share > 0.62 || across != 0.5)) continue;
           starts.push_back({.anchor = static_cast<int>(k),
                             .azimuth_deg = azimuth,
                             .field_of_view_deg = limits.field_of_view_deg,
@@ -136,10 +137,6 @@ std::vector<Candidate> first_candidates(const ViewSearch& search) {
         ViewPlan plan = starts[i];
         plan.far_m = shares[static_cast<std::size_t>(s)] * search.ground.side_m;
         if (plan.far_m > 0.7 * last) continue;
-        if (search.wishes.from) {
-          const double away = length(anchors[static_cast<std::size_t>(plan.anchor)].place - *search.wishes.from);
-          plan.anchor_share = std::clamp(away / plan.far_m, 0.36, 0.97);
-        }
         std::optional<Candidate> candidate = judge(search, plan, quick);
         if (!candidate) continue;
         last = plan.far_m;

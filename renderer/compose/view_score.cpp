@@ -148,6 +148,17 @@ double total(const std::vector<ScoreTerm>& terms) {
   return sum;
 }
 
+int leading_anchor(const ViewMeasures& measures, ScoreContext context) {
+  int best = 0;
+  double most = -never;
+  for (std::size_t i = 0; i < context.anchors.size() && i < measures.anchors.size(); ++i) {
+    if (!measures.anchors[i].inside) continue;
+    context.main = static_cast<int>(i);
+    if (const double points = total(score_terms(measures, context)); points > most) most = points, best = context.main;
+  }
+  return best;
+}
+
 double merit(const std::vector<ScoreTerm>& terms, const ScoreContext& context) {
   // The most that a picture of the region can have, whatever it is about; so that figures of two views can be compared.
   double most = 0.0;

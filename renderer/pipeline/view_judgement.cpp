@@ -43,18 +43,6 @@ std::string words_of(const Anchor& anchor) {
   return fmt::format("a summit of {:.0f} m", anchor.altitude_m);
 }
 
-// The anchor that leads in the picture, by what it gives to the score; -1 where none is inside.
-int leading_anchor(const ViewMeasures& measures, ScoreContext context) {
-  int best = -1;
-  double most = -1e9;
-  for (std::size_t i = 0; i < measures.anchors.size(); ++i) {
-    if (!measures.anchors[i].inside) continue;
-    context.main = static_cast<int>(i);
-    if (const double points = total(score_terms(measures, context)); points > most) most = points, best = context.main;
-  }
-  return best;
-}
-
 // Heights of level ground of the region, seen from the eye: where it enters the picture, and where it is highest in it.
 void find_near_and_far(const CoarseGround& ground, const Deformation& deformation, double level_m, SightModel& sight) {
   const double base = deformation.parameters().exaggeration_base_m;
@@ -146,7 +134,8 @@ ViewJudgement judge_view(const Dem& dem, const View& view, const AirParameters& 
   }
   const ViewMeasures measures = measure_view(ground, sight, massifs.anchors);
   ScoreContext context{.lone = massifs.lone, .plateau = ground.plateau, .main = -1, .anchors = massifs.anchors};
-  context.main = leading_anchor(measures, context);
+  const bool leads = std::any_of(measures.anchors.begin(), measures.anchors.end(), [](const AnchorSight& anchor) { return anchor.inside; });
+  if (leads) context.main = leading_anchor(measures, context);
   out.terms = score_terms(measures, context);
   out.merit = merit(out.terms, context);
   out.subject =

@@ -34,6 +34,18 @@ TEST(Proposals, AreTheBestThatDiffer) {
   }
 }
 
+TEST(Proposals, FromOnePlaceViewsDifferByTheirDirection) {
+  const CoarseGround ground = test::chain_region();
+  const Massifs massifs = find_massifs(ground);
+  const std::vector<Candidate> proposals = propose_views({ground, massifs, {.from = test::place_km(30.0, 3.0)}});
+  ASSERT_FALSE(proposals.empty());
+  for (std::size_t i = 0; i < proposals.size(); ++i) {
+    EXPECT_TRUE(proposals[i].measures.anchors[static_cast<std::size_t>(proposals[i].plan.anchor)].inside) << "what it is about is in it";
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GT(std::abs(std::remainder(proposals[i].view.azimuth_deg - proposals[j].view.azimuth_deg, 360.0)), 25.0);
+  }
+}
+
 TEST(Proposals, ALoneMountainIsTheSubject) {
   const CoarseGround ground = test::cone_region();
   const Massifs massifs = find_massifs(ground);
@@ -82,7 +94,7 @@ TEST(Proposals, RegionsThatCannotMakeAPictureAreRefusedWithAWayOut) {
     return test::message_of(ErrorKind::input, [&] { require_region(ground, find_massifs(ground), "my.tif"); });
   };
   EXPECT_THAT(refused(make_coarse_ground(test::made_up_raster(5.0, [](double e, double n) { return 100.0 * (e + std::sin(n)); }), 25.0)),
-              AllOf(HasSubstr("my.tif"), HasSubstr("5.0 km"), HasSubstr("8 km")));
+              AllOf(HasSubstr("my.tif"), HasSubstr("25 km²"), HasSubstr("8 km")));
   EXPECT_THAT(refused(make_coarse_ground(
                   test::made_up_raster(60.0, [](double e, double n) { return e < 40.0 ? NAN : 500.0 + test::chain(e, n); }), 300.0)),
               HasSubstr("empty"));
