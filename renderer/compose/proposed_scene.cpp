@@ -55,6 +55,9 @@ void write_source(Text& text, const ProposedFile& source) {
   text.value("file", json_quoted(source.file));
   if (!source.crs.empty()) text.value("crs", json_quoted(source.crs), "the file does not say it");
   if (source.lowest_m) text.value("lowest_m", fmt::format("{:.0f}", *source.lowest_m), "lower values are faults of the data");
+  if (!source.origin.empty()) text.value("origin", json_quoted(source.origin));
+  if (!source.licence.empty()) text.value("licence", json_quoted(source.licence), "goes into every picture's file");
+  if (!source.get_from.empty()) text.value("get_from", json_quoted(source.get_from));
 }
 
 std::string subject_words(const Anchor& anchor, const Massifs& massifs) {

@@ -10,9 +10,13 @@ namespace belvedere {
 
 // What goes into a scene besides its view.
 struct ProposedFile {
-  std::string file;                // as the scene names it
-  std::string crs;                 // that the file does not say; empty: it does
-  std::optional<double> lowest_m;  // below it the file's values are wrong
+  std::string file;                     // as the scene names it
+  std::string crs = {};                 // that the file does not say; empty: it does
+  std::optional<double> lowest_m = {};  // below it the file's values are wrong
+  // As the scene's keys; empty: not known.
+  std::string origin = {};
+  std::string licence = {};
+  std::string get_from = {};
 };
 struct ProposedScene {
   std::string title;

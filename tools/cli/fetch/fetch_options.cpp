@@ -57,10 +57,12 @@ void add_fetch_options(CLI::App& command, FetchOptions& options) {
       ->type_name("URL")
       ->envname("BELVEDERE_MIRROR");
   command.add_flag("--refresh", options.refresh, "Asks whether files that are known have changed; else that is believed for 30 days");
-  command
-      .add_option("--http-silence", options.manners.silence_s, "How long a server may send nothing before it counts as lost, in seconds")
-      ->type_name("S")
-      ->capture_default_str();
+  // A command whose scene may have files on servers has this already.
+  if (command.get_option_no_throw("--http-silence") == nullptr)
+    command
+        .add_option("--http-silence", options.manners.silence_s, "How long a server may send nothing before it counts as lost, in seconds")
+        ->type_name("S")
+        ->capture_default_str();
   command.add_option("--http-time", options.manners.answer_s, "How long one answer of a server may take, in seconds")
       ->type_name("S")
       ->capture_default_str();

@@ -24,6 +24,7 @@ struct FetchOptions {
   HttpManners manners;
 };
 
+// --http-silence only where the command has none yet: then manners.silence_s is the command's to fill.
 void add_fetch_options(CLI::App& command, FetchOptions& options);
 // Error(usage) for what cannot be understood; places and sizes out of range are told by fetch_area.
 FetchParameters fetch_parameters(const FetchOptions& options);

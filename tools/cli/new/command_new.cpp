@@ -15,9 +15,11 @@
 #include "renderer/compose/proposed_scene.h"
 #include "renderer/compose/region_climate.h"
 #include "renderer/image/output_file.h"
+#include "terrain/fetch/fetch_area.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"
 #include "tools/cli/commands.h"
+#include "tools/cli/fetch/fetch_options.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/new/contact_sheet.h"
@@ -32,6 +34,8 @@ namespace fs = std::filesystem;
 
 struct Options {
   SceneOptions common;
+  FetchOptions fetch;   // --at: the data come from map services
+  std::string fetched;  // folder for them; empty: beside the scene
   std::vector<std::string> dems;
   std::string out;
   std::string pictures;
@@ -181,7 +185,38 @@ void note_limits(const CoarseGround& ground, const Massifs& massifs, Progress& p
                     summit.altitude_m, std::ceil(0.15 * ground.side_m / 1000.0)));
 }
 
+// Where fetched data go: beside the scene, so that it finds them.
+fs::path fetch_folder(const Options& options) {
+  if (!options.fetched.empty()) return options.fetched;
+  const fs::path scene(options.out);
+  return scene.parent_path() / (scene.stem().string() + "_data");
+}
+
+ProposedFile proposed(const FetchedMap& map, std::string name) {
+  return {.file = std::move(name), .crs = "", .lowest_m = {}, .origin = map.origin, .licence = map.licence, .get_from = map.get_from};
+}
+
+// Elevation and, unless the user has his own, land cover of --at; what the scene says of them.
+void fetch_data(const Options& options, FileNames& names, const Cache& cache, Progress& progress, ProposedScene& about,
+                DemParameters& dem) {
+  FetchOptions wanted = options.fetch;
+  wanted.manners.silence_s = options.common.http_silence_s;
+  if (!options.land_cover.empty()) wanted.no_land_cover = true;
+  const fs::path folder = fetch_folder(options);
+  const FetchedArea area = fetch_area(fetch_parameters(wanted), folder.string(), cache, progress);
+  RasterSource source;
+  source.path = (folder / area.elevation.file).string();
+  about.sources.push_back(proposed(area.elevation, names.name(source.path)));
+  dem.sources.push_back(std::move(source));
+  if (!area.land_cover) return;
+  about.land_cover = proposed(*area.land_cover, names.name(folder / area.land_cover->file));
+  about.legend = area.land_cover->source.legend;
+}
+
 int run_new(const Options& options) {
+  if (options.dems.empty() == options.fetch.at.empty())
+    throw Error(ErrorKind::usage, "DEM", options.dems.empty() ? "no elevation is given" : "elevation files and --at are given",
+                "one of the two: files of elevation, or --at LON,LAT to fetch it");
   if (fs::exists(options.out) && !options.force)
     throw Error(ErrorKind::output, options.out, "is there already", "another name, or --force to replace it");
   if (options.land_cover.empty() != options.legend.empty())
@@ -198,7 +233,7 @@ int run_new(const Options& options) {
 
   FileNames names(options);
   ProposedScene about;
-  about.title = options.title.empty() ? title_of(options.dems.front()) : options.title;
+  about.title = options.title.empty() ? title_of(options.dems.empty() ? options.out : options.dems.front()) : options.title;
   about.width_px = format.width_px;
   about.sheet_width_mm = format.sheet_width_mm;
   DemParameters dem;
@@ -207,19 +242,20 @@ int run_new(const Options& options) {
     source.path = find_file(options, file).string();
     source.crs = options.crs;
     source.lowest_m = options.lowest_m;
-    about.sources.push_back({names.name(source.path), options.crs, options.lowest_m});
+    about.sources.push_back({.file = names.name(source.path), .crs = options.crs, .lowest_m = options.lowest_m});
     dem.sources.push_back(std::move(source));
   }
+  if (!options.fetch.at.empty()) fetch_data(options, names, cache, progress, about, dem);
   require_crs(dem.sources);
   const CoarseGround ground = read_coarse_ground(dem, progress);
   about.crs = short_crs(ground.crs);
   if (!options.land_cover.empty()) {
-    about.land_cover = ProposedFile{names.name(find_file(options, options.land_cover)), "", {}};
+    about.land_cover = ProposedFile{.file = names.name(find_file(options, options.land_cover))};
     about.legend = options.legend;
   }
   progress.begin("looking for views", 0.0);
   const Massifs massifs = find_massifs(ground);
-  require_region(ground, massifs, options.dems.front());
+  require_region(ground, massifs, dem.sources.front().path);
   note_limits(ground, massifs, progress);
   if (is_canyon_country(region_climate(ground))) {
     about.palette = "desert";
@@ -277,7 +313,7 @@ int run_new(const Options& options) {
 
 Action add_new(CLI::App& command) {
   const auto options = std::make_shared<Options>();
-  command.add_option("DEM", options->dems, "Elevation of the region: one file, or several that are joined")->required();
+  command.add_option("DEM", options->dems, "Elevation of the region: one file, or several that are joined; or --at, and it is fetched");
   command.add_option("--out", options->out, "The scene file to write")->type_name("FILE")->required();
   command.add_flag("--force", options->force, "Replaces a scene file that is there");
   command
@@ -315,6 +351,9 @@ Action add_new(CLI::App& command) {
   command.add_option("--legend", options->legend, "What its codes mean: nlcd, corine, esa_worldcover, fbfm40, or a file")
       ->type_name("NAME");
   add_file_options(command, options->common);
+  add_fetch_options(command, options->fetch);
+  command.add_option("--fetched", options->fetched, "The folder for what --at fetches; default: beside the scene, SCENE_data")
+      ->type_name("DIR");
   add_run_options(command, options->common);
   command.footer(
       "Looks at the elevation alone and proposes views that differ: where to stand, where to look, how far to bend and raise\n"
@@ -324,6 +363,7 @@ Action add_new(CLI::App& command) {
       "  belvedere new my_dem.tif --out scene.toml\n"
       "  belvedere new my_dem.tif --out scene.toml --pictures proposals\n"
       "  belvedere new my_dem.tif --out scene.toml --choose 2 --force\n"
+      "  belvedere new --at 11.4,47.35 --size 60 --out karwendel.toml\n"
       "  belvedere new my_dem.tif --out scene.toml --towards south --format 3:1 --include \"Innsbruck|11.39,47.27\"");
   return [options] { return run_new(*options); };
 }

@@ -57,6 +57,31 @@ class FetchProgram : public Program {
   std::string heights_, cover_;
 };
 
+// A place alone is enough for a first picture.
+TEST_F(FetchProgram, NewFetchesThePlaceItIsGiven) {
+  const test::HttpServer server(path("served"));
+  const auto propose = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"new",      "--at", "11.5,47.5",      "--size", "60",    "--source",        heights_,
+                                          "--source", cover_, "--http-retries", "0",      "--out", path("place.toml")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments, [&] {
+      setenv("BELVEDERE_CACHE", path("cache").c_str(), 1);
+      setenv("BELVEDERE_MIRROR", server.address("").c_str(), 1);
+    });
+  };
+  const Outcome made = propose({});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const std::string scene = read_bytes(path("place.toml"));
+  EXPECT_THAT(scene, AllOf(HasSubstr("file = \"place_data/elevation.tif\""), HasSubstr("© Surveyors"), HasSubstr("© Lookers"),
+                           HasSubstr("legend = \"esa_worldcover\""), HasSubstr("title = \"place\"")));
+  EXPECT_EQ(run({"check", path("place.toml"), "--set", "synthesis.enabled=false"}).status, 0);
+  // With files of one's own there is nothing to fetch, and without either nothing to look at.
+  const Outcome both = propose({path("served/N47E011.tif")});
+  EXPECT_EQ(both.status, 2);
+  EXPECT_THAT(both.err, HasSubstr("--at LON,LAT"));
+  EXPECT_EQ(run({"new", "--out", path("none.toml")}).status, 2);
+}
+
 TEST_F(FetchProgram, WhatItWritesIsReadyForAScene) {
   const test::HttpServer server(path("served"));
   const Outcome outcome = fetch({"--out", path("out")}, server.address(""));
