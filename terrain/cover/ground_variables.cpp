@@ -74,7 +74,7 @@ const std::vector<GroundVariable>& ground_variables() {
       {.name = "snowline", .unit = "m", .meaning = "the same on open ground", .known_to = rules},
       {.name = "season_snow",
        .unit = "m",
-       .meaning = "above which snow lies on the scene's `season.date`; far above all ground without a date",
+       .meaning = "above which snow lies on the date of the scene's season; far above all ground without a date",
        .known_to = rules},
       {.name = "moisture",
        .meaning = "0…1, share of the water that plants could use in a year which they get: 1 in the Alps, .7 where forest ends towards the "

@@ -266,7 +266,8 @@ DegreeBox degrees_around(const RasterFrame& frame, const std::string& crs) {
   return {box.west - bulge, std::max(-90.0, box.south - bulge), box.east + bulge, std::min(90.0, box.north + bulge)};
 }
 
-FetchedArea fetch_area(const FetchParameters& parameters, const std::string& folder, const Cache& cache, Progress& progress) {
+FetchedArea fetch_area(const FetchParameters& parameters, const std::string& folder, const Cache& cache, Progress& progress,
+                       const RecordHead& head) {
   check(parameters);
   const MapSource source = source_of_kind(parameters.elevation, MapSourceKind::elevation);
   if (!parameters.land_cover.empty()) source_of_kind(parameters.land_cover, MapSourceKind::land_cover);  // before the work
@@ -292,7 +293,7 @@ FetchedArea fetch_area(const FetchParameters& parameters, const std::string& fol
   area.record = record;
   area.questions = client.asked();
   area.bytes = client.bytes();
-  write_fetch_record(record, parameters, area);
+  write_fetch_record(record, parameters, area, head);
   return area;
 }
 

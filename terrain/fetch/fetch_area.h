@@ -4,6 +4,7 @@
 
 #include "base/cache/cache.h"
 #include "base/progress.h"
+#include "terrain/fetch/fetch_record.h"
 #include "terrain/fetch/fetched_area.h"
 
 namespace belvedere {
@@ -16,8 +17,9 @@ DegreeBox degrees_around(const RasterFrame& frame, const std::string& crs);
 
 // Fetches the maps of an area and writes them into a folder, which is made where it is missing: elevation.tif (m, voids -9999),
 // land_cover.tif (codes, 0 where nothing is known) and fetched.toml, which says where they come from. Files appear whole or not at all, the
-// record last. What comes is kept in the cache, so that a call after one that failed goes on where that ended. Servers are asked, because
-// whoever calls this wants it. Error(input) where they fail, Error(output) where the folder cannot be written.
-FetchedArea fetch_area(const FetchParameters& parameters, const std::string& folder, const Cache& cache, Progress& progress);
+// record last, with `head` before it. What comes is kept in the cache, so that a call after one that failed goes on where that ended.
+// Servers are asked, because whoever calls this wants it. Error(input) where they fail, Error(output) where the folder cannot be written.
+FetchedArea fetch_area(const FetchParameters& parameters, const std::string& folder, const Cache& cache, Progress& progress,
+                       const RecordHead& head = {});
 
 }  // namespace belvedere

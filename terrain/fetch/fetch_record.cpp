@@ -15,11 +15,6 @@ namespace {
 
 std::string line(const char* key, const std::string& text) { return fmt::format("{} = {}\n", key, json_quoted(text)); }
 
-std::string source_table(const char* section, const FetchedMap& map, const std::string& folder) {
-  return fmt::format("[[{}]]\n", section) + line("file", folder.empty() ? map.file : (std::filesystem::path(folder) / map.file).string()) +
-         line("origin", map.origin) + line("licence", map.licence) + line("get_from", map.get_from);
-}
-
 std::string map_record(const FetchedMap& map) {
   const RasterFrame& frame = map.frame;
   std::string out = "\n[[fetched]]\n" + line("file", map.file) + line("hash", map.hash) + line("source", map.source.id) +
@@ -41,19 +36,11 @@ std::string map_record(const FetchedMap& map) {
 
 }  // namespace
 
-std::string scene_sources(const FetchedArea& area, const std::string& folder) {
-  std::string out = source_table("terrain.sources", area.elevation, folder);
-  if (area.land_cover)
-    out += "\n[land_cover]\n" + line("legend", area.land_cover->source.legend) + "\n" +
-           source_table("land_cover.sources", *area.land_cover, folder);
-  return out;
-}
-
-std::string fetch_record(const FetchParameters& parameters, const FetchedArea& area) {
+std::string fetch_record(const FetchParameters& parameters, const FetchedArea& area, const RecordHead& head) {
   std::string out =
-      "# Written by belvedere fetch. The tables down to [[fetched]] are ready for a scene; then where every cell comes from:\n"
-      "# hashes as of belvedere lock, tags as the servers give them.\n\n" +
-      scene_sources(area, "");
+      "# Written by belvedere fetch. The tables down to [request] are ready for a scene; then where every cell comes from:\n"
+      "# hashes as of belvedere lock, tags as the servers give them.\n\n";
+  if (head) out += head(area);
   out += fmt::format("\n[request]\nat = [{}, {}]\nsize_km = [{}, {}]\n", parameters.at_lonlat.x, parameters.at_lonlat.y,
                      parameters.size_km.x, parameters.size_km.y);
   out += map_record(area.elevation);
@@ -61,9 +48,9 @@ std::string fetch_record(const FetchParameters& parameters, const FetchedArea& a
   return out;
 }
 
-void write_fetch_record(const std::string& path, const FetchParameters& parameters, const FetchedArea& area) {
+void write_fetch_record(const std::string& path, const FetchParameters& parameters, const FetchedArea& area, const RecordHead& head) {
   const std::string temporary = path + ".tmp";
-  const std::string text = fetch_record(parameters, area);
+  const std::string text = fetch_record(parameters, area, head);
   std::ofstream file(temporary, std::ios::binary);
   file << text;
   file.close();

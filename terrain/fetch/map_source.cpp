@@ -176,7 +176,7 @@ MapSource source_of(const ConfigValue& root, const std::string& name) {
     keys.refuse(*stray, "sea_value means nothing here", "missing = \"sea\"");
   }
   if (cover)
-    source.legend = keys.text("legend", "a built-in legend or a file, as land_cover.legend of scenes");
+    source.legend = keys.text("legend", "a built-in legend or a file, as for a scene's land cover");
   else if (const ConfigValue* stray = keys.maybe("legend"))
     keys.refuse(*stray, "heights have no legend", "kind = \"land_cover\"");
   source.get_from = keys.text_or("get_from", "");

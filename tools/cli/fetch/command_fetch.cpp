@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "base/json.h"
-#include "terrain/fetch/fetch_record.h"
 #include "terrain/io/crs.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/fetch/fetch_options.h"
@@ -77,7 +76,7 @@ int run(const Options& options) {
   TerminalProgress progress(options.run.quiet);
   const Cache cache = make_cache(options.run);
   const RunLimits limits(make_run(options.run, Run{}.tile_px, progress, cache));
-  const FetchedArea area = fetch_area(fetch_parameters(options.fetch), options.out, cache, progress);
+  const FetchedArea area = fetch_area(fetch_parameters(options.fetch), options.out, cache, progress, sources_for_scenes);
   progress.end();
   if (options.run.json)
     print_out(as_json(options, area));

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "renderer/image/provenance.h"
+#include "renderer/scene/fetched_sources.h"
 #include "tools/cli/deform_options.h"
 
 namespace belvedere::tools {
@@ -70,6 +71,8 @@ void add_fetch_options(CLI::App& command, FetchOptions& options) {
       ->type_name("N")
       ->capture_default_str();
 }
+
+std::string sources_for_scenes(const FetchedArea& area) { return fetched_sources(area, ""); }
 
 FetchParameters fetch_parameters(const FetchOptions& options) {
   if (options.at.empty()) throw Error(ErrorKind::usage, "--at", "no place is given", "--at LON,LAT");

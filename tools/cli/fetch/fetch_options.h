@@ -26,6 +26,8 @@ struct FetchOptions {
 
 // --http-silence only where the command has none yet: then manners.silence_s is the command's to fill.
 void add_fetch_options(CLI::App& command, FetchOptions& options);
+// What stands first in the record of fetched data: tables that are ready for a scene beside it.
+std::string sources_for_scenes(const FetchedArea& area);
 // Error(usage) for what cannot be understood; places and sizes out of range are told by fetch_area.
 FetchParameters fetch_parameters(const FetchOptions& options);
 

@@ -15,7 +15,6 @@
 #include "renderer/compose/proposed_scene.h"
 #include "renderer/compose/region_climate.h"
 #include "renderer/image/output_file.h"
-#include "terrain/fetch/fetch_area.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"
 #include "tools/cli/commands.h"
@@ -203,7 +202,7 @@ void fetch_data(const Options& options, FileNames& names, const Cache& cache, Pr
   wanted.manners.silence_s = options.common.http_silence_s;
   if (!options.land_cover.empty()) wanted.no_land_cover = true;
   const fs::path folder = fetch_folder(options);
-  const FetchedArea area = fetch_area(fetch_parameters(wanted), folder.string(), cache, progress);
+  const FetchedArea area = fetch_area(fetch_parameters(wanted), folder.string(), cache, progress, sources_for_scenes);
   RasterSource source;
   source.path = (folder / area.elevation.file).string();
   about.sources.push_back(proposed(area.elevation, names.name(source.path)));

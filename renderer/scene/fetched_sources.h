@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "terrain/fetch/fetched_area.h"
+
+namespace belvedere {
+
+// The tables of a scene that name the maps of a fetched area, with origin, licence and legend: [[terrain.sources]], [land_cover] and
+// [[land_cover.sources]]. folder: goes before the files' names; empty: none.
+std::string fetched_sources(const FetchedArea& area, const std::string& folder);
+
+}  // namespace belvedere
