@@ -228,8 +228,7 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
   if (needs_town) {
     const bool guesses = settlers.sites == nullptr && parameter_or(parameters, "settlement", 0.0) > -1.0;
     const Grid<float> living = guesses ? living_map(dem, parameters, climate) : Grid<float>();
-    const TownGround ground{
-        z, inputs[valley_floor], waters.km2(), inputs[slope], faces_south, dem.transform, guesses ? &living : nullptr};
+    const TownGround ground{z, inputs[valley_floor], waters.km2(), inputs[slope], faces_south, dem.transform, guesses ? &living : nullptr};
     const std::vector<TownSite> sites = settlers.sites != nullptr
                                             ? *settlers.sites
                                             : find_town_sites(ground, to_town_parameters(parameters, settlers.known, settlers.seed));

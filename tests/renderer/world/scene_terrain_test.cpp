@@ -24,9 +24,10 @@ class RefinedLandCover : public testing::Test {
 
   static Dem level() { return make_dem({Grid<float>(20, 20, 1000.F), {east, north, 100.0, 100.0}, normalize_crs("EPSG:32632")}); }
   LandCover refined(const std::string& refine) const {
-    folder_.write("rules.toml",
-                  "version = 1\nname = \"two\"\n[parameters]\nspeck_cells = 0\n[[layers]]\nclass = \"forest\"\nwhen = \"1\"\n"
-                  "[[layers]]\nclass = \"glacier\"\nwhen = \"easting > 501000\"\n[[layers]]\nclass = \"snow\"\nwhen = \"northing > 5199000\"\n");
+    folder_.write(
+        "rules.toml",
+        "version = 1\nname = \"two\"\n[parameters]\nspeck_cells = 0\n[[layers]]\nclass = \"forest\"\nwhen = \"1\"\n"
+        "[[layers]]\nclass = \"glacier\"\nwhen = \"easting > 501000\"\n[[layers]]\nclass = \"snow\"\nwhen = \"northing > 5199000\"\n");
     Raster<float> codes{Grid<float>(50, 50), {east, north, 40.0, 40.0}, normalize_crs("EPSG:32632")};
     for (int y = 0; y < 50; ++y)
       for (int x = 0; x < 50; ++x) codes.cells(x, y) = code(x);
