@@ -118,8 +118,11 @@ std::string proposed_scene_text(const ViewSearch& search, const Candidate& candi
   if (about.land_cover) {
     text.line("[[land_cover.sources]]");
     write_source(text, *about.land_cover);
+  }
+  if (about.land_cover || !about.rock.empty()) {
     text.line("[land_cover]");
-    text.value("legend", json_quoted(about.legend));
+    if (about.land_cover) text.value("legend", json_quoted(about.legend));
+    if (!about.rock.empty()) text.value("rock", json_quoted(about.rock), about.rock_why);
     text.line();
   }
   text.line("# Large forms are raised a little near by; far away, where ranges stand close together, fine ones go.");

@@ -26,6 +26,8 @@ struct ProposedScene {
   std::string legend;
   std::string palette;  // empty: the usual one
   std::string palette_why;
+  std::string rock;  // kind of rock; empty: the usual one
+  std::string rock_why;
   int width_px = 2400;
   double sheet_width_mm = 1200.0;
   std::string number;  // "1 of 5"; empty: the only one

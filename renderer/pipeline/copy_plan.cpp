@@ -8,8 +8,11 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/math.h"
 #include "renderer/exemplar/exemplars.h"
 #include "renderer/pipeline/sheet_pieces.h"
+#include "renderer/rock/crest_shift.h"
+#include "renderer/rock/rock_relief.h"
 #include "renderer/trace/camera_reduced.h"
 #include "renderer/trace/wide_view.h"
 #include "renderer/world/cached_products.h"
@@ -23,6 +26,7 @@ constexpr const char* plan_name = "plan";
 // Bytes that a pixel of a stage's window takes while the stage works, and one of a wide view.
 constexpr double window_bytes_per_pixel = 180.0;
 constexpr double wide_bytes_per_pixel = 40.0;
+constexpr double rock_bytes_per_pixel = 90.0;  // of the view from afar, thinned out, with its blurs
 constexpr int largest_tile_px = 1024;
 constexpr int smallest_tile_px = 128;
 constexpr int part_tile_px = 256;         // of small parts of a sheet
@@ -75,6 +79,12 @@ int choose_tile_px(const Scene& scene, double pixels_per_unit, PixelRect region)
   const int stroke_margin = stroke_margin_px(StrokeLayers{}, strokes);
   const int wide_margin = base_margin_px(base);
   const int factor = wide_factor(pixels_per_unit);
+  // Rock looks farthest of all, at about a pixel a unit.
+  RockParameters rock;
+  rock.light.pixels_per_unit = pixels_per_unit;
+  rock.kind = &find_rock_kind(scene.land_cover.rock);
+  const int rock_margin = std::max(rock_margin_px(rock), crest_view_margin_px(rock));
+  const double rock_pixels = square(static_cast<double>(rock_factor(pixels_per_unit)));
   const PixelRect sheet{0, 0, scene.output.width, scene.output.height};
   const auto area = [&](const PixelRect& window) {
     return std::min<double>(window.width(), sheet.width()) * std::min<double>(window.height(), sheet.height());
@@ -83,8 +93,9 @@ int choose_tile_px(const Scene& scene, double pixels_per_unit, PixelRect region)
     const PixelRect tile{0, 0, side, side};
     const double wide = area(grown(tile, wide_margin));
     const double near = std::max(area(grown(tile, stroke_margin)), area(base_window(tile, true, base)));
-    if (factor == 1) return std::max(wide, near) * window_bytes_per_pixel;
-    return near * window_bytes_per_pixel + wide / (factor * factor) * wide_bytes_per_pixel;
+    const double far = area(grown(tile, rock_margin)) / rock_pixels * rock_bytes_per_pixel;
+    if (factor == 1) return std::max(wide, near) * window_bytes_per_pixel + far;
+    return near * window_bytes_per_pixel + wide / (factor * factor) * wide_bytes_per_pixel + far;
   };
   // Small parts ask for little beyond their margins: coarse tiles would make much that nobody sees.
   int tile = largest_tile_px;

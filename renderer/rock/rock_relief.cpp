@@ -293,7 +293,7 @@ int rock_near_margin_px(const RockParameters& parameters) {
 
 int rock_margin_px(const RockParameters& parameters) {
   const double ppu = parameters.light.pixels_per_unit;
-  const int factor = wide_factor(ppu) * thinned_times(ppu, wide_factor(ppu));
+  const int factor = rock_factor(ppu);
   const int around = static_cast<int>(std::ceil((above_units + 2.0) * ppu)) + factor * (rock_around_reach(ppu, factor) + 3);
   const int apron = static_cast<int>(std::ceil(apron_units * ppu)) + factor;
   const int spurs = rock_view_margin_px(parameters) + static_cast<int>(std::ceil(cast_reach_units * ppu));

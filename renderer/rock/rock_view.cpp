@@ -65,6 +65,8 @@ BandPartition part_bands(const SpurGround& ground, PixelRect rect) {
 }  // namespace
 
 // Wide pixels to a pixel of what this stage looks at: all of it is smooth over a unit.
+int rock_factor(double pixels_per_unit) { return std::max(1, static_cast<int>(std::floor(pixels_per_unit))); }
+
 int thinned_times(double pixels_per_unit, int factor) { return std::max(1, static_cast<int>(std::floor(pixels_per_unit / factor))); }
 
 int BandPartition::at(glm::vec2 place, float depth_m, float metres_per_mm) const {
@@ -125,7 +127,7 @@ RockView view_rock(const GuidanceBuffers& guidance, const WideView& wide, const 
 
 int rock_view_margin_px(const RockParameters& parameters) {
   const double ppu = parameters.light.pixels_per_unit;
-  const int factor = wide_factor(ppu) * thinned_times(ppu, wide_factor(ppu));
+  const int factor = rock_factor(ppu);
   const int spurs = static_cast<int>(std::ceil(spur_margin_units(*parameters.kind) * ppu));
   const int bands = static_cast<int>(std::ceil(2.0 * static_cast<double>(band_cell_units) * ppu)) + factor;
   return std::max(spurs + factor * (smooth_fall_reach(ppu, factor) + 3), bands) + 2;

@@ -63,7 +63,9 @@ struct RockView {
 RockView view_rock(const GuidanceBuffers& guidance, const WideView& wide, const RockParameters& parameters, glm::ivec2 origin_px,
                    PixelRect made);
 int rock_view_margin_px(const RockParameters& parameters);
-// Wide pixels to a pixel of a RockView.
+// Pixels of the sheet to a pixel of the view that rock is looked at in: one is left to a unit.
+int rock_factor(double pixels_per_unit);
+// Pixels of another wide view to one of it.
 int thinned_times(double pixels_per_unit, int factor);
 
 }  // namespace belvedere

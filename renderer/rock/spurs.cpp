@@ -21,10 +21,12 @@ constexpr float least_down = 0.5F;          // of a fall line: 60° from straigh
 constexpr float least_spur_down = 0.3153F;  // of a spur: 72°
 constexpr float turn_sigma = 0.16F;         // rad, by which spurs stray from the fall line
 constexpr float funnel_turn = 0.30F;        // how far spurs turn apart about a funnel, so that its gullies draw together
+constexpr float beyond_ramp = 0.9F;         // height that a large spur loses across a ramp
 constexpr float beyond_parent = 0.4F;       // height that a spur loses across the border of a larger one
 constexpr float tolerance_share = 0.003F;   // of the depth …
 constexpr float tolerance_slope = 4.5F;     // … and metres a metre of ground
 constexpr float ramp_cell_units = 64.0F;    // mean distance of ramps where every cell has one
+constexpr float longest_ramp = 0.60F;       // half of it, in cells: no place is cut by one farther away than 1.5 of this
 constexpr float head_rise = 0.9F;
 constexpr float back_rise = 0.06F;
 // Cells around a place whose spurs can be highest there: those above it reach farther down than those below it up.
@@ -94,7 +96,7 @@ SpurHit highest_spur(const SpurCells& cells, const RockKind& kind, glm::vec2 pla
       // Flanks open downhill: the lower the place, the broader the spur.
       const float steepness = spur.flank[side] / (0.75F + 0.45F * std::clamp(v, -0.5F, 1.6F));
       height -= steepness * wide;
-      if (spur.parent != parent) height -= beyond_parent;
+      if (spur.parent != parent) height -= cells.lost_beyond;
       if (height <= second) continue;
       const float apart = std::sqrt(offset.x * offset.x + offset.y * offset.y);
       if (std::abs(depth_m - spur.depth_m) > spur.tolerance_m * (0.6F + apart)) continue;
@@ -136,7 +138,7 @@ RampSide side_of_ramp(const RampCells& cells, glm::vec2 place, float depth_m) {
       const glm::vec2 offset = place - ramp.place;
       const float along = offset.x * ramp.along.x + offset.y * ramp.along.y;
       const float below = offset.y * ramp.along.x - offset.x * ramp.along.y;
-      if (std::abs(along) >= ramp.half_length || std::abs(below) >= nearest || std::abs(below) > ramp_cell_units) continue;
+      if (std::abs(along) >= ramp.half_length || std::abs(below) >= nearest || std::abs(below) > ramp.half_length) continue;
       nearest = std::abs(below);
       side = {ramp.id * 2U + (below > 0.0F ? 1U : 0U), below, 1.0F - smoothstep(0.75F, 1.0F, std::abs(along) / ramp.half_length)};
     }
@@ -160,7 +162,7 @@ Ramp cut_ramp(const SpurGround& ground, const RockKind& kind, glm::ivec2 cell) {
   ramp.cut = true;
   ramp.depth_m = ground.wide.seen.depth_m[i];
   const float metres_per_unit = ground.wide.seen.footprint_m[i] * ppu / static_cast<float>(ground.wide.factor);
-  ramp.half_length = (0.35F + 0.25F * uniform()) * ramp_cell_units;
+  ramp.half_length = (0.35F + (longest_ramp - 0.35F) * uniform()) * ramp_cell_units;
   ramp.tolerance_m = 2.0F * metres_per_unit * ramp.half_length + tolerance_share * ramp.depth_m;
   // 24° to 50° from level, up to the left or to the right.
   const float rise = 0.45F + 0.75F * uniform();
@@ -284,6 +286,7 @@ SpurField grow_spurs(const SpurGround& ground, const RockKind& kind, PixelRect r
     for (int size = 0; size < spur_sizes; ++size) {
       SpurCells& cells = field.bands[static_cast<std::size_t>(band)][static_cast<std::size_t>(size)];
       cells.spacing = spur_spacing(kind, size, band);
+      cells.lost_beyond = size == 0 ? beyond_ramp : beyond_parent;
       // Smaller spurs ask where they stand on this size.
       float grown = 1.0F;
       for (int smaller = size + 1; smaller < spur_sizes; ++smaller)
@@ -306,10 +309,11 @@ SpurField grow_spurs(const SpurGround& ground, const RockKind& kind, PixelRect r
 }
 
 double spur_margin_units(const RockKind& kind) {
-  double margin = 4.0 + 2.0 * static_cast<double>(ramp_cell_units);
+  // The ramps that the farthest spurs know of.
+  double margin = 1.5 * static_cast<double>(longest_ramp * ramp_cell_units) + 2.0;
   for (int size = 0; size < spur_sizes; ++size)
     margin +=
-        (reach_up + 2.0) * static_cast<double>(spacing_mm[static_cast<std::size_t>(size)] * units_per_mm * kind.size * largest_factor());
+        (reach_up + 1.0) * static_cast<double>(spacing_mm[static_cast<std::size_t>(size)] * units_per_mm * kind.size * largest_factor());
   return margin;
 }
 

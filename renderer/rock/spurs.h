@@ -104,6 +104,7 @@ struct RampCells {
 // Spurs of one band and size over a rectangle of cells.
 struct SpurCells {
   float spacing = 1.0F;
+  float lost_beyond = 0.4F;  // height, in spacings, that a spur loses across the border of what it stands on
   glm::ivec2 first{0};
   glm::ivec2 count{0};
   std::vector<Spur> spurs;

@@ -61,17 +61,23 @@ Planes relief_planes(GuidanceBuffers& g) {
 }
 
 // What a WideView holds.
-constexpr std::initializer_list<GuidanceMember> wide_channels = {&B::depth_m,   &B::position_m, &B::land_cover,
-                                                                 &B::fall_line, &B::normal,     &B::footprint_m};
-GuidanceBuffers blank_wide(int width, int height) {
+constexpr std::initializer_list<GuidanceMember> wide_channels = {&B::depth_m, &B::position_m, &B::land_cover, &B::fall_line};
+// What rock is looked at with.
+constexpr std::initializer_list<GuidanceMember> far_channels = {&B::depth_m, &B::land_cover, &B::fall_line, &B::normal, &B::footprint_m};
+
+GuidanceBuffers blank_with(std::initializer_list<GuidanceMember> channels, int width, int height) {
   GuidanceBuffers guidance;
-  make_channels(guidance, {wide_channels.begin(), wide_channels.size()}, width, height);
+  make_channels(guidance, {channels.begin(), channels.size()}, width, height);
   return guidance;
 }
+GuidanceBuffers blank_wide(int width, int height) { return blank_with(wide_channels, width, height); }
+GuidanceBuffers blank_far(int width, int height) { return blank_with(far_channels, width, height); }
 
 Planes wide_planes(GuidanceBuffers& g) {
-  return {plane_of(g.depth_m),   plane_of(g.position_m), plane_of(g.land_cover),
-          plane_of(g.fall_line), plane_of(g.normal),     plane_of(g.footprint_m)};
+  return {plane_of(g.depth_m), plane_of(g.position_m), plane_of(g.land_cover), plane_of(g.fall_line)};
+}
+Planes far_planes(GuidanceBuffers& g) {
+  return {plane_of(g.depth_m), plane_of(g.land_cover), plane_of(g.fall_line), plane_of(g.normal), plane_of(g.footprint_m)};
 }
 
 // Side of the tiles of the wide view, in its own pixels.
@@ -118,12 +124,18 @@ SheetGround::SheetGround(const World& world, const SheetView& view, const Palett
       strokes_(to_stroke_parameters(world, palette, view)),
       factor_(wide_factor(view.pixels_per_unit)),
       wide_camera_(make_reduced_camera(view.camera, factor_)),
+      far_factor_(rock_factor(view.pixels_per_unit)),
+      far_camera_(make_reduced_camera(view.camera, far_factor_)),
       traced_(place, view.camera.size().x, view.camera.size().y, tile_px,
               {.make = [this](PixelRect tile) { return make_traced(tile); }, .blank = blank_traced, .planes = traced_planes}),
       wide_(place, wide_camera_->size().x, wide_camera_->size().y, wide_tile_px(tile_px, factor_),
             {.make = [this](PixelRect tile) { return trace_forms(world_, *wide_camera_, tile, run_); },
              .blank = blank_wide,
              .planes = wide_planes}),
+      far_(place, far_camera_->size().x, far_camera_->size().y, wide_tile_px(tile_px, far_factor_),
+           {.make = [this](PixelRect tile) { return trace_forms(world_, *far_camera_, tile, run_); },
+            .blank = blank_far,
+            .planes = far_planes}),
       crests_(place, view.camera.size().x, view.camera.size().y, tile_px,
               making_of<CrestShift>([this](PixelRect tile) { return make_crests(tile); }, &CrestShift::rows, &CrestShift::front)),
       relief_(place, view.camera.size().x, view.camera.size().y, tile_px,
@@ -189,6 +201,21 @@ SheetGround::Wide SheetGround::read_wide(PixelRect rect) {
   return wide;
 }
 
+SheetGround::Wide SheetGround::read_far(PixelRect rect) {
+  Wide far;
+  if (far_factor_ == 1) {
+    rect = intersection(sheet(), rect);
+    far.seen = blank_far(rect.width(), rect.height());
+    traced_.read_into(rect, traced_planes(far.seen));
+  } else {
+    rect = intersection(far_.sheet(), wide_rect(rect, far_factor_));
+    far.seen = far_.read(rect);
+  }
+  far.seen.origin_m = world_.surface.origin;
+  far.origin_px = {rect.x0, rect.y0};
+  return far;
+}
+
 CrestShift SheetGround::make_crests(PixelRect tile) {
   const double ppu = view_.pixels_per_unit;
   const PixelRect window = intersection(sheet(), {tile.x0, tile.y0 - crest_margin_px(ppu), tile.x1, tile.y1 + crest_margin_px(ppu)});
@@ -196,8 +223,8 @@ CrestShift SheetGround::make_crests(PixelRect tile) {
   for (const GuidanceMember member : std::initializer_list<GuidanceMember>{&B::depth_m, &B::front, &B::land_cover, &B::footprint_m})
     make_channel(guidance, member, window.width(), window.height());
   traced_.read_into(window, traced_planes(guidance));
-  const Wide wide = read_wide(grown(tile, crest_view_margin_px(rock_parameters_)));
-  return shift_crests(guidance, {wide.seen, factor_, wide.origin_px}, rock_parameters_, {window.x0, window.y0},
+  const Wide far = read_far(grown(tile, crest_view_margin_px(rock_parameters_)));
+  return shift_crests(guidance, {far.seen, far_factor_, far.origin_px}, rock_parameters_, {window.x0, window.y0},
                       moved(tile, -window.x0, -window.y0));
 }
 
@@ -230,14 +257,14 @@ void SheetGround::read_crested(PixelRect rect, GuidanceBuffers& guidance) {
 }
 
 RockRelief SheetGround::make_relief(PixelRect tile) {
-  const Wide wide = read_wide(grown(tile, rock_margin_px(rock_parameters_)));
+  const Wide far = read_far(grown(tile, rock_margin_px(rock_parameters_)));
   const PixelRect window = intersection(sheet(), grown(tile, rock_near_margin_px(rock_parameters_)));
   GuidanceBuffers guidance;
   guidance.origin_m = world_.surface.origin;
   const std::initializer_list<GuidanceMember> channels = rock_channels();
   make_channels(guidance, {channels.begin(), channels.size()}, window.width(), window.height());
   read_crested(window, guidance);
-  return make_rock_relief(guidance, {wide.seen, factor_, wide.origin_px}, rock_parameters_, {window.x0, window.y0}, run_.progress,
+  return make_rock_relief(guidance, {far.seen, far_factor_, far.origin_px}, rock_parameters_, {window.x0, window.y0}, run_.progress,
                           moved(tile, -window.x0, -window.y0));
 }
 
@@ -305,9 +332,9 @@ void SheetGround::keep_only(PixelRect still) {
   const PixelRect raised = grown(lit, tone_near_margin_px(tone_parameters_));
   const PixelRect crested = grown(raised, rock_near_margin_px(rock_parameters_));
   traced_.keep_only(grown(crested, crest_margin_px(view_.pixels_per_unit)));
-  wide_.keep_only(wide_rect(
-      grown(raised, std::max(base_margin_px(base_parameters_), rock_margin_px(rock_parameters_)) + crest_view_margin_px(rock_parameters_)),
-      factor_));
+  wide_.keep_only(wide_rect(grown(lit, base_margin_px(base_parameters_)), factor_));
+  far_.keep_only(
+      wide_rect(grown(crested, std::max(rock_margin_px(rock_parameters_), crest_view_margin_px(rock_parameters_))), far_factor_));
   crests_.keep_only(crested);
   relief_.keep_only(raised);
   tone_.keep_only(lit);

@@ -66,6 +66,8 @@ class SheetGround {
     glm::ivec2 origin_px;
   };
   Wide read_wide(PixelRect rect);
+  // The same for rock, at about a pixel a unit, with normals and footprints.
+  Wide read_far(PixelRect rect);
   Grid<float> make_tone_tile(PixelRect tile);
   BasePicture make_base(PixelRect tile);
   PaintDraft make_draft(PixelRect tile);
@@ -80,8 +82,11 @@ class SheetGround {
   const StrokeParameters strokes_;
   const int factor_;  // of wide views
   const std::unique_ptr<const Camera> wide_camera_;
+  const int far_factor_;  // of what rock looks at
+  const std::unique_ptr<const Camera> far_camera_;
   SheetStage<GuidanceBuffers> traced_;
   SheetStage<GuidanceBuffers> wide_;  // unused where the factor is 1: the pixels themselves are looked at
+  SheetStage<GuidanceBuffers> far_;   // the same
   SheetStage<CrestShift> crests_;
   SheetStage<RockRelief> relief_;
   SheetStage<Grid<float>> tone_;

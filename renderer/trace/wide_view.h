@@ -12,7 +12,7 @@ namespace belvedere {
 // What a stage looks at beyond its own pixels: the same picture in pixels that are `factor` times as wide and high, one ray each. What
 // reaches far (ribs, lanes of forests, mist between ranges, wood around) is smooth over half a unit of the sheet, so a print need not look
 // at every pixel of its surroundings; where a unit is less than four pixels the factor is 1 and these are the pixels themselves.
-// Holds depth, place, class as mapped, fall line, normal and footprint (of its own pixels).
+// Holds depth, place, class as mapped and fall line; for rock normal and footprint (of its own pixels) instead of the place.
 struct WideView {
   const GuidanceBuffers& seen;
   int factor = 1;

@@ -68,8 +68,9 @@ TEST_F(ProposedScenes, TheRenderersViewPutsTheMainSummitWhereItWasFound) {
 TEST_F(ProposedScenes, SaysWhyAndWhatElseWasAsked) {
   about_.palette = "desert";
   about_.palette_why = "dry";
-  about_.land_cover = ProposedFile{"cover.tif", "", {}};
+  about_.land_cover = ProposedFile{.file = "cover.tif"};
   about_.legend = "nlcd";
+  about_.rock = "sandstone";
   about_.sources[0].lowest_m = -5.0;
   const std::string text = proposed_scene_text(search_, best_, about_);
   EXPECT_THAT(text, HasSubstr("palette = \"desert\""));
@@ -77,6 +78,7 @@ TEST_F(ProposedScenes, SaysWhyAndWhatElseWasAsked) {
   EXPECT_THAT(text, HasSubstr("lowest_m = -5"));
   EXPECT_THAT(text, HasSubstr("% of the picture is sky"));
   EXPECT_EQ(parsed().scene.land_cover.legend, "nlcd");
+  EXPECT_EQ(parsed().scene.land_cover.rock, "sandstone");
 }
 
 TEST_F(ProposedScenes, WideOnesAreCylinders) {

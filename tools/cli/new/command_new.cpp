@@ -259,6 +259,8 @@ int run_new(const Options& options) {
   if (is_canyon_country(region_climate(ground))) {
     about.palette = "desert";
     about.palette_why = "the climate of the place is dry and warm";
+    about.rock = "sandstone";
+    about.rock_why = "of canyons in dry country; or limestone, granite, volcanic";
   }
   const ViewSearch search{ground, massifs, wishes_of(options, format.picture, ground)};
   const std::vector<Candidate> proposals = propose_views(search, {.most = options.most});
