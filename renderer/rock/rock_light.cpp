@@ -31,6 +31,10 @@ constexpr std::array<float, spur_sizes> crest_strength = {0.9F, 0.8F, 0.5F};
 constexpr std::array<float, spur_sizes> gully_strength = {1.0F, 0.85F, 0.5F};
 constexpr float cast_spacings = 0.40F;  // how far toward the sun a large spur is looked for
 constexpr float crest_light = 0.22F;
+// Shares of rock around, of patches about 6 and 14 units wide, and what is left of the relief's light on the smallest.
+constexpr float small_patch = 0.12F;
+constexpr float large_patch = 0.55F;
+constexpr float least_of_patch = 0.35F;
 constexpr float gully_dark = 0.34F;
 
 // d held softly within ±most.
@@ -167,6 +171,7 @@ RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool wint
   float before = sun(base, shadow, sky_share);
   const float shade = 1.0F - smoothstep(0.25F, 0.50F, before);
   float tone = before;
+  const float base_tone = before;
   glm::vec3 normal = base;
   for (int size = 0; size < spur_sizes; ++size) {
     const auto k = static_cast<std::size_t>(size);
@@ -185,6 +190,9 @@ RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool wint
   }
   tone += 0.05F * shade + 0.06F * std::clamp(2.0F * stands, -1.0F, 1.0F);
 
+  // A patch of few units has no room for towers: it would glitter like a pebble.
+  const float patch = smoothstep(small_patch, large_patch, p.rock);
+  tone = base_tone + (tone - base_tone) * (least_of_patch + (1.0F - least_of_patch) * patch);
   const Bed bed = bed_at(kind, p, hits);
   float tread = 0.0F;
   if (bed.shown > 0.0F) {
@@ -245,7 +253,8 @@ RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool wint
     gully = std::max(gully, 0.9F * hits.ramp_strength * undercut);
   }
   const float lit = tone;
-  tone += crest_light * crest * smoothstep(0.32F, 0.60F, lit) - gully_dark * gully * (0.45F + 0.55F * smoothstep(0.15F, 0.5F, lit));
+  tone += crest_light * crest * patch * smoothstep(0.32F, 0.60F, lit) -
+          gully_dark * gully * patch * (0.45F + 0.55F * smoothstep(0.15F, 0.5F, lit));
   look.tone = tone;
   return look;
 }

@@ -19,6 +19,7 @@ struct RockPixel {
   float altitude_m = 0.0F;
   double east_m = 0.0, north_m = 0.0;
   float metres_per_unit = 1.0F;
+  float rock = 1.0F;               // share of rock around, 0…1
   float turf = 0.0F, snow = 0.0F;  // shares around, 0…1
   float calm_noise = 0.0F;         // where the hand rests
   float bed_noise = 0.0F;          // of where beds lie …

@@ -38,7 +38,7 @@ std::string map_record(const FetchedMap& map) {
 
 std::string fetch_record(const FetchParameters& parameters, const FetchedArea& area, const RecordHead& head) {
   std::string out =
-      "# Written by belvedere fetch. The tables down to [request] are ready for a scene; then where every cell comes from:\n"
+      "# Written by belvedere fetch. The first tables are ready for a scene; then where every cell comes from:\n"
       "# hashes as of belvedere lock, tags as the servers give them.\n\n";
   if (head) out += head(area);
   out += fmt::format("\n[request]\nat = [{}, {}]\nsize_km = [{}, {}]\n", parameters.at_lonlat.x, parameters.at_lonlat.y,

@@ -114,6 +114,17 @@ TEST(RockLight, RampsHaveALightTreadAndADarkUndercut) {
   EXPECT_LT(tone_of(flank, sun_from(0.7)), plain - 0.1F);
 }
 
+TEST(RockLight, SmallPatchesAreNoPebbles) {
+  const auto spread = [](float rock) {
+    RockPixel p = wall_pixel();
+    p.rock = rock;
+    return light_rock(limestone(), sun_from(0.7), false, p, Flank(0).hits).tone -
+           light_rock(limestone(), sun_from(0.7), false, p, Flank(1).hits).tone;
+  };
+  EXPECT_LT(spread(0.1F), 0.5F * spread(1.0F));
+  EXPECT_NEAR(spread(0.6F), spread(1.0F), 1e-5F);
+}
+
 TEST(RockLight, GulliesAreDarkLines) {
   Flank flank(0);
   flank.hits[0].next_id = 1;
