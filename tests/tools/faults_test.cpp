@@ -473,7 +473,7 @@ TEST_F(Faults, GuidanceStreamsInTheMemoryThereIs) {
                 "--set", "output.sheet_width_mm=32", "--set", "sampling.pixel_samples=1", "--set", "sampling.sky_directions=0"});
   };
   ASSERT_EQ(guidance("whole", "1000").status, 0);
-  const Outcome small = guidance("small", "8");
+  const Outcome small = guidance("small", "24");
   ASSERT_EQ(small.status, 0) << small.err;
   EXPECT_TRUE(read_bytes(path("whole/guidance.exr")) == read_bytes(path("small/guidance.exr")));
   const Outcome none = guidance("none", "1");
