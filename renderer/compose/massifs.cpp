@@ -1,5 +1,7 @@
 #include "renderer/compose/massifs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -187,6 +189,18 @@ Massifs find_massifs(const CoarseGround& ground) {
   out.anchors.insert(out.anchors.end(), deep.begin(), deep.end());
   out.anchors.insert(out.anchors.end(), wet.begin(), wet.end());
   return out;
+}
+
+std::string describe_anchor(const Anchor& anchor) {
+  switch (anchor.kind) {
+    case AnchorKind::canyon:
+      return fmt::format("a canyon cut {:.0f} m deep", anchor.stands_m);
+    case AnchorKind::shore:
+      return fmt::format("a shore under land that rises {:.0f} m", anchor.stands_m);
+    case AnchorKind::summit:
+      break;
+  }
+  return fmt::format("a summit of {:.0f} m", anchor.altitude_m);
 }
 
 }  // namespace belvedere

@@ -33,6 +33,9 @@ struct Massifs {
   const Anchor& main() const { return anchors.front(); }
 };
 
+// In words: "a canyon cut 420 m deep".
+std::string describe_anchor(const Anchor& anchor);
+
 // Summits: the highest within .02 of the side, .05 of it off the rim, .14 of it from better ones, four at most; ranked by how high they
 // stand in the whole times over their valleys, and by the mass of ground that stands high around them. Canyons, two at most: where the
 // ground with narrow valleys filled lies highest above them. Shores, two at most: where the land rises highest beside level water.

@@ -61,16 +61,9 @@ void write_source(Text& text, const ProposedFile& source) {
 }
 
 std::string subject_words(const Anchor& anchor, const Massifs& massifs) {
-  switch (anchor.kind) {
-    case AnchorKind::canyon:
-      return fmt::format("a canyon cut {:.0f} m deep", anchor.stands_m);
-    case AnchorKind::shore:
-      return fmt::format("a shore under land that rises {:.0f} m", anchor.stands_m);
-    case AnchorKind::summit:
-      break;
-  }
+  if (anchor.kind != AnchorKind::summit) return describe_anchor(anchor);
   if (massifs.lone > 0.5) return fmt::format("a lone mountain of {:.0f} m", anchor.altitude_m);
-  return fmt::format("a summit of {:.0f} m, {:.0f} m over its valleys", anchor.altitude_m, anchor.stands_m);
+  return fmt::format("{}, {:.0f} m over its valleys", describe_anchor(anchor), anchor.stands_m);
 }
 
 }  // namespace

@@ -18,9 +18,6 @@ namespace {
 
 constexpr double shadow_blur_units = 0.8;
 constexpr double sky_blur_units = 1.5;
-constexpr float raw_black = 0.14F;  // raw light that becomes tone 0 …
-constexpr float raw_range = 0.98F;  // … and how much more becomes tone 1
-constexpr float middle_tone = 0.55F;
 constexpr float brightest_tone = 1.02F;
 constexpr float pool_strength = 0.035F;
 // Rock that looks out of forest is weathered and mossy: what is small and white there reads as a stone or an egg, not as a cliff.

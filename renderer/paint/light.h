@@ -20,6 +20,11 @@ struct LightParameters {
   double contrast = 1.0;       // around tone .55, 0.2…3
 };
 
+// Raw light that becomes tone 0, how much more becomes tone 1, and the tone that contrast leaves as it is.
+inline constexpr float raw_black = 0.14F;
+inline constexpr float raw_range = 0.98F;
+inline constexpr float middle_tone = 0.55F;
+
 // The light of a picture: one scalar a pixel from sun, cast shadow, sky view, relief and ribs. It indexes palette ramps; it is no radiance.
 struct ToneParameters {
   LightParameters light;

@@ -15,7 +15,7 @@ struct RockHue {
 };
 
 // How a kind of rock stands and looks. Lengths in mm of the sheet, as painters think of them; they grow on near walls and shrink on far
-// ones. A new kind is a row in rock_kinds.cpp and a line in docs/scene.md.
+// ones. A new kind is a row in rock_kinds.cpp, its name among what scenes may choose, and a line in docs/rock.md.
 struct RockKind {
   std::string_view name;      // as written in scenes
   std::string_view meaning;   // for docs

@@ -31,18 +31,6 @@ class CameraPicture final : public PictureMap {
   double azimuth_deg_;
 };
 
-std::string words_of(const Anchor& anchor) {
-  switch (anchor.kind) {
-    case AnchorKind::canyon:
-      return fmt::format("a canyon cut {:.0f} m deep", anchor.stands_m);
-    case AnchorKind::shore:
-      return fmt::format("a shore under land that rises {:.0f} m", anchor.stands_m);
-    case AnchorKind::summit:
-      break;
-  }
-  return fmt::format("a summit of {:.0f} m", anchor.altitude_m);
-}
-
 // Heights of level ground of the region, seen from the eye: where it enters the picture, and where it is highest in it.
 void find_near_and_far(const CoarseGround& ground, const Deformation& deformation, double level_m, SightModel& sight) {
   const double base = deformation.parameters().exaggeration_base_m;
@@ -138,8 +126,8 @@ ViewJudgement judge_view(const Dem& dem, const View& view, const AirParameters& 
   if (leads) context.main = leading_anchor(measures, context);
   out.terms = score_terms(measures, context);
   out.merit = merit(out.terms, context);
-  out.subject =
-      context.main < 0 ? "no mountain, canyon or shore that leads" : words_of(massifs.anchors[static_cast<std::size_t>(context.main)]);
+  out.subject = context.main < 0 ? "no mountain, canyon or shore that leads"
+                                 : describe_anchor(massifs.anchors[static_cast<std::size_t>(context.main)]);
   out.near_m = sight.near_m;
   out.far_m = sight.far_m;
   return out;

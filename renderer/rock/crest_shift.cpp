@@ -26,7 +26,6 @@ constexpr float same_ratio = 0.05F;
 constexpr std::array<float, spur_sizes> share = {0.07F, 0.30F, 0.30F};
 constexpr float smoothed_units = 0.6F;  // along the edge, so that it is no comb
 constexpr float around_units = 3.2F;    // between the seven places along it that it is measured against
-constexpr float units_per_mm = 2.0F;
 
 int to_px(double units, double ppu) { return static_cast<int>(std::ceil(units * ppu)); }
 

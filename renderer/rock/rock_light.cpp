@@ -14,9 +14,6 @@
 namespace belvedere {
 namespace {
 
-constexpr float black = 0.14F;  // as in make_tone
-constexpr float range = 0.98F;
-constexpr float middle = 0.55F;
 constexpr float lift = 0.10F;
 constexpr float fill_strength = 0.30F;  // sky and ground opposite the sun still model what lies in shade
 constexpr float flatness = 0.85F;       // how far a facet has one normal
@@ -67,7 +64,7 @@ struct Sun {
     const float value = static_cast<float>(light.light.sun) * direct +
                         static_cast<float>(light.light.sky) * sky_share * (0.6F + 0.4F * normal.z) +
                         fill_strength * (0.5F * glm::dot(normal, fill) + 0.2F);
-    return middle + ((value - black) / range - middle) * class_info(LandCoverClass::rock).tone.contrast + lift;
+    return middle_tone + ((value - raw_black) / raw_range - middle_tone) * class_info(LandCoverClass::rock).tone.contrast + lift;
   }
 };
 
@@ -83,7 +80,6 @@ Bed bed_at(const RockKind& kind, const RockPixel& p, const SpurHits& hits) {
   const float steep = smoothstep(28.0F, 42.0F, p.slope_deg);
   if (steep <= 0.0F || kind.beds <= 0.0F || hits[0].spur == nullptr) return bed;
   // Thickness in metres goes by powers of two, so that one bed keeps it along a wall; a bed seen from above looks thinner.
-  constexpr float units_per_mm = 2.0F;
   constexpr float foreshortened = 0.75F;
   const float wanted_m = std::max(kind.bed_mm * units_per_mm * p.metres_per_unit * foreshortened, 0.5F);
   float thick_m = 1.0F;

@@ -21,7 +21,6 @@
 namespace belvedere {
 namespace {
 
-constexpr float units_per_mm = 2.0F;
 constexpr double cast_reach_units = 48.0;  // from how far away large spurs cast shadows, at most
 constexpr double apron_units = 24.0;       // beyond it no pixel is near to rock
 constexpr float least_rock = 0.02F;        // share of rock around from which relief is looked for

@@ -10,7 +10,6 @@
 namespace belvedere {
 namespace {
 
-constexpr float units_per_mm = 2.0F;
 constexpr float band_cell_units = 90.0F;    // of the hidden partition by which sizes change
 constexpr float band_depth_ratio = 1.105F;  // cells reach across no greater step of depth
 constexpr float warp_units = 0.56F;
@@ -64,7 +63,6 @@ BandPartition part_bands(const SpurGround& ground, PixelRect rect) {
 
 }  // namespace
 
-// Wide pixels to a pixel of what this stage looks at: all of it is smooth over a unit.
 int rock_factor(double pixels_per_unit) { return std::max(1, static_cast<int>(std::floor(pixels_per_unit))); }
 
 int thinned_times(double pixels_per_unit, int factor) { return std::max(1, static_cast<int>(std::floor(pixels_per_unit / factor))); }

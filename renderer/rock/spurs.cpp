@@ -15,7 +15,6 @@ namespace {
 
 // Spacing of the three sizes, mm of the sheet, before the band's and the kind's factor.
 constexpr std::array<float, spur_sizes> spacing_mm = {17.6F, 6.0F, 2.24F};
-constexpr float units_per_mm = 2.0F;
 constexpr double fall_sigma_units = 4.8;
 constexpr float least_down = 0.5F;          // of a fall line: 60° from straight down
 constexpr float least_spur_down = 0.3153F;  // of a spur: 72°

@@ -17,6 +17,7 @@ namespace belvedere {
 // gully where two meet. Smaller spurs run down the flanks of larger ones and stay within their borders. Spurs grow from jittered cells of
 // the sheet and hold on to the surface they grew on by its depth.
 // Places are in units of the sheet (0.5 mm), x right, y down; heights and slopes in shares of a spur's own spacing.
+inline constexpr float units_per_mm = 2.0F;
 inline constexpr int spur_sizes = 3;
 inline constexpr int spur_bands = 4;
 

@@ -70,8 +70,6 @@ GuidanceBuffers blank_with(std::initializer_list<GuidanceMember> channels, int w
   make_channels(guidance, {channels.begin(), channels.size()}, width, height);
   return guidance;
 }
-GuidanceBuffers blank_wide(int width, int height) { return blank_with(wide_channels, width, height); }
-GuidanceBuffers blank_far(int width, int height) { return blank_with(far_channels, width, height); }
 
 Planes wide_planes(GuidanceBuffers& g) {
   return {plane_of(g.depth_m), plane_of(g.position_m), plane_of(g.land_cover), plane_of(g.fall_line)};
@@ -130,11 +128,11 @@ SheetGround::SheetGround(const World& world, const SheetView& view, const Palett
               {.make = [this](PixelRect tile) { return make_traced(tile); }, .blank = blank_traced, .planes = traced_planes}),
       wide_(place, wide_camera_->size().x, wide_camera_->size().y, wide_tile_px(tile_px, factor_),
             {.make = [this](PixelRect tile) { return trace_forms(world_, *wide_camera_, tile, run_); },
-             .blank = blank_wide,
+             .blank = [](int width, int height) { return blank_with(wide_channels, width, height); },
              .planes = wide_planes}),
       far_(place, far_camera_->size().x, far_camera_->size().y, wide_tile_px(tile_px, far_factor_),
            {.make = [this](PixelRect tile) { return trace_forms(world_, *far_camera_, tile, run_); },
-            .blank = blank_far,
+            .blank = [](int width, int height) { return blank_with(far_channels, width, height); },
             .planes = far_planes}),
       crests_(place, view.camera.size().x, view.camera.size().y, tile_px,
               making_of<CrestShift>([this](PixelRect tile) { return make_crests(tile); }, &CrestShift::rows, &CrestShift::front)),
@@ -185,36 +183,25 @@ GuidanceBuffers SheetGround::read_all_guidance(PixelRect rect) {
   return guidance;
 }
 
-SheetGround::Wide SheetGround::read_wide(PixelRect rect) {
+SheetGround::Wide SheetGround::look_from_afar(PixelRect rect, int factor, SheetStage<GuidanceBuffers>& stage,
+                                              std::initializer_list<GuidanceMember> channels) {
   Wide wide;
-  if (factor_ == 1) {
+  if (factor == 1) {
     rect = intersection(sheet(), rect);
-    wide.seen.origin_m = world_.surface.origin;
-    make_channels(wide.seen, {wide_channels.begin(), wide_channels.size()}, rect.width(), rect.height());
+    wide.seen = blank_with(channels, rect.width(), rect.height());
     traced_.read_into(rect, traced_planes(wide.seen));
   } else {
-    rect = intersection(wide_.sheet(), wide_rect(rect, factor_));
-    wide.seen = wide_.read(rect);
-    wide.seen.origin_m = world_.surface.origin;
+    rect = intersection(stage.sheet(), wide_rect(rect, factor));
+    wide.seen = stage.read(rect);
   }
+  wide.seen.origin_m = world_.surface.origin;
   wide.origin_px = {rect.x0, rect.y0};
   return wide;
 }
 
-SheetGround::Wide SheetGround::read_far(PixelRect rect) {
-  Wide far;
-  if (far_factor_ == 1) {
-    rect = intersection(sheet(), rect);
-    far.seen = blank_far(rect.width(), rect.height());
-    traced_.read_into(rect, traced_planes(far.seen));
-  } else {
-    rect = intersection(far_.sheet(), wide_rect(rect, far_factor_));
-    far.seen = far_.read(rect);
-  }
-  far.seen.origin_m = world_.surface.origin;
-  far.origin_px = {rect.x0, rect.y0};
-  return far;
-}
+SheetGround::Wide SheetGround::read_wide(PixelRect rect) { return look_from_afar(rect, factor_, wide_, wide_channels); }
+
+SheetGround::Wide SheetGround::read_far(PixelRect rect) { return look_from_afar(rect, far_factor_, far_, far_channels); }
 
 CrestShift SheetGround::make_crests(PixelRect tile) {
   const double ppu = view_.pixels_per_unit;

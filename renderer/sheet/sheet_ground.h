@@ -65,6 +65,7 @@ class SheetGround {
     GuidanceBuffers seen;
     glm::ivec2 origin_px;
   };
+  Wide look_from_afar(PixelRect rect, int factor, SheetStage<GuidanceBuffers>& stage, std::initializer_list<GuidanceMember> channels);
   Wide read_wide(PixelRect rect);
   // The same for rock, at about a pixel a unit, with normals and footprints.
   Wide read_far(PixelRect rect);

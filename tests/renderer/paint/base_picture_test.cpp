@@ -42,6 +42,24 @@ TEST(Base, IsTheRampWhereEverythingElseIsOff) {
   }
 }
 
+TEST(Base, RockHasTheHueOfItsPlaneAndTurfAndSnowOnItsTreads) {
+  GuidanceBuffers g = make_slope(30, 20, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 50.0F);
+  const Palette palette = read_palette("summer");
+  const glm::vec3 ramp = palette_colour(palette, LandCoverClass::rock, 1200.0, 0.6);
+  g.rock_facet = Grid<std::uint32_t>(30, 20, 0x00070009U);
+  g.rock_cover = Grid<glm::vec2>(30, 20, glm::vec2(0.0F));
+  const BaseParameters p = plain();
+  const auto expect = [&](glm::vec3 expected) {
+    const glm::vec3 found = picture_of(g, p).colour(15, 10);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[k], expected[k], 1e-5F) << k;
+  };
+  expect(ramp * rock_hue(*p.rock, 0x00070009U, 0.0F));
+  g.rock_cover = Grid<glm::vec2>(30, 20, glm::vec2(0.0F, 1.0F));
+  expect(palette_colour(palette, LandCoverClass::snow, 1200.0, 0.66));
+  g.rock_cover = Grid<glm::vec2>(30, 20, glm::vec2(1.0F, 0.0F));
+  expect(palette_colour(palette, LandCoverClass::alpine_grass, 1200.0, 0.55));
+}
+
 // Pale and warm in every season, and never as white as snow.
 TEST(Base, SandIsPaleAndWarm) {
   const GuidanceBuffers g = make_slope(30, 20, LandCoverClass::sand, {0.0F, 0.0F, 1.0F}, 2.0F);

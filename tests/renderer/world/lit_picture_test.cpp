@@ -35,6 +35,15 @@ TEST(LitPicture, WithoutSunTheDirectionOfTheSunNoLongerCounts) {
   EXPECT_FALSE(tone("30", "0.9") == tone("30", "0"));
 }
 
+TEST(LitPicture, RockTakesItsKindFromTheSceneAndItsSnowFromThePalette) {
+  const World world(small_scene({"land_cover.rock=granite"}), silent_progress());
+  const SheetView view = view_of(world);
+  EXPECT_EQ(to_rock_parameters(world, read_palette("summer"), view).kind->name, "granite");
+  EXPECT_EQ(to_base_parameters(world, view, read_palette("summer")).rock->name, "granite");
+  EXPECT_FALSE(to_rock_parameters(world, read_palette("summer"), view).winter);
+  EXPECT_TRUE(to_rock_parameters(world, read_palette("winter"), view).winter);
+}
+
 TEST(LitPicture, StrokesTakeTheHandOfSceneAndPalette) {
   const World world(small_scene({"seed=9", "sun.azimuth_deg=270"}), silent_progress());
   const StrokeParameters winter = to_stroke_parameters(world, read_palette("winter"));
