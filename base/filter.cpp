@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/filter_lines.h"
+#include "base/math_exact.h"
 
 namespace belvedere {
 namespace {
@@ -19,7 +20,7 @@ std::vector<float> half_kernel(double sigma) {
   double sum = 0.0;
   for (int i = 0; i <= radius; ++i) {
     const double u = i / sigma;
-    weights[i] = std::exp(-0.5 * u * u);
+    weights[i] = exact::exp(-0.5 * u * u);
     sum += i == 0 ? weights[i] : 2.0 * weights[i];
   }
   std::vector<float> kernel(weights.size());

@@ -13,6 +13,7 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double half_pi_high = 0x1.921fb544p+0;
 constexpr double half_pi_low = 0x1.0b4611a626331p-34;
 constexpr double ln2 = 0.69314718055994530942;
+constexpr double log10_e = 0.43429448190325182765;
 constexpr double root_half = 0.70710678118654752440;
 
 // 1 / (n (n + 1)), from one term of the series of sine and cosine to the next, and 1 / n: divided once, when the program is compiled.
@@ -66,6 +67,12 @@ BinaryLog split_log(double x) {
   return {static_cast<double>(exponent), 2.0 * s * sum};
 }
 
+bool loggable(double x) { return x > 0.0 && x <= std::numeric_limits<double>::max(); }
+double log_of_edge(double x) {
+  if (x == 0.0) return -std::numeric_limits<double>::infinity();
+  return x > 0.0 ? x : std::numeric_limits<double>::quiet_NaN();
+}
+
 // 2^whole · e^rest for |rest| ≤ .36: the series leaves out rest^15 / 15! = 2e-19.
 double scaled_exp(double whole, double rest) {
   double sum = 1.0;
@@ -93,6 +100,11 @@ Turn turn(double angle_rad) {
 double cos(double angle_rad) { return turn(angle_rad).cosine; }
 double sin(double angle_rad) { return turn(angle_rad).sine; }
 
+double tan(double angle_rad) {
+  const Turn at = turn(angle_rad);
+  return at.sine / at.cosine;
+}
+
 double atan2(double y, double x) {
   const double across = std::abs(x);
   const double up = std::abs(y);
@@ -102,17 +114,24 @@ double atan2(double y, double x) {
   return y < 0.0 ? -angle : angle;
 }
 
+double atan(double slope) { return atan2(slope, 1.0); }
+// The other side of the triangle as a product: 1 - sine² would lose digits near 1.
+double asin(double sine) { return atan2(sine, std::sqrt((1.0 - sine) * (1.0 + sine))); }
+double acos(double cosine) { return atan2(std::sqrt((1.0 - cosine) * (1.0 + cosine)), cosine); }
+
 double log2(double x) {
-  if (std::isinf(x)) return x;
+  if (!loggable(x)) return log_of_edge(x);
   const BinaryLog of = split_log(x);
   return of.whole + of.natural_rest / ln2;
 }
 
 double log(double x) {
-  if (std::isinf(x)) return x;
+  if (!loggable(x)) return log_of_edge(x);
   const BinaryLog of = split_log(x);
   return of.whole * ln2 + of.natural_rest;
 }
+
+double log10(double x) { return log(x) * log10_e; }
 
 double exp2(double exponent) {
   if (std::isnan(exponent)) return exponent;
@@ -124,6 +143,19 @@ double exp2(double exponent) {
 
 double exp(double exponent) { return exp2(exponent / ln2); }
 
-double pow(double base, double exponent) { return base > 0.0 ? exp2(exponent * log2(base)) : 0.0; }
+double pow(double base, double exponent) {
+  if (std::isnan(base)) return base;
+  return base > 0.0 ? exp2(exponent * log2(base)) : 0.0;
+}
+
+double cbrt(double x) {
+  if (x == 0.0 || !std::isfinite(x)) return x;
+  const double size = std::abs(x);
+  const double root = exp2(log2(size) / 3.0);
+  const double better = root - (root * root * root - size) / (3.0 * root * root);  // Newton's step takes the power's error away
+  return x < 0.0 ? -better : better;
+}
+
+double hypot(double x, double y) { return std::sqrt(x * x + y * y); }
 
 }  // namespace belvedere::exact

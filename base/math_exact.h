@@ -14,13 +14,19 @@ struct Turn {
 Turn turn(double angle_rad);
 double cos(double angle_rad);
 double sin(double angle_rad);
+double tan(double angle_rad);  // relative error below 1e-15 up to |angle| = 1.5
 
 // Angle of (x, y) counterclockwise from the x axis, -π…π; 0 at the origin. Error below 6e-16.
 double atan2(double y, double x);
+double atan(double slope);
+double asin(double sine);  // -1 … 1; error below 1e-15, as of acos
+double acos(double cosine);
 
-// Of x of at least 1e-300; infinity for infinity; relative error below 4e-16, absolute below 1e-16 near 1. log2 of a power of two is exact.
+// Of x of at least 1e-300; infinity for infinity, minus infinity for 0, NaN below; relative error below 4e-16, absolute below 1e-16 near 1.
+// log2 of a power of two is exact.
 double log2(double x);
 double log(double x);
+double log10(double x);  // relative error below 6e-16; not exact for powers of ten
 
 // Relative error below 4e-16 · (1 + |exponent|); 0 below exponents of 2 of -1000, infinite above 1000. exp2 of a whole number is exact.
 double exp2(double exponent);
@@ -28,5 +34,10 @@ double exp(double exponent);
 
 // base ≥ 0, and 0 for 0 (exponent > 0); relative error below 1e-15 · (1 + |exponent · log2(base)|).
 double pow(double base, double exponent);
+
+double cbrt(double x);  // relative error below 4e-16
+
+// √(x² + y²), whose squares must stay within the range of a double.
+double hypot(double x, double y);
 
 }  // namespace belvedere::exact

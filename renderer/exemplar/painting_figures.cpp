@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "renderer/image/oklab.h"
 #include "renderer/image/srgb.h"
@@ -80,7 +81,7 @@ double gradient_energy(const Grid<float>& values) {
          static_cast<double>(values.size());
 }
 
-double octave_ratio(double fine, double coarse) { return fine > 0.0 && coarse > 0.0 ? std::log2(fine / coarse) : 0.0; }
+double octave_ratio(double fine, double coarse) { return fine > 0.0 && coarse > 0.0 ? exact::log2(fine / coarse) : 0.0; }
 
 // Where paint runs: unit direction along it, and how sure that is.
 struct Direction {
@@ -116,8 +117,8 @@ Direction find_direction(const Grid<float>& lightness) {
       const double sum = static_cast<double>(xx[i]) + static_cast<double>(yy[i]);
       const double difference = static_cast<double>(xx[i]) - static_cast<double>(yy[i]);
       const double twice = 2.0 * static_cast<double>(xy[i]);
-      const double across = 0.5 * std::atan2(twice, difference);  // where lightness changes most
-      out.along[i] = glm::vec2(static_cast<float>(-std::sin(across)), static_cast<float>(std::cos(across)));
+      const double across = 0.5 * exact::atan2(twice, difference);  // where lightness changes most
+      out.along[i] = glm::vec2(static_cast<float>(-exact::sin(across)), static_cast<float>(exact::cos(across)));
       out.energy[i] = static_cast<float>(sum);
       out.coherence[i] = sum > 1e-10 ? static_cast<float>(std::sqrt(difference * difference + twice * twice) / sum) : 0.F;
     }
@@ -224,7 +225,7 @@ double measure_unevenness(const Grid<float>& lightness) {
           squares += v * v;
         }
       constexpr double n = window * window;
-      contrasts(i, j) = static_cast<float>(std::log2(std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n))) + 0.001));
+      contrasts(i, j) = static_cast<float>(exact::log2(std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n))) + 0.001));
     }
   });
   return moments_of(contrasts).spread;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "renderer/exemplar/painting_tone.h"
 #include "renderer/image/oklab.h"
@@ -57,8 +58,8 @@ Grid<glm::vec2> find_stroke_direction(const Grid<glm::vec3>& picture, const Grid
       const double twice = 2.0 * static_cast<double>(xy[i]);
       if (sum < least_variation || std::sqrt(difference * difference + twice * twice) < static_cast<double>(least_coherence * sum))
         continue;
-      const double across = 0.5 * std::atan2(twice, difference);  // where lightness changes most: across the strokes
-      glm::vec2 along(static_cast<float>(-std::sin(across)), static_cast<float>(std::cos(across)));
+      const double across = 0.5 * exact::atan2(twice, difference);  // where lightness changes most: across the strokes
+      glm::vec2 along(static_cast<float>(-exact::sin(across)), static_cast<float>(exact::cos(across)));
       if (along.y < 0.F) along = -along;
       if (along.y >= steepness_of_lying) direction[i] = along;
     }

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/guidance_channels.h"
+#include "base/math_exact.h"
 #include "renderer/exemplar/texel_supply_names.h"
 
 namespace belvedere {
@@ -26,7 +27,7 @@ std::size_t tone_bin(float tone) {
 }
 
 std::size_t direction_bin(glm::vec2 direction) {
-  const float turns = std::atan2(direction.y, direction.x) / (2.F * std::numbers::pi_v<float>);
+  const float turns = exact::atan2(direction.y, direction.x) / (2.F * std::numbers::pi_v<float>);
   const int bin = static_cast<int>(std::floor(turns * TexelSupply::directions + 0.5F));
   return static_cast<std::size_t>((bin + TexelSupply::directions) % TexelSupply::directions);
 }

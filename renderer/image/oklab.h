@@ -6,6 +6,8 @@
 
 #include "renderer/image/srgb.h"
 
+#include "base/math_exact.h"
+
 namespace belvedere {
 
 // OKLab (Ottosson 2020): x lightness 0…1, y green to red, z blue to yellow, about ± .3; equal steps look about equally large. From and to
@@ -14,9 +16,9 @@ inline glm::dvec3 to_oklab(glm::vec3 encoded) {
   const double r = srgb_decoded(encoded.x);
   const double g = srgb_decoded(encoded.y);
   const double b = srgb_decoded(encoded.z);
-  const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
-  const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
-  const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
+  const double l = exact::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+  const double m = exact::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+  const double s = exact::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
   return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s, 1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
           0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
 }

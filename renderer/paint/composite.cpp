@@ -8,6 +8,7 @@
 #include "base/guidance_channels.h"
 #include "base/parallel.h"
 #include "renderer/image/srgb.h"
+#include "renderer/image/srgb_table.h"
 
 namespace belvedere {
 namespace {
@@ -19,7 +20,7 @@ Grid<glm::vec3> map_channels(const Grid<glm::vec3>& picture, Curve curve) {
     const glm::vec3* from = picture.row(y);
     glm::vec3* to = out.row(y);
     for (int x = 0; x < picture.width(); ++x) {
-      for (int c = 0; c < 3; ++c) to[x][c] = static_cast<float>(curve(static_cast<double>(from[x][c])));
+      for (int c = 0; c < 3; ++c) to[x][c] = curve(from[x][c]);
     }
   });
   return out;
@@ -36,8 +37,10 @@ bool differ(float depth_a, float depth_b) {
 
 }  // namespace
 
-Image decode_srgb(const Grid<glm::vec3>& encoded) { return map_channels(encoded, srgb_decoded); }
-Grid<glm::vec3> encode_srgb(const Image& linear) { return map_channels(linear, srgb_encoded); }
+Image decode_srgb(const Grid<glm::vec3>& encoded) { return map_channels(encoded, srgb_decoded_fast); }
+Grid<glm::vec3> encode_srgb(const Image& linear) {
+  return map_channels(linear, [](float value) { return static_cast<float>(srgb_encoded(static_cast<double>(value))); });
+}
 
 Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<PaintedExemplar>& exemplars,
                                   const Grid<glm::vec3>& target_base, const Grid<float>& target_haze, double residual,

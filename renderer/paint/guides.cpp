@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "base/error.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 
 namespace belvedere {
@@ -16,7 +17,7 @@ constexpr float nearest_m = 500.0F;
 constexpr float farthest_m = 500000.0F;
 
 float log_distance(const GuidanceBuffers& g, std::size_t i) {
-  return std::log(std::max(g.depth_m[i], nearest_m) / nearest_m) / std::log(farthest_m / nearest_m);
+  return exact::log(std::max(g.depth_m[i], nearest_m) / nearest_m) / exact::log(farthest_m / nearest_m);
 }
 
 // Relief, altitude and air come with the base picture, so guides only choose among strokes, lightly: heavier ones tear the texture to

@@ -8,6 +8,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "base/math_exact.h"
 #include "renderer/compose/massifs.h"
 #include "renderer/trace/camera.h"
 
@@ -95,7 +96,7 @@ ViewJudgement judge_view(const Dem& dem, const View& view, const AirParameters& 
                    .eye_m = view.camera.eye.z,
                    .azimuth_deg = view.camera.azimuth_deg,
                    .width = width,
-                   .height = plane ? 2.0 * std::atan(std::tan(0.5 * width) * shape) : width * shape,
+                   .height = plane ? 2.0 * exact::atan(exact::tan(0.5 * width) * shape) : width * shape,
                    .directions = fan_directions(view.camera.field_of_view_deg, !plane, MeasureParameters{}.columns),
                    .distance_m = {},
                    .drop_m = {},

@@ -7,6 +7,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "base/math_exact.h"
 
 namespace belvedere {
 
@@ -34,8 +35,8 @@ const Projection* find_projection(std::string_view name) {
 ViewAxes view_axes(const CameraParameters& parameters) {
   const double azimuth = to_radians(parameters.azimuth_deg);
   const double pitch = to_radians(parameters.pitch_deg);
-  const glm::dvec3 ahead{std::sin(azimuth), std::cos(azimuth), 0.0};
-  return {{std::cos(azimuth), -std::sin(azimuth), 0.0}, ahead, ahead * std::cos(pitch) + glm::dvec3(0.0, 0.0, std::sin(pitch))};
+  const glm::dvec3 ahead{exact::sin(azimuth), exact::cos(azimuth), 0.0};
+  return {{exact::cos(azimuth), -exact::sin(azimuth), 0.0}, ahead, ahead * exact::cos(pitch) + glm::dvec3(0.0, 0.0, exact::sin(pitch))};
 }
 
 void check_camera_value(std::string_view field, double value, double lowest, double highest) {

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "base/angle.h"
+#include "base/math_exact.h"
 #include "renderer/trace/camera.h"
 
 namespace belvedere {
@@ -16,21 +17,21 @@ class CylindricalCamera final : public Camera {
     azimuth_ = to_radians(p.azimuth_deg);
     middle_ = 0.5 * glm::dvec2(size_);
     radius_px_ = p.width / to_radians(p.field_of_view_deg);
-    horizon_y_ = middle_.y + radius_px_ * std::tan(to_radians(p.pitch_deg));
+    horizon_y_ = middle_.y + radius_px_ * exact::tan(to_radians(p.pitch_deg));
   }
 
   Ray ray(glm::dvec2 pixel) const override {
-    const double azimuth = azimuth_ + (pixel.x - middle_.x) / radius_px_;
+    const exact::Turn azimuth = exact::turn(azimuth_ + (pixel.x - middle_.x) / radius_px_);
     const double rise = (horizon_y_ - pixel.y) / radius_px_;
-    return {eye_, glm::normalize(glm::dvec3(std::sin(azimuth), std::cos(azimuth), rise))};
+    return {eye_, glm::normalize(glm::dvec3(azimuth.sine, azimuth.cosine, rise))};
   }
 
   std::optional<glm::dvec2> project(glm::dvec3 point) const override {
     const glm::dvec3 q = point - eye_;
-    const double level = std::hypot(q.x, q.y);
+    const double level = exact::hypot(q.x, q.y);
     if (!(level > 0.0)) return std::nullopt;  // on the axis there is no azimuth
     // The turn from the picture's middle, -pi…pi: nothing lies behind, what is outside the picture is left or right of it.
-    const double turn = std::remainder(std::atan2(q.x, q.y) - azimuth_, 2.0 * std::numbers::pi);
+    const double turn = std::remainder(exact::atan2(q.x, q.y) - azimuth_, 2.0 * std::numbers::pi);
     return glm::dvec2(middle_.x + turn * radius_px_, horizon_y_ - q.z / level * radius_px_);
   }
 

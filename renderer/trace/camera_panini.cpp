@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/angle.h"
+#include "base/math_exact.h"
 
 namespace belvedere {
 namespace {
@@ -22,8 +23,8 @@ class PaniniCamera final : public Camera {
     ahead_ = axes.ahead;
     middle_ = 0.5 * glm::dvec2(size_);
     const double half = 0.5 * to_radians(p.field_of_view_deg);
-    unit_px_ = middle_.x / (widening(std::cos(half)) * std::sin(half));
-    horizon_y_ = middle_.y + unit_px_ * std::tan(to_radians(p.pitch_deg));
+    unit_px_ = middle_.x / (widening(exact::cos(half)) * exact::sin(half));
+    horizon_y_ = middle_.y + unit_px_ * exact::tan(to_radians(p.pitch_deg));
   }
 
   Ray ray(glm::dvec2 pixel) const override {
@@ -38,7 +39,7 @@ class PaniniCamera final : public Camera {
 
   std::optional<glm::dvec2> project(glm::dvec3 point) const override {
     const glm::dvec3 q = point - eye_;
-    const double level = std::hypot(q.x, q.y);
+    const double level = exact::hypot(q.x, q.y);
     if (!(level > 0.0)) return std::nullopt;  // on the axis there is no azimuth
     const double cosine = glm::dot(q, ahead_) / level;
     if (!(d_ + cosine > 0.0)) return std::nullopt;  // behind the point that is projected from

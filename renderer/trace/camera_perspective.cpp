@@ -2,6 +2,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/angle.h"
+#include "base/math_exact.h"
 #include "renderer/trace/camera.h"
 
 namespace belvedere {
@@ -16,7 +17,7 @@ class PerspectiveCamera final : public Camera {
     forward_ = axes.forward;
     up_ = glm::cross(right_, forward_);
     middle_ = 0.5 * glm::dvec2(size_);
-    focal_px_ = middle_.x / std::tan(0.5 * to_radians(p.field_of_view_deg));
+    focal_px_ = middle_.x / exact::tan(0.5 * to_radians(p.field_of_view_deg));
   }
 
   Ray ray(glm::dvec2 pixel) const override {

@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "base/angle.h"
+#include "base/math_exact.h"
 
 namespace belvedere {
 namespace {
@@ -136,10 +137,10 @@ void sample_ground(const TerrainModel& terrain, const DeformedSurface& surface, 
   out.fall_line[i] = image_fall_line(terrain, surface, camera, column, row, shape);
 
   const glm::dvec2 slope = gradient(terrain.detail_smooth_m, transform, known);
-  out.slope_deg[i] = static_cast<float>(to_degrees(std::atan(glm::length(slope))));
+  out.slope_deg[i] = static_cast<float>(to_degrees(exact::atan(glm::length(slope))));
   // Downhill is against the gradient; flat ground has aspect 0.
   if (slope != glm::dvec2(0.0)) {
-    const double aspect = to_degrees(std::atan2(-slope.x, -slope.y));
+    const double aspect = to_degrees(exact::atan2(-slope.x, -slope.y));
     out.aspect_deg[i] = static_cast<float>(aspect < 0.0 ? aspect + 360.0 : aspect);
   }
   out.relief_s_m[i] = bilinear(terrain.relief_s_m, known);

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
@@ -65,7 +66,7 @@ std::vector<glm::dvec2> disc_places(int count) {
   for (int k = 0; k < count; ++k) {
     // A single ray goes to the disc's middle: a hard shadow.
     const double radius = count == 1 ? 0.0 : std::sqrt((k + 0.5) / count);
-    places.emplace_back(radius * std::cos(golden_turn * k), radius * std::sin(golden_turn * k));
+    places.emplace_back(radius * exact::cos(golden_turn * k), radius * exact::sin(golden_turn * k));
   }
   return places;
 }
@@ -81,12 +82,12 @@ std::vector<SkyDirection> sky_directions(int per_pixel) {
       const int n = 16 * run + (bayer[static_cast<std::size_t>(lane)] + 7 * run) % 16;
       const double u = (n + 0.5) / (16.0 * per_pixel);
       const double turn = golden_turn * n;
-      all.push_back({{std::cos(turn) * std::sqrt(u), std::sin(turn) * std::sqrt(u), std::sqrt(1.0 - u)}, lane});
+      all.push_back({{exact::cos(turn) * std::sqrt(u), exact::sin(turn) * std::sqrt(u), std::sqrt(1.0 - u)}, lane});
     }
   }
   // Neighbours in azimuth are traced together: rays of one packet should go the same way.
   std::stable_sort(all.begin(), all.end(), [](const SkyDirection& a, const SkyDirection& b) {
-    return std::atan2(a.direction.y, a.direction.x) < std::atan2(b.direction.y, b.direction.x);
+    return exact::atan2(a.direction.y, a.direction.x) < exact::atan2(b.direction.y, b.direction.x);
   });
   return all;
 }
@@ -98,13 +99,13 @@ BlockValues trace_sun(const Tracer& tracer, const BlockSurface& block, std::span
   const glm::dvec3 sun = glm::normalize(sun_direction);
   const glm::dvec3 side = glm::normalize(glm::cross(sun, std::abs(sun.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
   const glm::dvec3 above = glm::cross(side, sun);
-  const double spread = std::tan(sun_radius_rad);
+  const double spread = exact::tan(sun_radius_rad);
   std::array<glm::dvec2, trace_block_pixels> turn;
   const std::uint64_t turns = stream_seed(0, Stream::sun_rays);  // shadows are the same whatever the seed of strokes
   for (int i = 0; i < trace_block_pixels; ++i) {
     const glm::ivec2 at = block.corner + block_pixel(i);
-    const double angle = 2.0 * std::numbers::pi * random_uniform(turns, at.x, at.y);
-    turn[static_cast<std::size_t>(i)] = {std::cos(angle), std::sin(angle)};
+    const exact::Turn by = exact::turn(2.0 * std::numbers::pi * random_uniform(turns, at.x, at.y));
+    turn[static_cast<std::size_t>(i)] = {by.cosine, by.sine};
   }
   const auto towards = [&](int pixel, int k) {
     const glm::dvec2 t = turn[static_cast<std::size_t>(pixel)];

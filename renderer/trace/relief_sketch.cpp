@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/filter.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "renderer/trace/guidance_ground.h"
 #include "renderer/trace/guidance_rays.h"
@@ -39,7 +40,7 @@ Grid<glm::vec3> make_relief_sketch(const Grid<float>& altitude_m, const GeoTrans
     const bool mark =
         !marked.empty() && marked.clamped(static_cast<int>(std::lround(hit.column)), static_cast<int>(std::lround(hit.row))) != 0;
     const glm::vec3 land = mark ? glm::mix(mark_shade, mark_light, light) : glm::mix(land_shade, land_light, light);
-    const auto air = static_cast<float>(0.8 * (1.0 - std::exp(-hit.distance_m / air_m)));
+    const auto air = static_cast<float>(0.8 * (1.0 - exact::exp(-hit.distance_m / air_m)));
     return glm::mix(land, sky, mark ? 0.5F * air : air);
   };
   Grid<glm::vec3> picture(camera.size().x, camera.size().y);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/math_exact.h"
 #include "base/parallel.h"
 
 namespace belvedere {
@@ -24,13 +25,13 @@ double foretold_from_near(double before, double here) {
   if (before <= here) return 0.0;  // rising towards us, or nothing there
   const double next = 2.0 * here - before;
   // A plane that vanishes before the next pixel explains any depth there.
-  return next > 0.0 ? std::log(here / next) : std::numeric_limits<double>::infinity();
+  return next > 0.0 ? exact::log(here / next) : std::numeric_limits<double>::infinity();
 }
 
 // The same from the far side: a plane through `there` and `beyond` continued to the near pixel.
 double foretold_from_far(double there, double beyond) {
   if (beyond <= 0.0 || beyond >= there) return 0.0;
-  return std::log((2.0 * there - beyond) / there);
+  return exact::log((2.0 * there - beyond) / there);
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ Grid<float> find_silhouettes(const Grid<float>& depth_m) {
           strongest = 1.0;
           continue;
         }
-        const double jump = std::log(here / there);
+        const double jump = exact::log(here / there);
         const double foretold = std::max(foretold_from_near(inverse_depth(depth_m, x - dx, y - dy), here),
                                          foretold_from_far(there, inverse_depth(depth_m, x + 2 * dx, y + 2 * dy)));
         strongest = std::max(strongest, strength_per_log * (jump - foretold));

@@ -10,6 +10,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "base/math_exact.h"
 
 namespace belvedere {
 namespace {
@@ -111,23 +112,24 @@ SunPosition sun_position(double longitude_deg, double latitude_deg, const std::s
   const double omega = 2.267127827 - 9.300339267e-4 * n;
   const double mean_longitude = 4.895036035 + 1.720279602e-2 * n;
   const double mean_anomaly = 6.239468336 + 1.720200135e-2 * n;
-  const double ecliptic_longitude = mean_longitude + 3.338320972e-2 * std::sin(mean_anomaly) +
-                                    3.497596876e-4 * std::sin(2.0 * mean_anomaly) - 1.544353226e-4 - 8.689729360e-6 * std::sin(omega);
-  const double obliquity = 4.090904909e-1 - 6.213605399e-9 * n + 4.418094944e-5 * std::cos(omega);
-  const double right_ascension = std::atan2(std::cos(obliquity) * std::sin(ecliptic_longitude), std::cos(ecliptic_longitude));
-  const double declination = std::asin(std::clamp(std::sin(obliquity) * std::sin(ecliptic_longitude), -1.0, 1.0));
+  const double ecliptic_longitude = mean_longitude + 3.338320972e-2 * exact::sin(mean_anomaly) +
+                                    3.497596876e-4 * exact::sin(2.0 * mean_anomaly) - 1.544353226e-4 - 8.689729360e-6 * exact::sin(omega);
+  const double obliquity = 4.090904909e-1 - 6.213605399e-9 * n + 4.418094944e-5 * exact::cos(omega);
+  const double right_ascension = exact::atan2(exact::cos(obliquity) * exact::sin(ecliptic_longitude), exact::cos(ecliptic_longitude));
+  const double declination = exact::asin(std::clamp(exact::sin(obliquity) * exact::sin(ecliptic_longitude), -1.0, 1.0));
 
   const double sidereal_hours = 6.697096103 + 6.570984737e-2 * n + utc->hour;
   const double hour_angle = to_radians(15.0 * sidereal_hours + longitude_deg) - right_ascension;
   const double latitude = to_radians(latitude_deg);
-  const double cos_zenith = std::cos(latitude) * std::cos(hour_angle) * std::cos(declination) + std::sin(declination) * std::sin(latitude);
-  const double zenith = std::acos(std::clamp(cos_zenith, -1.0, 1.0));
+  const double cos_zenith =
+      exact::cos(latitude) * exact::cos(hour_angle) * exact::cos(declination) + exact::sin(declination) * exact::sin(latitude);
+  const double zenith = exact::acos(std::clamp(cos_zenith, -1.0, 1.0));
   // tan(declination) cos(latitude) - sin(latitude) cos(hour angle), multiplied by cos(declination) > 0.
-  const double azimuth =
-      std::atan2(-std::sin(hour_angle) * std::cos(declination),
-                 std::sin(declination) * std::cos(latitude) - std::sin(latitude) * std::cos(hour_angle) * std::cos(declination));
+  const double azimuth = exact::atan2(
+      -exact::sin(hour_angle) * exact::cos(declination),
+      exact::sin(declination) * exact::cos(latitude) - exact::sin(latitude) * exact::cos(hour_angle) * exact::cos(declination));
   // From the ground the sun stands a little lower than from the earth's centre.
-  const double parallax = 6371.01 / 149597890.0 * std::sin(zenith);
+  const double parallax = 6371.01 / 149597890.0 * exact::sin(zenith);
   SunPosition sun;
   sun.azimuth_deg = to_degrees(azimuth < 0.0 ? azimuth + 2.0 * std::numbers::pi : azimuth);
   sun.altitude_deg = 90.0 - to_degrees(zenith + parallax);
@@ -137,7 +139,7 @@ SunPosition sun_position(double longitude_deg, double latitude_deg, const std::s
 glm::dvec3 sun_direction(const SunPosition& sun) {
   const double azimuth = to_radians(sun.azimuth_deg);
   const double altitude = to_radians(sun.altitude_deg);
-  return {std::sin(azimuth) * std::cos(altitude), std::cos(azimuth) * std::cos(altitude), std::sin(altitude)};
+  return {exact::sin(azimuth) * exact::cos(altitude), exact::cos(azimuth) * exact::cos(altitude), exact::sin(altitude)};
 }
 
 }  // namespace belvedere

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "terrain/shape/derivatives.h"
 
@@ -51,7 +52,7 @@ Grid<float> rim_distance(const Dem& dem) {
       const int at = nearest(x, y);
       const int across = at % width - x;
       const int down = at / width - y;
-      distance(x, y) = static_cast<float>(std::hypot(across * dem.transform.cell_x, down * dem.transform.cell_y));
+      distance(x, y) = static_cast<float>(exact::hypot(across * dem.transform.cell_x, down * dem.transform.cell_y));
     }
   });
   return distance;
@@ -62,7 +63,7 @@ Grid<float> rim_distance(const Dem& dem) {
 Grid<float> log_upstream_area(Grid<float> area) {
   constexpr double m2_per_km2 = 1e6;
   parallel_rows(area.height(), [&](int y) {
-    for (int x = 0; x < area.width(); ++x) area(x, y) = static_cast<float>(std::log10(m2_per_km2 * static_cast<double>(area(x, y))));
+    for (int x = 0; x < area.width(); ++x) area(x, y) = static_cast<float>(exact::log10(m2_per_km2 * static_cast<double>(area(x, y))));
   });
   return area;
 }

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/instruction_set.h"
+#include "base/math_exact.h"
 
 namespace belvedere {
 namespace {
@@ -154,7 +155,7 @@ void make_tiles(Part& part, int tile_cells) {
 std::vector<Part> make_parts(const DeformedSurface& surface) {
   const auto side_of = [](const Grid<glm::vec3>& posts) {
     const glm::dvec3 across = glm::dvec3(posts(posts.width() - 1, posts.height() - 1)) - glm::dvec3(posts(0, 0));
-    return glm::length(across) / std::hypot(posts.width() - 1.0, posts.height() - 1.0);
+    return glm::length(across) / exact::hypot(posts.width() - 1.0, posts.height() - 1.0);
   };
   const Grid<glm::vec3>& own = surface.vertices_m;
   std::vector<Part> parts;

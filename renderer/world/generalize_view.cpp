@@ -7,6 +7,7 @@
 
 #include "base/filter.h"
 #include "base/math.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "renderer/world/cached_products.h"
 #include "renderer/world/scene_terrain.h"
@@ -35,7 +36,7 @@ Grid<float> foreground_share(const Dem& dem, glm::dvec2 viewer_xy, const SceneGe
   parallel_rows(dem.height(), [&](int y) {
     for (int x = 0; x < dem.width(); ++x) {
       const glm::dvec2 place = dem.transform.to_crs(x, y);
-      const double distance = std::hypot(place.x - viewer_xy.x, place.y - viewer_xy.y);
+      const double distance = exact::hypot(place.x - viewer_xy.x, place.y - viewer_xy.y);
       share(x, y) = static_cast<float>(1.0 - smoothstep((distance - settings.foreground_to_m) / span));
     }
   });

@@ -13,6 +13,8 @@
 #include "terrain/deform/deform.h"
 #include "terrain/io/dem_levels.h"
 
+#include "base/math_exact.h"
+
 namespace belvedere {
 namespace {
 
@@ -49,9 +51,9 @@ Grid<Wish> ask(const Dem& whole, const View& view) {
       const glm::dvec3 point = deformation.point({place, altitude});
       const glm::dvec3 line = point - view.camera.eye;
       const double distance = std::max(1.0, glm::length(line));
-      const double across = std::max(0.0, std::hypot(line.x, line.y) - reach_m);
+      const double across = std::max(0.0, exact::hypot(line.x, line.y) - reach_m);
       Wish& wish = wishes(x, y);
-      wish.distance_m = std::max(1.0, std::hypot(across, line.z));
+      wish.distance_m = std::max(1.0, exact::hypot(across, line.z));
       if (distance > 4.0 * reach_m && !is_shown(*camera, point)) continue;
       const double step_m = std::clamp(0.01 * distance, 1.0, whole.cell_m());
       const double pixels = pixels_per_m(*camera, deformation, place, altitude, step_m);

@@ -11,6 +11,7 @@
 #include "base/filter.h"
 #include "base/grid_part.h"
 #include "base/math.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/scene_terrain.h"
@@ -37,7 +38,7 @@ std::vector<RiverEntry> find_entries(const TerrainModel& whole, const Dem& windo
   std::vector<RiverEntry> entries;
   const auto is_inside = [&](int x, int y) { return x >= inside.x0 && y >= inside.y0 && x < inside.x1 && y < inside.y1; };
   const auto look = [&](int x, int y) {  // at a cell outside, beside the window
-    if (!flow.contains(x, y) || flow(x, y) < std::log10(4.0 * own_m2)) return;
+    if (!flow.contains(x, y) || flow(x, y) < exact::log10(4.0 * own_m2)) return;
     glm::ivec2 next(x, y);
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i)
@@ -45,7 +46,8 @@ std::vector<RiverEntry> find_entries(const TerrainModel& whole, const Dem& windo
     if (!is_inside(next.x, next.y)) return;
     // It runs where the ground is lowest around there.
     const glm::ivec2 at = glm::ivec2(next * factor) - glm::ivec2(cells.x0, cells.y0);
-    RiverEntry entry{std::clamp(at.x, 0, window.width() - 1), std::clamp(at.y, 0, window.height() - 1), 1e-6 * std::pow(10.0, flow(x, y))};
+    RiverEntry entry{std::clamp(at.x, 0, window.width() - 1), std::clamp(at.y, 0, window.height() - 1),
+                     1e-6 * exact::pow(10.0, flow(x, y))};
     const glm::ivec2 middle(entry.x, entry.y);
     for (int v = -factor / 2; v <= factor / 2; ++v)
       for (int u = -factor / 2; u <= factor / 2; ++u) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/filter.h"
+#include "base/math_exact.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "renderer/paint/palette.h"
@@ -327,7 +328,7 @@ double most_ground_cells(const SceneTerrain& terrain, double cells) {
   constexpr double share_of_whole = 0.8;
   if (cells <= share_of_whole * fit) return cells;
   constexpr double share_of_windows = 0.5;
-  return std::exp2(0.5 * std::floor(2.0 * std::log2(std::max(share_of_windows * fit, 1.0))));
+  return exact::exp2(0.5 * std::floor(2.0 * exact::log2(std::max(share_of_windows * fit, 1.0))));
 }
 
 SceneDem read_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {

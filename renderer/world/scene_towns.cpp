@@ -8,6 +8,8 @@
 #include "renderer/world/scene_place.h"
 #include "terrain/cover/town_file.h"
 
+#include "base/math_exact.h"
+
 namespace belvedere {
 namespace {
 
@@ -17,7 +19,7 @@ double distance_outside_m(const Dem& dem, glm::dvec2 place) {
   const glm::dvec2 high = dem.transform.to_crs(dem.width() - 0.5, -0.5);
   const double east = std::max({low.x - place.x, place.x - high.x, 0.0});
   const double north = std::max({low.y - place.y, place.y - high.y, 0.0});
-  return std::hypot(east, north);
+  return exact::hypot(east, north);
 }
 
 void note_outside(const std::vector<std::string>& names, Progress& progress) {

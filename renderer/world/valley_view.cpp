@@ -9,6 +9,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "base/math_exact.h"
 #include "renderer/trace/camera.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/scene_terrain.h"
@@ -24,8 +25,8 @@ std::optional<SightLine> shown(const Camera& camera, double azimuth_deg) {
   const auto inside = [&](double altitude_deg) {
     const double altitude = to_radians(altitude_deg);
     constexpr double far_m = 1000.0;  // any distance: only the direction counts
-    const auto at = camera.project(camera.eye() + far_m * glm::dvec3(std::sin(azimuth) * std::cos(altitude),
-                                                                     std::cos(azimuth) * std::cos(altitude), std::sin(altitude)));
+    const auto at = camera.project(camera.eye() + far_m * glm::dvec3(exact::sin(azimuth) * exact::cos(altitude),
+                                                                     exact::cos(azimuth) * exact::cos(altitude), exact::sin(altitude)));
     return at && at->x >= 0.0 && at->y >= 0.0 && at->x <= camera.size().x && at->y <= camera.size().y;
   };
   const auto edge = [&](double in, double out) {
@@ -33,7 +34,7 @@ std::optional<SightLine> shown(const Camera& camera, double azimuth_deg) {
       const double middle = 0.5 * (in + out);
       (inside(middle) ? in : out) = middle;
     }
-    return std::tan(to_radians(in));
+    return exact::tan(to_radians(in));
   };
   constexpr double step_deg = 0.5;
   constexpr int steepest = 179;  // steps

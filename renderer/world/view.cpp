@@ -8,6 +8,7 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/math_exact.h"
 #include "renderer/scene/scene_error.h"
 #include "renderer/world/scene_place.h"
 #include "terrain/io/raster_io.h"
@@ -29,7 +30,7 @@ double ground_altitude_m(const Dem& dem, glm::dvec2 place) {
 double meridian_azimuth_deg(const Dem& dem, glm::dvec2 lonlat) {
   const glm::dvec2 here = place_of_lonlat(dem, lonlat, "sun.time");
   const glm::dvec2 north = place_of_lonlat(dem, lonlat + glm::dvec2(0.0, 1e-3), "sun.time");
-  return to_degrees(std::atan2(north.x - here.x, north.y - here.y));
+  return to_degrees(exact::atan2(north.x - here.x, north.y - here.y));
 }
 
 SunPosition resolve_sun(const SceneSun& sun, const Dem& dem) {
@@ -45,10 +46,10 @@ SunPosition resolve_sun(const SceneSun& sun, const Dem& dem) {
 // Pitch and azimuth towards a point.
 void look_towards(CameraParameters& camera, glm::dvec3 point) {
   const glm::dvec3 line = point - camera.eye;
-  const double horizontal = std::hypot(line.x, line.y);
+  const double horizontal = exact::hypot(line.x, line.y);
   if (horizontal < 1e-6) throw Error(ErrorKind::usage, "camera.look_at", "the point straight below the eye", "a point away from it");
-  camera.azimuth_deg = to_degrees(std::atan2(line.x, line.y));
-  camera.pitch_deg = to_degrees(std::atan2(line.z, horizontal));
+  camera.azimuth_deg = to_degrees(exact::atan2(line.x, line.y));
+  camera.pitch_deg = to_degrees(exact::atan2(line.z, horizontal));
 }
 
 }  // namespace
@@ -131,7 +132,7 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress, const Gro
 
   view.sun = resolve_sun(scene.sun, dem);
   view.sun_direction = sun_direction(view.sun);
-  view.sun_image_x = std::sin(to_radians(view.sun.azimuth_deg - view.camera.azimuth_deg));
+  view.sun_image_x = exact::sin(to_radians(view.sun.azimuth_deg - view.camera.azimuth_deg));
   if (view.sun.altitude_deg <= 0.0)
     progress.note(fmt::format("the sun stands {:.1f}° below the horizon: only the sky gives light", -view.sun.altitude_deg));
   return view;

@@ -8,6 +8,7 @@
 
 #include "base/angle.h"
 #include "base/filter.h"
+#include "base/math_exact.h"
 #include "base/noise.h"
 #include "base/parallel.h"
 #include "base/random.h"
@@ -177,7 +178,7 @@ void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>
       each_cell(grid(shore), [&](int x, int y) {
         if (mask(x, y) == 0) return 0.F;
         const std::int32_t at = nearest(x, y);
-        return at < 0 ? 1e6F : static_cast<float>(cell * std::hypot(at % z.width() - x, at / z.width() - y));
+        return at < 0 ? 1e6F : static_cast<float>(cell * exact::hypot(at % z.width() - x, at / z.width() - y));
       });
     }
   }

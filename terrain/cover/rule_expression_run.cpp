@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "base/math.h"
+#include "base/math_exact.h"
 #include "terrain/cover/rule_expression.h"
 
 namespace belvedere {
@@ -58,11 +59,11 @@ void RuleExpression::run(Operation operation, const float* const* o, float* out)
     case Operation::absolute:
       return each(o[0], out, [](float a) { return std::abs(a); });
     case Operation::sine:
-      return each(o[0], out, [](float a) { return std::sin(a); });
+      return each(o[0], out, [](float a) { return exact::sin(a); });
     case Operation::cosine:
-      return each(o[0], out, [](float a) { return std::cos(a); });
+      return each(o[0], out, [](float a) { return exact::cos(a); });
     case Operation::exponential:
-      return each(o[0], out, [](float a) { return std::exp(a); });
+      return each(o[0], out, [](float a) { return exact::exp(a); });
     case Operation::square_root:
       return each(o[0], out, [](float a) { return a > 0.F ? std::sqrt(a) : 0.F; });
     case Operation::smooth_step:

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "base/filter.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
@@ -58,11 +59,11 @@ Grid<float> valley_mouths(const TownGround& g, double cell_m) {
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) opens = opens || (g.catchment_km2(x + dx, y + dy) > area && g.floor(x + dx, y + dy) >= 0.5F);
       if (!opens) continue;
-      const double amount = std::min(1.0, 0.35 + 0.30 * std::log10(static_cast<double>(area) / least_side_km2));
+      const double amount = std::min(1.0, 0.35 + 0.30 * exact::log10(static_cast<double>(area) / least_side_km2));
       for (int v = std::max(0, y - reach); v < std::min(height, y + reach + 1); ++v)
         for (int u = std::max(0, x - reach); u < std::min(width, x + reach + 1); ++u) {
           const double d2 = (u - x) * (u - x) + (v - y) * (v - y);
-          near(u, v) = std::max(near(u, v), static_cast<float>(amount * std::exp(-0.5 * d2 / (sigma * sigma))));
+          near(u, v) = std::max(near(u, v), static_cast<float>(amount * exact::exp(-0.5 * d2 / (sigma * sigma))));
         }
     }
   }
@@ -78,7 +79,7 @@ Grid<float> distance_to_rivers(const TownGround& g, double cell_m) {
   parallel_rows(distance.height(), [&](int y) {
     for (int x = 0; x < distance.width(); ++x) {
       const std::int32_t at = nearest(x, y);
-      distance(x, y) = at < 0 ? 1e6F : static_cast<float>(cell_m * std::hypot(at % distance.width() - x, at / distance.width() - y));
+      distance(x, y) = at < 0 ? 1e6F : static_cast<float>(cell_m * exact::hypot(at % distance.width() - x, at / distance.width() - y));
     }
   });
   return distance;
@@ -135,7 +136,7 @@ std::vector<Candidate> find_candidates(const TownGround& g, const TownParameters
           if (g.floor(x, y) >= 0.5F) {
             // Beside the river, not in it.
             const float away = rivers(x, y);
-            const float bank = away < 130.F ? -0.6F : std::exp(-0.5F * (away - 350.F) * (away - 350.F) / (450.F * 450.F));
+            const float bank = away < 130.F ? -0.6F : exact::exp(-0.5F * (away - 350.F) * (away - 350.F) / (450.F * 450.F));
             // Room is good, but in the middle of a plain one place is as good as another: only rivers and edges say where villages are.
             const float lost = few * std::clamp((around(x, y) - 0.75F) / 0.2F, 0.F, 1.F);
             const float score = 0.95F * mouths(x, y) + 0.60F * bank + 0.70F * (room(x, y) - lost) + 0.35F * low + 0.35F * chance;
@@ -194,7 +195,7 @@ void take_direction(const TownGround& g, std::int32_t cell, double cell_m, TownS
     }
   const glm::dvec2 axis = ground.axis() + 1.5 * river.axis();
   const double clear = std::min(1.0, glm::length(axis));
-  if (clear > 0.0) site.along_rad = 0.5 * std::atan2(axis.y, axis.x);
+  if (clear > 0.0) site.along_rad = 0.5 * exact::atan2(axis.y, axis.x);
   site.stretch = 1.0 + 1.1 * clear;
 }
 
@@ -226,7 +227,7 @@ constexpr double slack = 1e-4;
 
 // One town: 1 - distance / radius, the distance along its streets shortened by its stretch.
 void raise_town(const TownGround& g, const TownSite& site, const PixelRect& box, Grid<float>& field) {
-  const glm::dvec2 along{std::cos(site.along_rad), std::sin(site.along_rad)};
+  const glm::dvec2 along{exact::cos(site.along_rad), exact::sin(site.along_rad)};
   const double per_stretch2 = 1.0 / (site.stretch * site.stretch);
   for (int y = box.y0; y < box.y1; ++y) {
     float* out = field.row(y);
@@ -316,7 +317,7 @@ std::vector<TownSite> find_town_sites(const TownGround& g, const TownParameters&
       return distance_m(g, site.place, c.cell) < std::max(spacing_m, 0.5 * spacing_m + 1.3 * site.radius_m * site.stretch);
     });
   };
-  const double closer = std::exp2(-0.9 * p.amount);
+  const double closer = exact::exp2(-0.9 * p.amount);
   const double larger = 1.0 + 0.35 * p.amount;
   const double smaller = Density{0.72, 1.0}.at(p.guesses);
   const auto settle = [&](const Candidate& c, double radius_m) {

@@ -7,6 +7,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "base/math_exact.h"
 
 namespace belvedere {
 namespace {
@@ -95,7 +96,7 @@ void BendProfile::join_inclinations(const std::vector<BendPoint>& points) {
   std::vector<double> y;  // of drop', which is positive where the ground turns away
   for (const BendPoint& point : points) {
     x.push_back(point.distance_m);
-    y.push_back(-std::tan(to_radians(*point.inclination_deg)));
+    y.push_back(-exact::tan(to_radians(*point.inclination_deg)));
   }
   const std::vector<double> tangent = monotone_tangents(x, y);
   pieces_.push_back({x[0], {0.0, y[0]}});

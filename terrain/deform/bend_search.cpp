@@ -10,6 +10,7 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "terrain/io/surface_raster.h"
 #include "terrain/shape/valley_floor.h"
@@ -142,7 +143,7 @@ ValleySight::ValleySight(const Grid<float>& altitude_m, const GeoTransform& tran
   for (const int x : {0, thin.width() - 1})
     for (const int y : {0, thin.height() - 1}) {
       const glm::dvec2 corner = cells.to_crs(x, y);
-      farthest = std::max(farthest, std::hypot(corner.x - viewer.x, corner.y - viewer.y));
+      farthest = std::max(farthest, exact::hypot(corner.x - viewer.x, corner.y - viewer.y));
     }
   step_m_ = cell_m;
   const int steps = static_cast<int>(farthest / step_m_) + 1;
@@ -154,7 +155,7 @@ ValleySight::ValleySight(const Grid<float>& altitude_m, const GeoTransform& tran
     const double azimuth = to_radians(lines_[static_cast<std::size_t>(row)].azimuth_deg);
     for (int k = 0; k < steps; ++k) {
       const double distance = (k + 0.5) * step_m_;
-      const glm::dvec2 at = cells.to_cell(viewer.x + distance * std::sin(azimuth), viewer.y + distance * std::cos(azimuth));
+      const glm::dvec2 at = cells.to_cell(viewer.x + distance * exact::sin(azimuth), viewer.y + distance * exact::cos(azimuth));
       if (!(at.x >= 0.0 && at.y >= 0.0 && at.x <= thin.width() - 1.0 && at.y <= thin.height() - 1.0)) continue;
       const double z = static_cast<double>(sample_bilinear(rearranged, at.x, at.y));
       const double base = deformation.parameters().exaggeration_base_m;
@@ -232,7 +233,7 @@ BendDistortion measure_distortion(const BendProfile& bend, double from_m, double
   BendDistortion out;
   double before = 0.0;
   for (int k = 0; k <= steps; ++k) {
-    const double inclination = to_degrees(std::atan(bend.slope(from_m + step_m * k)));
+    const double inclination = to_degrees(exact::atan(bend.slope(from_m + step_m * k)));
     out.largest_deg = std::max(out.largest_deg, std::abs(inclination));
     out.mean_deg += std::abs(inclination) / (steps + 1);
     if (k > 0 && step_m > 0.0)

@@ -11,6 +11,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "base/math_exact.h"
 
 namespace belvedere {
 namespace {
@@ -59,9 +60,9 @@ HandleField::HandleField(std::vector<DeformHandle> handles) : given_(std::move(h
     const double scale = h.pin ? 1.0 : h.scale;
     out.center = h.center;
     out.image = h.center + h.move_m;
-    out.turn = angle == 0.0 ? glm::dvec2(scale, 0.0) : scale * glm::dvec2(std::cos(angle), std::sin(angle));
+    out.turn = angle == 0.0 ? glm::dvec2(scale, 0.0) : scale * glm::dvec2(exact::cos(angle), exact::sin(angle));
     out.angle = angle;
-    out.log_scale = std::log(scale);
+    out.log_scale = exact::log(scale);
     out.raise_m = h.raise_m;
     out.radius_m = h.radius_m;
     out.core_m = h.pin ? 0.0 : h.core_m;
@@ -160,9 +161,9 @@ HandleField::Moved HandleField::move(glm::dvec2 v) const {
     log_scale += a.weight * a.reach2 * a.handle->log_scale;
     framed += a.weight * a.reach2;
   });
-  if (framed > 0.0) turn += framed * glm::dvec2(std::cos(angle / framed), std::sin(angle / framed));
-  const double length = std::hypot(turn.x, turn.y);
-  const double scale = framed > 0.0 ? std::exp(log_scale / framed) : 1.0;
+  if (framed > 0.0) turn += framed * glm::dvec2(exact::cos(angle / framed), exact::sin(angle / framed));
+  const double length = exact::hypot(turn.x, turn.y);
+  const double scale = framed > 0.0 ? exact::exp(log_scale / framed) : 1.0;
   turn = length > 0.0 ? turn * (scale / length) : glm::dvec2(scale, 0.0);
   return {v + to - times(turn, from), raise / total};
 }

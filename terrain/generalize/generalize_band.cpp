@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/pyramid.h"
 
@@ -44,9 +45,9 @@ std::vector<float> gaussian_taps(double sigma, int radius) {
   std::vector<float> taps(static_cast<std::size_t>(2 * radius + 1), 1.F);
   if (radius == 0) return taps;
   double sum = 0.0;
-  for (int k = -radius; k <= radius; ++k) sum += std::exp(-0.5 * k * k / (sigma * sigma));
+  for (int k = -radius; k <= radius; ++k) sum += exact::exp(-0.5 * k * k / (sigma * sigma));
   for (int k = -radius; k <= radius; ++k) {
-    taps[static_cast<std::size_t>(k + radius)] = static_cast<float>(std::exp(-0.5 * k * k / (sigma * sigma)) / sum);
+    taps[static_cast<std::size_t>(k + radius)] = static_cast<float>(exact::exp(-0.5 * k * k / (sigma * sigma)) / sum);
   }
   return taps;
 }

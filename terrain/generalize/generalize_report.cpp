@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/pyramid.h"
 #include "terrain/generalize/mask.h"
@@ -58,7 +59,7 @@ Bend fit(const Grid<float>& z, int x, int y, glm::dvec2 cell_m) {
 }
 
 // The least eigenvalue of [r s; s t].
-double least_bend(const Bend& b) { return 0.5 * (b.r + b.t) - std::hypot(0.5 * (b.r - b.t), b.s); }
+double least_bend(const Bend& b) { return 0.5 * (b.r + b.t) - exact::hypot(0.5 * (b.r - b.t), b.s); }
 
 // Does the quadric culminate within the cell, along the direction of its least second derivative?
 bool culminates(const Bend& b, double least, glm::dvec2 cell_m) {
@@ -66,7 +67,7 @@ bool culminates(const Bend& b, double least, glm::dvec2 cell_m) {
   glm::dvec2 along(b.s, least - b.r);
   const glm::dvec2 other(least - b.t, b.s);
   if (other.x * other.x + other.y * other.y > along.x * along.x + along.y * along.y) along = other;
-  const double length = std::hypot(along.x, along.y);
+  const double length = exact::hypot(along.x, along.y);
   if (length == 0.0) return false;  // bends alike in all directions: a summit, no line
   along = along / length;
   const double offset = -(b.p * along.x + b.q * along.y) / least;
@@ -95,7 +96,7 @@ Look look_at(const Grid<float>& altitude_m, double gaussian_cells, const Grid<st
 }
 
 // Between two values that fall like a blurred wave, exp(-σ²): on a straight line of logarithms where both have one.
-double between(double a, double b, double t) { return a > 0.0 && b > 0.0 ? a * std::pow(b / a, t) : a + t * (b - a); }
+double between(double a, double b, double t) { return a > 0.0 && b > 0.0 ? a * exact::pow(b / a, t) : a + t * (b - a); }
 
 }  // namespace
 
@@ -229,7 +230,7 @@ std::vector<RidgeSharpness> ridge_sharpness(const Grid<float>& before_m, const G
       const double low = energy(b);
       if (low > target) continue;
       // A wave's energy falls as exp(-4π²σ²/λ²): the logarithm is straight in σ².
-      const double t = low > 0.0 && target > 0.0 && high > low ? std::log(high / target) / std::log(high / low) : 1.0;
+      const double t = low > 0.0 && target > 0.0 && high > low ? exact::log(high / target) / exact::log(high / low) : 1.0;
       const double from = a.gaussian_cells * a.gaussian_cells;
       sharp.gaussian_cells = std::sqrt(from + t * (b.gaussian_cells * b.gaussian_cells - from));
       sharp.gaussian_per_m = between(a.curvature_per_m[slice], b.curvature_per_m[slice], t);

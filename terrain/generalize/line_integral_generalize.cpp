@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/math.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "terrain/shape/derivatives.h"
 
@@ -277,7 +278,7 @@ std::vector<float> line_weights(float length) {
   std::vector<float> weights;
   for (int k = 0; static_cast<float>(k) <= 2.5F * sigma; ++k) {
     const float d = static_cast<float>(k) / std::max(sigma, 1e-3F);
-    weights.push_back(std::exp(-0.5F * d * d));
+    weights.push_back(exact::exp(-0.5F * d * d));
   }
   return weights;
 }

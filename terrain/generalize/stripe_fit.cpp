@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/filter.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 
 // Along a line the stripe's error c is fitted to the detail h = c · g + terrain, weighted by how plain the terrain is. How plain is known
@@ -48,7 +49,7 @@ Grid<float> sheared(const Grid<float>& values, double tilt) {
     std::array<double, taps> w{};
     for (int k = 0; k < taps; ++k) {
       const double d = 3.14159265358979323846 * (k - taps / 2 + 1 - (shift - whole));
-      w[k] = std::abs(d) < 1e-9 ? 1.0 : std::sin(d) / d * std::sin(d * 2 / taps) / (d * 2 / taps);
+      w[k] = std::abs(d) < 1e-9 ? 1.0 : exact::sin(d) / d * exact::sin(d * 2 / taps) / (d * 2 / taps);
       sum += w[k];
     }
     for (int k = 0; k < taps; ++k) weights[x][k] = static_cast<float>(w[k] / sum);
@@ -189,10 +190,10 @@ Grid<float> fit_lines(const Sums& sums, int box, double around) {
 // Leaves out single lines that stand out.
 void limit(Grid<float>& error, Follows follows, double around) {
   Grid<float> level(error.width(), error.height());
-  for (std::size_t i = 0; i < error.size(); ++i) level[i] = std::log(std::abs(error[i]) + 1e-6F);
+  for (std::size_t i = 0; i < error.size(); ++i) level[i] = exact::log(std::abs(error[i]) + 1e-6F);
   level = gaussian_blur(level, 0.0, around);
   for (std::size_t i = 0; i < error.size(); ++i) {
-    float most = most_exception * std::exp(level[i]);
+    float most = most_exception * exact::exp(level[i]);
     if (follows != Follows::offset) most = std::min(most, most_displacement);
     // Far above it is a crest, and is the less believed the farther: what stands out is no part of a stripe.
     const float over = std::abs(error[i]) / std::max(most, 1e-12F);

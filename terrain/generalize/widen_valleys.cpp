@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/math.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "terrain/shape/hydrology.h"
 
@@ -43,15 +44,15 @@ Valleys find_valleys(const Grid<float>& altitude_m, double cell_m, const WidenVa
   valleys.course = nearest_marked(water);
   valleys.floor_m = Grid<float>(altitude_m.width(), altitude_m.height());
   valleys.half_width = valleys.floor_m;
-  const float least = std::log(parameters.least_catchment_km2);
-  const float span = std::log(parameters.full_catchment_km2) - least;
+  const float least = exact::log(parameters.least_catchment_km2);
+  const float span = exact::log(parameters.full_catchment_km2) - least;
   const auto widest = static_cast<float>(0.5 * parameters.width_m / cell_m);
   parallel_rows(altitude_m.height(), [&](int y) {
     for (int x = 0; x < altitude_m.width(); ++x) {
       const std::int32_t at = valleys.course(x, y);
       if (at < 0) continue;
       valleys.floor_m(x, y) = altitude_m[static_cast<std::size_t>(at)];
-      valleys.half_width(x, y) = widest * smoothstep((std::log(catchment[static_cast<std::size_t>(at)]) - least) / span);
+      valleys.half_width(x, y) = widest * smoothstep((exact::log(catchment[static_cast<std::size_t>(at)]) - least) / span);
     }
   });
   // A brook that comes into a valley has not its width yet: the change is spread over the width itself.

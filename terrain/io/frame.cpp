@@ -58,7 +58,9 @@ glm::dvec2 cell_in(const RasterFile& file, const std::string& crs) {
 
 // A length that reads well: three digits.
 double rounded(double metres) {
-  const double unit = std::pow(10.0, std::floor(std::log10(metres)) - 2.0);
+  double unit = 1.0;
+  while (metres >= 1000.0 * unit) unit *= 10.0;
+  while (metres < 100.0 * unit) unit /= 10.0;
   return std::round(metres / unit) * unit;
 }
 

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "base/error.h"
+#include "base/math_exact.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "terrain/io/crs.h"
@@ -138,7 +139,7 @@ class LatticeMap {
     const glm::dvec2* p = points_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(across_) + i;
     const glm::dvec2 east = (p[1] - p[0]) / static_cast<double>(step_);
     const glm::dvec2 south = (p[across_] - p[0]) / static_cast<double>(step_);
-    scale_ = {std::hypot(east.x, south.x), std::hypot(east.y, south.y)};
+    scale_ = {exact::hypot(east.x, south.x), exact::hypot(east.y, south.y)};
     if (!std::isfinite(scale_.x) || !std::isfinite(scale_.y)) scale_ = {1.0, 1.0};
   }
 

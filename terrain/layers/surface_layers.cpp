@@ -9,6 +9,7 @@
 
 #include "base/config.h"
 #include "base/error.h"
+#include "base/math_exact.h"
 #include "terrain/cover/ground_variables.h"
 
 namespace belvedere {
@@ -62,7 +63,7 @@ double layer_function_value(const LayerFunction& function, const LayerInput& inp
   if (const auto* hat = std::get_if<LayerHat>(&function)) {
     const double value = std::clamp(std::min(ramp(x - hat->low, hat->low_width), ramp(hat->high - x, hat->high_width)), 0.0, 1.0);
     if (model == LayerModel::product) return value;
-    return value > 0.0 ? std::max(lowest_log, std::log(value)) : lowest_log;
+    return value > 0.0 ? std::max(lowest_log, exact::log(value)) : lowest_log;
   }
   if (const auto* sampled = std::get_if<LayerSamples>(&function)) {
     const double u = std::clamp((x - input.low) / (input.high - input.low), 0.0, 1.0);

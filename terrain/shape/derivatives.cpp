@@ -5,6 +5,7 @@
 
 #include "base/angle.h"
 #include "base/filter.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 
 namespace belvedere {
@@ -71,7 +72,7 @@ ContourTerms evans_young(const Window& w, double cell_m) {
 Grid<float> slope_deg(const Grid<float>& altitude_m, double cell_x_m, double cell_y_m) {
   return map_windows(altitude_m, [=](const Window& w) {
     const Gradient g = horn(w, cell_x_m, cell_y_m);
-    return to_degrees(std::atan(std::sqrt(g.east * g.east + g.north * g.north)));
+    return to_degrees(exact::atan(std::sqrt(g.east * g.east + g.north * g.north)));
   });
 }
 
@@ -79,7 +80,7 @@ Grid<float> aspect_deg(const Grid<float>& altitude_m, double cell_x_m, double ce
   return map_windows(altitude_m, [=](const Window& w) {
     const Gradient g = horn(w, cell_x_m, cell_y_m);
     if (g.east == 0.0 && g.north == 0.0) return -1.0F;
-    const double aspect = to_degrees(std::atan2(-g.east, -g.north));
+    const double aspect = to_degrees(exact::atan2(-g.east, -g.north));
     // A hair's breadth below 360 must not round to it.
     const auto clockwise = static_cast<float>(aspect < 0.0 ? aspect + 360.0 : aspect);
     return clockwise >= 360.F ? 0.F : clockwise;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/angle.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 
 namespace belvedere {
@@ -11,9 +12,9 @@ namespace belvedere {
 Grid<std::uint8_t> hillshade(const Grid<float>& altitude_m, double cell_x_m, double cell_y_m, const HillshadeParameters& parameters) {
   const double azimuth = to_radians(parameters.azimuth_deg);
   const double altitude = to_radians(parameters.altitude_deg);
-  const double east = std::sin(azimuth) * std::cos(altitude);
-  const double north = std::cos(azimuth) * std::cos(altitude);
-  const double up = std::sin(altitude);
+  const double east = exact::sin(azimuth) * exact::cos(altitude);
+  const double north = exact::cos(azimuth) * exact::cos(altitude);
+  const double up = exact::sin(altitude);
   const double to_slope_x = parameters.exaggeration / (8.0 * cell_x_m);
   const double to_slope_y = parameters.exaggeration / (8.0 * cell_y_m);
   Grid<std::uint8_t> shade(altitude_m.width(), altitude_m.height());

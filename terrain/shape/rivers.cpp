@@ -9,6 +9,8 @@
 
 #include "terrain/shape/hydrology.h"
 
+#include "base/math_exact.h"
+
 namespace belvedere {
 namespace {
 
@@ -108,9 +110,9 @@ void draw(Grid<float>& mask, const Reach& from, const Reach& to, double cell_m) 
 
 double river_half_width_m(double catchment_km2) {
   if (catchment_km2 <= least_catchment_km2) return 0.0;
-  const double exponent = std::log(60.0 / 30.0) / std::log(500.0 / 110.0);
+  const double exponent = exact::log(60.0 / 30.0) / exact::log(500.0 / 110.0);
   const double t = std::clamp((catchment_km2 - least_catchment_km2) / (full_catchment_km2 - least_catchment_km2), 0.0, 1.0);
-  return std::min(widest_m, 30.0 * std::pow(catchment_km2 / full_catchment_km2, exponent) * t * t * (3.0 - 2.0 * t));
+  return std::min(widest_m, 30.0 * exact::pow(catchment_km2 / full_catchment_km2, exponent) * t * t * (3.0 - 2.0 * t));
 }
 
 Grid<float> river_mask(const Grid<float>& catchment_km2, double cell_m) {

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/math.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random_streams.h"
 #include "terrain/synthetic/synthetic_erosion.h"
@@ -136,7 +137,7 @@ void open_rim(Level& level, const Plan& plan, bool set_levels) {
   for (int i = 0; i < count; ++i) {
     const std::int32_t cell = rim_cell(level, (i + 0.2 + 0.6 * draw_uniform(plan.seed(), i, 0, TerrainDraw::outlet_place)) * rim_m / count);
     const bool taken = std::any_of(mouths.begin(), mouths.end(), [&](std::int32_t m) {
-      return std::hypot(cell % w - m % w, cell / w - m / w) * level.cell_m < 6000.0 * plan.unit_m();
+      return exact::hypot(cell % w - m % w, cell / w - m / w) * level.cell_m < 6000.0 * plan.unit_m();
     });
     if (taken) continue;
     level.outlets.push_back(cell);
@@ -243,7 +244,7 @@ double mean_slope(const Grid<float>& altitude_m, double cell_m) {
     const int y = static_cast<int>(i / static_cast<std::size_t>(altitude_m.width()));
     const float gx = altitude_m.clamped(x + 1, y) - altitude_m.clamped(x - 1, y);
     const float gy = altitude_m.clamped(x, y + 1) - altitude_m.clamped(x, y - 1);
-    return std::hypot(static_cast<double>(gx), static_cast<double>(gy)) / (2.0 * cell_m);
+    return exact::hypot(static_cast<double>(gx), static_cast<double>(gy)) / (2.0 * cell_m);
   });
   return sum / static_cast<double>(altitude_m.size());
 }
@@ -255,7 +256,7 @@ Dem make_synthetic_terrain(const SyntheticParameters& parameters, Progress& prog
   // Maps smaller than a mountain range show a smaller one.
   const double side_m = std::min(parameters.width, parameters.height) * parameters.cell_m;
   const double unit_m = std::min(1.0, side_m / 30000.0);
-  const int refinements = std::clamp(static_cast<int>(std::lround(std::log2(240.0 * unit_m / parameters.cell_m))), 0, 3);
+  const int refinements = std::clamp(static_cast<int>(std::lround(exact::log2(240.0 * unit_m / parameters.cell_m))), 0, 3);
   const int scale = 1 << refinements;
   // A margin that is cut off at the end keeps the rim's closed sides out of sight.
   constexpr int margin = 12;
@@ -291,7 +292,7 @@ Dem make_synthetic_terrain(const SyntheticParameters& parameters, Progress& prog
   constexpr int steps[4] = {4, 11, 40, 160};
   const auto steps_at = [&](int l) { return l == refinements ? steps[3] : steps[l]; };
   double total = 0.0;
-  for (int l = refinements; l >= 0; --l) total += steps_at(l) * std::pow(4.0, -l);
+  for (int l = refinements; l >= 0; --l) total += steps_at(l) * exact::pow(4.0, -l);
   progress.begin("synthetic terrain", total);
   for (int l = refinements; l >= 0; --l) {
     if (l < refinements) {
@@ -326,7 +327,7 @@ Dem make_synthetic_terrain(const SyntheticParameters& parameters, Progress& prog
       }
       erode(level.altitude_m, drainage, catchment, level.uplift_m, level.softness, erosion);
       creep(level.altitude_m, 0.06F);
-      progress.advance(std::pow(4.0, -l));
+      progress.advance(exact::pow(4.0, -l));
     }
     if (l > 0 && erosion.step == 1.F) {
       const float factor = relief * 0.97F / largest(level.altitude_m);
@@ -376,7 +377,7 @@ Dem make_ridged_noise(const SyntheticParameters& parameters) {
   const auto relief = static_cast<float>(parameters.highest_m - parameters.lowest_m);
   // Ranges every nine kilometres, or four across a smaller map; as many octaves as the cells can show, seven at most.
   const double length = std::min(9000.0, 0.25 * std::max(parameters.width, parameters.height) * parameters.cell_m);
-  const int octaves = std::clamp(static_cast<int>(std::log2(length / (2.0 * parameters.cell_m))), 1, 7);
+  const int octaves = std::clamp(static_cast<int>(exact::log2(length / (2.0 * parameters.cell_m))), 1, 7);
   const std::uint64_t seed = stream_seed(parameters.seed, Stream::ridged_terrain);
   parallel_rows(parameters.height, [&](int y) {
     for (int x = 0; x < parameters.width; ++x) {

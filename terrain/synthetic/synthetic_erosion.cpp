@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "base/math_exact.h"
 #include "base/parallel.h"
 
 namespace belvedere::synthetic {
@@ -55,7 +56,8 @@ void erode(Grid<float>& altitude_m, const Drainage& drainage, const Grid<float>&
     for (int x = 0; x < width; ++x) {
       const std::size_t i = altitude_m.index(x, y);
       const float area = catchment_km2[i] / area_unit + parameters.hillslope_km2;
-      cells[i] = {unknown, altitude_m[i] + parameters.step * uplift_m[i], reach * parameters.step * softness[i] * std::pow(area, 0.6F),
+      cells[i] = {unknown, altitude_m[i] + parameters.step * uplift_m[i],
+                  reach * parameters.step * softness[i] * static_cast<float>(exact::pow(area, 0.6)),
                   parameters.steepest * static_cast<float>(parameters.cell_m) * (0.6F + 0.4F / softness[i]), drainage.receiver[i]};
     }
   });

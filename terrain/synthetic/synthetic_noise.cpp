@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/math_exact.h"
 #include "base/random.h"
 
 namespace belvedere::synthetic {
@@ -19,7 +20,7 @@ const std::array<Direction, 16>& directions() {
     std::array<Direction, 16> t{};
     for (std::size_t i = 0; i < t.size(); ++i) {
       const double angle = (static_cast<double>(i) + 0.5) * 0.39269908169872414;  // a sixteenth of a turn
-      t[i] = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+      t[i] = {static_cast<float>(exact::cos(angle)), static_cast<float>(exact::sin(angle))};
     }
     return t;
   }();

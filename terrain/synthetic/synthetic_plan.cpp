@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "base/math_exact.h"
 #include "terrain/synthetic/synthetic_noise.h"
 
 namespace belvedere::synthetic {
@@ -41,8 +42,8 @@ float Plan::uplift(double x, double y) const {
 float Plan::softness(double x, double y) const {
   const double u = x / unit_m_;
   const double v = y / unit_m_;
-  return std::exp2(1.3F * fractal_noise(noise_seed(seed_, TerrainNoise::soft_rock), u / 3600.0, v / 3600.0, 2) +
-                   1.1F * fractal_noise(noise_seed(seed_, TerrainNoise::soft_patches), u / 700.0, v / 700.0, 3));
+  return exact::exp2(1.3F * fractal_noise(noise_seed(seed_, TerrainNoise::soft_rock), u / 3600.0, v / 3600.0, 2) +
+                     1.1F * fractal_noise(noise_seed(seed_, TerrainNoise::soft_patches), u / 700.0, v / 700.0, 3));
 }
 
 }  // namespace belvedere::synthetic

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/math.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/rising_queue.h"
 #include "terrain/shape/spill_level.h"
@@ -54,7 +55,7 @@ float floor_half_width_m(const ValleyParameters& p, double x_m, double y_m, floa
   // Basins and narrows follow each other every few kilometres.
   const float swell =
       std::clamp(0.85F + 0.9F * gradient_noise(noise_seed(p.seed, TerrainNoise::floor_widths), u / 3700.0, v / 3700.0), 0.25F, 1.6F);
-  const float river = 62.F * std::pow(area, 0.41F) * swell * smoothstep(1.F, 8.F, area);
+  const float river = 62.F * exact::pow(area, 0.41F) * swell * smoothstep(1.F, 8.F, area);
   const float cirque =
       170.F * smoothstep(0.42F, 0.62F, altitude_m / p.relief_m) * smoothstep(0.25F, 0.9F, area) *
       std::clamp(0.8F + 0.7F * gradient_noise(noise_seed(p.seed, TerrainNoise::cirques), u / 1500.0, v / 1500.0), 0.F, 1.5F);
@@ -130,7 +131,7 @@ void dam_valleys(Grid<float>& altitude_m, const Drainage& drainage, const Grid<f
     const int cx = i % width;
     const int cy = i / width;
     const bool near = std::any_of(dams.begin(), dams.end(), [&](std::int32_t d) {
-      return std::hypot(d % width - cx, d / width - cy) * p.cell_m < 5000.0 * p.unit_m;
+      return exact::hypot(d % width - cx, d / width - cy) * p.cell_m < 5000.0 * p.unit_m;
     });
     if (near) continue;
     // The lowest dam that holds a lake of the size sought.
@@ -151,7 +152,7 @@ void dam_valleys(Grid<float>& altitude_m, const Drainage& drainage, const Grid<f
     const double dx = down % width - cx;
     const int down_y = down / width;
     const double dy = down_y - cy;
-    const double length = std::max(1e-6, std::hypot(dx, dy));
+    const double length = std::max(1e-6, exact::hypot(dx, dy));
     const double half = 80.0 * p.unit_m + 1.6 * static_cast<double>(floor_half_width_m(p, (cx + 0.5) * p.cell_m, (cy + 0.5) * p.cell_m,
                                                                                        catchment_km2[at(i)], altitude_m[at(i)]));
     const double foot = 90.0 * p.unit_m + static_cast<double>(level - altitude_m[at(i)]) / 0.08;
@@ -162,7 +163,7 @@ void dam_valleys(Grid<float>& altitude_m, const Drainage& drainage, const Grid<f
         const double across = std::max(0.0, std::abs((x - cx) * dy - (y - cy) * dx) / length * p.cell_m - half);
         const double u = (x + 0.5) * p.cell_m / (260.0 * p.unit_m);
         const double v = (y + 0.5) * p.cell_m / (260.0 * p.unit_m);
-        const auto away = static_cast<float>(std::max(0.0, std::hypot(along, across) - 90.0 * p.unit_m));
+        const auto away = static_cast<float>(std::max(0.0, exact::hypot(along, across) - 90.0 * p.unit_m));
         const float top = level + 5.F * std::abs(fractal_noise(noise_seed(p.seed, TerrainNoise::moraines), u, v, 3)) - 0.08F * away;
         altitude_m(x, y) = std::max(altitude_m(x, y), top);
       }

@@ -62,6 +62,34 @@ TEST(MathExact, AnglesInAllQuarters) {
   EXPECT_EQ(exact::atan2(-1.0, 0.0), -pi / 2.0);
 }
 
+TEST(MathExact, AnglesOfSlopesSinesAndCosines) {
+  over(-1.5, 1.5, [](double angle) {
+    const long double truth = std::tan(static_cast<long double>(angle));
+    EXPECT_LT(off(exact::tan(angle), truth), 1e-15 * std::abs(static_cast<double>(truth)) + 1e-300) << angle;
+  });
+  over(-50.0, 50.0, [](double slope) { EXPECT_LT(off(exact::atan(slope), std::atan(static_cast<long double>(slope))), 6e-16) << slope; });
+  over(-1.0, 1.0, [](double x) {
+    EXPECT_LT(off(exact::asin(x), std::asin(static_cast<long double>(x))), 1e-15) << x;
+    EXPECT_LT(off(exact::acos(x), std::acos(static_cast<long double>(x))), 1e-15) << x;
+  });
+  EXPECT_EQ(exact::asin(1.0), pi / 2.0);
+  EXPECT_EQ(exact::acos(1.0), 0.0);
+  EXPECT_EQ(exact::acos(-1.0), pi);
+}
+
+TEST(MathExact, RootsAndLengths) {
+  over(-6.0, 6.0, [](double decades) {
+    const double x = std::pow(10.0, decades);
+    const long double truth = std::cbrt(static_cast<long double>(x));
+    EXPECT_LT(off(exact::cbrt(x), truth), 4e-16 * static_cast<double>(truth)) << x;
+    EXPECT_EQ(exact::cbrt(-x), -exact::cbrt(x));
+    const long double length = std::hypot(static_cast<long double>(x), 2.0L);
+    EXPECT_LT(off(exact::hypot(x, -2.0), length), 4e-16 * static_cast<double>(length)) << x;
+  });
+  EXPECT_EQ(exact::cbrt(0.0), 0.0);
+  EXPECT_EQ(exact::hypot(3.0, 4.0), 5.0);
+}
+
 TEST(MathExact, LogarithmsKeepTheirErrorBound) {
   over(-300.0, 300.0, [](double decades) {
     const double x = std::pow(10.0, decades);
@@ -69,6 +97,8 @@ TEST(MathExact, LogarithmsKeepTheirErrorBound) {
     EXPECT_LT(off(exact::log2(x), truth), 4e-16 * std::abs(static_cast<double>(truth)) + 1e-16) << x;
     const long double natural = std::log(static_cast<long double>(x));
     EXPECT_LT(off(exact::log(x), natural), 4e-16 * std::abs(static_cast<double>(natural)) + 1e-16) << x;
+    const long double decimal = std::log10(static_cast<long double>(x));
+    EXPECT_LT(off(exact::log10(x), decimal), 6e-16 * std::abs(static_cast<double>(decimal)) + 1e-16) << x;
   });
   for (int k = -900; k <= 900; ++k) EXPECT_EQ(exact::log2(std::ldexp(1.0, k)), k);
 }
@@ -92,6 +122,9 @@ TEST(MathExact, PowersKeepTheirErrorBound) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(exact::exp(1e5), infinity);
   EXPECT_EQ(exact::log(infinity), infinity);
+  EXPECT_EQ(exact::log(0.0), -infinity);
+  EXPECT_TRUE(std::isnan(exact::log2(-1.0)));
+  EXPECT_TRUE(std::isnan(exact::pow(std::nan(""), 2.4)));
   EXPECT_EQ(exact::exp(-exact::pow(infinity, 1.35)), 0.0);
 }
 
@@ -112,8 +145,13 @@ TEST(MathExact, TheSameBitsEverywhere) {
     take(exact::exp2(x));
     take(exact::exp(x));
     take(exact::pow(x * x, 1.3));
+    take(exact::tan(0.05 * x));
+    take(exact::asin(0.05 * x));
+    take(exact::acos(0.05 * x));
+    take(exact::cbrt(x));
+    take(exact::hypot(x, 3.0));
   });
-  EXPECT_EQ(all, 14907510627625022452ULL);
+  EXPECT_EQ(all, 1000721399535669862ULL);
 }
 
 }  // namespace

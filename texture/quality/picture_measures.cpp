@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
@@ -71,7 +72,7 @@ double mean_gradient(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels
       if (labels(x, y) != label || borders(x, y) <= inside_squared) continue;
       const double gx = slope(sum_of(picture.clamped(x - 1, y)), sum_of(picture.clamped(x + 1, y)), x > 0 && x + 1 < picture.width());
       const double gy = slope(sum_of(picture.clamped(x, y - 1)), sum_of(picture.clamped(x, y + 1)), y > 0 && y + 1 < picture.height());
-      sum += std::hypot(gx, gy);
+      sum += exact::hypot(gx, gy);
       ++count;
     }
   }
@@ -109,11 +110,11 @@ double stroke_run(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, c
   std::array<double, directions> step_length{};  // a step along the longer axis, in pixels
   for (std::size_t d = 0; d < directions; ++d) {
     const double angle = pi * static_cast<double>(d) / directions;
-    const double longer = std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
+    const double longer = std::max(std::abs(exact::cos(angle)), std::abs(exact::sin(angle)));
     step_length[d] = 1.0 / longer;
     for (std::size_t t = 0; t <= longest; ++t) {
-      steps[d][t] = {static_cast<int>(std::lround(static_cast<double>(t) * std::cos(angle) / longer)),
-                     static_cast<int>(std::lround(static_cast<double>(t) * std::sin(angle) / longer))};
+      steps[d][t] = {static_cast<int>(std::lround(static_cast<double>(t) * exact::cos(angle) / longer)),
+                     static_cast<int>(std::lround(static_cast<double>(t) * exact::sin(angle) / longer))};
     }
   }
   std::vector<double> sums(static_cast<std::size_t>(picture.height()), 0.0);

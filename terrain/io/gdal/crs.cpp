@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/math_exact.h"
 #include "terrain/io/gdal/gdal_files.h"
 
 namespace belvedere {
@@ -108,12 +109,12 @@ glm::dvec2 ground_lengths_m(const std::string& crs, glm::dvec2 point, glm::dvec2
   constexpr double a = 6378137.0;
   constexpr double e2 = 6.69437999014e-3;
   constexpr double degree = std::numbers::pi / 180.0;
-  const double sine = std::sin(p[0].y * degree);
+  const double sine = exact::sin(p[0].y * degree);
   const double n = a / std::sqrt(1.0 - e2 * sine * sine);
   const double m = n * (1.0 - e2) / (1.0 - e2 * sine * sine);
   const auto metres = [&](glm::dvec2 d) {
     d.x -= 360.0 * std::round(d.x / 360.0);
-    return std::hypot(d.x * degree * n * std::cos(p[0].y * degree), d.y * degree * m);
+    return exact::hypot(d.x * degree * n * exact::cos(p[0].y * degree), d.y * degree * m);
   };
   return {metres(p[2] - p[1]), metres(p[4] - p[3])};
 }

@@ -129,7 +129,7 @@ Clouds find_clouds(const RgbPlanes& picture, double cell_m, const CloudParameter
   const double most = parameters.most_m / cell_m;
   const auto within = [&](int scale) {
     return [=](int dx, int dy) {
-      const double far = std::hypot(dx, dy) * scale;
+      const double far = exact::hypot(dx, dy) * scale;
       return far >= least && far <= most;
     };
   };
@@ -147,7 +147,7 @@ Clouds find_clouds(const RgbPlanes& picture, double cell_m, const CloudParameter
   clouds.sun_azimuth_deg = towards < 0.0 ? towards + 360.0 : towards;
   // Beside the peak lie the shadows of clouds' own sizes; what matches as well farther off is no shadow.
   const int own = coarse_size / 10;
-  const auto elsewhere = [&](int dx, int dy) { return within(factor)(dx, dy) && std::hypot(dx - coarse.x, dy - coarse.y) > own; };
+  const auto elsewhere = [&](int dx, int dy) { return within(factor)(dx, dy) && exact::hypot(dx - coarse.x, dy - coarse.y) > own; };
   clouds.elsewhere = best_offset(white_coarse, dark_coarse, -reach, reach, -reach, reach, elsewhere).correlation;
   clouds.found = fine.correlation >= parameters.least_match && clouds.elsewhere <= parameters.distinct * fine.correlation;
   if (!clouds.found) return clouds;

@@ -20,7 +20,7 @@ double linear(double encoded) {
   const double v = encoded / 255.0;
   return v <= 0.04045 ? v / 12.92 : exact::pow((v + 0.055) / 1.055, 2.4);
 }
-double lab_curve(double t) { return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; }
+double lab_curve(double t) { return t > 216.0 / 24389.0 ? exact::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; }
 
 }  // namespace
 
@@ -123,16 +123,16 @@ LabColour lab_of_srgb(double r, double g, double b) {
 }
 
 double colour_difference(const LabColour& one, const LabColour& other) {
-  const double chroma_mean = 0.5 * (std::hypot(one.a, one.b) + std::hypot(other.a, other.b));
-  const double c7 = std::pow(chroma_mean, 7.0);
+  const double chroma_mean = 0.5 * (exact::hypot(one.a, one.b) + exact::hypot(other.a, other.b));
+  const double c7 = exact::pow(chroma_mean, 7.0);
   const double g = 0.5 * (1.0 - std::sqrt(c7 / (c7 + 6103515625.0)));  // 25^7
   const double a1 = (1.0 + g) * one.a;
   const double a2 = (1.0 + g) * other.a;
-  const double c1 = std::hypot(a1, one.b);
-  const double c2 = std::hypot(a2, other.b);
+  const double c1 = exact::hypot(a1, one.b);
+  const double c2 = exact::hypot(a2, other.b);
   const auto hue = [](double a, double b) {
     if (a == 0.0 && b == 0.0) return 0.0;
-    const double h = std::atan2(b, a) * 180.0 / pi;
+    const double h = exact::atan2(b, a) * 180.0 / pi;
     return h < 0.0 ? h + 360.0 : h;
   };
   const double h1 = hue(a1, one.b);
@@ -147,8 +147,8 @@ double colour_difference(const LabColour& one, const LabColour& other) {
   }
   const double dl = other.l - one.l;
   const double dc = c2 - c1;
-  const double dhh = 2.0 * std::sqrt(c1 * c2) * std::sin(0.5 * dh * pi / 180.0);
-  const auto cosine = [](double degrees) { return std::cos(degrees * pi / 180.0); };
+  const double dhh = 2.0 * std::sqrt(c1 * c2) * exact::sin(0.5 * dh * pi / 180.0);
+  const auto cosine = [](double degrees) { return exact::cos(degrees * pi / 180.0); };
   const double t = 1.0 - 0.17 * cosine(h_mean - 30.0) + 0.24 * cosine(2.0 * h_mean) + 0.32 * cosine(3.0 * h_mean + 6.0) -
                    0.20 * cosine(4.0 * h_mean - 63.0);
   const double l50 = (0.5 * (one.l + other.l) - 50.0) * (0.5 * (one.l + other.l) - 50.0);
@@ -156,9 +156,9 @@ double colour_difference(const LabColour& one, const LabColour& other) {
   const double cm = 0.5 * (c1 + c2);
   const double sc = 1.0 + 0.045 * cm;
   const double sh = 1.0 + 0.015 * cm * t;
-  const double turn = 30.0 * std::exp(-((h_mean - 275.0) / 25.0) * ((h_mean - 275.0) / 25.0));
-  const double cm7 = std::pow(cm, 7.0);
-  const double rt = -2.0 * std::sqrt(cm7 / (cm7 + 6103515625.0)) * std::sin(2.0 * turn * pi / 180.0);
+  const double turn = 30.0 * exact::exp(-((h_mean - 275.0) / 25.0) * ((h_mean - 275.0) / 25.0));
+  const double cm7 = exact::pow(cm, 7.0);
+  const double rt = -2.0 * std::sqrt(cm7 / (cm7 + 6103515625.0)) * exact::sin(2.0 * turn * pi / 180.0);
   const double l = dl / sl;
   const double c = dc / sc;
   const double h = dhh / sh;
