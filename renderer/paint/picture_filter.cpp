@@ -8,7 +8,78 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 
+// The head of this file is compiled once for each vector width by Highway.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "renderer/paint/picture_filter.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#ifndef BELVEDERE_SURFACE_LINE
+#define BELVEDERE_SURFACE_LINE
 namespace belvedere {
+// Pixels of one row, and where along a line their neighbours lie: `before` of them up or to the left, `after` down or to the right.
+struct SurfaceLine {
+  const float* values;
+  const float* depth_m;
+  std::ptrdiff_t step;  // in values, from one neighbour to the next
+  const float* kernel;  // from the middle on
+  int before;
+  int after;
+};
+}  // namespace belvedere
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace belvedere::filter {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Some pixels at once: the middle, then its neighbours by pairs outward; one of another surface adds 0, so that nothing branches. Sums stay
+// in registers from the first neighbour to the last.
+template <class D>
+HWY_INLINE void BlurSurfacePixels(D d, const SurfaceLine& line, std::size_t x, float* HWY_RESTRICT out) {
+  const float* values = line.values + x;
+  const float* depth_m = line.depth_m + x;
+  const auto own = hn::LoadU(d, depth_m);
+  const auto tolerance = hn::Set(d, surface_tolerance);
+  auto total = hn::Set(d, line.kernel[0]);
+  auto sum = hn::Mul(total, hn::LoadU(d, values));
+  const auto add = [&](std::ptrdiff_t to, float weight) HWY_ATTR {
+    const auto other = hn::LoadU(d, depth_m + to);
+    const auto near = hn::Le(hn::Abs(hn::Sub(own, other)), hn::Mul(tolerance, hn::Min(own, other)));
+    const auto share = hn::IfThenElseZero(hn::Or(hn::Eq(own, other), near), hn::Set(d, weight));
+    sum = hn::Add(sum, hn::Mul(share, hn::LoadU(d, values + to)));
+    total = hn::Add(total, share);
+  };
+  const int both = std::min(line.before, line.after);
+  const int most = std::max(line.before, line.after);
+  for (int k = 1; k <= both; ++k) {
+    add(-k * line.step, line.kernel[k]);
+    add(k * line.step, line.kernel[k]);
+  }
+  for (int k = both + 1; k <= most; ++k) add((k <= line.before ? -k : k) * line.step, line.kernel[k]);
+  hn::StoreU(hn::Div(sum, total), d, out + x);
+}
+
+void BlurSurfaceLine(const SurfaceLine& line, int count, float* HWY_RESTRICT out) {
+  const hn::ScalableTag<float> wide;
+  const hn::CappedTag<float, 1> single;
+  const std::size_t pixels = static_cast<std::size_t>(count);
+  std::size_t x = 0;
+  for (; x + hn::Lanes(wide) <= pixels; x += hn::Lanes(wide)) BlurSurfacePixels(wide, line, x, out);
+  for (; x < pixels; ++x) BlurSurfacePixels(single, line, x, out);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace belvedere::filter
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace belvedere {
+namespace filter {
+HWY_EXPORT(BlurSurfaceLine);
+}  // namespace filter
 namespace {
 
 constexpr double widest_direct_sigma_px = 16.0;
@@ -65,20 +136,6 @@ Grid<float> blur_directly(const Grid<float>& values, double sigma) {
 // Neighbours that a blur on a surface takes lie so far apart: an eighth of sigma at most, which no eye tells from all of them.
 int surface_stride_px(double sigma_px) { return std::max(1, static_cast<int>(std::floor(sigma_px / (0.5 * widest_direct_sigma_px)))); }
 
-// Adds to each sum in x0 … x1 its neighbour dx pixels to the right in another row, where that lies on the same surface. Without a branch,
-// so that compilers make vectors of it.
-void add_neighbours(float* __restrict sum, float* __restrict total, const float* __restrict depth_m, const float* other_depth_m,
-                    const float* other, int dx, float weight, int x0, int x1) {
-  for (int x = x0; x < x1; ++x) {
-    const float a = depth_m[x];
-    const float b = other_depth_m[x + dx];
-    const bool same = static_cast<bool>(static_cast<int>(a == b) | static_cast<int>(std::abs(a - b) <= surface_tolerance * std::min(a, b)));
-    const float share = same ? weight : 0.0F;
-    sum[x] += share * other[x + dx];
-    total[x] += share;
-  }
-}
-
 int floor_divide(int value, int divisor) { return value >= 0 ? value / divisor : -((-value + divisor - 1) / divisor); }
 
 // Two neighbouring wide pixels, and how far from the first a pixel of the sheet lies; a function of its absolute place alone.
@@ -103,35 +160,34 @@ Grid<float> blur_on_surface(const Grid<float>& values, const Grid<float>& depth_
   const int radius = static_cast<int>(kernel.size()) - 1;
   const PixelRect whole{0, 0, values.width(), values.height()};
   if (wanted.empty()) wanted = whole;
-  // One pass along a line; each pass asks for the surface of its own centre. Rows of sums go through one neighbour after the other.
-  const auto pass = [&](const Grid<float>& in, PixelRect at, int step_x, int step_y) {
+  // One pass along a line; each pass asks for the surface of its own centre.
+  const auto pass = [&](const Grid<float>& in, PixelRect at, bool across) {
     Grid<float> out(whole.x1, whole.y1);
+    const int step = stride * (across ? 1 : whole.x1);
     parallel_ranges(at.height(), 8, [&](int begin, int end) {
-      std::vector<float> totals(static_cast<std::size_t>(whole.x1));
       for (int y = at.y0 + begin; y < at.y0 + end; ++y) {
-        const float* depth = depth_m.row(y);
-        float* sum = out.row(y);
-        float* total = totals.data();
-        for (int x = at.x0; x < at.x1; ++x) {
-          sum[x] = kernel[0] * in(x, y);
-          total[x] = kernel[0];
-        }
-        const auto add = [&](int dx, int dy, float weight) {
-          if (y + dy < 0 || y + dy >= whole.y1) return;
-          add_neighbours(sum, total, depth, depth_m.row(y + dy), in.row(y + dy), dx, weight, std::max(at.x0, -dx),
-                         std::min(at.x1, whole.x1 - dx));
+        const auto blur = [&](int x0, int x1, int before, int after) {
+          if (x1 <= x0) return;
+          const SurfaceLine line{in.row(y) + x0, depth_m.row(y) + x0,      step,
+                                 kernel.data(),  std::min(before, radius), std::min(after, radius)};
+          HWY_DYNAMIC_DISPATCH(filter::BlurSurfaceLine)(line, x1 - x0, out.row(y) + x0);
         };
-        for (int k = 1; k <= radius; ++k) {
-          add(-k * step_x, -k * step_y, kernel[static_cast<std::size_t>(k)]);
-          add(k * step_x, k * step_y, kernel[static_cast<std::size_t>(k)]);
+        if (!across) {
+          blur(at.x0, at.x1, y / stride, (whole.y1 - 1 - y) / stride);
+          continue;
         }
-        for (int x = at.x0; x < at.x1; ++x) sum[x] /= total[x];
+        // Near the ends of a row neighbours are missing, at each pixel others.
+        const int inner0 = std::clamp(radius * stride, at.x0, at.x1);
+        const int inner1 = std::clamp(whole.x1 - radius * stride, inner0, at.x1);
+        for (int x = at.x0; x < inner0; ++x) blur(x, x + 1, x / stride, (whole.x1 - 1 - x) / stride);
+        blur(inner0, inner1, radius, radius);
+        for (int x = inner1; x < at.x1; ++x) blur(x, x + 1, x / stride, (whole.x1 - 1 - x) / stride);
       }
     });
     return out;
   };
   const PixelRect rows = intersection(whole, {wanted.x0, wanted.y0 - radius * stride, wanted.x1, wanted.y1 + radius * stride});
-  return pass(pass(values, rows, stride, 0), wanted, 0, stride);
+  return pass(pass(values, rows, true), wanted, false);
 }
 
 int surface_reach_px(double sigma_px) {
@@ -229,3 +285,4 @@ float value_on_surface(const WideView& wide, const Grid<float>& values, int shee
 }
 
 }  // namespace belvedere
+#endif

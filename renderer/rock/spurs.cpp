@@ -9,9 +9,12 @@
 #include "base/random.h"
 #include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"
+#include "renderer/rock/spur_peaks.h"
 
 namespace belvedere {
 namespace {
+
+using namespace spur_form;
 
 // Spacing of the three sizes, mm of the sheet, before the band's and the kind's factor.
 constexpr std::array<float, spur_sizes> spacing_mm = {17.6F, 6.0F, 2.24F};
@@ -26,12 +29,6 @@ constexpr float tolerance_share = 0.003F;   // of the depth …
 constexpr float tolerance_slope = 4.5F;     // … and metres a metre of ground
 constexpr float ramp_cell_units = 64.0F;    // mean distance of ramps where every cell has one
 constexpr float longest_ramp = 0.60F;       // half of it, in cells: no place is cut by one farther away than 1.5 of this
-constexpr float head_rise = 0.9F;
-constexpr float back_rise = 0.06F;
-// Cells around a place whose spurs can be highest there: those above it reach farther down than those below it up.
-constexpr int reach_across = 2;
-constexpr int reach_up = 3;
-constexpr int reach_down = 2;
 
 float largest_factor() {
   float most = 0.0F;
@@ -54,69 +51,49 @@ glm::ivec2 cell_of(glm::vec2 place, float spacing) {
 }
 
 SpurHit highest_spur(const SpurCells& cells, const RockKind& kind, glm::vec2 place, float depth_m, std::uint32_t parent) {
+  const SpurPeaks peaks = find_peaks(cells, kind.slender, place, depth_m, parent);
   SpurHit best;
-  const glm::ivec2 at = cell_of(place, cells.spacing);
-  const float inverse = 1.0F / cells.spacing;
-  float second = -1e9F;
-  const int x0 = std::max(at.x - reach_across - cells.first.x, 0);
-  const int x1 = std::min(at.x + reach_across - cells.first.x, cells.count.x - 1);
-  const int y0 = std::max(at.y - reach_up - cells.first.y, 0);
-  const int y1 = std::min(at.y + reach_down - cells.first.y, cells.count.y - 1);
-  for (int y = y0; y <= y1; ++y)
-    for (int x = x0; x <= x1; ++x) {
-      const Spur& spur = cells.spurs[static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.count.x) + static_cast<std::size_t>(x)];
-      if (!spur.grown) continue;
-      const glm::vec2 offset = (place - spur.place) * inverse;
-      const float v = (offset.x * spur.down.x + offset.y * spur.down.y) * kind.slender;
-      const float u = offset.x * spur.down.y - offset.y * spur.down.x;
-      const std::uint8_t side = u > 0.0F ? 1 : 0;
-      const float wide = std::abs(u);
-      // Heads and feet slant and come to a point: level ones would line up into horizontal bars.
-      const float head = spur.skew_head * u - 0.25F * wide;
-      const float tail = spur.length + spur.skew_foot * u + 0.35F * wide;
-      float height = spur.top;
-      float rise = 0.0F;   // of the height along
-      float drift = 0.0F;  // of the height across, from the slant
-      SpurPart part = SpurPart::back;
-      if (v < head) {
-        part = SpurPart::head;
-        height += head_rise * (v - head);
-        rise = head_rise;
-        drift = -head_rise * (spur.skew_head - (side != 0 ? 0.25F : -0.25F));
-      } else if (v < tail || tail < head) {
-        height += back_rise * (v - head);
-        rise = back_rise;
-      } else {
-        part = SpurPart::foot;
-        height += back_rise * (tail - head) - spur.foot * (v - tail);
-        rise = -spur.foot;
-        drift = spur.foot * (spur.skew_foot + (side != 0 ? 0.35F : -0.35F));
-      }
-      // Flanks open downhill: the lower the place, the broader the spur.
-      const float steepness = spur.flank[side] / (0.75F + 0.45F * std::clamp(v, -0.5F, 1.6F));
-      height -= steepness * wide;
-      if (spur.parent != parent) height -= cells.lost_beyond;
-      if (height <= second) continue;
-      const float apart = std::sqrt(offset.x * offset.x + offset.y * offset.y);
-      if (std::abs(depth_m - spur.depth_m) > spur.tolerance_m * (0.6F + apart)) continue;
-      if (height <= best.height) {
-        second = height;
-        best.next_id = spur.id;
-        continue;
-      }
-      second = best.height;
-      best.next_id = best.spur == nullptr ? 0U : best.spur->id;
-      best.spur = &spur;
-      best.height = height;
-      best.across = u;
-      best.along = v;
-      best.steepness = steepness;
-      best.side = side;
-      best.part = part;
-      const float across = (side != 0 ? -steepness : steepness) + 0.7F * drift;
-      best.slope = {across * spur.down.y + rise * spur.down.x, -across * spur.down.x + rise * spur.down.y};
-    }
-  best.over_next = best.height - second;
+  if (peaks.best < 0) {
+    best.over_next = 0.0F;
+    return best;
+  }
+  const Spur& spur = cells.spurs[static_cast<std::size_t>(peaks.best)];
+  best.spur = &spur;
+  const glm::vec2 offset = (place - spur.place) * (1.0F / cells.spacing);
+  const float v = (offset.x * spur.down.x + offset.y * spur.down.y) * kind.slender;
+  const float u = offset.x * spur.down.y - offset.y * spur.down.x;
+  best.across = u;
+  best.along = v;
+  best.side = u > 0.0F ? 1 : 0;
+  const bool right = best.side != 0;
+  const float wide = std::abs(u);
+  // Heads and feet slant and come to a point: level ones would line up into horizontal bars.
+  const float head = spur.skew_head * u - head_point * wide;
+  const float tail = spur.length + spur.skew_foot * u + foot_point * wide;
+  best.height = spur.top;
+  float rise = 0.0F;   // of the height along
+  float drift = 0.0F;  // of the height across, from the slant
+  if (v < head) {
+    best.part = SpurPart::head;
+    best.height += head_rise * (v - head);
+    rise = head_rise;
+    drift = -head_rise * (spur.skew_head - (right ? head_point : -head_point));
+  } else if (v < tail || tail < head) {
+    best.height += back_rise * (v - head);
+    rise = back_rise;
+  } else {
+    best.part = SpurPart::foot;
+    best.height += back_rise * (tail - head) - spur.foot * (v - tail);
+    rise = -spur.foot;
+    drift = spur.foot * (spur.skew_foot + (right ? foot_point : -foot_point));
+  }
+  best.steepness = spur.flank[best.side] / (opening + opening_along * std::clamp(v, opening_from, opening_to));
+  best.height -= best.steepness * wide;
+  if (spur.parent != parent) best.height -= cells.lost_beyond;
+  const float across = (right ? -best.steepness : best.steepness) + 0.7F * drift;
+  best.slope = {across * spur.down.y + rise * spur.down.x, -across * spur.down.x + rise * spur.down.y};
+  best.next_id = peaks.next < 0 ? 0U : cells.spurs[static_cast<std::size_t>(peaks.next)].id;
+  best.over_next = best.height - peaks.next_height;
   return best;
 }
 
@@ -254,15 +231,19 @@ float spur_spacing(const RockKind& kind, int size, int band) {
 Grid<glm::vec2> smooth_fall_lines(const WideView& wide, double pixels_per_unit, PixelRect wanted) {
   const GuidanceBuffers& seen = wide.seen;
   Grid<float> along[2] = {Grid<float>(seen.width(), seen.height(), 0.0F), Grid<float>(seen.width(), seen.height(), 0.0F)};
-  for (std::size_t i = 0; i < seen.fall_line.size(); ++i) {
-    along[0][i] = seen.fall_line[i].x;
-    along[1][i] = seen.fall_line[i].y;
-  }
+  parallel_ranges(seen.fall_line.size(), std::size_t{1} << 15U, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) {
+      along[0][i] = seen.fall_line[i].x;
+      along[1][i] = seen.fall_line[i].y;
+    }
+  });
   const double sigma = fall_sigma_units * pixels_per_unit / wide.factor;
   for (Grid<float>& part : along) part = blur_on_surface(part, seen.depth_m, sigma, wanted);
   Grid<glm::vec2> fall(seen.width(), seen.height(), glm::vec2(0.0F, 1.0F));
-  for (int y = wanted.y0; y < wanted.y1; ++y)
+  parallel_rows(std::max(wanted.height(), 0), [&](int row) {
+    const int y = wanted.y0 + row;
     for (int x = wanted.x0; x < wanted.x1; ++x) fall(x, y) = held_down({along[0](x, y), along[1](x, y)}, least_down);
+  });
   return fall;
 }
 
@@ -302,6 +283,7 @@ SpurField grow_spurs(const SpurGround& ground, const RockKind& kind, PixelRect r
               grow_spur(ground, field, band, size, cells.first + glm::ivec2(x, y));
       });
       cells.spurs = std::move(spurs);
+      cells.lanes = to_lanes(cells);
     }
   }
   return field;

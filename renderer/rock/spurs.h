@@ -3,12 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <vector>
 
 #include "base/grid.h"
 #include "base/parallel.h"
 #include "renderer/paint/rock_kinds.h"
+#include "renderer/rock/spur_peaks.h"
 #include "renderer/trace/wide_view.h"
 
 namespace belvedere {
@@ -46,21 +46,6 @@ struct SpurGround {
 // looks like a landslip. Of wide pixels in `wanted`; others point down.
 Grid<glm::vec2> smooth_fall_lines(const WideView& wide, double pixels_per_unit, PixelRect wanted);
 int smooth_fall_reach(double pixels_per_unit, int factor);  // wide pixels
-
-struct Spur {
-  bool grown = false;
-  glm::vec2 place{0.0F};
-  glm::vec2 down{0.0F, 1.0F};  // unit direction of its crest, downhill
-  glm::vec2 fall{0.0F, 1.0F};  // unit fall line of the wall it grew on
-  glm::vec3 normal{0.0F};      // of that wall, a mean over the spur
-  float top = 0.0F;            // height of its head
-  std::array<float, 2> flank{};
-  float length = 1.0F, foot = 1.0F;
-  float skew_foot = 0.0F, skew_head = 0.0F;
-  float depth_m = 0.0F, tolerance_m = 0.0F;
-  std::uint32_t id = 0;
-  std::uint32_t parent = 0;  // flank of the next larger spur that it stands on
-};
 
 enum class SpurPart : std::uint8_t { head, back, foot };
 
@@ -102,14 +87,6 @@ struct RampCells {
   std::vector<Ramp> ramps;
 };
 
-// Spurs of one band and size over a rectangle of cells.
-struct SpurCells {
-  float spacing = 1.0F;
-  float lost_beyond = 0.4F;  // height, in spacings, that a spur loses across the border of what it stands on
-  glm::ivec2 first{0};
-  glm::ivec2 count{0};
-  std::vector<Spur> spurs;
-};
 struct SpurField {
   const RockKind* kind = nullptr;
   RampCells ramps;

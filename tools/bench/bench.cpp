@@ -22,6 +22,7 @@ std::vector<Measurement> bench_files(const Options&);
 std::vector<Measurement> bench_generalize(const Options&);
 std::vector<Measurement> bench_guidance(const Options&);
 std::vector<Measurement> bench_layers(const Options&);
+std::vector<Measurement> bench_rock(const Options&);
 std::vector<Measurement> bench_synthesis(const Options&);
 std::vector<Measurement> bench_trace(const Options&);
 
@@ -35,6 +36,7 @@ const std::vector<Section>& sections() {
       {"deform", "bending the terrain, and moving pieces of it", &bench_deform},
       {"climate", "the sun of a year over the terrain, and rain driven up it by wind", &bench_climate},
       {"layers", "surface layers: inputs, coverage, classes", &bench_layers},
+      {"rock", "relief of rock, its crests, and the blur that stays on a surface", &bench_rock},
       {"synthesis", "painting by example, with one guide and with seven", &bench_synthesis},
       {"files", "writing and reading TIFF, PNG and OpenEXR", &bench_files},
   };

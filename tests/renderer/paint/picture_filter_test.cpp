@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "base/math_exact.h"
 #include "base/noise.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
@@ -43,6 +45,57 @@ TEST(PictureFilter, BlurOnASurfaceKeepsSurfacesApart) {
   EXPECT_EQ(blur_on_surface(values, depth, 3.0)(19, 10), 0.0F);
   EXPECT_EQ(blur_on_surface(values, depth, 3.0)(20, 10), 1.0F);
   EXPECT_NEAR(blur_in_picture(values, 3.0, {0, 0})(19, 10), 0.43F, 0.05F);
+}
+
+// One neighbour after the other, outward by pairs, along rows and then down columns.
+Grid<float> blur_plainly(const Grid<float>& values, const Grid<float>& depth_m, double sigma, int stride, PixelRect wanted) {
+  std::vector<float> kernel;
+  for (int k = 0; k <= static_cast<int>(std::ceil(3.0 * sigma / stride)); ++k)
+    kernel.push_back(static_cast<float>(exact::exp(-0.5 * k * k / (sigma / stride * (sigma / stride)))));
+  const auto pass = [&](const Grid<float>& in, int step_x, int step_y) {
+    Grid<float> out(in.width(), in.height());
+    for (int y = 0; y < in.height(); ++y)
+      for (int x = 0; x < in.width(); ++x) {
+        float sum = kernel[0] * in(x, y);
+        float total = kernel[0];
+        for (int k = 1; k < static_cast<int>(kernel.size()); ++k)
+          for (const int way : {-k, k}) {
+            const int u = x + way * step_x;
+            const int v = y + way * step_y;
+            if (!in.contains(u, v) || !same_surface(depth_m(x, y), depth_m(u, v))) continue;
+            sum += kernel[static_cast<std::size_t>(k)] * in(u, v);
+            total += kernel[static_cast<std::size_t>(k)];
+          }
+        out(x, y) = sum / total;
+      }
+    return out;
+  };
+  Grid<float> blurred = pass(pass(values, stride, 0), 0, stride);
+  for (int y = 0; y < values.height(); ++y)
+    for (int x = 0; x < values.width(); ++x)
+      if (x < wanted.x0 || y < wanted.y0 || x >= wanted.x1 || y >= wanted.y1) blurred(x, y) = 0.0F;
+  return blurred;
+}
+
+TEST(PictureFilter, BlurOnASurfaceIsThatOfOnePixelAfterTheOther) {
+  struct Case {
+    int width, height;
+    double sigma;
+    int stride;
+    PixelRect wanted;
+  };
+  for (const Case& c :
+       {Case{61, 47, 2.3, 1, {0, 0, 61, 47}}, Case{61, 47, 1.0, 1, {3, 5, 60, 40}}, Case{200, 90, 9.0, 1, {31, 11, 190, 90}},
+        Case{150, 160, 17.0, 2, {0, 40, 150, 160}}, Case{9, 7, 5.0, 1, {0, 0, 9, 7}}, Case{300, 4, 40.0, 5, {20, 1, 280, 4}}}) {
+    Grid<float> values(c.width, c.height);
+    Grid<float> depth(c.width, c.height);
+    for (int y = 0; y < c.height; ++y)
+      for (int x = 0; x < c.width; ++x) {
+        values(x, y) = static_cast<float>(gaussian_noise(2, x, y, 1.5));
+        depth(x, y) = gaussian_noise(3, x, y, 6.0) > 1.0 ? sky : 10000.F + 200.F * static_cast<float>(gaussian_noise(4, x, y, 4.0));
+      }
+    EXPECT_EQ(blur_on_surface(values, depth, c.sigma, c.wanted), blur_plainly(values, depth, c.sigma, c.stride, c.wanted)) << c.sigma;
+  }
 }
 
 TEST(PictureFilter, SurfacesPartAtThreeHundredthsOfTheNearerDistance) {

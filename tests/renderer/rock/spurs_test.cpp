@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "renderer/rock/spur_peaks.h"
 #include "tests/renderer/rock/rock_wall.h"
 
 namespace belvedere {
@@ -42,6 +43,7 @@ SpurField lone_spur() {
   spur.tolerance_m = 100.0F;
   spur.id = 7;
   cells.spurs = {spur};
+  cells.lanes = to_lanes(cells);
   return field;
 }
 
