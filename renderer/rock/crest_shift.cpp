@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "base/parallel.h"
+#include "renderer/rock/extent.h"
 
 namespace belvedere {
 namespace {
@@ -104,15 +105,13 @@ CrestShift shift_crests(const GuidanceBuffers& guidance, const WideView& wide, c
   require_channels(guidance, {&B::depth_m, &B::front, &B::land_cover, &B::footprint_m}, "crests of rock");
   const double ppu = parameters.light.pixels_per_unit;
   CrestShift shift{Grid<std::int16_t>(wanted.width(), wanted.height(), std::int16_t{0}), Grid<float>(wanted.width(), wanted.height())};
-  for (int y = 0; y < wanted.height(); ++y) std::copy_n(guidance.front.row(wanted.y0 + y) + wanted.x0, wanted.width(), shift.front.row(y));
+  parallel_ranges(wanted.height(), 64, [&](int begin, int end) {
+    for (int y = begin; y != end; ++y) std::copy_n(guidance.front.row(wanted.y0 + y) + wanted.x0, wanted.width(), shift.front.row(y));
+  });
   // Edges that can move a wanted pixel.
   const int first = std::max(wanted.y0 - to_px(stretched, ppu), 0);
   const int last = std::min(wanted.y1 + to_px(most_up, ppu) + 1, guidance.height());
-  PixelRect edges{wanted.x1, last, wanted.x0, first};
-  for (int y = first; y < last; ++y)
-    for (int x = wanted.x0; x < wanted.x1; ++x)
-      if (is_edge(guidance, x, y))
-        edges = {std::min(edges.x0, x), std::min(edges.y0, y), std::max(edges.x1, x + 1), std::max(edges.y1, y + 1)};
+  const PixelRect edges = extent_of({wanted.x0, first, wanted.x1, last}, [&](int x, int y) { return is_edge(guidance, x, y); });
   if (edges.empty()) return shift;
   const RockView view = view_rock(guidance, wide, parameters, origin_px, grown(edges, to_px(3.0 * static_cast<double>(around_units), ppu)));
   parallel_ranges(edges.width(), 16, [&](int begin, int end) {
@@ -156,6 +155,12 @@ GuidanceBuffers gather_rows(const GuidanceBuffers& guidance, const CrestShift& s
     throw Error(ErrorKind::bug, "crests of rock", "the shift has another size than what it is for");
   GuidanceBuffers shifted;
   shifted.origin_m = guidance.origin_m;
+  std::vector<std::uint8_t> moved_rows(static_cast<std::size_t>(wanted.height()));
+  parallel_ranges(wanted.height(), 64, [&](int begin, int end) {
+    for (int y = begin; y != end; ++y)
+      moved_rows[static_cast<std::size_t>(y)] =
+          std::any_of(shift.rows.row(y), shift.rows.row(y) + wanted.width(), [](std::int16_t rows) { return rows != 0; }) ? 1 : 0;
+  });
   for (const GuidanceChannel& channel : guidance_channels())
     std::visit(
         [&](auto member) {
@@ -163,11 +168,16 @@ GuidanceBuffers gather_rows(const GuidanceBuffers& guidance, const CrestShift& s
           if (from.empty()) return;
           auto& to = shifted.*member;
           to = std::decay_t<decltype(to)>(wanted.width(), wanted.height());
-          for (int y = 0; y < wanted.height(); ++y)
-            for (int x = 0; x < wanted.width(); ++x) {
-              const int row = std::clamp(wanted.y0 + y + shift.rows(x, y), 0, from.height() - 1);
-              to(x, y) = from(wanted.x0 + x, row);
+          parallel_ranges(wanted.height(), 32, [&](int begin, int end) {
+            for (int y = begin; y != end; ++y) {
+              const int own = std::clamp(wanted.y0 + y, 0, from.height() - 1);
+              std::copy_n(from.row(own) + wanted.x0, wanted.width(), to.row(y));
+              if (moved_rows[static_cast<std::size_t>(y)] == 0) continue;
+              const std::int16_t* rows = shift.rows.row(y);
+              for (int x = 0; x < wanted.width(); ++x)
+                if (rows[x] != 0) to(x, y) = from(wanted.x0 + x, std::clamp(wanted.y0 + y + rows[x], 0, from.height() - 1));
             }
+          });
         },
         channel.member);
   if (!shifted.front.empty()) shifted.front = shift.front;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "base/math.h"
 #include "renderer/paint/picture_filter.h"
@@ -33,13 +35,17 @@ bool gives_way(Class id) {
 template <class Test>
 Grid<float> share_around_of(const WideView& wide, double sigma_px, PixelRect wanted, Test&& test) {
   Grid<float> mask(wide.seen.width(), wide.seen.height(), 0.0F);
-  bool any = false;
-  for (std::size_t i = 0; i < mask.size(); ++i)
-    if (test(wide.seen.land_cover[i])) {
-      mask[i] = 1.0F;
-      any = true;
-    }
-  return any ? blur_on_surface(mask, wide.seen.depth_m, sigma_px, wanted) : mask;
+  std::vector<std::uint8_t> any(static_cast<std::size_t>(mask.height()), std::uint8_t{0});
+  parallel_ranges(mask.height(), 64, [&](int begin, int end) {
+    for (int y = begin; y != end; ++y)
+      for (int x = 0; x < mask.width(); ++x)
+        if (test(wide.seen.land_cover(x, y))) {
+          mask(x, y) = 1.0F;
+          any[static_cast<std::size_t>(y)] = 1;
+        }
+  });
+  return std::find(any.begin(), any.end(), std::uint8_t{1}) != any.end() ? blur_on_surface(mask, wide.seen.depth_m, sigma_px, wanted)
+                                                                         : mask;
 }
 
 }  // namespace

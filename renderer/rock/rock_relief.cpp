@@ -14,6 +14,7 @@
 #include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
+#include "renderer/rock/extent.h"
 #include "renderer/rock/rock_ground.h"
 #include "renderer/rock/rock_light.h"
 #include "renderer/rock/rock_view.h"
@@ -42,16 +43,23 @@ PixelRect rocky_part(const GuidanceBuffers& guidance, const WideView& wide, Pixe
     if (rect.empty()) return;
     rocky = {std::min(rocky.x0, rect.x0), std::min(rocky.y0, rect.y0), std::max(rocky.x1, rect.x1), std::max(rocky.y1, rect.y1)};
   };
-  for (int y = 0; y < wide.seen.height(); ++y)
-    for (int x = 0; x < wide.seen.width(); ++x) {
-      if (wide.seen.land_cover(x, y) != LandCoverClass::rock) continue;
-      const glm::ivec2 corner = (wide.origin_px + glm::ivec2(x, y)) * wide.factor - origin_px;
-      include(grown({corner.x, corner.y, corner.x + wide.factor, corner.y + wide.factor}, apron_px));
-    }
+  // Wide pixels whose surroundings touch what is made.
+  const PixelRect near = intersection(
+      {0, 0, wide.seen.width(), wide.seen.height()},
+      moved(wide_rect(moved(grown(made, apron_px), origin_px.x, origin_px.y), wide.factor), -wide.origin_px.x, -wide.origin_px.y));
+  const auto is_near = [&](int x, int y) {
+    const glm::ivec2 corner = (wide.origin_px + glm::ivec2(x, y)) * wide.factor - origin_px;
+    const PixelRect apron = grown({corner.x, corner.y, corner.x + wide.factor, corner.y + wide.factor}, apron_px);
+    return !intersection(made, apron).empty();
+  };
+  const PixelRect seen = extent_of(near, [&](int x, int y) { return wide.seen.land_cover(x, y) == LandCoverClass::rock && is_near(x, y); });
+  if (!seen.empty()) {
+    const glm::ivec2 low = (wide.origin_px + glm::ivec2(seen.x0, seen.y0)) * wide.factor - origin_px;
+    const glm::ivec2 high = (wide.origin_px + glm::ivec2(seen.x1, seen.y1)) * wide.factor - origin_px;
+    include(grown({low.x, low.y, high.x, high.y}, apron_px));
+  }
   // What no look from afar has met.
-  for (int y = made.y0; y < made.y1; ++y)
-    for (int x = made.x0; x < made.x1; ++x)
-      if (may_be_bare(guidance, guidance.depth_m.index(x, y))) include({x, y, x + 1, y + 1});
+  include(extent_of(made, [&](int x, int y) { return may_be_bare(guidance, guidance.depth_m.index(x, y)); }));
   return rocky;
 }
 
@@ -216,10 +224,12 @@ RockRelief make_rock_relief(const GuidanceBuffers& guidance, const WideView& wid
   RockRelief relief{Grid<LandCoverClass>(width, height), Grid<glm::vec2>(width, height),
                     Grid<float>(width, height, 0.0F),    Grid<std::uint32_t>(width, height, 0U),
                     Grid<float>(width, height, 0.0F),    Grid<glm::vec2>(width, height, glm::vec2(0.0F))};
-  for (int y = 0; y < height; ++y) {
-    std::copy_n(guidance.land_cover.row(wanted.y0 + y) + wanted.x0, width, relief.land_cover.row(y));
-    std::copy_n(guidance.fall_line.row(wanted.y0 + y) + wanted.x0, width, relief.fall_line.row(y));
-  }
+  parallel_ranges(height, 64, [&](int begin, int end) {
+    for (int y = begin; y != end; ++y) {
+      std::copy_n(guidance.land_cover.row(wanted.y0 + y) + wanted.x0, width, relief.land_cover.row(y));
+      std::copy_n(guidance.fall_line.row(wanted.y0 + y) + wanted.x0, width, relief.fall_line.row(y));
+    }
+  });
   const double ppu = parameters.light.pixels_per_unit;
   // A pixel more each way: edges are found by neighbours.
   const PixelRect around = intersection(whole, grown(wanted, 1));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
 
@@ -113,12 +114,18 @@ RockView view_rock(const GuidanceBuffers& guidance, const WideView& wide, const 
   std::array<bool, spur_bands> bands{};
   for (const BandCell& cell : view.bands.cells) bands[static_cast<std::size_t>(cell.band)] = true;
   const PixelRect held = intersection(made, {0, 0, guidance.width(), guidance.height()});
-  for (int y = held.y0; y < held.y1; ++y)
-    for (int x = held.x0; x < held.x1; ++x) {
-      const std::size_t i = guidance.depth_m.index(x, y);
-      if (!guidance.is_sky(i))
-        bands[static_cast<std::size_t>(spur_band(guidance.footprint_m[i] * static_cast<float>(ppu) * units_per_mm))] = true;
-    }
+  std::vector<std::array<bool, spur_bands>> row_bands(static_cast<std::size_t>(std::max(held.height(), 0)));
+  parallel_ranges(std::max(held.height(), 0), 32, [&](int begin, int end) {
+    for (int row = begin; row != end; ++row)
+      for (int x = held.x0; x < held.x1; ++x) {
+        const std::size_t i = guidance.depth_m.index(x, held.y0 + row);
+        if (guidance.is_sky(i)) continue;
+        const int band = spur_band(guidance.footprint_m[i] * static_cast<float>(ppu) * units_per_mm);
+        row_bands[static_cast<std::size_t>(row)][static_cast<std::size_t>(band)] = true;
+      }
+  });
+  for (const std::array<bool, spur_bands>& row : row_bands)
+    for (std::size_t band = 0; band < bands.size(); ++band) bands[band] = bands[band] || row[band];
   view.field = grow_spurs(ground, *parameters.kind, sheet_rect, bands);
   return view;
 }

@@ -23,17 +23,19 @@ GuidanceBuffers thin_out(const WideView& wide, int times) {
   thin.land_cover = Grid<LandCoverClass>(size.x, size.y);
   thin.fall_line = Grid<glm::vec2>(size.x, size.y);
   thin.normal = Grid<glm::vec3>(size.x, size.y);
-  for (int y = 0; y < size.y; ++y)
-    for (int x = 0; x < size.x; ++x) {
-      const glm::ivec2 middle = (first + glm::ivec2(x, y)) * times + times / 2 - wide.origin_px;
-      const std::size_t from = seen.depth_m.index(std::clamp(middle.x, 0, seen.width() - 1), std::clamp(middle.y, 0, seen.height() - 1));
-      const std::size_t to = thin.depth_m.index(x, y);
-      thin.depth_m[to] = seen.depth_m[from];
-      thin.footprint_m[to] = seen.footprint_m[from] * static_cast<float>(times);
-      thin.land_cover[to] = seen.land_cover[from];
-      thin.fall_line[to] = seen.fall_line[from];
-      thin.normal[to] = seen.normal[from];
-    }
+  parallel_ranges(size.y, 16, [&](int begin, int end) {
+    for (int y = begin; y != end; ++y)
+      for (int x = 0; x < size.x; ++x) {
+        const glm::ivec2 middle = (first + glm::ivec2(x, y)) * times + times / 2 - wide.origin_px;
+        const std::size_t from = seen.depth_m.index(std::clamp(middle.x, 0, seen.width() - 1), std::clamp(middle.y, 0, seen.height() - 1));
+        const std::size_t to = thin.depth_m.index(x, y);
+        thin.depth_m[to] = seen.depth_m[from];
+        thin.footprint_m[to] = seen.footprint_m[from] * static_cast<float>(times);
+        thin.land_cover[to] = seen.land_cover[from];
+        thin.fall_line[to] = seen.fall_line[from];
+        thin.normal[to] = seen.normal[from];
+      }
+  });
   return thin;
 }
 
