@@ -54,16 +54,16 @@ void make_part(const LoadedScene& loaded, const std::string& folder, int part, i
   if (part < 1 || part > parts)
     throw Error(ErrorKind::usage, "part", fmt::format("{}", part), fmt::format("1 to {}, the parts of the plan", parts));
   const std::vector<PixelRect> pieces = pieces_of(region_of(loaded.scene, {}), {});
-  const auto first = [&](int i) { return pieces.size() * static_cast<std::size_t>(i) / static_cast<std::size_t>(parts); };
+  const PieceSpan own = pieces_of_part(pieces.size(), part, parts);
   const WorkFolder work(work_folder_of(folder), identify(loaded, {}), WorkMode::join);
-  make_pieces(loaded, {}, std::span(pieces).subspan(first(part - 1), first(part) - first(part - 1)), work, run);
+  make_pieces(loaded, {}, std::span(pieces).subspan(own.first, own.end - own.first), work, run);
 }
 
-void join_parts(const LoadedScene& loaded, const std::string& folder, const std::string& out_folder, const Run& run) {
+void join_parts(const LoadedScene& loaded, const std::string& folder, int parts, const std::string& out_folder, const Run& run) {
   const RunLimits limits(run);
   check_output_folder(out_folder);
   const WorkFolder work(work_folder_of(folder), identify(loaded, {}), WorkMode::join);
-  write_sheet_files(loaded, {}, work, out_folder, run);
+  write_sheet_files(loaded, {}, work, out_folder, run, {.folder = folder, .parts = parts});
 }
 
 }  // namespace belvedere

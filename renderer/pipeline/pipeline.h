@@ -20,8 +20,8 @@ void render_guidance(const LoadedScene& scene, const std::string& out_folder, co
 void plan_sheet(const LoadedScene& scene, const std::string& folder, const Run& run);
 // Error(usage) for a part that is none, and where scene, inputs or program are not those of the plan.
 void make_part(const LoadedScene& scene, const std::string& folder, int part, int parts, const Run& run);
-// Error(input) naming what is missing.
-void join_parts(const LoadedScene& scene, const std::string& folder, const std::string& out_folder, const Run& run);
+// Of a plan of `parts`. Error(input) naming the parts that are missing or not whole.
+void join_parts(const LoadedScene& scene, const std::string& folder, int parts, const std::string& out_folder, const Run& run);
 
 // Where the pieces of a run lie.
 std::string work_folder_of(const std::string& out_folder);

@@ -51,31 +51,56 @@ void read_rows(const WorkFolder& work, const std::string& product, const std::ve
   });
 }
 
-void require_pieces(const WorkFolder& work, const SheetRequest& request, const std::vector<PixelRect>& pieces, Progress& progress) {
+// Numbers as 1, 3–5, 9; many are cut off.
+std::string list_numbers(const std::vector<int>& numbers) {
+  constexpr int most = 12;
+  std::string list;
+  int ranges = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    std::size_t last = i;
+    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
+    if (ranges++ == most) return list + " …";
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", numbers[i]);
+    if (last > i) list += fmt::format("{}{}", last == i + 1 ? ", " : "–", numbers[last]);
+    i = last;
+  }
+  return list;
+}
+
+void require_pieces(const WorkFolder& work, const SheetRequest& request, const std::vector<PixelRect>& pieces, Progress& progress,
+                    const PlanOfParts& plan) {
   std::string missing;
-  int count = 0;
+  std::size_t count = 0;
+  std::vector<int> parts;
   const std::vector<std::string> products = products_of(request);
   progress.begin("looking through the pieces", static_cast<double>(pieces.size() * products.size()));
-  for (const PixelRect& piece : pieces)
+  int part = 1;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
     for (const std::string& product : products) {
-      if (!work.has(product, piece) && count++ < 5)
-        missing += fmt::format("{}{} at {},{}", missing.empty() ? "" : ", ", product, piece.x0, piece.y0);
       progress.advance(1.0);
+      if (work.has(product, pieces[i])) continue;
+      if (count++ < 5) missing += fmt::format("{}{} at {},{}", missing.empty() ? "" : ", ", product, pieces[i].x0, pieces[i].y0);
+      while (part < plan.parts && pieces_of_part(pieces.size(), part, plan.parts).end <= i) ++part;
+      if (plan.parts > 0 && (parts.empty() || parts.back() != part)) parts.push_back(part);
     }
-  if (count > 0)
-    throw Error(ErrorKind::input, work.folder(),
-                fmt::format("{} of {} pieces are missing: {}{}", count, pieces.size() * products.size(), missing, count > 5 ? " …" : ""),
-                "the parts that make them, run again");
+  if (count == 0) return;
+  std::string found =
+      fmt::format("{} of {} pieces are missing: {}{}", count, pieces.size() * products.size(), missing, count > 5 ? " …" : "");
+  if (parts.empty()) throw Error(ErrorKind::input, work.folder(), found, "the parts that make them, run again");
+  found = fmt::format("part{} {} of {} {} missing or not whole ({})", parts.size() > 1 ? "s" : "", list_numbers(parts), plan.parts,
+                      parts.size() > 1 ? "are" : "is", found);
+  throw Error(ErrorKind::input, work.folder(), found,
+              fmt::format("belvedere part {} {}{}, then join again", plan.folder, parts.front(), parts.size() > 1 ? " and so on" : ""));
 }
 
 }  // namespace
 
 void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const std::string& out_folder,
-                       const Run& run) {
+                       const Run& run, const PlanOfParts& plan) {
   const Scene& scene = loaded.scene;
   const PixelRect region = region_of(scene, request);
   const std::vector<PixelRect> pieces = pieces_of(region, request);
-  require_pieces(work, request, pieces, run.progress);
+  require_pieces(work, request, pieces, run.progress, plan);
   const FileNotes notes = job_from_text(work.read_bytes("notes"));
   FileNotes file_notes = notes;
   file_notes.erase("origin");  // of positions, which guidance alone has

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "base/run.h"
 #include "renderer/pipeline/sheet_pieces.h"
@@ -16,8 +17,13 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
 // What all pieces share, for others to make them: notes, and how the ground is copied.
 void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run);
 
+// Whose parts the pieces are, so that missing ones are told by the parts to run again.
+struct PlanOfParts {
+  std::string folder;
+  int parts = 0;  // 0: no plan
+};
 // Joins the pieces of a request to its files in `out_folder`, row by row. Error(input) naming the pieces that are missing.
 void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const std::string& out_folder,
-                       const Run& run);
+                       const Run& run, const PlanOfParts& plan = {});
 
 }  // namespace belvedere

@@ -51,6 +51,11 @@ std::vector<PixelRect> pieces_of(PixelRect region, const SheetRequest& request) 
   return pieces;
 }
 
+PieceSpan pieces_of_part(std::size_t count, int part, int parts) {
+  const auto before = [&](int i) { return count * static_cast<std::size_t>(i) / static_cast<std::size_t>(parts); };
+  return {before(part - 1), before(part)};
+}
+
 JobIdentity identify(const LoadedScene& loaded, const SheetRequest& request) {
   JobIdentity identity;
   const PixelRect region = region_of(loaded.scene, request);

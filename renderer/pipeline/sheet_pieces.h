@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,12 @@ std::vector<std::string> products_of(const SheetRequest& request);
 // The squares of the sheet's fixed grid that the region touches, cut to it, in the order in which they are made: along the shorter side,
 // so that what must be kept of the stages before is least.
 std::vector<PixelRect> pieces_of(PixelRect region, const SheetRequest& request);
+// Which of `count` pieces a part of a plan makes: the numbers [first, end). Parts count from 1.
+struct PieceSpan {
+  std::size_t first = 0;
+  std::size_t end = 0;
+};
+PieceSpan pieces_of_part(std::size_t count, int part, int parts);
 // All that the pixels of a request hang on.
 JobIdentity identify(const LoadedScene& loaded, const SheetRequest& request);
 

@@ -131,10 +131,13 @@ TEST_F(SheetJob, PartsInAnyOrderJoinToTheSameBytes) {
   plan_sheet(scene(), folder_.path(), {});
   for (const int part : {3, 1, 3}) make_part(scene(), folder_.path(), part, 3, {});
   // What is missing is named; a damaged piece is missing, and made again.
-  const auto expect_missing = [&] {
-    EXPECT_THAT(test::message_of(ErrorKind::input, [&] { join_parts(scene(), folder_.path(), folder_.path(), {}); }), HasSubstr("missing"));
+  const auto expect_missing = [&](const std::string& which) {
+    const std::string message = test::message_of(ErrorKind::input, [&] { join_parts(scene(), folder_.path(), 3, folder_.path(), {}); });
+    EXPECT_THAT(message, HasSubstr(which));
+    EXPECT_THAT(message, HasSubstr(" of 3 is missing or not whole"));
+    EXPECT_THAT(message, HasSubstr("missing"));
   };
-  expect_missing();
+  expect_missing("part 2");
   make_part(scene(), folder_.path(), 2, 3, {});
   int damaged = 0;
   for (const auto& entry : fs::directory_iterator(work_folder_of(folder_.path()))) {
@@ -146,9 +149,9 @@ TEST_F(SheetJob, PartsInAnyOrderJoinToTheSameBytes) {
     break;
   }
   ASSERT_EQ(damaged, 1);
-  expect_missing();
+  expect_missing("part ");
   for (const int part : {1, 2, 3}) make_part(scene(), folder_.path(), part, 3, {});
-  join_parts(scene(), folder_.path(), folder_.path(), {});
+  join_parts(scene(), folder_.path(), 3, folder_.path(), {});
   expect_same_files(whole(), folder_.path());
   EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_part(scene({"seed=9"}), folder_.path(), 1, 3, {}); }),
               HasSubstr("scene differs"));

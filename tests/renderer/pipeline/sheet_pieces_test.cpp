@@ -28,6 +28,20 @@ TEST(SheetPieces, FollowEachOtherAlongTheShorterSide) {
   EXPECT_EQ(high[1], (PixelRect{100, 0, 200, 100}));
 }
 
+TEST(SheetPieces, PartsOfAPlanShareThemInOrder) {
+  for (const std::size_t count : {1U, 7U, 160U})
+    for (const int parts : {1, 3, 8}) {
+      std::size_t next = 0;
+      for (int part = 1; part <= parts; ++part) {
+        const PieceSpan span = pieces_of_part(count, part, parts);
+        EXPECT_EQ(span.first, next);
+        EXPECT_LE(span.end - span.first, count / static_cast<std::size_t>(parts) + 1);
+        next = span.end;
+      }
+      EXPECT_EQ(next, count);
+    }
+}
+
 TEST(SheetPieces, TheIdentityHangsOnSceneAndPart) {
   const LoadedScene scene = test::small_scene();
   EXPECT_EQ(identify(scene, {}), identify(scene, {.resume = true}));

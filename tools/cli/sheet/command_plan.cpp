@@ -143,13 +143,13 @@ Action add_join(CLI::App& command) {
   add_shared_folder(command, *options);
   command.add_option("--out", options->out, "Folder for the results. Default: that of the plan")->type_name("DIR");
   command.footer(
-      "Names the pieces that are missing. The pieces stay; remove the folder's .belvedere when the files are good.\n\n  belvedere join "
+      "Names the parts that are missing. The pieces stay; remove the folder's .belvedere when the files are good.\n\n  belvedere join "
       "karwendel");
   return [options] {
     const Order order = read_order(options->folder);
     TerminalProgress progress(options->scene.quiet);
     const Cache cache = make_cache(options->scene);
-    join_parts(load_order(order, options->scene), options->folder, options->out.empty() ? options->folder : options->out,
+    join_parts(load_order(order, options->scene), options->folder, order.parts, options->out.empty() ? options->folder : options->out,
                make_run(options->scene, Run{}.tile_px, progress, cache));
     return 0;
   };
