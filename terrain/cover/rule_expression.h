@@ -28,21 +28,6 @@ inline constexpr int rule_block = 256;
 // Angles of sin and cos are radians. All values are floats.
 class RuleExpression {
  public:
-  // `where` and `place` are the file and the place of the text's opening quote; Error(usage) names file:line:column of the fault.
-  RuleExpression(const std::string& text, const RuleNames& names, const std::string& where, ConfigPlace place);
-
-  // Slots of the variables that the expression reads, ascending.
-  const std::vector<int>& variables() const { return variables_; }
-
-  // Memory for one thread.
-  struct Scratch {
-    std::vector<float> values;
-  };
-  // slots[i] points to rule_block values of variable i (only those in variables() are read); writes rule_block values.
-  void evaluate(const std::vector<const float*>& slots, float* out, Scratch& scratch) const;
-
- private:
-  friend class RuleCompiler;
   enum class Operation : std::uint8_t {
     add,
     subtract,
@@ -65,6 +50,22 @@ class RuleExpression {
     smooth_step,
     hat
   };
+
+  // `where` and `place` are the file and the place of the text's opening quote; Error(usage) names file:line:column of the fault.
+  RuleExpression(const std::string& text, const RuleNames& names, const std::string& where, ConfigPlace place);
+
+  // Slots of the variables that the expression reads, ascending.
+  const std::vector<int>& variables() const { return variables_; }
+
+  // Memory for one thread.
+  struct Scratch {
+    std::vector<float> values;
+  };
+  // slots[i] points to rule_block values of variable i (only those in variables() are read); writes rule_block values.
+  void evaluate(const std::vector<const float*>& slots, float* out, Scratch& scratch) const;
+
+ private:
+  friend class RuleCompiler;
   // A variable (>= 0 in `index`), a constant or the result of an earlier step.
   struct Operand {
     enum class Kind : std::uint8_t { variable, constant, step } kind = Kind::constant;

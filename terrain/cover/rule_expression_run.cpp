@@ -3,81 +3,138 @@
 #include <cmath>
 #include <cstddef>
 
-#include "base/math.h"
 #include "base/math_exact.h"
 #include "terrain/cover/rule_expression.h"
 
+// The head of this file is compiled once for each vector width by Highway.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "terrain/cover/rule_expression_run.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace belvedere::rule_steps {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::ScalableTag<float>;
+using Values = hn::Vec<Floats>;
+
+// Some values of all operands are read before any is written, since a result may take the place of an operand.
+template <class F>
+HWY_INLINE void each_1(const float* const* o, float* out, F&& f) {
+  const Floats d;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(rule_block); i += hn::Lanes(d)) hn::StoreU(f(hn::LoadU(d, o[0] + i)), d, out + i);
+}
+template <class F>
+HWY_INLINE void each_2(const float* const* o, float* out, F&& f) {
+  const Floats d;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(rule_block); i += hn::Lanes(d))
+    hn::StoreU(f(hn::LoadU(d, o[0] + i), hn::LoadU(d, o[1] + i)), d, out + i);
+}
+template <class F>
+HWY_INLINE void each_3(const float* const* o, float* out, F&& f) {
+  const Floats d;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(rule_block); i += hn::Lanes(d))
+    hn::StoreU(f(hn::LoadU(d, o[0] + i), hn::LoadU(d, o[1] + i), hn::LoadU(d, o[2] + i)), d, out + i);
+}
+
+// 0…1; not a number stays so, as with std::clamp.
+HWY_INLINE Values Unit(Values v) {
+  const Floats d;
+  const Values zero = hn::Zero(d);
+  const Values one = hn::Set(d, 1.F);
+  return hn::IfThenElse(hn::Lt(v, zero), zero, hn::IfThenElse(hn::Lt(one, v), one, v));
+}
+
+// All but what asks the library of mathematics; every comparison as it stands in docs/class_rules.md.
+void RunStep(RuleExpression::Operation operation, const float* const* o, float* out) {
+  using Operation = RuleExpression::Operation;
+  const Floats d;
+  const Values zero = hn::Zero(d);
+  const Values one = hn::Set(d, 1.F);
+  switch (operation) {
+    case Operation::add:
+      return each_2(o, out, [](Values a, Values b) HWY_ATTR { return hn::Add(a, b); });
+    case Operation::subtract:
+      return each_2(o, out, [](Values a, Values b) HWY_ATTR { return hn::Sub(a, b); });
+    case Operation::multiply:
+      return each_2(o, out, [](Values a, Values b) HWY_ATTR { return hn::Mul(a, b); });
+    case Operation::divide:
+      return each_2(o, out, [](Values a, Values b) HWY_ATTR { return hn::Div(a, b); });
+    case Operation::less:
+      return each_2(o, out, [&](Values a, Values b) HWY_ATTR { return hn::IfThenElseZero(hn::Lt(a, b), one); });
+    case Operation::less_equal:
+      return each_2(o, out, [&](Values a, Values b) HWY_ATTR { return hn::IfThenElseZero(hn::Le(a, b), one); });
+    case Operation::both:
+      return each_2(o, out,
+                    [&](Values a, Values b) HWY_ATTR { return hn::IfThenElseZero(hn::And(hn::Gt(a, zero), hn::Gt(b, zero)), one); });
+    case Operation::either:
+      return each_2(o, out, [&](Values a, Values b) HWY_ATTR { return hn::IfThenElseZero(hn::Or(hn::Gt(a, zero), hn::Gt(b, zero)), one); });
+    case Operation::negate:
+      return each_1(o, out, [](Values a) HWY_ATTR { return hn::Neg(a); });
+    case Operation::invert:
+      return each_1(o, out, [&](Values a) HWY_ATTR { return hn::IfThenZeroElse(hn::Gt(a, zero), one); });
+    case Operation::minimum:
+      return each_2(o, out, [](Values a, Values b) HWY_ATTR { return hn::IfThenElse(hn::Lt(a, b), a, b); });
+    case Operation::maximum:
+      return each_2(o, out, [](Values a, Values b) HWY_ATTR { return hn::IfThenElse(hn::Gt(a, b), a, b); });
+    case Operation::clip:
+      return each_3(o, out, [](Values x, Values low, Values high) HWY_ATTR {
+        const Values raised = hn::IfThenElse(hn::Gt(x, low), x, low);
+        return hn::IfThenElse(hn::Lt(raised, high), raised, high);
+      });
+    case Operation::absolute:
+      return each_1(o, out, [](Values a) HWY_ATTR { return hn::Abs(a); });
+    case Operation::square_root:
+      return each_1(o, out, [&](Values a) HWY_ATTR { return hn::IfThenElseZero(hn::Gt(a, zero), hn::Sqrt(a)); });
+    case Operation::smooth_step:
+      return each_3(o, out, [&](Values x, Values low, Values high) HWY_ATTR {
+        const Values t = Unit(hn::Div(hn::Sub(x, low), hn::Sub(high, low)));
+        const Values smooth = hn::Mul(hn::Mul(t, t), hn::Sub(hn::Set(d, 3.F), hn::Mul(hn::Set(d, 2.F), t)));
+        return hn::IfThenElse(hn::Lt(low, high), smooth, hn::IfThenZeroElse(hn::Lt(x, low), one));
+      });
+    case Operation::hat:
+      for (std::size_t i = 0; i < static_cast<std::size_t>(rule_block); i += hn::Lanes(d)) {
+        const Values x = hn::LoadU(d, o[0] + i);
+        const Values above = hn::Sub(x, hn::LoadU(d, o[1] + i));
+        const Values below = hn::Sub(hn::LoadU(d, o[2] + i), x);
+        const Values width = hn::LoadU(d, o[3] + i);
+        const Values inside = hn::IfThenElse(hn::Lt(below, above), below, above);
+        const Values soft = Unit(hn::Add(hn::Div(inside, width), hn::Set(d, 0.5F)));
+        hn::StoreU(hn::IfThenElse(hn::Gt(width, zero), soft, hn::IfThenElseZero(hn::Ge(inside, zero), one)), d, out + i);
+      }
+      return;
+    case Operation::sine:
+    case Operation::cosine:
+    case Operation::exponential:
+      return;
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace belvedere::rule_steps
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace belvedere {
-namespace {
-
-template <class F>
-void each(const float* a, float* out, F&& f) {
-  for (int i = 0; i < rule_block; ++i) out[i] = f(a[i]);
-}
-template <class F>
-void each(const float* a, const float* b, float* out, F&& f) {
-  for (int i = 0; i < rule_block; ++i) out[i] = f(a[i], b[i]);
-}
-template <class F>
-void each(const float* a, const float* b, const float* c, float* out, F&& f) {
-  for (int i = 0; i < rule_block; ++i) out[i] = f(a[i], b[i], c[i]);
-}
-
-}  // namespace
+namespace rule_steps {
+HWY_EXPORT(RunStep);
+}  // namespace rule_steps
 
 void RuleExpression::run(Operation operation, const float* const* o, float* out) {
   switch (operation) {
-    case Operation::add:
-      return each(o[0], o[1], out, [](float a, float b) { return a + b; });
-    case Operation::subtract:
-      return each(o[0], o[1], out, [](float a, float b) { return a - b; });
-    case Operation::multiply:
-      return each(o[0], o[1], out, [](float a, float b) { return a * b; });
-    case Operation::divide:
-      return each(o[0], o[1], out, [](float a, float b) { return a / b; });
-    case Operation::less:
-      return each(o[0], o[1], out, [](float a, float b) { return a < b ? 1.F : 0.F; });
-    case Operation::less_equal:
-      return each(o[0], o[1], out, [](float a, float b) { return a <= b ? 1.F : 0.F; });
-    case Operation::both:
-      return each(o[0], o[1], out, [](float a, float b) { return ((a > 0.F) & (b > 0.F)) ? 1.F : 0.F; });
-    case Operation::either:
-      return each(o[0], o[1], out, [](float a, float b) { return ((a > 0.F) | (b > 0.F)) ? 1.F : 0.F; });
-    case Operation::negate:
-      return each(o[0], out, [](float a) { return -a; });
-    case Operation::invert:
-      return each(o[0], out, [](float a) { return a > 0.F ? 0.F : 1.F; });
-    case Operation::minimum:
-      return each(o[0], o[1], out, [](float a, float b) { return a < b ? a : b; });
-    case Operation::maximum:
-      return each(o[0], o[1], out, [](float a, float b) { return a > b ? a : b; });
-    case Operation::clip:
-      return each(o[0], o[1], o[2], out, [](float x, float low, float high) {
-        const float raised = x > low ? x : low;
-        return raised < high ? raised : high;
-      });
-    case Operation::absolute:
-      return each(o[0], out, [](float a) { return std::abs(a); });
     case Operation::sine:
-      return each(o[0], out, [](float a) { return exact::sin(a); });
-    case Operation::cosine:
-      return each(o[0], out, [](float a) { return exact::cos(a); });
-    case Operation::exponential:
-      return each(o[0], out, [](float a) { return exact::exp(a); });
-    case Operation::square_root:
-      return each(o[0], out, [](float a) { return a > 0.F ? std::sqrt(a) : 0.F; });
-    case Operation::smooth_step:
-      return each(o[0], o[1], o[2], out, [](float x, float low, float high) {
-        if (!(low < high)) return x < low ? 0.F : 1.F;
-        return smoothstep(low, high, x);
-      });
-    case Operation::hat:
-      for (int i = 0; i < rule_block; ++i) {
-        const float inside = std::min(o[0][i] - o[1][i], o[2][i] - o[0][i]);
-        const float width = o[3][i];
-        out[i] = width > 0.F ? std::clamp(inside / width + 0.5F, 0.F, 1.F) : (inside >= 0.F ? 1.F : 0.F);
-      }
+      for (int i = 0; i < rule_block; ++i) out[i] = static_cast<float>(exact::sin(o[0][i]));
       return;
+    case Operation::cosine:
+      for (int i = 0; i < rule_block; ++i) out[i] = static_cast<float>(exact::cos(o[0][i]));
+      return;
+    case Operation::exponential:
+      for (int i = 0; i < rule_block; ++i) out[i] = static_cast<float>(exact::exp(o[0][i]));
+      return;
+    default:
+      HWY_DYNAMIC_DISPATCH(rule_steps::RunStep)(operation, o, out);
   }
 }
 
@@ -105,3 +162,4 @@ void RuleExpression::evaluate(const std::vector<const float*>& slots, float* out
 }
 
 }  // namespace belvedere
+#endif

@@ -3,10 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
+#include "base/math.h"
+#include "base/random.h"
 
 namespace belvedere {
 namespace {
@@ -96,6 +104,68 @@ TEST(RuleExpression, HatIsAClampedMinimumOfTwoRamps) {
   EXPECT_EQ(h[66], 0.F);
   EXPECT_EQ(values("hat(slope, 20, 60, 0)")[20], 1.F);
   EXPECT_EQ(values("hat(slope, 20, 60, 0)")[61], 0.F);
+}
+
+// Every step of a block, cell by cell, over numbers of all kinds; the last line's results take the place of operands.
+TEST(RuleExpression, StepsAreThoseOfOneCellAfterTheOther) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float inf = std::numeric_limits<float>::infinity();
+  const std::vector<float> special = {0.F, -0.F, 1.F, -1.F, 0.5F, 2.F, nan, inf, -inf, 1e-40F, 3e38F};
+  const auto make = [&](std::int64_t column) {
+    std::vector<float> cells(rule_block);
+    for (int i = 0; i < rule_block; ++i)
+      cells[static_cast<std::size_t>(i)] = random_uniform(7, column, i, 0) < 0.3
+                                               ? special[random_bits(7, column, i, 1) % special.size()]
+                                               : static_cast<float>(4.0 * random_uniform(7, column, i, 2) - 2.0);
+    return cells;
+  };
+  const std::vector<float> a = make(0), b = make(1), c = make(2);
+  using Plain = float (*)(float, float, float);
+  const std::vector<std::pair<std::string, Plain>> steps = {
+      {"altitude + slope", [](float x, float y, float) { return x + y; }},
+      {"altitude - slope", [](float x, float y, float) { return x - y; }},
+      {"altitude * slope", [](float x, float y, float) { return x * y; }},
+      {"altitude / slope", [](float x, float y, float) { return x / y; }},
+      {"altitude < slope", [](float x, float y, float) { return x < y ? 1.F : 0.F; }},
+      {"altitude <= slope", [](float x, float y, float) { return x <= y ? 1.F : 0.F; }},
+      {"altitude and slope", [](float x, float y, float) { return x > 0.F && y > 0.F ? 1.F : 0.F; }},
+      {"altitude or slope", [](float x, float y, float) { return x > 0.F || y > 0.F ? 1.F : 0.F; }},
+      {"-altitude", [](float x, float, float) { return -x; }},
+      {"not altitude", [](float x, float, float) { return x > 0.F ? 0.F : 1.F; }},
+      {"min(altitude, slope)", [](float x, float y, float) { return x < y ? x : y; }},
+      {"max(altitude, slope)", [](float x, float y, float) { return x > y ? x : y; }},
+      {"abs(altitude)", [](float x, float, float) { return std::abs(x); }},
+      {"sqrt(altitude)", [](float x, float, float) { return x > 0.F ? std::sqrt(x) : 0.F; }},
+      {"clip(altitude, slope, south)",
+       [](float x, float y, float z) {
+         const float raised = x > y ? x : y;
+         return raised < z ? raised : z;
+       }},
+      {"smoothstep(altitude, slope, south)",
+       [](float x, float y, float z) {
+         if (!(y < z)) return x < y ? 0.F : 1.F;
+         return smoothstep(y, z, x);
+       }},
+      {"hat(altitude, slope, 1, south)",
+       [](float x, float y, float z) {
+         const float inside = std::min(x - y, 1.F - x);
+         return z > 0.F ? unit(inside / z + 0.5F) : (inside >= 0.F ? 1.F : 0.F);
+       }},
+      {"((altitude - slope) * (slope + south) - (altitude * south)) / (south - slope)",
+       [](float x, float y, float z) { return ((x - y) * (y + z) - x * z) / (z - y); }}};
+  for (const auto& [text, plain] : steps) {
+    std::vector<float> out(rule_block);
+    RuleExpression::Scratch scratch;
+    RuleExpression(text, names, "rules.toml", {1, 1}).evaluate({a.data(), b.data(), c.data()}, out.data(), scratch);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const float expected = plain(a[i], b[i], c[i]);
+      if (std::isnan(expected))
+        EXPECT_TRUE(std::isnan(out[i])) << text << ' ' << a[i] << ' ' << b[i] << ' ' << c[i];
+      else
+        EXPECT_EQ(std::bit_cast<std::uint32_t>(out[i]), std::bit_cast<std::uint32_t>(expected))
+            << text << ' ' << a[i] << ' ' << b[i] << ' ' << c[i];
+    }
+  }
 }
 
 TEST(RuleExpression, DeepButHonestNestingWorks) {
