@@ -19,7 +19,12 @@ constexpr float least_gradient = 1e-5F;  // squared, a cell; less is no edge at 
 Grid<float> class_mask(const LandCover& cover, const Dem& dem, LandCoverClass requested) {
   const Grid<LandCoverClass>& cells = cover.classes.cells;
   Grid<float> mask(dem.width(), dem.height());
+  const bool own_cells = cover.classes.transform == dem.transform && cells.same_size(dem.altitude_m);
   parallel_rows(dem.height(), [&](int y) {
+    if (own_cells) {  // as nearly always: each cell is its own nearest
+      for (int x = 0; x < dem.width(); ++x) mask(x, y) = cells(x, y) == requested ? 1.F : 0.F;
+      return;
+    }
     for (int x = 0; x < dem.width(); ++x) {
       const glm::dvec2 place = dem.transform.to_crs(x, y);
       const glm::dvec2 at = cover.classes.transform.to_cell(place.x, place.y);
@@ -40,16 +45,21 @@ FloorPlan plan_floor(const LandCover& land_cover, const Dem& dem) {
   const Grid<float> street = gaussian_blur(houses, street_m / cell);
   const Grid<float> town = gaussian_blur(houses, town_m / cell);
   plan.built = Grid<float>(width, height);
-  for (std::size_t i = 0; i < plan.built.size(); ++i) plan.built[i] = std::clamp(street[i] * (0.35F + 0.65F * town[i]), 0.F, 1.F);
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) plan.built(x, y) = std::clamp(street(x, y) * (0.35F + 0.65F * town(x, y)), 0.F, 1.F);
+  });
 
   // Edges that order the land: banks, and where the floor begins to rise; their structure tensor says which way they run.
   Grid<float> edges = gaussian_blur(class_mask(land_cover, dem, LandCoverClass::water), edge_m / cell);
   const Grid<float> slope = slope_deg(gaussian_blur(dem.altitude_m, edge_m / cell), dem.transform.cell_x, dem.transform.cell_y);
+  Grid<float> rises(width, height);  // 0 on the floor, 1 on slopes
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) rises(x, y) = std::clamp((slope(x, y) - 3.F) / 6.F, 0.F, 1.F);
+  });
   Grid<float> difference(width, height);  // g_x² - g_y²
   Grid<float> product(width, height);     // 2 g_x g_y
   Grid<float> sum(width, height);         // g_x² + g_y²
   parallel_rows(height, [&](int y) {
-    const auto rises = [&](int x, int v) { return std::clamp((slope.clamped(x, v) - 3.F) / 6.F, 0.F, 1.F); };
     for (int x = 0; x < width; ++x) {
       const auto add = [&](float gx, float gy, float weight) {
         difference(x, y) += weight * (gx * gx - gy * gy);
@@ -57,7 +67,8 @@ FloorPlan plan_floor(const LandCover& land_cover, const Dem& dem) {
         sum(x, y) += weight * (gx * gx + gy * gy);
       };
       add(edges.clamped(x + 1, y) - edges.clamped(x - 1, y), edges.clamped(x, y - 1) - edges.clamped(x, y + 1), 2.F);
-      add(rises(x + 1, y) - rises(x - 1, y), rises(x, y - 1) - rises(x, y + 1), slope(x, y) < 9.F ? 1.F : 0.F);
+      add(rises.clamped(x + 1, y) - rises.clamped(x - 1, y), rises.clamped(x, y - 1) - rises.clamped(x, y + 1),
+          slope(x, y) < 9.F ? 1.F : 0.F);
     }
   });
   const double sigma = grain_m / cell;
@@ -65,11 +76,13 @@ FloorPlan plan_floor(const LandCover& land_cover, const Dem& dem) {
   product = gaussian_blur(product, sigma);
   sum = gaussian_blur(sum, sigma);
   plan.grain = Grid<glm::vec2>(width, height);
-  for (std::size_t i = 0; i < plan.grain.size(); ++i) {
-    // Along an edge is across its gradient: twice the angle, turned by half a circle.
-    const float scale = 1.F / (sum[i] + least_gradient);
-    plan.grain[i] = {-difference[i] * scale, -product[i] * scale};
-  }
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      // Along an edge is across its gradient: twice the angle, turned by half a circle.
+      const float scale = 1.F / (sum(x, y) + least_gradient);
+      plan.grain(x, y) = {-difference(x, y) * scale, -product(x, y) * scale};
+    }
+  });
   return plan;
 }
 

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <utility>
 
@@ -110,17 +112,24 @@ LandCoverClass LandCover::at(double x, double y) const {
   const std::array<double, 4> across = bspline_weights(column - left);
   const std::array<double, 4> down = bspline_weights(row - above);
   std::array<double, land_cover_class_count> membership{};
-  for (int j = 0; j < 4; ++j)
+  std::uint64_t present = 0;  // a bit for each class among the 16
+  static_assert(land_cover_class_count <= 64);
+  for (int j = 0; j < 4; ++j) {
+    const LandCoverClass* line = cells.row(std::clamp(y0 + j, 0, cells.height() - 1));
     for (int i = 0; i < 4; ++i) {
-      const LandCoverClass c = cells.clamped(x0 + i, y0 + j);
-      membership[static_cast<std::size_t>(c)] += across[static_cast<std::size_t>(i)] * down[static_cast<std::size_t>(j)];
+      const auto c = static_cast<std::size_t>(line[inside ? x0 + i : std::clamp(x0 + i, 0, cells.width() - 1)]);
+      membership[c] += across[static_cast<std::size_t>(i)] * down[static_cast<std::size_t>(j)];
+      present |= std::uint64_t{1} << c;
     }
+  }
   // The first of the largest; sums of the same weights in another order differ in their last bits, which are no reason to
   // prefer a class.
   constexpr double tie = 1e-12;
   std::size_t best = 0;
-  for (std::size_t c = 1; c < membership.size(); ++c)
+  for (std::uint64_t left_over = present & ~std::uint64_t{1}; left_over != 0; left_over &= left_over - 1) {
+    const auto c = static_cast<std::size_t>(std::countr_zero(left_over));
     if (membership[c] > membership[best] + tie) best = c;
+  }
   return static_cast<LandCoverClass>(best);
 }
 
