@@ -1,7 +1,10 @@
 #include "renderer/paint/ribs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <span>
 
 #include "base/math_exact.h"
 #include "base/parallel.h"
@@ -39,16 +42,46 @@ int steps_each_way(const RibWidth& width) { return static_cast<int>(width.length
 // The noises of the three widths at one pixel, side by side, because every step reads all of them.
 using NoiseTriple = glm::vec3;
 
-// Where a streamline begins: a pixel of the sheet, and what is known of it.
-struct Start {
-  glm::ivec2 sheet_px;
-  glm::vec2 fall;
-  float depth_m;
+// A streamline on its way down (sign 1) or up the fall line from a pixel of the sheet. Places are kept relative to the pixel, so that
+// rounding does not depend on where the part of the picture lies.
+struct Streamline {
+  glm::ivec2 sheet_px{0};
+  float sign = 1.0F;
+  glm::vec2 fall{0.0F};  // where it is, as depth
+  float depth_m = 0.0F;
+  bool bound = true;  // still on the surface it set out on
+  glm::vec2 offset{0.0F};
+  glm::vec2 direction{0.0F};
+  NoiseTriple sum{0.0F};
 };
 
-// Sums of the noises (of wide pixels) at the places down (sign 1) or up the fall line from a pixel, without the pixel itself: each width as
-// far as its own length. Places are kept relative to the pixel, so that rounding does not depend on where the part of the picture lies.
-NoiseTriple integrate_one_way(const WideView& wide, const Grid<NoiseTriple>& noise, const Start& start, float step_px, float sign) {
+// WideView::index for millions of places: multiplies by 2^32 / factor, rounded up, which divides exactly below 2^24 for factors below 256.
+class WidePlaces {
+ public:
+  explicit WidePlaces(const WideView& wide)
+      : origin_(wide.origin_px),
+        last_(wide.seen.width() - 1, wide.seen.height() - 1),
+        width_(static_cast<std::size_t>(wide.seen.width())),
+        inverse_((std::uint64_t{1} << 32U) / static_cast<std::uint64_t>(wide.factor) + 1) {}
+  std::size_t index(int sheet_x, int sheet_y) const {
+    return static_cast<std::size_t>(place(sheet_y, origin_.y, last_.y)) * width_ +
+           static_cast<std::size_t>(place(sheet_x, origin_.x, last_.x));
+  }
+
+ private:
+  int place(int sheet, int origin, int last) const {
+    const int wide = static_cast<int>(static_cast<std::uint64_t>(std::max(sheet, 0)) * inverse_ >> 32U);
+    return std::clamp(wide - origin, 0, last);
+  }
+  glm::ivec2 origin_;
+  glm::ivec2 last_;
+  std::size_t width_;
+  std::uint64_t inverse_;
+};
+
+// Sums of the noises (of wide pixels) along streamlines, without the pixels they begin at: each width as far as its own length. All lines
+// go a step before any goes the next: a step waits for what it reads, and the others use that time.
+void integrate(const WideView& wide, const WidePlaces& places, const Grid<NoiseTriple>& noise, float step_px, std::span<Streamline> lines) {
   // By falling length: the widest runs on when the others have ended.
   constexpr int longest = 2;
   constexpr int middle = 0;
@@ -58,30 +91,22 @@ NoiseTriple integrate_one_way(const WideView& wide, const Grid<NoiseTriple>& noi
   const int steps_short = steps_each_way(rib_widths[shortest]);
   const int steps_middle = steps_each_way(rib_widths[middle]);
   const int steps_long = steps_each_way(rib_widths[longest]);
-  glm::vec2 offset(0.0F);
-  glm::vec2 direction(0.0F);
-  bool bound = true;  // still on the surface it set out on
-  glm::vec2 fall = start.fall;
-  float depth_m = start.depth_m;
-  NoiseTriple sum(0.0F);
-  for (int k = 0; k < steps_long; ++k) {
-    if (bound) {
-      if (fall.x != 0.0F || fall.y != 0.0F) direction = fall * sign;
+  for (int k = 0; k < steps_long; ++k)
+    for (Streamline& line : lines) {
+      if (line.bound && (line.fall.x != 0.0F || line.fall.y != 0.0F)) line.direction = line.fall * line.sign;
+      line.offset += line.direction * step_px;
+      const std::size_t next = places.index(line.sheet_px.x + static_cast<int>(std::floor(line.offset.x + 0.5F)),
+                                            line.sheet_px.y + static_cast<int>(std::floor(line.offset.y + 0.5F)));
+      if (line.bound) {
+        line.bound = same_surface(line.depth_m, wide.seen.depth_m[next]);
+        line.depth_m = wide.seen.depth_m[next];
+        line.fall = wide.seen.fall_line[next];
+      }
+      const NoiseTriple& value = noise[next];
+      if (k < steps_short) line.sum[shortest] += value[shortest];
+      if (k < steps_middle) line.sum[middle] += value[middle];
+      line.sum[longest] += value[longest];
     }
-    offset += direction * step_px;
-    const std::size_t next = wide.index(start.sheet_px.x + static_cast<int>(std::floor(offset.x + 0.5F)),
-                                        start.sheet_px.y + static_cast<int>(std::floor(offset.y + 0.5F)));
-    if (bound) {
-      bound = same_surface(depth_m, wide.seen.depth_m[next]);
-      depth_m = wide.seen.depth_m[next];
-      fall = wide.seen.fall_line[next];
-    }
-    const NoiseTriple& value = noise[next];
-    if (k < steps_short) sum[shortest] += value[shortest];
-    if (k < steps_middle) sum[middle] += value[middle];
-    sum[longest] += value[longest];
-  }
-  return sum;
 }
 
 // Slope of a field along x, per unit, taken over the same surface only.
@@ -111,21 +136,36 @@ std::array<Grid<float>, 3> integrate_along_fall_line(const GuidanceBuffers& guid
     const std::uint64_t lines = stream_seed(seed, Stream::rib_lines, static_cast<std::uint64_t>(k));
     const Grid<float> one =
         make_image_noise(lines, wide.origin_px, noise.width(), noise.height(), pixels_per_unit / wide.factor, sigma, sigma);
-    for (std::size_t i = 0; i < one.size(); ++i) noise[i][k] = one[i];
+    parallel_ranges(one.size(), std::size_t{1} << 15U, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i != end; ++i) noise[i][k] = one[i];
+    });
     scale[k] = static_cast<float>(1.0 / line_sum_deviation(2 * steps_each_way(rib_widths[k]) + 1, sigma));
   }
   const auto step_px = static_cast<float>(step_units * pixels_per_unit);
+  const WidePlaces places(wide);
   // Neighbours that slopes and the blur will ask for.
   const int reach = static_cast<int>(std::ceil(pixels_per_unit)) + blur_reach_px(blur_sigma_units * pixels_per_unit);
   parallel_tiles(width, height, 16, [&](PixelRect tile) {
     if (!any_marked(marked, {tile.x0 - reach, tile.y0 - reach, tile.x1 + reach, tile.y1 + reach})) return;
+    std::array<Streamline, 8> lines;
     for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        const Start start{origin_px + glm::ivec2(x, y), guidance.fall_line(x, y), guidance.depth_m(x, y)};
-        const NoiseTriple down = integrate_one_way(wide, noise, start, step_px, 1.0F);
-        const NoiseTriple up = integrate_one_way(wide, noise, start, step_px, -1.0F);
-        const NoiseTriple all = (noise[wide.index(start.sheet_px.x, start.sheet_px.y)] + down + up) * scale;
-        for (int k = 0; k < 3; ++k) fields[k](x, y) = all[k];
+      for (int x0 = tile.x0; x0 < tile.x1; x0 += static_cast<int>(lines.size()) / 2) {
+        const int pixels = std::min(static_cast<int>(lines.size()) / 2, tile.x1 - x0);
+        for (int i = 0; i < pixels; ++i) {
+          const glm::ivec2 sheet_px = origin_px + glm::ivec2(x0 + i, y);
+          for (const int way : {0, 1})
+            lines[static_cast<std::size_t>(2 * i + way)] = {.sheet_px = sheet_px,
+                                                            .sign = way == 0 ? 1.0F : -1.0F,
+                                                            .fall = guidance.fall_line(x0 + i, y),
+                                                            .depth_m = guidance.depth_m(x0 + i, y)};
+        }
+        integrate(wide, places, noise, step_px, std::span(lines).first(static_cast<std::size_t>(2 * pixels)));
+        for (int i = 0; i < pixels; ++i) {
+          const Streamline& down = lines[static_cast<std::size_t>(2 * i)];
+          const Streamline& up = lines[static_cast<std::size_t>(2 * i + 1)];
+          const NoiseTriple all = (noise[places.index(down.sheet_px.x, down.sheet_px.y)] + down.sum + up.sum) * scale;
+          for (int k = 0; k < 3; ++k) fields[k](x0 + i, y) = all[k];
+        }
       }
   });
   return fields;

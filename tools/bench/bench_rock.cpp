@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "renderer/paint/picture_filter.h"
+#include "renderer/paint/ribs.h"
 #include "renderer/rock/crest_shift.h"
 #include "renderer/rock/rock_relief.h"
 #include "renderer/trace/guidance.h"
@@ -31,6 +32,8 @@ std::vector<Measurement> bench_rock(const Options& options) {
   for (std::size_t i = 0; i < seen.depth_m.size(); ++i) ground += seen.is_sky(i) ? 0U : 1U;
   const double megapixels = static_cast<double>(ground) * 1e-6;
 
+  const Grid<std::uint8_t> marked(width, height, std::uint8_t{1});
+
   std::vector<Measurement> out;
   for (const int scale : {1, 4}) {
     RockParameters parameters;
@@ -44,11 +47,15 @@ std::vector<Measurement> bench_rock(const Options& options) {
                                                                      [&] {
                                                                        shift_crests(seen, far, parameters, {0, 0}, {0, 0, width, height});
                                                                      },
-                                                                     [&] { blur_on_surface(seen.sky_view, seen.depth_m, 4.0 * scale); }});
+                                                                     [&] { blur_on_surface(seen.sky_view, seen.depth_m, 4.0 * scale); },
+                                                                     [&] {
+                                                                       integrate_along_fall_line(seen, far, marked, 1, {0, 0}, scale);
+                                                                     }});
     const std::string name = fmt::format("{}_a_unit/", scale);
     out.push_back({name + "relief_of_rock", cost[0].cpu_s / megapixels, "CPU s/Mpixel"});
     out.push_back({name + "crests", cost[1].cpu_s / megapixels, "CPU s/Mpixel"});
     out.push_back({name + "blur_on_surface", cost[2].cpu_s / (width * height * 1e-6), "CPU s/Mpixel"});
+    out.push_back({name + "ribs", cost[3].cpu_s / (width * height * 1e-6), "CPU s/Mpixel"});
   }
   return out;
 }

@@ -6,6 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/random_streams.h"
+#include "renderer/paint/picture_filter.h"
+#include "renderer/paint/picture_noise.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
 namespace belvedere {
@@ -27,6 +30,50 @@ TEST(Ribs, LineIntegralHasDeviationOne) {
       }
     EXPECT_NEAR(std::sqrt(squares / count), 1.0, 0.2) << "width " << k;
     EXPECT_GT(along, across) << "the field must run down the fall line";
+  }
+}
+
+// One streamline after the other, over wide pixels of three: sums in the same order, so the same bits but for the scale.
+TEST(Ribs, AreSumsAlongStreamlines) {
+  constexpr int factor = 3;
+  constexpr double ppu = 6.0;
+  GuidanceBuffers g = test::make_hills(150, 100, ppu);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 60; ++x) g.fall_line(x, y) = {0.0F, 0.0F};
+  const glm::ivec2 origin{300, 600};
+  const GuidanceBuffers seen = thin_out({g, 1, origin}, factor);
+  const WideView wide{seen, factor, origin / factor};
+  const std::array<Grid<float>, 3> fields = integrate_along_fall_line(g, wide, Grid<std::uint8_t>(150, 100, 1), 3, origin, ppu);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double sigma = rib_widths[k].sigma_units;
+    const Grid<float> noise =
+        make_image_noise(stream_seed(3, Stream::rib_lines, k), wide.origin_px, seen.width(), seen.height(), ppu / factor, sigma, sigma);
+    const int steps = static_cast<int>(rib_widths[k].length_units / 4.0);
+    const int count = 2 * steps + 1;
+    double variance = count;
+    for (int i = 1; i < count; ++i) variance += 2.0 * (count - i) * std::exp(-(i / sigma) * (i / sigma));
+    const auto sum_of = [&](int x, int y, float sign) {
+      glm::vec2 offset(0.0F), direction(0.0F), fall = g.fall_line(x, y);
+      float depth_m = g.depth_m(x, y);
+      bool bound = true;
+      float sum = 0.0F;
+      for (int i = 0; i < steps; ++i) {
+        if (bound && (fall.x != 0.0F || fall.y != 0.0F)) direction = fall * sign;
+        offset += direction * static_cast<float>(2.0 * ppu);
+        const std::size_t at = wide.index(origin.x + x + static_cast<int>(std::floor(offset.x + 0.5F)),
+                                          origin.y + y + static_cast<int>(std::floor(offset.y + 0.5F)));
+        bound = bound && same_surface(depth_m, seen.depth_m[at]);
+        depth_m = seen.depth_m[at];
+        fall = seen.fall_line[at];
+        sum += noise[at];
+      }
+      return sum;
+    };
+    for (int y = 0; y < 100; y += 3)
+      for (int x = 0; x < 150; ++x) {
+        const float sum = noise[wide.index(origin.x + x, origin.y + y)] + sum_of(x, y, 1.0F) + sum_of(x, y, -1.0F);
+        ASSERT_NEAR(fields[k](x, y), sum / std::sqrt(variance), 1e-5) << k << ' ' << x << ' ' << y;
+      }
   }
 }
 
