@@ -6,8 +6,8 @@
 
 #include "base/progress.h"
 #include "terrain/climate/climate.h"
+#include "terrain/climate/default_climate.h"
 #include "terrain/climate/map_climate.h"
-#include "terrain/climate/zonal_climate.h"
 
 namespace belvedere {
 

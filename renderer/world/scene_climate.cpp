@@ -1,7 +1,7 @@
 #include "renderer/world/scene_climate.h"
 
 #include "base/error.h"
-#include "terrain/climate/zonal_climate.h"
+#include "terrain/climate/default_climate.h"
 
 namespace belvedere {
 

@@ -31,6 +31,7 @@ void add(PlaceClimate& sum, const PlaceClimate& other, double weight) {
   }
   for (std::size_t km = 0; km < sum.rain_mm_at_km.size(); ++km) sum.rain_mm_at_km[km] += weight * other.rain_mm_at_km[km];
   sum.summer_share += weight * other.summer_share;
+  sum.gathers += weight * other.gathers;
 }
 
 // Two neighbours of a place on a line of `count` values, and the share of the second.
@@ -263,6 +264,7 @@ class Maker {
         const glm::dvec2 cell = cell_of_node(x, y);
         const glm::dvec2 place = dem_.transform.to_crs(cell.x, cell.y);
         PlaceClimate& node = climate_.nodes(x, y);
+        node.gathers = 1.0;  // what glaciers told made up for the default's rain
         for (std::size_t km = 0; km < node.rain_mm_at_km.size(); ++km)
           node.rain_mm_at_km[km] = plane.at(place, 1000.0 * static_cast<double>(km));
       }
@@ -285,6 +287,7 @@ class Maker {
     }
     if (std::all_of(year.begin(), year.end(), [](float mm) { return std::isnan(mm); }))
       throw Error(ErrorKind::input, p_.rain->path, "does not reach the terrain", "a raster that covers it");
+    for (PlaceClimate& node : climate_.nodes) node.gathers = 1.0;  // what glaciers told made up for the default's rain
     // The column's fall and rise with altitude stays, its amount is the raster's.
     const auto cells = static_cast<double>(climate_.coarse_cells);
     for (int y = 0; y < year.height(); ++y)
@@ -325,7 +328,7 @@ class Maker {
 PlaceClimate Climate::at(double column, double row) const {
   const Between x = between(place.width > 1 ? column / (place.width - 1) * (nodes.width() - 1) : 0.0, nodes.width());
   const Between y = between(place.height > 1 ? row / (place.height - 1) * (nodes.height() - 1) : 0.0, nodes.height());
-  PlaceClimate here{.sea_level_c = {}, .lapse_k_per_km = {}, .rain_mm_at_km = {}, .summer_share = 0.0};
+  PlaceClimate here{.sea_level_c = {}, .lapse_k_per_km = {}, .rain_mm_at_km = {}, .summer_share = 0.0, .gathers = 0.0};
   add(here, nodes(x.first, y.first), (1.0 - x.share) * (1.0 - y.share));
   add(here, nodes(x.second, y.first), x.share * (1.0 - y.share));
   add(here, nodes(x.first, y.second), (1.0 - x.share) * y.share);

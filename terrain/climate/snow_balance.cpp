@@ -59,7 +59,7 @@ double snow_to_last_mm(const Months& months) {
 double snow_balance_mm(const PlaceClimate& climate, double altitude_m, const SnowParameters& parameters) {
   double snow = 0.0;
   for (const double month : monthly_snow_mm(climate, altitude_m, parameters.warmer_k)) snow += month;
-  return parameters.gathering * snow - snow_to_last_mm(warmed(monthly_c(climate, altitude_m), parameters.warmer_k));
+  return parameters.gathering * climate.gathers * snow - snow_to_last_mm(warmed(monthly_c(climate, altitude_m), parameters.warmer_k));
 }
 
 double snow_line_m(const PlaceClimate& climate, const SnowParameters& parameters) {

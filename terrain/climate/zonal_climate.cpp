@@ -233,11 +233,6 @@ PlaceClimate place_climate(const ClimateField& field, double longitude_deg, doub
   return climate;
 }
 
-PlaceClimate default_climate(double longitude_deg, double latitude_deg) {
-  static const ClimateField field = make_climate_field(read_climate_stations());
-  return place_climate(field, longitude_deg, latitude_deg);
-}
-
 Months monthly_c(const PlaceClimate& climate, double altitude_m) {
   Months months{};
   for (std::size_t m = 0; m < 12; ++m) months[m] = climate.sea_level_c[m] - climate.lapse_k_per_km[m] * (1e-3 * altitude_m);

@@ -28,6 +28,7 @@ struct PlaceClimate {
   Months lapse_k_per_km{};                // how much colder it is 1 km higher, by month
   std::array<double, 8> rain_mm_at_km{};  // rain and snow of a year at 0 … 7 km; beyond, the last
   double summer_share = 0.5;              // 0…1: of it from April to September
+  double gathers = 1.0;                   // > 0: by how much more than usual lies where glaciers begin (terrain/climate/default_climate.h)
 };
 
 // The stations that are built in. Error(usage) names the line of a station that is not understood, for a text of the same form.
@@ -71,8 +72,6 @@ ClimateField make_climate_field(const std::vector<ClimateStation>& stations, con
 
 // Longitude -180…180 (or beyond: turns are taken off), latitude -90…90 degrees.
 PlaceClimate place_climate(const ClimateField& field, double longitude_deg, double latitude_deg);
-// The same from the stations that are built in.
-PlaceClimate default_climate(double longitude_deg, double latitude_deg);
 
 // Monthly means at an altitude.
 Months monthly_c(const PlaceClimate& climate, double altitude_m);

@@ -15,7 +15,7 @@ struct PublishedLine {
   double altitude_m;
 };
 
-// "treelines" or "snow_lines" of published_lines.toml.
+// "treelines" of published_lines.toml.
 inline std::vector<PublishedLine> published_lines(const std::string& kind) {
   const std::string name = source_folder() + "/tests/terrain/climate/published_lines.toml";
   const ConfigValue document = read_config(name);

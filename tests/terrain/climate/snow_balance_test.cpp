@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "terrain/climate/default_climate.h"
+
 namespace belvedere {
 namespace {
 
@@ -50,6 +52,14 @@ TEST(SnowBalance, SnowLineIsWhereItIsNone) {
   // What gathers less lies higher, what is warmer too, by 1000 / 6 m a kelvin.
   EXPECT_GT(snow_line_m(place, {1.0, 0.0}), line + 50.0);
   EXPECT_NEAR(snow_line_m(place, {2.0, 1.0}) - line, 1000.0 / 6.0, 0.1);
+}
+
+TEST(SnowBalance, WhereHollowsGatherMoreSnowLastsLower) {
+  PlaceClimate place = place_of(8.0, 9.0, 1500.0);
+  const double usual = snow_line_m(place);
+  place.gathers = 0.65;
+  EXPECT_NEAR(snow_line_m(place), snow_line_m(place_of(8.0, 9.0, 1500.0), {2.0 * 0.65, 0.0}), 0.01);
+  EXPECT_GT(snow_line_m(place), usual + 50.0);
 }
 
 TEST(SnowBalance, RainIsNoSnow) {

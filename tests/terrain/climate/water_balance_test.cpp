@@ -4,6 +4,8 @@
 
 #include <numeric>
 
+#include "terrain/climate/default_climate.h"
+
 namespace belvedere {
 namespace {
 

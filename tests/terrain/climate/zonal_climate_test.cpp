@@ -8,6 +8,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "terrain/climate/default_climate.h"
 #include "terrain/climate/life_zones.h"
 #include "terrain/climate/snow_balance.h"
 #include "tests/terrain/climate/published_lines.h"
@@ -61,15 +62,6 @@ TEST(ZonalClimate, TreelinesAreThePublishedOnes) {
   EXPECT_LT(std::abs(misses.mean_m), 50.0);
 }
 
-TEST(ZonalClimate, SnowLinesAreThePublishedOnes) {
-  const std::vector<PublishedLine> lines = published_lines("snow_lines");
-  ASSERT_GE(lines.size(), 30U);
-  const Misses misses =
-      misses_of(lines, [](const PublishedLine& l) { return snow_line_m(default_climate(l.longitude_deg, l.latitude_deg)); });
-  EXPECT_LT(misses.rms_m, 300.0);
-  EXPECT_LT(std::abs(misses.mean_m), 50.0);
-}
-
 // No line hangs on a station beside it.
 TEST(ZonalClimate, LinesHoldWithoutTheStationsNearThem) {
   const auto every_third = [](std::vector<PublishedLine> lines) {
@@ -83,9 +75,6 @@ TEST(ZonalClimate, LinesHoldWithoutTheStationsNearThem) {
   EXPECT_LT(
       misses_of(every_third(published_lines("treelines")), [&](const PublishedLine& l) { return treeline_m(climate_without(l)); }).rms_m,
       330.0);
-  EXPECT_LT(
-      misses_of(every_third(published_lines("snow_lines")), [&](const PublishedLine& l) { return snow_line_m(climate_without(l)); }).rms_m,
-      450.0);
 }
 
 // A lone cone of 3800 m at 35° N keeps no snow on its open slopes; neither does a desert range.

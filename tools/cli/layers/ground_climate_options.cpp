@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "terrain/climate/climate.h"
-#include "terrain/climate/zonal_climate.h"
+#include "terrain/climate/default_climate.h"
 #include "terrain/io/raster_io.h"
 
 namespace belvedere::tools {

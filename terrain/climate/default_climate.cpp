@@ -1,0 +1,97 @@
+#include "terrain/climate/default_climate.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cstddef>
+
+#include "base/angle.h"
+#include "base/config.h"
+#include "base/embedded.h"
+#include "base/error.h"
+#include "base/math.h"
+#include "base/math_exact.h"
+#include "terrain/climate/snow_balance.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double earth_radius_km = 6371.0;
+// No glacier says that hollows hold less than a third or more than three times what is usual: then its climate is wrong.
+constexpr double strangest = 3.0;
+
+std::array<double, 3> to_place(double longitude_deg, double latitude_deg) {
+  const exact::Turn longitude = exact::turn(to_radians(longitude_deg));
+  const exact::Turn latitude = exact::turn(to_radians(latitude_deg));
+  return {earth_radius_km * latitude.cosine * longitude.cosine, earth_radius_km * latitude.cosine * longitude.sine,
+          earth_radius_km * latitude.sine};
+}
+
+}  // namespace
+
+std::vector<MeasuredGlacier> measured_glaciers_from_toml(const std::string& text, const std::string& name) {
+  const ConfigValue document = parse_config(text, name);
+  const ConfigTable& root = as_table(document, name);
+  allow_only(root, {"version", "glaciers"}, name);
+  const ConfigValue* version = find(root, "version");
+  const ConfigValue* rows = find(root, "glaciers");
+  if (version == nullptr || rows == nullptr || as_integer(*version, name) != 1)
+    throw Error(ErrorKind::usage, name, "no table of glaciers", "version = 1 and glaciers");
+  std::vector<MeasuredGlacier> glaciers;
+  for (const ConfigValue& value : as_array(*rows, name)) {
+    const ConfigArray& row = as_array(value, name);
+    if (row.size() != 5)
+      throw Error(ErrorKind::usage, config_where(name, value.place), fmt::format("a glacier of {} values", row.size()),
+                  "name, latitude, longitude, equilibrium line, source");
+    const auto number = [&](std::size_t column, double low, double high) {
+      const double found = as_number(row[column], name);
+      if (!(found >= low && found <= high))
+        throw Error(ErrorKind::usage, config_where(name, row[column].place), describe(row[column]), fmt::format("{} to {}", low, high));
+      return found;
+    };
+    glaciers.push_back({as_string(row[0], name), number(1, -90.0, 90.0), number(2, -180.0, 180.0), number(3, 0.0, 8000.0)});
+  }
+  return glaciers;
+}
+
+std::vector<MeasuredGlacier> read_measured_glaciers() {
+  const std::string name = "climate/glaciers.toml";
+  return measured_glaciers_from_toml(std::string(embedded_file(name)), name);
+}
+
+SnowGathering make_snow_gathering(const ClimateField& field, const std::vector<MeasuredGlacier>& glaciers, const GlacierKinship& kinship) {
+  SnowGathering gathering{kinship, {}, {}};
+  for (const MeasuredGlacier& glacier : glaciers) {
+    const PlaceClimate climate = place_climate(field, glacier.longitude_deg, glacier.latitude_deg);
+    double snow_mm = 0.0;
+    for (const double month_mm : monthly_snow_mm(climate, glacier.equilibrium_m)) snow_mm += month_mm;
+    const double needed_mm = snow_to_last_mm(monthly_c(climate, glacier.equilibrium_m));
+    const double usual_mm = SnowParameters{}.gathering * snow_mm;
+    gathering.places.push_back(to_place(glacier.longitude_deg, glacier.latitude_deg));
+    gathering.log_gathers.push_back(exact::log(std::clamp(needed_mm / std::max(usual_mm, 1.0), 1.0 / strangest, strangest)));
+  }
+  return gathering;
+}
+
+double gathers_at(const SnowGathering& gathering, double longitude_deg, double latitude_deg) {
+  const std::array<double, 3> here = to_place(longitude_deg, latitude_deg);
+  double sum = 0.0;
+  double weight = gathering.kinship.usual_weight;
+  for (std::size_t i = 0; i < gathering.places.size(); ++i) {
+    double way = 0.0;  // squared, through the Earth
+    for (std::size_t axis = 0; axis < here.size(); ++axis) way += square(here[axis] - gathering.places[i][axis]);
+    const double k = 1.0 / square(1.0 + way / square(gathering.kinship.reach_km));
+    sum += k * gathering.log_gathers[i];
+    weight += k;
+  }
+  return exact::exp(sum / weight);
+}
+
+PlaceClimate default_climate(double longitude_deg, double latitude_deg) {
+  static const ClimateField field = make_climate_field(read_climate_stations());
+  static const SnowGathering gathering = make_snow_gathering(field, read_measured_glaciers());
+  PlaceClimate climate = place_climate(field, longitude_deg, latitude_deg);
+  climate.gathers = gathers_at(gathering, longitude_deg, latitude_deg);
+  return climate;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,126 @@
+#include "terrain/climate/default_climate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "terrain/climate/snow_balance.h"
+
+namespace belvedere {
+namespace {
+
+using testing::HasSubstr;
+
+const ClimateField& built_in_field() {
+  static const ClimateField field = make_climate_field(read_climate_stations());
+  return field;
+}
+
+double km_between(const MeasuredGlacier& a, const MeasuredGlacier& b) {
+  const double north = (a.latitude_deg - b.latitude_deg) * 111.2;
+  const double east = (a.longitude_deg - b.longitude_deg) * 111.2 * std::cos(to_radians(a.latitude_deg));
+  return std::hypot(north, east);
+}
+
+// Misses of equilibrium lines that all glaciers farther than that from each tell, m.
+struct Misses {
+  double rms = 0.0;
+  double mean = 0.0;
+  double alps_rms = 0.0;
+};
+Misses misses_without_glaciers_within(double km, const GlacierKinship& kinship = {}) {
+  const std::vector<MeasuredGlacier> all = read_measured_glaciers();
+  // What a glacier says of itself hangs on nothing but its place.
+  const SnowGathering whole = make_snow_gathering(built_in_field(), all, kinship);
+  Misses misses;
+  int alps = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    SnowGathering others{kinship, {}, {}};
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (k != i && km_between(all[i], all[k]) > km) {
+        others.places.push_back(whole.places[k]);
+        others.log_gathers.push_back(whole.log_gathers[k]);
+      }
+    PlaceClimate place = place_climate(built_in_field(), all[i].longitude_deg, all[i].latitude_deg);
+    place.gathers = gathers_at(others, all[i].longitude_deg, all[i].latitude_deg);
+    const double miss = snow_line_m(place) - all[i].equilibrium_m;
+    misses.rms += miss * miss;
+    misses.mean += miss;
+    if (all[i].latitude_deg > 45.0 && all[i].latitude_deg < 47.5 && all[i].longitude_deg > 5.0 && all[i].longitude_deg < 14.0) {
+      misses.alps_rms += miss * miss;
+      ++alps;
+    }
+  }
+  const auto n = static_cast<double>(all.size());
+  return {std::sqrt(misses.rms / n), misses.mean / n, std::sqrt(misses.alps_rms / std::max(1, alps))};
+}
+
+TEST(DefaultClimate, GlaciersAreToldByTheOthers) {
+  const Misses misses = misses_without_glaciers_within(0.0);
+  EXPECT_LT(misses.rms, 215.0);
+  EXPECT_LT(std::abs(misses.mean), 50.0);
+  EXPECT_LT(misses.alps_rms, 155.0);
+  const Misses alone = misses_without_glaciers_within(100.0);
+  EXPECT_LT(alone.rms, 230.0) << "without those within 100 km";
+  EXPECT_LT(alone.alps_rms, 205.0);
+  // Without any glacier the Alps, whose summits have stations, come out too low.
+  EXPECT_GT(misses_without_glaciers_within(0.0, {.reach_km = 300.0, .usual_weight = 1e9}).alps_rms, misses.alps_rms + 100.0);
+}
+
+// No line hangs on a station or a glacier beside it.
+TEST(DefaultClimate, LinesHoldWithoutStationsAndGlaciersNearThem) {
+  const std::vector<MeasuredGlacier> all = read_measured_glaciers();
+  double square_m = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < all.size(); i += 4, ++count) {
+    std::vector<ClimateStation> stations;
+    for (const ClimateStation& s : read_climate_stations())
+      if (km_between({s.name, s.latitude_deg, s.longitude_deg, 0.0}, all[i]) > 100.0) stations.push_back(s);
+    std::vector<MeasuredGlacier> glaciers;
+    for (const MeasuredGlacier& g : all)
+      if (km_between(g, all[i]) > 100.0) glaciers.push_back(g);
+    const ClimateField field = make_climate_field(stations);
+    PlaceClimate place = place_climate(field, all[i].longitude_deg, all[i].latitude_deg);
+    place.gathers = gathers_at(make_snow_gathering(field, glaciers), all[i].longitude_deg, all[i].latitude_deg);
+    const double miss = snow_line_m(place) - all[i].equilibrium_m;
+    square_m += miss * miss;
+  }
+  RecordProperty("rms", std::to_string(std::sqrt(square_m / count)));
+  EXPECT_LT(std::sqrt(square_m / count), 450.0);
+}
+
+TEST(DefaultClimate, AGlacierAloneHasItsOwnLine) {
+  const MeasuredGlacier glacier{"G", 46.8, 10.8, 3000.0};
+  const SnowGathering gathering = make_snow_gathering(built_in_field(), {glacier}, {.reach_km = 300.0, .usual_weight = 1e-9});
+  PlaceClimate place = place_climate(built_in_field(), 10.8, 46.8);
+  place.gathers = gathers_at(gathering, 10.8, 46.8);
+  EXPECT_NEAR(snow_line_m(place), 3000.0, 0.1);
+  // It speaks for its neighbours, and for nobody on the other side of the Earth.
+  const SnowGathering modest = make_snow_gathering(built_in_field(), {glacier});
+  EXPECT_GT(std::log(gathers_at(modest, 10.8, 46.8)) / std::log(gathers_at(modest, 14.0, 46.8)), 1.2);
+  EXPECT_NEAR(gathers_at(modest, -169.0, -46.8), 1.0, 1e-3);
+  EXPECT_NEAR(gathers_at({}, 10.8, 46.8), 1.0, 1e-12);
+}
+
+TEST(DefaultClimate, BadGlaciersNameTheirLine) {
+  const auto message_of = [](const std::string& text) {
+    try {
+      measured_glaciers_from_toml(text, "g.toml");
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message_of("version = 1\nglaciers = [\n[\"A\", 95.0, 0, 3000, \"W\"]]"), HasSubstr("g.toml:3"));
+  EXPECT_THAT(message_of("version = 1\nglaciers = [\n[\"A\", 45.0, 0]]"), HasSubstr("g.toml:3"));
+  EXPECT_THAT(message_of("version = 2\nglaciers = []"), HasSubstr("version = 1"));
+}
+
+}  // namespace
+}  // namespace belvedere
