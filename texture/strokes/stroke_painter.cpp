@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/guidance_channels.h"
 #include "texture/strokes/brush.h"
+#include "texture/strokes/far_strokes.h"
 #include "texture/strokes/ice_plan.h"
 #include "texture/strokes/stroke_table.h"
 
@@ -18,10 +19,6 @@ namespace {
 // Edges of strokes are soft over a pixel, and places and steps are rounded to whole ones.
 constexpr int rounding_px = 4;
 
-int to_px(double units, const StrokeParameters& parameters) {
-  return static_cast<int>(std::ceil(units * parameters.pixels_per_unit)) + rounding_px;
-}
-
 // The most that any painted kind asks for, 0 where none is painted.
 template <class Reach>
 int most_of(const StrokeLayers& layers, Reach&& reach) {
@@ -29,6 +26,11 @@ int most_of(const StrokeLayers& layers, Reach&& reach) {
   for (const StrokeKind& kind : stroke_kinds())
     if (is_painted(kind, layers)) most = std::max(most, reach(kind));
   return most;
+}
+
+// Pixels that strokes reach, or look, by the table.
+int to_px(double units, const StrokeParameters& parameters) {
+  return static_cast<int>(std::ceil((units + far_reach_units) * parameters.pixels_per_unit)) + rounding_px;
 }
 
 bool is_whole(const SheetWindow& window, int width, int height) {
@@ -91,6 +93,7 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     if (!is_painted(kind, layers)) continue;
     const StrokeScene scene{guidance, base, parameters, window, stroke_margin_px(kind, parameters)};
     std::vector<Stroke> strokes = kind.grow(scene, kind.stream);
+    if (kind.layer != &StrokeLayers::sky) strokes = broaden_far(std::move(strokes), base);
     if (kind.alone)
       paint(std::move(strokes));
     else
