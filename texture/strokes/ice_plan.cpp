@@ -50,17 +50,35 @@ bool below_rib(const StrokeScene& scene, const IceFlow& flow, glm::vec2 place, s
   return true;
 }
 
-// Ice is torn where it falls steeply or over an edge; 0 … 1. It comes in fields, with whole ice between.
-float torn(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
-  const float steep = std::clamp((scene.slope_deg(i) - 9.F) / 15.F, 0.F, 1.F);
-  const float moving = std::clamp((scene.slope_deg(i) - 4.F) / 5.F, 0.F, 1.F);
+// Whether a place is of a tongue, bare ice between ground without any, or of the smooth snow that feeds it; 0 … 1.
+float on_tongue(const StrokeScene& scene, glm::vec2 place) {
+  const auto has_none = [&](std::size_t k) { return !scene.guidance.is_sky(k) && !is_ice(scene.class_at(k)); };
+  const float near = share_around(scene, place, 11.F, has_none);
+  const float far = share_around(scene, place, 26.F, has_none);
+  return std::clamp((near + far - 0.1F) / 0.35F, 0.F, 1.F);
+}
+
+// Ice is torn where it falls steeply, over an edge or round a bend; 0 … 1. It comes in fields, with whole ice between; firn is seldom torn,
+// and on a wall ice lies thin and whole.
+float torn(const StrokeScene& scene, const IceFlow& flow, glm::vec2 place, std::size_t i) {
+  const float slope_deg = scene.slope_deg(i);
+  const float steep = std::clamp((slope_deg - 9.F) / 14.F, 0.F, 1.F);
+  const float moving = std::clamp((slope_deg - 4.F) / 5.F, 0.F, 1.F) * std::clamp((38.F - slope_deg) / 8.F, 0.F, 1.F);
   const float over_edge = std::clamp(scene.relief_m(i) / 25.F, -0.3F, 0.5F);
-  return moving * std::clamp(0.55F * steep + over_edge + 0.55F * sheet_noise(scene, place, Stream::torn_ice, 24.0) - 0.48F, 0.F, 1.F);
+  const glm::vec2 units = place / scene.scale();
+  const glm::vec2 down = flow.at(units);
+  const glm::vec2 before = flow.at(units - down * 14.F);
+  const glm::vec2 after = flow.at(units + down * 14.F);
+  const float bend = std::min(1.F, 1.6F * std::abs(before.x * after.y - before.y * after.x));
+  const float whole = 1.F - 0.75F * (1.F - on_tongue(scene, place));
+  return moving * whole *
+         std::clamp(0.50F * steep + over_edge + 0.30F * bend + 0.55F * sheet_noise(scene, place, Stream::torn_ice, 24.0) - 0.58F, 0.F, 1.F);
 }
 
 std::vector<IceWay> flow_lines(const StrokeScene& scene, const IceFlow& flow, Stream stream) {
-  return sow<IceWay>(scene, 12.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<IceWay>& out) {
+  return sow<IceWay>(scene, 17.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<IceWay>& out) {
     if (scene.class_at(i) != glacier || scene.slope_deg(i) > 30.F) return;
+    if (seed.uniform() > 0.15F + 0.85F * on_tongue(scene, place)) return;
     const int steps = 3 * (2 + static_cast<int>(seed.uniform() * 4.F));
     const std::vector<glm::vec2> places = trace_ice(scene, flow, place, 7.F * scene.scale(), steps);
     if (places.size() > 3) out.push_back(way_along(scene, stream, seed, places));
@@ -78,10 +96,10 @@ std::vector<IceWay> moraines(const StrokeScene& scene, const IceFlow& flow, Stre
 
 // A flight of bows, one below the other.
 std::vector<IceWay> crevasses(const StrokeScene& scene, const IceFlow& flow, Stream stream) {
-  return sow<IceWay>(scene, 15.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<IceWay>& out) {
+  return sow<IceWay>(scene, 19.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<IceWay>& out) {
     if (scene.class_at(i) != glacier) return;
-    const float share = torn(scene, place, i);
-    if (seed.uniform() > 1.8F * share) return;
+    const float share = torn(scene, flow, place, i);
+    if (seed.uniform() > 1.5F * share) return;
     const int count = 2 + static_cast<int>(seed.uniform() * (2.F + 5.F * share));
     const float u = seed.uniform();
     const float longest_units = 7.F + 26.F * u * u * (0.4F + share);

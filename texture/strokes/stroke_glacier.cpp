@@ -12,7 +12,7 @@ namespace {
 using enum LandCoverClass;
 
 constexpr glm::vec3 moraine_paint{0.53F, 0.49F, 0.48F};  // rubble carried by ice, at tone 1/2
-constexpr glm::vec3 depth_of_ice{0.70F, 0.87F, 1.00F};   // what is deep in ice is blue: a factor
+constexpr glm::vec3 depth_of_ice{0.80F, 0.92F, 1.00F};   // what is deep in ice is blue: a factor
 
 glm::vec3 by_tone(glm::vec3 paint, float tone) { return paint * (0.62F + 0.70F * std::clamp(tone, 0.F, 1.F)); }
 
@@ -69,6 +69,7 @@ float end_within(const StrokeScene& scene, glm::vec2 place, std::size_t i, glm::
 
 std::vector<Stroke> glacier_flow_lines(const StrokeScene& scene, Stream stream) {
   std::vector<Stroke> out;
+  if (scene.parameters.winter) return out;  // under snow
   along_ways(scene, stream, [&](const IceWay& way) {
     StrokeSeed looks = way_seed(scene, way, 0);
     const bool blue = looks.uniform() < 0.6F;
@@ -110,6 +111,7 @@ std::vector<Stroke> glacier_crevasses(const StrokeScene& scene, Stream stream) {
   };
   std::vector<Stroke> out;
   along_ways(scene, stream, [&](const IceWay& flight) {
+    if (scene.parameters.winter && flight.strength < 0.35F) return;  // bridged by snow
     StrokeSeed looks = way_seed(scene, flight, 0);
     const float lean = 0.10F * looks.normal();
     // From afar a torn field is a blue shade across the ice …
@@ -172,7 +174,8 @@ std::vector<Stroke> glacier_crevasses(const StrokeScene& scene, Stream stream) {
 }
 
 std::vector<Stroke> glacier_edges(const StrokeScene& scene, Stream stream) {
-  return sow(scene, 3.8F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+  return sow(scene, 4.6F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.parameters.winter) return;  // snow covers them
     if (scene.class_at(i) != glacier || scene.slope_deg(i) > 34.F) return;
     const float scale = scene.scale();
     const glm::vec2 down = ice_direction(scene, place);
@@ -225,7 +228,7 @@ std::vector<Stroke> glacier_edges(const StrokeScene& scene, Stream stream) {
     const float length = rubble ? seed.between(7.F, 18.F) : seed.between(12.F, 28.F);
     lay_flow(stroke, scene, at, length * scale, 0.05F * seed.normal());
     const float width = rubble ? seed.between(1.6F, 3.6F) : seed.between(1.6F, 3.4F);
-    take_brush(stroke, scene, width, {.taper = 0.45F, .alpha = rubble ? 0.6F : 0.45F, .bristle = rubble ? 0.6F : 0.3F, .wetness = 0.02F});
+    take_brush(stroke, scene, width, {.taper = 0.45F, .alpha = rubble ? 0.55F : 0.30F, .bristle = rubble ? 0.6F : 0.3F, .wetness = 0.02F});
     const float value = 0.04F * seed.normal();
     stroke.colour =
         rubble ? dirt(i, value) : scene.colour(i, -1.1F, paint_jitter * 0.5F, seed) * through_air_factor(scene, i, depth_of_ice);

@@ -129,7 +129,7 @@ std::vector<Stroke> broken_colour(const StrokeScene& scene, Stream stream) {
   return sow(scene, 4.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
     const DabHue dabs = class_info(id).strokes.dabs;
-    if (dabs == DabHue::none || seed.uniform() > 0.62F) return;
+    if (dabs == DabHue::none || seed.uniform() > (is_ice(id) ? 0.40F : 0.62F)) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.depth_tolerance = tight_depth;
     // On walls just over what lies there, so that trees before them stay whole.
@@ -139,13 +139,13 @@ std::vector<Stroke> broken_colour(const StrokeScene& scene, Stream stream) {
     const float angle = 1.1F * seed.normal();
     const float u = seed.uniform();
     lay_line(stroke, scene, place, 1.2F + 3.4F * u * u, angle, 0.3F, true, seed);
-    take_brush(stroke, scene, seed.between(0.7F, 1.7F), {.taper = 0.5F, .alpha = is_ice(id) ? 0.4F : 0.55F});
+    take_brush(stroke, scene, seed.between(0.7F, 1.7F), {.taper = 0.5F, .alpha = is_ice(id) ? 0.32F : 0.55F});
     const float n = seed.normal();
     stroke.colour = scene.colour(i, n < 0.F ? -seed.between(0.3F, 1.1F) : seed.between(0.3F, 1.1F), paint_jitter, seed);
     // Warm beside cool: ochre and rose in the light of rock and grass, violet in the shade, rose and blue on snow.
     const float clear = 1.F - std::clamp(scene.base.haze[i], 0.F, 1.F);
     const float warm = seed.normal() + 1.2F * (tone - 0.5F);
-    const glm::vec3 turn = dabs == DabHue::ice      ? glm::vec3(0.018F, -0.008F, 0.004F)
+    const glm::vec3 turn = dabs == DabHue::ice      ? glm::vec3(0.014F, 0.001F, -0.010F)
                            : dabs == DabHue::leaves ? glm::vec3(0.045F, 0.018F, -0.020F)
                                                     : glm::vec3(0.050F, 0.004F, -0.035F);
     stroke.colour += turn * (warm * clear);

@@ -74,6 +74,24 @@ TEST(IcePlan, WaysStayOnTheirGroundAndLieDownTheFlow) {
   EXPECT_GT(longest, 90.F) << "longer than any kind of stroke looks";
 }
 
+// A glacier between bare slopes is torn more often, and has more lines of flow, than firn that nothing but snow surrounds.
+TEST(IcePlan, TonguesAreTornAndFirnIsWhole) {
+  const auto count = [](LandCoverClass beside, Stream stream) {
+    Picture p = plain_picture(glacier, 420, 420);
+    p.guidance.depth_m = Grid<float>(420, 420, 8000.F);
+    p.guidance.slope_deg = Grid<float>(420, 420, 20.F);
+    p.guidance.relief_s_m = Grid<float>(420, 420, 10.F);
+    for (int y = 0; y < 420; ++y)
+      for (int x = 0; x < 420; ++x)
+        if (x % 70 < 20) p.guidance.land_cover(x, y) = beside;
+    std::size_t ways = 0;
+    over_seeds(p, [&] { ways += ways_of(plan_ice(p.guidance, p.parameters), stream).size(); });
+    return ways;
+  };
+  for (const Stream stream : {Stream::glacier_crevasses, Stream::glacier_flow_lines})
+    EXPECT_GT(count(scree, stream), 2 * count(snow, stream)) << static_cast<int>(stream);
+}
+
 // What a picture of three pixels a unit tells, one of a pixel a unit tells as well.
 TEST(IcePlan, IsThatOfAPictureOfAnotherSize) {
   const Picture small = valley(1.0);
