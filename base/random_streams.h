@@ -122,6 +122,9 @@ enum class Stream : std::uint16_t {
   stone_fields,
   grass_tufts,
   tuft_fields,
+  snow_drifts,
+  snow_cornices,
+  sky_kind,
 
   count  // no stream: how many there are
 };

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <cstdint>
+
 namespace belvedere {
+
+// What clouds a sky has; any: one of the others, by the picture's seed.
+enum class SkyKind : std::uint8_t { any, fair, rows, streaks, banks };
 
 // What distance does to colour. Distances are along the ray.
 struct AirParameters {
@@ -13,6 +18,7 @@ struct AirParameters {
   double hue_drift = 1.0;      // 0…3: slow changes of hue over the ground, fields
   double rim_fade_m = 4000.0;  // over this distance the terrain stands ever deeper in air towards its end; 0 off
   double clouds = 1.0;         // 0 (none)…2
+  SkyKind sky = SkyKind::any;
 };
 
 }  // namespace belvedere

@@ -223,7 +223,7 @@ BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& w
   const int height = wanted.height();
   progress.begin("base picture", height);
   const double horizon_px = parameters.horizon_px > 0.0 ? parameters.horizon_px : 0.18 * picture_size.y;
-  const SkyParameters sky{picture_size, horizon_px, parameters.air.clouds, parameters.sun_image_x, parameters.seed};
+  const SkyParameters sky{picture_size, horizon_px, parameters.air.clouds, parameters.air.sky, parameters.sun_image_x, parameters.sky_seed};
   const Surroundings around = look_around(guidance, wide, palette, parameters, sky, origin_px, wanted);
   const Scenery scenery{guidance, palette, parameters, around, horizon_px, origin_px};
 

@@ -24,6 +24,7 @@ struct BaseParameters {
   double sun_image_x = 1.0;                      // as in ToneParameters
   double pixels_per_unit = 1.0;
   std::uint64_t seed = 1;
+  std::uint64_t sky_seed = 1;                        // of the sky alone: views of one scene have skies of their own
   std::shared_ptr<const GroundTint> tint = nullptr;  // colours of the ground's own that ramps are moved to; none: ramps as they are
 };
 

@@ -17,115 +17,6 @@
 namespace belvedere {
 namespace {
 
-// What clouds are measured in: the height of the sky, but no more than a narrow picture can carry.
-double cloud_scale_px(const SkyParameters& p) { return std::min(p.horizon_px, 0.09 * p.picture_size.x); }
-
-// Random numbers in the order they are drawn, a pure function of seed and cell. One draw a statement: C++ leaves open which of two
-// arguments comes first.
-class Draws {
- public:
-  Draws(std::uint64_t seed, std::int64_t cell) : seed_(seed), cell_(cell) {}
-  double uniform() { return random_uniform(seed_, cell_, draw_++, 1); }
-  double between(double low, double high) { return low + (high - low) * uniform(); }
-
- private:
-  std::uint64_t seed_;
-  std::int64_t cell_;
-  std::int64_t draw_ = 0;
-};
-
-// The outline of a heap: arches of different height and width beside each other; u is -1…1 over the width, the value 0…1.
-struct Outline {
-  struct Arch {
-    double middle, half_width, height;
-  };
-  std::vector<Arch> arches;
-
-  double operator()(double u) const {
-    double top = 0.0;
-    for (const Arch& a : arches) {
-      const double side = (u - a.middle) / a.half_width;
-      top = std::max(top, a.height * std::sqrt(std::max(0.0, 1.0 - side * side)));
-    }
-    return top;
-  }
-};
-
-Outline make_outline(Draws& draws) {
-  Outline outline;
-  const double main_middle = draws.between(-0.45, 0.45);
-  const double main_half_width = draws.between(0.35, 0.75);
-  outline.arches.push_back({main_middle, main_half_width, 1.0});
-  const int more = static_cast<int>(draws.between(1.0, 4.0));
-  for (int k = 0; k < more; ++k) {
-    const double middle = draws.between(-0.8, 0.8);
-    const double half_width = draws.between(0.15, 0.5);
-    outline.arches.push_back({middle, half_width, draws.between(0.2, 0.75)});
-  }
-  outline.arches.push_back({0.0, 1.0, draws.between(0.12, 0.3)});  // what joins them
-  return outline;
-}
-
-// One cloud. `heaped`: 0 a bank drawn out by the wind … 1 a cumulus.
-Cloud make_cloud(const SkyParameters& p, Draws& draws, glm::dvec2 middle_px, double width_px, double heaped, double opacity) {
-  const double height_px = width_px * (0.05 + (0.10 + 0.20 * heaped) * draws.between(0.6, 1.2));
-  const Outline outline = make_outline(draws);
-  const int count = 14 + static_cast<int>(12.0 * draws.uniform());
-  const double base_px = middle_px.y;
-  Cloud cloud{static_cast<float>(base_px), {}, {}, static_cast<float>(opacity), 0, {}};
-  const auto add = [&](double u, double rise, glm::dvec2 radius) {
-    cloud.heads.push_back({glm::vec2(glm::dvec2(middle_px.x + 0.5 * width_px * u, base_px - rise)), glm::vec2(radius)});
-  };
-  for (int k = 0; k < count; ++k) {
-    const double u = -1.0 + 2.0 * (k + draws.uniform()) / count;
-    const double arch = outline(u);
-    const double radius = height_px * (0.10 + 0.30 * arch) * draws.between(0.7, 1.3);
-    const double stretch = (3.2 - 1.9 * heaped) * draws.between(0.8, 1.3);
-    add(u, std::max(0.0, arch * height_px - radius) * draws.between(0.2, 1.0), {radius * stretch, radius});
-  }
-  // Skirts, drawn out level beyond the heap.
-  const int skirts = 2 + static_cast<int>(3.0 * draws.uniform());
-  for (int k = 0; k < skirts; ++k) {
-    const double u = draws.between(-1.1, 1.1);
-    const double length = width_px * draws.between(0.12, 0.34) * (1.3 - 0.6 * heaped);
-    const double thickness = length * draws.between(0.05, 0.10);
-    const double rise = height_px * draws.between(0.02, 0.22);
-    add(u, rise, {length, thickness});
-  }
-  std::stable_sort(cloud.heads.begin(), cloud.heads.end(), [](const CloudHead& a, const CloudHead& b) { return a.centre.y < b.centre.y; });
-  cloud.from = glm::vec2(1e9F);
-  cloud.to = glm::vec2(-1e9F);
-  for (const CloudHead& head : cloud.heads) {
-    cloud.from = glm::min(cloud.from, head.centre - 1.6F * head.radius);
-    cloud.to = glm::max(cloud.to, head.centre + 1.6F * head.radius);
-  }
-  cloud.to.y = static_cast<float>(base_px + 0.35 * height_px);
-  const double size = width_px / cloud_scale_px(p);
-  cloud.grain = size > 1.0 ? 0 : size > 0.5 ? 1 : size > 0.25 ? 2 : 3;
-  return cloud;
-}
-
-// How large a cloud is drawn whose base stands so high above the horizon (in heights of the sky): the lower, the farther. Cloud scales.
-double size_at(double elevation) { return 0.22 + 1.9 * elevation; }
-
-// A bank: clouds of one kind along a level line, large in the middle, farther and smaller to both sides.
-void add_bank(std::vector<Cloud>& clouds, const SkyParameters& p, Draws& draws, double middle_px, double elevation) {
-  const double scale_px = cloud_scale_px(p);
-  const double heaped = draws.between(-0.15, 1.0);
-  const double half_px = scale_px * size_at(elevation) * draws.between(0.6, 1.9);
-  const int count = 3 + static_cast<int>(5.0 * draws.uniform());
-  const double lead = draws.between(-0.6, 0.6);  // where in the bank its largest cloud stands
-  for (int k = 0; k < count; ++k) {
-    const double t = -1.0 + 2.0 * (k + draws.uniform()) / count;
-    const double aside = std::min(1.0, std::abs(t - lead));
-    const double height = elevation * (1.0 - 0.35 * aside) * draws.between(0.9, 1.1);
-    const double width_px = scale_px * size_at(height) * (1.0 - 0.62 * aside) * draws.between(0.55, 1.25);
-    const double kind = std::clamp(heaped + draws.between(-0.25, 0.25) - 0.3 * aside, 0.0, 1.0);
-    const double opacity = (0.55 + 0.45 * std::min(1.0, height / 0.2)) * (0.62 + 0.38 * kind) * (1.0 - 0.35 * aside);
-    clouds.push_back(make_cloud(p, draws, {middle_px + half_px * t, p.horizon_px * (1.0 - height)}, width_px, kind, opacity));
-  }
-}
-
 struct Layer {
   glm::vec3 colour{0.0F};
   float alpha = 0.0F;
@@ -164,7 +55,7 @@ struct VeilNoises {
 };
 
 // A thin veil at a place: long level streaks in a few places, ever narrower towards the horizon; 0…1.
-float veil_at(const SkyParameters& p, double x_px, double elevation, VeilNoises& noises) {
+float veil_at(const SkyParameters& p, const SkyLook& look, double x_px, double elevation, VeilNoises& noises) {
   if (elevation < 0.05) return 0.0F;
   const double x = x_px / cloud_scale_px(p);
   const double bend = 0.020 * noises.waver(x * 0.35, elevation * 3.0);
@@ -173,7 +64,24 @@ float veil_at(const SkyParameters& p, double x_px, double elevation, VeilNoises&
   const float fine = noises.threads(x / 0.4, rise / 0.035);
   const float where = noises.patches(x / 1.5, rise / 0.40);
   const float density = 0.40F * broad + 0.18F * fine + 0.80F * where - 0.48F + 0.5F * static_cast<float>(p.clouds - 1.0);
-  return 0.42F * smoothstep(0.0F, 1.5F, density) * smoothstep(0.05F, 0.30F, static_cast<float>(elevation));
+  return 0.42F * static_cast<float>(look.veils) * smoothstep(0.0F, 1.5F, density) * smoothstep(0.05F, 0.30F, static_cast<float>(elevation));
+}
+
+// Streaks of ice high up, which all come from the vanishing point, broken and bent; 0…1.
+float streak_at(const SkyParameters& p, const SkyLook& look, double x_px, double y_px, VeilNoises& noises) {
+  const double elevation = 1.0 - y_px / p.horizon_px;
+  const double rise_px = look.vanishing_px.y - y_px;
+  if (elevation < 0.04 || rise_px <= 0.0) return 0.0F;
+  const double scale_px = cloud_scale_px(p);
+  const double x = x_px / scale_px;
+  const double along = exact::log(rise_px / scale_px);
+  const double bent = 0.22 * static_cast<double>(noises.waver(x * 0.5, elevation * 2.2));
+  const double ray = (x_px - look.vanishing_px.x) / rise_px + bent;
+  const float broad = noises.streaks(ray / 0.34, along / 0.75);
+  const float fine = noises.threads(ray / 0.085, along / 0.40);
+  const float where = noises.patches(x / 1.1, along / 0.45);
+  const float density = 0.50F * broad + 0.34F * fine + 0.70F * where - 0.30F + 0.5F * static_cast<float>(p.clouds - 1.0);
+  return 0.60F * static_cast<float>(look.veils) * smoothstep(0.0F, 1.7F, density) * smoothstep(0.04F, 0.26F, static_cast<float>(elevation));
 }
 
 // How the edges of clouds billow: two sizes of bulges, in shares of a head's radius.
@@ -220,40 +128,12 @@ glm::vec3 air_beyond(const Palette& palette, double place) {
   return glm::mix(sky, palette.haze_far, 0.6F * smoothstep(1.0F, 1.7F, static_cast<float>(place)));
 }
 
-std::vector<Cloud> make_clouds(const SkyParameters& p) {
-  std::vector<Cloud> clouds;
-  if (p.clouds <= 0.0) return clouds;
-  const double scale_px = cloud_scale_px(p);
-  // Few banks high up, more and smaller ones towards the horizon. Each stretch of the sky has a bank or none.
-  struct Band {
-    double lowest, highest;  // of bases above the horizon, heights of the sky
-    double stretch;          // cloud scales
-    double share;            // of stretches with a bank
-  };
-  constexpr std::array<Band, 3> bands = {{{0.05, 0.12, 1.3, 0.72}, {0.14, 0.30, 2.6, 0.70}, {0.32, 0.62, 4.2, 0.78}}};
-  for (std::size_t b = 0; b < bands.size(); ++b) {
-    const Band& band = bands[b];
-    const double cell_px = band.stretch * scale_px;
-    // Where stretches begin differs by seed, or every sky would have its gaps in the same places.
-    const std::uint64_t seed = stream_seed(p.seed, Stream::cloud_banks, b);
-    const double shift = random_uniform(seed, -9, 0);
-    const auto last = static_cast<std::int64_t>(p.picture_size.x / cell_px) + 2;
-    for (std::int64_t cell = -2; cell <= last; ++cell) {
-      Draws draws(seed, cell);
-      if (draws.uniform() > band.share + 0.4 * (p.clouds - 1.0)) continue;
-      const double middle_px = (static_cast<double>(cell) + shift + draws.between(0.1, 0.9)) * cell_px;
-      add_bank(clouds, p, draws, middle_px, draws.between(band.lowest, band.highest));
-    }
-  }
-  std::stable_sort(clouds.begin(), clouds.end(), [](const Cloud& a, const Cloud& b) { return a.base_px > b.base_px; });
-  return clouds;
-}
-
 Grid<glm::vec3> make_sky(const Grid<float>& depth_m, const Palette& palette, const SkyParameters& p, glm::ivec2 origin_px) {
   const int width = depth_m.width();
   const int height = depth_m.height();
   Grid<glm::vec3> sky(width, height, glm::vec3(0.0F));
   const std::vector<Cloud> clouds = make_clouds(p);
+  const SkyLook look = look_of_sky(p);
   const double scale_px = cloud_scale_px(p);
   const glm::vec2 towards_light = glm::normalize(glm::vec2(p.sun_image_x < 0.0 ? -0.55F : 0.55F, -0.85F));
   parallel_rows(height, [&](int y) {
@@ -274,7 +154,9 @@ Grid<glm::vec3> make_sky(const Grid<float>& depth_m, const Palette& palette, con
       // Long soft bands keep the gradient from looking ruled.
       const double place = v + 0.03 * bands(u * 0.9, v * 11.0) * std::clamp(2.0 * (1.0 - v), 0.0, 1.0);
       glm::vec3 colour = air_beyond(palette, place);
-      const float veil = p.clouds > 0.0 ? veil_at(p, column_px, 1.0 - v, veil_noises) : 0.0F;
+      const float veil = p.clouds <= 0.0                 ? 0.0F
+                         : look.kind == SkyKind::streaks ? streak_at(p, look, column_px, row_px, veil_noises)
+                                                         : veil_at(p, look, column_px, 1.0 - v, veil_noises);
       colour = glm::mix(colour, palette.cloud_light, veil);
       if (!near_row.empty()) {
         const glm::vec2 at(static_cast<float>(column_px), static_cast<float>(row_px));

@@ -211,6 +211,7 @@ struct Scene {
   TracerParameters tracing;  // its instruction set is pinned where other machines must give the same picture
   LightParameters light;
   AirParameters air;
+  std::string sky = "any";               // a kind of clouds.h
   std::string palette = "summer";        // built-in name or file
   std::vector<SceneExemplar> exemplars;  // empty: one painted by the program
   SceneSynthesis synthesis;

@@ -28,6 +28,14 @@ std::vector<SceneSection> make_air_sections() {
                 "Over this distance the terrain stands ever deeper in haze towards its end, mountains as blue silhouettes, so that it "
                 "does not end in a cliff; 0 is off."},
            {.name = "clouds", .field = AT(air.clouds), .range = {0, 2}, .meaning = "How many clouds; 0 is a clear sky."},
+           {.name = "sky",
+            .field = AT(sky),
+            .meaning =
+                "What clouds there are. fair: heaps here and there. rows: streets of small heaps that come from one place behind the "
+                "horizon. streaks: ice high up, from such a place. banks: a wall of cloud behind the ranges. any: one of these, by seed "
+                "and view.",
+            .text = TextKind::choice,
+            .choices = {"any", "fair", "rows", "streaks", "banks"}},
        }});
   return sections;
 }

@@ -1,14 +1,28 @@
 #include "renderer/world/lit_picture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/angle.h"
+#include "base/random.h"
+#include "renderer/paint/clouds/clouds.h"
 #include "renderer/paint/composite.h"
 #include "renderer/rock/crest_shift.h"
 #include "renderer/scene/scene_error.h"
 
 namespace belvedere {
+namespace {
+
+// Views of one scene, and scenes of one seed, have skies of their own: by where the viewer stands, to 100 m, and where he looks.
+std::uint64_t sky_seed(const World& world) {
+  const auto to_100_m = [](double m) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::llround(m / 100.0))); };
+  const glm::dvec2 viewer = world.view.viewer_xy;
+  const auto to_degree = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::llround(world.view.camera.azimuth_deg)));
+  return mix_bits(mix_bits(mix_bits(world.scene.seed + to_100_m(viewer.x)) + to_100_m(viewer.y)) + to_degree);
+}
+
+}  // namespace
 
 SheetView view_of(const World& world) { return {*world.camera, world.scene.pixels_per_unit(), world.horizon_px}; }
 
@@ -39,6 +53,8 @@ BaseParameters to_base_parameters(const World& world, const SheetView& view, con
   parameters.sun_image_x = world.view.sun_image_x;
   parameters.pixels_per_unit = view.pixels_per_unit;
   parameters.seed = world.scene.seed;
+  parameters.air.sky = find_sky_kind(world.scene.sky);
+  parameters.sky_seed = sky_seed(world);
   parameters.tint = make_ground_tint(world.terrain, palette, world.scene.land_cover.colour_share);
   return parameters;
 }

@@ -16,8 +16,15 @@ namespace {
 
 constexpr float sky_depth = std::numeric_limits<float>::infinity();
 
-SkyParameters small_sky() {
+// Heaps here and there: what clouds are like is tested in clouds_test.cpp.
+SkyParameters fair_sky() {
   SkyParameters p;
+  p.kind = SkyKind::fair;
+  return p;
+}
+
+SkyParameters small_sky() {
+  SkyParameters p = fair_sky();
   p.picture_size = {600, 300};
   p.horizon_px = 120.0;
   return p;
@@ -46,7 +53,7 @@ TEST(Sky, WithoutCloudsItIsTheGradient) {
 }
 
 TEST(Sky, CloudsHaveFlatBasesAndShrinkTowardsTheHorizon) {
-  const std::vector<Cloud> clouds = make_clouds({});
+  const std::vector<Cloud> clouds = make_clouds(fair_sky());
   ASSERT_GT(clouds.size(), 10U);
   double far = 0.0, near = 0.0;
   int far_count = 0, near_count = 0;
@@ -63,7 +70,7 @@ TEST(Sky, CloudsHaveFlatBasesAndShrinkTowardsTheHorizon) {
 
 // Height over width and the place of the highest head: what tells two clouds apart at a glance.
 TEST(Sky, NoTwoCloudsAreAlike) {
-  const std::vector<Cloud> clouds = make_clouds({});
+  const std::vector<Cloud> clouds = make_clouds(fair_sky());
   std::vector<glm::dvec2> shapes;
   for (const Cloud& cloud : clouds) {
     const CloudHead* top = &cloud.heads.front();
@@ -87,7 +94,7 @@ TEST(Sky, NoTwoCloudsAreAlike) {
 // Where clouds stand, as a mask of columns: no other seed may share more of it than chance would.
 TEST(Sky, EverySeedHasASkyOfItsOwn) {
   const auto columns = [](std::uint64_t seed) {
-    SkyParameters p;
+    SkyParameters p = fair_sky();
     p.seed = seed;
     std::vector<bool> mask(2400, false);
     for (const Cloud& cloud : make_clouds(p))
@@ -111,7 +118,7 @@ TEST(Sky, EverySeedHasASkyOfItsOwn) {
 TEST(Sky, VeilsLieLevel) {
   const Palette palette = read_palette("summer");
   for (const std::uint64_t seed : {1, 2, 3}) {
-    SkyParameters p;
+    SkyParameters p = fair_sky();
     p.seed = seed;
     const std::vector<Cloud> clouds = make_clouds(p);
     const Grid<glm::vec3> sky = make_sky(Grid<float>(2400, 198, sky_depth), palette, p, {0, 0});
@@ -134,6 +141,30 @@ TEST(Sky, VeilsLieLevel) {
   }
 }
 
+// Left of their vanishing point streaks lean to the left, right of it to the right, and in a sky without any nothing leans.
+TEST(Sky, StreaksComeFromTheVanishingPoint) {
+  const Palette palette = read_palette("summer");
+  double fanned = 0.0;
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    SkyParameters p;
+    p.kind = SkyKind::streaks;
+    p.seed = seed;
+    const double middle = look_of_sky(p).vanishing_px.x;
+    const Grid<glm::vec3> sky = make_sky(Grid<float>(2400, 198, sky_depth), palette, p, {0, 0});
+    double left = 0.0, right = 0.0;
+    for (int y = 10; y < 150; y += 2)
+      for (int x = 8; x < 2392; x += 2) {
+        const double gx = sky(x + 3, y).r - sky(x - 3, y).r;
+        const double gy =
+            sky(x, y + 3).r - sky(x, y - 3).r - (sky_gradient(palette, (y + 3.5) / 198.0).r - sky_gradient(palette, (y - 2.5) / 198.0).r);
+        (x < middle ? left : right) += gx * gy;
+      }
+    // Along a streak nothing changes: where it leans to the right as it rises, light grows to the right and downwards alike.
+    fanned += right > 0.0 && left < 0.0 ? 1.0 : 0.0;
+  }
+  EXPECT_GE(fanned, 3.0);
+}
+
 TEST(Sky, BelowTheHorizonIsHazeNotSky) {
   const Palette palette = read_palette("summer");
   EXPECT_EQ(air_beyond(palette, 0.4), sky_gradient(palette, 0.4));
@@ -144,7 +175,7 @@ TEST(Sky, BelowTheHorizonIsHazeNotSky) {
 
 TEST(Sky, CloudsAreLitFromAboveAndShadedBelow) {
   const Palette palette = read_palette("summer");
-  const SkyParameters p;
+  const SkyParameters p = fair_sky();
   const Grid<glm::vec3> sky = make_sky(Grid<float>(2400, 198, sky_depth), palette, p, {0, 0});
   double top = 0.0, foot = 0.0;
   int count = 0;

@@ -1,0 +1,237 @@
+#include "renderer/paint/clouds/clouds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "base/random_streams.h"
+
+namespace belvedere {
+namespace {
+
+// Random numbers in the order they are drawn, a pure function of seed and cell. One draw a statement: C++ leaves open which of two
+// arguments comes first.
+class Draws {
+ public:
+  Draws(std::uint64_t seed, std::int64_t cell) : seed_(seed), cell_(cell) {}
+  double uniform() { return random_uniform(seed_, cell_, draw_++, 1); }
+  double between(double low, double high) { return low + (high - low) * uniform(); }
+
+ private:
+  std::uint64_t seed_;
+  std::int64_t cell_;
+  std::int64_t draw_ = 0;
+};
+
+// The outline of a heap: arches of different height and width beside each other; u is -1…1 over the width, the value 0…1.
+struct Outline {
+  struct Arch {
+    double middle, half_width, height;
+  };
+  std::vector<Arch> arches;
+
+  double operator()(double u) const {
+    double top = 0.0;
+    for (const Arch& a : arches) {
+      const double side = (u - a.middle) / a.half_width;
+      top = std::max(top, a.height * std::sqrt(std::max(0.0, 1.0 - side * side)));
+    }
+    return top;
+  }
+};
+
+Outline make_outline(Draws& draws) {
+  Outline outline;
+  const double main_middle = draws.between(-0.45, 0.45);
+  const double main_half_width = draws.between(0.35, 0.75);
+  outline.arches.push_back({main_middle, main_half_width, 1.0});
+  const int more = static_cast<int>(draws.between(1.0, 4.0));
+  for (int k = 0; k < more; ++k) {
+    const double middle = draws.between(-0.8, 0.8);
+    const double half_width = draws.between(0.15, 0.5);
+    outline.arches.push_back({middle, half_width, draws.between(0.2, 0.75)});
+  }
+  outline.arches.push_back({0.0, 1.0, draws.between(0.12, 0.3)});  // what joins them
+  return outline;
+}
+
+// One cloud. `heaped`: 0 a bank drawn out by the wind … 1 a cumulus.
+Cloud make_cloud(const SkyParameters& p, Draws& draws, glm::dvec2 middle_px, double width_px, double heaped, double opacity) {
+  const double height_px = width_px * (0.05 + (0.10 + 0.20 * heaped) * draws.between(0.6, 1.2));
+  const Outline outline = make_outline(draws);
+  const int count = 14 + static_cast<int>(12.0 * draws.uniform());
+  const double base_px = middle_px.y;
+  Cloud cloud{static_cast<float>(base_px), {}, {}, static_cast<float>(opacity), 0, {}};
+  const auto add = [&](double u, double rise, glm::dvec2 radius) {
+    cloud.heads.push_back({glm::vec2(glm::dvec2(middle_px.x + 0.5 * width_px * u, base_px - rise)), glm::vec2(radius)});
+  };
+  for (int k = 0; k < count; ++k) {
+    const double u = -1.0 + 2.0 * (k + draws.uniform()) / count;
+    const double arch = outline(u);
+    const double radius = height_px * (0.10 + 0.30 * arch) * draws.between(0.7, 1.3);
+    const double stretch = (3.2 - 1.9 * heaped) * draws.between(0.8, 1.3);
+    add(u, std::max(0.0, arch * height_px - radius) * draws.between(0.2, 1.0), {radius * stretch, radius});
+  }
+  // Skirts, drawn out level beyond the heap.
+  const int skirts = 2 + static_cast<int>(3.0 * draws.uniform());
+  for (int k = 0; k < skirts; ++k) {
+    const double u = draws.between(-1.1, 1.1);
+    const double length = width_px * draws.between(0.12, 0.34) * (1.3 - 0.6 * heaped);
+    const double thickness = length * draws.between(0.05, 0.10);
+    const double rise = height_px * draws.between(0.02, 0.22);
+    add(u, rise, {length, thickness});
+  }
+  std::stable_sort(cloud.heads.begin(), cloud.heads.end(), [](const CloudHead& a, const CloudHead& b) { return a.centre.y < b.centre.y; });
+  cloud.from = glm::vec2(1e9F);
+  cloud.to = glm::vec2(-1e9F);
+  for (const CloudHead& head : cloud.heads) {
+    cloud.from = glm::min(cloud.from, head.centre - 1.6F * head.radius);
+    cloud.to = glm::max(cloud.to, head.centre + 1.6F * head.radius);
+  }
+  cloud.to.y = static_cast<float>(base_px + 0.35 * height_px);
+  const double size = width_px / cloud_scale_px(p);
+  cloud.grain = size > 1.0 ? 0 : size > 0.5 ? 1 : size > 0.25 ? 2 : 3;
+  return cloud;
+}
+
+// How large a cloud is drawn whose base stands so high above the horizon (in heights of the sky): the lower, the farther. Cloud scales.
+double size_at(double elevation) { return 0.22 + 1.9 * elevation; }
+
+// How clear a cloud stands there: far ones are seen through the air of the horizon.
+double clearness(double elevation) { return 0.55 + 0.45 * std::min(1.0, elevation / 0.2); }
+
+// A bank: clouds of one kind along a level line, large in the middle, farther and smaller to both sides.
+void add_bank(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look, Draws& draws, double middle_px, double elevation,
+              double drawn_out) {
+  const double scale_px = cloud_scale_px(p) * look.size;
+  const double heaped = look.heaped + draws.between(-0.6, 0.5);
+  const double half_px = scale_px * size_at(elevation) * drawn_out * draws.between(0.6, 1.9);
+  const int count = 3 + static_cast<int>(5.0 * draws.uniform());
+  const double lead = draws.between(-0.6, 0.6);  // where in the bank its largest cloud stands
+  for (int k = 0; k < count; ++k) {
+    const double t = -1.0 + 2.0 * (k + draws.uniform()) / count;
+    const double aside = std::min(1.0, std::abs(t - lead));
+    const double height = elevation * (1.0 - 0.35 * aside) * draws.between(0.9, 1.1);
+    const double width_px = scale_px * size_at(height) * drawn_out * (1.0 - 0.62 * aside) * draws.between(0.55, 1.25);
+    const double kind = std::clamp(heaped + draws.between(-0.25, 0.25) - 0.3 * aside, 0.0, 1.0);
+    const double opacity = clearness(height) * (0.62 + 0.38 * kind) * (1.0 - 0.35 * aside);
+    clouds.push_back(make_cloud(p, draws, {middle_px + half_px * t, p.horizon_px * (1.0 - height)}, width_px, kind, opacity));
+  }
+}
+
+// A layer of banks at about one height.
+struct Band {
+  double lowest, highest;  // of bases above the horizon, heights of the sky
+  double stretch;          // cloud scales; each stretch has a bank or none
+  double share;            // of stretches with a bank
+  double drawn_out;        // on the length of its clouds
+};
+using Bands = std::array<Band, 3>;
+// Few banks high up, more and smaller ones towards the horizon.
+constexpr Bands fair_bands = {{{0.05, 0.12, 1.3, 0.62, 1.0}, {0.14, 0.30, 2.6, 0.58, 1.0}, {0.32, 0.62, 4.2, 0.58, 1.0}}};
+// A wall of cloud that stands behind the ranges, and nearly nothing over it.
+constexpr Bands horizon_bands = {{{0.01, 0.07, 0.75, 0.95, 1.5}, {0.05, 0.16, 1.9, 0.75, 1.9}, {0.40, 0.62, 5.5, 0.40, 1.6}}};
+constexpr Bands streak_bands = {{{0.02, 0.08, 1.6, 0.45, 1.3}, {0.12, 0.20, 4.5, 0.30, 1.3}, {0.32, 0.62, 9.0, 0.0, 1.0}}};
+
+void add_bands(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look, const Bands& bands) {
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const Band& band = bands[b];
+    const double cell_px = band.stretch * cloud_scale_px(p);
+    // Where stretches begin differs by seed, or every sky would have its gaps in the same places.
+    const std::uint64_t seed = stream_seed(p.seed, Stream::cloud_banks, b);
+    const double shift = random_uniform(seed, -9, 0);
+    const auto last = static_cast<std::int64_t>(p.picture_size.x / cell_px) + 2;
+    for (std::int64_t cell = -2; cell <= last; ++cell) {
+      Draws draws(seed, cell);
+      if (draws.uniform() > band.share * look.amount + 0.4 * (p.clouds - 1.0)) continue;
+      const double middle_px = (static_cast<double>(cell) + shift + draws.between(0.1, 0.9)) * cell_px;
+      const double elevation = std::min(0.70, look.raised * draws.between(band.lowest, band.highest));
+      add_bank(clouds, p, look, draws, middle_px, elevation, band.drawn_out);
+    }
+  }
+}
+
+// Streets of small heaps that run towards the vanishing point.
+void add_rows(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look) {
+  const double scale_px = cloud_scale_px(p);
+  const double spread = 1.25 * scale_px;  // between rows where they are half the sky high
+  const double reach_px = look.vanishing_px.y - 0.5 * p.horizon_px;
+  const auto rows = static_cast<std::int64_t>(p.picture_size.x / spread) + 3;
+  const std::uint64_t seed = stream_seed(p.seed, Stream::cloud_banks, 7);
+  for (std::int64_t row = -rows; row <= rows; ++row) {
+    Draws draws(seed, row);
+    const double slope = (static_cast<double>(row) + draws.between(-0.3, 0.3)) * spread / reach_px;
+    if (draws.uniform() > 0.75 * look.amount + 0.4 * (p.clouds - 1.0)) continue;
+    for (double elevation = 0.045 * draws.between(0.8, 1.3); elevation < 0.66; elevation *= draws.between(1.25, 1.65)) {
+      const double base_px = p.horizon_px * (1.0 - elevation);
+      const double x_px = look.vanishing_px.x + slope * (look.vanishing_px.y - base_px) + scale_px * elevation * draws.between(-0.25, 0.25);
+      const double width_px = scale_px * look.size * size_at(elevation) * draws.between(0.22, 0.55);
+      const double kind = std::clamp(look.heaped + draws.between(-0.3, 0.4), 0.0, 1.0);
+      const double chance = draws.uniform();
+      const double opacity = clearness(elevation) * (0.66 + 0.34 * kind);
+      if (chance < 0.30 || x_px < -width_px || x_px > p.picture_size.x + width_px) continue;
+      clouds.push_back(make_cloud(p, draws, {x_px, base_px}, width_px, kind, opacity));
+    }
+  }
+}
+
+}  // namespace
+
+double cloud_scale_px(const SkyParameters& p) { return std::min(p.horizon_px, 0.09 * p.picture_size.x); }
+
+SkyKind find_sky_kind(std::string_view name) {
+  constexpr std::array<std::pair<std::string_view, SkyKind>, 5> names = {
+      {{"any", SkyKind::any}, {"fair", SkyKind::fair}, {"rows", SkyKind::rows}, {"streaks", SkyKind::streaks}, {"banks", SkyKind::banks}}};
+  for (const auto& [known, kind] : names)
+    if (known == name) return kind;
+  throw Error(ErrorKind::input, "sky",
+              "there is no kind of sky called \"" + std::string(name) + "\"; there are any, fair, rows, streaks and banks");
+}
+
+SkyLook look_of_sky(const SkyParameters& p) {
+  Draws draws(stream_seed(p.seed, Stream::sky_kind), 0);
+  constexpr std::array<SkyKind, 4> kinds = {SkyKind::fair, SkyKind::rows, SkyKind::streaks, SkyKind::banks};
+  SkyLook look;
+  const SkyKind drawn = kinds[std::min<std::size_t>(3, static_cast<std::size_t>(4.0 * draws.uniform()))];
+  look.kind = p.kind == SkyKind::any ? drawn : p.kind;
+  look.amount = draws.between(0.65, 1.05);
+  look.size = draws.between(0.78, 1.10);
+  look.raised = draws.between(0.75, 1.15);
+  look.heaped = look.kind == SkyKind::rows   ? draws.between(0.55, 0.9)
+                : look.kind == SkyKind::fair ? draws.between(0.3, 0.8)
+                                             : draws.between(0.0, 0.45);
+  look.veils = look.kind == SkyKind::streaks ? draws.between(0.85, 1.15) : draws.between(0.35, 1.0);
+  const double across = draws.between(0.12, 0.88);
+  const double below = draws.between(1.10, 1.30);
+  look.vanishing_px = {across * p.picture_size.x, below * p.horizon_px};
+  return look;
+}
+
+std::vector<Cloud> make_clouds(const SkyParameters& p) {
+  std::vector<Cloud> clouds;
+  if (p.clouds <= 0.0) return clouds;
+  const SkyLook look = look_of_sky(p);
+  switch (look.kind) {
+    case SkyKind::rows:
+      add_rows(clouds, p, look);
+      break;
+    case SkyKind::streaks:
+      add_bands(clouds, p, look, streak_bands);
+      break;
+    case SkyKind::banks:
+      add_bands(clouds, p, look, horizon_bands);
+      break;
+    case SkyKind::any:
+    case SkyKind::fair:
+      add_bands(clouds, p, look, fair_bands);
+      break;
+  }
+  std::stable_sort(clouds.begin(), clouds.end(), [](const Cloud& a, const Cloud& b) { return a.base_px > b.base_px; });
+  return clouds;
+}
+
+}  // namespace belvedere

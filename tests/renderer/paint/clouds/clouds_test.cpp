@@ -1,0 +1,85 @@
+#include "renderer/paint/clouds/clouds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "base/error.h"
+
+namespace belvedere {
+namespace {
+
+SkyParameters sky(SkyKind kind, std::uint64_t seed = 1) {
+  SkyParameters p;
+  p.kind = kind;
+  p.seed = seed;
+  return p;
+}
+
+TEST(Clouds, SeedsHaveEveryKindOfSky) {
+  std::set<SkyKind> kinds;
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) kinds.insert(look_of_sky(sky(SkyKind::any, seed)).kind);
+  EXPECT_EQ(kinds, (std::set<SkyKind>{SkyKind::fair, SkyKind::rows, SkyKind::streaks, SkyKind::banks}));
+}
+
+TEST(Clouds, KindsAreFoundByName) {
+  EXPECT_EQ(find_sky_kind("rows"), SkyKind::rows);
+  EXPECT_EQ(find_sky_kind("any"), SkyKind::any);
+  EXPECT_THROW(find_sky_kind("thunder"), Error);
+}
+
+TEST(Clouds, AKindThatIsAskedForIsTaken) {
+  for (std::uint64_t seed = 1; seed < 9; ++seed) EXPECT_EQ(look_of_sky(sky(SkyKind::banks, seed)).kind, SkyKind::banks);
+}
+
+// A wall behind the ranges stands low; heaps here and there stand at every height.
+TEST(Clouds, BanksStandLow) {
+  double low = 0.0, fair = 0.0;
+  for (std::uint64_t seed = 1; seed < 9; ++seed) {
+    const auto share = [&](SkyKind kind) {
+      const std::vector<Cloud> clouds = make_clouds(sky(kind, seed));
+      EXPECT_GT(clouds.size(), 4U);
+      const auto below = std::count_if(clouds.begin(), clouds.end(), [](const Cloud& c) { return c.base_px > 198.0F * 0.80F; });
+      return static_cast<double>(below) / static_cast<double>(clouds.size());
+    };
+    low += share(SkyKind::banks) / 8.0;
+    fair += share(SkyKind::fair) / 8.0;
+  }
+  EXPECT_GT(low, fair + 0.1);
+}
+
+// The slopes of ways from the vanishing point to clouds gather in rows: neighbours in order of slope lie closer than clouds strewn evenly.
+TEST(Clouds, RowsComeFromTheVanishingPoint) {
+  const auto gathered = [](SkyKind kind, std::uint64_t seed) {
+    const SkyParameters p = sky(kind, seed);
+    const SkyLook look = look_of_sky(p);
+    EXPECT_GT(look.vanishing_px.y, p.horizon_px) << "below the horizon";
+    std::vector<double> slopes;
+    for (const Cloud& cloud : make_clouds(p)) {
+      const double x = 0.5 * static_cast<double>(cloud.from.x + cloud.to.x);
+      slopes.push_back((x - look.vanishing_px.x) / (look.vanishing_px.y - static_cast<double>(cloud.base_px)));
+    }
+    std::sort(slopes.begin(), slopes.end());
+    std::vector<double> gaps;
+    for (std::size_t k = 1; k < slopes.size(); ++k) gaps.push_back(slopes[k] - slopes[k - 1]);
+    double mean = 0.0, squares = 0.0;
+    for (const double gap : gaps) mean += gap / static_cast<double>(gaps.size());
+    for (const double gap : gaps) squares += (gap - mean) * (gap - mean) / static_cast<double>(gaps.size());
+    return std::sqrt(squares) / mean;  // 1 for places by chance, more where they gather
+  };
+  double rows = 0.0;
+  for (std::uint64_t seed = 1; seed < 9; ++seed) rows += gathered(SkyKind::rows, seed) / 8.0;
+  EXPECT_GT(rows, 1.15);
+}
+
+TEST(Clouds, NoneAreAskedFor) {
+  SkyParameters p = sky(SkyKind::rows);
+  p.clouds = 0.0;
+  EXPECT_TRUE(make_clouds(p).empty());
+}
+
+}  // namespace
+}  // namespace belvedere
