@@ -26,11 +26,12 @@
 namespace belvedere {
 namespace {
 
-constexpr double tone_step = 0.17;              // to the darker and the lighter picture
-constexpr double range_sigma_units = 14.0;      // width of mist behind an edge
-constexpr double krummholz_sigma_units = 12.0;  // dwarf pine stands about the treeline
-constexpr double brook_sigma_units = 1.8;       // what this blur of the water leaves pale is a brook
-constexpr float high_m = 260.0F;                // what stands so far above its surroundings is a crest
+constexpr double tone_step = 0.17;                       // to the darker and the lighter picture
+constexpr double range_sigma_units = 14.0;               // width of mist behind an edge
+constexpr double krummholz_sigma_units = 12.0;           // dwarf pine stands about the treeline
+constexpr double tongue_sigma_units = 20.0;              // ice is blue and bare as far from ground without ice as this tells
+constexpr double brook_sigma_units = 1.8;                // what this blur of the water leaves pale is a brook
+constexpr float high_m = 260.0F;                         // what stands so far above its surroundings is a crest
 
 using Class = LandCoverClass;
 
@@ -49,6 +50,7 @@ struct Surroundings {
   Grid<float> mean_log_depth;
   Grid<float> wood;     // share of forest around
   ForestCover cover;    // of forest pixels
+  Grid<float> bare;     // share of ground without snow and ice around each wide pixel, on the same surface; empty where there is no ice
   Grid<float> water;    // share of water around, on the same surface
   Mirrored mirrored;    // of water pixels; empty where there is none
   Grid<float> streaks;  // the same
@@ -57,6 +59,19 @@ struct Surroundings {
 
 // 1 where any pixel is water: of most windows none is, and what water asks for need not be made.
 bool has_water(const GuidanceBuffers& g) { return std::find(g.land_cover.begin(), g.land_cover.end(), Class::water) != g.land_cover.end(); }
+
+bool has_ice(const GuidanceBuffers& g) { return std::find(g.land_cover.begin(), g.land_cover.end(), Class::glacier) != g.land_cover.end(); }
+
+Grid<float> bare_around(const WideView& wide, double wide_ppu, PixelRect window) {
+  Grid<float> bare(wide.seen.width(), wide.seen.height(), 0.0F);
+  for (std::size_t i = 0; i < bare.size(); ++i) {
+    const Class id = wide.seen.land_cover[i];
+    bare[i] = id == Class::sky || has_trait(id, ClassTrait::icy) ? 0.0F : 1.0F;
+  }
+  const PixelRect asked = moved(wide_rect(window, wide.factor), -wide.origin_px.x, -wide.origin_px.y);
+  return blur_on_surface(bare, wide.seen.depth_m, tongue_sigma_units * wide_ppu,
+                         intersection({0, 0, bare.width(), bare.height()}, grown(asked, 1)));
+}
 
 Surroundings look_around(const GuidanceBuffers& g, const WideView& wide, const Palette& palette, const BaseParameters& p,
                          const SkyParameters& sky, glm::ivec2 origin_px, PixelRect wanted) {
@@ -70,6 +85,7 @@ Surroundings look_around(const GuidanceBuffers& g, const WideView& wide, const P
   around.mean_log_depth = enlarge(wide, blur_in_picture(wide_logs, range_sigma_px, wide.origin_px), window);
   around.wood =
       enlarge(wide, blur_in_picture(class_mask(wide.seen, Class::forest), krummholz_sigma_units * wide_ppu, wide.origin_px), window);
+  if (has_ice(g)) around.bare = bare_around(wide, wide_ppu, window);
   around.cover = make_forest_cover(g, wide, {ppu, p.seed}, origin_px, wanted);
   if (has_water(g)) {
     around.water = blur_on_surface(class_mask(g, Class::water), g.depth_m, brook_sigma_units * ppu, wanted);
@@ -120,6 +136,7 @@ BasePixel sky_pixel(glm::vec3 sky) { return {sky, sky * 0.97F, glm::min(sky * 1.
 // All that pixels are painted from.
 struct Scenery {
   const GuidanceBuffers& guidance;
+  const WideView& wide;
   const Palette& palette;
   const BaseParameters& parameters;
   const Surroundings& around;
@@ -162,6 +179,12 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& 
   return pixel;
 }
 
+float firn_share(const Scenery& s, int x, int y) {
+  const float bare = value_on_surface(s.wide, s.around.bare, s.origin_px.x + x, s.origin_px.y + y, s.guidance.depth_m(x, y));
+  const float tongue = smoothstep(0.02F, 0.24F, bare);
+  return s.palette.winter ? 1.0F - 0.35F * tongue : 1.0F - tongue;
+}
+
 BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
   const GuidanceBuffers& g = s.guidance;
   const std::size_t i = g.depth_m.index(x, y);
@@ -180,9 +203,12 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
   const TintShift tint = s.parameters.tint && id != Class::water
                              ? tint_shift(*s.parameters.tint, s.palette, id, altitude, s.place_m(i), g.footprint_m[i])
                              : TintShift{};
+  // Where ice lies deep in the snow it grew from it is white with firn; its tongues are blue and bare.
+  const float firn = id == Class::glacier ? firn_share(s, x, y) : 0.0F;
   const auto paint = [&](double step) {
     const double light = g.tone[i] + static_cast<double>(water.tone_shift) + step;
     glm::vec3 ramp = palette_colour(s.palette, id, altitude, light) * hue;
+    if (firn > 0.0F) ramp = glm::mix(ramp, palette_colour(s.palette, Class::snow, altitude, light), firn);
     // Turf is never as light as the wall it hangs on; snow takes the light of the wall.
     if (cover.x > 0.0F)
       ramp = glm::mix(ramp, palette_colour(s.palette, Class::alpine_grass, altitude, std::min(light, 0.75) - 0.05), cover.x);
@@ -225,7 +251,7 @@ BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& w
   const double horizon_px = parameters.horizon_px > 0.0 ? parameters.horizon_px : 0.18 * picture_size.y;
   const SkyParameters sky{picture_size, horizon_px, parameters.air.clouds, parameters.air.sky, parameters.sun_image_x, parameters.sky_seed};
   const Surroundings around = look_around(guidance, wide, palette, parameters, sky, origin_px, wanted);
-  const Scenery scenery{guidance, palette, parameters, around, horizon_px, origin_px};
+  const Scenery scenery{guidance, wide, palette, parameters, around, horizon_px, origin_px};
 
   BasePicture picture;
   picture.colour = picture.darker = picture.lighter = Grid<glm::vec3>(width, height);
@@ -254,8 +280,9 @@ int base_margin_px(const BaseParameters& parameters) {
   // The blur, and the sky's look down at the terrain; beyond, what lies between the middles of wide pixels.
   const int ranges = factor * (2 * blur_reach_px(range_sigma_units * ppu / factor) + 2);
   const int woods = factor * (blur_reach_px(krummholz_sigma_units * ppu / factor) + 2);
+  const int ice = factor * (surface_reach_px(tongue_sigma_units * ppu / factor) + 3);
   const int waters = std::max(reflection_margin_px(ppu), surface_reach_px(brook_sigma_units * ppu));
-  return std::max({ranges, woods, waters, forest_cover_margin_px(ppu) + factor}) + 3 * static_cast<int>(std::ceil(ppu)) + 2;
+  return std::max({ranges, woods, ice, waters, forest_cover_margin_px(ppu) + factor}) + 3 * static_cast<int>(std::ceil(ppu)) + 2;
 }
 
 PixelRect base_window(PixelRect wanted, bool has_water, const BaseParameters& parameters) {

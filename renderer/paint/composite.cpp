@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <string>
 
 #include "base/error.h"
@@ -33,6 +34,12 @@ glm::vec3 encode(glm::dvec3 v) { return glm::vec3(srgb_encoded(v.x), srgb_encode
 bool differ(float depth_a, float depth_b) {
   constexpr float ratio = 1.03f;
   return depth_a > ratio * depth_b || depth_b > ratio * depth_a;
+}
+
+// Each channel of d held softly within ±most.
+glm::vec3 softly(glm::vec3 d, float most) {
+  const glm::vec3 x = d / most;
+  return d / glm::sqrt(1.0F + x * x);
 }
 
 }  // namespace
@@ -67,9 +74,13 @@ Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<P
       }
       const PaintedExemplar& e = exemplars[m.exemplar];
       const bool bare = !shown.empty() && shown(x, y) == LandCoverClass::rock;
+      const bool snowy = !shown.empty() && has_trait(shown(x, y), ClassTrait::icy);
       const auto r = static_cast<float>(bare ? std::max(residual, rock_residual) : residual);
       glm::vec3 v = e.picture(m.x, m.y);
-      if (!e.base.empty()) v += r * (target_base(x, y) - e.base(m.x, m.y));
+      if (snowy && !e.base.empty())
+        v = target_base(x, y) + softly(v - e.base(m.x, m.y), snow_strokes_most);
+      else if (!e.base.empty())
+        v += r * (target_base(x, y) - e.base(m.x, m.y));
       if (!target_haze.empty()) v = glm::mix(v, target_base(x, y), std::clamp(target_haze(x, y), 0.0F, 1.0F));
       out(x, y) = glm::clamp(v, 0.0F, 1.0F);
     }

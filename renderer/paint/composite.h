@@ -19,9 +19,12 @@ struct PaintedExemplar {
 
 // What rock takes of the base picture's difference: all, so that of a texel's own planes nothing is left but the strokes on them.
 inline constexpr double rock_residual = 1.0;
+// Snow and ice take all of it as well, and of the texel what its strokes add to its base, no channel by more than this: a fleck of what
+// lay beside the snow that it was copied from is no dirt on other snow.
+inline constexpr float snow_strokes_most = 0.07F;
 
 // paint = texel + residual · (base_target - base_exemplar), in encoded sRGB (why: docs/architecture.md), cut to 0…1. residual 0…1; where
-// `shown` (empty: nowhere) is rock, rock_residual.
+// `shown` (empty: nowhere) is rock, rock_residual; where it is snow or ice, base_target + (texel - base_exemplar), held softly.
 // Air lies over paint as it lies over the base: out = base_target + (1 - haze) · (paint - base_target); target_haze empty: no air.
 // Pixels without a match, sky among them, take the target's base; exemplars without a base (scans) give their texel as it is. Error(input)
 // for matches outside of the exemplars.

@@ -6,9 +6,11 @@
 
 #include "base/error.h"
 #include "base/guidance_channels.h"
+#include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random_streams.h"
+#include "renderer/paint/ground/snow_relief.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 #include "renderer/paint/ribs.h"
@@ -26,6 +28,23 @@ constexpr float outcrop_calm = 0.50F;         // share of contrast it takes …
 constexpr float outcrop_shade = 0.20F;        // … and how much darker it is
 constexpr float calm_from_m = 16.0F;          // metres of ground in a unit of the sheet from which forms are simplified …
 constexpr float calm_to_m = 42.0F;            // … and at which they are simplest
+
+// Snow: it throws light back, so that its shade has forms too, and its shadows have clear edges.
+constexpr float snow_wrap = 0.10F;
+constexpr float snow_fill = 0.26F;
+constexpr float snow_detail = 0.68F;  // of its normal, from the ground with all its detail
+constexpr float snow_toe = 0.17F;     // tones below and above which forms draw together instead of ending
+constexpr float snow_shoulder = 0.74F;
+constexpr float snow_hollow = 0.055F;  // how much darker hollows between swells are
+constexpr float cornice_units = 5.0F;  // how far below a crest its overhanging edge is drawn
+constexpr float lip_units = 1.3F;      // of which so much is its lit lip, the rest its shade
+
+// What lies white: snow and ice, and in winter all open ground.
+bool is_white(LandCoverClass id, bool winter) {
+  using enum LandCoverClass;
+  if (has_trait(id, ClassTrait::icy)) return true;
+  return winter && (id == valley_floor || id == pasture || id == alpine_grass || id == scree);
+}
 
 // How much of the ribs a slope shows: none on flats, all where it is steep.
 float steepness(float slope_deg) { return std::clamp((slope_deg - 18.0F) / 20.0F, 0.0F, 1.0F); }
@@ -60,11 +79,48 @@ float raw_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky
          light.edges * fine * edges;
 }
 
+// Tone of snow: never quite at the ends of its ramp while it still has forms.
+// Between light and shade it goes over quickly, so that its flanks read as planes.
+float keep_snow(float tone) {
+  constexpr float from = 0.25F;
+  constexpr float to = 0.75F;
+  constexpr float crispness = 0.65F;
+  if (tone > from && tone < to) tone += crispness * (from + (to - from) * smoothstep(from, to, tone) - tone);
+  if (tone < snow_toe) return snow_toe * static_cast<float>(exact::exp(static_cast<double>((tone - snow_toe) / snow_toe)));
+  constexpr float above = brightest_tone - snow_shoulder;
+  if (tone > snow_shoulder)
+    return brightest_tone - above * static_cast<float>(exact::exp(static_cast<double>((snow_shoulder - tone) / above)));
+  return tone;
+}
+
+// Light before contrast on snow as wind has laid it. Steep snow slides: it has runnels (ribs) and no drifts.
+float snow_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky_view, float fine, const SnowForm& form,
+                 const ToneParameters& p) {
+  const float share = snow_detail * fine;
+  const glm::vec3 ground = glm::normalize(g.normal_detail[i] * share + g.normal[i] * (1.0F - share));
+  const float laid = (1.0F - 0.75F * smoothstep(24.0F, 44.0F, g.slope_deg[i])) * (0.35F + 0.65F * fine);
+  const glm::vec2 rise = glm::vec2(ground) / -std::max(ground.z, 0.15F) + laid * form.slope;
+  const glm::vec3 normal = glm::normalize(glm::vec3(-rise, 1.0F));
+  const glm::vec3 sun_direction(p.sun_direction);
+  const float facing = std::clamp((glm::dot(normal, sun_direction) + snow_wrap) / (1.0F + snow_wrap), 0.0F, 1.0F);
+  const float sun = facing * (1.0F - static_cast<float>(p.light.shadow_depth) * (1.0F - smoothstep(0.15F, 0.85F, shadow)));
+  const float sky = static_cast<float>(exact::pow(static_cast<double>(std::max(sky_view, 0.0F)), 1.3)) * (0.6F + 0.4F * normal.z);
+  const glm::vec3 opposite = glm::normalize(glm::vec3(-sun_direction.x, -sun_direction.y, 0.35F));
+  const float fill = snow_fill * (0.5F * glm::dot(normal, opposite) + 0.2F);
+  const float relief = 0.5F * std::clamp(g.relief_m_m[i] / 70.0F, -1.0F, 1.0F) + 0.5F * std::clamp(g.relief_l_m[i] / 250.0F, -1.0F, 1.0F);
+  const float edges = std::clamp(g.relief_s_m[i] / 10.0F, -1.2F, 1.2F);
+  return static_cast<float>(p.light.sun) * sun + static_cast<float>(p.light.sky) * sky + fill +
+         static_cast<float>(p.light.relief) * relief + class_info(g.land_cover[i]).tone.edges * fine * edges +
+         snow_hollow * laid * std::clamp(form.height, -1.6F, 1.0F);
+}
+
 // The crest rule looks so far up for a silhouette, and takes its tone from so far below, px.
 int crest_px(double pixels_per_unit) { return std::max(1, static_cast<int>(std::lround(2.0 * pixels_per_unit))); }
 int below_crest_px(double pixels_per_unit) {
   return std::max(crest_px(pixels_per_unit) + 1, static_cast<int>(std::lround(3.0 * pixels_per_unit)));
 }
+
+int cornice_px(double pixels_per_unit) { return static_cast<int>(std::ceil(static_cast<double>(cornice_units) * pixels_per_unit)); }
 
 // The crest rule: the topmost pixels of a silhouette look away from the eye and would draw a dark line along every ridge, so they
 // take the tone from below where that is lighter. Of the wanted pixels alone.
@@ -85,6 +141,30 @@ Grid<float> lift_crests(const Grid<float>& tone, const GuidanceBuffers& g, doubl
     }
   });
   return lifted;
+}
+
+// Cornices: along a crest of snow that stands before what is farther, a lit lip hangs over a narrow shade, here and there. `broken` is
+// noise of deviation 1 at the wanted pixels.
+void draw_cornices(Grid<float>& tone, const GuidanceBuffers& g, const Grid<float>& broken, const ToneParameters& p, PixelRect wanted) {
+  const auto scale = static_cast<float>(p.pixels_per_unit);
+  const int reach = cornice_px(p.pixels_per_unit);
+  parallel_rows(wanted.height(), [&](int row) {
+    const int y = wanted.y0 + row;
+    for (int x = wanted.x0; x < wanted.x1; ++x) {
+      if (!has_trait(g.land_cover(x, y), ClassTrait::icy)) continue;
+      const float hangs = smoothstep(-0.1F, 0.7F, broken(x - wanted.x0, row));
+      if (hangs <= 0.0F) continue;
+      const float depth = g.depth_m(x, y);
+      int up = 1;
+      while (up <= reach && y - up >= 0 && !(g.depth_m(x, y - up) > depth * (1.0F + surface_tolerance))) ++up;
+      if (up > reach || y - up < 0) continue;
+      const float below = (static_cast<float>(up) - 0.5F) / scale;
+      float& out = tone(x - wanted.x0, row);
+      const float lip = 1.0F - smoothstep(lip_units - 0.5F, lip_units + 0.3F, below);
+      const float shade = (1.0F - lip) * (1.0F - smoothstep(lip_units, cornice_units, below));
+      out = std::clamp(out + hangs * (0.55F * lip * std::max(0.0F, 0.98F - out) - 0.26F * shade * out), 0.0F, brightest_tone);
+    }
+  });
 }
 
 // How much forest lies around each wide pixel that touches a rectangle of the sheet, 0…1; other pixels hold 0.
@@ -136,9 +216,17 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide, con
   const Grid<float> pool = make_image_noise(stream_seed(parameters.seed, Stream::light_pools), origin_px + glm::ivec2(made.x0, made.y0),
                                             made.width(), made.height(), ppu, 140.0, 60.0);
 
+  // Drifts lie athwart light that rakes them: the wind blows 35° aside of where the light goes.
+  const glm::dvec2 level(parameters.sun_direction);
+  const double length = glm::length(level);
+  const glm::dvec2 away = length > 1e-6 ? -level / length : glm::dvec2(1.0, 0.0);
+  constexpr glm::dvec2 aside{0.819, 0.574};
+  const glm::dvec2 wind(away.x * aside.x - away.y * aside.y, away.x * aside.y + away.y * aside.x);
+
   Grid<float> tone(width, height, 0.0F);
   parallel_rows(made.height(), [&](int row) {
     const int y = made.y0 + row;
+    SnowRelief laid(parameters.seed, wind);
     for (int x = made.x0; x < made.x1; ++x) {
       const std::size_t i = tone.index(x, y);
       if (guidance.is_sky(i)) continue;
@@ -146,14 +234,23 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide, con
       const ClassTone& light = class_info(id).tone;
       // Rock whose relief was made has its light from there.
       const bool relief = has_relief && id == LandCoverClass::rock;
+      const bool white = is_white(id, parameters.winter);
       float value = 0.0F;
       if (relief) {
         value = middle_tone + (guidance.rock_tone[i] - middle_tone) / light.contrast;
       } else {
         const float fine = fineness(guidance, i, ppu);
-        float raw = raw_light(guidance, i, shadow[i], sky_view[i], fine, parameters);
+        float raw = 0.0F;
+        if (white) {
+          const glm::dvec3 place = glm::dvec3(guidance.position_m[i]) + guidance.origin_m;
+          const double metres_per_unit = std::max(0.01, static_cast<double>(guidance.footprint_m[i]) * ppu);
+          const SnowForm form = laid.at({place.x, place.y}, metres_per_unit, ppu);
+          raw = snow_light(guidance, i, shadow[i], sky_view[i], fine, form, parameters);
+        } else {
+          raw = raw_light(guidance, i, shadow[i], sky_view[i], fine, parameters);
+        }
         if (ribbed[i] != 0) raw += static_cast<float>(parameters.ribs) * light.ribs * fine * ribs[i] * steepness(guidance.slope_deg[i]);
-        value = std::clamp((raw - raw_black) / raw_range, id == LandCoverClass::rock ? -0.3F : 0.0F, 1.05F);
+        value = std::clamp((raw - raw_black) / raw_range, id == LandCoverClass::rock || white ? -0.3F : 0.0F, white ? 1.3F : 1.05F);
       }
       value += light.lift;
       value += pool_strength * pool(x - made.x0, row);
@@ -165,17 +262,23 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide, con
         value -= outcrop_shade * outcrop;
       }
       const float contrasted = middle_tone + (value - middle_tone) * contrast;
-      tone[i] = std::clamp(id == LandCoverClass::rock ? keep_forms(contrasted) : contrasted, 0.0F, brightest_tone);
+      const float kept = id == LandCoverClass::rock ? keep_forms(contrasted) : white ? keep_snow(contrasted) : contrasted;
+      tone[i] = std::clamp(kept, 0.0F, brightest_tone);
     }
     progress.advance(1.0);
   });
-  return lift_crests(tone, guidance, ppu, wanted);
+  Grid<float> lifted = lift_crests(tone, guidance, ppu, wanted);
+  const Grid<float> broken =
+      make_image_noise(stream_seed(parameters.seed, Stream::snow_cornices), origin_px + glm::ivec2(wanted.x0, wanted.y0), wanted.width(),
+                       wanted.height(), ppu, 16.0, 16.0);
+  draw_cornices(lifted, guidance, broken, parameters, wanted);
+  return lifted;
 }
 
 int tone_near_margin_px(const ToneParameters& parameters) {
   const double ppu = parameters.pixels_per_unit;
   static_assert(sky_blur_units > shadow_blur_units);
-  return std::max(rib_near_margin_px(ppu), surface_reach_px(sky_blur_units * ppu)) + below_crest_px(ppu) + 1;
+  return std::max({rib_near_margin_px(ppu), surface_reach_px(sky_blur_units * ppu), cornice_px(ppu)}) + below_crest_px(ppu) + 1;
 }
 
 int tone_margin_px(const ToneParameters& parameters) {

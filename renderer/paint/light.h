@@ -33,6 +33,7 @@ struct ToneParameters {
   double ribs = 1.0;                             // strength of ribs and gullies, 0…3
   double pixels_per_unit = 1.0;                  // as in StrokeParameters: pixels in 0.5 mm of the sheet
   double wrap = 0.22;                            // light beyond the terminator, 0…1
+  bool winter = false;                           // open ground lies under snow
   std::uint64_t seed = 1;
 };
 

@@ -117,7 +117,7 @@ SheetGround::SheetGround(const World& world, const SheetView& view, const Palett
       palette_(palette),
       run_(run),
       rock_parameters_(to_rock_parameters(world, palette, view)),
-      tone_parameters_(to_tone_parameters(world, view)),
+      tone_parameters_(to_tone_parameters(world, palette, view)),
       base_parameters_(to_base_parameters(world, view, palette)),
       strokes_(to_stroke_parameters(world, palette, view)),
       factor_(wide_factor(view.pixels_per_unit)),

@@ -30,19 +30,20 @@ SheetView reduced_view(const World& world, const Camera& reduced, int factor) {
   return {reduced, world.scene.pixels_per_unit() / factor, world.horizon_px / factor};
 }
 
-ToneParameters to_tone_parameters(const World& world, const SheetView& view) {
+ToneParameters to_tone_parameters(const World& world, const Palette& palette, const SheetView& view) {
   ToneParameters parameters;
   parameters.light = world.scene.light;
   if (world.view.sun.altitude_deg <= 0.0) parameters.light.sun = 0.0;
   parameters.sun_direction = world.view.sun_direction;
   parameters.pixels_per_unit = view.pixels_per_unit;
   parameters.sun_image_x = world.view.sun_image_x;
+  parameters.winter = palette.winter;
   parameters.seed = world.scene.seed;
   return parameters;
 }
 
 RockParameters to_rock_parameters(const World& world, const Palette& palette, const SheetView& view) {
-  return {to_tone_parameters(world, view), &find_rock_kind(world.scene.land_cover.rock), palette.winter};
+  return {to_tone_parameters(world, palette, view), &find_rock_kind(world.scene.land_cover.rock), palette.winter};
 }
 
 BaseParameters to_base_parameters(const World& world, const SheetView& view, const Palette& palette) {
@@ -101,7 +102,7 @@ LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRec
   const PixelRect all{0, 0, traced.width(), traced.height()};
   picture.guidance = gather_rows(traced, shift_crests(traced, wide, rock, origin_px, all), all);
   take_relief(picture.guidance, make_rock_relief(picture.guidance, wide, rock, origin_px, run.progress));
-  picture.guidance.tone = make_tone(picture.guidance, wide, to_tone_parameters(world, view), origin_px, run.progress);
+  picture.guidance.tone = make_tone(picture.guidance, wide, to_tone_parameters(world, palette, view), origin_px, run.progress);
   picture.base = make_base_picture(picture.guidance, wide, palette, to_base_parameters(world, view, palette), origin_px, view.camera.size(),
                                    run.progress);
   picture.guidance.base = decode_srgb(picture.base.colour);

@@ -27,7 +27,7 @@ GuidanceBuffers trace_view(const World& world, const SheetView& view, PixelRect 
 GuidanceBuffers trace_forms(const World& world, const Camera& camera, PixelRect region, const Run& run);
 // … and what light and base picture are made with.
 RockParameters to_rock_parameters(const World& world, const Palette& palette, const SheetView& view);
-ToneParameters to_tone_parameters(const World& world, const SheetView& view);
+ToneParameters to_tone_parameters(const World& world, const Palette& palette, const SheetView& view);
 BaseParameters to_base_parameters(const World& world, const SheetView& view, const Palette& palette);
 
 // The traced channels with light and base picture: complete guidance buffers, and the base picture that strokes are painted on.

@@ -60,6 +60,23 @@ TEST(Base, RockHasTheHueOfItsPlaneAndTurfAndSnowOnItsTreads) {
   expect(palette_colour(palette, LandCoverClass::alpine_grass, 1200.0, 0.55));
 }
 
+// Ice is blue where ground without any lies near; deep in the snow it is white with firn.
+TEST(Base, TonguesAreIceAndFirnIsSnow) {
+  GuidanceBuffers g = make_slope(200, 40, LandCoverClass::glacier, {0.0F, 0.0F, 1.0F}, 10.0F);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 20; ++x) g.land_cover(x, y) = LandCoverClass::scree;
+  const Palette palette = read_palette("summer");
+  const BasePicture base = picture_of(g, plain());
+  const glm::vec3 ice = palette_colour(palette, LandCoverClass::glacier, 1200.0, 0.6);
+  const glm::vec3 snow = palette_colour(palette, LandCoverClass::snow, 1200.0, 0.6);
+  EXPECT_LT(glm::length(base.colour(22, 20) - ice), 1e-5F);
+  EXPECT_LT(glm::length(base.colour(180, 20) - snow), 1e-5F);
+  EXPECT_GT(glm::length(ice - snow), 0.05F);
+  const float from_ice = glm::length(picture_of(g, plain(), "winter").colour(22, 20) -
+                                     palette_colour(read_palette("winter"), LandCoverClass::glacier, 1200.0, 0.6));
+  EXPECT_GT(from_ice, 0.01F) << "in winter tongues lie under snow";
+}
+
 // Pale and warm in every season, and never as white as snow.
 TEST(Base, SandIsPaleAndWarm) {
   const GuidanceBuffers g = make_slope(30, 20, LandCoverClass::sand, {0.0F, 0.0F, 1.0F}, 2.0F);

@@ -66,14 +66,21 @@ TEST(TransferResidual, SameBaseGivesTheTexel) {
 }
 
 // Of a texel's own planes of rock nothing is left but the strokes on them.
-TEST(TransferResidual, RockTakesAllOfTheLightOfItsOwnPlace) {
+TEST(TransferResidual, RockAndSnowTakeAllOfTheLightOfTheirOwnPlace) {
   const std::vector<PaintedExemplar> exemplars = {make_exemplar(true)};
   const MatchField matches(2, 1, Match{0, 0, 0});
   Grid<LandCoverClass> shown(2, 1, LandCoverClass::scree);
-  shown(1, 0) = LandCoverClass::rock;
-  const Grid<glm::vec3> out = transfer_residual(matches, exemplars, Grid<glm::vec3>(2, 1, glm::vec3(0.6F)), {}, 0.5, shown);
-  EXPECT_NEAR(out(0, 0).x, 0.5F + 0.5F * 0.2F, 1e-6F);
-  EXPECT_NEAR(out(1, 0).x, 0.5F + 0.2F, 1e-6F);
+  const auto painted = [&](LandCoverClass formed) {
+    shown(1, 0) = formed;
+    return transfer_residual(matches, exemplars, Grid<glm::vec3>(2, 1, glm::vec3(0.6F)), {}, 0.5, shown);
+  };
+  EXPECT_NEAR(painted(LandCoverClass::rock)(0, 0).x, 0.5F + 0.5F * 0.2F, 1e-6F);
+  EXPECT_NEAR(painted(LandCoverClass::rock)(1, 0).x, 0.5F + 0.2F, 1e-6F);
+  // The texel's strokes are .1 lighter than its base: more than snow takes.
+  for (const LandCoverClass icy : {LandCoverClass::snow, LandCoverClass::glacier}) {
+    EXPECT_GT(painted(icy)(1, 0).x, 0.6F + 0.5F * snow_strokes_most);
+    EXPECT_LT(painted(icy)(1, 0).x, 0.6F + snow_strokes_most);
+  }
 }
 
 TEST(TransferResidual, RefusesMatchesOutside) {

@@ -133,6 +133,64 @@ TEST(Tone, WallsInShadowKeepTheirForms) {
   EXPECT_GT(tone(-0.1F), tone(-0.2F) + 0.01);
 }
 
+// Level snow of one normal still has forms, in the sun and in the shade, and never ends in bare white or one dark.
+TEST(Tone, SnowHasForms) {
+  GuidanceBuffers field = make_slope(160, 120, LandCoverClass::snow, {0.0F, 0.0F, 1.0F}, 8.0F);
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x)
+      field.position_m(x, y) = glm::vec3(15.0F * static_cast<float>(x), -15.0F * static_cast<float>(y), 1200.0F);
+  const auto spread = [&](LandCoverClass id, float shadow, bool winter) {
+    for (LandCoverClass& each : field.land_cover) each = id;
+    for (float& s : field.shadow) s = shadow;
+    ToneParameters p;
+    p.winter = winter;
+    const Grid<float> tone = tone_of(field, p);
+    const double middle = mean(tone);
+    double squares = 0.0;
+    for (const float t : tone) squares += (static_cast<double>(t) - middle) * (static_cast<double>(t) - middle);
+    return std::sqrt(squares / static_cast<double>(tone.size()));
+  };
+  EXPECT_GT(spread(LandCoverClass::snow, 1.0F, false), 0.065);
+  EXPECT_GT(spread(LandCoverClass::glacier, 1.0F, false), 0.06);
+  EXPECT_GT(spread(LandCoverClass::snow, 0.0F, false), 0.025) << "shade keeps its forms";
+  EXPECT_LT(spread(LandCoverClass::pasture, 1.0F, false), 0.05) << "grass has none of it";
+  EXPECT_GT(spread(LandCoverClass::pasture, 1.0F, true), 0.055) << "but in winter it lies under snow";
+}
+
+TEST(Tone, SnowShadeIsNeverTheDarkestAndKeepsItsForms) {
+  // The deepest shade of two slopes that look away from the sun.
+  GuidanceBuffers shade = make_slope(24, 24, LandCoverClass::snow, {0.6F, -0.6F, 0.7F}, 48.0F);
+  for (float& s : shade.shadow) s = 0.0F;
+  const auto tone = [&](glm::vec3 normal, float sky_view) {
+    shade.normal = shade.normal_detail = shade.normal_smooth = Grid<glm::vec3>(24, 24, glm::normalize(normal));
+    for (float& v : shade.sky_view) v = sky_view;
+    return mean(tone_of(shade));
+  };
+  const double deep = tone({0.5F, -0.7F, 0.5F}, 0.3F);
+  EXPECT_GT(deep, 0.0);
+  EXPECT_GT(tone({0.5F, -0.7F, 0.5F}, 0.5F), deep + 0.005);
+}
+
+// Under a crest of snow a lip is lighter than what lies below it, here and there; without anything farther behind there is no crest.
+TEST(Tone, CornicesHangOverCrestsOfSnow) {
+  GuidanceBuffers g = make_slope(400, 40, LandCoverClass::snow, {0.3F, -0.3F, 0.9F}, 25.0F);
+  ToneParameters p;
+  p.ribs = 0.0;
+  const auto shades = [&] {
+    const Grid<float> tone = tone_of(g, p);
+    int hung = 0;
+    for (int x = 0; x < 400; ++x) hung += tone(x, 10) > tone(x, 13) + 0.1F ? 1 : 0;
+    return hung;
+  };
+  const int flat = shades();
+  for (int x = 0; x < 400; ++x)
+    for (int y = 0; y < 10; ++y) g.depth_m(x, y) = 40000.0F;
+  const int crest = shades();
+  EXPECT_LT(flat, 5);
+  EXPECT_GT(crest, 60);
+  EXPECT_LT(crest, 360) << "broken";
+}
+
 TEST(Tone, CrestTakesTheToneFromBelow) {
   // A dark rim of two pixels on a lit slope, below a farther range.
   GuidanceBuffers g = make_slope(24, 24, LandCoverClass::pasture, sun_side_normal, 10.0F);

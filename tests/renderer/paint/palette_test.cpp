@@ -37,7 +37,7 @@ TEST(Palette, RampIsExactAtItsStops) {
   expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.34), rgb(0x7c7998));
   expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.66), rgb(0xc6b8ae));
   expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 1.0), rgb(0xfdf2e4));
-  expect_colour(palette_colour(read_palette("winter"), LandCoverClass::snow, 2300.0, 0.34), rgb(0xa9b3da));
+  expect_colour(palette_colour(read_palette("winter"), LandCoverClass::snow, 2300.0, 0.34), rgb(0xa9b8e0));
 }
 
 TEST(Palette, RampIsLinearBetweenStopsAndFlatBeyond) {

@@ -1,0 +1,81 @@
+#include "renderer/paint/ground/snow_relief.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace belvedere {
+namespace {
+
+constexpr glm::dvec2 east{1.0, 0.0};
+constexpr double metres_per_unit = 21.4;  // swells of exactly one octave, 256 m
+
+// What is added to the ground is a slope: walked along a way it gives the same rise as along another.
+TEST(SnowRelief, SlopesAreThoseOfASurface) {
+  SnowRelief snow(7, east);
+  // A small closed square: the sum of rises around it is next to nothing against the rises themselves.
+  const double side_m = 160.0;
+  const int steps = 400;
+  double around = 0.0, up_and_down = 0.0;
+  for (int edge = 0; edge < 4; ++edge)
+    for (int k = 0; k < steps; ++k) {
+      const double t = (k + 0.5) / steps * side_m;
+      const glm::dvec2 corner[4] = {{0, 0}, {side_m, 0}, {side_m, side_m}, {0, side_m}};
+      const glm::dvec2 way[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+      const glm::dvec2 place = corner[edge] + way[edge] * t;
+      const glm::dvec2 slope(
+          snow.at(glm::dvec2(4300.0, 1900.0) + place, metres_per_unit, 0.2).slope);  // swells alone: too small for drifts
+      const double rise = glm::dot(slope, way[edge]) * side_m / steps;
+      around += rise;
+      up_and_down += std::abs(rise);
+    }
+  EXPECT_GT(up_and_down, 0.0);
+  EXPECT_LT(std::abs(around), 0.15 * up_and_down);
+}
+
+TEST(SnowRelief, IsAsSteepNearAsFarAndSharpAtCrests) {
+  for (const double metres : {3.0, 21.4, 80.0}) {
+    SnowRelief snow(3, east);
+    double squares = 0.0, sharpest = 0.0, mean_change = 0.0;
+    glm::vec2 before(0.0F);
+    const int places = 6000;
+    for (int k = 0; k < places; ++k) {
+      const SnowForm form = snow.at({1000.0 + k * metres * 0.5, 777.0 * metres}, metres, 2.0);
+      squares += static_cast<double>(glm::dot(form.slope, form.slope));
+      const auto change = static_cast<double>(glm::length(form.slope - before));
+      if (k > 0) sharpest = std::max(sharpest, change), mean_change += change / places;
+      before = form.slope;
+    }
+    const double slope = std::sqrt(squares / places);
+    EXPECT_GT(slope, 0.08) << metres;
+    EXPECT_LT(slope, 0.45) << metres;
+    EXPECT_GT(sharpest, 5.0 * mean_change) << "flanks are planes, crests are edges";
+  }
+}
+
+TEST(SnowRelief, DriftsLieAcrossTheWind) {
+  SnowRelief snow(5, east);
+  double along = 0.0, across = 0.0;
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x) {
+      const glm::vec2 slope = snow.at({x * 170.0, y * 230.0}, metres_per_unit, 1.0).slope;
+      along += static_cast<double>(slope.x * slope.x);
+      across += static_cast<double>(slope.y * slope.y);
+    }
+  EXPECT_GT(along, 2.0 * across);
+}
+
+TEST(SnowRelief, IsAFunctionOfPlaceAlone) {
+  SnowRelief one(9, east), other(9, east), another_seed(10, east);
+  const glm::dvec2 place(690123.0, 5249456.0);
+  for (int k = 0; k < 500; ++k) one.at({690000.0 + 17.0 * k, 5249000.0 - 31.0 * k}, 10.0 + 0.1 * k, 1.0);
+  const SnowForm a = one.at(place, 22.0, 1.0);
+  const SnowForm b = other.at(place, 22.0, 1.0);
+  EXPECT_EQ(a.slope, b.slope);
+  EXPECT_EQ(a.height, b.height);
+  EXPECT_NE(another_seed.at(place, 22.0, 1.0).slope, a.slope);
+}
+
+}  // namespace
+}  // namespace belvedere
