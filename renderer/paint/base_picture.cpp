@@ -30,6 +30,7 @@ constexpr double tone_step = 0.17;                       // to the darker and th
 constexpr double range_sigma_units = 14.0;               // width of mist behind an edge
 constexpr double krummholz_sigma_units = 12.0;           // dwarf pine stands about the treeline
 constexpr double tongue_sigma_units = 20.0;              // ice is blue and bare as far from ground without ice as this tells
+const glm::vec3 reflected_warmth{0.24F, 0.07F, -0.08F};  // what light from lit ground adds to the shade of a wall at its foot, factors
 constexpr double brook_sigma_units = 1.8;                // what this blur of the water leaves pale is a brook
 constexpr float high_m = 260.0F;                         // what stands so far above its surroundings is a crest
 
@@ -179,6 +180,20 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& 
   return pixel;
 }
 
+// How much lit ground at the foot of a wall throws warm light up into its shade, 0…1: by what lies some units below it.
+float reflected_share(const Scenery& s, int x, int y) {
+  constexpr int looks = 8;
+  constexpr double spacing_units = 1.7;
+  int open = 0;
+  for (int k = 1; k <= looks; ++k) {
+    const int down = static_cast<int>(std::lround(k * spacing_units * s.parameters.pixels_per_unit));
+    const std::size_t w = s.wide.index(s.origin_px.x + x, s.origin_px.y + y + down);
+    const Class id = s.wide.seen.land_cover[w];
+    if (id != Class::rock && id != Class::sky && same_surface(s.wide.seen.depth_m[w], s.guidance.depth_m(x, y))) ++open;
+  }
+  return static_cast<float>(open) / looks;
+}
+
 float firn_share(const Scenery& s, int x, int y) {
   const float bare = value_on_surface(s.wide, s.around.bare, s.origin_px.x + x, s.origin_px.y + y, s.guidance.depth_m(x, y));
   const float tongue = smoothstep(0.02F, 0.24F, bare);
@@ -199,7 +214,9 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
       id == Class::water ? water_look(g, s.palette, s.around.mirrored, i, s.around.water[i], s.around.streaks[i], patches) : WaterLook{};
   const bool bare = id == Class::rock && !g.rock_facet.empty();
   const glm::vec2 cover = bare ? g.rock_cover[i] : glm::vec2(0.0F);
-  const glm::vec3 hue = bare ? rock_hue(*s.parameters.rock, g.rock_facet[i], 1.0F - smoothstep(0.10F, 0.42F, g.tone[i])) : glm::vec3(1.0F);
+  const float shade = bare ? 1.0F - smoothstep(0.10F, 0.42F, g.tone[i]) : 0.0F;
+  glm::vec3 hue = bare ? rock_hue(*s.parameters.rock, g.rock_facet[i], shade) : glm::vec3(1.0F);
+  if (shade > 0.0F && !s.palette.winter) hue *= 1.0F + shade * reflected_share(s, x, y) * reflected_warmth;
   const TintShift tint = s.parameters.tint && id != Class::water
                              ? tint_shift(*s.parameters.tint, s.palette, id, altitude, s.place_m(i), g.footprint_m[i])
                              : TintShift{};

@@ -77,6 +77,22 @@ TEST(Base, TonguesAreIceAndFirnIsSnow) {
   EXPECT_GT(from_ice, 0.01F) << "in winter tongues lie under snow";
 }
 
+// Lit ground throws warm light up into the shade of a wall, at its foot and nowhere else.
+TEST(Base, ShadeOfWallsIsWarmAtTheirFoot) {
+  GuidanceBuffers g = make_slope(30, 120, LandCoverClass::rock, {0.0F, 0.0F, 1.0F}, 50.0F);
+  for (int y = 90; y < 120; ++y)
+    for (int x = 0; x < 30; ++x) g.land_cover(x, y) = LandCoverClass::alpine_grass;
+  g.rock_facet = Grid<std::uint32_t>(30, 120, 0x00070009U);
+  g.rock_cover = Grid<glm::vec2>(30, 120, glm::vec2(0.0F));
+  const auto warmth = [&](float tone, int y) {
+    g.tone = Grid<float>(30, 120, tone);
+    const glm::vec3 colour = picture_of(g, plain()).colour(15, y);
+    return colour.r / colour.b;
+  };
+  EXPECT_GT(warmth(0.08F, 88), 1.15F * warmth(0.08F, 40));
+  EXPECT_NEAR(warmth(0.7F, 88), warmth(0.7F, 40), 1e-4F) << "in the sun there is none";
+}
+
 // Pale and warm in every season, and never as white as snow.
 TEST(Base, SandIsPaleAndWarm) {
   const GuidanceBuffers g = make_slope(30, 20, LandCoverClass::sand, {0.0F, 0.0F, 1.0F}, 2.0F);
