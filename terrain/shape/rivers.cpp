@@ -16,7 +16,11 @@ namespace {
 
 constexpr double least_catchment_km2 = 75.0;  // streams begin
 constexpr double full_catchment_km2 = 110.0;  // and have their whole width
-constexpr double widest_m = 150.0;
+constexpr double full_half_width_m = 18.0;
+constexpr double widest_m = 90.0;
+// On coarse cells a river is drawn as wide as it takes to be seen, .58 of a cell each way, but no wider than this times its width.
+constexpr double seen_cells = 0.58;
+constexpr double widened = 30.0 / 18.0;
 // Passes of [1 2 1] / 4, each of variance 1/2: 24 smooth by sqrt(12) = 3.5 cells.
 constexpr int smoothing_passes = 24;
 constexpr std::size_t none = static_cast<std::size_t>(-1);
@@ -112,11 +116,13 @@ double river_half_width_m(double catchment_km2) {
   if (catchment_km2 <= least_catchment_km2) return 0.0;
   const double exponent = exact::log(60.0 / 30.0) / exact::log(500.0 / 110.0);
   const double t = std::clamp((catchment_km2 - least_catchment_km2) / (full_catchment_km2 - least_catchment_km2), 0.0, 1.0);
-  return std::min(widest_m, 30.0 * exact::pow(catchment_km2 / full_catchment_km2, exponent) * t * t * (3.0 - 2.0 * t));
+  return std::min(widest_m, full_half_width_m * exact::pow(catchment_km2 / full_catchment_km2, exponent) * t * t * (3.0 - 2.0 * t));
 }
 
 Grid<float> river_mask(const Grid<float>& catchment_km2, double cell_m) {
   std::vector<Reach> reaches = find_reaches(catchment_km2);
+  for (Reach& reach : reaches)
+    reach.half_width_m = std::max(reach.half_width_m, std::min(widened * reach.half_width_m, seen_cells * cell_m));
   smooth(reaches);
   Grid<float> mask(catchment_km2.width(), catchment_km2.height());
   for (const Reach& reach : reaches) {

@@ -10,7 +10,7 @@
 namespace belvedere {
 namespace {
 
-// A river down the rows, at column(y) in row y, whose catchment hardly grows: 110 km² makes 60 m wide.
+// A river down the rows, at column(y) in row y, whose catchment hardly grows: 110 km² makes 36 m wide.
 Grid<float> river_down(int width, int height, const std::function<int(int)>& column, float catchment_km2 = 110.F) {
   Grid<float> area(width, height, 1.F);
   for (int y = 0; y < height; ++y) area(column(y), y) = catchment_km2 + 1e-4F * static_cast<float>(y);
@@ -18,10 +18,10 @@ Grid<float> river_down(int width, int height, const std::function<int(int)>& col
 }
 
 TEST(Rivers, GrowSteadilyWithTheCatchment) {
-  EXPECT_NEAR(river_half_width_m(110.0), 30.0, 1e-9);
-  EXPECT_NEAR(river_half_width_m(500.0), 60.0, 1e-9);
+  EXPECT_NEAR(river_half_width_m(110.0), 18.0, 1e-9);
+  EXPECT_NEAR(river_half_width_m(500.0), 36.0, 1e-9);
   EXPECT_EQ(river_half_width_m(75.0), 0.0);
-  EXPECT_EQ(river_half_width_m(1e7), 150.0);
+  EXPECT_EQ(river_half_width_m(1e7), 90.0);
   double before = 0.0;
   for (double area = 60.0; area < 5000.0; area += 1.0) {
     const double here = river_half_width_m(area);
@@ -47,19 +47,19 @@ Grid<float> river_along(int width, int height, double from_km2, double to_km2, F
 }
 
 TEST(Rivers, AreAsWideAsTheirCatchmentSays) {
-  // A straight river of 500 km²: 120 m wide, on cells of 10 m.
+  // A straight river of 500 km²: 72 m wide, on cells of 10 m.
   const Grid<float> mask = river_mask(river_along(60, 41, 500.0, 500.1, [](int) { return 20; }), 10.0);
   for (int x = 20; x < 40; ++x) {
     double width_m = 0.0;
     for (int y = 0; y < 41; ++y) width_m += 10.0 * mask(x, y);
-    EXPECT_NEAR(width_m, 120.0, 0.5) << x;
+    EXPECT_NEAR(width_m, 72.0, 0.5) << x;
     EXPECT_FLOAT_EQ(mask(x, 20), 1.F);
     EXPECT_FLOAT_EQ(mask(x, 30), 0.F);
   }
 }
 
 TEST(Rivers, ThinOnesCoverAPartOfTheirCells) {
-  // 60 m of water in cells of 200 m: three tenths, not nothing and not a whole cell.
+  // 36 m of water, drawn 60 m wide to be seen, in cells of 200 m: three tenths, not nothing and not a whole cell.
   const Grid<float> mask = river_mask(river_along(30, 9, 110.0, 110.1, [](int) { return 4; }), 200.0);
   EXPECT_NEAR(mask(15, 4), 0.3F, 0.01F);
   EXPECT_EQ(mask(15, 6), 0.F);
@@ -99,13 +99,13 @@ TEST(Rivers, SmallStreamsAreNone) {
 
 TEST(Rivers, AreTheShareOfEachCellThatTheyCover) {
   const Grid<float> coarse = river_mask(river_down(21, 30, [](int) { return 10; }), 100.0);
-  EXPECT_NEAR(coarse(10, 15), 0.6, 1e-3) << "60 m of a cell of 100 m";
+  EXPECT_NEAR(coarse(10, 15), 0.6, 1e-3) << "36 m, drawn 60 m wide, of a cell of 100 m";
   EXPECT_EQ(coarse(9, 15), 0.F);
   const Grid<float> fine = river_mask(river_down(21, 30, [](int) { return 10; }), 25.0);
-  // From the centre line 12.5 m, 37.5 m and 62.5 m: cells end there, the river at 30 m.
+  // From the centre line 12.5 m, 37.5 m and 62.5 m: cells end there, the river at 18 m.
   EXPECT_NEAR(fine(10, 15), 1.0, 1e-3);
-  EXPECT_NEAR(fine(11, 15), 0.7, 1e-3);
-  EXPECT_NEAR(fine(9, 15), 0.7, 1e-3);
+  EXPECT_NEAR(fine(11, 15), 0.22, 1e-3);
+  EXPECT_NEAR(fine(9, 15), 0.22, 1e-3);
   EXPECT_EQ(fine(12, 15), 0.F);
 }
 
@@ -116,7 +116,7 @@ TEST(Rivers, ASmoothedPathIsAStraightLine) {
   for (int y = 40; y < 60; ++y) {
     for (int x = 0; x < 60; ++x) {
       const double distance_m = std::abs(x - (0.5 * y - 0.25)) / std::sqrt(1.25) * cell_m;
-      const double covered = std::min(distance_m + 0.5 * cell_m, 30.0) - std::max(distance_m - 0.5 * cell_m, -30.0);
+      const double covered = std::min(distance_m + 0.5 * cell_m, 29.0) - std::max(distance_m - 0.5 * cell_m, -29.0);
       EXPECT_NEAR(mask(x, y), std::clamp(covered / cell_m, 0.0, 1.0), 2e-3) << x << ' ' << y;
     }
   }
