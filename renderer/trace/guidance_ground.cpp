@@ -7,6 +7,8 @@
 
 #include "base/angle.h"
 #include "base/math_exact.h"
+#include "base/noise.h"
+#include "base/random_streams.h"
 
 namespace belvedere {
 namespace {
@@ -14,6 +16,42 @@ namespace {
 constexpr double fall_line_step_m = 60.0;
 constexpr double flat_gradient = 0.002;  // 0.1°: below, water and noise would give a direction by chance
 constexpr float ridge_scale_m = 10.F;
+// What grows ends raggedly: its borders are moved by noise of two sizes, in cells of its raster. Without it near borders are scallops, a
+// cell each, however smoothly classes are drawn between cells.
+constexpr double fray_broad_cells = 0.95;  // deviation of the way, whose noise has patches of …
+constexpr double fray_broad_sigma = 1.25;
+constexpr double fray_fine_cells = 0.42;
+constexpr double fray_fine_sigma = 0.40;
+constexpr double fray_reach = 1.5;  // cells: where the class is the same so far around, no border is near
+
+bool frays(LandCoverClass id) {
+  using enum LandCoverClass;
+  return id == forest || id == pasture || id == alpine_grass || id == shrub || id == scree;
+}
+
+// Water, ice, walls and what is built keep their outlines.
+LandCoverClass frayed_class(const LandCover& cover, glm::dvec2 place) {
+  const LandCoverClass found = cover.at(place.x, place.y);
+  if (!frays(found)) return found;
+  const double cell = 0.5 * (cover.classes.transform.cell_x + cover.classes.transform.cell_y);
+  const double reach = fray_reach * cell;
+  bool same = true;
+  for (const glm::dvec2 corner : {glm::dvec2(1.0, 1.0), glm::dvec2(-1.0, 1.0), glm::dvec2(1.0, -1.0), glm::dvec2(-1.0, -1.0)})
+    same = same && cover.at(place.x + reach * corner.x, place.y + reach * corner.y) == found;
+  if (same) return found;
+  const auto noise = [&](std::uint64_t part, double sigma) {
+    return gaussian_noise(stream_seed(0, Stream::class_noise, part), place.x, place.y, sigma * cell);
+  };
+  // One draw a statement.
+  const double broad_x = noise(0xF0A0U, fray_broad_sigma);
+  const double broad_y = noise(0xF0A1U, fray_broad_sigma);
+  const double fine_x = noise(0xF0A2U, fray_fine_sigma);
+  const double fine_y = noise(0xF0A3U, fray_fine_sigma);
+  const double east = std::clamp(fray_broad_cells * broad_x + fray_fine_cells * fine_x, -fray_reach, fray_reach) * cell;
+  const double north = std::clamp(fray_broad_cells * broad_y + fray_fine_cells * fine_y, -fray_reach, fray_reach) * cell;
+  const LandCoverClass moved = cover.at(place.x + east, place.y + north);
+  return frays(moved) ? moved : found;
+}
 
 // The four posts around a place and their weights, borders replicated.
 struct Corners {
@@ -107,7 +145,7 @@ glm::dvec2 origin_of(const TerrainModel& terrain, double column, double row) {
 LandCoverClass class_at(const TerrainModel& terrain, double column, double row) {
   const glm::dvec2 origin = origin_of(terrain, column, row);
   const glm::dvec2 place = terrain.dem->transform.to_crs(origin.x, origin.y);
-  const LandCoverClass found = terrain.land_cover->at(place.x, place.y);
+  const LandCoverClass found = frayed_class(*terrain.land_cover, place);
   return found == LandCoverClass::sky ? LandCoverClass::rock : found;
 }
 

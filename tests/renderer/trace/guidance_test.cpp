@@ -18,6 +18,7 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/guidance_channels.h"
+#include "renderer/trace/guidance_ground.h"
 #include "renderer/trace/guidance_rays.h"
 #include "tests/renderer/trace/made_up_ground.h"
 
@@ -64,6 +65,38 @@ TEST(Guidance, LevelGroundIsLitOpenAndFlat) {
     EXPECT_NEAR(b.valley_height_m[i], 0.F, 1e-3);
   }
   EXPECT_GT(ground, 2000);
+}
+
+// Wood ends raggedly on grass, within a cell or two of where the map has its border and about it; at water's edge nothing is moved.
+TEST(Guidance, WhatGrowsHasRaggedBordersAndShoresKeepTheirs) {
+  const auto border_of = [](LandCoverClass beyond) {
+    const World world = make_world(
+        80, 80, [](double, double) { return 500.0; }, [&](double x, double) { return x > 39.5 * cell ? LandCoverClass::forest : beyond; });
+    std::vector<double> places;  // columns where each row's border lies
+    for (double row = 5.0; row < 75.0; row += 0.2) {
+      int outside = 0;
+      for (double column = 30.0; column < 50.0; column += 0.05) {
+        const LandCoverClass id = class_at(world.terrain, column, row);
+        outside += id == beyond ? 1 : 0;
+        if (column < 36.0 || column > 43.0) {
+          EXPECT_EQ(id, column > 39.5 ? LandCoverClass::forest : beyond) << column << ' ' << row;
+        }
+      }
+      places.push_back(30.0 + 0.05 * outside);
+    }
+    double sum = 0.0;
+    double squares = 0.0;
+    for (const double place : places) sum += place, squares += place * place;
+    const double mean = sum / static_cast<double>(places.size());
+    return std::pair(mean, std::sqrt(std::max(0.0, squares / static_cast<double>(places.size()) - mean * mean)));
+  };
+  const auto [grass, ragged] = border_of(LandCoverClass::pasture);
+  EXPECT_NEAR(grass, 39.5, 0.35);
+  EXPECT_GT(ragged, 0.5);
+  EXPECT_LT(ragged, 1.3);
+  const auto [shore, straight] = border_of(LandCoverClass::water);
+  EXPECT_NEAR(shore, 39.5, 0.1);
+  EXPECT_LT(straight, 0.03);
 }
 
 TEST(Guidance, GroundThatMovedTakesAlongWhatLiesOnIt) {
