@@ -243,17 +243,18 @@ CacheKey sheet_key(const ExampleSheetPlan& plan, const ExampleSheetHand& hand, c
   CacheKeyText key;
   key.add("plan", write_example_sheet_plan(plan));
   const auto& [palette, light] = hand;
-  const auto& [name, winter, classes, sky, cloud_light, cloud_shade, haze_near, haze_far, range_mist, growth, haze_share, warm_share,
-               ground_drift_share, forest_drift_share, rock_drift_share] = palette;
-  key.add("palette", name).add("winter", winter);
+  const auto& [name, winter, treeline_m, classes, sky, cloud_light, cloud_shade, haze_near, haze_far, range_mist, growth, haze_share,
+               warm_share, ground_drift_share, forest_drift_share, rock_drift_share] = palette;
+  key.add("palette", name).add("winter", winter).add("treeline_m", treeline_m);
   for (const auto& [stops] : classes) {
     key.add("class", stops.size());
     for (const auto& [altitude_m, ramp] : stops) key.add("altitude_m", altitude_m).add("ramp", ramp);
   }
   key.add("sky", sky).add("cloud_light", cloud_light).add("cloud_shade", cloud_shade);
   key.add("haze_near", haze_near).add("haze_far", haze_far).add("range_mist", range_mist);
-  const auto& [leaves, leaf_share] = growth;
-  key.add("leaves", leaves).add("leaf_share", leaf_share).add("haze_share", haze_share).add("warm_share", warm_share);
+  const auto& [leaves, leaf_share, larch, larch_share] = growth;
+  key.add("leaves", leaves).add("leaf_share", leaf_share).add("larch", larch).add("larch_share", larch_share);
+  key.add("haze_share", haze_share).add("warm_share", warm_share);
   key.add("ground_drift_share", ground_drift_share).add("forest_drift_share", forest_drift_share);
   key.add("rock_drift_share", rock_drift_share).add("own light", !light.has_value());
   const auto& [sun, sky_light, relief, shadow_depth, contrast] = light.value_or(LightParameters());

@@ -12,6 +12,9 @@
 #include "renderer/paint/air.h"
 #include "renderer/paint/fields.h"
 #include "renderer/paint/forest_cover.h"
+#include "renderer/paint/ground/forest_hues.h"
+#include "renderer/paint/ground/meadow_hues.h"
+#include "renderer/paint/ground/scree_fans.h"
 #include "renderer/paint/ground_hues.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
@@ -52,6 +55,7 @@ struct Surroundings {
   Grid<float> wood;     // share of forest around
   ForestCover cover;    // of forest pixels
   Grid<float> bare;     // share of ground without snow and ice around each wide pixel, on the same surface; empty where there is no ice
+  ScreeFans fans;       // of scree pixels
   Grid<float> water;    // share of water around, on the same surface
   Mirrored mirrored;    // of water pixels; empty where there is none
   Grid<float> streaks;  // the same
@@ -88,6 +92,7 @@ Surroundings look_around(const GuidanceBuffers& g, const WideView& wide, const P
       enlarge(wide, blur_in_picture(class_mask(wide.seen, Class::forest), krummholz_sigma_units * wide_ppu, wide.origin_px), window);
   if (has_ice(g)) around.bare = bare_around(wide, wide_ppu, window);
   around.cover = make_forest_cover(g, wide, {ppu, p.seed}, origin_px, wanted);
+  around.fans = make_scree_fans(g, wide, {ppu, p.seed}, origin_px, wanted);
   if (has_water(g)) {
     around.water = blur_on_surface(class_mask(g, Class::water), g.depth_m, brook_sigma_units * ppu, wanted);
     around.mirrored = find_reflections(g, ppu, wanted);
@@ -151,6 +156,38 @@ struct Scenery {
   float raised(std::size_t i) const { return std::clamp(guidance.relief_l_m[i] / high_m, -1.0F, 1.0F); }
 };
 
+// Factor of what grows: greens of meadows, fields, woods of gullies and ribs. In winter snow lies on it.
+glm::vec3 grown_hue(const Scenery& s, std::size_t i, const Patches& patches, float air) {
+  const GuidanceBuffers& g = s.guidance;
+  const Class id = g.land_cover[i];
+  const auto drift = static_cast<float>(s.parameters.air.hue_drift);
+  if (id == Class::forest) return forest_turn(g.relief_s_m[i], g.relief_m_m[i], patches, drift).factor;
+  const MeadowPlace place = meadow_place(g, i, s.palette.treeline_m, static_cast<float>(s.parameters.sunny_side));
+  const MeadowMix mix = meadow_mix(id, place, patches);
+  glm::vec3 hue = meadow_hue(mix, drift * static_cast<float>(s.palette.ground_drift_share));
+  const float fields = id == Class::valley_floor ? 1.0F : mix.mown;
+  if (fields > 0.0F) {
+    const glm::dvec3 at = s.place_m(i);
+    const float metres_per_unit = s.metres_per_unit(i);
+    const Parcel parcel = parcel_at(s.parameters.seed, at.x, at.y, metres_per_unit, g.grain[i]);
+    // Slopes that are mown keep their strips; on the valley floor it is the slopes where meadow takes over.
+    const float slope_deg = id == Class::valley_floor ? g.slope_deg[i] : 0.25F * g.slope_deg[i];
+    hue *= glm::mix(glm::vec3(1.0F), field_colour(parcel, slope_deg, metres_per_unit, air, drift), fields);
+  }
+  return hue;
+}
+
+// Factor of the low sun on what stands high and bare: lit walls turn rose, the higher over their surroundings the more; near, for far
+// ranges are the air's.
+glm::vec3 evening_glow(const Scenery& s, std::size_t i, float far) {
+  const GuidanceBuffers& g = s.guidance;
+  if (g.land_cover[i] != Class::rock || s.palette.winter) return glm::vec3(1.0F);
+  const float lit = smoothstep(0.42F, 0.85F, g.tone[i]);
+  const float high = smoothstep(-60.0F, 240.0F, g.relief_l_m[i]);
+  const auto drift = static_cast<float>(s.parameters.air.hue_drift);
+  return 1.0F + glm::vec3(0.030F, -0.032F, -0.055F) * (lit * (0.35F + 0.65F * high) * (1.0F - far) * drift);
+}
+
 PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& patches) {
   const GuidanceBuffers& g = s.guidance;
   const BaseParameters& p = s.parameters;
@@ -171,12 +208,8 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& 
   pixel.edge = range_edge(s.around.log_depth[i] - s.around.mean_log_depth[i], far, raised, separation);
   pixel.beyond = air_beyond(s.palette, (y + s.origin_px.y + 0.5) / s.horizon_px);
   if (p.air.rim_fade_m > 0.0) pixel.end = terrain_end_at(g.rim_m[i], p.air.rim_fade_m, raised);
-  if (id == Class::valley_floor && !s.palette.winter) {
-    const glm::dvec3 place = s.place_m(i);
-    const float metres_per_unit = s.metres_per_unit(i);
-    const Parcel parcel = parcel_at(p.seed, place.x, place.y, metres_per_unit, g.grain[i]);
-    pixel.factor *= field_colour(parcel, g.slope_deg[i], metres_per_unit, pixel.air, drift);
-  }
+  if (!s.palette.winter) pixel.factor *= grown_hue(s, i, patches, pixel.air);
+  pixel.factor *= evening_glow(s, i, far);
   return pixel;
 }
 
@@ -222,10 +255,16 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
                              : TintShift{};
   // Where ice lies deep in the snow it grew from it is white with firn; its tongues are blue and bare.
   const float firn = id == Class::glacier ? firn_share(s, x, y) : 0.0F;
+  const auto drift = static_cast<float>(s.parameters.air.hue_drift);
+  const ScreeTurn fan = id == Class::scree && !s.palette.winter
+                            ? scree_turn(s.around.fans.place[i], s.around.fans.streak[i], g.relief_s_m[i], drift)
+                            : ScreeTurn{};
+  const float turned = fan.tone + (id == Class::forest ? forest_turn(g.relief_s_m[i], g.relief_m_m[i], patches, drift).tone : 0.0F);
   const auto paint = [&](double step) {
-    const double light = g.tone[i] + static_cast<double>(water.tone_shift) + step;
-    glm::vec3 ramp = palette_colour(s.palette, id, altitude, light) * hue;
+    const double light = g.tone[i] + static_cast<double>(water.tone_shift) + static_cast<double>(turned) + step;
+    glm::vec3 ramp = palette_colour(s.palette, id, altitude, light) * hue * fan.factor;
     if (firn > 0.0F) ramp = glm::mix(ramp, palette_colour(s.palette, Class::snow, altitude, light), firn);
+    if (fan.grown > 0.0F) ramp = glm::mix(ramp, palette_colour(s.palette, Class::alpine_grass, altitude, light - 0.06), fan.grown);
     // Turf is never as light as the wall it hangs on; snow takes the light of the wall.
     if (cover.x > 0.0F)
       ramp = glm::mix(ramp, palette_colour(s.palette, Class::alpine_grass, altitude, std::min(light, 0.75) - 0.05), cover.x);
@@ -257,10 +296,11 @@ BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& w
                               const BaseParameters& parameters, glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress,
                               PixelRect wanted) {
   using B = GuidanceBuffers;
-  require_channels(guidance,
-                   {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::tone, &B::fall_line, &B::slope_deg, &B::footprint_m,
-                    &B::relief_s_m, &B::relief_l_m, &B::rim_m, &B::built, &B::grain},
-                   "base picture");
+  require_channels(
+      guidance,
+      {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::tone, &B::fall_line, &B::slope_deg, &B::footprint_m,
+       &B::normal_smooth, &B::relief_s_m, &B::relief_m_m, &B::relief_l_m, &B::valley_height_m, &B::rim_m, &B::built, &B::grain},
+      "base picture");
   if (wanted.empty()) wanted = {0, 0, guidance.width(), guidance.height()};
   const int width = wanted.width();
   const int height = wanted.height();
@@ -299,7 +339,8 @@ int base_margin_px(const BaseParameters& parameters) {
   const int woods = factor * (blur_reach_px(krummholz_sigma_units * ppu / factor) + 2);
   const int ice = factor * (surface_reach_px(tongue_sigma_units * ppu / factor) + 3);
   const int waters = std::max(reflection_margin_px(ppu), surface_reach_px(brook_sigma_units * ppu));
-  return std::max({ranges, woods, ice, waters, forest_cover_margin_px(ppu) + factor}) + 3 * static_cast<int>(std::ceil(ppu)) + 2;
+  return std::max({ranges, woods, ice, waters, forest_cover_margin_px(ppu) + factor, scree_fans_margin_px(ppu) + factor}) +
+         3 * static_cast<int>(std::ceil(ppu)) + 2;
 }
 
 PixelRect base_window(PixelRect wanted, bool has_water, const BaseParameters& parameters) {

@@ -22,6 +22,7 @@ struct BaseParameters {
   const RockKind* rock = &rock_kinds().front();  // whose hues rock has
   double horizon_px = 0.0;                       // row of the horizon in the whole picture (skyline_row_px of sky.h); 0: 0.18 of its height
   double sun_image_x = 1.0;                      // as in ToneParameters
+  double sunny_side = 1.0;                       // 1: the noon sun stands in the south, as it does north of the tropics; -1: in the north
   double pixels_per_unit = 1.0;
   std::uint64_t seed = 1;
   std::uint64_t sky_seed = 1;                        // of the sky alone: views of one scene have skies of their own
@@ -29,7 +30,8 @@ struct BaseParameters {
 };
 
 // Base picture (encoded sRGB) at the pixel's tone and at ∓ .17, with accents, tree density and haze; sky pixels get sky and clouds.
-// Needs depths, places, altitudes, classes, tone, fall lines, slopes, footprints, small and large relief, rim, built and grain.
+// Needs depths, places, altitudes, classes, tone, fall lines, slopes, footprints, relief of all sizes, smooth normals, heights above
+// the valley, rim, built and grain.
 // `origin_px`, `picture_size`: where the buffers lie in the whole picture. Local up to base_margin_px(): a part with that margin equals
 // the whole bit for bit. Of the buffers' pixels only those `wanted` (empty: all) are made: the result has their size. Where a wide view is
 // given, it is what must reach so far; the buffers themselves need no more than base_window(wanted).

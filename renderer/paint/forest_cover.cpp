@@ -10,7 +10,7 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random_streams.h"
-#include "renderer/paint/picture_filter.h"
+#include "renderer/paint/ground/slope_walk.h"
 #include "renderer/paint/picture_noise.h"
 
 namespace belvedere {
@@ -26,7 +26,9 @@ constexpr double glade_sigma_units = 9.0;
 constexpr double clump_sigma_units = 4.5;
 constexpr double track_sigma_units = 3.0;
 constexpr double stand_sigma_units = 20.0;
-constexpr double high_grass_m = 1600.0;  // above, the grass of glades is that of the heights
+constexpr double settled_sigma_units = 45.0;  // neighbourhoods that were cleared, and others that were left alone
+constexpr double frayed_sigma_units = 1.6;    // of the borders of glades
+constexpr double high_grass_m = 1600.0;       // above, the grass of glades is that of the heights
 
 // Noise that lies on the ground and yet has patches of one size on the sheet: of the two octaves next to the requested size, mixed so that
 // the deviation stays 1. Remembers lattice values: one for each thread.
@@ -52,54 +54,14 @@ class SheetSizedNoise {
   std::map<int, GroundNoise> octaves_;
 };
 
-// What lies along the fall line of a forest pixel. Places are relative to the pixel, so that rounding does not depend on the part.
-struct Walk {
-  float noise_sum = 0.0F;  // over the lane's length, without the pixel itself
-  int left_after = 0;      // steps after which the forest ended, 0: it did not
-  std::size_t end = 0;     // the first wide pixel beyond
-};
-
-// Where a walk begins: a pixel of the sheet, and what is known of it.
-struct Start {
-  glm::ivec2 sheet_px;
-  glm::vec2 fall;
-  float depth_m;
-};
-
-// noise: of wide pixels.
-Walk walk(const WideView& wide, const Grid<float>& noise, const Start& start, float step_px, float sign, int steps) {
-  const GuidanceBuffers& g = wide.seen;
-  Walk result;
-  glm::vec2 offset(0.0F);
-  glm::vec2 direction(0.0F, sign);
-  glm::vec2 fall = start.fall;
-  float depth_m = start.depth_m;
-  for (int k = 1; k <= steps; ++k) {
-    if (fall.x != 0.0F || fall.y != 0.0F) direction = fall * sign;
-    offset += direction * step_px;
-    const int nx = start.sheet_px.x + static_cast<int>(std::floor(offset.x + 0.5F));
-    const int ny = start.sheet_px.y + static_cast<int>(std::floor(offset.y + 0.5F));
-    if (!wide.holds(nx, ny)) break;
-    const std::size_t here = wide.index(nx, ny);
-    if (!same_surface(depth_m, g.depth_m[here])) break;
-    depth_m = g.depth_m[here];
-    fall = g.fall_line[here];
-    if (k <= steps_down) result.noise_sum += noise[here];
-    if (g.land_cover[here] != Class::forest) {
-      result.left_after = k;
-      result.end = here;
-      break;
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 ForestCover make_forest_cover(const GuidanceBuffers& g, const WideView& wide, const ForestCoverParameters& parameters, glm::ivec2 origin_px,
                               PixelRect wanted) {
   using B = GuidanceBuffers;
-  require_channels(g, {&B::depth_m, &B::position_m, &B::land_cover, &B::fall_line, &B::slope_deg, &B::footprint_m, &B::relief_s_m},
+  require_channels(g,
+                   {&B::depth_m, &B::position_m, &B::land_cover, &B::fall_line, &B::slope_deg, &B::footprint_m, &B::relief_s_m,
+                    &B::relief_m_m, &B::valley_height_m},
                    "forest");
   const int width = g.width();
   const int height = g.height();
@@ -123,16 +85,24 @@ ForestCover make_forest_cover(const GuidanceBuffers& g, const WideView& wide, co
       const double metres = static_cast<double>(g.footprint_m[i]) * ppu;
       const glm::dvec3 place = glm::dvec3(g.position_m[i]) + g.origin_m;
       const float slope = g.slope_deg[i];
-      const Start start{origin_px + glm::ivec2(x, y), g.fall_line[i], g.depth_m[i]};
-      const Walk up = walk(wide, noise, start, step_px, -1.0F, steps_up);
-      const Walk down = walk(wide, noise, start, step_px, 1.0F, steps_down);
+      const SlopeStart start{origin_px + glm::ivec2(x, y), g.fall_line[i], g.depth_m[i]};
+      const SlopeWalk up = walk_slope(wide, noise, start, Class::forest, {step_px, -1.0F, steps_up, steps_down});
+      const SlopeWalk down = walk_slope(wide, noise, start, Class::forest, {step_px, 1.0F, steps_down, steps_down});
       const float clump = clumps(place.x, place.y, clump_sigma_units * metres);
       const float lane = (noise[wide.index(start.sheet_px.x, start.sheet_px.y)] + up.noise_sum + down.noise_sum) / lane_deviation;
 
-      // Steep slopes are not cleared.
+      const float steep = smoothstep(22.0F, 38.0F, slope);
+      const float settled = glades(place.x, place.y, settled_sigma_units * metres);
+      const float frayed = clumps(place.x, place.y, frayed_sigma_units * metres);
+      // Glades lie where the ground offers itself: on shoulders, along the valley's floor, and on steep ground drawn out down the fall
+      // line; not in gullies, not on steep slopes. Where people lived there are many, elsewhere for miles none.
+      const float shoulder = std::clamp(g.relief_m_m[i] / 45.0F, -0.7F, 1.0F) * (1.0F - smoothstep(14.0F, 30.0F, slope));
+      const float floor = (1.0F - smoothstep(40.0F, 150.0F, g.valley_height_m[i])) * (1.0F - smoothstep(8.0F, 18.0F, slope));
+      const float site = 0.75F * shoulder + 0.55F * floor + 0.30F * std::clamp(g.relief_s_m[i] / 10.0F, -1.0F, 0.4F) +
+                         0.40F * lane * steep - 0.035F * std::max(slope - 20.0F, 0.0F);
       const float glade_noise =
-          glades(place.x, place.y, glade_sigma_units * metres) + 0.45F * clump - 0.025F * std::max(slope - 25.0F, 0.0F);
-      float glade = smoothstep(1.42F, 1.64F, glade_noise);
+          0.72F * glades(place.x, place.y, glade_sigma_units * metres) + 0.40F * clump + 0.16F * frayed + 0.62F * settled + site;
+      float glade = smoothstep(1.46F, 1.60F, glade_noise);
       float thin = 0.0F;
       if (up.left_after > 0 && has_trait(wide.seen.land_cover[up.end], ClassTrait::open_high)) {
         // The treeline frays: groups run up into the open, gaps reach down.
@@ -144,13 +114,14 @@ ForestCover make_forest_cover(const GuidanceBuffers& g, const WideView& wide, co
         const float reach = 14.0F * (force - 0.75F);  // steps
         if (slope > 18.0F) glade = std::max(glade, smoothstep(-0.5F, 1.5F, reach - static_cast<float>(up.left_after)));
       }
-      // Whole stands are lighter than others.
-      const float open_stand = smoothstep(0.2F, 1.6F, stands(place.x, place.y, stand_sigma_units * metres));
-      const float bare_lane = smoothstep(0.9F, 1.5F, -lane - 0.25F * clump);
+      // Whole stands are lighter than others; in some, on steep ground, lanes run down.
+      const float stand = stands(place.x, place.y, stand_sigma_units * metres);
+      const float open_stand = smoothstep(0.2F, 1.6F, stand);
+      const float bare_lane = smoothstep(0.9F, 1.5F, -lane - 0.25F * clump) * steep * smoothstep(0.1F, 1.0F, -stand);
       const float hollow = std::clamp(-g.relief_s_m[i] / 10.0F, -1.0F, 1.0F);
-      float density = 0.93F + 0.14F * hollow + 0.24F * std::clamp(clump + 0.3F, -2.2F, 0.4F);
+      float density = 0.93F + 0.14F * hollow + 0.42F * std::clamp(clump + 0.15F, -2.2F, 0.4F);
       density =
-          std::clamp(density, 0.25F, 1.0F) * (1.0F - 0.55F * open_stand) * (1.0F - thin) * (1.0F - 0.92F * bare_lane) * (1.0F - glade);
+          std::clamp(density, 0.16F, 1.0F) * (1.0F - 0.62F * open_stand) * (1.0F - thin) * (1.0F - 0.92F * bare_lane) * (1.0F - glade);
       cover.density[i] = std::clamp(density, 0.0F, 1.0F);
       cover.glade[i] = std::max(glade, 0.35F * bare_lane);
     }

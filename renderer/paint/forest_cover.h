@@ -25,9 +25,9 @@ struct ForestCover {
   Grid<float> glade;    // 0…1: how far grass shows instead of wood; 0 outside forest
 };
 
-// Needs depths, places, classes, fall lines, slopes, footprints and small relief. Local up to forest_cover_margin_px(): a part with that
-// margin equals the whole bit for bit. It is the wide view that must reach so far; of the buffers a pixel needs itself alone.
-// Pixels outside `wanted` (empty: all) hold 0.
+// Needs depths, places, classes, fall lines, slopes, footprints, small and middle relief and heights above the valley. Local up to
+// forest_cover_margin_px(): a part with that margin equals the whole bit for bit. It is the wide view that must reach so far; of the
+// buffers a pixel needs itself alone. Pixels outside `wanted` (empty: all) hold 0.
 ForestCover make_forest_cover(const GuidanceBuffers& guidance, const WideView& wide, const ForestCoverParameters& parameters,
                               glm::ivec2 origin_px, PixelRect wanted = {});
 int forest_cover_margin_px(double pixels_per_unit);

@@ -129,12 +129,14 @@ void read_strength(const ConfigValue& value, const std::string& name, Palette& p
 
 void read_growth(const ConfigValue& value, const std::string& name, GrowthColours& growth) {
   const ConfigTable& table = as_table(value, name);
-  allow_only(table, {"leaves", "leaf_share"}, name);
+  allow_only(table, {"leaves", "leaf_share", "larch", "larch_share"}, name);
   if (const ConfigValue* leaves = find(table, "leaves")) {
     growth.leaves.clear();
     for (const ConfigValue& colour : as_array(*leaves, name)) growth.leaves.push_back(read_colour(colour, name));
   }
   if (const ConfigValue* share = find(table, "leaf_share")) growth.leaf_share = read_number(*share, name, 0.0, 1.0, "a share");
+  if (const ConfigValue* colour = find(table, "larch")) growth.larch = read_colour(*colour, name);
+  if (const ConfigValue* share = find(table, "larch_share")) growth.larch_share = read_number(*share, name, 0.0, 1.0, "a share");
 }
 
 bool is_built_in(const std::string& name) {

@@ -31,11 +31,17 @@ struct ClassPalette {
 struct GrowthColours {
   std::vector<glm::vec3> leaves;  // of leafy trees in full light, encoded sRGB: groups of trees take one each; in winter their bare twigs
   double leaf_share = 0.0;        // how far a leafy tree takes them, 0…1
+  glm::vec3 larch{0.0F};          // of larches in full light, which stand open below the treeline; in winter their bare twigs
+  double larch_share = 0.0;       // how far a larch takes it, 0…1; 0: no larches grow
 };
+
+// Palettes are made for the northern Alps, whose forest ends here.
+inline constexpr double palette_treeline_m = 1820.0;
 
 struct Palette {
   std::string name;
   bool winter = false;
+  double treeline_m = palette_treeline_m;                    // where forest ends in the land that its altitudes are for
   std::array<ClassPalette, land_cover_class_count> classes;  // [sky] unused
   std::vector<std::pair<double, glm::vec3>> sky;             // 0 top … 1 horizon, encoded sRGB
   glm::vec3 cloud_light{1.0F};

@@ -272,11 +272,11 @@ BasePicture SheetGround::make_base(PixelRect tile) {
   const GuidanceBuffers itself = read_guidance(tile, {&B::land_cover}, false);
   const bool has_water = std::find(itself.land_cover.begin(), itself.land_cover.end(), LandCoverClass::water) != itself.land_cover.end();
   const PixelRect window = intersection(sheet(), base_window(tile, has_water, base_parameters_));
-  const GuidanceBuffers guidance =
-      read_guidance(window,
-                    {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::fall_line, &B::slope_deg, &B::footprint_m,
-                     &B::relief_s_m, &B::relief_l_m, &B::rim_m, &B::built, &B::grain, &B::rock_facet, &B::rock_cover},
-                    true);
+  const GuidanceBuffers guidance = read_guidance(window,
+                                                 {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::fall_line, &B::slope_deg,
+                                                  &B::footprint_m, &B::normal_smooth, &B::relief_s_m, &B::relief_m_m, &B::relief_l_m,
+                                                  &B::valley_height_m, &B::rim_m, &B::built, &B::grain, &B::rock_facet, &B::rock_cover},
+                                                 true);
   return make_base_picture(guidance, {wide.seen, factor_, wide.origin_px}, palette_, base_parameters_, {window.x0, window.y0},
                            view_.camera.size(), run_.progress, moved(tile, -window.x0, -window.y0));
 }

@@ -10,6 +10,8 @@
 #include "renderer/paint/composite.h"
 #include "renderer/rock/crest_shift.h"
 #include "renderer/scene/scene_error.h"
+#include "renderer/world/scene_climate.h"
+#include "terrain/climate/map_place.h"
 
 namespace belvedere {
 namespace {
@@ -20,6 +22,18 @@ std::uint64_t sky_seed(const World& world) {
   const glm::dvec2 viewer = world.view.viewer_xy;
   const auto to_degree = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::llround(world.view.camera.azimuth_deg)));
   return mix_bits(mix_bits(mix_bits(world.scene.seed + to_100_m(viewer.x)) + to_100_m(viewer.y)) + to_degree);
+}
+
+}  // namespace
+
+namespace {
+
+// 1 where the noon sun stands in the south, -1 in the north. Where the place is not known it is in the north, as most maps are.
+double find_sunny_side(const World& world) {
+  const Dem& dem = *world.terrain.dem;
+  if (!knows_place(world.scene, dem)) return 1.0;
+  const MapPlace place = make_map_place(dem.transform, dem.crs, dem.width(), dem.height(), world.scene.climate.latitude_deg);
+  return place.middle_lonlat_deg().y < 0.0 ? -1.0 : 1.0;
 }
 
 }  // namespace
@@ -52,6 +66,7 @@ BaseParameters to_base_parameters(const World& world, const SheetView& view, con
   parameters.horizon_px = view.horizon_px;
   parameters.rock = &find_rock_kind(world.scene.land_cover.rock);
   parameters.sun_image_x = world.view.sun_image_x;
+  parameters.sunny_side = find_sunny_side(world);
   parameters.pixels_per_unit = view.pixels_per_unit;
   parameters.seed = world.scene.seed;
   parameters.air.sky = find_sky_kind(world.scene.sky);
@@ -72,6 +87,9 @@ StrokeParameters to_stroke_parameters(const World& world, const Palette& palette
   parameters.seed = world.scene.seed;
   parameters.leaves = palette.growth.leaves;
   parameters.leaf_share = palette.growth.leaf_share;
+  parameters.larch = palette.growth.larch;
+  parameters.larch_share = palette.growth.larch_share;
+  parameters.treeline_m = palette.treeline_m;
   return parameters;
 }
 

@@ -35,6 +35,7 @@ Palette palette_at_other_altitudes(Palette palette, double higher_m) {
   for (ClassPalette& ramps : palette.classes)
     if (ramps.stops.size() > 1)
       for (ClassPalette::Stop& stop : ramps.stops) stop.altitude_m += higher_m;
+  palette.treeline_m += higher_m;
   return palette;
 }
 
@@ -70,6 +71,8 @@ Palette mix_palettes(const Palette& first, const Palette& second, const std::fun
     mixed.*strength = std::lerp(first.*strength, second.*strength, mean);
   // Trees turn one after the other: a share of them has the other palette's leaves.
   mixed.growth.leaf_share = std::lerp(first.growth.leaf_share, second.growth.leaf_share, mean);
+  mixed.growth.larch = glm::mix(first.growth.larch, second.growth.larch, part);
+  mixed.growth.larch_share = std::lerp(first.growth.larch_share, second.growth.larch_share, mean);
   const std::size_t leaves = std::min(first.growth.leaves.size(), second.growth.leaves.size());
   for (std::size_t k = 0; k < leaves; ++k) mixed.growth.leaves[k] = glm::mix(first.growth.leaves[k], second.growth.leaves[k], part);
   return mixed;

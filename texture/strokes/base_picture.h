@@ -28,6 +28,9 @@ struct StrokeParameters {
   std::uint64_t seed = 1;
   std::vector<glm::vec3> leaves;  // colours of leafy trees in full light, of bare twigs in winter, encoded sRGB; none: only the ground's
   double leaf_share = 0.0;        // how far leafy trees take them, 0…1
+  glm::vec3 larch{0.0F};          // the same of larches
+  double larch_share = 0.0;       // 0: none grow
+  double treeline_m = 1820.0;     // altitude where forest ends: belts of trees hang on it
 };
 
 }  // namespace belvedere

@@ -53,7 +53,8 @@ std::vector<Stroke> wash_strokes(const StrokeScene& scene, Stream stream) {
     stroke.depth_tolerance = has_trait(id, ClassTrait::tight) ? tight_depth : 0.03F;
     if (!wooded) stroke.tone = scene.guidance.tone[i];
     const float turn = is_grass(id) && !is_floor(id) && seed.uniform() < 0.35F ? quarter_turn : 0.F;
-    const float angle = turn + seed.normal() * brush.wash_wander_rad;
+    // Under trees every way: whatever shows between crowns must not comb them.
+    const float angle = turn + seed.normal() * (wooded ? 0.9F : brush.wash_wander_rad);
     lay_line(stroke, scene, place, brush.wash_length * seed.between(0.7F, 1.3F), angle, 0.2F, !is_floor(id), seed);
     const bool ice = is_ice(id);
     take_brush(stroke, scene, brush.wash_width * seed.between(0.7F, 1.3F),
@@ -80,7 +81,10 @@ std::vector<Stroke> meadow_strokes(const StrokeScene& scene, Stream stream) {
                {.taper = 0.5F, .alpha = 0.6F, .bristle = 0.4F, .wetness = 0.03F});
     // Whole patches are darker or lighter, so that a slope has places and no even grain.
     const float patch = is_floor(id) ? 0.F : 0.24F * patch_noise(scene, i, Stream::meadow_patches, 7.0);
-    stroke.colour = scene.colour(i, mixed_tone(0.19F, 0.18F, seed) + std::clamp(patch, -0.5F, 0.5F), paint_jitter * 1.3F, seed);
+    const float busy = hand_busy_at(scene, place);
+    const float mixed = mixed_tone(0.06F + 0.24F * busy, 0.05F + 0.24F * busy, seed);
+    stroke.colour =
+        scene.colour(i, mixed + (0.35F + 0.65F * busy) * std::clamp(patch, -0.5F, 0.5F), paint_jitter * (0.6F + 1.2F * busy), seed);
     out.push_back(stroke);
   });
 }
@@ -92,6 +96,7 @@ std::vector<Stroke> grass_flecks(const StrokeScene& scene, Stream stream) {
     // Tussocks, alder and juniper gather in patches and hollows; flecks of light lie between.
     const float patch = patch_noise(scene, i, Stream::fleck_patches, 6.0) - 0.10F * std::clamp(scene.relief_m(i), -10.F, 10.F);
     const bool dark = seed.uniform() < 0.6F;
+    if (seed.uniform() > 0.2F + 0.9F * hand_busy_at(scene, place)) return;
     if (seed.uniform() > (dark ? 0.60F * std::clamp(patch - 0.1F, 0.F, 1.3F) : 0.30F * std::clamp(0.6F - patch, 0.F, 1.F))) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.depth_tolerance = tight_depth;
@@ -102,7 +107,10 @@ std::vector<Stroke> grass_flecks(const StrokeScene& scene, Stream stream) {
     const float clear = 1.F - std::clamp(scene.base.haze[i], 0.F, 1.F);
     if (dark) {
       stroke.colour = scene.colour(i, -seed.between(0.7F, 1.4F), paint_jitter, seed);
-      if (!scene.parameters.winter) stroke.colour *= through_air_factor(scene, i, glm::vec3(0.80F, 0.92F, 0.82F));
+      // Alpine roses and bilberries: patches of rust red on the heights, among the greens.
+      const bool rust = id == alpine_grass && patch_noise(scene, i, Stream::copses, 9.0) > 0.9F;
+      const glm::vec3 leaves = rust ? glm::vec3(1.16F, 0.80F, 0.74F) : glm::vec3(0.80F, 0.92F, 0.82F);
+      if (!scene.parameters.winter) stroke.colour *= through_air_factor(scene, i, leaves);
     } else {
       const float light = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
       stroke.colour = scene.colour(i, seed.between(0.7F, 1.4F), paint_jitter, seed) + clear * light * glm::vec3(0.05F, 0.02F, -0.02F);
@@ -129,7 +137,7 @@ std::vector<Stroke> broken_colour(const StrokeScene& scene, Stream stream) {
   return sow(scene, 4.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
     const DabHue dabs = class_info(id).strokes.dabs;
-    if (dabs == DabHue::none || seed.uniform() > (is_ice(id) ? 0.40F : 0.62F)) return;
+    if (dabs == DabHue::none || seed.uniform() > (is_ice(id) ? 0.40F : 0.22F + 0.70F * hand_busy_at(scene, place))) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.depth_tolerance = tight_depth;
     // On walls just over what lies there, so that trees before them stay whole.

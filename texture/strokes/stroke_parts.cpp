@@ -94,6 +94,12 @@ float patch_noise(const StrokeScene& scene, std::size_t i, Stream stream, double
   return std::sqrt(1.F - share) * of(power) + std::sqrt(share) * of(power + 1);
 }
 
+float hand_busy_at(const StrokeScene& scene, glm::vec2 place) {
+  const float broad = sheet_noise(scene, place, Stream::meadow_patches, 46.0);
+  const float narrow = sheet_noise(scene, place, Stream::fleck_patches, 15.0);
+  return std::clamp(0.5F + 0.42F * broad + 0.16F * narrow, 0.F, 1.F);
+}
+
 bool is_grassy(const StrokeScene& scene, std::size_t i) {
   const LandCoverClass id = scene.class_at(i);
   return is_grass(id) || (id == LandCoverClass::forest && scene.base.tree_density[i] < glade_density);

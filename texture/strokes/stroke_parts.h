@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -58,6 +59,14 @@ float share_around(const StrokeScene& scene, glm::vec2 place, float radius_units
   }
   return static_cast<float>(hits) / 8.F;
 }
+
+// Whether two pixels show the same slope, as far as what stands on it asks.
+inline bool on_same_slope(const StrokeScene& scene, std::size_t here, std::size_t there) {
+  return std::abs(scene.guidance.depth_m[there] / scene.guidance.depth_m[here] - 1.F) <= 0.03F;
+}
+// How much the hand has to say around a place of the sheet, 0 it rests … 1 it is busy: places of rest lie beside places of detail, on the
+// ground of every kind alike.
+float hand_busy_at(const StrokeScene& scene, glm::vec2 place);
 
 // Whether grass grows at pixel i: on meadows of every kind, and in the glades of forests.
 bool is_grassy(const StrokeScene& scene, std::size_t i);

@@ -14,10 +14,6 @@ using enum LandCoverClass;
 
 bool grows(LandCoverClass id) { return has_trait(id, ClassTrait::turf); }
 
-bool on_same_slope(const StrokeScene& scene, std::size_t here, std::size_t there) {
-  return std::abs(scene.guidance.depth_m[there] / scene.guidance.depth_m[here] - 1.F) <= 0.03F;
-}
-
 // The pixel `reach_units` down (or, negative, up) the fall line from a place, if it is on the same slope.
 std::optional<std::size_t> along_slope(const StrokeScene& scene, glm::vec2 place, std::size_t i, float reach_units) {
   const glm::vec2 there = place + scene.fall_line(place) * (reach_units * scene.scale());

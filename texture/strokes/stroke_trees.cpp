@@ -21,7 +21,7 @@ Stroke upright_stroke(const StrokeScene& scene, std::size_t i) {
 
 glm::vec3 dark_side(const StrokeScene& scene, std::size_t i, const TreeTone& tone, StrokeSeed& seed) {
   const float light = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
-  const float depth = std::clamp(0.30F + 0.70F * light + 0.25F * tone.edge, 0.F, 1.F);
+  const float depth = std::clamp(0.30F + 0.70F * light + 0.25F * tone.edge - 0.30F * tone.calm, 0.F, 1.F);
   const glm::vec3 paint = scene.colour(i, -0.80F + 0.6F * tone.lighter, paint_jitter, seed);
   return paint * through_air_factor(scene, i, 1.F + (dark_leaves - 1.F) * depth);
 }
@@ -47,7 +47,7 @@ void shade_ground(const StrokeScene& scene, const Tree& tree, std::size_t i, con
              tree.width * 1.5F, tree.width * 1.2F);
     shade.alpha = 0.40F + 0.22F * light;
   }
-  shade.colour = dark_side(scene, i, {-0.3F, 0.F, 0.F}, seed);
+  shade.colour = dark_side(scene, i, {.lighter = -0.3F}, seed);
   out.push_back(shade);
 }
 
@@ -69,10 +69,16 @@ Leaves leaves_at(const StrokeScene& scene, std::size_t i, StrokeSeed& seed) {
   return {colours[chosen], static_cast<float>(scene.parameters.leaf_share) * (0.25F + 0.75F * light)};
 }
 
-}  // namespace
+// The pointed trees differ in how blunt their tips are, and in whether they have a colour of their own.
+struct Needles {
+  float tip = 0.10F;        // width at the tip, of that at the foot
+  float lit_width = 0.44F;  // of the light side
+  glm::vec3 colour{0.F};    // in full light, encoded sRGB …
+  float share = 0.F;        // … and how far the tree takes it, 0…1
+};
 
-void plant_spruce(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, StrokeSeed& seed,
-                  std::vector<Stroke>& out) {
+void plant_needles(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, const Needles& needles,
+                   StrokeSeed& seed, std::vector<Stroke>& out) {
   const float light = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
   const auto side = static_cast<float>(scene.parameters.sun_side);
   shade_ground(scene, tree, i, tone, seed, out);
@@ -80,19 +86,23 @@ void plant_spruce(const StrokeScene& scene, const Tree& tree, std::size_t i, con
   const glm::vec2 foot = tree.foot - glm::vec2(0.F, 0.25F * tree.width);
   const glm::vec2 tip = tree.foot + glm::vec2(0.10F * seed.normal() * scene.scale(), -tree.height);
   Stroke body = upright_stroke(scene, i);
-  set_line(body, foot, tip, tree.width, tree.width * 0.10F);
-  body.alpha = 0.90F;
+  set_line(body, foot, tip, tree.width, tree.width * needles.tip);
+  body.alpha = 0.90F - 0.04F * tone.calm;
   body.colour = dark_side(scene, i, tone, seed);
+  if (needles.share > 0.F)
+    body.colour += 0.75F * needles.share * (through_air(scene, i, needles.colour * (0.42F + 0.20F * light)) - body.colour);
   out.push_back(body);
   // In the shade the sky lights trees a little from everywhere; in the sun nearly every tree has its light side.
   if (seed.uniform() < 0.62F + 0.33F * light) {
     Stroke lit = body;
     set_line(lit, foot + glm::vec2(0.24F * side * tree.width, -0.10F * tree.height),
-             tip + glm::vec2(0.10F * side * tree.width, 0.07F * tree.height), tree.width * 0.44F, tree.width * 0.10F);
-    lit.alpha = std::min(0.95F, 0.34F + 0.50F * light + 0.15F * tone.rim);
+             tip + glm::vec2(0.10F * side * tree.width, 0.07F * tree.height), tree.width * needles.lit_width, tree.width * needles.tip);
+    lit.alpha = std::min(0.95F, (0.34F + 0.50F * light + 0.15F * tone.rim) * (1.F - 0.45F * tone.calm));
     const float warm = light * light * (0.6F + 0.8F * tone.rim);
     lit.colour = scene.colour(i, std::min(1.5F, 1.30F * light - 0.05F + tone.lighter + 0.5F * tone.rim), paint_jitter, seed);
     lit.colour += (1.F - std::min(1.F, scene.base.haze[i])) * warm * glm::vec3(0.060F, 0.040F, -0.030F);
+    if (needles.share > 0.F)
+      lit.colour += needles.share * (through_air(scene, i, needles.colour * (0.60F + 0.45F * light + 0.1F * tone.lighter)) - lit.colour);
     lit.order -= 0.5F;
     out.push_back(lit);
   }
@@ -109,6 +119,27 @@ void plant_spruce(const StrokeScene& scene, const Tree& tree, std::size_t i, con
   }
 }
 
+}  // namespace
+
+void plant_spruce(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, StrokeSeed& seed,
+                  std::vector<Stroke>& out) {
+  plant_needles(scene, tree, i, tone, {}, seed, out);
+}
+
+void plant_larch(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, StrokeSeed& seed,
+                 std::vector<Stroke>& out) {
+  const float light = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
+  const auto share = static_cast<float>(scene.parameters.larch_share) * (0.35F + 0.65F * light);
+  plant_needles(scene, {tree.foot, 0.92F * tree.width, tree.height}, i, tone,
+                {.tip = 0.16F, .lit_width = 0.56F, .colour = scene.parameters.larch, .share = share}, seed, out);
+}
+
+void plant_stone_pine(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, StrokeSeed& seed,
+                      std::vector<Stroke>& out) {
+  plant_needles(scene, {tree.foot, 1.1F * tree.width, 0.8F * tree.height}, i, {tone.lighter - 0.2F, tone.rim, tone.edge, tone.calm},
+                {.tip = 0.42F, .lit_width = 0.50F}, seed, out);
+}
+
 void plant_leafy(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, StrokeSeed& seed,
                  std::vector<Stroke>& out) {
   const float light = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
@@ -121,7 +152,7 @@ void plant_leafy(const StrokeScene& scene, const Tree& tree, std::size_t i, cons
   const glm::vec2 stem = tree.foot - glm::vec2(0.F, 0.25F * tree.width);
   set_line(body, stem, stem - glm::vec2(0.F, std::max(0.3F * tree.width, tree.height - 0.8F * tree.width)), tree.width * 0.85F, tree.width);
   body.alpha = bare ? 0.6F : 0.88F;
-  body.colour = dark_side(scene, i, {tone.lighter + 0.3F, tone.rim, tone.edge}, seed);
+  body.colour = dark_side(scene, i, {tone.lighter + 0.3F, tone.rim, tone.edge, tone.calm}, seed);
   body.colour += 0.6F * leaves.share * (through_air(scene, i, leaves.colour * (0.42F + 0.18F * light)) - body.colour);
   out.push_back(body);
   const glm::vec2 crown = body.points[1];
@@ -130,11 +161,11 @@ void plant_leafy(const StrokeScene& scene, const Tree& tree, std::size_t i, cons
            crown + glm::vec2(0.14F * side * tree.width, -0.22F * tree.width), tree.width * 0.52F, tree.width * 0.44F);
   lit.alpha = bare ? 0.5F : std::min(0.95F, 0.42F + 0.45F * light + 0.1F * tone.rim);
   lit.colour = scene.colour(i, std::min(1.5F, 0.25F + 1.1F * light + tone.lighter + 0.4F * tone.rim), paint_jitter, seed);
-  lit.colour += glm::vec3(0.055F, 0.030F, -0.050F) * (light * clear);
+  lit.colour += glm::vec3(0.045F, 0.032F, -0.045F) * (light * clear);
   lit.colour += leaves.share * (through_air(scene, i, leaves.colour * (0.55F + 0.5F * light)) - lit.colour);
   lit.order -= 0.5F;
   out.push_back(lit);
-  const int dots = light > 0.4F && !bare ? static_cast<int>(seed.uniform() * 1.7F) : 0;
+  const int dots = light > 0.4F && !bare ? static_cast<int>(seed.uniform() * 1.35F) : 0;
   for (int k = 0; k < dots; ++k) {
     Stroke dot = lit;
     const float aside = seed.between(-0.10F, 0.38F) * side;
@@ -142,7 +173,7 @@ void plant_leafy(const StrokeScene& scene, const Tree& tree, std::size_t i, cons
     const glm::vec2 at = crown + glm::vec2(aside, up) * tree.width;
     set_line(dot, at, at - glm::vec2(0.F, 0.12F * tree.width), tree.width * 0.26F, tree.width * 0.2F);
     dot.alpha = 0.75F;
-    dot.colour = lit.colour + clear * light * glm::vec3(0.14F, 0.10F, -0.06F);
+    dot.colour = lit.colour + clear * light * glm::vec3(0.13F, 0.11F, -0.06F);
     dot.order -= 0.5F;
     out.push_back(dot);
   }

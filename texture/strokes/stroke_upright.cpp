@@ -11,39 +11,6 @@ namespace {
 
 using enum LandCoverClass;
 
-constexpr float tree_width = 3.7F;   // units
-constexpr float tree_height = 7.8F;  // units
-
-bool on_same_slope(const StrokeScene& scene, std::size_t here, std::size_t there) {
-  return std::abs(scene.guidance.depth_m[there] / scene.guidance.depth_m[here] - 1.F) <= 0.03F;
-}
-
-// Whether the ground at a place some units from pixel i lies open: glade, meadow or rock on the same slope.
-bool is_open_at(const StrokeScene& scene, std::size_t i, glm::vec2 place) {
-  if (!scene.on_canvas(place)) return false;
-  const std::size_t there = scene.pixel(place);
-  if (!on_same_slope(scene, i, there)) return false;
-  return scene.class_at(there) != forest || is_grassy(scene, there);
-}
-
-// What a tree of the forest's edge looks like: lit from the side that is open to the sun, dark before the open ground at its foot.
-TreeTone edge_tone(const StrokeScene& scene, std::size_t i, glm::vec2 foot, float lighter) {
-  const auto side = static_cast<float>(scene.parameters.sun_side);
-  const float unit = scene.scale();
-  TreeTone tone{lighter, 0.F, 0.F};
-  if (is_open_at(scene, i, foot + glm::vec2(5.5F * side, -1.F) * unit)) tone.rim += 0.6F;
-  if (is_open_at(scene, i, foot + glm::vec2(3.F * side, -4.F) * unit)) tone.rim += 0.4F;
-  if (is_open_at(scene, i, foot + glm::vec2(-5.F * side, 1.F) * unit)) tone.edge += 0.5F;
-  if (is_open_at(scene, i, foot + glm::vec2(0.F, 3.5F) * unit)) tone.edge += 0.5F;
-  return tone;
-}
-
-// Share of trees that are leafy where a group of noise `group` (deviation 1) stands: the lower, the more groups; none from 1350 m on.
-bool is_leafy(const StrokeScene& scene, std::size_t i, float group) {
-  const float share = 0.55F * std::clamp((1350.F - scene.altitude_m(i)) / 700.F, 0.F, 1.F);
-  return share > 0.02F && group > 2.5F * (0.5F - share);
-}
-
 // 1 on the borders of some fields, where hedges grow.
 float hedge_at(const StrokeScene& scene, std::size_t i) {
   const glm::dvec3 p = glm::dvec3(scene.guidance.position_m[i]) + scene.guidance.origin_m;
@@ -51,62 +18,7 @@ float hedge_at(const StrokeScene& scene, std::size_t i) {
   return parcel.border_m < 0.09F * parcel.width_m && parcel.hedged ? 1.F : 0.F;
 }
 
-// One tree of the forest at `foot`, spruce or leafy. `group` 0…1 is how far it stands inside a group: the tallest stand in the middle.
-void plant_in_forest(const StrokeScene& scene, glm::vec2 foot, std::size_t i, bool leafy, float lighter, float group, StrokeSeed& seed,
-                     std::vector<Stroke>& out) {
-  const float scale = scene.scale();
-  const float slim = seed.between(0.80F, 1.20F);
-  const float size = seed.between(0.72F, 1.18F) * (0.90F + 0.22F * group);
-  const Tree tree{foot, tree_width * slim * size * scale, tree_height * size * scale};
-  const TreeTone tone = edge_tone(scene, i, foot, lighter);
-  if (leafy)
-    plant_leafy(scene, {tree.foot, 1.2F * tree.width, 0.72F * tree.height}, i, tone, seed, out);
-  else
-    plant_spruce(scene, tree, i, tone, seed, out);
-}
-
 }  // namespace
-
-std::vector<Stroke> forest_trees(const StrokeScene& scene, Stream stream) {
-  return sow(scene, 7.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
-    if (scene.class_at(i) != forest) return;
-    const float scale = scene.scale();
-    // Whole groups are lighter or darker, single trees little: then a slope reads as masses of wood, not as fur.
-    const float mass = patch_noise(scene, i, Stream::forest_masses, 14.0);
-    const float group = patch_noise(scene, i, Stream::forest_groups, 5.0);
-    const float row_tone = 0.18F * seed.normal() + 0.22F * std::clamp(mass, -1.6F, 1.6F);
-    const float strays = 0.22F * seed.normal();
-    const bool leafy = is_leafy(scene, i, patch_noise(scene, i, Stream::leafy_groups, 8.0) + strays);
-    const int count = 2 + static_cast<int>(seed.uniform() * 4.F);
-    glm::vec2 foot = place;
-    for (int k = 0; k < count && scene.on_canvas(foot); ++k) {
-      const std::size_t here = scene.pixel(foot);
-      if (scene.class_at(here) != forest || !on_same_slope(scene, i, here)) break;
-      if (!is_grassy(scene, here) && seed.uniform() < scene.base.tree_density[here]) {
-        const float down = seed.normal();  // drawn one by one: see stroke_seeds.h
-        const float right = seed.normal();
-        const float tone = row_tone + 0.22F * seed.normal();
-        plant_in_forest(scene, foot + glm::vec2(right, down) * 0.6F * scale, here, leafy, tone, std::clamp(group, -1.F, 1.F), seed, out);
-      }
-      foot += scene.fall_line(foot) * (5.2F * seed.between(0.8F, 1.2F) * scale);
-    }
-  });
-}
-
-// Trees that stand like a wall where the forest ends on meadow.
-std::vector<Stroke> forest_edges(const StrokeScene& scene, Stream stream) {
-  return sow(scene, 3.4F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
-    if (scene.class_at(i) != forest || is_grassy(scene, i)) return;
-    const glm::vec2 below = place + glm::vec2(0.F, 3.2F * scene.scale());
-    if (!scene.on_canvas(below)) return;
-    const std::size_t ground = scene.pixel(below);
-    if (!on_same_slope(scene, i, ground) || !is_grassy(scene, ground) || scene.class_at(ground) == alpine_grass) return;
-    const float group = patch_noise(scene, i, Stream::forest_edge_groups, 5.0);
-    if (seed.uniform() > 0.62F + 0.35F * group) return;
-    const float lighter = 0.15F * seed.normal() - 0.2F;
-    plant_in_forest(scene, place, i, is_leafy(scene, i, patch_noise(scene, i, Stream::leafy_groups, 8.0)), lighter, 0.F, seed, out);
-  });
-}
 
 // Grass of the glades, over whatever lies there: short strokes down the slope and across it.
 std::vector<Stroke> glade_grass(const StrokeScene& scene, Stream stream) {

@@ -34,7 +34,7 @@ double dispersion(Density&& density_of) {
   constexpr int cell = 40;
   Grid<int> counts(800 / cell, 600 / cell, 0);
   for (const Stroke& s : wood_strokes({g, base, parameters}))
-    if (s.gate == StrokeGate::upright && s.start_width > 2.4F && s.alpha > 0.85F)  // bodies
+    if (s.gate == StrokeGate::upright && s.alpha > 0.85F)  // bodies
       ++counts(std::clamp(static_cast<int>(s.points[0].x), 0, 799) / cell, std::clamp(static_cast<int>(s.points[0].y), 0, 599) / cell);
   double sum = 0.0;
   double squares = 0.0;
@@ -106,6 +106,27 @@ TEST(ForestCover, TracksRunDownTheFallLine) {
     }
   EXPECT_GT(across, 200.0) << "there are tracks";
   EXPECT_LT(along, 0.65 * across);
+}
+
+// Glades lie where the ground offers itself: on shoulders and on the valley's floor rather than in gullies and on steep slopes.
+TEST(ForestCover, GladesFollowTheRelief) {
+  const auto glades = [](float slope_deg, float relief_m, float valley_height_m) {
+    GuidanceBuffers g = wood(800, 600);
+    for (float& slope : g.slope_deg) slope = slope_deg;
+    for (float& relief : g.relief_m_m) relief = relief_m;
+    for (float& height : g.valley_height_m) height = valley_height_m;
+    return test::mean(make_forest_cover(g, {g}, {}, {0, 0}).glade);
+  };
+  const double shoulder = glades(12.0F, 40.0F, 400.0F);
+  const double gully = glades(28.0F, -40.0F, 400.0F);
+  const double steep = glades(40.0F, 0.0F, 400.0F);
+  const double floor = glades(6.0F, -20.0F, 20.0F);
+  const double slope = glades(20.0F, 0.0F, 400.0F);
+  EXPECT_GT(shoulder, 2.0 * slope);
+  EXPECT_GT(floor, 1.2 * slope);
+  EXPECT_LT(gully, slope);
+  EXPECT_LT(steep, 0.8 * slope);
+  EXPECT_LT(shoulder, 0.5) << "still a wood";
 }
 
 TEST(ForestCover, HollowsAreFullerThanRidges) {

@@ -231,6 +231,69 @@ TEST(Wood, LeafyTreesStandInGroupsOfTheirOwn) {
   EXPECT_GT(pure, cells * 2 / 5);
 }
 
+// Broadleaf below, spruce, then larch and stone pine under the treeline; where no larches grow all of the heights is spruce.
+TEST(Wood, StandsInBeltsByHeight) {
+  const glm::vec3 gold(0.95F, 0.75F, 0.25F);
+  const auto shares = [&](float altitude_m, double larch_share, double treeline_m) {
+    Picture p = slope_of(forest, altitude_m);
+    p.parameters.larch = gold;
+    p.parameters.larch_share = larch_share;
+    p.parameters.treeline_m = treeline_m;
+    glm::dvec3 counts(0.0);  // leafy, golden in the light, blunt
+    double bodies = 0.0;
+    double lit = 0.0;
+    for (const Stroke& s : wood_strokes(p.scene())) {
+      if (is_body(s)) {
+        bodies += 1.0;
+        counts.x += s.end_width >= s.start_width;
+        counts.z += s.end_width > 0.3F * s.start_width && s.end_width < s.start_width;
+      } else if (is_lit_side(s)) {
+        lit += 1.0;
+        counts.y += s.colour.x - s.colour.z > 0.2F;
+      }
+    }
+    return counts / glm::dvec3(bodies, lit, bodies);
+  };
+  const glm::dvec3 low = shares(700.F, 0.8, 1820.0);
+  const glm::dvec3 middle = shares(1280.F, 0.8, 1820.0);
+  const glm::dvec3 high = shares(1750.F, 0.8, 1820.0);
+  EXPECT_GT(low.x, 0.3);
+  EXPECT_LT(middle.x, 0.25);
+  EXPECT_EQ(high.x, 0.0);
+  EXPECT_LT(low.y, 0.05) << "sunny leaves at most";
+  EXPECT_GT(high.y, 0.35);
+  EXPECT_LT(middle.y, 0.5 * high.y);
+  EXPECT_GT(high.z, 0.1);
+  EXPECT_LT(shares(1750.F, 0.0, 1820.0).y, 0.05);
+  EXPECT_LT(shares(1750.F, 0.8, 3200.0).y, 0.05) << "belts hang on the treeline";
+}
+
+// The side of a group that looks to the sun is lighter: turned about, the light is on the other side.
+TEST(Wood, GroupsHaveALightSideAndADarkOne) {
+  const auto tone_by_side = [](double sun_side) {
+    Picture p = slope_of(forest, 1500.F);
+    p.parameters.sun_side = sun_side;
+    const StrokeScene scene = p.scene();
+    double right = 0.0;
+    int count = 0;
+    for (const Stroke& s : wood_strokes(scene)) {
+      if (!is_body(s)) continue;
+      const glm::vec2 place = s.points[0];
+      const glm::vec2 left_of = place - glm::vec2(5.F, 0.F);
+      const glm::vec2 right_of = place + glm::vec2(5.F, 0.F);
+      if (!scene.on_canvas(left_of) || !scene.on_canvas(right_of) || !scene.on_canvas(place)) continue;
+      const float left_crowns = patch_noise(scene, scene.pixel(left_of), Stream::forest_groups, 5.0);
+      const float right_crowns = patch_noise(scene, scene.pixel(right_of), Stream::forest_groups, 5.0);
+      if (std::abs(left_crowns - right_crowns) < 0.8F) continue;
+      right += (left_crowns > right_crowns ? 1.0 : -1.0) * static_cast<double>(luma(s.colour));
+      ++count;
+    }
+    EXPECT_GT(count, 200);
+    return right / count;
+  };
+  EXPECT_GT(tone_by_side(1.0), tone_by_side(-1.0) + 0.008);
+}
+
 TEST(Wood, ValleyTreesFollowTheBrook) {
   Picture p = slope_of(valley_floor, 600.F);
   fill(p.guidance.land_cover, 0, 118, width, 122, water);

@@ -1,0 +1,68 @@
+#include "renderer/paint/ground/meadow_hues.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "base/math.h"
+
+namespace belvedere {
+namespace {
+
+using Class = LandCoverClass;
+
+// What the ramps of grass are multiplied by (encoded sRGB): they are a warm yellow-green.
+constexpr glm::vec3 lush_hue{0.82F, 0.95F, 0.79F};
+constexpr glm::vec3 dry_hue{1.06F, 0.99F, 0.93F};
+constexpr glm::vec3 high_hue{0.935F, 0.915F, 0.81F};
+
+constexpr float sunny_gain = 2.0F;  // a slope of 30° on the smoothed, exaggerated ground counts in full
+
+// How far moisture and dryness reach into a class: fields have hues of their own, heath is dry by itself.
+float reach(Class id) {
+  if (id == Class::shrub) return 0.55F;
+  if (has_trait(id, ClassTrait::bleaches)) return 1.0F;
+  return id == Class::valley_floor ? 0.7F : 0.0F;
+}
+
+}  // namespace
+
+MeadowPlace meadow_place(const GuidanceBuffers& g, std::size_t i, double treeline_m, float sunny_side) {
+  MeadowPlace place;
+  place.slope_deg = g.slope_deg[i];
+  place.sunny = std::clamp(-sunny_gain * sunny_side * g.normal_smooth[i].y, -1.0F, 1.0F);
+  place.relief_s_m = g.relief_s_m[i];
+  place.relief_m_m = g.relief_m_m[i];
+  place.valley_height_m = g.valley_height_m[i];
+  place.above_treeline_m = g.altitude_m[i] - static_cast<float>(treeline_m);
+  return place;
+}
+
+MeadowMix meadow_mix(Class id, const MeadowPlace& place, const Patches& patches) {
+  const float reached = reach(id);
+  if (!(reached > 0.0F)) return {};
+  // Hollows and the feet of slopes are wet, shoulders and ridges dry; chance moves whole patches of some hundred metres.
+  // Of a valley's floor all is hollow: there only small forms count.
+  const float broad = id == Class::valley_floor ? 0.0F : std::clamp(place.relief_m_m / 40.0F, -1.0F, 1.0F);
+  const float hollow = -0.45F * broad - 0.30F * std::clamp(place.relief_s_m / 9.0F, -1.0F, 1.0F);
+  const float chance = 0.24F * patches.n25 + 0.20F * patches.n60 + 0.10F * patches.n8;
+  const float moisture = hollow - 0.55F * place.sunny + chance;
+  const float turf = smoothstep(-150.0F, 450.0F, place.above_treeline_m + 110.0F * patches.n25 + 60.0F * patches.n8);
+  MeadowMix mix;
+  mix.lush = reached * smoothstep(0.02F, 0.70F, moisture) * (1.0F - 0.25F * turf);
+  mix.dry = reached * smoothstep(0.02F, 0.75F, -moisture) * (1.0F - 0.45F * turf);
+  if (id == Class::alpine_grass || id == Class::pasture) mix.high = turf;
+  if (id == Class::pasture)
+    mix.mown = (1.0F - smoothstep(9.0F, 17.0F, place.slope_deg)) *
+               (1.0F - smoothstep(70.0F, 170.0F, place.valley_height_m + 35.0F * patches.n25)) *
+               (1.0F - smoothstep(-650.0F, -350.0F, place.above_treeline_m));
+  return mix;
+}
+
+glm::vec3 meadow_hue(const MeadowMix& mix, float strength) {
+  glm::vec3 factor = glm::mix(glm::vec3(1.0F), high_hue, mix.high);
+  factor *= glm::mix(glm::vec3(1.0F), lush_hue, mix.lush);
+  factor *= glm::mix(glm::vec3(1.0F), dry_hue, mix.dry);
+  return glm::max(1.0F + (factor - 1.0F) * strength, glm::vec3(0.3F));
+}
+
+}  // namespace belvedere
