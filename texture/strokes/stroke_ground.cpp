@@ -82,9 +82,9 @@ std::vector<Stroke> meadow_strokes(const StrokeScene& scene, Stream stream) {
     // Whole patches are darker or lighter, so that a slope has places and no even grain.
     const float patch = is_floor(id) ? 0.F : 0.24F * patch_noise(scene, i, Stream::meadow_patches, 7.0);
     const float busy = hand_busy_at(scene, place);
-    const float mixed = mixed_tone(0.06F + 0.24F * busy, 0.05F + 0.24F * busy, seed);
+    const float mixed = mixed_tone(0.02F + 0.34F * busy, 0.02F + 0.32F * busy, seed);
     stroke.colour =
-        scene.colour(i, mixed + (0.35F + 0.65F * busy) * std::clamp(patch, -0.5F, 0.5F), paint_jitter * (0.6F + 1.2F * busy), seed);
+        scene.colour(i, mixed + (0.20F + 1.0F * busy) * std::clamp(patch, -0.5F, 0.5F), paint_jitter * (0.4F + 1.6F * busy), seed);
     out.push_back(stroke);
   });
 }
@@ -96,7 +96,7 @@ std::vector<Stroke> grass_flecks(const StrokeScene& scene, Stream stream) {
     // Tussocks, alder and juniper gather in patches and hollows; flecks of light lie between.
     const float patch = patch_noise(scene, i, Stream::fleck_patches, 6.0) - 0.10F * std::clamp(scene.relief_m(i), -10.F, 10.F);
     const bool dark = seed.uniform() < 0.6F;
-    if (seed.uniform() > 0.2F + 0.9F * hand_busy_at(scene, place)) return;
+    if (seed.uniform() > 0.05F + 1.1F * hand_busy_at(scene, place)) return;
     if (seed.uniform() > (dark ? 0.60F * std::clamp(patch - 0.1F, 0.F, 1.3F) : 0.30F * std::clamp(0.6F - patch, 0.F, 1.F))) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.depth_tolerance = tight_depth;
@@ -137,7 +137,7 @@ std::vector<Stroke> broken_colour(const StrokeScene& scene, Stream stream) {
   return sow(scene, 4.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
     const DabHue dabs = class_info(id).strokes.dabs;
-    if (dabs == DabHue::none || seed.uniform() > (is_ice(id) ? 0.40F : 0.22F + 0.70F * hand_busy_at(scene, place))) return;
+    if (dabs == DabHue::none || seed.uniform() > (is_ice(id) ? 0.40F : 0.10F + 0.85F * hand_busy_at(scene, place))) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.depth_tolerance = tight_depth;
     // On walls just over what lies there, so that trees before them stay whole.

@@ -21,7 +21,7 @@ Stroke upright_stroke(const StrokeScene& scene, std::size_t i) {
 
 glm::vec3 dark_side(const StrokeScene& scene, std::size_t i, const TreeTone& tone, StrokeSeed& seed) {
   const float light = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
-  const float depth = std::clamp(0.30F + 0.70F * light + 0.25F * tone.edge - 0.30F * tone.calm, 0.F, 1.F);
+  const float depth = std::clamp(0.30F + 0.70F * light + 0.25F * tone.edge - 0.38F * tone.calm, 0.F, 1.F);
   const glm::vec3 paint = scene.colour(i, -0.80F + 0.6F * tone.lighter, paint_jitter, seed);
   return paint * through_air_factor(scene, i, 1.F + (dark_leaves - 1.F) * depth);
 }
@@ -97,7 +97,7 @@ void plant_needles(const StrokeScene& scene, const Tree& tree, std::size_t i, co
     Stroke lit = body;
     set_line(lit, foot + glm::vec2(0.24F * side * tree.width, -0.10F * tree.height),
              tip + glm::vec2(0.10F * side * tree.width, 0.07F * tree.height), tree.width * needles.lit_width, tree.width * needles.tip);
-    lit.alpha = std::min(0.95F, (0.34F + 0.50F * light + 0.15F * tone.rim) * (1.F - 0.45F * tone.calm));
+    lit.alpha = std::min(0.95F, (0.34F + 0.50F * light + 0.15F * tone.rim) * (1.F - 0.60F * tone.calm));
     const float warm = light * light * (0.6F + 0.8F * tone.rim);
     lit.colour = scene.colour(i, std::min(1.5F, 1.30F * light - 0.05F + tone.lighter + 0.5F * tone.rim), paint_jitter, seed);
     lit.colour += (1.F - std::min(1.F, scene.base.haze[i])) * warm * glm::vec3(0.060F, 0.040F, -0.030F);
