@@ -8,26 +8,15 @@
 
 #include "base/angle.h"
 #include "base/json.h"
+#include "renderer/compose/view_defaults.h"
 #include "renderer/compose/view_score.h"
 
 namespace belvedere {
 namespace {
 
-constexpr double sun_left_deg = 112.0;  // of the view: light falls from the upper left, as on maps
-constexpr double sun_altitude_deg = 31.0;
-
-// Three figures: nobody reads more out of a picture.
-double rounded(double metres) {
-  double unit = 1.0;
-  while (metres / unit >= 10000.0) unit *= 10.0;
-  return std::round(metres / unit) * unit;
-}
-
-double turned(double degrees) { return degrees - 360.0 * std::floor(degrees / 360.0); }
-
 std::string_view compass(double azimuth_deg) {
   constexpr std::array<std::string_view, 8> names = {"north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest"};
-  return names[static_cast<std::size_t>(std::floor(turned(azimuth_deg) / 45.0 + 0.5)) % 8];
+  return names[static_cast<std::size_t>(std::floor(turned_deg(azimuth_deg) / 45.0 + 0.5)) % 8];
 }
 
 double km(double metres) { return metres / 1000.0; }
@@ -48,7 +37,7 @@ class Text {
   std::string out_;
 };
 
-std::string metres(double m) { return fmt::format("{:.0f}", rounded(m)); }
+std::string metres(double m) { return fmt::format("{:.0f}", rounded_m(m)); }
 std::string place(glm::dvec2 p) { return fmt::format("[{:.0f}, {:.0f}]", p.x, p.y); }
 
 void write_source(Text& text, const ProposedFile& source) {
@@ -77,8 +66,8 @@ std::string describe_view(const ViewSearch& search, const Candidate& candidate) 
                                                         : "in the middle";
   return fmt::format("{} ({:.0f}°), {:.0f} to {:.0f} km, {:.0f}° wide: {} {}; merit {:.1f}",
                      v.field_of_view_deg >= 359.0 ? "all around from" : fmt::format("looks {}", compass(v.azimuth_deg)),
-                     turned(v.azimuth_deg), km(v.near_m), km(v.far_m), v.field_of_view_deg, subject_words(anchor, search.massifs), where,
-                     candidate.merit);
+                     turned_deg(v.azimuth_deg), km(v.near_m), km(v.far_m), v.field_of_view_deg, subject_words(anchor, search.massifs),
+                     where, candidate.merit);
 }
 
 std::string proposed_scene_text(const ViewSearch& search, const Candidate& candidate, const ProposedScene& about) {
@@ -86,6 +75,8 @@ std::string proposed_scene_text(const ViewSearch& search, const Candidate& candi
   const Massifs& massifs = search.massifs;
   const Anchor& main = massifs.anchors[static_cast<std::size_t>(candidate.plan.anchor)];
   const ViewMeasures& m = candidate.measures;
+  const HorizonDefaults horizon = defaults_of_horizon(v.far_m);
+  const PainterSun sun = painter_sun(turned_deg(v.azimuth_deg));
   Text text;
   text.line(
       fmt::format("# Proposed by belvedere new{}: {}.", about.number.empty() ? "" : ", " + about.number, describe_view(search, candidate)));
@@ -122,8 +113,8 @@ std::string proposed_scene_text(const ViewSearch& search, const Candidate& candi
   text.line("[generalize]");
   text.line("foreground = [1.1, 1.1, 1.1, 1.0, 1.0, 0.9]");
   text.line("background = [1.2, 1.2, 1.1, 0.8, 0.5, 0.3]");
-  text.value("foreground_to_m", metres(0.42 * v.far_m), "0.42 of the horizon's distance");
-  text.value("background_from_m", metres(0.95 * v.far_m), "0.95 of it");
+  text.value("foreground_to_m", metres(horizon.foreground_to_m), "0.42 of the horizon's distance");
+  text.value("background_from_m", metres(horizon.background_from_m), "0.95 of it");
   text.value("crest", "0.4");
   text.line();
   text.line("[deform]");
@@ -147,19 +138,19 @@ std::string proposed_scene_text(const ViewSearch& search, const Candidate& candi
   if (v.cylinder) text.value("projection", "\"cylindrical\"", "a picture so wide would be stretched at its sides by a plane");
   text.value("position", place(v.viewer), search.ground.at(v.viewer) == nullptr ? "outside of the data, which begin in front of it" : "");
   text.value("height_m", fmt::format("{:.0f}", v.eye_m), "bent level ground touches the line of sight at the horizon");
-  text.value("azimuth_deg", fmt::format("{:.1f}", turned(v.azimuth_deg)), fmt::format("to the {}", compass(v.azimuth_deg)));
+  text.value("azimuth_deg", fmt::format("{:.1f}", turned_deg(v.azimuth_deg)), fmt::format("to the {}", compass(v.azimuth_deg)));
   text.value("pitch_deg", fmt::format("{:.2f}", v.pitch_deg), fmt::format("{:.0f} % of the picture is sky", 100.0 * m.sky));
   text.value("field_of_view_deg", fmt::format("{:.1f}", v.field_of_view_deg));
   text.line();
   text.line("[sun]");
-  text.value("azimuth_deg", fmt::format("{:.0f}", turned(v.azimuth_deg - sun_left_deg)), "from the upper left of the picture, as on maps");
-  text.value("altitude_deg", fmt::format("{:.0f}", sun_altitude_deg));
+  text.value("azimuth_deg", fmt::format("{:.0f}", sun.azimuth_deg), "from the upper left of the picture, as on maps");
+  text.value("altitude_deg", fmt::format("{:.0f}", sun.altitude_deg));
   text.line();
   text.line("[air]");
-  text.value("from_m", metres(air_from_m(v)), "behind the foreground");
-  text.value("scale_m", metres(air_scale_m(v)), "far ranges turn blue, and stay readable");
+  text.value("from_m", metres(horizon.air_from_m), "behind the foreground");
+  text.value("scale_m", metres(horizon.air_scale_m), "far ranges turn blue, and stay readable");
   text.value("haze", "0.75");
-  text.value("rim_fade_m", metres(rim_fade_m(v)), "the end of the data goes under in haze");
+  text.value("rim_fade_m", metres(horizon.rim_fade_m), "the end of the data goes under in haze");
   text.line();
   text.line("[output]");
   text.value("width", fmt::format("{}", about.width_px));

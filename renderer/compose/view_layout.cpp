@@ -23,7 +23,7 @@ double percentile(std::vector<double> values, double share) {
 }
 
 // Base, exaggeration and level ground, from the ground in the wedge.
-bool raise(const CoarseGround& ground, ViewShape& view, double lone) {
+bool raise(const CoarseGround& ground, ViewShape& view, double lone, const LayoutGiven& given) {
   const Grid<float>& relief = ground.local_relief_m(0.05 * view.far_m);
   std::vector<double> altitude, rugged;
   for (const WedgePoint& p : wedge_points(view)) {
@@ -34,11 +34,12 @@ bool raise(const CoarseGround& ground, ViewShape& view, double lone) {
   }
   constexpr std::size_t fewest = 40;
   if (altitude.size() < fewest) return false;
-  view.base_m = percentile(altitude, 0.10);
+  view.base_m = given.base_m.value_or(percentile(altitude, 0.10));
   // Forms as tall in the picture as painters draw them: the share of its height that the relief around a place takes at middle distance.
   constexpr double usual = 1.55, usual_share = 0.085, yields = 0.35;
   const double share = percentile(rugged, 0.70) / (0.5 * (view.near_m + view.far_m) * picture_height(view));
-  view.exaggeration = std::clamp(usual * exact::pow(usual_share / std::max(share, 1e-3), yields), 1.2, 2.0 - 0.5 * lone);
+  const double found = std::clamp(usual * exact::pow(usual_share / std::max(share, 1e-3), yields), 1.2, 2.0 - 0.5 * lone);
+  view.exaggeration = given.exaggeration.value_or(found);
   view.level_m = view.exaggeration * (percentile(altitude, 0.40) - view.base_m);
   return true;
 }
@@ -80,8 +81,9 @@ bool fits_data(const CoarseGround& ground, const ViewShape& view) {
   return near_inside >= 0.99 * near && inside >= 0.93 * all;
 }
 
-std::optional<ViewShape> lay_out(const CoarseGround& ground, ViewShape view, double lone, const LayoutParameters& parameters) {
-  if (!raise(ground, view, lone)) return std::nullopt;
+std::optional<ViewShape> lay_out(const CoarseGround& ground, ViewShape view, double lone, const LayoutParameters& parameters,
+                                 const LayoutGiven& given) {
+  if (!raise(ground, view, lone, given)) return std::nullopt;
   const double height = picture_height(view);
   const double near = view.near_m, far = view.far_m, crest = view.crest_m;
   const std::vector<glm::dvec2> directions = fan_directions(view.field_of_view_deg, view.cylinder, parameters.columns);
@@ -99,18 +101,30 @@ std::optional<ViewShape> lay_out(const CoarseGround& ground, ViewShape view, dou
   const double least_over = parameters.over_summit - 0.025 * lone;
   const double steepest = view.cylinder ? 3.0 : 1.2;  // of the lower edge: no picture is tipped further than a map on a desk
   double top = -0.15 * height;                        // depression of the upper edge; an angle, of a cylinder its tangent
+  const double rise = far * far - crest * crest;
+  const auto drop_m = [&](double distance) { return given.drop_m ? given.drop_m(distance) : view.drop_m(distance); };
   const auto lay = [&] {
     const double bottom = view.cylinder ? std::min(top + height, steepest) : tangent(std::min(top + height, steepest));
-    const double radius = (far * far - crest * crest + square(near - crest)) / (2.0 * near * std::max(bottom, 1e-3));
+    double radius = (rise + square(near - crest)) / (2.0 * near * std::max(bottom, 1e-3));
+    if (given.eye_m) {
+      view.eye_m = given.eye_m(view);
+      radius = rise / (2.0 * std::max(view.eye_m - view.base_m - view.level_m, 1.0));
+    }
     view.radius_m = std::clamp(radius, 0.25 * far, 12.0 * far);
-    view.eye_m = view.base_m + view.level_m + (far * far - crest * crest) / (2.0 * view.radius_m);
-    view.pitch_deg = view.cylinder ? -to_degrees(exact::atan2(top + 0.5 * height, 1.0)) : -to_degrees(top + 0.5 * height);
+    if (!given.eye_m)  // under a bend that is there level ground at `near` lies on the lower edge all the same
+      view.eye_m = view.base_m + view.level_m + (given.drop_m ? near * bottom - drop_m(near) : rise / (2.0 * view.radius_m));
+    if (given.pitch_deg) {
+      view.pitch_deg = given.pitch_deg(view);
+      top = (view.cylinder ? tangent(to_radians(-view.pitch_deg)) : to_radians(-view.pitch_deg)) - 0.5 * height;
+    } else {
+      view.pitch_deg = view.cylinder ? -to_degrees(exact::atan2(top + 0.5 * height, 1.0)) : -to_degrees(top + 0.5 * height);
+    }
   };
   for (int round = 0; round < parameters.rounds; ++round) {
     lay();
     const ComposedPicture picture(view);
     std::vector<double> drop(distances.size());
-    for (std::size_t i = 0; i < drop.size(); ++i) drop[i] = view.eye_m + view.drop_m(distances[i]);
+    for (std::size_t i = 0; i < drop.size(); ++i) drop[i] = view.eye_m + drop_m(distances[i]);
     std::vector<double> skyline;
     for (int k = 0; k < parameters.columns; ++k) {
       double least = unknown;
@@ -126,7 +140,7 @@ std::optional<ViewShape> lay_out(const CoarseGround& ground, ViewShape view, dou
     if (skyline.size() < 4) return std::nullopt;
     const double most = percentile(skyline, parameters.most_of_skyline) - parameters.sky;
     const double highest = *std::min_element(skyline.begin(), skyline.end()) - least_over;
-    top += std::min(most, highest) * height;
+    if (!given.pitch_deg) top += std::min(most, highest) * height;
   }
   lay();
   return view;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -13,6 +14,16 @@ namespace belvedere {
 //   R = (F² - c² + (near - c)²) / (2 near tan(lower edge)): level ground at `near` lies on the lower edge.
 //   The upper edge lies a share of the height above most of the skyline, and above the highest summit by a margin.
 // F is far_m, c crest_m, R radius_m. The skyline hangs on R, so the three are found together as a fixed point.
+
+// What is settled already of a view, and not found: the rest follows from it in the same way.
+//   Eye given: R = (F² - c²) / (2 (eye - base - level)), so that F is the horizon as well; the lower edge lies where it falls.
+struct LayoutGiven {
+  std::optional<double> exaggeration;
+  std::optional<double> base_m;                       // without it the altitude that a tenth of the ground in view is lower than
+  std::function<double(const ViewShape&)> eye_m;      // once exaggeration and base are known; empty: found
+  std::function<double(const ViewShape&)> pitch_deg;  // once the eye is known, too; empty: found
+  std::function<double(double)> drop_m;               // of a bend that is there, by distance; empty: a parabola is found
+};
 
 struct LayoutParameters {
   double sky = 0.12;              // share of the picture above most of the skyline, 0…0.5
@@ -32,6 +43,7 @@ std::vector<WedgePoint> wedge_points(const ViewShape& view);
 bool fits_data(const CoarseGround& ground, const ViewShape& view);
 
 // Viewer, azimuth, field, near, far and crest in; the rest out. Nothing where the wedge holds too little ground.
-std::optional<ViewShape> lay_out(const CoarseGround& ground, ViewShape view, double lone, const LayoutParameters& parameters = {});
+std::optional<ViewShape> lay_out(const CoarseGround& ground, ViewShape view, double lone, const LayoutParameters& parameters = {},
+                                 const LayoutGiven& given = {});
 
 }  // namespace belvedere

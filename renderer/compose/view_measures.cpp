@@ -8,6 +8,7 @@
 #include "base/angle.h"
 #include "base/math.h"
 #include "base/math_exact.h"
+#include "renderer/compose/view_defaults.h"
 
 namespace belvedere {
 namespace {
@@ -97,10 +98,6 @@ AnchorSight sight_of(const CoarseGround& ground, const SightModel& sight, const 
 }
 
 }  // namespace
-
-double rim_fade_m(const ViewShape& view) { return 0.035 * view.far_m; }
-double air_from_m(const ViewShape& view) { return 0.45 * view.far_m; }
-double air_scale_m(const ViewShape& view) { return 0.9 * view.far_m; }
 
 ViewMeasures measure_view(const CoarseGround& ground, const SightModel& sight, const std::vector<Anchor>& anchors) {
   ViewMeasures out;
@@ -244,6 +241,7 @@ ViewMeasures measure_view(const CoarseGround& ground, const SightModel& sight, c
 ViewMeasures measure_view(const CoarseGround& ground, const ViewShape& view, const std::vector<Anchor>& anchors,
                           const MeasureParameters& parameters) {
   const ComposedPicture picture(view);
+  const HorizonDefaults horizon = defaults_of_horizon(view.far_m);
   SightModel sight{.picture = picture,
                    .viewer = view.viewer,
                    .eye_m = view.eye_m,
@@ -257,9 +255,9 @@ ViewMeasures measure_view(const CoarseGround& ground, const ViewShape& view, con
                    .drop_m = {},
                    .exaggeration = {},
                    .base_m = view.base_m,
-                   .rim_fade_m = rim_fade_m(view),
-                   .air_from_m = air_from_m(view),
-                   .air_scale_m = air_scale_m(view),
+                   .rim_fade_m = horizon.rim_fade_m,
+                   .air_from_m = horizon.air_from_m,
+                   .air_scale_m = horizon.air_scale_m,
                    .haze = 0.75};
   for (const double d : sight.distance_m) sight.drop_m.push_back(view.drop_m(d));
   sight.exaggeration.assign(sight.distance_m.size(), view.exaggeration);

@@ -77,9 +77,4 @@ struct MeasureParameters {
 ViewMeasures measure_view(const CoarseGround& ground, const ViewShape& view, const std::vector<Anchor>& anchors,
                           const MeasureParameters& parameters = {});
 
-// What follows from a view's distances: where the rim fades and air begins.
-double rim_fade_m(const ViewShape& view);
-double air_from_m(const ViewShape& view);
-double air_scale_m(const ViewShape& view);
-
 }  // namespace belvedere

@@ -167,8 +167,9 @@ LoadedScene panel_scene(const ExampleSheetPlan& plan, int panel, bool winter) {
   scene.title = shown.name;
   scene.palette = plan.palette;
   scene.output.sheet_width_mm = rect.width() / plan.dots_per_inch * 25.4;
-  scene.sun.azimuth_deg = std::remainder(scene.camera.azimuth_deg + plan.light_from_deg, 360.0);
-  if (scene.sun.azimuth_deg < 0.0) scene.sun.azimuth_deg += 360.0;
+  double light_deg = std::remainder(scene.camera.azimuth_deg.value_or(0.0) + plan.light_from_deg, 360.0);
+  if (light_deg < 0.0) light_deg += 360.0;
+  scene.sun.azimuth_deg = light_deg;
   // The terrains were chosen for the plan's own seed; another one makes others. Small panels show no more than coarse ones do.
   const ExampleSheetPlan usual;
   SyntheticParameters& terrain = scene.terrain.synthetic.value();

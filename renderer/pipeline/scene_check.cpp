@@ -100,7 +100,7 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cach
   Sight sight = look(scene, progress, cache);
   paint.palette = palette_of_place(paint.palette, scene, *sight.dem);
   report.view = sight.view;
-  report.judgement = judge_view(*sight.dem, sight.view, scene.scene.air);
+  report.judgement = judge_view(*sight.dem, sight.view);
   report.crs = sight.dem->crs.empty() ? std::string("none") : describe_crs(sight.dem->crs);
   report.cells_wide = sight.dem->width();
   report.cells_high = sight.dem->height();

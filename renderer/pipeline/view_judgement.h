@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "renderer/compose/view_score.h"
-#include "renderer/paint/air_parameters.h"
 #include "renderer/world/view.h"
 #include "terrain/io/dem.h"
 
@@ -24,6 +23,6 @@ struct ViewJudgement {
 
 // On the ground as handles and summits rearrange it, under the scene's own bend and exaggeration. Parallel projections are not judged: they
 // have neither sky nor horizon.
-ViewJudgement judge_view(const Dem& dem, const View& view, const AirParameters& air);
+ViewJudgement judge_view(const Dem& dem, const View& view);
 
 }  // namespace belvedere

@@ -96,8 +96,8 @@ struct SceneClimate {       // see terrain/climate/climate.h; where nothing is s
 struct SceneGeneralize {
   std::string preset;  // fills what the file does not write; empty: none
   GeneralizeParameters bands;
-  double foreground_to_m = 32000.0;                          // up to this distance all foreground
-  double background_from_m = 90000.0;                        // from here all background, smoothstep between
+  std::optional<double> foreground_to_m;                     // up to this distance all foreground; absent: by the horizon …
+  std::optional<double> background_from_m;                   // … and from here all background, smoothstep between
   std::string curvature = "bounded";                         // "bounded" or "plan": becomes bands.curvature
   double print_detail_px = 0.0;                              // 0: every band, wherever it is
   std::array<double, 2> mask_slope_deg = {0, 0};             // original up to the first, generalized from the second; 0, 0: no mask
@@ -127,33 +127,52 @@ struct SceneHandle {  // a piece of ground that is moved: see terrain/deform/han
 };
 
 struct SceneDeform {
-  DeformParameters ground;  // without summits and handles: resolve_deform puts them there, at places of the scene's CRS
+  // Without summits and handles (resolve_deform puts them there, at places of the scene's CRS) and without the values below.
+  DeformParameters ground;
+  // Absent: by the region, as renderer/world/view_settling.h says.
+  std::optional<double> exaggeration, exaggeration_base_m;
+  std::optional<double> bend_radius_m, bend_crest_m;
   std::vector<SceneSummit> summits;
   std::vector<SceneHandle> handles;
   bool allow_folds = false;  // ground in the picture that handles fold over itself is a note instead of an error
+
+  // What is written alone: otherwise the ground is neither raised nor bent.
+  DeformParameters written() const {
+    DeformParameters out = ground;
+    out.exaggeration = exaggeration.value_or(out.exaggeration);
+    out.exaggeration_base_m = exaggeration_base_m.value_or(out.exaggeration_base_m);
+    out.bend.radius_m = bend_radius_m.value_or(out.bend.radius_m);
+    out.bend.crest_m = bend_crest_m.value_or(out.bend.crest_m);
+    return out;
+  }
 };
 
 struct SceneCamera {
   std::string projection = CameraParameters{}.projection;
   std::optional<glm::dvec2> position;         // E, N in the scene's CRS
   std::optional<glm::dvec2> position_lonlat;  // or longitude, latitude
-  double height_m = 3000.0;
-  bool height_above_ground = false;   // else above the datum
-  std::optional<glm::dvec2> look_at;  // E, N: a point on the ground
+  std::optional<double> height_m;             // absent: by the region
+  bool height_above_ground = false;           // else above the datum
+  std::optional<glm::dvec2> look_at;          // E, N: a point on the ground
   std::optional<glm::dvec2> look_at_lonlat;
-  std::optional<double> look_at_altitude_m;             // else the ground's, unbent
-  double azimuth_deg = CameraParameters{}.azimuth_deg;  // without look_at
-  double pitch_deg = CameraParameters{}.pitch_deg;
-  double tilt_deg = 0.0;  // added to the pitch in either case
+  std::optional<double> look_at_altitude_m;  // else the ground's, unbent
+  std::optional<double> azimuth_deg;         // without look_at; absent: by the region
+  std::optional<double> pitch_deg;
+  std::optional<double> tilt_deg;  // added to the pitch in either case
   double field_of_view_deg = CameraParameters{}.field_of_view_deg;
   double view_width_m = CameraParameters{}.view_width_m;
 };
 
 struct SceneSun {
-  double azimuth_deg = 315.0;
-  double altitude_deg = 30.0;
+  std::optional<double> azimuth_deg;  // absent: the painter's sun
+  std::optional<double> altitude_deg;
   std::string time;                            // ISO 8601 with zone; then azimuth and altitude are computed for the scene's middle
   double radius_deg = painted_sun_radius_deg;  // of the disc: softness of cast shadows
+};
+
+struct SceneAir {
+  AirParameters look;                                 // without distances
+  std::optional<double> from_m, scale_m, rim_fade_m;  // absent: by the horizon
 };
 
 // One exemplar: painted by the program (picture empty), or a picture with a class mask and perhaps guides.
@@ -210,7 +229,7 @@ struct Scene {
   SamplingParameters sampling;
   TracerParameters tracing;  // its instruction set is pinned where other machines must give the same picture
   LightParameters light;
-  AirParameters air;
+  SceneAir air;
   std::string sky = "any";               // a kind of clouds.h
   std::string palette = "summer";        // built-in name or file
   std::vector<SceneExemplar> exemplars;  // empty: one painted by the program

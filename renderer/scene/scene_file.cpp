@@ -41,7 +41,13 @@ class ValueReader {
   void operator()(std::uint64_t* field) const { *field = static_cast<std::uint64_t>(integer()); }
   void operator()(double* field) const { *field = number(value_, key_.range); }
   void operator()(float* field) const { *field = static_cast<float>(number(value_, key_.range)); }
-  void operator()(std::optional<double>* field) const { *field = number(value_, key_.range); }
+  void operator()(std::optional<double>* field) const {
+    const auto* word = std::get_if<std::string>(&value_.value);
+    if (!key_.derived.empty() && word != nullptr && *word == "auto")
+      field->reset();
+    else
+      *field = number(value_, key_.range);
+  }
   void operator()(std::optional<glm::dvec2>* field) const {
     const std::vector<double> pair = numbers(2, 2);
     *field = glm::dvec2(pair[0], pair[1]);

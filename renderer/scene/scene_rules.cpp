@@ -89,17 +89,18 @@ class Rules {
     if (settings.bands.full_curvature > 0.F && settings.bands.full_curvature < 0.001F)
       refuse("generalize.full_curvature", fmt::format("generalize.full_curvature is {}", settings.bands.full_curvature),
              "0 for the usual one, or 0.001 … 10");
-    if (settings.foreground_to_m >= settings.background_from_m)
+    if (settings.foreground_to_m && settings.background_from_m && *settings.foreground_to_m >= *settings.background_from_m)
       refuse(written("generalize.background_from_m") ? "generalize.background_from_m" : "generalize.foreground_to_m",
-             fmt::format("generalize.background_from_m ({} m) is not beyond generalize.foreground_to_m ({} m)", settings.background_from_m,
-                         settings.foreground_to_m),
+             fmt::format("generalize.background_from_m ({} m) is not beyond generalize.foreground_to_m ({} m)", *settings.background_from_m,
+                         *settings.foreground_to_m),
              "a background that begins beyond the foreground");
   }
 
   void deform() {
     const DeformParameters& ground = scene_.deform.ground;
-    if (ground.bend.radius_m > 0.0 && ground.bend.radius_m < 1000.0)
-      refuse("deform.bend.radius_m", fmt::format("deform.bend.radius_m is {}", ground.bend.radius_m), "0 for no bend, or 1000 … 1e9 m");
+    const double bend_m = scene_.deform.bend_radius_m.value_or(0.0);
+    if (bend_m > 0.0 && bend_m < 1000.0)
+      refuse("deform.bend.radius_m", fmt::format("deform.bend.radius_m is {}", bend_m), "0 for no bend, or 1000 … 1e9 m");
     if (ground.foreground_to_m >= ground.background_from_m)
       refuse(written("deform.background_from_m") ? "deform.background_from_m" : "deform.foreground_to_m",
              fmt::format("deform.background_from_m ({} m) is not beyond deform.foreground_to_m ({} m)", ground.background_from_m,
@@ -117,7 +118,7 @@ class Rules {
     for (std::size_t i = 0; i < scene_.deform.summits.size(); ++i)
       require_position(fmt::format("deform.summits.{}", i), scene_.deform.summits[i].position, scene_.deform.summits[i].position_lonlat);
     try {
-      in_section("deform.bend", [&] { return BendProfile(ground.bend); });
+      in_section("deform.bend", [&] { return BendProfile(scene_.deform.written().bend); });
     } catch (const Error& error) {  // to the line where it is written
       refuse(error.where(), error.where() + ": " + error.found(), error.allowed());
     }

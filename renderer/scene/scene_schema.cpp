@@ -80,7 +80,7 @@ std::string describe_type(const SceneKey& key) {
     std::string operator()(std::uint64_t*) const { return "a whole number"; }
     std::string operator()(double*) const { return "a number"; }
     std::string operator()(float*) const { return "a number"; }
-    std::string operator()(std::optional<double>*) const { return "a number"; }
+    std::string operator()(std::optional<double>*) const { return key.derived.empty() ? "a number" : "a number or \"auto\""; }
     std::string operator()(std::optional<glm::dvec2>*) const {
       return key.lonlat ? "two numbers, [longitude, latitude]" : "two numbers, [E, N]";
     }

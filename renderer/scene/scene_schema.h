@@ -54,8 +54,9 @@ struct SceneKey {
       {};                              // of TextKind::choice, of a list of names, and of the names in a table of numbers (empty there: any)
   std::string_view choices_from = {};  // embedded folder of TextKind::built_in
   bool required = false;
-  bool lonlat = false;  // a pair of longitude and latitude
-  bool raster = false;  // a file that may also lie on a server
+  bool lonlat = false;            // a pair of longitude and latitude
+  bool raster = false;            // a file that may also lie on a server
+  std::string_view derived = {};  // of an optional number: what it is where the scene says nothing, or "auto"; empty: no such thing
 };
 
 enum class SectionKind {

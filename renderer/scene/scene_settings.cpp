@@ -97,8 +97,8 @@ class Setting {
     }
     const std::string& last = path_.back();
     const bool quoted = !value_.empty() && (value_.front() == '"' || value_.front() == '\'');
-    ConfigValue value =
-        holds_text(section, last) && !quoted ? ConfigValue{.value = value_, .place = place_} : parse_config_value(value_, where_);
+    const bool is_word = holds_text(section, last) || value_ == "auto";
+    ConfigValue value = is_word && !quoted ? ConfigValue{.value = value_, .place = place_} : parse_config_value(value_, where_);
     mark(value, place_);
     if (node->is_array()) {
       element(*node, last, false) = std::move(value);

@@ -114,7 +114,11 @@ struct SchemaOfField {
   Json operator()(std::uint64_t*) const { return number_schema("integer", key.range); }
   Json operator()(double*) const { return number_schema("number", key.range); }
   Json operator()(float*) const { return number_schema("number", key.range); }
-  Json operator()(std::optional<double>*) const { return number_schema("number", key.range); }
+  Json operator()(std::optional<double>*) const {
+    if (key.derived.empty()) return number_schema("number", key.range);
+    return Json::object().add("anyOf",
+                              Json::array({number_schema("number", key.range), typed("string").add("enum", Json::texts({"auto"}))}));
+  }
   Json operator()(std::optional<glm::dvec2>*) const {
     if (!key.lonlat) return list(2, 2);
     return typed("array")
@@ -162,6 +166,10 @@ bool has_json_default(const SceneField& field) {
          !std::holds_alternative<std::vector<std::pair<LandCoverClass, LandCoverClass>>*>(field);
 }
 
+std::string full_meaning(const SceneKey& key) {
+  return std::string(key.meaning) + (key.derived.empty() ? "" : fmt::format(" Without it: {}.", key.derived));
+}
+
 Json section_schema(const SceneSection& section, Scene& defaults) {
   Json properties = Json::object();
   std::vector<std::string> required;
@@ -169,7 +177,7 @@ Json section_schema(const SceneSection& section, Scene& defaults) {
     const SceneField field = key.field(defaults, 0);
     Json schema = std::visit(SchemaOfField{key}, field);
     const std::string unit = key.unit.empty() ? "" : fmt::format(" Unit: {}.", key.unit);
-    schema.add("description", Json::text(std::string(key.meaning) + unit));
+    schema.add("description", Json::text(full_meaning(key) + unit));
     const std::string value = std::visit(ValueWriter{}, field);
     if (!value.empty() && !key.required && has_json_default(field)) schema.add("default", Json::raw(value));
     properties.add(key.name, std::move(schema));
@@ -250,8 +258,10 @@ std::string scene_reference() {
     for (const SceneKey& key : section.keys) {
       const std::string range = describe_range(key);
       const std::string value = key.required ? "**required**" : value_text(key, defaults, 0);
-      out += fmt::format("| `{}` | {}{} | {} | {} |\n", key.name, table_cell(describe_type(key)), range.empty() ? "" : "; " + range,
-                         key.required || value.empty() ? value : "`" + table_cell(value) + "`", table_cell(key.meaning));
+      out += fmt::format(
+          "| `{}` | {}{} | {} | {} |\n", key.name, table_cell(describe_type(key)), range.empty() ? "" : "; " + range,
+          key.required || value.empty() ? std::string(key.derived.empty() ? value : "`\"auto\"`") : "`" + table_cell(value) + "`",
+          table_cell(full_meaning(key)));
     }
     for (const SceneExclusion& exclusion : scene_exclusions())
       if (exclusion.section == section.name)

@@ -30,14 +30,14 @@ namespace {
 constexpr int step_cells = 16;
 
 // 1 near, 0 far, smoothstep between: the share u_d of equation 5 of Jenny, Jenny & Hurni 2011, with no edge where it begins or ends.
-Grid<float> foreground_share(const Dem& dem, glm::dvec2 viewer_xy, const SceneGeneralize& settings) {
+Grid<float> foreground_share(const Dem& dem, glm::dvec2 viewer_xy, const GeneralizeDistances& distances) {
   Grid<float> share(dem.width(), dem.height());
-  const double span = std::max(1.0, settings.background_from_m - settings.foreground_to_m);
+  const double span = std::max(1.0, distances.background_from_m - distances.foreground_to_m);
   parallel_rows(dem.height(), [&](int y) {
     for (int x = 0; x < dem.width(); ++x) {
       const glm::dvec2 place = dem.transform.to_crs(x, y);
       const double distance = exact::hypot(place.x - viewer_xy.x, place.y - viewer_xy.y);
-      share(x, y) = static_cast<float>(1.0 - smoothstep((distance - settings.foreground_to_m) / span));
+      share(x, y) = static_cast<float>(1.0 - smoothstep((distance - distances.foreground_to_m) / span));
     }
   });
   return share;
@@ -68,6 +68,7 @@ struct ViewOfGround {
   Grid<float> mask;
   PixelGround pixel_ground;  // empty where the print's detail is not asked for
   glm::dvec2 viewer_xy{0.0};
+  GeneralizeDistances distances;
 };
 
 // Where water keeps its level: on lakes, at sea.
@@ -94,7 +95,7 @@ GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParamet
   grids.mask = seen.mask;
   grids.pixel_ground = seen.pixel_ground;
   if (settings.print_detail_px > 0.0) bands.print_pixels = static_cast<float>(settings.print_detail_px);
-  grids.foreground_share = foreground_share(dem, seen.viewer_xy, settings);
+  grids.foreground_share = foreground_share(dem, seen.viewer_xy, seen.distances);
   Grid<float> out = generalize(settings.line_integral ? plain : dem.altitude_m, cell_m, grids, bands, progress);
   plain = {};
   const Grid<unsigned char> lakes = std::move(grids.keep);
@@ -108,7 +109,9 @@ GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParamet
 CacheKey ground_key(const LoadedScene& loaded, const Dem& dem, const SeaParameters& sea, const ViewOfGround& seen) {
   Scene settings;
   settings.generalize = loaded.scene.generalize;
-  const auto& [mask, pixel_ground, viewer_xy] = seen;
+  const auto& [mask, pixel_ground, viewer_xy, distances] = seen;
+  settings.generalize.foreground_to_m = distances.foreground_to_m;
+  settings.generalize.background_from_m = distances.background_from_m;
   const auto& [m_per_pixel, step] = pixel_ground;
   CacheKeyText key;
   key.add("settings", write_scene(settings)).add("mask", mask).add("viewer", viewer_xy);
@@ -168,7 +171,7 @@ GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem
                                        Progress& progress, const Cache& cache, const SeaParameters* given_sea) {
   const SeaParameters sea = given_sea != nullptr ? *given_sea : scene_sea(loaded.scene.land_cover);
   const SceneGeneralize& settings = loaded.scene.generalize;
-  ViewOfGround seen{.mask = mask_for_scene(loaded, dem, land_cover, progress, cache), .pixel_ground = {}, .viewer_xy = view.viewer_xy};
+  ViewOfGround seen{.mask = mask_for_scene(loaded, dem, land_cover, progress, cache), .pixel_ground = {}, .viewer_xy = view.viewer_xy, .distances = view.generalize};
   if (settings.print_detail_px > 0.0) seen.pixel_ground = ground_m_per_pixel(dem, view);
   return cached<GeneralizedTerrain>(
       cache, [&] { return ground_key(loaded, dem, sea, seen); }, progress,

@@ -62,7 +62,7 @@ RockParameters to_rock_parameters(const World& world, const Palette& palette, co
 
 BaseParameters to_base_parameters(const World& world, const SheetView& view, const Palette& palette) {
   BaseParameters parameters;
-  parameters.air = world.scene.air;
+  parameters.air = world.view.air;
   parameters.horizon_px = view.horizon_px;
   parameters.rock = &find_rock_kind(world.scene.land_cover.rock);
   parameters.sun_image_x = world.view.sun_image_x;

@@ -11,6 +11,7 @@
 #include "base/math_exact.h"
 #include "renderer/scene/scene_error.h"
 #include "renderer/world/scene_place.h"
+#include "renderer/world/view_settling.h"
 #include "terrain/io/raster_io.h"
 
 namespace belvedere {
@@ -33,8 +34,8 @@ double meridian_azimuth_deg(const Dem& dem, glm::dvec2 lonlat) {
   return to_degrees(exact::atan2(north.x - here.x, north.y - here.y));
 }
 
-SunPosition resolve_sun(const SceneSun& sun, const Dem& dem) {
-  if (sun.time.empty()) return {sun.azimuth_deg, sun.altitude_deg};
+SunPosition resolve_sun(const SceneSun& sun, const Dem& dem, double view_azimuth_deg, std::vector<DerivedValue>& derived) {
+  if (sun.time.empty()) return settle_sun(sun, view_azimuth_deg, derived);
   if (dem.crs.empty()) throw Error(ErrorKind::usage, "sun.time", "a time on a terrain without CRS", "sun.azimuth_deg and sun.altitude_deg");
   const glm::dvec2 middle = dem.transform.to_crs(0.5 * (dem.width() - 1), 0.5 * (dem.height() - 1));
   const glm::dvec2 lonlat = transform_point(dem.crs, normalize_crs("EPSG:4326"), middle);
@@ -55,7 +56,7 @@ void look_towards(CameraParameters& camera, glm::dvec3 point) {
 }  // namespace
 
 DeformParameters resolve_deform(const SceneDeform& scene_deform, const Dem& dem) {
-  DeformParameters deform = scene_deform.ground;
+  DeformParameters deform = scene_deform.written();
   for (std::size_t i = 0; i < scene_deform.summits.size(); ++i) {
     const SceneSummit& given = scene_deform.summits[i];
     SummitExaggeration& summit = deform.summits.emplace_back(given.summit);
@@ -77,28 +78,40 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress, const Gro
   const auto altitude_m = [&](glm::dvec2 place) {
     return known_m && on_terrain(dem, place) ? known_m(place) : ground_altitude_m(dem, place);
   };
-  const SceneCamera& camera = scene.camera;
   View view;
-  view.camera.projection = camera.projection;
+  view.camera.projection = scene.camera.projection;
   view.camera.width = scene.output.width;
   view.camera.height = scene.output.height;
-  view.camera.field_of_view_deg = camera.field_of_view_deg;
-  view.camera.view_width_m = camera.view_width_m;
+  view.camera.field_of_view_deg = scene.camera.field_of_view_deg;
+  view.camera.view_width_m = scene.camera.view_width_m;
 
-  if (camera.position)
-    view.viewer_xy = *camera.position;
-  else if (camera.position_lonlat)
-    view.viewer_xy = place_of_lonlat(dem, *camera.position_lonlat, "camera.position_lonlat");
+  if (scene.camera.position)
+    view.viewer_xy = *scene.camera.position;
+  else if (scene.camera.position_lonlat)
+    view.viewer_xy = place_of_lonlat(dem, *scene.camera.position_lonlat, "camera.position_lonlat");
   else
     throw Error(ErrorKind::usage, "camera", "no position", "camera.position or camera.position_lonlat");
 
-  view.deform = resolve_deform(scene.deform, dem);
+  std::optional<ViewTarget> target;
+  if (scene.camera.look_at || scene.camera.look_at_lonlat) {
+    target.emplace();
+    target->place =
+        scene.camera.look_at ? *scene.camera.look_at : place_of_lonlat(dem, *scene.camera.look_at_lonlat, "camera.look_at_lonlat");
+    target->altitude_m = scene.camera.look_at_altitude_m ? *scene.camera.look_at_altitude_m : altitude_m(target->place);
+  }
+  std::optional<double> viewer_ground_m;
+  if (on_terrain(dem, view.viewer_xy)) viewer_ground_m = altitude_m(view.viewer_xy);
+  const LazyValue<std::optional<CoarseGround>> region([&] { return region_of(dem); });
+  const SettledView settled = settle_view(scene, {view.viewer_xy, viewer_ground_m, target}, region, view.derived);
+  const SceneCamera& camera = settled.camera;
+
+  view.deform = resolve_deform(settled.deform, dem);
   const Deformation deformation(view.deform, view.viewer_xy);
   // Handles may have brought other ground under the eye.
   const glm::dvec2 below = deformation.source_of(view.viewer_xy).value_or(view.viewer_xy);
   const bool known_ground = on_terrain(dem, below);
   const glm::dvec3 ground{below, known_ground ? altitude_m(below) : 0.0};
-  double eye_m = camera.height_m;
+  double eye_m = *camera.height_m;
   if (camera.height_above_ground) {
     if (!known_ground)
       throw Error(ErrorKind::usage, "camera.height_above_ground", "a position outside the terrain, whose ground is not known",
@@ -115,26 +128,27 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress, const Gro
                   fmt::format("more than {:.0f} m above the datum", ground_m));
   }
 
-  if (camera.look_at || camera.look_at_lonlat) {
-    const glm::dvec2 place = camera.look_at ? *camera.look_at : place_of_lonlat(dem, *camera.look_at_lonlat, "camera.look_at_lonlat");
+  if (target) {
     // On the exaggerated ground before it is bent or rearranged, so that those alone decide what moves in the picture.
     DeformParameters plain = view.deform;
     plain.summits.clear();
     plain.handles.clear();
-    const double altitude = camera.look_at_altitude_m ? *camera.look_at_altitude_m : altitude_m(place);
-    look_towards(view.camera, Deformation(plain, view.viewer_xy).unbent({place, altitude}));
+    look_towards(view.camera, Deformation(plain, view.viewer_xy).unbent({target->place, target->altitude_m}));
   } else {
-    view.camera.azimuth_deg = camera.azimuth_deg;
-    view.camera.pitch_deg = camera.pitch_deg;
+    view.camera.azimuth_deg = *camera.azimuth_deg;
+    view.camera.pitch_deg = *camera.pitch_deg;
   }
-  view.camera.pitch_deg += camera.tilt_deg;
+  view.camera.pitch_deg += settle_tilt(scene.camera, settled, view.camera.pitch_deg, view.derived);
   in_section("camera", [&] { return make_camera(view.camera); });
 
-  view.sun = resolve_sun(scene.sun, dem);
+  view.sun = resolve_sun(scene.sun, dem, view.camera.azimuth_deg, view.derived);
   view.sun_direction = sun_direction(view.sun);
   view.sun_image_x = exact::sin(to_radians(view.sun.azimuth_deg - view.camera.azimuth_deg));
   if (view.sun.altitude_deg <= 0.0)
     progress.note(fmt::format("the sun stands {:.1f}° below the horizon: only the sky gives light", -view.sun.altitude_deg));
+  const ViewDistances distances = settle_distances(scene, deformation, view.camera, region, view.derived);
+  view.air = distances.air;
+  view.generalize = distances.generalize;
   return view;
 }
 

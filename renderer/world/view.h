@@ -3,17 +3,19 @@
 #include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "base/progress.h"
 #include "renderer/scene/scene.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/sun.h"
+#include "renderer/world/derived_values.h"
 #include "terrain/deform/deform.h"
 #include "terrain/io/dem.h"
 
 namespace belvedere {
 
-// A scene's camera and sun, resolved on its terrain.
+// A scene's camera and sun, resolved on its terrain, and what follows from the distance of its horizon.
 struct View {
   CameraParameters camera;        // eye in the deformed world
   glm::dvec2 viewer_xy{0.0};      // what distances, bend and generalization count from, scene CRS
@@ -21,6 +23,9 @@ struct View {
   SunPosition sun;                // azimuth from the grid's north
   glm::dvec3 sun_direction{0.0};  // unit, towards the sun
   double sun_image_x = 1.0;       // where the light comes from in the picture: -1 left … +1 right
+  AirParameters air;
+  GeneralizeDistances generalize;
+  std::vector<DerivedValue> derived;  // of all these; empty where the scene says all
 };
 
 // What a scene asks of the ground, with the places of summits and handles in the DEM's CRS. Throws Error(usage) for places that cannot be.

@@ -61,6 +61,19 @@ std::string composition_text(const ViewJudgement& judgement) {
   return out;
 }
 
+// What the scene does not say, as one could write it.
+Json derived_json(const std::vector<DerivedValue>& derived) {
+  Json out = Json::object();
+  for (const DerivedValue& value : derived) out.add(value.key, Json::raw(value.value));
+  return out;
+}
+
+std::string derived_text(const std::vector<DerivedValue>& derived) {
+  std::string out = derived.empty() ? "" : "not said in the scene, so it follows from the region:\n";
+  for (const DerivedValue& value : derived) out += fmt::format("  {:<42}# {}\n", value.key + " = " + value.value, value.why);
+  return out;
+}
+
 std::string as_json(const LoadedScene& scene, const SceneReport& report) {
   Json inputs = Json::array();
   for (const SceneInput& input : report.inputs)
@@ -93,6 +106,7 @@ std::string as_json(const LoadedScene& scene, const SceneReport& report) {
              .add("pitch_deg", Json::number(camera.pitch_deg))
              .add("sun_azimuth_deg", Json::number(report.view.sun.azimuth_deg))
              .add("sun_altitude_deg", Json::number(report.view.sun.altitude_deg))
+             .add("derived", derived_json(report.view.derived))
              .add("classes", std::move(classes))
              .add("land_cover", std::move(areas))
              .add("exemplars", Json::texts(report.exemplars))
@@ -113,6 +127,7 @@ std::string as_text(const LoadedScene& scene, const SceneReport& report) {
   out += fmt::format("camera: E {:.0f} N {:.0f}, {:.0f} m; looks to {:.1f}°, pitch {:.1f}°\n", camera.eye.x, camera.eye.y, camera.eye.z,
                      camera.azimuth_deg, camera.pitch_deg);
   out += fmt::format("sun: azimuth {:.1f}°, {:.1f}° high\n", report.view.sun.azimuth_deg, report.view.sun.altitude_deg);
+  out += derived_text(report.view.derived);
   for (const ClassArea& area : report.land_cover)
     out += fmt::format("land cover: {} {:.2f} km² in {} patches, {:.2f} km² in {} before small ones were taken out\n", class_name(area.id),
                        area.after_m2 / 1e6, area.patches_after, area.before_m2 / 1e6, area.patches_before);

@@ -181,15 +181,17 @@ void write_dem(const LoadedScene& loaded, const DeformOptions& options, Report& 
   const Dem dem = make_scene_dem(loaded, progress, cache);
   Grid<float> ground = known_altitude(dem);
   std::optional<glm::dvec2> viewer = loaded.scene.camera.position;
+  DeformParameters asked = resolve_deform(loaded.scene.deform, dem);
   if (is_scene(options)) {
     const View view = make_view(loaded.scene, dem, progress);
     viewer = view.viewer_xy;
+    asked = view.deform;
     const Grid<float> shown = generalize_for_view(loaded, dem, nullptr, view, progress, cache).altitude_m;
     for (std::size_t i = 0; i < ground.size(); ++i)
       if (!std::isnan(ground[i])) ground[i] = shown[i];
   }
   if (!viewer) throw Error(ErrorKind::usage, "camera.position_lonlat", "a viewer in longitude and latitude", "--viewer E,N");
-  const Deformation deformation(resolve_deform(loaded.scene.deform, dem), *viewer);
+  const Deformation deformation(asked, *viewer);
   report_folds(ground, dem.transform, deformation, report);
   // What was no data is none afterwards, wherever it went.
   const auto voids = std::count_if(ground.begin(), ground.end(), [](float z) { return std::isnan(z); });

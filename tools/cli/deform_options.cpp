@@ -137,7 +137,7 @@ LoadedScene load(const DeformOptions& options) {
   const std::filesystem::path dem(scene.scene);
   const std::string text = fmt::format("version = 1\n[[terrain.sources]]\nfile = {}\n", json_quoted(dem.filename().string()));
   LoadedScene loaded = parse_scene(text, scene.scene, dem.parent_path().string(), scene.files);
-  const DeformParameters& ground = loaded.scene.deform.ground;
+  const DeformParameters ground = loaded.scene.deform.written();
   const bool by_distance = ground.bend.radius_m > 0.0 || ground.bend.far_amount_per_m > 0.0 || !ground.bend.points.empty() ||
                            ground.earth_curvature || ground.background_exaggeration;
   if (by_distance && !loaded.scene.camera.position && !loaded.scene.camera.position_lonlat)

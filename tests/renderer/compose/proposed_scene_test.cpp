@@ -40,11 +40,11 @@ TEST_F(ProposedScenes, ReadsBackAsTheViewThatWasFound) {
   EXPECT_EQ(scene.terrain.dem.crs, "EPSG:32632");
   ASSERT_TRUE(scene.camera.position);
   EXPECT_NEAR(scene.camera.position->x, view.viewer.x, 0.5);
-  EXPECT_NEAR(scene.camera.height_m, view.eye_m, 0.5);
-  EXPECT_NEAR(scene.camera.pitch_deg, view.pitch_deg, 0.005);
-  EXPECT_NEAR(scene.deform.ground.bend.radius_m, view.radius_m, 0.001 * view.radius_m);
-  EXPECT_NEAR(scene.deform.ground.bend.crest_m, view.crest_m, 0.001 * view.crest_m);
-  EXPECT_NEAR(scene.deform.ground.exaggeration, view.exaggeration, 0.005);
+  EXPECT_NEAR(scene.camera.height_m.value(), view.eye_m, 0.5);
+  EXPECT_NEAR(scene.camera.pitch_deg.value(), view.pitch_deg, 0.005);
+  EXPECT_NEAR(scene.deform.bend_radius_m.value(), view.radius_m, 0.001 * view.radius_m);
+  EXPECT_NEAR(scene.deform.bend_crest_m.value(), view.crest_m, 0.001 * view.crest_m);
+  EXPECT_NEAR(scene.deform.exaggeration.value(), view.exaggeration, 0.005);
   EXPECT_EQ(scene.output.width, 2400);
   EXPECT_EQ(scene.output.height, 1200);
 }

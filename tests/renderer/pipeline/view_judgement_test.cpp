@@ -22,7 +22,7 @@ class ViewJudgementTest : public testing::Test {
     about.crs = "EPSG:32632";
     const Scene scene =
         parse_scene(proposed_scene_text(search_, best_, about), "chain.toml", ".", {.data_folders = {}, .settings = settings}).scene;
-    return judge_view(dem_, make_view(scene, dem_, silent_progress()), scene.air);
+    return judge_view(dem_, make_view(scene, dem_, silent_progress()));
   }
   static const ScoreTerm& term(const ViewJudgement& judgement, std::string_view name) {
     for (const ScoreTerm& t : judgement.terms)
@@ -63,7 +63,8 @@ TEST_F(ViewJudgementTest, SaysWhatIsWrong) {
 }
 
 TEST_F(ViewJudgementTest, RaisedSummitsCount) {
-  const std::string at = std::to_string(massifs_.main().place.x) + ", " + std::to_string(massifs_.main().place.y);
+  const glm::dvec2 place = massifs_.anchors[static_cast<std::size_t>(best_.plan.anchor)].place;
+  const std::string at = std::to_string(place.x) + ", " + std::to_string(place.y);
   const ViewJudgement plain = judge({"deform.summits=[]"});
   const ViewJudgement raised = judge({"deform.summits=[{ position = [" + at + "], radius_m = 8000, factor = 1.8, base_m = 500 }]"});
   EXPECT_GT(term(raised, "sky").value, 0.0);

@@ -195,7 +195,7 @@ TEST(SceneFile, FormatsOfThePictureAreThoseOfTheTable) {
 
 TEST(SceneFile, KeysThatBelongTogether) {
   EXPECT_THAT(refused("[generalize]\nforeground = [1, 1]\nbackground = [1]\n"), StartsWith("s.toml:4:14: "));
-  EXPECT_THAT(refused("[generalize]\nforeground_to_m = 90000\n"), HasSubstr("beyond"));
+  EXPECT_THAT(refused("[generalize]\nforeground_to_m = 90000\nbackground_from_m = 90000\n"), HasSubstr("beyond"));
   EXPECT_THAT(refused("[terrain]\nextent = [1, 1, 0, 2]\n"), HasSubstr("no area"));
   EXPECT_THAT(refused("[terrain.synthetic]\nlowest_m = 4000\n"), HasSubstr("not above lowest_m"));
   EXPECT_THAT(refused("[[terrain.sources]]\nband = 2\n"), AllOf(StartsWith("s.toml:2:"), HasSubstr("terrain.sources.0.file is missing")));

@@ -24,7 +24,7 @@ namespace {
 using testing::HasSubstr;
 
 // What a stage takes as it stands is of one type, so there is no second default to drift.
-static_assert(std::is_same_v<decltype(Scene::air), decltype(BaseParameters::air)>);
+static_assert(std::is_same_v<decltype(SceneAir::look), decltype(BaseParameters::air)>);
 static_assert(std::is_same_v<decltype(Scene::light), decltype(ToneParameters::light)>);
 static_assert(std::is_same_v<decltype(Scene::sampling), decltype(GuidanceParameters::sampling)>);
 
@@ -55,12 +55,9 @@ TEST(SceneTable, DefaultsAreThoseOfTheStages) {
   const std::map<std::string, double> of_stages = {
       {"climate.temperature_factor", ClimateParameters{}.temperature_factor},
       {"air.haze", BaseParameters{}.air.haze},
-      {"air.from_m", BaseParameters{}.air.from_m},
-      {"air.scale_m", BaseParameters{}.air.scale_m},
       {"air.range_mist", BaseParameters{}.air.range_mist},
       {"air.warm_near", BaseParameters{}.air.warm_near},
       {"air.hue_drift", BaseParameters{}.air.hue_drift},
-      {"air.rim_fade_m", BaseParameters{}.air.rim_fade_m},
       {"air.clouds", SkyParameters{}.clouds},
       {"light.sun", ToneParameters{}.light.sun},
       {"light.sky", ToneParameters{}.light.sky},
@@ -74,8 +71,6 @@ TEST(SceneTable, DefaultsAreThoseOfTheStages) {
       {"synthesis.reuse", SynthesisParameters{}.reuse},
       {"synthesis.copy_cap", SynthesisParameters{}.copy_cap},
       {"synthesis.levels", SynthesisParameters{}.levels},
-      {"camera.azimuth_deg", CameraParameters{}.azimuth_deg},
-      {"camera.pitch_deg", CameraParameters{}.pitch_deg},
       {"camera.field_of_view_deg", CameraParameters{}.field_of_view_deg},
       {"camera.view_width_m", CameraParameters{}.view_width_m},
       {"output.width", SkyParameters{}.picture_size.x},
@@ -89,9 +84,7 @@ TEST(SceneTable, DefaultsAreThoseOfTheStages) {
       {"land_cover.smallest_patch_m2", PatchParameters{}.smallest_m2},
       {"generalize.crest", GeneralizeParameters{}.crest},
       {"generalize.widen_valleys_m", WidenValleysParameters{}.width_m},
-      {"deform.exaggeration", DeformParameters{}.exaggeration},
       {"deform.refraction", DeformParameters{}.refraction},
-      {"deform.bend.radius_m", BendCurve{}.radius_m},
       {"deform.summits.radius_m", SummitExaggeration{}.radius_m},
       {"deform.summits.factor", SummitExaggeration{}.factor},
       {"deform.handles.scale", DeformHandle{}.scale},
@@ -100,6 +93,29 @@ TEST(SceneTable, DefaultsAreThoseOfTheStages) {
   EXPECT_DOUBLE_EQ(to_radians(default_of("sun.radius_deg")), GuidanceParameters{}.sun_radius_rad);
   EXPECT_EQ(Scene{}.camera.projection, CameraParameters{}.projection);
   EXPECT_EQ(Scene{}.tracing.instruction_set, TracerParameters{}.instruction_set);
+}
+
+// What follows from the region where a scene does not say it has no default, and can be asked for by a word.
+TEST(SceneTable, DerivedKeysAreAutoWhereNotWritten) {
+  int derived = 0;
+  for (const SceneSection& section : scene_sections())
+    for (const SceneKey& key : section.keys) {
+      if (key.derived.empty()) continue;
+      ++derived;
+      Scene scene;
+      const SceneField field = key.field(scene, 0);
+      ASSERT_TRUE(std::holds_alternative<std::optional<double>*>(field)) << key.name;
+      EXPECT_FALSE(**std::get_if<std::optional<double>*>(&field)) << key.name;
+      EXPECT_THAT(scene_reference(), HasSubstr(std::string(key.derived))) << key.name;
+      const std::string name = join_key(section.name, key.name);
+      const auto with = [&](const std::string& value) {
+        return write_scene(parse_scene("version = 1\n", "s.toml", ".", {.data_folders = {}, .settings = {name + "=" + value}}).scene);
+      };
+      EXPECT_EQ(with("auto"), with("\"auto\"")) << name;
+      EXPECT_NE(with("auto"), with(key.unit == "m" || key.name == "rim_fade_m" ? "1000" : "2")) << name;
+    }
+  EXPECT_EQ(derived, 15);
+  EXPECT_THAT(scene_reference(), HasSubstr("| `exaggeration` | a number or \"auto\"; 0.1 … 10 | `\"auto\"` |"));
 }
 
 // What people read says the same.

@@ -7,7 +7,8 @@
 
 namespace belvedere::test {
 
-// A scene that is made in a second: hills of 12 × 12 km, seen from the south in 96 × 80 pixels of 1 mm.
+// A scene that is made in a second: hills of 12 × 12 km, seen from the south in 96 × 80 pixels of 1 mm. What follows from the region is
+// written: tests set such keys to see what they do.
 constexpr const char* small_scene_text = R"(version = 1
 [terrain.synthetic]
 width = 120
@@ -17,7 +18,22 @@ seed = 3
 [camera]
 position = [6000, -4000]
 height_m = 6000
+azimuth_deg = 0
 pitch_deg = -22
+[deform]
+exaggeration = 1
+[deform.bend]
+radius_m = 0
+[sun]
+azimuth_deg = 315
+altitude_deg = 30
+[generalize]
+foreground_to_m = 32000
+background_from_m = 90000
+[air]
+from_m = 34000
+scale_m = 62000
+rim_fade_m = 4000
 [sampling]
 pixel_samples = 1
 shadow_rays = 2

@@ -69,14 +69,17 @@ TEST(View, DegreesBecomeMetresWhereTheTerrainHasACoordinateSystem) {
 
 TEST(View, LooksAtAPointOfTheGroundOrOfTheAir) {
   const std::string above = middle + "height_m = 2000\n";
-  const View down = view_of(above + "look_at = [501000, 5200000]\n");  // 1 km to the east, 1 km lower
+  const View down = view_of(above + "look_at = [501000, 5200000]\ntilt_deg = 0\n");  // 1 km to the east, 1 km lower
   EXPECT_NEAR(down.camera.azimuth_deg, 90.0, 1e-9);
   EXPECT_NEAR(down.camera.pitch_deg, -45.0, 1e-6);
-  const View level_view = view_of(above + "look_at = [499000, 5199000]\nlook_at_altitude_m = 2000\n");
+  const View level_view =
+      view_of(above + "look_at = [499000, 5199000]\nlook_at_altitude_m = 2000\ntilt_deg = 0\n[deform]\nexaggeration = 1\n");
   EXPECT_NEAR(std::remainder(level_view.camera.azimuth_deg - 225.0, 360.0), 0.0, 1e-9);
   EXPECT_NEAR(level_view.camera.pitch_deg, 0.0, 1e-9);
   EXPECT_NEAR(view_of(above + "look_at = [501000, 5200000]\ntilt_deg = 7\n").camera.pitch_deg, -38.0, 1e-6);
   EXPECT_THAT(refused(above + "look_at = [500000, 5200000]\n"), HasSubstr("camera.look_at"));
+  // Without a tilt it is raised to the sky's share, as far as the point stays in the picture: 38 % of its height, 2 atan(tan 25° 11 / 24).
+  EXPECT_NEAR(view_of(above + "look_at = [501000, 5200000]\n").camera.pitch_deg, -45.0 + 0.38 * 24.13, 0.02);
 }
 
 TEST(View, PictureAndProjectionAreTheScenes) {

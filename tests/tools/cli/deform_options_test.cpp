@@ -37,7 +37,7 @@ TEST(DeformOptions, BecomeSettingsOfTheScene) {
   options.viewer = "3000,-9000";
   options.scene.files.settings = {"deform.exaggeration=2"};
   const LoadedScene loaded = load(options);
-  const DeformParameters& ground = loaded.scene.deform.ground;
+  const DeformParameters ground = loaded.scene.deform.written();
   EXPECT_EQ(ground.exaggeration, 2.0) << "--set has the last word";
   ASSERT_EQ(ground.bend.points.size(), 3U);
   EXPECT_EQ(ground.bend.points[1].distance_m, 40000.0);
@@ -57,7 +57,7 @@ TEST(DeformOptions, OfADemMakeASceneThatHoldsItAlone) {
   options.scene.scene = "some/where/my \"dem\".tif";
   options.exaggeration = "2";
   const LoadedScene loaded = load(options);
-  EXPECT_EQ(loaded.scene.deform.ground.exaggeration, 2.0);
+  EXPECT_EQ(loaded.scene.deform.exaggeration, 2.0);
   ASSERT_TRUE(loaded.scene.camera.position) << "without distances nobody need stand anywhere";
   options.bend = "1000:10,9000:0";
   EXPECT_THAT(refusal(options), HasSubstr("--viewer E,N"));
