@@ -59,6 +59,32 @@ void measure_skyline(const std::vector<double>& skyline, ViewMeasures& out) {
   out.fall = std::max(mean_of(skyline, 0, n / 6), mean_of(skyline, n - n / 6, n)) - middle;
 }
 
+// What the lower edge does to the ground it lies on, followed outwards: it cuts a mountain where the ground on it stands high over its
+// valleys, whose floor is then outside, and rises farther into the picture. Plateaus, and slopes that fall away from the viewer, begin
+// there.
+class EdgeForm {
+ public:
+  explicit EdgeForm(const CoarseGround& ground) : ground_(ground) {}
+  void begin(const GroundCell& c, double distance_m) {
+    edge_m_ = top_m_ = static_cast<double>(c.altitude_m);
+    from_m_ = distance_m;
+    high_ = static_cast<double>(c.above_m) > 0.40 * ground_.relief_m;
+    follows_ = true;
+  }
+  // The next ground: until it lies lower than the edge, or so far away that it is another mountain.
+  void go_on(double altitude_m, double distance_m) {
+    constexpr double lower = 0.05, reach = 0.10;  // of the relief, of the side
+    follows_ = follows_ && altitude_m > edge_m_ - lower * ground_.relief_m && distance_m < from_m_ + reach * ground_.side_m;
+    if (follows_) top_m_ = std::max(top_m_, altitude_m);
+  }
+  bool cuts() const { return high_ && top_m_ - edge_m_ > 0.10 * ground_.relief_m; }
+
+ private:
+  const CoarseGround& ground_;
+  double edge_m_ = 0.0, top_m_ = 0.0, from_m_ = 0.0;
+  bool high_ = false, follows_ = false;
+};
+
 // The place of a point at a height, and whether ground before it hides it.
 AnchorSight sight_of(const CoarseGround& ground, const SightModel& sight, const Anchor& anchor) {
   AnchorSight out;
@@ -118,7 +144,8 @@ ViewMeasures measure_view(const CoarseGround& ground, const SightModel& sight, c
     double last_seen = 0.0;
     double top = 1.0;
     bool any = false;
-    bool lower_edge = false, cuts = false;
+    bool lower_edge = false;
+    EdgeForm edge_form(ground);
     const double level_x = sight.picture.place(direction, 0.3).x;
     const bool central = level_x >= 0.0 && level_x <= 1.0;
     for (std::size_t i = 0; i < steps; ++i) {
@@ -131,6 +158,7 @@ ViewMeasures measure_view(const CoarseGround& ground, const SightModel& sight, c
       const bool seen = depression < before;
       const double was = before;
       if (seen) before = depression;
+      edge_form.go_on(altitude, d);
       const bool in_depth = d >= sight.near_m && d <= sight.far_m;
       if (!seen && !in_depth) continue;
       const glm::dvec2 at = sight.picture.place(direction, depression);
@@ -162,8 +190,7 @@ ViewMeasures measure_view(const CoarseGround& ground, const SightModel& sight, c
       const double below = sight.picture.place(direction, std::min(was, lowest_seen)).y;
       if (below > 1.0 && at.y < 1.0) {
         lower_edge = true;
-        // A mountain whose upper part alone is in the picture: the ground on the edge stands high over its valleys.
-        cuts = static_cast<double>(c->above_m) > 0.40 * ground.relief_m;
+        edge_form.begin(*c, d);
       }
       top = std::min(top, unit_height(at.y));
       const double height = std::max(0.0, unit_height(below) - unit_height(at.y));
@@ -192,7 +219,7 @@ ViewMeasures measure_view(const CoarseGround& ground, const SightModel& sight, c
     skyline.push_back(any ? top : 1.0);
     sums.edge_columns += 1.0;
     if (!lower_edge) sums.edge_empty += 1.0;
-    if (cuts) sums.edge_cut += 1.0;
+    if (edge_form.cuts()) sums.edge_cut += 1.0;
   }
 
   measure_skyline(skyline, out);

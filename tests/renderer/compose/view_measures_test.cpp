@@ -74,9 +74,25 @@ TEST(ViewMeasures, ACanyonIsSeenAlongAndHiddenAcross) {
 
 TEST(ViewMeasures, ALowerEdgeThroughMountainsIsCut) {
   const CoarseGround ground = test::chain_region();
-  // The chain lies 20 km before the horizon's middle, or right on the lower edge.
+  // The chain lies 20 km before the horizon's middle, or the lower edge half way up its front, or behind its crest, where no top is cut
+  // off.
   EXPECT_EQ(measure_view(ground, view_of(ground, 30.0, -8.0, 0.0, 56000.0), {}).cut, 0.0);
-  EXPECT_GT(measure_view(ground, view_of(ground, 30.0, 18.0, 0.0, 30000.0), {}).cut, 0.3);
+  EXPECT_GT(measure_view(ground, view_of(ground, 30.0, 14.0, 0.0, 30000.0), {}).cut, 0.3);
+  EXPECT_EQ(measure_view(ground, view_of(ground, 30.0, 20.5, 0.0, 30000.0), {}).cut, 0.0);
+}
+
+TEST(ViewMeasures, APlateauOnTheLowerEdgeIsNotCut) {
+  // High over the gorges at its sides, but it does not rise into the picture: there is no mountain whose foot is missing.
+  const auto plateau = [](double e, double n) {
+    const bool gorge = std::fmod(e, 10.0) < 1.5;
+    return gorge ? 500.0 : 1900.0 + 20.0 * std::sin(n) + (n > 45.0 ? 600.0 * std::sin(0.5 * e) : 0.0);
+  };
+  const CoarseGround ground = make_coarse_ground(test::made_up_raster(60.0, plateau), 300.0);
+  const ViewShape view = view_of(ground, 30.0, 5.0, 0.0, 40000.0);
+  const GroundCell* edge = ground.at(view.viewer + glm::dvec2(2000.0, view.near_m));
+  ASSERT_TRUE(edge);
+  EXPECT_GT(static_cast<double>(edge->above_m), 0.40 * ground.relief_m);
+  EXPECT_LT(measure_view(ground, view, {}).cut, 0.05);
 }
 
 TEST(ViewMeasures, TheEndOfTheDataShows) {
