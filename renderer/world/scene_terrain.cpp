@@ -73,7 +73,7 @@ CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules, cons
   const auto& [name, known_parameters, terms, layers] = rules;
   key.add("rules", name).add("parameters", known_parameters).add("terms", terms);
   for (const auto& [painted_as, when] : layers) key.add("layer", painted_as).add("when", when);
-  const auto& [settings, towns, sea, seed, climate, sites, catchments, around] = parameters;
+  const auto& [settings, towns, sea, seed, climate, sites, catchments, around, rule_whole] = parameters;
   key.add("settings", settings).add("seed", seed);
   add_sea(key, sea);
   for (const auto& [place, radius_m, town] : towns) key.add("town", town).add("place", place).add("radius_m", radius_m);
@@ -91,7 +91,7 @@ CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules, cons
     for (const auto& [place, radius_m, stretch, along_rad, on_floor] : *sites)
       key.add("site", place).add("radius_m", radius_m).add("stretch", stretch).add("along", along_rad).add("on_floor", on_floor ? 1 : 0);
   add_dem(key, dem);
-  if (whole != nullptr) add_dem(key, whole->dem);  // throws shadows
+  if (whole != nullptr) add_dem(key, whole->dem);  // throws shadows, and is what `rule_whole` points at
   if (window != nullptr && window->around) {
     const auto& [x0, y0, x1, y1] = window->part;
     key.add("x0", x0).add("y0", y0).add("x1", x1).add("y1", y1).add("around", window->around->made_from);
@@ -159,6 +159,7 @@ struct RuleWork {
   template <class Work>
   auto with_all(Progress& progress, Work&& work) {
     if (takes_climate(loaded, rules, dem)) parameters.climate.sun = sun_of(loaded, dem, whole, progress);
+    parameters.whole = whole != nullptr && &whole->dem != &dem ? &whole->dem : nullptr;
     if (window == nullptr || !window->around) return work();
     const RuleAround around{window->around->ground->get(), window->part};
     parameters.around = &around;
@@ -204,12 +205,13 @@ LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, const Cover
 }
 
 CacheKey layer_cover_key(const LoadedScene& loaded, const SurfaceLayers& layers, const LayerApplyParameters& parameters,
-                         const std::optional<Climate>& climate, const Dem& dem) {
+                         const std::optional<Climate>& climate, const SeaParameters& sea, const Dem& dem) {
   const auto& [seed, drawing, colour, coverage, whole, drawn] = parameters;
   const auto& [power, finest_cells, octaves, spectrum, drawing_seed] = drawing;
   CacheKeyText key;
   key.add("surface layers", surface_layers_text(layers)).add("seed", seed).add("colour", colour).add("coverage", coverage);
   key.add("power", power).add("finest_cells", finest_cells).add("octaves", octaves).add("spectrum", spectrum).add("drawing", drawing_seed);
+  add_sea(key, sea);
   // Place and sun follow from the DEM and the latitude.
   key.add("latitude_deg", loaded.scene.climate.latitude_deg);
   if (climate) {
@@ -232,7 +234,9 @@ SurfaceLayers read_scene_layers(const LoadedScene& loaded) {
   return layers;
 }
 
-LandCover make_layer_cover(const LoadedScene& loaded, const Dem& dem, const WholeTerrain* whole, Progress& progress, const Cache& cache) {
+LandCover make_layer_cover(const LoadedScene& loaded, const Dem& dem, const CoverContext& context, Progress& progress, const Cache& cache) {
+  const WholeTerrain* whole = context.whole;
+  const SeaParameters sea = context.window != nullptr ? context.window->sea : scene_sea(loaded.scene.land_cover);
   const SurfaceLayers layers = read_scene_layers(loaded);
   LayerApplyParameters parameters;
   parameters.seed = loaded.scene.seed;
@@ -246,10 +250,10 @@ LandCover make_layer_cover(const LoadedScene& loaded, const Dem& dem, const Whol
   else if (needs_climate(inputs, {}))
     climate = make_scene_climate(loaded, dem, silent_progress());
   return cached<LandCover>(
-      cache, [&] { return layer_cover_key(loaded, layers, parameters, climate, dem); }, progress,
+      cache, [&] { return layer_cover_key(loaded, layers, parameters, climate, sea, dem); }, progress,
       [&](Progress& watcher) {
         const LayerClimateGrids grids = make_layer_climate(
-            dem, inputs, {}, loaded.scene.climate.latitude_deg, [&] { return *climate; }, watcher, parameters.whole);
+            dem, inputs, {}, loaded.scene.climate.latitude_deg, [&] { return *climate; }, watcher, parameters.whole, sea);
         if (whole != nullptr) parameters.drawn = whole->drawn->get();
         return layer_land_cover(layers, dem, grids.view(), parameters, watcher);
       });
@@ -259,7 +263,7 @@ LandCover make_layer_cover(const LoadedScene& loaded, const Dem& dem, const Whol
 LandCover make_modelled_cover(const LoadedScene& loaded, const Dem& dem, const CoverContext& context, Progress& progress,
                               const Cache& cache) {
   return loaded.scene.land_cover.layers.empty() ? make_rule_cover(loaded, dem, context, progress, cache)
-                                                : make_layer_cover(loaded, dem, context.whole, progress, cache);
+                                                : make_layer_cover(loaded, dem, context, progress, cache);
 }
 
 // {to, from}: cells of class `from` where the rules see `to` become `to`.
@@ -430,7 +434,8 @@ WholeTerrain know_whole(const LoadedScene& loaded, const Dem& dem, const Sea& se
   if (needs_climate(inputs, {})) whole.climate = make_scene_climate(loaded, dem, silent_progress());
   whole.drawn = std::make_shared<const LazyValue<LayerDrawing>>([&loaded, &dem, layers, inputs, climate = whole.climate] {
     const LayerClimateGrids grids = make_layer_climate(
-        dem, inputs, {}, loaded.scene.climate.latitude_deg, [&] { return *climate; }, silent_progress());
+        dem, inputs, {}, loaded.scene.climate.latitude_deg, [&] { return *climate; }, silent_progress(), nullptr,
+        scene_sea(loaded.scene.land_cover));
     LayerApplyParameters parameters;
     parameters.seed = loaded.scene.seed;
     return plan_drawing(layers, dem, grids.view(), parameters);

@@ -139,7 +139,7 @@ Grid<float> sun_share(const Dem& window, const Dem& whole, std::optional<double>
   return share;
 }
 
-RuleClimate make_map_climate(const Dem& dem, const Climate& climate, const MapClimateParameters& parameters) {
+RuleClimate make_map_lines(const Dem& dem, const Climate& climate, const MapClimateParameters& parameters) {
   RuleClimate out;
   const Posts lines = place_posts(dem, climate.place.cell_m, 10000.0, 12);
   out.line_posts = transform_of(lines, dem.transform);
@@ -157,7 +157,11 @@ RuleClimate make_map_climate(const Dem& dem, const Climate& climate, const MapCl
       if (parameters.day_of_season) out.season_snow_m(x, y) = round_to(snow_line_of_day_m(here, *parameters.day_of_season), part);
     }
   });
+  return out;
+}
 
+RuleClimate make_map_climate(const Dem& dem, const Climate& climate, const MapClimateParameters& parameters) {
+  RuleClimate out = make_map_lines(dem, climate, parameters);
   const Posts tables = place_posts(dem, climate.place.cell_m, 2000.0, 48);
   out.table_posts = transform_of(tables, dem.transform);
   out.lowest_m = lowest_level_m;

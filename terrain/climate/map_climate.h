@@ -18,6 +18,8 @@ struct MapClimateParameters {
 // cell by cell. Altitudes of lines are rounded to 1/16 m and the rest to 1/65536, so that a machine's last bits do not reach a picture. The
 // same bits for any threads.
 RuleClimate make_map_climate(const Dem& dem, const Climate& climate, const MapClimateParameters& parameters);
+// Its lines alone, without tables.
+RuleClimate make_map_lines(const Dem& dem, const Climate& climate, const MapClimateParameters& parameters);
 
 struct SunShareParameters {
   double cell_m = 90.0;  // the sun is computed on cells of at least that size, 0…1000

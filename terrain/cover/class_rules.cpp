@@ -316,7 +316,7 @@ RuleIce make_inputs(Run& run, const Parameters& parameters, const ClassRuleParam
   }
   const Settlers settlers{given.towns, given.seed, given.sites ? &*given.sites : nullptr};
   const RuleGround* around = given.around != nullptr ? &given.around->ground : nullptr;
-  run.inputs = make_terrain_inputs(dem, needed, parameters, settlers, given.sea, climate, given.catchments, nullptr, around);
+  run.inputs = make_terrain_inputs(dem, needed, parameters, settlers, given.sea, climate, given.catchments, nullptr, around, given.whole);
   for (int v = first_noise; v < easting; ++v)
     run.noise.push_back(needed[static_cast<std::size_t>(v)] ? plan_noise(v, dem.transform, dem.width()) : NoiseColumns{});
   progress.advance(1.0);

@@ -51,6 +51,7 @@ struct ClassRuleParameters {
   std::optional<std::vector<TownSite>> sites = {};  // all settlements, where they were found on a larger DEM that this one is part of
   Catchments* catchments = nullptr;                 // of the DEM, where somebody else asks for them as well
   const RuleAround* around = nullptr;               // of a window of a larger DEM
+  const Dem* whole = nullptr;                       // … and that DEM in its coarser cells: relief_4000 reaches beyond the window
 };
 
 // Parameters town_highest_m and floor_highest_m that are 0 hang on the treeline in the middle of the map: 520 and 370 m below it.

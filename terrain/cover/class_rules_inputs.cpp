@@ -14,6 +14,7 @@
 #include "base/random.h"
 #include "base/random_streams.h"
 #include "base/rising_queue.h"
+#include "terrain/cover/ground_lakes.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/cover/layer_inputs.h"
 #include "terrain/shape/derivatives.h"
@@ -72,12 +73,6 @@ void make_sea_inputs(const Dem& dem, const Sea& found, const std::vector<bool>& 
     inputs[coast] = found.empty() ? Grid<float>(dem.width(), dem.height(), 1e6F) : distance_to_sea_m(found.mask, dem.cell_m());
 }
 
-// Lakes are as large on coarser cells as on those of the data, down to what still is a patch and no speck.
-int lake_cells(int data_cells, int halved) {
-  constexpr int least = 25;
-  return halved == 0 ? data_cells : std::max(std::min(data_cells, least), data_cells >> (2 * halved));
-}
-
 // Where the ground around a window has lakes, in the window's cells; empty where nothing is known of it.
 Grid<std::uint8_t> known_lakes(const RuleGround* around, const Dem& dem) {
   if (around == nullptr || around->inputs[lake].empty()) return {};
@@ -91,7 +86,7 @@ Grid<std::uint8_t> known_lakes(const RuleGround* around, const Dem& dem) {
 }
 
 // Grids that rules have as layers have them. Slopes and reliefs are made with the others, from blurs that they share.
-void make_layer_inputs(const Dem& dem, const std::vector<bool>& needed, std::vector<Grid<float>>& inputs) {
+void make_layer_inputs(const Dem& dem, const Dem* whole, const std::vector<bool>& needed, std::vector<Grid<float>>& inputs) {
   std::vector<std::string> names;
   std::vector<std::size_t> slots;
   for (const int v : {north, south, east, relief_4000, above_valley, log_catchment, flatness, roughness}) {
@@ -101,7 +96,7 @@ void make_layer_inputs(const Dem& dem, const std::vector<bool>& needed, std::vec
     names.push_back(variable_names()[slot]);
   }
   if (names.empty()) return;
-  std::vector<Grid<float>> made = layer_inputs(make_layer_ground(dem, {}, names));
+  std::vector<Grid<float>> made = layer_inputs(make_layer_ground(dem, {}, names, whole));
   for (std::size_t i = 0; i < slots.size(); ++i) inputs[slots[i]] = std::move(made[i]);
 }
 
@@ -163,11 +158,8 @@ void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>
   if (is_needed(lake) || is_needed(shore)) {
     LakeParameters lakes;
     lakes.max_range_m = static_cast<float>(parameter_or(parameters, "lake_range_m", 0.25));
-    lakes.min_cells = lake_cells(static_cast<int>(parameter_or(parameters, "lake_min_cells", 150.0)), dem.halved);
-    Grid<std::uint8_t> mask = find_lakes(z, lakes);
-    const Grid<std::uint8_t> holes = find_hole_lakes(dem, lakes.min_cells, known_lakes(around, dem));
-    for (std::size_t i = 0; i < mask.size(); ++i)
-      mask[i] = static_cast<std::uint8_t>(!found.empty() && found.mask[i] != 0 ? 0 : mask[i] | holes[i]);
+    lakes.min_cells = static_cast<int>(parameter_or(parameters, "lake_min_cells", 150.0));
+    const Grid<std::uint8_t> mask = ground_lakes(dem, lakes, found, known_lakes(around, dem));
     grid(lake) = Grid<float>(z.width(), z.height());
     each_cell(grid(lake), [&](int x, int y) { return mask(x, y) != 0 ? 1.F : 0.F; });
     if (is_needed(shore)) {
@@ -205,14 +197,15 @@ double parameter_or(const Parameters& parameters, const std::string& name, doubl
 
 std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
                                              const Settlers& settlers, const SeaParameters& sea_parameters, const RuleClimate& climate,
-                                             Catchments* catchments, std::vector<TownSite>* settlements, const RuleGround* around) {
+                                             Catchments* catchments, std::vector<TownSite>* settlements, const RuleGround* around,
+                                             const Dem* whole) {
   const Grid<float>& z = dem.altitude_m;
   std::vector<Grid<float>> inputs(first_noise);
   const bool needs_town = needed[town];
   // Only rules that speak of the sea have one.
   const Sea found = needed[sea] || needed[coast] ? find_sea(dem, sea_parameters) : Sea();
   make_sea_inputs(dem, found, needed, inputs);
-  make_layer_inputs(dem, needed, inputs);
+  make_layer_inputs(dem, whole, needed, inputs);
   Grid<float> faces_south;
   Catchments own(dem);
   Catchments& waters = catchments != nullptr ? *catchments : own;

@@ -79,11 +79,11 @@ struct Settlers {
 
 // The grids that are needed (by slot), all of the DEM's size; others stay empty. ice and below_rock depend on the rules and stay empty.
 // `catchments`: the DEM's, null: they are found here. `settlements` gets the settlements, where it is given and `town` is needed.
-// `around`: of a window; what it cannot know of lakes that reach over its rim.
+// `around`: of a window; what it cannot know of lakes that reach over its rim. `whole`: of a window; wide means reach over it.
 std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<bool>& needed, const Parameters& parameters,
                                              const Settlers& settlers, const SeaParameters& sea_parameters, const RuleClimate& climate,
                                              Catchments* catchments = nullptr, std::vector<TownSite>* settlements = nullptr,
-                                             const RuleGround* around = nullptr);
+                                             const RuleGround* around = nullptr, const Dem* whole = nullptr);
 
 // 1 just below rock, falling to 0 over `reach_m` down the fall line.
 Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, double reach_m);

@@ -28,6 +28,9 @@ enum class LayerInputKind : std::uint8_t {
   rain,
   radiation,
   sky_view,
+  treeline,
+  lake,
+  sea,
 };
 
 // Who knows a variable.

@@ -37,6 +37,12 @@ const Grid<float>* given_grid(const LayerClimate& climate, LayerInputKind kind) 
       return climate.radiation;
     case LayerInputKind::sky_view:
       return climate.sky_view;
+    case LayerInputKind::treeline:
+      return climate.treeline_m;
+    case LayerInputKind::lake:
+      return climate.lake;
+    case LayerInputKind::sea:
+      return climate.sea;
     default:
       return nullptr;
   }

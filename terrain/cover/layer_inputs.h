@@ -16,6 +16,9 @@ struct LayerClimate {
   const Grid<float>* rain_mm = nullptr;        // of the year
   const Grid<float>* radiation = nullptr;      // potential direct, of the year, MJ/m²; any unit that fitting and applying share
   const Grid<float>* sky_view = nullptr;       // 0…1
+  const Grid<float>* treeline_m = nullptr;
+  const Grid<float>* lake = nullptr;  // 1 on lakes, else 0
+  const Grid<float>* sea = nullptr;   // 1 at sea, else 0
 };
 
 // A DEM made ready to be asked for inputs: what reaches far (means over kilometres, catchments) is kept at a coarser resolution that hangs

@@ -51,6 +51,59 @@ TEST(MapClimate, PostsHoldTheLinesOfTheirPlaces) {
   EXPECT_NEAR(row[0], plant_water_share(corner, 1000.0), 0.01);
 }
 
+// Between posts and altitudes values are straight: how far they stray from the climate itself, over 90 km of the default climate with wind,
+// at all altitudes that maps of there have.
+TEST(MapClimate, TablesStayCloseToTheClimateBetweenTheirPosts) {
+  const Dem dem = ground(600, 500, 150.0, [](double e, double n) {
+    return 1500.0 + 900.0 * std::sin(e / 9000.0) * std::cos(n / 7000.0) + 300.0 * std::sin(e / 2500.0);
+  });
+  const Climate climate = climate_of(dem);
+  const RuleClimate rules = make_map_climate(dem, climate, {});
+  double worst_c = 0.0;
+  double worst_moisture = 0.0;
+  double worst_rain = 0.0;
+  double square_moisture = 0.0;
+  double worst_line_m = 0.0;
+  int count = 0;
+  std::vector<float> altitude(600);
+  std::vector<float> row(600);
+  for (int y = 3; y < 500; y += 31)
+    for (const float z : {300.F, 733.F, 1250.F, 1790.F, 2240.F, 3111.F}) {
+      std::fill(altitude.begin(), altitude.end(), z);
+      const auto value = [&](ClimateVariable variable) -> const std::vector<float>& {
+        fill_climate_row(rules, variable, dem.transform, y, 600, altitude.data(), row.data());
+        return row;
+      };
+      const std::vector<float> temperature = value(ClimateVariable::temperature);
+      const std::vector<float> moisture = value(ClimateVariable::moisture);
+      const std::vector<float> rain = value(ClimateVariable::rain);
+      const std::vector<float> treeline = value(ClimateVariable::treeline);
+      for (int x = 5; x < 600; x += 41) {
+        const auto at = static_cast<std::size_t>(x);
+        const PlaceClimate here = climate.at(x, y);
+        double year_c = 0.0;
+        for (const double month_c : monthly_c(here, static_cast<double>(z))) year_c += month_c / 12.0;
+        worst_c = std::max(worst_c, std::abs(static_cast<double>(temperature[at]) - year_c));
+        const double miss = std::abs(static_cast<double>(moisture[at]) - plant_water_share(here, static_cast<double>(z)));
+        worst_moisture = std::max(worst_moisture, miss);
+        square_moisture += miss * miss;
+        worst_rain = std::max(worst_rain, std::abs(static_cast<double>(rain[at]) / rain_mm(here, static_cast<double>(z)) - 1.0));
+        worst_line_m = std::max(worst_line_m, std::abs(static_cast<double>(treeline[at]) - treeline_m(here)));
+        ++count;
+      }
+    }
+  RecordProperty("c", std::to_string(worst_c));
+  RecordProperty("moisture", std::to_string(worst_moisture));
+  RecordProperty("moisture_rms", std::to_string(std::sqrt(square_moisture / count)));
+  RecordProperty("rain", std::to_string(worst_rain));
+  RecordProperty("line_m", std::to_string(worst_line_m));
+  EXPECT_LT(worst_c, 1e-4);
+  EXPECT_LT(worst_moisture, 0.055) << "between 500 m of altitude, where the soil begins to dry";
+  EXPECT_LT(std::sqrt(square_moisture / count), 0.01);
+  EXPECT_LT(worst_rain, 0.035);
+  EXPECT_LT(worst_line_m, 0.2);
+}
+
 TEST(MapClimate, LevelGroundGetsLevelGroundsSunAtAnyAltitude) {
   for (const double altitude : {0.0, 3000.0}) {
     const Dem dem = ground(60, 60, 100.0, [&](double, double) { return altitude; });

@@ -4,6 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/grid_part.h"
+#include "terrain/cover/class_rules.h"
+#include "terrain/cover/class_rules_inputs.h"
+#include "tests/terrain/cover/class_rules_ground.h"
 
 namespace belvedere {
 namespace {
@@ -80,6 +88,36 @@ TEST(RuleGround, PartsKeepTheirPlace) {
   EXPECT_EQ(part.inputs[1](2, 4), 3.F);
   EXPECT_EQ(part.ice_km2(2, 4), 4.F);
   EXPECT_EQ(part.transform.to_crs(2, 4), fine.to_crs(12, 9));
+}
+
+// relief_4000 of a window is what it is in the whole, far from the window's rim as well.
+TEST(RuleGround, WideReliefOfAWindowReachesOverTheWhole) {
+  const auto altitude = [](double e, double n) { return 1500.0 + 0.05 * e + 500.0 * std::sin(e / 2500.0) * std::cos(n / 3000.0); };
+  const Dem whole = test::ground(1300, altitude);
+  const PixelRect cells{580, 600, 720, 730};
+  Dem window = whole;
+  window.altitude_m = part_of(whole.altitude_m, cells);
+  window.filled = part_of(whole.filled, cells);
+  window.transform.origin_x += cells.x0 * whole.transform.cell_x;
+  window.transform.origin_y -= cells.y0 * whole.transform.cell_y;
+  const ClassRules rules{"one", {{"speck_cells", 0.0}}, {}, {{LandCoverClass::rock, "relief_4000 > 0"}}};
+  const std::vector<std::string>& names = class_rules::variable_names();
+  const auto slot = static_cast<std::size_t>(std::find(names.begin(), names.end(), "relief_4000") - names.begin());
+  const Grid<float> of_whole = part_of(see_rule_ground(rules, {}, whole).inputs[slot], cells);
+  ClassRuleParameters parameters;
+  const Grid<float> alone = see_rule_ground(rules, parameters, window).inputs[slot];
+  parameters.whole = &whole;
+  const Grid<float> joined = see_rule_ground(rules, parameters, window).inputs[slot];
+  float apart = 0.F;
+  float apart_alone = 0.F;
+  // At the window's rim, in its halo, the spline between blocks of a kilometre ends.
+  for (int y = 48; y < 82; ++y)
+    for (int x = 48; x < 92; ++x) {
+      apart = std::max(apart, std::abs(joined(x, y) - of_whole(x, y)));
+      apart_alone = std::max(apart_alone, std::abs(alone(x, y) - of_whole(x, y)));
+    }
+  EXPECT_LT(apart, 2.F);
+  EXPECT_GT(apart_alone, 5.F * apart) << "the window alone knows less than 4 km around";
 }
 
 }  // namespace

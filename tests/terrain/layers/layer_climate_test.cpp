@@ -11,8 +11,12 @@
 #include "base/error.h"
 #include "base/grid_part.h"
 #include "base/parallel.h"
+#include "terrain/climate/map_climate.h"
 #include "terrain/climate/sun_year.h"
+#include "terrain/cover/class_rules.h"
 #include "terrain/io/raster_io.h"
+#include "terrain/layers/layer_coverage.h"
+#include "terrain/layers/layers_file.h"
 #include "tests/files.h"
 
 namespace belvedere {
@@ -96,6 +100,60 @@ TEST(LayerClimate, RadiationIsThatOfTheGroundInAYear) {
   // The mean of cos² of a plane's own horizon: 1/(1 + tan²30° cos²φ) uphill, 1 downhill, which is (1 + cos 30°) / 2.
   EXPECT_NEAR(static_cast<double>(grids.sky_view(30, 130)), 0.9330, 0.003);
   EXPECT_NEAR(static_cast<double>(grids.sky_view(30, 50)), 0.9330, 0.003);
+}
+
+// Ground by the sea with a lake: what rules have by these names, cell by cell.
+TEST(LayerClimate, TreelineLakeAndSeaAreTheRules) {
+  Raster<float> raster{Grid<float>(200, 160), {680000.0, 5240000.0, 60.0, 60.0}, normalize_crs("EPSG:32632")};
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 200; ++x) {
+      const double hill = std::max(0.0, 0.25 * 60.0 * (x - 60));
+      const double lake = 450.0 + std::max(0.0, 0.2 * (60.0 * std::hypot(x - 130, y - 80) - 900.0));
+      raster.cells(x, y) = static_cast<float>(x < 60 ? 0.0 : std::hypot(x - 130, y - 80) < 30.0 ? lake : hill);
+    }
+  const Dem dem = make_dem(std::move(raster));
+  Climate climate = even_climate(dem);
+  for (std::size_t m = 0; m < 12; ++m)
+    for (int x = 0; x < 2; ++x)
+      for (int y = 0; y < 2; ++y) climate.nodes(x, y).sea_level_c[m] += 8.0 + 3.0 * x;  // the line rises eastwards
+  const LayerClimateGrids grids = make_layer_climate(
+      dem, {"treeline", "lake", "sea"}, {}, {}, [&] { return climate; }, silent_progress());
+  ClassRuleParameters parameters;
+  parameters.climate = make_map_climate(dem, climate, {});
+  const ClassRules rules{"one",
+                         {{"speck_cells", 0.0}},
+                         {},
+                         {{LandCoverClass::rock, "1"},
+                          {LandCoverClass::forest, "altitude < treeline"},
+                          {LandCoverClass::pasture, "lake > 0.5"},
+                          {LandCoverClass::water, "sea > 0.5"}}};
+  const Grid<LandCoverClass> classes = apply_class_rules(rules, parameters, dem, silent_progress()).classes.cells;
+  std::size_t of[4] = {};
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    LandCoverClass expected = dem.altitude_m[i] < grids.treeline_m[i] ? LandCoverClass::forest : LandCoverClass::rock;
+    if (grids.lake[i] > 0.5F) expected = LandCoverClass::pasture;
+    if (grids.sea[i] > 0.5F) expected = LandCoverClass::water;
+    ASSERT_EQ(classes[i], expected) << i % 200 << " " << i / 200;
+    ++of[expected == LandCoverClass::rock ? 0 : expected == LandCoverClass::forest ? 1 : expected == LandCoverClass::pasture ? 2 : 3];
+  }
+  for (const std::size_t cells : of) EXPECT_GT(cells, 300U);
+}
+
+// In a file of layers, as functions and in expressions.
+TEST(LayerClimate, LayersNameTreelineLakeAndSea) {
+  const SurfaceLayers layers = parse_surface_layers(R"(version = 1
+name = "words"
+model = "product"
+ground = { class = "rock" }
+[[layers]]
+name = "forest"
+class = "forest"
+when = "altitude < treeline - 100 and lake < 0.5 and sea < 0.5"
+)",
+                                                    "w.layers.toml");
+  EXPECT_THAT(compile_layers(layers).inputs, testing::IsSupersetOf({"altitude", "treeline", "lake", "sea"}));
+  EXPECT_TRUE(needs_climate({"treeline"}, {}));
+  EXPECT_FALSE(needs_place({"lake", "sea"}, {})) << "they follow from the ground";
 }
 
 TEST(LayerClimate, WhatAUserGivesWins) {
