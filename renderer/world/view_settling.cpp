@@ -11,6 +11,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "base/math_exact.h"
 #include "renderer/compose/complete_view.h"
 #include "renderer/compose/view_defaults.h"
 #include "renderer/compose/view_reach.h"
@@ -58,7 +59,7 @@ GivenView given_view(const Scene& scene, const ViewPlace& place, const Open& ope
   given.cylinder = camera.projection != "perspective";
   if (place.target) {
     const glm::dvec2 away = place.target->place - place.viewer;
-    given.azimuth_deg = to_degrees(std::atan2(away.x, away.y));
+    given.azimuth_deg = to_degrees(exact::atan2(away.x, away.y));
   } else {
     given.azimuth_deg = camera.azimuth_deg;
   }
@@ -81,7 +82,7 @@ GivenView given_view(const Scene& scene, const ViewPlace& place, const Open& ope
     const ViewTarget target = *place.target;
     const double distance = glm::length(target.place - place.viewer);
     settled.pitch_deg = [=](const ViewShape& view) {
-      return to_degrees(std::atan2(view.raised_m(target.altitude_m) - view.eye_m, distance)) + tilt;
+      return to_degrees(exact::atan2(view.raised_m(target.altitude_m) - view.eye_m, distance)) + tilt;
     };
   } else if (!place.target && camera.pitch_deg) {
     settled.pitch_deg = [pitch = *camera.pitch_deg + tilt](const ViewShape&) { return pitch; };
