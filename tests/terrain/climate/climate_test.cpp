@@ -134,6 +134,32 @@ TEST(Climate, StationsHaveTheFirstWordAndTellHowSureTheyAre) {
   EXPECT_NEAR(rain_mm(middle, 1938.0), 900.0, 350.0);
 }
 
+// What measured glaciers tell makes up for the default's rain: where stations tell the rain, hollows gather what is usual.
+TEST(Climate, HollowsGatherWhatIsUsualWhereRainIsKnown) {
+  const test::Folder folder;
+  std::string with_rain = "east,north,altitude,t_year,rain_mm\n";
+  std::string without = "east,north,altitude,t_year\n";
+  for (int i = 0; i < 9; ++i) {
+    const std::string place = "610000,5240000," + std::to_string(400 + 250 * i) + "," + std::to_string(9.0 - 0.006 * 250 * i);
+    with_rain += place + "," + std::to_string(900 + 20 * i) + "\n";
+    without += place + "\n";
+  }
+  const auto scarce = [](glm::dvec2 lonlat) {
+    PlaceClimate place = made_up(lonlat);
+    place.gathers = 0.6;
+    return place;
+  };
+  const Dem dem = make_ridge(60, 60);
+  const auto gathers = [&](const std::string& file) {
+    ClimateParameters parameters;
+    parameters.stations = file;
+    return make_climate(dem, parameters, scarce, silent_progress()).at(30, 30).gathers;
+  };
+  EXPECT_NEAR(gathers(folder.write("rain.csv", with_rain)), 1.0, 1e-12);
+  EXPECT_NEAR(gathers(folder.write("dry.csv", without)), 0.6, 1e-12);
+  EXPECT_NEAR(gathers(""), 0.6, 1e-12);
+}
+
 TEST(Climate, MeansOfTheYearTakeTheirCourseFromTheDefaultAndTheSceneHasTheLastWordOnTheLapse) {
   const test::Folder folder;
   std::string text = "east,north,altitude,t_year\n";

@@ -43,6 +43,15 @@ TEST(Rain, GradientAndPlaneAreRecoveredThroughGrossErrors) {
   EXPECT_GT(robust.high_mm_per_km_up, 120.0);
 }
 
+// The three highest of thirty catch far too much: least squares would take that for a gradient.
+TEST(Rain, WrongSummitsMakeNoGradient) {
+  std::vector<Station> stations = make_stations(30);
+  std::sort(stations.begin(), stations.end(), [](const Station& a, const Station& b) { return a.altitude_m > b.altitude_m; });
+  for (std::size_t i = 0; i < 3; ++i) stations[i].rain_mm += 1500.0;
+  for (int i = 0; i < 30; ++i) stations[static_cast<std::size_t>(i)].rain_mm += 10.0 * random_normal(4, i, 0);
+  EXPECT_NEAR(fit_rain(stations).mm_per_km_up, 120.0, 25.0);
+}
+
 TEST(Rain, FewStationsTellLess) {
   EXPECT_EQ(fit_rain(make_stations(3)).mm_per_km_up, 0.0);
   EXPECT_EQ(fit_rain(make_stations(6)).mm_per_km, glm::dvec2(0.0));

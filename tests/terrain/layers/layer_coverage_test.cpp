@@ -89,6 +89,22 @@ TEST(LayerCoverage, ThreeLayersInClosedForm) {
   EXPECT_EQ(shares[0](0, 0), 0.28125F);
 }
 
+// Whatever bias and functions say, all is all and nothing is nothing; and so for children. An expression of 0 is not true.
+TEST(LayerCoverage, StaysBetweenNothingAndAll) {
+  SurfaceLayers layers;
+  layers.layers = {layer("loud", -1, 0xc80000, 1.7), layer("child", 0, 0x00c800, 1.7), layer("silent", -1, 0x0000c8, -0.3),
+                   layer("nowhere", -1, 0x0000c8, 1.0), layer("everywhere", -1, 0x0000c8, 1.0)};
+  layers.layers[3].when = "0";
+  layers.layers[4].when = "0.001";
+  const LayerProgram program = compile_layers(layers);
+  const auto c = layer_coverage(program, {}, metres, {0, 0, 3, 2}, 1);
+  EXPECT_EQ(c[0](2, 1), 1.F);
+  EXPECT_EQ(c[1](2, 1), 1.F);
+  EXPECT_EQ(c[2](2, 1), 0.F);
+  EXPECT_EQ(c[3](2, 1), 0.F);
+  EXPECT_EQ(c[4](2, 1), 1.F);
+}
+
 // The hierarchy of the paper's figure 4: rock; grass with dark and dry grass; sand and its like after. Height and colour go from each layer
 // to the next, coverage to children alone: what fails its conditions changes nothing and lets no child appear.
 TEST(LayerCoverage, CoverageGoesToChildrenAlone) {
