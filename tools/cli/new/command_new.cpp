@@ -164,9 +164,9 @@ std::string as_json(const ViewSearch& search, const std::vector<Candidate>& prop
 }
 
 // One size of cells for all drafts, so that land cover is found once: two pixels at the nearest lower edge, and no more cells than are made
-// into a ground in a second. 0: those of the data.
+// into a ground in half a second. 0: those of the data.
 double draft_cell_m(const CoarseGround& ground, const std::vector<Candidate>& proposals, int width_px) {
-  constexpr double pixels = 2.0, worth_it = 1.3, most_cells = 0.8e6;
+  constexpr double pixels = 2.0, worth_it = 1.3, most_cells = 0.5e6;
   double least = 1e9;
   for (const Candidate& c : proposals) least = std::min(least, pixels * c.view.near_m * to_radians(c.view.field_of_view_deg) / width_px);
   least = std::max(least, ground.side_m / std::sqrt(most_cells));

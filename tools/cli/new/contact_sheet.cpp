@@ -8,6 +8,9 @@
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draft.h"
+#include "renderer/world/scene_terrain.h"
+#include "renderer/world/valley_view.h"
+#include "terrain/io/raster_io.h"
 #include "tools/cli/lock/scratch_folder.h"
 #include "tools/report/bitmap_text.h"
 
@@ -26,6 +29,30 @@ void lay(Grid<glm::vec3>& sheet, const Grid<glm::vec3>& picture, int x0, int y0)
       if (sheet.contains(x0 + x, y0 + y)) sheet(x0 + x, y0 + y) = picture(x, y);
 }
 
+std::string terrain_of(const LoadedScene& loaded) {
+  Scene terrain;
+  terrain.terrain = loaded.scene.terrain;
+  return write_scene(terrain);
+}
+
+// Reads the ground that all drafts have in common once, into a file of theirs: bringing data into the cells of drafts takes longer than
+// reading what came of it.
+void share_ground(std::vector<LoadedScene>& drafts, const std::string& folder, const Cache& cache) {
+  const auto other = [&](const LoadedScene& draft) { return terrain_of(draft) != terrain_of(drafts.front()); };
+  if (drafts.size() < 2 || drafts.front().scene.terrain.sources.empty() || std::any_of(drafts.begin(), drafts.end(), other)) return;
+  const Dem dem = make_scene_dem(drafts.front(), silent_progress(), cache);
+  const std::string name = "ground_of_all_drafts.tif";
+  write_raster((std::filesystem::path(folder) / name).string(), Raster<float>{known_altitude(dem), dem.transform, dem.crs});
+  for (LoadedScene& draft : drafts) {
+    draft.allowed_folders.insert(draft.allowed_folders.begin(), folder);
+    SceneTerrain& terrain = draft.scene.terrain;
+    terrain.sources.assign(1, {});
+    terrain.sources.front().file = name;
+    terrain.dem.cell_m = 0.0;
+    terrain.dem.extent.reset();
+  }
+}
+
 }  // namespace
 
 LoadedScene make_small_draft(LoadedScene scene, int width_px, double cell_m) {
@@ -39,8 +66,8 @@ LoadedScene make_small_draft(LoadedScene scene, int width_px, double cell_m) {
   return scene;
 }
 
-void write_contact_sheet(const std::string& path, const std::vector<LoadedScene>& drafts, const std::vector<std::string>& captions,
-                         const Run& run, const ContactSheetParameters& parameters) {
+void write_contact_sheet(const std::string& path, std::vector<LoadedScene> drafts, const std::vector<std::string>& captions, const Run& run,
+                         const ContactSheetParameters& parameters) {
   // Land cover hangs on the ground alone: the second picture finds what the first made, also where nothing is kept from run to run.
   const ScratchFolder kept;
   const Cache own({.folder = kept.path(), .limit_bytes = 0});
@@ -51,6 +78,7 @@ void write_contact_sheet(const std::string& path, const std::vector<LoadedScene>
                   .progress = silent_progress(),
                   .cache = run.cache.is_on() ? run.cache : own};
   run.progress.begin("drawing the proposals", static_cast<double>(drafts.size()));
+  share_ground(drafts, kept.path(), quiet.cache);
   std::vector<Grid<glm::vec3>> pictures;
   for (const LoadedScene& draft : drafts) {
     const ScratchFolder folder;

@@ -19,7 +19,7 @@ struct ContactSheetParameters {
 LoadedScene make_small_draft(LoadedScene scene, int width_px, double cell_m);
 
 // Renders each scene (drafts, as make_small_draft makes them) and writes the sheet as PNG; what each picture is called stands below it.
-void write_contact_sheet(const std::string& path, const std::vector<LoadedScene>& drafts, const std::vector<std::string>& captions,
-                         const Run& run, const ContactSheetParameters& parameters = {});
+void write_contact_sheet(const std::string& path, std::vector<LoadedScene> drafts, const std::vector<std::string>& captions, const Run& run,
+                         const ContactSheetParameters& parameters = {});
 
 }  // namespace belvedere::tools

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "renderer/image/image_io.h"
+#include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/renderer/compose/made_up_region.h"
 #include "tests/renderer/world/small_world.h"
 
 namespace belvedere::tools {
@@ -45,6 +49,30 @@ TEST(ContactSheet, HoldsEveryPictureInItsPlace) {
   EXPECT_EQ(same, 96 * 64);
   EXPECT_LT(other, 96 * 64 / 2);
   EXPECT_GT(dark, 10);
+}
+
+// Several drafts share their ground, which is read once: each looks as it does alone, voids and coarser cells included.
+TEST(ContactSheet, SharedGroundIsTheGround) {
+  const test::Folder folder;
+  Raster<float> hills = test::made_up_raster(20.0, test::chain, 120);
+  for (int y = 40; y < 48; ++y)
+    for (int x = 50; x < 60; ++x) hills.cells(x, y) = std::numeric_limits<float>::quiet_NaN();
+  write_raster(folder / "hills.tif", hills);
+  const auto draft = [&](const std::string& azimuth) {
+    return make_small_draft(parse_scene("version = 1\n[[terrain.sources]]\nfile = \"hills.tif\"\n[camera]\nposition = [610000, 5198000]\n"
+                                        "height_m = 6000\nazimuth_deg = " +
+                                            azimuth + "\n[output]\nwidth = 480\nheight = 240\n",
+                                        "hills.toml", folder.path(), {}),
+                            96, 250.0);
+  };
+  write_contact_sheet(folder / "alone.png", {draft("0")}, {"1"}, {});
+  write_contact_sheet(folder / "both.png", {draft("0"), draft("20")}, {"1", "2"}, {});
+  const Grid<glm::vec3> alone = read_picture(folder / "alone.png");
+  const Grid<glm::vec3> both = read_picture(folder / "both.png");
+  int other = 0;
+  for (int y = 12; y < 12 + 64; ++y)
+    for (int x = 12; x < 12 + 96; ++x) other += alone(x, y) == both(x, y) ? 0 : 1;
+  EXPECT_EQ(other, 0);
 }
 
 }  // namespace
