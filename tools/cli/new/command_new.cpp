@@ -259,7 +259,9 @@ int run_new(const Options& options) {
   if (is_canyon_country(region_climate(ground))) {
     about.palette = "desert";
     about.palette_why = "the climate of the place is dry and warm";
-    about.rock = "sandstone";
+    // Dry mountains are of any rock; plateaus that canyons cut are of beds.
+    constexpr double mostly = 0.5;
+    if (ground.plateau > mostly) about.rock = "sandstone";
     about.rock_why = "of canyons in dry country; or limestone, granite, volcanic";
   }
   const ViewSearch search{ground, massifs, wishes_of(options, format.picture, ground)};
