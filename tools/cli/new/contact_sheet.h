@@ -11,7 +11,7 @@ namespace belvedere::tools {
 
 // Small, quick pictures of several views of one region, numbered, in one picture.
 struct ContactSheetParameters {
-  int width_px = 560;  // of each picture, 64…4000
+  int width_px = 520;  // of each picture, 64…4000
   int columns = 2;     // of the sheet
 };
 

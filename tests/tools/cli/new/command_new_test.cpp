@@ -99,7 +99,7 @@ TEST_F(New, PicturesAreOneNumberedSheet) {
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_THAT(made.out, AllOf(HasSubstr("\"proposals\": ["), HasSubstr("proposals.png"), HasSubstr("\"merit\": ")));
   const Grid<glm::vec3> sheet = read_picture(path("views/proposals.png"));
-  EXPECT_EQ(sheet.width(), 2 * 560 + 3 * 12);
+  EXPECT_EQ(sheet.width(), 2 * 520 + 3 * 12);
 }
 
 TEST_F(New, FilesElsewhereAreNamedByTheirDataFolder) {
