@@ -161,7 +161,7 @@ glm::vec3 grown_hue(const Scenery& s, std::size_t i, const Patches& patches, flo
   const GuidanceBuffers& g = s.guidance;
   const Class id = g.land_cover[i];
   const auto drift = static_cast<float>(s.parameters.air.hue_drift);
-  if (id == Class::forest) return forest_turn(g.relief_s_m[i], g.relief_m_m[i], patches, drift).factor;
+  if (id == Class::forest) return forest_turn(g.relief_s_m[i], g.relief_m_m[i], g.tone[i], patches, drift).factor;
   const MeadowPlace place = meadow_place(g, i, s.palette.treeline_m, static_cast<float>(s.parameters.sunny_side));
   const MeadowMix mix = meadow_mix(id, place, patches);
   glm::vec3 hue = meadow_hue(mix, drift * static_cast<float>(s.palette.ground_drift_share));
@@ -259,7 +259,8 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
   const ScreeTurn fan = id == Class::scree && !s.palette.winter
                             ? scree_turn(s.around.fans.place[i], s.around.fans.streak[i], g.relief_s_m[i], drift)
                             : ScreeTurn{};
-  const float turned = fan.tone + (id == Class::forest ? forest_turn(g.relief_s_m[i], g.relief_m_m[i], patches, drift).tone : 0.0F);
+  const float turned =
+      fan.tone + (id == Class::forest ? forest_turn(g.relief_s_m[i], g.relief_m_m[i], g.tone[i], patches, drift).tone : 0.0F);
   const auto paint = [&](double step) {
     const double light = g.tone[i] + static_cast<double>(water.tone_shift) + static_cast<double>(turned) + step;
     glm::vec3 ramp = palette_colour(s.palette, id, altitude, light) * hue * fan.factor;
