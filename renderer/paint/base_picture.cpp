@@ -185,7 +185,7 @@ glm::vec3 evening_glow(const Scenery& s, std::size_t i, float far) {
   const float lit = smoothstep(0.42F, 0.85F, g.tone[i]);
   const float high = smoothstep(-60.0F, 240.0F, g.relief_l_m[i]);
   const auto drift = static_cast<float>(s.parameters.air.hue_drift);
-  return 1.0F + glm::vec3(0.030F, -0.032F, -0.055F) * (lit * (0.35F + 0.65F * high) * (1.0F - far) * drift);
+  return 1.0F + glm::vec3(0.034F, -0.038F, -0.065F) * (lit * (0.35F + 0.65F * high) * (1.0F - far) * drift);
 }
 
 PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& patches) {
