@@ -93,7 +93,7 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     if (!is_painted(kind, layers)) continue;
     const StrokeScene scene{guidance, base, parameters, window, stroke_margin_px(kind, parameters)};
     std::vector<Stroke> strokes = kind.grow(scene, kind.stream);
-    if (kind.layer != &StrokeLayers::sky) strokes = broaden_far(std::move(strokes), base);
+    if (kind.layer != &StrokeLayers::sky) strokes = broaden_far(std::move(strokes), base, window.origin_px, parameters.pixels_per_unit);
     if (kind.alone)
       paint(std::move(strokes));
     else

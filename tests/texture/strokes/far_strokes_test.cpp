@@ -22,7 +22,7 @@ TEST(FarStrokes, AreFewerAndBroader) {
   double width = width_sum(near) / static_cast<double>(count);
   for (const float haze : {0.45F, 0.8F}) {
     p.ground.haze = Grid<float>(320, 240, haze);
-    const std::vector<Stroke> far = broaden_far(near, p.ground);
+    const std::vector<Stroke> far = broaden_far(near, p.ground, {0, 0}, 1.0);
     EXPECT_LT(far.size(), 0.9 * static_cast<double>(count)) << haze;
     const double mean = width_sum(far) / static_cast<double>(far.size());
     EXPECT_GT(mean, 1.15 * width) << haze;
@@ -34,11 +34,34 @@ TEST(FarStrokes, AreFewerAndBroader) {
 
 TEST(FarStrokes, NearOnesStayAsTheyAre) {
   Picture p = plain_picture(LandCoverClass::pasture, 320, 240);
-  p.ground.haze = Grid<float>(320, 240, 0.25F);
+  p.ground.haze = Grid<float>(320, 240, 0.30F);
   const std::vector<Stroke> near = grow_strokes("meadow", p.scene());
-  const std::vector<Stroke> far = broaden_far(near, p.ground);
+  const std::vector<Stroke> far = broaden_far(near, p.ground, {0, 0}, 1.0);
   ASSERT_EQ(far.size(), near.size());
   for (std::size_t k = 0; k < near.size(); ++k) EXPECT_EQ(far[k].start_width, near[k].start_width);
+}
+
+// A window misses what the whole misses, and so does a print of three times the pixels.
+TEST(FarStrokes, PlacesOnTheSheetSayWhichAreMissing) {
+  BasePicture whole, window, print;
+  whole.haze = Grid<float>(90, 60, 0.8F);
+  window.haze = Grid<float>(40, 30, 0.8F);
+  print.haze = Grid<float>(270, 180, 0.8F);
+  int missing = 0;
+  for (int y = 20; y < 50; ++y)
+    for (int x = 30; x < 70; ++x) {
+      const auto stays = [](const BasePicture& base, glm::ivec2 at, glm::ivec2 origin, double pixels_per_unit) {
+        Stroke stroke;
+        stroke.source = static_cast<std::uint32_t>(base.haze.index(at.x, at.y));
+        return broaden_far({stroke}, base, origin, pixels_per_unit).size();
+      };
+      const std::size_t here = stays(whole, {x, y}, {0, 0}, 1.0);
+      EXPECT_EQ(stays(window, {x - 30, y - 20}, {30, 20}, 1.0), here);
+      EXPECT_EQ(stays(print, {3 * x + 1, 3 * y + 1}, {0, 0}, 3.0), here);
+      missing += here == 0 ? 1 : 0;
+    }
+  EXPECT_GT(missing, 300);
+  EXPECT_LT(missing, 900);
 }
 
 TEST(FarStrokes, TreesStandOrAreMissingAsAWhole) {
@@ -48,7 +71,7 @@ TEST(FarStrokes, TreesStandOrAreMissingAsAWhole) {
   const std::vector<Stroke> near = grow_strokes("forest trees", p.scene());
   std::map<std::uint32_t, int> before, after;
   for (const Stroke& s : near) ++before[s.seed];
-  for (const Stroke& s : broaden_far(near, p.ground)) ++after[s.seed];
+  for (const Stroke& s : broaden_far(near, p.ground, {0, 0}, 1.0)) ++after[s.seed];
   EXPECT_LT(after.size(), before.size());
   EXPECT_FALSE(after.empty());
   for (const auto& [seed, parts] : after) EXPECT_EQ(parts, before[seed]);
