@@ -114,7 +114,7 @@ TEST(RuleExpression, StepsAreThoseOfOneCellAfterTheOther) {
   const auto make = [&](std::int64_t column) {
     std::vector<float> cells(rule_block);
     for (int i = 0; i < rule_block; ++i)
-      cells[static_cast<std::size_t>(i)] = random_uniform(7, column, i, 0) < 0.3
+      cells[static_cast<std::size_t>(i)] = random_uniform(7, column, i, 0) < 0.7
                                                ? special[random_bits(7, column, i, 1) % special.size()]
                                                : static_cast<float>(4.0 * random_uniform(7, column, i, 2) - 2.0);
     return cells;
