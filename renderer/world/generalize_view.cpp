@@ -171,7 +171,10 @@ GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem
                                        Progress& progress, const Cache& cache, const SeaParameters* given_sea) {
   const SeaParameters sea = given_sea != nullptr ? *given_sea : scene_sea(loaded.scene.land_cover);
   const SceneGeneralize& settings = loaded.scene.generalize;
-  ViewOfGround seen{.mask = mask_for_scene(loaded, dem, land_cover, progress, cache), .pixel_ground = {}, .viewer_xy = view.viewer_xy, .distances = view.generalize};
+  ViewOfGround seen{.mask = mask_for_scene(loaded, dem, land_cover, progress, cache),
+                    .pixel_ground = {},
+                    .viewer_xy = view.viewer_xy,
+                    .distances = view.generalize};
   if (settings.print_detail_px > 0.0) seen.pixel_ground = ground_m_per_pixel(dem, view);
   return cached<GeneralizedTerrain>(
       cache, [&] { return ground_key(loaded, dem, sea, seen); }, progress,

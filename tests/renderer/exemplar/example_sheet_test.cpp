@@ -107,7 +107,9 @@ TEST(ExampleSheetPlan, LightFallsFromTheSameSideInAllPanels) {
   const ExampleSheetPlan plan = built_in_example_sheet_plan();
   for (int p = 0; p < static_cast<int>(plan.panels.size()); ++p) {
     const Scene scene = panel_scene(plan, p, false).scene;
-    EXPECT_NEAR(std::remainder(scene.sun.azimuth_deg.value() - scene.camera.azimuth_deg.value_or(0.0) - plan.light_from_deg, 360.0), 0.0, 1e-9) << p;
+    EXPECT_NEAR(std::remainder(scene.sun.azimuth_deg.value() - scene.camera.azimuth_deg.value_or(0.0) - plan.light_from_deg, 360.0), 0.0,
+                1e-9)
+        << p;
   }
 }
 
