@@ -26,7 +26,8 @@ struct Notes : Progress {
   std::string all;
 };
 
-// Made-up mountains of 27 × 27 km in a file, seen from their southern edge.
+// Made-up mountains of 27 × 27 km in a file, seen from their southern edge. What would follow from the region is written, so that whole and
+// windows are the same view.
 class GroundWindows : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -50,6 +51,7 @@ file = "terrain.tif"
 [camera]
 position = [613500, 5200800]
 height_m = 3600
+azimuth_deg = 0
 pitch_deg = -12
 [generalize]
 foreground = [1.1, 1.1, 1.0, 0.9, 0.9, 0.8]
@@ -59,6 +61,15 @@ background_from_m = 20000
 crest = 0.5
 [deform]
 exaggeration = 1.4
+[deform.bend]
+radius_m = 0
+[sun]
+azimuth_deg = 315
+altitude_deg = 30
+[air]
+from_m = 34000
+scale_m = 62000
+rim_fade_m = 4000
 [sampling]
 pixel_samples = 1
 shadow_rays = 2
