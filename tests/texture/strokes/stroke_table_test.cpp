@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -24,7 +25,6 @@ constexpr int height = 384;
 Picture patchwork() {
   constexpr int block = 32;
   Picture p = plain_picture(LandCoverClass::rock, width, height);
-  p.parameters.winter = true;
   p.guidance.slope_deg = Grid<float>(width, height);
   p.guidance.relief_s_m = Grid<float>(width, height, 25.F);
   p.guidance.footprint_m = Grid<float>(width, height, 15.F);
@@ -54,28 +54,35 @@ Picture patchwork() {
   return p;
 }
 
+// Some kinds grow in winter alone, some on what winter covers.
 TEST(StrokeTable, EveryKindPaintsInItsLayerAndInNoOther) {
-  const Picture p = patchwork();
-  const StrokeScene scene = p.scene();
-  const auto strokes_of = [&](const StrokeLayers& layers) {
-    return static_cast<std::size_t>(
-        paint_strokes(p.ground.colour, p.guidance, p.ground, layers, p.parameters, silent_progress()).stroke_count);
-  };
-  const StrokeLayers none{.sky = false, .ground = false, .accents = false, .breaks = false, .upright = false};
-  EXPECT_EQ(strokes_of(none), 0U);
-  for (bool StrokeLayers::*const layer :
-       {&StrokeLayers::sky, &StrokeLayers::ground, &StrokeLayers::accents, &StrokeLayers::breaks, &StrokeLayers::upright}) {
-    StrokeLayers one = none;
-    one.*layer = true;
-    std::size_t grown = 0;
-    for (const StrokeKind& kind : stroke_kinds()) {
-      if (!is_painted(kind, one)) continue;
-      const std::size_t count = grow_strokes(kind.name, scene).size();
-      EXPECT_GT(count, 0U) << kind.name;
-      grown += count;
+  std::map<std::string_view, std::size_t> of_kind;
+  for (const bool winter : {false, true}) {
+    Picture p = patchwork();
+    p.parameters.winter = winter;
+    const StrokeScene scene = p.scene();
+    const auto strokes_of = [&](const StrokeLayers& layers) {
+      return static_cast<std::size_t>(
+          paint_strokes(p.ground.colour, p.guidance, p.ground, layers, p.parameters, silent_progress()).stroke_count);
+    };
+    const StrokeLayers none{.sky = false, .ground = false, .accents = false, .breaks = false, .upright = false};
+    EXPECT_EQ(strokes_of(none), 0U);
+    for (bool StrokeLayers::*const layer :
+         {&StrokeLayers::sky, &StrokeLayers::ground, &StrokeLayers::accents, &StrokeLayers::breaks, &StrokeLayers::upright}) {
+      StrokeLayers one = none;
+      one.*layer = true;
+      std::size_t grown = 0;
+      for (const StrokeKind& kind : stroke_kinds()) {
+        if (!is_painted(kind, one)) continue;
+        const std::size_t count = grow_strokes(kind.name, scene).size();
+        of_kind[kind.name] += count;
+        grown += count;
+      }
+      EXPECT_EQ(strokes_of(one), grown);
     }
-    EXPECT_EQ(strokes_of(one), grown);
   }
+  for (const auto& [name, count] : of_kind) EXPECT_GT(count, 0U) << name;
+  EXPECT_EQ(of_kind.size(), stroke_kinds().size());
 }
 
 TEST(StrokeTable, NamesAndStreamsAreUnique) {
