@@ -125,6 +125,11 @@ enum class Stream : std::uint16_t {
   snow_drifts,
   snow_cornices,
   sky_kind,
+  statistical_dither,
+  statistical_noise,
+  statistical_discs,
+  statistical_moves,
+  statistical_directions,
 
   count  // no stream: how many there are
 };

@@ -26,6 +26,9 @@ const std::vector<Command>& all_commands() {
        add_exemplar_paint},
       {"layers", "fit", "Learns surface layers from a satellite picture or a land-cover map and a DEM", add_layers_fit},
       {"layers", "apply", "Lays surface layers over a DEM: classes, colours and coverages as GeoTIFF", add_layers_apply},
+      {"texture", "learn", "Learns a texture from a crop of a painting, as statistics of a kilobyte", add_texture_learn},
+      {"texture", "make", "Makes a texture of any size from such a model, without end and without repeating", add_texture_make},
+      {"texture", "fill", "Makes anew a masked part of a picture from such a model, to go with what is around it", add_texture_fill},
       {"", "info", "Says what a picture or guidance file holds and how it was made", add_info},
       {"", "diff", "Compares two pictures or guidance files, with thresholds", add_diff},
       {"", "schema", "Prints what a scene file may say, for editors or for reading", add_schema},
@@ -38,7 +41,8 @@ const std::vector<Command>& all_commands() {
 const std::vector<CommandGroup>& command_groups() {
   static const std::vector<CommandGroup> groups = {{"cache", "About what is kept from earlier runs: land cover, terrain, example sheets"},
                                                    {"exemplar", "About example paintings: what they can serve, and painting one"},
-                                                   {"layers", "About surface layers: what covers the ground, said by what is known of it"}};
+                                                   {"layers", "About surface layers: what covers the ground, said by what is known of it"},
+                                                   {"texture", "About textures as statistics: paint without end from a kilobyte"}};
   return groups;
 }
 

@@ -54,6 +54,9 @@ Action add_plan(CLI::App& command);
 Action add_render(CLI::App& command);
 Action add_schema(CLI::App& command);
 Action add_synthesize(CLI::App& command);
+Action add_texture_fill(CLI::App& command);
+Action add_texture_learn(CLI::App& command);
+Action add_texture_make(CLI::App& command);
 Action add_verify(CLI::App& command);
 
 }  // namespace belvedere::tools

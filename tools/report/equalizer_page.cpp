@@ -16,10 +16,10 @@
 #include "base/json.h"
 #include "base/math.h"
 #include "base/pyramid.h"
+#include "base/text/base64.h"
 #include "renderer/image/output_file.h"
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/generalize/generalize_report.h"
-#include "tools/report/data_uri.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
 
@@ -50,10 +50,10 @@ std::string base64(const Grid<float>& values) {
     const auto bits = std::bit_cast<std::uint32_t>(v);  // little end first
     for (int i = 0; i < 4; ++i) bytes += static_cast<char>((bits >> (8 * i)) & 0xffU);
   }
-  return tools::base64(bytes);
+  return belvedere::base64(bytes);
 }
 
-std::string base64(const Grid<unsigned char>& values) { return tools::base64(std::string(values.begin(), values.end())); }
+std::string base64(const Grid<unsigned char>& values) { return belvedere::base64(std::string(values.begin(), values.end())); }
 
 // Cell i over cell 2 i, as reduce() takes altitudes.
 Grid<unsigned char> every_other(const Grid<unsigned char>& cells) {

@@ -9,7 +9,6 @@
 #include "renderer/image/image_io.h"
 #include "tests/files.h"
 #include "tests/http_server.h"
-#include "tools/report/data_uri.h"
 
 namespace belvedere::tools {
 namespace {
@@ -101,15 +100,6 @@ TEST(Verification, PageHoldsPicturesNowBeforeAndTheDifference) {
   EXPECT_THAT(both, AllOf(HasSubstr("0.1250 %"), HasSubstr("as it was")));  // one pixel of 800
   EXPECT_TRUE(std::filesystem::is_empty(folder / "scratch"));
   EXPECT_THAT(verification_page({broken(3)}, {}), AllOf(HasSubstr("&lt;control&gt;"), HasSubstr("0 of 1")));
-}
-
-// RFC 4648, section 10.
-TEST(DataUri, Base64IsThePublishedOne) {
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("f"), "Zg==");
-  EXPECT_EQ(base64("fo"), "Zm8=");
-  EXPECT_EQ(base64("foo"), "Zm9v");
-  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
 }
 
 }  // namespace

@@ -1,0 +1,68 @@
+#include "texture/statistical/clique_model.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/texture/statistical/texture_crops.h"
+
+namespace belvedere {
+namespace {
+
+BandSpace even_bands() {
+  BandSpace bands;
+  bands.low = {-50.F, -20.F, -10.F};
+  bands.high = {50.F, 20.F, 10.F};
+  return bands;
+}
+
+TEST(CliqueModel, KnotSharesRiseAndMirror) {
+  EXPECT_EQ(clique_knot_share(0), 0.F);
+  EXPECT_EQ(clique_knot_share(clique_knots - 1), 1.F);
+  for (int k = 1; k < clique_knots; ++k) {
+    EXPECT_GT(clique_knot_share(k), clique_knot_share(k - 1));
+    EXPECT_FLOAT_EQ(clique_knot_share(k) + clique_knot_share(clique_knots - 1 - k), 1.F);
+  }
+}
+
+TEST(CliqueModel, RangesHoldEveryDifference) {
+  const DifferenceRange pair = difference_range(even_bands(), {0, 1, 0, 0, 1});
+  EXPECT_EQ(pair.low, -70.F);
+  EXPECT_EQ(pair.high, 70.F);
+  const DifferenceRange single = difference_range(even_bands(), {0, 0, 0, 1, 1});
+  EXPECT_EQ(single.low, -20.F);
+  EXPECT_EQ(single.high, 20.F);
+}
+
+// Mu-law: small differences keep fine steps; codes are what is kept, so a second turn changes nothing.
+TEST(CliqueModel, CodesKeepKnotsToTheirStep) {
+  const BandSpace bands = even_bands();
+  const CliqueType type{0, 1, 0, 0, 0};
+  CliqueKnots knots{};
+  for (int k = 0; k < clique_knots; ++k) knots[static_cast<std::size_t>(k)] = -80.F + 160.F * static_cast<float>(k) / (clique_knots - 1);
+  const Clique clique{type, encode_knots(bands, type, knots)};
+  const CliqueKnots back = decode_knots(bands, clique);
+  for (std::size_t k = 0; k < knots.size(); ++k) EXPECT_NEAR(back[k], knots[k], .03F * std::abs(knots[k]) + .05F) << k;
+  EXPECT_EQ(encode_knots(bands, type, back), clique.codes);
+}
+
+TEST(CliqueModel, KnotsNeverFall) {
+  const CliqueType type{0, 1, 0, 0, 0};
+  CliqueKnots knots{};
+  knots.fill(3.F);
+  knots[5] = -7.F;
+  const auto codes = encode_knots(even_bands(), type, knots);
+  for (std::size_t k = 1; k < codes.size(); ++k) EXPECT_GE(codes[k], codes[k - 1]);
+}
+
+TEST(CliqueModel, ShareAndValueAreInverse) {
+  CliqueKnots knots{};
+  for (int k = 0; k < clique_knots; ++k) knots[static_cast<std::size_t>(k)] = 10.F * clique_knot_share(k) - 4.F;  // evenly spread over -4…6
+  for (const float share : {0.F, .01F, .25F, .5F, .77F, .999F, 1.F}) {
+    EXPECT_NEAR(value_at_share(knots, share), 10.F * share - 4.F, 1e-5F);
+    EXPECT_NEAR(share_below(knots, 10.F * share - 4.F), share, 1e-5F);
+  }
+  EXPECT_EQ(share_below(knots, -5.F), 0.F);
+  EXPECT_EQ(share_below(knots, 7.F), 1.F);
+}
+
+}  // namespace
+}  // namespace belvedere

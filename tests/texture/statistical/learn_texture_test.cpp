@@ -1,0 +1,100 @@
+#include "texture/statistical/learn_texture.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include "base/error.h"
+#include "tests/texture/statistical/texture_crops.h"
+
+namespace belvedere {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Half of the discs of radius r, nine pairs of bands each, and the six at one pixel.
+TEST(CandidateTypes, AreAHalfPlaneOfAllPairs) {
+  const std::vector<CliqueType> types = candidate_types(1, 5);
+  std::set<std::pair<int, int>> offsets;
+  for (const CliqueType& t : types) {
+    EXPECT_EQ(t.level, 1);
+    EXPECT_TRUE(t.dy > 0 || (t.dy == 0 && t.dx >= 0));
+    EXPECT_LE(t.dx * t.dx + t.dy * t.dy, 25);
+    offsets.insert({t.dx, t.dy});
+    EXPECT_FALSE(t.dx + t.dy != 0 && offsets.contains({-t.dx, -t.dy})) << "both ways";
+  }
+  EXPECT_EQ(types.size(), 6U + 9U * (offsets.size() - 1));
+  EXPECT_EQ(types.size(), 366U);
+  EXPECT_EQ(candidate_types(0, 8).size(), 888U);
+}
+
+TEST(LearnTexture, HoldsWhatIsAlwaysInWithinItsBudget) {
+  LearnParameters parameters;
+  parameters.types = 26;
+  const LearnedTexture learned = learn_texture(test::meadow_crop(96, 80), {}, parameters);
+  const auto has = [&](CliqueType t) {
+    return std::any_of(learned.model.cliques.begin(), learned.model.cliques.end(), [&](const Clique& c) { return c.type == t; });
+  };
+  for (int band = 0; band < 3; ++band) {
+    EXPECT_TRUE(has({0, 0, 0, band, band}));
+    EXPECT_TRUE(has({0, 1, 0, band, band}));
+    EXPECT_TRUE(has({0, 0, 1, band, band}));
+  }
+  EXPECT_TRUE(has({0, 0, 0, 0, 2}));
+  EXPECT_LE(learned.model.cliques.size(), 26U);
+  EXPECT_EQ(learned.levels.size(), 4U);
+  EXPECT_EQ(learned.levels.front().level, 3);
+  EXPECT_LT(model_bytes(learned.model), 1000U);
+  EXPECT_EQ(learned.model.crop_hash.size(), 32U);
+}
+
+// Stripes of period 8: what is found first beyond the neighbours is a pair along the row, not down the column.
+TEST(LearnTexture, FindsThePairThatTellsMost) {
+  LearnParameters parameters;
+  parameters.levels = 0;
+  parameters.types = 16;
+  const CliqueModel model = learn_texture(test::striped_crop(96, 64, 8), {}, parameters).model;
+  ASSERT_EQ(model.cliques.size(), 16U);
+  const CliqueType found = model.cliques.back().type;
+  EXPECT_GT(std::abs(found.dx), 1);  // down a column nothing changes but the grain
+}
+
+// Two colours never mix where a mask leaves one of them out.
+TEST(LearnTexture, KnowsNothingOfWhatIsMasked) {
+  Grid<Rgb8> crop = test::meadow_crop(128, 96);
+  Grid<std::uint8_t> states(128, 96, pixel_free);
+  for (int y = 0; y < 96; ++y)
+    for (int x = 64; x < 128; ++x) {
+      crop(x, y) = {255, 40, 40};
+      states(x, y) = 0;
+    }
+  const CliqueModel masked = learn_texture(crop, states, {.types = 16, .levels = 1}).model;
+  const CliqueModel whole = learn_texture(crop, {}, {.types = 16, .levels = 1}).model;
+  EXPECT_LT(masked.bands.mean[0], 110.F);
+  EXPECT_GT(whole.bands.mean[0], 150.F);
+  // The widest axis of the meadow is that of its light and shade, green with red; with the red half it is that from green to red.
+  EXPECT_GT(masked.bands.axis(0, 0) * masked.bands.axis(0, 1), .1F);
+  EXPECT_LT(whole.bands.axis(0, 0) * whole.bands.axis(0, 1), 0.F);
+}
+
+TEST(LearnTexture, RefusesWhatIsNoTexture) {
+  const auto words = [](const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states) -> std::string {
+    try {
+      learn_texture(crop, states, {});
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::input);
+      return e.what();
+    }
+    return {};
+  };
+  EXPECT_THAT(words(test::meadow_crop(47, 200), {}), HasSubstr("47 × 200"));
+  EXPECT_THAT(words(Grid<Rgb8>(64, 64, Rgb8{1, 2, 3}), {}), HasSubstr("one colour"));
+  EXPECT_THAT(words(test::meadow_crop(64, 64), Grid<std::uint8_t>(64, 60, pixel_free)), HasSubstr("64 × 60"));
+  EXPECT_THAT(words(test::meadow_crop(64, 64), Grid<std::uint8_t>(64, 64, 0)), HasSubstr("0 pixels"));
+}
+
+}  // namespace
+}  // namespace belvedere

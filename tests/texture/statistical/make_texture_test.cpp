@@ -1,0 +1,123 @@
+#include "texture/statistical/make_texture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "tests/texture/statistical/texture_crops.h"
+#include "texture/statistical/learn_texture.h"
+
+namespace belvedere {
+namespace {
+
+const CliqueModel& meadow_model() {
+  static const CliqueModel model = [] {
+    LearnParameters few;
+    few.types = 24;
+    return learn_texture(test::meadow_crop(96, 96), {}, few).model;
+  }();
+  return model;
+}
+
+Grid<Rgb8> part(const Grid<Rgb8>& from, PixelRect rect) {
+  Grid<Rgb8> out(rect.width(), rect.height());
+  for (int y = 0; y < out.height(); ++y)
+    for (int x = 0; x < out.width(); ++x) out(x, y) = from(rect.x0 + x, rect.y0 + y);
+  return out;
+}
+
+TEST(MakeTexture, TheSameBitsForAnyThreads) {
+  std::vector<Grid<Rgb8>> made;
+  for (const int threads : {1, 2, 5}) {
+    const ThreadLimit limit(threads);
+    made.push_back(make_texture(meadow_model(), 150, 90, {.sweeps = 6}));
+  }
+  EXPECT_EQ(made[0], made[1]);
+  EXPECT_EQ(made[0], made[2]);
+}
+
+TEST(MakeTexture, AnotherSeedIsAnotherTexture) {
+  const Grid<Rgb8> one = make_texture(meadow_model(), 64, 64, {.seed = 1, .sweeps = 4});
+  const Grid<Rgb8> other = make_texture(meadow_model(), 64, 64, {.seed = 2, .sweeps = 4});
+  EXPECT_EQ(one.width(), 64);
+  EXPECT_NE(one, other);
+}
+
+// Windows of a texture without end: what two of them show of one place is the same, across tiles and left of and above its origin.
+TEST(MakeWindow, OverlappingWindowsHaveTheSamePixels) {
+  const TextureParameters parameters{.rounds = 10, .sweeps = 4};
+  const TextureRecord record = record_texture(meadow_model(), parameters);
+  const PixelRect whole{-40, endless_tile_px - 60, 60, endless_tile_px + 50};
+  const Grid<Rgb8> all = make_window(meadow_model(), record, whole, parameters);
+  for (const PixelRect rect :
+       {PixelRect{-5, endless_tile_px - 3, 20, endless_tile_px + 9}, PixelRect{0, endless_tile_px, 1, endless_tile_px + 1},
+        PixelRect{-40, endless_tile_px - 60, -1, endless_tile_px - 2}})
+    EXPECT_EQ(make_window(meadow_model(), record, rect, parameters), part(all, moved(rect, -whole.x0, -whole.y0)));
+}
+
+// Tiles meet without a seam: steps across their border are as large as elsewhere.
+TEST(MakeWindow, TilesMeetWithoutASeam) {
+  const TextureParameters parameters{.sweeps = 6};
+  const TextureRecord record = record_texture(meadow_model(), parameters);
+  const Grid<Rgb8> made = make_window(meadow_model(), record, {endless_tile_px - 60, 0, endless_tile_px + 60, 300}, parameters);
+  const auto step = [&](int x) {
+    double sum = 0.0;
+    for (int y = 0; y < made.height(); ++y)
+      for (std::size_t c = 0; c < 3; ++c) sum += std::abs(made(x, y)[c] - made(x - 1, y)[c]);
+    return sum / made.height();
+  };
+  double inside = 0.0;
+  for (int x = 20; x < 100; ++x)
+    if (x != 60) inside += step(x) / 79.0;
+  EXPECT_LT(step(60) / inside, 1.15);
+  EXPECT_GT(step(60) / inside, .85);
+}
+
+// A hole in the crop itself: nothing else changes, and its border shows no step larger than those around it.
+TEST(FillTexture, ChangesTheHoleAloneAndLeavesNoSeam) {
+  const Grid<Rgb8> crop = test::meadow_crop(200, 160);
+  Grid<Rgb8> picture = crop;
+  Grid<std::uint8_t> hole(200, 160, 0);
+  for (int y = 50; y < 110; ++y)
+    for (int x = 70; x < 140; ++x) {
+      hole(x, y) = 1;
+      picture(x, y) = {255, 0, 0};
+    }
+  const Grid<Rgb8> filled = fill_texture(picture, hole, meadow_model(), {});
+  const auto step = [&](int x, int y) {
+    double sum = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) sum += std::abs(filled(x, y)[c] - filled(x - 1, y)[c]);
+    return sum;
+  };
+  double seam = 0.0;
+  double inside = 0.0;
+  int red = 0;
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 200; ++x) {
+      if (hole(x, y) == 0) {
+        EXPECT_EQ(filled(x, y), crop(x, y));
+      } else {
+        red += filled(x, y)[0] > 220 && filled(x, y)[1] < 40 ? 1 : 0;
+      }
+    }
+  for (int y = 50; y < 110; ++y) {
+    seam += (step(70, y) + step(140, y)) / 120.0;
+    for (int x = 10; x < 60; ++x) inside += step(x, y) / (60.0 * 50.0);
+  }
+  double made = 0.0;
+  for (int y = 55; y < 105; ++y)
+    for (int x = 76; x < 134; ++x) made += step(x, y) / (50.0 * 58.0);
+  EXPECT_EQ(red, 0);
+  EXPECT_LT(seam / (.5 * (inside + made)), 1.3) << seam << " " << inside << " " << made;
+  EXPECT_GT(seam / (.5 * (inside + made)), .6);
+  EXPECT_EQ(fill_texture(picture, Grid<std::uint8_t>(200, 160, 0), meadow_model(), {}), picture);
+}
+
+TEST(MakeTexture, SizesOverTheLimitAreRefused) {
+  EXPECT_THROW(make_texture(meadow_model(), 1 << 20, 1 << 20, {}), Error);
+  EXPECT_THROW(make_texture(meadow_model(), 0, 10, {}), Error);
+}
+
+}  // namespace
+}  // namespace belvedere

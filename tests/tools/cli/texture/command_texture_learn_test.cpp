@@ -1,0 +1,95 @@
+// `belvedere texture learn` and `make` as users meet them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/random.h"
+#include "tests/texture/statistical/texture_crops.h"
+#include "tests/tools/program.h"
+
+namespace belvedere {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class Texture : public Program {
+ protected:
+  std::string write_crop(int width = 72, int height = 64) const {
+    const Grid<Rgb8> crop = test::meadow_crop(width, height);
+    return write_picture("crop.png", width, height, [&](int x, int y) {
+      const Rgb8& c = crop(x, y);
+      return glm::vec3(c[0], c[1], c[2]) / 255.F;
+    });
+  }
+};
+
+TEST_F(Texture, IsLearntAndMadeWithoutEnd) {
+  const Outcome learnt =
+      run({"texture", "learn", write_crop(), "--types", "20", "--out", path("m.model"), "--report", path("page"), "-q", "--json"});
+  ASSERT_EQ(learnt.status, 0) << learnt.err;
+  EXPECT_THAT(learnt.out, AllOf(HasSubstr("\"held_out\""), HasSubstr("\"halves\""), HasSubstr("\"trials\"")));
+  EXPECT_LT(read_bytes(path("m.model")).size(), 1700U);
+  EXPECT_THAT(read_bytes(path("page/index.html")), AllOf(HasSubstr("texture.png"), HasSubstr("halves of the crop")));
+
+  const auto make = [&](const std::string& name, std::vector<std::string> options) {
+    options.insert(options.begin(), {"texture", "make", path("m.model"), "--out", path(name), "-q"});
+    const Outcome made = run(options);
+    EXPECT_EQ(made.status, 0) << made.err;
+    return read_picture(path(name));
+  };
+  const Grid<glm::vec3> one = make("one.png", {"--size", "50", "40", "--threads", "1"});
+  EXPECT_EQ(one.width(), 50);
+  EXPECT_EQ(one, make("two.png", {"--size", "50", "40", "--threads", "2"}));
+  EXPECT_NE(one, make("other.png", {"--size", "50", "40", "--seed", "9"}));
+  // Overlapping windows.
+  const Grid<glm::vec3> left = make("left.png", {"--window", "-30", "5", "60", "20"});
+  const Grid<glm::vec3> right = make("right.png", {"--window", "10", "10", "20", "10"});
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 20; ++x) EXPECT_EQ(right(x, y), left(x + 40, y + 5));
+
+  // A hole in the crop: what is around it stays to the bit.
+  const std::string hole = write_labels("hole.tif", 72, 64, [](int x, int y) { return x > 20 && x < 40 && y > 20 && y < 44 ? 1 : 0; });
+  const Outcome filled =
+      run({"texture", "fill", path("crop.png"), "--hole", hole, "--model", path("m.model"), "--out", path("filled.png")});
+  ASSERT_EQ(filled.status, 0) << filled.err;
+  EXPECT_THAT(filled.out, HasSubstr("437 of 4608"));
+  const Grid<glm::vec3> before = read_picture(path("crop.png"));
+  const Grid<glm::vec3> after = read_picture(path("filled.png"));
+  int changed = 0;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 72; ++x) {
+      const bool inside = x > 20 && x < 40 && y > 20 && y < 44;
+      if (!inside) {
+        EXPECT_EQ(after(x, y), before(x, y));
+      }
+      changed += after(x, y) != before(x, y) ? 1 : 0;
+    }
+  EXPECT_GT(changed, 300);
+}
+
+TEST_F(Texture, BadInputIsNamed) {
+  const auto refused = [&](const std::vector<std::string>& arguments, int status, const std::string& word) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(word));
+  };
+  const std::string crop = write_crop();
+  const std::string tiny = write_picture("tiny.png", 40, 90, [](int x, int) { return glm::vec3(static_cast<float>(x % 7) / 7.F); });
+  refused({"texture", "learn", tiny, "--out", path("m.model")}, 3, "40 × 90");
+  refused({"texture", "learn", crop, "--mask", write_labels("mask.tif", 10, 10, [](int, int) { return 1; }), "--out", path("m.model")}, 3,
+          "10 × 10");
+  refused({"texture", "learn", crop, "--mask", write_labels("none.tif", 72, 64, [](int, int) { return 0; }), "--out", path("m.model")}, 3,
+          "0 pixels");
+  refused({"texture", "learn", crop, "--out", crop}, 2, "what is read");
+  refused({"texture", "fill", crop, "--hole", path("mask.tif"), "--model", path("m.model"), "--out", path("x.png")}, 3, "m.model");
+  EXPECT_FALSE(std::filesystem::exists(path("m.model")));
+  refused({"texture", "make", write("m.model", "belvedere_texture = 7\n"), "--size", "9", "9", "--out", path("x.png")}, 2, "version 7");
+  refused({"texture", "make", path("gone.model"), "--size", "9", "9", "--out", path("x.png")}, 3, "gone.model");
+  refused({"texture", "make", path("m.model"), "--out", path("x.png")}, 2, "--size");
+  refused({"texture", "make", path("m.model"), "--size", "9", "9", "--out", path("x.exr")}, 2, ".png");
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,171 @@
+#include "texture/statistical/learn_texture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+
+#include "base/cache/content_hash.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "texture/statistical/clique_flow.h"
+#include "texture/statistical/difference_histogram.h"
+#include "texture/statistical/make_texture.h"
+
+namespace belvedere {
+namespace {
+
+constexpr std::uint64_t learning_seed = 5;
+
+struct Candidate {
+  Clique clique;
+  HistogramGroups groups;
+  bool in = false;
+};
+
+std::vector<Candidate> make_candidates(const BandPicture& example, const BandSpace& bands, int level, int reach) {
+  const std::vector<CliqueType> types = candidate_types(level, reach);
+  std::vector<Candidate> out(types.size());
+  parallel_ranges(types.size(), std::size_t{8}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k != end; ++k) {
+      const DifferenceHistogram histogram = count_differences(example, bands, types[k]);
+      const CliqueKnots knots = find_knots(histogram, difference_range(bands, types[k]));
+      out[k] = {{types[k], encode_knots(bands, types[k], knots)}, HistogramGroups(histogram)};
+    }
+  });
+  return out;
+}
+
+// Always in: each band's own histogram, at the finest level the pairs at one pixel and the four neighbours as well; above it the first
+// band's histogram alone, because the others follow from it and from what is added.
+bool always_in(const CliqueType& t) {
+  if (t.level > 0) return t.single() && t.head == 0;
+  const bool near = std::abs(t.dx) + std::abs(t.dy) == 1 && t.head == t.tail;
+  return (t.dx == 0 && t.dy == 0) || near;
+}
+
+void check_crop(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states) {
+  const auto refuse = [](const std::string& found, const std::string& allowed) {
+    throw Error(ErrorKind::input, "the crop", found, allowed);
+  };
+  if (crop.width() < least_crop_px || crop.height() < least_crop_px)
+    refuse(fmt::format("{} × {} pixels", crop.width(), crop.height()), fmt::format("{} pixels a side or more", least_crop_px));
+  if (!states.empty() && !states.same_size(crop))
+    refuse(fmt::format("a mask of {} × {} pixels for a crop of {} × {}", states.width(), states.height(), crop.width(), crop.height()),
+           "a mask of the crop's size");
+  std::size_t counted = 0;
+  bool varied = false;
+  Rgb8 first{};
+  for (std::size_t i = 0; i < crop.size(); ++i) {
+    if (!states.empty() && (states[i] & pixel_counts) == 0) continue;
+    if (counted++ == 0) first = crop[i];
+    varied |= crop[i] != first;
+  }
+  constexpr std::size_t least = std::size_t{least_crop_px} * least_crop_px;
+  if (counted < least) refuse(fmt::format("{} pixels under its mask", counted), fmt::format("{} or more", least));
+  if (!varied) refuse("one colour all over", "a texture");
+}
+
+std::string hash_of(const Grid<Rgb8>& crop) {
+  ContentHash hash;
+  hash.add(crop.data(), crop.size() * sizeof(Rgb8));
+  return hash.digits();
+}
+
+// Coarse levels need pixels to count.
+int levels_for(const Grid<Rgb8>& crop, int wished) {
+  constexpr int least_coarse_px = 10;
+  int levels = wished;
+  while (levels > 0 && (std::min(crop.width(), crop.height()) >> levels) < least_coarse_px) --levels;
+  return levels;
+}
+
+}  // namespace
+
+int reach_at(const LearnParameters& parameters, int level) { return level == 0 ? parameters.reach_px : parameters.coarse_reach; }
+
+std::vector<CliqueType> candidate_types(int level, int reach) {
+  std::vector<CliqueType> types;
+  for (int head = 0; head < 3; ++head)
+    for (int tail = head; tail < 3; ++tail) types.push_back({level, 0, 0, head, tail});
+  for (int dy = 0; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx) {
+      if ((dy == 0 && dx <= 0) || dx * dx + dy * dy > reach * reach) continue;
+      for (int head = 0; head < 3; ++head)
+        for (int tail = 0; tail < 3; ++tail) types.push_back({level, dx, dy, head, tail});
+    }
+  return types;
+}
+
+LearnedTexture learn_texture(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, const LearnParameters& parameters,
+                             Progress& progress) {
+  check_crop(crop, states);
+  LearnedTexture out;
+  CliqueModel& model = out.model;
+  model.levels = levels_for(crop, parameters.levels);
+  model.bands = find_bands(crop, states);
+  model.crop_hash = hash_of(crop);
+  model.crop_width = crop.width();
+  model.crop_height = crop.height();
+  const BandPyramid example = make_pyramid(to_bands(crop, model.bands, states), model.levels);
+
+  // The texture that is made to see what is missing: of the crop's size, or of the size of what counts of it.
+  int width = crop.width();
+  int height = crop.height();
+  if (!states.empty()) {
+    const auto counted = std::count_if(states.begin(), states.end(), [](std::uint8_t s) { return (s & pixel_counts) != 0; });
+    width = height = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(counted))), 64, 256);
+  }
+  TextureTrial trial(model, width, height, learning_seed);
+  progress.begin("learning a texture", parameters.types);
+  for (int level = model.levels; level >= 0; --level) {
+    std::vector<Candidate> candidates =
+        make_candidates(example[static_cast<std::size_t>(level)], model.bands, level, reach_at(parameters, level));
+    // Coarser levels together get at most half of the budget, the finest what is left.
+    const auto budget =
+        static_cast<std::size_t>(level > 0 ? parameters.types * (model.levels - level + 1) / (2 * (model.levels + 1)) : parameters.types);
+    const auto add = [&](Candidate& c) {
+      c.in = true;
+      model.cliques.push_back(c.clique);
+      progress.advance(1.0);
+    };
+    for (Candidate& c : candidates)
+      if (always_in(c.clique.type)) add(c);
+    trial.begin_level(model, level);
+    for (int round = 0;; ++round) {
+      trial.run(model, level, round == 0 ? 2 * parameters.rounds : parameters.rounds);
+      std::vector<HistogramGroups::Distance> off(candidates.size());
+      parallel_ranges(candidates.size(), std::size_t{8}, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k != end; ++k)
+          if (!candidates[k].in)
+            off[k] = candidates[k].groups.distance(count_differences(trial.picture(level), model.bands, candidates[k].clique.type));
+      });
+      LearnedLevel told{.level = level};
+      std::size_t worst = candidates.size();
+      double sum = 0.0;
+      int held = 0;
+      for (std::size_t k = 0; k < candidates.size(); ++k) {
+        if (candidates[k].in) {
+          ++told.types;
+          continue;
+        }
+        sum += off[k].l1;
+        ++held;
+        if (off[k].l2 <= told.worst_l2) continue;
+        told.worst_l2 = off[k].l2;
+        worst = k;
+      }
+      told.held_out_l1 = held > 0 ? sum / held : 0.0;
+      if (worst == candidates.size() || told.worst_l2 < parameters.enough || model.cliques.size() >= budget) {
+        out.levels.push_back(told);
+        break;
+      }
+      add(candidates[worst]);
+    }
+  }
+  return out;
+}
+
+}  // namespace belvedere

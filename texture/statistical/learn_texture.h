@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "base/progress.h"
+#include "texture/statistical/band_pyramid.h"
+#include "texture/statistical/clique_model.h"
+
+namespace belvedere {
+
+struct LearnParameters {
+  int types = 40;        // at most, 16…200: 28 are nearly as good, 60 a little better
+  int levels = 3;        // of the pyramid above the picture itself, 0…4; what the crop allows where it is small
+  int reach_px = 8;      // of cliques at the finest level
+  int coarse_reach = 5;  // of those above, in their pixels
+  int rounds = 12;       // of the flow after each type that is added
+  double enough = .02;   // Euclidean distance of histograms, of the worst type that is left out, at which a level is done
+};
+
+// How a level's learning went.
+struct LearnedLevel {
+  int level = 0;
+  int types = 0;             // of this level
+  double held_out_l1 = 0.0;  // mean over the types that are left out
+  double worst_l2 = 0.0;     // of these
+};
+
+struct LearnedTexture {
+  CliqueModel model;
+  std::vector<LearnedLevel> levels;
+};
+
+// Analysis by synthesis (Zalesny et al. 2005, steps 1–6, on a pyramid and with the flow for the sampler): from plain histograms and nearest
+// neighbours, the type whose histogram the texture made so far misses most is added, until all are near enough or the budget is spent.
+// `states` (empty: all) counts the crop's pixels. Error(input) for crops under 48 pixels a side or with fewer pixels than 48 × 48 that
+// count, and for crops of one colour.
+LearnedTexture learn_texture(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, const LearnParameters& parameters,
+                             Progress& progress = silent_progress());
+inline constexpr int least_crop_px = 48;
+
+// All types of a level within a reach: pairs of bands at one pixel, and a half plane of offsets with all pairs of bands.
+std::vector<CliqueType> candidate_types(int level, int reach);
+int reach_at(const LearnParameters& parameters, int level);
+
+}  // namespace belvedere

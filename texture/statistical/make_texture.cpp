@@ -1,0 +1,285 @@
+#include "texture/statistical/make_texture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdlib>
+#include <utility>
+
+#include "base/error.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int border_px = 32;       // made around a texture and cut off
+constexpr int settling_rounds = 4;  // at the end of a level, without momentum
+constexpr int record_px = 256;
+constexpr int around_hole_px = 64;    // of the picture that a hole's paint is fitted to
+constexpr float even_spread = 1.73F;  // √3: an even distribution of this half width has deviation 1
+
+// How wide differences of neighbours are at a level: the detail that noise should bring.
+float detail_of(const CliqueModel& model, int level, int band) {
+  constexpr float tenths_of_normal = 3.1F;  // what lies between the knots taken, in deviations of a normal distribution
+  float widest = 0.F;
+  for (const Clique& clique : model.cliques) {
+    const CliqueType& t = clique.type;
+    if (t.level != level || t.head != band || t.tail != band || t.single() || std::abs(t.dx) + std::abs(t.dy) > 2) continue;
+    const CliqueKnots knots = decode_knots(model.bands, clique);
+    widest = std::max(widest, (knots[clique_knots - 5] - knots[4]) / tenths_of_normal);
+  }
+  return widest;
+}
+
+SeedNoise noise_of(const CliqueModel& model, const TextureParameters& parameters) {
+  return {model.seed, model.seed_px, parameters.direction ? parameters.direction : own_directions(model, parameters.seed), parameters.seed};
+}
+
+// What a level begins with: noise over all values at the coarsest, else the coarser level and noise on it. Pixels that may not change are
+// those of `known`.
+void begin_level(FlowState& state, const CliqueModel& model, int level, const SeedNoise& noise, TexturePlace place,
+                 const BandPyramid* known = nullptr) {
+  BandPicture& picture = state.pyramid[static_cast<std::size_t>(level)];
+  const bool top = level == model.levels;
+  for (int b = 0; b < 3; ++b) {
+    const auto band = static_cast<std::size_t>(b);
+    const Grid<float> grain = seed_noise(noise, place, picture.width(), picture.height(), level, b);
+    // Detail of no width cannot be stretched to any, so there is always some.
+    const float amplitude = 2.F * std::max(.5F, .5F * (top ? 0.F : detail_of(model, level, b)));
+    const float low = model.bands.low[band];
+    const float high = model.bands.high[band];
+    parallel_rows(picture.height(), [&](int y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        if ((picture.states(x, y) & pixel_changes) == 0) {
+          if (known != nullptr) picture.bands[band](x, y) = (*known)[static_cast<std::size_t>(level)].bands[band](x, y);
+          continue;
+        }
+        const float u = grain(x, y);
+        picture.bands[band](x, y) =
+            top ? low + u * (high - low)
+                : enlarged(state.pyramid[static_cast<std::size_t>(level) + 1].bands[band], x, y) + amplitude * even_spread * (u - .5F);
+      }
+    });
+  }
+  state.speed = BandPicture(picture.width(), picture.height());
+}
+
+// Round i of n at a level. Tables are counted, or come from elsewhere; those that were taken are returned.
+FlowRound flow_once(FlowState& state, const CliqueModel& model, int level, int i, int n, const FlowRound* given) {
+  renew_coarser(state.pyramid, level);
+  FlowRound tables = given != nullptr ? *given : find_tables(state.pyramid, model, level);
+  FlowStep step;
+  if (i + settling_rounds >= n) step.momentum = 0.F;
+  flow(state, model, level, tables, step);
+  return tables;
+}
+
+struct Making {
+  const TextureRecord* replay = nullptr;
+  TextureRecord* record = nullptr;
+  const BandPyramid* known = nullptr;
+};
+
+// From a pyramid whose states say what is made, to its finest picture.
+BandPicture run(const CliqueModel& model, BandPyramid pyramid, TexturePlace place, const TextureParameters& parameters, Making making,
+                Progress& progress) {
+  const std::int64_t pixels = static_cast<std::int64_t>(pyramid.front().states.size());
+  FlowState state{std::move(pyramid), {}};
+  const SeedNoise noise = noise_of(model, parameters);
+  const PolishParameters polishing{.sweeps = parameters.sweeps, .seed = parameters.seed};
+  std::size_t polished = 0;
+  for (int level = model.levels; level >= 0; --level) {
+    begin_level(state, model, level, noise, place, making.known);
+    const auto at = static_cast<std::size_t>(model.levels - level);
+    if (making.record != nullptr) making.record->rounds.emplace_back();
+    for (int i = 0; i < parameters.rounds; ++i) {
+      const FlowRound* given = making.replay != nullptr ? &making.replay->rounds[at][static_cast<std::size_t>(i)] : nullptr;
+      FlowRound taken = flow_once(state, model, level, i, parameters.rounds, given);
+      if (making.record != nullptr) making.record->rounds[at].push_back(std::move(taken));
+    }
+    if (model.polish && parameters.sweeps > 0 && level <= parameters.polish_from) {
+      const PixelPlace pixel{place.x >> level, place.y >> level};
+      PolishRecord* record = making.record != nullptr ? &making.record->polishes.emplace_back() : nullptr;
+      polish(state, model, level, polishing, pixel, making.replay != nullptr ? &making.replay->polishes[polished++] : nullptr, record);
+    }
+    progress.advance(static_cast<double>(pixels >> (2 * level)));
+  }
+  return std::move(state.pyramid.front());
+}
+
+BandPyramid empty_pyramid(int width, int height, int levels) { return make_pyramid(BandPicture(width, height), levels); }
+
+Grid<Rgb8> cut(const Grid<Rgb8>& from, int x0, int y0, int width, int height) {
+  Grid<Rgb8> out(width, height);
+  for (int y = 0; y < height; ++y) std::copy_n(from.row(y0 + y) + x0, width, out.row(y));
+  return out;
+}
+
+void check_size(std::int64_t width, std::int64_t height) {
+  if (width >= 1 && height >= 1 && width <= most_texture_pixels && height <= most_texture_pixels && width * height <= most_texture_pixels)
+    return;
+  throw Error(ErrorKind::limit, "the texture's size", fmt::format("{} × {} pixels", width, height),
+              fmt::format("1 to {} Mpixels; larger ones in windows", most_texture_pixels >> 20));
+}
+
+double work_of(std::int64_t pixels, int levels) {
+  double work = 0.0;
+  for (int level = 0; level <= levels; ++level) work += static_cast<double>(pixels >> (2 * level));
+  return work;
+}
+
+// Down to the lattice of tiles, also left of and above 0.
+int tile_below(int at) { return (at >= 0 ? at : at - endless_tile_px + 1) / endless_tile_px; }
+
+}  // namespace
+
+TextureTrial::TextureTrial(const CliqueModel& model, int width, int height, std::uint64_t seed)
+    : state_{make_pyramid(BandPicture(width, height), model.levels), {}}, noise_{TextureSeed::white, 0.F, {}, seed} {}
+
+void TextureTrial::begin_level(const CliqueModel& model, int level) { belvedere::begin_level(state_, model, level, noise_, {}); }
+
+void TextureTrial::run(const CliqueModel& model, int level, int rounds) {
+  for (int i = 0; i < rounds; ++i) flow_once(state_, model, level, i, rounds, nullptr);
+}
+
+Grid<Rgb8> make_texture(const CliqueModel& model, int width, int height, const TextureParameters& parameters, Progress& progress) {
+  check_size(width, height);
+  const int wide = width + 2 * border_px;
+  const int high = height + 2 * border_px;
+  progress.begin("making a texture", work_of(std::int64_t{wide} * high, model.levels));
+  const BandPicture made = run(model, empty_pyramid(wide, high, model.levels), {}, parameters, {}, progress);
+  return cut(to_picture(made, model.bands), border_px, border_px, width, height);
+}
+
+TextureRecord record_texture(const CliqueModel& model, const TextureParameters& parameters) {
+  TextureRecord record;
+  run(model, empty_pyramid(record_px, record_px, model.levels), {}, parameters, {.record = &record}, silent_progress());
+  return record;
+}
+
+Grid<Rgb8> make_window(const CliqueModel& model, const TextureRecord& record, PixelRect window, const TextureParameters& parameters,
+                       Progress& progress) {
+  check_size(window.width(), window.height());
+  const PixelRect tiles{tile_below(window.x0), tile_below(window.y0), tile_below(window.x1 - 1) + 1, tile_below(window.y1 - 1) + 1};
+  constexpr int side = endless_tile_px + 2 * endless_margin_px;
+  progress.begin("making a window", work_of(std::int64_t{side} * side, model.levels) * tiles.width() * tiles.height());
+  Grid<Rgb8> out(window.width(), window.height());
+  for (int ty = tiles.y0; ty < tiles.y1; ++ty) {
+    for (int tx = tiles.x0; tx < tiles.x1; ++tx) {
+      const TexturePlace corner{tx * endless_tile_px - endless_margin_px, ty * endless_tile_px - endless_margin_px};
+      const Grid<Rgb8> tile =
+          to_picture(run(model, empty_pyramid(side, side, model.levels), corner, parameters, {.replay = &record}, progress), model.bands);
+      const PixelRect inner = {tx * endless_tile_px, ty * endless_tile_px, (tx + 1) * endless_tile_px, (ty + 1) * endless_tile_px};
+      const PixelRect part = intersection(inner, window);
+      for (int y = part.y0; y < part.y1; ++y)
+        std::copy_n(tile.row(y - corner.y) + (part.x0 - corner.x), part.width(), out.row(y - window.y0) + (part.x0 - window.x0));
+    }
+  }
+  return out;
+}
+
+namespace {
+
+// Takes the step at a hole's border away as seamless cloning does (Pérez, Gangnet, Blake 2003): what the known neighbours differ by from
+// what was made beside them is spread into the hole, falling off within some pixels, and added.
+void meet_border(BandPicture& made, const BandSpace& space) {
+  constexpr float share = .75F;  // of the difference: neighbours in paint differ too
+  constexpr float keeps = .96F;  // of it from one pixel to the next
+  constexpr int sweeps = 48;
+  const int width = made.width();
+  const int height = made.height();
+  const Grid<std::uint8_t> states = made.states;
+  const auto free_at = [&](int x, int y) { return states.contains(x, y) && (states(x, y) & pixel_changes) != 0; };
+  constexpr std::array<std::array<int, 2>, 4> beside = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+  for (std::size_t b = 0; b < 3; ++b) {
+    Grid<float>& band = made.bands[b];
+    Grid<float> correction(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        if (free_at(x, y)) continue;
+        float sum = 0.F;
+        float count = 0.F;
+        for (const auto& step : beside)
+          if (free_at(x + step[0], y + step[1])) {
+            sum += band(x + step[0], y + step[1]);
+            count += 1.F;
+          }
+        if (count > 0.F) correction(x, y) = share * (band(x, y) - sum / count);
+      }
+    for (int n = 0; n < sweeps; ++n) {
+      const Grid<float> before = correction;
+      parallel_rows(height, [&](int y) {
+        for (int x = 0; x < width; ++x) {
+          if (!free_at(x, y)) continue;
+          float sum = 0.F;
+          float count = 0.F;
+          for (const auto& step : beside)
+            if (states.contains(x + step[0], y + step[1])) {
+              sum += before(x + step[0], y + step[1]);
+              count += 1.F;
+            }
+          correction(x, y) = keeps * sum / count;
+        }
+      });
+    }
+    for (std::size_t i = 0; i < band.size(); ++i)
+      if ((states[i] & pixel_changes) != 0) band[i] = std::clamp(band[i] + correction[i], space.low[b], space.high[b]);
+  }
+}
+
+}  // namespace
+
+Grid<Rgb8> fill_texture(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& hole, const CliqueModel& model,
+                        const TextureParameters& parameters, Progress& progress) {
+  if (!hole.same_size(picture)) throw Error(ErrorKind::bug, "fill_texture", "picture and hole have different sizes");
+  check_size(picture.width(), picture.height());
+  PixelRect box{picture.width(), picture.height(), 0, 0};
+  for (int y = 0; y < hole.height(); ++y)
+    for (int x = 0; x < hole.width(); ++x)
+      if (hole(x, y) != 0) box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1), std::max(box.y1, y + 1)};
+  if (box.empty()) return picture;
+  // Where the pyramid's cells lie hangs on the box, so it begins at whole ones.
+  const int cell = 1 << model.levels;
+  box = intersection(grown(box, around_hole_px), {0, 0, picture.width(), picture.height()});
+  box.x0 -= box.x0 % cell;
+  box.y0 -= box.y0 % cell;
+
+  Grid<std::uint8_t> known_states(box.width(), box.height(), pixel_free);
+  Grid<std::uint8_t> states(box.width(), box.height(), pixel_counts);
+  for (int y = 0; y < box.height(); ++y)
+    for (int x = 0; x < box.width(); ++x)
+      if (hole(box.x0 + x, box.y0 + y) != 0) {
+        known_states(x, y) = 0;
+        states(x, y) = pixel_free;
+      }
+  const Grid<Rgb8> part = cut(picture, box.x0, box.y0, box.width(), box.height());
+  const BandPyramid known = make_pyramid(to_bands(part, model.bands, known_states), model.levels);
+  BandPicture finest(box.width(), box.height());
+  finest.states = states;
+  BandPyramid pyramid = make_pyramid(std::move(finest), model.levels);
+  // A coarse pixel changes where all four that it lies over do: one across the border would ask its new half for what both should give.
+  for (std::size_t l = 1; l < pyramid.size(); ++l) {
+    const Grid<std::uint8_t>& fine = pyramid[l - 1].states;
+    Grid<std::uint8_t>& coarse = pyramid[l].states;
+    for (int y = 0; y < coarse.height(); ++y)
+      for (int x = 0; x < coarse.width(); ++x) {
+        std::uint8_t all = pixel_free;
+        for (int j = 0; j < 2; ++j)
+          for (int i = 0; i < 2; ++i) all &= fine.clamped(2 * x + i, 2 * y + j);
+        coarse(x, y) = static_cast<std::uint8_t>(all | pixel_counts);
+      }
+  }
+  progress.begin("filling", work_of(static_cast<std::int64_t>(states.size()), model.levels));
+  const TexturePlace place{box.x0, box.y0};
+  BandPicture filled = run(model, std::move(pyramid), place, parameters, {.known = &known}, progress);
+  meet_border(filled, model.bands);
+  const Grid<Rgb8> made = to_picture(filled, model.bands);
+  Grid<Rgb8> out = picture;
+  for (int y = 0; y < box.height(); ++y)
+    for (int x = 0; x < box.width(); ++x)
+      if (states(x, y) == pixel_free) out(box.x0 + x, box.y0 + y) = made(x, y);
+  return out;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "texture/statistical/clique_polish.h"
+#include "texture/statistical/seed_noise.h"
+
+namespace belvedere {
+
+struct TextureParameters {
+  std::uint64_t seed = 1;
+  int rounds = 24;             // of the flow at each level
+  int sweeps = 30;             // of the polish, where the model has one
+  int polish_from = 1;         // coarsest level that is polished
+  DirectionField direction{};  // of streaks; empty: the crop's own
+};
+
+// Everything that a run took from counting, so that it can be done again elsewhere without counting: for windows of an endless texture.
+struct TextureRecord {
+  std::vector<std::vector<FlowRound>> rounds;  // of each level, the coarsest first
+  std::vector<PolishRecord> polishes;          // of each level that is polished, the coarsest first
+};
+
+// A texture of its own: what is made anew at each size. Border pixels take part in fewer cliques and go wrong, so 32 more are made on every
+// side and cut off. Error(limit) over most_texture_pixels. Progress: one step a level.
+Grid<Rgb8> make_texture(const CliqueModel& model, int width, int height, const TextureParameters& parameters,
+                        Progress& progress = silent_progress());
+inline constexpr std::int64_t most_texture_pixels = std::int64_t{1} << 26;
+
+// A texture in the making whose model grows: what learning looks at.
+class TextureTrial {
+ public:
+  TextureTrial(const CliqueModel& model, int width, int height, std::uint64_t seed);
+  void begin_level(const CliqueModel& model, int level);
+  void run(const CliqueModel& model, int level, int rounds);
+  const BandPicture& picture(int level) const { return state_.pyramid[static_cast<std::size_t>(level)]; }
+
+ private:
+  FlowState state_;
+  SeedNoise noise_;
+};
+
+// A run of 256² pixels with its tables, from which a texture without end is made. Some 13 MB; never kept in files, since a second makes it
+// again.
+TextureRecord record_texture(const CliqueModel& model, const TextureParameters& parameters);
+
+// Any window of a texture without end: the same pixels whatever the window, in any order, because it is made of fixed tiles, each with what
+// lies endless_margin_px around it. Farther than that nothing moves a pixel by more than one level (measured; the flow reaches as far in
+// theory as it has rounds), so that tiles meet without a seam. Error(limit) over most_texture_pixels.
+Grid<Rgb8> make_window(const CliqueModel& model, const TextureRecord& record, PixelRect window, const TextureParameters& parameters,
+                       Progress& progress = silent_progress());
+inline constexpr int endless_tile_px = 512;
+inline constexpr int endless_margin_px = 96;
+
+// Makes anew what `hole` marks (non-zero), to go with what is around it: lettering and figures taken out of a scan, wood grown over a
+// clearing. No other pixel changes. The model is of what should stand there. Error(limit) as above.
+Grid<Rgb8> fill_texture(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& hole, const CliqueModel& model,
+                        const TextureParameters& parameters, Progress& progress = silent_progress());
+}  // namespace belvedere

@@ -1,0 +1,118 @@
+#include "texture/statistical/texture_figures.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <unordered_set>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "texture/statistical/difference_histogram.h"
+
+namespace belvedere {
+namespace {
+
+Grid<Rgb8> part(const Grid<Rgb8>& from, PixelRect rect) {
+  Grid<Rgb8> out(rect.width(), rect.height());
+  for (int y = 0; y < out.height(); ++y) std::copy_n(from.row(rect.y0 + y) + rect.x0, out.width(), out.row(y));
+  return out;
+}
+
+// Histogram of each pixel of the first band less the mean of its four neighbours, over the range that the band can have.
+DifferenceHistogram laplacian_histogram(const BandPicture& picture, const BandSpace& bands) {
+  const float reach = bands.high[0] - bands.low[0];
+  const Grid<float>& v = picture.bands[0];
+  DifferenceHistogram out;
+  for (int y = 1; y + 1 < v.height(); ++y) {
+    for (int x = 1; x + 1 < v.width(); ++x) {
+      if ((picture.states(x, y) & pixel_counts) == 0) continue;
+      const float of = v(x, y) - .25F * (v(x - 1, y) + v(x + 1, y) + v(x, y - 1) + v(x, y + 1));
+      const int bin = static_cast<int>((of / reach + 1.F) * difference_bins / 2.F);
+      ++out.counts[static_cast<std::size_t>(std::clamp(bin, 0, difference_bins - 1))];
+      ++out.total;
+    }
+  }
+  return out;
+}
+
+double beyond_of(const BandPyramid& crop, const BandPyramid& made, const BandSpace& bands) {
+  const std::size_t levels = std::min<std::size_t>(3, crop.size());
+  double sum = 0.0;
+  for (std::size_t l = 0; l < levels; ++l)
+    sum += HistogramGroups(laplacian_histogram(crop[l], bands)).distance(laplacian_histogram(made[l], bands)).l1;
+  return sum / static_cast<double>(levels);
+}
+
+// Of the squares of a side: a 64-bit sum of their pixels, mixed row by row.
+std::uint64_t square_key(const Grid<Rgb8>& picture, int x, int y, int side) {
+  std::uint64_t key = 0;
+  for (int j = 0; j < side; ++j)
+    for (int i = 0; i < side; ++i) {
+      const Rgb8& c = picture(x + i, y + j);
+      key = mix_bits(key ^ (std::uint64_t{c[0]} | std::uint64_t{c[1]} << 8 | std::uint64_t{c[2]} << 16 | 1ULL << 24));
+    }
+  return key;
+}
+
+bool shares_square(const Grid<Rgb8>& crop, const Grid<Rgb8>& made, int side) {
+  std::unordered_set<std::uint64_t> known;
+  for (int y = 0; y + side <= crop.height(); ++y)
+    for (int x = 0; x + side <= crop.width(); ++x) known.insert(square_key(crop, x, y, side));
+  for (int y = 0; y + side <= made.height(); ++y)
+    for (int x = 0; x + side <= made.width(); ++x)
+      if (known.contains(square_key(made, x, y, side))) return true;
+  return false;
+}
+
+}  // namespace
+
+TextureFigures texture_figures(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, const Grid<Rgb8>& made, const CliqueModel& model,
+                               const LearnParameters& parameters) {
+  const BandPyramid example = make_pyramid(to_bands(crop, model.bands, states), model.levels);
+  const BandPyramid result = make_pyramid(to_bands(made, model.bands, {}), model.levels);
+  TextureFigures out;
+  int selected = 0;
+  int held = 0;
+  for (int level = 0; level <= model.levels; ++level) {
+    const auto at = static_cast<std::size_t>(level);
+    const std::vector<CliqueType> types = candidate_types(level, reach_at(parameters, level));
+    std::vector<double> off(types.size());
+    parallel_ranges(types.size(), std::size_t{8}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k != end; ++k)
+        off[k] = HistogramGroups(count_differences(example[at], model.bands, types[k]))
+                     .distance(count_differences(result[at], model.bands, types[k]))
+                     .l1;
+    });
+    for (std::size_t k = 0; k < types.size(); ++k) {
+      const bool in = std::any_of(model.cliques.begin(), model.cliques.end(), [&](const Clique& c) { return c.type == types[k]; });
+      (in ? out.selected : out.held_out) += off[k];
+      ++(in ? selected : held);
+      out.worst = std::max(out.worst, off[k]);
+    }
+  }
+  out.selected /= std::max(selected, 1);
+  out.held_out /= std::max(held, 1);
+  out.beyond = beyond_of(example, result, model.bands);
+  return out;
+}
+
+TextureFigures halves_figures(const Grid<Rgb8>& crop, const CliqueModel& model, const LearnParameters& parameters) {
+  const int w = crop.width();
+  const int h = crop.height();
+  const auto between = [&](PixelRect one, PixelRect other) {
+    return texture_figures(part(crop, one), {}, part(crop, other), model, parameters);
+  };
+  const TextureFigures across = between({0, 0, w / 2, h}, {w / 2, 0, w, h});
+  const TextureFigures down = between({0, 0, w, h / 2}, {0, h / 2, w, h});
+  return {.5 * (across.selected + down.selected), .5 * (across.held_out + down.held_out), std::max(across.worst, down.worst),
+          .5 * (across.beyond + down.beyond)};
+}
+
+int longest_copy_px(const Grid<Rgb8>& crop, const Grid<Rgb8>& made) {
+  constexpr int most = 16;
+  int side = 0;
+  while (side < most && shares_square(crop, made, side + 1)) ++side;
+  return side;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,208 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "base/error.h"
+#include "base/json.h"
+#include "base/parallel.h"
+#include "texture/statistical/choose_seed.h"
+#include "texture/statistical/make_texture.h"
+#include "texture/statistical/model_file.h"
+#include "texture/statistical/texture_figures.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/file_names.h"
+#include "tools/cli/lock/scratch_folder.h"
+#include "tools/cli/terminal.h"
+#include "tools/cli/texture/texture_pictures.h"
+#include "tools/report/report_folder.h"
+
+namespace belvedere::tools {
+namespace {
+
+constexpr int report_px = 512;
+
+struct Options {
+  std::string crop, mask, out, report, seed;
+  double seed_px = 8.0;
+  LearnParameters learn;
+  int threads = 0;
+  bool quiet = false;
+  bool json = false;
+};
+
+// What a run found, for all ways to tell it.
+struct Findings {
+  LearnedTexture learned;
+  std::vector<SeedTrial> trials;
+  Grid<Rgb8> made;
+  TextureFigures figures;
+  TextureFigures halves;
+  int copy_px = 0;
+};
+
+const char* name_of(TextureSeed seed) {
+  switch (seed) {
+    case TextureSeed::white:
+      return "white";
+    case TextureSeed::streaks:
+      return "streaks";
+    case TextureSeed::discs:
+      return "discs";
+  }
+  return "";
+}
+
+// Says of a seed how it is drawn: "streaks of 12 px", "white, polished".
+std::string describe(TextureSeed seed, float px, bool polish) {
+  return fmt::format("{}{}{}", name_of(seed), px > 0.F ? fmt::format(" of {} px", px) : "", polish ? ", polished" : "");
+}
+
+bool is_uneven(const Findings& found) { return found.halves.held_out > uneven_halves; }
+
+std::string warning_of(const Findings& found) {
+  return fmt::format("warning: the crop's halves are as far apart as {:.2f}: it is not one texture, or too small (over {:.2f})",
+                     found.halves.held_out, uneven_halves);
+}
+
+std::string as_text(const Options& options, const Findings& found) {
+  const CliqueModel& model = found.learned.model;
+  std::string out = fmt::format("{}: {} types, {} bytes, begins with {}\n", options.out, model.cliques.size(), model_bytes(model),
+                                describe(model.seed, model.seed_px, model.polish));
+  out +=
+      fmt::format("  distance to the crop  {:.3f} of the types it holds, {:.3f} of all others; the crop's own halves {:.3f} and {:.3f}\n",
+                  found.figures.selected, found.figures.held_out, found.halves.selected, found.halves.held_out);
+  out += fmt::format("  beyond pairs          {:.3f}; halves {:.3f}\n", found.figures.beyond, found.halves.beyond);
+  out += fmt::format("  longest exact copy    {} px\n", found.copy_px);
+  return out;
+}
+
+std::string as_json(const Options& options, const Findings& found) {
+  const CliqueModel& model = found.learned.model;
+  const auto figures = [](const TextureFigures& f) {
+    return Json::object()
+        .add("selected", Json::number(f.selected))
+        .add("held_out", Json::number(f.held_out))
+        .add("worst", Json::number(f.worst))
+        .add("beyond", Json::number(f.beyond));
+  };
+  Json trials = Json::array();
+  for (const SeedTrial& t : found.trials)
+    trials.add(Json::object()
+                   .add("seed", Json::text(name_of(t.seed)))
+                   .add("px", Json::number(t.px))
+                   .add("polish", Json::boolean(t.polish))
+                   .add("beyond", Json::number(t.beyond)));
+  return Json::object()
+             .add("out", Json::text(options.out))
+             .add("types", Json::number(static_cast<double>(model.cliques.size())))
+             .add("bytes", Json::number(static_cast<double>(model_bytes(model))))
+             .add("seed", Json::text(name_of(model.seed)))
+             .add("seed_px", Json::number(model.seed_px))
+             .add("polish", Json::boolean(model.polish))
+             .add("figures", figures(found.figures))
+             .add("halves", figures(found.halves))
+             .add("longest_copy_px", Json::number(found.copy_px))
+             .add("trials", std::move(trials))
+             .str() +
+         "\n";
+}
+
+void write_report(const Options& options, const TextureCrop& crop, const Findings& found) {
+  ReportFolder folder(options.report);
+  folder.begin_figure(
+      "pictures", "Crop and texture",
+      "Left the crop, right what is made from the model alone. Look at single dabs, then from afar: an even busyness without "
+      "accents is what such a model gives.");
+  folder.picture("crop", encoded_picture(crop.picture), "the crop");
+  folder.picture("texture", encoded_picture(found.made), fmt::format("made, {} × {} pixels", found.made.width(), found.made.height()));
+  folder.end_figure();
+  folder.add("<h2>Distances</h2><table>" + html_row({"", "types it holds", "all others", "worst", "beyond pairs"}, "th"));
+  const auto row = [&](const char* name, const TextureFigures& f) {
+    folder.add(html_row({name, fmt::format("{:.3f}", f.selected), fmt::format("{:.3f}", f.held_out), fmt::format("{:.2f}", f.worst),
+                         fmt::format("{:.3f}", f.beyond)}));
+  };
+  row("texture to crop", found.figures);
+  row("halves of the crop", found.halves);
+  folder.add("</table><h2>Levels</h2><table>" + html_row({"pixels a side", "types", "others, mean", "others, worst"}, "th"));
+  for (const LearnedLevel& level : found.learned.levels)
+    folder.add(html_row({fmt::format("{}", 1 << level.level), fmt::format("{}", level.types), fmt::format("{:.3f}", level.held_out_l1),
+                         fmt::format("{:.3f}", level.worst_l2)}));
+  folder.add("</table>");
+  if (!found.trials.empty()) {
+    folder.add("<h2>How it begins</h2><table>" + html_row({"noise", "beyond pairs"}, "th"));
+    for (const SeedTrial& t : found.trials) folder.add(html_row({describe(t.seed, t.px, t.polish), fmt::format("{:.3f}", t.beyond)}));
+    folder.add("</table>");
+  }
+  if (is_uneven(found)) folder.add("<p>" + html_escaped(warning_of(found)) + "</p>");
+  folder.write_page("Texture model", file_name(options.crop), fmt::format("A model of {} bytes.", model_bytes(found.learned.model)),
+                    fmt::format("belvedere texture learn {} --out {}", file_name(options.crop), file_name(options.out)));
+}
+
+int run(const Options& options) {
+  check_place(options.out);
+  if (options.out == options.crop || options.out == options.mask)
+    throw Error(ErrorKind::usage, "--out", options.out + " is what is read", "a file of its own");
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  const TextureCrop crop = read_crop(options.crop, options.mask);
+  if (crop.transparent > 0) progress.note(fmt::format("{} transparent pixels are left out", crop.transparent));
+  Findings found;
+  found.learned = learn_texture(crop.picture, crop.states, options.learn, progress);
+  CliqueModel& model = found.learned.model;
+  found.trials = choose_seed(model, crop.picture, crop.states, options.learn, progress);
+  if (!options.seed.empty()) {
+    model.seed = options.seed == "streaks" ? TextureSeed::streaks : options.seed == "discs" ? TextureSeed::discs : TextureSeed::white;
+    model.seed_px = model.seed == TextureSeed::white ? 0.F : static_cast<float>(options.seed_px);
+    model.polish = model.seed == TextureSeed::white;
+  }
+  found.made = make_texture(model, report_px, report_px, {}, progress);
+  found.figures = texture_figures(crop.picture, crop.states, found.made, model, options.learn);
+  found.halves = halves_figures(crop.picture, model, options.learn);
+  found.copy_px = longest_copy_px(crop.picture, found.made);
+  write_text_file(options.out, model_text(model));
+  if (!options.report.empty()) write_report(options, crop, found);
+  if (is_uneven(found)) progress.note(warning_of(found));
+  progress.end();
+  if (options.json)
+    print_out(as_json(options, found));
+  else if (!options.quiet)
+    print_out(as_text(options, found));
+  return 0;
+}
+
+}  // namespace
+
+Action add_texture_learn(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("CROP", options->crop, "A piece of a painting that shows one texture, 48 pixels a side or more")
+      ->required()
+      ->type_name("PICTURE");
+  command.add_option("--out", options->out, "The model: a text of some 1500 letters")->required()->type_name("MODEL");
+  command.add_option("--mask", options->mask, "What of the crop is that texture: a grey picture of its size, 0 is left out")
+      ->type_name("PICTURE");
+  command.add_option("--types", options->learn.types, "How many statistics the model holds at most, 16 to 200. Default: 40")
+      ->check(CLI::Range(16, 200))
+      ->type_name("N");
+  command
+      .add_option("--begin", options->seed,
+                  "The noise it begins with, which decides the shape of its dabs: white, streaks (strokes along a\n"
+                  "direction) or discs (crowns). Default: what comes nearest to the crop")
+      ->check(CLI::IsMember({"white", "streaks", "discs"}))
+      ->type_name("KIND");
+  command.add_option("--begin-px", options->seed_px, "With --begin: half length of streaks, radius of discs. Default: 8")
+      ->check(CLI::Range(1.0, 256.0))
+      ->type_name("PX");
+  command.add_option("--report", options->report, "A page with crop beside texture, and all figures")->type_name("FOLDER");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit")->type_name("N");
+  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
+  command.add_flag("--json", options->json, "Say what came out as JSON");
+  command.footer(
+      "The model says how neighbouring pixels differ, near and far, and nothing more: meadow, forest from afar, scree, water and sky come "
+      "out\n"
+      "well, rock and whatever has form does not. Cut crops that hold nothing else: a house in them comes back as red specks.\n\n"
+      "  belvedere texture learn meadow.png --out meadow.model --report meadow_report");
+  return [options] { return run(*options); };
+}
+
+}  // namespace belvedere::tools

@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "base/json.h"
+#include "base/math_exact.h"
+#include "base/parallel.h"
+#include "texture/statistical/make_texture.h"
+#include "texture/statistical/model_file.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/file_names.h"
+#include "tools/cli/terminal.h"
+#include "tools/cli/texture/texture_pictures.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  std::string model, out;
+  std::vector<int> size;
+  std::vector<int> window;
+  std::optional<double> direction_deg;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  bool quiet = false;
+  bool json = false;
+};
+
+// All strokes one way, clockwise from level.
+DirectionField one_way(double deg) {
+  const exact::Turn turn = exact::turn(to_radians(deg));
+  const glm::vec2 along(static_cast<float>(turn.cosine), static_cast<float>(turn.sine));
+  return [along](double, double) { return along; };
+}
+
+int run(const Options& options) {
+  if (options.size.empty() == options.window.empty())
+    throw Error(ErrorKind::usage, "command line", options.size.empty() ? "neither --size nor --window" : "both --size and --window",
+                "one of them");
+  check_texture_name(options.out);
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  const CliqueModel model = read_model(options.model);
+  TextureParameters parameters;
+  parameters.seed = options.seed;
+  if (options.direction_deg) parameters.direction = one_way(*options.direction_deg);
+  Grid<Rgb8> made;
+  if (!options.size.empty()) {
+    made = make_texture(model, options.size[0], options.size[1], parameters, progress);
+  } else {
+    const std::vector<int>& w = options.window;
+    made = make_window(model, record_texture(model, parameters), {w[0], w[1], w[0] + w[2], w[1] + w[3]}, parameters, progress);
+  }
+  write_texture(options.out, made, fmt::format("{} seed {}", file_name(options.model), options.seed));
+  progress.end();
+  const Json told = Json::object()
+                        .add("out", Json::text(options.out))
+                        .add("width", Json::number(made.width()))
+                        .add("height", Json::number(made.height()));
+  if (options.json)
+    print_out(told.str() + "\n");
+  else if (!options.quiet)
+    print_out(fmt::format("{}: {}×{} pixels\n", options.out, made.width(), made.height()));
+  return 0;
+}
+
+}  // namespace
+
+Action add_texture_make(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("MODEL", options->model, "What `belvedere texture learn` wrote")->required()->type_name("MODEL");
+  command.add_option("--out", options->out, "The picture: .png or .tif")->required()->type_name("PICTURE");
+  command.add_option("--size", options->size, "Width and height, in pixels")->expected(2)->check(CLI::Range(1, 1 << 20))->type_name("W H");
+  command
+      .add_option(
+          "--window", options->window,
+          "Instead: left, top, width and height of a window of a texture without end. Windows that overlap have the same pixels there")
+      ->expected(4)
+      ->check(CLI::Range(-(1 << 28), 1 << 28))
+      ->type_name("X Y W H");
+  command.add_option("--seed", options->seed, "Another seed, another texture of the same look. Default: 1")->type_name("N");
+  command
+      .add_option("--direction", options->direction_deg,
+                  "Where strokes run, degrees clockwise from level; of models that begin with streaks.\n"
+                  "Default: as in the crop")
+      ->type_name("DEGREES");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
+  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
+  command.add_flag("--json", options->json, "Say what came out as JSON");
+  command.footer(
+      "Nothing is copied and nothing repeats, at any size.\n\n"
+      "  belvedere texture make meadow.model --size 1200 800 --out meadow.png\n"
+      "  belvedere texture make meadow.model --window 8192 4096 2048 2048 --out piece.tif");
+  return [options] { return run(*options); };
+}
+
+}  // namespace belvedere::tools

@@ -1,0 +1,63 @@
+#include "tools/cli/texture/texture_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "base/error.h"
+#include "renderer/image/image_io.h"
+#include "renderer/image/output_file.h"
+#include "texture/statistical/band_pyramid.h"
+#include "tools/cli/file_names.h"
+
+namespace belvedere::tools {
+
+TextureCrop read_crop(const std::string& path, const std::string& mask) {
+  Grid<float> alpha;
+  const Grid<glm::vec3> picture = read_picture(path, &alpha);
+  TextureCrop crop{Grid<Rgb8>(picture.width(), picture.height()), {}};
+  for (std::size_t i = 0; i < picture.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      crop.picture[i][c] = static_cast<std::uint8_t>(std::clamp(255.F * picture[i][static_cast<int>(c)] + .5F, 0.F, 255.F));
+  const auto leave_out = [&](std::size_t i) {
+    if (crop.states.empty()) crop.states = Grid<std::uint8_t>(picture.width(), picture.height(), pixel_free);
+    crop.states[i] = 0;
+  };
+  for (std::size_t i = 0; i < alpha.size(); ++i) {
+    if (alpha[i] >= 1.F) continue;
+    leave_out(i);
+    ++crop.transparent;
+  }
+  if (mask.empty()) return crop;
+  const Grid<std::uint16_t> grey = read_grey(mask);
+  if (!grey.same_size(picture))
+    throw Error(ErrorKind::input, mask, fmt::format("{} × {} pixels", grey.width(), grey.height()),
+                fmt::format("the size of {}: {} × {}", path, picture.width(), picture.height()));
+  for (std::size_t i = 0; i < grey.size(); ++i)
+    if (grey[i] == 0) leave_out(i);
+  return crop;
+}
+
+Grid<glm::vec3> encoded_picture(const Grid<Rgb8>& picture) {
+  Grid<glm::vec3> out(picture.width(), picture.height());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = glm::vec3(picture[i][0], picture[i][1], picture[i][2]) / 255.F;
+  return out;
+}
+
+void check_texture_name(const std::string& path) {
+  check_place(path);
+  if (const std::string ending = ending_of(path); ending != ".png" && ending != ".tif" && ending != ".tiff")
+    throw Error(ErrorKind::usage, "--out", path, "a .png or a .tif");
+}
+
+void write_texture(const std::string& path, const Grid<Rgb8>& picture, const std::string& note) {
+  PictureFileOptions options;
+  options.notes["belvedere:texture"] = note;
+  if (ending_of(path) == ".png")
+    write_png8(path, encoded_picture(picture), options);
+  else
+    write_tiff16(path, encoded_picture(picture), options);
+}
+
+}  // namespace belvedere::tools

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "base/grid.h"
+#include "texture/synthesis/exemplar.h"
+
+namespace belvedere::tools {
+
+// A crop of a painting and which of its pixels count (texture/statistical/band_pyramid.h).
+struct TextureCrop {
+  Grid<Rgb8> picture;
+  Grid<std::uint8_t> states;    // empty: all count
+  std::size_t transparent = 0;  // pixels that are left out because the file says so
+};
+
+// Reads a crop and, where named, a mask: grey, what is 0 is left out. Transparent pixels are left out too. Error(input) for masks of
+// another size and what read_picture refuses.
+TextureCrop read_crop(const std::string& path, const std::string& mask);
+
+Grid<glm::vec3> encoded_picture(const Grid<Rgb8>& picture);
+
+// Writes a picture in the format of its ending that holds 8 bits or more without linear light: Error(usage) for others.
+void write_texture(const std::string& path, const Grid<Rgb8>& picture, const std::string& note);
+// Throws what write_texture would for the name, before any work.
+void check_texture_name(const std::string& path);
+
+}  // namespace belvedere::tools
