@@ -110,7 +110,9 @@ Radiation potential_radiation(const Grid<float>& altitude_m, const MapPlace& pla
     throw Error(ErrorKind::bug, "radiation",
                 fmt::format("a place of {} × {} cells for a grid of {} × {}", place.width, place.height, width, height));
   check_memory("radiation", 2.0 * sizeof(float) * static_cast<double>(altitude_m.size()));
-  const auto [lowest, highest] = range_of_altitudes(altitude_m);
+  const auto range = range_of_altitudes(altitude_m);
+  const float lowest = range.first;
+  const float highest = range.second;
   const auto [south, north] = range_of_corners(place.latitude_deg, width, height);
   const double grid_north_deg = place.grid_north_deg.at(0.5 * (width - 1), 0.5 * (height - 1));
   const SunTable table(std::max(-90.0, south), std::min(90.0, north), static_cast<double>(lowest), static_cast<double>(highest),
@@ -148,9 +150,7 @@ Radiation potential_radiation(const Grid<float>& altitude_m, const MapPlace& pla
       const int bin = std::min(static_cast<int>(up), SunTable::altitudes - 2);
       const float up_part = std::min(up, top_altitude) - static_cast<float>(bin);
       const float* at = sums + SunTable::step_of(from) * step_stride + static_cast<std::size_t>(bin) * altitude_stride;
-      const auto look_up = [up_part, altitude_stride](const float* low) {
-        return load(low) + (load(low + altitude_stride) - load(low)) * up_part;
-      };
+      const auto look_up = [&](const float* low) { return load(low) + (load(low + altitude_stride) - load(low)) * up_part; };
       Four sum;
       if (latitudes == 1) {
         sum = look_up(at);

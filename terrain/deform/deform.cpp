@@ -139,7 +139,7 @@ glm::dvec3 deform_point(glm::dvec3 point, glm::dvec2 viewer_xy, const DeformPara
 }
 
 DeformedSurface deform(const Grid<float>& altitude_m, const GeoTransform& transform, glm::dvec3 origin, const Deformation& deformation) {
-  DeformedSurface surface{Grid<glm::vec3>(altitude_m.width(), altitude_m.height()), origin};
+  DeformedSurface surface{Grid<glm::vec3>(altitude_m.width(), altitude_m.height()), origin, {}};
   parallel_rows(altitude_m.height(), [&](int y) {
     for (int x = 0; x < altitude_m.width(); ++x) {
       const glm::dvec3 moved = deformation.point({transform.to_crs(x, y), altitude_m(x, y)});

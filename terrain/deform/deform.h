@@ -88,7 +88,7 @@ struct SurfaceWindow;
 struct DeformedSurface {
   Grid<glm::vec3> vertices_m;
   glm::dvec3 origin;
-  std::vector<SurfaceWindow> windows = {};  // of finer cells; each lies inside the one before, the first inside this surface
+  std::vector<SurfaceWindow> windows;  // of finer cells; each lies inside the one before, the first inside this surface
 };
 
 // A finer piece of a surface, in the place of cells of the one before it: post (x, y) of its part lies on post (x / 2, y / 2) there, where
