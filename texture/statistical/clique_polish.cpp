@@ -100,7 +100,7 @@ float cost(const BandPicture& p, const std::vector<Term>& terms, int x, int y, c
 
 // A pixel's new colour: that of one of its eight neighbours, a little changed, or its own with one band changed.
 Colour proposal(const BandPicture& p, const BandSpace& bands, int x, int y, const Colour& own, bool of_neighbour, std::uint64_t seed,
-                PixelPlace place) {
+                TexturePlace place) {
   constexpr std::array<std::array<int, 2>, 8> around = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
   const auto draw = [&](std::uint64_t n) { return static_cast<float>(random_uniform(seed, place.x + x, place.y + y, n)); };
   Colour to = own;
@@ -121,7 +121,7 @@ Colour proposal(const BandPicture& p, const BandSpace& bands, int x, int y, cons
 
 // One sweep: the pixels of each of sixteen phases decide by the picture as it is, then change together.
 void sweep(BandPicture& p, const CliqueModel& model, const std::vector<Term>& terms, bool of_neighbour, std::uint64_t seed,
-           PixelPlace place) {
+           TexturePlace place) {
   const auto first = [](int phase, int origin) { return (((phase - origin) % lattice) + lattice) % lattice; };
   const int across = (p.width() + lattice - 1) / lattice;
   std::vector<Colour> next(static_cast<std::size_t>(across) * static_cast<std::size_t>((p.height() + lattice - 1) / lattice));
@@ -155,7 +155,7 @@ void sweep(BandPicture& p, const CliqueModel& model, const std::vector<Term>& te
 
 }  // namespace
 
-void polish(FlowState& state, const CliqueModel& model, int level, const PolishParameters& parameters, PixelPlace place,
+void polish(FlowState& state, const CliqueModel& model, int level, const PolishParameters& parameters, TexturePlace place,
             const PolishRecord* replay, PolishRecord* record) {
   std::vector<Term> terms = make_terms(model, level);
   constexpr std::size_t least_terms = 4;  // fewer say nothing of neighbours

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "texture/statistical/clique_flow.h"
+#include "texture/statistical/seed_noise.h"
 
 namespace belvedere {
 
@@ -24,11 +25,7 @@ inline constexpr int potential_bins = 256;
 
 // Changes the picture at `level`. `place`, in pixels of that level, is where the picture lies on an endless texture. With `replay` tables
 // come from there; with `record` they go there.
-struct PixelPlace {
-  int x = 0;
-  int y = 0;
-};
-void polish(FlowState& state, const CliqueModel& model, int level, const PolishParameters& parameters, PixelPlace place,
+void polish(FlowState& state, const CliqueModel& model, int level, const PolishParameters& parameters, TexturePlace place,
             const PolishRecord* replay = nullptr, PolishRecord* record = nullptr);
 
 }  // namespace belvedere

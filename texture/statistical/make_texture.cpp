@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/grid_part.h"
 
 namespace belvedere {
 namespace {
@@ -99,7 +100,7 @@ BandPicture run(const CliqueModel& model, BandPyramid pyramid, TexturePlace plac
       if (making.record != nullptr) making.record->rounds[at].push_back(std::move(taken));
     }
     if (model.polish && parameters.sweeps > 0 && level <= parameters.polish_from) {
-      const PixelPlace pixel{place.x >> level, place.y >> level};
+      const TexturePlace pixel{place.x >> level, place.y >> level};
       PolishRecord* record = making.record != nullptr ? &making.record->polishes.emplace_back() : nullptr;
       polish(state, model, level, polishing, pixel, making.replay != nullptr ? &making.replay->polishes[polished++] : nullptr, record);
     }
@@ -109,12 +110,6 @@ BandPicture run(const CliqueModel& model, BandPyramid pyramid, TexturePlace plac
 }
 
 BandPyramid empty_pyramid(int width, int height, int levels) { return make_pyramid(BandPicture(width, height), levels); }
-
-Grid<Rgb8> cut(const Grid<Rgb8>& from, int x0, int y0, int width, int height) {
-  Grid<Rgb8> out(width, height);
-  for (int y = 0; y < height; ++y) std::copy_n(from.row(y0 + y) + x0, width, out.row(y));
-  return out;
-}
 
 void check_size(std::int64_t width, std::int64_t height) {
   if (width >= 1 && height >= 1 && width <= most_texture_pixels && height <= most_texture_pixels && width * height <= most_texture_pixels)
@@ -149,7 +144,7 @@ Grid<Rgb8> make_texture(const CliqueModel& model, int width, int height, const T
   const int high = height + 2 * border_px;
   progress.begin("making a texture", work_of(std::int64_t{wide} * high, model.levels));
   const BandPicture made = run(model, empty_pyramid(wide, high, model.levels), {}, parameters, {}, progress);
-  return cut(to_picture(made, model.bands), border_px, border_px, width, height);
+  return part_of(to_picture(made, model.bands), {border_px, border_px, border_px + width, border_px + height});
 }
 
 TextureRecord record_texture(const CliqueModel& model, const TextureParameters& parameters) {
@@ -253,8 +248,7 @@ Grid<Rgb8> fill_texture(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& hol
         known_states(x, y) = 0;
         states(x, y) = pixel_free;
       }
-  const Grid<Rgb8> part = cut(picture, box.x0, box.y0, box.width(), box.height());
-  const BandPyramid known = make_pyramid(to_bands(part, model.bands, known_states), model.levels);
+  const BandPyramid known = make_pyramid(to_bands(part_of(picture, box), model.bands, known_states), model.levels);
   BandPicture finest(box.width(), box.height());
   finest.states = states;
   BandPyramid pyramid = make_pyramid(std::move(finest), model.levels);

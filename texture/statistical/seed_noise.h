@@ -9,7 +9,7 @@
 
 namespace belvedere {
 
-// Where on an endless texture a picture lies: its upper left pixel at level 0, a multiple of 2^levels.
+// Where on an endless texture a picture lies: its upper left pixel, of level 0 (then a multiple of 2^levels) unless another is named.
 struct TexturePlace {
   int x = 0;
   int y = 0;

@@ -5,18 +5,13 @@
 #include <cstring>
 #include <unordered_set>
 
+#include "base/grid_part.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "texture/statistical/difference_histogram.h"
 
 namespace belvedere {
 namespace {
-
-Grid<Rgb8> part(const Grid<Rgb8>& from, PixelRect rect) {
-  Grid<Rgb8> out(rect.width(), rect.height());
-  for (int y = 0; y < out.height(); ++y) std::copy_n(from.row(rect.y0 + y) + rect.x0, out.width(), out.row(y));
-  return out;
-}
 
 // Histogram of each pixel of the first band less the mean of its four neighbours, over the range that the band can have.
 DifferenceHistogram laplacian_histogram(const BandPicture& picture, const BandSpace& bands) {
@@ -100,7 +95,7 @@ TextureFigures halves_figures(const Grid<Rgb8>& crop, const CliqueModel& model, 
   const int w = crop.width();
   const int h = crop.height();
   const auto between = [&](PixelRect one, PixelRect other) {
-    return texture_figures(part(crop, one), {}, part(crop, other), model, parameters);
+    return texture_figures(part_of(crop, one), {}, part_of(crop, other), model, parameters);
   };
   const TextureFigures across = between({0, 0, w / 2, h}, {w / 2, 0, w, h});
   const TextureFigures down = between({0, 0, w, h / 2}, {0, h / 2, w, h});

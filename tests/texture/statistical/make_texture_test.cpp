@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/grid_part.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/statistical/learn_texture.h"
 
@@ -18,13 +19,6 @@ const CliqueModel& meadow_model() {
     return learn_texture(test::meadow_crop(96, 96), {}, few).model;
   }();
   return model;
-}
-
-Grid<Rgb8> part(const Grid<Rgb8>& from, PixelRect rect) {
-  Grid<Rgb8> out(rect.width(), rect.height());
-  for (int y = 0; y < out.height(); ++y)
-    for (int x = 0; x < out.width(); ++x) out(x, y) = from(rect.x0 + x, rect.y0 + y);
-  return out;
 }
 
 TEST(MakeTexture, TheSameBitsForAnyThreads) {
@@ -53,7 +47,7 @@ TEST(MakeWindow, OverlappingWindowsHaveTheSamePixels) {
   for (const PixelRect rect :
        {PixelRect{-5, endless_tile_px - 3, 20, endless_tile_px + 9}, PixelRect{0, endless_tile_px, 1, endless_tile_px + 1},
         PixelRect{-40, endless_tile_px - 60, -1, endless_tile_px - 2}})
-    EXPECT_EQ(make_window(meadow_model(), record, rect, parameters), part(all, moved(rect, -whole.x0, -whole.y0)));
+    EXPECT_EQ(make_window(meadow_model(), record, rect, parameters), part_of(all, moved(rect, -whole.x0, -whole.y0)));
 }
 
 // Tiles meet without a seam: steps across their border are as large as elsewhere.

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "base/error.h"
 #include "base/json.h"
 #include "base/parallel.h"
-#include "renderer/image/image_io.h"
 #include "texture/statistical/make_texture.h"
 #include "texture/statistical/model_file.h"
 #include "tools/cli/commands.h"
@@ -26,23 +24,13 @@ struct Options {
   bool json = false;
 };
 
-Grid<std::uint8_t> read_hole(const std::string& path, const std::string& picture_path, const Grid<Rgb8>& picture) {
-  const Grid<std::uint16_t> grey = read_grey(path);
-  if (!grey.same_size(picture))
-    throw Error(ErrorKind::input, path, fmt::format("{} × {} pixels", grey.width(), grey.height()),
-                fmt::format("the size of {}: {} × {}", picture_path, picture.width(), picture.height()));
-  Grid<std::uint8_t> hole(grey.width(), grey.height());
-  std::transform(grey.begin(), grey.end(), hole.begin(), [](std::uint16_t v) { return static_cast<std::uint8_t>(v != 0 ? 1 : 0); });
-  return hole;
-}
-
 int run(const Options& options) {
   check_texture_name(options.out);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const CliqueModel model = read_model(options.model);
   const Grid<Rgb8> picture = read_crop(options.picture, "").picture;
-  const Grid<std::uint8_t> hole = read_hole(options.hole, options.picture, picture);
+  const Grid<std::uint8_t> hole = read_mask_of(options.hole, options.picture, picture);
   const auto pixels = std::count(hole.begin(), hole.end(), std::uint8_t{1});
   if (pixels == 0) progress.note("warning: the mask marks nothing; the picture stays as it is");
   TextureParameters parameters;

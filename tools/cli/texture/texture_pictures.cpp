@@ -13,6 +13,16 @@
 
 namespace belvedere::tools {
 
+Grid<std::uint8_t> read_mask_of(const std::string& path, const std::string& picture_path, const Grid<Rgb8>& picture) {
+  const Grid<std::uint16_t> grey = read_grey(path);
+  if (!grey.same_size(picture))
+    throw Error(ErrorKind::input, path, fmt::format("{} × {} pixels", grey.width(), grey.height()),
+                fmt::format("the size of {}: {} × {}", picture_path, picture.width(), picture.height()));
+  Grid<std::uint8_t> mask(grey.width(), grey.height());
+  std::transform(grey.begin(), grey.end(), mask.begin(), [](std::uint16_t v) { return static_cast<std::uint8_t>(v != 0 ? 1 : 0); });
+  return mask;
+}
+
 TextureCrop read_crop(const std::string& path, const std::string& mask) {
   Grid<float> alpha;
   const Grid<glm::vec3> picture = read_picture(path, &alpha);
@@ -30,12 +40,9 @@ TextureCrop read_crop(const std::string& path, const std::string& mask) {
     ++crop.transparent;
   }
   if (mask.empty()) return crop;
-  const Grid<std::uint16_t> grey = read_grey(mask);
-  if (!grey.same_size(picture))
-    throw Error(ErrorKind::input, mask, fmt::format("{} × {} pixels", grey.width(), grey.height()),
-                fmt::format("the size of {}: {} × {}", path, picture.width(), picture.height()));
-  for (std::size_t i = 0; i < grey.size(); ++i)
-    if (grey[i] == 0) leave_out(i);
+  const Grid<std::uint8_t> kept = read_mask_of(mask, path, crop.picture);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (kept[i] == 0) leave_out(i);
   return crop;
 }
 

@@ -20,6 +20,9 @@ struct TextureCrop {
 // another size and what read_picture refuses.
 TextureCrop read_crop(const std::string& path, const std::string& mask);
 
+// A grey mask of a picture's size: 1 where it is not 0. Error(input) for another size.
+Grid<std::uint8_t> read_mask_of(const std::string& path, const std::string& picture_path, const Grid<Rgb8>& picture);
+
 Grid<glm::vec3> encoded_picture(const Grid<Rgb8>& picture);
 
 // Writes a picture in the format of its ending that holds 8 bits or more without linear light: Error(usage) for others.
