@@ -22,7 +22,8 @@
 #include "renderer/paint/guides.h"
 #include "renderer/world/cached_products.h"
 #include "renderer/world/lit_picture.h"
-#include "renderer/world/scene_terrain.h"
+#include "renderer/world/scene_dem.h"
+#include "renderer/world/scene_land_cover.h"
 
 namespace belvedere {
 namespace {

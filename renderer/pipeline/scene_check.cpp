@@ -19,8 +19,9 @@
 #include "renderer/world/ground_plan.h"
 #include "renderer/world/lit_picture.h"
 #include "renderer/world/scene_climate.h"
+#include "renderer/world/scene_dem.h"
+#include "renderer/world/scene_land_cover.h"
 #include "renderer/world/scene_season.h"
-#include "renderer/world/scene_terrain.h"
 #include "terrain/io/raster_io.h"
 
 namespace belvedere {

@@ -14,7 +14,8 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "renderer/world/generalize_view.h"
-#include "renderer/world/scene_terrain.h"
+#include "renderer/world/scene_dem.h"
+#include "renderer/world/scene_land_cover.h"
 
 namespace belvedere {
 namespace {
@@ -155,7 +156,7 @@ TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const 
   Progress& quiet = silent_progress();
   Dem dem = making.levels.window(planned.level, made, *whole.dem);
   WindowGround window_ground;
-  window_ground.sea = prepare_window_dem(dem, making.loaded, known);
+  window_ground.sea = prepare_window_dem(dem, making.loaded, known.dem, known.sea);
   dem.entries = find_entries(whole, dem, made, whole.dem->halved - planned.level);
   const auto halo = std::make_shared<const Dem>(std::move(dem));
   window_ground.dem = halo;

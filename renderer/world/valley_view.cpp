@@ -12,7 +12,7 @@
 #include "base/math_exact.h"
 #include "renderer/trace/camera.h"
 #include "renderer/world/generalize_view.h"
-#include "renderer/world/scene_terrain.h"
+#include "renderer/world/scene_dem.h"
 
 namespace belvedere {
 namespace {

@@ -9,7 +9,8 @@
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/ground_plan.h"
 #include "renderer/world/ground_windows.h"
-#include "renderer/world/scene_terrain.h"
+#include "renderer/world/scene_dem.h"
+#include "renderer/world/scene_land_cover.h"
 
 namespace belvedere {
 namespace {

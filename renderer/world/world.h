@@ -8,7 +8,7 @@
 #include "renderer/trace/camera.h"
 #include "renderer/trace/guidance.h"
 #include "renderer/trace/tracer.h"
-#include "renderer/world/scene_terrain.h"
+#include "renderer/world/scene_dem.h"
 #include "renderer/world/view.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/deform/deform.h"

@@ -13,7 +13,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/trace/relief_sketch.h"
 #include "renderer/world/generalize_view.h"
-#include "renderer/world/scene_terrain.h"
+#include "renderer/world/scene_dem.h"
 #include "renderer/world/valley_view.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/io/surface_raster.h"

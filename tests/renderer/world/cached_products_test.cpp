@@ -9,7 +9,6 @@
 
 #include "renderer/image/provenance.h"
 #include "renderer/world/generalize_view.h"
-#include "renderer/world/scene_terrain.h"
 #include "renderer/world/world.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "renderer/world/scene_terrain.h"
+#include "renderer/world/scene_dem.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
 

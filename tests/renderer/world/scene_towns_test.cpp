@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/world/scene_terrain.h"
+#include "renderer/world/scene_land_cover.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
 

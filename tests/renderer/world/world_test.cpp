@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "renderer/world/scene_terrain.h"
+#include "renderer/world/scene_dem.h"
+#include "renderer/world/scene_land_cover.h"
 #include "tests/files.h"
 #include "tests/renderer/world/small_world.h"
 

@@ -8,7 +8,8 @@
 
 #include "base/land_cover_class.h"
 #include "renderer/scene/scene_file.h"
-#include "renderer/world/scene_terrain.h"
+#include "renderer/world/scene_dem.h"
+#include "renderer/world/scene_land_cover.h"
 #include "terrain/io/dem.h"
 #include "terrain/io/raster_io.h"
 #include "tests/tools/program.h"

@@ -1,6 +1,4 @@
-#include "renderer/world/scene_terrain.h"
-
-#include "renderer/world/generalize_view.h"
+#include "renderer/world/scene_land_cover.h"
 
 #include <gtest/gtest.h>
 
@@ -69,73 +67,6 @@ TEST_F(RefinedLandCover, WithoutTheKeyTheRasterHoldsAlone) {
   const LandCover cover = refined("");
   for (int y = 0; y < 50; ++y)
     for (int x = 0; x < 50; ++x) ASSERT_EQ(cover.classes.cells(x, y), as_read(x));
-}
-
-// A valley between ridges whose rows stand too high and too low in turn, read by a scene with these settings.
-class TerrainOperators : public testing::Test {
- protected:
-  void SetUp() override {
-    striped_ = valley(0.0);
-    for (int y = 0; y < striped_.cells.height(); ++y)
-      for (int x = 0; x < striped_.cells.width(); ++x) striped_.cells(x, y) += y / 2 % 2 == 0 ? 4.F : -4.F;
-    write_raster(folder_ / "striped.tif", striped_);
-    write_raster(folder_ / "clean.tif", valley());
-  }
-  // Its gullies run nearly along columns: to be called stripes themselves.
-  static Raster<float> valley(double gullies_m = 60.0) {
-    Raster<float> raster{Grid<float>(160, 200), {500000.0, 5200000.0, 100.0, 100.0}, normalize_crs("EPSG:32632")};
-    for (int y = 0; y < 200; ++y)
-      for (int x = 0; x < 160; ++x)
-        raster.cells(x, y) =
-            static_cast<float>(900.0 - y + 18.0 * std::abs(x - 80.0) + gullies_m * std::sin(x / 3.0) * std::sin(y / 11.0 + x));
-    return raster;
-  }
-  LoadedScene scene(const std::string& file, const std::string& settings) const {
-    return parse_scene("version = 1\n[[terrain.sources]]\nfile = \"" + file + "\"\n[generalize]\n" + settings, "s.toml", folder_.path(),
-                       {});
-  }
-  Grid<float> generalized(const std::string& settings) const {
-    const LoadedScene loaded = scene("clean.tif", settings);
-    return generalize_for_view(loaded, make_scene_dem(loaded, silent_progress()), nullptr, {}, silent_progress()).altitude_m;
-  }
-
-  Raster<float> striped_;
-  test::Folder folder_;
-};
-
-TEST_F(TerrainOperators, AreOffUnlessASceneAsksForThem) {
-  EXPECT_EQ(make_scene_dem(scene("striped.tif", ""), silent_progress()).altitude_m, striped_.cells);
-  EXPECT_EQ(generalized(""), valley().cells);
-}
-
-TEST_F(TerrainOperators, StripesLeaveTheDemItself) {
-  const Grid<float> before = make_scene_dem(scene("striped.tif", ""), silent_progress()).altitude_m;
-  const Grid<float> after = make_scene_dem(scene("striped.tif", "destripe = true\n"), silent_progress()).altitude_m;
-  const auto error = [](const Grid<float>& z) {
-    const Grid<float> expected = valley(0.0).cells;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < z.size(); ++i) sum += std::abs(z[i] - expected[i]);
-    return sum;
-  };
-  EXPECT_LT(error(after), 0.5 * error(before));
-}
-
-TEST_F(TerrainOperators, SlopesBecomePlainAndValleysWide) {
-  const Grid<float> bare = valley().cells;
-  const Grid<float> plain = generalized("line_integral = true\n");
-  const Grid<float> wide = generalized("widen_valleys_m = 1000\n");
-  const auto roughness = [](const Grid<float>& z) {
-    double sum = 0.0;
-    for (int y = 20; y < 180; ++y)
-      for (int x = 20; x < 60; ++x) sum += std::abs(z(x - 1, y) - 2.F * z(x, y) + z(x + 1, y));
-    return sum;
-  };
-  EXPECT_LT(roughness(plain), 0.5 * roughness(bare));
-  // Walls of 18 % stand back by up to 500 m: the ground at their feet comes to lie lower.
-  double lower = 0.0;
-  for (int y = 100; y < 160; ++y)
-    for (int x = 70; x <= 90; ++x) lower += bare(x, y) - wide(x, y);
-  EXPECT_GT(lower / (60.0 * 21.0), 8.0);
 }
 
 // A scene's layers stand in for rules; its settings are theirs.

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "renderer/trace/camera.h"
+#include "renderer/trace/hit.h"
+#include "renderer/trace/traced_part.h"
+
+namespace belvedere {
+
+// The exact hit, in double, from the facet that a tracing in float named: `in_tile` is its place in the tile, 0…1. The ray's origin counts
+// from the surface's. Fills all of `hit` but its window. False where in double the ray passes the facet by (it grazed an edge).
+bool resolve_facet(const TracedPart& part, const GridTile& tile, glm::vec2 in_tile, const Ray& ray, Hit& hit);
+
+}  // namespace belvedere

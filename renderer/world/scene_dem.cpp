@@ -1,0 +1,158 @@
+#include "renderer/world/scene_dem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <utility>
+
+#include "base/filter.h"
+#include "base/math_exact.h"
+#include "base/memory_limit.h"
+#include "renderer/world/cached_products.h"
+#include "terrain/generalize/destripe.h"
+
+namespace belvedere {
+
+void each_field(auto& bytes, FieldsOf<Dem> auto& dem) {
+  auto& [altitude_m, filled, transform, crs, entries, halved] = dem;
+  bytes(altitude_m, filled, transform, crs);  // made-up terrain is whole and as it was made
+}
+
+namespace {
+
+RasterSource to_raster_source(const LoadedScene& scene, const SceneSource& source) {
+  RasterSource raster = source.raster;
+  raster.path = find_scene_file(scene, source.file);
+  if (source.unit == "m") raster.unit_to_m = 1.0;
+  if (source.unit == "ft") raster.unit_to_m = 0.3048;
+  if (source.unit == "us-ft") raster.unit_to_m = 1200.0 / 3937.0;
+  return raster;
+}
+
+CacheKey synthetic_key(const LoadedScene& loaded) {
+  const auto& [width, height, cell_m, lowest_m, highest_m, seed] = *loaded.scene.terrain.synthetic;
+  CacheKeyText key;
+  key.add("width", width).add("height", height).add("cell_m", cell_m);
+  key.add("lowest_m", lowest_m).add("highest_m", highest_m).add("seed", seed);
+  return make_cache_key(CachedProduct::synthetic_terrain, key, subject_of(loaded));
+}
+
+// Bytes that a cell takes from reading to rays: TerrainModel 69, surface 12, structure of the tracer 23, and some of what rules and
+// generalization make on their way.
+constexpr double ground_bytes_per_cell = 160.0;
+
+// Cells that the terrain of a scene may have. Automatic limits are powers of the root of two, so that machines that are nearly alike agree.
+double most_ground_cells(const SceneTerrain& terrain, double cells) {
+  if (terrain.most_mcells > 0.0) return 1e6 * terrain.most_mcells;
+  const double fit = static_cast<double>(memory_budget_bytes()) / ground_bytes_per_cell;
+  constexpr double share_of_whole = 0.8;
+  if (cells <= share_of_whole * fit) return cells;
+  constexpr double share_of_windows = 0.5;
+  return exact::exp2(0.5 * std::floor(2.0 * exact::log2(std::max(share_of_windows * fit, 1.0))));
+}
+
+SceneDem read_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
+  const SceneTerrain& terrain = loaded.scene.terrain;
+  if (terrain.synthetic)
+    return {cached<Dem>(
+                cache, [&] { return synthetic_key(loaded); }, progress,
+                [&](Progress& watcher) { return make_synthetic_terrain(*terrain.synthetic, watcher); }),
+            nullptr,
+            0.0,
+            {}};
+  DemParameters parameters = terrain.dem;
+  parameters.sources = to_raster_sources(loaded, terrain.sources);
+  const RasterFrame frame = choose_frame(parameters.sources, parameters.crs, parameters.cell_m, parameters.extent);
+  const double cells = static_cast<double>(frame.width) * frame.height;
+  const double most = most_ground_cells(terrain, cells);
+  const int coarsest = coarsest_level(frame, most);
+  if (coarsest == 0) return {read_dem(parameters, progress), nullptr, 0.0, {}};
+  // As coarse as a landscape may be it still has to fit.
+  const RasterFrame whole_frame = level_frame(frame, coarsest);
+  check_memory(fmt::format("terrain of {} × {} cells, even in cells of {:g} m", frame.width, frame.height, whole_frame.transform.cell_x),
+               reading_bytes(frame) + ground_bytes_per_cell * whole_frame.width * whole_frame.height);
+  // A third of what the finished ground will take, and gone before it is finished.
+  auto levels = std::make_shared<DemLevels>(parameters, frame, coarsest, most * ground_bytes_per_cell / 3.0 / sizeof(float), progress);
+  Dem whole = levels->whole();
+  return {std::move(whole), std::move(levels), most, {}};
+}
+
+// Stripes are in the cells of the data.
+void take_stripes_off(Dem& dem, const LoadedScene& loaded, Progress& progress) {
+  if (loaded.scene.generalize.destripe && dem.halved == 0) dem.altitude_m = destripe(dem.altitude_m, {}, progress);
+}
+
+}  // namespace
+
+std::vector<RasterSource> to_raster_sources(const LoadedScene& scene, const std::vector<SceneSource>& sources) {
+  std::vector<RasterSource> rasters;
+  rasters.reserve(sources.size());
+  for (const SceneSource& source : sources) rasters.push_back(to_raster_source(scene, source));
+  return rasters;
+}
+
+SceneDem open_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
+  SceneDem opened = read_scene_dem(loaded, progress, cache);
+  Sea sea = prepare_scene_dem(opened.dem, loaded, progress);
+  if (!sea.empty())
+    progress.note(fmt::format("sea: {:.1f} % of the terrain, at {:.1f} m{}", 100.0 * sea.share, sea.level_m,
+                              sea.noise_m >= 0.3 ? fmt::format(", levelled from ± {:.1f} m", sea.noise_m) : ""));
+  if (opened.levels) opened.sea = std::move(sea);
+  return opened;
+}
+
+GroundAltitude ground_altitude_of(const SceneDem& scene) {
+  if (!scene.levels) return {};
+  return [&scene](glm::dvec2 place) {
+    const RasterFrame& frame = scene.levels->frame();
+    const glm::dvec2 at =
+        glm::clamp(frame.transform.to_cell(place.x, place.y), glm::dvec2(0.0), glm::dvec2(frame.width - 1.0, frame.height - 1.0));
+    const int x = std::min(static_cast<int>(at.x), frame.width - 2);
+    const int y = std::min(static_cast<int>(at.y), frame.height - 2);
+    const Dem cells = scene.levels->window(0, {x, y, x + 2, y + 2}, scene.dem);
+    return static_cast<double>(sample_bilinear(cells.altitude_m, at.x - x, at.y - y));
+  };
+}
+
+Dem make_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
+  SceneDem opened = open_scene_dem(loaded, progress, cache);
+  if (opened.levels)
+    progress.note(fmt::format("elevation {} × {} cells is more than memory holds: looked at in cells of {:.0f} m here",
+                              opened.levels->frame().width, opened.levels->frame().height, opened.dem.cell_m()));
+  return std::move(opened.dem);
+}
+
+Sea prepare_scene_dem(Dem& dem, const LoadedScene& loaded, Progress& progress) {
+  take_stripes_off(dem, loaded, progress);
+  Sea sea = find_sea(dem, scene_sea(loaded.scene.land_cover));
+  if (!sea.empty()) level_sea(dem, sea);
+  return sea;
+}
+
+SeaParameters scene_sea(const SceneLandCover& settings) { return {.look = settings.sea != "none", .level_m = settings.sea_level_m}; }
+
+SeaParameters prepare_window_dem(Dem& window, const LoadedScene& loaded, const Dem& whole, const Sea& whole_sea) {
+  take_stripes_off(window, loaded, silent_progress());
+  SeaParameters sea = scene_sea(loaded.scene.land_cover);
+  sea.known = std::make_shared<const Sea>(continue_sea(window, whole, whole_sea, sea));
+  level_sea(window, *sea.known);
+  return sea;
+}
+
+void add_sea(CacheKeyText& key, const SeaParameters& sea) {
+  const auto& [look, level_m, least_cells, found] = sea;
+  key.add("sea", look).add("known", level_m.has_value()).add("level_m", level_m.value_or(0.0)).add("least_cells", least_cells);
+  if (found) key.add("sea mask", found->mask).add("sea level_m", found->level_m);
+}
+
+void add_dem(CacheKeyText& key, const Dem& dem) {
+  const auto& [altitude_m, filled, transform, crs, entries, halved] = dem;
+  const auto& [origin_x, origin_y, cell_x, cell_y] = transform;
+  key.add("halved", halved).add("altitude_m", altitude_m).add("filled", filled).add("crs", crs);
+  for (const auto& [x, y, km2] : entries) key.add("entry_x", x).add("entry_y", y).add("km2", km2);
+  key.add("origin_x", origin_x).add("origin_y", origin_y).add("cell_x", cell_x).add("cell_y", cell_y);
+}
+
+}  // namespace belvedere
