@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "terrain/shape/hole_lakes.h"
+
 namespace belvedere {
 namespace {
 

@@ -8,11 +8,10 @@
 
 #include "base/filter.h"
 #include "base/parallel.h"
+#include "terrain/shape/mask_pieces.h"
 
 namespace belvedere {
 namespace {
-
-using Mask = Grid<std::uint8_t>;
 
 constexpr float farthest_level_m = 1.5F;  // of the sea from the datum: tides, and what geoids differ by
 constexpr int fine = 2;
@@ -54,48 +53,6 @@ Grid<float> box_mean(const Grid<float>& values, int radius) {
     }
   });
   return mean;
-}
-
-// Cells (4-connected) that can be reached from those marked through cells that `open` lets in; they are marked as well.
-template <class Open>
-void flood(Mask& mask, std::vector<std::int32_t> from, Open&& open) {
-  const int width = mask.width();
-  while (!from.empty()) {
-    const std::int32_t at = from.back();
-    from.pop_back();
-    const int x = at % width;
-    const int y = at / width;
-    for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
-      if (!mask.contains(x + dx, y + dy) || mask(x + dx, y + dy) != 0 || !open(x + dx, y + dy)) continue;
-      mask(x + dx, y + dy) = 1;
-      from.push_back((y + dy) * width + x + dx);
-    }
-  }
-}
-
-bool at_edge(const Mask& mask, int x, int y) { return x == 0 || y == 0 || x == mask.width() - 1 || y == mask.height() - 1; }
-
-// Pieces (4-connected) of the cells marked `wanted`: f gets the cells of each, in the order of the first.
-template <class F>
-void each_piece(const Mask& mask, std::uint8_t wanted, F&& f) {
-  Mask seen(mask.width(), mask.height(), 0);
-  std::vector<std::int32_t> cells;
-  for (int y = 0; y < mask.height(); ++y)
-    for (int x = 0; x < mask.width(); ++x) {
-      if (mask(x, y) != wanted || seen(x, y) != 0) continue;
-      cells.assign(1, y * mask.width() + x);
-      seen(x, y) = 1;
-      for (std::size_t k = 0; k < cells.size(); ++k) {
-        const int cx = cells[k] % mask.width();
-        const int cy = cells[k] / mask.width();
-        for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
-          if (!mask.contains(cx + dx, cy + dy) || mask(cx + dx, cy + dy) != wanted || seen(cx + dx, cy + dy) != 0) continue;
-          seen(cx + dx, cy + dy) = 1;
-          cells.push_back((cy + dy) * mask.width() + cx + dx);
-        }
-      }
-      f(cells);
-    }
 }
 
 // The altitude that most known cells have (by their fine means), within farthest_level_m of 0; nothing where fewer than `least` have any.
@@ -393,35 +350,6 @@ void level_sea(Dem& dem, const Sea& sea) {
       dem.filled(x, y) = 0;
     }
   });
-}
-
-Grid<std::uint8_t> find_hole_lakes(const Dem& dem, int least_cells, const Mask& known) {
-  Mask lakes(dem.width(), dem.height(), 0);
-  std::vector<float> shore;
-  each_piece(dem.filled, 1, [&](const std::vector<std::int32_t>& cells) {
-    if (cells.size() < static_cast<std::size_t>(std::max(1, least_cells))) return;
-    shore.clear();
-    const bool over_rim =
-        std::any_of(cells.begin(), cells.end(), [&](std::int32_t at) { return at_edge(lakes, at % dem.width(), at / dem.width()); });
-    if (over_rim) {  // who knows what is beyond
-      const auto in_lake = std::count_if(cells.begin(), cells.end(),
-                                         [&](std::int32_t at) { return !known.empty() && known[static_cast<std::size_t>(at)] != 0; });
-      if (2 * static_cast<std::size_t>(in_lake) > cells.size())
-        for (const std::int32_t at : cells) lakes[static_cast<std::size_t>(at)] = 1;
-      return;
-    }
-    for (const std::int32_t at : cells) {
-      const int x = at % dem.width();
-      const int y = at / dem.width();
-      for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}})
-        if (dem.filled.contains(x + dx, y + dy) && dem.filled(x + dx, y + dy) == 0) shore.push_back(dem.altitude_m(x + dx, y + dy));
-    }
-    if (shore.size() < 4) return;
-    std::sort(shore.begin(), shore.end());
-    if (shore[shore.size() / 2] - shore[shore.size() / 20] > 1.F) return;
-    for (const std::int32_t at : cells) lakes[static_cast<std::size_t>(at)] = 1;
-  });
-  return lakes;
 }
 
 Grid<float> distance_to_sea_m(const Grid<std::uint8_t>& sea, double cell_m) {

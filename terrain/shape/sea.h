@@ -45,11 +45,6 @@ Sea continue_sea(const Dem& window, const Dem& whole, const Sea& sea, const SeaP
 // Level water: what is sea gets the sea's level, and holes there are no holes any more.
 void level_sea(Dem& dem, const Sea& sea);
 
-// Lakes that the data have no altitudes of: holes of at least `least_cells` whose shore is level (the lower half of the cells around them
-// within 1 m). 1 in such a lake. A hole that reaches over the rim is none, but for windows of a larger DEM, which has `known` lakes: there
-// it is one where most of it is known for one.
-Grid<std::uint8_t> find_hole_lakes(const Dem& dem, int least_cells = 150, const Grid<std::uint8_t>& known = {});
-
 // How far each cell of land is from the sea, m (centres of cells); 0 at sea, 1e6 where there is none.
 Grid<float> distance_to_sea_m(const Grid<std::uint8_t>& sea, double cell_m);
 
