@@ -26,6 +26,7 @@ const std::vector<Command>& all_commands() {
        add_exemplar_paint},
       {"layers", "fit", "Learns surface layers from a satellite picture or a land-cover map and a DEM", add_layers_fit},
       {"layers", "apply", "Lays surface layers over a DEM: classes, colours and coverages as GeoTIFF", add_layers_apply},
+      {"layers", "picture", "Draws the ground of surface layers from above, finer than the DEM, lit, lakes with beds", add_layers_picture},
       {"texture", "learn", "Learns a texture from a crop of a painting, as statistics of a kilobyte", add_texture_learn},
       {"texture", "make", "Makes a texture of any size from such a model, without end and without repeating", add_texture_make},
       {"texture", "fill", "Makes anew a masked part of a picture from such a model, to go with what is around it", add_texture_fill},

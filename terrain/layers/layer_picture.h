@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+
+#include "base/progress.h"
+#include "terrain/cover/layer_inputs.h"
+#include "terrain/layers/lake_beds.h"
+#include "terrain/layers/surface_layers.h"
+
+namespace belvedere {
+
+struct LayerPictureParameters {
+  int finer = 4;               // places a cell of the DEM, across and down, 1…16
+  std::uint64_t seed = 1;      // of the layers' noise
+  double light_from = 315.0;   // degrees clockwise from north, where the light comes from
+  double light_height = 45.0;  // degrees above the horizon, 5…90
+  double shade = 0.35;         // brightness of ground that turns away from the light, 0…1; level ground has its colour
+  double relief = 1.0;         // slopes are lit as if so many times as steep, ≥ 0
+  bool beds = true;            // lakes are seen through, down to made-up beds
+  LakeBedParameters lakes = {};
+};
+
+// Checks the values above. Error(usage).
+void check_layer_picture(const LayerPictureParameters& parameters);
+
+// Brightness of a slope with this unit normal (x east, y north, z up): Lambert's cosine, 1 on level ground, `shade` turned away.
+float slope_brightness(const glm::vec3& normal, const LayerPictureParameters& parameters);
+// Water over ground of a colour (sRGB as encoded, 0…255), of this depth in metres: the bed is lost within some metres, pale water turns
+// deep.
+glm::vec3 water_colour(const glm::vec3& ground, float depth_m);
+
+// The ground with its layers as seen from above, in the light: rows of the finer raster from the top down, sRGB as encoded, 0…255.
+// Altitudes between cells are of the spline through them, what is finer comes from the layers' noise (layer_surface). A strip at a time,
+// any threads the same bits. Brightness multiplies encoded values, as hillshades are laid over maps. Error(usage) without layers.
+void draw_layer_picture(const SurfaceLayers& layers, const Dem& dem, const LayerClimate& climate, const LayerPictureParameters& parameters,
+                        const std::function<void(int y0, const Grid<glm::vec3>& rows)>& take, Progress& progress);
+
+}  // namespace belvedere

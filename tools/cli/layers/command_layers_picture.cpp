@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "base/error.h"
+#include "base/json.h"
+#include "base/parallel.h"
+#include "renderer/image/output_file.h"
+#include "terrain/io/byte_raster_rows.h"
+#include "terrain/layers/layer_coverage.h"
+#include "terrain/layers/layer_picture.h"
+#include "terrain/layers/layers_file.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/file_names.h"
+#include "tools/cli/layers/ground_climate_options.h"
+#include "tools/cli/terminal.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  std::string layers, dem, out;
+  GroundClimateOptions climate;
+  LayerPictureParameters picture;
+  bool no_beds = false;
+  int threads = 0;
+  bool quiet = false;
+  bool json = false;
+};
+
+Grid<std::uint8_t> band(const Grid<glm::vec3>& rows, int c) {
+  Grid<std::uint8_t> bytes(rows.width(), rows.height());
+  for (std::size_t i = 0; i < rows.size(); ++i) bytes[i] = static_cast<std::uint8_t>(rows[i][c] + 0.5F);
+  return bytes;
+}
+
+int run(const Options& options) {
+  check_place(options.out);
+  if (options.out == options.dem || options.out == options.layers)
+    throw Error(ErrorKind::usage, options.out, "the same file twice", "a file of its own");
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  LayerPictureParameters parameters = options.picture;
+  parameters.beds = !options.no_beds;
+  check_layer_picture(parameters);
+  const SurfaceLayers layers = read_surface_layers(options.layers);
+  const Dem dem = read_layer_dem(options.dem, progress);
+  const int finer = parameters.finer;
+  const GeoTransform& cells = dem.transform;
+  const RasterFrame frame{
+      {cells.origin_x, cells.origin_y, cells.cell_x / finer, cells.cell_y / finer}, dem.width() * finer, dem.height() * finer, dem.crs};
+  const LayerClimateGrids climate = climate_of(options.climate, dem, compile_layers(layers).inputs, progress);
+  ByteRasterRows picture(options.out, {.frame = frame, .bands = {{}, {}, {}}, .is_colour = true});
+  draw_layer_picture(
+      layers, dem, climate.view(), parameters,
+      [&](int y0, const Grid<glm::vec3>& rows) {
+        picture.write(y0, {band(rows, 0), band(rows, 1), band(rows, 2)});
+      },
+      progress);
+  progress.begin("writing", 0.0);
+  picture.prepare();
+  picture.commit();
+  progress.end();
+  if (options.json)
+    print_out(Json::object()
+                  .add("out", Json::text(options.out))
+                  .add("width", Json::number(frame.width))
+                  .add("height", Json::number(frame.height))
+                  .add("cell", Json::number(frame.transform.cell_x))
+                  .str() +
+              "\n");
+  else if (!options.quiet)
+    print_out(fmt::format("{}: {}×{} places of {:g} m\n", options.out, frame.width, frame.height, frame.transform.cell_x));
+  return 0;
+}
+
+}  // namespace
+
+Action add_layers_picture(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  LayerPictureParameters& picture = options->picture;
+  command.add_option("LAYERS", options->layers, "The layers: a .toml file (docs/layers.md)")->required()->type_name("FILE");
+  command.add_option("--dem", options->dem, "The ground: a DEM")->required()->type_name("FILE");
+  command.add_option("--out", options->out, "The picture: a GeoTIFF of three bands")->required()->type_name("TIF");
+  command.add_option("--finer", picture.finer, "Places a cell of the DEM, across and down; 1 to 16, default 4")->type_name("N");
+  command.add_option("--light-from", picture.light_from, "Where the light comes from, degrees clockwise from north; default 315")
+      ->type_name("DEG");
+  command.add_option("--light-height", picture.light_height, "How high it stands, 5 to 90 degrees; default 45")->type_name("DEG");
+  command.add_option("--shade", picture.shade, "Brightness of slopes turned away from the light, 0 to 1; default .35")->type_name("SHARE");
+  command.add_option("--relief", picture.relief, "Slopes are lit as if so many times as steep, 0 to 20; default 1")->type_name("TIMES");
+  command.add_flag("--no-beds", options->no_beds,
+                   "Lakes keep the colour of their layers; else they are seen through, down to made-up beds");
+  add_ground_climate(command, options->climate);
+  command.add_option("--seed", picture.seed, "Another seed, another grain of the layers; default 1")->type_name("N");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
+  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
+  command.add_flag("--json", options->json, "Say what came out as JSON");
+  command.footer(
+      "The ground as seen from above, finer than the DEM: a smooth surface through its cells, the layers' colours and bumps on it.\n\n"
+      "  belvedere layers picture innsbruck.layers.toml --dem innsbruck.tif --finer 4 --out map.tif");
+  return [options] { return run(*options); };
+}
+
+}  // namespace belvedere::tools
