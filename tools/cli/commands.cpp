@@ -30,6 +30,7 @@ const std::vector<Command>& all_commands() {
       {"texture", "learn", "Learns a texture from a crop of a painting, as statistics of a kilobyte", add_texture_learn},
       {"texture", "make", "Makes a texture of any size from such a model, without end and without repeating", add_texture_make},
       {"texture", "fill", "Makes anew a masked part of a picture from such a model, to go with what is around it", add_texture_fill},
+      {"texture", "judge", "Says how near textures, made by whatever program, come to a crop of a painting", add_texture_judge},
       {"", "info", "Says what a picture or guidance file holds and how it was made", add_info},
       {"", "diff", "Compares two pictures or guidance files, with thresholds", add_diff},
       {"", "schema", "Prints what a scene file may say, for editors or for reading", add_schema},

@@ -56,6 +56,7 @@ Action add_render(CLI::App& command);
 Action add_schema(CLI::App& command);
 Action add_synthesize(CLI::App& command);
 Action add_texture_fill(CLI::App& command);
+Action add_texture_judge(CLI::App& command);
 Action add_texture_learn(CLI::App& command);
 Action add_texture_make(CLI::App& command);
 Action add_verify(CLI::App& command);

@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/json.h"
+#include "base/parallel.h"
+#include "texture/statistical/model_file.h"
+#include "texture/statistical/texture_figures.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/terminal.h"
+#include "tools/cli/texture/texture_pictures.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  std::string model, crop;
+  std::vector<std::string> pictures;
+  int threads = 0;
+  bool quiet = false;
+  bool json = false;
+};
+
+struct Judgement {
+  std::string name;
+  TextureFigures figures;
+  int copy_px = -1;  // -1: not asked for
+};
+
+Json as_json(const Judgement& judged) {
+  Json out = Json::object()
+                 .add("picture", Json::text(judged.name))
+                 .add("selected", Json::number(judged.figures.selected))
+                 .add("held_out", Json::number(judged.figures.held_out))
+                 .add("worst", Json::number(judged.figures.worst))
+                 .add("beyond", Json::number(judged.figures.beyond));
+  if (judged.copy_px >= 0) out.add("longest_copy_px", Json::number(judged.copy_px));
+  return out;
+}
+
+std::string as_text(const Judgement& judged) {
+  return fmt::format("{:<32} {:.3f}  {:.3f}  {:.2f}  {:.3f}  {}\n", judged.name, judged.figures.selected, judged.figures.held_out,
+                     judged.figures.worst, judged.figures.beyond, judged.copy_px < 0 ? "" : fmt::format("{}", judged.copy_px));
+}
+
+int run(const Options& options) {
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  const CliqueModel model = read_model(options.model);
+  const TextureCrop crop = read_crop(options.crop, "");
+  const LearnParameters parameters;
+  progress.begin("comparing", static_cast<double>(options.pictures.size()));
+  std::vector<Judgement> all = {{"(the crop's own halves)", halves_figures(crop.picture, model, parameters)}};
+  for (const std::string& name : options.pictures) {
+    const Grid<Rgb8> picture = read_crop(name, "").picture;
+    all.push_back({name, texture_figures(crop.picture, crop.states, picture, model, parameters), longest_copy_px(crop.picture, picture)});
+    progress.advance(1.0);
+  }
+  progress.end();
+  if (options.json) {
+    Json list = Json::array();
+    for (const Judgement& judged : all) list.add(as_json(judged));
+    print_out(list.str() + "\n");
+  } else {
+    std::string out =
+        fmt::format("{:<32} {:<5}  {:<5}  {:<4}  {:<5}  {}\n", "L1 to the crop, 0…2", "held", "other", "worst", "beyond", "copy px");
+    for (const Judgement& judged : all) out += as_text(judged);
+    print_out(out);
+  }
+  return 0;
+}
+
+}  // namespace
+
+Action add_texture_judge(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("MODEL", options->model, "The crop's model: says which statistics it holds and which it was not told")
+      ->required()
+      ->type_name("MODEL");
+  command.add_option("CROP", options->crop, "The crop that the model was learned from")->required()->type_name("PICTURE");
+  command.add_option("PICTURE", options->pictures, "Textures to be judged, made by whatever program")->required()->type_name("PICTURE …");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no figure")->type_name("N");
+  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors and the figures");
+  command.add_flag("--json", options->json, "Say what came out as JSON");
+  command.footer(
+      "Says how far textures are from a crop: of the pairs that the model holds, of all others within reach, of five pixels at once "
+      "(beyond\n"
+      "pairs), and the largest square that is copied from the crop pixel by pixel. The crop's own halves are the floor that nature "
+      "sets.\n\n"
+      "  belvedere texture judge meadow.model meadow.png meadow_wide.png other_program.png");
+  return [options] { return run(*options); };
+}
+
+}  // namespace belvedere::tools
