@@ -130,6 +130,7 @@ enum class Stream : std::uint16_t {
   statistical_discs,
   statistical_moves,
   statistical_directions,
+  label_maps,
 
   count  // no stream: how many there are
 };

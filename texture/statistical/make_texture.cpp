@@ -111,13 +111,6 @@ BandPicture run(const CliqueModel& model, BandPyramid pyramid, TexturePlace plac
 
 BandPyramid empty_pyramid(int width, int height, int levels) { return make_pyramid(BandPicture(width, height), levels); }
 
-void check_size(std::int64_t width, std::int64_t height) {
-  if (width >= 1 && height >= 1 && width <= most_texture_pixels && height <= most_texture_pixels && width * height <= most_texture_pixels)
-    return;
-  throw Error(ErrorKind::limit, "the texture's size", fmt::format("{} × {} pixels", width, height),
-              fmt::format("1 to {} Mpixels; larger ones in windows", most_texture_pixels >> 20));
-}
-
 double work_of(std::int64_t pixels, int levels) {
   double work = 0.0;
   for (int level = 0; level <= levels; ++level) work += static_cast<double>(pixels >> (2 * level));
@@ -129,6 +122,13 @@ int tile_below(int at) { return (at >= 0 ? at : at - endless_tile_px + 1) / endl
 
 }  // namespace
 
+void check_texture_size(std::int64_t width, std::int64_t height) {
+  if (width >= 1 && height >= 1 && width <= most_texture_pixels && height <= most_texture_pixels && width * height <= most_texture_pixels)
+    return;
+  throw Error(ErrorKind::limit, "the texture's size", fmt::format("{} × {} pixels", width, height),
+              fmt::format("1 to {} Mpixels; larger ones in windows", most_texture_pixels >> 20));
+}
+
 TextureTrial::TextureTrial(const CliqueModel& model, int width, int height, std::uint64_t seed)
     : state_{make_pyramid(BandPicture(width, height), model.levels), {}}, noise_{TextureSeed::white, 0.F, {}, seed} {}
 
@@ -139,7 +139,7 @@ void TextureTrial::run(const CliqueModel& model, int level, int rounds) {
 }
 
 Grid<Rgb8> make_texture(const CliqueModel& model, int width, int height, const TextureParameters& parameters, Progress& progress) {
-  check_size(width, height);
+  check_texture_size(width, height);
   const int wide = width + 2 * border_px;
   const int high = height + 2 * border_px;
   progress.begin("making a texture", work_of(std::int64_t{wide} * high, model.levels));
@@ -155,7 +155,7 @@ TextureRecord record_texture(const CliqueModel& model, const TextureParameters& 
 
 Grid<Rgb8> make_window(const CliqueModel& model, const TextureRecord& record, PixelRect window, const TextureParameters& parameters,
                        Progress& progress) {
-  check_size(window.width(), window.height());
+  check_texture_size(window.width(), window.height());
   const PixelRect tiles{tile_below(window.x0), tile_below(window.y0), tile_below(window.x1 - 1) + 1, tile_below(window.y1 - 1) + 1};
   constexpr int side = endless_tile_px + 2 * endless_margin_px;
   progress.begin("making a window", work_of(std::int64_t{side} * side, model.levels) * tiles.width() * tiles.height());
@@ -228,7 +228,7 @@ void meet_border(BandPicture& made, const BandSpace& space) {
 Grid<Rgb8> fill_texture(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& hole, const CliqueModel& model,
                         const TextureParameters& parameters, Progress& progress) {
   if (!hole.same_size(picture)) throw Error(ErrorKind::bug, "fill_texture", "picture and hole have different sizes");
-  check_size(picture.width(), picture.height());
+  check_texture_size(picture.width(), picture.height());
   PixelRect box{picture.width(), picture.height(), 0, 0};
   for (int y = 0; y < hole.height(); ++y)
     for (int x = 0; x < hole.width(); ++x)

@@ -30,6 +30,7 @@ struct TextureRecord {
 Grid<Rgb8> make_texture(const CliqueModel& model, int width, int height, const TextureParameters& parameters,
                         Progress& progress = silent_progress());
 inline constexpr std::int64_t most_texture_pixels = std::int64_t{1} << 26;
+void check_texture_size(std::int64_t width, std::int64_t height);
 
 // A texture in the making whose model grows: what learning looks at.
 class TextureTrial {

@@ -1,0 +1,102 @@
+#include "texture/statistical/make_label_map.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/noise.h"
+#include "base/parallel.h"
+
+namespace belvedere {
+namespace {
+
+// Ragged patches of two labels and, in them, of a third.
+Grid<std::uint8_t> patches(int side, std::uint64_t seed) {
+  Grid<std::uint8_t> map(side, side);
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      const double wide = gaussian_noise(seed, x, y, 12.0) + .25 * gaussian_noise(seed + 1, x, y, 2.0);
+      map(x, y) = wide > 1.1 ? 2 : wide > 0.0 ? 1 : 0;
+    }
+  return map;
+}
+
+Grid<std::uint8_t> stripes(int width, int height) {
+  Grid<std::uint8_t> map(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) map(x, y) = static_cast<std::uint8_t>(3 * y / height);
+  return map;
+}
+
+double share_in_rows(const Grid<std::uint8_t>& map, int y0, int y1, int label) {
+  double n = 0.0;
+  for (int y = y0; y < y1; ++y)
+    for (int x = 0; x < map.width(); ++x) n += map(x, y) == label ? 1.0 : 0.0;
+  return n / (map.width() * (y1 - y0));
+}
+
+TEST(MakeLabelMap, PatchesComeNearInPairsAndBorders) {
+  const LabelMapModel model = learn_label_map(patches(192, 5), 3);
+  const LabelMapFigures with = label_map_figures(model, make_label_map(model, 192, 192, {}));
+  // What another piece of the same pattern differs by: the floor that nature sets.
+  const LabelMapFigures floor = label_map_figures(model, patches(192, 77));
+  EXPECT_LT(with.pairs, .5 * floor.pairs);
+  EXPECT_LT(with.rings, .5 * floor.rings);
+  const auto wanted = border_shares(model);
+  for (std::size_t s = 0; s < label_scales; ++s) EXPECT_NEAR(with.borders[s] / wanted[s], 1.0, .08) << s;
+  // Pairs alone leave open how borders run.
+  const LabelMapFigures without = label_map_figures(model, make_label_map(model, 192, 192, {.rings = false}));
+  EXPECT_GT(without.rings, 1.3 * with.rings);
+}
+
+TEST(MakeLabelMap, AMapOfTwiceTheSizeHasTheSamePairs) {
+  const LabelMapModel model = learn_label_map(patches(160, 8), 3);
+  const LabelMapFigures off = label_map_figures(model, make_label_map(model, 320, 320, {.effort = .6}));
+  EXPECT_LT(off.pairs, .05);
+}
+
+TEST(MakeLabelMap, StripesKeepTopAndBottom) {
+  const LabelMapModel model = learn_label_map(stripes(96, 96), 3);
+  for (const int height : {96, 180}) {
+    const Grid<std::uint8_t> map = make_label_map(model, 100, height, {.effort = .5});
+    EXPECT_GT(share_in_rows(map, 0, height / 4, 0), .98);
+    EXPECT_GT(share_in_rows(map, 5 * height / 12, 7 * height / 12, 1), .9);
+    EXPECT_GT(share_in_rows(map, 3 * height / 4, height, 2), .98);
+  }
+}
+
+// Clouds in one band of a sky. Pairs alone know that it is a band, and what lies at the edges of the map, but not where in between.
+TEST(MakeLabelMap, LayoutIsKeptOfWhatCouldLieAnywhere) {
+  Grid<std::uint8_t> crop = patches(192, 21);
+  for (int y = 0; y < 192; ++y)
+    for (int x = 0; x < 192; ++x) crop(x, y) = y >= 40 && y < 80 && crop(x, y) > 0 ? 1 : 0;
+  const LabelMapModel model = learn_label_map(crop, 2);
+  const double there = share_in_rows(crop, 45, 75, 1);
+  const Grid<std::uint8_t> with = make_label_map(model, 192, 192, {.effort = .5});
+  EXPECT_NEAR(share_in_rows(with, 45, 75, 1), there, .2 * there);
+  EXPECT_LT(share_in_rows(with, 100, 160, 1), .05);
+  const Grid<std::uint8_t> without = make_label_map(model, 192, 192, {.seed = 2, .layout = false, .effort = .5});
+  EXPECT_GT(share_in_rows(without, 100, 160, 1), .15);
+}
+
+TEST(MakeLabelMap, ThreadsChangeNothingAndSeedsDo) {
+  const LabelMapModel model = learn_label_map(patches(96, 3), 3);
+  const LabelMapParameters quick{.effort = .2};
+  Grid<std::uint8_t> one;
+  {
+    const ThreadLimit limit(1);
+    one = make_label_map(model, 101, 75, quick);
+  }
+  const ThreadLimit limit(2);
+  EXPECT_EQ(make_label_map(model, 101, 75, quick), one);
+  EXPECT_NE(make_label_map(model, 101, 75, {.seed = 2, .effort = .2}), one);
+}
+
+TEST(MakeLabelMap, SmallAndLargeSizesAreLimited) {
+  const LabelMapModel model = learn_label_map(patches(64, 3), 3);
+  EXPECT_EQ(make_label_map(model, 3, 1, {.effort = .2}).width(), 3);
+  EXPECT_THROW(make_label_map(model, 0, 5, {}), Error);
+  EXPECT_THROW(make_label_map(model, 1 << 14, 1 << 14, {}), Error);
+}
+
+}  // namespace
+}  // namespace belvedere
