@@ -10,11 +10,13 @@
 
 #include "base/error.h"
 #include "base/grid_part.h"
+#include "texture/statistical/label_borders.h"
 
 namespace belvedere {
 namespace {
 
 constexpr int border_px = 32;       // made around a texture and cut off
+constexpr int under_mask_px = 16;   // made around a mask: two pixels of the coarsest level
 constexpr int settling_rounds = 4;  // at the end of a level, without momentum
 constexpr int record_px = 256;
 constexpr int around_hole_px = 64;    // of the picture that a hole's paint is fitted to
@@ -145,6 +147,32 @@ Grid<Rgb8> make_texture(const CliqueModel& model, int width, int height, const T
   progress.begin("making a texture", work_of(std::int64_t{wide} * high, model.levels));
   const BandPicture made = run(model, empty_pyramid(wide, high, model.levels), {}, parameters, {}, progress);
   return part_of(to_picture(made, model.bands), {border_px, border_px, border_px + width, border_px + height});
+}
+
+Grid<Rgb8> make_texture_under(const CliqueModel& model, const Grid<std::uint8_t>& mask, const TextureParameters& parameters,
+                              Progress& progress) {
+  check_texture_size(mask.width(), mask.height());
+  PixelRect box{mask.width(), mask.height(), 0, 0};
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x)
+      if (mask(x, y) != 0) box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1), std::max(box.y1, y + 1)};
+  Grid<Rgb8> out(mask.width(), mask.height());
+  if (box.empty()) return out;
+  // Wholes of the pyramid's cells, so that these lie where they do under any other mask.
+  const int cell = 1 << model.levels;
+  const auto down = [cell](int at) { return (at >= 0 ? at / cell : -((cell - 1 - at) / cell)) * cell; };
+  const PixelRect around{down(box.x0 - border_px), down(box.y0 - border_px), box.x1 + border_px, box.y1 + border_px};
+  Grid<std::uint8_t> wide(around.width(), around.height());
+  for (int y = 0; y < wide.height(); ++y)
+    for (int x = 0; x < wide.width(); ++x) wide(x, y) = mask.clamped(around.x0 + x, around.y0 + y);
+  BandPicture finest(around.width(), around.height());
+  wide = widened(wide, under_mask_px);
+  for (std::size_t i = 0; i < wide.size(); ++i) finest.states[i] = wide[i] != 0 ? pixel_free : std::uint8_t{0};
+  progress.begin("making a texture", work_of(static_cast<std::int64_t>(wide.size()), model.levels));
+  const BandPicture made = run(model, make_pyramid(std::move(finest), model.levels), {around.x0, around.y0}, parameters, {}, progress);
+  const Grid<Rgb8> picture = to_picture(made, model.bands);
+  for (int y = box.y0; y < box.y1; ++y) std::copy_n(picture.row(y - around.y0) + (box.x0 - around.x0), box.width(), out.row(y) + box.x0);
+  return out;
 }
 
 TextureRecord record_texture(const CliqueModel& model, const TextureParameters& parameters) {

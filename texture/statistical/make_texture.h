@@ -32,6 +32,11 @@ Grid<Rgb8> make_texture(const CliqueModel& model, int width, int height, const T
 inline constexpr std::int64_t most_texture_pixels = std::int64_t{1} << 26;
 void check_texture_size(std::int64_t width, std::int64_t height);
 
+// As make_texture, but only where `mask` is not 0 and as far around it as its pyramid needs, which is what it costs; other pixels mean
+// nothing. The mask may be thin: what is around is made along.
+Grid<Rgb8> make_texture_under(const CliqueModel& model, const Grid<std::uint8_t>& mask, const TextureParameters& parameters,
+                              Progress& progress = silent_progress());
+
 // A texture in the making whose model grows: what learning looks at.
 class TextureTrial {
  public:

@@ -118,9 +118,7 @@ std::string model_text(const CliqueModel& model) {
   return out;
 }
 
-namespace {
-
-CliqueModel model_of(const ConfigValue& root, const std::string& name) {
+CliqueModel parse_model(const ConfigValue& root, const std::string& name) {
   const ConfigValue* of = root.is_table() ? find(as_table(root, name), "belvedere_texture") : nullptr;
   if (of == nullptr) throw Error(ErrorKind::usage, name, "no texture model", "a file that `belvedere texture learn` wrote");
   if (const std::int64_t found = as_integer(*of, name); found != version)
@@ -157,9 +155,7 @@ CliqueModel model_of(const ConfigValue& root, const std::string& name) {
   return model;
 }
 
-}  // namespace
-
-CliqueModel parse_model(const std::string& text, const std::string& name) { return model_of(parse_config(text, name), name); }
-CliqueModel read_model(const std::string& path) { return model_of(read_config(path), path); }
+CliqueModel parse_model(const std::string& text, const std::string& name) { return parse_model(parse_config(text, name), name); }
+CliqueModel read_model(const std::string& path) { return parse_model(read_config(path), path); }
 
 }  // namespace belvedere

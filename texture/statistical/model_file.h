@@ -6,6 +6,8 @@
 
 namespace belvedere {
 
+struct ConfigValue;
+
 // A model as a small text: TOML, and in it the clique types as base64. It reads back to the same bits.
 std::string model_text(const CliqueModel& model);
 
@@ -13,5 +15,7 @@ std::string model_text(const CliqueModel& model);
 // that are cut off or that no picture can have. `read_model` also Error(input) where the file is missing.
 CliqueModel parse_model(const std::string& text, const std::string& name);
 CliqueModel read_model(const std::string& path);
+// From a table within a larger document of that name.
+CliqueModel parse_model(const ConfigValue& table, const std::string& name);
 
 }  // namespace belvedere

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "tests/texture/statistical/texture_crops.h"
+#include "texture/statistical/learn_composite.h"
+
+// A crop of two made-up textures, of which is known where each is: meadow above, grey stripes below a ragged border.
+namespace belvedere::test {
+
+struct Composite {
+  Grid<Rgb8> picture;
+  Grid<std::uint8_t> labels;
+  std::vector<std::string> names = {"#008000", "#808080"};
+
+  LabelledCrop crop() const { return {picture, none, labels, names}; }
+  Grid<std::uint8_t> none{};
+};
+
+inline Composite two_textures(int width, int height) {
+  Composite out{striped_crop(width, height, 8), Grid<std::uint8_t>(width, height)};
+  const Grid<Rgb8> meadow = meadow_crop(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const double border = .5 * height + 5.0 * gaussian_noise(4, x, 0, 6.0, 1.0);
+      out.labels(x, y) = y < border ? 0 : 1;
+      if (out.labels(x, y) == 0) out.picture(x, y) = meadow(x, y);
+    }
+  return out;
+}
+
+// Few types, no choice of seeds: what tests need.
+inline CompositeParameters quick_learning() {
+  CompositeParameters parameters;
+  parameters.learn.types = 16;
+  parameters.learn.levels = 1;
+  parameters.learn.rounds = 6;
+  parameters.choose = false;
+  return parameters;
+}
+
+}  // namespace belvedere::test

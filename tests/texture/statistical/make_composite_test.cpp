@@ -1,0 +1,119 @@
+#include "texture/statistical/make_composite.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "tests/texture/statistical/composite_crops.h"
+#include "texture/statistical/make_label_map.h"
+
+namespace belvedere {
+namespace {
+
+const CompositeModel& model() {
+  static const CompositeModel m = learn_composite(test::two_textures(200, 150).crop(), test::quick_learning());
+  return m;
+}
+
+const TextureParameters quick{.rounds = 8, .sweeps = 3};
+
+Grid<std::uint8_t> drawn(int width, int height) {
+  Grid<std::uint8_t> labels(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) labels(x, y) = (x - 50) * (x - 50) + (y - 40) * (y - 40) < 900 ? 1 : 0;
+  return labels;
+}
+
+// Green counts as meadow, grey as stripes.
+bool is_green(const Rgb8& c) { return c[1] > c[2] + 25; }
+
+TEST(MakeComposite, EveryLabelHasItsOwnTexture) {
+  const Grid<std::uint8_t> labels = drawn(120, 90);
+  const Grid<Rgb8> made = make_composite(model(), labels, quick);
+  const Grid<std::uint8_t> zone = near_borders(labels, remade_border_px);
+  int wrong = 0;
+  for (std::size_t i = 0; i < made.size(); ++i) wrong += zone[i] == 0 && is_green(made[i]) != (labels[i] == 0) ? 1 : 0;
+  EXPECT_LE(wrong, 5);  // of ten thousand, at the tails of greens
+}
+
+TEST(MakeComposite, TheTransitionChangesBordersAlone) {
+  const Grid<std::uint8_t> labels = drawn(110, 90);
+  CompositeModel hard = model();
+  hard.transition.reset();
+  const Grid<Rgb8> with = make_composite(model(), labels, quick);
+  const Grid<Rgb8> without = make_composite(hard, labels, quick);
+  const Grid<std::uint8_t> zone = near_borders(labels, remade_border_px);
+  int changed = 0;
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    if (zone[i] == 0) {
+      EXPECT_EQ(with[i], without[i]);
+    }
+    changed += with[i] != without[i] ? 1 : 0;
+  }
+  EXPECT_GT(changed, 300);
+}
+
+TEST(MakeComposite, ThreadsChangeNothing) {
+  const Grid<std::uint8_t> labels = make_label_map(model().map, 90, 70, {.effort = .2});
+  Grid<Rgb8> one;
+  {
+    const ThreadLimit limit(1);
+    one = make_composite(model(), labels, quick);
+  }
+  const ThreadLimit limit(2);
+  EXPECT_EQ(make_composite(model(), labels, quick), one);
+}
+
+TEST(MakeComposite, ThinLabelsAreStillOfTheirTexture) {
+  Grid<std::uint8_t> labels(100, 60);
+  for (int x = 0; x < 100; ++x) labels(x, 30) = labels(x, 31) = 1;
+  CompositeModel hard = model();
+  hard.transition.reset();
+  const Grid<Rgb8> made = make_composite(hard, labels, quick);
+  int grey = 0;
+  int low = 255;
+  int high = 0;
+  for (int x = 0; x < 100; ++x) {
+    grey += is_green(made(x, 30)) ? 0 : 1;
+    low = std::min<int>(low, made(x, 30)[0]);
+    high = std::max<int>(high, made(x, 30)[0]);
+  }
+  EXPECT_EQ(grey, 100);
+  EXPECT_LT(low, 90);  // both shades of the stripes
+  EXPECT_GT(high, 170);
+}
+
+TEST(MakeComposite, OneLabelAloneAndUnknownOnes) {
+  EXPECT_EQ(make_composite(model(), Grid<std::uint8_t>(40, 30), quick).width(), 40);
+  EXPECT_THROW(make_composite(model(), Grid<std::uint8_t>(40, 30, 2), quick), Error);
+}
+
+// Red left, blue right, green far away: a violet between red and blue becomes one of the two, whichever is nearer, a reddish one stays.
+TEST(SnapColours, TakesColoursOfTheTwoSides) {
+  constexpr Rgb8 red{200, 20, 20};
+  constexpr Rgb8 blue{20, 20, 200};
+  constexpr Rgb8 green{100, 120, 100};
+  Grid<std::uint8_t> labels(60, 20);
+  Grid<Rgb8> picture(60, 20);
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 60; ++x) {
+      labels(x, y) = static_cast<std::uint8_t>(x / 20);
+      picture(x, y) = x < 20 ? red : x < 40 ? blue : green;
+    }
+  Grid<std::uint8_t> zone(60, 20);
+  zone(19, 10) = zone(20, 10) = zone(18, 4) = zone(21, 4) = 1;
+  picture(19, 10) = {105, 110, 120};  // nearest to green, which is not near
+  picture(20, 10) = {90, 20, 140};
+  picture(18, 4) = {205, 16, 22};  // within a cell of red
+  picture(21, 4) = {130, 20, 90};
+  const Grid<Rgb8> before = picture;
+  snap_colours(picture, labels, zone, 3);
+  EXPECT_TRUE(picture(19, 10) == red || picture(19, 10) == blue);
+  EXPECT_EQ(picture(20, 10), blue);
+  EXPECT_EQ(picture(18, 4), before(18, 4));
+  EXPECT_EQ(picture(21, 4), red);
+  EXPECT_EQ(picture(5, 5), red);
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/grid.h"
+#include "texture/statistical/clique_model.h"
+#include "texture/statistical/label_map.h"
+
+namespace belvedere {
+
+// A texture of textures (Zalesny et al. 2005): a map of labels, a texture for each label, and one for what lies along their borders.
+struct CompositeLabel {
+  std::string name;  // what stands for it in label pictures: "#0000ff", or a number
+  CliqueModel model;
+};
+
+struct CompositeModel {
+  LabelMapModel map;
+  std::vector<CompositeLabel> labels;
+  std::optional<CliqueModel> transition;  // none where the crop's borders are too short to learn from
+
+  // What is told of the crop, and changes nothing that is made.
+  std::string crop_hash;
+};
+
+// A model as a text: TOML with the texture models in tables of their own. It reads back to the same bits.
+std::string composite_text(const CompositeModel& model);
+
+// Error(usage) with file and line for what is no composite: keys missing or unknown, another version, tables that are cut off, no shares,
+// or of another number of labels. `read_composite` also Error(input) where the file is missing.
+CompositeModel parse_composite(const std::string& text, const std::string& name);
+CompositeModel read_composite(const std::string& path);
+
+}  // namespace belvedere

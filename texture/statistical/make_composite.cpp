@@ -1,0 +1,133 @@
+#include "texture/statistical/make_composite.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "texture/statistical/label_borders.h"
+
+namespace belvedere {
+namespace {
+
+// Colours that a label has, in cells of 8 × 8 × 8 levels.
+class ColourSet {
+ public:
+  ColourSet() : known_(cells * cells * cells, 0U) {}
+
+  void add(const Rgb8& colour) {
+    Cell& cell = cells_at(colour);
+    for (std::size_t c = 0; c < 3; ++c) cell.sum[c] += colour[c];
+    ++cell.count;
+  }
+  // After the last: which cells count, with those beside them.
+  void finish() {
+    constexpr std::uint32_t least = 2;  // pixels of a colour that is no accident
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      const Cell& cell = sums_[i];
+      if (cell.count < least) continue;
+      Rgb8 mean{};
+      for (std::size_t c = 0; c < 3; ++c) mean[c] = static_cast<std::uint8_t>((cell.sum[c] + cell.count / 2) / cell.count);
+      means_.push_back(mean);
+      for_neighbours(i, [&](std::size_t n) { known_[n] = 1; });
+    }
+    sums_.clear();
+  }
+  bool has(const Rgb8& colour) const { return known_[cell_of(colour)] != 0; }
+  const std::vector<Rgb8>& colours() const { return means_; }
+
+ private:
+  struct Cell {
+    std::array<std::uint64_t, 3> sum{};
+    std::uint32_t count = 0;
+  };
+  static constexpr std::size_t cells = 32;
+
+  static std::size_t cell_of(const Rgb8& c) {
+    return (static_cast<std::size_t>(c[0]) >> 3) +
+           cells * ((static_cast<std::size_t>(c[1]) >> 3) + cells * (static_cast<std::size_t>(c[2]) >> 3));
+  }
+  Cell& cells_at(const Rgb8& colour) { return sums_[cell_of(colour)]; }
+  template <class F>
+  static void for_neighbours(std::size_t cell, F&& f) {
+    const auto side = static_cast<int>(cells);
+    const int x = static_cast<int>(cell % cells);
+    const int y = static_cast<int>(cell / cells % cells);
+    const int z = static_cast<int>(cell / (cells * cells));
+    for (int w = std::max(0, z - 1); w <= std::min(side - 1, z + 1); ++w)
+      for (int v = std::max(0, y - 1); v <= std::min(side - 1, y + 1); ++v)
+        for (int u = std::max(0, x - 1); u <= std::min(side - 1, x + 1); ++u) f(static_cast<std::size_t>(u + side * (v + side * w)));
+  }
+
+  std::vector<Cell> sums_ = std::vector<Cell>(cells * cells * cells);
+  std::vector<std::uint8_t> known_;
+  std::vector<Rgb8> means_;
+};
+
+int distance_squared(const Rgb8& a, const Rgb8& b) {
+  int sum = 0;
+  for (std::size_t c = 0; c < 3; ++c) sum += (int{a[c]} - int{b[c]}) * (int{a[c]} - int{b[c]});
+  return sum;
+}
+
+}  // namespace
+
+void snap_colours(Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& zone, int reach) {
+  const int count = 1 + *std::max_element(labels.begin(), labels.end());
+  std::vector<ColourSet> sets(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < picture.size(); ++i)
+    if (zone[i] == 0) sets[labels[i]].add(picture[i]);
+  for (ColourSet& set : sets) set.finish();
+  parallel_rows(picture.height(), [&](int y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      if (zone(x, y) == 0) continue;
+      std::uint32_t here = 0;
+      for (int v = std::max(0, y - reach); v <= std::min(labels.height() - 1, y + reach); ++v)
+        for (int u = std::max(0, x - reach); u <= std::min(labels.width() - 1, x + reach); ++u) here |= 1U << labels(u, v);
+      Rgb8& colour = picture(x, y);
+      const Rgb8* nearest = nullptr;
+      int least = 0;
+      bool known = false;
+      for (int label = 0; label < count && !known; ++label) {
+        if ((here >> label & 1U) == 0) continue;
+        const ColourSet& set = sets[static_cast<std::size_t>(label)];
+        known = set.has(colour);
+        if (known) break;
+        for (const Rgb8& c : set.colours())
+          if (const int d = distance_squared(c, colour); nearest == nullptr || d < least) {
+            nearest = &c;
+            least = d;
+          }
+      }
+      if (!known && nearest != nullptr) colour = *nearest;
+    }
+  });
+}
+
+Grid<Rgb8> make_composite(const CompositeModel& model, const Grid<std::uint8_t>& labels, const TextureParameters& parameters,
+                          Progress& progress) {
+  check_texture_size(labels.width(), labels.height());
+  Grid<Rgb8> out(labels.width(), labels.height());
+  std::vector<std::uint8_t> there(256, 0U);
+  for (const std::uint8_t label : labels) there[label] = 1;
+  for (std::size_t label = model.labels.size(); label < there.size(); ++label)
+    if (there[label] != 0) throw Error(ErrorKind::bug, "make_composite", "a label that the model has not");
+  for (std::size_t label = 0; label < model.labels.size(); ++label) {
+    if (there[label] == 0) continue;
+    Grid<std::uint8_t> mask(labels.width(), labels.height());
+    for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = labels[i] == label ? 1 : 0;
+    const Grid<Rgb8> made = make_texture_under(model.labels[label].model, mask, parameters, progress);
+    for (std::size_t i = 0; i < mask.size(); ++i)
+      if (mask[i] != 0) out[i] = made[i];
+  }
+  if (!model.transition) return out;
+  const Grid<std::uint8_t> zone = near_borders(labels, remade_border_px);
+  if (std::none_of(zone.begin(), zone.end(), [](std::uint8_t z) { return z != 0; })) return out;
+  out = fill_texture(out, zone, *model.transition, parameters, progress);
+  snap_colours(out, labels, zone, remade_border_px);
+  return out;
+}
+
+}  // namespace belvedere
