@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace belvedere {
+
+// How much each pair of things wants to be together (positive) or apart (negative): symmetric, the diagonal counts nowhere.
+class PairWeights {
+ public:
+  explicit PairWeights(std::size_t count) : count_(count), weight_(count * count, 0.0) {}
+  std::size_t count() const { return count_; }
+  double operator()(std::size_t a, std::size_t b) const { return weight_[a * count_ + b]; }
+  void set(std::size_t a, std::size_t b, double weight) { weight_[a * count_ + b] = weight_[b * count_ + a] = weight; }
+
+ private:
+  std::size_t count_;
+  std::vector<double> weight_;
+};
+
+// The group of each thing, from 0 in the order in which groups are met.
+using Partition = std::vector<std::uint16_t>;
+
+// Numbers groups anew in the order in which they are met.
+Partition in_order(const Partition& groups);
+
+// Sum of the weights of all pairs that share a group.
+double partition_objective(const PairWeights& weights, const Partition& groups);
+
+// Clique partitioning (Grötschel & Wakabayashi 1989): groups, as many as there happen to be, with a high objective. Which is the highest is
+// NP-hard to find; here the two groups with the largest mean weight between them are joined while that is positive, then single things
+// move to the group that gains most until none gains. Ties go to the lower numbers, so the same weights give the same groups; at most
+// 65,535 things.
+Partition partition_cliques(const PairWeights& weights);
+
+// Both steps for themselves. The moves start from any partition and never lower the objective.
+Partition join_by_mean_weight(const PairWeights& weights);
+Partition move_singly(const PairWeights& weights, const Partition& start);
+
+}  // namespace belvedere
