@@ -11,6 +11,7 @@ std::vector<PaintedExemplar> make_exemplars(const LoadedScene& loaded, const Vie
   const Scene& scene = loaded.scene;
   std::vector<PaintedExemplar> exemplars;
   for (std::size_t i = 0; i < scene.exemplars.size(); ++i) {
+    if (!scene.exemplars[i].model.empty()) continue;
     if (scene.exemplars[i].picture.empty())
       exemplars.push_back(paint_example_sheet(scene.exemplars[i], scene, view, palette, progress, cache));
     else if (i < scans.size() && !scans[i].painted.picture.empty())
@@ -24,13 +25,18 @@ ExemplarClasses look_at_classes(const LoadedScene& loaded, const View& view, con
                                 const std::vector<ScannedPainting>& scans, Progress& progress, const Cache& cache) {
   const Scene& scene = loaded.scene;
   ExemplarClasses found;
+  std::vector<std::string> models;
   const auto add_sheet = [&](const SceneExemplar& settings) {
     found.names.emplace_back(example_sheet_name);
     for (const LandCoverClass id : classes_of_example_sheet(settings, scene, view, palette, progress, cache))
       found.offered[static_cast<std::size_t>(id)] = true;
   };
   for (std::size_t i = 0; i < scene.exemplars.size(); ++i) {
-    if (scene.exemplars[i].picture.empty()) {
+    if (!scene.exemplars[i].model.empty()) {
+      if (find_scene_file(loaded, scene.exemplars[i].model).empty()) continue;
+      models.push_back(scene.exemplars[i].model);
+      for (const LandCoverClass id : scene.exemplars[i].serves) found.offered[static_cast<std::size_t>(id)] = true;
+    } else if (scene.exemplars[i].picture.empty()) {
       add_sheet(scene.exemplars[i]);
     } else if (i < scans.size() && !scans[i].painted.picture.empty()) {
       found.names.push_back(scans[i].painted.exemplar.name);
@@ -39,6 +45,7 @@ ExemplarClasses look_at_classes(const LoadedScene& loaded, const View& view, con
     }
   }
   if (found.names.empty()) add_sheet({});
+  found.names.insert(found.names.end(), models.begin(), models.end());
   return found;
 }
 

@@ -17,11 +17,13 @@
 #include "renderer/exemplar/painting_tone.h"
 #include "renderer/exemplar/seam_picture.h"
 #include "renderer/exemplar/shadow_texels.h"
+#include "renderer/exemplar/texture_models.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/oklab.h"
 #include "renderer/paint/composite.h"
 #include "renderer/paint/guides.h"
+#include "texture/statistical/model_file.h"
 
 namespace belvedere {
 namespace {
@@ -277,10 +279,18 @@ std::vector<ScannedPainting> read_scans(const LoadedScene& scene, Progress& prog
   std::vector<ScannedPainting> scans(paintings.size());
   for (std::size_t i = 0; i < paintings.size(); ++i)
     if (!raws[i].picture.empty()) scans[i] = finish_scan(paintings[i], std::move(raws[i]), scene.scene.synthesis.residual, progress);
+  // A model has no texels, but colours.
+  for (std::size_t i = 0; i < paintings.size(); ++i) {
+    const std::string path = paintings[i].model.empty() ? std::string() : find_scene_file(scene, paintings[i].model);
+    if (path.empty()) continue;
+    const LabelRamps ramps = model_ramps(read_model(path));
+    for (const LandCoverClass id : paintings[i].serves) scans[i].ramps[static_cast<std::size_t>(id)] = ramps;
+  }
   return scans;
 }
 
 void check_paintings(const LoadedScene& scene) {
+  read_texture_models(scene);
   for (const SceneExemplar& settings : scene.scene.exemplars) {
     const std::string path = settings.picture.empty() ? std::string() : find_scene_file(scene, settings.picture);
     if (path.empty()) continue;

@@ -42,6 +42,19 @@ glm::vec3 softly(glm::vec3 d, float most) {
   return d / glm::sqrt(1.0F + x * x);
 }
 
+// A texel of another place as paint of this one (transfer_residual): its base is null where nobody knows it.
+glm::vec3 carried_over(glm::vec3 texel, const glm::vec3* its_base, glm::vec3 base, double residual, LandCoverClass shown) {
+  if (its_base == nullptr) return texel;
+  if (has_trait(shown, ClassTrait::icy)) return base + softly(texel - *its_base, snow_strokes_most);
+  const auto r = static_cast<float>(shown == LandCoverClass::rock ? std::max(residual, rock_residual) : residual);
+  return texel + r * (base - *its_base);
+}
+
+glm::vec3 below_air(glm::vec3 paint, glm::vec3 base, const Grid<float>& haze, std::size_t i) {
+  if (!haze.empty()) paint = glm::mix(paint, base, std::clamp(haze[i], 0.0F, 1.0F));
+  return glm::clamp(paint, 0.0F, 1.0F);
+}
+
 }  // namespace
 
 Image decode_srgb(const Grid<glm::vec3>& encoded) { return map_channels(encoded, srgb_decoded_fast); }
@@ -73,19 +86,27 @@ Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<P
         throw Error(ErrorKind::input, "match field", "a match outside the exemplars");
       }
       const PaintedExemplar& e = exemplars[m.exemplar];
-      const bool bare = !shown.empty() && shown(x, y) == LandCoverClass::rock;
-      const bool snowy = !shown.empty() && has_trait(shown(x, y), ClassTrait::icy);
-      const auto r = static_cast<float>(bare ? std::max(residual, rock_residual) : residual);
-      glm::vec3 v = e.picture(m.x, m.y);
-      if (snowy && !e.base.empty())
-        v = target_base(x, y) + softly(v - e.base(m.x, m.y), snow_strokes_most);
-      else if (!e.base.empty())
-        v += r * (target_base(x, y) - e.base(m.x, m.y));
-      if (!target_haze.empty()) v = glm::mix(v, target_base(x, y), std::clamp(target_haze(x, y), 0.0F, 1.0F));
-      out(x, y) = glm::clamp(v, 0.0F, 1.0F);
+      const glm::vec3* its_base = e.base.empty() ? nullptr : &e.base(m.x, m.y);
+      const LandCoverClass id = shown.empty() ? LandCoverClass::sky : shown(x, y);
+      const glm::vec3 paint = carried_over(e.picture(m.x, m.y), its_base, target_base(x, y), residual, id);
+      out(x, y) = below_air(paint, target_base(x, y), target_haze, out.index(x, y));
     }
   });
   return out;
+}
+
+void lay_model_paint(Grid<glm::vec3>& picture, const ModelPaint& paint, const Grid<glm::vec3>& target_base, const Grid<float>& target_haze,
+                     double residual, const Grid<LandCoverClass>& shown) {
+  if (!picture.same_size(paint.made) || !picture.same_size(target_base) || !picture.same_size(shown))
+    throw Error(ErrorKind::bug, "composite", "the picture and its model paint have different sizes");
+  parallel_rows(picture.height(), [&](int y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const std::size_t i = picture.index(x, y);
+      if (paint.made[i] == 0) continue;
+      picture[i] =
+          below_air(carried_over(paint.texel[i], &paint.base[i], target_base[i], residual, shown[i]), target_base[i], target_haze, i);
+    }
+  });
 }
 
 Grid<glm::vec3> mix_borders(const Grid<glm::vec3>& copied, const Painting& draft, const Grid<LandCoverClass>& shown,

@@ -32,6 +32,17 @@ Grid<glm::vec3> transfer_residual(const MatchField& matches, const std::vector<P
                                   const Grid<glm::vec3>& target_base, const Grid<float>& target_haze, double residual,
                                   const Grid<LandCoverClass>& shown = {});
 
+// What a texture model made of a picture's pixels, and its own light, which the residual takes away: as an exemplar's texel and base, at
+// the pixel itself. Only where `made` is not 0. All of the picture's size.
+struct ModelPaint {
+  Grid<std::uint8_t> made;
+  Grid<glm::vec3> texel;  // encoded sRGB
+  Grid<glm::vec3> base;
+};
+// The same law for paint of a model: the pixels of `picture` (transfer_residual's) where it was made.
+void lay_model_paint(Grid<glm::vec3>& picture, const ModelPaint& paint, const Grid<glm::vec3>& target_base, const Grid<float>& target_haze,
+                     double residual, const Grid<LandCoverClass>& shown);
+
 // Borders of classes as strokes leave them. A texel is of one class, and a picture of texels alone is torn like paper where classes meet.
 // Where in `draft` two classes share a pixel, the other one's paint is mixed in by its share, in the colour of the place its stroke grew
 // from: that of `copied` where this shows the same class, else that of `base` (the target's, of no hand). Pixels of one class alone stay as

@@ -9,7 +9,9 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "base/random_streams.h"
 #include "renderer/exemplar/exemplars.h"
+#include "renderer/exemplar/texture_models.h"
 #include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/rock/crest_shift.h"
 #include "renderer/rock/rock_relief.h"
@@ -38,6 +40,36 @@ void note_scarcity(const std::vector<Exemplar>& exemplars, const GuideStack& gui
     return std::string(class_name(static_cast<LandCoverClass>(label)));
   });
   if (!scarcity.empty()) progress.note(scarcity);
+}
+
+// Which classes are painted from models, a byte each behind the plan's own where a scene names models.
+void add_models(std::string& packed, const GroundModels& models) {
+  for (const std::uint8_t model : models.of_class) packed += static_cast<char>(model);
+}
+void take_models(std::string& packed, GroundModels& models, std::size_t count) {
+  if (packed.size() < models.of_class.size()) throw Error(ErrorKind::input, "plan", "it is cut off", "the plan as it was written");
+  for (std::size_t i = 0; i < models.of_class.size(); ++i) {
+    const auto model = static_cast<std::uint8_t>(packed[packed.size() - models.of_class.size() + i]);
+    if (model != GroundModels::none && model >= count)
+      throw Error(ErrorKind::input, "plan", "a model that the scene lacks", "this scene's plan");
+    models.of_class[i] = model;
+  }
+  packed.resize(packed.size() - models.of_class.size());
+}
+
+// What windows of the models that are used are made with.
+void make_records(GroundModels& models, std::vector<SceneTextureModel> read, std::uint64_t seed, Progress& progress) {
+  if (!models.any()) return;
+  progress.begin("preparing texture models", static_cast<double>(read.size()));
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    GroundModel& of = models.models.emplace_back();
+    of.model = std::move(read[i].model);
+    of.light_px = read[i].light_px;
+    of.seed = stream_seed(seed, Stream::statistical_noise, 1000 + i);
+    const bool used = std::find(models.of_class.begin(), models.of_class.end(), i) != models.of_class.end();
+    if (used) of.record = record_texture(of.model, {.seed = of.seed});
+    progress.advance(1.0);
+  }
 }
 
 // What synthesis compares is in its plan; pictures are still copied from.
@@ -119,10 +151,15 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
   for (const PaintedExemplar& painted : plan.exemplars) copied_from.push_back(painted.exemplar);
   const SynthesisParameters parameters = to_synthesis_parameters(world.scene);
   const glm::ivec2 sheet = world.camera->size();
+  std::vector<SceneTextureModel> models = read_texture_models(loaded);
+  const auto unpack = [&](std::string packed) {
+    if (!models.empty()) take_models(packed, plan.models, models.size());
+    if (!plan.synthesis) plan.synthesis = unpack_plan({packed.begin(), packed.end()}, copied_from);
+  };
   if (work.has_bytes(plan_name)) {
-    const std::string bytes = work.read_bytes(plan_name);
-    plan.synthesis = unpack_plan({bytes.begin(), bytes.end()}, copied_from);
+    unpack(work.read_bytes(plan_name));
     forget_compared(plan.exemplars);
+    make_records(plan.models, std::move(models), world.scene.seed, run.progress);
     return plan;
   }
   const SynthesisSheet division = divide_sheet(sheet.x, sheet.y, std::llround(world.scene.synthesis.plan_mpx * 1e6));
@@ -135,20 +172,28 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
       SheetGround small(world, view, paint.palette, place, told, choose_tile_px(world.scene, view.pixels_per_unit));
       return small.read_guides(small.sheet());
     };
-    const GuideStack guides = division.level == 0 ? ground.read_guides(ground.sheet()) : reduced_guides();
+    GuideStack guides = division.level == 0 ? ground.read_guides(ground.sheet()) : reduced_guides();
+    for (const ModelledClass& chosen : choose_modelled(models, copied_from, guides.label, parameters)) {
+      plan.models.of_class[static_cast<std::size_t>(chosen.id)] = static_cast<std::uint8_t>(chosen.model);
+      if (!chosen.why.empty()) progress.note(chosen.why);
+    }
+    hide_modelled(guides, plan.models);
     note_scarcity(copied_from, guides, parameters, progress);
     plan.synthesis = plan_synthesis(copied_from, guides, division, parameters, progress);
     const std::vector<std::uint8_t> packed = pack_plan(*plan.synthesis);
-    return std::string(packed.begin(), packed.end());
+    std::string bytes(packed.begin(), packed.end());
+    if (!models.empty()) add_models(bytes, plan.models);
+    return bytes;
   };
   // Proofs of one sheet share what was chosen for the whole of it; a small sheet is chosen as fast as it is read.
   const auto key = [&] {
     return make_cache_key(CachedProduct::synthesis_plan, CacheKeyText().add("sheet", to_text(identify(loaded, {}))), subject_of(loaded));
   };
   const std::string packed = division.level == 0 ? choose(run.progress) : cached<std::string>(run.cache, key, run.progress, choose);
-  if (!plan.synthesis) plan.synthesis = unpack_plan({packed.begin(), packed.end()}, copied_from);
+  unpack(packed);
   work.keep_bytes(plan_name, packed);
   forget_compared(plan.exemplars);
+  make_records(plan.models, std::move(models), world.scene.seed, run.progress);
   return plan;
 }
 

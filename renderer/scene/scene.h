@@ -177,10 +177,12 @@ struct SceneAir {
 
 // One exemplar: painted by the program (picture empty), or a picture with a class mask and perhaps guides.
 struct SceneExemplar {
-  std::string picture;   // file; empty: the program paints one
-  std::string guidance;  // guidance.exr of the picture, or:
-  std::string classes;   // grey image of class ids; 255 excludes
-  std::string altitude;  // grey image, scaled by altitude_range_m
+  std::string picture;            // file; empty: the program paints one
+  std::string model;              // file of a texture model instead
+  std::string prefer = "texels";  // of a model's classes: "texels" while there are enough, or the "model"
+  std::string guidance;           // guidance.exr of the picture, or:
+  std::string classes;            // grey image of class ids; 255 excludes
+  std::string altitude;           // grey image, scaled by altitude_range_m
   std::array<double, 2> altitude_range_m = {0.0, 4000.0};
   std::string shadow;                  // grey image: black in cast shadow, white in the sun
   std::string exclude;                 // grey image: what is not black is never copied from

@@ -149,6 +149,17 @@ class Rules {
     for (std::size_t i = 0; i < scene_.exemplars.size(); ++i) {
       const SceneExemplar& exemplar = scene_.exemplars[i];
       const std::string name = fmt::format("exemplar.{}", i);
+      if (!exemplar.model.empty()) {
+        for (const char* key : {"picture", "guidance", "classes", "altitude", "altitude_range_m", "shadow", "found_shadow", "exclude",
+                                "width", "height", "seed"})
+          if (written(name + "." + key))
+            refuse(name + "." + key, fmt::format("{}.{} beside a model", name, key), "a picture, or a model, in each block");
+        if (exemplar.serves.empty())
+          refuse(name + ".model", name + ".model does not say what it paints", "serves = [\"pasture\"]: the classes it shows");
+        continue;
+      }
+      if (written(name + ".prefer"))
+        refuse(name + ".prefer", fmt::format("{}.prefer has no model to belong to", name), "model = \"….model\" beside it");
       if (!exemplar.picture.empty() && exemplar.guidance.empty() && exemplar.classes.empty())
         refuse(name + ".picture", name + ".picture has neither guidance nor classes, so nobody knows what it shows",
                "guidance = \"….exr\", or classes = \"….png\"");

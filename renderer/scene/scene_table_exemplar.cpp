@@ -15,6 +15,18 @@ std::vector<SceneSection> make_exemplar_sections() {
                 .field = AT(exemplars[i].picture),
                 .meaning = "The painting or scan; without it the program paints one on a made-up terrain.",
                 .text = TextKind::file},
+               {.name = "model",
+                .field = AT(exemplars[i].model),
+                .meaning =
+                    "Instead of a picture: a texture model (`belvedere texture learn`), from which the classes in serves are painted "
+                    "without end.",
+                .text = TextKind::file},
+               {.name = "prefer",
+                .field = AT(exemplars[i].prefer),
+                .meaning = "With model: a class is painted from it where exemplars have no texels of it or so few that they would repeat "
+                           "(texels), or in any case (model).",
+                .text = TextKind::choice,
+                .choices = {"texels", "model"}},
                {.name = "guidance",
                 .field = AT(exemplars[i].guidance),
                 .meaning = "guidance.exr of the picture, registered to the pixel; or classes and altitude instead.",
@@ -49,7 +61,7 @@ std::vector<SceneSection> make_exemplar_sections() {
                 .text = TextKind::file},
                {.name = "serves",
                 .field = AT(exemplars[i].serves),
-                .meaning = "Classes it may be copied for: [\"rock\", \"snow\"]; without it every class it shows."},
+                .meaning = "Classes it may be copied for, or painted from a model: [\"rock\", \"snow\"]; without it every class it shows."},
                {.name = "stroke_px",
                 .field = AT(exemplars[i].stroke_px),
                 .range = {0.5, 100},

@@ -74,10 +74,14 @@ bool is_excluded(const SceneSection& section, const SceneKey& key, Scene& scene,
     for (const std::string_view rival : exclusion.these)
       if (!value_text(*find_key(section, rival), scene, i).empty()) return true;
   }
-  // What an exemplar without a picture cannot have.
-  static constexpr std::array<std::string_view, 5> of_pictures = {"altitude_range_m", "optional", "found_shadow", "stroke_px", "serves"};
-  return section.name == "exemplar" && scene.exemplars[i].picture.empty() &&
-         std::find(of_pictures.begin(), of_pictures.end(), key.name) != of_pictures.end();
+  if (section.name != "exemplar") return false;
+  // What an exemplar without a picture cannot have, one that is a model, and one that is none.
+  static constexpr std::array<std::string_view, 6> of_pictures = {"altitude_range_m", "optional", "found_shadow",
+                                                                  "stroke_px",        "serves",   "prefer"};
+  static constexpr std::array<std::string_view, 5> of_no_model = {"altitude_range_m", "found_shadow", "width", "height", "seed"};
+  const auto names_it = [&](const auto& keys) { return std::find(keys.begin(), keys.end(), key.name) != keys.end(); };
+  if (!scene.exemplars[i].model.empty()) return names_it(of_no_model);
+  return scene.exemplars[i].picture.empty() ? names_it(of_pictures) : key.name == "prefer";
 }
 
 // A scene in which every section exists, to read defaults from.

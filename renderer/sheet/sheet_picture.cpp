@@ -39,13 +39,31 @@ SheetPicture::SheetPicture(SheetGround& ground, CopyPlan* plan, TileStore::Place
       matches_(place, ground.sheet().x1, ground.sheet().y1, plan == nullptr ? SynthesisSheet{}.tile_px : plan->synthesis->sheet().tile_px,
                {.make = [this](PixelRect tile) { return make_matches(tile); },
                 .blank = [](int width, int height) { return MatchField(width, height); },
-                .planes = [](MatchField& field) { return Planes{plane_of(field)}; }}) {}
+                .planes = [](MatchField& field) { return Planes{plane_of(field)}; }}),
+      modelled_(place, ground.sheet().x1, ground.sheet().y1, endless_tile_px,
+                {.make = [this](PixelRect tile) { return make_modelled(tile); },
+                 .blank =
+                     [](int width, int height) {
+                       return ModelPaint{Grid<std::uint8_t>(width, height), Grid<glm::vec3>(width, height), Grid<glm::vec3>(width, height)};
+                     },
+                 .planes =
+                     [](ModelPaint& paint) {
+                       return Planes{plane_of(paint.made), plane_of(paint.texel), plane_of(paint.base)};
+                     }}) {}
 
 MatchField SheetPicture::make_matches(PixelRect tile) {
   SynthesisPlan& plan = *plan_->synthesis;
   // A plan of the whole size has all that is asked.
   if (plan.sheet().level == 0) return synthesize_tile(plan, {}, tile, run_.progress);
-  return synthesize_tile(plan, ground_.read_guides(synthesis_window(plan.sheet(), tile)), tile, run_.progress);
+  GuideStack guides = ground_.read_guides(synthesis_window(plan.sheet(), tile));
+  hide_modelled(guides, plan_->models);
+  return synthesize_tile(plan, guides, tile, run_.progress);
+}
+
+ModelPaint SheetPicture::make_modelled(PixelRect tile) {
+  const PixelRect window = intersection(ground_.sheet(), grown(tile, model_margin_px(plan_->models)));
+  const GuidanceBuffers guidance = ground_.read_guidance(window, {&B::depth_m, &B::land_cover, &B::fall_line}, false);
+  return make_model_paint(plan_->models, tile, ground_.read_draft(tile).land_cover, guidance, window);
 }
 
 Grid<glm::vec3> SheetPicture::copy_ground(PixelRect rect) {
@@ -53,8 +71,9 @@ Grid<glm::vec3> SheetPicture::copy_ground(PixelRect rect) {
   const PaintDraft draft = ground_.read_draft(window);
   const BasePicture base = ground_.read_base(window);
   const GuidanceBuffers guidance = ground_.read_guidance(window, {&B::depth_m, &B::land_cover}, false);
-  const Grid<glm::vec3> copied =
+  Grid<glm::vec3> copied =
       transfer_residual(matches_.read(window), plan_->exemplars, draft.base, base.haze, plan_->residual, draft.land_cover);
+  if (plan_->models.any()) lay_model_paint(copied, modelled_.read(window), draft.base, base.haze, plan_->residual, draft.land_cover);
   const Grid<glm::vec3> mixed = mix_borders(copied, to_painting(draft, window), draft.land_cover, guidance.land_cover, base.colour);
   return part_of(mixed, moved(rect, -window.x0, -window.y0));
 }
@@ -92,8 +111,14 @@ void SheetPicture::keep_only(PixelRect still) {
   const int copied = plan_ == nullptr ? 0
                                       : paint_source_reach_px(draft_layers, ground_.strokes()) + plan_->synthesis->sheet().tile_px +
                                             synthesis_margin_px(plan_->synthesis->sheet().level) + ground_.draft_reach_px();
-  matches_.keep_only(grown(still, paint_source_reach_px(draft_layers, ground_.strokes())));
-  ground_.keep_only(grown(still, std::max(strokes, copied)));
+  const PixelRect shown = grown(still, paint_source_reach_px(draft_layers, ground_.strokes()));
+  matches_.keep_only(shown);
+  modelled_.keep_only(shown);
+  const bool models = plan_ != nullptr && plan_->models.any();
+  const int modelled = models ? paint_source_reach_px(draft_layers, ground_.strokes()) + endless_tile_px +
+                                    std::max(model_margin_px(plan_->models), ground_.draft_reach_px())
+                              : 0;
+  ground_.keep_only(grown(still, std::max({strokes, copied, modelled})));
 }
 
 }  // namespace belvedere

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renderer/paint/composite.h"
+#include "renderer/sheet/model_ground.h"
 #include "renderer/sheet/sheet_ground.h"
 #include "texture/sheet/synthesis_plan.h"
 #include "texture/sheet/synthesis_tile.h"
@@ -16,6 +17,7 @@ struct CopyPlan {
   std::vector<PaintedExemplar> exemplars;
   std::optional<SynthesisPlan> synthesis;
   double residual = 0.75;  // how much of the base picture's difference is laid over a texel, 0…1
+  GroundModels models;     // of classes that are not copied
 };
 
 // The finished picture of a sheet in any rectangles, with the same bits as in one piece: copied ground, strokes over it, softened edges.
@@ -34,6 +36,7 @@ class SheetPicture {
 
  private:
   MatchField make_matches(PixelRect tile);
+  ModelPaint make_modelled(PixelRect tile);
   Grid<glm::vec3> copy_ground(PixelRect rect);
   // Kinds of strokes that can reach a rectangle: those of the sky, by far the longest, begin where sky is seen.
   StrokeLayers layers_around(PixelRect rect);
@@ -43,6 +46,7 @@ class SheetPicture {
   const Run& run_;
   const StrokeLayers layers_;
   SheetStage<MatchField> matches_;
+  SheetStage<ModelPaint> modelled_;
 };
 
 }  // namespace belvedere

@@ -181,6 +181,17 @@ TextureRecord record_texture(const CliqueModel& model, const TextureParameters& 
   return record;
 }
 
+TexturePiece make_piece(const CliqueModel& model, const TextureRecord& record, PixelRect piece, const TextureParameters& parameters,
+                        Progress& progress) {
+  const int mask = (1 << model.levels) - 1;
+  piece.x0 &= ~mask;  // also of numbers below 0
+  piece.y0 &= ~mask;
+  check_size(piece.width(), piece.height());
+  BandPyramid pyramid = empty_pyramid(piece.width(), piece.height(), model.levels);
+  const BandPicture made = run(model, std::move(pyramid), {piece.x0, piece.y0}, parameters, {.replay = &record}, progress);
+  return {piece, to_picture(made, model.bands)};
+}
+
 Grid<Rgb8> make_window(const CliqueModel& model, const TextureRecord& record, PixelRect window, const TextureParameters& parameters,
                        Progress& progress) {
   check_texture_size(window.width(), window.height());
@@ -190,13 +201,12 @@ Grid<Rgb8> make_window(const CliqueModel& model, const TextureRecord& record, Pi
   Grid<Rgb8> out(window.width(), window.height());
   for (int ty = tiles.y0; ty < tiles.y1; ++ty) {
     for (int tx = tiles.x0; tx < tiles.x1; ++tx) {
-      const TexturePlace corner{tx * endless_tile_px - endless_margin_px, ty * endless_tile_px - endless_margin_px};
-      const Grid<Rgb8> tile =
-          to_picture(run(model, empty_pyramid(side, side, model.levels), corner, parameters, {.replay = &record}, progress), model.bands);
       const PixelRect inner = {tx * endless_tile_px, ty * endless_tile_px, (tx + 1) * endless_tile_px, (ty + 1) * endless_tile_px};
+      const TexturePiece tile = make_piece(model, record, grown(inner, endless_margin_px), parameters, progress);
       const PixelRect part = intersection(inner, window);
       for (int y = part.y0; y < part.y1; ++y)
-        std::copy_n(tile.row(y - corner.y) + (part.x0 - corner.x), part.width(), out.row(y - window.y0) + (part.x0 - window.x0));
+        std::copy_n(tile.picture.row(y - tile.piece.y0) + (part.x0 - tile.piece.x0), part.width(),
+                    out.row(y - window.y0) + (part.x0 - window.x0));
     }
   }
   return out;

@@ -61,6 +61,14 @@ Grid<Rgb8> make_window(const CliqueModel& model, const TextureRecord& record, Pi
                        Progress& progress = silent_progress());
 inline constexpr int endless_tile_px = 512;
 inline constexpr int endless_margin_px = 96;
+// A piece of such a texture in one, from tables alone; what lies nearer to its border than endless_margin_px is not yet right. Its left and
+// upper side come to lie on multiples of 2^levels, at most that far outside: the piece that was made is `piece`.
+struct TexturePiece {
+  PixelRect piece;
+  Grid<Rgb8> picture;
+};
+TexturePiece make_piece(const CliqueModel& model, const TextureRecord& record, PixelRect piece, const TextureParameters& parameters,
+                        Progress& progress = silent_progress());
 
 // Makes anew what `hole` marks (non-zero), to go with what is around it: lettering and figures taken out of a scan, wood grown over a
 // clearing. No other pixel changes. The model is of what should stand there. Error(limit) as above.

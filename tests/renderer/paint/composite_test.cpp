@@ -83,6 +83,34 @@ TEST(TransferResidual, RockAndSnowTakeAllOfTheLightOfTheirOwnPlace) {
   }
 }
 
+// Paint of a model goes by the law of copies: the same texel and base give the same picture, for every class and through air.
+TEST(LayModelPaint, IsTheLawOfCopies) {
+  std::vector<PaintedExemplar> exemplars = {make_exemplar(true)};
+  const int classes = static_cast<int>(land_cover_classes().size());
+  MatchField matches(classes, 2);
+  ModelPaint paint{Grid<std::uint8_t>(classes, 2), Grid<glm::vec3>(classes, 2), Grid<glm::vec3>(classes, 2)};
+  Grid<glm::vec3> base(classes, 2);
+  Grid<LandCoverClass> shown(classes, 2);
+  Grid<float> haze(classes, 2);
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < classes; ++x) {
+      matches(x, y) = {0, static_cast<std::uint16_t>(x % 3), static_cast<std::uint16_t>(y)};
+      paint.made(x, y) = 1;
+      paint.texel(x, y) = exemplars[0].picture(x % 3, y);
+      paint.base(x, y) = exemplars[0].base(x % 3, y);
+      base(x, y) = glm::vec3(0.05F * static_cast<float>(x), 0.5F, 0.3F);
+      shown(x, y) = static_cast<LandCoverClass>(x);
+      haze(x, y) = 0.3F * static_cast<float>(y);
+    }
+  const Grid<glm::vec3> copied = transfer_residual(matches, exemplars, base, haze, 0.75, shown);
+  Grid<glm::vec3> made(classes, 2, glm::vec3(-1.F));
+  paint.made(1, 1) = 0;
+  lay_model_paint(made, paint, base, haze, 0.75, shown);
+  EXPECT_EQ(made(1, 1), glm::vec3(-1.F)) << "what no model made stays";
+  made(1, 1) = copied(1, 1);
+  EXPECT_EQ(made, copied);
+}
+
 TEST(TransferResidual, RefusesMatchesOutside) {
   const std::vector<PaintedExemplar> exemplars = {make_exemplar(true)};
   const Grid<glm::vec3> base(1, 1);

@@ -12,6 +12,9 @@
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
 #include "tests/files.h"
+#include "tests/texture/statistical/texture_crops.h"
+#include "texture/statistical/learn_texture.h"
+#include "texture/statistical/model_file.h"
 
 namespace belvedere {
 namespace {
@@ -89,6 +92,25 @@ TEST_F(SheetJob, APartIsThePixelsOfTheWholeInEveryFile) {
           },
           channel.member);
   }
+}
+
+// Ground from a texture model: one lattice of tiles, whatever is asked of the sheet.
+TEST_F(SheetJob, GroundFromAModelIsTheSameInPartsAndPieces) {
+  LearnParameters few;
+  few.types = 16;
+  test::write_bytes(folder_ / "m.model", model_text(learn_texture(test::meadow_crop(64, 64), {}, few).model));
+  const std::vector<std::string> settings = {
+      "exemplar.1={ model = \"m.model\", serves = [\"pasture\", \"alpine_grass\", \"forest\"], prefer = \"model\" }"};
+  const LoadedScene modelled = parse_scene(wide_scene, "wide.toml", folder_.path(), {.data_folders = {}, .settings = settings});
+  const std::string all = folder_ / "all";
+  render(modelled, all, {});
+  const Grid<glm::vec3> picture = read_picture(all + "/panorama.tif");
+  EXPECT_NE(picture, read_picture(whole() + "/panorama.tif"));
+  const PixelRect part{490, 20, 560, 110};
+  render(modelled, folder_ / "part", {}, {.part = part});
+  EXPECT_EQ(read_picture(folder_ / "part/panorama.tif"), part_of(picture, part));
+  render(modelled, folder_ / "small", {.threads = 1}, {.piece_px = 200, .stage_tile_px = 96});
+  expect_same_files(all, folder_ / "small");
 }
 
 TEST_F(SheetJob, APartOutsideOfTheSheetIsRefused) {

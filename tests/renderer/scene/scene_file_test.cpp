@@ -206,6 +206,9 @@ TEST(SceneFile, KeysThatBelongTogether) {
   EXPECT_NO_THROW(scene_of("[camera]\nfield_of_view_deg = 200\nprojection = \"cylindrical\"\n"));
   EXPECT_THAT(refused("[[exemplar]]\npicture = \"a.png\"\n"), HasSubstr("neither guidance nor classes"));
   EXPECT_THAT(refused("[[exemplar]]\nclasses = \"a.png\"\n"), HasSubstr("no picture"));
+  EXPECT_THAT(refused("[[exemplar]]\nmodel = \"a.model\"\n"), HasSubstr("serves"));
+  EXPECT_THAT(refused("[[exemplar]]\nmodel = \"a.model\"\nserves = [\"rock\"]\npicture = \"a.png\"\n"), HasSubstr("beside a model"));
+  EXPECT_THAT(refused("[[exemplar]]\nprefer = \"model\"\n"), HasSubstr("no model"));
   const Scene one_set = scene_of("[generalize]\nforeground = [2, 2]\n");
   EXPECT_EQ(one_set.generalize.bands.background, (std::vector<float>{2.F, 2.F}));  // far as near
   const Scene far_set = scene_of("[generalize]\nbackground = [2, 0]\n");
@@ -279,6 +282,7 @@ TEST(SceneFile, WrittenScenesReadBack) {
         "\"nlcd\"\nsettings = { \"a b\" = 0.1 }\n"
         "[[land_cover.sources]]\nfile = \"lc.tif\"\n[camera]\nposition = [692000.123456789, 0.1]\nlook_at_lonlat = [11, 47]\n"
         "[generalize]\nforeground = [0.9, 1.1, 0.333333]\nbackground = [0.1, 0.2, 0.7]\n[sun]\ntime = \"2024-06-21T17:30:00Z\"\n"
+        "[[exemplar]]\nmodel = \"m.model\"\nserves = [\"rock\"]\nprefer = \"model\"\n"
         "[[exemplar]]\nseed = 4\n[[exemplar]]\npicture = \"p.png\"\nclasses = \"c.png\"\nlicence = \"x\\ty\\nz\"\n"
         "[synthesis]\nweights = { tone = 3.3 }\nfallback = { shrub = \"forest\", scree = \"rock\" }\n"}) {
     const Scene scene = scene_of(text);

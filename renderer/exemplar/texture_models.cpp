@@ -1,0 +1,91 @@
+#include "renderer/exemplar/texture_models.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <glm/common.hpp>
+
+#include "texture/statistical/model_file.h"
+#include "texture/synthesis/class_supply.h"
+
+namespace belvedere {
+namespace {
+
+using Counts = std::array<std::size_t, 256>;
+
+Counts count_labels(const Grid<std::uint8_t>& labels) {
+  Counts counts{};
+  for (const std::uint8_t label : labels) ++counts[label];
+  return counts;
+}
+
+}  // namespace
+
+std::vector<SceneTextureModel> read_texture_models(const LoadedScene& loaded) {
+  std::vector<SceneTextureModel> models;
+  for (const SceneExemplar& settings : loaded.scene.exemplars) {
+    if (settings.model.empty()) continue;
+    const std::string path = find_scene_file(loaded, settings.model);
+    if (path.empty()) continue;  // optional: others were refused before the work began
+    models.push_back({.name = settings.model,
+                      .model = read_model(path),
+                      .serves = settings.serves,
+                      .always = settings.prefer == "model",
+                      .light_px = settings.stroke_px});
+  }
+  return models;
+}
+
+std::vector<ModelledClass> choose_modelled(const std::vector<SceneTextureModel>& models, const std::vector<Exemplar>& exemplars,
+                                           const Grid<std::uint8_t>& target, const SynthesisParameters& parameters) {
+  Counts texels{};
+  for (const Exemplar& exemplar : exemplars) {
+    const Counts own = count_labels(exemplar.guides.label);
+    for (std::size_t label = 0; label < texels.size(); ++label) texels[label] += own[label];
+  }
+  const Counts pixels = count_labels(target);
+  std::vector<ModelledClass> chosen;
+  for (const LandCoverClassInfo& info : land_cover_classes()) {
+    const auto serves = [&](const SceneTextureModel& model) {
+      return std::find(model.serves.begin(), model.serves.end(), info.id) != model.serves.end();
+    };
+    const auto model = std::find_if(models.begin(), models.end(), serves);
+    if (model == models.end()) continue;
+    const auto label = static_cast<std::size_t>(info.id);
+    std::size_t asked = pixels[label];
+    for (const auto& [from, to] : parameters.fallback)
+      if (to == label && from != to && texels[from] == 0) asked += pixels[from];
+    const bool few = asked > texels[label] * pixels_per_texel;
+    if (!model->always && texels[label] > 0 && !few) continue;
+    std::string why;
+    if (pixels[label] > 0 || model->always)
+      why = fmt::format("{} is painted from the texture model {}: {}", info.name, model->name,
+                        model->always        ? std::string("the scene prefers it")
+                        : texels[label] == 0 ? std::string("no exemplar has texels of it")
+                                             : fmt::format("too few texels, {} for {} pixels", texels[label], asked));
+    chosen.push_back({info.id, static_cast<std::size_t>(model - models.begin()), std::move(why)});
+  }
+  return chosen;
+}
+
+LabelRamps model_ramps(const CliqueModel& model) {
+  // How far the first band reaches from its mean: its own histogram at the coarsest level that has one.
+  CliqueKnots knots{};
+  for (const Clique& clique : model.cliques)
+    if (clique.type.single() && clique.type.head == 0) {
+      knots = decode_knots(model.bands, clique);
+      break;
+    }
+  constexpr std::array<float, 4> shares = {.05F, .34F, .66F, .95F};  // darkest and lightest strokes are no light
+  ToneRamp ramp{};
+  for (std::size_t t = 0; t < ramp.size(); ++t)
+    for (int c = 0; c < 3; ++c)
+      ramp[t][c] = glm::clamp(
+          (model.bands.mean[static_cast<std::size_t>(c)] + model.bands.axis(0, c) * value_at_share(knots, shares[t])) / 255.F, 0.F, 1.F);
+  return {.distances = {0.0},
+          .ramps = {ramp},
+          .texels = static_cast<std::size_t>(model.crop_width) * static_cast<std::size_t>(model.crop_height)};
+}
+
+}  // namespace belvedere

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/land_cover_class.h"
+#include "renderer/exemplar/fitted_ramps.h"
+#include "renderer/scene/scene_file.h"
+#include "texture/statistical/clique_model.h"
+#include "texture/synthesis/exemplar.h"
+#include "texture/synthesis/synthesis_parameters.h"
+
+namespace belvedere {
+
+// An [[exemplar]] block that is a texture model (docs/textures.md).
+struct SceneTextureModel {
+  std::string name;  // as the scene writes its file
+  CliqueModel model;
+  std::vector<LandCoverClass> serves;
+  bool always = false;  // else only where paintings have too few texels of a class
+  double light_px = 6.0;
+};
+
+// Those of a scene, in its order; optional ones that are missing are left out. Error(usage) for what is no model.
+std::vector<SceneTextureModel> read_texture_models(const LoadedScene& scene);
+
+// A class that is painted from a model.
+struct ModelledClass {
+  LandCoverClass id;
+  std::size_t model;  // in the order of read_texture_models; the first that serves a class
+  std::string why;    // as a sentence for the user; empty where the picture has nothing of the class
+};
+// Classes that are painted from models: those of which the exemplars have no texel or, for what `target` shows, too few (pixels_per_texel;
+// what falls back to a class counts with it), and those whose model always serves.
+std::vector<ModelledClass> choose_modelled(const std::vector<SceneTextureModel>& models, const std::vector<Exemplar>& exemplars,
+                                           const Grid<std::uint8_t>& target, const SynthesisParameters& parameters);
+
+// A model's colours from dark to light, for pictures that take the colours of their paintings: its mean, moved along the widest axis of its
+// colours as far as its coarsest pixels lie from that.
+LabelRamps model_ramps(const CliqueModel& model);
+
+}  // namespace belvedere

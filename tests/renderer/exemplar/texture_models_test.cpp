@@ -1,0 +1,107 @@
+#include "renderer/exemplar/texture_models.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "tests/files.h"
+#include "tests/renderer/world/small_world.h"
+#include "tests/texture/statistical/texture_crops.h"
+#include "texture/statistical/learn_texture.h"
+#include "texture/statistical/model_file.h"
+
+namespace belvedere {
+namespace {
+
+using enum LandCoverClass;
+using testing::HasSubstr;
+
+const CliqueModel& meadow() {
+  static const CliqueModel model = [] {
+    LearnParameters few;
+    few.types = 20;
+    return learn_texture(test::meadow_crop(72, 64), {}, few).model;
+  }();
+  return model;
+}
+
+SceneTextureModel model_of(std::vector<LandCoverClass> serves, bool always = false) {
+  return {.name = "m.model", .model = meadow(), .serves = std::move(serves), .always = always};
+}
+
+Grid<std::uint8_t> labels(LandCoverClass id, int count, LandCoverClass rest = rock) {
+  Grid<std::uint8_t> out(40, 25, static_cast<std::uint8_t>(rest));
+  for (int i = 0; i < count; ++i) out[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(id);
+  return out;
+}
+
+std::vector<Exemplar> with_texels(LandCoverClass id, int count) {
+  Exemplar exemplar;
+  exemplar.guides.label = labels(id, count);
+  return {exemplar};
+}
+
+TEST(TextureModels, TakeOverWhereTexelsAreMissingOrTooFew) {
+  const auto chosen = [](const SceneTextureModel& model, int texels, int pixels, const SynthesisParameters& parameters = {}) {
+    return choose_modelled({model}, with_texels(pasture, texels), labels(pasture, pixels), parameters);
+  };
+  ASSERT_EQ(chosen(model_of({pasture}), 0, 100).size(), 1U);
+  EXPECT_EQ(chosen(model_of({pasture}), 0, 100)[0].id, pasture);
+  EXPECT_THAT(chosen(model_of({pasture}), 0, 100)[0].why, HasSubstr("pasture is painted from the texture model m.model: no exemplar"));
+  // A texel serves four pixels.
+  EXPECT_TRUE(chosen(model_of({pasture}), 25, 100).empty());
+  ASSERT_EQ(chosen(model_of({pasture}), 24, 100).size(), 1U);
+  EXPECT_THAT(chosen(model_of({pasture}), 24, 100)[0].why, HasSubstr("too few texels, 24 for 100 pixels"));
+  EXPECT_TRUE(chosen(model_of({forest}), 24, 100).size() == 1U && chosen(model_of({forest}), 24, 100)[0].id == forest)
+      << "no texels of forest: its model stands ready for what a small plan does not show";
+  EXPECT_EQ(chosen(model_of({forest}), 24, 100)[0].why, "");
+  EXPECT_EQ(chosen(model_of({pasture}, true), 900, 100).size(), 1U) << "the scene prefers it";
+}
+
+TEST(TextureModels, WhatFallsBackToAClassCountsWithIt) {
+  Grid<std::uint8_t> target = labels(pasture, 60);
+  for (std::size_t i = 900; i < 1000; ++i) target[i] = static_cast<std::uint8_t>(shrub);
+  SynthesisParameters parameters;
+  EXPECT_TRUE(choose_modelled({model_of({pasture})}, with_texels(pasture, 20), target, parameters).empty());
+  parameters.fallback[static_cast<std::uint8_t>(shrub)] = static_cast<std::uint8_t>(pasture);
+  EXPECT_EQ(choose_modelled({model_of({pasture})}, with_texels(pasture, 20), target, parameters).size(), 1U);
+}
+
+TEST(TextureModels, TheFirstThatServesAClassHasIt) {
+  const std::vector<ModelledClass> chosen =
+      choose_modelled({model_of({water}), model_of({pasture, water})}, with_texels(rock, 10), labels(pasture, 9, water), {});
+  ASSERT_EQ(chosen.size(), 2U);
+  EXPECT_EQ(chosen[0].id, water);
+  EXPECT_EQ(chosen[0].model, 0U);
+  EXPECT_EQ(chosen[1].model, 1U);
+}
+
+TEST(TextureModels, RampsRiseFromDarkToLightAroundTheMean) {
+  const LabelRamps ramps = model_ramps(meadow());
+  ASSERT_EQ(ramps.ramps.size(), 1U);
+  const ToneRamp& ramp = ramps.ramps[0];
+  for (std::size_t t = 1; t < ramp.size(); ++t) EXPECT_GT(ramp[t].y, ramp[t - 1].y);
+  EXPECT_LT(ramp.front().y * 255.F, meadow().bands.mean[1]);
+  EXPECT_GT(ramp.back().y * 255.F, meadow().bands.mean[1]);
+  EXPECT_EQ(ramps.texels, 72U * 64U);
+}
+
+TEST(TextureModels, AreReadFromTheScenesFolder) {
+  const test::Folder folder;
+  test::write_bytes(folder / "m.model", model_text(meadow()));
+  const auto read = [&](const std::string& block) {
+    return read_texture_models(test::small_scene({"exemplar.0=" + block}, folder.path()));
+  };
+  const std::vector<SceneTextureModel> models = read("{ model = \"m.model\", serves = [\"pasture\"], prefer = \"model\", stroke_px = 4 }");
+  ASSERT_EQ(models.size(), 1U);
+  EXPECT_TRUE(models[0].always);
+  EXPECT_EQ(models[0].light_px, 4.0);
+  EXPECT_EQ(models[0].serves, std::vector{pasture});
+  EXPECT_TRUE(read("{ model = \"gone.model\", serves = [\"pasture\"], optional = true }").empty());
+  test::write_bytes(folder / "bad.model", "belvedere_texture = 7\n");
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { read("{ model = \"bad.model\", serves = [\"pasture\"] }"); }),
+              HasSubstr("version 7"));
+}
+
+}  // namespace
+}  // namespace belvedere
