@@ -1,7 +1,7 @@
 #include "renderer/image/png_palette.h"
 
-// The one file that knows libpng, for the one thing OpenImageIO does not give: the indices of a palette image. Masks drawn in a painting
-// program are often saved that way.
+// The one file that knows libpng, for what nobody else here gives: the indices of a palette image, as masks drawn in a painting program
+// are often saved, and masks of our own as plain numbers.
 #include <png.h>
 
 #include <cstring>
@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "renderer/image/image_file_parts.h"
+#include "renderer/image/output_file.h"
 #include "renderer/image/png_check.h"
 
 namespace belvedere::image_io {
@@ -43,6 +44,20 @@ Grid<std::uint16_t> read_palette_png(const std::string& path) {
   Grid<std::uint16_t> out(static_cast<int>(image.width), static_cast<int>(image.height));
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = indices[i];
   return out;
+}
+
+void write_grey_png(const std::string& path, const Grid<std::uint8_t>& grey) {
+  OutputFile file(path);
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(grey.width());
+  image.height = static_cast<png_uint_32>(grey.height());
+  image.format = PNG_FORMAT_GRAY;
+  const int written = png_image_write_to_file(&image, file.temporary().c_str(), 0, grey.row(0), 0, nullptr);
+  const std::string reason = image.message;
+  png_image_free(&image);
+  if (written == 0) file.fail(reason);
+  file.commit();
 }
 
 }  // namespace belvedere::image_io

@@ -74,7 +74,8 @@ struct SceneLandCover {
   std::vector<std::pair<LandCoverClass, LandCoverClass>> refine;
   std::optional<LandCoverClass> unknown;
   std::optional<LandCoverClass> nodata;
-  PatchParameters patches;  // generalization: small patches go, those that matter stay
+  std::vector<std::pair<std::string, double>> erode;  // classes that draw back, in steps (land_cover_erosion.h)
+  PatchParameters patches;                            // generalization: small patches go, those that matter stay
 };
 
 struct SceneSeason {

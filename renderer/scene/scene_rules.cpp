@@ -145,6 +145,12 @@ class Rules {
            fmt::format("camera.field_of_view_deg is {} with a {} projection", camera.field_of_view_deg, camera.projection), allowed);
   }
 
+  void erosion() {
+    for (const auto& [name, steps] : scene_.land_cover.erode)
+      if (steps != std::floor(steps))
+        refuse("land_cover.erode." + name, fmt::format("land_cover.erode has {} = {}", name, steps), "whole steps of 50 m");
+  }
+
   void exemplars() {
     for (std::size_t i = 0; i < scene_.exemplars.size(); ++i) {
       const SceneExemplar& exemplar = scene_.exemplars[i];
@@ -243,6 +249,7 @@ void apply_scene_rules(Scene& scene, const ConfigValue& root, const SceneOrigin&
   rules.sampling();
   rules.camera();
   rules.exemplars();
+  rules.erosion();
 }
 
 }  // namespace belvedere

@@ -2,6 +2,16 @@
 #include "terrain/cover/towns.h"
 
 namespace belvedere {
+namespace {
+
+std::vector<std::string> class_names() {
+  std::vector<std::string> names;
+  for (const LandCoverClassInfo& info : land_cover_classes())
+    if (info.id != LandCoverClass::sky) names.emplace_back(info.name);
+  return names;
+}
+
+}  // namespace
 
 std::vector<SceneSection> make_land_cover_sections() {
   std::vector<SceneSection> sections;
@@ -89,6 +99,13 @@ std::vector<SceneSection> make_land_cover_sections() {
             .field = AT(land_cover.settings),
             .range = {-1e9, 1e9},
             .meaning = "Parameters of the rules or layers by name, such as the altitude of the treeline; their file lists them."},
+           {.name = "erode",
+            .field = AT(land_cover.erode),
+            .range = {0, 40},
+            .meaning =
+                "Classes that draw back, by steps of 50 m on the ground: snow = 2 melts a border of some 100 m. What lies around takes "
+                "their place, along ragged borders; shores and the edges of settlements stay.",
+            .choices = class_names()},
        }});
   sections.push_back({.name = "land_cover.sources",
                       .kind = SectionKind::list,

@@ -16,6 +16,7 @@
 #include "renderer/world/scene_towns.h"
 #include "terrain/climate/map_climate.h"
 #include "terrain/cover/ground_image.h"
+#include "terrain/cover/land_cover_erosion.h"
 #include "terrain/layers/layer_apply.h"
 #include "terrain/layers/layer_climate.h"
 #include "terrain/layers/layer_coverage.h"
@@ -285,6 +286,9 @@ LandCover make_full_classes(const LoadedScene& loaded, const Dem& dem, const Cov
 LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, const CoverContext& context, Progress& progress, const Cache& cache) {
   LandCover cover = make_full_classes(loaded, dem, context, progress, cache);
   const SceneLandCover& settings = loaded.scene.land_cover;
+  CoverErosion erosion;
+  for (const auto& [name, steps] : settings.erode) erosion.emplace_back(*find_class(name), static_cast<int>(steps));
+  cover = erode_land_cover(std::move(cover), erosion, loaded.scene.seed);
   if (settings.colours != "image") return cover;
   cover.colours = read_ground_image(find_scene_file(loaded, settings.colour_image), {dem.transform, dem.width(), dem.height(), dem.crs},
                                     context.whole == nullptr, progress);

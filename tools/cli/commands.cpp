@@ -29,6 +29,7 @@ const std::vector<Command>& all_commands() {
       {"layers", "picture", "Draws the ground of surface layers from above, finer than the DEM, lit, lakes with beds", add_layers_picture},
       {"texture", "learn", "Learns a texture from a crop of a painting, as statistics of a kilobyte", add_texture_learn},
       {"texture", "make", "Makes a texture of any size from such a model, without end and without repeating", add_texture_make},
+      {"texture", "erode", "Takes a mask back step by step, along ragged borders: melting snow, forest in retreat", add_texture_erode},
       {"texture", "fill", "Makes anew a masked part of a picture from such a model, to go with what is around it", add_texture_fill},
       {"texture", "judge", "Says how near textures, made by whatever program, come to a crop of a painting", add_texture_judge},
       {"", "info", "Says what a picture or guidance file holds and how it was made", add_info},

@@ -1,4 +1,5 @@
 #include "renderer/image/image_io.h"
+#include "renderer/image/png_palette.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -487,6 +488,18 @@ TEST(Output, PlacesWhereNothingCanBeWritten) {
   std::filesystem::create_directories(folder / "taken.png");
   EXPECT_EQ(kind_of([&] { write_png8(folder / "taken.png", picture, {}); }), ErrorKind::output);
   EXPECT_FALSE(std::filesystem::exists(folder / "taken.tmp.png"));
+}
+
+TEST(GreyPng, NumbersComeBackAsTheyWere) {
+  const Folder folder("grey_png");
+  Grid<std::uint8_t> grey(256, 3);
+  for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = static_cast<std::uint8_t>(i * 7);
+  image_io::write_grey_png(folder / "g.png", grey);
+  const Grid<std::uint16_t> read = read_grey(folder / "g.png");
+  ASSERT_EQ(read.width(), 256);
+  ASSERT_EQ(read.height(), 3);
+  for (std::size_t i = 0; i < grey.size(); ++i) EXPECT_EQ(read[i], grey[i]);
+  test::message_of(ErrorKind::output, [&] { image_io::write_grey_png(folder / "gone/g.png", grey); });
 }
 
 }  // namespace

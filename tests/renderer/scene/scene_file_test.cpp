@@ -279,7 +279,7 @@ TEST(SceneFile, WrittenScenesReadBack) {
   for (const char* text :
        {"",
         "title = 'q\"\\'\n[[terrain.sources]]\nfile = \"a b.tif\"\nnodata = -9999\nunit = \"us-ft\"\n[land_cover]\nlegend = "
-        "\"nlcd\"\nsettings = { \"a b\" = 0.1 }\n"
+        "\"nlcd\"\nsettings = { \"a b\" = 0.1 }\nerode = { snow = 2, forest = 1 }\n"
         "[[land_cover.sources]]\nfile = \"lc.tif\"\n[camera]\nposition = [692000.123456789, 0.1]\nlook_at_lonlat = [11, 47]\n"
         "[generalize]\nforeground = [0.9, 1.1, 0.333333]\nbackground = [0.1, 0.2, 0.7]\n[sun]\ntime = \"2024-06-21T17:30:00Z\"\n"
         "[[exemplar]]\nmodel = \"m.model\"\nserves = [\"rock\"]\nprefer = \"model\"\n"
@@ -293,6 +293,7 @@ TEST(SceneFile, WrittenScenesReadBack) {
     EXPECT_EQ(again.camera.position, scene.camera.position);
     EXPECT_EQ(again.generalize.bands.foreground, scene.generalize.bands.foreground);
     EXPECT_EQ(again.land_cover.settings, scene.land_cover.settings);
+    EXPECT_EQ(again.land_cover.erode, scene.land_cover.erode);
     EXPECT_EQ(again.exemplars.size(), scene.exemplars.size());
     EXPECT_EQ(again.terrain.synthetic.has_value(), scene.terrain.synthetic.has_value());
   }

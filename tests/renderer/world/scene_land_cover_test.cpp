@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -61,6 +62,23 @@ TEST_F(RefinedLandCover, ChangesTheNamedClassWhereTheRulesSeeTheOther) {
     }
   EXPECT_GT(glaciers, 100);
   EXPECT_GT(snows, 200);
+}
+
+// Snow lies north of a line, forest south of it; a step is as wide as a cell.
+TEST(ErodedLandCover, DrawsBackInTheScene) {
+  const test::Folder folder;
+  folder.write("rules.toml",
+               "version = 1\nname = \"two\"\n[parameters]\nspeck_cells = 0\n[[layers]]\nclass = \"forest\"\nwhen = \"1\"\n"
+               "[[layers]]\nclass = \"snow\"\nwhen = \"northing > 5199000\"\n");
+  const auto snow_rows = [&](const std::string& erode) {
+    const Dem level = make_dem({Grid<float>(400, 40, 1000.F), {500000.0, 5200000.0, 50.0, 50.0}, normalize_crs("EPSG:32632")});
+    const LoadedScene scene = parse_scene("version = 1\n[land_cover]\nrules = \"rules.toml\"\n" + erode, "s.toml", folder.path(), {});
+    const LandCover cover = make_scene_land_cover(scene, level, silent_progress());
+    return static_cast<double>(std::count(cover.classes.cells.begin(), cover.classes.cells.end(), snow)) / 400.0;
+  };
+  EXPECT_EQ(snow_rows(""), 20.0);
+  EXPECT_NEAR(snow_rows("erode = { snow = 4 }\n"), 16.0, 0.7);
+  EXPECT_NEAR(snow_rows("erode = { forest = 4 }\n"), 24.0, 0.7);
 }
 
 TEST_F(RefinedLandCover, WithoutTheKeyTheRasterHoldsAlone) {

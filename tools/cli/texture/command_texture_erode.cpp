@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+
+#include "base/error.h"
+#include "base/json.h"
+#include "base/masks/erosion.h"
+#include "renderer/image/image_io.h"
+#include "renderer/image/output_file.h"
+#include "renderer/image/png_palette.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/terminal.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  std::string mask, out;
+  ErosionParameters erosion{.levels = 8};
+  int label = -1;
+  std::vector<int> keep;
+  bool quiet = false;
+  bool json = false;
+};
+
+Grid<std::uint8_t> read_labels(const Options& options) {
+  const Grid<std::uint16_t> grey = read_grey(options.mask);
+  Grid<std::uint8_t> labels(grey.width(), grey.height());
+  for (std::size_t i = 0; i < grey.size(); ++i) {
+    if (options.label >= 0 && grey[i] > 255)
+      throw Error(ErrorKind::input, options.mask, fmt::format("a pixel of {}", grey[i]), "numbers up to 255 with --label");
+    labels[i] = static_cast<std::uint8_t>(options.label >= 0 ? grey[i] : grey[i] != 0 ? 255 : 0);
+  }
+  return labels;
+}
+
+int run(const Options& options) {
+  check_output_folder(options.out);
+  const Grid<std::uint8_t> labels = read_labels(options);
+  const auto label = static_cast<std::uint8_t>(options.label >= 0 ? options.label : 255);
+  std::array<bool, 256> opens{};
+  opens.fill(true);
+  for (const int kept : options.keep) opens[static_cast<std::size_t>(kept)] = false;
+  const Erosion eroded = erode(labels, label, opens, options.erosion);
+
+  const auto standing = std::count(labels.begin(), labels.end(), label);
+  Json told = Json::array();
+  std::string lines;
+  Grid<std::uint8_t> now = labels;
+  for (int level = 1; level <= options.erosion.levels; ++level) {
+    std::int64_t left = 0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (eroded.level[i] == level) now[i] = eroded.labels[i];
+      left += now[i] == label ? 1 : 0;
+    }
+    const std::string name = fmt::format("{}_{:02}.png", std::filesystem::path(options.mask).stem().string(), level);
+    image_io::write_grey_png((std::filesystem::path(options.out) / name).string(), now);
+    lines += fmt::format("  {}  {} of {} pixels left\n", name, left, standing);
+    told.add(Json::object().add("file", Json::text(name)).add("left", Json::number(static_cast<double>(left))));
+  }
+  if (options.json)
+    print_out(Json::object()
+                  .add("out", Json::text(options.out))
+                  .add("standing", Json::number(static_cast<double>(standing)))
+                  .add("steps", std::move(told))
+                  .str() +
+              "\n");
+  else if (!options.quiet)
+    print_out(options.out + "\n" + lines);
+  return 0;
+}
+
+}  // namespace
+
+Action add_texture_erode(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("MASK", options->mask, "A grey picture: what is not 0 is taken back")->required()->type_name("PICTURE");
+  command.add_option("--out", options->out, "Folder of the series: MASK_01.png, MASK_02.png …")->required()->type_name("FOLDER");
+  command.add_option("--steps", options->erosion.levels, "How many masks. Default: 8")->check(CLI::Range(1, 99))->type_name("N");
+  command.add_option("--step-px", options->erosion.step, "How far a straight border goes back from one to the next. Default: 8")
+      ->check(CLI::Range(0.5, 1000.0))
+      ->type_name("PX");
+  command
+      .add_option("--ragged", options->erosion.ragged,
+                  "How much faster it goes in some places than in others: 0 peels evenly, 1 is torn. Default: .4")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("SHARE");
+  command
+      .add_option("--label", options->label,
+                  "Of a map of classes: the number that draws back; each pixel it leaves goes to the number that came there first")
+      ->check(CLI::Range(0, 255))
+      ->type_name("NUMBER");
+  command.add_option("--keep", options->keep, "Numbers that take nothing: shores of water stay")
+      ->check(CLI::Range(0, 255))
+      ->type_name("NUMBER");
+  command.add_option("--seed", options->erosion.seed, "Another seed, other borders. Default: 1")->type_name("N");
+  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
+  command.add_flag("--json", options->json, "Say what came out as JSON");
+  command.footer(
+      "Snow that melts back, forest that retreats: every mask lies within the one before. In scenes: land_cover.erode.\n\n"
+      "  belvedere texture erode snow.png --steps 5 --step-px 12 --out spring\n"
+      "  belvedere texture erode classes.png --label 4 --keep 1 --out clearing");
+  return [options] { return run(*options); };
+}
+
+}  // namespace belvedere::tools
