@@ -11,6 +11,7 @@
 namespace belvedere {
 namespace {
 
+constexpr double most_middle = 0.3;    // of a bend, so that it bends downwards everywhere
 constexpr double off_wish_deg = 15.0;  // that a wished azimuth leaves free
 
 double turned(double degrees) { return degrees - 360.0 * std::floor(degrees / 360.0); }
@@ -32,8 +33,16 @@ bool allowed(const ViewSearch& search, const ViewPlan& plan) {
   if (search.wishes.towards_deg && off_by(plan.azimuth_deg, *search.wishes.towards_deg) > off_wish_deg + slack) return false;
   return plan.field_of_view_deg >= limits.least_field_deg - slack && plan.field_of_view_deg <= limits.most_field_deg + slack &&
          plan.near_share >= limits.least_near - slack && plan.near_share <= limits.most_near + slack && plan.crest_share >= 0.66 - slack &&
-         plan.crest_share <= 0.95 + slack && plan.anchor_share > 0.35 && plan.anchor_share < 0.98 && plan.across > 0.2 && plan.across < 0.8;
+         plan.crest_share <= 0.95 + slack && plan.anchor_share > 0.35 && plan.anchor_share < 0.98 && plan.across > 0.2 &&
+         plan.across < 0.8 && std::abs(plan.middle) <= most_middle + slack;
 }
+
+// A value of a plan and the first step along it; 0 leaves it. A factor goes up and down by ratios.
+struct Step {
+  double ViewPlan::*value;
+  double by;
+  bool factor;
+};
 
 }  // namespace
 
@@ -47,6 +56,7 @@ ViewShape shape_of(const ViewSearch& search, const ViewPlan& plan) {
   view.far_m = plan.far_m;
   view.near_m = plan.near_share * plan.far_m;
   view.crest_m = plan.crest_share * plan.far_m;
+  view.middle = plan.middle;
   if (search.wishes.from) {
     view.viewer = *search.wishes.from;
     return view;
@@ -150,24 +160,21 @@ std::vector<Candidate> first_candidates(const ViewSearch& search) {
   return out;
 }
 
-Candidate refine(const ViewSearch& search, Candidate from) {
-  if (std::optional<Candidate> again = judge(search, from.plan)) from = std::move(*again);
-  struct Step {
-    double ViewPlan::*value;
-    double by;
-    bool factor;
-  };
-  std::array<Step, 7> steps = {{{&ViewPlan::azimuth_deg, 8.0, false},
-                                {&ViewPlan::field_of_view_deg, 6.0, false},
-                                {&ViewPlan::near_share, 0.06, false},
-                                {&ViewPlan::crest_share, 0.06, false},
-                                {&ViewPlan::far_m, 1.12, true},
-                                {&ViewPlan::anchor_share, 0.06, false},
-                                {&ViewPlan::across, 0.05, false}}};
-  constexpr int rounds = 4;
+namespace {
+
+// Half as far as the first ones.
+std::vector<Step> later_steps(double middle) {
+  return {{&ViewPlan::middle, middle, false},         {&ViewPlan::near_share, 0.04, false}, {&ViewPlan::crest_share, 0.04, false},
+          {&ViewPlan::field_of_view_deg, 3.0, false}, {&ViewPlan::far_m, 1.06, true},       {&ViewPlan::anchor_share, 0.03, false},
+          {&ViewPlan::azimuth_deg, 4.0, false}};
+}
+
+// Steps from a candidate along each value while they make it better, halved after each round.
+Candidate climb(const ViewSearch& search, Candidate from, std::vector<Step> steps, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     for (const Step& step : steps)
       for (const int sign : {-1, 1}) {
+        if (step.by == 0.0) continue;
         ViewPlan plan = from.plan;
         plan.*step.value = step.factor ? plan.*step.value * (sign > 0 ? step.by : 1.0 / step.by) : plan.*step.value + sign * step.by;
         plan.azimuth_deg = turned(plan.azimuth_deg);
@@ -179,6 +186,40 @@ Candidate refine(const ViewSearch& search, Candidate from) {
     for (Step& step : steps) step.by = step.factor ? std::sqrt(step.by) : 0.5 * step.by;
   }
   return from;
+}
+
+}  // namespace
+
+Candidate refine(const ViewSearch& search, Candidate from) {
+  if (std::optional<Candidate> again = judge(search, from.plan)) from = std::move(*again);
+  from = climb(search, std::move(from),
+               {{&ViewPlan::azimuth_deg, 8.0, false},
+                {&ViewPlan::field_of_view_deg, 6.0, false},
+                {&ViewPlan::near_share, 0.06, false},
+                {&ViewPlan::crest_share, 0.06, false},
+                {&ViewPlan::far_m, 1.12, true},
+                {&ViewPlan::anchor_share, 0.06, false},
+                {&ViewPlan::across, 0.05, false}},
+               4);
+  // Values lean on each other, so a second go in another order finds what the first one left.
+  return climb(search, std::move(from), later_steps(0.0), 3);
+}
+
+Candidate with_better_bend(const ViewSearch& search, const Candidate& from) {
+  Candidate best = from;
+  for (const double middle : {-0.8 * most_middle, 0.8 * most_middle}) {
+    ViewPlan plan = from.plan;
+    plan.middle = middle;
+    std::optional<Candidate> start = judge(search, plan);
+    if (!start) continue;
+    Candidate found = climb(search, std::move(*start), later_steps(0.4 * most_middle), 3);
+    if (found.plan.middle != 0.0 && found.score > best.score) best = std::move(found);
+  }
+  // Control points are harder to change by hand than a radius: they must be worth it.
+  constexpr double worth_it = 0.10;
+  if (best.score < from.score + worth_it) return from;
+  best.bend = {.merit = best.merit - from.merit, .words = describe_gains(from.terms, best.terms)};
+  return best;
 }
 
 }  // namespace belvedere

@@ -23,6 +23,7 @@ struct ViewWishes {
     glm::dvec2 place{0.0};  // scene CRS
   };
   std::vector<Place> include = {};  // must be in the picture
+  bool search_bend = false;         // bends other than parabolas, too
 };
 
 // What a view is found by; all else follows.
@@ -35,6 +36,13 @@ struct ViewPlan {
   double crest_share = 0.80;
   double anchor_share = 0.76;  // distance of the anchor
   double across = 0.5;         // where the anchor is in the picture
+  double middle = 0.0;         // of the bend: ViewShape::middle
+};
+
+// What a means beyond the usual ones makes better in a view.
+struct ViewGain {
+  double merit = 0.0;
+  std::string words;  // what is won, "ground 47 to 55 %"; empty: it is not used
 };
 
 // A view that was laid out and judged.
@@ -45,6 +53,7 @@ struct Candidate {
   std::vector<ScoreTerm> terms;
   double score = 0.0;
   double merit = 0.0;  // 0…10
+  ViewGain bend;       // by another bend than a parabola; empty: it is a parabola
 };
 
 // The ground, what is on it, and what is asked of it: of one search.
@@ -62,5 +71,7 @@ std::optional<Candidate> judge(const ViewSearch& search, const ViewPlan& plan, c
 std::vector<Candidate> first_candidates(const ViewSearch& search);
 // Steps from a candidate while they make it better, halved a few times.
 Candidate refine(const ViewSearch& search, Candidate from);
+// A refined candidate with another bend than a parabola, refined again, where that scores clearly more; else itself.
+Candidate with_better_bend(const ViewSearch& search, const Candidate& from);
 
 }  // namespace belvedere

@@ -1,5 +1,7 @@
 #include "renderer/compose/view_score.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -146,6 +148,31 @@ double total(const std::vector<ScoreTerm>& terms) {
   double sum = 0.0;
   for (const ScoreTerm& term : terms) sum += term.points();
   return sum;
+}
+
+std::string describe_gains(const std::vector<ScoreTerm>& before, const std::vector<ScoreTerm>& after) {
+  struct Gain {
+    std::size_t term;
+    double points;
+  };
+  std::vector<Gain> gains;
+  for (std::size_t i = 0; i < before.size() && i < after.size(); ++i) gains.push_back({i, after[i].points() - before[i].points()});
+  std::stable_sort(gains.begin(), gains.end(), [](const Gain& a, const Gain& b) { return a.points > b.points; });
+  std::string out;
+  constexpr std::size_t most = 2;
+  constexpr double least_points = 0.02;
+  for (std::size_t k = 0; k < std::min(most, gains.size()) && gains[k].points > least_points; ++k) {
+    const ScoreTerm& was = before[gains[k].term];
+    const ScoreTerm& is = after[gains[k].term];
+    const double unit = is.unit == TermUnit::share ? 100.0 : 1.0;
+    const int digits = is.unit == TermUnit::number ? 2 : 0;
+    out += fmt::format("{}{} {:.{}f} to {:.{}f}{}", out.empty() ? "" : ", ", is.name, unit * was.value, digits, unit * is.value, digits,
+                       is.unit == TermUnit::share     ? " %"
+                       : is.unit == TermUnit::degrees ? "°"
+                       : is.unit == TermUnit::pixels  ? " px"
+                                                      : "");
+  }
+  return out.empty() ? "a little of everything" : out;
 }
 
 int leading_anchor(const ViewMeasures& measures, ScoreContext context) {

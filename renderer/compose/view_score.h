@@ -49,6 +49,8 @@ struct ScoreTerm {
 // The table, filled in for a view.
 std::vector<ScoreTerm> score_terms(const ViewMeasures& measures, const ScoreContext& context);
 double total(const std::vector<ScoreTerm>& terms);
+// The measures that make one of two views of a region better, in words: the two that gain most points.
+std::string describe_gains(const std::vector<ScoreTerm>& before, const std::vector<ScoreTerm>& after);
 // Of the anchors inside of the picture that which makes the most of it as its subject; the first where none is inside.
 int leading_anchor(const ViewMeasures& measures, ScoreContext context);
 // Figure of merit: the total over the most that a picture of the region can have, 0…10.

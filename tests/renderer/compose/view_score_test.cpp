@@ -74,6 +74,16 @@ TEST(ViewScore, AdvisesWhereItIsNotGoodAlone) {
   EXPECT_NE(advice(m, "sky").find("little sky"), std::string::npos);
 }
 
+TEST(ViewScore, GainsAreToldByPoints) {
+  ViewMeasures worse = good_measures();
+  worse.ground = 0.4;        // of 1.5 points
+  worse.floor_depth = 0.5;   // of .8
+  worse.floor_across = 0.9;  // of .5
+  worse.sky_low = 0.16;      // no loss
+  EXPECT_EQ(describe_gains(score_terms(worse, context()), score_terms(good_measures(), context())), "ground 40 to 80 %, depth 50 to 100 %");
+  EXPECT_EQ(describe_gains(score_terms(worse, context()), score_terms(worse, context())), "a little of everything");
+}
+
 TEST(ViewScore, CanyonsLeadOnPlateausSummitsInMountains) {
   const auto points = [](AnchorKind kind, double plateau) {
     ScoreContext c = context();

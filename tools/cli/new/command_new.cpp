@@ -46,6 +46,7 @@ struct Options {
   std::string towards, from, format = "2:1";
   std::vector<std::string> include;
   std::string land_cover, legend;
+  bool search_bend = false;
   bool force = false;
 };
 
@@ -119,6 +120,7 @@ std::string title_of(const std::string& path) {
 ViewWishes wishes_of(const Options& options, const PictureFormat& format, const CoarseGround& ground) {
   ViewWishes out;
   out.format = format;
+  out.search_bend = options.search_bend;
   if (!options.towards.empty()) out.towards_deg = read_direction(options.towards);
   const std::string degrees = normalize_crs("EPSG:4326");
   const auto place = [&](const std::string& option, glm::dvec2 lonlat) {
@@ -345,6 +347,8 @@ Action add_new(CLI::App& command) {
                   "Shape of the sheet: 2:1, 3:1 …; A2, \"A2 upright\"; 2400x1200 pixels; cylinder, \"cylinder 8:1\" for a view all around")
       ->type_name("FORMAT")
       ->capture_default_str();
+  command.add_flag("--search-bend", options->search_bend,
+                   "Tries bends other than parabolas, and takes one where it makes a better picture");
   command.add_option("--title", options->title, "Title of the scene; without it the file's name")->type_name("TEXT");
   command.add_option("--crs", options->crs, "Coordinate system of files that do not say it: EPSG:32632, or its definition")
       ->type_name("CRS");
