@@ -10,6 +10,7 @@
 #include "base/filter.h"
 #include "base/math.h"
 #include "base/math_exact.h"
+#include "base/parallel.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/io/raster_thinned.h"
 #include "terrain/io/surface_raster.h"
@@ -297,28 +298,27 @@ CoarseGround read_coarse_ground(const DemParameters& dem, Progress& progress, co
   return make_coarse_ground(warp_rasters(dem.sources, frame, progress), source_cell_m);
 }
 
-CoarseGround coarse_ground_of(const Dem& dem, const CoarseGroundParameters& parameters, const std::function<glm::dvec3(glm::dvec3)>& move) {
-  const int factor = std::max(1, (std::max(dem.width(), dem.height()) + parameters.most_cells - 1) / parameters.most_cells);
-  Raster<float> raster;
-  raster.crs = dem.crs;
-  raster.transform = {dem.transform.origin_x, dem.transform.origin_y, dem.transform.cell_x * factor, dem.transform.cell_y * factor};
-  raster.cells = Grid<float>(std::max(2, (dem.width() + factor - 1) / factor), std::max(2, (dem.height() + factor - 1) / factor));
-  for (int y = 0; y < raster.cells.height(); ++y)
-    for (int x = 0; x < raster.cells.width(); ++x) {
-      double sum = 0.0;
-      int count = 0;
-      for (int j = 0; j < factor; ++j)
-        for (int i = 0; i < factor; ++i) {
-          const int column = x * factor + i;
-          const int row = y * factor + j;
-          if (!dem.altitude_m.contains(column, row) || dem.filled(column, row) != 0) continue;
-          sum += static_cast<double>(dem.altitude_m(column, row));
-          ++count;
-        }
-      raster.cells(x, y) = count * 2 >= factor * factor ? static_cast<float>(sum / count) : std::numeric_limits<float>::quiet_NaN();
-    }
+CoarseAltitudes coarse_altitudes_of(const Dem& dem, const CoarseGroundParameters& parameters) {
+  BlockMeans means(dem.width(), dem.height(), parameters.most_cells);
+  constexpr int strip_rows = 512;
+  for (int first = 0; first < dem.height(); first += strip_rows) {
+    Grid<float> known(dem.width(), std::min(strip_rows, dem.height() - first));
+    parallel_rows(known.height(), [&](int y) {
+      for (int x = 0; x < known.width(); ++x)
+        known(x, y) = dem.filled(x, first + y) != 0 ? std::numeric_limits<float>::quiet_NaN() : dem.altitude_m(x, first + y);
+    });
+    means.push(known);
+  }
+  GeoTransform transform = dem.transform;
+  transform.cell_x *= means.factor();
+  transform.cell_y *= means.factor();
+  return {{means.means(), transform, dem.crs}, dem.cell_m()};
+}
+
+CoarseGround coarse_ground_of(const CoarseAltitudes& altitudes, const std::function<glm::dvec3(glm::dvec3)>& move) {
+  Raster<float> raster = altitudes.blocks;
   if (move) raster.cells = raster_of_moved(raster.cells, raster.transform, move);
-  return make_coarse_ground(std::move(raster), dem.cell_m());
+  return make_coarse_ground(std::move(raster), altitudes.source_cell_m);
 }
 
 }  // namespace belvedere

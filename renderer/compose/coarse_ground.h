@@ -9,6 +9,7 @@
 
 #include "base/grid.h"
 #include "base/progress.h"
+#include "terrain/io/block_means.h"
 #include "terrain/io/dem.h"
 #include "terrain/io/raster.h"
 
@@ -55,15 +56,20 @@ struct CoarseGround {
 };
 
 struct CoarseGroundParameters {
-  int most_cells = 420;  // of the longer side, 64…4096
+  int most_cells = usual_blocks;  // of the longer side, 64…4096
 };
 
 // From the files of a scene, warped to its metric CRS. Throws what read_dem throws for unusable files. Error(input) where nothing is known.
 CoarseGround read_coarse_ground(const DemParameters& dem, Progress& progress, const CoarseGroundParameters& parameters = {});
-// From a DEM that is there, by means of whole cells; what was filled counts as void.
+// The altitudes that a coarse ground is made of.
+struct CoarseAltitudes {
+  Raster<float> blocks;        // means of whole cells; voids are NaN
+  double source_cell_m = 0.0;  // of the data
+};
+// Of a DEM that is there; what was filled counts as void.
+CoarseAltitudes coarse_altitudes_of(const Dem& dem, const CoarseGroundParameters& parameters = {});
 // `move`: where a point (x, y, altitude) of the ground goes, for ground that is rearranged before it is looked at; empty: nowhere.
-CoarseGround coarse_ground_of(const Dem& dem, const CoarseGroundParameters& parameters = {},
-                              const std::function<glm::dvec3(glm::dvec3)>& move = {});
+CoarseGround coarse_ground_of(const CoarseAltitudes& altitudes, const std::function<glm::dvec3(glm::dvec3)>& move = {});
 // From cells that are coarse already; voids are NaN.
 CoarseGround make_coarse_ground(Raster<float> raster, double source_cell_m);
 

@@ -52,7 +52,8 @@ PixelRect whole_picture(const LoadedScene& view) { return {0, 0, view.scene.outp
 // What a World is made of, as far as one must know to see which classes are in its picture; refused where that would be refused.
 struct Sight {
   std::shared_ptr<const Dem> dem;
-  std::string levels;  // that rendering would take of a DEM which is larger than memory
+  CoarseAltitudes region;  // the data from afar
+  std::string levels;      // that rendering would take of a DEM which is larger than memory
   View view;
   std::vector<ClassArea> areas;
   Grid<LandCoverClass> classes;  // of the small picture
@@ -63,7 +64,8 @@ Sight look(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   in_section("sampling", [&] { return choose_instruction_set(scene.tracing.instruction_set); });
   Sight sight;
   SceneDem opened = open_scene_dem(loaded, progress, cache);
-  sight.view = make_view(scene, opened.dem, progress, ground_altitude_of(opened));
+  sight.view = make_view(scene, opened.dem, progress, ground_altitude_of(opened), &opened.region);
+  sight.region = std::move(opened.region);
   if (opened.levels) {
     const RasterFrame& frame = opened.levels->frame();
     sight.levels = describe(plan_ground(frame, opened.dem, sight.view, opened.most_cells), frame);
@@ -101,7 +103,7 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cach
   Sight sight = look(scene, progress, cache);
   paint.palette = palette_of_place(paint.palette, scene, *sight.dem);
   report.view = sight.view;
-  report.judgement = judge_view(*sight.dem, sight.view);
+  report.judgement = judge_view(sight.region, sight.view);
   report.crs = sight.dem->crs.empty() ? std::string("none") : describe_crs(sight.dem->crs);
   report.cells_wide = sight.dem->width();
   report.cells_high = sight.dem->height();

@@ -10,7 +10,7 @@
 #include "renderer/compose/view_reach.h"
 
 namespace belvedere {
-ViewJudgement judge_view(const Dem& dem, const View& view) {
+ViewJudgement judge_view(const CoarseAltitudes& region, const View& view) {
   ViewJudgement out;
   const Projection* projection = find_projection(view.camera.projection);
   if (projection == nullptr || projection->widest_deg <= 0.0) {
@@ -23,7 +23,7 @@ ViewJudgement judge_view(const Dem& dem, const View& view) {
   if (rearranged) move = [&](glm::dvec3 p) { return deformation.rearranged(p); };
   CoarseGround ground;
   try {
-    ground = coarse_ground_of(dem, {}, move);
+    ground = coarse_ground_of(region, move);
   } catch (const Error& problem) {
     out.why_not = problem.found();
     return out;

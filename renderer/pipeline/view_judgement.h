@@ -23,6 +23,6 @@ struct ViewJudgement {
 
 // On the ground as handles and summits rearrange it, under the scene's own bend and exaggeration. Parallel projections are not judged: they
 // have neither sky nor horizon.
-ViewJudgement judge_view(const Dem& dem, const View& view);
+ViewJudgement judge_view(const CoarseAltitudes& region, const View& view);
 
 }  // namespace belvedere

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 #include <utility>
 
 #include "base/filter.h"
@@ -84,6 +85,31 @@ void take_stripes_off(Dem& dem, const LoadedScene& loaded, Progress& progress) {
   if (loaded.scene.generalize.destripe && dem.halved == 0) dem.altitude_m = destripe(dem.altitude_m, {}, progress);
 }
 
+// The sea in blocks, as the whole terrain has it in its cells: what a view follows from is the same for both.
+void level_blocks(Raster<float>& blocks, const SeaParameters& settings, int cells_a_block) {
+  const auto known = [](float z) { return !std::isnan(z); };
+  if (std::none_of(blocks.cells.begin(), blocks.cells.end(), known)) return;
+  Dem dem = make_dem(blocks);
+  SeaParameters parameters = settings;
+  constexpr int fewest = 16;
+  parameters.least_cells = std::max(fewest, parameters.least_cells / (cells_a_block * cells_a_block));
+  const Sea sea = find_sea(dem, parameters);
+  if (sea.empty()) return;
+  level_sea(dem, sea);
+  for (std::size_t i = 0; i < blocks.cells.size(); ++i)
+    blocks.cells[i] = dem.filled[i] != 0 ? std::numeric_limits<float>::quiet_NaN() : dem.altitude_m[i];
+}
+
+CoarseAltitudes region_of_data(const SceneDem& opened, const SeaParameters& sea) {
+  CoarseAltitudes out = coarse_altitudes_of(opened.dem);
+  if (opened.levels) {
+    const GeoTransform& cells = opened.levels->frame().transform;
+    out = {opened.levels->blocks(), 0.5 * (cells.cell_x + cells.cell_y)};
+  }
+  level_blocks(out.blocks, sea, static_cast<int>(std::lround(out.blocks.transform.cell_x / out.source_cell_m)));
+  return out;
+}
+
 }  // namespace
 
 std::vector<RasterSource> to_raster_sources(const LoadedScene& scene, const std::vector<SceneSource>& sources) {
@@ -95,6 +121,8 @@ std::vector<RasterSource> to_raster_sources(const LoadedScene& scene, const std:
 
 SceneDem open_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   SceneDem opened = read_scene_dem(loaded, progress, cache);
+  // Before stripes are taken off and the sea is levelled, which both hang on the cells.
+  opened.region = region_of_data(opened, scene_sea(loaded.scene.land_cover));
   Sea sea = prepare_scene_dem(opened.dem, loaded, progress);
   if (!sea.empty())
     progress.note(fmt::format("sea: {:.1f} % of the terrain, at {:.1f} m{}", 100.0 * sea.share, sea.level_m,
@@ -117,11 +145,16 @@ GroundAltitude ground_altitude_of(const SceneDem& scene) {
 }
 
 Dem make_scene_dem(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
+  return make_scene_dem_and_region(loaded, progress, cache).dem;
+}
+
+SceneDem make_scene_dem_and_region(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   SceneDem opened = open_scene_dem(loaded, progress, cache);
   if (opened.levels)
     progress.note(fmt::format("elevation {} × {} cells is more than memory holds: looked at in cells of {:.0f} m here",
                               opened.levels->frame().width, opened.levels->frame().height, opened.dem.cell_m()));
-  return std::move(opened.dem);
+  opened.levels.reset();
+  return opened;
 }
 
 Sea prepare_scene_dem(Dem& dem, const LoadedScene& loaded, Progress& progress) {

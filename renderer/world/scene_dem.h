@@ -6,6 +6,7 @@
 #include "base/cache/cache.h"
 #include "base/cache/cache_key.h"
 #include "base/progress.h"
+#include "renderer/compose/coarse_ground.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/view.h"
 #include "terrain/io/dem.h"
@@ -21,6 +22,8 @@ struct SceneDem {
   std::shared_ptr<DemLevels> levels;  // null: dem is all there is
   double most_cells = 0.0;            // of the ground with its windows
   Sea sea;                            // of `dem`
+  // The data from afar, with their sea: the same whether `dem` holds them whole or in coarser cells.
+  CoarseAltitudes region = {};
 };
 // Altitudes of the data themselves; for make_view.
 GroundAltitude ground_altitude_of(const SceneDem& scene);
@@ -33,6 +36,8 @@ SeaParameters prepare_window_dem(Dem& window, const LoadedScene& scene, const De
 // The DEM of a scene: its sources read and mosaicked, or a terrain made up; stripes taken off where the scene asks for it, the sea
 // levelled. The cache keeps made-up terrains.
 Dem make_scene_dem(const LoadedScene& scene, Progress& progress, const Cache& cache = no_cache());
+// With what is known of it from afar; where it is larger than memory, as the whole in coarser cells, and that is noted.
+SceneDem make_scene_dem_and_region(const LoadedScene& scene, Progress& progress, const Cache& cache = no_cache());
 
 // A scene's rasters, elevations or classes, with the files found and units in metres.
 std::vector<RasterSource> to_raster_sources(const LoadedScene& scene, const std::vector<SceneSource>& sources);

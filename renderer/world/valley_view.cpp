@@ -55,7 +55,7 @@ std::optional<SightLine> shown(const Camera& camera, double azimuth_deg) {
 BareView make_bare_view(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   BareView bare;
   SceneDem opened = open_scene_dem(loaded, progress, cache);
-  bare.view = make_view(loaded.scene, opened.dem, progress, ground_altitude_of(opened));
+  bare.view = make_view(loaded.scene, opened.dem, progress, ground_altitude_of(opened), &opened.region);
   bare.dem = std::move(opened.dem);
   bare.camera = make_camera(bare.view.camera);
   bare.generalized_m = generalize_for_view(loaded, bare.dem, nullptr, bare.view, progress, cache).altitude_m;

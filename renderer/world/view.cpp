@@ -74,7 +74,7 @@ DeformParameters resolve_deform(const SceneDeform& scene_deform, const Dem& dem)
   return deform;
 }
 
-View make_view(const Scene& scene, const Dem& dem, Progress& progress, const GroundAltitude& known_m) {
+View make_view(const Scene& scene, const Dem& dem, Progress& progress, const GroundAltitude& known_m, const CoarseAltitudes* known_region) {
   const auto altitude_m = [&](glm::dvec2 place) {
     return known_m && on_terrain(dem, place) ? known_m(place) : ground_altitude_m(dem, place);
   };
@@ -101,7 +101,8 @@ View make_view(const Scene& scene, const Dem& dem, Progress& progress, const Gro
   }
   std::optional<double> viewer_ground_m;
   if (on_terrain(dem, view.viewer_xy)) viewer_ground_m = altitude_m(view.viewer_xy);
-  const LazyValue<std::optional<CoarseGround>> region([&] { return region_of(dem); });
+  const LazyValue<std::optional<CoarseGround>> region(
+      [&] { return region_of(known_region != nullptr ? *known_region : coarse_altitudes_of(dem)); });
   const SettledView settled = settle_view(scene, {view.viewer_xy, viewer_ground_m, target}, region, view.derived);
   const SceneCamera& camera = settled.camera;
 

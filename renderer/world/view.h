@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "renderer/compose/coarse_ground.h"
 #include "renderer/scene/scene.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/sun.h"
@@ -36,6 +37,8 @@ DeformParameters resolve_deform(const SceneDeform& deform, const Dem& dem);
 // horizon is noted, and then only the sky gives light.
 // `ground_m` knows altitudes better than the DEM does, where that is a coarse one of a larger whole; empty: the DEM's.
 using GroundAltitude = std::function<double(glm::dvec2 place)>;
-View make_view(const Scene& scene, const Dem& dem, Progress& progress, const GroundAltitude& ground_m = {});
+// `region`: the data from afar, that what the scene does not say follows from; null: the DEM's.
+View make_view(const Scene& scene, const Dem& dem, Progress& progress, const GroundAltitude& ground_m = {},
+               const CoarseAltitudes* region = nullptr);
 
 }  // namespace belvedere

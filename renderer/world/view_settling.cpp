@@ -120,12 +120,13 @@ void settle_plain(SettledView& settled) {
 
 }  // namespace
 
-std::optional<CoarseGround> region_of(const Dem& dem) {
-  const bool known = dem.filled.empty() || std::find(dem.filled.begin(), dem.filled.end(), std::uint8_t{0}) != dem.filled.end();
-  if (!known) return std::nullopt;
+std::optional<CoarseGround> region_of(const CoarseAltitudes& altitudes) {
+  const Grid<float>& blocks = altitudes.blocks.cells;
+  // Lone cells that no block knows are no region.
+  if (std::all_of(blocks.begin(), blocks.end(), [](float z) { return std::isnan(z); })) return std::nullopt;
   try {
-    return coarse_ground_of(dem);
-  } catch (const Error&) {  // lone cells that no coarse one knows
+    return coarse_ground_of(altitudes);
+  } catch (const Error&) {  // too little of it to know anything
     return std::nullopt;
   }
 }

@@ -20,7 +20,7 @@ namespace belvedere {
 // `derived`. Where nothing can be found (no ground in view), the ground is neither raised nor bent and distances are those of the Alps.
 
 // The ground in coarse cells, looked at when it is first needed; nothing where no altitude is known.
-std::optional<CoarseGround> region_of(const Dem& dem);
+std::optional<CoarseGround> region_of(const CoarseAltitudes& altitudes);
 using LazyRegion = LazyValue<std::optional<CoarseGround>>;
 
 // The point that a scene looks at.

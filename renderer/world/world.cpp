@@ -29,6 +29,9 @@ std::shared_ptr<const Dem> take_dem(const LoadedScene& loaded, SceneDem& opened,
   return std::make_shared<const Dem>(opened.levels ? opened.dem : std::move(opened.dem));
 }
 
+// Null for a DEM that was there before: what it is from afar says all.
+const CoarseAltitudes* region_of(const SceneDem& opened) { return opened.region.blocks.cells.empty() ? nullptr : &opened.region; }
+
 // Class rules and the terrain's model both ask where water runs: it is found once.
 std::shared_ptr<const LandCover> make_cover(const LoadedScene& loaded, const Dem& dem, std::unique_ptr<Catchments>& catchments,
                                             Progress& progress, const Cache& cache) {
@@ -76,7 +79,7 @@ World::World(const LoadedScene& loaded, std::shared_ptr<const Dem> known_dem, st
              std::unique_ptr<Catchments> catchments, Progress& progress, const Cache& cache)
     : scene(runnable(loaded.scene)),
       dem(known_dem ? std::move(known_dem) : take_dem(loaded, opened, progress, cache)),
-      view(make_view(scene, *dem, progress, ground_altitude_of(opened))),
+      view(make_view(scene, *dem, progress, ground_altitude_of(opened), region_of(opened))),
       camera(make_camera(view.camera)),
       land_cover(known_cover ? std::move(known_cover) : make_cover(loaded, *dem, catchments, progress, cache)),
       deformation(view.deform, view.viewer_xy),

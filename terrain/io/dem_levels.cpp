@@ -170,7 +170,7 @@ Grid<float> RowReducer::push(const Grid<float>& rows) {
 }
 
 DemLevels::DemLevels(const DemParameters& parameters, const RasterFrame& frame, int coarsest, double kept_cells, Progress& progress)
-    : windows_(parameters.sources, frame), coarsest_(coarsest), first_kept_(coarsest) {
+    : windows_(parameters.sources, frame), coarsest_(coarsest), first_kept_(coarsest), blocks_(frame.width, frame.height) {
   if (coarsest < 1 || coarsest > 16) throw Error(ErrorKind::bug, "levels of a DEM", fmt::format("{} of them", coarsest), "1 to 16");
   const auto cells = [&](int level) { return static_cast<double>(level_frame(frame, level).width) * level_frame(frame, level).height; };
   for (double held = cells(coarsest); first_kept_ > 1 && held + cells(first_kept_ - 1) <= kept_cells; --first_kept_)
@@ -187,6 +187,7 @@ DemLevels::DemLevels(const DemParameters& parameters, const RasterFrame& frame, 
     Grid<float> rows = windows_.read({0, y, frame.width, std::min(y + strip_rows, frame.height)});
     voids += static_cast<double>(std::count_if(rows.begin(), rows.end(), [](float z) { return std::isnan(z); }));
     const int read = rows.height();
+    blocks_.push(rows);
     for (int level = 1; level <= coarsest && !rows.empty(); ++level) {
       rows = reducers[static_cast<std::size_t>(level) - 1].push(rows);
       if (level < first_kept_ || rows.empty()) continue;
@@ -209,6 +210,14 @@ Dem DemLevels::whole() const {
   Dem dem = make_dem({kept_.back(), at.transform, at.crs});
   dem.halved = coarsest_;
   return dem;
+}
+
+Raster<float> DemLevels::blocks() const {
+  const RasterFrame& at = frame();
+  GeoTransform transform = at.transform;
+  transform.cell_x *= blocks_.factor();
+  transform.cell_y *= blocks_.factor();
+  return {blocks_.means(), transform, at.crs};
 }
 
 Grid<float> DemLevels::read_level(int level, const PixelRect& cells) {

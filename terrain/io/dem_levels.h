@@ -6,6 +6,7 @@
 #include "base/grid.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "terrain/io/block_means.h"
 #include "terrain/io/dem.h"
 #include "terrain/io/raster_windows.h"
 
@@ -49,6 +50,8 @@ class DemLevels {
   const RasterFrame& frame() const { return windows_.frame(); }
   // The whole at the coarsest level, its voids filled.
   Dem whole() const;
+  // The whole as means of blocks of level 0, voids NaN: as of a DEM that is held whole.
+  Raster<float> blocks() const;
   // A rectangle of the cells of a level. Voids are filled from a coarser level of the whole, so that fills of all windows agree.
   Dem window(int level, const PixelRect& cells, const Dem& whole);
 
@@ -58,6 +61,7 @@ class DemLevels {
   RasterWindows windows_;
   int coarsest_;
   int first_kept_ = 0;
+  BlockMeans blocks_;
   std::vector<Grid<float>> kept_;  // levels first_kept_ … coarsest_, with their voids
 };
 

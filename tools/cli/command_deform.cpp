@@ -178,12 +178,13 @@ void examine(const LoadedScene& loaded, const DeformOptions& options, Report& re
 }
 
 void write_dem(const LoadedScene& loaded, const DeformOptions& options, Report& report, Progress& progress, const Cache& cache) {
-  const Dem dem = make_scene_dem(loaded, progress, cache);
+  const SceneDem opened = make_scene_dem_and_region(loaded, progress, cache);
+  const Dem& dem = opened.dem;
   Grid<float> ground = known_altitude(dem);
   std::optional<glm::dvec2> viewer = loaded.scene.camera.position;
   DeformParameters asked = resolve_deform(loaded.scene.deform, dem);
   if (is_scene(options)) {
-    const View view = make_view(loaded.scene, dem, progress);
+    const View view = make_view(loaded.scene, dem, progress, {}, &opened.region);
     viewer = view.viewer_xy;
     asked = view.deform;
     const Grid<float> shown = generalize_for_view(loaded, dem, nullptr, view, progress, cache).altitude_m;

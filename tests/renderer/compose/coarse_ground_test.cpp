@@ -70,7 +70,7 @@ TEST(CoarseGround, FindsCanyonsAndWater) {
 
 TEST(CoarseGround, OfADemIsThatOfItsCells) {
   const Raster<float> fine = test::made_up_raster(60.0, test::cone, 800);
-  const CoarseGround ground = coarse_ground_of(make_dem(fine), {.most_cells = 200});
+  const CoarseGround ground = coarse_ground_of(coarse_altitudes_of(make_dem(fine), {.most_cells = 200}));
   EXPECT_EQ(ground.cells.width(), 200);
   EXPECT_NEAR(ground.source_cell_m, 75.0, 1e-9);
   const CoarseGround direct = test::cone_region();

@@ -22,7 +22,7 @@ class ViewJudgementTest : public testing::Test {
     about.crs = "EPSG:32632";
     const Scene scene =
         parse_scene(proposed_scene_text(search_, best_, about), "chain.toml", ".", {.data_folders = {}, .settings = settings}).scene;
-    return judge_view(dem_, make_view(scene, dem_, silent_progress()));
+    return judge_view(coarse_altitudes_of(dem_), make_view(scene, dem_, silent_progress()));
   }
   static const ScoreTerm& term(const ViewJudgement& judgement, std::string_view name) {
     for (const ScoreTerm& t : judgement.terms)

@@ -12,8 +12,12 @@
 #include "renderer/compose/proposals.h"
 #include "renderer/compose/proposed_scene.h"
 #include "renderer/compose/view_measures.h"
+#include "renderer/pipeline/view_judgement.h"
 #include "renderer/scene/scene_file.h"
+#include "renderer/world/scene_terrain.h"
 #include "renderer/world/view.h"
+#include "terrain/io/raster_io.h"
+#include "tests/files.h"
 #include "tests/renderer/compose/made_up_region.h"
 
 namespace belvedere {
@@ -107,7 +111,7 @@ TEST_F(ViewSettling, AutoIsAsNotWritten) {
 }
 
 TEST_F(ViewSettling, TheSkyHasItsShareAndTheGroundItsHorizon) {
-  const CoarseGround ground = *region_of(dem_);
+  const CoarseGround ground = *region_of(coarse_altitudes_of(dem_));
   for (const std::string& text : {place_, target_, place_ + "height_m = 14000\nazimuth_deg = -12\n"}) {
     const View v = view(text);
     ViewShape shape;
@@ -169,6 +173,43 @@ TEST_F(ViewSettling, AGivenEyeStaysAboveTheGround) {
   const View low = view("[camera]\nposition = [631400, 5230000]\nheight_m = " + std::to_string(top_m + 60.0) + "\nazimuth_deg = 0\n");
   EXPECT_GE(low.deform.exaggeration, 1.0);
   EXPECT_LE(low.deform.exaggeration, 2.0);
+}
+
+// A terrain in a file, held whole and in windows: with a hole in the data, and the sea in the south.
+class DerivedFromFiles : public testing::Test {
+ protected:
+  DerivedFromFiles() {
+    Raster<float> raster = test::made_up_raster(60.0, test::chain, 1100);
+    for (int y = 0; y < 1100; ++y)
+      for (int x = 0; x < 1100; ++x) {
+        if (y > 1020) raster.cells(x, y) = 0.F;
+        if ((x - 300) * (x - 300) + (y - 500) * (y - 500) < 900) raster.cells(x, y) = NAN;
+      }
+    write_raster(folder_ / "dem.tif", raster);
+  }
+  LoadedScene scene(const std::string& most_mcells) const {
+    return parse_scene("version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n[camera]\nposition = [630000, 5201000]\n", "s.toml",
+                       folder_.path(), {.data_folders = {}, .settings = {"terrain.most_mcells=" + most_mcells}});
+  }
+  test::Folder folder_;
+};
+
+TEST_F(DerivedFromFiles, ViewsDoNotHangOnTheMemoryThatTerrainMayTake) {
+  std::vector<std::string> found[2];
+  ViewJudgement judged[2];
+  for (const int windows : {0, 1}) {
+    const LoadedScene loaded = scene(windows == 0 ? "4" : "0.4");
+    const SceneDem opened = open_scene_dem(loaded, silent_progress());
+    EXPECT_EQ(opened.levels != nullptr, windows == 1);
+    const View view = make_view(loaded.scene, opened.dem, silent_progress(), ground_altitude_of(opened), &opened.region);
+    for (const DerivedValue& value : view.derived) found[windows].push_back(value.key + " = " + value.value);
+    judged[windows] = judge_view(opened.region, view);
+    EXPECT_NEAR(opened.region.source_cell_m, 60000.0 / 1100, 1e-9);
+  }
+  EXPECT_GE(found[0].size(), 12U);
+  EXPECT_EQ(found[0], found[1]);
+  EXPECT_GT(judged[0].merit, 0.0);
+  EXPECT_EQ(judged[0].merit, judged[1].merit);
 }
 
 // The same for any picture of the sheet's shape: drafts have the view of the whole.

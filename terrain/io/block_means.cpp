@@ -1,0 +1,49 @@
+#include "terrain/io/block_means.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+
+namespace belvedere {
+namespace {
+
+int blocks_of(int cells, int factor) { return std::max(2, (cells + factor - 1) / factor); }
+
+}  // namespace
+
+BlockMeans::BlockMeans(int width, int height, int most_blocks)
+    : factor_(std::max(1, (std::max(width, height) + most_blocks - 1) / most_blocks)),
+      sums_(blocks_of(width, factor_), blocks_of(height, factor_), 0.0),
+      counts_(sums_.width(), sums_.height(), 0) {}
+
+void BlockMeans::push(const Grid<float>& rows) {
+  // A block gets its cells row by row, whoever brings the rows; blocks side by side are independent.
+  parallel_ranges(static_cast<std::size_t>(sums_.width()), std::size_t{16}, [&](std::size_t begin, std::size_t end) {
+    for (int y = 0; y < rows.height(); ++y) {
+      const int block_y = (row_ + y) / factor_;
+      const float* row = rows.row(y);
+      for (int block_x = static_cast<int>(begin); block_x < static_cast<int>(end); ++block_x) {
+        double& sum = sums_(block_x, block_y);
+        std::int32_t& count = counts_(block_x, block_y);
+        for (int x = block_x * factor_; x < std::min((block_x + 1) * factor_, rows.width()); ++x) {
+          if (std::isnan(row[x])) continue;
+          sum += static_cast<double>(row[x]);
+          ++count;
+        }
+      }
+    }
+  });
+  row_ += rows.height();
+}
+
+Grid<float> BlockMeans::means() const {
+  Grid<float> out(sums_.width(), sums_.height());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = counts_[i] > 0 && 2 * counts_[i] >= factor_ * factor_ ? static_cast<float>(sums_[i] / counts_[i])
+                                                                   : std::numeric_limits<float>::quiet_NaN();
+  return out;
+}
+
+}  // namespace belvedere

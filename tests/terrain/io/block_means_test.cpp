@@ -1,0 +1,61 @@
+#include "terrain/io/block_means.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/grid_part.h"
+
+namespace belvedere {
+namespace {
+
+Grid<float> rough(int width, int height) {
+  Grid<float> grid(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      grid(x, y) = static_cast<float>(900.0 + 37.3 * std::sin(0.7 * x) * std::cos(0.45 * y) + 0.1 * (x * 7 + y));
+  return grid;
+}
+
+Grid<float> in_strips(const Grid<float>& grid, int rows, int blocks) {
+  BlockMeans means(grid.width(), grid.height(), blocks);
+  for (int y = 0; y < grid.height(); y += rows) means.push(part_of(grid, {0, y, grid.width(), std::min(y + rows, grid.height())}));
+  return means.means();
+}
+
+TEST(BlockMeans, AreTheMeansOfWholeBlocks) {
+  Grid<float> grid(9, 6);
+  for (int y = 0; y < 6; ++y)
+    for (int x = 0; x < 9; ++x) grid(x, y) = static_cast<float>(100 * y + x);
+  EXPECT_EQ(BlockMeans(9, 6, 3).factor(), 3);
+  const Grid<float> means = in_strips(grid, 6, 3);
+  ASSERT_EQ(means.width(), 3);
+  ASSERT_EQ(means.height(), 2);
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 3; ++x) EXPECT_EQ(means(x, y), static_cast<float>(100 * (3 * y + 1) + 3 * x + 1));
+}
+
+TEST(BlockMeans, AreTheSameHoweverTheRowsCome) {
+  const Grid<float> grid = rough(215, 101);
+  const Grid<float> whole = in_strips(grid, 101, 40);
+  for (const int rows : {1, 5, 6, 7, 50}) EXPECT_EQ(in_strips(grid, rows, 40), whole) << rows << " rows at once";
+}
+
+TEST(BlockMeans, VoidsTakeNoPart) {
+  Grid<float> grid(8, 8, 500.F);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 4; ++x) grid(x, y) = NAN;
+  grid(4, 0) = NAN;
+  grid(0, 4) = 516.F;
+  for (int x = 4; x < 8; ++x)
+    for (int y = 4; y < 8; ++y)
+      if (y != 5 && x + y != 8) grid(x, y) = NAN;  // 5 of 16 are left
+  const Grid<float> means = in_strips(grid, 3, 2);
+  EXPECT_TRUE(std::isnan(means(0, 0)));
+  EXPECT_EQ(means(1, 0), 500.F);
+  EXPECT_EQ(means(0, 1), 501.F);
+  EXPECT_TRUE(std::isnan(means(1, 1))) << "less than half of it";
+}
+
+}  // namespace
+}  // namespace belvedere
