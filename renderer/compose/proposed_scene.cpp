@@ -42,6 +42,7 @@ std::string place(glm::dvec2 p) { return fmt::format("[{:.0f}, {:.0f}]", p.x, p.
 
 void write_source(Text& text, const ProposedFile& source) {
   text.value("file", json_quoted(source.file));
+  if (source.band != 1) text.value("band", fmt::format("{}", source.band), "of the file's bands");
   if (!source.crs.empty()) text.value("crs", json_quoted(source.crs), "the file does not say it");
   if (source.lowest_m) text.value("lowest_m", fmt::format("{:.0f}", *source.lowest_m), "lower values are faults of the data");
   if (!source.origin.empty()) text.value("origin", json_quoted(source.origin));
@@ -129,6 +130,7 @@ std::string proposed_scene_text(const ViewSearch& search, const Candidate& candi
   if (about.land_cover || !about.rock.empty()) {
     text.line("[land_cover]");
     if (about.land_cover) text.value("legend", json_quoted(about.legend));
+    if (about.land_cover && !about.unknown.empty()) text.value("unknown", json_quoted(about.unknown), "codes that the legend lacks");
     if (!about.rock.empty()) text.value("rock", json_quoted(about.rock), about.rock_why);
     text.line();
   }

@@ -17,6 +17,7 @@ struct ProposedFile {
   std::string origin = {};
   std::string licence = {};
   std::string get_from = {};
+  int band = 1;  // of the file
 };
 struct ProposedScene {
   std::string title;
@@ -24,6 +25,7 @@ struct ProposedScene {
   std::string crs;                    // of the scene; empty: chosen as the program does
   std::optional<ProposedFile> land_cover;
   std::string legend;
+  std::string unknown;  // class of codes that the legend lacks; empty: they are faults
   std::string palette;  // empty: the usual one
   std::string palette_why;
   std::string rock;  // kind of rock; empty: the usual one

@@ -45,7 +45,10 @@ struct Options {
   int most = 5;
   std::string towards, from, format = "2:1";
   std::vector<std::string> include;
-  std::string land_cover, legend;
+  struct Cover {
+    std::string file, legend, crs, unknown;
+    int band = 1;
+  } cover;
   bool search_bend = false;
   bool force = false;
 };
@@ -202,7 +205,7 @@ void fetch_data(const Options& options, FileNames& names, const Cache& cache, Pr
                 DemParameters& dem) {
   FetchOptions wanted = options.fetch;
   wanted.manners.silence_s = options.common.http_silence_s;
-  if (!options.land_cover.empty()) wanted.no_land_cover = true;
+  if (!options.cover.file.empty()) wanted.no_land_cover = true;
   const fs::path folder = fetch_folder(options);
   const FetchedArea area = fetch_area(fetch_parameters(wanted), folder.string(), cache, progress, sources_for_scenes);
   RasterSource source;
@@ -214,14 +217,58 @@ void fetch_data(const Options& options, FileNames& names, const Cache& cache, Pr
   about.legend = area.land_cover->source.legend;
 }
 
+// How much of the region a raster lies over, 0…1: by places in the middle of squares.
+double share_under(const CoarseGround& ground, const RasterInfo& info, const std::string& crs) {
+  constexpr int places = 12;  // a side
+  std::vector<glm::dvec2> at;
+  for (int j = 0; j < places; ++j)
+    for (int i = 0; i < places; ++i) {
+      const glm::dvec2 cell((i + 0.5) / places * ground.cells.width() - 0.5, (j + 0.5) / places * ground.cells.height() - 0.5);
+      const glm::dvec2 place = ground.transform.to_crs(cell.x, cell.y);
+      if (const GroundCell* c = ground.at(place); c != nullptr && c->known) at.push_back(place);
+    }
+  if (at.empty()) return 1.0;
+  const std::size_t all = at.size();
+  PointTransform(ground.crs, crs).apply(at);
+  const auto under = std::count_if(at.begin(), at.end(), [&](glm::dvec2 place) {
+    const glm::dvec2 cell = info.transform.to_cell(place.x, place.y);
+    return cell.x > -0.5 && cell.y > -0.5 && cell.x < info.width - 0.5 && cell.y < info.height - 0.5;
+  });
+  return static_cast<double>(under) / static_cast<double>(all);
+}
+
+// The user's own land cover: what he says of the file is held against it, so that a wrong band or place is found before anything is drawn.
+void name_land_cover(const Options& options, FileNames& names, const CoarseGround& ground, Progress& progress, ProposedScene& about) {
+  const Options::Cover& cover = options.cover;
+  RasterSource source;
+  source.path = find_file(options, cover.file).string();
+  source.band = cover.band;
+  const RasterInfo info = read_raster_info(source);
+  std::string crs = cover.crs;
+  if (crs.empty() && info.crs.empty()) crs = options.crs;
+  if (crs.empty() && info.crs.empty())
+    throw Error(ErrorKind::input, source.path, "does not say in which coordinate system it is",
+                "--land-cover-crs with the code that the data's source names, such as EPSG:32632, or a .prj file beside it");
+  const double share = share_under(ground, info, crs.empty() ? info.crs : normalize_crs(crs));
+  if (share == 0.0)
+    throw Error(ErrorKind::input, source.path, "lies elsewhere than the elevation",
+                "land cover of the same region, and --land-cover-crs that is its own");
+  constexpr double nearly_all = 0.95;
+  if (share < nearly_all) progress.note(fmt::format("{} lies under {:.0f} % of the region alone", source.path, 100.0 * share));
+  about.land_cover = ProposedFile{.file = names.name(source.path), .crs = crs, .band = cover.band};
+  // A legend is the name of one that the program has, or a file, which the scene must find as well.
+  about.legend = fs::path(cover.legend).has_extension() ? names.name(find_file(options, cover.legend)) : cover.legend;
+  about.unknown = cover.unknown;
+}
+
 int run_new(const Options& options) {
   if (options.dems.empty() == options.fetch.at.empty())
     throw Error(ErrorKind::usage, "DEM", options.dems.empty() ? "no elevation is given" : "elevation files and --at are given",
                 "one of the two: files of elevation, or --at LON,LAT to fetch it");
   if (fs::exists(options.out) && !options.force)
     throw Error(ErrorKind::output, options.out, "is there already", "another name, or --force to replace it");
-  if (options.land_cover.empty() != options.legend.empty())
-    throw Error(ErrorKind::usage, options.legend.empty() ? "--land-cover" : "--legend", "goes with the other of the two",
+  if (options.cover.file.empty() != options.cover.legend.empty())
+    throw Error(ErrorKind::usage, options.cover.legend.empty() ? "--land-cover" : "--legend", "goes with the other of the two",
                 "--land-cover FILE --legend nlcd, corine, esa_worldcover, fbfm40 or a file");
   const SheetFormat format = read_format(options.format);
   check_place(options.out);
@@ -250,10 +297,7 @@ int run_new(const Options& options) {
   require_crs(dem.sources);
   const CoarseGround ground = read_coarse_ground(dem, progress);
   about.crs = short_crs(ground.crs);
-  if (!options.land_cover.empty()) {
-    about.land_cover = ProposedFile{.file = names.name(find_file(options, options.land_cover))};
-    about.legend = options.legend;
-  }
+  if (!options.cover.file.empty()) name_land_cover(options, names, ground, progress, about);
   progress.begin("looking for views", 0.0);
   const Massifs massifs = find_massifs(ground);
   require_region(ground, massifs, dem.sources.front().path);
@@ -353,10 +397,23 @@ Action add_new(CLI::App& command) {
   command.add_option("--crs", options->crs, "Coordinate system of files that do not say it: EPSG:32632, or its definition")
       ->type_name("CRS");
   command.add_option("--lowest", options->lowest_m, "Altitudes below this are faults of the data, in metres")->type_name("M");
-  command.add_option("--land-cover", options->land_cover, "A raster of land cover; without it, climate and shape of the ground tell")
-      ->type_name("FILE");
-  command.add_option("--legend", options->legend, "What its codes mean: nlcd, corine, esa_worldcover, fbfm40, or a file")
+  CLI::Option* cover =
+      command.add_option("--land-cover", options->cover.file, "A raster of land cover; without it, climate and shape of the ground tell")
+          ->type_name("FILE");
+  command.add_option("--legend", options->cover.legend, "What its codes mean: nlcd, corine, esa_worldcover, fbfm40, or a file")
       ->type_name("NAME");
+  command.add_option("--land-cover-band", options->cover.band, "Which band of that file holds the codes, where it is not the first")
+      ->type_name("N")
+      ->check(CLI::Range(1, 65535))
+      ->needs(cover);
+  command
+      .add_option("--land-cover-crs", options->cover.crs,
+                  "Its coordinate system, where the file does not say it and it is not that of --crs: EPSG:26911, or its definition")
+      ->type_name("CRS")
+      ->needs(cover);
+  command.add_option("--land-cover-unknown", options->cover.unknown, "The class of codes that the legend lacks, such as shrub")
+      ->type_name("CLASS")
+      ->needs(cover);
   add_file_options(command, options->common);
   add_fetch_options(command, options->fetch);
   command.add_option("--fetched", options->fetched, "The folder for what --at fetches; default: beside the scene, SCENE_data")

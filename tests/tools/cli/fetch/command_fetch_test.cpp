@@ -9,6 +9,7 @@
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"
 #include "tests/http_server.h"
+#include "tests/tools/cli/new/two_bands.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -16,6 +17,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class FetchProgram : public Program {
  protected:
@@ -74,6 +76,19 @@ TEST_F(FetchProgram, NewFetchesThePlaceItIsGiven) {
   const std::string scene = read_bytes(path("place.toml"));
   EXPECT_THAT(scene, AllOf(HasSubstr("file = \"place_data/elevation.tif\""), HasSubstr("© Surveyors"), HasSubstr("© Lookers"),
                            HasSubstr("legend = \"esa_worldcover\""), HasSubstr("title = \"place\"")));
+  EXPECT_EQ(run({"check", path("place.toml"), "--set", "synthesis.enabled=false"}).status, 0);
+  // Land cover of one's own goes before what would be fetched: in a second band, of codes that the fetched one would not have.
+  RasterSource served;
+  served.path = path("served/N47E011.tif");
+  Raster<float> own = read_raster(served);
+  for (float& code : own.cells) code = 161.F;
+  test::write_two_bands(path("own.tif"), own);
+  std::filesystem::remove_all(path("place_data"));
+  const Outcome with_own = propose({"--land-cover", path("own.tif"), "--legend", "fbfm40", "--land-cover-band", "2", "--force"});
+  ASSERT_EQ(with_own.status, 0) << with_own.err;
+  EXPECT_THAT(read_bytes(path("place.toml")),
+              AllOf(HasSubstr("file = \"own.tif\"\nband = 2"), HasSubstr("legend = \"fbfm40\""), Not(HasSubstr("© Lookers"))));
+  EXPECT_FALSE(std::filesystem::exists(path("place_data/land_cover.tif")));
   EXPECT_EQ(run({"check", path("place.toml"), "--set", "synthesis.enabled=false"}).status, 0);
   // With files of one's own there is nothing to fetch, and without either nothing to look at.
   const Outcome both = propose({path("served/N47E011.tif")});

@@ -7,6 +7,7 @@
 
 #include "terrain/io/raster_io.h"
 #include "tests/renderer/compose/made_up_region.h"
+#include "tests/tools/cli/new/two_bands.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -92,6 +93,40 @@ TEST_F(New, RegionsThatCannotDoAreRefusedInWords) {
   const Outcome missing = run({"new", path("missing.tif"), "--out", path("b.toml")});
   EXPECT_EQ(missing.status, 3);
   EXPECT_THAT(missing.err, HasSubstr("missing.tif"));
+}
+
+// Codes of FBFM40 in the second band of a file, and the same codes in a file that does not say where it lies.
+TEST_F(New, LandCoverMayBeABandOfAFileThatSaysLittle) {
+  const Raster<float> dem = test::made_up_raster(60.0, test::chain);
+  Raster<float> codes = dem;
+  for (float& code : codes.cells) code = code > 1500.F ? 99.F : 161.F;  // bare ground, timber
+  write_raster(path("dem.tif"), dem);
+  test::write_two_bands(path("bands.tif"), codes);
+  codes.crs.clear();
+  write_raster(path("codes.asc"), codes);
+  const auto propose = [&](std::vector<std::string> cover) {
+    std::vector<std::string> arguments = {"new", path("dem.tif"), "--out", path("a.toml"), "--force", "--legend", "fbfm40"};
+    arguments.insert(arguments.end(), cover.begin(), cover.end());
+    return run(arguments);
+  };
+  const auto check = [&] { return run({"check", path("a.toml"), "--set", "synthesis.enabled=false"}); };
+  ASSERT_EQ(propose({"--land-cover", path("bands.tif"), "--land-cover-band", "2"}).status, 0);
+  EXPECT_THAT(read_bytes(path("a.toml")), AllOf(HasSubstr("file = \"bands.tif\"\nband = 2"), HasSubstr("legend = \"fbfm40\"")));
+  EXPECT_EQ(check().status, 0) << "the codes are those of the legend";
+  const Outcome third = propose({"--land-cover", path("bands.tif"), "--land-cover-band", "3"});
+  EXPECT_EQ(third.status, 3);
+  EXPECT_THAT(third.err, HasSubstr("has no band 3"));
+
+  const Outcome lost = propose({"--land-cover", path("codes.asc")});
+  EXPECT_EQ(lost.status, 3);
+  EXPECT_THAT(lost.err, AllOf(HasSubstr("codes.asc"), HasSubstr("--land-cover-crs")));
+  const Outcome elsewhere = propose({"--land-cover", path("codes.asc"), "--land-cover-crs", "EPSG:32611"});
+  EXPECT_EQ(elsewhere.status, 3);
+  EXPECT_THAT(elsewhere.err, HasSubstr("lies elsewhere"));
+  ASSERT_EQ(propose({"--land-cover", path("codes.asc"), "--land-cover-crs", "EPSG:32632", "--land-cover-unknown", "shrub"}).status, 0);
+  EXPECT_THAT(read_bytes(path("a.toml")), AllOf(HasSubstr("crs = \"EPSG:32632\""), HasSubstr("unknown = \"shrub\"")));
+  EXPECT_EQ(check().status, 0);
+  EXPECT_EQ(run({"new", path("dem.tif"), "--out", path("b.toml"), "--land-cover-band", "2"}).status, 2) << "of which file?";
 }
 
 TEST_F(New, PicturesAreOneNumberedSheet) {
