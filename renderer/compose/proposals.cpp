@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "renderer/compose/view_changes.h"
 
 namespace belvedere {
 namespace {
@@ -91,10 +92,12 @@ std::vector<Candidate> propose_views(const ViewSearch& search, const ProposalPar
   const auto wanted = static_cast<std::size_t>(parameters.most);
   constexpr double apart_before = 20.0, apart = 25.0;
   std::vector<Candidate> starts = best_that_differ(search, std::move(candidates), wanted + 3, apart_before);
+  const std::vector<WideGround> wide = search.wishes.plain ? std::vector<WideGround>{} : widen_grounds(search.ground);
   parallel_ranges(starts.size(), std::size_t{1}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       starts[i] = refine(search, std::move(starts[i]));
       if (search.wishes.search_bend) starts[i] = with_better_bend(search, starts[i]);
+      if (!search.wishes.plain) starts[i] = with_changes(search, wide, starts[i]);
     }
   });
   drop_views_of_nothing(search, starts);

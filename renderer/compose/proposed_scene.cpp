@@ -8,6 +8,7 @@
 
 #include "base/angle.h"
 #include "base/json.h"
+#include "renderer/compose/view_changes.h"
 #include "renderer/compose/view_defaults.h"
 #include "renderer/compose/view_score.h"
 
@@ -79,6 +80,28 @@ std::string subject_words(const Anchor& anchor, const Massifs& massifs) {
   return fmt::format("{}, {:.0f} m over its valleys", describe_anchor(anchor), anchor.stands_m);
 }
 
+// The main summit a little more than its neighbours; what wins by being raised, by that.
+void write_summits(Text& text, const ViewSearch& search, const Candidate& candidate) {
+  std::vector<RaisedSummit> summits = candidate.changes.summits;
+  const int main = candidate.plan.anchor;
+  const Massifs& massifs = search.massifs;
+  const Anchor& leads = massifs.anchors[static_cast<std::size_t>(main)];
+  const bool done = std::any_of(summits.begin(), summits.end(), [&](const RaisedSummit& s) { return s.anchor == main; });
+  if (leads.kind == AnchorKind::summit && massifs.lone < 0.99 && !done)
+    summits.push_back({.anchor = main, .by = raise_of(leads, candidate.view, 1.0 + 0.15 * (1.0 - massifs.lone)), .gain = {}});
+  for (const RaisedSummit& summit : summits) {
+    text.line("[[deform.summits]]");
+    text.value("name", json_quoted(summit.anchor == main ? "main summit" : "summit"),
+               subject_words(massifs.anchors[static_cast<std::size_t>(summit.anchor)], massifs));
+    text.value("position", place(summit.by.center));
+    text.value("radius_m", metres(summit.by.radius_m));
+    text.value("factor", fmt::format("{:.2f}", summit.by.factor),
+               summit.gain.words.empty() ? "a little more than its neighbours, so that it leads" : "that wins " + summit.gain.words);
+    text.value("base_m", fmt::format("{:.0f}", summit.by.base_m), "its upper part alone");
+    text.line();
+  }
+}
+
 }  // namespace
 
 std::string describe_view(const ViewSearch& search, const Candidate& candidate) {
@@ -96,8 +119,6 @@ std::string describe_view(const ViewSearch& search, const Candidate& candidate) 
 
 std::string proposed_scene_text(const ViewSearch& search, const Candidate& candidate, const ProposedScene& about) {
   const ViewShape& v = candidate.view;
-  const Massifs& massifs = search.massifs;
-  const Anchor& main = massifs.anchors[static_cast<std::size_t>(candidate.plan.anchor)];
   const ViewMeasures& m = candidate.measures;
   const HorizonDefaults horizon = defaults_of_horizon(v.far_m);
   const PainterSun sun = painter_sun(turned_deg(v.azimuth_deg));
@@ -141,6 +162,8 @@ std::string proposed_scene_text(const ViewSearch& search, const Candidate& candi
   text.value("foreground_to_m", metres(horizon.foreground_to_m), "0.42 of the horizon's distance");
   text.value("background_from_m", metres(horizon.background_from_m), "0.95 of it");
   text.value("crest", "0.4");
+  if (candidate.changes.widen_valleys_m > 0.0)
+    text.value("widen_valleys_m", metres(candidate.changes.widen_valleys_m), "that wins " + candidate.changes.widened.words);
   text.line();
   text.line("[deform]");
   text.value("exaggeration", fmt::format("{:.2f}", v.exaggeration),
@@ -148,15 +171,7 @@ std::string proposed_scene_text(const ViewSearch& search, const Candidate& candi
   text.value("exaggeration_base_m", fmt::format("{:.0f}", v.base_m), "a tenth of the ground in view is lower: valleys stay where they are");
   const double eye_m = v.eye_m + write_bend(text, candidate);
   text.line();
-  if (main.kind == AnchorKind::summit && massifs.lone < 0.99) {
-    text.line("[[deform.summits]]");
-    text.value("name", json_quoted("main summit"), subject_words(main, massifs));
-    text.value("position", place(main.place));
-    text.value("radius_m", metres(0.10 * v.far_m));
-    text.value("factor", fmt::format("{:.2f}", 1.0 + 0.15 * (1.0 - massifs.lone)), "a little more than its neighbours, so that it leads");
-    text.value("base_m", fmt::format("{:.0f}", v.base_m + 0.3 * (main.altitude_m - v.base_m)), "its upper part alone");
-    text.line();
-  }
+  write_summits(text, search, candidate);
   text.line("[camera]");
   if (v.cylinder) text.value("projection", "\"cylindrical\"", "a picture so wide would be stretched at its sides by a plane");
   text.value("position", place(v.viewer), search.ground.at(v.viewer) == nullptr ? "outside of the data, which begin in front of it" : "");

@@ -10,6 +10,7 @@
 #include "renderer/compose/view_layout.h"
 #include "renderer/compose/view_measures.h"
 #include "renderer/compose/view_score.h"
+#include "terrain/deform/deform.h"
 
 namespace belvedere {
 
@@ -24,6 +25,7 @@ struct ViewWishes {
   };
   std::vector<Place> include = {};  // must be in the picture
   bool search_bend = false;         // bends other than parabolas, too
+  bool plain = false;               // no valley widened, no summit raised by itself
 };
 
 // What a view is found by; all else follows.
@@ -45,6 +47,20 @@ struct ViewGain {
   std::string words;  // what is won, "ground 47 to 55 %"; empty: it is not used
 };
 
+// A summit that is raised more than the rest.
+struct RaisedSummit {
+  int anchor = 0;
+  SummitExaggeration by;
+  ViewGain gain;
+};
+
+// What is done to the ground of a view besides raising and bending it (view_changes.h).
+struct ViewChanges {
+  double widen_valleys_m = 0.0;
+  ViewGain widened;
+  std::vector<RaisedSummit> summits;
+};
+
 // A view that was laid out and judged.
 struct Candidate {
   ViewPlan plan;
@@ -54,6 +70,7 @@ struct Candidate {
   double score = 0.0;
   double merit = 0.0;  // 0…10
   ViewGain bend;       // by another bend than a parabola; empty: it is a parabola
+  ViewChanges changes;
 };
 
 // The ground, what is on it, and what is asked of it: of one search.

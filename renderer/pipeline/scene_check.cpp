@@ -103,7 +103,7 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cach
   Sight sight = look(scene, progress, cache);
   paint.palette = palette_of_place(paint.palette, scene, *sight.dem);
   report.view = sight.view;
-  report.judgement = judge_view(sight.region, sight.view);
+  report.judgement = judge_view(sight.region, sight.view, static_cast<double>(scene.scene.generalize.valleys.width_m));
   report.crs = sight.dem->crs.empty() ? std::string("none") : describe_crs(sight.dem->crs);
   report.cells_wide = sight.dem->width();
   report.cells_high = sight.dem->height();

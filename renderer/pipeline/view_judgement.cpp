@@ -6,11 +6,12 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/math_exact.h"
+#include "renderer/compose/ground_changes.h"
 #include "renderer/compose/massifs.h"
 #include "renderer/compose/view_reach.h"
 
 namespace belvedere {
-ViewJudgement judge_view(const CoarseAltitudes& region, const View& view) {
+ViewJudgement judge_view(const CoarseAltitudes& region, const View& view, double widen_valleys_m) {
   ViewJudgement out;
   const Projection* projection = find_projection(view.camera.projection);
   if (projection == nullptr || projection->widest_deg <= 0.0) {
@@ -24,6 +25,7 @@ ViewJudgement judge_view(const CoarseAltitudes& region, const View& view) {
   CoarseGround ground;
   try {
     ground = coarse_ground_of(region, move);
+    if (widen_valleys_m > 0.0) ground = widened_ground(ground, widen_valleys_m);
   } catch (const Error& problem) {
     out.why_not = problem.found();
     return out;

@@ -21,8 +21,8 @@ struct ViewJudgement {
   bool judged() const { return !terms.empty(); }
 };
 
-// On the ground as handles and summits rearrange it, under the scene's own bend and exaggeration. Parallel projections are not judged: they
-// have neither sky nor horizon.
-ViewJudgement judge_view(const CoarseAltitudes& region, const View& view);
+// On the ground as handles and summits rearrange it and with its valleys wider by `widen_valleys_m`, under the scene's own bend and
+// exaggeration. Parallel projections are not judged: they have neither sky nor horizon.
+ViewJudgement judge_view(const CoarseAltitudes& region, const View& view, double widen_valleys_m = 0.0);
 
 }  // namespace belvedere

@@ -5,6 +5,7 @@
 
 #include "base/progress.h"
 #include "renderer/compose/proposals.h"
+#include "renderer/compose/view_changes.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/view.h"
 #include "tests/files.h"
@@ -87,6 +88,27 @@ TEST_F(ProposedScenes, SaysWhyAndWhatElseWasAsked) {
   EXPECT_THAT(text, HasSubstr("% of the picture is sky"));
   EXPECT_EQ(parsed().scene.land_cover.legend, "nlcd");
   EXPECT_EQ(parsed().scene.land_cover.rock, "sandstone");
+}
+
+TEST_F(ProposedScenes, SaysWhatIsDoneToTheLandAndWhatItWins) {
+  const int main = best_.plan.anchor;
+  const int other = main == 0 ? 1 : 0;
+  best_.changes = {};
+  ASSERT_EQ(parsed().scene.deform.summits.size(), 1U) << "the main summit leads";
+  EXPECT_NEAR(parsed().scene.deform.summits[0].summit.factor, 1.15, 0.01);
+  EXPECT_EQ(parsed().scene.generalize.valleys.width_m, 0.F);
+  best_.changes.widen_valleys_m = 450.0;
+  best_.changes.widened.words = "floor 19 to 59 %";
+  const Anchor& summit = massifs_.anchors[static_cast<std::size_t>(other)];
+  best_.changes.summits.push_back({.anchor = other, .by = raise_of(summit, best_.view, 1.3), .gain = {0.2, "tops 70 to 100 %"}});
+  const Scene scene = parsed().scene;
+  EXPECT_EQ(scene.generalize.valleys.width_m, 450.F);
+  ASSERT_EQ(scene.deform.summits.size(), 2U);
+  EXPECT_NEAR(scene.deform.summits[0].summit.factor, 1.3, 1e-9);
+  EXPECT_NEAR(scene.deform.summits[0].position->x, summit.place.x, 0.51);
+  EXPECT_THAT(proposed_scene_text(search_, best_, about_), testing::AllOf(HasSubstr("floor 19 to 59 %"), HasSubstr("tops 70 to 100 %")));
+  best_.changes.summits[0].anchor = main;
+  EXPECT_EQ(parsed().scene.deform.summits.size(), 1U) << "the main summit is raised once";
 }
 
 TEST_F(ProposedScenes, WideOnesAreCylinders) {

@@ -14,6 +14,7 @@
 #include "renderer/compose/proposals.h"
 #include "renderer/compose/proposed_scene.h"
 #include "renderer/compose/region_climate.h"
+#include "renderer/compose/view_changes.h"
 #include "renderer/image/output_file.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"
@@ -49,7 +50,7 @@ struct Options {
     std::string file, legend, crs, unknown;
     int band = 1;
   } cover;
-  bool search_bend = false;
+  bool search_bend = false, plain = false;
   bool force = false;
 };
 
@@ -124,6 +125,7 @@ ViewWishes wishes_of(const Options& options, const PictureFormat& format, const 
   ViewWishes out;
   out.format = format;
   out.search_bend = options.search_bend;
+  out.plain = options.plain;
   if (!options.towards.empty()) out.towards_deg = read_direction(options.towards);
   const std::string degrees = normalize_crs("EPSG:4326");
   const auto place = [&](const std::string& option, glm::dvec2 lonlat) {
@@ -155,6 +157,7 @@ std::string as_json(const ViewSearch& search, const std::vector<Candidate>& prop
     list.add(Json::object()
                  .add("what", Json::text(describe_view(search, c)))
                  .add("merit", Json::number(c.merit))
+                 .add("changes", Json::text(describe_changes(search, c)))
                  .add("viewer", Json::array({Json::number(c.view.viewer.x), Json::number(c.view.viewer.y), Json::number(c.view.eye_m)}))
                  .add("azimuth_deg", Json::number(c.view.azimuth_deg))
                  .add("measures", std::move(terms)));
@@ -261,6 +264,18 @@ void name_land_cover(const Options& options, FileNames& names, const CoarseGroun
   about.unknown = cover.unknown;
 }
 
+// What of the merit is won by means beyond the usual, in a few letters.
+std::string gains_caption(const Candidate& candidate) {
+  std::string out;
+  const auto add = [&](const char* what, double merit) { out += fmt::format("{}{} +{:.1f}", out.empty() ? "   " : ", ", what, merit); };
+  if (!candidate.bend.words.empty()) add("bend", candidate.bend.merit);
+  if (candidate.changes.widen_valleys_m > 0.0) add("valleys", candidate.changes.widened.merit);
+  double summits = 0.0;
+  for (const RaisedSummit& summit : candidate.changes.summits) summits += summit.gain.merit;
+  if (!candidate.changes.summits.empty()) add("summits", summits);
+  return out;
+}
+
 int run_new(const Options& options) {
   if (options.dems.empty() == options.fetch.at.empty())
     throw Error(ErrorKind::usage, "DEM", options.dems.empty() ? "no elevation is given" : "elevation files and --at are given",
@@ -334,8 +349,8 @@ int run_new(const Options& options) {
     const double cell_m = draft_cell_m(ground, proposals, look.width_px);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       drafts.push_back(make_small_draft(scenes[i], look.width_px, cell_m));
-      captions.push_back(fmt::format("{}   merit {:.1f}   azimuth {:.0f}, {:.0f} km", i + 1, proposals[i].merit,
-                                     proposals[i].view.azimuth_deg, proposals[i].view.far_m / 1000.0));
+      captions.push_back(fmt::format("{}   merit {:.1f}   azimuth {:.0f}, {:.0f} km{}", i + 1, proposals[i].merit,
+                                     proposals[i].view.azimuth_deg, proposals[i].view.far_m / 1000.0, gains_caption(proposals[i])));
     }
     sheet = (fs::path(options.pictures) / "proposals.png").string();
     write_contact_sheet(sheet, drafts, captions, run, look);
@@ -393,6 +408,8 @@ Action add_new(CLI::App& command) {
       ->capture_default_str();
   command.add_flag("--search-bend", options->search_bend,
                    "Tries bends other than parabolas, and takes one where it makes a better picture");
+  command.add_flag("--plain", options->plain,
+                   "Neither widens valleys nor raises summits where that makes a better picture: the land is raised and bent as a whole");
   command.add_option("--title", options->title, "Title of the scene; without it the file's name")->type_name("TEXT");
   command.add_option("--crs", options->crs, "Coordinate system of files that do not say it: EPSG:32632, or its definition")
       ->type_name("CRS");

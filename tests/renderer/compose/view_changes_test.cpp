@@ -1,0 +1,102 @@
+#include "renderer/compose/view_changes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "renderer/compose/ground_changes.h"
+#include "renderer/compose/proposals.h"
+#include "tests/renderer/compose/made_up_region.h"
+
+namespace belvedere {
+namespace {
+
+using testing::HasSubstr;
+
+// Narrow valleys between ridges, of whose floors little is wide enough to be seen, and a peak.
+double narrow(double e, double n) {
+  const double ridges = 900.0 * std::abs(std::sin(0.55 * e)) * (0.7 + 0.3 * std::sin(0.4 * n));
+  const double peak = 900.0 * std::exp(-(std::pow((e - 26.0) / 5.0, 2.0) + std::pow((n - 34.0) / 5.0, 2.0)));
+  return 700.0 + 6.0 * n + ridges + peak;
+}
+
+class ViewChangesOf : public testing::Test {
+ protected:
+  static std::vector<Candidate> some(const ViewSearch& search) {
+    const std::vector<Candidate> candidates = first_candidates(search);
+    std::vector<Candidate> out;
+    for (std::size_t i = 0; i < candidates.size(); i += candidates.size() / 12) out.push_back(*judge(search, candidates[i].plan));
+    return out;
+  }
+  CoarseGround ground_ = make_coarse_ground(test::made_up_raster(60.0, narrow), 300.0);
+  Massifs massifs_ = find_massifs(ground_);
+  ViewSearch search_{ground_, massifs_, {}};
+};
+
+TEST_F(ViewChangesOf, NothingIsDoneWhereItWinsLittle) {
+  const CoarseGround ground = test::cone_region();
+  const Massifs massifs = find_massifs(ground);
+  const ViewSearch search{ground, massifs, {}};
+  const std::vector<WideGround> wide = widen_grounds(ground);
+  int left = 0;
+  for (const Candidate& before : some(search)) {
+    const Candidate after = with_changes(search, wide, before);
+    if (after.changes.widen_valleys_m > 0.0 || !after.changes.summits.empty()) continue;
+    ++left;
+    EXPECT_EQ(after.score, before.score);
+    EXPECT_EQ(describe_changes(search, after), "");
+  }
+  EXPECT_GT(left, 0);
+}
+
+TEST_F(ViewChangesOf, AreTakenWhereTheyWinMuch) {
+  const std::vector<WideGround> wide = widen_grounds(ground_);
+  ASSERT_EQ(wide.size(), 2U);
+  EXPECT_LT(wide[0].width_m, wide[1].width_m);
+  int widened = 0, raised = 0;
+  for (const Candidate& before : some(search_)) {
+    const Candidate after = with_changes(search_, wide, before);
+    const ViewChanges& changes = after.changes;
+    widened += changes.widen_valleys_m > 0.0 ? 1 : 0;
+    raised += changes.summits.empty() ? 0 : 1;
+    EXPECT_LE(changes.summits.size(), 2U);
+    if (changes.widen_valleys_m == 0.0 && changes.summits.empty()) continue;
+    const double least = (changes.widen_valleys_m > 0.0 ? 0.2 : 0.0) + 0.25 * static_cast<double>(changes.summits.size());
+    EXPECT_GE(after.score, before.score + least - 1e-9);
+    EXPECT_THAT(describe_changes(search_, after), HasSubstr("win"));
+    // Judged once more from the start, on the ground that it says.
+    CoarseGround ground = changes.widen_valleys_m > 0.0 ? widened_ground(ground_, changes.widen_valleys_m) : ground_;
+    Massifs massifs = massifs_;
+    std::vector<SummitExaggeration> summits;
+    double gains = changes.widen_valleys_m > 0.0 ? changes.widened.merit : 0.0;
+    for (const RaisedSummit& summit : changes.summits) {
+      Anchor& anchor = massifs.anchors[static_cast<std::size_t>(summit.anchor)];
+      const double more = (summit.by.factor - 1.0) * (anchor.altitude_m - summit.by.base_m);
+      anchor.altitude_m += more, anchor.stands_m += more;
+      summits.push_back(summit.by);
+      gains += summit.gain.merit;
+    }
+    ground = raised_ground(ground, summits);
+    EXPECT_NEAR(judge({ground, massifs, {}}, after.plan)->score, after.score, 1e-9);
+    EXPECT_NEAR(before.merit + gains, after.merit, 1e-9) << "each says its own part";
+  }
+  EXPECT_GT(widened, 0);
+  EXPECT_GT(raised, 0);
+}
+
+TEST_F(ViewChangesOf, PlainProposalsHaveNone) {
+  const auto changed = [&](bool plain) {
+    ViewWishes wishes;
+    wishes.plain = plain;
+    int count = 0;
+    for (const Candidate& view : propose_views({ground_, massifs_, wishes}, {.most = 5}))
+      if (view.changes.widen_valleys_m > 0.0 || !view.changes.summits.empty()) ++count;
+    return count;
+  };
+  EXPECT_EQ(changed(true), 0);
+  EXPECT_GT(changed(false), 0);
+}
+
+}  // namespace
+}  // namespace belvedere
