@@ -14,7 +14,7 @@
 #include "renderer/compose/view_measures.h"
 #include "renderer/pipeline/view_judgement.h"
 #include "renderer/scene/scene_file.h"
-#include "renderer/world/scene_terrain.h"
+#include "renderer/world/scene_dem.h"
 #include "renderer/world/view.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
