@@ -186,7 +186,7 @@ TexturePiece make_piece(const CliqueModel& model, const TextureRecord& record, P
   const int mask = (1 << model.levels) - 1;
   piece.x0 &= ~mask;  // also of numbers below 0
   piece.y0 &= ~mask;
-  check_size(piece.width(), piece.height());
+  check_texture_size(piece.width(), piece.height());
   BandPyramid pyramid = empty_pyramid(piece.width(), piece.height(), model.levels);
   const BandPicture made = run(model, std::move(pyramid), {piece.x0, piece.y0}, parameters, {.replay = &record}, progress);
   return {piece, to_picture(made, model.bands)};
