@@ -26,11 +26,13 @@ std::vector<Stroke> glade_grass(const StrokeScene& scene, Stream stream) {
     if (scene.class_at(i) != forest || !is_grassy(scene, i)) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.order += 2.F;  // before the trees around
-    const float turn = seed.uniform() < 0.5F ? 0.F : quarter_turn;
-    const float length = seed.between(4.F, 9.F);
-    lay_line(stroke, scene, place, length, turn + 0.3F * seed.normal(), 0.2F, true, seed);
-    take_brush(stroke, scene, seed.between(1.6F, 2.8F), {.taper = 0.5F, .alpha = 0.6F, .bristle = 0.4F, .wetness = 0.03F});
-    stroke.colour = scene.colour(i, mixed_tone(0.28F, 0.20F, seed), paint_jitter * 1.3F, seed);
+    // Mown and grazed grass lies across its slope; strokes that cross each other are straw on a large sheet.
+    constexpr float across_share = 0.85F;
+    const float turn = seed.uniform() < across_share ? quarter_turn : 0.F;
+    const float length = seed.between(2.5F, 6.F);
+    lay_line(stroke, scene, place, length, turn + 0.18F * seed.normal(), 0.25F, true, seed);
+    take_brush(stroke, scene, seed.between(1.6F, 2.8F), {.taper = 0.5F, .alpha = 0.5F, .bristle = 0.4F, .wetness = 0.03F});
+    stroke.colour = scene.colour(i, mixed_tone(0.28F, 0.12F, seed), paint_jitter, seed);
     out.push_back(stroke);
   });
 }
