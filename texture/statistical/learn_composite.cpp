@@ -41,13 +41,22 @@ void check_label(const std::string& name, const Grid<Rgb8>& picture, const Grid<
   throw Error(ErrorKind::input, where, "one colour all over", "a texture");
 }
 
-CliqueModel learn_part(const LabelledCrop& crop, const Grid<std::uint8_t>& states, bool choose, const LearnParameters& parameters,
+CliqueModel learn_part(const LabelledCrop& crop, const Grid<std::uint8_t>& states, bool choose, const CompositeParameters& parameters,
                        Progress& progress) {
   const PixelRect box = intersection(grown(box_of(states), least_crop_px / 2), {0, 0, states.width(), states.height()});
   const Grid<Rgb8> picture = part_of(crop.picture, box);
   const Grid<std::uint8_t> counted = part_of(states, box);
-  CliqueModel model = learn_texture(picture, counted, parameters, progress).model;
-  if (choose) choose_seed(model, picture, counted, parameters, progress);
+  CliqueModel model = learn_texture(picture, counted, parameters.learn, progress).model;
+  if (choose) {
+    choose_seed(model, picture, counted, parameters.learn, progress);
+    return model;
+  }
+  const StrokeDirection strokes = find_stroke_direction(picture, counted);
+  model.direction_deg = strokes.deg;
+  model.direction_spread = strokes.spread;
+  model.seed = parameters.begin;
+  model.seed_px = parameters.begin_px;
+  model.polish = model.seed == TextureSeed::white;
   return model;
 }
 
@@ -99,13 +108,14 @@ CompositeModel learn_composite(const LabelledCrop& crop, const CompositeParamete
   out.crop_hash = hash_of(crop);
   out.map = learn_label_map(completed(crop.labels), count);
   for (std::size_t label = 0; label < masks.size(); ++label)
-    out.labels.push_back({crop.names[label], learn_part(crop, masks[label], parameters.choose, parameters.learn, progress)});
+    out.labels.push_back({crop.names[label], learn_part(crop, masks[label], parameters.choose, parameters, progress)});
 
   const Grid<std::uint8_t> near = near_borders(crop.labels, transition_px);
   const Grid<std::uint8_t> zone = states_where(crop, [&](std::size_t i) { return near[i] != 0; });
   const bool enough = std::count(zone.begin(), zone.end(), pixel_free) >= std::ptrdiff_t{least_crop_px} * least_crop_px;
+  const CompositeParameters white{.learn = parameters.learn};
   if (enough)
-    out.transition = learn_part(crop, zone, false, parameters.learn, progress);
+    out.transition = learn_part(crop, zone, false, white, progress);
   else
     progress.note("warning: the labels' borders are too short to learn how they are painted; textures will meet without a transition");
   return out;

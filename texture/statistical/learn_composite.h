@@ -23,7 +23,9 @@ inline constexpr int transition_px = 6;   // and that of borders so far to eithe
 
 struct CompositeParameters {
   LearnParameters learn{};
-  bool choose = true;  // how each label's texture begins (choose_seed.h); else white and polished
+  bool choose = true;  // how each label's texture begins (choose_seed.h); else all as `begin` says
+  TextureSeed begin = TextureSeed::white;
+  float begin_px = 0.F;  // half length of streaks, radius of discs
 };
 
 // A model of each label under its mask, of borders, and of the map. Error(input) for labels of another size than the crop, one label or

@@ -32,6 +32,8 @@ const std::vector<Command>& all_commands() {
       {"texture", "erode", "Takes a mask back step by step, along ragged borders: melting snow, forest in retreat", add_texture_erode},
       {"texture", "fill", "Makes anew a masked part of a picture from such a model, to go with what is around it", add_texture_fill},
       {"texture", "judge", "Says how near textures, made by whatever program, come to a crop of a painting", add_texture_judge},
+      {"composite", "learn", "Learns a picture of several textures, and how they lie, from a crop and its labels", add_composite_learn},
+      {"composite", "make", "Makes such a picture of any size, over a map of labels that is made or drawn", add_composite_make},
       {"", "info", "Says what a picture or guidance file holds and how it was made", add_info},
       {"", "diff", "Compares two pictures or guidance files, with thresholds", add_diff},
       {"", "schema", "Prints what a scene file may say, for editors or for reading", add_schema},
@@ -42,10 +44,12 @@ const std::vector<Command>& all_commands() {
 }
 
 const std::vector<CommandGroup>& command_groups() {
-  static const std::vector<CommandGroup> groups = {{"cache", "About what is kept from earlier runs: land cover, terrain, example sheets"},
-                                                   {"exemplar", "About example paintings: what they can serve, and painting one"},
-                                                   {"layers", "About surface layers: what covers the ground, said by what is known of it"},
-                                                   {"texture", "About textures as statistics: paint without end from a kilobyte"}};
+  static const std::vector<CommandGroup> groups = {
+      {"cache", "About what is kept from earlier runs: land cover, terrain, example sheets"},
+      {"exemplar", "About example paintings: what they can serve, and painting one"},
+      {"layers", "About surface layers: what covers the ground, said by what is known of it"},
+      {"texture", "About textures as statistics: paint without end from a kilobyte"},
+      {"composite", "About pictures of several textures: what lies where, and what it is filled with"}};
   return groups;
 }
 

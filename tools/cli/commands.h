@@ -56,6 +56,8 @@ Action add_render(CLI::App& command);
 Action add_schema(CLI::App& command);
 Action add_synthesize(CLI::App& command);
 Action add_texture_erode(CLI::App& command);
+Action add_composite_learn(CLI::App& command);
+Action add_composite_make(CLI::App& command);
 Action add_texture_fill(CLI::App& command);
 Action add_texture_judge(CLI::App& command);
 Action add_texture_learn(CLI::App& command);

@@ -1,0 +1,35 @@
+#include "texture/statistical/composite_figures.h"
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+
+namespace belvedere {
+namespace {
+
+// Light above a height, dark below.
+Grid<Rgb8> halves(int width, int height, bool turned) {
+  Grid<Rgb8> out(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto grain = static_cast<std::uint8_t>(random_index(8, 1, x, y));
+      const auto v = static_cast<std::uint8_t>(((y < height / 2) != turned ? 200 : 40) + grain);
+      out(x, y) = {v, v, static_cast<std::uint8_t>(v / 2)};
+    }
+  return out;
+}
+
+TEST(LayoutFigures, KnowTopFromBottomAtAnySize) {
+  const Grid<Rgb8> crop = halves(160, 160, false);
+  const LayoutFigures same = layout_figures(crop, crop);
+  EXPECT_EQ(same.profile, 0.0);
+  EXPECT_EQ(same.far_pairs, 0.0);
+  EXPECT_LT(layout_figures(crop, halves(200, 320, false)).profile, .02);
+  // Turned over, every strip holds what it never held; differences along rows stay, those along columns turn their sign.
+  const LayoutFigures turned = layout_figures(crop, halves(160, 160, true));
+  EXPECT_NEAR(turned.profile, 2.0, 1e-9);
+  EXPECT_GT(turned.far_pairs, .3);
+}
+
+}  // namespace
+}  // namespace belvedere

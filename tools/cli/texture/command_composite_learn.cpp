@@ -1,0 +1,209 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "base/error.h"
+#include "base/json.h"
+#include "base/parallel.h"
+#include "texture/statistical/composite_figures.h"
+#include "texture/statistical/learn_composite.h"
+#include "texture/statistical/make_composite.h"
+#include "texture/statistical/make_label_map.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/file_names.h"
+#include "tools/cli/lock/scratch_folder.h"
+#include "tools/cli/terminal.h"
+#include "tools/cli/texture/label_pictures.h"
+#include "tools/cli/texture/texture_pictures.h"
+#include "tools/report/report_folder.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  std::string crop, labels, out, report, begin;
+  double begin_px = 8.0;
+  CompositeParameters composite;
+  int threads = 0;
+  bool quiet = false;
+  bool json = false;
+};
+
+// What a run found, for all ways to tell it.
+struct Findings {
+  CompositeModel model;
+  std::size_t bytes = 0;
+  std::vector<std::string> names;
+  std::vector<std::size_t> pixels;  // of each label in the crop
+  Grid<std::uint8_t> map;           // made, of the crop's size
+  LabelMapFigures map_figures;
+  Grid<Rgb8> filled;  // the crop's own map
+  Grid<Rgb8> made;    // the made one
+  LayoutFigures filled_figures;
+  LayoutFigures made_figures;
+};
+
+std::string border_text(const Findings& found) {
+  const auto wanted = border_shares(found.model.map);
+  std::string out;
+  for (std::size_t s = 0; s < label_scales; ++s)
+    out += fmt::format("{}{:.4f} of {:.4f}", s == 0 ? "" : ", ", found.map_figures.borders[s], wanted[s]);
+  return out;
+}
+
+std::string as_text(const Options& options, const Findings& found) {
+  std::string out = fmt::format("{}: {} labels{}, {} bytes\n", options.out, found.model.labels.size(),
+                                found.model.transition ? " and a transition" : "", found.bytes);
+  for (std::size_t k = 0; k < found.names.size(); ++k)
+    out += fmt::format("  {:<10} {} pixels, {} types\n", found.names[k], found.pixels[k], found.model.labels[k].model.cliques.size());
+  out += fmt::format("  a made map     pairs {:.3f}, borders' patterns {:.3f}, by height {:.3f}\n", found.map_figures.pairs,
+                     found.map_figures.rings, found.map_figures.profile);
+  out += fmt::format("  its borders    1, 2, 4, 8, 16 px apart: {}\n", border_text(found));
+  out +=
+      fmt::format("  colours by height, pairs far apart: {:.3f}, {:.3f} over the crop's map; {:.3f}, {:.3f} over the made one\n",
+                  found.filled_figures.profile, found.filled_figures.far_pairs, found.made_figures.profile, found.made_figures.far_pairs);
+  return out;
+}
+
+std::string as_json(const Options& options, const Findings& found) {
+  const auto layout = [](const LayoutFigures& f) {
+    return Json::object().add("profile", Json::number(f.profile)).add("far_pairs", Json::number(f.far_pairs));
+  };
+  Json labels = Json::array();
+  for (std::size_t k = 0; k < found.names.size(); ++k)
+    labels.add(Json::object()
+                   .add("name", Json::text(found.names[k]))
+                   .add("pixels", Json::number(static_cast<double>(found.pixels[k])))
+                   .add("types", Json::number(static_cast<double>(found.model.labels[k].model.cliques.size()))));
+  return Json::object()
+             .add("out", Json::text(options.out))
+             .add("bytes", Json::number(static_cast<double>(found.bytes)))
+             .add("labels", std::move(labels))
+             .add("transition", Json::boolean(found.model.transition.has_value()))
+             .add("map", Json::object()
+                             .add("pairs", Json::number(found.map_figures.pairs))
+                             .add("rings", Json::number(found.map_figures.rings))
+                             .add("profile", Json::number(found.map_figures.profile)))
+             .add("filled", layout(found.filled_figures))
+             .add("made", layout(found.made_figures))
+             .str() +
+         "\n";
+}
+
+void write_report(const Options& options, const TextureCrop& crop, const LabelPicture& labels, const Findings& found) {
+  ReportFolder folder(options.report);
+  folder.begin_figure(
+      "pictures", "Crop and composite",
+      "The crop with its labels, and what is made from the model alone: over the crop's own map, and over a made one. Look at "
+      "borders first: are they as ragged, and do labels lie as they should?");
+  folder.picture("crop", encoded_picture(crop.picture), "the crop");
+  folder.picture("labels", label_colours(labels.labels, labels.names), "its labels");
+  folder.next_row();
+  folder.picture("filled", encoded_picture(found.filled), "made over the crop's labels");
+  folder.next_row();
+  folder.picture("made", encoded_picture(found.made), "made over made labels");
+  folder.picture("map", label_colours(found.map, found.names), "made labels");
+  folder.end_figure();
+  folder.add("<h2>Labels</h2><table>" + html_row({"label", "pixels", "types"}, "th"));
+  for (std::size_t k = 0; k < found.names.size(); ++k)
+    folder.add(html_row(
+        {html_escaped(found.names[k]), fmt::format("{}", found.pixels[k]), fmt::format("{}", found.model.labels[k].model.cliques.size())}));
+  folder.add("</table><h2>Distances to the crop</h2><table>" + html_row({"", "colours by height", "pairs 16–128 px apart"}, "th"));
+  const auto row = [&](const char* name, const LayoutFigures& f) {
+    folder.add(html_row({name, fmt::format("{:.3f}", f.profile), fmt::format("{:.3f}", f.far_pairs)}));
+  };
+  row("over the crop's labels", found.filled_figures);
+  row("over made labels", found.made_figures);
+  folder.add("</table><h2>The made map</h2><table>" + html_row({"pairs", "borders' patterns", "labels by height"}, "th") +
+             html_row({fmt::format("{:.3f}", found.map_figures.pairs), fmt::format("{:.3f}", found.map_figures.rings),
+                       fmt::format("{:.3f}", found.map_figures.profile)}) +
+             "</table><p>Borders, as the share of neighbours 1, 2, 4, 8, 16 pixels apart that differ, of the crop's: " +
+             border_text(found) + ".</p>");
+  folder.write_page("Composite texture", file_name(options.crop), fmt::format("A model of {} bytes.", found.bytes),
+                    fmt::format("belvedere composite learn {} --labels {} --out {}", file_name(options.crop), file_name(options.labels),
+                                file_name(options.out)));
+}
+
+CompositeParameters parameters_of(const Options& options) {
+  CompositeParameters parameters = options.composite;
+  parameters.choose = options.begin.empty();
+  parameters.begin = options.begin == "streaks" ? TextureSeed::streaks : options.begin == "discs" ? TextureSeed::discs : TextureSeed::white;
+  parameters.begin_px = parameters.begin == TextureSeed::white ? 0.F : static_cast<float>(options.begin_px);
+  return parameters;
+}
+
+int run(const Options& options) {
+  check_place(options.out);
+  if (options.out == options.crop || options.out == options.labels)
+    throw Error(ErrorKind::usage, "--out", options.out + " is what is read", "a file of its own");
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  const TextureCrop crop = read_crop(options.crop, "");
+  if (crop.transparent > 0) progress.note(fmt::format("{} transparent pixels are left out", crop.transparent));
+  const LabelPicture labels = read_label_picture(options.labels);
+  if (!labels.labels.same_size(crop.picture))
+    throw Error(ErrorKind::input, options.labels, fmt::format("{} × {} pixels", labels.labels.width(), labels.labels.height()),
+                fmt::format("the size of {}: {} × {}", options.crop, crop.picture.width(), crop.picture.height()));
+  Findings found;
+  found.names = labels.names;
+  for (std::size_t k = 0; k < labels.names.size(); ++k)
+    found.pixels.push_back(static_cast<std::size_t>(std::count(labels.labels.begin(), labels.labels.end(), static_cast<std::uint8_t>(k))));
+  found.model = learn_composite({crop.picture, crop.states, labels.labels, labels.names}, parameters_of(options), progress);
+  const std::string text = composite_text(found.model);
+  found.bytes = text.size();
+  write_text_file(options.out, text);
+
+  found.map = make_label_map(found.model.map, crop.picture.width(), crop.picture.height(), {}, progress);
+  found.map_figures = label_map_figures(found.model.map, found.map);
+  found.filled = make_composite(found.model, read_drawn_labels(options.labels, found.names), {}, progress);
+  found.made = make_composite(found.model, found.map, {}, progress);
+  found.filled_figures = layout_figures(crop.picture, found.filled);
+  found.made_figures = layout_figures(crop.picture, found.made);
+  if (!options.report.empty()) write_report(options, crop, labels, found);
+  progress.end();
+  if (options.json)
+    print_out(as_json(options, found));
+  else if (!options.quiet)
+    print_out(as_text(options, found));
+  return 0;
+}
+
+}  // namespace
+
+Action add_composite_learn(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("CROP", options->crop, "A painting, or a piece of one, that shows several textures")->required()->type_name("PICTURE");
+  command
+      .add_option("--labels", options->labels,
+                  "What is where: a picture of its size in 2 to 16 flat colours, or of grey numbers; number 255 is left out.\n"
+                  "Each colour is one texture, 48 pixels a side or more")
+      ->required()
+      ->type_name("PICTURE");
+  command.add_option("--out", options->out, "The model: a text of some 15 000 letters")->required()->type_name("COMPOSITE");
+  command.add_option("--types", options->composite.learn.types, "How many statistics each texture holds at most, 16 to 200. Default: 40")
+      ->check(CLI::Range(16, 200))
+      ->type_name("N");
+  command
+      .add_option("--begin", options->begin,
+                  "The noise that all textures begin with, which decides the shape of their dabs: white, streaks or discs.\n"
+                  "Default: for each what comes nearest to the crop, which may look combed where forms are large: then white")
+      ->check(CLI::IsMember({"white", "streaks", "discs"}))
+      ->type_name("KIND");
+  command.add_option("--begin-px", options->begin_px, "With --begin: half length of streaks, radius of discs. Default: 8")
+      ->check(CLI::Range(1.0, 256.0))
+      ->type_name("PX");
+  command.add_option("--report", options->report, "A page with crop beside composite, and all figures")->type_name("FOLDER");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit")->type_name("N");
+  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
+  command.add_flag("--json", options->json, "Say what came out as JSON");
+  command.footer(
+      "Where a picture holds sky above water beside rock, one texture of all would be camouflage. A composite learns each by itself, what "
+      "lies\n"
+      "along their borders, and how the labels themselves lie: beside each other, above each other, with what borders.\n\n"
+      "  belvedere composite learn coast.png --labels coast_labels.png --out coast.composite --report coast_report");
+  return [options] { return run(*options); };
+}
+
+}  // namespace belvedere::tools

@@ -1,0 +1,89 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "base/error.h"
+#include "base/json.h"
+#include "base/parallel.h"
+#include "texture/statistical/make_composite.h"
+#include "texture/statistical/make_label_map.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/file_names.h"
+#include "tools/cli/terminal.h"
+#include "tools/cli/texture/label_pictures.h"
+#include "tools/cli/texture/texture_pictures.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  std::string model, labels, map, out;
+  std::vector<int> size;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  bool quiet = false;
+  bool json = false;
+};
+
+int run(const Options& options) {
+  if (options.size.empty() == options.labels.empty())
+    throw Error(ErrorKind::usage, "command line", options.size.empty() ? "neither --size nor --labels" : "both --size and --labels",
+                "one of them: a drawing has its own size");
+  check_texture_name(options.out);
+  if (!options.map.empty()) {
+    check_place(options.map);
+    if (ending_of(options.map) != ".png") throw Error(ErrorKind::usage, "--map", options.map, "a .png");
+  }
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  const CompositeModel model = read_composite(options.model);
+  std::vector<std::string> names;
+  for (const CompositeLabel& label : model.labels) names.push_back(label.name);
+  TextureParameters parameters;
+  parameters.seed = options.seed;
+  const Grid<std::uint8_t> labels = options.labels.empty()
+                                        ? make_label_map(model.map, options.size[0], options.size[1], {.seed = options.seed}, progress)
+                                        : read_drawn_labels(options.labels, names);
+  const Grid<Rgb8> made = make_composite(model, labels, parameters, progress);
+  write_texture(options.out, made, fmt::format("{} seed {}", file_name(options.model), options.seed));
+  if (!options.map.empty()) write_label_picture(options.map, labels, names);
+  progress.end();
+  if (options.json)
+    print_out(Json::object()
+                  .add("out", Json::text(options.out))
+                  .add("width", Json::number(made.width()))
+                  .add("height", Json::number(made.height()))
+                  .str() +
+              "\n");
+  else if (!options.quiet)
+    print_out(fmt::format("{}: {}×{} pixels\n", options.out, made.width(), made.height()));
+  return 0;
+}
+
+}  // namespace
+
+Action add_composite_make(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("COMPOSITE", options->model, "What `belvedere composite learn` wrote")->required()->type_name("COMPOSITE");
+  command.add_option("--out", options->out, "The picture: .png or .tif")->required()->type_name("PICTURE");
+  command.add_option("--size", options->size, "Width and height, in pixels: what lies where is made too")
+      ->expected(2)
+      ->check(CLI::Range(1, 1 << 20))
+      ->type_name("W H");
+  command
+      .add_option("--labels", options->labels, "Instead: what lies where, drawn in the colours (or numbers) that the crop's labels have")
+      ->type_name("PICTURE");
+  command.add_option("--map", options->map, "Writes the labels too, in their colours: to be drawn over and given to --labels")
+      ->type_name("PICTURE");
+  command.add_option("--seed", options->seed, "Another seed, another picture of the same kind. Default: 1")->type_name("N");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
+  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
+  command.add_flag("--json", options->json, "Say what came out as JSON");
+  command.footer(
+      "  belvedere composite make coast.composite --size 1600 1000 --map labels.png --out another_coast.png\n"
+      "  belvedere composite make coast.composite --labels my_labels.png --out my_coast.png");
+  return [options] { return run(*options); };
+}
+
+}  // namespace belvedere::tools
