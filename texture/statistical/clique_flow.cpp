@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "base/parallel.h"
 #include "texture/statistical/difference_histogram.h"
@@ -31,9 +32,10 @@ FlowTable make_table(const BandPicture& picture, const BandSpace& bands, const C
   return table;
 }
 
-// Adds what the cliques of one type ask for to the rows y0 <= y < y1: half to the head, half against it to the tail.
+// Adds what the cliques of one type ask for to the rows y0 <= y < y1, which `wishes` begins with at row `first`: half to the head, half
+// against it to the tail.
 void ask(const BandPicture& picture, const BandSpace& bands, const CliqueType& type, const FlowTable& table, int y0, int y1, Wishes& wishes,
-         std::vector<float>& row) {
+         int first, std::vector<float>& row) {
   const DifferenceRange range = difference_range(bands, type);
   const float to_bin = static_cast<float>(difference_bins) / (range.high - range.low);
   const bool single = type.single();
@@ -54,42 +56,64 @@ void ask(const BandPicture& picture, const BandSpace& bands, const CliqueType& t
       asked[x] = (head_state[x] & tail_state[x] & pixel_counts) != 0 ? part * move : 0.F;
     }
     if (hy >= y0 && hy < y1) {
-      float* to = wishes[static_cast<std::size_t>(type.head)].row(hy) + hx;
+      float* to = wishes[static_cast<std::size_t>(type.head)].row(hy - first) + hx;
       for (int x = 0; x < cliques; ++x) to[x] += asked[x];
     }
     if (!single && ty >= y0 && ty < y1) {
-      float* to = wishes[static_cast<std::size_t>(type.tail)].row(ty) + tx;
+      float* to = wishes[static_cast<std::size_t>(type.tail)].row(ty - first) + tx;
       for (int x = 0; x < cliques; ++x) to[x] -= asked[x];
     }
   });
 }
 
-Wishes wishes_of(const BandPicture& picture, const CliqueModel& model, int level, const FlowTable* tables, float rate) {
-  const int width = picture.width();
-  const int height = picture.height();
-  Wishes wishes = {Grid<float>(width, height), Grid<float>(width, height), Grid<float>(width, height)};
-  std::array<float, 3> roles{};
-  for (const Clique& clique : model.cliques) {
-    if (clique.type.level != level) continue;
-    roles[static_cast<std::size_t>(clique.type.head)] += 1.F;
-    if (!clique.type.single()) roles[static_cast<std::size_t>(clique.type.tail)] += 1.F;
-  }
-  parallel_ranges((height + strip_rows - 1) / strip_rows, 1, [&](int begin, int end) {
-    std::vector<float> row(static_cast<std::size_t>(width));
-    for (int strip = begin; strip != end; ++strip) {
-      const int y0 = strip * strip_rows;
-      const int y1 = std::min(height, y0 + strip_rows);
-      const FlowTable* table = tables;
-      for (const Clique& clique : model.cliques)
-        if (clique.type.level == level) ask(picture, model.bands, clique.type, *table++, y0, y1, wishes, row);
-      for (std::size_t b = 0; b < 3; ++b) {
-        if (roles[b] == 0.F) continue;
-        const float factor = rate / roles[b];
-        for (float* v = wishes[b].row(y0); v != wishes[b].row(y0) + static_cast<std::size_t>(width) * static_cast<std::size_t>(y1 - y0);
-             ++v)
-          *v *= factor;
-      }
+// What all cliques of a level ask for, as the mean over the roles of a pixel, times a rate.
+struct LevelWish {
+  const BandPicture& picture;
+  const CliqueModel& model;
+  int level;
+  const FlowTable* tables;
+  std::array<float, 3> factor{};  // 0: nobody asks for the band
+
+  LevelWish(const BandPicture& of, const CliqueModel& by, int at_level, const FlowTable* with, float rate)
+      : picture(of), model(by), level(at_level), tables(with) {
+    for (const Clique& clique : model.cliques) {
+      if (clique.type.level != level) continue;
+      factor[static_cast<std::size_t>(clique.type.head)] += 1.F;
+      if (!clique.type.single()) factor[static_cast<std::size_t>(clique.type.tail)] += 1.F;
     }
+    for (float& f : factor)
+      if (f != 0.F) f = rate / f;
+  }
+
+  // Into the rows y0 <= y < y1 of wishes that are 0 and begin with row `first`.
+  void add_rows(int y0, int y1, Wishes& wishes, int first, std::vector<float>& row) const {
+    const FlowTable* table = tables;
+    for (const Clique& clique : model.cliques)
+      if (clique.type.level == level) ask(picture, model.bands, clique.type, *table++, y0, y1, wishes, first, row);
+    for (std::size_t b = 0; b < 3; ++b) {
+      if (factor[b] == 0.F) continue;
+      float* from = wishes[b].row(y0 - first);
+      const float* to = from + static_cast<std::size_t>(picture.width()) * static_cast<std::size_t>(y1 - y0);
+      for (float* v = from; v != to; ++v) *v *= factor[b];
+    }
+  }
+};
+
+// f(first row, row behind the last) for strips of a height.
+template <class F>
+void for_strips(int height, F&& f) {
+  parallel_ranges((height + strip_rows - 1) / strip_rows, 1, [&](int begin, int end) {
+    for (int strip = begin; strip != end; ++strip) f(strip * strip_rows, std::min(height, (strip + 1) * strip_rows));
+  });
+}
+
+Wishes blank_wishes(int width, int height) { return {Grid<float>(width, height), Grid<float>(width, height), Grid<float>(width, height)}; }
+
+Wishes wishes_of(const LevelWish& wish) {
+  Wishes wishes = blank_wishes(wish.picture.width(), wish.picture.height());
+  for_strips(wish.picture.height(), [&](int y0, int y1) {
+    std::vector<float> row(static_cast<std::size_t>(wish.picture.width()));
+    wish.add_rows(y0, y1, wishes, 0, row);
   });
   return wishes;
 }
@@ -114,32 +138,47 @@ FlowRound find_tables(const BandPyramid& pyramid, const CliqueModel& model, int 
 }
 
 void flow(FlowState& state, const CliqueModel& model, int level, const FlowRound& tables, FlowStep step) {
-  std::vector<Wishes> wishes;  // from `level` up
+  // Wishes of the coarser levels as grids, coarsest first handed down; those of the finest, which would take as much memory as its picture,
+  // strip by strip.
+  std::vector<LevelWish> wishes;  // from `level` up
   std::size_t first = 0;
   for (int l = level; l <= model.levels; ++l) {
-    wishes.push_back(wishes_of(state.pyramid[static_cast<std::size_t>(l)], model, l, tables.data() + first, step.rate));
+    wishes.emplace_back(state.pyramid[static_cast<std::size_t>(l)], model, l, tables.data() + first, step.rate);
     first += static_cast<std::size_t>(
         std::count_if(model.cliques.begin(), model.cliques.end(), [l](const Clique& c) { return c.type.level == l; }));
   }
+  Wishes coarse;
   for (std::size_t l = wishes.size(); l-- > 1;) {
-    const Wishes& coarse = wishes[l];
-    Wishes& fine = wishes[l - 1];
-    parallel_rows(fine[0].height(), [&](int y) {
-      for (std::size_t b = 0; b < 3; ++b)
-        for (int x = 0; x < fine[b].width(); ++x) fine[b](x, y) += enlarged(coarse[b], x, y);
-    });
+    Wishes fine = wishes_of(wishes[l]);
+    if (l + 1 < wishes.size())
+      parallel_rows(fine[0].height(), [&](int y) {
+        for (std::size_t b = 0; b < 3; ++b)
+          for (int x = 0; x < fine[b].width(); ++x) fine[b](x, y) += enlarged(coarse[b], x, y);
+      });
+    coarse = std::move(fine);
   }
   BandPicture& picture = state.pyramid[static_cast<std::size_t>(level)];
-  if (!state.speed.states.same_size(picture.states)) state.speed = BandPicture(picture.width(), picture.height());
+  const int width = picture.width();
+  if (!state.speed.states.same_size(picture.states)) state.speed = BandPicture(width, picture.height());
+  for_strips(picture.height(), [&](int y0, int y1) {
+    Wishes own = blank_wishes(width, y1 - y0);
+    std::vector<float> row(static_cast<std::size_t>(width));
+    wishes.front().add_rows(y0, y1, own, y0, row);
+    for (int y = y0; y < y1; ++y)
+      for (std::size_t b = 0; b < 3; ++b)
+        for (int x = 0; x < width; ++x) {
+          if ((picture.states(x, y) & pixel_changes) == 0) continue;
+          float wish = own[b](x, y - y0);
+          if (wishes.size() > 1) wish += enlarged(coarse[b], x, y);
+          state.speed.bands[b](x, y) = step.momentum * state.speed.bands[b](x, y) + wish;
+        }
+  });
+  // Strips have looked at each other's pixels until here.
   parallel_rows(picture.height(), [&](int y) {
-    for (std::size_t b = 0; b < 3; ++b) {
-      for (int x = 0; x < picture.width(); ++x) {
-        if ((picture.states(x, y) & pixel_changes) == 0) continue;
-        const float move = step.momentum * state.speed.bands[b](x, y) + wishes[0][b](x, y);
-        state.speed.bands[b](x, y) = move;
-        picture.bands[b](x, y) = std::clamp(picture.bands[b](x, y) + move, model.bands.low[b], model.bands.high[b]);
-      }
-    }
+    for (std::size_t b = 0; b < 3; ++b)
+      for (int x = 0; x < width; ++x)
+        if ((picture.states(x, y) & pixel_changes) != 0)
+          picture.bands[b](x, y) = std::clamp(picture.bands[b](x, y) + state.speed.bands[b](x, y), model.bands.low[b], model.bands.high[b]);
   });
 }
 

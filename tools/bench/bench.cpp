@@ -24,6 +24,7 @@ std::vector<Measurement> bench_guidance(const Options&);
 std::vector<Measurement> bench_layers(const Options&);
 std::vector<Measurement> bench_rock(const Options&);
 std::vector<Measurement> bench_synthesis(const Options&);
+std::vector<Measurement> bench_texture(const Options&);
 std::vector<Measurement> bench_trace(const Options&);
 
 namespace {
@@ -38,6 +39,7 @@ const std::vector<Section>& sections() {
       {"layers", "surface layers: inputs, coverage, classes", &bench_layers},
       {"rock", "relief of rock, its crests, and the blur that stays on a surface", &bench_rock},
       {"synthesis", "painting by example, with one guide and with seven", &bench_synthesis},
+      {"texture", "texture models: learning, the flow and the polish", &bench_texture},
       {"files", "writing and reading TIFF, PNG and OpenEXR", &bench_files},
   };
   return all;
