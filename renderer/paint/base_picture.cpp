@@ -157,11 +157,11 @@ struct Scenery {
 };
 
 // Factor of what grows: greens of meadows, fields, woods of gullies and ribs. In winter snow lies on it.
-glm::vec3 grown_hue(const Scenery& s, std::size_t i, const Patches& patches, float air) {
+glm::vec3 grown_hue(const Scenery& s, std::size_t i, const Patches& patches, const ForestTurn& woods, float air) {
   const GuidanceBuffers& g = s.guidance;
   const Class id = g.land_cover[i];
   const auto drift = static_cast<float>(s.parameters.air.hue_drift);
-  if (id == Class::forest) return forest_turn(g.relief_s_m[i], g.relief_m_m[i], g.tone[i], patches, drift).factor;
+  if (id == Class::forest) return woods.factor;
   const MeadowPlace place = meadow_place(g, i, s.palette.treeline_m, static_cast<float>(s.parameters.sunny_side));
   const MeadowMix mix = meadow_mix(id, place, patches);
   glm::vec3 hue = meadow_hue(mix, drift * static_cast<float>(s.palette.ground_drift_share));
@@ -188,7 +188,7 @@ glm::vec3 evening_glow(const Scenery& s, std::size_t i, float far) {
   return 1.0F + glm::vec3(0.034F, -0.038F, -0.065F) * (lit * (0.35F + 0.65F * high) * (1.0F - far) * drift);
 }
 
-PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& patches) {
+PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& patches, const ForestTurn& woods) {
   const GuidanceBuffers& g = s.guidance;
   const BaseParameters& p = s.parameters;
   const Class id = g.land_cover[i];
@@ -208,7 +208,7 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& 
   pixel.edge = range_edge(s.around.log_depth[i] - s.around.mean_log_depth[i], far, raised, separation);
   pixel.beyond = air_beyond(s.palette, (y + s.origin_px.y + 0.5) / s.horizon_px);
   if (p.air.rim_fade_m > 0.0) pixel.end = terrain_end_at(g.rim_m[i], p.air.rim_fade_m, raised);
-  if (!s.palette.winter) pixel.factor *= grown_hue(s, i, patches, pixel.air);
+  if (!s.palette.winter) pixel.factor *= grown_hue(s, i, patches, woods, pixel.air);
   pixel.factor *= evening_glow(s, i, far);
   return pixel;
 }
@@ -239,7 +239,9 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
   const Class id = g.land_cover[i];
   const double altitude = g.altitude_m[i];
   const Patches patches = patches_at(noises, s.place_m(i), s.metres_per_unit(i));
-  const PixelColour pixel = pixel_colour(s, i, y, patches);
+  const auto drift = static_cast<float>(s.parameters.air.hue_drift);
+  const ForestTurn woods = id == Class::forest ? forest_turn(g.relief_s_m[i], g.relief_m_m[i], g.tone[i], patches, drift) : ForestTurn{};
+  const PixelColour pixel = pixel_colour(s, i, y, patches, woods);
   const float glade = s.around.cover.glade[i];
   const bool has_gravel = has_trait(id, ClassTrait::gravel_banks) && !s.palette.winter;
   const float gravel = has_gravel ? gravel_share(s.around.water[i], patches) : 0.0F;
@@ -255,12 +257,10 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
                              : TintShift{};
   // Where ice lies deep in the snow it grew from it is white with firn; its tongues are blue and bare.
   const float firn = id == Class::glacier ? firn_share(s, x, y) : 0.0F;
-  const auto drift = static_cast<float>(s.parameters.air.hue_drift);
   const ScreeTurn fan = id == Class::scree && !s.palette.winter
                             ? scree_turn(s.around.fans.place[i], s.around.fans.streak[i], g.relief_s_m[i], drift)
                             : ScreeTurn{};
-  const float turned =
-      fan.tone + (id == Class::forest ? forest_turn(g.relief_s_m[i], g.relief_m_m[i], g.tone[i], patches, drift).tone : 0.0F);
+  const float turned = fan.tone + woods.tone;
   const auto paint = [&](double step) {
     const double light = g.tone[i] + static_cast<double>(water.tone_shift) + static_cast<double>(turned) + step;
     glm::vec3 ramp = palette_colour(s.palette, id, altitude, light) * hue * fan.factor;
