@@ -92,9 +92,9 @@ struct LevelWish {
       if (clique.type.level == level) ask(picture, model.bands, clique.type, *table++, y0, y1, wishes, first, row);
     for (std::size_t b = 0; b < 3; ++b) {
       if (factor[b] == 0.F) continue;
-      float* from = wishes[b].row(y0 - first);
-      const float* to = from + static_cast<std::size_t>(picture.width()) * static_cast<std::size_t>(y1 - y0);
-      for (float* v = from; v != to; ++v) *v *= factor[b];
+      // Of what stands nothing is asked: its cliques are not in the tables, which may come from a few pixels alone.
+      for (int y = y0; y < y1; ++y)
+        for (int x = 0; x < picture.width(); ++x) wishes[b](x, y - first) *= (picture.states(x, y) & pixel_changes) != 0 ? factor[b] : 0.F;
     }
   }
 };

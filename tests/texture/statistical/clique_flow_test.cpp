@@ -118,5 +118,25 @@ TEST(CliqueFlow, MovesAreTheSumOfAllCliquesOfAPixel) {
     }
 }
 
+// What a coarse pixel that stands would be asked is not handed down: tables of thin holes come from a few pixels alone.
+TEST(CliqueFlow, WhatStandsAtACoarseLevelAsksNothingOfTheFine) {
+  CliqueModel model;
+  model.levels = 1;
+  model.bands.low = {-100.F, -100.F, -100.F};
+  model.bands.high = {100.F, 100.F, 100.F};
+  model.cliques.push_back({{1, 0, 0, 0, 0}, {}});
+  FlowState state{make_pyramid(BandPicture(32, 32), 1), {}};
+  for (BandPicture& picture : state.pyramid)
+    for (std::uint8_t& s : picture.states) s = pixel_counts;
+  for (int y = 0; y < 32; ++y) state.pyramid[0].states(16, y) = pixel_free;
+  state.pyramid[1].states(8, 8) = pixel_free;
+  flow(state, model, 0, {FlowTable(difference_bins + 1, 10.F)}, {.rate = 1.F, .momentum = 0.F});
+  const Grid<float>& moved = state.pyramid[0].band(0);
+  EXPECT_GT(moved(16, 16), 5.F);
+  EXPECT_EQ(moved(16, 4), 0.F);
+  EXPECT_EQ(moved(16, 28), 0.F);
+  EXPECT_EQ(moved(17, 16), 0.F);
+}
+
 }  // namespace
 }  // namespace belvedere
