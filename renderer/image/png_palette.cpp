@@ -27,6 +27,23 @@ struct PngReader {
   PngReader& operator=(const PngReader&) = delete;
 };
 
+// A byte a pixel, grey or a number of a colour.
+void write_bytes_png(const std::string& path, const Grid<std::uint8_t>& bytes, png_uint_32 format,
+                     const std::vector<std::array<std::uint8_t, 3>>& colours) {
+  OutputFile file(path);
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(bytes.width());
+  image.height = static_cast<png_uint_32>(bytes.height());
+  image.format = format;
+  image.colormap_entries = static_cast<png_uint_32>(colours.size());
+  const int written = png_image_write_to_file(&image, file.temporary().c_str(), 0, bytes.row(0), 0, colours.data());
+  const std::string reason = image.message;
+  png_image_free(&image);
+  if (written == 0) file.fail(reason);
+  file.commit();
+}
+
 }  // namespace
 
 Grid<std::uint16_t> read_palette_png(const std::string& path) {
@@ -46,18 +63,11 @@ Grid<std::uint16_t> read_palette_png(const std::string& path) {
   return out;
 }
 
-void write_grey_png(const std::string& path, const Grid<std::uint8_t>& grey) {
-  OutputFile file(path);
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(grey.width());
-  image.height = static_cast<png_uint_32>(grey.height());
-  image.format = PNG_FORMAT_GRAY;
-  const int written = png_image_write_to_file(&image, file.temporary().c_str(), 0, grey.row(0), 0, nullptr);
-  const std::string reason = image.message;
-  png_image_free(&image);
-  if (written == 0) file.fail(reason);
-  file.commit();
+void write_grey_png(const std::string& path, const Grid<std::uint8_t>& grey) { write_bytes_png(path, grey, PNG_FORMAT_GRAY, {}); }
+
+void write_palette_png(const std::string& path, const Grid<std::uint8_t>& numbers,
+                       const std::vector<std::array<std::uint8_t, 3>>& colours) {
+  write_bytes_png(path, numbers, PNG_FORMAT_RGB_COLORMAP, colours);
 }
 
 }  // namespace belvedere::image_io

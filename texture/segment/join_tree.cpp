@@ -89,14 +89,29 @@ JoinTree join_pieces(const PairWeights& distance, const std::vector<double>& pix
   return tree;
 }
 
-Partition cut_tree(const JoinTree& tree, std::size_t count) {
+namespace {
+
+// For each piece the node that holds it when `count` are left.
+std::vector<std::uint16_t> nodes_of_pieces(const JoinTree& tree, std::size_t count) {
   const std::size_t kept = tree.pieces - std::min(std::max<std::size_t>(count, 1), tree.pieces);
-  // From the last join that counts down: each node hands its group to what it was made of.
+  // From the last join that counts down: each node hands its own to what it was made of.
   std::vector<std::uint16_t> of(tree.pieces + tree.joins.size());
   std::iota(of.begin(), of.end(), std::uint16_t{0});
   for (std::size_t k = kept; k-- > 0;)
     for (const std::uint16_t part : tree.joins[k]) of[part] = of[tree.pieces + k];
-  return in_order(Partition(of.begin(), of.begin() + static_cast<std::ptrdiff_t>(tree.pieces)));
+  of.resize(tree.pieces);
+  return of;
+}
+
+}  // namespace
+
+Partition cut_tree(const JoinTree& tree, std::size_t count) { return in_order(nodes_of_pieces(tree, count)); }
+
+std::vector<std::uint16_t> cut_nodes(const JoinTree& tree, std::size_t count) {
+  std::vector<std::uint16_t> nodes;
+  for (const std::uint16_t node : nodes_of_pieces(tree, count))
+    if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
+  return nodes;
 }
 
 }  // namespace belvedere

@@ -22,5 +22,7 @@ JoinTree join_pieces(const PairWeights& distance, const std::vector<double>& pix
 
 // The tree cut where `count` groups are left, or as many as there are pieces.
 Partition cut_tree(const JoinTree& tree, std::size_t count);
+// The nodes that those groups are, in their order.
+std::vector<std::uint16_t> cut_nodes(const JoinTree& tree, std::size_t count);
 
 }  // namespace belvedere

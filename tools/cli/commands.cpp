@@ -24,6 +24,7 @@ const std::vector<Command>& all_commands() {
       {"exemplar", "compare", "Sets figures of pictures side by side: what gives one away as computed?", add_exemplar_compare},
       {"exemplar", "paint", "Paints an example for synthesis to copy: a sheet with everything on it, or a scene's view in strokes alone",
        add_exemplar_paint},
+      {"exemplar", "segment", "Finds what belongs together in a painting, for a mask of its classes", add_exemplar_segment},
       {"layers", "fit", "Learns surface layers from a satellite picture or a land-cover map and a DEM", add_layers_fit},
       {"layers", "apply", "Lays surface layers over a DEM: classes, colours and coverages as GeoTIFF", add_layers_apply},
       {"layers", "picture", "Draws the ground of surface layers from above, finer than the DEM, lit, lakes with beds", add_layers_picture},

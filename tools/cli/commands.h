@@ -39,6 +39,7 @@ Action add_diff(CLI::App& command);
 Action add_exemplar_check(CLI::App& command);
 Action add_exemplar_compare(CLI::App& command);
 Action add_exemplar_paint(CLI::App& command);
+Action add_exemplar_segment(CLI::App& command);
 Action add_fetch(CLI::App& command);
 Action add_generalize(CLI::App& command);
 Action add_guidance(CLI::App& command);

@@ -334,6 +334,22 @@ TEST(ReadGrey, PaletteGivesIndicesWhateverTheColours) {
   EXPECT_EQ(read_picture(folder / "8.png")(3, 0), glm::vec3(1.0f, 0.0f, 0.0f));
 }
 
+TEST(ReadGrey, PaletteThatWasWrittenGivesItsNumbersAndColours) {
+  const Folder folder("grey");
+  Grid<std::uint8_t> numbers(16, 16);
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<std::uint8_t>(255 - i);
+  std::vector<std::array<std::uint8_t, 3>> colours(256, {7, 7, 7});
+  colours[255] = {255, 0, 51};
+  image_io::write_palette_png(folder / "256.png", numbers, colours);
+  EXPECT_THAT(read_grey(folder / "256.png"), testing::ElementsAreArray(numbers));
+  EXPECT_EQ(read_picture(folder / "256.png")(0, 0).x, 1.F);
+  EXPECT_NEAR(read_picture(folder / "256.png")(0, 0).z, .2F, 1e-6F);
+  const Grid<std::uint8_t> two(5, 3, 1);  // of two colours a file packs eight pixels into a byte
+  image_io::write_palette_png(folder / "2.png", two, {{0, 0, 0}, {9, 9, 9}});
+  EXPECT_THAT(read_grey(folder / "2.png"), testing::Each(1));
+  EXPECT_EQ(kind_of([&] { image_io::write_palette_png(folder / "gone/x.png", two, {{0, 0, 0}, {9, 9, 9}}); }), ErrorKind::output);
+}
+
 TEST(ReadGrey, RefusesColour) {
   const Folder folder("grey");
   test::write_bytes(folder / "rgb.png", test::make_png(1, 1, 8, 2, "\x01\x01\x01"s));

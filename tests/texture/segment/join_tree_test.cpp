@@ -24,6 +24,8 @@ TEST(JoinTree, NearestFirst) {
   EXPECT_THAT(cut_tree(tree, 1), ElementsAre(0, 0, 0, 0, 0));
   EXPECT_THAT(cut_tree(tree, 2), ElementsAre(0, 0, 0, 0, 1));
   EXPECT_THAT(cut_tree(tree, 3), ElementsAre(0, 0, 1, 1, 2));
+  EXPECT_THAT(cut_nodes(tree, 3), ElementsAre(5, 6, 4));
+  EXPECT_THAT(cut_nodes(tree, 1), ElementsAre(8));
   EXPECT_THAT(cut_tree(tree, 5), ElementsAre(0, 1, 2, 3, 4));
   EXPECT_THAT(cut_tree(tree, 99), ElementsAre(0, 1, 2, 3, 4));
 }

@@ -1,0 +1,84 @@
+// `belvedere exemplar segment` as users meet it.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <set>
+
+#include "base/random.h"
+#include "tests/tools/program.h"
+
+namespace belvedere {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class ExemplarSegment : public Program {
+ protected:
+  // Sky, wood and meadow.
+  std::string write_painting(const std::string& name = "painting.png") const {
+    return write_picture(name, 120, 90, [](int x, int y) {
+      const glm::vec3 colour = y < 30 ? glm::vec3(.55F, .7F, .9F) : (x < 60 ? glm::vec3(.12F, .25F, .1F) : glm::vec3(.6F, .75F, .35F));
+      return colour + glm::vec3(static_cast<float>(random_index(20, 5, x / 2, y / 2)) / 400.F);
+    });
+  }
+};
+
+TEST_F(ExemplarSegment, WritesAMaskOfClassesThatAnExemplarTakes) {
+  const Outcome outcome = run({"exemplar", "segment", write_painting(), "--out", path("mask.png"), "--json", "-q"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"groups\""), HasSubstr("\"sky\""), HasSubstr("\"forest\""), HasSubstr("\"pasture\"")));
+  const Grid<std::uint16_t> mask = read_grey(path("mask.png"));
+  EXPECT_EQ(mask(60, 10), 0);
+  EXPECT_EQ(mask(20, 70), 4);
+  EXPECT_EQ(mask(100, 70), 10);
+  // In a scene.
+  const std::string scene = write("scene.toml",
+                                  "version = 1\n[[exemplar]]\npicture = \"painting.png\"\nclasses = \"mask.png\"\n[terrain.synthetic]\n"
+                                  "width = 96\nheight = 96\ncell_m = 200\n[camera]\nposition = [9000, -9000]\nheight_m = 9000\n"
+                                  "pitch_deg = -25\n[output]\nwidth = 96\nheight = 64\n");
+  const Outcome checked = run({"exemplar", "check", scene});
+  ASSERT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, AllOf(HasSubstr("forest"), HasSubstr("pasture"), Not(HasSubstr("class 255"))));
+}
+
+TEST_F(ExemplarSegment, NumbersOfGroupsAreAtMostThoseAskedFor) {
+  ASSERT_EQ(run({"exemplar", "segment", write_painting(), "--out", path("m.png"), "--numbers", "--most", "3", "-q"}).status, 0);
+  const Grid<std::uint16_t> mask = read_grey(path("m.png"));
+  EXPECT_EQ(std::set<std::uint16_t>(mask.begin(), mask.end()), (std::set<std::uint16_t>{0, 1, 2}));
+  // Anyone who looks at it sees the paint: group 0 is the sky.
+  EXPECT_NEAR(read_picture(path("m.png"))(60, 10).z, .92, .03);
+}
+
+TEST_F(ExemplarSegment, SameBytesForAnyThreads) {
+  const std::string painting = write_painting();
+  for (const char* threads : {"1", "2"})
+    ASSERT_EQ(run({"exemplar", "segment", painting, "--out", path(std::string(threads) + ".png"), "--page",
+                   path(std::string(threads) + ".html"), "--threads", threads, "-q"})
+                  .status,
+              0);
+  EXPECT_EQ(read_bytes(path("1.png")), read_bytes(path("2.png")));
+}
+
+TEST_F(ExemplarSegment, BadInputIsNamed) {
+  const auto refused = [&](const std::vector<std::string>& arguments, int status, const std::string& word) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(word));
+  };
+  const std::string painting = write_painting();
+  refused({"exemplar", "segment", path("gone.png"), "--out", path("m.png")}, 3, "gone.png");
+  refused({"exemplar", "segment", painting, "--out", path("m.tif")}, 2, ".png");
+  refused({"exemplar", "segment", painting, "--out", path("m.png"), "--page", path("p.txt")}, 2, ".html");
+  refused({"exemplar", "segment", painting, "--out", path("m.png"), "--most", "255"}, 2, "--most");
+  refused({"exemplar", "segment", painting, "--out", painting}, 2, "what is read");
+  const std::string flat = write_picture("flat.png", 64, 64, [](int, int) { return glm::vec3(.5F); });
+  refused({"exemplar", "segment", flat, "--out", path("m.png")}, 3, "one colour");
+  const std::string tiny = write_picture("tiny.png", 64, 16, [](int x, int) { return glm::vec3(static_cast<float>(x) / 64.F); });
+  refused({"exemplar", "segment", tiny, "--out", path("m.png")}, 3, "64 × 16");
+  EXPECT_FALSE(std::filesystem::exists(path("m.png")));
+}
+
+}  // namespace
+}  // namespace belvedere
