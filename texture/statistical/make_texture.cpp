@@ -39,8 +39,37 @@ SeedNoise noise_of(const CliqueModel& model, const TextureParameters& parameters
   return {model.seed, model.seed_px, parameters.direction ? parameters.direction : own_directions(model, parameters.seed), parameters.seed};
 }
 
+// The known pixels' values spread into what changes, as paint runs into a gap: means of what is known around, from the rim inwards.
+Grid<float> spread_known(const Grid<float>& known, const Grid<std::uint8_t>& states) {
+  Grid<float> out = known;
+  Grid<std::uint8_t> open = states;
+  for (bool more = true; more;) {
+    more = false;
+    const Grid<float> before = out;
+    const Grid<std::uint8_t> still = open;
+    for (int y = 0; y < out.height(); ++y)
+      for (int x = 0; x < out.width(); ++x) {
+        if ((still(x, y) & pixel_changes) == 0) continue;
+        float sum = 0.F;
+        float count = 0.F;
+        for (int j = std::max(0, y - 1); j < std::min(out.height(), y + 2); ++j)
+          for (int i = std::max(0, x - 1); i < std::min(out.width(), x + 2); ++i)
+            if ((still(i, j) & pixel_changes) == 0) {
+              sum += before(i, j);
+              count += 1.F;
+            }
+        if (count == 0.F) continue;
+        out(x, y) = sum / count;
+        open(x, y) = 0;
+        more = true;
+      }
+  }
+  return out;
+}
+
 // What a level begins with: noise over all values at the coarsest, else the coarser level and noise on it. Pixels that may not change are
-// those of `known`.
+// those of `known`; where there are some, the coarsest level begins near to them: the flow moves values to the model's and keeps their
+// order, so that what is bright beside the hole goes on bright.
 void begin_level(FlowState& state, const CliqueModel& model, int level, const SeedNoise& noise, TexturePlace place,
                  const BandPyramid* known = nullptr) {
   BandPicture& picture = state.pyramid[static_cast<std::size_t>(level)];
@@ -52,6 +81,9 @@ void begin_level(FlowState& state, const CliqueModel& model, int level, const Se
     const float amplitude = 2.F * std::max(.5F, .5F * (top ? 0.F : detail_of(model, level, b)));
     const float low = model.bands.low[band];
     const float high = model.bands.high[band];
+    const bool beside = top && known != nullptr;
+    const Grid<float> around = beside ? spread_known((*known)[static_cast<std::size_t>(level)].bands[band], picture.states) : Grid<float>();
+    constexpr float free_share = .25F;  // of all values that noise moves what begins near known ones
     parallel_rows(picture.height(), [&](int y) {
       for (int x = 0; x < picture.width(); ++x) {
         if ((picture.states(x, y) & pixel_changes) == 0) {
@@ -60,8 +92,9 @@ void begin_level(FlowState& state, const CliqueModel& model, int level, const Se
         }
         const float u = grain(x, y);
         picture.bands[band](x, y) =
-            top ? low + u * (high - low)
-                : enlarged(state.pyramid[static_cast<std::size_t>(level) + 1].bands[band], x, y) + amplitude * even_spread * (u - .5F);
+            beside ? std::clamp(around(x, y) + free_share * (u - .5F) * (high - low), low, high)
+            : top  ? low + u * (high - low)
+                   : enlarged(state.pyramid[static_cast<std::size_t>(level) + 1].bands[band], x, y) + amplitude * even_spread * (u - .5F);
       }
     });
   }

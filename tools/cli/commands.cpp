@@ -31,6 +31,7 @@ const std::vector<Command>& all_commands() {
       {"texture", "learn", "Learns a texture from a crop of a painting, as statistics of a kilobyte", add_texture_learn},
       {"texture", "make", "Makes a texture of any size from such a model, without end and without repeating", add_texture_make},
       {"texture", "erode", "Takes a mask back step by step, along ragged borders: melting snow, forest in retreat", add_texture_erode},
+      {"texture", "knit", "Joins pictures side by side, their seams made anew from both", add_texture_knit},
       {"texture", "fill", "Makes anew a masked part of a picture from such a model, to go with what is around it", add_texture_fill},
       {"texture", "judge", "Says how near textures, made by whatever program, come to a crop of a painting", add_texture_judge},
       {"composite", "learn", "Learns a picture of several textures, and how they lie, from a crop and its labels", add_composite_learn},

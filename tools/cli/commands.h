@@ -61,6 +61,7 @@ Action add_composite_learn(CLI::App& command);
 Action add_composite_make(CLI::App& command);
 Action add_texture_fill(CLI::App& command);
 Action add_texture_judge(CLI::App& command);
+Action add_texture_knit(CLI::App& command);
 Action add_texture_learn(CLI::App& command);
 Action add_texture_make(CLI::App& command);
 Action add_verify(CLI::App& command);

@@ -69,6 +69,35 @@ TEST_F(Texture, IsLearntAndMadeWithoutEnd) {
   EXPECT_GT(changed, 300);
 }
 
+TEST_F(Texture, JoinsPicturesAndNothingElse) {
+  const auto colour = [](const Rgb8& c) { return glm::vec3(c[0], c[1], c[2]) / 255.F; };
+  const auto bluish = [](const Rgb8& c) { return glm::vec3(c[2], c[1], c[0]) / 255.F; };
+  const Grid<Rgb8> meadow = test::meadow_crop(72, 64);
+  const Grid<Rgb8> other = test::meadow_crop(60, 64, 3);
+  const std::string left = write_picture("left.png", 72, 64, [&](int x, int y) { return colour(meadow(x, y)); });
+  const std::string right = write_picture("right.png", 60, 64, [&](int x, int y) { return bluish(other(x, y)); });
+  const Outcome knitted = run({"texture", "knit", left, right, "--out", path("knit.png"), "--band-px", "12", "-q", "--json"});
+  ASSERT_EQ(knitted.status, 0) << knitted.err;
+  EXPECT_THAT(knitted.out, AllOf(HasSubstr("\"at_px\""), HasSubstr("\"before\"")));
+  const Grid<glm::vec3> joined = read_picture(path("knit.png"));
+  ASSERT_EQ(joined.width(), 132);
+  const Grid<glm::vec3> a = read_picture(left);
+  const Grid<glm::vec3> b = read_picture(right);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 60; ++x) ASSERT_EQ(joined(x, y), a(x, y));
+    for (int x = 12; x < 60; ++x) ASSERT_EQ(joined(72 + x, y), b(x, y));
+  }
+  // The same turned by a quarter.
+  const std::string top = write_picture("top.png", 64, 72, [&](int x, int y) { return colour(meadow(y, x)); });
+  const std::string below = write_picture("below.png", 64, 60, [&](int x, int y) { return bluish(other(y, x)); });
+  ASSERT_EQ(run({"texture", "knit", top, below, "--down", "--out", path("down.png"), "--band-px", "12", "-q"}).status, 0);
+  const Grid<glm::vec3> down = read_picture(path("down.png"));
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 132; ++x) ASSERT_EQ(down(y, x), joined(x, y));
+  EXPECT_EQ(run({"texture", "knit", left, "--out", path("knit.png")}).status, 2);
+  EXPECT_EQ(run({"texture", "knit", left, below, "--out", path("knit.png")}).status, 2);
+}
+
 TEST_F(Texture, BadInputIsNamed) {
   const auto refused = [&](const std::vector<std::string>& arguments, int status, const std::string& word) {
     const Outcome outcome = run(arguments);

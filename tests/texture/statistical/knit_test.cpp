@@ -1,0 +1,97 @@
+#include "texture/statistical/knit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "tests/texture/statistical/texture_crops.h"
+
+namespace belvedere {
+namespace {
+
+// The meadow in other colours.
+Grid<Rgb8> heath(int width, int height) {
+  Grid<Rgb8> out = test::meadow_crop(width, height, 41);
+  for (Rgb8& c : out) c = {static_cast<std::uint8_t>(std::min(255, c[0] + 50)), static_cast<std::uint8_t>(c[1] / 2), c[2]};
+  return out;
+}
+
+Grid<Rgb8> side_by_side(const Grid<Rgb8>& left, const Grid<Rgb8>& right) {
+  Grid<Rgb8> out(left.width() + right.width(), left.height());
+  for (int y = 0; y < out.height(); ++y) {
+    std::copy_n(left.row(y), left.width(), out.row(y));
+    std::copy_n(right.row(y), right.width(), out.row(y) + left.width());
+  }
+  return out;
+}
+
+constexpr KnitParameters quick{.band_px = 24, .types = 16, .seed = 3};
+
+TEST(Knit, NothingOutsideOfTheBandChanges) {
+  const Grid<Rgb8> left = test::meadow_crop(96, 64);
+  const Grid<Rgb8> right = heath(80, 64);
+  const Grid<Rgb8> knitted = knit_textures(left, right, quick);
+  const Grid<Rgb8> hard = side_by_side(left, right);
+  int changed = 0;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 176; ++x) {
+      if (x < 96 - 24 || x >= 96 + 24) {
+        ASSERT_EQ(knitted(x, y), hard(x, y)) << x << " " << y;
+      } else {
+        changed += knitted(x, y) != hard(x, y) ? 1 : 0;
+      }
+    }
+  EXPECT_GT(changed, 48 * 64 / 4);
+}
+
+// What paintings come to stands in docs/textures.md; this meadow is smoother than what is made of it, so that some of the seam stays.
+TEST(Knit, LittleOfTheSeamIsLeft) {
+  const Grid<Rgb8> left = test::meadow_crop(96, 96, 7);
+  for (const Grid<Rgb8>& right : {test::meadow_crop(96, 96, 8), heath(96, 96)}) {
+    const double hard = seam_ratio(side_by_side(left, right), 96, 24);
+    const double knitted = seam_ratio(knit_textures(left, right, quick), 96, 24);
+    EXPECT_GT(hard, 1.8);
+    EXPECT_LT(knitted - 1.0, .3 * (hard - 1.0)) << "of " << hard;
+  }
+}
+
+// In colours that one side or the other has, near enough.
+TEST(Knit, NoColourOfNeither) {
+  const Grid<Rgb8> left = test::meadow_crop(96, 64);
+  const Grid<Rgb8> right = heath(96, 64);
+  const Grid<Rgb8> knitted = knit_textures(left, right, quick);
+  const Grid<Rgb8> known = side_by_side(left, right);
+  int strange = 0;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 96 - 24; x < 96 + 24; ++x) {
+      int nearest = 1000;
+      for (const Rgb8& c : known)
+        nearest = std::min(
+            nearest, std::max({std::abs(c[0] - knitted(x, y)[0]), std::abs(c[1] - knitted(x, y)[1]), std::abs(c[2] - knitted(x, y)[2])}));
+      strange += nearest > 16 ? 1 : 0;
+    }
+  EXPECT_LT(strange, 48 * 64 / 100);
+}
+
+TEST(Knit, SeamRatioOfKnownSteps) {
+  Grid<Rgb8> ramp(41, 2);  // steps of 2, but for one of 6 before column 20
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 41; ++x) ramp(x, y) = {static_cast<std::uint8_t>(2 * x + (x >= 20 ? 4 : 0)), 0, 0};
+  EXPECT_NEAR(seam_ratio(ramp, 20, 2), 3.0, 1e-9);
+  EXPECT_NEAR(seam_ratio(ramp, 10, 2, 5), 1.0, 1e-9);
+}
+
+TEST(Knit, TheSameBitsForAnyThreadsAndClearErrors) {
+  std::vector<Grid<Rgb8>> made;
+  for (const int threads : {1, 3}) {
+    const ThreadLimit limit(threads);
+    made.push_back(knit_textures(test::meadow_crop(64, 48), heath(64, 48), quick));
+  }
+  EXPECT_EQ(made[0], made[1]);
+  EXPECT_THROW(knit_textures(test::meadow_crop(64, 48), heath(64, 50), quick), Error);
+  EXPECT_THROW(knit_textures(test::meadow_crop(40, 64), heath(64, 64), quick), Error);
+}
+
+}  // namespace
+}  // namespace belvedere
