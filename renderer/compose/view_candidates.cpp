@@ -205,6 +205,8 @@ Candidate refine(const ViewSearch& search, Candidate from) {
   return climb(search, std::move(from), later_steps(0.0), 3);
 }
 
+Candidate settle(const ViewSearch& search, Candidate from) { return climb(search, std::move(from), later_steps(0.0), 2); }
+
 Candidate with_better_bend(const ViewSearch& search, const Candidate& from) {
   Candidate best = from;
   for (const double middle : {-0.8 * most_middle, 0.8 * most_middle}) {

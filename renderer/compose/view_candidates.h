@@ -88,6 +88,8 @@ std::optional<Candidate> judge(const ViewSearch& search, const ViewPlan& plan, c
 std::vector<Candidate> first_candidates(const ViewSearch& search);
 // Steps from a candidate while they make it better, halved a few times.
 Candidate refine(const ViewSearch& search, Candidate from);
+// Short steps alone, from a candidate whose ground has changed a little.
+Candidate settle(const ViewSearch& search, Candidate from);
 // A refined candidate with another bend than a parabola, refined again, where that scores clearly more; else itself.
 Candidate with_better_bend(const ViewSearch& search, const Candidate& from);
 

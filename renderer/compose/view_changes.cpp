@@ -23,15 +23,21 @@ std::vector<SummitExaggeration> raised(const ViewChanges& changes) {
   return out;
 }
 
-std::optional<Candidate> judge_changed(const ViewSearch& search, const CoarseGround& ground, const ViewChanges& changes,
-                                       const ViewPlan& plan) {
-  Massifs massifs = search.massifs;
+// The region's anchors, as high as they then are.
+Massifs raised_anchors(const Massifs& massifs, const ViewChanges& changes) {
+  Massifs out = massifs;
   for (const RaisedSummit& summit : changes.summits) {
-    Anchor& anchor = massifs.anchors[static_cast<std::size_t>(summit.anchor)];
+    Anchor& anchor = out.anchors[static_cast<std::size_t>(summit.anchor)];
     const double more = (summit.by.factor - 1.0) * std::max(0.0, anchor.altitude_m - summit.by.base_m);
     anchor.altitude_m += more;
     anchor.stands_m += more;
   }
+  return out;
+}
+
+std::optional<Candidate> judge_changed(const ViewSearch& search, const CoarseGround& ground, const ViewChanges& changes,
+                                       const ViewPlan& plan) {
+  const Massifs massifs = raised_anchors(search.massifs, changes);
   std::optional<Candidate> out = judge({ground, massifs, search.wishes}, plan);
   if (out) out->changes = changes;
   return out;
@@ -104,7 +110,16 @@ Candidate with_changes(const ViewSearch& search, const std::vector<WideGround>& 
   }
   constexpr int most_summits = 2;
   for (int k = 0; k < most_summits; ++k) best = with_a_summit(search, *ground, best);
-  return best;
+  ViewChanges changes = best.changes;
+  if (changes.widen_valleys_m == 0.0 && changes.summits.empty()) return best;
+  // On the ground as it is now the view may stand a little better elsewhere.
+  const CoarseGround changed = raised_ground(*ground, raised(changes));
+  const Massifs massifs = raised_anchors(search.massifs, changes);
+  Candidate out = settle({changed, massifs, search.wishes}, best);
+  (changes.widen_valleys_m > 0.0 ? changes.widened : changes.summits.back().gain).merit += out.merit - best.merit;
+  out.changes = std::move(changes);
+  out.bend = best.bend;
+  return out;
 }
 
 std::string describe_changes(const ViewSearch& search, const Candidate& candidate) {
