@@ -60,10 +60,12 @@ std::vector<SeedTrial> choose_seed(CliqueModel& model, const Grid<Rgb8>& crop, c
   };
   for (SeedTrial& trial : trials) {
     take(trial);
-    trial.beyond = texture_figures(crop, states, make_texture(model, trial_px, trial_px, {}), model, parameters).beyond;
+    const TextureFigures figures = texture_figures(crop, states, make_texture(model, trial_px, trial_px, {}), model, parameters);
+    trial.beyond = figures.beyond;
+    trial.drawn = figures.drawn;
     progress.advance(1.0);
   }
-  std::stable_sort(trials.begin(), trials.end(), [](const SeedTrial& a, const SeedTrial& b) { return a.beyond < b.beyond; });
+  std::stable_sort(trials.begin(), trials.end(), [](const SeedTrial& a, const SeedTrial& b) { return a.score() < b.score(); });
   take(trials.front());
   return trials;
 }

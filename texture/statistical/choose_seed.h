@@ -13,7 +13,10 @@ struct SeedTrial {
   TextureSeed seed = TextureSeed::white;
   float px = 0.F;
   bool polish = false;
-  double beyond = 0.0;  // of a texture of 128² pixels made so (TextureFigures); the least is taken
+  double beyond = 0.0;  // of a texture of 128² pixels made so (TextureFigures) …
+  double drawn = 0.0;   // … whose sum is the least of those tried is taken: without the second all is combed
+
+  double score() const { return beyond + drawn; }
 };
 
 // How strokes run in a crop: the mean over its pixels of the direction along which it changes least, weighted by how much it changes

@@ -1,6 +1,7 @@
 #include "texture/statistical/texture_figures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <unordered_set>
@@ -30,12 +31,52 @@ DifferenceHistogram laplacian_histogram(const BandPicture& picture, const BandSp
   return out;
 }
 
-double beyond_of(const BandPyramid& crop, const BandPyramid& made, const BandSpace& bands) {
+// Histogram of the coherence of the structure tensor over a window of the first band, 0 no way more than another … 1 all one way:
+// ((Jxx - Jyy)² + 4 Jxy²)^½ / (Jxx + Jyy). Even places, where nothing is drawn, are not counted.
+DifferenceHistogram coherence_histogram(const BandPicture& picture) {
+  constexpr int reach = 3;
+  constexpr float even = 1.F;  // mean square of slopes, in 8-bit units
+  const Grid<float>& v = picture.bands[0];
+  DifferenceHistogram out;
+  for (int y = reach + 1; y + reach + 1 < v.height(); ++y) {
+    for (int x = reach + 1; x + reach + 1 < v.width(); ++x) {
+      if ((picture.states(x, y) & pixel_counts) == 0) continue;
+      float xx = 0.F;
+      float yy = 0.F;
+      float xy = 0.F;
+      for (int j = y - reach; j <= y + reach; ++j) {
+        for (int i = x - reach; i <= x + reach; ++i) {
+          const float gx = .5F * (v(i + 1, j) - v(i - 1, j));
+          const float gy = .5F * (v(i, j + 1) - v(i, j - 1));
+          xx += gx * gx;
+          yy += gy * gy;
+          xy += gx * gy;
+        }
+      }
+      constexpr float window = (2 * reach + 1) * (2 * reach + 1);
+      if (xx + yy < even * window) continue;
+      const float coherence = std::sqrt((xx - yy) * (xx - yy) + 4.F * xy * xy) / (xx + yy);
+      ++out.counts[static_cast<std::size_t>(std::clamp(static_cast<int>(coherence * difference_bins), 0, difference_bins - 1))];
+      ++out.total;
+    }
+  }
+  return out;
+}
+
+// Mean over the finest levels of the distance of two histograms; a level where either counts nothing says nothing.
+template <class F>
+double levels_apart(const BandPyramid& crop, const BandPyramid& made, F&& histogram) {
   const std::size_t levels = std::min<std::size_t>(3, crop.size());
   double sum = 0.0;
-  for (std::size_t l = 0; l < levels; ++l)
-    sum += HistogramGroups(laplacian_histogram(crop[l], bands)).distance(laplacian_histogram(made[l], bands)).l1;
-  return sum / static_cast<double>(levels);
+  int compared = 0;
+  for (std::size_t l = 0; l < levels; ++l) {
+    const DifferenceHistogram of = histogram(crop[l]);
+    const DifferenceHistogram with = histogram(made[l]);
+    if (of.total == 0 || with.total == 0) continue;
+    sum += HistogramGroups(of).distance(with).l1;
+    ++compared;
+  }
+  return sum / std::max(compared, 1);
 }
 
 // Of the squares of a side: a 64-bit sum of their pixels, mixed row by row.
@@ -87,7 +128,8 @@ TextureFigures texture_figures(const Grid<Rgb8>& crop, const Grid<std::uint8_t>&
   }
   out.selected /= std::max(selected, 1);
   out.held_out /= std::max(held, 1);
-  out.beyond = beyond_of(example, result, model.bands);
+  out.beyond = levels_apart(example, result, [&](const BandPicture& p) { return laplacian_histogram(p, model.bands); });
+  out.drawn = levels_apart(example, result, [](const BandPicture& p) { return coherence_histogram(p); });
   return out;
 }
 
@@ -100,7 +142,7 @@ TextureFigures halves_figures(const Grid<Rgb8>& crop, const CliqueModel& model, 
   const TextureFigures across = between({0, 0, w / 2, h}, {w / 2, 0, w, h});
   const TextureFigures down = between({0, 0, w, h / 2}, {0, h / 2, w, h});
   return {.5 * (across.selected + down.selected), .5 * (across.held_out + down.held_out), std::max(across.worst, down.worst),
-          .5 * (across.beyond + down.beyond)};
+          .5 * (across.beyond + down.beyond), .5 * (across.drawn + down.drawn)};
 }
 
 int longest_copy_px(const Grid<Rgb8>& crop, const Grid<Rgb8>& made) {

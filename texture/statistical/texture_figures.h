@@ -12,6 +12,7 @@ struct TextureFigures {
   double held_out = 0.0;  // of all others within reach: what the model was not told
   double worst = 0.0;     // of any single one
   double beyond = 0.0;    // of the Laplacian at levels 0…2, a clique of five pixels, which no model here knows
+  double drawn = 0.0;     // of how far paint around a pixel runs one way (structure tensor's coherence), at levels 0…2
 };
 
 // Of a picture that was made, or of any other, against the crop; `states` (empty: all) counts the crop's pixels.

@@ -40,10 +40,24 @@ TEST(ChooseSeed, TriesAllAndTakesTheNearest) {
   CliqueModel model = learn_texture(crop, {}, quick).model;
   const std::vector<SeedTrial> trials = choose_seed(model, crop, {}, quick);
   EXPECT_EQ(trials.size(), 8U);
-  for (std::size_t k = 1; k < trials.size(); ++k) EXPECT_GE(trials[k].beyond, trials[k - 1].beyond);
+  for (std::size_t k = 1; k < trials.size(); ++k) EXPECT_GE(trials[k].score(), trials[k - 1].score());
   EXPECT_EQ(model.seed, trials.front().seed);
   EXPECT_EQ(model.seed_px, trials.front().px);
   EXPECT_EQ(model.polish, trials.front().polish);
+}
+
+// Dabs without a direction are not combed, whatever their Laplacian says.
+TEST(ChooseSeed, StreaksAreForWhatIsDrawn) {
+  const LearnParameters quick{.types = 18, .levels = 1, .reach_px = 5, .coarse_reach = 3};
+  const auto chosen_for = [&](const Grid<Rgb8>& crop) {
+    CliqueModel model = learn_texture(crop, {}, quick).model;
+    return choose_seed(model, crop, {}, quick).front().seed;
+  };
+  const Grid<Rgb8> meadow = test::meadow_crop(96, 96);
+  Grid<Rgb8> dabs(96, 96);
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 96; ++x) dabs(x, y) = meadow(x / 3 * 3, y / 3 * 3);
+  EXPECT_NE(chosen_for(dabs), TextureSeed::streaks);
 }
 
 }  // namespace

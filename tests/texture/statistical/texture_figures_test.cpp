@@ -17,6 +17,17 @@ TEST(TextureFigures, ACropIsItsOwnTexture) {
   EXPECT_EQ(own.selected, 0.0);
   EXPECT_EQ(own.held_out, 0.0);
   EXPECT_EQ(own.beyond, 0.0);
+  EXPECT_EQ(own.drawn, 0.0);
+}
+
+// Stripes run one way everywhere, a meadow's dabs hardly.
+TEST(TextureFigures, PaintThatRunsOneWayIsToldFromDabs) {
+  const Grid<Rgb8> crop = test::meadow_crop(96, 96);
+  const CliqueModel model = learn_texture(crop, {}, quick).model;
+  const double stripes = texture_figures(crop, {}, test::striped_crop(96, 96, 8), model, quick).drawn;
+  const double other_meadow = texture_figures(crop, {}, test::meadow_crop(96, 96, 31), model, quick).drawn;
+  EXPECT_GT(stripes, 1.0);
+  EXPECT_LT(other_meadow, .5 * stripes);
 }
 
 // What is made lies as near as two halves of the crop to each other, and far nearer than noise: also for what the model was not told.

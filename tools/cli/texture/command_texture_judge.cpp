@@ -36,14 +36,16 @@ Json as_json(const Judgement& judged) {
                  .add("selected", Json::number(judged.figures.selected))
                  .add("held_out", Json::number(judged.figures.held_out))
                  .add("worst", Json::number(judged.figures.worst))
-                 .add("beyond", Json::number(judged.figures.beyond));
+                 .add("beyond", Json::number(judged.figures.beyond))
+                 .add("drawn", Json::number(judged.figures.drawn));
   if (judged.copy_px >= 0) out.add("longest_copy_px", Json::number(judged.copy_px));
   return out;
 }
 
 std::string as_text(const Judgement& judged) {
-  return fmt::format("{:<32} {:.3f}  {:.3f}  {:.2f}  {:.3f}  {}\n", judged.name, judged.figures.selected, judged.figures.held_out,
-                     judged.figures.worst, judged.figures.beyond, judged.copy_px < 0 ? "" : fmt::format("{}", judged.copy_px));
+  return fmt::format("{:<32} {:.3f}  {:.3f}  {:.2f}  {:.3f}   {:.3f}  {}\n", judged.name, judged.figures.selected, judged.figures.held_out,
+                     judged.figures.worst, judged.figures.beyond, judged.figures.drawn,
+                     judged.copy_px < 0 ? "" : fmt::format("{}", judged.copy_px));
 }
 
 int run(const Options& options) {
@@ -65,8 +67,8 @@ int run(const Options& options) {
     for (const Judgement& judged : all) list.add(as_json(judged));
     print_out(list.str() + "\n");
   } else {
-    std::string out =
-        fmt::format("{:<32} {:<5}  {:<5}  {:<4}  {:<5}  {}\n", "L1 to the crop, 0…2", "held", "other", "worst", "beyond", "copy px");
+    std::string out = fmt::format("{:<32} {:<5}  {:<5}  {:<4} {:<6}  {:<5}  {}\n", "L1 to the crop, 0…2", "held", "other", "worst",
+                                  "beyond", "drawn", "copy px");
     for (const Judgement& judged : all) out += as_text(judged);
     print_out(out);
   }

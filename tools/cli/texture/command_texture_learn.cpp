@@ -73,6 +73,7 @@ std::string as_text(const Options& options, const Findings& found) {
       fmt::format("  distance to the crop  {:.3f} of the types it holds, {:.3f} of all others; the crop's own halves {:.3f} and {:.3f}\n",
                   found.figures.selected, found.figures.held_out, found.halves.selected, found.halves.held_out);
   out += fmt::format("  beyond pairs          {:.3f}; halves {:.3f}\n", found.figures.beyond, found.halves.beyond);
+  out += fmt::format("  drawn one way         {:.3f}; halves {:.3f}\n", found.figures.drawn, found.halves.drawn);
   out += fmt::format("  longest exact copy    {} px\n", found.copy_px);
   return out;
 }
@@ -84,7 +85,8 @@ std::string as_json(const Options& options, const Findings& found) {
         .add("selected", Json::number(f.selected))
         .add("held_out", Json::number(f.held_out))
         .add("worst", Json::number(f.worst))
-        .add("beyond", Json::number(f.beyond));
+        .add("beyond", Json::number(f.beyond))
+        .add("drawn", Json::number(f.drawn));
   };
   Json trials = Json::array();
   for (const SeedTrial& t : found.trials)
@@ -92,7 +94,8 @@ std::string as_json(const Options& options, const Findings& found) {
                    .add("seed", Json::text(name_of(t.seed)))
                    .add("px", Json::number(t.px))
                    .add("polish", Json::boolean(t.polish))
-                   .add("beyond", Json::number(t.beyond)));
+                   .add("beyond", Json::number(t.beyond))
+                   .add("drawn", Json::number(t.drawn)));
   return Json::object()
              .add("out", Json::text(options.out))
              .add("types", Json::number(static_cast<double>(model.cliques.size())))
@@ -117,10 +120,10 @@ void write_report(const Options& options, const TextureCrop& crop, const Finding
   folder.picture("crop", encoded_picture(crop.picture), "the crop");
   folder.picture("texture", encoded_picture(found.made), fmt::format("made, {} × {} pixels", found.made.width(), found.made.height()));
   folder.end_figure();
-  folder.add("<h2>Distances</h2><table>" + html_row({"", "types it holds", "all others", "worst", "beyond pairs"}, "th"));
+  folder.add("<h2>Distances</h2><table>" + html_row({"", "types it holds", "all others", "worst", "beyond pairs", "drawn one way"}, "th"));
   const auto row = [&](const char* name, const TextureFigures& f) {
     folder.add(html_row({name, fmt::format("{:.3f}", f.selected), fmt::format("{:.3f}", f.held_out), fmt::format("{:.2f}", f.worst),
-                         fmt::format("{:.3f}", f.beyond)}));
+                         fmt::format("{:.3f}", f.beyond), fmt::format("{:.3f}", f.drawn)}));
   };
   row("texture to crop", found.figures);
   row("halves of the crop", found.halves);
@@ -130,8 +133,9 @@ void write_report(const Options& options, const TextureCrop& crop, const Finding
                          fmt::format("{:.3f}", level.worst_l2)}));
   folder.add("</table>");
   if (!found.trials.empty()) {
-    folder.add("<h2>How it begins</h2><table>" + html_row({"noise", "beyond pairs"}, "th"));
-    for (const SeedTrial& t : found.trials) folder.add(html_row({describe(t.seed, t.px, t.polish), fmt::format("{:.3f}", t.beyond)}));
+    folder.add("<h2>How it begins</h2><table>" + html_row({"noise", "beyond pairs", "drawn one way"}, "th"));
+    for (const SeedTrial& t : found.trials)
+      folder.add(html_row({describe(t.seed, t.px, t.polish), fmt::format("{:.3f}", t.beyond), fmt::format("{:.3f}", t.drawn)}));
     folder.add("</table>");
   }
   if (is_uneven(found)) folder.add("<p>" + html_escaped(warning_of(found)) + "</p>");
