@@ -57,6 +57,7 @@ struct CliqueModel {
   float seed_px = 0.F;           // half length of streaks, radius of discs, in pixels
   float direction_deg = 0.F;     // of the crop's strokes, clockwise from level in the picture, 0…180
   float direction_spread = 0.F;  // 0: all of them run so, 1: they run any way
+  bool sampled = false;          // by the published sampler alone, from noise and at one level: learn_by_sampling.h
   bool polish = true;            // whether single pixels are sampled at the end: crisp dabs, but flecks where all is smooth
 
   // What is told of the crop, and changes nothing that is made.

@@ -190,7 +190,7 @@ void polish(FlowState& state, const CliqueModel& model, int level, const PolishP
     sweep(picture, model, terms, t % 2 == 1, seed, place);
     if (t % 2 == 1 && !coarser.cliques.empty()) round(coarser, {.rate = .6F, .momentum = 0.F});
   }
-  for (int i = 0; i < 3; ++i) round(model, {.rate = .5F, .momentum = 0.F});
+  for (int i = 0; i < 3 && parameters.settle; ++i) round(model, {.rate = .5F, .momentum = 0.F});
 }
 
 }  // namespace belvedere

@@ -14,6 +14,7 @@ struct PolishParameters {
   int sweeps = 30;          // 15 are almost as good, 60 no better
   double correction = 0.3;  // of a potential after each sweep, of the logarithm of what a bin has too much; falls over the last third
   std::uint64_t seed = 1;
+  bool settle = true;  // three rounds of the flow after the last sweep
 };
 
 // The potentials of each sweep, for windows: recorded where a texture is learnt to be made endlessly, and then taken instead of counting.

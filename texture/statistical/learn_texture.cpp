@@ -99,16 +99,22 @@ std::vector<CliqueType> candidate_types(int level, int reach) {
   return types;
 }
 
-LearnedTexture learn_texture(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, const LearnParameters& parameters,
-                             Progress& progress) {
+CliqueModel begin_model(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, int levels) {
   check_crop(crop, states);
-  LearnedTexture out;
-  CliqueModel& model = out.model;
-  model.levels = levels_for(crop, parameters.levels);
+  CliqueModel model;
+  model.levels = levels_for(crop, levels);
   model.bands = find_bands(crop, states);
   model.crop_hash = hash_of(crop);
   model.crop_width = crop.width();
   model.crop_height = crop.height();
+  return model;
+}
+
+LearnedTexture learn_texture(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, const LearnParameters& parameters,
+                             Progress& progress) {
+  LearnedTexture out;
+  CliqueModel& model = out.model;
+  model = begin_model(crop, states, parameters.levels);
   const BandPyramid example = make_pyramid(to_bands(crop, model.bands, states), model.levels);
 
   // The texture that is made to see what is missing: of the crop's size, or of the size of what counts of it.

@@ -38,6 +38,9 @@ LearnedTexture learn_texture(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& s
                              Progress& progress = silent_progress());
 inline constexpr int least_crop_px = 48;
 
+// A model without types: the bands, levels and name of a crop, after the checks of learn_texture.
+CliqueModel begin_model(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, int levels);
+
 // All types of a level within a reach: pairs of bands at one pixel, and a half plane of offsets with all pairs of bands.
 std::vector<CliqueType> candidate_types(int level, int reach);
 int reach_at(const LearnParameters& parameters, int level);

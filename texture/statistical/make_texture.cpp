@@ -15,9 +15,10 @@
 namespace belvedere {
 namespace {
 
-constexpr int border_px = 32;       // made around a texture and cut off
-constexpr int under_mask_px = 16;   // made around a mask: two pixels of the coarsest level
-constexpr int settling_rounds = 4;  // at the end of a level, without momentum
+constexpr int border_px = 32;        // made around a texture and cut off
+constexpr int under_mask_px = 16;    // made around a mask: two pixels of the coarsest level
+constexpr int sampler_sweeps = 300;  // of a model that is made by sampling alone
+constexpr int settling_rounds = 4;   // at the end of a level, without momentum
 constexpr int record_px = 256;
 constexpr int around_hole_px = 64;    // of the picture that a hole's paint is fitted to
 constexpr float even_spread = 1.73F;  // √3: an even distribution of this half width has deviation 1
@@ -123,18 +124,20 @@ BandPicture run(const CliqueModel& model, BandPyramid pyramid, TexturePlace plac
   const std::int64_t pixels = static_cast<std::int64_t>(pyramid.front().states.size());
   FlowState state{std::move(pyramid), {}};
   const SeedNoise noise = noise_of(model, parameters);
-  const PolishParameters polishing{.sweeps = parameters.sweeps, .seed = parameters.seed};
+  const int rounds = model.sampled ? 0 : parameters.rounds;
+  const PolishParameters polishing{
+      .sweeps = model.sampled ? sampler_sweeps : parameters.sweeps, .seed = parameters.seed, .settle = !model.sampled};
   std::size_t polished = 0;
   for (int level = model.levels; level >= 0; --level) {
     begin_level(state, model, level, noise, place, making.known);
     const auto at = static_cast<std::size_t>(model.levels - level);
     if (making.record != nullptr) making.record->rounds.emplace_back();
-    for (int i = 0; i < parameters.rounds; ++i) {
+    for (int i = 0; i < rounds; ++i) {
       const FlowRound* given = making.replay != nullptr ? &making.replay->rounds[at][static_cast<std::size_t>(i)] : nullptr;
-      FlowRound taken = flow_once(state, model, level, i, parameters.rounds, given);
+      FlowRound taken = flow_once(state, model, level, i, rounds, given);
       if (making.record != nullptr) making.record->rounds[at].push_back(std::move(taken));
     }
-    if (model.polish && parameters.sweeps > 0 && level <= parameters.polish_from) {
+    if (model.polish && polishing.sweeps > 0 && level <= parameters.polish_from) {
       const TexturePlace pixel{place.x >> level, place.y >> level};
       PolishRecord* record = making.record != nullptr ? &making.record->polishes.emplace_back() : nullptr;
       polish(state, model, level, polishing, pixel, making.replay != nullptr ? &making.replay->polishes[polished++] : nullptr, record);
@@ -171,6 +174,14 @@ void TextureTrial::begin_level(const CliqueModel& model, int level) { belvedere:
 
 void TextureTrial::run(const CliqueModel& model, int level, int rounds) {
   for (int i = 0; i < rounds; ++i) flow_once(state_, model, level, i, rounds, nullptr);
+}
+
+BandPicture noise_picture(const CliqueModel& model, int width, int height, std::uint64_t seed) {
+  CliqueModel alone = model;
+  alone.levels = 0;
+  FlowState state{make_pyramid(BandPicture(width, height), 0), {}};
+  begin_level(state, alone, 0, {TextureSeed::white, 0.F, {}, seed}, {});
+  return std::move(state.pyramid.front());
 }
 
 Grid<Rgb8> make_texture(const CliqueModel& model, int width, int height, const TextureParameters& parameters, Progress& progress) {
@@ -227,6 +238,9 @@ TexturePiece make_piece(const CliqueModel& model, const TextureRecord& record, P
 
 Grid<Rgb8> make_window(const CliqueModel& model, const TextureRecord& record, PixelRect window, const TextureParameters& parameters,
                        Progress& progress) {
+  if (model.sampled)
+    throw Error(ErrorKind::usage, "the texture model", "one that is made by sampling from noise, whose windows do not agree",
+                "a size; or a model learnt with --method flow");
   check_texture_size(window.width(), window.height());
   const PixelRect tiles{tile_below(window.x0), tile_below(window.y0), tile_below(window.x1 - 1) + 1, tile_below(window.y1 - 1) + 1};
   constexpr int side = endless_tile_px + 2 * endless_margin_px;

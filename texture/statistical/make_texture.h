@@ -37,6 +37,9 @@ void check_texture_size(std::int64_t width, std::int64_t height);
 Grid<Rgb8> make_texture_under(const CliqueModel& model, const Grid<std::uint8_t>& mask, const TextureParameters& parameters,
                               Progress& progress = silent_progress());
 
+// Noise over the ranges of all bands: what sampling begins with.
+BandPicture noise_picture(const CliqueModel& model, int width, int height, std::uint64_t seed);
+
 // A texture in the making whose model grows: what learning looks at.
 class TextureTrial {
  public:

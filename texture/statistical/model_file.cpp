@@ -42,7 +42,7 @@ class Reader {
   Reader(const ConfigValue& root, const std::string& name) : root_(as_table(root, name)), name_(name) {
     allow_only(root_,
                {"belvedere_texture", "levels", "mean", "axes", "low", "high", "seed", "seed_px", "direction_deg", "direction_spread",
-                "polish", "crop_hash", "crop_size", "types"},
+                "polish", "method", "crop_hash", "crop_size", "types"},
                name);
   }
 
@@ -112,6 +112,7 @@ std::string model_text(const CliqueModel& model) {
                      seed_names[static_cast<std::size_t>(model.seed)]);
   out += fmt::format("seed_px = {}\ndirection_deg = {}\ndirection_spread = {}\npolish = {}\n", model.seed_px, model.direction_deg,
                      model.direction_spread, model.polish);
+  if (model.sampled) out += "method = \"paper\"     # sampled from noise, as published\n";
   out += fmt::format("levels = {}\nmean = {}\naxes = {}\nlow = {}\nhigh = {}\n", model.levels, numbers(model.bands.mean), numbers(axes),
                      numbers(model.bands.low), numbers(model.bands.high));
   out += fmt::format("types = \"{}\"\n", clique_text(model.cliques));
@@ -147,6 +148,11 @@ CliqueModel parse_model(const ConfigValue& root, const std::string& name) {
   model.direction_deg = static_cast<float>(read.number("direction_deg", 0.0, 180.0));
   model.direction_spread = static_cast<float>(read.number("direction_spread", 0.0, 1.0));
   model.polish = read.flag("polish");
+  if (const ConfigValue* method = find(as_table(root, name), "method")) {
+    if (as_string(*method, name) != "paper") read.refuse(*method, json_quoted(as_string(*method, name)), "paper, or no method");
+    model.sampled = true;
+    if (model.levels != 0) read.refuse(*method, fmt::format("{} levels above the picture", model.levels), "0 with this method");
+  }
   const auto size = read.list<2>("crop_size", 1.0, 1e6);
   model.crop_width = static_cast<int>(size[0]);
   model.crop_height = static_cast<int>(size[1]);

@@ -60,6 +60,8 @@ TEST(ModelFile, DamageIsNamedWithItsLine) {
   EXPECT_THAT(words(replaced(text, "types = \"", "types = \"A")), HasSubstr("damaged"));
   EXPECT_THAT(words(replaced(text, "types = \"", "types = \"AAAA")), HasSubstr("damaged"));
   EXPECT_THAT(words(replaced(text, "types = \"", "types = \"CQAA")), HasSubstr("x.model:"));
+  EXPECT_THAT(words(replaced(text, "levels = 1", "method = \"paper\"\nlevels = 1")), HasSubstr("1 levels"));
+  EXPECT_THAT(words(replaced(text, "levels = 1", "method = \"stone\"\nlevels = 1")), HasSubstr("stone"));
   EXPECT_THROW(read_model("/nowhere/x.model"), Error);
 }
 

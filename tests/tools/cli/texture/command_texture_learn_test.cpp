@@ -112,6 +112,7 @@ TEST_F(Texture, BadInputIsNamed) {
   refused({"texture", "learn", crop, "--mask", write_labels("none.tif", 72, 64, [](int, int) { return 0; }), "--out", path("m.model")}, 3,
           "0 pixels");
   refused({"texture", "learn", crop, "--out", crop}, 2, "what is read");
+  refused({"texture", "learn", crop, "--method", "paper", "--begin", "discs", "--out", path("m.model")}, 2, "--method paper");
   refused({"texture", "fill", crop, "--hole", path("mask.tif"), "--model", path("m.model"), "--out", path("x.png")}, 3, "m.model");
   EXPECT_FALSE(std::filesystem::exists(path("m.model")));
   refused({"texture", "make", write("m.model", "belvedere_texture = 7\n"), "--size", "9", "9", "--out", path("x.png")}, 2, "version 7");

@@ -1,0 +1,101 @@
+#include "texture/statistical/learn_by_sampling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <vector>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "texture/statistical/clique_polish.h"
+#include "texture/statistical/difference_histogram.h"
+#include "texture/statistical/make_texture.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int most_trial_px = 128;  // a side of the texture that is looked at
+constexpr int first_sweeps = 60;
+constexpr int added_sweeps = 30;  // after each type
+constexpr std::uint64_t noise_seed = 5;
+
+struct Candidate {
+  Clique clique;
+  HistogramGroups groups;
+  bool in = false;
+};
+
+// The four neighbours within bands and the bands at one pixel: preselected, as published; and plain histograms.
+bool preselected(const CliqueType& t) { return (t.dx == 0 && t.dy == 0) || (std::abs(t.dx) + std::abs(t.dy) == 1 && t.head == t.tail); }
+
+}  // namespace
+
+LearnedTexture learn_by_sampling(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, const LearnParameters& parameters,
+                                 Progress& progress) {
+  if (std::max(crop.width(), crop.height()) > most_sampled_px)
+    throw Error(ErrorKind::limit, "the crop", fmt::format("{} × {} pixels", crop.width(), crop.height()),
+                fmt::format("{} a side for the published method", most_sampled_px));
+  // What the crop must be, its bands and its name are the same as for the flow.
+  LearnedTexture out;
+  CliqueModel& model = out.model;
+  model = begin_model(crop, states, 0);
+  model.sampled = true;
+  model.polish = true;
+  const BandPicture example = to_bands(crop, model.bands, states);
+
+  // Step 1.
+  const std::vector<CliqueType> types = candidate_types(0, sampled_reach_px);
+  std::vector<Candidate> candidates(types.size());
+  parallel_ranges(types.size(), std::size_t{8}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k != end; ++k) {
+      const DifferenceHistogram histogram = count_differences(example, model.bands, types[k]);
+      const CliqueKnots knots = find_knots(histogram, difference_range(model.bands, types[k]));
+      candidates[k] = {{types[k], encode_knots(model.bands, types[k], knots)}, HistogramGroups(histogram)};
+    }
+  });
+  for (Candidate& c : candidates) {
+    c.in = preselected(c.clique.type);
+    if (c.in) model.cliques.push_back(c.clique);
+  }
+  // Step 2.
+  FlowState made{{noise_picture(model, std::min(crop.width(), most_trial_px), std::min(crop.height(), most_trial_px), noise_seed)}, {}};
+  progress.begin("learning by sampling", parameters.types);
+  for (int round = 0;; ++round) {
+    // Step 6.
+    polish(made, model, 0,
+           {.sweeps = round == 0 ? first_sweeps : added_sweeps, .seed = noise_seed + static_cast<std::uint64_t>(round), .settle = false},
+           {});
+    progress.advance(1.0);
+    // Steps 3 and 4.
+    std::vector<HistogramGroups::Distance> off(candidates.size());
+    parallel_ranges(candidates.size(), std::size_t{8}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k != end; ++k)
+        off[k] = candidates[k].groups.distance(count_differences(made.pyramid[0], model.bands, candidates[k].clique.type));
+    });
+    // Step 5.
+    LearnedLevel told{.level = 0, .types = static_cast<int>(model.cliques.size())};
+    std::size_t worst = candidates.size();
+    double sum = 0.0;
+    int held = 0;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      if (candidates[k].in) continue;
+      sum += off[k].l1;
+      ++held;
+      if (off[k].l2 <= told.worst_l2) continue;
+      told.worst_l2 = off[k].l2;
+      worst = k;
+    }
+    told.held_out_l1 = held > 0 ? sum / held : 0.0;
+    if (worst == candidates.size() || told.worst_l2 < parameters.enough ||
+        model.cliques.size() >= static_cast<std::size_t>(parameters.types)) {
+      out.levels.push_back(told);
+      return out;
+    }
+    candidates[worst].in = true;
+    model.cliques.push_back(candidates[worst].clique);
+  }
+}
+
+}  // namespace belvedere
