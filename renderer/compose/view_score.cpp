@@ -117,6 +117,8 @@ std::vector<ScoreTerm> score_terms(const ViewMeasures& m, const ScoreContext& co
        "mountains hide much ground: bend it more, or look from higher", ""},
       {"floor", 1.0, plateau, {0, 1, never, never}, share, m.floor_open * std::min(1.0, m.floor / 0.02), "of the valley floors in view is open",
        "valley floors are hidden: look along a valley, from higher, or bend the ground more", ""},
+      // A picture without any is a slope: the first third counts once more.
+      {"valley", 0.5, plateau, {0, 0.3, never, never}, share, m.floor_open * std::min(1.0, m.floor / 0.02), "of the valley floors in view is open", "", ""},
       {"depth", 0.8, plateau, {0, 1, never, never}, share, m.floor_depth, "valley floor at all distances", "", ""},
       {"across", 0.5, plateau, {0, 1, never, never}, share, m.floor_across, "valley floor from left to right", "", ""},
       {"water", 0.7, plateau, {0.0, 0.02, 0.16, 0.45}, share, m.water, "of the picture is water", "", ""},

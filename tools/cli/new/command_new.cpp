@@ -264,15 +264,10 @@ void name_land_cover(const Options& options, FileNames& names, const CoarseGroun
   about.unknown = cover.unknown;
 }
 
-// What of the merit is won by means beyond the usual, in a few letters.
-std::string gains_caption(const Candidate& candidate) {
-  std::string out;
-  const auto add = [&](const char* what, double merit) { out += fmt::format("{}{} +{:.1f}", out.empty() ? "   " : ", ", what, merit); };
-  if (!candidate.bend.words.empty()) add("bend", candidate.bend.merit);
-  if (candidate.changes.widen_valleys_m > 0.0) add("valleys", candidate.changes.widened.merit);
-  double summits = 0.0;
-  for (const RaisedSummit& summit : candidate.changes.summits) summits += summit.gain.merit;
-  if (!candidate.changes.summits.empty()) add("summits", summits);
+// What of the merit is won by means beyond the usual.
+double won(const Candidate& candidate) {
+  double out = candidate.bend.merit + candidate.changes.widened.merit;
+  for (const RaisedSummit& summit : candidate.changes.summits) out += summit.gain.merit;
   return out;
 }
 
@@ -349,8 +344,9 @@ int run_new(const Options& options) {
     const double cell_m = draft_cell_m(ground, proposals, look.width_px);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       drafts.push_back(make_small_draft(scenes[i], look.width_px, cell_m));
-      captions.push_back(fmt::format("{}   merit {:.1f}   azimuth {:.0f}, {:.0f} km{}", i + 1, proposals[i].merit,
-                                     proposals[i].view.azimuth_deg, proposals[i].view.far_m / 1000.0, gains_caption(proposals[i])));
+      const std::string gain = won(proposals[i]) > 0.0 ? fmt::format(", won {:.1f}", won(proposals[i])) : "";
+      captions.push_back(fmt::format("{}  merit {:.1f}{}  azimuth {:.0f}, {:.0f} km", i + 1, proposals[i].merit, gain,
+                                     proposals[i].view.azimuth_deg, proposals[i].view.far_m / 1000.0));
     }
     sheet = (fs::path(options.pictures) / "proposals.png").string();
     write_contact_sheet(sheet, drafts, captions, run, look);
