@@ -24,7 +24,7 @@ TEST(ProgramRun, AsksForTheCommandAndNamesTheNearest) {
   EXPECT_THAT(refusal({}), HasSubstr("what shall belvedere do?"));
   EXPECT_THAT(refusal({"chekc"}), HasSubstr("did you mean \"check\"?"));
   EXPECT_THAT(refusal({"exemplar", "chekc"}), HasSubstr("belvedere exemplar has no command \"chekc\"; did you mean \"check\"?"));
-  EXPECT_THAT(refusal({"exemplar", "render"}), HasSubstr("allowed: check, compare, paint."));
+  EXPECT_THAT(refusal({"exemplar", "render"}), HasSubstr("allowed: check, compare, paint, segment."));
   EXPECT_THAT(refusal({"--nonsense"}), HasSubstr("what shall belvedere do?"));
   // Where the command is found, the fault is in what follows.
   EXPECT_THAT(refusal({"diff", "a"}), Not(HasSubstr("what shall")));
