@@ -28,7 +28,8 @@ TEST(LayoutFigures, KnowTopFromBottomAtAnySize) {
   // Turned over, every strip holds what it never held; differences along rows stay, those along columns turn their sign.
   const LayoutFigures turned = layout_figures(crop, halves(160, 160, true));
   EXPECT_NEAR(turned.profile, 2.0, 1e-9);
-  EXPECT_GT(turned.far_pairs, .3);
+  // In one band of three, along columns: of pairs d apart d / (160 - d) reach over the middle, at most all, and all of them move.
+  EXPECT_NEAR(turned.far_pairs, 2.0 / 24.0 * (16.0 / 144.0 + 32.0 / 128.0 + 64.0 / 96.0 + 1.0), .01);
 }
 
 }  // namespace
