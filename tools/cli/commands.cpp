@@ -36,6 +36,7 @@ const std::vector<Command>& all_commands() {
       {"texture", "judge", "Says how near textures, made by whatever program, come to a crop of a painting", add_texture_judge},
       {"composite", "learn", "Learns a picture of several textures, and how they lie, from a crop and its labels", add_composite_learn},
       {"composite", "make", "Makes such a picture of any size, over a map of labels that is made or drawn", add_composite_make},
+      {"texture", "correct", "Gives a picture the colours of another, region by region", add_texture_correct},
       {"", "info", "Says what a picture or guidance file holds and how it was made", add_info},
       {"", "diff", "Compares two pictures or guidance files, with thresholds", add_diff},
       {"", "schema", "Prints what a scene file may say, for editors or for reading", add_schema},

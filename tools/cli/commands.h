@@ -59,6 +59,7 @@ Action add_synthesize(CLI::App& command);
 Action add_texture_erode(CLI::App& command);
 Action add_composite_learn(CLI::App& command);
 Action add_composite_make(CLI::App& command);
+Action add_texture_correct(CLI::App& command);
 Action add_texture_fill(CLI::App& command);
 Action add_texture_judge(CLI::App& command);
 Action add_texture_knit(CLI::App& command);

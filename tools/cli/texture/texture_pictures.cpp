@@ -59,12 +59,16 @@ void check_texture_name(const std::string& path) {
 }
 
 void write_texture(const std::string& path, const Grid<Rgb8>& picture, const std::string& note) {
+  write_encoded_texture(path, encoded_picture(picture), note);
+}
+
+void write_encoded_texture(const std::string& path, const Grid<glm::vec3>& picture, const std::string& note) {
   PictureFileOptions options;
   options.notes["belvedere:texture"] = note;
   if (ending_of(path) == ".png")
-    write_png8(path, encoded_picture(picture), options);
+    write_png8(path, picture, options);
   else
-    write_tiff16(path, encoded_picture(picture), options);
+    write_tiff16(path, picture, options);
 }
 
 }  // namespace belvedere::tools

@@ -27,6 +27,8 @@ Grid<glm::vec3> encoded_picture(const Grid<Rgb8>& picture);
 
 // Writes a picture in the format of its ending that holds 8 bits or more without linear light: Error(usage) for others.
 void write_texture(const std::string& path, const Grid<Rgb8>& picture, const std::string& note);
+// The same of encoded sRGB, 0…1.
+void write_encoded_texture(const std::string& path, const Grid<glm::vec3>& picture, const std::string& note);
 // Throws what write_texture would for the name, before any work.
 void check_texture_name(const std::string& path);
 

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "tests/texture/statistical/composite_crops.h"
+#include "tests/texture/composite/composite_crops.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {

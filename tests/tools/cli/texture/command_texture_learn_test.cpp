@@ -98,6 +98,23 @@ TEST_F(Texture, JoinsPicturesAndNothingElse) {
   EXPECT_EQ(run({"texture", "knit", left, below, "--out", path("knit.png")}).status, 2);
 }
 
+TEST_F(Texture, CorrectedPicturesHaveTheColoursOfTheOther) {
+  const auto plain = [&](const std::string& name, glm::vec3 colour) {
+    return write_picture(name, 60, 50, [&](int x, int y) { return colour * (.8F + .01F * static_cast<float>((3 * x + 5 * y) % 20)); });
+  };
+  const std::string red = plain("red.png", {.8F, .4F, .3F});
+  const std::string blue = plain("blue.png", {.3F, .4F, .7F});
+  const Outcome outcome = run({"texture", "correct", red, "--to", blue, "--out", path("out.png"), "--regions", "1", "--json", "-q"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"before\""), HasSubstr("\"after\"")));
+  const glm::vec3 out = read_picture(path("out.png"))(30, 25);
+  const glm::vec3 wanted = read_picture(blue)(30, 25);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(out[c], wanted[c], .03F);
+  EXPECT_EQ(run({"texture", "correct", red, "--to", blue, "--out", path("x.png"), "--regions", "6"}).status, 2);
+  EXPECT_EQ(run({"texture", "correct", red, "--to", path("gone.png"), "--out", path("x.png")}).status, 3);
+  EXPECT_EQ(run({"texture", "correct", red, "--to", blue, "--out", red}).status, 2);
+}
+
 TEST_F(Texture, BadInputIsNamed) {
   const auto refused = [&](const std::vector<std::string>& arguments, int status, const std::string& word) {
     const Outcome outcome = run(arguments);

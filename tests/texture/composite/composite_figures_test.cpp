@@ -1,4 +1,4 @@
-#include "texture/statistical/composite_figures.h"
+#include "texture/composite/composite_figures.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/grid.h"
+#include "texture/composite/label_map.h"
 #include "texture/statistical/clique_model.h"
-#include "texture/statistical/label_map.h"
 
 namespace belvedere {
 

@@ -1,4 +1,4 @@
-#include "texture/statistical/make_label_map.h"
+#include "texture/composite/make_label_map.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "texture/statistical/composite_model.h"
+#include "texture/composite/composite_model.h"
 #include "texture/statistical/label_borders.h"
 #include "texture/statistical/learn_texture.h"
 

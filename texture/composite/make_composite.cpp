@@ -1,4 +1,4 @@
-#include "texture/statistical/make_composite.h"
+#include "texture/composite/make_composite.h"
 
 #include <algorithm>
 #include <array>

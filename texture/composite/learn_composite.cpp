@@ -1,4 +1,4 @@
-#include "texture/statistical/learn_composite.h"
+#include "texture/composite/learn_composite.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
-#include "texture/statistical/learn_composite.h"
+#include "texture/composite/learn_composite.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "tests/texture/statistical/composite_crops.h"
+#include "tests/texture/composite/composite_crops.h"
 
 namespace belvedere {
 namespace {

@@ -1,10 +1,10 @@
-#include "texture/statistical/composite_model.h"
+#include "texture/composite/composite_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "tests/texture/statistical/composite_crops.h"
+#include "tests/texture/composite/composite_crops.h"
 
 namespace belvedere {
 namespace {

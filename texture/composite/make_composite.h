@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "texture/statistical/composite_model.h"
+#include "texture/composite/composite_model.h"
 #include "texture/statistical/make_texture.h"
 
 namespace belvedere {

@@ -4,7 +4,7 @@
 
 #include "base/grid.h"
 #include "base/progress.h"
-#include "texture/statistical/label_map.h"
+#include "texture/composite/label_map.h"
 
 namespace belvedere {
 

@@ -1,4 +1,4 @@
-#include "texture/statistical/composite_model.h"
+#include "texture/composite/composite_model.h"
 
 #include <fmt/format.h>
 

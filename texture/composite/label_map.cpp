@@ -1,4 +1,4 @@
-#include "texture/statistical/label_map.h"
+#include "texture/composite/label_map.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "tests/texture/statistical/texture_crops.h"
-#include "texture/statistical/learn_composite.h"
+#include "texture/composite/learn_composite.h"
 
 // A crop of two made-up textures, of which is known where each is: meadow above, grey stripes below a ragged border.
 namespace belvedere::test {

@@ -1,11 +1,11 @@
-#include "texture/statistical/make_composite.h"
+#include "texture/composite/make_composite.h"
 
 #include <gtest/gtest.h>
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "tests/texture/statistical/composite_crops.h"
-#include "texture/statistical/make_label_map.h"
+#include "tests/texture/composite/composite_crops.h"
+#include "texture/composite/make_label_map.h"
 
 namespace belvedere {
 namespace {

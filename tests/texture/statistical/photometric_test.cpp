@@ -1,0 +1,125 @@
+#include "texture/statistical/photometric.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/random.h"
+
+namespace belvedere {
+namespace {
+
+double even(std::uint64_t seed, int x, int y) { return static_cast<double>(random_index(10001, seed, x, y)) / 10000.0; }
+
+// Upper half one hue and light, lower half another and dark; saturation and value vary evenly.
+struct Look {
+  double hue, saturation, value;
+};
+Grid<glm::vec3> two_halves(Look upper, Look lower, std::uint64_t seed, int width = 96, int height = 96) {
+  Grid<glm::vec3> out(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const Look& look = y < height / 2 ? upper : lower;
+      out(x, y) = from_hsv({look.hue + .04 * (even(seed, x, y) - .5), look.saturation + .2 * (even(seed + 1, x, y) - .5),
+                            look.value + .2 * (even(seed + 2, x, y) - .5)});
+    }
+  return out;
+}
+
+TEST(Photometric, HueSaturationValueAndBack) {
+  EXPECT_EQ(to_hsv({1, 0, 0}), glm::dvec3(0, 1, 1));
+  EXPECT_NEAR(to_hsv({0, .5, 0}).x, 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(to_hsv({.25, .25, .5}).y, .5, 1e-12);
+  EXPECT_EQ(to_hsv({.4, .4, .4}), glm::dvec3(0, 0, .4));
+  for (int i = 0; i < 500; ++i) {
+    const glm::dvec3 rgb(even(1, i, 0), even(2, i, 0), even(3, i, 0));
+    const glm::dvec3 back = from_hsv(to_hsv(rgb));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(back[c], rgb[c], 1e-12);
+  }
+}
+
+TEST(Photometric, OwnColoursStay) {
+  const Grid<glm::vec3> picture = two_halves({.6, .5, .8}, {.3, .6, .4}, 1);
+  const Grid<glm::vec3> out = correct_colours(picture, picture, {.regions = 2});
+  for (std::size_t i = 0; i < out.size(); ++i)
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(out[i][c], picture[i][c], .01F);
+}
+
+// Each half turns, fades and darkens by itself: no one map for both could do it.
+TEST(Photometric, RegionsTakeTheirPartnersColours) {
+  const Grid<glm::vec3> source = two_halves({.60, .5, .8}, {.30, .6, .4}, 1);
+  const Grid<glm::vec3> target = two_halves({.55, .3, .7}, {.20, .7, .3}, 50);
+  const Grid<glm::vec3> wanted = two_halves({.55, .3, .7}, {.20, .7, .3}, 1);
+  const Grid<glm::vec3> out = correct_colours(source, target, {.regions = 2});
+  double off = 0.0;
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 96; ++x)
+      if (std::abs(y - 48) > 12)
+        for (int c = 0; c < 3; ++c) off = std::max(off, static_cast<double>(std::abs(out(x, y)[c] - wanted(x, y)[c])));
+  EXPECT_LT(off, .04);
+  const auto before = colour_histogram_distance(source, target);
+  const auto after = colour_histogram_distance(out, target);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_LT(after[c], .4 * before[c]) << c;
+}
+
+// Grey with a breath of every hue, to be made green: no rainbow comes of it.
+TEST(Photometric, GreysTurnWithoutFlecks) {
+  Grid<glm::vec3> grey(80, 80);
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 80; ++x) grey(x, y) = from_hsv({even(1, x, y), .03 * even(2, x, y), .5 + .1 * even(3, x, y)});
+  const Grid<glm::vec3> green = two_halves({.33, .5, .5}, {.33, .5, .6}, 4);
+  const Grid<glm::vec3> out = correct_colours(grey, green, {.regions = 1});
+  int flecks = 0;
+  for (const glm::vec3& rgb : out) {
+    const glm::dvec3 hsv = to_hsv(rgb);
+    flecks += hsv.y > .15 && std::abs(hsv.x - .33) > .08 ? 1 : 0;
+  }
+  EXPECT_EQ(flecks, 0);
+}
+
+// Brightness of little range is spread twofold at most.
+TEST(Photometric, GrainIsNotBlownUp) {
+  Grid<glm::vec3> faint(64, 64);
+  Grid<glm::vec3> strong(64, 64);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      faint(x, y) = glm::vec3(static_cast<float>(.5 + .04 * (even(1, x, y) - .5)));
+      strong(x, y) = glm::vec3(static_cast<float>(.5 + .8 * (even(2, x, y) - .5)));
+    }
+  const Grid<glm::vec3> out = correct_colours(faint, strong, {.regions = 1});
+  float low = 1.F;
+  float high = 0.F;
+  for (const glm::vec3& rgb : out) {
+    low = std::min(low, rgb.x);
+    high = std::max(high, rgb.x);
+  }
+  EXPECT_NEAR(high - low, .08F, .01F);
+}
+
+TEST(Photometric, WhatDoesNotCountIsNotMeasured) {
+  const Grid<glm::vec3> source = two_halves({.60, .5, .8}, {.60, .5, .4}, 1);
+  Grid<glm::vec3> framed = two_halves({.55, .3, .7}, {.55, .3, .3}, 9);
+  Grid<std::uint8_t> counts(96, 96, 1);
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 10; ++x) {
+      framed(x, y) = {1.F, 0.F, 0.F};
+      counts(x, y) = 0;
+    }
+  for (const glm::vec3& rgb : correct_colours(source, framed, {.regions = 2, .blur_px = 0.0}, {}, counts))
+    EXPECT_NEAR(to_hsv(rgb).x, .55, .05);
+  EXPECT_THROW(correct_colours(source, framed, {}, {}, Grid<std::uint8_t>(96, 96, 0)), Error);
+  EXPECT_THROW(correct_colours(source, framed, {.regions = 6}), Error);
+}
+
+TEST(Photometric, SameForAnyThreads) {
+  const auto made = [](int threads) {
+    const ThreadLimit limit(threads);
+    return correct_colours(two_halves({.60, .5, .8}, {.30, .6, .4}, 1), two_halves({.55, .3, .7}, {.20, .7, .3}, 50));
+  };
+  EXPECT_EQ(made(1), made(2));
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,309 @@
+#include "texture/statistical/photometric.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "base/error.h"
+#include "base/filter.h"
+#include "base/math_exact.h"
+#include "base/parallel.h"
+
+namespace belvedere {
+namespace {
+
+constexpr std::size_t knots = 33;
+constexpr std::size_t bins = 2048;
+constexpr double turn_rad = 6.283185307179586;
+constexpr int rounds = 24;           // of finding centres
+constexpr double reach_parts = 5.0;  // of the mean distance of two centres, over which regions blend
+constexpr double no_limit = 1e9;     // of a map's steepness
+
+// Lightness, red against green, yellow against blue of encoded colours: enough to tell regions by.
+Grid<glm::vec3> opponents(const Grid<glm::vec3>& picture, double blur_px) {
+  Grid<glm::vec3> out(picture.width(), picture.height());
+  for (int c = 0; c < 3; ++c) {
+    Grid<float> channel(picture.width(), picture.height());
+    for (std::size_t i = 0; i < channel.size(); ++i) {
+      const glm::vec3& rgb = picture[i];
+      const float yellow = (rgb.x + rgb.y) / 2.F;
+      channel[i] = c == 0 ? (2.F * rgb.x + 5.F * rgb.y + rgb.z) / 8.F : 1.6F * (c == 1 ? rgb.x - rgb.y : yellow - rgb.z);
+    }
+    channel = gaussian_blur(channel, blur_px);
+    for (std::size_t i = 0; i < channel.size(); ++i) out[i][c] = channel[i];
+  }
+  return out;
+}
+
+struct Regions {
+  Grid<glm::vec3> seen;
+  std::vector<glm::dvec3> centres;
+  glm::dvec3 mean{0.0};
+  double reach = 0.0;  // a part of the mean distance of two centres: how softly one goes over into the next
+};
+
+bool counts(const Grid<std::uint8_t>& mask, std::size_t i) { return mask.empty() || mask[i] != 0; }
+
+// k-means from the parts of equal size by lightness: nothing is drawn by lot.
+Regions find_regions(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& mask, const PhotometricParameters& parameters,
+                     const char* which) {
+  Regions out{opponents(picture, parameters.blur_px), {}};
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < picture.size(); ++i)
+    if (counts(mask, i)) order.push_back(i);
+  const auto wanted = static_cast<std::size_t>(parameters.regions);
+  if (order.size() < wanted)
+    throw Error(ErrorKind::input, fmt::format("the {} of a correction", which), fmt::format("{} pixels count", order.size()),
+                "more pixels than regions");
+  for (const std::size_t i : order) out.mean += glm::dvec3(out.seen[i]) / static_cast<double>(order.size());
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return out.seen[a].x < out.seen[b].x; });
+  for (std::size_t k = 0; k < wanted; ++k) {
+    const std::size_t begin = k * order.size() / wanted;
+    const std::size_t end = (k + 1) * order.size() / wanted;
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = begin; i < end; ++i) sum += out.seen[order[i]];
+    out.centres.push_back(sum / static_cast<double>(end - begin));
+  }
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<glm::dvec3> sum(wanted, glm::dvec3(0.0));
+    std::vector<double> count(wanted, 0.0);
+    for (const std::size_t i : order) {
+      std::size_t best = 0;
+      for (std::size_t k = 1; k < wanted; ++k)
+        if (glm::distance(glm::dvec3(out.seen[i]), out.centres[k]) < glm::distance(glm::dvec3(out.seen[i]), out.centres[best])) best = k;
+      sum[best] += out.seen[i];
+      count[best] += 1.0;
+    }
+    for (std::size_t k = 0; k < wanted; ++k)
+      if (count[k] > 0.0) out.centres[k] = sum[k] / count[k];
+  }
+  double distance = 0.0;
+  for (std::size_t a = 0; a < wanted; ++a)
+    for (std::size_t b = a + 1; b < wanted; ++b) distance += glm::distance(out.centres[a], out.centres[b]);
+  const double pairs = std::max(static_cast<double>(wanted * (wanted - 1)) / 2.0, 1.0);
+  out.reach = std::max(distance / pairs / reach_parts, 1e-3);
+  return out;
+}
+
+// For each region of the source that of the target: least squares of the centres about their pictures' means, over all orders.
+std::vector<std::size_t> pair_regions(const Regions& source, const Regions& target) {
+  std::vector<std::size_t> order(source.centres.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<std::size_t> best = order;
+  double least = std::numeric_limits<double>::infinity();
+  do {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const glm::dvec3 step = (source.centres[k] - source.mean) - (target.centres[order[k]] - target.mean);
+      sum += glm::dot(step, step);
+    }
+    if (sum < least) {
+      least = sum;
+      best = order;
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+  return best;
+}
+
+// How much of each region a pixel is; sums to 1.
+std::vector<double> shares(const Regions& regions, std::size_t i) {
+  std::vector<double> out(regions.centres.size());
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const glm::dvec3 step = glm::dvec3(regions.seen[i]) - regions.centres[k];
+    out[k] = glm::dot(step, step) / (2.0 * regions.reach * regions.reach);
+    nearest = std::min(nearest, out[k]);
+  }
+  double sum = 0.0;
+  for (double& share : out) sum += share = exact::exp(nearest - share);
+  for (double& share : out) share /= sum;
+  return out;
+}
+
+using Histogram = std::vector<double>;
+
+// Quantiles of values from `low` to `low` + 1, at 33 even shares.
+std::array<double, knots> quantiles(const Histogram& histogram, double low) {
+  std::array<double, knots> out{};
+  const double all = std::accumulate(histogram.begin(), histogram.end(), 0.0);
+  double before = 0.0;
+  std::size_t bin = 0;
+  for (std::size_t k = 0; k < knots; ++k) {
+    const double wanted = all * (static_cast<double>(k) + 0.5) / knots;
+    while (bin + 1 < bins && before + histogram[bin] < wanted) before += histogram[bin++];
+    const double part = histogram[bin] > 0.0 ? std::clamp((wanted - before) / histogram[bin], 0.0, 1.0) : 0.5;
+    out[k] = low + (static_cast<double>(bin) + part) / bins;
+  }
+  return out;
+}
+
+// What one region looks like.
+struct RegionColours {
+  double hue = 0.0;  // mean, turns
+  std::array<std::array<double, knots>, 3> quantile{};
+};
+
+std::vector<RegionColours> measure_colours(const Grid<glm::vec3>& picture, const Regions& regions, const Grid<std::uint8_t>& mask) {
+  const std::size_t wanted = regions.centres.size();
+  std::vector<RegionColours> out(wanted);
+  std::vector<glm::dvec3> direction(wanted, glm::dvec3(0.0));
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    if (!counts(mask, i)) continue;
+    const glm::dvec3 hsv = to_hsv(picture[i]);
+    const exact::Turn turn = exact::turn(turn_rad * hsv.x);
+    const std::vector<double> share = shares(regions, i);
+    for (std::size_t k = 0; k < wanted; ++k) direction[k] += share[k] * hsv.y * glm::dvec3(turn.cosine, turn.sine, 0.0);
+  }
+  for (std::size_t k = 0; k < wanted; ++k) out[k].hue = exact::atan2(direction[k].y, direction[k].x) / turn_rad;
+  std::vector<std::array<Histogram, 3>> histograms(wanted);
+  for (auto& of_region : histograms)
+    for (Histogram& histogram : of_region) histogram.assign(bins, 0.0);
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    if (!counts(mask, i)) continue;
+    const glm::dvec3 hsv = to_hsv(picture[i]);
+    const std::vector<double> share = shares(regions, i);
+    for (std::size_t k = 0; k < wanted; ++k) {
+      double turned = hsv.x - out[k].hue;
+      turned -= std::floor(turned + 0.5);  // -½…½ about the region's mean
+      const std::array<double, 3> place = {turned + 0.5, hsv.y, hsv.z};
+      for (std::size_t c = 0; c < 3; ++c)
+        histograms[k][c][std::min(static_cast<std::size_t>(std::max(place[c], 0.0) * bins), bins - 1)] += share[k] * (c == 0 ? hsv.y : 1.0);
+    }
+  }
+  for (std::size_t k = 0; k < wanted; ++k)
+    for (std::size_t c = 0; c < 3; ++c) out[k].quantile[c] = quantiles(histograms[k][c], c == 0 ? -0.5 : 0.0);
+  return out;
+}
+
+// From the source's quantiles to the target's, no steeper than `steepest`; a unit steep
+// outside of them, so that what is rare goes along.
+struct QuantileMap {
+  std::array<double, knots> from{};
+  std::array<double, knots> to{};
+  double operator()(double value) const {
+    if (value <= from.front()) return to.front() + (value - from.front());
+    if (value >= from.back()) return to.back() + (value - from.back());
+    const auto above = static_cast<std::size_t>(std::upper_bound(from.begin(), from.end(), value) - from.begin());
+    const double width = from[above] - from[above - 1];
+    const double part = width > 0.0 ? (value - from[above - 1]) / width : 0.0;
+    return to[above - 1] + part * (to[above] - to[above - 1]);
+  }
+};
+
+QuantileMap make_map(const std::array<double, knots>& from, const std::array<double, knots>& to, double steepest) {
+  QuantileMap map{from, to};
+  constexpr std::size_t middle = knots / 2;
+  for (std::size_t k = middle; k + 1 < knots; ++k)
+    map.to[k + 1] = map.to[k] + std::min(to[k + 1] - to[k], steepest * (from[k + 1] - from[k]));
+  for (std::size_t k = middle; k > 0; --k) map.to[k - 1] = map.to[k] - std::min(to[k] - to[k - 1], steepest * (from[k] - from[k - 1]));
+  return map;
+}
+
+struct RegionMap {
+  double hue_from, hue_to;
+  QuantileMap hue, saturation, value;
+};
+
+}  // namespace
+
+glm::dvec3 to_hsv(glm::dvec3 rgb) {
+  const double high = std::max({rgb.x, rgb.y, rgb.z});
+  const double range = high - std::min({rgb.x, rgb.y, rgb.z});
+  if (!(range > 0.0)) return {0.0, 0.0, high};
+  double sixth = 0.0;
+  if (high == rgb.x)
+    sixth = (rgb.y - rgb.z) / range;
+  else if (high == rgb.y)
+    sixth = (rgb.z - rgb.x) / range + 2.0;
+  else
+    sixth = (rgb.x - rgb.y) / range + 4.0;
+  return {sixth < 0.0 ? (sixth + 6.0) / 6.0 : sixth / 6.0, range / high, high};
+}
+
+glm::dvec3 from_hsv(glm::dvec3 hsv) {
+  const double turns = hsv.x - std::floor(hsv.x);
+  const auto channel = [&](double from) {
+    const double k = std::fmod(from + turns * 6.0, 6.0);
+    return hsv.z * (1.0 - hsv.y * std::clamp(std::min(k, 4.0 - k), 0.0, 1.0));
+  };
+  return {channel(5.0), channel(3.0), channel(1.0)};
+}
+
+Grid<glm::vec3> correct_colours(const Grid<glm::vec3>& source, const Grid<glm::vec3>& target, const PhotometricParameters& parameters,
+                                const Grid<std::uint8_t>& source_counts, const Grid<std::uint8_t>& target_counts) {
+  if (parameters.regions < 1 || parameters.regions > 5)
+    throw Error(ErrorKind::usage, "regions", fmt::format("{}", parameters.regions), "1 … 5");
+  const Regions from = find_regions(source, source_counts, parameters, "source");
+  const Regions to = find_regions(target, target_counts, parameters, "target");
+  const std::vector<std::size_t> partner = pair_regions(from, to);
+  const std::vector<RegionColours> own = measure_colours(source, from, source_counts);
+  const std::vector<RegionColours> theirs = measure_colours(target, to, target_counts);
+  std::vector<RegionMap> maps;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const RegionColours& goal = theirs[partner[k]];
+    maps.push_back({own[k].hue, goal.hue, make_map(own[k].quantile[0], goal.quantile[0], 1.0),
+                    make_map(own[k].quantile[1], goal.quantile[1], no_limit),
+                    make_map(own[k].quantile[2], goal.quantile[2], parameters.largest_value_gain)});
+  }
+  Grid<glm::vec3> out(source.width(), source.height());
+  parallel_rows(source.height(), [&](int y) {
+    for (int x = 0; x < source.width(); ++x) {
+      const std::size_t i = source.index(x, y);
+      const glm::dvec3 hsv = to_hsv(source[i]);
+      const std::vector<double> share = shares(from, i);
+      const double coloured = std::clamp(
+          (hsv.y / parameters.grey_saturation - parameters.grey_fade[0]) / (parameters.grey_fade[1] - parameters.grey_fade[0]), 0.0, 1.0);
+      glm::dvec3 direction(0.0);
+      double saturation = 0.0;
+      double value = 0.0;
+      for (std::size_t k = 0; k < share.size(); ++k) {
+        const RegionMap& map = maps[k];
+        double turned = hsv.x - map.hue_from;
+        turned -= std::floor(turned + 0.5);
+        const double saturated = std::clamp(map.saturation(hsv.y), 0.0, 1.0);
+        // A grey that becomes a colour loses as much of its own hue, which was noise, as it gains saturation.
+        const double calmed = turned * (saturated > hsv.y ? hsv.y / saturated : 1.0);
+        const exact::Turn turn = exact::turn(turn_rad * (map.hue_to + calmed + coloured * (map.hue(turned) - calmed)));
+        direction += share[k] * glm::dvec3(turn.cosine, turn.sine, 0.0);
+        saturation += share[k] * saturated;
+        value += share[k] * std::clamp(map.value(hsv.z), 0.0, 1.0);
+      }
+      out[i] = glm::vec3(from_hsv({exact::atan2(direction.y, direction.x) / turn_rad, saturation, value}));
+    }
+  });
+  return out;
+}
+
+std::array<double, 3> colour_histogram_distance(const Grid<glm::vec3>& a, const Grid<glm::vec3>& b) {
+  constexpr std::size_t count = 32;
+  using Histograms = std::array<std::array<double, count>, 3>;
+  const auto measure = [](const Grid<glm::vec3>& picture) {
+    Histograms histograms{};
+    glm::dvec3 all(0.0);
+    for (const glm::vec3& rgb : picture) {
+      const glm::dvec3 hsv = to_hsv(rgb);
+      for (int c = 0; c < 3; ++c) {
+        const double weight = c == 0 ? hsv.y : 1.0;
+        histograms[static_cast<std::size_t>(c)][std::min(static_cast<std::size_t>(hsv[c] * count), count - 1)] += weight;
+        all[c] += weight;
+      }
+    }
+    for (int c = 0; c < 3; ++c)
+      for (double& bin : histograms[static_cast<std::size_t>(c)]) bin /= std::max(all[c], 1e-12);
+    return histograms;
+  };
+  const Histograms of_a = measure(a);
+  const Histograms of_b = measure(b);
+  std::array<double, 3> out{};
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t bin = 0; bin < count; ++bin) out[c] += std::abs(of_a[c][bin] - of_b[c][bin]);
+  return out;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+
+#include "base/error.h"
+#include "base/json.h"
+#include "base/parallel.h"
+#include "renderer/image/image_io.h"
+#include "texture/statistical/photometric.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/file_names.h"
+#include "tools/cli/terminal.h"
+#include "tools/cli/texture/texture_pictures.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  std::string source, target, out;
+  int regions = PhotometricParameters{}.regions;
+  int threads = 0;
+  bool quiet = false;
+  bool json = false;
+};
+
+// What is opaque; empty: all is.
+Grid<std::uint8_t> opaque(const Grid<float>& alpha) {
+  if (std::all_of(alpha.begin(), alpha.end(), [](float a) { return a >= 1.F; })) return {};
+  Grid<std::uint8_t> out(alpha.width(), alpha.height());
+  std::transform(alpha.begin(), alpha.end(), out.begin(), [](float a) { return static_cast<std::uint8_t>(a >= 1.F ? 1 : 0); });
+  return out;
+}
+
+Json distances_json(const std::array<double, 3>& distance) {
+  return Json::object()
+      .add("hue", Json::number(distance[0]))
+      .add("saturation", Json::number(distance[1]))
+      .add("value", Json::number(distance[2]));
+}
+
+int run(const Options& options) {
+  check_texture_name(options.out);
+  for (const std::string* path : {&options.source, &options.target}) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(*path, options.out, ignored))
+      throw Error(ErrorKind::usage, "--out", options.out + " is what is read", "a file of its own");
+  }
+  const ThreadLimit threads(options.threads);
+  TerminalProgress progress(options.quiet);
+  progress.begin("reading", 0.0);
+  Grid<float> source_alpha;
+  Grid<float> target_alpha;
+  const Grid<glm::vec3> source = read_picture(options.source, &source_alpha);
+  const Grid<glm::vec3> target = read_picture(options.target, &target_alpha);
+  PhotometricParameters parameters;
+  parameters.regions = options.regions;
+  progress.begin("correcting", 0.0);
+  const Grid<glm::vec3> out = correct_colours(source, target, parameters, opaque(source_alpha), opaque(target_alpha));
+  write_encoded_texture(
+      options.out, out,
+      fmt::format("{} with the colours of {} regions {}", file_name(options.source), file_name(options.target), options.regions));
+  progress.end();
+  const std::array<double, 3> before = colour_histogram_distance(source, target);
+  const std::array<double, 3> after = colour_histogram_distance(out, target);
+  if (options.json)
+    print_out(
+        Json::object().add("out", Json::text(options.out)).add("before", distances_json(before)).add("after", distances_json(after)).str() +
+        "\n");
+  else if (!options.quiet)
+    print_out(fmt::format("{}: hue {:.2f} to {:.2f}, saturation {:.2f} to {:.2f}, value {:.2f} to {:.2f} (0 alike … 2 nothing in common)\n",
+                          options.out, before[0], after[0], before[1], after[1], before[2], after[2]));
+  return 0;
+}
+
+}  // namespace
+
+Action add_texture_correct(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("SOURCE", options->source, "The picture that is corrected: PNG, TIFF or JPEG")->required()->type_name("PICTURE");
+  command.add_option("--to", options->target, "The picture whose colours it gets")->required()->type_name("PICTURE");
+  command.add_option("--out", options->out, "The corrected picture: .png or .tif")->required()->type_name("PICTURE");
+  command.add_option("--regions", options->regions, "Regions of like colour that are told apart and paired. Default: 3")
+      ->type_name("N")
+      ->check(CLI::Range(1, 5));
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
+  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
+  command.add_flag("--json", options->json, "Say what came out as JSON");
+  command.footer(
+      "Regions of like colour of both pictures are paired, and each gets the distributions of hue, saturation and\n"
+      "brightness of its partner: before paintings of several hands, seasons or scans are used together.\n\n"
+      "  belvedere texture correct scan.tif --to painting.jpg --out corrected.tif");
+  return [options] { return run(*options); };
+}
+
+}  // namespace belvedere::tools
