@@ -15,6 +15,7 @@
 #include "tools/cli/file_names.h"
 #include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/terminal.h"
+#include "tools/cli/texture/begin_options.h"
 #include "tools/cli/texture/label_pictures.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/report/report_folder.h"
@@ -23,8 +24,8 @@ namespace belvedere::tools {
 namespace {
 
 struct Options {
-  std::string crop, labels, out, report, begin;
-  double begin_px = 8.0;
+  std::string crop, labels, out, report;
+  BeginOptions begin;
   CompositeParameters composite;
   int threads = 0;
   bool quiet = false;
@@ -128,9 +129,10 @@ void write_report(const Options& options, const TextureCrop& crop, const LabelPi
 
 CompositeParameters parameters_of(const Options& options) {
   CompositeParameters parameters = options.composite;
-  parameters.choose = options.begin.empty();
-  parameters.begin = options.begin == "streaks" ? TextureSeed::streaks : options.begin == "discs" ? TextureSeed::discs : TextureSeed::white;
-  parameters.begin_px = parameters.begin == TextureSeed::white ? 0.F : static_cast<float>(options.begin_px);
+  const TextureBegin begin = begin_of(options.begin);
+  parameters.choose = options.begin.kind.empty();
+  parameters.begin = begin.seed;
+  parameters.begin_px = begin.px;
   return parameters;
 }
 
@@ -185,15 +187,9 @@ Action add_composite_learn(CLI::App& command) {
   command.add_option("--types", options->composite.learn.types, "How many statistics each texture holds at most, 16 to 200. Default: 40")
       ->check(CLI::Range(16, 200))
       ->type_name("N");
-  command
-      .add_option("--begin", options->begin,
-                  "The noise that all textures begin with, which decides the shape of their dabs: white, streaks or discs.\n"
-                  "Default: for each what comes nearest to the crop, which may look combed where forms are large: then white")
-      ->check(CLI::IsMember({"white", "streaks", "discs"}))
-      ->type_name("KIND");
-  command.add_option("--begin-px", options->begin_px, "With --begin: half length of streaks, radius of discs. Default: 8")
-      ->check(CLI::Range(1.0, 256.0))
-      ->type_name("PX");
+  add_begin_options(command, options->begin,
+                    "The noise that all textures begin with, which decides the shape of their dabs: white, streaks or discs.\n"
+                    "Default: for each what comes nearest to the crop, which may look combed where forms are large: then white");
   command.add_option("--report", options->report, "A page with crop beside composite, and all figures")->type_name("FOLDER");
   command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit")->type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");

@@ -15,6 +15,7 @@
 #include "tools/cli/file_names.h"
 #include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/terminal.h"
+#include "tools/cli/texture/begin_options.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/report/report_folder.h"
 
@@ -25,8 +26,8 @@ constexpr int report_px = 512;
 constexpr int sampled_report_px = 128;  // what a sampler makes in the time
 
 struct Options {
-  std::string crop, mask, out, report, seed, method;
-  double seed_px = 8.0;
+  std::string crop, mask, out, report, method;
+  BeginOptions begin;
   LearnParameters learn;
   int threads = 0;
   bool quiet = false;
@@ -155,15 +156,16 @@ int run(const Options& options) {
   if (crop.transparent > 0) progress.note(fmt::format("{} transparent pixels are left out", crop.transparent));
   Findings found;
   const bool sampled = options.method == "paper";
-  if (sampled && !options.seed.empty())
-    throw Error(ErrorKind::usage, "--begin", options.seed, "nothing with --method paper, which begins with white noise");
+  if (sampled && !options.begin.kind.empty())
+    throw Error(ErrorKind::usage, "--begin", options.begin.kind, "nothing with --method paper, which begins with white noise");
   found.learned = sampled ? learn_by_sampling(crop.picture, crop.states, options.learn, progress)
                           : learn_texture(crop.picture, crop.states, options.learn, progress);
   CliqueModel& model = found.learned.model;
   if (!sampled) found.trials = choose_seed(model, crop.picture, crop.states, options.learn, progress);
-  if (!options.seed.empty()) {
-    model.seed = options.seed == "streaks" ? TextureSeed::streaks : options.seed == "discs" ? TextureSeed::discs : TextureSeed::white;
-    model.seed_px = model.seed == TextureSeed::white ? 0.F : static_cast<float>(options.seed_px);
+  if (!options.begin.kind.empty()) {
+    const TextureBegin begin = begin_of(options.begin);
+    model.seed = begin.seed;
+    model.seed_px = begin.px;
     model.polish = model.seed == TextureSeed::white;
   }
   const int made_px = sampled ? sampled_report_px : report_px;
@@ -195,21 +197,15 @@ Action add_texture_learn(CLI::App& command) {
   command.add_option("--types", options->learn.types, "How many statistics the model holds at most, 16 to 200. Default: 40")
       ->check(CLI::Range(16, 200))
       ->type_name("N");
-  command
-      .add_option("--begin", options->seed,
-                  "The noise it begins with, which decides the shape of its dabs: white, streaks (strokes along a\n"
-                  "direction) or discs (crowns). Default: what comes nearest to the crop")
-      ->check(CLI::IsMember({"white", "streaks", "discs"}))
-      ->type_name("KIND");
+  add_begin_options(command, options->begin,
+                    "The noise it begins with, which decides the shape of its dabs: white, streaks (strokes along a\n"
+                    "direction) or discs (crowns). Default: what comes nearest to the crop");
   command
       .add_option("--method", options->method,
                   "flow, or paper: the published method, which samples one level pixel by pixel. To compare with, on\n"
                   "crops up to 256 pixels a side; it takes minutes and knows nothing farther than 12 pixels. Default: flow")
       ->check(CLI::IsMember({"flow", "paper"}))
       ->type_name("METHOD");
-  command.add_option("--begin-px", options->seed_px, "With --begin: half length of streaks, radius of discs. Default: 8")
-      ->check(CLI::Range(1.0, 256.0))
-      ->type_name("PX");
   command.add_option("--report", options->report, "A page with crop beside texture, and all figures")->type_name("FOLDER");
   command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit")->type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");

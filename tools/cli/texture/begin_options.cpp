@@ -1,0 +1,20 @@
+#include "tools/cli/texture/begin_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace belvedere::tools {
+
+void add_begin_options(CLI::App& command, BeginOptions& options, const std::string& meaning) {
+  command.add_option("--begin", options.kind, meaning)->check(CLI::IsMember({"white", "streaks", "discs"}))->type_name("KIND");
+  command.add_option("--begin-px", options.px, "With --begin: half length of streaks, radius of discs. Default: 8")
+      ->check(CLI::Range(1.0, 256.0))
+      ->type_name("PX");
+}
+
+TextureBegin begin_of(const BeginOptions& options) {
+  if (options.kind == "streaks") return {TextureSeed::streaks, static_cast<float>(options.px)};
+  if (options.kind == "discs") return {TextureSeed::discs, static_cast<float>(options.px)};
+  return {};
+}
+
+}  // namespace belvedere::tools

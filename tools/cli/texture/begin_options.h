@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "texture/statistical/clique_model.h"
+
+namespace CLI {
+class App;
+}
+
+namespace belvedere::tools {
+
+// The noise that a texture begins with, where its user chooses: --begin, --begin-px.
+struct BeginOptions {
+  std::string kind;  // white, streaks, discs; empty: the program chooses
+  double px = 8.0;   // half length of streaks, radius of discs, 1…256
+};
+// `meaning`: what --begin says in the help.
+void add_begin_options(CLI::App& command, BeginOptions& options, const std::string& meaning);
+
+struct TextureBegin {
+  TextureSeed seed = TextureSeed::white;
+  float px = 0.F;  // 0 of white noise
+};
+TextureBegin begin_of(const BeginOptions& options);
+
+}  // namespace belvedere::tools
