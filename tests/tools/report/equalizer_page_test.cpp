@@ -4,21 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 
 #include "terrain/io/raster_io.h"
 #include "tests/tools/program.h"
+#include "tests/tools/report/browser.h"
 
 namespace belvedere {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-constexpr const char* browser = "/usr/bin/chromium";
 
 class Equalizer : public Program {
  protected:
@@ -49,21 +47,6 @@ class Equalizer : public Program {
     out.cells = Grid<float>(width, height);
     out.transform = {600000.0, 5200000.0, 30.0, 30.0};
     out.crs = normalize_crs("EPSG:32632");
-    return out;
-  }
-  // The page as the browser leaves it.
-  std::string opened(const std::string& page) const {
-    const std::string command = fmt::format(
-        "timeout 60 {} --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
-        "--disable-component-update --disable-sync --user-data-dir={} --virtual-time-budget=30000 --dump-dom 'file://{}' "
-        "2>/dev/null",
-        browser, path("profile"), page);
-    std::string out;
-    FILE* pipe = popen(command.c_str(), "r");
-    if (pipe == nullptr) return out;
-    std::array<char, 65536> buffer{};
-    for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) out.append(buffer.data(), n);
-    pclose(pipe);
     return out;
   }
 };
@@ -101,7 +84,7 @@ TEST_F(Equalizer, NothingToWriteIsAUsageError) {
 }
 
 TEST_F(Equalizer, BrowserComputesWhatTheProgramDoes) {
-  if (!std::filesystem::exists(browser)) GTEST_SKIP() << "no browser at " << browser;
+  if (!std::filesystem::exists(test::browser)) GTEST_SKIP() << "no browser at " << test::browser;
   write_dem(521, 301);
   write_mask(521, 301);
   // All six arrays, each band another weight, and all masks.
@@ -128,7 +111,7 @@ TEST_F(Equalizer, BrowserComputesWhatTheProgramDoes) {
                             "--automatic-mask"});
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_THAT(read_bytes(path("page.html")), HasSubstr("\"lakes\": \"A"));
-  const std::string page = opened(path("page.html") + "#self-check");
+  const std::string page = test::opened_page(path("page.html") + "#self-check", path("profile"));
   EXPECT_THAT(page, HasSubstr("<title>self-check passed: 0.000"));
   // A slider for each weight, and the command line that does the same.
   std::size_t sliders = 0;
@@ -193,7 +176,7 @@ constexpr const char* clicks = R"(<pre id="clicked"></pre><script>
 </script></body>)";
 
 TEST_F(Equalizer, ButtonsSwitchesAndSlidersDoWhatTheySay) {
-  if (!std::filesystem::exists(browser)) GTEST_SKIP() << "no browser at " << browser;
+  if (!std::filesystem::exists(test::browser)) GTEST_SKIP() << "no browser at " << test::browser;
   write_dem(521, 301);
   ASSERT_EQ(run({"generalize", path("dem.tif"), "--equalizer", path("page.html"), "--global", "1,1,1,1,1"}).status, 0);
   std::string text = read_bytes(path("page.html"));
@@ -204,7 +187,7 @@ TEST_F(Equalizer, ButtonsSwitchesAndSlidersDoWhatTheySay) {
   const std::size_t begin = text.find("<body>");
   ASSERT_NE(begin, std::string::npos);
   text.insert(begin + 6, "<script>window.requestAnimationFrame = (draw) => setTimeout(draw, 0);</script>");
-  const std::string page = opened(write("clicked.html", text));
+  const std::string page = test::opened_page(write("clicked.html", text), path("profile"));
   const std::size_t from = page.find("<pre id=\"clicked\">");
   ASSERT_NE(from, std::string::npos);
   const std::string said = page.substr(from, page.find("</pre>", from) - from);

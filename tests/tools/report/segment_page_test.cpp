@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -11,14 +10,13 @@
 #include "base/random.h"
 #include "base/text/base64.h"
 #include "tests/tools/program.h"
+#include "tests/tools/report/browser.h"
 
 namespace belvedere {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-constexpr const char* browser = "/usr/bin/chromium";
 
 class SegmentPage : public Program {
  protected:
@@ -32,21 +30,6 @@ class SegmentPage : public Program {
         run({"exemplar", "segment", path("painting.png"), "--out", path("mask.png"), "--page", path("page.html"), "--most", "3", "-q"});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return read_bytes(path("page.html"));
-  }
-  // The page as the browser leaves it.
-  std::string opened(const std::string& page) const {
-    const std::string command = fmt::format(
-        "timeout 120 {} --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
-        "--disable-component-update --disable-sync --user-data-dir={} --virtual-time-budget=30000 --dump-dom 'file://{}' "
-        "2>/dev/null",
-        browser, path("profile"), page);
-    std::string out;
-    FILE* pipe = popen(command.c_str(), "r");
-    if (pipe == nullptr) return out;
-    std::array<char, 65536> buffer{};
-    for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) out.append(buffer.data(), n);
-    pclose(pipe);
-    return out;
   }
 };
 
@@ -128,12 +111,12 @@ constexpr const char* clicks = R"(<pre id="clicked"></pre><script>
 </script></body>)";
 
 TEST_F(SegmentPage, ClicksAndKeysMergeSplitNameAndUndo) {
-  if (!std::filesystem::exists(browser)) GTEST_SKIP() << "no browser at " << browser;
+  if (!std::filesystem::exists(test::browser)) GTEST_SKIP() << "no browser at " << test::browser;
   std::string text = made_page();
   const std::size_t end = text.rfind("</body>");
   ASSERT_NE(end, std::string::npos);
   text.replace(end, 7, clicks);
-  const std::string page = opened(write("clicked.html", text));
+  const std::string page = test::opened_page(write("clicked.html", text), path("profile"));
   const std::size_t from = page.find("<pre id=\"clicked\">");
   ASSERT_NE(from, std::string::npos) << page.substr(0, 2000);
   const std::string said = page.substr(from, page.find("</pre>", from) - from);
