@@ -24,12 +24,6 @@ constexpr float bed_seen_m = 1.2F;   // depth at which most of the bed is lost
 constexpr float turns_deep_m = 9.F;  // and at which pale water is mostly deep
 constexpr double radians = 0.017453292519943295;
 
-glm::dvec3 to_light(const LayerPictureParameters& parameters) {
-  const double from = parameters.light_from * radians;
-  const double height = parameters.light_height * radians;
-  return {exact::sin(from) * exact::cos(height), exact::cos(from) * exact::cos(height), exact::sin(height)};
-}
-
 void require(bool holds, const char* what, double found, const char* allowed) {
   if (!holds) throw Error(ErrorKind::usage, what, fmt::format("{:g}", found), allowed);
 }
@@ -44,12 +38,17 @@ void check_layer_picture(const LayerPictureParameters& p) {
   require(p.relief >= 0.0 && p.relief <= 20.0, "relief", p.relief, "0 to 20");
 }
 
-float slope_brightness(const glm::vec3& normal, const LayerPictureParameters& parameters) {
-  const glm::dvec3 light = to_light(parameters);
+SlopeLight::SlopeLight(const LayerPictureParameters& parameters) : shade_(parameters.shade), relief_(parameters.relief) {
+  const double from = parameters.light_from * radians;
+  const double height = parameters.light_height * radians;
+  to_light_ = {exact::sin(from) * exact::cos(height), exact::cos(from) * exact::cos(height), exact::sin(height)};
+}
+
+float SlopeLight::brightness(const glm::vec3& normal) const {
   // A plane's slopes are -x / z and -y / z of its normal: steeper ones are wider x and y.
-  const glm::dvec3 steeper = glm::normalize(glm::dvec3(normal.x * parameters.relief, normal.y * parameters.relief, normal.z));
-  const double lit = std::max(0.0, glm::dot(steeper, light)) / light.z;
-  return static_cast<float>(parameters.shade + (1.0 - parameters.shade) * lit);
+  const glm::dvec3 steeper = glm::normalize(glm::dvec3(normal.x * relief_, normal.y * relief_, normal.z));
+  const double lit = std::max(0.0, glm::dot(steeper, to_light_)) / to_light_.z;
+  return static_cast<float>(shade_ + (1.0 - shade_) * lit);
 }
 
 glm::vec3 water_colour(const glm::vec3& ground, float depth_m) {
@@ -66,6 +65,7 @@ void draw_layer_picture(const SurfaceLayers& layers, const Dem& dem, const Layer
   progress.begin("looking at the ground", 0.0);
   const LayerGround ground = make_layer_ground(dem, climate, program.inputs);
   const Grid<float> depth_m = parameters.beds ? lake_depth_m(dem, parameters.lakes) : Grid<float>();
+  const SlopeLight light(parameters);
   const int width = dem.width() * parameters.finer;
   const int height = dem.height() * parameters.finer;
   const int across = (width + tile_px - 1) / tile_px;
@@ -83,7 +83,7 @@ void draw_layer_picture(const SurfaceLayers& layers, const Dem& dem, const Layer
           for (int x = 0; x < cells.width(); ++x) {
             const float depth = depth_m.empty() ? 0.F : sample_bilinear(depth_m, in_cells(cells.x0 + x), in_cells(y0 + y));
             // Water is level, whatever lies under it.
-            const glm::vec3 lit = surface.colour(x, y) * slope_brightness(surface.normal(x, y), parameters);
+            const glm::vec3 lit = surface.colour(x, y) * light.brightness(surface.normal(x, y));
             strip(cells.x0 + x, y) = glm::clamp(water_colour(lit, depth), glm::vec3(0.F), glm::vec3(255.F));
           }
         progress.advance(static_cast<double>(cells.width()) * rows);

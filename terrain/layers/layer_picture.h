@@ -25,8 +25,18 @@ struct LayerPictureParameters {
 // Checks the values above. Error(usage).
 void check_layer_picture(const LayerPictureParameters& parameters);
 
-// Brightness of a slope with this unit normal (x east, y north, z up): Lambert's cosine, 1 on level ground, `shade` turned away.
-float slope_brightness(const glm::vec3& normal, const LayerPictureParameters& parameters);
+// The light on slopes, its direction found once.
+class SlopeLight {
+ public:
+  explicit SlopeLight(const LayerPictureParameters& parameters);
+  // Of a slope with this unit normal (x east, y north, z up): Lambert's cosine, 1 on level ground, the shade where it turns away.
+  float brightness(const glm::vec3& normal) const;
+
+ private:
+  glm::dvec3 to_light_;
+  double shade_;
+  double relief_;
+};
 // Water over ground of a colour (sRGB as encoded, 0…255), of this depth in metres: the bed is lost within some metres, pale water turns
 // deep.
 glm::vec3 water_colour(const glm::vec3& ground, float depth_m);

@@ -45,15 +45,15 @@ Dem ramp(int size, float rise_east, float rise_south) {
 // turns away the shade alone.
 TEST(LayerPicture, BrightnessIsLambertsCosine) {
   const LayerPictureParameters light{.light_from = 90.0, .light_height = 45.0, .shade = 0.25};
-  EXPECT_NEAR(slope_brightness({0.F, 0.F, 1.F}, light), 1.0, 1e-6);
+  EXPECT_NEAR(SlopeLight(light).brightness({0.F, 0.F, 1.F}), 1.0, 1e-6);
   const float half = std::sqrt(0.5F);
-  EXPECT_NEAR(slope_brightness({half, 0.F, half}, light), 0.25 + 0.75 * std::sqrt(2.0), 1e-6);
-  EXPECT_NEAR(slope_brightness({-half, 0.F, half}, light), 0.25, 1e-6);
+  EXPECT_NEAR(SlopeLight(light).brightness({half, 0.F, half}), 0.25 + 0.75 * std::sqrt(2.0), 1e-6);
+  EXPECT_NEAR(SlopeLight(light).brightness({-half, 0.F, half}), 0.25, 1e-6);
   LayerPictureParameters twice = light;
   twice.relief = 2.0;
   const glm::vec3 gentle = glm::normalize(glm::vec3(0.2F, 0.1F, 1.F));
   const glm::vec3 steep = glm::normalize(glm::vec3(0.4F, 0.2F, 1.F));
-  EXPECT_NEAR(slope_brightness(gentle, twice), slope_brightness(steep, light), 1e-6);
+  EXPECT_NEAR(SlopeLight(twice).brightness(gentle), SlopeLight(light).brightness(steep), 1e-6);
 }
 
 TEST(LayerPicture, APlaneHasOneColourAtAnyFineness) {
@@ -61,7 +61,7 @@ TEST(LayerPicture, APlaneHasOneColourAtAnyFineness) {
   for (const int finer : {1, 3, 8}) {
     const LayerPictureParameters parameters{.finer = finer, .light_from = 270.0};
     const Grid<glm::vec3> picture = drawn(plane, one_colour(0x804020), parameters);
-    const float brightness = slope_brightness(glm::normalize(glm::vec3(-0.3F, 0.F, 1.F)), parameters);
+    const float brightness = SlopeLight(parameters).brightness(glm::normalize(glm::vec3(-0.3F, 0.F, 1.F)));
     EXPECT_GT(brightness, 1.1F);
     const glm::vec3 middle = picture(30 * finer, 30 * finer);
     EXPECT_NEAR(middle.x, 128.F * brightness, 0.3F) << finer;
