@@ -75,23 +75,24 @@ PackedGuidance blank_packed(const GuidanceBuffers& like, int width, int height) 
 
 PackedGuidance pack_guidance(const GuidanceBuffers& guidance) {
   std::vector<std::pair<ChannelStorage, FillPlane>> components;
-  for_each_component(guidance, [&](const GuidanceChannel& channel, const auto& grid, std::size_t k) {
-    components.emplace_back(channel.type, [&channel, &grid, k](std::vector<std::byte>& values) {
-      using T = typename std::decay_t<decltype(grid)>::value_type;
-      std::byte* to = values.data();
-      if constexpr (is_number<T>) {
+  for_each_component(guidance, [&](const GuidanceChannel& channel, const auto& grid, [[maybe_unused]] std::size_t k) {
+    using T = typename std::decay_t<decltype(grid)>::value_type;
+    if constexpr (is_number<T>)
+      components.emplace_back(channel.type, [&channel, &grid, k](std::vector<std::byte>& values) {
+        std::byte* to = values.data();
         const float* from = reinterpret_cast<const float*>(grid.data()) + k;
         if (channel.type == ChannelStorage::half)
           to_halves(from, stride<T>, grid.size(), reinterpret_cast<std::uint16_t*>(to));
         else
           for (std::size_t i = 0; i < grid.size(); ++i) std::memcpy(to + 4 * i, from + stride<T> * i, 4);
-      } else {
+      });
+    else
+      components.emplace_back(channel.type, [&grid](std::vector<std::byte>& values) {
         for (std::size_t i = 0; i < grid.size(); ++i) {
           const auto id = static_cast<std::uint32_t>(grid[i]);
-          std::memcpy(to + 4 * i, &id, 4);
+          std::memcpy(values.data() + 4 * i, &id, 4);
         }
-      }
-    });
+      });
   });
   return make_planes(components, guidance.width(), guidance.height());
 }

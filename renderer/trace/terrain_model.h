@@ -32,8 +32,8 @@ struct TerrainModel {
   double exaggeration = 1.0;  // of light's normals
   // Given where the ground is not only exaggerated alike everywhere: then light's normals are those of the rearranged shape.
   std::optional<Deformation> local;
-  double detail_boost = 1.5;                // further exaggeration of normal_detail
-  std::vector<TerrainWindow> windows = {};  // of finer cells, as those of the surface: Hit::window tells which holds a place
+  double detail_boost = 1.5;           // further exaggeration of normal_detail
+  std::vector<TerrainWindow> windows;  // of finer cells, as those of the surface: Hit::window tells which holds a place
 };
 
 // Ground in finer cells: see SurfaceWindow. Where its part begins every value is that of the coarser ground, and becomes its own inwards.
