@@ -18,6 +18,7 @@ const std::vector<Command>& all_commands() {
       {"", "lock", "Writes down a scene's inputs and pixels, to tell later and elsewhere whether they are the same", add_lock},
       {"", "verify", "Renders scenes small and compares inputs and pixels with what their locks say", add_verify},
       {"", "deform", "Bends, exaggerates and moves ground: a DEM to a deformed DEM; finds bends and places", add_deform},
+      {"", "labels", "Finds where summits and other names stand in a scene's picture, and writes them as SVG and tables", add_labels},
       {"cache", "list", "Lists what is kept from earlier runs to make the next ones faster", add_cache_list},
       {"cache", "clear", "Removes what is kept from earlier runs, or what was not used for long", add_cache_clear},
       {"exemplar", "check", "Tells what a painting can serve before anything is copied from it", add_exemplar_check},

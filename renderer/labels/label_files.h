@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "renderer/labels/labels.h"
+
+namespace belvedere {
+
+// The placed labels as SVG 1.1, over the picture pixel by pixel: text as text, one group a kind, so that all can be changed in Inkscape or
+// Illustrator. The sheet's size stands in millimetres. `under`: a picture's path to show beneath, as the SVG shall name it; empty: none.
+std::string labels_svg(const LabelSheet& sheet, const std::string& under = {});
+
+// Every point, placed or not: a table for spreadsheets, places in the scene's CRS.
+std::string labels_csv(const LabelSheet& sheet);
+
+// The same as GeoJSON (RFC 7946), places in longitude and latitude. `crs`: the scene's; Error(usage) where it is empty.
+std::string labels_geojson(const LabelSheet& sheet, const std::string& crs);
+
+}  // namespace belvedere

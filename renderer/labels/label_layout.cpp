@@ -1,0 +1,208 @@
+#include "renderer/labels/label_layout.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace belvedere {
+namespace {
+
+// A place that a name could take. Smaller costs come first.
+struct Candidate {
+  LabelBox text;
+  bool has_leader = false;
+  double leader_top_px = 0.0;
+  double cost = 0.0;
+};
+
+LabelBox grown(const LabelBox& box, double by) { return {box.left - by, box.top - by, box.right + by, box.bottom + by}; }
+
+LabelBox mark_box(const LabelRequest& request) {
+  const double r = .5 * request.mark_px;
+  return {request.mark.x - r, request.mark.y - r, request.mark.x + r, request.mark.y + r};
+}
+
+// A leader as a box of no width: it may touch nothing but its own mark and text.
+LabelBox leader_box(const LabelRequest& request, double top_px) {
+  return {request.mark.x - .5, top_px, request.mark.x + .5, request.mark.y - .5 * request.mark_px};
+}
+
+class Layout {
+ public:
+  Layout(const std::vector<LabelRequest>& requests, const std::vector<double>& skyline_px, const LabelLayoutParameters& parameters)
+      : requests_(requests), skyline_px_(skyline_px), p_(parameters), chosen_(requests.size()) {
+    for (const LabelRequest& request : requests_) candidates_.push_back(candidates_of(request));
+  }
+
+  std::vector<LabelSpot> run() {
+    std::vector<std::size_t> order(requests_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return requests_[a].rank < requests_[b].rank; });
+    for (const std::size_t i : order)
+      if (!place_free(i)) place_by_moving_one(i);
+    std::vector<LabelSpot> spots(requests_.size());
+    for (std::size_t i = 0; i < spots.size(); ++i)
+      if (const std::optional<Candidate>& c = chosen_[i]) spots[i] = {true, c->text, c->has_leader, c->leader_top_px};
+    return spots;
+  }
+
+ private:
+  // All that a request could take, best first.
+  std::vector<Candidate> candidates_of(const LabelRequest& request) const {
+    std::vector<Candidate> all;
+    if (request.mark.x < 0.0 || request.mark.y < 0.0 || request.mark.x > p_.width_px || request.mark.y > p_.height_px) return all;
+    switch (request.place) {
+      case LabelPlace::above:
+        request.on_skyline ? add_rows(request, all) : add_above(request, all);
+        break;
+      case LabelPlace::beside:
+        add_around(request, all);
+        break;
+      case LabelPlace::over:
+        for (const double dy : {0.0, -.6, .6, -1.2, 1.2})
+          for (const double dx : {0.0, -.35, .35})
+            add(request, request.mark.x + dx * request.width_px, request.mark.y + (dy + .5) * request.height_px,
+                std::abs(dy) + std::abs(dx), all);
+        break;
+    }
+    std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+    return all;
+  }
+
+  // The text with the middle of its lower edge there; nothing where it would leave the picture.
+  Candidate* add(const LabelRequest& request, double middle, double bottom, double cost, std::vector<Candidate>& all) const {
+    const LabelBox box{middle - .5 * request.width_px, bottom - request.height_px, middle + .5 * request.width_px, bottom};
+    if (box.left < p_.margin_px || box.top < p_.margin_px || box.right > p_.width_px - p_.margin_px ||
+        box.bottom > p_.height_px - p_.margin_px)
+      return nullptr;
+    all.push_back({.text = box, .cost = cost});
+    return &all.back();
+  }
+
+  // Middles of the text over a leader, as shares of its width from the leader. Texts begin and end with a little room, so that lines of
+  // neighbours pass beside.
+  static constexpr std::array<double, 7> shifts = {0.0, -.18, .18, -.34, .34, -.46, .46};
+
+  double foot_of(const LabelRequest& request) const { return request.mark.y - .5 * request.mark_px - p_.gap_px; }
+
+  void lead(const LabelRequest& request, double bottom, double cost, std::vector<Candidate>& all) const {
+    for (const double shift : shifts)
+      if (Candidate* c = add(request, request.mark.x + shift * request.width_px, bottom, cost + 1.5 * std::abs(shift), all)) {
+        c->has_leader = foot_of(request) - bottom > .5 * p_.row_px;
+        c->leader_top_px = bottom;
+      }
+  }
+
+  // Straight over the mark, or ever higher on a leader.
+  void add_above(const LabelRequest& request, std::vector<Candidate>& all) const {
+    const double foot = foot_of(request);
+    for (int row = 0; row * p_.row_px <= p_.longest_leader_px; ++row) lead(request, foot - row * p_.row_px, row, all);
+  }
+
+  // Rows count from the upper margin, so that names of all summits stand on the same ones. The lowest whose text has only sky behind it
+  // comes first; rows in front of land are a last resort.
+  void add_rows(const LabelRequest& request, std::vector<Candidate>& all) const {
+    const double foot = foot_of(request);
+    const double first = p_.margin_px + request.height_px;
+    const int lowest = static_cast<int>(std::floor((foot - first) / p_.row_px));
+    for (int row = lowest; row >= 0; --row) {
+      const double bottom = first + row * p_.row_px;
+      if (foot - bottom > p_.longest_leader_px) break;
+      const std::size_t before = all.size();
+      lead(request, bottom, lowest - row, all);
+      for (std::size_t k = before; k < all.size(); ++k)
+        if (skyline_over(all[k].text) < all[k].text.bottom + p_.clearance_px) all[k].cost += 20.0;
+    }
+    // Where the picture's edge leaves no row, as over any other summit.
+    if (all.empty()) add_above(request, all);
+  }
+
+  double skyline_over(const LabelBox& box) const {
+    double row = static_cast<double>(p_.height_px);
+    const int from = std::max(0, static_cast<int>(std::floor(box.left)));
+    const int to = std::min(static_cast<int>(skyline_px_.size()) - 1, static_cast<int>(std::ceil(box.right)));
+    for (int x = from; x <= to; ++x) row = std::min(row, skyline_px_[static_cast<std::size_t>(x)]);
+    return row;
+  }
+
+  // The eight places around a mark as cartographers rank them (Imhof 1975): upper right first, then right, upper left, left, below, above.
+  void add_around(const LabelRequest& request, std::vector<Candidate>& all) const {
+    const double r = .5 * request.mark_px + p_.gap_px;
+    const double w = .5 * request.width_px;
+    const double h = request.height_px;
+    const glm::dvec2 m = request.mark;
+    add(request, m.x + .7 * r + w, m.y - .3 * r, 0.0, all);
+    add(request, m.x + r + w, m.y + .5 * h, .2, all);
+    add(request, m.x - .7 * r - w, m.y - .3 * r, .4, all);
+    add(request, m.x - r - w, m.y + .5 * h, .6, all);
+    add(request, m.x + .7 * r + w, m.y + .3 * r + h, .8, all);
+    add(request, m.x - .7 * r - w, m.y + .3 * r + h, 1.0, all);
+    add(request, m.x, m.y - r, 1.2, all);
+    add(request, m.x, m.y + r + h, 1.4, all);
+  }
+
+  bool collide(std::size_t i, const Candidate& a, std::size_t j, const Candidate& b) const {
+    const LabelBox mark_a = mark_box(requests_[i]);
+    const LabelBox mark_b = mark_box(requests_[j]);
+    if (grown(a.text, p_.clearance_px).overlaps(b.text)) return true;
+    if (requests_[j].mark_px > 0.0 && a.text.overlaps(mark_b)) return true;
+    if (requests_[i].mark_px > 0.0 && b.text.overlaps(mark_a)) return true;
+    const auto lies_on = [&](const LabelBox& leader, std::size_t other, const Candidate& theirs, const LabelBox& mark) {
+      return leader.overlaps(grown(theirs.text, .5 * p_.clearance_px)) || (requests_[other].mark_px > 0.0 && leader.overlaps(mark)) ||
+             (theirs.has_leader && grown(leader, p_.clearance_px).overlaps(leader_box(requests_[other], theirs.leader_top_px)));
+    };
+    if (a.has_leader && lies_on(leader_box(requests_[i], a.leader_top_px), j, b, mark_b)) return true;
+    return b.has_leader && lies_on(leader_box(requests_[j], b.leader_top_px), i, a, mark_a);
+  }
+
+  // Names in the way of a candidate: none, one, or more than one (requests_.size()).
+  std::optional<std::size_t> in_the_way(std::size_t i, const Candidate& candidate) const {
+    std::optional<std::size_t> found;
+    for (std::size_t j = 0; j < chosen_.size(); ++j) {
+      if (j == i || !chosen_[j] || !collide(i, candidate, j, *chosen_[j])) continue;
+      if (found) return requests_.size();
+      found = j;
+    }
+    return found;
+  }
+
+  bool place_free(std::size_t i) {
+    for (const Candidate& candidate : candidates_[i])
+      if (!in_the_way(i, candidate)) {
+        chosen_[i] = candidate;
+        return true;
+      }
+    return false;
+  }
+
+  // Where one name alone is in the way, and that one has another place, it moves.
+  void place_by_moving_one(std::size_t i) {
+    for (const Candidate& candidate : candidates_[i]) {
+      const std::optional<std::size_t> j = in_the_way(i, candidate);
+      if (!j || *j == requests_.size()) continue;
+      for (const Candidate& other : candidates_[*j]) {
+        if (collide(*j, other, i, candidate) || in_the_way(*j, other)) continue;
+        chosen_[i] = candidate;
+        chosen_[*j] = other;
+        return;
+      }
+    }
+  }
+
+  const std::vector<LabelRequest>& requests_;
+  const std::vector<double>& skyline_px_;
+  const LabelLayoutParameters& p_;
+  std::vector<std::vector<Candidate>> candidates_;
+  std::vector<std::optional<Candidate>> chosen_;
+};
+
+}  // namespace
+
+std::vector<LabelSpot> place_labels(const std::vector<LabelRequest>& requests, const std::vector<double>& skyline_px,
+                                    const LabelLayoutParameters& parameters) {
+  return Layout(requests, skyline_px, parameters).run();
+}
+
+}  // namespace belvedere

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "renderer/labels/label_style.h"
+
+namespace belvedere {
+
+// A box of the picture, px.
+struct LabelBox {
+  double left = 0.0;
+  double top = 0.0;
+  double right = 0.0;
+  double bottom = 0.0;
+
+  bool overlaps(const LabelBox& other) const {
+    return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
+  }
+};
+
+// A name that asks for room.
+struct LabelRequest {
+  glm::dvec2 mark{0.0};    // px
+  double mark_px = 0.0;    // across, 0 without a mark
+  double width_px = 0.0;   // of the text
+  double height_px = 0.0;  // of the text
+  LabelPlace place = LabelPlace::above;
+  bool on_skyline = false;  // only sky over the mark: the name goes to a row of the sky
+  double rank = 5.0;        // small ones choose first; equal ones in their order
+};
+
+struct LabelLayoutParameters {
+  int width_px = 0;
+  int height_px = 0;
+  double margin_px = 6.0;     // from the picture's edge
+  double clearance_px = 2.0;  // between names
+  double gap_px = 2.0;        // between mark and name
+  double row_px = 14.0;       // between rows
+  double longest_leader_px = 160.0;
+};
+
+// Where a name stands.
+struct LabelSpot {
+  bool placed = false;
+  LabelBox text;
+  bool has_leader = false;  // an upright line from the mark up to leader_top_px
+  double leader_top_px = 0.0;
+};
+
+// Finds room for names so that no text lies over another, over a mark or over a leader, and no leader over a text or a mark. Ranks decide:
+// a name that has found room keeps its place or moves to another that is free, but never goes for one of lower rank. What does not fit is
+// not placed. `skyline_px`: for each column of the picture the row above which there is sky (0 where there is none): names of the skyline
+// stand over it, in rows that all share. The same for the same requests.
+std::vector<LabelSpot> place_labels(const std::vector<LabelRequest>& requests, const std::vector<double>& skyline_px,
+                                    const LabelLayoutParameters& parameters);
+
+}  // namespace belvedere

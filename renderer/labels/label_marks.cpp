@@ -1,0 +1,82 @@
+#include "renderer/labels/label_marks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/parallel.h"
+
+namespace belvedere {
+namespace {
+
+// How far over a mark sky must be seen for it to stand on the skyline, px: a summit's own posts lie on the line itself.
+constexpr double sky_over_px = 1.5;
+// How far one step up looks around: boulders of a fine DEM are no summits.
+constexpr int step_cells = 3;
+
+LabelMark find_mark(const DrawnGround& ground, const LabelPoint& point, const LabelKindStyle& kind) {
+  LabelMark mark;
+  mark.drawn_place = point.place;
+  mark.dem_altitude_m = NAN;
+  const std::optional<glm::dvec2> drawn =
+      kind.climb_m > 0.0 ? climb(ground, point.place, kind.climb_m) : std::optional<glm::dvec2>(point.place);
+  if (!drawn || !ground.map.on_surface(*drawn)) return mark;
+  mark.drawn_place = *drawn;
+  const glm::dvec2 cell = ground.transform.to_cell(drawn->x, drawn->y);
+  mark.dem_altitude_m =
+      static_cast<double>(ground.altitude_m.clamped(static_cast<int>(std::lround(cell.x)), static_cast<int>(std::lround(cell.y))));
+  const std::optional<ImagePlace> at = ground.map.to_image(*drawn);
+  if (!at) {
+    mark.state = MarkState::behind_eye;
+    return mark;
+  }
+  mark.pixel = at->pixel;
+  mark.distance_m = at->distance_m;
+  mark.state = at->visible ? MarkState::seen : at->in_picture ? MarkState::hidden : MarkState::outside_picture;
+  if (mark.state == MarkState::hidden) mark.in_front = ground.map.to_geo(at->pixel);
+  if (mark.state == MarkState::seen) mark.on_skyline = !ground.map.to_geo(at->pixel - glm::dvec2(0.0, sky_over_px));
+  return mark;
+}
+
+}  // namespace
+
+std::string_view name_of(MarkState state) {
+  constexpr std::array names{"seen", "hidden behind ground", "outside the picture", "behind the eye", "outside the terrain"};
+  return names[static_cast<std::size_t>(state)];
+}
+
+std::optional<glm::dvec2> climb(const DrawnGround& ground, glm::dvec2 place, double most_m) {
+  const Grid<float>& z = ground.generalized_m;
+  const glm::dvec2 start = ground.transform.to_cell(place.x, place.y);
+  int x = static_cast<int>(std::lround(start.x));
+  int y = static_cast<int>(std::lround(start.y));
+  if (!z.contains(x, y)) return std::nullopt;
+  while (true) {
+    int to_x = x;
+    int to_y = y;
+    for (int dy = -step_cells; dy <= step_cells; ++dy)
+      for (int dx = -step_cells; dx <= step_cells; ++dx)
+        if (z.contains(x + dx, y + dy) && z(x + dx, y + dy) > z(to_x, to_y)) {
+          to_x = x + dx;
+          to_y = y + dy;
+        }
+    const bool is_top = to_x == x && to_y == y;
+    if (is_top) return ground.transform.to_crs(x, y);
+    // A slope that goes on beyond the reach is no summit of this name: the point then stays where its file has it.
+    if (glm::length(glm::dvec2(to_x, to_y) - start) * ground.cell_m > most_m) return place;
+    x = to_x;
+    y = to_y;
+  }
+}
+
+std::vector<LabelMark> find_marks(const DrawnGround& ground, const std::vector<LabelPoint>& points, const LabelStyle& style) {
+  std::vector<LabelMark> marks(points.size());
+  parallel_ranges<std::size_t>(points.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      marks[i] = find_mark(ground, points[i], style.kinds[static_cast<std::size_t>(points[i].kind)]);
+  });
+  return marks;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,165 @@
+#include "renderer/labels/label_style.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <utility>
+
+#include "base/config.h"
+#include "base/embedded.h"
+#include "base/error.h"
+
+namespace belvedere {
+namespace {
+
+template <class T>
+using Words = std::vector<std::pair<const char*, T>>;
+
+// Reads values of one table into members, each with its range: what a key allows stands in one line below.
+class Reader {
+ public:
+  Reader(const ConfigValue& value, const std::string& name) : table_(as_table(value, name)), name_(name) {}
+
+  void number(const char* key, double& to, double least, double most) {
+    const ConfigValue* value = known(key);
+    if (value == nullptr) return;
+    to = as_number(*value, name_);
+    if (!(to >= least && to <= most)) fail(*value, fmt::format("{:g} … {:g}", least, most));
+  }
+  void flag(const char* key, bool& to) {
+    if (const ConfigValue* value = known(key)) to = as_bool(*value, name_);
+  }
+  void text(const char* key, std::string& to) {
+    if (const ConfigValue* value = known(key)) to = as_string(*value, name_);
+  }
+  void colour(const char* key, std::string& to) {
+    const ConfigValue* value = known(key);
+    if (value == nullptr) return;
+    to = as_string(*value, name_);
+    const auto hex = [](unsigned char c) { return std::isxdigit(c) != 0; };
+    if (to.size() != 7 || to[0] != '#' || !std::all_of(to.begin() + 1, to.end(), hex)) fail(*value, "\"#rrggbb\"");
+  }
+  void texts(const char* key, std::vector<std::string>& to) {
+    const ConfigValue* value = known(key);
+    if (value == nullptr) return;
+    for (const ConfigValue& element : as_array(*value, name_)) to.push_back(as_string(element, name_));
+  }
+  template <class T>
+  void word(const char* key, T& to, const Words<T>& words) {
+    const ConfigValue* value = known(key);
+    if (value == nullptr) return;
+    const std::string& text = as_string(*value, name_);
+    std::string all;
+    for (const auto& [word, meaning] : words) {
+      if (text == word) {
+        to = meaning;
+        return;
+      }
+      all += (all.empty() ? "\"" : ", \"") + std::string(word) + '"';
+    }
+    fail(*value, all);
+  }
+  // Every key that was not asked for is none.
+  void end(std::vector<std::string> more = {}) {
+    keys_.insert(keys_.end(), more.begin(), more.end());
+    allow_only(table_, keys_, name_);
+  }
+  const ConfigValue* known(const char* key) {
+    keys_.emplace_back(key);
+    return find(table_, key);
+  }
+
+ private:
+  [[noreturn]] void fail(const ConfigValue& value, const std::string& allowed) const {
+    throw Error(ErrorKind::usage, config_where(name_, value.place), describe(value), allowed);
+  }
+
+  const ConfigTable& table_;
+  const std::string& name_;
+  std::vector<std::string> keys_;
+};
+
+LabelKindStyle read_kind(const ConfigEntry& entry, const std::string& name) {
+  LabelKindStyle kind;
+  kind.name = entry.key;
+  Reader read(entry.value, name);
+  read.texts("also", kind.also);
+  read.word("place", kind.place, {{"above", LabelPlace::above}, {"beside", LabelPlace::beside}, {"over", LabelPlace::over}});
+  read.text("family", kind.family);
+  read.number("size_mm", kind.size_mm, 0.5, 100.0);
+  read.flag("bold", kind.bold);
+  read.flag("italic", kind.italic);
+  read.number("spacing", kind.spacing, 0.0, 2.0);
+  read.colour("colour", kind.colour);
+  read.colour("halo", kind.halo);
+  read.number("halo_mm", kind.halo_mm, 0.0, 10.0);
+  read.word("mark", kind.mark,
+            {{"none", LabelMarkShape::none},
+             {"dot", LabelMarkShape::dot},
+             {"ring", LabelMarkShape::ring},
+             {"triangle", LabelMarkShape::triangle},
+             {"square", LabelMarkShape::square}});
+  read.number("mark_mm", kind.mark_mm, 0.0, 20.0);
+  read.flag("altitude", kind.altitude);
+  read.number("climb_m", kind.climb_m, 0.0, 5000.0);
+  read.end();
+  return kind;
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+LabelStyle read_style(const ConfigValue& document, const std::string& name) {
+  LabelStyle style;
+  style.name = name;
+  Reader read(document, name);
+  double version = 0.0;
+  read.number("version", version, 1.0, 1.0);
+  if (version != 1.0) throw Error(ErrorKind::usage, name, "no version", "version = 1");
+  read.number("least_px", style.least_px, 0.0, 1000.0);
+  read.number("gap_mm", style.gap_mm, 0.0, 100.0);
+  read.number("row_mm", style.row_mm, 0.5, 200.0);
+  read.number("longest_leader_mm", style.longest_leader_mm, 0.0, 1000.0);
+  read.number("clearance_mm", style.clearance_mm, 0.0, 100.0);
+  read.number("margin_mm", style.margin_mm, 0.0, 500.0);
+  read.colour("leader", style.leader);
+  read.number("leader_mm", style.leader_mm, 0.0, 10.0);
+  const ConfigValue* kinds = read.known("kinds");
+  read.end();
+  if (kinds == nullptr) throw Error(ErrorKind::usage, name, "no kinds of names", "[kinds.summit] and the like");
+  for (const ConfigEntry& entry : as_table(*kinds, name)) style.kinds.push_back(read_kind(entry, name));
+  if (style.kinds.empty()) throw Error(ErrorKind::usage, name, "no kinds of names", "[kinds.summit] and the like");
+  return style;
+}
+
+}  // namespace
+
+int LabelStyle::find(const std::string& word) const {
+  const std::string wanted = lower(word);
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+    if (lower(kinds[k].name) == wanted ||
+        std::any_of(kinds[k].also.begin(), kinds[k].also.end(), [&](const std::string& other) { return lower(other) == wanted; }))
+      return static_cast<int>(k);
+  return -1;
+}
+
+LabelStyle parse_label_style(const std::string& text, const std::string& name) { return read_style(parse_config(text, name), name); }
+
+LabelStyle load_label_style(const std::string& name_or_file) {
+  if (name_or_file.ends_with(".toml")) return read_style(read_config(name_or_file), name_or_file);
+  const std::vector<std::string> names = embedded_names("labels");
+  if (std::find(names.begin(), names.end(), name_or_file) == names.end()) {
+    std::string all;
+    for (const std::string& name : names) all += '"' + name + "\", ";
+    throw Error(ErrorKind::usage, "the style of names", '"' + name_or_file + '"', all + "or a .toml file");
+  }
+  const std::string file = "labels/" + name_or_file + ".toml";
+  return parse_label_style(std::string(embedded_file(file)), file);
+}
+
+}  // namespace belvedere

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+#include "renderer/labels/label_layout.h"
+#include "renderer/labels/label_marks.h"
+#include "renderer/labels/label_points.h"
+#include "renderer/labels/label_style.h"
+#include "renderer/labels/text_measure.h"
+#include "renderer/trace/geo_map.h"
+
+namespace belvedere {
+
+// A point with its name as it is set, and where.
+struct Label {
+  LabelPoint point;
+  LabelMark mark;
+  std::string text;       // name and altitude
+  TextRoom room;          // that the text takes
+  std::string hidden_by;  // the named point nearest to the ground in front of a hidden mark, within hiding_name_m; may be empty
+  LabelSpot spot;         // placed or not; only what is seen asks for a place
+};
+
+inline constexpr double hiding_name_m = 2500.0;
+
+// A picture's labels with the style at its scale.
+struct LabelSheet {
+  glm::ivec2 size_px{0};
+  double sheet_width_mm = 0.0;
+  double px_per_mm = 1.0;  // of the style's lengths: of the sheet, or larger where letters would be smaller than least_px
+  LabelStyle style;
+  std::vector<Label> labels;
+
+  const LabelKindStyle& kind_of(const Label& label) const { return style.kinds[static_cast<std::size_t>(label.point.kind)]; }
+};
+
+// What the letters of one kind are set in at that scale.
+TextStyle text_style(const LabelKindStyle& kind, double px_per_mm);
+
+// The row of the picture above which there is sky, for each column; 0 where land goes up to the upper edge. By halving: ground that hangs
+// in the sky is not found.
+std::vector<double> find_skyline(const GeoMap& map, glm::ivec2 size_px);
+
+// Sets and places what is seen. sheet_width_mm > 0.
+LabelSheet make_labels(const std::vector<LabelPoint>& points, const std::vector<LabelMark>& marks, const std::vector<double>& skyline_px,
+                       LabelStyle style, glm::ivec2 size_px, double sheet_width_mm);
+
+// The same altitude as on maps: "2749 m", with a space that does not break; empty where nothing is known.
+std::string altitude_text(const LabelPoint& point, const LabelMark& mark);
+
+}  // namespace belvedere
