@@ -3,38 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <string_view>
 
 #include "base/error.h"
 #include "base/json.h"
+#include "renderer/labels/svg_text.h"
 #include "terrain/io/crs.h"
 
 namespace belvedere {
 namespace {
-
-// Text between tags or in an attribute. What XML 1.0 cannot hold at all becomes a blank.
-std::string xml(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return out;
-}
 
 // A hundredth of a pixel is finer than any printer, and the same text on every machine.
 std::string px(double value) { return fmt::format("{:.2f}", value == 0.0 ? 0.0 : value); }
@@ -69,8 +45,34 @@ std::string label_svg(const LabelSheet& sheet, const Label& label) {
                        sheet.style.leader, px(sheet.style.leader_mm * sheet.px_per_mm));
   if (const std::string mark = mark_svg(kind, label.mark.pixel, kind.mark_mm * sheet.px_per_mm); !mark.empty()) out += "    " + mark + '\n';
   out += fmt::format("    <text x=\"{}\" y=\"{}\">{}</text>\n", px(.5 * (box.left + box.right)), px(box.top + label.room.up_px),
-                     xml(label.text));
+                     svg_text(label.text));
   return out;
+}
+
+// Seen pieces with a light edge, hidden ones dashed and thinner.
+std::string tracks_svg(const LabelSheet& sheet) {
+  const TrackStyle& style = sheet.style.track;
+  const double width = style.width_mm * sheet.px_per_mm;
+  std::string edges;
+  std::string hidden;
+  std::string seen;
+  for (const Track& track : sheet.tracks)
+    for (const TrackRun& run : track.runs) {
+      std::string path = "M";
+      for (const glm::dvec2 p : run.pixels) path += (path.size() > 1 ? "L" : "") + px(p.x) + ' ' + px(p.y);
+      (run.seen ? seen : hidden) += "    <path d=\"" + path + "\"/>\n";
+      if (run.seen) edges += "    <path d=\"" + path + "\"/>\n";
+    }
+  const auto group = [&](const char* id, const std::string& colour, double width_px, const std::string& more, const std::string& paths) {
+    if (paths.empty()) return std::string();
+    return fmt::format(
+        "  <g id=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"{}>\n{}  </g>\n",
+        id, colour, px(width_px), more, paths);
+  };
+  return group("tracks-hidden", style.colour, .6 * width, fmt::format(" stroke-dasharray=\"{} {}\"", px(1.5 * width), px(2.0 * width)),
+               hidden) +
+         group("tracks-edge", style.halo, width + 2.0 * style.halo_mm * sheet.px_per_mm, "", edges) +
+         group("tracks", style.colour, width, "", seen);
 }
 
 std::string quoted_csv(const std::string& text) {
@@ -102,8 +104,9 @@ std::string labels_svg(const LabelSheet& sheet, const std::string& under) {
 )",
       sheet.sheet_width_mm, height_mm, sheet.size_px.x, sheet.size_px.y);
   if (!under.empty())
-    out += fmt::format("  <image xlink:href=\"{}\" x=\"0\" y=\"0\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\"/>\n", xml(under),
-                       sheet.size_px.x, sheet.size_px.y);
+    out += fmt::format("  <image xlink:href=\"{}\" x=\"0\" y=\"0\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\"/>\n",
+                       svg_text(under), sheet.size_px.x, sheet.size_px.y);
+  out += tracks_svg(sheet);
   for (std::size_t k = 0; k < sheet.style.kinds.size(); ++k) {
     const LabelKindStyle& kind = sheet.style.kinds[k];
     std::string group;
@@ -115,9 +118,9 @@ std::string labels_svg(const LabelSheet& sheet, const std::string& under) {
     out += fmt::format(
         "  <g id=\"{}\" fill=\"{}\" font-family=\"{}\" font-size=\"{}px\"{}{}{} text-anchor=\"middle\">\n"
         "  <style>#{} text {{ paint-order: stroke; stroke: {}; stroke-width: {}px; stroke-linejoin: round; }}</style>\n",
-        xml(kind.name), kind.colour, xml(kind.family), px(type.size_px), kind.bold ? " font-weight=\"bold\"" : "",
+        svg_text(kind.name), kind.colour, svg_text(kind.family), px(type.size_px), kind.bold ? " font-weight=\"bold\"" : "",
         kind.italic ? " font-style=\"italic\"" : "",
-        kind.spacing > 0.0 ? fmt::format(" letter-spacing=\"{}px\"", px(kind.spacing * type.size_px)) : "", xml(kind.name), kind.halo,
+        kind.spacing > 0.0 ? fmt::format(" letter-spacing=\"{}px\"", px(kind.spacing * type.size_px)) : "", svg_text(kind.name), kind.halo,
         px(2.0 * kind.halo_mm * sheet.px_per_mm));
     out += group + "  </g>\n";
   }

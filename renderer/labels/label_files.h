@@ -6,8 +6,9 @@
 
 namespace belvedere {
 
-// The placed labels as SVG 1.1, over the picture pixel by pixel: text as text, one group a kind, so that all can be changed in Inkscape or
-// Illustrator. The sheet's size stands in millimetres. `under`: a picture's path to show beneath, as the SVG shall name it; empty: none.
+// The placed labels, and the tracks below them, as SVG 1.1, over the picture pixel by pixel: text as text, one group a kind, so that all
+// can be changed in Inkscape or Illustrator. The sheet's size stands in millimetres. `under`: a picture's path to show beneath, as the SVG
+// shall name it; empty: none.
 std::string labels_svg(const LabelSheet& sheet, const std::string& under = {});
 
 // Every point, placed or not: a table for spreadsheets, places in the scene's CRS.

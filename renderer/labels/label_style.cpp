@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <fstream>
 #include <utility>
 
 #include "base/config.h"
@@ -63,10 +61,7 @@ class Reader {
     fail(*value, all);
   }
   // Every key that was not asked for is none.
-  void end(std::vector<std::string> more = {}) {
-    keys_.insert(keys_.end(), more.begin(), more.end());
-    allow_only(table_, keys_, name_);
-  }
+  void end() { allow_only(table_, keys_, name_); }
   const ConfigValue* known(const char* key) {
     keys_.emplace_back(key);
     return find(table_, key);
@@ -109,6 +104,17 @@ LabelKindStyle read_kind(const ConfigEntry& entry, const std::string& name) {
   return kind;
 }
 
+TrackStyle read_track(const ConfigValue& value, const std::string& name) {
+  TrackStyle track;
+  Reader read(value, name);
+  read.colour("colour", track.colour);
+  read.number("width_mm", track.width_mm, 0.05, 20.0);
+  read.colour("halo", track.halo);
+  read.number("halo_mm", track.halo_mm, 0.0, 10.0);
+  read.end();
+  return track;
+}
+
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
@@ -130,6 +136,7 @@ LabelStyle read_style(const ConfigValue& document, const std::string& name) {
   read.colour("leader", style.leader);
   read.number("leader_mm", style.leader_mm, 0.0, 10.0);
   const ConfigValue* kinds = read.known("kinds");
+  if (const ConfigValue* track = read.known("track")) style.track = read_track(*track, name);
   read.end();
   if (kinds == nullptr) throw Error(ErrorKind::usage, name, "no kinds of names", "[kinds.summit] and the like");
   for (const ConfigEntry& entry : as_table(*kinds, name)) style.kinds.push_back(read_kind(entry, name));

@@ -33,6 +33,14 @@ struct LabelKindStyle {
   double climb_m = 0.0;   // the mark goes to the drawn summit that far away at most, 0…5000
 };
 
+// How ways are drawn.
+struct TrackStyle {
+  std::string colour = "#c1272d";
+  double width_mm = 0.8;  // 0.05…20
+  std::string halo = "#ffffff";
+  double halo_mm = 0.25;  // 0…10
+};
+
 struct LabelStyle {
   std::string name;  // of the file, for messages
   double least_px = 11.0;
@@ -43,6 +51,7 @@ struct LabelStyle {
   double margin_mm = 3.0;
   std::string leader = "#404040";
   double leader_mm = 0.22;
+  TrackStyle track;
   std::vector<LabelKindStyle> kinds;  // in the order of the file; the first is that of points that say no kind
 
   // The kind that a word means, small and capital letters alike; -1 where none does.

@@ -9,6 +9,7 @@
 #include "renderer/labels/label_points.h"
 #include "renderer/labels/label_style.h"
 #include "renderer/labels/text_measure.h"
+#include "renderer/labels/tracks.h"
 #include "renderer/trace/geo_map.h"
 
 namespace belvedere {
@@ -32,6 +33,7 @@ struct LabelSheet {
   double px_per_mm = 1.0;  // of the style's lengths: of the sheet, or larger where letters would be smaller than least_px
   LabelStyle style;
   std::vector<Label> labels;
+  std::vector<Track> tracks = {};  // drawn below the names; not in their way
 
   const LabelKindStyle& kind_of(const Label& label) const { return style.kinds[static_cast<std::size_t>(label.point.kind)]; }
 };

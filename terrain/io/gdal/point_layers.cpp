@@ -1,51 +1,18 @@
-#include <cpl_conv.h>
 #include <fmt/format.h>
-#include <gdal.h>
 #include <ogr_api.h>
-#include <ogr_srs_api.h>
 
-#include <array>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 
 #include "base/error.h"
 #include "terrain/io/crs.h"
-#include "terrain/io/gdal/gdal_files.h"
+#include "terrain/io/gdal/vector_layers.h"
 #include "terrain/io/points.h"
 
 namespace belvedere {
 namespace {
 
-namespace fs = std::filesystem;
-
-using Feature = std::unique_ptr<void, void (*)(OGRFeatureH)>;
-
-struct VectorFormat {
-  const char* ending;
-  const char* driver;
-};
-constexpr std::array formats = {VectorFormat{".gpkg", "GPKG"}, VectorFormat{".geojson", "GeoJSON"}, VectorFormat{".json", "GeoJSON"},
-                                VectorFormat{".shp", "ESRI Shapefile"}, VectorFormat{".fgb", "FlatGeobuf"}};
-
 constexpr const char* usual_layer = "towns";  // of several
-
-// Only the driver that the ending names: a file that looks harmless must not send GDAL to others.
-Dataset open_layers(const std::string& path) {
-  const std::string ending = lower_ending(path);
-  const char* driver = nullptr;
-  for (const VectorFormat& format : formats)
-    if (ending == format.ending) driver = format.driver;
-  if (driver == nullptr) throw Error(ErrorKind::usage, path, "is no table of points", ".csv, .gpkg, .geojson, .json, .shp or .fgb");
-  std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) throw Error(ErrorKind::input, path, "there is no such file");
-  register_gdal();
-  const GdalErrors errors;
-  const char* const allowed[] = {driver, nullptr};
-  Dataset file(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, allowed, nullptr, nullptr));
-  if (file == nullptr) throw Error(ErrorKind::input, path, errors.say(fmt::format("cannot be read as {}", driver)));
-  return file;
-}
 
 bool may_hold_points(OGRLayerH layer) {
   const OGRwkbGeometryType type = wkbFlatten(OGR_L_GetGeomType(layer));
@@ -69,20 +36,6 @@ OGRLayerH choose_layer(GDALDatasetH file, const std::string& path) {
   return layers.front();
 }
 
-// WKT; empty where the layer has none.
-std::string layer_crs(OGRLayerH layer, const std::string& path) {
-  OGRSpatialReferenceH reference = OGR_L_GetSpatialRef(layer);
-  if (reference == nullptr) return {};
-  const GdalErrors errors;
-  char* text = nullptr;
-  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-  const OGRErr result = OSRExportToWktEx(reference, &text, options);
-  const std::string wkt = text != nullptr ? text : "";
-  CPLFree(text);
-  if (result != OGRERR_NONE) throw Error(ErrorKind::input, path, errors.say("its CRS cannot be read"));
-  return wkt;
-}
-
 glm::dvec2 place_of(OGRFeatureH feature, const std::string& where) {
   OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
   if (geometry != nullptr && wkbFlatten(OGR_G_GetGeometryType(geometry)) == wkbMultiPoint && OGR_G_GetGeometryCount(geometry) == 1)
@@ -96,7 +49,8 @@ glm::dvec2 place_of(OGRFeatureH feature, const std::string& where) {
 }  // namespace
 
 PointTable read_point_layer(const std::string& path, const std::string& crs) {
-  const Dataset file = open_layers(path);
+  const Dataset file = open_vector_layers(path, {".gpkg", ".geojson", ".json", ".shp", ".fgb"}, "is no table of points",
+                                          ".csv, .gpkg, .geojson, .json, .shp or .fgb");
   OGRLayerH layer = choose_layer(file.get(), path);
   const std::string own_crs = layer_crs(layer, path);
   if (own_crs.empty() != crs.empty())
@@ -111,7 +65,7 @@ PointTable read_point_layer(const std::string& path, const std::string& crs) {
   const GdalErrors errors;
   OGR_L_ResetReading(layer);
   while (true) {
-    const Feature feature(OGR_L_GetNextFeature(layer), &OGR_F_Destroy);
+    const VectorFeature feature(OGR_L_GetNextFeature(layer), &OGR_F_Destroy);
     if (feature == nullptr) break;
     constexpr std::size_t most_points = 100000;
     if (places.size() == most_points) throw Error(ErrorKind::limit, path, fmt::format("more than {} points", most_points));

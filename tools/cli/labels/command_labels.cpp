@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -29,6 +30,7 @@ namespace fs = std::filesystem;
 struct Options {
   SceneOptions scene;
   std::vector<std::string> points;
+  std::vector<std::string> tracks;
   std::string style = "classic";
   int summits = -1;  // -1: 30 where there are no files of points, else none
   SummitParameters tops;
@@ -82,7 +84,7 @@ int run(const Options& options) {
     points.insert(points.end(), more.begin(), more.end());
   }
   const std::size_t named = points.size();
-  const int most = options.summits >= 0 ? options.summits : options.points.empty() ? usual_summits : 0;
+  const int most = options.summits >= 0 ? options.summits : options.points.empty() && options.tracks.empty() ? usual_summits : 0;
   if (most > 0) {
     progress.begin("looking for summits", 0.0);
     SummitParameters tops = options.tops;
@@ -90,12 +92,18 @@ int run(const Options& options) {
     std::vector<LabelPoint> unnamed = unnamed_summits(summits, bare.dem.transform, bare.dem.cell_m(), points, style);
     points.insert(points.end(), unnamed.begin(), unnamed.end());
   }
-  if (points.empty()) throw Error(ErrorKind::usage, "labels", "nothing to name", "--points FILE with points, or --summits N");
+  std::vector<MapLine> lines;
+  for (const std::string& file : options.tracks) {
+    const std::vector<MapLine> more = read_lines(file, bare.dem.crs);
+    lines.insert(lines.end(), more.begin(), more.end());
+  }
+  if (points.empty() && lines.empty())
+    throw Error(ErrorKind::usage, "labels", "nothing to name", "--points FILE with points, --summits N or --tracks FILE");
 
   progress.begin("finding places", 0.0);
   const GeoMap map = bare.geo_map();
-  std::vector<LabelMark> marks =
-      find_marks({bare.dem.altitude_m, bare.generalized_m, bare.dem.transform, bare.dem.cell_m(), map}, points, style);
+  const DrawnGround ground{bare.dem.altitude_m, bare.generalized_m, bare.dem.transform, bare.dem.cell_m(), map};
+  std::vector<LabelMark> marks = find_marks(ground, points, style);
   if (named > 0 && std::all_of(marks.begin(), marks.begin() + static_cast<std::ptrdiff_t>(named),
                                [](const LabelMark& mark) { return mark.state == MarkState::outside_terrain; })) {
     points.resize(named);
@@ -113,7 +121,8 @@ int run(const Options& options) {
 
   progress.begin("placing names", 0.0);
   const glm::ivec2 size = bare.camera->size();
-  const LabelSheet sheet = make_labels(points, marks, find_skyline(map, size), style, size, scene.scene.output.sheet_width_mm);
+  LabelSheet sheet = make_labels(points, marks, find_skyline(map, size), style, size, scene.scene.output.sheet_width_mm);
+  sheet.tracks = find_tracks(ground, lines);
   const std::string under = options.under.empty() ? "" : fs::relative(options.under, folder).generic_string();
   write_text_file((folder / "labels.svg").string(), labels_svg(sheet, under));
   write_text_file((folder / "labels.csv").string(), labels_csv(sheet));
@@ -121,6 +130,8 @@ int run(const Options& options) {
     progress.note("labels.geojson is left out: the terrain has no coordinate system, and GeoJSON speaks longitude and latitude");
   else
     write_text_file((folder / "labels.geojson").string(), labels_geojson(sheet, bare.dem.crs));
+  for (std::size_t i = 0; i < sheet.tracks.size(); ++i)
+    write_text_file((folder / fmt::format("profile_{}.svg", i + 1)).string(), profile_svg(sheet.tracks[i], style.track.colour));
   progress.end();
 
   std::array<std::size_t, 5> states{};
@@ -138,6 +149,14 @@ int run(const Options& options) {
                     .add("no_room", Json::number(static_cast<double>(seen - placed)));
     for (const MarkState state : {MarkState::hidden, MarkState::outside_picture, MarkState::behind_eye, MarkState::outside_terrain})
       json.add(std::string(name_of(state)), Json::number(static_cast<double>(states[static_cast<std::size_t>(state)])));
+    Json tracks = Json::array();
+    for (const Track& track : sheet.tracks)
+      tracks.add(Json::object()
+                     .add("name", Json::text(track.name))
+                     .add("length_m", Json::number(std::round(track.length_m)))
+                     .add("climb_m", Json::number(std::round(track.climb_m)))
+                     .add("seen_m", Json::number(std::round(track.seen_m))));
+    json.add("tracks", std::move(tracks));
     print_out(json.str() + "\n");
   } else {
     std::string text = fmt::format("{}: {} of {} names placed", (folder / "labels.svg").string(), placed, points.size());
@@ -145,7 +164,11 @@ int run(const Options& options) {
     for (const MarkState state : {MarkState::hidden, MarkState::outside_picture, MarkState::behind_eye, MarkState::outside_terrain})
       if (const std::size_t count = states[static_cast<std::size_t>(state)]; count > 0)
         text += fmt::format(", {} {}", count, name_of(state));
-    print_out(text + "\n");
+    text += '\n';
+    for (const Track& track : sheet.tracks)
+      text += fmt::format("{}: {:.1f} km, {:.0f} m up, {:.1f} km of it seen\n", track.name.empty() ? track.where : track.name,
+                          track.length_m / 1000.0, track.climb_m, track.seen_m / 1000.0);
+    print_out(text);
   }
   return 0;
 }
@@ -156,6 +179,9 @@ Action add_labels(CLI::App& command) {
   const auto options = std::make_shared<Options>();
   add_scene_options(command, options->scene);
   command.add_option("--points", options->points, "Points with names: .csv, .gpkg, .geojson, .shp or .fgb; may be repeated")
+      ->type_name("FILE");
+  command
+      .add_option("--tracks", options->tracks, "Ways to draw, with a profile each: .gpx, .gpkg, .geojson, .shp or .fgb; may be repeated")
       ->type_name("FILE");
   command.add_option("--style", options->style, "How names are set: classic, or a .toml file")->type_name("STYLE")->capture_default_str();
   command.add_option("--summits", options->summits, "So many of the DEM's own summits as well, with their altitudes; 30 without --points")

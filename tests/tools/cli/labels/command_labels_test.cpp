@@ -84,6 +84,18 @@ TEST_F(LabelsCommand, TheSameBytesForAnyThreads) {
   EXPECT_EQ(read_bytes(path("names/labels.csv")), csv);
 }
 
+TEST_F(LabelsCommand, WaysAreDrawnWithTheirProfiles) {
+  // Over the foot of the cone and behind it.
+  write(
+      "way.geojson",
+      R"({"type": "Feature", "properties": {"name": "Round"}, "geometry": {"type": "LineString", "coordinates": [[11.41, 47.44], [11.44, 47.50], [11.47, 47.53]]}})");
+  const Outcome outcome = name({"--tracks", path("way.geojson")});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("Round: "));
+  EXPECT_THAT(read_bytes(path("names/labels.svg")), HasSubstr("<g id=\"tracks\""));
+  EXPECT_THAT(read_bytes(path("names/profile_1.svg")), HasSubstr("Round: "));
+}
+
 TEST_F(LabelsCommand, PointsElsewhereAreSaidWithBothExtents) {
   write("zero.csv", "name,lon,lat\nNull Island,0,0\n");
   const Outcome outcome = name({"--points", path("zero.csv")});

@@ -1,0 +1,203 @@
+#include "renderer/labels/tracks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "base/filter.h"
+#include "base/parallel.h"
+#include "renderer/labels/svg_text.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double shortest_gap_px = 3.0;
+constexpr double pixel_step = 0.6;  // places nearer to each other are one
+
+struct Sample {
+  glm::dvec2 place{0.0};
+  double from_start_m = 0.0;
+  double altitude_m = NAN;  // NAN outside of the terrain
+  std::optional<ImagePlace> drawn;
+};
+
+bool in_picture(const Sample& sample) { return sample.drawn && sample.drawn->in_picture; }
+
+std::vector<Sample> sample_line(const DrawnGround& ground, const MapLine& line) {
+  const double metres = ground.cell_m / ground.transform.cell_x;
+  std::vector<Sample> samples;
+  double from_start_m = 0.0;
+  for (std::size_t i = 0; i + 1 < line.places.size(); ++i) {
+    const double length_m = glm::length(line.places[i + 1] - line.places[i]) * metres;
+    const int steps = std::max(1, static_cast<int>(std::ceil(2.0 * length_m / ground.cell_m)));
+    for (int k = 0; k < steps; ++k) {
+      const double t = static_cast<double>(k) / steps;
+      samples.push_back(
+          {.place = glm::mix(line.places[i], line.places[i + 1], t), .from_start_m = from_start_m + t * length_m, .drawn = {}});
+    }
+    from_start_m += length_m;
+  }
+  samples.push_back({.place = line.places.back(), .from_start_m = from_start_m, .drawn = {}});
+  for (Sample& sample : samples) {
+    if (!ground.map.on_surface(sample.place)) continue;
+    const glm::dvec2 cell = ground.transform.to_cell(sample.place.x, sample.place.y);
+    sample.altitude_m = static_cast<double>(sample_bilinear(ground.altitude_m, cell.x, cell.y));
+    sample.drawn = ground.map.to_image(sample.place);
+  }
+  return samples;
+}
+
+double climb_of(const std::vector<glm::dvec2>& profile) {
+  double climb_m = 0.0;
+  double low_m = profile.empty() ? 0.0 : profile.front().y;
+  double high_m = low_m;
+  for (const glm::dvec2 p : profile) {
+    high_m = std::max(high_m, p.y);
+    if (high_m - p.y < climb_step_m && p.y >= low_m) continue;
+    // Down again, or lower than ever since the last ascent: what was climbed counts if it was enough.
+    if (high_m - low_m >= climb_step_m) climb_m += high_m - low_m;
+    low_m = high_m = p.y;
+  }
+  return high_m - low_m >= climb_step_m ? climb_m + high_m - low_m : climb_m;
+}
+
+double length_px(const TrackRun& run) {
+  double length = 0.0;
+  for (std::size_t i = 0; i + 1 < run.pixels.size(); ++i) length += glm::length(run.pixels[i + 1] - run.pixels[i]);
+  return length;
+}
+
+// Consecutive runs of one stretch: each begins where the one before it ends.
+void join_short_gaps(std::vector<TrackRun>& runs) {
+  for (TrackRun& run : runs)
+    if (!run.seen && length_px(run) < shortest_gap_px) run.seen = true;
+  std::vector<TrackRun> joined;
+  for (TrackRun& run : runs) {
+    if (!joined.empty() && joined.back().seen == run.seen)
+      joined.back().pixels.insert(joined.back().pixels.end(), run.pixels.begin() + 1, run.pixels.end());
+    else
+      joined.push_back(std::move(run));
+  }
+  runs = std::move(joined);
+}
+
+// Fewer places where they lie within a pixel; both ends stay.
+void thin(std::vector<glm::dvec2>& pixels) {
+  std::vector<glm::dvec2> kept = {pixels.front()};
+  for (std::size_t i = 1; i + 1 < pixels.size(); ++i)
+    if (glm::length(pixels[i] - kept.back()) >= pixel_step) kept.push_back(pixels[i]);
+  kept.push_back(pixels.back());
+  pixels = std::move(kept);
+}
+
+std::vector<TrackRun> runs_of(const std::vector<Sample>& samples) {
+  std::vector<TrackRun> all;
+  std::vector<TrackRun> stretch;
+  const auto end_stretch = [&] {
+    join_short_gaps(stretch);
+    for (TrackRun& run : stretch) {
+      thin(run.pixels);
+      all.push_back(std::move(run));
+    }
+    stretch.clear();
+  };
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+    const Sample& a = samples[i];
+    const Sample& b = samples[i + 1];
+    if (!in_picture(a) || !in_picture(b)) {
+      end_stretch();
+      continue;
+    }
+    const bool seen = a.drawn->visible && b.drawn->visible;
+    if (stretch.empty() || stretch.back().seen != seen) stretch.push_back({seen, {a.drawn->pixel}});
+    stretch.back().pixels.push_back(b.drawn->pixel);
+  }
+  end_stretch();
+  return all;
+}
+
+Track find_track(const DrawnGround& ground, const MapLine& line) {
+  const std::vector<Sample> samples = sample_line(ground, line);
+  Track track;
+  track.name = line.name;
+  track.where = line.where;
+  track.length_m = samples.back().from_start_m;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!std::isnan(samples[i].altitude_m)) track.profile.emplace_back(samples[i].from_start_m, samples[i].altitude_m);
+    if (i > 0 && in_picture(samples[i]) && samples[i].drawn->visible) track.seen_m += samples[i].from_start_m - samples[i - 1].from_start_m;
+  }
+  track.climb_m = climb_of(track.profile);
+  track.runs = runs_of(samples);
+  return track;
+}
+
+// 1, 2 or 5 times a power of ten: about `count` of them over a span.
+double round_step(double span, int count) {
+  double step = 0.1;
+  while (span / step > count)
+    for (const double factor : {2.0, 2.5, 2.0}) {
+      step *= factor;
+      if (span / step <= count) break;
+    }
+  return step;
+}
+
+}  // namespace
+
+std::vector<Track> find_tracks(const DrawnGround& ground, const std::vector<MapLine>& lines) {
+  std::vector<Track> tracks(lines.size());
+  parallel_ranges<std::size_t>(lines.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) tracks[i] = find_track(ground, lines[i]);
+  });
+  return tracks;
+}
+
+std::string profile_svg(const Track& track, const std::string& colour) {
+  constexpr double width = 180.0;
+  constexpr double height = 50.0;
+  constexpr double left = 14.0;
+  constexpr double right = 4.0;
+  constexpr double top = 8.0;
+  constexpr double bottom = 9.0;
+  std::string out = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" "
+      "viewBox=\"0 0 {0} {1}\" font-family=\"DejaVu Sans, sans-serif\" font-size=\"2.6\" fill=\"#303030\">\n",
+      width, height);
+  if (track.profile.size() < 2) return out + "</svg>\n";
+  const auto [lowest, highest] =
+      std::minmax_element(track.profile.begin(), track.profile.end(), [](glm::dvec2 a, glm::dvec2 b) { return a.y < b.y; });
+  const double step_m = round_step(std::max(50.0, highest->y - lowest->y), 6);
+  const double from_m = std::floor(lowest->y / step_m) * step_m;
+  const double to_m = std::max(from_m + step_m, std::ceil(highest->y / step_m) * step_m);
+  const auto x = [&](double distance_m) { return left + (width - left - right) * distance_m / std::max(1.0, track.length_m); };
+  const auto y = [&](double altitude_m) { return height - bottom - (height - top - bottom) * (altitude_m - from_m) / (to_m - from_m); };
+  out += fmt::format("<text x=\"{}\" y=\"5\" font-size=\"3.2\">{}</text>\n", left,
+                     svg_text(fmt::format("{}{:.1f} km, {:.0f} m up", track.name.empty() ? "" : track.name + ": ", track.length_m / 1000.0,
+                                          track.climb_m)));
+  for (double z = from_m; z <= to_m + .5; z += step_m)
+    out += fmt::format(
+        "<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.2f}\" y2=\"{2:.2f}\" stroke=\"#c8c8c8\" stroke-width=\".15\"/><text x=\"{3}\" y=\"{4:.2f}\" "
+        "text-anchor=\"end\">{5:.0f}</text>\n",
+        left, width - right, y(z), left - 1.5, y(z) + .9, z);
+  const double step_km = round_step(track.length_m / 1000.0, 12);
+  for (double km = 0.0; km <= track.length_m / 1000.0; km += step_km)
+    out += fmt::format("<text x=\"{:.2f}\" y=\"{}\" text-anchor=\"middle\">{:g}</text>\n", x(1000.0 * km), height - 5.0, km);
+  out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\">km</text>\n", width - right, height - 1.5);
+  std::string path;
+  double last = -1.0;
+  for (const glm::dvec2 p : track.profile) {
+    if (x(p.x) - last < .15 && !path.empty()) continue;
+    last = x(p.x);
+    path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "" : "L", last, y(p.y));
+  }
+  const double end = last;
+  out += fmt::format("<path d=\"M{0:.2f} {1:.2f}L{2}L{3:.2f} {1:.2f}Z\" fill=\"{4}\" fill-opacity=\".18\"/>\n", x(track.profile.front().x),
+                     y(from_m), path, end, colour);
+  out += fmt::format("<path d=\"M{}\" fill=\"none\" stroke=\"{}\" stroke-width=\".45\" stroke-linejoin=\"round\"/>\n", path, colour);
+  return out + "</svg>\n";
+}
+
+}  // namespace belvedere

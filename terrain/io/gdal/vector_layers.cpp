@@ -1,0 +1,59 @@
+#include "terrain/io/gdal/vector_layers.h"
+
+#include <cpl_conv.h>
+#include <fmt/format.h>
+#include <gdal.h>
+#include <ogr_srs_api.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "base/error.h"
+
+namespace belvedere {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct VectorFormat {
+  std::string_view ending;
+  const char* driver;
+};
+constexpr std::array formats = {VectorFormat{".gpkg", "GPKG"},      VectorFormat{".geojson", "GeoJSON"},
+                                VectorFormat{".json", "GeoJSON"},   VectorFormat{".shp", "ESRI Shapefile"},
+                                VectorFormat{".fgb", "FlatGeobuf"}, VectorFormat{".gpx", "GPX"}};
+
+}  // namespace
+
+Dataset open_vector_layers(const std::string& path, const std::vector<std::string_view>& endings, const std::string& found,
+                           const std::string& allowed) {
+  const std::string ending = lower_ending(path);
+  const char* driver = nullptr;
+  for (const VectorFormat& format : formats)
+    if (ending == format.ending && std::find(endings.begin(), endings.end(), format.ending) != endings.end()) driver = format.driver;
+  if (driver == nullptr) throw Error(ErrorKind::usage, path, found, allowed);
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) throw Error(ErrorKind::input, path, "there is no such file");
+  register_gdal();
+  const GdalErrors errors;
+  const char* const drivers[] = {driver, nullptr};
+  Dataset file(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers, nullptr, nullptr));
+  if (file == nullptr) throw Error(ErrorKind::input, path, errors.say(fmt::format("cannot be read as {}", driver)));
+  return file;
+}
+
+std::string layer_crs(OGRLayerH layer, const std::string& path) {
+  OGRSpatialReferenceH reference = OGR_L_GetSpatialRef(layer);
+  if (reference == nullptr) return {};
+  const GdalErrors errors;
+  char* text = nullptr;
+  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+  const OGRErr result = OSRExportToWktEx(reference, &text, options);
+  const std::string wkt = text != nullptr ? text : "";
+  CPLFree(text);
+  if (result != OGRERR_NONE) throw Error(ErrorKind::input, path, errors.say("its CRS cannot be read"));
+  return wkt;
+}
+
+}  // namespace belvedere
