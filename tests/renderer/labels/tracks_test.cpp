@@ -44,11 +44,14 @@ TEST_F(Tracks, LengthAndAscentOfARoof) {
 TEST_F(Tracks, AreSeenWhereTheirPlacesAre) {
   double seen_m = 0.0;
   double length_m = 0.0;
+  int seen_runs = 0;
+  int hidden_runs = 0;
   for (double x = 1500.0; x < 11000.0; x += 1500.0) {
     const Track track = track_of({{x, 1000.0}, {x, 11000.0}});
     seen_m += track.seen_m;
     length_m += track.length_m;
     for (const TrackRun& run : track.runs) {
+      ++(run.seen ? seen_runs : hidden_runs);
       ASSERT_GE(run.pixels.size(), 2U);
       for (std::size_t i = 0; i + 1 < run.pixels.size(); ++i) EXPECT_LT(glm::length(run.pixels[i + 1] - run.pixels[i]), 60.0) << "no leap";
     }
@@ -65,6 +68,8 @@ TEST_F(Tracks, AreSeenWhereTheirPlacesAre) {
       ++all;
     }
   EXPECT_NEAR(seen_m / length_m, static_cast<double>(visible) / static_cast<double>(all), .02);
+  EXPECT_GE(seen_runs, 5);
+  EXPECT_GE(hidden_runs, 5);
   EXPECT_GT(seen_m, 0.0);
   EXPECT_LT(seen_m, length_m);
 }
