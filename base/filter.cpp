@@ -1,11 +1,15 @@
 #include "base/filter.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <memory>
 #include <vector>
 
-#include "base/filter_lines.h"
+#include "base/lines/blur_lines.h"
 #include "base/math_exact.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 namespace {
@@ -28,60 +32,6 @@ std::vector<float> half_kernel(double sigma) {
   return kernel;
 }
 
-LineBundle convolve(const LineBundle& lines, const std::vector<float>& kernel) {
-  const int radius = static_cast<int>(kernel.size()) - 1;
-  const LineBundle padded = replicate_ends(lines, radius, radius);
-  LineBundle out(lines.count());
-  for (int i = 0; i < lines.count(); ++i) {
-    const float* center = padded[i + radius];
-    std::array<float, LineBundle::lanes> sum;
-    for (int l = 0; l < LineBundle::lanes; ++l) sum[l] = kernel[0] * center[l];
-    for (int k = 1; k <= radius; ++k) {
-      const float* before = padded[i + radius - k];
-      const float* after = padded[i + radius + k];
-      const float weight = kernel[k];
-      for (int l = 0; l < LineBundle::lanes; ++l) sum[l] += weight * (before[l] + after[l]);
-    }
-    float* target = out[i];
-    for (int l = 0; l < LineBundle::lanes; ++l) target[l] = sum[l];
-  }
-  return out;
-}
-
-// Half the resolution by [1 4 6 4 1] / 16: element j lies over 2 (j - 1). The first and the last element see nothing but the
-// replicated border, so replicating the halved lines is exactly halving the replicated lines.
-LineBundle halve(const LineBundle& lines) {
-  const int count = (lines.count() + 2) / 2 + 2;
-  const LineBundle padded = replicate_ends(lines, 4, 2 * (count - 2) + 3 - lines.count());
-  LineBundle out(count);
-  for (int j = 0; j < count; ++j) {
-    const float* a = padded[2 * j];  // 2 (j - 1) - 2, moved by the padding
-    float* target = out[j];
-    constexpr int n = LineBundle::lanes;
-    for (int l = 0; l < n; ++l) {
-      target[l] = 0.375F * a[2 * n + l] + 0.25F * (a[n + l] + a[3 * n + l]) + 0.0625F * (a[l] + a[4 * n + l]);
-    }
-  }
-  return out;
-}
-
-// Back to `count` elements with the cubic B-spline's refinement, [1 6 1] / 8 and [1 1] / 2.
-LineBundle refine(const LineBundle& halved, int count) {
-  LineBundle out(count);
-  for (int i = 0; i < count; ++i) {
-    const float* a = halved[i / 2];
-    const float* b = halved[i / 2 + 1];
-    const float* c = halved[i / 2 + 2];
-    float* target = out[i];
-    if (i % 2 == 0) {
-      for (int l = 0; l < LineBundle::lanes; ++l) target[l] = 0.75F * b[l] + 0.125F * (a[l] + c[l]);
-    } else {
-      for (int l = 0; l < LineBundle::lanes; ++l) target[l] = 0.5F * (b[l] + c[l]);
-    }
-  }
-  return out;
-}
-
 // How often the resolution is halved, and the kernel that remains: the same for every bundle, so made once.
 struct BlurPlan {
   int halvings = 0;
@@ -95,9 +45,85 @@ BlurPlan plan_blur(double sigma) {
   return plan;
 }
 
-LineBundle blur(const LineBundle& lines, const BlurPlan& plan, int halvings_left) {
-  if (halvings_left == 0) return convolve(lines, plan.kernel);
-  return refine(blur(halve(lines), plan, halvings_left - 1), lines.count());
+constexpr int columns_at_once = 16;  // a cache line
+
+// A line on its way, with room for what is replicated on both sides (base/lines/blur_lines.h).
+class PaddedLine {
+ public:
+  PaddedLine(int before, int count, int after, int step)
+      : before_(before), count_(count), after_(after), step_(step), numbers_(std::make_unique_for_overwrite<float[]>(at(count + after))) {}
+  int count() const { return count_; }
+  // Element i, from -before to count + after - 1.
+  float* operator[](int i) { return numbers_.get() + at(i); }
+  // To be called when the elements are there.
+  void replicate_ends() {
+    for (int i = -before_; i < 0; ++i) std::copy_n((*this)[0], step_, (*this)[i]);
+    for (int i = count_; i < count_ + after_; ++i) std::copy_n((*this)[count_ - 1], step_, (*this)[i]);
+  }
+
+ private:
+  std::size_t at(int i) const { return static_cast<std::size_t>(before_ + i) * static_cast<std::size_t>(step_); }
+  int before_;
+  int count_;
+  int after_;
+  int step_;
+  std::unique_ptr<float[]> numbers_;
+};
+
+// Of a line halved: its element j lies over 2 (j - 1). The first and the last element see nothing but the replicated border, so
+// replicating the halved line is exactly halving the replicated line.
+int halved_count(int count) { return (count + 2) / 2 + 2; }
+
+// A line with the room that blurring it takes.
+PaddedLine line_to_blur(int count, int step, const BlurPlan& plan, int halvings_left) {
+  const int radius = static_cast<int>(plan.kernel.size()) - 1;
+  if (halvings_left == 0) return {radius, count, radius, step};
+  return {4, count, 2 * (halved_count(count) - 2) + 3 - count, step};
+}
+
+// `out`: as many elements as the line has.
+void blur(PaddedLine& line, int step, const BlurPlan& plan, int halvings_left, float* out) {
+  line.replicate_ends();
+  if (halvings_left == 0)
+    return blur_lines::convolve(line[0], line.count() * step, step, plan.kernel.data(), static_cast<int>(plan.kernel.size()) - 1, out);
+  PaddedLine halved = line_to_blur(halved_count(line.count()), step, plan, halvings_left - 1);
+  blur_lines::halve(line[-4], halved.count(), step, halved[0]);
+  const auto blurred = std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(halved.count()) * static_cast<std::size_t>(step));
+  blur(halved, step, plan, halvings_left - 1, blurred.get());
+  blur_lines::refine(blurred.get(), line.count(), step, out);
+}
+
+void blur_rows(const Grid<float>& values, double sigma, Grid<float>& out) {
+  const BlurPlan plan = plan_blur(sigma);
+  constexpr int rows_at_once = 16;
+  parallel_ranges(values.height(), rows_at_once, [&](int begin, int end) {
+    PaddedLine line = line_to_blur(values.width(), 1, plan, plan.halvings);
+    for (int y = begin; y < end; ++y) {
+      std::copy_n(values.row(y), values.width(), line[0]);
+      blur(line, 1, plan, plan.halvings, out.row(y));
+    }
+  });
+}
+
+void blur_columns(Grid<float>& values, double sigma) {
+  const BlurPlan plan = plan_blur(sigma);
+  constexpr int n = columns_at_once;
+  const int width = values.width();
+  const int height = values.height();
+  parallel_ranges((width + n - 1) / n, 1, [&](int begin, int end) {
+    PaddedLine lines = line_to_blur(height, n, plan, plan.halvings);
+    const auto blurred = std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(height) * n);
+    for (int first = begin * n; first < std::min(end * n, width); first += n) {
+      const int used = std::min(n, width - first);
+      for (int y = 0; y < height; ++y) {
+        const float* row = values.row(y) + first;
+        std::copy_n(row, used, lines[y]);
+        std::fill(lines[y] + used, lines[y] + n, row[used - 1]);
+      }
+      blur(lines, n, plan, plan.halvings, blurred.get());
+      for (int y = 0; y < height; ++y) std::copy_n(blurred.get() + static_cast<std::ptrdiff_t>(y) * n, used, values.row(y) + first);
+    }
+  });
 }
 
 // Weights of the four coefficients around a place t in 0…1 after the second.
@@ -117,16 +143,14 @@ int whole_cell(double& place, int count) {
 Grid<float> gaussian_blur(const Grid<float>& values, double sigma) { return gaussian_blur(values, sigma, sigma); }
 
 Grid<float> gaussian_blur(const Grid<float>& values, double sigma_x, double sigma_y) {
-  Grid<float> out = values;
-  if (values.empty()) return out;
-  if (sigma_x > 0.0) {
-    const BlurPlan plan = plan_blur(sigma_x);
-    transform_rows(out, [&](const LineBundle& rows) { return blur(rows, plan, plan.halvings); });
+  if (values.empty() || sigma_x <= 0.0) {
+    Grid<float> out = values;
+    if (!values.empty() && sigma_y > 0.0) blur_columns(out, sigma_y);
+    return out;
   }
-  if (sigma_y > 0.0) {
-    const BlurPlan plan = plan_blur(sigma_y);
-    transform_columns(out, [&](const LineBundle& columns) { return blur(columns, plan, plan.halvings); });
-  }
+  Grid<float> out(values.width(), values.height());
+  blur_rows(values, sigma_x, out);
+  if (sigma_y > 0.0) blur_columns(out, sigma_y);
   return out;
 }
 

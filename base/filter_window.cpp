@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/filter.h"
-#include "base/filter_lines.h"
+#include "base/lines/filter_lines.h"
 
 namespace belvedere {
 namespace {
