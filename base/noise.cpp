@@ -33,15 +33,44 @@ SplineWeights spline_weights(double position) {
 
 constexpr double spacing_per_sigma = 1.7320508075688772;  // the B-spline's deviation is spacing / sqrt(3)
 
+// The lattice under a place.
+struct LatticePatch {
+  std::array<double, 16> normal{};  // row by row
+  std::uint64_t seed = 0;
+  std::int64_t x = 0;  // of the first
+  std::int64_t y = 0;
+  bool known = false;
+};
+
+// Places that are asked for one after the other mostly lie over the same patch, or over one of a few of several seeds: each thread keeps
+// some, where their key says. They are functions of that key, so what is kept does not show.
+const LatticePatch& lattice_patch(std::uint64_t seed, std::int64_t x, std::int64_t y) {
+  constexpr std::size_t kept = 64;
+  thread_local std::array<LatticePatch, kept> patches;
+  const std::uint64_t key =
+      (seed + static_cast<std::uint64_t>(x) * 0xa0761d6478bd642fULL + static_cast<std::uint64_t>(y) * 0xd6e8feb86659fd93ULL) *
+      0x9e3779b97f4a7c15ULL;
+  LatticePatch& patch = patches[key >> 58];
+  if (patch.known && patch.seed == seed && patch.x == x && patch.y == y) return patch;
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) patch.normal[static_cast<std::size_t>(4 * j + i)] = random_normal(seed, x + i, y + j);
+  patch.seed = seed;
+  patch.x = x;
+  patch.y = y;
+  patch.known = true;
+  return patch;
+}
+
 }  // namespace
 
 double gaussian_noise(std::uint64_t seed, double x, double y, double sigma_x, double sigma_y) {
   const SplineWeights sx = spline_weights(x / (sigma_x * spacing_per_sigma));
   const SplineWeights sy = spline_weights(y / (sigma_y * spacing_per_sigma));
+  const LatticePatch& patch = lattice_patch(seed, sx.first, sy.first);
   double sum = 0.0;
   for (int j = 0; j < 4; ++j) {
     double row = 0.0;
-    for (int i = 0; i < 4; ++i) row += sx.weight[i] * random_normal(seed, sx.first + i, sy.first + j);
+    for (int i = 0; i < 4; ++i) row += sx.weight[i] * patch.normal[static_cast<std::size_t>(4 * j + i)];
     sum += sy.weight[j] * row;
   }
   return sum * sx.inverse_deviation * sy.inverse_deviation;

@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
+
+#include "base/random.h"
 
 namespace belvedere {
 namespace {
@@ -75,6 +80,44 @@ TEST(GaussianNoise, IsSmooth) {
       EXPECT_LT(std::abs(right), 10.0 / sigma);
     }
   }
+}
+
+// Threads keep the lattice under places that were asked for before: whatever they were, the value is that of the definition.
+TEST(GaussianNoise, HangsOnNothingThatWasAskedBefore) {
+  const auto defined = [](std::uint64_t seed, double x, double y, double sigma) {
+    const auto weights = [](double position) {
+      const double t = position - std::floor(position);
+      const double u = 1.0 - t;
+      return std::array<double, 4>{u * u * u / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0,
+                                   (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0, t * t * t / 6.0};
+    };
+    const double px = x / (sigma * 1.7320508075688772);
+    const double py = y / (sigma * 1.7320508075688772);
+    const std::array<double, 4> wx = weights(px);
+    const std::array<double, 4> wy = weights(py);
+    double sum = 0.0;
+    double squares_x = 0.0;
+    double squares_y = 0.0;
+    for (std::size_t j = 0; j < 4; ++j) {
+      for (std::size_t i = 0; i < 4; ++i)
+        sum += wy[j] * wx[i] *
+               random_normal(seed, static_cast<std::int64_t>(std::floor(px)) - 1 + static_cast<std::int64_t>(i),
+                             static_cast<std::int64_t>(std::floor(py)) - 1 + static_cast<std::int64_t>(j));
+      squares_x += wx[j] * wx[j];
+      squares_y += wy[j] * wy[j];
+    }
+    return sum / std::sqrt(squares_x * squares_y);
+  };
+  // Alike in all but one word of the key, one after the other, and many more than are kept.
+  for (int round = 0; round < 2; ++round)
+    for (std::int64_t k = -300; k < 300; ++k)
+      for (const auto& [seed, x, y] : {std::tuple{3, k, std::int64_t{0}}, std::tuple{3, std::int64_t{0}, k},
+                                       std::tuple{static_cast<int>(k), k, k}, std::tuple{4, k, std::int64_t{0}}}) {
+        const auto at = [&](std::int64_t place) { return 2.0 * static_cast<double>(place) + 0.3; };
+        ASSERT_NEAR(gaussian_noise(static_cast<std::uint64_t>(seed), at(x), at(y), 1.0),
+                    defined(static_cast<std::uint64_t>(seed), at(x), at(y), 1.0), 1e-12)
+            << seed << ' ' << x << ' ' << y;
+      }
 }
 
 TEST(GaussianNoise, SeedsAreIndependent) {
