@@ -9,10 +9,11 @@
 namespace belvedere {
 namespace {
 
-constexpr std::array<CachedProductInfo, 5> table = {{
+constexpr std::array<CachedProductInfo, 6> table = {{
     {CachedProduct::synthetic_terrain, "synthetic terrain", 1},
     {CachedProduct::land_cover, "land cover by rules", 1},
     {CachedProduct::generalized_ground, "generalized ground", 1},
+    {CachedProduct::ground_surroundings, "surroundings of the ground", 1},
     {CachedProduct::example_sheet, "example sheet", 1},
     {CachedProduct::synthesis_plan, "choice of texture", 1},
 }};

@@ -5,6 +5,8 @@
 #include "base/instruction_set.h"
 #include "renderer/paint/sky.h"
 #include "renderer/scene/scene_error.h"
+#include "renderer/trace/ground_surroundings.h"
+#include "renderer/world/cached_products.h"
 #include "renderer/world/fold_check.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/ground_plan.h"
@@ -13,6 +15,17 @@
 #include "renderer/world/scene_land_cover.h"
 
 namespace belvedere {
+
+void each_field(auto& bytes, FieldsOf<FloorPlan> auto& plan) {
+  auto& [built, grain] = plan;
+  bytes(built, grain);
+}
+
+void each_field(auto& bytes, FieldsOf<GroundSurroundings> auto& surroundings) {
+  auto& [valley_height_m, rim_m, flow, floor_plan] = surroundings;
+  bytes(valley_height_m, rim_m, flow, floor_plan);
+}
+
 namespace {
 
 constexpr double usual_horizon = 0.18;  // of the picture's height from its top, where no terrain meets the sky
@@ -39,9 +52,22 @@ std::shared_ptr<const LandCover> make_cover(const LoadedScene& loaded, const Dem
   return std::make_shared<const LandCover>(make_scene_land_cover(loaded, dem, progress, cache, catchments.get()));
 }
 
-TerrainModel make_terrain(const World& world, GeneralizedTerrain generalized, Catchments* catchments) {
-  TerrainModel terrain =
-      make_terrain_model(world.dem, std::move(generalized.altitude_m), world.land_cover, world.view.deform.exaggeration, catchments);
+CacheKey surroundings_key(const LoadedScene& loaded, const Dem& dem, const LandCover& land_cover) {
+  const auto& [origin_x, origin_y, cell_x, cell_y] = land_cover.classes.transform;
+  CacheKeyText key;
+  key.add("classes", land_cover.classes.cells).add("classes_x", origin_x).add("classes_y", origin_y);
+  key.add("classes_cell_x", cell_x).add("classes_cell_y", cell_y);
+  add_dem(key, dem);
+  return make_cache_key(CachedProduct::ground_surroundings, key, subject_of(loaded));
+}
+
+TerrainModel make_terrain(const World& world, GeneralizedTerrain generalized, const LoadedScene& loaded, Catchments* catchments,
+                          Progress& progress, const Cache& cache) {
+  GroundSurroundings surroundings = cached<GroundSurroundings>(
+      cache, [&] { return surroundings_key(loaded, *world.dem, *world.land_cover); }, progress,
+      [&](Progress&) { return find_surroundings(*world.dem, *world.land_cover, catchments); });
+  TerrainModel terrain = make_terrain_model(world.dem, std::move(generalized.altitude_m), world.land_cover, world.view.deform.exaggeration,
+                                            std::move(surroundings));
   terrain.came_from = std::move(generalized.came_from);
   if (world.deformation.is_local()) terrain.local = world.deformation;
   return terrain;
@@ -83,9 +109,9 @@ World::World(const LoadedScene& loaded, std::shared_ptr<const Dem> known_dem, st
       camera(make_camera(view.camera)),
       land_cover(known_cover ? std::move(known_cover) : make_cover(loaded, *dem, catchments, progress, cache)),
       deformation(view.deform, view.viewer_xy),
-      terrain(
-          with_windows(make_terrain(*this, generalize_for_view(loaded, *dem, land_cover.get(), view, progress, cache), catchments.get()),
-                       loaded, *this, opened, progress, cache)),
+      terrain(with_windows(make_terrain(*this, generalize_for_view(loaded, *dem, land_cover.get(), view, progress, cache), loaded,
+                                        catchments.get(), progress, cache),
+                           loaded, *this, opened, progress, cache)),
       surface(deform_ground(terrain, glm::dvec3(view.viewer_xy, 0.0), deformation)),
       tracer(surface, tracer_parameters(*this, progress)),
       horizon_px(skyline_row_px(*camera, tracer, usual_horizon * scene.output.height)) {}

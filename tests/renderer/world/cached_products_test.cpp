@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -92,7 +93,7 @@ TEST_F(CachedProducts, AWorldIsTheSameFromAColdOrAWarmCacheOrNone) {
                                              "generalize.widen_valleys_m=700"};
   const World none(small_scene(settings), silent_progress());
   const World cold(small_scene(settings), silent_progress(), cache_);
-  EXPECT_EQ(folder_.count(), 3U);
+  EXPECT_EQ(folder_.count(), 4U);
   Told told;
   const World warm(small_scene(settings), told, cache_);
   EXPECT_THAT(told.stages, ElementsAre("building the ray tracer"));
@@ -105,6 +106,39 @@ TEST_F(CachedProducts, AWorldIsTheSameFromAColdOrAWarmCacheOrNone) {
     EXPECT_EQ(other->land_cover->classes.transform, none.land_cover->classes.transform);
     EXPECT_EQ(other->terrain.generalized_m, none.terrain.generalized_m);
     EXPECT_EQ(other->terrain.came_from, none.terrain.came_from);
+    EXPECT_EQ(other->terrain.valley_height_m, none.terrain.valley_height_m);
+    EXPECT_EQ(other->terrain.rim_m, none.terrain.rim_m);
+    EXPECT_EQ(other->terrain.flow, none.terrain.flow);
+    EXPECT_EQ(other->terrain.floor_plan.built, none.terrain.floor_plan.built);
+    EXPECT_EQ(other->terrain.floor_plan.grain, none.terrain.floor_plan.grain);
+  }
+}
+
+// They have no stage of their own to tell by: entries are counted, and what other land and another cover have is what they have uncached.
+TEST_F(CachedProducts, SurroundingsHangOnElevationAndLandCoverAlone) {
+  const auto kept = [&] {
+    const std::vector<CacheEntry> entries = cache_entries(folder_.path());
+    return std::count_if(entries.begin(), entries.end(),
+                         [](const CacheEntry& entry) { return entry.product == "surroundings of the ground"; });
+  };
+  const World first(small_scene(), silent_progress(), cache_);
+  for (const char* same : {"sun.altitude_deg=12", "camera.position=[6000, -4001]", "generalize.crest=0.5", "deform.exaggeration=1.3"}) {
+    stages({same});
+    EXPECT_EQ(kept(), 1) << same;
+  }
+  const char* town = "land_cover.towns.0={ name = \"A\", position = [3000, 3000], radius_m = 400 }";
+  int entries = 1;
+  for (const char* other : {town, "terrain.synthetic.seed=4"}) {
+    const World cold(small_scene({other}), silent_progress(), cache_);
+    EXPECT_EQ(kept(), ++entries) << other;
+    const World warm(small_scene({other}), silent_progress(), cache_);
+    EXPECT_EQ(kept(), entries) << other;
+    const World none(small_scene({other}), silent_progress());
+    for (const World* world : {&cold, &warm}) {
+      EXPECT_EQ(world->terrain.flow, none.terrain.flow) << other;
+      EXPECT_EQ(world->terrain.floor_plan.built, none.terrain.floor_plan.built) << other;
+    }
+    EXPECT_FALSE(warm.terrain.floor_plan.built == first.terrain.floor_plan.built && warm.terrain.flow == first.terrain.flow) << other;
   }
 }
 
@@ -119,7 +153,7 @@ TEST_F(CachedProducts, DamagedOnesAreMadeAgain) {
   Told told;
   const World again(small_scene(), told, cache_);
   EXPECT_EQ(told.stages.size(), 4U);
-  EXPECT_THAT(told.notes, Contains(HasSubstr("damaged")).Times(3));
+  EXPECT_THAT(told.notes, Contains(HasSubstr("damaged")).Times(4));
   EXPECT_EQ(again.terrain.generalized_m, none.terrain.generalized_m);
   EXPECT_THAT(stages({}), ElementsAre("building the ray tracer"));
 }
