@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
+#include "terrain/io/crs.h"
 
 namespace belvedere {
 namespace {
@@ -127,6 +128,11 @@ Dem read_dem(const DemParameters& parameters, Progress& progress) {
   if (*high > highest_m) {
     progress.note(
         fmt::format("{}: altitudes from {:.0f} to {:.0f} m, higher than any mountain: is the unit feet? (`unit`)", where, *low, *high));
+  }
+  if (!dem.crs.empty()) {
+    const glm::dvec2 middle = dem.transform.to_crs(.5 * (dem.width() - 1), .5 * (dem.height() - 1));
+    if (const std::string doubt = doubt_of_place(dem.crs, middle); !doubt.empty())
+      progress.note(fmt::format("{}: lies at {}: is that its coordinate system? (`crs`)", where, doubt));
   }
   return dem;
 }

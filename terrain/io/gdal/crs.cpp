@@ -88,6 +88,24 @@ bool same_crs(const std::string& a, const std::string& b) {
   return first.IsSame(&second, options) != 0;
 }
 
+std::string doubt_of_place(const std::string& crs, glm::dvec2 point) {
+  constexpr double slack_east = 6.0;  // zones are used somewhat beyond their borders
+  constexpr double slack_north = 3.0;
+  double west = 0.0;
+  double south = 0.0;
+  double east = 0.0;
+  double north = 0.0;
+  const OGRSpatialReference reference = parse(crs);
+  if (!reference.GetAreaOfUse(&west, &south, &east, &north, nullptr)) return {};
+  if (east < west) east += 360.0;
+  const glm::dvec2 at = PointTransform(crs, "EPSG:4326").apply(point);
+  if (!std::isfinite(at.x) || !std::isfinite(at.y)) return {};
+  const double off_middle = std::remainder(at.x - .5 * (west + east), 360.0);
+  if (std::abs(off_middle) <= .5 * (east - west) + slack_east && at.y >= south - slack_north && at.y <= north + slack_north) return {};
+  return fmt::format("{:.0f}° {} {:.0f}° {}, far from where {} is used ({:.0f}° … {:.0f}° E, {:.0f}° … {:.0f}° N)", std::abs(at.y),
+                     at.y < 0.0 ? "S" : "N", std::abs(at.x), at.x < 0.0 ? "W" : "E", describe_crs(crs), west, east, south, north);
+}
+
 std::string utm_crs(glm::dvec2 lon_lat) {
   if (!std::isfinite(lon_lat.x) || !std::isfinite(lon_lat.y)) return {};
   if (lon_lat.y > 84.0) return normalize_crs("EPSG:32661");

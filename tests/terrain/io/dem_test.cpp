@@ -138,6 +138,28 @@ TEST_F(DemFiles, ReadsConvertsFillsAndSaysSo) {
   EXPECT_EQ(error_of([&] { read_dem(parameters, notes); }).kind(), ErrorKind::usage);
 }
 
+// Coordinates of another system than the one that is said: the ground is read, and its place doubted.
+TEST_F(DemFiles, APlaceFarFromWhereItsSystemIsUsedIsDoubted) {
+  struct Notes : Progress {
+    std::string text;
+    void note(std::string_view line) override { text += line; }
+  };
+  const auto notes_of = [&](double east, double north, const char* crs) {
+    write_ascii("f.asc", 50, 40, east, north, 30, [](int x, int) { return std::to_string(1000 + x); });
+    DemParameters parameters;
+    parameters.sources.resize(1);
+    parameters.sources[0].path = path("f.asc");
+    parameters.sources[0].crs = crs;
+    Notes notes;
+    read_dem(parameters, notes);
+    return notes.text;
+  };
+  EXPECT_EQ(notes_of(500000, 5200000, "EPSG:32632"), "") << "9° E, in its zone";
+  EXPECT_EQ(notes_of(950000, 5200000, "EPSG:32632"), "") << "15° E, a zone beside it, as maps of large regions have";
+  EXPECT_THAT(notes_of(-1620000, 438000, "EPSG:32611"), testing::AllOf(HasSubstr("4° N"), HasSubstr("EPSG:32611"), HasSubstr("(`crs`)")));
+  EXPECT_EQ(notes_of(-1620000, 438000, "+proj=lcc +lat_1=49 +lat_2=77 +lat_0=49 +lon_0=-95 +datum=NAD83 +units=m"), "") << "says no area";
+}
+
 // Real data, as the scenes use them: size, range of the known altitudes, voids.
 struct RealDem {
   const char* file;
