@@ -1,9 +1,6 @@
 #pragma once
 
-#include <memory>
-
 #include "base/grid.h"
-#include "renderer/trace/terrain_model.h"
 #include "terrain/cover/floor_plan.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/io/dem.h"
@@ -11,8 +8,8 @@
 
 namespace belvedere {
 
-// What a place's wide surroundings say of it, and takes longest to find of a terrain model: fields as there. It hangs on elevation and land
-// cover alone, not on the view, so it can be kept from one picture to the next.
+// What a place's wide surroundings say of it, and takes longest to find of a terrain model: fields as there (terrain_model.h). It hangs on
+// elevation and land cover alone, not on the view, so it can be kept from one picture to the next.
 struct GroundSurroundings {
   Grid<float> valley_height_m;
   Grid<float> rim_m;
@@ -22,9 +19,5 @@ struct GroundSurroundings {
 
 // `catchments`: as for make_terrain_model.
 GroundSurroundings find_surroundings(const Dem& dem, const LandCover& land_cover, Catchments* catchments = nullptr);
-
-// make_terrain_model() where the surroundings are known. Throws Error(bug) as it does.
-TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> generalized_m, std::shared_ptr<const LandCover> land_cover,
-                                double exaggeration, GroundSurroundings surroundings);
 
 }  // namespace belvedere

@@ -14,6 +14,7 @@
 
 namespace belvedere {
 
+struct GroundSurroundings;
 struct TerrainWindow;
 
 // All the ground values a pixel may ask for, made once from the DEM; every grid has the DEM's size.
@@ -50,5 +51,8 @@ const TerrainModel& ground_of(const TerrainModel& terrain, int window);
 // cells. `catchments`: the DEM's, where somebody asked for them before; taken.
 TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> generalized_m, std::shared_ptr<const LandCover> land_cover,
                                 double exaggeration, Catchments* catchments = nullptr);
+// The same where the surroundings are known (ground_surroundings.h).
+TerrainModel make_terrain_model(std::shared_ptr<const Dem> dem, Grid<float> generalized_m, std::shared_ptr<const LandCover> land_cover,
+                                double exaggeration, GroundSurroundings surroundings);
 
 }  // namespace belvedere
