@@ -203,6 +203,23 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, glm::ivec2 origin,
   }
 }
 
+// Numbers of strokes in the order in which they are laid; of equal ones the first given is the first. Strokes are long: sorted are
+// their numbers alone.
+std::vector<std::uint32_t> by_order(const std::vector<Stroke>& strokes) {
+  struct Ranked {
+    float order;
+    std::uint32_t number;
+  };
+  std::vector<Ranked> ranked;
+  ranked.reserve(strokes.size());
+  for (const Stroke& stroke : strokes) ranked.push_back({stroke.order, static_cast<std::uint32_t>(ranked.size())});
+  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.order > b.order; });
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(ranked.size());
+  for (const Ranked& one : ranked) numbers.push_back(one.number);
+  return numbers;
+}
+
 }  // namespace
 
 Painting begin_painting(Grid<glm::vec3> canvas) {
@@ -220,13 +237,13 @@ void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::ve
   Grid<glm::vec3>& canvas = painting.picture;
   const std::uint32_t first_number = painting.stroke_count + 1;
   painting.stroke_count += static_cast<std::uint32_t>(strokes.size());
-  std::stable_sort(strokes.begin(), strokes.end(), [](const Stroke& a, const Stroke& b) { return a.order > b.order; });
+  const std::vector<std::uint32_t> ranked = by_order(strokes);
   const PixelRect asked = window.asked == PixelRect{} ? PixelRect{0, 0, canvas.width(), canvas.height()} : window.asked;
   const int across = (asked.width() + tile_px - 1) / tile_px;
   const int down = (asked.height() + tile_px - 1) / tile_px;
   std::vector<std::vector<std::uint32_t>> tiles(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
   for (std::size_t s = 0; s < strokes.size(); ++s) {
-    const PixelRect b = bounds_of(strokes[s], window.origin_px, asked);
+    const PixelRect b = bounds_of(strokes[ranked[s]], window.origin_px, asked);
     if (b.x0 >= b.x1 || b.y0 >= b.y1) continue;
     for (int ty = (b.y0 - asked.y0) / tile_px; ty <= (b.y1 - 1 - asked.y0) / tile_px; ++ty)
       for (int tx = (b.x0 - asked.x0) / tile_px; tx <= (b.x1 - 1 - asked.x0) / tile_px; ++tx)
@@ -240,7 +257,8 @@ void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::ve
     const PixelRect tile{asked.x0 + part.x0, asked.y0 + part.y0, asked.x0 + part.x1, asked.y0 + part.y1};
     PaintRecord record(painting, guidance, tile);
     for (const std::uint32_t s : tiles[t])
-      paint_stroke(strokes[s], first_number + s, window.origin_px, tile, canvas, record, guidance, static_cast<float>(pixels_per_unit));
+      paint_stroke(strokes[ranked[s]], first_number + s, window.origin_px, tile, canvas, record, guidance,
+                   static_cast<float>(pixels_per_unit));
     record.hand_back(painting);
     progress.advance(1.0);
   });
