@@ -12,6 +12,7 @@ namespace belvedere {
 namespace {
 
 constexpr double strength_per_log = 14.0;
+constexpr double surely_less = 1.0 - 1e-9;  // of ratios: whatever rounding does, the difference of their logarithms is below 0
 
 // 0 is sky; also outside the picture, where nothing can be foretold.
 double inverse_depth(const Grid<float>& depth_m, int x, int y) {
@@ -20,18 +21,18 @@ double inverse_depth(const Grid<float>& depth_m, int x, int y) {
   return std::isfinite(depth) && depth > 0.0 ? 1.0 / depth : 0.0;
 }
 
-// Log depth ratio from `here` to the pixel after it that a plane through `before` and `here` would have, ≥ 0; 0 without a plane.
+// Depth ratio from `here` to the pixel after it that a plane through `before` and `here` would have, ≥ 1; 1 without a plane.
 double foretold_from_near(double before, double here) {
-  if (before <= here) return 0.0;  // rising towards us, or nothing there
+  if (before <= here) return 1.0;  // rising towards us, or nothing there
   const double next = 2.0 * here - before;
   // A plane that vanishes before the next pixel explains any depth there.
-  return next > 0.0 ? exact::log(here / next) : std::numeric_limits<double>::infinity();
+  return next > 0.0 ? here / next : std::numeric_limits<double>::infinity();
 }
 
 // The same from the far side: a plane through `there` and `beyond` continued to the near pixel.
 double foretold_from_far(double there, double beyond) {
-  if (beyond <= 0.0 || beyond >= there) return 0.0;
-  return exact::log((2.0 * there - beyond) / there);
+  if (beyond <= 0.0 || beyond >= there) return 1.0;
+  return (2.0 * there - beyond) / there;
 }
 
 }  // namespace
@@ -56,10 +57,13 @@ Grid<float> find_silhouettes(const Grid<float>& depth_m) {
           strongest = 1.0;
           continue;
         }
-        const double jump = exact::log(here / there);
-        const double foretold = std::max(foretold_from_near(inverse_depth(depth_m, x - dx, y - dy), here),
-                                         foretold_from_far(there, inverse_depth(depth_m, x + 2 * dx, y + 2 * dy)));
-        strongest = std::max(strongest, strength_per_log * (jump - foretold));
+        const double jump = here / there;
+        const double near = foretold_from_near(inverse_depth(depth_m, x - dx, y - dy), here);
+        const double far = foretold_from_far(there, inverse_depth(depth_m, x + 2 * dx, y + 2 * dy));
+        // Logarithms take most of the time: none are taken where a plane foretells more than there is.
+        if (jump < std::max(near, far) * surely_less) continue;
+        const double foretold = std::max(exact::log(near), exact::log(far));
+        strongest = std::max(strongest, strength_per_log * (exact::log(jump) - foretold));
       }
       silhouette(x, y) = static_cast<float>(std::clamp(strongest, 0.0, 1.0));
     }
