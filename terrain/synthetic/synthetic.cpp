@@ -185,6 +185,9 @@ void soften_feet(Grid<float>& altitude_m, const Grid<float>& floor, double sigma
   });
 }
 
+// The cell of `count` that a place is nearest to; halves go up.
+int nearest(float place, int count) { return std::clamp(static_cast<int>(std::floor(static_cast<double>(place) + 0.5)), 0, count - 1); }
+
 // Ribs and gullies of steep ground: noise drawn out along the fall line (line integral convolution, Cabral & Leedom 1993).
 void add_ribs(Level& level, const Plan& plan, float relief_m) {
   const int width = level.altitude_m.width();
@@ -213,9 +216,11 @@ void add_ribs(Level& level, const Plan& plan, float relief_m) {
       float sum = noise(x, y);
       for (const float way : {1.F, -1.F}) {
         glm::vec2 place(static_cast<float>(x), static_cast<float>(y));
+        std::size_t cell_there = noise.index(x, y);
         for (int k = 0; k < reach; ++k) {
-          place += way * fall.clamped(static_cast<int>(std::lround(place.x)), static_cast<int>(std::lround(place.y)));
-          sum += noise.clamped(static_cast<int>(std::lround(place.x)), static_cast<int>(std::lround(place.y)));
+          place += way * fall[cell_there];
+          cell_there = noise.index(nearest(place.x, width), nearest(place.y, height));
+          sum += noise[cell_there];
         }
       }
       // Deviation of the mean of fifteen values along a line is about a sixth here.

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
-#include "base/math_exact.h"
+#include "base/lines/power_line.h"
 #include "base/parallel.h"
 
 namespace belvedere::synthetic {
@@ -53,11 +54,12 @@ void erode(Grid<float>& altitude_m, const Drainage& drainage, const Grid<float>&
   constexpr float unknown = std::numeric_limits<float>::infinity();
   Grid<Cell> cells(width, altitude_m.height());
   parallel_rows(altitude_m.height(), [&](int y) {
+    std::vector<float> water(static_cast<std::size_t>(width));
+    for (int x = 0; x < width; ++x) water[at(x)] = catchment_km2(x, y) / area_unit + parameters.hillslope_km2;
+    power_line(water.data(), 0.6, width, water.data());
     for (int x = 0; x < width; ++x) {
       const std::size_t i = altitude_m.index(x, y);
-      const float area = catchment_km2[i] / area_unit + parameters.hillslope_km2;
-      cells[i] = {unknown, altitude_m[i] + parameters.step * uplift_m[i],
-                  reach * parameters.step * softness[i] * static_cast<float>(exact::pow(area, 0.6)),
+      cells[i] = {unknown, altitude_m[i] + parameters.step * uplift_m[i], reach * parameters.step * softness[i] * water[at(x)],
                   parameters.steepest * static_cast<float>(parameters.cell_m) * (0.6F + 0.4F / softness[i]), drainage.receiver[i]};
     }
   });

@@ -28,10 +28,10 @@ const std::array<Direction, 16>& directions() {
 }
 
 // One multiplication chain for both coordinates: noise is asked for some ten million times.
-float corner(std::uint64_t seed, std::int64_t i, std::int64_t j, float dx, float dy) {
+inline float corner(const std::array<Direction, 16>& ways, std::uint64_t seed, std::int64_t i, std::int64_t j, float dx, float dy) {
   const std::uint64_t h =
       mix_bits(seed ^ (static_cast<std::uint64_t>(i) * 0xd6e8feb86659fd93ULL) ^ (static_cast<std::uint64_t>(j) * 0xa0761d6478bd642fULL));
-  const Direction d = directions()[h >> 60];
+  const Direction d = ways[h >> 60];
   return d.x * dx + d.y * dy;
 }
 
@@ -46,10 +46,11 @@ float gradient_noise(std::uint64_t seed, double x, double y) {
   const auto j = static_cast<std::int64_t>(by);
   const auto tx = static_cast<float>(x - bx);
   const auto ty = static_cast<float>(y - by);
-  const float a = corner(seed, i, j, tx, ty);
-  const float b = corner(seed, i + 1, j, tx - 1.F, ty);
-  const float c = corner(seed, i, j + 1, tx, ty - 1.F);
-  const float d = corner(seed, i + 1, j + 1, tx - 1.F, ty - 1.F);
+  const std::array<Direction, 16>& ways = directions();
+  const float a = corner(ways, seed, i, j, tx, ty);
+  const float b = corner(ways, seed, i + 1, j, tx - 1.F, ty);
+  const float c = corner(ways, seed, i, j + 1, tx, ty - 1.F);
+  const float d = corner(ways, seed, i + 1, j + 1, tx - 1.F, ty - 1.F);
   const float u = fade(tx);
   const float top = a + u * (b - a);
   const float bottom = c + u * (d - c);
