@@ -215,9 +215,13 @@ PlaceClimate place_climate(const ClimateField& field, double longitude_deg, doub
     return value_at(kind, place);
   };
   // Lines through two altitudes about which forest ends and snow begins to stay.
-  const double treeline_km =
-      1e-3 *
-      std::clamp(highest_m([&](double m) { return treeline_excess_k(to_months(at(field.temperature, 1e-3 * m))) <= 0.0; }), 0.0, 4500.0);
+  // Trees grow where treeline_excess_k() is 0 or less, which is asked for without finding how much it is: a year at a look, not 27.
+  const TreelineParameters trees;
+  const auto trees_grow = [&](double m) {
+    const GrowingSeason season = growing_season(to_months(at(field.temperature, 1e-3 * m)), trees.limit_c);
+    return season.days >= trees.least_days && season.mean_c >= trees.least_mean_c;
+  };
+  const double treeline_km = 1e-3 * std::clamp(highest_m(trees_grow), 0.0, 4500.0);
   const double low = treeline_km - 0.2;
   const double high = treeline_km + 1.0;
   const Months low_c = to_months(at(field.temperature, low));
