@@ -13,6 +13,7 @@
 #include "renderer/paint/fields.h"
 #include "renderer/paint/forest_cover.h"
 #include "renderer/paint/ground/forest_hues.h"
+#include "renderer/paint/ground/lake_bed.h"
 #include "renderer/paint/ground/meadow_hues.h"
 #include "renderer/paint/ground/scree_fans.h"
 #include "renderer/paint/ground_hues.h"
@@ -245,7 +246,7 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
   const float glade = s.around.cover.glade[i];
   const bool has_gravel = has_trait(id, ClassTrait::gravel_banks) && !s.palette.winter;
   const float gravel = has_gravel ? gravel_share(s.around.water[i], patches) : 0.0F;
-  const WaterLook water =
+  WaterLook water =
       id == Class::water ? water_look(g, s.palette, s.around.mirrored, i, s.around.water[i], s.around.streaks[i], patches) : WaterLook{};
   const bool bare = id == Class::rock && !g.rock_facet.empty();
   const glm::vec2 cover = bare ? g.rock_cover[i] : glm::vec2(0.0F);
@@ -255,6 +256,11 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
   const TintShift tint = s.parameters.tint && id != Class::water
                              ? tint_shift(*s.parameters.tint, s.palette, id, altitude, s.place_m(i), g.footprint_m[i])
                              : TintShift{};
+  const LakeBed bed = s.parameters.tint && id == Class::water
+                          ? lake_bed(*s.parameters.tint, s.palette, altitude, s.place_m(i), g.footprint_m[i])
+                          : LakeBed{};
+  // The line of paint along near banks stands for the bed that is not known.
+  if (bed.depth_m > 0.F) water.shallow_share = 0.F;
   // Where ice lies deep in the snow it grew from it is white with firn; its tongues are blue and bare.
   const float firn = id == Class::glacier ? firn_share(s, x, y) : 0.0F;
   const ScreeTurn fan = id == Class::scree && !s.palette.winter
@@ -272,7 +278,7 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
     if (cover.y > 0.0F) ramp = glm::mix(ramp, palette_colour(s.palette, Class::snow, altitude, light + 0.06), cover.y);
     if (glade > 0.0F) ramp = glm::mix(ramp, glade_colour(s.palette, altitude, light), 0.85F * glade);
     if (gravel > 0.0F) ramp = glm::mix(ramp, gravel_colour(light), gravel);
-    ramp = tint.over(ramp);
+    ramp = bed.under(tint.over(ramp), s.palette, altitude, light);
     if (id == Class::settlement)
       ramp = town_ground_colour(s.palette, ramp, g.built[i], altitude, light, static_cast<float>(s.parameters.air.hue_drift));
     return pixel.finish(water.over(ramp), s.palette.range_mist);

@@ -64,6 +64,8 @@ struct SceneLandCover {
   std::string colours = "palette";                       // what the ground's colours come from: "palette", "layers" or "image"
   std::string colour_image;                              // the picture from above, for "image"
   double colour_share = 1.0;                             // how far the palette's colours go over to those, 0…1
+  double bumps = 1.0;                                    // how high the bumps of layers are, of what their file says, 0…20
+  bool lake_beds = true;                                 // with colours of layers: lakes are seen through, down to made-up beds
   std::vector<std::pair<std::string, double>> settings;  // parameters of the rules or layers
   std::vector<SceneTown> towns;                          // what rules know of towns …
   std::string rock = "limestone";                        // a kind of rock_kinds.h

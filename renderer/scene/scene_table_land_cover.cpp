@@ -55,6 +55,15 @@ std::vector<SceneSection> make_land_cover_sections() {
             .field = AT(land_cover.colour_share),
             .range = {0, 1},
             .meaning = "How far the palette's colours go over to those of layers or image."},
+           {.name = "bumps",
+            .field = AT(land_cover.bumps),
+            .range = {0, 20},
+            .meaning = "With colours = \"layers\": how high the bumps are that the layers' roughness gives the ground, of what their file "
+                       "says; the light falls on them where they are longer than a pixel. 0: none."},
+           {.name = "lake_beds",
+            .field = AT(land_cover.lake_beds),
+            .meaning = "With colours = \"layers\": lakes are seen through near their shores, down to made-up beds in the layers' "
+                       "colours. Not in winter."},
            {.name = "unknown",
             .field = AT(land_cover.unknown),
             .meaning = "Class of codes that the legend lacks; without it they are an error."},

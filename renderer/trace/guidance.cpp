@@ -82,6 +82,14 @@ float footprint(const Camera& camera, glm::dvec2 pixel, double distance_m) {
   return static_cast<float>(glm::length(right.origin + right.direction * distance_m - left.origin - left.direction * distance_m));
 }
 
+// Ground that a pixel shows, as wide as the square of its area: seen aslant it is longer than wide. At most some five times as long: what
+// is seen so flatly is a line.
+double ground_width_m(const Hit& hit, const Ray& ray, float footprint_m) {
+  constexpr double flattest = 0.04;
+  const double facing = std::abs(glm::dot(glm::normalize(ray.direction), hit.facet_normal()));
+  return static_cast<double>(footprint_m) / std::sqrt(std::max(facing, flattest));
+}
+
 GuidanceBuffers make_buffers(int width, int height) {
   GuidanceBuffers buffers;
   // New memory is first written by all threads.
@@ -164,7 +172,11 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
     out.shadow[o] = sun[i];
     out.sky_view[o] = sky[i];
     out.footprint_m[o] = footprint(t.camera, glm::dvec2(pixel), winner.hit.distance_m);
-    sample_ground(ground_of(t.terrain, winner.hit.window), t.surface, t.camera, winner.hit.column, winner.hit.row, out, o);
+    // Water is level.
+    const bool bumpy = winner.land_cover != LandCoverClass::water;
+    const Ray ray = t.camera.ray(glm::dvec2(pixel) + t.pixel_places[chosen[i]]);
+    sample_ground(ground_of(t.terrain, winner.hit.window), t.surface, t.camera, winner.hit.column, winner.hit.row, out, o,
+                  bumpy ? ground_width_m(winner.hit, ray, out.footprint_m[o]) : 0.0);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "base/math_exact.h"
 #include "base/noise.h"
 #include "base/random_streams.h"
+#include "terrain/layers/layer_relief.h"
 
 namespace belvedere {
 namespace {
@@ -150,7 +151,7 @@ LandCoverClass class_at(const TerrainModel& terrain, double column, double row) 
 }
 
 void sample_ground(const TerrainModel& terrain, const DeformedSurface& surface, const Camera& camera, double column, double row,
-                   GuidanceBuffers& out, std::size_t i) {
+                   GuidanceBuffers& out, std::size_t i, double bumps_m) {
   const GeoTransform& transform = terrain.dem->transform;
   const Corners at = corners(terrain.generalized_m, column, row);
   const glm::dvec2 origin = origin_of(terrain, column, row);
@@ -159,8 +160,14 @@ void sample_ground(const TerrainModel& terrain, const DeformedSurface& surface, 
   out.position_m[i] = glm::vec3(place - surface.origin);
   out.altitude_m[i] = static_cast<float>(place.z);
 
-  const glm::dvec2 slope_shown = gradient(terrain.generalized_m, transform, at);
-  const glm::dvec2 slope_detail = gradient(terrain.dem->altitude_m, transform, known);
+  glm::dvec2 slope_shown = gradient(terrain.generalized_m, transform, at);
+  glm::dvec2 slope_detail = gradient(terrain.dem->altitude_m, transform, known);
+  if (bumps_m > 0.0 && !terrain.land_cover->relief.bumps.empty()) {
+    // What lies here came from there.
+    const glm::dvec2 bumps = bump_slope(terrain.land_cover->relief, transform.to_crs(origin.x, origin.y), bumps_m);
+    slope_shown += bumps;
+    slope_detail += bumps;
+  }
   const glm::dvec2 shape = gradient(terrain.shape_smooth_m, transform, at);
   if (terrain.local) {
     const glm::dmat3 jacobian = terrain.local->shape_jacobian({glm::dvec2(place), bilinear(terrain.generalized_m, at)});

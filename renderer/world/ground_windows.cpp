@@ -127,6 +127,13 @@ void cut(Raster<T>& raster, const Dem& dem, const PixelRect& rect) {
   cut(raster.cells, rect);
 }
 
+void cut(GroundRelief& relief, const Dem& dem, const PixelRect& rect) {
+  const glm::dvec2 first = dem.transform.to_crs(rect.x0 - 0.5, rect.y0 - 0.5);
+  relief.transform = {first.x, first.y, dem.transform.cell_x, dem.transform.cell_y};
+  cut(relief.lake_depth_m, rect);
+  for (GroundRelief::Bumps& bumps : relief.bumps) cut(bumps.share, rect);
+}
+
 // The cells of a window with its halo.
 PixelRect made_cells(const GroundWindow& window, const RasterFrame& data) {
   const RasterFrame frame = level_frame(data, window.level);
@@ -188,7 +195,7 @@ TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const 
   window.halved = halo->halved;
   cut(cover.classes, *halo, kept);
   cut(cover.colours, *halo, kept);
-  model.land_cover = std::make_shared<const LandCover>(std::move(cover));
+  cut(cover.relief, *halo, kept);
   for (Grid<float>* grid : {&model.generalized_m, &model.detail_smooth_m, &model.shape_smooth_m, &model.relief_s_m, &model.relief_m_m,
                             &model.relief_l_m, &model.valley_height_m, &model.rim_m, &model.flow, &model.floor_plan.built})
     cut(*grid, kept);
@@ -214,6 +221,12 @@ TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const 
   join(model.flow, coarser.flow);
   join(model.floor_plan.built, coarser.floor_plan.built);
   join(model.floor_plan.grain, coarser.floor_plan.grain);
+  GroundRelief& relief = cover.relief;
+  const GroundRelief& relief_around = coarser.land_cover->relief;
+  join(relief.lake_depth_m, relief_around.lake_depth_m);
+  for (std::size_t k = 0; k < relief.bumps.size() && k < relief_around.bumps.size(); ++k)
+    join(relief.bumps[k].share, relief_around.bumps[k].share);
+  model.land_cover = std::make_shared<const LandCover>(std::move(cover));
   model.dem = std::make_shared<const Dem>(std::move(window));
   return model;
 }

@@ -24,11 +24,17 @@
 
 namespace belvedere {
 
+void each_field(auto& bytes, FieldsOf<GroundRelief::Bumps> auto& bumps) {
+  auto& [height_m, length_m, seed, share] = bumps;
+  bytes(height_m, length_m, seed, share);
+}
+
 void each_field(auto& bytes, FieldsOf<LandCover> auto& cover) {
-  auto& [classes, colours] = cover;
+  auto& [classes, colours, relief] = cover;
   auto& [cells, transform, crs] = classes;
   auto& [colour_cells, colour_transform, colour_crs] = colours;
-  bytes(cells, transform, crs, colour_cells, colour_transform, colour_crs);
+  auto& [relief_transform, bumps, lake_depth_m] = relief;
+  bytes(cells, transform, crs, colour_cells, colour_transform, colour_crs, relief_transform, bumps, lake_depth_m);
 }
 
 namespace {
@@ -181,10 +187,14 @@ LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, const Cover
 
 CacheKey layer_cover_key(const LoadedScene& loaded, const SurfaceLayers& layers, const LayerApplyParameters& parameters,
                          const std::optional<Climate>& climate, const SeaParameters& sea, const Dem& dem) {
-  const auto& [seed, drawing, colour, coverage, whole, drawn] = parameters;
+  const auto& [seed, drawing, colour, coverage, relief, whole, drawn] = parameters;
   const auto& [power, finest_cells, octaves, spectrum, drawing_seed] = drawing;
   CacheKeyText key;
-  key.add("surface layers", surface_layers_text(layers)).add("seed", seed).add("colour", colour).add("coverage", coverage);
+  key.add("surface layers", surface_layers_text(layers))
+      .add("seed", seed)
+      .add("colour", colour)
+      .add("coverage", coverage)
+      .add("relief", relief);
   key.add("power", power).add("finest_cells", finest_cells).add("octaves", octaves).add("spectrum", spectrum).add("drawing", drawing_seed);
   add_sea(key, sea);
   // Place and sun follow from the DEM and the latitude.
@@ -217,6 +227,7 @@ LandCover make_layer_cover(const LoadedScene& loaded, const Dem& dem, const Cove
   parameters.seed = loaded.scene.seed;
   parameters.whole = whole != nullptr ? &whole->dem : nullptr;
   parameters.colour = loaded.scene.land_cover.colours == "layers";
+  parameters.relief = parameters.colour;
   const std::vector<std::string> inputs = compile_layers(layers).inputs;
   if (needs_place(inputs, {})) require_place(loaded.scene, dem);
   std::optional<Climate> climate;
@@ -224,7 +235,7 @@ LandCover make_layer_cover(const LoadedScene& loaded, const Dem& dem, const Cove
     climate = whole->climate;
   else if (needs_climate(inputs, {}))
     climate = make_scene_climate(loaded, dem, silent_progress());
-  return cached<LandCover>(
+  LandCover cover = cached<LandCover>(
       cache, [&] { return layer_cover_key(loaded, layers, parameters, climate, sea, dem); }, progress,
       [&](Progress& watcher) {
         const LayerClimateGrids grids = make_layer_climate(
@@ -232,6 +243,12 @@ LandCover make_layer_cover(const LoadedScene& loaded, const Dem& dem, const Cove
         if (whole != nullptr) parameters.drawn = whole->drawn->get();
         return layer_land_cover(layers, dem, grids.view(), parameters, watcher);
       });
+  // How high bumps are and whether beds are seen is no part of what is kept.
+  const SceneLandCover& settings = loaded.scene.land_cover;
+  for (GroundRelief::Bumps& bumps : cover.relief.bumps) bumps.height_m *= settings.bumps;
+  if (settings.bumps == 0.0) cover.relief.bumps.clear();
+  if (!settings.lake_beds) cover.relief.lake_depth_m = {};
+  return cover;
 }
 
 // What the ground is where no raster says it: by surface layers, or by rules.
@@ -276,6 +293,7 @@ LandCover make_full_classes(const LoadedScene& loaded, const Dem& dem, const Cov
     LandCover modelled = make_modelled_cover(loaded, dem, context, progress, cache);
     refine_by_rules(cover, modelled, settings.refine);
     cover.colours = std::move(modelled.colours);
+    cover.relief = std::move(modelled.relief);
   }
   if (settings.refine.empty() && (!settings.towns.empty() || !settings.towns_file.empty()))
     progress.note("the scene's towns are not used: rules build them, and the land cover comes from rasters");

@@ -90,6 +90,12 @@ void fill_unknown(Grid<LandCoverClass>& classes, const LandCoverParameters& para
 
 }  // namespace
 
+float GroundRelief::depth_at(double x, double y) const {
+  if (lake_depth_m.empty()) return 0.F;
+  const glm::dvec2 cell = transform.to_cell(x, y);
+  return sample_bilinear(lake_depth_m, cell.x, cell.y);
+}
+
 LandCoverClass LandCover::at(double x, double y) const {
   const Grid<LandCoverClass>& cells = classes.cells;
   const glm::dvec2 place = classes.transform.to_cell(x, y);

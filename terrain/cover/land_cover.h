@@ -34,10 +34,27 @@ Legend read_legend(const std::string& name_or_path, const std::vector<std::strin
 // What colour the ground has, as a picture from above shows it: encoded sRGB, and how much of it is known, 0 or 255.
 using GroundColour = glm::vec<4, std::uint8_t>;
 
+// What surface layers add to the form of the ground, on the cells of the DEM: bumps that no DEM holds, and the beds of lakes.
+struct GroundRelief {
+  struct Bumps {
+    double height_m = 0.0;   // up and down, where they cover all
+    double length_m = 8.0;   // of the largest
+    std::uint64_t seed = 0;  // of their noise
+    Grid<float> share;       // how much they cover, 0…1
+  };
+  GeoTransform transform;
+  std::vector<Bumps> bumps;
+  Grid<float> lake_depth_m;  // of the water, 0 on land; empty: beds are not seen
+
+  // The depth at a place in the scene's CRS, m.
+  float depth_at(double x, double y) const;
+};
+
 // Painted classes on their own grid, and the smooth borders between them.
 struct LandCover {
   Raster<LandCoverClass> classes;     // sky where no land cover is known; never empty
   Raster<GroundColour> colours = {};  // on cells of their own; empty where nobody asked for them
+  GroundRelief relief = {};           // the same
 
   // The class at a place in the scene's CRS: membership of each class interpolated by cubic B-spline, then the largest (ties
   // to the lower id). Smooth borders, no stairs of the raster's cells; what is one cell wide becomes a little narrower, single

@@ -9,7 +9,9 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/parallel.h"
+#include "terrain/layers/lake_beds.h"
 #include "terrain/layers/layer_coverage.h"
+#include "terrain/layers/layer_relief.h"
 
 namespace belvedere {
 namespace {
@@ -54,6 +56,22 @@ void put(const Grid<T>& part, int x0, Grid<T>& into) {
 
 std::uint8_t byte_of(float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.F, 255.F) + 0.5F); }
 
+// Whether a layer adds bumps to the ground.
+bool is_rough(const LayerProgram& program, std::size_t layer) {
+  return program.paints[layer] && program.layers.layers[layer].roughness_m > 0.0;
+}
+
+// The beds of the lakes, and bumps that cover nothing yet.
+GroundRelief make_relief(const LayerProgram& program, const Dem& dem, std::uint64_t seed) {
+  GroundRelief relief{dem.transform, {}, lake_depth_m(dem)};
+  for (std::size_t k = 0; k < program.layers.layers.size(); ++k) {
+    const SurfaceLayer& layer = program.layers.layers[k];
+    if (is_rough(program, k))
+      relief.bumps.push_back({layer.roughness_m, layer.roughness_scale_m, bump_seed(layer, seed), Grid<float>(dem.width(), dem.height())});
+  }
+  return relief;
+}
+
 // What is counted a tile, added up in the order of tiles.
 struct Counts {
   std::vector<std::uint64_t> outside;
@@ -73,8 +91,13 @@ Counts apply_tile(const LayerProgram& program, const LayerGround& ground, const 
       for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = byte_of(255.F * coverage[k][i]);
       put(bytes, cells.x0, strip.coverage[k]);
     }
+  if (parameters.relief) {
+    std::size_t rough = 0;
+    for (std::size_t k = 0; k < coverage.size(); ++k)
+      if (is_rough(program, k)) put(coverage[k], cells.x0, strip.bumps[rough++]);
+  }
   if (parameters.colour) {
-    const Grid<glm::vec3> colour = layer_colour(program, coverage);
+    const Grid<glm::vec3> colour = layer_colour(program, coverage, parameters.relief ? LayersShown::dry : LayersShown::all);
     for (int c = 0; c < 3; ++c) {
       Grid<std::uint8_t> bytes(cells.width(), cells.height());
       for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = byte_of(colour[i][c]);
@@ -113,7 +136,10 @@ LayerApplyResult apply_layers(const SurfaceLayers& layers, const Dem& dem, const
   progress.begin("laying layers", static_cast<double>(dem.altitude_m.size()));
   for (int y0 = 0; y0 < dem.height(); y0 += tile_cells) {
     const int height = std::min(tile_cells, dem.height() - y0);
-    LayerStrip strip{y0, Grid<LandCoverClass>(width, height), {}, {}};
+    LayerStrip strip{y0, Grid<LandCoverClass>(width, height), {}, {}, {}};
+    if (parameters.relief)
+      for (std::size_t k = 0; k < layers.layers.size(); ++k)
+        if (is_rough(program, k)) strip.bumps.emplace_back(width, height);
     if (parameters.colour) strip.colour.assign(3, Grid<std::uint8_t>(width, height));
     if (parameters.coverage) strip.coverage.assign(layers.layers.size(), Grid<std::uint8_t>(width, height));
     std::vector<Counts> counts(static_cast<std::size_t>(across));
@@ -142,8 +168,11 @@ LandCover layer_land_cover(const SurfaceLayers& layers, const Dem& dem, const La
   LandCover cover{{Grid<LandCoverClass>(dem.width(), dem.height()), dem.transform, dem.crs}};
   Grid<LandCoverClass>& cells = cover.classes.cells;
   if (parameters.colour) cover.colours = {Grid<GroundColour>(dem.width(), dem.height()), dem.transform, dem.crs};
+  if (parameters.relief) cover.relief = make_relief(compile_layers(layers), dem, parameters.seed);
   const auto take = [&](const LayerStrip& strip) {
     std::copy(strip.classes.begin(), strip.classes.end(), cells.row(strip.y0));
+    for (std::size_t k = 0; k < strip.bumps.size(); ++k)
+      std::copy(strip.bumps[k].begin(), strip.bumps[k].end(), cover.relief.bumps[k].share.row(strip.y0));
     if (!parameters.colour) return;
     GroundColour* colours = cover.colours.cells.row(strip.y0);
     for (std::size_t i = 0; i < strip.classes.size(); ++i)

@@ -21,6 +21,7 @@ struct LayerApplyParameters {
   LayerDrawingParameters drawing;
   bool colour = false;    // make colours
   bool coverage = false;  // make coverages
+  bool relief = false;    // of land cover: the bumps of layers and the beds of lakes; then colours are those of dry ground
   // Of a window: the larger terrain that it is part of, and how classes are drawn there (plan_drawing).
   const Dem* whole = nullptr;
   std::optional<LayerDrawing> drawn = {};
@@ -32,6 +33,7 @@ struct LayerStrip {
   Grid<LandCoverClass> classes;              // sky: nothing that has a class
   std::vector<Grid<std::uint8_t>> colour;    // red, green, blue, sRGB; empty where not wanted
   std::vector<Grid<std::uint8_t>> coverage;  // of each layer, C · 255 rounded; empty where not wanted
+  std::vector<Grid<float>> bumps;            // C of each layer that is rough, in their order; the same
 };
 
 struct LayerApplyResult {
@@ -50,8 +52,8 @@ LayerApplyResult apply_layers(const SurfaceLayers& layers, const Dem& dem, const
 // How classes are drawn on a DEM, for windows of it.
 LayerDrawing plan_drawing(const SurfaceLayers& layers, const Dem& dem, const LayerClimate& climate, const LayerApplyParameters& parameters);
 
-// The classes as land cover, and where parameters ask for colours these with them; cells that no class covers take the nearest. Notes what
-// lies outside of ranges. Error(usage) for layers that have no class at all.
+// The classes as land cover, and where parameters ask for colours and relief these with them; cells that no class covers take the nearest.
+// Notes what lies outside of ranges. Error(usage) for layers that have no class at all.
 LandCover layer_land_cover(const SurfaceLayers& layers, const Dem& dem, const LayerClimate& climate, const LayerApplyParameters& parameters,
                            Progress& progress);
 

@@ -11,6 +11,7 @@
 #include "base/random.h"
 #include "base/random_streams.h"
 #include "terrain/layers/layer_noise.h"
+#include "terrain/layers/layer_relief.h"
 
 namespace belvedere {
 namespace {
@@ -28,8 +29,6 @@ float exp_of(float x) {
   return series * std::bit_cast<float>(static_cast<std::uint32_t>(static_cast<int>(whole) + 127) << 23U);
 }
 
-constexpr int bump_octaves = 4;
-
 // One field of noise for siblings of equal scale and octaves.
 struct NoiseField {
   int parent;
@@ -39,12 +38,6 @@ struct NoiseField {
   std::vector<float> line;
   bool filled = false;  // for the row at hand
 };
-
-std::uint64_t seed_of_name(const std::string& name) {
-  std::uint64_t h = 0;
-  for (const char c : name) h = mix_bits(h ^ static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
-  return h;
-}
 
 // Places in tables of one input along a row.
 struct Places {
@@ -81,9 +74,7 @@ class Evaluation {
     }
     if (height_ != nullptr)
       for (const SurfaceLayer& layer : layers_.layers) {
-        const LayerNoise bumps{layer.roughness_scale_m, bump_octaves, 1.0, 0.0};
-        const std::uint64_t own = stream_seed(seed, Stream::class_noise, ~seed_of_name(layer.name));
-        bumps_.emplace_back(bumps, own, transform, cells);
+        bumps_.emplace_back(bump_noise(layer.roughness_scale_m), bump_seed(layer, seed), transform, cells);
       }
     for (std::size_t i = 0; i < layers_.inputs.size(); ++i)
       if (layers_.inputs[i].name == "altitude") altitude_ = static_cast<int>(i);
@@ -337,11 +328,11 @@ std::vector<Grid<float>> layer_shares(const LayerProgram& program, const std::ve
   return shares;
 }
 
-Grid<glm::vec3> layer_colour(const LayerProgram& program, const std::vector<Grid<float>>& coverage) {
+Grid<glm::vec3> layer_colour(const LayerProgram& program, const std::vector<Grid<float>>& coverage, LayersShown shown) {
   if (coverage.empty()) return {};
   Grid<glm::vec3> colour(coverage[0].width(), coverage[0].height(), encoded(program.layers.ground_rgb));
   for (std::size_t k = 0; k < coverage.size(); ++k) {
-    if (!program.paints[k]) continue;
+    if (!program.paints[k] || (shown == LayersShown::dry && layer_class(program.layers, k) == LandCoverClass::water)) continue;
     const glm::vec3 own = encoded(program.layers.layers[k].rgb);
     for (std::size_t i = 0; i < colour.size(); ++i) colour[i] += coverage[k][i] * (own - colour[i]);
   }

@@ -45,8 +45,9 @@ std::vector<Grid<float>> layer_coverage_and_height(const LayerProgram& program, 
 // What is seen of the ground and of each layer when all are painted over each other, RGB' = (1 - C) RGB + C RGB of the layer: the ground
 // first, then the layers; together 1.
 std::vector<Grid<float>> layer_shares(const LayerProgram& program, const std::vector<Grid<float>>& coverage);
-// The colour that this gives, sRGB as encoded, 0…255.
-Grid<glm::vec3> layer_colour(const LayerProgram& program, const std::vector<Grid<float>>& coverage);
+// The colour that this gives, sRGB as encoded, 0…255. Dry: without what is painted as water, the ground under it.
+enum class LayersShown { all, dry };
+Grid<glm::vec3> layer_colour(const LayerProgram& program, const std::vector<Grid<float>>& coverage, LayersShown shown = LayersShown::all);
 // Shares of what is painted as each class, by the class's number; [0] is what has no class.
 std::vector<Grid<float>> class_shares(const LayerProgram& program, const std::vector<Grid<float>>& shares);
 

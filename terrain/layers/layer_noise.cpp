@@ -15,11 +15,6 @@ namespace {
 constexpr double loudness = 2.0;
 constexpr double spacing_per_sigma = 1.7320508075688772;  // the B-spline's deviation is spacing / sqrt(3)
 
-std::array<double, 4> spline_weights(double t) {
-  const double u = 1.0 - t;
-  return {u * u * u / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0, t * t * t / 6.0};
-}
-
 // What a sum of independent values of deviation 1 with these weights is multiplied by to have deviation 1 itself.
 double inverse_deviation(const std::array<double, 4>& w) { return 1.0 / std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2] + w[3] * w[3]); }
 
@@ -28,7 +23,61 @@ float lattice_value(bool gaussian, std::uint64_t seed, std::int64_t x, std::int6
   return static_cast<float>(gaussian ? random_normal(seed, x, y) : 2.0 * random_uniform(seed, x, y) - 1.0);
 }
 
+// Calls octave(spacing in metres, weight, seed) for the octaves of a layer's noise that cells of this size show.
+template <class Octave>
+void each_octave(const LayerNoise& noise, std::uint64_t seed, double cell_m, Octave&& octave) {
+  double weights = 0.0;
+  double weight = 1.0;
+  for (int i = 0; i < noise.octaves; ++i, weight *= 0.5) weights += weight;
+  weight = 1.0;
+  double spacing = noise.scale_m;
+  for (int i = 0; i < noise.octaves; ++i, weight *= 0.5, spacing *= 0.5) {
+    const double seen = std::clamp(spacing / cell_m - 1.0, 0.0, 1.0);
+    if (!(seen > 0.0)) break;
+    octave(spacing, loudness * seen * weight / weights, stream_seed(seed, Stream::class_noise, 1000 + static_cast<std::uint64_t>(i)));
+  }
+}
+
 }  // namespace
+
+std::array<double, 4> spline_weights(double t) {
+  const double u = 1.0 - t;
+  return {u * u * u / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0, t * t * t / 6.0};
+}
+
+std::array<double, 4> spline_slopes(double t) {
+  const double u = 1.0 - t;
+  return {-0.5 * u * u, t * (1.5 * t - 2.0), u * (2.0 - 1.5 * u), 0.5 * t * t};
+}
+
+NoiseAtPlace layer_noise_at(const LayerNoise& noise, std::uint64_t seed, glm::dvec2 place_m, double cell_m) {
+  NoiseAtPlace out;
+  each_octave(noise, seed, cell_m, [&](double spacing_m, double weight, std::uint64_t own) {
+    const glm::dvec2 at = place_m / spacing_m;
+    const double whole_x = std::floor(at.x);
+    const double whole_y = std::floor(at.y);
+    const std::array<double, 4> wx = spline_weights(at.x - whole_x);
+    const std::array<double, 4> wy = spline_weights(at.y - whole_y);
+    const std::array<double, 4> dx = spline_slopes(at.x - whole_x);
+    const std::array<double, 4> dy = spline_slopes(at.y - whole_y);
+    const auto x0 = static_cast<std::int64_t>(whole_x) - 1;
+    const auto y0 = static_cast<std::int64_t>(whole_y) - 1;
+    for (std::size_t j = 0; j < 4; ++j) {
+      double row = 0.0;
+      double row_slope = 0.0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double value = lattice_value(false, own, x0 + static_cast<std::int64_t>(i), y0 + static_cast<std::int64_t>(j));
+        row += wx[i] * value;
+        row_slope += dx[i] * value;
+      }
+      out.value += weight * wy[j] * row;
+      out.slope.x += weight / spacing_m * wy[j] * row_slope;
+      out.slope.y += weight / spacing_m * dy[j] * row;
+    }
+  });
+  if (std::abs(out.value) > 1.0) out = {std::clamp(out.value, -1.0, 1.0), glm::dvec2(0.0)};
+  return out;
+}
 
 NoiseColumns plan_raster_noise(const GeoTransform& transform, const PixelRect& cells, double sigma_m) {
   NoiseColumns plan = plan_noise_columns(transform.to_crs(0.0, 0.0).x, transform.cell_x, cells.x1, sigma_m);
@@ -42,17 +91,8 @@ NoiseColumns plan_raster_noise(const GeoTransform& transform, const PixelRect& c
 
 LayerNoiseRows::LayerNoiseRows(const LayerNoise& noise, std::uint64_t seed, const GeoTransform& transform, const PixelRect& cells)
     : transform_(transform), cells_(cells) {
-  const double cell = 0.5 * (transform.cell_x + transform.cell_y);
-  double weights = 0.0;
-  double weight = 1.0;
-  for (int i = 0; i < noise.octaves; ++i, weight *= 0.5) weights += weight;
-  weight = 1.0;
-  double spacing = noise.scale_m;
-  for (int i = 0; i < noise.octaves; ++i, weight *= 0.5, spacing *= 0.5) {
-    const double seen = std::clamp(spacing / cell - 1.0, 0.0, 1.0);
-    if (!(seen > 0.0)) break;
-    add_octave(spacing, loudness * seen * weight / weights, stream_seed(seed, Stream::class_noise, 1000 + static_cast<std::uint64_t>(i)));
-  }
+  each_octave(noise, seed, 0.5 * (transform.cell_x + transform.cell_y),
+              [&](double spacing_m, double weight, std::uint64_t own) { add_octave(spacing_m, weight, own); });
 }
 
 LayerNoiseRows::LayerNoiseRows(const std::vector<GaussianOctave>& octaves, const GeoTransform& transform, const PixelRect& cells)

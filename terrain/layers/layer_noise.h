@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <vector>
 
 #include "base/noise.h"
@@ -51,6 +52,17 @@ class LayerNoiseRows {
   bool gaussian_ = false;
   std::vector<Octave> octaves_;
 };
+
+// The same noise at one place of the CRS, as a raster of cells of cell_m has it there, and how it rises a metre east and north.
+struct NoiseAtPlace {
+  double value = 0.0;
+  glm::dvec2 slope{0.0};
+};
+NoiseAtPlace layer_noise_at(const LayerNoise& noise, std::uint64_t seed, glm::dvec2 place_m, double cell_m);
+
+// Weights of the four coefficients of a cubic B-spline around a place t in 0…1 after the second, and how they change with t.
+std::array<double, 4> spline_weights(double t);
+std::array<double, 4> spline_slopes(double t);
 
 // What gaussian_noise_row needs for the columns of a rectangle of a raster, counted from the raster's first column, so that their rounding
 // hangs on no rectangle.

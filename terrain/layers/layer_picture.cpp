@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/colour/water_colour.h"
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/math_exact.h"
@@ -18,10 +19,6 @@ namespace belvedere {
 namespace {
 
 constexpr int tile_px = 512;
-constexpr glm::vec3 shallow_water{128.F, 178.F, 172.F};
-constexpr glm::vec3 deep_water{34.F, 78.F, 112.F};
-constexpr float bed_seen_m = 1.2F;   // depth at which most of the bed is lost
-constexpr float turns_deep_m = 9.F;  // and at which pale water is mostly deep
 constexpr double radians = 0.017453292519943295;
 
 void require(bool holds, const char* what, double found, const char* allowed) {
@@ -49,12 +46,6 @@ float SlopeLight::brightness(const glm::vec3& normal) const {
   const glm::dvec3 steeper = glm::normalize(glm::dvec3(normal.x * relief_, normal.y * relief_, normal.z));
   const double lit = std::max(0.0, glm::dot(steeper, to_light_)) / to_light_.z;
   return static_cast<float>(shade_ + (1.0 - shade_) * lit);
-}
-
-glm::vec3 water_colour(const glm::vec3& ground, float depth_m) {
-  if (depth_m <= 0.F) return ground;
-  const auto left = [depth_m](float over_m) { return static_cast<float>(exact::exp(-static_cast<double>(depth_m / over_m))); };
-  return glm::mix(glm::mix(deep_water, shallow_water, left(turns_deep_m)), ground, left(bed_seen_m));
 }
 
 void draw_layer_picture(const SurfaceLayers& layers, const Dem& dem, const LayerClimate& climate, const LayerPictureParameters& parameters,

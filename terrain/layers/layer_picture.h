@@ -37,9 +37,6 @@ class SlopeLight {
   double shade_;
   double relief_;
 };
-// Water over ground of a colour (sRGB as encoded, 0…255), of this depth in metres: the bed is lost within some metres, pale water turns
-// deep.
-glm::vec3 water_colour(const glm::vec3& ground, float depth_m);
 
 // The ground with its layers as seen from above, in the light: rows of the finer raster from the top down, sRGB as encoded, 0…255.
 // Altitudes between cells are of the spline through them, what is finer comes from the layers' noise (layer_surface). A strip at a time,

@@ -65,11 +65,16 @@ glm::vec4 sample(const Grid<GroundColour>& means, int level, glm::dvec2 cell) {
   return {mean.colour() / 255.F, mean.sum.w};
 }
 
+// What lies here came from there, as its class does.
+glm::dvec2 origin_m(const TerrainModel& model, glm::dvec2 place_m) {
+  const glm::dvec2 seen = model.dem->transform.to_cell(place_m.x, place_m.y);
+  const glm::dvec2 origin = origin_of(model, seen.x, seen.y);
+  return model.dem->transform.to_crs(origin.x, origin.y);
+}
+
 glm::vec4 colour_of(const GroundTint::Ground& ground, glm::dvec2 place_m, double footprint_m) {
   const TerrainModel& model = *ground.model;
-  const glm::dvec2 seen = model.dem->transform.to_cell(place_m.x, place_m.y);
-  const glm::dvec2 origin = origin_of(model, seen.x, seen.y);  // what lies here came from there, as its class does
-  const glm::dvec2 place = model.dem->transform.to_crs(origin.x, origin.y);
+  const glm::dvec2 place = origin_m(model, place_m);
   const GeoTransform& transform = model.land_cover->colours.transform;
   const glm::dvec2 cell = transform.to_cell(place.x, place.y);
   const double cells = footprint_m / std::sqrt(transform.cell_x * transform.cell_y);
@@ -131,6 +136,15 @@ glm::vec4 ground_colour_at(const GroundTint& tint, glm::dvec2 place_m, double fo
     if (share > 0.F) colour = glm::mix(colour, colour_of(tint.grounds[k], place_m, footprint_m), share);
   }
   return colour;
+}
+
+float lake_depth_at(const GroundTint& tint, glm::dvec2 place_m) {
+  // The finest ground that holds the place: where a window begins it has the depths of the ground around it.
+  std::size_t k = tint.grounds.size() - 1;
+  while (k > 0 && !(window_share(tint.grounds[k], place_m) > 0.F)) --k;
+  const TerrainModel& model = *tint.grounds[k].model;
+  const glm::dvec2 origin = origin_m(model, place_m);
+  return model.land_cover->relief.depth_at(origin.x, origin.y);
 }
 
 glm::vec3 TintShift::over(glm::vec3 ramp) const {

@@ -31,6 +31,9 @@ std::shared_ptr<const GroundTint> make_ground_tint(const TerrainModel& terrain, 
 // The colour at a place of the scene's CRS, of which a pixel shows `footprint_m`: encoded sRGB 0…1, and how much of it is known, 0…1.
 glm::vec4 ground_colour_at(const GroundTint& tint, glm::dvec2 place_m, double footprint_m);
 
+// Depth of the lake at a place of the scene's CRS whose bed is seen, m; 0 where there is none.
+float lake_depth_at(const GroundTint& tint, glm::dvec2 place_m);
+
 // How a ramp is moved at a place, in OKLab: its lightness by a factor, its hue by a way that is shorter in shade.
 struct TintShift {
   float share = 0.F;                     // 0: not at all

@@ -67,6 +67,58 @@ TEST(Guidance, LevelGroundIsLitOpenAndFlat) {
   EXPECT_GT(ground, 2000);
 }
 
+// Bumps of surface layers are in the normals of level ground, even about up, smaller from afar, and none on water; nothing else moves.
+TEST(Guidance, BumpsOfLayersTurnTheNormals) {
+  const auto made = [](double height_m, double length_m) {
+    World world = make_world(
+        200, 200, [](double, double) { return 500.0; },
+        [](double x, double) { return x > 3000.0 ? LandCoverClass::alpine_grass : LandCoverClass::water; });
+    LandCover cover = *world.terrain.land_cover;
+    cover.relief.transform = cover.classes.transform;
+    cover.relief.bumps.push_back({height_m, length_m, 7, Grid<float>(200, 200, 1.F)});
+    world.terrain.land_cover = std::make_shared<const LandCover>(std::move(cover));
+    return world;
+  };
+  const auto camera = make_camera(southward(96, 64));
+  const GuidanceBuffers smooth = trace(made(0.0, 300.0), *camera);
+  const GuidanceBuffers bumpy = trace(made(12.0, 300.0), *camera);
+  glm::dvec3 sum(0.0);
+  double near = 0.0;
+  double far = 0.0;
+  int near_count = 0;
+  int far_count = 0;
+  for (std::size_t i = 0; i < bumpy.depth_m.size(); ++i) {
+    if (bumpy.is_sky(i)) continue;
+    ASSERT_EQ(bumpy.depth_m[i], smooth.depth_m[i]);
+    ASSERT_EQ(bumpy.shadow[i], smooth.shadow[i]);
+    ASSERT_EQ(bumpy.slope_deg[i], smooth.slope_deg[i]);
+    if (bumpy.land_cover[i] == LandCoverClass::water) {
+      ASSERT_EQ(bumpy.normal[i], glm::vec3(0.F, 0.F, 1.F));
+      continue;
+    }
+    EXPECT_NEAR(glm::length(bumpy.normal[i]), 1.0, 1e-5);
+    sum += glm::dvec3(bumpy.normal[i]);
+    const double tilt = 1.0 - static_cast<double>(bumpy.normal[i].z);
+    const bool is_near = bumpy.footprint_m[i] < 60.F;
+    (is_near ? near : far) += tilt;
+    ++(is_near ? near_count : far_count);
+  }
+  ASSERT_GT(near_count, 200);
+  ASSERT_GT(far_count, 200);
+  const glm::dvec3 mean = sum / static_cast<double>(near_count + far_count);
+  EXPECT_LT(glm::length(glm::dvec2(mean)), 0.02);
+  EXPECT_GT(near / near_count, 1.3 * far / far_count);
+  EXPECT_GT(far / far_count, 0.0);
+  // Bumps that are shorter than a pixel of the nearest ground are not seen at all.
+  EXPECT_EQ(trace(made(12.0, 10.0), *camera).normal, smooth.normal);
+  // Any part has the whole's.
+  const World world = made(12.0, 300.0);
+  const PixelRect rect{17, 40, 70, 61};
+  const GuidanceBuffers part = trace_guidance(world.terrain, world.surface, *world.tracer, *camera, {}, rect, silent_progress());
+  for (int y = 0; y < rect.height(); ++y)
+    for (int x = 0; x < rect.width(); ++x) ASSERT_EQ(part.normal(x, y), bumpy.normal(rect.x0 + x, rect.y0 + y));
+}
+
 // Wood ends raggedly on grass, within a cell or two of where the map has its border and about it; at water's edge nothing is moved.
 TEST(Guidance, WhatGrowsHasRaggedBordersAndShoresKeepTheirs) {
   const auto border_of = [](LandCoverClass beyond) {

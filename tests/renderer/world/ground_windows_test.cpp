@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/filter.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "renderer/trace/guidance.h"
@@ -389,6 +390,38 @@ TEST_F(GroundWindows, LayersSeeTheWholesClimateAndWideGround) {
   for (const LandCoverClass id : {LandCoverClass::rock, LandCoverClass::snow, LandCoverClass::glacier, LandCoverClass::pasture})
     EXPECT_GT(kinds[static_cast<std::size_t>(id)], 0.02 * all) << static_cast<int>(id);
   EXPECT_GT(same, 0.995 * all);
+}
+
+// Bumps and beds begin at a window's edge as the ground before it has them, and are the same noise.
+TEST_F(GroundWindows, BumpsAndBedsAreJoined) {
+  folder_->write("rough.layers.toml",
+                 "version = 1\nground = { class = \"rock\" }\n[[inputs]]\nname = \"slope\"\nlow = 0\nhigh = 60\n[[layers]]\n"
+                 "name = \"stones\"\nclass = \"scree\"\nroughness = { height_m = 5, length_m = 300 }\n[layers.functions]\n"
+                 "slope = { low = 10, high = 35, width = 8 }\n");
+  const World parts(scene({"land_cover.layers=\"rough.layers.toml\"", "land_cover.colours=\"layers\"", few_cells}), silent_progress());
+  const TerrainModel* coarser = &parts.terrain;
+  for (const TerrainWindow& window : parts.terrain.windows) {
+    const GroundRelief& fine = window.ground.land_cover->relief;
+    const GroundRelief& coarse = coarser->land_cover->relief;
+    ASSERT_EQ(fine.bumps.size(), 1U);
+    EXPECT_EQ(fine.bumps[0].seed, coarse.bumps[0].seed);
+    EXPECT_EQ(fine.transform, window.ground.dem->transform);
+    ASSERT_TRUE(fine.lake_depth_m.same_size(window.ground.dem->altitude_m));
+    int differs = 0;
+    for (int x = window.part.x0; x < window.part.x1; ++x) {
+      const glm::dvec2 place = fine.transform.to_crs(x, window.part.y0);
+      const glm::dvec2 cell = coarse.transform.to_cell(place.x, place.y);
+      // Every other post is one of the coarser ground's.
+      if (std::abs(cell.x - std::round(cell.x)) > 0.1 || std::abs(cell.y - std::round(cell.y)) > 0.1) continue;
+      const auto there = coarse.bumps[0].share.clamped(static_cast<int>(std::lround(cell.x)), static_cast<int>(std::lround(cell.y)));
+      EXPECT_FLOAT_EQ(fine.bumps[0].share(x, window.part.y0), there);
+      const int inside = (window.part.y0 + window.part.y1) / 2;
+      const glm::dvec2 middle = coarse.transform.to_cell(place.x, fine.transform.to_crs(x, inside).y);
+      differs += std::abs(fine.bumps[0].share(x, inside) - sample_bilinear(coarse.bumps[0].share, middle.x, middle.y)) > 0.01F ? 1 : 0;
+    }
+    EXPECT_GT(differs, 3) << "inside it has its own";
+    coarser = &window.ground;
+  }
 }
 
 TEST_F(GroundWindows, ABudgetThatHoldsNotEvenTheCoarsestIsRefused) {

@@ -133,6 +133,43 @@ TEST_F(RefinedLandCover, TheLayersColoursComeWithLayersOrARaster) {
   EXPECT_EQ(both.colours.cells(3, 3), GroundColour(0xa0, 0xb0, 0xc0, 255));
 }
 
+// With the colours come bumps and beds of lakes, as high as the scene wants them, also from the cache; with palette colours neither.
+TEST(LayeredLandCover, BumpsAndBedsComeWithTheLayersColours) {
+  const test::Folder folder;
+  folder.write("rough.layers.toml",
+               "version = 1\nground = { class = \"rock\", colour = \"#605040\" }\n"
+               "[[layers]]\nname = \"stones\"\nclass = \"scree\"\nwhen = \"altitude > 1020\"\nroughness = { height_m = 3, length_m = 40 }\n"
+               "[[layers]]\nname = \"lake\"\nclass = \"water\"\ncolour = \"#0000ff\"\nwhen = \"lake > 0.5\"\n");
+  Grid<float> altitude(80, 80);
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 80; ++x) altitude(x, y) = static_cast<float>(900.0 + 4.0 * std::max(0.0, std::hypot(x - 40.0, y - 40.0) - 15.0));
+  const Dem dem = make_dem({altitude, {500000.0, 5200000.0, 50.0, 50.0}, normalize_crs("EPSG:32632")});
+  const Cache cache({.folder = folder / "cache", .limit_bytes = 0});
+  const auto cover = [&](const std::string& keys) {
+    const LoadedScene scene =
+        parse_scene("version = 1\n[land_cover]\nlayers = \"rough.layers.toml\"\n" + keys, "s.toml", folder.path(), {});
+    return make_scene_land_cover(scene, dem, silent_progress(), cache);
+  };
+  for (int run = 0; run < 2; ++run) {
+    EXPECT_TRUE(cover("").relief.bumps.empty());
+    EXPECT_TRUE(cover("").relief.lake_depth_m.empty());
+    const LandCover made = cover("colours = \"layers\"\n");
+    ASSERT_EQ(made.relief.bumps.size(), 1U);
+    EXPECT_EQ(made.relief.transform, dem.transform);
+    EXPECT_EQ(made.relief.bumps[0].height_m, 3.0);
+    EXPECT_EQ(made.relief.bumps[0].share(40, 20), 0.F);
+    EXPECT_EQ(made.relief.bumps[0].share(78, 5), 1.F);
+    EXPECT_EQ(made.classes.cells(40, 40), water);
+    EXPECT_GT(made.relief.lake_depth_m(40, 40), made.relief.lake_depth_m(30, 40));
+    EXPECT_EQ(made.relief.lake_depth_m(10, 40), 0.F);
+    EXPECT_EQ(made.colours.cells(30, 40), GroundColour(0x60, 0x50, 0x40, 255)) << "the bed is dry ground, not the water's colour";
+    const LandCover other = cover("colours = \"layers\"\nbumps = 2.5\nlake_beds = false\n");
+    EXPECT_EQ(other.relief.bumps[0].height_m, 7.5);
+    EXPECT_TRUE(other.relief.lake_depth_m.empty());
+    EXPECT_TRUE(cover("colours = \"layers\"\nbumps = 0\n").relief.bumps.empty());
+  }
+}
+
 // Layers that ask for the climate get that of the scene, and the cache tells one climate from another.
 TEST(LayersInAScene, HangOnItsClimateAlsoFromTheCache) {
   const test::Folder folder;

@@ -62,6 +62,31 @@ TEST(LayerApply, FrequenciesAreShares) {
   }
 }
 
+// What land cover of rough layers brings along: how much each covers, and the beds; what is painted as water has no colour of its own then.
+TEST(LayerApply, ReliefIsTheCoverageOfRoughLayers) {
+  const Dem dem = hills();
+  SurfaceLayers layers = three();
+  layers.layers[1].roughness_m = 2.0;
+  layers.layers[1].roughness_scale_m = 50.0;
+  layers.layers[0].painted_as = water;
+  layers.layers[0].rgb = 0x0000ff;
+  layers.ground_rgb = 0x808080;
+  LayerApplyParameters parameters;
+  parameters.colour = parameters.relief = true;
+  const LandCover cover = layer_land_cover(layers, dem, {}, parameters, silent_progress());
+  ASSERT_EQ(cover.relief.bumps.size(), 1U);
+  EXPECT_EQ(cover.relief.bumps[0].height_m, 2.0);
+  EXPECT_EQ(cover.relief.bumps[0].length_m, 50.0);
+  const LayerProgram program = compile_layers(layers);
+  const auto coverage =
+      layer_coverage(program, layer_inputs(make_layer_ground(dem, {}, program.inputs)), dem.transform, {0, 0, 1100, 700}, 1);
+  EXPECT_EQ(cover.relief.bumps[0].share, coverage[1]);
+  EXPECT_TRUE(cover.relief.lake_depth_m.same_size(dem.altitude_m));
+  for (const GroundColour& colour : cover.colours.cells) ASSERT_GE(colour.r + 1, colour.b) << "no blue";
+  parameters.relief = false;
+  EXPECT_TRUE(layer_land_cover(layers, dem, {}, parameters, silent_progress()).relief.lake_depth_m.empty());
+}
+
 // Strips and tiles are the program's own business: coverages and colours are those of the whole, whatever the threads.
 TEST(LayerApply, TilesAndThreadsLeaveNoTrace) {
   const Dem dem = hills();

@@ -69,21 +69,6 @@ TEST(LayerPicture, APlaneHasOneColourAtAnyFineness) {
   }
 }
 
-TEST(LayerPicture, WaterTurnsFromItsBedToPaleToDeep) {
-  const glm::vec3 ground(200.F, 150.F, 90.F);
-  EXPECT_EQ(water_colour(ground, 0.F), ground);
-  EXPECT_LT(glm::distance(water_colour(ground, 0.05F), ground), 15.F);
-  // Beyond that deeper water is darker, and the ground no more in it.
-  float before = 1e9F;
-  for (const float depth : {4.F, 8.F, 16.F, 40.F, 150.F}) {
-    const glm::vec3 water = water_colour(ground, depth);
-    const float luminance = water.x + water.y + water.z;
-    EXPECT_LT(luminance, before);
-    before = luminance;
-    EXPECT_LT(glm::distance(water, water_colour({0.F, 0.F, 0.F}, depth)), 0.05F * 265.F);
-  }
-}
-
 // A level lake in a bowl: pale at its shore, deep in the middle; without beds it is its layers' ground.
 TEST(LayerPicture, LakesShowTheirBeds) {
   Dem bowl = ramp(120, 0.F, 0.F);

@@ -1,0 +1,36 @@
+#include "renderer/paint/ground/lake_bed.h"
+
+#include <glm/common.hpp>
+
+#include "base/colour/water_colour.h"
+#include "renderer/image/oklab.h"
+
+namespace belvedere {
+namespace {
+
+constexpr LandCoverClass bed_class = LandCoverClass::scree;
+constexpr double lighter_share = 0.5;  // of the lightness by which shallow water is lighter: paint of deep water is pale already
+
+}  // namespace
+
+glm::vec3 shallow_water(glm::vec3 water) {
+  const WaterColours above;
+  const glm::dvec3 change = to_oklab(above.shallow / 255.F) - to_oklab(above.deep / 255.F);
+  return glm::clamp(from_oklab(to_oklab(water) + glm::dvec3(lighter_share, 1.0, 1.0) * change), 0.F, 1.F);
+}
+
+LakeBed lake_bed(const GroundTint& tint, const Palette& palette, double altitude_m, glm::dvec3 place_m, double footprint_m) {
+  LakeBed bed;
+  if (palette.winter) return bed;
+  bed.depth_m = lake_depth_at(tint, glm::dvec2(place_m));
+  if (bed.depth_m > 0.F) bed.tint = tint_shift(tint, palette, bed_class, altitude_m, place_m, footprint_m);
+  return bed;
+}
+
+glm::vec3 LakeBed::under(glm::vec3 water, const Palette& palette, double altitude_m, double light) const {
+  if (!(depth_m > 0.F)) return water;
+  const glm::vec3 ground = tint.over(palette_colour(palette, bed_class, altitude_m, light));
+  return glm::mix(water, water_colour(ground, depth_m, {shallow_water(water), water}), tint.share);
+}
+
+}  // namespace belvedere
