@@ -12,6 +12,7 @@
 
 #include "base/config.h"
 #include "base/error.h"
+#include "base/text/base64.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/cover/layers_document.h"
 #include "terrain/layers/layer_expressions.h"
@@ -19,39 +20,13 @@
 namespace belvedere {
 namespace {
 
-constexpr std::string_view base64_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-// RFC 4648: groups of three bytes as four digits; what is left over is filled up with "=".
-std::string to_base64(const std::uint8_t* bytes, std::size_t count) {
-  std::string out;
-  for (std::size_t i = 0; i < count; i += 3) {
-    const auto at = [&](std::size_t k) { return i + k < count ? static_cast<std::uint32_t>(bytes[i + k]) : 0U; };
-    const std::uint32_t group = at(0) << 16U | at(1) << 8U | at(2);
-    for (unsigned k = 0; k < 4; ++k) out += i + k <= count ? base64_digits[group >> (18U - 6U * k) & 63U] : '=';
-  }
-  return out;
-}
+std::string to_base64(const std::uint8_t* bytes, std::size_t count) { return base64({reinterpret_cast<const char*>(bytes), count}); }
 
 // 2…256 bytes; nothing for what is no such text.
 std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
-  if (text.empty() || text.size() % 4 != 0 || text.size() > 344) return std::nullopt;
-  const std::size_t filled = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;
-  std::vector<std::uint8_t> bytes;
-  std::uint32_t held = 0;
-  unsigned bits = 0;
-  for (const char c : text.substr(0, text.size() - filled)) {
-    const std::size_t digit = base64_digits.find(c);
-    if (digit == std::string_view::npos) return std::nullopt;
-    held = held << 6U | static_cast<std::uint32_t>(digit);
-    bits += 6;
-    if (bits < 8) continue;
-    bits -= 8;
-    bytes.push_back(static_cast<std::uint8_t>(held >> bits & 255U));
-    held &= (1U << bits) - 1U;
-  }
-  // Bits left over are 0, so that one value has one text.
-  if (held != 0 || bytes.size() < 2 || bytes.size() > 256) return std::nullopt;
-  return bytes;
+  const std::optional<std::string> bytes = text.size() > 344 ? std::nullopt : base64_bytes(text);
+  if (!bytes || bytes->size() < 2 || bytes->size() > 256) return std::nullopt;
+  return std::vector<std::uint8_t>(bytes->begin(), bytes->end());
 }
 
 // What only surface layers have.
