@@ -260,6 +260,29 @@ std::vector<std::string> inputs_of(const Options& options, const Dem& dem) {
   return names;
 }
 
+// White everywhere, and no slope is lighter than another: that is cloud. Snow has the sun on its slopes.
+void refuse_cloud(const Options& options, const KnownGround& known, const GroundFit& fit) {
+  constexpr double nearly_all = 0.95;
+  constexpr double least_correlation = 0.1;
+  constexpr float white = 0.6F * 255.F;
+  constexpr float palest = 0.25F;  // of saturation
+  const RgbPlanes& rgb = known.picture->rgb;
+  std::size_t whites = 0;
+  std::size_t all = 0;
+  for (std::size_t i = 0; i != known.labels.size(); ++i) {
+    if (known.labels[i] == no_class) continue;
+    const float most = std::max({rgb.r[i], rgb.g[i], rgb.b[i]});
+    const float least = std::min({rgb.r[i], rgb.g[i], rgb.b[i]});
+    whites += most > white && most - least < palest * most ? 1U : 0U;
+    ++all;
+  }
+  const double share = static_cast<double>(whites) / static_cast<double>(std::max<std::size_t>(all, 1));
+  if (share < nearly_all || fit.sun.correlation > least_correlation) return;
+  throw Error(ErrorKind::input, options.image,
+              fmt::format("{:.0f} % of it is white, and no slope is lighter than another: cloud everywhere", 100.0 * share),
+              "a picture that shows the ground");
+}
+
 void note_fit(const KnownGround& known, const GroundFit& fit, Findings& findings) {
   if (known.picture)
     findings.note("sun found at azimuth {:.0f}°, {:.0f}° high: its light and the picture's correlate by {:.2f}", fit.sun.azimuth_deg,
@@ -311,6 +334,7 @@ int run(const Options& options) {
   parameters.functions = options.functions == "fitted" ? FunctionSource::fitted : FunctionSource::histogram;
   parameters.children = options.children;
   const GroundFit fit = fit_ground(known, parameters);
+  if (known.picture) refuse_cloud(options, known, fit);
   note_fit(known, fit, findings);
   const std::string name = file_name(options.out).substr(0, file_name(options.out).find('.'));
   const SurfaceLayers layers = surface_layers_of(known, fit, name);

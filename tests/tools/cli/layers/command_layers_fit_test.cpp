@@ -111,6 +111,11 @@ TEST_F(LayersFitCommand, FaultsAreSaidAndNothingIsWritten) {
   fails({"--image", path("small.png")}, 3, "20×20 pixels");
   write_picture("one.png", size, size, [](int, int) { return glm::vec3(0.5F, 0.4F, 0.2F); });
   fails({"--image", path("one.png")}, 3, "one class only");
+  write_picture("cloud.png", size, size, [](int x, int y) {
+    const float n = 0.02F * static_cast<float>(random_normal(3, x, y));
+    return glm::vec3(0.92F + n, 0.92F + 0.9F * n, 0.93F + n);
+  });
+  fails({"--image", path("cloud.png")}, 3, "cloud everywhere");
   Raster<std::uint8_t> far;
   far.transform = {100000.0, 4000000.0, 30.0, 30.0};
   far.crs = normalize_crs("EPSG:32632");
