@@ -99,10 +99,11 @@ SunTable::SunTable(double south_deg, double north_deg, double lowest_m, double h
     for (const SunMoment& sun : sun_moments(south_deg_ + l * latitude_step_deg_, parameters)) {
       const auto sector = static_cast<std::size_t>(std::floor(sun.azimuth_rad * sectors / (2.0 * std::numbers::pi) + 0.5));
       const auto all = static_cast<std::size_t>(sectors);
-      // Alone its own sector would answer for it with an error of the curvature of the horizon · width² / 24, which the second difference
-      // of its neighbours takes off again.
-      const std::array<std::pair<std::size_t, double>, 3> shares = {
-          {{sector % all, 13.0 / 12.0}, {(sector + 1) % all, -1.0 / 24.0}, {(sector + all - 1) % all, -1.0 / 24.0}}};
+      // The parabola through three sectors' answers (Lagrange's weights) at the sun's own place between them, -1/2 … 1/2.
+      const double off = sun.azimuth_rad * sectors / (2.0 * std::numbers::pi) - static_cast<double>(sector);
+      const std::array<std::pair<std::size_t, double>, 3> shares = {{{sector % all, 1.0 - off * off},
+                                                                     {(sector + 1) % all, 0.5 * off * (off + 1.0)},
+                                                                     {(sector + all - 1) % all, 0.5 * off * (off - 1.0)}}};
       const exact::Turn azimuth = exact::turn(sun.azimuth_rad - to_radians(grid_north_deg));
       const double tangent = sun.cosine > 0.0 ? sun.sine / sun.cosine : 1e9;
       // It is above a horizon of its own step; what is looked up is rounded to the nearest too.

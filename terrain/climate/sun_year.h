@@ -49,9 +49,8 @@ class SunTable {
   static constexpr int steps = 4 << (23 - step_bits);
 
   // For ground from lowest_m to highest_m, on latitudes from south_deg to north_deg; `sectors` of true azimuth, the first around north. A
-  // little of a sun's light is taken off the sectors beside its own and given to it, so that sums with the horizon in the middle of each
-  // sector are as if the horizon were a parabola from one to the next. Sums are by right and top of a map whose top is at a true azimuth of
-  // grid_north_deg.
+  // sun's light is shared out to its own sector and the two beside it by its place between their middles, so that what is left of it is a
+  // parabola from one horizon to the next. Sums are by right and top of a map whose top is at a true azimuth of grid_north_deg.
   SunTable(double south_deg, double north_deg, double lowest_m, double highest_m, double grid_north_deg, int sectors,
            const SunYearParameters& parameters);
 
