@@ -1,10 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/grid_part.h"
+#include "base/random.h"
+#include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/layer_apply.h"
 #include "terrain/layers/layer_coverage.h"
+#include "terrain/layers/layer_relief.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/bench_terrain.h"
 
@@ -44,6 +48,25 @@ SurfaceLayers twelve_layers(LayerModel model, bool fields) {
   return layers;
 }
 
+// The terrain as ground whose classes are known: three belts of altitude with ragged borders, by the five usual inputs of a product.
+KnownGround belts(const Dem& dem, const LayerGround& ground, const std::vector<Grid<float>>& inputs) {
+  KnownGround known;
+  known.cell_m = dem.cell_m();
+  known.altitude_m = dem.altitude_m;
+  known.input_names = ground.names;
+  known.inputs = inputs;
+  known.classes = {{"low", LandCoverClass::forest}, {"middle", LandCoverClass::pasture}, {"high", LandCoverClass::rock}};
+  known.labels.resize(dem.altitude_m.size());
+  const LayerInput range = layer_input_range("altitude", dem.altitude_m);
+  for (int y = 0; y < dem.height(); ++y)
+    for (int x = 0; x < dem.width(); ++x) {
+      const double place = (static_cast<double>(dem.altitude_m(x, y)) - range.low) / (range.high - range.low);
+      const double ragged = place + 0.08 * random_normal(1, x, y);
+      known.labels[dem.altitude_m.index(x, y)] = static_cast<std::uint8_t>(std::clamp(static_cast<int>(3.0 * ragged), 0, 2));
+    }
+  return known;
+}
+
 }  // namespace
 
 std::vector<Measurement> bench_layers(const Options& options) {
@@ -73,6 +96,22 @@ std::vector<Measurement> bench_layers(const Options& options) {
       apply_layers(
           layers, dem, {}, {}, [](const LayerStrip&) {}, silent_progress());
     });
+    // As panoramas ask for them: pixels of 8 m.
+    GroundRelief relief{dem.transform, {{5.0, 60.0, 7, Grid<float>(size, size, 1.F)}}, {}};
+    add("bump_slope", [&] {
+      Grid<glm::dvec2> slopes(size, size);
+      parallel_rows(size, [&](int y) {
+        for (int x = 0; x < size; ++x) slopes(x, y) = bump_slope(relief, dem.transform.to_crs(x + 0.3, y + 0.4), 8.0);
+      });
+    });
+    // Functions are fitted on some ten thousand cells drawn of all: a larger map costs less a cell.
+    const KnownGround known = belts(dem, ground, inputs);
+    for (const LayerModel model : {LayerModel::product, LayerModel::additive}) {
+      const GroundFitParameters how{.model = model};
+      const double cpu_s = measure_fastest(options.repeats, {[&] { fit_ground(known, how); }})[0].cpu_s;
+      out.push_back({fmt::format("{}²/layers_fit_{}", size, model == LayerModel::product ? "product" : "additive"), cpu_s / cells * 1e6,
+                     "CPU s/Mcell"});
+    }
   }
   return out;
 }
