@@ -258,8 +258,9 @@ CacheKey sheet_key(const ExampleSheetPlan& plan, const ExampleSheetHand& hand, c
   key.add("haze_share", haze_share).add("warm_share", warm_share);
   key.add("ground_drift_share", ground_drift_share).add("forest_drift_share", forest_drift_share);
   key.add("rock_drift_share", rock_drift_share).add("own light", !light.has_value());
-  const auto& [sun, sky_light, relief, shadow_depth, contrast] = light.value_or(LightParameters());
+  const auto& [sun, sky_light, relief, shadow_depth, contrast, model] = light.value_or(LightParameters());
   key.add("sun", sun).add("sky light", sky_light).add("relief", relief).add("shadow_depth", shadow_depth).add("contrast", contrast);
+  if (model != LightParameters().model) key.add("model", model);
   return make_cache_key(CachedProduct::example_sheet, key, subject);
 }
 

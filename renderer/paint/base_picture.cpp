@@ -9,6 +9,7 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/random_streams.h"
+#include "renderer/image/srgb.h"
 #include "renderer/paint/air.h"
 #include "renderer/paint/fields.h"
 #include "renderer/paint/forest_cover.h"
@@ -17,6 +18,7 @@
 #include "renderer/paint/ground/meadow_hues.h"
 #include "renderer/paint/ground/scree_fans.h"
 #include "renderer/paint/ground_hues.h"
+#include "renderer/paint/light.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
 #include "renderer/paint/range_edges.h"
@@ -234,6 +236,14 @@ float firn_share(const Scenery& s, int x, int y) {
   return s.palette.winter ? 1.0F - 0.35F * tongue : 1.0F - tongue;
 }
 
+// Encoded colour times light, as light multiplies: in linear values.
+glm::vec3 times_light(const glm::vec3& colour, float light) {
+  glm::vec3 out;
+  for (int c = 0; c < 3; ++c)
+    out[c] = static_cast<float>(srgb_encoded(srgb_decoded(static_cast<double>(colour[c])) * static_cast<double>(light)));
+  return out;
+}
+
 BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
   const GuidanceBuffers& g = s.guidance;
   const std::size_t i = g.depth_m.index(x, y);
@@ -267,8 +277,10 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
                             ? scree_turn(s.around.fans.place[i], s.around.fans.streak[i], g.relief_s_m[i], drift)
                             : ScreeTurn{};
   const float turned = fan.tone + woods.tone;
+  const bool multiplied = s.parameters.mean_light > 0.0 && id != Class::water;
   const auto paint = [&](double step) {
-    const double light = g.tone[i] + static_cast<double>(water.tone_shift) + static_cast<double>(turned) + step;
+    const double lit = g.tone[i] + static_cast<double>(water.tone_shift) + static_cast<double>(turned) + step;
+    const double light = multiplied ? static_cast<double>(middle_tone) : lit;
     glm::vec3 ramp = palette_colour(s.palette, id, altitude, light) * hue * fan.factor;
     if (firn > 0.0F) ramp = glm::mix(ramp, palette_colour(s.palette, Class::snow, altitude, light), firn);
     if (fan.grown > 0.0F) ramp = glm::mix(ramp, palette_colour(s.palette, Class::alpine_grass, altitude, light - 0.06), fan.grown);
@@ -281,6 +293,7 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
     ramp = bed.under(tint.over(ramp), s.palette, altitude, light);
     if (id == Class::settlement)
       ramp = town_ground_colour(s.palette, ramp, g.built[i], altitude, light, static_cast<float>(s.parameters.air.hue_drift));
+    if (multiplied) ramp = times_light(ramp, light_of_tone(static_cast<float>(lit)) / static_cast<float>(s.parameters.mean_light));
     return pixel.finish(water.over(ramp), s.palette.range_mist);
   };
   const int step_px = std::max(1, static_cast<int>(std::lround(s.parameters.pixels_per_unit)));

@@ -25,7 +25,10 @@ struct BaseParameters {
   double sunny_side = 1.0;                       // 1: the noon sun stands in the south, as it does north of the tropics; -1: in the north
   double pixels_per_unit = 1.0;
   std::uint64_t seed = 1;
-  std::uint64_t sky_seed = 1;                        // of the sky alone: views of one scene have skies of their own
+  std::uint64_t sky_seed = 1;  // of the sky alone: views of one scene have skies of their own
+  // 0: tone chooses colours in the palette's ramps. Else the ground has the ramps' colour at the middle tone, multiplied by the light that
+  // its tone stands for over this: the mean light of lit ground.
+  double mean_light = 0.0;
   std::shared_ptr<const GroundTint> tint = nullptr;  // colours of the ground's own that ramps are moved to; none: ramps as they are
 };
 

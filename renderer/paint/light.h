@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <string>
 
 #include "base/guidance_buffers.h"
 #include "base/parallel.h"
@@ -18,12 +19,16 @@ struct LightParameters {
   double relief = 0.08;        // how much heights are lighter and hollows darker, 0…1
   double shadow_depth = 0.78;  // how much of the sun a cast shadow takes, 0…1
   double contrast = 1.0;       // around tone .55, 0.2…3
+  // How tone becomes colour: by the palette's "ramp", or as the "product" of the ground's own colour and light, for comparison.
+  std::string model = "ramp";
 };
 
 // Raw light that becomes tone 0, how much more becomes tone 1, and the tone that contrast leaves as it is.
 inline constexpr float raw_black = 0.14F;
 inline constexpr float raw_range = 0.98F;
 inline constexpr float middle_tone = 0.55F;
+// The raw light that a tone stands for: what the ground's own colour is multiplied with where light is a factor.
+constexpr float light_of_tone(float tone) { return raw_black + raw_range * (tone < 0.0F ? 0.0F : tone); }
 
 // The light of a picture: one scalar a pixel from sun, cast shadow, sky view, relief and ribs. It indexes palette ramps; it is no radiance.
 struct ToneParameters {

@@ -19,6 +19,12 @@ std::vector<SceneSection> make_light_sections() {
             .range = {0, 1},
             .meaning = "How much of the sunlight a cast shadow takes away."},
            {.name = "contrast", .field = AT(light.contrast), .range = {0.2, 3}, .meaning = "Contrast between light and shade."},
+           {.name = "model",
+            .field = AT(light.model),
+            .meaning = "How light becomes colour: ramp takes shade and light from the palette as painters mix them; product multiplies the "
+                       "ground's own colour by the light, as most relief shading does, and is there for comparison.",
+            .text = TextKind::choice,
+            .choices = {"ramp", "product"}},
        }});
   return sections;
 }

@@ -6,10 +6,12 @@
 
 #include "base/angle.h"
 #include "base/random.h"
+#include "renderer/image/srgb.h"
 #include "renderer/paint/clouds/clouds.h"
 #include "renderer/paint/composite.h"
 #include "renderer/rock/crest_shift.h"
 #include "renderer/scene/scene_error.h"
+#include "renderer/trace/camera_reduced.h"
 #include "renderer/world/scene_climate.h"
 #include "terrain/climate/map_place.h"
 
@@ -60,7 +62,10 @@ RockParameters to_rock_parameters(const World& world, const Palette& palette, co
   return {to_tone_parameters(world, palette, view), &find_rock_kind(world.scene.land_cover.rock), palette.winter};
 }
 
-BaseParameters to_base_parameters(const World& world, const SheetView& view, const Palette& palette) {
+namespace {
+
+// But for how light becomes colour.
+BaseParameters to_unlit_parameters(const World& world, const SheetView& view, const Palette& palette) {
   BaseParameters parameters;
   parameters.air = world.view.air;
   parameters.horizon_px = view.horizon_px;
@@ -72,6 +77,14 @@ BaseParameters to_base_parameters(const World& world, const SheetView& view, con
   parameters.air.sky = find_sky_kind(world.scene.sky);
   parameters.sky_seed = sky_seed(world);
   parameters.tint = make_ground_tint(world.terrain, palette, world.scene.land_cover.colour_share);
+  return parameters;
+}
+
+}  // namespace
+
+BaseParameters to_base_parameters(const World& world, const SheetView& view, const Palette& palette) {
+  BaseParameters parameters = to_unlit_parameters(world, view, palette);
+  if (world.scene.light.model == "product") parameters.mean_light = mean_light_of(world, palette);
   return parameters;
 }
 
@@ -110,17 +123,62 @@ GuidanceBuffers trace_forms(const World& world, const Camera& camera, PixelRect 
   return trace_guidance(world.terrain, world.surface, world.tracer, camera, parameters, region, run.progress);
 }
 
+namespace {
+
+// Relief of rock and light, over traced channels.
+void light_up(GuidanceBuffers& guidance, const GuidanceBuffers& traced, const World& world, const Palette& palette, const SheetView& view,
+              glm::ivec2 origin_px, Progress& progress) {
+  const RockParameters rock = to_rock_parameters(world, palette, view);
+  const WideView wide{traced, 1, origin_px};
+  const PixelRect all{0, 0, traced.width(), traced.height()};
+  guidance = gather_rows(traced, shift_crests(traced, wide, rock, origin_px, all), all);
+  take_relief(guidance, make_rock_relief(guidance, wide, rock, origin_px, progress));
+  guidance.tone = make_tone(guidance, wide, to_tone_parameters(world, palette, view), origin_px, progress);
+}
+
+constexpr int measured_width_px = 480;
+constexpr double no_air_m = 1e9;  // air that begins beyond everything
+
+// Of encoded sRGB, linear: the Y of IEC 61966-2-1.
+double luminance_of(const glm::vec3& encoded) {
+  const auto linear = [](float value) { return srgb_decoded(static_cast<double>(value)); };
+  return 0.2126 * linear(encoded.x) + 0.7152 * linear(encoded.y) + 0.0722 * linear(encoded.z);
+}
+
+}  // namespace
+
+double mean_light_of(const World& world, const Palette& palette) {
+  const int factor = std::max(1, world.camera->size().x / measured_width_px);
+  const std::unique_ptr<const Camera> camera = make_reduced_camera(*world.camera, factor);
+  const SheetView view = reduced_view(world, *camera, factor);
+  const PixelRect whole{0, 0, camera->size().x, camera->size().y};
+  const Run run;
+  const GuidanceBuffers traced = trace_view(world, view, whole, run);
+  GuidanceBuffers g;
+  light_up(g, traced, world, palette, view, {0, 0}, run.progress);
+  BaseParameters parameters = to_unlit_parameters(world, view, palette);
+  parameters.mean_light = 1.0;
+  parameters.air.from_m = no_air_m;
+  parameters.air.rim_fade_m = 0.0;
+  const BasePicture base = make_base_picture(g, {traced, 1, {0, 0}}, palette, parameters, {0, 0}, camera->size(), run.progress);
+  double lit = 0.0;
+  double own = 0.0;
+  for (std::size_t i = 0; i < g.depth_m.size(); ++i) {
+    if (g.is_sky(i) || g.land_cover[i] == LandCoverClass::water || g.shadow[i] <= 0.5F) continue;
+    const double luminance = luminance_of(base.colour[i]);
+    lit += luminance;
+    own += luminance / static_cast<double>(light_of_tone(g.tone[i]));
+  }
+  return own > 0.0 ? lit / own : static_cast<double>(light_of_tone(middle_tone));
+}
+
 LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRect region, const Run& run) {
   const SheetView view = view_of(world);
   const glm::ivec2 origin_px{region.x0, region.y0};
   LitPicture picture;
   const GuidanceBuffers traced = trace_view(world, view, region, run);
-  const RockParameters rock = to_rock_parameters(world, palette, view);
+  light_up(picture.guidance, traced, world, palette, view, origin_px, run.progress);
   const WideView wide{traced, 1, origin_px};
-  const PixelRect all{0, 0, traced.width(), traced.height()};
-  picture.guidance = gather_rows(traced, shift_crests(traced, wide, rock, origin_px, all), all);
-  take_relief(picture.guidance, make_rock_relief(picture.guidance, wide, rock, origin_px, run.progress));
-  picture.guidance.tone = make_tone(picture.guidance, wide, to_tone_parameters(world, palette, view), origin_px, run.progress);
   picture.base = make_base_picture(picture.guidance, wide, palette, to_base_parameters(world, view, palette), origin_px, view.camera.size(),
                                    run.progress);
   picture.guidance.base = decode_srgb(picture.base.colour);

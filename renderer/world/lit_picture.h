@@ -38,6 +38,11 @@ struct LitPicture {
 // A small picture at once. Where the region is only a part, its rim lacks what lies around: parts of a sheet are made by SheetGround.
 LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRect region, const Run& run);
 
+// The mean light (light_of_tone) over the ground of the picture that lies in the sun, weighed by the luminance of the ground's own colour,
+// so that colours times light over it are as light there as the ground's own; measured on a small view of the whole picture, the same for
+// every part of a sheet.
+double mean_light_of(const World& world, const Palette& palette);
+
 // The hand in which the strokes of a world are painted.
 StrokeParameters to_stroke_parameters(const World& world, const Palette& palette);
 StrokeParameters to_stroke_parameters(const World& world, const Palette& palette, const SheetView& view);
