@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <string>
+#include <vector>
 
 #include "tests/texture/strokes/stroke_picture.h"
 
@@ -75,6 +80,43 @@ TEST(FarStrokes, TreesStandOrAreMissingAsAWhole) {
   EXPECT_LT(after.size(), before.size());
   EXPECT_FALSE(after.empty());
   for (const auto& [seed, parts] : after) EXPECT_EQ(parts, before[seed]);
+}
+
+// Air thickens with distance, up the picture; trees are as tall on the sheet far away as near, and fewer.
+TEST(FarStrokes, TreesAreFewerTheFartherAndAsTall) {
+  constexpr int bands = 4;
+  constexpr int band_px = 120;
+  Picture p = plain_picture(LandCoverClass::forest, 480, bands * band_px);
+  p.guidance.depth_m = Grid<float>(480, bands * band_px, 8000.F);
+  const std::vector<Stroke> grown = grow_strokes("forest trees", p.scene());
+  for (int y = 0; y < bands * band_px; ++y)
+    for (int x = 0; x < 480; ++x) p.ground.haze(x, y) = 0.28F + 0.14F * static_cast<float>(bands - 1 - y / band_px);
+  struct Extent {
+    float top = 1e9F;
+    float bottom = -1e9F;
+  };
+  std::map<std::uint32_t, Extent> trees[bands];
+  for (const Stroke& s : broaden_far(grown, p.ground, {0, 0}, 1.0)) {
+    if (s.gate != StrokeGate::upright) continue;
+    Extent& tree = trees[s.source / 480 / band_px][s.source];
+    for (int k = 0; k < s.point_count; ++k) {
+      tree.top = std::min(tree.top, s.points[static_cast<std::size_t>(k)].y);
+      tree.bottom = std::max(tree.bottom, s.points[static_cast<std::size_t>(k)].y);
+    }
+  }
+  const auto height = [](const std::map<std::uint32_t, Extent>& of) {
+    double sum = 0.0;
+    for (const auto& [source, tree] : of) sum += static_cast<double>(tree.bottom - tree.top);
+    return sum / static_cast<double>(of.size());
+  };
+  const std::size_t near = trees[bands - 1].size();
+  ASSERT_GT(near, 100U);
+  for (int b = bands - 2; b >= 0; --b) {
+    RecordProperty("trees_" + std::to_string(b), static_cast<int>(trees[b].size()));
+    EXPECT_LT(trees[b].size(), trees[b + 1].size()) << "band " << b;
+    EXPECT_NEAR(height(trees[b]), height(trees[bands - 1]), 0.06 * height(trees[bands - 1])) << "band " << b;
+  }
+  EXPECT_LT(trees[0].size(), near * 7 / 10);
 }
 
 }  // namespace
