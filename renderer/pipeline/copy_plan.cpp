@@ -15,6 +15,7 @@
 #include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/rock/crest_shift.h"
 #include "renderer/rock/rock_relief.h"
+#include "renderer/scene/scene_rules.h"
 #include "renderer/trace/camera_reduced.h"
 #include "renderer/trace/wide_view.h"
 #include "renderer/world/cached_products.h"
@@ -97,6 +98,9 @@ SynthesisParameters to_synthesis_parameters(const Scene& scene) {
   }
   for (const auto& [from, to] : with_stand_ins(scene.synthesis.fallback))
     parameters.fallback[static_cast<std::uint8_t>(from)] = static_cast<std::uint8_t>(to);
+  for (const auto& [pair, value] : scene.synthesis.unlikeness)
+    if (const auto classes = find_class_pair(pair))
+      parameters.unlikeness[{static_cast<std::uint8_t>(classes->first), static_cast<std::uint8_t>(classes->second)}] = value;
   return parameters;
 }
 

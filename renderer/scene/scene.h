@@ -206,8 +206,9 @@ struct SceneSynthesis {
   double residual = 0.75;           // how much of the base picture's difference is laid over the texel, 0…1
   std::vector<std::pair<std::string, double>> weights = default_guide_weights();  // by guide (renderer/paint/guides.h)
   std::vector<std::pair<LandCoverClass, LandCoverClass>> fallback;
+  std::vector<std::pair<std::string, double>> unlikeness;  // by two names of classes, "forest/shrub"
   double plan_mpx = 4.0;       // Mpx, 0.001…64: texels are chosen for the sheet as a whole on a picture of it of at most that size
-  SynthesisParameters search;  // without seed, weights and fallback
+  SynthesisParameters search;  // without seed, weights, fallback and unlikeness
 };
 
 struct SceneOutput {

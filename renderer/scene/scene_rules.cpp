@@ -18,6 +18,16 @@ class Rules {
  public:
   Rules(Scene& scene, const ConfigValue& root, const SceneOrigin& origin) : scene_(scene), root_(root), origin_(origin) {}
 
+  void synthesis() {
+    for (const auto& [pair, value] : scene_.synthesis.unlikeness)
+      if (!find_class_pair(pair))
+        refuse("synthesis.unlikeness." + pair, fmt::format("synthesis.unlikeness names \"{}\", which is no pair of classes", pair),
+               "two classes with a stroke between them, such as \"forest/shrub\" = 0.3");
+    const int side = scene_.synthesis.search.neighbourhood;
+    if (side % 2 == 0)
+      refuse("synthesis.neighbourhood", fmt::format("synthesis.neighbourhood is {}, which has no middle pixel", side), "3, 5, 7, 9 or 11");
+  }
+
   void terrain() {
     SceneTerrain& terrain = scene_.terrain;
     if (!terrain.sources.empty() && terrain.synthetic)
@@ -240,6 +250,15 @@ class Rules {
 
 }  // namespace
 
+std::optional<std::pair<LandCoverClass, LandCoverClass>> find_class_pair(std::string_view names) {
+  const std::size_t stroke = names.find('/');
+  if (stroke == std::string_view::npos) return std::nullopt;
+  const std::optional<LandCoverClass> a = find_class(names.substr(0, stroke));
+  const std::optional<LandCoverClass> b = find_class(names.substr(stroke + 1));
+  if (!a || !b || *a == *b) return std::nullopt;
+  return std::pair{*a, *b};
+}
+
 void apply_scene_rules(Scene& scene, const ConfigValue& root, const SceneOrigin& origin) {
   Rules rules(scene, root, origin);
   rules.terrain();
@@ -250,6 +269,7 @@ void apply_scene_rules(Scene& scene, const ConfigValue& root, const SceneOrigin&
   rules.camera();
   rules.exemplars();
   rules.erosion();
+  rules.synthesis();
 }
 
 }  // namespace belvedere

@@ -14,7 +14,7 @@ namespace belvedere {
 
 namespace {
 
-constexpr std::string_view magic = "belvedere synthesis plan 1\n";
+constexpr std::string_view magic = "belvedere synthesis plan 2\n";
 
 class Writer {
  public:
@@ -105,6 +105,8 @@ std::vector<std::uint8_t> pack_plan(const SynthesisPlan& plan) {
   for (const int value : {data.sheet.width, data.sheet.height, data.sheet.level, data.sheet.tile_px}) out.number(value);
   const SynthesisParameters& parameters = data.setup.parameters;
   out.number(parameters.seed);
+  out.number(parameters.neighbourhood);
+  out.number(parameters.surroundings_of == "all" ? 1 : 0);
   out.number(parameters.copy_cap);
   out.number(std::bit_cast<std::uint64_t>(parameters.reuse));
   out.number(data.setup.roles.size());
@@ -138,6 +140,10 @@ SynthesisPlan unpack_plan(const std::vector<std::uint8_t>& bytes, const std::vec
     refuse("no sheet");
   SynthesisParameters& parameters = data->setup.parameters;
   parameters.seed = in.number();
+  parameters.neighbourhood = in.small_number();
+  if (parameters.neighbourhood % 2 == 0 || parameters.patch_radius() < 1 || parameters.patch_radius() > synth::largest_patch_radius)
+    refuse("a neighbourhood out of range");
+  if (in.number() != 0) parameters.surroundings_of = "all";
   parameters.copy_cap = in.small_number();
   parameters.reuse = std::bit_cast<double>(in.number());
   const int guides = in.small_number();

@@ -59,7 +59,7 @@ Guides make_guides(const synth::Setup& setup, const GuideStack& stack, const Pix
 }
 
 synth::Plane cut_plane(const synth::Plane& plane, int x0, int y0, int width, int height) {
-  synth::Plane part = synth::make_plane({{width, height}}, plane.guide_count);
+  synth::Plane part = synth::make_plane({{width, height}}, plane.guide_count, plane.margin);
   const std::size_t guides = static_cast<std::size_t>(plane.guide_count);
   for (int y = 0; y < height; ++y) {
     const std::size_t from = plane.index(0, x0, y0 + y);
@@ -99,7 +99,8 @@ LevelMatches make_level(const SynthesisPlanData& plan, const Guides& guides, con
   synth::Plane target = cut_plane(guides.planes[l], x0, y0, rect.width(), rect.height());
   std::vector<std::uint8_t> links;
   if (!guides.depths.empty())
-    links = synth::make_links(cut_grid(guides.depths[l], x0, y0, rect.width(), rect.height()), target, synth::depth_ratio(level));
+    links = synth::make_links(cut_grid(guides.depths[l], x0, y0, rect.width(), rect.height()), target, synth::depth_ratio(level),
+                              plan.setup.parameters.patch_radius());
   synth::LevelSettings settings = plan.setup.settings(level);
   // Areas draw different numbers.
   settings.seed = random_bits(random_bits(settings.seed, area.rect.x0, area.rect.y0), area.rect.x1, area.rect.y1);
@@ -115,7 +116,7 @@ LevelMatches make_level(const SynthesisPlanData& plan, const Guides& guides, con
 
   // The coarser matches below the window, and as far around as children may take theirs from.
   const synth::Plane& coarse_exemplars = plan.exemplars[l + 1];
-  const synth::Plane below = synth::make_plane({{(rect.width() + 1) / 2, (rect.height() + 1) / 2}}, 0);
+  const synth::Plane below = synth::make_plane({{(rect.width() + 1) / 2, (rect.height() + 1) / 2}}, 0, target.margin);
   std::vector<std::uint32_t> coarse_match(below.words.size(), coarse_exemplars.nowhere());
   for (int y = -1; y <= below.parts[0].height; ++y) {
     for (int x = -1; x <= below.parts[0].width; ++x) {

@@ -44,9 +44,9 @@ std::uint32_t allowed_texel(const KernelView& view, std::uint32_t pixel, const F
   return view.match[pixel];
 }
 
-PickRun begin_draw(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y) {
+PickRun begin_draw(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, int widen) {
   const std::uint32_t random = static_cast<std::uint32_t>(random_bits(key, x, y) >> 32);
-  return view.lists->pick(class_of(view.target->words[pixel]), view.target->guides_at(pixel), random);
+  return view.lists->pick(class_of(view.target->words[pixel]), view.target->guides_at(pixel), random, widen);
 }
 
 namespace {
@@ -55,13 +55,14 @@ namespace {
 template <class F>
 std::uint32_t cheapest_entry(const KernelView& view, std::uint32_t pixel, const PickRun& run, int draws, Slack slack, F&& further) {
   const std::uint8_t* requested = view.target->guides_at(pixel);
+  const Surroundings requested_around = view.around_price == nullptr ? Surroundings() : view.target_around[pixel];
   slack.others = nullptr;  // picks are as good as they can be
   std::uint32_t best = view.exemplars->nowhere();
   std::int64_t best_cost = INT64_MAX;
   for (std::uint32_t i = 0; i < std::min(run.count, static_cast<std::uint32_t>(draws)); ++i) {
     const PickLists::Entry entry = view.lists->entry(run.entry(i));
     const std::int64_t cost =
-        guide_cost(view, requested, entry.guides(), slack) + surroundings_cost(view, pixel, entry.around()) + further(entry);
+        guide_cost(view, requested, entry.guides(), slack) + surroundings_cost(view, requested_around, entry.around()) + further(entry);
     if (cost < best_cost) {
       best_cost = cost;
       best = entry.texel();
@@ -71,8 +72,11 @@ std::uint32_t cheapest_entry(const KernelView& view, std::uint32_t pixel, const 
 }
 
 int draws_at(const KernelView& view, std::uint32_t pixel) {
-  const bool at_border = view.around_price != nullptr && view.target_around[pixel].others > border_others;
-  return at_border ? std::max(view.draws, view.border_draws) : view.draws;
+  if (view.around_price == nullptr) return view.draws;
+  const Surroundings around = view.target_around[pixel];
+  const std::uint32_t own = class_of(view.target->words[pixel]);
+  const int others = view.target_shares == nullptr ? around.others : 255 - view.target_shares->of(around)[own];
+  return others > border_others ? std::max(view.draws, view.border_draws) : view.draws;
 }
 
 }  // namespace
@@ -98,26 +102,31 @@ std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint6
   return finish_draw(view, pixel, begin_draw(view, pixel, key, x, y), slack);
 }
 
-void surface_around(const KernelView& view, std::uint32_t pixel, std::uint8_t rows[7]) {
-  std::fill(rows, rows + 7, std::uint8_t{0});
-  std::array<std::uint8_t, 49> open{};  // places reached, y × 7 + x; each enters once
+SurfaceRows surface_around(const KernelView& view, std::uint32_t pixel) {
+  constexpr int most = 2 * largest_patch_radius + 1;
+  const int side = 2 * view.radius + 1;
+  SurfaceRows rows{};
+  std::array<std::uint8_t, static_cast<std::size_t>(most) * most> open{};  // places reached, y × side + x; each enters once
   std::size_t count = 0;
   const auto reach = [&](int x, int y) {
-    if (x < 0 || y < 0 || x > 6 || y > 6 || (rows[y] >> x & 1)) return;
-    rows[y] = static_cast<std::uint8_t>(rows[y] | 1U << x);
-    open[count++] = static_cast<std::uint8_t>(y * 7 + x);
+    if (x < 0 || y < 0 || x >= side || y >= side) return;
+    std::uint16_t& row = rows[static_cast<std::size_t>(y)];
+    if (row >> x & 1) return;
+    row = static_cast<std::uint16_t>(row | 1U << x);
+    open[count++] = static_cast<std::uint8_t>(y * side + x);
   };
-  reach(patch_radius, patch_radius);
+  reach(view.radius, view.radius);
   for (std::size_t i = 0; i < count; ++i) {
-    const int x = open[i] % 7;
-    const int y = open[i] / 7;
-    const std::uint8_t bits = view.links[static_cast<std::ptrdiff_t>(pixel) + x - patch_radius +
-                                         static_cast<std::ptrdiff_t>(y - patch_radius) * view.target->stride];
+    const int x = open[i] % side;
+    const int y = open[i] / side;
+    const std::uint8_t bits = view.links[static_cast<std::ptrdiff_t>(pixel) + x - view.radius +
+                                         static_cast<std::ptrdiff_t>(y - view.radius) * view.target->stride];
     if (bits & link::right) reach(x + 1, y);
     if (bits & link::left) reach(x - 1, y);
     if (bits & link::down) reach(x, y + 1);
     if (bits & link::up) reach(x, y - 1);
   }
+  return rows;
 }
 
 }  // namespace belvedere::synth

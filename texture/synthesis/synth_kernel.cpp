@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <type_traits>
 
 #include "base/error.h"
 #include "texture/synthesis/synth_pieces.h"
@@ -19,106 +20,128 @@ namespace belvedere::synth {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Words = hn::CappedTag<std::uint32_t, 8>;  // a patch row: 7 pixels and one of weight 0
+using Words = hn::CappedTag<std::uint32_t, 8>;  // half or all of a patch's row
 using Bytes = hn::Repartition<std::uint8_t, Words>;
 using Shorts = hn::Repartition<std::int16_t, Words>;
 using Sums = hn::Repartition<std::int32_t, Words>;
 
-constexpr std::size_t row_words = 8;
+// Words that a patch's row is read as: up to 7 pixels and one of weight 0 or more, or up to 11 in 16.
+template <int radius>
+constexpr std::size_t row_words = radius <= 3 ? 8 : 16;
+template <int radius>
+constexpr std::size_t patch_words = (2 * radius + 1) * row_words<radius>;
 constexpr std::int64_t no_price = INT64_MAX / 4;  // above all; room to subtract a price below 0
 
 // Weights as pairs of shorts beside R and B of a word, and beside G and the class: there a difference of class, cut to 1,
-// times class_mismatch << distance_shift adds the price of a mismatch into the same sum.
+// times the price of a mismatch adds it into the same sum.
+template <int radius>
 struct WeightTable {
-  alignas(64) std::uint32_t red_blue[7 * row_words] = {};
-  alignas(64) std::uint32_t green_class[7 * row_words] = {};
+  alignas(64) std::uint32_t red_blue[patch_words<radius>] = {};
+  alignas(64) std::uint32_t green_class[patch_words<radius>] = {};
   constexpr WeightTable() {
-    for (int j = 0; j < 7; ++j) {
-      for (int i = 0; i < 7; ++i) {
-        const std::uint32_t w = static_cast<std::uint32_t>(patch_weights[j < 3 ? 3 - j : j - 3][i < 3 ? 3 - i : i - 3]);
-        const std::size_t at = static_cast<std::size_t>(j) * row_words + static_cast<std::size_t>(i);
+    constexpr PatchShape shape = patch_shapes[radius];
+    static_assert(shape.mismatch <= 32767);
+    for (int j = 0; j <= 2 * radius; ++j) {
+      for (int i = 0; i <= 2 * radius; ++i) {
+        const std::uint32_t w =
+            static_cast<std::uint32_t>(shape.weights[j < radius ? radius - j : j - radius][i < radius ? radius - i : i - radius]);
+        const std::size_t at = static_cast<std::size_t>(j) * row_words<radius> + static_cast<std::size_t>(i);
         red_blue[at] = w | w << 16;
-        green_class[at] = w | static_cast<std::uint32_t>(price::class_mismatch << price::distance_shift) << 16;
+        green_class[at] = w | static_cast<std::uint32_t>(shape.mismatch) << 16;
       }
     }
   }
 };
-static_assert((price::class_mismatch << price::distance_shift) <= 32767);
-constexpr WeightTable weight_table;
+template <int radius>
+constexpr WeightTable<radius> weight_table;
+
+// A sum of weighted squares in price units.
+template <int radius>
+HWY_INLINE std::int64_t to_price(std::int64_t sum) {
+  if constexpr (patch_shapes[radius].scale_q8 != 256) sum = sum * patch_shapes[radius].scale_q8 >> 8;
+  return sum >> price::distance_shift;
+}
 
 // The target's patch around a pixel, loaded once for all its candidates. mask is 0 where a pixel does not count.
+template <int radius>
 struct Patch {
-  alignas(64) std::uint32_t colour[7 * row_words];
-  alignas(64) std::uint32_t mask[7 * row_words];
+  alignas(64) std::uint32_t colour[patch_words<radius>];
+  alignas(64) std::uint32_t mask[patch_words<radius>];
 };
 
-HWY_INLINE void LoadPatch(const KernelView& view, std::uint32_t pixel, Patch& patch) {
+template <int radius>
+HWY_INLINE void LoadPatch(const KernelView& view, std::uint32_t pixel, Patch<radius>& patch) {
+  constexpr std::size_t side = 2 * radius + 1;
   const Words d;
   const std::ptrdiff_t stride = view.target->stride;
-  const std::uint32_t* row = view.target->words.data() + pixel - patch_radius * stride - patch_radius;
-  for (std::size_t j = 0; j < 7; ++j, row += stride) {
-    for (std::size_t i = 0; i < row_words; i += hn::Lanes(d)) {
+  const std::uint32_t* row = view.target->words.data() + pixel - radius * stride - radius;
+  for (std::size_t j = 0; j < side; ++j, row += stride) {
+    for (std::size_t i = 0; i < row_words<radius>; i += hn::Lanes(d)) {
       const auto words = hn::LoadU(d, row + i);
       const auto counts = hn::Ne(hn::ShiftRight<24>(words), hn::Set(d, no_class));
-      hn::Store(words, d, patch.colour + j * row_words + i);
-      hn::Store(hn::VecFromMask(d, counts), d, patch.mask + j * row_words + i);
+      hn::Store(words, d, patch.colour + j * row_words<radius> + i);
+      hn::Store(hn::VecFromMask(d, counts), d, patch.mask + j * row_words<radius> + i);
     }
   }
   if (view.links != nullptr && (view.links[pixel] & link::cut_patch)) {
-    std::uint8_t rows[7];
-    surface_around(view, pixel, rows);
-    for (std::size_t j = 0; j < 7; ++j) {
-      for (std::size_t i = 0; i < 7; ++i) {
-        if (!(rows[j] >> i & 1)) patch.mask[j * row_words + i] = 0;
+    const SurfaceRows rows = surface_around(view, pixel);
+    for (std::size_t j = 0; j < side; ++j) {
+      for (std::size_t i = 0; i < side; ++i) {
+        if (!(rows[j] >> i & 1)) patch.mask[j * row_words<radius> + i] = 0;
       }
     }
   }
 }
 
 // Adds one row's weighted squared differences of R, G, B and its class mismatches.
-template <class V>
-HWY_INLINE void AddRow(const Patch& patch, std::size_t j, const std::uint32_t* texels, V& sum0, V& sum1) {
+template <int radius, class V>
+HWY_INLINE void AddRow(const Patch<radius>& patch, std::size_t j, const std::uint32_t* texels, V& sum0, V& sum1) {
   const Words d;
   const Bytes d8;
   const Shorts d16;
   const Sums d32;
   const auto low_bytes = hn::Set(d, 0x00ff00ffU);
   const auto green_or_one = hn::BitCast(d16, hn::Set(d, 0x000100ffU));
-  for (std::size_t i = 0; i < row_words; i += hn::Lanes(d)) {
-    const std::size_t at = j * row_words + i;
+  for (std::size_t i = 0; i < row_words<radius>; i += hn::Lanes(d)) {
+    const std::size_t at = j * row_words<radius> + i;
     const auto a = hn::BitCast(d8, hn::LoadU(d, texels + i));
     const auto b = hn::BitCast(d8, hn::Load(d, patch.colour + at));
     const auto difference = hn::And(hn::BitCast(d, hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a))), hn::Load(d, patch.mask + at));
     const auto red_blue = hn::BitCast(d16, hn::And(difference, low_bytes));
     const auto green_class =
         hn::Min(hn::BitCast(d16, hn::ShiftRight<8>(hn::BitCast(hn::Repartition<std::uint16_t, Words>(), difference))), green_or_one);
-    const auto w_rb = hn::BitCast(d16, hn::Load(d, weight_table.red_blue + at));
-    const auto w_gc = hn::BitCast(d16, hn::Load(d, weight_table.green_class + at));
+    const auto w_rb = hn::BitCast(d16, hn::Load(d, weight_table<radius>.red_blue + at));
+    const auto w_gc = hn::BitCast(d16, hn::Load(d, weight_table<radius>.green_class + at));
     sum0 = hn::ReorderWidenMulAccumulate(d32, red_blue, hn::Mul(red_blue, w_rb), sum0, sum1);
     sum0 = hn::ReorderWidenMulAccumulate(d32, green_class, hn::Mul(green_class, w_gc), sum0, sum1);
   }
 }
 
 // Patch distance plus class mismatches, in price units; anything above `limit` may come back as a part of the sum above it.
-HWY_INLINE std::int64_t PatchCost(const Patch& patch, const std::uint32_t* texel, std::ptrdiff_t stride, std::int64_t limit) {
+template <int radius>
+HWY_INLINE std::int64_t PatchCost(const Patch<radius>& patch, const std::uint32_t* texel, std::ptrdiff_t stride, std::int64_t limit) {
   const Sums d32;
   auto sum0 = hn::Zero(d32);
   auto sum1 = hn::Zero(d32);
-  const std::uint32_t* row = texel - patch_radius;
+  constexpr std::size_t middle = radius;
+  const std::uint32_t* row = texel - radius;
   // The middle rows carry most of the weight: they settle most candidates.
-  AddRow(patch, 3, row, sum0, sum1);
-  AddRow(patch, 2, row - stride, sum0, sum1);
-  AddRow(patch, 4, row + stride, sum0, sum1);
-  const std::int64_t part = hn::GetLane(hn::SumOfLanes(d32, hn::Add(sum0, sum1)));
-  if ((part >> price::distance_shift) > limit) return part >> price::distance_shift;
-  AddRow(patch, 1, row - 2 * stride, sum0, sum1);
-  AddRow(patch, 5, row + 2 * stride, sum0, sum1);
-  AddRow(patch, 0, row - 3 * stride, sum0, sum1);
-  AddRow(patch, 6, row + 3 * stride, sum0, sum1);
-  return static_cast<std::int64_t>(hn::GetLane(hn::SumOfLanes(d32, hn::Add(sum0, sum1)))) >> price::distance_shift;
+  AddRow<radius>(patch, middle, row, sum0, sum1);
+  AddRow<radius>(patch, middle - 1, row - stride, sum0, sum1);
+  AddRow<radius>(patch, middle + 1, row + stride, sum0, sum1);
+  if constexpr (radius > 1) {
+    const std::int64_t part = to_price<radius>(hn::GetLane(hn::SumOfLanes(d32, hn::Add(sum0, sum1))));
+    if (part > limit) return part;
+    for (std::size_t j = 2; j <= middle; ++j) {
+      AddRow<radius>(patch, middle - j, row - static_cast<std::ptrdiff_t>(j) * stride, sum0, sum1);
+      AddRow<radius>(patch, middle + j, row + static_cast<std::ptrdiff_t>(j) * stride, sum0, sum1);
+    }
+  }
+  return to_price<radius>(hn::GetLane(hn::SumOfLanes(d32, hn::Add(sum0, sum1))));
 }
 
 // The search of one pixel: candidates are offered one by one, the cheapest stays; ties to the lower exemplar index.
+template <int radius>
 struct Search {
   const KernelView* view = nullptr;
   std::uint32_t label_class = no_class;
@@ -127,7 +150,7 @@ struct Search {
   alignas(8) std::uint8_t free[vector_guides] = {};  // slack of each guide, for GuideCost
   Surroundings around;
   Forbidden forbidden;
-  Patch patch;
+  Patch<radius> patch;
   std::uint32_t own = 0;
   std::uint32_t best = 0;
   std::int64_t best_cost = no_price;
@@ -148,7 +171,7 @@ struct Search {
     if (state.around_price != nullptr) around = state.target_around[pixel];
     if (state.links != nullptr && (state.links[pixel] & link::all) != link::all) forbidden = forbidden_texels(state, pixel);
     own = best = state.match[pixel];
-    LoadPatch(state, pixel, patch);
+    LoadPatch<radius>(state, pixel, patch);
   }
 
   // guide_cost, for up to 8 guides at once where their prices fit 32 bits.
@@ -174,9 +197,7 @@ struct Search {
     return static_cast<std::int64_t>(hn::GetLane(hn::SumOfLanes(d32, sum)) >> 4);
   }
 
-  HWY_INLINE std::int64_t AroundCost(Surroundings offered) const {
-    return view->around_price == nullptr ? 0 : (*view->around_price)(around, offered);
-  }
+  HWY_INLINE std::int64_t AroundCost(Surroundings offered) const { return surroundings_cost(*view, around, offered); }
 
   // `join` is what copying along with a neighbour's (or keeping the own) piece costs.
   HWY_INLINE void Offer(std::uint32_t texel, std::int64_t join) {
@@ -193,7 +214,7 @@ struct Search {
     std::int64_t cost = join + GuideCost(record.guides()) + AroundCost(record.around()) +
                         (others * (others + 1) / 2 * view->reuse_q4[label_class] >> 4) + view->bin_cost[label_class * 64 + record.bin()];
     if (cost > best_cost) return;
-    cost += PatchCost(patch, word, view->exemplars->stride, best_cost - cost);
+    cost += PatchCost<radius>(patch, word, view->exemplars->stride, best_cost - cost);
     if (cost < best_cost || (cost == best_cost && texel < best)) {
       best_cost = cost;
       best = texel;
@@ -204,14 +225,16 @@ struct Search {
 constexpr std::ptrdiff_t fetch_ahead = 2;
 constexpr int batch = 32;  // picks begun before the first is finished
 
+template <int radius>
 HWY_INLINE void Fetch(const KernelView& view, std::uint32_t texel) {
   const std::ptrdiff_t stride = view.exemplars->stride;
-  const std::uint32_t* row = view.exemplars->words.data() + texel - patch_radius * stride;
-  for (int j = 0; j < 7; ++j, row += stride) hwy::Prefetch(row);
+  const std::uint32_t* row = view.exemplars->words.data() + texel - radius * stride;
+  for (int j = 0; j <= 2 * radius; ++j, row += stride) hwy::Prefetch(row);
   hwy::Prefetch(view.texels->at(texel).words);
 }
 
-void ImproveRow(const KernelView& view, int x0, int x1, int y, std::uint32_t* next) {
+template <int radius>
+void ImproveRowOf(const KernelView& view, int x0, int x1, int y, std::uint32_t* next) {
   static constexpr std::array<std::array<int, 2>, 8> neighbours{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
   const Plane& target = *view.target;
   const std::int64_t nearly_full = view.copy_cap - view.copy_cap / 4;
@@ -241,7 +264,7 @@ void ImproveRow(const KernelView& view, int x0, int x1, int y, std::uint32_t* ne
   for (int x = x0; x < x1; x += 2, ++next) {
     const std::uint32_t pixel = row + static_cast<std::uint32_t>(x);
     if (next + fetch_ahead < drawn) {
-      Fetch(view, next[fetch_ahead]);
+      Fetch<radius>(view, next[fetch_ahead]);
       // What neighbours copy is where this pixel's coherent candidates lie.
       const std::uint32_t* ahead = view.match + pixel + 2 * fetch_ahead;
       for (const std::uint32_t texel : {ahead[0], ahead[1], *(ahead - target.stride), ahead[target.stride]}) {
@@ -252,7 +275,7 @@ void ImproveRow(const KernelView& view, int x0, int x1, int y, std::uint32_t* ne
     const std::uint32_t pick = *next;
     *next = view.match[pixel];
     if (class_of(target.words[pixel]) == no_class || view.is_fixed(pixel)) continue;
-    Search search;
+    Search<radius> search;
     search.Begin(view, pixel);
     // Where pieces are not moved as a whole, a piece over the cap is broken up from inside, by cells that alternate with the passes.
     std::int64_t keep = 0;
@@ -275,20 +298,22 @@ void ImproveRow(const KernelView& view, int x0, int x1, int y, std::uint32_t* ne
   }
 }
 
-std::int64_t OnePatchCost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
-  Patch patch;
-  LoadPatch(view, pixel, patch);
-  return PatchCost(patch, view.exemplars->words.data() + texel, view.exemplars->stride, no_price);
+template <int radius>
+std::int64_t OnePatchCostOf(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
+  Patch<radius> patch;
+  LoadPatch<radius>(view, pixel, patch);
+  return PatchCost<radius>(patch, view.exemplars->words.data() + texel, view.exemplars->stride, no_price);
 }
 
 std::int64_t OneGuidesCost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
-  Search search;
+  Search<patch_radius> search;
   search.Begin(view, pixel);
   return search.GuideCost(view.texels->at(texel).guides());
 }
 
-int BestMove(const KernelView& view, const std::vector<PieceSample>& samples, const std::vector<std::uint32_t>& candidates) {
-  std::vector<Search> searches(samples.size());
+template <int radius>
+int BestMoveOf(const KernelView& view, const std::vector<PieceSample>& samples, const std::vector<std::uint32_t>& candidates) {
+  std::vector<Search<radius>> searches(samples.size());
   for (std::size_t s = 0; s < samples.size(); ++s) searches[s].Begin(view, samples[s].pixel);
   const Plane& exemplars = *view.exemplars;
   int best = -1;
@@ -300,7 +325,7 @@ int BestMove(const KernelView& view, const std::vector<PieceSample>& samples, co
     for (std::size_t s = 0; s < samples.size() && cost < best_cost; ++s) {
       const int x = place.x + samples[s].dx;
       const int y = place.y + samples[s].dy;
-      const Search& search = searches[s];
+      const Search<radius>& search = searches[s];
       const std::uint32_t texel =
           x < 0 || y < 0 || x >= part.width || y >= part.height ? exemplars.nowhere() : exemplars.index(place.part, x, y);
       if (class_of(exemplars.words[texel]) != search.label_class) {
@@ -311,7 +336,7 @@ int BestMove(const KernelView& view, const std::vector<PieceSample>& samples, co
       const std::int64_t others = record.uses();
       cost += guide_cost(view, search.requested, record.guides(), search.slack) + search.AroundCost(record.around()) +
               (others * (others + 1) / 2 * view.reuse_q4[search.label_class] >> 4) + view.bin_cost[search.label_class * 64 + record.bin()];
-      cost += PatchCost(search.patch, exemplars.words.data() + texel, exemplars.stride, no_price);
+      cost += PatchCost<radius>(search.patch, exemplars.words.data() + texel, exemplars.stride, no_price);
     }
     if (cost < best_cost) {
       best_cost = cost;
@@ -319,6 +344,33 @@ int BestMove(const KernelView& view, const std::vector<PieceSample>& samples, co
     }
   }
   return best;
+}
+
+// f(std::integral_constant<int, radius>()) for the view's radius.
+template <class F>
+auto WithRadius(const KernelView& view, F&& f) {
+  switch (view.radius) {
+    case 1:
+      return f(std::integral_constant<int, 1>());
+    case 2:
+      return f(std::integral_constant<int, 2>());
+    case 4:
+      return f(std::integral_constant<int, 4>());
+    case 5:
+      return f(std::integral_constant<int, 5>());
+    default:
+      return f(std::integral_constant<int, 3>());
+  }
+}
+
+void ImproveRow(const KernelView& view, int x0, int x1, int y, std::uint32_t* next) {
+  WithRadius(view, [&](auto radius) { ImproveRowOf<decltype(radius)::value>(view, x0, x1, y, next); });
+}
+std::int64_t OnePatchCost(const KernelView& view, std::uint32_t pixel, std::uint32_t texel) {
+  return WithRadius(view, [&](auto radius) { return OnePatchCostOf<decltype(radius)::value>(view, pixel, texel); });
+}
+int BestMove(const KernelView& view, const std::vector<PieceSample>& samples, const std::vector<std::uint32_t>& candidates) {
+  return WithRadius(view, [&](auto radius) { return BestMoveOf<decltype(radius)::value>(view, samples, candidates); });
 }
 
 }  // namespace HWY_NAMESPACE

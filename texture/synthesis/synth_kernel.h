@@ -30,8 +30,23 @@ inline constexpr std::int64_t join = 60000;           // joining a piece near th
 inline constexpr std::int64_t misfit = 300000;        // a member of a moved piece that would leave its class
 }  // namespace price
 
-// Weight of a patch pixel: round(16 exp(-r² / 8)), by |dx| and |dy|.
-inline constexpr int patch_weights[4][4] = {{16, 14, 10, 5}, {14, 12, 9, 5}, {10, 9, 6, 3}, {5, 5, 3, 2}};
+// A neighbourhood by its radius R: the weight of a pixel, round(16 exp(-9 r² / 8 R²)) by |dx| and |dy|, which for 7 × 7 is exp(-r² / 8);
+// and what brings other sizes to the scale of 7 × 7, so that prices keep their meaning: all weights together make 348, all mismatches of
+// class together 49 × class_mismatch. The sum of weighted squares and mismatches is multiplied by scale_q8 / 256.
+struct PatchShape {
+  int weights[largest_patch_radius + 1][largest_patch_radius + 1];
+  int mismatch;  // of a pixel, before scaling and distance_shift
+  int scale_q8;
+};
+inline constexpr PatchShape patch_shapes[largest_patch_radius + 1] = {
+    {},
+    {{{16, 5}, {5, 2}}, 16519, 2025},
+    {{{16, 12, 5}, {12, 9, 4}, {5, 4, 2}}, 21620, 557},
+    {{{16, 14, 10, 5}, {14, 12, 9, 5}, {10, 9, 6, 3}, {5, 5, 3, 2}}, price::class_mismatch << price::distance_shift, 256},
+    {{{16, 15, 12, 8, 5}, {15, 14, 11, 8, 5}, {12, 11, 9, 6, 4}, {8, 8, 6, 5, 3}, {5, 5, 4, 3, 2}}, 24778, 150},
+    {{{16, 15, 13, 11, 8, 5}, {15, 15, 13, 10, 7, 5}, {13, 13, 11, 9, 7, 4}, {11, 10, 9, 7, 5, 3}, {8, 7, 7, 5, 4, 3}, {5, 5, 4, 3, 3, 2}},
+     25388,
+     98}};
 
 // Share of other classes, of 255, from which on a pixel lies at a border.
 inline constexpr int border_others = 64;
@@ -47,6 +62,9 @@ struct KernelView {
   const std::uint8_t* links = nullptr;          // by target index; null: no silhouettes
   const Surroundings* target_around = nullptr;  // by target index: classes around; null: not priced
   const SurroundingsPrice* around_price = nullptr;
+  const ClassShares* target_shares = nullptr;  // null: Surroundings are the commonest other class and the share of all others
+  const ClassShares* texel_shares = nullptr;   // with these they are numbers of the target's and of the texels' kinds
+  int classes = 0;
   const GuideRole* guides = nullptr;              // exemplars->guide_count of them
   const std::uint32_t* vector_weights = nullptr;  // vector_guides weights, 0 beyond the last; null: one by one
   const std::uint8_t* usual_error = nullptr;      // by class × guide_count + guide: what picks are usually off; null: not known yet
@@ -64,6 +82,7 @@ struct KernelView {
   int fitting_draws = 1;                          // and where what is painted around is looked at; 1: it is not
   std::uint64_t key = 0;                          // of the random numbers of this pass
   int pass = 0;
+  int radius = patch_radius;  // of neighbourhoods, 1 … largest_patch_radius; planes are padded for it
 
   bool is_fixed(std::uint32_t pixel) const { return fixed != nullptr && fixed[pixel] != exemplars->nowhere(); }
 };
@@ -94,15 +113,18 @@ inline std::int64_t guide_cost(const KernelView& view, const std::uint8_t* reque
 // the cheapest guides and surroundings. Nowhere where the class has no texel.
 std::uint32_t draw_texel(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, Slack slack);
 // The same in two steps, so that others can be begun while memory is waited for.
-PickRun begin_draw(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y);
+// `widen`: from a window twice as wide for each step, for pixels whose own holds too few texels.
+PickRun begin_draw(const KernelView& view, std::uint32_t pixel, std::uint64_t key, int x, int y, int widen = 0);
 std::uint32_t finish_draw(const KernelView& view, std::uint32_t pixel, const PickRun& run, Slack slack);
 // And of `fitting_draws` that which fits best what is painted around the pixel already, too: what sub-passes offer. Where a silhouette
 // cuts the patch, as above.
 std::uint32_t finish_fitting_draw(const KernelView& view, std::uint32_t pixel, const PickRun& run, Slack slack);
 
 // What the classes around a texel cost; 0 where they are not priced.
-inline std::int64_t surroundings_cost(const KernelView& view, std::uint32_t pixel, Surroundings offered) {
-  return view.around_price == nullptr ? 0 : (*view.around_price)(view.target_around[pixel], offered);
+inline std::int64_t surroundings_cost(const KernelView& view, Surroundings requested, Surroundings offered) {
+  if (view.around_price == nullptr) return 0;
+  if (view.target_shares == nullptr) return (*view.around_price)(requested, offered);
+  return shares_cost(view.target_shares->of(requested), view.texel_shares->of(offered), *view.around_price, view.classes);
 }
 
 // Texels that a pixel must not copy, because a neighbour across a silhouette copies by the same offset: no piece runs on behind a ridge.
@@ -117,8 +139,9 @@ Forbidden forbidden_texels(const KernelView& view, std::uint32_t pixel, bool all
 // A texel of the pixel's class that is not forbidden: a pick, or the first there is; its own one where there is no other.
 std::uint32_t allowed_texel(const KernelView& view, std::uint32_t pixel, const Forbidden& forbidden, std::uint64_t key, int x, int y);
 
-// Which of the 7 × 7 pixels around (bit x of row y) lie on the pixel's own surface, reached by linked steps inside the window.
-void surface_around(const KernelView& view, std::uint32_t pixel, std::uint8_t rows[7]);
+// Which of the (2 radius + 1)² pixels around (bit x of row y) lie on the pixel's own surface, reached by linked steps inside the window.
+using SurfaceRows = std::array<std::uint16_t, 2 * largest_patch_radius + 1>;
+SurfaceRows surface_around(const KernelView& view, std::uint32_t pixel);
 
 // The best candidate of every second pixel of row y from x0 on and before x1, into next[0], next[1] …
 void improve_row(const KernelView& view, int x0, int x1, int y, std::uint32_t* next);

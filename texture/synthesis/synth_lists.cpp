@@ -188,14 +188,16 @@ PickWindow PickLists::window(std::uint32_t label_class, const std::uint8_t* guid
   return windows_[cell(label_class, bucket_of(guides)) * 256 + static_cast<std::size_t>(value_of(guides))];
 }
 
-PickRun PickLists::pick(std::uint32_t label_class, const std::uint8_t* guides, std::uint32_t random) const {
-  const PickWindow reach = window(label_class, guides);
+PickRun PickLists::pick(std::uint32_t label_class, const std::uint8_t* guides, std::uint32_t random, int widen) const {
+  const PickWindow own = window(label_class, guides);
+  const int reach_buckets = std::min(keys_.buckets(), ((own.buckets + 1) << widen) - 1);
+  const int reach_values = std::min(256, (own.slack + 1) << widen);
   const int bucket = bucket_of(guides);
   const int value = value_of(guides);
-  const int b0 = std::max(0, bucket - reach.buckets);
-  const int b1 = std::min(keys_.buckets(), bucket + reach.buckets + 1);
-  const std::size_t v0 = static_cast<std::size_t>(std::max(0, value - reach.slack - 1));
-  const std::size_t v1 = static_cast<std::size_t>(std::min(256, value + reach.slack + 2));
+  const int b0 = std::max(0, bucket - reach_buckets);
+  const int b1 = std::min(keys_.buckets(), bucket + reach_buckets + 1);
+  const std::size_t v0 = static_cast<std::size_t>(std::max(0, value - reach_values));
+  const std::size_t v1 = static_cast<std::size_t>(std::min(256, value + reach_values + 1));
   std::uint32_t count = 0;
   for (int b = b0; b < b1; ++b) count += start_[cell(label_class, b) * 257 + v1] - start_[cell(label_class, b) * 257 + v0];
   if (count == 0) return {};

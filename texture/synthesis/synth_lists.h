@@ -80,7 +80,8 @@ class PickLists {
   // The window of a pixel with these guides.
   PickWindow window(std::uint32_t label_class, const std::uint8_t* guides) const;
   // Begins at a texel of the class from that window, uniform in `random`, and stays within its bucket.
-  PickRun pick(std::uint32_t label_class, const std::uint8_t* guides, std::uint32_t random) const;
+  // `widen`: from one twice as wide for each step.
+  PickRun pick(std::uint32_t label_class, const std::uint8_t* guides, std::uint32_t random, int widen = 0) const;
   Entry entry(std::uint32_t nth) const { return {entries_.data() + static_cast<std::size_t>(nth) * entry_words_}; }
 
  private:

@@ -19,15 +19,16 @@ Plane::Place Plane::place(std::uint32_t index) const {
   return {part, static_cast<int>(inside % across), static_cast<int>(inside / across)};
 }
 
-Plane make_plane(const std::vector<std::pair<int, int>>& sizes, int guide_count) {
+Plane make_plane(const std::vector<std::pair<int, int>>& sizes, int guide_count, int margin) {
   Plane plane;
+  plane.margin = margin;
   plane.guide_count = guide_count;
-  for (const auto& [width, height] : sizes) plane.stride = std::max(plane.stride, width + 2 * padding);
-  std::uint64_t rows = padding;
+  for (const auto& [width, height] : sizes) plane.stride = std::max(plane.stride, width + 2 * margin);
+  std::uint64_t rows = static_cast<std::uint64_t>(margin);
   for (const auto& [width, height] : sizes) {
-    const std::uint64_t origin = rows * static_cast<std::uint64_t>(plane.stride) + padding;
-    rows += static_cast<std::uint64_t>(height) + padding;
-    if ((rows + padding) * static_cast<std::uint64_t>(plane.stride) > 0x7fffffffULL) {
+    const std::uint64_t origin = rows * static_cast<std::uint64_t>(plane.stride) + static_cast<std::uint64_t>(margin);
+    rows += static_cast<std::uint64_t>(height + margin);
+    if ((rows + static_cast<std::uint64_t>(margin)) * static_cast<std::uint64_t>(plane.stride) > 0x7fffffffULL) {
       throw Error(ErrorKind::limit, "synthesis", fmt::format("pictures of {} rows by {} columns together", rows, plane.stride),
                   "at most 2147 million pixels, and as many texels in all exemplars together");
     }
@@ -41,12 +42,12 @@ Plane make_plane(const std::vector<std::pair<int, int>>& sizes, int guide_count)
 
 void pad(Plane& plane) {
   for (const Plane::Part& part : plane.parts) {
-    for (int y = -padding; y < part.height + padding; ++y) {
+    for (int y = -plane.margin; y < part.height + plane.margin; ++y) {
       const bool inside_row = y >= 0 && y < part.height;
       const std::int64_t row = static_cast<std::int64_t>(part.origin) + static_cast<std::int64_t>(y) * plane.stride;
       const std::int64_t from =
           static_cast<std::int64_t>(part.origin) + static_cast<std::int64_t>(std::clamp(y, 0, part.height - 1)) * plane.stride;
-      for (int x = -padding; x < part.width + padding; ++x) {
+      for (int x = -plane.margin; x < part.width + plane.margin; ++x) {
         if (inside_row && x >= 0 && x < part.width) continue;
         const std::uint32_t colour = plane.words[static_cast<std::size_t>(from + std::clamp(x, 0, part.width - 1))] & 0xffffffU;
         plane.words[static_cast<std::size_t>(row + x)] = colour | no_class << 24;
@@ -76,7 +77,7 @@ std::uint32_t majority(const std::array<std::uint32_t, 4>& classes) {
 Plane halve(const Plane& fine) {
   std::vector<std::pair<int, int>> sizes;
   for (const Plane::Part& part : fine.parts) sizes.emplace_back((part.width + 1) / 2, (part.height + 1) / 2);
-  Plane coarse = make_plane(sizes, fine.guide_count);
+  Plane coarse = make_plane(sizes, fine.guide_count, fine.margin);
   const std::size_t guides = static_cast<std::size_t>(fine.guide_count);
   for (std::size_t p = 0; p < fine.parts.size(); ++p) {
     const Plane::Part& part = fine.parts[p];
@@ -140,7 +141,7 @@ Grid<float> halve_depth(const Grid<float>& depth_m, const Plane& fine, const Pla
   return out;
 }
 
-std::vector<std::uint8_t> make_links(const Grid<float>& depth_m, const Plane& plane, float ratio) {
+std::vector<std::uint8_t> make_links(const Grid<float>& depth_m, const Plane& plane, float ratio, int radius) {
   std::vector<std::uint8_t> links(plane.words.size(), 0);
   const int width = depth_m.width();
   const int height = depth_m.height();
@@ -159,12 +160,12 @@ std::vector<std::uint8_t> make_links(const Grid<float>& depth_m, const Plane& pl
   // A patch is cut where one of its links is missing; the picture's own border is no cut, padding masks it anyway.
   std::vector<std::uint8_t> flagged = links;
   parallel_rows(height, [&](int y) {
-    const int y1 = std::min(height - 1, y + patch_radius);
+    const int y1 = std::min(height - 1, y + radius);
     for (int x = 0; x < width; ++x) {
-      const int x1 = std::min(width - 1, x + patch_radius);
+      const int x1 = std::min(width - 1, x + radius);
       bool cut = false;
-      for (int j = std::max(0, y - patch_radius); j <= y1 && !cut; ++j) {
-        for (int i = std::max(0, x - patch_radius); i <= x1 && !cut; ++i) {
+      for (int j = std::max(0, y - radius); j <= y1 && !cut; ++j) {
+        for (int i = std::max(0, x - radius); i <= x1 && !cut; ++i) {
           const std::uint8_t bits = links[plane.index(0, i, j)];
           cut = (i < x1 && !(bits & link::right)) || (j < y1 && !(bits & link::down));
         }

@@ -11,8 +11,11 @@ namespace belvedere::synth {
 // class of several pixels. Classes are dense numbers 0, 1, 2 … in the order of their labels; no_class is 255.
 inline constexpr std::uint32_t no_class = 255;
 inline constexpr int max_classes = 255;
-inline constexpr int padding = 4;       // words around each picture; a patch of radius 3 read 8 words wide stays inside
-inline constexpr int patch_radius = 3;  // patches are 7 × 7
+inline constexpr int padding = 4;               // words around each picture; a patch of radius 3 read 8 words wide stays inside
+inline constexpr int patch_radius = 3;          // patches are 7 × 7 unless something else is asked for …
+inline constexpr int largest_patch_radius = 5;  // … up to 11 × 11, read 16 words wide, which need wide_padding
+inline constexpr int wide_padding = 6;
+constexpr int padding_for(int radius) { return radius > patch_radius ? wide_padding : padding; }
 
 constexpr std::uint32_t class_of(std::uint32_t word) { return word >> 24; }
 
@@ -32,6 +35,7 @@ struct Plane {
   };
 
   int stride = 0;
+  int margin = padding;  // words of padding around each picture
   std::vector<Part> parts;
   int guide_count = 0;
   std::vector<std::uint32_t> words;
@@ -61,7 +65,7 @@ struct Plane {
 };
 
 // A plane of empty pictures of these sizes (width, height), all of no class. Throws Error(limit) over 2^31 words.
-Plane make_plane(const std::vector<std::pair<int, int>>& sizes, int guide_count);
+Plane make_plane(const std::vector<std::pair<int, int>>& sizes, int guide_count, int margin = padding);
 // Fills the padding with the nearest pixel's colour and no class.
 void pad(Plane& plane);
 // The next coarser level, sides (n + 1) / 2: colour and guides low-passed by [1 3 3 1]² / 64 over pixels of a class, class by
@@ -71,13 +75,14 @@ Plane halve(const Plane& fine);
 // Silhouettes, one byte a word of a plane with a single part: which of the 4 neighbours belong to the same surface.
 namespace link {
 inline constexpr std::uint8_t right = 1, left = 2, down = 4, up = 8, all = 15;
-inline constexpr std::uint8_t cut_patch = 128;  // the 7 × 7 around holds a missing link
+inline constexpr std::uint8_t cut_patch = 128;  // the patch around holds a missing link
 }  // namespace link
 
 // Depths of the coarser level: of the child that has the coarse pixel's class first (values of one surface never mix).
 Grid<float> halve_depth(const Grid<float>& depth_m, const Plane& fine, const Plane& coarse);
 // Neighbours whose depths differ by more than `ratio` (1.04: 4 %) are not linked, nor is sky (+inf) with anything but sky.
-std::vector<std::uint8_t> make_links(const Grid<float>& depth_m, const Plane& plane, float ratio);
+// `radius` is that of the patches which missing links cut.
+std::vector<std::uint8_t> make_links(const Grid<float>& depth_m, const Plane& plane, float ratio, int radius = patch_radius);
 // Whether a step by (dx, dy), each -1 … 1, stays on the surface; diagonals go by either corner.
 bool linked(const std::uint8_t* links, int stride, std::uint32_t from, int dx, int dy);
 

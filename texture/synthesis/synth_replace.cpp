@@ -110,9 +110,10 @@ bool replace_pieces(LevelState& state, int pass, int round) {
 
 namespace {
 
-// Gives each pixel that `chosen` names a texel by which it belongs to no neighbour's piece: the cheapest of some picks.
+// Gives each pixel that `chosen` names a texel by which it belongs to no neighbour's piece: the cheapest of some picks. With `widen` >= 0
+// from windows as much wider, and only texels that may be used once more; where none is found the pixel stays as it is.
 template <class F>
-void isolate(LevelState& state, int number, F&& chosen) {
+void isolate(LevelState& state, int number, F&& chosen, int widen = -1) {
   static constexpr std::array<std::array<int, 2>, 4> parities{{{0, 0}, {1, 1}, {1, 0}, {0, 1}}};
   constexpr int picks = 16;
   const Plane::Part& part = state.target.parts[0];
@@ -133,11 +134,14 @@ void isolate(LevelState& state, int number, F&& chosen) {
         const Forbidden forbidden = forbidden_texels(view, at, true);
         const Slack slack = make_slack(view, at);
         candidates.clear();
+        const std::uint32_t most = view.most_uses[class_of(state.target.words[at])];
         for (int k = 0; k < picks; ++k) {
-          const std::uint32_t texel = draw_texel(view, at, key + static_cast<std::uint64_t>(k), x, y, slack);
-          if (!forbidden.has(texel)) candidates.push_back(texel);
+          const PickRun run = begin_draw(view, at, key + static_cast<std::uint64_t>(k), x, y, std::max(0, widen));
+          const std::uint32_t texel = finish_draw(view, at, run, slack);
+          if (!forbidden.has(texel) && (widen < 0 || view.texels->at(texel).uses() < most)) candidates.push_back(texel);
         }
         const int best = best_move(view, {PieceSample{at, 0, 0}}, candidates);
+        if (best < 0 && widen >= 0) continue;
         *next = best >= 0 ? candidates[static_cast<std::size_t>(best)] : allowed_texel(view, at, forbidden, key, x, y);
       }
     });
@@ -147,24 +151,45 @@ void isolate(LevelState& state, int number, F&& chosen) {
 
 }  // namespace
 
-void finish_pieces(LevelState& state) {
+namespace {
+
+// One round in which of the pixels that share a texel too many each takes another with the probability that leaves as many as allowed.
+// Whether there were any.
+bool spread_uses(LevelState& state, int round, int widen) {
+  const std::uint64_t key = key_for(state.settings, Purpose::alone, 100 + round);
+  std::atomic<bool> any = false;
+  const auto one_too_many = [&](const KernelView& view, std::uint32_t at, int x, int y) {
+    const std::uint32_t uses = view.texels->at(view.match[at]).uses();
+    const std::uint32_t most = view.most_uses[class_of(view.target->words[at])];
+    if (uses <= most) return false;
+    any.store(true, std::memory_order_relaxed);
+    return random_index(uses, key, x, y) >= most;
+  };
+  isolate(state, 200 + round, one_too_many, widen);
+  return any.load();
+}
+
+// Pixels whose texel lies outside of their own window of the guide that orders the lists.
+std::vector<std::uint32_t> beyond_window(const LevelState& state) {
+  std::vector<std::uint32_t> pixels;
+  const KernelView view = state.view(0);
+  if (!view.lists->keys().sorted) return pixels;
+  state.target.for_each([&](std::uint32_t at) {
+    const std::uint32_t label_class = class_of(state.target.words[at]);
+    if (label_class == no_class) return;
+    const std::uint8_t* requested = state.target.guides_at(at);
+    const int off = std::abs(requested[0] - view.texels->at(state.match[at]).guides()[0]);
+    if (off > view.lists->window(label_class, requested).slack + 1) pixels.push_back(at);
+  });
+  return pixels;
+}
+
+// No texel used too often, no piece over the cap, none across a silhouette; each may cost a little of the one before.
+void limit_pieces(LevelState& state) {
   constexpr int most_rounds = 12;
   const std::int64_t cap = state.settings.copy_cap;
   const int first = state.settings.passes + state.settings.replacing_passes;
-  for (int round = 0; round < most_rounds; ++round) {
-    // Of the pixels that share a texel too many, each takes another with the probability that leaves as many as allowed.
-    const std::uint64_t key = key_for(state.settings, Purpose::alone, 100 + round);
-    std::atomic<bool> any = false;
-    isolate(state, 200 + round, [&](const KernelView& view, std::uint32_t at, int x, int y) {
-      const std::uint32_t uses = view.texels->at(view.match[at]).uses();
-      const std::uint32_t most = view.most_uses[class_of(view.target->words[at])];
-      if (uses <= most) return false;
-      any.store(true, std::memory_order_relaxed);
-      return random_index(uses, key, x, y) >= most;
-    });
-    if (!any.load()) break;
-    find_pieces(state);
-  }
+  for (int round = 0; round < most_rounds && spread_uses(state, round, -1); ++round) find_pieces(state);
   for (int round = 0; round < most_rounds && replace_pieces(state, first, round); ++round) {
   }
   if (!state.links.empty()) {
@@ -187,6 +212,20 @@ void finish_pieces(LevelState& state) {
     return view.piece_size[at] > cap &&
            (view.is_fixed(at - 1) || view.is_fixed(at + 1) || view.is_fixed(at - down) || view.is_fixed(at + down));
   });
+  find_pieces(state);
+}
+
+}  // namespace
+
+void finish_pieces(LevelState& state) {
+  limit_pieces(state);
+  // Moving pieces as a whole may have brought texels over their limit again, and where few have what pixels ask for their windows cannot
+  // hold it at all: windows widen until they do. A pixel that moves here is a piece of its own, so pieces and silhouettes stay as they are.
+  constexpr int most_rounds = 24;
+  constexpr int rounds_each = 2;  // before windows widen
+  bool widened = false;
+  for (int round = 0; round < most_rounds && spread_uses(state, 300 + round, round / rounds_each); ++round) widened = round >= rounds_each;
+  if (widened) state.widened = beyond_window(state);
   find_pieces(state);
 }
 

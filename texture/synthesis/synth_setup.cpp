@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 #include "base/error.h"
@@ -30,6 +31,10 @@ void check_parameters(const SynthesisParameters& parameters) {
   in_range("reuse", parameters.reuse, 0, 10);
   in_range("copy_cap", parameters.copy_cap, 16, 100000);
   in_range("surroundings", parameters.surroundings, 0, 100);
+  if (parameters.neighbourhood % 2 == 0 || parameters.neighbourhood < 3 || parameters.neighbourhood > 2 * largest_patch_radius + 1)
+    throw Error(ErrorKind::usage, "synthesis neighbourhood", fmt::format("{}", parameters.neighbourhood), "3, 5, 7, 9 or 11 pixels");
+  if (parameters.surroundings_of != "commonest" && parameters.surroundings_of != "all")
+    throw Error(ErrorKind::usage, "synthesis surroundings_of", parameters.surroundings_of, "commonest or all");
   for (const auto& [pair, value] : parameters.unlikeness)
     in_range(fmt::format("unlikeness of classes {} and {}", pair.first, pair.second).c_str(), value, 0, 1);
   if (parameters.tile < 0 || parameters.tile % 2 != 0)
@@ -161,6 +166,8 @@ Setup make_setup(const std::vector<Exemplar>& exemplars, const GuideStack& targe
 LevelSettings Setup::settings(int level) const {
   LevelSettings settings = settings_for_level(level, parameters.seed, parameters.copy_cap, parameters.reuse);
   settings.tile = parameters.tile;
+  settings.patch_radius = parameters.patch_radius();
+  settings.all_surroundings = parameters.surroundings_of == "all";
   // Guides that do not order the lists are served by drawing several texels and keeping the one that fits them best.
   const ListKeys keys = choose_list_keys(roles);
   settings.draws = roles.size() > (keys.bucketed ? 2U : 1U) ? 4 : 1;
@@ -184,7 +191,7 @@ Plane exemplar_plane(const std::vector<Exemplar>& exemplars, const Setup& setup)
   std::vector<std::pair<int, int>> sizes;
   sizes.reserve(exemplars.size());
   for (const Exemplar& exemplar : exemplars) sizes.emplace_back(exemplar.picture.width(), exemplar.picture.height());
-  Plane plane = make_plane(sizes, static_cast<int>(setup.roles.size()));
+  Plane plane = make_plane(sizes, static_cast<int>(setup.roles.size()), padding_for(setup.parameters.patch_radius()));
   for (std::size_t e = 0; e < exemplars.size(); ++e) {
     const Exemplar& exemplar = exemplars[e];
     const std::vector<const Grid<std::uint8_t>*> guides = guides_of(exemplar.guides, setup, "exemplar");
@@ -205,7 +212,8 @@ Plane exemplar_plane(const std::vector<Exemplar>& exemplars, const Setup& setup)
 
 Plane target_plane(const GuideStack& target, const Setup& setup) {
   const std::vector<const Grid<std::uint8_t>*> guides = guides_of(target, setup, "target of synthesis");
-  Plane plane = make_plane({{target.width(), target.height()}}, static_cast<int>(guides.size()));
+  Plane plane =
+      make_plane({{target.width(), target.height()}}, static_cast<int>(guides.size()), padding_for(setup.parameters.patch_radius()));
   parallel_rows(target.height(), [&](int y) {
     for (int x = 0; x < target.width(); ++x) {
       const std::uint32_t at = plane.index(0, x, y);
@@ -227,6 +235,21 @@ int level_count(const std::vector<Exemplar>& exemplars, int width, int height, i
 
 float depth_ratio(int level) { return static_cast<float>(1.0 + jump_per_level * (level + 1)); }
 
+namespace {
+
+// No texel may be used too often; where too few have what pixels ask for, some take others.
+void note_widened(const Setup& setup, const LevelState& state, Progress& progress) {
+  if (state.widened.empty() || setup.guide_names.empty()) return;
+  int farthest = 0;
+  for (const std::uint32_t pixel : state.widened)
+    farthest = std::max(farthest, std::abs(state.target.guides_at(pixel)[0] - state.texels.at(state.match[pixel]).guides()[0]));
+  progress.note(
+      fmt::format("too few texels of what {} asks for: so that none is used too often, {} pixels copy others, up to {} of 255 off",
+                  setup.guide_names[0], state.widened.size(), farthest));
+}
+
+}  // namespace
+
 std::vector<std::uint32_t> synthesize_levels(const Setup& setup, const GuideStack& target, int finest, int levels,
                                              std::vector<Plane>& sources, std::vector<Plane>& targets, Progress& progress) {
   std::vector<Grid<float>> depths;  // of the coarser levels
@@ -244,7 +267,7 @@ std::vector<std::uint32_t> synthesize_levels(const Setup& setup, const GuideStac
     // Pixels of a coarse level lie further apart, so their depths may differ by more on one and the same surface.
     std::vector<std::uint8_t> links;
     if (!target.depth_m.empty()) {
-      links = make_links(level == finest ? target.depth_m : depths.back(), targets[t], depth_ratio(level));
+      links = make_links(level == finest ? target.depth_m : depths.back(), targets[t], depth_ratio(level), setup.parameters.patch_radius());
       if (level > finest) depths.pop_back();
     }
     const LevelSettings settings = setup.settings(level);
@@ -259,6 +282,7 @@ std::vector<std::uint32_t> synthesize_levels(const Setup& setup, const GuideStac
     }
     matches = {};
     improve(state, progress);
+    if (finest == 0 && level == 0) note_widened(setup, state, progress);
     matches = std::move(state.match);
   }
   return matches;

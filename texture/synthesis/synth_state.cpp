@@ -69,22 +69,43 @@ LevelSettings settings_for_level(int level, std::uint64_t seed, int copy_cap, do
   return settings;
 }
 
+namespace {
+
+bool tells_shares(const LevelSettings& settings, const SurroundingsPrice& price) { return settings.all_surroundings && !price.is_free(); }
+
+std::vector<Surroundings> offered_around(const LevelSettings& settings, const Plane& exemplars, int classes, const SurroundingsPrice& price,
+                                         const ClassShares& shares) {
+  if (price.is_free()) return {};
+  return shares.empty() ? make_surroundings(exemplars, settings.surroundings_radius, classes) : shares.numbers();
+}
+
+}  // namespace
+
 LevelSource::LevelSource(const LevelSettings& settings, const std::vector<GuideRole>& guide_roles, int class_count,
                          const Plane& exemplar_plane, const Demand& demand, const SurroundingsPrice& surroundings_price)
     : LevelSource(settings, guide_roles, class_count, exemplar_plane, demand, surroundings_price,
-                  surroundings_price.is_free() ? std::vector<Surroundings>{}
-                                               : make_surroundings(exemplar_plane, settings.surroundings_radius, class_count)) {}
+                  tells_shares(settings, surroundings_price) ? ClassShares(exemplar_plane, settings.surroundings_radius, class_count)
+                                                             : ClassShares()) {}
 
 LevelSource::LevelSource(const LevelSettings& settings, const std::vector<GuideRole>& guide_roles, int class_count,
                          const Plane& exemplar_plane, const Demand& demand, const SurroundingsPrice& surroundings_price,
-                         const std::vector<Surroundings>& offered_around)
+                         ClassShares class_shares)
+    : LevelSource(settings, guide_roles, class_count, exemplar_plane, demand, surroundings_price, class_shares,
+                  offered_around(settings, exemplar_plane, class_count, surroundings_price, class_shares)) {}
+
+LevelSource::LevelSource(const LevelSettings& settings, const std::vector<GuideRole>& guide_roles, int class_count,
+                         const Plane& exemplar_plane, const Demand& demand, const SurroundingsPrice& surroundings_price,
+                         ClassShares class_shares, const std::vector<Surroundings>& around)
     : exemplars(exemplar_plane),
       classes(class_count),
       guides(guide_roles),
       vector_weights(vector_weights_of(guide_roles)),
       around_price(surroundings_price),
-      texels(exemplars, make_bins(exemplars, class_count), offered_around),
-      lists(exemplars, demand, class_count, guides, settings.least_window, offered_around) {}
+      shares(std::move(class_shares)),
+      texels(exemplars, make_bins(exemplars, class_count), around),
+      lists(exemplars, demand, class_count, guides, settings.least_window, around) {
+  shares.forget_numbers();  // records and lists have them
+}
 
 LevelState::LevelState(const LevelSettings& level_settings, const std::vector<GuideRole>& guides, int classes, const Plane& exemplar_plane,
                        Plane& target_plane, std::vector<std::uint8_t> surface_links, const SurroundingsPrice& around_price)
@@ -130,7 +151,13 @@ LevelState::LevelState(const LevelSettings& level_settings, std::shared_ptr<Leve
     // Where reuse is priced at all, no texel may serve more than 6 + 3 × pixels per texel.
     if (settings.reuse_price > 0 && texels_of_class > 0) most_uses[c] = static_cast<std::uint32_t>(6 + 3 * pixels / texels_of_class);
   }
-  if (!source->around_price.is_free()) target_around = make_surroundings(target, settings.surroundings_radius, source->classes);
+  if (!source->shares.empty()) {
+    target_shares = ClassShares(target, settings.surroundings_radius, source->classes);
+    target_around = target_shares.numbers();
+    target_shares.forget_numbers();
+  } else if (!source->around_price.is_free()) {
+    target_around = make_surroundings(target, settings.surroundings_radius, source->classes);
+  }
 }
 
 KernelView LevelState::view(int pass) const {
@@ -142,6 +169,9 @@ KernelView LevelState::view(int pass) const {
   if (!target_around.empty()) {
     view.target_around = target_around.data();
     view.around_price = &source->around_price;
+    view.target_shares = target_shares.empty() ? nullptr : &target_shares;
+    view.texel_shares = source->shares.empty() ? nullptr : &source->shares;
+    view.classes = source->classes;
     view.border_draws = settings.border_draws;
   }
   view.guides = source->guides.data();
@@ -160,6 +190,7 @@ KernelView LevelState::view(int pass) const {
   view.fitting_draws = settings.fitting_draws;
   view.key = key_for(settings, Purpose::pass, pass);
   view.pass = pass;
+  view.radius = settings.patch_radius;
   return view;
 }
 

@@ -27,7 +27,9 @@ struct LevelSettings {
   int fitting_draws = 4;  // and in sub-passes, which look at what is painted around
   int least_window = 16;  // texels a pick's window must hold
   int surroundings_radius = 8;
-  int tile = 0;  // side of the tiles that sub-passes work in, even; 0: whole rows. Changes no bit
+  int patch_radius = synth::patch_radius;
+  bool all_surroundings = false;  // all classes around count, not the commonest other one alone
+  int tile = 0;                   // side of the tiles that sub-passes work in, even; 0: whole rows. Changes no bit
 };
 // The usual settings for a level; cap and reuse as SynthesisParameters has them.
 LevelSettings settings_for_level(int level, std::uint64_t seed, int copy_cap, double reuse);
@@ -47,6 +49,7 @@ struct LevelSource {
   std::vector<GuideRole> guides;
   std::vector<std::uint32_t> vector_weights;  // empty: guides are priced one by one
   SurroundingsPrice around_price;
+  ClassShares shares;  // empty: only the commonest other class is priced
   TexelRecords texels;
   PickLists lists;
   std::vector<std::uint8_t> usual_error;  // by class × guide: median error of picks; empty: not known
@@ -56,7 +59,10 @@ struct LevelSource {
 
  private:
   LevelSource(const LevelSettings& settings, const std::vector<GuideRole>& guides, int classes, const Plane& exemplars,
-              const Demand& demand, const SurroundingsPrice& around_price, const std::vector<Surroundings>& offered_around);
+              const Demand& demand, const SurroundingsPrice& around_price, ClassShares shares);
+  LevelSource(const LevelSettings& settings, const std::vector<GuideRole>& guides, int classes, const Plane& exemplars,
+              const Demand& demand, const SurroundingsPrice& around_price, ClassShares shares,
+              const std::vector<Surroundings>& offered_around);
 };
 
 // The state of a level. The exemplars and the target's classes and guides come in; the match field, and with it the target's colours,
@@ -70,6 +76,7 @@ struct LevelState {
   Plane& target;
   std::vector<std::uint8_t> links;          // empty: no silhouettes
   std::vector<Surroundings> target_around;  // by target index; empty: surroundings are not priced
+  ClassShares target_shares;                // empty as the source's
   std::vector<std::uint32_t> fixed;         // by target index: the texel a pixel must keep, or exemplars.nowhere(); empty: all are free
   std::vector<std::uint32_t> match;         // by target index: exemplar index, exemplars.nowhere() in padding and without class
   std::vector<std::uint32_t> next;          // matches found by a sub-pass: every second pixel of every second row
@@ -79,6 +86,7 @@ struct LevelState {
   std::vector<std::int32_t> bin_cost_kept;  // from round to round
   std::vector<std::int64_t> reuse_q4;       // by class
   std::vector<std::uint32_t> most_uses;     // by class
+  std::vector<std::uint32_t> widened;       // pixels, by target index, that copy beyond their window so that no texel is used too often
   Pieces pieces;
 
   // Target classes without texels on this level become no_class. `links` may be empty.

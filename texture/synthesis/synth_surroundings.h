@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "texture/synthesis/synth_plane.h"
@@ -23,10 +26,14 @@ class SurroundingsPrice {
  public:
   // pairs: by class × classes + class, unlikeness in sixteenths.
   SurroundingsPrice(std::int64_t weight_q8, std::vector<std::uint8_t> pairs, int classes)
-      : weight_q8_(weight_q8), pairs_(std::move(pairs)), classes_(static_cast<std::size_t>(classes)) {}
+      : weight_q8_(weight_q8),
+        pairs_(std::move(pairs)),
+        classes_(static_cast<std::size_t>(classes)),
+        all_unlike_(std::all_of(pairs_.begin(), pairs_.end(), [](std::uint8_t d) { return d == 16; })) {}
   bool is_free() const { return weight_q8_ == 0; }
   std::int64_t weight_q8() const { return weight_q8_; }
   const std::vector<std::uint8_t>& pairs() const { return pairs_; }
+  bool all_unlike() const { return all_unlike_; }
   std::int64_t operator()(Surroundings requested, Surroundings offered) const {
     const std::int64_t u = requested.others;
     const std::int64_t v = offered.others;
@@ -40,8 +47,41 @@ class SurroundingsPrice {
   std::int64_t weight_q8_;
   std::vector<std::uint8_t> pairs_;
   std::size_t classes_;
+  bool all_unlike_;
 };
 
 inline SurroundingsPrice no_surroundings() { return {0, {}, 0}; }
+
+// The same with all classes of a neighbourhood: which share of it each has, to a 64th. Neighbourhoods that are alike have one number, so
+// that a texel needs no more memory than with the commonest class alone; there Surroundings hold that number, its low byte in `others`.
+class ClassShares {
+ public:
+  static constexpr int steps = 64;
+
+  ClassShares() = default;
+  // Of every pixel with a class, over (2 radius + 1)² pixels inside the picture. Where more than 65535 kinds of neighbourhood are found,
+  // shares are told half as finely, and so on.
+  ClassShares(const Plane& plane, int radius, int classes);
+
+  bool empty() const { return shares_.empty(); }
+  const std::vector<Surroundings>& numbers() const { return numbers_; }  // by index of the plane
+  void forget_numbers() { numbers_ = {}; }
+  // Shares in 255ths, by class.
+  const std::uint8_t* of(Surroundings number) const {
+    return shares_.data() + (number.others + std::size_t{256} * number.commonest) * static_cast<std::size_t>(classes_);
+  }
+  std::size_t kinds() const { return classes_ == 0 ? 0 : shares_.size() / static_cast<std::size_t>(classes_); }
+
+ private:
+  bool number_kinds(const Plane& plane, int radius, int step);
+
+  int classes_ = 0;
+  std::vector<std::uint8_t> shares_;  // by number × classes
+  std::vector<Surroundings> numbers_;
+};
+
+// The price of other surroundings where all classes count: weight × Σ_kl (1 - d_kl) δ_k δ_l, δ_k = n_k(pixel) - n_k(texel) in shares of
+// 255 and d as above; so Σ_k δ_k² where all classes are unlike.
+std::int64_t shares_cost(const std::uint8_t* requested, const std::uint8_t* offered, const SurroundingsPrice& price, int classes);
 
 }  // namespace belvedere::synth

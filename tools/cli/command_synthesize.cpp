@@ -11,6 +11,7 @@
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "renderer/image/provenance.h"
+#include "texture/basic/basic_synthesis.h"
 #include "texture/synthesis/class_supply.h"
 #include "texture/synthesis/synthesize.h"
 #include "tools/cli/commands.h"
@@ -34,6 +35,9 @@ struct Options {
   std::string report;
   std::vector<std::string> sweeps;
   SynthesisParameters parameters;
+  std::vector<std::tuple<int, int, double>> unlikeness;
+  std::string method = "fast";
+  std::string distance = "squares";
   int threads = 0;
   int memory_mib = 0;
   bool quiet = false;
@@ -63,10 +67,15 @@ FileNotes make_notes(const Options& options) {
   }
   FileNotes notes = to_notes(make_provenance("", inputs));
   std::string weights;
+  if (options.method != "fast") notes["belvedere:method"] = options.method + ", " + options.distance;
+  std::string around = options.parameters.surroundings_of;
+  for (const auto& [a, b, value] : options.unlikeness) around += fmt::format(" {}/{} {}", a, b, value);
+  if (around != SynthesisParameters().surroundings_of) notes["belvedere:surroundings"] = around;
   for (const GuidePair& guide : options.files.guides) weights += fmt::format(" {} {}", guide.name, guide.weight);
-  notes["belvedere:synthesis"] = fmt::format(
-      "seed {} levels {} reuse {} copy_cap {} surroundings {} harmonize {} weights{}", options.parameters.seed, options.parameters.levels,
-      options.parameters.reuse, options.parameters.copy_cap, options.parameters.surroundings, options.files.harmonize, weights);
+  notes["belvedere:synthesis"] =
+      fmt::format("seed {} levels {} reuse {} copy_cap {} neighbourhood {} surroundings {} harmonize {} weights{}", options.parameters.seed,
+                  options.parameters.levels, options.parameters.reuse, options.parameters.copy_cap, options.parameters.neighbourhood,
+                  options.parameters.surroundings, options.files.harmonize, weights);
   return notes;
 }
 
@@ -91,8 +100,11 @@ std::string describe_command(const Options& options) {
   if (options.files.harmonize != "off") out += fmt::format(" --harmonize {}", options.files.harmonize);
   for (const auto& [from, to] : options.fallback) out += fmt::format(" --fallback {} {}", from, to);
   const SynthesisParameters& p = options.parameters;
-  return out + fmt::format(" --seed {} --levels {} --reuse {} --copy-cap {} --surroundings {} --out {}", p.seed, p.levels, p.reuse,
-                           p.copy_cap, p.surroundings, file_name(options.out));
+  if (options.method != "fast") out += fmt::format(" --method {} --distance {}", options.method, options.distance);
+  if (p.surroundings_of != "commonest") out += " --surroundings-of " + p.surroundings_of;
+  for (const auto& [a, b, value] : options.unlikeness) out += fmt::format(" --unlikeness {} {} {}", a, b, value);
+  return out + fmt::format(" --seed {} --levels {} --reuse {} --copy-cap {} --neighbourhood {} --surroundings {} --out {}", p.seed,
+                           p.levels, p.reuse, p.copy_cap, p.neighbourhood, p.surroundings, file_name(options.out));
 }
 
 // Messages and --fallback speak of labels by number.
@@ -122,6 +134,30 @@ int run_replay(const Options& options) {
   const ReplayResult result = replay_layers({options.replay, options.files.pictures, options.out}, progress);
   print_result(options, result.width, result.height, result.without_texel, progress);
   return 0;
+}
+
+// The plain methods, for comparison.
+MatchField run_basic(const Options& options, const SynthesisInputs& inputs, Progress& progress) {
+  const SynthesisParameters& p = options.parameters;
+  return synthesize_basic(inputs.exemplars, inputs.target,
+                          {.neighbourhood = p.neighbourhood,
+                           .distance = *find_colour_distance(options.distance),
+                           .weights = p.weights,
+                           .land_cover = p.surroundings,
+                           .fallback = p.fallback,
+                           .coherent = options.method == "coherent",
+                           .seed = p.seed},
+                          progress);
+}
+
+void check_method(const Options& options) {
+  if (options.method == "fast") {
+    if (options.distance != "squares")
+      throw Error(ErrorKind::usage, "--distance " + options.distance, "is for the plain methods", "--method basic or coherent beside it");
+    return;
+  }
+  if (!options.sweeps.empty())
+    throw Error(ErrorKind::usage, "--sweep", "makes its results by the fast method", "--method fast, or one result at a time");
 }
 
 int run_sweep(const Options& options, const SynthesisInputs& inputs, Progress& progress) {
@@ -168,6 +204,12 @@ int run(Options& options) {
       throw Error(ErrorKind::usage, fmt::format("--fallback {} {}", from, to), "is no pair of labels", "two different ones, 0 … 254");
     options.parameters.fallback[static_cast<std::uint8_t>(from)] = static_cast<std::uint8_t>(to);
   }
+  for (const auto& [a, b, value] : options.unlikeness) {
+    if (a < 0 || a >= unused_label || b < 0 || b >= unused_label || a == b)
+      throw Error(ErrorKind::usage, fmt::format("--unlikeness {} {}", a, b), "is no pair of labels", "two different ones, 0 … 254");
+    options.parameters.unlikeness[{static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b)}] = value;
+  }
+  check_method(options);
 
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
@@ -180,7 +222,8 @@ int run(Options& options) {
       describe_scarcity(class_supply(inputs.exemplars, inputs.target.label, options.parameters.fallback), class_name_of);
   if (!scarcity.empty()) progress.note(scarcity);
   if (!options.sweeps.empty()) return run_sweep(options, inputs, progress);
-  const MatchField matches = synthesize(inputs.exemplars, inputs.target, options.parameters, progress);
+  const MatchField matches = options.method == "fast" ? synthesize(inputs.exemplars, inputs.target, options.parameters, progress)
+                                                      : run_basic(options, inputs, progress);
 
   progress.begin("writing", 0.0);
   std::vector<const Grid<glm::vec3>*> layers;
@@ -205,6 +248,12 @@ int run(Options& options) {
   const auto empty = std::count_if(matches.begin(), matches.end(), [](const Match& m) { return m.exemplar == Match::none; });
   print_result(options, picture.width(), picture.height(), static_cast<std::size_t>(empty), progress);
   return 0;
+}
+
+std::vector<std::string> distance_names() {
+  std::vector<std::string> names;
+  for (const ColourDistance& distance : colour_distances()) names.emplace_back(distance.name);
+  return names;
 }
 
 // An option of several words takes the next option's name where one of its own is missing, and the message would be about something else.
@@ -280,10 +329,36 @@ Action add_synthesize(CLI::App& command) {
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(16, 100000));
+  command.add_option("--neighbourhood", parameters.neighbourhood, "Side of the patches that are compared, in pixels: 3, 5, 7, 9 or 11")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::IsMember({3, 5, 7, 9, 11}));
   command.add_option("--surroundings", parameters.surroundings, "How much the classes around a place count")
       ->type_name("X")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(CLI::Range(0.0, 100.0) | CLI::IsMember({"inf"}));
+  command
+      .add_option("--surroundings-of", parameters.surroundings_of,
+                  "Which other classes around count: the commonest, or all by their shares")
+      ->type_name("WHICH")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"commonest", "all"}));
+  command
+      .add_option("--unlikeness", options->unlikeness,
+                  "How unlike two labels are as surroundings: 0, one is as good as the other, to 1, the default; may be repeated")
+      ->type_name("LABEL LABEL X")
+      ->allow_extra_args(false);
+  command
+      .add_option("--method", options->method,
+                  "fast, or for comparison, slow and for small pictures: basic looks at every texel for every pixel, row by row, coherent "
+                  "only at what continues the copies around")
+      ->type_name("HOW")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"fast", "basic", "coherent"}));
+  command.add_option("--distance", options->distance, "With --method basic or coherent: how colours are compared")
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->check(CLI::IsMember(distance_names()));
   CLI::Option* replay =
       command
           .add_option("--replay", options->replay,
@@ -292,7 +367,8 @@ Action add_synthesize(CLI::App& command) {
           ->excludes(label, guide, match, report);
   command
       .add_option("--sweep", options->sweeps,
-                  "Tries several values of seed, levels, reuse, copy-cap, surroundings or of a guide's weight; --out is a folder then. "
+                  "Tries several values of seed, levels, reuse, copy-cap, neighbourhood, surroundings or of a guide's weight; --out is a "
+                  "folder then. "
                   "Twice for two at once")
       ->type_name("NAME=V,V…")
       ->allow_extra_args(false)

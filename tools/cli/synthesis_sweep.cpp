@@ -30,11 +30,8 @@ struct Swept {
   bool whole;
 };
 constexpr double largest_seed = 9007199254740992.0;  // 2^53: every whole number up to it is a double
-constexpr Swept parameters_swept[] = {{"seed", 0, largest_seed, true},
-                                      {"levels", 1, 8, true},
-                                      {"reuse", 0, 10, false},
-                                      {"copy-cap", 16, 100000, true},
-                                      {"surroundings", 0, 100, false}};
+constexpr Swept parameters_swept[] = {{"seed", 0, largest_seed, true}, {"levels", 1, 8, true},         {"reuse", 0, 10, false},
+                                      {"copy-cap", 16, 100000, true},  {"neighbourhood", 3, 11, true}, {"surroundings", 0, 100, false}};
 constexpr Swept weight_swept = {"weight", 0, 100, false};
 
 [[noreturn]] void refuse(const std::string& where, const std::string& found, const std::string& allowed) {
@@ -201,10 +198,14 @@ SweepAxis parse_sweep(const std::string& text, const std::vector<std::string>& g
     double value = 0.0;
     const auto [rest, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
     const bool number = fault == std::errc() && rest == word.data() + word.size();
-    if (!number || !(value >= swept->least && value <= swept->most) || (swept->whole && value != std::floor(value)))
+    const bool even = axis.name == "neighbourhood" && std::fmod(value, 2.0) == 0.0;
+    if (!number || even || !(value >= swept->least && value <= swept->most) || (swept->whole && value != std::floor(value)))
       refuse(where, fmt::format("a value \"{}\"", word),
-             fmt::format("{}{} … {}", swept->whole ? "whole numbers " : "", swept->least,
-                         swept->most == largest_seed ? std::string("2^53") : fmt::format("{}", swept->most)));
+             fmt::format("{}{} … {}",
+                         axis.name == "neighbourhood" ? "odd numbers "
+                         : swept->whole               ? "whole numbers "
+                                                      : "",
+                         swept->least, swept->most == largest_seed ? std::string("2^53") : fmt::format("{}", swept->most)));
     if (std::find(axis.values.begin(), axis.values.end(), value) != axis.values.end())
       refuse(where, fmt::format("the value {} twice", word), "each value once");
     axis.texts.push_back(word);
@@ -223,6 +224,8 @@ SynthesisParameters with_value(SynthesisParameters parameters, const std::string
     parameters.reuse = value;
   else if (name == "copy-cap")
     parameters.copy_cap = static_cast<int>(value);
+  else if (name == "neighbourhood")
+    parameters.neighbourhood = static_cast<int>(value);
   else if (name == "surroundings")
     parameters.surroundings = value;
   else

@@ -15,8 +15,8 @@ struct SweepAxis {
   std::vector<double> values;
 };
 
-// "reuse=0,1,4". Names: seed, levels, reuse, copy-cap, surroundings, or one of `guides`. Error(usage) for unknown names, values out of
-// range or that are no numbers, and none at all.
+// "reuse=0,1,4". Names: seed, levels, reuse, copy-cap, neighbourhood, surroundings, or one of `guides`. Error(usage) for unknown names,
+// values out of range or that are no numbers, and none at all.
 SweepAxis parse_sweep(const std::string& text, const std::vector<std::string>& guides);
 // The parameters with that value in them; one that parse_sweep let pass.
 SynthesisParameters with_value(SynthesisParameters parameters, const std::string& name, double value);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 
 #include "base/memory_limit.h"
 #include "tests/files.h"
@@ -24,6 +25,29 @@ TEST(CopyPlan, WhatASceneSaysOfOneGuideLeavesTheOthers) {
 TEST(CopyPlan, AFallbackOfTheSceneStandsInForAClass) {
   const SynthesisParameters given = to_synthesis_parameters(test::small_scene({"synthesis.fallback={ rock = \"water\" }"}).scene);
   EXPECT_EQ(given.fallback.at(static_cast<std::uint8_t>(LandCoverClass::rock)), static_cast<std::uint8_t>(LandCoverClass::water));
+}
+
+TEST(CopyPlan, PatchesAndSurroundingsAreTheScenes) {
+  const auto id = [](LandCoverClass of) { return static_cast<std::uint8_t>(of); };
+  const SynthesisParameters usual = to_synthesis_parameters(test::small_scene().scene);
+  EXPECT_EQ(usual.neighbourhood, 7);
+  EXPECT_EQ(usual.surroundings, 1.0);
+  EXPECT_EQ(usual.surroundings_of, "commonest");
+  EXPECT_TRUE(usual.unlikeness.empty());
+  const SynthesisParameters given = to_synthesis_parameters(
+      test::small_scene({"synthesis.neighbourhood=9", "synthesis.surroundings=4", "synthesis.surroundings_of=\"all\"",
+                         "synthesis.unlikeness={ \"forest/shrub\" = 0.25, \"snow/glacier\" = 0 }"})
+          .scene);
+  EXPECT_EQ(given.neighbourhood, 9);
+  EXPECT_EQ(given.surroundings, 4.0);
+  EXPECT_EQ(given.surroundings_of, "all");
+  ASSERT_EQ(given.unlikeness.size(), 2U);
+  EXPECT_EQ((given.unlikeness.at({id(LandCoverClass::forest), id(LandCoverClass::shrub)})), 0.25);
+  EXPECT_EQ((given.unlikeness.at({id(LandCoverClass::snow), id(LandCoverClass::glacier)})), 0.0);
+  for (const char* wrong : {"synthesis.neighbourhood=6", "synthesis.neighbourhood=13", "synthesis.unlikeness={ \"forest\" = 0.25 }",
+                            "synthesis.unlikeness={ \"forest/cloud\" = 0.25 }", "synthesis.unlikeness={ \"forest/forest\" = 0.25 }",
+                            "synthesis.unlikeness={ \"forest/shrub\" = 1.5 }"})
+    EXPECT_FALSE(test::message_of(ErrorKind::usage, [&] { test::small_scene({wrong}); }).empty()) << wrong;
 }
 
 TEST(CopyPlan, LessMemoryMakesSmallerTilesAndTooLittleIsRefused) {

@@ -57,6 +57,8 @@ TEST(PackedPlan, GivesTheSameTiles) {
   parameters.seed = 7;
   parameters.reuse = 0.5;
   parameters.copy_cap = 100;
+  parameters.neighbourhood = 9;
+  parameters.surroundings_of = "all";
   parameters.surroundings = 2;
   parameters.unlikeness = {{{3, 7}, 0.25}};
   parameters.fallback = {{200, 9}};

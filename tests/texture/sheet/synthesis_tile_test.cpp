@@ -45,6 +45,28 @@ TEST(SynthesisTile, SameBitsInAnyOrderForAnyThreads) {
   }
 }
 
+TEST(SynthesisTile, SameBitsForPatchesOfAnySizeAndAllSurroundings) {
+  const std::vector<Exemplar> exemplars{painting(150, 120, 1, 2)};
+  const GuideStack target = with_silhouettes(land(301, 161, 40, 2));
+  for (const int side : {3, 11}) {
+    SynthesisParameters parameters;
+    parameters.neighbourhood = side;
+    parameters.surroundings_of = "all";
+    const SynthesisSheet sheet{301, 161, 1, 128};
+    MatchField reference;
+    {
+      const ThreadLimit one(1);
+      SynthesisPlan plan = plan_of(exemplars, target, sheet, parameters);
+      reference = all_tiles(plan, target);
+    }
+    const ThreadLimit two(2);
+    SynthesisPlan plan = plan_of(exemplars, target, sheet, parameters);
+    EXPECT_EQ(all_tiles(plan, target, true), reference) << side << " × " << side;
+    for (std::size_t i = 0; i < reference.size(); ++i)
+      ASSERT_EQ(exemplars[0].guides.label(reference[i].x, reference[i].y), target.label[i]);
+  }
+}
+
 // The strips along a line are made by both tiles; were they not the same, pieces could not lie across it as they do inside.
 TEST(SynthesisTile, PiecesLieAcrossLinesAsInside) {
   const std::vector<Exemplar> exemplars{painting(200, 200, 1)};

@@ -13,8 +13,8 @@ namespace belvedere::synth::test {
 constexpr int classes = 3;
 
 // A plane of noise with blotches of classes and smooth guides; `seed` tells pictures apart.
-inline Plane noise_plane(std::vector<std::pair<int, int>> sizes, int guides, std::uint64_t seed, bool with_holes) {
-  Plane plane = make_plane(sizes, guides);
+inline Plane noise_plane(std::vector<std::pair<int, int>> sizes, int guides, std::uint64_t seed, bool with_holes, int margin = padding) {
+  Plane plane = make_plane(sizes, guides, margin);
   for (std::size_t p = 0; p < plane.parts.size(); ++p) {
     for (int y = 0; y < plane.parts[p].height; ++y) {
       for (int x = 0; x < plane.parts[p].width; ++x) {

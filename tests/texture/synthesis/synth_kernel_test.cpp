@@ -74,6 +74,57 @@ TEST_P(EachVectorWidth, PatchCostEqualsTheFormula) {
   EXPECT_GT(compared, 300);
 }
 
+// Every size by its formula: weights, and scales that bring all sizes to what 7 × 7 costs.
+TEST_P(EachVectorWidth, PatchesOfEverySizeEqualTheFormula) {
+  for (const int radius : {1, 2, 3, 4, 5}) {
+    const int margin = padding_for(radius);
+    const Plane exemplars = noise_plane({{23, 17}, {9, 31}}, 1, 5, true, margin);
+    Plane target = noise_plane({{19, 21}}, 1, 50, true, margin);
+    Grid<float> depth(19, 21, 1000.0F);
+    for (int y = 0; y < 21; ++y)
+      for (int x = 11; x < 19; ++x) depth(x, y) = 3000.0F;
+    LevelSettings settings = settings_for_level(2, 1, 240, 1.0);
+    settings.patch_radius = radius;
+    for (const bool with_silhouettes : {false, true}) {
+      LevelState state(settings, {GuideRole{2880}}, classes, exemplars, target,
+                       with_silhouettes ? make_links(depth, target, 1.04F, radius) : std::vector<std::uint8_t>());
+      start_from_picks(state);
+      const KernelView view = state.view(0);
+      std::int64_t weights = 0;
+      const auto weight = [radius](int dx, int dy) {
+        return std::lround(16.0 * std::exp(-9.0 * (dx * dx + dy * dy) / (8.0 * radius * radius)));
+      };
+      for (int dy = -radius; dy <= radius; ++dy)
+        for (int dx = -radius; dx <= radius; ++dx) weights += weight(dx, dy);
+      const std::int64_t scale_q8 = std::lround(256.0 * 348.0 / static_cast<double>(weights));
+      const int side = 2 * radius + 1;
+      const std::int64_t mismatch = std::lround(24000.0 * 49.0 / (side * side) * 256.0 / static_cast<double>(scale_q8));
+      for (int y = 0; y < 21; ++y) {
+        for (int x = 0; x < 19; ++x) {
+          const std::uint32_t pixel = target.index(0, x, y);
+          if (class_of(target.words[pixel]) == no_class) continue;
+          const std::uint32_t texel = exemplars.index(0, (3 * x + y) % 23, (5 * y + x) % 17);
+          std::int64_t sum = 0;
+          for (int dy = -radius; dy <= radius; ++dy) {
+            for (int dx = -radius; dx <= radius; ++dx) {
+              const std::uint32_t a = target.words[static_cast<std::size_t>(static_cast<std::int64_t>(pixel) + dy * target.stride + dx)];
+              const std::uint32_t b =
+                  exemplars.words[static_cast<std::size_t>(static_cast<std::int64_t>(texel) + dy * exemplars.stride + dx)];
+              if (class_of(a) == no_class || (with_silhouettes && depth.clamped(x + dx, y) != depth(x, y))) continue;
+              for (int c = 0; c < 3; ++c) {
+                const int d = static_cast<int>(a >> (8 * c) & 255U) - static_cast<int>(b >> (8 * c) & 255U);
+                sum += weight(dx, dy) * d * d;
+              }
+              if (class_of(a) != class_of(b)) sum += mismatch;
+            }
+          }
+          ASSERT_EQ(patch_cost(view, pixel, texel), (sum * scale_q8 >> 8) >> 3) << side << " × " << side << " at " << x << ", " << y;
+        }
+      }
+    }
+  }
+}
+
 TEST_P(EachVectorWidth, BlackAgainstWhiteDoesNotOverflow) {
   Plane exemplars = make_plane({{7, 7}}, 0);
   exemplars.for_each([&](std::uint32_t at) { exemplars.words[at] = 0x00ffffffU; });

@@ -67,6 +67,37 @@ TEST(Synthesize, SameBitsForAnyThreadsAndVectorWidth) {
   EXPECT_NE(run(exemplars, target, other), reference);
 }
 
+TEST(Synthesize, PatchesOfAnySizeKeepWhatItPromises) {
+  const std::vector<Exemplar> exemplars{painting(140, 120, 1), painting(60, 90, 2)};
+  GuideStack target = land(131, 97, 40);
+  target.depth_m = Grid<float>(131, 97, 5000.0F);
+  for (int y = 40; y < 80; ++y)
+    for (int x = 30; x < 90; ++x) target.depth_m(x, y) = 2000.0F;
+  const MatchField usual = run(exemplars, target);
+  MatchField before = usual;
+  for (const int side : {3, 5, 9, 11}) {
+    SynthesisParameters parameters;
+    parameters.neighbourhood = side;
+    MatchField reference;
+    {
+      const ThreadLimit one(1);
+      reference = run(exemplars, target, parameters);
+    }
+    EXPECT_NE(reference, before) << "a size that changes nothing";
+    const ThreadLimit two(2);
+    for (const std::string& width : synth::vector_targets()) {
+      synth::use_vector_target(width);
+      EXPECT_EQ(run(exemplars, target, parameters), reference) << side << ' ' << width;
+    }
+    synth::use_vector_target("");
+    const SynthesisQuality quality = measure_quality(reference, exemplars, target, {.repeat_samples = 0});
+    EXPECT_EQ(quality.label_agreement, 1.0);
+    EXPECT_EQ(quality.across_silhouettes, 0.0);
+    EXPECT_LE(quality.largest_piece, 240U);
+    before = reference;
+  }
+}
+
 // With guides that tell every texel apart and nothing against quotation, an exemplar's own guides give it back.
 TEST(Synthesize, OwnGuidesGiveTheExemplarBack) {
   Exemplar exemplar = painting(120, 120, 1);
@@ -182,6 +213,48 @@ TEST(Synthesize, SurroundingsDecideWhatBordersOnWhat) {
   EXPECT_LT(from_the_left(100, 0), 0.9) << "7 and 9 are said to be alike";
 }
 
+// Bands of 3 between bands of 7, which in the left half of the painting hold specks of 9: less than there is of 7, so the commonest other
+// class is 7 everywhere, and tells nothing of them.
+TEST(Synthesize, AllSurroundingsTellAThirdClass) {
+  Exemplar exemplar = painting(160, 96, 1);
+  exemplar.guides.guides.clear();
+  const auto label_at = [](int x, int y, bool third) -> std::uint8_t { return y % 24 < 12 ? 3 : third && x % 5 < 2 ? 9 : 7; };
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 160; ++x) exemplar.guides.label(x, y) = label_at(x, y, x < 80);
+  GuideStack target;
+  target.label = Grid<std::uint8_t>(80, 96);
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 80; ++x) target.label(x, y) = label_at(x, y, true);
+  const auto from_the_left = [&](const std::string& which, double unlikeness) {
+    SynthesisParameters parameters;
+    parameters.levels = 1;     // patches of coarser ones reach the other classes by themselves,
+    parameters.copy_cap = 16;  // and large pieces are seen from their ends
+    parameters.surroundings = 100;
+    parameters.surroundings_of = which;
+    parameters.unlikeness = {{{7, 9}, unlikeness}};
+    const MatchField field = run({exemplar}, target, parameters);
+    int left = 0;
+    int all = 0;
+    for (int y = 0; y < 96; ++y) {
+      for (int x = 0; x < 80; ++x) {
+        if (y % 24 < 4 || y % 24 > 7) continue;  // so do patches beside the border
+        ++all;
+        left += field(x, y).x < 80 ? 1 : 0;
+      }
+    }
+    return static_cast<double>(left) / all;
+  };
+  const double all = from_the_left("all", 1);
+  const double commonest = from_the_left("commonest", 1);
+  const double alike = from_the_left("all", 0);
+  RecordProperty("left_all", std::to_string(all));
+  RecordProperty("left_commonest", std::to_string(commonest));
+  RecordProperty("left_alike", std::to_string(alike));
+  EXPECT_GT(all, 0.88);
+  EXPECT_LT(commonest, 0.8);
+  EXPECT_LT(alike, all - 0.04) << "7 and 9 are said to be alike";
+}
+
 // Weak guides that no texel can meet all at once must not take from what the strongest one reaches.
 TEST(Synthesize, ManyWeakGuidesLeaveTheStrongOneAlone) {
   std::vector<Exemplar> exemplars{painting(128, 128, 1)};
@@ -276,6 +349,14 @@ TEST(Synthesize, RefusesWhatItCannotUse) {
   EXPECT_EQ(kind(good, target, parameters), 2);
   parameters = {};
   parameters.copy_cap = 15;
+  EXPECT_EQ(kind(good, target, parameters), 2);
+  parameters = {};
+  parameters.neighbourhood = 6;
+  EXPECT_EQ(kind(good, target, parameters), 2);
+  parameters.neighbourhood = 13;
+  EXPECT_EQ(kind(good, target, parameters), 2);
+  parameters = {};
+  parameters.surroundings_of = "some";
   EXPECT_EQ(kind(good, target, parameters), 2);
   parameters = {};
   parameters.tile = 63;

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/texture/synthesis/made_up_land.h"
@@ -125,6 +128,97 @@ TEST(Synthesize, NoTexelIsUsedTooOften) {
   SynthesisParameters free;
   free.reuse = 0;
   EXPECT_GT(measure_quality(run(exemplars, target, free), exemplars, target, {.repeat_samples = 0}).most_used, 2 * most);
+}
+
+// Of an eighth of a painting's squares pixels ask for three altitudes alone, and pieces of at most 16 pixels are moved as a whole until the
+// end: the cap on uses holds all the same, because pixels take other altitudes before they repeat, and a note says so.
+TEST(Synthesize, TheCapOnUsesHoldsWhereAltitudeLeavesFewTexels) {
+  std::vector<Exemplar> exemplars{painting(160, 160, 1)};
+  exemplars[0].guides.guides.resize(1);
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 160; ++x)
+      if (random_index(8, 3, x / 8, y / 8) != 0) exemplars[0].guides.label(x, y) = unused_label;
+  GuideStack target = land(160, 160, 40);
+  target.guides.resize(1);
+  for (std::size_t i = 0; i < target.label.size(); ++i)
+    target.guides[0].values[i] = target.label[i] == 3 ? 0 : target.label[i] == 7 ? 100 : 255;
+  SynthesisParameters parameters;
+  parameters.copy_cap = 16;
+  parameters.weights = {{"altitude", 10.0}};
+  Notes notes;
+  const MatchField field = synthesize(exemplars, target, parameters, notes);
+  for (const std::uint8_t label : {3, 7, 9}) {
+    const auto texels = std::count(exemplars[0].guides.label.begin(), exemplars[0].guides.label.end(), label);
+    const auto pixels = std::count(target.label.begin(), target.label.end(), label);
+    std::map<std::pair<int, int>, int> uses;
+    int most = 0;
+    for (std::size_t i = 0; i < field.size(); ++i) {
+      ASSERT_EQ(exemplars[0].guides.label(field[i].x, field[i].y), target.label[i]);
+      if (target.label[i] == label) most = std::max(most, ++uses[{field[i].x, field[i].y}]);
+    }
+    EXPECT_LE(most, 6 + 3 * pixels / texels) << "class " << int{label};
+  }
+  ASSERT_EQ(notes.notes.size(), 1U);
+  EXPECT_NE(notes.notes[0].find("altitude"), std::string::npos) << notes.notes[0];
+  EXPECT_LE(piece_sizes(field).front(), 16U);
+  // Where there are enough nothing is said.
+  Notes quiet;
+  synthesize({painting(160, 160, 1)}, land(120, 120, 40), {}, quiet);
+  EXPECT_TRUE(quiet.notes.empty());
+}
+
+// The grey of a picture against itself moved by (dx, dy): 1 is the same, 0 nothing in common.
+double autocorrelation(const Grid<Rgb8>& picture, int dx, int dy) {
+  double a_sum = 0.0, b_sum = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
+  double n = 0.0;
+  for (int y = 0; y + dy < picture.height(); ++y) {
+    for (int x = std::max(0, -dx); x < picture.width() - std::max(0, dx); ++x) {
+      const double a = picture(x, y)[1];
+      const double b = picture(x + dx, y + dy)[1];
+      a_sum += a;
+      b_sum += b;
+      aa += a * a;
+      bb += b * b;
+      ab += a * b;
+      n += 1.0;
+    }
+  }
+  return (ab - a_sum * b_sum / n) / std::sqrt((aa - a_sum * a_sum / n) * (bb - b_sum * b_sum / n));
+}
+
+// No lattice: nowhere does the picture agree with itself, moved, more than the painting does. The plain continuation of one small painting,
+// tile after tile, does.
+TEST(Synthesize, DoesNotRepeatItself) {
+  Exemplar exemplar = painting(72, 72, 1);
+  for (std::uint8_t& label : exemplar.guides.label) label = 3;
+  exemplar.guides.guides.clear();
+  for (int y = 0; y < 72; ++y)
+    for (int x = 0; x < 72; ++x) {
+      const auto bright = static_cast<std::uint8_t>(60 + random_index(120, 8, x / 5, y / 2));
+      exemplar.picture(x, y) = {bright, bright, bright};
+    }
+  GuideStack target;
+  target.label = Grid<std::uint8_t>(200, 200, 3);
+  const auto strongest = [](const Grid<Rgb8>& picture) {
+    double most = 0.0;
+    for (int dy = 0; dy <= 96; dy += 2)
+      for (int dx = -96; dx <= 96; dx += 1)
+        if (dx * dx + dy * dy > 24 * 24) most = std::max(most, autocorrelation(picture, dx, dy));
+    return most;
+  };
+  const MatchField field = run({exemplar}, target);
+  const std::vector<const Grid<Rgb8>*> layers{&exemplar.picture};
+  const double own = strongest(replay(field, layers, Grid<Rgb8>()));
+  MatchField tiles(200, 200);
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x) tiles(x, y) = {0, static_cast<std::uint16_t>(x % 72), static_cast<std::uint16_t>(y % 72)};
+  RecordProperty("autocorrelation", std::to_string(own));
+  EXPECT_LT(own, 0.12);
+  EXPECT_GT(strongest(replay(tiles, layers, Grid<Rgb8>())), 0.95);
+  const double repeat = measure_quality(field, {exemplar}, target, {.guide = ""}).self_repeat;
+  RecordProperty("self_repeat", std::to_string(repeat));
+  EXPECT_GT(repeat, 0.8);
+  EXPECT_LT(measure_quality(tiles, {exemplar}, target, {.guide = ""}).self_repeat, 0.8);
 }
 
 TEST(Synthesize, ReuseAndPiecesStayBounded) {

@@ -119,6 +119,17 @@ TEST_F(SynthesisSweep, HasTheSameBytesForAnyNumberOfThreads) {
   }
 }
 
+TEST_F(SynthesisSweep, TriesSizesOfTheNeighbourhood) {
+  const Outcome outcome = sweep("sizes", {"--sweep", "neighbourhood=3,7,11"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  ASSERT_EQ(sweep("small.png", {"--neighbourhood", "3"}).status, 0);
+  ASSERT_EQ(sweep("usual.png", {}).status, 0);
+  EXPECT_EQ(read_picture(path("sizes/1_1.png")), read_picture(path("small.png")));
+  EXPECT_EQ(read_picture(path("sizes/2_1.png")), read_picture(path("usual.png")));
+  EXPECT_FALSE(read_picture(path("sizes/1_1.png")) == read_picture(path("sizes/3_1.png")));
+  EXPECT_EQ(sweep("even.png", {"--neighbourhood", "4"}).status, 2);
+}
+
 TEST_F(SynthesisSweep, RefusesWhatCannotBeMeant) {
   const auto refused = [&](const std::vector<std::string>& sweeps, const std::string& words, const std::string& out = "sweep") {
     std::vector<std::string> arguments;
@@ -128,7 +139,11 @@ TEST_F(SynthesisSweep, RefusesWhatCannotBeMeant) {
     EXPECT_THAT(outcome.err, HasSubstr(words));
     EXPECT_FALSE(fs::exists(path("sweep/sheet.png")));
   };
-  refused({"tone=1,2"}, "\"tone\" is nothing that can be swept\n  allowed: seed, levels, reuse, copy-cap, surroundings, altitude (weight)");
+  refused(
+      {"tone=1,2"},
+      "\"tone\" is nothing that can be swept\n  allowed: seed, levels, reuse, copy-cap, neighbourhood, surroundings, altitude (weight)");
+  refused({"neighbourhood=3,4"}, "odd numbers 3 … 11");
+  refused({"neighbourhood=13"}, "odd numbers 3 … 11");
   refused({"reuse"}, "NAME=VALUE");
   refused({"reuse="}, "a value \"\"");
   refused({"reuse=1,,2"}, "a value \"\"");

@@ -1,0 +1,237 @@
+// What guides, levels and further paintings do to the texture, measured in the picture.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/texture/synthesis/made_up_land.h"
+#include "texture/quality/quality.h"
+#include "texture/synthesis/match_cost.h"
+#include "texture/synthesis/synthesize.h"
+
+namespace belvedere {
+namespace {
+
+using namespace test;
+
+Rgb8 grey(int value) {
+  const auto v = static_cast<std::uint8_t>(std::clamp(value, 0, 255));
+  return {v, v, v};
+}
+
+Grid<Rgb8> copied(const MatchField& field, const std::vector<Exemplar>& exemplars) {
+  std::vector<const Grid<Rgb8>*> layers;
+  for (const Exemplar& exemplar : exemplars) layers.push_back(&exemplar.picture);
+  return replay(field, layers, Grid<Rgb8>());
+}
+
+// Mean step of grey from pixel to pixel along rows y0 … y1 - 1: what short strokes have much of and long ones little.
+double step_along_rows(const Grid<Rgb8>& picture, int y0, int y1) {
+  double sum = 0.0;
+  int count = 0;
+  for (int y = y0; y < y1; ++y)
+    for (int x = 1; x < picture.width(); ++x, ++count) sum += std::abs(picture(x, y)[1] - picture(x - 1, y)[1]);
+  return sum / count;
+}
+
+// One class, one painter: long strokes near (below), short ones far away (above). The guide tells the distance; it runs the other way in
+// the target, whose upper half is near.
+TEST(SynthesizeGuides, TextureChangesWithDistance) {
+  const auto distance_guide = [](int width, int height, bool near_above) {
+    Grid<std::uint8_t> values(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) values(x, y) = static_cast<std::uint8_t>(255 * (near_above ? y : height - 1 - y) / (height - 1));
+    return values;
+  };
+  Exemplar exemplar;
+  exemplar.name = "near and far";
+  exemplar.picture = Grid<Rgb8>(160, 160);
+  exemplar.guides.label = Grid<std::uint8_t>(160, 160, 3);
+  exemplar.guides.guides = {{"distance", distance_guide(160, 160, false)}};
+  for (int y = 0; y < 160; ++y) {
+    const int length = 2 + 14 * y / 160;
+    for (int x = 0; x < 160; ++x) exemplar.picture(x, y) = grey(60 + static_cast<int>(random_index(130, 5, (x + 3 * y) / length, y)));
+  }
+  GuideStack target;
+  target.label = Grid<std::uint8_t>(128, 128, 3);
+  target.guides = {{"distance", distance_guide(128, 128, true)}};
+  const auto near_to_far = [&](double weight) {
+    SynthesisParameters parameters;
+    parameters.weights = {{"distance", weight}};
+    const Grid<Rgb8> picture = copied(run({exemplar}, target, parameters), {exemplar});
+    return step_along_rows(picture, 0, 40) / step_along_rows(picture, 88, 128);
+  };
+  const double in_painting = step_along_rows(exemplar.picture, 110, 160) / step_along_rows(exemplar.picture, 0, 50);
+  EXPECT_LT(in_painting, 0.5);
+  EXPECT_LT(near_to_far(1.0), 0.5);
+  EXPECT_GT(near_to_far(0.0), 0.8) << "without the guide near and far are alike";
+}
+
+// Patterns larger than a patch come over from coarser levels; one level knows nothing of them, and its seams cost more.
+TEST(SynthesizeGuides, CoarserLevelsSaveSeams) {
+  Exemplar exemplar;
+  exemplar.name = "swells";
+  exemplar.picture = Grid<Rgb8>(200, 200);
+  exemplar.guides.label = Grid<std::uint8_t>(200, 200, 3);
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x)
+      exemplar.picture(x, y) = grey(smooth_noise(3, x, y, 24) * 3 / 4 + static_cast<int>(random_index(50, 4, x / 4, y)));
+  GuideStack target;
+  target.label = Grid<std::uint8_t>(128, 128, 3);
+  const auto seams = [&](int levels) {
+    SynthesisParameters parameters;
+    parameters.levels = levels;
+    const Grid<float> cost = seam_cost(run({exemplar}, target, parameters), {exemplar}, target.label, {});
+    double sum = 0.0;
+    for (const float c : cost) sum += static_cast<double>(c);
+    return sum / static_cast<double>(cost.size());
+  };
+  const double one = seams(1);
+  const double many = seams(6);
+  RecordProperty("one_level", std::to_string(one));
+  RecordProperty("many_levels", std::to_string(many));
+  EXPECT_LT(many, 0.85 * one);
+}
+
+// A second painting of the same hand halves what each texel has to serve.
+TEST(SynthesizeGuides, ASecondPaintingLowersReuse) {
+  const std::vector<Exemplar> one{painting(90, 90, 1)};
+  const std::vector<Exemplar> two{one[0], painting(90, 90, 2)};
+  const GuideStack target = land(160, 160, 40);
+  // How often the texel of a pixel is used, in the mean over pixels.
+  const auto uses = [&](const std::vector<Exemplar>& exemplars) {
+    const MatchField field = run(exemplars, target);
+    const std::vector<Grid<std::uint32_t>> of = texel_uses(field, exemplars);
+    double sum = 0.0;
+    for (const Match& m : field) sum += of[m.exemplar](m.x, m.y);
+    return sum / static_cast<double>(field.size());
+  };
+  const double alone = uses(one);
+  const double shared = uses(two);
+  RecordProperty("one_painting", std::to_string(alone));
+  RecordProperty("two_paintings", std::to_string(shared));
+  EXPECT_LT(shared, 0.65 * alone);
+}
+
+// The direction of strokes at a place, 0 … π, from the structure of grey around it; its certainty 0 … 1 beside it.
+struct Direction {
+  double angle = 0.0;
+  double certainty = 0.0;
+};
+Direction stroke_direction(const Grid<Rgb8>& picture, int x, int y) {
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  for (int j = y - 5; j <= y + 5; ++j) {
+    for (int i = x - 5; i <= x + 5; ++i) {
+      const double gx = picture.clamped(i + 1, j)[1] - picture.clamped(i - 1, j)[1];
+      const double gy = picture.clamped(i, j + 1)[1] - picture.clamped(i, j - 1)[1];
+      xx += gx * gx;
+      xy += gx * gy;
+      yy += gy * gy;
+    }
+  }
+  const double across = 0.5 * std::atan2(2.0 * xy, xx - yy);  // of the strongest change
+  const double total = xx + yy;
+  return {std::fmod(across + 1.5 * std::numbers::pi, std::numbers::pi), total > 0.0 ? std::hypot(xx - yy, 2.0 * xy) / total : 0.0};
+}
+
+// Strokes in sixteen directions; fall lines are told as renderer/paint/guides.h has them, as a unit vector.
+void fill_direction(GuideStack& stack, int x, int y, double angle) {
+  stack.guides[0].values(x, y) = static_cast<std::uint8_t>(std::lround(127.5 + 127.5 * std::cos(angle)));
+  stack.guides[1].values(x, y) = static_cast<std::uint8_t>(std::lround(127.5 + 127.5 * std::sin(angle)));
+}
+
+// Strokes along the fall line in the painting run along the fall line in the picture, here around a round hill.
+TEST(SynthesizeGuides, CopiedStrokesFollowTheFallLine) {
+  constexpr int panel = 48;
+  Exemplar exemplar;
+  exemplar.name = "slopes of all directions";
+  exemplar.picture = Grid<Rgb8>(8 * panel, 2 * panel);
+  exemplar.guides.label = Grid<std::uint8_t>(8 * panel, 2 * panel, 3);
+  exemplar.guides.guides = {{"fall_line_x", Grid<std::uint8_t>(8 * panel, 2 * panel)},
+                            {"fall_line_y", Grid<std::uint8_t>(8 * panel, 2 * panel)}};
+  for (int y = 0; y < 2 * panel; ++y) {
+    for (int x = 0; x < 8 * panel; ++x) {
+      const double angle = std::numbers::pi / 8.0 * (x / panel + 8 * (y / panel));
+      const double along = std::cos(angle) * x + std::sin(angle) * y;
+      const double across = -std::sin(angle) * x + std::cos(angle) * y;
+      exemplar.picture(x, y) = grey(70 + static_cast<int>(random_index(120, 9, static_cast<int>(std::floor(along / 14.0)) + 5000,
+                                                                       static_cast<int>(std::floor(across / 2.0)) + 5000)));
+      fill_direction(exemplar.guides, x, y, angle);
+    }
+  }
+  GuideStack target;
+  target.label = Grid<std::uint8_t>(128, 128, 3);
+  target.guides = {{"fall_line_x", Grid<std::uint8_t>(128, 128)}, {"fall_line_y", Grid<std::uint8_t>(128, 128)}};
+  const auto fall_line = [](int x, int y) { return std::atan2(y - 63.5, x - 63.5); };
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 128; ++x) fill_direction(target, x, y, fall_line(x, y));
+  const auto mean_error_deg = [&](double weight) {
+    SynthesisParameters parameters;
+    parameters.weights = {{"fall_line_x", weight}, {"fall_line_y", weight}};
+    const Grid<Rgb8> picture = copied(run({exemplar}, target, parameters), {exemplar});
+    double sum = 0.0;
+    double weights = 0.0;
+    for (int y = 8; y < 120; y += 4) {
+      for (int x = 8; x < 120; x += 4) {
+        if (std::hypot(x - 63.5, y - 63.5) < 20.0) continue;  // round the top directions change from pixel to pixel
+        const Direction found = stroke_direction(picture, x, y);
+        double off = std::fmod(std::abs(found.angle - fall_line(x, y)), std::numbers::pi);
+        off = std::min(off, std::numbers::pi - off);
+        sum += found.certainty * off;
+        weights += found.certainty;
+      }
+    }
+    return sum / weights * 180.0 / std::numbers::pi;
+  };
+  const double with = mean_error_deg(1.0);
+  const double without = mean_error_deg(0.0);
+  RecordProperty("off_with_deg", std::to_string(with));
+  RecordProperty("off_without_deg", std::to_string(without));
+  EXPECT_LT(with, 15.0);
+  EXPECT_GT(without, 30.0) << "by chance it is 45";
+}
+
+// Valleys that a painter made dark are a guide like any: dark valleys come from dark valleys.
+TEST(SynthesizeGuides, DarkValleysComeFromDarkValleys) {
+  const auto valleys = [](int width, int height, std::uint64_t seed) {
+    Grid<std::uint8_t> depth(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) depth(x, y) = smooth_noise(seed, x, y, 22) < 100 ? 255 : 0;
+    return depth;
+  };
+  Exemplar exemplar;
+  exemplar.name = "dark valleys";
+  exemplar.picture = Grid<Rgb8>(180, 180);
+  exemplar.guides.label = Grid<std::uint8_t>(180, 180, 3);
+  exemplar.guides.guides = {{"valley", valleys(180, 180, 1)}};
+  for (int y = 0; y < 180; ++y)
+    for (int x = 0; x < 180; ++x)
+      exemplar.picture(x, y) =
+          grey((exemplar.guides.guides[0].values(x, y) > 0 ? 60 : 150) + static_cast<int>(random_index(60, 8, x / 4, y)));
+  GuideStack target;
+  target.label = Grid<std::uint8_t>(128, 128, 3);
+  target.guides = {{"valley", valleys(128, 128, 2)}};
+  const auto step = [&](double weight) {  // from valleys to slopes, levels of grey
+    SynthesisParameters parameters;
+    parameters.weights = {{"valley", weight}};
+    const Grid<Rgb8> picture = copied(run({exemplar}, target, parameters), {exemplar});
+    double sums[2] = {0.0, 0.0};
+    int counts[2] = {0, 0};
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      const int in_valley = target.guides[0].values[i] > 0 ? 1 : 0;
+      sums[in_valley] += picture[i][1];
+      ++counts[in_valley];
+    }
+    return sums[0] / counts[0] - sums[1] / counts[1];
+  };
+  EXPECT_NEAR(step(1.0), 90.0, 6.0);
+  EXPECT_LT(std::abs(step(0.0)), 12.0);
+}
+
+}  // namespace
+}  // namespace belvedere
