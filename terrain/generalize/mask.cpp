@@ -11,6 +11,7 @@
 #include "base/filter.h"
 #include "base/math.h"
 #include "base/parallel.h"
+#include "base/pyramid.h"
 #include "terrain/shape/derivatives.h"
 
 namespace belvedere {
@@ -31,6 +32,13 @@ Grid<float> smooth_slope(const Grid<float>& altitude_m, glm::dvec2 cell_m, doubl
   return slope_deg(gaussian_blur(altitude_m, blur_cells), cell_m.x, cell_m.y);
 }
 
+// 1 on flats and around them, fading over some cells: the foot of a slope is concave and steeper than the flat, and belongs to it. Narrow
+// flats, ledges and passes do not count.
+Grid<float> grown_flat(Grid<float> flat) {
+  flat = window_maximum(window_minimum(flat, 1), 6);
+  return gaussian_blur(flat, 3.0);
+}
+
 }  // namespace
 
 Grid<float> slope_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, const SlopeRange& range) {
@@ -40,6 +48,10 @@ Grid<float> slope_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, const S
   }
   Grid<float> mask = smooth_slope(altitude_m, cell_m, 1.0);
   change_cells(mask, [&](float slope, int, int) { return share_between(range.original_to_deg, range.generalized_from_deg, slope); });
+  Grid<float> flat = mask;
+  change_cells(flat, [](float steep, int, int) { return 1.F - steep; });
+  flat = grown_flat(std::move(flat));
+  change_cells(mask, [&](float steep, int x, int y) { return std::clamp(1.F - flat(x, y), 0.F, steep); });
   return mask;
 }
 
@@ -58,9 +70,7 @@ Grid<float> slope_foot_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, in
   near_steep = gaussian_blur(window_maximum(near_steep, reach), 0.35 * reach);
   Grid<float> mask = std::move(slope);
   change_cells(mask, [](float s, int, int) { return 1.F - share_between(3.0, 12.0, s); });
-  // The foot itself is concave and steeper than the flat: it belongs to what is kept. Narrow flats, ledges and passes do not.
-  mask = window_maximum(window_minimum(mask, 1), 6);
-  mask = gaussian_blur(mask, 3.0);
+  mask = grown_flat(std::move(mask));
   change_cells(mask, [&](float flat, int x, int y) { return 1.F - flat * near_steep(x, y); });
   return mask;
 }
@@ -86,6 +96,12 @@ Grid<float> read_mask(const RasterSource& source, const RasterFrame& frame, Prog
   const float scale = highest > 1.F ? 1.F / 255.F : 1.F;
   change_cells(mask, [&](float v, int, int) { return std::isfinite(v) ? v * scale : 1.F; });
   return mask;
+}
+
+Grid<float> soften_mask(const Grid<float>& mask) {
+  if (mask.empty()) return {};
+  const Grid<float> half = reduce(mask);
+  return expand(expand(reduce(half), half.width(), half.height()), mask.width(), mask.height());
 }
 
 Grid<float> combine_masks(Grid<float> a, const Grid<float>& b) {

@@ -17,7 +17,9 @@ struct SlopeRange {
   double original_to_deg = 3.0;        // up to this slope 0
   double generalized_from_deg = 10.0;  // from this slope 1, smoothstep between; above original_to_deg, below 90
 };
-// By the slope (Horn) of the ground smoothed by one cell, so that single rough cells of a plain count for nothing.
+// By the slope (Horn) of the ground smoothed by one cell, so that single rough cells of a plain count for nothing. What is flat for more
+// than three cells keeps five cells around it too, fading over some more: where a slope begins to rise the ground bends up, and there
+// amplified middle bands would dig.
 Grid<float> slope_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, const SlopeRange& range);
 
 // How much of the generalization each class takes, 0…1: 0 for lakes and valley floors, 1 for what the map maker does not name.
@@ -34,6 +36,10 @@ Grid<float> slope_foot_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, in
 // above 1 occur) generalized. Where the file has no data, terrain is generalized. Throws Error(input) as warp_rasters does,
 // and for values outside 0…255 or a file without data in the frame.
 Grid<float> read_mask(const RasterSource& source, const RasterFrame& frame, Progress& progress);
+
+// The mask as the second level of its Gaussian pyramid shows it, with edges about eight cells wide. The finest band meets the mask itself:
+// along a hard edge, as drawn masks and classes have it, that band would begin with a step.
+Grid<float> soften_mask(const Grid<float>& mask);
 
 // Cell by cell the product, so that each mask protects what it protects alone. An empty grid is 1 everywhere.
 Grid<float> combine_masks(Grid<float> a, const Grid<float>& b);

@@ -78,7 +78,7 @@ Grid<float> drawn_mask(const GeneralizeOptions& options, const Dem& dem, Progres
   if (options.mask.empty()) return {};
   RasterSource source;
   source.path = options.mask;
-  return read_mask(source, {dem.transform, dem.width(), dem.height(), dem.crs}, progress);
+  return soften_mask(read_mask(source, {dem.transform, dem.width(), dem.height(), dem.crs}, progress));
 }
 
 Grid<float> make_mask(const GeneralizeOptions& options, const Dem& dem, glm::dvec2 cell_m, Progress& progress) {

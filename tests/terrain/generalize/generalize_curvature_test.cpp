@@ -216,13 +216,19 @@ TEST(GeneralizeCurvature, EveryPresetIsInRange) {
   for (const GeneralizePreset& preset : generalize_presets()) EXPECT_NO_THROW(run(alpine(64, 64), preset.bands)) << preset.name;
 }
 
-TEST(Mask, SlopeMaskKeepsFlatGround) {
-  Grid<float> ground(40, 40);
+TEST(Mask, SlopeMaskKeepsFlatGroundAndTheFootOfTheSlope) {
+  // The slope begins at x = 20; two columns of flat at x = 50 are a ledge, and no flat.
+  Grid<float> ground(80, 40);
   for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 40; ++x) ground(x, y) = x < 20 ? 0.F : 15.F * static_cast<float>(x - 20);
+    for (int x = 0; x < 80; ++x) ground(x, y) = 15.F * static_cast<float>(x < 20 ? 0 : x <= 50 ? x - 20 : x <= 52 ? 30 : x - 22);
   const Grid<float> mask = slope_mask(ground, {cell_m, cell_m}, {});
-  EXPECT_EQ(mask(5, 20), 0.F);
-  EXPECT_EQ(mask(34, 20), 1.F);
+  EXPECT_LE(mask(5, 20), 1e-6F);
+  EXPECT_LT(mask(21, 20), 0.15F);  // 26° steep as the next
+  EXPECT_LT(mask(23, 20), 0.4F);
+  EXPECT_GT(mask(29, 20), 0.9F);
+  EXPECT_NEAR(mask(40, 20), 1.F, 1e-6F);
+  EXPECT_GT(mask(54, 20), 0.95F);  // beside the ledge
+  for (const float m : mask) ASSERT_TRUE(m >= 0.F && m <= 1.F);
 }
 
 TEST(RealGeneralize, AutomaticMaskDigsFewerPitsAtSlopeFeet) {
