@@ -149,33 +149,39 @@ function breakLines(partialSum, cell) {
   return blur(c, breakLineTaps);
 }
 
-// How far a band adds convex detail around each cell, 0…1, by its profile curvature: the mean of p²r + 2pqs + q²t over the nine cells,
-// which tells also on the very top of a roof, where p = q = 0.
-function convexShare(band, cell) {
-  const w = band.width, h = band.height;
-  const spreadX = 2 / 3 * cell[0] * cell[0], spreadY = 2 / 3 * cell[1] * cell[1];
-  const convex = new Float64Array(w * h), both = new Float64Array(w * h);
-  fitQuadrics(band, cell, (i, p, q, r, s, t) => {
-    const bendX = r * (r * r + 2 * s * s) + s * s * t;
-    const bendY = t * (t * t + 2 * s * s) + s * s * r;
-    const curve = p * p * r + 2 * p * q * s + q * q * t + spreadX * bendX + spreadY * bendY;
-    both[i] = Math.abs(curve);
-    convex[i] = 0.5 * (Math.abs(curve) - curve);
-  });
-  const out = makeGrid(w, h);
-  for (let y = 0; y < h; ++y) {
-    for (let x = 0; x < w; ++x) {
-      let up = 0.59e-38, all = 1.18e-38;
-      for (let dy = -1; dy <= 1; ++dy) {
-        for (let dx = -1; dx <= 1; ++dx) {
-          const i = Math.min(Math.max(y + dy, 0), h - 1) * w + Math.min(Math.max(x + dx, 0), w - 1);
-          up += convex[i];
-          all += both[i];
-        }
-      }
-      out.values[y * w + x] = up / all;
+// The mean of 3 × 3 cells by 1 2 1 across and down.
+function binomialMean(band) {
+  const z = padded(band), stride = band.width + 2, out = makeGrid(band.width, band.height);
+  for (let y = 0; y < band.height; ++y) {
+    for (let x = 0; x < band.width; ++x) {
+      const n = y * stride + x, m = n + stride, o = m + stride;
+      const west = z[n] + z[o] + 2 * z[m], middle = z[n + 1] + z[o + 1] + 2 * z[m + 1], east = z[n + 2] + z[o + 2] + 2 * z[m + 2];
+      out.values[y * band.width + x] = (west + east + 2 * middle) / 16;
     }
   }
+  return out;
+}
+
+// How far the ridge set counts at each cell, 0…1: by the sign of the band's profile curvature, -(p²r + 2pqs + q²t), where that is clear, else
+// by that of the mean around the cell.
+function convexShare(band, cell) {
+  const out = makeGrid(band.width, band.height);
+  const spreadX = 2 / 3 * cell[0] * cell[0], spreadY = 2 / 3 * cell[1] * cell[1];
+  const mean = binomialMean(band);
+  fitQuadrics(mean, cell, (i, p, q, r, s, t) => {
+    const bendX = r * (r * r + 2 * s * s) + s * s * t;
+    const bendY = t * (t * t + 2 * s * s) + s * s * r;
+    const around = p * p * r + 2 * p * q * s + q * q * t + spreadX * bendX + spreadY * bendY;
+    // The squares have units of their own: (p² + q²) / cell² stands beside r².
+    const size = ((p * p + q * q) / (cell[0] * cell[1]) + 2 / 3 * (r * r + t * t + 2 * s * s)) * Math.abs(mean.values[i]);
+    out.values[i] = Math.min(Math.max(0.5 - around / (0.1 * size + 1e-300), 0), 1);
+  });
+  fitQuadrics(band, cell, (i, p, q, r, s, t) => {
+    const own = p * p * r + 2 * p * q * s + q * q * t;
+    const unclear = 0.22 * ((p * p + q * q) / (cell[0] * cell[1]) + 0.01 * (r * r + t * t + 2 * s * s)) * Math.abs(band.values[i]);
+    const rules = Math.min(Math.abs(own) / (unclear + 1e-300), 1);
+    out.values[i] += rules * ((own < 0 ? 1 : 0) - out.values[i]);
+  });
   return out;
 }
 

@@ -9,7 +9,7 @@
 
 namespace belvedere {
 
-// Which plan curvature finds break lines. N and g are in derivatives.h; both are multiplied by the cell of the band at hand, so that a
+// Which plan curvature finds break lines. N and g are in generalize_rows.h; both are multiplied by the cell of the band at hand, so that a
 // ridge of one shape counts the same in every band.
 enum class CurvatureForm {
   bounded,  // N/g², the change of slope across the contour: small in flats, largest on steep ridges

@@ -93,9 +93,8 @@ class BandStrip {
         below_(plan.radius + 5, width_, 0),
         sum_(3, plan.break_lines ? width_ : 0, 1),
         across_(2 * plan.radius + 2, plan.break_lines ? width_ : 0, 0),
-        detail_(3, plan.sides ? width_ : 0, 1),
-        convex_(3, plan.sides ? width_ : 0, 1),
-        both_(3, plan.sides ? width_ : 0, 1),
+        detail_(6, plan.sides ? width_ : 0, 1),
+        mean_(3, plan.sides ? width_ : 0, 1),
         line_(static_cast<std::size_t>(plan.local ? width_ + 2 * plan.radius : 0), 1.F),
         sides_(static_cast<std::size_t>(plan.sides ? width_ : 0)),
         gain_(static_cast<std::size_t>(width_)),
@@ -103,8 +102,8 @@ class BandStrip {
         next_expanded_(std::max(first - plan.radius - 2, 0)),
         next_sum_(std::max(first - plan.radius, 0) - 1),
         next_line_(std::max(first - plan.radius, 0)),
-        next_detail_(first - 2),
-        next_profile_(first - 1) {}
+        next_detail_(std::max(first - 2, -1)),
+        next_mean_(first - 1) {}
 
   void make(int y, float* out) {
     need_expanded(y);
@@ -173,28 +172,26 @@ class BandStrip {
     return c;
   }
 
-  const float* convex_share(int y) {
-    for (; next_profile_ <= y + 1; ++next_profile_) {
-      for (; next_detail_ <= next_profile_ + 1; ++next_detail_) {
-        // What lies farther out than one row is not needed: outer rows of the profile repeat the edge's.
-        if (next_detail_ < -1 || next_detail_ > height_) continue;
-        make_extended_row(detail_, next_detail_, [&](int from, float* row) {
-          need_expanded(std::min(std::max(from, next_detail_ < 0 ? 1 : 0), height_ - 1));
-          subtract_row(band_.level->row(from), smooth_[from], width_, row);
-        });
-      }
-      float* convex = convex_[next_profile_];
-      float* both = both_[next_profile_];
-      if (next_profile_ < 0 || next_profile_ >= height_) continue;
-      profile_row(detail_[next_profile_ - 1], detail_[next_profile_], detail_[next_profile_ + 1], width_, lines_.scale.inverse_x,
-                  lines_.scale.inverse_y, convex, both);
-      repeat_ends(convex, width_, 1);
-      repeat_ends(both, width_, 1);
+  // L_i up to row y.
+  void need_detail(int y) {
+    for (; next_detail_ <= std::min(y, height_); ++next_detail_) {
+      make_extended_row(detail_, next_detail_, [&](int from, float* row) {
+        need_expanded(std::min(std::max(from, next_detail_ < 0 ? 1 : 0), height_ - 1));
+        subtract_row(band_.level->row(from), smooth_[from], width_, row);
+      });
     }
-    const auto at = [&](int row) { return std::clamp(row, 0, height_ - 1); };
-    const float* const convex[3] = {convex_[at(y - 1)], convex_[y], convex_[at(y + 1)]};
-    const float* const both[3] = {both_[at(y - 1)], both_[y], both_[at(y + 1)]};
-    convex_share_row(convex, both, width_, sides_.data());
+  }
+
+  const float* convex_share(int y) {
+    for (; next_mean_ <= y + 1; ++next_mean_) {
+      make_extended_row(mean_, next_mean_, [&](int from, float* row) {
+        need_detail(std::max(from, next_mean_ < 0 ? 1 : 0) + 1);
+        binomial_row(detail_[from - 1], detail_[from], detail_[from + 1], width_, row);
+      });
+    }
+    const float* const detail[3] = {detail_[y - 1], detail_[y], detail_[y + 1]};
+    const float* const mean[3] = {mean_[y - 1], mean_[y], mean_[y + 1]};
+    convex_share_row(detail, mean, width_, lines_.scale.inverse_x, lines_.scale.inverse_y, sides_.data());
     return sides_.data();
   }
 
@@ -225,14 +222,14 @@ class BandStrip {
   const Plan& plan_;
   int width_;
   int height_;
-  RowRing smooth_, below_;          // expand(G_i+1), expand(D_i+1)
-  RowRing sum_;                     // their sum
-  RowRing across_;                  // c, blurred along the rows
-  RowRing detail_, convex_, both_;  // L_i and its profile
+  RowRing smooth_, below_;  // expand(G_i+1), expand(D_i+1)
+  RowRing sum_;             // their sum
+  RowRing across_;          // c, blurred along the rows
+  RowRing detail_, mean_;   // L_i and its binomial mean
   std::vector<float> line_, sides_, gain_, ground_;
   std::vector<float> ground_posts_;
   std::vector<const float*> around_;
-  int next_expanded_, next_sum_, next_line_, next_detail_, next_profile_;
+  int next_expanded_, next_sum_, next_line_, next_detail_, next_mean_;
 };
 
 }  // namespace

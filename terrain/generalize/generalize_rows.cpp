@@ -41,7 +41,10 @@ HWY_INLINE Quadric fit(const float* a, const float* b, const float* c, int x, fl
           (west_bend + middle_bend + east_bend) * (third * iy * iy)};
 }
 
-void BreakLineRow(const float* a, const float* b, const float* c, int width, const BreakLineScale& scale, float* HWY_RESTRICT out) {
+// Curvatures of a row, as `keep` wants them.
+template <class Keep>
+HWY_INLINE void each_plan_curvature(const float* a, const float* b, const float* c, int width, const BreakLineScale& scale,
+                                    float* HWY_RESTRICT out, Keep&& keep) {
   const float ix = scale.inverse_x;
   const float iy = scale.inverse_y;
   const float gain = scale.scale_m;
@@ -51,17 +54,26 @@ void BreakLineRow(const float* a, const float* b, const float* c, int width, con
       const Quadric z = fit(a, b, c, x, ix, iy);
       const float n = z.q * z.q * z.r - 2.F * z.p * z.q * z.s + z.p * z.p * z.t;
       const float g2 = z.p * z.p + z.q * z.q + 1e-6F;
-      const float k = std::abs(n) * gain / (g2 * std::sqrt(g2));
-      out[x] = k < 1.F ? k : 1.F;
+      out[x] = keep(-n * gain / (g2 * std::sqrt(g2)));
     }
   } else {
     for (int x = 0; x < width; ++x) {
       const Quadric z = fit(a, b, c, x, ix, iy);
       const float n = z.q * z.q * z.r - 2.F * z.p * z.q * z.s + z.p * z.p * z.t;
-      const float k = std::abs(n) * gain / (z.p * z.p + z.q * z.q + 1e-12F);
-      out[x] = k < 1.F ? k : 1.F;
+      out[x] = keep(-n * gain / (z.p * z.p + z.q * z.q + 1e-12F));
     }
   }
+}
+
+void PlanCurvatureRow(const float* a, const float* b, const float* c, int width, const BreakLineScale& scale, float* HWY_RESTRICT out) {
+  each_plan_curvature(a, b, c, width, scale, out, [](float k) { return k; });
+}
+
+void BreakLineRow(const float* a, const float* b, const float* c, int width, const BreakLineScale& scale, float* HWY_RESTRICT out) {
+  each_plan_curvature(a, b, c, width, scale, out, [](float k) {
+    const float size = std::abs(k);
+    return size < 1.F ? size : 1.F;
+  });
 }
 
 void BlurAcrossRow(const float* padded, const float* taps, int radius, int width, float* HWY_RESTRICT out) {
@@ -106,8 +118,16 @@ void PowerRow(float* HWY_RESTRICT values, int width, float exponent) {
   }
 }
 
-void ProfileRow(const float* a, const float* b, const float* c, int width, float ix, float iy, float* HWY_RESTRICT convex,
-                float* HWY_RESTRICT both) {
+void BinomialRow(const float* a, const float* b, const float* c, int width, float* HWY_RESTRICT out) {
+  for (int x = 0; x < width; ++x) {
+    const float west = (a[x - 1] + c[x - 1]) + 2.F * b[x - 1];
+    const float middle = (a[x] + c[x]) + 2.F * b[x];
+    const float east = (a[x + 1] + c[x + 1]) + 2.F * b[x + 1];
+    out[x] = 0.0625F * ((west + east) + 2.F * middle);
+  }
+}
+
+void ConvexShareRow(const float* const* band, const float* const* mean, int width, float ix, float iy, float* HWY_RESTRICT out) {
   // P at d from the cell is (g + H d)ᵀ H (g + H d) on the quadric, g its gradient and H its second derivatives. Over the nine cells,
   // whose offsets have mean 0 and variance 2/3 of a cell along x and along y, the term linear in d vanishes and the mean is exactly
   // P + 2/3 (cell_x² (H³)_xx + cell_y² (H³)_yy). Lengths are in cells (the geometric mean), so that P is in m³ and no float underflows.
@@ -116,30 +136,23 @@ void ProfileRow(const float* a, const float* b, const float* c, int width, float
   const float spread_x = 2.F / 3.F * ny * ny;
   const float spread_y = 2.F / 3.F * nx * nx;
   for (int x = 0; x < width; ++x) {
-    const Quadric z = fit(a, b, c, x, nx, ny);
-    const float level = z.p * z.p * z.r + 2.F * z.p * z.q * z.s + z.q * z.q * z.t;
-    const float s2 = z.s * z.s;
-    const float bend_x = z.r * (z.r * z.r + 2.F * s2) + s2 * z.t;
-    const float bend_y = z.t * (z.t * z.t + 2.F * s2) + s2 * z.r;
-    const float curve = level + (spread_x * bend_x + spread_y * bend_y);
-    const float size = std::abs(curve);
-    both[x] = size;
-    convex[x] = 0.5F * (size - curve);
-  }
-}
-
-void ConvexShareRow(const float* const* convex, const float* const* both, int width, float* HWY_RESTRICT out) {
-  const float* c0 = convex[0];
-  const float* c1 = convex[1];
-  const float* c2 = convex[2];
-  const float* b0 = both[0];
-  const float* b1 = both[1];
-  const float* b2 = both[2];
-  for (int x = 0; x < width; ++x) {
-    const float up = (c0[x - 1] + c1[x - 1] + c2[x - 1]) + (c0[x] + c1[x] + c2[x]) + (c0[x + 1] + c1[x + 1] + c2[x + 1]);
-    const float all = (b0[x - 1] + b1[x - 1] + b2[x - 1]) + (b0[x] + b1[x] + b2[x]) + (b0[x + 1] + b1[x + 1] + b2[x + 1]);
-    // The smallest float that is normal keeps 0/0 away and changes nothing else.
-    out[x] = (up + 0.59e-38F) / (all + 1.18e-38F);
+    const Quadric z = fit(band[0], band[1], band[2], x, nx, ny);
+    const Quadric m = fit(mean[0], mean[1], mean[2], x, nx, ny);
+    const float own = (z.p * z.p * z.r + z.q * z.q * z.t) + 2.F * z.p * z.q * z.s;
+    const float m2 = m.s * m.s;
+    const float bend_x = m.r * (m.r * m.r + 2.F * m2) + m2 * m.t;
+    const float bend_y = m.t * (m.t * m.t + 2.F * m2) + m2 * m.r;
+    const float around = ((m.p * m.p * m.r + m.q * m.q * m.t) + 2.F * m.p * m.q * m.s) + (spread_x * bend_x + spread_y * bend_y);
+    // Next to level, by a tenth of what it bends in a cell, the band has no direction. The smallest float that is normal keeps 0/0 away.
+    const float fall = (z.p * z.p + z.q * z.q) + 0.01F * ((z.r * z.r + z.t * z.t) + 2.F * z.s * z.s);
+    const float clear = std::abs(own) / (0.22F * fall * std::abs(band[1][x]) + 1.18e-38F);
+    const float rules = clear < 1.F ? clear : 1.F;
+    const float by_own = own < 0.F ? 1.F : 0.F;
+    // A twentieth of the form is soft, so that a last bit turns nothing over.
+    const float size = ((m.p * m.p + m.q * m.q) + 2.F / 3.F * ((m.r * m.r + m.t * m.t) + 2.F * m2)) * std::abs(mean[1][x]);
+    const float side = 0.5F - around / (0.1F * size + 1.18e-38F);
+    const float by_mean = side < 0.F ? 0.F : side < 1.F ? side : 1.F;
+    out[x] = by_mean + rules * (by_own - by_mean);
   }
 }
 
@@ -225,16 +238,21 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace belvedere {
 namespace rows {
+HWY_EXPORT(PlanCurvatureRow);
 HWY_EXPORT(BreakLineRow);
 HWY_EXPORT(BlurAcrossRow);
 HWY_EXPORT(BlurDownRow);
 HWY_EXPORT(PowerRow);
-HWY_EXPORT(ProfileRow);
+HWY_EXPORT(BinomialRow);
 HWY_EXPORT(ConvexShareRow);
 HWY_EXPORT(WeighRow);
 HWY_EXPORT(AddRow);
 HWY_EXPORT(SubtractRow);
 }  // namespace rows
+
+void plan_curvature_row(const float* north, const float* here, const float* south, int width, const BreakLineScale& scale, float* out) {
+  HWY_DYNAMIC_DISPATCH(rows::PlanCurvatureRow)(north, here, south, width, scale, out);
+}
 
 void break_line_row(const float* north, const float* here, const float* south, int width, const BreakLineScale& scale, float* out) {
   HWY_DYNAMIC_DISPATCH(rows::BreakLineRow)(north, here, south, width, scale, out);
@@ -250,13 +268,12 @@ void blur_down_row(const float* const* rows, const std::vector<float>& taps, int
 
 void power_row(float* values, int width, float exponent) { HWY_DYNAMIC_DISPATCH(rows::PowerRow)(values, width, exponent); }
 
-void profile_row(const float* north, const float* here, const float* south, int width, float inverse_x, float inverse_y, float* convex,
-                 float* both) {
-  HWY_DYNAMIC_DISPATCH(rows::ProfileRow)(north, here, south, width, inverse_x, inverse_y, convex, both);
+void binomial_row(const float* north, const float* here, const float* south, int width, float* out) {
+  HWY_DYNAMIC_DISPATCH(rows::BinomialRow)(north, here, south, width, out);
 }
 
-void convex_share_row(const float* const convex[3], const float* const both[3], int width, float* out) {
-  HWY_DYNAMIC_DISPATCH(rows::ConvexShareRow)(convex, both, width, out);
+void convex_share_row(const float* const band[3], const float* const mean[3], int width, float inverse_x, float inverse_y, float* out) {
+  HWY_DYNAMIC_DISPATCH(rows::ConvexShareRow)(band, mean, width, inverse_x, inverse_y, out);
 }
 
 void weigh_row(const WeightRows& in, const BandWeights& weights, const float* level, const float* smooth, int width, float* gain,

@@ -8,14 +8,18 @@ namespace belvedere {
 // that the compiler can vectorize them for the machine at hand; elementwise IEEE arithmetic without contraction gives the same
 // bits at each width. "Padded" rows have that many values before and after the row.
 
-// How curvature becomes c: least of |curvature| · scale and 1.
+// Plan curvature by the quadric that Evans (1980) and Young (1978) fit to 3 × 3 cells: p, q are its slopes to east and north, r, s, t its
+// second derivatives (xx, xy, yy), N = q²r - 2pqs + p²t, g² = p² + q².
 struct BreakLineScale {
-  bool plan = false;      // N/g³, else N/g²
+  bool plan = false;      // -N/g³, else -N/g²
   float inverse_x = 1.F;  // 1 / width of a cell, 1/m
   float inverse_y = 1.F;  // 1 / height of a cell
   float scale_m = 1.F;    // mean cell / full curvature
 };
-// c of a row from three rows of altitudes, padded by 1.
+// Curvature · scale_m of a row from three rows of altitudes, padded by 1: convex ground is positive, a cone -N/g³ = 1 / radius of its
+// contour. Ground flatter than 1 mm in 1 km has no direction, and 0; for -N/g³ it is 1 m in 1 km.
+void plan_curvature_row(const float* north, const float* here, const float* south, int width, const BreakLineScale& scale, float* out);
+// c of the row before its blur: the least of |curvature| · scale_m and 1.
 void break_line_row(const float* north, const float* here, const float* south, int width, const BreakLineScale& scale, float* out);
 
 // Sum of taps[k] · padded[x + k - radius]; taps has 2 radius + 1 values.
@@ -25,13 +29,16 @@ void blur_down_row(const float* const* rows, const std::vector<float>& taps, int
 // x^exponent for 0 ≤ x ≤ 1, in place, exponent > 0; error below 1e-5. Exactly 0 at 0 and 1 at 1.
 void power_row(float* values, int width, float exponent);
 
-// Of three rows of a band, padded by 1: the mean over 3 × 3 cells of P = p²r + 2pqs + q²t, whose sign is opposite to the profile
-// curvature's, split into what is convex (max(-P, 0)) and |P|. P at the cell alone is 0 where the band is level, so along the very
-// bottom of a valley and on the top of a roof; its mean tells there by the bend across, and on slopes by the bend along the fall.
-void profile_row(const float* north, const float* here, const float* south, int width, float inverse_x, float inverse_y, float* convex,
-                 float* both);
-// Σ convex / Σ both over 3 × 3 cells, rows padded by 1: 1 where all the surroundings are convex, 0 where all are concave, .5 on a plane.
-void convex_share_row(const float* const convex[3], const float* const both[3], int width, float* out);
+// Binomial mean of 3 × 3 cells, 1 2 1 across and down; rows padded by 1.
+void binomial_row(const float* north, const float* here, const float* south, int width, float* out);
+// How far the ridge set counts against the valley set in a band, by the sign of the band's profile curvature, which is opposite to that of
+// P = p²r + 2pqs + q²t: 1 where P < 0 (convex), 0 where P > 0. Only where the form is not clear there is something between. Expanding fills
+// even and odd cells by different taps, so that a band of long forms L alternates by a tenth of itself from cell to cell: a curvature |P| /
+// g² below .22 |L| per cell² may be that; and where the band is all but level there is no fall line to be curved along. There the band's
+// binomial mean, in which nothing alternates, has its say by the mean of its P over 3 × 3 cells, P + 2/3 (cell_x² (H³)_xx + cell_y²
+// (H³)_yy), which tells also where P is 0, along the very bottom of a valley and on the top of a roof. The share goes from its side to the
+// cell's own in proportion to the curvature. Three rows of the band and three of its binomial mean, padded by 1.
+void convex_share_row(const float* const band[3], const float* const mean[3], int width, float inverse_x, float inverse_y, float* out);
 
 // Everything that makes the weight of a cell. Null pointers mean: share 1, no break lines, mask 1, nothing kept, printable.
 struct WeightRows {

@@ -11,9 +11,6 @@
 namespace belvedere {
 namespace {
 
-// Below this gradient (1 mm in 1 km) a contour has no direction worth naming.
-constexpr double least_gradient = 1e-6;
-
 // Nine cells in double, z1…z9 from the north-west corner row by row.
 struct Window {
   double z1, z2, z3, z4, z5, z6, z7, z8, z9;
@@ -51,22 +48,6 @@ Gradient horn(const Window& w, double cell_x_m, double cell_y_m) {
           ((w.z1 + 2.0 * w.z2 + w.z3) - (w.z7 + 2.0 * w.z8 + w.z9)) / (8.0 * cell_y_m)};
 }
 
-// N and g² of the quadric fitted by least squares (Evans 1980, Young 1978).
-struct ContourTerms {
-  double n;
-  double g2;
-};
-
-ContourTerms evans_young(const Window& w, double cell_m) {
-  const double p = (w.z3 + w.z6 + w.z9 - w.z1 - w.z4 - w.z7) / (6.0 * cell_m);
-  const double q = (w.z1 + w.z2 + w.z3 - w.z7 - w.z8 - w.z9) / (6.0 * cell_m);
-  const double area = cell_m * cell_m;
-  const double r = (w.z1 + w.z3 + w.z4 + w.z6 + w.z7 + w.z9 - 2.0 * (w.z2 + w.z5 + w.z8)) / (3.0 * area);
-  const double t = (w.z1 + w.z2 + w.z3 + w.z7 + w.z8 + w.z9 - 2.0 * (w.z4 + w.z5 + w.z6)) / (3.0 * area);
-  const double s = (w.z3 + w.z7 - w.z1 - w.z9) / (4.0 * area);
-  return {q * q * r - 2.0 * p * q * s + p * p * t, p * p + q * q};
-}
-
 }  // namespace
 
 Grid<float> slope_deg(const Grid<float>& altitude_m, double cell_x_m, double cell_y_m) {
@@ -84,20 +65,6 @@ Grid<float> aspect_deg(const Grid<float>& altitude_m, double cell_x_m, double ce
     // A hair's breadth below 360 must not round to it.
     const auto clockwise = static_cast<float>(aspect < 0.0 ? aspect + 360.0 : aspect);
     return clockwise >= 360.F ? 0.F : clockwise;
-  });
-}
-
-Grid<float> plan_curvature(const Grid<float>& altitude_m, double cell_m) {
-  return map_windows(altitude_m, [=](const Window& w) {
-    const ContourTerms c = evans_young(w, cell_m);
-    return c.g2 < least_gradient * least_gradient ? 0.0 : -c.n / (c.g2 * std::sqrt(c.g2));
-  });
-}
-
-Grid<float> bounded_plan_curvature(const Grid<float>& altitude_m, double cell_m) {
-  return map_windows(altitude_m, [=](const Window& w) {
-    const ContourTerms c = evans_young(w, cell_m);
-    return c.g2 < least_gradient * least_gradient ? 0.0 : c.n / c.g2;
   });
 }
 

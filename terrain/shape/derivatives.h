@@ -12,12 +12,6 @@ Grid<float> slope_deg(const Grid<float>& altitude_m, double cell_x_m, double cel
 // 0…360 (exclusive), clockwise from north, downhill; flat cells -1.
 Grid<float> aspect_deg(const Grid<float>& altitude_m, double cell_x_m, double cell_y_m);
 
-// Evans–Young plan curvature kp = -N/g³, 1/m, of the contour: a ridge of radius R is +1/R, a valley negative. It diverges where the
-// ground is level; cells with a gradient below 1e-6 are 0. N, g and the fits are in requirements, section G.
-Grid<float> plan_curvature(const Grid<float>& altitude_m, double cell_m);
-// The bounded form N/g², 1/m: no larger than the second derivatives, and of the *opposite* sign (ridges negative).
-Grid<float> bounded_plan_curvature(const Grid<float>& altitude_m, double cell_m);
-
 // Height above the Gaussian mean, m: blur(inner_m) - blur(outer_m), both standard deviations; 0 for inner_m means the cell itself.
 Grid<float> relief(const Grid<float>& altitude_m, double cell_m, double inner_m, double outer_m);
 // Height above the lowest ground (smoothed by one cell) within ±radius_m along x and y, m, ≥ 0.

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "base/grid.h"
-#include "terrain/shape/derivatives.h"
 #include "tests/files.h"
+#include "tests/terrain/generalize/plan_curvature.h"
 
 namespace belvedere {
 namespace {
@@ -50,7 +50,7 @@ TEST(PlanCurvature, IsTheNegativeOfGrassPlanc) {
   ASSERT_EQ(bytes.size(), hills.size() * sizeof(float));
   Grid<float> theirs(size, size);
   std::copy_n(bytes.data(), bytes.size(), reinterpret_cast<char*>(theirs.data()));
-  const Grid<float> ours = plan_curvature(hills, cell_m);
+  const Grid<float> ours = test::curvature_by_rows(hills, cell_m, true);
   double largest = 0.0;
   for (int y = 1; y + 1 < size; ++y)
     for (int x = 1; x + 1 < size; ++x) {

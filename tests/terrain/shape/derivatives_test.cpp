@@ -54,58 +54,6 @@ TEST(Aspect, PointsDownhillClockwiseFromNorth) {
   EXPECT_EQ(aspect_deg(Grid<float>(3, 3, 5.F), 1.0, 1.0)(1, 1), -1.F);
 }
 
-TEST(PlanCurvature, OfAConeIsOneOverTheRadius) {
-  // Hills are convex, hollows concave, whatever the slope.
-  for (const double steepness : {0.2, 1.0}) {
-    const Grid<float> hill = surface(201, [&](double x, double y) { return 3000.0 - steepness * std::hypot(x, y); });
-    const Grid<float> hollow = surface(201, [&](double x, double y) { return steepness * std::hypot(x, y); });
-    const Grid<float> kp = plan_curvature(hill, cell_m);
-    const Grid<float> kp_hollow = plan_curvature(hollow, cell_m);
-    for (const auto& [x, y] : {std::pair{100, 50}, std::pair{180, 100}, std::pair{140, 150}, std::pair{40, 160}}) {
-      const double radius = std::hypot(x - 100, y - 100) * cell_m;
-      EXPECT_NEAR(kp(x, y) * radius, 1.0, 2e-3) << x << ' ' << y;
-      EXPECT_NEAR(kp_hollow(x, y) * radius, -1.0, 2e-3) << x << ' ' << y;
-    }
-  }
-}
-
-TEST(PlanCurvature, OfAParaboloidIsOneOverTheRadius) {
-  const Grid<float> hill = surface(201, [](double x, double y) { return 3000.0 - 2e-4 * (x * x + y * y); });
-  const Grid<float> kp = plan_curvature(hill, cell_m);
-  for (const auto& [x, y] : {std::pair{100, 50}, std::pair{180, 100}, std::pair{140, 150}, std::pair{40, 160}}) {
-    EXPECT_NEAR(kp(x, y) * std::hypot(x - 100, y - 100) * cell_m, 1.0, 2e-3) << x << ' ' << y;
-  }
-  // On the summit the contour is a point: no direction, no curvature.
-  EXPECT_EQ(kp(100, 100), 0.F);
-}
-
-TEST(PlanCurvature, OfAQuadricIsExact) {
-  // z = a x² + b y² + c x y + d x + e y: the 3 × 3 fit returns its derivatives exactly.
-  const double a = 3e-4, b = -1e-4, c = 2e-4, d = 0.3, e = -0.2;
-  const Grid<float> quadric = surface(61, [&](double x, double y) { return a * x * x + b * y * y + c * x * y + d * x + e * y; });
-  const Grid<float> kp = plan_curvature(quadric, cell_m);
-  const Grid<float> bounded = bounded_plan_curvature(quadric, cell_m);
-  for (const auto& [column, row] : {std::pair{30, 30}, std::pair{10, 44}, std::pair{50, 12}}) {
-    const double x = (column - 30) * cell_m;
-    const double y = (30 - row) * cell_m;
-    const double p = 2 * a * x + c * y + d;
-    const double q = 2 * b * y + c * x + e;
-    const double n = q * q * 2 * a - 2 * p * q * c + p * p * 2 * b;
-    const double g = std::hypot(p, q);
-    EXPECT_NEAR(kp(column, row), -n / (g * g * g), 2e-6) << column;
-    EXPECT_NEAR(bounded(column, row), n / (g * g), 1e-6) << column;
-  }
-}
-
-TEST(PlanCurvature, BoundedFormStaysFiniteWhereTheOtherDiverges) {
-  const Grid<float> saddle = surface(21, [](double x, double y) { return 1e-3 * (x * x - y * y) + 1e-5 * x; });
-  const Grid<float> bounded = bounded_plan_curvature(saddle, cell_m);
-  // Inside the border, where the window is whole.
-  for (int y = 1; y < 20; ++y) {
-    for (int x = 1; x < 20; ++x) ASSERT_LE(std::abs(bounded(x, y)), 2e-3F * 1.01F);
-  }
-}
-
 TEST(Relief, IsTheDifferenceOfTwoBlurs) {
   const Grid<float> ground = surface(64, [](double x, double y) { return 500.0 + 200.0 * std::sin(x / 90.0) * std::cos(y / 70.0); });
   const Grid<float> inner = gaussian_blur(ground, 3.0);
@@ -132,7 +80,7 @@ TEST(Derivatives, SameBitsForAnyThreadCount) {
   const Grid<float> ground = surface(150, [](double x, double y) { return 500.0 + 200.0 * std::sin(x / 90.0) * std::cos(y / 70.0); });
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
-    return std::array{slope_deg(ground, 20, 20), aspect_deg(ground, 20, 20), plan_curvature(ground, 20), relief(ground, 20, 40, 900),
+    return std::array{slope_deg(ground, 20, 20), aspect_deg(ground, 20, 20), relief(ground, 20, 40, 900),
                       height_above_valley(ground, 20, 400)};
   };
   EXPECT_EQ(run(1), run(2));

@@ -1,0 +1,173 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/pyramid.h"
+#include "terrain/generalize/generalize.h"
+#include "terrain/io/dem.h"
+#include "tests/paths.h"
+
+// What the method promises, on real ground, against formulas worked out here in double.
+namespace belvedere {
+namespace {
+
+constexpr double cell_m = 30.0;
+
+std::optional<Grid<float>> real_ground(const std::string& name) {
+  const std::string file = test::data_folder() + "/" + name;
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  DemParameters parameters;
+  parameters.sources.emplace_back().path = file;
+  return read_dem(parameters, silent_progress()).altitude_m;
+}
+
+Grid<float> run(const Grid<float>& terrain, const GeneralizeParameters& parameters, const GeneralizeGrids& grids = {}) {
+  return generalize(terrain, {cell_m, cell_m}, grids, parameters, silent_progress());
+}
+
+Grid<float> window(const Grid<float>& grid, int x0, int y0, int size) {
+  Grid<float> out(size, size);
+  for (int y = 0; y < size; ++y) std::copy_n(grid.row(y0 + y) + x0, size, out.row(y));
+  return out;
+}
+
+// The quadric of Evans and Young, lengths in cells.
+struct Quadric {
+  double p, q, r, s, t;
+};
+Quadric quadric(const Grid<float>& g, int x, int y) {
+  const auto z = [&](int dx, int dy) { return static_cast<double>(g(x + dx, y + dy)); };
+  return {(z(1, -1) + z(1, 0) + z(1, 1) - z(-1, -1) - z(-1, 0) - z(-1, 1)) / 6.0,
+          (z(-1, -1) + z(0, -1) + z(1, -1) - z(-1, 1) - z(0, 1) - z(1, 1)) / 6.0,
+          (z(-1, -1) + z(1, -1) + z(-1, 0) + z(1, 0) + z(-1, 1) + z(1, 1) - 2.0 * (z(0, -1) + z(0, 0) + z(0, 1))) / 3.0,
+          (z(1, -1) + z(-1, 1) - z(-1, -1) - z(1, 1)) / 4.0,
+          (z(-1, -1) + z(0, -1) + z(1, -1) + z(-1, 1) + z(0, 1) + z(1, 1) - 2.0 * (z(-1, 0) + z(0, 0) + z(1, 0))) / 3.0};
+}
+
+// A stretch of the Karwendel's DEM.
+constexpr int side = 200;
+std::optional<Grid<float>> karwendel() {
+  const auto whole = real_ground("innsbruck/innsbruck_utm32_30m.tif");
+  if (!whole) return std::nullopt;
+  return window(*whole, (whole->width() - side) / 2, (whole->height() - side) / 2, side);
+}
+
+// c by its definition, [y][x]: |curvature| · cell / full, at most 1, of expand(G_1); a Gaussian over it; the power of that. Cells nearer to
+// the rim than the kernel reaches are left 0.
+Grid<double> break_lines(const Grid<float>& sum, const GeneralizeParameters& p) {
+  const bool plan = p.curvature == CurvatureForm::plan;
+  const double full = p.full_curvature > 0.F ? p.full_curvature : plan ? 0.8 : 0.15;
+  Grid<double> c(sum.width(), sum.height());
+  for (int y = 1; y + 1 < sum.height(); ++y)
+    for (int x = 1; x + 1 < sum.width(); ++x) {
+      const Quadric z = quadric(sum, x, y);
+      const double n = z.q * z.q * z.r - 2.0 * z.p * z.q * z.s + z.p * z.p * z.t;
+      const double g2 = z.p * z.p + z.q * z.q;
+      // Lengths are in cells, altitudes in metres: N/g² · cell / full is N/g² / cell of that, N/g³ · cell as it stands.
+      const double k = plan ? std::abs(n) / std::pow(g2 + 1e-6 * cell_m * cell_m, 1.5) : std::abs(n) / g2 / cell_m;
+      c(x, y) = std::min(k / full, 1.0);
+    }
+  const double sigma = p.blur_cells;
+  const int radius = sigma > 0.0 ? static_cast<int>(std::ceil(3.0 * sigma)) : 0;
+  Grid<double> out(sum.width(), sum.height());
+  for (int y = radius + 1; y + radius + 1 < sum.height(); ++y)
+    for (int x = radius + 1; x + radius + 1 < sum.width(); ++x) {
+      double weights = 0.0;
+      double values = 0.0;
+      for (int dy = -radius; dy <= radius; ++dy)
+        for (int dx = -radius; dx <= radius; ++dx) {
+          const double w = radius == 0 ? 1.0 : std::exp(-0.5 * (dx * dx + dy * dy) / (sigma * sigma));
+          weights += w;
+          values += w * c(x + dx, y + dy);
+        }
+      out(x, y) = std::pow(values / weights, static_cast<double>(p.exponent));
+    }
+  return out;
+}
+
+TEST(RealGeneralize, WeightsAlongBreakLinesFollowEquationFour) {
+  const auto terrain = karwendel();
+  if (!terrain) GTEST_SKIP() << "needs innsbruck/innsbruck_utm32_30m.tif";
+  const Grid<float> sum = expand(reduce(*terrain), side, side);
+  struct Case {
+    CurvatureForm form;
+    float full, blur, exponent;
+  };
+  using enum CurvatureForm;
+  for (const Case& each :
+       {Case{bounded, 0.F, 0.F, 1.F}, Case{bounded, 0.F, 1.F, 1.F}, Case{bounded, .3F, 2.F, 1.F}, Case{bounded, 0.F, 1.F, .25F},
+        Case{bounded, 0.F, 1.F, .5F}, Case{bounded, 0.F, 1.F, .75F}, Case{bounded, 0.F, 0.F, 2.F}, Case{plan, 0.F, 0.F, 1.F},
+        Case{plan, 0.F, 1.F, .5F}, Case{plan, 2.F, 1.5F, .6F}}) {
+    GeneralizeParameters p;
+    p.foreground = p.background = {1.F};
+    p.foreground_ridges = p.background_ridges = p.foreground_valleys = p.background_valleys = {4.F};
+    p.curvature = each.form;
+    p.full_curvature = each.full;
+    p.blur_cells = each.blur;
+    p.exponent = each.exponent;
+    const Grid<float> out = run(*terrain, p);
+    const Grid<double> c = break_lines(sum, p);
+    std::vector<double> off;
+    double least = 1.0;
+    double most = 0.0;
+    for (int y = 8; y + 8 < side; ++y)
+      for (int x = 8; x + 8 < side; ++x) {
+        const double band = static_cast<double>((*terrain)(x, y)) - sum(x, y);
+        if (std::abs(band) < 2.0) continue;
+        const double is = (static_cast<double>(out(x, y)) - (*terrain)(x, y)) / (4.0 * band);
+        off.push_back(std::abs(is - c(x, y)));
+        least = std::min(least, c(x, y));
+        most = std::max(most, c(x, y));
+      }
+    SCOPED_TRACE(testing::Message() << (each.form == plan ? "plan" : "bounded") << ' ' << each.full << ' ' << each.blur << ' '
+                                    << each.exponent);
+    ASSERT_GT(off.size(), 10000U);
+    EXPECT_GT(most - least, 0.4);
+    // A float's altitude has steps of 1e-4 m; where ground is all but level they turn a contour, in a few cells.
+    std::sort(off.begin(), off.end());
+    EXPECT_LT(off[off.size() * 99 / 100], 1e-3);
+    EXPECT_LT(off.back(), 0.05);
+  }
+}
+
+TEST(RealGeneralize, TheSetWithoutWeightsLeavesItsSideOfTheGround) {
+  const auto terrain = karwendel();
+  if (!terrain) GTEST_SKIP() << "needs innsbruck/innsbruck_utm32_30m.tif";
+  const Grid<float> band = make_laplacian_pyramid(*terrain, 1).bands[0];
+  GeneralizeParameters ridges;
+  ridges.foreground = ridges.background = {1.F};
+  ridges.foreground_ridges = ridges.background_ridges = {1.F};
+  ridges.foreground_valleys = ridges.background_valleys = {0.F};
+  ridges.exponent = 0.F;  // c = 1
+  GeneralizeParameters valleys = ridges;
+  std::swap(valleys.foreground_ridges, valleys.foreground_valleys);
+  std::swap(valleys.background_ridges, valleys.background_valleys);
+  for (const bool concave : {true, false}) {
+    const Grid<float> out = run(*terrain, concave ? ridges : valleys);
+    int cells = 0;
+    int changed = 0;
+    int by_half = 0;
+    for (int y = 1; y + 1 < side; ++y)
+      for (int x = 1; x + 1 < side; ++x) {
+        const Quadric z = quadric(band, x, y);
+        const double profile = -(z.p * z.p * z.r + 2.0 * z.p * z.q * z.s + z.q * z.q * z.t);  // the sign of the profile curvature
+        if (std::abs(band(x, y)) < 0.5F || (profile < 0.0) != concave) continue;
+        const double share = (static_cast<double>(out(x, y)) - (*terrain)(x, y)) / band(x, y);
+        ++cells;
+        changed += std::abs(share) > 1e-3 ? 1 : 0;
+        by_half += share > 0.5 ? 1 : 0;
+      }
+    EXPECT_GT(cells, 12000);
+    // Where the form is not clear: next to level along the fall, as on the bottom of a valley that falls in steps.
+    EXPECT_LT(changed, 0.12 * cells) << (concave ? "concave" : "convex") << ", of " << cells;
+    EXPECT_LT(by_half, 0.07 * cells) << (concave ? "concave" : "convex") << ", of " << cells;
+  }
+}
+
+}  // namespace
+}  // namespace belvedere
