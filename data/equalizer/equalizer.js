@@ -37,7 +37,7 @@ function commandLine(weights, on) {
     if (!zeros || (k > 3 && weights[k - 3].some((v) => v !== 0))) text += ` ${options[k]}=${weights[k].join(",")}`;
   }
   for (const each of equalizer.switches) text += on[each.name] ? each.on_option : each.off_option;
-  return far ? `${text} ${equalizer.viewer}` : text;
+  return (far ? `${text} ${equalizer.viewer}` : text) + equalizer.others;
 }
 
 // ---- the page

@@ -112,8 +112,6 @@ function gaussianTaps(sigma, radius) {
   return taps.map((tap) => tap / sum);
 }
 
-const breakLineTaps = gaussianTaps(1, 3);
-
 // Along the rows, then down the columns; borders replicated.
 function blur(grid, taps) {
   const w = grid.width, h = grid.height, z = grid.values;
@@ -137,16 +135,20 @@ function blur(grid, taps) {
   return out;
 }
 
-// c of equation 4: |N/g²| · cell / full curvature, at most 1, blurred.
+// c of equation 4: |N/g²| (or N/g³) · cell / full curvature, at most 1, blurred, to the power of the exponent, as `equalizer.lines` says.
 function breakLines(partialSum, cell) {
-  const fullCurvature = 0.15;
-  const gain = 0.5 * (cell[0] + cell[1]) / fullCurvature;
+  const { plan, full, blur: sigma, exponent } = equalizer.lines;
+  const gain = 0.5 * (cell[0] + cell[1]) / full;
   const c = makeGrid(partialSum.width, partialSum.height);
   fitQuadrics(partialSum, cell, (i, p, q, r, s, t) => {
     const n = q * q * r - 2 * p * q * s + p * p * t;
-    c.values[i] = Math.min(Math.abs(n) * gain / (p * p + q * q + 1e-12), 1);
+    const g2 = p * p + q * q + (plan ? 1e-6 : 1e-12);
+    c.values[i] = exponent === 0 ? 1 : Math.min(Math.abs(n) * gain / (plan ? g2 * Math.sqrt(g2) : g2), 1);
   });
-  return blur(c, breakLineTaps);
+  if (exponent === 0) return c;
+  const made = sigma > 0 ? blur(c, gaussianTaps(sigma, Math.max(1, Math.ceil(3 * sigma)))) : c;
+  if (exponent !== 1) made.values.forEach((v, i, values) => { values[i] = v > 1e-37 ? Math.min(v, 1) ** exponent : 0; });
+  return made;
 }
 
 // The mean of 3 × 3 cells by 1 2 1 across and down.

@@ -105,6 +105,7 @@ void write_equalizer(const GeneralizeOptions& options, const Dem& dem, glm::dvec
                         .viewer_cell = viewer_cell,
                         .distances_m = distances_m,
                         .viewer_options = fmt::format("--viewer {},{} --distances {},{}", viewer.x, viewer.y, distances_m.x, distances_m.y),
+                        .other_options = describe_operators(options, bands),
                         .lakes = find_lakes(dem.altitude_m, {}),
                         .foot_mask = make_foot_mask(dem, cell_m, bands.foreground.size()),
                         .slope_mask = slope_mask(dem.altitude_m, cell_m, range),

@@ -156,6 +156,19 @@ bool masks_slope_feet(const GeneralizeOptions& options) {
   return options.automatic_mask || (preset != nullptr && preset->automatic_mask);
 }
 
+std::string describe_operators(const GeneralizeOptions& options, const GeneralizeParameters& bands) {
+  const GeneralizeParameters usual;
+  std::string out;
+  if (bands.curvature == CurvatureForm::plan) out += " --curvature plan";
+  if (bands.full_curvature != usual.full_curvature) out += fmt::format(" --full-curvature {}", bands.full_curvature);
+  if (bands.blur_cells != usual.blur_cells) out += fmt::format(" --blur {}", bands.blur_cells);
+  if (bands.exponent != usual.exponent) out += fmt::format(" --exponent {}", bands.exponent);
+  if (options.operators.destripe) out += " --destripe";
+  if (options.operators.line_integral) out += " --line-integral";
+  if (options.operators.widen_valleys_m > 0.F) out += fmt::format(" --widen-valleys {}", options.operators.widen_valleys_m);
+  return out;
+}
+
 std::string describe_generalize(const GeneralizeOptions& options, const GeneralizeParameters& bands) {
   std::string out = fmt::format("belvedere generalize {} {}", file_name(options.in), file_name(options.out));
   const auto set = [&out](const char* option, const Weights& weights) {
@@ -175,10 +188,8 @@ std::string describe_generalize(const GeneralizeOptions& options, const Generali
   if (!options.mask.empty()) out += " --mask " + file_name(options.mask);
   if (!options.mask_slope.empty()) out += fmt::format(" --mask-slope {}", fmt::join(options.mask_slope, ","));
   if (options.automatic_mask) out += " --automatic-mask";
-  if (options.operators.destripe) out += " --destripe";
-  if (options.operators.line_integral) out += " --line-integral";
-  if (options.operators.widen_valleys_m > 0.F) out += fmt::format(" --widen-valleys {}", options.operators.widen_valleys_m);
-  return out;
+  if (options.change_lakes) out += " --change-lakes";
+  return out + describe_operators(options, bands);
 }
 
 }  // namespace belvedere::tools

@@ -46,7 +46,10 @@ GeneralizeParameters resolve_bands(const GeneralizeOptions& options);
 std::optional<SlopeRange> masked_slopes(const GeneralizeOptions& options);
 // Whether nothing is exaggerated at the foot of slopes.
 bool masks_slope_feet(const GeneralizeOptions& options);
-// The weights and masks as they would be typed, without folders: the same on every machine.
+// What of the run neither weights nor masks say, as it would be typed, each with a blank before it: how break lines are found, and the
+// operators before and after the bands. For the line below and that of the page with sliders.
+std::string describe_operators(const GeneralizeOptions& options, const GeneralizeParameters& bands);
+// The run as it would be typed, all of it that altitudes depend on, without folders: the same on every machine.
 std::string describe_generalize(const GeneralizeOptions& options, const GeneralizeParameters& bands);
 
 }  // namespace belvedere::tools

@@ -133,6 +133,18 @@ Json sets_json(const GeneralizeParameters& p) {
   return sets;
 }
 
+// How break lines are found.
+Json break_lines_json(const GeneralizeParameters& p) {
+  const bool plan = p.curvature == CurvatureForm::plan;
+  return Json::object()
+      .add("plan", Json::boolean(plan))
+      .add("full", Json::number(p.full_curvature > 0.F ? static_cast<double>(p.full_curvature)
+                                : plan                 ? 0.8
+                                                       : 0.15))
+      .add("blur", Json::number(p.blur_cells))
+      .add("exponent", Json::number(p.exponent));
+}
+
 // A preset for another number of bands: the finest bands stand opposite each other; what the preset does not say is kept.
 GeneralizeParameters fitted(GeneralizeParameters p, std::size_t bands) {
   const auto fit = [bands](Weights& weights, float otherwise) {
@@ -226,12 +238,13 @@ Json make_checks(const std::vector<Preview>& previews, const EqualizerInput& in,
     if (preview.bands == 0) continue;
     const std::vector<std::size_t> places = places_to_check(preview);
     for (const Setting& setting : settings) {
-      GeneralizeParameters plain = seen_in(setting.weights, preview);
-      plain.curvature = CurvatureForm::bounded;
-      plain.full_curvature = 0.F;
-      plain.blur_cells = plain.exponent = 1.F;
+      GeneralizeParameters shown = seen_in(setting.weights, preview);
+      shown.curvature = in.start.curvature;
+      shown.full_curvature = in.start.full_curvature;
+      shown.blur_cells = in.start.blur_cells;
+      shown.exponent = in.start.exponent;
       const GeneralizeGrids grids = grids_of(preview, in.distances_m, setting.on);
-      const Grid<float> out = generalize(preview.altitude_m, preview.cell_m, grids, plain, progress);
+      const Grid<float> out = generalize(preview.altitude_m, preview.cell_m, grids, shown, progress);
       Json altitudes = Json::array();
       for (const std::size_t at : places) altitudes.add(pair(static_cast<double>(at), static_cast<double>(out[at])));
       checks.add(Json::object()
@@ -308,6 +321,8 @@ std::string script_data(const EqualizerInput& in, Progress& progress) {
                          .add("input", Json::text(in.title))
                          .add("bands", Json::number(static_cast<double>(bands)))
                          .add("viewer", Json::text(in.viewer_options))
+                         .add("others", Json::text(in.other_options))
+                         .add("lines", break_lines_json(in.start))
                          .add("weights", sets_json(in.start))
                          .add("presets", std::move(presets))
                          .add("switches", switches_of_page(in))

@@ -83,7 +83,8 @@ std::string energy_chart(const Measures& m) {
       const auto i = static_cast<std::size_t>(s);
       const auto k = static_cast<std::size_t>(b);
       const double kept = kept_amplitude(m.energy_before_m2[i][k], m.energy_after_m2[i][k]);
-      const double shown = std::isfinite(kept) ? std::min(kept, full) * height / full : 0.0;
+      // To a tenth of a pixel, as it is written: so all bars stand on one line.
+      const double shown = std::isfinite(kept) ? std::round(10.0 * std::min(kept, full) * height / full) / 10.0 : 0.0;
       svg += fmt::format("<rect x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\" fill=\"hsl(205,45%,{}%)\"/>\n", x0 + b * bar,
                          top + height - shown, bar - 2, shown, 25 + 45 * b / std::max(m.bands - 1, 1));
     }

@@ -122,6 +122,19 @@ TEST_F(Equalizer, BrowserComputesWhatTheProgramDoes) {
   EXPECT_THAT(page, HasSubstr(" --automatic-mask --mask-slope=2,8 --mask=drawn.tif --viewer "));
 }
 
+TEST_F(Equalizer, BrowserFindsBreakLinesAsAskedFor) {
+  if (!std::filesystem::exists(test::browser)) GTEST_SKIP() << "no browser at " << test::browser;
+  write_dem(321, 201);
+  const std::string lines = " --curvature plan --full-curvature 0.4 --blur 1.5 --exponent 0.5";
+  ASSERT_EQ(run({"generalize", path("dem.tif"), "--equalizer", path("page.html"), "--preset", "smooth_slopes", "--curvature", "plan",
+                 "--full-curvature", "0.4", "--blur", "1.5", "--exponent", "0.5"})
+                .status,
+            0);
+  const std::string page = test::opened_page(path("page.html") + "#self-check", path("profile"));
+  EXPECT_THAT(page, HasSubstr("<title>self-check passed: 0.000"));
+  EXPECT_THAT(page, HasSubstr(lines + "</pre>"));
+}
+
 // What a user does with the page, and what it then shows. Pictures are compared in the browser; a line tells of each step.
 constexpr const char* clicks = R"(<pre id="clicked"></pre><script>
 (async () => {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "renderer/image/image_io.h"
 #include "terrain/io/raster_io.h"
@@ -79,6 +80,52 @@ TEST_F(GeneralizeReport, NumbersAreAboutTheResult) {
   ASSERT_TRUE(std::regex_search(less, kept, std::regex("\"ridge_curvature_kept\": ([0-9.]+)")));
   EXPECT_LT(std::stod(kept[1].str()), 0.95);
   EXPECT_EQ(less.find("\"change_largest_m\": 0,"), std::string::npos);
+}
+
+TEST_F(GeneralizeReport, BarsStandOnOneLineEachGroupOverItsName) {
+  ASSERT_EQ(run({"generalize", path("dem.tif"), path("out.tif"), "--preset", "smooth_slopes", "--report", path("report")}).status, 0);
+  const std::string page = read_bytes(path("report/index.html"));
+  const std::string chart = page.substr(page.find("<svg"), page.find("</svg>") - page.find("<svg"));
+  const std::regex bar("<rect x=\"([0-9]+)\" y=\"([0-9.]+)\" width=\"([0-9]+)\" height=\"([0-9.]+)\"");
+  std::vector<double> middles;  // of bars, from left to right
+  for (std::sregex_iterator i(chart.begin(), chart.end(), bar); i != std::sregex_iterator(); ++i) {
+    EXPECT_NEAR(std::stod((*i)[2].str()) + std::stod((*i)[4].str()), 168.0, 1e-9);
+    middles.push_back(std::stod((*i)[1].str()) + 0.5 * std::stod((*i)[3].str()));
+  }
+  ASSERT_EQ(middles.size(), 30U);
+  const std::regex label("<text x=\"([0-9]+)\" y=\"([0-9]+)\" text-anchor=\"middle\">([^<]+)<");
+  std::vector<std::string> names;
+  for (std::sregex_iterator i(chart.begin(), chart.end(), label); i != std::sregex_iterator(); ++i) {
+    const std::size_t group = names.size();
+    EXPECT_NEAR(std::stod((*i)[1].str()), 0.5 * (middles[6 * group] + middles[6 * group + 5]), 1.0);
+    EXPECT_EQ((*i)[2].str(), "186");
+    names.push_back((*i)[3].str());
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"nearest", "2 of 5", "3 of 5", "4 of 5", "farthest"}));
+}
+
+// The line in the report makes the same altitudes, for every option that moves them.
+TEST_F(GeneralizeReport, ItsCommandMakesTheSameTerrain) {
+  const std::vector<std::vector<std::string>> asked = {
+      {"--preset", "smooth_slopes", "--curvature", "plan", "--full-curvature", "0.4", "--blur", "2.5", "--exponent", "0.35"},
+      {"--preset", "panorama", "--viewer", "500000.5,4990000", "--change-lakes", "--exponent", "0.7"},
+      {"--global", "1,1.7,2,0.3", "--valleys", "0,0.2,0.4,1.1", "--mask-slope", "2.5,9", "--automatic-mask", "--widen-valleys", "60"}};
+  for (const std::vector<std::string>& options : asked) {
+    std::vector<std::string> arguments = {"generalize", path("dem.tif"), path("out.tif"), "--report", path("report")};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    ASSERT_EQ(run(arguments).status, 0);
+    const std::string first = read_bytes(path("out.tif"));
+    const std::string json = read_bytes(path("report/report.json"));
+    std::smatch line;
+    ASSERT_TRUE(std::regex_search(json, line, std::regex("\"command\": \"belvedere ([^\"]*)\"")));
+    std::istringstream words(line[1].str());
+    arguments.clear();
+    for (std::string word; words >> word;) arguments.push_back(word == "dem.tif" || word == "out.tif" ? path(word) : word);
+    fs::remove(path("out.tif"));
+    const Outcome again = run(arguments);
+    ASSERT_EQ(again.status, 0) << again.err;
+    EXPECT_TRUE(read_bytes(path("out.tif")) == first) << line[1].str();
+  }
 }
 
 TEST_F(GeneralizeReport, HasTheSameBytesForAnyNumberOfThreads) {
