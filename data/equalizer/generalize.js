@@ -201,15 +201,23 @@ function decodeFloats(base64) {
   return values;
 }
 
-// 1 near, 0 far, by the distance from the viewer (equation 5's u_d).
+// Equation 5's u_d: 1 near, 0 far, straight between, with corners rounded over an eighth of the span on either side.
+function shareAt(t) {
+  const rounding = 0.125;
+  const corner = (along) => along * along / (4 * rounding);
+  if (t <= -rounding) return 1;
+  if (t < rounding) return 1 - corner(t + rounding);
+  if (t <= 1 - rounding) return 1 - t;
+  return t < 1 + rounding ? corner(1 + rounding - t) : 0;
+}
+
 function foregroundShare(terrain) {
   const share = makeGrid(terrain.width, terrain.height);
   const [vx, vy] = terrain.viewer, [near, far] = terrain.distances;
   for (let y = 0; y < share.height; ++y) {
     for (let x = 0; x < share.width; ++x) {
       const d = Math.hypot((x - vx) * terrain.cell[0], (y - vy) * terrain.cell[1]);
-      const t = Math.min(Math.max((d - near) / (far - near), 0), 1);
-      share.values[y * share.width + x] = 1 - t * t * (3 - 2 * t);
+      share.values[y * share.width + x] = shareAt((d - near) / (far - near));
     }
   }
   return share;

@@ -60,7 +60,8 @@ std::vector<SceneSection> make_generalize_sections() {
             .field = AT(generalize.background_from_m),
             .range = {0, largest_m},
             .unit = "m",
-            .meaning = "From this distance the background's weights hold alone; between the two they blend.",
+            .meaning = "From this distance the background's weights hold alone; between the two they blend in a straight line, whose "
+                       "ends are rounded over an eighth of it.",
             .derived = ".95 of the distance of the horizon"},
            {.name = "print_detail_px",
             .field = AT(generalize.print_detail_px),

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "base/filter.h"
-#include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "renderer/world/cached_products.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
 #include "terrain/deform/deform.h"
+#include "terrain/generalize/foreground_share.h"
 #include "terrain/generalize/line_integral_generalize.h"
 #include "terrain/generalize/mask.h"
 #include "terrain/shape/hydrology.h"
@@ -30,15 +30,15 @@ namespace {
 // The camera is asked at every so many cells: what it answers changes little from one to the next.
 constexpr int step_cells = 16;
 
-// 1 near, 0 far, smoothstep between: the share u_d of equation 5 of Jenny, Jenny & Hurni 2011, with no edge where it begins or ends.
-Grid<float> foreground_share(const Dem& dem, glm::dvec2 viewer_xy, const GeneralizeDistances& distances) {
+// The share u_d of equation 5 of Jenny, Jenny & Hurni 2011.
+Grid<float> share_by_distance(const Dem& dem, glm::dvec2 viewer_xy, const GeneralizeDistances& distances) {
   Grid<float> share(dem.width(), dem.height());
-  const double span = std::max(1.0, distances.background_from_m - distances.foreground_to_m);
+  const double far_m = std::max(distances.background_from_m, distances.foreground_to_m + 1.0);
   parallel_rows(dem.height(), [&](int y) {
     for (int x = 0; x < dem.width(); ++x) {
       const glm::dvec2 place = dem.transform.to_crs(x, y);
       const double distance = exact::hypot(place.x - viewer_xy.x, place.y - viewer_xy.y);
-      share(x, y) = static_cast<float>(1.0 - smoothstep((distance - distances.foreground_to_m) / span));
+      share(x, y) = static_cast<float>(foreground_share(distance, distances.foreground_to_m, far_m));
     }
   });
   return share;
@@ -96,7 +96,7 @@ GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParamet
   grids.mask = seen.mask;
   grids.pixel_ground = seen.pixel_ground;
   if (settings.print_detail_px > 0.0) bands.print_pixels = static_cast<float>(settings.print_detail_px);
-  grids.foreground_share = foreground_share(dem, seen.viewer_xy, seen.distances);
+  grids.foreground_share = share_by_distance(dem, seen.viewer_xy, seen.distances);
   Grid<float> out = generalize(settings.line_integral ? plain : dem.altitude_m, cell_m, grids, bands, progress);
   plain = {};
   const Grid<unsigned char> lakes = std::move(grids.keep);

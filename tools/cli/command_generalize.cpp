@@ -9,9 +9,9 @@
 
 #include "base/error.h"
 #include "base/json.h"
-#include "base/math.h"
 #include "base/parallel.h"
 #include "renderer/image/image_io.h"
+#include "terrain/generalize/foreground_share.h"
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/io/dem.h"
 #include "terrain/shape/hydrology.h"
@@ -53,7 +53,7 @@ glm::dvec2 blend_distances(const GeneralizeOptions& options, const Dem& dem, glm
   return {0.25 * farthest, 0.75 * farthest};
 }
 
-// 1 near, 0 far, smoothstep between the two distances.
+// u_d of equation 5.
 Grid<float> share_by_distance(const GeneralizeOptions& options, const Dem& dem, glm::dvec2 cell_m) {
   if (options.viewer.empty()) return {};
   const glm::dvec2 at = dem.transform.to_cell(options.viewer[0], options.viewer[1]);
@@ -64,7 +64,7 @@ Grid<float> share_by_distance(const GeneralizeOptions& options, const Dem& dem, 
   Grid<float> share(dem.width(), dem.height());
   parallel_rows(dem.height(), [&](int y) {
     for (int x = 0; x < dem.width(); ++x) {
-      share(x, y) = static_cast<float>(1.0 - smoothstep(near, far, distance_m(x, y)));
+      share(x, y) = static_cast<float>(foreground_share(distance_m(x, y), near, far));
     }
   });
   return share;

@@ -14,10 +14,10 @@
 #include "base/embedded.h"
 #include "base/filter.h"
 #include "base/json.h"
-#include "base/math.h"
 #include "base/pyramid.h"
 #include "base/text/base64.h"
 #include "renderer/image/output_file.h"
+#include "terrain/generalize/foreground_share.h"
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/generalize/generalize_report.h"
 #include "tools/report/report_folder.h"
@@ -173,7 +173,7 @@ Grid<float> share_of(const Preview& preview, glm::dvec2 distances_m) {
   for (int y = 0; y < share.height(); ++y) {
     for (int x = 0; x < share.width(); ++x) {
       const double d = std::hypot((x - preview.viewer_cell.x) * preview.cell_m.x, (y - preview.viewer_cell.y) * preview.cell_m.y);
-      share(x, y) = static_cast<float>(1.0 - smoothstep(distances_m.x, distances_m.y, d));
+      share(x, y) = static_cast<float>(foreground_share(d, distances_m.x, distances_m.y));
     }
   }
   return share;

@@ -8,7 +8,9 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "base/pyramid.h"
 #include "renderer/world/scene_dem.h"
+#include "terrain/generalize/foreground_share.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
 
@@ -135,6 +137,34 @@ TEST_F(ViewedGround, BandsFinerThanThePrintGoAndOthersStay) {
   EXPECT_EQ(seen(scene(print + "0\n"), &limit), ground_.cells);
 }
 
+// What the distance makes of a band: the share that is left of it, cell by cell, falls no faster than a straight line would.
+TEST_F(ViewedGround, NoStepWithDistanceIsLargerThanALinearOne) {
+  const double near = 5000.0;
+  const double far = 11000.0;
+  const Grid<float> out =
+      seen(scene("keep_lakes = false\nforeground = [1]\nbackground = [0]\nforeground_to_m = 5000\n"
+                 "background_from_m = 11000\n"));
+  const Grid<float> band = make_laplacian_pyramid(ground_.cells, 1).bands[0];
+  const auto share = [&](int x, int y) { return 1.0 - (static_cast<double>(ground_.cells(x, y)) - out(x, y)) / band(x, y); };
+  int checked = 0;
+  double least = 1.0;
+  double most = 0.0;
+  for (int y = 1; y < 200; ++y)
+    for (int x = 0; x < 160; ++x) {
+      if (std::abs(band(x, y)) < 3.F || std::abs(band(x, y - 1)) < 3.F) continue;
+      EXPECT_LE(std::abs(share(x, y) - share(x, y - 1)), 100.0 / (far - near) + 2e-4) << x << ' ' << y;
+      const glm::dvec2 place = ground_.transform.to_crs(x, y);
+      const double distance = std::hypot(place.x - 508000.0, place.y - 5190000.0);
+      EXPECT_NEAR(share(x, y), foreground_share(distance, near, far), 2e-4) << x << ' ' << y;
+      least = std::min(least, share(x, y));
+      most = std::max(most, share(x, y));
+      ++checked;
+    }
+  EXPECT_GT(checked, 5000);
+  EXPECT_LT(least, 0.05);
+  EXPECT_GT(most, 0.99);
+}
+
 TEST_F(ViewedGround, TwoViewsOfOneSceneHaveEachItsOwn) {
   const std::string settings =
       "keep_lakes = false\nforeground = [1, 1, 1]\nbackground = [1, 0.5, 0]\nforeground_to_m = 4000\nbackground_from_m = 7000\n";
@@ -163,21 +193,21 @@ TEST_F(ViewedGround, TheShareFallsWithDistanceWithoutAJump) {
   const std::string view = "position = [508000, 5175000]";  // 5 km south of the rim
   const Grid<float> out = seen(scene(bands + "foreground_to_m = 8000\nbackground_from_m = 16000\n", view));
   const int x = 80;
-  const double whole = 1050.0 - out(x, 0);  // more than 16 km away
+  const double whole = 1050.0 - out(x, 0);  // more than 17 km away
   ASSERT_GT(whole, 40.0);
   double before = 0.0;
   double middle = -1.0;
   for (int y = 199; y >= 0; --y) {
     const double far = (1050.0 - out(x, y)) / whole;
     const double distance_m = 5000.0 + 100.0 * (199 - y) + 50.0;
-    if (distance_m < 8000.0) {
+    if (distance_m < 7000.0) {  // an eighth of the span before its end
       ASSERT_EQ(out(x, y), 1050.F) << y;
     }
-    if (distance_m > 16000.0) {
+    if (distance_m > 17000.0) {
       ASSERT_NEAR(far, 1.0, 1e-5) << y;
     }
     ASSERT_GE(far, before - 1e-6) << y;
-    ASSERT_LE(far - before, 1.5 * 100.0 / 8000.0 + 1e-5) << y;  // the steepest of a smoothstep
+    ASSERT_LE(far - before, 100.0 / 8000.0 + 1e-5) << y;  // no steeper than the line
     if (middle < 0.0 && distance_m >= 12000.0) middle = far;
     before = far;
   }

@@ -3,12 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include "terrain/generalize/generalize.h"
 #include "terrain/io/dem.h"
 #include "terrain/io/raster_io.h"
+#include "tests/paths.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -101,6 +105,49 @@ TEST_F(GeneralizeCommand, WeightsAndPresetsAreThoseOfTheLibrary) {
   // What is written beside a preset has the last word.
   ASSERT_EQ(generalize_file({path("in.tif"), path("both.tif"), "--preset", "figure2", "--global", "1,1,1,1,1"}).status, 0);
   EXPECT_EQ(read_file(path("both.tif")).cells, hills().cells);
+}
+
+// How break lines are found, by every option of it, on real ground where there is some.
+TEST_F(GeneralizeCommand, BreakLinesAreThoseOfTheLibrary) {
+  Raster<float> ground = hills();
+  const std::string file = test::data_folder() + "/lost_river/mackay.tif";
+  if (std::filesystem::exists(file)) {
+    const Raster<float> real = read_file(file);
+    ground.cells = Grid<float>(70, 53);
+    for (int y = 0; y < 53; ++y) std::copy_n(real.cells.row(300 + y) + 300, 70, ground.cells.row(y));
+  }
+  write_raster(path("in.tif"), ground);
+  GeneralizeParameters bands;
+  bands.foreground = bands.background = {1.F, 0.5F};
+  bands.foreground_ridges = bands.background_ridges = {0.5F, 1.F};
+  bands.foreground_valleys = bands.background_valleys = {0.F, 0.25F};
+  const std::vector<std::string> weights = {path("in.tif"), path("out.tif"), "--global",  "1,0.5",
+                                            "--ridges",     "0.5,1",         "--valleys", "0,0.25"};
+  const auto made = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = weights;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(generalize_file(arguments).status, 0);
+    return read_file(path("out.tif")).cells;
+  };
+  const auto expected = [&](CurvatureForm form, float full, float blur, float exponent) {
+    GeneralizeParameters p = bands;
+    p.curvature = form;
+    p.full_curvature = full;
+    p.blur_cells = blur;
+    p.exponent = exponent;
+    return generalize(ground.cells, {100.0, 100.0}, {}, p, silent_progress());
+  };
+  const Grid<float> usual = made({});
+  EXPECT_EQ(usual, expected(CurvatureForm::bounded, 0.F, 1.F, 1.F));
+  const std::vector<std::pair<std::vector<std::string>, Grid<float>>> cases = {
+      {{"--curvature", "plan"}, expected(CurvatureForm::plan, 0.F, 1.F, 1.F)},
+      {{"--full-curvature", "0.4"}, expected(CurvatureForm::bounded, 0.4F, 1.F, 1.F)},
+      {{"--blur", "2.5"}, expected(CurvatureForm::bounded, 0.F, 2.5F, 1.F)},
+      {{"--exponent", "0.5"}, expected(CurvatureForm::bounded, 0.F, 1.F, 0.5F)}};
+  for (const auto& [options, terrain] : cases) {
+    EXPECT_EQ(made(options), terrain) << options[0];
+    EXPECT_NE(terrain, usual) << options[0];
+  }
 }
 
 TEST_F(GeneralizeCommand, AMaskKeepsWhatItCovers) {
