@@ -72,9 +72,9 @@ Action add_cache_list(CLI::App& command) {
   command.add_flag("--json", *json, "As JSON");
   command.footer(
       "What takes long and is made from a scene's inputs alone is kept: made-up terrain, land cover by rules,\n"
-      "generalized ground, example sheets. Which files it is kept in says nothing; this does. It lies in\n"
-      "~/.cache/belvedere ($XDG_CACHE_HOME/belvedere, $BELVEDERE_CACHE) and may be deleted at any time. Commands\n"
-      "that take a scene do without it where --no-cache is given.\n\n"
+      "generalized ground and its surroundings, example sheets. Which files it is kept in says nothing; this\n"
+      "does. It lies in ~/.cache/belvedere ($XDG_CACHE_HOME/belvedere, $BELVEDERE_CACHE) and may be deleted at any\n"
+      "time. Commands that take a scene do without it where --no-cache is given.\n\n"
       "  belvedere cache list");
   return [json] {
     const std::string folder = required_folder();
