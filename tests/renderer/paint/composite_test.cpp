@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "base/error.h"
@@ -63,6 +64,40 @@ TEST(TransferResidual, SameBaseGivesTheTexel) {
   const Grid<glm::vec3> out =
       transfer_residual(MatchField(1, 1, Match{0, 2, 1}), exemplars, Grid<glm::vec3>(1, 1, glm::vec3(0.4f)), {}, 0.75);
   EXPECT_EQ(out(0, 0), exemplars[0].picture(2, 1));
+}
+
+// Terrain's light blended over copied paint: strokes are lighter and darker than their base by as much, guides match light to a few
+// hundredths, and the ground in the sun keeps the mean luminance of its base. Paint times light, as relief shading is often laid over a
+// picture, turns dark.
+TEST(TransferResidual, KeepsTheMeanLuminanceOfLitGround) {
+  constexpr int width = 300;
+  constexpr int height = 200;
+  const auto light_at = [](std::uint64_t seed, int x, int y) { return static_cast<float>(0.45 + 0.4 * random_uniform(seed, x, y)); };
+  PaintedExemplar exemplar;
+  exemplar.picture = exemplar.base = Grid<glm::vec3>(width, height);
+  Grid<glm::vec3> target(width, height);
+  MatchField matches(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const float light = light_at(1, x, y);
+      exemplar.base(x, y) = glm::vec3(0.9F, 1.0F, 0.7F) * light;
+      exemplar.picture(x, y) = exemplar.base(x, y) + glm::vec3(static_cast<float>(0.12 * (random_uniform(2, x, y) - 0.5)));
+      const float asked = light + static_cast<float>(0.1 * (random_uniform(3, x, y) - 0.5));
+      target(x, y) = glm::vec3(0.9F, 1.0F, 0.7F) * asked;
+      matches(x, y) = {0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)};
+    }
+  }
+  const auto luminance = [](const Grid<glm::vec3>& encoded) {
+    double sum = 0.0;
+    for (const glm::vec3& linear : decode_srgb(encoded)) sum += 0.2126 * linear.x + 0.7152 * linear.y + 0.0722 * linear.z;
+    return sum / static_cast<double>(encoded.size());
+  };
+  const double base = luminance(target);
+  EXPECT_NEAR(luminance(transfer_residual(matches, {exemplar}, target, {}, 0.75)) / base, 1.0, 0.01);
+  EXPECT_NEAR(luminance(transfer_residual(matches, {exemplar}, target, {}, 0.25)) / base, 1.0, 0.01);
+  Grid<glm::vec3> multiplied(width, height);
+  for (std::size_t i = 0; i < multiplied.size(); ++i) multiplied[i] = exemplar.picture[i] * target[i].y;
+  EXPECT_LT(luminance(multiplied) / base, 0.6);
 }
 
 // Of a texel's own planes of rock nothing is left but the strokes on them.
