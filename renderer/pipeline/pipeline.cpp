@@ -17,8 +17,20 @@ namespace belvedere {
 
 std::string work_folder_of(const std::string& out_folder) { return (std::filesystem::path(out_folder) / ".belvedere").string(); }
 
+namespace {
+
+void check_request(const Scene& scene, const SheetRequest& request) {
+  if (request.matches && !scene.synthesis.enabled)
+    throw Error(ErrorKind::usage, "--match", "nothing is copied: synthesis.enabled is false", "a scene that copies, or no --match");
+  if (products_of(request).empty())
+    throw Error(ErrorKind::usage, "--channels", "none, and guidance is all that was asked for", "a channel at least");
+}
+
+}  // namespace
+
 void render(const LoadedScene& loaded, const std::string& out_folder, const Run& run, const SheetRequest& request) {
   const RunLimits limits(run);
+  check_request(loaded.scene, request);
   choose_tile_px(loaded.scene, loaded.scene.pixels_per_unit());  // what memory cannot hold is refused before the work
   require_inputs(loaded);
   read_output_color(loaded);
@@ -35,7 +47,7 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
 
 void render_guidance(const LoadedScene& loaded, const std::string& out_folder, const Run& run, const SheetRequest& request) {
   SheetRequest guidance = request;
-  guidance.panorama = false;
+  guidance.panorama = guidance.matches = false;
   render(loaded, out_folder, run, guidance);
 }
 

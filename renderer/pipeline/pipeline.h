@@ -9,8 +9,8 @@
 namespace belvedere {
 
 // The whole main job: pieces of the sheet, one after the other in a folder of their own, joined to guidance.exr and the panorama in the
-// formats of output.formats. Memory does not grow with the sheet. Where it is stopped, the finished pieces stay, and a request that resumes
-// goes on from them to the same bytes.
+// formats of output.formats, and to match.exr where it is asked for. Memory does not grow with the sheet. Where it is stopped, the finished
+// pieces stay, and a request that resumes goes on from them to the same bytes.
 void render(const LoadedScene& scene, const std::string& out_folder, const Run& run, const SheetRequest& request = {});
 // The same, guidance alone.
 void render_guidance(const LoadedScene& scene, const std::string& out_folder, const Run& run, const SheetRequest& request = {});

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 #include "base/error.h"
 #include "base/grid_part.h"
+#include "renderer/image/exr/match_file.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/rows/picture_files.h"
 #include "renderer/paint/composite.h"
@@ -93,6 +96,48 @@ void require_pieces(const WorkFolder& work, const SheetRequest& request, const s
               fmt::format("belvedere part {} {}{}, then join again", plan.folder, parts.front(), parts.size() > 1 ? " and so on" : ""));
 }
 
+bool asks_for(const SheetRequest& request, const std::string& product) {
+  const std::vector<std::string> products = products_of(request);
+  return std::find(products.begin(), products.end(), product) != products.end();
+}
+
+// Files under their temporary names: they take their places when the panorama does. Nothing where they are not asked for.
+std::optional<GuidanceWriter> write_guidance_file(const SheetRequest& request, const WorkFolder& work, const std::vector<PixelRect>& pieces,
+                                                  PixelRect region, const FileNotes& notes, const FileNotes& file_notes,
+                                                  const std::string& out_folder, const Run& run) {
+  if (!asks_for(request, "guidance")) return std::nullopt;
+  run.progress.begin("writing guidance", region.height());
+  std::optional<GuidanceWriter> guidance(std::in_place, join(out_folder, "guidance.exr"), region.width(), region.height(), file_notes);
+  GuidanceBuffers like = sheet_guidance_like(parse_origin(notes));
+  keep_chosen(like, request.channels);
+  for (int y0 = region.y0; y0 < region.y1; y0 += band_rows) {
+    const int y1 = std::min(region.y1, y0 + band_rows);
+    const PackedGuidance packed = blank_packed(like, region.width(), y1 - y0);
+    read_rows(work, "guidance", pieces, region, y0, y1, packed.planes);
+    guidance->write_rows(unpack_guidance(packed, like), 0, y1 - y0, y0 - region.y0);
+    run.progress.advance(y1 - y0);
+  }
+  guidance->complete();
+  return guidance;
+}
+
+std::optional<MatchWriter> write_match_file(const SheetRequest& request, const WorkFolder& work, const std::vector<PixelRect>& pieces,
+                                            PixelRect region, const FileNotes& file_notes, const std::string& out_folder, const Run& run) {
+  if (!asks_for(request, "matches")) return std::nullopt;
+  run.progress.begin("writing matches", region.height());
+  std::optional<MatchWriter> writer(std::in_place, join(out_folder, "match.exr"), region.width(), region.height(),
+                                    work.read_bytes(matched_bytes), file_notes);
+  for (int y0 = region.y0; y0 < region.y1; y0 += band_rows) {
+    const int y1 = std::min(region.y1, y0 + band_rows);
+    MatchField rows(region.width(), y1 - y0);
+    read_rows(work, "matches", pieces, region, y0, y1, {plane_of(rows)});
+    writer->write_rows(rows, y0 - region.y0);
+    run.progress.advance(y1 - y0);
+  }
+  writer->complete();
+  return writer;
+}
+
 }  // namespace
 
 void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const std::string& out_folder,
@@ -105,18 +150,13 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, c
   FileNotes file_notes = notes;
   file_notes.erase("origin");  // of positions, which guidance alone has
 
-  run.progress.begin("writing guidance", region.height());
-  GuidanceWriter guidance(join(out_folder, "guidance.exr"), region.width(), region.height(), file_notes);
-  const GuidanceBuffers like = sheet_guidance_like(parse_origin(notes));
-  for (int y0 = region.y0; y0 < region.y1; y0 += band_rows) {
-    const int y1 = std::min(region.y1, y0 + band_rows);
-    const PackedGuidance packed = blank_packed(like, region.width(), y1 - y0);
-    read_rows(work, "guidance", pieces, region, y0, y1, packed.planes);
-    guidance.write_rows(unpack_guidance(packed, like), 0, y1 - y0, y0 - region.y0);
-    run.progress.advance(y1 - y0);
-  }
-  if (!request.panorama) return guidance.finish();
-  guidance.complete();  // takes its place when the panorama does
+  std::optional<GuidanceWriter> guidance = write_guidance_file(request, work, pieces, region, notes, file_notes, out_folder, run);
+  std::optional<MatchWriter> matches = write_match_file(request, work, pieces, region, file_notes, out_folder, run);
+  const auto commit = [&] {
+    if (guidance) guidance->commit();
+    if (matches) matches->commit();
+  };
+  if (!request.panorama) return commit();
 
   run.progress.begin("writing the panorama", region.height());
   const OutputColor color = read_output_color(loaded);
@@ -133,7 +173,7 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, c
     run.progress.advance(y1 - y0);
   }
   panorama.finish();
-  guidance.commit();
+  commit();
 }
 
 }  // namespace belvedere

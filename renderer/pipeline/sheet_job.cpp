@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "renderer/image/exr/match_file.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/scene_paint.h"
@@ -109,6 +110,13 @@ SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, con
 
 bool is_copied(const Scene& scene, const SheetRequest& request) { return request.panorama && scene.synthesis.enabled; }
 
+std::vector<MatchedPicture> pictures_of(const CopyPlan& plan) {
+  std::vector<MatchedPicture> pictures;
+  for (const PaintedExemplar& painted : plan.exemplars)
+    pictures.push_back({painted.exemplar.name, painted.picture.width(), painted.picture.height()});
+  return pictures;
+}
+
 CopyPlan plan_copies(const LoadedScene& loaded, SheetWork& sheet, const WorkFolder& work, const Run& run) {
   return make_copy_plan(loaded, sheet.world, sheet.paint, sheet.ground, sheet.place, work, run);
 }
@@ -130,6 +138,10 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
   CopyPlan plan = copied ? plan_copies(loaded, sheet, work, run) : CopyPlan{};
   SheetPicture picture(sheet.ground, copied ? &plan : nullptr, sheet.place, stage_run);
 
+  if (request.matches) work.keep_bytes(matched_bytes, to_note(pictures_of(plan)));
+  const std::vector<std::string> products = products_of(request);
+  const auto makes = [&](const char* product) { return std::find(products.begin(), products.end(), product) != products.end(); };
+
   PieceWriter writer(work);
   const double all = static_cast<double>(missing.size());
   if (!few) run.progress.begin(request.panorama ? "painting the sheet" : "tracing the sheet", all);
@@ -137,13 +149,19 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
     const PixelRect piece = missing[i];
     // Nobody asks again for what only earlier pieces looked at.
     if (i > 0) request.panorama ? picture.keep_only(still_to_make(missing, i)) : sheet.ground.keep_only(still_to_make(missing, i));
-    if (!work.has("guidance", piece)) {
-      const auto packed = std::make_shared<PackedGuidance>(pack_guidance(sheet.ground.read_all_guidance(piece)));
+    if (makes("guidance") && !work.has("guidance", piece)) {
+      GuidanceBuffers guidance = sheet.ground.read_all_guidance(piece);
+      keep_chosen(guidance, request.channels);
+      const auto packed = std::make_shared<PackedGuidance>(pack_guidance(guidance));
       writer.keep("guidance", piece, packed->planes, packed);
     }
     if (request.panorama && !work.has("panorama", piece)) {
       const auto painted = std::make_shared<Grid<glm::vec3>>(picture.make(piece));
       writer.keep("panorama", piece, {plane_of(*painted)}, painted);
+    }
+    if (request.matches && !work.has("matches", piece)) {
+      const auto matches = std::make_shared<MatchField>(picture.read_matches(piece));
+      writer.keep("matches", piece, {plane_of(*matches)}, matches);
     }
     if (!few) run.progress.advance(1.0);
   }

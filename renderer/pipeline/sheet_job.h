@@ -17,6 +17,9 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
 // What all pieces share, for others to make them: notes, and how the ground is copied.
 void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run);
 
+// What the work folder keeps the pictures under that matches copy from.
+constexpr const char* matched_bytes = "matched";
+
 // Whose parts the pieces are, so that missing ones are told by the parts to run again.
 struct PlanOfParts {
   std::string folder;

@@ -27,8 +27,11 @@ PixelRect region_of(const Scene& scene, const SheetRequest& request) {
 }
 
 std::vector<std::string> products_of(const SheetRequest& request) {
-  if (request.panorama) return {"guidance", "panorama"};
-  return {"guidance"};
+  std::vector<std::string> products;
+  if (!request.channels || !request.channels->empty()) products.emplace_back("guidance");
+  if (request.panorama) products.emplace_back("panorama");
+  if (request.matches) products.emplace_back("matches");
+  return products;
 }
 
 std::vector<PixelRect> pieces_of(PixelRect region, const SheetRequest& request) {
@@ -63,6 +66,7 @@ JobIdentity identify(const LoadedScene& loaded, const SheetRequest& request) {
   identity["scene"] = write_scene(loaded.scene);
   identity["part"] = fmt::format("{},{},{},{}", region.x0, region.y0, region.width(), region.height());
   identity["results"] = fmt::format("{}", fmt::join(products_of(request), ", "));
+  if (request.channels) identity["channels"] = fmt::format("{}", fmt::join(*request.channels, ","));
   identity["piece"] = fmt::format("{} px", request.piece_px);
   // A file on a server is read before it is hashed, so that a server that cannot serve is found: keep_notes compares it.
   for (const SceneInput& input : scene_inputs(loaded))

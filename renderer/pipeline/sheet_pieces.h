@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "renderer/scene/scene_file.h"
+#include "renderer/sheet/guidance_choice.h"
 #include "renderer/sheet/work_folder.h"
 
 namespace belvedere {
@@ -13,6 +14,8 @@ namespace belvedere {
 // What is asked of a sheet.
 struct SheetRequest {
   bool panorama = true;                // else guidance alone
+  GuidanceChoice channels = {};        // that guidance.exr holds; none at all: there is no such file
+  bool matches = false;                // also match.exr: which texel each pixel was copied from
   std::optional<PixelRect> part = {};  // of the sheet, px; absent: all of it
   bool resume = false;                 // go on from the pieces of a run that ended
   int piece_px = 0;                    // side of a piece, 64…4096; 0: 1024. Changes no pixel

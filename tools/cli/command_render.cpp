@@ -23,10 +23,12 @@ struct Options {
   bool resume = false;
   int piece_px = 0;
   bool draft = false;
+  bool match = false;
+  std::string channels;
 };
 
 using Job = void (*)(const LoadedScene&, const std::string& out_folder, const Run&, const SheetRequest&);
-using Results = std::vector<std::string> (*)(const Scene&);  // names of the files that a job makes
+using Results = std::vector<std::string> (*)(const Scene&);  // names of the pictures that a job makes
 
 int run_job(const Options& options, Job job, Results results) {
   LoadedScene scene = load(options.scene);
@@ -41,11 +43,16 @@ int run_job(const Options& options, Job job, Results results) {
     const std::vector<int>& p = options.part;
     request.part = PixelRect{p[0], p[1], p[0] + p[2], p[1] + p[3]};
   }
+  request.matches = options.match;
+  if (!options.channels.empty()) request.channels = read_guidance_choice(options.channels);
   job(scene, folder, make_run(options.scene, options.tile_size, progress, cache), request);
   progress.end();
 
+  std::vector<std::string> names = results(scene.scene);
+  if (!request.channels || !request.channels->empty()) names.emplace_back("guidance.exr");
+  if (request.matches) names.emplace_back("match.exr");
   std::vector<std::string> paths;
-  for (const std::string& name : results(scene.scene)) paths.push_back((std::filesystem::path(folder) / name).string());
+  for (const std::string& name : names) paths.push_back((std::filesystem::path(folder) / name).string());
   if (options.scene.json) {
     Json files = Json::array();
     for (const std::string& path : paths)
@@ -88,6 +95,13 @@ Action add_job(CLI::App& command, const char* footer, Drafts drafts, Job job, Re
       ->check(CLI::Range(0, 4096));
   command.add_flag("--resume", options->resume,
                    "Go on where a run into this folder was stopped; the files are the same as if it had not been");
+  command
+      .add_option("--channels", options->channels,
+                  "Channels of guidance.exr, such as Z,landcover.id; none: no such file. Without it: all, 40 bytes a pixel")
+      ->type_name("NAME,…|none");
+  if (drafts == Drafts::yes)
+    command.add_flag("--match", options->match,
+                     "Also match.exr: which texel of which picture each pixel was copied from, for synthesize --replay");
   if (drafts == Drafts::yes)
     command.add_flag("--draft", options->draft,
                      "A first look, in seconds: a third of the pixels a side, one line of sight a pixel, less of the sky's light, strokes "
@@ -105,11 +119,11 @@ Action add_render(CLI::App& command) {
                  "  belvedere render scenes/karwendel.toml --data ../data --out karwendel\n"
                  "  belvedere render scenes/karwendel.toml --data ../data --draft --out draft\n"
                  "  belvedere render scenes/karwendel.toml --data ../data --set output.width=1200 --set output.height=550\n"
+                 "  belvedere render scenes/karwendel.toml --data ../data --channels Z,landcover.id --match\n"
                  "  belvedere render scenes/karwendel.toml --data ../data --part 800,300,400,400 --out proof",
                  Drafts::yes, render, [](const Scene& scene) {
                    std::vector<std::string> names;
                    for (const std::string& ending : scene.output.formats) names.push_back("panorama." + ending);
-                   names.emplace_back("guidance.exr");
                    return names;
                  });
 }
@@ -118,7 +132,7 @@ Action add_guidance(CLI::App& command) {
   return add_job(command,
                  "The channels and their units are described in the header: belvedere info guidance.exr\n\n"
                  "  belvedere guidance scenes/karwendel.toml --data ../data --out karwendel",
-                 Drafts::no, render_guidance, [](const Scene&) { return std::vector<std::string>{"guidance.exr"}; });
+                 Drafts::no, render_guidance, [](const Scene&) { return std::vector<std::string>(); });
 }
 
 }  // namespace belvedere::tools

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/vec2.hpp>
 #include <map>
 #include <optional>
-#include <sstream>
 
 #include "base/error.h"
 #include "renderer/exemplar/harmonize.h"
@@ -120,63 +118,25 @@ SynthesisInputs read_synthesis(const SynthesisFiles& files) {
   return inputs;
 }
 
-namespace {
-
-constexpr const char* pictures_note = "belvedere:matched_pictures";
-
-// A line a picture: width, height, name.
-std::string to_note(const std::vector<MatchedPicture>& pictures) {
-  std::string note;
-  for (const MatchedPicture& picture : pictures) note += fmt::format("{} {} {}\n", picture.width, picture.height, picture.name);
-  return note;
-}
-
-std::vector<MatchedPicture> parse_note(const std::string& file, const std::string& note) {
-  std::vector<MatchedPicture> pictures;
-  std::istringstream lines(note);
-  for (std::string line; std::getline(lines, line);) {
-    MatchedPicture picture;
-    std::istringstream words(line);
-    if (!(words >> picture.width >> picture.height) || picture.width < 1 || picture.height < 1)
-      throw Error(ErrorKind::input, file, fmt::format("its header says of a picture \"{}\"", line), "width, height and name");
-    std::getline(words >> std::ws, picture.name);
-    pictures.push_back(std::move(picture));
-  }
-  return pictures;
-}
-
-}  // namespace
-
 void write_matches(const std::string& path, const MatchField& matches, const std::vector<MatchedPicture>& pictures,
                    const FileNotes& notes) {
-  const int width = matches.width();
-  FileNotes all_notes = notes;
-  all_notes[pictures_note] = to_note(pictures);
-  ExrWriter writer(
-      path, width, matches.height(),
-      {{.name = "match", .channels = {{"exemplar", ChannelType::uint32}, {"x", ChannelType::uint32}, {"y", ChannelType::uint32}}}},
-      all_notes);
+  MatchWriter writer(path, matches.width(), matches.height(), to_note(pictures), notes);
   for (int y0 = 0; y0 < matches.height(); y0 += ExrWriter::band_rows) {
     const int rows = std::min(ExrWriter::band_rows, matches.height() - y0);
-    std::vector<float> values;
-    values.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(rows) * 3);
-    for (int y = y0; y < y0 + rows; ++y)
-      for (int x = 0; x < width; ++x) {
-        const Match& match = matches(x, y);
-        for (const std::uint32_t value : {std::uint32_t{match.exemplar}, std::uint32_t{match.x}, std::uint32_t{match.y}})
-          values.push_back(std::bit_cast<float>(value));
-      }
-    writer.write_rows(0, y0, rows, values);
+    MatchField band(matches.width(), rows);
+    std::copy_n(matches.row(y0), band.size(), band.data());
+    writer.write_rows(band, y0);
   }
   writer.finish();
 }
 
 StoredMatches read_matches(const std::string& path) {
   const ImageInfo info = read_image_info(path);
-  const std::string allowed = "a file that synthesize --match wrote: OpenEXR with the channels exemplar, x and y of 32-bit whole numbers";
+  const std::string allowed = "a file that --match wrote: OpenEXR with the channels exemplar, x and y of 32-bit whole numbers";
   if (info.format != "openexr") throw Error(ErrorKind::input, path, "is no match field but " + info.format, allowed);
   StoredMatches stored;
-  if (const auto note = info.notes.find(pictures_note); note != info.notes.end()) stored.pictures = parse_note(path, note->second);
+  if (const auto note = info.notes.find(matched_pictures_note); note != info.notes.end())
+    stored.pictures = parse_matched_pictures(path, note->second);
   for (const char* name : {"exemplar", "x", "y"}) {
     bool found = false;
     for (const PartSpec& part : info.parts)

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/image/exr/match_file.h"
 #include "renderer/image/image_io.h"
 #include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/guide_stack.h"
@@ -42,12 +43,7 @@ struct SynthesisInputs {
 // Error(usage) where files do not pair up or sizes disagree, Error(input) for files that cannot be read or labels over 255.
 SynthesisInputs read_synthesis(const SynthesisFiles& files);
 
-// What a stored match field says of a picture it copies from.
-struct MatchedPicture {
-  std::string name;  // without folders
-  int width = 0;
-  int height = 0;
-};
+// What a file that --match wrote holds.
 struct StoredMatches {
   MatchField matches;
   std::vector<MatchedPicture> pictures;  // by number; empty where the file does not say

@@ -15,6 +15,7 @@
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/statistical/learn_texture.h"
 #include "texture/statistical/model_file.h"
+#include "texture/synthesis/match_field.h"
 
 namespace belvedere {
 namespace {
@@ -111,6 +112,59 @@ TEST_F(SheetJob, GroundFromAModelIsTheSameInPartsAndPieces) {
   EXPECT_EQ(read_picture(folder_ / "part/panorama.tif"), part_of(picture, part));
   render(modelled, folder_ / "small", {.threads = 1}, {.piece_px = 200, .stage_tile_px = 96});
   expect_same_files(all, folder_ / "small");
+}
+
+// Only what was asked for is made and written, and it is what the whole file has.
+TEST_F(SheetJob, GuidanceHoldsTheChannelsThatWereAskedFor) {
+  const PixelRect part{990, 40, 1060, 110};
+  const GuidanceBuffers all = read_guidance(whole() + "/guidance.exr");
+  render(scene(), folder_ / "two", {}, {.channels = {{"Z", "landcover.id"}}, .part = part});
+  const GuidanceBuffers two = read_guidance(folder_ / "two/guidance.exr");
+  EXPECT_EQ(two.depth_m, part_of(all.depth_m, part));
+  EXPECT_EQ(two.land_cover, part_of(all.land_cover, part));
+  EXPECT_TRUE(two.normal.empty() && two.altitude_m.empty());
+  render(scene(), folder_ / "none", {}, {.channels = std::vector<std::string>(), .part = part});
+  EXPECT_FALSE(fs::exists(folder_ / "none/guidance.exr"));
+  EXPECT_EQ(test::read_bytes(folder_ / "none/panorama.tif"), test::read_bytes(folder_ / "two/panorama.tif"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage, [&] { render_guidance(scene(), folder_ / "none", {}, {.channels = std::vector<std::string>()}); }),
+      HasSubstr("--channels"));
+}
+
+// The texels that pixels were copied from, as the sheet's stages had them, whatever the part and the pieces.
+TEST_F(SheetJob, MatchesAreThoseThePictureWasCopiedBy) {
+  const PixelRect part{980, 30, 1080, 130};
+  const PixelRect corner{1020, 60, 1060, 110};
+  render(scene(), folder_ / "part", {}, {.matches = true, .part = part});
+  render(scene(), folder_ / "corner", {.threads = 1}, {.matches = true, .part = corner, .piece_px = 64, .stage_tile_px = 96});
+  EXPECT_EQ(test::read_bytes(folder_ / "part/panorama.tif").empty(), false);
+  const GuidanceBuffers guidance = read_guidance(folder_ / "part/guidance.exr");
+  const auto ids = [&](const char* folder, const char* channel) {
+    return read_id_channel(folder_ / (std::string(folder) + "/match.exr"), channel);
+  };
+  const Grid<std::uint32_t> exemplar = ids("part", "exemplar");
+  const Grid<std::uint32_t> x = ids("part", "x");
+  const Grid<std::uint32_t> y = ids("part", "y");
+  const PixelRect within{corner.x0 - part.x0, corner.y0 - part.y0, corner.x1 - part.x0, corner.y1 - part.y0};
+  EXPECT_EQ(ids("corner", "exemplar"), part_of(exemplar, within));
+  EXPECT_EQ(ids("corner", "x"), part_of(x, within));
+  EXPECT_EQ(ids("corner", "y"), part_of(y, within));
+  int copied = 0;
+  for (std::size_t i = 0; i < exemplar.size(); ++i) {
+    if (guidance.is_sky(i)) {
+      EXPECT_EQ(exemplar[i], Match::none) << i;
+    } else if (exemplar[i] != Match::none) {
+      ++copied;
+      ASSERT_EQ(exemplar[i], 0U);
+      ASSERT_LT(x[i], 240U);
+      ASSERT_LT(y[i], 180U);
+    }
+  }
+  EXPECT_GT(copied, 2000);
+  EXPECT_THAT(read_image_info(folder_ / "part/match.exr").notes.at("belvedere:matched_pictures"), testing::StartsWith("240 180 "));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage, [&] { render(scene({"synthesis.enabled=false"}), folder_ / "no", {}, {.matches = true}); }),
+      HasSubstr("--match"));
 }
 
 TEST_F(SheetJob, APartOutsideOfTheSheetIsRefused) {
