@@ -1,5 +1,7 @@
 #include "tools/cli/commands.h"
 
+#include "tools/cli/contact/contact_commands.h"
+
 namespace belvedere::tools {
 
 // In the order of the help.
@@ -8,6 +10,8 @@ const std::vector<Command>& all_commands() {
       {"", "new", "Proposes views of a region from its elevation alone, and writes a scene", add_new},
       {"", "render", "Renders a scene: panorama.tif for print, .png for screens, .exr for further work", add_render},
       {"", "guidance", "Makes only guidance.exr: depth, classes, light … of every pixel, for other tools", add_guidance},
+      {"", "sweep", "Renders a scene with several values of its keys, as one sheet of pictures", add_sweep},
+      {"", "figure", "Shows what a scene copies from and what comes of it: land cover, altitude, picture", add_figure},
       {"", "plan", "Prepares a sheet that several machines make together", add_plan},
       {"", "part", "Makes one part of a planned sheet", add_part},
       {"", "join", "Joins the parts of a planned sheet to its files", add_join},

@@ -1,0 +1,46 @@
+#include "tools/cli/contact/picture_table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/parallel.h"
+
+namespace belvedere::tools {
+namespace {
+
+TEST(PictureTable, HoldsEveryPictureInItsColumnAndRow) {
+  const auto plain = [](int width, int height, float v) { return Grid<glm::vec3>(width, height, glm::vec3(v, 0.F, 1.F)); };
+  PictureTable table;
+  table.columns = {"a", "b"};
+  table.rows = {"one", "two"};
+  table.cells = {{{plain(120, 40, 0.1F), ""}, {plain(100, 60, 0.2F), "words"}}, {{plain(100, 50, 0.3F), ""}, {{}, ""}}};
+  const Grid<glm::vec3> sheet = draw_table(table);
+  // Where each picture lies: its pixels form a rectangle of its size.
+  const auto found = [&](float v) {
+    PixelRect box{sheet.width(), sheet.height(), 0, 0};
+    int count = 0;
+    for (int y = 0; y < sheet.height(); ++y)
+      for (int x = 0; x < sheet.width(); ++x)
+        if (sheet(x, y) == glm::vec3(v, 0.F, 1.F)) {
+          box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1), std::max(box.y1, y + 1)};
+          ++count;
+        }
+    EXPECT_EQ(count, box.width() * box.height()) << v;
+    return box;
+  };
+  const PixelRect a = found(0.1F);
+  const PixelRect b = found(0.2F);
+  const PixelRect c = found(0.3F);
+  EXPECT_EQ(a.width(), 120);
+  EXPECT_EQ(b.height(), 60);
+  EXPECT_EQ(c.height(), 50);
+  EXPECT_EQ(a.y0, b.y0);
+  EXPECT_EQ(a.x0, c.x0);
+  EXPECT_GE(b.x0, a.x1);
+  EXPECT_GE(c.y0, b.y1 + 16);  // words stand between
+  EXPECT_GE(a.x0, 30);         // names of rows at the left
+}
+
+}  // namespace
+}  // namespace belvedere::tools

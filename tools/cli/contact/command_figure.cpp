@@ -1,0 +1,175 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "base/json.h"
+#include "base/land_cover_class.h"
+#include "renderer/exemplar/exemplars.h"
+#include "renderer/image/guidance_io.h"
+#include "renderer/image/image_io.h"
+#include "renderer/paint/guides.h"
+#include "renderer/pipeline/pipeline.h"
+#include "renderer/pipeline/scene_paint.h"
+#include "renderer/world/scene_season.h"
+#include "renderer/world/world.h"
+#include "tools/cli/contact/contact_commands.h"
+#include "tools/cli/contact/picture_table.h"
+#include "tools/cli/file_names.h"
+#include "tools/cli/lock/scratch_folder.h"
+#include "tools/cli/scene_options.h"
+#include "tools/cli/terminal.h"
+#include "tools/report/bitmap_text.h"
+#include "tools/report/report_folder.h"
+#include "tools/report/report_pictures.h"
+
+namespace belvedere::tools {
+namespace {
+
+constexpr int cell_px = 900;   // longest side of a picture on the sheet
+const glm::vec3 blank(0.93F);  // sky, and what is never copied from
+
+struct Options {
+  SceneOptions scene;
+  std::string out;
+};
+
+// A column of the figure: a picture with what steers copying from it or to it.
+struct Column {
+  std::string name;  // above it
+  std::string file;  // what its files begin with
+  Grid<glm::vec3> picture;
+  GuideStack guides;
+};
+
+glm::vec3 class_colour(std::uint8_t label) {
+  for (const LandCoverClassInfo& info : land_cover_classes())
+    if (static_cast<std::uint8_t>(info.id) == label)
+      return glm::vec3((info.rgb >> 16U) & 255U, (info.rgb >> 8U) & 255U, info.rgb & 255U) / 255.F;
+  return blank;
+}
+
+Grid<glm::vec3> class_picture(const GuideStack& guides) {
+  Grid<glm::vec3> out(guides.width(), guides.height(), blank);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = class_colour(guides.label[i]);
+  return out;
+}
+
+// Black at the lowest, white at the highest, alike for the painting and the picture.
+Grid<glm::vec3> altitude_picture(const GuideStack& guides) {
+  const Grid<std::uint8_t>* values = guides.find("altitude");
+  if (values == nullptr) return {};
+  Grid<glm::vec3> out(guides.width(), guides.height(), blank);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (guides.label[i] != unused_label) out[i] = glm::vec3(static_cast<float>((*values)[i]) / 255.F);
+  return out;
+}
+
+// The classes that any of the pictures shows, as a square of their colour and their name.
+Grid<glm::vec3> legend(const std::vector<Column>& columns) {
+  std::array<bool, 256> shown{};
+  for (const Column& column : columns)
+    for (const std::uint8_t label : column.guides.label) shown[label] = true;
+  constexpr int side = 20;
+  std::vector<std::pair<std::uint8_t, std::string>> entries;
+  int width = 1;
+  for (const LandCoverClassInfo& info : land_cover_classes())
+    if (shown[static_cast<std::size_t>(info.id)]) {
+      entries.emplace_back(static_cast<std::uint8_t>(info.id), std::string(info.name));
+      width += side + 8 + text_width(entries.back().second, 2) + side;
+    }
+  Grid<glm::vec3> out(width, side, glm::vec3(1.F));
+  int x0 = 0;
+  for (const auto& [label, name] : entries) {
+    for (int y = 0; y < side; ++y) std::fill_n(out.row(y) + x0, side, class_colour(label));
+    draw_text(out, x0 + side + 8, 2, name, glm::vec3(0.1F), 2);
+    x0 += side + 8 + text_width(name, 2) + side;
+  }
+  return out;
+}
+
+// What the scene copies from, as its picture does.
+std::vector<Column> copied_from(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
+  if (!loaded.scene.synthesis.enabled) return {};
+  ScenePaint paint = read_scene_paint(loaded, progress);
+  const World world(loaded, progress, cache);
+  const Palette palette = palette_of_place(paint.palette, loaded, *world.dem);
+  std::vector<Column> columns;
+  for (PaintedExemplar& painted : make_exemplars(loaded, world.view, palette, std::move(paint.paintings), progress, cache)) {
+    const std::string file = fmt::format("copied_{}", columns.size() + 1);
+    columns.push_back({"copied from: " + painted.exemplar.name, file, std::move(painted.picture), std::move(painted.exemplar.guides)});
+  }
+  return columns;
+}
+
+Column painted_picture(const LoadedScene& loaded, const Run& run) {
+  const ScratchFolder folder;
+  const auto path = [&](const char* name) { return (std::filesystem::path(folder.path()) / name).string(); };
+  SheetRequest request;
+  request.channels = {"Z", "landcover.id", "altitude.V"};
+  render(loaded, folder.path(), run, request);
+  const GuidanceBuffers guidance = read_guidance(path("guidance.exr"));
+  return {loaded.name, "picture", read_picture(path("panorama.png")), make_guide_stack(guidance, guidance.land_cover)};
+}
+
+int run(const Options& options) {
+  LoadedScene loaded = load(options.scene);
+  loaded.scene.output.formats = {"png"};
+  ReportFolder page(options.out);
+  TerminalProgress progress(options.scene.quiet);
+  const Cache cache = make_cache(options.scene);
+  Column result = painted_picture(loaded, make_run(options.scene, Run{}.tile_px, progress, cache));
+  std::vector<Column> columns = copied_from(loaded, progress, cache);
+  columns.push_back(std::move(result));
+  PictureTable table;
+  table.rows = {"land cover", "altitude", "picture"};
+  table.cells.resize(table.rows.size());
+  for (const Column& column : columns) {
+    table.columns.push_back(column.name);
+    const std::array<std::pair<const char*, Grid<glm::vec3>>, 3> rows = {
+        {{"landcover", class_picture(column.guides)}, {"altitude", altitude_picture(column.guides)}, {"", column.picture}}};
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const auto& [name, picture] = rows[r];
+      if (!picture.empty()) page.write_picture(column.file + (*name == 0 ? "" : "_") + name, picture);
+      table.cells[r].push_back({picture.empty() ? picture : reduced_picture(picture, cell_px), {}});
+    }
+  }
+  table.foot = legend(columns);
+  page.begin_figure("sheet", "What is copied from, and the picture",
+                    "The classes and altitudes of both (figure 4 of Jenny & Jenny 2013), the painting, and what is made of it (figure 5).");
+  page.picture("sheet", draw_table(table), "sheet.png");
+  page.end_figure();
+  std::string command = "belvedere figure " + file_name(options.scene.scene);
+  for (const std::string& setting : options.scene.files.settings) command += fmt::format(" --set '{}'", setting);
+  page.write_page("Figure of " + loaded.name, "Figure of " + loaded.name,
+                  fmt::format("{} × {} pixels.", loaded.scene.output.width, loaded.scene.output.height),
+                  command + " --out " + file_name(options.out));
+  progress.end();
+  const std::string sheet = (std::filesystem::path(options.out) / "sheet.png").string();
+  if (options.scene.json)
+    print_out(Json::object().add("sheet", Json::text(sheet)).add("columns", Json::number(static_cast<double>(columns.size()))).str() +
+              "\n");
+  else if (!options.scene.quiet)
+    print_out(sheet + "\n");
+  return 0;
+}
+
+}  // namespace
+
+std::function<int()> add_figure(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  add_scene_options(command, options->scene);
+  command.add_option("--out", options->out, "Folder for sheet.png, its pictures each for itself, and index.html")
+      ->type_name("DIR")
+      ->required();
+  command.footer(
+      "Rows of land cover, altitude and the paint, a column for each painting that is copied from and one for the picture:\n"
+      "figures 4 and 5 of Jenny & Jenny 2013 for any scene.\n\n"
+      "  belvedere figure scenes/karwendel.toml --data ../data --set output.width=1200 --set output.height=550 --out figure");
+  return [options] { return run(*options); };
+}
+
+}  // namespace belvedere::tools

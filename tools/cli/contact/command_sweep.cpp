@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "base/error.h"
+#include "base/json.h"
+#include "renderer/image/image_io.h"
+#include "renderer/pipeline/pipeline.h"
+#include "renderer/scene/draft.h"
+#include "tools/cli/contact/contact_commands.h"
+#include "tools/cli/contact/picture_table.h"
+#include "tools/cli/contact/scene_sweep.h"
+#include "tools/cli/file_names.h"
+#include "tools/cli/lock/scratch_folder.h"
+#include "tools/cli/scene_options.h"
+#include "tools/cli/terminal.h"
+#include "tools/report/report_folder.h"
+#include "tools/report/report_pictures.h"
+
+namespace belvedere::tools {
+namespace {
+
+constexpr std::size_t most_pictures = 100;
+constexpr int cell_px = 640;  // longest side of a picture on the sheet
+
+struct Options {
+  SceneOptions scene;
+  std::string out;
+  bool draft = false;
+};
+
+// One picture of the sweep.
+struct Swept {
+  std::vector<std::string> values;  // of each axis
+  std::string name;                 // of its file, without ending
+  LoadedScene scene;
+};
+
+// Stages say which picture of the sweep they belong to.
+class PictureProgress : public Progress {
+ public:
+  PictureProgress(Progress& whole, std::size_t picture, std::size_t pictures) : whole_(whole), picture_(picture), pictures_(pictures) {}
+  void begin(std::string_view stage, double total) override {
+    whole_.begin(fmt::format("{} of {}: {}", picture_, pictures_, stage), total);
+  }
+  void advance(double amount) override { whole_.advance(amount); }
+  void note(std::string_view text) override {
+    if (picture_ == 1) whole_.note(text);
+  }
+
+ private:
+  Progress& whole_;
+  std::size_t picture_;
+  std::size_t pictures_;
+};
+
+// All scenes, row by row: a value that none may have is refused before the first is rendered.
+std::vector<Swept> read_scenes(const Options& options, const SceneSweep& sweep) {
+  std::vector<Swept> all;
+  const std::size_t rows = sweep.axes.size() > 1 ? sweep.axes[1].values.size() : 1;
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t c = 0; c < sweep.axes[0].values.size(); ++c) {
+      Swept swept{.values = {sweep.axes[0].values[c]}, .name = fmt::format("{}_{}", c + 1, r + 1), .scene = {}};
+      if (sweep.axes.size() > 1) swept.values.push_back(sweep.axes[1].values[r]);
+      SceneOptions one = options.scene;
+      one.files.settings = sweep.settings;
+      for (std::size_t a = 0; a < swept.values.size(); ++a) one.files.settings.push_back(sweep.axes[a].key + "=" + swept.values[a]);
+      swept.scene = load(one);
+      if (options.draft) swept.scene.scene = make_draft(std::move(swept.scene.scene));
+      swept.scene.scene.output.formats = {"png"};
+      all.push_back(std::move(swept));
+    }
+  return all;
+}
+
+Grid<glm::vec3> render_picture(const LoadedScene& scene, const Run& run) {
+  const ScratchFolder folder;
+  SheetRequest request;
+  request.channels.emplace();  // no guidance
+  render(scene, folder.path(), run, request);
+  return read_picture((std::filesystem::path(folder.path()) / "panorama.png").string());
+}
+
+std::string describe(const Options& options) {
+  std::string out = "belvedere sweep " + (options.scene.scene.empty() ? std::string() : file_name(options.scene.scene) + " ");
+  for (const std::string& setting : options.scene.files.settings) out += fmt::format("--set '{}' ", setting);
+  return out + (options.draft ? "--draft " : "") + "--out " + file_name(options.out);
+}
+
+std::string as_json(const Options& options, const SceneSweep& sweep, const std::vector<Swept>& all) {
+  Json axes = Json::array();
+  for (const SceneAxis& axis : sweep.axes) {
+    Json values = Json::array();
+    for (const std::string& value : axis.values) values.add(Json::text(value));
+    axes.add(Json::object().add("key", Json::text(axis.key)).add("values", std::move(values)));
+  }
+  Json pictures = Json::array();
+  for (const Swept& swept : all) {
+    Json values = Json::object();
+    for (std::size_t a = 0; a < swept.values.size(); ++a) values.add(sweep.axes[a].key, Json::text(swept.values[a]));
+    pictures.add(Json::object().add("picture", Json::text(swept.name + ".png")).add("values", std::move(values)));
+  }
+  return Json::object()
+             .add("command", Json::text(describe(options)))
+             .add("axes", std::move(axes))
+             .add("pictures", std::move(pictures))
+             .str() +
+         "\n";
+}
+
+int run(const Options& options) {
+  const SceneSweep sweep = split_sweep(options.scene.files.settings);
+  const std::size_t columns = sweep.axes[0].values.size();
+  const std::size_t rows = sweep.axes.size() > 1 ? sweep.axes[1].values.size() : 1;
+  if (columns * rows > most_pictures)
+    throw Error(ErrorKind::usage, "--set", fmt::format("{} pictures", columns * rows), fmt::format("at most {}", most_pictures));
+  const std::vector<Swept> all = read_scenes(options, sweep);
+  ReportFolder page(options.out);
+  TerminalProgress progress(options.scene.quiet);
+  const Cache cache = make_cache(options.scene);
+  PictureTable table;
+  for (const std::string& value : sweep.axes[0].values) table.columns.push_back(sweep.axes[0].key + "=" + value);
+  if (sweep.axes.size() > 1)
+    for (const std::string& value : sweep.axes[1].values) table.rows.push_back(sweep.axes[1].key + "=" + value);
+  table.cells.resize(rows);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    PictureProgress here(progress, i + 1, all.size());
+    const Grid<glm::vec3> picture = render_picture(all[i].scene, make_run(options.scene, Run{}.tile_px, here, cache));
+    page.write_picture(all[i].name, picture);
+    table.cells[i / columns].push_back({reduced_picture(picture, cell_px), {}});
+  }
+  page.begin_figure("sheet", "All pictures", "Each whole is a file of its own: 2_1.png is the second column's first row.");
+  page.picture("sheet", draw_table(table), "sheet.png");
+  page.end_figure();
+  const std::string json = as_json(options, sweep, all);
+  page.write("report.json", json);
+  page.write_page("Sweep of " + all.front().scene.name, "Sweep of " + all.front().scene.name, fmt::format("{} pictures.", all.size()),
+                  describe(options));
+  progress.end();
+  if (options.scene.json)
+    print_out(json);
+  else if (!options.scene.quiet)
+    print_out((std::filesystem::path(options.out) / "sheet.png").string() + "\n");
+  return 0;
+}
+
+}  // namespace
+
+std::function<int()> add_sweep(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  add_scene_options(command, options->scene);
+  command.add_option("--out", options->out, "Folder for the pictures, sheet.png, index.html and report.json")->type_name("DIR")->required();
+  command.add_flag("--draft", options->draft, "Drafts as of render --draft: a third of the pixels a side, strokes alone");
+  command.footer(
+      "One key of --set or two have several values: the first goes along the columns, the second down the rows. Commas\n"
+      "within brackets and quotes are the value's own.\n\n"
+      "  belvedere sweep scenes/karwendel.toml --data ../data --draft --set sun.azimuth_deg=250,300 --set air.haze=0,0.5 --out s\n"
+      "  belvedere sweep --set output.width=600 --set 'generalize.foreground=[1,1],[1.5,0.5]' --out bands");
+  return [options] { return run(*options); };
+}
+
+}  // namespace belvedere::tools
