@@ -22,10 +22,10 @@ struct EqualizerInput {
   glm::dvec2 cell_m;              // on the ground
   // Where the sliders stand at first; their number is the number of bands. How break lines are found is the same for all that is shown.
   GeneralizeParameters start;
-  glm::dvec2 viewer_cell;         // where the viewer stands, in cells of the DEM
-  glm::dvec2 distances_m;         // all foreground up to the first, all background from the second
-  std::string viewer_options;     // that say the same on the command line
-  std::string other_options;      // of the command line that no slider or switch stands for, each with a blank before it
+  glm::dvec2 viewer_cell;      // where the viewer stands, in cells of the DEM
+  glm::dvec2 distances_m;      // all foreground up to the first, all background from the second
+  std::string viewer_options;  // that say the same on the command line
+  std::string other_options;   // of the command line that no slider or switch stands for, each with a blank before it
   // What protects terrain, each of the DEM's size; a switch on the page lets each count or not.
   const Grid<unsigned char>& lakes;  // != 0 in lakes
   const Grid<float>& foot_mask;      // for GeneralizeGrids::amplification_mask
