@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "renderer/exemplar/example_sheet.h"
+#include "renderer/exemplar/texture_models.h"
 
 namespace belvedere {
 
@@ -26,17 +27,18 @@ ExemplarClasses look_at_classes(const LoadedScene& loaded, const View& view, con
   const Scene& scene = loaded.scene;
   ExemplarClasses found;
   std::vector<std::string> models;
+  for (const SceneTextureModel& model : read_texture_models(loaded)) {
+    models.push_back(model.name);
+    for (const LandCoverClass id : model.serves) found.offered[static_cast<std::size_t>(id)] = true;
+  }
   const auto add_sheet = [&](const SceneExemplar& settings) {
     found.names.emplace_back(example_sheet_name);
     for (const LandCoverClass id : classes_of_example_sheet(settings, scene, view, palette, progress, cache))
       found.offered[static_cast<std::size_t>(id)] = true;
   };
   for (std::size_t i = 0; i < scene.exemplars.size(); ++i) {
-    if (!scene.exemplars[i].model.empty()) {
-      if (find_scene_file(loaded, scene.exemplars[i].model).empty()) continue;
-      models.push_back(scene.exemplars[i].model);
-      for (const LandCoverClass id : scene.exemplars[i].serves) found.offered[static_cast<std::size_t>(id)] = true;
-    } else if (scene.exemplars[i].picture.empty()) {
+    if (!scene.exemplars[i].model.empty()) continue;
+    if (scene.exemplars[i].picture.empty()) {
       add_sheet(scene.exemplars[i]);
     } else if (i < scans.size() && !scans[i].painted.picture.empty()) {
       found.names.push_back(scans[i].painted.exemplar.name);

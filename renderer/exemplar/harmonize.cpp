@@ -14,6 +14,7 @@
 #include "base/filter.h"
 #include "base/parallel.h"
 #include "renderer/image/oklab.h"
+#include "texture/statistical/photometric.h"
 #include "texture/synthesis/guide_stack.h"
 
 namespace belvedere {
@@ -212,6 +213,30 @@ std::vector<Grid<glm::vec3>> harmonize(const std::vector<LabelledPicture>& pictu
       out.push_back(*pictures[i].picture);
     else
       out.push_back(apply_maps(pictures[i], labs[i], find_maps(statistics[i], goals)));
+  }
+  return out;
+}
+
+std::vector<Grid<glm::vec3>> harmonize_as(const std::string& how, const std::vector<LabelledPicture>& pictures) {
+  if (how == "common") return harmonize(pictures, std::nullopt);
+  if (how == "first") return harmonize(pictures, 0);
+  if (how != "off" && how != "regions") throw Error(ErrorKind::usage, "harmonize", how, "off, common, first or regions");
+  std::vector<Grid<glm::vec3>> out;
+  std::vector<Grid<std::uint8_t>> counts;
+  bool first_counts = false;
+  for (const LabelledPicture& each : pictures) {
+    out.push_back(*each.picture);
+    if (how == "off") continue;
+    if (!each.labels->same_size(*each.picture))
+      throw Error(ErrorKind::usage, "harmonize", "a painting and its labels have different sizes", "the same size");
+    Grid<std::uint8_t>& counted = counts.emplace_back(each.picture->width(), each.picture->height());
+    for (std::size_t i = 0; i < counted.size(); ++i) counted[i] = (*each.labels)[i] != unused_label ? 1 : 0;
+    const bool any = std::any_of(counted.begin(), counted.end(), [](std::uint8_t c) { return c != 0; });
+    if (counts.size() == 1) first_counts = any;
+    if (counts.size() == 1 || !any || !first_counts) continue;
+    const Grid<glm::vec3> corrected = correct_colours(*each.picture, *pictures.front().picture, {}, counted, counts.front());
+    for (std::size_t i = 0; i < counted.size(); ++i)
+      if (counted[i] != 0) out.back()[i] = corrected[i];
   }
   return out;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/grid.h"
@@ -22,6 +23,11 @@ struct LabelledPicture {
 // with the mean shift of that painting's others. Across borders of labels the maps blend over a few texels, so that masks leave no outline.
 // Results are cut to 0…1. Error(usage) where sizes disagree or there is no such reference.
 std::vector<Grid<glm::vec3>> harmonize(const std::vector<LabelledPicture>& pictures, std::optional<std::size_t> reference);
+
+// The same as a scene says it: "off", "common" (what they have in common), "first" (like the first painting), by label; or "regions": all
+// but the first are corrected by regions of like colour, whatever their labels, to the first one's (texture/statistical/photometric.h).
+// Error(usage) for other words.
+std::vector<Grid<glm::vec3>> harmonize_as(const std::string& how, const std::vector<LabelledPicture>& pictures);
 
 // How unlike the colours of one label are in two paintings: earth mover's distance of the histograms in OKLab, mean of the three axes.
 // 0 where one of them lacks the label.

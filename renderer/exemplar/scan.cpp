@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/guidance_channels.h"
 #include "renderer/exemplar/example_painting.h"
+#include "renderer/exemplar/fill_excluded.h"
 #include "renderer/exemplar/harmonize.h"
 #include "renderer/exemplar/painting_strokes.h"
 #include "renderer/exemplar/painting_tone.h"
@@ -23,7 +24,6 @@
 #include "renderer/image/oklab.h"
 #include "renderer/paint/composite.h"
 #include "renderer/paint/guides.h"
-#include "texture/statistical/model_file.h"
 
 namespace belvedere {
 namespace {
@@ -104,7 +104,27 @@ void take_paint(const SceneExemplar& settings, const LoadedScene& scene, Guidanc
   guidance.base = decode_srgb(classes.base);
 }
 
-Raw read_raw(const SceneExemplar& settings, const LoadedScene& scene) {
+// Takes what is excluded out of the labels; or fills it with the paint around it, where the block says so.
+void exclude(const SceneExemplar& settings, const LoadedScene& scene, Raw& raw, Progress& progress) {
+  if (settings.exclude.empty()) return;
+  const Grid<float> mask = read_share(find_scene_file(scene, settings.exclude), raw.picture);
+  Grid<std::uint8_t> excluded(mask.width(), mask.height());
+  for (std::size_t i = 0; i < mask.size(); ++i) excluded[i] = mask[i] > 0.F ? 1 : 0;
+  if (settings.excluded == "fill") {
+    FilledPaint paint = fill_excluded(raw.picture, raw.labels, excluded, progress);
+    progress.note(fmt::format("{}: {} excluded pixels are filled with the paint around them{}", settings.picture, paint.filled,
+                              paint.left > 0 ? fmt::format(", {} have too little of their class around and stay unused", paint.left) : ""));
+    raw.picture = std::move(paint.picture);
+    raw.labels = std::move(paint.labels);
+    for (std::size_t i = 0; i < excluded.size(); ++i)
+      if (excluded[i] != 0) raw.guidance.land_cover[i] = static_cast<LandCoverClass>(raw.labels[i]);
+    return;
+  }
+  for (std::size_t i = 0; i < excluded.size(); ++i)
+    if (excluded[i] != 0) raw.labels[i] = unused_label;
+}
+
+Raw read_raw(const SceneExemplar& settings, const LoadedScene& scene, Progress& progress) {
   Raw raw;
   raw.picture = read_picture(find_scene_file(scene, settings.picture));
   if (!settings.guidance.empty()) {
@@ -124,11 +144,7 @@ Raw read_raw(const SceneExemplar& settings, const LoadedScene& scene) {
   // Bare paper between the panels of an example sheet is neither ground nor sky.
   for (std::size_t i = 0; i < raw.guidance.sky_view.size(); ++i)
     if (raw.guidance.is_sky(i) && raw.guidance.sky_view[i] <= 0.F) raw.labels[i] = unused_label;
-  if (!settings.exclude.empty()) {
-    const Grid<float> mask = read_share(find_scene_file(scene, settings.exclude), raw.picture);
-    for (std::size_t i = 0; i < mask.size(); ++i)
-      if (mask[i] > 0.F) raw.labels[i] = unused_label;
-  }
+  exclude(settings, scene, raw, progress);
   return raw;
 }
 
@@ -142,7 +158,7 @@ void harmonize_all(std::vector<Raw>& raws, const std::string& how, Progress& pro
     }
   if (how == "off" || there.size() < 2) return;
   progress.begin("harmonizing the paintings' colours", 0.0);
-  std::vector<Grid<glm::vec3>> alike = harmonize(pictures, how == "first" ? std::optional<std::size_t>(0) : std::nullopt);
+  std::vector<Grid<glm::vec3>> alike = harmonize_as(how, pictures);
   for (std::size_t i = 0; i < there.size(); ++i) there[i]->picture = std::move(alike[i]);
 }
 
@@ -273,18 +289,16 @@ std::vector<ScannedPainting> read_scans(const LoadedScene& scene, Progress& prog
       progress.note(fmt::format("exemplar {} is not there and is left out; get it from {}", paintings[i].picture, paintings[i].get_from));
       continue;
     }
-    raws[i] = read_raw(paintings[i], scene);
+    raws[i] = read_raw(paintings[i], scene, progress);
   }
   harmonize_all(raws, scene.scene.synthesis.harmonize, progress);
   std::vector<ScannedPainting> scans(paintings.size());
   for (std::size_t i = 0; i < paintings.size(); ++i)
     if (!raws[i].picture.empty()) scans[i] = finish_scan(paintings[i], std::move(raws[i]), scene.scene.synthesis.residual, progress);
   // A model has no texels, but colours.
-  for (std::size_t i = 0; i < paintings.size(); ++i) {
-    const std::string path = paintings[i].model.empty() ? std::string() : find_scene_file(scene, paintings[i].model);
-    if (path.empty()) continue;
-    const LabelRamps ramps = model_ramps(read_model(path));
-    for (const LandCoverClass id : paintings[i].serves) scans[i].ramps[static_cast<std::size_t>(id)] = ramps;
+  for (const SceneTextureModel& model : read_texture_models(scene)) {
+    const LabelRamps ramps = model_ramps(model.model);
+    for (const LandCoverClass id : model.serves) scans[model.block].ramps[static_cast<std::size_t>(id)] = ramps;
   }
   return scans;
 }

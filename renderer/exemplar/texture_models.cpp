@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <glm/common.hpp>
 
+#include "base/error.h"
+#include "texture/composite/composite_model.h"
 #include "texture/statistical/model_file.h"
 #include "texture/synthesis/class_supply.h"
 
@@ -20,19 +23,47 @@ Counts count_labels(const Grid<std::uint8_t>& labels) {
   return counts;
 }
 
+// The land cover is the map of labels: each label that is the number of a class paints that class.
+void add_labels(CompositeModel composite, const std::string& path, const SceneTextureModel& plain, std::vector<SceneTextureModel>& models) {
+  for (CompositeLabel& label : composite.labels) {
+    int number = -1;
+    const char* end = label.name.data() + label.name.size();
+    const auto [last, problem] = std::from_chars(label.name.data(), end, number);
+    if (problem != std::errc() || last != end || number < 0 || number >= land_cover_class_count)
+      throw Error(ErrorKind::usage, path, "a composite with the label " + label.name,
+                  "labels that are numbers of classes: `belvedere composite learn` with a mask of classes");
+    const auto id = static_cast<LandCoverClass>(number);
+    const bool served = plain.serves.empty() || std::find(plain.serves.begin(), plain.serves.end(), id) != plain.serves.end();
+    if (id == LandCoverClass::sky || !served) continue;  // the sky is the scene's
+    SceneTextureModel& model = models.emplace_back(plain);
+    model.name = fmt::format("{} ({})", plain.name, class_name(id));
+    model.model = std::move(label.model);
+    model.serves = {id};
+  }
+}
+
 }  // namespace
 
 std::vector<SceneTextureModel> read_texture_models(const LoadedScene& loaded) {
   std::vector<SceneTextureModel> models;
-  for (const SceneExemplar& settings : loaded.scene.exemplars) {
+  const std::vector<SceneExemplar>& exemplars = loaded.scene.exemplars;
+  for (std::size_t i = 0; i < exemplars.size(); ++i) {
+    const SceneExemplar& settings = exemplars[i];
     if (settings.model.empty()) continue;
     const std::string path = find_scene_file(loaded, settings.model);
     if (path.empty()) continue;  // optional: others were refused before the work began
-    models.push_back({.name = settings.model,
-                      .model = read_model(path),
-                      .serves = settings.serves,
-                      .always = settings.prefer == "model",
-                      .light_px = settings.stroke_px});
+    const SceneTextureModel plain{.name = settings.model,
+                                  .model = {},
+                                  .serves = settings.serves,
+                                  .always = settings.prefer == "model",
+                                  .light_px = settings.stroke_px,
+                                  .block = i};
+    if (settings.model.ends_with(".composite")) {
+      add_labels(read_composite(path), path, plain, models);
+    } else {
+      models.push_back(plain);
+      models.back().model = read_model(path);
+    }
   }
   return models;
 }

@@ -13,16 +13,19 @@
 
 namespace belvedere {
 
-// An [[exemplar]] block that is a texture model (docs/textures.md).
+// An [[exemplar]] block that is a texture model (docs/textures.md), or one label of a block that is a composite (NAME.composite).
 struct SceneTextureModel {
-  std::string name;  // as the scene writes its file
+  std::string name;  // as the scene writes its file, with the class where it is a label
   CliqueModel model;
   std::vector<LandCoverClass> serves;
   bool always = false;  // else only where paintings have too few texels of a class
   double light_px = 6.0;
+  std::size_t block = 0;  // which [[exemplar]] of the scene
 };
 
-// Those of a scene, in its order; optional ones that are missing are left out. Error(usage) for what is no model.
+// Those of a scene, in its order; optional ones that are missing are left out. Labels of a composite are numbers of classes, as masks of
+// paintings have them; each paints its class, or where the block says which it serves, those. Error(usage) for what is no model, or a
+// composite of other labels.
 std::vector<SceneTextureModel> read_texture_models(const LoadedScene& scene);
 
 // A class that is painted from a model.

@@ -109,6 +109,26 @@ void lay_model_paint(Grid<glm::vec3>& picture, const ModelPaint& paint, const Gr
   });
 }
 
+glm::vec3 in_even_light(glm::vec3 texel, const glm::vec3* its_base, double residual, LandCoverClass shown) {
+  return carried_over(texel, its_base, glm::vec3(even_grey), residual, shown);
+}
+
+void lay_even_paint(Grid<glm::vec3>& picture, const KnitPaint& paint, const Grid<glm::vec3>& target_base, const Grid<float>& target_haze,
+                    double residual, const Grid<LandCoverClass>& shown) {
+  if (!picture.same_size(paint.made) || !picture.same_size(target_base) || !picture.same_size(shown))
+    throw Error(ErrorKind::bug, "composite", "the picture and its knitted paint have different sizes");
+  parallel_rows(picture.height(), [&](int y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const std::size_t i = picture.index(x, y);
+      if (paint.made[i] == 0) continue;
+      // As carried_over: in even light snow's strokes are held already.
+      const bool whole = has_trait(shown[i], ClassTrait::icy) || shown[i] == LandCoverClass::rock;
+      const auto r = static_cast<float>(whole ? std::max(residual, rock_residual) : residual);
+      picture[i] = below_air(paint.even[i] + r * (target_base[i] - even_grey), target_base[i], target_haze, i);
+    }
+  });
+}
+
 Grid<glm::vec3> mix_borders(const Grid<glm::vec3>& copied, const Painting& draft, const Grid<LandCoverClass>& shown,
                             const Grid<LandCoverClass>& land_cover, const Grid<glm::vec3>& base) {
   if (!copied.same_size(draft.under) || !copied.same_size(draft.under_share) || !copied.same_size(shown) || !copied.same_size(land_cover) ||

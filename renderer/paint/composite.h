@@ -43,6 +43,18 @@ struct ModelPaint {
 void lay_model_paint(Grid<glm::vec3>& picture, const ModelPaint& paint, const Grid<glm::vec3>& target_base, const Grid<float>& target_haze,
                      double residual, const Grid<LandCoverClass>& shown);
 
+// Paint as it would look where the base is a middle grey: of a texel that is copied for a class, what transfer_residual lays over any
+// place. Its base is null where nobody knows it. Not cut to 0…1.
+inline constexpr float even_grey = 0.5F;
+glm::vec3 in_even_light(glm::vec3 texel, const glm::vec3* its_base, double residual, LandCoverClass shown);
+// Such paint where `made` is not 0, laid over a picture in the light and air of the place.
+struct KnitPaint {
+  Grid<std::uint8_t> made;
+  Grid<glm::vec3> even;
+};
+void lay_even_paint(Grid<glm::vec3>& picture, const KnitPaint& paint, const Grid<glm::vec3>& target_base, const Grid<float>& target_haze,
+                    double residual, const Grid<LandCoverClass>& shown);
+
 // Borders of classes as strokes leave them. A texel is of one class, and a picture of texels alone is torn like paper where classes meet.
 // Where in `draft` two classes share a pixel, the other one's paint is mixed in by its share, in the colour of the place its stroke grew
 // from: that of `copied` where this shows the same class, else that of `base` (the target's, of no hand). Pixels of one class alone stay as

@@ -73,6 +73,12 @@ void make_records(GroundModels& models, std::vector<SceneTextureModel> read, std
   }
 }
 
+// What seams are learnt from, where the scene has them knitted.
+void add_knit_sources(CopyPlan& plan, const Scene& scene) {
+  if (!scene.synthesis.knit) return;
+  plan.knit = find_knit_sources(plan.exemplars, plan.residual, stream_seed(scene.seed, Stream::statistical_noise, 2000));
+}
+
 // What synthesis compares is in its plan; pictures are still copied from.
 void forget_compared(std::vector<PaintedExemplar>& exemplars) {
   for (PaintedExemplar& painted : exemplars) {
@@ -156,6 +162,7 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
   const SynthesisParameters parameters = to_synthesis_parameters(world.scene);
   const glm::ivec2 sheet = world.camera->size();
   std::vector<SceneTextureModel> models = read_texture_models(loaded);
+  add_knit_sources(plan, world.scene);
   const auto unpack = [&](std::string packed) {
     if (!models.empty()) take_models(packed, plan.models, models.size());
     if (!plan.synthesis) plan.synthesis = unpack_plan({packed.begin(), packed.end()}, copied_from);
@@ -164,6 +171,7 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
     unpack(work.read_bytes(plan_name));
     forget_compared(plan.exemplars);
     make_records(plan.models, std::move(models), world.scene.seed, run.progress);
+    if (plan.knit) add_model_sources(*plan.knit, plan.models, plan.residual);
     return plan;
   }
   const SynthesisSheet division = divide_sheet(sheet.x, sheet.y, std::llround(world.scene.synthesis.plan_mpx * 1e6));
@@ -198,6 +206,7 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
   work.keep_bytes(plan_name, packed);
   forget_compared(plan.exemplars);
   make_records(plan.models, std::move(models), world.scene.seed, run.progress);
+  if (plan.knit) add_model_sources(*plan.knit, plan.models, plan.residual);
   return plan;
 }
 

@@ -189,6 +189,7 @@ struct SceneExemplar {
   std::array<double, 2> altitude_range_m = {0.0, 4000.0};
   std::string shadow;                  // grey image: black in cast shadow, white in the sun
   std::string exclude;                 // grey image: what is not black is never copied from
+  std::string excluded = "skip";       // what becomes of it: "skip", or "fill" it with the paint around
   std::vector<LandCoverClass> serves;  // classes it may be copied for; empty: all
   std::string found_shadow = "guide";  // without a shadow image: "guide", "exclude" or "ignore" dark, cool places
   double stroke_px = 6.0;              // what is larger than this is light, what is smaller a stroke
@@ -202,7 +203,8 @@ struct SceneExemplar {
 struct SceneSynthesis {
   bool enabled = true;              // off: everything is painted as strokes
   std::string colours = "palette";  // whose colours the picture has: "palette" or "painting"
-  std::string harmonize = "off";    // colours of several paintings: "off", "common" or like the "first"
+  std::string harmonize = "off";    // colours of several paintings: "off", "common", or like the "first", by class or by its "regions"
+  bool knit = false;                // seams between paintings are made anew by models of the paint on both sides
   double residual = 0.75;           // how much of the base picture's difference is laid over the texel, 0…1
   std::vector<std::pair<std::string, double>> weights = default_guide_weights();  // by guide (renderer/paint/guides.h)
   std::vector<std::pair<LandCoverClass, LandCoverClass>> fallback;

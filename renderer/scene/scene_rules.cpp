@@ -167,10 +167,11 @@ class Rules {
       const std::string name = fmt::format("exemplar.{}", i);
       if (!exemplar.model.empty()) {
         for (const char* key : {"picture", "guidance", "classes", "altitude", "altitude_range_m", "shadow", "found_shadow", "exclude",
-                                "width", "height", "seed"})
+                                "excluded", "width", "height", "seed"})
           if (written(name + "." + key))
             refuse(name + "." + key, fmt::format("{}.{} beside a model", name, key), "a picture, or a model, in each block");
-        if (exemplar.serves.empty())
+        // A composite's labels say what it paints.
+        if (exemplar.serves.empty() && !exemplar.model.ends_with(".composite"))
           refuse(name + ".model", name + ".model does not say what it paints", "serves = [\"pasture\"]: the classes it shows");
         continue;
       }
@@ -180,10 +181,12 @@ class Rules {
         refuse(name + ".picture", name + ".picture has neither guidance nor classes, so nobody knows what it shows",
                "guidance = \"….exr\", or classes = \"….png\"");
       if (exemplar.picture.empty())
-        for (const char* key : {"guidance", "classes", "altitude", "altitude_range_m", "shadow", "found_shadow", "exclude", "serves",
-                                "stroke_px", "optional"})
+        for (const char* key : {"guidance", "classes", "altitude", "altitude_range_m", "shadow", "found_shadow", "exclude", "excluded",
+                                "serves", "stroke_px", "optional"})
           if (written(name + "." + key))
             refuse(name + "." + key, fmt::format("{}.{} has no picture to belong to", name, key), "a picture beside it");
+      if (written(name + ".excluded") && exemplar.exclude.empty())
+        refuse(name + ".excluded", fmt::format("{}.excluded has nothing to fill", name), "exclude = \"….png\" beside it");
       if (!exemplar.altitude.empty() && exemplar.classes.empty())
         refuse(name + ".altitude", name + ".altitude needs classes beside it", "classes = \"….png\"");
       if (exemplar.altitude_range_m[0] >= exemplar.altitude_range_m[1])

@@ -57,8 +57,15 @@ std::vector<SceneSection> make_exemplar_sections() {
                 .choices = {"guide", "exclude", "ignore"}},
                {.name = "exclude",
                 .field = AT(exemplars[i].exclude),
-                .meaning = "Grey image of the picture's size: what is not black is never copied from (lettering, frames, figures).",
+                .meaning = "Grey image of the picture's size: what is not black is no paint (lettering, frames, figures).",
                 .text = TextKind::file},
+               {.name = "excluded",
+                .field = AT(exemplars[i].excluded),
+                .meaning =
+                    "What becomes of it: never copied from (skip), or made anew from the paint around it, class by class, and copied "
+                    "like the rest (fill).",
+                .text = TextKind::choice,
+                .choices = {"skip", "fill"}},
                {.name = "serves",
                 .field = AT(exemplars[i].serves),
                 .meaning = "Classes it may be copied for, or painted from a model: [\"rock\", \"snow\"]; without it every class it shows."},

@@ -19,9 +19,13 @@ std::vector<SceneSection> make_synthesis_sections() {
             .field = AT(synthesis.harmonize),
             .meaning =
                 "Colours of several paintings, class by class, before they are used: as they are, brought to a common mean and spread, "
-                "or to those of the first painting.",
+                "or to those of the first painting; or, classes apart, regions of like colour with those of the first that stand "
+                "where they do (regions: for scans whose classes are not alike).",
             .text = TextKind::choice,
-            .choices = {"off", "common", "first"}},
+            .choices = {"off", "common", "first", "regions"}},
+           {.name = "knit",
+            .field = AT(synthesis.knit),
+            .meaning = "Where paint of two paintings or texture models meets, the pixels along the seam are made anew by a model of both."},
            {.name = "residual",
             .field = AT(synthesis.residual),
             .range = {0, 1},

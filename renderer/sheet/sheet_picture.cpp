@@ -11,6 +11,8 @@ namespace {
 
 using B = GuidanceBuffers;
 
+constexpr int knit_tile_px = 512;
+
 // What the exemplar cannot give is painted last, far to near: sky, trees, houses; without an exemplar everything is.
 StrokeLayers finishing_layers(bool copied) { return {.sky = true, .ground = !copied, .accents = true, .breaks = true, .upright = true}; }
 
@@ -49,7 +51,18 @@ SheetPicture::SheetPicture(SheetGround& ground, CopyPlan* plan, TileStore::Place
                  .planes =
                      [](ModelPaint& paint) {
                        return Planes{plane_of(paint.made), plane_of(paint.texel), plane_of(paint.base)};
-                     }}) {}
+                     }}),
+      seams_(plan != nullptr && plan->knit ? &*plan->knit : nullptr),
+      knitted_(place, ground.sheet().x1, ground.sheet().y1, knit_tile_px,
+               {.make = [this](PixelRect tile) { return make_knitted(tile); },
+                .blank =
+                    [](int width, int height) {
+                      return KnitPaint{Grid<std::uint8_t>(width, height), Grid<glm::vec3>(width, height)};
+                    },
+                .planes =
+                    [](KnitPaint& paint) {
+                      return Planes{plane_of(paint.made), plane_of(paint.even)};
+                    }}) {}
 
 MatchField SheetPicture::make_matches(PixelRect tile) {
   SynthesisPlan& plan = *plan_->synthesis;
@@ -66,6 +79,26 @@ ModelPaint SheetPicture::make_modelled(PixelRect tile) {
   return make_model_paint(plan_->models, tile, ground_.read_draft(tile).land_cover, guidance, window);
 }
 
+KnitPaint SheetPicture::make_knitted(PixelRect tile) {
+  const PixelRect window = intersection(ground_.sheet(), grown(tile, knit_margin_px));
+  const Grid<LandCoverClass> shown = ground_.read_draft(window).land_cover;
+  const MatchField matches = matches_.read(window);
+  const Grid<glm::vec3> grey(window.width(), window.height(), glm::vec3(even_grey));
+  UnknitPaint paint;
+  paint.even = transfer_residual(matches, plan_->exemplars, grey, {}, plan_->residual, shown);
+  paint.depth_m = ground_.read_guidance(window, {&B::depth_m}, false).depth_m;
+  paint.source = Grid<std::uint16_t>(window.width(), window.height(), no_source);
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    if (matches[i].exemplar != Match::none) paint.source[i] = source_of(matches[i].exemplar, shown[i]);
+  if (plan_->models.any()) {
+    const ModelPaint modelled = modelled_.read(window);
+    lay_model_paint(paint.even, modelled, grey, {}, plan_->residual, shown);
+    for (std::size_t i = 0; i < matches.size(); ++i)
+      if (modelled.made[i] != 0) paint.source[i] = source_of(plan_->exemplars.size() + modelled.made[i] - 1, shown[i]);
+  }
+  return knit_ground(seams_, paint, tile, window, plan_->knit->seed);
+}
+
 Grid<glm::vec3> SheetPicture::copy_ground(PixelRect rect) {
   const PixelRect window = intersection(ground_.sheet(), grown(rect, paint_source_reach_px(draft_layers, ground_.strokes())));
   const PaintDraft draft = ground_.read_draft(window);
@@ -74,6 +107,7 @@ Grid<glm::vec3> SheetPicture::copy_ground(PixelRect rect) {
   Grid<glm::vec3> copied =
       transfer_residual(matches_.read(window), plan_->exemplars, draft.base, base.haze, plan_->residual, draft.land_cover);
   if (plan_->models.any()) lay_model_paint(copied, modelled_.read(window), draft.base, base.haze, plan_->residual, draft.land_cover);
+  if (plan_->knit) lay_even_paint(copied, knitted_.read(window), draft.base, base.haze, plan_->residual, draft.land_cover);
   const Grid<glm::vec3> mixed = mix_borders(copied, to_painting(draft, window), draft.land_cover, guidance.land_cover, base.colour);
   return part_of(mixed, moved(rect, -window.x0, -window.y0));
 }
@@ -111,14 +145,18 @@ void SheetPicture::keep_only(PixelRect still) {
   const int copied = plan_ == nullptr ? 0
                                       : paint_source_reach_px(draft_layers, ground_.strokes()) + plan_->synthesis->sheet().tile_px +
                                             synthesis_margin_px(plan_->synthesis->sheet().level) + ground_.draft_reach_px();
-  const PixelRect shown = grown(still, paint_source_reach_px(draft_layers, ground_.strokes()));
+  // Knitting looks at the paint of its tile and around it.
+  const int knitted = plan_ != nullptr && plan_->knit ? knit_tile_px + knit_margin_px : 0;
+  const PixelRect painted = grown(still, paint_source_reach_px(draft_layers, ground_.strokes()));
+  const PixelRect shown = grown(painted, knitted);
+  knitted_.keep_only(painted);
   matches_.keep_only(shown);
   modelled_.keep_only(shown);
   const bool models = plan_ != nullptr && plan_->models.any();
   const int modelled = models ? paint_source_reach_px(draft_layers, ground_.strokes()) + endless_tile_px +
                                     std::max(model_margin_px(plan_->models), ground_.draft_reach_px())
                               : 0;
-  ground_.keep_only(grown(still, std::max({strokes, copied, modelled})));
+  ground_.keep_only(grown(still, knitted + std::max({strokes, copied, modelled})));
 }
 
 }  // namespace belvedere

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renderer/paint/composite.h"
+#include "renderer/sheet/knit_ground.h"
 #include "renderer/sheet/model_ground.h"
 #include "renderer/sheet/sheet_ground.h"
 #include "texture/sheet/synthesis_plan.h"
@@ -16,8 +17,9 @@ namespace belvedere {
 struct CopyPlan {
   std::vector<PaintedExemplar> exemplars;
   std::optional<SynthesisPlan> synthesis;
-  double residual = 0.75;  // how much of the base picture's difference is laid over a texel, 0…1
-  GroundModels models;     // of classes that are not copied
+  double residual = 0.75;           // how much of the base picture's difference is laid over a texel, 0…1
+  GroundModels models;              // of classes that are not copied
+  std::optional<KnitSources> knit;  // what seams are knitted by; none: they stay as they are copied
 };
 
 // The finished picture of a sheet in any rectangles, with the same bits as in one piece: copied ground, strokes over it, softened edges.
@@ -37,6 +39,7 @@ class SheetPicture {
  private:
   MatchField make_matches(PixelRect tile);
   ModelPaint make_modelled(PixelRect tile);
+  KnitPaint make_knitted(PixelRect tile);
   Grid<glm::vec3> copy_ground(PixelRect rect);
   // Kinds of strokes that can reach a rectangle: those of the sky, by far the longest, begin where sky is seen.
   StrokeLayers layers_around(PixelRect rect);
@@ -47,6 +50,8 @@ class SheetPicture {
   const StrokeLayers layers_;
   SheetStage<MatchField> matches_;
   SheetStage<ModelPaint> modelled_;
+  SeamModels seams_;
+  SheetStage<KnitPaint> knitted_;
 };
 
 }  // namespace belvedere

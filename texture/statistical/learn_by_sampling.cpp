@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "texture/statistical/clique_polish.h"
-#include "texture/statistical/difference_histogram.h"
+#include "texture/statistical/learning_round.h"
 #include "texture/statistical/make_texture.h"
 
 namespace belvedere {
@@ -20,12 +19,6 @@ constexpr int most_trial_px = 128;  // a side of the texture that is looked at
 constexpr int first_sweeps = 60;
 constexpr int added_sweeps = 30;  // after each type
 constexpr std::uint64_t noise_seed = 5;
-
-struct Candidate {
-  Clique clique;
-  HistogramGroups groups;
-  bool in = false;
-};
 
 // The four neighbours within bands and the bands at one pixel: preselected, as published; and plain histograms.
 bool preselected(const CliqueType& t) { return (t.dx == 0 && t.dy == 0) || (std::abs(t.dx) + std::abs(t.dy) == 1 && t.head == t.tail); }
@@ -46,15 +39,7 @@ LearnedTexture learn_by_sampling(const Grid<Rgb8>& crop, const Grid<std::uint8_t
   const BandPicture example = to_bands(crop, model.bands, states);
 
   // Step 1.
-  const std::vector<CliqueType> types = candidate_types(0, sampled_reach_px);
-  std::vector<Candidate> candidates(types.size());
-  parallel_ranges(types.size(), std::size_t{8}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k != end; ++k) {
-      const DifferenceHistogram histogram = count_differences(example, model.bands, types[k]);
-      const CliqueKnots knots = find_knots(histogram, difference_range(model.bands, types[k]));
-      candidates[k] = {{types[k], encode_knots(model.bands, types[k], knots)}, HistogramGroups(histogram)};
-    }
-  });
+  std::vector<Candidate> candidates = make_candidates(example, model.bands, candidate_types(0, sampled_reach_px));
   for (Candidate& c : candidates) {
     c.in = preselected(c.clique.type);
     if (c.in) model.cliques.push_back(c.clique);
@@ -68,33 +53,15 @@ LearnedTexture learn_by_sampling(const Grid<Rgb8>& crop, const Grid<std::uint8_t
            {.sweeps = round == 0 ? first_sweeps : added_sweeps, .seed = noise_seed + static_cast<std::uint64_t>(round), .settle = false},
            {});
     progress.advance(1.0);
-    // Steps 3 and 4.
-    std::vector<HistogramGroups::Distance> off(candidates.size());
-    parallel_ranges(candidates.size(), std::size_t{8}, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k != end; ++k)
-        off[k] = candidates[k].groups.distance(count_differences(made.pyramid[0], model.bands, candidates[k].clique.type));
-    });
-    // Step 5.
-    LearnedLevel told{.level = 0, .types = static_cast<int>(model.cliques.size())};
-    std::size_t worst = candidates.size();
-    double sum = 0.0;
-    int held = 0;
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-      if (candidates[k].in) continue;
-      sum += off[k].l1;
-      ++held;
-      if (off[k].l2 <= told.worst_l2) continue;
-      told.worst_l2 = off[k].l2;
-      worst = k;
-    }
-    told.held_out_l1 = held > 0 ? sum / held : 0.0;
-    if (worst == candidates.size() || told.worst_l2 < parameters.enough ||
+    // Steps 3 to 5.
+    const LearningRound found = judge_candidates(candidates, made.pyramid[0], model.bands);
+    if (found.worst == candidates.size() || found.told.worst_l2 < parameters.enough ||
         model.cliques.size() >= static_cast<std::size_t>(parameters.types)) {
-      out.levels.push_back(told);
+      out.levels.push_back(found.told);
       return out;
     }
-    candidates[worst].in = true;
-    model.cliques.push_back(candidates[worst].clique);
+    candidates[found.worst].in = true;
+    model.cliques.push_back(candidates[found.worst].clique);
   }
 }
 

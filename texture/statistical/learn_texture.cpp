@@ -9,34 +9,14 @@
 
 #include "base/cache/content_hash.h"
 #include "base/error.h"
-#include "base/parallel.h"
 #include "texture/statistical/clique_flow.h"
-#include "texture/statistical/difference_histogram.h"
+#include "texture/statistical/learning_round.h"
 #include "texture/statistical/make_texture.h"
 
 namespace belvedere {
 namespace {
 
 constexpr std::uint64_t learning_seed = 5;
-
-struct Candidate {
-  Clique clique;
-  HistogramGroups groups;
-  bool in = false;
-};
-
-std::vector<Candidate> make_candidates(const BandPicture& example, const BandSpace& bands, int level, int reach) {
-  const std::vector<CliqueType> types = candidate_types(level, reach);
-  std::vector<Candidate> out(types.size());
-  parallel_ranges(types.size(), std::size_t{8}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k != end; ++k) {
-      const DifferenceHistogram histogram = count_differences(example, bands, types[k]);
-      const CliqueKnots knots = find_knots(histogram, difference_range(bands, types[k]));
-      out[k] = {{types[k], encode_knots(bands, types[k], knots)}, HistogramGroups(histogram)};
-    }
-  });
-  return out;
-}
 
 // Always in: each band's own histogram, at the finest level the pairs at one pixel and the four neighbours as well; above it the first
 // band's histogram alone, because the others follow from it and from what is added.
@@ -128,7 +108,7 @@ LearnedTexture learn_texture(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& s
   progress.begin("learning a texture", parameters.types);
   for (int level = model.levels; level >= 0; --level) {
     std::vector<Candidate> candidates =
-        make_candidates(example[static_cast<std::size_t>(level)], model.bands, level, reach_at(parameters, level));
+        make_candidates(example[static_cast<std::size_t>(level)], model.bands, candidate_types(level, reach_at(parameters, level)));
     // Coarser levels together get at most half of the budget, the finest what is left.
     const auto budget =
         static_cast<std::size_t>(level > 0 ? parameters.types * (model.levels - level + 1) / (2 * (model.levels + 1)) : parameters.types);
@@ -142,33 +122,13 @@ LearnedTexture learn_texture(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& s
     trial.begin_level(model, level);
     for (int round = 0;; ++round) {
       trial.run(model, level, round == 0 ? 2 * parameters.rounds : parameters.rounds);
-      std::vector<HistogramGroups::Distance> off(candidates.size());
-      parallel_ranges(candidates.size(), std::size_t{8}, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k != end; ++k)
-          if (!candidates[k].in)
-            off[k] = candidates[k].groups.distance(count_differences(trial.picture(level), model.bands, candidates[k].clique.type));
-      });
-      LearnedLevel told{.level = level};
-      std::size_t worst = candidates.size();
-      double sum = 0.0;
-      int held = 0;
-      for (std::size_t k = 0; k < candidates.size(); ++k) {
-        if (candidates[k].in) {
-          ++told.types;
-          continue;
-        }
-        sum += off[k].l1;
-        ++held;
-        if (off[k].l2 <= told.worst_l2) continue;
-        told.worst_l2 = off[k].l2;
-        worst = k;
-      }
-      told.held_out_l1 = held > 0 ? sum / held : 0.0;
-      if (worst == candidates.size() || told.worst_l2 < parameters.enough || model.cliques.size() >= budget) {
-        out.levels.push_back(told);
+      LearningRound found = judge_candidates(candidates, trial.picture(level), model.bands);
+      if (found.worst == candidates.size() || found.told.worst_l2 < parameters.enough || model.cliques.size() >= budget) {
+        found.told.level = level;
+        out.levels.push_back(found.told);
         break;
       }
-      add(candidates[worst]);
+      add(candidates[found.worst]);
     }
   }
   return out;

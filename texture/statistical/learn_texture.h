@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "texture/statistical/band_pyramid.h"
 #include "texture/statistical/clique_model.h"
+#include "texture/statistical/learning_round.h"
 
 namespace belvedere {
 
@@ -15,14 +16,6 @@ struct LearnParameters {
   int coarse_reach = 5;  // of those above, in their pixels
   int rounds = 12;       // of the flow after each type that is added
   double enough = .02;   // Euclidean distance of histograms, of the worst type that is left out, at which a level is done
-};
-
-// How a level's learning went.
-struct LearnedLevel {
-  int level = 0;
-  int types = 0;             // of this level
-  double held_out_l1 = 0.0;  // mean over the types that are left out
-  double worst_l2 = 0.0;     // of these
 };
 
 struct LearnedTexture {

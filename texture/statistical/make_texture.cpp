@@ -55,13 +55,13 @@ Grid<float> spread_known(const Grid<float>& known, const Grid<std::uint8_t>& sta
         float count = 0.F;
         for (int j = std::max(0, y - 1); j < std::min(out.height(), y + 2); ++j)
           for (int i = std::max(0, x - 1); i < std::min(out.width(), x + 2); ++i)
-            if ((still(i, j) & pixel_changes) == 0) {
+            if (still(i, j) == pixel_counts) {
               sum += before(i, j);
               count += 1.F;
             }
         if (count == 0.F) continue;
         out(x, y) = sum / count;
-        open(x, y) = 0;
+        open(x, y) = pixel_counts;
         more = true;
       }
   }
@@ -277,7 +277,7 @@ void meet_border(BandPicture& made, const BandSpace& space) {
     Grid<float> correction(width, height);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
-        if (free_at(x, y)) continue;
+        if (free_at(x, y) || (states(x, y) & pixel_counts) == 0) continue;
         float sum = 0.F;
         float count = 0.F;
         for (const auto& step : beside)
@@ -312,7 +312,13 @@ void meet_border(BandPicture& made, const BandSpace& space) {
 
 Grid<Rgb8> fill_texture(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& hole, const CliqueModel& model,
                         const TextureParameters& parameters, Progress& progress) {
-  if (!hole.same_size(picture)) throw Error(ErrorKind::bug, "fill_texture", "picture and hole have different sizes");
+  return fill_among(picture, hole, Grid<std::uint8_t>(picture.width(), picture.height(), 1), {}, model, parameters, progress);
+}
+
+Grid<Rgb8> fill_among(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& hole, const Grid<std::uint8_t>& counts, TexturePlace place,
+                      const CliqueModel& model, const TextureParameters& parameters, Progress& progress) {
+  if (!hole.same_size(picture) || !counts.same_size(picture))
+    throw Error(ErrorKind::bug, "fill_among", "picture, hole and what counts have different sizes");
   check_texture_size(picture.width(), picture.height());
   PixelRect box{picture.width(), picture.height(), 0, 0};
   for (int y = 0; y < hole.height(); ++y)
@@ -332,6 +338,9 @@ Grid<Rgb8> fill_texture(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& hol
       if (hole(box.x0 + x, box.y0 + y) != 0) {
         known_states(x, y) = 0;
         states(x, y) = pixel_free;
+      } else if (counts(box.x0 + x, box.y0 + y) == 0) {
+        known_states(x, y) = 0;
+        states(x, y) = 0;
       }
   const BandPyramid known = make_pyramid(to_bands(part_of(picture, box), model.bands, known_states), model.levels);
   BandPicture finest(box.width(), box.height());
@@ -344,14 +353,18 @@ Grid<Rgb8> fill_texture(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& hol
     for (int y = 0; y < coarse.height(); ++y)
       for (int x = 0; x < coarse.width(); ++x) {
         std::uint8_t all = pixel_free;
+        std::uint8_t any = 0;
         for (int j = 0; j < 2; ++j)
-          for (int i = 0; i < 2; ++i) all &= fine.clamped(2 * x + i, 2 * y + j);
-        coarse(x, y) = static_cast<std::uint8_t>(all | pixel_counts);
+          for (int i = 0; i < 2; ++i) {
+            all &= fine.clamped(2 * x + i, 2 * y + j);
+            any |= fine.clamped(2 * x + i, 2 * y + j);
+          }
+        coarse(x, y) = static_cast<std::uint8_t>((all & pixel_changes) | (any & pixel_counts));
       }
   }
   progress.begin("filling", work_of(static_cast<std::int64_t>(states.size()), model.levels));
-  const TexturePlace place{box.x0, box.y0};
-  BandPicture filled = run(model, std::move(pyramid), place, parameters, {.known = &known}, progress);
+  const TexturePlace at{place.x + box.x0, place.y + box.y0};
+  BandPicture filled = run(model, std::move(pyramid), at, parameters, {.known = &known}, progress);
   meet_border(filled, model.bands);
   const Grid<Rgb8> made = to_picture(filled, model.bands);
   Grid<Rgb8> out = picture;

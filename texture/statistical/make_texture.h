@@ -77,4 +77,9 @@ TexturePiece make_piece(const CliqueModel& model, const TextureRecord& record, P
 // clearing. No other pixel changes. The model is of what should stand there. Error(limit) as above.
 Grid<Rgb8> fill_texture(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& hole, const CliqueModel& model,
                         const TextureParameters& parameters, Progress& progress = silent_progress());
+// The same in a picture that shows other things too: nothing is taken from pixels where `counts` is 0, as if they were beyond its edge.
+// `place`, in whole cells of 2^levels, is where the picture lies on a larger one, so that two parts of that begin with the same noise.
+Grid<Rgb8> fill_among(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& hole, const Grid<std::uint8_t>& counts, TexturePlace place,
+                      const CliqueModel& model, const TextureParameters& parameters, Progress& progress = silent_progress());
+
 }  // namespace belvedere

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "renderer/exemplar/texture_models.h"
 #include "renderer/pipeline/scene_check.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
@@ -35,6 +36,7 @@ struct Options {
 // What is looked at, wherever it comes from.
 struct Subject {
   std::vector<Exemplar> exemplars;
+  std::vector<ExemplarFindings::Model> models;
   GuideStack target;            // no labels: not known
   double pixels_of_target = 1;  // that each pixel of `target` stands for
   int altitude_reach = 4;       // steps within which a texel has a pixel's altitude
@@ -88,6 +90,12 @@ Subject from_scene(const Options& options, Progress& progress) {
   subject.pixels_of_target = found.pixels_of_picture;
   for (const auto& [from, to] : with_stand_ins(scene.scene.synthesis.fallback))
     subject.fallback[static_cast<std::uint8_t>(from)] = static_cast<std::uint8_t>(to);
+  for (const SceneTextureModel& model : read_texture_models(scene)) {
+    ExemplarFindings::Model& told = subject.models.emplace_back();
+    told.name = model.name;
+    told.always = model.always;
+    for (const LandCoverClass id : model.serves) told.labels.push_back(static_cast<std::uint8_t>(id));
+  }
   for (PaintedExemplar& painted : found.exemplars) {
     Exemplar exemplar = std::move(painted.exemplar);
     exemplar.picture = to_rgb8(painted.picture);  // the painting itself, not what seams are judged by
@@ -141,6 +149,7 @@ int run(const Options& options) {
   const Subject subject = of_files ? from_files(options) : from_scene(options, progress);
   progress.begin("measuring", static_cast<double>(subject.exemplars.size()));
   ExemplarFindings findings;
+  findings.models = subject.models;
   for (const Exemplar& exemplar : subject.exemplars) {
     findings.paintings.push_back({exemplar.name, exemplar.picture.width(), exemplar.picture.height(), survey_exemplar(exemplar)});
     progress.advance(1.0);

@@ -309,10 +309,11 @@ Action add_synthesize(CLI::App& command) {
       ->allow_extra_args(false);
   command
       .add_option("--harmonize", options->files.harmonize,
-                  "Brings the colours of several paintings together first, label by label: off, common, or like the first")
+                  "Brings the colours of several paintings together first: label by label to what is common or to the first; or by\n"
+                  "regions of like colour, whatever the labels, to the first")
       ->type_name("HOW")
       ->capture_default_str()
-      ->check(CLI::IsMember({"off", "common", "first"}));
+      ->check(CLI::IsMember({"off", "common", "first", "regions"}));
   command.add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
       ->type_name("LABEL LABEL")
       ->allow_extra_args(false);

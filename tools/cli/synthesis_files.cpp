@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <map>
 #include <optional>
+#include <sstream>
 
 #include "base/error.h"
 #include "renderer/exemplar/harmonize.h"
@@ -84,7 +85,7 @@ SynthesisInputs read_synthesis(const SynthesisFiles& files) {
   if (files.harmonize != "off") {
     std::vector<LabelledPicture> painted;
     for (std::size_t i = 0; i < inputs.pictures.size(); ++i) painted.push_back({&inputs.pictures[i], &labels.labels[i]});
-    inputs.pictures = harmonize(painted, files.harmonize == "first" ? std::optional<std::size_t>(0) : std::nullopt);
+    inputs.pictures = harmonize_as(files.harmonize, painted);
   }
   for (std::size_t i = 0; i < inputs.pictures.size(); ++i) {
     inputs.exemplars.push_back({.name = file_name(files.pictures[i]), .picture = to_rgb8(inputs.pictures[i]), .guides = {}});

@@ -28,7 +28,7 @@ struct SynthesisFiles {
   std::vector<std::pair<std::string, std::string>> labels;  // of the picture, of the target
   std::vector<GuidePair> guides;
   std::vector<std::string> exclusions;  // masks of what is never copied from, by picture; "-" and missing ones: none
-  std::string harmonize = "off";        // colours of several pictures: "off", "common" or like the "first"
+  std::string harmonize = "off";        // colours of several pictures: "off", "common", or like the "first", by label or by "regions"
 };
 
 struct SynthesisInputs {

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -16,12 +15,12 @@
 #include "base/json.h"
 #include "base/pyramid.h"
 #include "base/text/base64.h"
-#include "renderer/image/output_file.h"
 #include "terrain/generalize/foreground_share.h"
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/generalize/generalize_report.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
+#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {
@@ -352,12 +351,7 @@ void write_equalizer_page(const std::string& path, const EqualizerInput& input, 
       "</body></html>\n",
       html_escaped(input.title), embedded_file("equalizer/equalizer.css"), script_data(input, progress),
       embedded_file("equalizer/generalize.js"), embedded_file("equalizer/lakes.js"), embedded_file("equalizer/equalizer.js"));
-  OutputFile file(path);
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) file.fail("writing failed");
-  file.commit();
+  write_text_file(path, text);
 }
 
 }  // namespace belvedere::tools

@@ -53,6 +53,14 @@ Json class_json(const ClassSurvey& of, const ExemplarFindings& findings) {
 
 std::string halves_text(const HalvesDistance& halves) { return halves.known ? fmt::format("{:.3f}", halves.clique) : "–"; }
 
+// Says of a texture model what it is there for.
+std::string model_text(const ExemplarFindings::Model& model, const ExemplarFindings& findings) {
+  std::string classes;
+  for (const std::uint8_t label : model.labels) classes += (classes.empty() ? "" : ", ") + findings.name(label);
+  return fmt::format("{}: a texture model, without texels; paints {}{}\n", model.name, classes,
+                     model.always ? "" : " where paintings have no texels of it or too few");
+}
+
 // A column as wide as its widest cell; UTF-8 of one column a character.
 std::string table_text(const std::vector<std::vector<std::string>>& rows) {
   const auto length = [](const std::string& text) {
@@ -134,6 +142,7 @@ std::string findings_text(const ExemplarFindings& findings) {
     for (const ClassSurvey& of : survey.classes)
       for (const std::string& flaw : describe_flaws(of, findings)) out += fmt::format("  {}: {}\n", findings.name(of.label), flaw);
   }
+  for (const ExemplarFindings::Model& model : findings.models) out += model_text(model, findings);
   if (!findings.target_known)
     return out + fmt::format("a texel serves up to {} pixels before strokes are seen to repeat\n", pixels_per_texel);
   out += "for this picture\n";
@@ -157,6 +166,16 @@ std::string findings_json(const ExemplarFindings& findings) {
                       .add("classes", std::move(classes)));
   }
   Json out = Json::object().add("paintings", std::move(paintings)).add("pixels_per_texel", Json::number(pixels_per_texel));
+  if (!findings.models.empty()) {
+    Json models = Json::array();
+    for (const ExemplarFindings::Model& model : findings.models) {
+      Json classes = Json::array();
+      for (const std::uint8_t label : model.labels) classes.add(Json::text(findings.name(label)));
+      models.add(
+          Json::object().add("name", Json::text(model.name)).add("paints", std::move(classes)).add("always", Json::boolean(model.always)));
+    }
+    out.add("models", std::move(models));
+  }
   if (findings.target_known) {
     Json demands = Json::array();
     for (const ClassDemand& demand : findings.demands) {

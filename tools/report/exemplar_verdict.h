@@ -26,6 +26,13 @@ struct ExemplarFindings {
     ExemplarSurvey survey;
   };
   std::vector<Painting> paintings;
+  // Texture models beside them, which have no texels.
+  struct Model {
+    std::string name;
+    std::vector<std::uint8_t> labels;  // that it paints
+    bool always = false;               // else where paintings have no texels of a class, or too few
+  };
+  std::vector<Model> models;
   bool target_known = false;
   std::vector<ClassDemand> demands;                           // by label
   std::vector<std::pair<std::uint8_t, double>> missing;       // classes without texels and fallback, and their pixels

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
 #include "tools/report/report_pictures.h"
+#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {
@@ -76,12 +76,7 @@ void ReportFolder::picture(const std::string& name, const Grid<glm::vec3>& pixel
 void ReportFolder::end_figure() { add("</div></section>"); }
 
 void ReportFolder::write(const std::string& name, const std::string& text) const {
-  OutputFile file((std::filesystem::path(folder_) / name).string());
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) file.fail("writing failed");
-  file.commit();
+  write_text_file((std::filesystem::path(folder_) / name).string(), text);
 }
 
 void ReportFolder::write_page(const std::string& title, const std::string& heading, const std::string& lead,

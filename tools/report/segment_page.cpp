@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "base/embedded.h"
 #include "base/json.h"
 #include "base/land_cover_class.h"
 #include "base/text/base64.h"
-#include "renderer/image/output_file.h"
 #include "texture/segment/segment.h"
 #include "tools/report/data_uri.h"
 #include "tools/report/report_folder.h"
+#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {
@@ -89,12 +88,7 @@ void write_segment_page(const std::string& path, const std::string& title, const
       (picture.height() + factor - 1) / factor, html_escaped(mask_name),
       script_data(folder.empty() ? "." : folder.string(), mask_name, picture, segments, groups), embedded_file("segment/groups.js"),
       embedded_file("segment/segment.js"));
-  OutputFile file(path);
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) file.fail("writing failed");
-  file.commit();
+  write_text_file(path, text);
 }
 
 }  // namespace belvedere::tools

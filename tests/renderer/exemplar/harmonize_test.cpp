@@ -126,6 +126,7 @@ TEST(Harmonize, SpreadGrowsAtMostThreefold) {
 
 TEST(Harmonize, RefusesAReferenceThatIsNotThereAndOtherSizes) {
   EXPECT_THROW(harmonize({warm.view()}, 1), Error);
+  EXPECT_THROW(harmonize_as("loud", {warm.view()}), Error);
   const Grid<std::uint8_t> small(3, 3, 1);
   EXPECT_THROW(harmonize({{&warm.picture, &small}}, std::nullopt), Error);
 }
@@ -136,6 +137,33 @@ TEST(Harmonize, SameBitsForOneAndTwoThreads) {
     return harmonize({warm.view(), cool.view()}, std::nullopt);
   };
   EXPECT_EQ(with(1)[1], with(2)[1]);
+}
+
+// Region by region to the first painting; what counts nowhere stays.
+TEST(Harmonize, ByRegionsAllButTheFirstChange) {
+  Grid<glm::vec3> green(60, 50);
+  Grid<glm::vec3> brown(60, 50);
+  Grid<std::uint8_t> labels(60, 50, 7);
+  for (int y = 0; y < 50; ++y)
+    for (int x = 0; x < 60; ++x) {
+      const float light = .6F + .015F * static_cast<float>((3 * x + 5 * y) % 20);
+      green(x, y) = light * glm::vec3(.3F, .8F, .2F);
+      brown(x, y) = light * glm::vec3(.7F, .4F, .2F);
+      if (y < 5) labels(x, y) = unused_label;
+    }
+  const std::vector<Grid<glm::vec3>> out = harmonize_as("regions", {{&green, &labels}, {&brown, &labels}});
+  ASSERT_EQ(out.size(), 2U);
+  EXPECT_EQ(out[0], green);
+  for (int y = 0; y < 50; ++y)
+    for (int x = 0; x < 60; ++x) {
+      if (y < 5) {
+        ASSERT_EQ(out[1](x, y), brown(x, y));
+      } else {
+        ASSERT_GT(out[1](x, y).y, 1.5F * out[1](x, y).x) << "green by now, at " << x << ", " << y;
+      }
+    }
+  const std::vector<Grid<glm::vec3>> off = harmonize_as("off", {{&green, &labels}, {&brown, &labels}});
+  EXPECT_EQ(off[1], brown);
 }
 
 }  // namespace

@@ -110,6 +110,34 @@ TEST_F(Scans, WhatIsExcludedIsNeverCopied) {
   EXPECT_LT(with.ramps[3].ramps[0][2].y, 0.3F * with.ramps[3].ramps[0][2].x);
 }
 
+TEST_F(Scans, WhatIsExcludedIsFilledWhereTheSceneSaysSo) {
+  // Rock all over, a red title across it that nobody gave a class.
+  Grid<glm::vec3> picture(160, 120);
+  Grid<glm::vec3> classes(160, 120, glm::vec3(7.F / 255.F));
+  Grid<glm::vec3> title(160, 120, glm::vec3(0.F));
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) {
+      picture(x, y) = glm::vec3(0.5F, 0.45F, 0.4F) + 0.2F * static_cast<float>(random_uniform(3, x / 4, y / 2) - 0.5);
+      if (x < 30 || x >= 130 || y < 50 || y >= 60) continue;
+      picture(x, y) = lettering;
+      classes(x, y) = title(x, y) = glm::vec3(1.F);
+    }
+  write_png8(folder_ / "a.png", picture, {});
+  write_grey("classes.png", classes);
+  write_grey("exclude.png", title);
+  const ScannedPainting skipped = read("exclude = \"exclude.png\"").front();
+  EXPECT_EQ(skipped.painted.exemplar.guides.label(80, 55), unused_label);
+  const ScannedPainting filled = read("exclude = \"exclude.png\"\nexcluded = \"fill\"").front();
+  EXPECT_EQ(filled.painted.exemplar.guides.label(80, 55), 7);
+  for (int y = 50; y < 60; ++y)
+    for (int x = 30; x < 130; ++x) {
+      const glm::vec3 paint = filled.painted.picture(x, y);
+      ASSERT_LT(paint.x - paint.y, 0.3F) << x << " " << y;
+    }
+  EXPECT_EQ(filled.painted.picture(20, 20), skipped.painted.picture(20, 20));
+  EXPECT_THAT([&] { read("excluded = \"fill\""); }, testing::Throws<Error>());
+}
+
 TEST_F(Scans, ServesOnlyWhatItShall) {
   const ScannedPainting scan = read("serves = [\"snow\"]").front();
   for (int x = 0; x < width; ++x) EXPECT_EQ(scan.painted.exemplar.guides.label(x, 60), x < 48 ? 8 : unused_label) << x;
@@ -160,6 +188,8 @@ TEST_F(Scans, SeveralPaintingsAreHarmonizedWhereTheSceneSaysSo) {
   EXPECT_GT(apart, 0.05);
   EXPECT_LT(distance("\"common\""), 0.2 * apart);
   EXPECT_LT(distance("\"first\""), 0.2 * apart);
+  // By regions, whatever the classes: of red exchanged with blue nothing nearer (docs/textures.md), but another picture.
+  EXPECT_NE(distance("\"regions\""), apart);
 }
 
 TEST_F(Scans, TheirColoursBecomeThePalette) {

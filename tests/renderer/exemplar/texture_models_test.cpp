@@ -7,6 +7,7 @@
 #include "tests/files.h"
 #include "tests/renderer/world/small_world.h"
 #include "tests/texture/statistical/texture_crops.h"
+#include "texture/composite/composite_model.h"
 #include "texture/statistical/learn_texture.h"
 #include "texture/statistical/model_file.h"
 
@@ -101,6 +102,29 @@ TEST(TextureModels, AreReadFromTheScenesFolder) {
   test::write_bytes(folder / "bad.model", "belvedere_texture = 7\n");
   EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { read("{ model = \"bad.model\", serves = [\"pasture\"] }"); }),
               HasSubstr("version 7"));
+}
+
+// Labels of a composite are numbers of classes; the sky is the scene's.
+TEST(TextureModels, ACompositePaintsTheClassesOfItsLabels) {
+  const test::Folder folder;
+  LabelMapModel map = learn_label_map(Grid<std::uint8_t>(32, 32, 0), 3);
+  CompositeModel composite{.map = map, .labels = {{"0", meadow()}, {"7", meadow()}, {"10", meadow()}}, .transition = {}, .crop_hash = "a"};
+  test::write_bytes(folder / "m.composite", composite_text(composite));
+  composite.labels[1].name = "#00ff00";
+  test::write_bytes(folder / "drawn.composite", composite_text(composite));
+  const auto read = [&](const std::string& block) {
+    return read_texture_models(test::small_scene({"exemplar.0=" + block}, folder.path()));
+  };
+  const std::vector<SceneTextureModel> all = read("{ model = \"m.composite\" }");
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].serves, std::vector{rock});
+  EXPECT_EQ(all[1].serves, std::vector{pasture});
+  EXPECT_EQ(all[1].name, "m.composite (pasture)");
+  EXPECT_EQ(all[1].model.crop_hash, meadow().crop_hash);
+  const std::vector<SceneTextureModel> one = read("{ model = \"m.composite\", serves = [\"pasture\"] }");
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_EQ(one[0].serves, std::vector{pasture});
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { read("{ model = \"drawn.composite\" }"); }), HasSubstr("#00ff00"));
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "tests/texture/composite/composite_crops.h"
+#include "texture/composite/composite_figures.h"
 #include "texture/composite/make_label_map.h"
+#include "texture/statistical/learn_texture.h"
 
 namespace belvedere {
 namespace {
@@ -34,6 +36,15 @@ TEST(MakeComposite, EveryLabelHasItsOwnTexture) {
   int wrong = 0;
   for (std::size_t i = 0; i < made.size(); ++i) wrong += zone[i] == 0 && is_green(made[i]) != (labels[i] == 0) ? 1 : 0;
   EXPECT_LE(wrong, 5);  // of ten thousand, at the tails of greens
+}
+
+// The negative control of the published composite: one texture of everything has no top and bottom.
+TEST(MakeComposite, KeepsTheLayoutThatOneTextureLoses) {
+  const test::Composite crop = test::two_textures(200, 150);
+  const CliqueModel single = learn_texture(crop.picture, {}, test::quick_learning().learn).model;
+  const double one = layout_figures(crop.picture, make_texture(single, 200, 150, quick)).profile;
+  const double composite = layout_figures(crop.picture, make_composite(model(), crop.labels, quick)).profile;
+  EXPECT_LT(composite, .75 * one) << one;
 }
 
 TEST(MakeComposite, TheTransitionChangesBordersAlone) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/cache/content_hash.h"
 #include "base/error.h"
 #include "base/grid_part.h"
 #include "tests/texture/statistical/texture_crops.h"
@@ -48,6 +49,31 @@ TEST(MakeWindow, OverlappingWindowsHaveTheSamePixels) {
        {PixelRect{-5, endless_tile_px - 3, 20, endless_tile_px + 9}, PixelRect{0, endless_tile_px, 1, endless_tile_px + 1},
         PixelRect{-40, endless_tile_px - 60, -1, endless_tile_px - 2}})
     EXPECT_EQ(make_window(meadow_model(), record, rect, parameters), part_of(all, moved(rect, -whole.x0, -whole.y0)));
+}
+
+// Four tiles in windows of two shapes and orders, on different threads, put together: one hash. The same over 8192² stands in
+// docs/textures.md.
+TEST(MakeWindow, AnyOrderOfWindowsHasOneHash) {
+  const TextureParameters parameters{.rounds = 4, .sweeps = 1};
+  const TextureRecord record = record_texture(meadow_model(), parameters);
+  constexpr int side = endless_tile_px + 40;
+  const auto hash = [&](int first_x, int first_y, int width, int height, bool backwards, int threads) {
+    const ThreadLimit limit(threads);
+    std::vector<PixelRect> windows;
+    for (int y = first_y; y < side; y += height)
+      for (int x = first_x; x < side; x += width)
+        windows.push_back({std::max(0, x), std::max(0, y), std::min(side, x + width), std::min(side, y + height)});
+    if (backwards) std::reverse(windows.begin(), windows.end());
+    Grid<Rgb8> all(side, side);
+    for (const PixelRect& window : windows) {
+      const Grid<Rgb8> made = make_window(meadow_model(), record, window, parameters);
+      for (int y = 0; y < window.height(); ++y) std::copy_n(made.row(y), window.width(), all.row(window.y0 + y) + window.x0);
+    }
+    ContentHash of;
+    of.add(all.data(), all.size() * sizeof(Rgb8));
+    return of.digits();
+  };
+  EXPECT_EQ(hash(0, 0, endless_tile_px, side, false, 1), hash(-300, 0, 700, endless_tile_px, true, 3));
 }
 
 // Tiles meet without a seam: steps across their border are as large as elsewhere.

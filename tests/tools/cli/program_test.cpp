@@ -65,7 +65,7 @@ TEST(ProgramDescription, TellsOfOptionsWhatTheirValuesMayBe) {
   EXPECT_EQ(option(render, "--data").value, "DIR");
   EXPECT_FALSE(option(render, "--out").required);
   const CommandDescription& synthesize = find(program, "synthesize");
-  EXPECT_THAT(option(synthesize, "--harmonize").choices, ElementsAre("off", "common", "first"));
+  EXPECT_THAT(option(synthesize, "--harmonize").choices, ElementsAre("off", "common", "first", "regions"));
   EXPECT_EQ(option(synthesize, "--label").value, "STYLE TARGET");
   EXPECT_TRUE(option(synthesize, "--out").required);
   // A colon may be part of what stands for a value.

@@ -63,9 +63,9 @@ TEST_F(BashCompletion, CompletesOptionsOfTheCommandThatStandsThere) {
 }
 
 TEST_F(BashCompletion, CompletesValues) {
-  EXPECT_THAT(completed("synthesize --harmonize \"\""), UnorderedElementsAre("off", "common", "first"));
+  EXPECT_THAT(completed("synthesize --harmonize \"\""), UnorderedElementsAre("off", "common", "first", "regions"));
   EXPECT_THAT(completed("synthesize --harmonize = c"), ElementsAre("common"));
-  EXPECT_THAT(completed("synthesize --harmonize ="), UnorderedElementsAre("off", "common", "first"));
+  EXPECT_THAT(completed("synthesize --harmonize ="), UnorderedElementsAre("off", "common", "first", "regions"));
   EXPECT_THAT(completed("generalize --preset b"), ElementsAre("bold_ridges"));
   EXPECT_THAT(completed("completion z"), ElementsAre("zsh"));
   EXPECT_THAT(completed("render --threads \"\""), IsEmpty());

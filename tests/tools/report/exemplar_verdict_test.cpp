@@ -59,6 +59,17 @@ TEST(ExemplarVerdict, SaysWhatServesAndWhatIsEnough) {
   EXPECT_THAT(describe_demand(demand), HasSubstr("only 89 % of its pixels"));
 }
 
+TEST(ExemplarVerdict, TextureModelsAreNamedWithWhatTheyPaint) {
+  ExemplarFindings found = findings();
+  EXPECT_THAT(findings_json(found), Not(HasSubstr("models")));
+  found.models.push_back({.name = "meadow.model", .labels = {10, 6}, .always = false});
+  found.models.push_back({.name = "lake.model", .labels = {1}, .always = true});
+  EXPECT_THAT(findings_text(found),
+              AllOf(HasSubstr("meadow.model: a texture model, without texels; paints class 10, class 6 where paintings have no texels"),
+                    HasSubstr("lake.model: a texture model, without texels; paints class 1\n")));
+  EXPECT_THAT(findings_json(found), AllOf(HasSubstr("\"lake.model\""), HasSubstr("\"always\": true")));
+}
+
 TEST(ExemplarVerdict, TextAndJsonTellTheSame) {
   ExemplarFindings all = findings();
   ExemplarSurvey survey;

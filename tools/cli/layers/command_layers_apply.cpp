@@ -17,8 +17,8 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/layers/ground_climate_options.h"
-#include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/terminal.h"
+#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {

@@ -26,9 +26,9 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/layers/ground_climate_options.h"
-#include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/terminal.h"
 #include "tools/report/layers_fit_page.h"
+#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {

@@ -3,11 +3,9 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 
 #include "base/error.h"
-#include "renderer/image/output_file.h"
 
 namespace belvedere::tools {
 
@@ -24,15 +22,6 @@ ScratchFolder::ScratchFolder() {
 ScratchFolder::~ScratchFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
-}
-
-void write_text_file(const std::string& path, const std::string& text) {
-  OutputFile file(path);
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) file.fail("");
-  file.commit();
 }
 
 }  // namespace belvedere::tools

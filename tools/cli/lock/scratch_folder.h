@@ -19,7 +19,4 @@ class ScratchFolder {
   std::string path_;
 };
 
-// Writes a small text, whole or not at all. Error(output).
-void write_text_file(const std::string& path, const std::string& text);
-
 }  // namespace belvedere::tools

@@ -21,11 +21,11 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/fetch/fetch_options.h"
 #include "tools/cli/file_names.h"
-#include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/new/contact_sheet.h"
 #include "tools/cli/new/view_options.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {

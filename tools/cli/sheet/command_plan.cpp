@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "base/error.h"
-#include "renderer/image/output_file.h"
 #include "renderer/pipeline/pipeline.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {
@@ -45,12 +45,7 @@ void write_order(const std::string& folder, const Order& order) {
   if (order.allow_http) entries["servers"] = "allowed";
   for (std::size_t i = 0; i < order.files.data_folders.size(); ++i) entries[fmt::format("data {:04}", i)] = order.files.data_folders[i];
   for (std::size_t i = 0; i < order.files.settings.size(); ++i) entries[fmt::format("set {:04}", i)] = order.files.settings[i];
-  OutputFile file(order_path(folder));
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  stream << to_text(entries);
-  stream.close();
-  if (!stream) file.fail("");
-  file.commit();
+  write_text_file(order_path(folder), to_text(entries));
 }
 
 Order read_order(const std::string& folder) {

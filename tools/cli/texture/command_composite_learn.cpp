@@ -13,12 +13,12 @@
 #include "texture/composite/make_label_map.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
-#include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/begin_options.h"
 #include "tools/cli/texture/label_pictures.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/report/report_folder.h"
+#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/json.h"
 #include "base/parallel.h"
+#include "texture/composite/composite_window.h"
 #include "texture/composite/make_composite.h"
 #include "texture/composite/make_label_map.h"
 #include "tools/cli/commands.h"
@@ -20,11 +21,22 @@ namespace {
 struct Options {
   std::string model, labels, map, out;
   std::vector<int> size;
+  std::vector<int> window;
   std::uint64_t seed = 1;
   int threads = 0;
   bool quiet = false;
   bool json = false;
 };
+
+// The window that is asked for, within the map.
+PixelRect window_of(const std::vector<int>& w, const Grid<std::uint8_t>& labels) {
+  const std::int64_t right = std::int64_t{w[0]} + w[2];
+  const std::int64_t below = std::int64_t{w[1]} + w[3];
+  if (w[0] < 0 || w[1] < 0 || w[2] < 1 || w[3] < 1 || right > labels.width() || below > labels.height())
+    throw Error(ErrorKind::usage, "--window", fmt::format("{} × {} pixels at {}, {}", w[2], w[3], w[0], w[1]),
+                fmt::format("a part of the map of {} × {} pixels", labels.width(), labels.height()));
+  return {w[0], w[1], w[0] + w[2], w[1] + w[3]};
+}
 
 int run(const Options& options) {
   if (options.size.empty() == options.labels.empty())
@@ -45,7 +57,11 @@ int run(const Options& options) {
   const Grid<std::uint8_t> labels = options.labels.empty()
                                         ? make_label_map(model.map, options.size[0], options.size[1], {.seed = options.seed}, progress)
                                         : read_drawn_labels(options.labels, names);
-  const Grid<Rgb8> made = make_composite(model, labels, parameters, progress);
+  const bool whole = options.window.empty();
+  const PixelRect window = whole ? PixelRect{} : window_of(options.window, labels);
+  const Grid<Rgb8> made =
+      whole ? make_composite(model, labels, parameters, progress)
+            : make_composite_window(model, record_composite(model, parameters, progress), labels, window, parameters, progress);
   write_texture(options.out, made, fmt::format("{} seed {}", file_name(options.model), options.seed));
   if (!options.map.empty()) write_label_picture(options.map, labels, names);
   progress.end();
@@ -74,6 +90,12 @@ Action add_composite_make(CLI::App& command) {
   command
       .add_option("--labels", options->labels, "Instead: what lies where, drawn in the colours (or numbers) that the crop's labels have")
       ->type_name("PICTURE");
+  command
+      .add_option("--window", options->window,
+                  "Only this part of the map: column, row, width and height. Windows fit together to the pixel, in any order; one of\n"
+                  "the whole map is the picture they are windows of, a little other than without --window")
+      ->expected(4)
+      ->type_name("X Y W H");
   command.add_option("--map", options->map, "Writes the labels too, in their colours: to be drawn over and given to --labels")
       ->type_name("PICTURE");
   command.add_option("--seed", options->seed, "Another seed, another picture of the same kind. Default: 1")->type_name("N");
@@ -82,7 +104,8 @@ Action add_composite_make(CLI::App& command) {
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(
       "  belvedere composite make coast.composite --size 1600 1000 --map labels.png --out another_coast.png\n"
-      "  belvedere composite make coast.composite --labels my_labels.png --out my_coast.png");
+      "  belvedere composite make coast.composite --labels my_labels.png --out my_coast.png\n"
+      "  belvedere composite make coast.composite --labels large.png --window 4096 0 2048 2048 --out piece.tif");
   return [options] { return run(*options); };
 }
 

@@ -31,13 +31,7 @@ struct Judgement {
 };
 
 Json as_json(const Judgement& judged) {
-  Json out = Json::object()
-                 .add("picture", Json::text(judged.name))
-                 .add("selected", Json::number(judged.figures.selected))
-                 .add("held_out", Json::number(judged.figures.held_out))
-                 .add("worst", Json::number(judged.figures.worst))
-                 .add("beyond", Json::number(judged.figures.beyond))
-                 .add("drawn", Json::number(judged.figures.drawn));
+  Json out = with_figures(Json::object().add("picture", Json::text(judged.name)), judged.figures);
   if (judged.copy_px >= 0) out.add("longest_copy_px", Json::number(judged.copy_px));
   return out;
 }

@@ -60,8 +60,9 @@ int run(const Options& options) {
     const int seam = joined.width();
     Grid<Rgb8> knitted = knit_textures(joined, next, options.knit, progress);
     const int band = options.knit.band_px;
-    const double hard = seam_ratio(abutted(joined, next), seam, band);
-    const double now = seam_ratio(knitted, seam, band);
+    const int within = std::max(48, 2 * band);  // so that columns are left beside a wide band
+    const double hard = seam_ratio(abutted(joined, next), seam, band, within);
+    const double now = seam_ratio(knitted, seam, band, within);
     lines += fmt::format("  seam at {} px: {:.2f} times the steps inside, {:.2f} before\n", seam, now, hard);
     told.add(Json::object().add("at_px", Json::number(seam)).add("before", Json::number(hard)).add("knitted", Json::number(now)));
     joined = std::move(knitted);

@@ -13,11 +13,11 @@
 #include "texture/statistical/texture_figures.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
-#include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/begin_options.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/report/report_folder.h"
+#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {
@@ -83,14 +83,6 @@ std::string as_text(const Options& options, const Findings& found) {
 
 std::string as_json(const Options& options, const Findings& found) {
   const CliqueModel& model = found.learned.model;
-  const auto figures = [](const TextureFigures& f) {
-    return Json::object()
-        .add("selected", Json::number(f.selected))
-        .add("held_out", Json::number(f.held_out))
-        .add("worst", Json::number(f.worst))
-        .add("beyond", Json::number(f.beyond))
-        .add("drawn", Json::number(f.drawn));
-  };
   Json trials = Json::array();
   for (const SeedTrial& t : found.trials)
     trials.add(Json::object()
@@ -106,8 +98,8 @@ std::string as_json(const Options& options, const Findings& found) {
              .add("seed", Json::text(name_of(model.seed)))
              .add("seed_px", Json::number(model.seed_px))
              .add("polish", Json::boolean(model.polish))
-             .add("figures", figures(found.figures))
-             .add("halves", figures(found.halves))
+             .add("figures", with_figures(Json::object(), found.figures))
+             .add("halves", with_figures(Json::object(), found.halves))
              .add("longest_copy_px", Json::number(found.copy_px))
              .add("trials", std::move(trials))
              .str() +

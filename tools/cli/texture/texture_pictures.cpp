@@ -71,4 +71,13 @@ void write_encoded_texture(const std::string& path, const Grid<glm::vec3>& pictu
     write_tiff16(path, picture, options);
 }
 
+Json with_figures(Json object, const TextureFigures& figures) {
+  object.add("selected", Json::number(figures.selected))
+      .add("held_out", Json::number(figures.held_out))
+      .add("worst", Json::number(figures.worst))
+      .add("beyond", Json::number(figures.beyond))
+      .add("drawn", Json::number(figures.drawn));
+  return object;
+}
+
 }  // namespace belvedere::tools

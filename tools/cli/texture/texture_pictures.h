@@ -5,6 +5,8 @@
 #include <string>
 
 #include "base/grid.h"
+#include "base/json.h"
+#include "texture/statistical/texture_figures.h"
 #include "texture/synthesis/exemplar.h"
 
 namespace belvedere::tools {
@@ -31,5 +33,8 @@ void write_texture(const std::string& path, const Grid<Rgb8>& picture, const std
 void write_encoded_texture(const std::string& path, const Grid<glm::vec3>& picture, const std::string& note);
 // Throws what write_texture would for the name, before any work.
 void check_texture_name(const std::string& path);
+
+// Adds the five distances to what is told as JSON.
+Json with_figures(Json object, const TextureFigures& figures);
 
 }  // namespace belvedere::tools

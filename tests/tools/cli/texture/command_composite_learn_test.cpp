@@ -50,6 +50,12 @@ TEST_F(Composite, IsLearntMadeAndDrawn) {
   EXPECT_NE(one, make("other.png", {"--size", "90", "70", "--seed", "4"}));
   // The map that was written is a drawing that gives the same picture.
   EXPECT_EQ(one, make("drawn.png", {"--labels", path("map.png")}));
+  // Windows are parts of what a window of everything is.
+  const Grid<glm::vec3> all = make("all.png", {"--labels", path("map.png"), "--window", "0", "0", "90", "70"});
+  const Grid<glm::vec3> part = make("part.png", {"--labels", path("map.png"), "--window", "20", "30", "40", "25", "--threads", "2"});
+  ASSERT_EQ(part.width(), 40);
+  for (int y = 0; y < 25; ++y)
+    for (int x = 0; x < 40; ++x) ASSERT_EQ(part(x, y), all(20 + x, 30 + y));
   const Grid<glm::vec3> map = read_picture(path("map.png"));
   EXPECT_EQ(map(45, 2), glm::vec3(0.F, 0.F, 1.F));
   EXPECT_EQ(map(45, 67), glm::vec3(1.F, 1.F, 0.F));
@@ -65,6 +71,7 @@ TEST_F(Composite, IsLearntMadeAndDrawn) {
   refused({path("c.composite"), "--out", path("x.png")}, 2, "neither --size nor --labels");
   refused({path("c.composite"), "--size", "9", "9", "--labels", red, "--out", path("x.png")}, 2, "both");
   refused({path("c.composite"), "--size", "9", "9", "--map", path("m.tif"), "--out", path("x.png")}, 2, ".png");
+  refused({path("c.composite"), "--size", "90", "70", "--window", "80", "0", "20", "9", "--out", path("x.png")}, 2, "90 × 70");
   refused({path("gone.composite"), "--size", "9", "9", "--out", path("x.png")}, 3, "gone.composite");
   refused({write("m.composite", "belvedere_texture = 1\n"), "--size", "9", "9", "--out", path("x.png")}, 2, "no composite");
 }

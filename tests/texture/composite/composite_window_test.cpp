@@ -1,0 +1,68 @@
+#include "texture/composite/composite_window.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/grid_part.h"
+#include "tests/texture/composite/composite_crops.h"
+
+namespace belvedere {
+namespace {
+
+const CompositeModel& model() {
+  static const CompositeModel m = learn_composite(test::two_textures(200, 150).crop(), test::quick_learning());
+  return m;
+}
+
+const TextureParameters quick{.rounds = 6, .sweeps = 2};
+
+const CompositeRecord& record() {
+  static const CompositeRecord r = record_composite(model(), quick);
+  return r;
+}
+
+// Discs on a ground, over four tiles.
+Grid<std::uint8_t> drawn() {
+  Grid<std::uint8_t> labels(560, 530);
+  for (int y = 0; y < labels.height(); ++y)
+    for (int x = 0; x < labels.width(); ++x) {
+      const int u = x % 160 - 80;
+      const int v = y % 140 - 70;
+      labels(x, y) = u * u + v * v < 2500 ? 1 : 0;
+    }
+  return labels;
+}
+
+bool is_green(const Rgb8& c) { return c[1] > c[2] + 25; }
+
+TEST(CompositeWindow, AnyWindowIsAPartOfTheWhole) {
+  const Grid<std::uint8_t> labels = drawn();
+  const Grid<Rgb8> whole = make_composite_window(model(), record(), labels, {0, 0, 560, 530}, quick);
+  const ThreadLimit threads(3);
+  for (const PixelRect window : {PixelRect{480, 490, 560, 530}, PixelRect{500, 0, 530, 40}})
+    EXPECT_EQ(make_composite_window(model(), record(), labels, window, quick), part_of(whole, window));
+  // Each label in its texture.
+  const Grid<std::uint8_t> zone = near_borders(labels, 6);
+  int wrong = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i) wrong += zone[i] == 0 && is_green(whole[i]) != (labels[i] == 0) ? 1 : 0;
+  EXPECT_LT(wrong, static_cast<int>(whole.size() / 500));
+  // No step where tiles meet: that of one column is as that of those beside it.
+  const auto step = [&](int x) {
+    double sum = 0.0;
+    for (int y = 0; y < 140; ++y)
+      for (std::size_t c = 0; c < 3; ++c) sum += std::abs(whole(x, y)[c] - whole(x - 1, y)[c]);
+    return sum;
+  };
+  double around = 0.0;
+  for (const int x : {504, 506, 508, 510, 514, 516, 518, 520}) around += step(x) / 8.0;
+  EXPECT_LT(step(512), 1.25 * around);
+}
+
+TEST(CompositeWindow, RefusesWhatIsBeyondTheMap) {
+  EXPECT_THROW(make_composite_window(model(), record(), drawn(), {500, 0, 600, 40}, quick), Error);
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,67 @@
+#include "texture/composite/knit_seam.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "base/error.h"
+#include "texture/composite/make_composite.h"
+#include "texture/statistical/learn_texture.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int between_px = 16;  // between two samples on the picture that is learnt from: more than a clique reaches
+// A band of six pixels has no coarse pixels of its own: what is farther than these levels reach says nothing of it.
+constexpr int seam_levels = 1;
+constexpr int seam_types = 24;
+constexpr int seam_rounds = 12;
+constexpr int seam_sweeps = 12;
+
+}  // namespace
+
+std::optional<CliqueModel> learn_seam(const SeamSample& one, const SeamSample& other) {
+  const int width = one.picture.width() + between_px + other.picture.width();
+  Grid<Rgb8> both(width, std::max(one.picture.height(), other.picture.height()));
+  Grid<std::uint8_t> states(both.width(), both.height());
+  std::size_t counted = 0;
+  bool varied = false;
+  const auto lay = [&](const SeamSample& sample, int left) {
+    for (int y = 0; y < sample.picture.height(); ++y)
+      for (int x = 0; x < sample.picture.width(); ++x) {
+        both(left + x, y) = sample.picture(x, y);
+        if (sample.counts(x, y) == 0) continue;
+        states(left + x, y) = pixel_free;
+        ++counted;
+        varied |= x > 0 && sample.counts(x - 1, y) != 0 && sample.picture(x - 1, y) != sample.picture(x, y);
+      }
+  };
+  lay(one, 0);
+  lay(other, one.picture.width() + between_px);
+  constexpr std::size_t least = std::size_t{least_crop_px} * least_crop_px;
+  if (counted < least || !varied || both.height() < least_crop_px) return std::nullopt;
+  LearnParameters learning;
+  learning.types = seam_types;
+  learning.levels = seam_levels;
+  return learn_texture(both, states, learning).model;
+}
+
+Grid<Rgb8> knit_seam(const Grid<Rgb8>& picture, const SeamZone& zone, TexturePlace place, const CliqueModel& model, std::uint64_t seed) {
+  if (!zone.side.same_size(picture)) throw Error(ErrorKind::bug, "knit_seam", "picture and sides have different sizes");
+  TextureParameters making;
+  making.seed = seed;
+  making.rounds = seam_rounds;
+  making.sweeps = seam_sweeps;
+  making.polish_from = 0;
+  Grid<Rgb8> out = fill_among(picture, zone.hole, zone.side, place, model, making);
+  // Pixels of neither side stand in the zone as well, so that their colours are nobody's; they stay as they are.
+  Grid<std::uint8_t> remade = zone.hole;
+  for (std::size_t i = 0; i < remade.size(); ++i)
+    if (zone.side[i] == 0) remade[i] = 1;
+  Grid<Rgb8> snapped = out;
+  snap_colours(snapped, zone.side, remade, seam_half_px);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (zone.hole[i] != 0) out[i] = snapped[i];
+  return out;
+}
+
+}  // namespace belvedere
