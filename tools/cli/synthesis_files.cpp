@@ -7,7 +7,6 @@
 #include <glm/vec2.hpp>
 #include <map>
 #include <optional>
-#include <sstream>
 
 #include "base/error.h"
 #include "renderer/exemplar/harmonize.h"

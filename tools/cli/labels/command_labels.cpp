@@ -18,9 +18,9 @@
 #include "terrain/shape/summits.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
-#include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {
