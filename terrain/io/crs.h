@@ -29,8 +29,8 @@ CrsTraits crs_traits(const std::string& crs);
 bool same_crs(const std::string& a, const std::string& b);
 // WGS 84 / UTM, or the polar stereographic CRS beyond 84° of latitude.
 std::string utm_crs(glm::dvec2 lon_lat);
-// Words for a place that lies far from where its CRS is meant for, by 6° of longitude or 3° of latitude and more: "51° N 118° W, far from where …
-// is used". A CRS that is not the data's own is found so. Empty where nothing is to be said, or the CRS says no area.
+// Words for a place that lies far from where its CRS is meant for, by 6° of longitude or 3° of latitude and more: "51° N 118° W, far from
+// where … is used". A CRS that is not the data's own is found so. Empty where nothing is to be said, or the CRS says no area.
 std::string doubt_of_place(const std::string& crs, glm::dvec2 point);
 // How many metres of the CRS are one metre of ground at a point (of that CRS): 1.47 for Web Mercator at 47° N.
 double scale_of_crs(const std::string& crs, glm::dvec2 point);
