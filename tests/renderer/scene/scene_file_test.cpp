@@ -284,7 +284,8 @@ TEST(SceneFile, WrittenScenesReadBack) {
         "[generalize]\nforeground = [0.9, 1.1, 0.333333]\nbackground = [0.1, 0.2, 0.7]\n[sun]\ntime = \"2024-06-21T17:30:00Z\"\n"
         "[[exemplar]]\nmodel = \"m.model\"\nserves = [\"rock\"]\nprefer = \"model\"\n"
         "[[exemplar]]\nseed = 4\n[[exemplar]]\npicture = \"p.png\"\nclasses = \"c.png\"\nlicence = \"x\\ty\\nz\"\n"
-        "[synthesis]\nweights = { tone = 3.3 }\nfallback = { shrub = \"forest\", scree = \"rock\" }\n"}) {
+        "[synthesis]\nweights = { tone = 3.3 }\nfallback = { shrub = \"forest\", scree = \"rock\" }\nunlikeness = { \"forest/shrub\" = 0.3 "
+        "}\n"}) {
     const Scene scene = scene_of(text);
     const std::string written = write_scene(scene);
     const Scene again = parse_scene(written, "again.toml", ".", {}).scene;
@@ -337,7 +338,15 @@ TEST(SceneFile, ScenesOfTheProgramAreRead) {
     if (entry.path().extension() != ".toml") continue;
     const LoadedScene scene = read_scene(entry.path().string(), {});
     EXPECT_FALSE(scene.scene.title.empty()) << entry.path();
-    ASSERT_FALSE(scene.scene.terrain.sources.empty()) << entry.path();
+    ASSERT_TRUE(!scene.scene.terrain.sources.empty() || scene.scene.terrain.synthetic) << entry.path();
+    for (const SceneExemplar& exemplar : scene.scene.exemplars) {
+      if (exemplar.picture.empty()) continue;
+      EXPECT_FALSE(exemplar.origin.empty()) << entry.path();
+      EXPECT_FALSE(exemplar.licence.empty()) << entry.path();
+      EXPECT_FALSE(exemplar.get_from.empty()) << entry.path();
+      // Their masks lie beside them, or with a picture that is not asked for.
+      EXPECT_TRUE(exemplar.optional || fs::exists(entry.path().parent_path() / exemplar.classes)) << exemplar.classes;
+    }
     for (const auto& source : scene.scene.terrain.sources) {
       EXPECT_FALSE(source.origin.empty()) << entry.path();
       EXPECT_FALSE(source.licence.empty()) << entry.path();
@@ -345,8 +354,8 @@ TEST(SceneFile, ScenesOfTheProgramAreRead) {
     }
     titles.push_back(scene.scene.title);
   }
-  EXPECT_THAT(titles, testing::UnorderedElementsAre("Glacier National Park, Selkirks", "Karwendel", "Lolo Peak", "Mount Rainier",
-                                                    "Zion Canyon", "Ötztal Alps"));
+  EXPECT_THAT(titles, testing::UnorderedElementsAre("Glacier National Park, Selkirks", "Karwendel", "Karwendel after Segantini",
+                                                    "Lolo Peak", "Mountains after Monet", "Mount Rainier", "Zion Canyon", "Ötztal Alps"));
 }
 
 }  // namespace
