@@ -24,7 +24,7 @@ install(FILES ${share}/man.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 RENAME bel
 install(FILES ${share}/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME belvedere COMPONENT program)
 install(FILES ${share}/completion.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d RENAME belvedere.fish COMPONENT program)
 install(FILES ${share}/completion.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions RENAME _belvedere COMPONENT program)
-install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/belvedere COMPONENT program FILES_MATCHING PATTERN "*.toml" REGEX "/masks/[^/]*[.]png$")
+install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/belvedere COMPONENT program FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" REGEX "/masks/[^/]*[.]png$")
 install(FILES docs/scene.md docs/scene.schema.json README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
 
@@ -35,7 +35,7 @@ install(TARGETS belvedere_base belvedere_terrain belvedere_texture belvedere_ren
 install(EXPORT belvedere NAMESPACE belvedere:: FILE belvedereTargets.cmake DESTINATION ${package_folder} COMPONENT development)
 # As in the project: #include "terrain/io/dem.h". A folder's headers for itself alone are not among them.
 install(DIRECTORY base terrain texture renderer DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/belvedere COMPONENT development
-  FILES_MATCHING PATTERN "*.h" PATTERN gdal_files.h EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" PATTERN gdal_files.h EXCLUDE PATTERN vector_layers.h EXCLUDE)
 configure_package_config_file(cmake/belvedereConfig.cmake.in belvedereConfig.cmake INSTALL_DESTINATION ${package_folder})
 # Until 1.0 every minor version may change interfaces.
 write_basic_package_version_file(belvedereConfigVersion.cmake COMPATIBILITY SameMinorVersion)

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <string>
 
@@ -64,14 +66,19 @@ TEST(SynthesisMemory, SlopeStaysUnderTheBound) {
     bool with_depth = false;
   };
   for (const Case c : {Case{1, false}, Case{6, true}}) {
-    const double small = static_cast<double>(peak_of(256, 256, c.guides, c.with_depth));
-    const double large = static_cast<double>(peak_of(640, 512, c.guides, c.with_depth));
-    const double slope = (large - small) / (640.0 * 512.0 - 256.0 * 256.0);
+    // Of three: what threads hold at a moment differs by a byte a pixel and more.
+    std::array<double, 3> slopes{};
+    for (double& measured : slopes) {
+      const double small = static_cast<double>(peak_of(256, 256, c.guides, c.with_depth));
+      const double large = static_cast<double>(peak_of(640, 512, c.guides, c.with_depth));
+      measured = (large - small) / (640.0 * 512.0 - 256.0 * 256.0);
+    }
+    std::sort(slopes.begin(), slopes.end());
+    const double slope = slopes[1];
     RecordProperty("bytes_per_pixel_x100_" + std::to_string(c.guides), static_cast<int>(100 * slope));
-    // Promised are 32 and 40 bytes. In a process of its own, as ctest runs it, 16.7 … 17.5 and 28.0 … 29.6 were measured: there the bound
-    // is so tight that a further array of 4 bytes a pixel shows. What other tests left in the heap blurs that by up to 4 bytes.
-    const testing::UnitTest& tests = *testing::UnitTest::GetInstance();
-    const bool alone = tests.successful_test_count() + tests.failed_test_count() == 0;
+    // Promised are 32 and 40 bytes. In a process of its own, as ctest runs it, 14.6 … 17.5 and 28.0 … 30.9 were measured, one by one: there
+    // the bound is so tight that a further array of 4 bytes a pixel shows. What other tests left in the heap blurs that by up to 4 bytes.
+    const bool alone = testing::UnitTest::GetInstance()->test_to_run_count() == 1;
     EXPECT_LE(slope, alone ? (c.guides == 1 ? 19.0 : 31.0) : (c.guides == 1 ? 32.0 : 40.0)) << c.guides << " guides";
     EXPECT_GE(slope, 12.0) << "nothing was measured";
     const auto estimate = [&](std::size_t pixels) { return static_cast<double>(synthesis_bytes(0, pixels, c.guides, c.with_depth)); };
