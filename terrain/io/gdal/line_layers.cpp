@@ -60,7 +60,7 @@ void read_layer(OGRLayerH layer, const std::string& path, const std::string& crs
 }  // namespace
 
 std::vector<MapLine> read_lines(const std::string& path, const std::string& crs) {
-  if (crs.empty()) throw Error(ErrorKind::usage, path, "the terrain has no CRS", "terrain that says its CRS: terrain.crs");
+  if (crs.empty()) throw Error(ErrorKind::usage, path, "the terrain has no CRS", "terrain that says its CRS");
   const std::string allowed = ".gpx, .gpkg, .geojson, .json, .shp or .fgb";
   const Dataset file = open_vector_layers(path, {".gpx", ".gpkg", ".geojson", ".json", ".shp", ".fgb"}, "is no file of lines", allowed);
   const GdalErrors errors;
