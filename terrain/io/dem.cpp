@@ -101,6 +101,17 @@ Dem make_dem(Raster<float> raster) {
   return dem;
 }
 
+namespace {
+
+// Of the middle of a file, in the system that it is said to be in.
+std::string doubt_of(const RasterSource& source) {
+  const RasterInfo info = read_raster_info(source);
+  const std::string& crs = source.crs.empty() ? info.crs : source.crs;
+  return crs.empty() ? std::string() : doubt_of_place(crs, info.transform.to_crs(.5 * (info.width - 1), .5 * (info.height - 1)));
+}
+
+}  // namespace
+
 Dem read_dem(const DemParameters& parameters, Progress& progress) {
   const double cell_m = parameters.cell_m;
   if (cell_m != 0.0 && !(cell_m >= 0.1 && cell_m <= 10000.0))
@@ -129,11 +140,9 @@ Dem read_dem(const DemParameters& parameters, Progress& progress) {
     progress.note(
         fmt::format("{}: altitudes from {:.0f} to {:.0f} m, higher than any mountain: is the unit feet? (`unit`)", where, *low, *high));
   }
-  if (!dem.crs.empty()) {
-    const glm::dvec2 middle = dem.transform.to_crs(.5 * (dem.width() - 1), .5 * (dem.height() - 1));
-    if (const std::string doubt = doubt_of_place(dem.crs, middle); !doubt.empty())
-      progress.note(fmt::format("{}: lies at {}: is that its coordinate system? (`crs`)", where, doubt));
-  }
+  for (const RasterSource& source : parameters.sources)
+    if (const std::string doubt = doubt_of(source); !doubt.empty())
+      progress.note(fmt::format("{}: lies at {}: is that its coordinate system? (`crs`)", source.path, doubt));
   return dem;
 }
 

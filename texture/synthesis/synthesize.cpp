@@ -42,14 +42,14 @@ MatchField synthesize(const std::vector<Exemplar>& exemplars, const GuideStack& 
 std::size_t synthesis_bytes(std::size_t texels, std::size_t pixels, int guides, bool with_depth) {
   // Per texel: word and guides with a third more of the coarser levels, its record and its list entry (synth_texels.h, synth_lists.h),
   // and what these are made from: bin and contrast or surroundings.
-  // Per pixel at the start of the finest level: word and guides, match, every fourth's next, pieces, surroundings, silhouettes, and a
-  // quarter of what the level above holds of words, guides and matches; later, instead, what pieces moved as a whole take. The result
-  // (6) comes when all but the matches is gone.
+  // Per pixel at the start of the finest level: word and guides, match, every fourth's next, pieces, surroundings (as they are and by
+  // shares), silhouettes, and a quarter of what the level above holds of words, guides and matches; later, instead, what pieces moved as a
+  // whole take. The result (6) comes when all but the matches is gone.
   const std::size_t g = static_cast<std::size_t>(guides);
   const std::size_t record = g <= 1 ? 8 : 8 + (g + 6) / 8 * 8;
   const std::size_t entry = 4 + (10 + g + 3) / 4 * 4;
   const std::size_t per_texel = (4 + g) * 4 / 3 + 1 + record + entry + 5;
-  const std::size_t per_pixel = 4 + g + 4 + 1 + 6 + 2 + (8 + g) / 4 + 3 + (with_depth ? 2 : 0);
+  const std::size_t per_pixel = 4 + g + 4 + 1 + 6 + 4 + (8 + g) / 4 + 3 + (with_depth ? 2 : 0);
   return texels * per_texel + pixels * per_pixel + (std::size_t{32} << 20);
 }
 

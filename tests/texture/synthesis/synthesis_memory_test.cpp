@@ -66,7 +66,8 @@ TEST(SynthesisMemory, SlopeStaysUnderTheBound) {
     bool with_depth = false;
   };
   for (const Case c : {Case{1, false}, Case{6, true}}) {
-    // Of three: what threads hold at a moment differs by a byte a pixel and more.
+    // Of three, after one that makes what stays: threads, tables. What threads hold at a moment differs by a byte a pixel.
+    peak_of(256, 256, c.guides, c.with_depth);
     std::array<double, 3> slopes{};
     for (double& measured : slopes) {
       const double small = static_cast<double>(peak_of(256, 256, c.guides, c.with_depth));
@@ -76,10 +77,10 @@ TEST(SynthesisMemory, SlopeStaysUnderTheBound) {
     std::sort(slopes.begin(), slopes.end());
     const double slope = slopes[1];
     RecordProperty("bytes_per_pixel_x100_" + std::to_string(c.guides), static_cast<int>(100 * slope));
-    // Promised are 32 and 40 bytes. In a process of its own, as ctest runs it, 14.6 … 17.5 and 28.0 … 30.9 were measured, one by one: there
-    // the bound is so tight that a further array of 4 bytes a pixel shows. What other tests left in the heap blurs that by up to 4 bytes.
+    // Promised are 32 and 40 bytes. In a process of its own, as ctest runs it, 20.8 and 30.2 … 31.0 were measured: there the bound is so
+    // tight that a further array of 4 bytes a pixel shows. What other tests left in the heap blurs that by up to 4 bytes.
     const bool alone = testing::UnitTest::GetInstance()->test_to_run_count() == 1;
-    EXPECT_LE(slope, alone ? (c.guides == 1 ? 19.0 : 31.0) : (c.guides == 1 ? 32.0 : 40.0)) << c.guides << " guides";
+    EXPECT_LE(slope, alone ? (c.guides == 1 ? 22.0 : 32.0) : (c.guides == 1 ? 32.0 : 40.0)) << c.guides << " guides";
     EXPECT_GE(slope, 12.0) << "nothing was measured";
     const auto estimate = [&](std::size_t pixels) { return static_cast<double>(synthesis_bytes(0, pixels, c.guides, c.with_depth)); };
     EXPECT_LE(slope, (estimate(2000000) - estimate(1000000)) / 1e6) << "synthesis_bytes says too little";
