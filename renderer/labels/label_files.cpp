@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/json.h"
-#include "renderer/labels/svg_text.h"
+#include "base/text/markup.h"
 #include "terrain/io/crs.h"
 
 namespace belvedere {
@@ -45,7 +45,7 @@ std::string label_svg(const LabelSheet& sheet, const Label& label) {
                        sheet.style.leader, px(sheet.style.leader_mm * sheet.px_per_mm));
   if (const std::string mark = mark_svg(kind, label.mark.pixel, kind.mark_mm * sheet.px_per_mm); !mark.empty()) out += "    " + mark + '\n';
   out += fmt::format("    <text x=\"{}\" y=\"{}\">{}</text>\n", px(.5 * (box.left + box.right)), px(box.top + label.room.up_px),
-                     svg_text(label.text));
+                     markup_text(label.text));
   return out;
 }
 
@@ -105,7 +105,7 @@ std::string labels_svg(const LabelSheet& sheet, const std::string& under) {
       sheet.sheet_width_mm, height_mm, sheet.size_px.x, sheet.size_px.y);
   if (!under.empty())
     out += fmt::format("  <image xlink:href=\"{}\" x=\"0\" y=\"0\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\"/>\n",
-                       svg_text(under), sheet.size_px.x, sheet.size_px.y);
+                       markup_text(under), sheet.size_px.x, sheet.size_px.y);
   out += tracks_svg(sheet);
   for (std::size_t k = 0; k < sheet.style.kinds.size(); ++k) {
     const LabelKindStyle& kind = sheet.style.kinds[k];
@@ -118,10 +118,10 @@ std::string labels_svg(const LabelSheet& sheet, const std::string& under) {
     out += fmt::format(
         "  <g id=\"{}\" fill=\"{}\" font-family=\"{}\" font-size=\"{}px\"{}{}{} text-anchor=\"middle\">\n"
         "  <style>#{} text {{ paint-order: stroke; stroke: {}; stroke-width: {}px; stroke-linejoin: round; }}</style>\n",
-        svg_text(kind.name), kind.colour, svg_text(kind.family), px(type.size_px), kind.bold ? " font-weight=\"bold\"" : "",
+        markup_text(kind.name), kind.colour, markup_text(kind.family), px(type.size_px), kind.bold ? " font-weight=\"bold\"" : "",
         kind.italic ? " font-style=\"italic\"" : "",
-        kind.spacing > 0.0 ? fmt::format(" letter-spacing=\"{}px\"", px(kind.spacing * type.size_px)) : "", svg_text(kind.name), kind.halo,
-        px(2.0 * kind.halo_mm * sheet.px_per_mm));
+        kind.spacing > 0.0 ? fmt::format(" letter-spacing=\"{}px\"", px(kind.spacing * type.size_px)) : "", markup_text(kind.name),
+        kind.halo, px(2.0 * kind.halo_mm * sheet.px_per_mm));
     out += group + "  </g>\n";
   }
   return out + "</svg>\n";

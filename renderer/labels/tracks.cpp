@@ -9,7 +9,7 @@
 
 #include "base/filter.h"
 #include "base/parallel.h"
-#include "renderer/labels/svg_text.h"
+#include "base/text/markup.h"
 
 namespace belvedere {
 namespace {
@@ -175,8 +175,8 @@ std::string profile_svg(const Track& track, const std::string& colour) {
   const auto x = [&](double distance_m) { return left + (width - left - right) * distance_m / std::max(1.0, track.length_m); };
   const auto y = [&](double altitude_m) { return height - bottom - (height - top - bottom) * (altitude_m - from_m) / (to_m - from_m); };
   out += fmt::format("<text x=\"{}\" y=\"5\" font-size=\"3.2\">{}</text>\n", left,
-                     svg_text(fmt::format("{}{:.1f} km, {:.0f} m up", track.name.empty() ? "" : track.name + ": ", track.length_m / 1000.0,
-                                          track.climb_m)));
+                     markup_text(fmt::format("{}{:.1f} km, {:.0f} m up", track.name.empty() ? "" : track.name + ": ",
+                                             track.length_m / 1000.0, track.climb_m)));
   for (double z = from_m; z <= to_m + .5; z += step_m)
     out += fmt::format(
         "<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.2f}\" y2=\"{2:.2f}\" stroke=\"#c8c8c8\" stroke-width=\".15\"/><text x=\"{3}\" y=\"{4:.2f}\" "

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/markup.h"
 #include "tools/report/bitmap_text.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
@@ -127,13 +128,13 @@ class Sheet {
 
 std::string table_of(const std::vector<SweepAxis>& axes, const std::vector<Cell>& cells) {
   std::vector<std::string> head;
-  for (const SweepAxis& axis : axes) head.push_back(html_escaped(axis.name));
+  for (const SweepAxis& axis : axes) head.push_back(markup_text(axis.name));
   for (const QualityFigure& figure : key_figures(cells.front().quality))
     head.push_back(fmt::format("<span title=\"{}\">{}</span>", figure.name, figure.brief));
   std::string table = "<table>" + html_row(head, "th");
   for (const Cell& cell : cells) {
     std::vector<std::string> row;
-    for (const std::string& text : cell.texts) row.push_back(html_escaped(text));
+    for (const std::string& text : cell.texts) row.push_back(markup_text(text));
     row.front() = fmt::format("<a href=\"{}.png\">{}</a>", cell.file, row.front());
     for (const QualityFigure& figure : key_figures(cell.quality)) {
       const std::string text = fmt::format("{:.4g}", figure.value);

@@ -15,6 +15,7 @@
 #include "base/json.h"
 #include "base/pyramid.h"
 #include "base/text/base64.h"
+#include "base/text/markup.h"
 #include "terrain/generalize/foreground_share.h"
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/generalize/generalize_report.h"
@@ -349,7 +350,7 @@ void write_equalizer_page(const std::string& path, const EqualizerInput& input, 
       "<pre id=\"command\"></pre><button id=\"copy\">Copy</button></div></main>\n<script>\nconst equalizer = "
       "{2};\n</script>\n<script>\n{3}{4}{5}</script>\n"
       "</body></html>\n",
-      html_escaped(input.title), embedded_file("equalizer/equalizer.css"), script_data(input, progress),
+      markup_text(input.title), embedded_file("equalizer/equalizer.css"), script_data(input, progress),
       embedded_file("equalizer/generalize.js"), embedded_file("equalizer/lakes.js"), embedded_file("equalizer/equalizer.js"));
   write_text_file(path, text);
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/text/markup.h"
 #include "texture/quality/quality.h"
 #include "tools/report/bitmap_text.h"
 #include "tools/report/report_folder.h"
@@ -90,12 +91,12 @@ Grid<glm::vec3> coverage_chart(const Exemplar& exemplar, const ExemplarSurvey& s
 void write_exemplar_report(const std::string& folder, const std::vector<Exemplar>& exemplars, const GuideStack& asked,
                            const ExemplarFindings& findings, const std::string& command) {
   ReportFolder page(folder);
-  page.add("<section id=\"verdict\"><h2>In words</h2><pre>" + html_escaped(findings_text(findings)) + "</pre></section>");
+  page.add("<section id=\"verdict\"><h2>In words</h2><pre>" + markup_text(findings_text(findings)) + "</pre></section>");
   for (std::size_t e = 0; e < exemplars.size(); ++e) {
     const Exemplar& exemplar = exemplars[e];
     const ExemplarSurvey& survey = findings.paintings.at(e).survey;
     const std::string number = fmt::format("{}", e + 1);
-    page.begin_figure("painting_" + number, html_escaped(exemplar.name),
+    page.begin_figure("painting_" + number, markup_text(exemplar.name),
                       "The painting and its classes; what is never a source is near black.");
     page.picture("painting_" + number, reduced_picture(to_picture(exemplar.picture), map_px), "painting");
     page.picture("classes_" + number, reduced_picture(label_picture(exemplar.guides.label), map_px), "classes");
@@ -108,18 +109,18 @@ void write_exemplar_report(const std::string& folder, const std::vector<Exemplar
       const ClassSurvey& of = survey.classes[c];
       if (c > 0 && c % 6 == 0) page.next_row();
       page.picture(fmt::format("swatch_{}_{}", number, of.label), swatch(exemplar, borders, of.label),
-                   fmt::format("{}: {}", html_escaped(findings.name(of.label)), describe_service(of)));
+                   fmt::format("{}: {}", markup_text(findings.name(of.label)), describe_service(of)));
     }
     page.end_figure();
 
     for (std::size_t g = 0; g < exemplar.guides.guides.size(); ++g) {
       const Guide& guide = exemplar.guides.guides[g];
       page.begin_figure(
-          fmt::format("coverage_{}_{}", number, g + 1), "Painted at which " + html_escaped(guide.name),
+          fmt::format("coverage_{}_{}", number, g + 1), "Painted at which " + markup_text(guide.name),
           "The brighter, the more texels of the class have that value. Blue below is where the picture to be made asks for it: "
           "blue under black finds no texel of its own.");
       page.picture(fmt::format("coverage_{}_{}", number, g + 1), coverage_chart(exemplar, survey, guide, asked, findings),
-                   html_escaped(guide.name));
+                   markup_text(guide.name));
       page.end_figure();
     }
   }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/json.h"
+#include "base/text/markup.h"
 #include "terrain/layers/fit/colour_regions.h"
 #include "terrain/layers/fit/held_out.h"
 #include "terrain/layers/fit/hue_saturation.h"
@@ -142,12 +143,12 @@ void add_functions(ReportFolder& page, const KnownGround& ground, const GroundFi
       "<section id=\"functions\"><h2>Functions</h2>\n<p>Line: what the file holds, for each class and input. Grey: where the class "
       "occurs.</p>\n<table>");
   std::vector<std::string> head = {""};
-  for (const LayerInput& range : fit.ranges) head.push_back(html_escaped(range.name));
+  for (const LayerInput& range : fit.ranges) head.push_back(markup_text(range.name));
   page.add(html_row(head, "th"));
   const std::vector<std::vector<std::uint8_t>> samples = sample_indices(ground.inputs, fit.ranges);
   for (std::size_t rank = ground.classes.size(); rank-- != 0;) {
     const auto k = static_cast<std::size_t>(fit.classes.order[rank]);
-    std::vector<std::string> row = {html_escaped(ground.classes[k].name)};
+    std::vector<std::string> row = {markup_text(ground.classes[k].name)};
     double low = 0.0;
     double high = 1.0;
     if (fit.classes.model == LayerModel::additive)
@@ -201,7 +202,7 @@ void add_trace(ReportFolder& page, const LayersFitReportInput& in) {
     const float c = coverage[l][cell];
     if (program.paints[l]) colour = (1.0F - c) * colour + c * unpacked(layer.rgb);
     const bool child = layer.parent >= 0;
-    page.add(html_row({html_escaped(layer.name), child ? html_escaped(in.layers.layers[static_cast<std::size_t>(layer.parent)].name) : "",
+    page.add(html_row({markup_text(layer.name), child ? markup_text(in.layers.layers[static_cast<std::size_t>(layer.parent)].name) : "",
                        child ? fmt::format("{:.3f}", coverage[static_cast<std::size_t>(layer.parent)][cell]) : "1",
                        fmt::format("{:.3f}", c), swatch(unpacked(layer.rgb)), swatch(colour)}));
   }
@@ -279,7 +280,7 @@ void add_judgement(ReportFolder& page, const LayersFitReportInput& in, const std
       "of both over cells of either; matched: with shares scaled so that each class covers its true area.</p>\n<table>");
   page.add(html_row({"", "tiles: accuracy", "AUC", "IoU", "matched", "halves: accuracy", "AUC", "IoU", "matched"}, "th"));
   for (const Judged& one : judged) {
-    std::vector<std::string> row = {html_escaped(one.model)};
+    std::vector<std::string> row = {markup_text(one.model)};
     for (const HeldOutResult& r : one.results)
       row.insert(row.end(),
                  {number(r.measures.accuracy), number(r.measures.mean_auc), number(r.measures.mean_iou), number(r.matched.mean_iou)});
@@ -289,11 +290,11 @@ void add_judgement(ReportFolder& page, const LayersFitReportInput& in, const std
   const ClassMeasures& own = judged[1].results[0].measures;
   page.add("<h3>Class by class, as in the file, tiles</h3>\n<table>");
   std::vector<std::string> head = {"true \\ most likely"};
-  for (const FitClass& c : in.ground->classes) head.push_back(html_escaped(c.name));
+  for (const FitClass& c : in.ground->classes) head.push_back(markup_text(c.name));
   head.insert(head.end(), {"AUC", "IoU"});
   page.add(html_row(head, "th"));
   for (std::size_t k = 0; k != own.counts.size(); ++k) {
-    std::vector<std::string> row = {html_escaped(in.ground->classes[k].name)};
+    std::vector<std::string> row = {markup_text(in.ground->classes[k].name)};
     for (const std::size_t n : own.counts[k]) row.push_back(fmt::format("{}", n));
     row.insert(row.end(), {number(own.auc[k]), number(own.iou[k])});
     page.add(html_row(row));
@@ -305,7 +306,7 @@ void add_judgement(ReportFolder& page, const LayersFitReportInput& in, const std
     page.add(html_row({"", "cell", "16 cells", "32 cells", "64 cells", "halves: 32 cells", "gradient energy, of the picture's"}, "th"));
     for (const Judged& one : judged) {
       if (one.results[0].differences.empty()) continue;
-      std::vector<std::string> row = {html_escaped(one.model)};
+      std::vector<std::string> row = {markup_text(one.model)};
       for (const BlockDifference& d : one.results[0].differences) row.push_back(fmt::format("{:.2f} ({:.1f})", d.mean, d.p95));
       row.push_back(fmt::format("{:.2f} ({:.1f})", one.results[1].differences[2].mean, one.results[1].differences[2].p95));
       row.push_back(number(one.results[0].gradient_share, 2));
@@ -372,7 +373,7 @@ void write_layers_fit_report(const std::string& folder, const LayersFitReportInp
   const std::vector<glm::vec3> colours = class_colours(*input.ground, *input.fit);
   ReportFolder page(folder);
   page.add("<ul>");
-  for (const std::string& note : input.notes) page.add("<li>" + html_escaped(note) + "</li>");
+  for (const std::string& note : input.notes) page.add("<li>" + markup_text(note) + "</li>");
   page.add("</ul>");
   add_reproduction(page, input, judged[1].results[0], colours);
   add_judgement(page, input, judged);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/text/markup.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
 #include "tools/report/report_pictures.h"
@@ -26,29 +27,6 @@ std::string html_row(const std::vector<std::string>& cells, const char* tag) {
   std::string out = "<tr>";
   for (const std::string& cell : cells) out += fmt::format("<{0}>{1}</{0}>", tag, cell);
   return out + "</tr>\n";
-}
-
-std::string html_escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
 }
 
 ReportFolder::ReportFolder(std::string folder) : folder_(std::move(folder)) { check_output_folder(folder_); }
@@ -84,7 +62,7 @@ void ReportFolder::write_page(const std::string& title, const std::string& headi
   write("index.html",
         fmt::format("<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{}</title>\n<style>{}</style></head>\n"
                     "<body><h1>{}</h1>\n<p>{}</p>\n<pre>{}</pre>\n{}</body></html>\n",
-                    html_escaped(title), style, html_escaped(heading), html_escaped(lead), html_escaped(command), body_));
+                    markup_text(title), style, markup_text(heading), markup_text(lead), markup_text(command), body_));
 }
 
 void ReliefPainter::whole(const std::string& name, const Grid<float>& altitude_m, const std::string& caption) {

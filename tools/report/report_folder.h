@@ -10,9 +10,6 @@
 
 namespace belvedere::tools {
 
-// Characters that HTML means something by, as entities.
-std::string html_escaped(const std::string& text);
-
 // A row of a table; tag "td" or "th". Cells are HTML.
 std::string html_row(const std::vector<std::string>& cells, const char* tag = "td");
 

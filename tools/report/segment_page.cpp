@@ -9,6 +9,7 @@
 #include "base/json.h"
 #include "base/land_cover_class.h"
 #include "base/text/base64.h"
+#include "base/text/markup.h"
 #include "texture/segment/segment.h"
 #include "tools/report/data_uri.h"
 #include "tools/report/report_folder.h"
@@ -84,8 +85,8 @@ void write_segment_page(const std::string& path, const std::string& title, const
       "<div id=\"groups\"><table><thead><tr><th></th><th>group</th><th>share</th><th>shows</th></tr></thead><tbody id=\"rows\"></tbody>"
       "</table></div>\n<p>In a scene: <code>[[exemplar]] picture = \"{0}\", classes = \"{4}\"</code></p></div></main>\n"
       "<script>\nconst segments = {5};\n</script>\n<script>\n{6}</script>\n<script>\n{7}</script>\n</body></html>\n",
-      html_escaped(title), embedded_file("segment/segment.css"), (picture.width() + factor - 1) / factor,
-      (picture.height() + factor - 1) / factor, html_escaped(mask_name),
+      markup_text(title), embedded_file("segment/segment.css"), (picture.width() + factor - 1) / factor,
+      (picture.height() + factor - 1) / factor, markup_text(mask_name),
       script_data(folder.empty() ? "." : folder.string(), mask_name, picture, segments, groups), embedded_file("segment/groups.js"),
       embedded_file("segment/segment.js"));
   write_text_file(path, text);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/markup.h"
 #include "tools/report/bitmap_text.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
@@ -95,7 +96,7 @@ void add_overview(ReportFolder& page, const SynthesisReportInput& in, const Grid
     page.next_row();
     page.picture(fmt::format("painting_{}_classes", e + 1), reduced_picture(label_picture(exemplar.guides.label), map_px),
                  "classes of the painting");
-    page.picture(fmt::format("painting_{}", e + 1), reduced_picture(to_picture(exemplar.picture), map_px), html_escaped(exemplar.name));
+    page.picture(fmt::format("painting_{}", e + 1), reduced_picture(to_picture(exemplar.picture), map_px), markup_text(exemplar.name));
   }
   page.end_figure();
 }
@@ -141,7 +142,7 @@ void add_figures(ReportFolder& page, const SynthesisReportInput& in, const Synth
     const auto ratio = [](double v, double least, double most) {
       return v == 0.0 ? std::string("–") : coloured(fmt::format("{:.2f}", v), v >= least && v <= most);
     };
-    table += html_row({html_escaped(in.class_name(of.label)), fmt::format("{}", of.pixels), fmt::format("{}", of.texels),
+    table += html_row({markup_text(in.class_name(of.label)), fmt::format("{}", of.pixels), fmt::format("{}", of.texels),
                        supply == found.supply.end() ? "–" : coloured(fmt::format("{}", supply->texels_needed()), supply->enough()),
                        ratio(of.sharpness, 0.95, 1.05), ratio(of.stroke_run, 0.85, 1.15),
                        coloured(fmt::format("{:.3f}", of.clique_distance), of.clique_distance <= 0.08),
@@ -164,7 +165,7 @@ void add_field(ReportFolder& page, const SynthesisReportInput& in) {
     Grid<glm::vec3> key(width, height);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) key(x, y) = place_colour(e, in.exemplars.size(), x, y, width, height);
-    page.picture(fmt::format("field_key_{}", e + 1), reduced_picture(key, 200), html_escaped(in.exemplars[e].name));
+    page.picture(fmt::format("field_key_{}", e + 1), reduced_picture(key, 200), markup_text(in.exemplars[e].name));
   }
   page.end_figure();
 }
@@ -181,7 +182,7 @@ void add_reuse(ReportFolder& page, const SynthesisReportInput& in, const Synthes
     Grid<float> counts(found.uses[e].width(), found.uses[e].height());
     std::transform(found.uses[e].begin(), found.uses[e].end(), counts.begin(), [](std::uint32_t n) { return static_cast<float>(n); });
     page.picture(fmt::format("reuse_painting_{}", e + 1), reduced_picture(heat_picture(counts, full), map_px),
-                 html_escaped(in.exemplars[e].name));
+                 markup_text(in.exemplars[e].name));
   }
   page.end_figure();
 }
@@ -197,7 +198,7 @@ void add_costs(ReportFolder& page, const SynthesisReportInput& in, const Synthes
   std::string table = "<table>" + html_row({"term", "weight", "off by, mean", "off by, 95 %", "cost, mean", "share"}, "th");
   table += html_row({"seams", "–", "–", "–", fmt::format("{:.0f}", found.seam_mean), share(found.seam_mean)});
   for (const GuideFindings& guide : found.guides)
-    table += html_row({html_escaped(guide.name), fmt::format("{:.3g}", guide.weight), fmt::format("{:.2f}", guide.error_mean),
+    table += html_row({markup_text(guide.name), fmt::format("{:.3g}", guide.weight), fmt::format("{:.2f}", guide.error_mean),
                        fmt::format("{:.0f}", static_cast<double>(guide.error_95)), fmt::format("{:.0f}", guide.cost_mean),
                        share(guide.cost_mean)});
   page.add("</div>" + table + "</table><p></p><div class=\"row\">");
@@ -207,7 +208,7 @@ void add_costs(ReportFolder& page, const SynthesisReportInput& in, const Synthes
   map("cost_seams", found.seams, "seams");
   for (std::size_t g = 0; g < found.guides.size(); ++g) {
     if (g % 2 == 1) page.next_row();
-    map(fmt::format("cost_guide_{}", g + 1), guide_cost_map(in, found.guides[g].name), html_escaped(found.guides[g].name));
+    map(fmt::format("cost_guide_{}", g + 1), guide_cost_map(in, found.guides[g].name), markup_text(found.guides[g].name));
   }
   page.end_figure();
 }
@@ -226,18 +227,18 @@ void add_worst_places(ReportFolder& page, const SynthesisReportInput& in, const 
       page.picture(fmt::format("place_{}_{}", place.letter, what), enlarged(crop, crop_times), caption);
     };
     show("picture", cut(picture, place.window),
-         fmt::format("{}: {}, at {}, {}", place.letter, html_escaped(place.why), place.window.x0, place.window.y0));
+         fmt::format("{}: {}, at {}, {}", place.letter, markup_text(place.why), place.window.x0, place.window.y0));
     const Exemplar& exemplar = in.exemplars[place.exemplar];
     show("source", to_picture(cut(exemplar.picture, place.source)),
-         fmt::format("{} of its pixels: {} at {}, {}", place.piece, html_escaped(exemplar.name), place.source.x0, place.source.y0));
+         fmt::format("{} of its pixels: {} at {}, {}", place.piece, markup_text(exemplar.name), place.source.x0, place.source.y0));
     show("field", field_picture(cut(in.matches, place.window), in.exemplars), "where its texels come from");
     if (!place.guide.empty()) {
       std::vector<const Grid<std::uint8_t>*> offered;
       for (const Exemplar& from : in.exemplars) offered.push_back(&guide_values(from.guides, place.guide));
       const Grid<std::uint8_t> asked = cut(guide_values(in.target, place.guide), place.window);
-      show("asked", grey_picture(asked), html_escaped(place.guide) + " asked for");
+      show("asked", grey_picture(asked), markup_text(place.guide) + " asked for");
       show("found", grey_picture(replay(cut(in.matches, place.window), offered, Grid<std::uint8_t>())),
-           html_escaped(place.guide) + " found");
+           markup_text(place.guide) + " found");
     } else if (place.why == "seams") {
       show("cost", heat_picture(cut(found.seams, place.window), seam_full), "seams");
     } else {

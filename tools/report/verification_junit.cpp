@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/text/markup.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/verification.h"
 
@@ -11,7 +12,7 @@ namespace {
 // In attributes: XML 1.0 has no way at all to write other control characters.
 std::string xml_escaped(const std::string& text) {
   std::string out;
-  for (const char c : html_escaped(text)) {
+  for (const char c : markup_text(text)) {
     const bool control = static_cast<unsigned char>(c) < 0x20;
     out += c == '\n' ? "&#10;" : std::string(1, control ? '?' : c);
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/text/markup.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/picture_diff.h"
 #include "renderer/image/picture_formats.h"
@@ -49,7 +50,7 @@ Grid<glm::vec3> panorama_of(const Verification& scene, const fs::path& folder) {
 
 std::string figure(const Grid<glm::vec3>& picture, const std::string& caption, const std::string& scratch_folder) {
   return fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                     png_address(reduced_picture(picture, longest_px), scratch_folder), html_escaped(caption), html_escaped(caption));
+                     png_address(reduced_picture(picture, longest_px), scratch_folder), markup_text(caption), markup_text(caption));
 }
 
 // The largest difference of the three colours, white from a tenth of the scale up.
@@ -82,10 +83,10 @@ std::string measured(const Verification& scene, const VerificationPage& page) {
     const fs::path before = fs::path(page.against) / scene.name / product;
     if (channels_that_differ(scene, product).empty() || !is_there(before)) continue;
     const PictureDifference difference = compare_pictures(before.string(), (fs::path(scene.folder) / product).string());
-    for (const std::string& mismatch : difference.mismatches) rows += html_row({html_escaped(product), html_escaped(mismatch), "", "", ""});
+    for (const std::string& mismatch : difference.mismatches) rows += html_row({markup_text(product), markup_text(mismatch), "", "", ""});
     for (const ChannelDifference& one : difference.channels)
       if (one.differing_share > 0.0)
-        rows += html_row({html_escaped(product), html_escaped(one.name), fmt::format("{:.4g}", one.mean), fmt::format("{:.4g}", one.max),
+        rows += html_row({markup_text(product), markup_text(one.name), fmt::format("{:.4g}", one.mean), fmt::format("{:.4g}", one.max),
                           fmt::format("{:.4f} %", 100.0 * one.differing_share)});
   }
   if (rows.empty()) return {};
@@ -94,15 +95,15 @@ std::string measured(const Verification& scene, const VerificationPage& page) {
 }
 
 std::string section(const Verification& scene, const VerificationPage& page) {
-  std::string out = fmt::format("<section><h2 class=\"{}\">{}</h2>\n", scene.same() ? "same" : "differs", html_escaped(scene.scene));
-  if (scene.error_status != 0) return out + "<pre>" + html_escaped(scene.error) + "</pre></section>\n";
+  std::string out = fmt::format("<section><h2 class=\"{}\">{}</h2>\n", scene.same() ? "same" : "differs", markup_text(scene.scene));
+  if (scene.error_status != 0) return out + "<pre>" + markup_text(scene.error) + "</pre></section>\n";
   out += fmt::format("<p>{}×{} pixels, {} inputs as in the lock. {}</p>\n", scene.width, scene.height, scene.inputs,
                      scene.same() ? "All channels are the same." : "");
-  for (const std::string& note : scene.notes) out += "<p>" + html_escaped(note) + "</p>\n";
+  for (const std::string& note : scene.notes) out += "<p>" + markup_text(note) + "</p>\n";
   if (scene.same()) return out + "</section>\n";
   std::string rows;
   for (const LockDifference& one : scene.differences)
-    rows += html_row({html_escaped(one.file), html_escaped(one.channel), html_escaped(one.locked), html_escaped(one.found)});
+    rows += html_row({markup_text(one.file), markup_text(one.channel), markup_text(one.locked), markup_text(one.found)});
   out += "<table>" + html_row({"product", "channel", "in the lock", "now"}, "th") + rows + "</table>\n";
   return out + measured(scene, page) + pictures(scene, page) + "</section>\n";
 }

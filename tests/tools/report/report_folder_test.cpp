@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/text/markup.h"
 #include "renderer/image/image_io.h"
 #include "tests/files.h"
 
@@ -14,7 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 TEST(ReportFolder, TextIsEscaped) {
-  EXPECT_EQ(html_escaped("a<b> & \"c\""), "a&lt;b&gt; &amp; &quot;c&quot;");
+  EXPECT_EQ(markup_text("a<b> & \"c\""), "a&lt;b&gt; &amp; &quot;c&quot;");
   EXPECT_EQ(html_row({"a", "<b>c</b>"}), "<tr><td>a</td><td><b>c</b></td></tr>\n");
   EXPECT_EQ(html_row({"a"}, "th"), "<tr><th>a</th></tr>\n");
 }

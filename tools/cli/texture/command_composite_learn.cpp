@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/json.h"
 #include "base/parallel.h"
+#include "base/text/markup.h"
 #include "texture/composite/composite_figures.h"
 #include "texture/composite/learn_composite.h"
 #include "texture/composite/make_composite.h"
@@ -110,7 +111,7 @@ void write_report(const Options& options, const TextureCrop& crop, const LabelPi
   folder.add("<h2>Labels</h2><table>" + html_row({"label", "pixels", "types"}, "th"));
   for (std::size_t k = 0; k < found.names.size(); ++k)
     folder.add(html_row(
-        {html_escaped(found.names[k]), fmt::format("{}", found.pixels[k]), fmt::format("{}", found.model.labels[k].model.cliques.size())}));
+        {markup_text(found.names[k]), fmt::format("{}", found.pixels[k]), fmt::format("{}", found.model.labels[k].model.cliques.size())}));
   folder.add("</table><h2>Distances to the crop</h2><table>" + html_row({"", "colours by height", "pairs 16–128 px apart"}, "th"));
   const auto row = [&](const char* name, const LayoutFigures& f) {
     folder.add(html_row({name, fmt::format("{:.3f}", f.profile), fmt::format("{:.3f}", f.far_pairs)}));

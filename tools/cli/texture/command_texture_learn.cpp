@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/json.h"
 #include "base/parallel.h"
+#include "base/text/markup.h"
 #include "texture/statistical/choose_seed.h"
 #include "texture/statistical/learn_by_sampling.h"
 #include "texture/statistical/make_texture.h"
@@ -133,7 +134,7 @@ void write_report(const Options& options, const TextureCrop& crop, const Finding
       folder.add(html_row({describe(t.seed, t.px, t.polish), fmt::format("{:.3f}", t.beyond), fmt::format("{:.3f}", t.drawn)}));
     folder.add("</table>");
   }
-  if (is_uneven(found)) folder.add("<p>" + html_escaped(warning_of(found)) + "</p>");
+  if (is_uneven(found)) folder.add("<p>" + markup_text(warning_of(found)) + "</p>");
   folder.write_page("Texture model", file_name(options.crop), fmt::format("A model of {} bytes.", model_bytes(found.learned.model)),
                     fmt::format("belvedere texture learn {} --out {}", file_name(options.crop), file_name(options.out)));
 }

@@ -1,12 +1,8 @@
-#pragma once
-
-#include <string>
-#include <string_view>
+#include "base/text/markup.h"
 
 namespace belvedere {
 
-// Text between tags of an SVG file or in an attribute. What XML 1.0 cannot hold at all becomes a blank.
-inline std::string svg_text(std::string_view text) {
+std::string markup_text(std::string_view text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
@@ -23,7 +19,7 @@ inline std::string svg_text(std::string_view text) {
         out += "&quot;";
         break;
       default:
-        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
     }
   }
   return out;
