@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
-#include "terrain/io/crs.h"
+#include "terrain/io/source_place.h"
 
 namespace belvedere {
 namespace {
@@ -101,17 +101,6 @@ Dem make_dem(Raster<float> raster) {
   return dem;
 }
 
-namespace {
-
-// Of the middle of a file, in the system that it is said to be in.
-std::string doubt_of(const RasterSource& source) {
-  const RasterInfo info = read_raster_info(source);
-  const std::string& crs = source.crs.empty() ? info.crs : source.crs;
-  return crs.empty() ? std::string() : doubt_of_place(crs, info.transform.to_crs(.5 * (info.width - 1), .5 * (info.height - 1)));
-}
-
-}  // namespace
-
 Dem read_dem(const DemParameters& parameters, Progress& progress) {
   const double cell_m = parameters.cell_m;
   if (cell_m != 0.0 && !(cell_m >= 0.1 && cell_m <= 10000.0))
@@ -141,8 +130,7 @@ Dem read_dem(const DemParameters& parameters, Progress& progress) {
         fmt::format("{}: altitudes from {:.0f} to {:.0f} m, higher than any mountain: is the unit feet? (`unit`)", where, *low, *high));
   }
   for (const RasterSource& source : parameters.sources)
-    if (const std::string doubt = doubt_of(source); !doubt.empty())
-      progress.note(fmt::format("{}: lies at {}: is that its coordinate system? (`crs`)", source.path, doubt));
+    if (const std::string doubt = doubt_of_source(source); !doubt.empty()) progress.note(doubt);
   return dem;
 }
 

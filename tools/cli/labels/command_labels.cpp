@@ -198,8 +198,10 @@ Action add_labels(CLI::App& command) {
   command.footer(
       "Writes labels.svg (over the picture, text as text), labels.csv and labels.geojson: each point's pixel, distance, and whether\n"
       "it is seen or what hides it. Summits are marked where they are drawn. Files have columns name, kind, rank (1 … 9) and ele.\n\n"
-      "  belvedere labels scenes/karwendel.toml --data ../data --points peaks.csv --under out/karwendel/panorama.png --out out/karwendel\n"
-      "  belvedere labels my_scene.toml --summits 40 --out names");
+      "  belvedere labels scenes/karwendel.toml --data ../data --points scenes/karwendel_names.csv --under out/karwendel/panorama.png "
+      "--out out/karwendel\n"
+      "  belvedere labels my_scene.toml --summits 40 --out names\n"
+      "  belvedere labels my_scene.toml --tracks tour.gpx --under panorama.png --out tour");
   return [options] { return run(*options); };
 }
 

@@ -63,6 +63,18 @@ TEST_F(New, KeepsAFileThatIsThere) {
   EXPECT_THAT(read_bytes(path("mine.toml")), HasSubstr("version = 1"));
 }
 
+// Coordinates of one system said to be of another: the scene is written, and its climate is that of a place far away.
+TEST_F(New, APlaceFarFromWhereItsSystemIsUsedIsDoubted) {
+  Raster<float> raster = test::made_up_raster(60.0, [](double e, double n) { return test::chain(e, n); });
+  EXPECT_THAT(run({"new", write_dem(), "--out", path("right.toml")}).err, Not(HasSubstr("coordinate system")));
+  raster.transform.origin_x = -1620000.0;
+  raster.transform.origin_y = 438000.0;
+  write_raster(path("wrong.tif"), raster);
+  const Outcome made = run({"new", path("wrong.tif"), "--out", path("wrong.toml")});
+  EXPECT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.err, AllOf(HasSubstr("wrong.tif: lies at 4° N"), HasSubstr("EPSG:32632")));
+}
+
 TEST_F(New, WishesAreHeldOrRefused) {
   const std::string dem = write_dem();
   // Peaks of the chain lie at N 5230 km: 47.2° N, 10.7° E.
