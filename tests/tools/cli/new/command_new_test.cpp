@@ -72,7 +72,7 @@ TEST_F(New, APlaceFarFromWhereItsSystemIsUsedIsDoubted) {
   write_raster(path("wrong.tif"), raster);
   const Outcome made = run({"new", path("wrong.tif"), "--out", path("wrong.toml")});
   EXPECT_EQ(made.status, 0) << made.err;
-  EXPECT_THAT(made.err, AllOf(HasSubstr("wrong.tif: lies at 4° N"), HasSubstr("EPSG:32632")));
+  EXPECT_THAT(made.err, AllOf(HasSubstr("wrong.tif: lies at 3° N 9° W"), HasSubstr("EPSG:32632")));
 }
 
 TEST_F(New, WishesAreHeldOrRefused) {
