@@ -6,33 +6,16 @@
 
 #include "base/land_cover_class.h"
 #include "renderer/image/guidance_io.h"
+#include "tests/tools/cli/contact/contact_scene.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
 namespace {
 
-constexpr const char* scene = R"(
-version = 1
-[terrain.synthetic]
-width = 120
-height = 100
-cell_m = 90
-seed = 3
-[camera]
-position = [5000, -6000]
-height_m = 6000
-pitch_deg = -24
-[sampling]
-pixel_samples = 1
-shadow_rays = 1
-sky_directions = 4
+const std::string scene = std::string(test::contact_scene) + R"(
 [[exemplar]]
 width = 240
 height = 180
-[output]
-width = 120
-height = 64
-sheet_width_mm = 60
 )";
 
 class Figure : public Program {};

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <glm/vec2.hpp>
 
+#include "tests/tools/cli/contact/contact_scene.h"
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -14,27 +15,9 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr const char* scene = R"(
-version = 1
-[terrain.synthetic]
-width = 120
-height = 100
-cell_m = 90
-seed = 3
-[camera]
-position = [5000, -6000]
-height_m = 6000
-pitch_deg = -24
+const std::string scene = std::string(test::contact_scene) + R"(
 [synthesis]
 enabled = false
-[sampling]
-pixel_samples = 1
-shadow_rays = 1
-sky_directions = 4
-[output]
-width = 120
-height = 64
-sheet_width_mm = 60
 )";
 
 class Sweep : public Program {};
