@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/cli/fetch/fetch_options.h"
+#include "tools/cli/scene_options.h"
+
+namespace belvedere::tools {
+
+// What the command line of `belvedere new` says.
+struct NewOptions {
+  SceneOptions common;
+  FetchOptions fetch;   // --at: the data come from map services
+  std::string fetched;  // folder for them; empty: beside the scene
+  std::vector<std::string> dems;
+  std::string out;
+  std::string pictures;
+  std::string title;
+  std::string crs;
+  std::optional<double> lowest_m;
+  int choose = 1;
+  int most = 5;
+  std::string towards, from, format = "2:1";
+  std::vector<std::string> include;
+  struct Cover {
+    std::string file, legend, crs, unknown;
+    int band = 1;
+  } cover;
+  bool search_bend = false, plain = false;
+  bool force = false;
+};
+
+void add_new_options(CLI::App& command, NewOptions& options);
+
+}  // namespace belvedere::tools
