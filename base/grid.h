@@ -1,8 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstring>
+#include <type_traits>
 #include <vector>
+
+#include "base/memory/zeroed_memory.h"
 
 namespace belvedere {
 
@@ -14,8 +19,8 @@ class Grid {
   using value_type = T;
 
   Grid() = default;
-  Grid(int width, int height, T fill = T{})
-      : width_(width), height_(height), values_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill) {}
+  Grid(int width, int height, const T& fill = T{})
+      : width_(width), height_(height), values_(filled(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill)) {}
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -51,9 +56,20 @@ class Grid {
   bool operator==(const Grid&) const = default;
 
  private:
+  using Values = std::vector<T, ZeroedAllocator<T>>;
+
+  // A grid of zeros, as most begin, is not touched before it is filled.
+  static Values filled(std::size_t size, const T& fill) {
+    if constexpr (std::is_trivially_copyable_v<T> && std::is_trivially_default_constructible_v<T>) {
+      constexpr std::array<unsigned char, sizeof(T)> zeros{};
+      if (std::memcmp(&fill, zeros.data(), sizeof(T)) == 0) return Values(size);
+    }
+    return Values(size, fill);
+  }
+
   int width_ = 0;
   int height_ = 0;
-  std::vector<T> values_;
+  Values values_;
 };
 
 }  // namespace belvedere

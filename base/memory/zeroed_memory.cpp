@@ -1,0 +1,43 @@
+#include "base/memory/zeroed_memory.h"
+
+#include <sys/mman.h>
+
+#include <cstdlib>
+
+namespace belvedere {
+namespace {
+
+// From here on a block is the system's: below, the C library's own memory is used again without a fault for each page.
+constexpr std::size_t large_block_bytes = std::size_t{16} << 20;
+
+// The address sanitizer watches the C library's blocks alone.
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool from_system = false;
+#else
+constexpr bool from_system = true;
+#endif
+
+bool is_large(std::size_t bytes) { return from_system && bytes >= large_block_bytes; }
+
+}  // namespace
+
+void* allocate_zeroed(std::size_t bytes) {
+  if (!is_large(bytes)) {
+    void* memory = std::calloc(bytes, 1);
+    if (memory == nullptr && bytes > 0) throw std::bad_alloc();
+    return memory;
+  }
+  void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) throw std::bad_alloc();
+  madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: where the system has none, pages stay small
+  return memory;
+}
+
+void free_zeroed(void* memory, std::size_t bytes) noexcept {
+  if (is_large(bytes))
+    munmap(memory, bytes);
+  else
+    std::free(memory);
+}
+
+}  // namespace belvedere
