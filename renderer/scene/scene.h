@@ -213,6 +213,19 @@ struct SceneSynthesis {
   SynthesisParameters search;  // without seed, weights, fallback and unlikeness
 };
 
+// Features of one vector file: what the table of kinds (renderer/features/feature_style.h) does with them.
+struct SceneFeatures {
+  std::string source;     // file
+  std::string layer;      // of the file; empty: all that have such features
+  std::string where;      // filter by attributes; empty: all
+  std::string kind;       // a word of the style; with kind_of that of features whose column has none
+  std::string kind_of;    // a column whose words are kinds; empty: none
+  double width_mm = 0.0;  // of the sheet; 0: the style's
+  std::string width_of;   // a column with widths in metres of the ground; empty: none
+  std::string origin, licence, get_from;
+  bool optional = false;  // missing file: left out with a note instead of an error
+};
+
 struct SceneOutput {
   int width = CameraParameters{}.width;
   int height = CameraParameters{}.height;
@@ -242,6 +255,8 @@ struct Scene {
   std::string palette = "summer";        // built-in name or file
   std::vector<SceneExemplar> exemplars;  // empty: one painted by the program
   SceneSynthesis synthesis;
+  std::string features_style = "classic";  // built-in name or file
+  std::vector<SceneFeatures> features;
   SceneOutput output;
 
   double pixels_per_unit() const { return output.width / output.sheet_width_mm * 0.5; }

@@ -70,6 +70,14 @@ class Rules {
                        scene_.land_cover.towns[i].position_lonlat);
   }
 
+  // Whether the style knows the words is asked when it is read: its file may be missing.
+  void features() {
+    for (std::size_t i = 0; i < scene_.features.size(); ++i)
+      if (scene_.features[i].kind.empty() && scene_.features[i].kind_of.empty())
+        refuse(fmt::format("features.{}", i), "the features have no kind",
+               "kind = \"road\" or another word of the style, or kind_of with a column of such words");
+  }
+
   void generalize() {
     apply_preset();
     SceneGeneralize& settings = scene_.generalize;
@@ -273,6 +281,7 @@ void apply_scene_rules(Scene& scene, const ConfigValue& root, const SceneOrigin&
   rules.exemplars();
   rules.erosion();
   rules.synthesis();
+  rules.features();
 }
 
 }  // namespace belvedere

@@ -1,0 +1,65 @@
+#include "base/text/config_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/error.h"
+
+namespace belvedere {
+
+void ConfigReader::fail(const ConfigValue& value, const std::string& allowed) const {
+  throw Error(ErrorKind::usage, config_where(name_, value.place), describe(value), allowed);
+}
+
+const ConfigValue* ConfigReader::known(const char* key) {
+  keys_.emplace_back(key);
+  return find(table_, key);
+}
+
+void ConfigReader::number(const char* key, double& to, double least, double most) {
+  const ConfigValue* value = known(key);
+  if (value == nullptr) return;
+  to = as_number(*value, name_);
+  if (!(to >= least && to <= most)) fail(*value, fmt::format("{:g} … {:g}", least, most));
+}
+
+void ConfigReader::pair(const char* key, glm::dvec2& to, double least, double most) {
+  const ConfigValue* value = known(key);
+  if (value == nullptr) return;
+  const ConfigArray& array = as_array(*value, name_);
+  const auto allowed = [&] { return fmt::format("two numbers, {:g} … {:g}", least, most); };
+  if (array.size() != 2) fail(*value, allowed());
+  to = {as_number(array[0], name_), as_number(array[1], name_)};
+  if (!(to.x >= least && to.x <= most && to.y >= least && to.y <= most)) fail(*value, allowed());
+}
+
+void ConfigReader::flag(const char* key, bool& to) {
+  if (const ConfigValue* value = known(key)) to = as_bool(*value, name_);
+}
+
+void ConfigReader::text(const char* key, std::string& to) {
+  if (const ConfigValue* value = known(key)) to = as_string(*value, name_);
+}
+
+void ConfigReader::texts(const char* key, std::vector<std::string>& to) {
+  const ConfigValue* value = known(key);
+  if (value == nullptr) return;
+  to.clear();
+  for (const ConfigValue& element : as_array(*value, name_)) to.push_back(as_string(element, name_));
+}
+
+void ConfigReader::colour(const char* key, glm::vec3& to) {
+  const ConfigValue* value = known(key);
+  if (value == nullptr) return;
+  const std::string& text = as_string(*value, name_);
+  const auto hex = [](unsigned char c) { return std::isxdigit(c) != 0; };
+  if (text.size() != 7 || text[0] != '#' || !std::all_of(text.begin() + 1, text.end(), hex)) fail(*value, "\"#rrggbb\"");
+  const auto part = [&](std::size_t at) { return static_cast<float>(std::stoi(text.substr(at, 2), nullptr, 16)) / 255.F; };
+  to.x = part(1);
+  to.y = part(3);
+  to.z = part(5);
+}
+
+}  // namespace belvedere

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/config.h"
+
+namespace belvedere {
+
+// Reads values of one table into members, each with its range, so that what a style file allows stands in one line a key. All throw
+// Error(usage) at the value's line and column.
+class ConfigReader {
+ public:
+  // Both must outlive it.
+  ConfigReader(const ConfigValue& value, const std::string& name) : table_(as_table(value, name)), name_(name) {}
+
+  // Each leaves `to` as it is where the key is not there.
+  void number(const char* key, double& to, double least, double most);
+  void pair(const char* key, glm::dvec2& to, double least, double most);
+  void flag(const char* key, bool& to);
+  void text(const char* key, std::string& to);
+  void texts(const char* key, std::vector<std::string>& to);
+  // "#rrggbb" as encoded sRGB 0…1.
+  void colour(const char* key, glm::vec3& to);
+  template <class T>
+  void word(const char* key, T& to, const std::vector<std::pair<std::string, T>>& words) {
+    const ConfigValue* value = known(key);
+    if (value == nullptr) return;
+    const std::string& text = as_string(*value, name_);
+    std::string all;
+    for (const auto& [word, meaning] : words) {
+      if (text == word) {
+        to = meaning;
+        return;
+      }
+      all += (all.empty() ? "\"" : ", \"") + word + '"';
+    }
+    fail(*value, all);
+  }
+  // The value of a key, which counts as known from then on; null where it is not there.
+  const ConfigValue* known(const char* key);
+  // Every key that was not asked for is none.
+  void end() const { allow_only(table_, keys_, name_); }
+
+ private:
+  [[noreturn]] void fail(const ConfigValue& value, const std::string& allowed) const;
+
+  const ConfigTable& table_;
+  const std::string& name_;
+  std::vector<std::string> keys_;
+};
+
+}  // namespace belvedere

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/land_cover_class.h"
+
+namespace belvedere {
+
+// How the features of one kind come into the picture.
+enum class FeatureDraw : int {
+  line,      // drawn on the ground: a fill between two darker edges, or dashes
+  band,      // a broad soft band that tints the ground: ski runs
+  cable,     // straight through the air from station to station, on pylons
+  building,  // walls and a roof
+  river,     // a line that becomes water in its valley
+  area,      // an area that becomes a class of ground
+  town       // a place that houses stand in: points with a population, or areas
+};
+
+// What features are made of.
+enum class FeatureGeometry : int { line, area, point_or_area };
+
+FeatureGeometry geometry_of(FeatureDraw draw);
+// "lines", "areas", for messages.
+const char* name_of(FeatureGeometry geometry);
+const char* name_of(FeatureDraw draw);
+
+// Encoded sRGB, 0…1.
+struct FeatureColours {
+  glm::vec3 fill{0.95F, 0.92F, 0.82F};
+  glm::vec3 casing{0.35F, 0.30F, 0.26F};
+  glm::vec3 bed{0.97F, 0.98F, 1.0F};  // what is made of the ground below: a groomed slope, a lane
+};
+
+// How the features of one kind are drawn. Lengths in mm of the sheet unless they say otherwise.
+struct FeatureKind {
+  std::string name;               // as scenes and files say it: "road"
+  std::vector<std::string> also;  // other words for it
+  FeatureDraw draw = FeatureDraw::line;
+  double rank = 50.0;        // the larger lies over the smaller, 0…100
+  double width_mm = 0.6;     // of the fill in the foreground, 0…50
+  double least_px = 0.8;     // never narrower on the picture, 0…100
+  double real_m = 0.0;       // never narrower than so much of the ground, 0…10000
+  double shrink = 0.5;       // width goes with distance to the power of minus this, 0 everywhere alike … 1 as in nature
+  double least_share = 0.3;  // but never below so much of width_mm, 0…1
+  double casing_mm = 0.14;   // of each edge; 0: none, 0…10
+  double bed_mm = 0.0;       // how far the bed reaches out on each side; 0: none, 0…50
+  double soft_mm = 0.0;      // how softly fill and bed end, 0…20
+  double opacity = 1.0;      // of fill and casing, 0…1
+  glm::dvec2 dash_mm{0.0};   // of the fill: on and off; 0, 0: drawn through, 0…100
+  double hand = 0.12;        // how unevenly it is drawn, of its width, 0…1
+  double farthest_km = 0.0;  // farther from the eye it is left out; 0: never, 0…10000
+  double clear_mm = 0.0;     // trees and houses keep so far away; 0: they may stand on it, 0…50
+  double height_mm = 1.2;    // of cables over the ground, and at least height_m, 0…50
+  double height_m = 10.0;    // m, 0…500
+  double pylon_mm = 6.0;     // from pylon to pylon; 0: none, 0…500
+  FeatureColours summer;
+  FeatureColours winter;                 // where the style says nothing as in summer
+  std::optional<LandCoverClass> ground;  // what an area or a river makes of the ground
+};
+
+struct FeatureStyle {
+  std::string name;                // of the file, for messages
+  std::vector<FeatureKind> kinds;  // in the order of the file
+
+  // The kind that a word means, small and capital letters alike; -1 where none does.
+  int find(const std::string& word) const;
+  // All names, for messages.
+  std::vector<std::string> names() const;
+};
+
+// A built-in style ("classic", "ski") or a .toml file. Throws Error(usage) at line and column for what is no style, Error(input) where the
+// file is missing.
+FeatureStyle load_feature_style(const std::string& name_or_file);
+FeatureStyle parse_feature_style(const std::string& text, const std::string& name);
+
+}  // namespace belvedere
