@@ -131,6 +131,7 @@ enum class Stream : std::uint16_t {
   statistical_moves,
   statistical_directions,
   label_maps,
+  feature_edges,  // how unevenly lines of features are drawn
 
   count  // no stream: how many there are
 };

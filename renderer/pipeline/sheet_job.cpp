@@ -16,6 +16,7 @@
 #include "renderer/sheet/guidance_pack.h"
 #include "renderer/sheet/piece_writer.h"
 #include "renderer/sheet/sheet_picture.h"
+#include "renderer/world/scene_features.h"
 #include "renderer/world/scene_season.h"
 #include "renderer/world/world_notes.h"
 
@@ -136,7 +137,9 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
   SheetWork sheet(loaded, request, work, run, stage_run);
   const bool copied = is_copied(sheet.world.scene, request);
   CopyPlan plan = copied ? plan_copies(loaded, sheet, work, run) : CopyPlan{};
-  SheetPicture picture(sheet.ground, copied ? &plan : nullptr, sheet.place, stage_run);
+  const DrawnFeatures features =
+      request.panorama ? draw_scene_features(loaded, sheet.world, sheet.ground.strokes().winter, run.progress) : DrawnFeatures{};
+  SheetPicture picture(sheet.ground, copied ? &plan : nullptr, sheet.place, stage_run, features);
 
   if (request.matches) work.keep_bytes(matched_bytes, to_note(pictures_of(plan)));
   const std::vector<std::string> products = products_of(request);

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "base/grid_part.h"
+#include "renderer/features/house_strokes.h"
+#include "renderer/features/paint_features.h"
 
 namespace belvedere {
 namespace {
@@ -33,11 +35,12 @@ Painting to_painting(const PaintDraft& draft, PixelRect window) {
 
 }  // namespace
 
-SheetPicture::SheetPicture(SheetGround& ground, CopyPlan* plan, TileStore::Place& place, const Run& run)
+SheetPicture::SheetPicture(SheetGround& ground, CopyPlan* plan, TileStore::Place& place, const Run& run, const DrawnFeatures& features)
     : ground_(ground),
       plan_(plan),
       run_(run),
       layers_(finishing_layers(plan != nullptr)),
+      features_(features),
       matches_(place, ground.sheet().x1, ground.sheet().y1, plan == nullptr ? SynthesisSheet{}.tile_px : plan->synthesis->sheet().tile_px,
                {.make = [this](PixelRect tile) { return make_matches(tile); },
                 .blank = [](int width, int height) { return MatchField(width, height); },
@@ -120,10 +123,18 @@ StrokeLayers SheetPicture::layers_around(PixelRect rect) {
   return layers;
 }
 
+int SheetPicture::finish_margin_px(const StrokeLayers& layers) const {
+  return std::max(stroke_margin_px(layers, ground_.strokes()), features_.house_reach_px);
+}
+
+bool SheetPicture::has_features(PixelRect rect) const {
+  return !features_.empty() && (!features_.lines_at(rect).empty() || !features_.houses_at(rect).empty());
+}
+
 Grid<glm::vec3> SheetPicture::make(PixelRect rect) {
   const PixelRect painted = intersection(ground_.sheet(), grown(rect, blend_margin_px));
   const StrokeLayers layers = layers_around(painted);
-  const PixelRect window = intersection(ground_.sheet(), grown(painted, stroke_margin_px(layers, ground_.strokes())));
+  const PixelRect window = intersection(ground_.sheet(), grown(painted, finish_margin_px(layers)));
   const PixelRect inside = moved(painted, -window.x0, -window.y0);
   const GuidanceBuffers guidance = ground_.read_guidance(window, stroke_channels(), true);
   const BasePicture base = ground_.read_base(window);
@@ -132,16 +143,23 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect) {
     const Grid<glm::vec3> copied = copy_ground(painted);
     for (int y = 0; y < copied.height(); ++y) std::copy_n(copied.row(y), copied.width(), canvas.row(inside.y0 + y) + inside.x0);
   }
-  const SheetWindow place{
-      .origin_px = {window.x0, window.y0}, .sheet_px = ground_.view().camera.size(), .asked = inside, .ice = &ground_.ice()};
-  const Painting strokes = paint_strokes(std::move(canvas), guidance, base, layers, ground_.strokes(), run_.progress, place);
+  SheetWindow place{.origin_px = {window.x0, window.y0}, .sheet_px = ground_.view().camera.size(), .asked = inside, .ice = &ground_.ice()};
+  const bool mapped = has_features(window);
+  MappedGround map;
+  if (mapped) {
+    map.cleared = find_cleared(features_, guidance.depth_m, window);
+    map.besides = house_strokes(features_, {guidance, base, ground_.strokes(), place});
+    place.mapped = &map;
+  }
+  Painting strokes = paint_strokes(std::move(canvas), guidance, base, layers, ground_.strokes(), run_.progress, place);
+  if (mapped) paint_features(strokes.picture, features_, {guidance, base.colour, base.haze, strokes.seen_ground}, window, painted);
   const GuidanceBuffers edges = ground_.read_guidance(painted, {&B::depth_m, &B::front}, false);
   return part_of(blend_edges(part_of(strokes.picture, inside), edges), moved(rect, -painted.x0, -painted.y0));
 }
 
 void SheetPicture::keep_only(PixelRect still) {
   // What the finishing strokes, and the draft below copied ground, look at.
-  const int strokes = stroke_margin_px(layers_, ground_.strokes()) + blend_margin_px;
+  const int strokes = finish_margin_px(layers_) + blend_margin_px;
   const int copied = plan_ == nullptr ? 0
                                       : paint_source_reach_px(draft_layers, ground_.strokes()) + plan_->synthesis->sheet().tile_px +
                                             synthesis_margin_px(plan_->synthesis->sheet().level) + ground_.draft_reach_px();

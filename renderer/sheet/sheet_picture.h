@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "renderer/features/drawn_features.h"
 #include "renderer/paint/composite.h"
 #include "renderer/sheet/knit_ground.h"
 #include "renderer/sheet/model_ground.h"
@@ -26,7 +27,7 @@ struct CopyPlan {
 class SheetPicture {
  public:
   // Without a plan everything is painted as strokes. All arguments must outlive it.
-  SheetPicture(SheetGround& ground, CopyPlan* plan, TileStore::Place& place, const Run& run);
+  SheetPicture(SheetGround& ground, CopyPlan* plan, TileStore::Place& place, const Run& run, const DrawnFeatures& features = no_features());
 
   // Encoded sRGB.
   Grid<glm::vec3> make(PixelRect rect);
@@ -43,11 +44,16 @@ class SheetPicture {
   Grid<glm::vec3> copy_ground(PixelRect rect);
   // Kinds of strokes that can reach a rectangle: those of the sky, by far the longest, begin where sky is seen.
   StrokeLayers layers_around(PixelRect rect);
+  // How far around what is asked for finishing strokes look, px.
+  int finish_margin_px(const StrokeLayers& layers) const;
+  // Whether lines or houses may touch a rectangle, or keep ground there clear.
+  bool has_features(PixelRect rect) const;
 
   SheetGround& ground_;
   CopyPlan* plan_;
   const Run& run_;
   const StrokeLayers layers_;
+  const DrawnFeatures& features_;
   SheetStage<MatchField> matches_;
   SheetStage<ModelPaint> modelled_;
   SeamModels seams_;

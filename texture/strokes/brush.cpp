@@ -112,8 +112,10 @@ StrokePlace place_on(const Stroke& stroke, const std::array<float, Stroke::max_p
   return place;
 }
 
-void paint_stroke(const Stroke& stroke, std::uint32_t number, glm::ivec2 origin, const PixelRect& clip, Grid<glm::vec3>& canvas,
+void paint_stroke(const Stroke& stroke, std::uint32_t number, glm::ivec2 origin, const PixelRect& clip, Painting& painting,
                   PaintRecord& record, const GuidanceBuffers& guidance, float pixels_per_unit) {
+  Grid<glm::vec3>& canvas = painting.picture;
+  float* const seen_ground = stroke.standing && !painting.seen_ground.empty() ? painting.seen_ground.data() : nullptr;
   const PixelRect bounds = bounds_of(stroke, origin, clip);
   std::array<float, Stroke::max_points> length_before{};
   float length = 0.F;
@@ -198,6 +200,7 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, glm::ivec2 origin,
       if (stroke.facet != 0 && guidance.rock_facet[i] != stroke.facet) alpha *= beyond_facet;
       if (alpha < 0.004F) continue;
       canvas[i] += alpha * (colour + tint - canvas[i]);
+      if (seen_ground != nullptr) seen_ground[i] *= 1.F - alpha;
       record.cover(x, y, stroke, number, alpha);
     }
   }
@@ -223,7 +226,7 @@ std::vector<std::uint32_t> by_order(const std::vector<Stroke>& strokes) {
 }  // namespace
 
 Painting begin_painting(Grid<glm::vec3> canvas) {
-  Painting painting{.picture = std::move(canvas), .sources = {}, .under = {}, .under_share = {}, .strokes = {}};
+  Painting painting{.picture = std::move(canvas), .sources = {}, .under = {}, .under_share = {}, .strokes = {}, .seen_ground = {}};
   painting.sources = Grid<std::uint32_t>(painting.picture.width(), painting.picture.height());
   std::iota(painting.sources.begin(), painting.sources.end(), 0U);
   painting.under = painting.sources;
@@ -257,7 +260,7 @@ void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::ve
     const PixelRect tile{asked.x0 + part.x0, asked.y0 + part.y0, asked.x0 + part.x1, asked.y0 + part.y1};
     PaintRecord record(painting, guidance, tile);
     for (const std::uint32_t s : tiles[t])
-      paint_stroke(strokes[ranked[s]], first_number + s, window.origin_px, tile, canvas, record, guidance,
+      paint_stroke(strokes[ranked[s]], first_number + s, window.origin_px, tile, painting, record, guidance,
                    static_cast<float>(pixels_per_unit));
     record.hand_back(painting);
     progress.advance(1.0);

@@ -1,20 +1,31 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
+#include <vector>
 
+#include "base/grid.h"
 #include "base/parallel.h"
 
 namespace belvedere {
 
 struct IcePlan;
+struct Stroke;
+
+// What a map knows of the ground, for strokes to keep out of its way: roads are clear of trees, houses stand where they are.
+struct MappedGround {
+  Grid<std::uint8_t> cleared;   // of the buffers' pixels: 1 where nothing grows that stands up
+  std::vector<Stroke> besides;  // what stands there besides, in depth order with all that grows
+};
 
 // Which part of the sheet the buffers hold that strokes are painted from and on. Places of strokes are places of the sheet, px, so that a
 // window shows what the whole shows; pixels are counted from the window's corner.
 struct SheetWindow {
-  glm::ivec2 origin_px{0};       // where the buffers' first pixel lies on the sheet
-  glm::ivec2 sheet_px{0};        // width and height of the sheet; 0: the buffers hold all of it
-  PixelRect asked{};             // pixels of the buffers that are wanted, the others may be left unpainted; empty: all
-  const IcePlan* ice = nullptr;  // how ice runs on the whole sheet; null: told by the buffers, which then must hold all of it
+  glm::ivec2 origin_px{0};               // where the buffers' first pixel lies on the sheet
+  glm::ivec2 sheet_px{0};                // width and height of the sheet; 0: the buffers hold all of it
+  PixelRect asked{};                     // pixels of the buffers that are wanted, the others may be left unpainted; empty: all
+  const IcePlan* ice = nullptr;          // how ice runs on the whole sheet; null: told by the buffers, which then must hold all of it
+  const MappedGround* mapped = nullptr;  // null: nothing is known, and Painting::seen_ground is not told
 };
 
 }  // namespace belvedere

@@ -45,6 +45,7 @@ struct Stroke {
   float tone_width = 0.16F;        // of that gate: without it rock turns to fur
   std::uint32_t facet = 0;         // plane of rock it belongs to: beyond that plane a fifth of its paint is left; 0: none
   StrokeGate gate = StrokeGate::surface;
+  bool standing = false;     // stands on the ground: it hides what is drawn there
   float order = 0.F;         // larger is painted first: usually depth
   std::uint32_t seed = 0;    // of its bristles
   std::uint32_t source = 0;  // index of the pixel it grew from: its class is that pixel's
@@ -61,6 +62,7 @@ struct Painting {
   Grid<std::uint8_t> under_share;
   Grid<std::uint32_t> strokes;  // number of the stroke whose paint lies thickest, counted from 1 in the order of painting; 0: bare canvas
   std::uint32_t stroke_count = 0;  // strokes laid so far
+  Grid<float> seen_ground;         // share of each pixel, 0…1, that nothing standing covers; empty where it is not asked for
 };
 
 }  // namespace belvedere

@@ -60,6 +60,12 @@ void check_window(const SheetWindow& window, int width, int height) {
   if (!held) throw Error(ErrorKind::bug, "paint_strokes", "pixels are asked for that the window does not hold");
 }
 
+// Leaves out what grows from cleared ground, and marks the rest as what stands.
+void stand_beside(std::vector<Stroke>& strokes, const Grid<std::uint8_t>& cleared) {
+  std::erase_if(strokes, [&](const Stroke& stroke) { return cleared[stroke.source] != 0; });
+  for (Stroke& stroke : strokes) stroke.standing = true;
+}
+
 void check_sizes(const Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance, const BasePicture& base) {
   using B = GuidanceBuffers;
   require_channels(guidance,
@@ -81,7 +87,10 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
   const std::optional<IcePlan> own_plan = missing_plan(guidance, layers, parameters, given);
   SheetWindow window = given;
   if (own_plan) window.ice = &*own_plan;
+  if (window.mapped != nullptr && !window.mapped->cleared.same_size(guidance.depth_m))
+    throw Error(ErrorKind::bug, "paint_strokes", "what is cleared differs in size from the guidance");
   Painting painting = begin_painting(std::move(canvas));
+  if (window.mapped != nullptr) painting.seen_ground = Grid<float>(guidance.width(), guidance.height(), 1.F);
   const auto paint = [&](std::vector<Stroke> strokes) {
     // In the far, air evens out what loads of paint differ by.
     for (Stroke& stroke : strokes) stroke.load *= 1.F - 0.8F * std::clamp(base.haze[stroke.source], 0.F, 1.F);
@@ -93,12 +102,14 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     if (!is_painted(kind, layers)) continue;
     const StrokeScene scene{guidance, base, parameters, window, stroke_margin_px(kind, parameters)};
     std::vector<Stroke> strokes = kind.grow(scene, kind.stream);
+    if (window.mapped != nullptr && kind.layer == &StrokeLayers::upright) stand_beside(strokes, window.mapped->cleared);
     if (kind.layer != &StrokeLayers::sky) strokes = broaden_far(std::move(strokes), base, window.origin_px, parameters.pixels_per_unit);
     if (kind.alone)
       paint(std::move(strokes));
     else
       body.insert(body.end(), strokes.begin(), strokes.end());
   }
+  if (window.mapped != nullptr) body.insert(body.end(), window.mapped->besides.begin(), window.mapped->besides.end());
   paint(std::move(body));
   return painting;
 }

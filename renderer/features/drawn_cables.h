@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "renderer/features/drawn_parts.h"
+#include "renderer/features/feature_set.h"
+#include "renderer/features/ground_sight.h"
+
+namespace belvedere {
+
+struct CableMaking {
+  const GroundSight& sight;
+  const FeatureKind& kind;
+  double px_per_mm;
+  double foreground_m_per_px;
+};
+
+// A lift: its rope straight from station to station of the line, over the ground by the style's height, tightened over hollows, on
+// pylons that stand where the style has room for them. Appends what is seen and counts it.
+void draw_cable(const CableMaking& making, const Feature& feature, std::vector<DrawnLine>& lines, DrawnCount& count);
+
+}  // namespace belvedere

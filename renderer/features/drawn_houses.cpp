@@ -1,0 +1,231 @@
+#include "renderer/features/drawn_houses.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+
+#include "renderer/features/line_samples.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double usual_length_m = 13.0;
+constexpr double usual_width_m = 10.0;
+constexpr double eaves = 0.55;       // height of walls, of the width
+constexpr double ridge = 0.42;       // of the roof over them, of the width
+constexpr double overhang = 1.12;    // of the roof
+constexpr double most_units = 24.0;  // of 0.5 mm: a longer house is drawn as long
+
+glm::dvec2 perpendicular(glm::dvec2 v) { return {-v.y, v.x}; }
+
+// A point as a house: its ridge points down the slope, as where snow must slide off beside the door; on level ground it lies east to west.
+Footprint usual_house(const GroundSight& sight, glm::dvec2 place) {
+  const double step = 20.0;
+  const auto height = [&](glm::dvec2 at) {
+    const auto ground = sight.ground(at);
+    return ground ? ground->z : 0.0;
+  };
+  glm::dvec2 fall{height(place - glm::dvec2(step, 0.0)) - height(place + glm::dvec2(step, 0.0)),
+                  height(place - glm::dvec2(0.0, step)) - height(place + glm::dvec2(0.0, step))};
+  fall = glm::length(fall) > 0.06 * step ? glm::normalize(fall) : glm::dvec2(1.0, 0.0);
+  return {place, 0.5 * usual_length_m * fall, 0.5 * usual_width_m * perpendicular(fall)};
+}
+
+class Builder {
+ public:
+  Builder(const HouseMaking& making, glm::dvec3 middle, const Footprint& foot, double scale)
+      : making_(making), middle_(middle), along_(scale * foot.along, 0.0), across_(scale * foot.across, 0.0) {
+    const double width = 2.0 * glm::length(across_);
+    wall_ = {0.0, 0.0, eaves * width};
+    top_ = {0.0, 0.0, (eaves + ridge) * width};
+  }
+
+  // Faces that look towards the eye, in the order of painting.
+  std::vector<HouseFace> faces() {
+    std::vector<HouseFace> all;
+    // Walls with their gables, the farther first by what they show of themselves.
+    for (const double side : {-1.0, 1.0}) {
+      wall(side * across_, along_, all);
+      if (wall(side * along_, across_, all)) gable(side, all);
+    }
+    std::array<double, 2> facing{};
+    for (const int k : {0, 1}) facing[static_cast<std::size_t>(k)] = towards_eye(roof_normal(k == 0 ? -1.0 : 1.0));
+    const double first = facing[0] < facing[1] ? -1.0 : 1.0;
+    roof(first, all);
+    roof(-first, all);
+    return all;
+  }
+
+  double reach_px(glm::dvec2 foot) const { return reach_of(foot); }
+
+ private:
+  std::optional<glm::vec2> project(glm::dvec3 offset) const {
+    const auto pixel = making_.sight.pixel(middle_ + offset);
+    return pixel ? std::optional(glm::vec2(*pixel)) : std::nullopt;
+  }
+
+  double towards_eye(glm::dvec3 normal) const {
+    const auto pixel = making_.sight.pixel(middle_);
+    return pixel ? glm::dot(normal, -making_.sight.sight_at(*pixel)) : 0.0;
+  }
+
+  void strip(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d, glm::dvec3 normal, bool is_roof, std::vector<HouseFace>& all) {
+    // From the middle of a … b to that of d … c.
+    const auto pa = project(a);
+    const auto pb = project(b);
+    const auto pc = project(c);
+    const auto pd = project(d);
+    if (!pa || !pb || !pc || !pd) return;
+    HouseFace face;
+    face.from = 0.5F * (*pa + *pb);
+    face.to = 0.5F * (*pc + *pd);
+    const glm::vec2 axis = face.to - face.from;
+    const float length = glm::length(axis);
+    if (length < 1e-3F) return;
+    const glm::vec2 square = glm::vec2(-axis.y, axis.x) / length;
+    face.from_width = std::abs(glm::dot(*pb - *pa, square));
+    face.to_width = std::abs(glm::dot(*pc - *pd, square));
+    face.light = static_cast<float>(std::max(0.0, glm::dot(glm::normalize(normal), making_.sun)));
+    face.roof = is_roof;
+    all.push_back(face);
+  }
+
+  bool wall(glm::dvec3 out, glm::dvec3 beside, std::vector<HouseFace>& all) {
+    if (towards_eye(glm::normalize(out)) <= 0.0) return false;
+    strip(out - beside, out + beside, out + beside + wall_, out - beside + wall_, out, false, all);
+    return true;
+  }
+
+  void gable(double side, std::vector<HouseFace>& all) {
+    const glm::dvec3 out = side * along_;
+    strip(out - across_ + wall_, out + across_ + wall_, out + 0.05 * across_ + top_, out - 0.05 * across_ + top_, out, false, all);
+  }
+
+  glm::dvec3 roof_normal(double side) const {
+    const double width = glm::length(across_);
+    const double rise = top_.z - wall_.z;
+    return glm::normalize(side * across_ / width * rise + glm::dvec3(0.0, 0.0, width));
+  }
+
+  void roof(double side, std::vector<HouseFace>& all) {
+    const glm::dvec3 normal = roof_normal(side);
+    if (towards_eye(normal) <= 0.0) return;
+    const glm::dvec3 edge = overhang * side * across_ + wall_ - glm::dvec3(0.0, 0.0, (overhang - 1.0) * (top_.z - wall_.z));
+    strip(edge - overhang * along_, edge + overhang * along_, overhang * along_ + top_, -overhang * along_ + top_, normal, true, all);
+  }
+
+  double reach_of(glm::dvec2 foot) const {
+    double reach = 0.0;
+    for (const double a : {-1.2, 1.2})
+      for (const double b : {-1.2, 1.2})
+        for (const glm::dvec3& up : {glm::dvec3(0.0), top_})
+          if (const auto pixel = making_.sight.pixel(middle_ + a * along_ + b * across_ + up))
+            reach = std::max(reach, glm::length(*pixel - foot));
+    return reach + 3.0;
+  }
+
+  const HouseMaking& making_;
+  glm::dvec3 middle_;
+  glm::dvec3 along_;
+  glm::dvec3 across_;
+  glm::dvec3 wall_{0.0};
+  glm::dvec3 top_{0.0};
+};
+
+}  // namespace
+
+Footprint footprint_of(const std::vector<glm::dvec2>& outline) {
+  Footprint best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const glm::dvec2 edge = outline[(i + 1) % outline.size()] - outline[i];
+    if (glm::length(edge) < 1e-6) continue;
+    const glm::dvec2 u = glm::normalize(edge);
+    const glm::dvec2 v = perpendicular(u);
+    glm::dvec2 low(std::numeric_limits<double>::infinity());
+    glm::dvec2 high = -low;
+    for (const glm::dvec2 corner : outline) {
+      const glm::dvec2 at{glm::dot(corner - outline[0], u), glm::dot(corner - outline[0], v)};
+      low = glm::min(low, at);
+      high = glm::max(high, at);
+    }
+    const glm::dvec2 size = high - low;
+    if (size.x * size.y >= least * (1.0 - 1e-9)) continue;
+    least = size.x * size.y;
+    const glm::dvec2 middle = 0.5 * (low + high);
+    best.middle = outline[0] + middle.x * u + middle.y * v;
+    best.along = 0.5 * size.x * u;
+    best.across = 0.5 * size.y * v;
+  }
+  if (glm::length(best.along) < glm::length(best.across)) std::swap(best.along, best.across);
+  return best;
+}
+
+void draw_house(const HouseMaking& making, const Feature& feature, std::vector<DrawnHouse>& houses, DrawnCount& count) {
+  const FeatureKind& kind = making.kind;
+  ++count.features;
+  Footprint foot =
+      feature.shape == MapShape::point ? usual_house(making.sight, feature.parts.front().front()) : footprint_of(feature.parts.front());
+  // A wall of no length has no direction; a shed is no line.
+  const double length = glm::length(foot.along);
+  if (length < 1e-6) foot = usual_house(making.sight, feature.parts.front().front());
+  if (glm::length(foot.across) < 0.35 * glm::length(foot.along))
+    foot.across = 0.35 * glm::length(foot.along) * glm::normalize(perpendicular(foot.along));
+  const auto ground = making.sight.ground(foot.middle);
+  if (!ground) {
+    ++count.outside_terrain;
+    return;
+  }
+  std::vector<LineSample> middle(1);
+  const auto pixel = making.sight.pixel(*ground);
+  const glm::dvec2 size = making.sight.size();
+  if (!pixel || !(pixel->x > -0.1 * size.x && pixel->y > -0.1 * size.y && pixel->x < 1.1 * size.x && pixel->y < 1.1 * size.y)) {
+    ++count.outside_picture;
+    return;
+  }
+  LineSample& sample = middle.front();
+  sample.map = foot.middle;
+  sample.point = *ground;
+  sample.pixel = *pixel;
+  sample.distance_m = making.sight.distance_m(*ground, *pixel);
+  sample.on_terrain = sample.projected = sample.in_picture = true;
+  if (kind.farthest_km > 0.0 && sample.distance_m > 1000.0 * kind.farthest_km) {
+    ++count.too_far;
+    return;
+  }
+  find_seen(making.sight, middle, making.px_per_mm);
+  if (!sample.seen) {
+    ++count.hidden;
+    return;
+  }
+  const PointLook look =
+      look_at(making.sight, sample.point, sample.pixel, kind, feature.width_mm, 0.0, making.px_per_mm, making.foreground_m_per_px);
+  const double m_per_px = making.sight.metres_per_px(sample.point, sample.pixel);
+  const double own_px = 2.0 * glm::length(foot.along) / m_per_px;
+  const double most_px = 0.5 * most_units * making.px_per_mm;
+  const double scale = std::min(std::max(own_px, 2.0 * look.half_px), most_px) / own_px;
+  Builder builder(making, sample.point, foot, scale);
+  DrawnHouse house;
+  house.kind = feature.kind;
+  house.foot = glm::vec2(sample.pixel);
+  house.distance_m = static_cast<float>(sample.distance_m);
+  house.faces = builder.faces();
+  house.reach_px = static_cast<float>(builder.reach_px(sample.pixel));
+  const double height_m = (eaves + 0.5 * ridge) * 2.0 * scale * glm::length(foot.across);
+  const glm::dvec2 level{making.sun.x, making.sun.y};
+  const double flat = std::max(0.35, making.sun.z / std::max(1e-3, glm::length(level)));
+  const glm::dvec2 away = glm::length(level) > 1e-6 ? -glm::normalize(level) * (height_m / flat) : glm::dvec2(0.0);
+  if (const auto end = making.sight.pixel(sample.point + glm::dvec3(away, 0.0))) {
+    house.shade = glm::vec2(*end - sample.pixel);
+    house.shade_px = static_cast<float>(2.0 * scale * glm::length(foot.across) / m_per_px);
+    house.reach_px = std::max(house.reach_px, glm::length(house.shade) + house.shade_px);
+  }
+  ++count.drawn;
+  houses.push_back(std::move(house));
+}
+
+}  // namespace belvedere

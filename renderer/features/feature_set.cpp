@@ -1,0 +1,107 @@
+#include "renderer/features/feature_set.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <glm/common.hpp>
+#include <optional>
+#include <utility>
+
+#include "base/config.h"
+#include "base/error.h"
+
+namespace belvedere {
+namespace {
+
+constexpr std::size_t most_unknown = 1000;  // different words that are remembered
+
+bool fits(FeatureGeometry wanted, MapShape shape) {
+  switch (wanted) {
+    case FeatureGeometry::line:
+      return shape == MapShape::line;
+    case FeatureGeometry::area:
+      return shape == MapShape::area;
+    case FeatureGeometry::point_or_area:
+      return shape != MapShape::line;
+  }
+  return false;
+}
+
+// "7.5", "7,5", "12 m"; nothing where it is no length.
+std::optional<double> metres_of(std::string text) {
+  for (char& c : text)
+    if (c == ',') c = '.';
+  double value = 0.0;
+  const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const std::string rest(stop, static_cast<const char*>(text.data() + text.size()));
+  if (problem != std::errc() || !(value >= 0.0 && value <= 1e5) || (!rest.empty() && rest != "m" && rest != " m")) return std::nullopt;
+  return value;
+}
+
+int kind_of_word(const FeatureStyle& style, const std::string& word, const std::string& key) {
+  const int kind = style.find(word);
+  if (kind >= 0) return kind;
+  const std::string near = nearest_word(word, style.names());
+  throw Error(ErrorKind::usage, key,
+              fmt::format("the style {} has no kind \"{}\"{}", style.name, word, near.empty() ? "" : "; is \"" + near + "\" meant?"),
+              fmt::format("{}", fmt::join(style.names(), ", ")));
+}
+
+void add_source(FeatureSet& set, const FeatureSource& source, int number, const std::string& crs) {
+  const int usual = source.kind.empty() ? -1 : kind_of_word(set.style, source.kind, source.key + ".kind");
+  MapQuery query{.layer = source.layer, .where = source.where, .columns = {}};
+  const bool by_column = !source.kind_of.empty();
+  if (by_column) query.columns.push_back(source.kind_of);
+  if (!source.width_of.empty()) query.columns.push_back(source.width_of);
+  MapFeatures found = read_map_features(source.path, query, crs);
+  SourceReading& reading = set.readings.emplace_back();
+  reading.file = source.path;
+  reading.read = found.read;
+  reading.without_shape = found.without_shape;
+  reading.unplaceable = found.unplaceable;
+  bool first = true;
+  for (MapFeature& one : found.features) {
+    for (const auto& row : one.parts)
+      for (const glm::dvec2 place : row) {
+        reading.low = first ? place : glm::min(reading.low, place);
+        reading.high = first ? place : glm::max(reading.high, place);
+        first = false;
+      }
+    int kind = by_column ? set.style.find(one.values[0]) : usual;
+    if (kind < 0) kind = usual;
+    if (kind < 0) {
+      std::string word = one.values[0].substr(0, 60);
+      if (reading.unknown.size() < most_unknown || reading.unknown.contains(word)) ++reading.unknown[word];
+      continue;
+    }
+    const FeatureKind& style = set.style.kinds[static_cast<std::size_t>(kind)];
+    if (!fits(geometry_of(style.draw), one.shape)) {
+      ++reading.wrong_shape;
+      continue;
+    }
+    Feature feature{.kind = kind, .source = number, .shape = one.shape, .where = std::move(one.where), .parts = std::move(one.parts)};
+    feature.width_mm = static_cast<float>(source.width_mm > 0.0 ? source.width_mm : style.width_mm);
+    double real_m = style.real_m;
+    if (!source.width_of.empty() && !one.values.back().empty()) {
+      const std::optional<double> width = metres_of(one.values.back());
+      if (width)
+        real_m = *width;
+      else
+        ++reading.wrong_width;
+    }
+    feature.real_m = static_cast<float>(real_m);
+    ++reading.taken;
+    set.features.push_back(std::move(feature));
+  }
+}
+
+}  // namespace
+
+FeatureSet read_feature_set(const FeatureStyle& style, const std::vector<FeatureSource>& sources, const std::string& crs) {
+  FeatureSet set{.style = style, .features = {}, .readings = {}};
+  for (std::size_t i = 0; i < sources.size(); ++i) add_source(set, sources[i], static_cast<int>(i), crs);
+  return set;
+}
+
+}  // namespace belvedere

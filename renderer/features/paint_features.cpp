@@ -1,0 +1,259 @@
+#include "renderer/features/paint_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "base/noise.h"
+#include "base/parallel.h"
+#include "base/random_streams.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int tile_px = 128;
+constexpr float same_ground = 0.04F;  // of its distance: how far a pixel's ground may lie before or behind a line that runs over it
+constexpr float in_front = 0.006F;    // of its distance: ground so much nearer hides a rope
+constexpr double hand_mm = 1.1;       // how long the unevenness of the hand is on the sheet
+
+enum class Coat : std::uint8_t { bed, band, casing, fill, cable };
+
+// One coat of paint over the lines of one kind.
+struct Layer {
+  Coat coat;
+  int kind;
+  double rank;
+};
+
+std::vector<Layer> layers_of(const FeatureStyle& style) {
+  std::vector<Layer> layers;
+  for (std::size_t k = 0; k < style.kinds.size(); ++k) {
+    const FeatureKind& kind = style.kinds[k];
+    const auto add = [&](Coat coat) { layers.push_back({coat, static_cast<int>(k), kind.rank}); };
+    if (kind.draw == FeatureDraw::cable) add(Coat::cable);
+    if (kind.draw != FeatureDraw::line && kind.draw != FeatureDraw::band) continue;
+    if (kind.bed_mm > 0.0) add(Coat::bed);
+    if (kind.casing_mm > 0.0) add(Coat::casing);
+    add(kind.draw == FeatureDraw::band ? Coat::band : Coat::fill);
+  }
+  std::stable_sort(layers.begin(), layers.end(),
+                   [](const Layer& a, const Layer& b) { return a.coat != b.coat ? a.coat < b.coat : a.rank < b.rank; });
+  return layers;
+}
+
+// The nearest place of a segment to a pixel.
+struct Near {
+  float t;
+  float distance;
+  glm::vec2 off;  // from the place to the pixel
+};
+Near nearest(const DrawnPoint& a, const DrawnPoint& b, glm::vec2 pixel) {
+  const glm::vec2 way = b.place - a.place;
+  const glm::vec2 from = pixel - a.place;
+  const float t = std::clamp(glm::dot(from, way) / (glm::dot(way, way) + 1e-9F), 0.F, 1.F);
+  const glm::vec2 off = from - t * way;
+  return {t, glm::length(off), off};
+}
+
+// Pixels of the rectangle within `reach` of a segment.
+PixelRect around(const DrawnPoint& a, const DrawnPoint& b, float reach, PixelRect rect) {
+  const glm::vec2 low = glm::clamp(glm::min(a.place, b.place) - reach, glm::vec2(-1e6F), glm::vec2(1e6F));
+  const glm::vec2 high = glm::clamp(glm::max(a.place, b.place) + reach, glm::vec2(-1e6F), glm::vec2(1e6F));
+  return intersection({static_cast<int>(std::floor(low.x)), static_cast<int>(std::floor(low.y)), static_cast<int>(std::ceil(high.x)) + 1,
+                       static_cast<int>(std::ceil(high.y)) + 1},
+                      rect);
+}
+
+bool lies_on(float depth_m, float distance_m) { return std::abs(depth_m - distance_m) <= same_ground * distance_m; }
+
+// Whether a dash is at a place along the line, antialiased over a pixel.
+float dash_at(glm::dvec2 dash_mm, float along_mm, float px_of_mm) {
+  const auto on = static_cast<float>(dash_mm.x);
+  const auto period = static_cast<float>(dash_mm.x + dash_mm.y);
+  if (!(dash_mm.y > 0.0) || period * px_of_mm < 2.F) return dash_mm.y > 0.0 ? on / period : 1.F;
+  const float at = along_mm - period * std::floor(along_mm / period);
+  // Distance into the dash, px: negative in the gap.
+  const float inside = std::min(at, on - at);
+  const float wrapped = std::max(inside, at - period);
+  return std::clamp(0.5F + wrapped * px_of_mm, 0.F, 1.F);
+}
+
+// The coverage of one coat on a tile: the most that any line of the kind has there, so that lines of a kind join.
+class Coverage {
+ public:
+  Coverage(const DrawnFeatures& features, const Grid<float>& depth_m, PixelRect held, PixelRect tile)
+      : features_(features), depth_m_(depth_m), held_(held), tile_(tile), values_(tile.width(), tile.height()) {}
+
+  // False where none of the lines touches the tile.
+  bool lay(const Layer& layer, const std::vector<std::uint32_t>& numbers) {
+    std::fill(values_.begin(), values_.end(), 0.F);
+    bool any = false;
+    for (const std::uint32_t number : numbers) {
+      const DrawnLine& line = features_.lines[number];
+      if (line.kind != layer.kind) continue;
+      for (std::size_t i = 0; i + 1 < line.points.size(); ++i) any = lay_segment(layer, line, i) || any;
+    }
+    return any;
+  }
+  float at(int x, int y) const { return values_(x - tile_.x0, y - tile_.y0); }
+
+ private:
+  bool lay_segment(const Layer& layer, const DrawnLine& line, std::size_t i) {
+    const FeatureKind& kind = features_.style.kinds[static_cast<std::size_t>(layer.kind)];
+    const DrawnPoint& a = line.points[i];
+    const DrawnPoint& b = line.points[i + 1];
+    const auto scale = static_cast<float>(features_.px_per_mm);
+    const float beyond_mm = static_cast<float>(layer.coat == Coat::casing ? kind.casing_mm : layer.coat == Coat::bed ? kind.bed_mm : 0.0);
+    const bool soft_coat = layer.coat == Coat::bed || layer.coat == Coat::band;
+    const float soft_mm = soft_coat ? static_cast<float>(kind.soft_mm) : 0.F;
+    const auto hand = static_cast<float>(line.part == LinePart::way ? kind.hand : 0.0);
+    const float share = std::max(a.share, b.share);
+    const float reach = std::max(a.half_px, b.half_px) * (1.F + hand) + (beyond_mm + soft_mm) * scale * share + 1.F;
+    const PixelRect where = around(a, b, reach, tile_);
+    if (where.empty()) return false;
+    bool any = false;
+    for (int y = where.y0; y < where.y1; ++y)
+      for (int x = where.x0; x < where.x1; ++x) {
+        const glm::vec2 pixel{static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F};
+        const Near near = nearest(a, b, pixel);
+        if (near.distance > reach) continue;
+        const float distance_m = glm::mix(a.distance_m, b.distance_m, near.t);
+        const float depth = depth_m_(x - held_.x0, y - held_.y0);
+        if (layer.coat == Coat::cable ? depth < distance_m * (1.F - in_front) : !lies_on(depth, distance_m)) continue;
+        const float share_here = glm::mix(a.share, b.share, near.t) * scale;
+        float half = glm::mix(a.half_px, b.half_px, near.t);
+        // The hand: now a little broader, now narrower, by the place on the sheet.
+        if (hand > 0.F && near.distance > 0.5F * half - 1.F) half *= 1.F + hand * std::clamp(hand_noise(pixel), -1.F, 1.F);
+        const float own = half;
+        half += beyond_mm * share_here;
+        const float soft = std::max(1.F, soft_mm * share_here);
+        // Antialiased by distance; a line thinner than a pixel keeps its area instead of its width.
+        float value = soft > 1.F ? smoothstep(std::clamp((half + 0.5F * soft - near.distance) / soft, 0.F, 1.F))
+                                 : std::clamp(0.5F + half - near.distance, 0.F, std::min(1.F, 2.F * half));
+        if (line.part == LinePart::station) value = std::clamp(0.5F + own - std::max(std::abs(near.off.x), std::abs(near.off.y)), 0.F, 1.F);
+        if (layer.coat == Coat::fill && kind.dash_mm.y > 0.0)
+          value *= dash_at(kind.dash_mm, glm::mix(a.along_mm, b.along_mm, near.t), share_here);
+        float& to = values_(x - tile_.x0, y - tile_.y0);
+        to = std::max(to, value);
+        any = any || value > 0.F;
+      }
+    return any;
+  }
+
+  float hand_noise(glm::vec2 pixel) const {
+    const std::uint64_t seed = stream_seed(features_.seed, Stream::feature_edges);
+    const double scale = 1.0 / features_.px_per_mm;
+    return static_cast<float>(gaussian_noise(seed, static_cast<double>(pixel.x) * scale, static_cast<double>(pixel.y) * scale, hand_mm));
+  }
+
+  const DrawnFeatures& features_;
+  const Grid<float>& depth_m_;
+  PixelRect held_;
+  PixelRect tile_;
+  Grid<float> values_;
+};
+
+// Paint in the light of its place: warm and light in the sun, cool and darker in the shade.
+glm::vec3 in_light(glm::vec3 paint, float tone) {
+  const float light = std::clamp(tone, 0.F, 1.F);
+  const glm::vec3 cool{0.90F, 0.96F, 1.08F};
+  return glm::min(paint * (0.62F + 0.40F * light) * (cool + (1.F - cool) * smoothstep(light)), glm::vec3(1.F));
+}
+
+struct Canvas {
+  Grid<glm::vec3>& picture;
+  const FeatureGround& ground;
+  PixelRect rect;
+};
+
+void paint_layer(const Canvas& canvas, const DrawnFeatures& features, const Layer& layer, const Coverage& coverage, PixelRect tile) {
+  const FeatureKind& kind = features.style.kinds[static_cast<std::size_t>(layer.kind)];
+  const FeatureColours& colours = features.winter ? kind.winter : kind.summer;
+  const auto opacity = static_cast<float>(kind.opacity);
+  for (int y = tile.y0; y < tile.y1; ++y)
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      const float share = coverage.at(x, y);
+      if (share <= 0.F) continue;
+      const std::size_t i = canvas.picture.index(x - canvas.rect.x0, y - canvas.rect.y0);
+      const FeatureGround& ground = canvas.ground;
+      const float haze = std::clamp(ground.haze[i], 0.F, 1.F);
+      const float tone = ground.guidance.tone[i];
+      // Before sky there is no ground that light falls on.
+      const float light = ground.guidance.is_sky(i) ? 0.6F : tone;
+      const float under = layer.coat == Coat::cable ? 1.F : ground.seen_ground[i];
+      glm::vec3& pixel = canvas.picture[i];
+      // What lies below where things stand on it: the picture itself where nothing does.
+      const glm::vec3 below = ground.base[i] + (pixel - ground.base[i]) * under;
+      const float alpha = share * under * (layer.coat == Coat::bed || layer.coat == Coat::cable ? 1.F : opacity);
+      if (layer.coat == Coat::band) {
+        // Tinted, so that light and relief show through.
+        const glm::vec3 tint = 1.F + (colours.fill - 1.F) * (1.F - haze);
+        pixel += alpha * (below * tint - below);
+        continue;
+      }
+      const glm::vec3 paint = layer.coat == Coat::bed ? colours.bed : layer.coat == Coat::casing ? colours.casing : colours.fill;
+      const glm::vec3 lit = in_light(paint, light);
+      pixel += alpha * (lit + (ground.base[i] - lit) * haze - below);
+    }
+}
+
+}  // namespace
+
+void paint_features(Grid<glm::vec3>& picture, const DrawnFeatures& features, const FeatureGround& ground, PixelRect rect, PixelRect asked) {
+  const bool same = picture.width() == rect.width() && picture.height() == rect.height() && picture.same_size(ground.guidance.depth_m) &&
+                    picture.same_size(ground.guidance.tone) && picture.same_size(ground.base) && picture.same_size(ground.haze) &&
+                    picture.same_size(ground.seen_ground);
+  if (!same) throw Error(ErrorKind::bug, "paint_features", "grids that differ in size");
+  const std::vector<Layer> layers = layers_of(features.style);
+  const Canvas canvas{picture, ground, rect};
+  parallel_tiles(asked.width(), asked.height(), tile_px, [&](PixelRect part) {
+    const PixelRect tile = moved(part, asked.x0, asked.y0);
+    const std::vector<std::uint32_t> numbers = features.lines_at(tile);
+    if (numbers.empty()) return;
+    Coverage coverage(features, ground.guidance.depth_m, rect, tile);
+    for (const Layer& layer : layers)
+      if (coverage.lay(layer, numbers)) paint_layer(canvas, features, layer, coverage, tile);
+  });
+}
+
+Grid<std::uint8_t> find_cleared(const DrawnFeatures& features, const Grid<float>& depth_m, PixelRect rect) {
+  Grid<std::uint8_t> cleared(rect.width(), rect.height());
+  const auto scale = static_cast<float>(features.px_per_mm);
+  parallel_tiles(rect.width(), rect.height(), tile_px, [&](PixelRect part) {
+    const PixelRect tile = moved(part, rect.x0, rect.y0);
+    // Pixels that lie no farther below a line than clear_below times as far as beside it.
+    const auto clear = [&](const DrawnPoint& a, const DrawnPoint& b, float clear_mm) {
+      const float most = std::max(a.half_px, b.half_px) + static_cast<float>(clear_below) * clear_mm * scale * std::max(a.share, b.share);
+      const PixelRect where = around(a, b, most, tile);
+      for (int y = where.y0; y < where.y1; ++y)
+        for (int x = where.x0; x < where.x1; ++x) {
+          const Near near = nearest(a, b, {static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F});
+          const float down = near.distance > 0.F ? std::max(0.F, near.off.y / near.distance) : 0.F;
+          const float room = clear_mm * scale * glm::mix(a.share, b.share, near.t) * (1.F + (static_cast<float>(clear_below) - 1.F) * down);
+          if (near.distance > glm::mix(a.half_px, b.half_px, near.t) + room) continue;
+          if (!lies_on(depth_m(x - rect.x0, y - rect.y0), glm::mix(a.distance_m, b.distance_m, near.t))) continue;
+          cleared(x - rect.x0, y - rect.y0) = 1;
+        }
+    };
+    for (const std::uint32_t number : features.lines_at(tile)) {
+      const DrawnLine& line = features.lines[number];
+      const FeatureKind& kind = features.style.kinds[static_cast<std::size_t>(line.kind)];
+      if (kind.clear_mm <= 0.0 || line.part == LinePart::rope || line.part == LinePart::pylon) continue;
+      for (std::size_t i = 0; i + 1 < line.points.size(); ++i) clear(line.points[i], line.points[i + 1], static_cast<float>(kind.clear_mm));
+    }
+    for (const std::uint32_t number : features.houses_at(tile)) {
+      const DrawnHouse& house = features.houses[number];
+      const FeatureKind& kind = features.style.kinds[static_cast<std::size_t>(house.kind)];
+      const DrawnPoint foot{
+          .place = house.foot, .distance_m = house.distance_m, .half_px = 0.6F * house.reach_px, .share = 1.F, .along_mm = 0.F};
+      clear(foot, foot, static_cast<float>(kind.clear_mm));
+    }
+  });
+  return cleared;
+}
+
+}  // namespace belvedere

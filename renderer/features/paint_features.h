@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "base/grid.h"
+#include "base/guidance_buffers.h"
+#include "renderer/features/drawn_features.h"
+#include "texture/strokes/base_picture.h"
+
+namespace belvedere {
+
+// What features are painted on and by. All grids hold the same rectangle of the sheet.
+struct FeatureGround {
+  const GuidanceBuffers& guidance;  // depth_m, tone
+  const Grid<glm::vec3>& base;      // encoded sRGB: what air fades to
+  const Grid<float>& haze;          // 0…1
+  const Grid<float>& seen_ground;   // share of each pixel that nothing standing covers
+};
+
+// Paints ways, runs and lifts on a rectangle of the sheet (encoded sRGB): beds, bands, all casings by rank, all fills by rank, lifts over
+// all. Lines of one kind make one shape, so that crossings and joints join and the order of files does not matter. Each pixel hangs on the
+// sheet's place alone. Ways lie on the ground of their own distance, under what stands; lifts before all that is farther.
+// Only `asked` is painted, a part of the rectangle in pixels of the sheet.
+void paint_features(Grid<glm::vec3>& picture, const DrawnFeatures& features, const FeatureGround& ground, PixelRect rect, PixelRect asked);
+
+// 1 where nothing that stands up may grow, because a line or a house needs the place: on pixels of that line's own ground.
+Grid<std::uint8_t> find_cleared(const DrawnFeatures& features, const Grid<float>& depth_m, PixelRect rect);
+
+}  // namespace belvedere

@@ -1,0 +1,110 @@
+#include "renderer/world/scene_features.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "terrain/io/crs.h"
+
+namespace belvedere {
+namespace {
+
+std::string features_of(std::size_t count) { return count == 1 ? "a feature" : fmt::format("{} features", count); }
+
+// What a reading leaves out, in one line; empty where it is nothing.
+std::string left_out(const SourceReading& reading) {
+  std::string text;
+  const auto add = [&](std::size_t count, const std::string& why) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", features_of(count), why);
+  };
+  add(reading.without_shape, "without places");
+  add(reading.unplaceable, "with places that the terrain's coordinate system does not have");
+  add(reading.wrong_shape, "of another shape than their kind is drawn from");
+  std::size_t unknown = 0;
+  std::vector<std::pair<std::size_t, std::string>> words;
+  for (const auto& [word, count] : reading.unknown) {
+    unknown += count;
+    words.emplace_back(count, word);
+  }
+  std::sort(words.begin(), words.end(),
+            [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
+  std::string named;
+  for (std::size_t i = 0; i < words.size() && i < 5; ++i) named += fmt::format("{}\"{}\"", named.empty() ? "" : ", ", words[i].second);
+  if (unknown > 0) add(unknown, fmt::format("of kinds that the style does not know ({}{})", named, words.size() > 5 ? " …" : ""));
+  return text;
+}
+
+}  // namespace
+
+FeatureStyle read_scene_feature_style(const LoadedScene& loaded) {
+  return load_feature_style(find_named_file(loaded, "features", loaded.scene.features_style));
+}
+
+FeatureSet read_scene_features(const LoadedScene& loaded, const std::string& crs, Progress& progress) {
+  const Scene& scene = loaded.scene;
+  if (scene.features.empty()) return {};
+  std::vector<FeatureSource> sources;
+  for (std::size_t i = 0; i < scene.features.size(); ++i) {
+    const SceneFeatures& block = scene.features[i];
+    const std::string path = find_scene_file(loaded, block.source);
+    if (path.empty()) {
+      if (!block.optional)
+        throw Error(ErrorKind::input, block.source, "there is no such file", "a file beside the scene or in a --data folder");
+      progress.note(
+          fmt::format("{} is left out: there is no such file{}", block.source, block.get_from.empty() ? "" : "; " + block.get_from));
+      continue;
+    }
+    sources.push_back({.path = path,
+                       .layer = block.layer,
+                       .where = block.where,
+                       .kind = block.kind,
+                       .kind_of = block.kind_of,
+                       .width_mm = block.width_mm,
+                       .width_of = block.width_of,
+                       .key = fmt::format("features.{}", i)});
+  }
+  FeatureSet set = read_feature_set(read_scene_feature_style(loaded), sources, crs);
+  for (const SourceReading& reading : set.readings)
+    if (const std::string text = left_out(reading); !text.empty()) progress.note(fmt::format("{}: left out {}", reading.file, text));
+  return set;
+}
+
+void check_extents(const FeatureSet& set, const DrawnFeatures& drawn, const World& world) {
+  for (std::size_t s = 0; s < set.readings.size(); ++s) {
+    std::size_t outside = 0;
+    std::size_t all = 0;
+    for (const DrawnCount& count : drawn.counts[s]) {
+      outside += count.outside_terrain;
+      all += count.features;
+    }
+    if (all == 0 || outside < all) continue;
+    const Dem& dem = *world.dem;
+    const glm::dvec2 a = dem.transform.to_crs(-.5, dem.height() - .5);
+    const glm::dvec2 b = dem.transform.to_crs(dem.width() - .5, -.5);
+    const SourceReading& reading = set.readings[s];
+    throw Error(ErrorKind::usage, reading.file,
+                fmt::format("none of {} features lies on the terrain: they lie E {:.0f} … {:.0f}, N {:.0f} … {:.0f}", all, reading.low.x,
+                            reading.high.x, reading.low.y, reading.high.y),
+                fmt::format("places within E {:.0f} … {:.0f}, N {:.0f} … {:.0f}{}; a file that states its own coordinate system", a.x, b.x,
+                            a.y, b.y, dem.crs.empty() ? "" : " (" + describe_crs(dem.crs) + ")"));
+  }
+}
+
+DrawnFeatures draw_scene_features(const LoadedScene& loaded, const World& world, bool winter, Progress& progress) {
+  if (loaded.scene.features.empty()) return {};
+  const FeatureSet set = read_scene_features(loaded, world.dem->crs, progress);
+  progress.begin("laying features over the ground", 0.0);
+  const GroundSight sight(world.dem->transform, world.surface, *world.camera, world.tracer);
+  DrawnFeatures drawn = draw_features(set, sight,
+                                      {.winter = winter,
+                                       .px_per_mm = world.scene.output.width / world.scene.output.sheet_width_mm,
+                                       .seed = world.scene.seed,
+                                       .sun = world.view.sun_direction});
+  check_extents(set, drawn, world);
+  return drawn;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "base/progress.h"
+#include "renderer/features/drawn_features.h"
+#include "renderer/features/feature_set.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/world/lit_picture.h"
+
+namespace belvedere {
+
+// The style a scene names.
+FeatureStyle read_scene_feature_style(const LoadedScene& loaded);
+// What the scene's [[features]] hold, in the terrain's CRS; empty where it has none. Notes what is left out and why.
+FeatureSet read_scene_features(const LoadedScene& loaded, const std::string& crs, Progress& progress);
+
+// The same laid over the drawn ground, ready to be painted. Throws Error(usage) with both extents where nothing of a file lies on the
+// terrain: its coordinate system then is another than it says.
+DrawnFeatures draw_scene_features(const LoadedScene& loaded, const World& world, bool winter, Progress& progress);
+void check_extents(const FeatureSet& set, const DrawnFeatures& drawn, const World& world);
+
+}  // namespace belvedere

@@ -1,0 +1,103 @@
+#include "renderer/features/drawn_houses.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/renderer/features/test_ground.h"
+
+namespace belvedere {
+namespace {
+
+using test::set_of;
+using test::TestGround;
+
+FeatureStyle style(const std::string& more = "") {
+  return parse_feature_style("version = 1\n[kinds.house]\ndraw = \"building\"\nshrink = 0\nleast_px = 0\nwidth_mm = 0.01\n" + more,
+                             "test.toml");
+}
+
+Feature house(std::vector<glm::dvec2> outline) {
+  Feature feature;
+  feature.shape = outline.size() == 1 ? MapShape::point : MapShape::area;
+  feature.parts = {std::move(outline)};
+  feature.width_mm = 0.01F;
+  return feature;
+}
+
+DrawnFeatures draw(const TestGround& ground, std::vector<glm::dvec2> outline, glm::dvec3 sun = {0.6, 0.0, 0.8}) {
+  return draw_features(set_of(style(), {house(std::move(outline))}), ground.sight(), {.px_per_mm = 20.0, .sun = sun});
+}
+
+std::vector<glm::dvec2> rectangle(glm::dvec2 middle, double length, double width, double turn) {
+  const glm::dvec2 u{std::cos(turn), std::sin(turn)};
+  const glm::dvec2 v{-u.y, u.x};
+  std::vector<glm::dvec2> out;
+  for (const glm::dvec2 corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)})
+    out.push_back(middle + 0.5 * length * corner.x * u + 0.5 * width * corner.y * v);
+  return out;
+}
+
+TEST(DrawnHouses, FootprintsAreFoundWhateverTheirTurn) {
+  for (const double turn : {0.0, 0.3, 1.1, 2.0}) {
+    std::vector<glm::dvec2> outline = rectangle({40.0, -20.0}, 30.0, 12.0, turn);
+    outline.insert(outline.begin() + 1, 0.5 * (outline[0] + outline[1]));  // a place along a wall
+    const Footprint foot = footprint_of(outline);
+    EXPECT_LT(glm::length(foot.middle - glm::dvec2(40.0, -20.0)), 1e-9);
+    EXPECT_NEAR(glm::length(foot.along), 15.0, 1e-9);
+    EXPECT_NEAR(glm::length(foot.across), 6.0, 1e-9);
+    EXPECT_NEAR(std::abs(glm::dot(foot.along / 15.0, glm::dvec2(std::cos(turn), std::sin(turn)))), 1.0, 1e-9);
+  }
+}
+
+TEST(DrawnHouses, StandOnTheirPlaceInTheirSize) {
+  const TestGround ground([](glm::dvec2) { return 0.0; }, {0.0, -300.0, 150.0}, 800, 600);
+  const DrawnFeatures drawn = draw(ground, rectangle({0.0, 0.0}, 60.0, 20.0, 0.0));
+  ASSERT_EQ(drawn.houses.size(), 1U);
+  const DrawnHouse& one = drawn.houses[0];
+  EXPECT_LT(glm::length(glm::dvec2(one.foot) - ground.pixel({0.0, 0.0, 0.0})), 0.01);
+  // The eye looks down less steeply than the roof's far side falls: it sees the southern wall and one side.
+  ASSERT_EQ(one.faces.size(), 2U);
+  const HouseFace& wall = one.faces[0];
+  EXPECT_FALSE(wall.roof);
+  const double length = glm::length(ground.pixel({30.0, -10.0, 0.0}) - ground.pixel({-30.0, -10.0, 0.0}));
+  EXPECT_NEAR(static_cast<double>(wall.from_width), length, 0.01 * length);
+  EXPECT_TRUE(one.faces[1].roof);
+}
+
+TEST(DrawnHouses, TheSunnySideIsLight) {
+  const TestGround ground([](glm::dvec2) { return 0.0; }, {0.0, -300.0, 150.0}, 800, 600);
+  // The ridge lies north to south, the sun in the east.
+  const DrawnFeatures drawn = draw(ground, rectangle({0.0, 0.0}, 40.0, 20.0, 1.5707963), {0.8, 0.0, 0.6});
+  std::vector<HouseFace> roofs;
+  for (const HouseFace& face : drawn.houses.at(0).faces)
+    if (face.roof) roofs.push_back(face);
+  ASSERT_EQ(roofs.size(), 2U);
+  std::sort(roofs.begin(), roofs.end(), [](const HouseFace& a, const HouseFace& b) { return a.from.x < b.from.x; });
+  EXPECT_GT(roofs[1].light, roofs[0].light + 0.4F) << "the eastern side";
+  EXPECT_LT(drawn.houses[0].shade.x, 0.F) << "the shadow falls to the west";
+}
+
+TEST(DrawnHouses, PointsBecomeHousesAndSmallOnesAreEnlarged) {
+  const TestGround ground([](glm::dvec2 p) { return 0.3 * p.x; });
+  const DrawnFeatures drawn = draw(ground, {{0.0, 0.0}});
+  ASSERT_EQ(drawn.houses.size(), 1U);
+  FeatureSet large = set_of(style("casing_mm = 0\n"), {house({{0.0, 0.0}})});
+  large.features[0].width_mm = 2.F;
+  const DrawnFeatures enlarged = draw_features(large, ground.sight(), {.px_per_mm = 5.0});
+  EXPECT_GT(enlarged.houses.at(0).reach_px, 5.F);
+  EXPECT_GT(enlarged.house_reach_px, 5);
+}
+
+TEST(DrawnHouses, AreHiddenByMountainsAndCounted) {
+  const TestGround ground([](glm::dvec2 p) { return std::abs(p.y) < 100.0 ? 900.0 : 0.0; });
+  EXPECT_EQ(draw(ground, {{0.0, 600.0}}).counts[0][0].hidden, 1U);
+  EXPECT_EQ(draw(ground, {{0.0, 6000.0}}).counts[0][0].outside_terrain, 1U);
+  EXPECT_EQ(draw(ground, {{-1990.0, -1990.0}}).counts[0][0].outside_picture, 1U);
+}
+
+}  // namespace
+}  // namespace belvedere

@@ -1,0 +1,163 @@
+#include "renderer/world/scene_features.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "renderer/image/image_io.h"
+#include "renderer/pipeline/pipeline.h"
+#include "renderer/world/world.h"
+#include "tests/files.h"
+
+namespace belvedere {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+
+class Notes final : public Progress {
+ public:
+  void begin(std::string_view, double) override {}
+  void advance(double) override {}
+  void note(std::string_view text) override { all.emplace_back(text); }
+  std::vector<std::string> all;
+};
+
+// Rolling ground of 8 × 8 km with a coordinate system of its own, and a forest on all of it.
+class SceneFeaturesInPictures : public testing::Test {
+ protected:
+  SceneFeaturesInPictures() {
+    std::string dem = "ncols 80\nnrows 80\nxllcorner 680000\nyllcorner 5240000\ncellsize 100\n";
+    for (int y = 0; y < 80; ++y)
+      for (int x = 0; x < 80; ++x)
+        dem += fmt::format("{:.1f}{}", 900.0 + 60.0 * std::sin(x / 6.0) * std::cos(y / 7.0), x == 79 ? '\n' : ' ');
+    folder_.write("dem.asc", dem);
+  }
+  std::string write(const std::string& name, const std::string& features) const {
+    return folder_.write(
+        name,
+        "{\"type\": \"FeatureCollection\", \"crs\": {\"type\": \"name\", \"properties\": {\"name\": \"EPSG:32632\"}}, \"features\": [" +
+            features + "]}");
+  }
+  static std::string line(const std::string& kind, const std::string& places) {
+    return fmt::format(
+        "{{\"type\": \"Feature\", \"properties\": {{\"kind\": \"{}\"}}, \"geometry\": {{\"type\": \"LineString\", \"coordinates\": "
+        "[{}]}}}}",
+        kind, places);
+  }
+  LoadedScene scene(const std::string& features = "", int width = 240, int height = 160) const {
+    return parse_scene(fmt::format(R"(version = 1
+[[terrain.sources]]
+file = "dem.asc"
+crs = "EPSG:32632"
+[camera]
+position = [684000, 5236000]
+height_m = 4000
+azimuth_deg = 0
+pitch_deg = -32
+[deform]
+exaggeration = 1
+[deform.bend]
+radius_m = 0
+[sun]
+azimuth_deg = 315
+altitude_deg = 30
+[generalize]
+foreground_to_m = 32000
+background_from_m = 90000
+[air]
+from_m = 34000
+scale_m = 62000
+rim_fade_m = 4000
+[sampling]
+pixel_samples = 1
+shadow_rays = 1
+sky_directions = 0
+[synthesis]
+enabled = false
+[output]
+width = {}
+height = {}
+sheet_width_mm = 120
+formats = ["tif"]
+{})",
+                                   width, height, features),
+                       "features.toml", folder_.path(), {});
+  }
+  static constexpr const char* block = "[[features]]\nsource = \"roads.geojson\"\nkind_of = \"kind\"\n";
+  Grid<glm::vec3> painted(const LoadedScene& loaded, const std::string& name, const SheetRequest& request = {}) const {
+    render(loaded, folder_ / name, {}, request);
+    return read_picture(folder_ / (name + "/panorama.tif"));
+  }
+  test::Folder folder_;
+};
+
+TEST_F(SceneFeaturesInPictures, AnyPartShowsTheWholeAndFarFromThemNothingChanges) {
+  write("roads.geojson", line("motorway", "[682500, 5243000], [685500, 5244500]") + "," +
+                             line("lift", "[683000, 5242000], [684500, 5243500]") + "," +
+                             line("run_easy", "[684600, 5243600], [683400, 5242200]"));
+  const Grid<glm::vec3> whole = painted(scene(block), "whole");
+  SheetRequest request;
+  request.part = PixelRect{70, 50, 190, 141};
+  const Grid<glm::vec3> part = painted(scene(block), "part", request);
+  ASSERT_EQ(part.width(), 120);
+  std::size_t wrong = 0;
+  for (int y = 0; y < part.height(); ++y)
+    for (int x = 0; x < part.width(); ++x) wrong += part(x, y) != whole(70 + x, 50 + y) ? 1 : 0;
+  EXPECT_EQ(wrong, 0U);
+
+  const Grid<glm::vec3> before = painted(scene(), "before");
+  World world(scene(), silent_progress());
+  const GroundSight sight(world.dem->transform, world.surface, *world.camera, world.tracer);
+  glm::dvec2 low(1e9);
+  glm::dvec2 high(-1e9);
+  for (const glm::dvec2 place :
+       {glm::dvec2(682500, 5243000), glm::dvec2(685500, 5244500), glm::dvec2(683000, 5242000), glm::dvec2(684500, 5243600)}) {
+    const glm::dvec2 pixel = *sight.pixel(*sight.ground(place));
+    low = glm::min(low, pixel);
+    high = glm::max(high, pixel);
+  }
+  std::size_t changed = 0;
+  std::size_t changed_far = 0;
+  for (int y = 0; y < before.height(); ++y)
+    for (int x = 0; x < before.width(); ++x) {
+      if (before(x, y) == whole(x, y)) continue;
+      ++changed;
+      // Trees are some 20 units high: what is cleared may have reached so far.
+      const bool far = x < low.x - 25 || y < low.y - 40 || x > high.x + 25 || y > high.y + 25;
+      changed_far += far ? 1 : 0;
+    }
+  EXPECT_GT(changed, 300U);
+  EXPECT_EQ(changed_far, 0U);
+}
+
+TEST_F(SceneFeaturesInPictures, AFileWhoseFeaturesAllLieElsewhereIsSaidWithBothExtents) {
+  write("roads.geojson", line("road", "[482500, 5243000], [485500, 5244500]"));
+  const LoadedScene loaded = scene(block);
+  const World world(loaded, silent_progress());
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { draw_scene_features(loaded, world, false, silent_progress()); }),
+              AllOf(HasSubstr("none of 1 features"), HasSubstr("E 482500 … 485500"), HasSubstr("E 680000 … 688000")));
+}
+
+TEST_F(SceneFeaturesInPictures, WhatIsLeftOutIsNoted) {
+  write("roads.geojson", line("road", "[682500, 5243000], [685500, 5244500]") + "," +
+                             line("runway", "[682500, 5243000], [685500, 5244500]") + "," +
+                             line("house", "[682500, 5243000], [685500, 5244500]"));
+  Notes notes;
+  const LoadedScene loaded = scene(std::string(block) + "[[features]]\nsource = \"none.gpkg\"\nkind = \"road\"\noptional = true\n");
+  const FeatureSet set = read_scene_features(loaded, "EPSG:32632", notes);
+  EXPECT_EQ(set.features.size(), 1U);
+  EXPECT_EQ(set.readings.size(), 1U);
+  EXPECT_THAT(notes.all, Contains(AllOf(HasSubstr("\"runway\""), HasSubstr("of another shape"))));
+  EXPECT_THAT(notes.all, Contains(HasSubstr("none.gpkg is left out")));
+  EXPECT_TRUE(read_scene_features(scene(), "", notes).features.empty()) << "a scene without features asks for no coordinate system";
+}
+
+}  // namespace
+}  // namespace belvedere

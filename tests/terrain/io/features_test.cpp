@@ -1,0 +1,95 @@
+#include "terrain/io/features.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "terrain/io/crs.h"
+#include "tests/terrain/io/raster_files.h"
+
+namespace belvedere {
+namespace {
+
+using test::message_of;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class MapFeatureFiles : public RasterFiles {
+ protected:
+  std::string mixed() const {
+    return write_text("mixed.geojson", R"({"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {"kind": "road", "width": 7.5}, "geometry": {"type": "MultiLineString", "coordinates": [[[11, 47], [11.1, 47]], [[11.2, 47], [11.3, 47], [11.4, 47]]]}},
+{"type": "Feature", "properties": {"kind": "lake"}, "geometry": {"type": "Polygon", "coordinates": [[[11, 47], [11.1, 47], [11.1, 47.1], [11, 47]], [[11.05, 47.01], [11.06, 47.01], [11.06, 47.02], [11.05, 47.01]]]}},
+{"type": "Feature", "properties": {"kind": "hut"}, "geometry": {"type": "Point", "coordinates": [11, 47]}},
+{"type": "Feature", "properties": {"kind": "nothing"}, "geometry": null},
+{"type": "Feature", "properties": {"kind": "short"}, "geometry": {"type": "LineString", "coordinates": [[11, 47], [11, 47]]}}]})");
+  }
+  std::string utm_ = normalize_crs("EPSG:32632");
+};
+
+TEST_F(MapFeatureFiles, PointsLinesAndAreasWithWhatIsSaidOfThem) {
+  const MapFeatures read = read_map_features(mixed(), {.layer = {}, .where = {}, .columns = {"KIND", "width"}}, utm_);
+  EXPECT_EQ(read.read, 5U);
+  EXPECT_EQ(read.without_shape, 2U) << "no geometry, and a line of one place";
+  ASSERT_EQ(read.features.size(), 4U) << "two parts of a line are two lines";
+  EXPECT_EQ(read.features[0].shape, MapShape::line);
+  EXPECT_THAT(read.features[0].values, ElementsAre("road", "7.5"));
+  EXPECT_EQ(read.features[1].parts[0].size(), 3U);
+  EXPECT_THAT(read.features[1].where, HasSubstr("mixed.geojson"));
+  EXPECT_EQ(read.features[2].shape, MapShape::area);
+  ASSERT_EQ(read.features[2].parts.size(), 2U) << "outline and hole";
+  EXPECT_EQ(read.features[2].parts[0].size(), 3U) << "without the closing place";
+  EXPECT_THAT(read.features[2].values, ElementsAre("lake", ""));
+  EXPECT_EQ(read.features[3].shape, MapShape::point);
+  EXPECT_LT(glm::length(read.features[3].parts[0][0] - transform_point("EPSG:4326", utm_, {11.0, 47.0})), 1e-3);
+}
+
+TEST_F(MapFeatureFiles, OnlyWhatTheFilterAsksFor) {
+  const MapFeatures read = read_map_features(mixed(), {.layer = {}, .where = "kind = 'road' AND width > 5", .columns = {}}, utm_);
+  EXPECT_EQ(read.read, 1U);
+  EXPECT_EQ(read.features.size(), 2U);
+  EXPECT_TRUE(read_map_features(mixed(), {.layer = {}, .where = "kind = 'sea'", .columns = {}}, utm_).features.empty());
+}
+
+TEST_F(MapFeatureFiles, TracksOfGpxAndNotTheirPlacesOnceMore) {
+  const std::string file =
+      write_text("tour.gpx", R"(<?xml version="1.0"?><gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1">
+<wpt lat="47.0" lon="11.0"><name>hut</name></wpt>
+<trk><name>back</name><trkseg><trkpt lat="47.2" lon="11.2"/><trkpt lat="47.1" lon="11.3"/><trkpt lat="47.0" lon="11.4"/></trkseg></trk></gpx>)");
+  const MapFeatures read = read_map_features(file, {}, utm_);
+  ASSERT_EQ(read.features.size(), 2U);
+  EXPECT_EQ(read.features[0].shape, MapShape::point);
+  EXPECT_EQ(read.features[1].parts[0].size(), 3U);
+  EXPECT_EQ(read_map_features(file, {.layer = "track_points", .where = {}, .columns = {}}, utm_).features.size(), 3U) << "where asked for";
+}
+
+TEST_F(MapFeatureFiles, PlacesThatTheSystemDoesNotHaveAreCountedAndTheirFeaturesLeftOutWhole) {
+  const std::string file = write_text("poles.geojson", R"({"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[11, 47], [11, 5000]]}},
+{"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[11, 47], [11, 48]]}}]})");
+  const MapFeatures read = read_map_features(file, {}, utm_);
+  EXPECT_EQ(read.unplaceable, 1U);
+  EXPECT_EQ(read.features.size(), 1U);
+}
+
+TEST_F(MapFeatureFiles, WhatIsWrongIsSaid) {
+  const auto message = [&](ErrorKind kind, const std::string& file, const MapQuery& query) {
+    return message_of(kind, [&] { read_map_features(file, query, utm_); });
+  };
+  const std::string file = mixed();
+  EXPECT_THAT(message(ErrorKind::usage, path("roads.kml"), {}), HasSubstr(".gpkg"));
+  EXPECT_THAT(message(ErrorKind::input, path("none.gpkg"), {}), HasSubstr("no such file"));
+  EXPECT_THAT(message(ErrorKind::input, write_text("broken.geojson", "{\"type\": "), {}), HasSubstr("broken.geojson"));
+  EXPECT_THAT(message(ErrorKind::usage, file, {.layer = "roads", .where = {}, .columns = {}}),
+              AllOf(HasSubstr("\"roads\""), HasSubstr("mixed")));
+  EXPECT_THAT(message(ErrorKind::usage, file, {.layer = {}, .where = {}, .columns = {"highway"}}),
+              AllOf(HasSubstr("\"highway\""), HasSubstr("kind, width")));
+  EXPECT_THAT(message(ErrorKind::usage, file, {.layer = {}, .where = "kind == = 'x'", .columns = {}}), HasSubstr("is not understood"));
+  EXPECT_THAT(message(ErrorKind::usage, file, {.layer = {}, .where = "highway = 'x'", .columns = {}}), HasSubstr("is not understood"));
+  EXPECT_THAT(message_of(ErrorKind::usage, [&] { read_map_features(file, {}, ""); }), HasSubstr("no CRS"));
+}
+
+}  // namespace
+}  // namespace belvedere
