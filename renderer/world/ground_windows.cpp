@@ -193,6 +193,7 @@ TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const 
   window.transform = {first.x, first.y, halo->transform.cell_x, halo->transform.cell_y};
   window.crs = halo->crs;
   window.halved = halo->halved;
+  if (cover.classes.cells.same_size(halo->altitude_m)) cut(cover.below, kept);
   cut(cover.classes, *halo, kept);
   cut(cover.colours, *halo, kept);
   cut(cover.relief, *halo, kept);

@@ -30,7 +30,7 @@ void each_field(auto& bytes, FieldsOf<GroundRelief::Bumps> auto& bumps) {
 }
 
 void each_field(auto& bytes, FieldsOf<LandCover> auto& cover) {
-  auto& [classes, colours, relief] = cover;
+  auto& [classes, colours, relief, map, below] = cover;  // a map is laid over what was kept
   auto& [cells, transform, crs] = classes;
   auto& [colour_cells, colour_transform, colour_crs] = colours;
   auto& [relief_transform, bumps, lake_depth_m] = relief;

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/parallel.h"
+#include "terrain/cover/map_cover.h"
 
 namespace belvedere {
 namespace {
@@ -88,6 +89,40 @@ void fill_unknown(Grid<LandCoverClass>& classes, const LandCoverParameters& para
     if (known[i] == 0) classes[i] = classes[static_cast<std::size_t>(nearest[i])];
 }
 
+// Pieces of water (cells that touch by a side) that reach into a known lake become the nearest land.
+void clear_guessed_water(Grid<LandCoverClass>& cells, const Grid<std::uint8_t>& lake) {
+  std::vector<glm::ivec2> open;
+  Grid<std::uint8_t> guessed(cells.width(), cells.height(), 0);
+  const auto mark = [&](int x, int y) {
+    if (!cells.contains(x, y) || cells(x, y) != LandCoverClass::water || guessed(x, y) != 0) return;
+    guessed(x, y) = 1;
+    open.emplace_back(x, y);
+  };
+  for (int y = 0; y < cells.height(); ++y)
+    for (int x = 0; x < cells.width(); ++x)
+      if (lake(x, y) != 0) mark(x, y);
+  bool any = !open.empty();
+  while (!open.empty()) {
+    const glm::ivec2 at = open.back();
+    open.pop_back();
+    for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)})
+      mark(at.x + step.x, at.y + step.y);
+  }
+  if (!any) return;
+  Grid<std::uint8_t> land(cells.width(), cells.height(), 0);
+  any = false;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    land[i] = cells[i] != LandCoverClass::water ? 1 : 0;
+    any = any || land[i] != 0;
+  }
+  if (!any) return;
+  const Grid<std::int32_t> nearest = nearest_marked(land);
+  Grid<LandCoverClass> out = cells;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (guessed[i] != 0) out[i] = cells[static_cast<std::size_t>(nearest[i])];
+  cells = std::move(out);
+}
+
 }  // namespace
 
 float GroundRelief::depth_at(double x, double y) const {
@@ -97,7 +132,9 @@ float GroundRelief::depth_at(double x, double y) const {
 }
 
 LandCoverClass LandCover::at(double x, double y) const {
-  const Grid<LandCoverClass>& cells = classes.cells;
+  if (map != nullptr)
+    if (const LandCoverClass known = map->at({x, y}); known != LandCoverClass::sky) return known;
+  const Grid<LandCoverClass>& cells = below.empty() ? classes.cells : below;
   const glm::dvec2 place = classes.transform.to_cell(x, y);
   // Two cells beyond the rim all 16 cells are the rim's; also keeps far places within an int.
   const double column = std::clamp(place.x, -2.0, cells.width() + 1.0);
@@ -130,6 +167,22 @@ LandCoverClass LandCover::at(double x, double y) const {
     if (membership[c] > membership[best] + tie) best = c;
   }
   return static_cast<LandCoverClass>(best);
+}
+
+void lay_map(LandCover& cover, std::shared_ptr<const MapCover> map) {
+  const GeoTransform& transform = cover.classes.transform;
+  Grid<LandCoverClass>& cells = cover.classes.cells;
+  Grid<std::uint8_t> lake(cells.width(), cells.height(), 0);
+  parallel_rows(cells.height(), [&](int y) {
+    for (int x = 0; x < cells.width(); ++x) lake(x, y) = map->is_still(transform.to_crs(x, y)) ? 1 : 0;
+  });
+  clear_guessed_water(cells, lake);
+  cover.below = cells;
+  parallel_rows(cells.height(), [&](int y) {
+    for (int x = 0; x < cells.width(); ++x)
+      if (const LandCoverClass known = map->at(transform.to_crs(x, y)); known != LandCoverClass::sky) cells(x, y) = known;
+  });
+  cover.map = std::move(map);
 }
 
 LandCover read_land_cover(const LandCoverParameters& parameters, const RasterFrame& frame, Progress& progress) {

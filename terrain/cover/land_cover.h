@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec4.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -14,6 +15,8 @@
 #include "terrain/io/raster_io.h"
 
 namespace belvedere {
+
+class MapCover;
 
 // What the codes of a land-cover raster mean.
 struct Legend {
@@ -55,12 +58,18 @@ struct LandCover {
   Raster<LandCoverClass> classes;     // sky where no land cover is known; never empty
   Raster<GroundColour> colours = {};  // on cells of their own; empty where nobody asked for them
   GroundRelief relief = {};           // the same
+  // Areas and rivers of a map that lie over the classes, with their own outlines; null: none. `classes` has them in its cells …
+  std::shared_ptr<const MapCover> map = {};
+  Grid<LandCoverClass> below = {};  // … and these are the cells without them; empty without a map
 
   // The class at a place in the scene's CRS: membership of each class interpolated by cubic B-spline, then the largest (ties
   // to the lower id). Smooth borders, no stairs of the raster's cells; what is one cell wide becomes a little narrower, single
-  // cells vanish. Beyond the raster the nearest cells go on.
+  // cells vanish. Beyond the raster the nearest cells go on. What a map has at the place goes before.
   LandCoverClass at(double x, double y) const;
 };
+
+// Lays a map over the classes. Guessed water that touches a lake of the map becomes what lies around it: the map knows the shore.
+void lay_map(LandCover& cover, std::shared_ptr<const MapCover> map);
 
 struct LandCoverParameters {
   std::vector<RasterSource> sources;

@@ -1,0 +1,431 @@
+#include "terrain/shape/courses.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "base/math.h"
+#include "base/math_exact.h"
+#include "base/parallel.h"
+
+namespace belvedere {
+namespace {
+
+// What a place of a cross-section costs.
+constexpr double cost_of_dry = 1.0;     // where no water gathers, against where most of it does
+constexpr double cost_of_height = 1.0;  // for each height_m over the lowest place
+constexpr double height_m = 10.0;
+constexpr double most_height_m = 40.0;
+constexpr double cost_of_way = 0.45;   // at snap_m from the map's line
+constexpr double cost_of_turn = 0.18;  // times the square of the way across by which a step differs from the next, against its length
+constexpr int most_turn = 2;           // places of the cross-section, from a step to the next
+constexpr int most_half_places = 30;   // of a cross-section, each side
+constexpr double least_step_m = 8.0;
+constexpr double most_step_m = 60.0;
+constexpr int outside_cells = 4;  // so far beyond the ground a river is followed
+// Passes of [1 2 1] / 4, each of variance 1/2.
+constexpr int way_passes = 16;    // of the way that places were moved: 2.8 steps
+constexpr int line_passes = 6;    // of the line itself: 1.7 steps
+constexpr int width_passes = 60;  // of widths: 5.5 steps
+constexpr int mouth_steps = 6;    // before its mouth a river does not feel the larger one
+constexpr int mouth_fade = 14;    // steps over which it is led there
+constexpr double law_m = 18.0;
+constexpr double law_km2 = 110.0;
+constexpr double law_widest_m = 90.0;
+constexpr double law_exponent = 0.458;
+
+using Line = std::vector<glm::dvec2>;
+
+struct Work {
+  Line places;  // m
+  double width_m = 0.0, least_width_m = 0.0, snap_m = 0.0;
+  int group = 0;
+  double step_m = 0.0;
+  std::vector<float> catchment_km2 = {};
+  std::vector<float> half_width_m = {};
+  double moved_m = 0.0, most_moved_m = 0.0;
+};
+
+// Lines that end where exactly one other of their group does become one.
+std::vector<DrawnCourse> join_lines(const std::vector<DrawnCourse>& drawn, std::size_t& joined) {
+  struct End {
+    std::size_t line;
+    bool last;
+  };
+  using Key = std::array<double, 3>;
+  std::map<Key, std::vector<End>> ends;
+  const auto key_of = [](const DrawnCourse& line, bool last) {
+    const glm::dvec2 place = last ? line.places.back() : line.places.front();
+    return Key{static_cast<double>(line.group), place.x, place.y};
+  };
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    if (drawn[i].places.size() > 1)
+      for (const bool last : {false, true}) ends[key_of(drawn[i], last)].push_back({i, last});
+  const auto next_of = [&](End end) -> End {  // the line that goes on there, from its other end
+    const std::vector<End>& here = ends[key_of(drawn[end.line], end.last)];
+    if (here.size() != 2 || here[0].line == here[1].line) return {drawn.size(), false};
+    return here[0].line == end.line ? here[1] : here[0];
+  };
+  std::vector<DrawnCourse> out;
+  std::vector<bool> used(drawn.size(), false);
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    if (used[i] || drawn[i].places.size() < 2) continue;
+    // Back to where this river begins, or once around.
+    End head{i, false};
+    for (std::size_t guard = 0; guard < drawn.size(); ++guard) {
+      const End before = next_of(head);
+      if (before.line == drawn.size() || used[before.line]) break;
+      head = {before.line, !before.last};
+      if (head.line == i) break;
+    }
+    DrawnCourse river = drawn[head.line];
+    river.places.clear();
+    End at = head;
+    while (!used[at.line]) {
+      used[at.line] = true;
+      const DrawnCourse& part = drawn[at.line];
+      Line places = part.places;
+      if (at.last) std::reverse(places.begin(), places.end());
+      river.places.insert(river.places.end(), places.begin() + (river.places.empty() ? 0 : 1), places.end());
+      river.width_m = std::max(river.width_m, part.width_m);
+      const End next = next_of({at.line, !at.last});
+      if (next.line == drawn.size() || used[next.line]) break;
+      ++joined;
+      at = next;
+    }
+    out.push_back(std::move(river));
+  }
+  return out;
+}
+
+constexpr double square(double value) { return value * value; }
+
+class Ground {
+ public:
+  Ground(const Dem& dem, const Grid<float>& catchment_km2)
+      : dem_(dem), catchment_km2_(catchment_km2), cell_km2_(1e-6 * dem.transform.cell_x * dem.transform.cell_y) {}
+
+  bool holds(glm::dvec2 place) const {
+    const glm::dvec2 at = dem_.transform.to_cell(place.x, place.y);
+    return at.x >= -outside_cells && at.y >= -outside_cells && at.x < dem_.width() + outside_cells && at.y < dem_.height() + outside_cells;
+  }
+  double altitude(glm::dvec2 place) const {
+    const glm::dvec2 at = dem_.transform.to_cell(place.x, place.y);
+    const double x = std::clamp(at.x, 0.0, dem_.width() - 1.0);
+    const double y = std::clamp(at.y, 0.0, dem_.height() - 1.0);
+    const int x0 = static_cast<int>(x);
+    const int y0 = static_cast<int>(y);
+    const auto z = [&](int i, int j) { return static_cast<double>(dem_.altitude_m.clamped(x0 + i, y0 + j)); };
+    const double fx = x - x0;
+    const double fy = y - y0;
+    return (z(0, 0) * (1.0 - fx) + z(1, 0) * fx) * (1.0 - fy) + (z(0, 1) * (1.0 - fx) + z(1, 1) * fx) * fy;
+  }
+  // The logarithm of the cells that drain through the nearest water, less beside it: lines of water are a cell wide.
+  double water(glm::dvec2 place) const {
+    const glm::dvec2 at = dem_.transform.to_cell(place.x, place.y);
+    const int x0 = static_cast<int>(std::floor(std::clamp(at.x, -1e6, 1e6)));
+    const int y0 = static_cast<int>(std::floor(std::clamp(at.y, -1e6, 1e6)));
+    double best = 0.0;
+    for (int y = y0; y <= y0 + 1; ++y)
+      for (int x = x0; x <= x0 + 1; ++x) {
+        if (!catchment_km2_.contains(x, y)) continue;
+        const double away = exact::hypot(at.x - x, at.y - y);
+        const double cells = static_cast<double>(catchment_km2_(x, y)) / cell_km2_;
+        best = std::max(best, (1.0 - 0.35 * std::min(away, 1.0)) * exact::log(1.0 + cells));
+      }
+    return best;
+  }
+  // The largest catchment close by.
+  double catchment(glm::dvec2 place) const {
+    constexpr int near = 2;
+    const glm::dvec2 at = dem_.transform.to_cell(place.x, place.y);
+    if (!(std::abs(at.x) < 1e6 && std::abs(at.y) < 1e6)) return 0.0;
+    const int x0 = static_cast<int>(std::lround(at.x));
+    const int y0 = static_cast<int>(std::lround(at.y));
+    float best = 0.F;
+    for (int y = y0 - near; y <= y0 + near; ++y)
+      for (int x = x0 - near; x <= x0 + near; ++x)
+        if (catchment_km2_.contains(x, y)) best = std::max(best, catchment_km2_(x, y));
+    return static_cast<double>(best);
+  }
+  double cell_m() const { return dem_.cell_m(); }
+
+ private:
+  const Dem& dem_;
+  const Grid<float>& catchment_km2_;
+  double cell_km2_;
+};
+
+// Places along a line, evenly and no farther than a step apart, in its parts that lie on the ground.
+std::vector<Work> cut_to_steps(const DrawnCourse& line, const Ground& ground) {
+  Work usual{.places = {},
+             .width_m = line.width_m,
+             .least_width_m = line.least_width_m,
+             .snap_m = std::clamp(line.snap_m, 0.0, 2000.0),
+             .group = line.group,
+             .step_m = std::clamp(ground.cell_m(), least_step_m, most_step_m)};
+  std::vector<Work> parts;
+  bool open = false;
+  const auto add = [&](glm::dvec2 place) {
+    if (!ground.holds(place)) {
+      open = false;
+      return;
+    }
+    if (!open) parts.push_back(usual);
+    open = true;
+    Line& to = parts.back().places;
+    if (to.empty() || to.back() != place) to.push_back(place);
+  };
+  // Steps run on over corners, so that short pieces of a fine line do not crowd.
+  double left_m = 0.0;
+  add(line.places.front());
+  for (std::size_t i = 0; i + 1 < line.places.size(); ++i) {
+    const glm::dvec2 along = line.places[i + 1] - line.places[i];
+    const double length = glm::length(along);
+    double at = usual.step_m - left_m;
+    for (; at < length; at += usual.step_m) add(line.places[i] + along * (at / length));
+    left_m = usual.step_m - (at - length);
+  }
+  add(line.places.back());
+  std::erase_if(parts, [](const Work& part) { return part.places.size() < 2; });
+  return parts;
+}
+
+void smooth_line(Line& line, int passes) {
+  Line next = line;
+  for (int pass = 0; pass < passes && line.size() > 2; ++pass) {
+    for (std::size_t i = 1; i + 1 < line.size(); ++i) next[i] = 0.5 * line[i] + 0.25 * (line[i - 1] + line[i + 1]);
+    line.swap(next);
+  }
+}
+
+void smooth_widths(std::vector<float>& widths, int passes) {
+  std::vector<float> next = widths;
+  for (int pass = 0; pass < passes && widths.size() > 2; ++pass) {
+    for (std::size_t i = 1; i + 1 < widths.size(); ++i) next[i] = 0.5F * widths[i] + 0.25F * (widths[i - 1] + widths[i + 1]);
+    widths.swap(next);
+  }
+}
+
+// Across the line, by its direction over some steps.
+Line normals_of(const Line& line) {
+  constexpr std::size_t reach = 3;
+  Line normals(line.size());
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const glm::dvec2 along = line[std::min(i + reach, line.size() - 1)] - line[i - std::min(i, reach)];
+    const double length = glm::length(along);
+    normals[i] = length > 0.0 ? glm::dvec2(-along.y, along.x) / length : glm::dvec2(0.0);
+  }
+  return normals;
+}
+
+// How far each place goes across the line, m.
+std::vector<double> find_ways(const Work& work, const Line& normals, const Ground& ground) {
+  const double between_m = std::max(0.5 * work.step_m, work.snap_m / most_half_places);
+  const int half = std::min(most_half_places, static_cast<int>(work.snap_m / between_m));
+  const int places = 2 * half + 1;
+  const auto wide = static_cast<std::size_t>(places);
+  const std::size_t count = work.places.size();
+  std::vector<double> cost(wide, 0.0);
+  std::vector<double> total(wide, 0.0);
+  std::vector<double> height(wide);
+  std::vector<double> water(wide);
+  std::vector<std::int8_t> came(count * wide, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < wide; ++j) {
+      const glm::dvec2 place = work.places[i] + normals[i] * (between_m * (static_cast<int>(j) - half));
+      height[j] = ground.altitude(place);
+      water[j] = ground.water(place);
+    }
+    const double lowest = *std::min_element(height.begin(), height.end());
+    const double most = std::max(1e-9, *std::max_element(water.begin(), water.end()));
+    for (std::size_t j = 0; j < wide; ++j) {
+      const double off = between_m * (static_cast<int>(j) - half) / work.snap_m;
+      cost[j] = cost_of_dry * (1.0 - water[j] / most) + cost_of_height * std::min(height[j] - lowest, most_height_m) / height_m +
+                cost_of_way * off * off;
+    }
+    if (i == 0) {
+      total = cost;
+      continue;
+    }
+    std::vector<double> next(wide);
+    for (int j = 0; j < places; ++j) {
+      double best = std::numeric_limits<double>::infinity();
+      int from = 0;
+      for (int turn = -most_turn; turn <= most_turn; ++turn) {
+        if (j + turn < 0 || j + turn >= places) continue;
+        const double here = total[static_cast<std::size_t>(j + turn)] + cost_of_turn * square(turn * between_m / work.step_m);
+        if (here < best) best = here, from = turn;
+      }
+      next[static_cast<std::size_t>(j)] = best + cost[static_cast<std::size_t>(j)];
+      came[i * wide + static_cast<std::size_t>(j)] = static_cast<std::int8_t>(from);
+    }
+    total.swap(next);
+  }
+  std::vector<double> ways(count);
+  auto j = static_cast<int>(std::min_element(total.begin(), total.end()) - total.begin());
+  for (std::size_t i = count; i-- > 0;) {
+    ways[i] = between_m * (j - half);
+    j += came[i * wide + static_cast<std::size_t>(j)];
+  }
+  return ways;
+}
+
+void move_to_valley(Work& work, const Ground& ground) {
+  const Line drawn = work.places;
+  if (work.snap_m >= 0.25 * work.step_m) {
+    const Line normals = normals_of(work.places);
+    const std::vector<double> ways = find_ways(work, normals, ground);
+    Line moved(work.places.size());
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = normals[i] * ways[i];
+    smooth_line(moved, way_passes);
+    for (std::size_t i = 0; i < moved.size(); ++i) work.places[i] += moved[i];
+  }
+  smooth_line(work.places, line_passes);
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const double way = glm::length(work.places[i] - drawn[i]);
+    work.moved_m += way;
+    work.most_moved_m = std::max(work.most_moved_m, way);
+  }
+  work.catchment_km2.resize(work.places.size());
+  for (std::size_t i = 0; i < work.places.size(); ++i) work.catchment_km2[i] = static_cast<float>(ground.catchment(work.places[i]));
+  // Down the river: what lies lower, on level ground what has gathered more.
+  constexpr double level_m = 5.0;
+  const double fall_m = ground.altitude(work.places.front()) - ground.altitude(work.places.back());
+  if (fall_m < -level_m || (fall_m <= level_m && work.catchment_km2.front() > work.catchment_km2.back())) {
+    std::reverse(work.places.begin(), work.places.end());
+    std::reverse(work.catchment_km2.begin(), work.catchment_km2.end());
+  }
+}
+
+// Widths of a river that ends where it ends.
+void find_widths(Work& work) {
+  const std::size_t last = work.places.size() - 1;
+  const std::size_t before = last - std::min<std::size_t>(last, mouth_steps);
+  for (std::size_t i = before; i <= last; ++i) work.catchment_km2[i] = std::min(work.catchment_km2[i], work.catchment_km2[before]);
+  work.half_width_m.resize(work.places.size());
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double law = known_half_width_m(static_cast<double>(work.catchment_km2[i]));
+    work.half_width_m[i] = static_cast<float>(std::max({law, 0.5 * work.width_m, 0.5 * work.least_width_m}));
+  }
+  smooth_widths(work.half_width_m, width_passes);
+}
+
+// Places of all rivers by boxes, to find the nearest of another one.
+class NearCourses {
+ public:
+  NearCourses(const std::vector<Work>& works, double box_m) : works_(works), box_m_(box_m) {
+    for (std::size_t i = 0; i < works.size(); ++i)
+      for (std::size_t k = 0; k < works[i].places.size(); ++k) boxes_[box_of(works[i].places[k])].emplace_back(i, k);
+  }
+  // The nearest place of another river that is larger there than `km2`, within `reach_m`; null where there is none.
+  const glm::dvec2* nearest(std::size_t own, glm::dvec2 place, float km2, double reach_m) const {
+    const auto [x, y] = box_of(place);
+    const int around = static_cast<int>(std::ceil(reach_m / box_m_));
+    const glm::dvec2* found = nullptr;
+    double least = reach_m * reach_m;
+    for (int v = y - around; v <= y + around; ++v)
+      for (int u = x - around; u <= x + around; ++u) {
+        const auto box = boxes_.find({u, v});
+        if (box == boxes_.end()) continue;
+        for (const auto& [i, k] : box->second) {
+          if (i == own || works_[i].catchment_km2[k] < km2) continue;
+          const glm::dvec2 off = works_[i].places[k] - place;
+          const double way2 = glm::dot(off, off);
+          if (way2 < least) least = way2, found = &works_[i].places[k];
+        }
+      }
+    return found;
+  }
+
+ private:
+  std::pair<int, int> box_of(glm::dvec2 place) const {
+    return {static_cast<int>(std::floor(place.x / box_m_)), static_cast<int>(std::floor(place.y / box_m_))};
+  }
+  const std::vector<Work>& works_;
+  double box_m_;
+  std::map<std::pair<int, int>, std::vector<std::pair<std::size_t, std::size_t>>> boxes_;
+};
+
+// Where a river ends: in how many of its places, and where the last of them goes to; nowhere else where no larger one is near.
+struct Mouth {
+  std::size_t count = 0;
+  const glm::dvec2* to = nullptr;
+};
+Mouth find_mouth(const Work& work, std::size_t number, const NearCourses& near) {
+  const double reach_m = std::max(work.snap_m, 3.0 * work.step_m);
+  const std::size_t last = work.places.size() - 1;
+  // What it has gathered before it comes near the larger one.
+  const auto own_km2 = [&](std::size_t i) { return work.catchment_km2[i - std::min<std::size_t>(i, mouth_steps)]; };
+  // One that was drawn across it ends where it meets it first.
+  const std::size_t far = std::min(last - 1, static_cast<std::size_t>(reach_m / work.step_m));
+  for (std::size_t i = last - far; i < last; ++i)
+    if (const glm::dvec2* met = near.nearest(number, work.places[i], own_km2(i), 1.2 * work.step_m)) return {i + 1, met};
+  return {last + 1, near.nearest(number, work.places[last], own_km2(last), reach_m)};
+}
+
+// Leads rivers into those that they flow into.
+void join_mouths(std::vector<Work>& works) {
+  if (works.empty()) return;
+  const NearCourses near(works, 16.0 * works.front().step_m);
+  std::vector<Line> led(works.size());
+  parallel_ranges<std::size_t>(works.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) {
+      const Mouth mouth = find_mouth(works[i], i, near);
+      if (mouth.to == nullptr) continue;
+      Line places(works[i].places.begin(), works[i].places.begin() + static_cast<std::ptrdiff_t>(mouth.count));
+      const glm::dvec2 way = *mouth.to - places.back();
+      const std::size_t fade = std::min<std::size_t>(mouth_fade, places.size() - 1);
+      for (std::size_t k = 0; k <= fade; ++k) {
+        const double share = smoothstep(1.0 - static_cast<double>(k) / static_cast<double>(fade));
+        places[places.size() - 1 - k] += share * way;
+      }
+      led[i] = std::move(places);
+    }
+  });
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    if (led[i].empty()) continue;
+    works[i].places = std::move(led[i]);
+    works[i].catchment_km2.resize(works[i].places.size());
+  }
+}
+
+}  // namespace
+
+double known_half_width_m(double catchment_km2) {
+  if (catchment_km2 <= 0.0) return 0.0;
+  return std::min(law_widest_m, law_m * exact::pow(catchment_km2 / law_km2, law_exponent));
+}
+
+Courses lay_courses(const std::vector<DrawnCourse>& drawn, const Dem& dem, const Grid<float>& catchment_km2) {
+  Courses out;
+  const Ground ground(dem, catchment_km2);
+  std::vector<Work> works;
+  for (const DrawnCourse& line : join_lines(drawn, out.joined)) {
+    std::vector<Work> parts = cut_to_steps(line, ground);
+    if (parts.empty()) ++out.outside;
+    for (Work& part : parts) works.push_back(std::move(part));
+  }
+  parallel_ranges<std::size_t>(works.size(), 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) move_to_valley(works[i], ground);
+  });
+  double sum_m = 0.0;
+  std::size_t places = 0;
+  for (const Work& work : works) {
+    sum_m += work.moved_m;
+    places += work.places.size();
+    out.most_moved_m = std::max(out.most_moved_m, work.most_moved_m);
+  }
+  out.mean_moved_m = places > 0 ? sum_m / static_cast<double>(places) : 0.0;
+  join_mouths(works);
+  for (Work& work : works) find_widths(work);
+  for (Work& work : works) out.lines.push_back({std::move(work.places), std::move(work.half_width_m), work.group});
+  return out;
+}
+
+}  // namespace belvedere
