@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "base/image.h"
+#include "renderer/image/icc/device_color.h"
 
 namespace belvedere {
 
-// Colour management: color.cpp by OpenColorIO, icc.cpp by lcms2.
+// Colour management: color.cpp by OpenColorIO, icc/ by lcms2.
 struct ColorParameters {
   std::string config;                // an OCIO config file; empty: $OCIO, else the program's own config, built in memory
   std::string working = "lin_srgb";  // scene-linear space, role or alias in it
@@ -38,14 +39,13 @@ Image from_display(const Grid<glm::vec3>& encoded, const ColorParameters& parame
 // Config ("own" or the file's name), spaces and OCIO's version: for provenance.
 std::string describe_color(const ColorParameters& parameters);
 
-// An sRGB profile (ICC 4) made by lcms2, for embedding. The same bytes every time: its date is fixed.
-std::vector<std::uint8_t> srgb_profile();
 // Reads an ICC file; Error(input) where it is missing, damaged or no profile of an RGB device.
 std::vector<std::uint8_t> read_icc_profile(const std::string& path);
-// Converts encoded sRGB as to_profile does, row by row.
+// Converts encoded sRGB as to_profile does, row by row; with parameters of its own, or from another RGB profile (`source`; empty: sRGB).
 class ProfileConversion {
  public:
-  explicit ProfileConversion(const std::vector<std::uint8_t>& profile);
+  explicit ProfileConversion(const std::vector<std::uint8_t>& profile, const DeviceParameters& parameters = {},
+                             const std::vector<std::uint8_t>& source = {});
   ~ProfileConversion();
   ProfileConversion(ProfileConversion&&) noexcept;
   ProfileConversion& operator=(ProfileConversion&&) noexcept;

@@ -23,7 +23,8 @@ constexpr int band_rows = 64;
 
 class Reader {
  public:
-  Reader(const std::string& path, const std::string& format) : path_(path), format_(format) {
+  // `header_only`: CMYK is taken as well, with its own four channels.
+  Reader(const std::string& path, const std::string& format, bool header_only = false) : path_(path), format_(format) {
     if (format_ == "png" && !image_io::is_png_complete(path)) image_io::throw_damaged(path, "a piece is missing or has a wrong checksum");
     input_ = OIIO::ImageInput::create(format_);
     if (input_ == nullptr) throw Error(ErrorKind::bug, path, "OpenImageIO cannot read " + format_);
@@ -34,6 +35,12 @@ class Reader {
     const std::string coding = spec_.get_string_attribute("jpeg:ColorSpace");
     const bool separated = spec_.get_int_attribute("tiff:PhotometricInterpretation") == 5;
     if (separated || coding == "CMYK" || coding == "YCbCrK") {
+      if (header_only && separated) {
+        settings.attribute("oiio:RawColor", 1);
+        input_->close();
+        if (!input_->open(path, spec_, settings)) image_io::throw_damaged(path, input_->geterror());
+        return;
+      }
       throw Error(ErrorKind::input, path, "is a CMYK picture", "RGB or grey: convert it with its own profile first");
     }
   }
@@ -97,7 +104,7 @@ double dots_per_inch(const OIIO::ImageSpec& spec) {
 }  // namespace
 
 ImageInfo read_oiio_info(const std::string& path, const std::string& format) {
-  const Reader reader(path, format);
+  const Reader reader(path, format, true);
   const OIIO::ImageSpec& spec = reader.spec();
   ImageInfo info;
   info.format = format;

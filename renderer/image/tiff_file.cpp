@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -22,8 +24,7 @@ namespace belvedere {
 namespace {
 
 constexpr int tile_size = 256;  // pixels; 384 KiB a tile, small enough for viewers, large enough to compress
-constexpr std::size_t row_values = std::size_t{3} * tile_size;
-constexpr std::size_t tile_values = row_values * tile_size;
+constexpr std::size_t tile_pixels = std::size_t{tile_size} * tile_size;
 constexpr int compression_level = 6;
 constexpr int tiles_at_once = 32;  // are packed together, then written: more would be held
 
@@ -49,35 +50,45 @@ Tiff open_tiff(const std::string& path, const char* mode, std::string& message) 
   return Tiff(TIFFOpenExt(path.c_str(), mode, options.get()));
 }
 
-// Horizontal differencing of RGB within a tile (TIFF 6.0, section 14), in place; arithmetic modulo 2^16.
-void difference(std::uint16_t* row) {
-  for (int i = 3 * tile_size - 1; i >= 3; --i) row[i] = static_cast<std::uint16_t>(row[i] - row[i - 3]);
+// Horizontal differencing of pixels within a tile (TIFF 6.0, section 14), in place; arithmetic modulo 2^16 or 2^8.
+template <class Number>
+void difference(Number* row, int channels) {
+  for (int i = channels * tile_size - 1; i >= channels; --i) row[i] = static_cast<Number>(row[i] - row[i - channels]);
 }
 
 // Some tiles of a row of `across`, packed; the same bytes whatever the number of threads. `band` has tile_size full rows.
-std::vector<std::vector<std::uint8_t>> pack_tiles(const std::vector<std::uint16_t>& band, int across, int first, int count) {
+template <class Number>
+std::vector<std::vector<std::uint8_t>> pack_tiles(const std::vector<Number>& band, int channels, int across, int first, int count) {
+  const std::size_t row_values = static_cast<std::size_t>(channels) * tile_size;
   std::vector<std::vector<std::uint8_t>> out(static_cast<std::size_t>(count));
   parallel_rows(count, [&](int i) {
-    std::vector<std::uint16_t> tile(tile_values);
+    std::vector<Number> tile(row_values * tile_size);
     for (std::size_t y = 0; y < tile_size; ++y) {
-      const std::uint16_t* from = band.data() + (y * static_cast<std::size_t>(across) + static_cast<std::size_t>(first + i)) * row_values;
+      const Number* from = band.data() + (y * static_cast<std::size_t>(across) + static_cast<std::size_t>(first + i)) * row_values;
       std::copy(from, from + row_values, tile.begin() + static_cast<std::ptrdiff_t>(y * row_values));
-      difference(tile.data() + y * row_values);
+      difference(tile.data() + y * row_values, channels);
     }
-    out[static_cast<std::size_t>(i)] = Deflater(compression_level).pack(tile.data(), tile.size() * 2);
+    out[static_cast<std::size_t>(i)] = Deflater(compression_level).pack(tile.data(), tile.size() * sizeof(Number));
   });
   return out;
 }
 
-bool set_fields(TIFF* tiff, int width, int height, const PictureFileOptions& options) {
+// What the numbers of a pixel are.
+struct PixelForm {
+  int channels;  // 3: red, green, blue; 4: cyan, magenta, yellow, black
+  int bits;
+};
+
+bool set_fields(TIFF* tiff, int width, int height, PixelForm form, const PictureFileOptions& options) {
   bool ok = TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(width)) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(height)) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_TILEWIDTH, static_cast<std::uint32_t>(tile_size)) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_TILELENGTH, static_cast<std::uint32_t>(tile_size)) != 0;
-  ok &= TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 16) != 0;
-  ok &= TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 3) != 0;
+  ok &= TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, form.bits) != 0;
+  ok &= TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, form.channels) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT) != 0;
-  ok &= TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB) != 0;
+  ok &= TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, form.channels == 4 ? PHOTOMETRIC_SEPARATED : PHOTOMETRIC_RGB) != 0;
+  if (form.channels == 4) ok &= TIFFSetField(tiff, TIFFTAG_INKSET, INKSET_CMYK) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_PREDICTOR, PREDICTOR_HORIZONTAL) != 0;
@@ -99,24 +110,34 @@ bool set_fields(TIFF* tiff, int width, int height, const PictureFileOptions& opt
 
 std::string_view text_of(const std::vector<std::uint8_t>& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
-class TiffRows : public PictureRows {
+// Tiles of whole numbers; what they are made of pictures, derived classes know.
+template <class Number>
+class TileRows : public PictureRows {
  public:
-  TiffRows(const std::string& path, int width, int height, const PictureFileOptions& options)
-      : PictureRows(path, width, height, tile_size), output_(path), across_((width + tile_size - 1) / tile_size) {
-    const bool big = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * 6 >= options.big_tiff_from_bytes;
+  TileRows(const std::string& path, int width, int height, int channels, const PictureFileOptions& options)
+      : PictureRows(path, width, height, tile_size),
+        output_(path),
+        channels_(channels),
+        across_((width + tile_size - 1) / tile_size),
+        row_values_(static_cast<std::size_t>(channels) * tile_size) {
+    const auto pixel_bytes = static_cast<std::uint64_t>(channels) * sizeof(Number);
+    const bool big = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * pixel_bytes >= options.big_tiff_from_bytes;
+    const PixelForm form = {channels, 8 * static_cast<int>(sizeof(Number))};
     tiff_ = open_tiff(output_.temporary(), big ? "w8l" : "w4l", message_);  // l: little-endian on any machine
-    if (tiff_ == nullptr || !set_fields(tiff_.get(), width, height, options)) output_.fail(message_);
-    band_.resize(static_cast<std::size_t>(across_) * tile_values);
+    if (tiff_ == nullptr || !set_fields(tiff_.get(), width, height, form, options)) output_.fail(message_);
+    band_.resize(static_cast<std::size_t>(across_) * row_values_ * tile_size);
   }
 
+ protected:
+  // Pixels of a row of the band, with those beyond the picture.
+  int row_pixels() const { return across_ * tile_size; }
+  Number* band_row(int row) { return band_.data() + row_at(row); }
+
  private:
-  void take(const Grid<glm::vec3>& from, int first, int rows, int at) override {
-    image_io::quantize_rows(from, first, rows, across_ * tile_size, band_.data() + row_at(at));
-  }
   void write_band(int, int rows) override {
-    std::fill(band_.begin() + static_cast<std::ptrdiff_t>(row_at(rows)), band_.end(), std::uint16_t{0});
+    std::fill(band_.begin() + static_cast<std::ptrdiff_t>(row_at(rows)), band_.end(), Number{0});
     for (int t = 0; t < across_; t += tiles_at_once) {
-      for (std::vector<std::uint8_t>& packed : pack_tiles(band_, across_, t, std::min(tiles_at_once, across_ - t))) {
+      for (std::vector<std::uint8_t>& packed : pack_tiles(band_, channels_, across_, t, std::min(tiles_at_once, across_ - t))) {
         const auto bytes = static_cast<tmsize_t>(packed.size());
         written_.add(text_of(packed));
         if (TIFFWriteRawTile(tiff_.get(), tiles_++, packed.data(), bytes) != bytes) output_.fail(message_);
@@ -147,7 +168,7 @@ class TiffRows : public PictureRows {
     std::vector<std::uint8_t> packed;
     for (ttile_t tile = 0; tile < tiles_; ++tile) {
       const std::uint64_t bytes = TIFFGetStrileByteCount(tiff.get(), tile);
-      if (bytes == 0 || bytes > 2 * tile_values * sizeof(std::uint16_t)) output_.fail("a tile is missing");
+      if (bytes == 0 || bytes > 2 * row_values_ * tile_size * sizeof(Number)) output_.fail("a tile is missing");
       packed.resize(bytes);
       if (TIFFReadRawTile(tiff.get(), tile, packed.data(), static_cast<tmsize_t>(bytes)) != static_cast<tmsize_t>(bytes))
         output_.fail(message_);
@@ -155,28 +176,74 @@ class TiffRows : public PictureRows {
     }
     if (read.digits() != written_.digits()) output_.fail("it reads otherwise than it was written");
   }
-  std::size_t row_at(int row) const { return static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) * row_values; }
+  std::size_t row_at(int row) const { return static_cast<std::size_t>(row) * static_cast<std::size_t>(across_) * row_values_; }
 
   OutputFile output_;
+  int channels_;
   int across_;
+  std::size_t row_values_;  // of a tile
   std::string message_;
   Tiff tiff_;  // after the message, which it writes to
-  std::vector<std::uint16_t> band_;
+  std::vector<Number> band_;
   ttile_t tiles_ = 0;
   ContentHash written_;  // of the packed tiles
 };
 
-}  // namespace
+class RgbRows final : public TileRows<std::uint16_t> {
+ public:
+  RgbRows(const std::string& path, int width, int height, const PictureFileOptions& options) : TileRows(path, width, height, 3, options) {}
 
-std::unique_ptr<PictureRows> open_tiff16(const std::string& path, int width, int height, const PictureFileOptions& options) {
-  return std::make_unique<TiffRows>(path, width, height, options);
-}
+ private:
+  void take(const Grid<glm::vec3>& from, int first, int rows, int at) override {
+    image_io::quantize_rows(from, first, rows, row_pixels(), band_row(at));
+  }
+};
 
-double tiff16_writer_bytes(int width, int) {
+// CMYK: more ink is a larger number (TIFF 6.0, section 16).
+template <class Number>
+class InkRows final : public TileRows<Number> {
+ public:
+  InkRows(const std::string& path, int width, int height, const PictureFileOptions& options, MakeInks make_inks)
+      : TileRows<Number>(path, width, height, 4, options), make_inks_(std::move(make_inks)) {}
+
+ private:
+  void take(const Grid<glm::vec3>& from, int first, int rows, int at) override {
+    constexpr double highest = std::numeric_limits<Number>::max();
+    Grid<glm::vec3> part(from.width(), rows);
+    std::copy(from.row(first), from.row(first) + part.size(), part.data());
+    const Grid<Inks> inks = make_inks_(part);
+    for (int y = 0; y < rows; ++y) {
+      Number* to = this->band_row(at + y);
+      for (int x = 0; x < inks.width(); ++x)
+        for (int c = 0; c < 4; ++c)
+          // NOLINTNEXTLINE(bugprone-incorrect-roundings): never negative
+          to[4 * x + c] = static_cast<Number>(std::clamp(static_cast<double>(inks(x, y)[c]), 0.0, 1.0) * highest + 0.5);
+    }
+  }
+
+  MakeInks make_inks_;
+};
+
+double writer_bytes(int width, double pixel_bytes) {
   const int across = (width + tile_size - 1) / tile_size;
-  constexpr double tile_bytes = static_cast<double>(tile_values * sizeof(std::uint16_t));
+  const double tile_bytes = static_cast<double>(tile_pixels) * pixel_bytes;
   return tile_bytes * (across + 2.0 * tiles_at_once);  // a row of tiles, those that are packed at once
 }
+
+}  // namespace
+
+std::unique_ptr<PictureRows> open_tiff_inks(const std::string& path, int width, int height, int bits, const PictureFileOptions& options,
+                                            MakeInks make_inks) {
+  if (bits == 8) return std::make_unique<InkRows<std::uint8_t>>(path, width, height, options, std::move(make_inks));
+  if (bits == 16) return std::make_unique<InkRows<std::uint16_t>>(path, width, height, options, std::move(make_inks));
+  throw Error(ErrorKind::usage, path, std::to_string(bits) + " bits", "8, 16");
+}
+
+std::unique_ptr<PictureRows> open_tiff16(const std::string& path, int width, int height, const PictureFileOptions& options) {
+  return std::make_unique<RgbRows>(path, width, height, options);
+}
+
+double tiff16_writer_bytes(int width, int) { return writer_bytes(width, 6.0); }
 
 void write_tiff16(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options) {
   write_whole(*open_tiff16(path, encoded.width(), encoded.height(), options), encoded);

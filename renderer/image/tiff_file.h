@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
 #include "base/image.h"
+#include "renderer/image/icc/ink_count.h"
 #include "renderer/image/image_file.h"
 #include "renderer/image/rows/picture_rows.h"
 
@@ -15,5 +17,12 @@ std::unique_ptr<PictureRows> open_tiff16(const std::string& path, int width, int
 // The most that it holds: a row of tiles.
 double tiff16_writer_bytes(int width, int height);
 void write_tiff16(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options);
+
+// Rows of a picture as inks, a pixel a pixel.
+using MakeInks = std::function<Grid<Inks>(const Grid<glm::vec3>& rows)>;
+// The same as TIFF of CMYK with 8 or 16 bits: rows are given to `make_inks` as they come. Memory: rows of four numbers where those of
+// tiff16_writer_bytes have three.
+std::unique_ptr<PictureRows> open_tiff_inks(const std::string& path, int width, int height, int bits, const PictureFileOptions& options,
+                                            MakeInks make_inks);
 
 }  // namespace belvedere

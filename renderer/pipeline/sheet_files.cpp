@@ -163,8 +163,8 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, c
   const double dots_per_inch = scene.output.width / scene.output.sheet_width_mm * 25.4;
   for (const std::string& note : reduction_notes("panorama", scene.output.formats, region.width(), region.height()))
     run.progress.note(note);
-  PictureFiles panorama(join(out_folder, "panorama"), scene.output.formats, region.width(), region.height(), {color.display, color.profile},
-                        dots_per_inch, file_notes);
+  PictureFiles panorama(join(out_folder, "panorama"), scene.output.formats, region.width(), region.height(),
+                        {color.display, color.profile, color.device, color.ink_limit_percent}, dots_per_inch, file_notes);
   for (int y0 = region.y0; y0 < region.y1; y0 += band_rows) {
     const int y1 = std::min(region.y1, y0 + band_rows);
     Grid<glm::vec3> rows(region.width(), y1 - y0);
@@ -173,6 +173,7 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, c
     run.progress.advance(y1 - y0);
   }
   panorama.finish();
+  if (const std::optional<InkCoverage> ink = panorama.ink()) run.progress.note(ink_note("panorama.tif", *ink));
   commit();
 }
 

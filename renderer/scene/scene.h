@@ -231,7 +231,11 @@ struct SceneOutput {
   int height = CameraParameters{}.height;
   double sheet_width_mm = 1200.0;                            // strokes are sized in mm of this sheet; dpi follows
   std::vector<std::string> formats = {"tif", "png", "exr"};  // endings of the picture's files (renderer/image/picture_formats.h)
-  std::string profile;                                       // ICC file to convert the TIFF to; empty: sRGB
+  std::string profile;                                       // ICC file to convert the TIFF to, RGB or CMYK; empty: `colours`
+  std::string colours = "srgb";                              // of the TIFF, without a profile: a name of device_color.h
+  std::string intent = "perceptual";                         // how colours come into profile or space: a name of device_color.h
+  bool black_point = true;                                   // with the picture's black as the device's darkest
+  double ink_limit = 0.0;                                    // percent, of CMYK, for the report; 0: the profile's own
   std::string ocio_config;
 };
 

@@ -1,3 +1,4 @@
+#include "renderer/image/icc/device_color.h"
 #include "renderer/image/picture_formats.h"
 #include "renderer/scene/scene_table.h"
 
@@ -22,8 +23,26 @@ std::vector<SceneSection> make_output_sections() {
             .choices = picture_endings()},
            {.name = "profile",
             .field = AT(output.profile),
-            .meaning = "ICC file of the printer that the TIFF is converted to; without it sRGB.",
+            .meaning = "ICC file of the printer that the TIFF is converted to: RGB, or CMYK of a press; without it `colours`.",
             .text = TextKind::file},
+           {.name = "colours",
+            .field = AT(output.colours),
+            .meaning = "Colour space of the TIFF where there is no `profile`.",
+            .text = TextKind::choice,
+            .choices = color_space_names()},
+           {.name = "intent",
+            .field = AT(output.intent),
+            .meaning = "How colours that profile or space does not have are brought into it.",
+            .text = TextKind::choice,
+            .choices = rendering_intent_names()},
+           {.name = "black_point",
+            .field = AT(output.black_point),
+            .meaning = "Whether the picture's black becomes the darkest that profile or space has (black point compensation)."},
+           {.name = "ink_limit",
+            .field = AT(output.ink_limit),
+            .range = {0, 400},
+            .unit = "%",
+            .meaning = "Sum of inks above which pixels are counted and told; 0: what the press profile's own tables reach."},
            {.name = "ocio_config",
             .field = AT(output.ocio_config),
             .meaning = "OpenColorIO config to use instead of the program's own.",

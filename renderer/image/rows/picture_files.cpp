@@ -7,8 +7,10 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "renderer/image/icc/press_color.h"
 #include "renderer/image/picture_formats.h"
 #include "renderer/image/rows/row_reducer.h"
+#include "renderer/image/tiff_file.h"
 
 namespace belvedere {
 namespace {
@@ -41,6 +43,8 @@ Image copy_rows(const Image& from, int first, int rows) {
 struct PictureFiles::State {
   std::optional<DisplayConversion> display;
   std::optional<ProfileConversion> device;
+  std::optional<PressConversion> press;
+  std::optional<InkCount> ink;
   std::vector<OneFile> files;
 
   // Files do not see each other: each is packed by a thread of its own, and most of them by more.
@@ -57,7 +61,7 @@ struct PictureFiles::State {
         if (!file.format->linear) small = display->convert(std::move(small));
       }
       const Grid<glm::vec3>& picture = file.reducer ? small : file.format->linear ? linear : encoded;
-      if (file.device)
+      if (file.device && device)
         file.rows->write_rows(device->convert(picture));
       else
         file.rows->write_rows(picture);
@@ -73,17 +77,32 @@ PictureFiles::PictureFiles(const std::string& stem, const std::vector<std::strin
     state_->display.emplace(colors.display);
   for (const PictureFormat* format : formats) {
     const bool device = format->device && !colors.device_profile.empty();
-    if (device && !state_->device) state_->device.emplace(colors.device_profile);
+    const bool press = device && is_cmyk_profile(colors.device_profile);
+    if (press) {
+      state_->press.emplace(colors.device_profile, colors.device);
+      state_->ink.emplace(colors.ink_limit_percent > 0.0 ? colors.ink_limit_percent : press_ink_limit_percent(colors.device_profile));
+    } else if (device && !state_->device) {
+      state_->device.emplace(colors.device_profile, colors.device);
+    }
     const int factor = reduction_factor(*format, width, height);
     PictureFileOptions options;
     options.dots_per_inch = dots_per_inch / factor;
     options.icc_profile = !format->profile ? std::vector<std::uint8_t>{} : device ? colors.device_profile : srgb_profile();
     options.notes = notes;
     if (factor > 1) options.notes["belvedere:reduced"] = fmt::format("by {}, from {} × {} pixels", factor, width, height);
+    const std::string path = fmt::format("{}.{}", stem, format->ending);
+    const int file_width = reduced(width, factor);
+    const int file_height = reduced(height, factor);
+    const auto make_inks = [state = state_.get()](const Grid<glm::vec3>& rows) {
+      Grid<Inks> inks = state->press->convert(rows);
+      state->ink->add(inks);
+      return inks;
+    };
     OneFile file{format,
                  device,
                  {},
-                 format->open(fmt::format("{}.{}", stem, format->ending), reduced(width, factor), reduced(height, factor), options)};
+                 press ? open_tiff_inks(path, file_width, file_height, format->bits, options, make_inks)
+                       : format->open(path, file_width, file_height, options)};
     if (factor > 1) file.reducer.emplace(width, height, factor);
     state_->files.push_back(std::move(file));
   }
@@ -103,6 +122,13 @@ void PictureFiles::finish() {
   std::vector<OneFile>& files = state_->files;
   parallel_rows(static_cast<int>(files.size()), [&](int i) { files[static_cast<std::size_t>(i)].rows->finish(); });
   for (OneFile& file : files) file.rows->commit();
+}
+
+std::optional<InkCoverage> PictureFiles::ink() const { return state_->ink ? std::optional(state_->ink->coverage()) : std::nullopt; }
+
+std::string ink_note(const std::string& file, const InkCoverage& ink) {
+  return fmt::format("{} asks for up to {:.0f} % of ink, {:.0f} % on average; {:.2g} % of its pixels for more than {:.0f} %", file,
+                     ink.highest_percent, ink.mean_percent, 100.0 * ink.above_share(), ink.limit_percent);
 }
 
 double picture_files_bytes(const std::vector<std::string>& endings, int width, int height) {

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/image.h"
 #include "renderer/image/color.h"
+#include "renderer/image/icc/ink_count.h"
 #include "renderer/image/image_file.h"
 
 namespace belvedere {
@@ -14,7 +16,9 @@ namespace belvedere {
 // How a finished picture is written.
 struct PictureColors {
   ColorParameters display;                   // scene-linear to encoded
-  std::vector<std::uint8_t> device_profile;  // ICC, of the printer; empty: none
+  std::vector<std::uint8_t> device_profile;  // ICC, of the printer, RGB or CMYK; empty: none
+  DeviceParameters device = {};              // how colours come into it
+  double ink_limit_percent = 0.0;            // of CMYK, 1…400; 0: what the profile's own tables reach
 };
 
 // A scene-linear picture as STEM.ENDING for each of the endings, from one pass over its rows. Encoded ones are sRGB and carry its profile,
@@ -35,6 +39,8 @@ class PictureFiles {
   void write_rows(const Image& linear);
   // Completes all files and checks what was written; only then the older ones are replaced.
   void finish();
+  // Of the rows so far, where a file is CMYK.
+  std::optional<InkCoverage> ink() const;
 
  private:
   struct State;
@@ -45,6 +51,9 @@ class PictureFiles {
 double picture_files_bytes(const std::vector<std::string>& endings, int width, int height);
 // What is worth a line in the log, such as "panorama.png is 6667 × 2667 pixels, the picture reduced by 3": one for each reduced format.
 std::vector<std::string> reduction_notes(const std::string& name, const std::vector<std::string>& endings, int width, int height);
+
+// "panorama.tif asks for up to 312 % of ink, 140 % on average; .4 % of its pixels for more than 300 %"
+std::string ink_note(const std::string& file, const InkCoverage& ink);
 
 // A whole picture.
 void write_pictures(const std::string& stem, const std::vector<std::string>& endings, const Image& linear, const PictureColors& colors,

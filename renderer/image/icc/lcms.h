@@ -1,0 +1,53 @@
+#pragma once
+
+#include <lcms2.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "renderer/image/icc/device_parameters.h"
+
+// lcms2 with owners for what it makes; private to this folder, which alone knows the library.
+namespace belvedere::icc {
+
+// A context of its own keeps messages apart from other threads.
+class Context {
+ public:
+  Context();
+  ~Context() { cmsDeleteContext(context_); }
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  operator cmsContext() const { return context_; }
+  const std::string& message() const { return message_; }
+
+ private:
+  std::string message_;
+  cmsContext context_;
+};
+
+struct CloseProfile {
+  void operator()(void* profile) const { cmsCloseProfile(profile); }
+};
+using Profile = std::unique_ptr<void, CloseProfile>;
+struct DeleteTransform {
+  void operator()(void* transform) const { cmsDeleteTransform(transform); }
+};
+using Transform = std::unique_ptr<void, DeleteTransform>;
+
+// Null where the bytes are no profile.
+Profile open_profile(const Context& context, const std::vector<std::uint8_t>& bytes);
+// A profile that lcms2 made, as the same bytes every time: with a fixed date, a name, and its own checksum.
+std::vector<std::uint8_t> save_dated(const Context& context, Profile profile, const char* name);
+// The bytes of a file; Error(input) where it is missing, cannot be read or is far too large.
+std::vector<std::uint8_t> read_profile_bytes(const std::string& path);
+// Error(input) unless it is an open profile of a device or space with these colours, that pictures can be converted to. `allowed`: in
+// words, what would do.
+void require_device(const std::string& where, const Context& context, const Profile& profile, cmsColorSpaceSignature space,
+                    const char* allowed);
+// A conversion that is the same bits for any threads and any split of a picture. Error(input) where the profiles cannot be joined.
+Transform make_transform(const Context& context, const Profile& from, cmsUInt32Number from_type, const Profile& to, cmsUInt32Number to_type,
+                         const DeviceParameters& parameters);
+
+}  // namespace belvedere::icc
