@@ -1,9 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "base/grid.h"
 
 namespace belvedere {
 
@@ -38,6 +42,9 @@ struct ImageInfo {
   double dots_per_inch = 0.0;  // 0: not stated
   std::vector<std::uint8_t> icc_profile;
 };
+
+// Takes rows of a picture that is read from top to bottom, first row `y0`.
+using UsePictureRows = std::function<void(int y0, const Grid<glm::vec3>& rows)>;
 
 struct PictureFileOptions {
   double dots_per_inch = 0.0;             // 0: not stated

@@ -25,6 +25,8 @@ ImageInfo read_image_info(const std::string& path);
 // are not converted, and not multiplied by alpha. Grey becomes RGB, palettes are looked up, alpha is dropped (`alpha` gets it where asked
 // for; 1 where the file has none). Size checked before allocating: Error(limit). Error(input): missing, another format, CMYK, cut off.
 Grid<glm::vec3> read_picture(const std::string& path, Grid<float>* alpha = nullptr);
+// The same picture from top to bottom, a band of rows at a time: of PNG, TIFF and JPEG no more is in memory, others are unpacked whole.
+void read_picture_rows(const std::string& path, const UsePictureRows& use);
 // A grey image of 16 bits or fewer (PNG, TIFF) as numbers, unscaled: label masks, altitude guides. A palette PNG gives its indices.
 // Error(input) for colour pictures and what read_picture refuses.
 Grid<std::uint16_t> read_grey(const std::string& path);

@@ -141,6 +141,19 @@ Grid<glm::vec3> read_oiio_picture(const std::string& path, const std::string& fo
   return picture;
 }
 
+void read_oiio_rows(const std::string& path, const std::string& format, const UsePictureRows& use) {
+  Reader reader(path, format);
+  const int channels = reader.spec().nchannels;
+  reader.read_bands<float>(OIIO::TypeDesc::FLOAT, [&](int y0, int y1, const float* from) {
+    Grid<glm::vec3> rows(reader.spec().width, y1 - y0);
+    for (glm::vec3& pixel : rows) {
+      pixel = channels >= 3 ? glm::vec3(from[0], from[1], from[2]) : glm::vec3(from[0]);
+      from += channels;
+    }
+    use(y0, rows);
+  });
+}
+
 Grid<std::uint16_t> read_oiio_grey(const std::string& path, const std::string& format) {
   const Error refused = image_io::no_grey_picture(path);
   if (format == "png" && image_io::read_png_kind(path).palette) return image_io::read_palette_png(path);

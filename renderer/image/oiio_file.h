@@ -13,6 +13,8 @@ namespace belvedere {
 // As read_image_info, read_picture and read_grey of image_io.h; format: "png", "tiff" or "jpeg", as its first bytes say.
 ImageInfo read_oiio_info(const std::string& path, const std::string& format);
 Grid<glm::vec3> read_oiio_picture(const std::string& path, const std::string& format, Grid<float>* alpha);
+// The same picture in bands from top to bottom, each with the row it begins at.
+void read_oiio_rows(const std::string& path, const std::string& format, const UsePictureRows& use);
 Grid<std::uint16_t> read_oiio_grey(const std::string& path, const std::string& format);
 // Encoded RGB 0…1 as 8-bit PNG, row by row, marked as sRGB where it has no profile. Values, checks and errors as of open_tiff16
 // (tiff_file.h).

@@ -42,6 +42,7 @@ const std::vector<PictureFormat>& picture_formats() {
            },
        .read_info = [](Path path) { return read_oiio_info(path, "tiff"); },
        .read_picture = [](Path path, Grid<float>* alpha) { return read_oiio_picture(path, "tiff", alpha); },
+       .read_rows = [](Path path, const UsePictureRows& use) { read_oiio_rows(path, "tiff", use); },
        .read_grey = [](Path path) { return read_oiio_grey(path, "tiff"); },
        .open = &open_tiff16,
        .writer_bytes = &tiff16_writer_bytes},
@@ -56,6 +57,7 @@ const std::vector<PictureFormat>& picture_formats() {
        .is = [](Bytes b) { return b.starts_with("\x89PNG\r\n\x1a\n"); },
        .read_info = [](Path path) { return read_oiio_info(path, "png"); },
        .read_picture = [](Path path, Grid<float>* alpha) { return read_oiio_picture(path, "png", alpha); },
+       .read_rows = [](Path path, const UsePictureRows& use) { read_oiio_rows(path, "png", use); },
        .read_grey = [](Path path) { return read_oiio_grey(path, "png"); },
        .open = &open_png8,
        .writer_bytes = &png8_writer_bytes,
@@ -91,7 +93,8 @@ const std::vector<PictureFormat>& picture_formats() {
        .title = "JPEG",
        .is = [](Bytes b) { return b.starts_with("\xff\xd8\xff"); },
        .read_info = [](Path path) { return read_oiio_info(path, "jpeg"); },
-       .read_picture = [](Path path, Grid<float>* alpha) { return read_oiio_picture(path, "jpeg", alpha); }},
+       .read_picture = [](Path path, Grid<float>* alpha) { return read_oiio_picture(path, "jpeg", alpha); },
+       .read_rows = [](Path path, const UsePictureRows& use) { read_oiio_rows(path, "jpeg", use); }},
   };
   return all;
 }

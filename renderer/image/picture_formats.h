@@ -27,6 +27,8 @@ struct PictureFormat {
   bool (*is)(std::string_view first_bytes) = nullptr;
   ImageInfo (*read_info)(const std::string& path) = nullptr;
   Grid<glm::vec3> (*read_picture)(const std::string& path, Grid<float>* alpha) = nullptr;
+  // The same row by row, where the format can; null: it is unpacked whole.
+  void (*read_rows)(const std::string& path, const UsePictureRows& use) = nullptr;
   Grid<std::uint16_t> (*read_grey)(const std::string& path) = nullptr;  // null: holds no exact grey numbers
   // Begins a file that is written row by row; null: it is only read.
   std::unique_ptr<PictureRows> (*open)(const std::string& path, int width, int height, const PictureFileOptions& options) = nullptr;

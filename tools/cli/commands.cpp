@@ -1,6 +1,7 @@
 #include "tools/cli/commands.h"
 
 #include "tools/cli/contact/contact_commands.h"
+#include "tools/cli/press/press_commands.h"
 
 namespace belvedere::tools {
 
@@ -42,6 +43,8 @@ const std::vector<Command>& all_commands() {
       {"composite", "learn", "Learns a picture of several textures, and how they lie, from a crop and its labels", add_composite_learn},
       {"composite", "make", "Makes such a picture of any size, over a map of labels that is made or drawn", add_composite_make},
       {"texture", "correct", "Gives a picture the colours of another, region by region", add_texture_correct},
+      {"", "proof", "Shows what a printing press will make of a picture, and which of its colours it cannot print", add_proof},
+      {"palette", "check", "Says which colours of a palette a printing press cannot print", add_palette_check},
       {"", "info", "Says what a picture or guidance file holds and how it was made", add_info},
       {"", "diff", "Compares two pictures or guidance files, with thresholds", add_diff},
       {"", "schema", "Prints what a scene file may say, for editors or for reading", add_schema},
@@ -57,6 +60,7 @@ const std::vector<CommandGroup>& command_groups() {
       {"exemplar", "About example paintings: what they can serve, and painting one"},
       {"layers", "About surface layers: what covers the ground, said by what is known of it"},
       {"texture", "About textures as statistics: paint without end from a kilobyte"},
+      {"palette", "About palettes: whether a press can print them"},
       {"composite", "About pictures of several textures: what lies where, and what it is filled with"}};
   return groups;
 }

@@ -1,0 +1,80 @@
+#include "renderer/press/proof.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "renderer/image/color.h"
+#include "renderer/image/image_io.h"
+#include "tests/files.h"
+#include "tests/renderer/image/icc/press_profile.h"
+
+namespace belvedere {
+namespace {
+
+// Greys that every press has, and a quarter of a green that none has.
+Grid<glm::vec3> picture() {
+  Grid<glm::vec3> out(80, 150);
+  for (int y = 0; y < 150; ++y)
+    for (int x = 0; x < 80; ++x) out(x, y) = x < 20 ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(0.3F + 0.004F * static_cast<float>(y));
+  return out;
+}
+
+class Proof : public testing::Test {
+ protected:
+  Proof() { write_tiff16(folder_ / "a.tif", picture(), {.dots_per_inch = 300.0, .icc_profile = srgb_profile(), .notes = {}}); }
+  ProofReport make(const std::string& name) {
+    Progress progress;
+    return write_proof(find_press_picture(folder_ / "a.tif"), test::press_profile(), {.device = {RenderingIntent::relative, true}}, 0.0,
+                       folder_ / name, progress);
+  }
+  test::Folder folder_;
+};
+
+TEST_F(Proof, TellsSharesAndShowsThem) {
+  const ProofReport report = make("b");
+  EXPECT_EQ(report.pixels, 80U * 150U);
+  EXPECT_DOUBLE_EQ(report.outside_share, 0.25);
+  const Grid<glm::vec3> outside = read_picture(folder_ / "b_outside.png");
+  const Grid<glm::vec3> shown = read_picture(folder_ / "b_proof.png");
+  EXPECT_GT(outside(5, 70).x, 2.0F * outside(5, 70).y) << "red";
+  EXPECT_NEAR(outside(50, 70).x, outside(50, 70).y, 1e-6) << "grey";
+  EXPECT_NEAR(shown(50, 70).x, picture()(50, 70).x, 0.03F) << "greys stay";
+  EXPECT_GT(shown(5, 70).x, 0.1F) << "the print's green is duller";
+  EXPECT_EQ(read_image_info(folder_ / "b_proof.png").notes.at("belvedere:press"), report.press);
+}
+
+// Quantiles against sorting.
+TEST_F(Proof, FiguresAreThoseOfThePixels) {
+  const ProofReport report = make("b");
+  const ProofRows rows =
+      SoftProof(test::press_profile(), {.device = {RenderingIntent::relative, true}}).make(read_picture(folder_ / "a.tif"));
+  std::vector<double> sorted(rows.delta_e.begin(), rows.delta_e.end());
+  std::sort(sorted.begin(), sorted.end());
+  double sum = 0.0;
+  for (const double one : sorted) sum += one;
+  EXPECT_NEAR(report.mean_delta_e, sum / static_cast<double>(sorted.size()), 1e-3);
+  EXPECT_NEAR(report.delta_e_95, sorted[sorted.size() * 95 / 100 - 1], 0.0101);
+  EXPECT_DOUBLE_EQ(report.highest_delta_e, sorted.back());
+  InkCount ink(report.ink.limit_percent);
+  ink.add(rows.inks);
+  EXPECT_EQ(report.ink.highest_percent, ink.coverage().highest_percent);
+}
+
+TEST_F(Proof, SameBytesForAnyThreads) {
+  {
+    const ThreadLimit limit(1);
+    make("one");
+  }
+  make("more");
+  for (const char* file : {"_proof.png", "_outside.png"})
+    EXPECT_EQ(test::read_bytes(folder_ / (std::string("one") + file)), test::read_bytes(folder_ / (std::string("more") + file)));
+}
+
+}  // namespace
+}  // namespace belvedere

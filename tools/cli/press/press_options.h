@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "renderer/image/icc/device_color.h"
+
+namespace CLI {
+class App;
+}
+
+namespace belvedere::tools {
+
+// What commands for printers have in common.
+struct PressOptions {
+  std::string profile;
+  std::string intent = "relative";
+  bool no_black_point = false;
+  DeviceParameters device() const { return {rendering_intent(intent), !no_black_point}; }
+};
+// --profile, and with `conversion` also --intent and --no-black-point.
+void add_press_options(CLI::App& command, PressOptions& options, bool conversion);
+
+}  // namespace belvedere::tools
