@@ -1,0 +1,12 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <string>
+
+namespace belvedere {
+
+// An SVG file as one page of PDF of that size, its drawing stretched over it: text and lines stay vectors, fonts are embedded. Error(input)
+// where it is missing or no SVG.
+std::string svg_as_pdf(const std::string& path, glm::dvec2 size_mm);
+
+}  // namespace belvedere
