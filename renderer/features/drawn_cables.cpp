@@ -10,7 +10,8 @@
 namespace belvedere {
 namespace {
 
-constexpr double sag_share = 0.06;  // of its length: how far below the tight rope a lift follows the ground
+constexpr double sag_share = 0.06;     // of its length: how far below the tight rope a lift follows the ground
+constexpr double highest_pylon = 2.2;  // of the usual height: over gorges ropes hang free
 constexpr int least_steps = 24;
 constexpr int most_steps = 400;
 constexpr float station_mm = 0.75;  // side, in the foreground
@@ -26,6 +27,7 @@ struct RopePoint {
   double hidden_by_m = 0.0;
   bool in_picture = false;
   bool seen = false;
+  bool free = false;  // too high for a pylon
   PointLook look;
 };
 
@@ -83,6 +85,7 @@ std::vector<RopePoint> hang_rope(const CableMaking& making, const Feature& featu
   for (std::size_t i = 0; i < points.size(); ++i) {
     RopePoint& point = points[i];
     point.rope = {point.ground.x, point.ground.y, std::max(lowest[i], heights[i] - sag_share * length_m)};
+    point.free = point.rope.z - point.ground.z > highest_pylon * (lowest[i] - point.ground.z);
     const auto pixel = making.sight.pixel(point.rope);
     if (!pixel) return {};
     point.rope_px = *pixel;
@@ -116,7 +119,6 @@ void draw_cable(const CableMaking& making, const Feature& feature, std::vector<D
   bool on_terrain = false;
   bool in_picture = false;
   bool far = false;
-  const auto too_far = [&](const RopePoint& point) { return kind.farthest_km > 0.0 && point.distance_m > 1000.0 * kind.farthest_km; };
   for (std::size_t s = 0; s + 1 < stations.size(); ++s) {
     const std::vector<RopePoint> points = hang_rope(making, feature, stations[s], stations[s + 1]);
     if (points.empty()) continue;
@@ -136,8 +138,8 @@ void draw_cable(const CableMaking& making, const Feature& feature, std::vector<D
         along_mm += glm::length(point.rope_px - points[i - 1].rope_px) / (making.px_per_mm * point.look.share);
         if (point.seen && points[i - 1].seen) count.seen_m += point.along_m - points[i - 1].along_m;
       }
-      far = far || (point.seen && too_far(point));
-      if (!point.seen || too_far(point)) {
+      far = far || (point.seen && point.look.too_far);
+      if (!point.seen || point.look.too_far) {
         end_rope();
         continue;
       }
@@ -150,7 +152,7 @@ void draw_cable(const CableMaking& making, const Feature& feature, std::vector<D
                          .part = LinePart::station,
                          .points = {to_drawn(point, point.foot_px, 0.5F * side, 0.0),
                                     to_drawn(point, point.foot_px + glm::dvec2(0.0, -0.9 * side), 0.5F * side, 0.0)}});
-      } else if (kind.pylon_mm > 0.0 && along_mm >= next_pylon_mm) {
+      } else if (kind.pylon_mm > 0.0 && !point.free && along_mm >= next_pylon_mm) {
         next_pylon_mm = along_mm + kind.pylon_mm;
         lines.push_back({.kind = feature.kind,
                          .part = LinePart::pylon,

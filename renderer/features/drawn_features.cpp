@@ -129,9 +129,8 @@ void draw_way(const Making& making, const Feature& feature, const FeatureKind& k
     const PointLook look =
         look_at(making.sight, sample.point, sample.pixel, kind, feature.width_mm, feature.real_m, px_per_mm, making.foreground_m_per_px);
     if (i > 0 && samples[i - 1].projected) along_mm += glm::length(sample.pixel - samples[i - 1].pixel) / (px_per_mm * look.share);
-    const bool too_far = kind.farthest_km > 0.0 && sample.distance_m > 1000.0 * kind.farthest_km;
-    far = far || (sample.seen && too_far);
-    if (!sample.seen || too_far) {
+    far = far || (sample.seen && look.too_far);
+    if (!sample.seen || look.too_far) {
       end_run();
       continue;
     }

@@ -193,7 +193,9 @@ void draw_house(const HouseMaking& making, const Feature& feature, std::vector<D
   sample.pixel = *pixel;
   sample.distance_m = making.sight.distance_m(*ground, *pixel);
   sample.on_terrain = sample.projected = sample.in_picture = true;
-  if (kind.farthest_km > 0.0 && sample.distance_m > 1000.0 * kind.farthest_km) {
+  const PointLook look =
+      look_at(making.sight, sample.point, sample.pixel, kind, feature.width_mm, 0.0, making.px_per_mm, making.foreground_m_per_px);
+  if (look.too_far) {
     ++count.too_far;
     return;
   }
@@ -202,8 +204,6 @@ void draw_house(const HouseMaking& making, const Feature& feature, std::vector<D
     ++count.hidden;
     return;
   }
-  const PointLook look =
-      look_at(making.sight, sample.point, sample.pixel, kind, feature.width_mm, 0.0, making.px_per_mm, making.foreground_m_per_px);
   const double m_per_px = making.sight.metres_per_px(sample.point, sample.pixel);
   const double own_px = 2.0 * glm::length(foot.along) / m_per_px;
   const double most_px = 0.5 * most_units * making.px_per_mm;

@@ -64,7 +64,7 @@ FeatureKind read_kind(const ConfigEntry& entry, const std::string& name) {
   read.number("opacity", kind.opacity, 0.0, 1.0);
   read.pair("dash_mm", kind.dash_mm, 0.0, 100.0);
   read.number("hand", kind.hand, 0.0, 1.0);
-  read.number("farthest_km", kind.farthest_km, 0.0, 10000.0);
+  read.number("coarsest_m", kind.coarsest_m, 0.0, 1e5);
   read.number("clear_mm", kind.clear_mm, 0.0, 50.0);
   read.number("height_mm", kind.height_mm, 0.0, 50.0);
   read.number("height_m", kind.height_m, 0.0, 500.0);

@@ -54,7 +54,7 @@ struct FeatureKind {
   double opacity = 1.0;      // of fill and casing, 0…1
   glm::dvec2 dash_mm{0.0};   // of the fill: on and off; 0, 0: drawn through, 0…100
   double hand = 0.12;        // how unevenly it is drawn, of its width, 0…1
-  double farthest_km = 0.0;  // farther from the eye it is left out; 0: never, 0…10000
+  double coarsest_m = 0.0;   // left out where a mm of the sheet shows more metres; 0: never, 0…100000
   double clear_mm = 0.0;     // trees and houses keep so far away; 0: they may stand on it, 0…50
   double height_mm = 1.2;    // of cables over the ground, and at least height_m, 0…50
   double height_m = 10.0;    // m, 0…500

@@ -125,6 +125,7 @@ PointLook look_at(const GroundSight& sight, glm::dvec3 point, glm::dvec2 pixel, 
   const double nearer = std::clamp(foreground_m_per_px / m_per_px, 1e-6, 1.0);
   look.share = std::max(kind.least_share, exact::pow(nearer, kind.shrink));
   look.half_px = 0.5 * std::max({width_mm * px_per_mm * look.share, kind.least_px, real_m / m_per_px});
+  look.too_far = kind.coarsest_m > 0.0 && m_per_px * px_per_mm > kind.coarsest_m;
   return look;
 }
 

@@ -34,6 +34,7 @@ void find_seen(const GroundSight& sight, std::vector<LineSample>& samples, doubl
 struct PointLook {
   double share = 1.0;    // of those of the foreground
   double half_px = 0.5;  // half of the fill's width
+  bool too_far = false;  // the sheet is too coarse there for the kind
 };
 PointLook look_at(const GroundSight& sight, glm::dvec3 point, glm::dvec2 pixel, const FeatureKind& kind, double width_mm, double real_m,
                   double px_per_mm, double foreground_m_per_px);

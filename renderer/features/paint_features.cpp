@@ -161,7 +161,7 @@ class Coverage {
 glm::vec3 in_light(glm::vec3 paint, float tone) {
   const float light = std::clamp(tone, 0.F, 1.F);
   const glm::vec3 cool{0.90F, 0.96F, 1.08F};
-  return glm::min(paint * (0.62F + 0.40F * light) * (cool + (1.F - cool) * smoothstep(light)), glm::vec3(1.F));
+  return glm::min(paint * (0.66F + 0.40F * light) * (cool + (1.F - cool) * smoothstep(light)), glm::vec3(1.F));
 }
 
 struct Canvas {
@@ -169,6 +169,31 @@ struct Canvas {
   const FeatureGround& ground;
   PixelRect rect;
 };
+
+// The tints of all bands over a tile: where two lie over each other the later one shows, as where one brush takes up the other's paint.
+// Laid as a factor, so that light and relief show through.
+void lay_tint(const DrawnFeatures& features, const Layer& layer, const Coverage& coverage, PixelRect tile, Grid<glm::vec3>& tints) {
+  const FeatureKind& kind = features.style.kinds[static_cast<std::size_t>(layer.kind)];
+  const glm::vec3 fill = (features.winter ? kind.winter : kind.summer).fill;
+  for (int y = tile.y0; y < tile.y1; ++y)
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      const float alpha = coverage.at(x, y);
+      glm::vec3& tint = tints(x - tile.x0, y - tile.y0);
+      if (alpha > 0.F) tint += alpha * (1.F + static_cast<float>(kind.opacity) * (fill - 1.F) - tint);
+    }
+}
+
+void paint_tints(const Canvas& canvas, const Grid<glm::vec3>& tints, PixelRect tile) {
+  for (int y = tile.y0; y < tile.y1; ++y)
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      const glm::vec3 tint = tints(x - tile.x0, y - tile.y0);
+      if (tint == glm::vec3(1.F)) continue;
+      const std::size_t i = canvas.picture.index(x - canvas.rect.x0, y - canvas.rect.y0);
+      const float seen = canvas.ground.seen_ground[i];
+      const glm::vec3 below = canvas.ground.base[i] + (canvas.picture[i] - canvas.ground.base[i]) * seen;
+      canvas.picture[i] += seen * (1.F - std::clamp(canvas.ground.haze[i], 0.F, 1.F)) * below * (tint - 1.F);
+    }
+}
 
 void paint_layer(const Canvas& canvas, const DrawnFeatures& features, const Layer& layer, const Coverage& coverage, PixelRect tile) {
   const FeatureKind& kind = features.style.kinds[static_cast<std::size_t>(layer.kind)];
@@ -189,12 +214,6 @@ void paint_layer(const Canvas& canvas, const DrawnFeatures& features, const Laye
       // What lies below where things stand on it: the picture itself where nothing does.
       const glm::vec3 below = ground.base[i] + (pixel - ground.base[i]) * under;
       const float alpha = share * under * (layer.coat == Coat::bed || layer.coat == Coat::cable ? 1.F : opacity);
-      if (layer.coat == Coat::band) {
-        // Tinted, so that light and relief show through.
-        const glm::vec3 tint = 1.F + (colours.fill - 1.F) * (1.F - haze);
-        pixel += alpha * (below * tint - below);
-        continue;
-      }
       const glm::vec3 paint = layer.coat == Coat::bed ? colours.bed : layer.coat == Coat::casing ? colours.casing : colours.fill;
       const glm::vec3 lit = in_light(paint, light);
       pixel += alpha * (lit + (ground.base[i] - lit) * haze - below);
@@ -215,8 +234,22 @@ void paint_features(Grid<glm::vec3>& picture, const DrawnFeatures& features, con
     const std::vector<std::uint32_t> numbers = features.lines_at(tile);
     if (numbers.empty()) return;
     Coverage coverage(features, ground.guidance.depth_m, rect, tile);
-    for (const Layer& layer : layers)
-      if (coverage.lay(layer, numbers)) paint_layer(canvas, features, layer, coverage, tile);
+    Grid<glm::vec3> tints;
+    for (const Layer& layer : layers) {
+      // Bands lie on their beds and under all lines.
+      if (layer.coat > Coat::band && !tints.empty()) {
+        paint_tints(canvas, tints, tile);
+        tints = {};
+      }
+      if (!coverage.lay(layer, numbers)) continue;
+      if (layer.coat == Coat::band) {
+        if (tints.empty()) tints = Grid<glm::vec3>(tile.width(), tile.height(), glm::vec3(1.F));
+        lay_tint(features, layer, coverage, tile, tints);
+      } else {
+        paint_layer(canvas, features, layer, coverage, tile);
+      }
+    }
+    if (!tints.empty()) paint_tints(canvas, tints, tile);
   });
 }
 

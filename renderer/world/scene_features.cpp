@@ -72,7 +72,7 @@ FeatureSet read_scene_features(const LoadedScene& loaded, const std::string& crs
   return set;
 }
 
-void check_extents(const FeatureSet& set, const DrawnFeatures& drawn, const World& world) {
+void check_extents(const FeatureSet& set, const DrawnFeatures& drawn, const Dem& dem) {
   for (std::size_t s = 0; s < set.readings.size(); ++s) {
     std::size_t outside = 0;
     std::size_t all = 0;
@@ -81,7 +81,6 @@ void check_extents(const FeatureSet& set, const DrawnFeatures& drawn, const Worl
       all += count.features;
     }
     if (all == 0 || outside < all) continue;
-    const Dem& dem = *world.dem;
     const glm::dvec2 a = dem.transform.to_crs(-.5, dem.height() - .5);
     const glm::dvec2 b = dem.transform.to_crs(dem.width() - .5, -.5);
     const SourceReading& reading = set.readings[s];
@@ -103,7 +102,7 @@ DrawnFeatures draw_scene_features(const LoadedScene& loaded, const World& world,
                                        .px_per_mm = world.scene.output.width / world.scene.output.sheet_width_mm,
                                        .seed = world.scene.seed,
                                        .sun = world.view.sun_direction});
-  check_extents(set, drawn, world);
+  check_extents(set, drawn, *world.dem);
   return drawn;
 }
 

@@ -18,6 +18,6 @@ FeatureSet read_scene_features(const LoadedScene& loaded, const std::string& crs
 // The same laid over the drawn ground, ready to be painted. Throws Error(usage) with both extents where nothing of a file lies on the
 // terrain: its coordinate system then is another than it says.
 DrawnFeatures draw_scene_features(const LoadedScene& loaded, const World& world, bool winter, Progress& progress);
-void check_extents(const FeatureSet& set, const DrawnFeatures& drawn, const World& world);
+void check_extents(const FeatureSet& set, const DrawnFeatures& drawn, const Dem& dem);
 
 }  // namespace belvedere

@@ -24,6 +24,7 @@ const std::vector<Command>& all_commands() {
       {"", "verify", "Renders scenes small and compares inputs and pixels with what their locks say", add_verify},
       {"", "deform", "Bends, exaggerates and moves ground: a DEM to a deformed DEM; finds bends and places", add_deform},
       {"", "labels", "Finds where summits and other names stand in a scene's picture, and writes them as SVG and tables", add_labels},
+      {"features", "check", "Says what becomes of a scene's roads, lifts and other features of vector files", add_features_check},
       {"cache", "list", "Lists what is kept from earlier runs to make the next ones faster", add_cache_list},
       {"cache", "clear", "Removes what is kept from earlier runs, or what was not used for long", add_cache_clear},
       {"exemplar", "check", "Tells what a painting can serve before anything is copied from it", add_exemplar_check},
@@ -57,6 +58,7 @@ const std::vector<Command>& all_commands() {
 
 const std::vector<CommandGroup>& command_groups() {
   static const std::vector<CommandGroup> groups = {
+      {"features", "About roads, lifts, houses and other features of vector files"},
       {"cache", "About what is kept from earlier runs: land cover, terrain, example sheets"},
       {"exemplar", "About example paintings: what they can serve, and painting one"},
       {"layers", "About surface layers: what covers the ground, said by what is known of it"},

@@ -71,6 +71,11 @@ TEST(DrawnCables, AreTightOverHollowsAndClearOfRidges) {
       if (std::abs(point.place.x - ground.pixel({0.0, 0.0, 0.0}).x) < 10.0) lowest = std::max(lowest, static_cast<double>(point.place.y));
       highest = std::min(highest, static_cast<double>(point.place.y));
     }
+  for (const DrawnLine& line : drawn.lines)
+    if (line.part == LinePart::pylon) {
+      EXPECT_LT(line.points[0].place.y - line.points[1].place.y, 0.3 * (ground.pixel({0.0, 0.0, -400.0}).y - over_gorge))
+          << "none in the gorge";
+    }
   EXPECT_GT(lowest, 0.0);
   EXPECT_LT(lowest, over_gorge);
   EXPECT_LT(highest, over_ridge);

@@ -23,7 +23,7 @@ shrink = 0
 least_share = 0
 hand = 0
 [kinds.near_road]
-farthest_km = 2
+coarsest_m = 12
 [kinds.shrinking]
 width_mm = 2
 least_px = 0

@@ -57,7 +57,7 @@ soft_mm = 0.9
 opacity = 0.5
 dash_mm = [3, 4]
 hand = 0.3
-farthest_km = 20
+coarsest_m = 20
 clear_mm = 1.5
 height_mm = 2.5
 height_m = 15
@@ -85,7 +85,7 @@ ground = "forest"
   EXPECT_EQ(way.opacity, .5);
   EXPECT_EQ(way.dash_mm, glm::dvec2(3.0, 4.0));
   EXPECT_EQ(way.hand, .3);
-  EXPECT_EQ(way.farthest_km, 20.0);
+  EXPECT_EQ(way.coarsest_m, 20.0);
   EXPECT_EQ(way.clear_mm, 1.5);
   EXPECT_EQ(way.height_mm, 2.5);
   EXPECT_EQ(way.height_m, 15.0);
