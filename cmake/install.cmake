@@ -24,7 +24,7 @@ install(FILES ${share}/man.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 RENAME bel
 install(FILES ${share}/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME belvedere COMPONENT program)
 install(FILES ${share}/completion.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d RENAME belvedere.fish COMPONENT program)
 install(FILES ${share}/completion.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions RENAME _belvedere COMPONENT program)
-install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/belvedere COMPONENT program FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" REGEX "/masks/[^/]*[.]png$")
+install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/belvedere COMPONENT program FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.geojson" REGEX "/masks/[^/]*[.]png$")
 install(FILES docs/scene.md docs/scene.schema.json README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
 

@@ -11,6 +11,7 @@
 #include "base/noise.h"
 #include "base/parallel.h"
 #include "base/random_streams.h"
+#include "texture/strokes/stroke_parts.h"
 
 namespace belvedere {
 namespace {
@@ -19,6 +20,9 @@ constexpr int tile_px = 128;
 constexpr float same_ground = 0.04F;  // of its distance: how far a pixel's ground may lie before or behind a line that runs over it
 constexpr float in_front = 0.006F;    // of its distance: ground so much nearer hides a rope
 constexpr double hand_mm = 1.1;       // how long the unevenness of the hand is on the sheet
+
+constexpr float load_share = 0.045F;  // how much loads of paint differ
+constexpr double load_mm = 0.45;      // and over how much of the sheet
 
 enum class Coat : std::uint8_t { bed, band, casing, fill, cable };
 
@@ -164,6 +168,15 @@ glm::vec3 in_light(glm::vec3 paint, float tone) {
   return glm::min(paint * (0.66F + 0.40F * light) * (cool + (1.F - cool) * smoothstep(light)), glm::vec3(1.F));
 }
 
+// How much more paint than usual lies at a pixel, deviation 1, by the place on the sheet.
+float load_noise(const DrawnFeatures& features, int x, int y) {
+  const std::uint64_t seed = stream_seed(features.seed, Stream::feature_edges, 1);
+  const double scale = 1.0 / features.px_per_mm;
+  return static_cast<float>(gaussian_noise(seed, (x + 0.5) * scale, (y + 0.5) * scale, load_mm));
+}
+
+bool is_ice_or_snow(LandCoverClass id) { return id == LandCoverClass::snow || id == LandCoverClass::glacier; }
+
 struct Canvas {
   Grid<glm::vec3>& picture;
   const FeatureGround& ground;
@@ -215,7 +228,10 @@ void paint_layer(const Canvas& canvas, const DrawnFeatures& features, const Laye
       const glm::vec3 below = ground.base[i] + (pixel - ground.base[i]) * under;
       const float alpha = share * under * (layer.coat == Coat::bed || layer.coat == Coat::cable ? 1.F : opacity);
       const glm::vec3 paint = layer.coat == Coat::bed ? colours.bed : layer.coat == Coat::casing ? colours.casing : colours.fill;
-      const glm::vec3 lit = in_light(paint, light);
+      // The brush lays now more, now less of it.
+      const glm::vec3 loaded = paint * (1.F + load_share * load_noise(features, x, y));
+      if (layer.coat == Coat::bed && is_ice_or_snow(ground.guidance.land_cover[i])) continue;  // it is one already
+      const glm::vec3 lit = layer.coat == Coat::bed ? glm::min(loaded * fresh_snow(light), glm::vec3(1.F)) : in_light(loaded, light);
       pixel += alpha * (lit + (ground.base[i] - lit) * haze - below);
     }
 }

@@ -12,7 +12,7 @@ namespace belvedere {
 
 // What features are painted on and by. All grids hold the same rectangle of the sheet.
 struct FeatureGround {
-  const GuidanceBuffers& guidance;  // depth_m, tone
+  const GuidanceBuffers& guidance;  // depth_m, tone, land_cover
   const Grid<glm::vec3>& base;      // encoded sRGB: what air fades to
   const Grid<float>& haze;          // 0…1
   const Grid<float>& seen_ground;   // share of each pixel that nothing standing covers

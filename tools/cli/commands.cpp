@@ -25,6 +25,7 @@ const std::vector<Command>& all_commands() {
       {"", "deform", "Bends, exaggerates and moves ground: a DEM to a deformed DEM; finds bends and places", add_deform},
       {"", "labels", "Finds where summits and other names stand in a scene's picture, and writes them as SVG and tables", add_labels},
       {"features", "check", "Says what becomes of a scene's roads, lifts and other features of vector files", add_features_check},
+      {"features", "swatches", "Paints a picture of each kind of a style of features", add_features_swatches},
       {"cache", "list", "Lists what is kept from earlier runs to make the next ones faster", add_cache_list},
       {"cache", "clear", "Removes what is kept from earlier runs, or what was not used for long", add_cache_clear},
       {"exemplar", "check", "Tells what a painting can serve before anything is copied from it", add_exemplar_check},

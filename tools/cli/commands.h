@@ -46,6 +46,7 @@ Action add_guidance(CLI::App& command);
 Action add_info(CLI::App& command);
 Action add_join(CLI::App& command);
 Action add_features_check(CLI::App& command);
+Action add_features_swatches(CLI::App& command);
 Action add_labels(CLI::App& command);
 Action add_layers_apply(CLI::App& command);
 Action add_layers_picture(CLI::App& command);

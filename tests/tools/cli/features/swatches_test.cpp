@@ -1,0 +1,46 @@
+#include "tools/cli/features/swatches.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "tests/paths.h"
+
+namespace belvedere::tools {
+namespace {
+
+// Every kind of the built-in styles that is painted shows something of itself in both seasons, and the documentation shows it.
+TEST(Swatches, EveryKindThatIsPaintedIsSeenAndDocumented) {
+  std::ifstream file(test::source_folder() + "/docs/features.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  for (const char* name : {"classic", "ski"}) {
+    const FeatureStyle style = load_feature_style(name);
+    FeatureStyle none = style;
+    const int bare = style.find("path");
+    none.kinds[static_cast<std::size_t>(bare)].width_mm = 0.0;
+    none.kinds[static_cast<std::size_t>(bare)].least_px = 0.0;
+    const Grid<glm::vec3> ground = make_swatch(none, bare);
+    for (std::size_t k = 0; k < style.kinds.size(); ++k) {
+      const Grid<glm::vec3> swatch = make_swatch(style, static_cast<int>(k));
+      EXPECT_THAT(text.str(), testing::HasSubstr('`' + style.kinds[k].name + '`'));
+      if (swatch.empty()) {
+        EXPECT_TRUE(style.kinds[k].ground) << style.kinds[k].name;
+        continue;
+      }
+      EXPECT_THAT(text.str(), testing::HasSubstr("images/features/" + style.kinds[k].name + ".jpg"));
+      int summer = 0;
+      int winter = 0;
+      for (int y = 0; y < swatch.height(); ++y)
+        for (int x = 0; x < swatch.width(); ++x)
+          if (swatch(x, y) != ground(x, y)) ++(2 * x < swatch.width() ? summer : winter);
+      EXPECT_GT(summer, 150) << style.kinds[k].name;
+      EXPECT_GT(winter, 150) << style.kinds[k].name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace belvedere::tools

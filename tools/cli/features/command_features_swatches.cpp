@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "renderer/image/image_io.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/features/swatches.h"
+#include "tools/cli/file_names.h"
+#include "tools/cli/terminal.h"
+
+namespace belvedere::tools {
+namespace {
+
+struct Options {
+  std::string style = "classic";
+  std::string out;
+};
+
+int run(const Options& options) {
+  const FeatureStyle style = load_feature_style(options.style);
+  const std::filesystem::path folder = options.out;
+  check_place((folder / "swatch.png").string());
+  std::error_code ignored;
+  std::filesystem::create_directories(folder, ignored);
+  for (std::size_t k = 0; k < style.kinds.size(); ++k) {
+    const Grid<glm::vec3> swatch = make_swatch(style, static_cast<int>(k));
+    if (swatch.empty()) continue;
+    const std::string file = (folder / (style.kinds[k].name + ".png")).string();
+    write_png8(file, swatch, {});
+    print_out(file + "\n");
+  }
+  return 0;
+}
+
+}  // namespace
+
+Action add_features_swatches(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("--style", options->style, "classic, ski, or a .toml file")->type_name("STYLE")->capture_default_str();
+  command.add_option("--out", options->out, "Folder for a picture of each kind; made where it is missing")->required()->type_name("DIR");
+  command.footer(
+      "Paints each kind of a style as it looks in the foreground of a sheet, summer left, winter right, at 8 pixels a mm, to see what a "
+      "style\n"
+      "file says without rendering a scene.\n\n"
+      "  belvedere features swatches --style my_style.toml --out swatches");
+  return [options] { return run(*options); };
+}
+
+}  // namespace belvedere::tools
