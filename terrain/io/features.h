@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,11 +21,17 @@ struct MapFeature {
   std::vector<std::string> values;  // as many as columns asked for; empty where nothing is known
 };
 
+// A part of the map, in the CRS that was asked for.
+struct MapBox {
+  glm::dvec2 low{0.0}, high{0.0};
+};
+
 // Which features of a file are read, and what of them.
 struct MapQuery {
   std::string layer = {};                 // empty: all layers
   std::string where = {};                 // filter by attributes, as SQL's WHERE; empty: all
   std::vector<std::string> columns = {};  // small and capital letters alike; a file of which no layer has one is refused
+  std::optional<MapBox> box = {};         // what lies beside it is counted and let go; empty: everything is kept
 };
 
 struct MapFeatures {
@@ -32,11 +39,16 @@ struct MapFeatures {
   std::size_t read = 0;              // features that the file gave
   std::size_t without_shape = 0;     // of these: without geometry, or with one of too few places
   std::size_t unplaceable = 0;       // with a place that the CRS asked for does not have
+  std::size_t at_zero = 0;           // of these: all of whose places are 0, 0 in the file's own coordinates: nobody wrote them down
+  std::size_t beside = 0;            // beside the box
+  MapBox extent = {};                // of all that has a place, beside the box as well
 };
 
-// The points, lines and areas of a vector file in `crs` (WKT or a code): GeoPackage, GeoJSON, shapefile, FlatGeobuf, GPX, by their endings
-// and no others. Throws Error(usage) for another ending, a layer, column or filter that the file does not understand; Error(input) for a
-// file that is missing, damaged or without a CRS; Error(limit) over 2 · 10⁶ features or 3 · 10⁷ places.
+// The points, lines and areas of a vector file in `crs` (WKT or a code): GeoPackage, GeoJSON, shapefile, FlatGeobuf, GPX, OpenStreetMap's
+// XML and PBF, by their endings and no others. Features are read a part of the file at a time, so that a file may be much larger than what
+// of it lies in the box. Areas may cross themselves: what an odd number of their rings encloses belongs to them. Throws Error(usage) for
+// another ending, a layer, column or filter that the file does not understand; Error(input) for a file that is missing, damaged or without
+// a CRS; Error(limit) for more than 2 · 10⁶ features or 3 · 10⁷ places that are kept.
 MapFeatures read_map_features(const std::string& path, const MapQuery& query, const std::string& crs);
 
 }  // namespace belvedere

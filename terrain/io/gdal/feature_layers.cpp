@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
+#include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "terrain/io/crs.h"
@@ -77,25 +80,44 @@ bool add_shapes(OGRGeometryH geometry, std::vector<MapFeature>& to) {
   return true;
 }
 
-// Places of many features brought over at once; those with a place that has no image are left out.
-void bring_over(std::vector<MapFeature>&& features, const PointTransform& transform, MapFeatures& all) {
+bool is_at_zero(const MapFeature& feature) {
+  for (const Row& row : feature.parts)
+    for (const glm::dvec2 place : row)
+      if (place != glm::dvec2(0.0)) return false;
+  return true;
+}
+
+// Places of many features brought over at once; those with a place that has no image, or beside the box, are let go.
+void bring_over(std::vector<MapFeature>&& features, const PointTransform& transform, const std::optional<MapBox>& box, MapFeatures& all) {
   Row places;
   for (const MapFeature& feature : features)
     for (const Row& row : feature.parts) places.insert(places.end(), row.begin(), row.end());
   transform.apply(places);
   std::size_t next = 0;
   for (MapFeature& feature : features) {
+    const bool at_zero = is_at_zero(feature);
     bool whole = true;
+    MapBox extent = {places[next], places[next]};
     for (Row& row : feature.parts)
       for (glm::dvec2& place : row) {
         place = places[next++];
         whole = whole && std::isfinite(place.x) && std::isfinite(place.y);
+        extent.low = glm::min(extent.low, place);
+        extent.high = glm::max(extent.high, place);
       }
-    if (whole)
-      all.features.push_back(std::move(feature));
+    if (!whole || at_zero) {
+      ++(at_zero ? all.at_zero : all.unplaceable);
+      continue;
+    }
+    const bool first = all.features.empty() && all.beside == 0;
+    all.extent.low = first ? extent.low : glm::min(all.extent.low, extent.low);
+    all.extent.high = first ? extent.high : glm::max(all.extent.high, extent.high);
+    if (box && (extent.high.x < box->low.x || extent.high.y < box->low.y || extent.low.x > box->high.x || extent.low.y > box->high.y))
+      ++all.beside;
     else
-      ++all.unplaceable;
+      all.features.push_back(std::move(feature));
   }
+  features.clear();
 }
 
 std::vector<int> columns_of(OGRLayerH layer, const std::vector<std::string>& names) {
@@ -125,7 +147,7 @@ class Reader {
                   fmt::format("{}", fmt::join(names, ", ")));
     require_columns(layers);
     std::string refused;
-    bool understood = false;
+    std::vector<OGRLayerH> understood;
     for (OGRLayerH layer : layers) {
       // Of several layers, those that lack a column of the filter have nothing of what it asks for.
       const GdalErrors errors;
@@ -133,10 +155,13 @@ class Reader {
         refused = errors.say(fmt::format("the filter \"{}\" is not understood", query_.where));
         continue;
       }
-      understood = true;
-      read_layer(layer);
+      understood.push_back(layer);
     }
-    if (!understood) throw Error(ErrorKind::usage, path_, refused, "a condition as in SQL, such as \"highway = 'primary'\"");
+    if (understood.empty()) throw Error(ErrorKind::usage, path_, refused, "a condition as in SQL, such as \"highway = 'primary'\"");
+    if (std::string(GDALGetDriverShortName(GDALGetDatasetDriver(file))) == "OSM")
+      read_mixed(file, understood);
+    else
+      for (OGRLayerH layer : understood) read_layer(layer);
     return std::move(all_);
   }
 
@@ -157,31 +182,75 @@ class Reader {
     }
   }
 
+  // What waits to be brought over, of one layer.
+  struct Pending {
+    std::vector<int> columns;
+    std::vector<MapFeature> found = {};
+    std::size_t places = 0;
+    std::optional<PointTransform> transform = {};  // made when a feature is there: a layer without one needs no CRS
+  };
+
   void read_layer(OGRLayerH layer) {
-    const std::vector<int> columns = columns_of(layer, query_.columns);
-    std::vector<MapFeature> found;
+    Pending pending{columns_of(layer, query_.columns)};
     const GdalErrors errors;
     OGR_L_ResetReading(layer);
     while (true) {
       const VectorFeature feature(OGR_L_GetNextFeature(layer), &OGR_F_Destroy);
       if (feature == nullptr) break;
-      if (++all_.read > most_features) throw Error(ErrorKind::limit, path_, fmt::format("more than {} features", most_features));
-      const std::size_t before = found.size();
-      if (!add_shapes(OGR_F_GetGeometryRef(feature.get()), found)) ++all_.without_shape;
-      for (std::size_t i = before; i < found.size(); ++i) {
-        found[i].where = fmt::format("{}, {} {}", path_, OGR_L_GetName(layer), OGR_F_GetFID(feature.get()));
-        for (const Row& row : found[i].parts) places_ += row.size();
-        for (const int column : columns)
-          found[i].values.emplace_back(
-              column >= 0 && OGR_F_IsFieldSetAndNotNull(feature.get(), column) != 0 ? OGR_F_GetFieldAsString(feature.get(), column) : "");
-      }
-      if (places_ > most_places) throw Error(ErrorKind::limit, path_, fmt::format("features of more than {} places", most_places));
+      take(feature.get(), layer, pending);
     }
     if (errors.failed()) throw Error(ErrorKind::input, path_, errors.say("cannot be read to its end"));
-    if (found.empty()) return;
-    const std::string own_crs = layer_crs(layer, path_);
-    if (own_crs.empty()) throw Error(ErrorKind::input, path_, "its layer has no CRS", "a layer that says its CRS");
-    bring_over(std::move(found), PointTransform(own_crs, crs_), all_);
+    bring(layer, pending);
+  }
+
+  // All layers at once, as formats have it whose file is not sorted by layers.
+  void read_mixed(GDALDatasetH file, const std::vector<OGRLayerH>& layers) {
+    std::vector<std::pair<OGRLayerH, Pending>> all;
+    for (OGRLayerH layer : layers) all.emplace_back(layer, Pending{columns_of(layer, query_.columns)});
+    const GdalErrors errors;
+    GDALDatasetResetReading(file);
+    while (true) {
+      OGRLayerH from = nullptr;
+      const VectorFeature feature(GDALDatasetGetNextFeature(file, &from, nullptr, nullptr, nullptr), &OGR_F_Destroy);
+      if (feature == nullptr) break;
+      for (auto& [layer, pending] : all)
+        if (layer == from) take(feature.get(), layer, pending);
+    }
+    if (errors.failed()) throw Error(ErrorKind::input, path_, errors.say("cannot be read to its end"));
+    for (auto& [layer, pending] : all) bring(layer, pending);
+  }
+
+  void take(OGRFeatureH feature, OGRLayerH layer, Pending& pending) {
+    constexpr std::size_t places_at_once = std::size_t{1} << 20;
+    ++all_.read;
+    std::vector<MapFeature>& found = pending.found;
+    const std::size_t before = found.size();
+    if (!add_shapes(OGR_F_GetGeometryRef(feature), found)) ++all_.without_shape;
+    for (std::size_t i = before; i < found.size(); ++i) {
+      found[i].where = fmt::format("{}, {} {}", path_, OGR_L_GetName(layer), OGR_F_GetFID(feature));
+      for (const Row& row : found[i].parts) pending.places += row.size();
+      for (const int column : pending.columns)
+        found[i].values.emplace_back(
+            column >= 0 && OGR_F_IsFieldSetAndNotNull(feature, column) != 0 ? OGR_F_GetFieldAsString(feature, column) : "");
+    }
+    if (pending.places > places_at_once) bring(layer, pending);
+  }
+
+  void bring(OGRLayerH layer, Pending& pending) {
+    if (pending.found.empty()) return;
+    if (!pending.transform) {
+      const std::string own_crs = layer_crs(layer, path_);
+      if (own_crs.empty()) throw Error(ErrorKind::input, path_, "its layer has no CRS", "a layer that says its CRS");
+      pending.transform.emplace(own_crs, crs_);
+    }
+    const std::size_t before = all_.features.size();
+    bring_over(std::move(pending.found), *pending.transform, query_.box, all_);
+    pending.found.clear();
+    pending.places = 0;
+    for (std::size_t i = before; i < all_.features.size(); ++i)
+      for (const Row& row : all_.features[i].parts) places_ += row.size();
+    if (all_.features.size() > most_features) throw Error(ErrorKind::limit, path_, fmt::format("more than {} features", most_features));
+    if (places_ > most_places) throw Error(ErrorKind::limit, path_, fmt::format("features of more than {} places", most_places));
   }
 
   const std::string& path_;
@@ -195,8 +264,8 @@ class Reader {
 
 MapFeatures read_map_features(const std::string& path, const MapQuery& query, const std::string& crs) {
   if (crs.empty()) throw Error(ErrorKind::usage, path, "the terrain has no CRS", "terrain that says its CRS");
-  const Dataset file = open_vector_layers(path, {".gpx", ".gpkg", ".geojson", ".json", ".shp", ".fgb"}, "is no file of features",
-                                          ".gpkg, .geojson, .json, .shp, .fgb or .gpx");
+  const Dataset file = open_vector_layers(path, {".gpx", ".gpkg", ".geojson", ".json", ".shp", ".fgb", ".osm", ".pbf"},
+                                          "is no file of features", ".gpkg, .geojson, .json, .shp, .fgb, .gpx, .osm or .pbf");
   return Reader(path, query, crs).read(file.get());
 }
 

@@ -22,7 +22,8 @@ struct VectorFormat {
 };
 constexpr std::array formats = {VectorFormat{".gpkg", "GPKG"},      VectorFormat{".geojson", "GeoJSON"},
                                 VectorFormat{".json", "GeoJSON"},   VectorFormat{".shp", "ESRI Shapefile"},
-                                VectorFormat{".fgb", "FlatGeobuf"}, VectorFormat{".gpx", "GPX"}};
+                                VectorFormat{".fgb", "FlatGeobuf"}, VectorFormat{".gpx", "GPX"},
+                                VectorFormat{".osm", "OSM"},        VectorFormat{".pbf", "OSM"}};
 
 }  // namespace
 

@@ -74,6 +74,51 @@ TEST_F(MapFeatureFiles, PlacesThatTheSystemDoesNotHaveAreCountedAndTheirFeatures
   EXPECT_EQ(read.features.size(), 1U);
 }
 
+TEST_F(MapFeatureFiles, WhatLiesBesideTheBoxIsCountedAndLetGo) {
+  const std::string file = mixed();
+  const glm::dvec2 low = transform_point("EPSG:4326", utm_, {11.15, 46.9});
+  const glm::dvec2 high = transform_point("EPSG:4326", utm_, {11.5, 47.2});
+  const MapFeatures read = read_map_features(file, {.box = MapBox{low, high}}, utm_);
+  EXPECT_EQ(read.read, 5U);
+  ASSERT_EQ(read.features.size(), 1U) << "the second part of the road";
+  EXPECT_EQ(read.features[0].parts[0].size(), 3U);
+  EXPECT_EQ(read.beside, 3U);
+  EXPECT_LT(read.extent.low.x, low.x) << "of all, beside the box as well";
+  // One that only runs through it lies in it.
+  const std::string through = write_text("through.geojson", R"({"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[10, 47], [12, 47]]}}]})");
+  EXPECT_EQ(read_map_features(through, {.box = MapBox{low, high}}, utm_).features.size(), 1U);
+}
+
+TEST_F(MapFeatureFiles, PlacesAtZeroAreNobodysPlaces) {
+  const std::string file = write_text("zero.geojson", R"({"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [0, 0]}},
+{"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [9, 0]}}]})");
+  const MapFeatures read = read_map_features(file, {}, utm_);
+  EXPECT_EQ(read.at_zero, 1U);
+  EXPECT_EQ(read.features.size(), 1U);
+}
+
+TEST_F(MapFeatureFiles, OpenStreetMapsOwnFormat) {
+  const std::string file = write_text("region.osm", R"(<?xml version="1.0" encoding="UTF-8"?><osm version="0.6">
+<node id="1" lat="47.0" lon="11.0" version="1"/><node id="2" lat="47.0" lon="11.1" version="1"/><node id="3" lat="47.1" lon="11.1" version="1"/>
+<node id="4" lat="47.05" lon="11.05" version="1"><tag k="place" v="village"/><tag k="name" v="Dorf"/></node>
+<way id="10" version="1"><nd ref="1"/><nd ref="2"/><nd ref="3"/><tag k="waterway" v="river"/><tag k="name" v="Ache"/></way>
+<way id="11" version="1"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="1"/><tag k="natural" v="water"/></way>
+</osm>)");
+  const MapFeatures rivers = read_map_features(file, {.where = "waterway = 'river'", .columns = {"waterway"}}, utm_);
+  ASSERT_EQ(rivers.features.size(), 1U);
+  EXPECT_EQ(rivers.features[0].shape, MapShape::line);
+  EXPECT_THAT(rivers.features[0].values, ElementsAre("river"));
+  const MapFeatures waters = read_map_features(file, {.layer = "multipolygons", .columns = {"natural"}}, utm_);
+  ASSERT_EQ(waters.features.size(), 1U);
+  EXPECT_EQ(waters.features[0].shape, MapShape::area);
+  EXPECT_THAT(waters.features[0].values, ElementsAre("water"));
+  EXPECT_EQ(read_map_features(file, {}, utm_).features.size(), 3U) << "layers that the file mixes";
+  EXPECT_THAT(message_of(ErrorKind::input, [&] { read_map_features(write_text("broken.osm.pbf", "no such thing"), {}, utm_); }),
+              HasSubstr("broken.osm.pbf"));
+}
+
 TEST_F(MapFeatureFiles, WhatIsWrongIsSaid) {
   const auto message = [&](ErrorKind kind, const std::string& file, const MapQuery& query) {
     return message_of(kind, [&] { read_map_features(file, query, utm_); });
