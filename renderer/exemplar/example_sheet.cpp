@@ -20,7 +20,7 @@
 #include "renderer/image/srgb.h"
 #include "renderer/paint/composite.h"
 #include "renderer/paint/guides.h"
-#include "renderer/world/cached_products.h"
+#include "renderer/ground/cached_products.h"
 #include "renderer/world/lit_picture.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
-#include <glm/common.hpp>
 #include <optional>
 #include <utility>
 
@@ -48,26 +47,29 @@ int kind_of_word(const FeatureStyle& style, const std::string& word, const std::
               fmt::format("{}", fmt::join(style.names(), ", ")));
 }
 
-void add_source(FeatureSet& set, const FeatureSource& source, int number, const std::string& crs) {
+void add_source(FeatureSet& set, const FeatureSource& source, int number, const std::string& crs, const std::optional<MapBox>& ground) {
   const int usual = source.kind.empty() ? -1 : kind_of_word(set.style, source.kind, source.key + ".kind");
-  MapQuery query{.layer = source.layer, .where = source.where, .columns = {}};
+  MapQuery query{.layer = source.layer, .where = source.where, .columns = {}, .box = ground};
   const bool by_column = !source.kind_of.empty();
   if (by_column) query.columns.push_back(source.kind_of);
-  if (!source.width_of.empty()) query.columns.push_back(source.width_of);
+  const auto column_of = [&](const std::string& name) -> std::size_t {
+    if (!name.empty()) query.columns.push_back(name);
+    return query.columns.size() - 1;
+  };
+  const std::size_t width_at = column_of(source.width_of);
+  const std::size_t level_at = column_of(source.level_of);
+  const std::size_t people_at = column_of(source.people_of);
   MapFeatures found = read_map_features(source.path, query, crs);
   SourceReading& reading = set.readings.emplace_back();
   reading.file = source.path;
   reading.read = found.read;
   reading.without_shape = found.without_shape;
   reading.unplaceable = found.unplaceable;
-  bool first = true;
+  reading.at_zero = found.at_zero;
+  reading.beside = found.beside;
+  reading.low = found.extent.low;
+  reading.high = found.extent.high;
   for (MapFeature& one : found.features) {
-    for (const auto& row : one.parts)
-      for (const glm::dvec2 place : row) {
-        reading.low = first ? place : glm::min(reading.low, place);
-        reading.high = first ? place : glm::max(reading.high, place);
-        first = false;
-      }
     int kind = by_column ? set.style.find(one.values[0]) : usual;
     if (kind < 0) kind = usual;
     if (kind < 0) {
@@ -80,17 +82,34 @@ void add_source(FeatureSet& set, const FeatureSource& source, int number, const 
       ++reading.wrong_shape;
       continue;
     }
-    Feature feature{.kind = kind, .source = number, .shape = one.shape, .where = std::move(one.where), .parts = std::move(one.parts)};
+    Feature feature{.kind = kind,
+                    .source = number,
+                    .block = source.block,
+                    .shape = one.shape,
+                    .where = std::move(one.where),
+                    .parts = std::move(one.parts)};
     feature.width_mm = static_cast<float>(source.width_mm > 0.0 ? source.width_mm : style.width_mm);
     double real_m = style.real_m;
-    if (!source.width_of.empty() && !one.values.back().empty()) {
-      const std::optional<double> width = metres_of(one.values.back());
+    if (!source.width_of.empty() && !one.values[width_at].empty()) {
+      const std::optional<double> width = metres_of(one.values[width_at]);
       if (width)
         real_m = *width;
       else
         ++reading.wrong_width;
     }
     feature.real_m = static_cast<float>(real_m);
+    const auto number_in = [&](const std::string& name, std::size_t column, double least, double most, float& to) {
+      if (name.empty() || one.values[column].empty()) return;
+      const std::string& text = one.values[column];
+      double value = 0.0;
+      const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+      if (problem == std::errc() && stop == text.data() + text.size() && value >= least && value <= most)
+        to = static_cast<float>(value);
+      else
+        ++reading.wrong_number;
+    };
+    number_in(source.level_of, level_at, -500.0, 9000.0, feature.level_m);
+    number_in(source.people_of, people_at, 0.0, 1e8, feature.people);
     ++reading.taken;
     set.features.push_back(std::move(feature));
   }
@@ -98,9 +117,10 @@ void add_source(FeatureSet& set, const FeatureSource& source, int number, const 
 
 }  // namespace
 
-FeatureSet read_feature_set(const FeatureStyle& style, const std::vector<FeatureSource>& sources, const std::string& crs) {
+FeatureSet read_feature_set(const FeatureStyle& style, const std::vector<FeatureSource>& sources, const std::string& crs,
+                            const std::optional<MapBox>& ground) {
   FeatureSet set{.style = style, .features = {}, .readings = {}};
-  for (std::size_t i = 0; i < sources.size(); ++i) add_source(set, sources[i], static_cast<int>(i), crs);
+  for (std::size_t i = 0; i < sources.size(); ++i) add_source(set, sources[i], static_cast<int>(i), crs, ground);
   return set;
 }
 

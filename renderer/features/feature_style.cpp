@@ -76,6 +76,7 @@ FeatureKind read_kind(const ConfigEntry& entry, const std::string& name) {
     read_colours(of_winter, kind.winter);
     of_winter.end();
   }
+  read.flag("level", kind.level);
   if (const ConfigValue* ground = read.known("ground")) {
     kind.ground = find_class(as_string(*ground, name));
     if (!kind.ground || *kind.ground == LandCoverClass::sky)
@@ -119,6 +120,10 @@ FeatureStyle read_style(const ConfigValue& document, const std::string& name) {
 }  // namespace
 
 FeatureGeometry geometry_of(FeatureDraw draw) { return row_of(draw).geometry; }
+
+bool becomes_ground(const FeatureKind& kind) {
+  return kind.draw == FeatureDraw::river || kind.draw == FeatureDraw::area || kind.draw == FeatureDraw::town;
+}
 
 const char* name_of(FeatureDraw draw) { return row_of(draw).word; }
 

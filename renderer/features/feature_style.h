@@ -26,6 +26,9 @@ enum class FeatureDraw : int {
 enum class FeatureGeometry : int { line, area, point_or_area };
 
 FeatureGeometry geometry_of(FeatureDraw draw);
+struct FeatureKind;
+// Rivers, areas and towns: what the ground is made of and nothing that is drawn on it.
+bool becomes_ground(const FeatureKind& kind);
 // "lines", "areas", for messages.
 const char* name_of(FeatureGeometry geometry);
 const char* name_of(FeatureDraw draw);
@@ -62,6 +65,7 @@ struct FeatureKind {
   FeatureColours summer;
   FeatureColours winter;                 // where the style says nothing as in summer
   std::optional<LandCoverClass> ground;  // what an area or a river makes of the ground
+  bool level = false;                    // areas of it are level, as lakes are
 };
 
 struct FeatureStyle {

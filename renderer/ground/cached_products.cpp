@@ -1,4 +1,4 @@
-#include "renderer/world/cached_products.h"
+#include "renderer/ground/cached_products.h"
 
 #include <array>
 #include <fstream>
@@ -9,13 +9,15 @@
 namespace belvedere {
 namespace {
 
-constexpr std::array<CachedProductInfo, 6> table = {{
+constexpr std::array<CachedProductInfo, 8> table = {{
     {CachedProduct::synthetic_terrain, "synthetic terrain", 1},
     {CachedProduct::land_cover, "land cover by rules", 1},
     {CachedProduct::generalized_ground, "generalized ground", 1},
     {CachedProduct::ground_surroundings, "surroundings of the ground", 1},
     {CachedProduct::example_sheet, "example sheet", 1},
     {CachedProduct::synthesis_plan, "choice of texture", 1},
+    {CachedProduct::ground_features, "features of the ground", 1},
+    {CachedProduct::river_courses, "rivers of maps", 1},
 }};
 
 // Two builds of one version may differ, so the file that runs counts. Where it cannot be read the version must do.

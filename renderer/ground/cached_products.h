@@ -16,7 +16,16 @@
 namespace belvedere {
 
 // The one table of what the cache keeps. A product is worth a row where making it takes much longer than reading it.
-enum class CachedProduct { synthetic_terrain, land_cover, generalized_ground, ground_surroundings, example_sheet, synthesis_plan };
+enum class CachedProduct {
+  synthetic_terrain,
+  land_cover,
+  generalized_ground,
+  ground_surroundings,
+  example_sheet,
+  synthesis_plan,
+  ground_features,
+  river_courses
+};
 struct CachedProductInfo {
   CachedProduct id;
   std::string_view name;  // in `belvedere cache list`

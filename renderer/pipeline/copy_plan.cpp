@@ -18,7 +18,7 @@
 #include "renderer/scene/scene_rules.h"
 #include "renderer/trace/camera_reduced.h"
 #include "renderer/trace/wide_view.h"
-#include "renderer/world/cached_products.h"
+#include "renderer/ground/cached_products.h"
 #include "texture/synthesis/class_supply.h"
 
 namespace belvedere {

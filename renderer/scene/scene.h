@@ -215,13 +215,17 @@ struct SceneSynthesis {
 
 // Features of one vector file: what the table of kinds (renderer/features/feature_style.h) does with them.
 struct SceneFeatures {
-  std::string source;     // file
-  std::string layer;      // of the file; empty: all that have such features
-  std::string where;      // filter by attributes; empty: all
-  std::string kind;       // a word of the style; with kind_of that of features whose column has none
-  std::string kind_of;    // a column whose words are kinds; empty: none
-  double width_mm = 0.0;  // of the sheet; 0: the style's
-  std::string width_of;   // a column with widths in metres of the ground; empty: none
+  std::string source;         // file
+  std::string layer;          // of the file; empty: all that have such features
+  std::string where;          // filter by attributes; empty: all
+  std::string kind;           // a word of the style; with kind_of that of features whose column has none
+  std::string kind_of;        // a column whose words are kinds; empty: none
+  double width_mm = 0.0;      // of the sheet; 0: the style's
+  std::string width_of;       // a column with widths in metres of the ground; empty: none
+  std::string level_of;       // a column with altitudes of lakes, m; empty: none
+  std::string people_of;      // a column with inhabitants of towns; empty: none
+  double snap_m = 150.0;      // rivers are moved to the bottoms of valleys that far off
+  bool keep_guesses = false;  // of rivers and towns, beside those of this file
   std::string origin, licence, get_from;
   bool optional = false;  // missing file: left out with a note instead of an error
 };

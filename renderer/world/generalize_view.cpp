@@ -8,9 +8,10 @@
 #include "base/filter.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
-#include "renderer/world/cached_products.h"
+#include "renderer/ground/cached_products.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
+#include "terrain/cover/map_cover.h"
 #include "terrain/deform/deform.h"
 #include "terrain/generalize/foreground_share.h"
 #include "terrain/generalize/line_integral_generalize.h"
@@ -70,15 +71,34 @@ struct ViewOfGround {
   PixelGround pixel_ground;  // empty where the print's detail is not asked for
   glm::dvec2 viewer_xy{0.0};
   GeneralizeDistances distances;
+  Grid<std::uint8_t> map_lakes;  // 1 in level lakes of a map, however small; empty without
 };
 
 // Where water keeps its level: on lakes, at sea.
-Grid<unsigned char> level_water(const Dem& dem, const SeaParameters& sea) {
+Grid<unsigned char> level_water(const Dem& dem, const SeaParameters& sea, const Grid<std::uint8_t>& map_lakes) {
   Grid<unsigned char> water = find_lakes(dem.altitude_m, {});
+  for (std::size_t i = 0; i < map_lakes.size(); ++i) water[i] = static_cast<unsigned char>(water[i] | map_lakes[i]);
   const Sea found = find_sea(dem, sea);
   if (!found.empty())
     for (std::size_t i = 0; i < water.size(); ++i) water[i] = static_cast<unsigned char>(water[i] | found.mask[i]);
   return water;
+}
+
+// Cells of a map's lakes whose neighbours stand as high.
+Grid<std::uint8_t> lakes_of_map(const Dem& dem, const LandCover* land_cover) {
+  if (land_cover == nullptr || land_cover->map == nullptr) return {};
+  const Grid<float>& z = dem.altitude_m;
+  Grid<std::uint8_t> lakes(z.width(), z.height(), 0);
+  parallel_rows(z.height(), [&](int y) {
+    for (int x = 0; x < z.width(); ++x) {
+      if (!land_cover->map->is_still(dem.transform.to_crs(x, y))) continue;
+      int level = 0;
+      for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)})
+        level += z.clamped(x + step.x, y + step.y) == z(x, y) ? 1 : 0;
+      lakes(x, y) = level >= 2 ? 1 : 0;
+    }
+  });
+  return lakes;
 }
 
 GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParameters& sea, const Dem& dem, const ViewOfGround& seen,
@@ -92,7 +112,7 @@ GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParamet
   if (settings.automatic_mask) {
     grids.amplification_mask = slope_foot_mask(dem.altitude_m, cell_m, 1 << std::min<std::size_t>(bands.foreground.size(), 6));
   }
-  if (settings.keep_lakes) grids.keep = level_water(dem, sea);
+  if (settings.keep_lakes) grids.keep = level_water(dem, sea, seen.map_lakes);
   grids.mask = seen.mask;
   grids.pixel_ground = seen.pixel_ground;
   if (settings.print_detail_px > 0.0) bands.print_pixels = static_cast<float>(settings.print_detail_px);
@@ -110,12 +130,13 @@ GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParamet
 CacheKey ground_key(const LoadedScene& loaded, const Dem& dem, const SeaParameters& sea, const ViewOfGround& seen) {
   Scene settings;
   settings.generalize = loaded.scene.generalize;
-  const auto& [mask, pixel_ground, viewer_xy, distances] = seen;
+  const auto& [mask, pixel_ground, viewer_xy, distances, map_lakes] = seen;
   settings.generalize.foreground_to_m = distances.foreground_to_m;
   settings.generalize.background_from_m = distances.background_from_m;
   const auto& [m_per_pixel, step] = pixel_ground;
   CacheKeyText key;
   key.add("settings", write_scene(settings)).add("mask", mask).add("viewer", viewer_xy);
+  if (!map_lakes.empty()) key.add("lakes", map_lakes);
   key.add("m_per_pixel", m_per_pixel).add("step_cells", step);
   add_sea(key, sea);
   add_dem(key, dem);
@@ -175,7 +196,8 @@ GeneralizedTerrain generalize_for_view(const LoadedScene& loaded, const Dem& dem
   ViewOfGround seen{.mask = mask_for_scene(loaded, dem, land_cover, progress, cache),
                     .pixel_ground = {},
                     .viewer_xy = view.viewer_xy,
-                    .distances = view.generalize};
+                    .distances = view.generalize,
+                    .map_lakes = lakes_of_map(dem, land_cover)};
   if (settings.print_detail_px > 0.0) seen.pixel_ground = ground_m_per_pixel(dem, view);
   return cached<GeneralizedTerrain>(
       cache, [&] { return ground_key(loaded, dem, sea, seen); }, progress,

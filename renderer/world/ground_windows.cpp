@@ -163,7 +163,7 @@ TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const 
   Progress& quiet = silent_progress();
   Dem dem = making.levels.window(planned.level, made, *whole.dem);
   WindowGround window_ground;
-  window_ground.sea = prepare_window_dem(dem, making.loaded, known.dem, known.sea);
+  window_ground.sea = prepare_window_dem(dem, making.loaded, known.dem, known.sea, making.cache);
   dem.entries = find_entries(whole, dem, made, whole.dem->halved - planned.level);
   const auto halo = std::make_shared<const Dem>(std::move(dem));
   window_ground.dem = halo;
@@ -237,7 +237,8 @@ TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const 
 void add_ground_windows(TerrainModel& terrain, const GroundPlan& plan, const WindowMaking& making) {
   if (plan.windows.empty()) return;
   making.progress.begin("finer ground", static_cast<double>(plan.windows.size()));
-  const WholeTerrain known = know_whole(making.loaded, *terrain.dem, making.sea);
+  WholeTerrain known = know_whole(making.loaded, *terrain.dem, making.sea);
+  known.map = terrain.land_cover->map;
   std::vector<TerrainWindow> windows;
   windows.reserve(plan.windows.size());
   Lattice before{plan.coarsest, {0, 0, terrain.dem->width(), terrain.dem->height()}};

@@ -11,7 +11,8 @@
 #include "base/filter.h"
 #include "base/math_exact.h"
 #include "base/memory_limit.h"
-#include "renderer/world/cached_products.h"
+#include "renderer/ground/cached_products.h"
+#include "renderer/ground/scene_ground_map.h"
 #include "terrain/generalize/destripe.h"
 
 namespace belvedere {
@@ -124,6 +125,7 @@ SceneDem open_scene_dem(const LoadedScene& loaded, Progress& progress, const Cac
   // Before stripes are taken off and the sea is levelled, which both hang on the cells.
   opened.region = region_of_data(opened, scene_sea(loaded.scene.land_cover));
   Sea sea = prepare_scene_dem(opened.dem, loaded, progress);
+  level_scene_lakes(opened.dem, loaded, progress, cache);
   if (!sea.empty())
     progress.note(fmt::format("sea: {:.1f} % of the terrain, at {:.1f} m{}", 100.0 * sea.share, sea.level_m,
                               sea.noise_m >= 0.3 ? fmt::format(", levelled from ± {:.1f} m", sea.noise_m) : ""));
@@ -166,11 +168,12 @@ Sea prepare_scene_dem(Dem& dem, const LoadedScene& loaded, Progress& progress) {
 
 SeaParameters scene_sea(const SceneLandCover& settings) { return {.look = settings.sea != "none", .level_m = settings.sea_level_m}; }
 
-SeaParameters prepare_window_dem(Dem& window, const LoadedScene& loaded, const Dem& whole, const Sea& whole_sea) {
+SeaParameters prepare_window_dem(Dem& window, const LoadedScene& loaded, const Dem& whole, const Sea& whole_sea, const Cache& cache) {
   take_stripes_off(window, loaded, silent_progress());
   SeaParameters sea = scene_sea(loaded.scene.land_cover);
   sea.known = std::make_shared<const Sea>(continue_sea(window, whole, whole_sea, sea));
   level_sea(window, *sea.known);
+  level_scene_lakes(window, loaded, silent_progress(), cache, &whole);
   return sea;
 }
 

@@ -30,8 +30,9 @@ GroundAltitude ground_altitude_of(const SceneDem& scene);
 SceneDem open_scene_dem(const LoadedScene& scene, Progress& progress, const Cache& cache = no_cache());
 // Takes off the stripes, where the scene asks for it and the cells are those of the data, and levels the sea. Returns the sea.
 Sea prepare_scene_dem(Dem& dem, const LoadedScene& scene, Progress& progress);
-// The same of a window, with the sea of the whole.
-SeaParameters prepare_window_dem(Dem& window, const LoadedScene& scene, const Dem& whole, const Sea& whole_sea);
+// The same of a window, with the sea and the lakes of the whole.
+SeaParameters prepare_window_dem(Dem& window, const LoadedScene& scene, const Dem& whole, const Sea& whole_sea,
+                                 const Cache& cache = no_cache());
 
 // The DEM of a scene: its sources read and mosaicked, or a terrain made up; stripes taken off where the scene asks for it, the sea
 // levelled. The cache keeps made-up terrains.

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
 #include "base/parallel.h"
+#include "renderer/ground/cached_products.h"
+#include "renderer/ground/scene_ground_map.h"
 #include "renderer/paint/palette.h"
-#include "renderer/world/cached_products.h"
 #include "renderer/world/scene_climate.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_season.h"
@@ -54,8 +56,8 @@ CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules, cons
   const auto& [name, known_parameters, terms, layers] = rules;
   key.add("rules", name).add("parameters", known_parameters).add("terms", terms);
   for (const auto& [painted_as, when] : layers) key.add("layer", painted_as).add("when", when);
-  const auto& [settings, towns, sea, seed, climate, sites, catchments, around, rule_whole] = parameters;
-  key.add("settings", settings).add("seed", seed);
+  const auto& [settings, towns, rivers, sea, seed, climate, sites, catchments, around, rule_whole] = parameters;
+  key.add("settings", settings).add("seed", seed).add("rivers", rivers);
   add_sea(key, sea);
   for (const auto& [place, radius_m, town] : towns) key.add("town", town).add("place", place).add("radius_m", radius_m);
   const auto& [line_posts, treeline_m, ice_line_m, snow_line_m, season_snow_m, table_posts, lowest_m, step_m, moisture, temperature_c,
@@ -104,7 +106,15 @@ std::string describe_lines(const RuleClimate& climate) {
       season_m < static_cast<double>(no_season_snow_m) ? fmt::format("; on that day snow lies from {:.0f} m", season_m) : "");
 }
 
-ClassRuleParameters rule_parameters(const LoadedScene& loaded, const ClassRules& rules, const Dem& dem, Progress& progress) {
+// A scene's own word counts, and rules need not know the parameter.
+void set_unless_said(std::vector<std::pair<std::string, double>>& settings, const ClassRules& rules, const char* name, double value) {
+  const auto is_it = [&](const auto& setting) { return setting.first == name; };
+  if (std::none_of(settings.begin(), settings.end(), is_it) && std::any_of(rules.parameters.begin(), rules.parameters.end(), is_it))
+    settings.emplace_back(name, value);
+}
+
+ClassRuleParameters rule_parameters(const LoadedScene& loaded, const ClassRules& rules, const Dem& dem, Progress& progress,
+                                    const Cache& cache = no_cache()) {
   auto settings = loaded.scene.land_cover.settings;
   // A palette of winter brings its snow along, unless the scene says otherwise or the rules know no winter.
   const auto is_winter = [](const auto& setting) { return setting.first == winter_setting; };
@@ -112,8 +122,14 @@ ClassRuleParameters rule_parameters(const LoadedScene& loaded, const ClassRules&
       std::any_of(rules.parameters.begin(), rules.parameters.end(), is_winter) &&
       read_palette(find_named_file(loaded, "palettes", loaded.scene.palette)).winter)
     settings.emplace_back(winter_setting, 1.0);
+  // A map's towns and rivers instead of guessed ones.
+  GroundMap map = read_ground_map(loaded, dem, silent_progress(), cache);
+  if (!map.keeps_towns) set_unless_said(settings, rules, "settlement", -1.0);
+  std::vector<KnownTown> towns = make_scene_towns(loaded, dem, progress);
+  towns.insert(towns.end(), std::make_move_iterator(map.towns.begin()), std::make_move_iterator(map.towns.end()));
   return {.settings = std::move(settings),
-          .towns = make_scene_towns(loaded, dem, progress),
+          .towns = std::move(towns),
+          .rivers = map.keeps_rivers,
           .sea = scene_sea(loaded.scene.land_cover),
           .seed = loaded.scene.seed,
           .climate = rule_climate(loaded, rules, dem)};
@@ -155,8 +171,9 @@ struct RuleWork {
 
 LandCover make_rule_cover(const LoadedScene& loaded, const Dem& dem, const CoverContext& context, Progress& progress, const Cache& cache) {
   const ClassRules rules = read_scene_rules(loaded);
-  RuleWork work{loaded, rules,         context.whole != nullptr ? context.whole->rules : rule_parameters(loaded, rules, dem, progress),
-                dem,    context.whole, context.window};
+  RuleWork work{
+      loaded, rules,         context.whole != nullptr ? context.whole->rules : rule_parameters(loaded, rules, dem, progress, cache),
+      dem,    context.whole, context.window};
   if (context.window != nullptr) work.parameters.sea = context.window->sea;
   work.parameters.catchments = context.catchments;
   if (context.whole == nullptr && takes_climate(loaded, rules, dem)) progress.note(describe_lines(work.parameters.climate));
@@ -315,12 +332,17 @@ LandCover make_full_cover(const LoadedScene& loaded, const Dem& dem, const Cover
 
 }  // namespace
 
-LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache, Catchments* catchments) {
-  return make_scene_patches(loaded, dem, progress, cache, catchments).cover;
+LandCover make_scene_land_cover(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache, Catchments* catchments,
+                                const SeenFrom* seen) {
+  return make_scene_patches(loaded, dem, progress, cache, catchments, seen).cover;
 }
 
-PatchResult make_scene_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache, Catchments* catchments) {
-  return remove_small_patches(make_full_cover(loaded, dem, {.catchments = catchments}, progress, cache), loaded.scene.land_cover.patches);
+PatchResult make_scene_patches(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache, Catchments* catchments,
+                               const SeenFrom* seen) {
+  PatchResult result =
+      remove_small_patches(make_full_cover(loaded, dem, {.catchments = catchments}, progress, cache), loaded.scene.land_cover.patches);
+  lay_ground_map(result.cover, loaded, dem, progress, cache, catchments, seen);
+  return result;
 }
 
 WholeTerrain know_whole(const LoadedScene& loaded, const Dem& dem, const Sea& sea) {
@@ -360,7 +382,9 @@ WindowCover make_window_cover(const LoadedScene& loaded, const WindowGround& win
   std::optional<SeenGround> seen;
   const CoverContext context{.catchments = window.catchments.get(), .whole = &whole, .window = &window, .seen = &seen};
   LandCover cover = make_full_cover(loaded, *window.dem, context, progress, cache);
-  return {remove_small_patches(std::move(cover), loaded.scene.land_cover.patches).cover, std::move(seen)};
+  cover = remove_small_patches(std::move(cover), loaded.scene.land_cover.patches).cover;
+  if (whole.map != nullptr) lay_map(cover, whole.map);
+  return {std::move(cover), std::move(seen)};
 }
 
 }  // namespace belvedere

@@ -7,6 +7,7 @@
 
 #include "base/cache/cache.h"
 #include "base/progress.h"
+#include "renderer/ground/scene_ground_map.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/lazy_value.h"
 #include "terrain/climate/climate.h"
@@ -27,6 +28,7 @@ struct WholeTerrain {
   ClassRuleParameters rules;                                  // with its climate, the altitudes that hang on it, and its settlements
   std::optional<Climate> climate = {};                        // of surface layers that ask for one …
   std::shared_ptr<const LazyValue<LayerDrawing>> drawn = {};  // … and how classes are drawn from them
+  std::shared_ptr<const MapCover> map = {};                   // areas and rivers, as the whole's ground has them
 };
 WholeTerrain know_whole(const LoadedScene& scene, const Dem& dem, const Sea& sea);
 // What class rules saw of a ground that windows lie in, made when a window first asks for it: one from the cache never does.
@@ -54,11 +56,11 @@ WindowCover make_window_cover(const LoadedScene& scene, const WindowGround& wind
                               const Cache& cache = no_cache());
 
 // The land cover of a scene: from sources and a legend, or by rules. The cache keeps what rules made. `catchments`: the DEM's, for others
-// as well.
+// as well. `seen`: for rivers of maps, which are drawn wide enough to be seen.
 LandCover make_scene_land_cover(const LoadedScene& scene, const Dem& dem, Progress& progress, const Cache& cache = no_cache(),
-                                Catchments* catchments = nullptr);
+                                Catchments* catchments = nullptr, const SeenFrom* seen = nullptr);
 // The same, and what became of each class when small patches were taken out ([land_cover] smallest_patch_m2).
 PatchResult make_scene_patches(const LoadedScene& scene, const Dem& dem, Progress& progress, const Cache& cache = no_cache(),
-                               Catchments* catchments = nullptr);
+                               Catchments* catchments = nullptr, const SeenFrom* seen = nullptr);
 
 }  // namespace belvedere

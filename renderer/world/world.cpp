@@ -3,10 +3,10 @@
 #include <utility>
 
 #include "base/instruction_set.h"
+#include "renderer/ground/cached_products.h"
 #include "renderer/paint/sky.h"
 #include "renderer/scene/scene_error.h"
 #include "renderer/trace/ground_surroundings.h"
-#include "renderer/world/cached_products.h"
 #include "renderer/world/fold_check.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/ground_plan.h"
@@ -46,10 +46,13 @@ std::shared_ptr<const Dem> take_dem(const LoadedScene& loaded, SceneDem& opened,
 const CoarseAltitudes* region_of(const SceneDem& opened) { return opened.region.blocks.cells.empty() ? nullptr : &opened.region; }
 
 // Class rules and the terrain's model both ask where water runs: it is found once.
-std::shared_ptr<const LandCover> make_cover(const LoadedScene& loaded, const Dem& dem, std::unique_ptr<Catchments>& catchments,
+std::shared_ptr<const LandCover> make_cover(const LoadedScene& loaded, const World& world, std::unique_ptr<Catchments>& catchments,
                                             Progress& progress, const Cache& cache) {
+  const Dem& dem = *world.dem;
+  const Deformation deformation(world.view.deform, world.view.viewer_xy);
+  const SeenFrom seen{*world.camera, deformation};
   catchments = std::make_unique<Catchments>(dem);
-  return std::make_shared<const LandCover>(make_scene_land_cover(loaded, dem, progress, cache, catchments.get()));
+  return std::make_shared<const LandCover>(make_scene_land_cover(loaded, dem, progress, cache, catchments.get(), &seen));
 }
 
 CacheKey surroundings_key(const LoadedScene& loaded, const Dem& dem, const LandCover& land_cover) {
@@ -107,7 +110,7 @@ World::World(const LoadedScene& loaded, std::shared_ptr<const Dem> known_dem, st
       dem(known_dem ? std::move(known_dem) : take_dem(loaded, opened, progress, cache)),
       view(make_view(scene, *dem, progress, ground_altitude_of(opened), region_of(opened))),
       camera(make_camera(view.camera)),
-      land_cover(known_cover ? std::move(known_cover) : make_cover(loaded, *dem, catchments, progress, cache)),
+      land_cover(known_cover ? std::move(known_cover) : make_cover(loaded, *this, catchments, progress, cache)),
       deformation(view.deform, view.viewer_xy),
       terrain(with_windows(make_terrain(*this, generalize_for_view(loaded, *dem, land_cover.get(), view, progress, cache), loaded,
                                         catchments.get(), progress, cache),

@@ -309,6 +309,8 @@ RuleIce make_inputs(Run& run, const Parameters& parameters, const ClassRuleParam
   // Ice needs the balance of snow and melting, and that needs variables of its own.
   std::vector<bool> needed = union_of(program.layer_needs, 0, program.layers.size(), slots);
   const auto balance = std::find_if(rules.terms.begin(), rules.terms.end(), [](const auto& t) { return t.first == balance_term; });
+  const bool no_rivers = needed[river] && !given.rivers;
+  if (no_rivers) needed[river] = false;
   const bool has_ice = needed[ice] && balance != rules.terms.end();
   if (has_ice) {
     const std::vector<bool>& needs = program.term_needs[static_cast<std::size_t>(balance - rules.terms.begin())];
@@ -317,6 +319,7 @@ RuleIce make_inputs(Run& run, const Parameters& parameters, const ClassRuleParam
   const Settlers settlers{given.towns, given.seed, given.sites ? &*given.sites : nullptr};
   const RuleGround* around = given.around != nullptr ? &given.around->ground : nullptr;
   run.inputs = make_terrain_inputs(dem, needed, parameters, settlers, given.sea, climate, given.catchments, nullptr, around, given.whole);
+  if (no_rivers) run.inputs[river] = Grid<float>(dem.width(), dem.height(), 0.F);
   for (int v = first_noise; v < easting; ++v)
     run.noise.push_back(needed[static_cast<std::size_t>(v)] ? plan_noise(v, dem.transform, dem.width()) : NoiseColumns{});
   progress.advance(1.0);

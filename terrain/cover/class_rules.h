@@ -45,6 +45,7 @@ bool names_old_town(const std::string& parameter);
 struct ClassRuleParameters {
   std::vector<std::pair<std::string, double>> settings;  // override the rules' parameters by name
   std::vector<KnownTown> towns;                          // where people are known to live
+  bool rivers = true;                                    // false: none are guessed, as where a map has them
   SeaParameters sea;                                     // where rules speak of it
   std::uint64_t seed = 1;                                // of noise and of the villages that are found
   RuleClimate climate = alpine_climate();

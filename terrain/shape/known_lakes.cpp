@@ -11,6 +11,10 @@ namespace {
 constexpr double low_quantile = 0.3;
 constexpr double most_off_m = 40.0;
 constexpr double bank_m = 25.0;
+// Lower than this share of its cells a lake's ground is level, but for so many metres, however its outline runs.
+constexpr double level_from = 0.05;
+constexpr double level_to = 0.5;
+constexpr double most_fall_m = 15.0;
 
 // Calls f(x, y) for the cells whose centres an odd number of rings encloses, row by row.
 template <class F>
@@ -56,9 +60,15 @@ LakeLevel level_of(const Dem& dem, const KnownLake& lake) {
   found.cells = all.size();
   if (all.empty()) return found;
   std::vector<float>& from = known.empty() ? all : known;
-  const auto at = static_cast<std::ptrdiff_t>(low_quantile * static_cast<double>(from.size() - 1));
-  std::nth_element(from.begin(), from.begin() + at, from.end());
-  found.level_m = static_cast<double>(from[static_cast<std::size_t>(at)]);
+  std::sort(from.begin(), from.end());
+  const auto quantile = [&](double share) {
+    return static_cast<double>(from[static_cast<std::size_t>(share * static_cast<double>(from.size() - 1))]);
+  };
+  if (quantile(level_to) - quantile(level_from) > most_fall_m) {
+    found.uneven = true;
+    return found;
+  }
+  found.level_m = quantile(low_quantile);
   if (lake.level_m) {
     if (std::abs(*lake.level_m - *found.level_m) <= most_off_m)
       found.level_m = lake.level_m;

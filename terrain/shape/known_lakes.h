@@ -22,6 +22,7 @@ struct LakeLevel {
   std::optional<double> level_m;  // empty where no cell's centre lies in it: too small for this ground
   std::size_t cells = 0;
   double bank_share = 0.0;                // of its cells: ground too high for its water, which stays
+  bool uneven = false;                    // the lower half of its ground falls by more than 15 m: nothing is levelled
   std::optional<double> refused_level_m;  // the map's level, where the ground says quite another
 };
 

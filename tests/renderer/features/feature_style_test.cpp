@@ -67,6 +67,7 @@ casing = "#000000"
 bed = "#ffffff"
 winter = { fill = "#0000ff" }
 ground = "forest"
+level = true
 )",
                                                  "mine.toml");
   ASSERT_EQ(style.kinds.size(), 1U);
@@ -95,6 +96,7 @@ ground = "forest"
   EXPECT_EQ(way.winter.casing, glm::vec3(0.F)) << "what winter does not say is as in summer";
   EXPECT_EQ(way.winter.bed, glm::vec3(1.F));
   EXPECT_EQ(way.ground, LandCoverClass::forest);
+  EXPECT_TRUE(way.level);
 }
 
 TEST(FeatureStyle, WhatIsWrongIsSaidAtItsPlace) {

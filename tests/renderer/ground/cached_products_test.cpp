@@ -1,4 +1,4 @@
-#include "renderer/world/cached_products.h"
+#include "renderer/ground/cached_products.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -23,6 +23,10 @@ kind_of = "highway"
 kind = "road"
 width_mm = 0.8
 width_of = "width"
+level_of = "level"
+people_of = "people"
+snap_m = 80
+keep_guesses = true
 optional = true
 [[features]]
 source = "lifts.geojson"
@@ -38,6 +42,11 @@ kind = "lift"
   EXPECT_EQ(roads.kind, "road");
   EXPECT_EQ(roads.width_mm, 0.8);
   EXPECT_EQ(roads.width_of, "width");
+  EXPECT_EQ(roads.level_of, "level");
+  EXPECT_EQ(roads.people_of, "people");
+  EXPECT_EQ(roads.snap_m, 80.0);
+  EXPECT_TRUE(roads.keep_guesses);
+  EXPECT_EQ(loaded.scene.features[1].snap_m, 150.0);
   EXPECT_TRUE(roads.optional);
   EXPECT_EQ(loaded.scene.features[1].kind, "lift");
 }

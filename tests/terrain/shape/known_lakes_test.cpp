@@ -53,6 +53,17 @@ TEST(KnownLakes, AnOutlineThatReachesUpTheBankDoesNotLiftTheWater) {
   EXPECT_GT(dem.altitude_m(50, 30), 1000.F) << "a bank stays";
 }
 
+// A river's bed that is called a lake.
+TEST(KnownLakes, GroundThatFallsIsNoLake) {
+  Dem dem = shore();
+  const Dem before = dem;
+  const KnownLake one = lake(420, 100, 590, 400);
+  const std::vector<LakeLevel> levels = find_lake_levels(dem, {one});
+  EXPECT_TRUE(levels[0].uneven);
+  level_known_lakes(dem, {one}, levels);
+  EXPECT_EQ(dem.altitude_m, before.altitude_m);
+}
+
 TEST(KnownLakes, TheMapsLevelCountsWhereItCanBe) {
   const Dem dem = shore();
   KnownLake one = lake(100, 100, 300, 400);

@@ -1,0 +1,66 @@
+#include "renderer/ground/feature_files.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "terrain/io/crs.h"
+
+namespace belvedere {
+namespace {
+
+// Whether features of a block can become ground; where a column says what they are they can.
+bool may_be_ground(const FeatureStyle& style, const SceneFeatures& block) {
+  if (!block.kind_of.empty()) return true;
+  const int kind = style.find(block.kind);
+  return kind < 0 || becomes_ground(style.kinds[static_cast<std::size_t>(kind)]);
+}
+
+std::string extent_of(const MapBox& box) {
+  return fmt::format("E {:.0f} … {:.0f}, N {:.0f} … {:.0f}", box.low.x, box.high.x, box.low.y, box.high.y);
+}
+
+// A file that is missing is left out here, and said by those who need it: require_scene_files.
+std::vector<FeatureSource> ground_sources(const LoadedScene& loaded, const FeatureStyle& style) {
+  std::vector<FeatureSource> sources;
+  for (std::size_t i = 0; i < loaded.scene.features.size(); ++i) {
+    const SceneFeatures& block = loaded.scene.features[i];
+    const std::string path = find_scene_file(loaded, block.source);
+    if (path.empty() || !may_be_ground(style, block)) continue;
+    sources.push_back({.path = path,
+                       .layer = block.layer,
+                       .where = block.where,
+                       .kind = block.kind,
+                       .kind_of = block.kind_of,
+                       .width_mm = block.width_mm,
+                       .width_of = block.width_of,
+                       .level_of = block.level_of,
+                       .people_of = block.people_of,
+                       .block = static_cast<int>(i),
+                       .key = fmt::format("features.{}", i)});
+  }
+  return sources;
+}
+
+}  // namespace
+
+MapBox box_of(const Dem& dem) { return {dem.transform.to_crs(-0.5, dem.height() - 0.5), dem.transform.to_crs(dem.width() - 0.5, -0.5)}; }
+
+FeatureSet read_ground_features(const LoadedScene& loaded, const FeatureStyle& style, const Dem& dem, Progress& progress) {
+  const MapBox ground = box_of(dem);
+  FeatureSet set = read_feature_set(style, ground_sources(loaded, style), dem.crs, ground);
+  for (const SourceReading& reading : set.readings) {
+    if (reading.beside == 0) continue;
+    if (reading.taken + reading.wrong_shape + reading.unknown.size() == 0)
+      throw Error(
+          ErrorKind::usage, reading.file,
+          fmt::format("none of {} features lies on the terrain: they lie {}", reading.beside, extent_of({reading.low, reading.high})),
+          fmt::format("places within {} ({}); a file that states its own coordinate system", extent_of(ground), describe_crs(dem.crs)));
+    progress.note(fmt::format("{}: {} of its features lie beside the terrain", reading.file, reading.beside));
+  }
+  return set;
+}
+
+}  // namespace belvedere

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "base/progress.h"
+#include "renderer/features/feature_set.h"
+#include "renderer/scene/scene_file.h"
+#include "terrain/io/dem.h"
+
+namespace belvedere {
+
+// The outer edges of a terrain.
+MapBox box_of(const Dem& dem);
+
+// Features of a scene's files that become ground, and of its blocks only those that can hold such. Of what lies beside the terrain only how
+// much it is, which is noted. Throws Error(usage) with both extents where all of a file lies beside the terrain: its coordinate system then
+// is another than it says.
+FeatureSet read_ground_features(const LoadedScene& loaded, const FeatureStyle& style, const Dem& dem, Progress& progress);
+
+}  // namespace belvedere

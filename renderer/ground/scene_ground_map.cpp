@@ -1,0 +1,369 @@
+#include "renderer/ground/scene_ground_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "base/cache/content_hash.h"
+#include "base/filter.h"
+#include "renderer/ground/cached_products.h"
+#include "renderer/ground/feature_files.h"
+#include "terrain/cover/town_file.h"
+
+namespace belvedere {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Features that become ground, as the cache keeps them: numbers in rows. Of each feature: its kind, block, shape, number of parts, and the
+// places of each part; and its width, level, inhabitants and way to a valley before its places.
+struct PackedFeatures {
+  Grid<std::int32_t> counts;
+  Grid<double> numbers;
+};
+
+}  // namespace
+
+void each_field(auto& bytes, FieldsOf<PackedFeatures> auto& packed) {
+  auto& [counts, numbers] = packed;
+  bytes(counts, numbers);
+}
+
+namespace {
+
+// Rivers as the cache keeps them: of each its group and places, and east, north and half a width of each place.
+struct PackedCourses {
+  Grid<std::int32_t> counts;
+  Grid<double> numbers;
+};
+
+}  // namespace
+
+void each_field(auto& bytes, FieldsOf<PackedCourses> auto& packed) {
+  auto& [counts, numbers] = packed;
+  bytes(counts, numbers);
+}
+
+namespace {
+
+template <class T>
+Grid<T> row_of(const std::vector<T>& values) {
+  if (values.empty()) return {};
+  Grid<T> grid(static_cast<int>(values.size()), 1);
+  std::copy(values.begin(), values.end(), grid.begin());
+  return grid;
+}
+
+constexpr int head_counts = 4;
+
+PackedFeatures pack(const FeatureSet& set) {
+  std::vector<std::int32_t> counts;
+  std::vector<double> numbers;
+  for (const Feature& feature : set.features) {
+    if (!becomes_ground(set.style.kinds[static_cast<std::size_t>(feature.kind)])) continue;
+    counts.insert(counts.end(), {feature.kind, feature.block, static_cast<int>(feature.shape), static_cast<int>(feature.parts.size())});
+    numbers.insert(numbers.end(),
+                   {static_cast<double>(feature.real_m), static_cast<double>(feature.level_m), static_cast<double>(feature.people)});
+    for (const auto& part : feature.parts) {
+      counts.push_back(static_cast<std::int32_t>(part.size()));
+      for (const glm::dvec2 place : part) numbers.insert(numbers.end(), {place.x, place.y});
+    }
+  }
+  return {row_of(counts), row_of(numbers)};
+}
+
+std::vector<Feature> unpack(const PackedFeatures& packed) {
+  std::vector<Feature> features;
+  std::size_t c = 0;
+  std::size_t n = 0;
+  while (c + head_counts <= packed.counts.size()) {
+    Feature feature;
+    feature.kind = packed.counts[c];
+    feature.block = packed.counts[c + 1];
+    feature.shape = static_cast<MapShape>(packed.counts[c + 2]);
+    feature.parts.resize(static_cast<std::size_t>(packed.counts[c + 3]));
+    c += head_counts;
+    feature.real_m = static_cast<float>(packed.numbers[n++]);
+    feature.level_m = static_cast<float>(packed.numbers[n++]);
+    feature.people = static_cast<float>(packed.numbers[n++]);
+    for (auto& part : feature.parts) {
+      part.resize(static_cast<std::size_t>(packed.counts[c++]));
+      for (glm::dvec2& place : part) {
+        place.x = packed.numbers[n++];
+        place.y = packed.numbers[n++];
+      }
+    }
+    features.push_back(std::move(feature));
+  }
+  return features;
+}
+
+FeatureStyle scene_style(const LoadedScene& loaded) {
+  return load_feature_style(find_named_file(loaded, "features", loaded.scene.features_style));
+}
+
+// A shapefile's attributes and CRS stand in files beside it.
+std::string hash_with_companions(const std::string& path) {
+  std::string all = hash_file(path);
+  const fs::path file(path);
+  for (const char* ending : {".dbf", ".shx", ".prj", ".cpg"}) {
+    std::error_code ignored;
+    const fs::path other = fs::path(file).replace_extension(ending);
+    if (fs::is_regular_file(other, ignored)) all += ' ' + hash_file(other.string());
+  }
+  return all;
+}
+
+// The blocks by what their files hold, the style by its text, the terrain by its place.
+CacheKey features_key(const LoadedScene& loaded, const Dem& dem) {
+  CacheKeyText key;
+  for (const SceneFeatures& block : loaded.scene.features) {
+    const auto& [source, layer, where, kind, kind_of, width_mm, width_of, level_of, people_of, snap_m, keep_guesses, origin, licence,
+                 get_from, optional] = block;
+    const std::string path = find_scene_file(loaded, source);
+    key.add("file", source).add("content", path.empty() ? std::string("none") : hash_with_companions(path));
+    key.add("layer", layer).add("where", where).add("kind", kind).add("kind_of", kind_of);
+    key.add("width_of", width_of).add("level_of", level_of).add("people_of", people_of);
+  }
+  const std::string style = find_named_file(loaded, "features", loaded.scene.features_style);
+  key.add("style", style.ends_with(".toml") ? hash_file(style) : style);
+  const MapBox box = box_of(dem);
+  key.add("crs", dem.crs).add("low", box.low).add("high", box.high);
+  return make_cache_key(CachedProduct::ground_features, key, subject_of(loaded));
+}
+
+double area_m2(const std::vector<std::vector<glm::dvec2>>& rings) {
+  double sum = 0.0;
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    double ring = 0.0;
+    for (std::size_t i = 0; i < rings[r].size(); ++i) {
+      const glm::dvec2 a = rings[r][i] - rings[r][0];
+      const glm::dvec2 b = rings[r][(i + 1) % rings[r].size()] - rings[r][0];
+      ring += 0.5 * (a.x * b.y - b.x * a.y);
+    }
+    sum += (r == 0 ? 1.0 : -1.0) * std::abs(ring);
+  }
+  return std::max(0.0, sum);
+}
+
+glm::dvec2 middle_of(const std::vector<glm::dvec2>& ring) {
+  glm::dvec2 sum(0.0);
+  for (const glm::dvec2 place : ring) sum += place - ring[0];
+  return ring[0] + sum / static_cast<double>(ring.size());
+}
+
+GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::vector<Feature>&& features, Progress& progress) {
+  GroundMap map;
+  map.looks.resize(style.kinds.size());
+  map.least_px.resize(style.kinds.size());
+  const double px_per_mm = loaded.scene.output.width / loaded.scene.output.sheet_width_mm;
+  std::size_t without_size = 0;
+  bool rivers = false;
+  bool towns = false;
+  bool keeps = false;
+  for (Feature& feature : features) {
+    const FeatureKind& kind = style.kinds[static_cast<std::size_t>(feature.kind)];
+    const SceneFeatures& block = loaded.scene.features[static_cast<std::size_t>(feature.block)];
+    if (kind.draw == FeatureDraw::river) {
+      rivers = true;
+      keeps = keeps || block.keep_guesses;
+      map.looks[static_cast<std::size_t>(feature.kind)].painted_as = kind.ground.value_or(LandCoverClass::water);
+      map.looks[static_cast<std::size_t>(feature.kind)].rank = kind.rank;
+      map.least_px[static_cast<std::size_t>(feature.kind)] = std::max(kind.least_px, kind.width_mm * kind.least_share * px_per_mm);
+      map.rivers.push_back({.places = std::move(feature.parts[0]),
+                            .width_m = 0.0,
+                            .least_width_m = static_cast<double>(feature.real_m),
+                            .snap_m = block.snap_m,
+                            .group = feature.kind});
+      continue;
+    }
+    if (kind.draw == FeatureDraw::town) {
+      towns = true;
+      keeps = keeps || block.keep_guesses;
+      const bool is_area = feature.shape == MapShape::area;
+      // A built-up area is what it is; its circle only tells the rules where people live.
+      constexpr double within = 0.8;
+      const double radius_m =
+          is_area ? within * std::sqrt(area_m2(feature.parts) / std::numbers::pi) : town_radius_m(static_cast<double>(feature.people));
+      if (radius_m > 0.0)
+        map.towns.push_back({.place = is_area ? middle_of(feature.parts[0]) : feature.parts[0][0],
+                             .radius_m = std::min(radius_m, largest_town_radius_m),
+                             .name = fmt::format("a town of {}", block.source)});
+      else
+        ++without_size;
+      if (!is_area) continue;
+    }
+    const LandCoverClass painted_as = kind.ground.value_or(LandCoverClass::settlement);
+    const bool is_lake = kind.level && painted_as == LandCoverClass::water;
+    if (is_lake)
+      map.lakes.push_back({.rings = feature.parts,
+                           .level_m = std::isnan(feature.level_m) ? std::nullopt : std::optional<double>(feature.level_m),
+                           .where = block.source});
+    map.areas.push_back({.rings = std::move(feature.parts), .painted_as = painted_as, .rank = kind.rank, .still = is_lake});
+  }
+  map.keeps_rivers = !rivers || keeps;
+  map.keeps_towns = !towns || keeps;
+  if (without_size > 0)
+    progress.note(
+        fmt::format("{} towns that are points do not say how large they are and are left out: people_of names the column of their "
+                    "inhabitants",
+                    without_size));
+  return map;
+}
+
+PackedCourses pack(const Courses& courses) {
+  std::vector<std::int32_t> counts;
+  std::vector<double> numbers;
+  for (const Course& course : courses.lines) {
+    counts.insert(counts.end(), {course.group, static_cast<std::int32_t>(course.places.size())});
+    for (std::size_t i = 0; i < course.places.size(); ++i)
+      numbers.insert(numbers.end(), {course.places[i].x, course.places[i].y, static_cast<double>(course.half_width_m[i])});
+  }
+  return {row_of(counts), row_of(numbers)};
+}
+
+// Widens a river where it would be narrower than `least_px` across its way in the picture.
+void widen_for_view(CoverCourse& course, double least_px, const Dem& dem, const SeenFrom& from) {
+  constexpr float most = 3.F;
+  constexpr double step_m = 30.0;
+  constexpr int passes = 40;  // ground turns from one cell to the next; widths do not
+  const auto seen = [&](glm::dvec2 place) {
+    const glm::dvec2 cell = dem.transform.to_cell(place.x, place.y);
+    return from.camera.project(from.deformation.point({place, sample_bilinear(dem.altitude_m, cell.x, cell.y)}));
+  };
+  std::vector<float> wanted = course.half_width_m;
+  const std::size_t last = course.places.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const glm::dvec2 along = course.places[std::min(i + 1, last)] - course.places[i - std::min<std::size_t>(i, 1)];
+    const double length = glm::length(along);
+    if (!(length > 0.0)) continue;
+    const glm::dvec2 ahead = along * (step_m / length);
+    const auto here = seen(course.places[i]);
+    const auto on = seen(course.places[i] + ahead);
+    const auto beside = seen(course.places[i] + glm::dvec2(-ahead.y, ahead.x));
+    if (!here || !on || !beside) continue;
+    const glm::dvec2 a = (*on - *here) / step_m;
+    const glm::dvec2 b = (*beside - *here) / step_m;
+    // A strip 1 m wide is so many pixels thick.
+    const double thick = std::abs(a.x * b.y - a.y * b.x) / std::max(glm::length(a), 1e-12);
+    const float half = course.half_width_m[i];
+    wanted[i] = std::clamp(static_cast<float>(0.5 * least_px / std::max(thick, 1e-9)), half, most * half);
+  }
+  for (int pass = 0; pass < passes && wanted.size() > 2; ++pass) {
+    std::vector<float> next = wanted;
+    for (std::size_t i = 1; i < last; ++i) next[i] = 0.5F * wanted[i] + 0.25F * (wanted[i - 1] + wanted[i + 1]);
+    wanted.swap(next);
+  }
+  course.half_width_m = std::move(wanted);
+}
+
+std::vector<CoverCourse> unpack(const PackedCourses& packed, const GroundMap& map, const Dem& dem, const SeenFrom* from) {
+  std::vector<CoverCourse> courses;
+  std::size_t n = 0;
+  for (std::size_t c = 0; c + 2 <= packed.counts.size(); c += 2) {
+    const auto group = static_cast<std::size_t>(packed.counts[c]);
+    CoverCourse course = map.looks[group];
+    for (std::int32_t i = 0; i < packed.counts[c + 1]; ++i) {
+      course.places.emplace_back(packed.numbers[n], packed.numbers[n + 1]);
+      course.half_width_m.push_back(static_cast<float>(packed.numbers[n + 2]));
+      n += 3;
+    }
+    if (from != nullptr) widen_for_view(course, map.least_px[group], dem, *from);
+    courses.push_back(std::move(course));
+  }
+  return courses;
+}
+
+// What rivers see of the ground: where water runs, and how high it lies.
+void add_ground(CacheKeyText& key, const Dem& dem) {
+  const auto& [altitude_m, filled, transform, crs, entries, halved] = dem;
+  const auto& [origin_x, origin_y, cell_x, cell_y] = transform;
+  key.add("altitude_m", altitude_m).add("origin_x", origin_x).add("origin_y", origin_y).add("cell_x", cell_x).add("cell_y", cell_y);
+  for (const auto& [x, y, km2] : entries) key.add("entry_x", x).add("entry_y", y).add("km2", km2);
+}
+
+CacheKey courses_key(const LoadedScene& loaded, const GroundMap& map, const Dem& dem) {
+  CacheKeyText key;
+  std::vector<double> numbers;
+  for (const DrawnCourse& river : map.rivers) {
+    const auto& [places, width_m, least_width_m, snap_m, group] = river;
+    numbers.insert(numbers.end(), {width_m, least_width_m, snap_m, static_cast<double>(group), static_cast<double>(places.size())});
+    for (const glm::dvec2 place : places) numbers.insert(numbers.end(), {place.x, place.y});
+  }
+  key.add("rivers", row_of(numbers));
+  add_ground(key, dem);
+  return make_cache_key(CachedProduct::river_courses, key, subject_of(loaded));
+}
+
+std::vector<CoverCourse> lay_rivers(const GroundMap& map, const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache,
+                                    Catchments* catchments, const SeenFrom* seen) {
+  if (map.rivers.empty()) return {};
+  const PackedCourses packed = cached<PackedCourses>(
+      cache, [&] { return courses_key(loaded, map, dem); }, progress,
+      [&](Progress& watcher) {
+        watcher.begin("laying rivers into their valleys", 0.0);
+        Catchments own(dem);
+        const Courses laid = lay_courses(map.rivers, dem, (catchments != nullptr ? *catchments : own).km2());
+        if (laid.lines.empty()) return PackedCourses{};
+        watcher.note(fmt::format(
+            "rivers of the map: {} in {} pieces, moved to the bottoms of their valleys by {:.0f} m in the mean, {:.0f} m at most",
+            laid.lines.size(), laid.lines.size() + laid.joined, laid.mean_moved_m, laid.most_moved_m));
+        return pack(laid);
+      });
+  return unpack(packed, map, dem, seen);
+}
+
+}  // namespace
+
+GroundMap read_ground_map(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
+  if (loaded.scene.features.empty()) return {};
+  const FeatureStyle style = scene_style(loaded);
+  const PackedFeatures packed = cached<PackedFeatures>(
+      cache, [&] { return features_key(loaded, dem); }, progress,
+      [&](Progress& watcher) { return pack(read_ground_features(loaded, style, dem, watcher)); });
+  return sort_out(loaded, style, unpack(packed), progress);
+}
+
+void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress, const Cache& cache, const Dem* whole) {
+  const GroundMap map = read_ground_map(loaded, whole != nullptr ? *whole : dem, progress, cache);
+  if (map.lakes.empty()) return;
+  const std::vector<LakeLevel> levels = find_lake_levels(whole != nullptr ? *whole : dem, map.lakes);
+  level_known_lakes(dem, map.lakes, levels);
+  std::size_t refused = 0;
+  std::size_t uneven = 0;
+  std::size_t banks = 0;
+  for (const LakeLevel& level : levels) {
+    refused += level.refused_level_m ? 1 : 0;
+    uneven += level.uneven ? 1 : 0;
+    banks += level.level_m && level.bank_share > 0.1 ? 1 : 0;
+  }
+  if (refused > 0)
+    progress.note(fmt::format(
+        "{} of {} lakes say an altitude more than 40 m from the ground in them, as where it is in feet: they stand as high as the ground",
+        refused, levels.size()));
+  if (uneven > 0)
+    progress.note(fmt::format("{} of {} lakes lie on ground that falls by more than 15 m: it stays as it is", uneven, levels.size()));
+  if (banks > 0)
+    progress.note(
+        fmt::format("{} of {} lakes have outlines of which a tenth and more lies over 25 m above the water: that ground stays as it is",
+                    banks, levels.size()));
+}
+
+void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache,
+                    Catchments* catchments, const SeenFrom* seen) {
+  const GroundMap map = read_ground_map(loaded, dem, silent_progress(), cache);
+  const std::vector<CoverCourse> rivers = lay_rivers(map, loaded, dem, progress, cache, catchments, seen);
+  if (map.areas.empty() && rivers.empty()) return;
+  const MapBox box = box_of(dem);
+  lay_map(cover, std::make_shared<const MapCover>(map.areas, rivers, box.low, box.high));
+}
+
+}  // namespace belvedere
