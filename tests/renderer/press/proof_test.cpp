@@ -17,11 +17,12 @@
 namespace belvedere {
 namespace {
 
-// Greys that every press has, and a quarter of a green that none has.
+// Greys that every press has, and a quarter of greens that none has.
 Grid<glm::vec3> picture() {
   Grid<glm::vec3> out(80, 150);
   for (int y = 0; y < 150; ++y)
-    for (int x = 0; x < 80; ++x) out(x, y) = x < 20 ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(0.3F + 0.004F * static_cast<float>(y));
+    for (int x = 0; x < 80; ++x)
+      out(x, y) = x < 20 ? glm::vec3(0.0F, 1.0F, 0.003F * static_cast<float>(y)) : glm::vec3(0.3F + 0.004F * static_cast<float>(y));
   return out;
 }
 
