@@ -26,4 +26,6 @@ std::vector<std::uint8_t> Deflater::pack(const void* bytes, std::size_t count) c
   return {room.begin(), room.begin() + static_cast<std::ptrdiff_t>(packed)};
 }
 
+std::uint32_t crc32_after(std::uint32_t before, const void* bytes, std::size_t count) { return libdeflate_crc32(before, bytes, count); }
+
 }  // namespace belvedere

@@ -23,4 +23,7 @@ class Deflater {
   std::unique_ptr<State> state_;
 };
 
+// The checksum that ZIP and PNG take (CRC-32), of bytes that follow those of `before`; 0: of the first.
+std::uint32_t crc32_after(std::uint32_t before, const void* bytes, std::size_t count);
+
 }  // namespace belvedere

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "renderer/image/layers/layer_file.h"
 #include "renderer/image/output_file.h"
 #include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/output_color.h"
@@ -22,6 +23,9 @@ namespace {
 void check_request(const Scene& scene, const SheetRequest& request) {
   if (request.matches && !scene.synthesis.enabled)
     throw Error(ErrorKind::usage, "--match", "nothing is copied: synthesis.enabled is false", "a scene that copies, or no --match");
+  for (const std::string& ending : request.layers) layer_format(ending);
+  if (!request.layers.empty() && !scene.output.ocio_config.empty())
+    throw Error(ErrorKind::usage, "--layers", "output.ocio_config changes the colours of the whole", "layers without it: they are sRGB");
   if (products_of(request).empty())
     throw Error(ErrorKind::usage, "--channels", "none, and guidance is all that was asked for", "a channel at least");
 }
@@ -48,6 +52,7 @@ void render(const LoadedScene& loaded, const std::string& out_folder, const Run&
 void render_guidance(const LoadedScene& loaded, const std::string& out_folder, const Run& run, const SheetRequest& request) {
   SheetRequest guidance = request;
   guidance.panorama = guidance.matches = false;
+  guidance.layers.clear();
   render(loaded, out_folder, run, guidance);
 }
 

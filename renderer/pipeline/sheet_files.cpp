@@ -9,11 +9,13 @@
 #include "base/grid_part.h"
 #include "renderer/image/exr/match_file.h"
 #include "renderer/image/guidance_io.h"
+#include "renderer/image/layers/layer_file.h"
 #include "renderer/image/rows/picture_files.h"
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/output_color.h"
 #include "renderer/pipeline/sheet_job.h"
 #include "renderer/sheet/guidance_pack.h"
+#include "renderer/sheet/picture_layers.h"
 
 namespace belvedere {
 namespace {
@@ -138,6 +140,37 @@ std::optional<MatchWriter> write_match_file(const SheetRequest& request, const W
   return writer;
 }
 
+// A picture's size, as files of layers say it.
+struct LayeredSize {
+  int width;
+  int height;
+  double dots_per_inch;
+};
+
+// Layer after layer from the pieces, a band of rows at a time.
+void write_layer_files(LayeredSize size, const SheetRequest& request, const WorkFolder& work, const std::vector<PixelRect>& pieces,
+                       PixelRect region, const std::string& out_folder, const Run& run) {
+  if (request.layers.empty()) return;
+  const auto rows_of = [&](std::string_view product, int y0, int y1) {
+    Grid<LayerPixel> rows(region.width(), y1 - y0);
+    read_rows(work, std::string(product), pieces, region, region.y0 + y0, region.y0 + y1, {plane_of(rows)});
+    return rows;
+  };
+  LayeredSheet sheet{size.width, size.height, size.dots_per_inch, {}, {}};
+  for (const PictureLayer& layer : picture_layers())
+    sheet.layers.push_back({layer.name, layer.title, layer.mask, [&rows_of, &layer](int y0, int y1) {
+                              const Grid<LayerPixel> plane = rows_of(layer_plane_names()[layer.plane], y0, y1);
+                              return make_layer(layer, plane, rows_of(layer_plane_names()[about_plane], y0, y1));
+                            }});
+  sheet.merged = [&](int y0, int y1) {
+    Grid<glm::vec3> rows(region.width(), y1 - y0);
+    read_rows(work, "panorama", pieces, region, region.y0 + y0, region.y0 + y1, {plane_of(rows)});
+    return opaque_pixels(rows);
+  };
+  for (const std::string& ending : request.layers)
+    layer_format(ending).write(join(out_folder, ("panorama." + ending).c_str()), sheet, run.progress);
+}
+
 }  // namespace
 
 void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const std::string& out_folder,
@@ -173,6 +206,7 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, c
     run.progress.advance(y1 - y0);
   }
   panorama.finish();
+  write_layer_files({region.width(), region.height(), dots_per_inch}, request, work, pieces, region, out_folder, run);
   if (const std::optional<InkCoverage> ink = panorama.ink()) run.progress.note(ink_note("panorama.tif", *ink));
   commit();
 }

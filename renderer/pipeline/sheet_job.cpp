@@ -76,6 +76,12 @@ bool is_made(const WorkFolder& work, const SheetRequest& request, PixelRect piec
   return std::all_of(products.begin(), products.end(), [&](const std::string& product) { return work.has(product, piece); });
 }
 
+// Whether one of the grids that layers are made of is missing, or the picture that they were cut from.
+bool lacks_layers(const WorkFolder& work, PixelRect piece) {
+  return !work.has("panorama", piece) || std::any_of(layer_plane_names().begin(), layer_plane_names().end(),
+                                                     [&](std::string_view name) { return !work.has(std::string(name), piece); });
+}
+
 // What every piece is made from. Its members know each other by address.
 struct SheetWork {
   SheetWork(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run, const Run& stage_run);
@@ -158,7 +164,13 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
       const auto packed = std::make_shared<PackedGuidance>(pack_guidance(guidance));
       writer.keep("guidance", piece, packed->planes, packed);
     }
-    if (request.panorama && !work.has("panorama", piece)) {
+    if (makes("layer_ground") && lacks_layers(work, piece)) {
+      const auto layers = std::make_shared<PictureLayers>();
+      const auto painted = std::make_shared<Grid<glm::vec3>>(picture.make(piece, layers.get()));
+      for (std::size_t k = 0; k < layer_plane_count; ++k)
+        writer.keep(std::string(layer_plane_names()[k]), piece, {plane_of(layers->planes[k])}, layers);
+      writer.keep("panorama", piece, {plane_of(*painted)}, painted);
+    } else if (request.panorama && !work.has("panorama", piece)) {
       const auto painted = std::make_shared<Grid<glm::vec3>>(picture.make(piece));
       writer.keep("panorama", piece, {plane_of(*painted)}, painted);
     }

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "renderer/image/provenance.h"
 #include "renderer/scene/input_hash.h"
+#include "renderer/sheet/picture_layers.h"
 #include "terrain/io/http_access.h"
 #include "texture/sheet/synthesis_plan.h"
 
@@ -31,6 +32,7 @@ std::vector<std::string> products_of(const SheetRequest& request) {
   if (!request.channels || !request.channels->empty()) products.emplace_back("guidance");
   if (request.panorama) products.emplace_back("panorama");
   if (request.matches) products.emplace_back("matches");
+  if (request.panorama && !request.layers.empty()) products.insert(products.end(), layer_plane_names().begin(), layer_plane_names().end());
   return products;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/parallel.h"
@@ -13,13 +14,14 @@ namespace belvedere {
 
 // What is asked of a sheet.
 struct SheetRequest {
-  bool panorama = true;                // else guidance alone
-  GuidanceChoice channels = {};        // that guidance.exr holds; none at all: there is no such file
-  bool matches = false;                // also match.exr: which texel each pixel was copied from
-  std::optional<PixelRect> part = {};  // of the sheet, px; absent: all of it
-  bool resume = false;                 // go on from the pieces of a run that ended
-  int piece_px = 0;                    // side of a piece, 64…4096; 0: 1024. Changes no pixel
-  int stage_tile_px = 0;               // side of the tiles that stages are made in, 64…4096; 0: what memory allows. Changes no pixel
+  bool panorama = true;                  // else guidance alone
+  GuidanceChoice channels = {};          // that guidance.exr holds; none at all: there is no such file
+  std::vector<std::string> layers = {};  // also panorama.ENDING of these formats (renderer/image/layers/layer_file.h)
+  bool matches = false;                  // also match.exr: which texel each pixel was copied from
+  std::optional<PixelRect> part = {};    // of the sheet, px; absent: all of it
+  bool resume = false;                   // go on from the pieces of a run that ended
+  int piece_px = 0;                      // side of a piece, 64…4096; 0: 1024. Changes no pixel
+  int stage_tile_px = 0;                 // side of the tiles that stages are made in, 64…4096; 0: what memory allows. Changes no pixel
 };
 
 // The pixels asked for. Error(usage) for a part that does not lie on the sheet.

@@ -131,7 +131,7 @@ bool SheetPicture::has_features(PixelRect rect) const {
   return !features_.empty() && (!features_.lines_at(rect).empty() || !features_.houses_at(rect).empty());
 }
 
-Grid<glm::vec3> SheetPicture::make(PixelRect rect) {
+Grid<glm::vec3> SheetPicture::make(PixelRect rect, PictureLayers* cut) {
   const PixelRect painted = intersection(ground_.sheet(), grown(rect, blend_margin_px));
   const StrokeLayers layers = layers_around(painted);
   const PixelRect window = intersection(ground_.sheet(), grown(painted, finish_margin_px(layers)));
@@ -151,10 +151,24 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect) {
     map.besides = house_strokes(features_, {guidance, base, ground_.strokes(), place});
     place.mapped = &map;
   }
-  Painting strokes = paint_strokes(std::move(canvas), guidance, base, layers, ground_.strokes(), run_.progress, place);
+  std::optional<PaintParts> parts;
+  Grid<glm::vec3> bare;
+  if (cut != nullptr) {
+    parts.emplace(inside);
+    bare = part_of(canvas, inside);
+  }
+  Painting strokes =
+      paint_strokes(std::move(canvas), guidance, base, layers, ground_.strokes(), run_.progress, place, parts ? &*parts : nullptr);
   if (mapped) paint_features(strokes.picture, features_, {guidance, base.colour, base.haze, strokes.seen_ground}, window, painted);
   const GuidanceBuffers edges = ground_.read_guidance(painted, {&B::depth_m, &B::front}, false);
-  return part_of(blend_edges(part_of(strokes.picture, inside), edges), moved(rect, -painted.x0, -painted.y0));
+  const PixelRect wanted = moved(rect, -painted.x0, -painted.y0);
+  Grid<glm::vec3> finished = part_of(blend_edges(part_of(strokes.picture, inside), edges), wanted);
+  if (cut != nullptr) {
+    const GuidanceBuffers about = ground_.read_guidance(rect, {&B::depth_m, &B::land_cover, &B::shadow, &B::tone}, true);
+    const PixelRect in_window = moved(rect, -window.x0, -window.y0);
+    *cut = cut_layers(part_of(bare, wanted), *parts, wanted, about, part_of(base.haze, in_window), finished);
+  }
+  return finished;
 }
 
 void SheetPicture::keep_only(PixelRect still) {

@@ -7,6 +7,7 @@
 #include "renderer/paint/composite.h"
 #include "renderer/sheet/knit_ground.h"
 #include "renderer/sheet/model_ground.h"
+#include "renderer/sheet/picture_layers.h"
 #include "renderer/sheet/sheet_ground.h"
 #include "texture/sheet/synthesis_plan.h"
 #include "texture/sheet/synthesis_tile.h"
@@ -30,7 +31,9 @@ class SheetPicture {
   SheetPicture(SheetGround& ground, CopyPlan* plan, TileStore::Place& place, const Run& run, const DrawnFeatures& features = no_features());
 
   // Encoded sRGB.
-  Grid<glm::vec3> make(PixelRect rect);
+  Grid<glm::vec3> make(PixelRect rect) { return make(rect, nullptr); }
+  // The same, and the layers that make it when they are laid over each other.
+  Grid<glm::vec3> make(PixelRect rect, PictureLayers* layers);
   // The same for matches alone.
   MatchField read_matches(PixelRect rect) { return matches_.read(rect); }
 

@@ -113,7 +113,7 @@ StrokePlace place_on(const Stroke& stroke, const std::array<float, Stroke::max_p
 }
 
 void paint_stroke(const Stroke& stroke, std::uint32_t number, glm::ivec2 origin, const PixelRect& clip, Painting& painting,
-                  PaintRecord& record, const GuidanceBuffers& guidance, float pixels_per_unit) {
+                  PaintRecord& record, PaintParts* parts, const GuidanceBuffers& guidance, float pixels_per_unit) {
   Grid<glm::vec3>& canvas = painting.picture;
   float* const seen_ground = stroke.standing && !painting.seen_ground.empty() ? painting.seen_ground.data() : nullptr;
   const PixelRect bounds = bounds_of(stroke, origin, clip);
@@ -202,6 +202,7 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, glm::ivec2 origin,
       canvas[i] += alpha * (colour + tint - canvas[i]);
       if (seen_ground != nullptr) seen_ground[i] *= 1.F - alpha;
       record.cover(x, y, stroke, number, alpha);
+      if (parts != nullptr) parts->cover(x, y, stroke.part, alpha, colour + tint);
     }
   }
 }
@@ -236,7 +237,7 @@ Painting begin_painting(Grid<glm::vec3> canvas) {
 }
 
 void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::vector<Stroke> strokes, double pixels_per_unit,
-                    Progress& progress, const SheetWindow& window) {
+                    Progress& progress, const SheetWindow& window, PaintParts* parts) {
   Grid<glm::vec3>& canvas = painting.picture;
   const std::uint32_t first_number = painting.stroke_count + 1;
   painting.stroke_count += static_cast<std::uint32_t>(strokes.size());
@@ -260,7 +261,7 @@ void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::ve
     const PixelRect tile{asked.x0 + part.x0, asked.y0 + part.y0, asked.x0 + part.x1, asked.y0 + part.y1};
     PaintRecord record(painting, guidance, tile);
     for (const std::uint32_t s : tiles[t])
-      paint_stroke(strokes[ranked[s]], first_number + s, window.origin_px, tile, painting, record, guidance,
+      paint_stroke(strokes[ranked[s]], first_number + s, window.origin_px, tile, painting, record, parts, guidance,
                    static_cast<float>(pixels_per_unit));
     record.hand_back(painting);
     progress.advance(1.0);

@@ -15,8 +15,9 @@ Painting begin_painting(Grid<glm::vec3> canvas);
 
 // Paints the strokes in order (ties: as listed) over the canvas. Each tile of the canvas paints the strokes that touch it in that
 // order, so threads and tiles change no bit. pixels_per_unit: see StrokeParameters. Strokes lie on the sheet; the canvas and the guidance
-// are a window of it, of which no pixel is painted that is not asked for.
+// are a window of it, of which no pixel is painted that is not asked for. `parts`, where given, holds the pixels asked for and takes what
+// is laid.
 void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::vector<Stroke> strokes, double pixels_per_unit,
-                    Progress& progress, const SheetWindow& window = {});
+                    Progress& progress, const SheetWindow& window = {}, PaintParts* parts = nullptr);
 
 }  // namespace belvedere

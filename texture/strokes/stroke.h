@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include "base/grid.h"
+#include "texture/strokes/paint_parts.h"
 
 namespace belvedere {
 
@@ -45,9 +46,10 @@ struct Stroke {
   float tone_width = 0.16F;        // of that gate: without it rock turns to fur
   std::uint32_t facet = 0;         // plane of rock it belongs to: beyond that plane a fifth of its paint is left; 0: none
   StrokeGate gate = StrokeGate::surface;
-  bool standing = false;     // stands on the ground: it hides what is drawn there
-  float order = 0.F;         // larger is painted first: usually depth
-  std::uint32_t seed = 0;    // of its bristles
+  bool standing = false;   // stands on the ground: it hides what is drawn there
+  float order = 0.F;       // larger is painted first: usually depth
+  std::uint32_t seed = 0;  // of its bristles
+  PaintPart part = PaintPart::ground;
   std::uint32_t source = 0;  // index of the pixel it grew from: its class is that pixel's
 };
 

@@ -81,7 +81,7 @@ void check_sizes(const Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance,
 }  // namespace
 
 Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const BasePicture& base, const StrokeLayers& layers,
-                       const StrokeParameters& parameters, Progress& progress, const SheetWindow& given) {
+                       const StrokeParameters& parameters, Progress& progress, const SheetWindow& given, PaintParts* parts) {
   check_sizes(canvas, guidance, base);
   check_window(given, guidance.width(), guidance.height());
   const std::optional<IcePlan> own_plan = missing_plan(guidance, layers, parameters, given);
@@ -94,7 +94,7 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
   const auto paint = [&](std::vector<Stroke> strokes) {
     // In the far, air evens out what loads of paint differ by.
     for (Stroke& stroke : strokes) stroke.load *= 1.F - 0.8F * std::clamp(base.haze[stroke.source], 0.F, 1.F);
-    if (!strokes.empty()) paint_in_order(painting, guidance, std::move(strokes), parameters.pixels_per_unit, progress, window);
+    if (!strokes.empty()) paint_in_order(painting, guidance, std::move(strokes), parameters.pixels_per_unit, progress, window, parts);
   };
 
   std::vector<Stroke> body;
@@ -104,6 +104,7 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     std::vector<Stroke> strokes = kind.grow(scene, kind.stream);
     if (window.mapped != nullptr && kind.layer == &StrokeLayers::upright) stand_beside(strokes, window.mapped->cleared);
     if (kind.layer != &StrokeLayers::sky) strokes = broaden_far(std::move(strokes), base, window.origin_px, parameters.pixels_per_unit);
+    for (Stroke& stroke : strokes) stroke.part = part_of(kind);
     if (kind.alone)
       paint(std::move(strokes));
     else

@@ -16,9 +16,9 @@ namespace belvedere {
 // shall get strokes that follow it.
 // The buffers may hold a window of the sheet: pixels that lie stroke_margin_px or more inside of the window, or whose window ends at the
 // sheet's own border, have picture, sources, under and under_share of the whole, bit for bit (sources and under as indices of the window);
-// `strokes` is counted in each window anew.
+// `strokes` is counted in each window anew. `parts`: as paint_in_order's.
 Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, const BasePicture& base, const StrokeLayers& layers,
-                       const StrokeParameters& parameters, Progress& progress, const SheetWindow& window = {});
+                       const StrokeParameters& parameters, Progress& progress, const SheetWindow& window = {}, PaintParts* parts = nullptr);
 
 // How far around a pixel the strokes of a kind, or of the kinds in `layers`, take what they paint on it from, px.
 int stroke_margin_px(const StrokeKind& kind, const StrokeParameters& parameters);

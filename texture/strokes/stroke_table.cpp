@@ -137,9 +137,19 @@ constexpr StrokeKind kinds[] = {
     // Some 9 units large, and up to half a spacing from their seeds; whose neighbours tell how much ground there is.
     {.name = "stones", .layer = &StrokeLayers::upright, .stream = Stream::ground_stones, .grow = ground_stones, .reach = around(9.0, 4.0)},
     {.name = "tufts", .layer = &StrokeLayers::upright, .stream = Stream::grass_tufts, .grow = grass_tufts, .reach = around(15.0, 4.0)},
-    {.name = "houses", .layer = &StrokeLayers::upright, .stream = Stream::houses, .grow = houses, .reach = around(8.0, 8.0 + 5.6)},
-    {.name = "churches", .layer = &StrokeLayers::upright, .stream = Stream::churches, .grow = churches, .reach = around(11.0, 16.0 + 2.0)},
-    {.name = "farms", .layer = &StrokeLayers::upright, .stream = Stream::farms, .grow = farms, .reach = around(5.0, 4.7)},
+    {.name = "houses",
+     .layer = &StrokeLayers::upright,
+     .stream = Stream::houses,
+     .grow = houses,
+     .reach = around(8.0, 8.0 + 5.6),
+     .built = true},
+    {.name = "churches",
+     .layer = &StrokeLayers::upright,
+     .stream = Stream::churches,
+     .grow = churches,
+     .reach = around(11.0, 16.0 + 2.0),
+     .built = true},
+    {.name = "farms", .layer = &StrokeLayers::upright, .stream = Stream::farms, .grow = farms, .reach = around(5.0, 4.7), .built = true},
     {.name = "accents",
      .layer = &StrokeLayers::accents,
      .stream = Stream::accents,
@@ -158,5 +168,12 @@ const StrokeKind& find_stroke_kind(std::string_view name) {
 }
 
 bool is_painted(const StrokeKind& kind, const StrokeLayers& layers) { return layers.*kind.layer; }
+
+PaintPart part_of(const StrokeKind& kind) {
+  if (kind.layer == &StrokeLayers::sky) return PaintPart::sky;
+  if (kind.layer == &StrokeLayers::accents) return PaintPart::accents;
+  if (kind.layer == &StrokeLayers::upright) return kind.built ? PaintPart::houses : PaintPart::trees;
+  return kind.layer == &StrokeLayers::breaks || kind.on_ice ? PaintPart::ice : PaintPart::ground;
+}
 
 }  // namespace belvedere

@@ -33,6 +33,7 @@ struct StrokeKind {
   std::vector<Stroke> (*grow)(const StrokeScene& scene, Stream stream);
   StrokeReach reach;
   bool on_ice = false;  // asks the plan of the sheet's ice
+  bool built = false;   // houses, among what stands upright
   bool alone = false;   // painted whole before what follows; else far to near in one list with its neighbours
 };
 
@@ -42,5 +43,7 @@ std::span<const StrokeKind> stroke_kinds();
 const StrokeKind& find_stroke_kind(std::string_view name);
 // Whether a kind is among those asked for.
 bool is_painted(const StrokeKind& kind, const StrokeLayers& layers);
+// What its strokes are part of.
+PaintPart part_of(const StrokeKind& kind);
 
 }  // namespace belvedere

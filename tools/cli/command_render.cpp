@@ -24,6 +24,7 @@ struct Options {
   int piece_px = 0;
   bool draft = false;
   bool match = false;
+  std::vector<std::string> layers;
   std::string channels;
 };
 
@@ -44,6 +45,7 @@ int run_job(const Options& options, Job job, Results results) {
     request.part = PixelRect{p[0], p[1], p[0] + p[2], p[1] + p[3]};
   }
   request.matches = options.match;
+  request.layers = options.layers;
   if (!options.channels.empty()) request.channels = read_guidance_choice(options.channels);
   job(scene, folder, make_run(options.scene, options.tile_size, progress, cache), request);
   progress.end();
@@ -51,6 +53,7 @@ int run_job(const Options& options, Job job, Results results) {
   std::vector<std::string> names = results(scene.scene);
   if (!request.channels || !request.channels->empty()) names.emplace_back("guidance.exr");
   if (request.matches) names.emplace_back("match.exr");
+  for (const std::string& ending : request.layers) names.push_back("panorama." + ending);
   std::vector<std::string> paths;
   for (const std::string& name : names) paths.push_back((std::filesystem::path(folder) / name).string());
   if (options.scene.json) {
@@ -102,6 +105,14 @@ Action add_job(CLI::App& command, const char* footer, Drafts drafts, Job job, Re
   if (drafts == Drafts::yes)
     command.add_flag("--match", options->match,
                      "Also match.exr: which texel of which picture each pixel was copied from, for synthesize --replay");
+  if (drafts == Drafts::yes)
+    command
+        .add_option(
+            "--layers", options->layers,
+            "Also panorama.ora (GIMP, Krita) or panorama.psd (Photoshop, Affinity): ground, strokes, trees, houses … in layers of 16 bits")
+        ->type_name("ora|psd,…")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"ora", "psd"}));
   if (drafts == Drafts::yes)
     command.add_flag("--draft", options->draft,
                      "A first look, in seconds: a third of the pixels a side, one line of sight a pixel, less of the sky's light, strokes "

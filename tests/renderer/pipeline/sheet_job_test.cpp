@@ -3,14 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include "base/grid_part.h"
 #include "base/guidance_channels.h"
+#include "base/parallel.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
+#include "renderer/sheet/picture_layers.h"
 #include "tests/files.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/statistical/learn_texture.h"
@@ -93,6 +97,61 @@ TEST_F(SheetJob, APartIsThePixelsOfTheWholeInEveryFile) {
           },
           channel.member);
   }
+}
+
+// A layer of an archive, unpacked by Python.
+struct UnpackedLayer {
+  Grid<glm::vec3> colour;
+  Grid<float> opacity;
+};
+std::map<std::string, UnpackedLayer> unpack(const std::string& out) {
+  EXPECT_EQ(std::system(("cd " + out + " && python3 -m zipfile -e panorama.ora layers").c_str()), 0);
+  std::map<std::string, UnpackedLayer> layers;
+  for (const PictureLayer& layer : picture_layers()) {
+    UnpackedLayer& one = layers[layer.name];
+    one.colour = read_picture(out + "/layers/data/" + layer.name + ".png", &one.opacity);
+  }
+  return layers;
+}
+
+// Layers laid over each other are the panorama, change none of its bytes, and are the same for any part, pieces and threads.
+TEST_F(SheetJob, LayersMakeThePanorama) {
+  const std::string all = folder_ / "all";
+  render(scene(), all, {}, {.layers = {"ora", "psd"}});
+  expect_same_files(whole(), all);
+  EXPECT_TRUE(fs::exists(all + "/panorama.psd"));
+  const std::map<std::string, UnpackedLayer> layers = unpack(all);
+  const Grid<glm::vec3> panorama = read_picture(all + "/panorama.tif");
+  Grid<glm::vec3> flat(panorama.width(), panorama.height(), glm::vec3(0.0F));
+  double edges = 0.0;
+  for (const PictureLayer& layer : picture_layers()) {
+    if (layer.mask) continue;
+    const UnpackedLayer& one = layers.at(layer.name);
+    for (std::size_t i = 0; i < flat.size(); ++i) flat[i] += one.opacity[i] * (one.colour[i] - flat[i]);
+    if (layer.name == "edges")
+      for (const float opacity : one.opacity) edges += opacity;
+  }
+  for (std::size_t i = 0; i < flat.size(); ++i)
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(flat[i][c], panorama[i][c], 6.0 / 65535.0) << i;
+  EXPECT_LT(edges, 0.1 * static_cast<double>(flat.size())) << "layers of strokes say nearly all of it";
+
+  const PixelRect part{990, 40, 1060, 110};
+  const std::string cut = folder_ / "cut";
+  const ThreadLimit limit(1);
+  render(scene(), cut, {}, {.layers = {"ora"}, .part = part, .piece_px = 64, .stage_tile_px = 64});
+  for (const auto& [name, layer] : unpack(cut)) {
+    EXPECT_TRUE(layer.colour == part_of(layers.at(name).colour, part)) << name;
+    EXPECT_TRUE(layer.opacity == part_of(layers.at(name).opacity, part)) << name;
+  }
+}
+
+TEST_F(SheetJob, LayersAreOfTheProgramsOwnColours) {
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(scene(), folder_.path(), {}, {.layers = {"xcf"}}); }), HasSubstr("ora, psd"));
+  folder_.write("show.ocio", "no matter what");
+  const LoadedScene other =
+      parse_scene(wide_scene, "wide.toml", folder_.path(), {.data_folders = {}, .settings = {"output.ocio_config=show.ocio"}});
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(other, folder_.path(), {}, {.layers = {"ora"}}); }),
+              HasSubstr("ocio_config"));
 }
 
 // Ground from a texture model: one lattice of tiles, whatever is asked of the sheet.

@@ -1,0 +1,25 @@
+#include "renderer/image/layers/layer_file.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "renderer/image/layers/ora_file.h"
+#include "renderer/image/layers/psd_file.h"
+
+namespace belvedere {
+
+const std::vector<LayerFormat>& layer_formats() {
+  static const std::vector<LayerFormat> all = {{"ora", "OpenRaster", write_ora}, {"psd", "Photoshop", write_psd}};
+  return all;
+}
+
+const LayerFormat& layer_format(const std::string& ending) {
+  std::string known;
+  for (const LayerFormat& format : layer_formats()) {
+    if (format.ending == ending) return format;
+    known += (known.empty() ? "" : ", ") + format.ending;
+  }
+  throw Error(ErrorKind::usage, "format of layers", fmt::format("\"{}\"", ending), known);
+}
+
+}  // namespace belvedere

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/image/layers/layered_sheet.h"
+
+namespace belvedere {
+
+// Formats of layers: "ora", OpenRaster, for GIMP and Krita; "psd", for Photoshop and Affinity (its large form, PSB, from 30000 pixels a
+// side or 2 GB on).
+struct LayerFormat {
+  std::string ending;
+  std::string title;
+  WriteLayers write;
+};
+const std::vector<LayerFormat>& layer_formats();
+// Error(usage) for an ending that is none.
+const LayerFormat& layer_format(const std::string& ending);
+
+}  // namespace belvedere

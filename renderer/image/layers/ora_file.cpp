@@ -1,0 +1,150 @@
+#include "renderer/image/layers/ora_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/text/markup.h"
+#include "renderer/image/deflate.h"
+#include "renderer/image/layers/layer_png.h"
+#include "renderer/image/output_file.h"
+
+namespace belvedere {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int thumbnail_px = 256;  // as the specification says
+
+// A ZIP archive of files that are not packed (APPNOTE.TXT 6.3.3): its first entry has no extra field, by which OpenRaster is known, and
+// where an entry or the archive is over 4 GB its numbers stand in the fields of ZIP64. libarchive, minizip and others put fields of times
+// and owners everywhere.
+class Zip {
+ public:
+  explicit Zip(const OutputFile& file) : file_(file), out_(file.temporary(), std::ios::binary | std::ios::trunc) {
+    if (!out_) file.fail("it cannot be created");
+  }
+  void add_text(const std::string& name, const std::string& text) {
+    begin({name, crc32_after(0, text.data(), text.size()), text.size(), offset_});
+    put(text);
+  }
+  void add_file(const std::string& name, const std::string& path) {
+    std::uint32_t crc = 0;
+    read_all(path, [&](const std::string& bytes) { crc = crc32_after(crc, bytes.data(), bytes.size()); });
+    begin({name, crc, fs::file_size(path), offset_});
+    read_all(path, [&](const std::string& bytes) { put(bytes); });
+  }
+  void close() {
+    const std::uint64_t directory = offset_;
+    for (const Entry& entry : entries_)
+      put("PK\1\2" + number(version_made, 2) + common(entry, true) + number(0, 2) + number(0, 2) + number(0, 2) + number(0, 4) +
+          number(std::min(entry.offset, full), 4) + entry.name + zip64(entry, true));
+    const std::uint64_t bytes = offset_ - directory;
+    const std::uint64_t count = entries_.size();
+    if (directory >= full) {
+      const std::uint64_t end = offset_;
+      put("PK\6\6" + number(44, 8) + number(version_made, 2) + number(version_made, 2) + number(0, 4) + number(0, 4) + number(count, 8) +
+          number(count, 8) + number(bytes, 8) + number(directory, 8));
+      put("PK\6\7" + number(0, 4) + number(end, 8) + number(1, 4));
+    }
+    put("PK\5\6" + number(0, 2) + number(0, 2) + number(count, 2) + number(count, 2) + number(bytes, 4) +
+        number(std::min(directory, full), 4) + number(0, 2));
+    out_.flush();
+    if (!out_) file_.fail("it cannot be written");
+  }
+
+ private:
+  static constexpr std::uint64_t full = 0xffffffffU;
+  static constexpr std::uint64_t version_made = 45;  // 4.5: ZIP64
+  struct Entry {
+    std::string name;
+    std::uint32_t crc;
+    std::uint64_t bytes;
+    std::uint64_t offset;
+  };
+
+  static std::string number(std::uint64_t value, int bytes) {
+    std::string out;
+    for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 255U);
+    return out;
+  }
+  // Numbers that do not fit, in the order of the format.
+  static std::string zip64(const Entry& entry, bool with_offset) {
+    std::string values;
+    if (entry.bytes >= full) values += number(entry.bytes, 8) + number(entry.bytes, 8);
+    if (with_offset && entry.offset >= full) values += number(entry.offset, 8);
+    return values.empty() ? values : number(1, 2) + number(values.size(), 2) + values;
+  }
+  // What local header and directory say alike; dated 2000-01-01, so that the same picture is the same bytes.
+  static std::string common(const Entry& entry, bool in_directory) {
+    constexpr std::uint64_t date = 20U << 9U | 1U << 5U | 1U;
+    return number(entry.bytes >= full ? version_made : 20, 2) + number(1U << 11U, 2) + number(0, 2) + number(0, 2) + number(date, 2) +
+           number(entry.crc, 4) + number(std::min(entry.bytes, full), 4) + number(std::min(entry.bytes, full), 4) +
+           number(entry.name.size(), 2) + number(zip64(entry, in_directory).size(), 2);
+  }
+  void begin(const Entry& entry) {
+    put("PK\3\4" + common(entry, false) + entry.name + zip64(entry, false));
+    entries_.push_back(entry);
+  }
+  void put(const std::string& bytes) {
+    out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (!out_) file_.fail("it cannot be written");
+    offset_ += bytes.size();
+  }
+  template <class F>
+  void read_all(const std::string& path, F&& use) {
+    std::ifstream from(path, std::ios::binary);
+    std::string bytes(std::size_t{1} << 20U, '\0');
+    while (from.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || from.gcount() > 0)
+      use(bytes.substr(0, static_cast<std::size_t>(from.gcount())));
+  }
+
+  const OutputFile& file_;
+  std::ofstream out_;
+  std::uint64_t offset_ = 0;
+  std::vector<Entry> entries_;
+};
+
+// Layers from the top down, as stack.xml wants them.
+std::string stack_xml(const LayeredSheet& sheet) {
+  const auto dots = static_cast<int>(sheet.dots_per_inch + 0.5);
+  std::string out = fmt::format("<?xml version='1.0' encoding='UTF-8'?>\n<image version=\"0.0.5\" w=\"{}\" h=\"{}\"{}>\n<stack>\n",
+                                sheet.width, sheet.height, dots > 0 ? fmt::format(" xres=\"{0}\" yres=\"{0}\"", dots) : "");
+  for (std::size_t k = sheet.layers.size(); k-- > 0;) {
+    const LayerSource& layer = sheet.layers[k];
+    out += fmt::format(
+        "<layer name=\"{}\" src=\"data/{}.png\" x=\"0\" y=\"0\" opacity=\"1.0\" visibility=\"{}\" composite-op=\"svg:src-over\"/>\n",
+        markup_text(layer.title), layer.name, layer.hidden ? "hidden" : "visible");
+  }
+  return out + "</stack>\n</image>\n";
+}
+
+}  // namespace
+
+void write_ora(const std::string& path, const LayeredSheet& sheet, Progress& progress) {
+  OutputFile file(path);
+  OutputFile png(fs::path(path).replace_extension("layer.png").string());  // its temporary file is used, and removed in the end
+  progress.begin("writing layers", static_cast<double>(sheet.height) * static_cast<double>(sheet.layers.size() + 1));
+  Zip zip(file);
+  zip.add_text("mimetype", "image/openraster");
+  zip.add_text("stack.xml", stack_xml(sheet));
+  for (const LayerSource& layer : sheet.layers) {
+    write_layer_png(png.temporary(), sheet.width, sheet.height, sheet.dots_per_inch, false, layer.rows, progress);
+    zip.add_file("data/" + layer.name + ".png", png.temporary());
+  }
+  write_layer_png(png.temporary(), sheet.width, sheet.height, sheet.dots_per_inch, true, sheet.merged, progress);
+  zip.add_file("mergedimage.png", png.temporary());
+  write_thumbnail_png(png.temporary(), sheet.width, sheet.height, thumbnail_px, sheet.merged);
+  zip.add_file("Thumbnails/thumbnail.png", png.temporary());
+  zip.close();
+  file.prepare();
+  file.commit();
+}
+
+}  // namespace belvedere

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/grid.h"
+#include "base/guidance_buffers.h"
+#include "base/parallel.h"
+#include "renderer/image/layers/layered_sheet.h"
+#include "texture/strokes/paint_parts.h"
+
+namespace belvedere {
+
+// What layers are made of, a grid each and a product of pieces each: the canvas before its strokes; strokes by parts, from the bottom up;
+// edges; and what masks say (shares of cast shadow, of light, of air, and the class).
+inline constexpr std::size_t layer_plane_count = paint_part_count + 3;
+struct PictureLayers {
+  std::array<Grid<LayerPixel>, layer_plane_count> planes;
+};
+// Names of the products.
+const std::array<std::string_view, layer_plane_count>& layer_plane_names();
+
+// A layer of a finished picture, for painting programs.
+struct PictureLayer {
+  std::string name;                        // of its file in an archive
+  std::string title;                       // for people
+  bool mask = false;                       // hidden: its opacity is a selection, its colour says which
+  std::size_t plane = 0;                   // of PictureLayers that it is
+  std::vector<LandCoverClass> where = {};  // of the canvas, only where these classes are; empty: all of it
+  int share = -1;                          // of a mask: which of the shares; -1: it is where `where` says
+  std::uint32_t rgb = 0;                   // of a mask
+};
+// All layers, from the bottom up.
+const std::vector<PictureLayer>& picture_layers();
+// Its pixels, from its plane and the one of masks.
+Grid<LayerPixel> make_layer(const PictureLayer& layer, const Grid<LayerPixel>& plane, const Grid<LayerPixel>& about);
+inline constexpr std::size_t about_plane = layer_plane_count - 1;
+
+// Cuts a finished picture into layers that, laid over each other in normal mode in encoded sRGB, make it again within `flatten_steps` of
+// 65535. `bare`: the canvas before its strokes, `rect` of the pixels that `parts` holds; guidance has depth, land cover, shadow and tone;
+// all of one size but `parts`. What normal layers cannot say, softened depth edges and colours that were cut to 0…1, becomes the layer on
+// top.
+PictureLayers cut_layers(const Grid<glm::vec3>& bare, const PaintParts& parts, PixelRect rect, const GuidanceBuffers& guidance,
+                         const Grid<float>& haze, const Grid<glm::vec3>& finished);
+inline constexpr double flatten_steps = 4.0;
+
+// A finished picture as a layer.
+Grid<LayerPixel> opaque_pixels(const Grid<glm::vec3>& finished);
+
+// Lays a layer's pixel over a colour 0…1, as painting programs do.
+void lay_over(glm::dvec3& below, const LayerPixel& above);
+
+}  // namespace belvedere
