@@ -347,6 +347,11 @@ TEST(SceneFile, ScenesOfTheProgramAreRead) {
       // Their masks lie beside them, or with a picture that is not asked for.
       EXPECT_TRUE(exemplar.optional || fs::exists(entry.path().parent_path() / exemplar.classes)) << exemplar.classes;
     }
+    for (const SceneFeatures& features : scene.scene.features) {
+      EXPECT_FALSE(features.origin.empty()) << entry.path();
+      EXPECT_FALSE(features.licence.empty()) << entry.path();
+      EXPECT_TRUE(features.optional || fs::exists(entry.path().parent_path() / features.source)) << features.source;
+    }
     for (const auto& source : scene.scene.terrain.sources) {
       EXPECT_FALSE(source.origin.empty()) << entry.path();
       EXPECT_FALSE(source.licence.empty()) << entry.path();
@@ -355,7 +360,8 @@ TEST(SceneFile, ScenesOfTheProgramAreRead) {
     titles.push_back(scene.scene.title);
   }
   EXPECT_THAT(titles, testing::UnorderedElementsAre("Glacier National Park, Selkirks", "Karwendel", "Karwendel after Segantini",
-                                                    "Lolo Peak", "Mountains after Monet", "Mount Rainier", "Zion Canyon", "Ötztal Alps"));
+                                                    "Karwendel: roads, railways and ways", "Ötztal Alps: a made-up winter map", "Lolo Peak",
+                                                    "Mountains after Monet", "Mount Rainier", "Zion Canyon", "Ötztal Alps"));
 }
 
 }  // namespace
