@@ -14,6 +14,7 @@
 
 #include "base/cache/content_hash.h"
 #include "base/filter.h"
+#include "base/memory_limit.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/feature_files.h"
 #include "terrain/cover/town_file.h"
@@ -63,6 +64,8 @@ Grid<T> row_of(const std::vector<T>& values) {
 }
 
 constexpr int head_counts = 4;
+// Of areas and rivers, while they are laid: as MapCover::bytes() has it, twice.
+constexpr double bytes_a_place = 180.0;
 
 PackedFeatures pack(const FeatureSet& set) {
   std::vector<std::int32_t> counts;
@@ -362,6 +365,11 @@ void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem,
   const GroundMap map = read_ground_map(loaded, dem, silent_progress(), cache);
   const std::vector<CoverCourse> rivers = lay_rivers(map, loaded, dem, progress, cache, catchments, seen);
   if (map.areas.empty() && rivers.empty()) return;
+  std::size_t places = 0;
+  for (const CoverArea& area : map.areas)
+    for (const auto& ring : area.rings) places += ring.size();
+  for (const CoverCourse& river : rivers) places += river.places.size();
+  check_memory(fmt::format("areas and rivers of {} places, a river's a cell apart,", places), bytes_a_place * static_cast<double>(places));
   const MapBox box = box_of(dem);
   lay_map(cover, std::make_shared<const MapCover>(map.areas, rivers, box.low, box.high));
 }

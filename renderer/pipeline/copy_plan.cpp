@@ -12,13 +12,13 @@
 #include "base/random_streams.h"
 #include "renderer/exemplar/exemplars.h"
 #include "renderer/exemplar/texture_models.h"
+#include "renderer/ground/cached_products.h"
 #include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/rock/crest_shift.h"
 #include "renderer/rock/rock_relief.h"
 #include "renderer/scene/scene_rules.h"
 #include "renderer/trace/camera_reduced.h"
 #include "renderer/trace/wide_view.h"
-#include "renderer/ground/cached_products.h"
 #include "texture/synthesis/class_supply.h"
 
 namespace belvedere {
