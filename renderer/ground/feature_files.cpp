@@ -50,10 +50,16 @@ MapBox box_of(const Dem& dem) { return {dem.transform.to_crs(-0.5, dem.height() 
 
 FeatureSet read_ground_features(const LoadedScene& loaded, const FeatureStyle& style, const Dem& dem, Progress& progress) {
   const MapBox ground = box_of(dem);
-  FeatureSet set = read_feature_set(style, ground_sources(loaded, style), dem.crs, ground);
-  for (const SourceReading& reading : set.readings) {
+  const std::vector<FeatureSource> sources = ground_sources(loaded, style);
+  FeatureSet set = read_feature_set(style, sources, dem.crs, ground);
+  // Where a column says what features are, those beside the terrain may be none of the ground's: who draws them says so.
+  std::vector<bool> all_ground;
+  for (const FeatureSource& source : sources) all_ground.push_back(source.kind_of.empty());
+  for (std::size_t r = 0; r < set.readings.size(); ++r) {
+    const SourceReading& reading = set.readings[r];
+    if (reading.at_zero > 0) progress.note(fmt::format("{}: {} of its features lie at 0, 0", reading.file, reading.at_zero));
     if (reading.beside == 0) continue;
-    if (reading.taken + reading.wrong_shape + reading.unknown.size() == 0)
+    if (all_ground[r] && reading.taken + reading.wrong_shape + reading.unknown.size() == 0)
       throw Error(
           ErrorKind::usage, reading.file,
           fmt::format("none of {} features lies on the terrain: they lie {}", reading.beside, extent_of({reading.low, reading.high})),

@@ -39,7 +39,7 @@ struct MapFeatures {
   std::size_t read = 0;              // features that the file gave
   std::size_t without_shape = 0;     // of these: without geometry, or with one of too few places
   std::size_t unplaceable = 0;       // with a place that the CRS asked for does not have
-  std::size_t at_zero = 0;           // of these: all of whose places are 0, 0 in the file's own coordinates: nobody wrote them down
+  std::size_t at_zero = 0;           // all of whose places are 0, 0 in the file's own coordinates: nobody wrote them down
   std::size_t beside = 0;            // beside the box
   MapBox extent = {};                // of all that has a place, beside the box as well
 };

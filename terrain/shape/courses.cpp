@@ -305,6 +305,9 @@ void move_to_valley(Work& work, const Ground& ground) {
 
 // Widths of a river that ends where it ends.
 void find_widths(Work& work) {
+  // A river gains all its way, also where smoothing took it a little off the cells that its water runs through.
+  for (std::size_t i = 1; i < work.catchment_km2.size(); ++i)
+    work.catchment_km2[i] = std::max(work.catchment_km2[i], work.catchment_km2[i - 1]);
   const std::size_t last = work.places.size() - 1;
   const std::size_t before = last - std::min<std::size_t>(last, mouth_steps);
   for (std::size_t i = before; i <= last; ++i) work.catchment_km2[i] = std::min(work.catchment_km2[i], work.catchment_km2[before]);

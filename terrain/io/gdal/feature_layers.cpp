@@ -105,8 +105,9 @@ void bring_over(std::vector<MapFeature>&& features, const PointTransform& transf
         extent.low = glm::min(extent.low, place);
         extent.high = glm::max(extent.high, place);
       }
-    if (!whole || at_zero) {
-      ++(at_zero ? all.at_zero : all.unplaceable);
+    all.at_zero += at_zero ? 1 : 0;
+    if (!whole) {
+      ++all.unplaceable;
       continue;
     }
     const bool first = all.features.empty() && all.beside == 0;

@@ -140,13 +140,9 @@ TEST_F(SceneFeaturesInPictures, AnyPartShowsTheWholeAndFarFromThemNothingChanges
 TEST_F(SceneFeaturesInPictures, AFileWhoseFeaturesAllLieElsewhereIsSaidWithBothExtents) {
   write("roads.geojson", line("road", "[482500, 5243000], [485500, 5244500]"));
   const LoadedScene loaded = scene(block);
-  const auto expected = AllOf(HasSubstr("none of 1 features"), HasSubstr("E 482500 … 485500"), HasSubstr("E 680000 … 688000"));
-  // What may become ground is read first …
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { World(loaded, silent_progress()); }), expected);
-  // … and lines when they are drawn.
-  const LoadedScene lines = scene("[[features]]\nsource = \"roads.geojson\"\nkind = \"road\"\n");
-  const World world(lines, silent_progress());
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { draw_scene_features(lines, world, false, silent_progress()); }), expected);
+  const World world(loaded, silent_progress());
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { draw_scene_features(loaded, world, false, silent_progress()); }),
+              AllOf(HasSubstr("none of 1 features"), HasSubstr("E 482500 … 485500"), HasSubstr("E 680000 … 688000")));
 }
 
 TEST_F(SceneFeaturesInPictures, WhatIsLeftOutIsNoted) {
