@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/json.h"
 #include "base/text/markup.h"
+#include "renderer/labels/label_drawing.h"
 #include "terrain/io/crs.h"
 
 namespace belvedere {
@@ -14,66 +15,6 @@ namespace {
 
 // A hundredth of a pixel is finer than any printer, and the same text on every machine.
 std::string px(double value) { return fmt::format("{:.2f}", value == 0.0 ? 0.0 : value); }
-
-std::string mark_svg(const LabelKindStyle& kind, glm::dvec2 at, double across) {
-  const double r = .5 * across;
-  switch (kind.mark) {
-    case LabelMarkShape::none:
-      return {};
-    case LabelMarkShape::dot:
-      return fmt::format(R"(<circle cx="{}" cy="{}" r="{}"/>)", px(at.x), px(at.y), px(r));
-    case LabelMarkShape::ring:
-      return fmt::format(R"(<circle cx="{}" cy="{}" r="{}" fill="{}" stroke="{}" stroke-width="{}"/>)", px(at.x), px(at.y), px(.7 * r),
-                         kind.halo, kind.colour, px(.6 * r));
-    case LabelMarkShape::square:
-      return fmt::format(R"(<rect x="{}" y="{}" width="{}" height="{}"/>)", px(at.x - r), px(at.y - r), px(across), px(across));
-    case LabelMarkShape::triangle:  // its tip on the summit
-      return fmt::format(R"(<path d="M{} {}L{} {}L{} {}Z"/>)", px(at.x), px(at.y - r), px(at.x + r), px(at.y + .8 * r), px(at.x - r),
-                         px(at.y + .8 * r));
-  }
-  return {};
-}
-
-std::string label_svg(const LabelSheet& sheet, const Label& label) {
-  const LabelKindStyle& kind = sheet.kind_of(label);
-  const LabelBox& box = label.spot.text;
-  std::string out;
-  if (label.spot.has_leader)
-    out += fmt::format(R"(    <line x1="{0}" y1="{1}" x2="{0}" y2="{2}" stroke="{3}" stroke-width="{4}"/>)"
-                       "\n",
-                       px(label.mark.pixel.x), px(label.spot.leader_top_px), px(label.mark.pixel.y - .5 * kind.mark_mm * sheet.px_per_mm),
-                       sheet.style.leader, px(sheet.style.leader_mm * sheet.px_per_mm));
-  if (const std::string mark = mark_svg(kind, label.mark.pixel, kind.mark_mm * sheet.px_per_mm); !mark.empty()) out += "    " + mark + '\n';
-  out += fmt::format("    <text x=\"{}\" y=\"{}\">{}</text>\n", px(.5 * (box.left + box.right)), px(box.top + label.room.up_px),
-                     markup_text(label.text));
-  return out;
-}
-
-// Seen pieces with a light edge, hidden ones dashed and thinner.
-std::string tracks_svg(const LabelSheet& sheet) {
-  const TrackStyle& style = sheet.style.track;
-  const double width = style.width_mm * sheet.px_per_mm;
-  std::string edges;
-  std::string hidden;
-  std::string seen;
-  for (const Track& track : sheet.tracks)
-    for (const TrackRun& run : track.runs) {
-      std::string path = "M";
-      for (const glm::dvec2 p : run.pixels) path += (path.size() > 1 ? "L" : "") + px(p.x) + ' ' + px(p.y);
-      (run.seen ? seen : hidden) += "    <path d=\"" + path + "\"/>\n";
-      if (run.seen) edges += "    <path d=\"" + path + "\"/>\n";
-    }
-  const auto group = [&](const char* id, const std::string& colour, double width_px, const std::string& more, const std::string& paths) {
-    if (paths.empty()) return std::string();
-    return fmt::format(
-        "  <g id=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"{}>\n{}  </g>\n",
-        id, colour, px(width_px), more, paths);
-  };
-  return group("tracks-hidden", style.colour, .6 * width, fmt::format(" stroke-dasharray=\"{} {}\"", px(1.5 * width), px(2.0 * width)),
-               hidden) +
-         group("tracks-edge", style.halo, width + 2.0 * style.halo_mm * sheet.px_per_mm, "", edges) +
-         group("tracks", style.colour, width, "", seen);
-}
 
 std::string quoted_csv(const std::string& text) {
   if (text.find_first_of(",\"\n\r;") == std::string::npos) return text;
@@ -106,24 +47,9 @@ std::string labels_svg(const LabelSheet& sheet, const std::string& under) {
   if (!under.empty())
     out += fmt::format("  <image xlink:href=\"{}\" x=\"0\" y=\"0\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\"/>\n",
                        markup_text(under), sheet.size_px.x, sheet.size_px.y);
-  out += tracks_svg(sheet);
-  for (std::size_t k = 0; k < sheet.style.kinds.size(); ++k) {
-    const LabelKindStyle& kind = sheet.style.kinds[k];
-    std::string group;
-    for (const Label& label : sheet.labels)
-      if (label.spot.placed && label.point.kind == static_cast<int>(k)) group += label_svg(sheet, label);
-    if (group.empty()) continue;
-    const TextStyle type = text_style(kind, sheet.px_per_mm);
-    // The halo is the letters' own outline, painted before them: SVG 2, which browsers, Inkscape and librsvg know.
-    out += fmt::format(
-        "  <g id=\"{}\" fill=\"{}\" font-family=\"{}\" font-size=\"{}px\"{}{}{} text-anchor=\"middle\">\n"
-        "  <style>#{} text {{ paint-order: stroke; stroke: {}; stroke-width: {}px; stroke-linejoin: round; }}</style>\n",
-        markup_text(kind.name), kind.colour, markup_text(kind.family), px(type.size_px), kind.bold ? " font-weight=\"bold\"" : "",
-        kind.italic ? " font-style=\"italic\"" : "",
-        kind.spacing > 0.0 ? fmt::format(" letter-spacing=\"{}px\"", px(kind.spacing * type.size_px)) : "", markup_text(kind.name),
-        kind.halo, px(2.0 * kind.halo_mm * sheet.px_per_mm));
-    out += group + "  </g>\n";
-  }
+  for (const DrawnGroup& group : draw_labels(sheet))
+    out +=
+        fmt::format("  <g id=\"{}\">\n{}  </g>\n", markup_text(group.name), shapes_svg(group.shapes, "along-" + markup_text(group.name)));
   return out + "</svg>\n";
 }
 

@@ -12,12 +12,27 @@ namespace {
 // A place that a name could take. Smaller costs come first.
 struct Candidate {
   LabelBox text;
+  const BentRoom* bent = nullptr;
   bool has_leader = false;
   double leader_top_px = 0.0;
   double cost = 0.0;
 };
 
 LabelBox grown(const LabelBox& box, double by) { return {box.left - by, box.top - by, box.right + by, box.bottom + by}; }
+
+// Whether a text, of a bent name one of its letters, lies over a box, or nearer to it than `by`.
+bool lies_over(const Candidate& a, double by, const LabelBox& box) {
+  if (!grown(a.text, by).overlaps(box)) return false;
+  if (a.bent == nullptr) return true;
+  return std::any_of(a.bent->letters.begin(), a.bent->letters.end(),
+                     [&](const LabelBox& letter) { return grown(letter, by).overlaps(box); });
+}
+
+bool texts_overlap(const Candidate& a, const Candidate& b, double by) {
+  if (!grown(a.text, by).overlaps(b.text)) return false;
+  if (b.bent == nullptr) return lies_over(a, by, b.text);
+  return std::any_of(b.bent->letters.begin(), b.bent->letters.end(), [&](const LabelBox& letter) { return lies_over(a, by, letter); });
+}
 
 LabelBox mark_box(const LabelRequest& request) {
   const double r = .5 * request.mark_px;
@@ -44,7 +59,13 @@ class Layout {
       if (!place_free(i)) place_by_moving_one(i);
     std::vector<LabelSpot> spots(requests_.size());
     for (std::size_t i = 0; i < spots.size(); ++i)
-      if (const std::optional<Candidate>& c = chosen_[i]) spots[i] = {true, c->text, c->has_leader, c->leader_top_px};
+      if (const std::optional<Candidate>& c = chosen_[i]) {
+        spots[i] = {.placed = true, .text = c->text, .has_leader = c->has_leader, .leader_top_px = c->leader_top_px};
+        if (c->bent != nullptr) {
+          spots[i].letters = c->bent->letters;
+          spots[i].baseline = c->bent->baseline;
+        }
+      }
     return spots;
   }
 
@@ -52,6 +73,10 @@ class Layout {
   // All that a request could take, best first.
   std::vector<Candidate> candidates_of(const LabelRequest& request) const {
     std::vector<Candidate> all;
+    if (!request.bent.empty()) {
+      add_bent(request, all);
+      return all;
+    }
     if (request.mark.x < 0.0 || request.mark.y < 0.0 || request.mark.x > p_.width_px || request.mark.y > p_.height_px) return all;
     switch (request.place) {
       case LabelPlace::above:
@@ -71,12 +96,26 @@ class Layout {
     return all;
   }
 
+  void add_bent(const LabelRequest& request, std::vector<Candidate>& all) const {
+    for (const BentRoom& bent : request.bent) {
+      if (bent.letters.empty()) continue;
+      LabelBox box = bent.letters.front();
+      for (const LabelBox& letter : bent.letters)
+        box = {std::min(box.left, letter.left), std::min(box.top, letter.top), std::max(box.right, letter.right),
+               std::max(box.bottom, letter.bottom)};
+      if (is_inside(box)) all.push_back({.text = box, .bent = &bent, .cost = static_cast<double>(all.size())});
+    }
+  }
+
+  bool is_inside(const LabelBox& box) const {
+    return box.left >= p_.margin_px && box.top >= p_.margin_px && box.right <= p_.width_px - p_.margin_px &&
+           box.bottom <= p_.height_px - p_.margin_px;
+  }
+
   // The text with the middle of its lower edge there; nothing where it would leave the picture.
   Candidate* add(const LabelRequest& request, double middle, double bottom, double cost, std::vector<Candidate>& all) const {
     const LabelBox box{middle - .5 * request.width_px, bottom - request.height_px, middle + .5 * request.width_px, bottom};
-    if (box.left < p_.margin_px || box.top < p_.margin_px || box.right > p_.width_px - p_.margin_px ||
-        box.bottom > p_.height_px - p_.margin_px)
-      return nullptr;
+    if (!is_inside(box)) return nullptr;
     all.push_back({.text = box, .cost = cost});
     return &all.back();
   }
@@ -146,11 +185,11 @@ class Layout {
   bool collide(std::size_t i, const Candidate& a, std::size_t j, const Candidate& b) const {
     const LabelBox mark_a = mark_box(requests_[i]);
     const LabelBox mark_b = mark_box(requests_[j]);
-    if (grown(a.text, p_.clearance_px).overlaps(b.text)) return true;
-    if (requests_[j].mark_px > 0.0 && a.text.overlaps(mark_b)) return true;
-    if (requests_[i].mark_px > 0.0 && b.text.overlaps(mark_a)) return true;
+    if (texts_overlap(a, b, p_.clearance_px)) return true;
+    if (requests_[j].mark_px > 0.0 && lies_over(a, 0.0, mark_b)) return true;
+    if (requests_[i].mark_px > 0.0 && lies_over(b, 0.0, mark_a)) return true;
     const auto lies_on = [&](const LabelBox& leader, std::size_t other, const Candidate& theirs, const LabelBox& mark) {
-      return leader.overlaps(grown(theirs.text, .5 * p_.clearance_px)) || (requests_[other].mark_px > 0.0 && leader.overlaps(mark)) ||
+      return lies_over(theirs, .5 * p_.clearance_px, leader) || (requests_[other].mark_px > 0.0 && leader.overlaps(mark)) ||
              (theirs.has_leader && grown(leader, p_.clearance_px).overlaps(leader_box(requests_[other], theirs.leader_top_px)));
     };
     if (a.has_leader && lies_on(leader_box(requests_[i], a.leader_top_px), j, b, mark_b)) return true;

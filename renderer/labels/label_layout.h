@@ -19,6 +19,12 @@ struct LabelBox {
   }
 };
 
+// A bent way that a name could stand on, with the boxes of its letters.
+struct BentRoom {
+  std::vector<glm::dvec2> baseline;
+  std::vector<LabelBox> letters;
+};
+
 // A name that asks for room.
 struct LabelRequest {
   glm::dvec2 mark{0.0};    // px
@@ -26,8 +32,9 @@ struct LabelRequest {
   double width_px = 0.0;   // of the text
   double height_px = 0.0;  // of the text
   LabelPlace place = LabelPlace::above;
-  bool on_skyline = false;  // only sky over the mark: the name goes to a row of the sky
-  double rank = 5.0;        // small ones choose first; equal ones in their order
+  bool on_skyline = false;          // only sky over the mark: the name goes to a row of the sky
+  double rank = 5.0;                // small ones choose first; equal ones in their order
+  std::vector<BentRoom> bent = {};  // of a name that follows a shape, best first; place and mark are then not asked
 };
 
 struct LabelLayoutParameters {
@@ -43,8 +50,10 @@ struct LabelLayoutParameters {
 // Where a name stands.
 struct LabelSpot {
   bool placed = false;
-  LabelBox text;
-  bool has_leader = false;  // an upright line from the mark up to leader_top_px
+  LabelBox text;                          // of a bent name around all its letters
+  std::vector<LabelBox> letters = {};     // of a bent name
+  std::vector<glm::dvec2> baseline = {};  // of a bent name; empty: level
+  bool has_leader = false;                // an upright line from the mark up to leader_top_px
   double leader_top_px = 0.0;
 };
 

@@ -38,12 +38,12 @@ std::optional<double> number_of(const PointTable& table, const PointTable::Point
   return value;
 }
 
-// Letters of UTF-8: bytes that begin one.
-std::size_t letters(const std::string& text) {
+}  // namespace
+
+// Bytes that begin one.
+std::size_t letters_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
-
-}  // namespace
 
 std::vector<LabelPoint> read_label_points(const std::string& path, const std::string& crs, const LabelStyle& style, Progress& progress) {
   const PointTable table = read_points(path, crs);
@@ -66,7 +66,7 @@ std::vector<LabelPoint> read_label_points(const std::string& path, const std::st
       ++unnamed;
       continue;
     }
-    if (letters(point.name) > longest_name) {
+    if (letters_of(point.name) > longest_name) {
       ++too_long;
       continue;
     }

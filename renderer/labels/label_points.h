@@ -25,6 +25,9 @@ struct LabelPoint {
 
 inline constexpr std::size_t longest_name = 80;  // letters: a panorama has no room for more
 
+// Letters of UTF-8.
+std::size_t letters_of(const std::string& text);
+
 // Points of a file that read_points() takes, with the columns
 //   name;
 //   kind (or type, natural, place, tourism): a word that the style knows, else its first kind, and a note says which words it lacks;

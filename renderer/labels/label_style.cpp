@@ -88,6 +88,7 @@ LabelKindStyle read_kind(const ConfigEntry& entry, const std::string& name) {
   read.flag("bold", kind.bold);
   read.flag("italic", kind.italic);
   read.number("spacing", kind.spacing, 0.0, 2.0);
+  read.number("lift", kind.lift, -3.0, 3.0);
   read.colour("colour", kind.colour);
   read.colour("halo", kind.halo);
   read.number("halo_mm", kind.halo_mm, 0.0, 10.0);
@@ -115,6 +116,19 @@ TrackStyle read_track(const ConfigValue& value, const std::string& name) {
   return track;
 }
 
+MarginStyle read_margin(const ConfigValue& value, const std::string& name) {
+  MarginStyle margin;
+  Reader read(value, name);
+  read.text("family", margin.family);
+  read.colour("paper", margin.paper);
+  read.colour("ink", margin.ink);
+  read.colour("sun", margin.sun);
+  read.number("title_mm", margin.title_mm, 1.0, 200.0);
+  read.number("text_mm", margin.text_mm, 0.5, 50.0);
+  read.end();
+  return margin;
+}
+
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
@@ -137,6 +151,7 @@ LabelStyle read_style(const ConfigValue& document, const std::string& name) {
   read.number("leader_mm", style.leader_mm, 0.0, 10.0);
   const ConfigValue* kinds = read.known("kinds");
   if (const ConfigValue* track = read.known("track")) style.track = read_track(*track, name);
+  if (const ConfigValue* margin = read.known("margin")) style.margin = read_margin(*margin, name);
   read.end();
   if (kinds == nullptr) throw Error(ErrorKind::usage, name, "no kinds of names", "[kinds.summit] and the like");
   for (const ConfigEntry& entry : as_table(*kinds, name)) style.kinds.push_back(read_kind(entry, name));

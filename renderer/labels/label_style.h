@@ -23,6 +23,7 @@ struct LabelKindStyle {
   double size_mm = 3.5;          // of the type, 0.5…100
   bool bold = false;
   bool italic = false;
+  double lift = -0.3;    // how high the baseline of a bent name lies over its line, of the type's size, -3…3
   double spacing = 0.0;  // between letters, of the type's size, 0…2
   std::string colour = "#202020";
   std::string halo = "#ffffff";  // around the letters
@@ -41,6 +42,16 @@ struct TrackStyle {
   double halo_mm = 0.25;  // 0…10
 };
 
+// The paper around a picture.
+struct MarginStyle {
+  std::string family = "serif";
+  std::string paper = "#fdfaf2";
+  std::string ink = "#1f2634";
+  std::string sun = "#f2c33d";
+  double title_mm = 14.0;  // 1…200
+  double text_mm = 4.0;    // 0.5…50
+};
+
 struct LabelStyle {
   std::string name;  // of the file, for messages
   double least_px = 11.0;
@@ -52,6 +63,7 @@ struct LabelStyle {
   std::string leader = "#404040";
   double leader_mm = 0.22;
   TrackStyle track;
+  MarginStyle margin;
   std::vector<LabelKindStyle> kinds;  // in the order of the file; the first is that of points that say no kind
 
   // The kind that a word means, small and capital letters alike; -1 where none does.

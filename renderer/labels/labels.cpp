@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "renderer/labels/drawing.h"
 
 namespace belvedere {
 namespace {
@@ -37,6 +38,47 @@ std::string hider(const LabelMark& mark, const std::vector<LabelPoint>& points, 
   return name;
 }
 
+// How far a name is spread along its shape: over so much of the line, its letters at most so far from each other.
+constexpr double spread_share = 0.55;
+constexpr double most_spacing = 0.9;  // of the type's size, over the kind's
+
+// The box of a letter that stands turned on a baseline.
+LabelBox letter_box(const LetterPlace& place, double width, const TextRoom& room) {
+  const glm::dvec2 down(-place.tangent.y, place.tangent.x);
+  LabelBox box{place.at.x, place.at.y, place.at.x, place.at.y};
+  for (const double x : {-.5 * width, .5 * width})
+    for (const double y : {-room.up_px, room.down_px}) {
+      const glm::dvec2 p = place.at + x * place.tangent + y * down;
+      box = {std::min(box.left, p.x), std::min(box.top, p.y), std::max(box.right, p.x), std::max(box.bottom, p.y)};
+    }
+  return box;
+}
+
+// Ways for a name along its shape; the label's spacing becomes what it is spread with.
+std::vector<BentRoom> bent_rooms(Label& label, const LabelKindStyle& kind, TextStyle type, const std::vector<glm::dvec2>& line,
+                                 const TextMeasure& measure) {
+  const double count = static_cast<double>(std::max<std::size_t>(2, letters_of(label.text)));
+  const double free_px = spread_share * length_of(line) - label.room.width_px;
+  label.spacing = kind.spacing + std::clamp(free_px / (count * type.size_px), 0.0, most_spacing);
+  type.spacing = label.spacing;
+  label.room = measure.measure(label.text, type);
+  std::vector<double> widths;
+  for (const TextLetter& letter : measure.letters(label.text, type)) widths.push_back(letter.width_px);
+  std::vector<BentRoom> rooms;
+  for (std::vector<glm::dvec2>& baseline : fitted_baselines(line, label.room.width_px, kind.lift * type.size_px)) {
+    const std::vector<LetterPlace> places = set_along(widths, baseline);
+    if (places.empty()) continue;
+    BentRoom room{.baseline = std::move(baseline), .letters = {}};
+    for (std::size_t i = 0; i < places.size(); ++i) room.letters.push_back(letter_box(places[i], widths[i], label.room));
+    rooms.push_back(std::move(room));
+  }
+  if (!rooms.empty()) return rooms;
+  // No arc is smooth or long enough: as a point's name, in its usual spacing.
+  label.spacing = type.spacing = kind.spacing;
+  label.room = measure.measure(label.text, type);
+  return rooms;
+}
+
 LabelLayoutParameters layout_parameters(const LabelSheet& sheet) {
   const double scale = sheet.px_per_mm;
   return {.width_px = sheet.size_px.x,
@@ -59,6 +101,22 @@ TextStyle text_style(const LabelKindStyle& kind, double px_per_mm) {
   return {.family = kind.family, .size_px = kind.size_mm * px_per_mm, .bold = kind.bold, .italic = kind.italic, .spacing = kind.spacing};
 }
 
+TextStyle LabelSheet::type_of(const Label& label) const {
+  TextStyle type = text_style(kind_of(label), px_per_mm);
+  type.spacing = label.spacing;
+  return type;
+}
+
+LabelSheet empty_label_sheet(LabelStyle style, glm::ivec2 size_px, double sheet_width_mm) {
+  double smallest_mm = std::numeric_limits<double>::infinity();
+  for (const LabelKindStyle& kind : style.kinds) smallest_mm = std::min(smallest_mm, kind.size_mm);
+  return {.size_px = size_px,
+          .sheet_width_mm = sheet_width_mm,
+          .px_per_mm = std::max(size_px.x / sheet_width_mm, style.least_px / smallest_mm),
+          .style = std::move(style),
+          .labels = {}};
+}
+
 std::vector<double> find_skyline(const GeoMap& map, glm::ivec2 size_px) {
   std::vector<double> skyline(static_cast<std::size_t>(size_px.x));
   parallel_ranges<int>(size_px.x, 16, [&](int begin, int end) {
@@ -77,16 +135,10 @@ std::vector<double> find_skyline(const GeoMap& map, glm::ivec2 size_px) {
 }
 
 LabelSheet make_labels(const std::vector<LabelPoint>& points, const std::vector<LabelMark>& marks, const std::vector<double>& skyline_px,
-                       LabelStyle style, glm::ivec2 size_px, double sheet_width_mm) {
+                       LabelStyle style, glm::ivec2 size_px, double sheet_width_mm, const std::vector<std::vector<glm::dvec2>>& lines) {
   if (marks.size() != points.size())
     throw Error(ErrorKind::bug, "labels", fmt::format("{} marks of {} points", marks.size(), points.size()));
-  double smallest_mm = std::numeric_limits<double>::infinity();
-  for (const LabelKindStyle& kind : style.kinds) smallest_mm = std::min(smallest_mm, kind.size_mm);
-  LabelSheet sheet{.size_px = size_px,
-                   .sheet_width_mm = sheet_width_mm,
-                   .px_per_mm = std::max(size_px.x / sheet_width_mm, style.least_px / smallest_mm),
-                   .style = std::move(style),
-                   .labels = {}};
+  LabelSheet sheet = empty_label_sheet(std::move(style), size_px, sheet_width_mm);
   const TextMeasure measure;
   std::vector<LabelRequest> requests;
   std::vector<std::size_t> asks;
@@ -97,17 +149,22 @@ LabelSheet make_labels(const std::vector<LabelPoint>& points, const std::vector<
     label.mark = marks[i];
     label.text = set_text(points[i], marks[i], kind);
     const TextStyle type = text_style(kind, sheet.px_per_mm);
+    label.spacing = kind.spacing;
     label.room = measure.measure(label.text, type);
     if (label.mark.state == MarkState::hidden) label.hidden_by = hider(marks[i], points, marks);
     if (label.mark.state == MarkState::seen && !label.text.empty()) {
       asks.push_back(i);
+      std::vector<BentRoom> bent;
+      const bool follows = i < lines.size() && lines[i].size() > 1;
+      if (follows) bent = bent_rooms(label, kind, type, lines[i], measure);
       requests.push_back({.mark = label.mark.pixel,
-                          .mark_px = kind.mark == LabelMarkShape::none ? 0.0 : kind.mark_mm * sheet.px_per_mm,
+                          .mark_px = follows || kind.mark == LabelMarkShape::none ? 0.0 : kind.mark_mm * sheet.px_per_mm,
                           .width_px = label.room.width_px + 2.0 * end_room * type.size_px,
                           .height_px = label.room.up_px + label.room.down_px,
                           .place = kind.place,
                           .on_skyline = label.mark.on_skyline,
-                          .rank = label.point.rank});
+                          .rank = label.point.rank,
+                          .bent = std::move(bent)});
     }
     sheet.labels.push_back(std::move(label));
   }

@@ -7,6 +7,7 @@
 #include "renderer/labels/label_layout.h"
 #include "renderer/labels/label_marks.h"
 #include "renderer/labels/label_points.h"
+#include "renderer/labels/label_shapes.h"
 #include "renderer/labels/label_style.h"
 #include "renderer/labels/text_measure.h"
 #include "renderer/labels/tracks.h"
@@ -21,6 +22,7 @@ struct Label {
   std::string text;       // name and altitude
   TextRoom room;          // that the text takes
   std::string hidden_by;  // the named point nearest to the ground in front of a hidden mark, within hiding_name_m; may be empty
+  double spacing = 0.0;   // between letters, of the type's size: the kind's, more where a name is spread along its shape
   LabelSpot spot;         // placed or not; only what is seen asks for a place
 };
 
@@ -35,19 +37,24 @@ struct LabelSheet {
   std::vector<Label> labels;
   std::vector<Track> tracks = {};  // drawn below the names; not in their way
 
+  TextStyle type_of(const Label& label) const;
   const LabelKindStyle& kind_of(const Label& label) const { return style.kinds[static_cast<std::size_t>(label.point.kind)]; }
 };
 
 // What the letters of one kind are set in at that scale.
 TextStyle text_style(const LabelKindStyle& kind, double px_per_mm);
 
+// A sheet without a name, with the style's scale: what a margin needs.
+LabelSheet empty_label_sheet(LabelStyle style, glm::ivec2 size_px, double sheet_width_mm);
+
 // The row of the picture above which there is sky, for each column; 0 where land goes up to the upper edge. By halving: ground that hangs
 // in the sky is not found.
 std::vector<double> find_skyline(const GeoMap& map, glm::ivec2 size_px);
 
-// Sets and places what is seen. sheet_width_mm > 0.
+// Sets and places what is seen. sheet_width_mm > 0. `lines`: for each point the line of its shape in the picture that its name follows,
+// where it has one; fewer than points, or an empty one: it is a point.
 LabelSheet make_labels(const std::vector<LabelPoint>& points, const std::vector<LabelMark>& marks, const std::vector<double>& skyline_px,
-                       LabelStyle style, glm::ivec2 size_px, double sheet_width_mm);
+                       LabelStyle style, glm::ivec2 size_px, double sheet_width_mm, const std::vector<std::vector<glm::dvec2>>& lines = {});
 
 // The same altitude as on maps: "2749 m", with a space that does not break; empty where nothing is known.
 std::string altitude_text(const LabelPoint& point, const LabelMark& mark);

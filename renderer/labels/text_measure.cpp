@@ -62,9 +62,11 @@ TextMeasure::TextMeasure() : state_(std::make_unique<State>()) {
 
 TextMeasure::~TextMeasure() = default;
 
-TextRoom TextMeasure::measure(const std::string& text, const TextStyle& style) const {
+namespace {
+
+Owned<PangoLayout> lay_out(PangoContext* context, const std::string& text, const TextStyle& style) {
   const Font font = font_of(style);
-  const Owned<PangoLayout> layout(pango_layout_new(state_->context.get()));
+  Owned<PangoLayout> layout(pango_layout_new(context));
   pango_layout_set_font_description(layout.get(), font.get());
   pango_layout_set_single_paragraph_mode(layout.get(), TRUE);
   if (style.spacing > 0.0) {
@@ -74,10 +76,82 @@ TextRoom TextMeasure::measure(const std::string& text, const TextStyle& style) c
     pango_attr_list_unref(attributes);
   }
   pango_layout_set_text(layout.get(), text.data(), static_cast<int>(text.size()));
+  return layout;
+}
+
+// The outline of what stands in a run from glyph `from` on, `count` of them, from the first one's left end on the baseline.
+Outline outline_of(cairo_t* cairo, PangoGlyphItem* run, int from, int count) {
+  PangoGlyphString some = *run->glyphs;
+  some.glyphs += from;
+  some.log_clusters += from;
+  some.num_glyphs = count;
+  cairo_new_path(cairo);
+  cairo_move_to(cairo, 0.0, 0.0);
+  pango_cairo_glyph_string_path(cairo, run->item->analysis.font, &some);
+  cairo_path_t* path = cairo_copy_path(cairo);
+  Outline outline;
+  for (int i = 0; i < path->num_data; i += path->data[i].header.length) {
+    const cairo_path_data_t* data = path->data + i;
+    const auto p = [&](int k) { return glm::dvec2(data[k].point.x, data[k].point.y); };
+    switch (data->header.type) {
+      case CAIRO_PATH_MOVE_TO:
+        outline.push_back({OutlineStep::move, {p(1)}});
+        break;
+      case CAIRO_PATH_LINE_TO:
+        outline.push_back({OutlineStep::line, {p(1)}});
+        break;
+      case CAIRO_PATH_CURVE_TO:
+        outline.push_back({OutlineStep::curve, {p(1), p(2), p(3)}});
+        break;
+      case CAIRO_PATH_CLOSE_PATH:
+        outline.push_back({OutlineStep::close, {}});
+        break;
+    }
+  }
+  cairo_path_destroy(path);
+  // Moves that nothing follows paint dots where an outline is stroked.
+  Outline kept;
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    if (outline[i].kind != OutlineStep::move || (i + 1 < outline.size() && outline[i + 1].kind != OutlineStep::move))
+      kept.push_back(outline[i]);
+  return kept;
+}
+
+}  // namespace
+
+TextRoom TextMeasure::measure(const std::string& text, const TextStyle& style) const {
+  const Owned<PangoLayout> layout = lay_out(state_->context.get(), text, style);
   PangoRectangle box;
   pango_layout_get_extents(layout.get(), nullptr, &box);
   const double up = pixels(pango_layout_get_baseline(layout.get()));
   return {pixels(box.width), up, pixels(box.height) - up};
+}
+
+std::vector<TextLetter> TextMeasure::letters(const std::string& text, const TextStyle& style) const {
+  const Owned<PangoLayout> layout = lay_out(state_->context.get(), text, style);
+  // Paths are collected on a surface of one pixel, onto which nothing is painted.
+  cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
+  cairo_t* cairo = cairo_create(surface);
+  cairo_set_tolerance(cairo, 0.01);
+  std::vector<TextLetter> letters;
+  const PangoLayoutLine* line = pango_layout_get_line_readonly(layout.get(), 0);
+  // Runs stand from left to right as they are seen, glyphs in them too; glyphs of one cluster belong to the same letters of the text.
+  for (const GSList* at = line->runs; at != nullptr; at = at->next) {
+    auto* run = static_cast<PangoGlyphItem*>(at->data);
+    const PangoGlyphString& glyphs = *run->glyphs;
+    for (int i = 0; i < glyphs.num_glyphs;) {
+      int end = i + 1;
+      while (end < glyphs.num_glyphs && glyphs.log_clusters[end] == glyphs.log_clusters[i]) ++end;
+      TextLetter letter;
+      for (int k = i; k < end; ++k) letter.width_px += pixels(glyphs.glyphs[k].geometry.width);
+      letter.outline = outline_of(cairo, run, i, end - i);
+      letters.push_back(std::move(letter));
+      i = end;
+    }
+  }
+  cairo_destroy(cairo);
+  cairo_surface_destroy(surface);
+  return letters;
 }
 
 std::string TextMeasure::family_of(const TextStyle& style) const {

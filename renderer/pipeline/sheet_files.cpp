@@ -12,6 +12,7 @@
 #include "renderer/image/layers/layer_file.h"
 #include "renderer/image/rows/picture_files.h"
 #include "renderer/paint/composite.h"
+#include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/output_color.h"
 #include "renderer/pipeline/sheet_job.h"
 #include "renderer/sheet/guidance_pack.h"
@@ -209,6 +210,14 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, c
   write_layer_files({region.width(), region.height(), dots_per_inch}, request, work, pieces, region, out_folder, run);
   if (const std::optional<InkCoverage> ink = panorama.ink()) run.progress.note(ink_note("panorama.tif", *ink));
   commit();
+  const auto encoded_rows = [&](int y0, int y1) {
+    Grid<glm::vec3> rows(region.width(), y1 - y0);
+    read_rows(work, "panorama", pieces, region, y0, y1, {plane_of(rows)});
+    return rows;
+  };
+  write_named_picture(loaded, region, encoded_rows,
+                      work.has_bytes(legend_bytes) ? legend_from_text(work.read_bytes(legend_bytes)) : std::vector<LegendEntry>(), color,
+                      file_notes, out_folder, run);
 }
 
 }  // namespace belvedere

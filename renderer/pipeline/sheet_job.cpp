@@ -12,6 +12,8 @@
 #include "renderer/image/exr/match_file.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/pipeline/copy_plan.h"
+#include "renderer/pipeline/named_picture.h"
+#include "renderer/pipeline/picture_legend.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/sheet/guidance_pack.h"
 #include "renderer/sheet/piece_writer.h"
@@ -113,6 +115,8 @@ SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, con
       view(view_of(world)),
       ground(world, view, bring_to_place(paint.palette, loaded, world), place, stage_run, tile_px_for(world.scene, view, request)) {
   keep_notes(loaded, world, work);
+  if (world.scene.margin && world.scene.margin->legend && !work.has_bytes(legend_bytes))
+    work.keep_bytes(legend_bytes, legend_to_text(find_legend(world, paint.palette)));
 }
 
 bool is_copied(const Scene& scene, const SheetRequest& request) { return request.panorama && scene.synthesis.enabled; }

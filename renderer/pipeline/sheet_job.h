@@ -19,6 +19,8 @@ void make_plan(const LoadedScene& loaded, const SheetRequest& request, const Wor
 
 // What the work folder keeps the pictures under that matches copy from.
 constexpr const char* matched_bytes = "matched";
+// … and the classes that the whole picture shows, for a margin's legend.
+constexpr const char* legend_bytes = "legend";
 
 // Whose parts the pieces are, so that missing ones are told by the parts to run again.
 struct PlanOfParts {

@@ -230,6 +230,32 @@ struct SceneFeatures {
   bool optional = false;  // missing file: left out with a note instead of an error
 };
 
+struct SceneLabelFile {  // a file of what has a name, or of ways
+  std::string file;
+  std::string origin, licence, get_from;
+  bool optional = false;  // missing file: left out with a note instead of an error
+};
+
+struct SceneLabels {  // names on the picture: see renderer/labels
+  std::string style = "classic";
+  bool in_picture = false;            // also panorama_names.*, with the names drawn in
+  int summits = 0;                    // of the DEM itself
+  double least_prominence_m = 150.0;  // of these
+  std::vector<SceneLabelFile> points, shapes, tracks;
+
+  bool any() const { return summits > 0 || !points.empty() || !shapes.empty() || !tracks.empty(); }
+};
+
+struct SceneMargin {  // around panorama_names.*: see renderer/labels/margin.h
+  std::string title;  // empty: the scene's
+  std::string subtitle;
+  double frame_mm = 12.0;
+  bool legend = true;
+  bool scale_bars = true;
+  bool directions = true;
+  bool sources = true;
+};
+
 struct SceneOutput {
   int width = CameraParameters{}.width;
   int height = CameraParameters{}.height;
@@ -265,6 +291,8 @@ struct Scene {
   SceneSynthesis synthesis;
   std::string features_style = "classic";  // built-in name or file
   std::vector<SceneFeatures> features;
+  SceneLabels labels;
+  std::optional<SceneMargin> margin;
   SceneOutput output;
 
   double pixels_per_unit() const { return output.width / output.sheet_width_mm * 0.5; }

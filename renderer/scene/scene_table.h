@@ -27,6 +27,7 @@ std::vector<SceneSection> make_air_sections();
 std::vector<SceneSection> make_exemplar_sections();
 std::vector<SceneSection> make_synthesis_sections();
 std::vector<SceneSection> make_features_sections();
+std::vector<SceneSection> make_labels_sections();  // and the margin
 std::vector<SceneSection> make_output_sections();
 
 // Keys of a raster that is named: of heights, or of land cover. Only heights have a unit and bounds.

@@ -135,6 +135,9 @@ Action add_render(CLI::App& command) {
                  Drafts::yes, render, [](const Scene& scene) {
                    std::vector<std::string> names;
                    for (const std::string& ending : scene.output.formats) names.push_back("panorama." + ending);
+                   if (scene.labels.any()) names.emplace_back("labels.svg");
+                   if (scene.labels.in_picture || scene.margin)
+                     for (const std::string& ending : scene.output.formats) names.push_back("panorama_names." + ending);
                    return names;
                  });
 }

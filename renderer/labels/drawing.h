@@ -1,0 +1,68 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "renderer/labels/text_measure.h"
+
+namespace belvedere {
+
+// What is drawn over a picture or beside it, in pixels of the sheet, x right, y down; colours "#rrggbb" (sRGB), empty: none. The same
+// drawing becomes SVG (drawing_svg) and pixels (SheetPainter).
+
+struct DrawnPath {
+  std::vector<glm::dvec2> points;
+  bool closed = false;
+  std::string fill;
+  std::string stroke;
+  double width_px = 0.0;
+  std::vector<double> dashes_px = {};  // drawn, not drawn, drawn …; empty: all
+  double opacity = 1.0;                // of fill and stroke, 0…1
+};
+
+struct DrawnCircle {
+  glm::dvec2 middle{0.0};
+  double radius_px = 0.0;
+  std::string fill;
+  std::string stroke;
+  double width_px = 0.0;
+};
+
+// A line of text on a level baseline, or, with `along`, on a bent one.
+struct DrawnText {
+  std::string text;
+  TextStyle type;
+  glm::dvec2 at{0.0};   // on the baseline
+  double anchor = 0.0;  // which part of the text stands there: 0 its left end, .5 its middle, 1 its right end
+  std::string colour;
+  std::string halo = {};
+  double halo_px = 0.0;                // around the letters
+  std::vector<glm::dvec2> along = {};  // the baseline, from left to right; the text stands in its middle
+};
+
+using DrawnShape = std::variant<DrawnPath, DrawnCircle, DrawnText>;
+
+struct Drawing {
+  glm::dvec2 size_px{0.0};
+  std::vector<DrawnShape> shapes;  // the first lies lowest
+};
+
+// The shapes as elements of SVG 1.1, one a line: text as text. Bent baselines get names that begin with `id`.
+std::string shapes_svg(const std::vector<DrawnShape>& shapes, const std::string& id);
+// A whole file whose sheet is so wide.
+std::string drawing_svg(const Drawing& drawing, double width_mm);
+
+void move_shape(DrawnShape& shape, glm::dvec2 by);
+
+// Where the middle of each letter stands on a bent baseline, and how it is turned: the tangent of the line under its own width.
+struct LetterPlace {
+  glm::dvec2 at{0.0};          // on the baseline, under the letter's middle
+  glm::dvec2 tangent{1.0, 0};  // of length 1
+};
+// Letters of those widths, one after the other, in the middle of a line; nothing where they are longer than it.
+std::vector<LetterPlace> set_along(const std::vector<double>& widths_px, const std::vector<glm::dvec2>& line);
+double length_of(const std::vector<glm::dvec2>& line);
+
+}  // namespace belvedere

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/cache/cache.h"
+#include "base/progress.h"
+#include "renderer/labels/labels.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/world/valley_view.h"
+
+namespace belvedere {
+
+// What is to be named in a picture, by paths.
+struct LabelJob {
+  std::vector<std::string> points, shapes, tracks;
+  int summits = 0;  // of the DEM
+  double least_prominence_m = 150.0;
+  std::string style = "classic";  // built-in name or file
+};
+
+// That of a scene's [labels]; optional files that are missing are left out with a note.
+LabelJob label_job(const LoadedScene& scene, Progress& progress);
+
+// All names of the picture, found on its ground and placed on the whole sheet whatever part of it is made. Throws Error(usage) where there
+// is nothing to name, and where none of the files' places lies on the terrain: with both extents.
+LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const BareView& bare, Progress& progress);
+
+// labels.svg, labels.csv, labels.geojson (where the terrain has a CRS), and profile_N.svg of each track. `under`: as of labels_svg.
+void write_label_files(const LabelSheet& sheet, const std::string& crs, const std::string& folder, const std::string& under,
+                       Progress& progress);
+
+}  // namespace belvedere

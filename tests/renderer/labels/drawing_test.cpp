@@ -1,0 +1,64 @@
+#include "renderer/labels/drawing.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace belvedere {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<glm::dvec2> half_circle(double radius) {
+  std::vector<glm::dvec2> line;
+  for (int k = 0; k <= 720; ++k) {
+    const double angle = std::acos(-1.0) * (1.0 - k / 720.0);
+    line.emplace_back(radius * std::cos(angle), -radius * std::sin(angle));
+  }
+  return line;
+}
+
+// On a circle letters stand at angles that their widths alone say, each turned to the tangent there.
+TEST(Drawing, LettersStandOnACircleWhereItsArcHasThem) {
+  const double r = 500.0;
+  const std::vector<double> widths = {30.0, 50.0, 20.0, 40.0};
+  const std::vector<LetterPlace> places = set_along(widths, half_circle(r));
+  ASSERT_EQ(places.size(), widths.size());
+  double from = -70.0;  // the text is 140 long, its middle at the top
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    const double angle = (from + .5 * widths[i]) / r;
+    EXPECT_NEAR(places[i].at.x, r * std::sin(angle), .05);
+    EXPECT_NEAR(places[i].at.y, -r * std::cos(angle), .05);
+    EXPECT_NEAR(places[i].tangent.x, std::cos(angle), .003);
+    EXPECT_NEAR(places[i].tangent.y, std::sin(angle), .003);
+    from += widths[i];
+  }
+  EXPECT_TRUE(set_along({2000.0}, half_circle(r)).empty()) << "longer than the line";
+}
+
+TEST(Drawing, SvgSaysTextAsTextAndBendsItByAPath) {
+  Drawing drawing{.size_px = {200, 100}, .shapes = {}};
+  drawing.shapes.push_back(DrawnText{.text = "Inn & Co", .type = {}, .at = {10, 20}, .anchor = 1.0, .colour = "#102030"});
+  drawing.shapes.push_back(
+      DrawnText{.text = "Tal", .type = {}, .colour = "#102030", .halo = "#ffffff", .halo_px = 2.0, .along = {{0, 50}, {100, 40}}});
+  drawing.shapes.push_back(DrawnPath{.points = {{0, 0}, {1, 0}, {1, 1}}, .closed = true, .fill = "#ff0000", .stroke = {}});
+  const std::string svg = drawing_svg(drawing, 400.0);
+  EXPECT_THAT(svg, HasSubstr("width=\"400.000mm\" height=\"200.000mm\""));
+  EXPECT_THAT(svg, HasSubstr("text-anchor=\"end\">Inn &amp; Co</text>"));
+  EXPECT_THAT(svg, HasSubstr("d=\"M0.00 50.00L100.00 40.00\""));
+  EXPECT_THAT(svg, HasSubstr("<textPath xlink:href=\"#line-1\" startOffset=\"50%\">Tal</textPath>"));
+  EXPECT_THAT(svg, HasSubstr("stroke-width: 4.00px"));
+  EXPECT_THAT(svg, HasSubstr("d=\"M0.00 0.00L1.00 0.00L1.00 1.00Z\" fill=\"#ff0000\""));
+}
+
+TEST(Drawing, MovesAllThatAShapeStandsOn) {
+  DrawnShape text = DrawnText{.text = "A", .type = {}, .at = {1, 2}, .colour = "#000000", .along = {{3, 4}, {5, 6}}};
+  move_shape(text, {10, 20});
+  EXPECT_EQ(std::get<DrawnText>(text).at, glm::dvec2(11, 22));
+  EXPECT_EQ(std::get<DrawnText>(text).along[1], glm::dvec2(15, 26));
+}
+
+}  // namespace
+}  // namespace belvedere
