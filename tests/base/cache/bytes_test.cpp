@@ -37,7 +37,8 @@ Bytes joined(const ByteWriter& writer) {
 TEST(Bytes, ValuesComeBackAsTheyWere) {
   const Survey survey = example();
   ByteWriter writer;
-  writer(survey, 5);
+  const int written = 5;
+  writer(survey, written);
   const Bytes bytes = joined(writer);
   EXPECT_EQ(bytes.size(), writer.size());
   ByteReader reader(bytes);

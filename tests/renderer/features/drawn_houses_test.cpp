@@ -44,7 +44,7 @@ std::vector<glm::dvec2> rectangle(glm::dvec2 middle, double length, double width
 TEST(DrawnHouses, FootprintsAreFoundWhateverTheirTurn) {
   for (const double turn : {0.0, 0.3, 1.1, 2.0}) {
     std::vector<glm::dvec2> outline = rectangle({40.0, -20.0}, 30.0, 12.0, turn);
-    outline.insert(outline.begin() + 1, 0.5 * (outline[0] + outline[1]));  // a place along a wall
+    outline.push_back(0.5 * (outline.front() + outline.back()));  // a place along a wall
     const Footprint foot = footprint_of(outline);
     EXPECT_LT(glm::length(foot.middle - glm::dvec2(40.0, -20.0)), 1e-9);
     EXPECT_NEAR(glm::length(foot.along), 15.0, 1e-9);
