@@ -144,6 +144,7 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect, PictureLayers* cut) {
     for (int y = 0; y < copied.height(); ++y) std::copy_n(copied.row(y), copied.width(), canvas.row(inside.y0 + y) + inside.x0);
   }
   SheetWindow place{.origin_px = {window.x0, window.y0}, .sheet_px = ground_.view().camera.size(), .asked = inside, .ice = &ground_.ice()};
+  place.waters_known = features_.rivers;
   const bool mapped = has_features(window);
   MappedGround map;
   if (mapped) {

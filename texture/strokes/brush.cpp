@@ -15,6 +15,7 @@ namespace belvedere {
 namespace {
 
 constexpr int tile_px = 128;
+constexpr float beyond_bank = 0.12F;  // share of the paint of dry ground that reaches over known water
 constexpr float beyond_facet = 0.2F;  // share of the paint that crosses the edge of a plane of rock
 constexpr float dry_from = 0.5F;      // share of the stroke from which the brush runs dry
 constexpr float pressed_by = 0.18F;   // share of it over which the brush is set down
@@ -112,8 +113,11 @@ StrokePlace place_on(const Stroke& stroke, const std::array<float, Stroke::max_p
   return place;
 }
 
-void paint_stroke(const Stroke& stroke, std::uint32_t number, glm::ivec2 origin, const PixelRect& clip, Painting& painting,
+void paint_stroke(const Stroke& stroke, std::uint32_t number, const SheetWindow& window, const PixelRect& clip, Painting& painting,
                   PaintRecord& record, PaintParts* parts, const GuidanceBuffers& guidance, float pixels_per_unit) {
+  const glm::ivec2 origin = window.origin_px;
+  const bool stays_ashore = window.waters_known && stroke.gate == StrokeGate::surface && !guidance.land_cover.empty() &&
+                            guidance.land_cover[stroke.source] != LandCoverClass::water;
   Grid<glm::vec3>& canvas = painting.picture;
   float* const seen_ground = stroke.standing && !painting.seen_ground.empty() ? painting.seen_ground.data() : nullptr;
   const PixelRect bounds = bounds_of(stroke, origin, clip);
@@ -197,6 +201,7 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, glm::ivec2 origin,
       if (stroke.tone >= 0.F) {
         alpha *= gate_bell((guidance.tone[i] - stroke.tone) / stroke.tone_width);
       }
+      if (stays_ashore && guidance.land_cover[i] == LandCoverClass::water) alpha *= beyond_bank;
       if (stroke.facet != 0 && guidance.rock_facet[i] != stroke.facet) alpha *= beyond_facet;
       if (alpha < 0.004F) continue;
       canvas[i] += alpha * (colour + tint - canvas[i]);
@@ -261,7 +266,7 @@ void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::ve
     const PixelRect tile{asked.x0 + part.x0, asked.y0 + part.y0, asked.x0 + part.x1, asked.y0 + part.y1};
     PaintRecord record(painting, guidance, tile);
     for (const std::uint32_t s : tiles[t])
-      paint_stroke(strokes[ranked[s]], first_number + s, window.origin_px, tile, painting, record, parts, guidance,
+      paint_stroke(strokes[ranked[s]], first_number + s, window, tile, painting, record, parts, guidance,
                    static_cast<float>(pixels_per_unit));
     record.hand_back(painting);
     progress.advance(1.0);

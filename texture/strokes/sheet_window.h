@@ -25,6 +25,7 @@ struct SheetWindow {
   glm::ivec2 sheet_px{0};                // width and height of the sheet; 0: the buffers hold all of it
   PixelRect asked{};                     // pixels of the buffers that are wanted, the others may be left unpainted; empty: all
   const IcePlan* ice = nullptr;          // how ice runs on the whole sheet; null: told by the buffers, which then must hold all of it
+  bool waters_known = false;             // a map gives rivers: they are narrow, and paint of their banks keeps off them
   const MappedGround* mapped = nullptr;  // null: nothing is known, and Painting::seen_ground is not told
 };
 

@@ -189,6 +189,26 @@ TEST(Brush, StaysOnItsOwnClass) {
   EXPECT_FLOAT_EQ(canvas(35, 20).x, 0.F);
 }
 
+// A river of a map is often no wider than a stroke of its bank: it must not be painted away.
+TEST(Brush, BanksKeepOffWaterThatAMapKnows) {
+  const GuidanceBuffers g = border_guidance();
+  Stroke grass = horizontal_stroke();
+  grass.source = static_cast<std::uint32_t>(g.depth_m.index(10, 20));
+  Stroke wave = grass;
+  wave.source = static_cast<std::uint32_t>(g.depth_m.index(45, 20));
+  const auto painted = [&](const Stroke& stroke, bool known) {
+    Painting painting = begin_painting(Grid<glm::vec3>(g.width(), g.height(), glm::vec3(0.F)));
+    SheetWindow window;
+    window.waters_known = known;
+    paint_in_order(painting, g, {stroke}, 1.0, silent_progress(), window);
+    return painting.picture;
+  };
+  EXPECT_FLOAT_EQ(painted(grass, false)(45, 20).x, 1.F);
+  EXPECT_LT(painted(grass, true)(45, 20).x, 0.2F) << "the river";
+  EXPECT_FLOAT_EQ(painted(grass, true)(45, 19).x, 1.F) << "its bank";
+  EXPECT_FLOAT_EQ(painted(wave, true)(45, 20).x, 1.F) << "its own paint";
+}
+
 TEST(Brush, ToneGateFadesWithTheDifferenceOfTone) {
   GuidanceBuffers g = flat_guidance();
   for (int y = 0; y < g.height(); ++y)
