@@ -50,12 +50,18 @@ void ConfigReader::texts(const char* key, std::vector<std::string>& to) {
   for (const ConfigValue& element : as_array(*value, name_)) to.push_back(as_string(element, name_));
 }
 
-void ConfigReader::colour(const char* key, glm::vec3& to) {
+void ConfigReader::colour(const char* key, std::string& to) {
   const ConfigValue* value = known(key);
   if (value == nullptr) return;
-  const std::string& text = as_string(*value, name_);
+  to = as_string(*value, name_);
   const auto hex = [](unsigned char c) { return std::isxdigit(c) != 0; };
-  if (text.size() != 7 || text[0] != '#' || !std::all_of(text.begin() + 1, text.end(), hex)) fail(*value, "\"#rrggbb\"");
+  if (to.size() != 7 || to[0] != '#' || !std::all_of(to.begin() + 1, to.end(), hex)) fail(*value, "\"#rrggbb\"");
+}
+
+void ConfigReader::colour(const char* key, glm::vec3& to) {
+  std::string text;
+  colour(key, text);
+  if (text.empty()) return;
   const auto part = [&](std::size_t at) { return static_cast<float>(std::stoi(text.substr(at, 2), nullptr, 16)) / 255.F; };
   to.x = part(1);
   to.y = part(3);

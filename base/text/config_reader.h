@@ -25,6 +25,8 @@ class ConfigReader {
   void texts(const char* key, std::vector<std::string>& to);
   // "#rrggbb" as encoded sRGB 0…1.
   void colour(const char* key, glm::vec3& to);
+  // The same as it is written.
+  void colour(const char* key, std::string& to);
   template <class T>
   void word(const char* key, T& to, const std::vector<std::pair<std::string, T>>& words) {
     const ConfigValue* value = known(key);

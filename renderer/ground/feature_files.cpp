@@ -12,9 +12,9 @@ namespace belvedere {
 namespace {
 
 // Whether features of a block can become ground; where a column says what they are they can.
-bool may_be_ground(const FeatureStyle& style, const SceneFeatures& block) {
-  if (!block.kind_of.empty()) return true;
-  const int kind = style.find(block.kind);
+bool may_be_ground(const FeatureStyle& style, const FeatureSource& source) {
+  if (!source.kind_of.empty()) return true;
+  const int kind = style.find(source.kind);
   return kind < 0 || becomes_ground(style.kinds[static_cast<std::size_t>(kind)]);
 }
 
@@ -22,13 +22,16 @@ std::string extent_of(const MapBox& box) {
   return fmt::format("E {:.0f} … {:.0f}, N {:.0f} … {:.0f}", box.low.x, box.high.x, box.low.y, box.high.y);
 }
 
-// A file that is missing is left out here, and said by those who need it: require_scene_files.
-std::vector<FeatureSource> ground_sources(const LoadedScene& loaded, const FeatureStyle& style) {
+}  // namespace
+
+MapBox box_of(const Dem& dem) { return {dem.transform.to_crs(-0.5, dem.height() - 0.5), dem.transform.to_crs(dem.width() - 0.5, -0.5)}; }
+
+std::vector<FeatureSource> feature_sources(const LoadedScene& loaded) {
   std::vector<FeatureSource> sources;
   for (std::size_t i = 0; i < loaded.scene.features.size(); ++i) {
     const SceneFeatures& block = loaded.scene.features[i];
     const std::string path = find_scene_file(loaded, block.source);
-    if (path.empty() || !may_be_ground(style, block)) continue;
+    if (path.empty()) continue;
     sources.push_back({.path = path,
                        .layer = block.layer,
                        .where = block.where,
@@ -44,13 +47,10 @@ std::vector<FeatureSource> ground_sources(const LoadedScene& loaded, const Featu
   return sources;
 }
 
-}  // namespace
-
-MapBox box_of(const Dem& dem) { return {dem.transform.to_crs(-0.5, dem.height() - 0.5), dem.transform.to_crs(dem.width() - 0.5, -0.5)}; }
-
 FeatureSet read_ground_features(const LoadedScene& loaded, const FeatureStyle& style, const Dem& dem, Progress& progress) {
   const MapBox ground = box_of(dem);
-  const std::vector<FeatureSource> sources = ground_sources(loaded, style);
+  std::vector<FeatureSource> sources = feature_sources(loaded);
+  std::erase_if(sources, [&](const FeatureSource& source) { return !may_be_ground(style, source); });
   FeatureSet set = read_feature_set(style, sources, dem.crs, ground);
   // Where a column says what features are, those beside the terrain may be none of the ground's: who draws them says so.
   std::vector<bool> all_ground;

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -81,6 +82,15 @@ void check_output_folder(const std::string& folder) {
   if (file < 0) throw_system(place, "no file can be created in this folder", errno);
   ::close(file);
   ::unlink(name.c_str());
+}
+
+void write_text_file(const std::string& path, const std::string& text) {
+  OutputFile file(path);
+  std::ofstream stream(file.temporary(), std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) file.fail("writing failed");
+  file.commit();
 }
 
 }  // namespace belvedere

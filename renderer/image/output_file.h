@@ -30,6 +30,9 @@ class OutputFile {
   bool committed_ = false;
 };
 
+// Writes a text, whole or not at all. Error(output).
+void write_text_file(const std::string& path, const std::string& text);
+
 // Error(output) unless a file could be created in the folder (made where it is missing).
 void check_output_folder(const std::string& folder);
 

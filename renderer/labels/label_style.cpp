@@ -9,80 +9,17 @@
 #include "base/config.h"
 #include "base/embedded.h"
 #include "base/error.h"
+#include "base/text/config_reader.h"
 
 namespace belvedere {
 namespace {
 
-template <class T>
-using Words = std::vector<std::pair<const char*, T>>;
-
-// Reads values of one table into members, each with its range: what a key allows stands in one line below.
-class Reader {
- public:
-  Reader(const ConfigValue& value, const std::string& name) : table_(as_table(value, name)), name_(name) {}
-
-  void number(const char* key, double& to, double least, double most) {
-    const ConfigValue* value = known(key);
-    if (value == nullptr) return;
-    to = as_number(*value, name_);
-    if (!(to >= least && to <= most)) fail(*value, fmt::format("{:g} … {:g}", least, most));
-  }
-  void flag(const char* key, bool& to) {
-    if (const ConfigValue* value = known(key)) to = as_bool(*value, name_);
-  }
-  void text(const char* key, std::string& to) {
-    if (const ConfigValue* value = known(key)) to = as_string(*value, name_);
-  }
-  void colour(const char* key, std::string& to) {
-    const ConfigValue* value = known(key);
-    if (value == nullptr) return;
-    to = as_string(*value, name_);
-    const auto hex = [](unsigned char c) { return std::isxdigit(c) != 0; };
-    if (to.size() != 7 || to[0] != '#' || !std::all_of(to.begin() + 1, to.end(), hex)) fail(*value, "\"#rrggbb\"");
-  }
-  void texts(const char* key, std::vector<std::string>& to) {
-    const ConfigValue* value = known(key);
-    if (value == nullptr) return;
-    for (const ConfigValue& element : as_array(*value, name_)) to.push_back(as_string(element, name_));
-  }
-  template <class T>
-  void word(const char* key, T& to, const Words<T>& words) {
-    const ConfigValue* value = known(key);
-    if (value == nullptr) return;
-    const std::string& text = as_string(*value, name_);
-    std::string all;
-    for (const auto& [word, meaning] : words) {
-      if (text == word) {
-        to = meaning;
-        return;
-      }
-      all += (all.empty() ? "\"" : ", \"") + std::string(word) + '"';
-    }
-    fail(*value, all);
-  }
-  // Every key that was not asked for is none.
-  void end() { allow_only(table_, keys_, name_); }
-  const ConfigValue* known(const char* key) {
-    keys_.emplace_back(key);
-    return find(table_, key);
-  }
-
- private:
-  [[noreturn]] void fail(const ConfigValue& value, const std::string& allowed) const {
-    throw Error(ErrorKind::usage, config_where(name_, value.place), describe(value), allowed);
-  }
-
-  const ConfigTable& table_;
-  const std::string& name_;
-  std::vector<std::string> keys_;
-};
-
 LabelKindStyle read_kind(const ConfigEntry& entry, const std::string& name) {
   LabelKindStyle kind;
   kind.name = entry.key;
-  Reader read(entry.value, name);
+  ConfigReader read(entry.value, name);
   read.texts("also", kind.also);
-  read.word("place", kind.place, {{"above", LabelPlace::above}, {"beside", LabelPlace::beside}, {"over", LabelPlace::over}});
+  read.word<LabelPlace>("place", kind.place, {{"above", LabelPlace::above}, {"beside", LabelPlace::beside}, {"over", LabelPlace::over}});
   read.text("family", kind.family);
   read.number("size_mm", kind.size_mm, 0.5, 100.0);
   read.flag("bold", kind.bold);
@@ -92,12 +29,12 @@ LabelKindStyle read_kind(const ConfigEntry& entry, const std::string& name) {
   read.colour("colour", kind.colour);
   read.colour("halo", kind.halo);
   read.number("halo_mm", kind.halo_mm, 0.0, 10.0);
-  read.word("mark", kind.mark,
-            {{"none", LabelMarkShape::none},
-             {"dot", LabelMarkShape::dot},
-             {"ring", LabelMarkShape::ring},
-             {"triangle", LabelMarkShape::triangle},
-             {"square", LabelMarkShape::square}});
+  read.word<LabelMarkShape>("mark", kind.mark,
+                            {{"none", LabelMarkShape::none},
+                             {"dot", LabelMarkShape::dot},
+                             {"ring", LabelMarkShape::ring},
+                             {"triangle", LabelMarkShape::triangle},
+                             {"square", LabelMarkShape::square}});
   read.number("mark_mm", kind.mark_mm, 0.0, 20.0);
   read.flag("altitude", kind.altitude);
   read.number("climb_m", kind.climb_m, 0.0, 5000.0);
@@ -107,7 +44,7 @@ LabelKindStyle read_kind(const ConfigEntry& entry, const std::string& name) {
 
 TrackStyle read_track(const ConfigValue& value, const std::string& name) {
   TrackStyle track;
-  Reader read(value, name);
+  ConfigReader read(value, name);
   read.colour("colour", track.colour);
   read.number("width_mm", track.width_mm, 0.05, 20.0);
   read.colour("halo", track.halo);
@@ -118,7 +55,7 @@ TrackStyle read_track(const ConfigValue& value, const std::string& name) {
 
 MarginStyle read_margin(const ConfigValue& value, const std::string& name) {
   MarginStyle margin;
-  Reader read(value, name);
+  ConfigReader read(value, name);
   read.text("family", margin.family);
   read.colour("paper", margin.paper);
   read.colour("ink", margin.ink);
@@ -137,7 +74,7 @@ std::string lower(std::string text) {
 LabelStyle read_style(const ConfigValue& document, const std::string& name) {
   LabelStyle style;
   style.name = name;
-  Reader read(document, name);
+  ConfigReader read(document, name);
   double version = 0.0;
   read.number("version", version, 1.0, 1.0);
   if (version != 1.0) throw Error(ErrorKind::usage, name, "no version", "version = 1");

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <set>
 #include <sstream>
@@ -22,15 +21,6 @@ namespace {
 
 constexpr int band_rows = 64;
 constexpr const char* stem = "panorama_names";
-
-void write_text(const std::string& path, const std::string& text) {
-  OutputFile file(path);
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) file.fail("writing failed");
-  file.commit();
-}
 
 glm::vec3 colour_of(const std::string& hex) {
   unsigned value = 0;
@@ -122,7 +112,7 @@ void write_named_picture(const LoadedScene& loaded, PixelRect region, const Shee
   const int height = margin.top + region.height() + margin.bottom;
   if (scene.margin && whole) {
     const double mm = scene.output.sheet_width_mm / scene.output.width;
-    write_text((std::filesystem::path(out_folder) / "margin.svg").string(), drawing_svg(margin.drawing, width * mm));
+    write_text_file((std::filesystem::path(out_folder) / "margin.svg").string(), drawing_svg(margin.drawing, width * mm));
   }
   run.progress.begin("writing the panorama with names", height);
   PictureFiles files((std::filesystem::path(out_folder) / stem).string(), scene.output.formats, width, height,

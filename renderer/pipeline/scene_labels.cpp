@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "base/error.h"
@@ -45,15 +44,6 @@ std::vector<std::string> paths_of(const LoadedScene& scene, const std::vector<Sc
       throw Error(ErrorKind::input, file.file, "there is no such file", "a file beside the scene, or in a folder named with --data");
   }
   return paths;
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  OutputFile file(path);
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) file.fail("writing failed");
-  file.commit();
 }
 
 }  // namespace
@@ -138,14 +128,14 @@ LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const
 void write_label_files(const LabelSheet& sheet, const std::string& crs, const std::string& folder, const std::string& under,
                        Progress& progress) {
   const std::filesystem::path place = folder;
-  write_text((place / "labels.svg").string(), labels_svg(sheet, under));
-  write_text((place / "labels.csv").string(), labels_csv(sheet));
+  write_text_file((place / "labels.svg").string(), labels_svg(sheet, under));
+  write_text_file((place / "labels.csv").string(), labels_csv(sheet));
   if (crs.empty())
     progress.note("labels.geojson is left out: the terrain has no coordinate system, and GeoJSON speaks longitude and latitude");
   else
-    write_text((place / "labels.geojson").string(), labels_geojson(sheet, crs));
+    write_text_file((place / "labels.geojson").string(), labels_geojson(sheet, crs));
   for (std::size_t i = 0; i < sheet.tracks.size(); ++i)
-    write_text((place / fmt::format("profile_{}.svg", i + 1)).string(), profile_svg(sheet.tracks[i], sheet.style.track.colour));
+    write_text_file((place / fmt::format("profile_{}.svg", i + 1)).string(), profile_svg(sheet.tracks[i], sheet.style.track.colour));
 }
 
 }  // namespace belvedere

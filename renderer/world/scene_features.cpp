@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "renderer/ground/feature_files.h"
 #include "terrain/io/crs.h"
 
 namespace belvedere {
@@ -46,27 +47,14 @@ FeatureStyle read_scene_feature_style(const LoadedScene& loaded) {
 FeatureSet read_scene_features(const LoadedScene& loaded, const std::string& crs, Progress& progress) {
   const Scene& scene = loaded.scene;
   if (scene.features.empty()) return {};
-  std::vector<FeatureSource> sources;
-  for (std::size_t i = 0; i < scene.features.size(); ++i) {
-    const SceneFeatures& block = scene.features[i];
-    const std::string path = find_scene_file(loaded, block.source);
-    if (path.empty()) {
-      if (!block.optional)
-        throw Error(ErrorKind::input, block.source, "there is no such file", "a file beside the scene or in a --data folder");
-      progress.note(
-          fmt::format("{} is left out: there is no such file{}", block.source, block.get_from.empty() ? "" : "; " + block.get_from));
-      continue;
-    }
-    sources.push_back({.path = path,
-                       .layer = block.layer,
-                       .where = block.where,
-                       .kind = block.kind,
-                       .kind_of = block.kind_of,
-                       .width_mm = block.width_mm,
-                       .width_of = block.width_of,
-                       .key = fmt::format("features.{}", i)});
+  for (const SceneFeatures& block : scene.features) {
+    if (!find_scene_file(loaded, block.source).empty()) continue;
+    if (!block.optional)
+      throw Error(ErrorKind::input, block.source, "there is no such file", "a file beside the scene or in a --data folder");
+    progress.note(
+        fmt::format("{} is left out: there is no such file{}", block.source, block.get_from.empty() ? "" : "; " + block.get_from));
   }
-  FeatureSet set = read_feature_set(read_scene_feature_style(loaded), sources, crs);
+  FeatureSet set = read_feature_set(read_scene_feature_style(loaded), feature_sources(loaded), crs);
   for (const SourceReading& reading : set.readings)
     if (const std::string text = left_out(reading); !text.empty()) progress.note(fmt::format("{}: left out {}", reading.file, text));
   return set;

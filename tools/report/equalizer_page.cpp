@@ -16,12 +16,12 @@
 #include "base/pyramid.h"
 #include "base/text/base64.h"
 #include "base/text/markup.h"
+#include "renderer/image/output_file.h"
 #include "terrain/generalize/foreground_share.h"
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/generalize/generalize_report.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
-#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {

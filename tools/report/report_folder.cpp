@@ -9,7 +9,6 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
 #include "tools/report/report_pictures.h"
-#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {

@@ -10,10 +10,10 @@
 #include "base/land_cover_class.h"
 #include "base/text/base64.h"
 #include "base/text/markup.h"
+#include "renderer/image/output_file.h"
 #include "texture/segment/segment.h"
 #include "tools/report/data_uri.h"
 #include "tools/report/report_folder.h"
-#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {

@@ -18,7 +18,6 @@
 #include "tools/cli/file_names.h"
 #include "tools/cli/layers/ground_climate_options.h"
 #include "tools/cli/terminal.h"
-#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {

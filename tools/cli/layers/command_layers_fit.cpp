@@ -15,6 +15,7 @@
 #include "base/json.h"
 #include "base/parallel.h"
 #include "renderer/image/image_io.h"
+#include "renderer/image/output_file.h"
 #include "terrain/climate/stations.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/cover/land_cover.h"
@@ -28,7 +29,6 @@
 #include "tools/cli/layers/ground_climate_options.h"
 #include "tools/cli/terminal.h"
 #include "tools/report/layers_fit_page.h"
-#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {

@@ -16,7 +16,6 @@
 #include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
-#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {

@@ -20,7 +20,6 @@
 #include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
-#include "tools/report/text_file.h"
 #include "tools/report/verification.h"
 
 namespace belvedere::tools {

@@ -27,7 +27,6 @@
 #include "tools/cli/new/view_options.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
-#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {

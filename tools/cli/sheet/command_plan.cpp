@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "base/error.h"
+#include "renderer/image/output_file.h"
 #include "renderer/pipeline/pipeline.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
-#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {

@@ -8,6 +8,7 @@
 #include "base/json.h"
 #include "base/parallel.h"
 #include "base/text/markup.h"
+#include "renderer/image/output_file.h"
 #include "texture/composite/composite_figures.h"
 #include "texture/composite/learn_composite.h"
 #include "texture/composite/make_composite.h"
@@ -19,7 +20,6 @@
 #include "tools/cli/texture/label_pictures.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/report/report_folder.h"
-#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {

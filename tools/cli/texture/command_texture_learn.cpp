@@ -7,6 +7,7 @@
 #include "base/json.h"
 #include "base/parallel.h"
 #include "base/text/markup.h"
+#include "renderer/image/output_file.h"
 #include "texture/statistical/choose_seed.h"
 #include "texture/statistical/learn_by_sampling.h"
 #include "texture/statistical/make_texture.h"
@@ -18,7 +19,6 @@
 #include "tools/cli/texture/begin_options.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/report/report_folder.h"
-#include "tools/report/text_file.h"
 
 namespace belvedere::tools {
 namespace {
