@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <vector>
 
 #include "base/error.h"
@@ -181,6 +182,16 @@ struct Canvas {
   Grid<glm::vec3>& picture;
   const FeatureGround& ground;
   PixelRect rect;
+  PaintParts* parts;
+
+  // Pixel x, y of the sheet becomes `after`, of which it was 1 - alpha itself: as a layer that is paint of opacity alpha.
+  void change(int x, int y, glm::vec3 after, float alpha) const {
+    const glm::ivec2 place{x - rect.x0, y - rect.y0};
+    glm::vec3& pixel = picture(place.x, place.y);
+    if (parts != nullptr && alpha > 0.F)
+      parts->cover(place.x, place.y, PaintPart::features, alpha, (after - (1.F - alpha) * pixel) / alpha);
+    pixel = after;
+  }
 };
 
 // The tints of all bands over a tile: where two lie over each other the later one shows, as where one brush takes up the other's paint.
@@ -204,7 +215,10 @@ void paint_tints(const Canvas& canvas, const Grid<glm::vec3>& tints, PixelRect t
       const std::size_t i = canvas.picture.index(x - canvas.rect.x0, y - canvas.rect.y0);
       const float seen = canvas.ground.seen_ground[i];
       const glm::vec3 below = canvas.ground.base[i] + (canvas.picture[i] - canvas.ground.base[i]) * seen;
-      canvas.picture[i] += seen * (1.F - std::clamp(canvas.ground.haze[i], 0.F, 1.F)) * below * (tint - 1.F);
+      const float strength = seen * (1.F - std::clamp(canvas.ground.haze[i], 0.F, 1.F));
+      // A layer keeps as much of what lies below as the tint does where it takes most: its colour hangs on what lies below.
+      const float most = 1.F - std::min({1.F, tint.x, tint.y, tint.z});
+      canvas.change(x, y, canvas.picture[i] + strength * below * (tint - 1.F), strength * seen * most);
     }
 }
 
@@ -223,7 +237,7 @@ void paint_layer(const Canvas& canvas, const DrawnFeatures& features, const Laye
       // Before sky there is no ground that light falls on.
       const float light = ground.guidance.is_sky(i) ? 0.6F : tone;
       const float under = layer.coat == Coat::cable ? 1.F : ground.seen_ground[i];
-      glm::vec3& pixel = canvas.picture[i];
+      const glm::vec3 pixel = canvas.picture[i];
       // What lies below where things stand on it: the picture itself where nothing does.
       const glm::vec3 below = ground.base[i] + (pixel - ground.base[i]) * under;
       const float alpha = share * under * (layer.coat == Coat::bed || layer.coat == Coat::cable ? 1.F : opacity);
@@ -232,19 +246,20 @@ void paint_layer(const Canvas& canvas, const DrawnFeatures& features, const Laye
       const glm::vec3 loaded = paint * (1.F + load_share * load_noise(features, x, y));
       if (layer.coat == Coat::bed && is_ice_or_snow(ground.guidance.land_cover[i])) continue;  // it is one already
       const glm::vec3 lit = layer.coat == Coat::bed ? glm::min(loaded * fresh_snow(light), glm::vec3(1.F)) : in_light(loaded, light);
-      pixel += alpha * (lit + (ground.base[i] - lit) * haze - below);
+      canvas.change(x, y, pixel + alpha * (lit + (ground.base[i] - lit) * haze - below), alpha * under);
     }
 }
 
 }  // namespace
 
-void paint_features(Grid<glm::vec3>& picture, const DrawnFeatures& features, const FeatureGround& ground, PixelRect rect, PixelRect asked) {
+void paint_features(Grid<glm::vec3>& picture, const DrawnFeatures& features, const FeatureGround& ground, PixelRect rect, PixelRect asked,
+                    PaintParts* parts) {
   const bool same = picture.width() == rect.width() && picture.height() == rect.height() && picture.same_size(ground.guidance.depth_m) &&
                     picture.same_size(ground.guidance.tone) && picture.same_size(ground.base) && picture.same_size(ground.haze) &&
                     picture.same_size(ground.seen_ground);
   if (!same) throw Error(ErrorKind::bug, "paint_features", "grids that differ in size");
   const std::vector<Layer> layers = layers_of(features.style);
-  const Canvas canvas{picture, ground, rect};
+  const Canvas canvas{picture, ground, rect, parts};
   parallel_tiles(asked.width(), asked.height(), tile_px, [&](PixelRect part) {
     const PixelRect tile = moved(part, asked.x0, asked.y0);
     const std::vector<std::uint32_t> numbers = features.lines_at(tile);

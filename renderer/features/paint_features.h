@@ -7,6 +7,7 @@
 #include "base/guidance_buffers.h"
 #include "renderer/features/drawn_features.h"
 #include "texture/strokes/base_picture.h"
+#include "texture/strokes/paint_parts.h"
 
 namespace belvedere {
 
@@ -21,8 +22,10 @@ struct FeatureGround {
 // Paints ways, runs and lifts on a rectangle of the sheet (encoded sRGB): beds, bands, all casings by rank, all fills by rank, lifts over
 // all. Lines of one kind make one shape, so that crossings and joints join and the order of files does not matter. Each pixel hangs on the
 // sheet's place alone. Ways lie on the ground of their own distance, under what stands; lifts before all that is farther.
-// Only `asked` is painted, a part of the rectangle in pixels of the sheet.
-void paint_features(Grid<glm::vec3>& picture, const DrawnFeatures& features, const FeatureGround& ground, PixelRect rect, PixelRect asked);
+// Only `asked` is painted, a part of the rectangle in pixels of the sheet. `parts`, where given, takes all of it as PaintPart::features;
+// it must hold `asked`, in pixels of the picture.
+void paint_features(Grid<glm::vec3>& picture, const DrawnFeatures& features, const FeatureGround& ground, PixelRect rect, PixelRect asked,
+                    PaintParts* parts = nullptr);
 
 // 1 where nothing that stands up may grow, because a line or a house needs the place: on pixels of that line's own ground.
 Grid<std::uint8_t> find_cleared(const DrawnFeatures& features, const Grid<float>& depth_m, PixelRect rect);

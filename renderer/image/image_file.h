@@ -30,6 +30,7 @@ struct ChannelSpec {
 struct PartSpec {
   std::string name;
   std::vector<ChannelSpec> channels;
+  FileNotes notes = {};  // of this part alone
 };
 
 // What a file holds, without reading its pixels.

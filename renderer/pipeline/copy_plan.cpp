@@ -110,8 +110,8 @@ SynthesisParameters to_synthesis_parameters(const Scene& scene) {
   return parameters;
 }
 
-int choose_tile_px(const Scene& scene, double pixels_per_unit, PixelRect region) {
-  const auto budget = static_cast<double>(memory_budget_bytes());
+int choose_tile_px(const Scene& scene, double pixels_per_unit, PixelRect region, double beside_bytes) {
+  const double budget = static_cast<double>(memory_budget_bytes()) - beside_bytes / share_of_windows;
   BaseParameters base;
   base.pixels_per_unit = pixels_per_unit;
   StrokeParameters strokes;
@@ -146,7 +146,7 @@ int choose_tile_px(const Scene& scene, double pixels_per_unit, PixelRect region)
   if (bytes(tile) > share_of_windows * budget)
     throw Error(ErrorKind::limit, "output",
                 fmt::format("a picture of {}×{} pixels needs about {:.0f} MiB", scene.output.width, scene.output.height,
-                            bytes(tile) / share_of_windows / 1048576.0),
+                            (bytes(tile) + beside_bytes) / share_of_windows / 1048576.0),
                 fmt::format("at most {} MiB: a smaller output.width, or --memory", memory_budget_bytes() >> 20));
   return tile;
 }

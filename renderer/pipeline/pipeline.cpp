@@ -35,7 +35,8 @@ void check_request(const Scene& scene, const SheetRequest& request) {
 void render(const LoadedScene& loaded, const std::string& out_folder, const Run& run, const SheetRequest& request) {
   const RunLimits limits(run);
   check_request(loaded.scene, request);
-  choose_tile_px(loaded.scene, loaded.scene.pixels_per_unit());  // what memory cannot hold is refused before the work
+  choose_tile_px(loaded.scene, loaded.scene.pixels_per_unit(), {},
+                 piece_bytes_of(loaded.scene, request));  // what memory cannot hold is refused before the work
   require_inputs(loaded);
   read_output_color(loaded);
   const std::vector<PixelRect> pieces = pieces_of(region_of(loaded.scene, request), request);
@@ -56,31 +57,33 @@ void render_guidance(const LoadedScene& loaded, const std::string& out_folder, c
   render(loaded, out_folder, run, guidance);
 }
 
-void plan_sheet(const LoadedScene& loaded, const std::string& folder, const Run& run) {
+void plan_sheet(const LoadedScene& loaded, const std::string& folder, const Run& run, const SheetRequest& request) {
   const RunLimits limits(run);
+  check_request(loaded.scene, request);
   require_inputs(loaded);
   read_output_color(loaded);
   check_output_folder(folder);
-  const JobIdentity identity = identify(loaded, {});
+  const JobIdentity identity = identify(loaded, request);
   begin_shared_work(work_folder_of(folder), identity);
-  make_plan(loaded, {}, WorkFolder(work_folder_of(folder), identity, WorkMode::join), run);
+  make_plan(loaded, request, WorkFolder(work_folder_of(folder), identity, WorkMode::join), run);
 }
 
-void make_part(const LoadedScene& loaded, const std::string& folder, int part, int parts, const Run& run) {
+void make_part(const LoadedScene& loaded, const std::string& folder, int part, int parts, const Run& run, const SheetRequest& request) {
   const RunLimits limits(run);
   if (part < 1 || part > parts)
     throw Error(ErrorKind::usage, "part", fmt::format("{}", part), fmt::format("1 to {}, the parts of the plan", parts));
-  const std::vector<PixelRect> pieces = pieces_of(region_of(loaded.scene, {}), {});
+  const std::vector<PixelRect> pieces = pieces_of(region_of(loaded.scene, request), request);
   const PieceSpan own = pieces_of_part(pieces.size(), part, parts);
-  const WorkFolder work(work_folder_of(folder), identify(loaded, {}), WorkMode::join);
-  make_pieces(loaded, {}, std::span(pieces).subspan(own.first, own.end - own.first), work, run);
+  const WorkFolder work(work_folder_of(folder), identify(loaded, request), WorkMode::join);
+  make_pieces(loaded, request, std::span(pieces).subspan(own.first, own.end - own.first), work, run);
 }
 
-void join_parts(const LoadedScene& loaded, const std::string& folder, int parts, const std::string& out_folder, const Run& run) {
+void join_parts(const LoadedScene& loaded, const std::string& folder, int parts, const std::string& out_folder, const Run& run,
+                const SheetRequest& request) {
   const RunLimits limits(run);
   check_output_folder(out_folder);
-  const WorkFolder work(work_folder_of(folder), identify(loaded, {}), WorkMode::join);
-  write_sheet_files(loaded, {}, work, out_folder, run, {.folder = folder, .parts = parts});
+  const WorkFolder work(work_folder_of(folder), identify(loaded, request), WorkMode::join);
+  write_sheet_files(loaded, request, work, out_folder, run, {.folder = folder, .parts = parts});
 }
 
 }  // namespace belvedere

@@ -9,14 +9,14 @@
 #include "base/grid_part.h"
 #include "renderer/image/exr/match_file.h"
 #include "renderer/image/guidance_io.h"
-#include "renderer/image/layers/layer_file.h"
 #include "renderer/image/rows/picture_files.h"
 #include "renderer/paint/composite.h"
+#include "renderer/pipeline/layer_files.h"
 #include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/output_color.h"
 #include "renderer/pipeline/sheet_job.h"
 #include "renderer/sheet/guidance_pack.h"
-#include "renderer/sheet/picture_layers.h"
+#include "renderer/sheet/joined_pieces.h"
 
 namespace belvedere {
 namespace {
@@ -26,35 +26,12 @@ std::string join(const std::string& folder, const char* file) { return folder.em
 // Rows that are joined at once: a row of tiles of the files.
 constexpr int band_rows = 64;
 
-// Calls f(piece) for the pieces that the rows [y0, y1) of the sheet lie in.
-template <class F>
-void for_rows(const std::vector<PixelRect>& pieces, int y0, int y1, F&& f) {
-  for (const PixelRect& piece : pieces)
-    if (piece.y0 < y1 && piece.y1 > y0) f(piece);
-}
-
 // What positions count from, as the notes say.
 glm::dvec3 parse_origin(const FileNotes& notes) {
   std::istringstream text(notes.at("origin"));
   glm::dvec3 origin(0.0);
   text >> origin.x >> origin.y >> origin.z;
   return origin;
-}
-
-Planes from_row(const Planes& planes, int row) {
-  Planes rows = planes;
-  for (Plane& plane : rows) plane.values += plane.row_bytes() * static_cast<std::size_t>(row);
-  return rows;
-}
-
-// Rows [y0, y1) of a product over the whole width of the region, into planes of that size.
-void read_rows(const WorkFolder& work, const std::string& product, const std::vector<PixelRect>& pieces, PixelRect region, int y0, int y1,
-               const Planes& to) {
-  for_rows(pieces, y0, y1, [&](const PixelRect& piece) {
-    const int first = std::max(y0, piece.y0);
-    read_piece_rows(work.path(product, piece), work.key(product, piece), first, std::min(y1, piece.y1), region.x0,
-                    from_row(to, first - y0));
-  });
 }
 
 // Numbers as 1, 3–5, 9; many are cut off.
@@ -105,10 +82,10 @@ bool asks_for(const SheetRequest& request, const std::string& product) {
 }
 
 // Files under their temporary names: they take their places when the panorama does. Nothing where they are not asked for.
-std::optional<GuidanceWriter> write_guidance_file(const SheetRequest& request, const WorkFolder& work, const std::vector<PixelRect>& pieces,
-                                                  PixelRect region, const FileNotes& notes, const FileNotes& file_notes,
-                                                  const std::string& out_folder, const Run& run) {
+std::optional<GuidanceWriter> write_guidance_file(const SheetRequest& request, const JoinedPieces& joined, const FileNotes& notes,
+                                                  const FileNotes& file_notes, const std::string& out_folder, const Run& run) {
   if (!asks_for(request, "guidance")) return std::nullopt;
+  const PixelRect region = joined.region;
   run.progress.begin("writing guidance", region.height());
   std::optional<GuidanceWriter> guidance(std::in_place, join(out_folder, "guidance.exr"), region.width(), region.height(), file_notes);
   GuidanceBuffers like = sheet_guidance_like(parse_origin(notes));
@@ -116,7 +93,7 @@ std::optional<GuidanceWriter> write_guidance_file(const SheetRequest& request, c
   for (int y0 = region.y0; y0 < region.y1; y0 += band_rows) {
     const int y1 = std::min(region.y1, y0 + band_rows);
     const PackedGuidance packed = blank_packed(like, region.width(), y1 - y0);
-    read_rows(work, "guidance", pieces, region, y0, y1, packed.planes);
+    joined.read("guidance", y0, y1, packed.planes);
     guidance->write_rows(unpack_guidance(packed, like), 0, y1 - y0, y0 - region.y0);
     run.progress.advance(y1 - y0);
   }
@@ -124,52 +101,22 @@ std::optional<GuidanceWriter> write_guidance_file(const SheetRequest& request, c
   return guidance;
 }
 
-std::optional<MatchWriter> write_match_file(const SheetRequest& request, const WorkFolder& work, const std::vector<PixelRect>& pieces,
-                                            PixelRect region, const FileNotes& file_notes, const std::string& out_folder, const Run& run) {
+std::optional<MatchWriter> write_match_file(const SheetRequest& request, const JoinedPieces& joined, const FileNotes& file_notes,
+                                            const std::string& out_folder, const Run& run) {
   if (!asks_for(request, "matches")) return std::nullopt;
+  const PixelRect region = joined.region;
   run.progress.begin("writing matches", region.height());
   std::optional<MatchWriter> writer(std::in_place, join(out_folder, "match.exr"), region.width(), region.height(),
-                                    work.read_bytes(matched_bytes), file_notes);
+                                    joined.work.read_bytes(matched_bytes), file_notes);
   for (int y0 = region.y0; y0 < region.y1; y0 += band_rows) {
     const int y1 = std::min(region.y1, y0 + band_rows);
     MatchField rows(region.width(), y1 - y0);
-    read_rows(work, "matches", pieces, region, y0, y1, {plane_of(rows)});
+    joined.read("matches", y0, y1, {plane_of(rows)});
     writer->write_rows(rows, y0 - region.y0);
     run.progress.advance(y1 - y0);
   }
   writer->complete();
   return writer;
-}
-
-// A picture's size, as files of layers say it.
-struct LayeredSize {
-  int width;
-  int height;
-  double dots_per_inch;
-};
-
-// Layer after layer from the pieces, a band of rows at a time.
-void write_layer_files(LayeredSize size, const SheetRequest& request, const WorkFolder& work, const std::vector<PixelRect>& pieces,
-                       PixelRect region, const std::string& out_folder, const Run& run) {
-  if (request.layers.empty()) return;
-  const auto rows_of = [&](std::string_view product, int y0, int y1) {
-    Grid<LayerPixel> rows(region.width(), y1 - y0);
-    read_rows(work, std::string(product), pieces, region, region.y0 + y0, region.y0 + y1, {plane_of(rows)});
-    return rows;
-  };
-  LayeredSheet sheet{size.width, size.height, size.dots_per_inch, {}, {}};
-  for (const PictureLayer& layer : picture_layers())
-    sheet.layers.push_back({layer.name, layer.title, layer.mask, [&rows_of, &layer](int y0, int y1) {
-                              const Grid<LayerPixel> plane = rows_of(layer_plane_names()[layer.plane], y0, y1);
-                              return make_layer(layer, plane, rows_of(layer_plane_names()[about_plane], y0, y1));
-                            }});
-  sheet.merged = [&](int y0, int y1) {
-    Grid<glm::vec3> rows(region.width(), y1 - y0);
-    read_rows(work, "panorama", pieces, region, region.y0 + y0, region.y0 + y1, {plane_of(rows)});
-    return opaque_pixels(rows);
-  };
-  for (const std::string& ending : request.layers)
-    layer_format(ending).write(join(out_folder, ("panorama." + ending).c_str()), sheet, run.progress);
 }
 
 }  // namespace
@@ -178,14 +125,14 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, c
                        const Run& run, const PlanOfParts& plan) {
   const Scene& scene = loaded.scene;
   const PixelRect region = region_of(scene, request);
-  const std::vector<PixelRect> pieces = pieces_of(region, request);
-  require_pieces(work, request, pieces, run.progress, plan);
+  const JoinedPieces joined{work, pieces_of(region, request), region};
+  require_pieces(work, request, joined.pieces, run.progress, plan);
   const FileNotes notes = job_from_text(work.read_bytes("notes"));
   FileNotes file_notes = notes;
   file_notes.erase("origin");  // of positions, which guidance alone has
 
-  std::optional<GuidanceWriter> guidance = write_guidance_file(request, work, pieces, region, notes, file_notes, out_folder, run);
-  std::optional<MatchWriter> matches = write_match_file(request, work, pieces, region, file_notes, out_folder, run);
+  std::optional<GuidanceWriter> guidance = write_guidance_file(request, joined, notes, file_notes, out_folder, run);
+  std::optional<MatchWriter> matches = write_match_file(request, joined, file_notes, out_folder, run);
   const auto commit = [&] {
     if (guidance) guidance->commit();
     if (matches) matches->commit();
@@ -199,22 +146,20 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, c
     run.progress.note(note);
   PictureFiles panorama(join(out_folder, "panorama"), scene.output.formats, region.width(), region.height(),
                         {color.display, color.profile, color.device, color.ink_limit_percent}, dots_per_inch, file_notes);
+  const auto encoded_rows = [&](int y0, int y1) {
+    Grid<glm::vec3> rows(region.width(), y1 - y0);
+    joined.read("panorama", y0, y1, {plane_of(rows)});
+    return rows;
+  };
   for (int y0 = region.y0; y0 < region.y1; y0 += band_rows) {
     const int y1 = std::min(region.y1, y0 + band_rows);
-    Grid<glm::vec3> rows(region.width(), y1 - y0);
-    read_rows(work, "panorama", pieces, region, y0, y1, {plane_of(rows)});
-    panorama.write_rows(decode_srgb(rows));
+    panorama.write_rows(decode_srgb(encoded_rows(y0, y1)));
     run.progress.advance(y1 - y0);
   }
   panorama.finish();
-  write_layer_files({region.width(), region.height(), dots_per_inch}, request, work, pieces, region, out_folder, run);
+  write_layer_files(loaded, request, joined, out_folder, run);
   if (const std::optional<InkCoverage> ink = panorama.ink()) run.progress.note(ink_note("panorama.tif", *ink));
   commit();
-  const auto encoded_rows = [&](int y0, int y1) {
-    Grid<glm::vec3> rows(region.width(), y1 - y0);
-    read_rows(work, "panorama", pieces, region, y0, y1, {plane_of(rows)});
-    return rows;
-  };
   write_named_picture(loaded, region, encoded_rows,
                       work.has_bytes(legend_bytes) ? legend_from_text(work.read_bytes(legend_bytes)) : std::vector<LegendEntry>(), color,
                       file_notes, out_folder, run);

@@ -105,7 +105,8 @@ const Palette& bring_to_place(Palette& palette, const LoadedScene& loaded, const
 }
 
 int tile_px_for(const Scene& scene, const SheetView& view, const SheetRequest& request) {
-  return request.stage_tile_px > 0 ? request.stage_tile_px : choose_tile_px(scene, view.pixels_per_unit, region_of(scene, request));
+  if (request.stage_tile_px > 0) return request.stage_tile_px;
+  return choose_tile_px(scene, view.pixels_per_unit, region_of(scene, request), piece_bytes_of(scene, request));
 }
 
 SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run, const Run& stage_run)

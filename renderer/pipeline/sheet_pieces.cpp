@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "renderer/image/provenance.h"
 #include "renderer/scene/input_hash.h"
@@ -54,6 +56,13 @@ std::vector<PixelRect> pieces_of(PixelRect region, const SheetRequest& request) 
       for (int column = column0; column <= column1; ++column) add(column, row);
   }
   return pieces;
+}
+
+double piece_bytes_of(const Scene& scene, const SheetRequest& request) {
+  if (!request.panorama || request.layers.empty()) return 0.0;
+  const PixelRect region = region_of(scene, request);
+  const int piece_px = request.piece_px > 0 ? request.piece_px : usual_piece_px;
+  return layer_bytes_per_pixel * std::min(region.width(), piece_px) * std::min(region.height(), piece_px);
 }
 
 PieceSpan pieces_of_part(std::size_t count, int part, int parts) {

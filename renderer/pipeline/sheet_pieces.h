@@ -31,6 +31,8 @@ std::vector<std::string> products_of(const SheetRequest& request);
 // The squares of the sheet's fixed grid that the region touches, cut to it, in the order in which they are made: along the shorter side,
 // so that what must be kept of the stages before is least.
 std::vector<PixelRect> pieces_of(PixelRect region, const SheetRequest& request);
+// The most that layers of a piece take while it is painted, bytes.
+double piece_bytes_of(const Scene& scene, const SheetRequest& request);
 // Which of `count` pieces a part of a plan makes: the numbers [first, end). Parts count from 1.
 struct PieceSpan {
   std::size_t first = 0;

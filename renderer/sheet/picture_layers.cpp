@@ -11,8 +11,8 @@ namespace {
 constexpr double highest = 65535.0;
 constexpr std::size_t strokes_at = 1;
 constexpr std::size_t edges_at = strokes_at + paint_part_count;
-constexpr std::array<PaintPart, paint_part_count> strokes_upwards = {PaintPart::sky,   PaintPart::ground, PaintPart::ice,
-                                                                     PaintPart::trees, PaintPart::houses, PaintPart::accents};
+constexpr std::array<PaintPart, paint_part_count> strokes_upwards = {
+    PaintPart::sky, PaintPart::ground, PaintPart::ice, PaintPart::features, PaintPart::trees, PaintPart::houses, PaintPart::accents};
 
 std::uint16_t whole(double value) { return static_cast<std::uint16_t>(std::clamp(value, 0.0, 1.0) * highest + 0.5); }
 LayerPixel pixel_of(glm::dvec3 colour, double opacity) { return {whole(colour.x), whole(colour.y), whole(colour.z), whole(opacity)}; }
@@ -37,26 +37,28 @@ bool holds(const std::vector<LandCoverClass>& classes, std::uint16_t id) {
 }  // namespace
 
 const std::array<std::string_view, layer_plane_count>& layer_plane_names() {
-  static const std::array<std::string_view, layer_plane_count> names = {"layer_ground",  "layer_sky",   "layer_strokes",
-                                                                        "layer_ice",     "layer_trees", "layer_houses",
-                                                                        "layer_accents", "layer_edges", "layer_about"};
+  static const std::array<std::string_view, layer_plane_count> names = {"layer_ground",   "layer_sky",   "layer_strokes", "layer_ice",
+                                                                        "layer_features", "layer_trees", "layer_houses",  "layer_accents",
+                                                                        "layer_edges",    "layer_about"};
   return names;
 }
 
 const std::vector<PictureLayer>& picture_layers() {
   using C = LandCoverClass;
   static const std::vector<PictureLayer> all = [] {
-    std::vector<PictureLayer> layers = {{.name = "ground", .title = "Ground", .plane = 0},
-                                        {.name = "water", .title = "Water", .plane = 0, .where = {C::water}},
-                                        {.name = "snow_and_ice", .title = "Snow and ice", .plane = 0, .where = {C::snow, C::glacier}},
-                                        {.name = "sky", .title = "Sky", .plane = 0, .where = {C::sky}},
-                                        {.name = "strokes_sky", .title = "Strokes: sky", .plane = strokes_at},
-                                        {.name = "strokes_ground", .title = "Strokes: ground", .plane = strokes_at + 1},
-                                        {.name = "strokes_ice", .title = "Strokes: snow and ice", .plane = strokes_at + 2},
-                                        {.name = "strokes_trees", .title = "Strokes: trees and what stands", .plane = strokes_at + 3},
-                                        {.name = "strokes_houses", .title = "Strokes: houses", .plane = strokes_at + 4},
-                                        {.name = "strokes_accents", .title = "Strokes: accents", .plane = strokes_at + 5},
-                                        {.name = "edges", .title = "Softened edges", .plane = edges_at}};
+    std::vector<PictureLayer> layers = {
+        {.name = "ground", .title = "Ground", .plane = 0},
+        {.name = "water", .title = "Water", .plane = 0, .where = {C::water}},
+        {.name = "snow_and_ice", .title = "Snow and ice", .plane = 0, .where = {C::snow, C::glacier}},
+        {.name = "sky", .title = "Sky", .plane = 0, .where = {C::sky}},
+        {.name = "strokes_sky", .title = "Strokes: sky", .plane = strokes_at},
+        {.name = "strokes_ground", .title = "Strokes: ground", .plane = strokes_at + 1},
+        {.name = "strokes_ice", .title = "Strokes: snow and ice", .plane = strokes_at + 2},
+        {.name = "features", .title = "Roads, lifts and runs", .plane = strokes_at + 3, .of_features = true},
+        {.name = "strokes_trees", .title = "Strokes: trees and what stands", .plane = strokes_at + 4},
+        {.name = "strokes_houses", .title = "Strokes: houses", .plane = strokes_at + 5},
+        {.name = "strokes_accents", .title = "Strokes: accents", .plane = strokes_at + 6},
+        {.name = "edges", .title = "Softened edges", .plane = edges_at}};
     const auto mask = [&](const char* name, const char* title, int share, std::uint32_t rgb) {
       layers.push_back({.name = name, .title = title, .mask = true, .plane = about_plane, .share = share, .rgb = rgb});
     };

@@ -15,12 +15,15 @@
 
 namespace belvedere {
 
-// What layers are made of, a grid each and a product of pieces each: the canvas before its strokes; strokes by parts, from the bottom up;
+// What layers are made of, a grid each and a product of pieces each: the canvas before its strokes; paint by parts, from the bottom up;
 // edges; and what masks say (shares of cast shadow, of light, of air, and the class).
 inline constexpr std::size_t layer_plane_count = paint_part_count + 3;
 struct PictureLayers {
   std::array<Grid<LayerPixel>, layer_plane_count> planes;
 };
+// What a picture's layers take while it is cut: sums of paint by parts, the canvas before its strokes, the planes.
+inline constexpr double layer_bytes_per_pixel =
+    static_cast<double>(paint_part_count * sizeof(glm::vec4) + sizeof(glm::vec3) + layer_plane_count * sizeof(LayerPixel));
 // Names of the products.
 const std::array<std::string_view, layer_plane_count>& layer_plane_names();
 
@@ -33,6 +36,7 @@ struct PictureLayer {
   std::vector<LandCoverClass> where = {};  // of the canvas, only where these classes are; empty: all of it
   int share = -1;                          // of a mask: which of the shares; -1: it is where `where` says
   std::uint32_t rgb = 0;                   // of a mask
+  bool of_features = false;                // empty where a scene has none
 };
 // All layers, from the bottom up.
 const std::vector<PictureLayer>& picture_layers();

@@ -160,7 +160,9 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect, PictureLayers* cut) {
   }
   Painting strokes =
       paint_strokes(std::move(canvas), guidance, base, layers, ground_.strokes(), run_.progress, place, parts ? &*parts : nullptr);
-  if (mapped) paint_features(strokes.picture, features_, {guidance, base.colour, base.haze, strokes.seen_ground}, window, painted);
+  if (mapped)
+    paint_features(strokes.picture, features_, {guidance, base.colour, base.haze, strokes.seen_ground}, window, painted,
+                   parts ? &*parts : nullptr);
   const GuidanceBuffers edges = ground_.read_guidance(painted, {&B::depth_m, &B::front}, false);
   const PixelRect wanted = moved(rect, -painted.x0, -painted.y0);
   Grid<glm::vec3> finished = part_of(blend_edges(part_of(strokes.picture, inside), edges), wanted);

@@ -11,9 +11,9 @@
 
 namespace belvedere {
 
-// What a stroke is part of, for who wants paint by layers.
-enum class PaintPart : std::uint8_t { sky, ground, ice, trees, houses, accents };
-inline constexpr std::size_t paint_part_count = 6;
+// What paint is part of, for who wants it by layers; features: roads, lifts and runs, which are laid over strokes.
+enum class PaintPart : std::uint8_t { sky, ground, ice, trees, houses, accents, features };
+inline constexpr std::size_t paint_part_count = 7;
 
 // How much of each part's paint is seen, and in which colour. Painting is alpha blending, so what a pixel shows is a sum: the canvas times
 // what is left of it, and each stroke's colour times what later strokes leave of its opacity. Added up by parts these sums say which

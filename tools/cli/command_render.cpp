@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/json.h"
+#include "renderer/image/layers/layer_file.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draft.h"
 #include "tools/cli/commands.h"
@@ -53,7 +54,7 @@ int run_job(const Options& options, Job job, Results results) {
   std::vector<std::string> names = results(scene.scene);
   if (!request.channels || !request.channels->empty()) names.emplace_back("guidance.exr");
   if (request.matches) names.emplace_back("match.exr");
-  for (const std::string& ending : request.layers) names.push_back("panorama." + ending);
+  for (const std::string& ending : request.layers) names.push_back(layer_format(ending).file);
   std::vector<std::string> paths;
   for (const std::string& name : names) paths.push_back((std::filesystem::path(folder) / name).string());
   if (options.scene.json) {
@@ -105,14 +106,7 @@ Action add_job(CLI::App& command, const char* footer, Drafts drafts, Job job, Re
   if (drafts == Drafts::yes)
     command.add_flag("--match", options->match,
                      "Also match.exr: which texel of which picture each pixel was copied from, for synthesize --replay");
-  if (drafts == Drafts::yes)
-    command
-        .add_option(
-            "--layers", options->layers,
-            "Also panorama.ora (GIMP, Krita) or panorama.psd (Photoshop, Affinity): ground, strokes, trees, houses … in layers of 16 bits")
-        ->type_name("ora|psd,…")
-        ->delimiter(',')
-        ->check(CLI::IsMember({"ora", "psd"}));
+  if (drafts == Drafts::yes) add_layers_option(command, options->layers);
   if (drafts == Drafts::yes)
     command.add_flag("--draft", options->draft,
                      "A first look, in seconds: a third of the pixels a side, one line of sight a pixel, less of the sky's light, strokes "
@@ -134,7 +128,7 @@ Action add_render(CLI::App& command) {
                  "  belvedere render scenes/karwendel.toml --data ../data --part 800,300,400,400 --out proof",
                  Drafts::yes, render, [](const Scene& scene) {
                    std::vector<std::string> names;
-                   for (const std::string& ending : scene.output.formats) names.push_back("panorama." + ending);
+                   for (const std::string& ending : scene.output.formats) names.push_back(layer_format(ending).file);
                    if (scene.labels.any()) names.emplace_back("labels.svg");
                    if (scene.labels.in_picture || scene.margin)
                      for (const std::string& ending : scene.output.formats) names.push_back("panorama_names." + ending);

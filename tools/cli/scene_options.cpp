@@ -1,11 +1,14 @@
 #include "tools/cli/scene_options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
 
 #include "base/embedded.h"
 #include "base/error.h"
+#include "renderer/image/layers/layer_file.h"
 #include "renderer/scene/scene_lock.h"
 #include "terrain/io/http_access.h"
 #include "tools/cli/terminal.h"
@@ -50,6 +53,18 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
 
 void add_locked_option(CLI::App& command, SceneOptions& options) {
   command.add_flag("--locked", options.locked, "Only with the inputs that the scene's lock file knows, byte for byte; see belvedere lock");
+}
+
+void add_layers_option(CLI::App& command, std::vector<std::string>& layers) {
+  std::vector<std::string> endings;
+  for (const LayerFormat& format : layer_formats()) endings.push_back(format.ending);
+  command
+      .add_option("--layers", layers,
+                  "Also the picture in layers: ground, strokes, trees, houses … as panorama.ora (GIMP, Krita; 16 bits), panorama.psd "
+                  "(Photoshop, Affinity; 16 bits) or panorama_layers.exr (Nuke, Natron, Blender; linear light)")
+      ->type_name(fmt::format("{},…", fmt::join(endings, "|")))
+      ->delimiter(',')
+      ->check(CLI::IsMember(endings));
 }
 
 void allow_servers(const SceneOptions& options) {

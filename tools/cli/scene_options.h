@@ -33,6 +33,8 @@ void add_file_options(CLI::App& command, SceneOptions& options);
 void add_run_options(CLI::App& command, SceneOptions& options);
 // --locked, which load() then holds to.
 void add_locked_option(CLI::App& command, SceneOptions& options);
+// Formats of layers, as renderer/image/layers/layer_file.h has them.
+void add_layers_option(CLI::App& command, std::vector<std::string>& layers);
 // Opens the way to servers for the rest of the program, where the options allow it.
 void allow_servers(const SceneOptions& options);
 // Reads the scene, or the demo; its inputs are those of its lock where that is asked for.

@@ -1,16 +1,7 @@
 #include "renderer/image/exr/exr_writer.h"
 
-// The library makes the headers; tiles are packed and put into the file here (OpenEXR file layout, openexr.com): the library's zlib takes
-// more than twice the time of libdeflate for the same size, and wants all values of a row of tiles at once.
-#include <ImfChannelList.h>
-#include <ImfHeader.h>
-#include <ImfIO.h>
-#include <ImfPartType.h>
-#include <ImfStandardAttributes.h>
-#include <ImfStringAttribute.h>
-#include <ImfTileDescriptionAttribute.h>
-#include <ImfVersion.h>
-
+// Tiles are packed and put into the file here (OpenEXR file layout, openexr.com): the library's zlib takes more than twice the time of
+// libdeflate for the same size, and wants all values of a row of tiles at once.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -27,6 +18,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "renderer/image/deflate.h"
+#include "renderer/image/exr/exr_head.h"
 #include "renderer/image/exr/half_floats.h"
 #include "renderer/image/output_file.h"
 #include "renderer/image/provenance.h"
@@ -42,22 +34,8 @@ static_assert(std::endian::native == std::endian::little);
 constexpr int tile_size = ExrWriter::band_rows;
 constexpr int tiles_at_once = 128;    // are packed together, then written: more would be held
 constexpr int compression_level = 1;  // guidance measured: 2.4 times as fast as zlib's level 2, the same size; level 4: 2 % smaller
-constexpr std::size_t longest_name = 31;
 
 int tiles_of(int pixels) { return (pixels + tile_size - 1) / tile_size; }
-
-// What the library writes, in memory.
-class TextStream : public Imf::OStream {
- public:
-  TextStream() : OStream("header") {}
-  void write(const char bytes[], int count) override { text_.append(bytes, static_cast<std::size_t>(count)); }
-  std::uint64_t tellp() override { return text_.size(); }
-  void seekp(std::uint64_t) override {}
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
 
 // A file that remembers the system's code of the first thing that failed.
 class CheckedFile {
@@ -88,69 +66,6 @@ class CheckedFile {
   std::FILE* file_ = nullptr;
   int code_ = 0;
 };
-
-Imf::PixelType pixel_type(const std::string& path, const ChannelSpec& channel) {
-  switch (channel.type) {
-    case ChannelType::half:
-      return Imf::HALF;
-    case ChannelType::float32:
-      return Imf::FLOAT;
-    case ChannelType::uint32:
-      return Imf::UINT;
-    default:
-      break;
-  }
-  throw Error(ErrorKind::bug, path, "channel " + channel.name + " has a type that OpenEXR does not know", "half, float32, uint32");
-}
-
-// Attributes that OpenEXR needs for itself; a note of that name would break the file.
-bool is_reserved(const std::string& key) {
-  static const char* const names[] = {"channels",
-                                      "chunkCount",
-                                      "compression",
-                                      "dataWindow",
-                                      "displayWindow",
-                                      "lineOrder",
-                                      "name",
-                                      "pixelAspectRatio",
-                                      "screenWindowCenter",
-                                      "screenWindowWidth",
-                                      "tiles",
-                                      "type",
-                                      "version",
-                                      "view",
-                                      "chromaticities",
-                                      "envmap",
-                                      "multiView",
-                                      "wrapmodes",
-                                      "timeCode",
-                                      "keyCode",
-                                      "preview",
-                                      "renderingTransform"};
-  return std::any_of(std::begin(names), std::end(names), [&](const char* n) { return key == n; });
-}
-
-Imf::Header make_header(const std::string& path, int width, int height, const PartSpec& part, const FileNotes& notes, bool many) {
-  Imf::Header header(width, height);
-  header.setName(part.name);
-  header.setType(Imf::TILEDIMAGE);
-  header.setTileDescription(Imf::TileDescription(ExrWriter::band_rows, ExrWriter::band_rows, Imf::ONE_LEVEL));
-  header.compression() = Imf::ZIP_COMPRESSION;
-  header.lineOrder() = Imf::INCREASING_Y;
-  Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec. 709, that is sRGB
-  for (const ChannelSpec& channel : part.channels) {
-    if (header.channels().findChannel(channel.name) != nullptr) {
-      throw Error(ErrorKind::bug, path, "channel " + channel.name + " is there twice");
-    }
-    header.channels().insert(channel.name, Imf::Channel(pixel_type(path, channel)));
-  }
-  for (const auto& [key, value] : notes) {
-    if (key.empty() || is_reserved(key)) throw Error(ErrorKind::bug, path, "\"" + key + "\" cannot be the name of a note");
-    header.insert(key, Imf::StringAttribute(value));
-  }
-  if (many) header.setChunkCount(tiles_of(width) * tiles_of(height));
-  return header;
-}
 
 std::size_t value_bytes(const ChannelSpec& channel) { return channel.type == ChannelType::half ? 2 : 4; }
 
@@ -204,27 +119,6 @@ void put(std::string& out, Number number) {
   out.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
-// Everything before the tables of offsets.
-std::string make_head(const std::string& path, int width, int height, const std::vector<PartSpec>& parts, const FileNotes& notes) {
-  const bool many = parts.size() > 1;
-  bool long_names = std::any_of(notes.begin(), notes.end(), [](const auto& note) { return note.first.size() > longest_name; });
-  for (const PartSpec& part : parts)
-    for (const ChannelSpec& channel : part.channels) long_names |= channel.name.size() > longest_name;
-  const int flags = (many ? Imf::MULTI_PART_FILE_FLAG : Imf::TILED_FLAG) | (long_names ? Imf::LONG_NAMES_FLAG : 0);
-  std::string head;
-  put(head, std::int32_t{Imf::MAGIC});
-  put(head, std::int32_t{Imf::EXR_VERSION | flags});
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    for (std::size_t other = 0; other < p; ++other)
-      if (parts[other].name == parts[p].name) throw Error(ErrorKind::bug, path, "part " + parts[p].name + " is there twice");
-    TextStream stream;
-    make_header(path, width, height, parts[p], p == 0 ? notes : FileNotes{}, many).writeTo(stream, true);
-    head += stream.text();
-  }
-  if (many) head += '\0';
-  return head;
-}
-
 }  // namespace
 
 struct ExrWriter::State {
@@ -235,7 +129,7 @@ struct ExrWriter::State {
   };
 
   State(const std::string& path, int w, int h, const std::vector<PartSpec>& parts, const FileNotes& notes)
-      : width(w), height(h), specs(parts), head(make_head(path, w, h, parts, notes)), output(path), file(output.temporary()) {
+      : width(w), height(h), specs(parts), head(exr_head(path, w, h, tile_size, parts, notes)), output(path), file(output.temporary()) {
     for (const PartSpec& part : parts)
       progress.push_back(
           {0, file_order(part), std::vector<std::uint64_t>(static_cast<std::size_t>(tiles_of(w)) * static_cast<std::size_t>(tiles_of(h)))});

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "renderer/image/exr/layered_exr.h"
 #include "renderer/image/layers/ora_file.h"
 #include "renderer/image/layers/psd_file.h"
 
 namespace belvedere {
 
 const std::vector<LayerFormat>& layer_formats() {
-  static const std::vector<LayerFormat> all = {{"ora", "OpenRaster", write_ora}, {"psd", "Photoshop", write_psd}};
+  static const std::vector<LayerFormat> all = {{"ora", "OpenRaster", "panorama.ora", write_ora},
+                                               {"psd", "Photoshop", "panorama.psd", write_psd},
+                                               {"exr", "OpenEXR", "panorama_layers.exr", write_layered_exr}};
   return all;
 }
 

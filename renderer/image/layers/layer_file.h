@@ -8,10 +8,11 @@
 namespace belvedere {
 
 // Formats of layers: "ora", OpenRaster, for GIMP and Krita; "psd", for Photoshop and Affinity (its large form, PSB, from 30000 pixels a
-// side or 2 GB on).
+// side or 2 GB on); "exr", OpenEXR in linear light, for Nuke, Natron and Blender.
 struct LayerFormat {
   std::string ending;
   std::string title;
+  std::string file;  // what the panorama's is called
   WriteLayers write;
 };
 const std::vector<LayerFormat>& layer_formats();

@@ -146,6 +146,28 @@ TEST(PaintFeatures, AnyRectangleAndAnyThreadsShowTheWhole) {
     }
 }
 
+// As a layer of their own over the ground they are the picture, also where something half stands before them and where bands tint.
+TEST(PaintFeatures, TheirPaintAddsUpToALayer) {
+  const TestGround ground = level();
+  const DrawnFeatures drawn =
+      draw(ground, {line(rough, {{-1200.0, 0.0}, {1200.0, 300.0}}), line(path, {{-900.0, 500.0}, {900.0, -300.0}}),
+                    line(run, {{-500.0, -300.0}, {700.0, 900.0}}), line(lift, {{-700.0, -500.0}, {200.0, 1200.0}})});
+  for (const float seen : {1.F, 0.6F}) {
+    PaintParts parts(ground.sheet());
+    const Grid<glm::vec3> picture = painted(ground, drawn, ground.sheet(), ground.sheet(), seen, &parts);
+    EXPECT_EQ(differing(picture, painted(ground, drawn, seen)), 0U) << "a layer changes no pixel";
+    const Grid<glm::vec4>& sum = parts.sum(PaintPart::features);
+    double opacity = 0.0;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      const glm::vec3 laid = glm::vec3(sum[i]) + (1.F - sum[i].w) * bare;
+      ASSERT_LT(glm::length(laid - picture[i]), 1e-5F) << i;
+      ASSERT_TRUE(sum[i].w > 0.F || picture[i] == bare) << i;
+      opacity += sum[i].w;
+    }
+    EXPECT_GT(opacity, 2000.0);
+  }
+}
+
 TEST(PaintFeatures, AMountainStandsBeforeTheRoadBehindIt) {
   const auto ridge = [](glm::dvec2 p) { return std::abs(p.y) < 300.0 && p.x > 0.0 ? 700.0 * (1.0 - std::abs(p.y) / 300.0) : 0.0; };
   const TestGround ground(ridge);

@@ -108,6 +108,7 @@ std::map<std::string, UnpackedLayer> unpack(const std::string& out) {
   EXPECT_EQ(std::system(("cd " + out + " && python3 -m zipfile -e panorama.ora layers").c_str()), 0);
   std::map<std::string, UnpackedLayer> layers;
   for (const PictureLayer& layer : picture_layers()) {
+    if (layer.of_features) continue;
     UnpackedLayer& one = layers[layer.name];
     one.colour = read_picture(out + "/layers/data/" + layer.name + ".png", &one.opacity);
   }
@@ -117,15 +118,16 @@ std::map<std::string, UnpackedLayer> unpack(const std::string& out) {
 // Layers laid over each other are the panorama, change none of its bytes, and are the same for any part, pieces and threads.
 TEST_F(SheetJob, LayersMakeThePanorama) {
   const std::string all = folder_ / "all";
-  render(scene(), all, {}, {.layers = {"ora", "psd"}});
+  render(scene(), all, {}, {.layers = {"ora", "psd", "exr"}});
   expect_same_files(whole(), all);
   EXPECT_TRUE(fs::exists(all + "/panorama.psd"));
+  EXPECT_TRUE(fs::exists(all + "/panorama_layers.exr"));
   const std::map<std::string, UnpackedLayer> layers = unpack(all);
   const Grid<glm::vec3> panorama = read_picture(all + "/panorama.tif");
   Grid<glm::vec3> flat(panorama.width(), panorama.height(), glm::vec3(0.0F));
   double edges = 0.0;
   for (const PictureLayer& layer : picture_layers()) {
-    if (layer.mask) continue;
+    if (layer.mask || layer.of_features) continue;
     const UnpackedLayer& one = layers.at(layer.name);
     for (std::size_t i = 0; i < flat.size(); ++i) flat[i] += one.opacity[i] * (one.colour[i] - flat[i]);
     if (layer.name == "edges")
@@ -145,8 +147,20 @@ TEST_F(SheetJob, LayersMakeThePanorama) {
   }
 }
 
+TEST_F(SheetJob, PartsOfAPlanMakeTheSameLayers) {
+  const SheetRequest request{.channels = GuidanceChoice{std::vector<std::string>{}}, .layers = {"ora", "exr"}};
+  render(scene(), folder_ / "one", {}, request);
+  plan_sheet(scene(), folder_ / "many", {}, request);
+  for (const int part : {2, 1}) make_part(scene(), folder_ / "many", part, 2, {}, request);
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_part(scene(), folder_ / "many", 1, 2, {}); }), HasSubstr("results differ"));
+  join_parts(scene(), folder_ / "many", 2, folder_ / "many", {}, request);
+  for (const char* file : {"panorama.tif", "panorama.ora", "panorama_layers.exr"})
+    EXPECT_TRUE(test::read_bytes(folder_ / "one/" + file) == test::read_bytes(folder_ / "many/" + file)) << file;
+}
+
 TEST_F(SheetJob, LayersAreOfTheProgramsOwnColours) {
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(scene(), folder_.path(), {}, {.layers = {"xcf"}}); }), HasSubstr("ora, psd"));
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(scene(), folder_.path(), {}, {.layers = {"xcf"}}); }),
+              HasSubstr("ora, psd, exr"));
   folder_.write("show.ocio", "no matter what");
   const LoadedScene other =
       parse_scene(wide_scene, "wide.toml", folder_.path(), {.data_folders = {}, .settings = {"output.ocio_config=show.ocio"}});

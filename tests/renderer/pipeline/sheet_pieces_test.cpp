@@ -42,6 +42,16 @@ TEST(SheetPieces, PartsOfAPlanShareThemInOrder) {
     }
 }
 
+TEST(SheetPieces, LayersTakeMemoryOfAPieceAtATime) {
+  const Scene scene = test::small_scene({"output.width=3000", "output.height=500"}).scene;
+  EXPECT_EQ(piece_bytes_of(scene, {}), 0.0);
+  const double whole = piece_bytes_of(scene, {.layers = {"ora"}});
+  EXPECT_EQ(whole, piece_bytes_of(scene, {.layers = {"ora", "psd"}}));
+  EXPECT_GT(whole, 1024.0 * 500.0 * 150.0);
+  EXPECT_LT(whole, 1024.0 * 500.0 * 250.0);
+  EXPECT_EQ(piece_bytes_of(scene, {.layers = {"ora"}, .part = PixelRect{0, 0, 512, 250}}), whole / 4.0);
+}
+
 TEST(SheetPieces, TheIdentityHangsOnSceneAndPart) {
   const LoadedScene scene = test::small_scene();
   EXPECT_EQ(identify(scene, {}), identify(scene, {.resume = true}));

@@ -41,7 +41,7 @@ struct Painted {
         for (std::uint64_t s = 0; s < 12; ++s) {
           const auto alpha = static_cast<float>(draw(x, y, 10 + s));
           const glm::vec3 colour(static_cast<float>(draw(x, y, 30 + s)), static_cast<float>(draw(x, y, 50 + s)), 0.4F);
-          const auto part = static_cast<PaintPart>(static_cast<int>(draw(x, y, 70 + s) * 6.0));
+          const auto part = static_cast<PaintPart>(static_cast<int>(draw(x, y, 70 + s) * 7.0));
           if (draw(x, y, 90 + s) < 0.5) continue;
           picture[i] += alpha * (colour - picture[i]);
           parts.cover(x + place.x0, y + place.y0, part, alpha, colour);

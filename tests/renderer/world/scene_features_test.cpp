@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
+#include "renderer/sheet/picture_layers.h"
 #include "renderer/world/world.h"
 #include "tests/files.h"
 
@@ -135,6 +137,31 @@ TEST_F(SceneFeaturesInPictures, AnyPartShowsTheWholeAndFarFromThemNothingChanges
     }
   EXPECT_GT(changed, 300U);
   EXPECT_EQ(changed_far, 0U);
+}
+
+// Roads and lifts can be moved or repainted alone: where their layer is empty the picture is that of the others.
+TEST_F(SceneFeaturesInPictures, TheyAreALayerOfTheirOwn) {
+  write("roads.geojson",
+        line("motorway", "[682500, 5243000], [685500, 5244500]") + "," + line("lift", "[683000, 5242000], [684500, 5243500]"));
+  const Grid<glm::vec3> picture = painted(scene(block), "roads", {.layers = {"ora"}});
+  ASSERT_EQ(std::system(("cd " + folder_ / "roads" + " && python3 -m zipfile -e panorama.ora layers").c_str()), 0);
+  Grid<glm::vec3> flat(picture.width(), picture.height(), glm::vec3(0.F));
+  double opacity = 0.0;
+  double covered = 0.0;
+  for (const PictureLayer& layer : picture_layers()) {
+    if (layer.mask) continue;
+    Grid<float> share;
+    const Grid<glm::vec3> colour = read_picture(folder_ / ("roads/layers/data/" + layer.name + ".png"), &share);
+    for (std::size_t i = 0; i < flat.size(); ++i) {
+      flat[i] += share[i] * (colour[i] - flat[i]);
+      if (layer.of_features) opacity += share[i];
+      if (layer.name == "edges") covered += share[i];
+    }
+  }
+  for (std::size_t i = 0; i < flat.size(); ++i)
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(flat[i][c], picture[i][c], 6.0 / 65535.0) << i;
+  EXPECT_GT(opacity, 200.0);
+  EXPECT_LT(covered, 0.1 * static_cast<double>(flat.size())) << "layers say nearly all of it";
 }
 
 TEST_F(SceneFeaturesInPictures, AFileWhoseFeaturesAllLieElsewhereIsSaidWithBothExtents) {

@@ -20,7 +20,7 @@ TEST(PaintParts, SumsMakeThePaintingInAnyOrderOfParts) {
     const int y = rect.y0 + static_cast<int>(draw(1) * rect.height());
     const auto alpha = static_cast<float>(draw(2));
     const glm::vec3 colour(static_cast<float>(draw(3)), static_cast<float>(draw(4)), 0.5F);
-    const auto part = static_cast<PaintPart>(static_cast<int>(draw(5) * 6.0));
+    const auto part = static_cast<PaintPart>(static_cast<int>(draw(5) * 7.0));
     for (int v = y; v < rect.y1; ++v) {
       canvas(x, v) += alpha * (colour - canvas(x, v));
       parts.cover(x, v, part, alpha, colour);

@@ -21,19 +21,21 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  SceneOptions scene;  // of plan; part and join read what the plan noted
+  SceneOptions scene;               // of plan; part and join read what the plan noted
+  std::vector<std::string> layers;  // the same
   std::string folder;
   std::string out;
   int parts = 8;
   int part = 1;
 };
 
-// What a plan notes for the parts: which scene, where its data lie, how many parts.
+// What a plan notes for the parts: which scene, where its data lie, how many parts, which layers.
 struct Order {
   std::string scene;
   SceneFileOptions files;
   bool allow_http = false;
   int parts = 1;
+  SheetRequest request;
 };
 
 std::string order_path(const std::string& folder) { return (fs::path(folder) / "order.txt").string(); }
@@ -42,6 +44,7 @@ void write_order(const std::string& folder, const Order& order) {
   JobIdentity entries;
   entries["scene"] = order.scene;
   entries["parts"] = fmt::format("{}", order.parts);
+  if (!order.request.layers.empty()) entries["layers"] = fmt::format("{}", fmt::join(order.request.layers, ","));
   if (order.allow_http) entries["servers"] = "allowed";
   for (std::size_t i = 0; i < order.files.data_folders.size(); ++i) entries[fmt::format("data {:04}", i)] = order.files.data_folders[i];
   for (std::size_t i = 0; i < order.files.settings.size(); ++i) entries[fmt::format("set {:04}", i)] = order.files.settings[i];
@@ -61,6 +64,7 @@ Order read_order(const std::string& folder) {
   std::from_chars(known->second.data(), known->second.data() + known->second.size(), order.parts);
   for (const auto& [name, value] : entries) {
     if (name == "scene") order.scene = value;
+    if (name == "layers") order.request.layers = CLI::detail::split(value, ',');
     if (name == "servers") order.allow_http = true;
     if (name.starts_with("data ")) order.files.data_folders.push_back(value);
     if (name.starts_with("set ")) order.files.settings.push_back(value);
@@ -90,6 +94,7 @@ Action add_plan(CLI::App& command) {
   const auto options = std::make_shared<Options>();
   add_scene_options(command, options->scene);
   add_locked_option(command, options->scene);
+  add_layers_option(command, options->layers);
   command
       .add_option("--out", options->folder, "Folder that every machine sees; made where it is missing. Default: one named like the scene")
       ->type_name("DIR");
@@ -108,9 +113,10 @@ Action add_plan(CLI::App& command) {
     const std::string folder = options->folder.empty() ? scene.name : options->folder;
     TerminalProgress progress(options->scene.quiet);
     const Cache cache = make_cache(options->scene);
-    Order order{absolute(options->scene.scene), options->scene.files, options->scene.allow_http, options->parts};
+    Order order{absolute(options->scene.scene), options->scene.files, options->scene.allow_http, options->parts, {}};
+    order.request.layers = options->layers;
     for (std::string& data : order.files.data_folders) data = absolute(data);
-    plan_sheet(load_order(order, options->scene), folder, make_run(options->scene, Run{}.tile_px, progress, cache));
+    plan_sheet(load_order(order, options->scene), folder, make_run(options->scene, Run{}.tile_px, progress, cache), order.request);
     write_order(folder, order);
     progress.end();
     if (!options->scene.quiet) print_out(fmt::format("{}: {} parts\n", folder, options->parts));
@@ -128,7 +134,7 @@ Action add_part(CLI::App& command) {
     TerminalProgress progress(options->scene.quiet);
     const Cache cache = make_cache(options->scene);
     make_part(load_order(order, options->scene), options->folder, options->part, order.parts,
-              make_run(options->scene, Run{}.tile_px, progress, cache));
+              make_run(options->scene, Run{}.tile_px, progress, cache), order.request);
     return 0;
   };
 }
@@ -145,7 +151,7 @@ Action add_join(CLI::App& command) {
     TerminalProgress progress(options->scene.quiet);
     const Cache cache = make_cache(options->scene);
     join_parts(load_order(order, options->scene), options->folder, order.parts, options->out.empty() ? options->folder : options->out,
-               make_run(options->scene, Run{}.tile_px, progress, cache));
+               make_run(options->scene, Run{}.tile_px, progress, cache), order.request);
     return 0;
   };
 }

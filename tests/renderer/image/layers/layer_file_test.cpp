@@ -138,7 +138,7 @@ TEST(LayerFile, SameBytesAndFaults) {
     EXPECT_EQ(test::read_bytes(folder / "a"), test::read_bytes(folder / "b")) << format.title;
     test::message_of(ErrorKind::output, [&] { format.write("/dev/full/a", s.sheet, progress); });
   }
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { layer_format("xcf"); }), HasSubstr("ora, psd"));
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { layer_format("xcf"); }), HasSubstr("ora, psd, exr"));
 }
 
 }  // namespace

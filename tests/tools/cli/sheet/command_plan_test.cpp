@@ -27,6 +27,17 @@ TEST_F(Program, APlannedSheetIsThatOfOneRun) {
     EXPECT_TRUE(read_bytes(path("one") + file) == read_bytes(path("joined") + file)) << file;
 }
 
+// Said once: parts and the join of a plan know which layers it has.
+TEST_F(Program, APlanKnowsItsLayers) {
+  const std::string scene = write_scene_file("[synthesis]\nenabled = false\n");
+  ASSERT_EQ(run({"plan", scene, "--out", path("many"), "--parts", "1", "-q", "--layers", "ora,exr"}).status, 0);
+  ASSERT_EQ(run({"part", path("many"), "1", "-q"}).status, 0);
+  ASSERT_EQ(run({"join", path("many"), "-q"}).status, 0);
+  EXPECT_TRUE(fs::exists(path("many/panorama.ora")));
+  EXPECT_TRUE(fs::exists(path("many/panorama_layers.exr")));
+  EXPECT_EQ(run({"plan", scene, "--out", path("other"), "--layers", "xcf"}).status, 2);
+}
+
 TEST_F(Program, PartsNeedAPlan) {
   fs::create_directories(path("empty"));
   for (const char* command : {"part", "join"}) {

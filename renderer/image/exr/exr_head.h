@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/image/image_file.h"
+
+namespace belvedere {
+
+// The bytes of a tiled OpenEXR file before its tables of offsets: magic number, version, and a header for each part, made by the library.
+// ZIP, primaries of sRGB; notes go to the first part, those of a PartSpec to theirs. Error(bug) for parts or channels that are there twice,
+// notes named like OpenEXR's own attributes, types that it does not know.
+std::string exr_head(const std::string& path, int width, int height, int tile_px, const std::vector<PartSpec>& parts,
+                     const FileNotes& notes);
+
+}  // namespace belvedere

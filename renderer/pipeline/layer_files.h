@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "base/run.h"
+#include "renderer/pipeline/sheet_pieces.h"
+#include "renderer/scene/scene_file.h"
+#include "renderer/sheet/joined_pieces.h"
+
+namespace belvedere {
+
+// Writes the files of layers that a request asks for, layer after layer from the pieces, a band of rows at a time. Where the scene names
+// what is seen, its names are a hidden layer on top: the others make the panorama, with it they make panorama_names. A scene without roads
+// and lifts has no layer of them.
+void write_layer_files(const LoadedScene& loaded, const SheetRequest& request, const JoinedPieces& joined, const std::string& out_folder,
+                       const Run& run);
+
+}  // namespace belvedere

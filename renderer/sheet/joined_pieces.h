@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/parallel.h"
+#include "renderer/sheet/planes.h"
+#include "renderer/sheet/work_folder.h"
+
+namespace belvedere {
+
+// The finished pieces of a part of the sheet, read as rows over its whole width.
+struct JoinedPieces {
+  const WorkFolder& work;
+  std::vector<PixelRect> pieces;  // all that touch the region, cut to it
+  PixelRect region;               // px of the sheet
+
+  // Rows [y0, y1) of the sheet of a product, into planes of the region's width and that many rows. Error(input) where a piece is not whole.
+  void read(const std::string& product, int y0, int y1, const Planes& to) const;
+};
+
+}  // namespace belvedere
