@@ -289,4 +289,19 @@ void write_png8(const std::string& path, const Grid<glm::vec3>& encoded, const P
   write_whole(*open_png8(path, encoded.width(), encoded.height(), options), encoded);
 }
 
+void write_jpeg(const std::string& path, const Grid<glm::vec3>& encoded, int quality) {
+  OutputFile file(path);
+  const auto output = OIIO::ImageOutput::create("jpeg");
+  if (output == nullptr) throw Error(ErrorKind::bug, path, "OpenImageIO cannot write JPEG");
+  OIIO::ImageSpec spec(encoded.width(), encoded.height(), 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("Compression", "jpeg:" + std::to_string(quality));
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(3 * encoded.size());
+  for (const glm::vec3& pixel : encoded)
+    for (int c = 0; c < 3; ++c) bytes.push_back(static_cast<std::uint8_t>(std::clamp(pixel[c], 0.0F, 1.0F) * 255.0F + 0.5F));
+  const bool written = output->open(file.temporary(), spec) && output->write_image(OIIO::TypeDesc::UINT8, bytes.data()) && output->close();
+  if (!written) file.fail(output->geterror());
+  file.commit();
+}
+
 }  // namespace belvedere

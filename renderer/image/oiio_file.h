@@ -22,5 +22,7 @@ std::unique_ptr<PictureRows> open_png8(const std::string& path, int width, int h
 // The most that it holds: a band of rows.
 double png8_writer_bytes(int width, int height);
 void write_png8(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options);
+// Encoded sRGB as JPEG without profile or notes, for pages; quality 1…100. Error(output).
+void write_jpeg(const std::string& path, const Grid<glm::vec3>& encoded, int quality);
 
 }  // namespace belvedere

@@ -45,6 +45,7 @@ const std::vector<Command>& all_commands() {
       {"composite", "learn", "Learns a picture of several textures, and how they lie, from a crop and its labels", add_composite_learn},
       {"composite", "make", "Makes such a picture of any size, over a map of labels that is made or drawn", add_composite_make},
       {"texture", "correct", "Gives a picture the colours of another, region by region", add_texture_correct},
+      {"", "web", "Makes a page of a rendered panorama: zoom, names, place and altitude under the pointer; no server", add_web},
       {"", "pdf", "Writes a picture as PDF for printing: page boxes, a press profile, labels as vectors, tiles", add_pdf},
       {"", "proof", "Shows what a printing press will make of a picture, and which of its colours it cannot print", add_proof},
       {"palette", "check", "Says which colours of a palette a printing press cannot print", add_palette_check},

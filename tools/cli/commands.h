@@ -69,5 +69,6 @@ Action add_texture_knit(CLI::App& command);
 Action add_texture_learn(CLI::App& command);
 Action add_texture_make(CLI::App& command);
 Action add_verify(CLI::App& command);
+Action add_web(CLI::App& command);
 
 }  // namespace belvedere::tools

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -192,6 +193,39 @@ Grid<T> read_one(const std::string& path, const std::string& channel, bool ids) 
   return out;
 }
 
+// The middle pixels of squares of step × step of one channel, a band of rows at a time.
+Grid<float> sample_channel(const std::string& path, std::size_t index, const PartHeader& part, const std::string& channel, bool ids,
+                           int step) {
+  const int width = static_cast<int>(part.width);
+  const int height = static_cast<int>(part.height);
+  const auto middle = [&](int k, int end) { return std::min(k * step + step / 2, end - 1); };
+  Grid<float> out((width + step - 1) / step, (height + step - 1) / step);
+  const int band = part.header.hasTileDescription() ? static_cast<int>(part.header.tileDescription().ySize) : 64;
+  guarded(path, [&] {
+    Imf::MultiPartInputFile file(path.c_str());
+    if (!file.partComplete(static_cast<int>(index))) throw_damaged(path, "tiles or rows are missing");
+    Imf::InputPart input(file, static_cast<int>(index));
+    const Imath::Box2i window = part.header.dataWindow();
+    std::vector<std::uint32_t> rows(static_cast<std::size_t>(width) * static_cast<std::size_t>(band));
+    int next = 0;
+    for (int y0 = 0; y0 < height; y0 += band) {
+      const int y1 = std::min(height, y0 + band);
+      if (middle(next, height) >= y1) continue;
+      Imf::FrameBuffer frame;
+      frame.insert(channel, Imf::Slice::Make(ids ? Imf::UINT : Imf::FLOAT, rows.data(), {window.min.x, window.min.y + y0}, width, y1 - y0));
+      input.setFrameBuffer(frame);
+      input.readPixels(window.min.y + y0, window.min.y + y1 - 1);
+      for (; next < out.height() && middle(next, height) < y1; ++next)
+        for (int x = 0; x < out.width(); ++x) {
+          const std::size_t i = static_cast<std::size_t>(middle(next, height) - y0) * static_cast<std::size_t>(width) +
+                                static_cast<std::size_t>(middle(x, width));
+          out(x, next) = ids ? static_cast<float>(rows[i]) : std::bit_cast<float>(rows[i]);
+        }
+    }
+  });
+  return out;
+}
+
 }  // namespace
 
 ImageInfo read_exr_info(const std::string& path) {
@@ -252,6 +286,19 @@ Grid<float> read_channel(const std::string& path, const std::string& channel) { 
 
 std::vector<Grid<float>> read_channels(const std::string& path, const std::vector<std::string>& channels) {
   return read_some<float>(path, read_headers(path), channels, false);
+}
+
+std::vector<Grid<float>> read_sampled_channels(const std::string& path, const std::vector<std::string>& channels, int step) {
+  const std::vector<PartHeader> parts = read_headers(path);
+  std::vector<Grid<float>> out(channels.size());
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const Imf::Channel* found = out[c].empty() ? find_channel(path, parts[p], channels[c]) : nullptr;
+      if (found == nullptr) continue;
+      check_memory(path, parts[p].width, parts[p].height, 4.0 * static_cast<double>(parts[p].width) * 64.0);
+      out[c] = sample_channel(path, p, parts[p], channels[c], found->type == Imf::UINT, std::max(1, step));
+    }
+  return out;
 }
 
 Grid<std::uint32_t> read_id_channel(const std::string& path, const std::string& channel) {

@@ -19,5 +19,8 @@ Grid<float> read_channel(const std::string& path, const std::string& channel);
 // Several at once, so that a part is unpacked only once; an absent one gives an empty grid.
 std::vector<Grid<float>> read_channels(const std::string& path, const std::vector<std::string>& channels);
 Grid<std::uint32_t> read_id_channel(const std::string& path, const std::string& channel);
+// Every step-th pixel of every step-th row, the middle one of each square, ids as numbers; an absent channel gives an empty grid. Memory
+// holds a row of tiles.
+std::vector<Grid<float>> read_sampled_channels(const std::string& path, const std::vector<std::string>& channels, int step);
 
 }  // namespace belvedere

@@ -29,7 +29,7 @@ TEST_F(Program, APlannedSheetIsThatOfOneRun) {
 
 // Said once: parts and the join of a plan know which layers it has.
 TEST_F(Program, APlanKnowsItsLayers) {
-  const std::string scene = write_scene_file("[synthesis]\nenabled = false\n");
+  const std::string scene = write_scene_file();
   ASSERT_EQ(run({"plan", scene, "--out", path("many"), "--parts", "1", "-q", "--layers", "ora,exr"}).status, 0);
   ASSERT_EQ(run({"part", path("many"), "1", "-q"}).status, 0);
   ASSERT_EQ(run({"join", path("many"), "-q"}).status, 0);

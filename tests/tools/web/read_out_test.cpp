@@ -1,0 +1,80 @@
+#include "tools/web/read_out.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "renderer/image/guidance_io.h"
+#include "terrain/io/crs.h"
+#include "tests/files.h"
+
+namespace belvedere::tools {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int width = 90;
+constexpr int height = 70;  // more than a row of tiles
+const glm::dvec3 origin(680000.0, 5250000.0, 0.0);
+
+// Sky above row 10, below it ground whose numbers are its pixel.
+GuidanceBuffers guidance() {
+  GuidanceBuffers out;
+  out.origin_m = origin;
+  out.depth_m = Grid<float>(width, height, std::numeric_limits<float>::infinity());
+  out.altitude_m = Grid<float>(width, height);
+  out.position_m = Grid<glm::vec3>(width, height);
+  out.land_cover = Grid<LandCoverClass>(width, height, LandCoverClass::sky);
+  for (int y = 10; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      out.depth_m(x, y) = static_cast<float>(100 * y);
+      out.altitude_m(x, y) = static_cast<float>(1000 + x);
+      out.position_m(x, y) = {10.F * static_cast<float>(x), 10.F * static_cast<float>(height - y), 0.F};
+      out.land_cover(x, y) = x < 40 ? LandCoverClass::forest : LandCoverClass::rock;
+    }
+  return out;
+}
+
+TEST(ReadOut, IsTheMiddleOfSquaresOfPixels) {
+  const test::Folder folder;
+  write_guidance(folder / "g.exr", guidance(), {{"belvedere:crs", "EPSG:32632"}});
+  const ReadOut whole = sample_read_out(folder / "g.exr", width * height);
+  EXPECT_EQ(whole.step_px, 1);
+  EXPECT_EQ(whole.altitude_m(33, 60), 1033.F);
+  const ReadOut out = sample_read_out(folder / "g.exr", 800);
+  ASSERT_EQ(out.step_px, 3);
+  ASSERT_EQ(out.distance_m.width(), 30);
+  ASSERT_EQ(out.distance_m.height(), 24);
+  for (int row = 0; row < 24; ++row)
+    for (int column = 0; column < 30; ++column) {
+      const int x = std::min(3 * column + 1, width - 1);
+      const int y = std::min(3 * row + 1, height - 1);
+      ASSERT_EQ(std::isinf(out.distance_m(column, row)), y < 10);
+      if (y < 10) continue;
+      ASSERT_EQ(out.distance_m(column, row), static_cast<float>(100 * y));
+      ASSERT_EQ(out.altitude_m(column, row), static_cast<float>(1000 + x));
+      ASSERT_EQ(out.class_id(column, row), static_cast<float>(x < 40 ? LandCoverClass::forest : LandCoverClass::rock));
+      const glm::dvec2 place = transform_point("EPSG:32632", "EPSG:4326", glm::dvec2(origin) + 10.0 * glm::dvec2(x, height - y));
+      ASSERT_NEAR(out.longitude_deg(column, row), place.x, 1e-6);
+      ASSERT_NEAR(out.latitude_deg(column, row), place.y, 1e-6);
+    }
+  EXPECT_THAT(read_out_script(out), HasSubstr("\"longitude\""));
+}
+
+TEST(ReadOut, WithoutASystemThereAreNoPlaces) {
+  const test::Folder folder;
+  write_guidance(folder / "g.exr", guidance(), {{"belvedere:crs", "none"}});
+  const ReadOut out = sample_read_out(folder / "g.exr", 800);
+  EXPECT_FALSE(out.has_places);
+  EXPECT_THAT(read_out_script(out), Not(HasSubstr("longitude")));
+  GuidanceBuffers bare;
+  bare.altitude_m = guidance().altitude_m;
+  write_guidance(folder / "bare.exr", bare, {});
+  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { sample_read_out(folder / "bare.exr", 800); }), HasSubstr("no distances"));
+}
+
+}  // namespace
+}  // namespace belvedere::tools

@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "tools/cli/commands.h"
+#include "tools/cli/terminal.h"
+#include "tools/web/web_page.h"
+
+namespace belvedere::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string from;
+  std::string out;
+  std::string name;
+  std::vector<std::string> also;
+  WebParameters page;
+  int threads = 0;
+  bool quiet = false;
+};
+
+std::string name_of(const std::string& folder) { return fs::weakly_canonical(folder).filename().string(); }
+
+// DIR or DIR=NAME; a folder whose name has an = is one.
+WebPicture picture_of(const std::string& text) {
+  const std::size_t mark = text.rfind('=');
+  if (mark == std::string::npos || fs::exists(text)) return {text, name_of(text)};
+  return {text.substr(0, mark), text.substr(mark + 1)};
+}
+
+}  // namespace
+
+Action add_web(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("DIR", options->from, "The folder that belvedere render wrote")->required();
+  command.add_option("--out", options->out, "Folder of the page. Default: DIR/web")->type_name("DIR");
+  command.add_option("--name", options->name, "What the picture is called beside others, such as Summer. Default: its folder's name");
+  command
+      .add_option("--also", options->also,
+                  "Another picture of the same view, to be compared by a border that is moved; may be repeated: --also winter=Winter")
+      ->type_name("DIR[=NAME]")
+      ->allow_extra_args(false);
+  command.add_option("--quality", options->page.quality, "Of the tiles' JPEG")
+      ->type_name("1…100")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100));
+  command.add_option("--tile-size", options->page.tile_px, "Side of a tile in pixels")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(64, 4096));
+  command.add_option("--cells", options->page.ground_cells, "How many places of the picture the page knows; 9 bytes each")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(CLI::Range(100, 20000000));
+  command.add_option("--threads", options->threads, "How many at once; 0: all")->type_name("N")->check(CLI::Range(0, 1024));
+  command.add_flag("-q,--quiet", options->quiet, "No progress and no notes");
+  command.footer(
+      "A panorama to click: one folder that needs no server. Open index.html, or put the folder on any web space. Pointing tells place,\n"
+      "altitude, distance and class (guidance.exr), names are those of [labels]; a GPX file dropped on it is drawn as the picture lies.\n\n"
+      "  belvedere render scenes/karwendel_features.toml --data ../data --out karwendel\n"
+      "  belvedere web karwendel\n"
+      "  belvedere web karwendel --name Summer --also karwendel_winter=Winter --out page");
+  return [options] {
+    const ThreadLimit threads(options->threads);
+    const std::string out = options->out.empty() ? (fs::path(options->from) / "web").string() : options->out;
+    std::vector<WebPicture> pictures = {{options->from, options->name.empty() ? name_of(options->from) : options->name}};
+    for (const std::string& text : options->also) pictures.push_back(picture_of(text));
+    for (const WebPicture& picture : pictures)
+      if (!fs::is_directory(picture.folder))
+        throw Error(ErrorKind::input, picture.folder, "is no folder", "the folder that belvedere render wrote");
+    TerminalProgress progress(options->quiet);
+    write_web_page(pictures, out, options->page, progress);
+    progress.end();
+    if (!options->quiet) print_out((fs::path(out) / "index.html").string() + "\n");
+    return 0;
+  };
+}
+
+}  // namespace belvedere::tools
