@@ -128,7 +128,7 @@ Action add_render(CLI::App& command) {
                  "  belvedere render scenes/karwendel.toml --data ../data --part 800,300,400,400 --out proof",
                  Drafts::yes, render, [](const Scene& scene) {
                    std::vector<std::string> names;
-                   for (const std::string& ending : scene.output.formats) names.push_back(layer_format(ending).file);
+                   for (const std::string& ending : scene.output.formats) names.push_back("panorama." + ending);
                    if (scene.labels.any()) names.emplace_back("labels.svg");
                    if (scene.labels.in_picture || scene.margin)
                      for (const std::string& ending : scene.output.formats) names.push_back("panorama_names." + ending);
