@@ -132,6 +132,12 @@ enum class Stream : std::uint16_t {
   statistical_directions,
   label_maps,
   feature_edges,  // how unevenly lines of features are drawn
+  water_wind,     // where wind ruffles lakes
+  wind_streaks,
+  river_foam,
+  sea_surf,
+  surf_breaks,  // where the line of surf is broken
+  lake_ice,
 
   count  // no stream: how many there are
 };

@@ -244,9 +244,10 @@ CacheKey sheet_key(const ExampleSheetPlan& plan, const ExampleSheetHand& hand, c
   CacheKeyText key;
   key.add("plan", write_example_sheet_plan(plan));
   const auto& [palette, light] = hand;
-  const auto& [name, winter, treeline_m, classes, sky, cloud_light, cloud_shade, haze_near, haze_far, range_mist, growth, haze_share,
-               warm_share, ground_drift_share, forest_drift_share, rock_drift_share] = palette;
+  const auto& [name, winter, treeline_m, lakes_freeze_from_m, classes, sky, cloud_light, cloud_shade, haze_near, haze_far, range_mist,
+               growth, haze_share, warm_share, ground_drift_share, forest_drift_share, rock_drift_share] = palette;
   key.add("palette", name).add("winter", winter).add("treeline_m", treeline_m);
+  key.add("lakes_freeze_from_m", lakes_freeze_from_m);
   for (const auto& [stops] : classes) {
     key.add("class", stops.size());
     for (const auto& [altitude_m, ramp] : stops) key.add("altitude_m", altitude_m).add("ramp", ramp);

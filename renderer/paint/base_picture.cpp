@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "base/error.h"
 #include "base/grid_part.h"
 #include "base/guidance_channels.h"
 #include "base/math.h"
@@ -26,6 +27,8 @@
 #include "renderer/paint/sky.h"
 #include "renderer/paint/terrain_end.h"
 #include "renderer/paint/town_ground.h"
+#include "renderer/paint/water/lake_ice.h"
+#include "renderer/paint/water/water_wind.h"
 #include "renderer/paint/water_look.h"
 #include "texture/strokes/parcels.h"
 
@@ -38,6 +41,7 @@ constexpr double krummholz_sigma_units = 12.0;           // dwarf pine stands ab
 constexpr double tongue_sigma_units = 20.0;              // ice is blue and bare as far from ground without ice as this tells
 const glm::vec3 reflected_warmth{0.24F, 0.07F, -0.08F};  // what light from lit ground adds to the shade of a wall at its foot, factors
 constexpr double brook_sigma_units = 1.8;                // what this blur of the water leaves pale is a brook
+constexpr float deep_darker = 0.22F;                     // tones: open lakes are darker than the ramp's middle
 constexpr float high_m = 260.0F;                         // what stands so far above its surroundings is a crest
 
 using Class = LandCoverClass;
@@ -151,6 +155,8 @@ struct Scenery {
   const Surroundings& around;
   double horizon_px;
   glm::ivec2 origin_px;
+  const WaterImage* image;
+  PixelRect wanted;
 
   // Metres of ground that a unit of the sheet shows.
   float metres_per_unit(std::size_t i) const { return guidance.footprint_m[i] * static_cast<float>(parameters.pixels_per_unit); }
@@ -244,7 +250,51 @@ glm::vec3 times_light(const glm::vec3& colour, float light) {
   return out;
 }
 
-BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
+// Noises that water is painted with; one set a thread.
+struct WaterNoises {
+  explicit WaterNoises(std::uint64_t seed) : wind(seed), ice(seed) {}
+  WaterWind wind;
+  LakeIce ice;
+};
+
+// What a pixel of water is painted with.
+struct Water {
+  WaterLook look;
+  LakeBed bed;
+  float depth_m = 0.0F;
+  float frozen = 0.0F;  // share of ice
+};
+
+Water water_at(const Scenery& s, WaterNoises& noises, std::size_t i, int x, int y, const Patches& patches) {
+  const GuidanceBuffers& g = s.guidance;
+  const BaseParameters& p = s.parameters;
+  const glm::dvec3 place = s.place_m(i);
+  const float metres_per_unit = s.metres_per_unit(i);
+  const WaterGround::Place ground = p.waters ? p.waters->at(glm::dvec2(place)) : WaterGround::Place{};
+  Water water;
+  water.depth_m = ground.depth_m;
+  if (is_frozen(s.palette, g.altitude_m[i])) water.frozen = ground.lake;
+  if (s.image != nullptr) {
+    const float ruffled = noises.wind.ruffled(place, metres_per_unit, static_cast<float>(p.water.wind));
+    water.look = water_look(g, s.palette, s.around.mirrored, i, s.around.water[i], s.around.streaks[i], patches,
+                            {*s.image, s.image->share.index(x - s.wanted.x0, y - s.wanted.y0), ruffled});
+  } else {
+    water.look = water_look(g, s.palette, s.around.mirrored, i, s.around.water[i], s.around.streaks[i], patches);
+    if (p.water.mirror == "none") water.look.image_share = 0.0F;
+  }
+  // The line of paint along near banks stands for the bed that is not known.
+  if (p.tint) water.bed = lake_bed(*p.tint, s.palette, g.altitude_m[i], place, g.footprint_m[i]);
+  if (water.bed.depth_m > 0.F) {
+    water.look.shallow_share = 0.F;
+  } else if (p.water.beds) {
+    water.bed = lake_bed(s.palette, ground, metres_per_unit);
+    if (water.bed.depth_m > 0.F) water.look.shallow_share *= 1.0F - ground.lake;
+    water.look.tone_shift -= deep_darker * ground.lake * smoothstep(0.0F, 12.0F, water.bed.depth_m);
+  }
+  return water;
+}
+
+BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, WaterNoises& waters, int x, int y) {
   const GuidanceBuffers& g = s.guidance;
   const std::size_t i = g.depth_m.index(x, y);
   const Class id = g.land_cover[i];
@@ -256,8 +306,8 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
   const float glade = s.around.cover.glade[i];
   const bool has_gravel = has_trait(id, ClassTrait::gravel_banks) && !s.palette.winter;
   const float gravel = has_gravel ? gravel_share(s.around.water[i], patches) : 0.0F;
-  WaterLook water =
-      id == Class::water ? water_look(g, s.palette, s.around.mirrored, i, s.around.water[i], s.around.streaks[i], patches) : WaterLook{};
+  const Water open = id == Class::water ? water_at(s, waters, i, x, y, patches) : Water{};
+  const WaterLook& water = open.look;
   const bool bare = id == Class::rock && !g.rock_facet.empty();
   const glm::vec2 cover = bare ? g.rock_cover[i] : glm::vec2(0.0F);
   const float shade = bare ? 1.0F - smoothstep(0.10F, 0.42F, g.tone[i]) : 0.0F;
@@ -266,11 +316,6 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
   const TintShift tint = s.parameters.tint && id != Class::water
                              ? tint_shift(*s.parameters.tint, s.palette, id, altitude, s.place_m(i), g.footprint_m[i])
                              : TintShift{};
-  const LakeBed bed = s.parameters.tint && id == Class::water
-                          ? lake_bed(*s.parameters.tint, s.palette, altitude, s.place_m(i), g.footprint_m[i])
-                          : LakeBed{};
-  // The line of paint along near banks stands for the bed that is not known.
-  if (bed.depth_m > 0.F) water.shallow_share = 0.F;
   // Where ice lies deep in the snow it grew from it is white with firn; its tongues are blue and bare.
   const float firn = id == Class::glacier ? firn_share(s, x, y) : 0.0F;
   const ScreeTurn fan = id == Class::scree && !s.palette.winter
@@ -290,11 +335,17 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, int x, int y) {
     if (cover.y > 0.0F) ramp = glm::mix(ramp, palette_colour(s.palette, Class::snow, altitude, light + 0.06), cover.y);
     if (glade > 0.0F) ramp = glm::mix(ramp, glade_colour(s.palette, altitude, light), 0.85F * glade);
     if (gravel > 0.0F) ramp = glm::mix(ramp, gravel_colour(light), gravel);
-    ramp = bed.under(tint.over(ramp), s.palette, altitude, light);
+    ramp = open.bed.under(tint.over(ramp), s.palette, altitude, light);
     if (id == Class::settlement)
       ramp = town_ground_colour(s.palette, ramp, g.built[i], altitude, light, static_cast<float>(s.parameters.air.hue_drift));
     if (multiplied) ramp = times_light(ramp, light_of_tone(static_cast<float>(lit)) / static_cast<float>(s.parameters.mean_light));
-    return pixel.finish(water.over(ramp), s.palette.range_mist);
+    ramp = water.over(ramp);
+    if (open.frozen > 0.0F) {
+      const float metres_per_unit = s.metres_per_unit(i);
+      ramp = glm::mix(ramp, waters.ice.colour(s.palette, altitude, g.tone[i] + step, s.place_m(i), open.depth_m, metres_per_unit),
+                      open.frozen);
+    }
+    return pixel.finish(ramp, s.palette.range_mist);
   };
   const int step_px = std::max(1, static_cast<int>(std::lround(s.parameters.pixels_per_unit)));
   return {.colour = paint(0.0),
@@ -314,7 +365,7 @@ BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& pa
 
 BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& wide, const Palette& palette,
                               const BaseParameters& parameters, glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress,
-                              PixelRect wanted) {
+                              PixelRect wanted, const WaterImage* image) {
   using B = GuidanceBuffers;
   require_channels(
       guidance,
@@ -328,17 +379,20 @@ BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& w
   const double horizon_px = parameters.horizon_px > 0.0 ? parameters.horizon_px : 0.18 * picture_size.y;
   const SkyParameters sky{picture_size, horizon_px, parameters.air.clouds, parameters.air.sky, parameters.sun_image_x, parameters.sky_seed};
   const Surroundings around = look_around(guidance, wide, palette, parameters, sky, origin_px, wanted);
-  const Scenery scenery{guidance, wide, palette, parameters, around, horizon_px, origin_px};
+  if (image != nullptr && (image->share.width() != width || image->share.height() != height))
+    throw Error(ErrorKind::bug, "base picture", "what water mirrors is of other pixels");
+  const Scenery scenery{guidance, wide, palette, parameters, around, horizon_px, origin_px, image, wanted};
 
   BasePicture picture;
   picture.colour = picture.darker = picture.lighter = Grid<glm::vec3>(width, height);
   picture.accent = picture.tree_density = picture.haze = Grid<float>(width, height, 0.0F);
   parallel_rows(height, [&](int y) {
     GroundNoises noises(parameters.seed);
+    WaterNoises waters(parameters.seed);
     for (int x = 0; x < width; ++x) {
       const std::size_t i = picture.colour.index(x, y);
       const bool is_sky = guidance.is_sky(guidance.depth_m.index(wanted.x0 + x, wanted.y0 + y));
-      const BasePixel pixel = is_sky ? sky_pixel(around.sky[i]) : ground_pixel(scenery, noises, wanted.x0 + x, wanted.y0 + y);
+      const BasePixel pixel = is_sky ? sky_pixel(around.sky[i]) : ground_pixel(scenery, noises, waters, wanted.x0 + x, wanted.y0 + y);
       picture.colour[i] = pixel.colour;
       picture.darker[i] = pixel.darker;
       picture.lighter[i] = pixel.lighter;

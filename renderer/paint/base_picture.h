@@ -11,6 +11,9 @@
 #include "renderer/paint/ground/ground_tint.h"
 #include "renderer/paint/palette.h"
 #include "renderer/paint/rock_kinds.h"
+#include "renderer/paint/water/water_image.h"
+#include "renderer/paint/water/water_parameters.h"
+#include "renderer/trace/water/water_ground.h"
 #include "renderer/trace/wide_view.h"
 #include "texture/strokes/stroke_painter.h"
 
@@ -29,6 +32,8 @@ struct BaseParameters {
   // 0: tone chooses colours in the palette's ramps. Else the ground has the ramps' colour at the middle tone, multiplied by the light that
   // its tone stands for over this: the mean light of lit ground.
   double mean_light = 0.0;
+  std::shared_ptr<const WaterGround> waters = nullptr;  // lakes and their beds; none: all water is alike, and no bed is seen
+  WaterParameters water;
   std::shared_ptr<const GroundTint> tint = nullptr;  // colours of the ground's own that ramps are moved to; none: ramps as they are
 };
 
@@ -37,10 +42,11 @@ struct BaseParameters {
 // the valley, rim, built and grain.
 // `origin_px`, `picture_size`: where the buffers lie in the whole picture. Local up to base_margin_px(): a part with that margin equals
 // the whole bit for bit. Of the buffers' pixels only those `wanted` (empty: all) are made: the result has their size. Where a wide view is
-// given, it is what must reach so far; the buffers themselves need no more than base_window(wanted).
+// given, it is what must reach so far; the buffers themselves need no more than base_window(wanted). `image`: what the water of the wanted
+// pixels mirrors, of their size; null: it is looked up in their columns, unless nothing shall be mirrored.
 BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& wide, const Palette& palette,
                               const BaseParameters& parameters, glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress,
-                              PixelRect wanted = {});
+                              PixelRect wanted = {}, const WaterImage* image = nullptr);
 BasePicture make_base_picture(const GuidanceBuffers& guidance, const Palette& palette, const BaseParameters& parameters,
                               glm::ivec2 origin_px, glm::ivec2 picture_size, Progress& progress, PixelRect wanted = {});
 int base_margin_px(const BaseParameters& parameters);

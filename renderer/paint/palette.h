@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -41,7 +42,9 @@ inline constexpr double palette_treeline_m = 1820.0;
 struct Palette {
   std::string name;
   bool winter = false;
-  double treeline_m = palette_treeline_m;                    // where forest ends in the land that its altitudes are for
+  double treeline_m = palette_treeline_m;  // where forest ends in the land that its altitudes are for
+  // In winter lakes from this altitude up are ice, m; no key of a palette: the scene's climate says it.
+  double lakes_freeze_from_m = std::numeric_limits<double>::infinity();
   std::array<ClassPalette, land_cover_class_count> classes;  // [sky] unused
   std::vector<std::pair<double, glm::vec3>> sky;             // 0 top … 1 horizon, encoded sRGB
   glm::vec3 cloud_light{1.0F};

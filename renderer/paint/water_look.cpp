@@ -11,10 +11,16 @@ glm::vec3 WaterLook::over(glm::vec3 colour) const {
   return glm::mix(glm::mix(glm::mix(colour, image, image_share), shallow, shallow_share), bank, bank_share);
 }
 
-WaterLook water_look(const GuidanceBuffers& g, const Palette& palette, const Mirrored& mirrored, std::size_t i, float around, float streak,
+namespace {
+
+// 0 open water … 1 a brook.
+float thinness(float around) { return unit((0.52F - around) / 0.3F); }
+
+// What both ways have in common: banks of brooks, streaks, shallows.
+WaterLook plain_look(const GuidanceBuffers& g, const Palette& palette, const Mirrored& mirrored, std::size_t i, float around, float streak,
                      const Patches& p) {
   WaterLook look;
-  const float thin = unit((0.52F - around) / 0.3F);
+  const float thin = thinness(around);
   look.bank = palette_colour(palette, palette.winter ? LandCoverClass::snow : LandCoverClass::valley_floor, g.altitude_m[i], g.tone[i]);
   look.bank_share = thin * std::clamp(0.12F + 0.40F * p.n25 + 0.2F * p.n8, 0.0F, 0.8F);
   // Paler towards the horizon, deep below the viewer; the shallows at the near bank and the dark line under the far one.
@@ -24,12 +30,33 @@ WaterLook water_look(const GuidanceBuffers& g, const Palette& palette, const Mir
   look.tone_shift -= 0.30F * unit(1.7F - far) * (1.0F - thin);
   look.shallow_share = 0.38F * unit(2.1F - near) * (1.0F - thin);
   look.shallow = palette.winter ? glm::vec3(0.86F, 0.90F, 0.94F) : glm::vec3(0.78F, 0.83F, 0.74F);
+  return look;
+}
+
+}  // namespace
+
+WaterLook water_look(const GuidanceBuffers& g, const Palette& palette, const Mirrored& mirrored, std::size_t i, float around, float streak,
+                     const Patches& p) {
+  WaterLook look = plain_look(g, palette, mirrored, i, around, streak, p);
+  const float thin = thinness(around);
   if (mirrored.source[i] < 0) return look;
   const auto from = static_cast<std::size_t>(mirrored.source[i]);
   // An image in water is darker and bluer than what it is of.
   const glm::vec3 image = palette_colour(palette, g.land_cover[from], g.altitude_m[from], 0.75 * static_cast<double>(g.tone[from]));
   look.image = image * glm::vec3(0.80F, 0.90F, 0.98F);
   look.image_share = std::clamp((0.85F + 0.12F * streak) * mirrored.share[i], 0.0F, 0.9F) * (1.0F - thin);
+  return look;
+}
+
+WaterLook water_look(const GuidanceBuffers& g, const Palette& palette, const Mirrored& mirrored, std::size_t i, float around, float streak,
+                     const Patches& p, const TracedImage& traced) {
+  WaterLook look = plain_look(g, palette, mirrored, i, around, streak, p);
+  const float thin = thinness(around);
+  const auto& [image, at, ruffled] = traced;
+  const glm::vec3 sky = glm::min(image.sky[at] * 1.04F, glm::vec3(1.0F));
+  look.image = glm::mix(image.colour[at], sky, 0.75F * ruffled);
+  const float share = glm::mix(image.share[at], std::min(0.75F * image.share[at] + 0.12F, 0.6F), ruffled);
+  look.image_share = unit(share + 0.05F * streak) * (1.0F - thin);
   return look;
 }
 

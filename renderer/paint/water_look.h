@@ -7,6 +7,7 @@
 #include "renderer/paint/ground_hues.h"
 #include "renderer/paint/palette.h"
 #include "renderer/paint/reflection.h"
+#include "renderer/paint/water/water_image.h"
 
 namespace belvedere {
 
@@ -28,6 +29,16 @@ struct WaterLook {
 // mirror. `streak` is noise of deviation 1.
 WaterLook water_look(const GuidanceBuffers& guidance, const Palette& palette, const Mirrored& mirrored, std::size_t i, float around,
                      float streak, const Patches& patches);
+
+// The same with a traced image, of pixel `at` of it: `ruffled` (0…1) water shows less of the shore and more of the sky. `deep` (0…1) says
+// how far from its shallows a lake is: it is darker there.
+struct TracedImage {
+  const WaterImage& image;
+  std::size_t at;
+  float ruffled;
+};
+WaterLook water_look(const GuidanceBuffers& guidance, const Palette& palette, const Mirrored& mirrored, std::size_t i, float around,
+                     float streak, const Patches& patches, const TracedImage& traced);
 
 // Banks of gravel where a river has thrown them up, here and there, 0…0.8; `around` is the share of water nearby.
 float gravel_share(float around, const Patches& patches);

@@ -19,6 +19,7 @@ Scene make_draft(Scene scene) {
   scene.sampling.pixel_samples = 1;
   scene.sampling.sky_directions = (scene.sampling.sky_directions + 3) / 4;  // 0 stays none
   scene.synthesis.enabled = false;
+  if (scene.water.mirror == "traced") scene.water.mirror = "column";
   return scene;
 }
 

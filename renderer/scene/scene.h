@@ -12,6 +12,7 @@
 #include "renderer/paint/air_parameters.h"
 #include "renderer/paint/guides.h"
 #include "renderer/paint/light.h"
+#include "renderer/paint/water/water_parameters.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/sampling.h"
 #include "renderer/trace/sun.h"
@@ -81,7 +82,8 @@ struct SceneLandCover {
 };
 
 struct SceneSeason {
-  std::string date;  // "MM-DD"; empty: high summer, with what snow lasts through it
+  std::string date;                   // "MM-DD"; empty: high summer, with what snow lasts through it
+  std::string frozen_lakes = "auto";  // with a palette of winter: "auto", by the climate, "always" or "never"
 };
 
 struct SceneClimate {       // see terrain/climate/climate.h; where nothing is said, the climate of the place
@@ -284,6 +286,7 @@ struct Scene {
   SamplingParameters sampling;
   TracerParameters tracing;  // its instruction set is pinned where other machines must give the same picture
   LightParameters light;
+  WaterParameters water;
   SceneAir air;
   std::string sky = "any";               // a kind of clouds.h
   std::string palette = "summer";        // built-in name or file

@@ -157,7 +157,40 @@ std::vector<SceneSection> make_land_cover_sections() {
                  .meaning = "Month and day, \"10-05\". Rules lay the snow that lies on that day; the palette \"summer\" turns "
                             "to \"autumn\" from the heights down. Without it snow that lasts the summer, and the palette "
                             "as it is.",
-                 .text = TextKind::date}}});
+                 .text = TextKind::date},
+                {.name = "frozen_lakes",
+                 .field = AT(season.frozen_lakes),
+                 .meaning = "Whether lakes are ice where the palette is one of winter. auto: where the mean of the coldest month is below "
+                            "-3 °C at the lake's altitude, by the climate of the place. Rivers and the sea stay open.",
+                 .text = TextKind::choice,
+                 .choices = {"auto", "always", "never"}}}});
+  sections.push_back(
+      {.name = "water",
+       .meaning = "How lakes, rivers and the sea are painted; see water.md.",
+       .keys = {{.name = "mirror",
+                 .field = AT(water.mirror),
+                 .meaning = "What water mirrors: traced follows the mirrored ray through the drawn world; column takes the far shore from "
+                            "the same column of the picture, as drafts do; none mirrors nothing.",
+                 .text = TextKind::choice,
+                 .choices = {"traced", "column", "none"}},
+                {.name = "mirror_share",
+                 .field = AT(water.mirror_share),
+                 .range = {0, 2},
+                 .meaning = "How strong the traced image is. 1 is the painter's: stronger than nature's where water is seen from above."},
+                {.name = "wind",
+                 .field = AT(water.wind),
+                 .range = {0, 2},
+                 .meaning = "How much wind ruffles the water: patches that show the sky instead of the shore, and streaks of light."},
+                {.name = "beds",
+                 .field = AT(water.beds),
+                 .meaning = "Lakes are pale over their shallows and deepen from turquoise to blue, over beds made up from their banks. Not "
+                            "in winter."},
+                {.name = "surf_mm",
+                 .field = AT(water.surf_mm),
+                 .range = {0, 3},
+                 .unit = "mm",
+                 .meaning = "Width, on the sheet, of the broken line of surf along the sea's shores. 0: none."},
+                {.name = "foam", .field = AT(water.foam), .meaning = "Where rivers fall steeply they are white."}}});
   return sections;
 }
 

@@ -277,8 +277,11 @@ BasePicture SheetGround::make_base(PixelRect tile) {
                                                   &B::footprint_m, &B::normal_smooth, &B::relief_s_m, &B::relief_m_m, &B::relief_l_m,
                                                   &B::valley_height_m, &B::rim_m, &B::built, &B::grain, &B::rock_facet, &B::rock_cover},
                                                  true);
-  return make_base_picture(guidance, {wide.seen, factor_, wide.origin_px}, palette_, base_parameters_, {window.x0, window.y0},
-                           view_.camera.size(), run_.progress, moved(tile, -window.x0, -window.y0));
+  const PixelRect wanted = moved(tile, -window.x0, -window.y0);
+  const glm::ivec2 origin_px{window.x0, window.y0};
+  const std::optional<WaterImage> image = see_mirrored(world_, view_, palette_, guidance, origin_px, wanted);
+  return make_base_picture(guidance, {wide.seen, factor_, wide.origin_px}, palette_, base_parameters_, origin_px, view_.camera.size(),
+                           run_.progress, wanted, image ? &*image : nullptr);
 }
 
 PaintDraft SheetGround::make_draft(PixelRect tile) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "base/angle.h"
@@ -76,6 +78,8 @@ BaseParameters to_unlit_parameters(const World& world, const SheetView& view, co
   parameters.seed = world.scene.seed;
   parameters.air.sky = find_sky_kind(world.scene.sky);
   parameters.sky_seed = sky_seed(world);
+  parameters.water = world.scene.water;
+  parameters.waters = find_water_ground(world.terrain);
   parameters.tint = make_ground_tint(world.terrain, palette, world.scene.land_cover.colour_share);
   return parameters;
 }
@@ -103,7 +107,40 @@ StrokeParameters to_stroke_parameters(const World& world, const Palette& palette
   parameters.larch = palette.growth.larch;
   parameters.larch_share = palette.growth.larch_share;
   parameters.treeline_m = palette.treeline_m;
+  parameters.wind = world.scene.water.wind;
+  parameters.surf_units = world.scene.land_cover.sea == "none" ? 0.0 : 2.0 * world.scene.water.surf_mm;
+  parameters.foam = world.scene.water.foam;
+  parameters.sea_level_m = world.scene.land_cover.sea_level_m.value_or(0.0);
+  parameters.frozen_from_m = palette.winter ? palette.lakes_freeze_from_m : std::numeric_limits<double>::infinity();
   return parameters;
+}
+
+std::optional<WaterImage> see_mirrored(const World& world, const SheetView& view, const Palette& palette, const GuidanceBuffers& guidance,
+                                       glm::ivec2 origin_px, PixelRect wanted) {
+  if (world.scene.water.mirror != "traced") return std::nullopt;
+  bool any = false;
+  for (int y = wanted.y0; y < wanted.y1 && !any; ++y)
+    any = std::find(guidance.land_cover.row(y) + wanted.x0, guidance.land_cover.row(y) + wanted.x1, LandCoverClass::water) !=
+          guidance.land_cover.row(y) + wanted.x1;
+  if (!any) return std::nullopt;
+  const int margin = water_image_margin_px(view.pixels_per_unit);
+  const PixelRect rect =
+      intersection({0, 0, guidance.width(), guidance.height()}, {wanted.x0, wanted.y0 - margin, wanted.x1, wanted.y1 + margin});
+  Grid<std::uint8_t> mask(rect.width(), rect.height());
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x) mask(x, y) = guidance.land_cover(rect.x0 + x, rect.y0 + y) == LandCoverClass::water ? 1 : 0;
+  MirrorParameters rays;
+  rays.sun_direction = world.view.sun_direction;
+  const MirrorSight sight = trace_mirror(world.terrain, world.surface, world.deformation, world.tracer, view.camera, rays, mask,
+                                         moved(rect, origin_px.x, origin_px.y));
+  WaterImageParameters look;
+  look.light = world.scene.light;
+  if (world.view.sun.altitude_deg <= 0.0) look.light.sun = 0.0;
+  look.sun_direction = world.view.sun_direction;
+  look.air = world.view.air;
+  look.pixels_per_unit = view.pixels_per_unit;
+  look.strength = world.scene.water.mirror_share;
+  return paint_water_image(sight, rect, guidance, palette, look, wanted);
 }
 
 GuidanceBuffers trace_view(const World& world, const SheetView& view, PixelRect region, const Run& run) {
@@ -179,8 +216,10 @@ LitPicture make_lit_picture(const World& world, const Palette& palette, PixelRec
   const GuidanceBuffers traced = trace_view(world, view, region, run);
   light_up(picture.guidance, traced, world, palette, view, origin_px, run.progress);
   const WideView wide{traced, 1, origin_px};
+  const PixelRect all{0, 0, traced.width(), traced.height()};
+  const std::optional<WaterImage> image = see_mirrored(world, view, palette, picture.guidance, origin_px, all);
   picture.base = make_base_picture(picture.guidance, wide, palette, to_base_parameters(world, view, palette), origin_px, view.camera.size(),
-                                   run.progress);
+                                   run.progress, {}, image ? &*image : nullptr);
   picture.guidance.base = decode_srgb(picture.base.colour);
   return picture;
 }

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <optional>
+
 #include "base/guidance_buffers.h"
 #include "base/parallel.h"
 #include "base/run.h"
 #include "renderer/paint/base_picture.h"
 #include "renderer/paint/light.h"
 #include "renderer/paint/palette.h"
+#include "renderer/paint/water/water_image.h"
 #include "renderer/rock/rock_relief.h"
 #include "renderer/world/world.h"
 
@@ -29,6 +32,12 @@ GuidanceBuffers trace_forms(const World& world, const Camera& camera, PixelRect 
 RockParameters to_rock_parameters(const World& world, const Palette& palette, const SheetView& view);
 ToneParameters to_tone_parameters(const World& world, const Palette& palette, const SheetView& view);
 BaseParameters to_base_parameters(const World& world, const SheetView& view, const Palette& palette);
+
+// What the water of the pixels `wanted` mirrors, by rays; nothing where none of them is water or the scene does not ask for it. The buffers
+// begin at `origin_px` and reach water_image_margin_px farther up and down, or to where the sheet ends; needs depth_m, land_cover,
+// footprint_m and altitude_m.
+std::optional<WaterImage> see_mirrored(const World& world, const SheetView& view, const Palette& palette, const GuidanceBuffers& guidance,
+                                       glm::ivec2 origin_px, PixelRect wanted);
 
 // The traced channels with light and base picture: complete guidance buffers, and the base picture that strokes are painted on.
 struct LitPicture {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 
 #include "renderer/world/palette_season.h"
@@ -14,6 +15,8 @@
 namespace belvedere {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double lakes_freeze_c = -3.0;  // mean of the coldest month below which lakes are ice
 constexpr double first_turns_c = 11.5;
 constexpr double all_turned_c = 6.5;
 constexpr double turning_fall_k = 6.0;
@@ -49,8 +52,31 @@ double autumn_share(const std::array<double, 365>& days_c, int day) {
   return std::clamp(std::min(cold, fallen), 0.0, 1.0);
 }
 
-Palette palette_of_place(const Palette& palette, const LoadedScene& loaded, const Dem& dem) {
+double lakes_freeze_from_m(const PlaceClimate& climate) {
+  const Months at_0 = monthly_c(climate, 0.0);
+  const auto coldest = static_cast<std::size_t>(std::min_element(at_0.begin(), at_0.end()) - at_0.begin());
+  const double lapse_k_per_m = climate.lapse_k_per_km[coldest] / 1000.0;
+  if (at_0[coldest] <= lakes_freeze_c) return -infinity;
+  return lapse_k_per_m > 0.0 ? (at_0[coldest] - lakes_freeze_c) / lapse_k_per_m : infinity;
+}
+
+namespace {
+
+double scene_lakes_freeze_from_m(const Palette& palette, const LoadedScene& loaded, const Dem& dem) {
+  const std::string& asked = loaded.scene.season.frozen_lakes;
+  if (!palette.winter || asked == "never") return infinity;
+  if (asked == "always") return -infinity;
+  if (!knows_place(loaded.scene, dem)) return infinity;
+  const Climate climate = make_scene_climate(loaded, dem, silent_progress());
+  return lakes_freeze_from_m(climate.at(0.5 * (dem.width() - 1), 0.5 * (dem.height() - 1)));
+}
+
+}  // namespace
+
+Palette palette_of_place(const Palette& named, const LoadedScene& loaded, const Dem& dem) {
   const Scene& scene = loaded.scene;
+  Palette palette = named;
+  palette.lakes_freeze_from_m = scene_lakes_freeze_from_m(named, loaded, dem);
   const std::optional<int> day = day_of_season(scene.season);
   const bool moves = has_alpine_altitudes(scene.palette) && takes_treeline(loaded);
   const bool turns = day && scene.palette == "summer" && scene.synthesis.colours == "palette";

@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "renderer/paint/palette.h"
 #include "renderer/scene/scene_file.h"
+#include "terrain/climate/zonal_climate.h"
 #include "terrain/io/dem.h"
 
 namespace belvedere {
@@ -17,6 +18,11 @@ std::optional<int> day_of_season(const SceneSeason& season);
 // mean has fallen from the warmest day's (all of 6 K) and below 11.5 °C (all at 6.5 °C), whichever is less; not from midwinter to
 // midsummer. Other palettes, and terrain of no known place, stay as they are.
 Palette palette_of_place(const Palette& palette, const LoadedScene& loaded, const Dem& dem);
+
+// Altitude from which lakes are ice in winter: where the mean of the coldest month falls to -3 °C; infinite where it does nowhere, minus
+// infinite where it does everywhere. palette_of_place puts it into palettes of winter, by the climate in the middle of the terrain, unless
+// the scene says always or never; terrain of no known place has no ice.
+double lakes_freeze_from_m(const PlaceClimate& climate);
 
 // How far autumn has come where days have such means: 0…1.
 double autumn_share(const std::array<double, 365>& days_c, int day);

@@ -31,6 +31,11 @@ struct StrokeParameters {
   glm::vec3 larch{0.0F};          // the same of larches
   double larch_share = 0.0;       // 0: none grow
   double treeline_m = 1820.0;     // altitude where forest ends: belts of trees hang on it
+  double wind = 0.0;              // 0…2: streaks of light on open water
+  double surf_units = 0.0;        // width of the line of surf at the sea's shores, units, 0 (none)…6
+  bool foam = false;              // white water where rivers fall
+  double sea_level_m = 0.0;       // water about so high is the sea
+  double frozen_from_m = 1e9;     // altitude from which lakes are ice
 };
 
 }  // namespace belvedere

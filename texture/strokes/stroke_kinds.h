@@ -18,6 +18,11 @@ std::vector<Stroke> scree_strokes(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> sand_strokes(const StrokeScene& scene, Stream stream);   // ripples of the wind
 std::vector<Stroke> broken_colour(const StrokeScene& scene, Stream stream);  // small dabs every way, warm beside cool
 std::vector<Stroke> water_strokes(const StrokeScene& scene, Stream stream);
+// Over the base of water (water/stroke_water.cpp): streaks of light where wind ruffles lakes, white water of rivers that fall, and the
+// broken line of surf along the sea.
+std::vector<Stroke> wind_streaks(const StrokeScene& scene, Stream stream);
+std::vector<Stroke> river_foam(const StrokeScene& scene, Stream stream);
+std::vector<Stroke> sea_surf(const StrokeScene& scene, Stream stream);
 std::vector<Stroke> accent_strokes(const StrokeScene& scene, Stream stream);
 // Rock (stroke_rock.cpp): its planes, laid broadly, then dabs, then chips of light and dark; crests, gullies and beds are in the light.
 std::vector<Stroke> rock_facets(const StrokeScene& scene, Stream stream);

@@ -109,6 +109,24 @@ constexpr StrokeKind kinds[] = {
      .grow = broken_colour,
      .reach = downhill(4.6, 1.7, 0.3)},
     {.name = "water", .layer = &StrokeLayers::ground, .stream = Stream::water, .grow = water_strokes, .reach = level(26.0, 3.2)},
+    {.name = "wind streaks",
+     .layer = &StrokeLayers::breaks,
+     .stream = Stream::wind_streaks,
+     .grow = wind_streaks,
+     .reach = level(31.2, 1.4, 4.5),
+     .wet = true},
+    {.name = "river foam",
+     .layer = &StrokeLayers::breaks,
+     .stream = Stream::river_foam,
+     .grow = river_foam,
+     .reach = downhill(4.6, 1.1, 0.1),
+     .wet = true},
+    {.name = "sea surf",
+     .layer = &StrokeLayers::breaks,
+     .stream = Stream::sea_surf,
+     .grow = sea_surf,
+     .reach = around(2.1 + 0.8 * 6.0, 1.1 * 6.0 + 0.5),
+     .wet = true},
     // It lies where it must, which no copied texel knows: painted over copied ground, and left out of what is copied from.
     {.name = "glacier flow lines",
      .layer = &StrokeLayers::breaks,
@@ -173,6 +191,7 @@ PaintPart part_of(const StrokeKind& kind) {
   if (kind.layer == &StrokeLayers::sky) return PaintPart::sky;
   if (kind.layer == &StrokeLayers::accents) return PaintPart::accents;
   if (kind.layer == &StrokeLayers::upright) return kind.built ? PaintPart::houses : PaintPart::trees;
+  if (kind.wet) return PaintPart::ground;
   return kind.layer == &StrokeLayers::breaks || kind.on_ice ? PaintPart::ice : PaintPart::ground;
 }
 

@@ -15,7 +15,8 @@ struct StrokeLayers {
   bool sky = true;      // on sky pixels
   bool ground = true;   // wash, rock, meadow, scree, snow, water
   bool accents = true;  // light on edges, dark in hollows
-  bool breaks = true;   // how ice runs, breaks and ends: flow lines, moraines, crevasses, edges of glaciers, ribs bare of snow
+  bool breaks = true;   // what is drawn over copied ground: streaks, foam and surf of water; how ice runs, breaks and ends: flow lines,
+                        // moraines, crevasses, edges of glaciers, ribs bare of snow
   bool upright = true;  // what stands on the ground: trees, dwarf pines, houses
 };
 
@@ -33,6 +34,7 @@ struct StrokeKind {
   std::vector<Stroke> (*grow)(const StrokeScene& scene, Stream stream);
   StrokeReach reach;
   bool on_ice = false;  // asks the plan of the sheet's ice
+  bool wet = false;     // on water, among what is drawn over copied ground
   bool built = false;   // houses, among what stands upright
   bool alone = false;   // painted whole before what follows; else far to near in one list with its neighbours
 };

@@ -1,5 +1,6 @@
 #include "renderer/paint/ground/lake_bed.h"
 
+#include <algorithm>
 #include <glm/common.hpp>
 
 #include "base/colour/water_colour.h"
@@ -9,6 +10,9 @@ namespace belvedere {
 namespace {
 
 constexpr LandCoverClass bed_class = LandCoverClass::scree;
+constexpr float most_share = 0.9F;
+constexpr float drawn_from_m = 7.F;    // metres in a unit of the sheet from which shallows are drawn wider than they are …
+constexpr float most_drawn = 4.F;      // … and by how much at most
 constexpr double lighter_share = 0.5;  // of the lightness by which shallow water is lighter: paint of deep water is pale already
 
 }  // namespace
@@ -23,14 +27,24 @@ LakeBed lake_bed(const GroundTint& tint, const Palette& palette, double altitude
   LakeBed bed;
   if (palette.winter) return bed;
   bed.depth_m = lake_depth_at(tint, glm::dvec2(place_m));
-  if (bed.depth_m > 0.F) bed.tint = tint_shift(tint, palette, bed_class, altitude_m, place_m, footprint_m);
+  if (!(bed.depth_m > 0.F)) return bed;
+  bed.tint = tint_shift(tint, palette, bed_class, altitude_m, place_m, footprint_m);
+  bed.share = bed.tint.share;
+  return bed;
+}
+
+LakeBed lake_bed(const Palette& palette, const WaterGround::Place& water, float metres_per_unit) {
+  LakeBed bed;
+  if (palette.winter || !(water.lake > 0.F)) return bed;
+  bed.depth_m = std::max(water.depth_m, 0.01F) / std::clamp(metres_per_unit / drawn_from_m, 1.F, most_drawn);
+  bed.share = most_share * water.lake;
   return bed;
 }
 
 glm::vec3 LakeBed::under(glm::vec3 water, const Palette& palette, double altitude_m, double light) const {
   if (!(depth_m > 0.F)) return water;
   const glm::vec3 ground = tint.over(palette_colour(palette, bed_class, altitude_m, light));
-  return glm::mix(water, water_colour(ground, depth_m, {shallow_water(water), water}), tint.share);
+  return glm::mix(water, water_colour(ground, depth_m, {shallow_water(water), water}), share);
 }
 
 }  // namespace belvedere

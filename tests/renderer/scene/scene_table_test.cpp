@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/error.h"
 #include "renderer/paint/composite.h"
 #include "renderer/paint/sky.h"
 #include "renderer/scene/scene_file.h"
@@ -26,6 +27,7 @@ using testing::HasSubstr;
 // What a stage takes as it stands is of one type, so there is no second default to drift.
 static_assert(std::is_same_v<decltype(SceneAir::look), decltype(BaseParameters::air)>);
 static_assert(std::is_same_v<decltype(Scene::light), decltype(ToneParameters::light)>);
+static_assert(std::is_same_v<decltype(Scene::water), decltype(BaseParameters::water)>);
 static_assert(std::is_same_v<decltype(Scene::sampling), decltype(GuidanceParameters::sampling)>);
 
 double number(const SceneField& field) {
@@ -170,6 +172,23 @@ TEST(SceneTable, LowerLayersDoNotSpeakSceneKeys) {
       }
     }
   EXPECT_GT(files, 200);
+}
+
+TEST(SceneTable, WaterHasItsKeys) {
+  const LoadedScene loaded = parse_scene(
+      "version = 1\n[season]\nfrozen_lakes = \"always\"\n[water]\nmirror = \"column\"\nmirror_share = 0.5\nwind = 2\nbeds = false\n"
+      "surf_mm = 0\nfoam = false\n",
+      "w.toml", ".", {});
+  const WaterParameters& water = loaded.scene.water;
+  EXPECT_EQ(loaded.scene.season.frozen_lakes, "always");
+  EXPECT_EQ(water.mirror, "column");
+  EXPECT_EQ(water.mirror_share, 0.5);
+  EXPECT_EQ(water.wind, 2.0);
+  EXPECT_FALSE(water.beds);
+  EXPECT_EQ(water.surf_mm, 0.0);
+  EXPECT_FALSE(water.foam);
+  for (const char* wrong : {"[water]\nmirror = \"glass\"\n", "[water]\nwind = 3\n", "[season]\nfrozen_lakes = \"yes\"\n"})
+    EXPECT_THROW(parse_scene(std::string("version = 1\n") + wrong, "w.toml", ".", {}), Error) << wrong;
 }
 
 }  // namespace

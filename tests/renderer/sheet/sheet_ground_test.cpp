@@ -96,6 +96,40 @@ TEST_P(SheetGroundTest, ColoursOfLayersAreThoseOfTheWholeInAnyTiles) {
   EXPECT_GT(differ, palette.size() / 2) << "nearly all of it is ground";
 }
 
+// The sea fills the valleys: what it mirrors is traced pixel by pixel and drawn out downwards, over the borders of tiles.
+TEST_P(SheetGroundTest, WhatWaterMirrorsIsThatOfTheWholeInAnyTiles) {
+  const auto world = [&](const std::string& mirror) {
+    return std::make_unique<World>(
+        test::small_scene({"output.width=230", "output.height=210", "output.sheet_width_mm=115", "terrain.synthetic.highest_m=3900",
+                           "land_cover.sea_level_m=1100", "water.mirror=" + mirror}),
+        silent_progress());
+  };
+  const auto base = [&](const World& of, const PixelRect& rect, int tile_px) {
+    return SheetGround(of, view_of(of), palette_, place_, run_, tile_px).read_base(rect);
+  };
+  const PixelRect sheet{0, 0, 230, 210};
+  const auto traced = world("traced");
+  const BasePicture whole = base(*traced, sheet, 4096);
+  EXPECT_TRUE(base(*traced, sheet, GetParam()).colour == whole.colour);
+  for (const PixelRect rect : {PixelRect{30, 90, 190, 200}, PixelRect{101, 150, 110, 151}}) {
+    EXPECT_TRUE(base(*traced, rect, GetParam()).colour == part_of(whole.colour, rect));
+    EXPECT_TRUE(base(*traced, rect, GetParam()).lighter == part_of(whole.lighter, rect));
+  }
+  EXPECT_TRUE(make_lit_picture(*traced, palette_, sheet, {}).base.colour == whole.colour);
+  // Water alone is another with another mirror.
+  const auto column = world("column");
+  SheetGround looked_up(*column, view_of(*column), palette_, place_, run_, 4096);
+  const Grid<glm::vec3> other = looked_up.read_base(sheet).colour;
+  const Grid<LandCoverClass> land_cover = looked_up.read_guidance(sheet, {&GuidanceBuffers::land_cover}, false).land_cover;
+  std::size_t differ = 0;
+  for (std::size_t i = 0; i < other.size(); ++i) {
+    if (other[i] == whole.colour[i]) continue;
+    ASSERT_EQ(land_cover[i], LandCoverClass::water);
+    ++differ;
+  }
+  EXPECT_GT(differ, 200U);
+}
+
 // Four pixels a unit and more: light and base picture look around in a wide view, whose pixels no window and no tile may move. The sheet is
 // wider than what any of them looks at.
 class PrintGroundTest : public testing::TestWithParam<const char*> {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "terrain/io/crs.h"
@@ -85,6 +86,33 @@ TEST_F(SceneSeasonTest, PalettesFollowTheTreelineOfThePlaceUnlessTheSceneHasItsO
   EXPECT_NE(palette_colour(there, forest, 3000.0, 0.5), palette_colour(summer, forest, 3000.0, 0.5));
   // Terrain of no known place, and a painter's own palette, stay.
   EXPECT_EQ(palette_colour(palette_of_place(summer, open, tyrol("")), forest, 1000.0, 0.5), palette_colour(summer, forest, 1000.0, 0.5));
+}
+
+TEST_F(SceneSeasonTest, LakesFreezeWhereTheColdestMonthIsBelowThreeDegreesOfFrost) {
+  PlaceClimate climate;
+  climate.sea_level_c.fill(15.0);
+  climate.sea_level_c[0] = 2.0;
+  climate.lapse_k_per_km.fill(6.0);
+  climate.lapse_k_per_km[0] = 4.0;
+  EXPECT_NEAR(lakes_freeze_from_m(climate), 1250.0, 1e-9);
+  climate.sea_level_c[0] = -3.5;
+  EXPECT_EQ(lakes_freeze_from_m(climate), -std::numeric_limits<double>::infinity());
+  climate.sea_level_c[0] = 2.0;
+  climate.lapse_k_per_km[0] = 0.0;
+  EXPECT_EQ(lakes_freeze_from_m(climate), std::numeric_limits<double>::infinity());
+}
+
+TEST_F(SceneSeasonTest, WinterHasIceByTheClimateUnlessTheSceneSaysOtherwise) {
+  const auto from_m = [&](const std::string& palette, const std::string& asked, const std::string& crs = "EPSG:32632") {
+    return palette_of_place(read_palette(palette), scene("[season]\nfrozen_lakes = \"" + asked + "\"\n"), tyrol(crs)).lakes_freeze_from_m;
+  };
+  // The lakes of Tyrol at 930 m are frozen, those of the plain, some 550 m high, mostly are not.
+  EXPECT_GT(from_m("winter", "auto"), 300.0);
+  EXPECT_LT(from_m("winter", "auto"), 1200.0);
+  EXPECT_EQ(from_m("winter", "always"), -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(from_m("winter", "never"), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(from_m("summer", "always"), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(from_m("winter", "auto", ""), std::numeric_limits<double>::infinity()) << "a place that is not known";
 }
 
 }  // namespace

@@ -49,6 +49,10 @@ Picture make_sheet(int width_units, int height_units, double pixels_per_unit) {
   p.parameters.pixels_per_unit = pixels_per_unit;
   p.parameters.leaves = {{0.5F, 0.3F, 0.1F}, {0.6F, 0.5F, 0.2F}};
   p.parameters.leaf_share = 0.5;
+  p.parameters.wind = 2.0;
+  p.parameters.foam = true;
+  p.parameters.surf_units = 2.0;
+  p.parameters.sea_level_m = 900.0;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const double u = x / pixels_per_unit;
@@ -64,7 +68,7 @@ Picture make_sheet(int width_units, int height_units, double pixels_per_unit) {
       p.guidance.depth_m(x, y) = id == sky ? std::numeric_limits<float>::infinity() : 8000.F * range * (1.F + 0.003F * noise(6, 8.0));
       p.guidance.fall_line(x, y) = glm::normalize(glm::vec2((ice_below ? 0.3F : 0.8F) * noise(7, 10.0), 1.F + 0.3F * noise(8, 10.0)));
       p.guidance.tone(x, y) = std::clamp(0.6F + 0.1F * noise(9, 6.0) + 0.1F * grain(9), 0.F, 1.F);
-      p.guidance.position_m(x, y) = glm::vec3(12.0 * u, -12.0 * v, 900.F + 100.F * noise(10, 30.0));
+      p.guidance.position_m(x, y) = glm::vec3(12.0 * u, -12.0 * v, id == water ? 900.F : 900.F + 100.F * noise(10, 30.0));
       p.guidance.slope_deg(x, y) = (ice_below ? id == snow : column % 4 == 1) ? 42.F : row % 2 == 0 ? 5.F : 20.F;
       p.guidance.footprint_m(x, y) = static_cast<float>(15.0 / pixels_per_unit);
       p.guidance.relief_s_m(x, y) = 22.F + 10.F * noise(11, 12.0);

@@ -322,7 +322,8 @@ TEST(StrokePainter, EveryKindOfStrokeIsPaintedInItsLayer) {
   using Names = std::vector<std::string_view>;
   const Names ground = {"wash",        "meadow", "rock facets", "rock dabs", "rock chips",    "rock rubble", "rock turf",
                         "rock drifts", "scree",  "sand",        "snow",      "broken colour", "water"};
-  const Names breaks = {"glacier flow lines", "glacier edges", "glacier moraines", "glacier crevasses"};
+  const Names breaks = {"wind streaks",  "river foam",       "sea surf",         "glacier flow lines",
+                        "glacier edges", "glacier moraines", "glacier crevasses"};
   const Names upright = {"forest trees", "forest edges", "glade grass", "scattered trees", "low bushes", "rock trees",
                          "grass flecks", "stones",       "tufts",       "houses",          "churches",   "farms"};
   EXPECT_EQ(ground.size() + breaks.size() + upright.size() + 2, stroke_kinds().size()) << "sky and accents are the other two";

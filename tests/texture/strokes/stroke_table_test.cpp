@@ -60,6 +60,10 @@ TEST(StrokeTable, EveryKindPaintsInItsLayerAndInNoOther) {
   for (const bool winter : {false, true}) {
     Picture p = patchwork();
     p.parameters.winter = winter;
+    p.parameters.wind = 2.0;
+    p.parameters.foam = true;
+    p.parameters.surf_units = 1.0;
+    p.parameters.sea_level_m = 900.0;
     const StrokeScene scene = p.scene();
     const auto strokes_of = [&](const StrokeLayers& layers) {
       return static_cast<std::size_t>(

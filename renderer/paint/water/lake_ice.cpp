@@ -1,0 +1,43 @@
+#include "renderer/paint/water/lake_ice.h"
+
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "base/math.h"
+#include "base/random_streams.h"
+
+namespace belvedere {
+namespace {
+
+constexpr float bare_darker = 0.14F;                // tones: bare ice is darker than snow in the same light
+constexpr glm::vec3 bare_hue{0.86F, 0.955F, 1.0F};  // of snow's colour
+constexpr float most_snow = 0.92F;
+constexpr float crack_units = 0.55F;  // half the width of a crack
+constexpr float wet_m = 4.0F;         // depth up to which the shore's ice is wet
+
+}  // namespace
+
+LakeIce::LakeIce(std::uint64_t seed)
+    : drifts_(stream_seed(seed, Stream::lake_ice, 0), 260.0),
+      small_drifts_(stream_seed(seed, Stream::lake_ice, 1), 70.0),
+      cracks_(stream_seed(seed, Stream::lake_ice, 2), 520.0),
+      stretches_(stream_seed(seed, Stream::lake_ice, 3), 700.0) {}
+
+glm::vec3 LakeIce::colour(const Palette& palette, double altitude_m, double light, glm::dvec3 place_m, float depth_m,
+                          float metres_per_unit) {
+  const float kept = unit(1.8F - metres_per_unit / 30.0F);
+  const float drift = drifts_(place_m.x, place_m.y) + 0.6F * kept * small_drifts_(place_m.x, place_m.y);
+  const float snow = most_snow * smoothstep(-0.45F, 0.95F, drift);
+  const glm::vec3 bare = palette_colour(palette, LandCoverClass::snow, altitude_m, light - static_cast<double>(bare_darker)) * bare_hue;
+  glm::vec3 colour = glm::mix(bare, palette_colour(palette, LandCoverClass::snow, altitude_m, light), snow);
+  // A crack runs where slow noise passes through 0, for a stretch: its width in metres is the noise over its slope, some 1 in 520 m.
+  const float off_m = std::abs(cracks_(place_m.x, place_m.y)) * 520.0F;
+  const float stretch = smoothstep(0.5F, 1.1F, stretches_(place_m.x, place_m.y));
+  const float crack = stretch * (1.0F - smoothstep(0.3F * crack_units * metres_per_unit, crack_units * metres_per_unit + 1.0F, off_m));
+  colour *= 1.0F - glm::vec3(0.20F, 0.13F, 0.08F) * crack * (1.0F - 0.6F * snow);
+  const float wet = 1.0F - smoothstep(0.0F, wet_m, depth_m);
+  colour *= 1.0F - glm::vec3(0.16F, 0.10F, 0.06F) * wet;
+  return colour;
+}
+
+}  // namespace belvedere

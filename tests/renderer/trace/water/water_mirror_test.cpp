@@ -1,0 +1,156 @@
+#include "renderer/trace/water/water_mirror.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+
+#include "base/error.h"
+#include "base/grid_part.h"
+#include "renderer/trace/water/water_ground.h"
+#include "tests/renderer/trace/made_up_ground.h"
+
+namespace belvedere {
+namespace {
+
+using namespace test;
+
+constexpr double level_m = 500.0;
+constexpr double shore_m = 5000.0;  // metres south of the first row, where the bank begins
+constexpr double steep = 0.7;       // rise over run of the bank
+
+LandCoverClass lake_or_wood(double, double y) { return y <= shore_m ? LandCoverClass::water : LandCoverClass::forest; }
+
+// A lake before a bank that rises evenly to the south, seen from the north.
+test::World lake_before_bank(DeformParameters deform = {}) {
+  return make_world(220, 330, [](double, double y) { return y <= shore_m ? level_m : level_m + steep * (y - shore_m); }, lake_or_wood,
+                    deform, {653000.0, 5323000.0});
+}
+
+MirrorSight mirror(const test::World& world, const Camera& camera, PixelRect region, int tile_size = 64) {
+  MirrorParameters p;
+  p.bias_m = 0.0;
+  p.tile_size = tile_size;
+  p.sun_direction = glm::normalize(glm::dvec3(0.0, 1.0, 1.0));
+  return trace_mirror(world.terrain, world.surface, Deformation(world.deform_parameters, world.viewer), *world.tracer, camera, p,
+                      Grid<std::uint8_t>(region.width(), region.height(), 1), region);
+}
+
+// The mirrored ray is the ray of an eye as far below the water as the eye is above it.
+TEST(WaterMirror, AnEvenBankIsSeenAsFromBelowTheWater) {
+  const test::World world = lake_before_bank();
+  const auto camera = make_camera(southward(64, 160, -18.0));
+  const MirrorSight sight = mirror(world, *camera, {0, 0, 64, 160});
+  int seen = 0;
+  float above = 0.0F;
+  for (int y = 0; y < 160; ++y) {
+    const Ray ray = camera->ray({32.5, y + 0.5});
+    const double to_water = (level_m - ray.origin.z) / ray.direction.z;
+    const glm::dvec3 water = ray.origin + ray.direction * to_water;
+    const double south = 5320000.0 - water.y;
+    if (!(ray.direction.z < 0.0) || south < 60.0 || south > shore_m - 60.0) continue;
+    EXPECT_NEAR(sight.cosine(32, y), -ray.direction.z, 1e-5);
+    EXPECT_NEAR(sight.rise(32, y), -ray.direction.z, 1e-5);
+    EXPECT_NEAR(sight.distance_m(32, y), to_water, 0.5);
+    // Where -d.z t = steep (south - shore - d.y t), upwards along the mirrored direction.
+    const double rises = -ray.direction.z;
+    const double runs = -ray.direction.y;
+    ASSERT_GT(steep * runs, rises) << "the bank is steeper than the ray";
+    const double path = steep * (shore_m - south) / (steep * runs - rises);
+    const double altitude = level_m + rises * path;
+    if (south + runs * path > 9000.0) continue;  // beyond the ground
+    ++seen;
+    ASSERT_EQ(sight.land_cover(32, y), LandCoverClass::forest) << y;
+    EXPECT_NEAR(sight.path_m(32, y), path, 0.01 * path + 3.0);
+    EXPECT_NEAR(sight.altitude_m(32, y), altitude, 3.0);
+    EXPECT_EQ(sight.shadow(32, y), 1.0F);
+    // Upside down: farther down in the picture stands what lies higher.
+    EXPECT_GT(sight.altitude_m(32, y), above);
+    above = sight.altitude_m(32, y);
+    // As light sees it: of the bank where the smoothing over 120 m does not reach its foot.
+    if (altitude > level_m + 300.0) {
+      EXPECT_NEAR(sight.normal(32, y).y, steep / std::sqrt(1.0 + steep * steep), 0.01);
+    }
+  }
+  EXPECT_GT(seen, 20);
+}
+
+TEST(WaterMirror, ShowsTheSkyWhereNothingStands) {
+  const test::World world = make_world(
+      200, 200, [](double, double) { return level_m; }, [](double, double) { return LandCoverClass::water; });
+  const auto camera = make_camera(southward(48, 48));
+  const MirrorSight sight = mirror(world, *camera, {0, 0, 48, 48});
+  int waters = 0;
+  for (std::size_t i = 0; i < sight.cosine.size(); ++i) {
+    EXPECT_EQ(sight.land_cover[i], LandCoverClass::sky);
+    EXPECT_TRUE(std::isinf(sight.path_m[i]));
+    waters += sight.cosine[i] > 0.0F ? 1 : 0;
+  }
+  EXPECT_GT(waters, 300);
+}
+
+TEST(WaterMirror, WaterIsTiltedAsTheGroundIsBent) {
+  DeformParameters d;
+  d.exaggeration = 1.6;
+  d.bend = {60000.0, 9000.0, 8000.0, 1e-5};
+  const glm::dvec2 viewer(653000.0, 5323000.0);
+  const Deformation deformation(d, viewer);
+  for (const double away : {2000.0, 6000.0, 20000.0}) {
+    const glm::dvec3 normal = water_normal(deformation, {viewer.x, viewer.y - away, 700.0});
+    const double slope = (deformation.drop_m(away + 1.0) - deformation.drop_m(away - 1.0)) / 2.0;  // sinks away from the viewer
+    EXPECT_NEAR(normal.x, 0.0, 1e-9);
+    EXPECT_NEAR(normal.y / normal.z, -slope, 1e-5) << away;
+  }
+  // Without a bend it is upright, whatever is exaggerated.
+  DeformParameters flat;
+  flat.exaggeration = 1.6;
+  EXPECT_NEAR(water_normal(Deformation(flat, viewer), {viewer.x + 5000.0, viewer.y, 700.0}).z, 1.0, 1e-12);
+}
+
+TEST(WaterMirror, AnyRegionAndAnyTilesGiveTheSameBits) {
+  DeformParameters d;
+  d.exaggeration = 1.4;
+  d.bend = {60000.0, 9000.0, 8000.0, 1e-5};
+  const test::World world = lake_before_bank(d);
+  const auto camera = make_camera(southward(96, 120));
+  const MirrorSight whole = mirror(world, *camera, {0, 0, 96, 120});
+  for (const PixelRect rect : {PixelRect{5, 30, 23, 71}, PixelRect{60, 47, 61, 48}, PixelRect{0, 0, 96, 120}}) {
+    const MirrorSight part = mirror(world, *camera, rect, 8);
+    EXPECT_TRUE(part.cosine == part_of(whole.cosine, rect));
+    EXPECT_TRUE(part.path_m == part_of(whole.path_m, rect));
+    EXPECT_TRUE(part.rise == part_of(whole.rise, rect));
+    EXPECT_TRUE(part.land_cover == part_of(whole.land_cover, rect));
+    EXPECT_TRUE(part.altitude_m == part_of(whole.altitude_m, rect));
+    EXPECT_TRUE(part.normal == part_of(whole.normal, rect));
+    EXPECT_TRUE(part.shadow == part_of(whole.shadow, rect));
+  }
+}
+
+TEST(WaterMirror, NothingIsTracedWhereNothingIsWanted) {
+  const test::World world = lake_before_bank();
+  const auto camera = make_camera(southward(64, 64));
+  const MirrorSight none = trace_mirror(world.terrain, world.surface, Deformation(world.deform_parameters, world.viewer), *world.tracer,
+                                        *camera, {}, Grid<std::uint8_t>(64, 64, 0), {0, 0, 64, 64});
+  for (const float cosine : none.cosine) ASSERT_EQ(cosine, 0.0F);
+  EXPECT_THROW(
+      trace_mirror(world.terrain, world.surface, Deformation(), *world.tracer, *camera, {}, Grid<std::uint8_t>(3, 3, 0), {0, 0, 64, 64}),
+      Error);
+}
+
+TEST(WaterGround, KnowsLakesByTheirPlace) {
+  const test::World world = lake_before_bank();
+  const auto ground = find_water_ground(world.terrain);
+  ASSERT_NE(ground, nullptr);
+  const WaterGround::Place off = ground->at({653000.0, 5320000.0 - shore_m + 300.0});
+  EXPECT_EQ(off.lake, 1.0F);
+  // The bank's .7 is steeper than beds are taken for.
+  EXPECT_NEAR(off.depth_m, 60.0 * (1.0 - std::exp(-0.6 * 300.0 / 60.0)), 1.0);
+  EXPECT_EQ(ground->at({653000.0, 5320000.0 - shore_m - 300.0}).depth_m, 0.0F);
+  const test::World dry = make_world(
+      30, 30, [](double, double) { return level_m; }, all_meadow);
+  EXPECT_EQ(find_water_ground(dry.terrain), nullptr);
+}
+
+}  // namespace
+}  // namespace belvedere

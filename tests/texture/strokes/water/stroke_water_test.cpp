@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/texture/strokes/stroke_picture.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int width = 400;
+constexpr int height = 240;
+
+// Level water at an altitude, of which a pixel shows so many metres; land in the rows above 60.
+Picture water(float altitude_m = 900.F, float footprint_m = 14.F) {
+  Picture p = plain_picture(LandCoverClass::water, width, height);
+  p.guidance.depth_m = Grid<float>(width, height, 9000.F);
+  p.guidance.footprint_m = Grid<float>(width, height, footprint_m);
+  p.guidance.slope_deg = Grid<float>(width, height, 0.F);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      p.guidance.position_m(x, y) = glm::vec3(footprint_m * static_cast<float>(x), -3.F * footprint_m * static_cast<float>(y), altitude_m);
+      if (y < 60) p.guidance.land_cover(x, y) = LandCoverClass::pasture;
+    }
+  p.parameters.wind = 1.0;
+  p.parameters.foam = true;
+  p.parameters.surf_units = 1.0;
+  return p;
+}
+
+TEST(WaterStrokes, StreaksLieLevelAndLightOnOpenWaterAlone) {
+  const Picture p = water();
+  const std::vector<Stroke> streaks = grow_strokes("wind streaks", p.scene());
+  ASSERT_GT(streaks.size(), 40U);
+  for (const Stroke& s : streaks) {
+    EXPECT_LT(angle_deg(axis_of(s), {1.F, 0.F}), 5.0);
+    EXPECT_GT(s.colour.g, 0.5F);
+    EXPECT_EQ(s.gate, StrokeGate::water);
+    EXPECT_GT(s.source / width, 60U + 3U) << "not at the shore";
+  }
+}
+
+TEST(WaterStrokes, StreaksAreShorterFarAway) {
+  const auto mean_length = [](float footprint_m) {
+    const std::vector<Stroke> streaks = grow_strokes("wind streaks", water(900.F, footprint_m).scene());
+    double sum = 0.0;
+    for (const Stroke& s : streaks) sum += static_cast<double>(glm::length(axis_of(s))) / static_cast<double>(streaks.size());
+    return sum;
+  };
+  EXPECT_NEAR(mean_length(56.F) / mean_length(14.F), 0.5, 0.1);
+}
+
+TEST(WaterStrokes, CalmFrozenAndNarrowWaterHasNoStreaks) {
+  Picture p = water();
+  p.parameters.wind = 0.0;
+  EXPECT_TRUE(grow_strokes("wind streaks", p.scene()).empty());
+  p.parameters.wind = 1.0;
+  p.parameters.frozen_from_m = 800.0;
+  EXPECT_TRUE(grow_strokes("wind streaks", p.scene()).empty());
+  Picture brook = water();
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (y < 100 || y > 104) brook.guidance.land_cover(x, y) = LandCoverClass::pasture;
+  EXPECT_TRUE(grow_strokes("wind streaks", brook.scene()).empty());
+}
+
+TEST(WaterStrokes, FallsAreWhiteAndRunDown) {
+  Picture p = water();
+  EXPECT_TRUE(grow_strokes("river foam", p.scene()).empty()) << "level water";
+  for (float& slope : p.guidance.slope_deg) slope = 30.F;
+  const std::vector<Stroke> foam = grow_strokes("river foam", p.scene());
+  ASSERT_GT(foam.size(), 1000U);
+  for (const Stroke& s : foam) {
+    EXPECT_LT(angle_deg(axis_of(s), {0.F, 1.F}), 30.0);
+    EXPECT_GT(s.colour.r, 0.8F);
+  }
+  p.parameters.foam = false;
+  EXPECT_TRUE(grow_strokes("river foam", p.scene()).empty());
+}
+
+TEST(WaterStrokes, SurfRunsAlongTheSeaInABrokenLine) {
+  EXPECT_TRUE(grow_strokes("sea surf", water(900.F).scene()).empty()) << "a lake";
+  const Picture p = water(0.4F);
+  const std::vector<Stroke> surf = grow_strokes("sea surf", p.scene());
+  ASSERT_GT(surf.size(), 40U);
+  Grid<std::uint8_t> white(width, 1, 0);
+  for (const Stroke& s : surf) {
+    EXPECT_LT(angle_deg(axis_of(s), {1.F, 0.F}), 20.0);
+    EXPECT_LT(s.points[0].y, 60.F + 2.5F) << "within 1.6 units of the shore";
+    EXPECT_LE(s.start_width, 0.8F);
+    for (int x = static_cast<int>(s.points[0].x); x < static_cast<int>(s.points[1].x); ++x)
+      if (x >= 0 && x < width) white(x, 0) = 1;
+    for (int x = static_cast<int>(s.points[1].x); x < static_cast<int>(s.points[0].x); ++x)
+      if (x >= 0 && x < width) white(x, 0) = 1;
+  }
+  int covered = 0;
+  for (const std::uint8_t is : white) covered += is;
+  EXPECT_GT(covered, width / 5);
+  EXPECT_LT(covered, 9 * width / 10) << "broken";
+  // A farther shore has a thinner line: no more than 120 m of ground.
+  for (const Stroke& s : grow_strokes("sea surf", water(0.4F, 400.F).scene())) EXPECT_LE(s.start_width, 0.8F * 0.3F + 1e-4F);
+}
+
+// A hill that stands before the sea and is nearer has no surf along its crest.
+TEST(WaterStrokes, WhatStandsBeforeTheSeaIsNoShore) {
+  Picture p = water(0.4F);
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < width; ++x) p.guidance.depth_m(x, y) = 4000.F;
+  EXPECT_TRUE(grow_strokes("sea surf", p.scene()).empty());
+}
+
+}  // namespace
+}  // namespace belvedere

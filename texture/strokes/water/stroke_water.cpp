@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/math.h"
+#include "texture/strokes/stroke_kinds.h"
+#include "texture/strokes/stroke_parts.h"
+
+namespace belvedere {
+namespace {
+
+using enum LandCoverClass;
+
+constexpr float open_units = 4.5F;      // no streak lies nearer to a shore: brooks have none
+constexpr double patches_m = 420.0;     // of ruffled water, those of the base picture
+constexpr float usual_m = 14.F;         // metres in a unit of the sheet where a streak has its usual size
+constexpr float sea_within_m = 1.6F;    // of the sea's level, as DEMs have it
+constexpr float widest_surf_m = 120.F;  // surf is no wider on the ground, however far off the shore lies
+constexpr float fall_from_deg = 14.F;   // rivers that fall so steeply begin to whiten …
+constexpr float fall_to_deg = 28.F;     // … and here are white
+
+// The white of broken water.
+glm::vec3 foam_white(const StrokeScene& scene, std::size_t i) {
+  const float light = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
+  return through_air(scene, i, glm::vec3(0.80F, 0.86F, 0.90F) + light * glm::vec3(0.18F, 0.12F, 0.08F));
+}
+
+bool is_sea(const StrokeScene& scene, std::size_t i) {
+  return scene.class_at(i) == water && std::abs(scene.altitude_m(i) - static_cast<float>(scene.parameters.sea_level_m)) < sea_within_m;
+}
+
+// Sum of the directions in which a shore lies, and whether any does. What stands before the water and is nearer is no shore.
+struct Shore {
+  glm::vec2 towards{0.F};
+  bool found = false;
+};
+Shore shore_around(const StrokeScene& scene, glm::vec2 place, std::size_t i, float radius_units) {
+  constexpr float s = 0.7071F;
+  constexpr glm::vec2 directions[8] = {{1.F, 0.F}, {s, s}, {0.F, 1.F}, {-s, s}, {-1.F, 0.F}, {-s, -s}, {0.F, -1.F}, {s, -s}};
+  Shore shore;
+  for (const glm::vec2 direction : directions) {
+    const glm::vec2 there = place + direction * (radius_units * scene.scale());
+    if (!scene.on_canvas(there)) continue;
+    const std::size_t k = scene.pixel(there);
+    if (scene.guidance.is_sky(k) || scene.class_at(k) == water || !on_same_slope(scene, i, k)) continue;
+    shore.towards += direction;
+    shore.found = true;
+  }
+  return shore;
+}
+
+}  // namespace
+
+std::vector<Stroke> wind_streaks(const StrokeScene& scene, Stream stream) {
+  const auto wind = static_cast<float>(scene.parameters.wind);
+  if (!(wind > 0.F)) return {};
+  return sow(scene, 3.6F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != water || static_cast<double>(scene.altitude_m(i)) >= scene.parameters.frozen_from_m) return;
+    // Along the borders of ruffled patches, where these draw out with the wind.
+    const float patch = ground_noise(scene, i, Stream::water_wind, patches_m);
+    const float gathers = smoothstep(-0.2F, 0.7F, patch) * (1.F - 0.6F * smoothstep(1.2F, 2.F, patch));
+    if (seed.uniform() > 0.36F * wind * gathers) return;
+    if (share_around(scene, place, open_units, [&](std::size_t k) { return scene.class_at(k) == water; }) < 1.F) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.gate = StrokeGate::water;
+    lay_on_top(stroke);
+    // Shorter and thinner with distance, but never less than a brush can draw.
+    const float size = std::clamp(std::sqrt(usual_m / std::max(scene.metres_per_unit(i), 0.1F)), 0.35F, 1.3F);
+    const float angle = 0.012F * seed.normal();
+    const float length = size * seed.between(8.F, 24.F);
+    lay_line(stroke, scene, place, length, angle, 0.015F, false, seed);
+    take_brush(stroke, scene, std::max(size * seed.between(0.45F, 1.05F), 0.35F),
+               {.taper = 0.25F, .alpha = 0.42F, .bristle = 0.35F, .wetness = 0.01F, .load = 0.4F, .edge = 0.3F});
+    const float light = seed.between(0.5F, 1.1F);
+    stroke.colour = glm::mix(scene.colour(i, light, 0.4F * paint_jitter, seed), foam_white(scene, i), 0.22F);
+    out.push_back(stroke);
+  });
+}
+
+std::vector<Stroke> river_foam(const StrokeScene& scene, Stream stream) {
+  if (!scene.parameters.foam || scene.parameters.winter) return {};
+  return sow(scene, 1.5F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (scene.class_at(i) != water) return;
+    const float steep = smoothstep(fall_from_deg, fall_to_deg, scene.slope_deg(i));
+    if (seed.uniform() > 0.85F * steep) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.gate = StrokeGate::water;
+    lay_on_top(stroke);
+    lay_line(stroke, scene, place, seed.between(1.8F, 4.6F), 0.1F * seed.normal(), 0.08F, true, seed);
+    take_brush(stroke, scene, seed.between(0.5F, 1.1F), {.taper = 0.6F, .alpha = 0.8F, .bristle = 0.35F, .wetness = 0.01F});
+    stroke.colour = foam_white(scene, i);
+    out.push_back(stroke);
+  });
+}
+
+std::vector<Stroke> sea_surf(const StrokeScene& scene, Stream stream) {
+  const auto asked = static_cast<float>(scene.parameters.surf_units);
+  if (!(asked > 0.F)) return {};
+  return sow(scene, 1.4F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+    if (!is_sea(scene, i)) return;
+    const float width = std::min(asked, widest_surf_m / std::max(scene.metres_per_unit(i), 0.1F));
+    const Shore shore = shore_around(scene, place, i, 1.1F * width + 0.5F);
+    const float reach = glm::length(shore.towards);
+    if (!shore.found || reach < 0.5F) return;
+    if (sheet_noise(scene, place, Stream::surf_breaks, 7.0) < -0.35F || seed.uniform() < 0.15F) return;
+    Stroke stroke = ground_stroke(scene, i, seed);
+    stroke.gate = StrokeGate::water;
+    lay_on_top(stroke);
+    const glm::vec2 along = glm::vec2(-shore.towards.y, shore.towards.x) / reach;
+    const glm::vec2 half = along * (0.5F * scene.scale() * seed.between(1.6F, 4.2F));
+    const float thick = scene.scale() * width * seed.between(0.45F, 0.8F);
+    set_line(stroke, place - half, place + half, thick, 0.5F * thick);
+    stroke.alpha = 0.72F;
+    stroke.colour = foam_white(scene, i);
+    out.push_back(stroke);
+  });
+}
+
+}  // namespace belvedere
