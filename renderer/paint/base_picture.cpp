@@ -41,7 +41,9 @@ constexpr double krummholz_sigma_units = 12.0;           // dwarf pine stands ab
 constexpr double tongue_sigma_units = 20.0;              // ice is blue and bare as far from ground without ice as this tells
 const glm::vec3 reflected_warmth{0.24F, 0.07F, -0.08F};  // what light from lit ground adds to the shade of a wall at its foot, factors
 constexpr double brook_sigma_units = 1.8;                // what this blur of the water leaves pale is a brook
-constexpr float deep_darker = 0.22F;                     // tones: open lakes are darker than the ramp's middle
+constexpr float deep_tone = 0.20F;                       // of lakes in their ramp …
+constexpr float deep_share = 0.85F;                      // … and how far the light's tone goes over to it
+constexpr float deep_from_m = 12.0F;                     // painted depth from which they are deep
 constexpr float high_m = 260.0F;                         // what stands so far above its surroundings is a crest
 
 using Class = LandCoverClass;
@@ -289,7 +291,9 @@ Water water_at(const Scenery& s, WaterNoises& noises, std::size_t i, int x, int 
   } else if (p.water.beds) {
     water.bed = lake_bed(s.palette, ground, metres_per_unit);
     if (water.bed.depth_m > 0.F) water.look.shallow_share *= 1.0F - ground.lake;
-    water.look.tone_shift -= deep_darker * ground.lake * smoothstep(0.0F, 12.0F, water.bed.depth_m);
+    // Open lakes are dark by their depth, whatever light falls on them.
+    const float deep = ground.lake * smoothstep(0.0F, deep_from_m, s.palette.winter ? ground.depth_m : water.bed.depth_m);
+    water.look.tone_shift -= deep_share * deep * (g.tone[i] - deep_tone);
   }
   return water;
 }

@@ -22,6 +22,7 @@ double way_m(const Dem& dem, int x, int y, std::int32_t to) {
 // Rise over run of the land around a cell of the shore.
 double bank_slope(const Dem& dem, const Grid<std::uint8_t>& water, const Grid<std::int32_t>& nearest_water, std::int32_t shore,
                   const WaterBedParameters& p) {
+  const double half_cell_m = 0.5 * dem.cell_m();
   const int x0 = shore % dem.width();
   const int y0 = shore / dem.width();
   double rise = 0.0;
@@ -32,7 +33,7 @@ double bank_slope(const Dem& dem, const Grid<std::uint8_t>& water, const Grid<st
       const std::int32_t from = nearest_water(x, y);
       if (from < 0) continue;
       rise += static_cast<double>(dem.altitude_m(x, y)) - static_cast<double>(dem.altitude_m[static_cast<std::size_t>(from)]);
-      run += way_m(dem, x, y, from);
+      run += way_m(dem, x, y, from) - half_cell_m;
     }
   return run > 0.0 ? std::clamp(rise / run, p.flattest_bank, p.steepest_bank) : p.flattest_bank;
 }

@@ -16,7 +16,7 @@ struct Ground {
   Grid<std::uint8_t> water;
 };
 
-// A crater of 800 m radius filled to 500 m, whose banks rise by `slope`, and a river of 60 m width that leaves it to the east.
+// A crater of 795 m radius filled to 500 m, whose banks rise by `slope`, and a river of 60 m width that leaves it to the east.
 Ground crater(double slope) {
   Ground ground;
   ground.dem.altitude_m = Grid<float>(260, 240);
@@ -27,8 +27,8 @@ Ground crater(double slope) {
     for (int x = 0; x < 260; ++x) {
       const double r = cell * std::hypot(x - 110, y - 120);
       const bool river = x > 110 && std::abs(y - 120) <= 3;
-      ground.water(x, y) = r <= 800.0 || river ? 1 : 0;
-      ground.dem.altitude_m(x, y) = ground.water(x, y) != 0 ? 500.F : static_cast<float>(500.0 + slope * (r - 800.0));
+      ground.water(x, y) = r <= 795.0 || river ? 1 : 0;
+      ground.dem.altitude_m(x, y) = ground.water(x, y) != 0 ? 500.F : static_cast<float>(500.0 + slope * (r - 795.0));
     }
   return ground;
 }
@@ -40,9 +40,9 @@ TEST(WaterBeds, GoOnAsTheBanksBegin) {
     // Along a row to the west: the shore lies 5 m outside of the last cell of water, and the bank at it on average a little outside of 800
     // m.
     for (int x = 31; x < 100; ++x) {
-      const double off_m = cell * (x - 30) + 5.0;
+      const double off_m = cell * (x - 30) - 5.0;
       const double expected = 60.0 * (1.0 - std::exp(-slope * off_m / 60.0));
-      EXPECT_NEAR(beds.depth_m(x, 120), expected, 0.12 * expected + 0.3) << slope << " at " << x;
+      EXPECT_NEAR(beds.depth_m(x, 120), expected, 0.12 * expected + 0.2) << slope << " at " << x;
     }
     for (int x = 31; x < 100; ++x) EXPECT_GE(beds.depth_m(x + 1, 120), beds.depth_m(x, 120));
     EXPECT_EQ(beds.depth_m(20, 120), 0.F);
