@@ -34,6 +34,7 @@ LandCoverClass class_on(int u, int v, int ice_from) {
     return column % 5 == 4 ? snow : glacier;
   }
   if (is_close(u, v)) return row < 5 ? scree : alpine_grass;
+  if (u >= 84 && u < 118 && v >= 60 && v < 96) return water;  // a lake: streaks keep off its shores
   if (column == 2) return row % 4 == 0 ? forest : row % 4 == 1 ? pasture : settlement;
   if (column == 3) return row % 3 == 0 ? rock : row % 3 == 1 ? forest : snow;
   const auto& classes = land_cover_classes();
