@@ -138,6 +138,13 @@ enum class Stream : std::uint16_t {
   sea_surf,
   surf_breaks,  // where the line of surf is broken
   lake_ice,
+  mist_layers,
+  mist_billows,
+  mist_patches,
+  mist_dabs,
+  mist_lights,
+  lee_clouds,
+  front_decks,
 
   count  // no stream: how many there are
 };

@@ -4,8 +4,8 @@
 
 namespace belvedere {
 
-// What clouds a sky has; any: one of the others, by the picture's seed.
-enum class SkyKind : std::uint8_t { any, fair, rows, streaks, banks };
+// What clouds a sky has; any: one of fair, rows, streaks and banks, by the picture's seed.
+enum class SkyKind : std::uint8_t { any, fair, rows, streaks, banks, cumulus, front, evening };
 
 // What distance does to colour. Distances are along the ray.
 struct AirParameters {

@@ -381,7 +381,8 @@ BasePicture make_base_picture(const GuidanceBuffers& guidance, const WideView& w
   const int height = wanted.height();
   progress.begin("base picture", height);
   const double horizon_px = parameters.horizon_px > 0.0 ? parameters.horizon_px : 0.18 * picture_size.y;
-  const SkyParameters sky{picture_size, horizon_px, parameters.air.clouds, parameters.air.sky, parameters.sun_image_x, parameters.sky_seed};
+  const SkyParameters sky{picture_size,           horizon_px,     parameters.air.clouds, parameters.air.sky,
+                          parameters.sun_image_x, palette.winter, parameters.sky_seed};
   const Surroundings around = look_around(guidance, wide, palette, parameters, sky, origin_px, wanted);
   if (image != nullptr && (image->share.width() != width || image->share.height() != height))
     throw Error(ErrorKind::bug, "base picture", "what water mirrors is of other pixels");

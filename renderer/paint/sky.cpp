@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "base/math.h"
 #include "base/math_exact.h"
@@ -12,6 +13,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
+#include "renderer/paint/clouds/front_deck.h"
 #include "renderer/paint/picture_noise.h"
 
 namespace belvedere {
@@ -21,6 +23,32 @@ struct Layer {
   glm::vec3 colour{0.0F};
   float alpha = 0.0F;
 };
+
+// What a low sun does to clouds and to the sky over the horizon, encoded sRGB.
+const glm::vec3 low_sun{1.00F, 0.79F, 0.55F};
+const glm::vec3 horizon_glow{1.00F, 0.85F, 0.66F};
+
+// A cloud before a low sun: warm and bright along its base and on the sun's side, cool and dim above.
+glm::vec3 evening_colour(const Palette& palette, float lit, float raised) {
+  const glm::vec3 warm = glm::mix(palette.cloud_light, low_sun, 0.75F);
+  const glm::vec3 cool = glm::mix(palette.cloud_shade, palette.haze_near, 0.55F) * glm::vec3(0.96F, 0.90F, 0.97F);
+  return glm::mix(cool, warm, unit(1.10F * (1.0F - raised) + 0.45F * (lit - 0.5F)));
+}
+
+// The glow of a low sun over the horizon, most on its side; 0…1.
+float evening_glow(const SkyParameters& p, double x_px, double elevation) {
+  const double sun_px = (0.5 + 0.5 * p.sun_image_x) * p.picture_size.x;
+  const double aside = (x_px - sun_px) / p.picture_size.x;
+  const auto near = static_cast<float>(1.0 / (1.0 + 5.0 * aside * aside));
+  return 0.42F * near * (1.0F - smoothstep(-0.05F, 0.75F, static_cast<float>(elevation)));
+}
+
+// The deck of a front, as a layer over the sky.
+Layer deck_at(FrontDeck& deck, const Palette& palette, double x_px, double y_px) {
+  const FrontDeck::Look look = deck.at(x_px, y_px);
+  const glm::vec3 body = glm::mix(palette.cloud_shade, palette.haze_near, 0.5F) * 0.93F;
+  return {glm::mix(body, palette.cloud_light, smoothstep(look.light)), 0.90F * look.cover};
+}
 
 // What a cloud shows at a place: its heads over each other, each lit from above and from the sun's side.
 Layer cloud_at(const Cloud& cloud, glm::vec2 place, glm::vec2 wobble, const Palette& palette, glm::vec2 towards_light) {
@@ -35,7 +63,8 @@ Layer cloud_at(const Cloud& cloud, glm::vec2 place, glm::vec2 wobble, const Pale
     // The foot of the heap lies in its own shade.
     const float raised = smoothstep(-0.05F, 0.75F, (cloud.base_px - place.y) / height);
     const float light = std::clamp(lit * 0.62F + raised * 0.62F - 0.12F, 0.0F, 1.0F);
-    const glm::vec3 colour = glm::mix(palette.cloud_shade, palette.cloud_light, light);
+    const glm::vec3 colour =
+        cloud.underlit > 0.0F ? evening_colour(palette, lit, raised) : glm::mix(palette.cloud_shade, palette.cloud_light, light);
     layer.colour = layer.alpha + cover > 0.0F ? glm::mix(layer.colour, colour, layer.alpha == 0.0F ? 1.0F : cover) : colour;
     layer.alpha = layer.alpha + cover * (1.0F - layer.alpha);
   }
@@ -134,11 +163,14 @@ Grid<glm::vec3> make_sky(const Grid<float>& depth_m, const Palette& palette, con
   Grid<glm::vec3> sky(width, height, glm::vec3(0.0F));
   const std::vector<Cloud> clouds = make_clouds(p);
   const SkyLook look = look_of_sky(p);
+  const bool streaky = look.kind == SkyKind::streaks || look.kind == SkyKind::front;
   const double scale_px = cloud_scale_px(p);
   const glm::vec2 towards_light = glm::normalize(glm::vec2(p.sun_image_x < 0.0 ? -0.55F : 0.55F, -0.85F));
   parallel_rows(height, [&](int y) {
     VeilNoises veil_noises(p.seed);
     GroundNoise bands(stream_seed(p.seed, Stream::sky_bands), 1.0);
+    std::optional<FrontDeck> deck;
+    if (look.kind == SkyKind::front && p.clouds > 0.0) deck.emplace(p, look);
     std::vector<EdgeNoises> edges;
     for (int grain = 0; grain < 4; ++grain) edges.emplace_back(p.seed, grain);
     const double row_px = origin_px.y + y + 0.5;
@@ -154,10 +186,15 @@ Grid<glm::vec3> make_sky(const Grid<float>& depth_m, const Palette& palette, con
       // Long soft bands keep the gradient from looking ruled.
       const double place = v + 0.03 * bands(u * 0.9, v * 11.0) * std::clamp(2.0 * (1.0 - v), 0.0, 1.0);
       glm::vec3 colour = air_beyond(palette, place);
-      const float veil = p.clouds <= 0.0                 ? 0.0F
-                         : look.kind == SkyKind::streaks ? streak_at(p, look, column_px, row_px, veil_noises)
-                                                         : veil_at(p, look, column_px, 1.0 - v, veil_noises);
+      if (look.kind == SkyKind::evening) colour = glm::mix(colour, horizon_glow, evening_glow(p, column_px, 1.0 - v));
+      const float veil = p.clouds <= 0.0 ? 0.0F
+                         : streaky       ? streak_at(p, look, column_px, row_px, veil_noises)
+                                         : veil_at(p, look, column_px, 1.0 - v, veil_noises);
       colour = glm::mix(colour, palette.cloud_light, veil);
+      if (deck) {
+        const Layer layer = deck_at(*deck, palette, column_px, row_px);
+        colour = glm::mix(colour, layer.colour, layer.alpha);
+      }
       if (!near_row.empty()) {
         const glm::vec2 at(static_cast<float>(column_px), static_cast<float>(row_px));
         for (const Cloud* cloud : near_row) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/land_cover_class.h"
+#include "renderer/mist/mist_parameters.h"
 #include "renderer/paint/air_parameters.h"
 #include "renderer/paint/guides.h"
 #include "renderer/paint/light.h"
@@ -175,9 +176,20 @@ struct SceneSun {
   double radius_deg = painted_sun_radius_deg;  // of the disc: softness of cast shadows
 };
 
+struct SceneMist {  // see renderer/mist
+  std::string name;
+  std::string kind = "sea";                   // "sea", "valley" or "lee"
+  std::optional<double> to_m;                 // a sea has to say it
+  std::optional<double> sight_m, patches;     // absent: by the kind
+  std::optional<glm::dvec2> position;         // E, N in the scene's CRS
+  std::optional<glm::dvec2> position_lonlat;  // or longitude, latitude
+  MistParameters look;                        // without these
+};
+
 struct SceneAir {
   AirParameters look;                                 // without distances
   std::optional<double> from_m, scale_m, rim_fade_m;  // absent: by the horizon
+  std::vector<SceneMist> mist;
 };
 
 // One exemplar: painted by the program (picture empty), or a picture with a class mask and perhaps guides.

@@ -142,6 +142,15 @@ class Rules {
     }
   }
 
+  void mist() {
+    for (std::size_t i = 0; i < scene_.air.mist.size(); ++i) {
+      const SceneMist& mist = scene_.air.mist[i];
+      const std::string name = fmt::format("air.mist.{}", i);
+      if (mist.kind == "sea" && !mist.to_m) refuse(name, name + " is a sea without a surface", "to_m = altitude in m beside it");
+      if (mist.kind == "lee" || mist.look.radius_m > 0.0) require_position(name, mist.position, mist.position_lonlat);
+    }
+  }
+
   void sampling() {
     const int samples = scene_.sampling.pixel_samples;
     const int side = static_cast<int>(std::lround(std::sqrt(samples)));
@@ -276,6 +285,7 @@ void apply_scene_rules(Scene& scene, const ConfigValue& root, const SceneOrigin&
   rules.land_cover();
   rules.generalize();
   rules.deform();
+  rules.mist();
   rules.sampling();
   rules.camera();
   rules.exemplars();

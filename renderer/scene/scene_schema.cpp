@@ -25,6 +25,7 @@ const std::vector<SceneExclusion>& scene_exclusions() {
       {"land_cover.towns", {"position"}, {"position_lonlat"}},
       {"deform.summits", {"position"}, {"position_lonlat"}},
       {"deform.handles", {"position"}, {"position_lonlat"}},
+      {"air.mist", {"position"}, {"position_lonlat"}},
       {"sun", {"time"}, {"azimuth_deg", "altitude_deg"}},
       {"exemplar", {"guidance"}, {"classes", "altitude", "altitude_range_m"}},
       {"exemplar", {"picture"}, {"width", "height", "seed"}},

@@ -36,6 +36,8 @@ class SheetGround {
   PixelRect sheet() const { return traced_.sheet(); }
   const SheetView& view() const { return view_; }
   const StrokeParameters& strokes() const { return strokes_; }
+  const World& world() const { return world_; }
+  const Palette& palette() const { return palette_; }
 
   // Some traced channels of a rectangle, and the light where asked for.
   GuidanceBuffers read_guidance(PixelRect rect, std::initializer_list<GuidanceMember> channels, bool with_tone);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <utility>
 
 #include "base/grid_part.h"
@@ -41,6 +42,7 @@ SheetPicture::SheetPicture(SheetGround& ground, CopyPlan* plan, TileStore::Place
       run_(run),
       layers_(finishing_layers(plan != nullptr)),
       features_(features),
+      mist_(ground, ground.world(), place, run),
       matches_(place, ground.sheet().x1, ground.sheet().y1, plan == nullptr ? SynthesisSheet{}.tile_px : plan->synthesis->sheet().tile_px,
                {.make = [this](PixelRect tile) { return make_matches(tile); },
                 .blank = [](int width, int height) { return MatchField(width, height); },
@@ -143,7 +145,13 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect, PictureLayers* cut) {
     const Grid<glm::vec3> copied = copy_ground(painted);
     for (int y = 0; y < copied.height(); ++y) std::copy_n(copied.row(y), copied.width(), canvas.row(inside.y0 + y) + inside.x0);
   }
+  Grid<float> veil;
+  if (mist_.any()) {
+    mist_.lay_over(canvas, {inside.x0, inside.y0}, painted);
+    veil = mist_.read_veil(window);
+  }
   SheetWindow place{.origin_px = {window.x0, window.y0}, .sheet_px = ground_.view().camera.size(), .asked = inside, .ice = &ground_.ice()};
+  place.veil = mist_.any() ? &veil : nullptr;
   place.waters_known = features_.rivers;
   const bool mapped = has_features(window);
   MappedGround map;
@@ -160,9 +168,12 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect, PictureLayers* cut) {
   }
   Painting strokes =
       paint_strokes(std::move(canvas), guidance, base, layers, ground_.strokes(), run_.progress, place, parts ? &*parts : nullptr);
-  if (mapped)
+  if (mapped) {
+    const Grid<glm::vec3> before = mist_.any() ? strokes.picture : Grid<glm::vec3>();
     paint_features(strokes.picture, features_, {guidance, base.colour, base.haze, strokes.seen_ground}, window, painted,
                    parts ? &*parts : nullptr);
+    for (std::size_t i = 0; i < before.size(); ++i) strokes.picture[i] = glm::mix(strokes.picture[i], before[i], veil[i]);
+  }
   const GuidanceBuffers edges = ground_.read_guidance(painted, {&B::depth_m, &B::front}, false);
   const PixelRect wanted = moved(rect, -painted.x0, -painted.y0);
   Grid<glm::vec3> finished = part_of(blend_edges(part_of(strokes.picture, inside), edges), wanted);
@@ -182,6 +193,8 @@ void SheetPicture::keep_only(PixelRect still) {
                                             synthesis_margin_px(plan_->synthesis->sheet().level) + ground_.draft_reach_px();
   // Knitting looks at the paint of its tile and around it.
   const int knitted = plan_ != nullptr && plan_->knit ? knit_tile_px + knit_margin_px : 0;
+  const int misty = mist_.any() ? mist_.margin_px() : 0;
+  mist_.keep_only(grown(still, strokes));
   const PixelRect painted = grown(still, paint_source_reach_px(draft_layers, ground_.strokes()));
   const PixelRect shown = grown(painted, knitted);
   knitted_.keep_only(painted);
@@ -191,7 +204,7 @@ void SheetPicture::keep_only(PixelRect still) {
   const int modelled = models ? paint_source_reach_px(draft_layers, ground_.strokes()) + endless_tile_px +
                                     std::max(model_margin_px(plan_->models), ground_.draft_reach_px())
                               : 0;
-  ground_.keep_only(grown(still, knitted + std::max({strokes, copied, modelled})));
+  ground_.keep_only(grown(still, knitted + std::max({strokes + misty, copied, modelled})));
 }
 
 }  // namespace belvedere

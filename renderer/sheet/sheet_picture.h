@@ -9,6 +9,7 @@
 #include "renderer/sheet/model_ground.h"
 #include "renderer/sheet/picture_layers.h"
 #include "renderer/sheet/sheet_ground.h"
+#include "renderer/sheet/sheet_mist.h"
 #include "texture/sheet/synthesis_plan.h"
 #include "texture/sheet/synthesis_tile.h"
 #include "texture/synthesis/match_field.h"
@@ -57,6 +58,7 @@ class SheetPicture {
   const Run& run_;
   const StrokeLayers layers_;
   const DrawnFeatures& features_;
+  SheetMist mist_;
   SheetStage<MatchField> matches_;
   SheetStage<ModelPaint> modelled_;
   SeamModels seams_;

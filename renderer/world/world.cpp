@@ -13,6 +13,7 @@
 #include "renderer/world/ground_windows.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
+#include "renderer/world/scene_mist.h"
 
 namespace belvedere {
 
@@ -117,6 +118,7 @@ World::World(const LoadedScene& loaded, std::shared_ptr<const Dem> known_dem, st
                            loaded, *this, opened, progress, cache)),
       surface(deform_ground(terrain, glm::dvec3(view.viewer_xy, 0.0), deformation)),
       tracer(surface, tracer_parameters(*this, progress)),
-      horizon_px(skyline_row_px(*camera, tracer, usual_horizon * scene.output.height)) {}
+      horizon_px(skyline_row_px(*camera, tracer, usual_horizon * scene.output.height)),
+      mist(make_scene_mist(scene, view, terrain, deformation, *camera)) {}
 
 }  // namespace belvedere

@@ -4,6 +4,7 @@
 
 #include "base/cache/cache.h"
 #include "base/progress.h"
+#include "renderer/mist/mist_sight.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/guidance.h"
@@ -38,6 +39,7 @@ struct World {
   const DeformedSurface surface;  // what is traced: generalized, exaggerated, bent; its origin is the eye's place at altitude 0
   const Tracer tracer;
   const double horizon_px;  // row of the skyline's median
+  const MistAir mist;
 
  private:
   World(const LoadedScene& loaded, std::shared_ptr<const Dem> dem, std::shared_ptr<const LandCover> land_cover, SceneDem opened,

@@ -66,6 +66,17 @@ void stand_beside(std::vector<Stroke>& strokes, const Grid<std::uint8_t>& cleare
   for (Stroke& stroke : strokes) stroke.standing = true;
 }
 
+// Paint of what stands in mist is as thin as the mist before its foot leaves it; what that hides is left out.
+void veil_strokes(std::vector<Stroke>& strokes, const Grid<float>& veil) {
+  constexpr float hidden = 0.97F;
+  std::erase_if(strokes, [&](const Stroke& stroke) { return veil[stroke.source] >= hidden; });
+  for (Stroke& stroke : strokes) {
+    const float left = 1.F - veil[stroke.source];
+    stroke.alpha *= left;
+    stroke.bristle *= left;
+  }
+}
+
 void check_sizes(const Grid<glm::vec3>& canvas, const GuidanceBuffers& guidance, const BasePicture& base) {
   using B = GuidanceBuffers;
   require_channels(guidance,
@@ -89,11 +100,14 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
   if (own_plan) window.ice = &*own_plan;
   if (window.mapped != nullptr && !window.mapped->cleared.same_size(guidance.depth_m))
     throw Error(ErrorKind::bug, "paint_strokes", "what is cleared differs in size from the guidance");
+  if (window.veil != nullptr && !window.veil->same_size(guidance.depth_m))
+    throw Error(ErrorKind::bug, "paint_strokes", "mist differs in size from the guidance");
   Painting painting = begin_painting(std::move(canvas));
   if (window.mapped != nullptr) painting.seen_ground = Grid<float>(guidance.width(), guidance.height(), 1.F);
   const auto paint = [&](std::vector<Stroke> strokes) {
     // In the far, air evens out what loads of paint differ by.
     for (Stroke& stroke : strokes) stroke.load *= 1.F - 0.8F * std::clamp(base.haze[stroke.source], 0.F, 1.F);
+    if (window.veil != nullptr) veil_strokes(strokes, *window.veil);
     if (!strokes.empty()) paint_in_order(painting, guidance, std::move(strokes), parameters.pixels_per_unit, progress, window, parts);
   };
 

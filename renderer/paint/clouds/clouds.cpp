@@ -59,6 +59,19 @@ Outline make_outline(Draws& draws) {
   return outline;
 }
 
+// What holds all heads of a cloud, and how fine its edges are.
+void close_cloud(const SkyParameters& p, Cloud& cloud, double base_px, double width_px, double height_px) {
+  cloud.from = glm::vec2(1e9F);
+  cloud.to = glm::vec2(-1e9F);
+  for (const CloudHead& head : cloud.heads) {
+    cloud.from = glm::min(cloud.from, head.centre - 1.6F * head.radius);
+    cloud.to = glm::max(cloud.to, head.centre + 1.6F * head.radius);
+  }
+  cloud.to.y = static_cast<float>(base_px + 0.35 * height_px);
+  const double size = width_px / cloud_scale_px(p);
+  cloud.grain = size > 1.0 ? 0 : size > 0.5 ? 1 : size > 0.25 ? 2 : 3;
+}
+
 // One cloud. `heaped`: 0 a bank drawn out by the wind … 1 a cumulus.
 Cloud make_cloud(const SkyParameters& p, Draws& draws, glm::dvec2 middle_px, double width_px, double heaped, double opacity) {
   const double height_px = width_px * (0.05 + (0.10 + 0.20 * heaped) * draws.between(0.6, 1.2));
@@ -86,15 +99,7 @@ Cloud make_cloud(const SkyParameters& p, Draws& draws, glm::dvec2 middle_px, dou
     add(u, rise, {length, thickness});
   }
   std::stable_sort(cloud.heads.begin(), cloud.heads.end(), [](const CloudHead& a, const CloudHead& b) { return a.centre.y < b.centre.y; });
-  cloud.from = glm::vec2(1e9F);
-  cloud.to = glm::vec2(-1e9F);
-  for (const CloudHead& head : cloud.heads) {
-    cloud.from = glm::min(cloud.from, head.centre - 1.6F * head.radius);
-    cloud.to = glm::max(cloud.to, head.centre + 1.6F * head.radius);
-  }
-  cloud.to.y = static_cast<float>(base_px + 0.35 * height_px);
-  const double size = width_px / cloud_scale_px(p);
-  cloud.grain = size > 1.0 ? 0 : size > 0.5 ? 1 : size > 0.25 ? 2 : 3;
+  close_cloud(p, cloud, base_px, width_px, height_px);
   return cloud;
 }
 
@@ -136,6 +141,9 @@ constexpr Bands fair_bands = {{{0.05, 0.12, 1.3, 0.62, 1.0}, {0.14, 0.30, 2.6, 0
 // A wall of cloud that stands behind the ranges, and nearly nothing over it.
 constexpr Bands horizon_bands = {{{0.01, 0.07, 0.75, 0.95, 1.5}, {0.05, 0.16, 1.9, 0.75, 1.9}, {0.40, 0.62, 5.5, 0.40, 1.6}}};
 constexpr Bands streak_bands = {{{0.02, 0.08, 1.6, 0.45, 1.3}, {0.12, 0.20, 4.5, 0.30, 1.3}, {0.32, 0.62, 9.0, 0.0, 1.0}}};
+
+// Scraps below the deck of a front, and a wall behind the ranges.
+constexpr Bands front_bands = {{{0.01, 0.06, 0.9, 0.85, 1.6}, {0.06, 0.14, 2.4, 0.50, 1.5}, {0.20, 0.34, 6.0, 0.25, 1.2}}};
 
 void add_bands(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look, const Bands& bands) {
   for (std::size_t b = 0; b < bands.size(); ++b) {
@@ -179,17 +187,117 @@ void add_rows(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook&
   }
 }
 
+// A cumulus: towers of rounded heads over a level base, the tallest near its middle.
+Cloud make_heap(const SkyParameters& p, Draws& draws, glm::dvec2 middle_px, double width_px, double tall, double opacity) {
+  const double height_px = width_px * tall;
+  Cloud cloud{static_cast<float>(middle_px.y), {}, {}, static_cast<float>(opacity), 0, {}};
+  const auto add = [&](double u, double rise_px, double radius_px, double stretch) {
+    cloud.heads.push_back({glm::vec2(glm::dvec2(middle_px.x + 0.5 * width_px * u, middle_px.y - rise_px)),
+                           glm::vec2(glm::dvec2(radius_px * stretch, radius_px))});
+  };
+  const int towers = 3 + static_cast<int>(3.0 * draws.uniform());
+  const double lead = draws.between(-0.35, 0.35);
+  for (int t = 0; t < towers; ++t) {
+    const double u = -0.85 + 1.7 * (t + draws.uniform()) / towers;
+    const double top = (1.0 - 0.75 * std::min(1.0, std::abs(u - lead))) * draws.between(0.70, 1.0);
+    const int heads = 3 + static_cast<int>(5.0 * top);
+    for (int k = 0; k < heads; ++k) {
+      const double s = (k + 0.5) / heads;
+      const double radius = height_px * (0.30 - 0.16 * s) * draws.between(0.75, 1.25);
+      const double aside = draws.between(-0.22, 0.22) * (1.0 - 0.5 * s);
+      add(u + aside, std::max(0.0, top * s * height_px - 0.2 * radius), radius, draws.between(1.05, 1.45));
+    }
+  }
+  // What joins them along the base.
+  for (int k = 0; k < 5; ++k) {
+    const double u = -0.8 + 0.4 * k + draws.between(-0.1, 0.1);
+    const double radius = height_px * draws.between(0.12, 0.20);
+    add(u, 0.35 * radius, radius, draws.between(1.8, 2.6));
+  }
+  std::stable_sort(cloud.heads.begin(), cloud.heads.end(), [](const CloudHead& a, const CloudHead& b) { return a.centre.y < b.centre.y; });
+  close_cloud(p, cloud, middle_px.y, width_px, height_px);
+  return cloud;
+}
+
+// Heaps of fair weather over all of the sky, in streets that come from the vanishing point, ever smaller and closer towards the horizon.
+void add_cumulus(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look) {
+  const double scale_px = cloud_scale_px(p);
+  const double spread = 1.7 * scale_px;  // between streets where they are half the sky high
+  const double reach_px = look.vanishing_px.y - 0.5 * p.horizon_px;
+  const auto streets = static_cast<std::int64_t>(p.picture_size.x / spread) + 3;
+  const std::uint64_t seed = stream_seed(p.seed, Stream::cloud_banks, 11);
+  for (std::int64_t street = -streets; street <= streets; ++street) {
+    Draws draws(seed, street);
+    const double slope = (static_cast<double>(street) + draws.between(-0.35, 0.35)) * spread / reach_px;
+    for (double elevation = 0.03 * draws.between(0.8, 1.4); elevation < 0.60; elevation *= draws.between(1.4, 2.0)) {
+      const double base_px = p.horizon_px * (1.0 - elevation);
+      const double aside = draws.between(-0.6, 0.6);
+      const double x_px = look.vanishing_px.x + slope * (look.vanishing_px.y - base_px) + scale_px * (0.2 + elevation) * aside;
+      const double width_px = scale_px * look.size * size_at(elevation) * draws.between(0.45, 1.05);
+      const double tall = draws.between(0.26, 0.52) * (p.winter ? 0.6 : 1.0);
+      const double chance = draws.uniform();
+      const double wanted = (p.winter ? 0.42 : 0.62) * look.amount + 0.3 * (p.clouds - 1.0);
+      if (chance > wanted || x_px < -width_px || x_px > p.picture_size.x + width_px) continue;
+      clouds.push_back(make_heap(p, draws, {x_px, base_px}, width_px, tall, clearness(elevation)));
+    }
+  }
+}
+
+// Long level bars before a low sun, lit from below, in sheaves: the lower, the thinner and closer.
+void add_bars(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look) {
+  const double scale_px = cloud_scale_px(p);
+  const std::uint64_t seed = stream_seed(p.seed, Stream::cloud_banks, 13);
+  const auto last = static_cast<std::int64_t>(p.picture_size.x / (2.2 * scale_px)) + 1;
+  std::int64_t cell = 0;
+  for (double elevation = 0.025; elevation < 0.66; elevation *= 1.34) {
+    for (std::int64_t k = -1; k <= last; ++k) {
+      Draws draws(seed, cell++);
+      const double middle = (static_cast<double>(k) + draws.uniform()) * 2.2 * scale_px;
+      const double height = elevation * draws.between(0.85, 1.2);
+      const double half_px = scale_px * (0.35 + 1.5 * height) * draws.between(0.7, 1.6);
+      const double thick_px = scale_px * (0.012 + 0.10 * height) * draws.between(0.6, 1.3);
+      // Bars come from the vanishing point as all rows do: a little aslant, the more the farther aside.
+      const double tilt = std::clamp((middle - look.vanishing_px.x) / p.picture_size.x, -0.8, 0.8) * -0.10;
+      const double chance = draws.uniform();
+      if (chance > 0.62 * look.amount + 0.4 * (p.clouds - 1.0)) continue;
+      const double base_px = p.horizon_px * (1.0 - height);
+      Cloud bar{static_cast<float>(base_px + std::abs(tilt) * half_px), {}, {}, static_cast<float>(0.9 * clearness(height)), 0, {}};
+      const int heads = 12 + static_cast<int>(10.0 * draws.uniform());
+      for (int h = 0; h < heads; ++h) {
+        const double u = -1.0 + 2.0 * (h + draws.uniform()) / heads;
+        const double swell = std::sqrt(std::max(0.0, 1.0 - u * u));
+        const double radius = thick_px * (0.30 + 0.70 * swell) * draws.between(0.6, 1.2);
+        const double lift = draws.between(0.3, 1.2) * radius;
+        const double stretch = draws.between(3.0, 7.0);
+        bar.heads.push_back({glm::vec2(glm::dvec2(middle + half_px * u, base_px + tilt * half_px * u - lift)),
+                             glm::vec2(glm::dvec2(radius * stretch, radius))});
+      }
+      std::stable_sort(bar.heads.begin(), bar.heads.end(), [](const CloudHead& a, const CloudHead& b) { return a.centre.y < b.centre.y; });
+      close_cloud(p, bar, base_px, 2.0 * half_px, 2.0 * thick_px);
+      bar.underlit = 1.0F;
+      clouds.push_back(bar);
+    }
+  }
+}
+
 }  // namespace
 
 double cloud_scale_px(const SkyParameters& p) { return std::min(p.horizon_px, 0.09 * p.picture_size.x); }
 
 SkyKind find_sky_kind(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, SkyKind>, 5> names = {
-      {{"any", SkyKind::any}, {"fair", SkyKind::fair}, {"rows", SkyKind::rows}, {"streaks", SkyKind::streaks}, {"banks", SkyKind::banks}}};
+  constexpr std::array<std::pair<std::string_view, SkyKind>, 8> names = {{{"any", SkyKind::any},
+                                                                          {"fair", SkyKind::fair},
+                                                                          {"rows", SkyKind::rows},
+                                                                          {"streaks", SkyKind::streaks},
+                                                                          {"banks", SkyKind::banks},
+                                                                          {"cumulus", SkyKind::cumulus},
+                                                                          {"front", SkyKind::front},
+                                                                          {"evening", SkyKind::evening}}};
   for (const auto& [known, kind] : names)
     if (known == name) return kind;
   throw Error(ErrorKind::input, "sky",
-              "there is no kind of sky called \"" + std::string(name) + "\"; there are any, fair, rows, streaks and banks");
+              "there is no kind of sky called \"" + std::string(name) +
+                  "\"; there are any, fair, rows, streaks, banks, cumulus, front and evening");
 }
 
 SkyLook look_of_sky(const SkyParameters& p) {
@@ -224,6 +332,15 @@ std::vector<Cloud> make_clouds(const SkyParameters& p) {
       break;
     case SkyKind::banks:
       add_bands(clouds, p, look, horizon_bands);
+      break;
+    case SkyKind::cumulus:
+      add_cumulus(clouds, p, look);
+      break;
+    case SkyKind::front:
+      add_bands(clouds, p, look, front_bands);
+      break;
+    case SkyKind::evening:
+      add_bars(clouds, p, look);
       break;
     case SkyKind::any:
     case SkyKind::fair:

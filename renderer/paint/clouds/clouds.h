@@ -19,6 +19,7 @@ struct SkyParameters {
   double clouds = AirParameters{}.clouds;  // how many, 0 (none)…2
   SkyKind kind = AirParameters{}.sky;
   double sun_image_x = 1.0;  // > 0: the right sides of clouds are lit, -1…1
+  bool winter = false;       // heaps are lower and fewer
   std::uint64_t seed = 1;
 };
 
@@ -32,7 +33,7 @@ struct SkyLook {
   double veils = 1.0;            // on how dense veils and streaks are
   glm::dvec2 vanishing_px{0.0};  // where rows and streaks seem to come from: a place of the picture below the horizon
 };
-// Of a name: any, fair, rows, streaks, banks. Error(input) for another.
+// Of a name: those of the enumerators. Error(input) for another.
 SkyKind find_sky_kind(std::string_view name);
 SkyLook look_of_sky(const SkyParameters& parameters);
 // What clouds are measured in: the height of the sky, but no more than a narrow picture can carry.
@@ -49,6 +50,7 @@ struct Cloud {
   float opacity;                 // 0…1
   int grain;                     // how fine its edges are: 0 near … 3 far, each half the one before
   std::vector<CloudHead> heads;  // far to near
+  float underlit = 0.0F;         // 0 lit from above … 1 by a low sun from below
 };
 // All clouds of a picture, far to near: a pure function of the parameters.
 std::vector<Cloud> make_clouds(const SkyParameters& parameters);

@@ -28,6 +28,7 @@ TEST(Clouds, SeedsHaveEveryKindOfSky) {
 TEST(Clouds, KindsAreFoundByName) {
   EXPECT_EQ(find_sky_kind("rows"), SkyKind::rows);
   EXPECT_EQ(find_sky_kind("any"), SkyKind::any);
+  EXPECT_EQ(find_sky_kind("evening"), SkyKind::evening);
   EXPECT_THROW(find_sky_kind("thunder"), Error);
 }
 
@@ -79,6 +80,47 @@ TEST(Clouds, NoneAreAskedFor) {
   SkyParameters p = sky(SkyKind::rows);
   p.clouds = 0.0;
   EXPECT_TRUE(make_clouds(p).empty());
+}
+
+// Heaps of fair weather: the lower they stand the smaller, all over level bases, and fewer and lower ones in winter.
+TEST(Clouds, CumulusStandsHighAndShrinksTowardsTheHorizon) {
+  double winter_tall = 0.0, tall = 0.0;
+  std::size_t winter_count = 0, count = 0;
+  for (std::uint64_t seed = 1; seed < 7; ++seed) {
+    SkyParameters p = sky(SkyKind::cumulus, seed);
+    double near = 0.0, far = 0.0;
+    int nears = 0, fars = 0;
+    for (const Cloud& cloud : make_clouds(p)) {
+      const double width = cloud.to.x - cloud.from.x;
+      for (const CloudHead& head : cloud.heads) EXPECT_LE(head.centre.y, cloud.base_px + 0.2F * head.radius.y);
+      if (cloud.base_px < 0.75F * p.horizon_px) near += width, ++nears;
+      if (cloud.base_px > 0.90F * p.horizon_px) far += width, ++fars;
+      tall += (cloud.base_px - cloud.from.y) / width;
+      ++count;
+    }
+    ASSERT_GT(nears, 2) << seed;
+    ASSERT_GT(fars, 2) << seed;
+    EXPECT_GT(near / nears, 1.5 * far / fars);
+    p.winter = true;
+    for (const Cloud& cloud : make_clouds(p)) {
+      winter_tall += (cloud.base_px - cloud.from.y) / (cloud.to.x - cloud.from.x);
+      ++winter_count;
+    }
+  }
+  EXPECT_LT(winter_count, count);
+  EXPECT_LT(winter_tall / static_cast<double>(winter_count), 0.85 * tall / static_cast<double>(count));
+}
+
+TEST(Clouds, EveningBarsAreLongAndLitFromBelow) {
+  for (std::uint64_t seed = 1; seed < 5; ++seed) {
+    const std::vector<Cloud> bars = make_clouds(sky(SkyKind::evening, seed));
+    EXPECT_GT(bars.size(), 10U);
+    for (const Cloud& bar : bars) {
+      EXPECT_EQ(bar.underlit, 1.0F);
+      EXPECT_GT(bar.to.x - bar.from.x, 2.5F * (bar.to.y - bar.from.y));
+    }
+  }
+  for (const Cloud& cloud : make_clouds(sky(SkyKind::fair))) EXPECT_EQ(cloud.underlit, 0.0F);
 }
 
 }  // namespace

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "renderer/mist/mist_parameters.h"
+#include "renderer/paint/picture_noise.h"
+#include "renderer/trace/camera.h"
+#include "terrain/deform/deform.h"
+
+namespace belvedere {
+
+// A cloud that hangs on a summit and is drawn out by the wind: puffs in the deformed world, so that terrain stands before and behind it.
+struct LeePuff {
+  glm::dvec3 centre;
+  double radius_m;  // across; it is .7 as high
+  float opacity;    // 0…1
+};
+struct LeeCloud {
+  std::vector<LeePuff> puffs;  // far to near
+  double altitude_m = 0.0;     // of its summit, true
+  glm::dvec2 from_px{0.0};     // box of the picture that holds all of it
+  glm::dvec2 to_px{0.0};
+  double length_px = 1.0;  // how long the cloud would be square to the view
+  std::uint64_t seed = 1;
+};
+// Nothing where its summit lies behind the eye. ground_m: the summit's altitude.
+std::optional<LeeCloud> make_lee_cloud(const MistParameters& parameters, double ground_m, const Deformation& deformation,
+                                       const Camera& camera, std::uint64_t seed);
+
+// How edges of its puffs billow; one for each thread.
+class LeeEdges {
+ public:
+  explicit LeeEdges(const LeeCloud& cloud);
+  // Shares of a puff's radius, at a place of the picture.
+  glm::vec2 at(glm::dvec2 pixel);
+
+ private:
+  double per_px_;
+  std::array<GroundNoise, 4> noises_;
+};
+
+// What it shows on one line of sight that ends after depth_m (infinite: sky).
+struct LeeSight {
+  float share = 0.F;  // of what lies behind that it hides, 0…1
+  float light = 0.F;  // 0…1
+  double depth_m = 0.0;
+};
+// towards_sun: unit.
+LeeSight see_lee_cloud(const LeeCloud& cloud, LeeEdges& edges, const Ray& ray, glm::dvec2 pixel, double depth_m, glm::dvec3 towards_sun);
+
+}  // namespace belvedere

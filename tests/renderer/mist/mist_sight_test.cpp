@@ -1,0 +1,172 @@
+#include "renderer/mist/mist_sight.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/grid_part.h"
+#include "base/parallel.h"
+#include "tests/renderer/trace/made_up_ground.h"
+
+namespace belvedere {
+namespace {
+
+using test::all_meadow;
+using test::make_world;
+using test::World;
+
+// A sea of fog without heaps or soft edges.
+MistAir flat_sea(double to_m, double sight_m, const World& world) {
+  MistAir air;
+  air.layers = {{.to_m = to_m, .sight_m = sight_m, .edge_m = 0.0, .billows = 0.0, .place = {}}};
+  air.ground = make_mist_ground(world.terrain.generalized_m, world.terrain.rim_m, world.terrain.dem->transform, false);
+  air.farthest_m = 60000.0;
+  return air;
+}
+
+MistSight see(const MistAir& air, const World& world, const Camera& camera, const GuidanceBuffers& guidance) {
+  const Deformation deformation(world.deform_parameters, world.viewer);
+  return see_mist(air, {.camera = camera, .deformation = deformation}, guidance.depth_m, {0, 0});
+}
+
+// Parallel rays that fall by 30° cross a layer 300 m high on 600 m: exp(-ln 50 · 600 / sight) is left.
+TEST(MistSight, OverAPlaneALayerLetsThroughWhatTheFormulaSays) {
+  const World world = make_world(
+      200, 200, [](double, double) { return 500.0; }, all_meadow);
+  CameraParameters p;
+  p.projection = "oblique";
+  p.width = 60;
+  p.height = 40;
+  p.pitch_deg = -30.0;
+  p.azimuth_deg = 180.0;
+  p.view_width_m = 2400.0;
+  p.eye = {653000.0, 5318000.0, 3000.0};
+  const auto camera = make_camera(p);
+  const GuidanceBuffers guidance = test::trace(world, *camera);
+  const MistSight sight = see(flat_sea(800.0, 2000.0, world), world, *camera, guidance);
+  const double left = std::exp(-std::log(50.0) * 600.0 / 2000.0);
+  int seen = 0;
+  for (std::size_t i = 0; i < sight.share.size(); ++i) {
+    if (guidance.is_sky(i)) continue;
+    ++seen;
+    EXPECT_NEAR(sight.share[i], 1.0 - left, 2e-3);
+    EXPECT_GT(sight.depth_m[i], guidance.depth_m[i] - 601.0);
+    EXPECT_LT(sight.depth_m[i], guidance.depth_m[i]);
+  }
+  EXPECT_GT(seen, 500);
+}
+
+double cone_m(double east, double south) {
+  return std::max(0.0, 2000.0 - 0.5 * std::sqrt((east - 3000.0) * (east - 3000.0) + (south - 3900.0) * (south - 3900.0)));
+}
+
+// Dense fog up to 1000 m over a cone: an island whose shore is the contour of 1000 m, whatever the ground is bent to.
+void expect_island(const DeformParameters& deformed) {
+  const World world = make_world(200, 260, cone_m, all_meadow, deformed);
+  CameraParameters p = test::southward(160, 120, -38.0);
+  p.eye.z = 9000.0;
+  const auto camera = make_camera(p);
+  const GuidanceBuffers guidance = test::trace(world, *camera);
+  const MistSight sight = see(flat_sea(1000.0, 2.0, world), world, *camera, guidance);
+  int island = 0, sea = 0;
+  for (std::size_t i = 0; i < sight.share.size(); ++i) {
+    if (guidance.is_sky(i)) continue;
+    const float altitude = guidance.altitude_m[i];
+    if (altitude > 1002.0F) {
+      ++island;
+      EXPECT_EQ(sight.share[i], 0.F) << altitude;
+    } else if (altitude < 994.0F) {
+      ++sea;
+      EXPECT_GT(sight.share[i], 0.98F) << altitude;
+    }
+  }
+  EXPECT_GT(island, 300);
+  EXPECT_GT(sea, 3000);
+}
+
+TEST(MistSight, AConeStandsOutAsAnIslandWithItsShoreAtTheAltitude) { expect_island({}); }
+
+TEST(MistSight, OnBentAndRaisedGroundTheShoreStaysAtItsAltitude) {
+  DeformParameters d;
+  d.exaggeration = 1.6;
+  d.bend = {60000.0, 9000.0, 8000.0, 1e-5};
+  expect_island(d);
+  d.summits = {{{653000.0, 5316100.0}, 2500.0, 1.5, 400.0}};
+  expect_island(d);
+}
+
+// What stands before the sea is not in it, and the sky is veiled only where the line of sight passes through it.
+TEST(MistSight, NearerGroundStandsBeforeTheSea) {
+  const World world = make_world(200, 260, cone_m, all_meadow);
+  const auto camera = make_camera(test::southward(40, 30));
+  Grid<float> near(40, 30, 500.F);
+  const Deformation deformation(world.deform_parameters, world.viewer);
+  const MistSight sight = see_mist(flat_sea(1000.0, 2.0, world), {.camera = *camera, .deformation = deformation}, near, {0, 0});
+  EXPECT_TRUE(std::all_of(sight.share.begin(), sight.share.end(), [](float share) { return share == 0.F; }));
+  EXPECT_TRUE(std::all_of(sight.depth_m.begin(), sight.depth_m.end(), [](float depth) { return std::isinf(depth); }));
+}
+
+// Heaps, banks, a lee cloud and cast shadows, in any rectangle and with any threads.
+TEST(MistSight, AnyRectangleAndAnyThreadsGiveTheBitsOfTheWhole) {
+  const World world = test::rough_world();
+  const auto camera = make_camera(test::southward(150, 110));
+  const GuidanceBuffers guidance = test::trace(world, *camera);
+  const Deformation deformation(world.deform_parameters, world.viewer);
+  MistAir air = flat_sea(1100.0, 300.0, world);
+  air.layers.front().billows = 1.0;
+  air.layers.push_back({.kind = MistKind::valley, .height_m = 200.0, .patches = 0.4, .place = {}});
+  air.ground = make_mist_ground(world.terrain.generalized_m, world.terrain.rim_m, world.terrain.dem->transform, true);
+  air.rim_fade_m = 1000.0;
+  const auto cloud =
+      make_lee_cloud({.kind = MistKind::lee, .place = glm::dvec2(653000.0, 5317500.0), .size_m = 2000.0}, 1500.0, deformation, *camera, 3);
+  ASSERT_TRUE(cloud.has_value());
+  air.clouds = {*cloud};
+  const MistView view{.camera = *camera, .deformation = deformation, .tracer = world.tracer.get(), .sun_direction = {-0.6, 0.6, 0.53}};
+  const MistSight whole = see_mist(air, view, guidance.depth_m, {0, 0});
+  const auto misty = std::count_if(whole.share.begin(), whole.share.end(), [](float share) { return share > 0.5F; });
+  EXPECT_GT(misty, 2000);
+  const ThreadLimit one(1);
+  for (const PixelRect rect : {PixelRect{17, 60, 90, 109}, {100, 31, 101, 32}, {0, 0, 150, 110}}) {
+    const MistSight part = see_mist(air, view, part_of(guidance.depth_m, rect), {rect.x0, rect.y0});
+    EXPECT_TRUE(part.share == part_of(whole.share, rect));
+    EXPECT_TRUE(part.depth_m == part_of(whole.depth_m, rect));
+    EXPECT_TRUE(part.light == part_of(whole.light, rect));
+    EXPECT_TRUE(part.altitude_m == part_of(whole.altitude_m, rect));
+  }
+}
+
+// A wall of rock between the sun and the sea throws its shadow on it.
+TEST(MistSight, SummitsThrowShadowsOnTheSea) {
+  const World world = make_world(200, 260, cone_m, all_meadow);
+  CameraParameters p = test::southward(160, 120, -38.0);
+  p.eye.z = 9000.0;
+  const auto camera = make_camera(p);
+  const GuidanceBuffers guidance = test::trace(world, *camera);
+  const Deformation deformation(world.deform_parameters, world.viewer);
+  const MistAir air = flat_sea(1000.0, 50.0, world);
+  MistView view{.camera = *camera, .deformation = deformation, .tracer = world.tracer.get(), .sun_direction = {0.94, 0.0, 0.34}};
+  const MistSight shaded = see_mist(air, view, guidance.depth_m, {0, 0});
+  view.tracer = nullptr;
+  const MistSight open = see_mist(air, view, guidance.depth_m, {0, 0});
+  // The sun stands in the east, which lies left of a view to the south: the shadow falls to the right.
+  int left = 0, right = 0;
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x)
+      if (shaded.share(x, y) > 0.9F && shaded.light(x, y) < 0.8F * open.light(x, y)) ++(x < 80 ? left : right);
+  EXPECT_GT(right, 40);
+  EXPECT_GT(right, 4 * left);
+}
+
+TEST(MistSight, WithoutMistNothingIsSeen) {
+  const World world = make_world(
+      20, 20, [](double, double) { return 500.0; }, all_meadow);
+  const auto camera = make_camera(test::southward(16, 16));
+  const Deformation deformation;
+  const MistSight sight = see_mist({}, {.camera = *camera, .deformation = deformation}, Grid<float>(16, 16, 100.F), {0, 0});
+  EXPECT_EQ(sight.share, Grid<float>(16, 16, 0.F));
+}
+
+}  // namespace
+}  // namespace belvedere

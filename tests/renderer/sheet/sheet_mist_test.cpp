@@ -1,0 +1,75 @@
+#include "renderer/sheet/sheet_mist.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/grid_part.h"
+#include "base/parallel.h"
+#include "renderer/sheet/sheet_picture.h"
+#include "tests/files.h"
+#include "tests/renderer/world/small_world.h"
+
+namespace belvedere {
+namespace {
+
+constexpr PixelRect sheet{0, 0, 230, 210};
+
+// A scene whose picture is painted in strokes alone, in the stages of a sheet.
+struct Painted {
+  explicit Painted(std::vector<std::string> settings)
+      : world((settings.insert(settings.end(), {"output.width=230", "output.height=210", "output.sheet_width_mm=115"}),
+               test::small_scene(settings)),
+              silent_progress()) {}
+  Grid<glm::vec3> make(PixelRect rect, int tile_px = 96) {
+    SheetGround ground(world, view_of(world), palette, place, run, tile_px);
+    SheetPicture picture(ground, nullptr, place, run);
+    return picture.make(rect);
+  }
+  const Palette palette = read_palette("summer");
+  const World world;
+  const test::Folder folder;
+  TileStore::Place place{folder.path(), 1U << 24U};
+  const belvedere::Run run;
+};
+
+const std::vector<std::string> misty = {"air.mist.0={ kind = \"sea\", to_m = 1100 }", "air.mist.1={ kind = \"valley\" }",
+                                        "air.mist.2={ kind = \"lee\", position = [6000, 7000], size_m = 2500 }"};
+
+TEST(SheetMist, AnyRectangleTilesAndThreadsGiveThePictureOfTheWhole) {
+  Painted painted(misty);
+  const Grid<glm::vec3> whole = painted.make(sheet);
+  const ThreadLimit one(1);
+  for (const PixelRect rect : {PixelRect{150, 90, 230, 170}, {63, 63, 65, 66}})
+    EXPECT_TRUE(painted.make(rect, 64) == part_of(whole, rect)) << rect.x0;
+}
+
+TEST(SheetMist, ASeaBelowAllGroundChangesNothing) {
+  Painted dry({});
+  Painted low({"air.mist.0={ kind = \"sea\", to_m = -400, billows = 0 }"});
+  EXPECT_TRUE(dry.make(sheet) == low.make(sheet));
+}
+
+// Deep under fog there is neither tree nor ground: the picture is the mist's paint.
+TEST(SheetMist, NothingStandsOutOfDeepFog) {
+  Painted deep({"air.mist.0={ kind = \"sea\", to_m = 3900, sight_m = 60, billows = 0 }"});
+  SheetGround ground(deep.world, view_of(deep.world), deep.palette, deep.place, deep.run, 96);
+  SheetMist mist(ground, deep.world, deep.place, deep.run);
+  Grid<glm::vec3> fog(230, 210, glm::vec3(0.F));
+  mist.lay_over(fog, {0, 0}, sheet);
+  const Grid<float> veil = mist.read_veil(sheet);
+  const Grid<glm::vec3> picture = deep.make(sheet);
+  int hidden = 0;
+  for (int y = 100; y < 210; ++y)
+    for (int x = 40; x < 190; ++x) {
+      if (veil(x, y) < 0.999F) continue;
+      ++hidden;
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(picture(x, y)[c], fog(x, y)[c], 0.02F);
+    }
+  EXPECT_GT(hidden, 8000);
+}
+
+}  // namespace
+}  // namespace belvedere
