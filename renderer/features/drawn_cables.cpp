@@ -110,6 +110,21 @@ DrawnPoint to_drawn(const RopePoint& point, glm::dvec2 place, float half_px, dou
           .along_mm = static_cast<float>(along_mm)};
 }
 
+// The ground below a rope, wherever trees would reach up to it.
+void add_lanes(const CableMaking& making, int kind, const std::vector<RopePoint>& points, std::vector<DrawnLine>& lines) {
+  if (making.kind.clear_mm <= 0.0) return;
+  DrawnLine lane{.kind = kind, .part = LinePart::lane, .points = {}};
+  for (std::size_t i = 0; i <= points.size(); ++i) {
+    if (i < points.size() && points[i].in_picture && !points[i].free) {
+      lane.points.push_back(to_drawn(points[i], points[i].foot_px, static_cast<float>(points[i].look.half_px), 0.0));
+      lane.points.back().distance_m = static_cast<float>(making.sight.distance_m(points[i].ground, points[i].foot_px));
+      continue;
+    }
+    if (lane.points.size() > 1) lines.push_back(lane);
+    lane.points.clear();
+  }
+}
+
 }  // namespace
 
 void draw_cable(const CableMaking& making, const Feature& feature, std::vector<DrawnLine>& lines, DrawnCount& count) {
@@ -160,6 +175,7 @@ void draw_cable(const CableMaking& making, const Feature& feature, std::vector<D
       }
     }
     end_rope();
+    if (lines.size() > before) add_lanes(making, feature.kind, points, lines);
   }
   ++count.features;
   ++(!on_terrain             ? count.outside_terrain

@@ -144,6 +144,55 @@ void draw_way(const Making& making, const Feature& feature, const FeatureKind& k
   count_line(samples, !made.lines.empty(), far, made.count);
 }
 
+// What a river needs free of trees: its water as it lies in the picture.
+std::vector<DrawnLine> river_lanes(const Making& making, const CoverCourse& river) {
+  std::vector<DrawnLine> lanes;
+  const FeatureKind& kind = making.set.style.kinds[static_cast<std::size_t>(river.kind)];
+  if (kind.clear_mm <= 0.0 || river.places.size() < 2) return lanes;
+  const double px_per_mm = making.parameters.px_per_mm;
+  const std::vector<LineSample> samples = sample_line(making.sight, river.places, px_per_mm);
+  std::vector<DrawnPoint> run;
+  const auto end_run = [&] {
+    if (run.size() > 1) {
+      thin(run);
+      lanes.push_back({.kind = river.kind, .part = LinePart::lane, .points = std::move(run)});
+    }
+    run.clear();
+  };
+  std::size_t at = 0;  // the river's place at or before the sample
+  for (const LineSample& sample : samples) {
+    if (at + 1 < river.places.size() && sample.map == river.places[at + 1]) ++at;
+    if (!sample.in_picture) {
+      end_run();
+      continue;
+    }
+    const std::size_t from = std::min(at, river.places.size() - 2);
+    const glm::dvec2 along = river.places[from + 1] - river.places[from];
+    const double length_m = std::max(glm::length(along), 1e-9);
+    const auto half_m = static_cast<double>(std::max(river.half_width_m[from], river.half_width_m[from + 1]));
+    const PointLook look =
+        look_at(making.sight, sample.point, sample.pixel, kind, kind.width_mm, 0.0, px_per_mm, making.foreground_m_per_px);
+    // As thick as its water looks across its way: a river that leads across the sight lies flat.
+    const double step_m = 30.0;
+    const glm::dvec3 ahead{along * (step_m / length_m), 0.0};
+    const auto on = making.sight.pixel(sample.point + ahead);
+    const auto beside = making.sight.pixel(sample.point + glm::dvec3(-ahead.y, ahead.x, 0.0));
+    double half_px = 0.0;
+    if (on && beside) {
+      const glm::dvec2 a = *on - sample.pixel;
+      const glm::dvec2 b = *beside - sample.pixel;
+      half_px = std::abs(a.x * b.y - a.y * b.x) / std::max(glm::length(a), 1e-9) * (half_m / step_m);
+    }
+    run.push_back({.place = glm::vec2(sample.pixel),
+                   .distance_m = static_cast<float>(sample.distance_m),
+                   .half_px = static_cast<float>(half_px),
+                   .share = static_cast<float>(look.share),
+                   .along_mm = 0.F});
+  }
+  end_run();
+  return lanes;
+}
+
 Made make_feature(const Making& making, const Feature& feature) {
   Made made;
   const FeatureKind& kind = making.set.style.kinds[static_cast<std::size_t>(feature.kind)];
@@ -248,7 +297,8 @@ float reach_px(const FeatureKind& kind, const DrawnPoint& point, double px_per_m
   return point.half_px * (1.F + static_cast<float>(kind.hand)) + static_cast<float>(beyond_mm * px_per_mm) * point.share + 2.F;
 }
 
-DrawnFeatures draw_features(const FeatureSet& set, const GroundSight& sight, const DrawnParameters& parameters) {
+DrawnFeatures draw_features(const FeatureSet& set, const GroundSight& sight, const DrawnParameters& parameters,
+                            std::span<const CoverCourse> rivers) {
   DrawnFeatures drawn;
   drawn.style = set.style;
   drawn.winter = parameters.winter;
@@ -268,6 +318,11 @@ DrawnFeatures draw_features(const FeatureSet& set, const GroundSight& sight, con
     std::move(made[i].lines.begin(), made[i].lines.end(), std::back_inserter(drawn.lines));
     std::move(made[i].houses.begin(), made[i].houses.end(), std::back_inserter(drawn.houses));
   }
+  std::vector<std::vector<DrawnLine>> lanes(rivers.size());
+  parallel_ranges<std::size_t>(rivers.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) lanes[i] = river_lanes(making, rivers[i]);
+  });
+  for (std::vector<DrawnLine>& lane : lanes) std::move(lane.begin(), lane.end(), std::back_inserter(drawn.lines));
   index(drawn);
   return drawn;
 }

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "base/parallel.h"
 #include "renderer/features/drawn_parts.h"
 #include "renderer/features/feature_set.h"
 #include "renderer/features/ground_sight.h"
+#include "terrain/cover/map_cover.h"
 
 namespace belvedere {
 
@@ -45,8 +47,10 @@ struct DrawnParameters {
 // Lays features over the drawn ground: sampled finely enough for every facet and to a third of a pixel, with their widths there, parted
 // where ground hides them. What only a bump hides that lifts less than a hair's width of the sheet is seen, and gaps shorter than a mm
 // behind ground that is no farther range are closed, so that lines along floors and ridges do not break into dashes. Kinds that change the
-// ground (rivers, areas, towns) are not drawn here. In parallel; the same for any threads.
-DrawnFeatures draw_features(const FeatureSet& set, const GroundSight& sight, const DrawnParameters& parameters);
+// ground (rivers, areas, towns) are not drawn here; of `rivers`, by their kinds of the style, only the banks are kept clear. In parallel;
+// the same for any threads.
+DrawnFeatures draw_features(const FeatureSet& set, const GroundSight& sight, const DrawnParameters& parameters,
+                            std::span<const CoverCourse> rivers = {});
 
 // Of clear_mm, straight below a line in the picture: what stands there in front of it would hide it.
 inline constexpr double clear_below = 2.5;

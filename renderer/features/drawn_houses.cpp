@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <optional>
 
 #include "renderer/features/line_samples.h"
@@ -35,13 +34,30 @@ Footprint usual_house(const GroundSight& sight, glm::dvec2 place) {
   return {place, 0.5 * usual_length_m * fall, 0.5 * usual_width_m * perpendicular(fall)};
 }
 
+// The rectangles that a house stands on.
+std::vector<Footprint> wings_for(const GroundSight& sight, const Feature& feature) {
+  if (feature.shape == MapShape::point) return {usual_house(sight, feature.parts.front().front())};
+  std::vector<Footprint> wings = wings_of(feature.parts);
+  if (wings.size() > 1) return wings;
+  // A wall of no length has no direction; a shed is no line.
+  Footprint& foot = wings.front();
+  if (glm::length(foot.along) < 1e-6) foot = usual_house(sight, feature.parts.front().front());
+  if (glm::length(foot.across) < 0.35 * glm::length(foot.along))
+    foot.across = 0.35 * glm::length(foot.along) * glm::normalize(perpendicular(foot.along));
+  return wings;
+}
+
 class Builder {
  public:
-  Builder(const HouseMaking& making, glm::dvec3 middle, const Footprint& foot, double scale)
-      : making_(making), middle_(middle), along_(scale * foot.along, 0.0), across_(scale * foot.across, 0.0) {
-    const double width = 2.0 * glm::length(across_);
-    wall_ = {0.0, 0.0, eaves * width};
-    top_ = {0.0, 0.0, (eaves + ridge) * width};
+  // `middle` on the floor; walls of all wings of a house are as high. The roof of a wing ends with its walls, where another may begin.
+  Builder(const HouseMaking& making, glm::dvec3 middle, const Footprint& foot, double scale, double wall_m, bool is_wing)
+      : making_(making),
+        middle_(middle),
+        along_(scale * foot.along, 0.0),
+        across_(scale * foot.across, 0.0),
+        beyond_(is_wing ? 1.0 : overhang) {
+    wall_ = {0.0, 0.0, wall_m};
+    top_ = {0.0, 0.0, wall_m + ridge * 2.0 * glm::length(across_)};
   }
 
   // Faces that look towards the eye, in the order of painting.
@@ -73,22 +89,14 @@ class Builder {
     return pixel ? glm::dot(normal, -making_.sight.sight_at(*pixel)) : 0.0;
   }
 
-  void strip(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d, glm::dvec3 normal, bool is_roof, std::vector<HouseFace>& all) {
-    // From the middle of a … b to that of d … c.
-    const auto pa = project(a);
-    const auto pb = project(b);
-    const auto pc = project(c);
-    const auto pd = project(d);
-    if (!pa || !pb || !pc || !pd) return;
+  // From the edge a … b to the edge d … c.
+  void add_face(const std::array<glm::dvec3, 4>& places, glm::dvec3 normal, bool is_roof, std::vector<HouseFace>& all) {
     HouseFace face;
-    face.from = 0.5F * (*pa + *pb);
-    face.to = 0.5F * (*pc + *pd);
-    const glm::vec2 axis = face.to - face.from;
-    const float length = glm::length(axis);
-    if (length < 1e-3F) return;
-    const glm::vec2 square = glm::vec2(-axis.y, axis.x) / length;
-    face.from_width = std::abs(glm::dot(*pb - *pa, square));
-    face.to_width = std::abs(glm::dot(*pc - *pd, square));
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const auto pixel = project(places[k]);
+      if (!pixel) return;
+      face.corners[k] = *pixel;
+    }
     face.light = static_cast<float>(std::max(0.0, glm::dot(glm::normalize(normal), making_.sun)));
     face.roof = is_roof;
     all.push_back(face);
@@ -96,13 +104,13 @@ class Builder {
 
   bool wall(glm::dvec3 out, glm::dvec3 beside, std::vector<HouseFace>& all) {
     if (towards_eye(glm::normalize(out)) <= 0.0) return false;
-    strip(out - beside, out + beside, out + beside + wall_, out - beside + wall_, out, false, all);
+    add_face({out - beside, out + beside, out + beside + wall_, out - beside + wall_}, out, false, all);
     return true;
   }
 
   void gable(double side, std::vector<HouseFace>& all) {
     const glm::dvec3 out = side * along_;
-    strip(out - across_ + wall_, out + across_ + wall_, out + 0.05 * across_ + top_, out - 0.05 * across_ + top_, out, false, all);
+    add_face({out - across_ + wall_, out + across_ + wall_, out + 0.05 * across_ + top_, out - 0.05 * across_ + top_}, out, false, all);
   }
 
   glm::dvec3 roof_normal(double side) const {
@@ -115,7 +123,7 @@ class Builder {
     const glm::dvec3 normal = roof_normal(side);
     if (towards_eye(normal) <= 0.0) return;
     const glm::dvec3 edge = overhang * side * across_ + wall_ - glm::dvec3(0.0, 0.0, (overhang - 1.0) * (top_.z - wall_.z));
-    strip(edge - overhang * along_, edge + overhang * along_, overhang * along_ + top_, -overhang * along_ + top_, normal, true, all);
+    add_face({edge - beyond_ * along_, edge + beyond_ * along_, beyond_ * along_ + top_, -beyond_ * along_ + top_}, normal, true, all);
   }
 
   double reach_of(glm::dvec2 foot) const {
@@ -134,60 +142,29 @@ class Builder {
   glm::dvec3 across_;
   glm::dvec3 wall_{0.0};
   glm::dvec3 top_{0.0};
+  double beyond_;  // of half its length: where the roof ends
 };
 
 }  // namespace
 
-Footprint footprint_of(const std::vector<glm::dvec2>& outline) {
-  Footprint best;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const glm::dvec2 edge = outline[(i + 1) % outline.size()] - outline[i];
-    if (glm::length(edge) < 1e-6) continue;
-    const glm::dvec2 u = glm::normalize(edge);
-    const glm::dvec2 v = perpendicular(u);
-    glm::dvec2 low(std::numeric_limits<double>::infinity());
-    glm::dvec2 high = -low;
-    for (const glm::dvec2 corner : outline) {
-      const glm::dvec2 at{glm::dot(corner - outline[0], u), glm::dot(corner - outline[0], v)};
-      low = glm::min(low, at);
-      high = glm::max(high, at);
-    }
-    const glm::dvec2 size = high - low;
-    if (size.x * size.y >= least * (1.0 - 1e-9)) continue;
-    least = size.x * size.y;
-    const glm::dvec2 middle = 0.5 * (low + high);
-    best.middle = outline[0] + middle.x * u + middle.y * v;
-    best.along = 0.5 * size.x * u;
-    best.across = 0.5 * size.y * v;
-  }
-  if (glm::length(best.along) < glm::length(best.across)) std::swap(best.along, best.across);
-  return best;
-}
-
 void draw_house(const HouseMaking& making, const Feature& feature, std::vector<DrawnHouse>& houses, DrawnCount& count) {
   const FeatureKind& kind = making.kind;
   ++count.features;
-  Footprint foot =
-      feature.shape == MapShape::point ? usual_house(making.sight, feature.parts.front().front()) : footprint_of(feature.parts.front());
-  // A wall of no length has no direction; a shed is no line.
-  const double length = glm::length(foot.along);
-  if (length < 1e-6) foot = usual_house(making.sight, feature.parts.front().front());
-  if (glm::length(foot.across) < 0.35 * glm::length(foot.along))
-    foot.across = 0.35 * glm::length(foot.along) * glm::normalize(perpendicular(foot.along));
+  const std::vector<Footprint> wings = wings_for(making.sight, feature);
+  const Footprint foot = wings.size() == 1 ? wings.front() : footprint_of(feature.parts.front());
   const auto ground = making.sight.ground(foot.middle);
   if (!ground) {
     ++count.outside_terrain;
     return;
   }
-  std::vector<LineSample> middle(1);
+  std::vector<LineSample> asked(1);
   const auto pixel = making.sight.pixel(*ground);
   const glm::dvec2 size = making.sight.size();
   if (!pixel || !(pixel->x > -0.1 * size.x && pixel->y > -0.1 * size.y && pixel->x < 1.1 * size.x && pixel->y < 1.1 * size.y)) {
     ++count.outside_picture;
     return;
   }
-  LineSample& sample = middle.front();
+  LineSample& sample = asked.front();
   sample.map = foot.middle;
   sample.point = *ground;
   sample.pixel = *pixel;
@@ -199,7 +176,7 @@ void draw_house(const HouseMaking& making, const Feature& feature, std::vector<D
     ++count.too_far;
     return;
   }
-  find_seen(making.sight, middle, making.px_per_mm);
+  find_seen(making.sight, asked, making.px_per_mm);
   if (!sample.seen) {
     ++count.hidden;
     return;
@@ -208,21 +185,41 @@ void draw_house(const HouseMaking& making, const Feature& feature, std::vector<D
   const double own_px = 2.0 * glm::length(foot.along) / m_per_px;
   const double most_px = 0.5 * most_units * making.px_per_mm;
   const double scale = std::min(std::max(own_px, 2.0 * look.half_px), most_px) / own_px;
-  Builder builder(making, sample.point, foot, scale);
   DrawnHouse house;
   house.kind = feature.kind;
   house.foot = glm::vec2(sample.pixel);
   house.distance_m = static_cast<float>(sample.distance_m);
-  house.faces = builder.faces();
-  house.reach_px = static_cast<float>(builder.reach_px(sample.pixel));
-  const double height_m = (eaves + 0.5 * ridge) * 2.0 * scale * glm::length(foot.across);
+  const double wall_m = eaves * 2.0 * scale * glm::length(wings.front().across);
   const glm::dvec2 level{making.sun.x, making.sun.y};
   const double flat = std::max(0.35, making.sun.z / std::max(1e-3, glm::length(level)));
-  const glm::dvec2 away = glm::length(level) > 1e-6 ? -glm::normalize(level) * (height_m / flat) : glm::dvec2(0.0);
-  if (const auto end = making.sight.pixel(sample.point + glm::dvec3(away, 0.0))) {
-    house.shade = glm::vec2(*end - sample.pixel);
-    house.shade_px = static_cast<float>(2.0 * scale * glm::length(foot.across) / m_per_px);
-    house.reach_px = std::max(house.reach_px, glm::length(house.shade) + house.shade_px);
+  struct Placed {
+    const Footprint* wing;
+    glm::dvec3 middle;
+    double distance_m;
+  };
+  std::vector<Placed> order;
+  for (const Footprint& wing : wings) {
+    const glm::dvec3 middle = sample.point + glm::dvec3(scale * (wing.middle - foot.middle), 0.0);
+    order.push_back({&wing, middle, making.sight.distance_m(middle, sample.pixel)});
+  }
+  // The farther wing first.
+  std::stable_sort(order.begin(), order.end(), [](const Placed& a, const Placed& b) { return a.distance_m > b.distance_m; });
+  for (const Placed& placed : order) {
+    Builder builder(making, placed.middle, *placed.wing, scale, wall_m, wings.size() > 1);
+    const std::vector<HouseFace> faces = builder.faces();
+    house.faces.insert(house.faces.end(), faces.begin(), faces.end());
+    house.reach_px = std::max(house.reach_px, static_cast<float>(builder.reach_px(sample.pixel)));
+    const double height_m = wall_m + ridge * scale * glm::length(placed.wing->across);
+    const glm::dvec2 away = glm::length(level) > 1e-6 ? -glm::normalize(level) * (height_m / flat) : glm::dvec2(0.0);
+    const auto begin = making.sight.pixel(placed.middle);
+    const auto end = making.sight.pixel(placed.middle + glm::dvec3(away, 0.0));
+    if (!begin || !end) continue;
+    const HouseShade shade{.from = glm::vec2(*begin),
+                           .to = glm::vec2(*end),
+                           .width = static_cast<float>(2.0 * scale * glm::length(placed.wing->across) / m_per_px)};
+    house.reach_px =
+        std::max({house.reach_px, glm::length(shade.from - house.foot) + shade.width, glm::length(shade.to - house.foot) + shade.width});
+    house.shades.push_back(shade);
   }
   ++count.drawn;
   houses.push_back(std::move(house));

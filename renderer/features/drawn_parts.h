@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -20,7 +21,8 @@ enum class LinePart : std::uint8_t {
   way,    // on the ground
   rope,   // in the air
   pylon,  // upright below a rope
-  station
+  station,
+  lane  // no paint: ground that a rope above it or a river needs free of trees
 };
 
 // A piece of a line that the picture shows, without what ground hides.
@@ -30,20 +32,23 @@ struct DrawnLine {
   std::vector<DrawnPoint> points;  // 2 or more
 };
 
-// A side of a house or its roof: a strip between the middles of two of its edges.
+// A side of a house or its roof: its lower edge from left to right, then its upper one from right to left, px of the sheet.
 struct HouseFace {
-  glm::vec2 from{0.F}, to{0.F};
-  float from_width = 0.F, to_width = 0.F;
+  std::array<glm::vec2, 4> corners{};
   float light = 1.F;  // 0 turned away from the sun … 1 towards it
   bool roof = false;
+};
+// The shadow of a house, or of one of its wings, on the ground.
+struct HouseShade {
+  glm::vec2 from{0.F}, to{0.F};  // px of the sheet
+  float width = 0.F;
 };
 struct DrawnHouse {
   int kind = 0;
   glm::vec2 foot{0.F};  // middle of the footprint, px of the sheet
   float distance_m = 0.F;
-  float reach_px = 0.F;          // from the foot to its farthest paint
-  glm::vec2 shade{0.F};          // where its shadow's middle lies, from the foot
-  float shade_px = 0.F;          // and how wide it is
+  float reach_px = 0.F;  // from the foot to its farthest paint
+  std::vector<HouseShade> shades;
   std::vector<HouseFace> faces;  // in the order of painting
 };
 

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <limits>
 #include <vector>
 
 #include "base/error.h"
@@ -99,7 +100,7 @@ class Coverage {
     bool any = false;
     for (const std::uint32_t number : numbers) {
       const DrawnLine& line = features_.lines[number];
-      if (line.kind != layer.kind) continue;
+      if (line.kind != layer.kind || line.part == LinePart::lane) continue;
       for (std::size_t i = 0; i + 1 < line.points.size(); ++i) any = lay_segment(layer, line, i) || any;
     }
     return any;
@@ -236,11 +237,13 @@ void paint_layer(const Canvas& canvas, const DrawnFeatures& features, const Laye
       const float tone = ground.guidance.tone[i];
       // Before sky there is no ground that light falls on.
       const float light = ground.guidance.is_sky(i) ? 0.6F : tone;
-      const float under = layer.coat == Coat::cable ? 1.F : ground.seen_ground[i];
+      const bool hangs = layer.coat == Coat::cable;
+      const float under = hangs ? 1.F : ground.seen_ground[i];
+      const float nearer = hangs && !ground.seen_hung.empty() ? ground.seen_hung[i] : 1.F;
       const glm::vec3 pixel = canvas.picture[i];
       // What lies below where things stand on it: the picture itself where nothing does.
       const glm::vec3 below = ground.base[i] + (pixel - ground.base[i]) * under;
-      const float alpha = share * under * (layer.coat == Coat::bed || layer.coat == Coat::cable ? 1.F : opacity);
+      const float alpha = share * under * nearer * (layer.coat == Coat::bed || hangs ? 1.F : opacity);
       const glm::vec3 paint = layer.coat == Coat::bed ? colours.bed : layer.coat == Coat::casing ? colours.casing : colours.fill;
       // The brush lays now more, now less of it.
       const glm::vec3 loaded = paint * (1.F + load_share * load_noise(features, x, y));
@@ -250,13 +253,15 @@ void paint_layer(const Canvas& canvas, const DrawnFeatures& features, const Laye
     }
 }
 
+bool is_in_air(LinePart part) { return part == LinePart::rope || part == LinePart::pylon; }
+
 }  // namespace
 
 void paint_features(Grid<glm::vec3>& picture, const DrawnFeatures& features, const FeatureGround& ground, PixelRect rect, PixelRect asked,
                     PaintParts* parts) {
   const bool same = picture.width() == rect.width() && picture.height() == rect.height() && picture.same_size(ground.guidance.depth_m) &&
                     picture.same_size(ground.guidance.tone) && picture.same_size(ground.base) && picture.same_size(ground.haze) &&
-                    picture.same_size(ground.seen_ground);
+                    picture.same_size(ground.seen_ground) && (ground.seen_hung.empty() || picture.same_size(ground.seen_hung));
   if (!same) throw Error(ErrorKind::bug, "paint_features", "grids that differ in size");
   const std::vector<Layer> layers = layers_of(features.style);
   const Canvas canvas{picture, ground, rect, parts};
@@ -306,7 +311,7 @@ Grid<std::uint8_t> find_cleared(const DrawnFeatures& features, const Grid<float>
     for (const std::uint32_t number : features.lines_at(tile)) {
       const DrawnLine& line = features.lines[number];
       const FeatureKind& kind = features.style.kinds[static_cast<std::size_t>(line.kind)];
-      if (kind.clear_mm <= 0.0 || line.part == LinePart::rope || line.part == LinePart::pylon) continue;
+      if (kind.clear_mm <= 0.0 || is_in_air(line.part)) continue;
       for (std::size_t i = 0; i + 1 < line.points.size(); ++i) clear(line.points[i], line.points[i + 1], static_cast<float>(kind.clear_mm));
     }
     for (const std::uint32_t number : features.houses_at(tile)) {
@@ -318,6 +323,37 @@ Grid<std::uint8_t> find_cleared(const DrawnFeatures& features, const Grid<float>
     }
   });
   return cleared;
+}
+
+Grid<float> find_hung(const DrawnFeatures& features, PixelRect rect) {
+  const std::vector<std::uint32_t> numbers = features.lines_at(rect);
+  const auto hangs = [&](std::uint32_t number) {
+    const LinePart part = features.lines[number].part;
+    return is_in_air(part) || part == LinePart::station;
+  };
+  if (std::none_of(numbers.begin(), numbers.end(), hangs)) return {};
+  Grid<float> hung_m(rect.width(), rect.height(), std::numeric_limits<float>::infinity());
+  parallel_tiles(rect.width(), rect.height(), tile_px, [&](PixelRect part) {
+    const PixelRect tile = moved(part, rect.x0, rect.y0);
+    for (const std::uint32_t number : features.lines_at(tile)) {
+      const DrawnLine& line = features.lines[number];
+      for (std::size_t i = 0; hangs(number) && i + 1 < line.points.size(); ++i) {
+        const DrawnPoint& a = line.points[i];
+        const DrawnPoint& b = line.points[i + 1];
+        // A station is square.
+        const float reach = 1.5F * std::max(a.half_px, b.half_px) + 1.F;
+        const PixelRect where = around(a, b, reach, tile);
+        for (int y = where.y0; y < where.y1; ++y)
+          for (int x = where.x0; x < where.x1; ++x) {
+            const Near near = nearest(a, b, {static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F});
+            if (near.distance > reach) continue;
+            float& to = hung_m(x - rect.x0, y - rect.y0);
+            to = std::min(to, glm::mix(a.distance_m, b.distance_m, near.t));
+          }
+      }
+    }
+  });
+  return hung_m;
 }
 
 }  // namespace belvedere

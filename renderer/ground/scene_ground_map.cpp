@@ -180,6 +180,7 @@ GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::ve
       keeps = keeps || block.keep_guesses;
       map.looks[static_cast<std::size_t>(feature.kind)].painted_as = kind.ground.value_or(LandCoverClass::water);
       map.looks[static_cast<std::size_t>(feature.kind)].rank = kind.rank;
+      map.looks[static_cast<std::size_t>(feature.kind)].kind = feature.kind;
       map.least_px[static_cast<std::size_t>(feature.kind)] = std::max(kind.least_px, kind.width_mm * kind.least_share * px_per_mm);
       map.rivers.push_back({.places = std::move(feature.parts[0]),
                             .width_m = 0.0,
@@ -363,7 +364,7 @@ void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress, 
 void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache,
                     Catchments* catchments, const SeenFrom* seen) {
   const GroundMap map = read_ground_map(loaded, dem, silent_progress(), cache);
-  const std::vector<CoverCourse> rivers = lay_rivers(map, loaded, dem, progress, cache, catchments, seen);
+  std::vector<CoverCourse> rivers = lay_rivers(map, loaded, dem, progress, cache, catchments, seen);
   if (map.areas.empty() && rivers.empty()) return;
   std::size_t places = 0;
   for (const CoverArea& area : map.areas)
@@ -371,7 +372,7 @@ void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem,
   for (const CoverCourse& river : rivers) places += river.places.size();
   check_memory(fmt::format("areas and rivers of {} places, a river's a cell apart,", places), bytes_a_place * static_cast<double>(places));
   const MapBox box = box_of(dem);
-  lay_map(cover, std::make_shared<const MapCover>(map.areas, rivers, box.low, box.high));
+  lay_map(cover, std::make_shared<const MapCover>(map.areas, std::move(rivers), box.low, box.high));
 }
 
 }  // namespace belvedere

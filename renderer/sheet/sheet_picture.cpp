@@ -157,6 +157,7 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect, PictureLayers* cut) {
   MappedGround map;
   if (mapped) {
     map.cleared = find_cleared(features_, guidance.depth_m, window);
+    map.hung_m = find_hung(features_, window);
     map.besides = house_strokes(features_, {guidance, base, ground_.strokes(), place});
     place.mapped = &map;
   }
@@ -170,7 +171,7 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect, PictureLayers* cut) {
       paint_strokes(std::move(canvas), guidance, base, layers, ground_.strokes(), run_.progress, place, parts ? &*parts : nullptr);
   if (mapped) {
     const Grid<glm::vec3> before = mist_.any() ? strokes.picture : Grid<glm::vec3>();
-    paint_features(strokes.picture, features_, {guidance, base.colour, base.haze, strokes.seen_ground}, window, painted,
+    paint_features(strokes.picture, features_, {guidance, base.colour, base.haze, strokes.seen_ground, strokes.seen_hung}, window, painted,
                    parts ? &*parts : nullptr);
     for (std::size_t i = 0; i < before.size(); ++i) strokes.picture[i] = glm::mix(strokes.picture[i], before[i], veil[i]);
   }

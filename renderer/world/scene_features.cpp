@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -85,11 +86,13 @@ DrawnFeatures draw_scene_features(const LoadedScene& loaded, const World& world,
   const FeatureSet set = read_scene_features(loaded, world.dem->crs, progress);
   progress.begin("laying features over the ground", 0.0);
   const GroundSight sight(world.dem->transform, world.surface, *world.camera, world.tracer);
+  const MapCover* map = world.land_cover->map.get();
   DrawnFeatures drawn = draw_features(set, sight,
                                       {.winter = winter,
                                        .px_per_mm = world.scene.output.width / world.scene.output.sheet_width_mm,
                                        .seed = world.scene.seed,
-                                       .sun = world.view.sun_direction});
+                                       .sun = world.view.sun_direction},
+                                      map != nullptr ? std::span(map->courses()) : std::span<const CoverCourse>());
   check_extents(set, drawn, *world.dem);
   return drawn;
 }

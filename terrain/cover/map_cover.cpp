@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <utility>
 
 #include "base/error.h"
 
@@ -167,8 +168,8 @@ struct MapCover::Filler {
   }
 };
 
-MapCover::MapCover(const std::vector<CoverArea>& areas, const std::vector<CoverCourse>& courses, glm::dvec2 low, glm::dvec2 high)
-    : low_(low), high_(high) {
+MapCover::MapCover(const std::vector<CoverArea>& areas, std::vector<CoverCourse> courses, glm::dvec2 low, glm::dvec2 high)
+    : courses_(std::move(courses)), low_(low), high_(high) {
   if (!(high.x > low.x && high.y > low.y)) throw Error(ErrorKind::bug, "the cover of a map", "a ground without extent");
   struct Ranked {
     double rank;
@@ -181,7 +182,7 @@ MapCover::MapCover(const std::vector<CoverArea>& areas, const std::vector<CoverC
     order.push_back({area.rank, &area, nullptr});
     for (const auto& ring : area.rings) pieces += ring.size();
   }
-  for (const CoverCourse& course : courses) {
+  for (const CoverCourse& course : courses_) {
     if (course.half_width_m.size() != course.places.size())
       throw Error(ErrorKind::bug, "the cover of a map", "a river without a width at each place");
     order.push_back({course.rank, nullptr, &course});
@@ -248,7 +249,10 @@ bool MapCover::is_still(glm::dvec2 place) const {
 }
 
 std::size_t MapCover::bytes() const {
-  return shapes_.capacity() * sizeof(Shape) + edges_.capacity() * sizeof(Edge) + full_.capacity() * sizeof(std::int32_t) +
+  std::size_t of_courses = 0;
+  for (const CoverCourse& course : courses_)
+    of_courses += course.places.capacity() * sizeof(glm::dvec2) + course.half_width_m.capacity() * sizeof(float);
+  return of_courses + shapes_.capacity() * sizeof(Shape) + edges_.capacity() * sizeof(Edge) + full_.capacity() * sizeof(std::int32_t) +
          first_.capacity() * sizeof(std::uint32_t) + pieces_.capacity() * sizeof(Piece);
 }
 

@@ -25,18 +25,21 @@ struct CoverCourse {
   std::vector<float> half_width_m;  // at each of them, linear between
   LandCoverClass painted_as = LandCoverClass::water;
   double rank = 0.0;
+  int kind = 0;  // of whoever made it: nothing here asks for it
 };
 
 // Areas and rivers of a map, asked for the class at a place: exact outlines, whatever cells the ground has. Answers within `low` … `high`
 // and nowhere else; what lies outside costs nothing.
 class MapCover {
  public:
-  MapCover(const std::vector<CoverArea>& areas, const std::vector<CoverCourse>& courses, glm::dvec2 low, glm::dvec2 high);
+  MapCover(const std::vector<CoverArea>& areas, std::vector<CoverCourse> courses, glm::dvec2 low, glm::dvec2 high);
 
   // The class on top; sky where the map has nothing.
   LandCoverClass at(glm::dvec2 place) const;
   // Whether what lies on top there is a lake.
   bool is_still(glm::dvec2 place) const;
+  // As they were given.
+  const std::vector<CoverCourse>& courses() const { return courses_; }
   // For reports: bytes held.
   std::size_t bytes() const;
 
@@ -62,6 +65,7 @@ class MapCover {
   std::int32_t find(glm::dvec2 place) const;
   glm::dvec2 place_of(int column, int row) const;
 
+  std::vector<CoverCourse> courses_;
   glm::dvec2 low_, high_;
   double box_m_ = 1.0;
   int columns_ = 0, rows_ = 0;

@@ -120,6 +120,7 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, const SheetWindow&
                             guidance.land_cover[stroke.source] != LandCoverClass::water;
   Grid<glm::vec3>& canvas = painting.picture;
   float* const seen_ground = stroke.standing && !painting.seen_ground.empty() ? painting.seen_ground.data() : nullptr;
+  float* const seen_hung = stroke.standing && !painting.seen_hung.empty() ? painting.seen_hung.data() : nullptr;
   const PixelRect bounds = bounds_of(stroke, origin, clip);
   std::array<float, Stroke::max_points> length_before{};
   float length = 0.F;
@@ -206,6 +207,7 @@ void paint_stroke(const Stroke& stroke, std::uint32_t number, const SheetWindow&
       if (alpha < 0.004F) continue;
       canvas[i] += alpha * (colour + tint - canvas[i]);
       if (seen_ground != nullptr) seen_ground[i] *= 1.F - alpha;
+      if (seen_hung != nullptr && stroke.depth_m < window.mapped->hung_m[i]) seen_hung[i] *= 1.F - alpha;
       record.cover(x, y, stroke, number, alpha);
       if (parts != nullptr) parts->cover(x, y, stroke.part, alpha, colour + tint);
     }
@@ -232,7 +234,8 @@ std::vector<std::uint32_t> by_order(const std::vector<Stroke>& strokes) {
 }  // namespace
 
 Painting begin_painting(Grid<glm::vec3> canvas) {
-  Painting painting{.picture = std::move(canvas), .sources = {}, .under = {}, .under_share = {}, .strokes = {}, .seen_ground = {}};
+  Painting painting{
+      .picture = std::move(canvas), .sources = {}, .under = {}, .under_share = {}, .strokes = {}, .seen_ground = {}, .seen_hung = {}};
   painting.sources = Grid<std::uint32_t>(painting.picture.width(), painting.picture.height());
   std::iota(painting.sources.begin(), painting.sources.end(), 0U);
   painting.under = painting.sources;

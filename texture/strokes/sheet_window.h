@@ -16,6 +16,7 @@ struct Stroke;
 struct MappedGround {
   Grid<std::uint8_t> cleared;   // of the buffers' pixels: 1 where nothing grows that stands up
   std::vector<Stroke> besides;  // what stands there besides, in depth order with all that grows
+  Grid<float> hung_m;           // how far from the eye something hangs in the air there, infinite where nothing does; empty: nowhere
 };
 
 // Which part of the sheet the buffers hold that strokes are painted from and on. Places of strokes are places of the sheet, px, so that a
@@ -27,7 +28,7 @@ struct SheetWindow {
   const IcePlan* ice = nullptr;          // how ice runs on the whole sheet; null: told by the buffers, which then must hold all of it
   bool waters_known = false;             // a map gives rivers: they are narrow, and paint of their banks keeps off them
   const Grid<float>* veil = nullptr;     // of the buffers' pixels: share of mist before them, 0…1; null: there is none
-  const MappedGround* mapped = nullptr;  // null: nothing is known, and Painting::seen_ground is not told
+  const MappedGround* mapped = nullptr;  // null: nothing is known, and what stands is not told
 };
 
 }  // namespace belvedere

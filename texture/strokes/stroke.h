@@ -65,6 +65,7 @@ struct Painting {
   Grid<std::uint32_t> strokes;  // number of the stroke whose paint lies thickest, counted from 1 in the order of painting; 0: bare canvas
   std::uint32_t stroke_count = 0;  // strokes laid so far
   Grid<float> seen_ground;         // share of each pixel, 0…1, that nothing standing covers; empty where it is not asked for
+  Grid<float> seen_hung;           // the same of what stands nearer than MappedGround::hung_m; empty where nothing hangs
 };
 
 }  // namespace belvedere

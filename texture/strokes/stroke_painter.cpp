@@ -102,8 +102,12 @@ Painting paint_strokes(Grid<glm::vec3> canvas, const GuidanceBuffers& guidance, 
     throw Error(ErrorKind::bug, "paint_strokes", "what is cleared differs in size from the guidance");
   if (window.veil != nullptr && !window.veil->same_size(guidance.depth_m))
     throw Error(ErrorKind::bug, "paint_strokes", "mist differs in size from the guidance");
+  const bool hung = window.mapped != nullptr && !window.mapped->hung_m.empty();
+  if (hung && !window.mapped->hung_m.same_size(guidance.depth_m))
+    throw Error(ErrorKind::bug, "paint_strokes", "what hangs differs in size from the guidance");
   Painting painting = begin_painting(std::move(canvas));
   if (window.mapped != nullptr) painting.seen_ground = Grid<float>(guidance.width(), guidance.height(), 1.F);
+  if (hung) painting.seen_hung = painting.seen_ground;
   const auto paint = [&](std::vector<Stroke> strokes) {
     // In the far, air evens out what loads of paint differ by.
     for (Stroke& stroke : strokes) stroke.load *= 1.F - 0.8F * std::clamp(base.haze[stroke.source], 0.F, 1.F);

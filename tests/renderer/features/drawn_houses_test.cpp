@@ -41,18 +41,6 @@ std::vector<glm::dvec2> rectangle(glm::dvec2 middle, double length, double width
   return out;
 }
 
-TEST(DrawnHouses, FootprintsAreFoundWhateverTheirTurn) {
-  for (const double turn : {0.0, 0.3, 1.1, 2.0}) {
-    std::vector<glm::dvec2> outline = rectangle({40.0, -20.0}, 30.0, 12.0, turn);
-    outline.push_back(0.5 * (outline.front() + outline.back()));  // a place along a wall
-    const Footprint foot = footprint_of(outline);
-    EXPECT_LT(glm::length(foot.middle - glm::dvec2(40.0, -20.0)), 1e-9);
-    EXPECT_NEAR(glm::length(foot.along), 15.0, 1e-9);
-    EXPECT_NEAR(glm::length(foot.across), 6.0, 1e-9);
-    EXPECT_NEAR(std::abs(glm::dot(foot.along / 15.0, glm::dvec2(std::cos(turn), std::sin(turn)))), 1.0, 1e-9);
-  }
-}
-
 TEST(DrawnHouses, StandOnTheirPlaceInTheirSize) {
   const TestGround ground([](glm::dvec2) { return 0.0; }, {0.0, -300.0, 150.0}, 800, 600);
   const DrawnFeatures drawn = draw(ground, rectangle({0.0, 0.0}, 60.0, 20.0, 0.0));
@@ -64,7 +52,7 @@ TEST(DrawnHouses, StandOnTheirPlaceInTheirSize) {
   const HouseFace& wall = one.faces[0];
   EXPECT_FALSE(wall.roof);
   const double length = glm::length(ground.pixel({30.0, -10.0, 0.0}) - ground.pixel({-30.0, -10.0, 0.0}));
-  EXPECT_NEAR(static_cast<double>(wall.from_width), length, 0.01 * length);
+  EXPECT_NEAR(static_cast<double>(glm::length(wall.corners[1] - wall.corners[0])), length, 0.01 * length);
   EXPECT_TRUE(one.faces[1].roof);
 }
 
@@ -76,9 +64,38 @@ TEST(DrawnHouses, TheSunnySideIsLight) {
   for (const HouseFace& face : drawn.houses.at(0).faces)
     if (face.roof) roofs.push_back(face);
   ASSERT_EQ(roofs.size(), 2U);
-  std::sort(roofs.begin(), roofs.end(), [](const HouseFace& a, const HouseFace& b) { return a.from.x < b.from.x; });
+  std::sort(roofs.begin(), roofs.end(), [](const HouseFace& a, const HouseFace& b) { return a.corners[0].x < b.corners[0].x; });
   EXPECT_GT(roofs[1].light, roofs[0].light + 0.4F) << "the eastern side";
-  EXPECT_LT(drawn.houses[0].shade.x, 0.F) << "the shadow falls to the west";
+  EXPECT_LT(drawn.houses[0].shades.at(0).to.x, drawn.houses[0].foot.x) << "the shadow falls to the west";
+}
+
+// An L: two roofs whose ridges stand square to each other, and the house reaches as far as its outline.
+TEST(DrawnHouses, WingsHaveRoofsOfTheirOwn) {
+  const TestGround ground([](glm::dvec2) { return 0.0; }, {0.0, -300.0, 150.0}, 800, 600);
+  const std::vector<glm::dvec2> outline = {{-30, -25}, {30, -25}, {30, -10}, {-15, -10}, {-15, 25}, {-30, 25}};
+  const DrawnFeatures drawn = draw(ground, outline);
+  ASSERT_EQ(drawn.houses.size(), 1U);
+  const DrawnHouse& one = drawn.houses[0];
+  std::size_t roofs = 0;
+  bool across = false;
+  bool along = false;
+  for (const HouseFace& face : one.faces) {
+    if (!face.roof) continue;
+    ++roofs;
+    const glm::vec2 ridge = glm::abs(face.corners[3] - face.corners[2]);
+    (ridge.x > 3.F * ridge.y ? along : across) = true;
+  }
+  EXPECT_GE(roofs, 3U);
+  EXPECT_TRUE(across && along);
+  EXPECT_EQ(one.shades.size(), 2U);
+  const glm::dvec2 corner = ground.pixel({-30.0, 25.0, 0.0});
+  EXPECT_GT(static_cast<double>(one.reach_px), glm::length(corner - glm::dvec2(one.foot)));
+  // Nothing stands in the open corner of the L.
+  const glm::dvec2 yard = ground.pixel({20.0, 15.0, 0.0});
+  for (const HouseFace& face : one.faces) {
+    const glm::dvec2 middle = 0.5 * (glm::dvec2(face.corners[0]) + glm::dvec2(face.corners[2]));
+    EXPECT_GT(glm::length(middle - yard), 20.0);
+  }
 }
 
 TEST(DrawnHouses, PointsBecomeHousesAndSmallOnesAreEnlarged) {

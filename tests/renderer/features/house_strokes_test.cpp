@@ -22,10 +22,9 @@ DrawnFeatures one_house() {
   house.foot = {100.F, 120.F};
   house.distance_m = 20000.F;
   house.reach_px = 10.F;
-  house.shade = {-6.F, 1.F};
-  house.shade_px = 4.F;
-  house.faces = {{.from = {100.F, 122.F}, .to = {100.F, 116.F}, .from_width = 12.F, .to_width = 12.F, .light = 0.2F, .roof = false},
-                 {.from = {100.F, 116.F}, .to = {100.F, 110.F}, .from_width = 13.F, .to_width = 13.F, .light = 0.9F, .roof = true}};
+  house.shades = {{.from = house.foot, .to = house.foot + glm::vec2(-6.F, 1.F), .width = 4.F}};
+  house.faces = {{.corners = {{{94.F, 122.F}, {106.F, 122.F}, {106.F, 116.F}, {94.F, 116.F}}}, .light = 0.2F, .roof = false},
+                 {.corners = {{{93.F, 116.F}, {107.F, 116.F}, {111.F, 110.F}, {97.F, 110.F}}}, .light = 0.9F, .roof = true}};
   features.houses.push_back(house);
   return features;
 }
@@ -39,10 +38,10 @@ Picture meadow() {
 TEST(HouseStrokes, PaintsRoofOverWallAndAShadowBeside) {
   const Picture p = meadow();
   const std::vector<Stroke> strokes = house_strokes(one_house(), p.scene());
-  ASSERT_EQ(strokes.size(), 3U);
+  ASSERT_GT(strokes.size(), 6U);
   EXPECT_EQ(strokes[0].gate, StrokeGate::surface) << "the shadow lies on the ground";
   for (const Stroke& stroke : strokes) EXPECT_TRUE(stroke.standing);
-  EXPECT_GT(strokes[1].order, strokes[2].order) << "the roof is painted last";
+  EXPECT_GT(strokes[1].order, strokes.back().order) << "the roof is painted last";
   Painting painting = begin_painting(p.ground.colour);
   paint_in_order(painting, p.guidance, strokes, 1.0, silent_progress());
   const glm::vec3 roof = painting.picture(100, 113);
@@ -51,6 +50,20 @@ TEST(HouseStrokes, PaintsRoofOverWallAndAShadowBeside) {
   EXPECT_LT(std::abs(wall.x - wall.y), 0.1F);
   EXPECT_LT(painting.picture(95, 121).y, 0.5F + 0.45F);
   EXPECT_EQ(painting.picture(130, 120), glm::vec3(0.5F));
+  // The roof leans to the right as its corners do: its paint is whole, and ends where they say.
+  for (int y = 110; y < 116; ++y) {
+    const float left = 93.F + 4.F * (116.F - (static_cast<float>(y) + 0.5F)) / 6.F;
+    for (int x = 85; x < 120; ++x) {
+      const float inside = std::min(static_cast<float>(x) + 0.5F - left, left + 14.F - static_cast<float>(x) - 0.5F);
+      const glm::vec3 here = painting.picture(x, y);
+      if (inside > 1.5F && y > 110 && y < 115) {
+        EXPECT_GT(here.x, here.y + 0.4F) << x << ' ' << y;
+      }
+      if (inside < -1.5F) {
+        EXPECT_LT(std::abs(here.x - here.y), 0.15F) << x << ' ' << y;
+      }
+    }
+  }
 }
 
 TEST(HouseStrokes, NearerGroundHidesThem) {
@@ -89,6 +102,29 @@ TEST(HouseStrokes, StandingThingsKeepOffClearedGroundAndTellWhatTheyHide) {
   double seen = 0.0;
   for (const float share : wood.seen_ground) seen += share;
   EXPECT_LT(seen / static_cast<double>(wood.seen_ground.size()), 0.5) << "a forest hides its ground";
+  EXPECT_TRUE(wood.seen_hung.empty());
+
+  // What hangs is hidden by the trees that stand nearer: none where it hangs before all, all where it hangs behind them.
+  MappedGround hung = mapped;
+  hung.hung_m = Grid<float>(320, 240, std::numeric_limits<float>::infinity());
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 160; ++x) hung.hung_m(x, y) = 20000.F;
+  window.mapped = &hung;
+  const Painting ropes = paint(window);
+  for (std::size_t i = 0; i < ropes.picture.size(); ++i) ASSERT_EQ(ropes.picture[i], wood.picture[i]) << "what hangs is painted later";
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x) ASSERT_EQ(ropes.seen_hung(x, y), x < 160 ? 1.F : wood.seen_ground(x, y));
+  // Amid the wood: trees of the rows before it hide it, those behind do not.
+  for (float& distance_m : hung.hung_m) distance_m = 60000.F - 160.F * 120.F;
+  const Painting amid = paint(window);
+  double before_it = 0.0;
+  for (int x = 0; x < 320; ++x) {
+    EXPECT_EQ(amid.seen_hung(x, 60), 1.F) << "only what is farther stands there";
+    before_it += amid.seen_hung(x, 180);
+    EXPECT_EQ(amid.seen_hung(x, 180), wood.seen_ground(x, 180));
+  }
+  EXPECT_LT(before_it / 320.0, 0.6);
+  window.mapped = &mapped;
 
   for (int y = 100; y < 160; ++y)
     for (int x = 0; x < 320; ++x) mapped.cleared(x, y) = 1;

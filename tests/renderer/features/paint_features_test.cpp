@@ -50,7 +50,13 @@ fill = "#0080ff"
 draw = "cable"
 width_mm = 1
 casing_mm = 0
+clear_mm = 2
+shrink = 0
 fill = "#101010"
+[kinds.river]
+draw = "river"
+clear_mm = 3
+shrink = 0
 [kinds.rough]
 width_mm = 4
 casing_mm = 0
@@ -60,7 +66,7 @@ fill = "#ffffff"
 )",
                              "test.toml");
 }
-enum Kinds : int { road, path, run, lift, rough };
+enum Kinds : int { road, path, run, lift, river, rough };
 
 TestGround level() {
   return TestGround([](glm::dvec2) { return 0.0; });
@@ -154,7 +160,7 @@ TEST(PaintFeatures, TheirPaintAddsUpToALayer) {
                     line(run, {{-500.0, -300.0}, {700.0, 900.0}}), line(lift, {{-700.0, -500.0}, {200.0, 1200.0}})});
   for (const float seen : {1.F, 0.6F}) {
     PaintParts parts(ground.sheet());
-    const Grid<glm::vec3> picture = painted(ground, drawn, ground.sheet(), ground.sheet(), seen, &parts);
+    const Grid<glm::vec3> picture = painted(ground, drawn, ground.sheet(), ground.sheet(), seen, {}, &parts);
     EXPECT_EQ(differing(picture, painted(ground, drawn, seen)), 0U) << "a layer changes no pixel";
     const Grid<glm::vec4>& sum = parts.sum(PaintPart::features);
     double opacity = 0.0;
@@ -191,6 +197,84 @@ TEST(PaintFeatures, WhatStandsHidesWaysAndNotLifts) {
   for (std::size_t i = 0; i < hidden.size(); ++i) EXPECT_EQ(hidden[i], bare);
   const DrawnFeatures cable = draw(ground, {line(lift, {{-700.0, 0.0}, {700.0, 200.0}})});
   EXPECT_EQ(differing(painted(ground, cable, 0.F), painted(ground, cable, 1.F)), 0U);
+}
+
+TEST(PaintFeatures, WhatStandsNearerThanALiftHidesIt) {
+  const TestGround ground = level();
+  const DrawnFeatures cable = draw(ground, {line(lift, {{-700.0, 0.0}, {700.0, 200.0}})});
+  const Grid<glm::vec3> free = painted(ground, cable);
+  Grid<float> seen(free.width(), free.height(), 1.F);
+  EXPECT_EQ(differing(free, painted(ground, cable, ground.sheet(), ground.sheet(), 1.F, seen)), 0U);
+  // Its left half stands behind trees.
+  for (int y = 0; y < seen.height(); ++y) std::fill_n(seen.row(y), seen.width() / 2, 0.F);
+  const Grid<glm::vec3> half = painted(ground, cable, ground.sheet(), ground.sheet(), 1.F, seen);
+  std::size_t right = 0;
+  for (int y = 0; y < half.height(); ++y)
+    for (int x = 0; x < half.width(); ++x) {
+      EXPECT_EQ(half(x, y), x < half.width() / 2 ? bare : free(x, y));
+      right += x >= half.width() / 2 && half(x, y) != bare ? 1 : 0;
+    }
+  EXPECT_GT(right, 50U);
+}
+
+TEST(PaintFeatures, TellsHowFarRopesHang) {
+  const TestGround ground = level();
+  const DrawnFeatures cable = draw(ground, {line(lift, {{-700.0, 0.0}, {700.0, 0.0}}), line(road, {{-700.0, 400.0}, {700.0, 400.0}})});
+  const Grid<float> hung = find_hung(cable, ground.sheet());
+  ASSERT_EQ(hung.width(), ground.sheet().width());
+  const Grid<glm::vec3> picture = painted(ground, draw(ground, {line(lift, {{-700.0, 0.0}, {700.0, 0.0}})}));
+  const double distance_m = glm::length(glm::dvec3(0.0, -3000.0, 1500.0));
+  std::size_t ropes = 0;
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    if (picture[i] != bare) {
+      ASSERT_NEAR(static_cast<double>(hung[i]), distance_m, 0.05 * distance_m) << "wherever its paint lies";
+      ++ropes;
+    }
+  }
+  EXPECT_GT(ropes, 100U);
+  EXPECT_TRUE(std::isinf(hung(200, 5)));
+  const glm::dvec2 way = ground.pixel({0.0, 400.0, 0.0});
+  EXPECT_TRUE(std::isinf(hung(static_cast<int>(way.x), static_cast<int>(way.y)))) << "roads hang nowhere";
+  EXPECT_TRUE(find_hung(draw(ground, {line(road, {{-700.0, 0.0}, {700.0, 0.0}})}), ground.sheet()).empty());
+  const PixelRect part{140, 90, 291, 201};
+  const Grid<float> window = find_hung(cable, part);
+  for (int y = 0; y < part.height(); ++y)
+    for (int x = 0; x < part.width(); ++x) ASSERT_EQ(window(x, y), hung(part.x0 + x, part.y0 + y));
+}
+
+TEST(PaintFeatures, GroundBelowARopeIsClearedOfTrees) {
+  const TestGround ground = level();
+  const DrawnFeatures cable = draw(ground, {line(lift, {{-700.0, 0.0}, {700.0, 0.0}})});
+  const Grid<std::uint8_t> cleared = find_cleared(cable, ground.guidance().depth_m, ground.sheet());
+  const glm::dvec2 foot = ground.pixel({100.0, 0.0, 0.0});
+  const auto at_foot = [&](double down) { return cleared(static_cast<int>(foot.x), static_cast<int>(foot.y + down)); };
+  EXPECT_EQ(at_foot(0.0), 1);
+  EXPECT_EQ(at_foot(9.0), 1) << "2.5 times 2 mm below, at 2 px a mm";
+  EXPECT_EQ(at_foot(14.0), 0);
+  EXPECT_EQ(at_foot(-8.0), 0);
+}
+
+// A river 60 m wide across the sight: its water and a bank on either side, 2.5 times as far below it; nothing of it is painted.
+TEST(PaintFeatures, BanksOfRiversAreCleared) {
+  const TestGround ground = level();
+  const CoverCourse course{.places = {{-1500.0, 0.0}, {0.0, 0.0}, {1500.0, 0.0}}, .half_width_m = {30.F, 30.F, 30.F}, .kind = river};
+  const DrawnFeatures drawn =
+      draw_features(set_of(style(), {line(river, {{-1500.0, 0.0}, {1500.0, 0.0}})}), ground.sight(), {.px_per_mm = 2.0}, {&course, 1});
+  const Grid<float> depth_m = ground.guidance().depth_m;
+  const double middle_m = glm::length(glm::dvec3(0.0, 3000.0, 1500.0));
+  const Grid<std::uint8_t> cleared = find_cleared(drawn, depth_m, ground.sheet());
+  const double far_bank = ground.pixel({0.0, 30.0, 0.0}).y;
+  const double near_bank = ground.pixel({0.0, -30.0, 0.0}).y;
+  EXPECT_GT(near_bank - far_bank, 3.0);
+  for (int y = 0; y < cleared.height(); ++y) {
+    const double up = far_bank - (y + 0.5);
+    const double down = y + 0.5 - near_bank;
+    const double farther = std::abs(static_cast<double>(depth_m(200, y)) / middle_m - 1.0);
+    if (std::abs(up - 6.0) < 1.0 || std::abs(down - 15.0) < 1.0 || std::abs(farther - 0.04) < 0.005) continue;
+    EXPECT_EQ(cleared(200, y) != 0, up < 6.0 && down < 15.0 && farther < 0.04) << y;
+  }
+  EXPECT_EQ(differing(painted(ground, drawn), Grid<glm::vec3>(400, 300, bare)), 0U);
+  EXPECT_EQ(drawn.counts[0][river].drawn, 0U);
 }
 
 TEST(PaintFeatures, BandsTintAndLetTheReliefShowThrough) {
@@ -278,7 +362,7 @@ TEST(PaintFeatures, GridsOfOtherSizesAreABug) {
         Grid<glm::vec3> picture(10, 10);
         const GuidanceBuffers guidance = ground.guidance();
         const Grid<float> grid(10, 10);
-        paint_features(picture, drawn, {guidance, picture, grid, grid}, {0, 0, 10, 10}, {0, 0, 10, 10});
+        paint_features(picture, drawn, {guidance, picture, grid, grid, {}}, {0, 0, 10, 10}, {0, 0, 10, 10});
       },
       Error);
 }

@@ -85,7 +85,7 @@ inline FeatureSet set_of(FeatureStyle style, std::vector<Feature> features) {
 
 // A picture of plain grey ground with the features painted on it.
 inline Grid<glm::vec3> painted(const TestGround& ground, const DrawnFeatures& drawn, PixelRect rect, PixelRect asked, float seen = 1.F,
-                               PaintParts* parts = nullptr) {
+                               const Grid<float>& seen_hung = {}, PaintParts* parts = nullptr) {
   const GuidanceBuffers all = ground.guidance();
   const int width = rect.width();
   const int height = rect.height();
@@ -103,7 +103,7 @@ inline Grid<glm::vec3> painted(const TestGround& ground, const DrawnFeatures& dr
   const Grid<glm::vec3> base = picture;
   const Grid<float> haze(width, height, 0.F);
   const Grid<float> ground_seen(width, height, seen);
-  paint_features(picture, drawn, {part, base, haze, ground_seen}, rect, asked, parts);
+  paint_features(picture, drawn, {part, base, haze, ground_seen, seen_hung}, rect, asked, parts);
   return picture;
 }
 inline Grid<glm::vec3> painted(const TestGround& ground, const DrawnFeatures& drawn, float seen = 1.F) {

@@ -130,7 +130,7 @@ Grid<glm::vec3> paint_half(const FeatureStyle& style, int kind, bool winter) {
   paint_in_order(painting, ground.guidance, house_strokes(drawn, {ground.guidance, ground.base, parameters}), parameters.pixels_per_unit,
                  silent_progress());
   const PixelRect all{0, 0, width_px, height_px};
-  paint_features(painting.picture, drawn, {ground.guidance, ground.base.colour, ground.base.haze, painting.seen_ground}, all, all);
+  paint_features(painting.picture, drawn, {ground.guidance, ground.base.colour, ground.base.haze, painting.seen_ground, {}}, all, all);
   return painting.picture;
 }
 
