@@ -210,6 +210,7 @@ Made make_feature(const Making& making, const Feature& feature) {
       break;
     case FeatureDraw::river:
     case FeatureDraw::area:
+    case FeatureDraw::coast:
     case FeatureDraw::town:
       break;
   }

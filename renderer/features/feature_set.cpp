@@ -23,6 +23,8 @@ bool fits(FeatureGeometry wanted, MapShape shape) {
       return shape == MapShape::area;
     case FeatureGeometry::point_or_area:
       return shape != MapShape::line;
+    case FeatureGeometry::line_or_area:
+      return shape != MapShape::point;
   }
   return false;
 }

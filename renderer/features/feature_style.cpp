@@ -27,6 +27,7 @@ constexpr std::array draw_words = {DrawWord{"line", FeatureDraw::line, FeatureGe
                                    DrawWord{"building", FeatureDraw::building, FeatureGeometry::point_or_area},
                                    DrawWord{"river", FeatureDraw::river, FeatureGeometry::line},
                                    DrawWord{"area", FeatureDraw::area, FeatureGeometry::area},
+                                   DrawWord{"coast", FeatureDraw::coast, FeatureGeometry::line_or_area},
                                    DrawWord{"town", FeatureDraw::town, FeatureGeometry::point_or_area}};
 
 const DrawWord& row_of(FeatureDraw draw) {
@@ -122,7 +123,8 @@ FeatureStyle read_style(const ConfigValue& document, const std::string& name) {
 FeatureGeometry geometry_of(FeatureDraw draw) { return row_of(draw).geometry; }
 
 bool becomes_ground(const FeatureKind& kind) {
-  return kind.draw == FeatureDraw::river || kind.draw == FeatureDraw::area || kind.draw == FeatureDraw::town;
+  return kind.draw == FeatureDraw::river || kind.draw == FeatureDraw::area || kind.draw == FeatureDraw::coast ||
+         kind.draw == FeatureDraw::town;
 }
 
 const char* name_of(FeatureDraw draw) { return row_of(draw).word; }
@@ -135,6 +137,8 @@ const char* name_of(FeatureGeometry geometry) {
       return "areas";
     case FeatureGeometry::point_or_area:
       return "points or areas";
+    case FeatureGeometry::line_or_area:
+      return "lines or areas";
   }
   return "";
 }

@@ -19,15 +19,16 @@ enum class FeatureDraw : int {
   building,  // walls and a roof
   river,     // a line that becomes water in its valley
   area,      // an area that becomes a class of ground
+  coast,     // a line with land to its left: the sea beyond it becomes a class of ground; areas are islands
   town       // a place that houses stand in: points with a population, or areas
 };
 
 // What features are made of.
-enum class FeatureGeometry : int { line, area, point_or_area };
+enum class FeatureGeometry : int { line, area, point_or_area, line_or_area };
 
 FeatureGeometry geometry_of(FeatureDraw draw);
 struct FeatureKind;
-// Rivers, areas and towns: what the ground is made of and nothing that is drawn on it.
+// Rivers, areas, coasts and towns: what the ground is made of and nothing that is drawn on it.
 bool becomes_ground(const FeatureKind& kind);
 // "lines", "areas", for messages.
 const char* name_of(FeatureGeometry geometry);

@@ -18,6 +18,7 @@
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/feature_files.h"
 #include "terrain/cover/town_file.h"
+#include "terrain/shape/coast.h"
 
 namespace belvedere {
 namespace {
@@ -143,17 +144,19 @@ CacheKey features_key(const LoadedScene& loaded, const Dem& dem) {
   return make_cache_key(CachedProduct::ground_features, key, subject_of(loaded));
 }
 
+double signed_area_m2(const std::vector<glm::dvec2>& ring) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const glm::dvec2 a = ring[i] - ring[0];
+    const glm::dvec2 b = ring[(i + 1) % ring.size()] - ring[0];
+    sum += 0.5 * (a.x * b.y - b.x * a.y);
+  }
+  return sum;
+}
+
 double area_m2(const std::vector<std::vector<glm::dvec2>>& rings) {
   double sum = 0.0;
-  for (std::size_t r = 0; r < rings.size(); ++r) {
-    double ring = 0.0;
-    for (std::size_t i = 0; i < rings[r].size(); ++i) {
-      const glm::dvec2 a = rings[r][i] - rings[r][0];
-      const glm::dvec2 b = rings[r][(i + 1) % rings[r].size()] - rings[r][0];
-      ring += 0.5 * (a.x * b.y - b.x * a.y);
-    }
-    sum += (r == 0 ? 1.0 : -1.0) * std::abs(ring);
-  }
+  for (std::size_t r = 0; r < rings.size(); ++r) sum += (r == 0 ? 1.0 : -1.0) * std::abs(signed_area_m2(rings[r]));
   return std::max(0.0, sum);
 }
 
@@ -163,7 +166,29 @@ glm::dvec2 middle_of(const std::vector<glm::dvec2>& ring) {
   return ring[0] + sum / static_cast<double>(ring.size());
 }
 
-GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::vector<Feature>&& features, Progress& progress) {
+// Coast lines of all files together; areas among them are islands, whichever way their outlines run.
+void add_coast_line(const Feature& feature, std::vector<std::vector<glm::dvec2>>& lines) {
+  lines.push_back(feature.parts[0]);
+  if (feature.shape != MapShape::area) return;
+  if (signed_area_m2(lines.back()) < 0.0) std::reverse(lines.back().begin(), lines.back().end());
+  lines.back().push_back(lines.back().front());
+}
+
+// The sea that they bound.
+void add_sea(const std::vector<std::vector<glm::dvec2>>& lines, const FeatureKind& kind, const MapBox& box, GroundMap& map,
+             Progress& progress) {
+  const CoastAreas coast = close_coast(lines, box.low, box.high);
+  if (!coast.problem.empty())
+    progress.note(coast.problem + ": coast lines are left out, and the sea is what the elevation model has of it");
+  if (coast.rings.empty()) return;
+  const LandCoverClass painted_as = kind.ground.value_or(LandCoverClass::water);
+  const bool still = kind.level && painted_as == LandCoverClass::water;
+  if (still) map.lakes.push_back({.rings = coast.rings, .level_m = std::nullopt, .where = "the sea"});
+  map.areas.push_back({.rings = coast.rings, .painted_as = painted_as, .rank = kind.rank, .still = still});
+}
+
+GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::vector<Feature>&& features, const MapBox& box,
+                   Progress& progress) {
   GroundMap map;
   map.looks.resize(style.kinds.size());
   map.least_px.resize(style.kinds.size());
@@ -172,6 +197,8 @@ GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::ve
   bool rivers = false;
   bool towns = false;
   bool keeps = false;
+  std::vector<std::vector<glm::dvec2>> coast_lines;
+  const FeatureKind* coast_kind = nullptr;
   for (Feature& feature : features) {
     const FeatureKind& kind = style.kinds[static_cast<std::size_t>(feature.kind)];
     const SceneFeatures& block = loaded.scene.features[static_cast<std::size_t>(feature.block)];
@@ -187,6 +214,11 @@ GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::ve
                             .least_width_m = static_cast<double>(feature.real_m),
                             .snap_m = block.snap_m,
                             .group = feature.kind});
+      continue;
+    }
+    if (kind.draw == FeatureDraw::coast) {
+      add_coast_line(feature, coast_lines);
+      coast_kind = &kind;
       continue;
     }
     if (kind.draw == FeatureDraw::town) {
@@ -213,6 +245,7 @@ GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::ve
                            .where = block.source});
     map.areas.push_back({.rings = std::move(feature.parts), .painted_as = painted_as, .rank = kind.rank, .still = is_lake});
   }
+  if (coast_kind != nullptr) add_sea(coast_lines, *coast_kind, box, map, progress);
   map.keeps_rivers = !rivers || keeps;
   map.keeps_towns = !towns || keeps;
   if (without_size > 0)
@@ -333,7 +366,7 @@ GroundMap read_ground_map(const LoadedScene& loaded, const Dem& dem, Progress& p
   const PackedFeatures packed = cached<PackedFeatures>(
       cache, [&] { return features_key(loaded, dem); }, progress,
       [&](Progress& watcher) { return pack(read_ground_features(loaded, style, dem, watcher)); });
-  return sort_out(loaded, style, unpack(packed), progress);
+  return sort_out(loaded, style, unpack(packed), box_of(dem), progress);
 }
 
 void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress, const Cache& cache, const Dem* whole) {

@@ -131,6 +131,36 @@ TEST_F(GroundMaps, AreasHaveTheirClassAndLakesAreLevel) {
   EXPECT_EQ(made.at(at(30, 101).x, at(30, 101).y), water);
 }
 
+// Land lies to the left of a line from north to south through column 60: the east is land, but for what else lies there; an island is an
+// area.
+TEST_F(GroundMaps, CoastLinesBoundTheSea) {
+  const std::string coast = feature("\"kind\": \"coastline\"", "LineString", "[" + places({{60, -5}, {60, 40}}) + "]") + ", " +
+                            feature("\"kind\": \"coastline\"", "LineString", "[" + places({{60, 40}, {60, 130}}) + "]");
+  write(coast + ", " + area("coastline", 10, 50, 20, 60));
+  const LoadedScene loaded = scene();
+  const Dem dem = make_scene_dem(loaded, silent_progress());
+  const GroundMap map = read_ground_map(loaded, dem, silent_progress());
+  ASSERT_EQ(map.areas.size(), 1U);
+  EXPECT_TRUE(map.areas[0].still);
+  EXPECT_EQ(map.lakes.size(), 1U);
+  const LandCover sea = cover(loaded);
+  for (const double y : {5.3, 40.2, 90.7}) {
+    EXPECT_EQ(sea.at(at(50, y).x, at(50, y).y), water);
+    EXPECT_NE(sea.at(at(70, y).x, at(70, y).y), water);
+  }
+  EXPECT_NE(sea.at(at(15, 55).x, at(15, 55).y), water) << "the island";
+  EXPECT_EQ(sea.at(at(25, 55).x, at(25, 55).y), water);
+}
+
+TEST_F(GroundMaps, ACoastLineThatEndsOnTheTerrainIsSaidAndLeftOut) {
+  write(feature("\"kind\": \"coastline\"", "LineString", "[" + places({{60, -5}, {60, 40}}) + "]"));
+  const LoadedScene loaded = scene();
+  const Dem dem = make_scene_dem(loaded, silent_progress());
+  Notes notes;
+  EXPECT_TRUE(read_ground_map(loaded, dem, notes).areas.empty());
+  EXPECT_THAT(notes.all, Contains(AllOf(HasSubstr("a coast line begins or ends on the terrain"), HasSubstr("are left out"))));
+}
+
 TEST_F(GroundMaps, TownsThatArePointsAreAsLargeAsTheirPeople) {
   const auto town = [](const std::string& people) { return feature("\"kind\": \"town\"" + people, "Point", places({{40, 60}})); };
   write(town(", \"n\": 50000"));

@@ -140,6 +140,7 @@ Grid<glm::vec3> make_swatch(const FeatureStyle& style, int kind) {
   switch (style.kinds.at(static_cast<std::size_t>(kind)).draw) {
     case FeatureDraw::river:
     case FeatureDraw::area:
+    case FeatureDraw::coast:
     case FeatureDraw::town:
       return {};
     case FeatureDraw::line:
