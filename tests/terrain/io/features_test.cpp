@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <glm/geometric.hpp>
 
 #include "terrain/io/crs.h"
@@ -117,6 +119,41 @@ TEST_F(MapFeatureFiles, OpenStreetMapsOwnFormat) {
   EXPECT_EQ(read_map_features(file, {}, utm_).features.size(), 3U) << "layers that the file mixes";
   EXPECT_THAT(message_of(ErrorKind::input, [&] { read_map_features(write_text("broken.osm.pbf", "no such thing"), {}, utm_); }),
               HasSubstr("broken.osm.pbf"));
+}
+
+// The same region as XML and as PBF, which another program made of it.
+TEST_F(MapFeatureFiles, OpenStreetMapsBinaryFormatHoldsTheSame) {
+  if (std::system("command -v osmium > /dev/null") != 0) GTEST_SKIP() << "needs the program osmium (osmium-tool)";
+  const std::string xml = write_text("country.osm", R"(<?xml version="1.0" encoding="UTF-8"?><osm version="0.6" generator="test">
+<node id="1" lat="47.0" lon="11.0" version="1"/><node id="2" lat="47.0" lon="11.1" version="1"/><node id="3" lat="47.1" lon="11.1" version="1"/>
+<node id="4" lat="47.05" lon="11.05" version="1"><tag k="place" v="village"/><tag k="name" v="Dorf"/><tag k="population" v="812"/></node>
+<node id="5" lat="47.04" lon="11.07" version="1"/><node id="6" lat="47.04" lon="11.08" version="1"/><node id="7" lat="47.05" lon="11.08" version="1"/>
+<way id="10" version="1"><nd ref="1"/><nd ref="2"/><nd ref="3"/><tag k="waterway" v="river"/><tag k="name" v="Ache"/></way>
+<way id="11" version="1"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="1"/></way>
+<way id="12" version="1"><nd ref="5"/><nd ref="6"/><nd ref="7"/><nd ref="5"/></way>
+<way id="13" version="1"><nd ref="3"/><nd ref="4"/><tag k="highway" v="primary"/></way>
+<relation id="20" version="1"><member type="way" ref="11" role="outer"/><member type="way" ref="12" role="inner"/>
+<tag k="type" v="multipolygon"/><tag k="natural" v="wood"/></relation>
+</osm>)");
+  const std::string pbf = (std::filesystem::path(xml).parent_path() / "country.osm.pbf").string();
+  ASSERT_EQ(std::system(("osmium cat --overwrite -o '" + pbf + "' '" + xml + "' > /dev/null 2>&1").c_str()), 0);
+  const MapFeatures woods = read_map_features(pbf, {.layer = "multipolygons", .where = "natural = 'wood'", .columns = {"natural"}}, utm_);
+  ASSERT_EQ(woods.features.size(), 1U);
+  EXPECT_EQ(woods.features[0].parts.size(), 2U) << "a clearing in the wood";
+  const MapFeatures one = read_map_features(xml, {.columns = {"name", "highway"}}, utm_);
+  const MapFeatures other = read_map_features(pbf, {.columns = {"name", "highway"}}, utm_);
+  EXPECT_EQ(one.read, 4U);
+  ASSERT_EQ(other.features.size(), one.features.size());
+  for (std::size_t i = 0; i < one.features.size(); ++i) {
+    EXPECT_EQ(other.features[i].shape, one.features[i].shape);
+    EXPECT_EQ(other.features[i].values, one.features[i].values);
+    ASSERT_EQ(other.features[i].parts.size(), one.features[i].parts.size());
+    for (std::size_t k = 0; k < one.features[i].parts.size(); ++k) {
+      ASSERT_EQ(other.features[i].parts[k].size(), one.features[i].parts[k].size());
+      for (std::size_t n = 0; n < one.features[i].parts[k].size(); ++n)
+        EXPECT_LT(glm::length(other.features[i].parts[k][n] - one.features[i].parts[k][n]), 0.02) << "PBF counts in 1e-7 degrees";
+    }
+  }
 }
 
 TEST_F(MapFeatureFiles, WhatIsWrongIsSaid) {
