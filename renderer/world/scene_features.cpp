@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <span>
 #include <utility>
 #include <vector>
@@ -61,23 +62,39 @@ FeatureSet read_scene_features(const LoadedScene& loaded, const std::string& crs
   return set;
 }
 
-void check_extents(const FeatureSet& set, const DrawnFeatures& drawn, const Dem& dem) {
-  for (std::size_t s = 0; s < set.readings.size(); ++s) {
-    std::size_t outside = 0;
-    std::size_t all = 0;
-    for (const DrawnCount& count : drawn.counts[s]) {
-      outside += count.outside_terrain;
-      all += count.features;
+bool lies_beside(const Feature& feature, const Dem& dem) {
+  const MapBox ground = box_of(dem);
+  MapBox extent{feature.parts[0][0], feature.parts[0][0]};
+  for (const auto& part : feature.parts)
+    for (const glm::dvec2 place : part) {
+      extent.low = glm::min(extent.low, place);
+      extent.high = glm::max(extent.high, place);
     }
-    if (all == 0 || outside < all) continue;
-    const glm::dvec2 a = dem.transform.to_crs(-.5, dem.height() - .5);
-    const glm::dvec2 b = dem.transform.to_crs(dem.width() - .5, -.5);
+  return extent.high.x < ground.low.x || extent.high.y < ground.low.y || extent.low.x > ground.high.x || extent.low.y > ground.high.y;
+}
+
+void check_extents(const FeatureSet& set, const Dem& dem) {
+  std::vector<std::size_t> outside(set.readings.size(), 0);
+  std::vector<std::size_t> all(set.readings.size(), 0);
+  for (const Feature& feature : set.features) {
+    const auto s = static_cast<std::size_t>(feature.source);
+    ++all[s];
+    outside[s] += lies_beside(feature, dem) ? 1 : 0;
+  }
+  const MapBox ground = box_of(dem);
+  const std::string allowed =
+      fmt::format("places within E {:.0f} … {:.0f}, N {:.0f} … {:.0f}{}; a file that states its own coordinate system", ground.low.x,
+                  ground.high.x, ground.low.y, ground.high.y, dem.crs.empty() ? "" : " (" + describe_crs(dem.crs) + ")");
+  for (std::size_t s = 0; s < set.readings.size(); ++s) {
     const SourceReading& reading = set.readings[s];
+    if (all[s] == 0 && reading.unplaceable > 0 && reading.taken + reading.wrong_shape + reading.unknown.size() == 0)
+      throw Error(ErrorKind::usage, reading.file,
+                  fmt::format("none of {} features has a place in the terrain's coordinate system", reading.unplaceable), allowed);
+    if (all[s] == 0 || outside[s] < all[s]) continue;
     throw Error(ErrorKind::usage, reading.file,
-                fmt::format("none of {} features lies on the terrain: they lie E {:.0f} … {:.0f}, N {:.0f} … {:.0f}", all, reading.low.x,
+                fmt::format("none of {} features lies on the terrain: they lie E {:.0f} … {:.0f}, N {:.0f} … {:.0f}", all[s], reading.low.x,
                             reading.high.x, reading.low.y, reading.high.y),
-                fmt::format("places within E {:.0f} … {:.0f}, N {:.0f} … {:.0f}{}; a file that states its own coordinate system", a.x, b.x,
-                            a.y, b.y, dem.crs.empty() ? "" : " (" + describe_crs(dem.crs) + ")"));
+                allowed);
   }
 }
 
@@ -93,7 +110,7 @@ DrawnFeatures draw_scene_features(const LoadedScene& loaded, const World& world,
                                        .seed = world.scene.seed,
                                        .sun = world.view.sun_direction},
                                       map != nullptr ? std::span(map->courses()) : std::span<const CoverCourse>());
-  check_extents(set, drawn, *world.dem);
+  check_extents(set, *world.dem);
   return drawn;
 }
 

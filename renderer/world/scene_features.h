@@ -15,9 +15,13 @@ FeatureStyle read_scene_feature_style(const LoadedScene& loaded);
 // What the scene's [[features]] hold, in the terrain's CRS; empty where it has none. Notes what is left out and why.
 FeatureSet read_scene_features(const LoadedScene& loaded, const std::string& crs, Progress& progress);
 
-// The same laid over the drawn ground, ready to be painted. Throws Error(usage) with both extents where nothing of a file lies on the
-// terrain: its coordinate system then is another than it says.
+// The same laid over the drawn ground, ready to be painted. Throws as check_extents does.
 DrawnFeatures draw_scene_features(const LoadedScene& loaded, const World& world, bool winter, Progress& progress);
-void check_extents(const FeatureSet& set, const DrawnFeatures& drawn, const Dem& dem);
+
+// Whether all of a feature lies beside the terrain.
+bool lies_beside(const Feature& feature, const Dem& dem);
+// Throws Error(usage) with both extents where nothing of a file lies on the terrain, or none of its places has one in the terrain's
+// coordinate system: its own is then another than it says.
+void check_extents(const FeatureSet& set, const Dem& dem);
 
 }  // namespace belvedere

@@ -42,13 +42,15 @@ std::vector<std::string> left_out(const SourceReading& reading) {
     add(words[i].second,
         words[i].first.empty() ? "without a word for their kind" : fmt::format("the style has no kind \"{}\"", words[i].first));
   if (words.size() > most) lines.push_back(fmt::format("… and {} further words that the style does not know", words.size() - most));
+  if (reading.at_zero > 0) lines.push_back(fmt::format("{} at 0, 0, as where nobody wrote a place down", reading.at_zero));
   if (reading.wrong_width > 0)
     lines.push_back(fmt::format("{} with a width that is no number of metres: drawn as wide as the style says", reading.wrong_width));
   return lines;
 }
 
-std::string describe(const FeatureKind& kind, const DrawnCount& count) {
-  if (kind.draw == FeatureDraw::river || kind.draw == FeatureDraw::area || kind.draw == FeatureDraw::town) return "part of the ground";
+std::string describe(const FeatureKind& kind, const DrawnCount& count, std::size_t beside) {
+  if (becomes_ground(kind))
+    return beside > 0 ? fmt::format("part of the ground, {} of them beside the terrain", beside) : "part of the ground";
   std::string text = fmt::format("{} drawn", count.drawn);
   const auto add = [&](std::size_t number, const char* why) {
     if (number > 0) text += fmt::format(", {} {}", number, why);
@@ -112,6 +114,9 @@ int run(const Options& options) {
   progress.end();
   std::vector<std::vector<std::size_t>> taken(set.readings.size(), std::vector<std::size_t>(set.style.kinds.size(), 0));
   for (const Feature& feature : set.features) ++taken[static_cast<std::size_t>(feature.source)][static_cast<std::size_t>(feature.kind)];
+  std::vector<std::vector<std::size_t>> beside(set.readings.size(), std::vector<std::size_t>(set.style.kinds.size(), 0));
+  for (const Feature& feature : set.features)
+    beside[static_cast<std::size_t>(feature.source)][static_cast<std::size_t>(feature.kind)] += lies_beside(feature, bare.dem) ? 1 : 0;
   if (options.scene.json) {
     print_out(to_json(set, drawn, taken).str() + "\n");
   } else {
@@ -121,14 +126,14 @@ int run(const Options& options) {
       text += fmt::format("{}: {} read\n", reading.file, count_of(reading.read, "feature"));
       for (std::size_t k = 0; k < set.style.kinds.size(); ++k)
         if (taken[s][k] > 0)
-          text +=
-              fmt::format("  {:<18} {:>7}: {}\n", set.style.kinds[k].name, taken[s][k], describe(set.style.kinds[k], drawn.counts[s][k]));
+          text += fmt::format("  {:<18} {:>7}: {}\n", set.style.kinds[k].name, taken[s][k],
+                              describe(set.style.kinds[k], drawn.counts[s][k], beside[s][k]));
       for (const std::string& line : left_out(reading)) text += "  " + line + '\n';
     }
     print_out(text);
   }
   // After the table, because it says of which kinds.
-  check_extents(set, drawn, bare.dem);
+  check_extents(set, bare.dem);
   return 0;
 }
 

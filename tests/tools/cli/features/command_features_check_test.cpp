@@ -82,6 +82,20 @@ TEST_F(FeaturesCheckCommand, AWrongSystemIsAnErrorWithBothExtents) {
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("E 484000 … 486000"), HasSubstr("E 680000 … 690000")));
 }
 
+// Also of what becomes ground, which is not drawn.
+TEST_F(FeaturesCheckCommand, AreasBesideTheTerrainAreAnErrorToo) {
+  write("roads.geojson", R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32632"}}, "features": [
+{"type": "Feature", "properties": {"kind": "forest"}, "geometry": {"type": "Polygon", "coordinates": [[[84000, 5244000], [84900, 5244000], [84000, 5245000], [84000, 5244000]]]}}]})");
+  const Outcome outcome = check();
+  EXPECT_NE(outcome.status, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("part of the ground, 1 of them beside the terrain"));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("none of 1 features lies on the terrain"), HasSubstr("E 84000 … 84900")));
+  // Metres that are taken for degrees.
+  write("roads.geojson", R"({"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {"kind": "road"}, "geometry": {"type": "LineString", "coordinates": [[684000, 5244000], [686000, 5244000]]}}]})");
+  EXPECT_THAT(check().err, HasSubstr("none of 1 features has a place in the terrain's coordinate system"));
+}
+
 TEST_F(FeaturesCheckCommand, PointsAtZeroZeroAreOutsideTheTerrain) {
   write("roads.geojson", R"({"type": "FeatureCollection", "features": [
 {"type": "Feature", "properties": {"kind": "hut"}, "geometry": {"type": "Point", "coordinates": [0, 0]}}]})");
