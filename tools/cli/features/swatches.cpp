@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
@@ -13,7 +14,8 @@
 #include "renderer/features/drawn_features.h"
 #include "renderer/features/house_strokes.h"
 #include "renderer/features/paint_features.h"
-#include "texture/strokes/brush.h"
+#include "renderer/paint/palette.h"
+#include "texture/strokes/stroke_painter.h"
 
 namespace belvedere::tools {
 namespace {
@@ -22,8 +24,8 @@ constexpr int width_px = 200;
 constexpr int height_px = 88;
 constexpr int gap_px = 8;
 constexpr double px_per_mm = 8.0;
-constexpr glm::vec3 meadow{0.60F, 0.68F, 0.44F};
-constexpr glm::vec3 snow{0.93F, 0.95F, 0.99F};
+constexpr double wood_from = 0.42;   // of the height: houses stand before a wood, so that white roofs in snow are seen
+constexpr double ground_m = 1000.0;  // altitude whose colours the ground has
 
 // A slope of 240 m across that an eye looks down on, with a few swells.
 struct Slope {
@@ -59,15 +61,37 @@ struct Ground {
   BasePicture base;
 };
 
-// Its depth, and a light from the upper left.
-Ground look_at_slope(const Slope& slope, bool winter) {
+glm::vec3 colour_of(const Palette& palette, LandCoverClass id, float tone) {
+  const std::vector<ClassPalette::Stop>& stops = palette.classes[static_cast<std::size_t>(id)].stops;
+  const ClassPalette::Stop* stop = &stops.front();
+  for (const ClassPalette::Stop& one : stops)
+    if (one.altitude_m <= ground_m) stop = &one;
+  std::size_t k = 0;
+  while (k + 2 < ramp_tones.size() && tone > static_cast<float>(ramp_tones[k + 1])) ++k;
+  const auto from = static_cast<float>(ramp_tones[k]);
+  const auto to = static_cast<float>(ramp_tones[k + 1]);
+  return glm::mix(stop->ramp[k], stop->ramp[k + 1], std::clamp((tone - from) / (to - from), 0.F, 1.F));
+}
+
+// What is seen of it, in a light from the upper left: a meadow or snow, with a wood behind where one is asked for.
+Ground look_at_slope(const Slope& slope, bool winter, bool with_wood) {
+  const Palette palette = read_palette(winter ? "winter" : "summer");
   Ground ground;
   GuidanceBuffers& g = ground.guidance;
-  g.depth_m = Grid<float>(width_px, height_px, std::numeric_limits<float>::infinity());
-  g.tone = Grid<float>(width_px, height_px, 0.8F);
+  const auto numbers = [](float value) { return Grid<float>(width_px, height_px, value); };
+  g.depth_m = numbers(std::numeric_limits<float>::infinity());
+  g.tone = numbers(0.8F);
+  g.slope_deg = numbers(8.F);
+  g.footprint_m = numbers(1.F);
+  g.relief_s_m = g.built = numbers(0.F);
+  g.grain = Grid<glm::vec2>(width_px, height_px);
+  g.fall_line = Grid<glm::vec2>(width_px, height_px, glm::vec2(0.F, 1.F));
+  g.position_m = Grid<glm::vec3>(width_px, height_px);
   g.land_cover = Grid<LandCoverClass>(width_px, height_px, winter ? LandCoverClass::snow : LandCoverClass::pasture);
-  ground.base.colour = Grid<glm::vec3>(width_px, height_px);
-  ground.base.haze = Grid<float>(width_px, height_px, 0.F);
+  BasePicture& base = ground.base;
+  base.colour = base.darker = base.lighter = Grid<glm::vec3>(width_px, height_px);
+  base.accent = base.haze = numbers(0.F);
+  base.tree_density = numbers(0.95F);
   for (int y = 0; y < height_px; ++y)
     for (int x = 0; x < width_px; ++x) {
       const Ray ray = slope.camera->ray({x + 0.5, y + 0.5});
@@ -75,11 +99,15 @@ Ground look_at_slope(const Slope& slope, bool winter) {
       slope.tracer->intersect(std::span(&ray, 1), std::span(&hit, 1));
       if (hit.found) {
         g.depth_m(x, y) = static_cast<float>(hit.distance_m);
+        g.position_m(x, y) = glm::vec3(ray.origin + ray.direction * hit.distance_m);
         const double light = glm::dot(hit.facet_normal(), glm::normalize(glm::dvec3(-0.6, 0.2, 0.75)));
         g.tone(x, y) = static_cast<float>(std::clamp(0.78 + 2.2 * (light - 0.77), 0.0, 1.0));
       }
-      const auto hand = static_cast<float>(0.02 * gaussian_noise(9, x, y, 2.5));
-      ground.base.colour(x, y) = (winter ? snow : meadow) * (0.74F + 0.30F * g.tone(x, y)) + hand;
+      if (with_wood && y < wood_from * height_px) g.land_cover(x, y) = LandCoverClass::forest;
+      const float tone = g.tone(x, y);
+      base.colour(x, y) = colour_of(palette, g.land_cover(x, y), tone);
+      base.darker(x, y) = colour_of(palette, g.land_cover(x, y), tone - 0.17F);
+      base.lighter(x, y) = colour_of(palette, g.land_cover(x, y), tone + 0.17F);
     }
   return ground;
 }
@@ -121,16 +149,24 @@ Grid<glm::vec3> paint_half(const FeatureStyle& style, int kind, bool winter) {
   FeatureSet set{.style = style, .features = examples(style, kind), .readings = std::vector<SourceReading>(1)};
   const DrawnFeatures drawn =
       draw_features(set, sight, {.winter = winter, .px_per_mm = px_per_mm, .seed = 3, .sun = glm::normalize(glm::dvec3(-0.7, -0.2, 0.7))});
-  const Ground ground = look_at_slope(slope, winter);
+  const Ground ground = look_at_slope(slope, winter, style.kinds[static_cast<std::size_t>(kind)].draw == FeatureDraw::building);
   StrokeParameters parameters;
   parameters.pixels_per_unit = 0.5 * px_per_mm;
   parameters.winter = winter;
-  Painting painting = begin_painting(ground.base.colour);
-  painting.seen_ground = Grid<float>(width_px, height_px, 1.F);
-  paint_in_order(painting, ground.guidance, house_strokes(drawn, {ground.guidance, ground.base, parameters}), parameters.pixels_per_unit,
-                 silent_progress());
   const PixelRect all{0, 0, width_px, height_px};
-  paint_features(painting.picture, drawn, {ground.guidance, ground.base.colour, ground.base.haze, painting.seen_ground, {}}, all, all);
+  MappedGround map;
+  map.cleared = find_cleared(drawn, ground.guidance.depth_m, all);
+  // Nothing stands there but the features and the wood.
+  for (std::size_t i = 0; i < map.cleared.size(); ++i)
+    if (ground.guidance.land_cover[i] != LandCoverClass::forest) map.cleared[i] = 1;
+  map.hung_m = find_hung(drawn, all);
+  map.besides = house_strokes(drawn, {ground.guidance, ground.base, parameters});
+  SheetWindow window;
+  window.mapped = &map;
+  const StrokeLayers layers{.sky = false, .ground = true, .accents = true, .breaks = false, .upright = true};
+  Painting painting = paint_strokes(ground.base.colour, ground.guidance, ground.base, layers, parameters, silent_progress(), window);
+  paint_features(painting.picture, drawn, {ground.guidance, ground.base.colour, ground.base.haze, painting.seen_ground, painting.seen_hung},
+                 all, all);
   return painting.picture;
 }
 
