@@ -50,29 +50,20 @@ class Typesetter {
     return block;
   }
 
-  // Swatches with their names, in columns of at most five.
-  Block legend(const std::vector<LegendEntry>& entries) const {
-    constexpr std::size_t rows = 5;
-    Block block;
-    const double swatch = 1.1 * text_px();
-    double x = 0.0;
-    double widest = 0.0;
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      if (i > 0 && i % rows == 0) {
-        x += widest + 2.5 * swatch + text_px();
-        widest = 0.0;
-      }
-      const double y = static_cast<double>(i % rows) * line_px();
-      block.shapes.push_back(DrawnPath{.points = rectangle(x, y, x + 1.8 * swatch, y + swatch),
-                                       .closed = true,
-                                       .fill = entries[i].colour,
-                                       .stroke = style_.ink,
-                                       .width_px = mm(.12)});
-      block.shapes.push_back(text(entries[i].name, {x + 2.3 * swatch, y + .85 * swatch}, text_px()));
-      widest = std::max(widest, width(entries[i].name, text_px()));
-      block.size = {x + 2.3 * swatch + widest, std::max(block.size.y, y + line_px())};
-    }
-    return block;
+  // Swatches with their names, in columns of at most five, side by side; each in a fine frame.
+  Block classes(const std::vector<LegendEntry>& entries) const {
+    std::vector<std::pair<std::string, std::vector<DrawnShape>>> rows;
+    const glm::dvec2 size = swatch_px();
+    for (const LegendEntry& entry : entries)
+      rows.push_back(
+          {entry.name, {DrawnPath{.points = rectangle(0.0, 0.0, size.x, size.y), .closed = true, .fill = entry.colour, .stroke = {}}}});
+    return legend(std::move(rows), size);
+  }
+  Block features(const std::vector<FeatureSwatch>& entries) const {
+    std::vector<std::pair<std::string, std::vector<DrawnShape>>> rows;
+    const glm::dvec2 size(1.5 * swatch_px().x, swatch_px().y);
+    for (const FeatureSwatch& entry : entries) rows.emplace_back(entry.name, draw_swatch(entry, size, scale_));
+    return legend(std::move(rows), size);
   }
 
   Block scales(const std::vector<ScaleBar>& bars) const {
@@ -157,6 +148,34 @@ class Typesetter {
   }
 
  private:
+  glm::dvec2 swatch_px() const { return {2.0 * text_px(), 1.1 * text_px()}; }
+
+  Block legend(std::vector<std::pair<std::string, std::vector<DrawnShape>>> entries, glm::dvec2 swatch) const {
+    constexpr std::size_t rows = 5;
+    Block block;
+    const double gap = .5 * text_px();
+    double x = 0.0;
+    double widest = 0.0;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      if (i > 0 && i % rows == 0) {
+        x += swatch.x + gap + widest + 1.3 * text_px();
+        widest = 0.0;
+      }
+      const double y = static_cast<double>(i % rows) * line_px();
+      auto& [name, shapes] = entries[i];
+      for (DrawnShape& shape : shapes) {
+        move_shape(shape, {x, y});
+        block.shapes.push_back(std::move(shape));
+      }
+      block.shapes.push_back(DrawnPath{
+          .points = rectangle(x, y, x + swatch.x, y + swatch.y), .closed = true, .fill = {}, .stroke = style_.ink, .width_px = mm(.12)});
+      block.shapes.push_back(text(name, {x + swatch.x + gap, y + .85 * swatch.y}, text_px()));
+      widest = std::max(widest, width(name, text_px()));
+      block.size = {x + swatch.x + gap + widest, std::max(block.size.y, y + line_px())};
+    }
+    return block;
+  }
+
   TextStyle type(double size_px) const { return {.family = style_.family, .size_px = size_px}; }
   static double turned(double azimuth_deg) { return azimuth_deg - 360.0 * std::floor(azimuth_deg / 360.0); }
   static const char* quarter(double azimuth_deg) {
@@ -194,9 +213,8 @@ Margin lay_out_margin(const MarginContent& content, const MarginStyle& style, gl
     if (!block.shapes.empty()) blocks.push_back(std::move(block));
   };
   add(set.title(content));
-  std::vector<LegendEntry> legend = content.classes;
-  legend.insert(legend.end(), content.features.begin(), content.features.end());
-  add(set.legend(legend));
+  add(set.classes(content.classes));
+  add(set.features(content.features));
   add(set.scales(content.scales));
   if (content.directions) add(set.directions(content));
 

@@ -6,6 +6,7 @@
 
 #include "renderer/labels/drawing.h"
 #include "renderer/labels/label_style.h"
+#include "renderer/labels/legend_swatch.h"
 #include "renderer/trace/geo_map.h"
 
 namespace belvedere {
@@ -26,9 +27,9 @@ struct MarginContent {
   std::string title;
   std::string subtitle;
   std::vector<LegendEntry> classes;
-  std::vector<LegendEntry> features;  // roads, runs and the like, after the classes
-  std::vector<ScaleBar> scales;       // near ones first
-  bool directions = false;            // with these three, degrees clockwise from north
+  std::vector<FeatureSwatch> features;  // roads, runs and the like, after the classes
+  std::vector<ScaleBar> scales;         // near ones first
+  bool directions = false;              // with these three, degrees clockwise from north
   double view_azimuth_deg = 0.0;
   double sun_azimuth_deg = 0.0;
   double sun_altitude_deg = 0.0;

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <iterator>
 #include <set>
-#include <sstream>
 
 #include "renderer/image/output_file.h"
 #include "renderer/image/rows/picture_files.h"
@@ -20,7 +19,6 @@ namespace belvedere {
 namespace {
 
 constexpr int band_rows = 64;
-constexpr const char* stem = "panorama_names";
 
 glm::vec3 colour_of(const std::string& hex) {
   unsigned value = 0;
@@ -28,13 +26,16 @@ glm::vec3 colour_of(const std::string& hex) {
   return glm::vec3((value >> 16) & 255U, (value >> 8) & 255U, value & 255U) / 255.0F;
 }
 
-MarginContent content_of(const Scene& scene, const BareView& bare, const LabelSheet& sheet, const std::vector<LegendEntry>& classes,
+MarginContent content_of(const Scene& scene, const BareView& bare, const LabelSheet& sheet, const PictureLegend& legend,
                          const std::vector<SceneInput>& inputs) {
   const SceneMargin& asked = *scene.margin;
   MarginContent content;
   content.title = asked.title.empty() ? scene.title : asked.title;
   content.subtitle = asked.subtitle;
-  if (asked.legend) content.classes = classes;
+  if (asked.legend) {
+    content.classes = legend.classes;
+    content.features = legend.features;
+  }
   const GeoMap map = bare.geo_map();
   const CameraParameters& camera = bare.view.camera;
   if (asked.scale_bars) {
@@ -69,44 +70,35 @@ Drawing on_paper(const Drawing& names, const Margin& margin) {
 
 }  // namespace
 
-std::string legend_to_text(const std::vector<LegendEntry>& legend) {
-  std::string text;
-  for (const LegendEntry& entry : legend) text += entry.colour + " " + entry.name + "\n";
-  return text;
+std::string second_picture(const Scene& scene, bool whole_sheet) {
+  if (scene.labels.in_picture && scene.labels.any()) return "panorama_names";
+  return scene.margin && whole_sheet ? "panorama_margin" : "";
 }
 
-std::vector<LegendEntry> legend_from_text(const std::string& text) {
-  std::vector<LegendEntry> legend;
-  std::istringstream lines(text);
-  std::string colour, name;
-  while (lines >> colour && std::getline(lines >> std::ws, name)) legend.push_back({name, colour});
-  return legend;
-}
-
-void write_named_picture(const LoadedScene& loaded, PixelRect region, const SheetRows& rows, const std::vector<LegendEntry>& classes,
+void write_named_picture(const LoadedScene& loaded, PixelRect region, const SheetRows& rows, const PictureLegend& legend,
                          const OutputColor& color, const FileNotes& notes, const std::string& out_folder, const Run& run) {
   const Scene& scene = loaded.scene;
-  if (!scene.labels.any() && !scene.margin) return;
+  const bool whole = region == PixelRect{0, 0, scene.output.width, scene.output.height};
+  const std::string stem = second_picture(scene, whole);
+  if (!scene.labels.any() && stem.empty()) return;
   const BareView bare = make_bare_view(loaded, run.progress, run.cache);
   const LabelJob job = label_job(loaded, run.progress);
   LabelSheet sheet;
-  if (scene.labels.any()) {
+  if (!job.empty()) {
     sheet = make_label_sheet(loaded, job, bare, run.progress);
     const std::vector<std::string>& formats = scene.output.formats;
     const bool has_png = std::find(formats.begin(), formats.end(), "png") != formats.end();
-    const bool whole = region == PixelRect{0, 0, scene.output.width, scene.output.height};
     write_label_files(sheet, bare.dem.crs, out_folder, has_png && whole ? "panorama.png" : "", run.progress);
   } else {
     sheet = empty_label_sheet(load_label_style(job.style), bare.camera->size(), scene.output.sheet_width_mm);
   }
-  if (!scene.labels.in_picture && !scene.margin) return;
+  if (stem.empty()) return;
 
-  const bool whole = region == PixelRect{0, 0, scene.output.width, scene.output.height};
   Margin margin;
   if (scene.margin && whole)
-    margin = lay_out_margin(content_of(scene, bare, sheet, classes, scene_inputs(loaded)), sheet.style.margin, sheet.size_px,
+    margin = lay_out_margin(content_of(scene, bare, sheet, legend, scene_inputs(loaded)), sheet.style.margin, sheet.size_px,
                             sheet.px_per_mm, scene.margin->frame_mm * sheet.px_per_mm);
-  const Drawing drawing = on_paper(label_drawing(sheet), margin);
+  const Drawing drawing = on_paper(scene.labels.in_picture ? label_drawing(sheet) : Drawing(), margin);
   const SheetPainter painter(drawing);
   const int width = margin.left + region.width() + margin.right;
   const int height = margin.top + region.height() + margin.bottom;
@@ -114,7 +106,7 @@ void write_named_picture(const LoadedScene& loaded, PixelRect region, const Shee
     const double mm = scene.output.sheet_width_mm / scene.output.width;
     write_text_file((std::filesystem::path(out_folder) / "margin.svg").string(), drawing_svg(margin.drawing, width * mm));
   }
-  run.progress.begin("writing the panorama with names", height);
+  run.progress.begin("writing " + stem, height);
   PictureFiles files((std::filesystem::path(out_folder) / stem).string(), scene.output.formats, width, height,
                      {color.display, color.profile}, scene.output.width / scene.output.sheet_width_mm * 25.4, notes);
   const glm::vec3 paper = colour_of(sheet.style.margin.paper);

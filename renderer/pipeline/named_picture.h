@@ -13,16 +13,22 @@
 
 namespace belvedere {
 
-// Classes that a picture shows, as the work folder keeps them: "rock #a0a0a0" a line.
-std::string legend_to_text(const std::vector<LegendEntry>& legend);
-std::vector<LegendEntry> legend_from_text(const std::string& text);
+// What the legend of a margin shows.
+struct PictureLegend {
+  std::vector<LegendEntry> classes;
+  std::vector<FeatureSwatch> features;
+};
 
 // Rows [y0, y1) of the sheet over the region's width, encoded sRGB.
 using SheetRows = std::function<Grid<glm::vec3>(int y0, int y1)>;
 
-// What [labels] and [margin] of a scene ask for beside the panorama: labels.svg and the tables, and with in_picture, or a margin, the
-// second picture panorama_names. A part of a sheet has no margin; its names stand where the whole has them.
-void write_named_picture(const LoadedScene& loaded, PixelRect region, const SheetRows& rows, const std::vector<LegendEntry>& classes,
+// Stem of the second picture that a scene asks for: with the names drawn in where [labels] has in_picture, in a [margin] where it has one;
+// empty without both, and for a part of the sheet that would show neither.
+std::string second_picture(const Scene& scene, bool whole_sheet = true);
+
+// What [labels] and [margin] of a scene ask for beside the panorama: labels.svg and the tables, and the second picture. A part of a sheet
+// has no margin; its names stand where the whole has them.
+void write_named_picture(const LoadedScene& loaded, PixelRect region, const SheetRows& rows, const PictureLegend& legend,
                          const OutputColor& color, const FileNotes& notes, const std::string& out_folder, const Run& run);
 
 }  // namespace belvedere

@@ -14,6 +14,7 @@
 #include "renderer/pipeline/layer_files.h"
 #include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/output_color.h"
+#include "renderer/pipeline/picture_legend.h"
 #include "renderer/pipeline/sheet_job.h"
 #include "renderer/sheet/guidance_pack.h"
 #include "renderer/sheet/joined_pieces.h"
@@ -160,9 +161,10 @@ void write_sheet_files(const LoadedScene& loaded, const SheetRequest& request, c
   write_layer_files(loaded, request, joined, out_folder, run);
   if (const std::optional<InkCoverage> ink = panorama.ink()) run.progress.note(ink_note("panorama.tif", *ink));
   commit();
-  write_named_picture(loaded, region, encoded_rows,
-                      work.has_bytes(legend_bytes) ? legend_from_text(work.read_bytes(legend_bytes)) : std::vector<LegendEntry>(), color,
-                      file_notes, out_folder, run);
+  PictureLegend legend;
+  if (work.has_bytes(legend_bytes)) legend.classes = legend_from_text(work.read_bytes(legend_bytes));
+  if (work.has_bytes(feature_legend_bytes)) legend.features = swatches_from_text(work.read_bytes(feature_legend_bytes));
+  write_named_picture(loaded, region, encoded_rows, legend, color, file_notes, out_folder, run);
 }
 
 }  // namespace belvedere

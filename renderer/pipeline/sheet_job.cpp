@@ -109,6 +109,8 @@ int tile_px_for(const Scene& scene, const SheetView& view, const SheetRequest& r
   return choose_tile_px(scene, view.pixels_per_unit, region_of(scene, request), piece_bytes_of(scene, request));
 }
 
+bool has_legend(const Scene& scene) { return scene.margin && scene.margin->legend; }
+
 SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run, const Run& stage_run)
     : paint(paint_for(loaded, request, run.progress)),
       world(loaded, run.progress, run.cache),
@@ -116,7 +118,7 @@ SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, con
       view(view_of(world)),
       ground(world, view, bring_to_place(paint.palette, loaded, world), place, stage_run, tile_px_for(world.scene, view, request)) {
   keep_notes(loaded, world, work);
-  if (world.scene.margin && world.scene.margin->legend && !work.has_bytes(legend_bytes))
+  if (has_legend(world.scene) && !work.has_bytes(legend_bytes))
     work.keep_bytes(legend_bytes, legend_to_text(find_legend(world, paint.palette)));
 }
 
@@ -150,6 +152,8 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
   CopyPlan plan = copied ? plan_copies(loaded, sheet, work, run) : CopyPlan{};
   const DrawnFeatures features =
       request.panorama ? draw_scene_features(loaded, sheet.world, sheet.ground.strokes().winter, run.progress) : DrawnFeatures{};
+  if (has_legend(sheet.world.scene) && !features.empty() && !work.has_bytes(feature_legend_bytes))
+    work.keep_bytes(feature_legend_bytes, swatches_to_text(find_feature_legend(features, sheet.paint.palette)));
   SheetPicture picture(sheet.ground, copied ? &plan : nullptr, sheet.place, stage_run, features);
 
   if (request.matches) work.keep_bytes(matched_bytes, to_note(pictures_of(plan)));

@@ -21,6 +21,8 @@ void make_plan(const LoadedScene& loaded, const SheetRequest& request, const Wor
 constexpr const char* matched_bytes = "matched";
 // … and the classes that the whole picture shows, for a margin's legend.
 constexpr const char* legend_bytes = "legend";
+// … and the kinds of features.
+constexpr const char* feature_legend_bytes = "legend_features";
 
 // Whose parts the pieces are, so that missing ones are told by the parts to run again.
 struct PlanOfParts {

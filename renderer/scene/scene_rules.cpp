@@ -178,6 +178,11 @@ class Rules {
         refuse("land_cover.erode." + name, fmt::format("land_cover.erode has {} = {}", name, steps), "whole steps of 50 m");
   }
 
+  void labels() {
+    if (scene_.labels.in_picture && !scene_.labels.any())
+      refuse("labels.in_picture", "labels.in_picture has nothing to draw", "[[labels.points]] with a file, or labels.summits = 30");
+  }
+
   void exemplars() {
     for (std::size_t i = 0; i < scene_.exemplars.size(); ++i) {
       const SceneExemplar& exemplar = scene_.exemplars[i];
@@ -290,6 +295,7 @@ void apply_scene_rules(Scene& scene, const ConfigValue& root, const SceneOrigin&
   rules.camera();
   rules.exemplars();
   rules.erosion();
+  rules.labels();
   rules.synthesis();
   rules.features();
 }

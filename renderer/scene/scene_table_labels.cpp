@@ -51,10 +51,11 @@ std::vector<SceneSection> make_labels_sections() {
             .unit = "m",
             .meaning = "What counts as a summit of the DEM: so high over the way to higher ground."},
        }});
-  sections.push_back(file_section("labels.points", "One block for each file of points with names.",
-                                  "A .csv, .gpkg, .geojson, .shp or .fgb file with columns name, kind, rank (1 … 9) and ele.",
-                                  {AT(labels.points[i].file), AT(labels.points[i].origin), AT(labels.points[i].licence),
-                                   AT(labels.points[i].get_from), AT(labels.points[i].optional)}));
+  sections.push_back(
+      file_section("labels.points", "One block for each file of points with names.",
+                   "A .csv, .gpkg, .geojson, .shp, .fgb, .gpx, .osm or .pbf file with columns name, kind, rank (1 … 9) and ele.",
+                   {AT(labels.points[i].file), AT(labels.points[i].origin), AT(labels.points[i].licence), AT(labels.points[i].get_from),
+                    AT(labels.points[i].optional)}));
   sections.back().count = [](const Scene& s) { return s.labels.points.size(); };
   sections.back().resize = [](Scene& s, std::size_t n) { s.labels.points.resize(n); };
   sections.push_back(file_section(
@@ -73,8 +74,8 @@ std::vector<SceneSection> make_labels_sections() {
   sections.push_back(
       {.name = "margin",
        .kind = SectionKind::optional,
-       .meaning = "Paper around panorama_names, with title and legend; the panorama's own pixels stay the same. Colours and type are the "
-                  "style's of [labels].",
+       .meaning = "Paper around a second picture, with title and legend: around panorama_names where `labels.in_picture` asks for it, else "
+                  "panorama_margin, without names. The panorama itself stays the same. Colours and type are the style's of [labels].",
        .keys =
            {
                {.name = "title", .field = AT(margin->title), .meaning = "Its title; without it the scene's."},
@@ -84,7 +85,9 @@ std::vector<SceneSection> make_labels_sections() {
                 .range = {0, 500},
                 .unit = "mm",
                 .meaning = "Paper on every side of the picture; below it the strip with title and legend follows."},
-               {.name = "legend", .field = AT(margin->legend), .meaning = "The classes of ground that the picture shows, in its colours."},
+               {.name = "legend",
+                .field = AT(margin->legend),
+                .meaning = "The classes of ground and the kinds of features that the picture shows, in its colours."},
                {.name = "scale_bars",
                 .field = AT(margin->scale_bars),
                 .meaning = "Metres across the picture at two distances of its ground, near and far."},

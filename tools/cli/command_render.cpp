@@ -7,6 +7,7 @@
 
 #include "base/json.h"
 #include "renderer/image/layers/layer_file.h"
+#include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draft.h"
 #include "tools/cli/commands.h"
@@ -30,7 +31,7 @@ struct Options {
 };
 
 using Job = void (*)(const LoadedScene&, const std::string& out_folder, const Run&, const SheetRequest&);
-using Results = std::vector<std::string> (*)(const Scene&);  // names of the pictures that a job makes
+using Results = std::vector<std::string> (*)(const Scene&, bool whole_sheet);  // names of the pictures that a job makes
 
 int run_job(const Options& options, Job job, Results results) {
   LoadedScene scene = load(options.scene);
@@ -51,7 +52,9 @@ int run_job(const Options& options, Job job, Results results) {
   job(scene, folder, make_run(options.scene, options.tile_size, progress, cache), request);
   progress.end();
 
-  std::vector<std::string> names = results(scene.scene);
+  const SceneOutput& output = scene.scene.output;
+  const bool whole = region_of(scene.scene, request) == PixelRect{0, 0, output.width, output.height};
+  std::vector<std::string> names = results(scene.scene, whole);
   if (!request.channels || !request.channels->empty()) names.emplace_back("guidance.exr");
   if (request.matches) names.emplace_back("match.exr");
   for (const std::string& ending : request.layers) names.push_back(layer_format(ending).file);
@@ -126,12 +129,12 @@ Action add_render(CLI::App& command) {
                  "  belvedere render scenes/karwendel.toml --data ../data --set output.width=1200 --set output.height=550\n"
                  "  belvedere render scenes/karwendel.toml --data ../data --channels Z,landcover.id --match\n"
                  "  belvedere render scenes/karwendel.toml --data ../data --part 800,300,400,400 --out proof",
-                 Drafts::yes, render, [](const Scene& scene) {
+                 Drafts::yes, render, [](const Scene& scene, bool whole_sheet) {
                    std::vector<std::string> names;
                    for (const std::string& ending : scene.output.formats) names.push_back("panorama." + ending);
                    if (scene.labels.any()) names.emplace_back("labels.svg");
-                   if (scene.labels.in_picture || scene.margin)
-                     for (const std::string& ending : scene.output.formats) names.push_back("panorama_names." + ending);
+                   if (const std::string second = second_picture(scene, whole_sheet); !second.empty())
+                     for (const std::string& ending : scene.output.formats) names.push_back(second + "." + ending);
                    return names;
                  });
 }
@@ -140,7 +143,7 @@ Action add_guidance(CLI::App& command) {
   return add_job(command,
                  "The channels and their units are described in the header: belvedere info guidance.exr\n\n"
                  "  belvedere guidance scenes/karwendel.toml --data ../data --out karwendel",
-                 Drafts::no, render_guidance, [](const Scene&) { return std::vector<std::string>(); });
+                 Drafts::no, render_guidance, [](const Scene&, bool) { return std::vector<std::string>(); });
 }
 
 }  // namespace belvedere::tools

@@ -28,7 +28,7 @@ TEST(Margin, LeavesThePictureFree) {
                                     {"water", "#3366aa"},
                                     {"scree", "#bbaa99"},
                                     {"pasture", "#99aa55"}},
-                        .features = {},
+                        .features = {{.name = "main road"}, {.name = "lift", .form = SwatchForm::cable}, {.name = "path"}},
                         .scales = {{5000.0, .4}, {40000.0, .05}},
                         .directions = true,
                         .view_azimuth_deg = 182.0,
@@ -49,7 +49,7 @@ TEST(Margin, LeavesThePictureFree) {
         EXPECT_LT(text->at.y, margin.drawing.size_px.y) << text->text;
         EXPECT_LT(text->at.x + (1.0 - text->anchor) * measure.measure(text->text, text->type).width_px, width + 60.0) << text->text;
       }
-    EXPECT_GE(texts, 13);
+    EXPECT_GE(texts, 16);
   }
   EXPECT_EQ(lay_out_margin({}, {}, {700, 500}, 3.0, 0.0).bottom, 0) << "nothing to say, no paper";
 }

@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "base/grid_part.h"
 #include "renderer/image/image_io.h"
+#include "renderer/pipeline/picture_legend.h"
 #include "renderer/pipeline/pipeline.h"
 #include "tests/files.h"
 #include "tests/renderer/world/small_world.h"
@@ -60,6 +63,79 @@ TEST(NamedPicture, TheMarginLiesAroundThePicture) {
   EXPECT_EQ(framed(0, 0), framed(1, 0));
   EXPECT_THAT(test::read_bytes(folder / "framed/margin.svg"), HasSubstr(">Test</text>"));
   EXPECT_THAT(test::read_bytes(folder / "framed/margin.svg"), HasSubstr(">forest</text>"));
+}
+
+// A margin alone asks for paper, not for names: the picture in it has another name, and none where the scene only lists them.
+TEST(NamedPicture, AMarginWithoutNamesInThePictureIsPanoramaMargin) {
+  const test::Folder folder;
+  const auto has = [&](const std::string& file) { return std::filesystem::exists(folder / file); };
+  render_to(folder / "alone", {"labels.in_picture=false", "labels.summits=0", "margin={ title = \"Test\", frame_mm = 2 }"});
+  EXPECT_TRUE(has("alone/panorama_margin.png") && has("alone/margin.svg"));
+  EXPECT_FALSE(has("alone/panorama_names.png") || has("alone/labels.svg"));
+  render_to(folder / "listed", {"labels.in_picture=false", "margin={ title = \"Test\", frame_mm = 2 }"});
+  EXPECT_TRUE(has("listed/panorama_margin.png") && has("listed/labels.svg"));
+  EXPECT_FALSE(has("listed/panorama_names.png"));
+  EXPECT_TRUE(read_picture(folder / "listed/panorama_margin.png") == read_picture(folder / "alone/panorama_margin.png"))
+      << "names that are not asked into the picture";
+  SheetRequest request;
+  request.part = PixelRect{60, 20, 260, 140};
+  render_to(folder / "part", {"labels.in_picture=false", "labels.summits=0", "margin={ title = \"Test\" }"}, request);
+  EXPECT_FALSE(has("part/panorama_margin.png")) << "a part has no margin: it would be the panorama once more";
+}
+
+TEST(NamedPicture, AskingForNamesWithoutAnyIsRefused) {
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [] { test::small_scene({"labels.in_picture=true"}); }),
+              HasSubstr("labels.in_picture has nothing to draw"));
+}
+
+// A sheet for print: what a part of it shows of names is what the whole shows there, at the size that letters have on that sheet.
+TEST(NamedPicture, APartOfALargeSheetHasTheNamesOfTheWhole) {
+  const test::Folder folder;
+  const std::vector<std::string> large = {"output.width=800", "output.height=500", "output.sheet_width_mm=80"};
+  render_to(folder / "whole", large);
+  const Grid<glm::vec3> names = read_picture(folder / "whole/panorama_names.png");
+  const Grid<glm::vec3> clean = read_picture(folder / "whole/panorama.png");
+  // Around a pixel of a name, so that the part cuts letters.
+  std::size_t first = 0;
+  while (first < clean.size() && clean[first] == names[first]) ++first;
+  ASSERT_LT(first, clean.size());
+  const glm::ivec2 at(static_cast<int>(first) % 800, static_cast<int>(first) / 800);
+  const PixelRect part = intersection({0, 0, 800, 500}, {at.x - 117, at.y - 3, at.x + 201, at.y + 129});
+  SheetRequest request;
+  request.part = part;
+  render_to(folder / "part", large, request);
+  const Grid<glm::vec3> cut = read_picture(folder / "part/panorama_names.png");
+  EXPECT_TRUE(cut == part_of(names, part));
+  EXPECT_FALSE(cut == read_picture(folder / "part/panorama.png")) << "there are names in it";
+}
+
+// What is drawn of a road is in the legend, and what the style has besides is not.
+TEST(NamedPicture, TheLegendShowsFeaturesThatAreDrawn) {
+  DrawnFeatures drawn;
+  drawn.style = load_feature_style("classic");
+  drawn.counts = {std::vector<DrawnCount>(drawn.style.kinds.size()), std::vector<DrawnCount>(drawn.style.kinds.size())};
+  const auto at = [&](const char* word) { return static_cast<std::size_t>(drawn.style.find(word)); };
+  drawn.counts[1][at("main_road")].drawn = 3;
+  drawn.counts[0][at("lift")].drawn = 1;
+  drawn.counts[0][at("railway")].hidden = 4;
+  drawn.counts[0][at("river")].drawn = 4;
+  const std::vector<FeatureSwatch> swatches = find_feature_legend(drawn, read_palette("summer"));
+  ASSERT_EQ(swatches.size(), 2U) << "railways are hidden, rivers are water";
+  EXPECT_EQ(swatches[0].name, "main road");
+  EXPECT_EQ(swatches[0].fill, "#fbf2d6");
+  EXPECT_EQ(swatches[1].form, SwatchForm::cable);
+  drawn.winter = true;
+  EXPECT_EQ(find_feature_legend(drawn, read_palette("winter"))[0].fill, "#efe3bf");
+  const std::vector<FeatureSwatch> again = swatches_from_text(swatches_to_text(swatches));
+  ASSERT_EQ(again.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(again[i].name, swatches[i].name);
+    EXPECT_EQ(again[i].form, swatches[i].form);
+    EXPECT_EQ(again[i].casing, swatches[i].casing);
+    EXPECT_EQ(again[i].width_mm, swatches[i].width_mm);
+    EXPECT_EQ(again[i].dash_mm, swatches[i].dash_mm);
+    EXPECT_EQ(again[i].has_pylons, swatches[i].has_pylons);
+  }
 }
 
 TEST(NamedPicture, TheLegendSurvivesTheWorkFolder) {
