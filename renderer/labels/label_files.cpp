@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 #include "base/json.h"
@@ -35,6 +36,19 @@ std::string outcome(const Label& label) {
 
 bool has_pixel(const Label& label) { return label.mark.state != MarkState::outside_terrain && label.mark.state != MarkState::behind_eye; }
 
+constexpr const char* columns =
+    "name,kind,rank,outcome,x_px,y_px,distance_m,altitude_file_m,altitude_dem_m,east,north,drawn_east,drawn_north,hidden_by,where";
+
+std::string csv_row(const LabelSheet& sheet, const Label& label, const std::string& outcome) {
+  const LabelMark& mark = label.mark;
+  return fmt::format("{},{},{:g},{},{},{},{},{},{},{:.2f},{:.2f},{:.2f},{:.2f},{},{}", quoted_csv(label.point.name),
+                     quoted_csv(sheet.kind_of(label).name), label.point.rank, outcome, has_pixel(label) ? px(mark.pixel.x) : "",
+                     has_pixel(label) ? px(mark.pixel.y) : "", has_pixel(label) ? fmt::format("{:.0f}", mark.distance_m) : "",
+                     number_or_nothing(label.point.altitude_m.value_or(NAN), 1), number_or_nothing(mark.dem_altitude_m, 1),
+                     label.point.place.x, label.point.place.y, mark.drawn_place.x, mark.drawn_place.y, quoted_csv(label.hidden_by),
+                     quoted_csv(label.point.where));
+}
+
 }  // namespace
 
 std::string labels_svg(const LabelSheet& sheet, const std::string& under) {
@@ -54,16 +68,17 @@ std::string labels_svg(const LabelSheet& sheet, const std::string& under) {
 }
 
 std::string labels_csv(const LabelSheet& sheet) {
-  std::string out =
-      "name,kind,rank,outcome,x_px,y_px,distance_m,altitude_file_m,altitude_dem_m,east,north,drawn_east,drawn_north,hidden_by,where\n";
+  std::string out = std::string(columns) + '\n';
+  for (const Label& label : sheet.labels) out += csv_row(sheet, label, outcome(label)) + '\n';
+  return out;
+}
+
+std::string places_csv(const LabelSheet& sheet) {
+  std::string out = std::string(columns) + ",hiding_east,hiding_north\n";
   for (const Label& label : sheet.labels) {
-    const LabelMark& mark = label.mark;
-    out += fmt::format("{},{},{:g},{},{},{},{},{},{},{:.2f},{:.2f},{:.2f},{:.2f},{},{}\n", quoted_csv(label.point.name),
-                       quoted_csv(sheet.kind_of(label).name), label.point.rank, outcome(label), has_pixel(label) ? px(mark.pixel.x) : "",
-                       has_pixel(label) ? px(mark.pixel.y) : "", has_pixel(label) ? fmt::format("{:.0f}", mark.distance_m) : "",
-                       number_or_nothing(label.point.altitude_m.value_or(NAN), 1), number_or_nothing(mark.dem_altitude_m, 1),
-                       label.point.place.x, label.point.place.y, mark.drawn_place.x, mark.drawn_place.y, quoted_csv(label.hidden_by),
-                       quoted_csv(label.point.where));
+    const std::optional<GeoPlace>& front = label.mark.in_front;
+    out += csv_row(sheet, label, std::string(name_of(label.mark.state)));
+    out += front ? fmt::format(",{:.2f},{:.2f}\n", front->place.x, front->place.y) : ",,\n";
   }
   return out;
 }

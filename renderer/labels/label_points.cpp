@@ -4,27 +4,48 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <set>
+#include <span>
 #include <string_view>
+#include <utility>
 
 #include "base/error.h"
+#include "terrain/io/crs.h"
+#include "terrain/io/features.h"
 #include "terrain/io/points.h"
 
 namespace belvedere {
 namespace {
 
-int find_any(const PointTable& table, std::initializer_list<std::string_view> names) {
-  for (const std::string_view name : names)
-    if (const int column = table.find(name); column >= 0) return column;
-  return -1;
+bool ends_as(const std::string& path, std::string_view ending) {
+  std::string own = std::filesystem::path(path).extension().string();
+  std::transform(own.begin(), own.end(), own.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return own == ending;
 }
 
 const std::string& text_of(const PointTable::Point& point, int column) {
   static const std::string nothing;
   return column < 0 ? nothing : point.values[static_cast<std::size_t>(column)];
+}
+
+// The columns of those names that a table has: layers of one file may each have another.
+std::vector<int> columns_of(const PointTable& table, std::span<const char* const> names) {
+  std::vector<int> columns;
+  for (const char* name : names)
+    if (const int column = table.find(name); column >= 0) columns.push_back(column);
+  return columns;
+}
+
+// The first of them that a point has something in; -1: none.
+int filled(const PointTable::Point& point, const std::vector<int>& columns) {
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](int column) { return !text_of(point, column).empty(); });
+  return found == columns.end() ? -1 : *found;
 }
 
 std::optional<double> number_of(const PointTable& table, const PointTable::Point& point, int column, double least, double most) {
@@ -38,6 +59,52 @@ std::optional<double> number_of(const PointTable& table, const PointTable::Point
   return value;
 }
 
+// Letters as Unicode has them, none written longer than it must be, no half of a pair (RFC 3629).
+bool is_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = [&](std::size_t k) {
+      return i + k < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[i + k])) : 0U;
+    };
+    const std::size_t more = byte(0) < 0x80 ? 0 : byte(0) >> 5 == 6 ? 1 : byte(0) >> 4 == 14 ? 2 : byte(0) >> 3 == 30 ? 3 : 9;
+    if (more > 3) return false;
+    unsigned letter = more == 0 ? byte(0) : byte(0) & (0x3FU >> more);
+    for (std::size_t k = 1; k <= more; ++k) {
+      if (byte(k) >> 6 != 2) return false;
+      letter = letter << 6 | (byte(k) & 0x3FU);
+    }
+    constexpr std::array least{0U, 0x80U, 0x800U, 0x10000U};
+    if (letter < least[more] || letter > 0x10FFFFU || (letter >= 0xD800U && letter <= 0xDFFFU)) return false;
+    i += more + 1;
+  }
+  return true;
+}
+
+constexpr std::array kind_columns{"kind", "type", "natural", "place", "tourism"};
+constexpr std::array altitude_columns{"ele", "altitude_m", "altitude", "elevation", "height"};
+
+// The points of a file of any format, of vector files those of all its layers.
+PointTable read_table(const std::string& path, const std::string& crs, NamesAre names, Progress& progress) {
+  if (ends_as(path, ".csv") || crs.empty()) return read_points(path, crs);
+  MapQuery query;
+  (names == NamesAre::needed ? query.columns : query.also).emplace_back("name");
+  query.also.insert(query.also.end(), kind_columns.begin(), kind_columns.end());
+  query.also.emplace_back("rank");
+  query.also.insert(query.also.end(), altitude_columns.begin(), altitude_columns.end());
+  MapFeatures file = read_map_features(path, query, crs);
+  PointTable table{.file = path, .columns = {"name"}, .points = {}};
+  table.columns.insert(table.columns.end(), kind_columns.begin(), kind_columns.end());
+  table.columns.emplace_back("rank");
+  table.columns.insert(table.columns.end(), altitude_columns.begin(), altitude_columns.end());
+  for (MapFeature& feature : file.features)
+    if (feature.shape == MapShape::point)
+      table.points.push_back({.where = feature.where, .place = feature.parts.front().front(), .values = std::move(feature.values)});
+  if (file.unplaceable > 0)
+    progress.note(fmt::format("{}: {} features with places outside of {} are left out", path, file.unplaceable, describe_crs(crs)));
+  if (table.points.empty())
+    throw Error(ErrorKind::input, path, "no points in it", "points; lines and areas with names are --shapes, or [[labels.shapes]]");
+  return table;
+}
+
 }  // namespace
 
 // Bytes that begin one.
@@ -45,14 +112,16 @@ std::size_t letters_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-std::vector<LabelPoint> read_label_points(const std::string& path, const std::string& crs, const LabelStyle& style, Progress& progress) {
-  const PointTable table = read_points(path, crs);
+std::vector<LabelPoint> read_label_points(const std::string& path, const std::string& crs, const LabelStyle& style, Progress& progress,
+                                          NamesAre names) {
+  const bool all = names == NamesAre::optional;
+  const PointTable table = read_table(path, crs, names, progress);
   const int name = table.find("name");
-  if (name < 0)
+  if (name < 0 && !all)
     throw Error(ErrorKind::usage, path, fmt::format("no column of names; there are {}", fmt::join(table.columns, ", ")), "name");
-  const int kind = find_any(table, {"kind", "type", "natural", "place", "tourism"});
+  const std::vector<int> kind = columns_of(table, kind_columns);
   const int rank = table.find("rank");
-  const int altitude = find_any(table, {"ele", "altitude_m", "altitude", "elevation", "height"});
+  const std::vector<int> altitude = columns_of(table, altitude_columns);
   std::vector<LabelPoint> points;
   std::size_t unnamed = 0;
   std::size_t too_long = 0;
@@ -62,28 +131,33 @@ std::vector<LabelPoint> read_label_points(const std::string& path, const std::st
     point.name = text_of(row, name);
     point.place = row.place;
     point.where = row.where;
-    if (point.name.empty()) {
+    if (point.name.empty() && !all) {
       ++unnamed;
       continue;
     }
-    if (letters_of(point.name) > longest_name) {
+    if (letters_of(point.name) > longest_name && !all) {
       ++too_long;
       continue;
     }
-    if (const std::string& word = text_of(row, kind); !word.empty()) {
+    if (!is_utf8(point.name)) throw Error(ErrorKind::input, row.where, "the name is no text in UTF-8", "a file that is saved as UTF-8");
+    if (const std::string& word = text_of(row, filled(row, kind)); !word.empty()) {
       const int found = style.find(word);
       if (found < 0) strange.insert(word);
       point.kind = std::max(0, found);
     }
     point.rank = number_of(table, row, rank, 1.0, 9.0).value_or(point.rank);
-    point.altitude_m = number_of(table, row, altitude, -12000.0, 9000.0);
+    point.altitude_m = number_of(table, row, filled(row, altitude), -12000.0, 9000.0);
     points.push_back(std::move(point));
   }
+  if (points.empty() && !table.points.empty())
+    throw Error(ErrorKind::usage, path,
+                fmt::format("none of its {} points has a name of 1 … {} letters", table.points.size(), longest_name),
+                "names that a panorama has room for, in the column name");
   if (unnamed > 0) progress.note(fmt::format("{}: {} of {} points have no name and are left out", path, unnamed, table.points.size()));
   if (too_long > 0)
     progress.note(
         fmt::format("{}: {} names of more than {} letters are left out: a panorama has no room for them", path, too_long, longest_name));
-  if (!strange.empty())
+  if (!strange.empty() && !all)
     progress.note(fmt::format("{}: {} of which the style {} knows nothing: set as {}", path,
                               strange.size() == 1 ? "a kind" : fmt::format("{} kinds", strange.size()), style.name, style.kinds[0].name) +
                   fmt::format(" ({})", fmt::join(strange, ", ")));

@@ -28,14 +28,17 @@ inline constexpr std::size_t longest_name = 80;  // letters: a panorama has no r
 // Letters of UTF-8.
 std::size_t letters_of(const std::string& text);
 
-// Points of a file that read_points() takes, with the columns
+// Points of a .csv as read_points() takes it, or of all layers of a file that read_map_features() takes, with the columns
 //   name;
 //   kind (or type, natural, place, tourism): a word that the style knows, else its first kind, and a note says which words it lacks;
 //   rank, 1 … 9; else by the kind alone, 5;
 //   ele (or altitude, altitude_m, elevation, height): metres.
-// Points without a name, or one of more than longest_name letters, are left out with a note. Throws Error as read_points does, and
-// Error(usage) where there is no column of names or a number is none.
-std::vector<LabelPoint> read_label_points(const std::string& path, const std::string& crs, const LabelStyle& style, Progress& progress);
+// Points without a name, or one of more than longest_name letters, are left out with a note; all are kept where NamesAre::optional. Throws
+// Error as these do, Error(usage) where there is no column of names, no name to set, or a number that is none, and Error(input) for names
+// that are not UTF-8.
+enum class NamesAre { needed, optional };
+std::vector<LabelPoint> read_label_points(const std::string& path, const std::string& crs, const LabelStyle& style, Progress& progress,
+                                          NamesAre names = NamesAre::needed);
 
 // Summits that nobody named, as points of the kind "summit" (else the style's first): those that are none of `named` (no other summit lies
 // within their climb_m). Ranks 6 … 9 by prominence.

@@ -219,17 +219,22 @@ std::vector<glm::dvec2> arc_along(const std::vector<glm::dvec2>& places, double 
 }  // namespace
 
 std::vector<LabelShape> read_label_shapes(const std::string& path, const std::string& crs, const LabelStyle& style, Progress& progress) {
-  const MapFeatures file = read_map_features(path, {.layer = {}, .where = {}, .columns = {"name", "kind", "rank"}}, crs);
+  // What says the kind: the first of the columns between name and rank that has something.
+  const MapFeatures file =
+      read_map_features(path, {.columns = {"name"}, .also = {"kind", "type", "natural", "place", "waterway", "rank"}}, crs);
   std::vector<LabelShape> shapes;
   std::map<std::pair<std::string, int>, std::size_t> known;
   std::size_t nameless = 0, strange = 0;
+  const int usual = std::max(0, style.find("valley"));
   for (const MapFeature& feature : file.features) {
     if (feature.shape == MapShape::point) continue;
     if (feature.values[0].empty() || letters_of(feature.values[0]) > longest_name) {
       ++nameless;
       continue;
     }
-    const int kind = style.find(feature.values[1]);
+    const auto word =
+        std::find_if(feature.values.begin() + 1, feature.values.end() - 1, [](const std::string& text) { return !text.empty(); });
+    const int kind = word == feature.values.end() - 1 ? usual : style.find(*word);
     if (kind < 0) ++strange;
     const auto [at, is_new] = known.try_emplace({feature.values[0], kind}, shapes.size());
     if (!is_new && feature.shape == MapShape::line && !shapes[at->second].is_area) {
@@ -239,7 +244,7 @@ std::vector<LabelShape> read_label_shapes(const std::string& path, const std::st
     LabelShape shape;
     shape.point.name = feature.values[0];
     shape.point.kind = std::max(0, kind);
-    shape.point.rank = rank_of(feature, feature.values[2]);
+    shape.point.rank = rank_of(feature, feature.values.back());
     shape.point.where = feature.where;
     shape.is_area = feature.shape == MapShape::area;
     shape.parts = feature.parts;
@@ -247,6 +252,11 @@ std::vector<LabelShape> read_label_shapes(const std::string& path, const std::st
     shape.point.place = shape.is_area ? middle_of(first) : first[first.size() / 2];
     shapes.push_back(std::move(shape));
   }
+  if (shapes.empty())
+    throw Error(
+        ErrorKind::usage, path,
+        fmt::format("none of its {} features is a line or an area with a name of 1 … {} letters", file.features.size(), longest_name),
+        "lines and areas with names; points are --points, or [[labels.points]]");
   if (nameless > 0)
     progress.note(fmt::format("{}: {} lines and areas without a name, or with one of more than {} letters, are left out", path, nameless,
                               longest_name));
@@ -314,10 +324,10 @@ std::vector<ShapeRun> find_shape_runs(const DrawnGround& ground, const std::vect
   return runs;
 }
 
-std::vector<std::vector<glm::dvec2>> fitted_baselines(const std::vector<glm::dvec2>& line, double width_px, double lift_px) {
-  std::vector<std::vector<glm::dvec2>> found;
+std::vector<std::vector<glm::dvec2>> fitted_baselines(const std::vector<glm::dvec2>& line, double width_px, double lift_px,
+                                                      double aside_px) {
   const double length = length_of(line);
-  if (line.size() < 2 || length < width_px * (1.0 - 2.0 * longest_ends)) return found;
+  if (line.size() < 2 || length < width_px * (1.0 - 2.0 * longest_ends)) return {};
   std::vector<glm::dvec2> row = line;
   if (row.back().x < row.front().x) std::reverse(row.begin(), row.end());
   const double most = std::max(0.0, .5 * (length - width_px));
@@ -331,12 +341,25 @@ std::vector<std::vector<glm::dvec2>> fitted_baselines(const std::vector<glm::dve
     row = std::move(longer);
   }
   const double added = .5 * (length_of(row) - length);
+  // Off the middle of the line, or aside of it: what is farther costs more.
+  struct Arc {
+    double cost;
+    std::vector<glm::dvec2> baseline;
+  };
+  std::vector<Arc> arcs;
   for (const double share : {0.0, -.3, .3, -.6, .6, -.95, .95}) {
+    if (share != 0.0 && most == 0.0) break;
     const double middle = added + .5 * length + share * most;
-    std::vector<glm::dvec2> arc = arc_along(stretch(row, middle - .5 * width_px, middle + .5 * width_px), width_px, lift_px);
-    if (!arc.empty()) found.push_back(std::move(arc));
-    if (most == 0.0) break;
+    const std::vector<glm::dvec2> piece = stretch(row, middle - .5 * width_px, middle + .5 * width_px);
+    for (const double side : {0.0, -1.0, 1.0}) {
+      if (side != 0.0 && !(aside_px > 0.0)) break;
+      std::vector<glm::dvec2> arc = arc_along(piece, width_px, lift_px + side * aside_px);
+      if (!arc.empty()) arcs.push_back({std::abs(share) + (side == 0.0 ? 0.0 : side < 0.0 ? .45 : .55), std::move(arc)});
+    }
   }
+  std::stable_sort(arcs.begin(), arcs.end(), [](const Arc& a, const Arc& b) { return a.cost < b.cost; });
+  std::vector<std::vector<glm::dvec2>> found;
+  for (Arc& arc : arcs) found.push_back(std::move(arc.baseline));
   return found;
 }
 

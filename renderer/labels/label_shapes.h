@@ -18,9 +18,9 @@ struct LabelShape {
   std::vector<std::vector<glm::dvec2>> parts;  // scene CRS
 };
 
-// Lines and areas of a vector file (read_map_features) with columns name, kind and rank as of read_label_points; several lines of one name
-// and kind are one shape. Features without a name are left out with a note. Throws Error as read_map_features does, and Error(usage) for a
-// rank that is no number of 1 … 9.
+// Lines and areas of a vector file (read_map_features) with columns name, kind and rank as of read_label_points; those that say no kind are
+// valleys. Several lines of one name and kind are one shape. Features without a name are left out with a note. Throws Error as
+// read_map_features does, and Error(usage) for a rank that is no number of 1 … 9 and where nothing has a name.
 std::vector<LabelShape> read_label_shapes(const std::string& path, const std::string& crs, const LabelStyle& style, Progress& progress);
 
 // Where a shape is in the picture: its mark (the middle of what is seen) and the line that its name may follow, px.
@@ -39,7 +39,9 @@ std::vector<glm::dvec2> middle_line(const std::vector<std::vector<glm::dvec2>>& 
 // Baselines for a text of that width and type that follow a line: arcs (parabolas fitted to a stretch of the line as long as the text),
 // best first: in its middle, then to either side. From left to right, nowhere steeper than 55°, turning by at most 60° in all. Where the
 // line is shorter than the text, its tangents go on, by a quarter of the text at most; none where that is not enough.
-// `lift_px`: how high over the line the baseline lies.
-std::vector<std::vector<glm::dvec2>> fitted_baselines(const std::vector<glm::dvec2>& line, double width_px, double lift_px);
+// `lift_px`: how high over the line the baseline lies. `aside_px`: how far below and above that it may lie as well, where that keeps the
+// name nearer to the middle; 0: nowhere else.
+std::vector<std::vector<glm::dvec2>> fitted_baselines(const std::vector<glm::dvec2>& line, double width_px, double lift_px,
+                                                      double aside_px = 0.0);
 
 }  // namespace belvedere

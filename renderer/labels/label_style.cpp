@@ -26,6 +26,7 @@ LabelKindStyle read_kind(const ConfigEntry& entry, const std::string& name) {
   read.flag("italic", kind.italic);
   read.number("spacing", kind.spacing, 0.0, 2.0);
   read.number("lift", kind.lift, -3.0, 3.0);
+  read.number("aside", kind.aside, 0.0, 5.0);
   read.colour("colour", kind.colour);
   read.colour("halo", kind.halo);
   read.number("halo_mm", kind.halo_mm, 0.0, 10.0);

@@ -24,6 +24,7 @@ struct LabelKindStyle {
   bool bold = false;
   bool italic = false;
   double lift = -0.3;    // how high the baseline of a bent name lies over its line, of the type's size, -3…3
+  double aside = 0.0;    // how far below or above that it may lie where others are in the way, of the type's size, 0…5
   double spacing = 0.0;  // between letters, of the type's size, 0…2
   std::string colour = "#202020";
   std::string halo = "#ffffff";  // around the letters

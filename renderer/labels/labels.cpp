@@ -24,23 +24,18 @@ std::string set_text(const LabelPoint& point, const LabelMark& mark, const Label
   return altitude.empty() ? point.name : point.name + "\u2002" + altitude;
 }
 
-// The named point nearest to the ground that hides a mark.
-std::string hider(const LabelMark& mark, const std::vector<LabelPoint>& points, const std::vector<LabelMark>& marks) {
-  std::string name;
-  double nearest_m = hiding_name_m;
-  if (!mark.in_front) return name;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double away_m = glm::length(marks[i].drawn_place - mark.in_front->place);
-    if (points[i].name.empty() || away_m >= nearest_m || &marks[i] == &mark) continue;
-    nearest_m = away_m;
-    name = points[i].name;
-  }
-  return name;
-}
-
 // How far a name is spread along its shape: over so much of the line, its letters at most so far from each other.
 constexpr double spread_share = 0.55;
 constexpr double most_spacing = 0.9;  // of the type's size, over the kind's
+
+// Whether letters of the text join each other, as those of Arabic and Syriac do (U+0600 … U+077F): drawn apart they would be torn. First
+// bytes of UTF-8 tell.
+bool joins(const std::string& text) {
+  return std::any_of(text.begin(), text.end(),
+                     [](char c) { return static_cast<unsigned char>(c) >= 0xD8 && static_cast<unsigned char>(c) <= 0xDD; });
+}
+
+double spacing_of(const LabelKindStyle& kind, const std::string& text) { return joins(text) ? 0.0 : kind.spacing; }
 
 // The box of a letter that stands turned on a baseline.
 LabelBox letter_box(const LetterPlace& place, double width, const TextRoom& room) {
@@ -59,13 +54,15 @@ std::vector<BentRoom> bent_rooms(Label& label, const LabelKindStyle& kind, TextS
                                  const TextMeasure& measure) {
   const double count = static_cast<double>(std::max<std::size_t>(2, letters_of(label.text)));
   const double free_px = spread_share * length_of(line) - label.room.width_px;
-  label.spacing = kind.spacing + std::clamp(free_px / (count * type.size_px), 0.0, most_spacing);
+  const double usual = spacing_of(kind, label.text);
+  label.spacing = usual + (joins(label.text) ? 0.0 : std::clamp(free_px / (count * type.size_px), 0.0, most_spacing));
   type.spacing = label.spacing;
   label.room = measure.measure(label.text, type);
   std::vector<double> widths;
   for (const TextLetter& letter : measure.letters(label.text, type)) widths.push_back(letter.width_px);
   std::vector<BentRoom> rooms;
-  for (std::vector<glm::dvec2>& baseline : fitted_baselines(line, label.room.width_px, kind.lift * type.size_px)) {
+  for (std::vector<glm::dvec2>& baseline :
+       fitted_baselines(line, label.room.width_px, kind.lift * type.size_px, kind.aside * type.size_px)) {
     const std::vector<LetterPlace> places = set_along(widths, baseline);
     if (places.empty()) continue;
     BentRoom room{.baseline = std::move(baseline), .letters = {}};
@@ -74,7 +71,7 @@ std::vector<BentRoom> bent_rooms(Label& label, const LabelKindStyle& kind, TextS
   }
   if (!rooms.empty()) return rooms;
   // No arc is smooth or long enough: as a point's name, in its usual spacing.
-  label.spacing = type.spacing = kind.spacing;
+  label.spacing = type.spacing = usual;
   label.room = measure.measure(label.text, type);
   return rooms;
 }
@@ -91,6 +88,19 @@ LabelLayoutParameters layout_parameters(const LabelSheet& sheet) {
 }
 
 }  // namespace
+
+std::string hiding_name(const std::vector<LabelPoint>& points, const std::vector<LabelMark>& marks, std::size_t i) {
+  std::string name;
+  double nearest_m = hiding_name_m;
+  if (marks[i].state != MarkState::hidden || !marks[i].in_front) return name;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double away_m = glm::length(marks[k].drawn_place - marks[i].in_front->place);
+    if (points[k].name.empty() || away_m >= nearest_m || k == i) continue;
+    nearest_m = away_m;
+    name = points[k].name;
+  }
+  return name;
+}
 
 std::string altitude_text(const LabelPoint& point, const LabelMark& mark) {
   const double altitude_m = point.altitude_m.value_or(mark.dem_altitude_m);
@@ -148,10 +158,10 @@ LabelSheet make_labels(const std::vector<LabelPoint>& points, const std::vector<
     label.point = points[i];
     label.mark = marks[i];
     label.text = set_text(points[i], marks[i], kind);
-    const TextStyle type = text_style(kind, sheet.px_per_mm);
-    label.spacing = kind.spacing;
+    TextStyle type = text_style(kind, sheet.px_per_mm);
+    label.spacing = type.spacing = spacing_of(kind, label.text);
     label.room = measure.measure(label.text, type);
-    if (label.mark.state == MarkState::hidden) label.hidden_by = hider(marks[i], points, marks);
+    label.hidden_by = hiding_name(points, marks, i);
     if (label.mark.state == MarkState::seen && !label.text.empty()) {
       asks.push_back(i);
       std::vector<BentRoom> bent;

@@ -28,6 +28,9 @@ struct Label {
 
 inline constexpr double hiding_name_m = 2500.0;
 
+// The named point nearest to the ground that hides point i, no farther than that from it; empty where there is none, or nothing hides it.
+std::string hiding_name(const std::vector<LabelPoint>& points, const std::vector<LabelMark>& marks, std::size_t i);
+
 // A picture's labels with the style at its scale.
 struct LabelSheet {
   glm::ivec2 size_px{0};

@@ -9,7 +9,6 @@
 
 #include "base/filter.h"
 #include "base/parallel.h"
-#include "base/text/markup.h"
 
 namespace belvedere {
 namespace {
@@ -155,49 +154,56 @@ std::vector<Track> find_tracks(const DrawnGround& ground, const std::vector<MapL
   return tracks;
 }
 
-std::string profile_svg(const Track& track, const std::string& colour) {
-  constexpr double width = 180.0;
-  constexpr double height = 50.0;
+Drawing profile_drawing(const Track& track, const std::string& colour, double px_per_mm) {
+  constexpr glm::dvec2 sheet_mm{180.0, 50.0};
   constexpr double left = 14.0;
   constexpr double right = 4.0;
   constexpr double top = 8.0;
   constexpr double bottom = 9.0;
-  std::string out = fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" "
-      "viewBox=\"0 0 {0} {1}\" font-family=\"DejaVu Sans, sans-serif\" font-size=\"2.6\" fill=\"#303030\">\n",
-      width, height);
-  if (track.profile.size() < 2) return out + "</svg>\n";
+  constexpr const char* ink = "#303030";
+  Drawing drawing{.size_px = px_per_mm * sheet_mm, .shapes = {}};
+  if (track.profile.size() < 2) return drawing;
+  const auto at = [&](double x_mm, double y_mm) { return px_per_mm * glm::dvec2(x_mm, y_mm); };
+  const auto say = [&](const std::string& words, glm::dvec2 where, double anchor, double size_mm = 2.6) {
+    drawing.shapes.push_back(DrawnText{.text = words,
+                                       .type = {.family = "DejaVu Sans, sans-serif", .size_px = size_mm * px_per_mm},
+                                       .at = where,
+                                       .anchor = anchor,
+                                       .colour = ink});
+  };
   const auto [lowest, highest] =
       std::minmax_element(track.profile.begin(), track.profile.end(), [](glm::dvec2 a, glm::dvec2 b) { return a.y < b.y; });
   const double step_m = round_step(std::max(50.0, highest->y - lowest->y), 6);
   const double from_m = std::floor(lowest->y / step_m) * step_m;
   const double to_m = std::max(from_m + step_m, std::ceil(highest->y / step_m) * step_m);
-  const auto x = [&](double distance_m) { return left + (width - left - right) * distance_m / std::max(1.0, track.length_m); };
-  const auto y = [&](double altitude_m) { return height - bottom - (height - top - bottom) * (altitude_m - from_m) / (to_m - from_m); };
-  out += fmt::format("<text x=\"{}\" y=\"5\" font-size=\"3.2\">{}</text>\n", left,
-                     markup_text(fmt::format("{}{:.1f} km, {:.0f} m up", track.name.empty() ? "" : track.name + ": ",
-                                             track.length_m / 1000.0, track.climb_m)));
-  for (double z = from_m; z <= to_m + .5; z += step_m)
-    out += fmt::format(
-        "<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.2f}\" y2=\"{2:.2f}\" stroke=\"#c8c8c8\" stroke-width=\".15\"/><text x=\"{3}\" y=\"{4:.2f}\" "
-        "text-anchor=\"end\">{5:.0f}</text>\n",
-        left, width - right, y(z), left - 1.5, y(z) + .9, z);
+  const auto x = [&](double distance_m) { return left + (sheet_mm.x - left - right) * distance_m / std::max(1.0, track.length_m); };
+  const auto y = [&](double altitude_m) {
+    return sheet_mm.y - bottom - (sheet_mm.y - top - bottom) * (altitude_m - from_m) / (to_m - from_m);
+  };
+  say(fmt::format("{}{:.1f} km, {:.0f} m up", track.name.empty() ? "" : track.name + ": ", track.length_m / 1000.0, track.climb_m),
+      at(left, 5.0), 0.0, 3.2);
+  for (double z = from_m; z <= to_m + .5; z += step_m) {
+    drawing.shapes.push_back(
+        DrawnPath{.points = {at(left, y(z)), at(sheet_mm.x - right, y(z))}, .fill = {}, .stroke = "#c8c8c8", .width_px = .15 * px_per_mm});
+    say(fmt::format("{:.0f}", z), at(left - 1.5, y(z) + .9), 1.0);
+  }
   const double step_km = round_step(track.length_m / 1000.0, 12);
   for (double km = 0.0; km <= track.length_m / 1000.0; km += step_km)
-    out += fmt::format("<text x=\"{:.2f}\" y=\"{}\" text-anchor=\"middle\">{:g}</text>\n", x(1000.0 * km), height - 5.0, km);
-  out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\">km</text>\n", width - right, height - 1.5);
-  std::string path;
+    say(fmt::format("{:g}", km), at(x(1000.0 * km), sheet_mm.y - 5.0), .5);
+  say("km", at(sheet_mm.x - right, sheet_mm.y - 1.5), 1.0);
+  std::vector<glm::dvec2> line;
   double last = -1.0;
   for (const glm::dvec2 p : track.profile) {
-    if (x(p.x) - last < .15 && !path.empty()) continue;
+    if (x(p.x) - last < .15 && !line.empty()) continue;
     last = x(p.x);
-    path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "" : "L", last, y(p.y));
+    line.push_back(at(last, y(p.y)));
   }
-  const double end = last;
-  out += fmt::format("<path d=\"M{0:.2f} {1:.2f}L{2}L{3:.2f} {1:.2f}Z\" fill=\"{4}\" fill-opacity=\".18\"/>\n", x(track.profile.front().x),
-                     y(from_m), path, end, colour);
-  out += fmt::format("<path d=\"M{}\" fill=\"none\" stroke=\"{}\" stroke-width=\".45\" stroke-linejoin=\"round\"/>\n", path, colour);
-  return out + "</svg>\n";
+  std::vector<glm::dvec2> area = line;
+  area.push_back(at(last, y(from_m)));
+  area.push_back(at(x(track.profile.front().x), y(from_m)));
+  drawing.shapes.push_back(DrawnPath{.points = std::move(area), .closed = true, .fill = colour, .stroke = {}, .opacity = .18});
+  drawing.shapes.push_back(DrawnPath{.points = std::move(line), .fill = {}, .stroke = colour, .width_px = .45 * px_per_mm});
+  return drawing;
 }
 
 }  // namespace belvedere

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/labels/drawing.h"
 #include "renderer/labels/label_marks.h"
 #include "terrain/io/lines.h"
 
@@ -32,8 +33,8 @@ inline constexpr double climb_step_m = 10.0;  // what noise of a DEM does not re
 // do not part what is seen: a way along a ridge would be all dashes. In parallel; the same for any number of threads.
 std::vector<Track> find_tracks(const DrawnGround& ground, const std::vector<MapLine>& lines);
 
-// A way's altitude over its length as SVG: 180 × 50 mm, with round numbers on both axes. A way with fewer than two places on the terrain
-// has an empty one.
-std::string profile_svg(const Track& track, const std::string& colour);
+// A way's altitude over its length: 180 × 50 mm, with round numbers on both axes. A way with fewer than two places on the terrain has an
+// empty one.
+Drawing profile_drawing(const Track& track, const std::string& colour, double px_per_mm);
 
 }  // namespace belvedere

@@ -3,33 +3,73 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <glm/common.hpp>
+#include <limits>
 #include <utility>
 
 #include "base/error.h"
+#include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
 #include "renderer/labels/label_files.h"
+#include "renderer/labels/sheet_painter.h"
 #include "terrain/io/crs.h"
 #include "terrain/shape/summits.h"
 
 namespace belvedere {
 namespace {
 
-// The places' extent beside the terrain's, both as the files would say them.
-[[noreturn]] void fail_outside(const std::vector<LabelPoint>& points, const Dem& dem) {
-  glm::dvec2 low = points.front().place;
-  glm::dvec2 high = low;
-  for (const LabelPoint& point : points) {
-    low = glm::min(low, point.place);
-    high = glm::max(high, point.place);
+struct Extent {
+  glm::dvec2 low{std::numeric_limits<double>::infinity()};
+  glm::dvec2 high{-std::numeric_limits<double>::infinity()};
+
+  void add(glm::dvec2 place) {
+    low = glm::min(low, place);
+    high = glm::max(high, place);
   }
+};
+
+std::string metres(const Extent& e) { return fmt::format("E {:.0f} … {:.0f}, N {:.0f} … {:.0f}", e.low.x, e.high.x, e.low.y, e.high.y); }
+
+// The same in degrees, by which people see what is wrong; empty without a CRS.
+std::string degrees(const std::vector<glm::dvec2>& corners, const std::string& crs) {
+  if (crs.empty()) return {};
+  std::vector<glm::dvec2> places = corners;
+  PointTransform(crs, "EPSG:4326").apply(places);
+  Extent e;
+  for (const glm::dvec2 place : places) {
+    if (!std::isfinite(place.x)) return {};
+    e.add(place);
+  }
+  return fmt::format("longitude {:.2f} … {:.2f}, latitude {:.2f} … {:.2f}", e.low.x + 0.0, e.high.x + 0.0, e.low.y + 0.0, e.high.y + 0.0);
+}
+
+// The places' extent beside the terrain's, both as the files would say them. `what`: "points", "ways".
+[[noreturn]] void fail_outside(const std::string& where, const char* what, std::size_t count, const std::vector<glm::dvec2>& places,
+                               const Dem& dem) {
+  Extent found;
+  for (const glm::dvec2 place : places) found.add(place);
   const glm::dvec2 a = dem.transform.to_crs(-.5, dem.height() - .5);
   const glm::dvec2 b = dem.transform.to_crs(dem.width() - .5, -.5);
-  throw Error(ErrorKind::usage, points.front().where,
-              fmt::format("none of {} points lies on the terrain: they lie E {:.0f} … {:.0f}, N {:.0f} … {:.0f}", points.size(), low.x,
-                          high.x, low.y, high.y),
-              fmt::format("places within E {:.0f} … {:.0f}, N {:.0f} … {:.0f}{}", a.x, b.x, a.y, b.y,
-                          dem.crs.empty() ? "" : " (" + describe_crs(dem.crs) + ")"));
+  const Extent terrain{a, b};
+  const std::string found_degrees = degrees(places, dem.crs);
+  const std::string own_degrees = degrees({a, b, {a.x, b.y}, {b.x, a.y}}, dem.crs);
+  throw Error(ErrorKind::usage, where,
+              fmt::format("none of {} {} lies on the terrain: they lie {}{}", count, what, metres(found),
+                          found_degrees.empty() ? "" : " (" + found_degrees + ")"),
+              fmt::format("places within {}{}{}", metres(terrain), dem.crs.empty() ? "" : " (" + describe_crs(dem.crs) + ")",
+                          own_degrees.empty() ? "" : ", which is " + own_degrees));
+}
+
+[[noreturn]] void fail_outside(const std::vector<LabelPoint>& points, const Dem& dem) {
+  std::vector<glm::dvec2> places;
+  for (const LabelPoint& point : points) places.push_back(point.place);
+  fail_outside(points.front().where, "points", points.size(), places, dem);
+}
+
+bool all_outside(std::vector<LabelMark>::const_iterator begin, std::vector<LabelMark>::const_iterator end) {
+  return std::all_of(begin, end, [](const LabelMark& mark) { return mark.state == MarkState::outside_terrain; });
 }
 
 std::vector<std::string> paths_of(const LoadedScene& scene, const std::vector<SceneLabelFile>& files, Progress& progress) {
@@ -44,6 +84,18 @@ std::vector<std::string> paths_of(const LoadedScene& scene, const std::vector<Sc
       throw Error(ErrorKind::input, file.file, "there is no such file", "a file beside the scene, or in a folder named with --data");
   }
   return paths;
+}
+
+// The same drawing as text and as pixels, on white: programs for slides and letters take PNG.
+void write_profile(const LabelSheet& sheet, std::size_t track, const std::filesystem::path& folder) {
+  constexpr double px_per_mm = 300.0 / 25.4;
+  const Drawing drawing = profile_drawing(sheet.tracks[track], sheet.style.track.colour, px_per_mm);
+  const std::string stem = (folder / fmt::format("profile_{}", track + 1)).string();
+  write_text_file(stem + ".svg", drawing_svg(drawing, drawing.size_px.x / px_per_mm));
+  Grid<glm::vec3> pixels(static_cast<int>(std::lround(drawing.size_px.x)), static_cast<int>(std::lround(drawing.size_px.y)),
+                         glm::vec3(1.F));
+  SheetPainter(drawing).paint(pixels, {0, 0});
+  write_png8(stem + ".png", pixels, {});
 }
 
 }  // namespace
@@ -89,8 +141,7 @@ LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const
   const GeoMap map = bare.geo_map();
   const DrawnGround ground{bare.dem.altitude_m, bare.generalized_m, bare.dem.transform, bare.dem.cell_m(), map};
   std::vector<LabelMark> marks = find_marks(ground, points, style);
-  if (named > 0 && std::all_of(marks.begin(), marks.begin() + static_cast<std::ptrdiff_t>(named),
-                               [](const LabelMark& mark) { return mark.state == MarkState::outside_terrain; })) {
+  if (named > 0 && all_outside(marks.begin(), marks.begin() + static_cast<std::ptrdiff_t>(named))) {
     points.resize(named);
     fail_outside(points, bare.dem);
   }
@@ -122,6 +173,34 @@ LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const
   const glm::ivec2 size = bare.camera->size();
   LabelSheet sheet = make_labels(points, marks, find_skyline(map, size), style, size, scene.scene.output.sheet_width_mm, along);
   sheet.tracks = find_tracks(ground, lines);
+  if (!lines.empty() && std::all_of(sheet.tracks.begin(), sheet.tracks.end(), [](const Track& track) { return track.profile.empty(); })) {
+    std::vector<glm::dvec2> places;
+    for (const MapLine& line : lines) places.insert(places.end(), line.places.begin(), line.places.end());
+    fail_outside(lines.front().where, "ways", lines.size(), places, bare.dem);
+  }
+  return sheet;
+}
+
+LabelSheet locate_points(const std::vector<std::string>& files, const BareView& bare, Progress& progress) {
+  LabelSheet sheet;
+  sheet.size_px = bare.camera->size();
+  sheet.style = load_label_style("classic");
+  for (LabelKindStyle& kind : sheet.style.kinds) kind.climb_m = 0.0;
+  std::vector<LabelPoint> points;
+  for (const std::string& file : files) {
+    const std::vector<LabelPoint> more = read_label_points(file, bare.dem.crs, sheet.style, progress, NamesAre::optional);
+    points.insert(points.end(), more.begin(), more.end());
+  }
+  const GeoMap map = bare.geo_map();
+  const DrawnGround ground{bare.dem.altitude_m, bare.generalized_m, bare.dem.transform, bare.dem.cell_m(), map};
+  const std::vector<LabelMark> marks = find_marks(ground, points, sheet.style);
+  if (!marks.empty() && all_outside(marks.begin(), marks.end())) fail_outside(points, bare.dem);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Label& label = sheet.labels.emplace_back();
+    label.point = points[i];
+    label.mark = marks[i];
+    label.hidden_by = hiding_name(points, marks, i);
+  }
   return sheet;
 }
 
@@ -134,8 +213,7 @@ void write_label_files(const LabelSheet& sheet, const std::string& crs, const st
     progress.note("labels.geojson is left out: the terrain has no coordinate system, and GeoJSON speaks longitude and latitude");
   else
     write_text_file((place / "labels.geojson").string(), labels_geojson(sheet, crs));
-  for (std::size_t i = 0; i < sheet.tracks.size(); ++i)
-    write_text_file((place / fmt::format("profile_{}.svg", i + 1)).string(), profile_svg(sheet.tracks[i], sheet.style.track.colour));
+  for (std::size_t i = 0; i < sheet.tracks.size(); ++i) write_profile(sheet, i, place);
 }
 
 }  // namespace belvedere

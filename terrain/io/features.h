@@ -18,7 +18,7 @@ struct MapFeature {
   // x, y in the CRS that was asked for. A point's one place; a line's one row of 2 and more; an area's outline and then its holes, each of
   // 3 and more without the closing one.
   std::vector<std::vector<glm::dvec2>> parts;
-  std::vector<std::string> values;  // as many as columns asked for; empty where nothing is known
+  std::vector<std::string> values;  // as many as columns asked for, `also` included; empty where nothing is known
 };
 
 // A part of the map, in the CRS that was asked for.
@@ -31,6 +31,7 @@ struct MapQuery {
   std::string layer = {};                 // empty: all layers
   std::string where = {};                 // filter by attributes, as SQL's WHERE; empty: all
   std::vector<std::string> columns = {};  // small and capital letters alike; a file of which no layer has one is refused
+  std::vector<std::string> also = {};     // columns that no layer need have; their values follow those of `columns`
   std::optional<MapBox> box = {};         // what lies beside it is counted and let go; empty: everything is kept
 };
 

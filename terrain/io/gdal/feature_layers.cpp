@@ -121,10 +121,11 @@ void bring_over(std::vector<MapFeature>&& features, const PointTransform& transf
   features.clear();
 }
 
-std::vector<int> columns_of(OGRLayerH layer, const std::vector<std::string>& names) {
+std::vector<int> columns_of(OGRLayerH layer, const MapQuery& query) {
   std::vector<int> columns;
   // OGR knows capital and small letters as the same.
-  for (const std::string& name : names) columns.push_back(OGR_FD_GetFieldIndex(OGR_L_GetLayerDefn(layer), name.c_str()));
+  for (const std::vector<std::string>* names : {&query.columns, &query.also})
+    for (const std::string& name : *names) columns.push_back(OGR_FD_GetFieldIndex(OGR_L_GetLayerDefn(layer), name.c_str()));
   return columns;
 }
 
@@ -192,7 +193,7 @@ class Reader {
   };
 
   void read_layer(OGRLayerH layer) {
-    Pending pending{columns_of(layer, query_.columns)};
+    Pending pending{columns_of(layer, query_)};
     const GdalErrors errors;
     OGR_L_ResetReading(layer);
     while (true) {
@@ -207,7 +208,7 @@ class Reader {
   // All layers at once, as formats have it whose file is not sorted by layers.
   void read_mixed(GDALDatasetH file, const std::vector<OGRLayerH>& layers) {
     std::vector<std::pair<OGRLayerH, Pending>> all;
-    for (OGRLayerH layer : layers) all.emplace_back(layer, Pending{columns_of(layer, query_.columns)});
+    for (OGRLayerH layer : layers) all.emplace_back(layer, Pending{columns_of(layer, query_)});
     const GdalErrors errors;
     GDALDatasetResetReading(file);
     while (true) {

@@ -73,6 +73,44 @@ TEST_F(LabelPoints, WrongNumbersAreRefused) {
   EXPECT_THAT(message("title,east,north\nA,1,2\n"), HasSubstr("no column of names"));
 }
 
+TEST_F(LabelPoints, NamesThatAreNoTextAndFilesWithoutAnyAreRefused) {
+  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { read("name,east,north\nA,1,2\n\xD6tztal,1,2\n"); }),
+              testing::AllOf(HasSubstr("points.csv:3"), HasSubstr("UTF-8")));
+  for (const char* bad : {"\xC0\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE2\x82", "\x80"})
+    EXPECT_THAT(test::message_of(ErrorKind::input, [&] { read(std::string("name,east,north\n") + bad + ",1,2\n"); }), HasSubstr("UTF-8"));
+  EXPECT_EQ(read("name,east,north\nÖtztal 御嶽山 𝄞,1,2\n").size(), 1U);
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { read("name,east,north\n" + std::string(500, 'x') + ",1,2\n"); }),
+              HasSubstr("none of its 1 points has a name of 1 … 80 letters"));
+}
+
+// Waypoints of GPX, places of OpenStreetMap, layers that each have columns of their own.
+TEST_F(LabelPoints, OfVectorFilesWithWhatColumnsTheyHave) {
+  const std::string gpx = folder_.write(
+      "way.gpx",
+      R"(<?xml version="1.0"?><gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1"><wpt lat="47.41" lon="11.43"><ele>2749</ele><name>Birkkar</name></wpt><trk><name>T</name><trkseg><trkpt lat="47.2" lon="11.2"/><trkpt lat="47.1" lon="11.3"/></trkseg></trk></gpx>)");
+  const std::vector<LabelPoint> points = read_label_points(gpx, "EPSG:32632", style_, progress_);
+  ASSERT_EQ(points.size(), 1U) << "places of tracks are no points";
+  EXPECT_EQ(points[0].name, "Birkkar");
+  EXPECT_EQ(points[0].altitude_m, 2749.0);
+  EXPECT_NEAR(points[0].place.x, 683313.0, 100.0);
+  const std::string osm = folder_.write(
+      "places.osm",
+      R"(<osm version="0.6"><node id="1" lat="47.35" lon="11.71" version="1"><tag k="name" v="Schwaz"/><tag k="place" v="town"/></node></osm>)");
+  const std::vector<LabelPoint> towns = read_label_points(osm, "EPSG:32632", style_, progress_);
+  ASSERT_EQ(towns.size(), 1U);
+  EXPECT_EQ(towns[0].kind, style_.find("town"));
+  const std::string lines =
+      folder_.write("lines.geojson",
+                    R"({"type":"Feature","properties":{"name":"A"},"geometry":{"type":"LineString","coordinates":[[11,47],[11.1,47]]}})");
+  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { read_label_points(lines, "EPSG:32632", style_, progress_); }),
+              HasSubstr("no points in it"));
+}
+
+TEST_F(LabelPoints, WithoutNamesWhereNoneAreNeeded) {
+  const std::string file = folder_.write("bare.csv", "east,north\n1,2\n3,4\n");
+  EXPECT_EQ(read_label_points(file, "", style_, progress_, NamesAre::optional).size(), 2U);
+}
+
 // Of the DEM's summits those remain that no named one stands for.
 TEST(UnnamedSummits, AreThoseThatNobodyNamed) {
   const LabelStyle style = load_label_style("classic");

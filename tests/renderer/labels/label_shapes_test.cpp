@@ -62,6 +62,27 @@ TEST(LabelShapes, ABaselineFollowsItsLineFromLeftToRight) {
   EXPECT_NEAR(fitted_baselines(line, 300.0, 10.0)[0][20].y, found[0][20].y - 10.0, 1.5) << "lifted";
 }
 
+// Where the middle of a ridge is taken by a summit's mark, the name stands below the crest rather than far off along it.
+TEST(LabelShapes, AsideOfTheLineComesBeforeFarOffItsMiddle) {
+  std::vector<glm::dvec2> line;
+  for (int x = 100; x <= 900; x += 4) line.emplace_back(x, 300.0);
+  const auto middle_of = [](const std::vector<glm::dvec2>& arc) { return arc[arc.size() / 2]; };
+  const std::vector<std::vector<glm::dvec2>> only_on = fitted_baselines(line, 200.0, 0.0);
+  const std::vector<std::vector<glm::dvec2>> found = fitted_baselines(line, 200.0, 0.0, 25.0);
+  EXPECT_EQ(found.size(), 3U * only_on.size());
+  std::size_t below = 0, far_off = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (below == 0 && std::abs(middle_of(found[i]).y - 325.0) < .1) {
+      below = i;
+      EXPECT_NEAR(middle_of(found[i]).x, 500.0, 2.0);
+    }
+    if (far_off == 0 && std::abs(middle_of(found[i]).x - 500.0) > 150.0) far_off = i;
+  }
+  EXPECT_NEAR(middle_of(found[0]).y, 300.0, .1) << "first on the line itself";
+  EXPECT_GT(below, 0U);
+  EXPECT_LT(below, far_off);
+}
+
 TEST(LabelShapes, NoBaselineWhereLettersWouldStandOnEndOrFindNoRoom) {
   EXPECT_TRUE(fitted_baselines({{100, 100}, {110, 600}}, 200.0, 0.0).empty()) << "upright line";
   EXPECT_TRUE(fitted_baselines({{100, 100}, {180, 100}}, 200.0, 0.0).empty()) << "too short";

@@ -67,6 +67,23 @@ TEST(Labels, OnlyWhatIsSeenAsksForRoom) {
   EXPECT_TRUE(sheet.labels[1].spot.placed && sheet.labels[2].spot.placed);
 }
 
+// Valleys are set with room between their letters; letters that join stay together, on a point and along a line.
+TEST(Labels, LettersThatJoinAreNotDrawnApart) {
+  const LabelStyle style = load_label_style("classic");
+  const int valley = style.find("valley");
+  ASSERT_GT(style.kinds[static_cast<std::size_t>(valley)].spacing, 0.0);
+  const std::vector<glm::dvec2> line = {{100, 600}, {900, 600}};
+  const LabelSheet sheet =
+      make_labels({point("Tal", 1.0, valley), point("وادي", 1.0, valley), point("עמק", 1.0, valley), point("وادي", 1.0, valley)},
+                  {seen_at(200, 100), seen_at(600, 100), seen_at(1000, 100), seen_at(500, 600)}, no_sky, style, {2000, 800}, 1000.0,
+                  {{}, {}, {}, line});
+  EXPECT_GT(sheet.labels[0].spacing, 0.0);
+  EXPECT_EQ(sheet.labels[1].spacing, 0.0);
+  EXPECT_GT(sheet.labels[2].spacing, 0.0) << "Hebrew letters do not join";
+  EXPECT_EQ(sheet.labels[3].spacing, 0.0);
+  EXPECT_FALSE(sheet.labels[3].spot.baseline.empty());
+}
+
 // Where the picture shows sky above a row and ground below it.
 TEST(Skyline, PartsSkyAndLandInEveryColumn) {
   const BareView bare = make_bare_view(test::small_scene({"output.width=192", "output.height=160"}), silent_progress());

@@ -80,13 +80,15 @@ TEST_F(Tracks, EndAtTheTerrainsEdge) {
   EXPECT_LT(track.profile.back().x, 6100.0);
   const Track outside = track_of({{90000.0, 0.0}, {91000.0, 0.0}});
   EXPECT_TRUE(outside.runs.empty());
-  EXPECT_THAT(profile_svg(outside, "#b00000"), Not(HasSubstr("<path")));
+  EXPECT_TRUE(profile_drawing(outside, "#b00000", 10.0).shapes.empty());
 }
 
 TEST_F(Tracks, AProfileHasRoundNumbersAndItsName) {
   Track track = track_of({{2000.0, 6000.0}, {9000.0, 6000.0}});
   track.name = "A & B";
-  const std::string svg = profile_svg(track, "#b00000");
+  const Drawing drawing = profile_drawing(track, "#b00000", 10.0);
+  EXPECT_EQ(drawing.size_px, glm::dvec2(1800.0, 500.0));
+  const std::string svg = drawing_svg(drawing, 180.0);
   EXPECT_THAT(svg, HasSubstr("A &amp; B: 7.0 km"));
   EXPECT_THAT(svg, HasSubstr("stroke=\"#b00000\""));
   EXPECT_THAT(svg, HasSubstr(">5</text>"));

@@ -1,0 +1,25 @@
+#include "terrain/io/lines.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "base/error.h"
+#include "terrain/io/crs.h"
+#include "terrain/io/features.h"
+
+namespace belvedere {
+
+std::vector<MapLine> read_lines(const std::string& path, const std::string& crs) {
+  MapFeatures file = read_map_features(path, {.also = {"name"}}, crs);
+  if (file.unplaceable > 0)
+    throw Error(ErrorKind::input, path, fmt::format("{} of its features have places outside of {}", file.unplaceable, describe_crs(crs)));
+  std::vector<MapLine> lines;
+  for (MapFeature& feature : file.features)
+    if (feature.shape == MapShape::line)
+      lines.push_back({.name = feature.values[0], .where = feature.where, .places = std::move(feature.parts.front())});
+  if (lines.empty()) throw Error(ErrorKind::input, path, "no line in it", "tracks, routes or lines");
+  return lines;
+}
+
+}  // namespace belvedere
