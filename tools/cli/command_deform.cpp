@@ -6,11 +6,14 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <sstream>
+#include <utility>
 
 #include "base/error.h"
 #include "base/json.h"
 #include "base/parallel.h"
 #include "renderer/image/image_io.h"
+#include "renderer/image/output_file.h"
 #include "renderer/trace/relief_sketch.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/scene_dem.h"
@@ -20,6 +23,8 @@
 #include "terrain/shape/valley_floor.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/deform_options.h"
+#include "tools/cli/file_names.h"
+#include "tools/cli/labels/located_places.h"
 #include "tools/cli/terminal.h"
 
 namespace belvedere::tools {
@@ -28,6 +33,7 @@ namespace {
 // What is printed: lines for people and members for machines, side by side.
 struct Report {
   std::string text;
+  std::string table;  // CSV, of files of places
   Json json = Json::object();
 };
 
@@ -76,10 +82,16 @@ void report_valleys(const BareView& bare, const ValleySight& sight, Report& repo
       .add("distortion", distortion_json(distortion));
 }
 
-void report_places(const BareView& bare, const DeformOptions& options, Report& report) {
+void report_places(const BareView& bare, const DeformOptions& options, Report& report, Progress& progress) {
   const GeoMap map = bare.geo_map();
   Json located = Json::array();
-  for (const std::string& text : options.locate) {
+  const LocateQuestions questions = sort_questions(options.locate);
+  if (!questions.files.empty()) {
+    LocatedTable table = locate_files(bare, questions.files, progress);
+    report.table = std::move(table.csv);
+    report.json.add("points", std::move(table.json));
+  }
+  for (const std::string& text : questions.places) {
     const glm::dvec2 place = parse_pair(text, "--locate");
     const auto at = map.to_image(place);
     Json entry = Json::object().add("place", pair_json(place));
@@ -114,7 +126,7 @@ void report_places(const BareView& bare, const DeformOptions& options, Report& r
     }
     shown.add(std::move(entry));
   }
-  if (!options.locate.empty()) report.json.add("located", std::move(located));
+  if (!questions.places.empty()) report.json.add("located", std::move(located));
   if (!options.at.empty()) report.json.add("shown", std::move(shown));
 }
 
@@ -142,7 +154,7 @@ void search(BareView& bare, const ValleySight& sight, const DeformOptions& optio
                                .add("distortion", distortion_json(found.distortion))
                                .add("tried", Json::number(found.tried))
                                .add("points", std::move(points)));
-  if (options.picture.empty()) return;
+  if (options.out.empty()) return;
   progress.begin("drawing the comparison", 0.0);
   const Grid<std::uint8_t> floor = find_valley_floor(known_altitude(bare.dem), bare.dem.cell_m());
   const Grid<glm::vec3> before = sketch(bare, floor);
@@ -152,7 +164,7 @@ void search(BareView& bare, const ValleySight& sight, const DeformOptions& optio
   Grid<glm::vec3> both(before.width(), 2 * before.height() + gap_px, glm::vec3(1.F));
   std::copy(before.begin(), before.end(), both.begin());
   std::copy(after.begin(), after.end(), both.begin() + static_cast<std::ptrdiff_t>(both.index(0, before.height() + gap_px)));
-  write_png8(options.picture, both, {});
+  write_png8(options.out, both, {});
 }
 
 // Output of the picture's size would be wasted on a comparison.
@@ -170,7 +182,7 @@ void examine(const LoadedScene& loaded, const DeformOptions& options, Report& re
   if (options.search_bend && !places) shrink(scene);
   BareView bare = make_bare_view(scene, progress, cache);
   report_folds(bare.generalized_m, bare.dem.transform, bare.deformation, report);
-  if (places) report_places(bare, options, report);
+  if (places) report_places(bare, options, report, progress);
   if (places && !options.search_bend) return;
   const ValleySight sight = make_valley_sight(bare);
   report_valleys(bare, sight, report);
@@ -226,8 +238,12 @@ int run(const DeformOptions& options) {
     throw Error(ErrorKind::usage, "command line",
                 options.dem_out.empty() ? "a DEM and nothing to write" : "a question about a picture, and a DEM instead of a scene",
                 "belvedere deform DEM OUT.tif, or a scene file (.toml)");
-  if (!options.picture.empty() && !options.search_bend)
-    throw Error(ErrorKind::usage, "--out", "no --search-bend beside it", "--search-bend --out FILE.png");
+  const bool has_table = !sort_questions(options.locate).files.empty();
+  if (!options.out.empty() && options.search_bend == has_table)
+    throw Error(ErrorKind::usage, "--out",
+                has_table ? "a table and a picture for one file" : "neither --search-bend nor --locate FILE beside it",
+                "--search-bend --out FILE.png, or --locate FILE --out TABLE.csv");
+  if (!options.out.empty()) check_place(options.out);
   const LoadedScene scene = load(options);
   const RunLimits limits(make_run(options.scene));
   const Cache cache = make_cache(options.scene);
@@ -236,8 +252,16 @@ int run(const DeformOptions& options) {
   Report report;
   if (!options.dem_out.empty()) write_dem(scene, options, report, progress, cache);
   if (options.dem_out.empty() || asks_view) examine(scene, options, report, progress, cache);
+  if (!report.table.empty() && !options.out.empty()) {
+    write_text_file(options.out, report.table);
+    report.text += options.out + "\n";
+    report.table.clear();
+  }
+  // A table that is printed is all that is: what else is known is a note.
+  if (!report.table.empty() && !options.scene.json)
+    for (std::istringstream lines(std::exchange(report.text, {})); std::getline(lines, report.text);) progress.note(report.text);
   progress.end();
-  print_out(options.scene.json ? report.json.str() + "\n" : report.text);
+  print_out(options.scene.json ? report.json.str() + "\n" : report.table.empty() ? report.text : report.table);
   return 0;
 }
 
@@ -252,6 +276,7 @@ Action add_deform(CLI::App& command) {
       "generalized as in the picture.\n\n"
       "  belvedere deform scenes/karwendel.toml --data ../data --search-bend --out bend.png\n"
       "  belvedere deform scenes/karwendel.toml --data ../data --locate 681500,5237300 --at 1200,700\n"
+      "  belvedere deform scenes/karwendel.toml --data ../data --locate huts.gpkg --out huts.csv\n"
       "  belvedere deform dem.tif bent.tif --viewer 692000,5302000 --exaggeration 1.6 --bend 30000:20,60000:8,90000:0\n"
       "  belvedere deform dem.tif turned.tif --handle \"674000,5253500 radius=12000 core=4000 rotate=50\"");
   return [options] { return run(*options); };

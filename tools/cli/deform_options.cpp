@@ -94,7 +94,11 @@ void add_deform_options(CLI::App& command, DeformOptions& options) {
   one("--bend", options.bend, "A bend through distances (m) and inclinations (degrees) of level ground", "M:DEG,M:DEG…");
   many("--handle", options.handles,
        "A piece of ground to move: \"E,N radius=M core=M rotate=DEG move=E,N scale=F raise=M\"; may be repeated", "HANDLE");
-  many("--locate", options.locate, "Says where in the picture a place lies, and whether it is seen; may be repeated", "E,N");
+  many("--locate", options.locate,
+       "Says where in the picture a place lies, and whether it is seen; of a file (.csv, .gpkg, .geojson, .shp, .fgb, .gpx) for all its "
+       "points, as a "
+       "table; may be repeated",
+       "E,N|FILE");
   many("--at", options.at, "Says which place a pixel of the picture shows; may be repeated", "X,Y");
   command.add_flag("--search-bend", options.search_bend, "Searches the bend that shows most valley floor, and prints its keys");
   command.add_option("--max-distortion", options.max_distortion_deg, "With --search-bend: greatest tilt of level ground, degrees")
@@ -104,7 +108,11 @@ void add_deform_options(CLI::App& command, DeformOptions& options) {
       ->type_name("DEG")
       ->capture_default_str();
   command.add_option("--points", options.points, "With --search-bend: control points, 3 to 8")->type_name("N")->capture_default_str();
-  one("--out", options.picture, "With --search-bend: a small picture of the ground before (above) and after (below)", "FILE.png");
+  one("--out", options.out,
+      "With --search-bend: a small picture of the ground before (above) and after (below). With --locate FILE: the table, instead of "
+      "printing "
+      "it",
+      "FILE");
 }
 
 glm::dvec2 parse_pair(const std::string& text, const char* option) {

@@ -26,7 +26,7 @@ struct DeformOptions {
   double max_distortion_deg = 20.0;
   double max_bending_deg = 6.0;
   int points = 5;
-  std::string picture;
+  std::string out;  // of --search-bend a picture, of --locate FILE a table
 };
 void add_deform_options(CLI::App& command, DeformOptions& options);
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -92,6 +93,33 @@ TEST_F(DeformCommand, SaysWherePlacesLieInThePicture) {
   EXPECT_NEAR(y, 40.0, 0.05);
 }
 
+// A file's points come as a table, on stdout alone so that it can be sent into a file, or to --out; each row is what the place alone says.
+TEST_F(DeformCommand, LocatesAllPointsOfAFile) {
+  const std::string scene = write_scene_file();
+  const Outcome shown = run({"deform", scene, "--quiet", "--at", "48,40"});
+  double east = 0.0;
+  double north = 0.0;
+  ASSERT_EQ(std::sscanf(shown.out.c_str() + shown.out.find("E "), "E %lf N %lf", &east, &north), 2) << shown.out;
+  const std::string points =
+      write("points.csv", fmt::format("name,ele,east,north\nAlm,1234,{0},{1}\n,,{0},{1}\nFar,,1e7,0\n", east, north));
+  const Outcome table = run({"deform", scene, "--quiet", "--locate", points});
+  ASSERT_EQ(table.status, 0) << table.err;
+  EXPECT_TRUE(table.out.starts_with("name,kind,rank,outcome,x_px,y_px,")) << table.out;
+  EXPECT_EQ(std::count(table.out.begin(), table.out.end(), '\n'), 4) << "nothing but the table: " << table.out;
+  const Outcome one = run({"deform", scene, "--quiet", "--locate", fmt::format("{},{}", east, north)});
+  double x = 0.0, y = 0.0;
+  ASSERT_EQ(std::sscanf(one.out.c_str() + one.out.find("pixel "), "pixel %lf,%lf", &x, &y), 2) << one.out;
+  EXPECT_THAT(table.out,
+              AllOf(HasSubstr(fmt::format("Alm,summit,5,seen,{:.2f},{:.2f},", x, y)), HasSubstr(",1234.0,"),
+                    HasSubstr(fmt::format("\n,summit,5,seen,{:.2f},{:.2f},", x, y)), HasSubstr("Far,summit,5,outside the terrain")));
+  const Outcome written = run({"deform", scene, "--quiet", "--locate", points, "--at", "48,40", "--out", path("table.csv")});
+  EXPECT_EQ(written.status, 0) << written.err;
+  EXPECT_EQ(read_bytes(path("table.csv")), table.out);
+  EXPECT_THAT(written.out, AllOf(HasSubstr("table.csv"), HasSubstr("pixel 48.00,40.00: E ")));
+  EXPECT_THAT(run({"deform", scene, "--quiet", "--json", "--locate", points}).out,
+              AllOf(HasSubstr("\"points\""), HasSubstr("\"altitude_file_m\": 1234"), HasSubstr("\"outside the terrain\"")));
+}
+
 TEST_F(DeformCommand, ASearchedBendCanBePastedAndShowsWhatItPromises) {
   const std::string scene = write_scene_file();
   const Outcome found = run({"deform", scene, "--quiet", "--search-bend", "--points", "3", "--out", path("bend.png")});
@@ -116,6 +144,9 @@ TEST_F(DeformCommand, MistakesAreUsageErrors) {
            {cone, out, "--handle", "1,2 radius=10 spin=3"},
            {cone, out, "--at", "3,4"},
            {write_scene_file(), "--search-bend", "--max-distortion", "90"},
+           {write_scene_file(), "--locate", "here"},
+           {write_scene_file(), "--locate", "1,2", "--out", out},
+           {write_scene_file(), "--locate", write("zero.csv", "name,east,north\nNowhere,0,9e7\n")},
        }) {
     std::vector<std::string> arguments = {"deform", "--quiet"};
     arguments.insert(arguments.end(), more.begin(), more.end());

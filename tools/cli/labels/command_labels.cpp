@@ -117,8 +117,9 @@ Action add_labels(CLI::App& command) {
   const auto options = std::make_shared<Options>();
   add_scene_options(command, options->scene);
   command
-      .add_option("--points", options->points,
-                  "Points with names, instead of those of the scene's [labels]: .csv, .gpkg, .geojson, .shp or .fgb; may be repeated")
+      .add_option(
+          "--points", options->points,
+          "Points with names, instead of those of the scene's [labels]: .csv, .gpkg, .geojson, .shp, .fgb, .gpx or .osm; may be repeated")
       ->type_name("FILE");
   command
       .add_option("--tracks", options->tracks, "Ways to draw, with a profile each: .gpx, .gpkg, .geojson, .shp or .fgb; may be repeated")

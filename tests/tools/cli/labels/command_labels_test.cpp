@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "renderer/image/image_io.h"
 #include "terrain/io/raster_io.h"
 #include "tests/tools/program.h"
 
@@ -94,13 +95,28 @@ TEST_F(LabelsCommand, WaysAreDrawnWithTheirProfiles) {
   EXPECT_THAT(outcome.out, HasSubstr("Round: "));
   EXPECT_THAT(read_bytes(path("names/labels.svg")), HasSubstr("<g id=\"tracks\""));
   EXPECT_THAT(read_bytes(path("names/profile_1.svg")), HasSubstr("Round: "));
+  const Grid<glm::vec3> profile = read_picture(path("names/profile_1.png"));
+  EXPECT_EQ(profile.width(), 2126);
+  EXPECT_EQ(profile.height(), 591);
+  std::size_t inked = 0;
+  for (const glm::vec3 pixel : profile) inked += pixel == glm::vec3(1.F) ? 0U : 1U;
+  EXPECT_GT(inked, profile.size() / 20) << "there is a profile on the paper";
+}
+
+TEST_F(LabelsCommand, AWayElsewhereIsSaidWithBothExtents) {
+  write("zero.geojson", R"({"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[0, 0], [0.1, 0]]}})");
+  EXPECT_THAT(name({"--tracks", path("zero.geojson")}).err,
+              AllOf(HasSubstr("none of 1 ways lies on the terrain"), HasSubstr("longitude 0.00 … 0.10")));
+  EXPECT_FALSE(std::filesystem::exists(path("names/labels.svg")));
 }
 
 TEST_F(LabelsCommand, PointsElsewhereAreSaidWithBothExtents) {
   write("zero.csv", "name,lon,lat\nNull Island,0,0\n");
   const Outcome outcome = name({"--points", path("zero.csv")});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("none of 1 points lies on the terrain"), HasSubstr("E 680000 … 692000")));
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("none of 1 points lies on the terrain"), HasSubstr("longitude 0.00 … 0.00, latitude 0.00 … 0.00"),
+                    HasSubstr("E 680000 … 692000"), HasSubstr("latitude 47.")));
   EXPECT_FALSE(std::filesystem::exists(path("names/labels.svg")));
 }
 
