@@ -43,7 +43,7 @@ const glm::vec3 reflected_warmth{0.24F, 0.07F, -0.08F};  // what light from lit 
 constexpr double brook_sigma_units = 1.8;                // what this blur of the water leaves pale is a brook
 constexpr float deep_tone = 0.20F;                       // of lakes in their ramp …
 constexpr float deep_share = 0.85F;                      // … and how far the light's tone goes over to it
-constexpr float deep_from_m = 12.0F;                     // painted depth from which they are deep
+constexpr float deep_from_m = 7.0F;                     // painted depth from which they are deep
 constexpr float high_m = 260.0F;                         // what stands so far above its surroundings is a crest
 
 using Class = LandCoverClass;

@@ -12,7 +12,8 @@
 namespace belvedere {
 namespace {
 
-constexpr int bank_cells = 3;  // around the nearest shore, whose land tells the bank's slope
+// Around the nearest shore, whose land tells the bank's slope: the cells next to a lake are often as level as the lake.
+constexpr int bank_cells = 6;
 
 // Metres between a cell and one of an index.
 double way_m(const Dem& dem, int x, int y, std::int32_t to) {

@@ -12,7 +12,7 @@ namespace belvedere {
 struct WaterBedParameters {
   double river_width_m = 220.0;  // water that is nowhere wider is a river or a brook; > 0
   double deepest_m = 60.0;       // what beds level out at, > 0
-  double flattest_bank = 0.05;   // rise over run; level shores still fall off below the water; > 0
+  double flattest_bank = 0.08;   // rise over run; level shores still fall off below the water; > 0
   double steepest_bank = 0.60;   // ≥ flattest_bank
 };
 
@@ -23,7 +23,7 @@ struct WaterBeds {
 };
 
 // `water`: 1 on water, 0 on land. At d from the shore, which lies half way between cells of water and land, a lake is D (1 - exp(-s d / D))
-// deep: D the deepest, s the rise of the bank over its run, the mean over land within 3 cells of the nearest shore. The DEM's altitudes are
+// deep: D the deepest, s the rise of the bank over its run, the mean over land within 6 cells of the nearest shore. The DEM's altitudes are
 // read, and stay. Values hang on what lies within some river widths alone, so windows of a terrain agree.
 WaterBeds make_water_beds(const Grid<std::uint8_t>& water, const Dem& dem, const WaterBedParameters& parameters = {});
 
