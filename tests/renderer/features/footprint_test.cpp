@@ -72,6 +72,19 @@ TEST(Wings, AnLHasTwoThatMeetInItsCorner) {
   }
 }
 
+// The same seen in a mirror: where the corner lies does not matter.
+TEST(Wings, AnLMayLieAnyWayRound) {
+  for (const double sx : {1.0, -1.0})
+    for (const double sy : {1.0, -1.0}) {
+      Ring l = {{0, 0}, {30, 0}, {30, 10}, {10, 10}, {10, 25}, {0, 25}};
+      for (glm::dvec2& corner : l) corner *= glm::dvec2(sx, sy);
+      const std::vector<Footprint> wings = wings_of({l});
+      ASSERT_EQ(wings.size(), 2U) << sx << ' ' << sy;
+      EXPECT_NEAR(area_of(wings[0]), 300.0, 1e-6);
+      EXPECT_NEAR(area_of(wings[1]), 250.0, 1e-6) << sx << ' ' << sy;
+    }
+}
+
 TEST(Wings, ACourtStaysOpen) {
   const Ring outer = {{0, 0}, {40, 0}, {40, 30}, {0, 30}};
   const Ring court = {{10, 8}, {10, 22}, {30, 22}, {30, 8}};
