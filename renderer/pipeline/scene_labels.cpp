@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/common.hpp>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -62,14 +63,49 @@ std::string degrees(const std::vector<glm::dvec2>& corners, const std::string& c
                           own_degrees.empty() ? "" : ", which is " + own_degrees));
 }
 
-[[noreturn]] void fail_outside(const std::vector<LabelPoint>& points, const Dem& dem) {
-  std::vector<glm::dvec2> places;
-  for (const LabelPoint& point : points) places.push_back(point.place);
-  fail_outside(points.front().where, "points", points.size(), places, dem);
+bool lies_on(const Dem& dem, glm::dvec2 place) {
+  const glm::dvec2 cell = dem.transform.to_cell(place.x, place.y);
+  return cell.x >= -.5 && cell.y >= -.5 && cell.x <= dem.width() - .5 && cell.y <= dem.height() - .5;
 }
 
-bool all_outside(std::vector<LabelMark>::const_iterator begin, std::vector<LabelMark>::const_iterator end) {
-  return std::all_of(begin, end, [](const LabelMark& mark) { return mark.state == MarkState::outside_terrain; });
+void require_on_terrain(const std::string& where, const char* what, std::size_t count, const std::vector<glm::dvec2>& places,
+                        const Dem& dem) {
+  if (!places.empty() && std::none_of(places.begin(), places.end(), [&](glm::dvec2 place) { return lies_on(dem, place); }))
+    fail_outside(where, what, count, places, dem);
+}
+
+// What the files of a job hold.
+struct NamesRead {
+  std::vector<LabelPoint> points;
+  std::vector<LabelShape> shapes;
+  std::vector<MapLine> ways;
+};
+
+template <class T>
+void append(std::vector<T>& to, std::vector<T> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(to));
+}
+
+void require_points_on_terrain(const std::vector<LabelPoint>& points, const Dem& dem) {
+  std::vector<glm::dvec2> places;
+  for (const LabelPoint& point : points) places.push_back(point.place);
+  if (!points.empty()) require_on_terrain(points.front().where, "points", points.size(), places, dem);
+}
+
+NamesRead read_names(const LabelJob& job, const LabelStyle& style, const Dem& dem, Progress& progress) {
+  NamesRead names;
+  for (const std::string& file : job.points) append(names.points, read_label_points(file, dem.crs, style, progress));
+  for (const std::string& file : job.shapes) append(names.shapes, read_label_shapes(file, dem.crs, style, progress));
+  for (const std::string& file : job.tracks) append(names.ways, read_lines(file, dem.crs));
+  require_points_on_terrain(names.points, dem);
+  std::vector<glm::dvec2> places;
+  for (const LabelShape& shape : names.shapes)
+    for (const std::vector<glm::dvec2>& part : shape.parts) places.insert(places.end(), part.begin(), part.end());
+  if (!names.shapes.empty()) require_on_terrain(names.shapes.front().point.where, "lines and areas", names.shapes.size(), places, dem);
+  places.clear();
+  for (const MapLine& way : names.ways) places.insert(places.end(), way.places.begin(), way.places.end());
+  if (!names.ways.empty()) require_on_terrain(names.ways.front().where, "ways", names.ways.size(), places, dem);
+  return names;
 }
 
 std::vector<std::string> paths_of(const LoadedScene& scene, const std::vector<SceneLabelFile>& files, Progress& progress) {
@@ -110,29 +146,20 @@ LabelJob label_job(const LoadedScene& scene, Progress& progress) {
           .style = find_named_file(scene, "labels", labels.style)};
 }
 
+void check_names(const LoadedScene& scene, const Dem& dem) {
+  const LabelJob job = label_job(scene, silent_progress());
+  read_names(job, load_label_style(job.style), dem, silent_progress());
+}
+
 LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const BareView& bare, Progress& progress) {
   const LabelStyle style = load_label_style(job.style);
-  std::vector<LabelPoint> points;
-  for (const std::string& file : job.points) {
-    const std::vector<LabelPoint> more = read_label_points(file, bare.dem.crs, style, progress);
-    points.insert(points.end(), more.begin(), more.end());
-  }
+  auto [points, shapes, lines] = read_names(job, style, bare.dem, progress);
   const std::size_t named = points.size();
-  std::vector<LabelShape> shapes;
-  for (const std::string& file : job.shapes) {
-    const std::vector<LabelShape> more = read_label_shapes(file, bare.dem.crs, style, progress);
-    shapes.insert(shapes.end(), more.begin(), more.end());
-  }
   if (job.summits > 0) {
     progress.begin("looking for summits", 0.0);
     const std::vector<Summit> summits = find_summits(known_altitude(bare.dem), {.least_prominence_m = job.least_prominence_m});
     const std::vector<LabelPoint> unnamed = unnamed_summits(summits, bare.dem.transform, bare.dem.cell_m(), points, style);
     points.insert(points.end(), unnamed.begin(), unnamed.end());
-  }
-  std::vector<MapLine> lines;
-  for (const std::string& file : job.tracks) {
-    const std::vector<MapLine> more = read_lines(file, bare.dem.crs);
-    lines.insert(lines.end(), more.begin(), more.end());
   }
   if (points.empty() && lines.empty() && shapes.empty())
     throw Error(ErrorKind::usage, "labels", "nothing to name", "--points FILE with points, --shapes FILE, --summits N or --tracks FILE");
@@ -141,10 +168,6 @@ LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const
   const GeoMap map = bare.geo_map();
   const DrawnGround ground{bare.dem.altitude_m, bare.generalized_m, bare.dem.transform, bare.dem.cell_m(), map};
   std::vector<LabelMark> marks = find_marks(ground, points, style);
-  if (named > 0 && all_outside(marks.begin(), marks.begin() + static_cast<std::ptrdiff_t>(named))) {
-    points.resize(named);
-    fail_outside(points, bare.dem);
-  }
   // Of the DEM's own summits the most prominent that are seen; named ones are all listed.
   std::size_t kept = named;
   for (std::size_t i = named; i < points.size() && kept < named + static_cast<std::size_t>(job.summits); ++i)
@@ -157,12 +180,6 @@ LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const
   // Shapes follow the points, each with the line that its name may stand on.
   std::vector<std::vector<glm::dvec2>> along(points.size());
   std::vector<ShapeRun> runs = find_shape_runs(ground, shapes);
-  if (!runs.empty() &&
-      std::all_of(runs.begin(), runs.end(), [](const ShapeRun& run) { return run.mark.state == MarkState::outside_terrain; })) {
-    std::vector<LabelPoint> places;
-    for (const LabelShape& shape : shapes) places.push_back(shape.point);
-    fail_outside(places, bare.dem);
-  }
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     points.push_back(shapes[i].point);
     marks.push_back(runs[i].mark);
@@ -173,11 +190,6 @@ LabelSheet make_label_sheet(const LoadedScene& scene, const LabelJob& job, const
   const glm::ivec2 size = bare.camera->size();
   LabelSheet sheet = make_labels(points, marks, find_skyline(map, size), style, size, scene.scene.output.sheet_width_mm, along);
   sheet.tracks = find_tracks(ground, lines);
-  if (!lines.empty() && std::all_of(sheet.tracks.begin(), sheet.tracks.end(), [](const Track& track) { return track.profile.empty(); })) {
-    std::vector<glm::dvec2> places;
-    for (const MapLine& line : lines) places.insert(places.end(), line.places.begin(), line.places.end());
-    fail_outside(lines.front().where, "ways", lines.size(), places, bare.dem);
-  }
   return sheet;
 }
 
@@ -187,14 +199,11 @@ LabelSheet locate_points(const std::vector<std::string>& files, const BareView& 
   sheet.style = load_label_style("classic");
   for (LabelKindStyle& kind : sheet.style.kinds) kind.climb_m = 0.0;
   std::vector<LabelPoint> points;
-  for (const std::string& file : files) {
-    const std::vector<LabelPoint> more = read_label_points(file, bare.dem.crs, sheet.style, progress, NamesAre::optional);
-    points.insert(points.end(), more.begin(), more.end());
-  }
+  for (const std::string& file : files) append(points, read_label_points(file, bare.dem.crs, sheet.style, progress, NamesAre::optional));
+  require_points_on_terrain(points, bare.dem);
   const GeoMap map = bare.geo_map();
   const DrawnGround ground{bare.dem.altitude_m, bare.generalized_m, bare.dem.transform, bare.dem.cell_m(), map};
   const std::vector<LabelMark> marks = find_marks(ground, points, sheet.style);
-  if (!marks.empty() && all_outside(marks.begin(), marks.end())) fail_outside(points, bare.dem);
   for (std::size_t i = 0; i < points.size(); ++i) {
     Label& label = sheet.labels.emplace_back();
     label.point = points[i];

@@ -14,6 +14,7 @@
 #include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/picture_legend.h"
+#include "renderer/pipeline/scene_labels.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/sheet/guidance_pack.h"
 #include "renderer/sheet/piece_writer.h"
@@ -117,6 +118,7 @@ SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, con
       place{work.folder(), static_cast<std::uint64_t>(share_of_tiles * static_cast<double>(memory_budget_bytes()))},
       view(view_of(world)),
       ground(world, view, bring_to_place(paint.palette, loaded, world), place, stage_run, tile_px_for(world.scene, view, request)) {
+  if (request.panorama) check_names(loaded, *world.dem);
   keep_notes(loaded, world, work);
   if (has_legend(world.scene) && !work.has_bytes(legend_bytes))
     work.keep_bytes(legend_bytes, legend_to_text(find_legend(world, paint.palette)));

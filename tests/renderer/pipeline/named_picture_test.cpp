@@ -88,6 +88,19 @@ TEST(NamedPicture, AskingForNamesWithoutAnyIsRefused) {
               HasSubstr("labels.in_picture has nothing to draw"));
 }
 
+// Before the picture is made, not after it.
+TEST(NamedPicture, WrongNamesAreSaidBeforeAnythingIsPainted) {
+  const test::Folder folder;
+  folder.write("far.csv", "name,east,north\nA,900000,900000\n");
+  const LoadedScene scene = test::small_scene({"labels.points.0.file=\"far.csv\""}, folder.path());
+  EXPECT_THAT(test::message_of(ErrorKind::usage,
+                               [&] {
+                                 render(scene, folder / "out", {0, 0, 32, silent_progress(), no_cache()}, {});
+                               }),
+              HasSubstr("none of 1 points lies on the terrain"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/panorama.png"));
+}
+
 // A sheet for print: what a part of it shows of names is what the whole shows there, at the size that letters have on that sheet.
 TEST(NamedPicture, APartOfALargeSheetHasTheNamesOfTheWhole) {
   const test::Folder folder;
