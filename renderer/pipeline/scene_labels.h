@@ -25,8 +25,8 @@ struct LabelJob {
 // That of a scene's [labels]; optional files that are missing are left out with a note.
 LabelJob label_job(const LoadedScene& scene, Progress& progress);
 
-// Reads the files of a scene's [labels] and forgets them: what is wrong with them is said before hours of work. Throws Error as
-// make_label_sheet does.
+// Reads the files of a scene's [labels] and forgets them: what is wrong with them, or that there are no fonts, is said before
+// hours of work. Throws Error as make_label_sheet does.
 void check_names(const LoadedScene& scene, const Dem& dem);
 
 // All names of the picture, found on its ground and placed on the whole sheet whatever part of it is made. Throws Error(usage) where there
