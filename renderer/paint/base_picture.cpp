@@ -43,7 +43,8 @@ const glm::vec3 reflected_warmth{0.24F, 0.07F, -0.08F};  // what light from lit 
 constexpr double brook_sigma_units = 1.8;                // what this blur of the water leaves pale is a brook
 constexpr float deep_tone = 0.20F;                       // of lakes in their ramp …
 constexpr float deep_share = 0.85F;                      // … and how far the light's tone goes over to it
-constexpr float deep_from_m = 7.0F;                     // painted depth from which they are deep
+constexpr float deep_from_m = 7.0F;                      // painted depth from which they are deep
+constexpr double ice_step = 0.4;                         // of the step to the darker and lighter picture: strokes on ice are calm
 constexpr float high_m = 260.0F;                         // what stands so far above its surroundings is a crest
 
 using Class = LandCoverClass;
@@ -346,8 +347,9 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, WaterNoises& wate
     ramp = water.over(ramp);
     if (open.frozen > 0.0F) {
       const float metres_per_unit = s.metres_per_unit(i);
-      ramp = glm::mix(ramp, waters.ice.colour(s.palette, altitude, g.tone[i] + step, s.place_m(i), open.depth_m, metres_per_unit),
-                      open.frozen);
+      ramp =
+          glm::mix(ramp, waters.ice.colour(s.palette, altitude, g.tone[i] + ice_step * step, s.place_m(i), open.depth_m, metres_per_unit),
+                   open.frozen);
     }
     return pixel.finish(ramp, s.palette.range_mist);
   };

@@ -27,7 +27,7 @@ glm::vec3 LakeIce::colour(const Palette& palette, double altitude_m, double ligh
                           float metres_per_unit) {
   const float kept = unit(1.8F - metres_per_unit / 30.0F);
   const float drift = drifts_(place_m.x, place_m.y) + 0.6F * kept * small_drifts_(place_m.x, place_m.y);
-  const float snow = most_snow * smoothstep(-0.45F, 0.95F, drift);
+  const float snow = most_snow * smoothstep(-0.9F, 0.8F, drift);
   const glm::vec3 bare = palette_colour(palette, LandCoverClass::snow, altitude_m, light - static_cast<double>(bare_darker)) * bare_hue;
   glm::vec3 colour = glm::mix(bare, palette_colour(palette, LandCoverClass::snow, altitude_m, light), snow);
   // A crack runs where slow noise passes through 0, for a stretch: its width in metres is the noise over its slope, some 1 in 520 m.

@@ -70,6 +70,7 @@ Picture make_sheet(int width_units, int height_units, double pixels_per_unit) {
       p.guidance.fall_line(x, y) = glm::normalize(glm::vec2((ice_below ? 0.3F : 0.8F) * noise(7, 10.0), 1.F + 0.3F * noise(8, 10.0)));
       p.guidance.tone(x, y) = std::clamp(0.6F + 0.1F * noise(9, 6.0) + 0.1F * grain(9), 0.F, 1.F);
       p.guidance.position_m(x, y) = glm::vec3(12.0 * u, -12.0 * v, id == water ? 900.F : 900.F + 100.F * noise(10, 30.0));
+      if (id == water && row % 2 == 1) p.guidance.position_m(x, y).z -= static_cast<float>(5.0 * (v - 16.0 * row));
       p.guidance.slope_deg(x, y) = (ice_below ? id == snow : column % 4 == 1) ? 42.F : row % 2 == 0 ? 5.F : 20.F;
       p.guidance.footprint_m(x, y) = static_cast<float>(15.0 / pixels_per_unit);
       p.guidance.relief_s_m(x, y) = 22.F + 10.F * noise(11, 12.0);

@@ -45,6 +45,7 @@ Picture patchwork() {
       p.guidance.slope_deg(x, y) = column == 1 ? 42.F : row % 2 == 0 ? 5.F : 20.F;
       p.guidance.depth_m(x, y) = id == LandCoverClass::sky ? std::numeric_limits<float>::infinity() : 8000.F;
       p.guidance.position_m(x, y) = glm::vec3(12.F * static_cast<float>(x), -12.F * static_cast<float>(y), 900.F);
+      if (id == LandCoverClass::water && row % 2 == 1) p.guidance.position_m(x, y).z -= 6.F * static_cast<float>(y % block);
       if (row == 11) {  // the foreground, seen from close by
         p.guidance.footprint_m(x, y) = 0.4F;
         p.guidance.position_m(x, y) = glm::vec3(0.4F * static_cast<float>(x), -1.2F * static_cast<float>(y), 900.F);

@@ -16,8 +16,9 @@ constexpr double patches_m = 420.0;     // of ruffled water, those of the base p
 constexpr float usual_m = 14.F;         // metres in a unit of the sheet where a streak has its usual size
 constexpr float sea_within_m = 1.6F;    // of the sea's level, as DEMs have it
 constexpr float widest_surf_m = 120.F;  // surf is no wider on the ground, however far off the shore lies
-constexpr float fall_from_deg = 14.F;   // rivers that fall so steeply begin to whiten …
-constexpr float fall_to_deg = 28.F;     // … and here are white
+constexpr float look_units = 2.F;       // up and down the fall line, for how steeply the water itself falls
+constexpr float fall_from = 0.25F;      // drop over way, where rivers begin to whiten …
+constexpr float fall_to = 0.53F;        // … and are white
 
 // The white of broken water.
 glm::vec3 foam_white(const StrokeScene& scene, std::size_t i) {
@@ -47,6 +48,18 @@ Shore shore_around(const StrokeScene& scene, glm::vec2 place, std::size_t i, flo
     shore.found = true;
   }
   return shore;
+}
+
+// Drop over way of the water at a place, along its fall line; 0 at its ends and on lakes, whatever their banks do.
+float fall_of_water(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
+  const glm::vec2 step = scene.fall_line(place) * (look_units * scene.scale());
+  if (!scene.on_canvas(place + step) || !scene.on_canvas(place - step)) return 0.F;
+  const std::size_t above = scene.pixel(place - step);
+  const std::size_t below = scene.pixel(place + step);
+  for (const std::size_t k : {above, below})
+    if (scene.class_at(k) != water || !on_same_slope(scene, i, k)) return 0.F;
+  const glm::vec3 way = scene.guidance.position_m[above] - scene.guidance.position_m[below];
+  return way.z / std::max(glm::length(glm::vec2(way)), 1.F);
 }
 
 }  // namespace
@@ -81,7 +94,7 @@ std::vector<Stroke> river_foam(const StrokeScene& scene, Stream stream) {
   if (!scene.parameters.foam || scene.parameters.winter) return {};
   return sow(scene, 1.5F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != water) return;
-    const float steep = smoothstep(fall_from_deg, fall_to_deg, scene.slope_deg(i));
+    const float steep = smoothstep(fall_from, fall_to, fall_of_water(scene, place, i));
     if (seed.uniform() > 0.85F * steep) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.gate = StrokeGate::water;

@@ -67,6 +67,8 @@ TEST(WaterStrokes, FallsAreWhiteAndRunDown) {
   Picture p = water();
   EXPECT_TRUE(grow_strokes("river foam", p.scene()).empty()) << "level water";
   for (float& slope : p.guidance.slope_deg) slope = 30.F;
+  EXPECT_TRUE(grow_strokes("river foam", p.scene()).empty()) << "a lake below steep banks";
+  for (glm::vec3& place : p.guidance.position_m) place.z += 0.6F * place.y;
   const std::vector<Stroke> foam = grow_strokes("river foam", p.scene());
   ASSERT_GT(foam.size(), 1000U);
   for (const Stroke& s : foam) {
