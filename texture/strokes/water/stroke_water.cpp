@@ -16,7 +16,7 @@ constexpr double patches_m = 420.0;     // of ruffled water, those of the base p
 constexpr float usual_m = 14.F;         // metres in a unit of the sheet where a streak has its usual size
 constexpr float sea_within_m = 1.6F;    // of the sea's level, as DEMs have it
 constexpr float widest_surf_m = 120.F;  // surf is no wider on the ground, however far off the shore lies
-constexpr float look_units = 2.F;       // up and down the fall line, for how steeply the water itself falls
+constexpr float look_units = 3.5F;      // up and down the fall line, for how steeply the water itself falls
 constexpr float fall_from = 0.25F;      // drop over way, where rivers begin to whiten …
 constexpr float fall_to = 0.53F;        // … and are white
 
