@@ -108,7 +108,7 @@ MistBed::Column MistBed::at(glm::dvec2 place) {
   }
   if (column.cover <= 0.0 && p.kind == MistKind::sea) return column;
   // Above 0 in banks, below in gaps.
-  const double bank = p.patches > 0.0 ? 0.8 * broad_(place.x, place.y) + 0.45 * narrow_(place.x, place.y) + 1.6 - 3.0 * p.patches : 1.0;
+  const double bank = p.patches > 0.0 ? 0.8 * broad_(place.x, place.y) + 0.45 * narrow_(place.x, place.y) + 1.9 - 3.0 * p.patches : 1.0;
   if (p.kind == MistKind::sea) {
     column.top_m -= sea_hollow_m * p.patches * std::max(0.0, 1.0 - bank);
     column.cover *= smoothstep(-0.7, 0.5, bank);

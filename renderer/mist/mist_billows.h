@@ -24,6 +24,8 @@ class MistBillows {
   static double length_m(double metres_per_unit);
 
  private:
+  double patches(glm::dvec2 place, double octave);
+
   double strength_;
   double highest_m_;
   double reach_m_;

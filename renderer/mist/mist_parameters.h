@@ -16,9 +16,9 @@ enum class MistKind : std::uint8_t {
 struct MistParameters {
   MistKind kind = MistKind::sea;
   double to_m = 1500.0;             // of a sea: altitude of its surface
-  double height_m = 140.0;          // in valleys: above their floor; > 0
-  double sight_m = 350.0;           // how far one sees in it (a contrast of .02 is left): > 0
-  double edge_m = 90.0;             // over this height below its surface it grows dense, 0…1000
+  double height_m = 160.0;          // in valleys: above their floor; > 0
+  double sight_m = 450.0;           // how far one sees in it (a contrast of .02 is left): > 0
+  double edge_m = 170.0;            // over this height below its surface it grows dense, 0…1000
   double billows = 1.0;             // how high its surface heaps, 0…3
   double patches = 0.0;             // how torn it is, 0 closed … 1 a few banks
   std::optional<glm::dvec2> place;  // scene CRS: middle of what is misty, or the summit

@@ -25,12 +25,14 @@ constexpr int looks = 24;       // where a line of sight is first asked whether 
 constexpr double opaque = 6.0;  // optical depth behind which nothing is seen
 constexpr int most_steps = 400;
 constexpr double steps_a_heap = 8.0;  // of a line of sight through the length of a heap
-constexpr double sea_heap_m = 95.0;   // what heaps of a sea are never much higher than; no surface sinks or rises much more at a shore
+constexpr double sea_heap_m = 50.0;   // what heaps of a sea are never much higher than; no surface sinks or rises much more at a shore
+constexpr double valley_edge = 0.5;   // of their mist's height: no softer edge
 constexpr double valley_heap = 0.22;  // the same in valleys, of the mist's height
 constexpr double shadow_reach_m = 60000.0;
 constexpr double shadow_radius = 0.045;  // of the sun as it throws soft shadows into mist, rad
 constexpr int shadow_rays = 8;
-constexpr double nothing = 1e-4;  // a share that cannot be seen
+constexpr double flattening = 45.0;  // metres in a unit of the sheet at which half of the light on heaps is left
+constexpr double nothing = 1e-4;     // a share that cannot be seen
 
 // One layer, for one thread.
 struct Layer {
@@ -39,7 +41,9 @@ struct Layer {
         bed(parameters, air.ground, air.rim_fade_m, stream_seed(air.seed, Stream::mist_layers, number)),
         billows(stream_seed(air.seed, Stream::mist_layers, number), parameters.billows,
                 parameters.kind == MistKind::sea ? sea_heap_m : valley_heap * parameters.height_m),
-        profile(make_mist_profile(parameters.sight_m, parameters.edge_m)),
+        profile(make_mist_profile(parameters.sight_m, parameters.kind == MistKind::valley
+                                                          ? std::min(parameters.edge_m, valley_edge * parameters.height_m)
+                                                          : parameters.edge_m)),
         valley_step_m(std::clamp(0.9 * parameters.height_m, 60.0, 250.0)) {}
   MistKind kind;
   MistBed bed;
@@ -171,7 +175,7 @@ double light_on_heaps(Layer& layer, const Met& met, glm::dvec3 sun) {
   const double north = height(0.0, step) - height(0.0, -step);
   const glm::dvec3 normal = glm::normalize(glm::dvec3(-relief * east / (2.0 * step), -relief * north / (2.0 * step), 1.0));
   const double here = height(0.0, 0.0);
-  const double tall = 0.3 * layer.billows.reach_m();
+  const double tall = 0.18 * layer.billows.reach_m();
   double light = even + 0.80 * (glm::dot(normal, sun) - sun.z) + 0.16 * here / tall;
   const double level = std::sqrt(sun.x * sun.x + sun.y * sun.y);
   if (level > 0.05) {
@@ -182,7 +186,9 @@ double light_on_heaps(Layer& layer, const Met& met, glm::dvec3 sun) {
     }
     light -= 0.30 * smoothstep(0.0, tall, over);
   }
-  return unit(light);
+  // Towards the horizon heaps close up to an even light.
+  const double far = met.metres_per_unit / flattening;
+  return even + (unit(light) - even) / (1.0 + far * far);
 }
 
 // Part of the sun that a place in the air sees. The rays of one place are a bundle of their own.

@@ -75,7 +75,7 @@ std::vector<SceneSection> make_air_sections() {
                 .field = AT(air.mist[i].sight_m),
                 .range = {20, 1e5},
                 .unit = "m",
-                .meaning = "How far one sees in it; where nothing is said, 350 in a sea, 700 in valleys."},
+                .meaning = "How far one sees in it; where nothing is said, 450 in a sea, 500 in valleys."},
                {.name = "edge_m",
                 .field = AT(air.mist[i].look.edge_m),
                 .range = {0, 1000},

@@ -58,6 +58,13 @@ TEST(MistSight, OverAPlaneALayerLetsThroughWhatTheFormulaSays) {
   EXPECT_GT(seen, 500);
 }
 
+// Through the middles of pixels, as mist is seen.
+GuidanceBuffers trace_middles(const World& world, const Camera& camera) {
+  GuidanceParameters parameters;
+  parameters.sampling.pixel_samples = 1;
+  return test::trace(world, camera, parameters);
+}
+
 double cone_m(double east, double south) {
   return std::max(0.0, 2000.0 - 0.5 * std::sqrt((east - 3000.0) * (east - 3000.0) + (south - 3900.0) * (south - 3900.0)));
 }
@@ -68,7 +75,7 @@ void expect_island(const DeformParameters& deformed) {
   CameraParameters p = test::southward(160, 120, -38.0);
   p.eye.z = 9000.0;
   const auto camera = make_camera(p);
-  const GuidanceBuffers guidance = test::trace(world, *camera);
+  const GuidanceBuffers guidance = trace_middles(world, *camera);
   const MistSight sight = see(flat_sea(1000.0, 2.0, world), world, *camera, guidance);
   int island = 0, sea = 0;
   for (std::size_t i = 0; i < sight.share.size(); ++i) {
@@ -83,7 +90,7 @@ void expect_island(const DeformParameters& deformed) {
     }
   }
   EXPECT_GT(island, 300);
-  EXPECT_GT(sea, 3000);
+  EXPECT_GT(sea, 1000);
 }
 
 TEST(MistSight, AConeStandsOutAsAnIslandWithItsShoreAtTheAltitude) { expect_island({}); }
