@@ -88,7 +88,7 @@ std::vector<SceneSection> make_air_sections() {
                {.name = "patches",
                 .field = AT(air.mist[i].patches),
                 .range = {0, 1},
-                .meaning = "How torn it is: 0 closed, 1 a few banks; where nothing is said, 0 for a sea, .45 in valleys."},
+                .meaning = "How torn it is: 0 closed, 1 a few banks; where nothing is said, 0 for a sea, .35 in valleys."},
                {.name = "position",
                 .field = AT(air.mist[i].position),
                 .range = {-largest_m, largest_m},

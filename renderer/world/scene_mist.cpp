@@ -19,7 +19,7 @@ MistParameters to_parameters(const SceneMist& given, const Dem& dem, std::size_t
   mist.to_m = given.to_m.value_or(mist.to_m);
   const bool thin = mist.kind == MistKind::valley;
   mist.sight_m = given.sight_m.value_or(thin ? 500.0 : mist.sight_m);
-  mist.patches = given.patches.value_or(thin ? 0.45 : mist.patches);
+  mist.patches = given.patches.value_or(thin ? 0.35 : mist.patches);
   if (given.position || given.position_lonlat)
     mist.place = resolve_place(dem, given.position, given.position_lonlat, fmt::format("air.mist.{}", number));
   return mist;

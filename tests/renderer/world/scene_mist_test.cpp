@@ -27,7 +27,7 @@ TEST(SceneMist, IsWhatTheSceneSays) {
   EXPECT_EQ(world.mist.layers[0].to_m, 900.0);
   EXPECT_EQ(world.mist.layers[0].sight_m, 222.0);
   EXPECT_EQ(world.mist.layers[1].kind, MistKind::valley);
-  EXPECT_EQ(world.mist.layers[1].patches, 0.45);
+  EXPECT_EQ(world.mist.layers[1].patches, 0.35);
   EXPECT_FALSE(world.mist.ground.floor_m.empty());
   ASSERT_EQ(world.mist.clouds.size(), 1U);
   EXPECT_EQ(world.mist.rim_fade_m, 4000.0);
