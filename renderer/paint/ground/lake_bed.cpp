@@ -12,7 +12,7 @@ namespace {
 constexpr LandCoverClass bed_class = LandCoverClass::scree;
 constexpr float most_share = 0.9F;
 constexpr float drawn_from_m = 7.F;    // metres in a unit of the sheet from which shallows are drawn wider than they are …
-constexpr float most_drawn = 2.5F;      // … and by how much at most
+constexpr float most_drawn = 2.5F;     // … and by how much at most
 constexpr double lighter_share = 0.5;  // of the lightness by which shallow water is lighter: paint of deep water is pale already
 
 }  // namespace
