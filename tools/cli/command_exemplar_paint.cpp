@@ -85,7 +85,7 @@ Action add_exemplar_paint(CLI::App& command) {
   command.add_option("--out", options->out, "Folder for the results; made where it is missing")->type_name("DIR")->required();
   command
       .add_option("--season", options->season,
-                  "Palette: summer, autumn, winter, desert or a .toml file; of an example sheet summer by default")
+                  "Palette: summer, autumn, winter, desert, evening, morning or a .toml file; of an example sheet summer by default")
       ->type_name("PALETTE");
   command.add_option("--size", options->size, "Side of the example sheet in pixels; 4096 by default")
       ->type_name("PX")

@@ -59,7 +59,7 @@ TEST(Palette, BlendsByAltitude) {
 }
 
 TEST(Palette, BuiltInPalettesAreCompleteAndGrowLighterWithTone) {
-  for (const char* name : {"summer", "autumn", "winter", "desert"}) {
+  for (const char* name : {"summer", "autumn", "winter", "desert", "evening", "morning"}) {
     const Palette palette = read_palette(name);
     EXPECT_EQ(palette.name, name);
     EXPECT_EQ(palette.winter, std::string(name) == "winter");
@@ -83,6 +83,25 @@ TEST(Palette, BuiltInPalettesAreCompleteAndGrowLighterWithTone) {
         EXPECT_GT(light.r - light.b, shadow.r - shadow.b) << info.name;
       }
     }
+  }
+}
+
+// The last light and the first glow where rock and snow stand high; below and in the shade they do not.
+TEST(Palette, EveningAndMorningGlowOnHighGround) {
+  for (const char* name : {"evening", "morning"}) {
+    const Palette palette = read_palette(name);
+    const auto warmth = [&](LandCoverClass id, double altitude_m, double tone) {
+      const glm::vec3 c = palette_colour(palette, id, altitude_m, tone);
+      return c.r - c.b;
+    };
+    for (const LandCoverClass id : {LandCoverClass::rock, LandCoverClass::snow}) {
+      EXPECT_GT(warmth(id, 2900.0, 0.8), warmth(id, 1000.0, 0.8) + 0.04F) << name;
+      EXPECT_GT(warmth(id, 2900.0, 0.8), 0.1F) << name;
+      EXPECT_LT(warmth(id, 2900.0, 0.0), -0.2F) << name;
+    }
+    EXPECT_LT(warmth(LandCoverClass::valley_floor, 600.0, 0.0), -0.15F) << name;
+    EXPECT_GT(palette.sky.back().second.r, palette.sky.back().second.b + 0.15F) << name;
+    EXPECT_GT(palette.sky.front().second.b, palette.sky.front().second.r + 0.2F) << name;
   }
 }
 
