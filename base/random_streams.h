@@ -145,6 +145,7 @@ enum class Stream : std::uint16_t {
   mist_lights,
   lee_clouds,
   front_decks,
+  cloud_shadows,
 
   count  // no stream: how many there are
 };

@@ -193,6 +193,12 @@ std::vector<DrawnLine> river_lanes(const Making& making, const CoverCourse& rive
   return lanes;
 }
 
+// Towards the sun of a feature's place.
+glm::dvec3 sun_at(const DrawnParameters& parameters, const Feature& feature) {
+  const bool known = parameters.light_field && !feature.parts.empty() && !feature.parts.front().empty();
+  return known ? parameters.light_field->at(feature.parts.front().front()).sun : parameters.sun;
+}
+
 Made make_feature(const Making& making, const Feature& feature) {
   Made made;
   const FeatureKind& kind = making.set.style.kinds[static_cast<std::size_t>(feature.kind)];
@@ -205,8 +211,8 @@ Made make_feature(const Making& making, const Feature& feature) {
       draw_cable({making.sight, kind, making.parameters.px_per_mm, making.foreground_m_per_px}, feature, made.lines, made.count);
       break;
     case FeatureDraw::building:
-      draw_house({making.sight, kind, making.parameters.px_per_mm, making.foreground_m_per_px, making.parameters.sun}, feature, made.houses,
-                 made.count);
+      draw_house({making.sight, kind, making.parameters.px_per_mm, making.foreground_m_per_px, sun_at(making.parameters, feature)}, feature,
+                 made.houses, made.count);
       break;
     case FeatureDraw::river:
     case FeatureDraw::area:

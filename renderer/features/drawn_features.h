@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "renderer/features/drawn_parts.h"
 #include "renderer/features/feature_set.h"
 #include "renderer/features/ground_sight.h"
+#include "renderer/trace/light_field.h"
 #include "terrain/cover/map_cover.h"
 
 namespace belvedere {
@@ -41,7 +43,8 @@ struct DrawnParameters {
   bool winter = false;
   double px_per_mm = 1.0;  // of the sheet
   std::uint64_t seed = 1;
-  glm::dvec3 sun{0.0, 0.0, 1.0};  // unit, towards it
+  glm::dvec3 sun{0.0, 0.0, 1.0};                            // unit, towards it
+  std::shared_ptr<const LightField> light_field = nullptr;  // where light differs from place to place
 };
 
 // Lays features over the drawn ground: sampled finely enough for every facet and to a third of a pixel, with their widths there, parted

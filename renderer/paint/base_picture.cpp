@@ -40,6 +40,7 @@ constexpr double range_sigma_units = 14.0;               // width of mist behind
 constexpr double krummholz_sigma_units = 12.0;           // dwarf pine stands about the treeline
 constexpr double tongue_sigma_units = 20.0;              // ice is blue and bare as far from ground without ice as this tells
 const glm::vec3 reflected_warmth{0.24F, 0.07F, -0.08F};  // what light from lit ground adds to the shade of a wall at its foot, factors
+const glm::vec3 full_warmth{0.10F, -0.02F, -0.16F};      // what a region's light of warmth 1 adds to lit colours, factors
 constexpr double brook_sigma_units = 1.8;                // what this blur of the water leaves pale is a brook
 constexpr float deep_tone = 0.20F;                       // of lakes in their ramp …
 constexpr float deep_share = 0.85F;                      // … and how far the light's tone goes over to it
@@ -200,6 +201,13 @@ glm::vec3 evening_glow(const Scenery& s, std::size_t i, float far) {
   return 1.0F + glm::vec3(0.034F, -0.038F, -0.065F) * (lit * (0.35F + 0.65F * high) * (1.0F - far) * drift);
 }
 
+// Factor of warm or cool light on what it meets; shade keeps the palette's colour.
+glm::vec3 light_warmth(const Scenery& s, std::size_t i) {
+  if (!s.parameters.light_field) return glm::vec3(1.0F);
+  const float warmth = s.parameters.light_field->at(glm::dvec2(s.place_m(i))).warmth;
+  return 1.0F + full_warmth * (warmth * smoothstep(0.30F, 0.80F, s.guidance.tone[i]));
+}
+
 PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& patches, const ForestTurn& woods) {
   const GuidanceBuffers& g = s.guidance;
   const BaseParameters& p = s.parameters;
@@ -222,6 +230,7 @@ PixelColour pixel_colour(const Scenery& s, std::size_t i, int y, const Patches& 
   if (p.air.rim_fade_m > 0.0) pixel.end = terrain_end_at(g.rim_m[i], p.air.rim_fade_m, raised);
   if (!s.palette.winter) pixel.factor *= grown_hue(s, i, patches, woods, pixel.air);
   pixel.factor *= evening_glow(s, i, far);
+  pixel.factor *= light_warmth(s, i);
   return pixel;
 }
 

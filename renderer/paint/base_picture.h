@@ -14,6 +14,7 @@
 #include "renderer/paint/water/water_image.h"
 #include "renderer/paint/water/water_parameters.h"
 #include "renderer/trace/water/water_ground.h"
+#include "renderer/trace/light_field.h"
 #include "renderer/trace/wide_view.h"
 #include "texture/strokes/stroke_painter.h"
 
@@ -34,7 +35,8 @@ struct BaseParameters {
   double mean_light = 0.0;
   std::shared_ptr<const WaterGround> waters = nullptr;  // lakes and their beds; none: all water is alike, and no bed is seen
   WaterParameters water;
-  std::shared_ptr<const GroundTint> tint = nullptr;  // colours of the ground's own that ramps are moved to; none: ramps as they are
+  std::shared_ptr<const LightField> light_field = nullptr;  // whose warmth lit ground takes; none: the palette's alone
+  std::shared_ptr<const GroundTint> tint = nullptr;         // colours of the ground's own that ramps are moved to; none: ramps as they are
 };
 
 // Base picture (encoded sRGB) at the pixel's tone and at ∓ .17, with accents, tree density and haze; sky pixels get sky and clouds.

@@ -63,20 +63,21 @@ float fineness(const GuidanceBuffers& g, std::size_t i, double pixels_per_unit) 
 }
 
 // Light before contrast: sun, sky, relief and edges of one pixel.
-float raw_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky_view, float fine, const ToneParameters& p) {
+float raw_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky_view, float fine, const GroundLight& own,
+                const ToneParameters& p) {
   const ClassTone& light = class_info(g.land_cover[i]).tone;
   const glm::vec3 detail = has_trait(g.land_cover[i], ClassTrait::own_relief) ? g.normal_detail[i] : g.normal[i];
   const float share = light.detail * fine;
   const glm::vec3 normal = glm::normalize(detail * share + g.normal_smooth[i] * (1.0F - share));
   const auto wrap = static_cast<float>(p.wrap);
-  const float towards = glm::dot(normal, glm::vec3(p.sun_direction));
+  const float towards = glm::dot(normal, glm::vec3(own.sun));
   const float facing = std::clamp((towards + wrap) / (1.0F + wrap), 0.0F, 1.0F);
   const float sun = facing * (1.0F - static_cast<float>(p.light.shadow_depth) * (1.0F - shadow));
   const float sky = static_cast<float>(exact::pow(static_cast<double>(std::max(sky_view, 0.0F)), 1.3)) * (0.6F + 0.4F * normal.z);
   const float relief = 0.5F * std::clamp(g.relief_m_m[i] / 70.0F, -1.0F, 1.0F) + 0.5F * std::clamp(g.relief_l_m[i] / 250.0F, -1.0F, 1.0F);
   const float edges = std::clamp(g.relief_s_m[i] / 10.0F, -1.2F, 1.2F);
-  return static_cast<float>(p.light.sun) * sun + static_cast<float>(p.light.sky) * sky + static_cast<float>(p.light.relief) * relief +
-         light.edges * fine * edges;
+  return static_cast<float>(p.light.sun) * own.strength * sun + static_cast<float>(p.light.sky) * sky +
+         static_cast<float>(p.light.relief) * relief + light.edges * fine * edges;
 }
 
 // Tone of snow: never quite at the ends of its ramp while it still has forms.
@@ -95,13 +96,13 @@ float keep_snow(float tone) {
 
 // Light before contrast on snow as wind has laid it. Steep snow slides: it has runnels (ribs) and no drifts.
 float snow_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sky_view, float fine, const SnowForm& form,
-                 const ToneParameters& p) {
+                 const GroundLight& own, const ToneParameters& p) {
   const float share = snow_detail * fine;
   const glm::vec3 ground = glm::normalize(g.normal_detail[i] * share + g.normal[i] * (1.0F - share));
   const float laid = (1.0F - 0.75F * smoothstep(24.0F, 44.0F, g.slope_deg[i])) * (0.35F + 0.65F * fine);
   const glm::vec2 rise = glm::vec2(ground) / -std::max(ground.z, 0.15F) + laid * form.slope;
   const glm::vec3 normal = glm::normalize(glm::vec3(-rise, 1.0F));
-  const glm::vec3 sun_direction(p.sun_direction);
+  const glm::vec3 sun_direction(own.sun);
   const float facing = std::clamp((glm::dot(normal, sun_direction) + snow_wrap) / (1.0F + snow_wrap), 0.0F, 1.0F);
   const float sun = facing * (1.0F - static_cast<float>(p.light.shadow_depth) * (1.0F - smoothstep(0.15F, 0.85F, shadow)));
   const float sky = static_cast<float>(exact::pow(static_cast<double>(std::max(sky_view, 0.0F)), 1.3)) * (0.6F + 0.4F * normal.z);
@@ -109,7 +110,7 @@ float snow_light(const GuidanceBuffers& g, std::size_t i, float shadow, float sk
   const float fill = snow_fill * (0.5F * glm::dot(normal, opposite) + 0.2F);
   const float relief = 0.5F * std::clamp(g.relief_m_m[i] / 70.0F, -1.0F, 1.0F) + 0.5F * std::clamp(g.relief_l_m[i] / 250.0F, -1.0F, 1.0F);
   const float edges = std::clamp(g.relief_s_m[i] / 10.0F, -1.2F, 1.2F);
-  return static_cast<float>(p.light.sun) * sun + static_cast<float>(p.light.sky) * sky + fill +
+  return static_cast<float>(p.light.sun) * own.strength * sun + static_cast<float>(p.light.sky) * sky + fill +
          static_cast<float>(p.light.relief) * relief + class_info(g.land_cover[i]).tone.edges * fine * edges +
          snow_hollow * laid * std::clamp(form.height, -1.6F, 1.0F);
 }
@@ -167,6 +168,25 @@ void draw_cornices(Grid<float>& tone, const GuidanceBuffers& g, const Grid<float
   });
 }
 
+// The light of each pixel `made`; empty where all have the picture's.
+Grid<GroundLight> local_lights(const GuidanceBuffers& g, const ToneParameters& p, PixelRect made) {
+  if (!p.light_field) return {};
+  Grid<GroundLight> lights(g.width(), g.height());
+  parallel_rows(made.height(), [&](int row) {
+    for (int x = made.x0; x < made.x1; ++x) {
+      const std::size_t i = lights.index(x, made.y0 + row);
+      if (!g.is_sky(i)) lights[i] = ground_light(p, glm::dvec2(g.position_m[i]) + glm::dvec2(g.origin_m));
+    }
+  });
+  return lights;
+}
+
+Grid<float> sides_of(const Grid<GroundLight>& lights) {
+  Grid<float> sides(lights.width(), lights.height());
+  for (std::size_t i = 0; i < sides.size(); ++i) sides[i] = lights[i].side;
+  return sides;
+}
+
 // How much forest lies around each wide pixel that touches a rectangle of the sheet, 0…1; other pixels hold 0.
 Grid<float> woods_around(const WideView& wide, double pixels_per_unit, PixelRect sheet_rect) {
   Grid<float> woods(wide.seen.width(), wide.seen.height(), 0.0F);
@@ -177,6 +197,11 @@ Grid<float> woods_around(const WideView& wide, double pixels_per_unit, PixelRect
 }
 
 }  // namespace
+
+GroundLight ground_light(const ToneParameters& p, glm::dvec2 place_m) {
+  if (p.light_field) return p.light_field->at(place_m);
+  return {.sun = p.sun_direction, .side = p.sun_image_x < 0.0 ? -1.0F : 1.0F};
+}
 
 Grid<float> make_tone(const GuidanceBuffers& guidance, const ToneParameters& parameters, glm::ivec2 origin_px, Progress& progress,
                       PixelRect wanted) {
@@ -211,7 +236,9 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide, con
         ribbed[i] = class_info(guidance.land_cover[i]).tone.ribs > 0.0F && steepness(guidance.slope_deg[i]) > 0.0F ? 1 : 0;
       }
   });
-  const Grid<float> ribs = make_ribs(guidance, wide, ribbed, {ppu, parameters.sun_image_x, parameters.seed}, origin_px);
+  const Grid<GroundLight> local = local_lights(guidance, parameters, made);
+  const Grid<float> ribs = make_ribs(guidance, wide, ribbed, {ppu, parameters.sun_image_x, parameters.seed, sides_of(local)}, origin_px);
+  const GroundLight everywhere{.sun = parameters.sun_direction};
   const Grid<float> woods = woods_around(wide, ppu, moved(made, origin_px.x, origin_px.y));
   const Grid<float> pool = make_image_noise(stream_seed(parameters.seed, Stream::light_pools), origin_px + glm::ivec2(made.x0, made.y0),
                                             made.width(), made.height(), ppu, 140.0, 60.0);
@@ -240,14 +267,15 @@ Grid<float> make_tone(const GuidanceBuffers& guidance, const WideView& wide, con
         value = middle_tone + (guidance.rock_tone[i] - middle_tone) / light.contrast;
       } else {
         const float fine = fineness(guidance, i, ppu);
+        const GroundLight& own = local.empty() ? everywhere : local[i];
         float raw = 0.0F;
         if (white) {
           const glm::dvec3 place = glm::dvec3(guidance.position_m[i]) + guidance.origin_m;
           const double metres_per_unit = std::max(0.01, static_cast<double>(guidance.footprint_m[i]) * ppu);
           const SnowForm form = laid.at({place.x, place.y}, metres_per_unit, ppu);
-          raw = snow_light(guidance, i, shadow[i], sky_view[i], fine, form, parameters);
+          raw = snow_light(guidance, i, shadow[i], sky_view[i], fine, form, own, parameters);
         } else {
-          raw = raw_light(guidance, i, shadow[i], sky_view[i], fine, parameters);
+          raw = raw_light(guidance, i, shadow[i], sky_view[i], fine, own, parameters);
         }
         if (ribbed[i] != 0) raw += static_cast<float>(parameters.ribs) * light.ribs * fine * ribs[i] * steepness(guidance.slope_deg[i]);
         value = std::clamp((raw - raw_black) / raw_range, id == LandCoverClass::rock || white ? -0.3F : 0.0F, white ? 1.3F : 1.05F);

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <string>
 
 #include "base/guidance_buffers.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "renderer/trace/light_field.h"
 #include "renderer/trace/wide_view.h"
 
 namespace belvedere {
@@ -35,12 +37,17 @@ struct ToneParameters {
   LightParameters light;
   glm::dvec3 sun_direction{-0.612, 0.612, 0.5};  // unit, towards the sun (x east, y north, z up)
   double sun_image_x = 1.0;                      // sun_direction · the camera's right: > 0 light from the right of the picture, -1…1
-  double ribs = 1.0;                             // strength of ribs and gullies, 0…3
-  double pixels_per_unit = 1.0;                  // as in StrokeParameters: pixels in 0.5 mm of the sheet
-  double wrap = 0.22;                            // light beyond the terminator, 0…1
-  bool winter = false;                           // open ground lies under snow
+  // Where light differs from place to place: the sunlight of each; none: sun_direction and sun_image_x everywhere.
+  std::shared_ptr<const LightField> light_field = nullptr;
+  double ribs = 1.0;             // strength of ribs and gullies, 0…3
+  double pixels_per_unit = 1.0;  // as in StrokeParameters: pixels in 0.5 mm of the sheet
+  double wrap = 0.22;            // light beyond the terminator, 0…1
+  bool winter = false;           // open ground lies under snow
   std::uint64_t seed = 1;
 };
+
+// The sunlight on the ground at a place.
+GroundLight ground_light(const ToneParameters& parameters, glm::dvec2 place_m);
 
 // Tone of every terrain pixel; that of rock comes from its relief (rock_tone) where there is one.
 // Of the rest: tone, 0…1.02 (above 1 colours stay those of full light, strokes do not); sky 0. Reads depth, position, the three

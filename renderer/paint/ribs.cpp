@@ -187,12 +187,13 @@ Grid<float> make_ribs(const GuidanceBuffers& guidance, const WideView& wide, con
       make_image_noise(stream_seed(parameters.seed, Stream::rib_strengths, 1), origin_px, width, height, ppu, 9.0, 9.0);
   const int reach_px = std::max(1, static_cast<int>(std::lround(ppu)));
   const auto reach_units = static_cast<float>(reach_px / ppu);
-  const float side = parameters.sun_side < 0.0 ? -1.0F : 1.0F;
+  const float one_side = parameters.sun_side < 0.0 ? -1.0F : 1.0F;
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       if (marked(x, y) == 0) continue;
       const std::array<float, 3> amplitude = {std::clamp(0.55F + 0.45F * slow_a(x, y), 0.05F, 1.3F),
                                               std::clamp(0.5F + 0.5F * slow_b(x, y), 0.0F, 1.3F), 1.0F};
+      const float side = parameters.sides.empty() ? one_side : parameters.sides(x, y);
       float light = 0.0F;
       for (int k = 0; k < 3; ++k) {
         const auto gain = static_cast<float>(relief_gain * rib_widths[k].sigma_units);

@@ -16,6 +16,7 @@ struct RibParameters {
   double pixels_per_unit = 1.0;  // a unit is 0.5 mm of the sheet
   double sun_side = 1.0;         // > 0: flanks that face right are lit, < 0: those that face left
   std::uint64_t seed = 1;
+  Grid<float> sides = {};  // sun_side of each pixel, -1…1, where light differs from place to place; else empty
 };
 
 // Ribs come in three widths: deviation of the noise, and how far it is integrated along the fall line.

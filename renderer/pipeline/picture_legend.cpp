@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "renderer/trace/camera_reduced.h"
-#include "renderer/trace/class_view.h"
+#include "renderer/trace/sketch/class_view.h"
 
 namespace belvedere {
 namespace {

@@ -13,10 +13,11 @@
 #include "renderer/pipeline/output_color.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/scene/scene_error.h"
-#include "renderer/trace/class_view.h"
+#include "renderer/trace/sketch/class_view.h"
 #include "renderer/world/fold_check.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/ground_plan.h"
+#include "renderer/world/light/scene_light.h"
 #include "renderer/world/lit_picture.h"
 #include "renderer/world/scene_climate.h"
 #include "renderer/world/scene_dem.h"
@@ -57,9 +58,21 @@ struct Sight {
   View view;
   std::vector<ClassArea> areas;
   Grid<LandCoverClass> classes;  // of the small picture
+  std::vector<SeenRange> ranges;
+  std::vector<ProposedLight> proposed;
 };
 
-Sight look(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
+// How the light falls on the ranges of the small picture.
+void look_at_light(Sight& sight, const LoadedScene& loaded, const TerrainModel& terrain, const Tracer& tracer, const Camera& camera,
+                   bool propose) {
+  const std::vector<SeenSlope> slopes = see_slopes(terrain, sight.view.deform.exaggeration, tracer, camera, 2);
+  sight.ranges = find_ranges(slopes);
+  light_ranges(sight.ranges, slopes, tracer, sight.view.sun_direction, make_light_field(loaded, *sight.dem, sight.view).get());
+  for (SeenRange& range : sight.ranges) range.slopes.clear();
+  if (propose) sight.proposed = propose_light(loaded, *sight.dem, sight.view, slopes, tracer);
+}
+
+Sight look(const LoadedScene& loaded, Progress& progress, const Cache& cache, bool propose) {
   const Scene& scene = loaded.scene;
   in_section("sampling", [&] { return choose_instruction_set(scene.tracing.instruction_set); });
   Sight sight;
@@ -88,19 +101,22 @@ Sight look(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   camera.width = small_width(scene.output);
   camera.height = small_height(scene.output);
   progress.begin("looking", 0.0);
-  sight.classes = trace_classes(terrain, Tracer(surface, scene.tracing), *make_camera(camera));
+  const Tracer tracer(surface, scene.tracing);
+  const std::unique_ptr<const Camera> small_camera = make_camera(camera);
+  sight.classes = trace_classes(terrain, tracer, *small_camera);
+  look_at_light(sight, loaded, terrain, tracer, *small_camera, propose);
   return sight;
 }
 
 }  // namespace
 
-SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cache& cache) {
+SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cache& cache, bool propose) {
   require_inputs(scene);
   read_output_color(scene);
   SceneReport report;
   report.inputs = scene_inputs(scene);
   ScenePaint paint = read_scene_paint(scene, progress);
-  Sight sight = look(scene, progress, cache);
+  Sight sight = look(scene, progress, cache, propose);
   paint.palette = palette_of_place(paint.palette, scene, *sight.dem);
   report.view = sight.view;
   report.judgement = judge_view(sight.region, sight.view, static_cast<double>(scene.scene.generalize.valleys.width_m));
@@ -110,6 +126,8 @@ SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cach
   report.cell_m = sight.dem->cell_m();
   report.larger_than_memory = std::move(sight.levels);
   report.land_cover = std::move(sight.areas);
+  report.ranges = std::move(sight.ranges);
+  report.proposed = std::move(sight.proposed);
   if (names_climate(scene.scene)) make_scene_climate(scene, *sight.dem, progress);
 
   std::array<double, land_cover_class_count> count{};

@@ -11,6 +11,7 @@
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/view_judgement.h"
 #include "renderer/scene/scene_file.h"
+#include "renderer/world/light/seen_ranges.h"
 #include "renderer/world/view.h"
 #include "terrain/cover/land_cover_patches.h"
 
@@ -28,14 +29,16 @@ struct SceneReport {
   std::vector<std::pair<LandCoverClass, double>> classes;  // seen in the picture, with their share of its area
   std::vector<ClassArea> land_cover;                       // where small patches are taken out: each class before and after
   std::vector<std::string> exemplars;
-  ViewJudgement judgement;  // of the picture's composition
+  ViewJudgement judgement;              // of the picture's composition
+  std::vector<SeenRange> ranges;        // how the light falls on what it shows, by falling share; without their slopes
+  std::vector<ProposedLight> proposed;  // regions of light that would help, where they were asked for
 };
 
 // Everything about a scene that shows without rendering it: files, data, terrain, the camera's place, the palette, and, from a small trace
 // of the view, whether some exemplar has texels of each class in the picture. Nothing is painted, and the ground is the picture's own, so
 // that with a cache rendering finds it made. Throws what rendering would throw, and Error(usage) for classes that have neither texels nor a
-// fallback that has.
-SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cache& cache = no_cache());
+// fallback that has. `propose`: whether to look for regions of light that would help ranges in shade.
+SceneReport check_scene(const LoadedScene& scene, Progress& progress, const Cache& cache = no_cache(), bool propose = false);
 
 // The exemplars of a scene as rendering would have them, and what its picture asks of them, from a small trace of the view.
 struct SceneExemplars {

@@ -53,16 +53,20 @@ struct Sun {
   const ToneParameters& light;
   glm::vec3 sun;
   glm::vec3 fill;  // towards the sky opposite
+  float strength;  // of sunlight
 
-  explicit Sun(const ToneParameters& p) : light(p), sun(p.sun_direction), fill(glm::normalize(glm::vec3(-sun.x, -sun.y, 0.35F))) {}
+  Sun(const ToneParameters& p, const RockPixel& at)
+      : light(p),
+        sun(at.own_light ? at.own_light->sun : p.sun_direction),
+        fill(glm::normalize(glm::vec3(-sun.x, -sun.y, 0.35F))),
+        strength(static_cast<float>(p.light.sun) * (at.own_light ? at.own_light->strength : 1.0F)) {}
 
   // Tone of a normal.
   float operator()(glm::vec3 normal, float shadow, float sky_share) const {
     const auto wrap = static_cast<float>(light.wrap);
     const float facing = unit((glm::dot(normal, sun) + wrap) / (1.0F + wrap));
     const float direct = facing * (1.0F - static_cast<float>(light.light.shadow_depth) * (1.0F - shadow));
-    const float value = static_cast<float>(light.light.sun) * direct +
-                        static_cast<float>(light.light.sky) * sky_share * (0.6F + 0.4F * normal.z) +
+    const float value = strength * direct + static_cast<float>(light.light.sky) * sky_share * (0.6F + 0.4F * normal.z) +
                         fill_strength * (0.5F * glm::dot(normal, fill) + 0.2F);
     return middle_tone + ((value - raw_black) / raw_range - middle_tone) * class_info(LandCoverClass::rock).tone.contrast + lift;
   }
@@ -117,7 +121,7 @@ SunWay way_to_sun(const RockKind& kind, const ToneParameters& light, const RockP
   SunWay way;
   if (hits[0].spur == nullptr) return way;
   const glm::vec3 normal = hits[0].spur->normal;
-  const glm::vec3 sun(light.sun_direction);
+  const glm::vec3 sun(p.own_light ? p.own_light->sun : light.sun_direction);
   const float out = glm::dot(normal, sun);
   const glm::vec3 downhill(normal.x * normal.z, normal.y * normal.z, normal.z * normal.z - 1.0F);
   const float fall = glm::length(downhill);
@@ -143,7 +147,7 @@ float sun_past(const RockKind& kind, const SunWay& way, float height, float own_
 
 RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool winter, const RockPixel& p, const SpurHits& hits,
                     float sun_share) {
-  const Sun sun(light);
+  const Sun sun(light, p);
   const float stands = stands_out(hits);
   glm::vec3 base = p.normal;
   if (hits[1].spur != nullptr) base = glm::normalize(p.normal * (1.0F - flatness) + hits[1].spur->normal * flatness);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "renderer/paint/light.h"
 #include "renderer/paint/rock_kinds.h"
@@ -27,7 +28,8 @@ struct RockPixel {
   float line_noise = 0.0F;
   float cover_noise = 0.0F;
   int band = 0;
-  float scale = 1.0F;  // pixels in a unit: what is smaller than some pixels is left out
+  float scale = 1.0F;                         // pixels in a unit: what is smaller than some pixels is left out
+  std::optional<GroundLight> own_light = {};  // where light differs from place to place
 };
 
 // What a place of rock shows.

@@ -130,6 +130,7 @@ RockPixel pixel_at(const RockScene& s, int x, int y, PixelRect made) {
   p.altitude_m = g.altitude_m[i];
   p.east_m = static_cast<double>(g.position_m[i].x) + g.origin_m.x;
   p.north_m = static_cast<double>(g.position_m[i].y) + g.origin_m.y;
+  if (s.parameters.light.light_field) p.own_light = s.parameters.light.light_field->at({p.east_m, p.north_m});
   p.metres_per_unit = g.footprint_m[i] * static_cast<float>(s.pixels_per_unit);
   p.rock = value_on_surface(s.wide, s.around.rock, sheet_x, sheet_y, p.depth_m);
   p.turf = value_on_surface(s.wide, s.around.turf, sheet_x, sheet_y, p.depth_m);

@@ -192,6 +192,30 @@ struct SceneAir {
   std::vector<SceneMist> mist;
 };
 
+struct SceneLightRegion {  // a part of the map with a light of its own: see renderer/trace/light_field.h
+  std::string name;
+  std::optional<glm::dvec2> position;         // a circle: its middle, E, N in the scene's CRS
+  std::optional<glm::dvec2> position_lonlat;  // or longitude, latitude
+  std::optional<double> radius_m;
+  std::vector<glm::dvec2> points, points_lonlat;  // or the corners of an outline
+  std::string file, layer, where;                 // or the areas of a vector file
+  std::string origin, licence, get_from;
+  bool optional = false;                                      // missing file: left out with a note instead of an error
+  std::optional<double> azimuth_deg, altitude_deg, turn_deg;  // of its sun; absent: the scene's
+  double strength = LightRegion{}.strength;
+  double warmth = LightRegion{}.warmth;
+  double blend_m = LightRegion{}.blend_m;
+};
+
+struct SceneLightCloud {  // the shadow of a cloud
+  std::string name;
+  std::optional<glm::dvec2> position;
+  std::optional<glm::dvec2> position_lonlat;
+  double radius_m = CloudShadow{}.radius_m;
+  double strength = CloudShadow{}.strength;
+  std::optional<double> blend_m;  // absent: as wide as the radius
+};
+
 // One exemplar: painted by the program (picture empty), or a picture with a class mask and perhaps guides.
 struct SceneExemplar {
   std::string picture;            // file; empty: the program paints one
@@ -299,6 +323,8 @@ struct Scene {
   TracerParameters tracing;  // its instruction set is pinned where other machines must give the same picture
   LightParameters light;
   WaterParameters water;
+  std::vector<SceneLightRegion> light_regions;
+  std::vector<SceneLightCloud> light_clouds;
   SceneAir air;
   std::string sky = "any";               // a kind of clouds.h
   std::string palette = "summer";        // built-in name or file

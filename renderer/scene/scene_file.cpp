@@ -60,6 +60,17 @@ class ValueReader {
     const std::vector<double> four = numbers(4, 4);
     *field = {four[0], four[1], four[2], four[3]};
   }
+  void operator()(std::vector<glm::dvec2>* field) const {
+    constexpr std::size_t least = 3;
+    constexpr std::size_t most = 1000;
+    const auto* array = std::get_if<ConfigArray>(&value_.value);
+    if (array == nullptr || array->size() < least || array->size() > most) wrong(value_);
+    field->clear();
+    for (const ConfigValue& entry : *array) {
+      const std::vector<double> place = numbers(entry, 2, 2);
+      field->emplace_back(place[0], place[1]);
+    }
+  }
   void operator()(std::vector<float>* field) const {
     constexpr std::size_t most_bands = 12;
     const std::vector<double> list = numbers(1, most_bands);
@@ -145,9 +156,10 @@ class ValueReader {
     return *whole;
   }
 
-  std::vector<double> numbers(std::size_t least, std::size_t most) const {
-    const auto* array = std::get_if<ConfigArray>(&value_.value);
-    if (array == nullptr || array->size() < least || array->size() > most) wrong(value_);
+  std::vector<double> numbers(std::size_t least, std::size_t most) const { return numbers(value_, least, most); }
+  std::vector<double> numbers(const ConfigValue& at, std::size_t least, std::size_t most) const {
+    const auto* array = std::get_if<ConfigArray>(&at.value);
+    if (array == nullptr || array->size() < least || array->size() > most) wrong(at);
     std::vector<double> out;
     for (std::size_t i = 0; i < array->size(); ++i) {
       SceneRange range = key_.range;

@@ -151,6 +151,19 @@ class Rules {
     }
   }
 
+  void light() {
+    for (std::size_t i = 0; i < scene_.light_regions.size(); ++i) {
+      const SceneLightRegion& region = scene_.light_regions[i];
+      const std::string name = fmt::format("light.regions.{}", i);
+      const bool circle = region.position || region.position_lonlat;
+      if (!circle && region.points.empty() && region.points_lonlat.empty() && region.file.empty())
+        refuse(name, name + " has no place", "position = [E, N] or position_lonlat with a radius_m, points, points_lonlat, or a file");
+      if (circle && !region.radius_m) refuse(name, name + " is a circle without a radius", "radius_m = 5000");
+    }
+    for (std::size_t i = 0; i < scene_.light_clouds.size(); ++i)
+      require_position(fmt::format("light.clouds.{}", i), scene_.light_clouds[i].position, scene_.light_clouds[i].position_lonlat);
+  }
+
   void sampling() {
     const int samples = scene_.sampling.pixel_samples;
     const int side = static_cast<int>(std::lround(std::sqrt(samples)));
@@ -291,6 +304,7 @@ void apply_scene_rules(Scene& scene, const ConfigValue& root, const SceneOrigin&
   rules.generalize();
   rules.deform();
   rules.mist();
+  rules.light();
   rules.sampling();
   rules.camera();
   rules.exemplars();

@@ -26,6 +26,13 @@ const std::vector<SceneExclusion>& scene_exclusions() {
       {"deform.summits", {"position"}, {"position_lonlat"}},
       {"deform.handles", {"position"}, {"position_lonlat"}},
       {"air.mist", {"position"}, {"position_lonlat"}},
+      {"light.regions", {"position"}, {"position_lonlat", "points", "points_lonlat", "file"}},
+      {"light.regions", {"position_lonlat"}, {"points", "points_lonlat", "file"}},
+      {"light.regions", {"points"}, {"points_lonlat", "file", "radius_m"}},
+      {"light.regions", {"points_lonlat"}, {"file", "radius_m"}},
+      {"light.regions", {"file"}, {"radius_m"}},
+      {"light.regions", {"azimuth_deg"}, {"turn_deg"}},
+      {"light.clouds", {"position"}, {"position_lonlat"}},
       {"sun", {"time"}, {"azimuth_deg", "altitude_deg"}},
       {"exemplar", {"guidance"}, {"classes", "altitude", "altitude_range_m"}},
       {"exemplar", {"picture"}, {"width", "height", "seed"}},
@@ -87,6 +94,9 @@ std::string describe_type(const SceneKey& key) {
     }
     std::string operator()(std::array<double, 2>*) const { return "two numbers, [lower, upper]"; }
     std::string operator()(std::optional<std::array<double, 4>>*) const { return "four numbers, [min E, min N, max E, max N]"; }
+    std::string operator()(std::vector<glm::dvec2>*) const {
+      return key.lonlat ? "three places or more, [[longitude, latitude], …]" : "three places or more, [[E, N], …]";
+    }
     std::string operator()(std::vector<float>*) const { return "1 to 12 numbers, [a, b, …]"; }
     std::string operator()(std::optional<LandCoverClass>*) const { return "a class name"; }
     std::string operator()(std::vector<LandCoverClass>*) const { return "a list of class names"; }

@@ -21,9 +21,9 @@ namespace belvedere {
 // The value of a key inside a Scene. Its C++ type decides the type in the file; defaults are those of a fresh Scene.
 using SceneField =
     std::variant<bool*, int*, std::uint64_t*, double*, float*, std::string*, std::optional<double>*, std::optional<glm::dvec2>*,
-                 std::array<double, 2>*, std::optional<std::array<double, 4>>*, std::vector<float>*, std::optional<LandCoverClass>*,
-                 std::vector<LandCoverClass>*, std::vector<std::string>*, std::vector<std::pair<std::string, double>>*,
-                 std::vector<std::pair<LandCoverClass, LandCoverClass>>*>;
+                 std::array<double, 2>*, std::optional<std::array<double, 4>>*, std::vector<glm::dvec2>*, std::vector<float>*,
+                 std::optional<LandCoverClass>*, std::vector<LandCoverClass>*, std::vector<std::string>*,
+                 std::vector<std::pair<std::string, double>>*, std::vector<std::pair<LandCoverClass, LandCoverClass>>*>;
 
 // What a text means, so that it can be checked.
 enum class TextKind {

@@ -2,6 +2,131 @@
 
 namespace belvedere {
 
+namespace {
+
+SceneSection make_light_region_section() {
+  return {
+      .name = "light.regions",
+      .kind = SectionKind::list,
+      .meaning =
+          "One block for each part of the map that has a light of its own, so that a range that would stand in shade turns to the "
+          "light; see light.md. A circle, an outline, or the areas of a file; later blocks lie over earlier ones.",
+      .keys =
+          {
+              {.name = "name", .field = AT(light_regions[i].name), .meaning = "For messages."},
+              {.name = "position",
+               .field = AT(light_regions[i].position),
+               .range = {-largest_m, largest_m},
+               .unit = "m",
+               .meaning = "The middle of a circle, [E, N] in the scene's CRS."},
+              {.name = "position_lonlat",
+               .field = AT(light_regions[i].position_lonlat),
+               .unit = "°",
+               .meaning = "The middle, [longitude, latitude]; instead of position.",
+               .lonlat = true},
+              {.name = "radius_m",
+               .field = AT(light_regions[i].radius_m),
+               .range = {1, 1e6},
+               .unit = "m",
+               .meaning = "Radius of the circle, in which its light holds in full."},
+              {.name = "points",
+               .field = AT(light_regions[i].points),
+               .range = {-largest_m, largest_m},
+               .unit = "m",
+               .meaning = "The corners of an outline, [[E, N], …], instead of a circle."},
+              {.name = "points_lonlat",
+               .field = AT(light_regions[i].points_lonlat),
+               .unit = "°",
+               .meaning = "The corners by longitude and latitude.",
+               .lonlat = true},
+              {.name = "file",
+               .field = AT(light_regions[i].file),
+               .meaning = "A .gpkg, .geojson, .shp or .fgb file, whose areas all have this light; instead of a circle.",
+               .text = TextKind::file},
+              {.name = "layer", .field = AT(light_regions[i].layer), .meaning = "The layer of the file; without it all."},
+              {.name = "where",
+               .field = AT(light_regions[i].where),
+               .meaning = "Only areas of which this is true, as in SQL: \"name = 'Vomper Kette'\"."},
+              {.name = "origin",
+               .field = AT(light_regions[i].origin),
+               .meaning = "Who made the file; shown by check, kept in the headers."},
+              {.name = "licence", .field = AT(light_regions[i].licence), .meaning = "Its licence."},
+              {.name = "get_from", .field = AT(light_regions[i].get_from), .meaning = "Where to get it; shown when it is missing."},
+              {.name = "optional",
+               .field = AT(light_regions[i].optional),
+               .meaning = "Leave the block out with a note where its file is missing, instead of an error."},
+              {.name = "azimuth_deg",
+               .field = AT(light_regions[i].azimuth_deg),
+               .range = {-360, 720},
+               .unit = "°",
+               .meaning = "Where its sun stands, clockwise from north; without it, and without turn_deg, where the scene's does."},
+              {.name = "turn_deg",
+               .field = AT(light_regions[i].turn_deg),
+               .range = {-180, 180},
+               .unit = "°",
+               .meaning = "How far its sun stands clockwise from the scene's; instead of azimuth_deg."},
+              {.name = "altitude_deg",
+               .field = AT(light_regions[i].altitude_deg),
+               .range = {1, 90},
+               .unit = "°",
+               .meaning = "How high its sun stands; without it as high as the scene's."},
+              {.name = "strength",
+               .field = AT(light_regions[i].strength),
+               .range = {0, 2},
+               .meaning = "Factor of the sunlight: less than 1 subdues a range, more lifts it."},
+              {.name = "warmth",
+               .field = AT(light_regions[i].warmth),
+               .range = {-1, 1},
+               .meaning = "How far the lit colours of the palette go over to warm ones, or below 0 to cool ones; shade keeps its colours."},
+              {.name = "blend_m",
+               .field = AT(light_regions[i].blend_m),
+               .range = {0, 1e6},
+               .unit = "m",
+               .meaning = "Over so much ground outside, its light goes over to that of what lies around."},
+          },
+      .count = [](const Scene& s) { return s.light_regions.size(); },
+      .resize = [](Scene& s, std::size_t n) { s.light_regions.resize(n); }};
+}
+
+SceneSection make_light_cloud_section() {
+  return {.name = "light.clouds",
+          .kind = SectionKind::list,
+          .meaning =
+              "One block for each cloud shadow: a dark patch with soft, lobed edges that sets off what stands lit behind it or before it.",
+          .keys =
+              {
+                  {.name = "name", .field = AT(light_clouds[i].name), .meaning = "For messages."},
+                  {.name = "position",
+                   .field = AT(light_clouds[i].position),
+                   .range = {-largest_m, largest_m},
+                   .unit = "m",
+                   .meaning = "Its middle, [E, N] in the scene's CRS."},
+                  {.name = "position_lonlat",
+                   .field = AT(light_clouds[i].position_lonlat),
+                   .unit = "°",
+                   .meaning = "Its middle, [longitude, latitude]; instead of position.",
+                   .lonlat = true},
+                  {.name = "radius_m",
+                   .field = AT(light_clouds[i].radius_m),
+                   .range = {10, 1e6},
+                   .unit = "m",
+                   .meaning = "How far it reaches, about."},
+                  {.name = "strength",
+                   .field = AT(light_clouds[i].strength),
+                   .range = {0, 1},
+                   .meaning = "Share of the sunlight that it takes."},
+                  {.name = "blend_m",
+                   .field = AT(light_clouds[i].blend_m),
+                   .range = {0, 1e6},
+                   .unit = "m",
+                   .meaning = "Width of its soft edge; without it as wide as its radius."},
+              },
+          .count = [](const Scene& s) { return s.light_clouds.size(); },
+          .resize = [](Scene& s, std::size_t n) { s.light_clouds.resize(n); }};
+}
+
+}  // namespace
+
 std::vector<SceneSection> make_light_sections() {
   std::vector<SceneSection> sections;
   sections.push_back(
@@ -26,6 +151,8 @@ std::vector<SceneSection> make_light_sections() {
             .text = TextKind::choice,
             .choices = {"ramp", "product"}},
        }});
+  sections.push_back(make_light_region_section());
+  sections.push_back(make_light_cloud_section());
   return sections;
 }
 

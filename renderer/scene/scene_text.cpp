@@ -39,6 +39,11 @@ struct ValueWriter {
   }
   std::string operator()(const std::array<double, 2>* field) const { return bracketed(*field); }
   std::string operator()(const std::optional<std::array<double, 4>>* field) const { return *field ? bracketed(**field) : ""; }
+  std::string operator()(const std::vector<glm::dvec2>* field) const {
+    std::vector<std::string> places;
+    for (const glm::dvec2 place : *field) places.push_back(bracketed(std::array{place.x, place.y}));
+    return places.empty() ? "" : bracketed(places);
+  }
   // An empty set of weights is none: nothing is written.
   std::string operator()(const std::vector<float>* field) const { return field->empty() ? "" : bracketed(*field); }
   std::string operator()(const std::optional<LandCoverClass>* field) const { return *field ? json_quoted(class_name(**field)) : ""; }
@@ -125,7 +130,11 @@ struct SchemaOfField {
     return Json::object().add("anyOf",
                               Json::array({number_schema("number", key.range), typed("string").add("enum", Json::texts({"auto"}))}));
   }
-  Json operator()(std::optional<glm::dvec2>*) const {
+  Json operator()(std::optional<glm::dvec2>*) const { return place(); }
+  Json operator()(std::vector<glm::dvec2>*) const {
+    return typed("array").add("items", place()).add("minItems", Json::number(3)).add("maxItems", Json::number(1000));
+  }
+  Json place() const {
     if (!key.lonlat) return list(2, 2);
     return typed("array")
         .add("items", Json::array({number_schema("number", {-180.0, 180.0}), number_schema("number", {-90.0, 90.0})}))

@@ -121,6 +121,21 @@ void trace_primary(const Tracing& t, glm::ivec2 corner, BlockSamples& samples) {
   }
 }
 
+// The sun of each pixel of a block; false where all have the picture's.
+bool local_suns(const Tracing& t, const BlockSamples& samples, const std::array<std::size_t, trace_block_pixels>& chosen,
+                std::array<glm::dvec3, trace_block_pixels>& suns) {
+  suns.fill(t.parameters.sun_direction);
+  if (!t.parameters.light_field || !t.parameters.light_field->turns_sun()) return false;
+  bool turned = false;
+  for (std::size_t i = 0; i < trace_block_pixels; ++i) {
+    const Hit& hit = samples[i * t.pixel_places.size() + chosen[i]].hit;
+    if (!hit.found) continue;
+    suns[i] = t.parameters.light_field->at(ground_of(t.terrain, hit.window).dem->transform.to_crs(hit.column, hit.row)).sun;
+    turned = turned || suns[i] != t.parameters.sun_direction;
+  }
+  return turned;
+}
+
 // Traces one block and writes those of its pixels that lie in the region.
 void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, GuidanceBuffers& out) {
   thread_local BlockSamples samples;
@@ -145,7 +160,10 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
   BlockValues sky{};
   if (any_terrain) {
     if (t.parameters.sun_direction.z > 0.0) {
-      sun = trace_sun(t.tracer, block, t.sun_places, t.parameters.sun_direction, t.parameters.sun_radius_rad);
+      std::array<glm::dvec3, trace_block_pixels> own;
+      const bool turned = local_suns(t, samples, chosen, own);
+      sun = trace_sun(t.tracer, block, t.sun_places, turned ? std::span<const glm::dvec3>(own) : std::span(&t.parameters.sun_direction, 1),
+                      t.parameters.sun_radius_rad);
     }
     sky = trace_sky(t.tracer, block, t.sky_directions, t.parameters.sampling.sky_reach_m);
   }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <memory>
 
 #include "base/angle.h"
 #include "base/guidance_buffers.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "renderer/trace/camera.h"
+#include "renderer/trace/light_field.h"
 #include "renderer/trace/sampling.h"
 #include "renderer/trace/sun.h"
 #include "renderer/trace/terrain_model.h"
@@ -20,7 +22,9 @@ struct GuidanceParameters {
   double shadow_bias_m = 0.05;                   // start of secondary rays above the facet, 0…100
   glm::dvec3 sun_direction{-0.612, 0.612, 0.5};  // unit, towards the sun (x east, y north, z up); z <= 0: all terrain in shadow
   double sun_radius_rad = to_radians(painted_sun_radius_deg);  // radius of the disc: softness of cast shadows, 0…0.5
-  int tile_size = 32;                                          // px, 8…4096; changes no bit of the result
+  // Where light differs from place to place: the suns that shadows are cast from; none: sun_direction everywhere.
+  std::shared_ptr<const LightField> light_field = nullptr;
+  int tile_size = 32;  // px, 8…4096; changes no bit of the result
 };
 
 // Traces a rectangle of the picture: the channels whose maker is ChannelMaker::trace (base/guidance_channels.h). The buffers have the

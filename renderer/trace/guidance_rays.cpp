@@ -41,6 +41,17 @@ class RayBatch {
   std::vector<std::uint8_t> blocked_;
 };
 
+// The way to the sun and the axes of its disc.
+struct SunFrame {
+  glm::dvec3 sun{0.0, 0.0, 1.0}, side{1.0, 0.0, 0.0}, above{0.0, 1.0, 0.0};
+
+  SunFrame() = default;
+  explicit SunFrame(glm::dvec3 direction)
+      : sun(glm::normalize(direction)),
+        side(glm::normalize(glm::cross(sun, std::abs(sun.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)))),
+        above(glm::cross(side, sun)) {}
+};
+
 // Each thread keeps its own, so that tracing allocates nothing.
 RayBatch& thread_batch() {
   thread_local RayBatch batch;
@@ -92,13 +103,12 @@ std::vector<SkyDirection> sky_directions(int per_pixel) {
   return all;
 }
 
-BlockValues trace_sun(const Tracer& tracer, const BlockSurface& block, std::span<const glm::dvec2> places, glm::dvec3 sun_direction,
+BlockValues trace_sun(const Tracer& tracer, const BlockSurface& block, std::span<const glm::dvec2> places, std::span<const glm::dvec3> suns,
                       double sun_radius_rad) {
   BlockValues lit{};
   const int count = static_cast<int>(places.size());
-  const glm::dvec3 sun = glm::normalize(sun_direction);
-  const glm::dvec3 side = glm::normalize(glm::cross(sun, std::abs(sun.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
-  const glm::dvec3 above = glm::cross(side, sun);
+  std::array<SunFrame, trace_block_pixels> frames;
+  for (std::size_t i = 0; i < suns.size(); ++i) frames[i] = SunFrame(suns[i]);
   const double spread = exact::tan(sun_radius_rad);
   std::array<glm::dvec2, trace_block_pixels> turn;
   const std::uint64_t turns = stream_seed(0, Stream::sun_rays);  // shadows are the same whatever the seed of strokes
@@ -110,7 +120,8 @@ BlockValues trace_sun(const Tracer& tracer, const BlockSurface& block, std::span
   const auto towards = [&](int pixel, int k) {
     const glm::dvec2 t = turn[static_cast<std::size_t>(pixel)];
     const glm::dvec2 p = places[static_cast<std::size_t>(k)];
-    return glm::normalize(sun + side * (spread * (p.x * t.x - p.y * t.y)) + above * (spread * (p.x * t.y + p.y * t.x)));
+    const SunFrame& f = frames[suns.size() == 1 ? 0 : static_cast<std::size_t>(pixel)];
+    return glm::normalize(f.sun + f.side * (spread * (p.x * t.x - p.y * t.y)) + f.above * (spread * (p.x * t.y + p.y * t.x)));
   };
   RayBatch& batch = thread_batch();
   // The outermost two places first. In a bundle whose 32 rays all agree there is no penumbra, and the other places are not asked.

@@ -47,8 +47,9 @@ struct BlockSurface {
 };
 using BlockValues = std::array<float, trace_block_pixels>;
 
-// Part of the sun's disc that each pixel sees: 1 lit. `places` in the unit disc are turned by an angle of each pixel's own.
-BlockValues trace_sun(const Tracer& tracer, const BlockSurface& block, std::span<const glm::dvec2> places, glm::dvec3 sun_direction,
+// Part of the sun's disc that each pixel sees: 1 lit. `places` in the unit disc are turned by an angle of each pixel's own. `suns`: the way
+// to the sun, one for all pixels or one for each.
+BlockValues trace_sun(const Tracer& tracer, const BlockSurface& block, std::span<const glm::dvec2> places, std::span<const glm::dvec3> suns,
                       double sun_radius_rad);
 // Part of each pixel's own directions in which nothing stands within reach; to be smoothed by mean_of_squares.
 BlockValues trace_sky(const Tracer& tracer, const BlockSurface& block, std::span<const SkyDirection> directions, double reach_m);

@@ -55,6 +55,7 @@ ToneParameters to_tone_parameters(const World& world, const Palette& palette, co
   parameters.sun_direction = world.view.sun_direction;
   parameters.pixels_per_unit = view.pixels_per_unit;
   parameters.sun_image_x = world.view.sun_image_x;
+  parameters.light_field = world.light_field;
   parameters.winter = palette.winter;
   parameters.seed = world.scene.seed;
   return parameters;
@@ -73,6 +74,7 @@ BaseParameters to_unlit_parameters(const World& world, const SheetView& view, co
   parameters.horizon_px = view.horizon_px;
   parameters.rock = &find_rock_kind(world.scene.land_cover.rock);
   parameters.sun_image_x = world.view.sun_image_x;
+  parameters.light_field = world.light_field;
   parameters.sunny_side = find_sunny_side(world);
   parameters.pixels_per_unit = view.pixels_per_unit;
   parameters.seed = world.scene.seed;
@@ -101,6 +103,7 @@ StrokeParameters to_stroke_parameters(const World& world, const Palette& palette
   parameters.pixels_per_unit = view.pixels_per_unit;
   parameters.winter = palette.winter;
   parameters.sun_side = world.view.sun_image_x < 0.0 ? -1.0 : 1.0;
+  if (world.light_field) parameters.local_side = [field = world.light_field](glm::dvec2 place_m) { return field->at(place_m).side; };
   parameters.seed = world.scene.seed;
   parameters.leaves = palette.growth.leaves;
   parameters.leaf_share = palette.growth.leaf_share;
@@ -147,6 +150,7 @@ GuidanceBuffers trace_view(const World& world, const SheetView& view, PixelRect 
   GuidanceParameters parameters;
   parameters.sampling = world.scene.sampling;
   parameters.sun_direction = world.view.sun_direction;
+  parameters.light_field = world.light_field;
   parameters.sun_radius_rad = to_radians(world.scene.sun.radius_deg);
   parameters.tile_size = run.tile_px;
   return trace_guidance(world.terrain, world.surface, world.tracer, view.camera, parameters, region, run.progress);

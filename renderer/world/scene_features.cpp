@@ -108,7 +108,8 @@ DrawnFeatures draw_scene_features(const LoadedScene& loaded, const World& world,
                                       {.winter = winter,
                                        .px_per_mm = world.scene.output.width / world.scene.output.sheet_width_mm,
                                        .seed = world.scene.seed,
-                                       .sun = world.view.sun_direction},
+                                       .sun = world.view.sun_direction,
+                                       .light_field = world.light_field},
                                       map != nullptr ? std::span(map->courses()) : std::span<const CoverCourse>());
   check_extents(set, *world.dem);
   return drawn;

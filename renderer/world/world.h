@@ -33,6 +33,7 @@ struct World {
   const std::shared_ptr<const Dem> dem;  // of a DEM that is larger than memory the whole in coarse cells: terrain has finer windows
   const View view;                       // camera and sun on this DEM
   const std::unique_ptr<const Camera> camera;
+  const std::shared_ptr<const LightField> light_field;  // null: one light everywhere
   const std::shared_ptr<const LandCover> land_cover;
   const Deformation deformation;
   const TerrainModel terrain;     // generalized for this view, and all that a pixel may ask of the ground

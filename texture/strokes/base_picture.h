@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -25,6 +27,8 @@ struct StrokeParameters {
   double pixels_per_unit = 1.0;  // a unit is 0.5 mm of the sheet: 1 at 2400 px on 1.2 m; 0.1…50
   bool winter = false;
   double sun_side = 1.0;  // -1 light from the left … +1 from the right of the picture
+  // The same at a place of the map, where light differs from place to place; none: sun_side everywhere.
+  std::function<float(glm::dvec2 place_m)> local_side = nullptr;
   std::uint64_t seed = 1;
   std::vector<glm::vec3> leaves;  // colours of leafy trees in full light, of bare twigs in winter, encoded sRGB; none: only the ground's
   double leaf_share = 0.0;        // how far leafy trees take them, 0…1

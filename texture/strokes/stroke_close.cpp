@@ -130,7 +130,7 @@ std::vector<Stroke> ground_stones(const StrokeScene& scene, Stream stream) {
       const float size = stone.units * scene.scale();  // px
       const float clear = 1.F - std::clamp(scene.base.haze[stone.pixel], 0.F, 1.F);
       const float lit = std::clamp(scene.guidance.tone[stone.pixel], 0.F, 1.F);
-      const float sun = static_cast<float>(scene.parameters.sun_side);
+      const float sun = scene.sun_side(stone.pixel);
       const float flat = seed.between(0.5F, 0.8F);
       const float lean = seed.between(-0.15F, 0.15F) * size;
       // Its shadow on the ground, away from the sun; its body; the edge that the sun meets.
@@ -180,7 +180,7 @@ std::vector<Stroke> grass_tufts(const StrokeScene& scene, Stream stream) {
         set_line(blade, root, root + glm::vec2((0.35F * spread + wind) * height, -height), 0.26F * size, 0.1F * size);
         blade.alpha = 0.75F;
         // Dark at the back, light where the sun falls in from its side.
-        const float light = spread * static_cast<float>(scene.parameters.sun_side);
+        const float light = spread * scene.sun_side(tuft.pixel);
         blade.colour = scene.colour(tuft.pixel, b % 2 == 0 ? -0.9F : 0.5F * light, paint_jitter * 1.3F, seed);
         if (b % 2 != 0) blade.colour += clear * lit * glm::vec3(0.05F, 0.045F, -0.01F);
         out.push_back(blade);

@@ -26,7 +26,7 @@ bool is_open_at(const StrokeScene& scene, std::size_t i, glm::vec2 place) {
 
 // What a tree of the forest's edge looks like: lit from the side that is open to the sun, dark before the open ground at its foot.
 TreeTone edge_tone(const StrokeScene& scene, std::size_t i, glm::vec2 foot, float lighter) {
-  const auto side = static_cast<float>(scene.parameters.sun_side);
+  const float side = scene.sun_side(i);
   const float unit = scene.scale();
   TreeTone tone{.lighter = lighter};
   if (is_open_at(scene, i, foot + glm::vec2(5.5F * side, -1.F) * unit)) tone.rim += 0.6F;
@@ -73,7 +73,7 @@ float canopy_at(const StrokeScene& scene, std::size_t i) {
 
 // How far the canopy falls off towards the sun: > 0 on the light side of a group, < 0 on its dark side.
 float lit_side(const StrokeScene& scene, std::size_t i, glm::vec2 place, float canopy) {
-  const auto side = static_cast<float>(scene.parameters.sun_side);
+  const float side = scene.sun_side(i);
   const glm::vec2 there = place + glm::vec2(4.5F * side, -2.F) * scene.scale();
   if (!scene.on_canvas(there)) return 0.F;
   const std::size_t k = scene.pixel(there);

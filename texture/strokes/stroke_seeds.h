@@ -62,6 +62,11 @@ struct StrokeScene {
   // Row-major index on the sheet of a pixel of the buffers.
   std::uint64_t sheet_index(std::size_t i) const;
 
+  // Where the light at a pixel comes from: -1 left … 1 right.
+  float sun_side(std::size_t i) const {
+    if (!parameters.local_side) return static_cast<float>(parameters.sun_side);
+    return parameters.local_side(glm::dvec2(guidance.position_m[i]) + glm::dvec2(guidance.origin_m));
+  }
   float scale() const { return static_cast<float>(parameters.pixels_per_unit); }
   LandCoverClass class_at(std::size_t i) const { return guidance.land_cover[i]; }
   // Index of the pixel under a place; the place must be on the canvas. Whole pixels are told before the origin is taken off, so that no

@@ -154,7 +154,7 @@ struct House {
 
 // A shadow away from the sun, a lit front, a gable in shade, a roof over them with its sunny edge.
 void build(const StrokeScene& scene, const House& house, std::size_t i, StrokeSeed& seed, std::vector<Stroke>& out) {
-  const auto side = static_cast<float>(scene.parameters.sun_side);
+  const float side = scene.sun_side(i);
   const float tone = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
   const float light = 0.62F + 0.42F * tone;
   Stroke body = standing_stroke(scene, i);
@@ -205,7 +205,7 @@ void build(const StrokeScene& scene, const House& house, std::size_t i, StrokeSe
 
 // A tree in a garden: a dark crown and its sunny side.
 void plant_garden(const StrokeScene& scene, glm::vec2 foot, float width, std::size_t i, StrokeSeed& seed, std::vector<Stroke>& out) {
-  const auto side = static_cast<float>(scene.parameters.sun_side);
+  const float side = scene.sun_side(i);
   const float light = 0.62F + 0.42F * std::clamp(scene.guidance.tone[i], 0.F, 1.F);
   const glm::vec3 crown = (scene.parameters.winter ? bare : leaves) + 0.03F * seed.normal();
   Stroke body = standing_stroke(scene, i);
@@ -266,7 +266,7 @@ void build_church(const StrokeScene& scene, glm::vec2 foot, float unit, std::siz
   Stroke tower = standing_stroke(scene, i);
   tower.order = tower.depth_m - 3.F;
   tower.gate = StrokeGate::upright;
-  const auto side = static_cast<float>(scene.parameters.sun_side);
+  const float side = scene.sun_side(i);
   const glm::vec2 base = foot + glm::vec2(-1.9F * side * unit, 0.F);
   const float light = 0.62F + 0.42F * std::clamp(scene.guidance.tone[i], 0.F, 1.F);
   set_line(tower, base, base + glm::vec2(0.F, -3.6F * unit), 1.3F * unit, 1.2F * unit);

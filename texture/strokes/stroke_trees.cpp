@@ -31,7 +31,7 @@ glm::vec3 dark_side(const StrokeScene& scene, std::size_t i, const TreeTone& ton
 void shade_ground(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, StrokeSeed& seed,
                   std::vector<Stroke>& out) {
   const float light = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
-  const auto side = static_cast<float>(scene.parameters.sun_side);
+  const float side = scene.sun_side(i);
   Stroke shade = upright_stroke(scene, i);
   shade.gate = StrokeGate::surface;
   shade.order = shade.depth_m + 1.F;
@@ -80,7 +80,7 @@ struct Needles {
 void plant_needles(const StrokeScene& scene, const Tree& tree, std::size_t i, const TreeTone& tone, const Needles& needles,
                    StrokeSeed& seed, std::vector<Stroke>& out) {
   const float light = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
-  const auto side = static_cast<float>(scene.parameters.sun_side);
+  const float side = scene.sun_side(i);
   shade_ground(scene, tree, i, tone, seed, out);
   // The lowest branches spread at the foot, not below it.
   const glm::vec2 foot = tree.foot - glm::vec2(0.F, 0.25F * tree.width);
@@ -144,7 +144,7 @@ void plant_leafy(const StrokeScene& scene, const Tree& tree, std::size_t i, cons
                  std::vector<Stroke>& out) {
   const float light = std::clamp(scene.guidance.tone[i], 0.F, 1.F);
   const float clear = 1.F - std::min(1.F, scene.base.haze[i]);
-  const auto side = static_cast<float>(scene.parameters.sun_side);
+  const float side = scene.sun_side(i);
   const bool bare = scene.parameters.winter;
   const Leaves leaves = leaves_at(scene, i, seed);
   shade_ground(scene, tree, i, tone, seed, out);

@@ -61,6 +61,38 @@ std::string composition_text(const ViewJudgement& judgement) {
   return out;
 }
 
+// Ranges that the light leaves in shade, and how it falls on the others.
+std::string light_text(const SceneReport& report) {
+  constexpr std::size_t most = 8;
+  std::string out;
+  bool shade = false;
+  for (std::size_t i = 0; i < std::min(report.ranges.size(), most); ++i) {
+    const SeenRange& range = report.ranges[i];
+    shade = shade || range.in_shade();
+    out += fmt::format(
+        "  around E {:.0f} N {:.0f}, {:.0f} m, {:.0f} km away, {:.0f} % of the slopes seen: {:.0f} % lit, {:.0f} % in cast shadow, "
+        "{:.0f} % turned away{}\n",
+        range.summit.x, range.summit.y, range.altitude_m, range.distance_m / 1000.0, 100.0 * range.share, 100.0 * range.lit,
+        100.0 * range.cast, 100.0 * range.away, range.in_shade() ? "; stands in shade" : "");
+  }
+  if (out.empty()) return out;
+  return "light on the main ranges:\n" + out + (shade ? "  regions that turn the light: belvedere check --propose-light\n" : "");
+}
+
+Json ranges_json(const SceneReport& report) {
+  Json out = Json::array();
+  for (const SeenRange& range : report.ranges)
+    out.add(Json::object()
+                .add("summit", Json::array({Json::number(range.summit.x), Json::number(range.summit.y), Json::number(range.altitude_m)}))
+                .add("distance_m", Json::number(range.distance_m))
+                .add("share", Json::number(range.share))
+                .add("lit", Json::number(range.lit))
+                .add("cast_shadow", Json::number(range.cast))
+                .add("turned_away", Json::number(range.away))
+                .add("in_shade", Json::boolean(range.in_shade())));
+  return out;
+}
+
 // What the scene does not say, as one could write it.
 Json derived_json(const std::vector<DerivedValue>& derived) {
   Json out = Json::object();
@@ -111,6 +143,7 @@ std::string as_json(const LoadedScene& scene, const SceneReport& report) {
              .add("land_cover", std::move(areas))
              .add("exemplars", Json::texts(report.exemplars))
              .add("composition", composition_json(report.judgement))
+             .add("ranges", ranges_json(report))
              .str() +
          "\n";
 }
@@ -135,7 +168,7 @@ std::string as_text(const LoadedScene& scene, const SceneReport& report) {
   for (const auto& [id, share] : report.classes) out += fmt::format(" {} {:.1f} %,", class_name(id), 100.0 * share);
   out.back() = '\n';
   for (const std::string& exemplar : report.exemplars) out += "painted after: " + exemplar + "\n";
-  return out + composition_text(report.judgement) + scene.name + " is in order\n";
+  return out + composition_text(report.judgement) + light_text(report) + scene.name + " is in order\n";
 }
 
 }  // namespace
@@ -144,18 +177,27 @@ Action add_check(CLI::App& command) {
   const auto options = std::make_shared<SceneOptions>();
   add_scene_options(command, *options);
   add_locked_option(command, *options);
+  const auto propose = std::make_shared<bool>(false);
+  command.add_flag("--propose-light", *propose,
+                   "Print [[light.regions]] that turn the light to ranges which stand in shade, to be put at the end of the scene");
   command.footer(
       "Looks at the scene's keys, its files, the terrain, the camera's place, and whether the exemplars\n"
       "show every class that is in the picture. Nothing is painted. Exit status 0: in order.\n\n"
       "It also judges the composition by the measures that belvedere new chooses views by, with a word on what is\n"
-      "outside of the good range; a picture may have its reasons, so that is no error.\n\n"
-      "  belvedere check scenes/karwendel.toml --data ../data");
-  return [options] {
+      "outside of the good range; a picture may have its reasons, so that is no error. And it says how the light falls on\n"
+      "the main ranges, and which of them stand in shade.\n\n"
+      "  belvedere check scenes/karwendel.toml --data ../data\n"
+      "  belvedere check scenes/karwendel.toml --data ../data --propose-light >> scenes/karwendel.toml");
+  return [options, propose] {
     const LoadedScene scene = load(*options);
     const RunLimits limits(make_run(*options));
     TerminalProgress progress(options->quiet);
-    const SceneReport report = check_scene(scene, progress, make_cache(*options));
+    const SceneReport report = check_scene(scene, progress, make_cache(*options), *propose);
     progress.end();
+    if (*propose) {
+      print_out(proposed_light_text(report.proposed));
+      return 0;
+    }
     print_out(options->json ? as_json(scene, report) : as_text(scene, report));
     return 0;
   };

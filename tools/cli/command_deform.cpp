@@ -14,7 +14,7 @@
 #include "base/parallel.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
-#include "renderer/trace/relief_sketch.h"
+#include "renderer/trace/sketch/relief_sketch.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/valley_view.h"

@@ -96,13 +96,32 @@ TEST(Base, ShadeOfWallsIsWarmAtTheirFoot) {
 // Pale and warm in every season, and never as white as snow.
 TEST(Base, SandIsPaleAndWarm) {
   const GuidanceBuffers g = make_slope(30, 20, LandCoverClass::sand, {0.0F, 0.0F, 1.0F}, 2.0F);
-  for (const char* season : {"summer", "autumn", "winter", "desert"}) {
+  for (const char* season : {"summer", "autumn", "winter", "desert", "evening", "morning"}) {
     const Palette palette = read_palette(season);
     const glm::vec3 colour = picture_of(g, plain(), season).colour(15, 10);
     EXPECT_GT(luma(colour), luma(palette_colour(palette, LandCoverClass::rock, 1200.0, 0.6))) << season;
     EXPECT_LT(luma(colour), luma(palette_colour(palette, LandCoverClass::snow, 1200.0, 0.6))) << season;
     EXPECT_GT(colour.r, colour.b) << season;
   }
+}
+
+// Warm light shifts what it lights and leaves shade to the palette.
+TEST(Base, ARegionsWarmthShiftsLitColoursAlone) {
+  BaseParameters p = plain();
+  const auto colours = [&](float tone, double warmth) {
+    GuidanceBuffers g = make_slope(8, 8, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 10.0F);
+    for (float& t : g.tone) t = tone;
+    p.light_field =
+        std::make_shared<const LightField>(glm::dvec3(0.0, 0.0, 1.0), glm::dvec2(1.0, 0.0),
+                                           std::vector{LightRegion{.radius_m = 1e5, .warmth = warmth}}, std::vector<CloudShadow>(), 1);
+    return picture_of(g, p).colour(4, 4);
+  };
+  const glm::vec3 lit = colours(0.9F, 0.0);
+  const glm::vec3 warm = colours(0.9F, 0.5);
+  EXPECT_NEAR(warm.r / lit.r, 1.05F, 1e-4F);
+  EXPECT_NEAR(warm.b / lit.b, 0.92F, 1e-4F);
+  EXPECT_NEAR(colours(0.9F, -0.5).b / lit.b, 1.08F, 1e-4F);
+  EXPECT_EQ(colours(0.2F, 1.0), colours(0.2F, 0.0));
 }
 
 TEST(Base, FarGroundTurnsIntoAirAndNearGroundIsWarm) {

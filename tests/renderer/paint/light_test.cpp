@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include "base/error.h"
 #include "tests/renderer/exemplar/painted_hills.h"
@@ -49,6 +51,68 @@ TEST(Tone, ShadowTakesItsShareOfTheSun) {
     p.light.shadow_depth = depth;
     EXPECT_NEAR(mean(tone_of(lit, p)) - mean(tone_of(dark, p)), 0.6 * depth / 0.98, 1e-3);
   }
+}
+
+// A cone seen from above, as normals and places: its eastern half under a region's sun in the east, the rest under one in the west.
+GuidanceBuffers make_cone(int size) {
+  GuidanceBuffers g = make_slope(size, size, LandCoverClass::pasture, {0.0F, 0.0F, 1.0F}, 30.0F);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const glm::vec2 out = glm::vec2(static_cast<float>(x), static_cast<float>(-y)) + glm::vec2(0.5F - 0.5F * size, 0.5F * size - 0.5F);
+      g.position_m(x, y) = glm::vec3(10.0F * out, 1200.0F);
+      g.normal(x, y) = g.normal_detail(x, y) = g.normal_smooth(x, y) = glm::normalize(glm::vec3(glm::normalize(out), 1.0F));
+    }
+  return g;
+}
+
+TEST(Tone, AConeIsLitFromTwoSides) {
+  const GuidanceBuffers cone = make_cone(96);
+  const glm::dvec3 west = glm::normalize(glm::dvec3(-1.0, 0.2, 0.7));
+  const glm::dvec3 east = glm::normalize(glm::dvec3(1.0, 0.2, 0.7));
+  ToneParameters from_west;
+  from_west.sun_direction = west;
+  from_west.sun_image_x = -1.0;
+  from_west.ribs = 0.0;
+  ToneParameters from_east = from_west;
+  from_east.sun_direction = east;
+  from_east.sun_image_x = 1.0;
+  ToneParameters both = from_west;
+  const LightRegion half{.rings = {{{100, -1000}, {1000, -1000}, {1000, 1000}, {100, 1000}}}, .blend_m = 200.0, .sun_direction = east};
+  both.light_field = std::make_shared<const LightField>(west, glm::dvec2(1.0, 0.0), std::vector{half}, std::vector<CloudShadow>(), 1);
+  const Grid<float> tone = tone_of(cone, both);
+  const Grid<float> left = tone_of(cone, from_west);
+  const Grid<float> right = tone_of(cone, from_east);
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 96; ++x) {
+      const float at = cone.position_m(x, y).x;
+      if (at < -100.0F) {
+        ASSERT_EQ(tone(x, y), left(x, y));
+      } else if (at > 100.0F) {
+        ASSERT_NEAR(tone(x, y), right(x, y), 1e-5F);
+      } else if (std::abs(at) < 10.0F) {
+        // Half of each: the sum of both suns, which stands higher and in the north.
+        ToneParameters middle = from_west;
+        middle.sun_direction = both.light_field->at({static_cast<double>(at), 0.0}).sun;
+        EXPECT_NEAR(tone(x, y), tone_of(cone, middle)(x, y), 1e-5F);
+        y += 24;
+      }
+    }
+  EXPECT_GT(tone(10, 48), 0.7F);
+  EXPECT_GT(tone(85, 48), 0.7F);
+  EXPECT_LT(right(10, 48), 0.4F);
+}
+
+// A cloud takes its share of the sunlight and nothing of the sky's.
+TEST(Tone, ACloudShadowTakesItsShareOfTheSun) {
+  const GuidanceBuffers lit = make_slope(24, 24, LandCoverClass::pasture, sun_side_normal, 10.0F);
+  ToneParameters p;
+  p.light.sun = 0.6;
+  ToneParameters clouded = p;
+  clouded.light_field = std::make_shared<const LightField>(
+      p.sun_direction, glm::dvec2(1.0, 0.0), std::vector<LightRegion>(),
+      std::vector{CloudShadow{.center = {0.0, 0.0}, .radius_m = 4000.0, .strength = 0.5, .blend_m = 500.0}}, 1);
+  const float kept = clouded.light_field->at({0.0, 0.0}).strength;
+  EXPECT_NEAR(mean(tone_of(lit, p)) - mean(tone_of(lit, clouded)), 0.6 * (1.0 - static_cast<double>(kept)) / 0.98, 1e-3);
 }
 
 TEST(Tone, SkyViewAndReliefLighten) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <vector>
 
 #include "base/angle.h"
@@ -87,6 +88,81 @@ TEST(Guidance, PenumbraOfAWallIsAsWideAsTheDisc) {
       EXPECT_NEAR(lit, 0.5, 0.12);
     }
   }
+}
+
+// The same wall under two suns: in the east of the map a region has the sun in the north.
+class WallUnderTwoSuns : public testing::Test {
+ protected:
+  static constexpr double wall = 400.0;
+  static constexpr double wall_y = 5320000.0 - 15.0 - 6000.0;
+  World world_ = make_world(
+      300, 300, [](double, double y) { return y >= 6000.0 && y <= 6030.0 ? wall : 0.0; }, all_meadow);
+  GuidanceParameters parameters_;
+  std::unique_ptr<const Camera> camera_;
+
+  WallUnderTwoSuns() {
+    CameraParameters p;
+    p.projection = "oblique";  // straight down: a map, 20 m a pixel
+    p.pitch_deg = -90.0;
+    p.width = 128;
+    p.height = 128;
+    p.view_width_m = 2560.0;
+    p.eye = {654500.0, wall_y, 3000.0};
+    camera_ = make_camera(p);
+    parameters_.sampling.shadow_rays = 8;
+    parameters_.sampling.sky_directions = 0;
+    parameters_.sun_radius_rad = 0.01;
+    const double altitude = to_radians(30.0);
+    parameters_.sun_direction = {0.0, -std::cos(altitude), std::sin(altitude)};
+    const LightRegion east{.rings = {{{654500.0, 5300000.0}, {665000.0, 5300000.0}, {665000.0, 5330000.0}, {654500.0, 5330000.0}}},
+                           .blend_m = 400.0,
+                           .sun_direction = {0.0, std::cos(altitude), std::sin(altitude)}};
+    parameters_.light_field = std::make_shared<const LightField>(parameters_.sun_direction, glm::dvec2(1.0, 0.0), std::vector{east},
+                                                                 std::vector<CloudShadow>(), 1);
+  }
+};
+
+TEST_F(WallUnderTwoSuns, EachSideCastsItsOwnShadow) {
+  const GuidanceBuffers b = trace(world_, *camera_, parameters_);
+  const double length = wall / std::tan(to_radians(30.0));
+  int seen = 0;
+  for (std::size_t i = 0; i < b.depth_m.size(); ++i) {
+    const double east = b.position_m[i].x + world_.surface.origin.x - 654500.0;
+    const double north = b.position_m[i].y + world_.surface.origin.y - wall_y;
+    const double from_wall = east > 0.0 ? -north : north;  // on the side away from the sun
+    if ((east < 0.0 && east > -420.0) || std::abs(north) < 60.0) continue;
+    ++seen;
+    if (from_wall > 0.0 && from_wall < length - 40.0) {
+      EXPECT_EQ(b.shadow[i], 0.F) << east << " " << north;
+    }
+    if (from_wall < 0.0 || from_wall > length + 40.0) {
+      EXPECT_EQ(b.shadow[i], 1.F) << east << " " << north;
+    }
+  }
+  EXPECT_GT(seen, 5000);
+}
+
+TEST_F(WallUnderTwoSuns, PartsAndTilesHaveTheBitsOfTheWhole) {
+  const GuidanceBuffers whole = trace(world_, *camera_, parameters_);
+  for (const int tile : {8, 64}) {
+    parameters_.tile_size = tile;
+    const PixelRect part{21, 35, 90, 101};
+    const GuidanceBuffers b =
+        trace_guidance(world_.terrain, world_.surface, *world_.tracer, *camera_, parameters_, part, silent_progress());
+    for (int y = part.y0; y < part.y1; ++y)
+      for (int x = part.x0; x < part.x1; ++x) ASSERT_EQ(b.shadow(x - part.x0, y - part.y0), whole.shadow(x, y)) << x << " " << y;
+  }
+}
+
+// A region under the picture's own sun is no other light, whatever ways it takes to say so.
+TEST_F(WallUnderTwoSuns, ARegionOfTheSameSunCastsTheSameShadows) {
+  const LightRegion same{.center = {654500.0, wall_y}, .radius_m = 900.0, .blend_m = 300.0, .sun_direction = parameters_.sun_direction};
+  parameters_.light_field =
+      std::make_shared<const LightField>(parameters_.sun_direction, glm::dvec2(1.0, 0.0), std::vector{same}, std::vector<CloudShadow>(), 1);
+  const GuidanceBuffers with = trace(world_, *camera_, parameters_);
+  parameters_.light_field = nullptr;
+  const GuidanceBuffers without = trace(world_, *camera_, parameters_);
+  for (std::size_t i = 0; i < with.shadow.size(); ++i) EXPECT_NEAR(with.shadow[i], without.shadow[i], 1e-6F);
 }
 
 // The two probing rays a pixel must not change the picture: against all rays traced one by one.

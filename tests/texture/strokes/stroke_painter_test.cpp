@@ -246,6 +246,9 @@ TEST(StrokePainter, LightSideFollowsTheSun) {
         sum += trees[i].points[0].x - trees[i - 1].points[0].x;
     return sum;
   };
+  StrokeParameters by_place;  // light from the left everywhere, said place by place
+  by_place.local_side = [](glm::dvec2) { return -1.0F; };
+  EXPECT_EQ(offset(by_place), offset(from_left));
   EXPECT_GT(offset(from_right), 0.0);
   EXPECT_LT(offset(from_left), 0.0);
 }

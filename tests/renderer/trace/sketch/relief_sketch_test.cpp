@@ -1,4 +1,4 @@
-#include "renderer/trace/relief_sketch.h"
+#include "renderer/trace/sketch/relief_sketch.h"
 
 #include <gtest/gtest.h>
 

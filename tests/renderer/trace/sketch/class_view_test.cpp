@@ -1,4 +1,4 @@
-#include "renderer/trace/class_view.h"
+#include "renderer/trace/sketch/class_view.h"
 
 #include <gtest/gtest.h>
 

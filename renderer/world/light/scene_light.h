@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+
+#include "renderer/scene/scene_file.h"
+#include "renderer/trace/light_field.h"
+#include "renderer/world/view.h"
+#include "terrain/io/dem.h"
+
+namespace belvedere {
+
+// The light of a scene's regions and clouds, on its terrain and under its sun; null where it has neither. Throws Error(usage) where the
+// picture's sun does not stand above the horizon, and for what is wrong with places and files of areas.
+std::shared_ptr<const LightField> make_light_field(const LoadedScene& loaded, const Dem& dem, const View& view);
+
+}  // namespace belvedere

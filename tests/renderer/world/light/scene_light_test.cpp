@@ -1,0 +1,142 @@
+#include "renderer/world/light/scene_light.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "renderer/trace/sun.h"
+#include "renderer/world/lit_picture.h"
+#include "renderer/world/world.h"
+#include "tests/files.h"
+#include "tests/renderer/world/small_world.h"
+
+namespace belvedere {
+namespace {
+
+using test::small_scene_text;
+using testing::HasSubstr;
+
+LoadedScene with(const std::string& blocks) { return parse_scene(small_scene_text + blocks, "small.toml", "."); }
+
+constexpr const char* turned =
+    "[[light.regions]]\nposition = [6000, 6000]\nradius_m = 2500\nblend_m = 1500\nturn_deg = 120\nwarmth = 0.6\n";
+constexpr const char* cloud = "[[light.clouds]]\nposition = [3000, 7000]\nradius_m = 1500\nstrength = 0.8\n";
+
+LitPicture lit(const LoadedScene& scene, PixelRect part, int tile_px = 32) {
+  const World world(scene, silent_progress());
+  Run run;
+  run.tile_px = tile_px;
+  return make_lit_picture(world, read_palette("summer"), part, run);
+}
+
+TEST(SceneLight, SaysNothingWhereTheSceneSaysNothing) {
+  const World world(with(""), silent_progress());
+  EXPECT_EQ(world.light_field, nullptr);
+}
+
+TEST(SceneLight, RegionsTurnTheScenesSunOrHaveTheirOwn) {
+  const std::string blocks = std::string(turned) +
+                             "[[light.regions]]\npoints = [[0, 0], [2000, 0], [1000, 2000]]\nazimuth_deg = 90\naltitude_deg = 50\n"
+                             "strength = 1.5\nblend_m = 0\n";
+  const World world(with(blocks), silent_progress());
+  ASSERT_NE(world.light_field, nullptr);
+  const GroundLight turned_light = world.light_field->at({6000.0, 6000.0});
+  EXPECT_LT(glm::length(turned_light.sun - sun_direction({315.0 + 120.0, 30.0})), 1e-12);
+  EXPECT_NEAR(turned_light.warmth, 0.6F, 1e-6F);
+  EXPECT_EQ(turned_light.side, 1.0F) << "from the east, in a view to the north";
+  const GroundLight own = world.light_field->at({1000.0, 500.0});
+  EXPECT_LT(glm::length(own.sun - sun_direction({90.0, 50.0})), 1e-12);
+  EXPECT_EQ(own.strength, 1.5F);
+  EXPECT_EQ(world.light_field->at({11000.0, 500.0}).sun, world.view.sun_direction);
+  EXPECT_EQ(world.light_field->at({11000.0, 500.0}).side, -1.0F);
+}
+
+TEST(SceneLight, ReadsTheAreasOfAFile) {
+  const test::Folder folder;
+  folder.write("ranges.geojson",
+               R"({"type":"FeatureCollection","features":[
+{"type":"Feature","properties":{"name":"a"},"geometry":{"type":"Polygon","coordinates":[[[11.0,47.0],[11.1,47.0],[11.1,47.1],[11.0,47.1],[11.0,47.0]]]}},
+{"type":"Feature","properties":{"name":"b"},"geometry":{"type":"Polygon","coordinates":[[[11.3,47.0],[11.4,47.0],[11.4,47.1],[11.3,47.1],[11.3,47.0]]]}}]})");
+  const Dem dem = make_dem({Grid<float>(10, 10, 0.F), {650000.0, 5220000.0, 1000.0, 1000.0}, normalize_crs("EPSG:32632")});
+  View view;
+  view.sun = {315.0, 30.0};
+  view.sun_direction = sun_direction(view.sun);
+  const auto field = [&](const std::string& more) {
+    return make_light_field(parse_scene(small_scene_text +
+                                            std::string("[[light.regions]]\nfile = \"ranges.geojson\"\nstrength = 0.5\n"
+                                                        "blend_m = 0\n") +
+                                            more,
+                                        "small.toml", folder.path()),
+                            dem, view);
+  };
+  const glm::dvec2 in_a = transform_point(normalize_crs("EPSG:4326"), dem.crs, {11.05, 47.05});
+  const glm::dvec2 in_b = transform_point(normalize_crs("EPSG:4326"), dem.crs, {11.35, 47.05});
+  const glm::dvec2 between = transform_point(normalize_crs("EPSG:4326"), dem.crs, {11.2, 47.05});
+  EXPECT_EQ(field("")->at(in_a).strength, 0.5F);
+  EXPECT_EQ(field("")->at(in_b).strength, 0.5F);
+  EXPECT_EQ(field("")->at(between).strength, 1.0F);
+  EXPECT_EQ(field("where = \"name = 'b'\"\n")->at(in_a).strength, 1.0F);
+}
+
+TEST(SceneLight, RefusesWhatCannotBe) {
+  const auto refused = [](const std::string& blocks) {
+    return test::message_of(ErrorKind::usage, [&] { World(with(blocks), silent_progress()); });
+  };
+  EXPECT_THAT(refused("[[light.regions]]\nturn_deg = 90\n"), HasSubstr("light.regions.0 has no place"));
+  EXPECT_THAT(refused("[[light.regions]]\nposition = [1, 1]\n"), HasSubstr("without a radius"));
+  EXPECT_THAT(refused("[[light.regions]]\npoints = [[1, 1], [2, 2]]\n"), HasSubstr("three places or more"));
+  EXPECT_THAT(refused("[[light.regions]]\npoints = [[1, 1], [2, 2], [3]]\n"), HasSubstr("three places or more"));
+  EXPECT_THAT(refused("[[light.regions]]\nposition = [1, 1]\nradius_m = 9\nazimuth_deg = 1\nturn_deg = 1\n"),
+              HasSubstr("exclude each other"));
+  EXPECT_THAT(refused("[[light.clouds]]\nradius_m = 100\n"), HasSubstr("light.clouds.0 has no position"));
+  LoadedScene night = with(turned);
+  night.scene.sun.altitude_deg = -2.0;
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { World(night, silent_progress()); }), HasSubstr("below the horizon"));
+}
+
+TEST(SceneLight, TurnsWhatLiesInTheRegionAndNothingElse) {
+  const PixelRect whole{0, 0, 96, 80};
+  const World world(with(turned), silent_progress());
+  const LitPicture plain = lit(with(""), whole);
+  const LitPicture local = lit(with(turned), whole);
+  int changed = 0;
+  int far = 0;
+  for (std::size_t i = 0; i < plain.guidance.tone.size(); ++i) {
+    if (plain.guidance.is_sky(i)) continue;
+    const glm::dvec2 place = glm::dvec2(plain.guidance.position_m[i]) + glm::dvec2(plain.guidance.origin_m);
+    const double from = glm::length(place - glm::dvec2(6000.0, 6000.0));
+    if (from < 2500.0 && std::abs(plain.guidance.tone[i] - local.guidance.tone[i]) > 0.1F) ++changed;
+    if (from > 4000.0) {
+      ++far;
+      ASSERT_EQ(plain.guidance.shadow[i], local.guidance.shadow[i]);
+    }
+  }
+  EXPECT_GT(changed, 200);
+  EXPECT_GT(far, 1000);
+}
+
+TEST(SceneLight, PartsAndTilesHaveTheBitsOfTheWhole) {
+  const LoadedScene scene = with(std::string(turned) + cloud);
+  const LitPicture whole = lit(scene, {0, 0, 96, 80});
+  const LitPicture tiles = lit(scene, {0, 0, 96, 80}, 8);
+  EXPECT_TRUE(tiles.base.colour == whole.base.colour);
+  EXPECT_TRUE(tiles.guidance.tone == whole.guidance.tone);
+  // The lower part needs what lies above it, no more than half of the picture here.
+  const PixelRect part{0, 8, 96, 80};
+  const LitPicture lower = lit(scene, part);
+  for (int y = 72; y < 80; ++y)
+    for (int x = 0; x < 96; ++x) ASSERT_EQ(lower.guidance.shadow(x, y - part.y0), whole.guidance.shadow(x, y));
+}
+
+TEST(SceneLight, WrittenScenesReadBackTheSame) {
+  const LoadedScene scene =
+      with(std::string(turned) + cloud + "[[light.regions]]\npoints_lonlat = [[11, 47], [11.5, 47], [11.2, 47.25]]\n");
+  const std::string text = write_scene(scene.scene);
+  EXPECT_THAT(text, HasSubstr("points_lonlat = [[11, 47], [11.5, 47], [11.2, 47.25]]"));
+  EXPECT_EQ(write_scene(parse_scene(text, "again.toml", ".").scene), text);
+}
+
+}  // namespace
+}  // namespace belvedere
