@@ -18,7 +18,7 @@ namespace {
 using test::small_scene_text;
 using testing::HasSubstr;
 
-LoadedScene with(const std::string& blocks) { return parse_scene(small_scene_text + blocks, "small.toml", "."); }
+LoadedScene with(const std::string& blocks) { return parse_scene(small_scene_text + blocks, "small.toml", ".", {}); }
 
 constexpr const char* turned =
     "[[light.regions]]\nposition = [6000, 6000]\nradius_m = 2500\nblend_m = 1500\nturn_deg = 120\nwarmth = 0.6\n";
@@ -68,7 +68,7 @@ TEST(SceneLight, ReadsTheAreasOfAFile) {
                                             std::string("[[light.regions]]\nfile = \"ranges.geojson\"\nstrength = 0.5\n"
                                                         "blend_m = 0\n") +
                                             more,
-                                        "small.toml", folder.path()),
+                                        "small.toml", folder.path(), {}),
                             dem, view);
   };
   const glm::dvec2 in_a = transform_point(normalize_crs("EPSG:4326"), dem.crs, {11.05, 47.05});
@@ -135,7 +135,7 @@ TEST(SceneLight, WrittenScenesReadBackTheSame) {
       with(std::string(turned) + cloud + "[[light.regions]]\npoints_lonlat = [[11, 47], [11.5, 47], [11.2, 47.25]]\n");
   const std::string text = write_scene(scene.scene);
   EXPECT_THAT(text, HasSubstr("points_lonlat = [[11, 47], [11.5, 47], [11.2, 47.25]]"));
-  EXPECT_EQ(write_scene(parse_scene(text, "again.toml", ".").scene), text);
+  EXPECT_EQ(write_scene(parse_scene(text, "again.toml", ".", {}).scene), text);
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST_F(TwoCones, TheProposalTurnsThemToTheLightAndLoads) {
     EXPECT_GT(one.lit_after, one.lit_before + 0.2);
   }
   const std::string text = proposed_light_text(proposed);
-  const LoadedScene again = parse_scene(small_scene_text + text, "small.toml", ".");
+  const LoadedScene again = parse_scene(small_scene_text + text, "small.toml", ".", {});
   ASSERT_EQ(again.scene.light_regions.size(), 2U);
   EXPECT_EQ(again.scene.light_regions[0].turn_deg, proposed[0].region.turn_deg);
   EXPECT_EQ(again.scene.light_regions[1].position, proposed[1].region.position);
