@@ -13,8 +13,8 @@
 #include "renderer/paint/rock_kinds.h"
 #include "renderer/paint/water/water_image.h"
 #include "renderer/paint/water/water_parameters.h"
-#include "renderer/trace/water/water_ground.h"
 #include "renderer/trace/light_field.h"
+#include "renderer/trace/water/water_ground.h"
 #include "renderer/trace/wide_view.h"
 #include "texture/strokes/stroke_painter.h"
 
