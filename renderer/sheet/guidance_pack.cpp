@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -75,7 +76,9 @@ PackedGuidance blank_packed(const GuidanceBuffers& like, int width, int height) 
 
 PackedGuidance pack_guidance(const GuidanceBuffers& guidance) {
   std::vector<std::pair<ChannelStorage, FillPlane>> components;
+  glm::ivec2 size(0);  // of whatever channels there are: distances need not be among them
   for_each_component(guidance, [&](const GuidanceChannel& channel, const auto& grid, [[maybe_unused]] std::size_t k) {
+    size = {grid.width(), grid.height()};
     using T = typename std::decay_t<decltype(grid)>::value_type;
     if constexpr (is_number<T>)
       components.emplace_back(channel.type, [&channel, &grid, k](std::vector<std::byte>& values) {
@@ -94,7 +97,7 @@ PackedGuidance pack_guidance(const GuidanceBuffers& guidance) {
         }
       });
   });
-  return make_planes(components, guidance.width(), guidance.height());
+  return make_planes(components, size.x, size.y);
 }
 
 GuidanceBuffers unpack_guidance(const PackedGuidance& packed, const GuidanceBuffers& like) {

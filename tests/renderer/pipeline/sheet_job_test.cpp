@@ -196,6 +196,8 @@ TEST_F(SheetJob, GuidanceHoldsTheChannelsThatWereAskedFor) {
   EXPECT_EQ(two.depth_m, part_of(all.depth_m, part));
   EXPECT_EQ(two.land_cover, part_of(all.land_cover, part));
   EXPECT_TRUE(two.normal.empty() && two.altitude_m.empty());
+  render_guidance(scene(), folder_ / "classes", {}, {.channels = {{"landcover.id"}}, .part = part});
+  EXPECT_EQ(read_guidance(folder_ / "classes/guidance.exr").land_cover, two.land_cover) << "without distances beside them";
   render(scene(), folder_ / "none", {}, {.channels = std::vector<std::string>(), .part = part});
   EXPECT_FALSE(fs::exists(folder_ / "none/guidance.exr"));
   EXPECT_EQ(test::read_bytes(folder_ / "none/panorama.tif"), test::read_bytes(folder_ / "two/panorama.tif"));
