@@ -13,10 +13,12 @@
 #include "renderer/image/image_io.h"
 #include "renderer/paint/guides.h"
 #include "renderer/pipeline/pipeline.h"
+#include "renderer/pipeline/scene_lock_run.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/world/scene_season.h"
 #include "renderer/world/world.h"
 #include "tools/cli/contact/contact_commands.h"
+#include "tools/cli/contact/making_of.h"
 #include "tools/cli/contact/picture_table.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/lock/scratch_folder.h"
@@ -29,12 +31,14 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr int cell_px = 900;   // longest side of a picture on the sheet
-const glm::vec3 blank(0.93F);  // sky, and what is never copied from
+constexpr int cell_px = 900;               // longest side of a picture on the sheet
+const glm::vec3& blank = no_class_colour;  // sky, and what is never copied from
 
 struct Options {
   SceneOptions scene;
   std::string out;
+  int width_px = 0;  // 0: the scene's
+  bool making = false;
 };
 
 // A column of the figure: a picture with what steers copying from it or to it.
@@ -44,13 +48,6 @@ struct Column {
   Grid<glm::vec3> picture;
   GuideStack guides;
 };
-
-glm::vec3 class_colour(std::uint8_t label) {
-  for (const LandCoverClassInfo& info : land_cover_classes())
-    if (static_cast<std::uint8_t>(info.id) == label)
-      return glm::vec3((info.rgb >> 16U) & 255U, (info.rgb >> 8U) & 255U, info.rgb & 255U) / 255.F;
-  return blank;
-}
 
 Grid<glm::vec3> class_picture(const GuideStack& guides) {
   Grid<glm::vec3> out(guides.width(), guides.height(), blank);
@@ -115,8 +112,17 @@ Column painted_picture(const LoadedScene& loaded, const Run& run) {
   return {loaded.name, "picture", read_picture(path("panorama.png")), make_guide_stack(guidance, guidance.land_cover)};
 }
 
+void add_making_of(ReportFolder& page, const LoadedScene& loaded, const Run& run) {
+  const std::vector<MakingStep> steps = make_making_of(loaded, run);
+  for (std::size_t i = 0; i < steps.size(); ++i) page.write_picture(fmt::format("making_{}_{}", i + 1, steps[i].file), steps[i].picture);
+  page.begin_figure("making", "How it is made", "The same view at every stage, from the ground as measured to the picture.");
+  page.picture("making", draw_making_of(steps, cell_px), "making.png");
+  page.end_figure();
+}
+
 int run(const Options& options) {
   LoadedScene loaded = load(options.scene);
+  if (options.width_px > 0) loaded = at_width(loaded, options.width_px);
   loaded.scene.output.formats = {"png"};
   ReportFolder page(options.out);
   TerminalProgress progress(options.scene.quiet);
@@ -142,8 +148,11 @@ int run(const Options& options) {
                     "The classes and altitudes of both (figure 4 of Jenny & Jenny 2013), the painting, and what is made of it (figure 5).");
   page.picture("sheet", draw_table(table), "sheet.png");
   page.end_figure();
+  if (options.making) add_making_of(page, loaded, make_run(options.scene, Run{}.tile_px, progress, cache));
   std::string command = "belvedere figure " + file_name(options.scene.scene);
   for (const std::string& setting : options.scene.files.settings) command += fmt::format(" --set '{}'", setting);
+  if (options.width_px > 0) command += fmt::format(" --width {}", options.width_px);
+  if (options.making) command += " --making";
   page.write_page("Figure of " + loaded.name, "Figure of " + loaded.name,
                   fmt::format("{} × {} pixels.", loaded.scene.output.width, loaded.scene.output.height),
                   command + " --out " + file_name(options.out));
@@ -165,10 +174,16 @@ std::function<int()> add_figure(CLI::App& command) {
   command.add_option("--out", options->out, "Folder for sheet.png, its pictures each for itself, and index.html")
       ->type_name("DIR")
       ->required();
+  command.add_option("--width", options->width_px, "Of the picture in pixels, its height in proportion. Default: the scene's")
+      ->type_name("N")
+      ->check(CLI::Range(16, 20000));
+  command.add_flag("--making", options->making,
+                   "Also making.png: the ground as measured, generalized and bent, land cover, light, colours, copied paint, strokes.\n"
+                   "Paints the picture a second time");
   command.footer(
       "Rows of land cover, altitude and the paint, a column for each painting that is copied from and one for the picture:\n"
       "figures 4 and 5 of Jenny & Jenny 2013 for any scene.\n\n"
-      "  belvedere figure scenes/karwendel.toml --data ../data --set output.width=1200 --set output.height=550 --out figure");
+      "  belvedere figure scenes/karwendel.toml --data ../data --width 1200 --making --out figure");
   return [options] { return run(*options); };
 }
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "base/grid.h"
+#include "base/run.h"
+#include "renderer/scene/scene_file.h"
+
+namespace belvedere::tools {
+
+// A stage of a scene's picture, the whole sheet seen by the same eye.
+struct MakingStep {
+  std::string file;         // what its file is called, without ending
+  std::string caption;      // for people
+  Grid<glm::vec3> picture;  // encoded sRGB
+};
+// The ground as measured, generalized, and raised and bent, as relief; what grows on it; light; base colours; the ground copied from
+// paintings (only where the scene copies); and the picture, the same as rendering makes. Takes memory for the whole sheet.
+std::vector<MakingStep> make_making_of(const LoadedScene& loaded, const Run& run);
+
+// The steps in their order, two beside each other, each reduced so that the sheet is about twice `step_px` wide.
+Grid<glm::vec3> draw_making_of(const std::vector<MakingStep>& steps, int step_px);
+
+// Of land cover in figures: the table's colour; what is no class, such as sky, is pale grey.
+glm::vec3 class_colour(std::uint8_t label);
+inline const glm::vec3 no_class_colour(0.93F);
+
+}  // namespace belvedere::tools
