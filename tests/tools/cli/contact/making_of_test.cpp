@@ -19,6 +19,8 @@ class MakingOf : public Program {};
 // The stages are those of rendering: the last one is its picture.
 TEST_F(MakingOf, ShowsEveryStageAndEndsInThePictureThatRenderingMakes) {
   const std::string bent = std::string(test::contact_scene) + R"(
+[generalize]
+preset = "panorama"
 [deform]
 exaggeration = 1.6
 [[exemplar]]
