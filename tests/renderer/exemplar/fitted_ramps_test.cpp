@@ -125,8 +125,8 @@ TEST(FitRamps, RecoversTheBaseOfAPaintingOfTheProgramsOwn) {
   constexpr int height = 260;
   GuidanceBuffers guidance = test::make_hills(width, height);
   guidance.tone = make_tone(guidance, {}, {0, 0}, silent_progress());
-  const BasePicture base =
-      make_base_picture(guidance, read_palette("summer"), {.air = {.rim_fade_m = 0.0}, .water = {}}, {0, 0}, {width, height}, silent_progress());
+  const BasePicture base = make_base_picture(guidance, read_palette("summer"), {.air = {.rim_fade_m = 0.0}, .water = {}}, {0, 0},
+                                             {width, height}, silent_progress());
   const Painting painting = paint_strokes(base.colour, guidance, base, {.sky = false, .upright = false}, {}, silent_progress());
   const PaintedClasses classes = find_painted_classes(painting.sources, guidance, base.colour);
   const GuideStack guides = make_guide_stack(guidance, classes.land_cover);
