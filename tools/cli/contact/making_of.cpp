@@ -9,7 +9,7 @@
 #include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/sheet/sheet_picture.h"
-#include "renderer/trace/relief_sketch.h"
+#include "renderer/trace/sketch/relief_sketch.h"
 #include "renderer/world/scene_features.h"
 #include "renderer/world/scene_season.h"
 #include "renderer/world/valley_view.h"
