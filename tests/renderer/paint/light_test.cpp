@@ -89,12 +89,11 @@ TEST(Tone, AConeIsLitFromTwoSides) {
         ASSERT_EQ(tone(x, y), left(x, y));
       } else if (at > 100.0F) {
         ASSERT_NEAR(tone(x, y), right(x, y), 1e-5F);
-      } else if (std::abs(at) < 10.0F) {
+      } else if (std::abs(at) < 10.0F && y % 24 == 0) {
         // Half of each: the sum of both suns, which stands higher and in the north.
         ToneParameters middle = from_west;
         middle.sun_direction = both.light_field->at({static_cast<double>(at), 0.0}).sun;
         EXPECT_NEAR(tone(x, y), tone_of(cone, middle)(x, y), 1e-5F);
-        y += 24;
       }
     }
   EXPECT_GT(tone(10, 48), 0.7F);
