@@ -24,6 +24,7 @@ constexpr double bias_m = 2.0;        // start of rays above the facet
 // Summits stand so far apart, by their distance from the eye.
 constexpr double least_apart_m = 2500.0;
 constexpr double apart_share = 0.10;
+constexpr double flank_share = 0.4;  // of that: who has higher ground so near stands on a flank
 constexpr std::size_t most_summits = 48;
 constexpr double least_share = 0.02;
 // Proposals.
@@ -130,12 +131,16 @@ std::vector<SeenRange> find_ranges(std::span<const SeenSlope> slopes) {
   std::stable_sort(by_height.begin(), by_height.end(),
                    [&](std::size_t a, std::size_t b) { return slopes[a].altitude_m > slopes[b].altitude_m; });
   std::vector<SeenRange> ranges;
-  for (const std::size_t i : by_height) {
-    if (ranges.size() == most_summits) break;
+  for (std::size_t rank = 0; rank < by_height.size() && ranges.size() < most_summits; ++rank) {
+    const std::size_t i = by_height[rank];
     const SeenSlope& slope = slopes[i];
     if (std::any_of(ranges.begin(), ranges.end(), [&](const SeenRange& other) {
           return glm::length(slope.place - other.summit) < std::max(apart_m(slope.distance_m), apart_m(other.distance_m));
         }))
+      continue;
+    const double flank_m = flank_share * apart_m(slope.distance_m);
+    if (std::any_of(by_height.begin(), by_height.begin() + static_cast<std::ptrdiff_t>(rank),
+                    [&](std::size_t higher) { return glm::length(slopes[higher].place - slope.place) < flank_m; }))
       continue;
     ranges.push_back({.summit = slope.place, .altitude_m = slope.altitude_m, .distance_m = slope.distance_m});
   }
