@@ -1,7 +1,6 @@
 #include "renderer/pipeline/layer_files.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string_view>
@@ -16,9 +15,13 @@
 namespace belvedere {
 namespace {
 
-Drawing names_of(const LoadedScene& loaded, const Run& run) {
+// Nothing where the scene names nothing, or all its files are optional and missing.
+std::shared_ptr<const SheetPainter> names_of(const LoadedScene& loaded, const Run& run) {
+  if (!loaded.scene.labels.any()) return nullptr;
+  const LabelJob job = label_job(loaded, run.progress);
+  if (job.empty()) return nullptr;
   const BareView bare = make_bare_view(loaded, run.progress, run.cache);
-  return label_drawing(make_label_sheet(loaded, label_job(loaded, run.progress), bare, run.progress));
+  return std::make_shared<SheetPainter>(label_drawing(make_label_sheet(loaded, job, bare, run.progress)));
 }
 
 // A drawing without what lies below it. Over black it shows its colour times its opacity, over white what it leaves of it as well.
@@ -59,8 +62,7 @@ void write_layer_files(const LoadedScene& loaded, const SheetRequest& request, c
                               return make_layer(layer, plane, rows_of(layer_plane_names()[about_plane], y0, y1));
                             }});
   }
-  if (scene.labels.any()) {
-    const auto painter = std::make_shared<SheetPainter>(names_of(loaded, run));
+  if (const std::shared_ptr<const SheetPainter> painter = names_of(loaded, run)) {
     sheet.layers.push_back({"names", "Names", true, [painter, region](int y0, int y1) {
                               return paint_alone(*painter, {region.x0, region.y0 + y0, region.x1, region.y0 + y1});
                             }});

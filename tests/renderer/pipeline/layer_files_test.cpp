@@ -77,6 +77,8 @@ TEST_F(LayerFiles, ASceneWithoutRoadsAndNamesHasNoLayersOfThem) {
   EXPECT_TRUE(fs::exists(out + "/layers/data/ground.png"));
   EXPECT_FALSE(fs::exists(out + "/layers/data/features.png"));
   EXPECT_FALSE(fs::exists(out + "/layers/data/names.png"));
+  const std::string lost = make("lost", {"labels.points.0={ file = \"none.csv\", optional = true }"});
+  EXPECT_FALSE(fs::exists(lost + "/layers/data/names.png")) << "nothing is there to name";
 }
 
 }  // namespace
