@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <span>
 
+#include "base/error.h"
+
 namespace belvedere {
 namespace {
 
@@ -45,6 +47,17 @@ std::span<const Grid<float>> levels_of(const RuleClimate& climate, ClimateVariab
   return {&climate.treeline_m, 1};
 }
 
+// Columns are planned once for all grids of the same posts.
+void check_posts(const RuleClimate& climate) {
+  const auto check = [](const Grid<float>& grid, const Grid<float>& first) {
+    if (grid.empty() || !grid.same_size(first)) throw Error(ErrorKind::bug, "climate of class rules", "its grids do not share their posts");
+  };
+  for (const Grid<float>* line : {&climate.treeline_m, &climate.ice_line_m, &climate.snow_line_m, &climate.season_snow_m})
+    check(*line, climate.treeline_m);
+  for (const auto* table : {&climate.moisture, &climate.temperature_c, &climate.rain_mm})
+    for (const Grid<float>& level : *table) check(level, climate.moisture.empty() ? level : climate.moisture.front());
+}
+
 }  // namespace
 
 RuleClimate alpine_climate() {
@@ -64,6 +77,7 @@ RuleClimate alpine_climate() {
 }
 
 ClimateColumns plan_climate_columns(const RuleClimate& climate, const GeoTransform& transform, int width) {
+  check_posts(climate);
   const auto plan = [&](const GeoTransform& posts_at, int posts) {
     const glm::dvec2 first = transform.to_crs(0.0, 0.0);
     const double start = posts_at.to_cell(first.x, first.y).x;

@@ -122,7 +122,9 @@ TEST(ClassRules, PartsAreGivenWhatTheWholeFinds) {
   ClassRuleParameters parameters;
   // A treeline that rises to the east: open altitudes hang on it in the middle of the map.
   parameters.climate.line_posts = {1000.0, 5000.0, 7200.0, 7200.0};
-  parameters.climate.treeline_m = Grid<float>(2, 1);
+  for (Grid<float>* line :
+       {&parameters.climate.treeline_m, &parameters.climate.ice_line_m, &parameters.climate.snow_line_m, &parameters.climate.season_snow_m})
+    *line = Grid<float>(2, 1, (*line)(0, 0));
   parameters.climate.treeline_m(0, 0) = 1500.F;
   parameters.climate.treeline_m(1, 0) = 1900.F;
   parameters.settings = {{"treeline_m", 0.0}, {"town_highest_m", 0.0}, {"floor_highest_m", 1111.0}};

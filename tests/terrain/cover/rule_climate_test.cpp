@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "base/error.h"
+
 namespace belvedere {
 namespace {
 
@@ -11,7 +13,9 @@ namespace {
 RuleClimate climate() {
   RuleClimate c = alpine_climate();
   c.line_posts = c.table_posts = {-100.0, 1100.0, 300.0, 300.0};
-  c.treeline_m = Grid<float>(2, 2);
+  for (Grid<float>* line : {&c.treeline_m, &c.ice_line_m, &c.snow_line_m, &c.season_snow_m}) *line = Grid<float>(2, 2, (*line)(0, 0));
+  for (auto* table : {&c.temperature_c, &c.rain_mm})
+    for (Grid<float>& level : *table) level = Grid<float>(2, 2, level(0, 0));
   c.treeline_m(0, 0) = 1000.F;
   c.treeline_m(1, 0) = 1300.F;
   c.treeline_m(0, 1) = 1600.F;
@@ -36,6 +40,19 @@ TEST(RuleClimate, LinesAreStraightBetweenPostsAndConstantBeyond) {
   EXPECT_NEAR(row[0], 1200.F, 1e-3F);
   fill_climate_row(climate(), ClimateVariable::treeline, cells, 9, 6, altitude.data(), row.data());
   EXPECT_NEAR(row[3], 1900.F, 1e-3F);
+}
+
+TEST(RuleClimate, GridsShareTheirPosts) {
+  EXPECT_NO_THROW(plan_climate_columns(climate(), cells, 6));
+  RuleClimate line = climate();
+  line.snow_line_m = Grid<float>(1, 2, 2600.F);
+  EXPECT_THROW(plan_climate_columns(line, cells, 6), Error);
+  RuleClimate table = climate();
+  table.rain_mm[1] = Grid<float>(2, 1, 900.F);
+  EXPECT_THROW(plan_climate_columns(table, cells, 6), Error);
+  RuleClimate none = climate();
+  none.ice_line_m = {};
+  EXPECT_THROW(plan_climate_columns(none, cells, 6), Error);
 }
 
 TEST(RuleClimate, TablesAreStraightOverAltitude) {
