@@ -102,25 +102,6 @@ Parameters with_settings(const ClassRules& rules, const Parameters& settings) {
   return parameters;
 }
 
-// Altitudes that rules leave open (0) and of which a map has one: so far below the treeline in its middle.
-void resolve_altitudes(Parameters& parameters, const RuleClimate& climate, const Dem& dem) {
-  struct Below {
-    const char* parameter;
-    double treeline_m;
-  };
-  constexpr std::array<Below, 2> open = {{{"town_highest_m", 520.0}, {"floor_highest_m", 370.0}}};
-  double line = parameter_or(parameters, "treeline_m", 0.0);
-  if (line <= 0.0) {
-    std::vector<float> row(static_cast<std::size_t>(dem.width()));
-    const int middle = dem.height() / 2;
-    fill_climate_row(climate, ClimateVariable::treeline, dem.transform, middle, dem.width(), dem.altitude_m.row(middle), row.data());
-    line = row[static_cast<std::size_t>(dem.width() / 2)];
-  }
-  for (auto& [name, value] : parameters)
-    for (const Below& below : open)
-      if (name == below.parameter && value == 0.0) value = line - below.treeline_m;
-}
-
 // The state of one run over the DEM.
 struct Run {
   const ClassRules& rules;

@@ -70,6 +70,9 @@ const std::vector<std::string>& variable_names();
 // A parameter, or what it is where the rules do not name it.
 double parameter_or(const Parameters& parameters, const std::string& name, double otherwise);
 
+// Altitudes that rules leave open (0) and of which a map has one: so far below the treeline in its middle.
+void resolve_altitudes(Parameters& parameters, const RuleClimate& climate, const Dem& dem);
+
 // Who lives where: settlements that are found already, or else what they are looked for with.
 struct Settlers {
   const std::vector<KnownTown>& known;

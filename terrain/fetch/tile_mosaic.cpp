@@ -19,7 +19,6 @@
 namespace belvedere {
 namespace {
 
-constexpr int margin_cells = 6;  // around the area, for whoever resamples
 constexpr int most_tiles = 400;
 
 template <class T>
@@ -30,84 +29,8 @@ constexpr T void_of() {
     return T{0};
 }
 
-// Cells of one kind, which rows of tiles share: the lattice of a part. Cells are counted from the source's origin; with a step, every
-// step-th is one of ours.
-struct Lattice {
-  const MapSource& source;
-  int columns = 0;  // of a tile
-  int step = 1;
-
-  double width_deg() const { return source.tile_deg.x / columns; }
-  double height_deg() const { return source.tile_deg.y / source.rows; }
-  double shift() const { return source.on_lines ? 0.5 : 0.0; }
-  // Sides of cells are whole numbers.
-  double column_at(double longitude) const { return (longitude - source.origin_deg.x) / width_deg() + shift(); }
-  double row_at(double latitude) const { return (source.origin_deg.y - latitude) / height_deg() + shift(); }
-  GeoTransform transform(int x0, int y0) const {
-    return {source.origin_deg.x + (static_cast<double>(x0) * step - shift()) * width_deg(),
-            source.origin_deg.y - (static_cast<double>(y0) * step - shift()) * height_deg(), step * width_deg(), step * height_deg()};
-  }
-  // The cell of the source that one of ours is.
-  int source_cell(int ours) const { return ours * step + step / 2; }
-  // The first of ours at or after a cell of the source.
-  int first_from(int cell) const { return static_cast<int>(std::ceil(static_cast<double>(cell - step / 2) / step)); }
-};
-
-int floor_div(int a, int b) { return static_cast<int>(std::floor(static_cast<double>(a) / b)); }
-
-// Rows of tiles with cells of one kind, and which of our cells are wanted there.
-struct PartPlan {
-  Lattice lattice;
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // half open
-};
-
-std::vector<PartPlan> plan_parts(const MapSource& source, const DegreeBox& box, int step) {
-  const Lattice any{source, source.columns.front().count, step};  // rows are the same in all
-  const int last_row = static_cast<int>(std::lround((source.origin_deg.y + 90.0) / any.height_deg())) + (source.on_lines ? 1 : 0);
-  const int top = std::max(0, static_cast<int>(std::floor(any.row_at(box.north))) - margin_cells * step);
-  const int bottom = std::min(last_row, static_cast<int>(std::ceil(any.row_at(box.south))) + margin_cells * step);
-  std::vector<PartPlan> parts;
-  for (int row = top / source.rows; row * source.rows < bottom; ++row) {
-    const Lattice lattice{source, tile_columns(source, row), step};
-    const int y0 = lattice.first_from(std::max(top, row * source.rows));
-    const int y1 = lattice.first_from(std::min(bottom, (row + 1) * source.rows));
-    if (y0 >= y1) continue;
-    if (!parts.empty() && parts.back().lattice.columns == lattice.columns) {
-      parts.back().y1 = y1;
-      continue;
-    }
-    const int x0 = lattice.first_from(static_cast<int>(std::floor(lattice.column_at(box.west))) - margin_cells * step);
-    const int x1 = lattice.first_from(static_cast<int>(std::ceil(lattice.column_at(box.east))) + margin_cells * step);
-    parts.push_back({lattice, x0, y0, x1, y1});
-  }
-  return parts;
-}
-
-// The cells of a part that lie in one tile: half open, of ours.
-struct TileCells {
-  MapTile tile;
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-};
-
-std::vector<TileCells> tiles_of_part(const PartPlan& part) {
-  const Lattice& lattice = part.lattice;
-  std::vector<TileCells> tiles;
-  const int rows = lattice.source.rows;
-  for (int row = floor_div(lattice.source_cell(part.y0), rows); row * rows <= lattice.source_cell(part.y1 - 1); ++row)
-    for (int column = floor_div(lattice.source_cell(part.x0), lattice.columns);
-         column * lattice.columns <= lattice.source_cell(part.x1 - 1); ++column) {
-      const TileCells cells{{column, row},
-                            std::max(part.x0, lattice.first_from(column * lattice.columns)),
-                            std::max(part.y0, lattice.first_from(row * rows)),
-                            std::min(part.x1, lattice.first_from((column + 1) * lattice.columns)),
-                            std::min(part.y1, lattice.first_from((row + 1) * rows))};
-      if (cells.x0 < cells.x1 && cells.y0 < cells.y1 && in_latitudes(lattice.source, cells.tile)) tiles.push_back(cells);
-    }
-  return tiles;
-}
-
 // A file must be the tile that its name says: another grid would lay mountains elsewhere.
-void check_grid(const RasterFile& file, const Lattice& lattice, MapTile tile, const std::string& address) {
+void check_grid(const RasterFile& file, const TileLattice& lattice, MapTile tile, const std::string& address) {
   const MapSource& source = lattice.source;
   const auto fail = [&](const std::string& found, const std::string& allowed) { throw Error(ErrorKind::input, address, found, allowed); };
   if (file.width() != lattice.columns || file.height() != source.rows)
@@ -146,7 +69,7 @@ Grid<T> read_cells(const RasterFile& file, const CellWindow& window) {
 // Reads the wanted cells of one tile into its part.
 template <class T>
 std::string read_tile(RemoteFile& remote, const PartPlan& plan, const TileCells& cells, Grid<T>& part, Progress& progress) {
-  const Lattice& lattice = plan.lattice;
+  const TileLattice& lattice = plan.lattice;
   const std::string& address = remote.address();
   StreamFile stream(address.substr(address.rfind('/') + 1),
                     {remote.describe().bytes, [&](std::uint64_t offset, std::size_t count, char* to) { remote.read(offset, count, to); }});
@@ -286,10 +209,6 @@ class MissingGroups {
   std::vector<int> sides_, high_;
 };
 
-MapTile tile_at(const PartPlan& plan, int x, int y) {
-  return {floor_div(plan.lattice.source_cell(x), plan.lattice.columns), floor_div(plan.lattice.source_cell(y), plan.lattice.source.rows)};
-}
-
 // All pairs of cells to both sides of borders of tiles.
 void look_at_borders(const std::vector<PartPlan>& plans, const std::vector<Raster<float>>& parts, MissingGroups& groups) {
   for (std::size_t p = 0; p < plans.size(); ++p) {
@@ -372,13 +291,6 @@ void refuse_missing(const MapSource& source, const std::vector<FetchedTile>& til
 }
 
 }  // namespace
-
-std::vector<MapTile> tiles_of(const MapSource& source, const DegreeBox& box) {
-  std::vector<MapTile> tiles;
-  for (const PartPlan& plan : plan_parts(source, box, 1))
-    for (const TileCells& cells : tiles_of_part(plan)) tiles.push_back(cells.tile);
-  return tiles;
-}
 
 TileMosaic<float> read_elevation_tiles(const MapSource& source, const DegreeBox& box, const std::string& mirror, const RemoteErrand& errand,
                                        int shared_rows) {

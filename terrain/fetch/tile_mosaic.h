@@ -6,15 +6,10 @@
 
 #include "terrain/fetch/map_source.h"
 #include "terrain/fetch/remote_file.h"
+#include "terrain/fetch/tile_plan.h"
 #include "terrain/io/raster.h"
 
 namespace belvedere {
-
-// What is wanted of a service, in degrees of its CRS.
-struct DegreeBox {
-  double west = 0.0, south = 0.0, east = 0.0,
-         north = 0.0;  // west < east, which goes on beyond 180 where the area lies across the date line
-};
 
 // A tile that was looked at.
 struct FetchedTile {
@@ -33,9 +28,6 @@ struct TileMosaic {
   std::vector<double> south;  // latitudes where parts end and the next begin; heights go on beyond, for whoever resamples
   std::vector<FetchedTile> tiles;
 };
-
-// Tiles that hold a part of the box and may be there, row by row.
-std::vector<MapTile> tiles_of(const MapSource& source, const DegreeBox& box);
 
 // Heights, m. A tile that is not there is sea only where the ground around it says so: else it is ground that the service keeps back, an
 // Error(input) that names it.

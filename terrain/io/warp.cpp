@@ -7,10 +7,10 @@
 #include <type_traits>
 
 #include "base/error.h"
-#include "base/math_exact.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "terrain/io/crs.h"
+#include "terrain/io/lattice_map.h"
 #include "terrain/io/raster_file.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/io/raster_windows.h"
@@ -76,94 +76,6 @@ std::vector<Layer> make_layers(const std::vector<RasterSource>& sources) {
   }
   return layers;
 }
-
-// Where the cells of a frame lie on a layer's lattice, with cell centres at whole numbers. The reprojection is exact at control
-// points and bilinear in between. A map's curvature over n cells of c metres bends a line by about (n c)² / 8 R, up to
-// four times that near the poles and at the edges of UTM zones, so n is chosen for an error below a thousandth of a cell.
-class LatticeMap {
- public:
-  LatticeMap(const Layer& layer, const RasterFrame& frame, bool geographic) : affine_(layer.affine) {
-    const bool equal = same_crs(layer.crs, frame.crs);
-    const double cell_m = std::max(frame.transform.cell_x, frame.transform.cell_y);
-    constexpr double earth_radius_m = 6.371e6;
-    step_ = equal ? 64 : std::clamp(static_cast<int>(std::sqrt(2e-3 * earth_radius_m / cell_m)), 1, 32);
-    across_ = (frame.width - 1) / step_ + 2;
-    const int down = (frame.height - 1) / step_ + 2;
-    points_.reserve(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down));
-    for (int j = 0; j < down; ++j)
-      for (int i = 0; i < across_; ++i) points_.push_back(frame.transform.to_crs(i * step_, j * step_));
-    if (!equal) {
-      PointTransform(frame.crs, layer.crs).apply(points_);
-      if (geographic) unwrap(layer.middle().x);
-    }
-    for (glm::dvec2& point : points_) point = affine_.to_cell(point) - glm::dvec2{0.5, 0.5};
-    find_scale(frame);
-    find_offset();
-  }
-
-  // From now on cells are counted from this one of the frame: of a window of it, whose values must be those of the whole.
-  void begin_at(glm::ivec2 corner) { corner_ = corner; }
-
-  // Where every cell of the frame is a cell of the lattice: the lattice's cell under the first that is counted.
-  std::optional<glm::ivec2> offset() const { return offset_ ? std::optional(*offset_ + corner_) : std::nullopt; }
-
-  glm::dvec2 operator()(int x, int y) const {
-    x += corner_.x;
-    y += corner_.y;
-    const int i = x / step_;
-    const int j = y / step_;
-    const double u = static_cast<double>(x - i * step_) / step_;
-    const double v = static_cast<double>(y - j * step_) / step_;
-    const glm::dvec2* p = points_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(across_) + i;
-    const glm::dvec2 at = (1.0 - v) * ((1.0 - u) * p[0] + u * p[1]) + v * ((1.0 - u) * p[across_] + u * p[across_ + 1]);
-    // Cells that coincide are copied to the bit: rounding of the coordinates must not interpolate them.
-    const auto snap = [](double c) { return std::abs(c - std::round(c)) < snapping ? std::round(c) : c; };
-    return {snap(at.x), snap(at.y)};
-  }
-
-  // Source cells per frame cell along the source's columns and rows, at the middle.
-  glm::dvec2 scale() const { return scale_; }
-
- private:
-  // Longitudes without a jump over the frame, in the turn that lies nearest to the source.
-  void unwrap(double source_middle) {
-    const glm::dvec2 middle = points_[points_.size() / 2];
-    const double shift = std::isfinite(middle.x) ? 360.0 * std::round((source_middle - middle.x) / 360.0) : 0.0;
-    for (glm::dvec2& point : points_) point.x += shift - 360.0 * std::round((point.x - middle.x) / 360.0);
-  }
-
-  void find_scale(const RasterFrame& frame) {
-    const int i = std::min(across_ - 2, (frame.width / 2) / step_);
-    const int down = static_cast<int>(points_.size()) / across_;
-    const int j = std::min(down - 2, (frame.height / 2) / step_);
-    const glm::dvec2* p = points_.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(across_) + i;
-    const glm::dvec2 east = (p[1] - p[0]) / static_cast<double>(step_);
-    const glm::dvec2 south = (p[across_] - p[0]) / static_cast<double>(step_);
-    scale_ = {exact::hypot(east.x, south.x), exact::hypot(east.y, south.y)};
-    if (!std::isfinite(scale_.x) || !std::isfinite(scale_.y)) scale_ = {1.0, 1.0};
-  }
-
-  void find_offset() {
-    const glm::dvec2 first = glm::round(points_[0]);
-    if (!(std::abs(first.x) < 1e8 && std::abs(first.y) < 1e8)) return;
-    // Half of what is snapped: places in between are as near as the points around them, but for rounding.
-    for (std::size_t k = 0; k < points_.size(); ++k) {
-      const auto across = static_cast<std::size_t>(across_);
-      const glm::dvec2 whole = first + static_cast<double>(step_) * glm::dvec2{k % across, k / across};
-      if (!(std::abs(points_[k].x - whole.x) < 0.5 * snapping && std::abs(points_[k].y - whole.y) < 0.5 * snapping)) return;
-    }
-    offset_ = glm::ivec2(first);
-  }
-
-  static constexpr double snapping = 1e-5;  // cells
-  CellAffine affine_;
-  std::optional<glm::ivec2> offset_;
-  glm::ivec2 corner_{0, 0};
-  int step_ = 1;
-  int across_ = 0;
-  std::vector<glm::dvec2> points_;
-  glm::dvec2 scale_{1.0, 1.0};
-};
 
 template <class T>
 bool is_void(T value) {
@@ -296,7 +208,7 @@ Raster<T> warp_layers(std::vector<Layer>& layers, const RasterFrame& frame, Prog
   check_frame(frame, sizeof(T));
   Raster<T> out{Grid<T>(frame.width, frame.height, void_of<T>()), frame.transform, frame.crs};
   for (const Layer& layer : layers) {
-    const LatticeMap map(layer, frame, !layer.crs.empty() && crs_traits(layer.crs).geographic);
+    const LatticeMap map(layer.affine, layer.crs, layer.middle(), frame);
     fill_from_layer(layer, map, out.cells, progress);
   }
   return out;
@@ -382,7 +294,7 @@ RasterWindows::RasterWindows(const std::vector<RasterSource>& sources, const Ras
   state_->layers = make_layers(sources);
   for (const Layer& layer : state_->layers) {
     for (const Layer::Part& part : layer.parts) part.file.required_crs();
-    state_->maps.emplace_back(layer, frame, crs_traits(layer.crs).geographic);
+    state_->maps.emplace_back(layer.affine, layer.crs, layer.middle(), frame);
   }
 }
 

@@ -1,7 +1,6 @@
 #include "terrain/shape/courses.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -50,58 +49,6 @@ struct Work {
   std::vector<float> half_width_m = {};
   double moved_m = 0.0, most_moved_m = 0.0;
 };
-
-// Lines that end where exactly one other of their group does become one.
-std::vector<DrawnCourse> join_lines(const std::vector<DrawnCourse>& drawn, std::size_t& joined) {
-  struct End {
-    std::size_t line;
-    bool last;
-  };
-  using Key = std::array<double, 3>;
-  std::map<Key, std::vector<End>> ends;
-  const auto key_of = [](const DrawnCourse& line, bool last) {
-    const glm::dvec2 place = last ? line.places.back() : line.places.front();
-    return Key{static_cast<double>(line.group), place.x, place.y};
-  };
-  for (std::size_t i = 0; i < drawn.size(); ++i)
-    if (drawn[i].places.size() > 1)
-      for (const bool last : {false, true}) ends[key_of(drawn[i], last)].push_back({i, last});
-  const auto next_of = [&](End end) -> End {  // the line that goes on there, from its other end
-    const std::vector<End>& here = ends[key_of(drawn[end.line], end.last)];
-    if (here.size() != 2 || here[0].line == here[1].line) return {drawn.size(), false};
-    return here[0].line == end.line ? here[1] : here[0];
-  };
-  std::vector<DrawnCourse> out;
-  std::vector<bool> used(drawn.size(), false);
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
-    if (used[i] || drawn[i].places.size() < 2) continue;
-    // Back to where this river begins, or once around.
-    End head{i, false};
-    for (std::size_t guard = 0; guard < drawn.size(); ++guard) {
-      const End before = next_of(head);
-      if (before.line == drawn.size() || used[before.line]) break;
-      head = {before.line, !before.last};
-      if (head.line == i) break;
-    }
-    DrawnCourse river = drawn[head.line];
-    river.places.clear();
-    End at = head;
-    while (!used[at.line]) {
-      used[at.line] = true;
-      const DrawnCourse& part = drawn[at.line];
-      Line places = part.places;
-      if (at.last) std::reverse(places.begin(), places.end());
-      river.places.insert(river.places.end(), places.begin() + (river.places.empty() ? 0 : 1), places.end());
-      river.width_m = std::max(river.width_m, part.width_m);
-      const End next = next_of({at.line, !at.last});
-      if (next.line == drawn.size() || used[next.line]) break;
-      ++joined;
-      at = next;
-    }
-    out.push_back(std::move(river));
-  }
-  return out;
-}
 
 constexpr double square(double value) { return value * value; }
 
@@ -409,7 +356,9 @@ Courses lay_courses(const std::vector<DrawnCourse>& drawn, const Dem& dem, const
   Courses out;
   const Ground ground(dem, catchment_km2);
   std::vector<Work> works;
-  for (const DrawnCourse& line : join_lines(drawn, out.joined)) {
+  const JoinedLines joined = join_lines(drawn);
+  out.joined = joined.joined;
+  for (const DrawnCourse& line : joined.lines) {
     std::vector<Work> parts = cut_to_steps(line, ground);
     if (parts.empty()) ++out.outside;
     for (Work& part : parts) works.push_back(std::move(part));

@@ -6,17 +6,9 @@
 
 #include "base/grid.h"
 #include "terrain/io/dem.h"
+#include "terrain/shape/course_lines.h"
 
 namespace belvedere {
-
-// A river or a stream as a map has it.
-struct DrawnCourse {
-  std::vector<glm::dvec2> places;  // m in the DEM's CRS, up or down the river
-  double width_m = 0.0;            // 0: by what it has gathered
-  double least_width_m = 0.0;      // never narrower
-  double snap_m = 150.0;           // how far it may be moved to the bottom of its valley; 0: it stays; 0…2000
-  int group = 0;                   // lines of one group that end in the same place are one river
-};
 
 // A river laid into the ground: smooth, with the width that it is drawn with.
 struct Course {
