@@ -93,7 +93,11 @@ TEST_F(Program, DeepAndHugeScenesAreRefusedAtOnce) {
   fs::resize_file(huge, 100'000'000);
   for (const std::string& scene : {write("deep.toml", deep), huge}) {
     const Outcome outcome = run({"check", scene}, [] {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+      const rlimit seconds{10, 10};
+#else
       const rlimit seconds{1, 1};  // of processor time: more would end it by a signal
+#endif
       setrlimit(RLIMIT_CPU, &seconds);
     });
     EXPECT_EQ(outcome.status, 2) << outcome.err;
