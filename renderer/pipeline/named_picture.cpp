@@ -6,7 +6,6 @@
 #include <charconv>
 #include <filesystem>
 #include <iterator>
-#include <set>
 
 #include "renderer/image/output_file.h"
 #include "renderer/image/rows/picture_files.h"
@@ -26,8 +25,8 @@ glm::vec3 colour_of(const std::string& hex) {
   return glm::vec3((value >> 16) & 255U, (value >> 8) & 255U, value & 255U) / 255.0F;
 }
 
-MarginContent content_of(const Scene& scene, const BareView& bare, const LabelSheet& sheet, const PictureLegend& legend,
-                         const std::vector<SceneInput>& inputs) {
+MarginContent content_of(const LoadedScene& loaded, const BareView& bare, const LabelSheet& sheet, const PictureLegend& legend) {
+  const Scene& scene = loaded.scene;
   const SceneMargin& asked = *scene.margin;
   MarginContent content;
   content.title = asked.title.empty() ? scene.title : asked.title;
@@ -46,14 +45,7 @@ MarginContent content_of(const Scene& scene, const BareView& bare, const LabelSh
   content.view_azimuth_deg = camera.azimuth_deg;
   content.sun_azimuth_deg = bare.view.sun.azimuth_deg;
   content.sun_altitude_deg = bare.view.sun.altitude_deg;
-  if (asked.sources) {
-    std::set<std::string> said;
-    for (const SceneInput& input : inputs) {
-      if (input.origin.empty()) continue;
-      const std::string text = input.licence.empty() ? input.origin : input.origin + " (" + input.licence + ")";
-      if (said.insert(text).second) content.sources.push_back(text);
-    }
-  }
+  if (asked.sources) content.sources = source_credits(loaded);
   return content;
 }
 
@@ -96,8 +88,8 @@ void write_named_picture(const LoadedScene& loaded, PixelRect region, const Shee
 
   Margin margin;
   if (scene.margin && whole)
-    margin = lay_out_margin(content_of(scene, bare, sheet, legend, scene_inputs(loaded)), sheet.style.margin, sheet.size_px,
-                            sheet.px_per_mm, scene.margin->frame_mm * sheet.px_per_mm);
+    margin = lay_out_margin(content_of(loaded, bare, sheet, legend), sheet.style.margin, sheet.size_px, sheet.px_per_mm,
+                            scene.margin->frame_mm * sheet.px_per_mm);
   const Drawing drawing = on_paper(scene.labels.in_picture ? label_drawing(sheet) : Drawing(), margin);
   const SheetPainter painter(drawing);
   const int width = margin.left + region.width() + margin.right;

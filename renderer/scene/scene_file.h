@@ -38,6 +38,8 @@ struct SceneInput {
 };
 // All of them, in the order of the reference. Built-in palettes, legends and rules are no files.
 std::vector<SceneInput> scene_inputs(const LoadedScene& scene);
+// Where its data come from, for whoever looks at the picture: "origin (licence)", each once, in the order of the inputs.
+std::vector<std::string> source_credits(const LoadedScene& scene);
 
 // The path of a file a scene names: looked for beside the scene, then in each data folder. Error(usage) where it leaves the allowed
 // folders, also through a link; an empty string where it does not exist.

@@ -109,6 +109,16 @@ std::vector<SceneInput> scene_inputs(const LoadedScene& scene) {
   return inputs;
 }
 
+std::vector<std::string> source_credits(const LoadedScene& scene) {
+  std::vector<std::string> credits;
+  for (const SceneInput& input : scene_inputs(scene)) {
+    if (input.origin.empty()) continue;
+    const std::string credit = input.licence.empty() ? input.origin : input.origin + " (" + input.licence + ")";
+    if (std::find(credits.begin(), credits.end(), credit) == credits.end()) credits.push_back(credit);
+  }
+  return credits;
+}
+
 void require_scene_files(const LoadedScene& scene) {
   std::string list;
   int missing = 0;

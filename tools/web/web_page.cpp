@@ -8,7 +8,6 @@
 #include <fstream>
 #include <glm/vec2.hpp>
 #include <map>
-#include <set>
 #include <sstream>
 #include <string_view>
 
@@ -64,12 +63,7 @@ About about(const ImageInfo& info, const std::string& folder) {
     const LoadedScene loaded = parse_scene(note->second, "scene of the picture", folder, {});
     if (!loaded.scene.title.empty()) out.title = loaded.scene.title;
     out.sheet_px = {loaded.scene.output.width, loaded.scene.output.height};
-    std::set<std::string> said;
-    for (const SceneInput& input : scene_inputs(loaded)) {
-      if (input.origin.empty()) continue;
-      const std::string text = input.licence.empty() ? input.origin : input.origin + " (" + input.licence + ")";
-      if (said.insert(text).second) out.sources += markup_text(text) + "<br>";
-    }
+    for (const std::string& credit : source_credits(loaded)) out.sources += markup_text(credit) + "<br>";
   }
   const auto software = info.notes.find("Software");
   out.sources += markup_text(software == info.notes.end() ? "Belvedere" : software->second);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -163,28 +165,55 @@ void add_bands(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook
   }
 }
 
-// Streets of small heaps that run towards the vanishing point.
-void add_rows(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look) {
-  const double scale_px = cloud_scale_px(p);
-  const double spread = 1.25 * scale_px;  // between rows where they are half the sky high
+// Lines of places on the sky's plane that come from the vanishing point.
+struct Streets {
+  int number;                   // of their stream
+  double spread;                // between them where they are half the sky high, units of clouds
+  double aside;                 // by which each is moved, of spread
+  std::optional<double> share;  // of them that there are; none: all of them
+  glm::dvec3 first;             // elevation of their first place, and its factor: least and most
+  double last;                  // elevation where they end
+  glm::dvec2 step;              // from each place to the next: factor of elevation, least and most
+};
+
+// place(draws, elevation, base_px, x_px) for each of them.
+template <class Place>
+void along_streets(const SkyParameters& p, const SkyLook& look, const Streets& streets, Place&& place) {
+  const double spread_px = streets.spread * cloud_scale_px(p);
   const double reach_px = look.vanishing_px.y - 0.5 * p.horizon_px;
-  const auto rows = static_cast<std::int64_t>(p.picture_size.x / spread) + 3;
-  const std::uint64_t seed = stream_seed(p.seed, Stream::cloud_banks, 7);
-  for (std::int64_t row = -rows; row <= rows; ++row) {
-    Draws draws(seed, row);
-    const double slope = (static_cast<double>(row) + draws.between(-0.3, 0.3)) * spread / reach_px;
-    if (draws.uniform() > 0.75 * look.amount + 0.4 * (p.clouds - 1.0)) continue;
-    for (double elevation = 0.045 * draws.between(0.8, 1.3); elevation < 0.66; elevation *= draws.between(1.25, 1.65)) {
+  const auto count = static_cast<std::int64_t>(p.picture_size.x / spread_px) + 3;
+  const std::uint64_t seed = stream_seed(p.seed, Stream::cloud_banks, static_cast<std::uint64_t>(streets.number));
+  for (std::int64_t street = -count; street <= count; ++street) {
+    Draws draws(seed, street);
+    const double slope = (static_cast<double>(street) + draws.between(-streets.aside, streets.aside)) * spread_px / reach_px;
+    if (streets.share && draws.uniform() > *streets.share) continue;
+    for (double elevation = streets.first.x * draws.between(streets.first.y, streets.first.z); elevation < streets.last;
+         elevation *= draws.between(streets.step.x, streets.step.y)) {
       const double base_px = p.horizon_px * (1.0 - elevation);
-      const double x_px = look.vanishing_px.x + slope * (look.vanishing_px.y - base_px) + scale_px * elevation * draws.between(-0.25, 0.25);
-      const double width_px = scale_px * look.size * size_at(elevation) * draws.between(0.22, 0.55);
-      const double kind = std::clamp(look.heaped + draws.between(-0.3, 0.4), 0.0, 1.0);
-      const double chance = draws.uniform();
-      const double opacity = clearness(elevation) * (0.66 + 0.34 * kind);
-      if (chance < 0.30 || x_px < -width_px || x_px > p.picture_size.x + width_px) continue;
-      clouds.push_back(make_cloud(p, draws, {x_px, base_px}, width_px, kind, opacity));
+      place(draws, elevation, base_px, look.vanishing_px.x + slope * (look.vanishing_px.y - base_px));
     }
   }
+}
+
+// Small heaps in streets.
+void add_rows(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look) {
+  const double scale_px = cloud_scale_px(p);
+  const Streets streets{.number = 7,
+                        .spread = 1.25,
+                        .aside = 0.3,
+                        .share = std::optional(0.75 * look.amount + 0.4 * (p.clouds - 1.0)),
+                        .first = {0.045, 0.8, 1.3},
+                        .last = 0.66,
+                        .step = {1.25, 1.65}};
+  along_streets(p, look, streets, [&](Draws& draws, double elevation, double base_px, double street_px) {
+    const double x_px = street_px + scale_px * elevation * draws.between(-0.25, 0.25);
+    const double width_px = scale_px * look.size * size_at(elevation) * draws.between(0.22, 0.55);
+    const double kind = std::clamp(look.heaped + draws.between(-0.3, 0.4), 0.0, 1.0);
+    const double chance = draws.uniform();
+    const double opacity = clearness(elevation) * (0.66 + 0.34 * kind);
+    if (chance < 0.30 || x_px < -width_px || x_px > p.picture_size.x + width_px) return;
+    clouds.push_back(make_cloud(p, draws, {x_px, base_px}, width_px, kind, opacity));
+  });
 }
 
 // A cumulus: towers of rounded heads over a level base, the tallest near its middle.
@@ -219,28 +248,21 @@ Cloud make_heap(const SkyParameters& p, Draws& draws, glm::dvec2 middle_px, doub
   return cloud;
 }
 
-// Heaps of fair weather over all of the sky, in streets that come from the vanishing point, ever smaller and closer towards the horizon.
+// Heaps of fair weather over all of the sky, in streets, ever smaller and closer towards the horizon.
 void add_cumulus(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook& look) {
   const double scale_px = cloud_scale_px(p);
-  const double spread = 1.7 * scale_px;  // between streets where they are half the sky high
-  const double reach_px = look.vanishing_px.y - 0.5 * p.horizon_px;
-  const auto streets = static_cast<std::int64_t>(p.picture_size.x / spread) + 3;
-  const std::uint64_t seed = stream_seed(p.seed, Stream::cloud_banks, 11);
-  for (std::int64_t street = -streets; street <= streets; ++street) {
-    Draws draws(seed, street);
-    const double slope = (static_cast<double>(street) + draws.between(-0.35, 0.35)) * spread / reach_px;
-    for (double elevation = 0.03 * draws.between(0.8, 1.4); elevation < 0.60; elevation *= draws.between(1.4, 2.0)) {
-      const double base_px = p.horizon_px * (1.0 - elevation);
-      const double aside = draws.between(-0.6, 0.6);
-      const double x_px = look.vanishing_px.x + slope * (look.vanishing_px.y - base_px) + scale_px * (0.2 + elevation) * aside;
-      const double width_px = scale_px * look.size * size_at(elevation) * draws.between(0.45, 1.05);
-      const double tall = draws.between(0.26, 0.52) * (p.winter ? 0.6 : 1.0);
-      const double chance = draws.uniform();
-      const double wanted = (p.winter ? 0.42 : 0.62) * look.amount + 0.3 * (p.clouds - 1.0);
-      if (chance > wanted || x_px < -width_px || x_px > p.picture_size.x + width_px) continue;
-      clouds.push_back(make_heap(p, draws, {x_px, base_px}, width_px, tall, clearness(elevation)));
-    }
-  }
+  const Streets streets{
+      .number = 11, .spread = 1.7, .aside = 0.35, .share = std::nullopt, .first = {0.03, 0.8, 1.4}, .last = 0.60, .step = {1.4, 2.0}};
+  along_streets(p, look, streets, [&](Draws& draws, double elevation, double base_px, double street_px) {
+    const double aside = draws.between(-0.6, 0.6);
+    const double x_px = street_px + scale_px * (0.2 + elevation) * aside;
+    const double width_px = scale_px * look.size * size_at(elevation) * draws.between(0.45, 1.05);
+    const double tall = draws.between(0.26, 0.52) * (p.winter ? 0.6 : 1.0);
+    const double chance = draws.uniform();
+    const double wanted = (p.winter ? 0.42 : 0.62) * look.amount + 0.3 * (p.clouds - 1.0);
+    if (chance > wanted || x_px < -width_px || x_px > p.picture_size.x + width_px) return;
+    clouds.push_back(make_heap(p, draws, {x_px, base_px}, width_px, tall, clearness(elevation)));
+  });
 }
 
 // Long level bars before a low sun, lit from below, in sheaves: the lower, the thinner and closer.

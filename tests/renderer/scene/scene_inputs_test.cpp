@@ -93,6 +93,16 @@ optional = true
   EXPECT_NO_THROW(require_scene_files(load("[[terrain.sources]]\nfile = \"alps/dem.tif\"\n")));
 }
 
+TEST_F(SceneFolders, CreditsAreSaidOnceAndWithTheirLicence) {
+  const LoadedScene scene = load(
+      "[[terrain.sources]]\nfile = \"alps/dem.tif\"\norigin = \"Tyrol survey\"\nlicence = \"CC0\"\n"
+      "[[terrain.sources]]\nfile = \"alps/south.tif\"\norigin = \"Tyrol survey\"\nlicence = \"CC0\"\n"
+      "[[terrain.sources]]\nfile = \"here.tif\"\n"
+      "[land_cover]\nlegend = \"nlcd\"\n[[land_cover.sources]]\nfile = \"here.tif\"\norigin = \"WorldCover\"\n");
+  EXPECT_THAT(source_credits(scene), ElementsAre("Tyrol survey (CC0)", "WorldCover"));
+  EXPECT_THAT(source_credits(load("")), IsEmpty());
+}
+
 TEST_F(SceneFolders, InputsAreFilesAndNoBuiltInNames) {
   EXPECT_THAT(scene_inputs(load("")), IsEmpty());
   EXPECT_THAT(scene_inputs(load("palette = \"winter\"\n[land_cover]\nlegend = \"nlcd\"\n[[land_cover.sources]]\nfile = \"here.tif\"\n")),
