@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/memory/parallel_fill.h"
 #include "base/memory/zeroed_memory.h"
 
 namespace belvedere {
@@ -21,6 +22,14 @@ class Grid {
   Grid() = default;
   Grid(int width, int height, const T& fill = T{})
       : width_(width), height_(height), values_(filled(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill)) {}
+  Grid(const Grid& other) : width_(other.width_), height_(other.height_), values_(copied(other.values_)) {}
+  Grid(Grid&&) noexcept = default;
+  Grid& operator=(const Grid& other) {
+    if (this != &other) *this = Grid(other);
+    return *this;
+  }
+  Grid& operator=(Grid&&) noexcept = default;
+  ~Grid() = default;
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -57,14 +66,28 @@ class Grid {
 
  private:
   using Values = std::vector<T, ZeroedAllocator<T>>;
+  // Values that new memory may be left without: they are written as bytes.
+  static constexpr bool plain = std::is_trivially_copyable_v<T> && std::is_trivially_default_constructible_v<T>;
 
   // A grid of zeros, as most begin, is not touched before it is filled.
   static Values filled(std::size_t size, const T& fill) {
-    if constexpr (std::is_trivially_copyable_v<T> && std::is_trivially_default_constructible_v<T>) {
+    if constexpr (plain) {
+      Values values(size);
       constexpr std::array<unsigned char, sizeof(T)> zeros{};
-      if (std::memcmp(&fill, zeros.data(), sizeof(T)) == 0) return Values(size);
+      if (std::memcmp(&fill, zeros.data(), sizeof(T)) != 0) fill_in_parallel(values.data(), &fill, sizeof(T), size);
+      return values;
+    } else {
+      return Values(size, fill);
     }
-    return Values(size, fill);
+  }
+  static Values copied(const Values& from) {
+    if constexpr (plain) {
+      Values values(from.size());
+      copy_in_parallel(values.data(), from.data(), sizeof(T) * from.size());
+      return values;
+    } else {
+      return from;
+    }
   }
 
   int width_ = 0;

@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -78,6 +79,16 @@ void parallel_ranges(Index count, Index grain, F&& f) {
                     [&](const tbb::blocked_range<Index>& range) { f(range.begin(), range.end()); });
 }
 #endif
+
+// Calls f(), in which a thread that waits for others takes up no work from outside: so its caller may hold a lock.
+template <class F>
+void isolated(F&& f) {
+#if defined(__SANITIZE_THREAD__)
+  f();
+#else
+  tbb::this_task_arena::isolate(f);
+#endif
+}
 
 // Calls f(y) for every row; each row must write only values of its own.
 template <class F>

@@ -54,6 +54,11 @@ TEST(ZeroedMemory, GridsHoldWhatTheyAreFilledWith) {
     EXPECT_TRUE(std::all_of(ones.begin(), ones.end(), [](float v) { return v == 1.0F; }));
     EXPECT_TRUE(std::all_of(covers.begin(), covers.end(), [](Cover c) { return c.kind == -3; }));
     EXPECT_TRUE(std::all_of(plain.begin(), plain.end(), [](Cover c) { return c.kind == 0; }));
+    const Grid<float> copy = ones;
+    EXPECT_EQ(copy, ones);
+    Grid<Cover> other(3, 2);
+    other = covers;
+    EXPECT_EQ(other, covers);
     std::fill(zeros.begin(), zeros.end(), glm::vec3(9.0F));
     std::fill(ones.begin(), ones.end(), 9.0F);
   }
