@@ -3,10 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/embedded.h"
 #include "base/progress.h"
 #include "renderer/compose/proposals.h"
 #include "renderer/compose/proposed_scene.h"
 #include "renderer/scene/scene_file.h"
+#include "terrain/synthetic/synthetic.h"
 #include "tests/renderer/compose/made_up_region.h"
 
 namespace belvedere {
@@ -75,6 +83,24 @@ TEST_F(ViewJudgementTest, ParallelProjectionsAreNotJudged) {
   const ViewJudgement judgement = judge({"camera.projection=oblique", "camera.pitch_deg=-30"});
   EXPECT_FALSE(judgement.judged());
   EXPECT_THAT(judgement.why_not, HasSubstr("parallel"));
+}
+
+// What a new user sees first. Where the demo's data ended under its horizon, far ranges were single cones in front of nothing: the end of
+// the data was 3 % of the picture, ranges stood 2.5 deep, and the skyline fell off to its corners.
+TEST(DemoView, HasRangesUpToItsHorizonAndNoEndOfTheData) {
+  const Scene scene = parse_scene(std::string(embedded_file("scenes/demo/demo.toml")), "demo.toml", ".", {}).scene;
+  ASSERT_TRUE(scene.terrain.synthetic.has_value());
+  const Dem dem = make_synthetic_terrain(*scene.terrain.synthetic, silent_progress());
+  const ViewJudgement judgement = judge_view(coarse_altitudes_of(dem), make_view(scene, dem, silent_progress()));
+  ASSERT_TRUE(judgement.judged()) << judgement.why_not;
+  const auto value = [&](std::string_view name) {
+    const auto found = std::find_if(judgement.terms.begin(), judgement.terms.end(), [&](const ScoreTerm& t) { return t.name == name; });
+    return found == judgement.terms.end() ? -1.0 : found->value;
+  };
+  EXPECT_LE(value("rim"), 0.012);
+  EXPECT_GE(value("ranges"), 3.3);
+  EXPECT_LE(value("level"), 0.225);
+  EXPECT_GE(judgement.merit, 7.0);
 }
 
 }  // namespace
