@@ -15,7 +15,6 @@
 #include "renderer/paint/fields.h"
 #include "renderer/paint/forest_cover.h"
 #include "renderer/paint/ground/forest_hues.h"
-#include "renderer/paint/ground/lake_bed.h"
 #include "renderer/paint/ground/meadow_hues.h"
 #include "renderer/paint/ground/scree_fans.h"
 #include "renderer/paint/ground_hues.h"
@@ -27,9 +26,7 @@
 #include "renderer/paint/sky.h"
 #include "renderer/paint/terrain_end.h"
 #include "renderer/paint/town_ground.h"
-#include "renderer/paint/water/lake_ice.h"
-#include "renderer/paint/water/water_wind.h"
-#include "renderer/paint/water_look.h"
+#include "renderer/paint/water/water_surface.h"
 #include "texture/strokes/parcels.h"
 
 namespace belvedere {
@@ -42,9 +39,6 @@ constexpr double tongue_sigma_units = 20.0;              // ice is blue and bare
 const glm::vec3 reflected_warmth{0.24F, 0.07F, -0.08F};  // what light from lit ground adds to the shade of a wall at its foot, factors
 const glm::vec3 full_warmth{0.10F, -0.02F, -0.16F};      // what a region's light of warmth 1 adds to lit colours, factors
 constexpr double brook_sigma_units = 1.8;                // what this blur of the water leaves pale is a brook
-constexpr float deep_tone = 0.20F;                       // of lakes in their ramp …
-constexpr float deep_share = 0.85F;                      // … and how far the light's tone goes over to it
-constexpr float deep_from_m = 7.0F;                      // painted depth from which they are deep
 constexpr double ice_step = 0.4;                         // of the step to the darker and lighter picture: strokes on ice are calm
 constexpr float high_m = 260.0F;                         // what stands so far above its surroundings is a crest
 
@@ -165,6 +159,19 @@ struct Scenery {
   // Metres of ground that a unit of the sheet shows.
   float metres_per_unit(std::size_t i) const { return guidance.footprint_m[i] * static_cast<float>(parameters.pixels_per_unit); }
   glm::dvec3 place_m(std::size_t i) const { return glm::dvec3(guidance.position_m[i]) + guidance.origin_m; }
+  WaterPixel water_pixel(std::size_t i, int x, int y, const Patches& patches) const {
+    const bool known = parameters.waters && guidance.land_cover[i] == Class::water;
+    return {.index = i,
+            .place_m = place_m(i),
+            .metres_per_unit = metres_per_unit(i),
+            .ground = known ? parameters.waters->at(glm::dvec2(place_m(i))) : WaterGround::Place{},
+            .mirrored = around.mirrored,
+            .share = around.water[i],
+            .streak = around.streaks.empty() ? 0.0F : around.streaks[i],
+            .patches = patches,
+            .image = image,
+            .image_index = image != nullptr ? image->share.index(x - wanted.x0, y - wanted.y0) : 0};
+  }
   // How a place stands against its surroundings: -1 valley … 1 crest.
   float raised(std::size_t i) const { return std::clamp(guidance.relief_l_m[i] / high_m, -1.0F, 1.0F); }
 };
@@ -262,52 +269,6 @@ glm::vec3 times_light(const glm::vec3& colour, float light) {
   return out;
 }
 
-// Noises that water is painted with; one set a thread.
-struct WaterNoises {
-  explicit WaterNoises(std::uint64_t seed) : wind(seed), ice(seed) {}
-  WaterWind wind;
-  LakeIce ice;
-};
-
-// What a pixel of water is painted with.
-struct Water {
-  WaterLook look;
-  LakeBed bed;
-  float depth_m = 0.0F;
-  float frozen = 0.0F;  // share of ice
-};
-
-Water water_at(const Scenery& s, WaterNoises& noises, std::size_t i, int x, int y, const Patches& patches) {
-  const GuidanceBuffers& g = s.guidance;
-  const BaseParameters& p = s.parameters;
-  const glm::dvec3 place = s.place_m(i);
-  const float metres_per_unit = s.metres_per_unit(i);
-  const WaterGround::Place ground = p.waters ? p.waters->at(glm::dvec2(place)) : WaterGround::Place{};
-  Water water;
-  water.depth_m = ground.depth_m;
-  if (is_frozen(s.palette, g.altitude_m[i])) water.frozen = ground.lake;
-  if (s.image != nullptr) {
-    const float ruffled = noises.wind.ruffled(place, metres_per_unit, static_cast<float>(p.water.wind));
-    water.look = water_look(g, s.palette, s.around.mirrored, i, s.around.water[i], s.around.streaks[i], patches,
-                            {*s.image, s.image->share.index(x - s.wanted.x0, y - s.wanted.y0), ruffled});
-  } else {
-    water.look = water_look(g, s.palette, s.around.mirrored, i, s.around.water[i], s.around.streaks[i], patches);
-    if (p.water.mirror == "none") water.look.image_share = 0.0F;
-  }
-  // The line of paint along near banks stands for the bed that is not known.
-  if (p.tint) water.bed = lake_bed(*p.tint, s.palette, g.altitude_m[i], place, g.footprint_m[i]);
-  if (water.bed.depth_m > 0.F) {
-    water.look.shallow_share = 0.F;
-  } else if (p.water.beds) {
-    water.bed = lake_bed(s.palette, ground, metres_per_unit);
-    if (water.bed.depth_m > 0.F) water.look.shallow_share *= 1.0F - ground.lake;
-    // Open lakes are dark by their depth, whatever light falls on them.
-    const float deep = ground.lake * smoothstep(0.0F, deep_from_m, s.palette.winter ? ground.depth_m : water.bed.depth_m);
-    water.look.tone_shift -= deep_share * deep * (g.tone[i] - deep_tone);
-  }
-  return water;
-}
-
 BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, WaterNoises& waters, int x, int y) {
   const GuidanceBuffers& g = s.guidance;
   const std::size_t i = g.depth_m.index(x, y);
@@ -320,7 +281,9 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, WaterNoises& wate
   const float glade = s.around.cover.glade[i];
   const bool has_gravel = has_trait(id, ClassTrait::gravel_banks) && !s.palette.winter;
   const float gravel = has_gravel ? gravel_share(s.around.water[i], patches) : 0.0F;
-  const Water open = id == Class::water ? water_at(s, waters, i, x, y, patches) : Water{};
+  const WaterSources sources{g, s.palette, s.parameters.water, s.parameters.tint.get()};
+  const WaterPixel wet = s.water_pixel(i, x, y, patches);
+  const WaterSurface open = id == Class::water ? water_surface(sources, waters, wet) : WaterSurface{};
   const WaterLook& water = open.look;
   const bool bare = id == Class::rock && !g.rock_facet.empty();
   const glm::vec2 cover = bare ? g.rock_cover[i] : glm::vec2(0.0F);
@@ -354,12 +317,7 @@ BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, WaterNoises& wate
       ramp = town_ground_colour(s.palette, ramp, g.built[i], altitude, light, static_cast<float>(s.parameters.air.hue_drift));
     if (multiplied) ramp = times_light(ramp, light_of_tone(static_cast<float>(lit)) / static_cast<float>(s.parameters.mean_light));
     ramp = water.over(ramp);
-    if (open.frozen > 0.0F) {
-      const float metres_per_unit = s.metres_per_unit(i);
-      ramp =
-          glm::mix(ramp, waters.ice.colour(s.palette, altitude, g.tone[i] + ice_step * step, s.place_m(i), open.depth_m, metres_per_unit),
-                   open.frozen);
-    }
+    ramp = frozen_over(ramp, sources, waters, wet, open, g.tone[i] + ice_step * step);
     return pixel.finish(ramp, s.palette.range_mist);
   };
   const int step_px = std::max(1, static_cast<int>(std::lround(s.parameters.pixels_per_unit)));
