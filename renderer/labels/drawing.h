@@ -49,11 +49,6 @@ struct Drawing {
   std::vector<DrawnShape> shapes;  // the first lies lowest
 };
 
-// The shapes as elements of SVG 1.1, one a line: text as text. Bent baselines get names that begin with `id`.
-std::string shapes_svg(const std::vector<DrawnShape>& shapes, const std::string& id);
-// A whole file whose sheet is so wide.
-std::string drawing_svg(const Drawing& drawing, double width_mm);
-
 void move_shape(DrawnShape& shape, glm::dvec2 by);
 
 // Where the middle of each letter stands on a bent baseline, and how it is turned: the tangent of the line under its own width.

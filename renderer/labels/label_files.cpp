@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/json.h"
 #include "base/text/markup.h"
+#include "renderer/labels/drawing_svg.h"
 #include "renderer/labels/label_drawing.h"
 #include "terrain/io/crs.h"
 
@@ -62,8 +63,7 @@ std::string labels_svg(const LabelSheet& sheet, const std::string& under) {
     out += fmt::format("  <image xlink:href=\"{}\" x=\"0\" y=\"0\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\"/>\n",
                        markup_text(under), sheet.size_px.x, sheet.size_px.y);
   for (const DrawnGroup& group : draw_labels(sheet))
-    out +=
-        fmt::format("  <g id=\"{}\">\n{}  </g>\n", markup_text(group.name), shapes_svg(group.shapes, "along-" + markup_text(group.name)));
+    out += fmt::format("  <g id=\"{}\">\n{}  </g>\n", markup_text(group.name), shapes_svg(group.shapes));
   return out + "</svg>\n";
 }
 

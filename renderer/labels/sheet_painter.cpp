@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "renderer/labels/placed_text.h"
 
 namespace belvedere {
 namespace {
@@ -71,40 +72,6 @@ Outline circle_outline(glm::dvec2 m, double r) {
           {OutlineStep::curve, {at(-1, -k), at(-k, -1), at(0, -1)}},
           {OutlineStep::curve, {at(k, -1), at(1, -k), at(1, 0)}},
           {OutlineStep::close, {}}};
-}
-
-// A letter's outline moved to its place: `origin` of the letter's own coordinates goes to `at`.
-void append_moved(const Outline& from, glm::dvec2 origin, glm::dvec2 at, glm::dvec2 tangent, Outline& to) {
-  for (OutlineStep step : from) {
-    for (int i = 0; i < points_of(step.kind); ++i) {
-      glm::dvec2& p = step.points[static_cast<std::size_t>(i)];
-      const glm::dvec2 q = p - origin;
-      p = at + q.x * tangent + q.y * glm::dvec2(-tangent.y, tangent.x);
-    }
-    to.push_back(step);
-  }
-}
-
-Outline text_outline(const DrawnText& text, const TextMeasure& measure) {
-  const std::vector<TextLetter> letters = measure.letters(text.text, text.type);
-  double width = 0.0;
-  for (const TextLetter& letter : letters) width += letter.width_px;
-  Outline outline;
-  std::vector<LetterPlace> bent;
-  if (!text.along.empty()) {
-    std::vector<double> widths;
-    for (const TextLetter& letter : letters) widths.push_back(letter.width_px);
-    bent = set_along(widths, text.along);
-  }
-  double x = text.at.x - text.anchor * width;
-  for (std::size_t i = 0; i < letters.size(); ++i) {
-    if (!bent.empty())
-      append_moved(letters[i].outline, {.5 * letters[i].width_px, 0.0}, bent[i].at, bent[i].tangent, outline);
-    else if (text.along.empty())
-      append_moved(letters[i].outline, {0.0, 0.0}, {x, text.at.y}, {1.0, 0.0}, outline);
-    x += letters[i].width_px;
-  }
-  return outline;
 }
 
 glm::dvec3 rgb_of(const std::string& colour) {
@@ -179,7 +146,7 @@ SheetPainter::SheetPainter(const Drawing& drawing) : state_(std::make_unique<Sta
     }
     if (const DrawnText* text = std::get_if<DrawnText>(&shape)) {
       if (!measure) measure = std::make_unique<TextMeasure>();
-      const Outline outline = text_outline(*text, *measure);
+      const Outline outline = outline_of(place_letters(*text, *measure));
       if (outline.empty()) continue;
       if (!text->halo.empty() && text->halo_px > 0.0) strokes.push_back(prepared(outline, text->halo, false, 2.0 * text->halo_px));
       strokes.push_back(prepared(outline, text->colour, true, 0.0));

@@ -3,6 +3,8 @@
 #include <fontconfig/fontconfig.h>
 #include <pango/pangocairo.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 
 namespace belvedere {
@@ -139,12 +141,19 @@ std::vector<TextLetter> TextMeasure::letters(const std::string& text, const Text
   for (const GSList* at = line->runs; at != nullptr; at = at->next) {
     auto* run = static_cast<PangoGlyphItem*>(at->data);
     const PangoGlyphString& glyphs = *run->glyphs;
+    // Where the letters of a cluster begin in the run's text; they end where those of the next one begin, on whichever side it stands.
+    std::vector<int> begins(glyphs.log_clusters, glyphs.log_clusters + glyphs.num_glyphs);
+    begins.push_back(run->item->length);
+    std::sort(begins.begin(), begins.end());
     for (int i = 0; i < glyphs.num_glyphs;) {
       int end = i + 1;
       while (end < glyphs.num_glyphs && glyphs.log_clusters[end] == glyphs.log_clusters[i]) ++end;
       TextLetter letter;
       for (int k = i; k < end; ++k) letter.width_px += pixels(glyphs.glyphs[k].geometry.width);
       letter.outline = outline_of(cairo, run, i, end - i);
+      const int from = glyphs.log_clusters[i];
+      const int to = *std::upper_bound(begins.begin(), begins.end(), from);
+      letter.text = text.substr(static_cast<std::size_t>(run->item->offset + from), static_cast<std::size_t>(to - from));
       letters.push_back(std::move(letter));
       i = end;
     }

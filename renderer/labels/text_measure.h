@@ -37,6 +37,7 @@ constexpr int points_of(OutlineStep::Kind kind) { return kind == OutlineStep::cu
 // A letter with its accents, or what a font makes of several letters: what is turned as one where a line is bent. From left to right.
 struct TextLetter {
   double width_px = 0.0;  // to the next one
+  std::string text;       // UTF-8, in the order of reading
   Outline outline;        // from the baseline's left end under the letter; empty: a space
 };
 

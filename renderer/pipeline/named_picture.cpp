@@ -9,6 +9,7 @@
 
 #include "renderer/image/output_file.h"
 #include "renderer/image/rows/picture_files.h"
+#include "renderer/labels/drawing_svg.h"
 #include "renderer/labels/label_drawing.h"
 #include "renderer/labels/sheet_painter.h"
 #include "renderer/paint/composite.h"

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
+#include "renderer/labels/drawing_svg.h"
 #include "renderer/labels/label_files.h"
 #include "renderer/labels/sheet_painter.h"
 #include "terrain/io/crs.h"

@@ -1,6 +1,5 @@
 #include "renderer/labels/drawing.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,8 +7,6 @@
 
 namespace belvedere {
 namespace {
-
-using testing::HasSubstr;
 
 std::vector<glm::dvec2> half_circle(double radius) {
   std::vector<glm::dvec2> line;
@@ -36,21 +33,6 @@ TEST(Drawing, LettersStandOnACircleWhereItsArcHasThem) {
     from += widths[i];
   }
   EXPECT_TRUE(set_along({2000.0}, half_circle(r)).empty()) << "longer than the line";
-}
-
-TEST(Drawing, SvgSaysTextAsTextAndBendsItByAPath) {
-  Drawing drawing{.size_px = {200, 100}, .shapes = {}};
-  drawing.shapes.push_back(DrawnText{.text = "Inn & Co", .type = {}, .at = {10, 20}, .anchor = 1.0, .colour = "#102030"});
-  drawing.shapes.push_back(
-      DrawnText{.text = "Tal", .type = {}, .colour = "#102030", .halo = "#ffffff", .halo_px = 2.0, .along = {{0, 50}, {100, 40}}});
-  drawing.shapes.push_back(DrawnPath{.points = {{0, 0}, {1, 0}, {1, 1}}, .closed = true, .fill = "#ff0000", .stroke = {}});
-  const std::string svg = drawing_svg(drawing, 400.0);
-  EXPECT_THAT(svg, HasSubstr("width=\"400.000mm\" height=\"200.000mm\""));
-  EXPECT_THAT(svg, HasSubstr("text-anchor=\"end\">Inn &amp; Co</text>"));
-  EXPECT_THAT(svg, HasSubstr("d=\"M0.00 50.00L100.00 40.00\""));
-  EXPECT_THAT(svg, HasSubstr("<textPath xlink:href=\"#line-1\" startOffset=\"50%\">Tal</textPath>"));
-  EXPECT_THAT(svg, HasSubstr("stroke-width: 4.00px"));
-  EXPECT_THAT(svg, HasSubstr("d=\"M0.00 0.00L1.00 0.00L1.00 1.00Z\" fill=\"#ff0000\""));
 }
 
 TEST(Drawing, MovesAllThatAShapeStandsOn) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "renderer/labels/drawing_svg.h"
 #include "renderer/world/valley_view.h"
 #include "tests/renderer/world/small_world.h"
 
