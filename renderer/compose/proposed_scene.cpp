@@ -187,7 +187,7 @@ std::string proposed_scene_text(const ViewSearch& search, const Candidate& candi
   text.line("[air]");
   text.value("from_m", metres(horizon.air_from_m), "behind the foreground");
   text.value("scale_m", metres(horizon.air_scale_m), "far ranges turn blue, and stay readable");
-  text.value("haze", "0.75");
+  text.value("haze", fmt::format("{}", view_haze));
   text.value("rim_fade_m", metres(horizon.rim_fade_m), "the end of the data goes under in haze");
   text.line();
   text.line("[output]");

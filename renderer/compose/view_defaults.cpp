@@ -6,7 +6,7 @@ namespace belvedere {
 
 HorizonDefaults defaults_of_horizon(double far_m) {
   return {.air_from_m = 0.45 * far_m,
-          .air_scale_m = 0.90 * far_m,
+          .air_scale_m = 0.60 * far_m,
           .rim_fade_m = 0.035 * far_m,
           .foreground_to_m = 0.42 * far_m,
           .background_from_m = 0.95 * far_m};

@@ -7,11 +7,13 @@ namespace belvedere {
 
 struct HorizonDefaults {
   double air_from_m = 0.0;         // .45 of the horizon's distance: behind the foreground
-  double air_scale_m = 0.0;        // .90: far ranges turn blue, and stay readable
+  double air_scale_m = 0.0;        // .60: far ranges turn blue, and stay readable
   double rim_fade_m = 0.0;         // .035: the end of the data goes under in haze
   double foreground_to_m = 0.0;    // .42: where generalization begins to change
   double background_from_m = 0.0;  // .95
 };
+// Of the air's colour at most so much.
+inline constexpr double view_haze = 0.80;
 HorizonDefaults defaults_of_horizon(double far_m);
 
 // Light as painters of panoramas have it: from the upper left, as on maps.

@@ -285,7 +285,7 @@ ViewMeasures measure_view(const CoarseGround& ground, const ViewShape& view, con
                    .rim_fade_m = horizon.rim_fade_m,
                    .air_from_m = horizon.air_from_m,
                    .air_scale_m = horizon.air_scale_m,
-                   .haze = 0.75};
+                   .haze = view_haze};
   for (const double d : sight.distance_m) sight.drop_m.push_back(view.drop_m(d));
   sight.exaggeration.assign(sight.distance_m.size(), view.exaggeration);
   return measure_view(ground, sight, anchors);

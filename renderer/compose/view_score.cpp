@@ -133,7 +133,7 @@ std::vector<ScoreTerm> score_terms(const ViewMeasures& m, const ScoreContext& co
        "", "the lower edge cuts through mountains: let it lie over a valley"},
       {"flat", 2.0, excess, {0, 0, 0.35, 1}, share, m.flat, "of the picture is low ground", "", "much of the picture is plain"},
       // What proposals have by their layout is judged in scenes of other hands alone.
-      {"haze", 0.0, told, {0.0, 0.06, 0.40, 0.8}, share, m.haze, "of the air's colour over the land, on the mean",
+      {"haze", 0.0, told, {0.0, 0.10, 0.40, 0.8}, share, m.haze, "of the air's colour over the land, on the mean",
        "no air between near and far: air.from_m or air.scale_m is too large for this region",
        "the land drowns in haze: air.from_m or air.scale_m is too small for this region"},
       {"empty", 10.0, excess, {0, 0, 0, 1}, share, m.empty_edge, "of the lower edge has no ground", "", "there are no data at the lower edge"},

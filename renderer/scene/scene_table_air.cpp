@@ -20,7 +20,7 @@ std::vector<SceneSection> make_air_sections() {
             .range = {0, 1e7, true},
             .unit = "m",
             .meaning = "Distance over which it thickens to two thirds.",
-            .derived = ".9 of the distance of the horizon"},
+            .derived = ".6 of the distance of the horizon"},
            {.name = "range_mist",
             .field = AT(air.look.range_mist),
             .range = {0, 3},

@@ -234,7 +234,7 @@ ViewDistances settle_distances(const Scene& scene, const Deformation& deformatio
         derive("generalize.background_from_m", std::max(rounded_m(std::max(found.background_from_m, least)), 1.0), ".95 " + horizon);
   }
   if (!air.from_m) out.air.from_m = derive("air.from_m", rounded_m(found.air_from_m), ".45 " + horizon);
-  if (!air.scale_m) out.air.scale_m = derive("air.scale_m", std::max(rounded_m(found.air_scale_m), 1.0), ".9 " + horizon);
+  if (!air.scale_m) out.air.scale_m = derive("air.scale_m", std::max(rounded_m(found.air_scale_m), 1.0), ".6 " + horizon);
   if (!air.rim_fade_m) out.air.rim_fade_m = derive("air.rim_fade_m", rounded_m(found.rim_fade_m), ".035 " + horizon);
   return out;
 }
