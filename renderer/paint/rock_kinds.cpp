@@ -111,7 +111,7 @@ glm::vec3 rock_hue(const RockKind& kind, std::uint32_t facet, float shade) {
   while (k + 1 < kind.hues.size() && drawn > kind.hues[k].up_to) ++k;
   const glm::vec3 hue = glm::mix(glm::vec3(1.0F), kind.hues[k].factor, hue_strength);
   const float violet = share_of(facet ^ 0x5bd1e995U) - 0.5F;
-  return hue * (1.0F + shade * violet * glm::vec3(0.11F, -0.02F, 0.02F));
+  return hue * (1.0F + shade * violet * glm::vec3(0.17F, -0.02F, 0.00F));
 }
 
 }  // namespace belvedere

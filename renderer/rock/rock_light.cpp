@@ -19,7 +19,10 @@ constexpr float fill_strength = 0.30F;  // sky and ground opposite the sun still
 constexpr float flatness = 0.85F;       // how far a facet has one normal
 // By how much each size may move the tone, and how that differs in shade, which has large planes and little detail.
 constexpr std::array<float, spur_sizes> most_tone = {0.50F, 0.13F, 0.055F};
-constexpr std::array<float, spur_sizes> shade_factor = {1.8F, 1.2F, 0.5F};
+constexpr std::array<float, spur_sizes> shade_factor = {2.2F, 1.6F, 0.8F};
+constexpr float shade_tone = 0.24F;   // about which walls in shade are painted
+constexpr float shade_drawn = 0.65F;  // how far they draw together there
+constexpr float shade_lift = 0.06F;   // what gullies and planes turned from the light of the sky take away again
 constexpr std::array<float, spur_sizes> calm_least = {1.0F, 0.6F, 0.25F};
 // Lines of the three sizes, units: half widths of light crests and dark gullies, and how strong they are.
 constexpr std::array<float, spur_sizes> crest_width = {0.84F, 0.60F, 0.36F};
@@ -61,11 +64,14 @@ struct Sun {
         fill(glm::normalize(glm::vec3(-sun.x, -sun.y, 0.35F))),
         strength(static_cast<float>(p.light.sun) * (at.own_light ? at.own_light->strength : 1.0F)) {}
 
-  // Tone of a normal.
-  float operator()(glm::vec3 normal, float shadow, float sky_share) const {
+  float facing(glm::vec3 normal) const {
     const auto wrap = static_cast<float>(light.wrap);
-    const float facing = unit((glm::dot(normal, sun) + wrap) / (1.0F + wrap));
-    const float direct = facing * (1.0F - static_cast<float>(light.light.shadow_depth) * (1.0F - shadow));
+    return unit((glm::dot(normal, sun) + wrap) / (1.0F + wrap));
+  }
+  // Tone of a normal on a wall that faces the sun by `wall`. What is left of sunlight in a cast shadow comes from no side: from the sun's
+  // it would cancel the fill, and walls in shade would be felt.
+  float operator()(glm::vec3 normal, float shadow, float sky_share, float wall) const {
+    const float direct = facing(normal) * shadow + wall * (1.0F - static_cast<float>(light.light.shadow_depth)) * (1.0F - shadow);
     const float value = strength * direct + static_cast<float>(light.light.sky) * sky_share * (0.6F + 0.4F * normal.z) +
                         fill_strength * (0.5F * glm::dot(normal, fill) + 0.2F);
     return middle_tone + ((value - raw_black) / raw_range - middle_tone) * class_info(LandCoverClass::rock).tone.contrast + lift;
@@ -168,7 +174,8 @@ RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool wint
   const float calm = unit(0.55F + 0.42F * p.calm_noise);
   float along_sum = 0.0F;
   float across_sum = 0.0F;
-  float before = sun(base, shadow, sky_share);
+  const float wall = sun.facing(base);
+  float before = sun(base, shadow, sky_share, wall);
   const float shade = 1.0F - smoothstep(0.25F, 0.50F, before);
   float tone = before;
   const float base_tone = before;
@@ -183,12 +190,13 @@ RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool wint
     along_sum += kind.tilt[k] * 0.8F * (hit.slope.x * f.x + hit.slope.y * f.y);
     across_sum += kind.tilt[k] * (hit.slope.x * f.y - hit.slope.y * f.x);
     normal = glm::normalize(base - (across * across_sum + down * along_sum) * strength);
-    const float now = sun(normal, shadow, sky_share);
+    const float now = sun(normal, shadow, sky_share, wall);
     const float factor = (1.0F + (shade_factor[k] - 1.0F) * shade) * (calm_least[k] + (1.0F - calm_least[k]) * calm) * share;
     tone += factor * soft(now - before, most_tone[k]);
     before = now;
   }
-  tone += 0.05F * shade + 0.06F * std::clamp(2.0F * stands, -1.0F, 1.0F);
+  // Shade that is left as dark as it is has no room below it for the dark side of a plane: it draws together around the paint of shade.
+  tone += shade * (shade_lift + shade_drawn * (shade_tone - base_tone)) + 0.06F * std::clamp(2.0F * stands, -1.0F, 1.0F);
 
   // A patch of few units has no room for towers: it would glitter like a pebble.
   const float patch = smoothstep(small_patch, large_patch, p.rock);
@@ -200,7 +208,7 @@ RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool wint
     tread = bed.shown * smoothstep(0.66F, 0.69F, bed.height) * (1.0F - smoothstep(0.84F + 0.1F * bed.strong, 0.98F, bed.height));
     const float under = bed.shown * smoothstep(0.40F, 0.62F, bed.height) * (1.0F - smoothstep(0.64F, 0.67F, bed.height));
     const glm::vec3 to_sky = glm::normalize(glm::mix(p.normal, glm::vec3(0.0F, 0.0F, 1.0F), kind.tread));
-    const float open = sun(to_sky, shadow, sky_share);
+    const float open = sun(to_sky, shadow, sky_share, wall);
     tone += tread * 0.75F * (std::max(open, tone + 0.05F) - tone) * (0.45F + 0.55F * lit) - under * 0.28F * (0.4F + 0.6F * lit);
   }
 

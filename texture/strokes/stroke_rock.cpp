@@ -63,7 +63,7 @@ std::vector<Stroke> paint_planes(const StrokeScene& scene, Stream stream, const 
     const float calmer = (1.F - 0.4F * shade) * (0.55F + 0.45F * busy) * (1.F - 0.5F * scene.base.haze[i]);
     const float m = std::clamp(pass.tone / tone_of_m * calmer * seed.normal(), -1.5F, 1.5F);
     stroke.colour = scene.colour(i, m, 0.F, seed);
-    const float warm = broken_hue * seed.normal();
+    const float warm = broken_hue * (1.F - 0.4F * shade) * seed.normal();
     stroke.colour += glm::vec3(warm, 0.15F * warm, -warm);
     out.push_back(stroke);
   });

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -84,6 +85,23 @@ TEST(RockLight, ACastShadowTakesTheLight) {
   EXPECT_GT(lit, shaded + 0.4F);
   // Shade still has forms.
   EXPECT_GT(std::abs(light_rock(limestone(), sun_from(0.7), false, p, Flank(1).hits).tone - shaded), 0.02F);
+}
+
+// Walls in cast shadow were felt: planes .07 of the tone apart, half of them below the darkest paint.
+TEST(RockLight, WallsInShadeHavePlanesToo) {
+  RockPixel p = wall_pixel();
+  p.shadow = 0.0F;
+  p.rock = 1.0F;
+  p.sky_view = 0.6F;
+  for (const double east : {0.7, -0.7, 1.5}) {
+    const ToneParameters light = sun_from(east);
+    const float left = light_rock(limestone(), light, false, p, Flank(0).hits).tone;
+    const float right = light_rock(limestone(), light, false, p, Flank(1).hits).tone;
+    EXPECT_GT(std::abs(left - right), 0.16F) << east;
+    EXPECT_GT(std::min(left, right), 0.0F) << east << ": paint is left for gullies";
+    EXPECT_GT(std::max(left, right), 0.22F) << east;
+    EXPECT_LT(std::max(left, right), 0.48F) << east << ": and it is shade";
+  }
 }
 
 TEST(RockLight, LargeSpursStandInTheSunsWay) {
