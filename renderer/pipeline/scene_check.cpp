@@ -64,10 +64,10 @@ struct Sight {
 
 // How the light falls on the ranges of the small picture.
 void look_at_light(Sight& sight, const LoadedScene& loaded, const TerrainModel& terrain, const Tracer& tracer, const Camera& camera,
-                   bool propose) {
+                   bool propose, Progress& progress) {
   const std::vector<SeenSlope> slopes = see_slopes(terrain, sight.view.deform.exaggeration, tracer, camera, 2);
   sight.ranges = find_ranges(slopes);
-  light_ranges(sight.ranges, slopes, tracer, sight.view.sun_direction, make_light_field(loaded, *sight.dem, sight.view).get());
+  light_ranges(sight.ranges, slopes, tracer, sight.view.sun_direction, make_light_field(loaded, *sight.dem, sight.view, progress).get());
   for (SeenRange& range : sight.ranges) range.slopes.clear();
   if (propose) sight.proposed = propose_light(loaded, *sight.dem, sight.view, slopes, tracer);
 }
@@ -104,7 +104,7 @@ Sight look(const LoadedScene& loaded, Progress& progress, const Cache& cache, bo
   const Tracer tracer(surface, scene.tracing);
   const std::unique_ptr<const Camera> small_camera = make_camera(camera);
   sight.classes = trace_classes(terrain, tracer, *small_camera);
-  look_at_light(sight, loaded, terrain, tracer, *small_camera, propose);
+  look_at_light(sight, loaded, terrain, tracer, *small_camera, propose, progress);
   return sight;
 }
 

@@ -112,7 +112,7 @@ World::World(const LoadedScene& loaded, std::shared_ptr<const Dem> known_dem, st
       dem(known_dem ? std::move(known_dem) : take_dem(loaded, opened, progress, cache)),
       view(make_view(scene, *dem, progress, ground_altitude_of(opened), region_of(opened))),
       camera(make_camera(view.camera)),
-      light_field(make_light_field(loaded, *dem, view)),
+      light_field(make_light_field(loaded, *dem, view, progress)),
       land_cover(known_cover ? std::move(known_cover) : make_cover(loaded, *this, catchments, progress, cache)),
       deformation(view.deform, view.viewer_xy),
       terrain(with_windows(make_terrain(*this, generalize_for_view(loaded, *dem, land_cover.get(), view, progress, cache), loaded,

@@ -23,11 +23,16 @@ std::vector<glm::dvec2> outline_of(const SceneLightRegion& given, const Dem& dem
   return ring;
 }
 
-// The areas of a region's file: one ring and its holes each. A file that is missing and may be is left out.
+// The areas of a region's file: one ring and its holes each; none where it is missing and may be.
 std::vector<std::vector<std::vector<glm::dvec2>>> areas_of(const LoadedScene& loaded, const SceneLightRegion& given, const Dem& dem,
-                                                           const std::string& key) {
+                                                           const std::string& key, Progress& progress) {
   const std::string path = find_scene_file(loaded, given.file);
-  if (path.empty()) return {};
+  if (path.empty()) {
+    if (!given.optional)
+      throw Error(ErrorKind::input, given.file, "there is no such file", "a file beside the scene or in a --data folder");
+    progress.note(fmt::format("{} is left out: there is no {}{}", key, given.file, given.get_from.empty() ? "" : "; " + given.get_from));
+    return {};
+  }
   if (dem.crs.empty()) throw Error(ErrorKind::usage, key + ".file", "a file of areas on a terrain without CRS", "points = [[E, N], …]");
   std::vector<std::vector<std::vector<glm::dvec2>>> areas;
   std::size_t corners = 0;
@@ -54,7 +59,7 @@ glm::dvec3 sun_of(const SceneLightRegion& given, const SunPosition& picture) {
 
 }  // namespace
 
-std::shared_ptr<const LightField> make_light_field(const LoadedScene& loaded, const Dem& dem, const View& view) {
+std::shared_ptr<const LightField> make_light_field(const LoadedScene& loaded, const Dem& dem, const View& view, Progress& progress) {
   const Scene& scene = loaded.scene;
   if (scene.light_regions.empty() && scene.light_clouds.empty()) return nullptr;
   if (view.sun.altitude_deg <= 0.0)
@@ -67,7 +72,7 @@ std::shared_ptr<const LightField> make_light_field(const LoadedScene& loaded, co
     LightRegion region{
         .blend_m = given.blend_m, .sun_direction = sun_of(given, view.sun), .strength = given.strength, .warmth = given.warmth};
     if (!given.file.empty()) {
-      for (auto& area : areas_of(loaded, given, dem, key)) {
+      for (auto& area : areas_of(loaded, given, dem, key, progress)) {
         region.rings = std::move(area);
         regions.push_back(region);
       }
@@ -89,6 +94,7 @@ std::shared_ptr<const LightField> make_light_field(const LoadedScene& loaded, co
                       .strength = given.strength,
                       .blend_m = given.blend_m.value_or(given.radius_m)});
   }
+  if (regions.empty() && clouds.empty()) return nullptr;
   const exact::Turn towards = exact::turn(to_radians(view.camera.azimuth_deg));
   return std::make_shared<const LightField>(view.sun_direction, glm::dvec2(towards.cosine, -towards.sine), std::move(regions),
                                             std::move(clouds), scene.seed);

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "base/progress.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/trace/light_field.h"
 #include "renderer/world/view.h"
@@ -10,7 +11,9 @@
 namespace belvedere {
 
 // The light of a scene's regions and clouds, on its terrain and under its sun; null where it has neither. Throws Error(usage) where the
-// picture's sun does not stand above the horizon, and for what is wrong with places and files of areas.
-std::shared_ptr<const LightField> make_light_field(const LoadedScene& loaded, const Dem& dem, const View& view);
+// picture's sun does not stand above the horizon, and for what is wrong with places and files of areas; Error(input) for a file that must
+// be there and is not. Notes optional files that are missing: their regions are left out.
+std::shared_ptr<const LightField> make_light_field(const LoadedScene& loaded, const Dem& dem, const View& view,
+                                                   Progress& progress = silent_progress());
 
 }  // namespace belvedere

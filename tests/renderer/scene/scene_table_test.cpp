@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -189,6 +190,40 @@ TEST(SceneTable, WaterHasItsKeys) {
   EXPECT_FALSE(water.foam);
   for (const char* wrong : {"[water]\nmirror = \"glass\"\n", "[water]\nwind = 3\n", "[season]\nfrozen_lakes = \"yes\"\n"})
     EXPECT_THROW(parse_scene(std::string("version = 1\n") + wrong, "w.toml", ".", {}), Error) << wrong;
+}
+
+TEST(SceneTable, LocalLightHasItsKeys) {
+  const LoadedScene loaded = parse_scene(
+      "version = 1\n[[light.regions]]\nname = \"a\"\nposition = [10, 20]\nradius_m = 30\nturn_deg = -40\naltitude_deg = 50\n"
+      "strength = 0.6\nwarmth = -0.7\nblend_m = 80\n[[light.regions]]\npoints_lonlat = [[1, 2], [3, 4], [5, 7]]\nazimuth_deg = 9\n"
+      "[[light.regions]]\nfile = \"r.gpkg\"\nlayer = \"l\"\nwhere = \"x = 1\"\norigin = \"o\"\nlicence = \"c\"\nget_from = \"g\"\n"
+      "optional = true\n[[light.clouds]]\nposition_lonlat = [11, 47]\nradius_m = 120\nstrength = 0.3\nblend_m = 140\n",
+      "l.toml", ".", {});
+  ASSERT_EQ(loaded.scene.light_regions.size(), 3U);
+  const SceneLightRegion& circle = loaded.scene.light_regions[0];
+  EXPECT_EQ(circle.name, "a");
+  EXPECT_EQ(circle.position, glm::dvec2(10.0, 20.0));
+  EXPECT_EQ(circle.radius_m, 30.0);
+  EXPECT_EQ(circle.turn_deg, -40.0);
+  EXPECT_EQ(circle.altitude_deg, 50.0);
+  EXPECT_EQ(std::tuple(circle.strength, circle.warmth, circle.blend_m), std::tuple(0.6, -0.7, 80.0));
+  const SceneLightRegion& outline = loaded.scene.light_regions[1];
+  EXPECT_THAT(outline.points_lonlat, testing::ElementsAre(glm::dvec2(1, 2), glm::dvec2(3, 4), glm::dvec2(5, 7)));
+  EXPECT_EQ(outline.azimuth_deg, 9.0);
+  EXPECT_FALSE(outline.optional || outline.turn_deg || outline.altitude_deg);
+  const SceneLightRegion& file = loaded.scene.light_regions[2];
+  EXPECT_EQ(std::tie(file.file, file.layer, file.where, file.origin, file.licence, file.get_from),
+            std::tuple("r.gpkg", "l", "x = 1", "o", "c", "g"));
+  EXPECT_TRUE(file.optional);
+  ASSERT_EQ(loaded.scene.light_clouds.size(), 1U);
+  const SceneLightCloud& cloud = loaded.scene.light_clouds[0];
+  EXPECT_EQ(cloud.position_lonlat, glm::dvec2(11.0, 47.0));
+  EXPECT_EQ(std::tuple(cloud.radius_m, cloud.strength), std::tuple(120.0, 0.3));
+  EXPECT_EQ(cloud.blend_m, 140.0);
+  const std::string place = "position = [1, 1]\nradius_m = 20\n";
+  for (const char* wrong : {"strength = 2.1\n", "warmth = -1.1\n", "turn_deg = 181\n", "altitude_deg = 0\n", "blend_m = -1\n", "sun = 1\n"})
+    EXPECT_THROW(parse_scene("version = 1\n[[light.regions]]\n" + place + wrong, "l.toml", ".", {}), Error) << wrong;
+  EXPECT_THROW(parse_scene("version = 1\n[[light.clouds]]\n" + place + "strength = 1.1\n", "l.toml", ".", {}), Error);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "tests/tools/program.h"
 
 namespace belvedere {
@@ -30,6 +32,40 @@ TEST_F(Program, CheckSaysWhatBecameOfSmallPatches) {
   EXPECT_THAT(words.out, AllOf(HasSubstr("land cover: "), HasSubstr("before small ones were taken out")));
   EXPECT_THAT(run({"check", scene, "--json"}).out, HasSubstr("\"patches_before\": "));
   EXPECT_THAT(run({"check", write_scene_file()}).out, Not(HasSubstr("land cover: ")));
+}
+
+// The mountains are seen from the south, so a sun in the north leaves them in shade.
+TEST_F(Program, CheckProposesLightThatLoads) {
+  const std::string dark = write_scene_file("[sun]\nazimuth_deg = 0\naltitude_deg = 20\n");
+  EXPECT_THAT(run({"check", dark}).out,
+              AllOf(HasSubstr("light on the main ranges:"), HasSubstr("; stands in shade"), HasSubstr("belvedere check --propose-light")));
+  const auto ranges_in_shade = [](const std::string& json) {
+    const std::string shade = "\"in_shade\": true";
+    int count = 0;
+    for (std::size_t at = json.find(shade); at != std::string::npos; at = json.find(shade, at + 1)) ++count;
+    return count;
+  };
+  const int in_shade = ranges_in_shade(run({"check", dark, "--json"}).out);
+  const Outcome proposed = run({"check", dark, "--propose-light"});
+  ASSERT_EQ(proposed.status, 0) << proposed.err;
+  EXPECT_THAT(proposed.out, AllOf(HasSubstr("[[light.regions]]\n"), HasSubstr("turn_deg = "), Not(HasSubstr("is in order"))));
+  std::ofstream(dark, std::ios::app) << proposed.out;  // as the command's help says
+  const Outcome after = run({"check", dark, "--json"});
+  ASSERT_EQ(after.status, 0) << after.err;
+  EXPECT_LE(ranges_in_shade(after.out) + 2, in_shade);
+
+  const Outcome bright = run({"check", write_scene_file("[sun]\nazimuth_deg = 200\naltitude_deg = 40\n"), "--propose-light"});
+  ASSERT_EQ(bright.status, 0) << bright.err;
+  EXPECT_THAT(bright.out, AllOf(HasSubstr("# No range"), Not(HasSubstr("[["))));
+}
+
+TEST_F(Program, CheckNotesTheFileOfALightRegionThatIsMissing) {
+  const std::string block = "[[light.regions]]\nfile = \"nowhere.gpkg\"\nturn_deg = 40\n";
+  const Outcome noted = run({"check", write_scene_file(block + "optional = true\n")});
+  EXPECT_EQ(noted.status, 0) << noted.err;
+  EXPECT_THAT(noted.out, HasSubstr("left out: nowhere.gpkg"));
+  EXPECT_THAT(noted.err, HasSubstr("light.regions.0 is left out: there is no nowhere.gpkg"));
+  EXPECT_NE(run({"check", write_scene_file(block)}).status, 0);
 }
 
 }  // namespace

@@ -80,6 +80,22 @@ TEST(SceneLight, ReadsTheAreasOfAFile) {
   EXPECT_EQ(field("where = \"name = 'b'\"\n")->at(in_a).strength, 1.0F);
 }
 
+// A note names the block and says where to get its file; the picture is that without the block.
+TEST(SceneLight, NotesAnOptionalFileThatIsMissing) {
+  class Notes : public Progress {
+   public:
+    void note(std::string_view text) override { notes.emplace_back(text); }
+    std::vector<std::string> notes;
+  } progress;
+  const std::string block = "[[light.regions]]\nfile = \"nowhere.gpkg\"\nget_from = \"the club\"\nturn_deg = 40\n";
+  const World world(with(block + "optional = true\n"), progress);
+  EXPECT_EQ(world.light_field, nullptr);
+  EXPECT_THAT(progress.notes, testing::Contains("light.regions.0 is left out: there is no nowhere.gpkg; the club"));
+  const World beside(with(block + "optional = true\n" + cloud), silent_progress());
+  ASSERT_NE(beside.light_field, nullptr) << "the cloud stays";
+  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { World(with(block), silent_progress()); }), HasSubstr("nowhere.gpkg"));
+}
+
 TEST(SceneLight, RefusesWhatCannotBe) {
   const auto refused = [](const std::string& blocks) {
     return test::message_of(ErrorKind::usage, [&] { World(with(blocks), silent_progress()); });
