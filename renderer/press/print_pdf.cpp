@@ -1,7 +1,10 @@
 #include "renderer/press/print_pdf.h"
 
-// The one file that knows qpdf; its older pointers are not used.
+// The one file that knows qpdf; its older pointers are not used. Nor is its JSON, whose header clang refuses in C++20 (a vector of a class
+// in that class): its guard keeps it out, and a declaration is all that the other headers ask for.
 #define POINTERHOLDER_TRANSITION 4
+#define JSON_HH
+class JSON;
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
