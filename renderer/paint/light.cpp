@@ -43,7 +43,7 @@ constexpr float lip_units = 1.3F;      // of which so much is its lit lip, the r
 bool is_white(LandCoverClass id, bool winter) {
   using enum LandCoverClass;
   if (has_trait(id, ClassTrait::icy)) return true;
-  return winter && (id == valley_floor || id == pasture || id == alpine_grass || id == scree);
+  return winter && (id == valley_floor || id == pasture || id == alpine_grass || id == scree || id == sand);
 }
 
 // How much of the ribs a slope shows: none on flats, all where it is steep.

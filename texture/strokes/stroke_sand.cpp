@@ -13,7 +13,7 @@ constexpr glm::vec3 cool_shade{-0.020F, -0.010F, 0.015F};
 
 std::vector<Stroke> sand_strokes(const StrokeScene& scene, Stream stream) {
   return sow(scene, 3.2F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
-    if (scene.class_at(i) != LandCoverClass::sand) return;
+    if (scene.class_at(i) != LandCoverClass::sand || scene.parameters.winter) return;  // under snow
     // The wind lays ripples in patches; between them sand is bare.
     const float rippled = std::clamp(0.55F + 0.45F * patch_noise(scene, i, Stream::sand_patches, 8.0), 0.1F, 1.F);
     if (seed.uniform() > rippled) return;
