@@ -74,6 +74,38 @@ PixelRect around(const DrawnPoint& a, const DrawnPoint& b, float reach, PixelRec
                       rect);
 }
 
+// The rows of the traced ground that a tile of the sheet shows, where crests of rock are drawn higher or lower than they were traced.
+class ShownRows {
+ public:
+  ShownRows(const Grid<std::int16_t>* rows, PixelRect held, PixelRect tile) : rows_(rows), held_(held) {
+    if (rows_ == nullptr) return;
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      const auto [least, most] =
+          std::minmax_element(rows_->row(y - held.y0) + (tile.x0 - held.x0), rows_->row(y - held.y0) + (tile.x1 - held.x0));
+      least_ = std::min<int>(least_, *least);
+      most_ = std::max<int>(most_, *most);
+    }
+    if (least_ == 0 && most_ == 0) rows_ = nullptr;
+  }
+  // Where the ground was traced that pixel x, y of the sheet shows.
+  glm::vec2 traced(int x, int y) const {
+    const int below = rows_ == nullptr ? 0 : (*rows_)(x - held_.x0, y - held_.y0);
+    return {static_cast<float>(x) + 0.5F, static_cast<float>(y + below) + 0.5F};
+  }
+  // All traced places that the tile shows.
+  PixelRect traced(PixelRect tile) const { return {tile.x0, tile.y0 + least_, tile.x1, tile.y1 + most_}; }
+  // All pixels of the tile that may show traced places.
+  PixelRect shown(PixelRect traced, PixelRect tile) const {
+    return intersection({traced.x0, traced.y0 - most_, traced.x1, traced.y1 - least_}, tile);
+  }
+
+ private:
+  const Grid<std::int16_t>* rows_;
+  PixelRect held_;
+  int least_ = 0;
+  int most_ = 0;
+};
+
 bool lies_on(float depth_m, float distance_m) { return std::abs(depth_m - distance_m) <= same_ground * distance_m; }
 
 // Whether a dash is at a place along the line, antialiased over a pixel.
@@ -91,8 +123,8 @@ float dash_at(glm::dvec2 dash_mm, float along_mm, float px_of_mm) {
 // The coverage of one coat on a tile: the most that any line of the kind has there, so that lines of a kind join.
 class Coverage {
  public:
-  Coverage(const DrawnFeatures& features, const Grid<float>& depth_m, PixelRect held, PixelRect tile)
-      : features_(features), depth_m_(depth_m), held_(held), tile_(tile), values_(tile.width(), tile.height()) {}
+  Coverage(const DrawnFeatures& features, const Grid<float>& depth_m, const ShownRows& rows, PixelRect held, PixelRect tile)
+      : features_(features), depth_m_(depth_m), rows_(rows), held_(held), tile_(tile), values_(tile.width(), tile.height()) {}
 
   // False where none of the lines touches the tile.
   bool lay(const Layer& layer, const std::vector<std::uint32_t>& numbers) {
@@ -119,17 +151,18 @@ class Coverage {
     const auto hand = static_cast<float>(line.part == LinePart::way ? kind.hand : 0.0);
     const float share = std::max(a.share, b.share);
     const float reach = std::max(a.half_px, b.half_px) * (1.F + hand) + (beyond_mm + soft_mm) * scale * share + 1.F;
-    const PixelRect where = around(a, b, reach, tile_);
+    const bool in_air = layer.coat == Coat::cable;
+    const PixelRect where = in_air ? around(a, b, reach, tile_) : rows_.shown(around(a, b, reach, rows_.traced(tile_)), tile_);
     if (where.empty()) return false;
     bool any = false;
     for (int y = where.y0; y < where.y1; ++y)
       for (int x = where.x0; x < where.x1; ++x) {
-        const glm::vec2 pixel{static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F};
+        const glm::vec2 pixel = in_air ? glm::vec2(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F) : rows_.traced(x, y);
         const Near near = nearest(a, b, pixel);
         if (near.distance > reach) continue;
         const float distance_m = glm::mix(a.distance_m, b.distance_m, near.t);
         const float depth = depth_m_(x - held_.x0, y - held_.y0);
-        if (layer.coat == Coat::cable ? depth < distance_m * (1.F - in_front) : !lies_on(depth, distance_m)) continue;
+        if (in_air ? depth < distance_m * (1.F - in_front) : !lies_on(depth, distance_m)) continue;
         const float share_here = glm::mix(a.share, b.share, near.t) * scale;
         float half = glm::mix(a.half_px, b.half_px, near.t);
         // The hand: now a little broader, now narrower, by the place on the sheet.
@@ -158,6 +191,7 @@ class Coverage {
 
   const DrawnFeatures& features_;
   const Grid<float>& depth_m_;
+  const ShownRows& rows_;
   PixelRect held_;
   PixelRect tile_;
   Grid<float> values_;
@@ -261,15 +295,17 @@ void paint_features(Grid<glm::vec3>& picture, const DrawnFeatures& features, con
                     PaintParts* parts) {
   const bool same = picture.width() == rect.width() && picture.height() == rect.height() && picture.same_size(ground.guidance.depth_m) &&
                     picture.same_size(ground.guidance.tone) && picture.same_size(ground.base) && picture.same_size(ground.haze) &&
-                    picture.same_size(ground.seen_ground) && (ground.seen_hung.empty() || picture.same_size(ground.seen_hung));
+                    picture.same_size(ground.seen_ground) && (ground.seen_hung.empty() || picture.same_size(ground.seen_hung)) &&
+                    (ground.crest_rows == nullptr || picture.same_size(*ground.crest_rows));
   if (!same) throw Error(ErrorKind::bug, "paint_features", "grids that differ in size");
   const std::vector<Layer> layers = layers_of(features.style);
   const Canvas canvas{picture, ground, rect, parts};
   parallel_tiles(asked.width(), asked.height(), tile_px, [&](PixelRect part) {
     const PixelRect tile = moved(part, asked.x0, asked.y0);
-    const std::vector<std::uint32_t> numbers = features.lines_at(tile);
+    const ShownRows rows(ground.crest_rows, rect, tile);
+    const std::vector<std::uint32_t> numbers = features.lines_at(rows.traced(tile));
     if (numbers.empty()) return;
-    Coverage coverage(features, ground.guidance.depth_m, rect, tile);
+    Coverage coverage(features, ground.guidance.depth_m, rows, rect, tile);
     Grid<glm::vec3> tints;
     for (const Layer& layer : layers) {
       // Bands lie on their beds and under all lines.
@@ -289,18 +325,20 @@ void paint_features(Grid<glm::vec3>& picture, const DrawnFeatures& features, con
   });
 }
 
-Grid<std::uint8_t> find_cleared(const DrawnFeatures& features, const Grid<float>& depth_m, PixelRect rect) {
+Grid<std::uint8_t> find_cleared(const DrawnFeatures& features, const Grid<float>& depth_m, PixelRect rect,
+                                const Grid<std::int16_t>* crest_rows) {
   Grid<std::uint8_t> cleared(rect.width(), rect.height());
   const auto scale = static_cast<float>(features.px_per_mm);
   parallel_tiles(rect.width(), rect.height(), tile_px, [&](PixelRect part) {
     const PixelRect tile = moved(part, rect.x0, rect.y0);
+    const ShownRows rows(crest_rows, rect, tile);
     // Pixels that lie no farther below a line than clear_below times as far as beside it.
     const auto clear = [&](const DrawnPoint& a, const DrawnPoint& b, float clear_mm) {
       const float most = std::max(a.half_px, b.half_px) + static_cast<float>(clear_below) * clear_mm * scale * std::max(a.share, b.share);
-      const PixelRect where = around(a, b, most, tile);
+      const PixelRect where = rows.shown(around(a, b, most, rows.traced(tile)), tile);
       for (int y = where.y0; y < where.y1; ++y)
         for (int x = where.x0; x < where.x1; ++x) {
-          const Near near = nearest(a, b, {static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F});
+          const Near near = nearest(a, b, rows.traced(x, y));
           const float down = near.distance > 0.F ? std::max(0.F, near.off.y / near.distance) : 0.F;
           const float room = clear_mm * scale * glm::mix(a.share, b.share, near.t) * (1.F + (static_cast<float>(clear_below) - 1.F) * down);
           if (near.distance > glm::mix(a.half_px, b.half_px, near.t) + room) continue;
@@ -308,13 +346,13 @@ Grid<std::uint8_t> find_cleared(const DrawnFeatures& features, const Grid<float>
           cleared(x - rect.x0, y - rect.y0) = 1;
         }
     };
-    for (const std::uint32_t number : features.lines_at(tile)) {
+    for (const std::uint32_t number : features.lines_at(rows.traced(tile))) {
       const DrawnLine& line = features.lines[number];
       const FeatureKind& kind = features.style.kinds[static_cast<std::size_t>(line.kind)];
       if (kind.clear_mm <= 0.0 || is_in_air(line.part)) continue;
       for (std::size_t i = 0; i + 1 < line.points.size(); ++i) clear(line.points[i], line.points[i + 1], static_cast<float>(kind.clear_mm));
     }
-    for (const std::uint32_t number : features.houses_at(tile)) {
+    for (const std::uint32_t number : features.houses_at(rows.traced(tile))) {
       const DrawnHouse& house = features.houses[number];
       const FeatureKind& kind = features.style.kinds[static_cast<std::size_t>(house.kind)];
       const DrawnPoint foot{

@@ -18,6 +18,8 @@ struct FeatureGround {
   const Grid<float>& haze;          // 0…1
   const Grid<float>& seen_ground;   // share of each pixel that nothing standing covers
   const Grid<float>& seen_hung;     // the same of what stands nearer than find_hung says; empty: nothing does
+  // How many rows below each pixel the ground that it shows was traced (CrestShift::rows): ways go along with it. Null: right there.
+  const Grid<std::int16_t>* crest_rows = nullptr;
 };
 
 // Paints ways, runs and lifts on a rectangle of the sheet (encoded sRGB): beds, bands, all casings by rank, all fills by rank, lifts over
@@ -29,8 +31,9 @@ void paint_features(Grid<glm::vec3>& picture, const DrawnFeatures& features, con
                     PaintParts* parts = nullptr);
 
 // 1 where nothing that stands up may grow, because a line, a river, a rope above it or a house needs the place: on pixels of that line's
-// own ground.
-Grid<std::uint8_t> find_cleared(const DrawnFeatures& features, const Grid<float>& depth_m, PixelRect rect);
+// own ground. `crest_rows` as of FeatureGround.
+Grid<std::uint8_t> find_cleared(const DrawnFeatures& features, const Grid<float>& depth_m, PixelRect rect,
+                                const Grid<std::int16_t>* crest_rows = nullptr);
 
 // How far from the eye the nearest rope, pylon or station at each pixel is, m; infinite where there is none; empty where none touches the
 // rectangle.

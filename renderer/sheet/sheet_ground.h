@@ -41,6 +41,8 @@ class SheetGround {
 
   // Some traced channels of a rectangle, and the light where asked for.
   GuidanceBuffers read_guidance(PixelRect rect, std::initializer_list<GuidanceMember> channels, bool with_tone);
+  // How many rows below each pixel the ground that it shows was traced (CrestShift::rows).
+  Grid<std::int16_t> read_crest_rows(PixelRect rect) { return crests_.read(rect).rows; }
   // All that guidance.exr holds.
   GuidanceBuffers read_all_guidance(PixelRect rect);
   BasePicture read_base(PixelRect rect) { return base_.read(rect); }

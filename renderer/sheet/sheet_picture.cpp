@@ -155,8 +155,10 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect, PictureLayers* cut) {
   place.waters_known = features_.rivers;
   const bool mapped = has_features(window);
   MappedGround map;
+  Grid<std::int16_t> crest_rows;
   if (mapped) {
-    map.cleared = find_cleared(features_, guidance.depth_m, window);
+    crest_rows = ground_.read_crest_rows(window);
+    map.cleared = find_cleared(features_, guidance.depth_m, window, &crest_rows);
     map.hung_m = find_hung(features_, window);
     map.besides = house_strokes(features_, {guidance, base, ground_.strokes(), place});
     place.mapped = &map;
@@ -171,8 +173,8 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect, PictureLayers* cut) {
       paint_strokes(std::move(canvas), guidance, base, layers, ground_.strokes(), run_.progress, place, parts ? &*parts : nullptr);
   if (mapped) {
     const Grid<glm::vec3> before = mist_.any() ? strokes.picture : Grid<glm::vec3>();
-    paint_features(strokes.picture, features_, {guidance, base.colour, base.haze, strokes.seen_ground, strokes.seen_hung}, window, painted,
-                   parts ? &*parts : nullptr);
+    paint_features(strokes.picture, features_, {guidance, base.colour, base.haze, strokes.seen_ground, strokes.seen_hung, &crest_rows},
+                   window, painted, parts ? &*parts : nullptr);
     for (std::size_t i = 0; i < before.size(); ++i) strokes.picture[i] = glm::mix(strokes.picture[i], before[i], veil[i]);
   }
   const GuidanceBuffers edges = ground_.read_guidance(painted, {&B::depth_m, &B::front}, false);

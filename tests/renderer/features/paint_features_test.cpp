@@ -354,6 +354,43 @@ TEST(PaintFeatures, TreesAreClearedOnlyWhereALineNeedsIt) {
     for (int x = 0; x < depth.width(); ++x) ASSERT_EQ(window(x, y), cleared(part.x0 + x, part.y0 + y));
 }
 
+// Ground that is drawn higher or lower than it was traced takes its ways along, and the trees that they clear; what hangs in the air stays.
+TEST(PaintFeatures, WaysGoAlongWithCrestsOfRock) {
+  const TestGround ground = level();
+  const DrawnFeatures drawn = draw(ground, {line(road, {{-1200.0, 0.0}, {1200.0, 0.0}})});
+  const DrawnFeatures cable = draw(ground, {line(lift, {{-700.0, 0.0}, {700.0, 0.0}})});
+  const auto shifted = [&](const DrawnFeatures& features, std::int16_t left, std::int16_t right) {
+    Grid<std::int16_t> rows(400, 300, left);
+    for (int y = 0; y < 300; ++y) std::fill(rows.row(y) + 200, rows.row(y) + 400, right);
+    GuidanceBuffers guidance = ground.guidance();
+    const Grid<float> depth = guidance.depth_m;
+    for (int y = 0; y < 300; ++y)
+      for (int x = 0; x < 400; ++x) guidance.depth_m(x, y) = depth(x, std::clamp(y + rows(x, y), 0, 299));
+    Grid<glm::vec3> picture(400, 300, bare);
+    const Grid<glm::vec3> base = picture;
+    const Grid<float> none(400, 300, 0.F);
+    const Grid<float> all(400, 300, 1.F);
+    paint_features(picture, features, {guidance, base, none, all, {}, &rows}, ground.sheet(), ground.sheet());
+    return std::pair(picture, find_cleared(features, guidance.depth_m, ground.sheet(), &rows));
+  };
+  const auto [plain, cleared] = shifted(drawn, 0, 0);
+  EXPECT_EQ(differing(plain, painted(ground, drawn)), 0U);
+  const auto [moved, moved_cleared] = shifted(drawn, 140, -9);  // 140 rows up over two borders of tiles, 9 down
+  std::size_t paint = 0;
+  for (int y = 10; y < 290; ++y)
+    for (const int x : {50, 120, 199, 200, 260, 390}) {
+      const int from = y + (x < 200 ? 140 : -9);
+      if (from < 0 || from >= 300) continue;
+      EXPECT_EQ(plain(x, from) != bare, moved(x, y) != bare) << x << ' ' << y;
+      EXPECT_EQ(cleared(x, from), moved_cleared(x, y)) << x << ' ' << y;
+      paint += moved(x, y) != bare ? 1 : 0;
+    }
+  EXPECT_GT(paint, 20U);
+  // A rope stays in its own rows; the ground behind it is farther there, so that none of it is hidden.
+  const auto [rope, rope_cleared] = shifted(cable, 0, -3);
+  EXPECT_EQ(differing(rope, shifted(cable, 0, 0).first), 0U);
+}
+
 TEST(PaintFeatures, GridsOfOtherSizesAreABug) {
   const TestGround ground = level();
   const DrawnFeatures drawn = draw(ground, {});
