@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <string>
+#include <string_view>
 
 #include "base/error.h"
+#include "base/text/base64.h"
 #include "renderer/image/guidance_io.h"
 #include "terrain/io/crs.h"
 #include "tests/files.h"
@@ -62,6 +66,53 @@ TEST(ReadOut, IsTheMiddleOfSquaresOfPixels) {
       ASSERT_NEAR(out.latitude_deg(column, row), place.y, 1e-6);
     }
   EXPECT_THAT(read_out_script(out), HasSubstr("\"longitude\""));
+}
+
+// What stands behind a key of a script, from `from` on.
+std::string_view behind(std::string_view script, std::string_view key, std::size_t from = 0) {
+  const std::string quoted = "\"" + std::string(key) + "\": ";
+  const std::size_t at = script.find(quoted, from);
+  return at == std::string_view::npos ? std::string_view() : script.substr(at + quoted.size());
+}
+std::string bytes_behind(std::string_view script, std::string_view key, std::size_t from = 0) {
+  const std::string_view text = behind(script, key, from);
+  return text.empty() ? "" : base64_bytes(text.substr(1, text.find('"', 1) - 1)).value_or("");
+}
+int whole_of(const std::string& bytes, std::size_t i) {
+  return static_cast<unsigned char>(bytes[2 * i]) + 256 * static_cast<unsigned char>(bytes[2 * i + 1]);
+}
+
+// What the page tells: classes of a byte, the rest as steps of two bytes, low byte first.
+TEST(ReadOut, TheScriptsNumbersAreThoseOfThePicture) {
+  const test::Folder folder;
+  write_guidance(folder / "g.exr", guidance(), {{"belvedere:crs", "EPSG:32632"}});
+  const ReadOut out = sample_read_out(folder / "g.exr", 800);
+  const std::string script = read_out_script(out);
+  const std::string classes = bytes_behind(script, "classes");
+  const std::string altitudes = bytes_behind(script, "altitudes");
+  const std::string distances = bytes_behind(script, "distances");
+  const std::size_t cells = out.distance_m.size();
+  ASSERT_EQ(classes.size(), cells);
+  ASSERT_EQ(altitudes.size(), 2 * cells);
+  ASSERT_EQ(distances.size(), 2 * cells);
+  const double altitude_from = std::strtod(behind(script, "altitudeFrom").data(), nullptr);
+  const double distance_step = std::strtod(behind(script, "distanceStep").data(), nullptr);
+  const std::size_t longitude = script.find("\"longitude\"");
+  const std::string degrees = bytes_behind(script, "values", longitude);
+  ASSERT_EQ(degrees.size(), 2 * cells);
+  const double west = std::strtod(behind(script, "from", longitude).data(), nullptr);
+  const double east = std::strtod(behind(script, "to", longitude).data(), nullptr);
+  for (std::size_t i = 0; i < cells; ++i) {
+    if (std::isinf(out.distance_m[i])) {
+      ASSERT_EQ(static_cast<unsigned char>(classes[i]), 255);
+      ASSERT_EQ(whole_of(distances, i), 65535);
+      continue;
+    }
+    ASSERT_EQ(static_cast<unsigned char>(classes[i]), static_cast<int>(out.class_id[i]));
+    ASSERT_NEAR(altitude_from + whole_of(altitudes, i), out.altitude_m[i], 0.5);
+    ASSERT_NEAR(distance_step * whole_of(distances, i), out.distance_m[i], 0.5 * distance_step);
+    ASSERT_NEAR(west + (east - west) * whole_of(degrees, i) / 65535.0, out.longitude_deg[i], 1e-6);
+  }
 }
 
 TEST(ReadOut, WithoutASystemThereAreNoPlaces) {
