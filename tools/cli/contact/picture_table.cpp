@@ -20,6 +20,25 @@ std::vector<int> begins(int first, const std::vector<int>& sizes) {
   return at;
 }
 
+// The words of a caption in lines no wider than its picture, so that a small picture's column is not as wide as its caption; a word that is
+// wider has a line of its own.
+std::vector<std::string> caption_lines(const TableCell& cell) {
+  std::vector<std::string> lines;
+  std::size_t at = 0;
+  while (at < cell.caption.size()) {
+    const std::size_t space = cell.caption.find(' ', at);
+    const std::size_t end = space == std::string::npos ? cell.caption.size() : space;
+    const std::string word = cell.caption.substr(at, end - at);
+    at = end + 1;
+    const bool fits = !lines.empty() && (cell.picture.empty() || text_width(lines.back() + " " + word, text_scale) <= cell.picture.width());
+    if (fits)
+      lines.back() += " " + word;
+    else
+      lines.push_back(word);
+  }
+  return lines;
+}
+
 }  // namespace
 
 Grid<glm::vec3> draw_table(const PictureTable& table) {
@@ -29,8 +48,10 @@ Grid<glm::vec3> draw_table(const PictureTable& table) {
   for (std::size_t r = 0; r < table.cells.size(); ++r)
     for (std::size_t c = 0; c < table.cells[r].size(); ++c) {
       const TableCell& cell = table.cells[r][c];
-      widths[c] = std::max({widths[c], cell.picture.width(), text_width(cell.caption, text_scale)});
-      heights[r] = std::max(heights[r], cell.picture.height() + (cell.caption.empty() ? 0 : line_px));
+      const std::vector<std::string> lines = caption_lines(cell);
+      widths[c] = std::max(widths[c], cell.picture.width());
+      for (const std::string& line : lines) widths[c] = std::max(widths[c], text_width(line, text_scale));
+      heights[r] = std::max(heights[r], cell.picture.height() + line_px * static_cast<int>(lines.size()));
     }
   int left = gap;
   for (const std::string& name : table.rows) left = std::max(left, 2 * gap + text_width(name, text_scale));
@@ -45,7 +66,11 @@ Grid<glm::vec3> draw_table(const PictureTable& table) {
     for (std::size_t c = 0; c < table.cells[r].size(); ++c) {
       const TableCell& cell = table.cells[r][c];
       for (int j = 0; j < cell.picture.height(); ++j) std::copy_n(cell.picture.row(j), cell.picture.width(), sheet.row(y[r] + j) + x[c]);
-      draw_text(sheet, x[c], y[r] + cell.picture.height() + 4, cell.caption, ink, text_scale);
+      int text_y = y[r] + cell.picture.height() + 4;
+      for (const std::string& line : caption_lines(cell)) {
+        draw_text(sheet, x[c], text_y, line, ink, text_scale);
+        text_y += line_px;
+      }
     }
   return sheet;
 }

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/land_cover_class.h"
 #include "renderer/image/image_io.h"
+#include "terrain/io/raster_io.h"
 #include "tests/tools/cli/contact/contact_scene.h"
 #include "tests/tools/program.h"
 
@@ -49,6 +51,33 @@ TEST_F(MakingOf, LeavesOutCopyingWhereNothingIsCopiedAndTakesAWidth) {
   EXPECT_EQ(read_picture(path("out/making_7_strokes.png")).width(), 60);
   EXPECT_EQ(read_picture(path("out/picture.png")), read_picture(path("out/making_7_strokes.png")));
   EXPECT_FALSE(std::filesystem::exists(path("out/making_8_strokes.png")));
+}
+
+// Of ground that is larger than memory the first stages show the whole at a coarse level, the last what rendering makes of its windows.
+TEST_F(MakingOf, ShowsGroundLargerThanMemory) {
+  Raster<float> raster{Grid<float>(400, 400), {600000.0, 5200000.0, 30.0, 30.0}, normalize_crs("EPSG:32632")};
+  for (int y = 0; y < 400; ++y)
+    for (int x = 0; x < 400; ++x)
+      raster.cells(x, y) = 900.F + static_cast<float>((x / 20 + y / 25) % 2) * 300.F + static_cast<float>(400 - y);
+  write_raster(path("dem.tif"), raster);
+  const std::string file = write("s.toml",
+                                 "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n[terrain]\nmost_mcells = 0.06\n"
+                                 "[camera]\nposition = [606000, 5185000]\nheight_m = 4000\npitch_deg = -24\n[synthesis]\nenabled = false\n"
+                                 "[output]\nwidth = 100\nheight = 60\n");
+  EXPECT_NE(run({"check", file}).out.find("more than memory holds"), std::string::npos);
+  ASSERT_EQ(run({"render", file, "--quiet", "--out", path("one")}).status, 0);
+  const Outcome made = run({"figure", file, "--quiet", "--making", "--out", path("out")});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(read_picture(path("out/making_7_strokes.png")), read_picture(path("one/panorama.png")));
+  // The relief shows ground, not an empty sheet: it has light and dark.
+  const Grid<glm::vec3> measured = read_picture(path("out/making_1_measured.png"));
+  float low = 1.F;
+  float high = 0.F;
+  for (const glm::vec3& colour : measured) {
+    low = std::min(low, colour.g);
+    high = std::max(high, colour.g);
+  }
+  EXPECT_GT(high - low, 0.3F);
 }
 
 // Two beside each other, in their order from left to right and down.

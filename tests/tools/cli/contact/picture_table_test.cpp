@@ -42,5 +42,25 @@ TEST(PictureTable, HoldsEveryPictureInItsColumnAndRow) {
   EXPECT_GE(a.x0, 30);         // names of rows at the left
 }
 
+// Columns are as wide as their pictures, where the words of a caption let them.
+TEST(PictureTable, CaptionsBreakAtThePicturesWidth) {
+  const auto sheet_of = [](const std::string& caption) {
+    PictureTable table;
+    table.columns = {"", ""};
+    table.cells = {{{Grid<glm::vec3>(100, 20, glm::vec3(0.5F)), caption}, {Grid<glm::vec3>(100, 20, glm::vec3(0.5F)), caption}}};
+    return draw_table(table);
+  };
+  const Grid<glm::vec3> words = sheet_of("one two three four five");
+  EXPECT_EQ(words.width(), sheet_of("").width());
+  EXPECT_EQ(words.width(), sheet_of("one").width());
+  // Nothing is lost: as much ink as the words have where each stands alone.
+  const auto ink = [](const Grid<glm::vec3>& sheet) { return std::count(sheet.begin(), sheet.end(), glm::vec3(0.1F)); };
+  std::ptrdiff_t each = 0;
+  for (const char* word : {"one", "two", "three", "four", "five"}) each += ink(sheet_of(word));
+  EXPECT_EQ(ink(words), each);
+  EXPECT_GT(words.height(), sheet_of("one").height());
+  EXPECT_GT(sheet_of("unbreakable-word").width(), words.width()) << "a long word has the room it needs";
+}
+
 }  // namespace
 }  // namespace belvedere::tools
