@@ -17,8 +17,10 @@ std::string_view name_of(MarkState state);  // "seen", "hidden behind ground" â€
 struct LabelMark {
   glm::dvec2 drawn_place{0.0};  // scene CRS: of a summit its top as it is drawn; else the point's place
   double dem_altitude_m = 0.0;  // of the undeformed, ungeneralized DEM there; NaN outside of it
-  glm::dvec2 pixel{0.0};        // x right, y down, (0, 0) the outer corner; of what is seen, hidden or outside the picture
-  double distance_m = 0.0;      // from the eye
+  // x right, y down, (0, 0) the outer corner; of what is seen, hidden or outside the picture. Of a summit that is seen the upper edge as it
+  // is drawn: from high above, ground just behind the top may stand over it.
+  glm::dvec2 pixel{0.0};
+  double distance_m = 0.0;  // from the eye
   MarkState state = MarkState::outside_terrain;
   std::optional<GeoPlace> in_front;  // the ground that hides it
   bool on_skyline = false;           // nothing but sky stands over it

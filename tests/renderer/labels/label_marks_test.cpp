@@ -1,10 +1,12 @@
 #include "renderer/labels/label_marks.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "renderer/world/valley_view.h"
 #include "terrain/shape/summits.h"
@@ -53,6 +55,36 @@ TEST_F(LabelMarks, StandOnTheSummitAsItIsDrawn) {
     EXPECT_NEAR(mark.pixel.y, top, 2.0);
   }
   EXPECT_GE(skyline, 1U);
+}
+
+// From high above, the edge behind which a summit falls out of sight is not its top. The oracle asks the picture alone: over the mark it
+// shows ground that lies far behind what it shows below the mark.
+TEST_F(LabelMarks, StandOnTheEdgeThatIsSeenFromAbove) {
+  std::size_t moved = 0;
+  for (const auto& [height_m, pitch_deg] : {std::pair(4500.0, -18.0), {6000.0, -22.0}, {8000.0, -32.0}}) {
+    const BareView high =
+        make_bare_view(test::small_scene({"output.width=2400", "output.height=2000", "deform.exaggeration=1.5",
+                                          fmt::format("camera.height_m={}", height_m), fmt::format("camera.pitch_deg={}", pitch_deg)}),
+                       silent_progress());
+    const GeoMap map = high.geo_map();
+    const DrawnGround ground{high.dem.altitude_m, high.generalized_m, high.dem.transform, high.dem.cell_m(), map};
+    for (const Summit& summit : find_summits(high.generalized_m, {.least_prominence_m = 60.0})) {
+      const LabelPoint file_point = point(high.dem.transform.to_crs(summit.x, summit.y));
+      const LabelMark mark = find_marks(ground, {file_point}, style_)[0];
+      if (mark.state != MarkState::seen) continue;
+      const auto top = map.to_image(mark.drawn_place);
+      ASSERT_TRUE(top && top->visible);
+      EXPECT_LE(mark.pixel.y, top->pixel.y);
+      if (mark.pixel.y > top->pixel.y - 2.0) continue;
+      ++moved;
+      const auto over = map.to_geo(mark.pixel - glm::dvec2(0.0, 2.0));
+      const auto under = map.to_geo(mark.pixel + glm::dvec2(0.0, 1.0));
+      ASSERT_TRUE(under);
+      EXPECT_LT(glm::length(under->place - mark.drawn_place), 600.0) << "still this summit";
+      EXPECT_TRUE(!over || over->distance_m > under->distance_m + 200.0) << height_m << ": the same slope goes on over the mark";
+    }
+  }
+  EXPECT_GE(moved, 1U);
 }
 
 TEST_F(LabelMarks, ClimbFromNearbyAndNotFromAfar) {
