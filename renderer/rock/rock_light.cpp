@@ -36,6 +36,7 @@ constexpr float small_patch = 0.12F;
 constexpr float large_patch = 0.55F;
 constexpr float least_of_patch = 0.35F;
 constexpr float gully_dark = 0.34F;
+constexpr float snow_paint = 0.95F;  // of what lies in snow
 
 // d held softly within ±most.
 float soft(float d, float most) {
@@ -114,6 +115,24 @@ Bed bed_at(const RockKind& kind, const RockPixel& p, const SpurHits& hits) {
   return bed;
 }
 
+// Old snow of summer lies where rock is level or hollow, the more the nearer a field of it is.
+float old_snow(const RockPixel& p, glm::vec3 normal, float stands, float near) {
+  const float level = smoothstep(0.62F, 0.66F, normal.z + 0.14F * (near - 0.55F) + 0.05F * p.cover_noise);
+  const float hollow = smoothstep(0.22F, 0.40F, -0.8F * stands + 0.35F * (near - 0.6F) + 0.12F * p.cover_noise);
+  return std::max(level, hollow);
+}
+
+// Winter's snow: whole flanks of the larger spurs that are level enough, gullies between them while the wall is not too steep to hold any,
+// and lines along the strongest beds. Small spurs have none of their own: a wall would be strewn with flakes. Where a wall stands steep
+// it is bare rock, and an eye can rest there.
+float winter_snow(const RockPixel& p, glm::vec3 large_normal, float stands, float strong_tread) {
+  const float holds = 1.0F - smoothstep(54.0F, 74.0F, p.slope_deg + 6.0F * p.calm_noise);
+  const float level = smoothstep(0.62F, 0.68F, large_normal.z + 0.04F * p.cover_noise + 0.05F * p.calm_noise);
+  const float hollow = holds * smoothstep(0.13F, 0.29F, -0.8F * stands + 0.06F * p.cover_noise);
+  const float on_tread = (0.35F + 0.65F * holds) * smoothstep(0.34F, 0.52F, strong_tread);
+  return std::max({level, hollow, on_tread});
+}
+
 }  // namespace
 
 float stands_out(const SpurHits& hits) {
@@ -180,6 +199,7 @@ RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool wint
   float tone = before;
   const float base_tone = before;
   glm::vec3 normal = base;
+  glm::vec3 large_normal = base;  // of the two larger sizes
   for (int size = 0; size < spur_sizes; ++size) {
     const auto k = static_cast<std::size_t>(size);
     const SpurHit& hit = hits[k];
@@ -190,6 +210,7 @@ RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool wint
     along_sum += kind.tilt[k] * 0.8F * (hit.slope.x * f.x + hit.slope.y * f.y);
     across_sum += kind.tilt[k] * (hit.slope.x * f.y - hit.slope.y * f.x);
     normal = glm::normalize(base - (across * across_sum + down * along_sum) * strength);
+    if (size <= 1) large_normal = normal;
     const float now = sun(normal, shadow, sky_share, wall);
     const float factor = (1.0F + (shade_factor[k] - 1.0F) * shade) * (calm_least[k] + (1.0F - calm_least[k]) * calm) * share;
     tone += factor * soft(now - before, most_tone[k]);
@@ -219,13 +240,9 @@ RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool wint
     look.turf = 0.5F * std::max(smoothstep(0.35F, 0.5F, tread) * smoothstep(0.3F, 0.6F, turf_near),
                                 turf_near * smoothstep(0.66F, 0.72F, normal.z + 0.12F * (turf_near - 0.6F) + 0.05F * p.cover_noise));
   const float snow_near = winter ? std::max(0.75F, smoothstep(0.03F, 0.40F, p.snow)) : smoothstep(0.03F, 0.40F, p.snow);
-  if (snow_near > 0.0F) {
-    const float level = smoothstep(0.62F, 0.66F, normal.z + 0.14F * (snow_near - 0.55F) + 0.05F * p.cover_noise);
-    const float hollow = smoothstep(0.22F, 0.40F, -0.8F * stands + 0.35F * (snow_near - 0.6F) + 0.12F * p.cover_noise);
-    const float on_tread = winter ? smoothstep(0.3F, 0.5F, tread) : 0.0F;
-    look.snow = 0.95F * snow_near * std::max({level, hollow, on_tread});
-  }
-
+  if (snow_near > 0.0F)
+    look.snow = snow_paint * snow_near *
+                (winter ? winter_snow(p, large_normal, stands, tread * bed.strong) : old_snow(p, normal, stands, snow_near));
   // Light on crests, dark in gullies, broken along their length; where the hand rests there are fewer.
   float crest = 0.0F;
   float gully = 0.0F;

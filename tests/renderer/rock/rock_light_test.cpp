@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace belvedere {
 namespace {
@@ -196,6 +197,42 @@ TEST(RockLight, SnowLiesOnTreadsInWinterAndTurfInSummer) {
   p.slope_deg = 79.0F;
   EXPECT_LT(light_rock(limestone(), sun_from(0.7), true, p, none).snow, 0.05F);
   EXPECT_LT(light_rock(limestone(), sun_from(0.7), false, p, none).turf, 0.05F);
+}
+
+// Each small spur had its own flake of snow, and walls looked strewn with confetti.
+TEST(RockLight, SmallSpursHoldNoSnowOfTheirOwnInWinter) {
+  RockPixel p = wall_pixel();
+  p.normal = glm::normalize(glm::vec3(0.0F, 1.0F, 0.95F));
+  p.slope_deg = 46.0F;
+  p.snow = 0.5F;
+  const auto snow_at = [&](bool winter, float small_slope) {
+    Flank flank(0);
+    Spur small = flank.spur;
+    small.fall = {0.0F, 1.0F};
+    for (const std::size_t size : {1U, 2U}) {
+      SpurHit& hit = flank.hits[size];
+      hit = flank.hits[0];
+      hit.spur = &small;
+      hit.slope = {0.0F, size == 2U ? small_slope : 0.0F};
+    }
+    return light_rock(limestone(), sun_from(0.7), winter, p, flank.hits).snow;
+  };
+  EXPECT_NE(snow_at(false, -1.5F), snow_at(false, 1.5F)) << "their light and old snow know them";
+  EXPECT_EQ(snow_at(true, -1.5F), snow_at(true, 1.5F));
+}
+
+TEST(RockLight, GulliesHoldWintersSnowUnlessTheWallIsTooSteep) {
+  const auto snow_in = [](bool gully, float slope_deg) {
+    Flank flank(0);
+    flank.hits[0].over_next = gully ? 0.0F : 1.6F;
+    RockPixel p = wall_pixel();
+    p.slope_deg = slope_deg;
+    p.normal = glm::normalize(glm::vec3(0.0F, std::tan(glm::radians(slope_deg)), 1.0F));
+    return light_rock(limestone(), sun_from(0.7), true, p, flank.hits).snow;
+  };
+  EXPECT_GT(snow_in(true, 52.0F), 0.6F);
+  EXPECT_LT(snow_in(false, 52.0F), 0.1F);
+  EXPECT_LT(snow_in(true, 76.0F), 0.05F);
 }
 
 }  // namespace
