@@ -5,37 +5,27 @@
 
 #include "base/cache/cache.h"
 #include "base/progress.h"
+#include "renderer/ground/laid_rivers.h"
 #include "renderer/scene/scene_file.h"
-#include "renderer/trace/camera.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/cover/map_cover.h"
 #include "terrain/cover/towns.h"
-#include "terrain/deform/deform.h"
 #include "terrain/io/dem.h"
 #include "terrain/shape/catchments.h"
-#include "terrain/shape/courses.h"
 #include "terrain/shape/known_lakes.h"
 
 namespace belvedere {
 
 // What a scene's [[features]] make of the ground: classes of areas, rivers, lakes, towns.
 struct GroundMap {
-  std::vector<CoverArea> areas;     // lakes among them
-  std::vector<DrawnCourse> rivers;  // their group: the row of `looks`
-  std::vector<CoverCourse> looks;   // class and rank of groups of rivers; without places
-  std::vector<double> least_px;     // of groups: how wide a river is on the picture at least, where three times its width does it
-  std::vector<KnownLake> lakes;     // level water
-  std::vector<KnownTown> towns;     // that say how large they are
-  bool keeps_rivers = true;         // guessed rivers stay
-  bool keeps_towns = true;          // guessed villages stay
+  std::vector<CoverArea> areas;  // lakes among them
+  MapRivers rivers;
+  std::vector<KnownLake> lakes;  // level water
+  std::vector<KnownTown> towns;  // that say how large they are
+  bool keeps_rivers = true;      // guessed rivers stay
+  bool keeps_towns = true;       // guessed villages stay
 
-  bool empty() const { return areas.empty() && rivers.empty() && towns.empty(); }
-};
-
-// What rivers are looked at with.
-struct SeenFrom {
-  const Camera& camera;
-  const Deformation& deformation;
+  bool empty() const { return areas.empty() && rivers.lines.empty() && towns.empty(); }
 };
 
 // Reads them, where any can be ground; the cache keeps what was read, by the content of the files. Notes what is left out and why.

@@ -198,7 +198,9 @@ TEST(GeneralizeCurvature, WhatThePrintCannotShowGoes) {
 }
 
 TEST(GeneralizeCurvature, SameBitsForAnyThreadCountAndAnySize) {
-  for (const auto& [width, height] : {std::pair{301, 417}, std::pair{1, 40}, std::pair{40, 1}, std::pair{3, 3}, std::pair{1, 1}}) {
+  for (const auto& size : {std::pair{301, 417}, std::pair{1, 40}, std::pair{40, 1}, std::pair{3, 3}, std::pair{1, 1}}) {
+    const int width = size.first;  // clang 14 captures no structured bindings
+    const int height = size.second;
     const Grid<float> terrain = alpine(width, height);
     GeneralizeParameters p = everywhere({1.2F, .5F, .25F}, {.25F, .5F, .5F}, {.1F, .2F, .3F});
     p.exponent = .6F;

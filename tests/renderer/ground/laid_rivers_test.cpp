@@ -1,0 +1,103 @@
+#include "renderer/ground/laid_rivers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "tests/files.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int cells = 120;
+constexpr double cell_m = 100.0;
+
+// A valley that falls to the south along x = 6 km.
+Dem make_valley() {
+  Dem dem;
+  dem.altitude_m = Grid<float>(cells, cells);
+  dem.filled = Grid<std::uint8_t>(cells, cells);
+  dem.transform = {0.0, cells * cell_m, cell_m, cell_m};
+  for (int y = 0; y < cells; ++y)
+    for (int x = 0; x < cells; ++x)
+      dem.altitude_m(x, y) = 900.0F - 1.2F * static_cast<float>(y) + 6.0F * std::abs(static_cast<float>(x) - 59.5F);
+  return dem;
+}
+
+MapRivers one_river(double least_px) {
+  MapRivers rivers;
+  rivers.lines.push_back({.places = {{6300.0, 11800.0}, {6200.0, 6000.0}, {6300.0, 300.0}},
+                          .width_m = 0.0,
+                          .least_width_m = 20.0,
+                          .snap_m = 800.0,
+                          .group = 1});
+  rivers.looks.resize(2);
+  rivers.looks[1].painted_as = LandCoverClass::water;
+  rivers.looks[1].rank = 7.0F;
+  rivers.least_px = {0.0, least_px};
+  return rivers;
+}
+
+std::unique_ptr<Camera> camera_at(double altitude_m) {
+  CameraParameters p;
+  p.width = 1000;
+  p.height = 1000;
+  p.eye = {6000.0, 6000.0, altitude_m};
+  p.pitch_deg = -90.0;
+  return make_camera(p);
+}
+
+class LaidRivers : public testing::Test {
+ protected:
+  std::vector<CoverCourse> laid(double least_px, const Camera* camera = nullptr, const Cache& cache = no_cache()) const {
+    const Deformation flat;
+    if (camera == nullptr) return lay_rivers(one_river(least_px), scene_, valley_, silent_progress(), cache);
+    const SeenFrom seen{*camera, flat};
+    return lay_rivers(one_river(least_px), scene_, valley_, silent_progress(), cache, nullptr, &seen);
+  }
+  test::Folder folder_;
+  Dem valley_ = make_valley();
+  LoadedScene scene_ = parse_scene("version = 1\n", "mine.toml", folder_.path(), {});
+};
+
+float widest(const std::vector<CoverCourse>& courses) {
+  return *std::max_element(courses[0].half_width_m.begin(), courses[0].half_width_m.end());
+}
+
+TEST_F(LaidRivers, RunAlongTheBottomOfTheirValley) {
+  const std::vector<CoverCourse> courses = laid(0.0);
+  ASSERT_EQ(courses.size(), 1U);
+  EXPECT_EQ(courses[0].painted_as, LandCoverClass::water);
+  EXPECT_EQ(courses[0].rank, 7.0F);
+  for (const glm::dvec2 place : courses[0].places) {
+    if (place.y < 1500.0 || place.y > 10500.0) continue;
+    EXPECT_NEAR(place.x, 6000.0, cell_m) << place.y;
+  }
+}
+
+TEST_F(LaidRivers, AreWidenedWhereTheyWouldBreakIntoDotsAndUpToThreeTimes) {
+  const float own = widest(laid(2.0));
+  // Straight down with 50° over 1000 pixels: a pixel is .93 m of each km below the eye.
+  const auto near = camera_at(3000.0);
+  EXPECT_EQ(widest(laid(2.0, near.get())), own) << "some ten pixels wide as it is";
+  const auto far = camera_at(60000.0);
+  EXPECT_NEAR(widest(laid(0.75 * 2.0F * own / 55.2, far.get())), own, 0.01F) << "asked for less than it has";
+  EXPECT_NEAR(widest(laid(2.0 * 2.0 * own / 55.2, far.get())), 2.0F * own, 0.06F * own);
+  EXPECT_NEAR(widest(laid(50.0, far.get())), 3.0F * own, 0.01F);
+}
+
+TEST_F(LaidRivers, AreTheSameFromTheCache) {
+  const Cache cache({.folder = folder_ / "cache", .limit_bytes = 0});
+  const std::vector<CoverCourse> first = laid(0.0, nullptr, cache);
+  const std::vector<CoverCourse> again = laid(0.0, nullptr, cache);
+  ASSERT_EQ(first.size(), again.size());
+  EXPECT_EQ(first[0].places, again[0].places);
+  EXPECT_EQ(first[0].half_width_m, again[0].half_width_m);
+  EXPECT_EQ(first[0].places, laid(0.0)[0].places);
+}
+
+}  // namespace
+}  // namespace belvedere
