@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 
 // 8192 × 8192 cells of 30 m on level ground, an eye 3 km above its southern edge.
-constexpr RasterFrame frame{{0.0, 245760.0, 30.0, 30.0}, 8192, 8192, {}};
+const RasterFrame frame{{0.0, 245760.0, 30.0, 30.0}, 8192, 8192, {}};
 
 Dem level_ground(int halved) {
   const int side = 8192 >> halved;
