@@ -5,8 +5,6 @@
 #include <glm/geometric.hpp>
 #include <span>
 
-#include "terrain/generalize/moved_ground.h"
-
 namespace belvedere {
 namespace {
 
@@ -32,17 +30,15 @@ bool holds(const PixelRect& posts, glm::dvec2 at) {
 
 }  // namespace
 
-GroundSight::GroundSight(const GeoTransform& transform, const DeformedSurface& surface, const Camera& camera, const Tracer& tracer,
-                         const Grid<glm::vec2>& came_from)
+GroundSight::GroundSight(const GeoTransform& transform, const DeformedSurface& surface, const Camera& camera, const Tracer& tracer)
     : transform_(transform),
       surface_(surface),
       camera_(camera),
       tracer_(tracer),
-      came_from_(came_from),
       cell_m_(0.5 * (transform.cell_x + transform.cell_y) / std::ldexp(1.0, static_cast<int>(surface.windows.size()))) {}
 
 std::optional<glm::dvec3> GroundSight::ground(glm::dvec2 place) const {
-  glm::dvec2 at = drawn_cell(came_from_, transform_.to_cell(place.x, place.y));
+  glm::dvec2 at = transform_.to_cell(place.x, place.y);
   if (!holds({0, 0, surface_.vertices_m.width(), surface_.vertices_m.height()}, at)) return std::nullopt;
   const DeformedSurface* finest = &surface_;
   for (const SurfaceWindow& window : surface_.windows) {

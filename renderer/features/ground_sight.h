@@ -16,9 +16,7 @@ namespace belvedere {
 // All calls are safe from any thread; the parts must outlive it.
 class GroundSight {
  public:
-  // came_from: where widened valleys took the ground of each cell of the whole surface from; empty where nothing moved.
-  GroundSight(const GeoTransform& transform, const DeformedSurface& surface, const Camera& camera, const Tracer& tracer,
-              const Grid<glm::vec2>& came_from);
+  GroundSight(const GeoTransform& transform, const DeformedSurface& surface, const Camera& camera, const Tracer& tracer);
 
   // The drawn ground in the deformed world; nothing outside the terrain.
   std::optional<glm::dvec3> ground(glm::dvec2 place) const;
@@ -52,7 +50,6 @@ class GroundSight {
   const DeformedSurface& surface_;
   const Camera& camera_;
   const Tracer& tracer_;
-  const Grid<glm::vec2>& came_from_;
   double cell_m_;
 };
 

@@ -19,13 +19,12 @@ struct BareView {
   View view;
   Dem dem;
   Grid<float> generalized_m;
-  Grid<glm::vec2> came_from;  // as GeneralizedTerrain has it
   Deformation deformation;
   std::unique_ptr<DeformedSurface> surface;  // stays where it is: the tracer reads it
   std::unique_ptr<Camera> camera;
   std::unique_ptr<Tracer> tracer;
 
-  GeoMap geo_map() const { return {dem.altitude_m, came_from, dem.transform, deformation, *surface, *camera, *tracer}; }
+  GeoMap geo_map() const { return {dem.altitude_m, dem.transform, deformation, *surface, *camera, *tracer}; }
 };
 BareView make_bare_view(const LoadedScene& loaded, Progress& progress, const Cache& cache = no_cache());
 // The same ground under another bend.
