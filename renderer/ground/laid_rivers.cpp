@@ -14,22 +14,8 @@
 namespace belvedere {
 namespace {
 
-// Rivers as the cache keeps them: of each its group and places, and east, north and half a width of each place.
-struct PackedCourses {
-  Grid<std::int32_t> counts;
-  Grid<double> numbers;
-};
-
-}  // namespace
-
-void each_field(auto& bytes, FieldsOf<PackedCourses> auto& packed) {
-  auto& [counts, numbers] = packed;
-  bytes(counts, numbers);
-}
-
-namespace {
-
-PackedCourses pack(const Courses& courses) {
+// Of each river its group and number of places; east, north and half a width of each place.
+PackedRows pack(const Courses& courses) {
   std::vector<std::int32_t> counts;
   std::vector<double> numbers;
   for (const Course& course : courses.lines) {
@@ -75,7 +61,7 @@ void widen_for_view(CoverCourse& course, double least_px, const Dem& dem, const 
   course.half_width_m = std::move(wanted);
 }
 
-std::vector<CoverCourse> unpack(const PackedCourses& packed, const MapRivers& rivers, const Dem& dem, const SeenFrom* from) {
+std::vector<CoverCourse> unpack(const PackedRows& packed, const MapRivers& rivers, const Dem& dem, const SeenFrom* from) {
   std::vector<CoverCourse> courses;
   std::size_t n = 0;
   for (std::size_t c = 0; c + 2 <= packed.counts.size(); c += 2) {
@@ -118,13 +104,13 @@ CacheKey courses_key(const LoadedScene& loaded, const MapRivers& rivers, const D
 std::vector<CoverCourse> lay_rivers(const MapRivers& rivers, const LoadedScene& loaded, const Dem& dem, Progress& progress,
                                     const Cache& cache, Catchments* catchments, const SeenFrom* seen) {
   if (rivers.lines.empty()) return {};
-  const PackedCourses packed = cached<PackedCourses>(
+  const PackedRows packed = cached<PackedRows>(
       cache, [&] { return courses_key(loaded, rivers, dem); }, progress,
       [&](Progress& watcher) {
         watcher.begin("laying rivers into their valleys", 0.0);
         Catchments own(dem);
         const Courses laid = lay_courses(rivers.lines, dem, (catchments != nullptr ? *catchments : own).km2());
-        if (laid.lines.empty()) return PackedCourses{};
+        if (laid.lines.empty()) return PackedRows{};
         watcher.note(fmt::format(
             "rivers of the map: {} in {} pieces, moved to the bottoms of their valleys by {:.0f} m in the mean, {:.0f} m at most",
             laid.lines.size(), laid.lines.size() + laid.joined, laid.mean_moved_m, laid.most_moved_m));

@@ -1,13 +1,26 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
+#include "base/cache/bytes.h"
 #include "base/grid.h"
 
 namespace belvedere {
 
-// Numbers as a grid of one row: how the cache keeps lists.
+// A list of things of different length as the cache keeps it: whole numbers and others, each in a row, in the order of the things.
+struct PackedRows {
+  Grid<std::int32_t> counts;
+  Grid<double> numbers;
+};
+
+void each_field(auto& bytes, FieldsOf<PackedRows> auto& packed) {
+  auto& [counts, numbers] = packed;
+  bytes(counts, numbers);
+}
+
+// Numbers as a grid of one row.
 template <class T>
 Grid<T> row_of(const std::vector<T>& values) {
   if (values.empty()) return {};

@@ -24,27 +24,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Features that become ground, as the cache keeps them: numbers in rows. Of each feature: its kind, block, shape, number of parts, and the
-// places of each part; and its width, level, inhabitants and way to a valley before its places.
-struct PackedFeatures {
-  Grid<std::int32_t> counts;
-  Grid<double> numbers;
-};
-
-}  // namespace
-
-void each_field(auto& bytes, FieldsOf<PackedFeatures> auto& packed) {
-  auto& [counts, numbers] = packed;
-  bytes(counts, numbers);
-}
-
-namespace {
-
 constexpr int head_counts = 4;
 // Of areas and rivers, while they are laid: as MapCover::bytes() has it, twice.
 constexpr double bytes_a_place = 180.0;
 
-PackedFeatures pack(const FeatureSet& set) {
+// Features that become ground. Of each: its kind, block, shape, number of parts, and the number of places of each part; its width, level
+// and inhabitants before its places.
+PackedRows pack(const FeatureSet& set) {
   std::vector<std::int32_t> counts;
   std::vector<double> numbers;
   for (const Feature& feature : set.features) {
@@ -60,7 +46,7 @@ PackedFeatures pack(const FeatureSet& set) {
   return {row_of(counts), row_of(numbers)};
 }
 
-std::vector<Feature> unpack(const PackedFeatures& packed) {
+std::vector<Feature> unpack(const PackedRows& packed) {
   std::vector<Feature> features;
   std::size_t c = 0;
   std::size_t n = 0;
@@ -237,7 +223,7 @@ GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::ve
 GroundMap read_ground_map(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
   if (loaded.scene.features.empty()) return {};
   const FeatureStyle style = scene_style(loaded);
-  const PackedFeatures packed = cached<PackedFeatures>(
+  const PackedRows packed = cached<PackedRows>(
       cache, [&] { return features_key(loaded, dem); }, progress,
       [&](Progress& watcher) { return pack(read_ground_features(loaded, style, dem, watcher)); });
   return sort_out(loaded, style, unpack(packed), box_of(dem), progress);

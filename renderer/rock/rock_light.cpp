@@ -239,10 +239,12 @@ RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool wint
   if (turf_near > 0.0F && !winter)
     look.turf = 0.5F * std::max(smoothstep(0.35F, 0.5F, tread) * smoothstep(0.3F, 0.6F, turf_near),
                                 turf_near * smoothstep(0.66F, 0.72F, normal.z + 0.12F * (turf_near - 0.6F) + 0.05F * p.cover_noise));
-  const float snow_near = winter ? std::max(0.75F, smoothstep(0.03F, 0.40F, p.snow)) : smoothstep(0.03F, 0.40F, p.snow);
+  const float field_near = smoothstep(0.03F, 0.40F, p.snow);
+  const float snow_near = winter ? std::max(0.75F, field_near) : field_near;
   if (snow_near > 0.0F)
     look.snow = snow_paint * snow_near *
                 (winter ? winter_snow(p, large_normal, stands, tread * bed.strong) : old_snow(p, normal, stands, snow_near));
+
   // Light on crests, dark in gullies, broken along their length; where the hand rests there are fewer.
   float crest = 0.0F;
   float gully = 0.0F;

@@ -43,7 +43,7 @@ struct RockLook {
 float stands_out(const SpurHits& hits);
 
 // Light on invented relief: each size turns the wall's normal, and may move the tone only so far, so that big planes carry the picture.
-// Beds with their treads, crests and gullies are part of it. `winter`: snow lies on every tread.
+// Beds with their treads, crests and gullies are part of it. `winter`: snow lies on whole flanks, in gullies and along strong beds.
 // `sun`: how much of it large spurs let through, 0…1.
 RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool winter, const RockPixel& pixel, const SpurHits& hits,
                     float sun = 1.0F);
