@@ -183,4 +183,13 @@ MistPaint paint_mist(const MistSight& sight, const AirParameters& air, const Pal
   return paint;
 }
 
+void lay_mist(Grid<glm::vec3>& picture, glm::ivec2 at, const MistPaint& paint) {
+  parallel_rows(paint.share.height(), [&](int y) {
+    for (int x = 0; x < paint.share.width(); ++x) {
+      glm::vec3& pixel = picture(at.x + x, at.y + y);
+      pixel = glm::mix(pixel, paint.colour(x, y), paint.share(x, y));
+    }
+  });
+}
+
 }  // namespace belvedere

@@ -26,6 +26,8 @@ glm::vec3 mist_colour(const AirParameters& air, const Palette& palette, float li
 // SheetWindow); the result has the size of the pixels asked for.
 MistPaint paint_mist(const MistSight& sight, const AirParameters& air, const Palette& palette, const StrokeParameters& strokes,
                      const SheetWindow& window, Progress& progress);
+// Lays it over pixels of a picture, encoded sRGB, that begin at `at`.
+void lay_mist(Grid<glm::vec3>& picture, glm::ivec2 at, const MistPaint& paint);
 // Pixels around those asked for that the window must hold, where the sheet has them.
 int mist_margin_px(const StrokeParameters& strokes);
 

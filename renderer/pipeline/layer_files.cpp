@@ -56,7 +56,8 @@ void write_layer_files(const LoadedScene& loaded, const SheetRequest& request, c
   };
   LayeredSheet sheet{region.width(), region.height(), scene.output.width / scene.output.sheet_width_mm * 25.4, {}, {}};
   for (const PictureLayer& layer : picture_layers()) {
-    if (layer.of_features && scene.features.empty()) continue;
+    const bool none = (layer.of == LayerOf::features && scene.features.empty()) || (layer.of == LayerOf::mist && scene.air.mist.empty());
+    if (none) continue;
     sheet.layers.push_back({layer.name, layer.title, layer.mask, [&rows_of, &layer](int y0, int y1) {
                               const Grid<LayerPixel> plane = rows_of(layer_plane_names()[layer.plane], y0, y1);
                               return make_layer(layer, plane, rows_of(layer_plane_names()[about_plane], y0, y1));

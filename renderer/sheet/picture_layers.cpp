@@ -9,7 +9,8 @@ namespace belvedere {
 namespace {
 
 constexpr double highest = 65535.0;
-constexpr std::size_t strokes_at = 1;
+constexpr std::size_t mist_at = 1;
+constexpr std::size_t strokes_at = 2;
 constexpr std::size_t edges_at = strokes_at + paint_part_count;
 constexpr std::array<PaintPart, paint_part_count> strokes_upwards = {
     PaintPart::sky, PaintPart::ground, PaintPart::ice, PaintPart::features, PaintPart::trees, PaintPart::houses, PaintPart::accents};
@@ -37,9 +38,9 @@ bool holds(const std::vector<LandCoverClass>& classes, std::uint16_t id) {
 }  // namespace
 
 const std::array<std::string_view, layer_plane_count>& layer_plane_names() {
-  static const std::array<std::string_view, layer_plane_count> names = {"layer_ground",   "layer_sky",   "layer_strokes", "layer_ice",
-                                                                        "layer_features", "layer_trees", "layer_houses",  "layer_accents",
-                                                                        "layer_edges",    "layer_about"};
+  static const std::array<std::string_view, layer_plane_count> names = {"layer_ground",  "layer_mist",     "layer_sky",   "layer_strokes",
+                                                                        "layer_ice",     "layer_features", "layer_trees", "layer_houses",
+                                                                        "layer_accents", "layer_edges",    "layer_about"};
   return names;
 }
 
@@ -51,10 +52,11 @@ const std::vector<PictureLayer>& picture_layers() {
         {.name = "water", .title = "Water", .plane = 0, .where = {C::water}},
         {.name = "snow_and_ice", .title = "Snow and ice", .plane = 0, .where = {C::snow, C::glacier}},
         {.name = "sky", .title = "Sky", .plane = 0, .where = {C::sky}},
+        {.name = "mist", .title = "Mist", .plane = mist_at, .of = LayerOf::mist},
         {.name = "strokes_sky", .title = "Strokes: sky", .plane = strokes_at},
         {.name = "strokes_ground", .title = "Strokes: ground", .plane = strokes_at + 1},
         {.name = "strokes_ice", .title = "Strokes: snow and ice", .plane = strokes_at + 2},
-        {.name = "features", .title = "Roads, lifts and runs", .plane = strokes_at + 3, .of_features = true},
+        {.name = "features", .title = "Roads, lifts and runs", .plane = strokes_at + 3, .of = LayerOf::features},
         {.name = "strokes_trees", .title = "Strokes: trees and what stands", .plane = strokes_at + 4},
         {.name = "strokes_houses", .title = "Strokes: houses", .plane = strokes_at + 5},
         {.name = "strokes_accents", .title = "Strokes: accents", .plane = strokes_at + 6},
@@ -103,14 +105,15 @@ void lay_over(glm::dvec3& below, const LayerPixel& above) {
   for (int c = 0; c < 3; ++c) below[c] += opacity * (above[static_cast<std::size_t>(c)] / highest - below[c]);
 }
 
-PictureLayers cut_layers(const Grid<glm::vec3>& bare, const PaintParts& parts, PixelRect rect, const GuidanceBuffers& guidance,
-                         const Grid<float>& haze, const Grid<glm::vec3>& finished) {
+PictureLayers cut_layers(const Grid<glm::vec3>& bare, const MistPaint& mist, const PaintParts& parts, PixelRect rect,
+                         const GuidanceBuffers& guidance, const Grid<float>& haze, const Grid<glm::vec3>& finished) {
   PictureLayers out;
   for (Grid<LayerPixel>& plane : out.planes) plane = Grid<LayerPixel>(bare.width(), bare.height(), LayerPixel{});
   parallel_rows(bare.height(), [&](int y) {
     for (int x = 0; x < bare.width(); ++x) {
       const std::size_t i = bare.index(x, y);
       out.planes[0][i] = pixel_of(bare[i], 1.0);
+      if (!mist.share.empty() && mist.share[i] > 0.0F) out.planes[mist_at][i] = pixel_of(mist.colour[i], mist.share[i]);
       cut_strokes(parts, parts.sum(PaintPart::sky).index(rect.x0 + x, rect.y0 + y), i, out);
 
       glm::dvec3 flat(0.0);

@@ -1,7 +1,5 @@
 #include "renderer/sheet/sheet_mist.h"
 
-#include <glm/common.hpp>
-
 namespace belvedere {
 namespace {
 
@@ -55,15 +53,7 @@ Grid<float> SheetMist::read_veil(PixelRect rect) {
   return veil;
 }
 
-void SheetMist::lay_over(Grid<glm::vec3>& picture, glm::ivec2 at, PixelRect rect) {
-  const MistPaint paint = paint_.read(rect);
-  parallel_rows(rect.height(), [&](int y) {
-    for (int x = 0; x < rect.width(); ++x) {
-      glm::vec3& pixel = picture(at.x + x, at.y + y);
-      pixel = glm::mix(pixel, paint.colour(x, y), paint.share(x, y));
-    }
-  });
-}
+MistPaint SheetMist::read_paint(PixelRect rect) { return paint_.read(rect); }
 
 int SheetMist::margin_px() const { return mist_tile_px + mist_margin_px(ground_.strokes()) + mist_tile_px; }
 

@@ -22,8 +22,8 @@ class SheetMist {
   bool any() const { return !world_.mist.empty(); }
   // What it hides at each pixel, 0…1, before it is painted.
   Grid<float> read_veil(PixelRect rect);
-  // Lays it over pixels of the sheet, encoded sRGB: those of `rect`, which begin at `at` of the picture.
-  void lay_over(Grid<glm::vec3>& picture, glm::ivec2 at, PixelRect rect);
+  // Its paint, encoded sRGB.
+  MistPaint read_paint(PixelRect rect);
   void keep_only(PixelRect still);
   // How far its paint looks at the ground around.
   int margin_px() const;

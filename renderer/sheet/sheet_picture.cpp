@@ -145,10 +145,20 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect, PictureLayers* cut) {
     const Grid<glm::vec3> copied = copy_ground(painted);
     for (int y = 0; y < copied.height(); ++y) std::copy_n(copied.row(y), copied.width(), canvas.row(inside.y0 + y) + inside.x0);
   }
+  const PixelRect wanted = moved(rect, -painted.x0, -painted.y0);
+  std::optional<PaintParts> parts;
+  Grid<glm::vec3> bare;
+  if (cut != nullptr) {
+    parts.emplace(inside);
+    bare = part_of(canvas, moved(rect, -window.x0, -window.y0));
+  }
   Grid<float> veil;
+  MistPaint mist;
   if (mist_.any()) {
-    mist_.lay_over(canvas, {inside.x0, inside.y0}, painted);
     veil = mist_.read_veil(window);
+    mist = mist_.read_paint(painted);
+    lay_mist(canvas, {inside.x0, inside.y0}, mist);
+    mist = {part_of(mist.share, wanted), part_of(mist.colour, wanted)};
   }
   SheetWindow place{.origin_px = {window.x0, window.y0}, .sheet_px = ground_.view().camera.size(), .asked = inside, .ice = &ground_.ice()};
   place.veil = mist_.any() ? &veil : nullptr;
@@ -163,27 +173,23 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect, PictureLayers* cut) {
     map.besides = house_strokes(features_, {guidance, base, ground_.strokes(), place});
     place.mapped = &map;
   }
-  std::optional<PaintParts> parts;
-  Grid<glm::vec3> bare;
-  if (cut != nullptr) {
-    parts.emplace(inside);
-    bare = part_of(canvas, inside);
-  }
   Painting strokes =
       paint_strokes(std::move(canvas), guidance, base, layers, ground_.strokes(), run_.progress, place, parts ? &*parts : nullptr);
   if (mapped) {
+    // Ways stand in the mist, which is laid already: what lies before them shows what was there.
     const Grid<glm::vec3> before = mist_.any() ? strokes.picture : Grid<glm::vec3>();
+    const std::optional<PaintParts> parts_before = mist_.any() ? parts : std::nullopt;
     paint_features(strokes.picture, features_, {guidance, base.colour, base.haze, strokes.seen_ground, strokes.seen_hung, &crest_rows},
                    window, painted, parts ? &*parts : nullptr);
     for (std::size_t i = 0; i < before.size(); ++i) strokes.picture[i] = glm::mix(strokes.picture[i], before[i], veil[i]);
+    if (parts_before) parts->thin_since(*parts_before, veil);
   }
   const GuidanceBuffers edges = ground_.read_guidance(painted, {&B::depth_m, &B::front}, false);
-  const PixelRect wanted = moved(rect, -painted.x0, -painted.y0);
   Grid<glm::vec3> finished = part_of(blend_edges(part_of(strokes.picture, inside), edges), wanted);
   if (cut != nullptr) {
     const GuidanceBuffers about = ground_.read_guidance(rect, {&B::depth_m, &B::land_cover, &B::shadow, &B::tone}, true);
     const PixelRect in_window = moved(rect, -window.x0, -window.y0);
-    *cut = cut_layers(part_of(bare, wanted), *parts, wanted, about, part_of(base.haze, in_window), finished);
+    *cut = cut_layers(bare, mist, *parts, wanted, about, part_of(base.haze, in_window), finished);
   }
   return finished;
 }

@@ -31,6 +31,15 @@ class PaintParts {
     for (Grid<glm::vec4>& sum : sums_) sum[i] *= 1.0F - alpha;
     sums_[static_cast<std::size_t>(part)][i] += alpha * glm::vec4(colour, 1.0F);
   }
+  // Thins what was painted since `before` to 1 - share, a share 0…1 for each pixel of the canvas.
+  void thin_since(const PaintParts& before, const Grid<float>& share) {
+    for (std::size_t k = 0; k < sums_.size(); ++k)
+      for (int y = rect_.y0; y < rect_.y1; ++y)
+        for (int x = rect_.x0; x < rect_.x1; ++x) {
+          glm::vec4& sum = sums_[k](x - rect_.x0, y - rect_.y0);
+          sum += share(x, y) * (before.sums_[k](x - rect_.x0, y - rect_.y0) - sum);
+        }
+  }
   // Colours times weights, and the weights, 0…1; what all weights leave of 1 is the canvas.
   const Grid<glm::vec4>& sum(PaintPart part) const { return sums_[static_cast<std::size_t>(part)]; }
 

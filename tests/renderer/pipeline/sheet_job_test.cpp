@@ -108,7 +108,7 @@ std::map<std::string, UnpackedLayer> unpack(const std::string& out) {
   EXPECT_EQ(std::system(("cd " + out + " && python3 -m zipfile -e panorama.ora layers").c_str()), 0);
   std::map<std::string, UnpackedLayer> layers;
   for (const PictureLayer& layer : picture_layers()) {
-    if (layer.of_features) continue;
+    if (layer.of != LayerOf::all) continue;
     UnpackedLayer& one = layers[layer.name];
     one.colour = read_picture(out + "/layers/data/" + layer.name + ".png", &one.opacity);
   }
@@ -127,7 +127,7 @@ TEST_F(SheetJob, LayersMakeThePanorama) {
   Grid<glm::vec3> flat(panorama.width(), panorama.height(), glm::vec3(0.0F));
   double edges = 0.0;
   for (const PictureLayer& layer : picture_layers()) {
-    if (layer.mask || layer.of_features) continue;
+    if (layer.mask || layer.of != LayerOf::all) continue;
     const UnpackedLayer& one = layers.at(layer.name);
     for (std::size_t i = 0; i < flat.size(); ++i) flat[i] += one.opacity[i] * (one.colour[i] - flat[i]);
     if (layer.name == "edges")

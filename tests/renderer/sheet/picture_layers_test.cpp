@@ -23,6 +23,7 @@ struct Painted {
   Grid<glm::vec3> bare{width, height};
   Grid<glm::vec3> picture{width, height};
   Grid<float> haze{width, height, 0.25F};
+  MistPaint mist{Grid<float>(width, height), Grid<glm::vec3>(width, height)};
   PaintParts parts{{0, 0, width + 4, height + 5}};
   GuidanceBuffers guidance;
   Painted() {
@@ -37,7 +38,9 @@ struct Painted {
         if (x < 10) guidance.land_cover[i] = LandCoverClass::water;
         if (x > 30) guidance.land_cover[i] = LandCoverClass::glacier;
         for (int c = 0; c < 3; ++c) bare[i][c] = static_cast<float>(draw(x, y, static_cast<std::uint64_t>(c)));
-        picture[i] = bare[i];
+        mist.share[i] = y < 15 ? static_cast<float>(draw(x, y, 5)) : 0.F;
+        mist.colour[i] = {0.8F, static_cast<float>(draw(x, y, 6)), 0.9F};
+        picture[i] = bare[i] + mist.share[i] * (mist.colour[i] - bare[i]);
         for (std::uint64_t s = 0; s < 12; ++s) {
           const auto alpha = static_cast<float>(draw(x, y, 10 + s));
           const glm::vec3 colour(static_cast<float>(draw(x, y, 30 + s)), static_cast<float>(draw(x, y, 50 + s)), 0.4F);
@@ -48,7 +51,7 @@ struct Painted {
         }
       }
   }
-  PictureLayers cut(const Grid<glm::vec3>& finished) const { return cut_layers(bare, parts, place, guidance, haze, finished); }
+  PictureLayers cut(const Grid<glm::vec3>& finished) const { return cut_layers(bare, mist, parts, place, guidance, haze, finished); }
 };
 
 Grid<glm::dvec3> flatten(const PictureLayers& layers) {
@@ -100,6 +103,7 @@ TEST(PictureLayers, LayersOfTheGroundAndMasksAreWhereTheirClassIs) {
   };
   EXPECT_EQ(seen(layer("ground")), static_cast<std::size_t>(width * height));
   EXPECT_EQ(seen(layer("sky")), static_cast<std::size_t>(width * 5));
+  EXPECT_NEAR(static_cast<double>(seen(layer("mist"))), width * 15, 2.0);
   EXPECT_EQ(seen(layer("water")), static_cast<std::size_t>(10 * (height - 5)));
   EXPECT_EQ(seen(layer("class_water")), static_cast<std::size_t>(10 * (height - 5)));
   EXPECT_EQ(seen(layer("snow_and_ice")), static_cast<std::size_t>(9 * (height - 5)));

@@ -58,7 +58,7 @@ TEST(SheetMist, NothingStandsOutOfDeepFog) {
   SheetGround ground(deep.world, view_of(deep.world), deep.palette, deep.place, deep.run, 96);
   SheetMist mist(ground, deep.world, deep.place, deep.run);
   Grid<glm::vec3> fog(230, 210, glm::vec3(0.F));
-  mist.lay_over(fog, {0, 0}, sheet);
+  lay_mist(fog, {0, 0}, mist.read_paint(sheet));
   const Grid<float> veil = mist.read_veil(sheet);
   const Grid<glm::vec3> picture = deep.make(sheet);
   int hidden = 0;

@@ -34,5 +34,20 @@ TEST(PaintParts, SumsMakeThePaintingInAnyOrderOfParts) {
     }
 }
 
+// Thinning mixes what parts make with what they made before.
+TEST(PaintParts, PaintCanBeThinnedToWhatWasThere) {
+  const PixelRect rect{5, 7, 8, 9};
+  PaintParts parts(rect);
+  parts.cover(6, 8, PaintPart::trees, 0.5F, {0.2F, 0.4F, 0.6F});
+  const PaintParts before = parts;
+  parts.cover(6, 8, PaintPart::features, 0.8F, glm::vec3(1.0F));
+  Grid<float> share(30, 20, 1.0F);
+  share(6, 8) = 0.25F;
+  parts.thin_since(before, share);
+  EXPECT_NEAR(parts.sum(PaintPart::features)(1, 1).w, 0.75F * 0.8F, 1e-6F);
+  EXPECT_NEAR(parts.sum(PaintPart::trees)(1, 1).w, 0.5F * (0.25F + 0.75F * 0.2F), 1e-6F);
+  EXPECT_NEAR(parts.sum(PaintPart::trees)(1, 1).y, 0.4F * 0.5F * (0.25F + 0.75F * 0.2F), 1e-6F);
+}
+
 }  // namespace
 }  // namespace belvedere
