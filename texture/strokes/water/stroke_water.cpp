@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "base/math.h"
+#include "base/math_exact.h"
 #include "texture/strokes/stroke_kinds.h"
 #include "texture/strokes/stroke_parts.h"
 
@@ -16,7 +18,7 @@ constexpr double patches_m = 420.0;     // of ruffled water, those of the base p
 constexpr float usual_m = 14.F;         // metres in a unit of the sheet where a streak has its usual size
 constexpr float sea_within_m = 1.6F;    // of the sea's level, as DEMs have it
 constexpr float widest_surf_m = 120.F;  // surf is no wider on the ground, however far off the shore lies
-constexpr float look_units = 3.5F;      // up and down the fall line, for how steeply the water itself falls
+constexpr float look_units = 2.5F;      // up and down the water, for how steeply it falls itself
 constexpr float fall_from = 0.25F;      // drop over way, where rivers begin to whiten …
 constexpr float fall_to = 0.53F;        // … and are white
 
@@ -50,16 +52,37 @@ Shore shore_around(const StrokeScene& scene, glm::vec2 place, std::size_t i, flo
   return shore;
 }
 
-// Drop over way of the water at a place, along its fall line; 0 at its ends and on lakes, whatever their banks do.
-float fall_of_water(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
-  const glm::vec2 step = scene.fall_line(place) * (look_units * scene.scale());
-  if (!scene.on_canvas(place + step) || !scene.on_canvas(place - step)) return 0.F;
-  const std::size_t above = scene.pixel(place - step);
-  const std::size_t below = scene.pixel(place + step);
-  for (const std::size_t k : {above, below})
-    if (scene.class_at(k) != water || !on_same_slope(scene, i, k)) return 0.F;
-  const glm::vec3 way = scene.guidance.position_m[above] - scene.guidance.position_m[below];
-  return way.z / std::max(glm::length(glm::vec2(way)), 1.F);
+// How water falls at a place: drop over way where it falls most steeply, and which way that is on the sheet. 0 at its ends and on lakes,
+// whatever their banks do.
+struct WaterFall {
+  float slope = 0.F;
+  glm::vec2 down{0.F, 1.F};
+};
+WaterFall fall_of_water(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
+  const auto water_at = [&](glm::vec2 there) -> std::optional<glm::vec3> {
+    if (!scene.on_canvas(there)) return std::nullopt;
+    const std::size_t k = scene.pixel(there);
+    if (scene.class_at(k) != water || !on_same_slope(scene, i, k)) return std::nullopt;
+    return scene.guidance.position_m[k];
+  };
+  const auto slope_of = [](glm::vec3 way) { return way.z / std::max(glm::length(glm::vec2(way)), 1.F); };
+  const glm::vec2 down = scene.fall_line(place);
+  const std::optional<glm::vec3> above = water_at(place - down * (look_units * scene.scale()));
+  const std::optional<glm::vec3> below = water_at(place + down * (look_units * scene.scale()));
+  const glm::vec3 here = scene.guidance.position_m[i];
+  if (above || below) return {slope_of(above.value_or(here) - below.value_or(here)), down};
+  // A brook is narrow and does not run down the fall line of the wall it falls over: the water itself is felt for, in eight axes.
+  constexpr glm::vec2 axes[8] = {{1.F, 0.F}, {0.9239F, 0.3827F},  {0.7071F, 0.7071F},  {0.3827F, 0.9239F},
+                                 {0.F, 1.F}, {-0.3827F, 0.9239F}, {-0.7071F, 0.7071F}, {-0.9239F, 0.3827F}};
+  WaterFall fall;
+  for (const glm::vec2 axis : axes) {
+    const std::optional<glm::vec3> a = water_at(place - axis * (look_units * scene.scale()));
+    const std::optional<glm::vec3> b = water_at(place + axis * (look_units * scene.scale()));
+    if (!a || !b) continue;
+    const float slope = slope_of(*a - *b);
+    if (std::abs(slope) > fall.slope) fall = {std::abs(slope), slope > 0.F ? axis : -axis};
+  }
+  return fall;
 }
 
 }  // namespace
@@ -92,14 +115,17 @@ std::vector<Stroke> wind_streaks(const StrokeScene& scene, Stream stream) {
 
 std::vector<Stroke> river_foam(const StrokeScene& scene, Stream stream) {
   if (!scene.parameters.foam || scene.parameters.winter) return {};
-  return sow(scene, 1.5F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
+  return sow(scene, 1.0F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     if (scene.class_at(i) != water) return;
-    const float steep = smoothstep(fall_from, fall_to, fall_of_water(scene, place, i));
+    const WaterFall fall = fall_of_water(scene, place, i);
+    const float steep = smoothstep(fall_from, fall_to, fall.slope);
     if (seed.uniform() > 0.85F * steep) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.gate = StrokeGate::water;
     lay_on_top(stroke);
-    lay_line(stroke, scene, place, seed.between(1.8F, 4.6F), 0.1F * seed.normal(), 0.08F, true, seed);
+    const auto down = static_cast<float>(exact::atan2(static_cast<double>(fall.down.y), static_cast<double>(fall.down.x)));
+    const float length = seed.between(1.8F, 4.6F);
+    lay_line(stroke, scene, place, length, down + 0.1F * seed.normal(), 0.08F, false, seed);
     take_brush(stroke, scene, seed.between(0.5F, 1.1F), {.taper = 0.6F, .alpha = 0.8F, .bristle = 0.35F, .wetness = 0.01F});
     stroke.colour = foam_white(scene, i);
     out.push_back(stroke);

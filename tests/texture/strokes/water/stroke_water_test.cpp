@@ -79,6 +79,27 @@ TEST(WaterStrokes, FallsAreWhiteAndRunDown) {
   EXPECT_TRUE(grow_strokes("river foam", p.scene()).empty());
 }
 
+// A brook runs over a wall aslant, not down the wall's fall line.
+TEST(WaterStrokes, ABrookIsWhiteAlongItsOwnWayOverAWall) {
+  Picture p = water();
+  std::size_t wet = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const bool brook = std::abs(x - y - 40) < 2;
+      p.guidance.land_cover(x, y) = brook ? LandCoverClass::water : LandCoverClass::rock;
+      p.guidance.position_m(x, y) = {14.F * static_cast<float>(x), -14.F * static_cast<float>(y), 900.F - 14.F * static_cast<float>(y)};
+      wet += brook ? 1 : 0;
+    }
+  const std::vector<Stroke> foam = grow_strokes("river foam", p.scene());
+  double painted = 0.0;
+  for (const Stroke& s : foam) {
+    EXPECT_LT(angle_deg(axis_of(s), {0.707F, 0.707F}), 45.0);
+    EXPECT_EQ(s.gate, StrokeGate::water);
+    painted += static_cast<double>(glm::length(axis_of(s)) * s.start_width);
+  }
+  EXPECT_GT(painted, 1.5 * static_cast<double>(wet)) << "all of it is white";
+}
+
 TEST(WaterStrokes, SurfRunsAlongTheSeaInABrokenLine) {
   EXPECT_TRUE(grow_strokes("sea surf", water(900.F).scene()).empty()) << "a lake";
   const Picture p = water(0.4F);
