@@ -166,9 +166,12 @@ std::vector<Stroke> water_strokes(const StrokeScene& scene, Stream stream) {
     if (scene.class_at(i) != water) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.gate = StrokeGate::water;
-    const float angle = seed.normal() * 0.015F;
-    lay_line(stroke, scene, place, seed.between(10.F, 26.F), angle, 0.02F, false, seed);
-    take_brush(stroke, scene, seed.between(1.4F, 3.2F), {.taper = 0.5F, .alpha = 0.5F, .bristle = 0.4F, .wetness = 0.02F});
+    // Water is swept in long level strokes, ice is dabbed, so that its drifts and cracks keep their shapes.
+    const bool frozen = static_cast<double>(scene.altitude_m(i)) >= scene.parameters.frozen_from_m;
+    const float angle = seed.normal() * (frozen ? 0.10F : 0.015F);
+    lay_line(stroke, scene, place, (frozen ? 0.32F : 1.F) * seed.between(10.F, 26.F), angle, 0.02F, false, seed);
+    take_brush(stroke, scene, (frozen ? 0.6F : 1.F) * seed.between(1.4F, 3.2F),
+               {.taper = 0.5F, .alpha = 0.5F, .bristle = 0.4F, .wetness = 0.02F});
     stroke.colour = scene.colour(i, mixed_tone(0.15F, 0.22F, seed), paint_jitter * 0.6F, seed);
     out.push_back(stroke);
   });

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/vec2.hpp>
 
 #include "base/math.h"
 #include "base/random_streams.h"
@@ -9,11 +10,13 @@
 namespace belvedere {
 namespace {
 
-constexpr float bare_darker = 0.14F;                // tones: bare ice is darker than snow in the same light
-constexpr glm::vec3 bare_hue{0.86F, 0.955F, 1.0F};  // of snow's colour
-constexpr float most_snow = 0.92F;
-constexpr float crack_units = 0.55F;  // half the width of a crack
-constexpr float wet_m = 4.0F;         // depth up to which the shore's ice is wet
+constexpr float bare_darker = 0.26F;                 // tones: bare ice is darker than snow in the same light
+constexpr glm::vec3 bare_hue{0.90F, 0.965F, 0.94F};  // of snow's colour
+constexpr float most_snow = 0.95F;
+constexpr glm::dvec2 drift_axis{0.906, -0.423};  // drifts are drawn out from north-west to south-east …
+constexpr double drift_length = 2.4;             // … so many times as long as wide
+constexpr float crack_units = 0.55F;             // half the width of a crack
+constexpr float wet_m = 4.0F;                    // depth up to which the shore's ice is wet
 
 }  // namespace
 
@@ -26,8 +29,11 @@ LakeIce::LakeIce(std::uint64_t seed)
 glm::vec3 LakeIce::colour(const Palette& palette, double altitude_m, double light, glm::dvec3 place_m, float depth_m,
                           float metres_per_unit) {
   const float kept = unit(1.8F - metres_per_unit / 30.0F);
-  const float drift = drifts_(place_m.x, place_m.y) + 0.6F * kept * small_drifts_(place_m.x, place_m.y);
-  const float snow = most_snow * smoothstep(-0.9F, 0.8F, drift);
+  const double along_m = (place_m.x * drift_axis.x + place_m.y * drift_axis.y) / drift_length;
+  const double across_m = place_m.y * drift_axis.x - place_m.x * drift_axis.y;
+  const float drift = drifts_(along_m, across_m) + 0.6F * kept * small_drifts_(along_m, across_m);
+  // Drifts have an edge: that tells ice from water, which has none but its shores.
+  const float snow = most_snow * smoothstep(-0.30F, 0.45F, drift);
   const glm::vec3 bare = palette_colour(palette, LandCoverClass::snow, altitude_m, light - static_cast<double>(bare_darker)) * bare_hue;
   glm::vec3 colour = glm::mix(bare, palette_colour(palette, LandCoverClass::snow, altitude_m, light), snow);
   // A crack runs where slow noise passes through 0, for a stretch: its width in metres is the noise over its slope, some 1 in 520 m.

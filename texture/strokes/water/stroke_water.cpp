@@ -67,10 +67,14 @@ WaterFall fall_of_water(const StrokeScene& scene, glm::vec2 place, std::size_t i
   };
   const auto slope_of = [](glm::vec3 way) { return way.z / std::max(glm::length(glm::vec2(way)), 1.F); };
   const glm::vec2 down = scene.fall_line(place);
-  const std::optional<glm::vec3> above = water_at(place - down * (look_units * scene.scale()));
-  const std::optional<glm::vec3> below = water_at(place + down * (look_units * scene.scale()));
+  const glm::vec2 step = down * (look_units * scene.scale());
+  const std::optional<glm::vec3> above = water_at(place - step);
+  const std::optional<glm::vec3> below = water_at(place + step);
+  if (above && below) return {slope_of(*above - *below), down};
+  // The rim of broad water.
   const glm::vec3 here = scene.guidance.position_m[i];
-  if (above || below) return {slope_of(above.value_or(here) - below.value_or(here)), down};
+  if (below && water_at(place + 2.F * step)) return {slope_of(here - *below), down};
+  if (above && water_at(place - 2.F * step)) return {slope_of(*above - here), down};
   // A brook is narrow and does not run down the fall line of the wall it falls over: the water itself is felt for, in eight axes.
   constexpr glm::vec2 axes[8] = {{1.F, 0.F}, {0.9239F, 0.3827F},  {0.7071F, 0.7071F},  {0.3827F, 0.9239F},
                                  {0.F, 1.F}, {-0.3827F, 0.9239F}, {-0.7071F, 0.7071F}, {-0.9239F, 0.3827F}};
