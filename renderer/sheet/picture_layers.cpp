@@ -11,6 +11,7 @@ namespace {
 constexpr double highest = 65535.0;
 constexpr std::size_t mist_at = 1;
 constexpr std::size_t strokes_at = 2;
+constexpr std::size_t ground_strokes_at = strokes_at + 1;
 constexpr std::size_t edges_at = strokes_at + paint_part_count;
 constexpr std::array<PaintPart, paint_part_count> strokes_upwards = {
     PaintPart::sky, PaintPart::ground, PaintPart::ice, PaintPart::features, PaintPart::trees, PaintPart::houses, PaintPart::accents};
@@ -54,13 +55,31 @@ const std::vector<PictureLayer>& picture_layers() {
         {.name = "sky", .title = "Sky", .plane = 0, .where = {C::sky}},
         {.name = "mist", .title = "Mist", .plane = mist_at, .of = LayerOf::mist},
         {.name = "strokes_sky", .title = "Strokes: sky", .plane = strokes_at},
-        {.name = "strokes_ground", .title = "Strokes: ground", .plane = strokes_at + 1},
+        {.name = "strokes_rock",
+         .title = "Strokes: rock, scree and sand",
+         .plane = ground_strokes_at,
+         .where = {C::rock, C::scree, C::sand}},
+        {.name = "strokes_meadows",
+         .title = "Strokes: meadows and shrubs",
+         .plane = ground_strokes_at,
+         .where = {C::pasture, C::alpine_grass, C::valley_floor, C::shrub}},
+        {.name = "strokes_forest", .title = "Strokes: ground of forests", .plane = ground_strokes_at, .where = {C::forest}},
+        {.name = "strokes_water", .title = "Strokes: water", .plane = ground_strokes_at, .where = {C::water}},
+        {.name = "strokes_ground", .title = "Strokes: other ground", .plane = ground_strokes_at},
         {.name = "strokes_ice", .title = "Strokes: snow and ice", .plane = strokes_at + 2},
         {.name = "features", .title = "Roads, lifts and runs", .plane = strokes_at + 3, .of = LayerOf::features},
         {.name = "strokes_trees", .title = "Strokes: trees and what stands", .plane = strokes_at + 4},
         {.name = "strokes_houses", .title = "Strokes: houses", .plane = strokes_at + 5},
         {.name = "strokes_accents", .title = "Strokes: accents", .plane = strokes_at + 6},
         {.name = "edges", .title = "Softened edges", .plane = edges_at}};
+    // What no class of its own has is other ground.
+    const auto rest = std::find_if(layers.begin(), layers.end(), [](const PictureLayer& one) { return one.name == "strokes_ground"; });
+    for (const LandCoverClassInfo& info : land_cover_classes()) {
+      const bool told = std::any_of(layers.begin(), layers.end(), [&](const PictureLayer& one) {
+        return one.plane == ground_strokes_at && holds(one.where, static_cast<std::uint16_t>(info.id));
+      });
+      if (!told) rest->where.push_back(info.id);
+    }
     const auto mask = [&](const char* name, const char* title, int share, std::uint32_t rgb) {
       layers.push_back({.name = name, .title = title, .mask = true, .plane = about_plane, .share = share, .rgb = rgb});
     };

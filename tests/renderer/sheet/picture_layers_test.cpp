@@ -71,6 +71,10 @@ double most_off(const Grid<glm::dvec3>& flat, const Grid<glm::vec3>& finished) {
   return off * 65535.0;
 }
 
+std::size_t plane_of_layer(const std::string& name) {
+  return std::find_if(picture_layers().begin(), picture_layers().end(), [&](const PictureLayer& one) { return one.name == name; })->plane;
+}
+
 std::size_t seen(const Grid<LayerPixel>& layer) {
   return static_cast<std::size_t>(std::count_if(layer.begin(), layer.end(), [](const LayerPixel& p) { return p[3] != 0; }));
 }
@@ -111,6 +115,22 @@ TEST(PictureLayers, LayersOfTheGroundAndMasksAreWhereTheirClassIs) {
   EXPECT_EQ(layer("mask_air")(15, 15)[3], 16384);
   EXPECT_EQ(layer("mask_light")(15, 15)[3], 32768);
   EXPECT_EQ(layer("mask_light")(15, 2)[3], 0) << "sky has no light of the ground";
+}
+
+// Strokes of the ground can be changed class by class: each pixel's lie in one layer, whatever its class.
+TEST(PictureLayers, EachPixelsStrokesLieInTheLayerOfItsClass) {
+  const Painted painted;
+  const PictureLayers layers = painted.cut(painted.picture);
+  std::size_t apart = 0;
+  std::set<std::string> seen_in;
+  for (const PictureLayer& layer : picture_layers()) {
+    if (layer.plane != plane_of_layer("strokes_ground")) continue;
+    const std::size_t count = seen(make_layer(layer, layers.planes[layer.plane], layers.planes[about_plane]));
+    if (count > 0) seen_in.insert(layer.name);
+    apart += count;
+  }
+  EXPECT_EQ(apart, seen(layers.planes[plane_of_layer("strokes_ground")]));
+  EXPECT_EQ(seen_in, (std::set<std::string>{"strokes_forest", "strokes_water", "strokes_ground"})) << "glaciers and sky are other ground";
 }
 
 TEST(PictureLayers, NamesAreOnesOwn) {
