@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <span>
 
+#include "terrain/generalize/moved_ground.h"
+
 namespace belvedere {
 namespace {
 
@@ -30,15 +32,17 @@ bool holds(const PixelRect& posts, glm::dvec2 at) {
 
 }  // namespace
 
-GroundSight::GroundSight(const GeoTransform& transform, const DeformedSurface& surface, const Camera& camera, const Tracer& tracer)
+GroundSight::GroundSight(const GeoTransform& transform, const DeformedSurface& surface, const Camera& camera, const Tracer& tracer,
+                         const Grid<glm::vec2>& goes_to)
     : transform_(transform),
       surface_(surface),
       camera_(camera),
       tracer_(tracer),
+      goes_to_(goes_to),
       cell_m_(0.5 * (transform.cell_x + transform.cell_y) / std::ldexp(1.0, static_cast<int>(surface.windows.size()))) {}
 
 std::optional<glm::dvec3> GroundSight::ground(glm::dvec2 place) const {
-  glm::dvec2 at = transform_.to_cell(place.x, place.y);
+  glm::dvec2 at = drawn_cell(goes_to_, transform_.to_cell(place.x, place.y));
   if (!holds({0, 0, surface_.vertices_m.width(), surface_.vertices_m.height()}, at)) return std::nullopt;
   const DeformedSurface* finest = &surface_;
   for (const SurfaceWindow& window : surface_.windows) {

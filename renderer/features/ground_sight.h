@@ -16,7 +16,9 @@ namespace belvedere {
 // All calls are safe from any thread; the parts must outlive it.
 class GroundSight {
  public:
-  GroundSight(const GeoTransform& transform, const DeformedSurface& surface, const Camera& camera, const Tracer& tracer);
+  // goes_to: where widened valleys took the ground of each cell of the whole surface from; empty where nothing moved.
+  GroundSight(const GeoTransform& transform, const DeformedSurface& surface, const Camera& camera, const Tracer& tracer,
+              const Grid<glm::vec2>& goes_to);
 
   // The drawn ground in the deformed world; nothing outside the terrain.
   std::optional<glm::dvec3> ground(glm::dvec2 place) const;
@@ -50,6 +52,7 @@ class GroundSight {
   const DeformedSurface& surface_;
   const Camera& camera_;
   const Tracer& tracer_;
+  const Grid<glm::vec2>& goes_to_;
   double cell_m_;
 };
 

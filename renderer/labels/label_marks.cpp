@@ -24,7 +24,7 @@ struct SeenCell {
 // The upper edge of a summit as the picture shows it. From high above, ground behind the top may still stand over it: from the top one
 // goes to the highest place of the picture that is seen among the nearest cells, while the ground falls. Where it rises again, or the way
 // leads beyond the reach, the slope belongs to the ground behind, and the edge is the top itself.
-ImagePlace upper_edge(const DrawnGround& ground, glm::dvec2 place, glm::dvec2 top, const ImagePlace& seen_top, double most_m) {
+ImagePlace upper_edge(const DrawnGround& ground, glm::dvec2 start, glm::dvec2 top, const ImagePlace& seen_top, double most_m) {
   const Grid<float>& z = ground.generalized_m;
   const glm::dvec2 from = ground.transform.to_cell(top.x, top.y);
   SeenCell here{{static_cast<int>(std::lround(from.x)), static_cast<int>(std::lround(from.y))}, seen_top};
@@ -34,12 +34,12 @@ ImagePlace upper_edge(const DrawnGround& ground, glm::dvec2 place, glm::dvec2 to
       for (int dx = -step_cells; dx <= step_cells; ++dx) {
         const glm::ivec2 cell = here.cell + glm::ivec2(dx, dy);
         if (!z.contains(cell.x, cell.y)) continue;
-        const std::optional<ImagePlace> at = ground.map.to_image(ground.transform.to_crs(cell.x, cell.y));
+        const std::optional<ImagePlace> at = ground.map.drawn_to_image(ground.transform.to_crs(cell.x, cell.y));
         if (at && at->visible && at->pixel.y < next.at.pixel.y) next = {cell, *at};
       }
     if (next.cell == here.cell) return here.at;
     const bool rises = z(next.cell.x, next.cell.y) > z(here.cell.x, here.cell.y);
-    if (rises || glm::length(ground.transform.to_crs(next.cell.x, next.cell.y) - place) > most_m) return seen_top;
+    if (rises || glm::length(ground.transform.to_crs(next.cell.x, next.cell.y) - start) > most_m) return seen_top;
     here = next;
   }
 }
@@ -48,19 +48,21 @@ LabelMark find_mark(const DrawnGround& ground, const LabelPoint& point, const La
   LabelMark mark;
   mark.drawn_place = point.place;
   mark.dem_altitude_m = NAN;
-  const std::optional<glm::dvec2> drawn =
-      kind.climb_m > 0.0 ? climb(ground, point.place, kind.climb_m) : std::optional<glm::dvec2>(point.place);
-  if (!drawn || !ground.map.on_surface(*drawn)) return mark;
-  mark.drawn_place = *drawn;
-  const glm::dvec2 cell = ground.transform.to_cell(drawn->x, drawn->y);
+  const glm::dvec2 start = ground.map.drawn_place(point.place);
+  const std::optional<glm::dvec2> drawn = kind.climb_m > 0.0 ? climb(ground, start, kind.climb_m) : std::optional<glm::dvec2>(start);
+  if (!drawn) return mark;
+  const glm::dvec2 place = ground.map.place_of_drawn(*drawn);
+  if (!ground.map.on_surface(place)) return mark;
+  mark.drawn_place = place;
+  const glm::dvec2 cell = ground.transform.to_cell(place.x, place.y);
   mark.dem_altitude_m =
       static_cast<double>(ground.altitude_m.clamped(static_cast<int>(std::lround(cell.x)), static_cast<int>(std::lround(cell.y))));
-  std::optional<ImagePlace> at = ground.map.to_image(*drawn);
+  std::optional<ImagePlace> at = ground.map.drawn_to_image(*drawn);
   if (!at) {
     mark.state = MarkState::behind_eye;
     return mark;
   }
-  if (kind.climb_m > 0.0 && at->visible) at = upper_edge(ground, point.place, *drawn, *at, kind.climb_m);
+  if (kind.climb_m > 0.0 && at->visible) at = upper_edge(ground, start, *drawn, *at, kind.climb_m);
   mark.pixel = at->pixel;
   mark.distance_m = at->distance_m;
   mark.state = at->visible ? MarkState::seen : at->in_picture ? MarkState::hidden : MarkState::outside_picture;

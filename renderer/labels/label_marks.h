@@ -35,8 +35,9 @@ struct DrawnGround {
   const GeoMap& map;
 };
 
-// The top of the drawn ground that one comes to from a place by going up, always to the highest cell of those within three columns and
-// rows; of level ones the first. The place itself where the top lies farther off than most_m; nothing where it lies outside of the terrain.
+// The top of the drawn ground that one comes to from a place on it (GeoMap::drawn_place) by going up, always to the highest cell of those
+// within three columns and rows; of level ones the first. The place itself where the top lies farther off than most_m; nothing where it
+// lies outside of the terrain.
 std::optional<glm::dvec2> climb(const DrawnGround& ground, glm::dvec2 place, double most_m);
 
 // The mark of each point, in parallel; the same for any number of threads.

@@ -94,6 +94,7 @@ Sight look(const LoadedScene& loaded, Progress& progress, const Cache& cache, bo
   GeneralizedTerrain ground = generalize_for_view(loaded, *sight.dem, terrain.land_cover.get(), sight.view, progress, cache);
   terrain.generalized_m = std::move(ground.altitude_m);
   terrain.came_from = std::move(ground.came_from);
+  terrain.goes_to = std::move(ground.goes_to);
   const Deformation deformation(sight.view.deform, sight.view.viewer_xy);
   check_folds(scene.deform, terrain, deformation, *make_camera(sight.view.camera), progress);
   const DeformedSurface surface = deform(terrain.generalized_m, sight.dem->transform, glm::dvec3(sight.view.viewer_xy, 0.0), deformation);

@@ -6,16 +6,37 @@
 #include <span>
 
 #include "base/filter.h"
+#include "terrain/generalize/moved_ground.h"
 
 namespace belvedere {
 
-GeoMap::GeoMap(const Grid<float>& altitude_m, const GeoTransform& transform, const Deformation& deformation, const DeformedSurface& surface,
-               const Camera& camera, const Tracer& tracer)
-    : altitude_m_(altitude_m), transform_(transform), deformation_(deformation), surface_(surface), camera_(camera), tracer_(tracer) {}
+GeoMap::GeoMap(const Grid<float>& altitude_m, const Grid<glm::vec2>& goes_to, const GeoTransform& transform, const Deformation& deformation,
+               const DeformedSurface& surface, const Camera& camera, const Tracer& tracer)
+    : altitude_m_(altitude_m),
+      goes_to_(goes_to),
+      transform_(transform),
+      deformation_(deformation),
+      surface_(surface),
+      camera_(camera),
+      tracer_(tracer) {}
 
-std::optional<glm::dvec3> GeoMap::on_surface(glm::dvec2 place) const {
+glm::dvec2 GeoMap::drawn_place(glm::dvec2 place) const {
+  if (goes_to_.empty()) return place;
+  const glm::dvec2 drawn = drawn_cell(goes_to_, transform_.to_cell(place.x, place.y));
+  return transform_.to_crs(drawn.x, drawn.y);
+}
+
+glm::dvec2 GeoMap::place_of_drawn(glm::dvec2 drawn) const {
+  if (goes_to_.empty()) return drawn;
+  const glm::dvec2 origin = origin_cell(goes_to_, transform_.to_cell(drawn.x, drawn.y));
+  return transform_.to_crs(origin.x, origin.y);
+}
+
+std::optional<glm::dvec3> GeoMap::on_surface(glm::dvec2 place) const { return drawn_surface(drawn_place(place)); }
+
+std::optional<glm::dvec3> GeoMap::drawn_surface(glm::dvec2 drawn) const {
   const Grid<glm::vec3>& posts = surface_.vertices_m;
-  const glm::dvec2 at = transform_.to_cell(place.x, place.y);
+  const glm::dvec2 at = transform_.to_cell(drawn.x, drawn.y);
   if (!(at.x >= 0.0 && at.y >= 0.0 && at.x <= posts.width() - 1.0 && at.y <= posts.height() - 1.0)) return std::nullopt;
   const int x = std::min(static_cast<int>(at.x), posts.width() - 2);
   const int y = std::min(static_cast<int>(at.y), posts.height() - 2);
@@ -50,19 +71,24 @@ std::optional<ImagePlace> GeoMap::see(glm::dvec3 deformed) const {
   return out;
 }
 
-std::optional<ImagePlace> GeoMap::to_image(glm::dvec2 place) const {
-  const auto deformed = on_surface(place);
+std::optional<ImagePlace> GeoMap::to_image(glm::dvec2 place) const { return drawn_to_image(drawn_place(place)); }
+
+std::optional<ImagePlace> GeoMap::drawn_to_image(glm::dvec2 drawn) const {
+  const auto deformed = drawn_surface(drawn);
   return deformed ? see(*deformed) : std::nullopt;
 }
 
-std::optional<ImagePlace> GeoMap::to_image(glm::dvec3 place) const { return see(deformation_.point(place)); }
+std::optional<ImagePlace> GeoMap::to_image(glm::dvec3 place) const {
+  return see(deformation_.point({drawn_place({place.x, place.y}), place.z}));
+}
 
 std::optional<GeoPlace> GeoMap::to_geo(glm::dvec2 pixel) const {
   const Ray ray = camera_.ray(pixel);
   Hit hit;
   tracer_.intersect(std::span(&ray, 1), std::span(&hit, 1));
   if (!hit.found) return std::nullopt;
-  return GeoPlace{transform_.to_crs(hit.column, hit.row), static_cast<double>(sample_bilinear(altitude_m_, hit.column, hit.row)),
+  const glm::dvec2 origin = origin_cell(goes_to_, {hit.column, hit.row});
+  return GeoPlace{transform_.to_crs(origin.x, origin.y), static_cast<double>(sample_bilinear(altitude_m_, origin.x, origin.y)),
                   hit.distance_m};
 }
 

@@ -32,9 +32,10 @@ struct GeoPlace {
 // safe from any thread; the parts must outlive the map.
 class GeoMap {
  public:
-  // altitude_m: the undeformed, ungeneralized DEM, with as many cells as the surface has posts.
-  GeoMap(const Grid<float>& altitude_m, const GeoTransform& transform, const Deformation& deformation, const DeformedSurface& surface,
-         const Camera& camera, const Tracer& tracer);
+  // altitude_m: the undeformed, ungeneralized DEM, with as many cells as the surface has posts. goes_to: where widened valleys took each
+  // cell's ground from (terrain/generalize/moved_ground.h); empty where nothing moved.
+  GeoMap(const Grid<float>& altitude_m, const Grid<glm::vec2>& goes_to, const GeoTransform& transform, const Deformation& deformation,
+         const DeformedSurface& surface, const Camera& camera, const Tracer& tracer);
 
   // A place on the ground as it is drawn. Nothing outside the terrain, or behind the eye.
   std::optional<ImagePlace> to_image(glm::dvec2 place) const;
@@ -46,10 +47,19 @@ class GeoMap {
   // The drawn ground in the deformed world; nothing outside the terrain.
   std::optional<glm::dvec3> on_surface(glm::dvec2 place) const;
 
+  // Widened valleys move ground, with all that lies on it. Where ground of a place is drawn on the map, and the place whose ground is drawn
+  // there; themselves where nothing moved.
+  glm::dvec2 drawn_place(glm::dvec2 place) const;
+  glm::dvec2 place_of_drawn(glm::dvec2 drawn) const;
+  // to_image() of a place that is known as a drawn one.
+  std::optional<ImagePlace> drawn_to_image(glm::dvec2 drawn) const;
+
  private:
+  std::optional<glm::dvec3> drawn_surface(glm::dvec2 drawn) const;
   std::optional<ImagePlace> see(glm::dvec3 deformed) const;
 
   const Grid<float>& altitude_m_;
+  const Grid<glm::vec2>& goes_to_;
   GeoTransform transform_;
   const Deformation& deformation_;
   const DeformedSurface& surface_;

@@ -9,6 +9,8 @@
 #include "base/math_exact.h"
 #include "base/noise.h"
 #include "base/random_streams.h"
+#include "terrain/cover/map_cover.h"
+#include "terrain/generalize/moved_ground.h"
 #include "terrain/layers/layer_relief.h"
 
 namespace belvedere {
@@ -31,14 +33,21 @@ bool frays(LandCoverClass id) {
 }
 
 // Water, ice, walls and what is built keep their outlines.
-LandCoverClass frayed_class(const LandCover& cover, glm::dvec2 place) {
-  const LandCoverClass found = cover.at(place.x, place.y);
+// A map of exact lines and areas has another place there where a widened valley moved them (TerrainModel::goes_to): `map_off` from it.
+LandCoverClass class_of(const LandCover& cover, glm::dvec2 place, glm::dvec2 map_off) {
+  if (map_off == glm::dvec2(0.0)) return cover.at(place.x, place.y);
+  const LandCoverClass known = cover.map->at(place + map_off);
+  return known != LandCoverClass::sky ? known : cover.cell_at(place.x, place.y);
+}
+
+LandCoverClass frayed_class(const LandCover& cover, glm::dvec2 place, glm::dvec2 map_off) {
+  const LandCoverClass found = class_of(cover, place, map_off);
   if (!frays(found)) return found;
   const double cell = 0.5 * (cover.classes.transform.cell_x + cover.classes.transform.cell_y);
   const double reach = fray_reach * cell;
   bool same = true;
   for (const glm::dvec2 corner : {glm::dvec2(1.0, 1.0), glm::dvec2(-1.0, 1.0), glm::dvec2(1.0, -1.0), glm::dvec2(-1.0, -1.0)})
-    same = same && cover.at(place.x + reach * corner.x, place.y + reach * corner.y) == found;
+    same = same && class_of(cover, place + reach * corner, map_off) == found;
   if (same) return found;
   const auto noise = [&](std::uint64_t part, double sigma) {
     return gaussian_noise(stream_seed(0, Stream::class_noise, part), place.x, place.y, sigma * cell);
@@ -50,7 +59,7 @@ LandCoverClass frayed_class(const LandCover& cover, glm::dvec2 place) {
   const double fine_y = noise(0xF0A3U, fray_fine_sigma);
   const double east = std::clamp(fray_broad_cells * broad_x + fray_fine_cells * fine_x, -fray_reach, fray_reach) * cell;
   const double north = std::clamp(fray_broad_cells * broad_y + fray_fine_cells * fine_y, -fray_reach, fray_reach) * cell;
-  const LandCoverClass moved = cover.at(place.x + east, place.y + north);
+  const LandCoverClass moved = class_of(cover, place + glm::dvec2(east, north), map_off);
   return frays(moved) ? moved : found;
 }
 
@@ -146,7 +155,12 @@ glm::dvec2 origin_of(const TerrainModel& terrain, double column, double row) {
 LandCoverClass class_at(const TerrainModel& terrain, double column, double row) {
   const glm::dvec2 origin = origin_of(terrain, column, row);
   const glm::dvec2 place = terrain.dem->transform.to_crs(origin.x, origin.y);
-  const LandCoverClass found = frayed_class(*terrain.land_cover, place);
+  glm::dvec2 map_off(0.0);
+  if (!terrain.goes_to.empty() && terrain.land_cover->map != nullptr) {
+    const glm::dvec2 known = origin_cell(terrain.goes_to, {column, row});
+    map_off = terrain.dem->transform.to_crs(known.x, known.y) - place;
+  }
+  const LandCoverClass found = frayed_class(*terrain.land_cover, place, map_off);
   return found == LandCoverClass::sky ? LandCoverClass::rock : found;
 }
 

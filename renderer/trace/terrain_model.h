@@ -22,6 +22,7 @@ struct TerrainModel {
   std::shared_ptr<const Dem> dem;                  // undeformed, ungeneralized
   Grid<float> generalized_m;                       // after generalize()
   Grid<glm::vec2> came_from;                       // where widening of valleys took each cell's ground from, columns and rows; may be empty
+  Grid<glm::vec2> goes_to;                         // and where lines and names of each cell are drawn; may be empty
   Grid<float> detail_smooth_m;                     // dem after a Gaussian of 60 m: slope and aspect
   Grid<float> shape_smooth_m;                      // generalized after a Gaussian of 120 m: normal_smooth, fall line
   Grid<float> relief_s_m, relief_m_m, relief_l_m;  // z(30 m) - z(180 m), z(30 m) - z(750 m), z(120 m) - z(1800 m)

@@ -22,8 +22,8 @@
 namespace belvedere {
 
 void each_field(auto& bytes, FieldsOf<GeneralizedTerrain> auto& ground) {
-  auto& [altitude_m, came_from] = ground;
-  bytes(altitude_m, came_from);
+  auto& [altitude_m, came_from, goes_to] = ground;
+  bytes(altitude_m, came_from, goes_to);
 }
 
 namespace {
@@ -121,9 +121,9 @@ GeneralizedTerrain make_ground(const SceneGeneralize& settings, const SeaParamet
   plain = {};
   const Grid<unsigned char> lakes = std::move(grids.keep);
   grids = {};
-  if (settings.valleys.width_m <= 0.F) return {std::move(out), {}};
+  if (settings.valleys.width_m <= 0.F) return {std::move(out), {}, {}};
   WidenedValleys wide = widen_valleys(out, lakes, dem.cell_m(), settings.valleys, progress);
-  return {std::move(wide.altitude_m), std::move(wide.came_from)};
+  return {std::move(wide.altitude_m), std::move(wide.came_from), std::move(wide.goes_to)};
 }
 
 // All that make_ground takes. Every key of [generalize] counts, by what a scene with nothing else in it says: so none can be forgotten.

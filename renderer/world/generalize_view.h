@@ -17,6 +17,7 @@ namespace belvedere {
 struct GeneralizedTerrain {
   Grid<float> altitude_m;
   Grid<glm::vec2> came_from;  // WidenedValleys::came_from; empty where no ground moved
+  Grid<glm::vec2> goes_to;    // WidenedValleys::goes_to
 };
 
 // A DEM generalized as the scene asks for one view: by the distance from the viewer, by what its print can show, and by masks. `land_cover`

@@ -177,6 +177,7 @@ TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const 
   TerrainModel model = make_terrain_model(halo, std::move(ground.altitude_m), std::make_shared<const LandCover>(cover), whole.exaggeration,
                                           window_ground.catchments.get());
   model.came_from = std::move(ground.came_from);
+  model.goes_to = std::move(ground.goes_to);
   model.local = making.deformation;
 
   // Ground that was moved is looked up where it came from, at most the width of a valley away.
@@ -201,6 +202,7 @@ TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const 
                             &model.relief_l_m, &model.valley_height_m, &model.rim_m, &model.flow, &model.floor_plan.built})
     cut(*grid, kept);
   cut(model.came_from, kept);
+  cut(model.goes_to, kept);
   cut(model.floor_plan.grain, kept);
   // Where the terrain ends the whole knows alone.
   const double factor = std::ldexp(1.0, whole.dem->halved - planned.level);
@@ -213,6 +215,7 @@ TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const 
   join(window.altitude_m, coarser.dem->altitude_m);
   join(model.generalized_m, coarser.generalized_m);
   join(model.came_from, coarser.came_from, 2.F);
+  join(model.goes_to, coarser.goes_to, 2.F);
   join(model.detail_smooth_m, coarser.detail_smooth_m);
   join(model.shape_smooth_m, coarser.shape_smooth_m);
   join(model.relief_s_m, coarser.relief_s_m);

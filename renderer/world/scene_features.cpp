@@ -102,7 +102,7 @@ DrawnFeatures draw_scene_features(const LoadedScene& loaded, const World& world,
   if (loaded.scene.features.empty()) return {};
   const FeatureSet set = read_scene_features(loaded, world.dem->crs, progress);
   progress.begin("laying features over the ground", 0.0);
-  const GroundSight sight(world.dem->transform, world.surface, *world.camera, world.tracer);
+  const GroundSight sight(world.dem->transform, world.surface, *world.camera, world.tracer, world.terrain.goes_to);
   const MapCover* map = world.land_cover->map.get();
   DrawnFeatures drawn = draw_features(set, sight,
                                       {.winter = winter,

@@ -58,7 +58,9 @@ BareView make_bare_view(const LoadedScene& loaded, Progress& progress, const Cac
   bare.view = make_view(loaded.scene, opened.dem, progress, ground_altitude_of(opened), &opened.region);
   bare.dem = std::move(opened.dem);
   bare.camera = make_camera(bare.view.camera);
-  bare.generalized_m = generalize_for_view(loaded, bare.dem, nullptr, bare.view, progress, cache).altitude_m;
+  GeneralizedTerrain generalized = generalize_for_view(loaded, bare.dem, nullptr, bare.view, progress, cache);
+  bare.generalized_m = std::move(generalized.altitude_m);
+  bare.goes_to = std::move(generalized.goes_to);
   bend_anew(bare, bare.view.deform.bend);
   return bare;
 }

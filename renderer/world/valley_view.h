@@ -19,12 +19,13 @@ struct BareView {
   View view;
   Dem dem;
   Grid<float> generalized_m;
+  Grid<glm::vec2> goes_to;  // as GeneralizedTerrain has it
   Deformation deformation;
   std::unique_ptr<DeformedSurface> surface;  // stays where it is: the tracer reads it
   std::unique_ptr<Camera> camera;
   std::unique_ptr<Tracer> tracer;
 
-  GeoMap geo_map() const { return {dem.altitude_m, dem.transform, deformation, *surface, *camera, *tracer}; }
+  GeoMap geo_map() const { return {dem.altitude_m, goes_to, dem.transform, deformation, *surface, *camera, *tracer}; }
 };
 BareView make_bare_view(const LoadedScene& loaded, Progress& progress, const Cache& cache = no_cache());
 // The same ground under another bend.

@@ -74,6 +74,7 @@ TerrainModel make_terrain(const World& world, GeneralizedTerrain generalized, co
   TerrainModel terrain = make_terrain_model(world.dem, std::move(generalized.altitude_m), world.land_cover, world.view.deform.exaggeration,
                                             std::move(surroundings));
   terrain.came_from = std::move(generalized.came_from);
+  terrain.goes_to = std::move(generalized.goes_to);
   if (world.deformation.is_local()) terrain.local = world.deformation;
   return terrain;
 }

@@ -134,6 +134,10 @@ float GroundRelief::depth_at(double x, double y) const {
 LandCoverClass LandCover::at(double x, double y) const {
   if (map != nullptr)
     if (const LandCoverClass known = map->at({x, y}); known != LandCoverClass::sky) return known;
+  return cell_at(x, y);
+}
+
+LandCoverClass LandCover::cell_at(double x, double y) const {
   const Grid<LandCoverClass>& cells = below.empty() ? classes.cells : below;
   const glm::dvec2 place = classes.transform.to_cell(x, y);
   // Two cells beyond the rim all 16 cells are the rim's; also keeps far places within an int.

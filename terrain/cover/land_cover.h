@@ -66,6 +66,8 @@ struct LandCover {
   // to the lower id). Smooth borders, no stairs of the raster's cells; what is one cell wide becomes a little narrower, single
   // cells vanish. Beyond the raster the nearest cells go on. What a map has at the place goes before.
   LandCoverClass at(double x, double y) const;
+  // The same without what a map has there.
+  LandCoverClass cell_at(double x, double y) const;
 };
 
 // Lays a map over the classes. Guessed water that touches a lake of the map becomes what lies around it: the map knows the shore.

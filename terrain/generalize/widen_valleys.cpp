@@ -21,6 +21,8 @@ namespace {
 constexpr double floor_smoothing_cells = 3.0;
 // So far beside the course lies the water with its banks: it does not become as wide as the new floor.
 constexpr float water_cells = 1.5F;
+// What lies farther from the water's course than this part of half the width goes the whole way with its wall.
+constexpr float gathered = 0.75F;
 
 // Where a cell takes its altitude from: cells, relative to itself.
 struct Shift {
@@ -95,6 +97,13 @@ Grid<float> find_moves(const Grid<float>& altitude_m, const Valleys& valleys, do
   return moves;
 }
 
+// Halfway between two courses the direction turns over; a step there would be a cliff, or a kink in a road.
+Shift smoothed(Shift shift, const Grid<float>& moves) {
+  const float widest = *std::max_element(moves.begin(), moves.end());
+  const double sigma = std::clamp(0.35 * widest, 1.0, 12.0);
+  return {gaussian_blur(shift.x, sigma), gaussian_blur(shift.y, sigma)};
+}
+
 Shift find_shifts(const Grid<float>& moves, const Valleys& valleys) {
   Shift shift{Grid<float>(moves.width(), moves.height()), Grid<float>(moves.width(), moves.height())};
   parallel_rows(moves.height(), [&](int y) {
@@ -107,12 +116,7 @@ Shift find_shifts(const Grid<float>& moves, const Valleys& valleys) {
       shift.y(x, y) = share * static_cast<float>(valleys.course(x, y) / moves.width() - y);
     }
   });
-  // Halfway between two courses the direction turns over; a step there would be a cliff.
-  const float widest = *std::max_element(moves.begin(), moves.end());
-  const double sigma = std::clamp(0.35 * widest, 1.0, 12.0);
-  shift.x = gaussian_blur(shift.x, sigma);
-  shift.y = gaussian_blur(shift.y, sigma);
-  return shift;
+  return smoothed(std::move(shift), moves);
 }
 
 // Where the ground of each cell came from. The same move, but water and banks stay beside the course, and what has no wall any more takes
@@ -128,6 +132,36 @@ Grid<glm::vec2> find_origins(const Grid<float>& moves, const Valleys& valleys, c
     }
   });
   return out;
+}
+
+// Where what lies on each cell of the map is drawn: out along the line from the course, as far as the wall there moved.
+Grid<glm::vec2> find_ways(const Grid<float>& moves, const Valleys& valleys, const Grid<std::uint8_t>& keep) {
+  Shift way{Grid<float>(moves.width(), moves.height()), Grid<float>(moves.width(), moves.height())};
+  parallel_rows(moves.height(), [&](int y) {
+    for (int x = 0; x < moves.width(); ++x) {
+      const float distance = distance_to_course(valleys.course, x, y);
+      if (distance <= 0.F || moves(x, y) <= 0.F || (!keep.empty() && keep(x, y) != 0)) continue;
+      const glm::vec2 out = glm::vec2(x - valleys.course(x, y) % moves.width(), y - valleys.course(x, y) / moves.width()) / distance;
+      const float share = smoothstep(distance / (gathered * std::max(valleys.half_width(x, y), 1.F)));
+      // Walls say at the place they came to how far they moved; from cell to cell that changes by less than a cell.
+      constexpr int steps = 12;
+      float far = share * moves(x, y);
+      for (int i = 0; i < steps; ++i) far = share * sample_bilinear(moves, x + far * out.x, y + far * out.y);
+      way.x(x, y) = far * out.x;
+      way.y(x, y) = far * out.y;
+    }
+  });
+  way = smoothed(std::move(way), moves);
+  Grid<glm::vec2> ways(moves.width(), moves.height());
+  for (std::size_t i = 0; i < ways.size(); ++i) ways[i] = {way.x[i], way.y[i]};
+  if (std::find_if(keep.begin(), keep.end(), [](std::uint8_t is) { return is != 0; }) == keep.end()) return ways;
+  // Lakes stay, and the nearer to one the less moves.
+  const Grid<std::int32_t> lake = nearest_marked(keep);
+  parallel_rows(ways.height(), [&](int y) {
+    for (int x = 0; x < ways.width(); ++x)
+      ways(x, y) *= smoothstep(distance_to_course(lake, x, y) / (2.F * gathered * std::max(valleys.half_width(x, y), 1.F)));
+  });
+  return ways;
 }
 
 // Cubic convolution (Catmull–Rom): keeps the detail of walls that moved by parts of a cell. Whole places give their cell exactly.
@@ -172,11 +206,11 @@ WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint
                              const WidenValleysParameters& parameters, Progress& progress) {
   check(altitude_m, keep, parameters);
   progress.begin("widen valleys", 4.0);
-  if (parameters.width_m <= 0.F || altitude_m.empty()) return {altitude_m, {}};
+  if (parameters.width_m <= 0.F || altitude_m.empty()) return {altitude_m, {}, {}};
   const Valleys valleys = find_valleys(altitude_m, cell_m, parameters);
   if (valleys.course[0] < 0) {
     progress.note(fmt::format("no valley has a catchment of {} km²: none is widened", parameters.least_catchment_km2));
-    return {altitude_m, {}};
+    return {altitude_m, {}, {}};
   }
   progress.advance(1.0);
   const Grid<float> moves = find_moves(altitude_m, valleys, cell_m, parameters);
@@ -206,7 +240,7 @@ WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint
     }
   });
   progress.advance(1.0);
-  return {std::move(out), find_origins(moves, valleys, keep)};
+  return {std::move(out), find_origins(moves, valleys, keep), find_ways(moves, valleys, keep)};
 }
 
 }  // namespace belvedere

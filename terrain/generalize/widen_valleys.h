@@ -25,6 +25,10 @@ struct WidenedValleys {
   // Columns and rows from each cell to where its ground was before: what lies on the ground (land cover, the altitude that it is painted
   // by) is looked up there. A new floor takes what lies beside the water's course. Empty where nothing moved.
   Grid<glm::vec2> came_from;
+  // Columns and rows from each cell of the map to where lines and names that lie there are drawn: with the walls, which keep them; on the
+  // floor all the nearer to the water the nearer they were, drawn out to three times their distances at most, so that a road along the
+  // water stays one. Smooth; 0 at the water and on lakes. Empty where nothing moved.
+  Grid<glm::vec2> goes_to;
 };
 
 // Cells of `keep` != 0 (lakes) stay; empty: none. No hollow is left that was not there before. Cells finite.

@@ -68,6 +68,18 @@ TEST(DrawnFeatures, AStraightRoadOnAPlaneLandsOnItsPixels) {
   EXPECT_NEAR(drawn.counts[0][0].seen_m, glm::length(to - from), 1e-6);
 }
 
+// Widened valleys move ground with all that lies on it.
+TEST(DrawnFeatures, GoesAlongWithGroundThatMoved) {
+  TestGround ground([](glm::dvec2 p) { return 0.05 * p.x + 0.1 * p.y; });
+  const DrawnFeatures there = draw(ground, 0, {{300.0, -900.0}, {300.0, 1500.0}});
+  ground.goes_to = Grid<glm::vec2>(ground.surface.vertices_m.width(), ground.surface.vertices_m.height(),
+                                   glm::vec2(static_cast<float>(120.0 / ground.transform.cell_x), 0.F));
+  const DrawnFeatures moved = draw(ground, 0, {{180.0, -900.0}, {180.0, 1500.0}});
+  ASSERT_EQ(moved.lines.size(), 1U);
+  EXPECT_LT(glm::length(glm::dvec2(moved.lines[0].points.front().place - there.lines[0].points.front().place)), 0.02);
+  EXPECT_LT(glm::length(glm::dvec2(moved.lines[0].points.back().place - there.lines[0].points.back().place)), 0.02);
+}
+
 // Over ground that is not plane the picture's line keeps to the ground's own, to a third of a pixel.
 TEST(DrawnFeatures, FollowsTheGroundItLiesOn) {
   const TestGround ground([](glm::dvec2 p) { return 60.0 * std::sin(p.x / 140.0) * std::cos(p.y / 200.0); });

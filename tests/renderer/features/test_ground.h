@@ -22,6 +22,7 @@ struct TestGround {
   std::unique_ptr<Camera> camera;
   std::unique_ptr<Tracer> tracer;
 
+  Grid<glm::vec2> goes_to;  // as widened valleys have it; nothing moved
   explicit TestGround(const std::function<double(glm::dvec2)>& altitude_m, glm::dvec3 eye = {0.0, -3000.0, 1500.0}, int width = 400,
                       int height = 300) {
     surface.origin = {eye.x, eye.y, 0.0};
@@ -40,7 +41,7 @@ struct TestGround {
     tracer = std::make_unique<Tracer>(surface);
   }
 
-  GroundSight sight() const { return {transform, surface, *camera, *tracer}; }
+  GroundSight sight() const { return {transform, surface, *camera, *tracer, goes_to}; }
   glm::dvec2 pixel(glm::dvec3 point) const { return *camera->project(point); }
   PixelRect sheet() const { return {0, 0, camera->size().x, camera->size().y}; }
 

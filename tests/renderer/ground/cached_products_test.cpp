@@ -106,6 +106,7 @@ TEST_F(CachedProducts, AWorldIsTheSameFromAColdOrAWarmCacheOrNone) {
     EXPECT_EQ(other->land_cover->classes.transform, none.land_cover->classes.transform);
     EXPECT_EQ(other->terrain.generalized_m, none.terrain.generalized_m);
     EXPECT_EQ(other->terrain.came_from, none.terrain.came_from);
+    EXPECT_EQ(other->terrain.goes_to, none.terrain.goes_to);
     EXPECT_EQ(other->terrain.valley_height_m, none.terrain.valley_height_m);
     EXPECT_EQ(other->terrain.rim_m, none.terrain.rim_m);
     EXPECT_EQ(other->terrain.flow, none.terrain.flow);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -44,7 +45,7 @@ struct World {
   std::unique_ptr<Camera> camera;
   std::unique_ptr<Tracer> tracer;
 
-  GeoMap map() const { return {terrain.dem->altitude_m, terrain.dem->transform, deformation, surface, *camera, *tracer}; }
+  GeoMap map() const { return {terrain.dem->altitude_m, terrain.goes_to, terrain.dem->transform, deformation, surface, *camera, *tracer}; }
 };
 
 std::unique_ptr<World> make_world(const DeformParameters& deform_parameters, double relief_m = 250.0) {
@@ -122,6 +123,35 @@ TEST(GeoMap, AgreesWithTheGuidanceBuffers) {
       ASSERT_LT(glm::length(at->pixel - glm::dvec2(x + 0.5, y + 0.5)), 0.1) << x << ' ' << y;
       ASSERT_TRUE(at->visible);
       ASSERT_NEAR(map.to_geo({x + 0.5, y + 0.5})->altitude_m, static_cast<double>(guidance.altitude_m(x, y)), 0.01);
+    }
+}
+
+// Ground east of column 100 was drawn 6 cells farther east, as a widened valley does it.
+TEST(GeoMap, PlacesGoAlongWithGroundThatMoved) {
+  const auto world = make_world({});
+  Grid<glm::vec2> goes_to(220, 260);
+  for (int y = 0; y < 260; ++y)
+    for (int x = 0; x < 220; ++x)
+      goes_to(x, y).x = 6.F * static_cast<float>(std::clamp((x - 100) / 30.0, 0.0, 1.0) * std::clamp((210 - x) / 30.0, 0.0, 1.0));
+  const auto map_of = [&](const Grid<glm::vec2>& moves) {
+    return GeoMap(world->terrain.dem->altitude_m, moves, frame, world->deformation, world->surface, *world->camera, *world->tracer);
+  };
+  const Grid<glm::vec2> unmoved;
+  const GeoMap map = map_of(goes_to);
+  const GeoMap plain = map_of(unmoved);
+  const glm::dvec2 place = frame.to_crs(144.0, 150.0);
+  const glm::dvec2 drawn = frame.to_crs(150.0, 150.0);
+  EXPECT_NEAR(glm::length(map.drawn_place(place) - drawn), 0.0, 0.01 * frame.cell_x);
+  EXPECT_NEAR(glm::length(map.place_of_drawn(drawn) - place), 0.0, 0.01);
+  ASSERT_TRUE(map.to_image(place) && plain.to_image(drawn) && map.drawn_to_image(drawn));
+  EXPECT_LT(glm::length(map.to_image(place)->pixel - plain.to_image(drawn)->pixel), 0.02);
+  EXPECT_EQ(map.drawn_to_image(drawn)->pixel, plain.to_image(drawn)->pixel);
+  EXPECT_LT(glm::length(map.to_image(glm::dvec3(place, 400.0))->pixel - plain.to_image(glm::dvec3(drawn, 400.0))->pixel), 0.02);
+  for (int y = 40; y < 160; y += 13)
+    for (int x = 10; x < 240; x += 17) {
+      const auto shown = map.to_geo({x + 0.5, y + 0.5});
+      if (!shown) continue;
+      ASSERT_LT(glm::length(map.to_image(shown->place)->pixel - glm::dvec2(x + 0.5, y + 0.5)), 0.1) << x << ' ' << y;
     }
 }
 

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "base/guidance_channels.h"
 #include "renderer/trace/guidance_ground.h"
 #include "renderer/trace/guidance_rays.h"
+#include "terrain/cover/map_cover.h"
 #include "tests/renderer/trace/made_up_ground.h"
 
 namespace belvedere {
@@ -149,6 +151,31 @@ TEST(Guidance, WhatGrowsHasRaggedBordersAndShoresKeepTheirs) {
   const auto [shore, straight] = border_of(LandCoverClass::water);
   EXPECT_NEAR(shore, 39.5, 0.1);
   EXPECT_LT(straight, 0.03);
+}
+
+// Lines of a map keep their shape where a widened valley draws their ground out: they are asked for where lines are drawn, cells where
+// the ground came from.
+TEST(Guidance, ARiverOfAMapLiesWhereLinesAreDrawn) {
+  World world = make_world(
+      200, 200, [](double, double) { return 500.0; },
+      [](double x, double) { return x > 2000.0 ? LandCoverClass::valley_floor : LandCoverClass::settlement; });
+  const GeoTransform& transform = world.terrain.dem->transform;
+  LandCover cover = *world.terrain.land_cover;
+  const glm::dvec2 from = transform.to_crs(100.0, 20.0);
+  const glm::dvec2 to = transform.to_crs(100.0, 180.0);
+  lay_map(cover, std::make_shared<const MapCover>(std::vector<CoverArea>{},
+                                                  std::vector<CoverCourse>{{.places = {from, to}, .half_width_m = {60.F, 60.F}}},
+                                                  transform.to_crs(0.0, 199.0), transform.to_crs(199.0, 0.0)));
+  world.terrain.land_cover = std::make_shared<const LandCover>(std::move(cover));
+  EXPECT_EQ(class_at(world.terrain, 100.0, 90.0), LandCoverClass::water);
+  world.terrain.came_from = Grid<glm::vec2>(200, 200, glm::vec2(-3.F, 0.F));
+  world.terrain.goes_to = Grid<glm::vec2>(200, 200, glm::vec2(10.F, 0.F));
+  for (const double off : {-1.5, 0.0, 1.5}) EXPECT_EQ(class_at(world.terrain, 110.0 + off, 90.0), LandCoverClass::water) << off;
+  for (const double column : {100.0, 103.0, 106.0, 114.0})
+    EXPECT_EQ(class_at(world.terrain, column, 90.0), LandCoverClass::valley_floor) << column;
+  // Cells came from three columns farther west.
+  EXPECT_EQ(class_at(world.terrain, 2000.0 / cell + 2.0, 90.0), LandCoverClass::settlement);
+  EXPECT_EQ(class_at(world.terrain, 2000.0 / cell + 5.0, 90.0), LandCoverClass::valley_floor);
 }
 
 TEST(Guidance, GroundThatMovedTakesAlongWhatLiesOnIt) {

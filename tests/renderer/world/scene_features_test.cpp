@@ -116,7 +116,7 @@ TEST_F(SceneFeaturesInPictures, AnyPartShowsTheWholeAndFarFromThemNothingChanges
 
   const Grid<glm::vec3> before = painted(scene(), "before");
   World world(scene(), silent_progress());
-  const GroundSight sight(world.dem->transform, world.surface, *world.camera, world.tracer);
+  const GroundSight sight(world.dem->transform, world.surface, *world.camera, world.tracer, world.terrain.goes_to);
   glm::dvec2 low(1e9);
   glm::dvec2 high(-1e9);
   for (const glm::dvec2 place :

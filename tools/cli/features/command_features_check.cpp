@@ -109,7 +109,7 @@ int run(const Options& options) {
   const BareView bare = make_bare_view(scene, progress, make_cache(options.scene));
   const FeatureSet set = read_scene_features(scene, bare.dem.crs, silent_progress());
   progress.begin("laying features over the ground", 0.0);
-  const GroundSight sight(bare.dem.transform, *bare.surface, *bare.camera, *bare.tracer);
+  const GroundSight sight(bare.dem.transform, *bare.surface, *bare.camera, *bare.tracer, bare.goes_to);
   const DrawnFeatures drawn = draw_features(set, sight, {.px_per_mm = scene.scene.output.width / scene.scene.output.sheet_width_mm});
   progress.end();
   std::vector<std::vector<std::size_t>> taken(set.readings.size(), std::vector<std::size_t>(set.style.kinds.size(), 0));

@@ -145,7 +145,8 @@ std::vector<Feature> examples(const FeatureStyle& style, int kind) {
 
 Grid<glm::vec3> paint_half(const FeatureStyle& style, int kind, bool winter) {
   const Slope slope;
-  const GroundSight sight(slope.transform, slope.surface, *slope.camera, *slope.tracer);
+  const Grid<glm::vec2> unmoved;
+  const GroundSight sight(slope.transform, slope.surface, *slope.camera, *slope.tracer, unmoved);
   FeatureSet set{.style = style, .features = examples(style, kind), .readings = std::vector<SourceReading>(1)};
   const DrawnFeatures drawn =
       draw_features(set, sight, {.winter = winter, .px_per_mm = px_per_mm, .seed = 3, .sun = glm::normalize(glm::dvec3(-0.7, -0.2, 0.7))});

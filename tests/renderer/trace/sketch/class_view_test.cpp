@@ -20,6 +20,7 @@ TEST(ClassView, IsTheClassThatOneSampleSees) {
     bare.dem = world.dem;
     bare.generalized_m = world.terrain.generalized_m;
     bare.came_from = world.terrain.came_from;
+    bare.goes_to = world.terrain.goes_to;
     bare.land_cover = world.land_cover;
     const Grid<LandCoverClass> seen = trace_classes(bare, world.tracer, *world.camera);
     EXPECT_EQ(seen, guidance.land_cover) << setting;
