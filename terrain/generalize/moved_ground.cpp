@@ -7,8 +7,10 @@ namespace belvedere {
 namespace {
 
 glm::dvec2 move_at(const Grid<glm::vec2>& goes_to, glm::dvec2 cell) {
-  const glm::dvec2 corner = glm::floor(cell);
-  const glm::dvec2 part = cell - corner;
+  // Places may lie anywhere: beyond the grid its edge goes on, and an int holds no more.
+  const glm::dvec2 inside = glm::clamp(cell, glm::dvec2(0.0), glm::dvec2(goes_to.width() - 1.0, goes_to.height() - 1.0));
+  const glm::dvec2 corner = glm::floor(inside);
+  const glm::dvec2 part = inside - corner;
   const auto x = static_cast<int>(corner.x);
   const auto y = static_cast<int>(corner.y);
   const glm::dvec2 upper = glm::mix(glm::dvec2(goes_to.clamped(x, y)), glm::dvec2(goes_to.clamped(x + 1, y)), part.x);

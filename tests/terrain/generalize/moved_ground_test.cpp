@@ -34,6 +34,8 @@ TEST(MovedGround, WhereNothingMovedEveryPlaceIsItself) {
   EXPECT_EQ(origin_cell({}, at), at);
   EXPECT_EQ(drawn_cell(Grid<glm::vec2>(40, 40), at), at);
   EXPECT_EQ(origin_cell(Grid<glm::vec2>(40, 40), at), at);
+  const glm::dvec2 far(1e300, -1e300);
+  EXPECT_EQ(drawn_cell(Grid<glm::vec2>(40, 40), far), far);
 }
 
 TEST(MovedGround, AWallLiesAsFarOutAsTheValleyIsWiderAndTheWaterStays) {
