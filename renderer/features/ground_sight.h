@@ -16,7 +16,7 @@ namespace belvedere {
 // All calls are safe from any thread; the parts must outlive it.
 class GroundSight {
  public:
-  // goes_to: where widened valleys took the ground of each cell of the whole surface from; empty where nothing moved.
+  // goes_to: where what lies on each cell of the whole surface is drawn in widened valleys (moved_ground.h); empty: nothing moved.
   GroundSight(const GeoTransform& transform, const DeformedSurface& surface, const Camera& camera, const Tracer& tracer,
               const Grid<glm::vec2>& goes_to);
 

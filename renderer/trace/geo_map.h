@@ -32,8 +32,8 @@ struct GeoPlace {
 // safe from any thread; the parts must outlive the map.
 class GeoMap {
  public:
-  // altitude_m: the undeformed, ungeneralized DEM, with as many cells as the surface has posts. goes_to: where widened valleys took each
-  // cell's ground from (terrain/generalize/moved_ground.h); empty where nothing moved.
+  // altitude_m: the undeformed, ungeneralized DEM, with as many cells as the surface has posts. goes_to: where what
+  // lies on each cell is drawn in widened valleys (terrain/generalize/moved_ground.h); empty where nothing moved.
   GeoMap(const Grid<float>& altitude_m, const Grid<glm::vec2>& goes_to, const GeoTransform& transform, const Deformation& deformation,
          const DeformedSurface& surface, const Camera& camera, const Tracer& tracer);
 

@@ -26,8 +26,8 @@ glm::dvec2 drawn_cell(const Grid<glm::vec2>& goes_to, glm::dvec2 place) {
 
 glm::dvec2 origin_cell(const Grid<glm::vec2>& goes_to, glm::dvec2 drawn) {
   if (goes_to.empty()) return drawn;
-  // Ground is drawn out to three times its length at most, and nowhere drawn together to less than a third: steps of so much of what is
-  // missing come nearer each time.
+  // Ground is drawn out to three times its length at most, four near lakes, and nowhere drawn together to less than a third: steps of so
+  // much of what is missing come nearer each time.
   constexpr double part_of_step = 0.4;
   constexpr int steps = 60;
   constexpr double exact_cells = 1e-4;

@@ -22,7 +22,7 @@ struct TestGround {
   std::unique_ptr<Camera> camera;
   std::unique_ptr<Tracer> tracer;
 
-  Grid<glm::vec2> goes_to;  // as widened valleys have it; nothing moved
+  Grid<glm::vec2> goes_to;  // as widened valleys have it; empty: nothing moved
   explicit TestGround(const std::function<double(glm::dvec2)>& altitude_m, glm::dvec3 eye = {0.0, -3000.0, 1500.0}, int width = 400,
                       int height = 300) {
     surface.origin = {eye.x, eye.y, 0.0};
