@@ -98,6 +98,11 @@ float cost(const BandPicture& p, const std::vector<Term>& terms, int x, int y, c
   return sum;
 }
 
+// One of so many things. A draw that is rounded to a float can be 1.
+std::size_t one_of(std::size_t count, float which) {
+  return std::min(count - 1, static_cast<std::size_t>(which * static_cast<float>(count)));
+}
+
 // A pixel's new colour: that of one of its eight neighbours, a little changed, or its own with one band changed.
 Colour proposal(const BandPicture& p, const BandSpace& bands, int x, int y, const Colour& own, bool of_neighbour, std::uint64_t seed,
                 TexturePlace place) {
@@ -106,12 +111,12 @@ Colour proposal(const BandPicture& p, const BandSpace& bands, int x, int y, cons
   Colour to = own;
   const float which = draw(0);
   if (of_neighbour) {
-    const std::array<int, 2>& step = around[static_cast<std::size_t>(which * 8.F)];
+    const std::array<int, 2>& step = around[one_of(around.size(), which)];
     const int nx = std::clamp(x + step[0], 0, p.width() - 1);
     const int ny = std::clamp(y + step[1], 0, p.height() - 1);
     for (std::size_t b = 0; b < 3; ++b) to[b] = p.bands[b](nx, ny) + (draw(1 + b) - .5F) * 3.F;
   } else {
-    const auto b = static_cast<std::size_t>(which * 3.F);
+    const std::size_t b = one_of(to.size(), which);
     const float size = draw(2);
     to[b] += (draw(1) - .5F) * size * .25F * (bands.high[b] - bands.low[b]);
   }
