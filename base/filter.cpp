@@ -138,6 +138,17 @@ int whole_cell(double& place, int count) {
   return static_cast<int>(std::floor(place));
 }
 
+template <class Value, class Wide>
+auto bilinear(const Grid<Value>& values, double x, double y, Wide&& wide) {
+  const int x0 = whole_cell(x, values.width());
+  const int y0 = whole_cell(y, values.height());
+  const double tx = x - x0;
+  const double ty = y - y0;
+  const auto top = (1.0 - tx) * wide(values.clamped(x0, y0)) + tx * wide(values.clamped(x0 + 1, y0));
+  const auto bottom = (1.0 - tx) * wide(values.clamped(x0, y0 + 1)) + tx * wide(values.clamped(x0 + 1, y0 + 1));
+  return (1.0 - ty) * top + ty * bottom;
+}
+
 }  // namespace
 
 Grid<float> gaussian_blur(const Grid<float>& values, double sigma) { return gaussian_blur(values, sigma, sigma); }
@@ -155,13 +166,11 @@ Grid<float> gaussian_blur(const Grid<float>& values, double sigma_x, double sigm
 }
 
 float sample_bilinear(const Grid<float>& values, double x, double y) {
-  const int x0 = whole_cell(x, values.width());
-  const int y0 = whole_cell(y, values.height());
-  const double tx = x - x0;
-  const double ty = y - y0;
-  const double top = (1.0 - tx) * values.clamped(x0, y0) + tx * values.clamped(x0 + 1, y0);
-  const double bottom = (1.0 - tx) * values.clamped(x0, y0 + 1) + tx * values.clamped(x0 + 1, y0 + 1);
-  return static_cast<float>((1.0 - ty) * top + ty * bottom);
+  return static_cast<float>(bilinear(values, x, y, [](float value) { return static_cast<double>(value); }));
+}
+
+glm::dvec2 sample_bilinear(const Grid<glm::vec2>& values, double x, double y) {
+  return bilinear(values, x, y, [](glm::vec2 value) { return glm::dvec2(value); });
 }
 
 float sample_bspline(const Grid<float>& values, double x, double y) {

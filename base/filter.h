@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 
 #include "base/grid.h"
 
@@ -24,6 +25,7 @@ Grid<std::int32_t> nearest_marked(const Grid<std::uint8_t>& mask);
 
 // Value at a fractional place: x, y in cells, cell centres at whole numbers, borders replicated.
 float sample_bilinear(const Grid<float>& values, double x, double y);
+glm::dvec2 sample_bilinear(const Grid<glm::vec2>& values, double x, double y);
 // Cubic B-spline (smoothing, C2) of the cells as coefficients.
 float sample_bspline(const Grid<float>& values, double x, double y);
 

@@ -1,27 +1,13 @@
 #include "terrain/generalize/moved_ground.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "base/filter.h"
+
 namespace belvedere {
-namespace {
-
-glm::dvec2 move_at(const Grid<glm::vec2>& goes_to, glm::dvec2 cell) {
-  // Places may lie anywhere: beyond the grid its edge goes on, and an int holds no more.
-  const glm::dvec2 inside = glm::clamp(cell, glm::dvec2(0.0), glm::dvec2(goes_to.width() - 1.0, goes_to.height() - 1.0));
-  const glm::dvec2 corner = glm::floor(inside);
-  const glm::dvec2 part = inside - corner;
-  const auto x = static_cast<int>(corner.x);
-  const auto y = static_cast<int>(corner.y);
-  const glm::dvec2 upper = glm::mix(glm::dvec2(goes_to.clamped(x, y)), glm::dvec2(goes_to.clamped(x + 1, y)), part.x);
-  const glm::dvec2 lower = glm::mix(glm::dvec2(goes_to.clamped(x, y + 1)), glm::dvec2(goes_to.clamped(x + 1, y + 1)), part.x);
-  return glm::mix(upper, lower, part.y);
-}
-
-}  // namespace
 
 glm::dvec2 drawn_cell(const Grid<glm::vec2>& goes_to, glm::dvec2 place) {
-  return goes_to.empty() ? place : place + move_at(goes_to, place);
+  return goes_to.empty() ? place : place + sample_bilinear(goes_to, place.x, place.y);
 }
 
 glm::dvec2 origin_cell(const Grid<glm::vec2>& goes_to, glm::dvec2 drawn) {

@@ -62,9 +62,9 @@ Valleys find_valleys(const Grid<float>& altitude_m, double cell_m, const WidenVa
   return valleys;
 }
 
-float distance_to_course(const Grid<std::int32_t>& course, int x, int y) {
-  const auto dx = static_cast<float>(course(x, y) % course.width() - x);
-  const auto dy = static_cast<float>(course(x, y) / course.width() - y);
+float distance_to_nearest(const Grid<std::int32_t>& nearest, int x, int y) {
+  const auto dx = static_cast<float>(nearest(x, y) % nearest.width() - x);
+  const auto dy = static_cast<float>(nearest(x, y) / nearest.width() - y);
   return std::sqrt(dx * dx + dy * dy);
 }
 
@@ -78,7 +78,7 @@ Grid<float> find_moves(const Grid<float>& altitude_m, const Valleys& valleys, do
   // the distance is largest, nothing may move. Over three half-widths the ground then gets at most 1.5 times as steep.
   Grid<float> distance(altitude_m.width(), altitude_m.height());
   parallel_rows(distance.height(), [&](int y) {
-    for (int x = 0; x < distance.width(); ++x) distance(x, y) = distance_to_course(valleys.course, x, y);
+    for (int x = 0; x < distance.width(); ++x) distance(x, y) = distance_to_nearest(valleys.course, x, y);
   });
   const int apart = std::max(2, static_cast<int>(std::ceil(1.5 * parameters.width_m / cell_m)));
   const Grid<float> farthest = window_maximum(distance, apart);
@@ -108,7 +108,7 @@ Shift find_shifts(const Grid<float>& moves, const Valleys& valleys) {
   Shift shift{Grid<float>(moves.width(), moves.height()), Grid<float>(moves.width(), moves.height())};
   parallel_rows(moves.height(), [&](int y) {
     for (int x = 0; x < moves.width(); ++x) {
-      const float distance = distance_to_course(valleys.course, x, y);
+      const float distance = distance_to_nearest(valleys.course, x, y);
       if (distance <= 0.F) continue;
       // No farther than the course: beyond it lies the other wall.
       const float share = std::min(moves(x, y), distance) / distance;
@@ -125,7 +125,7 @@ Grid<glm::vec2> find_origins(const Grid<float>& moves, const Valleys& valleys, c
   Grid<glm::vec2> out(moves.width(), moves.height());
   parallel_rows(moves.height(), [&](int y) {
     for (int x = 0; x < moves.width(); ++x) {
-      const float distance = distance_to_course(valleys.course, x, y);
+      const float distance = distance_to_nearest(valleys.course, x, y);
       if (distance <= water_cells || (!keep.empty() && keep(x, y) != 0)) continue;
       const float share = std::min(moves(x, y), distance - water_cells) / distance;
       out(x, y) = share * glm::vec2(valleys.course(x, y) % moves.width() - x, valleys.course(x, y) / moves.width() - y);
@@ -139,7 +139,7 @@ Grid<glm::vec2> find_ways(const Grid<float>& moves, const Valleys& valleys, cons
   Shift way{Grid<float>(moves.width(), moves.height()), Grid<float>(moves.width(), moves.height())};
   parallel_rows(moves.height(), [&](int y) {
     for (int x = 0; x < moves.width(); ++x) {
-      const float distance = distance_to_course(valleys.course, x, y);
+      const float distance = distance_to_nearest(valleys.course, x, y);
       if (distance <= 0.F || moves(x, y) <= 0.F || (!keep.empty() && keep(x, y) != 0)) continue;
       const glm::vec2 out = glm::vec2(x - valleys.course(x, y) % moves.width(), y - valleys.course(x, y) / moves.width()) / distance;
       const float share = smoothstep(distance / (gathered * std::max(valleys.half_width(x, y), 1.F)));
@@ -159,7 +159,7 @@ Grid<glm::vec2> find_ways(const Grid<float>& moves, const Valleys& valleys, cons
   const Grid<std::int32_t> lake = nearest_marked(keep);
   parallel_rows(ways.height(), [&](int y) {
     for (int x = 0; x < ways.width(); ++x)
-      ways(x, y) *= smoothstep(distance_to_course(lake, x, y) / (2.F * gathered * std::max(valleys.half_width(x, y), 1.F)));
+      ways(x, y) *= smoothstep(distance_to_nearest(lake, x, y) / (2.F * gathered * std::max(valleys.half_width(x, y), 1.F)));
   });
   return ways;
 }
@@ -223,7 +223,7 @@ WidenedValleys widen_valleys(const Grid<float>& altitude_m, const Grid<std::uint
     for (int x = 0; x < out.width(); ++x) {
       out(x, y) = sample_cubic(altitude_m, static_cast<float>(x) + shift.x(x, y), static_cast<float>(y) + shift.y(x, y));
       // What moved past the course is floor: level across, and falling as the water does.
-      const float distance = distance_to_course(valleys.course, x, y);
+      const float distance = distance_to_nearest(valleys.course, x, y);
       const float floor = smoothstep(2.F * (moves(x, y) - distance) / std::max(moves(x, y), 1.F));
       out(x, y) += floor * (floor_m(x, y) - out(x, y));
     }

@@ -188,6 +188,10 @@ TEST(Sampling, BilinearIsExactOnBilinearFunctionsAndReplicatesBorders) {
   EXPECT_FLOAT_EQ(sample_bilinear(values, 3.0, 2.0), values(3, 2));
   EXPECT_NEAR(sample_bilinear(values, 3.7, 4.2), f(3.7, 4.2), 1e-5);
   EXPECT_FLOAT_EQ(sample_bilinear(values, -1e12, 1e12), values(0, 6));
+  Grid<glm::vec2> pairs(values.width(), values.height());
+  for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = {values[i], -2.F * values[i]};
+  EXPECT_NEAR(sample_bilinear(pairs, 3.7, 4.2).x, f(3.7, 4.2), 1e-5);
+  EXPECT_NEAR(sample_bilinear(pairs, 3.7, 4.2).y, -2.0 * f(3.7, 4.2), 1e-5);
   EXPECT_NEAR(sample_bilinear(values, 8.4, 2.5), f(8.0, 2.5), 1e-5);
 }
 

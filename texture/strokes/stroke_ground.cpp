@@ -167,7 +167,7 @@ std::vector<Stroke> water_strokes(const StrokeScene& scene, Stream stream) {
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.gate = StrokeGate::water;
     // Water is swept in long level strokes, ice is dabbed, so that its drifts and cracks keep their shapes.
-    const bool frozen = static_cast<double>(scene.altitude_m(i)) >= scene.parameters.frozen_from_m;
+    const bool frozen = is_frozen(scene, i);
     const float angle = seed.normal() * (frozen ? 0.10F : 0.015F);
     lay_line(stroke, scene, place, (frozen ? 0.32F : 1.F) * seed.between(10.F, 26.F), angle, 0.02F, false, seed);
     take_brush(stroke, scene, (frozen ? 0.6F : 1.F) * seed.between(1.4F, 3.2F),

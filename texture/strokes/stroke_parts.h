@@ -60,6 +60,11 @@ float share_around(const StrokeScene& scene, glm::vec2 place, float radius_units
   return static_cast<float>(hits) / 8.F;
 }
 
+// Whether water lies so high that it is ice.
+inline bool is_frozen(const StrokeScene& scene, std::size_t i) {
+  return static_cast<double>(scene.altitude_m(i)) >= scene.parameters.frozen_from_m;
+}
+
 // Whether two pixels show the same slope, as far as what stands on it asks.
 inline bool on_same_slope(const StrokeScene& scene, std::size_t here, std::size_t there) {
   return std::abs(scene.guidance.depth_m[there] / scene.guidance.depth_m[here] - 1.F) <= 0.03F;

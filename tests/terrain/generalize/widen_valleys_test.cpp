@@ -122,6 +122,19 @@ TEST(WidenValleys, LakesStay) {
   }
 }
 
+// What lies on a lake and at its shores stays with it.
+TEST(WidenValleys, LinesByLakesStay) {
+  const Grid<float> valley = make_valley(0.0);
+  Grid<std::uint8_t> keep(valley.width(), valley.height());
+  for (int y = 140; y < 160; ++y)
+    for (int x = 108; x < 116; ++x) keep(x, y) = 1;
+  const Grid<glm::vec2> ways = widen_valleys(valley, keep, 30.0, valleys_of(480.F), silent_progress()).goes_to;
+  EXPECT_GT(ways(112, 80).x, 7.F);
+  EXPECT_EQ(ways(112, 150), glm::vec2(0.F));
+  EXPECT_LT(glm::length(ways(117, 150)), 0.5F) << "the shore";
+  EXPECT_GT(ways(112, 185).x, 7.F);
+}
+
 TEST(WidenValleys, EachCellKnowsWhereItsGroundCameFrom) {
   const Grid<float> valley = make_valley(0.0);
   Grid<std::uint8_t> keep(valley.width(), valley.height());

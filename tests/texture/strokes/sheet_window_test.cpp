@@ -25,6 +25,9 @@ double hash_at(int stream, int x, int y) { return random_uniform(static_cast<std
 // Ground on the left that is seen from close by, where there is no ice.
 bool is_close(int u, int v) { return u < 20 && v >= 32 && v < 160; }
 
+// A brook that falls aslant over a wall.
+bool is_brook(double u, double v) { return u >= 122.0 && u < 158.0 && std::abs(v - 40.0 - (u - 122.0)) < 1.2; }
+
 // What stands at a place of the sheet, units: above, blocks of all classes; below, a long glacier with ribs of rock and snow in it.
 LandCoverClass class_on(int u, int v, int ice_from) {
   const int row = v / 16;
@@ -62,7 +65,8 @@ Picture make_sheet(int width_units, int height_units, double pixels_per_unit) {
       const auto grain = [&](int stream) { return static_cast<float>(hash_at(stream, x, y)); };
       const int row = static_cast<int>(v) / 16;
       const int column = static_cast<int>(u) / 20;
-      const LandCoverClass id = class_on(static_cast<int>(u), static_cast<int>(v), ice_from);
+      const bool brook = is_brook(u, v);
+      const LandCoverClass id = brook ? water : class_on(static_cast<int>(u), static_cast<int>(v), ice_from);
       const bool ice_below = v >= ice_from;
       p.guidance.land_cover(x, y) = id;
       const float range = !ice_below && hash_at(5, column, row) < 0.2 ? 1.2F : 1.F;
@@ -71,6 +75,7 @@ Picture make_sheet(int width_units, int height_units, double pixels_per_unit) {
       p.guidance.tone(x, y) = std::clamp(0.6F + 0.1F * noise(9, 6.0) + 0.1F * grain(9), 0.F, 1.F);
       p.guidance.position_m(x, y) = glm::vec3(12.0 * u, -12.0 * v, id == water ? 900.F : 900.F + 100.F * noise(10, 30.0));
       if (id == water && row % 2 == 1) p.guidance.position_m(x, y).z -= static_cast<float>(5.0 * (v - 16.0 * row));
+      if (brook) p.guidance.position_m(x, y).z -= static_cast<float>(12.0 * v);
       p.guidance.slope_deg(x, y) = (ice_below ? id == snow : column % 4 == 1) ? 42.F : row % 2 == 0 ? 5.F : 20.F;
       p.guidance.footprint_m(x, y) = static_cast<float>(15.0 / pixels_per_unit);
       p.guidance.relief_s_m(x, y) = 22.F + 10.F * noise(11, 12.0);

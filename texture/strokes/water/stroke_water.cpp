@@ -80,8 +80,9 @@ WaterFall fall_of_water(const StrokeScene& scene, glm::vec2 place, std::size_t i
                                  {0.F, 1.F}, {-0.3827F, 0.9239F}, {-0.7071F, 0.7071F}, {-0.9239F, 0.3827F}};
   WaterFall fall;
   for (const glm::vec2 axis : axes) {
-    const std::optional<glm::vec3> a = water_at(place - axis * (look_units * scene.scale()));
-    const std::optional<glm::vec3> b = water_at(place + axis * (look_units * scene.scale()));
+    const glm::vec2 along = axis * (look_units * scene.scale());
+    const std::optional<glm::vec3> a = water_at(place - along);
+    const std::optional<glm::vec3> b = water_at(place + along);
     if (!a || !b) continue;
     const float slope = slope_of(*a - *b);
     if (std::abs(slope) > fall.slope) fall = {std::abs(slope), slope > 0.F ? axis : -axis};
@@ -95,7 +96,7 @@ std::vector<Stroke> wind_streaks(const StrokeScene& scene, Stream stream) {
   const auto wind = static_cast<float>(scene.parameters.wind);
   if (!(wind > 0.F)) return {};
   return sow(scene, 3.6F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
-    if (scene.class_at(i) != water || static_cast<double>(scene.altitude_m(i)) >= scene.parameters.frozen_from_m) return;
+    if (scene.class_at(i) != water || is_frozen(scene, i)) return;
     // Along the borders of ruffled patches, where these draw out with the wind.
     const float patch = ground_noise(scene, i, Stream::water_wind, patches_m);
     const float gathers = smoothstep(-0.2F, 0.7F, patch) * (1.F - 0.6F * smoothstep(1.2F, 2.F, patch));

@@ -79,6 +79,19 @@ TEST(WaterStrokes, FallsAreWhiteAndRunDown) {
   EXPECT_TRUE(grow_strokes("river foam", p.scene()).empty());
 }
 
+// Water is swept, ice is dabbed.
+TEST(WaterStrokes, IceIsPaintedInShorterStrokesThanWater) {
+  const auto mean_length = [](double frozen_from_m) {
+    Picture p = water();
+    p.parameters.frozen_from_m = frozen_from_m;
+    const std::vector<Stroke> strokes = grow_strokes("water", p.scene());
+    double sum = 0.0;
+    for (const Stroke& s : strokes) sum += static_cast<double>(glm::length(axis_of(s))) / static_cast<double>(strokes.size());
+    return sum;
+  };
+  EXPECT_LT(mean_length(900.0), 0.5 * mean_length(901.0));
+}
+
 // A brook runs over a wall aslant, not down the wall's fall line.
 TEST(WaterStrokes, ABrookIsWhiteAlongItsOwnWayOverAWall) {
   Picture p = water();
