@@ -147,6 +147,7 @@ void draw_way(const Making& making, const Feature& feature, const FeatureKind& k
 // What a river needs free of trees: its water as it lies in the picture.
 std::vector<DrawnLine> river_lanes(const Making& making, const CoverCourse& river) {
   std::vector<DrawnLine> lanes;
+  if (river.kind < 0) return lanes;  // the style knows no such rivers
   const FeatureKind& kind = making.set.style.kinds[static_cast<std::size_t>(river.kind)];
   if (kind.clear_mm <= 0.0 || river.places.size() < 2) return lanes;
   const double px_per_mm = making.parameters.px_per_mm;
@@ -312,6 +313,7 @@ DrawnFeatures draw_features(const FeatureSet& set, const GroundSight& sight, con
   drawn.px_per_mm = parameters.px_per_mm;
   drawn.seed = parameters.seed;
   drawn.sheet_px = sight.size();
+  drawn.rivers = !rivers.empty();
   drawn.counts.assign(set.readings.size(), std::vector<DrawnCount>(set.style.kinds.size()));
   const Making making{set, sight, parameters, sight.nearest_metres_per_px()};
   std::vector<Made> made(set.features.size());

@@ -30,7 +30,7 @@ struct DrawnFeatures {
   // Numbers of the lines and houses that may touch each cell of a net, row by row.
   std::vector<std::vector<std::uint32_t>> lines_in, houses_in;
   glm::ivec2 net{0};
-  bool rivers = false;     // the sheet's ground has rivers of a map
+  bool rivers = false;     // the sheet's ground has rivers as lines
   int house_reach_px = 0;  // the farthest paint of any house from its foot
 
   bool empty() const { return lines.empty() && houses.empty(); }

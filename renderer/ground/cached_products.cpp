@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<CachedProductInfo, 8> table = {{
     {CachedProduct::synthetic_terrain, "synthetic terrain", 1},
-    {CachedProduct::land_cover, "land cover by rules", 1},
+    {CachedProduct::land_cover, "land cover by rules", 2},
     {CachedProduct::generalized_ground, "generalized ground", 1},
     {CachedProduct::ground_surroundings, "surroundings of the ground", 1},
     {CachedProduct::example_sheet, "example sheet", 1},

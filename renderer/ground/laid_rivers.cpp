@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "base/filter.h"
+#include "base/math.h"
+#include "base/parallel.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/packed_rows.h"
 
@@ -26,42 +28,12 @@ PackedRows pack(const Courses& courses) {
   return {row_of(counts), row_of(numbers)};
 }
 
-// Widens a river where it would be narrower than `least_px` across its way in the picture.
-void widen_for_view(CoverCourse& course, double least_px, const Dem& dem, const SeenFrom& from) {
-  constexpr float most = 3.F;
-  constexpr double step_m = 30.0;
-  constexpr int passes = 40;  // ground turns from one cell to the next; widths do not
-  const auto seen = [&](glm::dvec2 place) {
-    const glm::dvec2 cell = dem.transform.to_cell(place.x, place.y);
-    return from.camera.project(from.deformation.point({place, sample_bilinear(dem.altitude_m, cell.x, cell.y)}));
-  };
-  std::vector<float> wanted = course.half_width_m;
-  const std::size_t last = course.places.size() - 1;
-  for (std::size_t i = 0; i <= last; ++i) {
-    const glm::dvec2 along = course.places[std::min(i + 1, last)] - course.places[i - std::min<std::size_t>(i, 1)];
-    const double length = glm::length(along);
-    if (!(length > 0.0)) continue;
-    const glm::dvec2 ahead = along * (step_m / length);
-    const auto here = seen(course.places[i]);
-    const auto on = seen(course.places[i] + ahead);
-    const auto beside = seen(course.places[i] + glm::dvec2(-ahead.y, ahead.x));
-    if (!here || !on || !beside) continue;
-    const glm::dvec2 a = (*on - *here) / step_m;
-    const glm::dvec2 b = (*beside - *here) / step_m;
-    // A strip 1 m wide is so many pixels thick.
-    const double thick = std::abs(a.x * b.y - a.y * b.x) / std::max(glm::length(a), 1e-12);
-    const float half = course.half_width_m[i];
-    wanted[i] = std::clamp(static_cast<float>(0.5 * least_px / std::max(thick, 1e-9)), half, most * half);
-  }
-  for (int pass = 0; pass < passes && wanted.size() > 2; ++pass) {
-    std::vector<float> next = wanted;
-    for (std::size_t i = 1; i < last; ++i) next[i] = 0.5F * wanted[i] + 0.25F * (wanted[i - 1] + wanted[i + 1]);
-    wanted.swap(next);
-  }
-  course.half_width_m = std::move(wanted);
-}
+constexpr float most_widened = 3.F;
+// Of least_px: guessed rivers that stay below the first, at their widest, are not drawn, from the second on they are.
+constexpr float faded_below = 0.4F;
+constexpr float full_from = 0.8F;
 
-std::vector<CoverCourse> unpack(const PackedRows& packed, const MapRivers& rivers, const Dem& dem, const SeenFrom* from) {
+std::vector<CoverCourse> unpack(const PackedRows& packed, const MapRivers& rivers) {
   std::vector<CoverCourse> courses;
   std::size_t n = 0;
   for (std::size_t c = 0; c + 2 <= packed.counts.size(); c += 2) {
@@ -72,7 +44,6 @@ std::vector<CoverCourse> unpack(const PackedRows& packed, const MapRivers& river
       course.half_width_m.push_back(static_cast<float>(packed.numbers[n + 2]));
       n += 3;
     }
-    if (from != nullptr) widen_for_view(course, rivers.least_px[group], dem, *from);
     courses.push_back(std::move(course));
   }
   return courses;
@@ -102,7 +73,7 @@ CacheKey courses_key(const LoadedScene& loaded, const MapRivers& rivers, const D
 }  // namespace
 
 std::vector<CoverCourse> lay_rivers(const MapRivers& rivers, const LoadedScene& loaded, const Dem& dem, Progress& progress,
-                                    const Cache& cache, Catchments* catchments, const SeenFrom* seen) {
+                                    const Cache& cache, Catchments* catchments) {
   if (rivers.lines.empty()) return {};
   const PackedRows packed = cached<PackedRows>(
       cache, [&] { return courses_key(loaded, rivers, dem); }, progress,
@@ -116,7 +87,43 @@ std::vector<CoverCourse> lay_rivers(const MapRivers& rivers, const LoadedScene& 
             laid.lines.size(), laid.lines.size() + laid.joined, laid.mean_moved_m, laid.most_moved_m));
         return pack(laid);
       });
-  return unpack(packed, rivers, dem, seen);
+  return unpack(packed, rivers);
+}
+
+CoverCourse widen_for_view(CoverCourse course, const RiverLook& look, const Dem& dem, const SeenFrom& from) {
+  constexpr double step_m = 30.0;
+  constexpr int passes = 40;  // ground turns from one cell to the next; widths do not
+  const auto seen = [&](glm::dvec2 place) {
+    const glm::dvec2 cell = dem.transform.to_cell(place.x, place.y);
+    return from.camera.project(from.deformation.point({place, sample_bilinear(dem.altitude_m, cell.x, cell.y)}));
+  };
+  std::vector<float> wanted = course.half_width_m;
+  const std::size_t last = course.places.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const glm::dvec2 along = course.places[std::min(i + 1, last)] - course.places[i - std::min<std::size_t>(i, 1)];
+    const double length = glm::length(along);
+    if (!(length > 0.0)) continue;
+    const glm::dvec2 ahead = along * (step_m / length);
+    const auto here = seen(course.places[i]);
+    const auto on = seen(course.places[i] + ahead);
+    const auto beside = seen(course.places[i] + glm::dvec2(-ahead.y, ahead.x));
+    if (!here || !on || !beside) continue;
+    const glm::dvec2 a = (*on - *here) / step_m;
+    const glm::dvec2 b = (*beside - *here) / step_m;
+    // A strip 1 m wide is so many pixels thick.
+    const double thick = std::abs(a.x * b.y - a.y * b.x) / std::max(glm::length(a), 1e-12);
+    const float half = course.half_width_m[i];
+    const auto needed = static_cast<float>(0.5 * look.least_px / std::max(thick, 1e-9));
+    wanted[i] = std::clamp(needed, half, most_widened * half);
+    if (look.fades) wanted[i] *= smoothstep(faded_below, full_from, wanted[i] / std::max(needed, 1e-6F));
+  }
+  for (int pass = 0; pass < passes && wanted.size() > 2; ++pass) {
+    std::vector<float> next = wanted;
+    for (std::size_t i = 1; i < last; ++i) next[i] = 0.5F * wanted[i] + 0.25F * (wanted[i - 1] + wanted[i + 1]);
+    wanted.swap(next);
+  }
+  course.half_width_m = std::move(wanted);
+  return course;
 }
 
 }  // namespace belvedere

@@ -18,7 +18,6 @@ namespace belvedere {
 struct MapRivers {
   std::vector<DrawnCourse> lines;  // their group: the row of `looks`
   std::vector<CoverCourse> looks;  // class and rank of groups of rivers; without places
-  std::vector<double> least_px;    // of groups: how wide a river is on the picture at least, where three times its width does it
 };
 
 // What rivers are looked at with.
@@ -27,9 +26,17 @@ struct SeenFrom {
   const Deformation& deformation;
 };
 
-// The courses they take in the valleys of this DEM; the cache keeps them. Says how far they moved. `catchments`: of the DEM, where somebody
-// has them; `seen`: rivers that would break into dots are drawn wider, up to three times.
+// The courses they take in the valleys of this DEM, with their own widths; the cache keeps them. Says how far they moved. `catchments`: of
+// the DEM, where somebody has them.
 std::vector<CoverCourse> lay_rivers(const MapRivers& rivers, const LoadedScene& loaded, const Dem& dem, Progress& progress,
-                                    const Cache& cache = no_cache(), Catchments* catchments = nullptr, const SeenFrom* seen = nullptr);
+                                    const Cache& cache = no_cache(), Catchments* catchments = nullptr);
+
+// The same as a picture draws them: those that would be narrower than least_px are wider, up to three times. Guessed rivers that are too
+// narrow even so fade, as dots are worse than nothing; those of maps stay.
+struct RiverLook {
+  double least_px = 0.0;  // across their way in the picture
+  bool fades = false;
+};
+CoverCourse widen_for_view(CoverCourse river, const RiverLook& look, const Dem& dem, const SeenFrom& seen);
 
 }  // namespace belvedere

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -13,6 +15,7 @@
 
 #include "base/cache/content_hash.h"
 #include "base/memory_limit.h"
+#include "base/parallel.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/feature_files.h"
 #include "renderer/ground/packed_rows.h"
@@ -25,8 +28,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int head_counts = 4;
-// Of areas and rivers, while they are laid: as MapCover::bytes() has it, twice.
-constexpr double bytes_a_place = 180.0;
+constexpr char guessed_kind[] = "river";  // the word by which a style knows what is guessed
+// Of areas and rivers, while they are laid: as MapCover::bytes() has it, four times, as they are and as they are seen.
+constexpr double bytes_a_place = 360.0;
 
 // Features that become ground. Of each: its kind, block, shape, number of parts, and the number of places of each part; its width, level
 // and inhabitants before its places.
@@ -149,12 +153,16 @@ void add_sea(const std::vector<std::vector<glm::dvec2>>& lines, const FeatureKin
   map.areas.push_back({.rings = coast.rings, .painted_as = painted_as, .rank = kind.rank, .still = still});
 }
 
+// How wide a river of this kind is on the picture at least.
+double least_river_px(const FeatureKind& kind, const LoadedScene& loaded) {
+  const double px_per_mm = loaded.scene.output.width / loaded.scene.output.sheet_width_mm;
+  return std::max(kind.least_px, kind.width_mm * kind.least_share * px_per_mm);
+}
+
 GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::vector<Feature>&& features, const MapBox& box,
                    Progress& progress) {
   GroundMap map;
   map.rivers.looks.resize(style.kinds.size());
-  map.rivers.least_px.resize(style.kinds.size());
-  const double px_per_mm = loaded.scene.output.width / loaded.scene.output.sheet_width_mm;
   std::size_t without_size = 0;
   bool rivers = false;
   bool towns = false;
@@ -170,7 +178,6 @@ GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::ve
       map.rivers.looks[static_cast<std::size_t>(feature.kind)].painted_as = kind.ground.value_or(LandCoverClass::water);
       map.rivers.looks[static_cast<std::size_t>(feature.kind)].rank = kind.rank;
       map.rivers.looks[static_cast<std::size_t>(feature.kind)].kind = feature.kind;
-      map.rivers.least_px[static_cast<std::size_t>(feature.kind)] = std::max(kind.least_px, kind.width_mm * kind.least_share * px_per_mm);
       map.rivers.lines.push_back({.places = std::move(feature.parts[0]),
                                   .width_m = 0.0,
                                   .least_width_m = static_cast<double>(feature.real_m),
@@ -254,18 +261,53 @@ void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress, 
                     banks, levels.size()));
 }
 
+namespace {
+
+// Guessed rivers as those of the scene's style, below everything that a map has; the kind of each is not the map's own.
+void take_guessed(std::vector<CoverCourse>&& guessed, const FeatureStyle& style, std::vector<CoverCourse>& rivers) {
+  const int kind = style.find(guessed_kind);
+  for (CoverCourse& river : guessed) {
+    river.rank = std::numeric_limits<double>::lowest();
+    river.kind = kind;
+    if (kind >= 0) river.painted_as = style.kinds[static_cast<std::size_t>(kind)].ground.value_or(river.painted_as);
+    rivers.push_back(std::move(river));
+  }
+}
+
+// Rivers as they are seen; those from `first_guessed` on fade rather than break into dots.
+std::vector<CoverCourse> widen_rivers(std::vector<CoverCourse> rivers, std::size_t first_guessed, const FeatureStyle& style,
+                                      const LoadedScene& loaded, const Dem& dem, const SeenFrom& seen) {
+  parallel_ranges<std::size_t>(rivers.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) {
+      const int kind = rivers[i].kind;
+      const FeatureKind of_kind = kind >= 0 ? style.kinds[static_cast<std::size_t>(kind)] : FeatureKind();
+      rivers[i] = widen_for_view(std::move(rivers[i]), {least_river_px(of_kind, loaded), i >= first_guessed}, dem, seen);
+    }
+  });
+  return rivers;
+}
+
+}  // namespace
+
 void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache,
                     Catchments* catchments, const SeenFrom* seen) {
   const GroundMap map = read_ground_map(loaded, dem, silent_progress(), cache);
-  std::vector<CoverCourse> rivers = lay_rivers(map.rivers, loaded, dem, progress, cache, catchments, seen);
-  if (map.areas.empty() && rivers.empty()) return;
+  std::vector<CoverCourse> rivers = lay_rivers(map.rivers, loaded, dem, progress, cache, catchments);
+  const std::size_t first_guessed = rivers.size();
+  if (map.areas.empty() && rivers.empty() && cover.guessed_rivers.empty()) return;
+  const FeatureStyle style = scene_style(loaded);
+  take_guessed(std::exchange(cover.guessed_rivers, {}), style, rivers);
   std::size_t places = 0;
   for (const CoverArea& area : map.areas)
     for (const auto& ring : area.rings) places += ring.size();
   for (const CoverCourse& river : rivers) places += river.places.size();
   check_memory(fmt::format("areas and rivers of {} places, a river's a cell apart,", places), bytes_a_place * static_cast<double>(places));
   const MapBox box = box_of(dem);
-  lay_map(cover, std::make_shared<const MapCover>(map.areas, std::move(rivers), box.low, box.high));
+  // Cells are the ground's, whoever looks at it; only what is asked for a place of the picture is as wide as it must be to be seen.
+  const auto own = std::make_shared<const MapCover>(map.areas, rivers, box.low, box.high);
+  if (seen == nullptr || rivers.empty()) return lay_map(cover, own);
+  rivers = widen_rivers(std::move(rivers), first_guessed, style, loaded, dem, *seen);
+  lay_map(cover, std::make_shared<const MapCover>(map.areas, std::move(rivers), box.low, box.high), own.get());
 }
 
 }  // namespace belvedere

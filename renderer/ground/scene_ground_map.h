@@ -35,8 +35,9 @@ GroundMap read_ground_map(const LoadedScene& loaded, const Dem& dem, Progress& p
 void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress, const Cache& cache = no_cache(),
                        const Dem* whole = nullptr);
 
-// Lays the map over classes: areas as they are, rivers in the valleys of this DEM. The cache keeps where rivers run. With a camera no river
-// is drawn so narrow that it breaks into dots, as long as it need not be more than three times as wide for that.
+// Lays the map over classes: areas as they are, rivers in the valleys of this DEM, and below all of them the rivers that rules guessed. The
+// cache keeps where rivers run. With a camera no river is drawn so narrow that it breaks into dots, as long as it need not be more than
+// three times as wide for that; the cells of the cover know no camera.
 void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache = no_cache(),
                     Catchments* catchments = nullptr, const SeenFrom* seen = nullptr);
 

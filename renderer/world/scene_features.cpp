@@ -99,11 +99,16 @@ void check_extents(const FeatureSet& set, const Dem& dem) {
 }
 
 DrawnFeatures draw_scene_features(const LoadedScene& loaded, const World& world, bool winter, Progress& progress) {
-  if (loaded.scene.features.empty()) return {};
-  const FeatureSet set = read_scene_features(loaded, world.dem->crs, progress);
+  const MapCover* map = world.land_cover->map.get();
+  const bool guessed = map != nullptr && !map->courses().empty();
+  if (loaded.scene.features.empty() && !guessed) return {};
+  FeatureSet set;
+  if (loaded.scene.features.empty())
+    set.style = read_scene_feature_style(loaded);
+  else
+    set = read_scene_features(loaded, world.dem->crs, progress);
   progress.begin("laying features over the ground", 0.0);
   const GroundSight sight(world.dem->transform, world.surface, *world.camera, world.tracer, world.terrain.goes_to);
-  const MapCover* map = world.land_cover->map.get();
   DrawnFeatures drawn = draw_features(set, sight,
                                       {.winter = winter,
                                        .px_per_mm = world.scene.output.width / world.scene.output.sheet_width_mm,

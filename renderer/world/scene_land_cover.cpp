@@ -10,6 +10,7 @@
 
 #include "base/parallel.h"
 #include "renderer/ground/cached_products.h"
+#include "renderer/ground/refined_cover.h"
 #include "renderer/ground/scene_ground_map.h"
 #include "renderer/paint/palette.h"
 #include "renderer/world/scene_climate.h"
@@ -31,12 +32,17 @@ void each_field(auto& bytes, FieldsOf<GroundRelief::Bumps> auto& bumps) {
   bytes(height_m, length_m, seed, share);
 }
 
+void each_field(auto& bytes, FieldsOf<CoverCourse> auto& course) {
+  auto& [places, half_width_m, painted_as, rank, kind] = course;
+  bytes(places, half_width_m, painted_as, rank, kind);
+}
+
 void each_field(auto& bytes, FieldsOf<LandCover> auto& cover) {
-  auto& [classes, colours, relief, map, below] = cover;  // a map is laid over what was kept
+  auto& [classes, colours, relief, map, below, guessed_rivers] = cover;  // a map is laid over what was kept
   auto& [cells, transform, crs] = classes;
   auto& [colour_cells, colour_transform, colour_crs] = colours;
   auto& [relief_transform, bumps, lake_depth_m] = relief;
-  bytes(cells, transform, crs, colour_cells, colour_transform, colour_crs, relief_transform, bumps, lake_depth_m);
+  bytes(cells, transform, crs, colour_cells, colour_transform, colour_crs, relief_transform, bumps, lake_depth_m, guessed_rivers);
 }
 
 namespace {
@@ -53,8 +59,8 @@ struct CoverContext {
 CacheKey rule_cover_key(const LoadedScene& loaded, const ClassRules& rules, const ClassRuleParameters& parameters, const Dem& dem,
                         const WholeTerrain* whole, const WindowGround* window) {
   CacheKeyText key;
-  const auto& [name, known_parameters, terms, layers] = rules;
-  key.add("rules", name).add("parameters", known_parameters).add("terms", terms);
+  const auto& [name, known_parameters, terms, layers, river_beds] = rules;
+  key.add("rules", name).add("parameters", known_parameters).add("terms", terms).add("river_beds", river_beds);
   for (const auto& [painted_as, when] : layers) key.add("layer", painted_as).add("when", when);
   const auto& [settings, towns, rivers, sea, seed, climate, sites, catchments, around, rule_whole] = parameters;
   key.add("settings", settings).add("seed", seed).add("rivers", rivers);
@@ -275,23 +281,6 @@ LandCover make_modelled_cover(const LoadedScene& loaded, const Dem& dem, const C
                                                 : make_layer_cover(loaded, dem, context, progress, cache);
 }
 
-// {to, from}: cells of class `from` where the rules see `to` become `to`.
-void refine_by_rules(LandCover& cover, const LandCover& rules, const std::vector<std::pair<LandCoverClass, LandCoverClass>>& refine) {
-  Grid<LandCoverClass>& cells = cover.classes.cells;
-  parallel_rows(cells.height(), [&](int y) {
-    for (int x = 0; x < cells.width(); ++x) {
-      const glm::dvec2 place = cover.classes.transform.to_crs(x, y);
-      const glm::dvec2 at = rules.classes.transform.to_cell(place.x, place.y);
-      const LandCoverClass seen = rules.classes.cells.clamped(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y)));
-      for (const auto& [to, from] : refine)
-        if (cells(x, y) == from && seen == to) {
-          cells(x, y) = to;
-          break;
-        }
-    }
-  });
-}
-
 // With every patch, however small.
 LandCover make_full_classes(const LoadedScene& loaded, const Dem& dem, const CoverContext& context, Progress& progress,
                             const Cache& cache) {
@@ -309,6 +298,7 @@ LandCover make_full_classes(const LoadedScene& loaded, const Dem& dem, const Cov
   if (!settings.refine.empty() || takes_colours) {
     LandCover modelled = make_modelled_cover(loaded, dem, context, progress, cache);
     refine_by_rules(cover, modelled, settings.refine);
+    cover.guessed_rivers = refine_rivers(std::move(modelled.guessed_rivers), cover, settings.refine);
     cover.colours = std::move(modelled.colours);
     cover.relief = std::move(modelled.relief);
   }

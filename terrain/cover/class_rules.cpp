@@ -7,81 +7,19 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <regex>
 
-#include "base/config.h"
-#include "base/embedded.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "terrain/cover/class_rules_inputs.h"
-#include "terrain/cover/layers_document.h"
 #include "terrain/cover/rule_expression.h"
 #include "terrain/cover/rule_ice.h"
+#include "terrain/cover/rule_program.h"
+#include "terrain/shape/guessed_courses.h"
 
 namespace belvedere {
 namespace {
 
 using namespace class_rules;
-
-constexpr char balance_term[] = "ice_balance";
-
-// Where each text of a rules file stands; empty for rules that come from no file.
-struct Places {
-  std::vector<ConfigPlace> terms;
-  std::vector<ConfigPlace> layers;
-};
-
-// Rules ready to run. Slots: the terrain's variables, then the terms.
-struct Program {
-  std::vector<RuleExpression> terms;
-  std::vector<RuleExpression> layers;
-  std::vector<std::vector<bool>> term_needs;  // slots a term reads, also through other terms
-  std::vector<std::vector<bool>> layer_needs;
-};
-
-Program compile(const ClassRules& rules, const Parameters& parameters, const std::string& where, const Places& places) {
-  const std::vector<std::string>& variables = variable_names();
-  const std::size_t slots = variables.size() + rules.terms.size();
-  Program program;
-  RuleNames names{variables, parameters};
-  const auto needs_of = [&](const RuleExpression& expression) {
-    std::vector<bool> needs(slots, false);
-    for (const int v : expression.variables()) {
-      const auto slot = static_cast<std::size_t>(v);
-      needs[slot] = true;
-      if (slot < variables.size()) continue;
-      const std::vector<bool>& of_term = program.term_needs[slot - variables.size()];
-      for (std::size_t i = 0; i < slots; ++i) needs[i] = needs[i] || of_term[i];
-    }
-    return needs;
-  };
-  // Classes so far exist in layers only; and what makes the ice cannot know where the ice is.
-  const auto forbid = [&](const std::vector<bool>& needs, int from, int to, const std::string& place, const std::string& reason) {
-    for (int v = from; v < to; ++v)
-      if (needs[static_cast<std::size_t>(v)])
-        throw Error(ErrorKind::usage, place, fmt::format("\"{}\" in {}", variables[static_cast<std::size_t>(v)], reason), "");
-  };
-  const auto compile_one = [&](const std::string& text, const std::string& what, const std::vector<ConfigPlace>& from, std::size_t i) {
-    return from.empty() ? RuleExpression(text, names, where + ", " + what, {}) : RuleExpression(text, names, where, from[i]);
-  };
-
-  for (std::size_t i = 0; i < rules.terms.size(); ++i) {
-    const auto& [name, text] = rules.terms[i];
-    program.terms.push_back(compile_one(text, "term " + name, places.terms, i));
-    program.term_needs.push_back(needs_of(program.terms.back()));
-    const std::string place = places.terms.empty() ? where + ", term " + name : config_where(where, places.terms[i]);
-    const std::vector<bool>& needs = program.term_needs.back();
-    forbid(needs, first_class, static_cast<int>(variables.size()), place, "a term; only layers know the class so far");
-    if (name == balance_term) forbid(needs, ice, below_rock + 1, place, "ice_balance, which is computed before it");
-    names.variables.push_back(name);
-  }
-  for (std::size_t i = 0; i < rules.layers.size(); ++i) {
-    const std::string what = fmt::format("layer {} ({})", i + 1, class_name(rules.layers[i].painted_as));
-    program.layers.push_back(compile_one(rules.layers[i].when, what, places.layers, i));
-    program.layer_needs.push_back(needs_of(program.layers.back()));
-  }
-  return program;
-}
 
 Parameters with_settings(const ClassRules& rules, const Parameters& settings) {
   Parameters parameters = rules.parameters;
@@ -105,7 +43,7 @@ Parameters with_settings(const ClassRules& rules, const Parameters& settings) {
 // The state of one run over the DEM.
 struct Run {
   const ClassRules& rules;
-  const Program& program;
+  const RuleProgram& program;
   const Dem& dem;
   std::uint64_t seed;
   const RuleClimate& climate;
@@ -163,13 +101,6 @@ void fill_row(const Run& run, const std::vector<bool>& needed, int y, const Land
   }
 }
 
-std::vector<bool> union_of(const std::vector<std::vector<bool>>& needs, std::size_t from, std::size_t to, std::size_t slots) {
-  std::vector<bool> all(slots, false);
-  for (std::size_t k = from; k < to; ++k)
-    for (std::size_t i = 0; i < slots; ++i) all[i] = all[i] || needs[k][i];
-  return all;
-}
-
 // Applies the layers from…to to all cells.
 void apply_layers(const Run& run, std::size_t from, std::size_t to, Grid<LandCoverClass>& classes) {
   if (from == to) return;
@@ -209,6 +140,48 @@ void apply_layers(const Run& run, std::size_t from, std::size_t to, Grid<LandCov
   });
 }
 
+// Where rivers run: cells whose catchment is large enough and where the rules have rivers. Rows without such cells cost nothing.
+Grid<std::uint8_t> find_river_beds(const Run& run, const Grid<float>& catchment_km2, double least_km2,
+                                   const Grid<LandCoverClass>& classes) {
+  const std::size_t slots = run.program.river_needs.size();
+  Grid<std::uint8_t> beds(classes.width(), classes.height(), 0);
+  parallel_ranges(beds.height(), 16, [&](int y0, int y1) {
+    Row row;
+    std::array<float, rule_block> hit{};
+    std::vector<const float*> pointers(slots, nullptr);
+    for (int y = y0; y != y1; ++y) {
+      const float* water = catchment_km2.row(y);
+      const auto is_river = [&](float km2) { return static_cast<double>(km2) >= least_km2; };
+      if (std::none_of(water, water + beds.width(), is_river)) continue;
+      fill_row(run, run.program.river_needs, y, classes.row(y), row);
+      for (int begin = 0; begin < beds.width(); begin += rule_block) {
+        const int count = std::min(rule_block, beds.width() - begin);
+        if (std::none_of(water + begin, water + begin + count, is_river)) continue;
+        for (std::size_t i = 0; i < slots; ++i) pointers[i] = run.program.river_needs[i] ? block_of(run, row, i, y, begin) : nullptr;
+        run.program.rivers->evaluate(pointers, hit.data(), row.scratch);
+        for (int x = 0; x < count; ++x) beds(begin + x, y) = hit[static_cast<std::size_t>(x)] > 0.F ? 1 : 0;
+      }
+    }
+  });
+  return beds;
+}
+
+// Guessed rivers as lines.
+std::vector<CoverCourse> guess_rivers(const Run& run, const Grid<float>& catchment_km2, const Grid<LandCoverClass>& classes) {
+  const GuessedCourseParameters parameters;
+  const Grid<std::uint8_t> beds = find_river_beds(run, catchment_km2, parameters.least_km2, classes);
+  std::vector<Course> courses = guess_courses(
+      catchment_km2, run.dem.transform,
+      [&](int x, int y) {
+        if (classes(x, y) == LandCoverClass::water) return RiverBed::open;
+        return beds(x, y) != 0 ? RiverBed::runs : RiverBed::dry;
+      },
+      parameters);
+  std::vector<CoverCourse> rivers;
+  for (Course& course : courses) rivers.push_back({.places = std::move(course.places), .half_width_m = std::move(course.half_width_m)});
+  return rivers;
+}
+
 // The values of one term on all cells.
 Grid<float> evaluate_term(const Run& run, std::size_t term) {
   std::vector<bool> needed = run.program.term_needs[term];
@@ -225,58 +198,6 @@ Grid<float> evaluate_term(const Run& run, std::size_t term) {
   return out;
 }
 
-}  // namespace
-
-ClassRules read_class_rules(const std::string& name_or_path) {
-  const std::vector<std::string> built_in = embedded_names("layers");
-  const bool is_file = name_or_path.ends_with(".toml");
-  if (!is_file && std::find(built_in.begin(), built_in.end(), name_or_path) == built_in.end())
-    throw Error(ErrorKind::usage, name_or_path, "no class rules of that name",
-                fmt::format("{}, or a .toml file", fmt::join(built_in, ", ")));
-  const std::string where = is_file ? name_or_path : "layers/" + name_or_path + ".toml";
-  const ConfigValue document = is_file ? read_config(name_or_path) : parse_config(embedded_file(where), where);
-
-  ClassRules rules;
-  Places places;
-  const LayersReader reader{where};
-  const LayersDocument common = read_layers_document(reader, document, {});
-  rules.name = common.name.empty() ? name_or_path : common.name;
-  rules.parameters = common.parameters;
-  rules.terms = common.terms;
-  places.terms = common.term_places;
-  if (const ConfigValue* parameters = find(as_table(document, where), "parameters"))
-    for (const ConfigEntry& entry : as_table(*parameters, where))
-      if (names_old_town(entry.key))
-        reader.fail(entry.key_place, "towns are no parameters of rules any more: " + entry.key,
-                    "towns of the scene, with name, position and radius");
-  for (const ConfigValue& value : layers_of(reader, document)) {
-    const ConfigTable& layer = as_table(value, where);
-    allow_only(layer, {"name", "class", "when"}, where);
-    const LandCoverClass painted_as = reader.land_cover_class(reader.required(layer, "class", value.place, "a layer"));
-    const ConfigValue& when = reader.required(layer, "when", value.place, "a layer");
-    rules.layers.push_back({painted_as, reader.expression(when)});
-    places.layers.push_back(when.place);
-  }
-  compile(rules, rules.parameters, where, places);
-  return rules;
-}
-
-bool uses_variable(const ClassRules& rules, const std::string& variable) {
-  const Program program = compile(rules, rules.parameters, rules.name, {});
-  const std::size_t slots = variable_names().size() + rules.terms.size();
-  const std::vector<bool> needed = union_of(program.layer_needs, 0, program.layers.size(), slots);
-  for (std::size_t v = 0; v < variable_names().size(); ++v)
-    if (variable_names()[v] == variable) return needed[v];
-  return false;
-}
-
-bool names_old_town(const std::string& parameter) {
-  static const std::regex old_town("town_[0-9]+_(east|north|radius_m)");
-  return std::regex_match(parameter, old_town);
-}
-
-namespace {
-
 Parameters all_parameters(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem) {
   Parameters parameters = with_settings(rules, given.settings);
   resolve_altitudes(parameters, given.climate, dem);
@@ -284,12 +205,12 @@ Parameters all_parameters(const ClassRules& rules, const ClassRuleParameters& gi
 }
 
 // Makes the run's inputs: what rules see of the ground, and in a window what they saw around it. Returns the ice.
-RuleIce make_inputs(Run& run, const Parameters& parameters, const ClassRuleParameters& given, Progress& progress) {
+RuleIce make_inputs(Run& run, const Parameters& parameters, const ClassRuleParameters& given, Catchments& waters, Progress& progress) {
   const auto& [rules, program, dem, seed, climate, inputs, noise, columns] = run;
   const std::size_t slots = variable_names().size() + rules.terms.size();
   // Ice needs the balance of snow and melting, and that needs variables of its own.
-  std::vector<bool> needed = union_of(program.layer_needs, 0, program.layers.size(), slots);
-  const auto balance = std::find_if(rules.terms.begin(), rules.terms.end(), [](const auto& t) { return t.first == balance_term; });
+  std::vector<bool> needed = all_needs(program, slots);
+  const auto balance = std::find_if(rules.terms.begin(), rules.terms.end(), [](const auto& t) { return t.first == ice_balance_term; });
   const bool no_rivers = needed[river] && !given.rivers;
   if (no_rivers) needed[river] = false;
   const bool has_ice = needed[ice] && balance != rules.terms.end();
@@ -299,7 +220,7 @@ RuleIce make_inputs(Run& run, const Parameters& parameters, const ClassRuleParam
   }
   const Settlers settlers{given.towns, given.seed, given.sites ? &*given.sites : nullptr};
   const RuleGround* around = given.around != nullptr ? &given.around->ground : nullptr;
-  run.inputs = make_terrain_inputs(dem, needed, parameters, settlers, given.sea, climate, given.catchments, nullptr, around, given.whole);
+  run.inputs = make_terrain_inputs(dem, needed, parameters, settlers, given.sea, climate, &waters, nullptr, around, given.whole);
   if (no_rivers) run.inputs[river] = Grid<float>(dem.width(), dem.height(), 0.F);
   for (int v = first_noise; v < easting; ++v)
     run.noise.push_back(needed[static_cast<std::size_t>(v)] ? plan_noise(v, dem.transform, dem.width()) : NoiseColumns{});
@@ -329,19 +250,22 @@ RuleGround seen_by(Run&& run, RuleIce&& ice) {
 
 RuleGround see_rule_ground(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem) {
   const Parameters parameters = all_parameters(rules, given, dem);
-  const Program program = compile(rules, parameters, rules.name, {});
+  const RuleProgram program = compile_rules(rules, parameters, rules.name, {});
   Run run{rules, program, dem, given.seed, given.climate, {}, {}};
-  RuleIce ice = make_inputs(run, parameters, given, silent_progress());
+  Catchments own(dem);
+  RuleIce ice = make_inputs(run, parameters, given, given.catchments != nullptr ? *given.catchments : own, silent_progress());
   return seen_by(std::move(run), std::move(ice));
 }
 
 LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem, Progress& progress,
                             RuleGround* seen) {
   const Parameters parameters = all_parameters(rules, given, dem);
-  const Program program = compile(rules, parameters, rules.name, {});
+  const RuleProgram program = compile_rules(rules, parameters, rules.name, {});
   progress.begin("class rules", 4.0);
   Run run{rules, program, dem, given.seed, given.climate, {}, {}};
-  RuleIce made_ice = make_inputs(run, parameters, given, progress);
+  Catchments own(dem);
+  Catchments& waters = given.catchments != nullptr ? *given.catchments : own;
+  RuleIce made_ice = make_inputs(run, parameters, given, waters, progress);
 
   // Layers that ask for rock uphill wait until the rock is there.
   Grid<LandCoverClass> classes(dem.width(), dem.height(), LandCoverClass::sky);
@@ -355,14 +279,17 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
   progress.advance(1.0);
   remove_specks(classes, static_cast<int>(parameter_or(parameters, "speck_cells", 5.0)));
   progress.advance(1.0);
+  LandCover cover{{std::move(classes), dem.transform, dem.crs}};
+  // A window's are those of the whole, which its map has.
+  if (given.rivers && program.rivers && given.whole == nullptr) cover.guessed_rivers = guess_rivers(run, waters.km2(), cover.classes.cells);
   if (seen != nullptr) *seen = seen_by(std::move(run), std::move(made_ice));
-  return {{std::move(classes), dem.transform, dem.crs}};
+  return cover;
 }
 
 std::vector<TownSite> find_rule_towns(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem) {
   Parameters parameters = with_settings(rules, given.settings);
   resolve_altitudes(parameters, given.climate, dem);
-  const Program program = compile(rules, parameters, rules.name, {});
+  const RuleProgram program = compile_rules(rules, parameters, rules.name, {});
   const std::size_t slots = variable_names().size() + rules.terms.size();
   std::vector<TownSite> found;
   if (!union_of(program.layer_needs, 0, program.layers.size(), slots)[town]) return found;

@@ -10,36 +10,13 @@
 #include "terrain/cover/land_cover.h"
 #include "terrain/cover/rule_climate.h"
 #include "terrain/cover/rule_ground.h"
+#include "terrain/cover/rule_program.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"
 #include "terrain/shape/catchments.h"
 #include "terrain/shape/sea.h"
 
 namespace belvedere {
-
-// Land cover for a DEM that has none, from rules in a file of their own (data/layers/life_zones.toml): surface layers in order, each with a
-// class and conditions over altitude, slope, exposure, relief, climate, noise and water; later layers win. docs/class_rules.md describes
-// the file and the variables.
-struct ClassRules {
-  struct Layer {
-    LandCoverClass painted_as;
-    std::string when;  // an expression (terrain/cover/rule_expression.h); true where > 0
-  };
-  std::string name;
-  std::vector<std::pair<std::string, double>> parameters;  // named numbers that expressions may use and a scene may set
-  std::vector<std::pair<std::string, std::string>> terms;  // named sub-expressions, evaluated in order
-  std::vector<Layer> layers;
-};
-
-// Built-in name ("life_zones") or a .toml file. Every expression is checked: Error(usage) with file:line:column and the nearest
-// known name.
-ClassRules read_class_rules(const std::string& name_or_path);
-
-// Whether the rules look at a variable of docs/class_rules.md, be it through a term.
-bool uses_variable(const ClassRules& rules, const std::string& variable);
-
-// Whether a name is one by which rules once knew towns: town_1_east, town_1_north, town_1_radius_m, town_2_…
-bool names_old_town(const std::string& parameter);
 
 // What rules are given besides the terrain.
 struct ClassRuleParameters {
@@ -57,6 +34,7 @@ struct ClassRuleParameters {
 
 // Parameters town_highest_m and floor_highest_m that are 0 hang on the treeline in the middle of the map: 520 and 370 m below it.
 // Evaluates the rules on the DEM's grid, cleans up specks, and returns land cover; cells that no layer covers take the nearest class.
+// Rivers are lines of their own beside the classes (LandCover::guessed_rivers), where the rules say where they run.
 // Error(usage) for a setting that is no parameter of the rules, with the nearest known.
 // Noise depends on the seed and the place in the CRS alone, so a part of a DEM gets the same ragged treelines as the whole.
 // `seen` gets what the rules saw, where it is given: for the windows in this ground.

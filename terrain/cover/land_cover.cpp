@@ -173,18 +173,19 @@ LandCoverClass LandCover::cell_at(double x, double y) const {
   return static_cast<LandCoverClass>(best);
 }
 
-void lay_map(LandCover& cover, std::shared_ptr<const MapCover> map) {
+void lay_map(LandCover& cover, std::shared_ptr<const MapCover> map, const MapCover* own) {
+  const MapCover& ground = own != nullptr ? *own : *map;
   const GeoTransform& transform = cover.classes.transform;
   Grid<LandCoverClass>& cells = cover.classes.cells;
   Grid<std::uint8_t> lake(cells.width(), cells.height(), 0);
   parallel_rows(cells.height(), [&](int y) {
-    for (int x = 0; x < cells.width(); ++x) lake(x, y) = map->is_still(transform.to_crs(x, y)) ? 1 : 0;
+    for (int x = 0; x < cells.width(); ++x) lake(x, y) = ground.is_still(transform.to_crs(x, y)) ? 1 : 0;
   });
   clear_guessed_water(cells, lake);
   cover.below = cells;
   parallel_rows(cells.height(), [&](int y) {
     for (int x = 0; x < cells.width(); ++x)
-      if (const LandCoverClass known = map->at(transform.to_crs(x, y)); known != LandCoverClass::sky) cells(x, y) = known;
+      if (const LandCoverClass known = ground.at(transform.to_crs(x, y)); known != LandCoverClass::sky) cells(x, y) = known;
   });
   cover.map = std::move(map);
 }

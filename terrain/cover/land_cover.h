@@ -11,12 +11,11 @@
 
 #include "base/land_cover_class.h"
 #include "base/progress.h"
+#include "terrain/cover/map_cover.h"
 #include "terrain/io/raster.h"
 #include "terrain/io/raster_io.h"
 
 namespace belvedere {
-
-class MapCover;
 
 // What the codes of a land-cover raster mean.
 struct Legend {
@@ -61,6 +60,8 @@ struct LandCover {
   // Areas and rivers of a map that lie over the classes, with their own outlines; null: none. `classes` has them in its cells …
   std::shared_ptr<const MapCover> map = {};
   Grid<LandCoverClass> below = {};  // … and these are the cells without them; empty without a map
+  // Rivers that rules guessed: lines with a width, which `classes` has only where a map that they are part of was laid.
+  std::vector<CoverCourse> guessed_rivers = {};
 
   // The class at a place in the scene's CRS: membership of each class interpolated by cubic B-spline, then the largest (ties
   // to the lower id). Smooth borders, no stairs of the raster's cells; what is one cell wide becomes a little narrower, single
@@ -70,8 +71,9 @@ struct LandCover {
   LandCoverClass cell_at(double x, double y) const;
 };
 
-// Lays a map over the classes. Guessed water that touches a lake of the map becomes what lies around it: the map knows the shore.
-void lay_map(LandCover& cover, std::shared_ptr<const MapCover> map);
+// Lays a map over the classes. Guessed water that touches a lake of the map becomes what lies around it: the map knows the shore. The cells
+// are those of `own` where it is given: the same map before its rivers were widened for a picture.
+void lay_map(LandCover& cover, std::shared_ptr<const MapCover> map, const MapCover* own = nullptr);
 
 struct LandCoverParameters {
   std::vector<RasterSource> sources;

@@ -32,7 +32,7 @@ bool crosses(const glm::dvec2& from, const glm::dvec2& to, glm::dvec2 own, glm::
   return odd;
 }
 
-// Whether a place lies within a straight piece of river.
+// Whether a place lies within a straight piece of river; one without width covers nothing.
 bool covers(const glm::dvec2& from, const glm::dvec2& to, float half_from, float half_to, glm::dvec2 place) {
   const glm::dvec2 along = to - from;
   const glm::dvec2 off = place - from;
@@ -40,7 +40,7 @@ bool covers(const glm::dvec2& from, const glm::dvec2& to, float half_from, float
   const double t = std::clamp(glm::dot(off, along) / length2, 0.0, 1.0);
   const double half = (1.0 - t) * static_cast<double>(half_from) + t * static_cast<double>(half_to);
   const glm::dvec2 away = off - t * along;
-  return glm::dot(away, away) <= half * half;
+  return glm::dot(away, away) < half * half;
 }
 
 double side_of_boxes(glm::dvec2 size, std::size_t pieces) {

@@ -7,9 +7,9 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "terrain/shape/hydrology.h"
-
 #include "base/math_exact.h"
+#include "terrain/shape/hydrology.h"
+#include "terrain/shape/river_reaches.h"
 
 namespace belvedere {
 namespace {
@@ -21,66 +21,6 @@ constexpr double widest_m = 90.0;
 // On coarse cells a river is drawn as wide as it takes to be seen, .58 of a cell each way, but no wider than this times its width.
 constexpr double seen_cells = 0.58;
 constexpr double widened = 30.0 / 18.0;
-// Passes of [1 2 1] / 4, each of variance 1/2: 24 smooth by sqrt(12) = 3.5 cells.
-constexpr int smoothing_passes = 24;
-constexpr std::size_t none = static_cast<std::size_t>(-1);
-
-// One cell of a river and its neighbours along it.
-struct Reach {
-  glm::dvec2 place;  // cells
-  double half_width_m = 0.0;
-  float catchment_km2 = 0.F;
-  std::size_t downstream = none;
-  std::size_t upstream = none;  // the larger one where two meet
-};
-
-// Every river cell, in the order of the grid, linked to the neighbour whose catchment is the next larger.
-std::vector<Reach> find_reaches(const Grid<float>& catchment_km2) {
-  std::vector<Reach> reaches;
-  Grid<std::int32_t> number(catchment_km2.width(), catchment_km2.height(), -1);
-  for (int y = 0; y < catchment_km2.height(); ++y) {
-    for (int x = 0; x < catchment_km2.width(); ++x) {
-      const float area = catchment_km2(x, y);
-      if (area < least_catchment_km2) continue;
-      number(x, y) = static_cast<std::int32_t>(reaches.size());
-      reaches.push_back({{x, y}, river_half_width_m(area), area, none, none});
-    }
-  }
-  for (std::size_t i = 0; i < reaches.size(); ++i) {
-    Reach& reach = reaches[i];
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const int x = static_cast<int>(reach.place.x) + dx;
-        const int y = static_cast<int>(reach.place.y) + dy;
-        if (!number.contains(x, y) || number(x, y) < 0) continue;
-        const auto other = static_cast<std::size_t>(number(x, y));
-        if (reaches[other].catchment_km2 <= reach.catchment_km2) continue;
-        if (reach.downstream == none || reaches[other].catchment_km2 < reaches[reach.downstream].catchment_km2) reach.downstream = other;
-      }
-    }
-    if (reach.downstream == none) continue;
-    Reach& below = reaches[reach.downstream];
-    if (below.upstream == none || reaches[below.upstream].catchment_km2 < reach.catchment_km2) below.upstream = i;
-  }
-  return reaches;
-}
-
-// Moves each cell towards the mean of the cells above and below it; springs and mouths stay. A tributary follows its mouth,
-// the main river does not feel it.
-void smooth(std::vector<Reach>& reaches) {
-  for (int pass = 0; pass < smoothing_passes; ++pass) {
-    std::vector<Reach> next = reaches;
-    for (std::size_t i = 0; i < reaches.size(); ++i) {
-      const Reach& here = reaches[i];
-      if (here.upstream == none || here.downstream == none) continue;
-      const Reach& above = reaches[here.upstream];
-      const Reach& below = reaches[here.downstream];
-      next[i].place = 0.5 * here.place + 0.25 * (above.place + below.place);
-      next[i].half_width_m = 0.5 * here.half_width_m + 0.25 * (above.half_width_m + below.half_width_m);
-    }
-    reaches.swap(next);
-  }
-}
 
 // The part of a cell that a straight river of this half-width covers at this distance from its centre line.
 double cover(double distance_m, double half_width_m, double cell_m) {
@@ -91,7 +31,7 @@ double cover(double distance_m, double half_width_m, double cell_m) {
 }
 
 // One straight piece of river; the larger cover wins where pieces overlap, so their order does not matter.
-void draw(Grid<float>& mask, const Reach& from, const Reach& to, double cell_m) {
+void draw(Grid<float>& mask, const RiverReach& from, const RiverReach& to, double cell_m) {
   const double margin = std::max(from.half_width_m, to.half_width_m) / cell_m + 1.0;
   const int x0 = std::max(0, static_cast<int>(std::floor(std::min(from.place.x, to.place.x) - margin)));
   const int x1 = std::min(mask.width() - 1, static_cast<int>(std::ceil(std::max(from.place.x, to.place.x) + margin)));
@@ -120,13 +60,15 @@ double river_half_width_m(double catchment_km2) {
 }
 
 Grid<float> river_mask(const Grid<float>& catchment_km2, double cell_m) {
-  std::vector<Reach> reaches = find_reaches(catchment_km2);
-  for (Reach& reach : reaches)
-    reach.half_width_m = std::max(reach.half_width_m, std::min(widened * reach.half_width_m, seen_cells * cell_m));
-  smooth(reaches);
+  std::vector<RiverReach> reaches = find_reaches(catchment_km2, least_catchment_km2);
+  for (RiverReach& reach : reaches) {
+    const double own_m = river_half_width_m(static_cast<double>(reach.catchment_km2));
+    reach.half_width_m = std::max(own_m, std::min(widened * own_m, seen_cells * cell_m));
+  }
+  smooth_reaches(reaches);
   Grid<float> mask(catchment_km2.width(), catchment_km2.height());
-  for (const Reach& reach : reaches) {
-    if (reach.downstream != none) draw(mask, reach, reaches[reach.downstream], cell_m);
+  for (const RiverReach& reach : reaches) {
+    if (reach.downstream != no_reach) draw(mask, reach, reaches[reach.downstream], cell_m);
   }
   return mask;
 }

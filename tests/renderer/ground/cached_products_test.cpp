@@ -57,7 +57,7 @@ TEST_F(CachedProducts, StandInTheTableInTheirOrder) {
 
 TEST_F(CachedProducts, KeysNameTheProgramAndAllThatIsGiven) {
   const CacheKey key = make_cache_key(CachedProduct::land_cover, CacheKeyText().add("seed", 3), "karwendel");
-  EXPECT_THAT(key.text, AllOf(HasSubstr(program_version()), HasSubstr(hash_file("/proc/self/exe")), HasSubstr("format=1\nseed=3\n")));
+  EXPECT_THAT(key.text, AllOf(HasSubstr(program_version()), HasSubstr(hash_file("/proc/self/exe")), HasSubstr("format=2\nseed=3\n")));
   EXPECT_NE(key.product, make_cache_key(CachedProduct::example_sheet, CacheKeyText().add("seed", 3), "karwendel").product);
 }
 

@@ -27,7 +27,7 @@ Dem make_valley() {
   return dem;
 }
 
-MapRivers one_river(double least_px) {
+MapRivers one_river() {
   MapRivers rivers;
   rivers.lines.push_back({.places = {{6300.0, 11800.0}, {6200.0, 6000.0}, {6300.0, 300.0}},
                           .width_m = 0.0,
@@ -37,7 +37,6 @@ MapRivers one_river(double least_px) {
   rivers.looks.resize(2);
   rivers.looks[1].painted_as = LandCoverClass::water;
   rivers.looks[1].rank = 7.0F;
-  rivers.least_px = {0.0, least_px};
   return rivers;
 }
 
@@ -53,10 +52,11 @@ std::unique_ptr<Camera> camera_at(double altitude_m) {
 class LaidRivers : public testing::Test {
  protected:
   std::vector<CoverCourse> laid(double least_px, const Camera* camera = nullptr, const Cache& cache = no_cache()) const {
+    std::vector<CoverCourse> rivers = lay_rivers(one_river(), scene_, valley_, silent_progress(), cache);
     const Deformation flat;
-    if (camera == nullptr) return lay_rivers(one_river(least_px), scene_, valley_, silent_progress(), cache);
-    const SeenFrom seen{*camera, flat};
-    return lay_rivers(one_river(least_px), scene_, valley_, silent_progress(), cache, nullptr, &seen);
+    for (CoverCourse& river : rivers)
+      if (camera != nullptr) river = widen_for_view(river, {.least_px = least_px}, valley_, {*camera, flat});
+    return rivers;
   }
   test::Folder folder_;
   Dem valley_ = make_valley();
@@ -87,6 +87,23 @@ TEST_F(LaidRivers, AreWidenedWhereTheyWouldBreakIntoDotsAndUpToThreeTimes) {
   EXPECT_NEAR(widest(laid(0.75 * 2.0F * own / 55.2, far.get())), own, 0.01F) << "asked for less than it has";
   EXPECT_NEAR(widest(laid(2.0 * 2.0 * own / 55.2, far.get())), 2.0F * own, 0.06F * own);
   EXPECT_NEAR(widest(laid(50.0, far.get())), 3.0F * own, 0.01F);
+}
+
+TEST_F(LaidRivers, GuessedOnesFadeBeforeTheyBreakIntoDots) {
+  CoverCourse brook;
+  for (int y = 0; y < 100; ++y) brook.places.emplace_back(6000.0, 9000.0 - 50.0 * y), brook.half_width_m.push_back(10.F);
+  const Deformation flat;
+  const auto far = camera_at(60000.0);
+  // 55 m to the pixel.
+  const auto half_m = [&](double least_px, bool fades) {
+    const CoverCourse drawn = widen_for_view(brook, {least_px, fades}, valley_, {*far, flat});
+    return *std::max_element(drawn.half_width_m.begin(), drawn.half_width_m.end());
+  };
+  EXPECT_NEAR(half_m(0.2, true), 10.F, 0.01F);
+  EXPECT_NEAR(half_m(0.72, true), 20.F, 0.5F);
+  EXPECT_NEAR(half_m(1.2, true), 30.F, 0.1F) << "nearly as wide as it should be";
+  EXPECT_EQ(half_m(5.0, true), 0.F);
+  EXPECT_NEAR(half_m(5.0, false), 30.F, 0.1F) << "a map's stays";
 }
 
 TEST_F(LaidRivers, AreTheSameFromTheCache) {

@@ -106,12 +106,30 @@ TEST_F(GroundMaps, RiversLieInTheirValleysAndGuessedOnesGiveWay) {
   EXPECT_TRUE(has_water(both, 60, 29, 31));
 }
 
-TEST_F(GroundMaps, WithoutFeaturesNothingIsLaid) {
+TEST_F(GroundMaps, WithoutFeaturesThereAreGuessedRiversAlone) {
   write(area("road", 1, 1, 2, 2));
-  const LandCover none = cover(scene());
+  const LandCover guessed = cover(scene());
+  ASSERT_NE(guessed.map, nullptr);
+  EXPECT_TRUE(has_water(guessed, 110, 85, 95));
+  for (const CoverCourse& river : guessed.map->courses()) EXPECT_EQ(river.painted_as, water);
+  // Down the valley without a gap, however narrow.
+  for (double row = 60; row < 119; row += 0.7) EXPECT_TRUE(has_water(guessed, row, 88, 92)) << row;
+}
+
+TEST_F(GroundMaps, NothingIsLaidWhereRulesKnowNoRivers) {
+  write(area("road", 1, 1, 2, 2));
+  folder_.write("bare.toml", "version = 1\nname = \"bare\"\n[[layers]]\nclass = \"pasture\"\nwhen = \"1\"\n");
+  const LandCover none = cover(scene("[land_cover]\nrules = \"bare.toml\"\n"));
   EXPECT_EQ(none.map, nullptr);
   EXPECT_TRUE(none.below.empty());
-  EXPECT_TRUE(has_water(none, 110, 85, 95)) << "guessed rivers stay";
+}
+
+TEST_F(GroundMaps, AreasOfAMapLieOverGuessedRivers) {
+  write(area("glacier", 80, 70, 100, 90));
+  const LandCover made = cover(scene());
+  EXPECT_TRUE(has_water(made, 60, 85, 95));
+  EXPECT_FALSE(has_water(made, 80, 85, 95));
+  EXPECT_EQ(made.cell_at(at(90, 80).x, at(90, 80).y), made.below(180, 160));
 }
 
 TEST_F(GroundMaps, AreasHaveTheirClassAndLakesAreLevel) {

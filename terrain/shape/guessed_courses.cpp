@@ -1,0 +1,149 @@
+#include "terrain/shape/guessed_courses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "base/math.h"
+#include "terrain/shape/river_reaches.h"
+
+namespace belvedere {
+namespace {
+
+constexpr int into_open_cells = 2;      // so far a river runs on into a lake
+constexpr std::size_t fade_cells = 14;  // over which one comes up from dry ground, or dries up
+// Water that crosses level ground cell by cell meets a river at any angle; nature's comes in aslant, some way farther down.
+constexpr std::size_t down_cells = 12;
+constexpr std::size_t led_cells = 24;  // before its mouth, over which a river is led there
+
+// A river as the cells of its reaches, downstream; the last one may be of the larger river that it flows into.
+struct Line {
+  std::vector<std::size_t> reaches;
+  bool joins = false;
+};
+
+// What lies beyond the ends of a line: at the rim of the ground nobody knows that a river ends.
+struct Ends {
+  bool comes_in = false, goes_on = false;
+};
+
+// Before its mouth a river does not feel the width of the larger one.
+constexpr std::size_t own_cells = 10;
+
+// Leads the end of a line, `places` of which the last is the one of the larger river, to where that river has gone on for some cells.
+void lead_mouth(std::vector<glm::dvec2>& places, const std::vector<RiverReach>& reaches, std::size_t mouth) {
+  std::size_t at = mouth;
+  for (std::size_t k = 0; k < std::min(down_cells, places.size() / 3) && reaches[at].downstream != no_reach; ++k)
+    at = reaches[at].downstream;
+  const glm::dvec2 way = reaches[at].place - places.back();
+  const std::size_t led = std::min(led_cells, places.size() - 1);
+  for (std::size_t k = 0; k < led; ++k) {
+    const double near = 1.0 - static_cast<double>(k) / static_cast<double>(led);
+    places[places.size() - 1 - k] += near * near * way;  // steepest at the mouth
+  }
+}
+
+std::vector<Line> follow_water(const std::vector<RiverReach>& reaches) {
+  std::vector<Line> lines;
+  for (std::size_t i = 0; i < reaches.size(); ++i) {
+    // A spring has nothing above it.
+    if (reaches[i].upstream != no_reach) continue;
+    Line line;
+    for (std::size_t at = i; at != no_reach; at = reaches[at].downstream) {
+      line.reaches.push_back(at);
+      const std::size_t below = reaches[at].downstream;
+      if (below == no_reach || reaches[below].upstream == at) continue;
+      line.reaches.push_back(below);
+      line.joins = true;
+      break;
+    }
+    if (line.reaches.size() > 1) lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+// A piece of a line: places `first` … `last`, which is included, and whether it comes up and dries up on dry ground.
+struct Piece {
+  std::size_t first = 0, last = 0;
+  bool rises = false, dries = false;
+};
+
+std::vector<Piece> pieces_of(std::vector<RiverBed> beds, const Ends& ends, const GuessedCourseParameters& parameters) {
+  const std::size_t count = beds.size();
+  // Short dry gaps between wet places are bed as well: a step in the ground is no end of a river.
+  for (std::size_t i = 0; i < count;) {
+    std::size_t end = i;
+    while (end < count && beds[end] == RiverBed::dry) ++end;
+    if (end > i && i > 0 && end < count && end - i <= static_cast<std::size_t>(parameters.closed_cells))
+      std::fill(beds.begin() + static_cast<std::ptrdiff_t>(i), beds.begin() + static_cast<std::ptrdiff_t>(end), RiverBed::runs);
+    i = std::max(end, i + 1);
+  }
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i < count;) {
+    if (beds[i] != RiverBed::runs) {
+      ++i;
+      continue;
+    }
+    std::size_t end = i;
+    while (end < count && beds[end] == RiverBed::runs) ++end;
+    Piece piece{i, end - 1, i > 0 ? beds[i - 1] == RiverBed::dry : !ends.comes_in,
+                end < count ? beds[end] == RiverBed::dry : !ends.goes_on};
+    const bool long_enough = end - i >= static_cast<std::size_t>(parameters.least_cells);
+    // Between two lakes a river may be short.
+    if (long_enough || (!piece.rises && !piece.dries)) {
+      if (!piece.rises) piece.first -= std::min<std::size_t>(piece.first, into_open_cells);
+      if (!piece.dries) piece.last = std::min(count - 1, piece.last + into_open_cells);
+      pieces.push_back(piece);
+    }
+    i = end;
+  }
+  return pieces;
+}
+
+}  // namespace
+
+std::vector<Course> guess_courses(const Grid<float>& catchment_km2, const GeoTransform& transform,
+                                  const std::function<RiverBed(int x, int y)>& bed, const GuessedCourseParameters& parameters) {
+  std::vector<RiverReach> reaches = find_reaches(catchment_km2, parameters.least_km2);
+  std::vector<RiverBed> beds(reaches.size());
+  std::vector<bool> at_rim(reaches.size());
+  for (std::size_t i = 0; i < reaches.size(); ++i) {
+    RiverReach& reach = reaches[i];
+    const auto x = static_cast<int>(reach.place.x);
+    const auto y = static_cast<int>(reach.place.y);
+    beds[i] = bed(x, y);
+    at_rim[i] = x <= 1 || y <= 1 || x + 2 >= catchment_km2.width() || y + 2 >= catchment_km2.height();
+    const auto km2 = static_cast<double>(reach.catchment_km2);
+    const double grown = smoothstep((km2 - parameters.least_km2) / (parameters.full_km2 - parameters.least_km2));
+    reach.half_width_m = known_half_width_m(km2) * grown;
+  }
+  smooth_reaches(reaches);
+  std::vector<Course> courses;
+  for (const Line& line : follow_water(reaches)) {
+    std::vector<RiverBed> along;
+    along.reserve(line.reaches.size());
+    for (const std::size_t reach : line.reaches) along.push_back(beds[reach]);
+    const Ends ends{at_rim[line.reaches.front()], line.joins || at_rim[line.reaches.back()]};
+    std::vector<glm::dvec2> places;
+    for (const std::size_t reach : line.reaches) places.push_back(reaches[reach].place);
+    if (line.joins) lead_mouth(places, reaches, line.reaches.back());
+    const std::size_t before = line.reaches.size() - 1 - std::min(line.reaches.size() - 1, own_cells);
+    const double widest_m = reaches[line.joins ? line.reaches[before] : line.reaches.back()].half_width_m;
+    for (const Piece& piece : pieces_of(std::move(along), ends, parameters)) {
+      Course course;
+      for (std::size_t i = piece.first; i <= piece.last; ++i) {
+        const RiverReach& reach = reaches[line.reaches[i]];
+        course.places.push_back(transform.to_crs(places[i].x, places[i].y));
+        const auto faded = [](std::size_t away) { return smoothstep(static_cast<double>(away) / static_cast<double>(fade_cells)); };
+        const double share = (piece.rises ? faded(i - piece.first) : 1.0) * (piece.dries ? faded(piece.last - i) : 1.0);
+        course.half_width_m.push_back(static_cast<float>(share * std::min(reach.half_width_m, widest_m)));
+      }
+      if (course.places.size() > 1) courses.push_back(std::move(course));
+    }
+    along = {};
+  }
+  return courses;
+}
+
+}  // namespace belvedere

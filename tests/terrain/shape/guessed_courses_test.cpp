@@ -1,0 +1,97 @@
+#include "terrain/shape/guessed_courses.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace belvedere {
+namespace {
+
+constexpr double cell_m = 30.0;
+constexpr int rows = 200;
+constexpr int river_column = 60;
+const GeoTransform transform{0.0, rows* cell_m, cell_m, cell_m};
+
+// A river down a column from `from_km2`, `step_km2` more in each row; a brook along row 100 from the west, of 25 … 31 km².
+Grid<float> waters(double from_km2, double step_km2, bool brook = false) {
+  Grid<float> km2(121, rows, 0.5F);
+  for (int y = 0; y < rows; ++y) km2(river_column, y) = static_cast<float>(from_km2 + step_km2 * y);
+  for (int x = 1; brook && x < river_column; ++x) km2(x, 100) = static_cast<float>(25.0 + 0.1 * x);
+  return km2;
+}
+RiverBed everywhere(int, int) { return RiverBed::runs; }
+double row_of(glm::dvec2 place) { return transform.to_cell(place.x, place.y).y; }
+
+TEST(GuessedCourses, ComeUpFromNothingAndGrowAsKnownRiversDo) {
+  // Inside the ground, so that the beginning is a spring: 20 km² in row 40.
+  const std::vector<Course> courses = guess_courses(waters(0.0, 0.5), transform, everywhere);
+  ASSERT_EQ(courses.size(), 1U);
+  const Course& river = courses[0];
+  ASSERT_EQ(river.places.size(), river.half_width_m.size());
+  EXPECT_NEAR(row_of(river.places.front()), 40.0, 0.01);
+  EXPECT_EQ(river.half_width_m.front(), 0.F);
+  for (std::size_t i = 1; i < river.places.size(); ++i) {
+    EXPECT_NEAR(river.places[i].x, transform.to_crs(river_column, 0).x, 0.01);
+    EXPECT_GE(river.half_width_m[i], river.half_width_m[i - 1]);
+    EXPECT_LT(river.half_width_m[i] - river.half_width_m[i - 1], 1.0);
+  }
+  // 90 km² in row 180.
+  const auto at = std::min_element(river.places.begin(), river.places.end(),
+                                   [](glm::dvec2 a, glm::dvec2 b) { return std::abs(row_of(a) - 180.0) < std::abs(row_of(b) - 180.0); });
+  EXPECT_NEAR(river.half_width_m[static_cast<std::size_t>(at - river.places.begin())], known_half_width_m(90.0), 0.05);
+}
+
+TEST(GuessedCourses, KeepTheirWidthAtTheRimOfTheGround) {
+  const Course river = guess_courses(waters(100.0, 0.1), transform, everywhere).at(0);
+  EXPECT_NEAR(river.half_width_m.front(), known_half_width_m(100.0), 0.05);
+  EXPECT_NEAR(river.half_width_m.back(), known_half_width_m(119.9), 0.05);
+}
+
+TEST(GuessedCourses, FadeWhereTheirBedIsDryAndCloseShortGaps) {
+  const auto dry_between = [](int from, int to) {
+    return [=](int, int y) { return y >= from && y < to ? RiverBed::dry : RiverBed::runs; };
+  };
+  const GuessedCourseParameters usual;
+  const std::vector<Course> one = guess_courses(waters(100.0, 0.1), transform, dry_between(90, 90 + usual.closed_cells));
+  EXPECT_EQ(one.size(), 1U) << "a step in the ground is no end of a river";
+  const std::vector<Course> two = guess_courses(waters(100.0, 0.1), transform, dry_between(90, 110));
+  ASSERT_EQ(two.size(), 2U);
+  EXPECT_NEAR(row_of(two[0].places.back()), 89.0, 0.01);
+  EXPECT_EQ(two[0].half_width_m.back(), 0.F);
+  EXPECT_EQ(two[1].half_width_m.front(), 0.F);
+  EXPECT_GT(two[1].half_width_m.back(), 15.F);
+  EXPECT_TRUE(
+      guess_courses(waters(100.0, 0.1), transform, [](int, int y) { return y / 8 % 2 == 0 ? RiverBed::runs : RiverBed::dry; }).empty())
+      << "pieces shorter than least_cells";
+}
+
+TEST(GuessedCourses, EndInLakesAndBeginThereAtTheirWidth) {
+  const std::vector<Course> courses =
+      guess_courses(waters(100.0, 0.1), transform, [](int, int y) { return y >= 80 && y < 120 ? RiverBed::open : RiverBed::runs; });
+  ASSERT_EQ(courses.size(), 2U);
+  EXPECT_NEAR(row_of(courses[0].places.back()), 81.0, 0.01) << "two cells into it";
+  EXPECT_NEAR(courses[0].half_width_m.back(), known_half_width_m(108.0), 0.1);
+  EXPECT_NEAR(row_of(courses[1].places.front()), 118.0, 0.01);
+  EXPECT_NEAR(courses[1].half_width_m.front(), known_half_width_m(112.0), 0.1);
+}
+
+TEST(GuessedCourses, FlowAslantIntoTheLargerRiver) {
+  std::vector<Course> courses = guess_courses(waters(200.0, 0.1, true), transform, everywhere);
+  ASSERT_EQ(courses.size(), 2U);
+  const bool brook_first = courses[0].places.front().x < courses[1].places.front().x;
+  const Course& brook = brook_first ? courses[0] : courses[1];
+  const double river_x = transform.to_crs(river_column, 0).x;
+  EXPECT_NEAR(brook.places.back().x, river_x, 0.01) << "on its middle";
+  EXPECT_GT(row_of(brook.places.back()), 104.0) << "farther down than the water of the cells";
+  const glm::dvec2 way = brook.places.back() - brook.places[brook.places.size() - 4];
+  EXPECT_LT(way.y, -0.5 * glm::length(way)) << "down the river as well";
+  EXPECT_GT(way.x, 0.5 * glm::length(way));
+  // Its width is its own to the end, not the larger one's.
+  EXPECT_LT(brook.half_width_m.back(), 7.F);
+  EXPECT_GT(brook.half_width_m.back(), 2.F);
+}
+
+}  // namespace
+}  // namespace belvedere
