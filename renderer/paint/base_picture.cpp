@@ -10,7 +10,6 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/random_streams.h"
-#include "renderer/image/srgb.h"
 #include "renderer/paint/air.h"
 #include "renderer/paint/fields.h"
 #include "renderer/paint/forest_cover.h"
@@ -259,14 +258,6 @@ float firn_share(const Scenery& s, int x, int y) {
   const float bare = value_on_surface(s.wide, s.around.bare, s.origin_px.x + x, s.origin_px.y + y, s.guidance.depth_m(x, y));
   const float tongue = smoothstep(0.02F, 0.24F, bare);
   return s.palette.winter ? 1.0F - 0.35F * tongue : 1.0F - tongue;
-}
-
-// Encoded colour times light, as light multiplies: in linear values.
-glm::vec3 times_light(const glm::vec3& colour, float light) {
-  glm::vec3 out;
-  for (int c = 0; c < 3; ++c)
-    out[c] = static_cast<float>(srgb_encoded(srgb_decoded(static_cast<double>(colour[c])) * static_cast<double>(light)));
-  return out;
 }
 
 BasePixel ground_pixel(const Scenery& s, GroundNoises& noises, WaterNoises& waters, int x, int y) {

@@ -10,6 +10,7 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random_streams.h"
+#include "renderer/image/srgb.h"
 #include "renderer/paint/ground/snow_relief.h"
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/picture_noise.h"
@@ -197,6 +198,13 @@ Grid<float> woods_around(const WideView& wide, double pixels_per_unit, PixelRect
 }
 
 }  // namespace
+
+glm::vec3 times_light(const glm::vec3& colour, float light) {
+  glm::vec3 out;
+  for (int c = 0; c < 3; ++c)
+    out[c] = static_cast<float>(srgb_encoded(srgb_decoded(static_cast<double>(colour[c])) * static_cast<double>(light)));
+  return out;
+}
 
 GroundLight ground_light(const ToneParameters& p, glm::dvec2 place_m) {
   if (p.light_field) return p.light_field->at(place_m);

@@ -32,6 +32,9 @@ inline constexpr float middle_tone = 0.55F;
 // The raw light that a tone stands for: what the ground's own colour is multiplied with where light is a factor.
 constexpr float light_of_tone(float tone) { return raw_black + raw_range * (tone < 0.0F ? 0.0F : tone); }
 
+// An encoded colour times light, as light multiplies: in linear values.
+glm::vec3 times_light(const glm::vec3& colour, float light);
+
 // The light of a picture: one scalar a pixel from sun, cast shadow, sky view, relief and ribs. It indexes palette ramps; it is no radiance.
 struct ToneParameters {
   LightParameters light;

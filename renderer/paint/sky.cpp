@@ -106,8 +106,10 @@ float streak_at(const SkyParameters& p, const SkyLook& look, double x_px, double
   const double along = exact::log(rise_px / scale_px);
   const double bent = 0.22 * static_cast<double>(noises.waver(x * 0.5, elevation * 2.2));
   const double ray = (x_px - look.vanishing_px.x) / rise_px + bent;
-  const float broad = noises.streaks(ray / 0.34, along / 0.75);
-  const float fine = noises.threads(ray / 0.085, along / 0.40);
+  // Far aside rays lie ever closer: equal steps across are those of their logarithm.
+  const double across = std::copysign(exact::log(1.0 + std::abs(ray)), ray);
+  const float broad = noises.streaks(across / 0.34, along / 0.75);
+  const float fine = noises.threads(across / 0.085, along / 0.40);
   const float where = noises.patches(x / 1.1, along / 0.45);
   const float density = 0.50F * broad + 0.34F * fine + 0.70F * where - 0.30F + 0.5F * static_cast<float>(p.clouds - 1.0);
   return 0.60F * static_cast<float>(look.veils) * smoothstep(0.0F, 1.7F, density) * smoothstep(0.04F, 0.26F, static_cast<float>(elevation));

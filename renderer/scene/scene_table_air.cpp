@@ -42,7 +42,7 @@ std::vector<SceneSection> make_air_sections() {
             .field = AT(sky),
             .meaning =
                 "What clouds there are. fair: heaps here and there. rows: streets of small heaps that come from one place behind the "
-                "horizon. streaks: ice high up, from such a place. banks: a wall of cloud behind the ranges. any: one of these, by seed "
+                "horizon. streaks: ice high up, that leans one way. banks: a wall of cloud behind the ranges. any: one of these, by seed "
                 "and view. By weather: cumulus, high heaps in streets; front, a deck that draws up from one side; evening, long bars lit "
                 "from below.",
             .text = TextKind::choice,

@@ -304,6 +304,9 @@ void add_bars(std::vector<Cloud>& clouds, const SkyParameters& p, const SkyLook&
 
 }  // namespace
 
+// Widths of the picture: where streaks come from, beside its left edge, and how much farther out the farther from the middle it is drawn.
+constexpr glm::dvec2 streaks_beside{-0.10, 1.2};
+
 double cloud_scale_px(const SkyParameters& p) { return std::min(p.horizon_px, 0.09 * p.picture_size.x); }
 
 SkyKind find_sky_kind(std::string_view name) {
@@ -337,7 +340,10 @@ SkyLook look_of_sky(const SkyParameters& p) {
   look.veils = look.kind == SkyKind::streaks ? draws.between(0.85, 1.15) : draws.between(0.35, 1.0);
   const double across = draws.between(0.12, 0.88);
   const double below = draws.between(1.10, 1.30);
-  look.vanishing_px = {across * p.picture_size.x, below * p.horizon_px};
+  // Streaks all lean one way, as wind draws them: what comes from a place within the picture fans out like rays over a low sky.
+  const double beside =
+      across < 0.5 ? streaks_beside.x - streaks_beside.y * (0.5 - across) : 1.0 - streaks_beside.x + streaks_beside.y * (across - 0.5);
+  look.vanishing_px = {(look.kind == SkyKind::streaks ? beside : across) * p.picture_size.x, below * p.horizon_px};
   return look;
 }
 

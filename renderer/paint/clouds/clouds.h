@@ -31,7 +31,7 @@ struct SkyLook {
   double raised = 1.0;           // on how high they stand
   double heaped = 0.5;           // 0 drawn out by the wind … 1 heaps
   double veils = 1.0;            // on how dense veils and streaks are
-  glm::dvec2 vanishing_px{0.0};  // where rows and streaks seem to come from: a place of the picture below the horizon
+  glm::dvec2 vanishing_px{0.0};  // where rows and streaks seem to come from, below the horizon: rows within the picture, streaks beside it
 };
 // Of a name: those of the enumerators. Error(input) for another.
 SkyKind find_sky_kind(std::string_view name);
