@@ -21,6 +21,8 @@ constexpr float widest_surf_m = 120.F;  // surf is no wider on the ground, howev
 constexpr float look_units = 2.5F;      // up and down the water, for how steeply it falls itself
 constexpr float fall_from = 0.25F;      // drop over way, where rivers begin to whiten …
 constexpr float fall_to = 0.53F;        // … and are white
+constexpr int bank_steps = 5;           // of look_units: the bank of a lake is no wider, as far as coarse cells draw water up it
+constexpr float level_slope = 0.03F;    // the surface of a lake falls less
 
 // The white of broken water.
 glm::vec3 foam_white(const StrokeScene& scene, std::size_t i) {
@@ -52,6 +54,33 @@ Shore shore_around(const StrokeScene& scene, glm::vec2 place, std::size_t i, flo
   return shore;
 }
 
+// Where on the ground the water of a place goes on at another; nothing where that is no water, or another slope's.
+std::optional<glm::vec3> water_at(const StrokeScene& scene, std::size_t i, glm::vec2 there) {
+  if (!scene.on_canvas(there)) return std::nullopt;
+  const std::size_t k = scene.pixel(there);
+  if (scene.class_at(k) != water || !on_same_slope(scene, i, k)) return std::nullopt;
+  return scene.guidance.position_m[k];
+}
+
+// Drop over way.
+float slope_of(glm::vec3 way) { return way.z / std::max(glm::length(glm::vec2(way)), 1.F); }
+
+// Whether water lies on the bank of a lake rather than falls: down the slope it soon is level, and broad.
+bool is_bank(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
+  const glm::vec2 step = scene.fall_line(place) * (look_units * scene.scale());
+  const glm::vec2 aside = 0.6F * glm::vec2(-step.y, step.x);
+  const auto is_wet = [&](glm::vec2 there) { return !scene.on_canvas(there) || water_at(scene, i, there); };
+  glm::vec3 before = scene.guidance.position_m[i];
+  for (int k = 1; k <= bank_steps; ++k) {
+    const glm::vec2 there = place + static_cast<float>(k) * step;
+    const std::optional<glm::vec3> here = water_at(scene, i, there);
+    if (!here) return false;
+    if (std::abs(slope_of(before - *here)) < level_slope && is_wet(there + aside) && is_wet(there - aside)) return true;
+    before = *here;
+  }
+  return false;
+}
+
 // How water falls at a place: drop over way where it falls most steeply, and which way that is on the sheet. 0 at its ends and on lakes,
 // whatever their banks do.
 struct WaterFall {
@@ -59,30 +88,23 @@ struct WaterFall {
   glm::vec2 down{0.F, 1.F};
 };
 WaterFall fall_of_water(const StrokeScene& scene, glm::vec2 place, std::size_t i) {
-  const auto water_at = [&](glm::vec2 there) -> std::optional<glm::vec3> {
-    if (!scene.on_canvas(there)) return std::nullopt;
-    const std::size_t k = scene.pixel(there);
-    if (scene.class_at(k) != water || !on_same_slope(scene, i, k)) return std::nullopt;
-    return scene.guidance.position_m[k];
-  };
-  const auto slope_of = [](glm::vec3 way) { return way.z / std::max(glm::length(glm::vec2(way)), 1.F); };
   const glm::vec2 down = scene.fall_line(place);
   const glm::vec2 step = down * (look_units * scene.scale());
-  const std::optional<glm::vec3> above = water_at(place - step);
-  const std::optional<glm::vec3> below = water_at(place + step);
+  const std::optional<glm::vec3> above = water_at(scene, i, place - step);
+  const std::optional<glm::vec3> below = water_at(scene, i, place + step);
   if (above && below) return {slope_of(*above - *below), down};
   // The rim of broad water.
   const glm::vec3 here = scene.guidance.position_m[i];
-  if (below && water_at(place + 2.F * step)) return {slope_of(here - *below), down};
-  if (above && water_at(place - 2.F * step)) return {slope_of(*above - here), down};
+  if (below && water_at(scene, i, place + 2.F * step)) return {slope_of(here - *below), down};
+  if (above && water_at(scene, i, place - 2.F * step)) return {slope_of(*above - here), down};
   // A brook is narrow and does not run down the fall line of the wall it falls over: the water itself is felt for, in eight axes.
   constexpr glm::vec2 axes[8] = {{1.F, 0.F}, {0.9239F, 0.3827F},  {0.7071F, 0.7071F},  {0.3827F, 0.9239F},
                                  {0.F, 1.F}, {-0.3827F, 0.9239F}, {-0.7071F, 0.7071F}, {-0.9239F, 0.3827F}};
   WaterFall fall;
   for (const glm::vec2 axis : axes) {
     const glm::vec2 along = axis * (look_units * scene.scale());
-    const std::optional<glm::vec3> a = water_at(place - along);
-    const std::optional<glm::vec3> b = water_at(place + along);
+    const std::optional<glm::vec3> a = water_at(scene, i, place - along);
+    const std::optional<glm::vec3> b = water_at(scene, i, place + along);
     if (!a || !b) continue;
     const float slope = slope_of(*a - *b);
     if (std::abs(slope) > fall.slope) fall = {std::abs(slope), slope > 0.F ? axis : -axis};
@@ -124,7 +146,7 @@ std::vector<Stroke> river_foam(const StrokeScene& scene, Stream stream) {
     if (scene.class_at(i) != water) return;
     const WaterFall fall = fall_of_water(scene, place, i);
     const float steep = smoothstep(fall_from, fall_to, fall.slope);
-    if (seed.uniform() > 0.85F * steep) return;
+    if (seed.uniform() > 0.85F * steep || is_bank(scene, place, i)) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.gate = StrokeGate::water;
     lay_on_top(stroke);

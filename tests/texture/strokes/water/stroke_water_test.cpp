@@ -79,6 +79,18 @@ TEST(WaterStrokes, FallsAreWhiteAndRunDown) {
   EXPECT_TRUE(grow_strokes("river foam", p.scene()).empty());
 }
 
+// Coarse cells draw a lake some way up its bank: rows 60 to 70 here, over level water.
+TEST(WaterStrokes, TheBankOfALakeIsNoFall) {
+  Picture lake = water();
+  for (int y = 60; y < 70; ++y)
+    for (int x = 0; x < width; ++x) lake.guidance.position_m(x, y).z += 25.F * static_cast<float>(70 - y);
+  EXPECT_TRUE(grow_strokes("river foam", lake.scene()).empty());
+  // The same water as a river's, which goes on falling.
+  for (int y = 70; y < height; ++y)
+    for (int x = 0; x < width; ++x) lake.guidance.position_m(x, y).z -= 25.F * static_cast<float>(y - 70);
+  EXPECT_GT(grow_strokes("river foam", lake.scene()).size(), 1000U);
+}
+
 // Water is swept, ice is dabbed.
 TEST(WaterStrokes, IceIsPaintedInShorterStrokesThanWater) {
   const auto mean_length = [](double frozen_from_m) {
