@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -263,25 +262,14 @@ void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress, 
 
 namespace {
 
-// Guessed rivers as those of the scene's style, below everything that a map has; the kind of each is not the map's own.
-void take_guessed(std::vector<CoverCourse>&& guessed, const FeatureStyle& style, std::vector<CoverCourse>& rivers) {
-  const int kind = style.find(guessed_kind);
-  for (CoverCourse& river : guessed) {
-    river.rank = std::numeric_limits<double>::lowest();
-    river.kind = kind;
-    if (kind >= 0) river.painted_as = style.kinds[static_cast<std::size_t>(kind)].ground.value_or(river.painted_as);
-    rivers.push_back(std::move(river));
-  }
-}
-
-// Rivers as they are seen; those from `first_guessed` on fade rather than break into dots.
-std::vector<CoverCourse> widen_rivers(std::vector<CoverCourse> rivers, std::size_t first_guessed, const FeatureStyle& style,
-                                      const LoadedScene& loaded, const Dem& dem, const SeenFrom& seen) {
+// Rivers as they are seen; `fade` rather than break into dots.
+std::vector<CoverCourse> widen_rivers(std::vector<CoverCourse> rivers, bool fade, const FeatureStyle& style, const LoadedScene& loaded,
+                                      const Dem& dem, const SeenFrom& seen) {
   parallel_ranges<std::size_t>(rivers.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) {
       const int kind = rivers[i].kind;
       const FeatureKind of_kind = kind >= 0 ? style.kinds[static_cast<std::size_t>(kind)] : FeatureKind();
-      rivers[i] = widen_for_view(std::move(rivers[i]), {least_river_px(of_kind, loaded), i >= first_guessed}, dem, seen);
+      rivers[i] = widen_for_view(std::move(rivers[i]), {least_river_px(of_kind, loaded), fade}, dem, seen);
     }
   });
   return rivers;
@@ -293,21 +281,40 @@ void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem,
                     Catchments* catchments, const SeenFrom* seen) {
   const GroundMap map = read_ground_map(loaded, dem, silent_progress(), cache);
   std::vector<CoverCourse> rivers = lay_rivers(map.rivers, loaded, dem, progress, cache, catchments);
-  const std::size_t first_guessed = rivers.size();
-  if (map.areas.empty() && rivers.empty() && cover.guessed_rivers.empty()) return;
+  if (!map.areas.empty() || !rivers.empty()) {
+    std::size_t places = 0;
+    for (const CoverArea& area : map.areas)
+      for (const auto& ring : area.rings) places += ring.size();
+    for (const CoverCourse& river : rivers) places += river.places.size();
+    check_memory(fmt::format("areas and rivers of {} places, a river's a cell apart,", places),
+                 bytes_a_place * static_cast<double>(places));
+    const MapBox box = box_of(dem);
+    // Cells are the ground's, whoever looks at it; only what is asked for a place of the picture is as wide as it must be to be seen.
+    const auto own = std::make_shared<const MapCover>(map.areas, rivers, box.low, box.high);
+    if (seen == nullptr || rivers.empty()) {
+      lay_map(cover, own);
+    } else {
+      rivers = widen_rivers(std::move(rivers), false, scene_style(loaded), loaded, dem, *seen);
+      lay_map(cover, std::make_shared<const MapCover>(map.areas, std::move(rivers), box.low, box.high), own.get());
+    }
+  }
+  lay_guessed_rivers(cover, loaded, dem, seen);
+}
+
+void lay_guessed_rivers(LandCover& cover, const LoadedScene& loaded, const Dem& dem, const SeenFrom* seen) {
+  std::vector<CoverCourse> rivers = std::exchange(cover.guessed_rivers, {});
+  if (rivers.empty()) return;
   const FeatureStyle style = scene_style(loaded);
-  take_guessed(std::exchange(cover.guessed_rivers, {}), style, rivers);
-  std::size_t places = 0;
-  for (const CoverArea& area : map.areas)
-    for (const auto& ring : area.rings) places += ring.size();
-  for (const CoverCourse& river : rivers) places += river.places.size();
-  check_memory(fmt::format("areas and rivers of {} places, a river's a cell apart,", places), bytes_a_place * static_cast<double>(places));
+  const int kind = style.find(guessed_kind);
+  for (CoverCourse& river : rivers) {
+    river.kind = kind;
+    if (kind >= 0) river.painted_as = style.kinds[static_cast<std::size_t>(kind)].ground.value_or(river.painted_as);
+  }
   const MapBox box = box_of(dem);
-  // Cells are the ground's, whoever looks at it; only what is asked for a place of the picture is as wide as it must be to be seen.
-  const auto own = std::make_shared<const MapCover>(map.areas, rivers, box.low, box.high);
-  if (seen == nullptr || rivers.empty()) return lay_map(cover, own);
-  rivers = widen_rivers(std::move(rivers), first_guessed, style, loaded, dem, *seen);
-  lay_map(cover, std::make_shared<const MapCover>(map.areas, std::move(rivers), box.low, box.high), own.get());
+  const auto own = std::make_shared<const MapCover>(std::vector<CoverArea>(), rivers, box.low, box.high);
+  if (seen == nullptr) return lay_guessed(cover, own);
+  rivers = widen_rivers(std::move(rivers), true, style, loaded, dem, *seen);
+  lay_guessed(cover, std::make_shared<const MapCover>(std::vector<CoverArea>(), std::move(rivers), box.low, box.high), own.get());
 }
 
 }  // namespace belvedere

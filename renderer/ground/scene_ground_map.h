@@ -41,4 +41,7 @@ void level_scene_lakes(Dem& dem, const LoadedScene& loaded, Progress& progress, 
 void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache = no_cache(),
                     Catchments* catchments = nullptr, const SeenFrom* seen = nullptr);
 
+// The last of that alone: rivers that rules guessed, as those of the scene's style.
+void lay_guessed_rivers(LandCover& cover, const LoadedScene& loaded, const Dem& dem, const SeenFrom* seen = nullptr);
+
 }  // namespace belvedere

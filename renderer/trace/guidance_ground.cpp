@@ -36,7 +36,7 @@ bool frays(LandCoverClass id) {
 // A map of exact lines and areas has another place there where a widened valley moved them (TerrainModel::goes_to): `map_off` from it.
 LandCoverClass class_of(const LandCover& cover, glm::dvec2 place, glm::dvec2 map_off) {
   if (map_off == glm::dvec2(0.0)) return cover.at(place.x, place.y);
-  const LandCoverClass known = cover.map->at(place + map_off);
+  const LandCoverClass known = cover.laid_at(place + map_off);
   return known != LandCoverClass::sky ? known : cover.cell_at(place.x, place.y);
 }
 
@@ -156,7 +156,7 @@ LandCoverClass class_at(const TerrainModel& terrain, double column, double row) 
   const glm::dvec2 origin = origin_of(terrain, column, row);
   const glm::dvec2 place = terrain.dem->transform.to_crs(origin.x, origin.y);
   glm::dvec2 map_off(0.0);
-  if (!terrain.goes_to.empty() && terrain.land_cover->map != nullptr) {
+  if (!terrain.goes_to.empty() && (terrain.land_cover->map != nullptr || terrain.land_cover->guessed != nullptr)) {
     const glm::dvec2 known = origin_cell(terrain.goes_to, {column, row});
     map_off = terrain.dem->transform.to_crs(known.x, known.y) - place;
   }

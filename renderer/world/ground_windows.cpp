@@ -171,6 +171,7 @@ TerrainModel make_window(const TerrainModel& whole, const Nested& nested, const 
   window_ground.part = moved(planned.part, -made.x0, -made.y0);
   if (next != nullptr) window_ground.kept = kept_for(*next, making.levels.frame(), made);
   window_ground.around = std::move(seen);
+  window_ground.seen = &making.seen;
   auto [cover, seen_here] = make_window_cover(making.loaded, window_ground, known, quiet, making.cache);
   seen = std::move(seen_here);
   GeneralizedTerrain ground = generalize_for_view(making.loaded, *halo, &cover, making.view, quiet, making.cache, &window_ground.sea);

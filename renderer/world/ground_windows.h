@@ -2,6 +2,7 @@
 
 #include "base/cache/cache.h"
 #include "base/progress.h"
+#include "renderer/ground/laid_rivers.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/trace/terrain_model.h"
 #include "renderer/world/ground_plan.h"
@@ -21,6 +22,7 @@ struct WindowMaking {
   DemLevels& levels;
   Progress& progress;
   const Cache& cache;
+  const SeenFrom& seen;
 };
 
 // Reads, covers and generalizes each window of the plan with a halo, as the whole was, and lays it into the ground before it: along the

@@ -40,6 +40,18 @@ std::string left_out(const SourceReading& reading) {
   return text;
 }
 
+// Of maps and guessed ones; windows of finer ground guess them anew.
+std::vector<CoverCourse> rivers_of(const World& world) {
+  std::vector<CoverCourse> rivers;
+  const auto add = [&](const std::shared_ptr<const MapCover>& map) {
+    if (map != nullptr) rivers.insert(rivers.end(), map->courses().begin(), map->courses().end());
+  };
+  add(world.land_cover->map);
+  add(world.land_cover->guessed);
+  for (const TerrainWindow& window : world.terrain.windows) add(window.ground.land_cover->guessed);
+  return rivers;
+}
+
 }  // namespace
 
 FeatureStyle read_scene_feature_style(const LoadedScene& loaded) {
@@ -99,9 +111,8 @@ void check_extents(const FeatureSet& set, const Dem& dem) {
 }
 
 DrawnFeatures draw_scene_features(const LoadedScene& loaded, const World& world, bool winter, Progress& progress) {
-  const MapCover* map = world.land_cover->map.get();
-  const bool guessed = map != nullptr && !map->courses().empty();
-  if (loaded.scene.features.empty() && !guessed) return {};
+  const std::vector<CoverCourse> rivers = rivers_of(world);
+  if (loaded.scene.features.empty() && rivers.empty()) return {};
   FeatureSet set;
   if (loaded.scene.features.empty())
     set.style = read_scene_feature_style(loaded);
@@ -115,7 +126,7 @@ DrawnFeatures draw_scene_features(const LoadedScene& loaded, const World& world,
                                        .seed = world.scene.seed,
                                        .sun = world.view.sun_direction,
                                        .light_field = world.light_field},
-                                      map != nullptr ? std::span(map->courses()) : std::span<const CoverCourse>());
+                                      rivers);
   check_extents(set, *world.dem);
   return drawn;
 }

@@ -38,7 +38,7 @@ void each_field(auto& bytes, FieldsOf<CoverCourse> auto& course) {
 }
 
 void each_field(auto& bytes, FieldsOf<LandCover> auto& cover) {
-  auto& [classes, colours, relief, map, below, guessed_rivers] = cover;  // a map is laid over what was kept
+  auto& [classes, colours, relief, map, guessed, below, guessed_rivers] = cover;  // a map is laid over what was kept
   auto& [cells, transform, crs] = classes;
   auto& [colour_cells, colour_transform, colour_crs] = colours;
   auto& [relief_transform, bumps, lake_depth_m] = relief;
@@ -374,6 +374,7 @@ WindowCover make_window_cover(const LoadedScene& loaded, const WindowGround& win
   LandCover cover = make_full_cover(loaded, *window.dem, context, progress, cache);
   cover = remove_small_patches(std::move(cover), loaded.scene.land_cover.patches).cover;
   if (whole.map != nullptr) lay_map(cover, whole.map);
+  lay_guessed_rivers(cover, loaded, *window.dem, window.seen);
   return {std::move(cover), std::move(seen)};
 }
 

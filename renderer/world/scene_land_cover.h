@@ -51,6 +51,7 @@ struct WindowGround {
   PixelRect part;                    // of its cells, which is shown
   PixelRect kept;                    // of its cells, that the next window asks for
   std::optional<SeenGround> around;  // the ground before it
+  const SeenFrom* seen = nullptr;    // for guessed rivers
 };
 WindowCover make_window_cover(const LoadedScene& scene, const WindowGround& window, const WholeTerrain& whole, Progress& progress,
                               const Cache& cache = no_cache());

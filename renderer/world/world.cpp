@@ -86,7 +86,8 @@ TerrainModel with_windows(TerrainModel terrain, const LoadedScene& loaded, const
   const RasterFrame& frame = opened.levels->frame();
   const GroundPlan plan = plan_ground(frame, *world.dem, world.view, opened.most_cells);
   progress.note(describe(plan, frame));
-  add_ground_windows(terrain, plan, {loaded, world.view, world.deformation, opened.sea, *opened.levels, progress, cache});
+  const SeenFrom seen{*world.camera, world.deformation};
+  add_ground_windows(terrain, plan, {loaded, world.view, world.deformation, opened.sea, *opened.levels, progress, cache, seen});
   opened = {};
   return terrain;
 }

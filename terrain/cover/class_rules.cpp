@@ -280,8 +280,7 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
   remove_specks(classes, static_cast<int>(parameter_or(parameters, "speck_cells", 5.0)));
   progress.advance(1.0);
   LandCover cover{{std::move(classes), dem.transform, dem.crs}};
-  // A window's are those of the whole, which its map has.
-  if (given.rivers && program.rivers && given.whole == nullptr) cover.guessed_rivers = guess_rivers(run, waters.km2(), cover.classes.cells);
+  if (given.rivers && program.rivers) cover.guessed_rivers = guess_rivers(run, waters.km2(), cover.classes.cells);
   if (seen != nullptr) *seen = seen_by(std::move(run), std::move(made_ice));
   return cover;
 }

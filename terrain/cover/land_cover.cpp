@@ -123,6 +123,19 @@ void clear_guessed_water(Grid<LandCoverClass>& cells, const Grid<std::uint8_t>& 
   cells = std::move(out);
 }
 
+// Cells of a map, where no other lies over it.
+void lay_over(LandCover& cover, const MapCover& ground) {
+  Grid<LandCoverClass>& cells = cover.classes.cells;
+  parallel_rows(cells.height(), [&](int y) {
+    for (int x = 0; x < cells.width(); ++x) {
+      const glm::dvec2 place = cover.classes.transform.to_crs(x, y);
+      const LandCoverClass known = ground.at(place);
+      if (known == LandCoverClass::sky || (cover.map != nullptr && cover.map->at(place) != LandCoverClass::sky)) continue;
+      cells(x, y) = known;
+    }
+  });
+}
+
 }  // namespace
 
 float GroundRelief::depth_at(double x, double y) const {
@@ -132,9 +145,13 @@ float GroundRelief::depth_at(double x, double y) const {
 }
 
 LandCoverClass LandCover::at(double x, double y) const {
-  if (map != nullptr)
-    if (const LandCoverClass known = map->at({x, y}); known != LandCoverClass::sky) return known;
-  return cell_at(x, y);
+  const LandCoverClass known = laid_at({x, y});
+  return known != LandCoverClass::sky ? known : cell_at(x, y);
+}
+
+LandCoverClass LandCover::laid_at(glm::dvec2 place) const {
+  const LandCoverClass known = map != nullptr ? map->at(place) : LandCoverClass::sky;
+  return known == LandCoverClass::sky && guessed != nullptr ? guessed->at(place) : known;
 }
 
 LandCoverClass LandCover::cell_at(double x, double y) const {
@@ -182,12 +199,15 @@ void lay_map(LandCover& cover, std::shared_ptr<const MapCover> map, const MapCov
     for (int x = 0; x < cells.width(); ++x) lake(x, y) = ground.is_still(transform.to_crs(x, y)) ? 1 : 0;
   });
   clear_guessed_water(cells, lake);
-  cover.below = cells;
-  parallel_rows(cells.height(), [&](int y) {
-    for (int x = 0; x < cells.width(); ++x)
-      if (const LandCoverClass known = ground.at(transform.to_crs(x, y)); known != LandCoverClass::sky) cells(x, y) = known;
-  });
+  if (cover.below.empty()) cover.below = cells;
+  lay_over(cover, ground);
   cover.map = std::move(map);
+}
+
+void lay_guessed(LandCover& cover, std::shared_ptr<const MapCover> guessed, const MapCover* own) {
+  if (cover.below.empty()) cover.below = cover.classes.cells;
+  lay_over(cover, own != nullptr ? *own : *guessed);
+  cover.guessed = std::move(guessed);
 }
 
 LandCover read_land_cover(const LandCoverParameters& parameters, const RasterFrame& frame, Progress& progress) {

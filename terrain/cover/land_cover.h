@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <map>
 #include <memory>
@@ -57,23 +58,28 @@ struct LandCover {
   Raster<LandCoverClass> classes;     // sky where no land cover is known; never empty
   Raster<GroundColour> colours = {};  // on cells of their own; empty where nobody asked for them
   GroundRelief relief = {};           // the same
-  // Areas and rivers of a map that lie over the classes, with their own outlines; null: none. `classes` has them in its cells …
+  // Areas and rivers of a map that lie over the classes, with their own outlines, and below them rivers that are guessed; null: none.
+  // `classes` has them in its cells …
   std::shared_ptr<const MapCover> map = {};
-  Grid<LandCoverClass> below = {};  // … and these are the cells without them; empty without a map
-  // Rivers that rules guessed: lines with a width, which `classes` has only where a map that they are part of was laid.
-  std::vector<CoverCourse> guessed_rivers = {};
+  std::shared_ptr<const MapCover> guessed = {};
+  Grid<LandCoverClass> below = {};               // … and these are the cells without them; empty without both
+  std::vector<CoverCourse> guessed_rivers = {};  // before they are laid: what rules made beside the classes
 
   // The class at a place in the scene's CRS: membership of each class interpolated by cubic B-spline, then the largest (ties
   // to the lower id). Smooth borders, no stairs of the raster's cells; what is one cell wide becomes a little narrower, single
   // cells vanish. Beyond the raster the nearest cells go on. What a map has at the place goes before.
   LandCoverClass at(double x, double y) const;
-  // The same without what a map has there.
+  // The same without what a map has there …
   LandCoverClass cell_at(double x, double y) const;
+  // … and that alone, guessed rivers too; sky where there is nothing.
+  LandCoverClass laid_at(glm::dvec2 place) const;
 };
 
 // Lays a map over the classes. Guessed water that touches a lake of the map becomes what lies around it: the map knows the shore. The cells
 // are those of `own` where it is given: the same map before its rivers were widened for a picture.
 void lay_map(LandCover& cover, std::shared_ptr<const MapCover> map, const MapCover* own = nullptr);
+// Lays guessed rivers below the map, likewise.
+void lay_guessed(LandCover& cover, std::shared_ptr<const MapCover> guessed, const MapCover* own = nullptr);
 
 struct LandCoverParameters {
   std::vector<RasterSource> sources;

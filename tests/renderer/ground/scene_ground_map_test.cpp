@@ -109,9 +109,10 @@ TEST_F(GroundMaps, RiversLieInTheirValleysAndGuessedOnesGiveWay) {
 TEST_F(GroundMaps, WithoutFeaturesThereAreGuessedRiversAlone) {
   write(area("road", 1, 1, 2, 2));
   const LandCover guessed = cover(scene());
-  ASSERT_NE(guessed.map, nullptr);
+  EXPECT_EQ(guessed.map, nullptr);
+  ASSERT_NE(guessed.guessed, nullptr);
   EXPECT_TRUE(has_water(guessed, 110, 85, 95));
-  for (const CoverCourse& river : guessed.map->courses()) EXPECT_EQ(river.painted_as, water);
+  for (const CoverCourse& river : guessed.guessed->courses()) EXPECT_EQ(river.painted_as, water);
   // Down the valley without a gap, however narrow.
   for (double row = 60; row < 119; row += 0.7) EXPECT_TRUE(has_water(guessed, row, 88, 92)) << row;
 }
@@ -121,6 +122,7 @@ TEST_F(GroundMaps, NothingIsLaidWhereRulesKnowNoRivers) {
   folder_.write("bare.toml", "version = 1\nname = \"bare\"\n[[layers]]\nclass = \"pasture\"\nwhen = \"1\"\n");
   const LandCover none = cover(scene("[land_cover]\nrules = \"bare.toml\"\n"));
   EXPECT_EQ(none.map, nullptr);
+  EXPECT_EQ(none.guessed, nullptr);
   EXPECT_TRUE(none.below.empty());
 }
 

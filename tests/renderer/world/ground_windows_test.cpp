@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/filter.h"
@@ -15,6 +16,7 @@
 #include "base/parallel.h"
 #include "renderer/trace/guidance.h"
 #include "renderer/world/world.h"
+#include "terrain/cover/map_cover.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/synthetic/synthetic.h"
 #include "tests/files.h"
@@ -94,6 +96,36 @@ sheet_width_mm = 160
 test::Folder* GroundWindows::folder_ = nullptr;
 
 constexpr const char* few_cells = "terrain.most_mcells=0.6";
+
+// Guessed rivers of a window run where those of the same cells run in the whole, not where coarser cells have their valley.
+TEST_F(GroundWindows, RiversLieInTheValleysOfTheirOwnCells) {
+  const World whole(scene(), silent_progress());
+  const World parts(scene({few_cells}), silent_progress());
+  ASSERT_EQ(parts.terrain.windows.size(), 2U);
+  const auto mean_apart_m = [&](const TerrainModel& ground, const Dem& dem, const PixelRect& part) {
+    double sum = 0.0;
+    int count = 0;
+    if (ground.land_cover->guessed == nullptr) return std::pair(sum, count);
+    for (const CoverCourse& river : whole.land_cover->guessed->courses())
+      for (std::size_t i = 0; i < river.places.size(); ++i) {
+        const glm::dvec2 at = dem.transform.to_cell(river.places[i].x, river.places[i].y);
+        const bool inside = at.x > part.x0 + 40 && at.y > part.y0 + 40 && at.x < part.x1 - 40 && at.y < part.y1 - 40;
+        if (!inside || river.half_width_m[i] < 8.F) continue;
+        double nearest = 1e9;
+        for (const CoverCourse& other : ground.land_cover->guessed->courses())
+          for (const glm::dvec2 place : other.places) nearest = std::min(nearest, glm::distance(place, river.places[i]));
+        sum += nearest;
+        ++count;
+      }
+    return std::pair(sum / std::max(count, 1), count);
+  };
+  const TerrainWindow& finest = parts.terrain.windows.back();
+  const auto [own, places] = mean_apart_m(finest.ground, *finest.ground.dem, finest.part);
+  EXPECT_GT(places, 30);
+  EXPECT_LT(own, 15.0) << "half a cell";
+  const auto [coarse, same_places] = mean_apart_m(parts.terrain, *finest.ground.dem, finest.part);
+  EXPECT_GT(coarse, 2.0 * own) << "the whole's coarser cells know no better, or this test needs no windows";
+}
 
 bool is_sky(const GuidanceBuffers& seen, int x, int y) { return !std::isfinite(seen.depth_m(x, y)); }
 
