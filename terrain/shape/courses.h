@@ -30,7 +30,7 @@ struct Courses {
 // that cross-section the better), how high they lie over the lowest of it, and how far they are from where the map has the river. The
 // course is the way of least cost through all cross-sections (dynamic programming, as by Viterbi 1967), where turning away from the map's
 // line costs as well, smoothed by some cells. Where a river ends within that distance of a larger one it flows into
-// it. Its width is that of guessed rivers (hydrology.h) without their beginning, or the map's where that is larger.
+// it. Its width is known_half_width_m(), or the map's where that is larger.
 Courses lay_courses(const std::vector<DrawnCourse>& drawn, const Dem& dem, const Grid<float>& catchment_km2);
 
 // 18 m · (area / 110 km²)^.458, at most 90 m: river_half_width_m() where the map says that there is a river, however small.
