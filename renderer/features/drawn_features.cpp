@@ -323,7 +323,6 @@ DrawnFeatures draw_features(const FeatureSet& set, const GroundSight& sight, con
   for (std::size_t i = 0; i < made.size(); ++i) {
     const Feature& feature = set.features[i];
     add(made[i].count, drawn.counts[static_cast<std::size_t>(feature.source)][static_cast<std::size_t>(feature.kind)]);
-    drawn.rivers = drawn.rivers || set.style.kinds[static_cast<std::size_t>(feature.kind)].draw == FeatureDraw::river;
     std::move(made[i].lines.begin(), made[i].lines.end(), std::back_inserter(drawn.lines));
     std::move(made[i].houses.begin(), made[i].houses.end(), std::back_inserter(drawn.houses));
   }

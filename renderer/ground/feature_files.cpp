@@ -26,6 +26,10 @@ std::string extent_of(const MapBox& box) {
 
 MapBox box_of(const Dem& dem) { return {dem.transform.to_crs(-0.5, dem.height() - 0.5), dem.transform.to_crs(dem.width() - 0.5, -0.5)}; }
 
+FeatureStyle read_scene_feature_style(const LoadedScene& loaded) {
+  return load_feature_style(find_named_file(loaded, "features", loaded.scene.features_style));
+}
+
 std::vector<FeatureSource> feature_sources(const LoadedScene& loaded) {
   std::vector<FeatureSource> sources;
   for (std::size_t i = 0; i < loaded.scene.features.size(); ++i) {

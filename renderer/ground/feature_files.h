@@ -12,6 +12,9 @@ namespace belvedere {
 // The outer edges of a terrain.
 MapBox box_of(const Dem& dem);
 
+// The style a scene names.
+FeatureStyle read_scene_feature_style(const LoadedScene& loaded);
+
 // What a scene's blocks of features say is read, in their order. A file that is missing is left out here, and said by those who need it.
 std::vector<FeatureSource> feature_sources(const LoadedScene& loaded);
 

@@ -75,10 +75,6 @@ std::vector<Feature> unpack(const PackedRows& packed) {
   return features;
 }
 
-FeatureStyle scene_style(const LoadedScene& loaded) {
-  return load_feature_style(find_named_file(loaded, "features", loaded.scene.features_style));
-}
-
 // A shapefile's attributes and CRS stand in files beside it.
 std::string hash_with_companions(const std::string& path) {
   std::string all = hash_file(path);
@@ -228,7 +224,7 @@ GroundMap sort_out(const LoadedScene& loaded, const FeatureStyle& style, std::ve
 
 GroundMap read_ground_map(const LoadedScene& loaded, const Dem& dem, Progress& progress, const Cache& cache) {
   if (loaded.scene.features.empty()) return {};
-  const FeatureStyle style = scene_style(loaded);
+  const FeatureStyle style = read_scene_feature_style(loaded);
   const PackedRows packed = cached<PackedRows>(
       cache, [&] { return features_key(loaded, dem); }, progress,
       [&](Progress& watcher) { return pack(read_ground_features(loaded, style, dem, watcher)); });
@@ -294,7 +290,7 @@ void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem,
     if (seen == nullptr || rivers.empty()) {
       lay_map(cover, own);
     } else {
-      rivers = widen_rivers(std::move(rivers), false, scene_style(loaded), loaded, dem, *seen);
+      rivers = widen_rivers(std::move(rivers), false, read_scene_feature_style(loaded), loaded, dem, *seen);
       lay_map(cover, std::make_shared<const MapCover>(map.areas, std::move(rivers), box.low, box.high), own.get());
     }
   }
@@ -304,7 +300,7 @@ void lay_ground_map(LandCover& cover, const LoadedScene& loaded, const Dem& dem,
 void lay_guessed_rivers(LandCover& cover, const LoadedScene& loaded, const Dem& dem, const SeenFrom* seen) {
   std::vector<CoverCourse> rivers = std::exchange(cover.guessed_rivers, {});
   if (rivers.empty()) return;
-  const FeatureStyle style = scene_style(loaded);
+  const FeatureStyle style = read_scene_feature_style(loaded);
   const int kind = style.find(guessed_kind);
   for (CoverCourse& river : rivers) {
     river.kind = kind;

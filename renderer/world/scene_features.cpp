@@ -54,10 +54,6 @@ std::vector<CoverCourse> rivers_of(const World& world) {
 
 }  // namespace
 
-FeatureStyle read_scene_feature_style(const LoadedScene& loaded) {
-  return load_feature_style(find_named_file(loaded, "features", loaded.scene.features_style));
-}
-
 FeatureSet read_scene_features(const LoadedScene& loaded, const std::string& crs, Progress& progress) {
   const Scene& scene = loaded.scene;
   if (scene.features.empty()) return {};

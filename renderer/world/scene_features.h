@@ -10,8 +10,6 @@
 
 namespace belvedere {
 
-// The style a scene names.
-FeatureStyle read_scene_feature_style(const LoadedScene& loaded);
 // What the scene's [[features]] hold, in the terrain's CRS; empty where it has none. Notes what is left out and why.
 FeatureSet read_scene_features(const LoadedScene& loaded, const std::string& crs, Progress& progress);
 

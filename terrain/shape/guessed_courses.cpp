@@ -16,6 +16,7 @@ constexpr std::size_t fade_cells = 14;  // over which one comes up from dry grou
 // Water that crosses level ground cell by cell meets a river at any angle; nature's comes in aslant, some way farther down.
 constexpr std::size_t down_cells = 12;
 constexpr std::size_t led_cells = 24;  // before its mouth, over which a river is led there
+constexpr std::size_t own_cells = 10;  // before its mouth, over which it does not feel the width of the larger one
 
 // A river as the cells of its reaches, downstream; the last one may be of the larger river that it flows into.
 struct Line {
@@ -27,9 +28,6 @@ struct Line {
 struct Ends {
   bool comes_in = false, goes_on = false;
 };
-
-// Before its mouth a river does not feel the width of the larger one.
-constexpr std::size_t own_cells = 10;
 
 // Leads the end of a line, `places` of which the last is the one of the larger river, to where that river has gone on for some cells.
 void lead_mouth(std::vector<glm::dvec2>& places, const std::vector<RiverReach>& reaches, std::size_t mouth) {
@@ -141,7 +139,6 @@ std::vector<Course> guess_courses(const Grid<float>& catchment_km2, const GeoTra
       }
       if (course.places.size() > 1) courses.push_back(std::move(course));
     }
-    along = {};
   }
   return courses;
 }

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/json.h"
 #include "renderer/features/drawn_features.h"
+#include "renderer/ground/feature_files.h"
 #include "renderer/world/scene_features.h"
 #include "renderer/world/valley_view.h"
 #include "tools/cli/commands.h"
