@@ -23,6 +23,10 @@ Counts count_labels(const Grid<std::uint8_t>& labels) {
   return counts;
 }
 
+ModelLight light_of(const std::string& name) {
+  return name == "lit" ? ModelLight::lit : name == "shaded" ? ModelLight::shaded : ModelLight::any;
+}
+
 // The land cover is the map of labels: each label that is the number of a class paints that class.
 void add_labels(CompositeModel composite, const std::string& path, const SceneTextureModel& plain, std::vector<SceneTextureModel>& models) {
   for (CompositeLabel& label : composite.labels) {
@@ -56,6 +60,7 @@ std::vector<SceneTextureModel> read_texture_models(const LoadedScene& loaded) {
                                   .model = {},
                                   .serves = settings.serves,
                                   .always = settings.prefer == "model",
+                                  .light = light_of(settings.light),
                                   .light_px = settings.stroke_px,
                                   .block = i};
     if (settings.model.ends_with(".composite")) {
@@ -78,24 +83,30 @@ std::vector<ModelledClass> choose_modelled(const std::vector<SceneTextureModel>&
   const Counts pixels = count_labels(target);
   std::vector<ModelledClass> chosen;
   for (const LandCoverClassInfo& info : land_cover_classes()) {
-    const auto serves = [&](const SceneTextureModel& model) {
-      return std::find(model.serves.begin(), model.serves.end(), info.id) != model.serves.end();
+    const auto find_model = [&](ModelLight other_light) {
+      return std::find_if(models.begin(), models.end(), [&](const SceneTextureModel& model) {
+        return model.light != other_light && std::find(model.serves.begin(), model.serves.end(), info.id) != model.serves.end();
+      });
     };
-    const auto model = std::find_if(models.begin(), models.end(), serves);
-    if (model == models.end()) continue;
+    const auto model = find_model(ModelLight::shaded);
+    const auto shaded = find_model(ModelLight::lit);
+    if (model == models.end() || shaded == models.end()) continue;
+    const bool always = model->always || shaded->always;
     const auto label = static_cast<std::size_t>(info.id);
     std::size_t asked = pixels[label];
     for (const auto& [from, to] : parameters.fallback)
       if (to == label && from != to && texels[from] == 0) asked += pixels[from];
     const bool few = asked > texels[label] * pixels_per_texel;
-    if (!model->always && texels[label] > 0 && !few) continue;
+    if (!always && texels[label] > 0 && !few) continue;
     std::string why;
-    if (pixels[label] > 0 || model->always)
-      why = fmt::format("{} is painted from the texture model {}: {}", info.name, model->name,
-                        model->always        ? std::string("the scene prefers it")
+    if (pixels[label] > 0 || always)
+      why = fmt::format("{} is painted from the texture model {}: {}", info.name,
+                        model == shaded ? model->name : fmt::format("{}, in the shade {}", model->name, shaded->name),
+                        always               ? std::string("the scene prefers it")
                         : texels[label] == 0 ? std::string("no exemplar has texels of it")
                                              : fmt::format("too few texels, {} for {} pixels", texels[label], asked));
-    chosen.push_back({info.id, static_cast<std::size_t>(model - models.begin()), std::move(why)});
+    chosen.push_back(
+        {info.id, static_cast<std::size_t>(model - models.begin()), static_cast<std::size_t>(shaded - models.begin()), std::move(why)});
   }
   return chosen;
 }

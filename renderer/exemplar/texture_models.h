@@ -13,12 +13,16 @@
 
 namespace belvedere {
 
+// Which ground of its classes a model paints.
+enum class ModelLight { any, lit, shaded };
+
 // An [[exemplar]] block that is a texture model (docs/textures.md), or one label of a block that is a composite (NAME.composite).
 struct SceneTextureModel {
   std::string name;  // as the scene writes its file, with the class where it is a label
   CliqueModel model;
   std::vector<LandCoverClass> serves;
   bool always = false;  // else only where paintings have too few texels of a class
+  ModelLight light = ModelLight::any;
   double light_px = 6.0;
   std::size_t block = 0;  // which [[exemplar]] of the scene
 };
@@ -28,11 +32,12 @@ struct SceneTextureModel {
 // composite of other labels.
 std::vector<SceneTextureModel> read_texture_models(const LoadedScene& scene);
 
-// A class that is painted from a model.
+// A class that is painted from models, numbers in the order of read_texture_models; the first that serves the class in that light.
 struct ModelledClass {
   LandCoverClass id;
-  std::size_t model;  // in the order of read_texture_models; the first that serves a class
-  std::string why;    // as a sentence for the user; empty where the picture has nothing of the class
+  std::size_t lit;     // of ground in the light
+  std::size_t shaded;  // and in the shade; the same where a model serves both
+  std::string why;     // as a sentence for the user; empty where the picture has nothing of the class
 };
 // Classes that are painted from models: those of which the exemplars have no texel or, for what `target` shows, too few (pixels_per_texel;
 // what falls back to a class counts with it), and those whose model always serves.

@@ -15,7 +15,7 @@ constexpr std::array<CachedProductInfo, 8> table = {{
     {CachedProduct::generalized_ground, "generalized ground", 1},
     {CachedProduct::ground_surroundings, "surroundings of the ground", 1},
     {CachedProduct::example_sheet, "example sheet", 1},
-    {CachedProduct::synthesis_plan, "choice of texture", 1},
+    {CachedProduct::synthesis_plan, "choice of texture", 2},
     {CachedProduct::ground_features, "features of the ground", 1},
     {CachedProduct::river_courses, "rivers of maps", 1},
 }};

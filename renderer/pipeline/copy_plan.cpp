@@ -43,19 +43,22 @@ void note_scarcity(const std::vector<Exemplar>& exemplars, const GuideStack& gui
   if (!scarcity.empty()) progress.note(scarcity);
 }
 
-// Which classes are painted from models, a byte each behind the plan's own where a scene names models.
+// Which classes are painted from models, two bytes each, in light and in shade, behind the plan's own where a scene names models.
 void add_models(std::string& packed, const GroundModels& models) {
-  for (const std::uint8_t model : models.of_class) packed += static_cast<char>(model);
+  for (const GroundModels::OfClass* of_class : {&models.lit, &models.shaded})
+    for (const std::uint8_t model : *of_class) packed += static_cast<char>(model);
 }
 void take_models(std::string& packed, GroundModels& models, std::size_t count) {
-  if (packed.size() < models.of_class.size()) throw Error(ErrorKind::input, "plan", "it is cut off", "the plan as it was written");
-  for (std::size_t i = 0; i < models.of_class.size(); ++i) {
-    const auto model = static_cast<std::uint8_t>(packed[packed.size() - models.of_class.size() + i]);
-    if (model != GroundModels::none && model >= count)
-      throw Error(ErrorKind::input, "plan", "a model that the scene lacks", "this scene's plan");
-    models.of_class[i] = model;
-  }
-  packed.resize(packed.size() - models.of_class.size());
+  const std::size_t bytes = models.lit.size() + models.shaded.size();
+  if (packed.size() < bytes) throw Error(ErrorKind::input, "plan", "it is cut off", "the plan as it was written");
+  std::size_t at = packed.size() - bytes;
+  for (GroundModels::OfClass* of_class : {&models.lit, &models.shaded})
+    for (std::uint8_t& of : *of_class) {
+      of = static_cast<std::uint8_t>(packed[at++]);
+      if (of != GroundModels::none && of >= count)
+        throw Error(ErrorKind::input, "plan", "a model that the scene lacks", "this scene's plan");
+    }
+  packed.resize(packed.size() - bytes);
 }
 
 // What windows of the models that are used are made with.
@@ -67,8 +70,7 @@ void make_records(GroundModels& models, std::vector<SceneTextureModel> read, std
     of.model = std::move(read[i].model);
     of.light_px = read[i].light_px;
     of.seed = stream_seed(seed, Stream::statistical_noise, 1000 + i);
-    const bool used = std::find(models.of_class.begin(), models.of_class.end(), i) != models.of_class.end();
-    if (used) of.record = record_texture(of.model, {.seed = of.seed});
+    if (models.uses(i)) of.record = record_texture(of.model, {.seed = of.seed});
     progress.advance(1.0);
   }
 }
@@ -186,7 +188,8 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
     };
     GuideStack guides = division.level == 0 ? ground.read_guides(ground.sheet()) : reduced_guides();
     for (const ModelledClass& chosen : choose_modelled(models, copied_from, guides.label, parameters)) {
-      plan.models.of_class[static_cast<std::size_t>(chosen.id)] = static_cast<std::uint8_t>(chosen.model);
+      plan.models.lit[static_cast<std::size_t>(chosen.id)] = static_cast<std::uint8_t>(chosen.lit);
+      plan.models.shaded[static_cast<std::size_t>(chosen.id)] = static_cast<std::uint8_t>(chosen.shaded);
       if (!chosen.why.empty()) progress.note(chosen.why);
     }
     hide_modelled(guides, plan.models);

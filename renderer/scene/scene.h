@@ -221,6 +221,7 @@ struct SceneExemplar {
   std::string picture;            // file; empty: the program paints one
   std::string model;              // file of a texture model instead
   std::string prefer = "texels";  // of a model's classes: "texels" while there are enough, or the "model"
+  std::string light = "any";      // ground that a model paints: "lit", "shaded" or "any"
   std::string guidance;           // guidance.exr of the picture, or:
   std::string classes;            // grey image of class ids; 255 excludes
   std::string altitude;           // grey image, scaled by altitude_range_m

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -208,10 +209,12 @@ class Rules {
         // A composite's labels say what it paints.
         if (exemplar.serves.empty() && !exemplar.model.ends_with(".composite"))
           refuse(name + ".model", name + ".model does not say what it paints", "serves = [\"pasture\"]: the classes it shows");
+        check_light(exemplar, name);
         continue;
       }
-      if (written(name + ".prefer"))
-        refuse(name + ".prefer", fmt::format("{}.prefer has no model to belong to", name), "model = \"….model\" beside it");
+      for (const char* key : {"prefer", "light"})
+        if (written(name + "." + key))
+          refuse(name + "." + key, fmt::format("{}.{} has no model to belong to", name, key), "model = \"….model\" beside it");
       if (!exemplar.picture.empty() && exemplar.guidance.empty() && exemplar.classes.empty())
         refuse(name + ".picture", name + ".picture has neither guidance nor classes, so nobody knows what it shows",
                "guidance = \"….exr\", or classes = \"….png\"");
@@ -232,6 +235,23 @@ class Rules {
   }
 
  private:
+  // A class that one model paints in the light alone needs another for the shade.
+  void check_light(const SceneExemplar& exemplar, const std::string& name) const {
+    if (exemplar.light == "any") return;
+    if (exemplar.model.ends_with(".composite"))
+      refuse(name + ".light", fmt::format("{}.light is \"{}\" for a composite, whose labels are classes", name, exemplar.light),
+             "models of single textures, lit and shaded");
+    for (const LandCoverClass id : exemplar.serves) {
+      const bool whole = std::any_of(scene_.exemplars.begin(), scene_.exemplars.end(), [&](const SceneExemplar& other) {
+        return !other.model.empty() && other.light != exemplar.light &&
+               std::find(other.serves.begin(), other.serves.end(), id) != other.serves.end();
+      });
+      if (!whole)
+        refuse(name + ".light", fmt::format("{}.light is \"{}\" and no other block paints the rest of {}", name, exemplar.light, class_name(id)),
+               "another block with a model that serves it");
+    }
+  }
+
   // What the file does not write itself comes from the preset it names.
   void apply_preset() {
     SceneGeneralize& settings = scene_.generalize;

@@ -27,6 +27,12 @@ std::vector<SceneSection> make_exemplar_sections() {
                            "(texels), or in any case (model).",
                 .text = TextKind::choice,
                 .choices = {"texels", "model"}},
+               {.name = "light",
+                .field = AT(exemplars[i].light),
+                .meaning = "With model: whether it paints all ground of its classes, or what lies in the light (lit) or in the shade "
+                           "(shaded) alone; another block then serves the rest.",
+                .text = TextKind::choice,
+                .choices = {"any", "lit", "shaded"}},
                {.name = "guidance",
                 .field = AT(exemplars[i].guidance),
                 .meaning = "guidance.exr of the picture, registered to the pixel; or classes and altitude instead.",

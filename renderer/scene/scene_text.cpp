@@ -81,14 +81,14 @@ bool is_excluded(const SceneSection& section, const SceneKey& key, Scene& scene,
   }
   if (section.name != "exemplar") return false;
   // What an exemplar without a picture cannot have, one that is a model, and one that is none.
-  static constexpr std::array<std::string_view, 7> of_pictures = {"altitude_range_m", "optional", "found_shadow", "excluded",
-                                                                  "stroke_px",        "serves",   "prefer"};
+  static constexpr std::array<std::string_view, 8> of_pictures = {"altitude_range_m", "optional", "found_shadow", "excluded",
+                                                                  "stroke_px",        "serves",   "prefer",       "light"};
   static constexpr std::array<std::string_view, 6> of_no_model = {"altitude_range_m", "found_shadow", "excluded", "width",
                                                                   "height",           "seed"};
   const auto names_it = [&](const auto& keys) { return std::find(keys.begin(), keys.end(), key.name) != keys.end(); };
   if (!scene.exemplars[i].model.empty()) return names_it(of_no_model);
   if (key.name == "excluded" && scene.exemplars[i].exclude.empty()) return true;
-  return scene.exemplars[i].picture.empty() ? names_it(of_pictures) : key.name == "prefer";
+  return scene.exemplars[i].picture.empty() ? names_it(of_pictures) : key.name == "prefer" || key.name == "light";
 }
 
 // A scene in which every section exists, to read defaults from.

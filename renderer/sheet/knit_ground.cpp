@@ -116,7 +116,7 @@ void add_model_sources(KnitSources& sources, const GroundModels& models, double 
     Grid<glm::vec3> texel(seam_sample_px, seam_sample_px);
     Grid<glm::vec3> light = texel;
     for (std::size_t id = 1; id < of.size(); ++id) {
-      if (models.of_class[id] != m) continue;
+      if (models.lit[id] != m && models.shaded[id] != m) continue;
       if (made.empty()) {
         made = make_texture(models.models[m].model, seam_sample_px, seam_sample_px, {.seed = models.models[m].seed});
         for (int c = 0; c < 3; ++c) {

@@ -4,13 +4,20 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/error.h"
 #include "base/filter.h"
 #include "base/guidance_channels.h"
+#include "base/noise.h"
+#include "base/random_streams.h"
+#include "renderer/paint/light.h"
 
 namespace belvedere {
 namespace {
 
 using B = GuidanceBuffers;
+
+constexpr double ragged_tone = .05;  // deviation of the noise that tears the border of light and shade, in tones
+constexpr double ragged_px = 2.5;    // and its width
 
 // The way of strokes at a place of the sheet: down, or level where nothing falls, where people made fields, and on water.
 DirectionField scene_directions(const GuidanceBuffers& guidance, PixelRect window) {
@@ -22,6 +29,13 @@ DirectionField scene_directions(const GuidanceBuffers& guidance, PixelRect windo
     const bool level = id == LandCoverClass::water || has_trait(id, ClassTrait::level) || (down.x == 0.F && down.y == 0.F);
     return level ? glm::vec2(1.F, 0.F) : down;
   };
+}
+
+// Whether a pixel of the sheet shows the paint of lit ground. Light and shade meet raggedly, as two paints do, and not along a line of
+// equal tone.
+bool is_lit(float tone, int x, int y) {
+  constexpr std::uint64_t seed = stream_seed(1, Stream::statistical_directions, 20);
+  return tone + ragged_tone * gaussian_noise(seed, x, y, ragged_px) >= middle_tone;
 }
 
 // One model's pixels of a tile, those that `paint.made` marks with `mark`, within `box` (of the sheet).
@@ -58,14 +72,18 @@ int model_margin_px(const GroundModels& models) {
 }
 
 ModelPaint make_model_paint(const GroundModels& models, PixelRect tile, const Grid<LandCoverClass>& shown, const GuidanceBuffers& guidance,
-                            PixelRect window) {
+                            PixelRect window, const Grid<float>& tone) {
   require_channels(guidance, {&B::depth_m, &B::land_cover, &B::fall_line}, "ground from models");
+  if (models.by_light() && (tone.width() != tile.width() || tone.height() != tile.height()))
+    throw Error(ErrorKind::bug, "ground from models", "models by light without the light of the tile");
   ModelPaint paint{Grid<std::uint8_t>(tile.width(), tile.height()), Grid<glm::vec3>(tile.width(), tile.height()),
                    Grid<glm::vec3>(tile.width(), tile.height())};
   std::vector<PixelRect> boxes(models.models.size(), {tile.x1, tile.y1, tile.x0, tile.y0});
   for (int y = tile.y0; y < tile.y1; ++y)
     for (int x = tile.x0; x < tile.x1; ++x) {
-      const std::uint8_t model = models.of_class[static_cast<std::size_t>(shown(x - tile.x0, y - tile.y0))];
+      const auto id = static_cast<std::size_t>(shown(x - tile.x0, y - tile.y0));
+      const bool shaded = models.lit[id] != models.shaded[id] && !is_lit(tone(x - tile.x0, y - tile.y0), x, y);
+      const std::uint8_t model = shaded ? models.shaded[id] : models.lit[id];
       if (model == GroundModels::none || std::isinf(guidance.depth_m(x - window.x0, y - window.y0))) continue;
       paint.made(x - tile.x0, y - tile.y0) = static_cast<std::uint8_t>(model + 1);
       PixelRect& box = boxes[model];
@@ -80,7 +98,7 @@ ModelPaint make_model_paint(const GroundModels& models, PixelRect tile, const Gr
 void hide_modelled(GuideStack& guides, const GroundModels& models) {
   if (!models.any()) return;
   for (std::uint8_t& label : guides.label)
-    if (label < models.of_class.size() && models.of_class[label] != GroundModels::none) label = unused_label;
+    if (label < models.lit.size() && models.lit[label] != GroundModels::none) label = unused_label;
 }
 
 }  // namespace belvedere

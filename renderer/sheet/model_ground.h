@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -25,24 +26,30 @@ struct GroundModel {
 // Which classes of a sheet are painted from models instead of copied.
 struct GroundModels {
   static constexpr std::uint8_t none = 255;
+  using OfClass = std::array<std::uint8_t, land_cover_class_count>;  // model by class id
 
   std::vector<GroundModel> models;
-  std::array<std::uint8_t, land_cover_class_count> of_class = no_class();  // model by class id
+  OfClass lit = no_class();     // of ground in the light
+  OfClass shaded = no_class();  // and in the shade; `none` for the same classes
 
-  static constexpr std::array<std::uint8_t, land_cover_class_count> no_class() {
-    std::array<std::uint8_t, land_cover_class_count> all{};
+  static constexpr OfClass no_class() {
+    OfClass all{};
     all.fill(none);
     return all;
   }
-  bool any() const { return of_class != no_class(); }
+  bool any() const { return lit != no_class(); }
+  bool by_light() const { return lit != shaded; }
+  bool uses(std::size_t model) const {
+    return std::find(lit.begin(), lit.end(), model) != lit.end() || std::find(shaded.begin(), shaded.end(), model) != shaded.end();
+  }
 };
 
 // The paint of a tile of the sheet: each model's texture without end, at the sheet's own pixels, where `shown` (of the tile) has a class of
-// its and there is no sky. Streaks run down the fall line, level on water, fields and flat ground. `guidance` is that of `window`: the tile
+// its and there is no sky; classes with two models by `tone` (of the tile, 0…1; read for these alone). Streaks run down the fall line, level on water, fields and flat ground. `guidance` is that of `window`: the tile
 // and model_margin_px around it, cut by the sheet; needs depth_m, land_cover and fall_line. A model is asked for the box of its classes in
 // the tile alone, with endless_margin_px around it: tiles must be those of one lattice, for pixels to be the same whoever asks.
 ModelPaint make_model_paint(const GroundModels& models, PixelRect tile, const Grid<LandCoverClass>& shown, const GuidanceBuffers& guidance,
-                            PixelRect window);
+                            PixelRect window, const Grid<float>& tone = {});
 int model_margin_px(const GroundModels& models);
 
 // Takes the classes of models out of what is to be copied.

@@ -81,7 +81,8 @@ MatchField SheetPicture::make_matches(PixelRect tile) {
 ModelPaint SheetPicture::make_modelled(PixelRect tile) {
   const PixelRect window = intersection(ground_.sheet(), grown(tile, model_margin_px(plan_->models)));
   const GuidanceBuffers guidance = ground_.read_guidance(window, {&B::depth_m, &B::land_cover, &B::fall_line}, false);
-  return make_model_paint(plan_->models, tile, ground_.read_draft(tile).land_cover, guidance, window);
+  const Grid<float> tone = plan_->models.by_light() ? ground_.read_guidance(tile, {&B::depth_m}, true).tone : Grid<float>();
+  return make_model_paint(plan_->models, tile, ground_.read_draft(tile).land_cover, guidance, window, tone);
 }
 
 KnitPaint SheetPicture::make_knitted(PixelRect tile) {

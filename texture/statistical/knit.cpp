@@ -23,6 +23,31 @@ namespace {
 constexpr int learnt_px = 96;    // of a picture, beside the band, that its model is learnt from: what is far may be of another kind
 constexpr int border_px = 1;     // on either side of the ragged border that is made by the model of both
 constexpr double torn_px = 1.0;  // half width of the noise across the ragged border
+constexpr int least_band_px = 24;
+constexpr int widest_band_px = 96;  // that is chosen
+constexpr int least_within_px = 48;
+// What may be left of a step that is spread over a band: of one h times those inside, (h - 1) / 2 k is left of every column of 2 k.
+constexpr double left_of_step = .15;
+
+// Beside each other without more ado.
+Grid<Rgb8> abutted(const Grid<Rgb8>& left, const Grid<Rgb8>& right) {
+  Grid<Rgb8> out(left.width() + right.width(), left.height());
+  for (int y = 0; y < out.height(); ++y) {
+    std::copy_n(left.row(y), left.width(), out.row(y));
+    std::copy_n(right.row(y), right.width(), out.row(y) + left.width());
+  }
+  return out;
+}
+
+// Columns beside a band are left, however wide it is.
+double ratio_beside(const Grid<Rgb8>& picture, int seam, int band_px) {
+  return seam_ratio(picture, seam, band_px, std::max(least_within_px, 2 * band_px));
+}
+
+int choose_band(double step, int least_width) {
+  const int asked = static_cast<int>(std::ceil((step - 1.0) / (2.0 * left_of_step)));
+  return std::clamp(asked, least_band_px, std::clamp(least_width / 2, least_band_px, widest_band_px));
+}
 
 Grid<Rgb8> mirrored(const Grid<Rgb8>& picture) {
   Grid<Rgb8> out(picture.width(), picture.height());
@@ -53,7 +78,7 @@ std::vector<double> even_places(int height, const KnitParameters& parameters) {
 // The last learnt_px columns of `picture` and band_px more that its own model makes.
 Grid<Rgb8> grow_right(const Grid<Rgb8>& picture, const KnitParameters& parameters) {
   const int k = parameters.band_px;
-  const PixelRect near{std::max(0, picture.width() - learnt_px), 0, picture.width(), picture.height()};
+  const PixelRect near{std::max(0, picture.width() - std::max(learnt_px, k)), 0, picture.width(), picture.height()};
   Grid<Rgb8> grown(near.width() + k, picture.height());
   Grid<std::uint8_t> hole(grown.width(), grown.height());
   for (int y = 0; y < grown.height(); ++y)
@@ -139,10 +164,15 @@ Grid<std::uint8_t> along_border(const Grid<std::uint8_t>& sides, int first, int 
 
 }  // namespace
 
-Grid<Rgb8> knit_textures(const Grid<Rgb8>& left, const Grid<Rgb8>& right, const KnitParameters& parameters, Progress& progress) {
+KnitPicture knit_textures(const Grid<Rgb8>& left, const Grid<Rgb8>& right, const KnitParameters& given, Progress& progress) {
   if (left.height() != right.height())
     throw Error(ErrorKind::usage, "knitting", fmt::format("pictures {} and {} pixels high", left.height(), right.height()),
                 "one height for pictures side by side");
+  KnitPicture knitted{abutted(left, right)};
+  Grid<Rgb8>& out = knitted.picture;
+  knitted.before = ratio_beside(out, left.width(), given.band_px == 0 ? least_band_px : given.band_px);
+  KnitParameters parameters = given;
+  if (parameters.band_px == 0) parameters.band_px = choose_band(knitted.before, std::min(left.width(), right.width()));
   const int k = parameters.band_px;
   const int height = left.height();
   const int least = std::max(least_crop_px, 2 * k);
@@ -150,6 +180,10 @@ Grid<Rgb8> knit_textures(const Grid<Rgb8>& left, const Grid<Rgb8>& right, const 
     throw Error(ErrorKind::input, "knitting",
                 fmt::format("pictures of {} × {} and {} × {} pixels", left.width(), height, right.width(), height),
                 fmt::format("{} pixels across the seam and {} along it", least, least_crop_px));
+  if (knitted.before <= unseen_seam) {
+    knitted.after = knitted.before;
+    return knitted;
+  }
   progress.begin("knitting", 3.0);
   const Grid<Rgb8> from_left = grow_right(left, parameters);
   progress.advance(1.0);
@@ -157,10 +191,7 @@ Grid<Rgb8> knit_textures(const Grid<Rgb8>& left, const Grid<Rgb8>& right, const 
   progress.advance(1.0);
   const Grid<std::uint8_t> sides = ragged_sides(height, parameters);
 
-  Grid<Rgb8> out(left.width() + right.width(), height);
   for (int y = 0; y < height; ++y) {
-    std::copy_n(left.row(y), left.width(), out.row(y));
-    std::copy_n(right.row(y), right.width(), out.row(y) + left.width());
     // Columns of the band in the two grown pictures.
     const Rgb8* of_left = from_left.row(y) + (from_left.width() - 2 * k);
     const Rgb8* of_right = from_right.row(y);
@@ -187,7 +218,9 @@ Grid<Rgb8> knit_textures(const Grid<Rgb8>& left, const Grid<Rgb8>& right, const 
     for (int x = 0; x < window.width(); ++x)
       if (hole(x, y) != 0) out(window.x0 + x, y) = colours.snapped(joined(x, y));
   progress.advance(1.0);
-  return out;
+  knitted.band_px = k;
+  knitted.after = ratio_beside(out, left.width(), k);
+  return knitted;
 }
 
 double seam_ratio(const Grid<Rgb8>& picture, int x, int apart, int within) {

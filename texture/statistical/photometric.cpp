@@ -205,6 +205,12 @@ QuantileMap make_map(const std::array<double, knots>& from, const std::array<dou
   return map;
 }
 
+// Of a colour whose hue is pulled to another by so many turns: the way from a hue to the opposite one leads through grey.
+double kept_colour(double pulled, double coloured, const PhotometricParameters& parameters) {
+  const auto [from, to] = parameters.pull_fade;
+  return 1.0 - coloured * std::clamp((pulled - from) / (to - from), 0.0, 1.0);
+}
+
 struct RegionMap {
   double hue_from, hue_to;
   QuantileMap hue, saturation, value;
@@ -269,9 +275,10 @@ Grid<glm::vec3> correct_colours(const Grid<glm::vec3>& source, const Grid<glm::v
         const double saturated = std::clamp(map.saturation(hsv.y), 0.0, 1.0);
         // A grey that becomes a colour loses as much of its own hue, which was noise, as it gains saturation.
         const double calmed = turned * (saturated > hsv.y ? hsv.y / saturated : 1.0);
-        const exact::Turn turn = exact::turn(turn_rad * (map.hue_to + calmed + coloured * (map.hue(turned) - calmed)));
+        const double mapped = calmed + coloured * (map.hue(turned) - calmed);
+        const exact::Turn turn = exact::turn(turn_rad * (map.hue_to + mapped));
         direction += share[k] * glm::dvec3(turn.cosine, turn.sine, 0.0);
-        saturation += share[k] * saturated;
+        saturation += share[k] * saturated * kept_colour(std::abs(turned - mapped), coloured, parameters);
         value += share[k] * std::clamp(map.value(hsv.z), 0.0, 1.0);
       }
       out[i] = glm::vec3(from_hsv({exact::atan2(direction.y, direction.x) / turn_rad, saturation, value}));

@@ -14,12 +14,14 @@ struct PhotometricParameters {
   double largest_value_gain = 2.0;               // how much a map may spread brightness, so that grain is not blown up
   double grey_saturation = 0.1;                  // below it hue is noise and only shifts with its region
   std::array<double, 2> grey_fade = {0.8, 1.2};  // over these multiples of it the hue's own map sets in
+  std::array<double, 2> pull_fade = {0.1, 0.3};  // turns that a hue is pulled by, over which its colour fades to grey
 };
 
 // The source with the colours of the target: both fall into regions of like colour, which are paired by where they stand among their
 // picture's colours; of each pair, the distributions of hue, saturation and value (HSV) of the one are mapped to the other's by 33
 // quantiles, and a pixel takes the maps of all regions by how much it is of each, hues as directions. After Zalesny et al. (2005);
-// the limits for greys are ours: no map of hue is steeper than 1, and greys only turn with their region.
+// the limits are ours: no map of hue is steeper than 1, greys only turn with their region, and a hue that is not the region's, such as
+// the blue of gaps between leaves, becomes grey instead of a bright fleck of the partner's.
 // Encoded sRGB, 0…1. `..._counts` empty or of its picture's size: 0 leaves a pixel out of what is measured. Error(input) where nothing
 // counts, Error(usage) for other numbers of regions. Every thread count makes the same bits.
 Grid<glm::vec3> correct_colours(const Grid<glm::vec3>& source, const Grid<glm::vec3>& target, const PhotometricParameters& parameters = {},

@@ -73,8 +73,28 @@ TEST(TextureModels, TheFirstThatServesAClassHasIt) {
       choose_modelled({model_of({water}), model_of({pasture, water})}, with_texels(rock, 10), labels(pasture, 9, water), {});
   ASSERT_EQ(chosen.size(), 2U);
   EXPECT_EQ(chosen[0].id, water);
-  EXPECT_EQ(chosen[0].model, 0U);
-  EXPECT_EQ(chosen[1].model, 1U);
+  EXPECT_EQ(chosen[0].lit, 0U);
+  EXPECT_EQ(chosen[1].lit, 1U);
+  EXPECT_EQ(chosen[1].shaded, 1U);
+}
+
+TEST(TextureModels, LightAndShadeMayHaveAModelEach) {
+  const auto chosen = [](ModelLight first, ModelLight second) {
+    std::vector<SceneTextureModel> models = {model_of({rock, snow}), model_of({rock})};
+    models[0].light = first;
+    models[1].light = second;
+    models[1].name = "second.model";
+    return choose_modelled(models, with_texels(pasture, 1000), labels(rock, 9), {});
+  };
+  const std::vector<ModelledClass> each = chosen(ModelLight::lit, ModelLight::shaded);
+  ASSERT_EQ(each.size(), 1U) << "snow in the shade has none";
+  EXPECT_EQ(each[0].lit, 0U);
+  EXPECT_EQ(each[0].shaded, 1U);
+  EXPECT_THAT(each[0].why, HasSubstr("m.model, in the shade second.model: no exemplar"));
+  const std::vector<ModelledClass> rest = chosen(ModelLight::shaded, ModelLight::any);
+  ASSERT_EQ(rest.size(), 1U);
+  EXPECT_EQ(rest[0].lit, 1U);
+  EXPECT_EQ(rest[0].shaded, 0U);
 }
 
 TEST(TextureModels, RampsRiseFromDarkToLightAroundTheMean) {
@@ -93,9 +113,18 @@ TEST(TextureModels, AreReadFromTheScenesFolder) {
   const auto read = [&](const std::string& block) {
     return read_texture_models(test::small_scene({"exemplar.0=" + block}, folder.path()));
   };
-  const std::vector<SceneTextureModel> models = read("{ model = \"m.model\", serves = [\"pasture\"], prefer = \"model\", stroke_px = 4 }");
+  const std::vector<SceneTextureModel> models = read("{ model = \"m.model\", serves = [\"pasture\"], prefer = \"model\", stroke_px = 4, light = \"any\" }");
   ASSERT_EQ(models.size(), 1U);
   EXPECT_TRUE(models[0].always);
+  EXPECT_EQ(models[0].light, ModelLight::any);
+  const auto by_light = [](const char* light) {
+    return std::string("{ model = \"m.model\", serves = [\"pasture\"], light = \"") + light + "\" }";
+  };
+  const std::vector<SceneTextureModel> both =
+      read_texture_models(test::small_scene({"exemplar.0=" + by_light("shaded"), "exemplar.1=" + by_light("lit")}, folder.path()));
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_EQ(both[0].light, ModelLight::shaded);
+  EXPECT_EQ(both[1].light, ModelLight::lit);
   EXPECT_EQ(models[0].light_px, 4.0);
   EXPECT_EQ(models[0].serves, std::vector{pasture});
   EXPECT_TRUE(read("{ model = \"gone.model\", serves = [\"pasture\"], optional = true }").empty());

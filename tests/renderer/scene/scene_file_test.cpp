@@ -209,6 +209,13 @@ TEST(SceneFile, KeysThatBelongTogether) {
   EXPECT_THAT(refused("[[exemplar]]\nmodel = \"a.model\"\n"), HasSubstr("serves"));
   EXPECT_THAT(refused("[[exemplar]]\nmodel = \"a.model\"\nserves = [\"rock\"]\npicture = \"a.png\"\n"), HasSubstr("beside a model"));
   EXPECT_THAT(refused("[[exemplar]]\nprefer = \"model\"\n"), HasSubstr("no model"));
+  EXPECT_THAT(refused("[[exemplar]]\nlight = \"lit\"\n"), HasSubstr("no model"));
+  const std::string lit = "[[exemplar]]\nmodel = \"a.model\"\nserves = [\"rock\"]\nlight = \"lit\"\n";
+  EXPECT_THAT(refused(lit), HasSubstr("no other block paints the rest of rock"));
+  EXPECT_THAT(refused(lit + lit), HasSubstr("no other block"));
+  EXPECT_NO_THROW(scene_of(lit + "[[exemplar]]\nmodel = \"b.model\"\nserves = [\"rock\"]\nlight = \"shaded\"\n"));
+  EXPECT_NO_THROW(scene_of(lit + "[[exemplar]]\nmodel = \"b.model\"\nserves = [\"rock\"]\n"));
+  EXPECT_THAT(refused("[[exemplar]]\nmodel = \"a.composite\"\nlight = \"lit\"\n"), HasSubstr("labels are classes"));
   const Scene one_set = scene_of("[generalize]\nforeground = [2, 2]\n");
   EXPECT_EQ(one_set.generalize.bands.background, (std::vector<float>{2.F, 2.F}));  // far as near
   const Scene far_set = scene_of("[generalize]\nbackground = [2, 0]\n");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/error.h"
 #include "base/grid_part.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/statistical/learn_texture.h"
@@ -28,8 +29,8 @@ const GroundModels& meadow_models() {
     of.record = record_texture(of.model, {.seed = of.seed});
     GroundModels out;
     out.models.push_back(std::move(of));
-    out.of_class[static_cast<std::size_t>(pasture)] = 0;
-    out.of_class[static_cast<std::size_t>(water)] = 0;
+    for (GroundModels::OfClass* of_class : {&out.lit, &out.shaded})
+      for (const LandCoverClass id : {pasture, water}) (*of_class)[static_cast<std::size_t>(id)] = 0;
     return out;
   }();
   return models;
@@ -94,6 +95,34 @@ TEST(ModelGround, OnlyItsClassesArePaintedAndNoSky) {
       ASSERT_EQ(paint.made(x, y), expected ? 1 : 0) << x << " " << y;
       ASSERT_EQ(paint.texel(x, y) != glm::vec3(0.F), expected) << x << " " << y;
     }
+}
+
+// Of a class with two models bright places have the one and dark places the other; in between they meet raggedly.
+TEST(ModelGround, LightAndShadeHaveModelsOfTheirOwn) {
+  constexpr int side = 96;
+  GroundModels two = meadow_models();
+  two.models.push_back(two.models.front());
+  two.models.back().seed = 77;
+  two.shaded[static_cast<std::size_t>(pasture)] = 1;
+  EXPECT_TRUE(two.by_light());
+  Grid<float> tone(side, side);
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) tone(x, y) = x < 32 ? .2F : x < 64 ? .55F : .9F;
+  const PixelRect tile{0, 0, side, side};
+  const Grid<LandCoverClass> shown(side, side, pasture);
+  const GuidanceBuffers guidance = flat_guidance(side, side, pasture, {0.F, 1.F});
+  const ModelPaint paint = make_model_paint(two, tile, shown, guidance, tile, tone);
+  int lit = 0;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < 32; ++x) ASSERT_EQ(paint.made(x, y), 2);
+    for (int x = 64; x < side; ++x) ASSERT_EQ(paint.made(x, y), 1);
+    for (int x = 32; x < 64; ++x) lit += paint.made(x, y) == 1 ? 1 : 0;
+  }
+  EXPECT_NEAR(lit, side * 16, side * 6);
+  const ModelPaint one = make_model_paint(meadow_models(), tile, shown, guidance, tile);
+  EXPECT_EQ(paint.texel(80, 40), one.texel(80, 40));
+  EXPECT_NE(part_of(paint.texel, {0, 0, 32, side}), part_of(one.texel, {0, 0, 32, side}));
+  EXPECT_THROW(make_model_paint(two, tile, shown, guidance, tile), Error) << "light decides, and there is none";
 }
 
 // Its own light is what is left when strokes are blurred away: the same mean, and much smoother.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/grid_part.h"
 #include "tests/texture/statistical/texture_crops.h"
 
 namespace belvedere {
@@ -31,7 +32,7 @@ constexpr KnitParameters quick{.band_px = 24, .types = 16, .seed = 3};
 TEST(Knit, NothingOutsideOfTheBandChanges) {
   const Grid<Rgb8> left = test::meadow_crop(96, 64);
   const Grid<Rgb8> right = heath(80, 64);
-  const Grid<Rgb8> knitted = knit_textures(left, right, quick);
+  const Grid<Rgb8> knitted = knit_textures(left, right, quick).picture;
   const Grid<Rgb8> hard = side_by_side(left, right);
   int changed = 0;
   for (int y = 0; y < 64; ++y)
@@ -50,7 +51,7 @@ TEST(Knit, LittleOfTheSeamIsLeft) {
   const Grid<Rgb8> left = test::meadow_crop(96, 96, 7);
   for (const Grid<Rgb8>& right : {test::meadow_crop(96, 96, 8), heath(96, 96)}) {
     const double hard = seam_ratio(side_by_side(left, right), 96, 24);
-    const double knitted = seam_ratio(knit_textures(left, right, quick), 96, 24);
+    const double knitted = seam_ratio(knit_textures(left, right, quick).picture, 96, 24);
     EXPECT_GT(hard, 1.8);
     EXPECT_LT(knitted - 1.0, .3 * (hard - 1.0)) << "of " << hard;
   }
@@ -60,7 +61,7 @@ TEST(Knit, LittleOfTheSeamIsLeft) {
 TEST(Knit, NoColourOfNeither) {
   const Grid<Rgb8> left = test::meadow_crop(96, 64);
   const Grid<Rgb8> right = heath(96, 64);
-  const Grid<Rgb8> knitted = knit_textures(left, right, quick);
+  const Grid<Rgb8> knitted = knit_textures(left, right, quick).picture;
   const Grid<Rgb8> known = side_by_side(left, right);
   int strange = 0;
   for (int y = 0; y < 64; ++y)
@@ -72,6 +73,30 @@ TEST(Knit, NoColourOfNeither) {
       strange += nearest > 16 ? 1 : 0;
     }
   EXPECT_LT(strange, 48 * 64 / 100);
+}
+
+// A picture cut in two has no seam to mend, and keeps every pixel.
+TEST(Knit, ASeamThatNobodySeesIsLeft) {
+  const Grid<Rgb8> whole = test::meadow_crop(160, 64);
+  const KnitPicture knitted = knit_textures(part_of(whole, {0, 0, 80, 64}), part_of(whole, {80, 0, 160, 64}), {});
+  EXPECT_EQ(knitted.picture, whole);
+  EXPECT_EQ(knitted.band_px, 0);
+  EXPECT_LE(knitted.before, unseen_seam);
+  EXPECT_EQ(knitted.after, knitted.before);
+}
+
+// What has more to hide takes more room, as far as the pictures have it.
+TEST(Knit, TheBandIsAsWideAsTheStepAsks) {
+  const Grid<Rgb8> left = test::meadow_crop(240, 48);
+  Grid<Rgb8> bright = heath(240, 48);
+  for (Rgb8& c : bright)
+    for (std::size_t i = 0; i < 3; ++i) c[i] = static_cast<std::uint8_t>(std::min(255, c[i] + 70));
+  const KnitPicture far = knit_textures(left, bright, {.types = 16});
+  EXPECT_GT(far.band_px, 40);
+  EXPECT_LT(far.after, 1.3) << "of " << far.before;
+  EXPECT_EQ(knit_textures(left, test::meadow_crop(240, 48, 8), {.types = 16}).band_px, 24);
+  const KnitPicture given = knit_textures(left, bright, {.band_px = 110, .types = 16});
+  EXPECT_EQ(given.band_px, 110);
 }
 
 TEST(Knit, SeamRatioOfKnownSteps) {
@@ -86,7 +111,7 @@ TEST(Knit, TheSameBitsForAnyThreadsAndClearErrors) {
   std::vector<Grid<Rgb8>> made;
   for (const int threads : {1, 3}) {
     const ThreadLimit limit(threads);
-    made.push_back(knit_textures(test::meadow_crop(64, 48), heath(64, 48), quick));
+    made.push_back(knit_textures(test::meadow_crop(64, 48), heath(64, 48), quick).picture);
   }
   EXPECT_EQ(made[0], made[1]);
   EXPECT_THROW(knit_textures(test::meadow_crop(64, 48), heath(64, 50), quick), Error);

@@ -79,6 +79,26 @@ TEST(Photometric, GreysTurnWithoutFlecks) {
   EXPECT_EQ(flecks, 0);
 }
 
+// Green leaves with blue gaps, to be made a narrow yellow: gaps become grey, not bright yellow, and leaves keep their colour.
+TEST(Photometric, WhatARegionHasLittleOfMakesNoFlecks) {
+  Grid<glm::vec3> leaves = two_halves({.33, .5, .5}, {.33, .5, .6}, 4);
+  Grid<std::uint8_t> gap(96, 96);
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 96; ++x)
+      if (even(8, x, y) < .03) {
+        gap(x, y) = 1;
+        leaves(x, y) = from_hsv({.6, .5, .8});
+      }
+  const Grid<glm::vec3> yellow = two_halves({.16, .8, .5}, {.16, .8, .6}, 5);
+  const Grid<glm::vec3> out = correct_colours(leaves, yellow, {.regions = 1});
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (gap[i] != 0)
+      EXPECT_LT(to_hsv(out[i]).y, .25);
+    else
+      EXPECT_GT(to_hsv(out[i]).y, .6);
+  }
+}
+
 // Brightness of little range is spread twofold at most.
 TEST(Photometric, GrainIsNotBlownUp) {
   Grid<glm::vec3> faint(64, 64);

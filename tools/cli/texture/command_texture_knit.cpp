@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 
 #include "base/error.h"
@@ -33,16 +32,6 @@ Grid<Rgb8> transposed(const Grid<Rgb8>& picture) {
   return out;
 }
 
-// Beside each other without more ado.
-Grid<Rgb8> abutted(const Grid<Rgb8>& left, const Grid<Rgb8>& right) {
-  Grid<Rgb8> out(left.width() + right.width(), left.height());
-  for (int y = 0; y < out.height(); ++y) {
-    std::copy_n(left.row(y), left.width(), out.row(y));
-    std::copy_n(right.row(y), right.width(), out.row(y) + left.width());
-  }
-  return out;
-}
-
 int run(const Options& options) {
   if (options.pictures.size() < 2) throw Error(ErrorKind::usage, "command line", "one picture", "two or more to join");
   check_texture_name(options.out);
@@ -58,14 +47,17 @@ int run(const Options& options) {
   for (std::size_t i = 1; i < options.pictures.size(); ++i) {
     const Grid<Rgb8> next = read(options.pictures[i]);
     const int seam = joined.width();
-    Grid<Rgb8> knitted = knit_textures(joined, next, options.knit, progress);
-    const int band = options.knit.band_px;
-    const int within = std::max(48, 2 * band);  // so that columns are left beside a wide band
-    const double hard = seam_ratio(abutted(joined, next), seam, band, within);
-    const double now = seam_ratio(knitted, seam, band, within);
-    lines += fmt::format("  seam at {} px: {:.2f} times the steps inside, {:.2f} before\n", seam, now, hard);
-    told.add(Json::object().add("at_px", Json::number(seam)).add("before", Json::number(hard)).add("knitted", Json::number(now)));
-    joined = std::move(knitted);
+    KnitPicture knitted = knit_textures(joined, next, options.knit, progress);
+    const std::string now = knitted.band_px == 0
+                                ? std::string("times the steps inside; left as it was")
+                                : fmt::format("times the steps inside, {:.2f} before; {} px on either side", knitted.before, knitted.band_px);
+    lines += fmt::format("  seam at {} px: {:.2f} {}\n", seam, knitted.after, now);
+    told.add(Json::object()
+                 .add("at_px", Json::number(seam))
+                 .add("before", Json::number(knitted.before))
+                 .add("knitted", Json::number(knitted.after))
+                 .add("band_px", Json::number(knitted.band_px)));
+    joined = std::move(knitted.picture);
   }
   if (options.down) joined = transposed(joined);
   write_texture(options.out, joined, fmt::format("{} pictures knitted, seed {}", options.pictures.size(), options.knit.seed));
@@ -86,7 +78,7 @@ Action add_texture_knit(CLI::App& command) {
       ->type_name("PICTURE");
   command.add_option("--out", options->out, "The picture: .png or .tif")->required()->type_name("PICTURE");
   command.add_flag("--down", options->down, "From top to bottom instead; of one width then");
-  command.add_option("--band-px", options->knit.band_px, "How far from a seam pixels may change. Default: 24")
+  command.add_option("--band-px", options->knit.band_px, "How far from a seam pixels may change. Default: as the step of the seam asks, 24 to 96")
       ->check(CLI::Range(8, 256))
       ->type_name("PX");
   command.add_option("--seed", options->knit.seed, "Another seed, another border. Default: 1")->type_name("N");
@@ -95,7 +87,7 @@ Action add_texture_knit(CLI::App& command) {
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(
       "Each picture is grown over the seam by a texture model of its own, up to a ragged border that a model of both makes anew.\n"
-      "Nothing farther from the seam changes.\n\n"
+      "A seam that nobody sees is left as it is. Nothing farther from the seam changes.\n\n"
       "  belvedere texture knit meadow.png scree.png --out slope.png");
   return [options] { return run(*options); };
 }

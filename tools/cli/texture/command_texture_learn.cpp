@@ -10,6 +10,7 @@
 #include "renderer/image/output_file.h"
 #include "texture/statistical/choose_seed.h"
 #include "texture/statistical/learn_by_sampling.h"
+#include "texture/statistical/light_half.h"
 #include "texture/statistical/make_texture.h"
 #include "texture/statistical/model_file.h"
 #include "texture/statistical/texture_figures.h"
@@ -27,7 +28,7 @@ constexpr int report_px = 512;
 constexpr int sampled_report_px = 128;  // what a sampler makes in the time
 
 struct Options {
-  std::string crop, mask, out, report, method;
+  std::string crop, mask, light, out, report, method;
   BeginOptions begin;
   LearnParameters learn;
   int threads = 0;
@@ -145,7 +146,9 @@ int run(const Options& options) {
     throw Error(ErrorKind::usage, "--out", options.out + " is what is read", "a file of its own");
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
-  const TextureCrop crop = read_crop(options.crop, options.mask);
+  TextureCrop crop = read_crop(options.crop, options.mask);
+  if (!options.light.empty())
+    crop.states = light_half(crop.picture, crop.states, options.light == "lit" ? LightHalf::lit : LightHalf::shaded);
   if (crop.transparent > 0) progress.note(fmt::format("{} transparent pixels are left out", crop.transparent));
   Findings found;
   const bool sampled = options.method == "paper";
@@ -190,6 +193,12 @@ Action add_texture_learn(CLI::App& command) {
   command.add_option("--types", options->learn.types, "How many statistics the model holds at most, 16 to 200. Default: 40")
       ->check(CLI::Range(16, 200))
       ->type_name("N");
+  command
+      .add_option("--light", options->light,
+                  "Learn only what of the crop lies in the light (lit) or in the shade (shaded), its lighter or its darker\n"
+                  "half: rock and snow faces are light and shade, and want a model for each. Default: all of it")
+      ->check(CLI::IsMember({"lit", "shaded"}))
+      ->type_name("HALF");
   add_begin_options(command, options->begin,
                     "The noise it begins with, which decides the shape of its dabs: white, streaks (strokes along a\n"
                     "direction) or discs (crowns). Default: what comes nearest to the crop");
