@@ -296,10 +296,9 @@ std::vector<ScannedPainting> read_scans(const LoadedScene& scene, Progress& prog
   for (std::size_t i = 0; i < paintings.size(); ++i)
     if (!raws[i].picture.empty()) scans[i] = finish_scan(paintings[i], std::move(raws[i]), scene.scene.synthesis.residual, progress);
   // A model has no texels, but colours.
-  for (const SceneTextureModel& model : read_texture_models(scene)) {
-    const LabelRamps ramps = model_ramps(model.model);
-    for (const LandCoverClass id : model.serves) scans[model.block].ramps[static_cast<std::size_t>(id)] = ramps;
-  }
+  const std::vector<SceneTextureModel> models = read_texture_models(scene);
+  for (const SceneTextureModel& model : models)
+    for (const LandCoverClass id : model.serves) scans[model.block].ramps[static_cast<std::size_t>(id)] = model_ramps(models, model, id);
   return scans;
 }
 

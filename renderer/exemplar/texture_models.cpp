@@ -27,6 +27,15 @@ ModelLight light_of(const std::string& name) {
   return name == "lit" ? ModelLight::lit : name == "shaded" ? ModelLight::shaded : ModelLight::any;
 }
 
+// The first model that serves a class in that light.
+std::vector<SceneTextureModel>::const_iterator find_model(const std::vector<SceneTextureModel>& models, LandCoverClass id,
+                                                          ModelLight light) {
+  return std::find_if(models.begin(), models.end(), [&](const SceneTextureModel& model) {
+    const bool lights = model.light == ModelLight::any || model.light == light;
+    return lights && std::find(model.serves.begin(), model.serves.end(), id) != model.serves.end();
+  });
+}
+
 // The land cover is the map of labels: each label that is the number of a class paints that class.
 void add_labels(CompositeModel composite, const std::string& path, const SceneTextureModel& plain, std::vector<SceneTextureModel>& models) {
   for (CompositeLabel& label : composite.labels) {
@@ -83,13 +92,8 @@ std::vector<ModelledClass> choose_modelled(const std::vector<SceneTextureModel>&
   const Counts pixels = count_labels(target);
   std::vector<ModelledClass> chosen;
   for (const LandCoverClassInfo& info : land_cover_classes()) {
-    const auto find_model = [&](ModelLight other_light) {
-      return std::find_if(models.begin(), models.end(), [&](const SceneTextureModel& model) {
-        return model.light != other_light && std::find(model.serves.begin(), model.serves.end(), info.id) != model.serves.end();
-      });
-    };
-    const auto model = find_model(ModelLight::shaded);
-    const auto shaded = find_model(ModelLight::lit);
+    const auto model = find_model(models, info.id, ModelLight::lit);
+    const auto shaded = find_model(models, info.id, ModelLight::shaded);
     if (model == models.end() || shaded == models.end()) continue;
     const bool always = model->always || shaded->always;
     const auto label = static_cast<std::size_t>(info.id);
@@ -128,6 +132,22 @@ LabelRamps model_ramps(const CliqueModel& model) {
   return {.distances = {0.0},
           .ramps = {ramp},
           .texels = static_cast<std::size_t>(model.crop_width) * static_cast<std::size_t>(model.crop_height)};
+}
+
+LabelRamps model_ramps(const std::vector<SceneTextureModel>& models, const SceneTextureModel& model, LandCoverClass id) {
+  LabelRamps ramps = model_ramps(model.model);
+  if (model.light == ModelLight::any) return ramps;
+  const bool lit = model.light == ModelLight::lit;
+  const auto other = find_model(models, id, lit ? ModelLight::shaded : ModelLight::lit);
+  if (other == models.end()) return ramps;
+  const ToneRamp rest = model_ramps(other->model).ramps[0];
+  ToneRamp& own = ramps.ramps[0];
+  const auto half = static_cast<std::ptrdiff_t>(own.size() / 2);
+  if (lit)
+    std::copy(rest.begin(), rest.begin() + half, own.begin());
+  else
+    std::copy(rest.begin() + half, rest.end(), own.begin() + half);
+  return ramps;
 }
 
 }  // namespace belvedere

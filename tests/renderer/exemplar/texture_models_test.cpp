@@ -107,6 +107,20 @@ TEST(TextureModels, RampsRiseFromDarkToLightAroundTheMean) {
   EXPECT_EQ(ramps.texels, 72U * 64U);
 }
 
+TEST(TextureModels, RampsOfTwoModelsGoFromShadeToLight) {
+  std::vector<SceneTextureModel> models = {model_of({rock}), model_of({rock, snow})};
+  models[1].model.bands.mean[1] -= 30.F;
+  models[0].light = ModelLight::lit;
+  models[1].light = ModelLight::shaded;
+  const ToneRamp of_lit = model_ramps(models[0].model).ramps[0];
+  const ToneRamp of_shaded = model_ramps(models[1].model).ramps[0];
+  for (const SceneTextureModel& model : models) {
+    const ToneRamp ramp = model_ramps(models, model, rock).ramps[0];
+    for (std::size_t t = 0; t < ramp.size(); ++t) EXPECT_EQ(ramp[t], (t < 2 ? of_shaded : of_lit)[t]) << t;
+  }
+  EXPECT_EQ(model_ramps(models, models[1], snow).ramps[0], of_shaded) << "nothing paints snow in the light";
+}
+
 TEST(TextureModels, AreReadFromTheScenesFolder) {
   const test::Folder folder;
   test::write_bytes(folder / "m.model", model_text(meadow()));
