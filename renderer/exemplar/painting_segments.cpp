@@ -56,11 +56,15 @@ std::vector<std::uint8_t> guess_nodes(std::vector<LookSums> sums, const JoinTree
     both += sums[b];
     sums.push_back(both);
   }
+  const LookSums& whole = sums.back();
+  const double usual = std::max((whole.across + whole.down) / whole.pixels, 1e-6);
   std::vector<std::uint8_t> guesses;
   guesses.reserve(sums.size());
-  for (const LookSums& sum : sums)
-    guesses.push_back(
-        guess_class({sum.oklab / sum.pixels, sum.y / sum.pixels, sum.upper_edge, sum.across / sum.pixels, sum.down / sum.pixels}));
+  for (const LookSums& sum : sums) {
+    PartLook look{sum.oklab / sum.pixels, sum.y / sum.pixels, sum.upper_edge, sum.across / sum.pixels, sum.down / sum.pixels};
+    look.rough = (look.across + look.down) / usual;
+    guesses.push_back(guess_class(look));
+  }
   return guesses;
 }
 
@@ -79,20 +83,29 @@ void check_picture(const Grid<glm::vec3>& picture, const Grid<float>& alpha, con
 std::uint8_t guess_class(const PartLook& look) {
   using enum LandCoverClass;
   const double lightness = look.oklab.x;
-  const double chroma = std::sqrt(look.oklab.y * look.oklab.y + look.oklab.z * look.oklab.z);
-  const bool blue = look.oklab.z < -0.012;
-  const bool green = look.oklab.y < -0.012 && look.oklab.z > 0.0;
-  const bool warm = look.oklab.z > 0.03 && look.oklab.y > -0.01;
+  const double red = look.oklab.y;     // against green
+  const double yellow = look.oklab.z;  // against blue
+  const double chroma = std::sqrt(red * red + yellow * yellow);
+  const bool blue = yellow < -0.012;
+  const bool pale = lightness > 0.68 && chroma < 0.05;
+  const bool green = red < -0.006 && yellow > 0.0 && chroma > 0.015;
+  const bool olive = red < 0.0045 && yellow > 0.025 && yellow < 0.05;  // woods and fields under old varnish
+  const bool warm = yellow > 0.03 && red > -0.01;
   const bool level = look.down > 1.25 * look.across;
+  // Leaves against the sky are as bright as it, and the roughest that there is; a cliff in blue shade is no sky either. What holds much of
+  // the upper edge may be painted as roughly as the rest.
+  const bool smooth = look.rough < (look.upper_edge > 0.25 ? 1.15 : 0.8);
   const auto of = [&] {
-    if (look.height < 0.5 && lightness > 0.45 && !green && (blue || look.upper_edge > 0.02 || (lightness > 0.7 && look.height < 0.3)))
-      return sky;
-    if (look.height >= 0.35 && blue && (level || chroma > 0.04)) return water;
-    if (lightness > 0.78 && chroma < 0.05) return snow;
-    if (green) return lightness < 0.5 ? forest : pasture;
+    if (look.height < 0.5 && lightness > 0.45 && smooth && (!green || pale) && (blue || pale || look.upper_edge > 0.02)) return sky;
+    if (look.height < 0.65 && lightness > 0.68 && chroma < 0.03 && look.rough < 0.6) return sky;  // haze over the horizon
+    if (look.height >= (level ? 0.35 : 0.5) && blue && (level || chroma > 0.04)) return water;
+    if (look.height > 0.5 && blue && chroma > 0.025 && look.rough < 1.2) return water;
+    if (lightness > 0.72 && chroma < 0.035) return snow;
+    if (green || olive) return lightness < 0.5 || look.rough > 1.8 ? forest : pasture;
     if (warm && lightness > 0.72) return sand;
     if (warm && chroma > 0.09) return valley_floor;
-    if (lightness < 0.28) return forest;
+    if (look.height > 0.5 && smooth && lightness > 0.45 && red > 0.01 && yellow > 0.01) return sand;  // wet, or in shade
+    if (lightness < 0.28 || (lightness < 0.4 && yellow > 0.01)) return forest;
     return rock;
   };
   return static_cast<std::uint8_t>(of());

@@ -31,9 +31,10 @@ struct PartLook {
   double upper_edge = 0.0;  // share of the painting's upper edge that it holds
   double across = 0.0;      // mean steps of lightness along rows,
   double down = 0.0;        // and along columns: larger where strokes lie level
+  double rough = 1.0;       // both together over the whole painting's: sky is the smoothest that a painting has
 };
-// Sky is above, blue or bright; water blue and low or painted level; snow is bright and grey, woods are dark and green, and so on: the id
-// of a class for any look.
+// Sky is above, smooth, blue or bright; water blue and low or painted level; snow is bright and grey, woods are dark and green or olive,
+// and so on: the id of a class for any look.
 std::uint8_t guess_class(const PartLook& look);
 
 // The number that a mask has for each pixel: of each group of pieces its class, unused_label for those without.

@@ -47,7 +47,8 @@ std::vector<ModelledClass> choose_modelled(const std::vector<SceneTextureModel>&
 // A model's colours from dark to light, for pictures that take the colours of their paintings: its mean, moved along the widest axis of its
 // colours as far as its coarsest pixels lie from that.
 LabelRamps model_ramps(const CliqueModel& model);
-// Those of a class that a model serves: where another has the other light of it, dark ones are the shaded model's, light ones the lit one's.
+// Those of a class that a model serves: where another has the other light of it, dark ones are the shaded model's, light ones the lit
+// one's.
 LabelRamps model_ramps(const std::vector<SceneTextureModel>& models, const SceneTextureModel& model, LandCoverClass id);
 
 }  // namespace belvedere

@@ -247,7 +247,8 @@ class Rules {
                std::find(other.serves.begin(), other.serves.end(), id) != other.serves.end();
       });
       if (!whole)
-        refuse(name + ".light", fmt::format("{}.light is \"{}\" and no other block paints the rest of {}", name, exemplar.light, class_name(id)),
+        refuse(name + ".light",
+               fmt::format("{}.light is \"{}\" and no other block paints the rest of {}", name, exemplar.light, class_name(id)),
                "another block with a model that serves it");
     }
   }

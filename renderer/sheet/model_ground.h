@@ -45,9 +45,10 @@ struct GroundModels {
 };
 
 // The paint of a tile of the sheet: each model's texture without end, at the sheet's own pixels, where `shown` (of the tile) has a class of
-// its and there is no sky; classes with two models by `tone` (of the tile, 0…1; read for these alone). Streaks run down the fall line, level on water, fields and flat ground. `guidance` is that of `window`: the tile
-// and model_margin_px around it, cut by the sheet; needs depth_m, land_cover and fall_line. A model is asked for the box of its classes in
-// the tile alone, with endless_margin_px around it: tiles must be those of one lattice, for pixels to be the same whoever asks.
+// its and there is no sky; classes with two models by `tone` (of the tile, 0…1; read for these alone). Streaks run down the fall line,
+// level on water, fields and flat ground. `guidance` is that of `window`: the tile and model_margin_px around it, cut by the sheet; needs
+// depth_m, land_cover and fall_line. A model is asked for the box of its classes in the tile alone, with endless_margin_px around it: tiles
+// must be those of one lattice, for pixels to be the same whoever asks.
 ModelPaint make_model_paint(const GroundModels& models, PixelRect tile, const Grid<LandCoverClass>& shown, const GuidanceBuffers& guidance,
                             PixelRect window, const Grid<float>& tone = {});
 int model_margin_px(const GroundModels& models);

@@ -127,7 +127,8 @@ TEST(TextureModels, AreReadFromTheScenesFolder) {
   const auto read = [&](const std::string& block) {
     return read_texture_models(test::small_scene({"exemplar.0=" + block}, folder.path()));
   };
-  const std::vector<SceneTextureModel> models = read("{ model = \"m.model\", serves = [\"pasture\"], prefer = \"model\", stroke_px = 4, light = \"any\" }");
+  const std::vector<SceneTextureModel> models =
+      read("{ model = \"m.model\", serves = [\"pasture\"], prefer = \"model\", stroke_px = 4, light = \"any\" }");
   ASSERT_EQ(models.size(), 1U);
   EXPECT_TRUE(models[0].always);
   EXPECT_EQ(models[0].light, ModelLight::any);

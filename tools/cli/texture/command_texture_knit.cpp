@@ -48,9 +48,9 @@ int run(const Options& options) {
     const Grid<Rgb8> next = read(options.pictures[i]);
     const int seam = joined.width();
     KnitPicture knitted = knit_textures(joined, next, options.knit, progress);
-    const std::string now = knitted.band_px == 0
-                                ? std::string("times the steps inside; left as it was")
-                                : fmt::format("times the steps inside, {:.2f} before; {} px on either side", knitted.before, knitted.band_px);
+    const std::string now =
+        knitted.band_px == 0 ? std::string("times the steps inside; left as it was")
+                             : fmt::format("times the steps inside, {:.2f} before; {} px on either side", knitted.before, knitted.band_px);
     lines += fmt::format("  seam at {} px: {:.2f} {}\n", seam, knitted.after, now);
     told.add(Json::object()
                  .add("at_px", Json::number(seam))
@@ -78,7 +78,9 @@ Action add_texture_knit(CLI::App& command) {
       ->type_name("PICTURE");
   command.add_option("--out", options->out, "The picture: .png or .tif")->required()->type_name("PICTURE");
   command.add_flag("--down", options->down, "From top to bottom instead; of one width then");
-  command.add_option("--band-px", options->knit.band_px, "How far from a seam pixels may change. Default: as the step of the seam asks, 24 to 96")
+  command
+      .add_option("--band-px", options->knit.band_px,
+                  "How far from a seam pixels may change. Default: as the step of the seam asks, 24 to 96")
       ->check(CLI::Range(8, 256))
       ->type_name("PX");
   command.add_option("--seed", options->knit.seed, "Another seed, another border. Default: 1")->type_name("N");
