@@ -62,7 +62,7 @@ Grid<Rgb8> make_composite_window(const CompositeModel& model, const CompositeRec
       const Grid<std::uint8_t> zone = near_borders(own, remade_border_px);
       if (model.transition && std::any_of(zone.begin(), zone.end(), [](std::uint8_t z) { return z != 0; })) {
         const Grid<std::uint8_t> all(around.width(), around.height(), 1);
-        made = fill_among(made, zone, all, {around.x0, around.y0}, *model.transition, parameters);
+        made = fill_among(made, zone, all, {around.x0, around.y0}, *model.transition, of_seam(parameters));
         snap_colours(made, own, zone, remade_border_px);
       }
       const PixelRect part = intersection(tile, window);

@@ -52,7 +52,7 @@ Grid<Rgb8> knit_seam(const Grid<Rgb8>& picture, const SeamZone& zone, TexturePla
   making.rounds = seam_rounds;
   making.sweeps = seam_sweeps;
   making.polish_from = 0;
-  Grid<Rgb8> out = fill_among(picture, zone.hole, zone.side, place, model, making);
+  Grid<Rgb8> out = fill_among(picture, zone.hole, zone.side, place, model, of_seam(making));
   // Pixels of neither side stand in the zone as well, so that their colours are nobody's; they stay as they are.
   Grid<std::uint8_t> remade = zone.hole;
   for (std::size_t i = 0; i < remade.size(); ++i)

@@ -125,7 +125,7 @@ Grid<Rgb8> make_composite(const CompositeModel& model, const Grid<std::uint8_t>&
   if (!model.transition) return out;
   const Grid<std::uint8_t> zone = near_borders(labels, remade_border_px);
   if (std::none_of(zone.begin(), zone.end(), [](std::uint8_t z) { return z != 0; })) return out;
-  out = fill_texture(out, zone, *model.transition, parameters, progress);
+  out = fill_texture(out, zone, *model.transition, of_seam(parameters), progress);
   snap_colours(out, labels, zone, remade_border_px);
   return out;
 }

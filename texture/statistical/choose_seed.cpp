@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "base/angle.h"
 #include "base/math_exact.h"
@@ -14,10 +15,21 @@ namespace {
 
 constexpr int trial_px = 128;
 constexpr float streak_lengths_px[] = {6.F, 12.F, 24.F};
-constexpr float disc_radii_px[] = {4.F, 8.F, 12.F};
+constexpr float disc_radius_px = 4.F;
 
 float lightness(const Rgb8& c) {
   return .299F * static_cast<float>(c[0]) + .587F * static_cast<float>(c[1]) + .114F * static_cast<float>(c[2]);
+}
+
+bool is_streaks(const SeedTrial& trial) { return trial.seed == TextureSeed::streaks; }
+
+double handicapped(const SeedTrial& trial) { return trial.score() / (trial.polish || is_streaks(trial) ? 1.0 : unpolished_margin); }
+
+double least_shape(const std::vector<SeedTrial>& trials, bool of_streaks) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const SeedTrial& trial : trials)
+    if (is_streaks(trial) == of_streaks) least = std::min(least, trial.shape());
+  return least;
 }
 
 }  // namespace
@@ -51,7 +63,7 @@ std::vector<SeedTrial> choose_seed(CliqueModel& model, const Grid<Rgb8>& crop, c
   std::vector<SeedTrial> trials = {{TextureSeed::white, 0.F, false}, {TextureSeed::white, 0.F, true}};
   // The polish's moves to a neighbour's colour wear streaks away.
   for (const float px : streak_lengths_px) trials.push_back({TextureSeed::streaks, px, false});
-  for (const float px : disc_radii_px) trials.push_back({TextureSeed::discs, px, false});
+  trials.push_back({TextureSeed::discs, disc_radius_px, false});
   progress.begin("choosing how the texture begins", static_cast<double>(trials.size()));
   const auto take = [&](const SeedTrial& trial) {
     model.seed = trial.seed;
@@ -63,9 +75,14 @@ std::vector<SeedTrial> choose_seed(CliqueModel& model, const Grid<Rgb8>& crop, c
     const TextureFigures figures = texture_figures(crop, states, make_texture(model, trial_px, trial_px, {}), model, parameters);
     trial.beyond = figures.beyond;
     trial.drawn = figures.drawn;
+    trial.turned = figures.turned;
     progress.advance(1.0);
   }
-  std::stable_sort(trials.begin(), trials.end(), [](const SeedTrial& a, const SeedTrial& b) { return a.score() < b.score(); });
+  const bool streaks_win = least_shape(trials, true) < streaks_margin * least_shape(trials, false);
+  std::stable_sort(trials.begin(), trials.end(), [&](const SeedTrial& a, const SeedTrial& b) {
+    if (is_streaks(a) != is_streaks(b)) return is_streaks(a) == streaks_win;
+    return handicapped(a) < handicapped(b);
+  });
   take(trials.front());
   return trials;
 }

@@ -13,8 +13,7 @@
 namespace belvedere {
 namespace {
 
-constexpr double share_floor = 1e-4;  // of a bin, so that an empty one has a logarithm
-constexpr int lattice = 4;            // pixels of one phase are this far apart, so that none is another's 4-neighbour
+constexpr int lattice = 4;  // pixels of one phase are this far apart, so that none is another's 4-neighbour
 
 // One type of the level, ready for sums.
 struct Term {
@@ -57,7 +56,7 @@ std::vector<std::array<float, potential_bins>> wanted_shares(const CliqueModel& 
 }
 
 void correct(const BandPicture& picture, const BandSpace& bands, Term& term, const std::array<float, potential_bins>& wanted,
-             double correction) {
+             double correction, double share_floor) {
   const DifferenceHistogram histogram = count_differences(picture, bands, term.type);
   constexpr std::size_t joined = difference_bins / potential_bins;
   const double total = static_cast<double>(std::max<std::uint64_t>(histogram.total, 1));
@@ -184,7 +183,7 @@ void polish(FlowState& state, const CliqueModel& model, int level, const PolishP
         std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(k * potential_bins), potential_bins, terms[k].potential.begin());
     } else {
       parallel_ranges(terms.size(), std::size_t{1}, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k != end; ++k) correct(picture, model.bands, terms[k], wanted[k], correction);
+        for (std::size_t k = begin; k != end; ++k) correct(picture, model.bands, terms[k], wanted[k], correction, parameters.share_floor);
       });
     }
     if (record != nullptr) {

@@ -86,9 +86,7 @@ Grid<Rgb8> grow_right(const Grid<Rgb8>& picture, const KnitParameters& parameter
       grown(x, y) = picture.clamped(near.x0 + x, y);
       hole(x, y) = x >= near.width() ? 1 : 0;
     }
-  TextureParameters making;
-  making.seed = parameters.seed;
-  return fill_texture(grown, hole, learn(part_of(picture, near), {}, parameters), making);
+  return fill_texture(grown, hole, learn(part_of(picture, near), {}, parameters), of_seam({.seed = parameters.seed}));
 }
 
 // 1 where the right picture begins: behind a line that wanders over the band, to every column of it equally often, and is torn a little.
@@ -211,9 +209,7 @@ KnitPicture knit_textures(const Grid<Rgb8>& left, const Grid<Rgb8>& right, const
     else
       colours.add(around[i]);
   }
-  TextureParameters making;
-  making.seed = parameters.seed + 1;
-  const Grid<Rgb8> joined = fill_texture(around, hole, learn(around, states, parameters), making);
+  const Grid<Rgb8> joined = fill_texture(around, hole, learn(around, states, parameters), of_seam({.seed = parameters.seed + 1}));
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < window.width(); ++x)
       if (hole(x, y) != 0) out(window.x0 + x, y) = colours.snapped(joined(x, y));

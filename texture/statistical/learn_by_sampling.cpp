@@ -50,7 +50,10 @@ LearnedTexture learn_by_sampling(const Grid<Rgb8>& crop, const Grid<std::uint8_t
   for (int round = 0;; ++round) {
     // Step 6.
     polish(made, model, 0,
-           {.sweeps = round == 0 ? first_sweeps : added_sweeps, .seed = noise_seed + static_cast<std::uint64_t>(round), .settle = false},
+           {.sweeps = round == 0 ? first_sweeps : added_sweeps,
+            .share_floor = sampler_share_floor,
+            .seed = noise_seed + static_cast<std::uint64_t>(round),
+            .settle = false},
            {});
     progress.advance(1.0);
     // Steps 3 to 5.

@@ -125,8 +125,8 @@ BandPicture run(const CliqueModel& model, BandPyramid pyramid, TexturePlace plac
   FlowState state{std::move(pyramid), {}};
   const SeedNoise noise = noise_of(model, parameters);
   const int rounds = model.sampled ? 0 : parameters.rounds;
-  const PolishParameters polishing{
-      .sweeps = model.sampled ? sampler_sweeps : parameters.sweeps, .seed = parameters.seed, .settle = !model.sampled};
+  PolishParameters polishing{.sweeps = parameters.sweeps, .share_floor = parameters.share_floor, .seed = parameters.seed};
+  if (model.sampled) polishing = {.sweeps = sampler_sweeps, .share_floor = sampler_share_floor, .seed = parameters.seed, .settle = false};
   std::size_t polished = 0;
   for (int level = model.levels; level >= 0; --level) {
     begin_level(state, model, level, noise, place, making.known);

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <numbers>
 #include <unordered_set>
 
 #include "base/grid_part.h"
+#include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "texture/statistical/difference_histogram.h"
@@ -31,13 +33,19 @@ DifferenceHistogram laplacian_histogram(const BandPicture& picture, const BandSp
   return out;
 }
 
-// Histogram of the coherence of the structure tensor over a window of the first band, 0 no way more than another … 1 all one way:
-// ((Jxx - Jyy)² + 4 Jxy²)^½ / (Jxx + Jyy). Even places, where nothing is drawn, are not counted.
-DifferenceHistogram coherence_histogram(const BandPicture& picture) {
+// How paint runs, by the structure tensor over a window of the first band. Even places, where nothing is drawn, are not counted.
+struct RunHistograms {
+  DifferenceHistogram coherence;  // 0 no way more than another … 1 all one way: ((Jxx - Jyy)² + 4 Jxy²)^½ / (Jxx + Jyy)
+  DifferenceHistogram direction;  // in eighths of half a turn, each place by its coherence
+};
+
+RunHistograms run_histograms(const BandPicture& picture) {
   constexpr int reach = 3;
   constexpr float even = 1.F;  // mean square of slopes, in 8-bit units
+  constexpr int directions = 8;
+  constexpr int bins_a_direction = difference_bins / directions;
   const Grid<float>& v = picture.bands[0];
-  DifferenceHistogram out;
+  RunHistograms out;
   for (int y = reach + 1; y + reach + 1 < v.height(); ++y) {
     for (int x = reach + 1; x + reach + 1 < v.width(); ++x) {
       if ((picture.states(x, y) & pixel_counts) == 0) continue;
@@ -56,28 +64,34 @@ DifferenceHistogram coherence_histogram(const BandPicture& picture) {
       constexpr float window = (2 * reach + 1) * (2 * reach + 1);
       if (xx + yy < even * window) continue;
       const float coherence = std::sqrt((xx - yy) * (xx - yy) + 4.F * xy * xy) / (xx + yy);
-      ++out.counts[static_cast<std::size_t>(std::clamp(static_cast<int>(coherence * difference_bins), 0, difference_bins - 1))];
-      ++out.total;
+      const int bin = std::clamp(static_cast<int>(coherence * difference_bins), 0, difference_bins - 1);
+      ++out.coherence.counts[static_cast<std::size_t>(bin)];
+      ++out.coherence.total;
+      // Level strokes are the middle of the first direction, so that paint that is all level does not fall half into the last.
+      const double turn =
+          exact::atan2(2.0 * static_cast<double>(xy), static_cast<double>(xx - yy)) / (2.0 * std::numbers::pi) + .5 / directions;
+      const int of = static_cast<int>((turn - std::floor(turn)) * directions) % directions;
+      out.direction.counts[static_cast<std::size_t>(of * bins_a_direction)] += static_cast<std::uint32_t>(bin);
+      out.direction.total += static_cast<std::uint32_t>(bin);
     }
   }
   return out;
 }
 
-// Mean over the finest levels of the distance of two histograms; a level where either counts nothing says nothing.
-template <class F>
-double levels_apart(const BandPyramid& crop, const BandPyramid& made, F&& histogram) {
-  const std::size_t levels = std::min<std::size_t>(3, crop.size());
-  double sum = 0.0;
-  int compared = 0;
-  for (std::size_t l = 0; l < levels; ++l) {
-    const DifferenceHistogram of = histogram(crop[l]);
-    const DifferenceHistogram with = histogram(made[l]);
-    if (of.total == 0 || with.total == 0) continue;
-    sum += HistogramGroups(of).distance(with).l1;
-    ++compared;
+// Mean distance of histograms of levels; one where either counts nothing says nothing.
+class LevelsApart {
+ public:
+  void add(const DifferenceHistogram& of, const DifferenceHistogram& with) {
+    if (of.total == 0 || with.total == 0) return;
+    sum_ += HistogramGroups(of).distance(with).l1;
+    ++compared_;
   }
-  return sum / std::max(compared, 1);
-}
+  double mean() const { return sum_ / std::max(compared_, 1); }
+
+ private:
+  double sum_ = 0.0;
+  int compared_ = 0;
+};
 
 // Of the squares of a side: a 64-bit sum of their pixels, mixed row by row.
 std::uint64_t square_key(const Grid<Rgb8>& picture, int x, int y, int side) {
@@ -128,8 +142,19 @@ TextureFigures texture_figures(const Grid<Rgb8>& crop, const Grid<std::uint8_t>&
   }
   out.selected /= std::max(selected, 1);
   out.held_out /= std::max(held, 1);
-  out.beyond = levels_apart(example, result, [&](const BandPicture& p) { return laplacian_histogram(p, model.bands); });
-  out.drawn = levels_apart(example, result, [](const BandPicture& p) { return coherence_histogram(p); });
+  LevelsApart beyond;
+  LevelsApart drawn;
+  LevelsApart turned;
+  for (std::size_t l = 0; l < std::min<std::size_t>(3, example.size()); ++l) {
+    beyond.add(laplacian_histogram(example[l], model.bands), laplacian_histogram(result[l], model.bands));
+    const RunHistograms of = run_histograms(example[l]);
+    const RunHistograms with = run_histograms(result[l]);
+    drawn.add(of.coherence, with.coherence);
+    turned.add(of.direction, with.direction);
+  }
+  out.beyond = beyond.mean();
+  out.drawn = drawn.mean();
+  out.turned = turned.mean();
   return out;
 }
 
@@ -142,7 +167,7 @@ TextureFigures halves_figures(const Grid<Rgb8>& crop, const CliqueModel& model, 
   const TextureFigures across = between({0, 0, w / 2, h}, {w / 2, 0, w, h});
   const TextureFigures down = between({0, 0, w, h / 2}, {0, h / 2, w, h});
   return {.5 * (across.selected + down.selected), .5 * (across.held_out + down.held_out), std::max(across.worst, down.worst),
-          .5 * (across.beyond + down.beyond), .5 * (across.drawn + down.drawn)};
+          .5 * (across.beyond + down.beyond),     .5 * (across.drawn + down.drawn),       .5 * (across.turned + down.turned)};
 }
 
 int longest_copy_px(const Grid<Rgb8>& crop, const Grid<Rgb8>& made) {

@@ -13,6 +13,7 @@ struct TextureFigures {
   double worst = 0.0;     // of any single one
   double beyond = 0.0;    // of the Laplacian at levels 0…2, a clique of five pixels, which no model here knows
   double drawn = 0.0;     // of how far paint around a pixel runs one way (structure tensor's coherence), at levels 0…2
+  double turned = 0.0;    // of which way it runs there, by directions of an eighth of half a turn, at levels 0…2
 };
 
 // Of a picture that was made, or of any other, against the crop; `states` (empty: all) counts the crop's pixels.

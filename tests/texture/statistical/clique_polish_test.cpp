@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <set>
 
+#include "base/random.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/statistical/difference_histogram.h"
 #include "texture/statistical/learn_texture.h"
+#include "texture/statistical/make_texture.h"
 
 namespace belvedere {
 namespace {
@@ -46,6 +48,32 @@ TEST(CliquePolish, ComesNearTheModelByItself) {
   const double before = off(state.pyramid[0], example, model);
   polish(state, model, 0, {.sweeps = 40}, {});
   EXPECT_LT(off(state.pyramid[0], example, model), .5 * before);
+}
+
+// Dark paint with a bright dot here and there, as flowers in the shade.
+Grid<Rgb8> dotted_crop(int side) {
+  Grid<Rgb8> crop = test::meadow_crop(side, side);
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      for (std::uint8_t& c : crop(x, y)) c = static_cast<std::uint8_t>(c / 3);
+      if (random_uniform(4, x / 2, y / 2) < .004) crop(x, y) = {235, 230, 200};
+    }
+  return crop;
+}
+
+// The dots are few differences of many types: with next to no floor they are asked for until all else is off.
+TEST(CliquePolish, WhatHardlyEverOccursDoesNotTakeOver) {
+  const Grid<Rgb8> crop = dotted_crop(128);
+  CliqueModel model = model_of(crop);
+  model.polish = false;
+  const BandPicture example = to_bands(crop, model.bands, {});
+  const BandPicture flowed = to_bands(make_texture(model, 192, 192, {}), model.bands, {});
+  const auto off_with = [&](double share_floor) {
+    FlowState state{{flowed}, {}};
+    polish(state, model, 0, {.share_floor = share_floor}, {});
+    return off(state.pyramid[0], example, model);
+  };
+  EXPECT_LT(off_with(PolishParameters{}.share_floor), .85 * off_with(sampler_share_floor));
 }
 
 TEST(CliquePolish, WhatMayNotChangeStays) {

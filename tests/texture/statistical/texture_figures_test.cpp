@@ -18,6 +18,19 @@ TEST(TextureFigures, ACropIsItsOwnTexture) {
   EXPECT_EQ(own.held_out, 0.0);
   EXPECT_EQ(own.beyond, 0.0);
   EXPECT_EQ(own.drawn, 0.0);
+  EXPECT_EQ(own.turned, 0.0);
+}
+
+// Stripes laid level are as drawn as upright ones, and run another way.
+TEST(TextureFigures, PaintThatRunsAnotherWayIsToldWhereItIsDrawnAlike) {
+  const Grid<Rgb8> crop = test::striped_crop(96, 96, 8);
+  Grid<Rgb8> laid(96, 96);
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 96; ++x) laid(x, y) = crop(y, x);
+  const CliqueModel model = learn_texture(crop, {}, quick).model;
+  const TextureFigures of = texture_figures(crop, {}, laid, model, quick);
+  EXPECT_LT(of.drawn, .1);
+  EXPECT_GT(of.turned, 1.5);
 }
 
 // Stripes run one way everywhere, a meadow's dabs hardly.

@@ -190,7 +190,7 @@ Action add_composite_learn(CLI::App& command) {
       ->type_name("N");
   add_begin_options(command, options->begin,
                     "The noise that all textures begin with, which decides the shape of their dabs: white, streaks or discs.\n"
-                    "Default: for each what comes nearest to the crop, which may look combed where forms are large: then white");
+                    "Default: for each what comes nearest to the crop");
   command.add_option("--report", options->report, "A page with crop beside composite, and all figures")->type_name("FOLDER");
   command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit")->type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");

@@ -37,8 +37,8 @@ Json as_json(const Judgement& judged) {
 }
 
 std::string as_text(const Judgement& judged) {
-  return fmt::format("{:<32} {:.3f}  {:.3f}  {:.2f}  {:.3f}   {:.3f}  {}\n", judged.name, judged.figures.selected, judged.figures.held_out,
-                     judged.figures.worst, judged.figures.beyond, judged.figures.drawn,
+  return fmt::format("{:<32} {:.3f}  {:.3f}  {:.2f}  {:.3f}   {:.3f}  {:.3f}   {}\n", judged.name, judged.figures.selected,
+                     judged.figures.held_out, judged.figures.worst, judged.figures.beyond, judged.figures.drawn, judged.figures.turned,
                      judged.copy_px < 0 ? "" : fmt::format("{}", judged.copy_px));
 }
 
@@ -61,8 +61,8 @@ int run(const Options& options) {
     for (const Judgement& judged : all) list.add(as_json(judged));
     print_out(list.str() + "\n");
   } else {
-    std::string out = fmt::format("{:<32} {:<5}  {:<5}  {:<4} {:<6}  {:<5}  {}\n", "L1 to the crop, 0…2", "held", "other", "worst",
-                                  "beyond", "drawn", "copy px");
+    std::string out = fmt::format("{:<32} {:<5}  {:<5}  {:<4} {:<6}  {:<5}  {:<6}  {}\n", "L1 to the crop, 0…2", "held", "other", "worst",
+                                  "beyond", "drawn", "turned", "copy px");
     for (const Judgement& judged : all) out += as_text(judged);
     print_out(out);
   }

@@ -79,6 +79,7 @@ std::string as_text(const Options& options, const Findings& found) {
                   found.figures.selected, found.figures.held_out, found.halves.selected, found.halves.held_out);
   out += fmt::format("  beyond pairs          {:.3f}; halves {:.3f}\n", found.figures.beyond, found.halves.beyond);
   out += fmt::format("  drawn one way         {:.3f}; halves {:.3f}\n", found.figures.drawn, found.halves.drawn);
+  out += fmt::format("  which way             {:.3f}; halves {:.3f}\n", found.figures.turned, found.halves.turned);
   out += fmt::format("  longest exact copy    {} px\n", found.copy_px);
   return out;
 }
@@ -92,7 +93,8 @@ std::string as_json(const Options& options, const Findings& found) {
                    .add("px", Json::number(t.px))
                    .add("polish", Json::boolean(t.polish))
                    .add("beyond", Json::number(t.beyond))
-                   .add("drawn", Json::number(t.drawn)));
+                   .add("drawn", Json::number(t.drawn))
+                   .add("turned", Json::number(t.turned)));
   return Json::object()
              .add("out", Json::text(options.out))
              .add("types", Json::number(static_cast<double>(model.cliques.size())))
@@ -117,10 +119,11 @@ void write_report(const Options& options, const TextureCrop& crop, const Finding
   folder.picture("crop", encoded_picture(crop.picture), "the crop");
   folder.picture("texture", encoded_picture(found.made), fmt::format("made, {} × {} pixels", found.made.width(), found.made.height()));
   folder.end_figure();
-  folder.add("<h2>Distances</h2><table>" + html_row({"", "types it holds", "all others", "worst", "beyond pairs", "drawn one way"}, "th"));
+  folder.add("<h2>Distances</h2><table>" +
+             html_row({"", "types it holds", "all others", "worst", "beyond pairs", "drawn one way", "which way"}, "th"));
   const auto row = [&](const char* name, const TextureFigures& f) {
     folder.add(html_row({name, fmt::format("{:.3f}", f.selected), fmt::format("{:.3f}", f.held_out), fmt::format("{:.2f}", f.worst),
-                         fmt::format("{:.3f}", f.beyond), fmt::format("{:.3f}", f.drawn)}));
+                         fmt::format("{:.3f}", f.beyond), fmt::format("{:.3f}", f.drawn), fmt::format("{:.3f}", f.turned)}));
   };
   row("texture to crop", found.figures);
   row("halves of the crop", found.halves);
@@ -130,9 +133,10 @@ void write_report(const Options& options, const TextureCrop& crop, const Finding
                          fmt::format("{:.3f}", level.worst_l2)}));
   folder.add("</table>");
   if (!found.trials.empty()) {
-    folder.add("<h2>How it begins</h2><table>" + html_row({"noise", "beyond pairs", "drawn one way"}, "th"));
+    folder.add("<h2>How it begins</h2><table>" + html_row({"noise", "beyond pairs", "drawn one way", "which way"}, "th"));
     for (const SeedTrial& t : found.trials)
-      folder.add(html_row({describe(t.seed, t.px, t.polish), fmt::format("{:.3f}", t.beyond), fmt::format("{:.3f}", t.drawn)}));
+      folder.add(html_row({describe(t.seed, t.px, t.polish), fmt::format("{:.3f}", t.beyond), fmt::format("{:.3f}", t.drawn),
+                           fmt::format("{:.3f}", t.turned)}));
     folder.add("</table>");
   }
   if (is_uneven(found)) folder.add("<p>" + markup_text(warning_of(found)) + "</p>");

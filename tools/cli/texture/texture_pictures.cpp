@@ -76,7 +76,8 @@ Json with_figures(Json object, const TextureFigures& figures) {
       .add("held_out", Json::number(figures.held_out))
       .add("worst", Json::number(figures.worst))
       .add("beyond", Json::number(figures.beyond))
-      .add("drawn", Json::number(figures.drawn));
+      .add("drawn", Json::number(figures.drawn))
+      .add("turned", Json::number(figures.turned));
   return object;
 }
 
