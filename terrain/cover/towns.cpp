@@ -119,8 +119,11 @@ std::vector<Candidate> find_candidates(const TownGround& g, const TownParameters
   const int block = std::max(1, static_cast<int>(block_m / cell_m));
   const auto few = static_cast<float>(1.0 - p.guesses);
   const std::uint64_t key = stream_seed(p.seed, Stream::towns);
-  std::vector<Candidate> candidates;
-  for (int by = 0; by < height; by += block) {
+  // Rows of blocks by themselves, joined in their order.
+  std::vector<std::vector<Candidate>> rows(static_cast<std::size_t>((height + block - 1) / block));
+  parallel_rows(static_cast<int>(rows.size()), [&](int row) {
+    const int by = row * block;
+    std::vector<Candidate>& found = rows[static_cast<std::size_t>(row)];
     for (int bx = 0; bx < width; bx += block) {
       Candidate best{-1.F, -1, true};
       Candidate terrace{-1.F, -1, false};
@@ -147,10 +150,12 @@ std::vector<Candidate> find_candidates(const TownGround& g, const TownParameters
           }
         }
       }
-      if (best.cell >= 0) candidates.push_back(best);
-      if (terrace.cell >= 0) candidates.push_back(terrace);
+      if (best.cell >= 0) found.push_back(best);
+      if (terrace.cell >= 0) found.push_back(terrace);
     }
-  }
+  });
+  std::vector<Candidate> candidates;
+  for (const std::vector<Candidate>& row : rows) candidates.insert(candidates.end(), row.begin(), row.end());
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.score != b.score ? a.score > b.score : a.cell < b.cell; });
   return candidates;
