@@ -44,7 +44,7 @@ void check_crop(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states) {
     varied |= crop[i] != first;
   }
   constexpr std::size_t least = std::size_t{least_crop_px} * least_crop_px;
-  if (counted < least) refuse(fmt::format("{} pixels under its mask", counted), fmt::format("{} or more", least));
+  if (counted < least) refuse(fmt::format("{} pixels that are opaque and in its mask", counted), fmt::format("{} or more", least));
   if (!varied) refuse("one colour all over", "a texture");
 }
 

@@ -93,7 +93,7 @@ TEST(LearnTexture, RefusesWhatIsNoTexture) {
   EXPECT_THAT(words(test::meadow_crop(47, 200), {}), HasSubstr("47 × 200"));
   EXPECT_THAT(words(Grid<Rgb8>(64, 64, Rgb8{1, 2, 3}), {}), HasSubstr("one colour"));
   EXPECT_THAT(words(test::meadow_crop(64, 64), Grid<std::uint8_t>(64, 60, pixel_free)), HasSubstr("64 × 60"));
-  EXPECT_THAT(words(test::meadow_crop(64, 64), Grid<std::uint8_t>(64, 64, 0)), HasSubstr("0 pixels"));
+  EXPECT_THAT(words(test::meadow_crop(64, 64), Grid<std::uint8_t>(64, 64, 0)), HasSubstr("0 pixels that are opaque and in its mask"));
 }
 
 }  // namespace
