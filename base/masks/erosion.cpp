@@ -162,11 +162,12 @@ class Front {
 
 }  // namespace
 
-Erosion erode(const Grid<std::uint8_t>& labels, std::uint8_t label, const std::array<bool, 256>& opens,
-              const ErosionParameters& parameters) {
+Erosion erode(const Grid<std::uint8_t>& labels, std::uint8_t label, const std::array<bool, 256>& opens, const ErosionParameters& parameters,
+              Progress& progress) {
   if (parameters.levels < 1 || parameters.levels > 255 || parameters.step < .5 * parameters.cell)
     throw Error(ErrorKind::bug, "erode", "no levels, or layers thinner than half a cell");
   Erosion out{labels, Grid<std::uint8_t>(labels.width(), labels.height())};
+  progress.begin("taking back", parameters.levels);
   for (int level = 1; level <= parameters.levels; ++level) {
     const Grid<std::uint8_t> before = out.labels;
     Front front(before, label, opens, parameters);
@@ -176,6 +177,7 @@ Erosion erode(const Grid<std::uint8_t>& labels, std::uint8_t label, const std::a
       out.labels[i] = static_cast<std::uint8_t>(reached[i] & 0xffU);
       out.level[i] = static_cast<std::uint8_t>(level);
     }
+    progress.advance(1.0);
   }
   return out;
 }

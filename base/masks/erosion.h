@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "base/grid.h"
+#include "base/progress.h"
 
 namespace belvedere {
 
@@ -33,8 +34,9 @@ struct Erosion {
 // label still stands around, so that tongues and islands go before bays. A flat border goes back by a step a level in the mean. What a
 // front took belongs to the nearest label in its time (ties: to the lower one). Each level is taken from what the one before left: levels
 // are nested. Integers decide, so a cell's answer is the same in any part of the grid that holds erosion_reach around it.
-Erosion erode(const Grid<std::uint8_t>& labels, std::uint8_t label, const std::array<bool, 256>& opens,
-              const ErosionParameters& parameters);
+// Progress: one step a level.
+Erosion erode(const Grid<std::uint8_t>& labels, std::uint8_t label, const std::array<bool, 256>& opens, const ErosionParameters& parameters,
+              Progress& progress = silent_progress());
 
 // Cells around a cell that can matter to it.
 int erosion_reach(const ErosionParameters& parameters);

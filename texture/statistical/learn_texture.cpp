@@ -30,6 +30,9 @@ void check_crop(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states) {
   const auto refuse = [](const std::string& found, const std::string& allowed) {
     throw Error(ErrorKind::input, "the crop", found, allowed);
   };
+  if (static_cast<std::int64_t>(crop.size()) > most_texture_pixels)
+    throw Error(ErrorKind::limit, "the crop", fmt::format("{} × {} pixels", crop.width(), crop.height()),
+                fmt::format("{} Mpixels or fewer: a piece that shows one texture", most_texture_pixels >> 20));
   if (crop.width() < least_crop_px || crop.height() < least_crop_px)
     refuse(fmt::format("{} × {} pixels", crop.width(), crop.height()), fmt::format("{} pixels a side or more", least_crop_px));
   if (!states.empty() && !states.same_size(crop))
@@ -44,7 +47,7 @@ void check_crop(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states) {
     varied |= crop[i] != first;
   }
   constexpr std::size_t least = std::size_t{least_crop_px} * least_crop_px;
-  if (counted < least) refuse(fmt::format("{} pixels under its mask", counted), fmt::format("{} or more", least));
+  if (counted < least) refuse(fmt::format("{} pixels that are opaque and in its mask", counted), fmt::format("{} or more", least));
   if (!varied) refuse("one colour all over", "a texture");
 }
 

@@ -319,7 +319,6 @@ Grid<Rgb8> fill_among(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& hole,
                       const CliqueModel& model, const TextureParameters& parameters, Progress& progress) {
   if (!hole.same_size(picture) || !counts.same_size(picture))
     throw Error(ErrorKind::bug, "fill_among", "picture, hole and what counts have different sizes");
-  check_texture_size(picture.width(), picture.height());
   PixelRect box{picture.width(), picture.height(), 0, 0};
   for (int y = 0; y < hole.height(); ++y)
     for (int x = 0; x < hole.width(); ++x)
@@ -330,6 +329,9 @@ Grid<Rgb8> fill_among(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& hole,
   box = intersection(grown(box, around_hole_px), {0, 0, picture.width(), picture.height()});
   box.x0 -= box.x0 % cell;
   box.y0 -= box.y0 % cell;
+  if (std::int64_t{box.width()} * box.height() > most_texture_pixels)
+    throw Error(ErrorKind::limit, "the hole", fmt::format("spans {} × {} pixels with what is around it", box.width(), box.height()),
+                fmt::format("{} Mpixels or fewer; its parts one after the other", most_texture_pixels >> 20));
 
   Grid<std::uint8_t> known_states(box.width(), box.height(), pixel_free);
   Grid<std::uint8_t> states(box.width(), box.height(), pixel_counts);

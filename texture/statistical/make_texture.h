@@ -82,7 +82,8 @@ TexturePiece make_piece(const CliqueModel& model, const TextureRecord& record, P
                         Progress& progress = silent_progress());
 
 // Makes anew what `hole` marks (non-zero), to go with what is around it: lettering and figures taken out of a scan, wood grown over a
-// clearing. No other pixel changes. The model is of what should stand there. Error(limit) as above.
+// clearing. No other pixel changes. The model is of what should stand there. Error(limit)
+// where the hole spans more than most_texture_pixels.
 Grid<Rgb8> fill_texture(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& hole, const CliqueModel& model,
                         const TextureParameters& parameters, Progress& progress = silent_progress());
 // The same in a picture that shows other things too: nothing is taken from pixels where `counts` is 0, as if they were beyond its edge.

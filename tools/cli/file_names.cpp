@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 
+#include "base/error.h"
 #include "renderer/image/image_io.h"
 
 namespace belvedere::tools {
@@ -19,6 +21,14 @@ void check_place(const std::string& path) {
   if (path.empty()) return;
   const std::string folder = std::filesystem::path(path).parent_path().string();
   check_output_folder(folder.empty() ? "." : folder);
+}
+
+void check_not_read(const std::string& result, const std::string& option, const std::vector<std::string>& read) {
+  for (const std::string& path : read) {
+    std::error_code ignored;  // of files that are not there: no two of them are the same
+    if (std::filesystem::equivalent(path, result, ignored))
+      throw Error(ErrorKind::usage, option, result + " is what is read", "a file of its own");
+  }
 }
 
 }  // namespace belvedere::tools

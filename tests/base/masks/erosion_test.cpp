@@ -166,5 +166,18 @@ TEST(Erosion, FinerCellsErodeAlike) {
   EXPECT_LT(differ, all / 8);
 }
 
+TEST(Erosion, EveryStepIsTold) {
+  class Steps : public Progress {
+   public:
+    void begin(std::string_view, double total) override { asked = total; }
+    void advance(double amount) override { done += amount; }
+    double asked = 0.0;
+    double done = 0.0;
+  } steps;
+  erode(disc(40, 15.0), 1, opens({0}), {.levels = 3, .step = 2.0}, steps);
+  EXPECT_EQ(steps.asked, 3.0);
+  EXPECT_EQ(steps.done, 3.0);
+}
+
 }  // namespace
 }  // namespace belvedere

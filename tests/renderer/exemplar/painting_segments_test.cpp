@@ -149,7 +149,8 @@ TEST(PaintingSegments, MostOfMonetsCoastIsNamedRight) {
   const std::vector<std::pair<glm::vec3, LandCoverClass>> meant = {
       {{1, 1, 1}, sky}, {{1, .2F, .12F}, rock}, {{.75F, 0, 0}, rock}, {{0, 1, 0}, sand}, {{0, 0, 1}, water}};
   const PaintingSegments segments = segment_painting(read_picture(folder + ".jpg"), {}, usual_theta, "monet");
-  const Grid<std::uint8_t> mask = class_mask(segments, cut_tree(segments.tree, segments.groups), guesses_of(segments, segments.groups));
+  const Grid<std::uint8_t> mask =
+      class_mask(segments, cut_tree(segments.tree, 30), guesses_of(segments, 30));  // as `exemplar segment` does
   Grid<std::uint8_t> labels(drawn.width(), drawn.height());
   Grid<std::uint16_t> named(drawn.width(), drawn.height());
   double right = 0.0;

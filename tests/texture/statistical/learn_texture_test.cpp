@@ -8,7 +8,9 @@
 #include <set>
 
 #include "base/error.h"
+#include "tests/files.h"
 #include "tests/texture/statistical/texture_crops.h"
+#include "texture/statistical/make_texture.h"
 
 namespace belvedere {
 namespace {
@@ -93,7 +95,13 @@ TEST(LearnTexture, RefusesWhatIsNoTexture) {
   EXPECT_THAT(words(test::meadow_crop(47, 200), {}), HasSubstr("47 × 200"));
   EXPECT_THAT(words(Grid<Rgb8>(64, 64, Rgb8{1, 2, 3}), {}), HasSubstr("one colour"));
   EXPECT_THAT(words(test::meadow_crop(64, 64), Grid<std::uint8_t>(64, 60, pixel_free)), HasSubstr("64 × 60"));
-  EXPECT_THAT(words(test::meadow_crop(64, 64), Grid<std::uint8_t>(64, 64, 0)), HasSubstr("0 pixels"));
+  EXPECT_THAT(words(test::meadow_crop(64, 64), Grid<std::uint8_t>(64, 64, 0)), HasSubstr("0 pixels that are opaque and in its mask"));
+}
+
+TEST(LearnTexture, CropsOverTheLimitAreRefused) {
+  const Error large = test::error_of([] { learn_texture(Grid<Rgb8>(static_cast<int>(most_texture_pixels / 48) + 1, 48), {}, {}); });
+  EXPECT_EQ(large.kind(), ErrorKind::limit);
+  EXPECT_THAT(large.what(), HasSubstr("64 Mpixels"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "base/cache/content_hash.h"
 #include "base/error.h"
 #include "base/grid_part.h"
+#include "tests/files.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/statistical/learn_texture.h"
 
@@ -137,6 +138,17 @@ TEST(FillTexture, ChangesTheHoleAloneAndLeavesNoSeam) {
 TEST(MakeTexture, SizesOverTheLimitAreRefused) {
   EXPECT_THROW(make_texture(meadow_model(), 1 << 20, 1 << 20, {}), Error);
   EXPECT_THROW(make_texture(meadow_model(), 0, 10, {}), Error);
+}
+
+// What a hole spans has a limit, a scan that it is in has none of its own.
+TEST(FillTexture, HolesOverTheLimitAreRefused) {
+  const int width = static_cast<int>(most_texture_pixels / 64) + 400;
+  const Grid<Rgb8> scan(width, 64, Rgb8{90, 130, 60});
+  Grid<std::uint8_t> hole(width, 64);
+  hole(9, 9) = 1;
+  EXPECT_EQ(fill_texture(scan, hole, meadow_model(), {.rounds = 1, .sweeps = 1}).width(), width);
+  hole(width - 1, 9) = 1;
+  EXPECT_EQ(test::error_of([&] { fill_texture(scan, hole, meadow_model(), {}); }).kind(), ErrorKind::limit);
 }
 
 }  // namespace

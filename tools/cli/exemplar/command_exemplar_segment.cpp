@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "base/error.h"
 #include "base/json.h"
@@ -13,7 +13,9 @@
 #include "base/parallel.h"
 #include "renderer/exemplar/painting_segments.h"
 #include "renderer/image/image_io.h"
+#include "renderer/image/label_image.h"
 #include "renderer/image/png_palette.h"
+#include "texture/segment/segment_figures.h"
 #include "texture/synthesis/guide_stack.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
@@ -26,8 +28,8 @@ namespace {
 using Colours = std::vector<std::array<std::uint8_t, 3>>;
 
 struct Options {
-  std::string painting, out, page;
-  double theta = usual_theta;
+  std::string painting, out, page, compare;
+  std::optional<double> theta;  // none: as many groups as `most`
   int most = 30;
   bool numbers = false;
   int threads = 0;
@@ -58,31 +60,56 @@ Colours colours_of(const Options& options, const Grid<std::uint8_t>& mask, const
   return colours;
 }
 
+// How well the groups, and the classes they were taken for, agree with labels that somebody drew.
+struct Agreement {
+  SegmentAgreement groups, named;
+};
+
+Agreement agreement_with(const Options& options, const PaintingSegments& segments, const Partition& groups,
+                         const std::vector<std::uint8_t>& classes) {
+  const LabelImages drawn = read_label_images({options.compare});
+  const Grid<std::uint8_t>& labels = drawn.labels.front();
+  if (!labels.same_size(segments.pieces))
+    throw Error(ErrorKind::input, options.compare, fmt::format("{} × {} pixels", labels.width(), labels.height()),
+                fmt::format("the size of {}: {} × {}", options.painting, segments.pieces.width(), segments.pieces.height()));
+  Grid<std::uint16_t> group(labels.width(), labels.height(), no_piece);
+  Grid<std::uint16_t> named(labels.width(), labels.height(), no_piece);
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    if (segments.pieces[i] == no_piece) continue;
+    group[i] = groups[segments.pieces[i]];
+    named[i] = classes[group[i]];
+  }
+  return {segment_agreement(group, labels), segment_agreement(named, labels)};
+}
+
 int run(const Options& options) {
   for (const std::string* path : {&options.out, &options.page})
     if (!path->empty()) check_place(*path);
   if (ending_of(options.out) != ".png") throw Error(ErrorKind::usage, "--out", options.out, "a .png");
   const std::string page_ending = options.page.empty() ? ".html" : ending_of(options.page);
   if (page_ending != ".html" && page_ending != ".htm") throw Error(ErrorKind::usage, "--page", options.page, "a .html");
-  for (const std::string* path : {&options.out, &options.page}) {
-    std::error_code ignored;
-    if (!path->empty() && std::filesystem::equivalent(*path, options.painting, ignored))
-      throw Error(ErrorKind::usage, "command line", *path + " is what is read", "a file of its own");
-  }
+  check_not_read(options.out, "--out", {options.painting, options.compare});
+  check_not_read(options.page, "--page", {options.painting, options.compare});
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   progress.begin("reading", 0.0);
   Grid<float> alpha;
   const Grid<glm::vec3> picture = read_picture(options.painting, &alpha);
   progress.begin("segmenting", 0.0);
-  const PaintingSegments segments = segment_painting(picture, alpha, options.theta, options.painting);
-  const std::size_t groups = std::min(segments.groups, static_cast<std::size_t>(options.most));
+  const PaintingSegments segments = segment_painting(picture, alpha, options.theta.value_or(usual_theta), options.painting);
+  // Two groups of one thing are merged by a click, one group of two things is mended by none until it is split: so rather more of them than
+  // were found, where nobody says how unlike they may be.
+  const std::size_t found = options.theta ? segments.groups : segments.tree.pieces;
+  const std::size_t groups = std::min(found, static_cast<std::size_t>(options.most));
   std::vector<std::uint8_t> classes = guesses_of(segments, groups);
   std::map<std::string, int> shown;
   for (const std::uint8_t id : classes) ++shown[std::string(class_name(static_cast<LandCoverClass>(id)))];
+  const Partition partition = cut_tree(segments.tree, groups);
+  std::optional<Agreement> agreement;
+  if (!options.compare.empty()) agreement = agreement_with(options, segments, partition, classes);
   if (options.numbers)
     for (std::size_t k = 0; k < classes.size(); ++k) classes[k] = static_cast<std::uint8_t>(k);
-  const Grid<std::uint8_t> mask = class_mask(segments, cut_tree(segments.tree, groups), classes);
+  const Grid<std::uint8_t> mask = class_mask(segments, partition, classes);
   image_io::write_palette_png(options.out, mask, colours_of(options, mask, picture));
   if (!options.page.empty())
     write_segment_page(options.page, file_name(options.painting), file_name(options.out), picture, segments, groups);
@@ -90,17 +117,24 @@ int run(const Options& options) {
   if (options.json) {
     Json guesses = Json::object();
     for (const auto& [name, count] : shown) guesses.add(name, Json::number(count));
-    print_out(Json::object()
-                  .add("out", Json::text(options.out))
-                  .add("pieces", Json::number(static_cast<double>(segments.tree.pieces)))
-                  .add("groups", Json::number(static_cast<double>(groups)))
-                  .add("guesses", std::move(guesses))
-                  .str() +
-              "\n");
+    Json told = Json::object()
+                    .add("out", Json::text(options.out))
+                    .add("pieces", Json::number(static_cast<double>(segments.tree.pieces)))
+                    .add("groups", Json::number(static_cast<double>(groups)))
+                    .add("guesses", std::move(guesses));
+    if (agreement)
+      told.add("agreement", Json::object()
+                                .add("merged", Json::number(agreement->groups.merged))
+                                .add("one_to_one", Json::number(agreement->groups.one_to_one))
+                                .add("named_one_to_one", Json::number(agreement->named.one_to_one)));
+    print_out(told.str() + "\n");
   } else if (!options.quiet) {
     std::string guesses;
     for (const auto& [name, count] : shown) guesses += fmt::format("{}{} {}", guesses.empty() ? "" : ", ", count, name);
     print_out(fmt::format("{}: {} groups of {} pieces; at a first guess {}\n", options.out, groups, segments.tree.pieces, guesses));
+    if (agreement)
+      print_out(fmt::format("  intersection over union with {}: {:.2f} merged, {:.2f} one to one; {:.2f} as named\n", options.compare,
+                            agreement->groups.merged, agreement->groups.one_to_one, agreement->named.one_to_one));
   }
   return 0;
 }
@@ -115,13 +149,18 @@ Action add_exemplar_segment(CLI::App& command) {
       ->type_name("MASK");
   command.add_option("--page", options->page, "Also a page (.html) to merge, split and name the groups with clicks, and to save the mask")
       ->type_name("PAGE");
-  command.add_option("--groups", options->theta, "How unlike a group's parts may be; more makes fewer groups. Default: 1.1")
+  command
+      .add_option("--groups", options->theta,
+                  "How unlike a group's parts may be, such as 1.1; more makes fewer groups. Default: as many groups as --most")
       ->type_name("X")
       ->check(CLI::Range(0.0, 10.0));
-  command.add_option("--most", options->most, "No more groups than these; the likest are joined. Default: 30")
+  command.add_option("--most", options->most, "How many groups; the likest are joined. With --groups no more than these. Default: 30")
       ->type_name("N")
       ->check(CLI::Range(1, 254));
   command.add_flag("--numbers", options->numbers, "Numbers of groups in the mask instead of classes, as `synthesize --label` takes them");
+  command
+      .add_option("--compare", options->compare, "A mask drawn by hand, in flat colours or numbers: says how well the groups agree with it")
+      ->type_name("MASK");
   command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");

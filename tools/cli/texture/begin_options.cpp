@@ -1,5 +1,7 @@
 #include "tools/cli/texture/begin_options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 
 namespace belvedere::tools {
@@ -15,6 +17,22 @@ TextureBegin begin_of(const BeginOptions& options) {
   if (options.kind == "streaks") return {TextureSeed::streaks, static_cast<float>(options.px)};
   if (options.kind == "discs") return {TextureSeed::discs, static_cast<float>(options.px)};
   return {};
+}
+
+const char* name_of(TextureSeed seed) {
+  switch (seed) {
+    case TextureSeed::white:
+      return "white";
+    case TextureSeed::streaks:
+      return "streaks";
+    case TextureSeed::discs:
+      return "discs";
+  }
+  return "";
+}
+
+std::string describe_begin(TextureSeed seed, float px, bool polish) {
+  return fmt::format("{}{}{}", name_of(seed), px > 0.F ? fmt::format(" of {} px", px) : "", polish ? ", polished" : "");
 }
 
 }  // namespace belvedere::tools

@@ -24,4 +24,8 @@ struct TextureBegin {
 };
 TextureBegin begin_of(const BeginOptions& options);
 
+const char* name_of(TextureSeed seed);
+// Says how it is drawn: "streaks of 12 px", "white, polished".
+std::string describe_begin(TextureSeed seed, float px, bool polish);
+
 }  // namespace belvedere::tools

@@ -18,6 +18,7 @@
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/begin_options.h"
 #include "tools/cli/texture/label_pictures.h"
+#include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/report/report_folder.h"
 
@@ -139,8 +140,8 @@ CompositeParameters parameters_of(const Options& options) {
 
 int run(const Options& options) {
   check_place(options.out);
-  if (options.out == options.crop || options.out == options.labels)
-    throw Error(ErrorKind::usage, "--out", options.out + " is what is read", "a file of its own");
+  check_not_read(options.out, "--out", {options.crop, options.labels});
+  check_report(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const TextureCrop crop = read_crop(options.crop, "");
@@ -191,7 +192,7 @@ Action add_composite_learn(CLI::App& command) {
   add_begin_options(command, options->begin,
                     "The noise that all textures begin with, which decides the shape of their dabs: white, streaks or discs.\n"
                     "Default: for each what comes nearest to the crop");
-  command.add_option("--report", options->report, "A page with crop beside composite, and all figures")->type_name("FOLDER");
+  add_report_option(command, options->report, "A page with crop beside composite, and all figures");
   command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit")->type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");

@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "base/error.h"
+#include "base/grid_part.h"
 #include "base/json.h"
 #include "base/parallel.h"
 #include "texture/composite/composite_window.h"
@@ -13,13 +16,14 @@
 #include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/label_pictures.h"
+#include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 
 namespace belvedere::tools {
 namespace {
 
 struct Options {
-  std::string model, labels, map, out;
+  std::string model, labels, map, out, report;
   std::vector<int> size;
   std::vector<int> window;
   std::uint64_t seed = 1;
@@ -38,11 +42,35 @@ PixelRect window_of(const std::vector<int>& w, const Grid<std::uint8_t>& labels)
   return {w[0], w[1], w[0] + w[2], w[1] + w[3]};
 }
 
+// What lies where beside what was made of it, and how much of each there is.
+void write_report(const Options& options, const std::vector<std::string>& names, const Grid<std::uint8_t>& labels, const Grid<Rgb8>& made) {
+  const std::string file = file_name(options.model);
+  std::vector<std::vector<std::string>> table = {{"label", "pixels"}};
+  for (std::size_t k = 0; k < names.size(); ++k)
+    table.push_back({names[k], fmt::format("{}", std::count(labels.begin(), labels.end(), static_cast<std::uint8_t>(k)))});
+  std::string asked = options.labels.empty() ? fmt::format("--size {}", fmt::join(options.size, "x"))
+                                             : fmt::format("--labels {}", file_name(options.labels));
+  if (!options.window.empty()) asked += fmt::format(" --window {}", fmt::join(options.window, ","));
+  write_result_page(
+      options.report,
+      {.title = "Composite texture",
+       .heading = file,
+       .lead = fmt::format("{} × {} pixels of {} textures.", made.width(), made.height(), names.size()),
+       .how_to_read = "Left what lies where, right what is made of it. Look at borders first: are they as ragged as a painter's?",
+       .rows = {{{"labels", label_colours(labels, names), options.labels.empty() ? "made labels" : "drawn labels"},
+                 {"made", encoded_picture(made), fmt::format("made with seed {}", options.seed)}}},
+       .table = std::move(table),
+       .command = fmt::format("belvedere composite make {} {} --seed {} --out {}", file, asked, options.seed, file_name(options.out))});
+}
+
 int run(const Options& options) {
   if (options.size.empty() == options.labels.empty())
     throw Error(ErrorKind::usage, "command line", options.size.empty() ? "neither --size nor --labels" : "both --size and --labels",
                 "one of them: a drawing has its own size");
   check_texture_name(options.out);
+  check_not_read(options.out, "--out", {options.model, options.labels});
+  check_not_read(options.map, "--map", {options.model, options.labels});
+  check_report(options.report);
   if (!options.map.empty()) {
     check_place(options.map);
     if (ending_of(options.map) != ".png") throw Error(ErrorKind::usage, "--map", options.map, "a .png");
@@ -64,6 +92,7 @@ int run(const Options& options) {
             : make_composite_window(model, record_composite(model, parameters, progress), labels, window, parameters, progress);
   write_texture(options.out, made, fmt::format("{} seed {}", file_name(options.model), options.seed));
   if (!options.map.empty()) write_label_picture(options.map, labels, names);
+  if (!options.report.empty()) write_report(options, names, whole ? labels : part_of(labels, window), made);
   progress.end();
   if (options.json)
     print_out(Json::object()
@@ -84,9 +113,10 @@ Action add_composite_make(CLI::App& command) {
   command.add_option("COMPOSITE", options->model, "What `belvedere composite learn` wrote")->required()->type_name("COMPOSITE");
   command.add_option("--out", options->out, "The picture: .png or .tif")->required()->type_name("PICTURE");
   command.add_option("--size", options->size, "Width and height, in pixels: what lies where is made too")
+      ->delimiter('x')
       ->expected(2)
       ->check(CLI::Range(1, 1 << 20))
-      ->type_name("W H");
+      ->type_name("WxH");
   command
       .add_option("--labels", options->labels, "Instead: what lies where, drawn in the colours (or numbers) that the crop's labels have")
       ->type_name("PICTURE");
@@ -94,18 +124,20 @@ Action add_composite_make(CLI::App& command) {
       .add_option("--window", options->window,
                   "Only this part of the map: column, row, width and height. Windows fit together to the pixel, in any order; one of\n"
                   "the whole map is the picture they are windows of, a little other than without --window")
+      ->delimiter(',')
       ->expected(4)
-      ->type_name("X Y W H");
+      ->type_name("X,Y,W,H");
   command.add_option("--map", options->map, "Writes the labels too, in their colours: to be drawn over and given to --labels")
       ->type_name("PICTURE");
   command.add_option("--seed", options->seed, "Another seed, another picture of the same kind. Default: 1")->type_name("N");
+  add_report_option(command, options->report, "A page with the labels beside what is made of them");
   command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(
-      "  belvedere composite make coast.composite --size 1600 1000 --map labels.png --out another_coast.png\n"
+      "  belvedere composite make coast.composite --size 1600x1000 --map labels.png --out another_coast.png\n"
       "  belvedere composite make coast.composite --labels my_labels.png --out my_coast.png\n"
-      "  belvedere composite make coast.composite --labels large.png --window 4096 0 2048 2048 --out piece.tif");
+      "  belvedere composite make coast.composite --labels large.png --window 4096,0,2048,2048 --out piece.tif");
   return [options] { return run(*options); };
 }
 

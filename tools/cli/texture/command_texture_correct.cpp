@@ -3,10 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <memory>
 
-#include "base/error.h"
 #include "base/json.h"
 #include "base/parallel.h"
 #include "renderer/image/image_io.h"
@@ -14,13 +12,14 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
+#include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 
 namespace belvedere::tools {
 namespace {
 
 struct Options {
-  std::string source, target, out;
+  std::string source, target, out, report;
   int regions = PhotometricParameters{}.regions;
   int threads = 0;
   bool quiet = false;
@@ -42,13 +41,29 @@ Json distances_json(const std::array<double, 3>& distance) {
       .add("value", Json::number(distance[2]));
 }
 
+void write_report(const Options& options, const Grid<glm::vec3>& source, const Grid<glm::vec3>& target, const Grid<glm::vec3>& out,
+                  const std::array<double, 3>& before, const std::array<double, 3>& after) {
+  const auto row = [](const char* name, const std::array<double, 3>& d) {
+    return std::vector<std::string>{name, fmt::format("{:.2f}", d[0]), fmt::format("{:.2f}", d[1]), fmt::format("{:.2f}", d[2])};
+  };
+  write_result_page(
+      options.report,
+      {.title = "Corrected colours",
+       .heading = file_name(options.source),
+       .lead = fmt::format("In the colours of {}, {} regions.", file_name(options.target), options.regions),
+       .how_to_read =
+           "The picture, what it became, and whose colours these are. Look for flecks of a hue that neither has. The figures are "
+           "distances of the histograms: 0 alike, 2 nothing in common.",
+       .rows = {{{"source", source, "the picture"}, {"corrected", out, "corrected"}, {"target", target, "whose colours it got"}}},
+       .table = {{"", "hue", "saturation", "value"}, row("before", before), row("after", after)},
+       .command = fmt::format("belvedere texture correct {} --to {} --regions {} --out {}", file_name(options.source),
+                              file_name(options.target), options.regions, file_name(options.out))});
+}
+
 int run(const Options& options) {
   check_texture_name(options.out);
-  for (const std::string* path : {&options.source, &options.target}) {
-    std::error_code ignored;
-    if (std::filesystem::equivalent(*path, options.out, ignored))
-      throw Error(ErrorKind::usage, "--out", options.out + " is what is read", "a file of its own");
-  }
+  check_not_read(options.out, "--out", {options.source, options.target});
+  check_report(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   progress.begin("reading", 0.0);
@@ -58,14 +73,20 @@ int run(const Options& options) {
   const Grid<glm::vec3> target = read_picture(options.target, &target_alpha);
   PhotometricParameters parameters;
   parameters.regions = options.regions;
+  note_rounding(options.source, options.out, progress);
+  for (const Grid<float>* alpha : {&source_alpha, &target_alpha})
+    if (const auto clear = std::count_if(alpha->begin(), alpha->end(), [](float a) { return a < 1.F; }); clear > 0)
+      progress.note(fmt::format("{} transparent pixels of {} are left out of what is measured", clear,
+                                file_name(alpha == &source_alpha ? options.source : options.target)));
   progress.begin("correcting", 0.0);
   const Grid<glm::vec3> out = correct_colours(source, target, parameters, opaque(source_alpha), opaque(target_alpha));
   write_encoded_texture(
       options.out, out,
       fmt::format("{} with the colours of {} regions {}", file_name(options.source), file_name(options.target), options.regions));
-  progress.end();
   const std::array<double, 3> before = colour_histogram_distance(source, target);
   const std::array<double, 3> after = colour_histogram_distance(out, target);
+  if (!options.report.empty()) write_report(options, source, target, out, before, after);
+  progress.end();
   if (options.json)
     print_out(
         Json::object().add("out", Json::text(options.out)).add("before", distances_json(before)).add("after", distances_json(after)).str() +
@@ -86,6 +107,8 @@ Action add_texture_correct(CLI::App& command) {
   command.add_option("--regions", options->regions, "Regions of like colour that are told apart and paired. Default: 3")
       ->type_name("N")
       ->check(CLI::Range(1, 5));
+  add_report_option(command, options->report,
+                    "A page with the picture before and after beside the other, and how far their colours are apart");
   command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");

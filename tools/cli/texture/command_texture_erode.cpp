@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "base/error.h"
 #include "base/json.h"
@@ -13,13 +14,15 @@
 #include "renderer/image/output_file.h"
 #include "renderer/image/png_palette.h"
 #include "tools/cli/commands.h"
+#include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
+#include "tools/cli/texture/result_page.h"
 
 namespace belvedere::tools {
 namespace {
 
 struct Options {
-  std::string mask, out;
+  std::string mask, out, report;
   ErosionParameters erosion{.levels = 8};
   int label = -1;
   std::vector<int> keep;
@@ -38,16 +41,51 @@ Grid<std::uint8_t> read_labels(const Options& options) {
   return labels;
 }
 
+// A mask by the step that took each place: white stands, grey went, the darker the earlier.
+Grid<glm::vec3> steps_picture(const Grid<std::uint8_t>& labels, std::uint8_t label, const Erosion& eroded, int steps) {
+  Grid<glm::vec3> out(labels.width(), labels.height(), glm::vec3(.1F, .12F, .15F));
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (labels[i] != label) continue;
+    const int level = eroded.level[i];
+    out[i] = glm::vec3(level == 0 ? 1.F : .25F + .55F * static_cast<float>(level) / static_cast<float>(steps));
+  }
+  return out;
+}
+
+void write_report(const Options& options, const Grid<std::uint8_t>& labels, std::uint8_t label, const Erosion& eroded,
+                  std::vector<std::vector<std::string>> table) {
+  const int steps = options.erosion.levels;
+  const Grid<std::uint8_t> none(labels.width(), labels.height());
+  write_result_page(
+      options.report,
+      {.title = "Mask taken back",
+       .heading = file_name(options.mask),
+       .lead = fmt::format("{} steps of {} pixels.", steps, options.erosion.step),
+       .how_to_read = "Left the mask, right what each step takes, the darker the earlier; white is left. Look whether borders are "
+                      "as ragged as melting snow's.",
+       .rows = {{{"mask", steps_picture(labels, label, {{}, none}, steps), "before"},
+                 {"steps", steps_picture(labels, label, eroded, steps), "step by step"}}},
+       .table = std::move(table),
+       .command = fmt::format("belvedere texture erode {} --steps {} --step-px {} --ragged {} --seed {} --out {}", file_name(options.mask),
+                              steps, options.erosion.step, options.erosion.ragged, options.erosion.seed, file_name(options.out))});
+}
+
 int run(const Options& options) {
   check_output_folder(options.out);
+  check_report(options.report);
+  TerminalProgress progress(options.quiet);
   const Grid<std::uint8_t> labels = read_labels(options);
   const auto label = static_cast<std::uint8_t>(options.label >= 0 ? options.label : 255);
   std::array<bool, 256> opens{};
   opens.fill(true);
   for (const int kept : options.keep) opens[static_cast<std::size_t>(kept)] = false;
-  const Erosion eroded = erode(labels, label, opens, options.erosion);
+  const Erosion eroded = erode(labels, label, opens, options.erosion, progress);
 
   const auto standing = std::count(labels.begin(), labels.end(), label);
+  if (standing == 0)
+    progress.note(options.label >= 0 ? fmt::format("warning: no pixel has the number {}", options.label)
+                                     : std::string("warning: the mask marks nothing"));
+  std::vector<std::vector<std::string>> table = {{"file", "pixels left", "of all, %"}};
   Json told = Json::array();
   std::string lines;
   Grid<std::uint8_t> now = labels;
@@ -60,8 +98,12 @@ int run(const Options& options) {
     const std::string name = fmt::format("{}_{:02}.png", std::filesystem::path(options.mask).stem().string(), level);
     image_io::write_grey_png((std::filesystem::path(options.out) / name).string(), now);
     lines += fmt::format("  {}  {} of {} pixels left\n", name, left, standing);
+    table.push_back({name, fmt::format("{}", left),
+                     fmt::format("{:.1f}", 100.0 * static_cast<double>(left) / std::max<double>(1.0, static_cast<double>(standing)))});
     told.add(Json::object().add("file", Json::text(name)).add("left", Json::number(static_cast<double>(left))));
   }
+  if (!options.report.empty()) write_report(options, labels, label, eroded, std::move(table));
+  progress.end();
   if (options.json)
     print_out(Json::object()
                   .add("out", Json::text(options.out))
@@ -98,6 +140,7 @@ Action add_texture_erode(CLI::App& command) {
       ->check(CLI::Range(0, 255))
       ->type_name("NUMBER");
   command.add_option("--seed", options->erosion.seed, "Another seed, other borders. Default: 1")->type_name("N");
+  add_report_option(command, options->report, "A page with the mask beside what each step takes");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(

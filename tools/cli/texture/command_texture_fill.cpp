@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/filter.h"
+#include "base/grid_part.h"
 #include "base/json.h"
 #include "base/parallel.h"
 #include "texture/statistical/make_texture.h"
@@ -11,32 +13,77 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
+#include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 
 namespace belvedere::tools {
 namespace {
 
 struct Options {
-  std::string picture, hole, model, out;
+  std::string picture, hole, model, out, report;
   std::uint64_t seed = 1;
   int threads = 0;
   bool quiet = false;
   bool json = false;
 };
 
+// Clear pixels have the colour of the nearest opaque one: whatever lies hidden in them, nothing made beside them takes it over.
+Grid<Rgb8> without_clear(const TextureCrop& scan) {
+  if (scan.transparent == 0 || scan.transparent == scan.picture.size()) return scan.picture;
+  const Grid<std::int32_t> nearest = nearest_marked(scan.states);
+  Grid<Rgb8> out(scan.picture.width(), scan.picture.height());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = scan.picture[static_cast<std::size_t>(nearest[i])];
+  return out;
+}
+
+// What is around the hole, before and after.
+void write_report(const Options& options, const Grid<glm::vec3>& before, const Grid<glm::vec3>& after, const Grid<std::uint8_t>& hole) {
+  constexpr int around_px = 64;
+  PixelRect box{hole.width(), hole.height(), 0, 0};
+  std::size_t pixels = 0;
+  for (int y = 0; y < hole.height(); ++y)
+    for (int x = 0; x < hole.width(); ++x) {
+      if (hole(x, y) == 0) continue;
+      box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1), std::max(box.y1, y + 1)};
+      ++pixels;
+    }
+  const PixelRect all{0, 0, hole.width(), hole.height()};
+  box = box.empty() ? all : intersection(grown(box, around_px), all);
+  write_result_page(options.report,
+                    {.title = "Filled picture",
+                     .heading = file_name(options.picture),
+                     .lead = fmt::format("{} of {} pixels made anew.", pixels, hole.size()),
+                     .how_to_read = "Left as it was, right as it is, in the part that changed. Look for the outline of the hole.",
+                     .rows = {{{"before", part_of(before, box), "before"}, {"after", part_of(after, box), "after"}}},
+                     .table = {},
+                     .command = fmt::format("belvedere texture fill {} --hole {} --model {} --seed {} --out {}", file_name(options.picture),
+                                            file_name(options.hole), file_name(options.model), options.seed, file_name(options.out))});
+}
+
 int run(const Options& options) {
   check_texture_name(options.out);
+  check_not_read(options.out, "--out", {options.picture, options.hole, options.model});
+  check_report(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const CliqueModel model = read_model(options.model);
-  const Grid<Rgb8> picture = read_crop(options.picture, "").picture;
+  Grid<glm::vec3> stored;
+  const TextureCrop scan = read_crop(options.picture, "", &stored);
+  const Grid<Rgb8> picture = without_clear(scan);
+  note_rounding(options.picture, options.out, progress);
+  if (scan.transparent > 0)
+    progress.note(fmt::format("{} transparent pixels say nothing of what stands around, and come out opaque", scan.transparent));
   const Grid<std::uint8_t> hole = read_mask_of(options.hole, options.picture, picture);
   const auto pixels = std::count(hole.begin(), hole.end(), std::uint8_t{1});
   if (pixels == 0) progress.note("warning: the mask marks nothing; the picture stays as it is");
   TextureParameters parameters;
   parameters.seed = options.seed;
-  write_texture(options.out, fill_texture(picture, hole, model, parameters, progress),
-                fmt::format("{} filled from {} seed {}", file_name(options.picture), file_name(options.model), options.seed));
+  Grid<std::uint8_t> counts(picture.width(), picture.height(), 1);
+  for (std::size_t i = 0; i < scan.states.size(); ++i) counts[i] = scan.states[i] != 0 ? 1 : 0;
+  const Grid<glm::vec3> filled = with_changes(stored, picture, fill_among(picture, hole, counts, {}, model, parameters, progress));
+  write_encoded_texture(options.out, filled,
+                        fmt::format("{} filled from {} seed {}", file_name(options.picture), file_name(options.model), options.seed));
+  if (!options.report.empty()) write_report(options, stored, filled, hole);
   progress.end();
   if (options.json)
     print_out(Json::object().add("out", Json::text(options.out)).add("filled", Json::number(static_cast<double>(pixels))).str() + "\n");
@@ -49,18 +96,20 @@ int run(const Options& options) {
 
 Action add_texture_fill(CLI::App& command) {
   const auto options = std::make_shared<Options>();
-  command.add_option("PICTURE", options->picture, "A painting or a scan, 8 bit")->required()->type_name("PICTURE");
+  command.add_option("PICTURE", options->picture, "A painting or a scan")->required()->type_name("PICTURE");
   command.add_option("--hole", options->hole, "What is made anew: a grey picture of its size, 0 stays")->required()->type_name("PICTURE");
   command.add_option("--model", options->model, "What should stand there: what `belvedere texture learn` wrote")
       ->required()
       ->type_name("MODEL");
   command.add_option("--out", options->out, "The picture: .png or .tif")->required()->type_name("PICTURE");
   command.add_option("--seed", options->seed, "Another seed, other paint. Default: 1")->type_name("N");
+  add_report_option(command, options->report, "A page with the part that changed, before and after");
   command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(
-      "Takes lettering, frames and figures out of a scan, or lets a wood grow over a clearing. Nothing outside the mask changes.\n\n"
+      "Takes lettering, frames and figures out of a scan, or lets a wood grow over a clearing. Nothing outside the mask changes:\n"
+      "in a .tif not one of 16 bits.\n\n"
       "  belvedere texture fill scan.tif --hole lettering.png --model meadow.model --out clean.tif");
   return [options] { return run(*options); };
 }

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "base/error.h"
 #include "base/json.h"
@@ -10,6 +12,7 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
+#include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 
 namespace belvedere::tools {
@@ -17,7 +20,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> pictures;
-  std::string out;
+  std::string out, report;
   KnitParameters knit;
   bool down = false;
   int threads = 0;
@@ -25,29 +28,77 @@ struct Options {
   bool json = false;
 };
 
-Grid<Rgb8> transposed(const Grid<Rgb8>& picture) {
-  Grid<Rgb8> out(picture.height(), picture.width());
+template <class Pixel>
+Grid<Pixel> transposed(const Grid<Pixel>& picture) {
+  Grid<Pixel> out(picture.height(), picture.width());
   for (int y = 0; y < out.height(); ++y)
     for (int x = 0; x < out.width(); ++x) out(x, y) = picture(y, x);
   return out;
 }
 
+template <class Pixel>
+Grid<Pixel> side_by_side(const Grid<Pixel>& left, const Grid<Pixel>& right) {
+  Grid<Pixel> out(left.width() + right.width(), left.height());
+  for (int y = 0; y < out.height(); ++y) {
+    std::copy_n(left.row(y), left.width(), out.row(y));
+    std::copy_n(right.row(y), right.width(), out.row(y) + left.width());
+  }
+  return out;
+}
+
+// A picture as it is compared, in 8 bits, and with all the bits of its file.
+struct Cloth {
+  Grid<Rgb8> picture;
+  Grid<glm::vec3> stored;
+};
+
+Cloth read_cloth(const Options& options, const std::string& path) {
+  Cloth cloth;
+  TextureCrop crop = read_crop(path, "", &cloth.stored);
+  if (crop.transparent > 0)
+    throw Error(ErrorKind::input, path, fmt::format("has {} transparent pixels", crop.transparent),
+                "opaque pictures; `belvedere texture fill` paints over what is missing");
+  cloth.picture = std::move(crop.picture);
+  if (!options.down) return cloth;
+  return {transposed(cloth.picture), transposed(cloth.stored)};
+}
+
+void write_report(const Options& options, const Grid<glm::vec3>& cut, const Grid<glm::vec3>& knitted,
+                  std::vector<std::vector<std::string>> table) {
+  std::string files;
+  for (const std::string& picture : options.pictures) files += " " + file_name(picture);
+  write_result_page(
+      options.report,
+      {.title = "Knitted pictures",
+       .heading = file_name(options.out),
+       .lead = fmt::format("{} pictures, {} × {} pixels.", options.pictures.size(), knitted.width(), knitted.height()),
+       .how_to_read =
+           "First as they are, side by side, then knitted. Look for the line, then for a band that is busier than both sides. The "
+           "figures are steps of colour across the seam over those inside: 1 is as any other column.",
+       .rows = {{{"cut", cut, "side by side"}}, {{"knitted", knitted, "knitted"}}},
+       .table = std::move(table),
+       .command = fmt::format("belvedere texture knit{}{}{} --seed {} --out {}", files, options.down ? " --down" : "",
+                              options.knit.band_px == 0 ? "" : fmt::format(" --band-px {}", options.knit.band_px), options.knit.seed,
+                              file_name(options.out))});
+}
+
 int run(const Options& options) {
   if (options.pictures.size() < 2) throw Error(ErrorKind::usage, "command line", "one picture", "two or more to join");
   check_texture_name(options.out);
+  check_not_read(options.out, "--out", options.pictures);
+  check_report(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
-  const auto read = [&](const std::string& path) {
-    Grid<Rgb8> picture = read_crop(path, "").picture;
-    return options.down ? transposed(picture) : picture;
-  };
-  Grid<Rgb8> joined = read(options.pictures.front());
+  Cloth joined = read_cloth(options, options.pictures.front());
+  for (const std::string& picture : options.pictures) note_rounding(picture, options.out, progress);
+  Grid<glm::vec3> cut = joined.stored;
+  std::vector<std::vector<std::string>> table = {{"seam at, px", "before", "after", "band, px"}};
   Json told = Json::array();
   std::string lines;
   for (std::size_t i = 1; i < options.pictures.size(); ++i) {
-    const Grid<Rgb8> next = read(options.pictures[i]);
-    const int seam = joined.width();
-    KnitPicture knitted = knit_textures(joined, next, options.knit, progress);
+    const Cloth next = read_cloth(options, options.pictures[i]);
+    const int seam = joined.picture.width();
+    KnitPicture knitted = knit_textures(joined.picture, next.picture, options.knit, progress);
     const std::string now =
         knitted.band_px == 0 ? std::string("times the steps inside; left as it was")
                              : fmt::format("times the steps inside, {:.2f} before; {} px on either side", knitted.before, knitted.band_px);
@@ -57,15 +108,24 @@ int run(const Options& options) {
                  .add("before", Json::number(knitted.before))
                  .add("knitted", Json::number(knitted.after))
                  .add("band_px", Json::number(knitted.band_px)));
-    joined = std::move(knitted.picture);
+    table.push_back({fmt::format("{}", seam), fmt::format("{:.2f}", knitted.before), fmt::format("{:.2f}", knitted.after),
+                     knitted.band_px == 0 ? "left as it was" : fmt::format("{}", knitted.band_px)});
+    joined.stored = with_changes(side_by_side(joined.stored, next.stored), side_by_side(joined.picture, next.picture), knitted.picture);
+    joined.picture = std::move(knitted.picture);
+    if (!options.report.empty()) cut = side_by_side(cut, next.stored);
   }
-  if (options.down) joined = transposed(joined);
-  write_texture(options.out, joined, fmt::format("{} pictures knitted, seed {}", options.pictures.size(), options.knit.seed));
+  if (options.down) {
+    joined.stored = transposed(joined.stored);
+    cut = transposed(cut);
+  }
+  write_encoded_texture(options.out, joined.stored,
+                        fmt::format("{} pictures knitted, seed {}", options.pictures.size(), options.knit.seed));
+  if (!options.report.empty()) write_report(options, cut, joined.stored, std::move(table));
   progress.end();
   if (options.json)
     print_out(Json::object().add("out", Json::text(options.out)).add("seams", std::move(told)).str() + "\n");
   else if (!options.quiet)
-    print_out(fmt::format("{}: {}×{} pixels\n", options.out, joined.width(), joined.height()) + lines);
+    print_out(fmt::format("{}: {}×{} pixels\n", options.out, joined.stored.width(), joined.stored.height()) + lines);
   return 0;
 }
 
@@ -84,6 +144,7 @@ Action add_texture_knit(CLI::App& command) {
       ->check(CLI::Range(8, 256))
       ->type_name("PX");
   command.add_option("--seed", options->knit.seed, "Another seed, another border. Default: 1")->type_name("N");
+  add_report_option(command, options->report, "A page with the pictures side by side and knitted, and how plain the seams are");
   command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");

@@ -18,6 +18,7 @@
 #include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/begin_options.h"
+#include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/report/report_folder.h"
 
@@ -46,23 +47,6 @@ struct Findings {
   int copy_px = 0;
 };
 
-const char* name_of(TextureSeed seed) {
-  switch (seed) {
-    case TextureSeed::white:
-      return "white";
-    case TextureSeed::streaks:
-      return "streaks";
-    case TextureSeed::discs:
-      return "discs";
-  }
-  return "";
-}
-
-// Says of a seed how it is drawn: "streaks of 12 px", "white, polished".
-std::string describe(TextureSeed seed, float px, bool polish) {
-  return fmt::format("{}{}{}", name_of(seed), px > 0.F ? fmt::format(" of {} px", px) : "", polish ? ", polished" : "");
-}
-
 bool is_uneven(const Findings& found) { return found.halves.held_out > uneven_halves; }
 
 std::string warning_of(const Findings& found) {
@@ -73,7 +57,7 @@ std::string warning_of(const Findings& found) {
 std::string as_text(const Options& options, const Findings& found) {
   const CliqueModel& model = found.learned.model;
   std::string out = fmt::format("{}: {} types, {} bytes, begins with {}\n", options.out, model.cliques.size(), model_bytes(model),
-                                describe(model.seed, model.seed_px, model.polish));
+                                describe_begin(model.seed, model.seed_px, model.polish));
   out +=
       fmt::format("  distance to the crop  {:.3f} of the types it holds, {:.3f} of all others; the crop's own halves {:.3f} and {:.3f}\n",
                   found.figures.selected, found.figures.held_out, found.halves.selected, found.halves.held_out);
@@ -135,7 +119,7 @@ void write_report(const Options& options, const TextureCrop& crop, const Finding
   if (!found.trials.empty()) {
     folder.add("<h2>How it begins</h2><table>" + html_row({"noise", "beyond pairs", "drawn one way", "which way"}, "th"));
     for (const SeedTrial& t : found.trials)
-      folder.add(html_row({describe(t.seed, t.px, t.polish), fmt::format("{:.3f}", t.beyond), fmt::format("{:.3f}", t.drawn),
+      folder.add(html_row({describe_begin(t.seed, t.px, t.polish), fmt::format("{:.3f}", t.beyond), fmt::format("{:.3f}", t.drawn),
                            fmt::format("{:.3f}", t.turned)}));
     folder.add("</table>");
   }
@@ -146,8 +130,8 @@ void write_report(const Options& options, const TextureCrop& crop, const Finding
 
 int run(const Options& options) {
   check_place(options.out);
-  if (options.out == options.crop || options.out == options.mask)
-    throw Error(ErrorKind::usage, "--out", options.out + " is what is read", "a file of its own");
+  check_not_read(options.out, "--out", {options.crop, options.mask});
+  check_report(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   TextureCrop crop = read_crop(options.crop, options.mask);
@@ -212,7 +196,7 @@ Action add_texture_learn(CLI::App& command) {
                   "crops up to 256 pixels a side; it takes minutes and knows nothing farther than 12 pixels. Default: flow")
       ->check(CLI::IsMember({"flow", "paper"}))
       ->type_name("METHOD");
-  command.add_option("--report", options->report, "A page with crop beside texture, and all figures")->type_name("FOLDER");
+  add_report_option(command, options->report, "A page with crop beside texture, and all figures");
   command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit")->type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");

@@ -14,13 +14,15 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
+#include "tools/cli/texture/begin_options.h"
+#include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 
 namespace belvedere::tools {
 namespace {
 
 struct Options {
-  std::string model, out;
+  std::string model, out, report;
   std::vector<int> size;
   std::vector<int> window;
   std::optional<double> direction_deg;
@@ -37,11 +39,38 @@ DirectionField one_way(double deg) {
   return [along](double, double) { return along; };
 }
 
+std::string asked_for(const Options& options) {
+  return options.size.empty() ? fmt::format("--window {}", fmt::join(options.window, ","))
+                              : fmt::format("--size {}", fmt::join(options.size, "x"));
+}
+
+void write_report(const Options& options, const CliqueModel& model, const Grid<Rgb8>& made) {
+  const std::string file = file_name(options.model);
+  write_result_page(
+      options.report,
+      {.title = "Texture",
+       .heading = file,
+       .lead = fmt::format("{} × {} pixels from a model of {} bytes.", made.width(), made.height(), model_bytes(model)),
+       .how_to_read =
+           "Look at single dabs, then from afar: an even busyness without accents is what such a model gives. The page of texture "
+           "learn has the crop beside it.",
+       .rows = {{{"texture", encoded_picture(made), fmt::format("made with seed {}", options.seed)}}},
+       .table = {{"model", ""},
+                 {"types of pairs", fmt::format("{}", model.cliques.size())},
+                 {"begins with", describe_begin(model.seed, model.seed_px, model.polish)},
+                 {"learnt from, pixels", fmt::format("{} × {}", model.crop_width, model.crop_height)},
+                 {"hash of the crop", model.crop_hash}},
+       .command =
+           fmt::format("belvedere texture make {} {} --seed {} --out {}", file, asked_for(options), options.seed, file_name(options.out))});
+}
+
 int run(const Options& options) {
   if (options.size.empty() == options.window.empty())
     throw Error(ErrorKind::usage, "command line", options.size.empty() ? "neither --size nor --window" : "both --size and --window",
                 "one of them");
   check_texture_name(options.out);
+  check_not_read(options.out, "--out", {options.model});
+  check_report(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const CliqueModel model = read_model(options.model);
@@ -56,6 +85,7 @@ int run(const Options& options) {
     made = make_window(model, record_texture(model, parameters), {w[0], w[1], w[0] + w[2], w[1] + w[3]}, parameters, progress);
   }
   write_texture(options.out, made, fmt::format("{} seed {}", file_name(options.model), options.seed));
+  if (!options.report.empty()) write_report(options, model, made);
   progress.end();
   const Json told = Json::object()
                         .add("out", Json::text(options.out))
@@ -74,27 +104,33 @@ Action add_texture_make(CLI::App& command) {
   const auto options = std::make_shared<Options>();
   command.add_option("MODEL", options->model, "What `belvedere texture learn` wrote")->required()->type_name("MODEL");
   command.add_option("--out", options->out, "The picture: .png or .tif")->required()->type_name("PICTURE");
-  command.add_option("--size", options->size, "Width and height, in pixels")->expected(2)->check(CLI::Range(1, 1 << 20))->type_name("W H");
+  command.add_option("--size", options->size, "Width and height, in pixels")
+      ->delimiter('x')
+      ->expected(2)
+      ->check(CLI::Range(1, 1 << 20))
+      ->type_name("WxH");
   command
       .add_option(
           "--window", options->window,
           "Instead: left, top, width and height of a window of a texture without end. Windows that overlap have the same pixels there")
+      ->delimiter(',')
       ->expected(4)
       ->check(CLI::Range(-(1 << 28), 1 << 28))
-      ->type_name("X Y W H");
+      ->type_name("X,Y,W,H");
   command.add_option("--seed", options->seed, "Another seed, another texture of the same look. Default: 1")->type_name("N");
   command
       .add_option("--direction", options->direction_deg,
                   "Where strokes run, degrees clockwise from level; of models that begin with streaks.\n"
                   "Default: as in the crop")
       ->type_name("DEGREES");
+  add_report_option(command, options->report, "A page with the texture and what its model is");
   command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(
       "Nothing is copied and nothing repeats, at any size.\n\n"
-      "  belvedere texture make meadow.model --size 1200 800 --out meadow.png\n"
-      "  belvedere texture make meadow.model --window 8192 4096 2048 2048 --out piece.tif");
+      "  belvedere texture make meadow.model --size 1200x800 --out meadow.png\n"
+      "  belvedere texture make meadow.model --window 8192,4096,2048,2048 --out piece.tif");
   return [options] { return run(*options); };
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "base/error.h"
 #include "renderer/image/image_io.h"
@@ -23,9 +24,9 @@ Grid<std::uint8_t> read_mask_of(const std::string& path, const std::string& pict
   return mask;
 }
 
-TextureCrop read_crop(const std::string& path, const std::string& mask) {
+TextureCrop read_crop(const std::string& path, const std::string& mask, Grid<glm::vec3>* stored) {
   Grid<float> alpha;
-  const Grid<glm::vec3> picture = read_picture(path, &alpha);
+  Grid<glm::vec3> picture = read_picture(path, &alpha);
   TextureCrop crop{Grid<Rgb8>(picture.width(), picture.height()), {}};
   for (std::size_t i = 0; i < picture.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
@@ -39,11 +40,26 @@ TextureCrop read_crop(const std::string& path, const std::string& mask) {
     leave_out(i);
     ++crop.transparent;
   }
+  if (stored != nullptr) *stored = std::move(picture);
   if (mask.empty()) return crop;
   const Grid<std::uint8_t> kept = read_mask_of(mask, path, crop.picture);
   for (std::size_t i = 0; i < kept.size(); ++i)
     if (kept[i] == 0) leave_out(i);
   return crop;
+}
+
+Grid<glm::vec3> with_changes(Grid<glm::vec3> stored, const Grid<Rgb8>& before, const Grid<Rgb8>& after) {
+  for (std::size_t i = 0; i < stored.size(); ++i)
+    if (after[i] != before[i]) stored[i] = glm::vec3(after[i][0], after[i][1], after[i][2]) / 255.F;
+  return stored;
+}
+
+void note_rounding(const std::string& read, const std::string& out, Progress& progress) {
+  const ImageInfo info = read_image_info(read);
+  const bool fine =
+      !info.parts.empty() && !info.parts.front().channels.empty() && info.parts.front().channels.front().type != ChannelType::uint8;
+  if (fine && ending_of(out) == ".png")
+    progress.note(fmt::format("{} has more than 8 bits, a .png keeps 8 of them: name a .tif to keep 16", file_name(read)));
 }
 
 Grid<glm::vec3> encoded_picture(const Grid<Rgb8>& picture) {

@@ -6,6 +6,7 @@
 
 #include "base/grid.h"
 #include "base/json.h"
+#include "base/progress.h"
 #include "texture/statistical/texture_figures.h"
 #include "texture/synthesis/exemplar.h"
 
@@ -19,8 +20,13 @@ struct TextureCrop {
 };
 
 // Reads a crop and, where named, a mask: grey, what is 0 is left out. Transparent pixels are left out too. Error(input) for masks of
-// another size and what read_picture refuses.
-TextureCrop read_crop(const std::string& path, const std::string& mask);
+// another size and what read_picture refuses. `stored` gets the values as the file has them, 0…1: 16 bits where it has so many.
+TextureCrop read_crop(const std::string& path, const std::string& mask, Grid<glm::vec3>* stored = nullptr);
+
+// The stored values where a picture is what it was, those that were made elsewhere: what did not change keeps all its bits.
+Grid<glm::vec3> with_changes(Grid<glm::vec3> stored, const Grid<Rgb8>& before, const Grid<Rgb8>& after);
+// Notes that a file of 16 bits is written in 8.
+void note_rounding(const std::string& read, const std::string& out, Progress& progress);
 
 // A grey mask of a picture's size: 1 where it is not 0. Error(input) for another size.
 Grid<std::uint8_t> read_mask_of(const std::string& path, const std::string& picture_path, const Grid<Rgb8>& picture);

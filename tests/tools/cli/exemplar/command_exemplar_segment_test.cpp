@@ -51,6 +51,58 @@ TEST_F(ExemplarSegment, NumbersOfGroupsAreAtMostThoseAskedFor) {
   EXPECT_NEAR(read_picture(path("m.png"))(60, 10).z, .92, .03);
 }
 
+TEST_F(ExemplarSegment, SaysHowWellItAgreesWithAMaskDrawnByHand) {
+  const std::string painting = write_painting();
+  const auto drawn = [&](const std::string& name, int horizon) {
+    return write_labels(name, 120, 90, [&](int x, int y) { return y < horizon ? 7 : x < 60 ? 8 : 9; });
+  };
+  const auto number = [](const Outcome& outcome, const std::string& key) {
+    const std::size_t at = outcome.out.find("\"" + key + "\":");
+    return at == std::string::npos ? -1.0 : std::stod(outcome.out.substr(at + key.size() + 3));
+  };
+  const std::vector<std::string> segment = {"exemplar", "segment", painting, "--out", path("m.png"),
+                                            "--most",   "3",       "--json", "-q",    "--compare"};
+  const auto compared = [&](const std::string& mask) {
+    std::vector<std::string> arguments = segment;
+    arguments.push_back(mask);
+    return run(arguments);
+  };
+  const Outcome right = compared(drawn("right.tif", 30));
+  ASSERT_EQ(right.status, 0) << right.err;
+  for (const char* key : {"merged", "one_to_one", "named_one_to_one"}) EXPECT_GT(number(right, key), .94) << key;
+  const Outcome wrong = compared(drawn("wrong.tif", 50));
+  EXPECT_NEAR(number(wrong, "merged"), (.6 + 2. / 3. + 2. / 3.) / 3., .03);
+  const Outcome other = compared(write_labels("size.tif", 60, 90, [](int x, int) { return x / 20; }));
+  EXPECT_EQ(other.status, 3);
+  EXPECT_THAT(other.err, HasSubstr("60 × 90"));
+}
+
+// Groups of one thing are merged by clicks, a group of two things must be split first: there are as many as were asked for.
+TEST_F(ExemplarSegment, ThereAreAsManyGroupsAsTheMostUnlessToldHowUnlike) {
+  const auto groups = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments = {"exemplar", "segment", write_painting(), "--out", path("m.png"), "--numbers", "-q"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(run(arguments).status, 0);
+    const Grid<std::uint16_t> mask = read_grey(path("m.png"));
+    return std::set<std::uint16_t>(mask.begin(), mask.end()).size();
+  };
+  EXPECT_EQ(groups({}), 30U);
+  EXPECT_EQ(groups({"--most", "7"}), 7U);
+  EXPECT_LT(groups({"--groups", "3"}), 7U);
+}
+
+// The program as it comes, on a painting whose mask was drawn by hand.
+TEST_F(ExemplarSegment, TheGroupsOfMonetsCoastAreMergedToItsMask) {
+  const std::string monet = test::data_folder() + "/paintings/monet_etretat";
+  if (!std::filesystem::exists(monet + ".jpg")) GTEST_SKIP() << monet << ".jpg is missing";
+  const Outcome outcome =
+      run({"exemplar", "segment", monet + ".jpg", "--out", path("m.png"), "--compare", monet + "_labels.png", "--json", "-q"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::size_t at = outcome.out.find("\"merged\":");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_GT(std::stod(outcome.out.substr(at + 9)), .80);
+}
+
 TEST_F(ExemplarSegment, SameBytesForAnyThreads) {
   const std::string painting = write_painting();
   for (const char* threads : {"1", "2"})

@@ -44,7 +44,7 @@ TEST_F(Composite, IsLearntMadeAndDrawn) {
     EXPECT_EQ(made.status, 0) << made.err;
     return read_picture(path(name));
   };
-  const Grid<glm::vec3> one = make("one.png", {"--size", "90", "70", "--threads", "1", "--map", path("map.png")});
+  const Grid<glm::vec3> one = make("one.png", {"--size", "90x70", "--threads", "1", "--map", path("map.png"), "--report", path("made")});
   EXPECT_EQ(one.width(), 90);
   EXPECT_EQ(one, make("two.png", {"--size", "90", "70", "--threads", "2"}));
   EXPECT_NE(one, make("other.png", {"--size", "90", "70", "--seed", "4"}));
@@ -52,8 +52,13 @@ TEST_F(Composite, IsLearntMadeAndDrawn) {
   EXPECT_EQ(one, make("drawn.png", {"--labels", path("map.png")}));
   // Windows are parts of what a window of everything is.
   const Grid<glm::vec3> all = make("all.png", {"--labels", path("map.png"), "--window", "0", "0", "90", "70"});
-  const Grid<glm::vec3> part = make("part.png", {"--labels", path("map.png"), "--window", "20", "30", "40", "25", "--threads", "2"});
+  const Grid<glm::vec3> part =
+      make("part.png", {"--labels", path("map.png"), "--window", "20,30,40,25", "--threads", "2", "--report", path("window")});
   ASSERT_EQ(part.width(), 40);
+  EXPECT_EQ(read_picture(path("made/made.png")), one);
+  EXPECT_EQ(read_picture(path("made/labels.png")), read_picture(path("map.png")));
+  EXPECT_THAT(read_bytes(path("made/index.html")), AllOf(HasSubstr("#0000ff"), HasSubstr("--size 90x70")));
+  EXPECT_EQ(read_picture(path("window/labels.png")).width(), 40) << "the window's part of the map";
   for (int y = 0; y < 25; ++y)
     for (int x = 0; x < 40; ++x) ASSERT_EQ(part(x, y), all(20 + x, 30 + y));
   const Grid<glm::vec3> map = read_picture(path("map.png"));

@@ -22,9 +22,12 @@ class TextureErode : public Program {
 TEST_F(TextureErode, WritesAMonotoneSeriesThatReadsBack) {
   const std::string mask =
       write_labels("snow.tif", 90, 80, [](int x, int y) { return (x - 45) * (x - 45) + (y - 40) * (y - 40) < 30 * 30; });
-  const Outcome eroded = run({"texture", "erode", mask, "--out", path("series"), "--steps", "3", "--step-px", "6"});
+  const Outcome eroded =
+      run({"texture", "erode", mask, "--out", path("series"), "--steps", "3", "--step-px", "6", "--report", path("page")});
   ASSERT_EQ(eroded.status, 0) << eroded.err;
   EXPECT_THAT(eroded.out, AllOf(HasSubstr("snow_01.png"), HasSubstr("snow_03.png"), HasSubstr("pixels left")));
+  EXPECT_THAT(eroded.err, HasSubstr("taking back"));
+  EXPECT_THAT(read_bytes(path("page/index.html")), AllOf(HasSubstr("snow_03.png"), HasSubstr("--step-px 6")));
   Grid<std::uint16_t> before = read_grey(mask);
   for (const char* name : {"series/snow_01.png", "series/snow_02.png", "series/snow_03.png"}) {
     const Grid<std::uint16_t> now = read_grey(path(name));
@@ -35,6 +38,14 @@ TEST_F(TextureErode, WritesAMonotoneSeriesThatReadsBack) {
     }
     EXPECT_GT(taken, 300);
     before = now;
+  }
+  // On the page white is left, and what went first is darkest.
+  const Grid<glm::vec3> shown = read_picture(path("page/steps.png"));
+  const Grid<std::uint16_t> first = read_grey(path("series/snow_01.png"));
+  const Grid<std::uint16_t> whole = read_grey(mask);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    ASSERT_EQ(shown[i].x == 1.F, before[i] != 0);
+    ASSERT_EQ(shown[i].x > .3F && shown[i].x < .5F, whole[i] != 0 && first[i] == 0);
   }
 }
 

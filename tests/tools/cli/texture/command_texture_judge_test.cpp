@@ -42,6 +42,10 @@ TEST_F(TextureJudge, TellsACopyFromNoise) {
   EXPECT_LT(number("held_out", 1), 1e-6);
   EXPECT_GT(number("held_out", 2), 0.5);
   EXPECT_GT(number("selected", 2), 0.5);
+  // Layout is asked of pictures alone.
+  EXPECT_LT(number("by_height", 0), 1e-6);
+  EXPECT_LT(number("far_pairs", 0), 1e-6);
+  EXPECT_GT(number("by_height", 1), 0.5);
 }
 
 TEST_F(TextureJudge, SaysWhatIsMissing) {

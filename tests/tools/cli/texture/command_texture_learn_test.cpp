@@ -39,20 +39,22 @@ TEST_F(Texture, IsLearntAndMadeWithoutEnd) {
     EXPECT_EQ(made.status, 0) << made.err;
     return read_picture(path(name));
   };
-  const Grid<glm::vec3> one = make("one.png", {"--size", "50", "40", "--threads", "1"});
+  const Grid<glm::vec3> one = make("one.png", {"--size", "50x40", "--threads", "1", "--report", path("made")});
   EXPECT_EQ(one.width(), 50);
+  EXPECT_EQ(read_picture(path("made/texture.png")), one);
+  EXPECT_THAT(read_bytes(path("made/index.html")), AllOf(HasSubstr("--size 50x40 --seed 1"), HasSubstr("72 × 64")));
   EXPECT_EQ(one, make("two.png", {"--size", "50", "40", "--threads", "2"}));
   EXPECT_NE(one, make("other.png", {"--size", "50", "40", "--seed", "9"}));
   // Overlapping windows.
   const Grid<glm::vec3> left = make("left.png", {"--window", "-30", "5", "60", "20"});
-  const Grid<glm::vec3> right = make("right.png", {"--window", "10", "10", "20", "10"});
+  const Grid<glm::vec3> right = make("right.png", {"--window", "10,10,20,10"});
   for (int y = 0; y < 10; ++y)
     for (int x = 0; x < 20; ++x) EXPECT_EQ(right(x, y), left(x + 40, y + 5));
 
   // A hole in the crop: what is around it stays to the bit.
   const std::string hole = write_labels("hole.tif", 72, 64, [](int x, int y) { return x > 20 && x < 40 && y > 20 && y < 44 ? 1 : 0; });
-  const Outcome filled =
-      run({"texture", "fill", path("crop.png"), "--hole", hole, "--model", path("m.model"), "--out", path("filled.png")});
+  const Outcome filled = run({"texture", "fill", path("crop.png"), "--hole", hole, "--model", path("m.model"), "--out", path("filled.png"),
+                              "--report", path("page")});
   ASSERT_EQ(filled.status, 0) << filled.err;
   EXPECT_THAT(filled.out, HasSubstr("437 of 4608"));
   const Grid<glm::vec3> before = read_picture(path("crop.png"));
@@ -67,6 +69,8 @@ TEST_F(Texture, IsLearntAndMadeWithoutEnd) {
       changed += after(x, y) != before(x, y) ? 1 : 0;
     }
   EXPECT_GT(changed, 300);
+  EXPECT_THAT(read_bytes(path("page/index.html")), AllOf(HasSubstr("437 of 4608"), HasSubstr("before.png"), HasSubstr("after.png")));
+  EXPECT_EQ(read_picture(path("page/before.png")), before) << "all of it lies around the hole";
 }
 
 TEST_F(Texture, JoinsPicturesAndNothingElse) {
@@ -76,11 +80,14 @@ TEST_F(Texture, JoinsPicturesAndNothingElse) {
   const Grid<Rgb8> other = test::meadow_crop(60, 64, 3);
   const std::string left = write_picture("left.png", 72, 64, [&](int x, int y) { return colour(meadow(x, y)); });
   const std::string right = write_picture("right.png", 60, 64, [&](int x, int y) { return bluish(other(x, y)); });
-  const Outcome knitted = run({"texture", "knit", left, right, "--out", path("knit.png"), "--band-px", "12", "-q", "--json"});
+  const Outcome knitted =
+      run({"texture", "knit", left, right, "--out", path("knit.png"), "--band-px", "12", "--report", path("page"), "-q", "--json"});
   ASSERT_EQ(knitted.status, 0) << knitted.err;
   EXPECT_THAT(knitted.out, AllOf(HasSubstr("\"at_px\""), HasSubstr("\"before\"")));
   const Grid<glm::vec3> joined = read_picture(path("knit.png"));
   ASSERT_EQ(joined.width(), 132);
+  EXPECT_THAT(read_bytes(path("page/index.html")), AllOf(HasSubstr("cut.png"), HasSubstr("<td>72</td>"), HasSubstr("--band-px 12")));
+  EXPECT_EQ(read_picture(path("page/knitted.png")), joined);
   const Grid<glm::vec3> a = read_picture(left);
   const Grid<glm::vec3> b = read_picture(right);
   for (int y = 0; y < 64; ++y) {
@@ -104,9 +111,12 @@ TEST_F(Texture, CorrectedPicturesHaveTheColoursOfTheOther) {
   };
   const std::string red = plain("red.png", {.8F, .4F, .3F});
   const std::string blue = plain("blue.png", {.3F, .4F, .7F});
-  const Outcome outcome = run({"texture", "correct", red, "--to", blue, "--out", path("out.png"), "--regions", "1", "--json", "-q"});
+  const Outcome outcome =
+      run({"texture", "correct", red, "--to", blue, "--out", path("out.png"), "--regions", "1", "--report", path("page"), "--json", "-q"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"before\""), HasSubstr("\"after\"")));
+  EXPECT_THAT(read_bytes(path("page/index.html")), AllOf(HasSubstr("source.png"), HasSubstr("target.png"), HasSubstr("saturation")));
+  EXPECT_EQ(read_picture(path("page/corrected.png")), read_picture(path("out.png")));
   const glm::vec3 out = read_picture(path("out.png"))(30, 25);
   const glm::vec3 wanted = read_picture(blue)(30, 25);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(out[c], wanted[c], .03F);
