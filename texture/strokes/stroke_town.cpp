@@ -30,7 +30,7 @@ constexpr float same_plot_units = 8.F;  // what is farther apart is not found tw
 constexpr double turn_step = 0.3927;    // rad, 22.5°: a quarter has one direction
 // Towns that grew have no grid: streets bend, plots are of all widths, and rows of houses begin anywhere.
 constexpr double bend_plots = 6.0;   // how long a bend of a street is, in plots …
-constexpr double bend_rows = 0.9;   // … and how far it leads aside, in rows
+constexpr double bend_rows = 0.9;    // … and how far it leads aside, in rows
 constexpr double width_plots = 2.2;  // how far plots of one width reach, in plots …
 constexpr double width_share = 0.5;  // … and by how much their borders are moved, in plots
 constexpr int rows_of_block = 2;     // rows back to back, between two streets
