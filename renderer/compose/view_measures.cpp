@@ -13,8 +13,9 @@
 namespace belvedere {
 namespace {
 
-constexpr double hidden = 99.0;      // a depression below all
-constexpr double lowest_seen = 3.0;  // tangent: what lies deeper is under the picture
+constexpr double hidden = 99.0;        // a depression below all
+constexpr double lowest_share = 0.96;  // of the skyline, which is higher than its low places
+constexpr double lowest_seen = 3.0;    // tangent: what lies deeper is under the picture
 
 double unit_height(double y) { return std::clamp(y, 0.0, 1.0); }
 
@@ -47,16 +48,14 @@ double percentile(std::vector<double> values, double share) {
 
 void measure_skyline(const std::vector<double>& skyline, ViewMeasures& out) {
   if (skyline.empty()) return;
-  out.sky_low = percentile(skyline, 0.96);
+  out.sky_low = percentile(skyline, lowest_share);
   out.sky_middle = percentile(skyline, 0.5);
   out.sky_summit = *std::min_element(skyline.begin(), skyline.end());
   out.sky = mean_of(skyline, 0, skyline.size());
   double sum = 0.0;
   for (const double y : skyline) sum += square(y - out.sky);
   out.skyline = std::sqrt(sum / static_cast<double>(skyline.size()));
-  const std::size_t n = skyline.size();
-  const double middle = mean_of(skyline, n / 4, n - n / 4);
-  out.fall = std::max(mean_of(skyline, 0, n / 6), mean_of(skyline, n - n / 6, n)) - middle;
+  out.hump = hump_of(skyline);
 }
 
 // What the lower edge does to the ground it lies on, followed outwards: it cuts a mountain where the ground on it stands high over its
@@ -124,6 +123,30 @@ AnchorSight sight_of(const CoarseGround& ground, const SightModel& sight, const 
 }
 
 }  // namespace
+
+double hump_of(const std::vector<double>& line) {
+  constexpr double falls_from = 0.24, falls_to = 0.30;  // picture heights, from the top
+  constexpr double peaks = 0.036;                       // deviation from the parabola that makes a skyline of peaks
+  const std::size_t n = line.size();
+  if (n < 4) return 0.0;
+  const double sky_low = percentile(line, lowest_share);
+  const auto across = [&](std::size_t i) { return 2.0 * static_cast<double>(i) / static_cast<double>(n - 1) - 1.0; };
+  double x2 = 0.0;
+  for (std::size_t i = 0; i < n; ++i) x2 += square(across(i));
+  const double mean = mean_of(line, 0, n);
+  const double mean_x2 = x2 / static_cast<double>(n);
+  // 1, x and x² - mean are orthogonal on places that lie evenly around 0.
+  double along = 0.0, arch = 0.0, arch2 = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = across(i);
+    const double q = square(x) - mean_x2;
+    const double y = line[i] - mean;
+    along += x * y, arch += q * y, arch2 += square(q), all += square(y);
+  }
+  const double rest = std::max(0.0, all - square(along) / x2 - square(arch) / arch2);
+  const double stands_off = std::sqrt(rest / static_cast<double>(n));
+  return unit((sky_low - falls_from) / (falls_to - falls_from)) * unit(1.0 - stands_off / peaks);
+}
 
 ViewMeasures measure_view(const CoarseGround& ground, const SightModel& sight, const std::vector<Anchor>& anchors) {
   ViewMeasures out;

@@ -63,9 +63,13 @@ struct ViewMeasures {
   double angle_deg = 0.0;            // in the middle of the lower edge, between line of sight and bent ground
   double haze = 0.0;                 // mean of the air's share over the ground
   double cell_px = 0.0;              // width of a cell of the data at the lower edge, on a picture 2400 wide
-  double fall = 0.0;                 // how much lower the skyline is at the sides than in the middle half, picture heights
+  double hump = 0.0;                 // 0…1: how much the skyline is one hump that falls off to the sides, without peaks
   std::vector<AnchorSight> anchors;  // of the massifs asked for, in their order
 };
+
+// How much a skyline, as heights from the top of the picture at even steps across, is one hump, 0…1: its sides lie far down, and nothing
+// stands off its best parabola that would make peaks of it.
+double hump_of(const std::vector<double>& skyline);
 
 // `count` of the anchors are placed.
 ViewMeasures measure_view(const CoarseGround& ground, const SightModel& sight, const std::vector<Anchor>& anchors);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/math.h"
+
 namespace belvedere {
 namespace {
 
@@ -72,6 +74,7 @@ std::string_view ScoreTerm::advice() const {
 
 std::vector<ScoreTerm> score_terms(const ViewMeasures& m, const ScoreContext& context) {
   const double lone = context.lone;
+  const double alone = unit(2.0 * lone - 1.0);  // of those that are, not of the first among others
   const bool known = context.main >= 0 && static_cast<std::size_t>(context.main) < m.anchors.size();
   const AnchorKind kind = known ? context.anchors[static_cast<std::size_t>(context.main)].kind : AnchorKind::summit;
   const AnchorSight main = known ? m.anchors[static_cast<std::size_t>(context.main)] : AnchorSight{};
@@ -94,11 +97,14 @@ std::vector<ScoreTerm> score_terms(const ViewMeasures& m, const ScoreContext& co
   return {
       // name, weight, kind, good, unit, measure, meaning, what to say of too little, what of too much. Ramps beside the plateaus are wide, so
       // that a search does not stop as soon as a term is full.
-      {"sky", 8.0, excess, {0, 0.10, 0.19, 1}, share, m.sky, "of the picture is above the skyline",
+      // A mountain that stands alone breaks the skyline: there is sky to both sides of it, down to its foot.
+      {"sky", 8.0, excess, {0, 0.10, 0.19 + 0.08 * alone, 1}, share, m.sky, "of the picture is above the skyline",
        "little sky: raise the view (camera.tilt_deg above 0)", "much sky: lower the view (camera.tilt_deg below 0) or bend the ground more"},
       {"skyline", 0.8, plateau, {0.0, 0.03, 0.06, 0.13}, share, m.skyline, "rise and fall of the skyline",
        "the skyline is a straight line: look towards higher mountains", "the skyline falls off: aim at the middle of the mountains"},
-      {"level", 8.0, excess, {0, 0, 0.205, 1}, share, m.sky_low, "from the top down to the skyline's lowest places",
+      {"hump", 1.2, excess, {0, 0, 0, 1}, share, m.hump, "how much the skyline is one hump without peaks",
+       "", "the skyline is one hump: look at mountains that stand apart, or narrow the view"},
+      {"level", 8.0, excess, {0, 0, 0.205 + 0.18 * alone, 1}, share, m.sky_low, "from the top down to the skyline's lowest places",
        "", "the world falls off at a corner: the data end too near there, or the view is too wide"},
       {"main", 2.2, plateau, {0, 1, 1, never}, share, place * seen, "how well the main subject is placed",
        "the main subject is hidden, at the edge or outside: a summit's place is a third from a side, in the upper third", ""},
@@ -115,10 +121,11 @@ std::vector<ScoreTerm> score_terms(const ViewMeasures& m, const ScoreContext& co
        "the land looks flat: exaggerate more, or go nearer", "forms are steeper than painters draw them: exaggerate less"},
       {"ground", 1.5, plateau, {0.20, 0.75, 1.01, 1.3}, share, m.ground, "of the ground in view is seen",
        "mountains hide much ground: bend it more, or look from higher", ""},
-      {"floor", 1.0, plateau, {0, 1, never, never}, share, m.floor_open * std::min(1.0, m.floor / 0.02), "of the valley floors in view is open",
+      {"floor", 1.0, plateau, {0, 1, never, never}, share, m.floor_open * std::min(1.0, m.floor / 0.02), "of the valley floors in view is open", "", ""},
+      // A picture without any is a slope: the first third counts once more, and only what lacks there is told. That ranges hide the valleys
+      // behind them is no fault.
+      {"valley", 0.5, plateau, {0, 0.3, never, never}, share, m.floor_open * std::min(1.0, m.floor / 0.02), "of the valley floors in view is open",
        "valley floors are hidden: look along a valley, from higher, or bend the ground more", ""},
-      // A picture without any is a slope: the first third counts once more.
-      {"valley", 0.5, plateau, {0, 0.3, never, never}, share, m.floor_open * std::min(1.0, m.floor / 0.02), "of the valley floors in view is open", "", ""},
       {"depth", 0.8, plateau, {0, 1, never, never}, share, m.floor_depth, "valley floor at all distances", "", ""},
       {"across", 0.5, plateau, {0, 1, never, never}, share, m.floor_across, "valley floor from left to right", "", ""},
       {"water", 0.7, plateau, {0.0, 0.02, 0.16, 0.45}, share, m.water, "of the picture is water", "", ""},

@@ -32,6 +32,10 @@ constexpr float most_widened = 3.F;
 // Of least_px: guessed rivers that stay below the first, at their widest, are not drawn, from the second on they are.
 constexpr float faded_below = 0.4F;
 constexpr float full_from = 0.8F;
+// Guessed rivers of half this width, m, are drawn with least_px; larger ones by the root of how much they are, so that one that has taken
+// in others is seen to.
+constexpr double least_of_half_m = 12.0;
+constexpr double most_grown = 2.2;
 
 std::vector<CoverCourse> unpack(const PackedRows& packed, const MapRivers& rivers) {
   std::vector<CoverCourse> courses;
@@ -114,7 +118,8 @@ CoverCourse widen_for_view(CoverCourse course, const RiverLook& look, const Dem&
     const double thick = std::abs(a.x * b.y - a.y * b.x) / std::max(glm::length(a), 1e-12);
     const float half = course.half_width_m[i];
     const auto needed = static_cast<float>(0.5 * look.least_px / std::max(thick, 1e-9));
-    wanted[i] = std::clamp(needed, half, most_widened * half);
+    const double grown = look.fades ? std::clamp(std::sqrt(static_cast<double>(half) / least_of_half_m), 1.0, most_grown) : 1.0;
+    wanted[i] = std::clamp(needed * static_cast<float>(grown), half, most_widened * half);
     if (look.fades) wanted[i] *= smoothstep(faded_below, full_from, wanted[i] / std::max(needed, 1e-6F));
   }
   for (int pass = 0; pass < passes && wanted.size() > 2; ++pass) {

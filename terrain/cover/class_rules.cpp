@@ -168,10 +168,11 @@ Grid<std::uint8_t> find_river_beds(const Run& run, const Grid<float>& catchment_
 
 // Guessed rivers as lines.
 std::vector<CoverCourse> guess_rivers(const Run& run, const Grid<float>& catchment_km2, const Grid<LandCoverClass>& classes) {
-  const GuessedCourseParameters parameters;
+  GuessedCourseParameters parameters;
+  parameters.seed = run.seed;
   const Grid<std::uint8_t> beds = find_river_beds(run, catchment_km2, parameters.least_km2, classes);
   std::vector<Course> courses = guess_courses(
-      catchment_km2, run.dem.transform,
+      catchment_km2, run.dem.altitude_m, run.dem.transform,
       [&](int x, int y) {
         if (classes(x, y) == LandCoverClass::water) return RiverBed::open;
         return beds(x, y) != 0 ? RiverBed::runs : RiverBed::dry;

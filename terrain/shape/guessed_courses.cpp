@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "base/math.h"
+#include "base/parallel.h"
+#include "terrain/shape/river_bends.h"
 #include "terrain/shape/river_reaches.h"
 
 namespace belvedere {
@@ -29,7 +31,7 @@ struct Ends {
   bool comes_in = false, goes_on = false;
 };
 
-// Leads the end of a line, `places` of which the last is the one of the larger river, to where that river has gone on for some cells.
+// Leads the end of a line, `places` of which the last is where it came to the larger river, to where that river has gone on for some cells.
 void lead_mouth(std::vector<glm::dvec2>& places, const std::vector<RiverReach>& reaches, std::size_t mouth) {
   std::size_t at = mouth;
   for (std::size_t k = 0; k < std::min(down_cells, places.size() / 3) && reaches[at].downstream != no_reach; ++k)
@@ -101,7 +103,7 @@ std::vector<Piece> pieces_of(std::vector<RiverBed> beds, const Ends& ends, const
 
 }  // namespace
 
-std::vector<Course> guess_courses(const Grid<float>& catchment_km2, const GeoTransform& transform,
+std::vector<Course> guess_courses(const Grid<float>& catchment_km2, const Grid<float>& altitude_m, const GeoTransform& transform,
                                   const std::function<RiverBed(int x, int y)>& bed, const GuessedCourseParameters& parameters) {
   std::vector<RiverReach> reaches = find_reaches(catchment_km2, parameters.least_km2);
   std::vector<RiverBed> beds(reaches.size());
@@ -117,14 +119,31 @@ std::vector<Course> guess_courses(const Grid<float>& catchment_km2, const GeoTra
     reach.half_width_m = known_half_width_m(km2) * grown;
   }
   smooth_reaches(reaches);
+  const std::vector<Line> lines = follow_water(reaches);
+  // Every river bends where it is its own; then tributaries are led to where the larger ones run now.
+  std::vector<std::vector<glm::dvec2>> ways(lines.size());
+  parallel_ranges(lines.size(), std::size_t{4}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) {
+      RiverLine river;
+      for (const std::size_t reach : lines[i].reaches) {
+        river.places.push_back(reaches[reach].place);
+        river.half_width_m.push_back(reaches[reach].half_width_m);
+        river.held.push_back(beds[reach] == RiverBed::open);
+      }
+      bend_on_level_ground(river, altitude_m, transform, parameters.seed);
+      ways[i] = std::move(river.places);
+    }
+  });
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    for (std::size_t k = 0; k < lines[i].reaches.size() - (lines[i].joins ? 1 : 0); ++k) reaches[lines[i].reaches[k]].place = ways[i][k];
   std::vector<Course> courses;
-  for (const Line& line : follow_water(reaches)) {
+  for (std::size_t number = 0; number < lines.size(); ++number) {
+    const Line& line = lines[number];
     std::vector<RiverBed> along;
     along.reserve(line.reaches.size());
     for (const std::size_t reach : line.reaches) along.push_back(beds[reach]);
     const Ends ends{at_rim[line.reaches.front()], line.joins || at_rim[line.reaches.back()]};
-    std::vector<glm::dvec2> places;
-    for (const std::size_t reach : line.reaches) places.push_back(reaches[reach].place);
+    std::vector<glm::dvec2>& places = ways[number];
     if (line.joins) lead_mouth(places, reaches, line.reaches.back());
     const std::size_t before = line.reaches.size() - 1 - std::min(line.reaches.size() - 1, own_cells);
     const double widest_m = reaches[line.joins ? line.reaches[before] : line.reaches.back()].half_width_m;

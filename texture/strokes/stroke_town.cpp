@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/math_exact.h"
+#include "base/noise.h"
 #include "texture/strokes/stroke_kinds.h"
 #include "texture/strokes/stroke_parts.h"
 
@@ -27,6 +28,12 @@ constexpr float plot_width = 3.7F;      // units of the sheet that a plot takes 
 constexpr float plot_height = 3.0F;     // … and upwards, with its garden
 constexpr float same_plot_units = 8.F;  // what is farther apart is not found twice but alike by chance
 constexpr double turn_step = 0.3927;    // rad, 22.5°: a quarter has one direction
+// Towns that grew have no grid: streets bend, plots are of all widths, and rows of houses begin anywhere.
+constexpr double bend_plots = 6.0;   // how long a bend of a street is, in plots …
+constexpr double bend_rows = 0.9;    // … and how far it leads aside, in rows
+constexpr double width_plots = 2.2;  // how far plots of one width reach, in plots …
+constexpr double width_share = 0.5;  // … and by how much their borders are moved, in plots
+constexpr int rows_of_block = 2;     // rows back to back, between two streets
 
 // 0 at the edge of a hamlet … .3 in a village … 1 in the middle of a large town.
 float built_at(const StrokeScene& scene, std::size_t i) { return std::clamp(scene.guidance.built[i], 0.F, 1.F); }
@@ -95,17 +102,24 @@ bool find_plot(const StrokeScene& scene, Stream stream, glm::vec2 at, Plot& plot
   const double length = pitch_m(1.0 / plots_a_metre(along));
   const double depth = pitch_m(1.15 / plots_a_metre(across));
   const glm::dvec2 here = ground_at(scene, i);
-  const double u = glm::dot(here, along) / length;
-  const double v = glm::dot(here, across) / depth;
-  const auto column = static_cast<std::int64_t>(std::floor(u));
+  const auto bent = [&](std::uint64_t part, double sigma_m) {
+    return gaussian_noise(stream_seed(scene.parameters.seed, Stream::street_directions, 1 + part), here.x, here.y, sigma_m);
+  };
+  const double v = glm::dot(here, across) / depth + bend_rows * bent(0, bend_plots * length);
   const auto row = static_cast<std::int64_t>(std::floor(v));
-  plot.key = random_bits(stream_seed(scene.parameters.seed, stream), column, row,
-                         static_cast<std::uint64_t>(turn * 4096 + std::lround(length + 64.0 * depth)));
+  const std::int64_t block = row >= 0 ? row / rows_of_block : (row - rows_of_block + 1) / rows_of_block;
+  const std::uint64_t key = stream_seed(scene.parameters.seed, stream);
+  const double begins = random_uniform(key, block, turn, 1);
+  const double u = glm::dot(here, along) / length + width_share * bent(1, width_plots * length) + 6.0 * begins;
+  const auto column = static_cast<std::int64_t>(std::floor(u));
+  plot.key = random_bits(key, column, row, static_cast<std::uint64_t>(turn * 4096 + std::lround(length + 64.0 * depth)));
   // Rows are straighter than the gaps in them.
-  const double aside = 0.5 + 0.30 * (random_uniform(plot.key, 0, 0) - 0.5);
-  const double back = 0.5 + 0.16 * (random_uniform(plot.key, 0, 1) - 0.5);
-  const glm::dvec2 target = along * ((static_cast<double>(column) + aside) * length) + across * ((static_cast<double>(row) + back) * depth);
-  const glm::dvec2 offset = lie.to_picture(target - here);
+  const double aside = 0.5 + 0.36 * (random_uniform(plot.key, 0, 0) - 0.5);
+  const double back = 0.5 + 0.2 * (random_uniform(plot.key, 0, 1) - 0.5);
+  // Bends are smooth: from the nearest pixel, which is the one that counts, they lead a house nowhere else.
+  const glm::dvec2 to =
+      along * ((static_cast<double>(column) + aside - u) * length) + across * ((static_cast<double>(row) + back - v) * depth);
+  const glm::dvec2 offset = lie.to_picture(to);
   plot.away_px = glm::length(offset);
   plot.place = at + glm::vec2(offset);
   if (plot.away_px > 4.0 * static_cast<double>(scene.scale()) || !scene.on_canvas(plot.place)) return false;

@@ -95,6 +95,25 @@ TEST(ViewMeasures, APlateauOnTheLowerEdgeIsNotCut) {
   EXPECT_LT(measure_view(ground, view, {}).cut, 0.05);
 }
 
+TEST(ViewMeasures, AHumpFallsOffAndHasNoPeaks) {
+  // Heights from the top: .1 in the middle, lower by `falls` at the sides, with three peaks of a deviation of `peaks`.
+  const auto hump = [](double falls, double peaks) {
+    std::vector<double> line;
+    for (int i = 0; i < 150; ++i) {
+      const double x = 2.0 * i / 149.0 - 1.0;
+      line.push_back(0.1 + falls * x * x - std::sqrt(2.0) * peaks * std::cos(6.283185 * 1.5 * x));
+    }
+    return hump_of(line);
+  };
+  EXPECT_EQ(hump(0.0, 0.0), 0.0) << "level";
+  EXPECT_EQ(hump(0.1, 0.0), 0.0) << "no farther down than the world goes";
+  EXPECT_NEAR(hump(0.25, 0.0), 1.0, 0.01);
+  EXPECT_NEAR(hump(0.25, 0.018), 0.5, 0.15);
+  EXPECT_EQ(hump(0.25, 0.045), 0.0) << "mountains that stand apart";
+  const CoarseGround chain = test::chain_region();
+  EXPECT_EQ(measure_view(chain, view_of(chain, 30.0, -8.0, 0.0, 56000.0), {}).hump, 0.0);
+}
+
 TEST(ViewMeasures, TheEndOfTheDataShows) {
   const CoarseGround ground = test::chain_region();
   const ViewMeasures inside = measure_view(ground, view_of(ground, 30.0, -8.0, 0.0, 56000.0), {});

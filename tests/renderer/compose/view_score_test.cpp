@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
+#include <vector>
 
 namespace belvedere {
 namespace {
@@ -72,6 +74,48 @@ TEST(ViewScore, AdvisesWhereItIsNotGoodAlone) {
   EXPECT_EQ(advice(m, "along"), "") << "the subject is no canyon";
   m.sky = 0.05;
   EXPECT_NE(advice(m, "sky").find("little sky"), std::string::npos);
+}
+
+TEST(ViewScore, ValleysHiddenBehindRangesAreNoFaultAViewWithoutAnyIs) {
+  const auto told = [](double floor_open) {
+    ViewMeasures m = good_measures();
+    m.floor_open = floor_open;
+    std::vector<std::string> out;
+    for (const ScoreTerm& term : score_terms(m, context()))
+      if (!term.advice().empty()) out.emplace_back(term.name);
+    return out;
+  };
+  EXPECT_EQ(told(0.41), std::vector<std::string>{});
+  EXPECT_EQ(told(0.10), std::vector<std::string>{"valley"});
+  ViewMeasures fewer = good_measures();
+  fewer.floor_open = 0.41;
+  EXPECT_LT(total(score_terms(fewer, context())), total(score_terms(good_measures(), context()))) << "more is still better";
+}
+
+TEST(ViewScore, AMountainThatStandsAloneHasSkyToItsSides) {
+  ViewMeasures m = good_measures();
+  m.sky = 0.27, m.sky_low = 0.38;
+  const auto lost = [&](double lone) {
+    ScoreContext c = context();
+    c.lone = lone;
+    double sum = 0.0;
+    for (const ScoreTerm& term : score_terms(m, c))
+      if (term.name == "sky" || term.name == "level") sum += term.points();
+    return sum;
+  };
+  EXPECT_EQ(lost(1.0), 0.0);
+  EXPECT_LT(lost(0.0), -1.5);
+  EXPECT_EQ(lost(0.4), lost(0.0)) << "the first among others does not stand alone";
+}
+
+TEST(ViewScore, AHumpCostsAndIsTold) {
+  ViewMeasures m = good_measures();
+  m.hump = 0.5;
+  EXPECT_NEAR(total(score_terms(good_measures(), context())) - total(score_terms(m, context())), 0.6, 1e-9);
+  for (const ScoreTerm& term : score_terms(m, context()))
+    if (term.name == "hump") {
+      EXPECT_NE(std::string(term.advice()).find("one hump"), std::string::npos);
+    }
 }
 
 TEST(ViewScore, GainsAreToldByPoints) {

@@ -106,6 +106,20 @@ TEST_F(LaidRivers, GuessedOnesFadeBeforeTheyBreakIntoDots) {
   EXPECT_NEAR(half_m(5.0, false), 30.F, 0.1F) << "a map's stays";
 }
 
+TEST_F(LaidRivers, GuessedOnesAreWiderBelowTheirTributariesAlsoFromAfar) {
+  const Deformation flat;
+  const auto far = camera_at(60000.0);
+  const auto half_m = [&](float own_m, bool fades) {
+    CoverCourse river;
+    for (int y = 0; y < 100; ++y) river.places.emplace_back(6000.0, 9000.0 - 50.0 * y), river.half_width_m.push_back(own_m);
+    const CoverCourse drawn = widen_for_view(river, {.least_px = 1.5, .fades = fades}, valley_, {*far, flat});
+    return *std::max_element(drawn.half_width_m.begin(), drawn.half_width_m.end());
+  };
+  // 41 m each way are least_px.
+  EXPECT_GT(half_m(40.F, true), 1.3F * half_m(20.F, true));
+  EXPECT_NEAR(half_m(40.F, false), half_m(20.F, false), 0.1F) << "a map says itself which rivers are large";
+}
+
 TEST_F(LaidRivers, AreTheSameFromTheCache) {
   const Cache cache({.folder = folder_ / "cache", .limit_bytes = 0});
   const std::vector<CoverCourse> first = laid(0.0, nullptr, cache);

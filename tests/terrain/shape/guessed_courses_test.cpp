@@ -21,12 +21,19 @@ Grid<float> waters(double from_km2, double step_km2, bool brook = false) {
   for (int x = 1; brook && x < river_column; ++x) km2(x, 100) = static_cast<float>(25.0 + 0.1 * x);
   return km2;
 }
+// Steep to both sides of the river.
+Grid<float> valley() {
+  Grid<float> out(121, rows);
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < 121; ++x) out(x, y) = 1000.F + 20.F * static_cast<float>(std::abs(x - river_column)) - static_cast<float>(y);
+  return out;
+}
 RiverBed everywhere(int, int) { return RiverBed::runs; }
 double row_of(glm::dvec2 place) { return transform.to_cell(place.x, place.y).y; }
 
 TEST(GuessedCourses, ComeUpFromNothingAndGrowAsKnownRiversDo) {
   // Inside the ground, so that the beginning is a spring: 20 km² in row 40.
-  const std::vector<Course> courses = guess_courses(waters(0.0, 0.5), transform, everywhere);
+  const std::vector<Course> courses = guess_courses(waters(0.0, 0.5), valley(), transform, everywhere);
   ASSERT_EQ(courses.size(), 1U);
   const Course& river = courses[0];
   ASSERT_EQ(river.places.size(), river.half_width_m.size());
@@ -44,7 +51,7 @@ TEST(GuessedCourses, ComeUpFromNothingAndGrowAsKnownRiversDo) {
 }
 
 TEST(GuessedCourses, KeepTheirWidthAtTheRimOfTheGround) {
-  const Course river = guess_courses(waters(100.0, 0.1), transform, everywhere).at(0);
+  const Course river = guess_courses(waters(100.0, 0.1), valley(), transform, everywhere).at(0);
   EXPECT_NEAR(river.half_width_m.front(), known_half_width_m(100.0), 0.05);
   EXPECT_NEAR(river.half_width_m.back(), known_half_width_m(119.9), 0.05);
 }
@@ -54,22 +61,23 @@ TEST(GuessedCourses, FadeWhereTheirBedIsDryAndCloseShortGaps) {
     return [=](int, int y) { return y >= from && y < to ? RiverBed::dry : RiverBed::runs; };
   };
   const GuessedCourseParameters usual;
-  const std::vector<Course> one = guess_courses(waters(100.0, 0.1), transform, dry_between(90, 90 + usual.closed_cells));
+  const std::vector<Course> one = guess_courses(waters(100.0, 0.1), valley(), transform, dry_between(90, 90 + usual.closed_cells));
   EXPECT_EQ(one.size(), 1U) << "a step in the ground is no end of a river";
-  const std::vector<Course> two = guess_courses(waters(100.0, 0.1), transform, dry_between(90, 110));
+  const std::vector<Course> two = guess_courses(waters(100.0, 0.1), valley(), transform, dry_between(90, 110));
   ASSERT_EQ(two.size(), 2U);
   EXPECT_NEAR(row_of(two[0].places.back()), 89.0, 0.01);
   EXPECT_EQ(two[0].half_width_m.back(), 0.F);
   EXPECT_EQ(two[1].half_width_m.front(), 0.F);
   EXPECT_GT(two[1].half_width_m.back(), 15.F);
   EXPECT_TRUE(
-      guess_courses(waters(100.0, 0.1), transform, [](int, int y) { return y / 8 % 2 == 0 ? RiverBed::runs : RiverBed::dry; }).empty())
+      guess_courses(waters(100.0, 0.1), valley(), transform, [](int, int y) { return y / 8 % 2 == 0 ? RiverBed::runs : RiverBed::dry; })
+          .empty())
       << "pieces shorter than least_cells";
 }
 
 TEST(GuessedCourses, EndInLakesAndBeginThereAtTheirWidth) {
-  const std::vector<Course> courses =
-      guess_courses(waters(100.0, 0.1), transform, [](int, int y) { return y >= 80 && y < 120 ? RiverBed::open : RiverBed::runs; });
+  const std::vector<Course> courses = guess_courses(waters(100.0, 0.1), valley(), transform,
+                                                    [](int, int y) { return y >= 80 && y < 120 ? RiverBed::open : RiverBed::runs; });
   ASSERT_EQ(courses.size(), 2U);
   EXPECT_NEAR(row_of(courses[0].places.back()), 81.0, 0.01) << "two cells into it";
   EXPECT_NEAR(courses[0].half_width_m.back(), known_half_width_m(108.0), 0.1);
@@ -78,7 +86,7 @@ TEST(GuessedCourses, EndInLakesAndBeginThereAtTheirWidth) {
 }
 
 TEST(GuessedCourses, FlowAslantIntoTheLargerRiver) {
-  std::vector<Course> courses = guess_courses(waters(200.0, 0.1, true), transform, everywhere);
+  std::vector<Course> courses = guess_courses(waters(200.0, 0.1, true), valley(), transform, everywhere);
   ASSERT_EQ(courses.size(), 2U);
   const bool brook_first = courses[0].places.front().x < courses[1].places.front().x;
   const Course& brook = brook_first ? courses[0] : courses[1];
@@ -91,6 +99,22 @@ TEST(GuessedCourses, FlowAslantIntoTheLargerRiver) {
   // Its width is its own to the end, not the larger one's.
   EXPECT_LT(brook.half_width_m.back(), 7.F);
   EXPECT_GT(brook.half_width_m.back(), 2.F);
+}
+
+TEST(GuessedCourses, BendOnLevelGroundAndBrooksFollowThem) {
+  const Grid<float> plain(121, rows, 500.F);
+  std::vector<Course> courses = guess_courses(waters(200.0, 0.1, true), plain, transform, everywhere);
+  ASSERT_EQ(courses.size(), 2U);
+  const bool brook_first = courses[0].places.front().x < courses[1].places.front().x;
+  const Course& brook = brook_first ? courses[0] : courses[1];
+  const Course& river = brook_first ? courses[1] : courses[0];
+  double off_m = 0.0;
+  for (const glm::dvec2 place : river.places) off_m = std::max(off_m, std::abs(place.x - transform.to_crs(river_column, 0).x));
+  EXPECT_GT(off_m, 30.0);
+  double mouth_m = 1e9;
+  for (const glm::dvec2 place : river.places) mouth_m = std::min(mouth_m, glm::length(place - brook.places.back()));
+  EXPECT_LT(mouth_m, 1.0);
+  for (std::size_t i = 1; i < brook.places.size(); ++i) EXPECT_LT(glm::length(brook.places[i] - brook.places[i - 1]), 2.5 * cell_m);
 }
 
 }  // namespace
