@@ -1,8 +1,10 @@
 #include "base/math_exact.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 namespace belvedere::exact {
@@ -47,6 +49,31 @@ double small_atan(double t) {
   return 4.0 * t * sum;
 }
 
+// The bits of a double: 52 of the fraction, then 11 of the exponent + 1023, then the sign.
+constexpr int fraction_bits = 52;
+constexpr std::uint64_t fraction_mask = (std::uint64_t{1} << fraction_bits) - 1;
+
+struct Parts {
+  double fraction;  // ½ … 1
+  int exponent;
+};
+
+// x = fraction · 2^exponent as frexp has it, for x > 0 and finite: from the bits, which takes no call of the library.
+Parts split(double x) {
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const int biased = static_cast<int>(bits >> fraction_bits);
+  if (biased == 0) {  // subnormal: made normal first
+    const Parts of = split(x * 0x1p54);
+    return {of.fraction, of.exponent - 54};
+  }
+  return {std::bit_cast<double>((bits & fraction_mask) | (std::uint64_t{1022} << fraction_bits)), biased - 1022};
+}
+
+// 2^whole for |whole| ≤ 1022, so that it is normal.
+double power_of_two(double whole) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(whole) + 1023) << fraction_bits);
+}
+
 struct BinaryLog {
   double whole;
   double natural_rest;  // of what is left, -ln2/2 … ln2/2
@@ -54,8 +81,7 @@ struct BinaryLog {
 
 // x = 2^whole · m with √½ ≤ m < √2; log m = 2 artanh((m - 1) / (m + 1)), where |…| ≤ .172: the series leaves out .172^23 / 23 = 1e-19.
 BinaryLog split_log(double x) {
-  int exponent = 0;
-  double m = std::frexp(x, &exponent);
+  auto [m, exponent] = split(x);
   if (m < root_half) {
     m *= 2.0;
     --exponent;
@@ -73,11 +99,11 @@ double log_of_edge(double x) {
   return x > 0.0 ? x : std::numeric_limits<double>::quiet_NaN();
 }
 
-// 2^whole · e^rest for |rest| ≤ .36: the series leaves out rest^15 / 15! = 2e-19.
+// 2^whole · e^rest for |rest| ≤ .36 and |whole| ≤ 1000: the series leaves out rest^15 / 15! = 2e-19.
 double scaled_exp(double whole, double rest) {
   double sum = 1.0;
   for (std::size_t n = 14; n > 0; --n) sum = 1.0 + rest * parts[n] * sum;
-  return std::ldexp(sum, static_cast<int>(whole));
+  return sum * power_of_two(whole);
 }
 
 }  // namespace
