@@ -66,11 +66,10 @@ void keep_notes(const LoadedScene& loaded, const World& world, const WorkFolder&
 // Of the tiles that stages keep in memory, of what may be used.
 constexpr double share_of_tiles = 0.15;
 
-// The largest rectangle that pieces from number `next` on lie in.
+// The rectangle that pieces from number `next` on lie in.
 PixelRect still_to_make(std::span<const PixelRect> pieces, std::size_t next) {
-  PixelRect all = pieces[next];
-  for (const PixelRect& piece : pieces.subspan(next))
-    all = {std::min(all.x0, piece.x0), std::min(all.y0, piece.y0), std::max(all.x1, piece.x1), std::max(all.y1, piece.y1)};
+  PixelRect all;
+  for (const PixelRect& piece : pieces.subspan(next)) all = around_both(all, piece);
   return all;
 }
 
@@ -167,8 +166,9 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
   if (!few) run.progress.begin(request.panorama ? "painting the sheet" : "tracing the sheet", all);
   for (std::size_t i = 0; i < missing.size(); ++i) {
     const PixelRect piece = missing[i];
-    // Nobody asks again for what only earlier pieces looked at.
-    if (i > 0) request.panorama ? picture.keep_only(still_to_make(missing, i)) : sheet.ground.keep_only(still_to_make(missing, i));
+    // Nobody asks again for what only earlier pieces looked at, or ever for what none of these does.
+    const PixelRect still = still_to_make(missing, i);
+    request.panorama ? picture.keep_only(still) : sheet.ground.keep_only({.guidance = still, .base = still, .draft = {}});
     if (makes("guidance") && !work.has("guidance", piece)) {
       GuidanceBuffers guidance = sheet.ground.read_all_guidance(piece);
       keep_chosen(guidance, request.channels);

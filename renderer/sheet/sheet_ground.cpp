@@ -317,19 +317,29 @@ const IcePlan& SheetGround::ice() {
   return *ice_;
 }
 
-void SheetGround::keep_only(PixelRect still) {
-  const PixelRect lit = base_window(still, true, base_parameters_);
+void SheetGround::keep_only(const Asked& still) {
+  const double ppu = view_.pixels_per_unit;
+  // From the last stage to the first, each with what those after it look at.
+  const PixelRect drafted = intersection(sheet(), still.draft);
+  const PixelRect painted = around_both(still.base, drafted.empty() ? drafted : grown(drafted, draft_reach_px()));
+  const PixelRect lit = around_both(still.guidance, base_window(painted, true, base_parameters_));
   const PixelRect raised = grown(lit, tone_near_margin_px(tone_parameters_));
   const PixelRect crested = grown(raised, rock_near_margin_px(rock_parameters_));
-  traced_.keep_only(grown(crested, crest_margin_px(view_.pixels_per_unit)));
-  wide_.keep_only(wide_rect(grown(lit, base_margin_px(base_parameters_)), factor_));
-  far_.keep_only(
-      wide_rect(grown(crested, std::max(rock_margin_px(rock_parameters_), crest_view_margin_px(rock_parameters_))), far_factor_));
+  const int rows = std::max(crest_margin_px(ppu), crest_reach_px(ppu));
+  const PixelRect wide = around_both(grown(painted, base_margin_px(base_parameters_)), grown(lit, tone_margin_px(tone_parameters_)));
+  const PixelRect far =
+      around_both(grown(raised, rock_margin_px(rock_parameters_)), grown(crested, crest_view_margin_px(rock_parameters_)));
+  PixelRect traced{crested.x0, crested.y0 - rows, crested.x1, crested.y1 + rows};
+  if (factor_ == 1) traced = around_both(traced, wide);
+  if (far_factor_ == 1) traced = around_both(traced, far);
+  traced_.keep_only(traced);
+  wide_.keep_only(wide_rect(wide, factor_));
+  far_.keep_only(wide_rect(far, far_factor_));
   crests_.keep_only(crested);
   relief_.keep_only(raised);
   tone_.keep_only(lit);
-  base_.keep_only(still);
-  draft_.keep_only(still);
+  base_.keep_only(painted);
+  draft_.keep_only(drafted);
 }
 
 int SheetGround::draft_reach_px() const { return stroke_margin_px(draft_layers, strokes_); }

@@ -53,8 +53,14 @@ class SheetGround {
   // How ice runs on the sheet, made when first asked for.
   const IcePlan& ice();
 
-  // Forgets what only places outside of `still` were made for; to be asked for again costs time alone.
-  void keep_only(PixelRect still);
+  // What will yet be asked for of each; empty: nothing.
+  struct Asked {
+    PixelRect guidance;
+    PixelRect base;
+    PixelRect draft;  // guides as well
+  };
+  // Forgets what only other places were made for, and makes no more than what these need; to be asked for more costs time alone.
+  void keep_only(const Asked& still);
   // How far a pixel of the draft looks around at the base picture, px.
   int draft_reach_px() const;
 

@@ -21,7 +21,8 @@ SheetMist::SheetMist(SheetGround& ground, const World& world, TileStore::Place& 
               .planes =
                   [](MistSight& sight) {
                     return Planes{plane_of(sight.share), plane_of(sight.depth_m), plane_of(sight.light), plane_of(sight.altitude_m)};
-                  }}),
+                  },
+              .whole_tiles = true}),
       paint_(place, ground.sheet().x1, ground.sheet().y1, mist_tile_px,
              {.make = [this](PixelRect tile) { return make_paint(tile); },
               .blank =
@@ -31,7 +32,8 @@ SheetMist::SheetMist(SheetGround& ground, const World& world, TileStore::Place& 
               .planes =
                   [](MistPaint& paint) {
                     return Planes{plane_of(paint.share), plane_of(paint.colour)};
-                  }}) {}
+                  },
+              .whole_tiles = true}) {}
 
 MistSight SheetMist::make_sight(PixelRect tile) {
   const MistView view{ground_.view().camera, world_.deformation, &world_.tracer, world_.view.sun_direction, ground_.view().pixels_per_unit};

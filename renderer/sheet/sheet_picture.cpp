@@ -19,6 +19,13 @@ constexpr int knit_tile_px = 512;
 // What the exemplar cannot give is painted last, far to near: sky, trees, houses; without an exemplar everything is.
 StrokeLayers finishing_layers(bool copied) { return {.sky = true, .ground = !copied, .accents = true, .breaks = true, .upright = true}; }
 
+// A rectangle with all of the tiles that it touches.
+PixelRect with_whole_tiles(PixelRect rect, int tile_px) {
+  const auto down = [&](int px) { return std::max(px, 0) / tile_px * tile_px; };
+  const auto up = [&](int px) { return (px + tile_px - 1) / tile_px * tile_px; };
+  return {down(rect.x0), down(rect.y0), up(rect.x1), up(rect.y1)};
+}
+
 // The draft as a painting of a window of the sheet, for mix_borders: paint that comes from outside of the window is left out.
 Painting to_painting(const PaintDraft& draft, PixelRect window) {
   Painting painting;
@@ -46,7 +53,8 @@ SheetPicture::SheetPicture(SheetGround& ground, CopyPlan* plan, TileStore::Place
       matches_(place, ground.sheet().x1, ground.sheet().y1, plan == nullptr ? SynthesisSheet{}.tile_px : plan->synthesis->sheet().tile_px,
                {.make = [this](PixelRect tile) { return make_matches(tile); },
                 .blank = [](int width, int height) { return MatchField(width, height); },
-                .planes = [](MatchField& field) { return Planes{plane_of(field)}; }}),
+                .planes = [](MatchField& field) { return Planes{plane_of(field)}; },
+                .whole_tiles = true}),
       modelled_(place, ground.sheet().x1, ground.sheet().y1, endless_tile_px,
                 {.make = [this](PixelRect tile) { return make_modelled(tile); },
                  .blank =
@@ -56,7 +64,8 @@ SheetPicture::SheetPicture(SheetGround& ground, CopyPlan* plan, TileStore::Place
                  .planes =
                      [](ModelPaint& paint) {
                        return Planes{plane_of(paint.made), plane_of(paint.texel), plane_of(paint.base)};
-                     }}),
+                     },
+                 .whole_tiles = true}),
       seams_(plan != nullptr && plan->knit ? &*plan->knit : nullptr),
       knitted_(place, ground.sheet().x1, ground.sheet().y1, knit_tile_px,
                {.make = [this](PixelRect tile) { return make_knitted(tile); },
@@ -67,7 +76,8 @@ SheetPicture::SheetPicture(SheetGround& ground, CopyPlan* plan, TileStore::Place
                 .planes =
                     [](KnitPaint& paint) {
                       return Planes{plane_of(paint.made), plane_of(paint.even)};
-                    }}) {}
+                    },
+                .whole_tiles = true}) {}
 
 MatchField SheetPicture::make_matches(PixelRect tile) {
   SynthesisPlan& plan = *plan_->synthesis;
@@ -196,25 +206,27 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect, PictureLayers* cut) {
 }
 
 void SheetPicture::keep_only(PixelRect still) {
-  // What the finishing strokes, and the draft below copied ground, look at.
-  const int strokes = finish_margin_px(layers_) + blend_margin_px;
-  const int copied = plan_ == nullptr ? 0
-                                      : paint_source_reach_px(draft_layers, ground_.strokes()) + plan_->synthesis->sheet().tile_px +
-                                            synthesis_margin_px(plan_->synthesis->sheet().level) + ground_.draft_reach_px();
-  // Knitting looks at the paint of its tile and around it.
-  const int knitted = plan_ != nullptr && plan_->knit ? knit_tile_px + knit_margin_px : 0;
-  const int misty = mist_.any() ? mist_.margin_px() : 0;
-  mist_.keep_only(grown(still, strokes));
-  const PixelRect painted = grown(still, paint_source_reach_px(draft_layers, ground_.strokes()));
-  const PixelRect shown = grown(painted, knitted);
-  knitted_.keep_only(painted);
-  matches_.keep_only(shown);
-  modelled_.keep_only(shown);
-  const bool models = plan_ != nullptr && plan_->models.any();
-  const int modelled = models ? paint_source_reach_px(draft_layers, ground_.strokes()) + endless_tile_px +
-                                    std::max(model_margin_px(plan_->models), ground_.draft_reach_px())
-                              : 0;
-  ground_.keep_only(grown(still, knitted + std::max({strokes + misty, copied, modelled})));
+  const PixelRect painted = grown(still, blend_margin_px);
+  const PixelRect finished = grown(painted, finish_margin_px(layers_));
+  mist_.keep_only(finished);
+  SheetGround::Asked asked{.guidance = mist_.any() ? grown(finished, mist_.margin_px()) : finished, .base = finished, .draft = {}};
+  if (plan_ != nullptr) {
+    const PixelRect copied = grown(painted, paint_source_reach_px(draft_layers, ground_.strokes()));
+    // Knitting looks at the paint of its tile and around it.
+    const PixelRect shown = plan_->knit ? grown(copied, knit_tile_px + knit_margin_px) : copied;
+    knitted_.keep_only(copied);
+    matches_.keep_only(shown);
+    modelled_.keep_only(shown);
+    asked.draft = shown;
+    const SynthesisSheet& sheet = plan_->synthesis->sheet();
+    if (sheet.level > 0) asked.draft = around_both(asked.draft, synthesis_window(sheet, with_whole_tiles(shown, sheet.tile_px)));
+    if (plan_->models.any()) {
+      const PixelRect modelled = with_whole_tiles(shown, endless_tile_px);
+      asked.draft = around_both(asked.draft, modelled);
+      asked.guidance = around_both(asked.guidance, grown(modelled, model_margin_px(plan_->models)));
+    }
+  }
+  ground_.keep_only(asked);
 }
 
 }  // namespace belvedere

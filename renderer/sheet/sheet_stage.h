@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -9,8 +10,15 @@
 
 namespace belvedere {
 
-// One product of the sheet. It exists only where somebody looks: the tiles that a rectangle touches are made then, each once, and kept.
-// `Product` is a value with grids; `planes(product)` lists them, `blank(width, height)` makes one of a size.
+// The smallest rectangle around two; an empty one counts for nothing.
+inline PixelRect around_both(const PixelRect& a, const PixelRect& b) {
+  if (a.empty() || b.empty()) return a.empty() ? b : a;
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+// One product of the sheet. It exists only where somebody looks: the tiles that a rectangle touches are made then, each once, and kept. Of
+// tiles at the border of what will be asked for in all (keep_only) the part inside it is made alone; a product must be the same in any
+// rectangles. `Product` is a value with grids; `planes(product)` lists them, `blank(width, height)` makes one of a size.
 template <class Product>
 class SheetStage {
  public:
@@ -18,9 +26,11 @@ class SheetStage {
     std::function<Product(PixelRect)> make;  // a tile of the sheet
     std::function<Product(int, int)> blank;  // a product without values
     std::function<Planes(Product&)> planes;  // its grids; those that are empty have no values
+    bool whole_tiles = false;                // whether it is the same in its own tiles alone, not in any rectangles
   };
   SheetStage(TileStore::Place& place, int sheet_width, int sheet_height, int tile_px, Making making)
       : sheet_{0, 0, sheet_width, sheet_height},
+        still_(sheet_),
         making_(std::move(making)),
         store_(place, sheet_width, sheet_height, tile_px, value_bytes()) {
     tile_px_ = tile_px;
@@ -36,15 +46,19 @@ class SheetStage {
   void read_into(PixelRect rect, const Planes& wanted) {
     for (int row = rect.y0 / tile_px_; row <= (rect.y1 - 1) / tile_px_; ++row)
       for (int column = rect.x0 / tile_px_; column <= (rect.x1 - 1) / tile_px_; ++column) {
-        if (!store_.has(column, row)) {
-          Product tile = making_.make(store_.rect(column, row));
-          store_.put(column, row, making_.planes(tile));
+        const PixelRect part = intersection(rect, store_.rect(column, row));
+        if (!store_.has(column, row, part)) {
+          const PixelRect within = part_to_make(store_.rect(column, row), part);
+          Product tile = making_.make(within);
+          store_.put(column, row, within, making_.planes(tile));
         }
-        store_.get(column, row, intersection(rect, store_.rect(column, row)), rect.x0, rect.y0, wanted);
+        store_.get(column, row, part, rect.x0, rect.y0, wanted);
       }
   }
-  // Forgets tiles that touch nothing of `still`: the part of the sheet that will yet be asked for.
+  // `still`: the part of the sheet that will yet be asked for. Forgets tiles that touch nothing of it, and makes others within it alone.
+  // What is asked for outside of it all the same is made again, with its whole tile.
   void keep_only(PixelRect still) {
+    still_ = intersection(sheet_, still);
     for (int row = 0; row < store_.down(); ++row)
       for (int column = 0; column < store_.across(); ++column)
         if (intersection(still, store_.rect(column, row)).empty()) store_.drop(column, row);
@@ -59,7 +73,13 @@ class SheetStage {
     return bytes;
   }
 
+  PixelRect part_to_make(PixelRect tile, PixelRect asked) const {
+    const PixelRect part = intersection(tile, still_);
+    return making_.whole_tiles || intersection(part, asked) != asked ? tile : part;
+  }
+
   PixelRect sheet_;
+  PixelRect still_;
   Making making_;
   TileStore store_;
   int tile_px_ = 0;

@@ -73,19 +73,21 @@ PixelRect TileStore::rect(int column, int row) const {
   return {column * tile_px_, row * tile_px_, std::min(width_, (column + 1) * tile_px_), std::min(height_, (row + 1) * tile_px_)};
 }
 
-bool TileStore::has(int column, int row) const { return tile(column, row).known; }
+bool TileStore::has(int column, int row, PixelRect part) const { return intersection(part, tile(column, row).held) == part; }
 
-void TileStore::put(int column, int row, const Planes& planes) {
-  const PixelRect area = rect(column, row);
+void TileStore::put(int column, int row, PixelRect held, const Planes& planes) {
+  if (held.empty() || intersection(held, rect(column, row)) != held)
+    throw Error(ErrorKind::bug, "tiles", "a rectangle that is not the tile's");
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < value_bytes_.size(); ++i) {
-    if (i >= planes.size() || planes[i].value_bytes != value_bytes_[i] || planes[i].width != area.width() ||
-        planes[i].height != area.height())
+    if (i >= planes.size() || planes[i].value_bytes != value_bytes_[i] || planes[i].width != held.width() ||
+        planes[i].height != held.height())
       throw Error(ErrorKind::bug, "tiles", "planes that are not the store's");
     bytes += planes[i].bytes();
   }
   Tile& to = tile(column, row);
-  if (to.known) return;
+  if (!to.held.empty()) ++place_.made_again;
+  drop(column, row);
   if (bytes <= place_.memory_bytes) {
     place_.memory_bytes -= bytes;
     to.memory = std::make_unique_for_overwrite<std::byte[]>(bytes);  // whoever copies a part writes it for the first time
@@ -102,12 +104,12 @@ void TileStore::put(int column, int row, const Planes& planes) {
       if (const int code = write_bytes_at(file_, planes[i].values, planes[i].bytes(), at); code != 0)
         fail(place_.folder, "a scratch file cannot be written", code);
   }
-  to.known = true;
+  to.held = held;
 }
 
 void TileStore::get(int column, int row, PixelRect from, int origin_x, int origin_y, const Planes& wanted) const {
-  const PixelRect area = rect(column, row);
-  const Tile& held = tile(column, row);
+  const Tile& of = tile(column, row);
+  const PixelRect area = of.held;
   std::size_t start = 0;  // of the plane in the tile
   for (std::size_t i = 0; i < value_bytes_.size(); ++i) {
     const std::size_t size = value_bytes_[i];
@@ -119,15 +121,15 @@ void TileStore::get(int column, int row, PixelRect from, int origin_x, int origi
         const std::size_t skipped = first + row_bytes * static_cast<std::size_t>(begin);
         const std::byte* source = nullptr;
         std::unique_ptr<std::byte[]> rows;
-        if (held.slot >= 0) {
+        if (of.slot >= 0) {
           const std::size_t bytes = row_bytes * static_cast<std::size_t>(end - begin);
           rows = std::make_unique_for_overwrite<std::byte[]>(bytes);
           source = rows.get();
-          const std::uint64_t place = static_cast<std::uint64_t>(held.slot) * slot_bytes_ + skipped;
+          const std::uint64_t place = static_cast<std::uint64_t>(of.slot) * slot_bytes_ + skipped;
           if (const int code = read_bytes_at(file_, rows.get(), bytes, place); code != 0)
             fail(place_.folder, "a scratch file cannot be read", code);
         } else {
-          source = held.memory.get() + skipped;
+          source = of.memory.get() + skipped;
         }
         for (int y = begin; y != end; ++y, source += row_bytes)
           std::memcpy(to.values + to.row_bytes() * static_cast<std::size_t>(from.y0 + y - origin_y) +
@@ -141,7 +143,7 @@ void TileStore::get(int column, int row, PixelRect from, int origin_x, int origi
 
 void TileStore::drop(int column, int row) {
   Tile& old = tile(column, row);
-  if (!old.known) return;
+  if (old.held.empty()) return;
   place_.memory_bytes += old.memory_bytes;
   if (old.slot >= 0) free_slots_.push_back(old.slot);
   old = {};

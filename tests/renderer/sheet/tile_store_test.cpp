@@ -27,12 +27,13 @@ Product product_of(PixelRect rect) {
 
 class Stage {
  public:
-  Stage(const std::string& folder, std::uint64_t memory)
+  Stage(const std::string& folder, std::uint64_t memory, bool whole_tiles = false)
       : place_{folder, memory},
         stage_(place_, 70, 45, 16,
                {.make =
                     [this](PixelRect tile) {
                       ++made;
+                      pixels += tile.width() * tile.height();
                       return product_of(tile);
                     },
                 .blank =
@@ -42,7 +43,8 @@ class Stage {
                 .planes =
                     [](Product& p) {
                       return Planes{plane_of(p.place), plane_of(p.column)};
-                    }}) {}
+                    },
+                .whole_tiles = whole_tiles}) {}
   void expect(PixelRect rect) {
     const Product got = stage_.read(rect);
     const Product right = product_of(rect);
@@ -50,6 +52,7 @@ class Stage {
     EXPECT_TRUE(got.column == right.column);
   }
   int made = 0;
+  int pixels = 0;  // that were made
   TileStore::Place place_;
   SheetStage<Product> stage_;
 };
@@ -81,6 +84,34 @@ TEST_P(SheetStageMemory, WhatWasDroppedIsMadeAgain) {
   EXPECT_EQ(stage.place_.memory_bytes, free);
 }
 
+TEST_P(SheetStageMemory, NoMoreIsMadeThanWillBeAskedFor) {
+  const test::Folder folder;
+  Stage stage(folder.path(), GetParam());
+  stage.stage_.keep_only({10, 15, 35, 40});
+  stage.expect({10, 15, 35, 40});
+  EXPECT_EQ(stage.pixels, 25 * 25);
+  EXPECT_EQ(stage.made, 9);
+  // A part of a tile is not made twice, and what was not said to be asked for is the whole tile, made again.
+  stage.expect({20, 20, 30, 30});
+  EXPECT_EQ(stage.made, 9);
+  stage.expect({9, 15, 11, 16});
+  EXPECT_EQ(stage.made, 10);
+  EXPECT_EQ(stage.pixels, 25 * 25 + 16 * 16);
+  EXPECT_EQ(stage.place_.made_again, 1);
+  stage.expect({0, 0, 70, 45});
+  stage.stage_.keep_only({});
+  stage.expect({0, 0, 70, 45});
+}
+
+TEST_P(SheetStageMemory, ProductsOfWholeTilesAreMadeWhole) {
+  const test::Folder folder;
+  Stage stage(folder.path(), GetParam(), true);
+  stage.stage_.keep_only({10, 15, 35, 40});
+  stage.expect({20, 20, 30, 30});
+  EXPECT_EQ(stage.made, 1);
+  EXPECT_EQ(stage.pixels, 16 * 16);
+}
+
 // Nothing, two tiles, everything.
 INSTANTIATE_TEST_SUITE_P(TileStore, SheetStageMemory, testing::Values(0U, 2U * 5U * 256U, 1U << 20U));
 
@@ -92,12 +123,13 @@ TEST(TileStore, AFolderThatCannotBeWrittenIsAnErrorOfTheOutput) {
   EXPECT_NE(message.find("scratch"), std::string::npos) << message;
 }
 
-TEST(TileStore, PlanesOfAnotherSizeAreRefused) {
+TEST(TileStore, PlanesAndPlacesThatAreNotTheTilesAreRefused) {
   const test::Folder folder;
   TileStore::Place place{folder.path(), 1000};
   TileStore store(place, 10, 10, 8, {1});
   Grid<std::uint8_t> wrong(7, 8);
-  test::message_of(ErrorKind::bug, [&] { store.put(0, 0, {plane_of(wrong)}); });
+  test::message_of(ErrorKind::bug, [&] { store.put(0, 0, {0, 0, 8, 8}, {plane_of(wrong)}); });
+  test::message_of(ErrorKind::bug, [&] { store.put(0, 0, {1, 0, 9, 8}, {plane_of(wrong)}); });
 }
 
 }  // namespace
