@@ -29,7 +29,8 @@ class SheetStage {
     bool whole_tiles = false;                // whether it is the same in its own tiles alone, not in any rectangles
   };
   SheetStage(TileStore::Place& place, int sheet_width, int sheet_height, int tile_px, Making making)
-      : sheet_{0, 0, sheet_width, sheet_height},
+      : place_(place),
+        sheet_{0, 0, sheet_width, sheet_height},
         still_(sheet_),
         making_(std::move(making)),
         store_(place, sheet_width, sheet_height, tile_px, value_bytes()) {
@@ -73,11 +74,14 @@ class SheetStage {
     return bytes;
   }
 
-  PixelRect part_to_make(PixelRect tile, PixelRect asked) const {
+  PixelRect part_to_make(PixelRect tile, PixelRect asked) {
     const PixelRect part = intersection(tile, still_);
-    return making_.whole_tiles || intersection(part, asked) != asked ? tile : part;
+    const bool inside = intersection(part, asked) == asked;
+    if (!inside) ++place_.asked_beyond;
+    return inside && !making_.whole_tiles ? part : tile;
   }
 
+  TileStore::Place& place_;
   PixelRect sheet_;
   PixelRect still_;
   Making making_;

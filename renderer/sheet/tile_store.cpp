@@ -85,9 +85,8 @@ void TileStore::put(int column, int row, PixelRect held, const Planes& planes) {
       throw Error(ErrorKind::bug, "tiles", "planes that are not the store's");
     bytes += planes[i].bytes();
   }
-  Tile& to = tile(column, row);
-  if (!to.held.empty()) ++place_.made_again;
   drop(column, row);
+  Tile& to = tile(column, row);
   if (bytes <= place_.memory_bytes) {
     place_.memory_bytes -= bytes;
     to.memory = std::make_unique_for_overwrite<std::byte[]>(bytes);  // whoever copies a part writes it for the first time

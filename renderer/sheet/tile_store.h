@@ -19,7 +19,7 @@ class TileStore {
   struct Place {
     std::string folder;
     std::uint64_t memory_bytes = 0;  // still free
-    int made_again = 0;              // tiles of which less was held than was asked for
+    int asked_beyond = 0;            // rectangles that reached beyond what SheetStage::keep_only had said
   };
   // value_bytes: of each plane. `place` must outlive the store.
   TileStore(Place& place, int sheet_width, int sheet_height, int tile_px, std::vector<std::size_t> value_bytes);

@@ -171,7 +171,7 @@ TEST_P(PrintGroundTest, APartIsThatOfTheWhole) {
   }
 }
 
-// What a stage is told to keep to is enough for the stages after it: nothing is made a second time, and its pixels are the same.
+// What a stage is told to keep to is enough for the stages after it: nothing else is asked for, and its pixels are the same.
 TEST_P(PrintGroundTest, APartLooksAtNoMoreThanItSays) {
   SheetGround one(world_, view_of(world_), palette_, place_, run_, 4096);
   for (const PixelRect rect : {PixelRect{0, 300, 30, 340}, PixelRect{1075, 330, 1100, 371}, PixelRect{590, 560, 650, 620}}) {
@@ -182,17 +182,17 @@ TEST_P(PrintGroundTest, APartLooksAtNoMoreThanItSays) {
     EXPECT_TRUE(part.read_guides(rect).label == one.read_guides(rect).label);
     EXPECT_TRUE(part.read_base(rect).colour == one.read_base(rect).colour);
     EXPECT_TRUE(part.read_all_guidance(rect).tone == one.read_all_guidance(rect).tone);
-    EXPECT_EQ(place_.made_again, 0) << rect.x0;
+    EXPECT_EQ(place_.asked_beyond, 0) << rect.x0;
     SheetGround base(world_, view_of(world_), palette_, place_, run_, 64);
     base.keep_only({.guidance = {}, .base = rect, .draft = {}});
     EXPECT_TRUE(base.read_base(rect).colour == one.read_base(rect).colour);
-    EXPECT_EQ(place_.made_again, 0) << rect.x0;
+    EXPECT_EQ(place_.asked_beyond, 0) << rect.x0;
   }
   SheetGround beyond(world_, view_of(world_), palette_, place_, run_, 64);
   beyond.keep_only({.guidance = {20, 300, 30, 340}, .base = {}, .draft = {}});
   beyond.read_all_guidance({20, 300, 30, 340});
   EXPECT_TRUE(beyond.read_draft({0, 300, 30, 340}).base == one.read_draft({0, 300, 30, 340}).base);
-  EXPECT_GT(place_.made_again, 0) << "what is asked for beyond it comes all the same";
+  EXPECT_GT(place_.asked_beyond, 0) << "what is asked for beyond it comes all the same";
 }
 
 // 4 and 6 pixels a unit: wide pixels of 2 × 2 and 3 × 3.

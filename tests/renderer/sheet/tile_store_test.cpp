@@ -97,7 +97,7 @@ TEST_P(SheetStageMemory, NoMoreIsMadeThanWillBeAskedFor) {
   stage.expect({9, 15, 11, 16});
   EXPECT_EQ(stage.made, 10);
   EXPECT_EQ(stage.pixels, 25 * 25 + 16 * 16);
-  EXPECT_EQ(stage.place_.made_again, 1);
+  EXPECT_EQ(stage.place_.asked_beyond, 1);
   stage.expect({0, 0, 70, 45});
   stage.stage_.keep_only({});
   stage.expect({0, 0, 70, 45});
@@ -107,7 +107,7 @@ TEST_P(SheetStageMemory, ProductsOfWholeTilesAreMadeWhole) {
   const test::Folder folder;
   Stage stage(folder.path(), GetParam(), true);
   stage.stage_.keep_only({10, 15, 35, 40});
-  stage.expect({20, 20, 30, 30});
+  stage.expect({33, 20, 34, 30});
   EXPECT_EQ(stage.made, 1);
   EXPECT_EQ(stage.pixels, 16 * 16);
 }
