@@ -17,4 +17,12 @@ Grid<T> part_of(const Grid<T>& grid, PixelRect rect) {
   return part;
 }
 
+// Copies a grid to where column x0 and row y0 of another begin; it must lie inside.
+template <class T>
+void copy_part(Grid<T>& whole, const Grid<T>& part, int x0, int y0) {
+  parallel_ranges(part.height(), 64, [&](int begin, int end) {
+    for (int y = begin; y != end; ++y) std::copy_n(part.row(y), part.width(), whole.row(y0 + y) + x0);
+  });
+}
+
 }  // namespace belvedere

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "base/error.h"
+#include "base/grid_part.h"
 #include "base/guidance_channels.h"
 #include "base/random_streams.h"
 #include "renderer/exemplar/seam_picture.h"
@@ -39,11 +40,6 @@ class OneStage : public Progress {
  private:
   Progress& watcher_;
 };
-
-template <class T>
-void copy_part(Grid<T>& whole, const Grid<T>& part, int x0, int y0) {
-  for (int y = 0; y < part.height(); ++y) std::copy_n(part.row(y), part.width(), whole.row(y0 + y) + x0);
-}
 
 // What bare paper has in a channel.
 glm::vec3 paper_value(const GuidanceChannel& channel) {

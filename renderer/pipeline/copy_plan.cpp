@@ -13,27 +13,16 @@
 #include "renderer/exemplar/exemplars.h"
 #include "renderer/exemplar/texture_models.h"
 #include "renderer/ground/cached_products.h"
+#include "renderer/pipeline/sheet_memory.h"
 #include "renderer/pipeline/sheet_pieces.h"
-#include "renderer/rock/crest_shift.h"
-#include "renderer/rock/rock_relief.h"
 #include "renderer/scene/scene_rules.h"
 #include "renderer/trace/camera_reduced.h"
-#include "renderer/trace/wide_view.h"
 #include "texture/synthesis/class_supply.h"
 
 namespace belvedere {
 namespace {
 
 constexpr const char* plan_name = "plan";
-
-// Bytes that a pixel of a stage's window takes while the stage works, and one of a wide view.
-constexpr double window_bytes_per_pixel = 180.0;
-constexpr double wide_bytes_per_pixel = 40.0;
-constexpr double rock_bytes_per_pixel = 90.0;  // of the view from afar, thinned out, with its blurs
-constexpr int largest_tile_px = 1024;
-constexpr int smallest_tile_px = 128;
-constexpr int part_tile_px = 256;         // of small parts of a sheet
-constexpr double share_of_windows = 0.5;  // of the memory that may be used; the world, the exemplars and kept tiles take the rest
 
 void note_scarcity(const std::vector<Exemplar>& exemplars, const GuideStack& guides, const SynthesisParameters& parameters,
                    Progress& progress) {
@@ -112,47 +101,6 @@ SynthesisParameters to_synthesis_parameters(const Scene& scene) {
   return parameters;
 }
 
-int choose_tile_px(const Scene& scene, double pixels_per_unit, PixelRect region, double beside_bytes) {
-  const double budget = static_cast<double>(memory_budget_bytes()) - beside_bytes / share_of_windows;
-  BaseParameters base;
-  base.pixels_per_unit = pixels_per_unit;
-  StrokeParameters strokes;
-  strokes.pixels_per_unit = pixels_per_unit;
-  // The widest windows are those of strokes below the sky and of base pictures with water, which look around in a wide view. One of the
-  // pixels' own size, where a unit has too few for a smaller one, is a window like others.
-  const int stroke_margin = stroke_margin_px(StrokeLayers{}, strokes);
-  const int wide_margin = base_margin_px(base);
-  const int factor = wide_factor(pixels_per_unit);
-  // Rock looks farthest of all, at about a pixel a unit.
-  RockParameters rock;
-  rock.light.pixels_per_unit = pixels_per_unit;
-  rock.kind = &find_rock_kind(scene.land_cover.rock);
-  const int rock_margin = std::max(rock_margin_px(rock), crest_view_margin_px(rock));
-  const double rock_pixels = square(static_cast<double>(rock_factor(pixels_per_unit)));
-  const PixelRect sheet{0, 0, scene.output.width, scene.output.height};
-  const auto area = [&](const PixelRect& window) {
-    return std::min<double>(window.width(), sheet.width()) * std::min<double>(window.height(), sheet.height());
-  };
-  const auto bytes = [&](int side) {
-    const PixelRect tile{0, 0, side, side};
-    const double wide = area(grown(tile, wide_margin));
-    const double near = std::max(area(grown(tile, stroke_margin)), area(base_window(tile, true, base)));
-    const double far = area(grown(tile, rock_margin)) / rock_pixels * rock_bytes_per_pixel;
-    if (factor == 1) return std::max(wide, near) * window_bytes_per_pixel + far;
-    return near * window_bytes_per_pixel + wide / (factor * factor) * wide_bytes_per_pixel + far;
-  };
-  // Small parts ask for little beyond their margins: coarse tiles would make much that nobody sees.
-  int tile = largest_tile_px;
-  while (!region.empty() && tile > part_tile_px && tile > std::max(region.width(), region.height()) / 4) tile /= 2;
-  while (tile > smallest_tile_px && bytes(tile) > share_of_windows * budget) tile /= 2;
-  if (bytes(tile) > share_of_windows * budget)
-    throw Error(ErrorKind::limit, "output",
-                fmt::format("a picture of {}×{} pixels needs about {:.0f} MiB", scene.output.width, scene.output.height,
-                            (bytes(tile) + beside_bytes) / share_of_windows / 1048576.0),
-                fmt::format("at most {} MiB: a smaller output.width, or --memory", memory_budget_bytes() >> 20));
-  return tile;
-}
-
 CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePaint& paint, SheetGround& ground, TileStore::Place& place,
                         const WorkFolder& work, const Run& run) {
   CopyPlan plan;
@@ -176,6 +124,7 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
     if (plan.knit) add_model_sources(*plan.knit, plan.models, plan.residual);
     return plan;
   }
+  const StandingBytes standing{.ground = ground_bytes(world), .besides = copying_bytes(plan.exemplars)};
   const SynthesisSheet division = divide_sheet(sheet.x, sheet.y, std::llround(world.scene.synthesis.plan_mpx * 1e6));
   const auto choose = [&](Progress& progress) {
     const Run told{run.threads, run.memory_bytes, run.tile_px, progress, run.cache};
@@ -183,7 +132,7 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
       const int factor = 1 << division.level;
       const std::unique_ptr<const Camera> camera = make_reduced_camera(*world.camera, factor);
       const SheetView view = reduced_view(world, *camera, factor);
-      SheetGround small(world, view, paint.palette, place, told, choose_tile_px(world.scene, view.pixels_per_unit));
+      SheetGround small(world, view, paint.palette, place, told, choose_block_px(world.scene, view.pixels_per_unit, standing));
       return small.read_guides(small.sheet());
     };
     GuideStack guides = division.level == 0 ? ground.read_guides(ground.sheet()) : reduced_guides();

@@ -16,8 +16,4 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
 // What a scene says of synthesis; of a guide that it does not name the default holds.
 SynthesisParameters to_synthesis_parameters(const Scene& scene);
 
-// Side of the tiles that the stages of a sheet are made in, px: the larger, the less is made twice at their margins. Error(limit) where not
-// even small ones fit the memory. region: the part of the sheet that is made; empty: all of it.
-int choose_tile_px(const Scene& scene, double pixels_per_unit, PixelRect region = {}, double beside_bytes = 0.0);
-
 }  // namespace belvedere

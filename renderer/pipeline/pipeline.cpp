@@ -9,10 +9,10 @@
 #include "base/error.h"
 #include "renderer/image/layers/layer_file.h"
 #include "renderer/image/output_file.h"
-#include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/output_color.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_job.h"
+#include "renderer/pipeline/sheet_memory.h"
 
 namespace belvedere {
 
@@ -30,13 +30,19 @@ void check_request(const Scene& scene, const SheetRequest& request) {
     throw Error(ErrorKind::usage, "--channels", "none, and guidance is all that was asked for", "a channel at least");
 }
 
+// Before the work; how much ground and scanned paintings take is not known yet.
+void refuse_beyond_memory(const Scene& scene, const SheetRequest& request) {
+  StandingBytes standing{.besides = piece_bytes_of(scene, request)};
+  if (request.panorama && scene.synthesis.enabled) standing.besides += copying_bytes(scene, {});
+  choose_block_px(scene, scene.pixels_per_unit(), standing, least_block_px_of(request));
+}
+
 }  // namespace
 
 void render(const LoadedScene& loaded, const std::string& out_folder, const Run& run, const SheetRequest& request) {
   const RunLimits limits(run);
   check_request(loaded.scene, request);
-  choose_tile_px(loaded.scene, loaded.scene.pixels_per_unit(), {},
-                 piece_bytes_of(loaded.scene, request));  // what memory cannot hold is refused before the work
+  refuse_beyond_memory(loaded.scene, request);
   require_inputs(loaded);
   read_output_color(loaded);
   const std::vector<PixelRect> pieces = pieces_of(region_of(loaded.scene, request), request);

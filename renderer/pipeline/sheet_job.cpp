@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/grid_part.h"
 #include "renderer/image/exr/match_file.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/pipeline/copy_plan.h"
@@ -16,6 +17,7 @@
 #include "renderer/pipeline/picture_legend.h"
 #include "renderer/pipeline/scene_labels.h"
 #include "renderer/pipeline/scene_paint.h"
+#include "renderer/pipeline/sheet_memory.h"
 #include "renderer/sheet/guidance_pack.h"
 #include "renderer/sheet/piece_writer.h"
 #include "renderer/sheet/sheet_picture.h"
@@ -63,9 +65,6 @@ void keep_notes(const LoadedScene& loaded, const World& world, const WorkFolder&
   work.keep_bytes(notes_bytes, to_text(notes));
 }
 
-// Of the tiles that stages keep in memory, of what may be used.
-constexpr double share_of_tiles = 0.15;
-
 // The rectangle that pieces from number `next` on lie in.
 PixelRect still_to_make(std::span<const PixelRect> pieces, std::size_t next) {
   PixelRect all;
@@ -91,6 +90,7 @@ struct SheetWork {
   World world;
   TileStore::Place place;
   SheetView view;
+  int block_px;  // what is painted at once
   SheetGround ground;
 };
 
@@ -104,9 +104,14 @@ const Palette& bring_to_place(Palette& palette, const LoadedScene& loaded, const
   return palette;
 }
 
-int tile_px_for(const Scene& scene, const SheetView& view, const SheetRequest& request) {
-  if (request.stage_tile_px > 0) return request.stage_tile_px;
-  return choose_tile_px(scene, view.pixels_per_unit, region_of(scene, request), piece_bytes_of(scene, request));
+bool is_copied(const Scene& scene, const SheetRequest& request) { return request.panorama && scene.synthesis.enabled; }
+
+int block_px_for(const World& world, const ScenePaint& paint, const SheetView& view, const SheetRequest& request) {
+  if (request.block_px > 0) return request.block_px;
+  const Scene& scene = world.scene;
+  StandingBytes standing{.ground = ground_bytes(world), .besides = piece_bytes_of(scene, request)};
+  if (is_copied(scene, request)) standing.besides += copying_bytes(scene, paint.paintings);
+  return choose_block_px(scene, view.pixels_per_unit, standing, least_block_px_of(request));
 }
 
 bool has_legend(const Scene& scene) { return scene.margin && scene.margin->legend; }
@@ -114,16 +119,16 @@ bool has_legend(const Scene& scene) { return scene.margin && scene.margin->legen
 SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run, const Run& stage_run)
     : paint(paint_for(loaded, request, run.progress)),
       world(loaded, run.progress, run.cache),
-      place{work.folder(), static_cast<std::uint64_t>(share_of_tiles * static_cast<double>(memory_budget_bytes()))},
+      place{work.folder(), kept_tile_bytes()},
       view(view_of(world)),
-      ground(world, view, bring_to_place(paint.palette, loaded, world), place, stage_run, tile_px_for(world.scene, view, request)) {
+      block_px(block_px_for(world, paint, view, request)),
+      ground(world, view, bring_to_place(paint.palette, loaded, world), place, stage_run,
+             choose_tile_px(block_px, region_of(world.scene, request))) {
   if (request.panorama) check_names(loaded, *world.dem);
   keep_notes(loaded, world, work);
   if (has_legend(world.scene) && !work.has_bytes(legend_bytes))
     work.keep_bytes(legend_bytes, legend_to_text(find_legend(world, paint.palette)));
 }
-
-bool is_copied(const Scene& scene, const SheetRequest& request) { return request.panorama && scene.synthesis.enabled; }
 
 std::vector<MatchedPicture> pictures_of(const CopyPlan& plan) {
   std::vector<MatchedPicture> pictures;
@@ -134,6 +139,17 @@ std::vector<MatchedPicture> pictures_of(const CopyPlan& plan) {
 
 CopyPlan plan_copies(const LoadedScene& loaded, SheetWork& sheet, const WorkFolder& work, const Run& run) {
   return make_copy_plan(loaded, sheet.world, sheet.paint, sheet.ground, sheet.place, work, run);
+}
+
+// A piece as memory allows it to be painted.
+Grid<glm::vec3> paint_in_blocks(SheetPicture& picture, PixelRect piece, int block_px) {
+  if (piece.width() <= block_px && piece.height() <= block_px) return picture.make(piece);
+  Grid<glm::vec3> whole(piece.width(), piece.height());
+  for (int y = piece.y0; y < piece.y1; y += block_px)
+    for (int x = piece.x0; x < piece.x1; x += block_px)
+      copy_part(whole, picture.make({x, y, std::min(x + block_px, piece.x1), std::min(y + block_px, piece.y1)}), x - piece.x0,
+                y - piece.y0);
+  return whole;
 }
 
 }  // namespace
@@ -182,7 +198,7 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
         writer.keep(std::string(layer_plane_names()[k]), piece, {plane_of(layers->planes[k])}, layers);
       writer.keep("panorama", piece, {plane_of(*painted)}, painted);
     } else if (request.panorama && !work.has("panorama", piece)) {
-      const auto painted = std::make_shared<Grid<glm::vec3>>(picture.make(piece));
+      const auto painted = std::make_shared<Grid<glm::vec3>>(paint_in_blocks(picture, piece, sheet.block_px));
       writer.keep("panorama", piece, {plane_of(*painted)}, painted);
     }
     if (request.matches && !work.has("matches", piece)) {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "renderer/image/provenance.h"
+#include "renderer/pipeline/sheet_memory.h"
 #include "renderer/scene/input_hash.h"
 #include "renderer/sheet/picture_layers.h"
 #include "terrain/io/http_access.h"
@@ -66,6 +67,8 @@ double piece_bytes_of(const Scene& scene, const SheetRequest& request) {
   const double bytes_per_pixel = layer_bytes_per_pixel + (thinned ? thinned_bytes_per_pixel : 0.0);
   return bytes_per_pixel * std::min(region.width(), piece_px) * std::min(region.height(), piece_px);
 }
+
+int least_block_px_of(const SheetRequest& request) { return request.layers.empty() ? least_block_px : largest_block_px; }
 
 PieceSpan pieces_of_part(std::size_t count, int part, int parts) {
   const auto before = [&](int i) { return count * static_cast<std::size_t>(i) / static_cast<std::size_t>(parts); };

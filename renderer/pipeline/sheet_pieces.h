@@ -21,7 +21,7 @@ struct SheetRequest {
   std::optional<PixelRect> part = {};    // of the sheet, px; absent: all of it
   bool resume = false;                   // go on from the pieces of a run that ended
   int piece_px = 0;                      // side of a piece, 64…4096; 0: 1024. Changes no pixel
-  int stage_tile_px = 0;                 // side of the tiles that stages are made in, 64…4096; 0: what memory allows. Changes no pixel
+  int block_px = 0;                      // side of what is made and painted at once, 64…4096; 0: what memory allows. Changes no pixel
 };
 
 // The pixels asked for. Error(usage) for a part that does not lie on the sheet.
@@ -33,6 +33,8 @@ std::vector<std::string> products_of(const SheetRequest& request);
 std::vector<PixelRect> pieces_of(PixelRect region, const SheetRequest& request);
 // The most that layers of a piece take while it is painted, bytes.
 double piece_bytes_of(const Scene& scene, const SheetRequest& request);
+// The least that a piece can be painted in, px: one that is cut into layers is painted as a whole.
+int least_block_px_of(const SheetRequest& request);
 // Which of `count` pieces a part of a plan makes: the numbers [first, end). Parts count from 1.
 struct PieceSpan {
   std::size_t first = 0;

@@ -51,10 +51,18 @@ GuidanceBuffers blank_traced(int width, int height) {
   return guidance;
 }
 
-// Grids of the relief of rock in the order of their stage; class and fall line are those that rock has changed.
-Planes relief_planes(GuidanceBuffers& g) {
-  Planes planes = {plane_of(g.land_cover), plane_of(g.fall_line), plane_of(g.rock_height),
-                   plane_of(g.rock_facet), plane_of(g.rock_tone), plane_of(g.rock_cover)};
+// The relief of rock in the order of its stage's grids; class and fall line are those that rock has changed.
+constexpr std::initializer_list<GuidanceMember> relief_channels = {&B::land_cover, &B::fall_line, &B::rock_height,
+                                                                   &B::rock_facet, &B::rock_tone, &B::rock_cover};
+
+bool is_of_relief(const GuidanceMember& channel) {
+  return std::find(relief_channels.begin(), relief_channels.end(), channel) != relief_channels.end();
+}
+
+Planes relief_planes(GuidanceBuffers& guidance) {
+  Planes planes;
+  for (const GuidanceMember& channel : relief_channels)
+    std::visit([&](auto member) { planes.push_back(plane_of(guidance.*member)); }, channel);
   for (Plane& plane : planes)
     if (plane.width == 0) plane.values = nullptr;
   return planes;
@@ -161,19 +169,27 @@ GuidanceBuffers SheetGround::make_traced(PixelRect tile) {
   return traced;
 }
 
+void SheetGround::prepare_guidance(PixelRect rect, bool with_relief, bool with_tone) {
+  if (with_tone) tone_.prepare(rect);
+  if (with_relief) relief_.prepare(rect);
+  prepare_crested(rect);
+}
+
 GuidanceBuffers SheetGround::read_guidance(PixelRect rect, std::initializer_list<GuidanceMember> channels, bool with_tone) {
+  const bool with_relief = std::any_of(channels.begin(), channels.end(), is_of_relief);
+  prepare_guidance(rect, with_relief, with_tone);
   GuidanceBuffers guidance;
   guidance.origin_m = world_.surface.origin;
   make_channels(guidance, {channels.begin(), channels.size()}, rect.width(), rect.height());
   read_crested(rect, guidance);
-  const Planes relief = relief_planes(guidance);
-  if (std::any_of(relief.begin(), relief.end(), [](const Plane& plane) { return plane.values != nullptr; }))
-    relief_.read_into(rect, relief);
+  if (with_relief) relief_.read_into(rect, relief_planes(guidance));
   if (with_tone) guidance.tone = tone_.read(rect);
   return guidance;
 }
 
 GuidanceBuffers SheetGround::read_all_guidance(PixelRect rect) {
+  prepare_base(rect);
+  prepare_guidance(rect, true, true);
   GuidanceBuffers guidance = blank_traced(rect.width(), rect.height());
   guidance.origin_m = world_.surface.origin;
   read_crested(rect, guidance);
@@ -206,13 +222,18 @@ SheetGround::Wide SheetGround::read_far(PixelRect rect) { return look_from_afar(
 CrestShift SheetGround::make_crests(PixelRect tile) {
   const double ppu = view_.pixels_per_unit;
   const PixelRect window = intersection(sheet(), {tile.x0, tile.y0 - crest_margin_px(ppu), tile.x1, tile.y1 + crest_margin_px(ppu)});
-  GuidanceBuffers guidance;
-  for (const GuidanceMember member : std::initializer_list<GuidanceMember>{&B::depth_m, &B::front, &B::land_cover, &B::footprint_m})
-    make_channel(guidance, member, window.width(), window.height());
-  traced_.read_into(window, traced_planes(guidance));
+  traced_.prepare(window);
   const Wide far = read_far(grown(tile, crest_view_margin_px(rock_parameters_)));
+  GuidanceBuffers guidance = blank_with({&B::depth_m, &B::front, &B::land_cover, &B::footprint_m}, window.width(), window.height());
+  traced_.read_into(window, traced_planes(guidance));
   return shift_crests(guidance, {far.seen, far_factor_, far.origin_px}, rock_parameters_, {window.x0, window.y0},
                       moved(tile, -window.x0, -window.y0));
+}
+
+// Where crests are made, the rows above and below that they may be gathered from are traced already: crest_margin_px is the longer reach.
+void SheetGround::prepare_crested(PixelRect rect) {
+  crests_.prepare(rect);
+  traced_.prepare(rect);
 }
 
 void SheetGround::read_crested(PixelRect rect, GuidanceBuffers& guidance) {
@@ -224,28 +245,23 @@ void SheetGround::read_crested(PixelRect rect, GuidanceBuffers& guidance) {
   }
   const int reach = crest_reach_px(view_.pixels_per_unit);
   const PixelRect window = intersection(sheet(), {rect.x0, rect.y0 - reach, rect.x1, rect.y1 + reach});
-  GuidanceBuffers traced;
-  traced.origin_m = guidance.origin_m;
+  // One channel after the other: all at once would stand in memory twice.
   for (const GuidanceChannel& channel : guidance_channels())
     std::visit(
         [&](auto member) {
-          if (channel.maker == ChannelMaker::trace && !(guidance.*member).empty())
-            make_channel(traced, channel.member, window.width(), window.height());
-        },
-        channel.member);
-  traced_.read_into(window, traced_planes(traced));
-  GuidanceBuffers shifted = gather_rows(traced, shift, moved(rect, -window.x0, -window.y0));
-  for (const GuidanceChannel& channel : guidance_channels())
-    std::visit(
-        [&](auto member) {
-          if (!(shifted.*member).empty()) guidance.*member = std::move(shifted.*member);
+          if (channel.maker != ChannelMaker::trace || (guidance.*member).empty()) return;
+          GuidanceBuffers traced;
+          make_channel(traced, channel.member, window.width(), window.height());
+          traced_.read_into(window, traced_planes(traced));
+          guidance.*member = std::move(gather_rows(traced, shift, moved(rect, -window.x0, -window.y0)).*member);
         },
         channel.member);
 }
 
 RockRelief SheetGround::make_relief(PixelRect tile) {
-  const Wide far = read_far(grown(tile, rock_margin_px(rock_parameters_)));
   const PixelRect window = intersection(sheet(), grown(tile, rock_near_margin_px(rock_parameters_)));
+  prepare_crested(window);
+  const Wide far = read_far(grown(tile, rock_margin_px(rock_parameters_)));
   GuidanceBuffers guidance;
   guidance.origin_m = world_.surface.origin;
   const std::initializer_list<GuidanceMember> channels = rock_channels();
@@ -256,8 +272,9 @@ RockRelief SheetGround::make_relief(PixelRect tile) {
 }
 
 Grid<float> SheetGround::make_tone_tile(PixelRect tile) {
-  const Wide wide = read_wide(grown(tile, tone_margin_px(tone_parameters_)));
   const PixelRect window = intersection(sheet(), grown(tile, tone_near_margin_px(tone_parameters_)));
+  prepare_guidance(window, true, false);
+  const Wide wide = read_wide(grown(tile, tone_margin_px(tone_parameters_)));
   const GuidanceBuffers guidance = read_guidance(
       window,
       {&B::depth_m, &B::position_m, &B::normal, &B::normal_detail, &B::normal_smooth, &B::altitude_m, &B::land_cover, &B::shadow,
@@ -268,10 +285,11 @@ Grid<float> SheetGround::make_tone_tile(PixelRect tile) {
 }
 
 BasePicture SheetGround::make_base(PixelRect tile) {
-  const Wide wide = read_wide(grown(tile, base_margin_px(base_parameters_)));
-  const GuidanceBuffers itself = read_guidance(tile, {&B::land_cover}, false);
-  const bool has_water = std::find(itself.land_cover.begin(), itself.land_cover.end(), LandCoverClass::water) != itself.land_cover.end();
+  const Grid<LandCoverClass> shown = read_guidance(tile, {&B::land_cover}, false).land_cover;
+  const bool has_water = std::find(shown.begin(), shown.end(), LandCoverClass::water) != shown.end();
   const PixelRect window = intersection(sheet(), base_window(tile, has_water, base_parameters_));
+  prepare_guidance(window, true, true);
+  const Wide wide = read_wide(grown(tile, base_margin_px(base_parameters_)));
   const GuidanceBuffers guidance = read_guidance(window,
                                                  {&B::depth_m, &B::position_m, &B::altitude_m, &B::land_cover, &B::fall_line, &B::slope_deg,
                                                   &B::footprint_m, &B::normal_smooth, &B::relief_s_m, &B::relief_m_m, &B::relief_l_m,
@@ -287,6 +305,7 @@ BasePicture SheetGround::make_base(PixelRect tile) {
 PaintDraft SheetGround::make_draft(PixelRect tile) {
   const PixelRect window = intersection(sheet(), grown(tile, stroke_margin_px(draft_layers, strokes_)));
   const PixelRect wanted = moved(tile, -window.x0, -window.y0);
+  prepare_base(window);
   const GuidanceBuffers guidance = read_guidance(window, stroke_channels(), true);
   const BasePicture base = base_.read(window);
   const SheetWindow place{.origin_px = {window.x0, window.y0}, .sheet_px = view_.camera.size(), .asked = wanted, .ice = &ice()};
@@ -301,6 +320,8 @@ PaintDraft SheetGround::make_draft(PixelRect tile) {
 }
 
 GuideStack SheetGround::read_guides(PixelRect rect) {
+  draft_.prepare(rect);
+  prepare_guidance(rect, true, true);
   GuidanceBuffers guidance;
   guidance.origin_m = world_.surface.origin;
   make_channel(guidance, &B::depth_m, rect.width(), rect.height());

@@ -49,6 +49,10 @@ class SheetGround {
   PaintDraft read_draft(PixelRect rect) { return draft_.read(rect); }
   // What synthesis is steered by.
   GuideStack read_guides(PixelRect rect);
+  // What the reading of a rectangle makes first, for those who read several things of it (SheetStage::prepare).
+  void prepare_base(PixelRect rect) { base_.prepare(rect); }
+  void prepare_draft(PixelRect rect) { draft_.prepare(rect); }
+  void prepare_guidance(PixelRect rect, bool with_relief, bool with_tone);
 
   // How ice runs on the sheet, made when first asked for.
   const IcePlan& ice();
@@ -69,6 +73,7 @@ class SheetGround {
   CrestShift make_crests(PixelRect tile);
   RockRelief make_relief(PixelRect tile);
   // Traced channels with the crests of rock in place, before its relief.
+  void prepare_crested(PixelRect rect);
   void read_crested(PixelRect rect, GuidanceBuffers& guidance);
   // What a rectangle of the sheet is seen with from afar, and where it begins (WideView::origin_px).
   struct Wide {

@@ -49,6 +49,11 @@ MistPaint SheetMist::make_paint(PixelRect tile) {
   return paint_mist(sight_.read(window), world_.view.air, ground_.palette(), ground_.strokes(), place, run_.progress);
 }
 
+void SheetMist::prepare(PixelRect veil, PixelRect paint) {
+  sight_.prepare(veil);
+  paint_.prepare(paint);
+}
+
 Grid<float> SheetMist::read_veil(PixelRect rect) {
   Grid<float> veil(rect.width(), rect.height());
   sight_.read_into(rect, {plane_of(veil), {}, {}, {}});

@@ -20,6 +20,8 @@ class SheetMist {
   SheetMist(SheetGround& ground, const World& world, TileStore::Place& place, const Run& run);
 
   bool any() const { return !world_.mist.empty(); }
+  // Makes what reading them makes (SheetStage::prepare).
+  void prepare(PixelRect veil, PixelRect paint);
   // What it hides at each pixel, 0…1, before it is painted.
   Grid<float> read_veil(PixelRect rect);
   // Its paint, encoded sRGB.

@@ -97,6 +97,8 @@ ModelPaint SheetPicture::make_modelled(PixelRect tile) {
 
 KnitPaint SheetPicture::make_knitted(PixelRect tile) {
   const PixelRect window = intersection(ground_.sheet(), grown(tile, knit_margin_px));
+  matches_.prepare(window);
+  if (plan_->models.any()) modelled_.prepare(window);
   const Grid<LandCoverClass> shown = ground_.read_draft(window).land_cover;
   const MatchField matches = matches_.read(window);
   const Grid<glm::vec3> grey(window.width(), window.height(), glm::vec3(even_grey));
@@ -115,8 +117,20 @@ KnitPaint SheetPicture::make_knitted(PixelRect tile) {
   return knit_ground(seams_, paint, tile, window, plan_->knit->seed);
 }
 
+PixelRect SheetPicture::copy_window(PixelRect rect) const {
+  return intersection(ground_.sheet(), grown(rect, paint_source_reach_px(draft_layers, ground_.strokes())));
+}
+
+void SheetPicture::prepare_copy(PixelRect rect) {
+  const PixelRect window = copy_window(rect);
+  matches_.prepare(window);
+  if (plan_->models.any()) modelled_.prepare(window);
+  if (plan_->knit) knitted_.prepare(window);
+  ground_.prepare_draft(window);
+}
+
 Grid<glm::vec3> SheetPicture::copy_ground(PixelRect rect) {
-  const PixelRect window = intersection(ground_.sheet(), grown(rect, paint_source_reach_px(draft_layers, ground_.strokes())));
+  const PixelRect window = copy_window(rect);
   const PaintDraft draft = ground_.read_draft(window);
   const BasePicture base = ground_.read_base(window);
   const GuidanceBuffers guidance = ground_.read_guidance(window, {&B::depth_m, &B::land_cover}, false);
@@ -149,13 +163,15 @@ Grid<glm::vec3> SheetPicture::make(PixelRect rect, PictureLayers* cut) {
   const StrokeLayers layers = layers_around(painted);
   const PixelRect window = intersection(ground_.sheet(), grown(painted, finish_margin_px(layers)));
   const PixelRect inside = moved(painted, -window.x0, -window.y0);
+  if (mist_.any()) mist_.prepare(window, painted);
+  if (plan_ != nullptr) prepare_copy(painted);
+  ground_.prepare_base(window);
+  // Copied before memory is taken for what lies around.
+  const Grid<glm::vec3> copied = plan_ != nullptr ? copy_ground(painted) : Grid<glm::vec3>();
   const GuidanceBuffers guidance = ground_.read_guidance(window, stroke_channels(), true);
   const BasePicture base = ground_.read_base(window);
   Grid<glm::vec3> canvas = base.colour;
-  if (plan_ != nullptr) {
-    const Grid<glm::vec3> copied = copy_ground(painted);
-    for (int y = 0; y < copied.height(); ++y) std::copy_n(copied.row(y), copied.width(), canvas.row(inside.y0 + y) + inside.x0);
-  }
+  if (plan_ != nullptr) copy_part(canvas, copied, inside.x0, inside.y0);
   const PixelRect wanted = moved(rect, -painted.x0, -painted.y0);
   std::optional<PaintParts> parts;
   Grid<glm::vec3> bare;
@@ -211,7 +227,7 @@ void SheetPicture::keep_only(PixelRect still) {
   mist_.keep_only(finished);
   SheetGround::Asked asked{.guidance = mist_.any() ? grown(finished, mist_.margin_px()) : finished, .base = finished, .draft = {}};
   if (plan_ != nullptr) {
-    const PixelRect copied = grown(painted, paint_source_reach_px(draft_layers, ground_.strokes()));
+    const PixelRect copied = copy_window(painted);
     // Knitting looks at the paint of its tile and around it.
     const PixelRect shown = plan_->knit ? grown(copied, knit_tile_px + knit_margin_px) : copied;
     knitted_.keep_only(copied);

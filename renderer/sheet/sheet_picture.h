@@ -45,6 +45,9 @@ class SheetPicture {
   MatchField make_matches(PixelRect tile);
   ModelPaint make_modelled(PixelRect tile);
   KnitPaint make_knitted(PixelRect tile);
+  // What copied ground of a rectangle looks at, made before memory is taken for it.
+  PixelRect copy_window(PixelRect rect) const;
+  void prepare_copy(PixelRect rect);
   Grid<glm::vec3> copy_ground(PixelRect rect);
   // Kinds of strokes that can reach a rectangle: those of the sky, by far the longest, begin where sky is seen.
   StrokeLayers layers_around(PixelRect rect);

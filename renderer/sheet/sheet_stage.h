@@ -37,24 +37,24 @@ class SheetStage {
     tile_px_ = tile_px;
   }
 
-  // A rectangle of the sheet; it is cut where it reaches beyond.
+  // Makes what a rectangle lacks. Whoever looks at several stages has all of them prepared before it takes memory of its own: otherwise
+  // the windows of every stage behind would stand in memory around that of the first.
+  void prepare(PixelRect rect) {
+    visit_tiles(rect, [&](int column, int row, PixelRect part) { make_missing(column, row, part); });
+  }
+  // A rectangle of the sheet.
   Product read(PixelRect rect) {
+    prepare(rect);
     Product out = making_.blank(rect.width(), rect.height());
     read_into(rect, making_.planes(out));
     return out;
   }
   // The same into some of the grids: planes in the order of the product's, those without values are left out.
   void read_into(PixelRect rect, const Planes& wanted) {
-    for (int row = rect.y0 / tile_px_; row <= (rect.y1 - 1) / tile_px_; ++row)
-      for (int column = rect.x0 / tile_px_; column <= (rect.x1 - 1) / tile_px_; ++column) {
-        const PixelRect part = intersection(rect, store_.rect(column, row));
-        if (!store_.has(column, row, part)) {
-          const PixelRect within = part_to_make(store_.rect(column, row), part);
-          Product tile = making_.make(within);
-          store_.put(column, row, within, making_.planes(tile));
-        }
-        store_.get(column, row, part, rect.x0, rect.y0, wanted);
-      }
+    visit_tiles(rect, [&](int column, int row, PixelRect part) {
+      make_missing(column, row, part);
+      store_.get(column, row, part, rect.x0, rect.y0, wanted);
+    });
   }
   // `still`: the part of the sheet that will yet be asked for. Forgets tiles that touch nothing of it, and makes others within it alone.
   // What is asked for outside of it all the same is made again, with its whole tile.
@@ -72,6 +72,21 @@ class SheetStage {
     std::vector<std::size_t> bytes;
     for (const Plane& plane : making_.planes(sample)) bytes.push_back(plane.value_bytes);
     return bytes;
+  }
+
+  // `visit` gets each tile that a rectangle touches, and the part of the rectangle in it.
+  template <class Visit>
+  void visit_tiles(PixelRect rect, const Visit& visit) {
+    for (int row = rect.y0 / tile_px_; row <= (rect.y1 - 1) / tile_px_; ++row)
+      for (int column = rect.x0 / tile_px_; column <= (rect.x1 - 1) / tile_px_; ++column)
+        visit(column, row, intersection(rect, store_.rect(column, row)));
+  }
+
+  void make_missing(int column, int row, PixelRect part) {
+    if (store_.has(column, row, part)) return;
+    const PixelRect within = part_to_make(store_.rect(column, row), part);
+    Product tile = making_.make(within);
+    store_.put(column, row, within, making_.planes(tile));
   }
 
   PixelRect part_to_make(PixelRect tile, PixelRect asked) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "base/memory_limit.h"
 #include "tests/files.h"
 #include "tests/renderer/world/small_world.h"
 
@@ -48,20 +47,6 @@ TEST(CopyPlan, PatchesAndSurroundingsAreTheScenes) {
                             "synthesis.unlikeness={ \"forest/cloud\" = 0.25 }", "synthesis.unlikeness={ \"forest/forest\" = 0.25 }",
                             "synthesis.unlikeness={ \"forest/shrub\" = 1.5 }"})
     EXPECT_FALSE(test::message_of(ErrorKind::usage, [&] { test::small_scene({wrong}); }).empty()) << wrong;
-}
-
-TEST(CopyPlan, LessMemoryMakesSmallerTilesAndTooLittleIsRefused) {
-  const Scene scene = test::small_scene({"output.width=20000", "output.height=8000", "output.sheet_width_mm=1200"}).scene;
-  const auto tile = [&](std::uint64_t mib) {
-    const MemoryLimit limit(mib << 20U);
-    return choose_tile_px(scene, scene.pixels_per_unit());
-  };
-  EXPECT_EQ(tile(6144), 1024);
-  // Windows of (1024 + 2 · 67 units)² pixels: surroundings that are looked up in a wide view take no more.
-  EXPECT_EQ(tile(2048), 1024);
-  EXPECT_LT(tile(1024), 1024);
-  EXPECT_GE(tile(1024), 256);
-  EXPECT_NE(test::message_of(ErrorKind::limit, [&] { tile(200); }).find("MiB"), std::string::npos);
 }
 
 }  // namespace

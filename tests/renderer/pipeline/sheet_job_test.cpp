@@ -140,7 +140,7 @@ TEST_F(SheetJob, LayersMakeThePanorama) {
   const PixelRect part{990, 40, 1060, 110};
   const std::string cut = folder_ / "cut";
   const ThreadLimit limit(1);
-  render(scene(), cut, {}, {.layers = {"ora"}, .part = part, .piece_px = 64, .stage_tile_px = 64});
+  render(scene(), cut, {}, {.layers = {"ora"}, .part = part, .piece_px = 64, .block_px = 64});
   for (const auto& [name, layer] : unpack(cut)) {
     EXPECT_TRUE(layer.colour == part_of(layers.at(name).colour, part)) << name;
     EXPECT_TRUE(layer.opacity == part_of(layers.at(name).opacity, part)) << name;
@@ -183,7 +183,7 @@ TEST_F(SheetJob, GroundFromAModelIsTheSameInPartsAndPieces) {
   const PixelRect part{490, 20, 560, 110};
   render(modelled, folder_ / "part", {}, {.part = part});
   EXPECT_EQ(read_picture(folder_ / "part/panorama.tif"), part_of(picture, part));
-  render(modelled, folder_ / "small", {.threads = 1}, {.piece_px = 200, .stage_tile_px = 96});
+  render(modelled, folder_ / "small", {.threads = 1}, {.piece_px = 200, .block_px = 96});
   expect_same_files(all, folder_ / "small");
 }
 
@@ -211,7 +211,7 @@ TEST_F(SheetJob, MatchesAreThoseThePictureWasCopiedBy) {
   const PixelRect part{980, 30, 1080, 130};
   const PixelRect corner{1020, 60, 1060, 110};
   render(scene(), folder_ / "part", {}, {.matches = true, .part = part});
-  render(scene(), folder_ / "corner", {.threads = 1}, {.matches = true, .part = corner, .piece_px = 64, .stage_tile_px = 96});
+  render(scene(), folder_ / "corner", {.threads = 1}, {.matches = true, .part = corner, .piece_px = 64, .block_px = 96});
   EXPECT_EQ(test::read_bytes(folder_ / "part/panorama.tif").empty(), false);
   const GuidanceBuffers guidance = read_guidance(folder_ / "part/guidance.exr");
   const auto ids = [&](const char* folder, const char* channel) {
@@ -248,7 +248,7 @@ TEST_F(SheetJob, APartOutsideOfTheSheetIsRefused) {
 }
 
 TEST_F(SheetJob, PiecesAndTilesOfStagesChangeNoByte) {
-  render(scene(), folder_ / "small", {.threads = 1}, {.piece_px = 200, .stage_tile_px = 96});
+  render(scene(), folder_ / "small", {.threads = 1}, {.piece_px = 200, .block_px = 96});
   expect_same_files(whole(), folder_ / "small");
 }
 

@@ -32,25 +32,31 @@ class Stage {
         stage_(place_, 70, 45, 16,
                {.make =
                     [this](PixelRect tile) {
+                      EXPECT_EQ(asked, 0) << "memory was taken before";
                       ++made;
                       pixels += tile.width() * tile.height();
                       return product_of(tile);
                     },
                 .blank =
-                    [](int w, int h) {
+                    [this](int w, int h) {
+                      ++asked;
                       return Product{Grid<std::uint32_t>(w, h), Grid<std::uint8_t>(w, h)};
                     },
                 .planes =
                     [](Product& p) {
                       return Planes{plane_of(p.place), plane_of(p.column)};
                     },
-                .whole_tiles = whole_tiles}) {}
+                .whole_tiles = whole_tiles}) {
+    asked = 0;
+  }
   void expect(PixelRect rect) {
+    asked = 0;
     const Product got = stage_.read(rect);
     const Product right = product_of(rect);
     EXPECT_TRUE(got.place == right.place);
     EXPECT_TRUE(got.column == right.column);
   }
+  int asked = 0;  // products without values, since a rectangle was asked for
   int made = 0;
   int pixels = 0;  // that were made
   TileStore::Place place_;
@@ -68,6 +74,15 @@ TEST_P(SheetStageMemory, AnyRectangleIsWhatTheTilesHold) {
   stage.expect({0, 0, 70, 45});
   EXPECT_EQ(stage.made, 5 * 3) << "and each tile once";
   EXPECT_EQ(folder.count(), 0U) << "scratch files have no name";
+}
+
+TEST_P(SheetStageMemory, WhatIsPreparedIsThereWhenItIsRead) {
+  const test::Folder folder;
+  Stage stage(folder.path(), GetParam());
+  stage.stage_.prepare({15, 15, 17, 33});
+  EXPECT_EQ(stage.made, 6);
+  stage.expect({15, 15, 17, 33});
+  EXPECT_EQ(stage.made, 6);
 }
 
 TEST_P(SheetStageMemory, WhatWasDroppedIsMadeAgain) {

@@ -8,6 +8,7 @@
 #include "base/land_cover_class.h"
 #include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/scene_paint.h"
+#include "renderer/pipeline/sheet_memory.h"
 #include "renderer/sheet/sheet_picture.h"
 #include "renderer/trace/sketch/relief_sketch.h"
 #include "renderer/world/scene_features.h"
@@ -70,7 +71,7 @@ void add_paint(std::vector<MakingStep>& steps, const LoadedScene& loaded, const 
   paint.palette = palette_of_place(paint.palette, loaded, *world.dem);
   TileStore::Place place{work.folder(), tile_bytes};
   const SheetView view = view_of(world);
-  SheetGround ground(world, view, paint.palette, place, run, choose_tile_px(world.scene, view.pixels_per_unit));
+  SheetGround ground(world, view, paint.palette, place, run, choose_block_px(world.scene, view.pixels_per_unit));
   const PixelRect sheet = ground.sheet();
   const GuidanceBuffers guidance = ground.read_guidance(sheet, {&GuidanceBuffers::depth_m, &GuidanceBuffers::land_cover}, true);
   steps.push_back({"classes", "what covers it", class_picture(guidance)});

@@ -1,0 +1,113 @@
+#include "renderer/pipeline/sheet_memory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "base/memory_limit.h"
+#include "renderer/exemplar/example_sheet.h"
+#include "renderer/ground/cached_products.h"
+#include "renderer/rock/crest_shift.h"
+#include "renderer/rock/rock_relief.h"
+#include "renderer/trace/wide_view.h"
+
+namespace belvedere {
+namespace {
+
+// Bytes that a pixel of a stage's window takes while the stage works, and one of a wide view.
+constexpr double window_bytes_per_pixel = 180.0;
+constexpr double wide_bytes_per_pixel = 40.0;
+constexpr double rock_bytes_per_pixel = 90.0;  // of the view from afar, thinned out, with its blurs
+// Measured: a world of 9 million cells has 1.0 GB, 24 million texels with their plan 2.0 GB.
+constexpr double ground_bytes_per_cell = 115.0;
+constexpr double copying_bytes_per_texel = 85.0;
+constexpr int part_tile_px = 256;  // of small parts of a sheet
+// Of the memory that may be used.
+constexpr double share_of_tiles = 0.15;
+// Of what copying and tiles leave, where ground that was made to fit the memory leaves less.
+constexpr double least_share_of_windows = 0.2;
+
+double cells_of(const TerrainModel& terrain) {
+  auto cells = static_cast<double>(terrain.generalized_m.size());
+  for (const TerrainWindow& window : terrain.windows) cells += cells_of(window.ground);
+  return cells;
+}
+
+}  // namespace
+
+double ground_bytes(const World& world) { return ground_bytes_per_cell * cells_of(world.terrain); }
+
+double copying_bytes(const std::vector<PaintedExemplar>& exemplars) {
+  double texels = 0.0;
+  for (const PaintedExemplar& exemplar : exemplars) texels += static_cast<double>(exemplar.picture.size());
+  return copying_bytes_per_texel * texels;
+}
+
+double copying_bytes(const Scene& scene, const std::vector<ScannedPainting>& paintings) {
+  double texels = 0.0;
+  const auto add_sheet = [&](const SceneExemplar& settings) {
+    const glm::ivec2 size = example_sheet_size(settings, scene.output);
+    texels += static_cast<double>(size.x) * size.y;
+  };
+  for (const SceneExemplar& exemplar : scene.exemplars)
+    if (exemplar.model.empty() && exemplar.picture.empty()) add_sheet(exemplar);
+  for (const ScannedPainting& painting : paintings) texels += static_cast<double>(painting.painted.picture.size());
+  // A scene without anything to copy from copies from a sheet that the program paints.
+  const bool may_have_paintings = paintings.empty() && std::any_of(scene.exemplars.begin(), scene.exemplars.end(),
+                                                                   [](const SceneExemplar& exemplar) { return !exemplar.picture.empty(); });
+  if (texels == 0.0 && !may_have_paintings) add_sheet({});
+  return copying_bytes_per_texel * texels;
+}
+
+std::uint64_t kept_tile_bytes() { return static_cast<std::uint64_t>(share_of_tiles * static_cast<double>(memory_budget_bytes())); }
+
+int choose_block_px(const Scene& scene, double pixels_per_unit, const StandingBytes& standing, int least_px) {
+  const double without_ground = (1.0 - share_of_tiles) * static_cast<double>(memory_budget_bytes()) - standing.besides;
+  const double available = std::max(without_ground - standing.ground, least_share_of_windows * without_ground);
+  BaseParameters base;
+  base.pixels_per_unit = pixels_per_unit;
+  StrokeParameters strokes;
+  strokes.pixels_per_unit = pixels_per_unit;
+  // The widest windows are those of strokes below the sky and of base pictures with water, which look around in a wide view. One of the
+  // pixels' own size, where a unit has too few for a smaller one, is a window like others.
+  const int stroke_margin = stroke_margin_px(StrokeLayers{}, strokes);
+  const int wide_margin = base_margin_px(base);
+  const int factor = wide_factor(pixels_per_unit);
+  // Rock looks farthest of all, at about a pixel a unit.
+  RockParameters rock;
+  rock.light.pixels_per_unit = pixels_per_unit;
+  rock.kind = &find_rock_kind(scene.land_cover.rock);
+  const int rock_margin = std::max(rock_margin_px(rock), crest_view_margin_px(rock));
+  const double rock_pixels = square(static_cast<double>(rock_factor(pixels_per_unit)));
+  const PixelRect sheet{0, 0, scene.output.width, scene.output.height};
+  const auto area = [&](const PixelRect& window) {
+    return std::min<double>(window.width(), sheet.width()) * std::min<double>(window.height(), sheet.height());
+  };
+  const auto bytes = [&](int side) {
+    const PixelRect tile{0, 0, side, side};
+    const double wide = area(grown(tile, wide_margin));
+    const double near = std::max(area(grown(tile, stroke_margin)), area(base_window(tile, true, base)));
+    const double far = area(grown(tile, rock_margin)) / rock_pixels * rock_bytes_per_pixel;
+    if (factor == 1) return std::max(wide, near) * window_bytes_per_pixel + far;
+    return near * window_bytes_per_pixel + wide / (factor * factor) * wide_bytes_per_pixel + far;
+  };
+  int block = largest_block_px;
+  while (block > least_px && bytes(block) > available) block /= 2;
+  if (bytes(block) > available)
+    throw Error(ErrorKind::limit, "output",
+                fmt::format("a picture of {}×{} pixels needs about {:.0f} MiB", scene.output.width, scene.output.height,
+                            (bytes(block) + standing.ground + standing.besides) / (1.0 - share_of_tiles) / 1048576.0),
+                fmt::format("at most {} MiB: a smaller output.width, or --memory", memory_budget_bytes() >> 20));
+  return block;
+}
+
+int choose_tile_px(int block_px, PixelRect region) {
+  // Small parts ask for little beyond their margins: coarse tiles would make much that nobody sees.
+  int tile = block_px;
+  while (tile > part_tile_px && tile > std::max(region.width(), region.height()) / 4) tile /= 2;
+  return tile;
+}
+
+}  // namespace belvedere
