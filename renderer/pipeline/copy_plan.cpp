@@ -101,9 +101,24 @@ SynthesisParameters to_synthesis_parameters(const Scene& scene) {
   return parameters;
 }
 
+// Strokes are sized for the paper. Where they have very many pixels, a sheet of examples of the largest size shows so little ground between
+// them that what is narrow, rivers first, gets the paint of its banks.
+std::string fine_print_note(const Scene& scene) {
+  constexpr double finest_dpi = 600.0;
+  const double dpi = scene.output.width / scene.output.sheet_width_mm * 25.4;
+  const bool on_paintings =
+      std::any_of(scene.exemplars.begin(), scene.exemplars.end(), [](const SceneExemplar& exemplar) { return !exemplar.picture.empty(); });
+  if (dpi <= finest_dpi || on_paintings) return {};
+  return fmt::format(
+      "{:.0f} dots per inch are more than people see, and what is copied becomes poor: 300 to 450, with a larger "
+      "output.sheet_width_mm or a smaller output.width, look better",
+      dpi);
+}
+
 CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePaint& paint, SheetGround& ground, TileStore::Place& place,
                         const WorkFolder& work, const Run& run) {
   CopyPlan plan;
+  if (const std::string note = fine_print_note(world.scene); !note.empty()) run.progress.note(note);
   plan.residual = world.scene.synthesis.residual;
   plan.exemplars = make_exemplars(loaded, world.view, paint.palette, std::move(paint.paintings), run.progress, run.cache);
   std::vector<Exemplar> copied_from;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "base/run.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/sheet/sheet_picture.h"
@@ -12,6 +14,9 @@ namespace belvedere {
 // Classes with too few texels are noted.
 CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePaint& paint, SheetGround& ground, TileStore::Place& place,
                         const WorkFolder& work, const Run& run);
+
+// For a print so fine that a sheet painted by the program has too little to copy, in a user's words; empty: it is none.
+std::string fine_print_note(const Scene& scene);
 
 // What a scene says of synthesis; of a guide that it does not name the default holds.
 SynthesisParameters to_synthesis_parameters(const Scene& scene);

@@ -32,7 +32,8 @@ void add_run_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--threads", options.threads, "How many processor threads to use; 0, the default, takes all. Changes no pixel")
       ->type_name("N")
       ->check(CLI::Range(0, 4096));
-  command.add_option("--memory", options.memory_mib, "Memory that the program may take; 0, the default, is three quarters of the machine's")
+  command
+      .add_option("--memory", options.memory_mib, "Memory that the program may take; 0, the default, is three quarters of the machine's")
       ->type_name("MIB")
       ->check(CLI::Range(0, 1 << 30));
   command.add_flag("--no-cache", options.no_cache, "Makes everything anew and keeps nothing; see belvedere cache list. Changes no pixel");

@@ -49,5 +49,15 @@ TEST(CopyPlan, PatchesAndSurroundingsAreTheScenes) {
     EXPECT_FALSE(test::message_of(ErrorKind::usage, [&] { test::small_scene({wrong}); }).empty()) << wrong;
 }
 
+TEST(CopyPlan, AVeryFinePrintIsNoted) {
+  const auto note = [](const std::vector<std::string>& settings) { return fine_print_note(test::small_scene(settings).scene); };
+  EXPECT_EQ(note({"output.width=20000", "output.height=8000", "output.sheet_width_mm=1200"}), "");
+  EXPECT_NE(note({"output.width=40000", "output.height=16000", "output.sheet_width_mm=1200"}).find("847 dots"), std::string::npos);
+  EXPECT_EQ(note({"output.width=40000", "output.height=16000", "output.sheet_width_mm=2400"}), "");
+  // What a painting has was drawn for its own size.
+  const std::string painting = "exemplar=[{ picture = \"p.tif\", classes = \"c.tif\" }]";
+  EXPECT_EQ(note({"output.width=40000", "output.height=16000", "output.sheet_width_mm=1200", painting}), "");
+}
+
 }  // namespace
 }  // namespace belvedere
