@@ -21,8 +21,8 @@ constexpr double window_bytes_per_pixel = 180.0;
 constexpr double wide_bytes_per_pixel = 40.0;
 constexpr double rock_bytes_per_pixel = 90.0;  // of the view from afar, thinned out, with its blurs
 // Measured: a world of 9 million cells has 1.0 GB, 24 million texels with their plan 2.0 GB.
-constexpr double ground_bytes_per_cell = 115.0;
-constexpr double copying_bytes_per_texel = 85.0;
+constexpr double standing_bytes_per_cell = 115.0;
+constexpr double standing_bytes_per_texel = 85.0;
 constexpr int part_tile_px = 256;  // of small parts of a sheet
 // Of the memory that may be used.
 constexpr double share_of_tiles = 0.15;
@@ -37,12 +37,12 @@ double cells_of(const TerrainModel& terrain) {
 
 }  // namespace
 
-double ground_bytes(const World& world) { return ground_bytes_per_cell * cells_of(world.terrain); }
+double ground_bytes(const World& world) { return standing_bytes_per_cell * cells_of(world.terrain); }
 
 double copying_bytes(const std::vector<PaintedExemplar>& exemplars) {
   double texels = 0.0;
   for (const PaintedExemplar& exemplar : exemplars) texels += static_cast<double>(exemplar.picture.size());
-  return copying_bytes_per_texel * texels;
+  return standing_bytes_per_texel * texels;
 }
 
 double copying_bytes(const Scene& scene, const std::vector<ScannedPainting>& paintings) {
@@ -58,7 +58,7 @@ double copying_bytes(const Scene& scene, const std::vector<ScannedPainting>& pai
   const bool may_have_paintings = paintings.empty() && std::any_of(scene.exemplars.begin(), scene.exemplars.end(),
                                                                    [](const SceneExemplar& exemplar) { return !exemplar.picture.empty(); });
   if (texels == 0.0 && !may_have_paintings) add_sheet({});
-  return copying_bytes_per_texel * texels;
+  return standing_bytes_per_texel * texels;
 }
 
 std::uint64_t kept_tile_bytes() { return static_cast<std::uint64_t>(share_of_tiles * static_cast<double>(memory_budget_bytes())); }
