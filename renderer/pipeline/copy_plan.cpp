@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "base/random_streams.h"
+#include "base/repeated_stages.h"
 #include "renderer/exemplar/exemplars.h"
 #include "renderer/exemplar/texture_models.h"
 #include "renderer/ground/cached_products.h"
@@ -116,7 +117,7 @@ std::string fine_print_note(const Scene& scene) {
 }
 
 CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePaint& paint, SheetGround& ground, TileStore::Place& place,
-                        const WorkFolder& work, const Run& run) {
+                        const WorkFolder& work, const Run& run, bool ground_tells) {
   CopyPlan plan;
   if (const std::string note = fine_print_note(world.scene); !note.empty()) run.progress.note(note);
   plan.residual = world.scene.synthesis.residual;
@@ -142,14 +143,16 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
   const StandingBytes standing{.ground = ground_bytes(world), .besides = copying_bytes(plan.exemplars)};
   const SynthesisSheet division = divide_sheet(sheet.x, sheet.y, std::llround(world.scene.synthesis.plan_mpx * 1e6));
   const auto choose = [&](Progress& progress) {
-    const Run told{run.threads, run.memory_bytes, run.tile_px, progress, run.cache};
     const auto reduced_guides = [&] {
+      RepeatedStages quiet(progress, false);
+      const Run told{run.threads, run.memory_bytes, run.tile_px, quiet, run.cache};
       const int factor = 1 << division.level;
       const std::unique_ptr<const Camera> camera = make_reduced_camera(*world.camera, factor);
       const SheetView view = reduced_view(world, *camera, factor);
       SheetGround small(world, view, paint.palette, place, told, choose_block_px(world.scene, view.pixels_per_unit, standing));
       return small.read_guides(small.sheet());
     };
+    if (division.level > 0 || !ground_tells) progress.begin("drafting the sheet", 0.0);
     GuideStack guides = division.level == 0 ? ground.read_guides(ground.sheet()) : reduced_guides();
     for (const ModelledClass& chosen : choose_modelled(models, copied_from, guides.label, parameters)) {
       plan.models.lit[static_cast<std::size_t>(chosen.id)] = static_cast<std::uint8_t>(chosen.lit);

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <set>
 #include <utility>
 
 #include "base/error.h"
 #include "base/grid_part.h"
+#include "base/repeated_stages.h"
 #include "renderer/image/exr/match_file.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/pipeline/copy_plan.h"
@@ -30,24 +30,6 @@ namespace {
 
 constexpr const char* notes_bytes = "notes";
 constexpr const char* origin_note = "origin";  // what positions count from
-
-// Few pieces: every stage of each is told of. Many: one bar for all of them, and what a stage remarks, once.
-class PieceProgress final : public Progress {
- public:
-  PieceProgress(Progress& outer, bool every_stage) : outer_(outer), every_stage_(every_stage) {}
-  void begin(std::string_view stage, double total) override {
-    if (every_stage_) outer_.begin(stage, total);
-  }
-  void advance(double amount) override { outer_.advance(every_stage_ ? amount : 0.0); }
-  void note(std::string_view text) override {
-    if (told_.insert(std::string(text)).second) outer_.note(text);
-  }
-
- private:
-  Progress& outer_;
-  bool every_stage_;
-  std::set<std::string> told_;
-};
 
 // What the headers of all files say.
 void keep_notes(const LoadedScene& loaded, const World& world, const WorkFolder& work) {
@@ -137,8 +119,8 @@ std::vector<MatchedPicture> pictures_of(const CopyPlan& plan) {
   return pictures;
 }
 
-CopyPlan plan_copies(const LoadedScene& loaded, SheetWork& sheet, const WorkFolder& work, const Run& run) {
-  return make_copy_plan(loaded, sheet.world, sheet.paint, sheet.ground, sheet.place, work, run);
+CopyPlan plan_copies(const LoadedScene& loaded, SheetWork& sheet, const WorkFolder& work, const Run& run, bool ground_tells) {
+  return make_copy_plan(loaded, sheet.world, sheet.paint, sheet.ground, sheet.place, work, run, ground_tells);
 }
 
 // A piece as memory allows it to be painted.
@@ -162,11 +144,11 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
   if (missing.empty() && work.has_bytes(notes_bytes)) return;
 
   const bool few = pieces.size() <= 4;
-  PieceProgress progress(run.progress, few);
+  RepeatedStages progress(run.progress, few);
   const Run stage_run{run.threads, run.memory_bytes, run.tile_px, progress, run.cache};
   SheetWork sheet(loaded, request, work, run, stage_run);
   const bool copied = is_copied(sheet.world.scene, request);
-  CopyPlan plan = copied ? plan_copies(loaded, sheet, work, run) : CopyPlan{};
+  CopyPlan plan = copied ? plan_copies(loaded, sheet, work, run, few) : CopyPlan{};
   const DrawnFeatures features =
       request.panorama ? draw_scene_features(loaded, sheet.world, sheet.ground.strokes().winter, run.progress) : DrawnFeatures{};
   if (has_legend(sheet.world.scene) && !features.empty() && !work.has_bytes(feature_legend_bytes))
@@ -212,7 +194,7 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
 
 void make_plan(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run) {
   SheetWork sheet(loaded, request, work, run, run);
-  if (is_copied(sheet.world.scene, request)) plan_copies(loaded, sheet, work, run);
+  if (is_copied(sheet.world.scene, request)) plan_copies(loaded, sheet, work, run, true);
 }
 
 }  // namespace belvedere

@@ -3,13 +3,23 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "base/repeated_stages.h"
 
 namespace belvedere {
 namespace {
 
 using testing::ElementsAre;
+
+struct All : Progress {
+  std::vector<std::string> heard;
+  void begin(std::string_view stage, double total) override { heard.push_back(std::string(stage) + " " + std::to_string(total)); }
+  void advance(double amount) override { heard.push_back(std::to_string(amount)); }
+  void note(std::string_view text) override { heard.emplace_back(text); }
+};
 
 // A stage as the library has them.
 void work(Progress& progress) {
@@ -20,12 +30,7 @@ void work(Progress& progress) {
 }
 
 TEST(Progress, WhoListensHearsEverythingInItsOrder) {
-  struct All : Progress {
-    std::vector<std::string> heard;
-    void begin(std::string_view stage, double total) override { heard.push_back(std::string(stage) + " " + std::to_string(total)); }
-    void advance(double amount) override { heard.push_back(std::to_string(amount)); }
-    void note(std::string_view text) override { heard.emplace_back(text); }
-  } all;
+  All all;
   work(all);
   EXPECT_THAT(all.heard, ElementsAre("tracing 2.000000", "1.000000", "a void is filled", "1.000000"));
 }
@@ -43,6 +48,32 @@ TEST(Progress, WhoListensToNotesNeedNotListenToMore) {
 TEST(Progress, TheSilentOneIsOneForAll) {
   EXPECT_EQ(&silent_progress(), &silent_progress());
   EXPECT_NO_THROW(work(silent_progress()));
+}
+
+TEST(RepeatedStages, OfManyPiecesAreOneStageThatTheCallerBeganAndRemarkOnce) {
+  All all;
+  RepeatedStages pieces(all, false);
+  work(pieces);
+  work(pieces);
+  EXPECT_THAT(all.heard, ElementsAre("0.000000", "a void is filled", "0.000000", "0.000000", "0.000000"));
+}
+
+TEST(RepeatedStages, OfFewPiecesAreToldOfOneByOneAndRemarkOnce) {
+  All all;
+  RepeatedStages pieces(all, true);
+  work(pieces);
+  work(pieces);
+  EXPECT_THAT(all.heard, ElementsAre("tracing 2.000000", "1.000000", "a void is filled", "1.000000",  //
+                                     "tracing 2.000000", "1.000000", "1.000000"));
+}
+
+// Whoever is told of progress stops a job by throwing when he is: that must work in silence as well.
+TEST(RepeatedStages, LetAWishToStopThrough) {
+  struct Stops : Progress {
+    void advance(double) override { throw std::runtime_error("stopped"); }
+  } stops;
+  RepeatedStages pieces(stops, false);
+  EXPECT_THROW(work(pieces), std::runtime_error);
 }
 
 }  // namespace
