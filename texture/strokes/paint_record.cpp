@@ -5,8 +5,8 @@
 
 namespace belvedere {
 
-PaintRecord::PaintRecord(const Painting& painting, const GuidanceBuffers& guidance, PixelRect tile)
-    : guidance_(guidance), tile_(tile), layers_(tile.x1 - tile.x0, tile.y1 - tile.y0) {
+PaintRecord::PaintRecord(const Painting& painting, const GuidanceBuffers& guidance, PixelRect tile, bool keep_shores)
+    : guidance_(guidance), tile_(tile), keep_shores_(keep_shores), layers_(tile.x1 - tile.x0, tile.y1 - tile.y0) {
   for (int y = tile.y0; y < tile.y1; ++y)
     for (int x = tile.x0; x < tile.x1; ++x) {
       const float under = static_cast<float>(painting.under_share(x, y)) / 255.F;
@@ -21,7 +21,7 @@ void PaintRecord::cover(int x, int y, const Stroke& stroke, std::uint32_t number
     here.stroke = number;
     here.stroke_share = alpha;
   }
-  if (guidance_.land_cover(x, y) == LandCoverClass::water) return;
+  if (keep_shores_ && guidance_.land_cover(x, y) == LandCoverClass::water) return;
   const LandCoverClass paint = guidance_.land_cover[stroke.source];
   here.share *= 1.F - alpha;
   here.under_share *= 1.F - alpha;

@@ -12,11 +12,12 @@ namespace belvedere {
 
 // Whose paint lies on the pixels of one tile: the class whose paint lies thickest, the one that shows most beside it, and the stroke on
 // top. A layer of another class hides what lies below by its opacity, one of the same class adds to it; of three classes on one pixel the
-// thinnest is forgotten. Water keeps its shores: a brook that grass leans over is still one line.
+// thinnest is forgotten. Water may keep its shores: a brook that grass leans over is still one line.
 class PaintRecord {
  public:
   // Takes up what the painting holds: two classes in their shares, and one thick layer where a stroke lies on top.
-  PaintRecord(const Painting& painting, const GuidanceBuffers& guidance, PixelRect tile);
+  // keep_shores: paint of others on water is not recorded (SheetWindow::keep_shores).
+  PaintRecord(const Painting& painting, const GuidanceBuffers& guidance, PixelRect tile, bool keep_shores = true);
 
   // A stroke, number `number`, lays paint of opacity alpha on pixel x, y of the canvas.
   void cover(int x, int y, const Stroke& stroke, std::uint32_t number, float alpha);
@@ -36,6 +37,7 @@ class PaintRecord {
 
   const GuidanceBuffers& guidance_;
   PixelRect tile_;
+  bool keep_shores_;
   Grid<Layers> layers_;
 };
 

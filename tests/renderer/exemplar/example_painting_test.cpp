@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <utility>
+
 #include "tests/renderer/world/small_world.h"
 
 namespace belvedere {
@@ -59,6 +62,22 @@ TEST_F(ExamplePaintings, ClassAndColourOfPaintAreThoseOfThePlaceItGrewFrom) {
   const PaintedClasses classes = classes_of_paint(guidance, guidance.ground_from);
   for (std::size_t i = 0; i < guidance.ground_from.size(); ++i)
     ASSERT_EQ(classes.land_cover[i], guidance.land_cover[guidance.ground_from[i]]) << i;
+}
+
+// Grass that leans over a brook must not be copied into rivers.
+TEST_F(ExamplePaintings, WaterUnderThePaintOfItsBanksIsToldOfAsThatPaint) {
+  LitPicture picture = lit();
+  for (int y = 60; y < 64; ++y)
+    for (int x = 0; x < 96; ++x) picture.guidance.land_cover(x, y) = LandCoverClass::water;
+  const GuidanceBuffers g = paint_example(world_, palette_, std::move(picture), {}, silent_progress()).guidance;
+  const auto covered = [&](const Grid<std::uint32_t>& from) {
+    int count = 0;
+    for (std::size_t i = 0; i < from.size(); ++i)
+      count += g.land_cover[i] == LandCoverClass::water && g.land_cover[from[i]] != LandCoverClass::water ? 1 : 0;
+    return count;
+  };
+  EXPECT_GT(covered(g.ground_from), 0);
+  EXPECT_GT(covered(g.painted_from), 0);
 }
 
 }  // namespace

@@ -67,6 +67,25 @@ TEST(Brush, TellsWhosePaintLiesOnAPixel) {
   EXPECT_EQ(sources(45, 20), g.depth_m.index(45, 20)) << "water keeps its shores";
 }
 
+// What is copied as water must look like water, however it was traced.
+TEST(Brush, TellsOfPaintOnWaterWhereShoresAreNotKept) {
+  const GuidanceBuffers g = border_guidance();
+  const auto painted = [&](float alpha) {
+    Stroke grass = horizontal_stroke();
+    grass.alpha = alpha;
+    grass.source = static_cast<std::uint32_t>(g.depth_m.index(10, 20));
+    Painting painting = begin_painting(Grid<glm::vec3>(g.width(), g.height(), glm::vec3(0.F)));
+    paint_in_order(painting, g, {grass}, 1.0, silent_progress(), {.keep_shores = false});
+    return painting;
+  };
+  const auto grass = static_cast<std::uint32_t>(g.depth_m.index(10, 20));
+  EXPECT_EQ(painted(0.8F).sources(45, 20), grass);
+  const Painting thin = painted(0.4F);
+  EXPECT_EQ(thin.sources(45, 20), g.depth_m.index(45, 20));
+  EXPECT_EQ(thin.under(45, 20), grass);
+  EXPECT_EQ(thin.under_share(45, 20), 102) << ".4 of 255";
+}
+
 TEST(Brush, ThinPaintDoesNotHideWhatLiesBelow) {
   const GuidanceBuffers g = border_guidance();
   Stroke grass = horizontal_stroke();
