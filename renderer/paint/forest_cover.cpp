@@ -27,7 +27,8 @@ constexpr double clump_sigma_units = 4.5;
 constexpr double track_sigma_units = 3.0;
 constexpr double stand_sigma_units = 20.0;
 constexpr double settled_sigma_units = 45.0;  // neighbourhoods that were cleared, and others that were left alone
-constexpr double frayed_sigma_units = 1.6;    // of the borders of glades
+constexpr double frayed_sigma_units = 1.6;    // of the borders of glades and tracks
+constexpr float ragged_steps = 2.0F;          // by which a track reaches farther for one deviation of that noise
 constexpr double high_grass_m = 1600.0;       // above, the grass of glades is that of the heights
 
 // Noise that lies on the ground and yet has patches of one size on the sheet: of the two octaves next to the requested size, mixed so that
@@ -104,15 +105,15 @@ ForestCover make_forest_cover(const GuidanceBuffers& g, const WideView& wide, co
           0.72F * glades(place.x, place.y, glade_sigma_units * metres) + 0.40F * clump + 0.16F * frayed + 0.62F * settled + site;
       float glade = smoothstep(1.46F, 1.60F, glade_noise);
       float thin = 0.0F;
-      if (up.left_after > 0 && has_trait(wide.seen.land_cover[up.end], ClassTrait::open_high)) {
+      if (up.left_after > 0.0F && has_trait(wide.seen.land_cover[up.end], ClassTrait::open_high)) {
         // The treeline frays: groups run up into the open, gaps reach down.
-        const float nearness = 1.0F - static_cast<float>(up.left_after) / 14.0F;
+        const float nearness = 1.0F - up.left_after / 14.0F;
         if (nearness > 0.0F) thin = nearness * std::clamp(0.62F - 0.45F * clump, 0.1F, 1.0F);
         // What starts at one gap of the treeline is one track, straight down to where the slope or its force ends.
-        const glm::dvec3 head = glm::dvec3(wide.seen.position_m[up.end]) + g.origin_m;
+        const glm::dvec3 head = glm::dvec3(place_left(wide, start, up)) + g.origin_m;
         const float force = tracks(head.x, head.y, track_sigma_units * metres) + 0.02F * (slope - 28.0F);
         const float reach = 14.0F * (force - 0.75F);  // steps
-        if (slope > 18.0F) glade = std::max(glade, smoothstep(-0.5F, 1.5F, reach - static_cast<float>(up.left_after)));
+        if (slope > 18.0F) glade = std::max(glade, smoothstep(-0.5F, 1.5F, reach - up.left_after + ragged_steps * frayed));
       }
       // Whole stands are lighter than others; in some, on steep ground, lanes run down.
       const float stand = stands(place.x, place.y, stand_sigma_units * metres);

@@ -48,8 +48,8 @@ ScreeFans make_scree_fans(const GuidanceBuffers& g, const WideView& wide, const 
       const SlopeStart start{origin_px + glm::ivec2(x, y), g.fall_line[i], g.depth_m[i]};
       const SlopeWalk up = walk_slope(wide, noise, start, Class::scree, {step_px, -1.0F, steps, streak_steps});
       const SlopeWalk down = walk_slope(wide, noise, start, Class::scree, {step_px, 1.0F, steps, streak_steps});
-      const auto above = static_cast<float>(up.left_after > 0 ? up.left_after : steps + 1);
-      const auto below = static_cast<float>(down.left_after > 0 ? down.left_after : steps + 1);
+      const float above = up.left_after > 0.0F ? up.left_after : static_cast<float>(steps + 1);
+      const float below = down.left_after > 0.0F ? down.left_after : static_cast<float>(steps + 1);
       fans.place[i] = above / (above + below);
       fans.streak[i] = (noise[wide.index(start.sheet_px.x, start.sheet_px.y)] + up.noise_sum + down.noise_sum) / streak_deviation;
     }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "renderer/trace/wide_view.h"
 
@@ -23,12 +24,16 @@ struct SlopeSteps {
 };
 // What lies along it. Places are relative to the pixel, so that rounding does not depend on the part of the picture.
 struct SlopeWalk {
-  float noise_sum = 0.0F;  // without the pixel itself
-  int left_after = 0;      // steps after which the class ended, 0: it did not
-  std::size_t end = 0;     // the first wide pixel beyond
+  float noise_sum = 0.0F;   // without the pixel itself
+  float left_after = 0.0F;  // steps after which the class ended, to a sixteenth of one; 0: it did not
+  std::size_t end = 0;      // a wide pixel beyond, close to where it ended, …
+  glm::vec2 end_px{0.0F};   // … which is so far from the pixel where the walk began, px of the sheet
 };
 
 // `noise`: of wide pixels.
 SlopeWalk walk_slope(const WideView& wide, const Grid<float>& noise, const SlopeStart& start, LandCoverClass over, const SlopeSteps& way);
+// The place where a walk left its class, m from the guidance's origin: between the middles of wide pixels, so that neighbours which leave
+// it at neighbouring places have no stairs of wide pixels between them.
+glm::vec3 place_left(const WideView& wide, const SlopeStart& start, const SlopeWalk& walk);
 
 }  // namespace belvedere
