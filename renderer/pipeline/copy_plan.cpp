@@ -102,8 +102,8 @@ SynthesisParameters to_synthesis_parameters(const Scene& scene) {
   return parameters;
 }
 
-// Strokes are sized for the paper. Where they have very many pixels, a sheet of examples of the largest size shows so little ground between
-// them that what is narrow, rivers first, gets the paint of its banks.
+// Strokes are sized for the paper. Where they have very many pixels, each view of the largest sheet of examples is but a few strokes wide,
+// and large parts of a print are copied from the same ones.
 std::string fine_print_note(const Scene& scene) {
   constexpr double finest_dpi = 600.0;
   const double dpi = scene.output.width / scene.output.sheet_width_mm * 25.4;
