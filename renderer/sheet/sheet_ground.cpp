@@ -124,6 +124,7 @@ SheetGround::SheetGround(const World& world, const SheetView& view, const Palett
       view_(view),
       palette_(palette),
       run_(run),
+      place_(place),
       rock_parameters_(to_rock_parameters(world, palette, view)),
       tone_parameters_(to_tone_parameters(world, palette, view)),
       base_parameters_(to_base_parameters(world, view, palette)),
@@ -284,9 +285,14 @@ Grid<float> SheetGround::make_tone_tile(PixelRect tile) {
                    moved(tile, -window.x0, -window.y0));
 }
 
+bool SheetGround::shows_water(PixelRect rect) {
+  const Grid<LandCoverClass> shown = read_guidance(rect, {&B::land_cover}, false).land_cover;
+  place_.maker_holds = false;  // it is let go
+  return std::find(shown.begin(), shown.end(), LandCoverClass::water) != shown.end();
+}
+
 BasePicture SheetGround::make_base(PixelRect tile) {
-  const Grid<LandCoverClass> shown = read_guidance(tile, {&B::land_cover}, false).land_cover;
-  const bool has_water = std::find(shown.begin(), shown.end(), LandCoverClass::water) != shown.end();
+  const bool has_water = shows_water(tile);
   const PixelRect window = intersection(sheet(), base_window(tile, has_water, base_parameters_));
   prepare_guidance(window, true, true);
   const Wide wide = read_wide(grown(tile, base_margin_px(base_parameters_)));

@@ -85,6 +85,7 @@ class SheetGround {
   // The same for rock, at about a pixel a unit, with normals and footprints.
   Wide read_far(PixelRect rect);
   Grid<float> make_tone_tile(PixelRect tile);
+  bool shows_water(PixelRect rect);
   BasePicture make_base(PixelRect tile);
   PaintDraft make_draft(PixelRect tile);
 
@@ -92,6 +93,7 @@ class SheetGround {
   const SheetView view_;
   const Palette& palette_;
   const Run& run_;
+  TileStore::Place& place_;
   const RockParameters rock_parameters_;
   const ToneParameters tone_parameters_;
   const BaseParameters base_parameters_;

@@ -55,6 +55,7 @@ class SheetStage {
       make_missing(column, row, part);
       store_.get(column, row, part, rect.x0, rect.y0, wanted);
     });
+    place_.maker_holds = true;
   }
   // `still`: the part of the sheet that will yet be asked for. Forgets tiles that touch nothing of it, and makes others within it alone.
   // What is asked for outside of it all the same is made again, with its whole tile.
@@ -85,7 +86,12 @@ class SheetStage {
   void make_missing(int column, int row, PixelRect part) {
     if (store_.has(column, row, part)) return;
     const PixelRect within = part_to_make(store_.rect(column, row), part);
+    if (place_.makers > 0 && place_.maker_holds) ++place_.made_around;
+    const bool outer_holds = std::exchange(place_.maker_holds, false);
+    ++place_.makers;
     Product tile = making_.make(within);
+    --place_.makers;
+    place_.maker_holds = outer_holds;
     store_.put(column, row, within, making_.planes(tile));
   }
 

@@ -20,6 +20,9 @@ class TileStore {
     std::string folder;
     std::uint64_t memory_bytes = 0;  // still free
     int asked_beyond = 0;            // rectangles that reached beyond what SheetStage::keep_only had said
+    int made_around = 0;             // tiles made while the maker of another held windows already: nobody had prepared them
+    int makers = 0;                  // that are at work, one for the other
+    bool maker_holds = false;        // whether the innermost of them has read windows that it did not let go
   };
   // value_bytes: of each plane. `place` must outlive the store.
   TileStore(Place& place, int sheet_width, int sheet_height, int tile_px, std::vector<std::size_t> value_bytes);

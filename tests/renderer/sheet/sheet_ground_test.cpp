@@ -195,6 +195,16 @@ TEST_P(PrintGroundTest, APartLooksAtNoMoreThanItSays) {
   EXPECT_GT(place_.asked_beyond, 0) << "what is asked for beyond it comes all the same";
 }
 
+// Memory: the windows of a stage never stand around those of the stages behind it (SheetStage::prepare).
+TEST_P(PrintGroundTest, NoStageHoldsWindowsWhileAnotherIsMade) {
+  const PixelRect rect{590, 560, 650, 620};
+  SheetGround ground(world_, view_of(world_), palette_, place_, run_, 64);
+  ground.read_draft(rect);
+  ground.read_guides(rect);
+  ground.read_all_guidance(rect);
+  EXPECT_EQ(place_.made_around, 0);
+}
+
 // 4 and 6 pixels a unit: wide pixels of 2 × 2 and 3 × 3.
 INSTANTIATE_TEST_SUITE_P(Prints, PrintGroundTest, testing::Values("output.sheet_width_mm=137.5", "output.sheet_width_mm=91.6"));
 

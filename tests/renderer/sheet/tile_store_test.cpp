@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <functional>
+#include <utility>
 
 #include "renderer/sheet/sheet_stage.h"
 #include "tests/files.h"
@@ -125,6 +127,37 @@ TEST_P(SheetStageMemory, ProductsOfWholeTilesAreMadeWhole) {
   stage.expect({33, 20, 34, 30});
   EXPECT_EQ(stage.made, 1);
   EXPECT_EQ(stage.pixels, 16 * 16);
+}
+
+// A maker that reads two other products: the second is made around the windows of the first unless it was prepared before.
+TEST(SheetStage, CountsTilesThatAreMadeAroundWindows) {
+  const test::Folder folder;
+  const auto made_around = [&](bool with_first, bool second_prepared) {
+    TileStore::Place place{folder.path(), 1U << 20U};
+    const auto making = [](std::function<Product(PixelRect)> make) {
+      return SheetStage<Product>::Making{.make = std::move(make),
+                                         .blank =
+                                             [](int w, int h) {
+                                               return Product{Grid<std::uint32_t>(w, h), Grid<std::uint8_t>(w, h)};
+                                             },
+                                         .planes =
+                                             [](Product& p) {
+                                               return Planes{plane_of(p.place), plane_of(p.column)};
+                                             }};
+    };
+    SheetStage<Product> first(place, 70, 45, 16, making(product_of));
+    SheetStage<Product> second(place, 70, 45, 16, making(product_of));
+    SheetStage<Product> both(place, 70, 45, 16, making([&](PixelRect tile) {
+                               if (second_prepared) second.prepare(tile);
+                               if (with_first) first.read(tile);
+                               return second.read(tile);
+                             }));
+    both.read({0, 0, 33, 16});
+    return place.made_around;
+  };
+  EXPECT_EQ(made_around(true, false), 3);
+  EXPECT_EQ(made_around(true, true), 0);
+  EXPECT_EQ(made_around(false, false), 0) << "nothing is held when the only one is made";
 }
 
 // Nothing, two tiles, everything.
