@@ -51,7 +51,7 @@ struct GuidanceBuffers {
   Image base;                      // strokeless base picture, scene-linear
   // Of a painting whose strokes are known. Strokes overlap the borders of classes, so what a pixel shows is not always what stands there.
   Grid<LandCoverClass> painted_class;  // whose paint lies thickest
-  Grid<std::uint32_t> painted_from;    // row-major index of a pixel of that class that the paint grew from; base colour and class are its
+  Grid<std::uint32_t> painted_from;    // row-major index of the pixel of that class that its thickest stroke grew from
   Grid<std::uint32_t> stroke;          // number of the stroke on top, from 1; 0 is bare canvas
   Grid<std::uint32_t> ground_from;     // as painted_from, in the layer without trees and houses
 

@@ -10,8 +10,7 @@ namespace belvedere {
 ExamplePainting paint_example(const World& world, const Palette& palette, LitPicture picture, const ExampleLayers& layers,
                               Progress& progress) {
   const StrokeParameters strokes = to_stroke_parameters(world, palette);
-  // What is copied as water must look like water.
-  const SheetWindow whole{.keep_shores = false};
+  const SheetWindow whole{.to_copy_from = true};
   ExamplePainting example;
   Painting ground_layer =
       paint_strokes(picture.base.colour, picture.guidance, picture.base,

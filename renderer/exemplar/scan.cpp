@@ -85,7 +85,7 @@ void check_same_painting(const FileNotes& picture, const FileNotes& guidance, co
               "the guidance.exr that was written with the picture");
 }
 
-// A painting the program painted knows where its paint grew: class and base colour are those of that place. The file of the layer without
+// A painting the program painted knows where its paint grew: class and base colour go by that place. The file of the layer without
 // trees says in its header that it is that.
 void take_paint(const SceneExemplar& settings, const LoadedScene& scene, GuidanceBuffers& guidance) {
   const FileNotes notes = read_image_info(find_scene_file(scene, settings.picture)).notes;

@@ -48,6 +48,17 @@ void for_each_pixel(const G& grid, F&& f) {
 // Value 0…1 in 256 steps.
 std::uint8_t quantize(float share) { return static_cast<std::uint8_t>(std::floor(std::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F)); }
 
+// Strokes carry the colour of where they grew some way over their class. So much of it, encoded sRGB of the channel that differs most, is
+// the life of paint and is copied with it. The rest is a border of fields or of light that a stroke reached over: on a base that has its
+// own borders it would be a speck of a colour that nothing has.
+constexpr float carried_colour = 0.06F;
+
+// What is left of a difference when `most` is taken off its largest component, the others in proportion.
+glm::vec3 beyond(glm::vec3 difference, float most) {
+  const float largest = std::max({std::abs(difference.x), std::abs(difference.y), std::abs(difference.z)});
+  return largest > most ? difference * (1.0F - most / largest) : glm::vec3(0.0F);
+}
+
 }  // namespace
 
 std::span<const GuideKind> guide_kinds() { return kinds; }
@@ -69,7 +80,8 @@ PaintedClasses find_painted_classes(const Grid<std::uint32_t>& sources, const Gu
   for_each_pixel(sources, [&](std::size_t i) {
     const std::uint32_t source = sources[i];
     painted.land_cover[i] = guidance.land_cover[source];
-    if (guidance.land_cover[i] != painted.land_cover[i]) painted.base[i] = base[source];
+    const bool over_border = guidance.land_cover[i] != painted.land_cover[i];
+    painted.base[i] = over_border ? base[source] : base[i] + beyond(base[source] - base[i], carried_colour);
   });
   return painted;
 }

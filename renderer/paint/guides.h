@@ -30,7 +30,8 @@ std::vector<std::string> guide_names();
 std::vector<std::pair<std::string, double>> default_guide_weights();
 
 // Strokes overlap the borders of classes: rock flecks lie on snow, grass reaches into scree. What counts for copying is whose paint a pixel
-// shows, in the exemplar and in the target alike: labels of the painted class, and the base colour of where that paint came from.
+// shows, in the exemplar and in the target alike: labels of the painted class, and the base colour of where that paint came from; within a
+// class the pixel's own, as far as strokes carry their colour.
 struct PaintedClasses {
   Grid<LandCoverClass> land_cover;
   Grid<glm::vec3> base;  // encoded sRGB

@@ -267,7 +267,7 @@ void paint_in_order(Painting& painting, const GuidanceBuffers& guidance, std::ve
     const auto t =
         static_cast<std::size_t>(part.y0 / tile_px) * static_cast<std::size_t>(across) + static_cast<std::size_t>(part.x0 / tile_px);
     const PixelRect tile{asked.x0 + part.x0, asked.y0 + part.y0, asked.x0 + part.x1, asked.y0 + part.y1};
-    PaintRecord record(painting, guidance, tile, window.keep_shores);
+    PaintRecord record(painting, guidance, tile, window.to_copy_from);
     for (const std::uint32_t s : tiles[t])
       paint_stroke(strokes[ranked[s]], first_number + s, window, tile, painting, record, parts, guidance,
                    static_cast<float>(pixels_per_unit));

@@ -27,7 +27,8 @@ struct SheetWindow {
   PixelRect asked{};                     // pixels of the buffers that are wanted, the others may be left unpainted; empty: all
   const IcePlan* ice = nullptr;          // how ice runs on the whole sheet; null: told by the buffers, which then must hold all of it
   bool waters_known = false;             // a map gives rivers: they are narrow, and paint of their banks keeps off them
-  bool keep_shores = true;               // Painting::sources has water where its banks' paint covers it: rivers of a draft stay whole
+  bool to_copy_from = false;             // Painting::sources tells of the very strokes, also within a class and on water; else the pixel
+                                         // itself counts for paint of its class, and water for what leans over it: rivers stay whole
   const Grid<float>* veil = nullptr;     // of the buffers' pixels: share of mist before them, 0…1; null: there is none
   const MappedGround* mapped = nullptr;  // null: nothing is known, and what stands is not told
 };

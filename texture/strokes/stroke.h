@@ -56,8 +56,9 @@ struct Stroke {
 // A picture with the origin of its paint. Strokes overlap the borders of classes, so what a pixel shows is often not what stands there.
 struct Painting {
   Grid<glm::vec3> picture;  // encoded sRGB
-  Grid<std::uint32_t>
-      sources;  // index of a pixel of the class whose paint lies thickest on each pixel: the pixel itself where that is its own
+  // Index of a pixel of the class whose paint lies thickest on each pixel: where the thickest of its strokes grew, or the pixel itself
+  // where the class is its own (SheetWindow::to_copy_from).
+  Grid<std::uint32_t> sources;
   // Where two classes share a pixel: a pixel that the other class's paint grew from, itself where there is none, and how much of it
   // shows, in 255ths of the two: at most half.
   Grid<std::uint32_t> under;

@@ -68,14 +68,14 @@ TEST(Brush, TellsWhosePaintLiesOnAPixel) {
 }
 
 // What is copied as water must look like water, however it was traced.
-TEST(Brush, TellsOfPaintOnWaterWhereShoresAreNotKept) {
+TEST(Brush, TellsOfPaintOnWaterWhereItIsToBeCopied) {
   const GuidanceBuffers g = border_guidance();
   const auto painted = [&](float alpha) {
     Stroke grass = horizontal_stroke();
     grass.alpha = alpha;
     grass.source = static_cast<std::uint32_t>(g.depth_m.index(10, 20));
     Painting painting = begin_painting(Grid<glm::vec3>(g.width(), g.height(), glm::vec3(0.F)));
-    paint_in_order(painting, g, {grass}, 1.0, silent_progress(), {.keep_shores = false});
+    paint_in_order(painting, g, {grass}, 1.0, silent_progress(), {.to_copy_from = true});
     return painting;
   };
   const auto grass = static_cast<std::uint32_t>(g.depth_m.index(10, 20));
@@ -84,6 +84,23 @@ TEST(Brush, TellsOfPaintOnWaterWhereShoresAreNotKept) {
   EXPECT_EQ(thin.sources(45, 20), g.depth_m.index(45, 20));
   EXPECT_EQ(thin.under(45, 20), grass);
   EXPECT_EQ(thin.under_share(45, 20), 102) << ".4 of 255";
+}
+
+// Three strokes of grass on grass, .5, .6 and .2: on top lie .5 · .4 · .8 = .16, .6 · .8 = .48 and .2 of them.
+TEST(Brush, TellsOfTheThickestStrokeOfAClassWhereItIsToBeCopied) {
+  const GuidanceBuffers g = border_guidance();
+  std::vector<Stroke> strokes(3, horizontal_stroke());
+  const float alphas[] = {0.5F, 0.6F, 0.2F};
+  for (int i = 0; i < 3; ++i) {
+    strokes[static_cast<std::size_t>(i)].alpha = alphas[i];
+    strokes[static_cast<std::size_t>(i)].source = static_cast<std::uint32_t>(g.depth_m.index(10 + i, 20));
+    strokes[static_cast<std::size_t>(i)].order = static_cast<float>(3 - i);
+  }
+  Painting painting = begin_painting(Grid<glm::vec3>(g.width(), g.height(), glm::vec3(0.F)));
+  paint_in_order(painting, g, strokes, 1.0, silent_progress(), {.to_copy_from = true});
+  EXPECT_EQ(painting.sources(20, 19), g.depth_m.index(11, 20));
+  EXPECT_EQ(painting.under_share(20, 19), 0) << "all of one class";
+  EXPECT_EQ(painting.sources(20, 30), g.depth_m.index(20, 30)) << "bare canvas";
 }
 
 TEST(Brush, ThinPaintDoesNotHideWhatLiesBelow) {
