@@ -79,7 +79,7 @@ Grid<float> bare_around(const WideView& wide, double wide_ppu, PixelRect window)
   }
   const PixelRect asked = moved(wide_rect(window, wide.factor), -wide.origin_px.x, -wide.origin_px.y);
   return blur_on_surface(bare, wide.seen.depth_m, tongue_sigma_units * wide_ppu,
-                         intersection({0, 0, bare.width(), bare.height()}, grown(asked, 1)));
+                         intersection({0, 0, bare.width(), bare.height()}, surface_look(asked)));
 }
 
 Surroundings look_around(const GuidanceBuffers& g, const WideView& wide, const Palette& palette, const BaseParameters& p,
@@ -376,7 +376,7 @@ int base_margin_px(const BaseParameters& parameters) {
   // The blur, and the sky's look down at the terrain; beyond, what lies between the middles of wide pixels.
   const int ranges = factor * (2 * blur_reach_px(range_sigma_units * ppu / factor) + 2);
   const int woods = factor * (blur_reach_px(krummholz_sigma_units * ppu / factor) + 2);
-  const int ice = factor * (surface_reach_px(tongue_sigma_units * ppu / factor) + 3);
+  const int ice = factor * (surface_reach_px(tongue_sigma_units * ppu / factor) + surface_look_rows + 3);
   const int waters = std::max(reflection_margin_px(ppu), surface_reach_px(brook_sigma_units * ppu));
   return std::max({ranges, woods, ice, waters, forest_cover_margin_px(ppu) + factor, scree_fans_margin_px(ppu) + factor}) +
          3 * static_cast<int>(std::ceil(ppu)) + 2;

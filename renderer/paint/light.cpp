@@ -188,13 +188,13 @@ Grid<float> sides_of(const Grid<GroundLight>& lights) {
   return sides;
 }
 
-// How much forest lies around each wide pixel that touches a rectangle of the sheet, 0…1; other pixels hold 0.
+// How much forest lies around each wide pixel that a rectangle of the sheet looks at, 0…1; other pixels hold 0.
 Grid<float> woods_around(const WideView& wide, double pixels_per_unit, PixelRect sheet_rect) {
   Grid<float> woods(wide.seen.width(), wide.seen.height(), 0.0F);
   for (std::size_t i = 0; i < woods.size(); ++i) woods[i] = wide.seen.land_cover[i] == LandCoverClass::forest ? 1.0F : 0.0F;
   const PixelRect asked = moved(wide_rect(sheet_rect, wide.factor), -wide.origin_px.x, -wide.origin_px.y);
   return blur_on_surface(woods, wide.seen.depth_m, outcrop_sigma_units * pixels_per_unit / wide.factor,
-                         intersection({0, 0, woods.width(), woods.height()}, asked));
+                         intersection({0, 0, woods.width(), woods.height()}, surface_look(asked)));
 }
 
 }  // namespace
@@ -320,7 +320,7 @@ int tone_near_margin_px(const ToneParameters& parameters) {
 int tone_margin_px(const ToneParameters& parameters) {
   const double ppu = parameters.pixels_per_unit;
   const int factor = wide_factor(ppu);
-  const int blur = factor * (surface_reach_px(outcrop_sigma_units * ppu / factor) + 2);
+  const int blur = factor * (surface_reach_px(outcrop_sigma_units * ppu / factor) + surface_look_rows + 3);
   const int looked_up = std::max(rib_margin_px(ppu), blur) + below_crest_px(ppu) + 1;
   return std::max(looked_up, tone_near_margin_px(parameters));
 }

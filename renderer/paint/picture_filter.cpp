@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/grid_part.h"
@@ -152,6 +153,17 @@ Between between(int sheet, int factor, int origin, int count) {
           static_cast<float>(twice - first * 2 * factor) / static_cast<float>(2 * factor)};
 }
 
+// The row of a column of wide pixels, nearest to `middle`, that lies on the surface at a depth, the one beneath before the one above it:
+// what rose was lower. -1: none within surface_look_rows.
+int row_on_surface(const WideView& wide, int x, int middle, float depth_m) {
+  const auto lies_on = [&](int y) { return y >= 0 && y < wide.seen.height() && same_surface(depth_m, wide.seen.depth_m(x, y)); };
+  for (int away = 0; away <= surface_look_rows; ++away) {
+    if (lies_on(middle + away)) return middle + away;
+    if (lies_on(middle - away)) return middle - away;
+  }
+  return -1;
+}
+
 }  // namespace
 
 Grid<float> blur_on_surface(const Grid<float>& values, const Grid<float>& depth_m, double sigma_px, PixelRect wanted) {
@@ -267,7 +279,7 @@ Grid<float> enlarge(const WideView& wide, const Grid<float>& values, PixelRect r
 }
 
 float value_on_surface(const WideView& wide, const Grid<float>& values, int sheet_x, int sheet_y, float depth_m) {
-  if (wide.factor == 1) return values[wide.index(sheet_x, sheet_y)];
+  if (wide.factor == 1) return values[index_on_surface(wide, sheet_x, sheet_y, depth_m)];
   const Between columns = between(sheet_x, wide.factor, wide.origin_px.x, values.width());
   const Between rows = between(sheet_y, wide.factor, wide.origin_px.y, values.height());
   float sum = 0.0F;
@@ -281,7 +293,18 @@ float value_on_surface(const WideView& wide, const Grid<float>& values, int shee
   add(columns.high, rows.low, columns.share * (1.0F - rows.share));
   add(columns.low, rows.high, (1.0F - columns.share) * rows.share);
   add(columns.high, rows.high, columns.share * rows.share);
+  if (total > 0.0F) return sum / total;
+  const int middle = wide.row(sheet_y);
+  for (const auto& [x, weight] : {std::pair(columns.low, 1.0F - columns.share), std::pair(columns.high, columns.share)})
+    if (const int y = row_on_surface(wide, x, middle, depth_m); y >= 0) add(x, y, weight);
   return total > 0.0F ? sum / total : values[wide.index(sheet_x, sheet_y)];
+}
+
+std::size_t index_on_surface(const WideView& wide, int sheet_x, int sheet_y, float depth_m) {
+  const int x = wide.column(sheet_x);
+  const int y = wide.row(sheet_y);
+  const int found = row_on_surface(wide, x, y, depth_m);
+  return wide.seen.depth_m.index(x, found >= 0 ? found : y);
 }
 
 }  // namespace belvedere

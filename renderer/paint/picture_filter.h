@@ -32,7 +32,16 @@ int blur_reach_px(double sigma_px);
 
 // Values of wide pixels at the pixels of a rectangle of the sheet, bilinearly between their middles.
 Grid<float> enlarge(const WideView& wide, const Grid<float>& values, PixelRect sheet_rect);
-// The same at one pixel, from those wide pixels alone that lie on the surface at `depth_m`; the one that holds it where there is none.
+// The same at one pixel, from those wide pixels alone that lie on the surface at `depth_m`. Where none of the four around does, for a crest
+// of rock rises above where the wide view saw it, from the nearest in their columns; the one that holds the pixel where there is none.
+// Reach: surface_look_rows wide pixels up and down.
 float value_on_surface(const WideView& wide, const Grid<float>& values, int sheet_x, int sheet_y, float depth_m);
+// The wide pixel nearest to a pixel, up or down, that lies on its surface; the one that holds it where there is none.
+std::size_t index_on_surface(const WideView& wide, int sheet_x, int sheet_y, float depth_m);
+inline constexpr int surface_look_rows = 18;  // crests rise 4.4 units, of four wide pixels at most
+// All wide pixels that are looked at for those of a rectangle.
+inline PixelRect surface_look(PixelRect asked) {
+  return {asked.x0 - 1, asked.y0 - surface_look_rows - 1, asked.x1 + 1, asked.y1 + surface_look_rows + 1};
+}
 
 }  // namespace belvedere

@@ -152,7 +152,7 @@ float rock_share(const RockScene& s, glm::vec2 sheet_px, float depth_m) {
 
 RockPlace border_place(const RockScene& s, const RockPixel& p, int x, int y, float rock, const SpurHits& hits, float funnel) {
   const glm::vec2 sheet_px(s.origin_px + glm::ivec2(x, y));
-  const glm::vec2 reach = s.view.fall[s.wide.index(s.origin_px.x + x, s.origin_px.y + y)] * (above_units * p.scale);
+  const glm::vec2 reach = s.view.fall[index_on_surface(s.wide, s.origin_px.x + x, s.origin_px.y + y, p.depth_m)] * (above_units * p.scale);
   RockPlace place;
   place.mapped = s.guidance.land_cover(x, y);
   place.slope_deg = p.slope_deg;
@@ -187,7 +187,8 @@ RockScene look_at_rock(const GuidanceBuffers& guidance, const RockView& view, co
   const int reach_px = static_cast<int>(std::ceil((above_units + 2.0) * ppu));
   const PixelRect asked = wide_rect(grown(moved(made, origin_px.x, origin_px.y), reach_px), s.wide.factor);
   s.around = look_around_rock(
-      s.wide, ppu, intersection({0, 0, view.thin.width(), view.thin.height()}, moved(asked, -s.wide.origin_px.x, -s.wide.origin_px.y)));
+      s.wide, ppu,
+      intersection({0, 0, view.thin.width(), view.thin.height()}, surface_look(moved(asked, -s.wide.origin_px.x, -s.wide.origin_px.y))));
   s.shadow = blur_on_surface(guidance.shadow, guidance.depth_m, shadow_blur_units * ppu, made);
   s.sky_view = blur_on_surface(guidance.sky_view, guidance.depth_m, sky_blur_units * ppu, made);
   const auto noise = [&](Stream stream, double sigma_x, double sigma_y, std::uint64_t part = 0) {
@@ -305,7 +306,8 @@ int rock_near_margin_px(const RockParameters& parameters) {
 int rock_margin_px(const RockParameters& parameters) {
   const double ppu = parameters.light.pixels_per_unit;
   const int factor = rock_factor(ppu);
-  const int around = static_cast<int>(std::ceil((above_units + 2.0) * ppu)) + factor * (rock_around_reach(ppu, factor) + 3);
+  const int around =
+      static_cast<int>(std::ceil((above_units + 2.0) * ppu)) + factor * (rock_around_reach(ppu, factor) + surface_look_rows + 4);
   const int apron = static_cast<int>(std::ceil(apron_units * ppu)) + factor;
   const int spurs = rock_view_margin_px(parameters) + static_cast<int>(std::ceil(cast_reach_units * ppu));
   return std::max({spurs, around, apron, rock_near_margin_px(parameters)}) + 2;

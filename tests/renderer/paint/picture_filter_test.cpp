@@ -187,5 +187,26 @@ TEST(PictureFilter, NothingIsMixedAcrossASilhouette) {
   EXPECT_EQ(value_on_surface(wide, values, 15, 25, 35000.0F), 1.0F) << "on no surface that is seen: the pixel that holds it";
 }
 
+// Crests of rock rise above where the wide view saw them: with the value of the pixel that holds them, which sees the valley behind, light
+// and cover of a crest would go in stairs of wide pixels.
+TEST(PictureFilter, WhatRoseHasTheValuesOfItsSurfaceBeneath) {
+  constexpr int ridge = surface_look_rows + 6;  // the first row of the near surface
+  GuidanceBuffers g = level_view(8, ridge + 4);
+  Grid<float> values(8, ridge + 4);
+  for (int y = 0; y < ridge + 4; ++y)
+    for (int x = 0; x < 8; ++x) {
+      if (y < ridge) g.depth_m(x, y) = 50000.0F;
+      values(x, y) = y < ridge ? -100.0F : static_cast<float>(x + 10 * (y - ridge));
+    }
+  const WideView wide{g, factor, {0, 0}};
+  for (int rows = 1; rows <= surface_look_rows; ++rows)
+    for (int x = 2; x < 30; ++x)
+      ASSERT_NEAR(value_on_surface(wide, values, x, factor * (ridge - rows), 20000.0F), (x + 0.5) / factor - 0.5, 1e-4) << x << " " << rows;
+  EXPECT_EQ(value_on_surface(wide, values, 15, factor * (ridge - surface_look_rows) - 1, 20000.0F), -100.0F) << "no farther";
+  // So does what sank, and where wide pixels are the pixels themselves.
+  EXPECT_EQ(value_on_surface(wide, values, 14, factor * (ridge + 2), 50000.0F), -100.0F);
+  EXPECT_EQ(value_on_surface({g, 1, {0, 0}}, values, 5, ridge - 4, 20000.0F), 5.0F);
+}
+
 }  // namespace
 }  // namespace belvedere

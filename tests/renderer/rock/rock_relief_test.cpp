@@ -147,5 +147,33 @@ TEST(RockRelief, IsTakenIntoTheGuidance) {
   EXPECT_TRUE(has_channel(g, &GuidanceBuffers::rock_cover));
 }
 
+// The wide view sees crests where they were before they rose, and meadows of the valley in their place.
+TEST(RockRelief, ARisenCrestIsLitAsTheWallBelowIt) {
+  constexpr int factor = 8;
+  constexpr int ridge = 20;  // of the wide view
+  constexpr int rise = 4 * factor;
+  GuidanceBuffers seen = test::make_wall(40, 60, 1.0);
+  GuidanceBuffers g = test::make_wall(40 * factor, 60 * factor, factor);
+  const auto put_valley = [](GuidanceBuffers& view, int end) {
+    for (int y = 0; y < end; ++y)
+      for (int x = 0; x < view.width(); ++x) {
+        view.depth_m(x, y) = 90000.0F;
+        view.land_cover(x, y) = LandCoverClass::pasture;
+      }
+  };
+  put_valley(seen, ridge);
+  put_valley(g, ridge * factor - rise);
+  const RockRelief relief = make_rock_relief(g, {seen, factor, {0, 0}}, parameters_of(factor), {0, 0}, silent_progress());
+  const auto mean_turf = [&](int first, int end) {
+    double sum = 0.0;
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < g.width(); ++x) sum += relief.cover(x, y).x;
+    return sum / (g.width() * (end - first));
+  };
+  for (int y = ridge * factor - rise; y < ridge * factor; ++y)
+    for (int x = 0; x < g.width(); ++x) ASSERT_EQ(relief.land_cover(x, y), LandCoverClass::rock) << x << " " << y;
+  EXPECT_NEAR(mean_turf(ridge * factor - rise, ridge * factor), mean_turf(ridge * factor, ridge * factor + rise), 0.02);
+}
+
 }  // namespace
 }  // namespace belvedere
