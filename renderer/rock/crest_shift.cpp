@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "base/parallel.h"
+#include "renderer/paint/picture_filter.h"
 #include "renderer/rock/extent.h"
 
 namespace belvedere {
@@ -19,6 +20,8 @@ using Class = LandCoverClass;
 // Lengths in units.
 constexpr double most_up = 4.4;
 constexpr double most_down = 3.0;
+// A risen crest finds its own surface in a wide view, which has less than four pixels to a unit.
+static_assert(most_up * 4.0 <= surface_look_rows);
 constexpr double stretched = 14.0;      // of rock beneath an edge is stretched to meet it …
 constexpr double least_beneath = 10.0;  // … and where there is less than this the edge stays
 constexpr float edge_ratio = 1.02F;     // of depths, from which there is an edge

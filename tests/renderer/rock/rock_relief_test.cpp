@@ -37,6 +37,19 @@ RockRelief cut(const RockRelief& r, PixelRect rect) {
           test::cut(r.facet, rect),      test::cut(r.tone, rect),      test::cut(r.cover, rect)};
 }
 
+// Deviation of the tones of some rows.
+double contrast_of(const RockRelief& relief, int first, int end) {
+  double sum = 0.0;
+  double squares = 0.0;
+  for (int y = first; y < end; ++y)
+    for (int x = 0; x < relief.tone.width(); ++x) {
+      sum += relief.tone(x, y);
+      squares += relief.tone(x, y) * relief.tone(x, y);
+    }
+  const double count = static_cast<double>(relief.tone.width()) * (end - first);
+  return std::sqrt(squares / count - sum * sum / count / count);
+}
+
 TEST(RockRelief, WhereThereIsNoRockNothingChanges) {
   const GuidanceBuffers g = test::make_wall(160, 120, 1.0, LandCoverClass::pasture);
   const RockRelief relief = relief_of(g, parameters_of(1.0));
@@ -61,15 +74,7 @@ TEST(RockRelief, AWallStandsInPlanes) {
   EXPECT_GT(area_units, 15.0);
   EXPECT_LT(area_units, 250.0);
   EXPECT_LT(edges / (300.0 * 299.0), 0.25);
-  // In light and shade.
-  double sum = 0.0;
-  double squares = 0.0;
-  for (const float tone : relief.tone) {
-    sum += tone;
-    squares += tone * tone;
-  }
-  const double count = 300.0 * 300.0;
-  EXPECT_GT(std::sqrt(squares / count - sum * sum / count / count), 0.10);
+  EXPECT_GT(contrast_of(relief, 0, 300), 0.10) << "in light and shade";
 }
 
 TEST(RockRelief, StrokesRunDownThePlanes) {
@@ -164,21 +169,10 @@ TEST(RockRelief, ARisenCrestIsLitAsTheWallBelowIt) {
   put_valley(seen, ridge);
   put_valley(g, ridge * factor - rise);
   const RockRelief relief = make_rock_relief(g, {seen, factor, {0, 0}}, parameters_of(factor), {0, 0}, silent_progress());
-  // Rock far from rock is calm, so that it would be flat there.
-  const auto contrast = [&](int first, int end) {
-    double sum = 0.0;
-    double squares = 0.0;
-    const double count = static_cast<double>(g.width()) * (end - first);
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < g.width(); ++x) {
-        sum += relief.tone(x, y);
-        squares += relief.tone(x, y) * relief.tone(x, y);
-      }
-    return std::sqrt(squares / count - sum * sum / count / count);
-  };
   for (int y = ridge * factor - rise; y < ridge * factor; ++y)
     for (int x = 0; x < g.width(); ++x) ASSERT_EQ(relief.land_cover(x, y), LandCoverClass::rock) << x << " " << y;
-  EXPECT_GT(contrast(ridge * factor - rise, ridge * factor), 0.6 * contrast(ridge * factor, ridge * factor + rise));
+  // Rock far from rock is calm, so that it would be flat there.
+  EXPECT_GT(contrast_of(relief, ridge * factor - rise, ridge * factor), 0.6 * contrast_of(relief, ridge * factor, ridge * factor + rise));
 }
 
 }  // namespace
