@@ -7,6 +7,7 @@
 
 #include "base/filter.h"
 #include "base/lines/filter_lines.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 namespace {

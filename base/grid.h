@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
@@ -50,7 +49,7 @@ class Grid {
   const T& operator[](std::size_t i) const { return values_[i]; }
 
   // The value at the nearest place inside the grid: borders replicate.
-  const T& clamped(int x, int y) const { return (*this)(std::clamp(x, 0, width_ - 1), std::clamp(y, 0, height_ - 1)); }
+  const T& clamped(int x, int y) const { return (*this)(within(x, width_), within(y, height_)); }
 
   T* row(int y) { return values_.data() + index(0, y); }
   const T* row(int y) const { return values_.data() + index(0, y); }
@@ -65,6 +64,9 @@ class Grid {
   bool operator==(const Grid&) const = default;
 
  private:
+  // An index held within 0…count - 1; count is at least 1.
+  static constexpr int within(int i, int count) { return i < 0 ? 0 : i < count ? i : count - 1; }
+
   using Values = std::vector<T, ZeroedAllocator<T>>;
   // Values that new memory may be left without: they are written as bytes.
   static constexpr bool plain = std::is_trivially_copyable_v<T> && std::is_trivially_default_constructible_v<T>;

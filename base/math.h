@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <concepts>
 
 namespace belvedere {
@@ -15,7 +14,7 @@ constexpr T square(T v) {
 // The value held within 0…1.
 template <std::floating_point T>
 constexpr T unit(T v) {
-  return std::clamp(v, T{0}, T{1});
+  return v < T{0} ? T{0} : T{1} < v ? T{1} : v;
 }
 
 // 3t² - 2t³ with t held within 0…1: rises from 0 to 1, level at both ends.

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 
-#include "base/cache/cache.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 
 namespace belvedere {
+
+class Cache;
+const Cache& no_cache();  // base/cache/cache.h
 
 // How a job is done: by how many, with how much, and who is told. Changes no bit of what it makes.
 struct Run {

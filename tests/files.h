@@ -74,6 +74,13 @@ inline Error error_of(const std::function<void()>& f) {
   return Error(ErrorKind::bug, "", "");
 }
 
+// The kind of what f throws, which says where.
+inline ErrorKind kind_of(const std::function<void()>& f) {
+  const Error error = error_of(f);
+  EXPECT_FALSE(error.where().empty()) << error.what();
+  return error.kind();
+}
+
 // The message of the Error(kind) that f throws.
 inline std::string message_of(ErrorKind kind, const std::function<void()>& f) {
   const Error error = error_of(f);

@@ -10,7 +10,6 @@
 
 #include "base/error.h"
 #include "base/noise.h"
-#include "base/parallel.h"
 #include "base/random_streams.h"
 
 namespace belvedere {

@@ -19,9 +19,16 @@ constexpr bool from_system = true;
 
 bool is_large(std::size_t bytes) { return from_system && bytes >= large_block_bytes; }
 
+void observe(std::ptrdiff_t bytes) {
+  if (auto* const observer = zeroed_memory_observer.load(std::memory_order_relaxed)) observer(bytes);
+}
+
 }  // namespace
 
+std::atomic<void (*)(std::ptrdiff_t bytes)> zeroed_memory_observer = nullptr;
+
 void* allocate_zeroed(std::size_t bytes) {
+  observe(static_cast<std::ptrdiff_t>(bytes));
   if (!is_large(bytes)) {
     void* memory = std::calloc(bytes, 1);
     if (memory == nullptr && bytes > 0) throw std::bad_alloc();
@@ -34,6 +41,7 @@ void* allocate_zeroed(std::size_t bytes) {
 }
 
 void free_zeroed(void* memory, std::size_t bytes) noexcept {
+  if (memory != nullptr) observe(-static_cast<std::ptrdiff_t>(bytes));
   if (is_large(bytes))
     munmap(memory, bytes);
   else

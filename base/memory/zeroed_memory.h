@@ -1,7 +1,7 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
-#include <memory>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -14,6 +14,8 @@ namespace belvedere {
 void* allocate_zeroed(std::size_t bytes);
 // bytes: those that were asked for.
 void free_zeroed(void* memory, std::size_t bytes) noexcept;
+// For tests that count what is asked for: called with the bytes of each block, negative where it is given back.
+extern std::atomic<void (*)(std::ptrdiff_t bytes)> zeroed_memory_observer;
 
 // Of a std::vector: an element that is made from nothing, of a type without initializers, is left as the memory is, and that is zero.
 template <class T>
@@ -34,7 +36,7 @@ struct ZeroedAllocator {
   template <class U, class... Arguments>
   void construct(U* place, Arguments&&... arguments) {
     if constexpr (sizeof...(Arguments) > 0 || !std::is_trivially_default_constructible_v<U>)
-      std::construct_at(place, std::forward<Arguments>(arguments)...);
+      ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
   }
 
   bool operator==(const ZeroedAllocator&) const = default;

@@ -36,7 +36,7 @@ std::optional<std::string> base64_bytes(std::string_view text) {
     }
     for (int shift = 16; shift >= 0; shift -= 8) out += static_cast<char>((group >> shift) & 255U);
   }
-  out.resize(out.size() - padding);
+  for (std::size_t i = 0; i < padding; ++i) out.pop_back();
   if (base64(out) != text) return std::nullopt;  // bits beyond the last byte
   return out;
 }

@@ -27,7 +27,7 @@ constexpr double narrow_reach = 0.022;  // valleys narrower than twice this are 
 
 int cells_in(double length_m, double cell_m) { return std::max(1, static_cast<int>(std::lround(length_m / cell_m))); }
 
-double percentile(std::vector<float> values, double share) {
+double lower_percentile(std::vector<float> values, double share) {
   if (values.empty()) return 0.0;
   const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
@@ -174,9 +174,9 @@ CoarseGround make_coarse_ground(Raster<float> raster, double source_cell_m) {
   ground.side_m = std::sqrt(static_cast<double>(known.size())) * cell;
   ground.lowest_m = static_cast<double>(*std::min_element(known.begin(), known.end()));
   ground.highest_m = static_cast<double>(*std::max_element(known.begin(), known.end()));
-  ground.low_m = percentile(known, 0.05);
-  ground.upper_m = percentile(known, 0.999);
-  ground.relief_m = std::max(1.0, percentile(known, 0.97) - ground.low_m);
+  ground.low_m = lower_percentile(known, 0.05);
+  ground.upper_m = lower_percentile(known, 0.999);
+  ground.relief_m = std::max(1.0, lower_percentile(known, 0.97) - ground.low_m);
 
   const double side = ground.side_m;
   const Grid<float> rim = rim_distance(inside, cell);

@@ -31,18 +31,13 @@ int cells_in(const CoarseGround& ground, double share) {
   return std::max(1, static_cast<int>(std::lround(share * ground.side_m / ground.cell_m)));
 }
 
-double distance(glm::dvec2 a, glm::dvec2 b) {
-  const glm::dvec2 d = a - b;
-  return std::sqrt(d.x * d.x + d.y * d.y);
-}
-
 // The best places that lie apart from each other, best first; of equal ones the first in the rows of the grid.
 std::vector<Place> best_apart(const CoarseGround& ground, std::vector<Place> places, std::size_t count) {
   std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.rank > b.rank; });
   std::vector<Place> out;
   for (const Place& place : places) {
     const bool free = std::all_of(out.begin(), out.end(), [&](const Place& other) {
-      return distance(centre(ground, place.x, place.y), centre(ground, other.x, other.y)) > apart * ground.side_m;
+      return glm::distance(centre(ground, place.x, place.y), centre(ground, other.x, other.y)) > apart * ground.side_m;
     });
     if (free) out.push_back(place);
     if (out.size() == count) break;

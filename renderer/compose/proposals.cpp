@@ -17,14 +17,9 @@ double off_by(double a, double b) {
   return std::min(d - 360.0 * std::floor(d / 360.0), 360.0 - (d - 360.0 * std::floor(d / 360.0)));
 }
 
-double distance(glm::dvec2 a, glm::dvec2 b) {
-  const glm::dvec2 d = a - b;
-  return std::sqrt(d.x * d.x + d.y * d.y);
-}
-
 bool differ(const ViewSearch& search, const Candidate& a, const Candidate& b, double degrees) {
   const double turn = off_by(a.view.azimuth_deg, b.view.azimuth_deg);
-  const double moved = distance(a.view.viewer, b.view.viewer) / search.ground.side_m;
+  const double moved = glm::distance(a.view.viewer, b.view.viewer) / search.ground.side_m;
   if (turn > degrees) return true;
   // Where the direction is given, another place, or another subject from a little farther off, is another view.
   if (search.wishes.towards_deg) return moved > 0.25 || (moved > 0.12 && a.plan.anchor != b.plan.anchor);

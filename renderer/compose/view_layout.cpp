@@ -7,20 +7,10 @@
 #include "base/angle.h"
 #include "base/math.h"
 #include "base/math_exact.h"
+#include "base/statistics.h"
 
 namespace belvedere {
 namespace {
-
-double tangent(double angle_rad) {
-  const exact::Turn turn = exact::turn(angle_rad);
-  return turn.sine / turn.cosine;
-}
-
-double percentile(std::vector<double> values, double share) {
-  const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
-  return values[rank];
-}
 
 // Base, exaggeration and level ground, from the ground in the wedge.
 bool raise(const CoarseGround& ground, ViewShape& view, double lone, const LayoutGiven& given) {

@@ -8,6 +8,7 @@
 #include "base/angle.h"
 #include "base/math.h"
 #include "base/math_exact.h"
+#include "base/statistics.h"
 #include "renderer/compose/view_defaults.h"
 
 namespace belvedere {
@@ -38,12 +39,6 @@ double mean_of(const std::vector<double>& v, std::size_t from, std::size_t to) {
   double sum = 0.0;
   for (std::size_t i = from; i < to; ++i) sum += v[i];
   return to > from ? sum / static_cast<double>(to - from) : 0.0;
-}
-
-double percentile(std::vector<double> values, double share) {
-  const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
-  return values[rank];
 }
 
 void measure_skyline(const std::vector<double>& skyline, ViewMeasures& out) {

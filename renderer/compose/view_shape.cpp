@@ -11,14 +11,14 @@
 namespace belvedere {
 namespace {
 
+double arc_tangent_deg(double tangent) { return to_degrees(exact::atan2(tangent, 1.0)); }
+
+}  // namespace
+
 double tangent(double angle_rad) {
   const exact::Turn turn = exact::turn(angle_rad);
   return turn.sine / turn.cosine;
 }
-
-double arc_tangent_deg(double tangent) { return to_degrees(exact::atan2(tangent, 1.0)); }
-
-}  // namespace
 
 FormatLimits limits_of(const PictureFormat& format) {
   FormatLimits out;

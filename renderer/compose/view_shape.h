@@ -82,6 +82,8 @@ BendPoints bend_points(const ViewShape& view);
 double picture_height(const ViewShape& view);
 // Level directions (right, ahead) evenly over the picture's width, and a little beyond its edges where a tilted picture shows more below.
 std::vector<glm::dvec2> fan_directions(double field_of_view_deg, bool cylinder, int columns);
+// With the same bits everywhere; angles in radians.
+double tangent(double angle_rad);
 // (right, ahead) to (east, north).
 glm::dvec2 to_map(glm::dvec2 direction, double azimuth_deg);
 // Distances from `from` to `to` whose ratios are equal.

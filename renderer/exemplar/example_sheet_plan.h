@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/scene/scene_file.h"
 
 namespace belvedere {

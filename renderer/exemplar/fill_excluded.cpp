@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "texture/statistical/label_borders.h"
 #include "texture/statistical/learn_texture.h"
 #include "texture/statistical/make_texture.h"
+#include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/guide_stack.h"
 
 namespace belvedere {
@@ -20,14 +21,7 @@ namespace {
 constexpr int joined_px = 16;  // letters nearer than twice this are filled together
 constexpr int around_px = 96;  // of a group that its models are learnt from; where that is too little, ever twice as far
 constexpr int learnt_types = 32;
-constexpr std::size_t least_texels = std::size_t{least_crop_px} * least_crop_px;
-
-Rgb8 to_rgb8(glm::vec3 encoded) {
-  Rgb8 rgb{};
-  for (int c = 0; c < 3; ++c)
-    rgb[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(std::clamp(encoded[c], 0.F, 1.F) * 255.F));
-  return rgb;
-}
+constexpr std::size_t least_crop_texels = std::size_t{least_crop_px} * least_crop_px;
 
 // Excluded pixels without a class take that of what is nearest, from the rim inwards; row by row where two are as near.
 void spread_classes(Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& excluded) {
@@ -117,7 +111,7 @@ std::optional<CliqueModel> learn_around(const FilledPaint& paint, const Grid<std
   for (int around = around_px;; around *= 2) {
     const Part part = part_around(paint, excluded, label, box, around);
     const bool wide = std::min(part.picture.width(), part.picture.height()) >= least_crop_px;
-    if (wide && part.count >= 2 * least_texels) {
+    if (wide && part.count >= 2 * least_crop_texels) {
       LearnParameters learning;
       learning.types = learnt_types;
       try {

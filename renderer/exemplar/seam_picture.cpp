@@ -5,16 +5,10 @@
 #include <cmath>
 
 #include "base/filter.h"
+#include "texture/synthesis/exemplar.h"
 
 namespace belvedere {
 namespace {
-
-Rgb8 to_rgb8(glm::vec3 encoded) {
-  Rgb8 rgb{};
-  for (int c = 0; c < 3; ++c)
-    rgb[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(std::clamp(encoded[c], 0.F, 1.F) * 255.F));
-  return rgb;
-}
 
 // Deviation of a texel's brightness from that around it that the prices of synthesis are tuned for, encoded sRGB: strong, even strokes.
 constexpr double tuned_contrast = 14.0 / 255.0;

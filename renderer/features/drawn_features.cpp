@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/parallel.h"
 #include "renderer/features/drawn_cables.h"
 #include "renderer/features/drawn_houses.h"
 #include "renderer/features/line_samples.h"

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/features/drawn_parts.h"
 #include "renderer/features/feature_set.h"
 #include "renderer/features/ground_sight.h"

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "renderer/features/footprint.h"
 #include "renderer/features/line_samples.h"
 
 namespace belvedere {
@@ -18,8 +19,6 @@ constexpr double eaves = 0.55;       // height of walls, of the width
 constexpr double ridge = 0.42;       // of the roof over them, of the width
 constexpr double overhang = 1.12;    // of the roof
 constexpr double most_units = 24.0;  // of 0.5 mm: a longer house is drawn as long
-
-glm::dvec2 perpendicular(glm::dvec2 v) { return {-v.y, v.x}; }
 
 // A point as a house: its ridge points down the slope, as where snow must slide off beside the door; on level ground it lies east to west.
 Footprint usual_house(const GroundSight& sight, glm::dvec2 place) {

@@ -19,8 +19,6 @@ constexpr int most_wings = 8;
 constexpr std::size_t most_lines = 14;  // of the net each way
 constexpr double same_line = 0.05;      // of the rectangle's shorter side: corners so near lie in one line
 
-glm::dvec2 perpendicular(glm::dvec2 v) { return {-v.y, v.x}; }
-
 // Coordinates of corners, those near each other as one.
 std::vector<double> lines_through(std::vector<double> values, double least) {
   std::sort(values.begin(), values.end());

@@ -12,6 +12,9 @@ struct Footprint {
   glm::dvec2 across{0.0};
 };
 
+// A quarter turn to the left.
+inline glm::dvec2 perpendicular(glm::dvec2 v) { return {-v.y, v.x}; }
+
 // The rectangle around an outline that has the least area.
 Footprint footprint_of(const std::vector<glm::dvec2>& outline);
 

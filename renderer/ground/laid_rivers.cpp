@@ -9,7 +9,7 @@
 
 #include "base/filter.h"
 #include "base/math.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/packed_rows.h"
 

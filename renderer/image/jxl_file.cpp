@@ -57,7 +57,7 @@ struct FreeDecoder {
 constexpr std::size_t exif_head = 4;  // an Exif box begins with the offset of its bytes, 0
 
 Bytes exif_box(const PictureFileOptions& options) {
-  const Bytes exif = write_exif({image_io::join_notes(options.notes), "Belvedere " BELVEDERE_VERSION, options.dots_per_inch});
+  const Bytes exif = write_exif({image_io::join_notes(options.notes), "Belvedere " + program_version(), options.dots_per_inch});
   Bytes box(exif_head, 0);
   box.insert(box.end(), exif.begin(), exif.end());
   return box;
@@ -76,10 +76,10 @@ Bytes read_file(const std::string& path) {
 }
 
 // One JPEG XL file on its way through the decoder.
-class Reader {
+class JxlReader {
  public:
   // Up to the pixels, or without pixels to the end of the file.
-  Reader(const std::string& path, bool pixels)
+  JxlReader(const std::string& path, bool pixels)
       : path_(path), pixels_(pixels), bytes_(read_file(path)), decoder_(JxlDecoderCreate(nullptr)) {
     if (decoder_ == nullptr) throw std::bad_alloc();
     JxlDecoderSetParallelRunner(decoder_.get(), &run_parallel, nullptr);
@@ -254,7 +254,7 @@ class JxlRows : public PictureRows {
   void complete() override {
     const std::string written = hash_numbers();
     try {
-      Reader reader(output_.temporary(), true);
+      JxlReader reader(output_.temporary(), true);
       if (reader.info().xsize * std::size_t{3} * reader.info().ysize != numbers_.size()) output_.fail("it has another size");
       std::fill(numbers_.begin(), numbers_.end(), std::uint16_t{0});  // the room serves once more, so that there is no second picture
       reader.read<std::uint16_t>(JXL_TYPE_UINT16, numbers_.data(), nullptr);
@@ -292,7 +292,7 @@ void write_jxl16(const std::string& path, const Grid<glm::vec3>& encoded, const 
 }
 
 ImageInfo read_jxl_info(const std::string& path) {
-  const Reader reader(path, false);
+  const JxlReader reader(path, false);
   ImageInfo info;
   info.format = "jpegxl";
   info.width = static_cast<int>(reader.info().xsize);
@@ -317,7 +317,7 @@ ImageInfo read_jxl_info(const std::string& path) {
 }
 
 Grid<glm::vec3> read_jxl_picture(const std::string& path, Grid<float>* alpha) {
-  Reader reader(path, true);
+  JxlReader reader(path, true);
   Grid<glm::vec3> picture(static_cast<int>(reader.info().xsize), static_cast<int>(reader.info().ysize));
   if (alpha != nullptr) *alpha = Grid<float>(picture.width(), picture.height(), 1.0F);
   static_assert(sizeof(glm::vec3) == 3 * sizeof(float));

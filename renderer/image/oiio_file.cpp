@@ -21,10 +21,10 @@ namespace {
 
 constexpr int band_rows = 64;
 
-class Reader {
+class OiioReader {
  public:
   // `header_only`: CMYK is taken as well, with its own four channels.
-  Reader(const std::string& path, const std::string& format, bool header_only = false) : path_(path), format_(format) {
+  OiioReader(const std::string& path, const std::string& format, bool header_only = false) : path_(path), format_(format) {
     if (format_ == "png" && !image_io::is_png_complete(path)) image_io::throw_damaged(path, "a piece is missing or has a wrong checksum");
     input_ = OIIO::ImageInput::create(format_);
     if (input_ == nullptr) throw Error(ErrorKind::bug, path, "OpenImageIO cannot read " + format_);
@@ -104,7 +104,7 @@ double dots_per_inch(const OIIO::ImageSpec& spec) {
 }  // namespace
 
 ImageInfo read_oiio_info(const std::string& path, const std::string& format) {
-  const Reader reader(path, format, true);
+  const OiioReader reader(path, format, true);
   const OIIO::ImageSpec& spec = reader.spec();
   ImageInfo info;
   info.format = format;
@@ -126,7 +126,7 @@ ImageInfo read_oiio_info(const std::string& path, const std::string& format) {
 }
 
 Grid<glm::vec3> read_oiio_picture(const std::string& path, const std::string& format, Grid<float>* alpha) {
-  Reader reader(path, format);
+  OiioReader reader(path, format);
   const int channels = reader.spec().nchannels;
   reader.check_memory(alpha != nullptr ? 16.0 : 12.0);
   Grid<glm::vec3> picture(reader.spec().width, reader.spec().height);
@@ -142,7 +142,7 @@ Grid<glm::vec3> read_oiio_picture(const std::string& path, const std::string& fo
 }
 
 void read_oiio_rows(const std::string& path, const std::string& format, const UsePictureRows& use) {
-  Reader reader(path, format);
+  OiioReader reader(path, format);
   const int channels = reader.spec().nchannels;
   reader.read_bands<float>(OIIO::TypeDesc::FLOAT, [&](int y0, int y1, const float* from) {
     Grid<glm::vec3> rows(reader.spec().width, y1 - y0);
@@ -157,7 +157,7 @@ void read_oiio_rows(const std::string& path, const std::string& format, const Us
 Grid<std::uint16_t> read_oiio_grey(const std::string& path, const std::string& format) {
   const Error refused = image_io::no_grey_picture(path);
   if (format == "png" && image_io::read_png_kind(path).palette) return image_io::read_palette_png(path);
-  Reader reader(path, format);
+  OiioReader reader(path, format);
   const OIIO::ImageSpec& spec = reader.spec();
   const bool wide = spec.format == OIIO::TypeDesc::UINT16;
   const bool grey = spec.nchannels == 1 || (spec.nchannels == 2 && spec.alpha_channel == 1);
@@ -189,7 +189,7 @@ namespace {
 OIIO::ImageSpec make_png_spec(int width, int height, const PictureFileOptions& options) {
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("png:compressionLevel", 4);  // measured: 3.5 times as fast as the default 6, the same size
-  spec.attribute("Software", "Belvedere " BELVEDERE_VERSION);
+  spec.attribute("Software", "Belvedere " + program_version());
   if (const std::string notes = image_io::join_notes(options.notes); !notes.empty()) spec.attribute("ImageDescription", notes);
   if (options.dots_per_inch > 0.0) {
     // PNG counts whole pixels a metre.
@@ -244,7 +244,7 @@ class PngRows : public PictureRows {
     // On a full disk all of the above says that it succeeded, so every row is read again.
     ContentHash read;
     try {
-      Reader reader(output_.temporary(), "png");
+      OiioReader reader(output_.temporary(), "png");
       if (reader.spec().width != width() || reader.spec().height != height() || reader.spec().nchannels != 3)
         output_.fail("it has another size");
       reader.read_bands<std::uint8_t>(OIIO::TypeDesc::UINT8,

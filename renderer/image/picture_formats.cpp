@@ -17,7 +17,6 @@ namespace belvedere {
 namespace {
 
 using std::string_view_literals::operator""sv;
-using Bytes = std::string_view;
 using Path = const std::string&;
 
 // A preview that opens at once, in browsers too.
@@ -37,7 +36,7 @@ const std::vector<PictureFormat>& picture_formats() {
        .resolution = true,
        .notes = true,
        .is =
-           [](Bytes b) {
+           [](std::string_view b) {
              return b.starts_with("II*\0"sv) || b.starts_with("MM\0*"sv) || b.starts_with("II+\0"sv) || b.starts_with("MM\0+"sv);
            },
        .read_info = [](Path path) { return read_oiio_info(path, "tiff"); },
@@ -54,7 +53,7 @@ const std::vector<PictureFormat>& picture_formats() {
        .profile = true,
        .resolution = true,
        .notes = true,
-       .is = [](Bytes b) { return b.starts_with("\x89PNG\r\n\x1a\n"); },
+       .is = [](std::string_view b) { return b.starts_with("\x89PNG\r\n\x1a\n"); },
        .read_info = [](Path path) { return read_oiio_info(path, "png"); },
        .read_picture = [](Path path, Grid<float>* alpha) { return read_oiio_picture(path, "png", alpha); },
        .read_rows = [](Path path, const UsePictureRows& use) { read_oiio_rows(path, "png", use); },
@@ -69,7 +68,7 @@ const std::vector<PictureFormat>& picture_formats() {
        .bits = 16,
        .linear = true,
        .notes = true,
-       .is = [](Bytes b) { return b.starts_with("\x76\x2f\x31\x01"); },
+       .is = [](std::string_view b) { return b.starts_with("\x76\x2f\x31\x01"); },
        .read_info = &read_exr_info,
        .read_picture = &read_exr_picture,
        .open = [](Path path, int width, int height,
@@ -83,7 +82,7 @@ const std::vector<PictureFormat>& picture_formats() {
        .profile = true,
        .resolution = true,
        .notes = true,
-       .is = [](Bytes b) { return b.starts_with("\xff\x0a") || b.starts_with("\0\0\0\x0cJXL \r\n\x87\n"sv); },
+       .is = [](std::string_view b) { return b.starts_with("\xff\x0a") || b.starts_with("\0\0\0\x0cJXL \r\n\x87\n"sv); },
        .read_info = &read_jxl_info,
        .read_picture = &read_jxl_picture,
        .open = &open_jxl16,
@@ -91,7 +90,7 @@ const std::vector<PictureFormat>& picture_formats() {
       {.ending = "jpg",
        .name = "jpeg",
        .title = "JPEG",
-       .is = [](Bytes b) { return b.starts_with("\xff\xd8\xff"); },
+       .is = [](std::string_view b) { return b.starts_with("\xff\xd8\xff"); },
        .read_info = [](Path path) { return read_oiio_info(path, "jpeg"); },
        .read_picture = [](Path path, Grid<float>* alpha) { return read_oiio_picture(path, "jpeg", alpha); },
        .read_rows = [](Path path, const UsePictureRows& use) { read_oiio_rows(path, "jpeg", use); }},

@@ -93,7 +93,7 @@ bool set_fields(TIFF* tiff, int width, int height, PixelForm form, const Picture
   ok &= TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_PREDICTOR, PREDICTOR_HORIZONTAL) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT) != 0;
-  ok &= TIFFSetField(tiff, TIFFTAG_SOFTWARE, "Belvedere " BELVEDERE_VERSION) != 0;
+  ok &= TIFFSetField(tiff, TIFFTAG_SOFTWARE, ("Belvedere " + program_version()).c_str()) != 0;
   if (options.dots_per_inch > 0.0) {
     ok &= TIFFSetField(tiff, TIFFTAG_RESOLUTIONUNIT, RESUNIT_INCH) != 0;
     ok &= TIFFSetField(tiff, TIFFTAG_XRESOLUTION, options.dots_per_inch) != 0;

@@ -16,7 +16,7 @@ namespace belvedere {
 namespace {
 
 // A hundredth of a pixel is finer than any printer, and the same text on every machine.
-std::string px(double value) { return fmt::format("{:.2f}", value == 0.0 ? 0.0 : value); }
+std::string csv_px(double value) { return fmt::format("{:.2f}", value == 0.0 ? 0.0 : value); }
 
 std::string quoted_csv(const std::string& text) {
   if (text.find_first_of(",\"\n\r;") == std::string::npos) return text;
@@ -43,8 +43,8 @@ constexpr const char* columns =
 std::string csv_row(const LabelSheet& sheet, const Label& label, const std::string& outcome) {
   const LabelMark& mark = label.mark;
   return fmt::format("{},{},{:g},{},{},{},{},{},{},{:.2f},{:.2f},{:.2f},{:.2f},{},{}", quoted_csv(label.point.name),
-                     quoted_csv(sheet.kind_of(label).name), label.point.rank, outcome, has_pixel(label) ? px(mark.pixel.x) : "",
-                     has_pixel(label) ? px(mark.pixel.y) : "", has_pixel(label) ? fmt::format("{:.0f}", mark.distance_m) : "",
+                     quoted_csv(sheet.kind_of(label).name), label.point.rank, outcome, has_pixel(label) ? csv_px(mark.pixel.x) : "",
+                     has_pixel(label) ? csv_px(mark.pixel.y) : "", has_pixel(label) ? fmt::format("{:.0f}", mark.distance_m) : "",
                      number_or_nothing(label.point.altitude_m.value_or(NAN), 1), number_or_nothing(mark.dem_altitude_m, 1),
                      label.point.place.x, label.point.place.y, mark.drawn_place.x, mark.drawn_place.y, quoted_csv(label.hidden_by),
                      quoted_csv(label.point.where));
@@ -100,7 +100,7 @@ std::string labels_geojson(const LabelSheet& sheet, const std::string& crs) {
     if (!std::isnan(label.mark.dem_altitude_m))
       properties.add("altitude_dem_m", Json::number(std::round(10.0 * label.mark.dem_altitude_m) / 10.0));
     if (has_pixel(label))
-      properties.add("pixel", Json::array({Json::raw(px(label.mark.pixel.x)), Json::raw(px(label.mark.pixel.y))}))
+      properties.add("pixel", Json::array({Json::raw(csv_px(label.mark.pixel.x)), Json::raw(csv_px(label.mark.pixel.y))}))
           .add("distance_m", Json::number(std::round(label.mark.distance_m)));
     if (!label.hidden_by.empty()) properties.add("hidden_by", Json::text(label.hidden_by));
     const bool on_earth = std::isfinite(places[i].x) && std::isfinite(places[i].y);

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "base/guidance_buffers.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "base/progress.h"
 #include "renderer/paint/air_parameters.h"
 #include "renderer/paint/ground/ground_tint.h"

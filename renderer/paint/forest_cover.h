@@ -5,7 +5,7 @@
 
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/paint/ground_hues.h"
 #include "renderer/paint/palette.h"
 #include "renderer/trace/wide_view.h"

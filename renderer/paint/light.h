@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/guidance_buffers.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "base/progress.h"
 #include "renderer/trace/light_field.h"
 #include "renderer/trace/wide_view.h"

@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "base/grid.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/trace/wide_view.h"
 
 namespace belvedere {

@@ -4,7 +4,7 @@
 
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 
 namespace belvedere {
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float hue_strength = 0.75F;  // of the hues below: at full strength a wall is a patchwork
 
-const RockKind kinds[] = {
+const RockKind all_kinds[] = {
     {.name = "limestone",
      .meaning = "towers and buttresses, beds from gully to gully, pale",
      .size = 1.0F,
@@ -92,11 +92,11 @@ float share_of(std::uint32_t half) { return static_cast<float>(mix_bits(half + 0
 
 }  // namespace
 
-std::span<const RockKind> rock_kinds() { return kinds; }
+std::span<const RockKind> rock_kinds() { return all_kinds; }
 
 const RockKind& find_rock_kind(std::string_view name) {
   std::string known;
-  for (const RockKind& kind : kinds) {
+  for (const RockKind& kind : all_kinds) {
     if (kind.name == name) return kind;
     known += fmt::format("{}{}", known.empty() ? "" : ", ", kind.name);
   }

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/paint/composite.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/scene/scene_file.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/sheet/guidance_choice.h"
 #include "renderer/sheet/work_folder.h"

@@ -37,8 +37,7 @@ namespace {
 
 using Handle = QPDFObjectHandle;
 
-constexpr double points_a_mm = 72.0 / 25.4;
-std::string points(double mm) { return fmt::format("{:.4f}", mm * points_a_mm); }
+std::string points(double mm) { return fmt::format("{:.4f}", mm * points_per_mm); }
 Handle box_handle(MmBox box) {
   return Handle::parse(
       fmt::format("[{} {} {} {}]", points(box.left), points(box.bottom), points(box.left + box.width), points(box.bottom + box.height)));
@@ -188,7 +187,7 @@ std::string metadata(const std::string& title, std::time_t when, bool press) {
 </rdf:Description></rdf:RDF></x:xmpmeta>
 <?xpacket end="w"?>
 )",
-      "\xef\xbb\xbf", markup_text(title), date, date, date, id, BELVEDERE_VERSION, QPDF::QPDFVersion(),
+      "\xef\xbb\xbf", markup_text(title), date, date, date, id, program_version(), QPDF::QPDFVersion(),
       press ? "\n<pdfxid:GTS_PDFXVersion>PDF/X-4</pdfxid:GTS_PDFXVersion>" : "");
 }
 
@@ -199,7 +198,7 @@ void describe(QPDF& pdf, const PdfParameters& parameters, const std::string& fil
   Handle info = Handle::newDictionary();
   info.replaceKey("/Title", Handle::newUnicodeString(title));
   info.replaceKey("/Creator", Handle::newString("Belvedere"));
-  info.replaceKey("/Producer", Handle::newString(fmt::format("Belvedere {}, qpdf {}", BELVEDERE_VERSION, QPDF::QPDFVersion())));
+  info.replaceKey("/Producer", Handle::newString(fmt::format("Belvedere {}, qpdf {}", program_version(), QPDF::QPDFVersion())));
   info.replaceKey("/CreationDate", Handle::newString(date));
   info.replaceKey("/ModDate", Handle::newString(date));
   info.replaceKey("/Trapped", Handle::newName("/False"));

@@ -12,7 +12,6 @@
 namespace belvedere {
 namespace {
 
-constexpr double points_a_mm = 72.0 / 25.4;
 
 cairo_status_t append(void* to, const unsigned char* bytes, unsigned int count) {
   static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(bytes), count);
@@ -33,7 +32,7 @@ std::string svg_as_pdf(const std::string& path, glm::dvec2 size_mm) {
   GError* error = nullptr;
   const std::unique_ptr<RsvgHandle, void (*)(gpointer)> drawing(rsvg_handle_new_from_file(path.c_str(), &error), g_object_unref);
   if (drawing == nullptr) refuse(path, error);
-  const glm::dvec2 size = size_mm * points_a_mm;
+  const glm::dvec2 size = size_mm * points_per_mm;
   std::string pdf;
   const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface(
       cairo_pdf_surface_create_for_stream(append, &pdf, size.x, size.y), cairo_surface_destroy);

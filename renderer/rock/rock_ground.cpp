@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/math.h"
+#include "base/parallel.h"
 #include "renderer/paint/picture_filter.h"
 
 namespace belvedere {

@@ -4,7 +4,7 @@
 
 #include "base/grid.h"
 #include "base/land_cover_class.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/trace/wide_view.h"
 
 namespace belvedere {

@@ -10,6 +10,7 @@
 
 #include "base/guidance_channels.h"
 #include "base/math.h"
+#include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"

@@ -6,6 +6,7 @@
 
 #include "base/math.h"
 #include "base/noise.h"
+#include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
 #include "renderer/paint/picture_filter.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/grid.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/paint/rock_kinds.h"
 #include "renderer/rock/spur_peaks.h"
 #include "renderer/trace/wide_view.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/sheet/planes.h"
 #include "renderer/sheet/work_folder.h"
 

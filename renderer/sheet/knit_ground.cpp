@@ -7,19 +7,13 @@
 #include "base/filter.h"
 #include "base/grid_part.h"
 #include "texture/statistical/make_texture.h"
+#include "texture/synthesis/exemplar.h"
 #include "texture/synthesis/guide_stack.h"
 
 namespace belvedere {
 namespace {
 
 constexpr std::size_t least_texels = 1200;  // of a class that are a sample: half of what a model is learnt from
-
-Rgb8 to_rgb8(glm::vec3 encoded) {
-  Rgb8 rgb{};
-  for (int c = 0; c < 3; ++c)
-    rgb[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(std::clamp(encoded[c], 0.F, 1.F) * 255.F));
-  return rgb;
-}
 
 glm::vec3 to_vec3(const Rgb8& rgb) { return glm::vec3(rgb[0], rgb[1], rgb[2]) / 255.F; }
 

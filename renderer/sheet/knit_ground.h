@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/land_cover_class.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/paint/composite.h"
 #include "renderer/sheet/model_ground.h"
 #include "texture/composite/knit_seam.h"

@@ -8,6 +8,7 @@
 #include "base/filter.h"
 #include "base/guidance_channels.h"
 #include "base/noise.h"
+#include "base/parallel.h"
 #include "base/random_streams.h"
 #include "renderer/paint/light.h"
 

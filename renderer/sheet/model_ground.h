@@ -8,7 +8,7 @@
 
 #include "base/guidance_buffers.h"
 #include "base/land_cover_class.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/paint/composite.h"
 #include "texture/statistical/make_texture.h"
 #include "texture/synthesis/guide_stack.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/land_cover_class.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 namespace {

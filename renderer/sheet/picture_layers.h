@@ -9,7 +9,7 @@
 
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/image/layers/layered_sheet.h"
 #include "renderer/mist/mist_paint.h"
 #include "texture/strokes/paint_parts.h"

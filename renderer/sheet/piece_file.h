@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/sheet/planes.h"
 
 namespace belvedere {

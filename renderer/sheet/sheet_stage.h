@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/sheet/tile_store.h"
 
 namespace belvedere {

@@ -5,7 +5,7 @@
 
 #include "base/angle.h"
 #include "base/guidance_buffers.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "base/progress.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/light_field.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/grid.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "terrain/deform/deform.h"
 
 namespace belvedere {

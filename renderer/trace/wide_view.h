@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "base/guidance_buffers.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 
 namespace belvedere {
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 
+#include "base/parallel.h"
 #include "renderer/trace/camera.h"
 #include "renderer/world/generalize_view.h"
 #include "terrain/deform/deform.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/world/view.h"
 #include "terrain/io/dem.h"
 #include "terrain/io/raster_io.h"

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "base/guidance_buffers.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "base/run.h"
 #include "renderer/paint/base_picture.h"
 #include "renderer/paint/light.h"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/refined_cover.h"
 #include "renderer/ground/scene_ground_map.h"

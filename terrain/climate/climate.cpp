@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "terrain/climate/lapse_rate.h"
 #include "terrain/climate/stations.h"
+#include "terrain/io/block_means.h"
 #include "terrain/io/raster_io.h"
 
 namespace belvedere {
@@ -52,24 +53,6 @@ double sample(const Grid<float>& grid, double column, double row) {
     return static_cast<double>(grid(x.first, at)) * (1.0 - x.share) + static_cast<double>(grid(x.second, at)) * x.share;
   };
   return line(y.first) * (1.0 - y.share) + line(y.second) * y.share;
-}
-
-// Means of the ground in blocks of so many cells.
-Grid<float> block_means(const Grid<float>& altitude_m, int cells) {
-  Grid<float> means((altitude_m.width() + cells - 1) / cells, (altitude_m.height() + cells - 1) / cells);
-  parallel_rows(means.height(), [&](int row) {
-    for (int column = 0; column < means.width(); ++column) {
-      double sum = 0.0;
-      int count = 0;
-      for (int y = row * cells; y < std::min((row + 1) * cells, altitude_m.height()); ++y)
-        for (int x = column * cells; x < std::min((column + 1) * cells, altitude_m.width()); ++x) {
-          sum += static_cast<double>(altitude_m(x, y));
-          ++count;
-        }
-      means(column, row) = static_cast<float>(sum / count);
-    }
-  });
-  return means;
 }
 
 // While a climate is made: the map, the parts it is made of.

@@ -10,21 +10,14 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "base/math_exact.h"
+#include "terrain/climate/map_place.h"
 #include "terrain/climate/snow_balance.h"
 
 namespace belvedere {
 namespace {
 
-constexpr double earth_radius_km = 6371.0;
 // No glacier says that hollows hold less than a third or more than three times what is usual: then its climate is wrong.
 constexpr double strangest = 3.0;
-
-std::array<double, 3> to_place(double longitude_deg, double latitude_deg) {
-  const exact::Turn longitude = exact::turn(to_radians(longitude_deg));
-  const exact::Turn latitude = exact::turn(to_radians(latitude_deg));
-  return {earth_radius_km * latitude.cosine * longitude.cosine, earth_radius_km * latitude.cosine * longitude.sine,
-          earth_radius_km * latitude.sine};
-}
 
 }  // namespace
 
@@ -66,14 +59,14 @@ SnowGathering make_snow_gathering(const ClimateField& field, const std::vector<M
     for (const double month_mm : monthly_snow_mm(climate, glacier.equilibrium_m)) snow_mm += month_mm;
     const double needed_mm = snow_to_last_mm(monthly_c(climate, glacier.equilibrium_m));
     const double usual_mm = SnowParameters{}.gathering * snow_mm;
-    gathering.places.push_back(to_place(glacier.longitude_deg, glacier.latitude_deg));
+    gathering.places.push_back(earth_position_km(glacier.longitude_deg, glacier.latitude_deg));
     gathering.log_gathers.push_back(exact::log(std::clamp(needed_mm / std::max(usual_mm, 1.0), 1.0 / strangest, strangest)));
   }
   return gathering;
 }
 
 double gathers_at(const SnowGathering& gathering, double longitude_deg, double latitude_deg) {
-  const std::array<double, 3> here = to_place(longitude_deg, latitude_deg);
+  const std::array<double, 3> here = earth_position_km(longitude_deg, latitude_deg);
   double sum = 0.0;
   double weight = gathering.kinship.usual_weight;
   for (std::size_t i = 0; i < gathering.places.size(); ++i) {

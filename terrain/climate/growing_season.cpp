@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <numbers>
 
 #include "base/math_exact.h"
@@ -95,5 +96,7 @@ double highest_m(const std::function<bool(double)>& holds) {
   }
   return yes;
 }
+
+double year_mean(const Months& months) { return std::accumulate(months.begin(), months.end(), 0.0) / 12.0; }
 
 }  // namespace belvedere

@@ -6,6 +6,8 @@
 namespace belvedere {
 
 using Months = std::array<double, 12>;  // January … December
+// Mean of twelve months of equal weight.
+double year_mean(const Months& months);
 
 // How long and how warm the year is for plants, from twelve monthly means.
 

@@ -8,12 +8,13 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/statistics.h"
 
 namespace belvedere {
 namespace {
 
 constexpr double least_rise_m = 50.0;
-constexpr std::uint64_t bootstrap_seed = 0x6c61707365ULL;  // no stream of pictures: only a range in a report hangs on it
+constexpr std::uint64_t lapse_seed = 0x6c61707365ULL;  // no stream of pictures: only a range in a report hangs on it
 
 struct Sample {
   double altitude_m;
@@ -30,13 +31,6 @@ struct Line {
   double at_zero = 0.0;
   double per_m = 0.0;
 };
-
-double median_of(std::vector<double>& values) {
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), half, values.end());
-  if (values.size() % 2 == 1) return *half;
-  return 0.5 * (*half + *std::max_element(values.begin(), half));
-}
 
 // Where half of the weight lies to either side.
 double weighted_median_of(std::vector<PairSlope>& slopes) {
@@ -70,7 +64,7 @@ std::optional<Line> theil_sen(const std::vector<Sample>& samples) {
   line.per_m = weighted_median_of(slopes);
   std::vector<double> rest;
   for (const Sample& s : samples) rest.push_back(s.temperature_c - line.per_m * s.altitude_m);
-  line.at_zero = median_of(rest);
+  line.at_zero = median(rest);
   return line;
 }
 
@@ -90,7 +84,7 @@ LapseRate fit_lapse_rate(const std::vector<double>& altitude_m, const std::vecto
   std::vector<double> rates;
   std::vector<Sample> drawn(samples.size());
   for (int sample = 0; sample < bootstrap_samples; ++sample) {
-    for (std::uint32_t i = 0; i < count; ++i) drawn[i] = samples[random_index(count, bootstrap_seed, sample, i)];
+    for (std::uint32_t i = 0; i < count; ++i) drawn[i] = samples[random_index(count, lapse_seed, sample, i)];
     if (const std::optional<Line> again = theil_sen(drawn)) rates.push_back(-1000.0 * again->per_m);
   }
   std::sort(rates.begin(), rates.end());

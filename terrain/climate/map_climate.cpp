@@ -11,6 +11,7 @@
 #include "terrain/climate/radiation.h"
 #include "terrain/climate/snow_balance.h"
 #include "terrain/climate/water_balance.h"
+#include "terrain/io/block_means.h"
 #include "terrain/shape/surroundings.h"
 
 namespace belvedere {
@@ -49,22 +50,6 @@ GeoTransform transform_of(const Posts& posts, GeoTransform cells) {
 }
 
 // Means of blocks of cells: what throws shadows over kilometres is there, and slopes of 90 m are what plants and snow feel.
-Grid<float> block_means(const Grid<float>& altitude_m, int block) {
-  const int width = altitude_m.width();
-  const int height = altitude_m.height();
-  Grid<float> coarse((width + block - 1) / block, (height + block - 1) / block);
-  parallel_rows(coarse.height(), [&](int row) {
-    for (int column = 0; column < coarse.width(); ++column) {
-      double sum = 0.0;
-      int count = 0;
-      for (int y = row * block; y < std::min(height, (row + 1) * block); ++y)
-        for (int x = column * block; x < std::min(width, (column + 1) * block); ++x, ++count) sum += altitude_m(x, y);
-      coarse(column, row) = static_cast<float>(sum / count);
-    }
-  });
-  return coarse;
-}
-
 int block_of(const Dem& dem, const SunShareParameters& parameters) {
   return std::max(1, static_cast<int>(std::floor(parameters.cell_m / dem.cell_m() + 0.5)));
 }

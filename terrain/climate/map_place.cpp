@@ -66,4 +66,11 @@ MapPlace make_map_place(const GeoTransform& transform, const std::string& crs, i
   return place;
 }
 
+std::array<double, 3> earth_position_km(double longitude_deg, double latitude_deg) {
+  const exact::Turn longitude = exact::turn(to_radians(longitude_deg));
+  const exact::Turn latitude = exact::turn(to_radians(latitude_deg));
+  return {earth_radius_km * latitude.cosine * longitude.cosine, earth_radius_km * latitude.cosine * longitude.sine,
+          earth_radius_km * latitude.sine};
+}
+
 }  // namespace belvedere

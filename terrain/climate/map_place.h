@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
@@ -33,5 +34,9 @@ struct MapPlace {
 // From the CRS. Without one the whole map lies at `latitude_deg` and its columns run north; Error(usage) where that is not given either.
 // Values are rounded to 1e-7 degrees, so that the last bits of a projection do not reach a picture.
 MapPlace make_map_place(const GeoTransform& transform, const std::string& crs, int width, int height, std::optional<double> latitude_deg);
+
+constexpr double earth_radius_km = 6371.0;
+// A place of the globe, km from its centre: along the equator at 0° and 90° east, and to the north.
+std::array<double, 3> earth_position_km(double longitude_deg, double latitude_deg);
 
 }  // namespace belvedere

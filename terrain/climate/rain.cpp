@@ -13,13 +13,14 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/statistics.h"
 #include "terrain/climate/horizon_sweep.h"
 
 namespace belvedere {
 namespace {
 
 constexpr std::size_t most_terms = 4;                    // 1, altitude, x, y
-constexpr std::uint64_t bootstrap_seed = 0x7261696eULL;  // no stream of pictures: only a range in a report hangs on it
+constexpr std::uint64_t rain_seed = 0x7261696eULL;  // no stream of pictures: only a range in a report hangs on it
 using Terms = std::array<double, most_terms>;
 
 // One station as the regression sees it: terms in km about the middle.
@@ -27,12 +28,6 @@ struct Row {
   Terms term;
   double rain_mm;
 };
-
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 double foretell(const Terms& factor, const Row& row, std::size_t terms) {
   double sum = 0.0;
@@ -75,7 +70,7 @@ std::optional<Terms> solve_robust(const std::vector<Row>& rows, std::size_t term
   for (int round = 0; round < 20 && factor; ++round) {
     std::vector<double> off;
     for (const Row& row : rows) off.push_back(std::abs(row.rain_mm - foretell(*factor, row, terms)));
-    const double deviation = std::max(1e-6, 1.4826 * median_of(off));  // of a normal distribution with that median
+    const double deviation = std::max(1e-6, 1.4826 * median(off));  // of a normal distribution with that median
     for (std::size_t i = 0; i < rows.size(); ++i) weight[i] = std::min(1.0, 1.345 * deviation / std::max(off[i], 1e-12));
     factor = solve_weighted(rows, weight, terms);
   }
@@ -108,7 +103,7 @@ RainPlane fit_rain(const std::vector<Station>& all, int bootstrap_samples) {
     rows.push_back({{1.0, (station.altitude_m - plane.middle_m) / 1000.0, away_km.x, away_km.y}, station.rain_mm});
     rain.push_back(station.rain_mm);
   }
-  plane.at_middle_mm = median_of(rain);
+  plane.at_middle_mm = median(rain);
   std::size_t terms = rows.size() < 4 ? 1 : rows.size() < fewest_stations ? 2 : 4;
   std::optional<Terms> factor;
   // Stations on one line, or all at one altitude, tell less.
@@ -122,7 +117,7 @@ RainPlane fit_rain(const std::vector<Station>& all, int bootstrap_samples) {
   std::vector<Row> drawn(rows.size());
   for (int sample = 0; sample < bootstrap_samples; ++sample) {
     for (std::size_t i = 0; i < rows.size(); ++i)
-      drawn[i] = rows[random_index(static_cast<std::uint32_t>(rows.size()), bootstrap_seed, sample, static_cast<std::int64_t>(i))];
+      drawn[i] = rows[random_index(static_cast<std::uint32_t>(rows.size()), rain_seed, sample, static_cast<std::int64_t>(i))];
     if (const std::optional<Terms> again = solve_robust(drawn, terms)) gradients.push_back((*again)[1]);
   }
   std::sort(gradients.begin(), gradients.end());

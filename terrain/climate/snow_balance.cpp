@@ -10,12 +10,6 @@
 namespace belvedere {
 namespace {
 
-double mean_of(const Months& months) {
-  double sum = 0.0;
-  for (const double t : months) sum += t;
-  return sum / 12.0;
-}
-
 // Of three months in a row.
 double warmest_three(const Months& months) {
   double warmest = -1e9;
@@ -52,7 +46,7 @@ double snow_to_last_mm(const Months& months) {
   constexpr double turn_c = -296.0 / 18.0;
   const double summer = std::max(turn_c, warmest_three(months));
   const double by_temperature = 296.0 * summer + 9.0 * summer * summer;
-  const double endless_summer = unit(1.0 - (summer - mean_of(months)) / 6.0);
+  const double endless_summer = unit(1.0 - (summer - year_mean(months)) / 6.0);
   return 645.0 + by_temperature * (by_temperature > 0.0 ? 1.0 + 3.0 * endless_summer : 1.0);
 }
 

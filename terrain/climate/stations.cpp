@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "terrain/climate/growing_season.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/number_arrays.h"
 #include "terrain/io/points.h"
@@ -41,8 +42,6 @@ int find_one_of(const PointTable& table, const std::vector<const char*>& names) 
     if (const int column = table.find(name); column >= 0) return column;
   return -1;
 }
-
-double mean_of(const std::array<double, 12>& months) { return std::accumulate(months.begin(), months.end(), 0.0) / 12.0; }
 
 StationTable from_points(const std::string& path, const std::string& crs) {
   const PointTable table = read_points(path, crs);
@@ -78,7 +77,7 @@ StationTable from_points(const std::string& path, const std::string& crs) {
                   "the station's altitude");
     for (std::size_t m = 0; m < 12; ++m) station.temperature_c[m] = number_in(table, point, month[m], -90.0, 60.0, "°C");
     station.temperature_year_c = number_in(table, point, year, -90.0, 60.0, "°C");
-    if (std::isnan(station.temperature_year_c)) station.temperature_year_c = mean_of(station.temperature_c);
+    if (std::isnan(station.temperature_year_c)) station.temperature_year_c = year_mean(station.temperature_c);
     station.rain_mm = number_in(table, point, rain, 0.0, 20000.0, "mm");
     out.stations.push_back(station);
   }
@@ -182,7 +181,7 @@ StationTable from_history(const std::string& path, const std::string& crs) {
       station.temperature_c[m] = mean_of_month(arrays.temp, cell, static_cast<int>(m)) - (kelvin ? 273.15 : 0.0);
       station.rain_mm += mean_of_month(arrays.prcp, cell, static_cast<int>(m));
     }
-    station.temperature_year_c = mean_of(station.temperature_c);
+    station.temperature_year_c = year_mean(station.temperature_c);
     places.emplace_back(arrays.lon.values[cell % columns], arrays.lat.values[cell / columns]);
     out.stations.push_back(station);
   }

@@ -10,6 +10,7 @@
 #include "base/embedded.h"
 #include "base/error.h"
 #include "base/math_exact.h"
+#include "terrain/climate/map_place.h"
 
 // Universal kriging (Cressie 1993): a value is a trend of latitude and altitude, and a sum over stations of how akin the place is to each.
 // Kinship falls with distance as 1 / (1 + d² / 2L²) (rational quadratic), which is made of sums and quotients alone, is smooth at the
@@ -17,7 +18,6 @@
 namespace belvedere {
 namespace {
 
-constexpr double earth_radius_km = 6371.0;
 constexpr int trend_terms = 6;
 constexpr double rain_floor_mm = 30.0;  // deserts with 1 and with 10 mm are alike
 

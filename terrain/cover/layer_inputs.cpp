@@ -11,7 +11,9 @@
 #include "base/filter.h"
 #include "base/grid_part.h"
 #include "base/math_exact.h"
+#include "base/parallel.h"
 #include "terrain/cover/ground_variables.h"
+#include "terrain/io/block_means.h"
 #include "terrain/shape/derivatives.h"
 #include "terrain/shape/hydrology.h"
 #include "terrain/shape/surroundings.h"
@@ -54,33 +56,6 @@ int block_for(double size) {
   int factor = 1;
   while (2.0 * factor <= size) factor *= 2;
   return factor;
-}
-
-// Means of blocks of factor × factor cells of f(row, y), which fills a row; blocks at the rim are of what there is.
-template <class FillRow>
-Grid<float> block_means(int width, int height, int factor, FillRow&& fill_row) {
-  Grid<float> out((width + factor - 1) / factor, (height + factor - 1) / factor);
-  parallel_rows(out.height(), [&](int j) {
-    std::vector<float> row(static_cast<std::size_t>(width));
-    std::vector<double> sums(static_cast<std::size_t>(out.width()), 0.0);
-    const int y1 = std::min(height, (j + 1) * factor);
-    for (int y = j * factor; y < y1; ++y) {
-      fill_row(y, row.data());
-      for (int i = 0; i < out.width(); ++i) {
-        const int x1 = std::min(width, (i + 1) * factor);
-        for (int x = i * factor; x < x1; ++x) sums[static_cast<std::size_t>(i)] += static_cast<double>(row[static_cast<std::size_t>(x)]);
-      }
-    }
-    for (int i = 0; i < out.width(); ++i) {
-      const int count = (std::min(width, (i + 1) * factor) - i * factor) * (y1 - j * factor);
-      out(i, j) = static_cast<float>(sums[static_cast<std::size_t>(i)] / count);
-    }
-  });
-  return out;
-}
-Grid<float> block_means(const Grid<float>& values, int factor) {
-  if (factor == 1) return values;
-  return block_means(values.width(), values.height(), factor, [&](int y, float* row) { std::copy_n(values.row(y), values.width(), row); });
 }
 
 // Four cells of a coarse grid around a fine one, and their weights of the cubic B-spline.

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/io/dem.h"
 

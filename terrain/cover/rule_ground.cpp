@@ -7,6 +7,7 @@
 #include "base/grid_part.h"
 #include "base/math.h"
 #include "base/noise.h"
+#include "base/parallel.h"
 #include "base/random_streams.h"
 
 namespace belvedere {

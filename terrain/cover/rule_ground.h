@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/grid.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "terrain/io/raster.h"
 
 namespace belvedere {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/grid.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "terrain/deform/bend_curve.h"
 #include "terrain/deform/handles.h"
 #include "terrain/io/raster.h"

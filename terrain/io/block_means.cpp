@@ -46,4 +46,30 @@ Grid<float> BlockMeans::means() const {
   return out;
 }
 
+Grid<float> block_means(int width, int height, int factor, FunctionRef<void(int y, float* row)> fill_row) {
+  Grid<float> out((width + factor - 1) / factor, (height + factor - 1) / factor);
+  parallel_rows(out.height(), [&](int j) {
+    std::vector<float> row(static_cast<std::size_t>(width));
+    std::vector<double> sums(static_cast<std::size_t>(out.width()), 0.0);
+    const int y1 = std::min(height, (j + 1) * factor);
+    for (int y = j * factor; y < y1; ++y) {
+      fill_row(y, row.data());
+      for (int i = 0; i < out.width(); ++i) {
+        const int x1 = std::min(width, (i + 1) * factor);
+        for (int x = i * factor; x < x1; ++x) sums[static_cast<std::size_t>(i)] += static_cast<double>(row[static_cast<std::size_t>(x)]);
+      }
+    }
+    for (int i = 0; i < out.width(); ++i) {
+      const int count = (std::min(width, (i + 1) * factor) - i * factor) * (y1 - j * factor);
+      out(i, j) = static_cast<float>(sums[static_cast<std::size_t>(i)] / count);
+    }
+  });
+  return out;
+}
+
+Grid<float> block_means(const Grid<float>& values, int factor) {
+  if (factor == 1) return values;
+  return block_means(values.width(), values.height(), factor, [&](int y, float* row) { std::copy_n(values.row(y), values.width(), row); });
+}
+
 }  // namespace belvedere

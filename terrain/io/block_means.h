@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/function_ref.h"
 #include "base/grid.h"
 
 namespace belvedere {
@@ -28,5 +29,10 @@ class BlockMeans {
   Grid<double> sums_;
   Grid<std::int32_t> counts_;
 };
+
+// Means of blocks of `factor` × `factor` cells; blocks at the right and lower rim are of what there is.
+Grid<float> block_means(const Grid<float>& values, int factor);
+// The same of values that are in no grid: fill_row(y, row) writes a row of `width` of them.
+Grid<float> block_means(int width, int height, int factor, FunctionRef<void(int y, float* row)> fill_row);
 
 }  // namespace belvedere

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 namespace {

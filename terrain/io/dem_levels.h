@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/grid.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "base/progress.h"
 #include "terrain/io/block_means.h"
 #include "terrain/io/dem.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "terrain/io/raster.h"
 #include "terrain/layers/layer_expressions.h"
 #include "terrain/layers/surface_layers.h"

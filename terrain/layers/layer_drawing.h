@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/land_cover_class.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "terrain/io/raster.h"
 
 namespace belvedere {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/config.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "terrain/cover/rule_expression.h"
 #include "terrain/io/raster.h"
 #include "terrain/layers/surface_layers.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/noise.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "terrain/io/raster.h"
 #include "terrain/layers/surface_layers.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "terrain/cover/layer_inputs.h"
 #include "terrain/layers/layer_coverage.h"
 

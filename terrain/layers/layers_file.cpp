@@ -198,7 +198,7 @@ void order_layers(const Reader& reader, const std::vector<ReadLayer>& read, Surf
   }
 }
 
-std::string quoted(std::string_view text) {
+std::string toml_text(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\')
@@ -234,8 +234,8 @@ std::string function_text(const LayerFunction& function) {
 }
 
 std::string layer_text(const SurfaceLayers& file, const SurfaceLayer& layer) {
-  std::string out = fmt::format("\n[[layers]]\nname = {}\n", quoted(layer.name));
-  if (layer.parent >= 0) out += fmt::format("parent = {}\n", quoted(file.layers[static_cast<std::size_t>(layer.parent)].name));
+  std::string out = fmt::format("\n[[layers]]\nname = {}\n", toml_text(layer.name));
+  if (layer.parent >= 0) out += fmt::format("parent = {}\n", toml_text(file.layers[static_cast<std::size_t>(layer.parent)].name));
   if (layer.painted_as) out += fmt::format("class = \"{}\"\n", class_name(*layer.painted_as));
   out += fmt::format("colour = {}\n", coloured(layer.rgb));
   const SurfaceLayer usual;
@@ -245,7 +245,7 @@ std::string layer_text(const SurfaceLayers& file, const SurfaceLayer& layer) {
   if (n.scale_m != usual.noise.scale_m || n.octaves != usual.noise.octaves || n.amplitude != usual.noise.amplitude ||
       n.bias != usual.noise.bias)
     out += fmt::format("noise = {{ scale_m = {}, octaves = {}, amplitude = {}, bias = {} }}\n", n.scale_m, n.octaves, n.amplitude, n.bias);
-  if (!layer.when.empty()) out += fmt::format("when = {}\n", quoted(layer.when));
+  if (!layer.when.empty()) out += fmt::format("when = {}\n", toml_text(layer.when));
   bool first = true;
   for (std::size_t i = 0; i < layer.functions.size(); ++i) {
     if (std::holds_alternative<std::monostate>(layer.functions[i])) continue;
@@ -306,7 +306,7 @@ SurfaceLayers read_surface_layers(const std::string& path) { return read_documen
 std::string surface_layers_text(const SurfaceLayers& layers) {
   check_surface_layers(layers, layers.name.empty() ? "layers" : layers.name);
   std::string out = "# Surface layers: what covers the ground, said by what is known of each place (docs/layers.md).\nversion = 1\n";
-  if (!layers.name.empty()) out += fmt::format("name = {}\n", quoted(layers.name));
+  if (!layers.name.empty()) out += fmt::format("name = {}\n", toml_text(layers.name));
   out += fmt::format("model = \"{}\"\n", layers.model == LayerModel::product ? "product" : "additive");
   out += layers.ground_painted_as ? fmt::format("ground = {{ class = \"{}\", colour = {} }}\n", class_name(*layers.ground_painted_as),
                                                 coloured(layers.ground_rgb))
@@ -317,7 +317,7 @@ std::string surface_layers_text(const SurfaceLayers& layers) {
   if (!layers.parameters.empty()) out += "\n[parameters]\n";
   for (const auto& [name, value] : layers.parameters) out += fmt::format("{} = {}\n", name, value);
   if (!layers.terms.empty()) out += "\n[terms]\n";
-  for (const auto& [name, text] : layers.terms) out += fmt::format("{} = {}\n", name, quoted(text));
+  for (const auto& [name, text] : layers.terms) out += fmt::format("{} = {}\n", name, toml_text(text));
   for (const SurfaceLayer& layer : layers.layers) out += layer_text(layers, layer);
   return out;
 }

@@ -21,7 +21,7 @@ constexpr std::size_t led_cells = 24;  // before its mouth, over which a river i
 constexpr std::size_t own_cells = 10;  // before its mouth, over which it does not feel the width of the larger one
 
 // A river as the cells of its reaches, downstream; the last one may be of the larger river that it flows into.
-struct Line {
+struct CourseLine {
   std::vector<std::size_t> reaches;
   bool joins = false;
 };
@@ -44,12 +44,12 @@ void lead_mouth(std::vector<glm::dvec2>& places, const std::vector<RiverReach>& 
   }
 }
 
-std::vector<Line> follow_water(const std::vector<RiverReach>& reaches) {
-  std::vector<Line> lines;
+std::vector<CourseLine> follow_water(const std::vector<RiverReach>& reaches) {
+  std::vector<CourseLine> lines;
   for (std::size_t i = 0; i < reaches.size(); ++i) {
     // A spring has nothing above it.
     if (reaches[i].upstream != no_reach) continue;
-    Line line;
+    CourseLine line;
     for (std::size_t at = i; at != no_reach; at = reaches[at].downstream) {
       line.reaches.push_back(at);
       const std::size_t below = reaches[at].downstream;
@@ -119,7 +119,7 @@ std::vector<Course> guess_courses(const Grid<float>& catchment_km2, const Grid<f
     reach.half_width_m = known_half_width_m(km2) * grown;
   }
   smooth_reaches(reaches);
-  const std::vector<Line> lines = follow_water(reaches);
+  const std::vector<CourseLine> lines = follow_water(reaches);
   // Every river bends where it is its own; then tributaries are led to where the larger ones run now.
   std::vector<std::vector<glm::dvec2>> ways(lines.size());
   parallel_ranges(lines.size(), std::size_t{4}, [&](std::size_t begin, std::size_t end) {
@@ -138,7 +138,7 @@ std::vector<Course> guess_courses(const Grid<float>& catchment_km2, const Grid<f
     for (std::size_t k = 0; k < lines[i].reaches.size() - (lines[i].joins ? 1 : 0); ++k) reaches[lines[i].reaches[k]].place = ways[i][k];
   std::vector<Course> courses;
   for (std::size_t number = 0; number < lines.size(); ++number) {
-    const Line& line = lines[number];
+    const CourseLine& line = lines[number];
     std::vector<RiverBed> along;
     along.reserve(line.reaches.size());
     for (const std::size_t reach : line.reaches) along.push_back(beds[reach]);

@@ -11,6 +11,7 @@
 #include "base/random.h"
 #include "base/rising_queue.h"
 #include "terrain/shape/spill_level.h"
+#include "terrain/synthetic/synthetic_parts.h"
 
 namespace belvedere::synthetic {
 namespace {
@@ -25,8 +26,6 @@ constexpr bool is_diagonal[8] = {true, false, true, false, false, true, false, t
 constexpr std::size_t ahead = 16;  // cells
 constexpr std::int32_t is_outlet = -1;
 constexpr std::int32_t is_flat = -2;  // no lower neighbour
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // f(k, j) for the neighbours j of a cell, by rising index.
 template <class F>

@@ -8,13 +8,12 @@
 
 #include "base/lines/power_line.h"
 #include "base/parallel.h"
+#include "terrain/synthetic/synthetic_parts.h"
 
 namespace belvedere::synthetic {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // Length of the way to the receiver in cells.
 float step_cells(std::int32_t from, std::int32_t to, int width) {

@@ -10,9 +10,12 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
+
+using test::largest_difference;
 
 Grid<float> noise_grid(int width, int height, std::uint64_t seed) {
   Grid<float> grid(width, height);
@@ -52,12 +55,6 @@ Grid<float> reference_blur(const Grid<float>& values, double sigma_x, double sig
     }
   }
   return out;
-}
-
-double largest_difference(const Grid<float>& a, const Grid<float>& b) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(static_cast<double>(a[i]) - b[i]));
-  return largest;
 }
 
 class BlurAgainstDefinition : public testing::TestWithParam<double> {};

@@ -11,9 +11,12 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "tests/grids.h"
 
 namespace belvedere {
 namespace {
+
+using test::largest_difference;
 
 // 5000 m of relief with detail in every band.
 Grid<float> rough_terrain(int width, int height) {
@@ -25,13 +28,6 @@ Grid<float> rough_terrain(int width, int height) {
     }
   }
   return grid;
-}
-
-double largest_difference(const Grid<float>& a, const Grid<float>& b) {
-  EXPECT_TRUE(a.same_size(b));
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(static_cast<double>(a[i]) - b[i]));
-  return largest;
 }
 
 Grid<float> weighted_sum(LaplacianPyramid pyramid, const std::vector<float>& weights) {

@@ -13,6 +13,7 @@
 
 #include "base/grid.h"
 #include "renderer/image/image_io.h"
+#include "terrain/io/raster_io.h"
 #include "tests/files.h"
 #include "tests/paths.h"
 
@@ -26,6 +27,12 @@ struct Outcome {
   std::string out;
   std::string err;
 };
+
+inline Raster<float> read_raster_file(const std::string& file) {
+  RasterSource source;
+  source.path = file;
+  return read_raster(source);
+}
 
 // The built program, and a folder of the test's own.
 class Program : public ::testing::Test {

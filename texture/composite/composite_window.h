@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "texture/composite/composite_model.h"
 #include "texture/statistical/make_texture.h"
 

@@ -15,7 +15,6 @@ namespace belvedere {
 namespace {
 
 constexpr int square = 32;                   // of the checkerboard, texels
-constexpr int inside_squared = 64;           // as in quality.h
 constexpr int least_gap = 16;                // steps of a guide
 constexpr std::size_t fewest_texels = 1000;  // of a half
 
@@ -95,7 +94,7 @@ ExemplarSurvey survey_exemplar(const Exemplar& exemplar) {
   std::array<std::size_t, 256> inside{};
   for (std::size_t i = 0; i < labels.size(); ++i) {
     ++texels[labels[i]];
-    if (borders[i] > inside_squared) ++inside[labels[i]];
+    if (borders[i] > quality::inside_squared) ++inside[labels[i]];
   }
   survey.excluded = texels[unused_label];
   for (std::size_t l = 0; l < unused_label; ++l) {

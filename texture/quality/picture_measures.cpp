@@ -18,10 +18,7 @@ namespace belvedere {
 
 namespace {
 
-constexpr int inside_squared = 64;  // further than 8 pixels from a border
 constexpr int border_squared = 16;  // at most 4 pixels
-
-int sum_of(const Rgb8& c) { return c[0] + c[1] + c[2]; }
 
 }  // namespace
 
@@ -69,9 +66,9 @@ double mean_gradient(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels
   const auto slope = [](int before, int after, bool whole) { return (after - before) / (whole ? 2.0 : 1.0) / 3.0; };
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
-      if (labels(x, y) != label || borders(x, y) <= inside_squared) continue;
-      const double gx = slope(sum_of(picture.clamped(x - 1, y)), sum_of(picture.clamped(x + 1, y)), x > 0 && x + 1 < picture.width());
-      const double gy = slope(sum_of(picture.clamped(x, y - 1)), sum_of(picture.clamped(x, y + 1)), y > 0 && y + 1 < picture.height());
+      if (labels(x, y) != label || borders(x, y) <= quality::inside_squared) continue;
+      const double gx = slope(quality::sum_of(picture.clamped(x - 1, y)), quality::sum_of(picture.clamped(x + 1, y)), x > 0 && x + 1 < picture.width());
+      const double gy = slope(quality::sum_of(picture.clamped(x, y - 1)), quality::sum_of(picture.clamped(x, y + 1)), y > 0 && y + 1 < picture.height());
       sum += exact::hypot(gx, gy);
       ++count;
     }
@@ -89,7 +86,7 @@ int stroke_tolerance(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels
       std::int64_t s2 = 0;
       for (int j = -3; j <= 3; ++j) {
         for (int i = -3; i <= 3; ++i) {
-          const int v = sum_of(picture.clamped(x + i, y + j));
+          const int v = quality::sum_of(picture.clamped(x + i, y + j));
           s += v;
           s2 += static_cast<std::int64_t>(v) * v;
         }
@@ -122,8 +119,8 @@ double stroke_run(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, c
   parallel_rows((picture.height() + 2) / 3, [&](int row) {
     const int y = 3 * row;
     for (int x = 0; x < picture.width(); x += 3) {
-      if (labels(x, y) != label || borders(x, y) <= inside_squared) continue;
-      const int here = sum_of(picture(x, y));
+      if (labels(x, y) != label || borders(x, y) <= quality::inside_squared) continue;
+      const int here = quality::sum_of(picture(x, y));
       double best = 0.0;
       for (std::size_t d = 0; d < directions; ++d) {
         int run = 1;
@@ -131,7 +128,7 @@ double stroke_run(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels, c
           for (std::size_t t = 1; t <= longest; ++t, ++run) {
             const int i = x + way * steps[d][t][0];
             const int j = y + way * steps[d][t][1];
-            if (!picture.contains(i, j) || labels(i, j) != label || std::abs(sum_of(picture(i, j)) - here) > tolerance) break;
+            if (!picture.contains(i, j) || labels(i, j) != label || std::abs(quality::sum_of(picture(i, j)) - here) > tolerance) break;
           }
         }
         best = std::max(best, run * step_length[d]);
@@ -152,11 +149,11 @@ SpeckShares speck_shares(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& bo
     for (int x = 0; x < picture.width(); ++x) {
       std::array<int, 9> around{};
       for (int j = -1; j <= 1; ++j) {
-        for (int i = -1; i <= 1; ++i) around[3 * j + i + 4] = sum_of(picture.clamped(x + i, y + j));
+        for (int i = -1; i <= 1; ++i) around[3 * j + i + 4] = quality::sum_of(picture.clamped(x + i, y + j));
       }
       std::nth_element(around.begin(), around.begin() + 4, around.end());
-      const bool speck = std::abs(sum_of(picture(x, y)) - around[4]) > stands_out;
-      if (borders(x, y) > inside_squared) {
+      const bool speck = std::abs(quality::sum_of(picture(x, y)) - around[4]) > stands_out;
+      if (borders(x, y) > quality::inside_squared) {
         ++inside;
         inside_specks += speck ? 1 : 0;
       } else if (borders(x, y) <= border_squared) {

@@ -11,7 +11,6 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "texture/quality/quality_parts.h"
 
 namespace belvedere {

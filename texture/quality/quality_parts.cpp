@@ -46,8 +46,6 @@ double wasserstein(const Histogram& a, const Histogram& b) {
 
 namespace {
 
-int sum_of(const Rgb8& c) { return c[0] + c[1] + c[2]; }
-
 constexpr std::array<std::array<int, 2>, 20> clique_steps{{{1, 0},  {0, 1},  {1, 1},  {1, -1}, {2, 0},   {0, 2},  {4, 0},
                                                            {0, 4},  {4, 4},  {4, -4}, {8, 0},  {0, 8},   {8, 8},  {8, -8},
                                                            {16, 0}, {0, 16}, {12, 6}, {6, 12}, {12, -6}, {6, -12}}};

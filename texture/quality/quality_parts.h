@@ -8,6 +8,12 @@
 
 namespace belvedere::quality {
 
+// Squared distances of pixels from the border of their class: those inside lie further than 8 pixels from it.
+constexpr int inside_squared = 64;
+
+// Three times the grey of a colour.
+constexpr int sum_of(const Rgb8& c) { return c[0] + c[1] + c[2]; }
+
 // Weights of the values 0…255.
 using Histogram = std::array<double, 256>;
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 
 namespace belvedere {
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/random.h"
 #include "texture/sheet/plan_data.h"
 #include "texture/synthesis/synth_level.h"

@@ -21,7 +21,7 @@ namespace belvedere {
 namespace {
 
 constexpr int learnt_px = 96;    // of a picture, beside the band, that its model is learnt from: what is far may be of another kind
-constexpr int border_px = 1;     // on either side of the ragged border that is made by the model of both
+constexpr int seam_border_px = 1;     // on either side of the ragged border that is made by the model of both
 constexpr double torn_px = 1.0;  // half width of the noise across the ragged border
 constexpr int least_band_px = 24;
 constexpr int widest_band_px = 96;  // that is chosen
@@ -93,7 +93,7 @@ Grid<Rgb8> grow_right(const Grid<Rgb8>& picture, const KnitParameters& parameter
 Grid<std::uint8_t> ragged_sides(int height, const KnitParameters& parameters) {
   const int k = parameters.band_px;
   const std::uint64_t torn = stream_seed(parameters.seed, Stream::statistical_directions, 12);
-  const double reach = k - 1.0 - border_px - torn_px;
+  const double reach = k - 1.0 - seam_border_px - torn_px;
   const std::vector<double> places = even_places(height, parameters);
   Grid<std::uint8_t> sides(2 * k, height);
   for (int y = 0; y < height; ++y) {
@@ -143,7 +143,7 @@ class ColourSet {
   std::vector<Cell> cells_ = std::vector<Cell>(std::size_t{1} << 15U);
 };
 
-// What lies within border_px of the other side.
+// What lies within seam_border_px of the other side.
 Grid<std::uint8_t> along_border(const Grid<std::uint8_t>& sides, int first, int width) {
   Grid<std::uint8_t> hole(width, sides.height());
   const auto side = [&](int x, int y) {
@@ -153,8 +153,8 @@ Grid<std::uint8_t> along_border(const Grid<std::uint8_t>& sides, int first, int 
   for (int y = 0; y < sides.height(); ++y)
     for (int x = 0; x < sides.width(); ++x) {
       bool near = false;
-      for (int j = -border_px; j <= border_px && !near; ++j)
-        for (int i = -border_px; i <= border_px && !near; ++i) near = side(x + i, y + j) != sides(x, y);
+      for (int j = -seam_border_px; j <= seam_border_px && !near; ++j)
+        for (int i = -seam_border_px; i <= seam_border_px && !near; ++i) near = side(x + i, y + j) != sides(x, y);
       hole(first + x, y) = near ? 1 : 0;
     }
   return hole;

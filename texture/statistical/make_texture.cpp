@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/grid_part.h"
+#include "base/parallel.h"
 #include "texture/statistical/label_borders.h"
 
 namespace belvedere {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "base/progress.h"
 #include "texture/statistical/clique_polish.h"
 #include "texture/statistical/seed_noise.h"

@@ -48,7 +48,7 @@ struct Regions {
   double reach = 0.0;  // a part of the mean distance of two centres: how softly one goes over into the next
 };
 
-bool counts(const Grid<std::uint8_t>& mask, std::size_t i) { return mask.empty() || mask[i] != 0; }
+bool inside_mask(const Grid<std::uint8_t>& mask, std::size_t i) { return mask.empty() || mask[i] != 0; }
 
 // k-means from the parts of equal size by lightness: nothing is drawn by lot.
 Regions find_regions(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& mask, const PhotometricParameters& parameters,
@@ -56,7 +56,7 @@ Regions find_regions(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>& m
   Regions out{opponents(picture, parameters.blur_px), {}};
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < picture.size(); ++i)
-    if (counts(mask, i)) order.push_back(i);
+    if (inside_mask(mask, i)) order.push_back(i);
   const auto wanted = static_cast<std::size_t>(parameters.regions);
   if (order.size() < wanted)
     throw Error(ErrorKind::input, fmt::format("the {} of a correction", which), fmt::format("{} pixels count", order.size()),
@@ -154,7 +154,7 @@ std::vector<RegionColours> measure_colours(const Grid<glm::vec3>& picture, const
   std::vector<RegionColours> out(wanted);
   std::vector<glm::dvec3> direction(wanted, glm::dvec3(0.0));
   for (std::size_t i = 0; i < picture.size(); ++i) {
-    if (!counts(mask, i)) continue;
+    if (!inside_mask(mask, i)) continue;
     const glm::dvec3 hsv = to_hsv(picture[i]);
     const exact::Turn turn = exact::turn(turn_rad * hsv.x);
     const std::vector<double> share = shares(regions, i);
@@ -165,7 +165,7 @@ std::vector<RegionColours> measure_colours(const Grid<glm::vec3>& picture, const
   for (auto& of_region : histograms)
     for (Histogram& histogram : of_region) histogram.assign(bins, 0.0);
   for (std::size_t i = 0; i < picture.size(); ++i) {
-    if (!counts(mask, i)) continue;
+    if (!inside_mask(mask, i)) continue;
     const glm::dvec3 hsv = to_hsv(picture[i]);
     const std::vector<double> share = shares(regions, i);
     for (std::size_t k = 0; k < wanted; ++k) {

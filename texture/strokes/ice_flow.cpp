@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/filter.h"
+#include "base/parallel.h"
 #include "texture/strokes/stroke_parts.h"
 
 namespace belvedere {
@@ -72,6 +73,10 @@ std::vector<glm::vec2> trace_ice(const StrokeScene& scene, const IceFlow& flow, 
     way.push_back(place);
   }
   return way;
+}
+
+bool same_ice_surface(const StrokeScene& scene, std::size_t a, std::size_t b) {
+  return std::abs(scene.guidance.depth_m[a] / scene.guidance.depth_m[b] - 1.F) < same_ice_depth;
 }
 
 }  // namespace belvedere

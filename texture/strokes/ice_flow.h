@@ -25,5 +25,6 @@ std::vector<glm::vec2> trace_ice(const StrokeScene& scene, const IceFlow& flow, 
 
 // Depths that belong to one surface of ice, whatever its humps, differ by less, relative.
 inline constexpr float same_ice_depth = 0.03F;
+bool same_ice_surface(const StrokeScene& scene, std::size_t a, std::size_t b);
 
 }  // namespace belvedere

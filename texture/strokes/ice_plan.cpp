@@ -6,16 +6,13 @@
 #include <iterator>
 #include <utility>
 
+#include "texture/strokes/ice_flow.h"
 #include "texture/strokes/stroke_parts.h"
 
 namespace belvedere {
 namespace {
 
 using enum LandCoverClass;
-
-bool same_surface(const StrokeScene& scene, std::size_t a, std::size_t b) {
-  return std::abs(scene.guidance.depth_m[a] / scene.guidance.depth_m[b] - 1.F) < same_ice_depth;
-}
 
 // The way along places of the scene's sheet, px; all of them are on the canvas.
 IceWay way_along(const StrokeScene& scene, Stream stream, const StrokeSeed& seed, const std::vector<glm::vec2>& places) {
@@ -40,7 +37,7 @@ bool below_rib(const StrokeScene& scene, const IceFlow& flow, glm::vec2 place, s
   const auto is_rock = [&](glm::vec2 there) {
     if (!scene.on_canvas(there)) return false;
     const std::size_t k = scene.pixel(there);
-    return (scene.class_at(k) == rock || scene.class_at(k) == scree) && same_surface(scene, k, i);
+    return (scene.class_at(k) == rock || scene.class_at(k) == scree) && same_ice_surface(scene, k, i);
   };
   if (!is_rock(place - down * (6.F * scale)) && !is_rock(place - down * (9.F * scale))) return false;
   for (const float side : {-10.F, 10.F}) {
@@ -108,7 +105,7 @@ std::vector<IceWay> crevasses(const StrokeScene& scene, const IceFlow& flow, Str
     glm::vec2 middle = place;
     for (int k = 0; k < count && scene.on_canvas(middle); ++k) {
       const std::size_t here = scene.pixel(middle);
-      if (scene.class_at(here) != glacier || (k > 0 && !same_surface(scene, here, i))) break;
+      if (scene.class_at(here) != glacier || (k > 0 && !same_ice_surface(scene, here, i))) break;
       middles.push_back(middle);
       const glm::vec2 down = flow.at(middle / scene.scale());
       middle += down * (gap_between * seed.between(0.6F, 1.5F));

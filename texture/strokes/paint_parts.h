@@ -7,7 +7,7 @@
 #include <glm/vec4.hpp>
 
 #include "base/grid.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 
 namespace belvedere {
 

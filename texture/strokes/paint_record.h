@@ -5,7 +5,7 @@
 
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "texture/strokes/stroke.h"
 
 namespace belvedere {

@@ -58,7 +58,7 @@ TreeKind kind_of_group(const StrokeScene& scene, std::size_t i, float group) {
 
 // How large the trees of a place are: in gullies and deep down they are tall, towards the treeline and on ribs small; whole stands are of
 // one age.
-float size_at(const StrokeScene& scene, std::size_t i) {
+float crown_size_at(const StrokeScene& scene, std::size_t i) {
   const float age = std::clamp(patch_noise(scene, i, Stream::forest_masses, 30.0), -1.6F, 1.6F);
   const float gully = std::clamp(-scene.relief_m(i) / 10.F, -1.F, 1.F);
   const float stunted = std::clamp((above_treeline_m(scene, i) + 330.F) / 330.F, 0.F, 1.F);
@@ -117,7 +117,7 @@ std::vector<Stroke> forest_trees(const StrokeScene& scene, Stream stream) {
     const float group_tone = (0.10F + 0.08F * (1.F - calm)) * seed.normal() + 0.20F * mass + 0.34F * lit_side(scene, i, place, canopy);
     const float strays = 0.22F * seed.normal();
     const TreeKind kind = kind_of_group(scene, i, patch_noise(scene, i, Stream::leafy_groups, 8.0) + strays);
-    const float size = size_at(scene, i) * (0.95F + 0.13F * std::clamp(canopy, -1.F, 1.F));
+    const float size = crown_size_at(scene, i) * (0.95F + 0.13F * std::clamp(canopy, -1.F, 1.F));
     // On steep ribs trees stand in rows down the slope, elsewhere huddled.
     const bool in_row = seed.uniform() < 0.55F * std::clamp((scene.slope_deg(i) - 26.F) / 14.F, 0.F, 1.F);
     const int count = 2 + static_cast<int>(seed.uniform() * 4.F);
@@ -157,7 +157,7 @@ std::vector<Stroke> forest_edges(const StrokeScene& scene, Stream stream) {
     if (seed.uniform() > 0.62F + 0.35F * group) return;
     const float lighter = 0.15F * seed.normal() - 0.2F;
     const TreeKind kind = kind_of_group(scene, i, patch_noise(scene, i, Stream::leafy_groups, 8.0));
-    plant_in_forest(scene, place, i, kind, {.lighter = lighter}, size_at(scene, i), seed, out);
+    plant_in_forest(scene, place, i, kind, {.lighter = lighter}, crown_size_at(scene, i), seed, out);
   });
 }
 

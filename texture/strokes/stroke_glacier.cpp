@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "texture/strokes/ice_flow.h"
 #include "texture/strokes/ice_ways.h"
 #include "texture/strokes/stroke_kinds.h"
 #include "texture/strokes/stroke_parts.h"
@@ -22,10 +23,6 @@ Stroke ice_stroke(const StrokeScene& scene, std::size_t i, StrokeSeed& seed) {
   stroke.depth_tolerance = same_ice_depth;
   lay_on_top(stroke);
   return stroke;
-}
-
-bool same_surface(const StrokeScene& scene, std::size_t a, std::size_t b) {
-  return std::abs(scene.guidance.depth_m[a] / scene.guidance.depth_m[b] - 1.F) < same_ice_depth;
 }
 
 // A bow across the flow, its middle `sag_px` down the flow.
@@ -59,7 +56,7 @@ float end_within(const StrokeScene& scene, glm::vec2 place, std::size_t i, glm::
     const glm::vec2 there = place + heading * (reach * scene.scale());
     if (!scene.on_canvas(there)) return 0.F;
     const std::size_t beyond = scene.pixel(there);
-    if (!same_surface(scene, beyond, i)) return 0.F;
+    if (!same_ice_surface(scene, beyond, i)) return 0.F;
     if (!is_ice(scene.class_at(beyond))) return reach;
   }
   return 0.F;

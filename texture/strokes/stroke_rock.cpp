@@ -31,7 +31,7 @@ float busy_at(const StrokeScene& scene, glm::vec2 place) {
 }
 
 // Strokes as large as the planes they lie on: broad on near walls, small on far ones.
-float size_at(const StrokeScene& scene, std::size_t i) {
+float facet_size_at(const StrokeScene& scene, std::size_t i) {
   return std::clamp(wall_m_per_unit / std::max(scene.metres_per_unit(i), 0.01F), 0.55F, 1.25F);
 }
 
@@ -50,7 +50,7 @@ std::vector<Stroke> paint_planes(const StrokeScene& scene, Stream stream, const 
     if (!scene.guidance.rock_facet.empty()) stroke.facet = scene.guidance.rock_facet[i];
     const float later = seed.uniform();
     stroke.order += order + 60.F * later;
-    const float size = size_at(scene, i);
+    const float size = facet_size_at(scene, i);
     const float drawn = seed.uniform();
     const float stray = 0.14F * seed.normal();
     const float side = seed.uniform() < 0.5F ? -1.F : 1.F;

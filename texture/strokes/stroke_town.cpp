@@ -7,6 +7,7 @@
 
 #include "base/math_exact.h"
 #include "base/noise.h"
+#include "base/parallel.h"
 #include "texture/strokes/stroke_kinds.h"
 #include "texture/strokes/stroke_parts.h"
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/error.h"
 
 namespace belvedere {
@@ -19,6 +22,13 @@ void check_exemplar(const Exemplar& exemplar) {
     throw Error(ErrorKind::usage, where, fmt::format("labels of {} × {}", exemplar.guides.width(), exemplar.guides.height()),
                 fmt::format("{} × {}, the size of its picture", picture.width(), picture.height()));
   }
+}
+
+Rgb8 to_rgb8(glm::vec3 encoded) {
+  Rgb8 rgb{};
+  for (int c = 0; c < 3; ++c)
+    rgb[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(std::clamp(encoded[c], 0.F, 1.F) * 255.F));
+  return rgb;
 }
 
 }  // namespace belvedere

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <string>
 
 #include "base/grid.h"
@@ -11,6 +12,8 @@ namespace belvedere {
 
 // 8-bit encoded sRGB: what patches are compared in. The full-depth painting is only touched by replay.
 using Rgb8 = std::array<std::uint8_t, 3>;
+// An encoded colour, 0…1, to the nearest of 256 steps.
+Rgb8 to_rgb8(glm::vec3 encoded);
 
 // A picture with its guides, ready to copy from.
 struct Exemplar {

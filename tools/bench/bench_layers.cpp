@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/grid_part.h"
+#include "base/parallel.h"
 #include "base/random.h"
 #include "terrain/layers/fit/ground_fit.h"
 #include "terrain/layers/layer_apply.h"

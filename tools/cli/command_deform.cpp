@@ -11,7 +11,6 @@
 
 #include "base/error.h"
 #include "base/json.h"
-#include "base/parallel.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
 #include "renderer/trace/sketch/relief_sketch.h"

@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "renderer/exemplar/texture_models.h"
 #include "renderer/pipeline/scene_check.h"
 #include "tools/cli/commands.h"

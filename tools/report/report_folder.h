@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/grid.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 
 namespace belvedere::tools {
 

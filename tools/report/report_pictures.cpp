@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/parallel.h"
 #include "terrain/shape/hillshade.h"
 
 namespace belvedere::tools {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/grid.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "texture/synthesis/exemplar.h"
 
 namespace belvedere::tools {

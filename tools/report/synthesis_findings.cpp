@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "base/parallel.h"
 #include "texture/synthesis/match_cost.h"
 #include "tools/report/report_pictures.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "texture/quality/quality.h"
 #include "texture/synthesis/class_supply.h"
 #include "tools/report/synthesis_report_input.h"

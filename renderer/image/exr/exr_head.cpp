@@ -98,11 +98,6 @@ Imf::Header make_header(const std::string& path, int width, int height, int tile
   return header;
 }
 
-template <class Number>
-void put(std::string& out, Number number) {
-  out.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
 }  // namespace
 
 std::string exr_head(const std::string& path, int width, int height, int tile_px, const std::vector<PartSpec>& parts,
@@ -113,8 +108,8 @@ std::string exr_head(const std::string& path, int width, int height, int tile_px
     for (const ChannelSpec& channel : part.channels) long_names |= channel.name.size() > longest_name;
   const int flags = (many ? Imf::MULTI_PART_FILE_FLAG : Imf::TILED_FLAG) | (long_names ? Imf::LONG_NAMES_FLAG : 0);
   std::string head;
-  put(head, std::int32_t{Imf::MAGIC});
-  put(head, std::int32_t{Imf::EXR_VERSION | flags});
+  put_number(head, std::int32_t{Imf::MAGIC});
+  put_number(head, std::int32_t{Imf::EXR_VERSION | flags});
   for (std::size_t p = 0; p < parts.size(); ++p) {
     for (std::size_t other = 0; other < p; ++other)
       if (parts[other].name == parts[p].name) throw Error(ErrorKind::bug, path, "part " + parts[p].name + " is there twice");

@@ -1,11 +1,19 @@
 #pragma once
 
+#include <bit>
 #include <string>
 #include <vector>
 
 #include "renderer/image/image_file.h"
 
 namespace belvedere {
+
+// Appends a number with the little end first, as files hold it and memory does here.
+static_assert(std::endian::native == std::endian::little);
+template <class Number>
+void put_number(std::string& out, Number number) {
+  out.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
 
 // The bytes of a tiled OpenEXR file before its tables of offsets: magic number, version, and a header for each part, made by the library.
 // ZIP, primaries of sRGB; notes go to the first part, those of a PartSpec to theirs. Error(bug) for parts or channels that are there twice,

@@ -21,7 +21,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "renderer/image/image_file_parts.h"
 
 namespace belvedere {

@@ -28,8 +28,6 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Numbers stand in the file with the little end first, as in memory.
-static_assert(std::endian::native == std::endian::little);
 
 constexpr int tile_size = ExrWriter::band_rows;
 constexpr int tiles_at_once = 128;    // are packed together, then written: more would be held
@@ -114,11 +112,6 @@ Bytes pack_tile(const Bytes& values) {
   return packed.size() < values.size() ? packed : values;
 }
 
-template <class Number>
-void put(std::string& out, Number number) {
-  out.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
 }  // namespace
 
 struct ExrWriter::State {
@@ -145,7 +138,7 @@ struct ExrWriter::State {
   std::string tables() const {
     std::string out;
     for (const Part& part : progress)
-      for (const std::uint64_t offset : part.offsets) put(out, offset);
+      for (const std::uint64_t offset : part.offsets) put_number(out, offset);
     return out;
   }
   void write_tiles(std::size_t part, int y0, const Values& values);
@@ -182,8 +175,8 @@ void ExrWriter::State::write_tiles(std::size_t part, int y0, const Values& value
       const int y = y0 / tile_size;
       progress[part].offsets[static_cast<std::size_t>(y) * static_cast<std::size_t>(across) + static_cast<std::size_t>(x)] = end;
       std::string start;
-      if (specs.size() > 1) put(start, static_cast<std::int32_t>(part));
-      for (const int number : {x, y, 0, 0, static_cast<int>(packed[i].size())}) put(start, std::int32_t{number});  // 0, 0: of full size
+      if (specs.size() > 1) put_number(start, static_cast<std::int32_t>(part));
+      for (const int number : {x, y, 0, 0, static_cast<int>(packed[i].size())}) put_number(start, std::int32_t{number});  // 0, 0: of full size
       add(start);
       add({reinterpret_cast<const char*>(packed[i].data()), packed[i].size()});
     }

@@ -6,6 +6,7 @@
 
 #include "base/math.h"
 #include "base/math_exact.h"
+#include "base/parallel.h"
 #include "renderer/image/oklab.h"
 #include "renderer/trace/guidance_ground.h"
 

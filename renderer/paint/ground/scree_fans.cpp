@@ -6,6 +6,7 @@
 
 #include "base/guidance_channels.h"
 #include "base/math.h"
+#include "base/parallel.h"
 #include "base/random_streams.h"
 #include "renderer/paint/ground/slope_walk.h"
 #include "renderer/paint/picture_noise.h"

@@ -4,7 +4,7 @@
 
 #include "base/grid.h"
 #include "base/guidance_buffers.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/paint/air_parameters.h"
 #include "renderer/paint/light.h"
 #include "renderer/paint/palette.h"

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/filter.h"
+#include "base/parallel.h"
 #include "renderer/trace/guidance_ground.h"
 #include "renderer/trace/guidance_rays.h"
 

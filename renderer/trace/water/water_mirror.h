@@ -5,7 +5,7 @@
 
 #include "base/grid.h"
 #include "base/land_cover_class.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/trace/camera.h"
 #include "renderer/trace/terrain_model.h"
 #include "renderer/trace/tracer.h"

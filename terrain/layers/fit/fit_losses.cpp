@@ -13,7 +13,7 @@
 namespace belvedere {
 namespace {
 
-constexpr std::size_t samples = 256;
+constexpr std::size_t table_samples = 256;
 constexpr std::size_t chunk_cells = 8192;  // fixed, so that sums do not hang on threads
 constexpr double level_weight = 1e-5;      // of squared knots: what the data leave open goes to 0
 
@@ -22,9 +22,9 @@ struct KnotPlace {
   std::size_t first = 0;
   double next = 0.0;  // weight of the next one
 };
-std::array<KnotPlace, samples> knot_places(std::size_t knots) {
-  std::array<KnotPlace, samples> places;
-  for (std::size_t i = 0; i != samples; ++i) {
+std::array<KnotPlace, table_samples> knot_places(std::size_t knots) {
+  std::array<KnotPlace, table_samples> places;
+  for (std::size_t i = 0; i != table_samples; ++i) {
     const double at = layer_sample_place(static_cast<int>(i)) * static_cast<double>(knots - 1);
     places[i].first = std::min(static_cast<std::size_t>(at), knots - 2);
     places[i].next = at - static_cast<double>(places[i].first);
@@ -108,37 +108,37 @@ class ProductLoss {
         own_count_(static_cast<double>(own.size())),
         cells_(static_cast<double>(own.size() + under.size())),
         places_(knot_places(knots_)),
-        own_(inputs_ * samples, 0.0),
+        own_(inputs_ * table_samples, 0.0),
         rows_(rows_of(cells, under)),
         under_(under.size()) {
     for (const std::uint32_t i : own)
-      for (std::size_t a = 0; a != inputs_; ++a) own_[a * samples + cells.inputs[a][i]] += 1.0;
+      for (std::size_t a = 0; a != inputs_; ++a) own_[a * table_samples + cells.inputs[a][i]] += 1.0;
   }
 
   double operator()(std::span<const double> x, std::span<double> gradient) const {
     const double b = sigmoid(x[0]);
-    std::vector<double> f(inputs_ * samples);
+    std::vector<double> f(inputs_ * table_samples);
     double loss = -own_count_ * exact::log(b);
     for (std::size_t a = 0; a != inputs_; ++a)
-      for (std::size_t i = 0; i != samples; ++i) {
+      for (std::size_t i = 0; i != table_samples; ++i) {
         const std::size_t at = 1 + a * knots_ + places_[i].first;
         const double e = x[at] + places_[i].next * (x[at + 1] - x[at]);
-        f[a * samples + i] = std::max(sigmoid(e), 1e-12);
-        if (own_[a * samples + i] != 0.0) loss -= own_[a * samples + i] * exact::log(f[a * samples + i]);
+        f[a * table_samples + i] = std::max(sigmoid(e), 1e-12);
+        if (own_[a * table_samples + i] != 0.0) loss -= own_[a * table_samples + i] * exact::log(f[a * table_samples + i]);
       }
     // d loss / d(-ln C): 1 a cell of the class, -C / (1 - C) a cell under it; the last number is the sum over all.
-    std::vector<double> slopes(inputs_ * samples + 1, 0.0);
+    std::vector<double> slopes(inputs_ * table_samples + 1, 0.0);
     loss += chunked_sum(under_, slopes, [&](std::size_t begin, std::size_t end, double* sums) {
       LogSum logs;
       for (std::size_t c = begin; c != end; ++c) {
         const std::uint8_t* row = rows_.data() + c * inputs_;
         double coverage = b;
-        for (std::size_t a = 0; a != inputs_; ++a) coverage *= f[a * samples + row[a]];
+        for (std::size_t a = 0; a != inputs_; ++a) coverage *= f[a * table_samples + row[a]];
         const double rest = std::max(1.0 - coverage, 1e-9);
         logs.add(rest);
         const double slope = coverage / rest;
-        for (std::size_t a = 0; a != inputs_; ++a) sums[a * samples + row[a]] -= slope;
-        sums[inputs_ * samples] -= slope;
+        for (std::size_t a = 0; a != inputs_; ++a) sums[a * table_samples + row[a]] -= slope;
+        sums[inputs_ * table_samples] -= slope;
       }
       return -logs.take();
     });
@@ -146,8 +146,8 @@ class ProductLoss {
     gradient[0] = -(1.0 - b) * (own_count_ + slopes.back()) / cells_;
     double penalty = 0.0;
     for (std::size_t a = 0; a != inputs_; ++a) {
-      for (std::size_t i = 0; i != samples; ++i) {
-        const double slope = -(1.0 - f[a * samples + i]) * (own_[a * samples + i] + slopes[a * samples + i]) / cells_;
+      for (std::size_t i = 0; i != table_samples; ++i) {
+        const double slope = -(1.0 - f[a * table_samples + i]) * (own_[a * table_samples + i] + slopes[a * table_samples + i]) / cells_;
         const std::size_t at = 1 + a * knots_ + places_[i].first;
         gradient[at] += (1.0 - places_[i].next) * slope;
         gradient[at + 1] += places_[i].next * slope;
@@ -163,7 +163,7 @@ class ProductLoss {
   double roughness_;
   double own_count_;
   double cells_;
-  std::array<KnotPlace, samples> places_;
+  std::array<KnotPlace, table_samples> places_;
   std::vector<double> own_;         // cells of the class by input and sample
   std::vector<std::uint8_t> rows_;  // samples of the cells under it, a row each
   std::size_t under_;
@@ -185,13 +185,13 @@ class AdditiveLoss {
   }
 
   double operator()(std::span<const double> x, std::span<double> gradient) const {
-    std::vector<double> factors(inputs_ * samples * classes_);
+    std::vector<double> factors(inputs_ * table_samples * classes_);
     for (std::size_t a = 0; a != inputs_; ++a)
-      for (std::size_t i = 0; i != samples; ++i)
+      for (std::size_t i = 0; i != table_samples; ++i)
         for (std::size_t k = 0; k != classes_; ++k) {
           const double* at = &x[(a * knots_ + places_[i].first) * classes_ + k];
           // ± 30 an input keeps products of 20 of them finite; fitted tables stay within ± 10.
-          factors[(a * samples + i) * classes_ + k] = exact::exp(std::clamp(at[0] + places_[i].next * (at[classes_] - at[0]), -30.0, 30.0));
+          factors[(a * table_samples + i) * classes_ + k] = exact::exp(std::clamp(at[0] + places_[i].next * (at[classes_] - at[0]), -30.0, 30.0));
         }
     const double cells = static_cast<double>(labels_.size());
     std::vector<double> slopes(factors.size(), 0.0);
@@ -202,7 +202,7 @@ class AdditiveLoss {
         const std::uint8_t* row = rows_.data() + c * inputs_;
         for (std::size_t k = 0; k != classes_; ++k) share[k] = prior_[k];
         for (std::size_t a = 0; a != inputs_; ++a) {
-          const double* of = &factors[(a * samples + row[a]) * classes_];
+          const double* of = &factors[(a * table_samples + row[a]) * classes_];
           for (std::size_t k = 0; k != classes_; ++k) share[k] *= of[k];
         }
         double total = 0.0;
@@ -212,7 +212,7 @@ class AdditiveLoss {
         logs.add(std::max(share[labels_[c]], 1e-12));
         share[labels_[c]] -= 1.0;
         for (std::size_t a = 0; a != inputs_; ++a) {
-          double* to = sums + (a * samples + row[a]) * classes_;
+          double* to = sums + (a * table_samples + row[a]) * classes_;
           for (std::size_t k = 0; k != classes_; ++k) to[k] += share[k];
         }
       }
@@ -221,9 +221,9 @@ class AdditiveLoss {
     std::fill(gradient.begin(), gradient.end(), 0.0);
     double penalty = 0.0;
     for (std::size_t a = 0; a != inputs_; ++a) {
-      for (std::size_t i = 0; i != samples; ++i)
+      for (std::size_t i = 0; i != table_samples; ++i)
         for (std::size_t k = 0; k != classes_; ++k) {
-          const double slope = slopes[(a * samples + i) * classes_ + k] / cells;
+          const double slope = slopes[(a * table_samples + i) * classes_ + k] / cells;
           double* at = &gradient[(a * knots_ + places_[i].first) * classes_ + k];
           at[0] += (1.0 - places_[i].next) * slope;
           at[classes_] += places_[i].next * slope;
@@ -239,7 +239,7 @@ class AdditiveLoss {
   std::size_t knots_;
   std::size_t classes_;
   double roughness_;
-  std::array<KnotPlace, samples> places_;
+  std::array<KnotPlace, table_samples> places_;
   std::vector<std::uint8_t> rows_;
   std::vector<std::uint8_t> labels_;
   std::vector<double> prior_;

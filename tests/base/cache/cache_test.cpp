@@ -12,21 +12,18 @@
 #include "base/cache/content_hash.h"
 #include "base/error.h"
 #include "tests/files.h"
+#include "tests/notes.h"
 
 namespace belvedere {
 namespace {
 
 namespace fs = std::filesystem;
+using test::Notes;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
-
-struct Notes : Progress {
-  void note(std::string_view text) override { all.emplace_back(text); }
-  std::vector<std::string> all;
-};
 
 Bytes bytes_of(const std::string& text) {
   Bytes bytes(text.size());

@@ -11,12 +11,9 @@
 namespace belvedere {
 namespace {
 
-GivenView from_the_south() { return {.viewer = test::place_km(30.0, 4.0), .azimuth_deg = 0.0, .settled = {}}; }
+using test::depression;
 
-// The tangent of the depression of level ground, seen from the eye.
-double depression(const ViewShape& view, double distance_m) {
-  return (view.eye_m - view.base_m - view.level_m + view.drop_m(distance_m)) / distance_m;
-}
+GivenView from_the_south() { return {.viewer = test::place_km(30.0, 4.0), .azimuth_deg = 0.0, .settled = {}}; }
 
 void expect_horizon_at_far(const ViewShape& view) {
   EXPECT_GT(depression(view, 0.98 * view.far_m), depression(view, view.far_m));

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "renderer/compose/coarse_ground.h"
+#include "renderer/compose/view_shape.h"
 #include "terrain/io/crs.h"
 
 namespace belvedere::test {
@@ -57,5 +58,10 @@ inline double chain(double e, double n) {
   return 600.0 + across * peaks + hills;
 }
 inline CoarseGround chain_region() { return make_coarse_ground(made_up_raster(60.0, chain), 300.0); }
+
+// The tangent of the depression of bent level ground, seen from the eye.
+inline double depression(const ViewShape& view, double distance_m) {
+  return (view.eye_m - view.base_m - view.level_m + view.drop_m(distance_m)) / distance_m;
+}
 
 }  // namespace belvedere::test

@@ -11,6 +11,8 @@
 namespace belvedere {
 namespace {
 
+using test::depression;
+
 // From the south of the region northwards.
 ViewShape northward(double aspect = 2.0, bool cylinder = false, double field_deg = 44.0) {
   ViewShape view;
@@ -39,12 +41,6 @@ class Layout : public testing::TestWithParam<Format> {
     return view;
   }
 };
-
-// The tangent of the depression of bent level ground, seen from the eye.
-double depression(const ViewShape& view, double distance_m) {
-  const double ground = view.base_m + view.level_m - view.drop_m(distance_m);
-  return (view.eye_m - ground) / distance_m;
-}
 
 TEST_P(Layout, LevelGroundAtNearLiesOnTheLowerEdge) {
   const std::optional<ViewShape> view = lay_out(test::chain_region(), shape(), 0.0);

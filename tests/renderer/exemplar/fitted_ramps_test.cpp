@@ -20,8 +20,8 @@
 namespace belvedere {
 namespace {
 
-const ToneRamp rock = {glm::vec3(0.26F, 0.30F, 0.45F), {0.44F, 0.43F, 0.53F}, {0.69F, 0.65F, 0.63F}, {0.94F, 0.90F, 0.84F}};
-const ToneRamp wood = {glm::vec3(0.12F, 0.24F, 0.35F), {0.17F, 0.33F, 0.31F}, {0.28F, 0.44F, 0.31F}, {0.49F, 0.60F, 0.33F}};
+const ToneRamp rock_ramp = {glm::vec3(0.26F, 0.30F, 0.45F), {0.44F, 0.43F, 0.53F}, {0.69F, 0.65F, 0.63F}, {0.94F, 0.90F, 0.84F}};
+const ToneRamp wood_ramp = {glm::vec3(0.12F, 0.24F, 0.35F), {0.17F, 0.33F, 0.31F}, {0.28F, 0.44F, 0.31F}, {0.49F, 0.60F, 0.33F}};
 
 glm::vec3 on_ramp(const ToneRamp& ramp, double tone) {
   std::size_t k = 0;
@@ -45,7 +45,7 @@ Painted paint(double air) {
       p.labels(x, y) = x < 60 ? 7 : 4;
       p.tone(x, y) = static_cast<float>(random_uniform(3, x, y));
       p.distance(x, y) = static_cast<std::uint8_t>(40 + 2 * y);
-      const glm::vec3 colour = on_ramp(x < 60 ? rock : wood, p.tone(x, y));
+      const glm::vec3 colour = on_ramp(x < 60 ? rock_ramp : wood_ramp, p.tone(x, y));
       p.base(x, y) = glm::mix(colour, glm::vec3(0.7F, 0.8F, 0.9F), static_cast<float>(air * y / 100.0));
       const float stroke = 0.12F * static_cast<float>(random_uniform(4, x, y) - 0.5);
       p.picture(x, y) = random_uniform(5, x, y) < 0.08 ? glm::vec3(1.F) : p.base(x, y) + stroke;
@@ -70,8 +70,8 @@ TEST(FitRamps, FindsTheRampsUnderStrokesAndFlecks) {
   const FittedRamps ramps = fit_ramps(p.picture, p.labels, p.tone, {});
   ASSERT_EQ(ramps[7].ramps.size(), 1U);
   for (std::size_t t = 0; t < ramp_tones.size(); ++t) {
-    EXPECT_LT(glm::length(ramps[7].ramps[0][t] - rock[t]), 0.04F) << t;
-    EXPECT_LT(glm::length(ramps[4].ramps[0][t] - wood[t]), 0.04F) << t;
+    EXPECT_LT(glm::length(ramps[7].ramps[0][t] - rock_ramp[t]), 0.04F) << t;
+    EXPECT_LT(glm::length(ramps[4].ramps[0][t] - wood_ramp[t]), 0.04F) << t;
   }
   EXPECT_EQ(ramps[7].texels, 6000U);
   EXPECT_TRUE(ramps[1].ramps.empty());
@@ -88,8 +88,8 @@ TEST(FitRamps, AirIsFoundByDistance) {
   EXPECT_GT(error({}), 0.04);  // one ramp cannot hold it
   const LabelRamps near_and_far = fit_ramps(p.picture, p.labels, p.tone, p.distance)[4];
   EXPECT_EQ(near_and_far.distances.size(), 4U);
-  EXPECT_NEAR(near_and_far.colour(0.5, 0.0).x, on_ramp(wood, 0.5).x, 0.03);                         // before the first distance
-  EXPECT_NEAR(near_and_far.colour(0.5, 255.0).x, 0.4F * on_ramp(wood, 0.5).x + 0.6F * 0.7F, 0.03);  // beyond the last
+  EXPECT_NEAR(near_and_far.colour(0.5, 0.0).x, on_ramp(wood_ramp, 0.5).x, 0.03);                         // before the first distance
+  EXPECT_NEAR(near_and_far.colour(0.5, 255.0).x, 0.4F * on_ramp(wood_ramp, 0.5).x + 0.6F * 0.7F, 0.03);  // beyond the last
 }
 
 TEST(FitRamps, ToneThatIsNowhereGoesOnSmoothly) {
@@ -97,7 +97,7 @@ TEST(FitRamps, ToneThatIsNowhereGoesOnSmoothly) {
   for (int y = 0; y < 100; ++y)
     for (int x = 0; x < 120; ++x) {
       p.tone(x, y) = 0.4F + 0.2F * static_cast<float>(random_uniform(6, x, y));
-      p.picture(x, y) = on_ramp(rock, p.tone(x, y));
+      p.picture(x, y) = on_ramp(rock_ramp, p.tone(x, y));
     }
   const ToneRamp ramp = fit_ramps(p.picture, p.labels, p.tone, {})[7].ramps[0];
   for (std::size_t t = 0; t + 1 < ramp.size(); ++t) EXPECT_GT(ramp[t + 1].x, ramp[t].x) << t;
@@ -113,7 +113,7 @@ TEST(FitRamps, UnusedTexelsCountNowhere) {
       p.picture(x, y) = glm::vec3(1.F, 0.F, 0.F);  // lettering
     }
   const FittedRamps ramps = fit_ramps(p.picture, p.labels, p.tone, {});
-  for (std::size_t t = 0; t < ramp_tones.size(); ++t) EXPECT_LT(glm::length(ramps[7].ramps[0][t] - rock[t]), 0.06F) << t;
+  for (std::size_t t = 0; t < ramp_tones.size(); ++t) EXPECT_LT(glm::length(ramps[7].ramps[0][t] - rock_ramp[t]), 0.06F) << t;
   EXPECT_EQ(ramps[7].texels, 3000U);
   EXPECT_TRUE(ramps[unused_label].ramps.empty());
 }

@@ -7,7 +7,7 @@
 #include "base/guidance_buffers.h"
 #include "base/guidance_channels.h"
 #include "base/noise.h"
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 
 namespace belvedere::test {
 

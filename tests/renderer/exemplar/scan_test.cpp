@@ -19,24 +19,24 @@
 namespace belvedere {
 namespace {
 
-constexpr int width = 96;
-constexpr int height = 80;
+constexpr int scan_width = 96;
+constexpr int scan_height = 80;
 const glm::vec3 lettering(1.F, 0.F, 0.2F);
 
 Grid<std::uint8_t> guide(const ScannedPainting& scan, const std::string& name) {
   const Grid<std::uint8_t>* found = scan.painted.exemplar.guides.find(name);
-  return found == nullptr ? Grid<std::uint8_t>(width, height, 128) : *found;
+  return found == nullptr ? Grid<std::uint8_t>(scan_width, scan_height, 128) : *found;
 }
 
 // Sky above, snow (8) left, rock (7) right, each lighter to the right; the signature stands in the rock's corner.
 class Scans : public testing::Test {
  protected:
   Scans() {
-    Grid<glm::vec3> picture(width, height);
-    Grid<glm::vec3> classes(width, height);
-    Grid<glm::vec3> exclude(width, height, glm::vec3(0.F));
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
+    Grid<glm::vec3> picture(scan_width, scan_height);
+    Grid<glm::vec3> classes(scan_width, scan_height);
+    Grid<glm::vec3> exclude(scan_width, scan_height, glm::vec3(0.F));
+    for (int y = 0; y < scan_height; ++y)
+      for (int x = 0; x < scan_width; ++x) {
         const int id = y < 20 ? 0 : x < 48 ? 8 : 7;
         const float light = static_cast<float>(x % 48) / 48.F;
         const float stroke = 0.06F * static_cast<float>(random_uniform(3, x / 4, y) - 0.5);
@@ -140,7 +140,7 @@ TEST_F(Scans, WhatIsExcludedIsFilledWhereTheSceneSaysSo) {
 
 TEST_F(Scans, ServesOnlyWhatItShall) {
   const ScannedPainting scan = read("serves = [\"snow\"]").front();
-  for (int x = 0; x < width; ++x) EXPECT_EQ(scan.painted.exemplar.guides.label(x, 60), x < 48 ? 8 : unused_label) << x;
+  for (int x = 0; x < scan_width; ++x) EXPECT_EQ(scan.painted.exemplar.guides.label(x, 60), x < 48 ? 8 : unused_label) << x;
   // Rock comes from its named stand-in.
   GuideStack target;
   target.label = Grid<std::uint8_t>(40, 40, 7);
@@ -152,7 +152,7 @@ TEST_F(Scans, ServesOnlyWhatItShall) {
 TEST_F(Scans, FoundShadowIsLeftOutWhereTheSceneSaysSo) {
   // The right part of the snow lies in blue shade.
   Grid<glm::vec3> picture = read_picture(folder_ / "a.png");
-  for (int y = 20; y < height; ++y)
+  for (int y = 20; y < scan_height; ++y)
     for (int x = 0; x < 48; ++x) picture(x, y) = x < 28 ? glm::vec3(0.95F, 0.9F, 0.85F) : glm::vec3(0.6F, 0.68F, 0.85F);
   write_png8(folder_ / "a.png", picture, {});
   const auto label_at = [&](const std::string& how, int x) {
@@ -169,8 +169,8 @@ TEST_F(Scans, FoundShadowIsLeftOutWhereTheSceneSaysSo) {
 }
 
 TEST_F(Scans, AShadowImageIsTheGuideAsItStands) {
-  Grid<glm::vec3> shadow(width, height, glm::vec3(1.F));
-  for (int x = 0; x < width; ++x) shadow(x, 60) = glm::vec3(0.2F);
+  Grid<glm::vec3> shadow(scan_width, scan_height, glm::vec3(1.F));
+  for (int x = 0; x < scan_width; ++x) shadow(x, 60) = glm::vec3(0.2F);
   write_grey("shadow.png", shadow);
   const ScannedPainting scan = read("shadow = \"shadow.png\"").front();
   EXPECT_EQ(guide(scan, "shadow")(30, 60), 51);

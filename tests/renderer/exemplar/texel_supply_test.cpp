@@ -40,34 +40,34 @@ TexelSupply coverage_of(const GuidanceBuffers& g) {
   return c;
 }
 
-constexpr auto forest = static_cast<std::size_t>(Class::forest);
-constexpr auto rock = static_cast<std::size_t>(Class::rock);
+constexpr auto forest_index = static_cast<std::size_t>(Class::forest);
+constexpr auto rock_index = static_cast<std::size_t>(Class::rock);
 
 TEST(TexelSupply, CountsEachTexelInItsBins) {
   const TexelSupply c = coverage_of(small_view());
   EXPECT_EQ(c.pixels, 32);
   EXPECT_EQ(c.ground(), 24);
-  EXPECT_EQ(c.texels[forest], 12);
+  EXPECT_EQ(c.texels[forest_index], 12);
   // Tones .3 .6 .9 at 20 km; .6 belongs to the bin it opens.
-  EXPECT_EQ(c.by_light[forest][1][1], 4);
-  EXPECT_EQ(c.by_light[forest][3][1], 4);
-  EXPECT_EQ(c.by_light[forest][4][1], 4);
-  EXPECT_EQ(c.by_direction[rock][2], 12);
-  EXPECT_EQ(c.by_altitude[forest][1], 12);
-  EXPECT_EQ(c.by_altitude[rock][2], 12);
-  EXPECT_EQ(c.in_cast_shadow[forest], 3);
+  EXPECT_EQ(c.by_light[forest_index][1][1], 4);
+  EXPECT_EQ(c.by_light[forest_index][3][1], 4);
+  EXPECT_EQ(c.by_light[forest_index][4][1], 4);
+  EXPECT_EQ(c.by_direction[rock_index][2], 12);
+  EXPECT_EQ(c.by_altitude[forest_index][1], 12);
+  EXPECT_EQ(c.by_altitude[rock_index][2], 12);
+  EXPECT_EQ(c.in_cast_shadow[forest_index], 3);
 }
 
 TEST(TexelSupply, CountsBordersOnOneSurfaceOnly) {
   GuidanceBuffers g = small_view();
   // Three rows, a texel on each side.
-  EXPECT_EQ(coverage_of(g).border[forest][rock], 6);
-  EXPECT_EQ(coverage_of(g).border[rock][forest], 6);
+  EXPECT_EQ(coverage_of(g).border[forest_index][rock_index], 6);
+  EXPECT_EQ(coverage_of(g).border[rock_index][forest_index], 6);
   EXPECT_EQ(coverage_of(g).at_silhouette, 8);  // against the sky
   // The rock moves away behind the forest: no border, but a silhouette of the nearer side.
   for (int y = 1; y < 4; ++y)
     for (int x = 4; x < 8; ++x) g.depth_m(x, y) = 30000.F;
-  EXPECT_EQ(coverage_of(g).border[forest][rock], 0);
+  EXPECT_EQ(coverage_of(g).border[forest_index][rock_index], 0);
   EXPECT_EQ(coverage_of(g).at_silhouette, 8 + 2);
 }
 
@@ -75,7 +75,7 @@ TEST(TexelSupply, AddsUpOverParts) {
   const GuidanceBuffers g = small_view();
   TexelSupply twice = coverage_of(g);
   add_supply(twice, g, g.land_cover);
-  EXPECT_EQ(twice.texels[rock], 24);
+  EXPECT_EQ(twice.texels[rock_index], 24);
   EXPECT_EQ(twice.pixels, 64);
 }
 
@@ -84,14 +84,14 @@ TEST(TexelSupply, FallLinesFallIntoEightSectors) {
   const glm::vec2 towards[8] = {{1, 0}, {.7F, .7F}, {0, 1}, {-.7F, .7F}, {-1, 0}, {-.7F, -.7F}, {0, -1}, {.7F, -.7F}};
   for (std::size_t n = 0; n < 8; ++n) {
     for (glm::vec2& d : g.fall_line) d = towards[n];
-    EXPECT_EQ(coverage_of(g).by_direction[forest][n], 12) << n;
+    EXPECT_EQ(coverage_of(g).by_direction[forest_index][n], 12) << n;
   }
 }
 
 TEST(TexelSupply, NamesWhatIsMissingAndWhatIsTooMuch) {
   SupplyDemand demand;
-  demand.light[rock][0][1] = true;
-  demand.light[rock][1][1] = true;
+  demand.light[rock_index][0][1] = true;
+  demand.light[rock_index][1][1] = true;
   // 32 pixels of 4096²: floors are as much smaller, and a floor of a texel per two million becomes one of these 32.
   const double one = 4096.0 * 4096.0 / 32.0;
   const SupplyFloors floors{.texels = 0, .light = 4 * one, .direction = 0, .shadow = 0, .altitude = 0, .border = 0, .largest_share = 0.5};
@@ -110,9 +110,9 @@ TEST(TexelSupply, NamesWhatIsMissingAndWhatIsTooMuch) {
 
 TEST(TexelSupply, EachFloorIsJudgedAndNamed) {
   SupplyDemand demand;
-  demand.direction[rock][2] = demand.direction[rock][4] = true;
-  demand.shadow[forest] = demand.shadow[rock] = true;
-  demand.border[forest][rock] = demand.border[rock][forest] = true;
+  demand.direction[rock_index][2] = demand.direction[rock_index][4] = true;
+  demand.shadow[forest_index] = demand.shadow[rock_index] = true;
+  demand.border[forest_index][rock_index] = demand.border[rock_index][forest_index] = true;
   // Of 32 pixels: areas are 4096²/32 times smaller than the floors', lines the root of that.
   const double area = 4096.0 * 4096.0 / 32.0;
   const double length = std::sqrt(area);
@@ -132,7 +132,7 @@ TEST(TexelSupply, EachFloorIsJudgedAndNamed) {
   floors = {.texels = 0, .light = 0, .direction = 0, .shadow = 0, .altitude = 12 * area, .border = 0, .largest_share = 1.0};
   EXPECT_EQ(gaps(floors), "forest, below 900 m; forest, above 1500 m; ");
   // A class of the demand that is not there at all is missed whatever its light; others are not.
-  demand.texels[static_cast<std::size_t>(Class::scree)] = demand.texels[rock] = true;
+  demand.texels[static_cast<std::size_t>(Class::scree)] = demand.texels[rock_index] = true;
   floors = {.texels = 12 * area, .light = 0, .direction = 0, .shadow = 0, .altitude = 0, .border = 0, .largest_share = 1.0};
   EXPECT_EQ(gaps(floors), "scree; ");
 }
@@ -142,21 +142,21 @@ TEST(TexelSupply, TheEdgesOfBins) {
   for (float& depth : g.depth_m) depth = std::isinf(depth) ? depth : 16000.F;  // belongs to what it opens
   for (float& tone : g.tone) tone = 1.F;                                       // and the lightest to the last bin
   for (float& shadow : g.shadow) shadow = 0.5F;                                // half shade is light
-  EXPECT_EQ(coverage_of(g).by_light[rock][4][1], 12);
-  EXPECT_EQ(coverage_of(g).in_cast_shadow[rock], 0);
+  EXPECT_EQ(coverage_of(g).by_light[rock_index][4][1], 12);
+  EXPECT_EQ(coverage_of(g).in_cast_shadow[rock_index], 0);
   for (float& depth : g.depth_m) depth = std::isinf(depth) ? depth : 48001.F;
-  EXPECT_EQ(coverage_of(g).by_light[rock][4][3], 12);
+  EXPECT_EQ(coverage_of(g).by_light[rock_index][4][3], 12);
 }
 
 TEST(SupplyDemand, IsReadStrictly) {
   const SupplyDemand demand =
       parse_demand("[rock]\nlight = [\"1...\", \"....\", \"....\", \"....\", \"...1\"]\nborder = [\"snow\"]\n", "d");
-  EXPECT_TRUE(demand.light[rock][0][0]);
-  EXPECT_TRUE(demand.light[rock][4][3]);
-  EXPECT_FALSE(demand.light[rock][1][0]);
-  EXPECT_TRUE(demand.texels[rock]);
-  EXPECT_FALSE(demand.texels[forest]);
-  EXPECT_TRUE(demand.border[static_cast<std::size_t>(Class::snow)][rock]);
+  EXPECT_TRUE(demand.light[rock_index][0][0]);
+  EXPECT_TRUE(demand.light[rock_index][4][3]);
+  EXPECT_FALSE(demand.light[rock_index][1][0]);
+  EXPECT_TRUE(demand.texels[rock_index]);
+  EXPECT_FALSE(demand.texels[forest_index]);
+  EXPECT_TRUE(demand.border[static_cast<std::size_t>(Class::snow)][rock_index]);
   for (const char* wrong : {"[rook]\n", "[rock]\nlight = [\"1\"]\n", "[rock]\nlight = [\"1...\",\"1..x\",\"....\",\"....\",\"....\"]\n",
                             "[rock]\nborder = [\"sky\"]\n", "[rock]\nlicht = 1\n"})
     EXPECT_THROW(parse_demand(wrong, "d"), Error) << wrong;

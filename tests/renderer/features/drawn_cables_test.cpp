@@ -15,7 +15,7 @@ using test::line_feature;
 using test::set_of;
 using test::TestGround;
 
-FeatureStyle style() {
+FeatureStyle cable_style() {
   return parse_feature_style(R"(version = 1
 [kinds.lift]
 draw = "cable"
@@ -29,8 +29,8 @@ pylon_mm = 15
                              "test.toml");
 }
 
-DrawnFeatures draw(const TestGround& ground, std::vector<glm::dvec2> stations) {
-  return draw_features(set_of(style(), {line_feature(0, std::move(stations), style())}), ground.sight(), {.px_per_mm = 2.0});
+DrawnFeatures draw_cable(const TestGround& ground, std::vector<glm::dvec2> stations) {
+  return draw_features(set_of(cable_style(), {line_feature(0, std::move(stations), cable_style())}), ground.sight(), {.px_per_mm = 2.0});
 }
 
 std::size_t count(const DrawnFeatures& drawn, LinePart part) {
@@ -40,7 +40,7 @@ std::size_t count(const DrawnFeatures& drawn, LinePart part) {
 
 TEST(DrawnCables, HangStraightFromStationToStationAboveThePlane) {
   const TestGround ground([](glm::dvec2 p) { return 0.1 * p.y; });
-  const DrawnFeatures drawn = draw(ground, {{-400.0, -300.0}, {500.0, 900.0}});
+  const DrawnFeatures drawn = draw_cable(ground, {{-400.0, -300.0}, {500.0, 900.0}});
   ASSERT_EQ(count(drawn, LinePart::rope), 1U);
   EXPECT_EQ(count(drawn, LinePart::station), 2U);
   EXPECT_GT(count(drawn, LinePart::pylon), 1U);
@@ -59,7 +59,7 @@ TEST(DrawnCables, HangStraightFromStationToStationAboveThePlane) {
 TEST(DrawnCables, AreTightOverHollowsAndClearOfRidges) {
   const auto gorge = [](glm::dvec2 p) { return std::abs(p.x) < 150.0 ? -400.0 : std::abs(p.x - 400.0) < 30.0 ? 120.0 : 0.0; };
   const TestGround ground(gorge);
-  const DrawnFeatures drawn = draw(ground, {{-500.0, 0.0}, {600.0, 0.0}});
+  const DrawnFeatures drawn = draw_cable(ground, {{-500.0, 0.0}, {600.0, 0.0}});
   const double over_gorge = ground.pixel({0.0, 0.0, -90.0}).y;  // 6 % of 1100 m below the stations, and some
   const double over_ridge = ground.pixel({400.0, 0.0, 135.0}).y;
   double lowest = 0.0;
@@ -83,10 +83,10 @@ TEST(DrawnCables, AreTightOverHollowsAndClearOfRidges) {
 
 TEST(DrawnCables, AreHiddenByMountains) {
   const TestGround ground([](glm::dvec2 p) { return std::abs(p.y) < 100.0 ? 900.0 : 0.0; });
-  const DrawnFeatures drawn = draw(ground, {{-400.0, 600.0}, {400.0, 600.0}});
+  const DrawnFeatures drawn = draw_cable(ground, {{-400.0, 600.0}, {400.0, 600.0}});
   EXPECT_TRUE(drawn.lines.empty());
   EXPECT_EQ(drawn.counts[0][0].hidden, 1U);
-  EXPECT_EQ(draw(ground, {{9000.0, 0.0}, {9500.0, 0.0}}).counts[0][0].outside_terrain, 1U);
+  EXPECT_EQ(draw_cable(ground, {{9000.0, 0.0}, {9500.0, 0.0}}).counts[0][0].outside_terrain, 1U);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using test::line_feature;
 using test::set_of;
 using test::TestGround;
 
-FeatureStyle style() {
+FeatureStyle line_style() {
   return parse_feature_style(R"(version = 1
 [kinds.road]
 width_mm = 2
@@ -39,7 +39,7 @@ real_m = 100
 
 DrawnFeatures draw(const TestGround& ground, int kind, std::vector<glm::dvec2> places) {
   const GroundSight sight = ground.sight();
-  return draw_features(set_of(style(), {line_feature(kind, std::move(places), style())}), sight, {.px_per_mm = 2.0});
+  return draw_features(set_of(line_style(), {line_feature(kind, std::move(places), line_style())}), sight, {.px_per_mm = 2.0});
 }
 
 double distance_to_segment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {

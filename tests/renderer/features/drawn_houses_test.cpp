@@ -7,15 +7,17 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "tests/renderer/features/rectangle.h"
 #include "tests/renderer/features/test_ground.h"
 
 namespace belvedere {
 namespace {
 
+using test::rectangle;
 using test::set_of;
 using test::TestGround;
 
-FeatureStyle style(const std::string& more = "") {
+FeatureStyle house_style(const std::string& more = "") {
   return parse_feature_style("version = 1\n[kinds.house]\ndraw = \"building\"\nshrink = 0\nleast_px = 0\nwidth_mm = 0.01\n" + more,
                              "test.toml");
 }
@@ -28,22 +30,13 @@ Feature house(std::vector<glm::dvec2> outline) {
   return feature;
 }
 
-DrawnFeatures draw(const TestGround& ground, std::vector<glm::dvec2> outline, glm::dvec3 sun = {0.6, 0.0, 0.8}) {
-  return draw_features(set_of(style(), {house(std::move(outline))}), ground.sight(), {.px_per_mm = 20.0, .sun = sun});
-}
-
-std::vector<glm::dvec2> rectangle(glm::dvec2 middle, double length, double width, double turn) {
-  const glm::dvec2 u{std::cos(turn), std::sin(turn)};
-  const glm::dvec2 v{-u.y, u.x};
-  std::vector<glm::dvec2> out;
-  for (const glm::dvec2 corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)})
-    out.push_back(middle + 0.5 * length * corner.x * u + 0.5 * width * corner.y * v);
-  return out;
+DrawnFeatures draw_house(const TestGround& ground, std::vector<glm::dvec2> outline, glm::dvec3 sun = {0.6, 0.0, 0.8}) {
+  return draw_features(set_of(house_style(), {house(std::move(outline))}), ground.sight(), {.px_per_mm = 20.0, .sun = sun});
 }
 
 TEST(DrawnHouses, StandOnTheirPlaceInTheirSize) {
   const TestGround ground([](glm::dvec2) { return 0.0; }, {0.0, -300.0, 150.0}, 800, 600);
-  const DrawnFeatures drawn = draw(ground, rectangle({0.0, 0.0}, 60.0, 20.0, 0.0));
+  const DrawnFeatures drawn = draw_house(ground, rectangle({0.0, 0.0}, 60.0, 20.0, 0.0));
   ASSERT_EQ(drawn.houses.size(), 1U);
   const DrawnHouse& one = drawn.houses[0];
   EXPECT_LT(glm::length(glm::dvec2(one.foot) - ground.pixel({0.0, 0.0, 0.0})), 0.01);
@@ -59,7 +52,7 @@ TEST(DrawnHouses, StandOnTheirPlaceInTheirSize) {
 TEST(DrawnHouses, TheSunnySideIsLight) {
   const TestGround ground([](glm::dvec2) { return 0.0; }, {0.0, -300.0, 150.0}, 800, 600);
   // The ridge lies north to south, the sun in the east.
-  const DrawnFeatures drawn = draw(ground, rectangle({0.0, 0.0}, 40.0, 20.0, 1.5707963), {0.8, 0.0, 0.6});
+  const DrawnFeatures drawn = draw_house(ground, rectangle({0.0, 0.0}, 40.0, 20.0, 1.5707963), {0.8, 0.0, 0.6});
   std::vector<HouseFace> roofs;
   for (const HouseFace& face : drawn.houses.at(0).faces)
     if (face.roof) roofs.push_back(face);
@@ -73,7 +66,7 @@ TEST(DrawnHouses, TheSunnySideIsLight) {
 TEST(DrawnHouses, WingsHaveRoofsOfTheirOwn) {
   const TestGround ground([](glm::dvec2) { return 0.0; }, {0.0, -300.0, 150.0}, 800, 600);
   const std::vector<glm::dvec2> outline = {{-30, -25}, {30, -25}, {30, -10}, {-15, -10}, {-15, 25}, {-30, 25}};
-  const DrawnFeatures drawn = draw(ground, outline);
+  const DrawnFeatures drawn = draw_house(ground, outline);
   ASSERT_EQ(drawn.houses.size(), 1U);
   const DrawnHouse& one = drawn.houses[0];
   std::size_t roofs = 0;
@@ -100,9 +93,9 @@ TEST(DrawnHouses, WingsHaveRoofsOfTheirOwn) {
 
 TEST(DrawnHouses, PointsBecomeHousesAndSmallOnesAreEnlarged) {
   const TestGround ground([](glm::dvec2 p) { return 0.3 * p.x; });
-  const DrawnFeatures drawn = draw(ground, {{0.0, 0.0}});
+  const DrawnFeatures drawn = draw_house(ground, {{0.0, 0.0}});
   ASSERT_EQ(drawn.houses.size(), 1U);
-  FeatureSet large = set_of(style("casing_mm = 0\n"), {house({{0.0, 0.0}})});
+  FeatureSet large = set_of(house_style("casing_mm = 0\n"), {house({{0.0, 0.0}})});
   large.features[0].width_mm = 2.F;
   const DrawnFeatures enlarged = draw_features(large, ground.sight(), {.px_per_mm = 5.0});
   EXPECT_GT(enlarged.houses.at(0).reach_px, 5.F);
@@ -111,9 +104,9 @@ TEST(DrawnHouses, PointsBecomeHousesAndSmallOnesAreEnlarged) {
 
 TEST(DrawnHouses, AreHiddenByMountainsAndCounted) {
   const TestGround ground([](glm::dvec2 p) { return std::abs(p.y) < 100.0 ? 900.0 : 0.0; });
-  EXPECT_EQ(draw(ground, {{0.0, 600.0}}).counts[0][0].hidden, 1U);
-  EXPECT_EQ(draw(ground, {{0.0, 6000.0}}).counts[0][0].outside_terrain, 1U);
-  EXPECT_EQ(draw(ground, {{-1990.0, -1990.0}}).counts[0][0].outside_picture, 1U);
+  EXPECT_EQ(draw_house(ground, {{0.0, 600.0}}).counts[0][0].hidden, 1U);
+  EXPECT_EQ(draw_house(ground, {{0.0, 6000.0}}).counts[0][0].outside_terrain, 1U);
+  EXPECT_EQ(draw_house(ground, {{-1990.0, -1990.0}}).counts[0][0].outside_picture, 1U);
 }
 
 }  // namespace

@@ -6,19 +6,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "tests/renderer/features/rectangle.h"
+
 namespace belvedere {
 namespace {
 
+using test::rectangle;
 using Ring = std::vector<glm::dvec2>;
-
-std::vector<glm::dvec2> rectangle(glm::dvec2 middle, double length, double width, double turn) {
-  const glm::dvec2 u{std::cos(turn), std::sin(turn)};
-  const glm::dvec2 v{-u.y, u.x};
-  std::vector<glm::dvec2> out;
-  for (const glm::dvec2 corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)})
-    out.push_back(middle + 0.5 * length * corner.x * u + 0.5 * width * corner.y * v);
-  return out;
-}
 
 Ring turned(Ring ring, double turn) {
   for (glm::dvec2& p : ring) p = {7.0 + p.x * std::cos(turn) - p.y * std::sin(turn), -3.0 + p.x * std::sin(turn) + p.y * std::cos(turn)};

@@ -21,7 +21,7 @@ using test::TestGround;
 
 constexpr glm::vec3 bare{0.4F};
 
-FeatureStyle style() {
+FeatureStyle painted_style() {
   return parse_feature_style(R"(version = 1
 [kinds.road]
 width_mm = 4
@@ -73,9 +73,9 @@ TestGround level() {
 }
 
 DrawnFeatures draw(const TestGround& ground, std::vector<Feature> features) {
-  return draw_features(set_of(style(), std::move(features)), ground.sight(), {.px_per_mm = 2.0});
+  return draw_features(set_of(painted_style(), std::move(features)), ground.sight(), {.px_per_mm = 2.0});
 }
-Feature line(int kind, std::vector<glm::dvec2> places) { return line_feature(kind, std::move(places), style()); }
+Feature line(int kind, std::vector<glm::dvec2> places) { return line_feature(kind, std::move(places), painted_style()); }
 
 glm::vec3 at(const Grid<glm::vec3>& picture, glm::dvec2 pixel) { return picture(static_cast<int>(pixel.x), static_cast<int>(pixel.y)); }
 
@@ -258,8 +258,8 @@ TEST(PaintFeatures, GroundBelowARopeIsClearedOfTrees) {
 TEST(PaintFeatures, BanksOfRiversAreCleared) {
   const TestGround ground = level();
   const CoverCourse course{.places = {{-1500.0, 0.0}, {0.0, 0.0}, {1500.0, 0.0}}, .half_width_m = {30.F, 30.F, 30.F}, .kind = river};
-  const DrawnFeatures drawn =
-      draw_features(set_of(style(), {line(river, {{-1500.0, 0.0}, {1500.0, 0.0}})}), ground.sight(), {.px_per_mm = 2.0}, {&course, 1});
+  const DrawnFeatures drawn = draw_features(set_of(painted_style(), {line(river, {{-1500.0, 0.0}, {1500.0, 0.0}})}), ground.sight(),
+                                            {.px_per_mm = 2.0}, {&course, 1});
   const Grid<float> depth_m = ground.guidance().depth_m;
   const double middle_m = glm::length(glm::dvec3(0.0, 3000.0, 1500.0));
   const Grid<std::uint8_t> cleared = find_cleared(drawn, depth_m, ground.sheet());

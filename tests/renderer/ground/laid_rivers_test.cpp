@@ -12,17 +12,17 @@
 namespace belvedere {
 namespace {
 
-constexpr int cells = 120;
-constexpr double cell_m = 100.0;
+constexpr int valley_cells = 120;
+constexpr double valley_cell_m = 100.0;
 
 // A valley that falls to the south along x = 6 km.
 Dem make_valley() {
   Dem dem;
-  dem.altitude_m = Grid<float>(cells, cells);
-  dem.filled = Grid<std::uint8_t>(cells, cells);
-  dem.transform = {0.0, cells * cell_m, cell_m, cell_m};
-  for (int y = 0; y < cells; ++y)
-    for (int x = 0; x < cells; ++x)
+  dem.altitude_m = Grid<float>(valley_cells, valley_cells);
+  dem.filled = Grid<std::uint8_t>(valley_cells, valley_cells);
+  dem.transform = {0.0, valley_cells * valley_cell_m, valley_cell_m, valley_cell_m};
+  for (int y = 0; y < valley_cells; ++y)
+    for (int x = 0; x < valley_cells; ++x)
       dem.altitude_m(x, y) = 900.0F - 1.2F * static_cast<float>(y) + 6.0F * std::abs(static_cast<float>(x) - 59.5F);
   return dem;
 }
@@ -74,7 +74,7 @@ TEST_F(LaidRivers, RunAlongTheBottomOfTheirValley) {
   EXPECT_EQ(courses[0].rank, 7.0F);
   for (const glm::dvec2 place : courses[0].places) {
     if (place.y < 1500.0 || place.y > 10500.0) continue;
-    EXPECT_NEAR(place.x, 6000.0, cell_m) << place.y;
+    EXPECT_NEAR(place.x, 6000.0, valley_cell_m) << place.y;
   }
 }
 

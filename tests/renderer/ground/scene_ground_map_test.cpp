@@ -13,25 +13,19 @@
 #include "renderer/world/scene_land_cover.h"
 #include "renderer/world/world.h"
 #include "tests/files.h"
+#include "tests/notes.h"
 
 namespace belvedere {
 namespace {
 
+using test::Notes;
 using enum LandCoverClass;
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 
-class Notes final : public Progress {
- public:
-  void begin(std::string_view, double) override {}
-  void advance(double) override {}
-  void note(std::string_view text) override { all.emplace_back(text); }
-  std::vector<std::string> all;
-};
-
-constexpr int cells = 120;
-constexpr double cell_m = 200.0;
+constexpr int map_cells = 120;
+constexpr double map_cell_m = 200.0;
 constexpr double west_m = 680000.0;
 constexpr double south_m = 5240000.0;
 
@@ -40,9 +34,9 @@ constexpr double south_m = 5240000.0;
 class GroundMaps : public testing::Test {
  protected:
   GroundMaps() {
-    constexpr int fine = 2 * cells;
+    constexpr int fine = 2 * map_cells;
     std::string dem =
-        fmt::format("ncols {}\nnrows {}\nxllcorner {}\nyllcorner {}\ncellsize {}\n", fine, fine, west_m, south_m, 0.5 * cell_m);
+        fmt::format("ncols {}\nnrows {}\nxllcorner {}\nyllcorner {}\ncellsize {}\n", fine, fine, west_m, south_m, 0.5 * map_cell_m);
     for (int j = 0; j < fine; ++j)
       for (int i = 0; i < fine; ++i) {
         const double x = 0.5 * i - 0.25;
@@ -51,7 +45,7 @@ class GroundMaps : public testing::Test {
       }
     folder_.write("dem.asc", dem);
   }
-  static glm::dvec2 at(double x, double y) { return {west_m + (x + 0.5) * cell_m, south_m + (cells - y - 0.5) * cell_m}; }
+  static glm::dvec2 at(double x, double y) { return {west_m + (x + 0.5) * map_cell_m, south_m + (map_cells - y - 0.5) * map_cell_m}; }
   static std::string places(const std::vector<glm::dvec2>& of_cells) {
     std::string text;
     for (const glm::dvec2 cell : of_cells)

@@ -11,28 +11,20 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "tests/renderer/image/picture_bytes.h"
+#include "tests/renderer/image/random_picture.h"
 
 namespace belvedere {
 namespace {
 
 using test::Folder;
+using test::random_picture;
 
 // IEC 61966-2-1, written down here once more.
 double encode(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055; }
 
-Image ramp(int count, double low, double high) {
+Image grey_ramp(int count, double low, double high) {
   Image out(count, 1);
   for (int x = 0; x < count; ++x) out(x, 0) = glm::vec3(static_cast<float>(low + (high - low) * x / (count - 1)));
-  return out;
-}
-
-Image random_image(int width, int height) {
-  Image out(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      for (int c = 0; c < 3; ++c) out(x, y)[c] = static_cast<float>(random_uniform(1, x, y, static_cast<std::uint64_t>(c)));
-    }
-  }
   return out;
 }
 
@@ -53,7 +45,7 @@ class Color : public testing::Test {
 };
 
 TEST_F(Color, OwnConfigIsTheExactCurve) {
-  const Image linear = ramp(70001, 0.0, 1.0);
+  const Image linear = grey_ramp(70001, 0.0, 1.0);
   const Grid<glm::vec3> encoded = to_display(linear, {});
   for (std::size_t i = 0; i < linear.size(); ++i) {
     const double expected = encode(static_cast<double>(linear[i].x));
@@ -62,7 +54,7 @@ TEST_F(Color, OwnConfigIsTheExactCurve) {
     ASSERT_EQ(encoded[i].x, encoded[i].z);
   }
   // The dark end, where 16-bit steps are finest, and light beyond white.
-  for (const Image& part : {ramp(20001, 0.0, 0.008), ramp(1001, 1.0, 40.0)}) {
+  for (const Image& part : {grey_ramp(20001, 0.0, 0.008), grey_ramp(1001, 1.0, 40.0)}) {
     const Grid<glm::vec3> out = to_display(part, {});
     for (std::size_t i = 0; i < part.size(); ++i)
       ASSERT_NEAR(out[i].x, encode(static_cast<double>(part[i].x)), 1e-6 * std::max(1.0f, out[i].x));
@@ -70,7 +62,7 @@ TEST_F(Color, OwnConfigIsTheExactCurve) {
 }
 
 TEST_F(Color, RoundTrip) {
-  const Image linear = random_image(100, 37);
+  const Image linear = random_picture(100, 37);
   const Image again = from_display(to_display(linear, {}), {});
   for (std::size_t i = 0; i < linear.size(); ++i) {
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(again[i][c], linear[i][c], 1e-6);
@@ -91,7 +83,7 @@ TEST_F(Color, AcesSpacesAreThosePublished) {
   }
   for (const char* space : {"aces", "acescg"}) {
     parameters.working = space;
-    const Grid<glm::vec3> grey = to_display(ramp(11, 0.0, 1.0), parameters);
+    const Grid<glm::vec3> grey = to_display(grey_ramp(11, 0.0, 1.0), parameters);
     for (int x = 0; x < 11; ++x) {
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(grey(x, 0)[c], x / 10.0, 2e-5) << space << ": the grey axis stays neutral";
     }
@@ -99,7 +91,7 @@ TEST_F(Color, AcesSpacesAreThosePublished) {
 }
 
 TEST_F(Color, SameBitsForAnyThreads) {
-  const Image linear = random_image(301, 203);
+  const Image linear = random_picture(301, 203);
   Grid<glm::vec3> one;
   {
     const ThreadLimit limit(1);

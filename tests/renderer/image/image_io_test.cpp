@@ -12,45 +12,28 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "tests/files.h"
 #include "tests/renderer/image/exr/mixed_channels.h"
 #include "tests/renderer/image/picture_bytes.h"
+#include "tests/renderer/image/random_picture.h"
 #include "tests/small_disk.h"
 
 namespace belvedere {
 namespace {
 
+using test::kind_of;
+using test::random_picture;
 using namespace std::string_literals;
 using test::Folder;
 using test::SmallDisk;
 using test::write_mixed;
 
-ErrorKind kind_of(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& e) {
-    EXPECT_FALSE(e.where().empty());
-    return e.kind();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return ErrorKind::bug;
-}
-
-Grid<glm::vec3> random_picture(int width, int height, std::uint64_t seed = 1) {
-  Grid<glm::vec3> out(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      for (int c = 0; c < 3; ++c) out(x, y)[c] = static_cast<float>(random_uniform(seed, x, y, static_cast<std::uint64_t>(c)));
-    }
-  }
-  return out;
-}
-
-class MemoryLimit {
+class MemoryVariable {
  public:
-  explicit MemoryLimit(const char* mib) { ::setenv("BELVEDERE_MEMORY_MIB", mib, 1); }
-  ~MemoryLimit() { ::unsetenv("BELVEDERE_MEMORY_MIB"); }
-  MemoryLimit(const MemoryLimit&) = delete;
-  MemoryLimit& operator=(const MemoryLimit&) = delete;
+  explicit MemoryVariable(const char* mib) { ::setenv("BELVEDERE_MEMORY_MIB", mib, 1); }
+  ~MemoryVariable() { ::unsetenv("BELVEDERE_MEMORY_MIB"); }
+  MemoryVariable(const MemoryVariable&) = delete;
+  MemoryVariable& operator=(const MemoryVariable&) = delete;
 };
 
 // --- pictures ------------------------------------------------------------------------------------------------------------------------
@@ -284,7 +267,7 @@ TEST(ReadPicture, KeepsToTheMemoryGiven) {
   write_exr(folder / "a.exr", random_picture(300, 400), {});
   write_tiff16(folder / "a.tif", random_picture(300, 400), {});
   EXPECT_NO_THROW(read_picture(folder / "a.tif"));
-  const MemoryLimit limit("1");
+  const MemoryVariable limit("1");
   EXPECT_EQ(kind_of([&] { read_picture(folder / "a.tif"); }), ErrorKind::limit);
   EXPECT_EQ(kind_of([&] { read_picture(folder / "a.exr"); }), ErrorKind::limit);
   EXPECT_NO_THROW(read_channel(folder / "a.exr", "R")) << "half a megabyte";

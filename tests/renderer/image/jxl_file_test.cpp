@@ -8,19 +8,13 @@
 #include "base/random.h"
 #include "renderer/image/color.h"
 #include "tests/files.h"
+#include "tests/renderer/image/random_picture.h"
 
 namespace belvedere {
 namespace {
 
 using test::Folder;
-
-Grid<glm::vec3> random_picture(int width, int height) {
-  Grid<glm::vec3> out(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int c = 0; c < 3; ++c) out(x, y)[c] = static_cast<float>(random_uniform(9, x, y, static_cast<std::uint64_t>(c)));
-  return out;
-}
+using test::random_picture;
 
 TEST(Jxl, KeepsEveryValueAndRoundsToTheNearest) {
   const Folder folder("jxl");

@@ -13,19 +13,13 @@
 #include "renderer/image/color.h"
 #include "renderer/image/image_io.h"
 #include "tests/files.h"
+#include "tests/renderer/image/random_picture.h"
 
 namespace belvedere {
 namespace {
 
 using test::Folder;
-
-Grid<glm::vec3> random_picture(int width, int height) {
-  Grid<glm::vec3> out(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int c = 0; c < 3; ++c) out(x, y)[c] = static_cast<float>(random_uniform(5, x, y, static_cast<std::uint64_t>(c)));
-  return out;
-}
+using test::random_picture;
 
 void write_as(const PictureFormat& format, const std::string& path, const Grid<glm::vec3>& picture, const PictureFileOptions& options) {
   write_whole(*format.open(path, picture.width(), picture.height(), options), picture);

@@ -9,23 +9,15 @@
 
 #include "renderer/labels/sheet_painter.h"
 #include "tests/files.h"
+#include "tests/renderer/labels/bent_text.h"
 
 namespace belvedere {
 namespace {
 
+using test::bent;
+using test::sans;
 using testing::HasSubstr;
 using testing::Not;
-
-constexpr const char* sans = "DejaVu Sans";
-
-DrawnText bent(const std::string& words, double spacing = 0.0) {
-  return {.text = words,
-          .type = {.family = sans, .size_px = 40.0, .spacing = spacing},
-          .colour = "#102040",
-          .halo = "#ffcc00",
-          .halo_px = 5.0,
-          .along = {{20, 180}, {150, 120}, {300, 100}, {450, 120}, {580, 180}}};
-}
 
 std::string svg_of(const DrawnText& text) { return shapes_svg({text}); }
 

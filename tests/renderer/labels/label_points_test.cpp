@@ -5,11 +5,11 @@
 
 #include "base/progress.h"
 #include "tests/files.h"
+#include "tests/notes.h"
 
 namespace belvedere {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 class LabelPoints : public testing::Test {
@@ -17,13 +17,9 @@ class LabelPoints : public testing::Test {
   std::vector<LabelPoint> read(const std::string& text) {
     return read_label_points(folder_.write("points.csv", text), "", style_, progress_);
   }
-  struct Notes : Progress {
-    void note(std::string_view text) override { all += std::string(text) + "\n"; }
-    std::string all;
-  };
   test::Folder folder_;
   LabelStyle style_ = load_label_style("classic");
-  Notes progress_;
+  test::Notes progress_;
 };
 
 TEST_F(LabelPoints, SayNameKindRankAndAltitude) {
@@ -50,8 +46,8 @@ TEST_F(LabelPoints, WithoutANameOrWithTooLongAOneAreLeftOutAndSaid) {
   const std::string ninety(90, 'x');
   const std::vector<LabelPoint> points = read("name,east,north\n,1,2\n" + ninety + ",3,4\nA,5,6\n");
   ASSERT_EQ(points.size(), 1U);
-  EXPECT_THAT(progress_.all, HasSubstr("1 of 3 points have no name"));
-  EXPECT_THAT(progress_.all, HasSubstr("1 names of more than 80 letters"));
+  EXPECT_THAT(progress_.text(), HasSubstr("1 of 3 points have no name"));
+  EXPECT_THAT(progress_.text(), HasSubstr("1 names of more than 80 letters"));
 }
 
 TEST_F(LabelPoints, LettersAreCountedAndNotBytes) {
@@ -63,7 +59,7 @@ TEST_F(LabelPoints, LettersAreCountedAndNotBytes) {
 TEST_F(LabelPoints, StrangeKindsAreSaidAndSetAsTheFirst) {
   const std::vector<LabelPoint> points = read("name,kind,east,north\nA,spaceport,1,2\n");
   EXPECT_EQ(points[0].kind, 0);
-  EXPECT_THAT(progress_.all, HasSubstr("spaceport"));
+  EXPECT_THAT(progress_.text(), HasSubstr("spaceport"));
 }
 
 TEST_F(LabelPoints, WrongNumbersAreRefused) {

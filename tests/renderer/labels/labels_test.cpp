@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/parallel.h"
 #include "renderer/world/valley_view.h"
 #include "tests/renderer/world/small_world.h"
 
@@ -25,13 +26,13 @@ LabelMark seen_at(double x, double y, double dem_m = 1000.0) {
   return mark;
 }
 
-const std::vector<double> no_sky(2000, 0.0);
+const std::vector<double> no_sky_of_2000(2000, 0.0);
 
 TEST(Labels, AreSetWithTheAltitudeOfTheFileOrElseOfTheGround) {
   const LabelStyle style = load_label_style("classic");
-  const LabelSheet sheet =
-      make_labels({point("A", 2749.4), point("B"), point(""), point("C", 570.0, style.find("town"))},
-                  {seen_at(200, 300), seen_at(600, 300), seen_at(1000, 300), seen_at(1500, 300)}, no_sky, style, {2000, 800}, 1000.0);
+  const LabelSheet sheet = make_labels({point("A", 2749.4), point("B"), point(""), point("C", 570.0, style.find("town"))},
+                                       {seen_at(200, 300), seen_at(600, 300), seen_at(1000, 300), seen_at(1500, 300)}, no_sky_of_2000,
+                                       style, {2000, 800}, 1000.0);
   EXPECT_EQ(sheet.labels[0].text,
             "A\u2002"
             "2749\u00A0m");
@@ -47,7 +48,9 @@ TEST(Labels, AreAsLargeAsTheSheetAndNeverUnreadable) {
   const LabelStyle style = load_label_style("classic");
   double smallest = 100.0;
   for (const LabelKindStyle& kind : style.kinds) smallest = std::min(smallest, kind.size_mm);
-  const auto scale = [&](int width) { return make_labels({point("A")}, {seen_at(10, 10)}, no_sky, style, {width, 800}, 1200.0).px_per_mm; };
+  const auto scale = [&](int width) {
+    return make_labels({point("A")}, {seen_at(10, 10)}, no_sky_of_2000, style, {width, 800}, 1200.0).px_per_mm;
+  };
   EXPECT_DOUBLE_EQ(scale(20000), 20000.0 / 1200.0);
   EXPECT_DOUBLE_EQ(scale(1200), 11.0 / smallest) << "letters of 11 px, and all else along with them";
 }
@@ -60,7 +63,7 @@ TEST(Labels, OnlyWhatIsSeenAsksForRoom) {
   front.drawn_place = {1400.0, 1000.0};
   LabelMark farther = seen_at(900, 320);
   farther.drawn_place = {1000.0, 2900.0};
-  const LabelSheet sheet = make_labels({point("Hidden"), point("Front"), point("Farther")}, {hidden, front, farther}, no_sky,
+  const LabelSheet sheet = make_labels({point("Hidden"), point("Front"), point("Farther")}, {hidden, front, farther}, no_sky_of_2000,
                                        load_label_style("classic"), {2000, 800}, 1000.0);
   EXPECT_FALSE(sheet.labels[0].spot.placed);
   EXPECT_EQ(sheet.labels[0].hidden_by, "Front");
@@ -75,7 +78,7 @@ TEST(Labels, LettersThatJoinAreNotDrawnApart) {
   const std::vector<glm::dvec2> line = {{100, 600}, {900, 600}};
   const LabelSheet sheet =
       make_labels({point("Tal", 1.0, valley), point("وادي", 1.0, valley), point("עמק", 1.0, valley), point("وادي", 1.0, valley)},
-                  {seen_at(200, 100), seen_at(600, 100), seen_at(1000, 100), seen_at(500, 600)}, no_sky, style, {2000, 800}, 1000.0,
+                  {seen_at(200, 100), seen_at(600, 100), seen_at(1000, 100), seen_at(500, 600)}, no_sky_of_2000, style, {2000, 800}, 1000.0,
                   {{}, {}, {}, line});
   EXPECT_GT(sheet.labels[0].spacing, 0.0);
   EXPECT_EQ(sheet.labels[1].spacing, 0.0);

@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <limits>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 #include "renderer/labels/sheet_painter.h"
 
 namespace belvedere {

@@ -2,17 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/renderer/labels/bent_text.h"
+
 namespace belvedere {
 namespace {
 
-constexpr const char* sans = "DejaVu Sans";
-
-DrawnText bent(const std::string& words) {
-  return {.text = words,
-          .type = {.family = sans, .size_px = 40.0},
-          .colour = "#102040",
-          .along = {{20, 180}, {150, 120}, {300, 100}, {450, 120}, {580, 180}}};
-}
+using test::bent;
+using test::sans;
 
 // The first of Hebrew letters stands at the right.
 TEST(PlacedText, KnowsWhichLettersStandWhere) {

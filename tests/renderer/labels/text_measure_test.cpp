@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/renderer/labels/bent_text.h"
+
 namespace belvedere {
 namespace {
 
-constexpr const char* sans = "DejaVu Sans";
+using test::sans;
 
 // DejaVu's own table of widths: 1401 of 2048 units for H, 2048 units are the type's size. The font comes with every Debian that draws text;
 // another machine's fonts are not known.

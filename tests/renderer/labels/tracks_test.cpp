@@ -14,7 +14,6 @@ namespace belvedere {
 namespace {
 
 using testing::HasSubstr;
-using testing::Not;
 
 class Tracks : public testing::Test {
  protected:

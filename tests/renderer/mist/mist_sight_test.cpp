@@ -14,11 +14,11 @@ namespace belvedere {
 namespace {
 
 using test::all_meadow;
+using test::MadeUpWorld;
 using test::make_world;
-using test::World;
 
 // A sea of fog without heaps or soft edges.
-MistAir flat_sea(double to_m, double sight_m, const World& world) {
+MistAir flat_sea(double to_m, double sight_m, const MadeUpWorld& world) {
   MistAir air;
   air.layers = {{.to_m = to_m, .sight_m = sight_m, .edge_m = 0.0, .billows = 0.0, .place = {}}};
   air.ground = make_mist_ground(world.terrain.generalized_m, world.terrain.rim_m, world.terrain.dem->transform, false);
@@ -26,14 +26,14 @@ MistAir flat_sea(double to_m, double sight_m, const World& world) {
   return air;
 }
 
-MistSight see(const MistAir& air, const World& world, const Camera& camera, const GuidanceBuffers& guidance) {
+MistSight see(const MistAir& air, const MadeUpWorld& world, const Camera& camera, const GuidanceBuffers& guidance) {
   const Deformation deformation(world.deform_parameters, world.viewer);
   return see_mist(air, {.camera = camera, .deformation = deformation}, guidance.depth_m, {0, 0});
 }
 
 // Parallel rays that fall by 30° cross a layer 300 m high on 600 m: exp(-ln 50 · 600 / sight) is left.
 TEST(MistSight, OverAPlaneALayerLetsThroughWhatTheFormulaSays) {
-  const World world = make_world(
+  const MadeUpWorld world = make_world(
       200, 200, [](double, double) { return 500.0; }, all_meadow);
   CameraParameters p;
   p.projection = "oblique";
@@ -59,7 +59,7 @@ TEST(MistSight, OverAPlaneALayerLetsThroughWhatTheFormulaSays) {
 }
 
 // Through the middles of pixels, as mist is seen.
-GuidanceBuffers trace_middles(const World& world, const Camera& camera) {
+GuidanceBuffers trace_middles(const MadeUpWorld& world, const Camera& camera) {
   GuidanceParameters parameters;
   parameters.sampling.pixel_samples = 1;
   return test::trace(world, camera, parameters);
@@ -71,7 +71,7 @@ double cone_m(double east, double south) {
 
 // Dense fog up to 1000 m over a cone: an island whose shore is the contour of 1000 m, whatever the ground is bent to.
 void expect_island(const DeformParameters& deformed) {
-  const World world = make_world(200, 260, cone_m, all_meadow, deformed);
+  const MadeUpWorld world = make_world(200, 260, cone_m, all_meadow, deformed);
   CameraParameters p = test::southward(160, 120, -38.0);
   p.eye.z = 9000.0;
   const auto camera = make_camera(p);
@@ -106,7 +106,7 @@ TEST(MistSight, OnBentAndRaisedGroundTheShoreStaysAtItsAltitude) {
 
 // What stands before the sea is not in it, and the sky is veiled only where the line of sight passes through it.
 TEST(MistSight, NearerGroundStandsBeforeTheSea) {
-  const World world = make_world(200, 260, cone_m, all_meadow);
+  const MadeUpWorld world = make_world(200, 260, cone_m, all_meadow);
   const auto camera = make_camera(test::southward(40, 30));
   Grid<float> near(40, 30, 500.F);
   const Deformation deformation(world.deform_parameters, world.viewer);
@@ -117,7 +117,7 @@ TEST(MistSight, NearerGroundStandsBeforeTheSea) {
 
 // Heaps, banks, a lee cloud and cast shadows, in any rectangle and with any threads.
 TEST(MistSight, AnyRectangleAndAnyThreadsGiveTheBitsOfTheWhole) {
-  const World world = test::rough_world();
+  const MadeUpWorld world = test::rough_world();
   const auto camera = make_camera(test::southward(150, 110));
   const GuidanceBuffers guidance = test::trace(world, *camera);
   const Deformation deformation(world.deform_parameters, world.viewer);
@@ -146,7 +146,7 @@ TEST(MistSight, AnyRectangleAndAnyThreadsGiveTheBitsOfTheWhole) {
 
 // A wall of rock between the sun and the sea throws its shadow on it.
 TEST(MistSight, SummitsThrowShadowsOnTheSea) {
-  const World world = make_world(200, 260, cone_m, all_meadow);
+  const MadeUpWorld world = make_world(200, 260, cone_m, all_meadow);
   CameraParameters p = test::southward(160, 120, -38.0);
   p.eye.z = 9000.0;
   const auto camera = make_camera(p);
@@ -167,7 +167,7 @@ TEST(MistSight, SummitsThrowShadowsOnTheSea) {
 }
 
 TEST(MistSight, WithoutMistNothingIsSeen) {
-  const World world = make_world(
+  const MadeUpWorld world = make_world(
       20, 20, [](double, double) { return 500.0; }, all_meadow);
   const auto camera = make_camera(test::southward(16, 16));
   const Deformation deformation;

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "renderer/paint/sky.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "tests/renderer/paint/hills_print.h"

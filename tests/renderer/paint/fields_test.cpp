@@ -2,16 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/renderer/paint/near_colours.h"
+
 namespace belvedere {
 namespace {
+
+using test::expect_near;
 
 // A place in the middle of a field.
 Parcel open_field(Crop crop) {
   return {.crop = crop, .shade = 0.0F, .border_m = 45.0F, .width_m = 90.0F, .lane_m = 400.0F, .hedged = false};
-}
-
-void expect_near(glm::vec3 a, glm::vec3 b) {
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], 1e-6F) << k;
 }
 
 TEST(Fields, AreCropsNearByAndOneColourFarAway) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 #include "tests/renderer/paint/hills_print.h"
 

@@ -9,17 +9,15 @@
 
 #include "base/error.h"
 #include "tests/files.h"
+#include "tests/renderer/paint/near_colours.h"
 
 namespace belvedere {
 namespace {
 
+using test::expect_near;
 using testing::HasSubstr;
 
 glm::vec3 rgb(unsigned code) { return glm::vec3((code >> 16) & 255U, (code >> 8) & 255U, code & 255U) / 255.0F; }
-
-void expect_colour(glm::vec3 found, glm::vec3 expected) {
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[k], expected[k], 1e-6F) << "channel " << k;
-}
 
 std::string error_of(const std::string& text) {
   try {
@@ -33,29 +31,29 @@ std::string error_of(const std::string& text) {
 
 TEST(Palette, RampIsExactAtItsStops) {
   const Palette summer = read_palette("summer");
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.0), rgb(0x475280));
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.34), rgb(0x7c7998));
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.66), rgb(0xc6b8ae));
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 2000.0, 1.0), rgb(0xfdf2e4));
-  expect_colour(palette_colour(read_palette("winter"), LandCoverClass::snow, 2300.0, 0.34), rgb(0xa9b8e0));
+  expect_near(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.0), rgb(0x475280));
+  expect_near(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.34), rgb(0x7c7998));
+  expect_near(palette_colour(summer, LandCoverClass::rock, 2000.0, 0.66), rgb(0xc6b8ae));
+  expect_near(palette_colour(summer, LandCoverClass::rock, 2000.0, 1.0), rgb(0xfdf2e4));
+  expect_near(palette_colour(read_palette("winter"), LandCoverClass::snow, 2300.0, 0.34), rgb(0xa9b8e0));
 }
 
 TEST(Palette, RampIsLinearBetweenStopsAndFlatBeyond) {
   const Palette summer = read_palette("summer");
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 0.0, 0.5), 0.5F * (rgb(0x7c7998) + rgb(0xc6b8ae)));
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 0.0, 1.4), rgb(0xfdf2e4));
-  expect_colour(palette_colour(summer, LandCoverClass::rock, 0.0, -0.4), rgb(0x475280));
+  expect_near(palette_colour(summer, LandCoverClass::rock, 0.0, 0.5), 0.5F * (rgb(0x7c7998) + rgb(0xc6b8ae)));
+  expect_near(palette_colour(summer, LandCoverClass::rock, 0.0, 1.4), rgb(0xfdf2e4));
+  expect_near(palette_colour(summer, LandCoverClass::rock, 0.0, -0.4), rgb(0x475280));
 }
 
 TEST(Palette, BlendsByAltitude) {
   const Palette summer = read_palette("summer");
   const auto forest = [&](double altitude_m) { return palette_colour(summer, LandCoverClass::forest, altitude_m, 1.0); };
-  expect_colour(forest(200.0), rgb(0xa3a661));
-  expect_colour(forest(650.0), rgb(0xa3a661));
-  expect_colour(forest(900.0), 0.5F * (rgb(0xa3a661) + rgb(0x7d9a55)));
-  expect_colour(forest(1220.0), rgb(0x7d9a55));
-  expect_colour(forest(1525.0), 0.5F * (rgb(0x7d9a55) + rgb(0x6d8d63)));
-  expect_colour(forest(2600.0), rgb(0x6d8d63));
+  expect_near(forest(200.0), rgb(0xa3a661));
+  expect_near(forest(650.0), rgb(0xa3a661));
+  expect_near(forest(900.0), 0.5F * (rgb(0xa3a661) + rgb(0x7d9a55)));
+  expect_near(forest(1220.0), rgb(0x7d9a55));
+  expect_near(forest(1525.0), 0.5F * (rgb(0x7d9a55) + rgb(0x6d8d63)));
+  expect_near(forest(2600.0), rgb(0x6d8d63));
 }
 
 TEST(Palette, BuiltInPalettesAreCompleteAndGrowLighterWithTone) {
@@ -109,9 +107,9 @@ TEST(Palette, PaletteCanOverrideABuiltInOne) {
   const Palette desert = parse_palette(
       "based_on = \"summer\"\nname = \"desert\"\n[classes]\nrock = [\"#5a2a30\", \"#9a4a38\", \"#c87850\", \"#f0c8a0\"]\n", "desert.toml");
   EXPECT_EQ(desert.name, "desert");
-  expect_colour(palette_colour(desert, LandCoverClass::rock, 0.0, 0.34), rgb(0x9a4a38));
+  expect_near(palette_colour(desert, LandCoverClass::rock, 0.0, 0.34), rgb(0x9a4a38));
   const Palette summer = read_palette("summer");
-  expect_colour(palette_colour(desert, LandCoverClass::snow, 0.0, 0.7), palette_colour(summer, LandCoverClass::snow, 0.0, 0.7));
+  expect_near(palette_colour(desert, LandCoverClass::snow, 0.0, 0.7), palette_colour(summer, LandCoverClass::snow, 0.0, 0.7));
   EXPECT_EQ(desert.sky, summer.sky);
 }
 
@@ -121,7 +119,7 @@ TEST(Palette, GrowthColoursAreReadAndInherited) {
   for (const glm::vec3& leaf : autumn.growth.leaves) EXPECT_GT(leaf.r, leaf.b + 0.2F) << "autumn's leaves are warm";
   const Palette mine = parse_palette("based_on = \"autumn\"\n[growth]\nleaves = [\"#ff8000\"]\nleaf_share = 0.25\n", "mine.toml");
   ASSERT_EQ(mine.growth.leaves.size(), 1U);
-  expect_colour(mine.growth.leaves[0], rgb(0xff8000));
+  expect_near(mine.growth.leaves[0], rgb(0xff8000));
   EXPECT_EQ(mine.growth.leaf_share, 0.25);
   EXPECT_EQ(parse_palette("based_on = \"autumn\"\n", "mine.toml").growth.leaf_share, autumn.growth.leaf_share);
   EXPECT_THAT(error_of("based_on = \"summer\"\n[growth]\nleaf_share = 1.5\n"), HasSubstr("test.toml:3:14"));

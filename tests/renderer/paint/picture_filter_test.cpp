@@ -13,7 +13,7 @@
 namespace belvedere {
 namespace {
 
-constexpr float sky = std::numeric_limits<float>::infinity();
+constexpr float sky_depth_m = std::numeric_limits<float>::infinity();
 
 TEST(PictureFilter, GaussianHasItsDeviationAndPlace) {
   for (const double sigma : {2.0, 9.0, 40.0}) {
@@ -92,7 +92,7 @@ TEST(PictureFilter, BlurOnASurfaceIsThatOfOnePixelAfterTheOther) {
     for (int y = 0; y < c.height; ++y)
       for (int x = 0; x < c.width; ++x) {
         values(x, y) = static_cast<float>(gaussian_noise(2, x, y, 1.5));
-        depth(x, y) = gaussian_noise(3, x, y, 6.0) > 1.0 ? sky : 10000.F + 200.F * static_cast<float>(gaussian_noise(4, x, y, 4.0));
+        depth(x, y) = gaussian_noise(3, x, y, 6.0) > 1.0 ? sky_depth_m : 10000.F + 200.F * static_cast<float>(gaussian_noise(4, x, y, 4.0));
       }
     EXPECT_EQ(blur_on_surface(values, depth, c.sigma, c.wanted), blur_plainly(values, depth, c.sigma, c.stride, c.wanted)) << c.sigma;
   }
@@ -102,8 +102,8 @@ TEST(PictureFilter, SurfacesPartAtThreeHundredthsOfTheNearerDistance) {
   EXPECT_TRUE(same_surface(10000.F, 10299.F));
   EXPECT_FALSE(same_surface(10000.F, 10301.F));
   EXPECT_FALSE(same_surface(10301.F, 10000.F));
-  EXPECT_TRUE(same_surface(sky, sky));
-  EXPECT_FALSE(same_surface(sky, 1e9F));
+  EXPECT_TRUE(same_surface(sky_depth_m, sky_depth_m));
+  EXPECT_FALSE(same_surface(sky_depth_m, 1e9F));
 }
 
 TEST(PictureFilter, TheSkyTakesSkyOnly) {
@@ -112,7 +112,7 @@ TEST(PictureFilter, TheSkyTakesSkyOnly) {
   for (int y = 0; y < 10; ++y)
     for (int x = 0; x < 20; ++x) {
       values(x, y) = 5.F;
-      depth(x, y) = sky;
+      depth(x, y) = sky_depth_m;
     }
   const Grid<float> blurred = blur_on_surface(values, depth, 2.0);
   for (int y = 0; y < 20; ++y) EXPECT_NEAR(blurred(7, y), y < 10 ? 5.F : 0.F, 1e-5F) << y;

@@ -4,16 +4,15 @@
 
 #include <glm/common.hpp>
 
+#include "tests/renderer/paint/near_colours.h"
 #include "texture/strokes/parcels.h"
 
 namespace belvedere {
 namespace {
 
-constexpr glm::vec3 street(0.5F, 0.4F, 0.3F);
+using test::expect_near;
 
-void expect_near(glm::vec3 a, glm::vec3 b) {
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], 1e-6F) << k;
-}
+constexpr glm::vec3 street(0.5F, 0.4F, 0.3F);
 
 TEST(TownGround, HasMoreGardensInAVillageThanInATown) {
   const Palette palette = read_palette("summer");

@@ -5,30 +5,31 @@
 #include <algorithm>
 
 #include "tests/renderer/exemplar/painted_hills.h"
+#include "tests/renderer/paint/water/no_noise.h"
 
 namespace belvedere {
 namespace {
 
-constexpr Patches no_noise{0.0F, 0.0F, 0.0F, 0.0F};
+using test::no_noise;
 
 // One pixel of water far from its shores, below one of forest that it mirrors where `mirrors` says so.
-struct Lake {
+struct ForestLake {
   GuidanceBuffers guidance = test::make_slope(1, 2, LandCoverClass::forest, {0.0F, 0.0F, 1.0F}, 0.0F);
   Mirrored mirrored{Grid<std::int32_t>(1, 2, -1), Grid<float>(1, 2, 0.0F), Grid<float>(1, 2, 30.0F), Grid<float>(1, 2, 30.0F)};
   Palette palette = read_palette("summer");
-  Lake() { guidance.land_cover(0, 1) = LandCoverClass::water; }
+  ForestLake() { guidance.land_cover(0, 1) = LandCoverClass::water; }
   WaterLook look(float around, float streak = 0.0F) const { return water_look(guidance, palette, mirrored, 1, around, streak, no_noise); }
 };
 
 TEST(WaterLook, OpenWaterIsItsRamp) {
-  const WaterLook look = Lake().look(1.0F);
+  const WaterLook look = ForestLake().look(1.0F);
   EXPECT_EQ(look.tone_shift, 0.0F) << "half way between its shores";
   EXPECT_EQ(look.over(glm::vec3(0.2F, 0.3F, 0.4F)), glm::vec3(0.2F, 0.3F, 0.4F));
-  EXPECT_NEAR(Lake().look(1.0F, 1.0F).tone_shift, 0.09F, 1e-6F) << "streaks are paler";
+  EXPECT_NEAR(ForestLake().look(1.0F, 1.0F).tone_shift, 0.09F, 1e-6F) << "streaks are paler";
 }
 
 TEST(WaterLook, IsPaleTowardsTheHorizonAndShallowAtTheNearBank) {
-  Lake lake;
+  ForestLake lake;
   lake.mirrored.to_near[1] = 60.0F;
   lake.mirrored.to_far[1] = 20.0F;
   EXPECT_NEAR(lake.look(1.0F).tone_shift, 0.26F * 0.25F, 1e-6F);
@@ -39,7 +40,7 @@ TEST(WaterLook, IsPaleTowardsTheHorizonAndShallowAtTheNearBank) {
 }
 
 TEST(WaterLook, MirrorsTheShoreDarkerAndBluer) {
-  Lake lake;
+  ForestLake lake;
   lake.mirrored.source[1] = 0;
   lake.mirrored.share[1] = 1.0F;
   const WaterLook look = lake.look(1.0F);
@@ -51,7 +52,7 @@ TEST(WaterLook, MirrorsTheShoreDarkerAndBluer) {
 }
 
 TEST(WaterLook, BrooksRunBetweenGrassAndGravel) {
-  const Lake lake;
+  const ForestLake lake;
   const WaterLook brook = lake.look(0.2F);
   EXPECT_NEAR(brook.bank_share, 0.12F, 1e-6F);
   EXPECT_EQ(brook.bank, palette_colour(lake.palette, LandCoverClass::valley_floor, 1200.0, static_cast<double>(0.6F)));

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "base/parallel.h"
 #include "base/random.h"
 #include "renderer/labels/label_drawing.h"
 #include "renderer/labels/label_files.h"

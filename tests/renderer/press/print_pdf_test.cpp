@@ -25,7 +25,7 @@ using testing::Not;
 
 constexpr double dots_per_inch = 100.0;
 
-Grid<glm::vec3> picture() {
+Grid<glm::vec3> coloured_squares() {
   Grid<glm::vec3> out(150, 100);
   for (int y = 0; y < 100; ++y)
     for (int x = 0; x < 150; ++x)
@@ -35,7 +35,9 @@ Grid<glm::vec3> picture() {
 
 class PrintPdf : public testing::Test {
  protected:
-  PrintPdf() { write_tiff16(folder_ / "a.tif", picture(), {.dots_per_inch = dots_per_inch, .icc_profile = srgb_profile(), .notes = {}}); }
+  PrintPdf() {
+    write_tiff16(folder_ / "a.tif", coloured_squares(), {.dots_per_inch = dots_per_inch, .icc_profile = srgb_profile(), .notes = {}});
+  }
 
   PdfReport write(const std::string& name, const PdfParameters& parameters) const {
     Progress progress;
@@ -117,11 +119,12 @@ TEST_F(PrintPdf, WithoutAPressItIsThePicture) {
     ASSERT_NEAR(static_cast<std::uint8_t>(found[i]), 255.0F * as_read[i / 3][static_cast<int>(i % 3)], .51) << i;
   say("pdftoppm -r 100 -png a.pdf page");
   const Grid<glm::vec3> page = read_picture(folder_ / "page-1.png");
-  ASSERT_TRUE(page.same_size(picture()));
+  const Grid<glm::vec3> squares = coloured_squares();
+  ASSERT_TRUE(page.same_size(squares));
   for (int y = 5; y < 100; y += 10)
     for (int x = 5; x < 150; x += 10)
       for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(page(x, y)[c], picture()(x, y)[c], .03) << x << " " << y << ": by the tables of the program that shows it";
+        EXPECT_NEAR(page(x, y)[c], squares(x, y)[c], .03) << x << " " << y << ": by the tables of the program that shows it";
 }
 
 TEST_F(PrintPdf, LabelsStayTextAndPrintInBlack) {
@@ -163,7 +166,7 @@ TEST_F(PrintPdf, SameBytesForAnyThreads) {
 }
 
 TEST_F(PrintPdf, FaultsLeaveNoFile) {
-  write_png8(folder_ / "b.png", picture(), {});
+  write_png8(folder_ / "b.png", coloured_squares(), {});
   Progress progress;
   const auto no_size = [&] { write_print_pdf(folder_ / "b.pdf", find_press_picture(folder_ / "b.png"), {}, progress); };
   EXPECT_THAT(test::message_of(ErrorKind::usage, no_size), HasSubstr("--width-mm"));

@@ -18,7 +18,7 @@ namespace belvedere {
 namespace {
 
 // Greys that every press has, and a quarter of greens that none has.
-Grid<glm::vec3> picture() {
+Grid<glm::vec3> greys_and_greens() {
   Grid<glm::vec3> out(80, 150);
   for (int y = 0; y < 150; ++y)
     for (int x = 0; x < 80; ++x)
@@ -28,7 +28,7 @@ Grid<glm::vec3> picture() {
 
 class Proof : public testing::Test {
  protected:
-  Proof() { write_tiff16(folder_ / "a.tif", picture(), {.dots_per_inch = 300.0, .icc_profile = srgb_profile(), .notes = {}}); }
+  Proof() { write_tiff16(folder_ / "a.tif", greys_and_greens(), {.dots_per_inch = 300.0, .icc_profile = srgb_profile(), .notes = {}}); }
   ProofReport make(const std::string& name) {
     Progress progress;
     return write_proof(find_press_picture(folder_ / "a.tif"), test::press_profile(), {.device = {RenderingIntent::relative, true}}, 0.0,
@@ -45,7 +45,7 @@ TEST_F(Proof, TellsSharesAndShowsThem) {
   const Grid<glm::vec3> shown = read_picture(folder_ / "b_proof.png");
   EXPECT_GT(outside(5, 70).x, 2.0F * outside(5, 70).y) << "red";
   EXPECT_NEAR(outside(50, 70).x, outside(50, 70).y, 1e-6) << "grey";
-  EXPECT_NEAR(shown(50, 70).x, picture()(50, 70).x, 0.03F) << "greys stay";
+  EXPECT_NEAR(shown(50, 70).x, greys_and_greens()(50, 70).x, 0.03F) << "greys stay";
   EXPECT_GT(shown(5, 70).x, 0.1F) << "the print's green is duller";
   EXPECT_EQ(read_image_info(folder_ / "b_proof.png").notes.at("belvedere:press"), report.press);
 }

@@ -7,10 +7,12 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "tests/renderer/rock/rock_wall.h"
+
 namespace belvedere {
 namespace {
 
-const RockKind& limestone() { return find_rock_kind("limestone"); }
+using test::limestone;
 
 // A wall that faces north, 60° steep; the eye looks south, so that east lies to the left of the picture.
 RockPixel wall_pixel() {

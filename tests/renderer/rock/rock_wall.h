@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/guidance_buffers.h"
+#include "renderer/paint/rock_kinds.h"
 #include "tests/renderer/exemplar/painted_hills.h"
 
 namespace belvedere::test {
@@ -25,5 +26,7 @@ inline GuidanceBuffers make_wall(int width, int height, double pixels_per_unit, 
     }
   return g;
 }
+
+inline const RockKind& limestone() { return find_rock_kind("limestone"); }
 
 }  // namespace belvedere::test

@@ -10,7 +10,8 @@
 namespace belvedere {
 namespace {
 
-const RockKind& limestone() { return find_rock_kind("limestone"); }
+using test::limestone;
+
 constexpr std::array<bool, spur_bands> second_band = {false, true, false, false};
 
 // Spurs of a wall seen from afar, a pixel a unit.

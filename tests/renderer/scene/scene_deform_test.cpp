@@ -6,28 +6,17 @@
 #include "renderer/scene/scene_file.h"
 #include "renderer/world/view.h"
 #include "tests/files.h"
+#include "tests/renderer/scene/written_scene.h"
 
 namespace belvedere {
 namespace {
 
+using test::refused;
+using test::scene_of;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-Scene scene_of(const std::string& text, const std::vector<std::string>& settings = {}) {
-  return parse_scene("version = 1\n" + text, "s.toml", ".", {.data_folders = {}, .settings = settings}).scene;
-}
-
-std::string refused(const std::string& text) {
-  try {
-    scene_of(text);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    return error.what();
-  }
-  return "accepted";
-}
-
-constexpr const char* everything = R"([deform]
+constexpr const char* every_deform_key = R"([deform]
 exaggeration = 1.6
 background_exaggeration = 1.2
 exaggeration_base_m = 500
@@ -57,7 +46,7 @@ pin = true
 )";
 
 TEST(SceneDeform, KeysBecomeADeformation) {
-  const Scene scene = scene_of(everything);
+  const Scene scene = scene_of(every_deform_key);
   Dem dem;
   dem.altitude_m = Grid<float>(2, 2);
   const DeformParameters p = resolve_deform(scene.deform, dem);
@@ -88,7 +77,7 @@ TEST(SceneDeform, KeysBecomeADeformation) {
 }
 
 TEST(SceneDeform, WrittenReadsBackAndSettingsReachEachElement) {
-  const Scene scene = scene_of(everything, {"deform.handles.0.rotate_deg=-30", "deform.bend.points.1.inclination_deg=-2"});
+  const Scene scene = scene_of(every_deform_key, {"deform.handles.0.rotate_deg=-30", "deform.bend.points.1.inclination_deg=-2"});
   EXPECT_EQ(scene.deform.handles[0].handle.rotate_deg, -30.0);
   EXPECT_EQ(scene.deform.ground.bend.points[1].inclination_deg, -2.0);
   const std::string written = write_scene(scene);

@@ -10,26 +10,20 @@
 #include "renderer/scene/scene_schema.h"
 #include "tests/files.h"
 #include "tests/paths.h"
+#include "tests/renderer/scene/written_scene.h"
 
 namespace belvedere {
 namespace {
 
+using test::refused;
+using test::scene_of;
+
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using ::testing::StartsWith;
 
 using test::message_of;
-
-Scene scene_of(const std::string& text, const std::vector<std::string>& settings = {}) {
-  return parse_scene("version = 1\n" + text, "s.toml", ".", {.data_folders = {}, .settings = settings}).scene;
-}
-
-// `text` begins in line 2.
-std::string refused(const std::string& text, const std::vector<std::string>& settings = {}) {
-  return message_of(ErrorKind::usage, [&] { scene_of(text, settings); });
-}
 
 TEST(SceneFile, ReadsEveryKindOfValue) {
   const Scene scene = scene_of(R"(

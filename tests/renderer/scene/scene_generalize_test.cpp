@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/error.h"
 #include "renderer/scene/scene_file.h"
 #include "terrain/generalize/generalize_presets.h"
+#include "tests/renderer/scene/written_scene.h"
 
 namespace belvedere {
 namespace {
@@ -13,18 +13,9 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using Weights = std::vector<float>;
 
-Scene scene_of(const std::string& text) { return parse_scene("version = 1\n[generalize]\n" + text, "s.toml", ".", {}).scene; }
+Scene generalize_scene(const std::string& text) { return test::scene_of("[generalize]\n" + text); }
+std::string refused_generalize(const std::string& text) { return test::refused("[generalize]\n" + text); }
 Scene again(const Scene& scene) { return parse_scene(write_scene(scene), "again.toml", ".", {}).scene; }
-
-std::string refused(const std::string& text) {
-  try {
-    scene_of(text);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    return error.what();
-  }
-  return "accepted";
-}
 
 void expect_same(const SceneGeneralize& a, const SceneGeneralize& b) {
   EXPECT_EQ(a.preset, b.preset);
@@ -52,7 +43,7 @@ void expect_same(const SceneGeneralize& a, const SceneGeneralize& b) {
   EXPECT_EQ(a.valleys.width_m, b.valleys.width_m);
 }
 
-constexpr const char* everything = R"(preset = "figure4"
+constexpr const char* every_generalize_key = R"(preset = "figure4"
 foreground = [1.1, 0.9, 0.333333]
 background = [1.3, 0.2, 0]
 foreground_ridges = [0, 0.25, 1.5]
@@ -78,7 +69,7 @@ widen_valleys_m = 350
 )";
 
 TEST(SceneGeneralizeKeys, EachArrivesWhereItIsMeant) {
-  const SceneGeneralize read = scene_of(everything).generalize;
+  const SceneGeneralize read = generalize_scene(every_generalize_key).generalize;
   EXPECT_EQ(read.preset, "figure4");
   EXPECT_EQ(read.bands.foreground, (Weights{1.1F, .9F, .333333F}));
   EXPECT_EQ(read.bands.background, (Weights{1.3F, .2F, 0.F}));
@@ -106,7 +97,7 @@ TEST(SceneGeneralizeKeys, EachArrivesWhereItIsMeant) {
 }
 
 TEST(SceneGeneralizeKeys, WrittenReadBackTheSame) {
-  const Scene scene = scene_of(everything);
+  const Scene scene = generalize_scene(every_generalize_key);
   expect_same(again(scene).generalize, scene.generalize);
   EXPECT_EQ(write_scene(again(scene)), write_scene(scene));
 }
@@ -115,27 +106,27 @@ TEST(SceneGeneralizeKeys, WrittenReadBackTheSame) {
 TEST(SceneGeneralizeKeys, PresetsFillWhatIsNotWrittenAndReadBack) {
   for (const GeneralizePreset& preset : generalize_presets()) {
     SCOPED_TRACE(preset.name);
-    const Scene scene = scene_of("preset = \"" + std::string(preset.name) + "\"\n");
+    const Scene scene = generalize_scene("preset = \"" + std::string(preset.name) + "\"\n");
     EXPECT_EQ(scene.generalize.bands.background, preset.bands.background);
     EXPECT_EQ(scene.generalize.bands.background_ridges, preset.bands.background_ridges);
     EXPECT_EQ(scene.generalize.automatic_mask, preset.automatic_mask);
     expect_same(again(scene).generalize, scene.generalize);
   }
-  const Scene flat = scene_of("preset = \"figure5\"\nmask_slope_deg = [0, 0]\n");
+  const Scene flat = generalize_scene("preset = \"figure5\"\nmask_slope_deg = [0, 0]\n");
   EXPECT_EQ(flat.generalize.mask_slope_deg, (std::array{0.0, 0.0}));
   expect_same(again(flat).generalize, flat.generalize);
-  const Scene bold = scene_of("preset = \"bold_ridges\"\nautomatic_mask = false\nforeground = [1, 1, 1, 1, 1, 1]\n");
+  const Scene bold = generalize_scene("preset = \"bold_ridges\"\nautomatic_mask = false\nforeground = [1, 1, 1, 1, 1, 1]\n");
   EXPECT_FALSE(bold.generalize.automatic_mask);
   expect_same(again(bold).generalize, bold.generalize);
 }
 
 TEST(SceneGeneralizeKeys, ABackgroundThatIsNotWrittenFollowsUnlessThePresetHasTwo) {
   const std::string six = "foreground = [1, 1, 1, 0.5, 0.5, 0.5]\nforeground_ridges = [0, 0, 0, 1, 1, 1]\n";
-  const Scene same = scene_of("preset = \"smooth_slopes\"\n" + six);
+  const Scene same = generalize_scene("preset = \"smooth_slopes\"\n" + six);
   EXPECT_EQ(same.generalize.bands.background, same.generalize.bands.foreground);
   EXPECT_EQ(same.generalize.bands.background_ridges, same.generalize.bands.foreground_ridges);
   EXPECT_EQ(same.generalize.bands.background_valleys, find_generalize_preset("smooth_slopes")->bands.background_valleys);
-  const Scene two = scene_of("preset = \"panorama\"\n" + six);
+  const Scene two = generalize_scene("preset = \"panorama\"\n" + six);
   EXPECT_EQ(two.generalize.bands.background, find_generalize_preset("panorama")->bands.background);
   EXPECT_EQ(two.generalize.bands.background_ridges, find_generalize_preset("panorama")->bands.background_ridges);
   for (const Scene& scene : {same, two}) expect_same(again(scene).generalize, scene.generalize);
@@ -144,22 +135,23 @@ TEST(SceneGeneralizeKeys, ABackgroundThatIsNotWrittenFollowsUnlessThePresetHasTw
 TEST(SceneGeneralizeKeys, RefuseWhatCannotBe) {
   const std::string three = "foreground = [1, 1, 1]\n";
   for (const std::string set : {"background", "foreground_ridges", "foreground_valleys", "background_ridges", "background_valleys"}) {
-    EXPECT_THAT(refused(three + set + " = [1, 1]\n"), AllOf(HasSubstr("s.toml:4:"), HasSubstr(set + " has 2 weights"))) << set;
-    EXPECT_THAT(refused(three + set + " = [1, 1, 5.5]\n"), HasSubstr("… 5")) << set;
+    EXPECT_THAT(refused_generalize(three + set + " = [1, 1]\n"), AllOf(HasSubstr("s.toml:4:"), HasSubstr(set + " has 2 weights"))) << set;
+    EXPECT_THAT(refused_generalize(three + set + " = [1, 1, 5.5]\n"), HasSubstr("… 5")) << set;
   }
-  EXPECT_THAT(refused(three + "background_ridges = [0, 0, -5.5]\n"), HasSubstr("-5 … 5"));
-  EXPECT_THAT(refused("foreground = [1, -0.1]\n"), HasSubstr("0 … 5"));
+  EXPECT_THAT(refused_generalize(three + "background_ridges = [0, 0, -5.5]\n"), HasSubstr("-5 … 5"));
+  EXPECT_THAT(refused_generalize("foreground = [1, -0.1]\n"), HasSubstr("0 … 5"));
   // A preset brings six arrays; one of another length beside it fits none of them.
-  EXPECT_THAT(refused("preset = \"smooth_slopes\"\nforeground = [1, 1]\n"), HasSubstr("6 weights"));
-  EXPECT_THAT(refused("preset = \"figure9\"\n"), AllOf(HasSubstr("s.toml:3:"), HasSubstr("figure9"), HasSubstr("smooth_slopes")));
-  EXPECT_THAT(refused("print_detail_px = 0.25\n"), HasSubstr("0.5 … 20"));
-  EXPECT_THAT(refused("print_detail_px = 21\n"), HasSubstr("0 … 20"));
-  EXPECT_THAT(refused("full_curvature = 0.0005\n"), HasSubstr("0.001 … 10"));
-  EXPECT_THAT(refused("mask_slope_deg = [9, 9]\n"), HasSubstr("[flatter, steeper]"));
-  EXPECT_THAT(refused("mask_classes = { valley_floor = 1.5 }\n"), HasSubstr("0 … 1"));
-  EXPECT_THAT(refused("mask_classes = { moon = 1 }\n"), HasSubstr("moon"));
-  EXPECT_THAT(refused("curvature = \"gauss\"\n"), HasSubstr("bounded"));
-  EXPECT_THAT(refused("forground = [1]\n"), HasSubstr("forground"));
+  EXPECT_THAT(refused_generalize("preset = \"smooth_slopes\"\nforeground = [1, 1]\n"), HasSubstr("6 weights"));
+  EXPECT_THAT(refused_generalize("preset = \"figure9\"\n"),
+              AllOf(HasSubstr("s.toml:3:"), HasSubstr("figure9"), HasSubstr("smooth_slopes")));
+  EXPECT_THAT(refused_generalize("print_detail_px = 0.25\n"), HasSubstr("0.5 … 20"));
+  EXPECT_THAT(refused_generalize("print_detail_px = 21\n"), HasSubstr("0 … 20"));
+  EXPECT_THAT(refused_generalize("full_curvature = 0.0005\n"), HasSubstr("0.001 … 10"));
+  EXPECT_THAT(refused_generalize("mask_slope_deg = [9, 9]\n"), HasSubstr("[flatter, steeper]"));
+  EXPECT_THAT(refused_generalize("mask_classes = { valley_floor = 1.5 }\n"), HasSubstr("0 … 1"));
+  EXPECT_THAT(refused_generalize("mask_classes = { moon = 1 }\n"), HasSubstr("moon"));
+  EXPECT_THAT(refused_generalize("curvature = \"gauss\"\n"), HasSubstr("bounded"));
+  EXPECT_THAT(refused_generalize("forground = [1]\n"), HasSubstr("forground"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "base/grid_part.h"
 #include "base/noise.h"
+#include "base/parallel.h"
 #include "tests/texture/statistical/texture_crops.h"
 
 namespace belvedere {

@@ -19,14 +19,14 @@ constexpr PixelRect place{2, 3, 2 + width, 3 + height};  // of the picture among
 double draw(int a, int b, std::uint64_t n) { return random_uniform(7, a, b, n); }
 
 // A canvas under strokes of all parts in any order, as a painting would leave it.
-struct Painted {
+struct PaintedCanvas {
   Grid<glm::vec3> bare{width, height};
   Grid<glm::vec3> picture{width, height};
   Grid<float> haze{width, height, 0.25F};
   MistPaint mist{Grid<float>(width, height), Grid<glm::vec3>(width, height)};
   PaintParts parts{{0, 0, width + 4, height + 5}};
   GuidanceBuffers guidance;
-  Painted() {
+  PaintedCanvas() {
     guidance.depth_m = Grid<float>(width, height, 1000.0F);
     guidance.land_cover = Grid<LandCoverClass>(width, height, LandCoverClass::forest);
     guidance.shadow = Grid<float>(width, height, 0.75F);
@@ -80,7 +80,7 @@ std::size_t seen(const Grid<LayerPixel>& layer) {
 }
 
 TEST(PictureLayers, FlattenToThePictureWithoutCorrections) {
-  const Painted painted;
+  const PaintedCanvas painted;
   const PictureLayers layers = painted.cut(painted.picture);
   EXPECT_LT(most_off(flatten(layers), painted.picture), flatten_steps + 1.0);
   EXPECT_EQ(seen(layers.planes[about_plane - 1]), 0U) << "strokes alone say it";
@@ -88,7 +88,7 @@ TEST(PictureLayers, FlattenToThePictureWithoutCorrections) {
 
 // Softened edges and cut colours are no sum of strokes.
 TEST(PictureLayers, WhatStrokesCannotSayLiesOnTop) {
-  const Painted painted;
+  const PaintedCanvas painted;
   Grid<glm::vec3> finished = painted.picture;
   finished(3, 3) = {0.1F, 0.9F, 0.2F};
   finished(20, 20) = {1.2F, -0.1F, 0.5F};
@@ -98,7 +98,7 @@ TEST(PictureLayers, WhatStrokesCannotSayLiesOnTop) {
 }
 
 TEST(PictureLayers, LayersOfTheGroundAndMasksAreWhereTheirClassIs) {
-  const Painted painted;
+  const PaintedCanvas painted;
   const PictureLayers layers = painted.cut(painted.picture);
   const auto layer = [&](const std::string& name) {
     const auto found =
@@ -119,7 +119,7 @@ TEST(PictureLayers, LayersOfTheGroundAndMasksAreWhereTheirClassIs) {
 
 // Strokes of the ground can be changed class by class: each pixel's lie in one layer, whatever its class.
 TEST(PictureLayers, EachPixelsStrokesLieInTheLayerOfItsClass) {
-  const Painted painted;
+  const PaintedCanvas painted;
   const PictureLayers layers = painted.cut(painted.picture);
   std::size_t apart = 0;
   std::set<std::string> seen_in;

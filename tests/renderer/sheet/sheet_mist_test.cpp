@@ -18,8 +18,8 @@ namespace {
 constexpr PixelRect sheet{0, 0, 230, 210};
 
 // A scene whose picture is painted in strokes alone, in the stages of a sheet.
-struct Painted {
-  explicit Painted(std::vector<std::string> settings)
+struct PaintedSheet {
+  explicit PaintedSheet(std::vector<std::string> settings)
       : world((settings.insert(settings.end(), {"output.width=230", "output.height=210", "output.sheet_width_mm=115"}),
                test::small_scene(settings)),
               silent_progress()) {}
@@ -39,7 +39,7 @@ const std::vector<std::string> misty = {"air.mist.0={ kind = \"sea\", to_m = 110
                                         "air.mist.2={ kind = \"lee\", position = [6000, 7000], size_m = 2500 }"};
 
 TEST(SheetMist, AnyRectangleTilesAndThreadsGiveThePictureOfTheWhole) {
-  Painted painted(misty);
+  PaintedSheet painted(misty);
   const Grid<glm::vec3> whole = painted.make(sheet);
   const ThreadLimit one(1);
   for (const PixelRect rect : {PixelRect{150, 90, 230, 170}, {63, 63, 65, 66}})
@@ -47,14 +47,14 @@ TEST(SheetMist, AnyRectangleTilesAndThreadsGiveThePictureOfTheWhole) {
 }
 
 TEST(SheetMist, ASeaBelowAllGroundChangesNothing) {
-  Painted dry({});
-  Painted low({"air.mist.0={ kind = \"sea\", to_m = -400, billows = 0 }"});
+  PaintedSheet dry({});
+  PaintedSheet low({"air.mist.0={ kind = \"sea\", to_m = -400, billows = 0 }"});
   EXPECT_TRUE(dry.make(sheet) == low.make(sheet));
 }
 
 // Deep under fog there is neither tree nor ground: the picture is the mist's paint.
 TEST(SheetMist, NothingStandsOutOfDeepFog) {
-  Painted deep({"air.mist.0={ kind = \"sea\", to_m = 3900, sight_m = 60, billows = 0 }"});
+  PaintedSheet deep({"air.mist.0={ kind = \"sea\", to_m = 3900, sight_m = 60, billows = 0 }"});
   SheetGround ground(deep.world, view_of(deep.world), deep.palette, deep.place, deep.run, 96);
   SheetMist mist(ground, deep.world, deep.place, deep.run);
   Grid<glm::vec3> fog(230, 210, glm::vec3(0.F));

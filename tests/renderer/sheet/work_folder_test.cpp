@@ -13,13 +13,13 @@ namespace {
 using testing::HasSubstr;
 
 const JobIdentity job{{"scene", "a\nb\\n\tc"}, {"dem.tif", "1234"}};
-const PixelRect square{0, 0, 3, 2};
+const PixelRect small_rect{0, 0, 3, 2};
 
 class WorkFolderTest : public testing::Test {
  protected:
   void keep(const WorkFolder& work, std::uint8_t value) {
     Grid<std::uint8_t> values(3, 2, value);
-    work.keep("panorama", square, {plane_of(values)});
+    work.keep("panorama", small_rect, {plane_of(values)});
   }
   test::Folder folder_;
   std::string place_ = folder_ / "out/.belvedere";
@@ -28,29 +28,29 @@ class WorkFolderTest : public testing::Test {
 TEST_F(WorkFolderTest, ARunThatResumesFindsWhatIsWhole) {
   {
     WorkFolder work(place_, job, WorkMode::begin);
-    EXPECT_FALSE(work.has("panorama", square));
+    EXPECT_FALSE(work.has("panorama", small_rect));
     keep(work, 1);
     work.keep_bytes("plan", "chosen");
   }
   const WorkFolder again(place_, job, WorkMode::resume);
-  EXPECT_TRUE(again.has("panorama", square));
-  EXPECT_FALSE(again.has("guidance", square));
+  EXPECT_TRUE(again.has("panorama", small_rect));
+  EXPECT_FALSE(again.has("guidance", small_rect));
   EXPECT_EQ(again.read_bytes("plan"), "chosen");
 }
 
 TEST_F(WorkFolderTest, ARunThatBeginsFindsNothing) {
   keep(WorkFolder(place_, job, WorkMode::begin), 1);
-  EXPECT_FALSE(WorkFolder(place_, job, WorkMode::begin).has("panorama", square));
+  EXPECT_FALSE(WorkFolder(place_, job, WorkMode::begin).has("panorama", small_rect));
 }
 
 TEST_F(WorkFolderTest, ADamagedPieceIsRemoved) {
   const WorkFolder work(place_, job, WorkMode::begin);
   keep(work, 1);
-  const std::string path = work.path("panorama", square);
+  const std::string path = work.path("panorama", small_rect);
   std::string bytes = test::read_bytes(path);
   bytes[bytes.size() - 40] ^= 4;
   test::write_bytes(path, bytes);
-  EXPECT_FALSE(work.has("panorama", square));
+  EXPECT_FALSE(work.has("panorama", small_rect));
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
@@ -60,7 +60,7 @@ TEST_F(WorkFolderTest, AnotherJobsPiecesAreRefusedByName) {
   other["dem.tif"] = "9";
   const auto resume = [&] { WorkFolder(place_, other, WorkMode::resume); };
   EXPECT_THAT(test::message_of(ErrorKind::usage, resume), HasSubstr("dem.tif differs"));
-  EXPECT_TRUE(WorkFolder(place_, job, WorkMode::resume).has("panorama", square)) << "and are left alone";
+  EXPECT_TRUE(WorkFolder(place_, job, WorkMode::resume).has("panorama", small_rect)) << "and are left alone";
 }
 
 TEST_F(WorkFolderTest, TheSecondRunIntoAFolderIsRefused) {
@@ -68,7 +68,7 @@ TEST_F(WorkFolderTest, TheSecondRunIntoAFolderIsRefused) {
   keep(first, 1);
   for (const WorkMode mode : {WorkMode::begin, WorkMode::resume})
     EXPECT_THAT(test::message_of(ErrorKind::output, [&] { WorkFolder(place_, job, mode); }), HasSubstr("another run"));
-  EXPECT_TRUE(first.has("panorama", square));
+  EXPECT_TRUE(first.has("panorama", small_rect));
 }
 
 TEST_F(WorkFolderTest, ManyMayJoinAPlan) {
@@ -77,9 +77,9 @@ TEST_F(WorkFolderTest, ManyMayJoinAPlan) {
   const WorkFolder a(place_, job, WorkMode::join);
   const WorkFolder b(place_, job, WorkMode::join);
   keep(a, 1);
-  EXPECT_TRUE(b.has("panorama", square));
+  EXPECT_TRUE(b.has("panorama", small_rect));
   begin_shared_work(place_, job);
-  EXPECT_TRUE(b.has("panorama", square)) << "planned again, nothing is lost";
+  EXPECT_TRUE(b.has("panorama", small_rect)) << "planned again, nothing is lost";
   test::message_of(ErrorKind::usage, [&] { begin_shared_work(place_, {{"scene", "other"}}); });
 }
 

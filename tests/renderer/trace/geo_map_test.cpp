@@ -13,8 +13,8 @@
 namespace belvedere {
 namespace {
 
-constexpr double cell = 30.0;
-const GeoTransform frame{650000.0, 5320000.0, cell, cell};
+constexpr double map_cell_m = 30.0;
+const GeoTransform frame{650000.0, 5320000.0, map_cell_m, map_cell_m};
 const glm::dvec2 viewer(653000.0, 5323000.0);
 // A patch of water on a meadow, in the core of what is turned.
 const glm::dvec2 mountain(653200.0, 5316500.0);
@@ -38,7 +38,7 @@ DeformParameters everything() {
   return p;
 }
 
-struct World {
+struct SeenGround {
   Deformation deformation;
   TerrainModel terrain;
   DeformedSurface surface;
@@ -48,7 +48,7 @@ struct World {
   GeoMap map() const { return {terrain.dem->altitude_m, terrain.goes_to, terrain.dem->transform, deformation, surface, *camera, *tracer}; }
 };
 
-std::unique_ptr<World> make_world(const DeformParameters& deform_parameters, double relief_m = 250.0) {
+std::unique_ptr<SeenGround> make_ground(const DeformParameters& deform_parameters, double relief_m = 250.0) {
   Raster<float> raster;
   raster.transform = frame;
   raster.cells = Grid<float>(220, 260);
@@ -61,7 +61,7 @@ std::unique_ptr<World> make_world(const DeformParameters& deform_parameters, dou
       raster.cells(x, y) = static_cast<float>(400.0 + relief_m * gaussian_noise(7, place.x - 650000.0, place.y - 5312000.0, 900.0));
       if (glm::length(place - lake) < 200.0) cover.classes.cells(x, y) = LandCoverClass::water;
     }
-  auto world = std::make_unique<World>();
+  auto world = std::make_unique<SeenGround>();
   Dem dem = make_dem(std::move(raster));
   Grid<float> shown = dem.altitude_m;
   world->deformation = Deformation(deform_parameters, viewer);
@@ -80,7 +80,7 @@ std::unique_ptr<World> make_world(const DeformParameters& deform_parameters, dou
   return world;
 }
 
-GuidanceBuffers trace(const World& world) {
+GuidanceBuffers trace_ground(const SeenGround& world) {
   GuidanceParameters parameters;
   parameters.sampling.pixel_samples = 1;
   parameters.sampling.shadow_rays = 1;
@@ -89,7 +89,7 @@ GuidanceBuffers trace(const World& world) {
 }
 
 TEST(GeoMap, FromPixelToPlaceAndBackIsTheSamePixel) {
-  const auto world = make_world(everything());
+  const auto world = make_ground(everything());
   const GeoMap map = world->map();
   int ground = 0;
   for (int y = 0; y < 160; y += 3)
@@ -111,9 +111,9 @@ TEST(GeoMap, FromPixelToPlaceAndBackIsTheSamePixel) {
 
 TEST(GeoMap, AgreesWithTheGuidanceBuffers) {
   // The P channel is the undeformed place of what a pixel shows (at its middle, with one sample a pixel).
-  const auto world = make_world(everything());
+  const auto world = make_ground(everything());
   const GeoMap map = world->map();
-  const GuidanceBuffers guidance = trace(*world);
+  const GuidanceBuffers guidance = trace_ground(*world);
   for (int y = 0; y < 160; y += 5)
     for (int x = 0; x < 240; x += 5) {
       if (std::isinf(guidance.depth_m(x, y))) continue;
@@ -128,7 +128,7 @@ TEST(GeoMap, AgreesWithTheGuidanceBuffers) {
 
 // Ground east of column 100 was drawn 6 cells farther east, as a widened valley does it.
 TEST(GeoMap, PlacesGoAlongWithGroundThatMoved) {
-  const auto world = make_world({});
+  const auto world = make_ground({});
   Grid<glm::vec2> goes_to(220, 260);
   for (int y = 0; y < 260; ++y)
     for (int x = 0; x < 220; ++x)
@@ -156,7 +156,7 @@ TEST(GeoMap, PlacesGoAlongWithGroundThatMoved) {
 }
 
 TEST(GeoMap, APointOnThePostsIsTheSameByAltitudeAndByGround) {
-  const auto world = make_world(everything());
+  const auto world = make_ground(everything());
   const GeoMap map = world->map();
   for (int y = 40; y < 240; y += 17)
     for (int x = 10; x < 210; x += 13) {
@@ -172,7 +172,7 @@ TEST(GeoMap, APointOnThePostsIsTheSameByAltitudeAndByGround) {
 
 TEST(GeoMap, HiddenGroundIsHidden) {
   // Each place is seen just where the pixel it falls on shows it and nothing nearer.
-  const auto world = make_world(everything(), 500.0);
+  const auto world = make_ground(everything(), 500.0);
   const GeoMap map = world->map();
   int hidden = 0;
   int seen = 0;
@@ -195,8 +195,8 @@ TEST(GeoMap, HiddenGroundIsHidden) {
 }
 
 TEST(Deformation, LandCoverFollowsWhatMoves) {
-  const auto world = make_world(everything(), 0.0);
-  const GuidanceBuffers guidance = trace(*world);
+  const auto world = make_ground(everything(), 0.0);
+  const GuidanceBuffers guidance = trace_ground(*world);
   // The lake lies where the handle took it: 50° clockwise about the mountain and shifted.
   const glm::dvec2 moved = mountain + glm::dvec2(150.0, 80.0) + turned(lake - mountain, 50.0);
   int water = 0;
@@ -228,17 +228,17 @@ TEST(Deformation, LightFallsOnTheTurnedSlope) {
   p.exaggeration = 1.5;
   p.bend.points = {{2000.0, std::nullopt, 18.0}, {8000.0, std::nullopt, 0.0}};
   p.handles = {{.center = mountain, .rotate_deg = 50.0, .radius_m = 2500.0, .core_m = 1000.0}};
-  const auto world = make_world(p, 0.0);
+  const auto world = make_ground(p, 0.0);
   Grid<float>& z = world->terrain.generalized_m;
   for (int y = 0; y < 260; ++y)
-    for (int x = 0; x < 220; ++x) z(x, y) = static_cast<float>(0.4 * cell * x);
+    for (int x = 0; x < 220; ++x) z(x, y) = static_cast<float>(0.4 * map_cell_m * x);
   world->terrain.detail_smooth_m = z;
   world->surface = deform(z, frame, glm::dvec3(viewer, 0.0), world->deformation);
   Tracer tracer(world->surface);
   *world->tracer = std::move(tracer);
   const auto at = world->map().to_image(mountain);
   ASSERT_TRUE(at && at->visible);
-  const GuidanceBuffers guidance = trace(*world);
+  const GuidanceBuffers guidance = trace_ground(*world);
   const glm::dvec3 normal(guidance.normal(static_cast<int>(at->pixel.x), static_cast<int>(at->pixel.y)));
   // Unturned the normal leans west with slope 0.4 · 1.5.
   const glm::dvec2 lean = turned({-0.6, 0.0}, 50.0);

@@ -9,12 +9,12 @@
 namespace belvedere {
 namespace {
 
-constexpr double cell_m = 30.0;
+constexpr double ring_cell_m = 30.0;
 
 template <class Altitude>
 Dem dem_of(int width, int height, Altitude&& altitude) {
   Raster<float> raster;
-  raster.transform = {650000.0, 5320000.0, cell_m, cell_m};
+  raster.transform = {650000.0, 5320000.0, ring_cell_m, ring_cell_m};
   raster.cells = Grid<float>(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) raster.cells(x, y) = static_cast<float>(altitude(x, y));
@@ -43,14 +43,14 @@ TEST(GroundSurroundings, TheRimIsTheBorderAndVoidsThatReachIt) {
   const GroundSurroundings whole = find_surroundings(dem, cover);
   for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 40; ++x)
-      EXPECT_NEAR(whole.rim_m(x, y), cell_m * std::min(std::min(x, 39 - x), std::min(y, 29 - y)), 1e-3) << x << ' ' << y;
+      EXPECT_NEAR(whole.rim_m(x, y), ring_cell_m * std::min(std::min(x, 39 - x), std::min(y, 29 - y)), 1e-3) << x << ' ' << y;
   dem.filled = Grid<std::uint8_t>(40, 30, 0);
   dem.filled(20, 15) = 1;                              // a flaw in the middle of known terrain
   for (int x = 0; x <= 9; ++x) dem.filled(x, 14) = 1;  // a void that comes in from the border
   const GroundSurroundings voids = find_surroundings(dem, cover);
-  EXPECT_NEAR(voids.rim_m(20, 15), cell_m * std::hypot(11.0, 1.0), 1e-3);
+  EXPECT_NEAR(voids.rim_m(20, 15), ring_cell_m * std::hypot(11.0, 1.0), 1e-3);
   EXPECT_EQ(voids.rim_m(9, 14), 0.F);
-  EXPECT_NEAR(voids.rim_m(12, 18), cell_m * 5.0, 1e-3);
+  EXPECT_NEAR(voids.rim_m(12, 18), ring_cell_m * 5.0, 1e-3);
 }
 
 TEST(GroundSurroundings, CatchmentsThatAreThereAreTaken) {
@@ -60,7 +60,7 @@ TEST(GroundSurroundings, CatchmentsThatAreThereAreTaken) {
   catchments.km2();
   const GroundSurroundings found = find_surroundings(dem, cover, &catchments);
   EXPECT_EQ(found.flow, find_surroundings(dem, cover).flow);
-  for (int y = 0; y < 60; ++y) EXPECT_NEAR(found.flow(4, y), std::log10(cell_m * cell_m * (y + 1)), 1e-5) << y;
+  for (int y = 0; y < 60; ++y) EXPECT_NEAR(found.flow(4, y), std::log10(ring_cell_m * ring_cell_m * (y + 1)), 1e-5) << y;
   // All is town.
   for (const float built : found.floor_plan.built) EXPECT_NEAR(built, 1.F, 1e-4F);
 }

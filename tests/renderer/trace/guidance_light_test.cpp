@@ -19,7 +19,12 @@
 namespace belvedere {
 namespace {
 
-using namespace test;
+using test::all_meadow;
+using test::MadeUpWorld;
+using test::make_world;
+using test::rough_world;
+using test::southward;
+using test::trace;
 
 TEST(Guidance, SkyDirectionsAreCosineWeightedAndDealtOutEvenly) {
   for (const int per_pixel : {1, 4, 16}) {
@@ -41,7 +46,7 @@ TEST(Guidance, SkyDirectionsAreCosineWeightedAndDealtOutEvenly) {
 }
 
 TEST(Guidance, SunBelowTheHorizonLeavesAllTerrainInShadow) {
-  const World world = rough_world();
+  const MadeUpWorld world = rough_world();
   GuidanceParameters parameters;
   parameters.sun_direction = glm::normalize(glm::dvec3(-0.7, 0.7, -0.05));
   const GuidanceBuffers b = trace(world, *make_camera(southward(64, 48)), parameters);
@@ -51,7 +56,7 @@ TEST(Guidance, SunBelowTheHorizonLeavesAllTerrainInShadow) {
 // A wall across a plain: the umbra ends where the disc's upper edge passes the crest, the penumbra where its lower edge does.
 TEST(Guidance, PenumbraOfAWallIsAsWideAsTheDisc) {
   const double wall = 400.0;
-  const World world = make_world(
+  const MadeUpWorld world = make_world(
       300, 300, [&](double, double y) { return y >= 6000.0 && y <= 6030.0 ? wall : 0.0; }, all_meadow);
   CameraParameters p;
   p.projection = "oblique";  // straight down: a map, 10 m a pixel
@@ -95,7 +100,7 @@ class WallUnderTwoSuns : public testing::Test {
  protected:
   static constexpr double wall = 400.0;
   static constexpr double wall_y = 5320000.0 - 15.0 - 6000.0;
-  World world_ = make_world(
+  MadeUpWorld world_ = make_world(
       300, 300, [](double, double y) { return y >= 6000.0 && y <= 6030.0 ? wall : 0.0; }, all_meadow);
   GuidanceParameters parameters_;
   std::unique_ptr<const Camera> camera_;
@@ -167,7 +172,7 @@ TEST_F(WallUnderTwoSuns, ARegionOfTheSameSunCastsTheSameShadows) {
 
 // The two probing rays a pixel must not change the picture: against all rays traced one by one.
 TEST(Guidance, ShadowsWithoutPenumbraAreFoundByTwoRays) {
-  const World world = rough_world();
+  const MadeUpWorld world = rough_world();
   const auto camera = make_camera(southward(160, 96, -18.0));
   GuidanceParameters parameters;
   parameters.sampling.pixel_samples = 1;

@@ -19,6 +19,7 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/guidance_channels.h"
+#include "base/parallel.h"
 #include "renderer/trace/guidance_ground.h"
 #include "renderer/trace/guidance_rays.h"
 #include "terrain/cover/map_cover.h"
@@ -27,7 +28,13 @@
 namespace belvedere {
 namespace {
 
-using namespace test;
+using test::all_meadow;
+using test::cell;
+using test::MadeUpWorld;
+using test::make_world;
+using test::rough_world;
+using test::southward;
+using test::trace;
 
 TEST(Guidance, PixelPlacesShareNoColumnAndNoRow) {
   for (const int n : {1, 4, 9, 16}) {
@@ -48,7 +55,7 @@ TEST(Guidance, PixelPlacesShareNoColumnAndNoRow) {
 }
 
 TEST(Guidance, LevelGroundIsLitOpenAndFlat) {
-  const World world = make_world(
+  const MadeUpWorld world = make_world(
       200, 200, [](double, double) { return 500.0; }, all_meadow);
   const auto camera = make_camera(southward(96, 64));
   const GuidanceBuffers b = trace(world, *camera);
@@ -72,7 +79,7 @@ TEST(Guidance, LevelGroundIsLitOpenAndFlat) {
 // Bumps of surface layers are in the normals of level ground, even about up, smaller from afar, and none on water; nothing else moves.
 TEST(Guidance, BumpsOfLayersTurnTheNormals) {
   const auto made = [](double height_m, double length_m) {
-    World world = make_world(
+    MadeUpWorld world = make_world(
         200, 200, [](double, double) { return 500.0; },
         [](double x, double) { return x > 3000.0 ? LandCoverClass::alpine_grass : LandCoverClass::water; });
     LandCover cover = *world.terrain.land_cover;
@@ -114,7 +121,7 @@ TEST(Guidance, BumpsOfLayersTurnTheNormals) {
   // Bumps that are shorter than a pixel of the nearest ground are not seen at all.
   EXPECT_EQ(trace(made(12.0, 10.0), *camera).normal, smooth.normal);
   // Any part has the whole's.
-  const World world = made(12.0, 300.0);
+  const MadeUpWorld world = made(12.0, 300.0);
   const PixelRect rect{17, 40, 70, 61};
   const GuidanceBuffers part = trace_guidance(world.terrain, world.surface, *world.tracer, *camera, {}, rect, silent_progress());
   for (int y = 0; y < rect.height(); ++y)
@@ -124,7 +131,7 @@ TEST(Guidance, BumpsOfLayersTurnTheNormals) {
 // Wood ends raggedly on grass, within a cell or two of where the map has its border and about it; at water's edge nothing is moved.
 TEST(Guidance, WhatGrowsHasRaggedBordersAndShoresKeepTheirs) {
   const auto border_of = [](LandCoverClass beyond) {
-    const World world = make_world(
+    const MadeUpWorld world = make_world(
         80, 80, [](double, double) { return 500.0; }, [&](double x, double) { return x > 39.5 * cell ? LandCoverClass::forest : beyond; });
     std::vector<double> places;  // columns where each row's border lies
     for (double row = 5.0; row < 75.0; row += 0.2) {
@@ -156,7 +163,7 @@ TEST(Guidance, WhatGrowsHasRaggedBordersAndShoresKeepTheirs) {
 // Lines of a map keep their shape where a widened valley draws their ground out: they are asked for where lines are drawn, cells where
 // the ground came from.
 TEST(Guidance, ARiverOfAMapLiesWhereLinesAreDrawn) {
-  World world = make_world(
+  MadeUpWorld world = make_world(
       200, 200, [](double, double) { return 500.0; },
       [](double x, double) { return x > 2000.0 ? LandCoverClass::valley_floor : LandCoverClass::settlement; });
   const GeoTransform& transform = world.terrain.dem->transform;
@@ -180,7 +187,7 @@ TEST(Guidance, ARiverOfAMapLiesWhereLinesAreDrawn) {
 
 TEST(Guidance, GroundThatMovedTakesAlongWhatLiesOnIt) {
   // The ground rises to the east, with a forest from 3 km on; all of it came from ten cells farther west.
-  World world = make_world(
+  MadeUpWorld world = make_world(
       200, 200, [](double x, double) { return 500.0 + 0.1 * x; },
       [](double x, double) { return x > 3000.0 ? LandCoverClass::forest : LandCoverClass::alpine_grass; });
   world.terrain.came_from = Grid<glm::vec2>(200, 200, glm::vec2(-10.F, 0.F));
@@ -208,7 +215,7 @@ TEST(Guidance, RimIsTheDistanceToTheEndOfTheKnownTerrain) {
   const auto void_at = [](double x, double y, double x0, double x1, double y0, double y1) {
     return x >= x0 * cell && x <= x1 * cell && y >= y0 * cell && y <= y1 * cell;
   };
-  const World world = make_world(
+  const MadeUpWorld world = make_world(
       side, side,
       [&](double x, double y) {
         const bool bay = void_at(x, y, 0, 60, 70, 90);        // from the western border inwards
@@ -246,7 +253,7 @@ TEST(Guidance, RimIsTheDistanceToTheEndOfTheKnownTerrain) {
 }
 
 TEST(Guidance, SkyPixelsHoldTheirDefaults) {
-  const World world = make_world(
+  const MadeUpWorld world = make_world(
       100, 100, [](double, double) { return 500.0; }, all_meadow);
   const auto camera = make_camera(southward(64, 32, 20.0));
   const GuidanceBuffers b = trace(world, *camera);
@@ -268,7 +275,7 @@ TEST(Guidance, RampHasItsSlopeAspectNormalsAndSkyView) {
   const double south = 0.25;
   DeformParameters d;
   d.exaggeration = 1.6;
-  const World world = make_world(
+  const MadeUpWorld world = make_world(
       400, 400, [&](double x, double y) { return 100.0 + east * x + south * y; }, all_meadow, d);
   CameraParameters p = southward(160, 96, -30.0);
   p.eye.z = 6000.0;
@@ -305,7 +312,7 @@ TEST(Guidance, RampHasItsSlopeAspectNormalsAndSkyView) {
 }
 
 TEST(Guidance, PlacesProjectBackIntoTheirPixels) {
-  const World world = rough_world();
+  const MadeUpWorld world = rough_world();
   for (const char* projection : {"perspective", "oblique", "cylindrical"}) {
     CameraParameters p = southward(200, 120, -30.0);
     p.projection = projection;
@@ -333,7 +340,7 @@ TEST(Guidance, PlacesProjectBackIntoTheirPixels) {
 }
 
 TEST(Guidance, FootprintIsMetresAPixel) {
-  const World world = rough_world();
+  const MadeUpWorld world = rough_world();
   CameraParameters p = southward(120, 80, -30.0);
   p.eye.z = 6500.0;
   p.projection = "oblique";
@@ -358,7 +365,7 @@ TEST(Guidance, FallLineFollowsTheSlopeInThePicture) {
     glm::vec2 image;
   } cases[] = {{1.0, 0.0, {-1.F, 0.F}}, {-1.0, 0.0, {1.F, 0.F}}, {0.0, -1.0, {0.F, 1.F}}};
   for (const auto& c : cases) {
-    const World world = make_world(
+    const MadeUpWorld world = make_world(
         200, 200, [&](double x, double y) { return 1000.0 - 0.2 * (c.dx * x + c.dy * y); }, all_meadow);
     const auto camera = make_camera(southward(64, 48, -25.0));
     const GuidanceBuffers b = trace(world, *camera);
@@ -369,7 +376,7 @@ TEST(Guidance, FallLineFollowsTheSlopeInThePicture) {
 }
 
 TEST(Guidance, MostSamplesWinThePixelAndItsValuesComeFromOneOfThem) {
-  const World world = rough_world();
+  const MadeUpWorld world = rough_world();
   CameraParameters p = southward(120, 72, -14.0);
   const auto camera = make_camera(p);
   GuidanceParameters parameters;
@@ -434,7 +441,7 @@ void expect_same_buffers(const GuidanceBuffers& whole, const GuidanceBuffers& pa
 }
 
 TEST(Guidance, TracesTheChannelsOfItsShareOfTheTableAndNoOthers) {
-  const World world = make_world(
+  const MadeUpWorld world = make_world(
       20, 20, [](double, double) { return 0.0; }, all_meadow);
   const GuidanceBuffers b = trace(world, *make_camera(southward(16, 16)));
   for (const GuidanceChannel& channel : guidance_channels())
@@ -442,7 +449,7 @@ TEST(Guidance, TracesTheChannelsOfItsShareOfTheTableAndNoOthers) {
 }
 
 TEST(Guidance, AnyRectangleTileSizeAndThreadCountGivesTheSameBits) {
-  const World world = rough_world();
+  const MadeUpWorld world = rough_world();
   const auto camera = make_camera(southward(131, 77, -16.0));  // no multiple of a block
   GuidanceBuffers whole;
   {
@@ -467,7 +474,7 @@ TEST(Guidance, AnyRectangleTileSizeAndThreadCountGivesTheSameBits) {
 }
 
 TEST(Guidance, RefusesParametersOutOfRange) {
-  const World world = make_world(
+  const MadeUpWorld world = make_world(
       20, 20, [](double, double) { return 0.0; }, all_meadow);
   const auto camera = make_camera(southward(16, 16));
   const auto refused = [&](auto change, const char* key) {

@@ -15,7 +15,7 @@ namespace belvedere::test {
 constexpr double cell = 30.0;
 
 // A made-up world: altitude and land cover as functions of metres east and south of the first post.
-struct World {
+struct MadeUpWorld {
   TerrainModel terrain;
   DeformedSurface surface;
   std::unique_ptr<Tracer> tracer;
@@ -24,8 +24,8 @@ struct World {
 };
 
 template <class Altitude, class Cover>
-World make_world(int width, int height, Altitude&& altitude, Cover&& cover, DeformParameters deform_parameters = {},
-                 glm::dvec2 viewer = {652000.0, 5330000.0}) {
+MadeUpWorld make_world(int width, int height, Altitude&& altitude, Cover&& cover, DeformParameters deform_parameters = {},
+                       glm::dvec2 viewer = {652000.0, 5330000.0}) {
   Raster<float> raster;
   raster.transform = {650000.0, 5320000.0, cell, cell};
   raster.cells = Grid<float>(width, height);
@@ -38,7 +38,7 @@ World make_world(int width, int height, Altitude&& altitude, Cover&& cover, Defo
       land_cover.classes.cells(x, y) = cover(x * cell, y * cell);
     }
   }
-  World world;
+  MadeUpWorld world;
   Dem dem = make_dem(std::move(raster));
   Grid<float> generalized = dem.altitude_m;
   world.deform_parameters = deform_parameters;
@@ -77,12 +77,12 @@ inline CameraParameters southward(int width, int height, double pitch_deg = -20.
   return p;
 }
 
-inline GuidanceBuffers trace(const World& world, const Camera& camera, const GuidanceParameters& parameters = {}) {
+inline GuidanceBuffers trace(const MadeUpWorld& world, const Camera& camera, const GuidanceParameters& parameters = {}) {
   return trace_guidance(world.terrain, world.surface, *world.tracer, camera, parameters, {0, 0, camera.size().x, camera.size().y},
                         silent_progress());
 }
 
-inline World rough_world() {
+inline MadeUpWorld rough_world() {
   DeformParameters d;
   d.exaggeration = 1.6;
   d.bend = {60000.0, 9000.0, 8000.0, 1e-5};

@@ -20,7 +20,7 @@
 namespace belvedere {
 namespace {
 
-constexpr double cell = 30.0;
+constexpr double mesh_cell_m = 30.0;
 
 // Posts every 30 m, the first at (0, 0), rows southwards, around a far-away origin as real scenes have it.
 template <class F>
@@ -30,8 +30,8 @@ DeformedSurface make_surface(int width, int height, F&& altitude) {
   surface.vertices_m = Grid<glm::vec3>(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      surface.vertices_m(x, y) = {static_cast<float>(x * cell), static_cast<float>(-y * cell),
-                                  static_cast<float>(altitude(x * cell, -y * cell))};
+      surface.vertices_m(x, y) = {static_cast<float>(x * mesh_cell_m), static_cast<float>(-y * mesh_cell_m),
+                                  static_cast<float>(altitude(x * mesh_cell_m, -y * mesh_cell_m))};
   return surface;
 }
 
@@ -115,8 +115,8 @@ TEST(Tracer, PlaceIsExactOnAPlane) {
     const Hit hit = intersect(tracer, ray_from(eye, target - eye));
     ASSERT_TRUE(hit.found);
     EXPECT_NEAR(hit.distance_m, glm::length(target - eye), 1e-3);  // posts are floats: half a millimetre
-    EXPECT_NEAR(hit.column, target.x / cell, 1e-4);
-    EXPECT_NEAR(hit.row, -target.y / cell, 1e-4);
+    EXPECT_NEAR(hit.column, target.x / mesh_cell_m, 1e-4);
+    EXPECT_NEAR(hit.row, -target.y / mesh_cell_m, 1e-4);
     EXPECT_GT(glm::dot(hit.facet_normal(), normal), 1.0 - 1e-7);
   }
 }
@@ -129,8 +129,8 @@ TEST(Tracer, EveryPostIsHitInEveryTileAndTheLast) {
     for (int y = 0; y < size; ++y) {
       for (int x = 0; x < size; ++x) {
         // Just inside: the terrain's own rim may be missed.
-        const double px = std::clamp(x * cell, 1e-3, (size - 1) * cell - 1e-3);
-        const double py = std::clamp(y * cell, 1e-3, (size - 1) * cell - 1e-3);
+        const double px = std::clamp(x * mesh_cell_m, 1e-3, (size - 1) * mesh_cell_m - 1e-3);
+        const double py = std::clamp(y * mesh_cell_m, 1e-3, (size - 1) * mesh_cell_m - 1e-3);
         const Hit hit = intersect(tracer, ray_from({px, -py, 20000.0}, {0.0, 0.0, -1.0}));
         ASSERT_TRUE(hit.found) << size << ": " << x << ' ' << y;
         ASSERT_NEAR(hit.distance_m, 20000.0 - surface.vertices_m(x, y).z, 0.02);
@@ -171,7 +171,7 @@ TEST(Tracer, ShadowOfAWallIsItsHeightOverTheTangent) {
         break;
       }
     }
-    EXPECT_NEAR(9000.0 - lit_from, height / std::tan(to_radians(altitude)), cell) << altitude;
+    EXPECT_NEAR(9000.0 - lit_from, height / std::tan(to_radians(altitude)), mesh_cell_m) << altitude;
     EXPECT_NEAR(9000.0 - lit_from, height / std::tan(to_radians(altitude)), 2.0) << altitude;
   }
 }
@@ -225,8 +225,8 @@ void expect_like_oracle(const DeformedSurface& surface, double height_m) {
     // Column and row say the same place as the distance.
     const glm::dvec3 p = rays[i].origin + rays[i].direction * hits[i].distance_m - surface.origin;
     const glm::dvec3 corner(surface.vertices_m(0, 0));
-    ASSERT_NEAR(hits[i].column, (p.x - corner.x) / cell, 0.01);
-    ASSERT_NEAR(hits[i].row, (corner.y - p.y) / cell, 0.01);
+    ASSERT_NEAR(hits[i].column, (p.x - corner.x) / mesh_cell_m, 0.01);
+    ASSERT_NEAR(hits[i].row, (corner.y - p.y) / mesh_cell_m, 0.01);
   }
   EXPECT_GT(rays.size(), 100000U);
   EXPECT_GT(found, 50000);
@@ -245,7 +245,7 @@ TEST(Tracer, AgreesWithHeightfieldOnInnsbruck) {
   constexpr int x0 = 700;
   constexpr int y0 = 1400;
   const DeformedSurface surface = make_surface(900, 800, [&](double x, double y) {
-    return dem.cells(x0 + static_cast<int>(std::lround(x / cell)), y0 - static_cast<int>(std::lround(y / cell)));
+    return dem.cells(x0 + static_cast<int>(std::lround(x / mesh_cell_m)), y0 - static_cast<int>(std::lround(y / mesh_cell_m)));
   });
   expect_like_oracle(surface, 4500.0);
 }

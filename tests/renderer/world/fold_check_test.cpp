@@ -8,29 +8,26 @@
 #include <vector>
 
 #include "tests/files.h"
+#include "tests/notes.h"
 
 namespace belvedere {
 namespace {
 
+using test::Notes;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
 
-const GeoTransform frame{500000.0, 5200000.0, 50.0, 50.0};
-const glm::dvec2 middle{503000.0, 5197000.0};
-
-struct Notes : Progress {
-  void note(std::string_view text) override { all.emplace_back(text); }
-  std::vector<std::string> all;
-};
+const GeoTransform fold_frame{500000.0, 5200000.0, 50.0, 50.0};
+const glm::dvec2 handle_place{503000.0, 5197000.0};
 
 // Level ground of 6 km, a handle in its middle, and an eye 5 km above `below`, which looks straight down on 3 km.
 struct Ground {
-  explicit Ground(double move_m, glm::dvec2 below = middle) : deformation(moved(move_m), middle) {
+  explicit Ground(double move_m, glm::dvec2 below = handle_place) : deformation(moved(move_m), handle_place) {
     terrain.generalized_m = Grid<float>(121, 121, 500.F);
-    terrain.dem = std::make_shared<const Dem>(make_dem({terrain.generalized_m, frame, {}}));
+    terrain.dem = std::make_shared<const Dem>(make_dem({terrain.generalized_m, fold_frame, {}}));
     CameraParameters parameters;
     parameters.projection = "oblique";
     parameters.width = parameters.height = 100;
@@ -42,7 +39,7 @@ struct Ground {
   }
   static DeformParameters moved(double move_m) {
     DeformParameters parameters;
-    parameters.handles = {{.center = middle, .move_m = {move_m, 0.0}, .radius_m = 1200.0, .core_m = 400.0}};
+    parameters.handles = {{.center = handle_place, .move_m = {move_m, 0.0}, .radius_m = 1200.0, .core_m = 400.0}};
     return parameters;
   }
   std::vector<std::string> check() const {
@@ -70,7 +67,7 @@ TEST(FoldCheck, FoldsInThePictureAreRefusedUnlessAllowed) {
 }
 
 TEST(FoldCheck, FoldsBesideThePictureAreNoted) {
-  const Ground ground(1100.0, middle + glm::dvec2(0.0, 20000.0));
+  const Ground ground(1100.0, handle_place + glm::dvec2(0.0, 20000.0));
   const std::vector<std::string> notes = ground.check();
   ASSERT_THAT(notes, SizeIs(1));
   EXPECT_THAT(notes[0], AllOf(HasSubstr("Hochkar"), HasSubstr("folds the ground"), Not(HasSubstr("in the picture"))));

@@ -20,14 +20,12 @@
 #include "terrain/io/raster_io.h"
 #include "terrain/synthetic/synthetic.h"
 #include "tests/files.h"
+#include "tests/notes.h"
 
 namespace belvedere {
 namespace {
 
-struct Notes : Progress {
-  void note(std::string_view text) override { all += std::string(text) + "\n"; }
-  std::string all;
-};
+using test::Notes;
 
 // Made-up mountains of 27 × 27 km in a file, seen from their southern edge. What would follow from the region is written, so that whole and
 // windows are the same view.
@@ -134,9 +132,9 @@ TEST_F(GroundWindows, ShowWhatTheWholeShows) {
   const World whole(scene(), silent_progress());
   const World parts(scene({few_cells}), notes);
   ASSERT_TRUE(whole.terrain.windows.empty());
-  ASSERT_EQ(parts.terrain.windows.size(), 2U) << notes.all;
+  ASSERT_EQ(parts.terrain.windows.size(), 2U) << notes.text();
   EXPECT_EQ(parts.dem->halved, 2);
-  EXPECT_NE(notes.all.find("30 m to"), std::string::npos) << notes.all;
+  EXPECT_NE(notes.text().find("30 m to"), std::string::npos) << notes.text();
   const GuidanceBuffers a = guidance_of(whole);
   const GuidanceBuffers b = guidance_of(parts);
 
@@ -316,7 +314,7 @@ TEST_F(GroundWindowsByTheSea, HaveTheWholesSeaAndClimate) {
   Notes notes;
   const World whole(scene(), notes);
   const World parts(scene({few_cells}), silent_progress());
-  EXPECT_NE(notes.all.find("sea: "), std::string::npos) << notes.all;
+  EXPECT_NE(notes.text().find("sea: "), std::string::npos) << notes.text();
   const GuidanceBuffers a = guidance_of(whole);
   const GuidanceBuffers b = guidance_of(parts);
   int ground = 0;

@@ -7,19 +7,14 @@
 
 #include "terrain/io/crs.h"
 #include "tests/files.h"
+#include "tests/notes.h"
 
 namespace belvedere {
 namespace {
 
+using test::Notes;
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::IsEmpty;
-
-class Notes : public Progress {
- public:
-  void note(std::string_view text) override { all += std::string(text) + "\n"; }
-  std::string all;
-};
 
 // A slope, 6 km square, 700 … 1900 m, in Tyrol.
 Dem slope(const std::string& crs = "EPSG:32632") {
@@ -42,7 +37,7 @@ TEST_F(SceneClimateTest, IsThatOfThePlaceWhereNothingIsSaid) {
   const PlaceClimate column = make_scene_climate(bare, slope(), notes_).at(100, 100);
   EXPECT_NEAR(monthly_c(column, 580.0)[6], 18.0, 2.5);  // Innsbruck
   EXPECT_GT(monthly_c(column, 500.0)[6], monthly_c(column, 500.0)[0] + 10.0);
-  EXPECT_THAT(notes_.all, HasSubstr("by latitude, longitude and altitude alone"));
+  EXPECT_THAT(notes_.text(), HasSubstr("by latitude, longitude and altitude alone"));
 }
 
 TEST_F(SceneClimateTest, StationsBesideTheSceneAreUsedAndSayHowSureTheyAre) {
@@ -58,7 +53,7 @@ TEST_F(SceneClimateTest, StationsBesideTheSceneAreUsedAndSayHowSureTheyAre) {
   for (const double month : climate.at(10, 10).lapse_k_per_km) year += month / 12.0;
   EXPECT_NEAR(year, 6.0, 1e-6);
   EXPECT_EQ(climate.wind_from_deg, 200.0);
-  EXPECT_THAT(notes_.all,
+  EXPECT_THAT(notes_.text(),
               AllOf(HasSubstr("falls 6.00 K/km"), HasSubstr("95 % of resampled stations say 6.00 … 6.00"), HasSubstr("wind from 200°")));
 }
 

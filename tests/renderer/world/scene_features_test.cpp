@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <string>
-#include <vector>
 
 #include "base/error.h"
 #include "renderer/image/image_io.h"
@@ -15,21 +14,15 @@
 #include "renderer/sheet/picture_layers.h"
 #include "renderer/world/world.h"
 #include "tests/files.h"
+#include "tests/notes.h"
 
 namespace belvedere {
 namespace {
 
+using test::Notes;
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
-
-class Notes final : public Progress {
- public:
-  void begin(std::string_view, double) override {}
-  void advance(double) override {}
-  void note(std::string_view text) override { all.emplace_back(text); }
-  std::vector<std::string> all;
-};
 
 // Rolling ground of 8 × 8 km with a coordinate system of its own, and a forest on all of it.
 class SceneFeaturesInPictures : public testing::Test {

@@ -12,21 +12,17 @@
 #include "renderer/world/scene_land_cover.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/notes.h"
 
 namespace belvedere {
 namespace {
 
+using test::Notes;
 using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-
-class Notes : public Progress {
- public:
-  void note(std::string_view text) override { all.emplace_back(text); }
-  std::vector<std::string> all;
-};
 
 // Level ground, 6 km square, that falls a little to the west: no lake. Its middle is E 683000 N 5237000.
 Dem plain() {

@@ -11,7 +11,6 @@ namespace belvedere {
 namespace {
 
 using test::small_scene;
-using testing::HasSubstr;
 
 FileNotes notes_of(const LoadedScene& loaded) { return make_world_notes(loaded, World(loaded, silent_progress())); }
 

@@ -29,16 +29,16 @@ double km_between(const MeasuredGlacier& a, const MeasuredGlacier& b) {
 }
 
 // Misses of equilibrium lines that all glaciers farther than that from each tell, m.
-struct Misses {
+struct GlacierMisses {
   double rms = 0.0;
   double mean = 0.0;
   double alps_rms = 0.0;
 };
-Misses misses_without_glaciers_within(double km, const GlacierKinship& kinship = {}) {
+GlacierMisses misses_without_glaciers_within(double km, const GlacierKinship& kinship = {}) {
   const std::vector<MeasuredGlacier> all = read_measured_glaciers();
   // What a glacier says of itself hangs on nothing but its place.
   const SnowGathering whole = make_snow_gathering(built_in_field(), all, kinship);
-  Misses misses;
+  GlacierMisses misses;
   int alps = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     SnowGathering others{kinship, {}, {}};
@@ -62,11 +62,11 @@ Misses misses_without_glaciers_within(double km, const GlacierKinship& kinship =
 }
 
 TEST(DefaultClimate, GlaciersAreToldByTheOthers) {
-  const Misses misses = misses_without_glaciers_within(0.0);
+  const GlacierMisses misses = misses_without_glaciers_within(0.0);
   EXPECT_LT(misses.rms, 215.0);
   EXPECT_LT(std::abs(misses.mean), 50.0);
   EXPECT_LT(misses.alps_rms, 155.0);
-  const Misses alone = misses_without_glaciers_within(100.0);
+  const GlacierMisses alone = misses_without_glaciers_within(100.0);
   EXPECT_LT(alone.rms, 230.0) << "without those within 100 km";
   EXPECT_LT(alone.alps_rms, 205.0);
   // Without any glacier the Alps, whose summits have stations, come out too low.

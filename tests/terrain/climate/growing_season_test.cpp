@@ -5,8 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/terrain/climate/made_up_months.h"
+
 namespace belvedere {
 namespace {
+
+using test::constant;
 
 constexpr double pi = std::numbers::pi;
 
@@ -18,12 +22,6 @@ Months means_of_wave(double mean, double swing, int waves, double phase) {
     const double from = static_cast<double>(m) / 12.0 - phase;
     months[m] = mean + swing * 12.0 / w * (std::sin(w * (from + 1.0 / 12.0)) - std::sin(w * from));
   }
-  return months;
-}
-
-Months constant(double celsius) {
-  Months months{};
-  months.fill(celsius);
   return months;
 }
 

@@ -2,24 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
+#include "tests/terrain/climate/made_up_months.h"
 
 namespace belvedere {
 namespace {
 
-Months constant(double celsius) {
-  Months months{};
-  months.fill(celsius);
-  return months;
-}
-
-// Months of a mean and a cosine with its top in July.
-Months seasons(double mean, double swing) {
-  Months months{};
-  for (std::size_t m = 0; m < 12; ++m) months[m] = mean - swing * std::cos(2.0 * std::numbers::pi * static_cast<double>(m) / 12.0);
-  return months;
-}
+using test::constant;
+using test::seasons;
 
 TEST(Treeline, IsWhereTheExcessIsNone) {
   PlaceClimate place;

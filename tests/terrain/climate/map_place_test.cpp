@@ -44,5 +44,16 @@ TEST(MapPlace, WithoutCrsALatitudeHasToBeSaid) {
   EXPECT_EQ(place.grid_north_deg.at(3, 3), 0.0);
 }
 
+TEST(EarthPosition, LiesOnTheGlobe) {
+  const auto gulf_of_guinea = earth_position_km(0.0, 0.0);
+  EXPECT_NEAR(gulf_of_guinea[0], earth_radius_km, 1e-9);
+  EXPECT_NEAR(gulf_of_guinea[1], 0.0, 1e-9);
+  const auto padang = earth_position_km(90.0, 0.0);
+  EXPECT_NEAR(padang[1], earth_radius_km, 1e-9);
+  const auto pole = earth_position_km(17.0, 90.0);
+  EXPECT_NEAR(pole[2], earth_radius_km, 1e-9);
+  EXPECT_NEAR(pole[0], 0.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace belvedere

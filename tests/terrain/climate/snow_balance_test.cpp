@@ -3,23 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "terrain/climate/default_climate.h"
+#include "tests/terrain/climate/made_up_months.h"
 
 namespace belvedere {
 namespace {
 
+using test::seasons;
+
 constexpr int february = 45;
 constexpr int may = 135;
 constexpr int august = 230;
-
-// Months of a mean and a cosine with its top in July.
-Months seasons(double mean, double swing) {
-  Months months{};
-  for (std::size_t m = 0; m < 12; ++m) months[m] = mean - swing * std::cos(2.0 * std::numbers::pi * static_cast<double>(m) / 12.0);
-  return months;
-}
 
 PlaceClimate place_of(double mean, double swing, double rain) {
   PlaceClimate place;

@@ -8,20 +8,16 @@
 #include <vector>
 
 #include "tests/files.h"
+#include "tests/notes.h"
 #include "tests/paths.h"
 
 namespace belvedere {
 namespace {
 
+using test::Notes;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-class Notes : public Progress {
- public:
-  void note(std::string_view text) override { all += std::string(text) + "\n"; }
-  std::string all;
-};
 
 std::string months_header() {
   std::string text;
@@ -46,7 +42,7 @@ TEST(Stations, ATableOfMonthsAndRain) {
   EXPECT_EQ(table.stations[2].temperature_year_c, 6.5);
   EXPECT_TRUE(std::isnan(table.stations[3].rain_mm));
   EXPECT_TRUE(table.has_months() && table.has_rain() && table.has_temperature());
-  EXPECT_THAT(notes.all, IsEmpty());
+  EXPECT_THAT(notes.text(), IsEmpty());
 }
 
 TEST(Stations, MeansOfTheYearAreEnoughAndFewStationsAreNoted) {
@@ -58,7 +54,7 @@ TEST(Stations, MeansOfTheYearAreEnoughAndFewStationsAreNoted) {
   EXPECT_FALSE(table.has_months());
   EXPECT_FALSE(table.has_rain());
   EXPECT_NEAR(table.stations[0].place.x, 652000.0, 2000.0);
-  EXPECT_THAT(notes.all, AllOf(HasSubstr("2 stations"), HasSubstr("8 or more")));
+  EXPECT_THAT(notes.text(), AllOf(HasSubstr("2 stations"), HasSubstr("8 or more")));
 }
 
 TEST(Stations, MissingColumnsAreNamed) {

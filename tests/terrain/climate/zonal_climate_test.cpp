@@ -20,14 +20,14 @@ using test::published_lines;
 using test::PublishedLine;
 using testing::HasSubstr;
 
-struct Misses {
+struct LineMisses {
   double rms_m = 0.0;
   double mean_m = 0.0;
 };
 
 template <class F>
-Misses misses_of(const std::vector<PublishedLine>& lines, F&& line_of) {
-  Misses misses;
+LineMisses misses_of(const std::vector<PublishedLine>& lines, F&& line_of) {
+  LineMisses misses;
   for (const PublishedLine& line : lines) {
     const double found = line_of(line);
     const double miss = found - line.altitude_m;
@@ -56,7 +56,7 @@ std::vector<ClimateStation> stations_away(const PublishedLine& line, double leas
 TEST(ZonalClimate, TreelinesAreThePublishedOnes) {
   const std::vector<PublishedLine> lines = published_lines("treelines");
   ASSERT_GE(lines.size(), 27U);
-  const Misses misses =
+  const LineMisses misses =
       misses_of(lines, [](const PublishedLine& l) { return treeline_m(default_climate(l.longitude_deg, l.latitude_deg)); });
   EXPECT_LT(misses.rms_m, 300.0);
   EXPECT_LT(std::abs(misses.mean_m), 50.0);

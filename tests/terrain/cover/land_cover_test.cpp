@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/parallel.h"
 #include "terrain/io/dem.h"
 #include "tests/paths.h"
 #include "tests/terrain/io/raster_files.h"

@@ -7,20 +7,16 @@
 #include <vector>
 
 #include "tests/files.h"
+#include "tests/notes.h"
 
 namespace belvedere {
 namespace {
 
 using test::message_of;
+using test::Notes;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-class Notes : public Progress {
- public:
-  void note(std::string_view text) override { all.emplace_back(text); }
-  std::vector<std::string> all;
-};
 
 TEST(TownFile, RadiusIsThatOfACircleOf170SquareMetresAHead) {
   EXPECT_NEAR(town_radius_m(100000.0), 2326.2, 0.1);

@@ -16,7 +16,7 @@ namespace {
 // north.
 constexpr int width = 200;
 constexpr int height = 600;
-const GeoTransform frame{-10000.0, 70000.0, 100.0, 100.0};  // northings 10…70 km
+const GeoTransform northern_frame{-10000.0, 70000.0, 100.0, 100.0};  // northings 10…70 km
 const glm::dvec2 viewer(0.0, 0.0);
 
 float ridge_height(double north) {
@@ -27,7 +27,7 @@ float ridge_height(double north) {
 Grid<float> ridges() {
   Grid<float> z(width, height);
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) z(x, y) = ridge_height(frame.to_crs(x, y).y);
+    for (int x = 0; x < width; ++x) z(x, y) = ridge_height(northern_frame.to_crs(x, y).y);
   return z;
 }
 
@@ -38,7 +38,7 @@ std::vector<SightLine> northward(int count) {
 }
 
 ValleySight sight(double eye_m, const DeformParameters& p = {}, int lines = 40) {
-  return {ridges(), frame, Deformation(p, viewer), eye_m, northward(lines)};
+  return {ridges(), northern_frame, Deformation(p, viewer), eye_m, northward(lines)};
 }
 
 TEST(ValleySight, SeesWhatAStraightLineReaches) {
@@ -56,7 +56,7 @@ TEST(ValleySight, SeesWhatAStraightLineReaches) {
   double seen = 0.0;
   double all = 0.0;
   for (int y = 0; y < height; ++y) {
-    const double d = frame.to_crs(width / 2, y).y;
+    const double d = northern_frame.to_crs(width / 2, y).y;
     if (floor(width / 2, y) == 0) continue;
     all += d;
     bool visible = true;
@@ -70,9 +70,9 @@ TEST(ValleySight, SeesWhatAStraightLineReaches) {
 
 TEST(ValleySight, OnlyWhatThePictureShowsCounts) {
   std::vector<SightLine> lines = northward(40);
-  const ValleySight whole(ridges(), frame, Deformation({}, viewer), 30000.0, lines);
+  const ValleySight whole(ridges(), northern_frame, Deformation({}, viewer), 30000.0, lines);
   for (SightLine& line : lines) line.highest = (500.0 - 30000.0) / 40000.0;  // nothing beyond 40 km
-  const ValleySight part(ridges(), frame, Deformation({}, viewer), 30000.0, lines);
+  const ValleySight part(ridges(), northern_frame, Deformation({}, viewer), 30000.0, lines);
   const double all = whole.visible_share(BendProfile({}));
   const double near = part.visible_share(BendProfile({}));
   EXPECT_GT(all, 0.9);

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <string>
 
 #include "base/error.h"
@@ -13,23 +12,19 @@
 #include "base/random.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/synthetic/synthetic_noise.h"
+#include "tests/grids.h"
 #include "tests/paths.h"
 
 namespace belvedere {
 namespace {
+
+using test::grid_of;
 
 // Ranges of all directions with detail, and a crest that runs dead straight along row 150 for half the width.
 double ridged(double x, double y, int octaves = 6) {
   const double ranges = 900.0 * synthetic::ridged_noise(3, x / 130.0, y / 130.0, octaves);
   const double straight = x < 200.0 ? 220.0 * std::max(0.0, 1.0 - std::abs(y - 150.0) / 14.0) : 0.0;
   return 1200.0 + ranges + straight;
-}
-
-Grid<float> make_grid(int width, int height, const std::function<double(int, int)>& value) {
-  Grid<float> grid(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) grid(x, y) = static_cast<float>(value(x, y));
-  return grid;
 }
 
 double rms_difference(const Grid<float>& a, const Grid<float>& b) {
@@ -54,14 +49,14 @@ double row_stripes(const Grid<float>& a, const Grid<float>& b) {
 double band(int y) { return 4.5 * std::sin(y * 1.7 + 2.0 * random_uniform(5, y / 40, 0)) * (0.7 + 0.6 * random_uniform(6, y / 9, 0)); }
 
 const Grid<float>& clean() {
-  static const Grid<float> grid = make_grid(400, 360, [](int x, int y) { return ridged(x, y); });
+  static const Grid<float> grid = grid_of(400, 360, [](int x, int y) { return ridged(x, y); });
   return grid;
 }
 
 TEST(Destripe, TerrainWithoutStripesComesBackBitForBit) { EXPECT_EQ(destripe(clean(), {}, silent_progress()), clean()); }
 
 TEST(Destripe, TakesOffRowsThatStandTooHighOrLowAndKeepsRidges) {
-  const Grid<float> striped = make_grid(400, 360, [](int x, int y) { return ridged(x, y) + band(y); });
+  const Grid<float> striped = grid_of(400, 360, [](int x, int y) { return ridged(x, y) + band(y); });
   const Grid<float> out = destripe(striped, {}, silent_progress());
   EXPECT_LT(row_stripes(clean(), out), 0.15 * row_stripes(clean(), striped));
   // Little else changes: what a row does not have in common.
@@ -111,28 +106,28 @@ TEST(Destripe, RealMountainsKeepNextToNothingOfMadeUpStripes) {
 }
 
 TEST(Destripe, TakesOffColumnsAsWell) {
-  const Grid<float> striped = make_grid(360, 400, [](int x, int y) { return ridged(y, x) + band(x); });
-  const Grid<float> turned = make_grid(360, 400, [](int x, int y) { return ridged(y, x); });
+  const Grid<float> striped = grid_of(360, 400, [](int x, int y) { return ridged(y, x) + band(x); });
+  const Grid<float> turned = grid_of(360, 400, [](int x, int y) { return ridged(y, x); });
   EXPECT_LT(rms_difference(turned, destripe(striped, {}, silent_progress())), 0.22 * rms_difference(turned, striped));
 }
 
 TEST(Destripe, UndoesTheStepsOfNearestNeighbours) {
   // A grid turned by 9° and resampled by nearest neighbours: each cell shows the terrain of up to half a cell beside it.
   const double turn = 9.0 * 3.14159265358979 / 180.0;
-  const Grid<float> stepped = make_grid(400, 360, [&](int x, int y) {
+  const Grid<float> stepped = grid_of(400, 360, [&](int x, int y) {
     const double u = std::round(x * std::cos(turn) + y * std::sin(turn));
     const double v = std::round(y * std::cos(turn) - x * std::sin(turn));
     return ridged(u * std::cos(turn) - v * std::sin(turn), v * std::cos(turn) + u * std::sin(turn), 4);
   });
-  const Grid<float> smooth = make_grid(400, 360, [](int x, int y) { return ridged(x, y, 4); });
+  const Grid<float> smooth = grid_of(400, 360, [](int x, int y) { return ridged(x, y, 4); });
   const Grid<float> out = destripe(stepped, {}, silent_progress());
   EXPECT_LT(rms_difference(smooth, out), 0.7 * rms_difference(smooth, stepped));
 }
 
 TEST(Destripe, SmallGridsAndOneOrTwoThreads) {
-  const Grid<float> small = make_grid(30, 400, [](int x, int y) { return ridged(x, y) + band(y); });
+  const Grid<float> small = grid_of(30, 400, [](int x, int y) { return ridged(x, y) + band(y); });
   EXPECT_EQ(destripe(small, {}, silent_progress()), small);
-  const Grid<float> striped = make_grid(150, 131, [](int x, int y) { return ridged(x, y) + band(y); });
+  const Grid<float> striped = grid_of(150, 131, [](int x, int y) { return ridged(x, y) + band(y); });
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
     return destripe(striped, {}, silent_progress());

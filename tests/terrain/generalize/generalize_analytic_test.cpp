@@ -9,7 +9,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/random.h"
 #include "terrain/generalize/generalize.h"
@@ -18,41 +17,20 @@
 #include "terrain/io/dem.h"
 #include "terrain/synthetic/synthetic.h"
 #include "tests/paths.h"
+#include "tests/terrain/generalize/made_up_relief.h"
 #include "tests/terrain/shape/terrain_measures.h"
 
 // Generalization against answers worked out by hand.
 namespace belvedere {
 namespace {
 
-using Weights = std::vector<float>;
-constexpr double cell_m = 30.0;
-
-template <class F>
-Grid<float> surface(int width, int height, F&& f) {
-  Grid<float> grid(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) grid(x, y) = static_cast<float>(f(x, y));
-  return grid;
-}
-
-Grid<float> rough_ridges(int width, int height) {
-  return surface(width, height, [](int x, int y) {
-    return 900.0 + 700.0 * std::abs(std::sin(x / 23.0)) + 300.0 * std::abs(std::sin((x + 2 * y) / 17.0)) + 2.0 * y +
-           40.0 * random_uniform(8, x, y);
-  });
-}
-
-Grid<float> run(const Grid<float>& terrain, const GeneralizeParameters& parameters, const GeneralizeGrids& grids = {}) {
-  return generalize(terrain, {cell_m, cell_m}, grids, parameters, silent_progress());
-}
-
-GeneralizeParameters everywhere(const Weights& global, const Weights& ridges = {}, const Weights& valleys = {}) {
-  GeneralizeParameters p;
-  p.foreground = p.background = global;
-  p.foreground_ridges = p.background_ridges = ridges;
-  p.foreground_valleys = p.background_valleys = valleys;
-  return p;
-}
+using test::alpine;
+using test::cell_m;
+using test::everywhere;
+using test::grid_of;
+using test::largest_difference;
+using test::run;
+using test::Weights;
 
 // Frequency response of the kernel [.05 .25 .4 .25 .05].
 double response(double omega) { return 0.4 + 0.5 * std::cos(omega) + 0.1 * std::cos(2.0 * omega); }
@@ -66,7 +44,7 @@ TEST(GeneralizeGain, OfACosineIsThatOfItsBandAlone) {
     const double omega = 2.0 * std::numbers::pi * waves / window;
     for (const bool along_x : {true, false}) {
       const auto wave = [&](int x, int y) { return 100.0 * std::cos(omega * ((along_x ? x : y) - 128)); };
-      const Grid<float> terrain = surface(along_x ? 512 : 40, along_x ? 40 : 512, wave);
+      const Grid<float> terrain = grid_of(along_x ? 512 : 40, along_x ? 40 : 512, wave);
       double before = 1.0;  // what reaches the band
       for (std::size_t band = 0; band < 4; ++band) {
         const double h = response(std::ldexp(omega, static_cast<int>(band)));
@@ -90,7 +68,7 @@ TEST(GeneralizeGain, OfACosineIsThatOfItsBandAlone) {
 }
 
 TEST(GeneralizeEquationFive, MixesRidgeAndValleySetsAsWeights) {
-  const Grid<float> terrain = rough_ridges(160, 120);
+  const Grid<float> terrain = alpine(160, 120);
   GeneralizeParameters p;
   p.foreground = {1.F, .75F, .5F, .25F};
   p.background = {.5F, .25F, .25F, 0.F};
@@ -133,7 +111,7 @@ double finest_of_wave(int x) {
 TEST(GeneralizeSides, OfAWaveAreWholeAndLeaveTheOtherSideBitForBit) {
   // Crests at x = 0, 10, …, troughs at 5, 15, …. Along x alone P = p² r has the sign of r, L_0's second difference by the kernel, as
   // has its mean.
-  const Grid<float> terrain = surface(120, 48, [](int x, int) { return 100.0 * std::cos(2.0 * std::numbers::pi * x / 10.0); });
+  const Grid<float> terrain = grid_of(120, 48, [](int x, int) { return 100.0 * std::cos(2.0 * std::numbers::pi * x / 10.0); });
   GeneralizeParameters ridges = everywhere({1, 1, 1}, {0, 0, 3}, {0, 0, 0});
   GeneralizeParameters valleys = everywhere({1, 1, 1}, {0, 0, 0}, {0, 0, 3});
   ridges.exponent = valleys.exponent = 0.F;  // c = 1
@@ -149,8 +127,8 @@ TEST(GeneralizeSides, OfAWaveAreWholeAndLeaveTheOtherSideBitForBit) {
 TEST(GeneralizeSides, OfAVeeAndARoof) {
   // Along the bottom of a V the band is level across: only its bend tells that it is a valley. The flanks of the dip that the band holds
   // bend the other way, and weakly.
-  const Grid<float> vee = surface(129, 129, [](int x, int y) { return 1000.0 + 20.0 * std::abs(x - 64) + 5.0 * y; });
-  const Grid<float> roof = surface(129, 129, [](int x, int y) { return 3000.0 - 20.0 * std::abs(x - 64) + 5.0 * y; });
+  const Grid<float> vee = grid_of(129, 129, [](int x, int y) { return 1000.0 + 20.0 * std::abs(x - 64) + 5.0 * y; });
+  const Grid<float> roof = grid_of(129, 129, [](int x, int y) { return 3000.0 - 20.0 * std::abs(x - 64) + 5.0 * y; });
   GeneralizeParameters ridges = everywhere({1, 1, 1, 1}, {0, 1, 1, 1}, {0, 0, 0, 0});
   GeneralizeParameters valleys = everywhere({1, 1, 1, 1}, {0, 0, 0, 0}, {0, 1, 1, 1});
   ridges.exponent = valleys.exponent = 0.F;
@@ -164,7 +142,7 @@ TEST(GeneralizeSides, OfAVeeAndARoof) {
 
 TEST(GeneralizeRecursion, TheFinestWeightsDoNotMoveTheFinestBreakLines) {
   // A' is linear in u_5 and v_5 with c_5 as it is: a step of u_5 adds L_5, a step of v_5 adds c_5 L_5, however large it is.
-  const Grid<float> terrain = rough_ridges(128, 128);
+  const Grid<float> terrain = alpine(128, 128);
   const auto out = [&](float u, float v) {
     const Weights line = {0.F, .4F, .5F, .6F, v};
     return run(terrain, everywhere({1.F, .6F, .5F, .4F, u}, line, line));
@@ -187,22 +165,22 @@ TEST(GeneralizeRecursion, TheFinestWeightsDoNotMoveTheFinestBreakLines) {
 }
 
 Grid<float> transposed(const Grid<float>& grid) {
-  return surface(grid.height(), grid.width(), [&](int x, int y) { return grid(y, x); });
+  return grid_of(grid.height(), grid.width(), [&](int x, int y) { return grid(y, x); });
 }
 
 Grid<float> mirrored(const Grid<float>& grid) {
-  return surface(grid.width(), grid.height(), [&](int x, int y) { return grid(grid.width() - 1 - x, y); });
+  return grid_of(grid.width(), grid.height(), [&](int x, int y) { return grid(grid.width() - 1 - x, y); });
 }
 
 TEST(GeneralizeArtefacts, NeitherRowsNorColumnsAreFavoured) {
   // Turned and mirrored terrain gives turned and mirrored results. Mirrored sizes of 2^bands n + 1 keep their coarse cells.
-  const Grid<float> terrain = rough_ridges(193, 161);
+  const Grid<float> terrain = alpine(193, 161);
   GeneralizeParameters p = find_generalize_preset("figure4")->bands;
   const Grid<float> out = run(terrain, p);
   EXPECT_LE(largest_difference(run(transposed(terrain), p), transposed(out)), 0.01);
   EXPECT_LE(largest_difference(run(mirrored(terrain), p), mirrored(out)), 0.01);
   // Noise without a direction keeps none: the energy of steps along rows and columns stays equal.
-  const Grid<float> noise = surface(257, 257, [](int x, int y) { return 1000.0 + 100.0 * random_uniform(5, x, y); });
+  const Grid<float> noise = grid_of(257, 257, [](int x, int y) { return 1000.0 + 100.0 * random_uniform(5, x, y); });
   const Grid<float> smooth = run(noise, everywhere({1.F, .8F, .5F, .3F, .2F}, {0.F, .2F, .5F, .7F, .8F}));
   double rows = 0.0;
   double columns = 0.0;

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "base/filter.h"
 #include "base/parallel.h"
@@ -18,36 +17,17 @@
 #include "terrain/io/dem.h"
 #include "terrain/shape/derivatives.h"
 #include "tests/paths.h"
+#include "tests/terrain/generalize/made_up_relief.h"
 #include "tests/terrain/shape/terrain_measures.h"
 
 namespace belvedere {
 namespace {
 
-using Weights = std::vector<float>;
-constexpr double cell_m = 30.0;
-
-Grid<float> alpine(int width, int height, double relief_m = 1000.0) {
-  Grid<float> grid(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const double ridge = 0.7 * std::abs(std::sin(x / 23.0)) + 0.3 * std::abs(std::sin((x + 2 * y) / 17.0));
-      grid(x, y) = static_cast<float>(900.0 + relief_m * ridge + 2.0 * y + 40.0 * random_uniform(8, x, y));
-    }
-  }
-  return grid;
-}
-
-Grid<float> run(const Grid<float>& terrain, const GeneralizeParameters& parameters, const GeneralizeGrids& grids = {}) {
-  return generalize(terrain, {cell_m, cell_m}, grids, parameters, silent_progress());
-}
-
-GeneralizeParameters everywhere(const Weights& global, const Weights& ridges = {}, const Weights& valleys = {}) {
-  GeneralizeParameters p;
-  p.foreground = p.background = global;
-  p.foreground_ridges = p.background_ridges = ridges;
-  p.foreground_valleys = p.background_valleys = valleys;
-  return p;
-}
+using test::alpine;
+using test::cell_m;
+using test::everywhere;
+using test::largest_difference;
+using test::run;
 
 GeneralizeGrids masked(Grid<float> mask) {
   GeneralizeGrids grids;

@@ -4,12 +4,13 @@
 
 #include <set>
 #include <string_view>
-#include <vector>
+
+#include "tests/terrain/generalize/made_up_relief.h"
 
 namespace belvedere {
 namespace {
 
-using Weights = std::vector<float>;
+using test::Weights;
 
 TEST(GeneralizePresets, AreFoundByTheirNamesAndSayWhatTheyDo) {
   std::set<std::string_view> names;

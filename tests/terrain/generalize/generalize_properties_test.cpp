@@ -10,54 +10,40 @@
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/generalize/generalize_report.h"
 #include "terrain/synthetic/synthetic.h"
+#include "tests/terrain/generalize/made_up_relief.h"
 #include "tests/terrain/shape/terrain_measures.h"
 
 // What holds for any terrain.
 namespace belvedere {
 namespace {
 
-using Weights = std::vector<float>;
+using test::everywhere;
+using test::grid_of;
+using test::largest_difference;
+using test::run;
 
-template <class F>
-Grid<float> surface(int width, int height, F&& f) {
-  Grid<float> grid(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) grid(x, y) = static_cast<float>(f(x, y));
-  return grid;
-}
-
-double ridged(int x, int y) {
+double ridges(int x, int y) {
   return 900.0 + 500.0 * std::abs(std::sin(x / 23.0)) + 300.0 * std::abs(std::sin((x + 2 * y) / 17.0)) +
          40.0 * random_uniform(8, x, y + 999);
 }
 
-Grid<float> run(const Grid<float>& terrain, const GeneralizeParameters& parameters, const GeneralizeGrids& grids = {}) {
-  return generalize(terrain, {30.0, 30.0}, grids, parameters, silent_progress());
-}
-
-GeneralizeParameters everywhere(const Weights& global) {
-  GeneralizeParameters p;
-  p.foreground = p.background = global;
-  return p;
-}
-
 TEST(GeneralizeProperties, ARampOfCentimetresSurvives) {
-  const Grid<float> ramp = surface(120, 90, [](int x, int) { return 0.01 * x; });
+  const Grid<float> ramp = grid_of(120, 90, [](int x, int) { return 0.01 * x; });
   const Grid<float> out = run(ramp, everywhere({2.F, .5F, 0.F, 3.F}));
   for (int y = 0; y < 90; ++y)
     for (int x = 1; x < 120; ++x) ASSERT_NEAR(out(x, y) - out(x - 1, y), 0.01F, 1e-5F) << x << ' ' << y;
 }
 
 TEST(GeneralizeProperties, GlobalWeightsAreLinearInTerrainAndWeights) {
-  const Grid<float> a = surface(97, 83, ridged);
-  const Grid<float> b = surface(97, 83, [](int x, int y) { return ridged(y + 40, x); });
-  const Grid<float> sum = surface(97, 83, [&](int x, int y) { return 0.5F * a(x, y) + 2.F * b(x, y); });
+  const Grid<float> a = grid_of(97, 83, ridges);
+  const Grid<float> b = grid_of(97, 83, [](int x, int y) { return ridges(y + 40, x); });
+  const Grid<float> sum = grid_of(97, 83, [&](int x, int y) { return 0.5F * a(x, y) + 2.F * b(x, y); });
   const GeneralizeParameters p = everywhere({1.5F, .5F, 2.F, 0.F});
   const Grid<float> of_a = run(a, p);
   const Grid<float> of_b = run(b, p);
-  EXPECT_LE(largest_difference(run(sum, p), surface(97, 83, [&](int x, int y) { return 0.5F * of_a(x, y) + 2.F * of_b(x, y); })), 5e-3);
+  EXPECT_LE(largest_difference(run(sum, p), grid_of(97, 83, [&](int x, int y) { return 0.5F * of_a(x, y) + 2.F * of_b(x, y); })), 5e-3);
   const Grid<float> mean = run(a, everywhere({1.25F, .75F, 1.5F, .5F}));  // halfway between p and 1
-  EXPECT_LE(largest_difference(mean, surface(97, 83, [&](int x, int y) { return 0.5F * (of_a(x, y) + a(x, y)); })), 2e-3);
+  EXPECT_LE(largest_difference(mean, grid_of(97, 83, [&](int x, int y) { return 0.5F * (of_a(x, y) + a(x, y)); })), 2e-3);
 }
 
 double energy(const Grid<float>& band, int y0, int y1) {
@@ -75,15 +61,15 @@ TEST(GeneralizeProperties, FigureTwoTakesTheHighestBandAndRaisesTheMiddle) {
     return energy(after[band], 2, after[band].height() - 2) / energy(before[band], 2, before[band].height() - 2);
   };
   // Creases of the middle forms reach into the highest band, noise of single cells does not.
-  const Grid<float> noise = surface(256, 256, [](int x, int y) { return 100.0 * random_uniform(5, x, y); });
+  const Grid<float> noise = grid_of(256, 256, [](int x, int y) { return 100.0 * random_uniform(5, x, y); });
   EXPECT_LT(left(noise, 0), 0.02);
-  EXPECT_GT(left(surface(256, 256, ridged), 2), 1.3);  // bands overlap, and its finer neighbour keeps a quarter
+  EXPECT_GT(left(grid_of(256, 256, ridges), 2), 1.3);  // bands overlap, and its finer neighbour keeps a quarter
 }
 
 TEST(GeneralizeProperties, FigureFourIsQuietFarOffAndNotNear) {
-  const Grid<float> terrain = surface(256, 256, ridged);
+  const Grid<float> terrain = grid_of(256, 256, ridges);
   GeneralizeGrids grids;  // near in the south
-  grids.foreground_share = surface(256, 256, [](int, int y) { return std::clamp((y - 96) / 64.0, 0.0, 1.0); });
+  grids.foreground_share = grid_of(256, 256, [](int, int y) { return std::clamp((y - 96) / 64.0, 0.0, 1.0); });
   const auto before = make_laplacian_pyramid(terrain, 2).bands;
   const auto after = make_laplacian_pyramid(run(terrain, find_generalize_preset("figure4")->bands, grids), 2).bands;
   const auto left = [&](std::size_t band, int y0, int y1) { return energy(after[band], y0, y1) / energy(before[band], y0, y1); };
@@ -104,7 +90,7 @@ TEST(GeneralizeProperties, FigureFourFirmsRidgesNear) {
   made.cell_m = 30.0;
   const Grid<float> terrain = make_synthetic_terrain(made, silent_progress()).altitude_m;
   const Grid<float> before = make_laplacian_pyramid(terrain, 1).bands[0];
-  const Grid<float> change = surface(256, 256, [&, after = run(terrain, find_generalize_preset("figure4")->bands)](int x, int y) {
+  const Grid<float> change = grid_of(256, 256, [&, after = run(terrain, find_generalize_preset("figure4")->bands)](int x, int y) {
     return static_cast<double>(after(x, y)) - terrain(x, y);
   });
   // Ridges are ground that bends more than nineteen in twenty, slopes what bends less than half of it.
@@ -126,7 +112,7 @@ TEST(GeneralizeProperties, FigureFourFirmsRidgesNear) {
 }
 
 TEST(GeneralizeProperties, AHalfMaskIsHalfTheChange) {
-  const Grid<float> terrain = surface(130, 110, ridged);
+  const Grid<float> terrain = grid_of(130, 110, ridges);
   GeneralizeGrids grids;
   grids.mask = Grid<float>(130, 110, .5F);
   EXPECT_LE(largest_difference(run(terrain, everywhere({2.F, .5F, 0.F}), grids), run(terrain, everywhere({1.5F, .75F, .5F}))), 2e-3);
@@ -141,12 +127,12 @@ TEST(GeneralizeProperties, AHalfMaskIsHalfTheChange) {
 }
 
 TEST(GeneralizeProperties, GroundOfAPixelIsLinearBetweenPosts) {
-  const Grid<float> terrain = surface(130, 110, ridged);
+  const Grid<float> terrain = grid_of(130, 110, ridges);
   const auto metres = [](int x, int y) { return 60.0 + 1.5 * x + 0.5 * y; };  // through the fading of all bands
   GeneralizeGrids posts;
-  posts.pixel_ground = {surface(10, 8, [&](int x, int y) { return metres(16 * x, 16 * y); }), 16};
+  posts.pixel_ground = {grid_of(10, 8, [&](int x, int y) { return metres(16 * x, 16 * y); }), 16};
   GeneralizeGrids cells;
-  cells.pixel_ground = {surface(140, 120, metres), 1};
+  cells.pixel_ground = {grid_of(140, 120, metres), 1};
   const GeneralizeParameters p = everywhere({1.F, 1.F, 1.F});
   EXPECT_LE(largest_difference(run(terrain, p, posts), run(terrain, p, cells)), 2e-3);
   EXPECT_GT(largest_difference(run(terrain, p, posts), terrain), 5.0);
@@ -160,12 +146,12 @@ TEST(GeneralizeProperties, LandAroundALakeDoesNotDependOnWhereTheLakeLies) {
   // The same ground 112 and 144 rows farther south: multiples of every band's cells and far from the rim.
   const GeneralizeParameters p = everywhere({1.8F, 1.5F, .5F});
   const auto around = [&](int north) {
-    const Grid<float> terrain = surface(96, 480, [north](int x, int y) { return ridged(x, y - north); });
+    const Grid<float> terrain = grid_of(96, 480, [north](int x, int y) { return ridges(x, y - north); });
     GeneralizeGrids grids;
     grids.keep = Grid<unsigned char>(96, 480);
     for (int y = north; y < north + 20; ++y) std::fill_n(grids.keep.row(y) + 30, 30, static_cast<unsigned char>(1));
     const Grid<float> out = run(terrain, p, grids);
-    return surface(96, 140, [&](int x, int y) { return out(x, north - 60 + y); });
+    return grid_of(96, 140, [&](int x, int y) { return out(x, north - 60 + y); });
   };
   const Grid<float> here = around(120);
   EXPECT_LE(largest_difference(here, around(232)), 1e-3);  // just north of row 256, and south of it

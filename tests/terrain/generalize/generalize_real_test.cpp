@@ -2,33 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "base/pyramid.h"
 #include "terrain/generalize/generalize.h"
-#include "terrain/io/dem.h"
-#include "tests/paths.h"
+#include "tests/terrain/generalize/made_up_relief.h"
 
 // What the method promises, on real ground, against formulas worked out here in double.
 namespace belvedere {
 namespace {
 
-constexpr double cell_m = 30.0;
-
-std::optional<Grid<float>> real_ground(const std::string& name) {
-  const std::string file = test::data_folder() + "/" + name;
-  if (!std::filesystem::exists(file)) return std::nullopt;
-  DemParameters parameters;
-  parameters.sources.emplace_back().path = file;
-  return read_dem(parameters, silent_progress()).altitude_m;
-}
-
-Grid<float> run(const Grid<float>& terrain, const GeneralizeParameters& parameters, const GeneralizeGrids& grids = {}) {
-  return generalize(terrain, {cell_m, cell_m}, grids, parameters, silent_progress());
-}
+using test::cell_m;
+using test::real_ground;
+using test::run;
 
 Grid<float> window(const Grid<float>& grid, int x0, int y0, int size) {
   Grid<float> out(size, size);

@@ -13,7 +13,7 @@ namespace belvedere {
 namespace {
 
 constexpr int size = 100;
-constexpr double cell_m = 20.0;
+constexpr double grass_cell_m = 20.0;
 
 TEST(PlanCurvature, IsTheNegativeOfGrassPlanc) {
   // r.param.scale fits the same quadric to 3 × 3 cells; its planc counts hollows as positive.
@@ -50,7 +50,7 @@ TEST(PlanCurvature, IsTheNegativeOfGrassPlanc) {
   ASSERT_EQ(bytes.size(), hills.size() * sizeof(float));
   Grid<float> theirs(size, size);
   std::copy_n(bytes.data(), bytes.size(), reinterpret_cast<char*>(theirs.data()));
-  const Grid<float> ours = test::curvature_by_rows(hills, cell_m, true);
+  const Grid<float> ours = test::curvature_by_rows(hills, grass_cell_m, true);
   double largest = 0.0;
   for (int y = 1; y + 1 < size; ++y)
     for (int x = 1; x + 1 < size; ++x) {

@@ -13,20 +13,20 @@
 namespace belvedere {
 namespace {
 
-constexpr double cell_m = 20.0;
+constexpr double rows_cell_m = 20.0;
 
 // f(x, y) in metres, x east and y north of the grid's middle.
 template <class F>
 Grid<float> surface(int size, F&& f) {
   Grid<float> grid(size, size);
   for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) grid(x, y) = static_cast<float>(f((x - size / 2) * cell_m, (size / 2 - y) * cell_m));
+    for (int x = 0; x < size; ++x) grid(x, y) = static_cast<float>(f((x - size / 2) * rows_cell_m, (size / 2 - y) * rows_cell_m));
   }
   return grid;
 }
 
-Grid<float> plan_curvature(const Grid<float>& altitude_m) { return test::curvature_by_rows(altitude_m, cell_m, true); }
-Grid<float> bounded_plan_curvature(const Grid<float>& altitude_m) { return test::curvature_by_rows(altitude_m, cell_m, false); }
+Grid<float> plan_curvature(const Grid<float>& altitude_m) { return test::curvature_by_rows(altitude_m, rows_cell_m, true); }
+Grid<float> bounded_plan_curvature(const Grid<float>& altitude_m) { return test::curvature_by_rows(altitude_m, rows_cell_m, false); }
 
 TEST(PlanCurvature, OfAConeIsOneOverTheRadius) {
   // Hills are convex, hollows concave, whatever the slope.
@@ -36,7 +36,7 @@ TEST(PlanCurvature, OfAConeIsOneOverTheRadius) {
     const Grid<float> kp = plan_curvature(hill);
     const Grid<float> kp_hollow = plan_curvature(hollow);
     for (const auto& [x, y] : {std::pair{100, 50}, std::pair{180, 100}, std::pair{140, 150}, std::pair{40, 160}}) {
-      const double radius = std::hypot(x - 100, y - 100) * cell_m;
+      const double radius = std::hypot(x - 100, y - 100) * rows_cell_m;
       EXPECT_NEAR(kp(x, y) * radius, 1.0, 2e-3) << x << ' ' << y;
       EXPECT_NEAR(kp_hollow(x, y) * radius, -1.0, 2e-3) << x << ' ' << y;
     }
@@ -47,7 +47,7 @@ TEST(PlanCurvature, OfAParaboloidIsOneOverTheRadius) {
   const Grid<float> hill = surface(201, [](double x, double y) { return 3000.0 - 2e-4 * (x * x + y * y); });
   const Grid<float> kp = plan_curvature(hill);
   for (const auto& [x, y] : {std::pair{100, 50}, std::pair{180, 100}, std::pair{140, 150}, std::pair{40, 160}}) {
-    EXPECT_NEAR(kp(x, y) * std::hypot(x - 100, y - 100) * cell_m, 1.0, 2e-3) << x << ' ' << y;
+    EXPECT_NEAR(kp(x, y) * std::hypot(x - 100, y - 100) * rows_cell_m, 1.0, 2e-3) << x << ' ' << y;
   }
   // On the summit the contour is a point: no direction, no curvature.
   EXPECT_EQ(kp(100, 100), 0.F);
@@ -60,8 +60,8 @@ TEST(PlanCurvature, OfAQuadricIsExact) {
   const Grid<float> kp = plan_curvature(quadric);
   const Grid<float> bounded = bounded_plan_curvature(quadric);
   for (const auto& [column, row] : {std::pair{30, 30}, std::pair{10, 44}, std::pair{50, 12}}) {
-    const double x = (column - 30) * cell_m;
-    const double y = (30 - row) * cell_m;
+    const double x = (column - 30) * rows_cell_m;
+    const double y = (30 - row) * rows_cell_m;
     const double p = 2 * a * x + c * y + d;
     const double q = 2 * b * y + c * x + e;
     const double n = q * q * 2 * a - 2 * p * q * c + p * p * 2 * b;

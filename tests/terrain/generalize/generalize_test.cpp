@@ -11,27 +11,13 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/pyramid.h"
-#include "base/random.h"
+#include "tests/terrain/generalize/made_up_relief.h"
 
 namespace belvedere {
 namespace {
 
-Grid<float> alpine(int width, int height) {
-  Grid<float> grid(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const double ridge = 700.0 * std::abs(std::sin(x / 23.0)) + 300.0 * std::abs(std::sin((x + 2 * y) / 17.0));
-      grid(x, y) = static_cast<float>(900.0 + ridge + 2.0 * y + 40.0 * random_uniform(8, x, y));
-    }
-  }
-  return grid;
-}
-
-double largest_difference(const Grid<float>& a, const Grid<float>& b) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(static_cast<double>(a[i]) - b[i]));
-  return largest;
-}
+using test::alpine;
+using test::largest_difference;
 
 // Equation 2 as written, by the pyramid; weights coarsest first.
 Grid<float> equation_two(const Grid<float>& altitude_m, const std::vector<float>& weights) {
@@ -42,8 +28,8 @@ Grid<float> equation_two(const Grid<float>& altitude_m, const std::vector<float>
   return reconstruct(pyramid);
 }
 
-Grid<float> generalize(const Grid<float>& altitude_m, const GeneralizeParameters& parameters, const Grid<float>& share = {},
-                       const Grid<unsigned char>& keep = {}) {
+Grid<float> generalized(const Grid<float>& altitude_m, const GeneralizeParameters& parameters, const Grid<float>& share = {},
+                        const Grid<unsigned char>& keep = {}) {
   return belvedere::generalize(altitude_m, {30.0, 30.0},
                                {.foreground_share = share, .keep = keep, .mask = {}, .amplification_mask = {}, .pixel_ground = {}},
                                parameters, silent_progress());
@@ -56,7 +42,7 @@ TEST(Generalize, UnitWeightsReturnTheInputBitForBit) {
   Grid<float> share(101, 77, 0.4F);
   Grid<unsigned char> keep(101, 77);
   keep(50, 50) = 1;
-  const Grid<float> out = generalize(terrain, {}, share, keep);
+  const Grid<float> out = generalized(terrain, {}, share, keep);
   EXPECT_EQ(std::memcmp(out.data(), terrain.data(), terrain.size() * sizeof(float)), 0);
 }
 
@@ -64,7 +50,7 @@ TEST(Generalize, EqualsEquationTwoForAnySize) {
   const std::vector<float> weights = {1.F, 1.F, 2.F, .25F, 0.F};  // figure 2 of the paper
   for (const auto& [width, height] : {std::pair{256, 256}, std::pair{133, 90}, std::pair{37, 61}}) {
     const Grid<float> terrain = alpine(width, height);
-    EXPECT_LE(largest_difference(generalize(terrain, {weights, weights, 0.F}), equation_two(terrain, weights)), 2e-3);
+    EXPECT_LE(largest_difference(generalized(terrain, {weights, weights, 0.F}), equation_two(terrain, weights)), 2e-3);
   }
 }
 
@@ -75,15 +61,15 @@ TEST(Generalize, TheFirstWeightIsTheCoarsestBand) {
     for (int x = 0; x < 128; ++x) noise(x, y) = (x + y) % 2 == 0 ? 10.F : -10.F;
   }
   const auto largest = [](const Grid<float>& g) { return *std::max_element(g.begin() + 64 * 60, g.begin() + 64 * 70); };
-  EXPECT_NEAR(largest(generalize(noise, {{1, 1, 1, 0}, {1, 1, 1, 0}, 0.F})), 0.F, 0.5F);
-  EXPECT_NEAR(largest(generalize(noise, {{0, 1, 1, 1}, {0, 1, 1, 1}, 0.F})), 10.F, 0.5F);
+  EXPECT_NEAR(largest(generalized(noise, {{1, 1, 1, 0}, {1, 1, 1, 0}, 0.F})), 0.F, 0.5F);
+  EXPECT_NEAR(largest(generalized(noise, {{0, 1, 1, 1}, {0, 1, 1, 1}, 0.F})), 10.F, 0.5F);
 }
 
 TEST(Generalize, SmallDemsGoWithoutTheCoarsestBands) {
   const Grid<float> terrain = alpine(6, 5);  // two bands at most
   const std::vector<float> weights = {9.F, 9.F, 9.F, 9.F, .5F, 0.F};
-  EXPECT_LE(largest_difference(generalize(terrain, {weights, weights, 0.F}), equation_two(terrain, {.5F, 0.F})), 1e-3);
-  EXPECT_EQ(generalize(Grid<float>(1, 1, 7.F), {weights, weights, 1.F})(0, 0), 7.F);
+  EXPECT_LE(largest_difference(generalized(terrain, {weights, weights, 0.F}), equation_two(terrain, {.5F, 0.F})), 1e-3);
+  EXPECT_EQ(generalized(Grid<float>(1, 1, 7.F), {weights, weights, 1.F})(0, 0), 7.F);
 }
 
 TEST(Generalize, ForegroundShareMixesTheWeights) {
@@ -93,10 +79,10 @@ TEST(Generalize, ForegroundShareMixesTheWeights) {
   const std::vector<float> middle = {1.35F, 1.1F, .7F, .5F};
   const GeneralizeParameters parameters{fore, back, 0.F};
   const Grid<float> near = equation_two(terrain, fore);
-  EXPECT_LE(largest_difference(generalize(terrain, parameters), near), 2e-3);  // no share: all foreground
-  EXPECT_LE(largest_difference(generalize(terrain, parameters, Grid<float>(160, 120, 1.F)), near), 2e-3);
-  EXPECT_LE(largest_difference(generalize(terrain, parameters, Grid<float>(160, 120, 0.F)), equation_two(terrain, back)), 2e-3);
-  EXPECT_LE(largest_difference(generalize(terrain, parameters, Grid<float>(160, 120, .5F)), equation_two(terrain, middle)), 2e-3);
+  EXPECT_LE(largest_difference(generalized(terrain, parameters), near), 2e-3);  // no share: all foreground
+  EXPECT_LE(largest_difference(generalized(terrain, parameters, Grid<float>(160, 120, 1.F)), near), 2e-3);
+  EXPECT_LE(largest_difference(generalized(terrain, parameters, Grid<float>(160, 120, 0.F)), equation_two(terrain, back)), 2e-3);
+  EXPECT_LE(largest_difference(generalized(terrain, parameters, Grid<float>(160, 120, .5F)), equation_two(terrain, middle)), 2e-3);
 }
 
 TEST(Generalize, ShareThatChangesAlongTheViewLeavesNoSeam) {
@@ -106,7 +92,7 @@ TEST(Generalize, ShareThatChangesAlongTheViewLeavesNoSeam) {
     for (int x = 0; x < 200; ++x) share(x, y) = std::clamp((y - 60.F) / 80.F, 0.F, 1.F);
   }
   const GeneralizeParameters parameters{{1, 1, 1, 1, 1}, {1.5F, 1.F, .5F, .2F, 0.F}, 0.F};
-  const Grid<float> out = generalize(terrain, parameters, share);
+  const Grid<float> out = generalized(terrain, parameters, share);
   const Grid<float> far = equation_two(terrain, parameters.background);
   double near_error = 0.0;
   double far_error = 0.0;
@@ -123,7 +109,7 @@ TEST(Generalize, RampStaysARamp) {
   for (int y = 0; y < 70; ++y) {
     for (int x = 0; x < 90; ++x) ramp(x, y) = 500.F + 10.F * static_cast<float>(x) + 4.F * static_cast<float>(y);
   }
-  EXPECT_LE(largest_difference(generalize(ramp, {{2, 0, 5, 0, 3}, {2, 0, 5, 0, 3}, 0.F}), ramp), 1e-2);
+  EXPECT_LE(largest_difference(generalized(ramp, {{2, 0, 5, 0, 3}, {2, 0, 5, 0, 3}, 0.F}), ramp), 1e-2);
 }
 
 // A lake of 40 × 30 cells at 800 m in steep country, whose bands are amplified.
@@ -143,7 +129,7 @@ struct LakeCase {
 
 TEST(Generalize, LakesKeepTheirLevelExactly) {
   const LakeCase c;
-  const Grid<float> out = generalize(c.terrain, c.parameters, {}, c.keep);
+  const Grid<float> out = generalized(c.terrain, c.parameters, {}, c.keep);
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (c.keep[i] != 0) {
       ASSERT_EQ(out[i], 800.F);
@@ -153,8 +139,8 @@ TEST(Generalize, LakesKeepTheirLevelExactly) {
 
 TEST(Generalize, NoStepStandsAtTheShore) {
   const LakeCase c;
-  const Grid<float> out = generalize(c.terrain, c.parameters, {}, c.keep);
-  const Grid<float> free = generalize(c.terrain, c.parameters);
+  const Grid<float> out = generalized(c.terrain, c.parameters, {}, c.keep);
+  const Grid<float> free = generalized(c.terrain, c.parameters);
   // The step that the change D = A' - A makes from the last lake cell to the first shore cell, along the whole shore.
   double step = 0.0;
   double naive_step = 0.0;
@@ -181,9 +167,9 @@ TEST(Generalize, LakesAreNotLeftOnATable) {
     }
   }
   const GeneralizeParameters parameters{{2.F, 2.F, 1.5F, .5F, .5F, .5F}, {1, 1, 1, 1, 1, 1}, 0.F};
-  const double sinking = 600.0 - generalize(valley, parameters)(100, 100);
+  const double sinking = 600.0 - generalized(valley, parameters)(100, 100);
   EXPECT_GT(sinking, 100.0);
-  const Grid<float> out = generalize(valley, parameters, {}, keep);
+  const Grid<float> out = generalized(valley, parameters, {}, keep);
   double steepest = 0.0;
   for (int i = 0; i < 60; ++i) steepest = std::max(steepest, std::abs(static_cast<double>(out(100, 119 + i)) - out(100, 120 + i)));
   EXPECT_LT(steepest, 0.055 * sinking);  // a cell; evenly over 32 cells it were .031
@@ -201,14 +187,14 @@ TEST(Generalize, CrestsRiseWhereTheyAreHighOnly) {
   GeneralizeParameters parameters;
   parameters.crest = .9F;
   const Grid<float> low = roof(600.F);
-  EXPECT_EQ(generalize(low, parameters), low);
+  EXPECT_EQ(generalized(low, parameters), low);
   const Grid<float> high = roof(2500.F);
-  const Grid<float> sharp = generalize(high, parameters);
+  const Grid<float> sharp = generalized(high, parameters);
   EXPECT_GT(sharp(48, 48) - high(48, 48), 10.F);
   EXPECT_LE(sharp(48, 48) - high(48, 48), .9F * 60.F);
   EXPECT_NEAR(sharp(5, 48), high(5, 48), 0.5F);
   // Far off it is a fifth less.
-  const Grid<float> far = generalize(high, parameters, Grid<float>(96, 96, 0.F));
+  const Grid<float> far = generalized(high, parameters, Grid<float>(96, 96, 0.F));
   EXPECT_NEAR(far(48, 48) - high(48, 48), .8F * (sharp(48, 48) - high(48, 48)), 1e-2F);
 }
 
@@ -217,7 +203,7 @@ TEST(Generalize, CrestEqualsItsFormula) {
   for (float& v : terrain) v += 500.F;  // through the ramp of `high`
   GeneralizeParameters parameters;
   parameters.crest = 1.5F;
-  const Grid<float> out = generalize(terrain, parameters);
+  const Grid<float> out = generalized(terrain, parameters);
   const LaplacianPyramid bands = make_laplacian_pyramid(terrain, 6);
   const auto keep_bands = [&](std::vector<float> weights, bool base) {
     LaplacianPyramid kept = bands;
@@ -244,7 +230,7 @@ TEST(Generalize, AHalvedDemGetsWhatTheWholeGetsInItsBands) {
   parameters.background = parameters.foreground;
   parameters.foreground_ridges = {0.F, 0.3F, 0.4F, 0.2F, 0.F};
   parameters.background_ridges = parameters.foreground_ridges;
-  const Grid<float> whole = generalize(terrain, parameters);
+  const Grid<float> whole = generalized(terrain, parameters);
   const Grid<float> half = reduce(terrain);
   parameters.finest_band = 1;
   Grid<float> change = generalize(half, {60.0, 60.0}, {}, parameters, silent_progress());
@@ -265,7 +251,7 @@ TEST(Generalize, CrestsOfAHalvedDemAreMadeOfTheBandsItHas) {
     GeneralizeParameters parameters;
     parameters.crest = 1.5F;
     parameters.finest_band = halved;
-    const Grid<float> out = generalize(terrain, parameters);
+    const Grid<float> out = generalized(terrain, parameters);
     // Bands 2, 3 and (by .6) 4 of what was halved, whose first ones are lost.
     LaplacianPyramid detail = make_laplacian_pyramid(terrain, 4 - halved);
     LaplacianPyramid ground = detail;
@@ -285,9 +271,9 @@ TEST(Generalize, CrestsOfAHalvedDemAreMadeOfTheBandsItHas) {
 }
 
 TEST(Generalize, SaysWhatIsWrong) {
-  EXPECT_THROW(generalize(Grid<float>(9, 9), {{1, 1}, {1}, 0.F}), Error);
-  EXPECT_THROW(generalize(Grid<float>(9, 9), {}, Grid<float>(8, 9)), Error);
-  EXPECT_THROW(generalize(Grid<float>(9, 9), {}, {}, Grid<unsigned char>(9, 8)), Error);
+  EXPECT_THROW(generalized(Grid<float>(9, 9), {{1, 1}, {1}, 0.F}), Error);
+  EXPECT_THROW(generalized(Grid<float>(9, 9), {}, Grid<float>(8, 9)), Error);
+  EXPECT_THROW(generalized(Grid<float>(9, 9), {}, {}, Grid<unsigned char>(9, 8)), Error);
 }
 
 TEST(Generalize, SameBitsForAnyThreadCount) {
@@ -296,7 +282,7 @@ TEST(Generalize, SameBitsForAnyThreadCount) {
   for (std::size_t i = 0; i < share.size(); ++i) share[i] = static_cast<float>(i) / static_cast<float>(share.size());
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
-    return generalize(c.terrain, c.parameters, share, c.keep);
+    return generalized(c.terrain, c.parameters, share, c.keep);
   };
   EXPECT_EQ(run(1), run(2));
 }

@@ -4,26 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/parallel.h"
 #include "terrain/synthetic/synthetic_noise.h"
+#include "tests/terrain/generalize/made_up_relief.h"
 
 namespace belvedere {
 namespace {
 
-constexpr double cell_m = 30.0;
+using test::cell_m;
+using test::grid_of;
 
-Grid<float> make_grid(int width, int height, const std::function<double(int, int)>& value) {
-  Grid<float> grid(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) grid(x, y) = static_cast<float>(value(x, y));
-  return grid;
-}
-
-Grid<float> run(const Grid<float>& altitude_m, const LineIntegralParameters& parameters = {}) {
+Grid<float> run_along_lines(const Grid<float>& altitude_m, const LineIntegralParameters& parameters = {}) {
   return generalize_along_slope_lines(altitude_m, cell_m, parameters, silent_progress());
 }
 
@@ -57,18 +51,18 @@ double crest_bend(const Grid<float>& z) {
 }
 
 TEST(LineIntegral, PlanesComeBack) {
-  const Grid<float> plane = make_grid(70, 50, [](int x, int y) { return 900.0 + 11.0 * x - 7.0 * y; });
+  const Grid<float> plane = grid_of(70, 50, [](int x, int y) { return 900.0 + 11.0 * x - 7.0 * y; });
   LineIntegralParameters parameters;
   parameters.detail_cells = 0.F;  // the blur replicates borders, slope lines do not
-  const Grid<float> out = run(plane, parameters);
+  const Grid<float> out = run_along_lines(plane, parameters);
   // A line that runs along the rim and leaves it at a corner knows no slope beyond: the corners alone may differ a little.
   EXPECT_LT(largest_difference(out, plane, 1), 0.05);
-  EXPECT_LT(largest_difference(run(plane), plane, 24), 0.05);
+  EXPECT_LT(largest_difference(run_along_lines(plane), plane, 24), 0.05);
 }
 
 TEST(LineIntegral, SidesBecomePlainAndTheCrestStaysSharperThanUnderABlur) {
-  const Grid<float> terrain = make_grid(161, 120, roof);
-  const Grid<float> out = run(terrain);
+  const Grid<float> terrain = grid_of(161, 120, roof);
+  const Grid<float> out = run_along_lines(terrain);
   EXPECT_LT(roughness(out, 20, 70), 0.1 * roughness(terrain, 20, 70));
   // A Gaussian that leaves as much roughness on the sides is the failing baseline.
   double sigma = 0.5;
@@ -77,17 +71,17 @@ TEST(LineIntegral, SidesBecomePlainAndTheCrestStaysSharperThanUnderABlur) {
 }
 
 TEST(LineIntegral, SharpnessOfRidgesIsAParameter) {
-  const Grid<float> terrain = make_grid(161, 60, roof);
+  const Grid<float> terrain = grid_of(161, 60, roof);
   LineIntegralParameters blunt;
   blunt.ridge_sharpness = 0.F;
   LineIntegralParameters sharp;
   sharp.ridge_sharpness = 1.F;
-  EXPECT_GT(crest_bend(run(terrain, sharp)), crest_bend(run(terrain, blunt)));
+  EXPECT_GT(crest_bend(run_along_lines(terrain, sharp)), crest_bend(run_along_lines(terrain, blunt)));
 }
 
 TEST(LineIntegral, ALakeStaysLevelUpToTheFootOfItsSlopes) {
-  const Grid<float> terrain = make_grid(120, 80, [](int x, int y) { return x < 60 ? 500.0 : 500.0 + 20.0 * (x - 60) + 0.1 * y; });
-  const Grid<float> out = run(terrain);
+  const Grid<float> terrain = grid_of(120, 80, [](int x, int y) { return x < 60 ? 500.0 : 500.0 + 20.0 * (x - 60) + 0.1 * y; });
+  const Grid<float> out = run_along_lines(terrain);
   float highest = 0.F;
   float near_shore = 0.F;
   for (int y = 0; y < 80; ++y) {
@@ -101,21 +95,21 @@ TEST(LineIntegral, ALakeStaysLevelUpToTheFootOfItsSlopes) {
 }
 
 TEST(LineIntegral, OneOrTwoThreadsAndTinyGrids) {
-  const Grid<float> terrain = make_grid(90, 70, roof);
+  const Grid<float> terrain = grid_of(90, 70, roof);
   const auto with = [&](int threads) {
     const ThreadLimit limit(threads);
-    return run(terrain);
+    return run_along_lines(terrain);
   };
   EXPECT_EQ(with(1), with(2));
   const Grid<float> tiny(1, 5, 7.F);
-  EXPECT_EQ(run(tiny), tiny);
-  EXPECT_NO_THROW(run(make_grid(2, 2, roof)));
+  EXPECT_EQ(run_along_lines(tiny), tiny);
+  EXPECT_NO_THROW(run_along_lines(grid_of(2, 2, roof)));
 }
 
 TEST(LineIntegral, SaysWhatIsOutOfRange) {
   LineIntegralParameters parameters;
   parameters.length_cells = 0.F;
-  EXPECT_THROW(run(Grid<float>(8, 8), parameters), Error);
+  EXPECT_THROW(run_along_lines(Grid<float>(8, 8), parameters), Error);
 }
 
 }  // namespace

@@ -2,34 +2,20 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <string>
 
 #include "terrain/generalize/generalize.h"
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/generalize/generalize_report.h"
 #include "terrain/generalize/mask.h"
-#include "terrain/io/dem.h"
-#include "tests/paths.h"
+#include "tests/terrain/generalize/made_up_relief.h"
 
 // What masks promise, on real ground.
 namespace belvedere {
 namespace {
 
-constexpr double cell_m = 30.0;
-
-std::optional<Grid<float>> real_ground(const std::string& name) {
-  const std::string file = test::data_folder() + "/" + name;
-  if (!std::filesystem::exists(file)) return std::nullopt;
-  DemParameters parameters;
-  parameters.sources.emplace_back().path = file;
-  return read_dem(parameters, silent_progress()).altitude_m;
-}
-
-Grid<float> run(const Grid<float>& terrain, const GeneralizeParameters& parameters, const GeneralizeGrids& grids = {}) {
-  return generalize(terrain, {cell_m, cell_m}, grids, parameters, silent_progress());
-}
+using test::cell_m;
+using test::real_ground;
+using test::run;
 
 // The step of `out` from column x - 1 to x beyond whatever lies between the original ground's step and the generalized ground's, so beyond
 // what the ground itself does there; the mean of all rows, m.

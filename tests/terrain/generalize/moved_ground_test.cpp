@@ -7,11 +7,12 @@
 #include <glm/geometric.hpp>
 
 #include "terrain/generalize/widen_valleys.h"
+#include "tests/terrain/generalize/made_up_relief.h"
 
 namespace belvedere {
 namespace {
 
-constexpr double cell_m = 30.0;
+using test::cell_m;
 
 // A valley along column 100 that falls to the south between walls of 27°, widened by 480 m.
 Grid<glm::vec2> moves_of_a_valley(double course_wave = 0.0) {

@@ -15,11 +15,12 @@
 #include "terrain/io/raster_io.h"
 #include "terrain/shape/hydrology.h"
 #include "tests/paths.h"
+#include "tests/terrain/generalize/made_up_relief.h"
 
 namespace belvedere {
 namespace {
 
-constexpr double cell_m = 30.0;
+using test::cell_m;
 
 // A valley along column 100 that falls to the south, walls of 27°, ridges 1350 m above it in columns 10 and 190; `floor_m` is the
 // half-width of its flat floor.

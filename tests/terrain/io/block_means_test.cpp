@@ -9,7 +9,7 @@
 namespace belvedere {
 namespace {
 
-Grid<float> rough(int width, int height) {
+Grid<float> wavy_ground(int width, int height) {
   Grid<float> grid(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
@@ -36,7 +36,7 @@ TEST(BlockMeans, AreTheMeansOfWholeBlocks) {
 }
 
 TEST(BlockMeans, AreTheSameHoweverTheRowsCome) {
-  const Grid<float> grid = rough(215, 101);
+  const Grid<float> grid = wavy_ground(215, 101);
   const Grid<float> whole = in_strips(grid, 101, 40);
   for (const int rows : {1, 5, 6, 7, 50}) EXPECT_EQ(in_strips(grid, rows, 40), whole) << rows << " rows at once";
 }
@@ -55,6 +55,20 @@ TEST(BlockMeans, VoidsTakeNoPart) {
   EXPECT_EQ(means(1, 0), 500.F);
   EXPECT_EQ(means(0, 1), 501.F);
   EXPECT_TRUE(std::isnan(means(1, 1))) << "less than half of it";
+}
+
+TEST(BlockMeansOfAGrid, AreMeansOfWhatABlockHolds) {
+  Grid<float> grid(5, 3);
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 5; ++x) grid(x, y) = static_cast<float>(10 * y + x);
+  const Grid<float> means = block_means(grid, 2);
+  ASSERT_EQ(means.width(), 3);
+  ASSERT_EQ(means.height(), 2);
+  EXPECT_EQ(means(0, 0), 5.5F);   // 0, 1, 10, 11
+  EXPECT_EQ(means(2, 0), 9.0F);   // 4, 14: half a block
+  EXPECT_EQ(means(1, 1), 22.5F);  // 22, 23
+  EXPECT_EQ(means(2, 1), 24.0F);
+  EXPECT_EQ(block_means(grid, 1), grid);
 }
 
 }  // namespace

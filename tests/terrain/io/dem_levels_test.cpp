@@ -15,14 +15,14 @@ namespace belvedere {
 namespace {
 
 // Values that no smoothing makes equal by chance.
-float rough(int x, int y) {
+float rough_value(int x, int y) {
   return static_cast<float>(900.0 + 37.0 * std::sin(0.7 * x) * std::cos(0.45 * y) + 3.0 * ((x * 7 + y * 13) % 11));
 }
 
 Grid<float> rough_grid(int width, int height) {
   Grid<float> grid(width, height);
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) grid(x, y) = rough(x, y);
+    for (int x = 0; x < width; ++x) grid(x, y) = rough_value(x, y);
   return grid;
 }
 
@@ -77,7 +77,7 @@ class DemLevelsTest : public RasterFiles {
     DemParameters parameters;
     parameters.sources.resize(1);
     parameters.sources[0].path =
-        write_ascii("rough.asc", width, height, 600000, 5200000, 30, [](int x, int y) { return std::to_string(rough(x, y)); });
+        write_ascii("rough.asc", width, height, 600000, 5200000, 30, [](int x, int y) { return std::to_string(rough_value(x, y)); });
     parameters.sources[0].crs = "EPSG:32632";
     return parameters;
   }

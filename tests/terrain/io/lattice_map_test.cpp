@@ -20,14 +20,14 @@ CellAffine upright(double west, double north, double cell) {
   return affine;
 }
 
-RasterFrame frame(GeoTransform transform, int width, int height) {
+RasterFrame utm_frame(GeoTransform transform, int width, int height) {
   return {.transform = transform, .width = width, .height = height, .crs = normalize_crs(utm32)};
 }
 
 TEST(LatticeMap, CellsThatCoincideAreWholeNumbers) {
   // The frame begins 4 cells to the east and 7 to the south of the source.
   const LatticeMap map(upright(600000.0, 5200000.0, 30.0), normalize_crs(utm32), {601000.0, 5199000.0},
-                       frame({600000.0 + 4 * 30.0, 5200000.0 - 7 * 30.0, 30.0, 30.0}, 200, 100));
+                       utm_frame({600000.0 + 4 * 30.0, 5200000.0 - 7 * 30.0, 30.0, 30.0}, 200, 100));
   ASSERT_TRUE(map.offset().has_value());
   EXPECT_EQ(*map.offset(), glm::ivec2(4, 7));
   EXPECT_EQ(map(0, 0), glm::dvec2(4.0, 7.0));
@@ -37,7 +37,7 @@ TEST(LatticeMap, CellsThatCoincideAreWholeNumbers) {
 
 TEST(LatticeMap, AWindowCountsFromItsCorner) {
   LatticeMap map(upright(600000.0, 5200000.0, 30.0), normalize_crs(utm32), {601000.0, 5199000.0},
-                 frame({600021.0, 5199979.0, 20.0, 20.0}, 300, 300));
+                 utm_frame({600021.0, 5199979.0, 20.0, 20.0}, 300, 300));
   EXPECT_FALSE(map.offset().has_value());
   EXPECT_NEAR(map.scale().x, 20.0 / 30.0, 1e-12);
   const glm::dvec2 whole = map(130, 210);
@@ -48,7 +48,7 @@ TEST(LatticeMap, AWindowCountsFromItsCorner) {
 TEST(LatticeMap, ReprojectionIsExactToAThousandthOfACell) {
   const std::string degrees = normalize_crs("EPSG:4326");
   const double cell = 1.0 / 3600.0;
-  const RasterFrame metric = frame({600000.0, 5200000.0, 30.0, 30.0}, 500, 500);
+  const RasterFrame metric = utm_frame({600000.0, 5200000.0, 30.0, 30.0}, 500, 500);
   const LatticeMap map(upright(10.0, 47.5, cell), degrees, {10.4, 46.9}, metric);
   double worst = 0.0;
   for (int y = 3; y < 500; y += 29)
@@ -63,7 +63,7 @@ TEST(LatticeMap, ReprojectionIsExactToAThousandthOfACell) {
 TEST(LatticeMap, LongitudesAreCountedNearTheSource) {
   // Fiji's zone, a source whose degrees go on beyond 180.
   const std::string degrees = normalize_crs("EPSG:4326");
-  RasterFrame metric = frame({800000.0, 8200000.0, 100.0, 100.0}, 400, 100);
+  RasterFrame metric = utm_frame({800000.0, 8200000.0, 100.0, 100.0}, 400, 100);
   metric.crs = normalize_crs("EPSG:32760");
   const LatticeMap map(upright(179.0, -16.0, 0.001), degrees, {180.0, -16.3}, metric);
   for (const int x : {0, 200, 399}) {

@@ -7,11 +7,12 @@
 
 #include "base/grid_part.h"
 #include "base/random.h"
+#include "tests/terrain/layers/metres.h"
 
 namespace belvedere {
 namespace {
 
-const GeoTransform metres{600'000.0, 5'200'000.0, 10.0, 10.0};
+using test::metres;
 
 SurfaceLayer layer(const std::string& name, int parent, std::uint32_t rgb, double bias = 1.0) {
   SurfaceLayer made;

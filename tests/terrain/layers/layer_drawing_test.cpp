@@ -6,13 +6,13 @@
 
 #include "base/error.h"
 #include "base/grid_part.h"
+#include "tests/terrain/layers/metres.h"
 
 namespace belvedere {
 namespace {
 
+using test::metres;
 using enum LandCoverClass;
-
-const GeoTransform metres{600'000.0, 5'200'000.0, 10.0, 10.0};
 
 std::vector<Grid<float>> no_shares(int width, int height) {
   return std::vector<Grid<float>>(static_cast<std::size_t>(land_cover_class_count), Grid<float>(width, height));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int width = 240;
 constexpr int height = 160;
-constexpr double cell_m = 30.0;
+constexpr double course_cell_m = 30.0;
 
 // A valley that winds from west to east and falls; its bottom lies at bottom_row.
 double bottom_row(double x) { return 80.0 + 14.0 * std::sin(x / 23.0); }
@@ -21,18 +21,18 @@ double bottom_row(double x) { return 80.0 + 14.0 * std::sin(x / 23.0); }
 Dem winding_valley() {
   Raster<float> raster;
   raster.cells = Grid<float>(width, height);
-  raster.transform = {600000.0, 5200000.0, cell_m, cell_m};
+  raster.transform = {600000.0, 5200000.0, course_cell_m, course_cell_m};
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const double off = (y - bottom_row(x)) * cell_m;
-      raster.cells(x, y) = static_cast<float>(1500.0 - 0.01 * x * cell_m + 0.25 * std::abs(off) + 1e-5 * off * off);
+      const double off = (y - bottom_row(x)) * course_cell_m;
+      raster.cells(x, y) = static_cast<float>(1500.0 - 0.01 * x * course_cell_m + 0.25 * std::abs(off) + 1e-5 * off * off);
     }
   return make_dem(std::move(raster));
 }
 
 struct Valley {
   Dem dem = winding_valley();
-  Grid<float> km2 = flow_accumulation_km2(dem.altitude_m, cell_m);
+  Grid<float> km2 = flow_accumulation_km2(dem.altitude_m, course_cell_m);
 
   glm::dvec2 at(double x, double y) const { return dem.transform.to_crs(x, y); }
   // From the bottom, m, of places away from the ends.
@@ -41,7 +41,7 @@ struct Valley {
     for (const glm::dvec2 place : course.places) {
       const glm::dvec2 cell = dem.transform.to_cell(place.x, place.y);
       if (cell.x < 12.0 || cell.x > width - 12.0) continue;
-      most = std::max(most, std::abs(cell.y - bottom_row(cell.x)) * cell_m);
+      most = std::max(most, std::abs(cell.y - bottom_row(cell.x)) * course_cell_m);
     }
     return most;
   }
@@ -63,7 +63,7 @@ TEST(Courses, ARoughLineFindsTheBottomOfItsValley) {
   const DrawnCourse drawn{.places = {valley.at(2, 80), valley.at(width - 3, 80)}, .snap_m = 600.0};
   const Courses laid = lay_courses({drawn}, valley.dem, valley.km2);
   ASSERT_EQ(laid.lines.size(), 1U);
-  EXPECT_LT(valley.farthest_m(laid.lines[0]), 1.2 * cell_m);
+  EXPECT_LT(valley.farthest_m(laid.lines[0]), 1.2 * course_cell_m);
   EXPECT_LT(sharpest_turn_deg(laid.lines[0]), 20.0) << "no stairs of the grid";
   EXPECT_LE(laid.most_moved_m, 600.0);
   EXPECT_GT(laid.most_moved_m, 300.0);
@@ -90,8 +90,8 @@ TEST(Courses, AGoodLineStays) {
   DrawnCourse drawn{.places = {}, .snap_m = 150.0};
   for (int x = 2; x < width - 2; ++x) drawn.places.push_back(valley.at(x, bottom_row(x)));
   const Courses laid = lay_courses({drawn}, valley.dem, valley.km2);
-  EXPECT_LT(laid.most_moved_m, cell_m);
-  EXPECT_LT(laid.mean_moved_m, 0.4 * cell_m);
+  EXPECT_LT(laid.most_moved_m, course_cell_m);
+  EXPECT_LT(laid.mean_moved_m, 0.4 * course_cell_m);
 }
 
 TEST(Courses, WidthsFollowTheCatchmentOrTheMap) {
@@ -128,7 +128,7 @@ TEST(Courses, PiecesOfOneRiverAreOneRiver) {
   EXPECT_EQ(joined.joined, 2U);
   ASSERT_EQ(joined.lines.size(), 1U);
   ASSERT_NEAR(static_cast<double>(joined.lines[0].places.size()), static_cast<double>(one.lines[0].places.size()), 2.0);
-  EXPECT_LT(valley.farthest_m(joined.lines[0]), 1.2 * cell_m);
+  EXPECT_LT(valley.farthest_m(joined.lines[0]), 1.2 * course_cell_m);
   // Other groups stay apart.
   pieces[2].group = 1;
   EXPECT_GT(lay_courses(pieces, valley.dem, valley.km2).lines.size(), 1U);

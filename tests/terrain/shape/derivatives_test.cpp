@@ -21,24 +21,24 @@
 namespace belvedere {
 namespace {
 
-constexpr double cell_m = 20.0;
+constexpr double surface_cell_m = 20.0;
 
 // f(x, y) in metres, x east and y north of the grid's middle.
 template <class F>
 Grid<float> surface(int size, F&& f) {
   Grid<float> grid(size, size);
   for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) grid(x, y) = static_cast<float>(f((x - size / 2) * cell_m, (size / 2 - y) * cell_m));
+    for (int x = 0; x < size; ++x) grid(x, y) = static_cast<float>(f((x - size / 2) * surface_cell_m, (size / 2 - y) * surface_cell_m));
   }
   return grid;
 }
 
 TEST(Slope, OfTiltedPlanes) {
   const Grid<float> plane = surface(9, [](double x, double y) { return 0.3 * x - 0.4 * y; });
-  EXPECT_NEAR(slope_deg(plane, cell_m, cell_m)(4, 4), to_degrees(std::atan(0.5)), 1e-4);
+  EXPECT_NEAR(slope_deg(plane, surface_cell_m, surface_cell_m)(4, 4), to_degrees(std::atan(0.5)), 1e-4);
   // Cells twice as wide halve the rise to the east.
-  EXPECT_NEAR(slope_deg(plane, 2.0 * cell_m, cell_m)(4, 4), to_degrees(std::atan(std::hypot(0.15, 0.4))), 1e-4);
-  EXPECT_EQ(slope_deg(Grid<float>(4, 4, 100.F), cell_m, cell_m), Grid<float>(4, 4, 0.F));
+  EXPECT_NEAR(slope_deg(plane, 2.0 * surface_cell_m, surface_cell_m)(4, 4), to_degrees(std::atan(std::hypot(0.15, 0.4))), 1e-4);
+  EXPECT_EQ(slope_deg(Grid<float>(4, 4, 100.F), surface_cell_m, surface_cell_m), Grid<float>(4, 4, 0.F));
 }
 
 TEST(Aspect, PointsDownhillClockwiseFromNorth) {
@@ -46,7 +46,7 @@ TEST(Aspect, PointsDownhillClockwiseFromNorth) {
     const double east = std::sin(to_radians(azimuth));
     const double north = std::cos(to_radians(azimuth));
     const Grid<float> plane = surface(5, [&](double x, double y) { return 1000.0 - 0.5 * (east * x + north * y); });
-    const double aspect = aspect_deg(plane, cell_m, cell_m)(2, 2);
+    const double aspect = aspect_deg(plane, surface_cell_m, surface_cell_m)(2, 2);
     EXPECT_NEAR(std::remainder(aspect - azimuth, 360.0), 0.0, 1e-3) << azimuth;
     EXPECT_GE(aspect, 0.0);
     EXPECT_LT(aspect, 360.0);
@@ -58,8 +58,8 @@ TEST(Relief, IsTheDifferenceOfTwoBlurs) {
   const Grid<float> ground = surface(64, [](double x, double y) { return 500.0 + 200.0 * std::sin(x / 90.0) * std::cos(y / 70.0); });
   const Grid<float> inner = gaussian_blur(ground, 3.0);
   const Grid<float> outer = gaussian_blur(ground, 9.0);
-  const Grid<float> above = relief(ground, cell_m, 60.0, 180.0);
-  const Grid<float> own = relief(ground, cell_m, 0.0, 180.0);
+  const Grid<float> above = relief(ground, surface_cell_m, 60.0, 180.0);
+  const Grid<float> own = relief(ground, surface_cell_m, 0.0, 180.0);
   for (std::size_t i = 0; i < ground.size(); ++i) {
     ASSERT_FLOAT_EQ(above[i], inner[i] - outer[i]);
     ASSERT_FLOAT_EQ(own[i], ground[i] - outer[i]);
@@ -69,7 +69,7 @@ TEST(Relief, IsTheDifferenceOfTwoBlurs) {
 TEST(HeightAboveValley, OfAVeeShapedValley) {
   // A floor at 600 m whose flanks rise 1 in 2, cut off 400 m above.
   const Grid<float> valley = surface(121, [](double x, double) { return 600.0 + std::min(400.0, 0.5 * std::abs(x)); });
-  const Grid<float> height = height_above_valley(valley, cell_m, 300.0);
+  const Grid<float> height = height_above_valley(valley, surface_cell_m, 300.0);
   EXPECT_NEAR(height(60 + 10, 60), 100.0, 15.0);  // 200 m off: the floor is in reach, smoothed by a cell
   EXPECT_NEAR(height(60 + 30, 60), 150.0, 1.0);   // 600 m off the reach ends 300 m down the flank
   EXPECT_NEAR(height(60, 60), 0.0, 1e-6);

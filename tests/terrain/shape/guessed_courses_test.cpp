@@ -9,10 +9,10 @@
 namespace belvedere {
 namespace {
 
-constexpr double cell_m = 30.0;
+constexpr double valley_cell_m = 30.0;
 constexpr int rows = 200;
 constexpr int river_column = 60;
-const GeoTransform transform{0.0, rows* cell_m, cell_m, cell_m};
+const GeoTransform valley_transform{0.0, rows* valley_cell_m, valley_cell_m, valley_cell_m};
 
 // A river down a column from `from_km2`, `step_km2` more in each row; a brook along row 100 from the west, of 25 … 31 km².
 Grid<float> waters(double from_km2, double step_km2, bool brook = false) {
@@ -29,18 +29,18 @@ Grid<float> valley() {
   return out;
 }
 RiverBed everywhere(int, int) { return RiverBed::runs; }
-double row_of(glm::dvec2 place) { return transform.to_cell(place.x, place.y).y; }
+double row_of(glm::dvec2 place) { return valley_transform.to_cell(place.x, place.y).y; }
 
 TEST(GuessedCourses, ComeUpFromNothingAndGrowAsKnownRiversDo) {
   // Inside the ground, so that the beginning is a spring: 20 km² in row 40.
-  const std::vector<Course> courses = guess_courses(waters(0.0, 0.5), valley(), transform, everywhere);
+  const std::vector<Course> courses = guess_courses(waters(0.0, 0.5), valley(), valley_transform, everywhere);
   ASSERT_EQ(courses.size(), 1U);
   const Course& river = courses[0];
   ASSERT_EQ(river.places.size(), river.half_width_m.size());
   EXPECT_NEAR(row_of(river.places.front()), 40.0, 0.01);
   EXPECT_EQ(river.half_width_m.front(), 0.F);
   for (std::size_t i = 1; i < river.places.size(); ++i) {
-    EXPECT_NEAR(river.places[i].x, transform.to_crs(river_column, 0).x, 0.01);
+    EXPECT_NEAR(river.places[i].x, valley_transform.to_crs(river_column, 0).x, 0.01);
     EXPECT_GE(river.half_width_m[i], river.half_width_m[i - 1]);
     EXPECT_LT(river.half_width_m[i] - river.half_width_m[i - 1], 1.0);
   }
@@ -51,7 +51,7 @@ TEST(GuessedCourses, ComeUpFromNothingAndGrowAsKnownRiversDo) {
 }
 
 TEST(GuessedCourses, KeepTheirWidthAtTheRimOfTheGround) {
-  const Course river = guess_courses(waters(100.0, 0.1), valley(), transform, everywhere).at(0);
+  const Course river = guess_courses(waters(100.0, 0.1), valley(), valley_transform, everywhere).at(0);
   EXPECT_NEAR(river.half_width_m.front(), known_half_width_m(100.0), 0.05);
   EXPECT_NEAR(river.half_width_m.back(), known_half_width_m(119.9), 0.05);
 }
@@ -61,22 +61,22 @@ TEST(GuessedCourses, FadeWhereTheirBedIsDryAndCloseShortGaps) {
     return [=](int, int y) { return y >= from && y < to ? RiverBed::dry : RiverBed::runs; };
   };
   const GuessedCourseParameters usual;
-  const std::vector<Course> one = guess_courses(waters(100.0, 0.1), valley(), transform, dry_between(90, 90 + usual.closed_cells));
+  const std::vector<Course> one = guess_courses(waters(100.0, 0.1), valley(), valley_transform, dry_between(90, 90 + usual.closed_cells));
   EXPECT_EQ(one.size(), 1U) << "a step in the ground is no end of a river";
-  const std::vector<Course> two = guess_courses(waters(100.0, 0.1), valley(), transform, dry_between(90, 110));
+  const std::vector<Course> two = guess_courses(waters(100.0, 0.1), valley(), valley_transform, dry_between(90, 110));
   ASSERT_EQ(two.size(), 2U);
   EXPECT_NEAR(row_of(two[0].places.back()), 89.0, 0.01);
   EXPECT_EQ(two[0].half_width_m.back(), 0.F);
   EXPECT_EQ(two[1].half_width_m.front(), 0.F);
   EXPECT_GT(two[1].half_width_m.back(), 15.F);
-  EXPECT_TRUE(
-      guess_courses(waters(100.0, 0.1), valley(), transform, [](int, int y) { return y / 8 % 2 == 0 ? RiverBed::runs : RiverBed::dry; })
-          .empty())
+  EXPECT_TRUE(guess_courses(waters(100.0, 0.1), valley(), valley_transform,
+                            [](int, int y) { return y / 8 % 2 == 0 ? RiverBed::runs : RiverBed::dry; })
+                  .empty())
       << "pieces shorter than least_cells";
 }
 
 TEST(GuessedCourses, EndInLakesAndBeginThereAtTheirWidth) {
-  const std::vector<Course> courses = guess_courses(waters(100.0, 0.1), valley(), transform,
+  const std::vector<Course> courses = guess_courses(waters(100.0, 0.1), valley(), valley_transform,
                                                     [](int, int y) { return y >= 80 && y < 120 ? RiverBed::open : RiverBed::runs; });
   ASSERT_EQ(courses.size(), 2U);
   EXPECT_NEAR(row_of(courses[0].places.back()), 81.0, 0.01) << "two cells into it";
@@ -86,11 +86,11 @@ TEST(GuessedCourses, EndInLakesAndBeginThereAtTheirWidth) {
 }
 
 TEST(GuessedCourses, FlowAslantIntoTheLargerRiver) {
-  std::vector<Course> courses = guess_courses(waters(200.0, 0.1, true), valley(), transform, everywhere);
+  std::vector<Course> courses = guess_courses(waters(200.0, 0.1, true), valley(), valley_transform, everywhere);
   ASSERT_EQ(courses.size(), 2U);
   const bool brook_first = courses[0].places.front().x < courses[1].places.front().x;
   const Course& brook = brook_first ? courses[0] : courses[1];
-  const double river_x = transform.to_crs(river_column, 0).x;
+  const double river_x = valley_transform.to_crs(river_column, 0).x;
   EXPECT_NEAR(brook.places.back().x, river_x, 0.01) << "on its middle";
   EXPECT_GT(row_of(brook.places.back()), 104.0) << "farther down than the water of the cells";
   const glm::dvec2 way = brook.places.back() - brook.places[brook.places.size() - 4];
@@ -103,18 +103,18 @@ TEST(GuessedCourses, FlowAslantIntoTheLargerRiver) {
 
 TEST(GuessedCourses, BendOnLevelGroundAndBrooksFollowThem) {
   const Grid<float> plain(121, rows, 500.F);
-  std::vector<Course> courses = guess_courses(waters(200.0, 0.1, true), plain, transform, everywhere);
+  std::vector<Course> courses = guess_courses(waters(200.0, 0.1, true), plain, valley_transform, everywhere);
   ASSERT_EQ(courses.size(), 2U);
   const bool brook_first = courses[0].places.front().x < courses[1].places.front().x;
   const Course& brook = brook_first ? courses[0] : courses[1];
   const Course& river = brook_first ? courses[1] : courses[0];
   double off_m = 0.0;
-  for (const glm::dvec2 place : river.places) off_m = std::max(off_m, std::abs(place.x - transform.to_crs(river_column, 0).x));
+  for (const glm::dvec2 place : river.places) off_m = std::max(off_m, std::abs(place.x - valley_transform.to_crs(river_column, 0).x));
   EXPECT_GT(off_m, 30.0);
   double mouth_m = 1e9;
   for (const glm::dvec2 place : river.places) mouth_m = std::min(mouth_m, glm::length(place - brook.places.back()));
   EXPECT_LT(mouth_m, 1.0);
-  for (std::size_t i = 1; i < brook.places.size(); ++i) EXPECT_LT(glm::length(brook.places[i] - brook.places[i - 1]), 2.5 * cell_m);
+  for (std::size_t i = 1; i < brook.places.size(); ++i) EXPECT_LT(glm::length(brook.places[i] - brook.places[i - 1]), 2.5 * valley_cell_m);
 }
 
 }  // namespace

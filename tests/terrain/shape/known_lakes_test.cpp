@@ -7,15 +7,15 @@
 namespace belvedere {
 namespace {
 
-constexpr int side = 60;
+constexpr int lake_side = 60;
 
 // Noise of ±2 m on level ground at 900 m, a slope that begins in column 40.
 Dem shore() {
   Raster<float> raster;
-  raster.cells = Grid<float>(side, side);
-  raster.transform = {0.0, 10.0 * side, 10.0, 10.0};
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x)
+  raster.cells = Grid<float>(lake_side, lake_side);
+  raster.transform = {0.0, 10.0 * lake_side, 10.0, 10.0};
+  for (int y = 0; y < lake_side; ++y)
+    for (int x = 0; x < lake_side; ++x)
       raster.cells(x, y) = static_cast<float>(900.0 + 2.0 * std::sin(12.9 * x + 78.2 * y) + (x < 40 ? 0.0 : 10.0 * (x - 39)));
   return make_dem(std::move(raster));
 }
@@ -35,8 +35,8 @@ TEST(KnownLakes, WaterIsLevelAtTheGroundsOwnLevel) {
   EXPECT_EQ(levels[0].cells, 20U * 30U - 25U);
   EXPECT_EQ(levels[0].bank_share, 0.0);
   level_known_lakes(dem, {one}, levels);
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
+  for (int y = 0; y < lake_side; ++y)
+    for (int x = 0; x < lake_side; ++x) {
       const glm::dvec2 p = dem.transform.to_crs(x, y);
       const bool water = p.x > 100 && p.x < 300 && p.y > 100 && p.y < 400 && !(p.x > 150 && p.x < 200 && p.y > 200 && p.y < 250);
       ASSERT_EQ(dem.altitude_m(x, y), water ? static_cast<float>(*levels[0].level_m) : before.altitude_m(x, y));

@@ -9,15 +9,15 @@
 namespace belvedere {
 namespace {
 
-constexpr int size = 400;
-const GeoTransform transform{500000.0, 5200000.0, 30.0, 30.0};
+constexpr int bends_size = 400;
+const GeoTransform bends_transform{500000.0, 5200000.0, 30.0, 30.0};
 
 // Straight down the middle column of the grid, or to its middle and then to the right.
 RiverLine river(bool turns, double half_width_m) {
   RiverLine out;
-  for (int k = 0; k < size; ++k) {
-    const bool right = turns && k > size / 2;
-    out.places.emplace_back(right ? k : size / 2, right ? size / 2 : k);
+  for (int k = 0; k < bends_size; ++k) {
+    const bool right = turns && k > bends_size / 2;
+    out.places.emplace_back(right ? k : bends_size / 2, right ? bends_size / 2 : k);
     out.half_width_m.push_back(half_width_m);
     out.held.push_back(false);
   }
@@ -26,9 +26,9 @@ RiverLine river(bool turns, double half_width_m) {
 
 // Level for so many cells to both sides of the middle column, then steep.
 Grid<float> floor_of(int cells) {
-  Grid<float> out(size, size);
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) out(x, y) = 500.F + 15.F * static_cast<float>(std::max(0, std::abs(x - size / 2) - cells));
+  Grid<float> out(bends_size, bends_size);
+  for (int y = 0; y < bends_size; ++y)
+    for (int x = 0; x < bends_size; ++x) out(x, y) = 500.F + 15.F * static_cast<float>(std::max(0, std::abs(x - bends_size / 2) - cells));
   return out;
 }
 
@@ -49,21 +49,21 @@ double sharpest(const RiverLine& line) {
 
 TEST(RiverBends, ARiverSwingsOnAPlainAndStaysInAGorge) {
   RiverLine on_plain = river(false, 20.0);
-  bend_on_level_ground(on_plain, Grid<float>(size, size, 500.F), transform, 1);
-  EXPECT_GT(length_of(on_plain), 1.05 * size);
-  EXPECT_LT(length_of(on_plain), 1.8 * size) << "it is no ball of wool";
-  EXPECT_EQ(on_plain.places.front(), glm::dvec2(size / 2, 0));
-  EXPECT_EQ(on_plain.places.back(), glm::dvec2(size / 2, size - 1));
+  bend_on_level_ground(on_plain, Grid<float>(bends_size, bends_size, 500.F), bends_transform, 1);
+  EXPECT_GT(length_of(on_plain), 1.05 * bends_size);
+  EXPECT_LT(length_of(on_plain), 1.8 * bends_size) << "it is no ball of wool";
+  EXPECT_EQ(on_plain.places.front(), glm::dvec2(bends_size / 2, 0));
+  EXPECT_EQ(on_plain.places.back(), glm::dvec2(bends_size / 2, bends_size - 1));
   RiverLine in_gorge = river(false, 20.0);
-  bend_on_level_ground(in_gorge, floor_of(0), transform, 1);
+  bend_on_level_ground(in_gorge, floor_of(0), bends_transform, 1);
   EXPECT_EQ(in_gorge.places, river(false, 20.0).places);
 }
 
 TEST(RiverBends, BendsStayOnTheFloorOfTheirValley) {
   RiverLine line = river(false, 60.0);
-  bend_on_level_ground(line, floor_of(9), transform, 1);
+  bend_on_level_ground(line, floor_of(9), bends_transform, 1);
   double off = 0.0;
-  for (const glm::dvec2 place : line.places) off = std::max(off, std::abs(place.x - size / 2));
+  for (const glm::dvec2 place : line.places) off = std::max(off, std::abs(place.x - bends_size / 2));
   EXPECT_GT(off, 2.0);
   EXPECT_LT(off, 9.0);
 }
@@ -71,10 +71,10 @@ TEST(RiverBends, BendsStayOnTheFloorOfTheirValley) {
 TEST(RiverBends, AreLargerOfLargerRivers) {
   const auto off = [](double half_width_m) {
     RiverLine line = river(false, half_width_m);
-    bend_on_level_ground(line, Grid<float>(size, size, 500.F), transform, 1);
+    bend_on_level_ground(line, Grid<float>(bends_size, bends_size, 500.F), bends_transform, 1);
     double sum = 0.0;
-    for (const glm::dvec2 place : line.places) sum += std::abs(place.x - size / 2);
-    return sum / size;
+    for (const glm::dvec2 place : line.places) sum += std::abs(place.x - bends_size / 2);
+    return sum / bends_size;
   };
   EXPECT_GT(off(40.0), 1.3 * off(12.0));
 }
@@ -82,29 +82,29 @@ TEST(RiverBends, AreLargerOfLargerRivers) {
 TEST(RiverBends, RoundCornersOfCells) {
   RiverLine line = river(true, 20.0);
   ASSERT_LT(sharpest(line), 0.1) << "a right angle";
-  bend_on_level_ground(line, Grid<float>(size, size, 500.F), transform, 1);
+  bend_on_level_ground(line, Grid<float>(bends_size, bends_size, 500.F), bends_transform, 1);
   EXPECT_GT(sharpest(line), 0.5);
 }
 
 TEST(RiverBends, LakesHoldARiver) {
   RiverLine line = river(false, 20.0);
   for (std::size_t k = 150; k < 250; ++k) line.held[k] = true;
-  bend_on_level_ground(line, Grid<float>(size, size, 500.F), transform, 1);
-  for (std::size_t k = 150; k < 250; ++k) EXPECT_EQ(line.places[k].x, size / 2) << k;
-  EXPECT_NEAR(line.places[149].x, size / 2, 0.2) << "nor is there a step at its shore";
+  bend_on_level_ground(line, Grid<float>(bends_size, bends_size, 500.F), bends_transform, 1);
+  for (std::size_t k = 150; k < 250; ++k) EXPECT_EQ(line.places[k].x, bends_size / 2) << k;
+  EXPECT_NEAR(line.places[149].x, bends_size / 2, 0.2) << "nor is there a step at its shore";
 }
 
 TEST(RiverBends, HangOnThePlaceAlone) {
   // The same river on a grid that begins 100 cells farther down.
   RiverLine whole = river(false, 20.0);
-  bend_on_level_ground(whole, Grid<float>(size, size, 500.F), transform, 1);
+  bend_on_level_ground(whole, Grid<float>(bends_size, bends_size, 500.F), bends_transform, 1);
   RiverLine part = river(false, 20.0);
-  part.places.resize(size - 100);
-  part.half_width_m.resize(size - 100);
-  part.held.resize(size - 100);
-  GeoTransform moved = transform;
-  moved.origin_y -= 100 * transform.cell_y;
-  bend_on_level_ground(part, Grid<float>(size, size - 100, 500.F), moved, 1);
+  part.places.resize(bends_size - 100);
+  part.half_width_m.resize(bends_size - 100);
+  part.held.resize(bends_size - 100);
+  GeoTransform moved = bends_transform;
+  moved.origin_y -= 100 * bends_transform.cell_y;
+  bend_on_level_ground(part, Grid<float>(bends_size, bends_size - 100, 500.F), moved, 1);
   for (std::size_t k = 80; k < 200; ++k) EXPECT_NEAR(part.places[k].x, whole.places[k + 100].x, 1e-6) << k;
 }
 

@@ -9,8 +9,8 @@
 namespace belvedere {
 namespace {
 
-constexpr int size = 400;
-constexpr double cell = 30.0;
+constexpr int sea_size = 400;
+constexpr double sea_cell_m = 30.0;
 
 // A number of -1…1 for a cell.
 float noise_at(int x, int y) {
@@ -22,9 +22,9 @@ float noise_at(int x, int y) {
 // Land, m, of a coast: the sea in the west, a beach of 1 %, hills, a cliff in the south, an island; < 0 is the sea's bed.
 float land_at(int x, int y) {
   const double shore = 140.0 + 25.0 * std::sin(y * 0.035) + 12.0 * std::sin(y * 0.11);
-  const double inland = (x - shore) * cell;
+  const double inland = (x - shore) * sea_cell_m;
   double z = y > 300 ? (inland > 0.0 ? 60.0 + 0.05 * inland : -30.0) : (inland < 900.0 ? 0.01 * inland : 9.0 + 0.12 * (inland - 900.0));
-  const double island = std::hypot(x - 60.0, y - 120.0) * cell;
+  const double island = std::hypot(x - 60.0, y - 120.0) * sea_cell_m;
   if (island < 450.0) z = std::max(z, 45.0 - 0.1 * island);
   return static_cast<float>(z);
 }
@@ -32,13 +32,13 @@ float land_at(int x, int y) {
 // The coast as a DEM has it, the sea at `level` and as rough as that.
 Dem coast(float level, float roughness) {
   Raster<float> raster;
-  raster.cells = Grid<float>(size, size);
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
+  raster.cells = Grid<float>(sea_size, sea_size);
+  for (int y = 0; y < sea_size; ++y)
+    for (int x = 0; x < sea_size; ++x) {
       const float land = land_at(x, y);
       raster.cells(x, y) = land < 0.F ? level + roughness * noise_at(x, y) : level + land + 0.3F * roughness * noise_at(x, y);
     }
-  raster.transform = {0.0, 0.0, cell, cell};
+  raster.transform = {0.0, 0.0, sea_cell_m, sea_cell_m};
   return make_dem(std::move(raster));
 }
 
@@ -51,8 +51,8 @@ Score score_of(const Sea& sea, float sure_m) {
   double all = 0.0;
   double land = 0.0;
   Score score;
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
+  for (int y = 0; y < sea_size; ++y)
+    for (int x = 0; x < sea_size; ++x) {
       const float z = land_at(x, y);
       const bool is_sea = !sea.empty() && sea.mask(x, y) != 0;
       if (z < 0.F) {
@@ -108,7 +108,7 @@ TEST(Sea, LandBelowItIsLand) {
       for (int x = 190; x < 260; ++x)
         dem.altitude_m(x, y) = x < 193 || y < 43 || x > 256 || y > 106 ? 6.F : -2.5F + 0.3F * roughness * noise_at(x, y);
     for (int y = 150; y < 250; ++y)
-      for (int x = 330; x < size; ++x) dem.altitude_m(x, y) = -80.F;
+      for (int x = 330; x < sea_size; ++x) dem.altitude_m(x, y) = -80.F;
     const Sea sea = find_sea(dem);
     ASSERT_FALSE(sea.empty());
     EXPECT_NEAR(sea.level_m, 0.0, 0.1);
@@ -135,10 +135,10 @@ TEST(Sea, PlainsThatRiseGentlyAreNone) {
   // 1 in 2000 from -3 m up to the edge, and the same with noise.
   for (const float roughness : {0.F, 0.5F}) {
     Raster<float> raster;
-    raster.cells = Grid<float>(size, size);
-    for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x) raster.cells(x, y) = -3.F + 0.015F * static_cast<float>(x) + roughness * noise_at(x, y);
-    raster.transform = {0.0, 0.0, cell, cell};
+    raster.cells = Grid<float>(sea_size, sea_size);
+    for (int y = 0; y < sea_size; ++y)
+      for (int x = 0; x < sea_size; ++x) raster.cells(x, y) = -3.F + 0.015F * static_cast<float>(x) + roughness * noise_at(x, y);
+    raster.transform = {0.0, 0.0, sea_cell_m, sea_cell_m};
     EXPECT_TRUE(find_sea(make_dem(std::move(raster))).empty()) << roughness;
   }
 }
@@ -146,8 +146,8 @@ TEST(Sea, PlainsThatRiseGentlyAreNone) {
 TEST(Sea, LakesByTheSeaAreNone) {
   // A lagoon at the sea's level that touches neither.
   Dem dem = coast(0.F, 0.F);
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x)
+  for (int y = 0; y < sea_size; ++y)
+    for (int x = 0; x < sea_size; ++x)
       if (std::hypot(x - 300.0, y - 150.0) < 30.0) dem.altitude_m(x, y) = 0.F;
   const Sea sea = find_sea(dem);
   EXPECT_EQ(sea.mask(300, 150), 0);
@@ -157,8 +157,8 @@ TEST(Sea, LakesByTheSeaAreNone) {
 TEST(Sea, RoughBaysBehindASpitAreSea) {
   for (const int farther : {0, 100}) {
     Dem dem = coast(0.F, 2.F);
-    for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x)
+    for (int y = 0; y < sea_size; ++y)
+      for (int x = 0; x < sea_size; ++x)
         if (std::hypot(x - 190.0 - farther, y - 100.0) < 50.0) dem.altitude_m(x, y) = 2.F * noise_at(x, y);
     EXPECT_EQ(find_sea(dem).mask(190 + farther, 100), farther == 0 ? 1 : 0);
   }
@@ -168,16 +168,16 @@ TEST(Sea, HolesBesideItAreSea) {
   // All of the sea west of column 60 is void, or all of it.
   for (const int known_from : {60, 1000}) {
     Raster<float> raster;
-    raster.cells = Grid<float>(size, size);
-    for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x) {
+    raster.cells = Grid<float>(sea_size, sea_size);
+    for (int y = 0; y < sea_size; ++y)
+      for (int x = 0; x < sea_size; ++x) {
         const float land = land_at(x, y);
         raster.cells(x, y) = land >= 0.F ? land : x < known_from ? NAN : 0.F;
       }
     // A hole on a mountain by the edge is none.
     for (int y = 180; y < 220; ++y)
-      for (int x = 380; x < size; ++x) raster.cells(x, y) = NAN;
-    raster.transform = {0.0, 0.0, cell, cell};
+      for (int x = 380; x < sea_size; ++x) raster.cells(x, y) = NAN;
+    raster.transform = {0.0, 0.0, sea_cell_m, sea_cell_m};
     Dem dem = make_dem(std::move(raster));
     const Sea sea = find_sea(dem);
     ASSERT_FALSE(sea.empty()) << known_from;
@@ -206,17 +206,17 @@ TEST(Sea, StaysWhereItIsOnceLevel) {
 TEST(Sea, StandsWhereTheSceneSays) {
   // The bed is known: nothing is level.
   Raster<float> raster;
-  raster.cells = Grid<float>(size, size);
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) raster.cells(x, y) = 0.2F * static_cast<float>(x - 100);
-  raster.transform = {0.0, 0.0, cell, cell};
+  raster.cells = Grid<float>(sea_size, sea_size);
+  for (int y = 0; y < sea_size; ++y)
+    for (int x = 0; x < sea_size; ++x) raster.cells(x, y) = 0.2F * static_cast<float>(x - 100);
+  raster.transform = {0.0, 0.0, sea_cell_m, sea_cell_m};
   const Dem dem = make_dem(std::move(raster));
   EXPECT_TRUE(find_sea(dem).empty());
   const Sea sea = find_sea(dem, {.level_m = 4.0});
   EXPECT_EQ(sea.mask(119, 7), 1);
   EXPECT_EQ(sea.mask(123, 7), 0);
   EXPECT_DOUBLE_EQ(sea.level_m, 4.0);
-  EXPECT_NEAR(sea.share, 122.0 / size, 1e-9);
+  EXPECT_NEAR(sea.share, 122.0 / sea_size, 1e-9);
   EXPECT_TRUE(find_sea(coast(0.F, 0.F), {.look = false}).empty());
 }
 
@@ -245,15 +245,16 @@ Dem part(const Dem& dem, int x0, int y0, int width, int height) {
       out.altitude_m(x, y) = dem.altitude_m(x0 + x, y0 + y);
       out.filled(x, y) = dem.filled(x0 + x, y0 + y);
     }
-  out.transform = {dem.transform.origin_x + x0 * cell, dem.transform.origin_y - y0 * cell, cell, cell};
+  out.transform = {dem.transform.origin_x + x0 * sea_cell_m, dem.transform.origin_y - y0 * sea_cell_m, sea_cell_m, sea_cell_m};
   return out;
 }
 
 // Means of four by four cells.
 Dem coarse(const Dem& dem) {
-  Raster<float> raster{Grid<float>(size / 4, size / 4), {dem.transform.origin_x, dem.transform.origin_y, 4 * cell, 4 * cell}, {}};
-  for (int y = 0; y < size / 4; ++y)
-    for (int x = 0; x < size / 4; ++x) {
+  Raster<float> raster{
+      Grid<float>(sea_size / 4, sea_size / 4), {dem.transform.origin_x, dem.transform.origin_y, 4 * sea_cell_m, 4 * sea_cell_m}, {}};
+  for (int y = 0; y < sea_size / 4; ++y)
+    for (int x = 0; x < sea_size / 4; ++x) {
       float sum = 0.F;
       for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i) sum += dem.altitude_m(4 * x + i, 4 * y + j) / 16.F;
@@ -268,9 +269,9 @@ TEST(SeaOfAWindow, IsThatOfTheWholeAtItsLevel) {
     const Dem whole = coarse(dem);
     // Steps of the whole's cells; a sea of 35 of them is too narrow to be told from noise there.
     Sea of_whole = find_sea(dem);
-    const Grid<std::uint8_t> fine = std::exchange(of_whole.mask, Grid<std::uint8_t>(size / 4, size / 4));
-    for (int y = 0; y < size / 4; ++y)
-      for (int x = 0; x < size / 4; ++x) of_whole.mask(x, y) = fine(4 * x + 1, 4 * y + 2);
+    const Grid<std::uint8_t> fine = std::exchange(of_whole.mask, Grid<std::uint8_t>(sea_size / 4, sea_size / 4));
+    for (int y = 0; y < sea_size / 4; ++y)
+      for (int x = 0; x < sea_size / 4; ++x) of_whole.mask(x, y) = fine(4 * x + 1, 4 * y + 2);
     const Dem window = part(dem, 60, 40, 220, 240);
     const Sea sea = continue_sea(window, whole, of_whole);
     ASSERT_FALSE(sea.empty()) << roughness;

@@ -50,10 +50,4 @@ inline double pit_volume_m3(const Grid<float>& altitude_m, double cell_m) {
   return sum * cell_m * cell_m;
 }
 
-inline double largest_difference(const Grid<float>& a, const Grid<float>& b) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(static_cast<double>(a[i]) - b[i]));
-  return largest;
-}
-
 }  // namespace belvedere

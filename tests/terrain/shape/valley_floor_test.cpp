@@ -9,7 +9,7 @@
 namespace belvedere {
 namespace {
 
-constexpr double cell_m = 50.0;
+constexpr double floor_cell_m = 50.0;
 constexpr int middle = 60;
 
 // A valley that runs south: a level floor 2 km wide at 500 m, flanks that rise 1 in 2 to 1000 m, level heights beyond.
@@ -23,7 +23,7 @@ Grid<float> trough() {
 int count(const Grid<std::uint8_t>& marks) { return std::accumulate(marks.begin(), marks.end(), 0); }
 
 TEST(ValleyFloor, IsTheLevelGroundBetweenTheFlanks) {
-  const Grid<std::uint8_t> floor = find_valley_floor(trough(), cell_m);
+  const Grid<std::uint8_t> floor = find_valley_floor(trough(), floor_cell_m);
   for (int x = 0; x < 121; ++x) {
     const int off = std::abs(x - middle);
     if (off <= 18) {
@@ -36,31 +36,31 @@ TEST(ValleyFloor, IsTheLevelGroundBetweenTheFlanks) {
 }
 
 TEST(ValleyFloor, APlainIsNone) {
-  EXPECT_EQ(count(find_valley_floor(Grid<float>(121, 60, 500.F), cell_m)), 0);
-  EXPECT_EQ(count(find_valley_floor(trough(), cell_m, {.below_highest_m = 501.0})), 0) << "the heights are only 500 m higher";
+  EXPECT_EQ(count(find_valley_floor(Grid<float>(121, 60, 500.F), floor_cell_m)), 0);
+  EXPECT_EQ(count(find_valley_floor(trough(), floor_cell_m, {.below_highest_m = 501.0})), 0) << "the heights are only 500 m higher";
 }
 
 TEST(ValleyFloor, ALevelTerraceAboveItIsNone) {
   Grid<float> ground = trough();
   for (int y = 0; y < ground.height(); ++y)
     for (int x = 46; x < 54; ++x) ground(x, y) = 600.F;
-  EXPECT_EQ(find_valley_floor(ground, cell_m)(50, 30), 0);
-  EXPECT_EQ(find_valley_floor(ground, cell_m, {.above_lowest_m = 120.0})(50, 30), 1);
+  EXPECT_EQ(find_valley_floor(ground, floor_cell_m)(50, 30), 0);
+  EXPECT_EQ(find_valley_floor(ground, floor_cell_m, {.above_lowest_m = 120.0})(50, 30), 1);
 }
 
 TEST(ValleyFloor, GentleSlopesCountAsFarAsAllowed) {
   Grid<float> ground = trough();
   for (int y = 0; y < ground.height(); ++y)
     for (int x = 0; x < ground.width(); ++x) ground(x, y) += 2.5F * static_cast<float>(y);  // atan(2.5 / 50) = 2.9°
-  EXPECT_EQ(find_valley_floor(ground, cell_m)(middle, 30), 1);
-  EXPECT_EQ(find_valley_floor(ground, cell_m, {.steepest_deg = 2.5})(middle, 30), 0);
+  EXPECT_EQ(find_valley_floor(ground, floor_cell_m)(middle, 30), 1);
+  EXPECT_EQ(find_valley_floor(ground, floor_cell_m, {.steepest_deg = 2.5})(middle, 30), 0);
 }
 
 TEST(ValleyFloor, VoidsAreNoneAndTakeNothingFromWhatLiesFarOff) {
   Grid<float> ground = trough();
   for (int y = 0; y < 6; ++y)
     for (int x = 0; x < ground.width(); ++x) ground(x, y) = NAN;
-  const Grid<std::uint8_t> floor = find_valley_floor(ground, cell_m);
+  const Grid<std::uint8_t> floor = find_valley_floor(ground, floor_cell_m);
   EXPECT_EQ(floor(middle, 3), 0);
   EXPECT_EQ(floor(middle, 40), 1);
 }

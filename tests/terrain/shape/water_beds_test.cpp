@@ -9,7 +9,7 @@
 namespace belvedere {
 namespace {
 
-constexpr double cell = 10.0;
+constexpr double bed_cell_m = 10.0;
 
 struct Ground {
   Dem dem;
@@ -21,11 +21,11 @@ Ground crater(double slope) {
   Ground ground;
   ground.dem.altitude_m = Grid<float>(260, 240);
   ground.dem.filled = Grid<std::uint8_t>(260, 240, 0);
-  ground.dem.transform = {0.0, 0.0, cell, cell};
+  ground.dem.transform = {0.0, 0.0, bed_cell_m, bed_cell_m};
   ground.water = Grid<std::uint8_t>(260, 240, 0);
   for (int y = 0; y < 240; ++y)
     for (int x = 0; x < 260; ++x) {
-      const double r = cell * std::hypot(x - 110, y - 120);
+      const double r = bed_cell_m * std::hypot(x - 110, y - 120);
       const bool river = x > 110 && std::abs(y - 120) <= 3;
       ground.water(x, y) = r <= 795.0 || river ? 1 : 0;
       ground.dem.altitude_m(x, y) = ground.water(x, y) != 0 ? 500.F : static_cast<float>(500.0 + slope * (r - 795.0));
@@ -40,7 +40,7 @@ TEST(WaterBeds, GoOnAsTheBanksBegin) {
     // Along a row to the west: the shore lies 5 m outside of the last cell of water, and the bank at it on average a little outside of 800
     // m.
     for (int x = 31; x < 100; ++x) {
-      const double off_m = cell * (x - 30) - 5.0;
+      const double off_m = bed_cell_m * (x - 30) - 5.0;
       const double expected = 60.0 * (1.0 - std::exp(-slope * off_m / 60.0));
       EXPECT_NEAR(beds.depth_m(x, 120), expected, 0.12 * expected + 0.2) << slope << " at " << x;
     }
@@ -77,7 +77,7 @@ TEST(WaterBeds, LevelsStayAndWindowsAgree) {
   Ground part;
   part.dem.altitude_m = Grid<float>(120, 200);
   part.dem.filled = Grid<std::uint8_t>(120, 200, 0);
-  part.dem.transform = {0.0, 0.0, cell, cell};
+  part.dem.transform = {0.0, 0.0, bed_cell_m, bed_cell_m};
   part.water = Grid<std::uint8_t>(120, 200, 0);
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < 120; ++x) {

@@ -14,11 +14,10 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/rising_queue.h"
+#include "terrain/synthetic/synthetic_parts.h"
 
 namespace belvedere::synthetic {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // The flood itself, cell by cell.
 Drainage flood(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed) {

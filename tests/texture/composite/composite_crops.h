@@ -37,4 +37,13 @@ inline CompositeParameters quick_learning() {
   return parameters;
 }
 
+// What is learnt of them, once.
+inline const CompositeModel& two_textures_model() {
+  static const CompositeModel model = learn_composite(two_textures(200, 150).crop(), quick_learning());
+  return model;
+}
+
+// Green counts as meadow, grey as stripes.
+inline bool is_green(const Rgb8& c) { return c[1] > c[2] + 25; }
+
 }  // namespace belvedere::test

@@ -6,20 +6,19 @@
 
 #include "base/error.h"
 #include "base/grid_part.h"
+#include "base/parallel.h"
 #include "tests/texture/composite/composite_crops.h"
 
 namespace belvedere {
 namespace {
 
-const CompositeModel& model() {
-  static const CompositeModel m = learn_composite(test::two_textures(200, 150).crop(), test::quick_learning());
-  return m;
-}
+using test::is_green;
+using test::two_textures_model;
 
-const TextureParameters quick{.rounds = 6, .sweeps = 2};
+const TextureParameters quick_window{.rounds = 6, .sweeps = 2};
 
 const CompositeRecord& record() {
-  static const CompositeRecord r = record_composite(model(), quick);
+  static const CompositeRecord r = record_composite(two_textures_model(), quick_window);
   return r;
 }
 
@@ -35,14 +34,12 @@ Grid<std::uint8_t> drawn() {
   return labels;
 }
 
-bool is_green(const Rgb8& c) { return c[1] > c[2] + 25; }
-
 TEST(CompositeWindow, AnyWindowIsAPartOfTheWhole) {
   const Grid<std::uint8_t> labels = drawn();
-  const Grid<Rgb8> whole = make_composite_window(model(), record(), labels, {0, 0, 560, 530}, quick);
+  const Grid<Rgb8> whole = make_composite_window(two_textures_model(), record(), labels, {0, 0, 560, 530}, quick_window);
   const ThreadLimit threads(3);
   for (const PixelRect window : {PixelRect{480, 490, 560, 530}, PixelRect{500, 0, 530, 40}})
-    EXPECT_EQ(make_composite_window(model(), record(), labels, window, quick), part_of(whole, window));
+    EXPECT_EQ(make_composite_window(two_textures_model(), record(), labels, window, quick_window), part_of(whole, window));
   // Each label in its texture.
   const Grid<std::uint8_t> zone = near_borders(labels, 6);
   int wrong = 0;
@@ -61,7 +58,7 @@ TEST(CompositeWindow, AnyWindowIsAPartOfTheWhole) {
 }
 
 TEST(CompositeWindow, RefusesWhatIsBeyondTheMap) {
-  EXPECT_THROW(make_composite_window(model(), record(), drawn(), {500, 0, 600, 40}, quick), Error);
+  EXPECT_THROW(make_composite_window(two_textures_model(), record(), drawn(), {500, 0, 600, 40}, quick_window), Error);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/noise.h"
+#include "base/parallel.h"
 #include "tests/texture/statistical/texture_crops.h"
 
 namespace belvedere {

@@ -12,12 +12,10 @@
 namespace belvedere {
 namespace {
 
-const CompositeModel& model() {
-  static const CompositeModel m = learn_composite(test::two_textures(200, 150).crop(), test::quick_learning());
-  return m;
-}
+using test::is_green;
+using test::two_textures_model;
 
-const TextureParameters quick{.rounds = 8, .sweeps = 3};
+const TextureParameters quick_make{.rounds = 8, .sweeps = 3};
 
 Grid<std::uint8_t> drawn(int width, int height) {
   Grid<std::uint8_t> labels(width, height);
@@ -26,12 +24,9 @@ Grid<std::uint8_t> drawn(int width, int height) {
   return labels;
 }
 
-// Green counts as meadow, grey as stripes.
-bool is_green(const Rgb8& c) { return c[1] > c[2] + 25; }
-
 TEST(MakeComposite, EveryLabelHasItsOwnTexture) {
   const Grid<std::uint8_t> labels = drawn(120, 90);
-  const Grid<Rgb8> made = make_composite(model(), labels, quick);
+  const Grid<Rgb8> made = make_composite(two_textures_model(), labels, quick_make);
   const Grid<std::uint8_t> zone = near_borders(labels, remade_border_px);
   int wrong = 0;
   for (std::size_t i = 0; i < made.size(); ++i) wrong += zone[i] == 0 && is_green(made[i]) != (labels[i] == 0) ? 1 : 0;
@@ -42,17 +37,17 @@ TEST(MakeComposite, EveryLabelHasItsOwnTexture) {
 TEST(MakeComposite, KeepsTheLayoutThatOneTextureLoses) {
   const test::Composite crop = test::two_textures(200, 150);
   const CliqueModel single = learn_texture(crop.picture, {}, test::quick_learning().learn).model;
-  const double one = layout_figures(crop.picture, make_texture(single, 200, 150, quick)).profile;
-  const double composite = layout_figures(crop.picture, make_composite(model(), crop.labels, quick)).profile;
+  const double one = layout_figures(crop.picture, make_texture(single, 200, 150, quick_make)).profile;
+  const double composite = layout_figures(crop.picture, make_composite(two_textures_model(), crop.labels, quick_make)).profile;
   EXPECT_LT(composite, .75 * one) << one;
 }
 
 TEST(MakeComposite, TheTransitionChangesBordersAlone) {
   const Grid<std::uint8_t> labels = drawn(110, 90);
-  CompositeModel hard = model();
+  CompositeModel hard = two_textures_model();
   hard.transition.reset();
-  const Grid<Rgb8> with = make_composite(model(), labels, quick);
-  const Grid<Rgb8> without = make_composite(hard, labels, quick);
+  const Grid<Rgb8> with = make_composite(two_textures_model(), labels, quick_make);
+  const Grid<Rgb8> without = make_composite(hard, labels, quick_make);
   const Grid<std::uint8_t> zone = near_borders(labels, remade_border_px);
   int changed = 0;
   for (std::size_t i = 0; i < with.size(); ++i) {
@@ -65,22 +60,22 @@ TEST(MakeComposite, TheTransitionChangesBordersAlone) {
 }
 
 TEST(MakeComposite, ThreadsChangeNothing) {
-  const Grid<std::uint8_t> labels = make_label_map(model().map, 90, 70, {.effort = .2});
+  const Grid<std::uint8_t> labels = make_label_map(two_textures_model().map, 90, 70, {.effort = .2});
   Grid<Rgb8> one;
   {
     const ThreadLimit limit(1);
-    one = make_composite(model(), labels, quick);
+    one = make_composite(two_textures_model(), labels, quick_make);
   }
   const ThreadLimit limit(2);
-  EXPECT_EQ(make_composite(model(), labels, quick), one);
+  EXPECT_EQ(make_composite(two_textures_model(), labels, quick_make), one);
 }
 
 TEST(MakeComposite, ThinLabelsAreStillOfTheirTexture) {
   Grid<std::uint8_t> labels(100, 60);
   for (int x = 0; x < 100; ++x) labels(x, 30) = labels(x, 31) = 1;
-  CompositeModel hard = model();
+  CompositeModel hard = two_textures_model();
   hard.transition.reset();
-  const Grid<Rgb8> made = make_composite(hard, labels, quick);
+  const Grid<Rgb8> made = make_composite(hard, labels, quick_make);
   int grey = 0;
   int low = 255;
   int high = 0;
@@ -95,8 +90,8 @@ TEST(MakeComposite, ThinLabelsAreStillOfTheirTexture) {
 }
 
 TEST(MakeComposite, OneLabelAloneAndUnknownOnes) {
-  EXPECT_EQ(make_composite(model(), Grid<std::uint8_t>(40, 30), quick).width(), 40);
-  EXPECT_THROW(make_composite(model(), Grid<std::uint8_t>(40, 30, 2), quick), Error);
+  EXPECT_EQ(make_composite(two_textures_model(), Grid<std::uint8_t>(40, 30), quick_make).width(), 40);
+  EXPECT_THROW(make_composite(two_textures_model(), Grid<std::uint8_t>(40, 30, 2), quick_make), Error);
 }
 
 // Red left, blue right, green far away: a violet between red and blue becomes one of the two, whichever is nearer, a reddish one stays.

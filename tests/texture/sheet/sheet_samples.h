@@ -89,6 +89,11 @@ inline GuideStack small_view(const GuideStack& stack, const SynthesisSheet& shee
   return out;
 }
 
+inline SynthesisPlan plan_of(const std::vector<Exemplar>& exemplars, const GuideStack& target, const SynthesisSheet& sheet,
+                             const SynthesisParameters& parameters = {}) {
+  return plan_synthesis(exemplars, small_view(target, sheet), sheet, parameters, silent_progress());
+}
+
 inline MatchField tile_of(SynthesisPlan& plan, const GuideStack& stack, const PixelRect& tile) {
   return synthesize_tile(plan, window_of(stack, synthesis_window(plan.sheet(), tile)), tile, silent_progress());
 }

@@ -3,22 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "tests/notes.h"
 #include "tests/texture/sheet/sheet_samples.h"
 
 namespace belvedere {
 namespace {
 
 using namespace sheet_samples;
-
-struct Notes : Progress {
-  void note(std::string_view text) override { notes.emplace_back(text); }
-  std::vector<std::string> notes;
-};
-
-SynthesisPlan plan_of(const std::vector<Exemplar>& exemplars, const GuideStack& target, const SynthesisSheet& sheet,
-                      const SynthesisParameters& parameters = {}) {
-  return plan_synthesis(exemplars, small_view(target, sheet), sheet, parameters, silent_progress());
-}
 
 TEST(SynthesisPlan, OfLevel0IsTheWholeSynthesis) {
   const std::vector<Exemplar> exemplars{painting(100, 90, 1, 2), painting(60, 80, 5, 2)};
@@ -44,10 +35,10 @@ TEST(SynthesisPlan, TellsWhatIsMissingInPixelsOfTheSheet) {
   const std::vector<Exemplar> exemplars{painting(60, 60, 1)};
   GuideStack view = land(50, 40, 3);
   std::fill(view.label.begin(), view.label.begin() + 10, std::uint8_t{200});
-  Notes notes;
+  test::Notes notes;
   plan_synthesis(exemplars, view, {100, 80, 1, 64}, {}, notes);
-  ASSERT_EQ(notes.notes.size(), 1U);
-  EXPECT_NE(notes.notes[0].find("40 pixels"), std::string::npos) << notes.notes[0];
+  ASSERT_EQ(notes.all.size(), 1U);
+  EXPECT_NE(notes.all[0].find("40 pixels"), std::string::npos) << notes.all[0];
 }
 
 TEST(PackedPlan, GivesTheSameTiles) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "tests/texture/sheet/sheet_samples.h"
 #include "texture/quality/quality.h"
 #include "texture/sheet/plan_data.h"
@@ -13,11 +14,6 @@ namespace belvedere {
 namespace {
 
 using namespace sheet_samples;
-
-SynthesisPlan plan_of(const std::vector<Exemplar>& exemplars, const GuideStack& target, const SynthesisSheet& sheet,
-                      const SynthesisParameters& parameters = {}) {
-  return plan_synthesis(exemplars, small_view(target, sheet), sheet, parameters, silent_progress());
-}
 
 // Depths in which a near block stands before far ground, across lines between tiles of 64 and 128.
 GuideStack with_silhouettes(GuideStack stack) {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/grid_part.h"
+#include "base/parallel.h"
 #include "tests/texture/statistical/texture_crops.h"
 
 namespace belvedere {
@@ -27,12 +28,12 @@ Grid<Rgb8> side_by_side(const Grid<Rgb8>& left, const Grid<Rgb8>& right) {
   return out;
 }
 
-constexpr KnitParameters quick{.band_px = 24, .types = 16, .seed = 3};
+constexpr KnitParameters quick_knit{.band_px = 24, .types = 16, .seed = 3};
 
 TEST(Knit, NothingOutsideOfTheBandChanges) {
   const Grid<Rgb8> left = test::meadow_crop(96, 64);
   const Grid<Rgb8> right = heath(80, 64);
-  const Grid<Rgb8> knitted = knit_textures(left, right, quick).picture;
+  const Grid<Rgb8> knitted = knit_textures(left, right, quick_knit).picture;
   const Grid<Rgb8> hard = side_by_side(left, right);
   int changed = 0;
   for (int y = 0; y < 64; ++y)
@@ -51,7 +52,7 @@ TEST(Knit, LittleOfTheSeamIsLeft) {
   const Grid<Rgb8> left = test::meadow_crop(96, 96, 7);
   for (const Grid<Rgb8>& right : {test::meadow_crop(96, 96, 8), heath(96, 96)}) {
     const double hard = seam_ratio(side_by_side(left, right), 96, 24);
-    const double knitted = seam_ratio(knit_textures(left, right, quick).picture, 96, 24);
+    const double knitted = seam_ratio(knit_textures(left, right, quick_knit).picture, 96, 24);
     EXPECT_GT(hard, 1.8);
     EXPECT_LT(knitted - 1.0, .3 * (hard - 1.0)) << "of " << hard;
   }
@@ -61,7 +62,7 @@ TEST(Knit, LittleOfTheSeamIsLeft) {
 TEST(Knit, NoColourOfNeither) {
   const Grid<Rgb8> left = test::meadow_crop(96, 64);
   const Grid<Rgb8> right = heath(96, 64);
-  const Grid<Rgb8> knitted = knit_textures(left, right, quick).picture;
+  const Grid<Rgb8> knitted = knit_textures(left, right, quick_knit).picture;
   const Grid<Rgb8> known = side_by_side(left, right);
   int strange = 0;
   for (int y = 0; y < 64; ++y)
@@ -111,11 +112,11 @@ TEST(Knit, TheSameBitsForAnyThreadsAndClearErrors) {
   std::vector<Grid<Rgb8>> made;
   for (const int threads : {1, 3}) {
     const ThreadLimit limit(threads);
-    made.push_back(knit_textures(test::meadow_crop(64, 48), heath(64, 48), quick).picture);
+    made.push_back(knit_textures(test::meadow_crop(64, 48), heath(64, 48), quick_knit).picture);
   }
   EXPECT_EQ(made[0], made[1]);
-  EXPECT_THROW(knit_textures(test::meadow_crop(64, 48), heath(64, 50), quick), Error);
-  EXPECT_THROW(knit_textures(test::meadow_crop(40, 64), heath(64, 64), quick), Error);
+  EXPECT_THROW(knit_textures(test::meadow_crop(64, 48), heath(64, 50), quick_knit), Error);
+  EXPECT_THROW(knit_textures(test::meadow_crop(40, 64), heath(64, 64), quick_knit), Error);
 }
 
 }  // namespace

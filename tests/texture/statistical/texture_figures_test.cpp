@@ -8,12 +8,12 @@
 namespace belvedere {
 namespace {
 
-const LearnParameters quick{.types = 24, .levels = 2, .reach_px = 6, .coarse_reach = 3};
+const LearnParameters quick_learning{.types = 24, .levels = 2, .reach_px = 6, .coarse_reach = 3};
 
 TEST(TextureFigures, ACropIsItsOwnTexture) {
   const Grid<Rgb8> crop = test::meadow_crop(96, 96);
-  const CliqueModel model = learn_texture(crop, {}, quick).model;
-  const TextureFigures own = texture_figures(crop, {}, crop, model, quick);
+  const CliqueModel model = learn_texture(crop, {}, quick_learning).model;
+  const TextureFigures own = texture_figures(crop, {}, crop, model, quick_learning);
   EXPECT_EQ(own.selected, 0.0);
   EXPECT_EQ(own.held_out, 0.0);
   EXPECT_EQ(own.beyond, 0.0);
@@ -27,8 +27,8 @@ TEST(TextureFigures, PaintThatRunsAnotherWayIsToldWhereItIsDrawnAlike) {
   Grid<Rgb8> laid(96, 96);
   for (int y = 0; y < 96; ++y)
     for (int x = 0; x < 96; ++x) laid(x, y) = crop(y, x);
-  const CliqueModel model = learn_texture(crop, {}, quick).model;
-  const TextureFigures of = texture_figures(crop, {}, laid, model, quick);
+  const CliqueModel model = learn_texture(crop, {}, quick_learning).model;
+  const TextureFigures of = texture_figures(crop, {}, laid, model, quick_learning);
   EXPECT_LT(of.drawn, .1);
   EXPECT_GT(of.turned, 1.5);
 }
@@ -36,9 +36,9 @@ TEST(TextureFigures, PaintThatRunsAnotherWayIsToldWhereItIsDrawnAlike) {
 // Stripes run one way everywhere, a meadow's dabs hardly.
 TEST(TextureFigures, PaintThatRunsOneWayIsToldFromDabs) {
   const Grid<Rgb8> crop = test::meadow_crop(96, 96);
-  const CliqueModel model = learn_texture(crop, {}, quick).model;
-  const double stripes = texture_figures(crop, {}, test::striped_crop(96, 96, 8), model, quick).drawn;
-  const double other_meadow = texture_figures(crop, {}, test::meadow_crop(96, 96, 31), model, quick).drawn;
+  const CliqueModel model = learn_texture(crop, {}, quick_learning).model;
+  const double stripes = texture_figures(crop, {}, test::striped_crop(96, 96, 8), model, quick_learning).drawn;
+  const double other_meadow = texture_figures(crop, {}, test::meadow_crop(96, 96, 31), model, quick_learning).drawn;
   EXPECT_GT(stripes, 1.0);
   EXPECT_LT(other_meadow, .5 * stripes);
 }
@@ -46,10 +46,10 @@ TEST(TextureFigures, PaintThatRunsOneWayIsToldFromDabs) {
 // What is made lies as near as two halves of the crop to each other, and far nearer than noise: also for what the model was not told.
 TEST(TextureFigures, WhatIsMadeIsAsNearAsTheCropsHalves) {
   const Grid<Rgb8> crop = test::meadow_crop(160, 160);
-  const CliqueModel model = learn_texture(crop, {}, quick).model;
-  const TextureFigures made = texture_figures(crop, {}, make_texture(model, 256, 256, {}), model, quick);
-  const TextureFigures halves = halves_figures(crop, model, quick);
-  const TextureFigures other = texture_figures(crop, {}, test::striped_crop(160, 160, 8), model, quick);
+  const CliqueModel model = learn_texture(crop, {}, quick_learning).model;
+  const TextureFigures made = texture_figures(crop, {}, make_texture(model, 256, 256, {}), model, quick_learning);
+  const TextureFigures halves = halves_figures(crop, model, quick_learning);
+  const TextureFigures other = texture_figures(crop, {}, test::striped_crop(160, 160, 8), model, quick_learning);
   EXPECT_LT(made.selected, halves.selected);
   EXPECT_LT(made.held_out, 1.2 * halves.held_out);
   EXPECT_LT(made.held_out, .25 * other.held_out);
@@ -60,8 +60,8 @@ TEST(TextureFigures, ACropOfTwoThingsIsToldByItsHalves) {
   Grid<Rgb8> crop = test::meadow_crop(128, 128);
   for (int y = 0; y < 128; ++y)
     for (int x = 64; x < 128; ++x) crop(x, y) = {static_cast<std::uint8_t>(200 + x % 3), 200, 220};
-  const CliqueModel model = learn_texture(crop, {}, quick).model;
-  EXPECT_GT(halves_figures(crop, model, quick).held_out, uneven_halves);
+  const CliqueModel model = learn_texture(crop, {}, quick_learning).model;
+  EXPECT_GT(halves_figures(crop, model, quick_learning).held_out, uneven_halves);
 }
 
 TEST(LongestCopy, IsTheSideOfTheLargestSquareInBoth) {
@@ -76,7 +76,7 @@ TEST(LongestCopy, IsTheSideOfTheLargestSquareInBoth) {
 // No verbatim copies: a model holds no patch to copy.
 TEST(LongestCopy, IsShortInWhatIsMade) {
   const Grid<Rgb8> crop = test::meadow_crop(96, 96);
-  EXPECT_LE(longest_copy_px(crop, make_texture(learn_texture(crop, {}, quick).model, 128, 128, {})), 3);
+  EXPECT_LE(longest_copy_px(crop, make_texture(learn_texture(crop, {}, quick_learning).model, 128, 128, {})), 3);
 }
 
 }  // namespace

@@ -37,8 +37,6 @@ void set_class(Picture& p, int x0, int y0, int x1, int y1, LandCoverClass id) {
     for (int x = x0; x < x1; ++x) p.guidance.land_cover(x, y) = id;
 }
 
-float luma(glm::vec3 c) { return 0.2126F * c.r + 0.7152F * c.g + 0.0722F * c.b; }
-
 // Fall lines that turn by up to ±60° from pixel to pixel: ice over them keeps its way within a few degrees.
 TEST(IceFlow, FollowsTheBroadFallOfItsBed) {
   Picture p = one_class(glacier, 12.F);

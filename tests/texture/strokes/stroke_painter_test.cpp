@@ -69,12 +69,6 @@ TEST(StrokePainter, TreesAreAsTallFarAsNear) {
   EXPECT_NEAR(mean_height(trees, 0.F, 80.F) / mean_height(trees, 160.F, 240.F), 1.0, 0.05);
 }
 
-// Angle between a direction and the fall line, 0…90°.
-double angle_deg(glm::vec2 axis, glm::vec2 fall) {
-  const float cosine = std::abs(axis.x * fall.x + axis.y * fall.y) / (std::hypot(axis.x, axis.y) * std::hypot(fall.x, fall.y));
-  return std::acos(std::min(1.F, cosine)) * 57.29578;
-}
-
 TEST(StrokePainter, TrunksStandInRowsOnSteepSlopesAndHuddledElsewhere) {
   const glm::vec2 fall(0.8F, 0.6F);
   const auto along_share = [&](float slope_deg) {

@@ -47,6 +47,8 @@ inline Picture plain_picture(LandCoverClass id, int width, int height) {
   return p;
 }
 
+inline float luma(glm::vec3 c) { return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z; }
+
 // What a kind of stroke paints by itself on the whole of a sheet.
 inline std::vector<Stroke> grow_strokes(std::string_view name, const StrokeScene& scene) {
   const StrokeKind& kind = find_stroke_kind(name);

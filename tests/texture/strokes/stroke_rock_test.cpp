@@ -14,17 +14,17 @@ namespace {
 
 using enum LandCoverClass;
 
-constexpr int width = 240;
-constexpr int height = 200;
+constexpr int rock_width = 240;
+constexpr int rock_height = 200;
 
 // A slope that falls straight down the picture, 12 m a pixel and nearer by 10 m a row, all of one class.
-Picture slope_of(LandCoverClass id) {
-  Picture p = plain_picture(id, width, height);
+Picture falling_slope(LandCoverClass id) {
+  Picture p = plain_picture(id, rock_width, rock_height);
   GuidanceBuffers& g = p.guidance;
-  g.footprint_m = Grid<float>(width, height, 12.F);
-  g.relief_s_m = Grid<float>(width, height, 0.F);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  g.footprint_m = Grid<float>(rock_width, rock_height, 12.F);
+  g.relief_s_m = Grid<float>(rock_width, rock_height, 0.F);
+  for (int y = 0; y < rock_height; ++y)
+    for (int x = 0; x < rock_width; ++x) {
       g.depth_m(x, y) = 30000.F - 10.F * static_cast<float>(y);
       g.position_m(x, y) = glm::vec3(12.F * static_cast<float>(x), -10.F * static_cast<float>(y), 2600.F - 7.F * static_cast<float>(y));
     }
@@ -32,19 +32,19 @@ Picture slope_of(LandCoverClass id) {
 }
 
 // `upper` above row `border`, `lower` below it.
-Picture two_bands(LandCoverClass upper, LandCoverClass lower, int border = height / 2) {
-  Picture p = slope_of(lower);
+Picture two_bands(LandCoverClass upper, LandCoverClass lower, int border = rock_height / 2) {
+  Picture p = falling_slope(lower);
   for (int y = 0; y < border; ++y)
-    for (int x = 0; x < width; ++x) p.guidance.land_cover(x, y) = upper;
+    for (int x = 0; x < rock_width; ++x) p.guidance.land_cover(x, y) = upper;
   return p;
 }
 
 // Two planes of rock beside each other, of one tone: left of the middle the one, right of it the other.
 Picture two_planes() {
-  Picture p = slope_of(rock);
-  p.guidance.rock_facet = Grid<std::uint32_t>(width, height, 0x00010001U);
-  for (int y = 0; y < height; ++y)
-    for (int x = width / 2; x < width; ++x) p.guidance.rock_facet(x, y) = 0x00010002U;
+  Picture p = falling_slope(rock);
+  p.guidance.rock_facet = Grid<std::uint32_t>(rock_width, rock_height, 0x00010001U);
+  for (int y = 0; y < rock_height; ++y)
+    for (int x = rock_width / 2; x < rock_width; ++x) p.guidance.rock_facet(x, y) = 0x00010002U;
   return p;
 }
 
@@ -66,17 +66,17 @@ TEST(StrokeRock, PaintStaysOnItsPlane) {
   stroke.colour = glm::vec3(1.F, 0.F, 0.F);
   stroke.depth_m = 29000.F;
   stroke.facet = 0x00010001U;
-  Painting painting = begin_painting(Grid<glm::vec3>(width, height, glm::vec3(0.F)));
+  Painting painting = begin_painting(Grid<glm::vec3>(rock_width, rock_height, glm::vec3(0.F)));
   paint_in_order(painting, p.guidance, {stroke}, 1.0, silent_progress());
   EXPECT_NEAR(painting.picture(100, 100).x, 1.F, 1e-3F);
   EXPECT_NEAR(painting.picture(140, 100).x, 0.2F, 1e-3F);
 }
 
 TEST(StrokeRock, TheHandRestsInPlaces) {
-  Picture p = slope_of(rock);
+  Picture p = falling_slope(rock);
   const auto busy = [&](const Stroke& s) {
-    return sheet_noise(p.scene(), {static_cast<float>(s.source % width), static_cast<float>(s.source / width)}, Stream::rock_calm, 13.0) >
-           0.F;
+    return sheet_noise(p.scene(), {static_cast<float>(s.source % rock_width), static_cast<float>(s.source / rock_width)}, Stream::rock_calm,
+                       13.0) > 0.F;
   };
   double in_busy = 0.0;
   double all = 0.0;
@@ -97,15 +97,15 @@ TEST(StrokeRock, TurfHangsOverTheUpperRim) {
   for (const Stroke& s : turf) {
     EXPECT_EQ(p.guidance.land_cover[s.source], alpine_grass);
     const auto [low, high] = std::minmax_element(s.points.begin(), s.points.end(), [](auto a, auto b) { return a.y < b.y; });
-    EXPECT_LT(low->y, height / 2 + 30.F) << "never far from what grows";
-    hanging += low->y < height / 2 + 1.F && high->y > height / 2 + 2.F ? 1 : 0;
+    EXPECT_LT(low->y, rock_height / 2 + 30.F) << "never far from what grows";
+    hanging += low->y < rock_height / 2 + 1.F && high->y > rock_height / 2 + 2.F ? 1 : 0;
   }
-  EXPECT_GT(hanging, width / 12);
+  EXPECT_GT(hanging, rock_width / 12);
   // At the foot of a wall nothing hangs, and grass lies on its lowest ledges only.
   const Picture foot = two_bands(rock, alpine_grass);
   for (const Stroke& s : grow_strokes("rock turf", {foot.guidance, foot.ground, parameters}))
     EXPECT_NEAR(std::abs(s.points[3].x - s.points[0].x) / (std::abs(s.points[3].y - s.points[0].y) + 0.5F), 6.F, 6.01F);
-  const Picture wall = slope_of(rock);
+  const Picture wall = falling_slope(rock);
   EXPECT_TRUE(grow_strokes("rock turf", {wall.guidance, wall.ground, parameters}).empty());
 }
 
@@ -118,8 +118,8 @@ TEST(StrokeRock, SnowReachesUpIntoTheWallAndThinsOutThere) {
     EXPECT_EQ(p.guidance.land_cover[s.source], snow);
     EXPECT_LT(s.points[3].y, s.points[0].y) << "drawn uphill";
     EXPECT_LT(s.end_width, 0.5F * s.start_width);
-    EXPECT_LT(s.points[3].y, height / 2 + 1.F) << "it ends on the wall";
-    EXPECT_GT(s.points[3].y, height / 2 - 14.F);
+    EXPECT_LT(s.points[3].y, rock_height / 2 + 1.F) << "it ends on the wall";
+    EXPECT_GT(s.points[3].y, rock_height / 2 - 14.F);
   }
   // A cornice over the rim runs down.
   const Picture rim = two_bands(snow, rock);
@@ -139,7 +139,7 @@ TEST(StrokeRock, RubbleRunsFromTheFootIntoTheWood) {
   for (const Stroke& s : rubble) {
     EXPECT_EQ(p.guidance.land_cover[s.source], rock);
     EXPECT_GT(s.points[3].y, s.points[0].y) << "downhill";
-    deepest = std::max(deepest, s.points[3].y - height / 2);
+    deepest = std::max(deepest, s.points[3].y - rock_height / 2);
   }
   EXPECT_GT(deepest, 6.F);
   const Picture above = two_bands(forest, rock);
@@ -152,19 +152,19 @@ int trees_on_rock(const Picture& p) {
   for (const Stroke& s : grow_strokes("rock trees", {p.guidance, p.ground, {}})) {
     EXPECT_EQ(p.guidance.land_cover[s.source], forest) << "painted in the wood's colours";
     const int y = static_cast<int>(s.points[0].y);
-    const int x = std::clamp(static_cast<int>(s.points[0].x), 0, width - 1);
+    const int x = std::clamp(static_cast<int>(s.points[0].x), 0, rock_width - 1);
     if (s.gate != StrokeGate::upright) continue;
-    EXPECT_NEAR(s.depth_m, p.guidance.depth_m(x, std::clamp(y, 0, height - 1)), 40.F) << "it stands on the rock";
+    EXPECT_NEAR(s.depth_m, p.guidance.depth_m(x, std::clamp(y, 0, rock_height - 1)), 40.F) << "it stands on the rock";
     count += s.alpha == 0.9F ? 1 : 0;
   }
   return count;
 }
 
 TEST(StrokeRock, SingleTreesStandOnRockNearTheWoodOnly) {
-  EXPECT_EQ(trees_on_rock(slope_of(rock)), 0);
+  EXPECT_EQ(trees_on_rock(falling_slope(rock)), 0);
   const Picture p = two_bands(rock, forest);
   EXPECT_GT(trees_on_rock(p), 15);
-  for (const Stroke& s : grow_strokes("rock trees", {p.guidance, p.ground, {}})) EXPECT_GT(s.points[0].y, height / 2 - 20.F);
+  for (const Stroke& s : grow_strokes("rock trees", {p.guidance, p.ground, {}})) EXPECT_GT(s.points[0].y, rock_height / 2 - 20.F);
   // In hollows more than on ribs.
   Picture gully = p;
   for (float& relief : gully.guidance.relief_s_m) relief = -20.F;
@@ -175,15 +175,15 @@ TEST(StrokeRock, SingleTreesStandOnRockNearTheWoodOnly) {
 
 TEST(StrokeRock, PatchesTooSmallForAWallAreOvergrown) {
   // Patches of 12 by 16 pixels, and a wall of which just as many pixels lie within reach of the wood.
-  Picture patches = slope_of(forest);
+  Picture patches = falling_slope(forest);
   int small = 0;
-  for (int y = 20; y + 16 < height - 20; y += 60)
-    for (int x = 20; x + 12 < width - 20; x += 50)
+  for (int y = 20; y + 16 < rock_height - 20; y += 60)
+    for (int x = 20; x + 12 < rock_width - 20; x += 50)
       for (int v = 0; v < 16; ++v)
         for (int u = 0; u < 12; ++u, ++small) patches.guidance.land_cover(x + u, y + v) = rock;
   const Picture wall = two_bands(rock, forest);
   const double by_patch = static_cast<double>(trees_on_rock(patches)) / small;
-  const double by_wall = static_cast<double>(trees_on_rock(wall)) / (15.0 * width);
+  const double by_wall = static_cast<double>(trees_on_rock(wall)) / (15.0 * rock_width);
   EXPECT_GT(by_patch, 5.0 * by_wall);
 }
 
@@ -199,8 +199,8 @@ TEST(StrokeRock, TreesBeforeASlopeStayWhole) {
   const Painting accented = paint(true);
   int before_slope = 0;
   int whole = 0;
-  for (int y = height / 2 - 8; y < height / 2; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = rock_height / 2 - 8; y < rock_height / 2; ++y)
+    for (int x = 0; x < rock_width; ++x) {
       if (p.guidance.land_cover[plain.sources(x, y)] != forest || plain.under_share(x, y) > 50) continue;
       ++before_slope;
       whole += p.guidance.land_cover[accented.sources(x, y)] == forest && accented.under_share(x, y) < 70 ? 1 : 0;

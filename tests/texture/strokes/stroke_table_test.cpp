@@ -17,22 +17,22 @@
 namespace belvedere {
 namespace {
 
-constexpr int width = 512;
-constexpr int height = 384;
+constexpr int table_width = 512;
+constexpr int table_height = 384;
 
 // Blocks of all classes beside each other, on gentle ground and steep, with glades in the forest and ribs of rock in the ice: somewhere
 // each kind of stroke finds what it grows on.
 Picture patchwork() {
   constexpr int block = 32;
-  Picture p = plain_picture(LandCoverClass::rock, width, height);
-  p.guidance.slope_deg = Grid<float>(width, height);
-  p.guidance.relief_s_m = Grid<float>(width, height, 25.F);
-  p.guidance.footprint_m = Grid<float>(width, height, 15.F);
-  p.guidance.built = Grid<float>(width, height, 0.6F);
-  p.ground.accent = Grid<float>(width, height, -0.8F);
+  Picture p = plain_picture(LandCoverClass::rock, table_width, table_height);
+  p.guidance.slope_deg = Grid<float>(table_width, table_height);
+  p.guidance.relief_s_m = Grid<float>(table_width, table_height, 25.F);
+  p.guidance.footprint_m = Grid<float>(table_width, table_height, 15.F);
+  p.guidance.built = Grid<float>(table_width, table_height, 0.6F);
+  p.ground.accent = Grid<float>(table_width, table_height, -0.8F);
   const auto& classes = land_cover_classes();
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < table_height; ++y)
+    for (int x = 0; x < table_width; ++x) {
       const int row = y / block;
       const int column = x / (2 * block);
       const auto drawn = random_index(static_cast<std::uint32_t>(classes.size()), 3, column, row);

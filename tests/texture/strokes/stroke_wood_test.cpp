@@ -15,16 +15,16 @@ namespace {
 
 using enum LandCoverClass;
 
-constexpr int width = 320;
-constexpr int height = 240;
+constexpr int wood_width = 320;
+constexpr int wood_height = 240;
 
 // One class on one plane at 1700 m, 20 km away, 20 m a unit, tone .6, sun from the right.
-Picture slope_of(LandCoverClass id, float altitude_m = 1700.F) {
-  Picture p = plain_picture(id, width, height);
-  p.guidance.depth_m = Grid<float>(width, height, 20000.F);
-  p.guidance.relief_s_m = Grid<float>(width, height, 0.F);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
+Picture level_ground(LandCoverClass id, float altitude_m = 1700.F) {
+  Picture p = plain_picture(id, wood_width, wood_height);
+  p.guidance.depth_m = Grid<float>(wood_width, wood_height, 20000.F);
+  p.guidance.relief_s_m = Grid<float>(wood_width, wood_height, 0.F);
+  for (int y = 0; y < wood_height; ++y)
+    for (int x = 0; x < wood_width; ++x)
       p.guidance.position_m(x, y) = glm::vec3(20.F * static_cast<float>(x), -20.F * static_cast<float>(y), altitude_m);
   return p;
 }
@@ -34,8 +34,6 @@ void fill(Grid<T>& grid, int x0, int y0, int x1, int y1, T value) {
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) grid(x, y) = value;
 }
-
-float luma(glm::vec3 c) { return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z; }
 
 bool is_body(const Stroke& s) { return s.gate == StrokeGate::upright && s.start_width > 2.4F && s.alpha > 0.85F; }
 
@@ -65,11 +63,11 @@ bool is_lit_side(const Stroke& s) { return s.gate == StrokeGate::upright && s.st
 
 // What makes a single tree read: its dark body is far darker than its ground and its light side lighter.
 TEST(Trees, HaveADarkBodyAndALightSide) {
-  const Picture p = slope_of(forest);
+  const Picture p = level_ground(forest);
   const auto trees = one_tree(p, false);
   EXPECT_LT(mean_luma(trees, is_body), 0.5 - 0.12);
   EXPECT_GT(mean_luma(trees, is_lit_side), 0.5 + 0.04);
-  Picture shade = slope_of(forest);
+  Picture shade = level_ground(forest);
   for (float& tone : shade.guidance.tone) tone = 0.1F;
   const auto dark = one_tree(shade, false);
   const double contrast = mean_luma(dark, is_lit_side) - mean_luma(dark, is_body);
@@ -77,7 +75,7 @@ TEST(Trees, HaveADarkBodyAndALightSide) {
 }
 
 TEST(Trees, SpruceIsPointedLeafyCrownIsRound) {
-  const Picture p = slope_of(forest);
+  const Picture p = level_ground(forest);
   for (const Stroke& s : one_tree(p, false))
     if (is_body(s)) {
       EXPECT_LT(s.end_width, 0.2F * s.start_width);
@@ -89,7 +87,7 @@ TEST(Trees, SpruceIsPointedLeafyCrownIsRound) {
 }
 
 TEST(Trees, OfTheEdgeShineTowardsTheSunAndCastShadowsOnOpenGround) {
-  const Picture p = slope_of(forest);
+  const Picture p = level_ground(forest);
   const auto inside = one_tree(p, false);
   const auto edge = one_tree(p, false, {0.F, 1.F, 1.F});
   EXPECT_GT(mean_luma(edge, is_lit_side), mean_luma(inside, is_lit_side) + 0.03);
@@ -105,7 +103,7 @@ TEST(Trees, OfTheEdgeShineTowardsTheSunAndCastShadowsOnOpenGround) {
 
 // In the wood the ground about a tree is dark and is painted before every tree.
 TEST(Trees, StandInTheDarkInsideTheWood) {
-  const Picture p = slope_of(forest);
+  const Picture p = level_ground(forest);
   int shades = 0;
   for (const Stroke& s : one_tree(p, false)) {
     if (s.gate != StrokeGate::surface) continue;
@@ -118,7 +116,7 @@ TEST(Trees, StandInTheDarkInsideTheWood) {
 }
 
 TEST(Trees, TakeThePalettesLeaves) {
-  Picture p = slope_of(forest, 500.F);
+  Picture p = level_ground(forest, 500.F);
   p.parameters.leaves = {glm::vec3(0.9F, 0.2F, 0.1F)};
   p.parameters.leaf_share = 0.6;
   const auto redness = [](const std::vector<Stroke>& strokes) {
@@ -126,7 +124,7 @@ TEST(Trees, TakeThePalettesLeaves) {
     for (const Stroke& s : strokes) sum += s.colour.x - s.colour.y;
     return sum / static_cast<double>(strokes.size());
   };
-  Picture plain = slope_of(forest, 500.F);
+  Picture plain = level_ground(forest, 500.F);
   EXPECT_GT(redness(one_tree(p, true)), redness(one_tree(plain, true)) + 0.08);
   EXPECT_NEAR(redness(one_tree(p, false)), redness(one_tree(plain, false)), 1e-6) << "spruces stay as they are";
   for (float& h : p.ground.haze) h = 1.F;
@@ -135,7 +133,7 @@ TEST(Trees, TakeThePalettesLeaves) {
 }
 
 TEST(Trees, HoldSnowInWinterWhereTheyKeepTheirNeedles) {
-  Picture p = slope_of(forest);
+  Picture p = level_ground(forest);
   const std::size_t summer = one_tree(p, false).size();
   p.parameters.winter = true;
   EXPECT_GT(one_tree(p, false).size(), summer + 60);
@@ -147,7 +145,7 @@ TEST(Trees, HoldSnowInWinterWhereTheyKeepTheirNeedles) {
 
 // Glades: where the density falls below glade_density no tree stands, and grass is painted.
 TEST(Wood, GladesAreGrassWithoutTrees) {
-  Picture p = slope_of(forest);
+  Picture p = level_ground(forest);
   fill(p.ground.tree_density, 100, 60, 220, 180, 0.02F);
   int inside = 0;
   int grass = 0;
@@ -167,22 +165,22 @@ TEST(Wood, GladesAreGrassWithoutTrees) {
 // Where forest ends on meadow its lower edge is closed, however thin the wood behind it.
 TEST(Wood, StandsLikeAWallBeforeMeadowButNotAtTheTreeline) {
   const auto near_edge = [](LandCoverClass beyond) {
-    Picture p = slope_of(forest);
+    Picture p = level_ground(forest);
     for (float& d : p.ground.tree_density) d = 0.3F;
-    fill(p.guidance.land_cover, 0, 120, width, height, beyond);
+    fill(p.guidance.land_cover, 0, 120, wood_width, wood_height, beyond);
     int count = 0;
     for (const Stroke& s : wood_strokes(p.scene())) count += is_body(s) && s.points[0].y > 114.F;
     return count;
   };
   EXPECT_GT(near_edge(pasture), 2 * near_edge(alpine_grass));
-  EXPECT_GT(near_edge(pasture), width / 8);
+  EXPECT_GT(near_edge(pasture), wood_width / 8);
 }
 
 // The border of the wood towards the sun shines, the one away from it does not.
 TEST(Wood, LightsItsRimTowardsTheSun) {
-  Picture p = slope_of(forest);
-  fill(p.guidance.land_cover, 0, 0, 100, height, pasture);
-  fill(p.guidance.land_cover, 220, 0, width, height, pasture);
+  Picture p = level_ground(forest);
+  fill(p.guidance.land_cover, 0, 0, 100, wood_height, pasture);
+  fill(p.guidance.land_cover, 220, 0, wood_width, wood_height, pasture);
   std::vector<Stroke> trees;
   over_seeds(p, [&] {
     const std::vector<Stroke> more = wood_strokes(p.scene());
@@ -201,19 +199,19 @@ TEST(Wood, LightsItsRimTowardsTheSun) {
 }
 
 TEST(Wood, LeafyTreesStandInGroupsOfTheirOwn) {
-  Picture p = slope_of(forest, 900.F);
+  Picture p = level_ground(forest, 900.F);
   constexpr int cell = 16;
   int pure = 0;
   int cells = 0;
   double total = 0.0;
   double trees = 0.0;
   over_seeds(p, [&] {
-    Grid<int> leafy(width / cell, height / cell, 0);
-    Grid<int> all(width / cell, height / cell, 0);
+    Grid<int> leafy(wood_width / cell, wood_height / cell, 0);
+    Grid<int> all(wood_width / cell, wood_height / cell, 0);
     for (const Stroke& s : wood_strokes(p.scene())) {
       if (!is_body(s)) continue;
-      const int x = std::clamp(static_cast<int>(s.points[0].x), 0, width - 1) / cell;
-      const int y = std::clamp(static_cast<int>(s.points[0].y), 0, height - 1) / cell;
+      const int x = std::clamp(static_cast<int>(s.points[0].x), 0, wood_width - 1) / cell;
+      const int y = std::clamp(static_cast<int>(s.points[0].y), 0, wood_height - 1) / cell;
       leafy(x, y) += s.end_width >= s.start_width;
       ++all(x, y);
     }
@@ -235,7 +233,7 @@ TEST(Wood, LeafyTreesStandInGroupsOfTheirOwn) {
 TEST(Wood, StandsInBeltsByHeight) {
   const glm::vec3 gold(0.95F, 0.75F, 0.25F);
   const auto shares = [&](float altitude_m, double larch_share, double treeline_m) {
-    Picture p = slope_of(forest, altitude_m);
+    Picture p = level_ground(forest, altitude_m);
     p.parameters.larch = gold;
     p.parameters.larch_share = larch_share;
     p.parameters.treeline_m = treeline_m;
@@ -271,7 +269,7 @@ TEST(Wood, StandsInBeltsByHeight) {
 // The side of a group that looks to the sun is lighter: turned about, the light is on the other side.
 TEST(Wood, GroupsHaveALightSideAndADarkOne) {
   const auto tone_by_side = [](double sun_side) {
-    Picture p = slope_of(forest, 1500.F);
+    Picture p = level_ground(forest, 1500.F);
     p.parameters.sun_side = sun_side;
     const StrokeScene scene = p.scene();
     double right = 0.0;
@@ -295,8 +293,8 @@ TEST(Wood, GroupsHaveALightSideAndADarkOne) {
 }
 
 TEST(Wood, ValleyTreesFollowTheBrook) {
-  Picture p = slope_of(valley_floor, 600.F);
-  fill(p.guidance.land_cover, 0, 118, width, 122, water);
+  Picture p = level_ground(valley_floor, 600.F);
+  fill(p.guidance.land_cover, 0, 118, wood_width, 122, water);
   int banks = 0;
   int open = 0;
   over_seeds(p, [&] {
@@ -315,7 +313,7 @@ TEST(Wood, ValleyTreesFollowTheBrook) {
 TEST(Meadow, StrokesFollowTheSlopeDownOrAcrossAndLieLevelOnTheFloor) {
   const glm::vec2 fall(0.6F, 0.8F);
   for (const LandCoverClass id : {pasture, alpine_grass, shrub, valley_floor}) {
-    Picture p = slope_of(id);
+    Picture p = level_ground(id);
     for (auto& d : p.guidance.fall_line) d = fall;
     int along = 0;
     int across = 0;
@@ -339,7 +337,7 @@ TEST(Meadow, StrokesFollowTheSlopeDownOrAcrossAndLieLevelOnTheFloor) {
 
 TEST(Meadow, TussocksLieInHollowsAndAcrossTheSlope) {
   const auto dark_flecks = [](float relief_m) {
-    Picture p = slope_of(alpine_grass);
+    Picture p = level_ground(alpine_grass);
     for (float& r : p.guidance.relief_s_m) r = relief_m;
     int dark = 0;
     for (const Stroke& s : grow_strokes("grass flecks", p.scene())) {
@@ -350,12 +348,12 @@ TEST(Meadow, TussocksLieInHollowsAndAcrossTheSlope) {
   };
   EXPECT_GT(dark_flecks(-6.F), dark_flecks(6.F) * 3 / 2);
   EXPECT_GT(dark_flecks(0.F), 100);
-  EXPECT_TRUE(grow_strokes("grass flecks", slope_of(forest).scene()).empty());
-  EXPECT_TRUE(grow_strokes("grass flecks", slope_of(valley_floor).scene()).empty());
+  EXPECT_TRUE(grow_strokes("grass flecks", level_ground(forest).scene()).empty());
+  EXPECT_TRUE(grow_strokes("grass flecks", level_ground(valley_floor).scene()).empty());
 }
 
 TEST(Shrub, BushesAreLowDarkAndAsManyAsTheirDensity) {
-  Picture p = slope_of(shrub);
+  Picture p = level_ground(shrub);
   const auto bushes = grow_strokes("low bushes", p.scene());
   ASSERT_GT(bushes.size(), 1000U);
   for (const Stroke& s : bushes) {
@@ -365,11 +363,11 @@ TEST(Shrub, BushesAreLowDarkAndAsManyAsTheirDensity) {
   for (float& d : p.ground.tree_density) d = 0.19F;
   EXPECT_NEAR(static_cast<double>(grow_strokes("low bushes", p.scene()).size()), 0.2 * static_cast<double>(bushes.size()),
               0.06 * static_cast<double>(bushes.size()));
-  EXPECT_TRUE(grow_strokes("low bushes", slope_of(pasture).scene()).empty());
+  EXPECT_TRUE(grow_strokes("low bushes", level_ground(pasture).scene()).empty());
 }
 
 TEST(Scree, IsSmallStonesDownTheSlope) {
-  Picture p = slope_of(scree);
+  Picture p = level_ground(scree);
   const glm::vec2 fall(0.6F, 0.8F);
   for (auto& d : p.guidance.fall_line) d = fall;
   int all = 0;
@@ -385,12 +383,12 @@ TEST(Scree, IsSmallStonesDownTheSlope) {
 // No area is flat: of windows of 4 mm on every class of ground hardly one is of a single colour.
 TEST(Ground, NoWindowIsFlat) {
   for (const LandCoverClass id : {valley_floor, forest, pasture, alpine_grass, shrub, scree, sand, rock, snow, glacier}) {
-    Picture p = slope_of(id);
+    Picture p = level_ground(id);
     const auto picture = paint_strokes(p.ground.colour, p.guidance, p.ground, {}, p.parameters, silent_progress()).picture;
     int flat = 0;
     int windows = 0;
-    for (int y0 = 8; y0 + 8 <= height - 8; y0 += 8)
-      for (int x0 = 8; x0 + 8 <= width - 8; x0 += 8, ++windows) {
+    for (int y0 = 8; y0 + 8 <= wood_height - 8; y0 += 8)
+      for (int x0 = 8; x0 + 8 <= wood_width - 8; x0 += 8, ++windows) {
         double sum = 0.0;
         double squares = 0.0;
         for (int y = y0; y < y0 + 8; ++y)

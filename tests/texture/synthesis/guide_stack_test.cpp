@@ -20,7 +20,7 @@ GuideStack stack_of(int width, int height) {
   return stack;
 }
 
-std::string refused(const GuideStack& stack) {
+std::string refused_guides(const GuideStack& stack) {
   return test::message_of(ErrorKind::usage, [&] { check_guide_stack(stack, "the target"); });
 }
 
@@ -40,24 +40,24 @@ TEST(GuideStack, NeedsLabelsAndNothingElse) {
   EXPECT_NO_THROW(check_guide_stack(stack, "the target"));
   stack.guides.clear();
   EXPECT_NO_THROW(check_guide_stack(stack, "the target"));
-  EXPECT_THAT(refused({}), AllOf(HasSubstr("the target"), HasSubstr("no labels")));
+  EXPECT_THAT(refused_guides({}), AllOf(HasSubstr("the target"), HasSubstr("no labels")));
 }
 
 TEST(GuideStack, EveryGridIsAsLargeAsTheLabels) {
   GuideStack stack = stack_of(4, 3);
   stack.guides[1].values = Grid<std::uint8_t>(3, 4);
-  EXPECT_THAT(refused(stack), AllOf(HasSubstr("\"tone\" of 3 × 4"), HasSubstr("4 × 3")));
+  EXPECT_THAT(refused_guides(stack), AllOf(HasSubstr("\"tone\" of 3 × 4"), HasSubstr("4 × 3")));
   stack = stack_of(4, 3);
   stack.depth_m = Grid<float>(4, 2);
-  EXPECT_THAT(refused(stack), AllOf(HasSubstr("depths of 4 × 2"), HasSubstr("4 × 3")));
+  EXPECT_THAT(refused_guides(stack), AllOf(HasSubstr("depths of 4 × 2"), HasSubstr("4 × 3")));
 }
 
 TEST(GuideStack, EveryGuideHasANameOfItsOwn) {
   GuideStack stack = stack_of(4, 3);
   stack.guides[1].name = "altitude";
-  EXPECT_THAT(refused(stack), HasSubstr("two guides named \"altitude\""));
+  EXPECT_THAT(refused_guides(stack), HasSubstr("two guides named \"altitude\""));
   stack.guides[1].name = "";
-  EXPECT_THAT(refused(stack), HasSubstr("without a name"));
+  EXPECT_THAT(refused_guides(stack), HasSubstr("without a name"));
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ inline Exemplar painting(int width, int height, std::uint64_t seed) {
 }
 
 // What synthesis says of its way.
-struct Notes : Progress {
+struct SynthesisNotes : Progress {
   void begin(std::string_view stage, double total) override {
     EXPECT_EQ(done, announced) << "a stage began before the last was done";
     stages.emplace_back(stage);

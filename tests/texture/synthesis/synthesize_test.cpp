@@ -23,7 +23,7 @@ using namespace test;
 TEST(Synthesize, CopiesFromTheSameClassAlways) {
   const std::vector<Exemplar> exemplars{painting(140, 120, 1)};
   const GuideStack target = land(131, 97, 40);  // odd sides at every level
-  Notes notes;
+  SynthesisNotes notes;
   const MatchField field = synthesize(exemplars, target, {}, notes);
   ASSERT_TRUE(field.same_size(target.label));
   for (std::size_t i = 0; i < field.size(); ++i) {
@@ -144,7 +144,7 @@ TEST(Synthesize, GuidesOfOneSideAreNotedOnce) {
   exemplars[1].guides.guides.erase(exemplars[1].guides.guides.begin() + 1);  // tone
   SynthesisParameters parameters;
   parameters.weights = {{"typo", 2.0}};
-  Notes notes;
+  SynthesisNotes notes;
   const MatchField with = synthesize(exemplars, target, parameters, notes);
   ASSERT_EQ(notes.notes.size(), 3U);
   EXPECT_NE(notes.notes[0].find("\"tone\""), std::string::npos);

@@ -49,7 +49,7 @@ TEST(Synthesize, ClassesWithoutTexelsFallBackOrStayWithout) {
   }
   SynthesisParameters parameters;
   parameters.fallback = {{100, 9}};
-  Notes notes;
+  SynthesisNotes notes;
   const MatchField field = synthesize(exemplars, target, parameters, notes);
   for (int y = 0; y < 80; ++y) {
     for (int x = 0; x < 80; ++x) {
@@ -145,7 +145,7 @@ TEST(Synthesize, TheCapOnUsesHoldsWhereAltitudeLeavesFewTexels) {
   SynthesisParameters parameters;
   parameters.copy_cap = 16;
   parameters.weights = {{"altitude", 10.0}};
-  Notes notes;
+  SynthesisNotes notes;
   const MatchField field = synthesize(exemplars, target, parameters, notes);
   for (const std::uint8_t label : {3, 7, 9}) {
     const auto texels = std::count(exemplars[0].guides.label.begin(), exemplars[0].guides.label.end(), label);
@@ -162,7 +162,7 @@ TEST(Synthesize, TheCapOnUsesHoldsWhereAltitudeLeavesFewTexels) {
   EXPECT_NE(notes.notes[0].find("altitude"), std::string::npos) << notes.notes[0];
   EXPECT_LE(piece_sizes(field).front(), 16U);
   // Where there are enough nothing is said.
-  Notes quiet;
+  SynthesisNotes quiet;
   synthesize({painting(160, 160, 1)}, land(120, 120, 40), {}, quiet);
   EXPECT_TRUE(quiet.notes.empty());
 }

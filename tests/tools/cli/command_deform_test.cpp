@@ -34,12 +34,6 @@ class DeformCommand : public Program {
   }
 };
 
-Raster<float> read_file(const std::string& file) {
-  RasterSource source;
-  source.path = file;
-  return read_raster(source);
-}
-
 TEST_F(DeformCommand, ADemBecomesADeformedDemInTheSameFrame) {
   const std::string cone = write_cone();
   const std::string out = path("out.tif");
@@ -47,8 +41,8 @@ TEST_F(DeformCommand, ADemBecomesADeformedDemInTheSameFrame) {
                                "2000:10,9000:0", "--handle", "684050,5256950 radius=2900 core=900 rotate=90 raise=50"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("no folds"), HasSubstr("80 × 60 cells of 100 m"), HasSubstr("EPSG:32632")));
-  const Raster<float> before = read_file(cone);
-  const Raster<float> after = read_file(out);
+  const Raster<float> before = read_raster_file(cone);
+  const Raster<float> after = read_raster_file(out);
   EXPECT_EQ(after.transform, before.transform);
   EXPECT_TRUE(std::isnan(after.cells(5, 5)));
   // In the core a quarter turn clockwise: what lay 8 cells north of the summit lies 8 cells east of it, raised and exaggerated, and bent by
@@ -62,7 +56,7 @@ TEST_F(DeformCommand, ADemBecomesADeformedDemInTheSameFrame) {
   const auto far = static_cast<int>(std::lround(99.5 - std::sqrt(distance * distance - 32.5 * 32.5)));
   EXPECT_NEAR(after.cells(48, 30), 2.F * (before.cells(40, 22) + 50.F) - bend(72, far), 3.0);
   EXPECT_THAT(run({"deform", cone, out, "--quiet", "--json", "--exaggeration", "1"}).out, HasSubstr("\"highest_m\": 1000"));
-  const Raster<float> same = read_file(out);
+  const Raster<float> same = read_raster_file(out);
   for (std::size_t i = 0; i < same.cells.size(); ++i)
     if (!std::isnan(same.cells[i])) {
       ASSERT_EQ(same.cells[i], before.cells[i]);

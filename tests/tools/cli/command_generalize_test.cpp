@@ -21,11 +21,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-Raster<float> read_file(const std::string& file) {
-  RasterSource source;
-  source.path = file;
-  return read_raster(source);
-}
 RasterInfo info_of(const std::string& file) {
   RasterSource source;
   source.path = file;
@@ -63,8 +58,8 @@ TEST_F(GeneralizeCommand, UnitWeightsKeepEveryBitPlaceAndVoid) {
     const std::string in = write_hills("in.tif", nodata);
     const Outcome outcome = generalize_file({in, path("out.tif"), "--global", "1,1,1,1,1"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
-    const Raster<float> before = read_file(in);
-    const Raster<float> after = read_file(path("out.tif"));
+    const Raster<float> before = read_raster_file(in);
+    const Raster<float> after = read_raster_file(path("out.tif"));
     EXPECT_EQ(after.transform, before.transform);
     EXPECT_EQ(after.crs, before.crs);
     ASSERT_TRUE(after.cells.same_size(before.cells));
@@ -89,22 +84,22 @@ TEST_F(GeneralizeCommand, NoAltitudeBecomesAVoid) {
   raster.cells(9, 9) = 0.F;
   write_raster(path("a.tif"), raster, 0.0);
   EXPECT_EQ(info_of(path("a.tif")).nodata, -9999.0);
-  EXPECT_EQ(read_file(path("a.tif")).cells(9, 9), 0.F);
-  EXPECT_TRUE(std::isnan(read_file(path("a.tif")).cells(5, 5)));
+  EXPECT_EQ(read_raster_file(path("a.tif")).cells(9, 9), 0.F);
+  EXPECT_TRUE(std::isnan(read_raster_file(path("a.tif")).cells(5, 5)));
 }
 
 TEST_F(GeneralizeCommand, WeightsAndPresetsAreThoseOfTheLibrary) {
   write_raster(path("in.tif"), hills());
   ASSERT_EQ(generalize_file({path("in.tif"), path("preset.tif"), "--preset", "figure2"}).status, 0);
   ASSERT_EQ(generalize_file({path("in.tif"), path("weights.tif"), "--global", "1,1,2,0.25,0"}).status, 0);
-  const Grid<float> preset = read_file(path("preset.tif")).cells;
-  EXPECT_EQ(read_file(path("weights.tif")).cells, preset);
+  const Grid<float> preset = read_raster_file(path("preset.tif")).cells;
+  EXPECT_EQ(read_raster_file(path("weights.tif")).cells, preset);
   GeneralizeParameters bands;
   bands.foreground = bands.background = {1.F, 1.F, 2.F, .25F, 0.F};
   EXPECT_EQ(preset, generalize(hills().cells, {100.0, 100.0}, {}, bands, silent_progress()));
   // What is written beside a preset has the last word.
   ASSERT_EQ(generalize_file({path("in.tif"), path("both.tif"), "--preset", "figure2", "--global", "1,1,1,1,1"}).status, 0);
-  EXPECT_EQ(read_file(path("both.tif")).cells, hills().cells);
+  EXPECT_EQ(read_raster_file(path("both.tif")).cells, hills().cells);
 }
 
 // How break lines are found, by every option of it, on real ground where there is some.
@@ -112,7 +107,7 @@ TEST_F(GeneralizeCommand, BreakLinesAreThoseOfTheLibrary) {
   Raster<float> ground = hills();
   const std::string file = test::data_folder() + "/lost_river/mackay.tif";
   if (std::filesystem::exists(file)) {
-    const Raster<float> real = read_file(file);
+    const Raster<float> real = read_raster_file(file);
     ground.cells = Grid<float>(70, 53);
     for (int y = 0; y < 53; ++y) std::copy_n(real.cells.row(300 + y) + 300, 70, ground.cells.row(y));
   }
@@ -127,7 +122,7 @@ TEST_F(GeneralizeCommand, BreakLinesAreThoseOfTheLibrary) {
     std::vector<std::string> arguments = weights;
     arguments.insert(arguments.end(), more.begin(), more.end());
     EXPECT_EQ(generalize_file(arguments).status, 0);
-    return read_file(path("out.tif")).cells;
+    return read_raster_file(path("out.tif")).cells;
   };
   const auto expected = [&](CurvatureForm form, float full, float blur, float exponent) {
     GeneralizeParameters p = bands;
@@ -158,8 +153,8 @@ TEST_F(GeneralizeCommand, AMaskKeepsWhatItCovers) {
   write_raster(path("mask.tif"), mask);
   ASSERT_EQ(generalize_file({path("in.tif"), path("masked.tif"), "--global", "1,1,0", "--mask", path("mask.tif")}).status, 0);
   ASSERT_EQ(generalize_file({path("in.tif"), path("whole.tif"), "--global", "1,1,0"}).status, 0);
-  const Grid<float> masked = read_file(path("masked.tif")).cells;
-  const Grid<float> whole = read_file(path("whole.tif")).cells;
+  const Grid<float> masked = read_raster_file(path("masked.tif")).cells;
+  const Grid<float> whole = read_raster_file(path("whole.tif")).cells;
   for (int y = 0; y < 53; ++y) {
     for (int x = 0; x < 20; ++x) ASSERT_EQ(masked(x, y), hills().cells(x, y));
     for (int x = 50; x < 70; ++x) ASSERT_EQ(masked(x, y), whole(x, y));
@@ -205,7 +200,7 @@ TEST_F(GeneralizeCommand, DegreesCountAsTheGroundTheyCover) {
   const Outcome outcome = run({"generalize", path("in.tif"), path("out.tif"), "--change-lakes", "--preset", "smooth_slopes"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("m on the ground"), HasSubstr("75")));  // 0.001° at 47.5° N: 75 × 111 m
-  const Raster<float> after = read_file(path("out.tif"));
+  const Raster<float> after = read_raster_file(path("out.tif"));
   EXPECT_EQ(after.transform, geographic.transform);
   EXPECT_TRUE(info_of(path("out.tif")).geographic);
   EXPECT_NE(after.cells, geographic.cells);

@@ -16,18 +16,18 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-std::string refusal(const std::vector<std::string>& arguments) {
+std::string refused_run(const std::vector<std::string>& arguments) {
   return test::message_of(ErrorKind::usage, [&] { run_program(arguments); });
 }
 
 TEST(ProgramRun, AsksForTheCommandAndNamesTheNearest) {
-  EXPECT_THAT(refusal({}), HasSubstr("what shall belvedere do?"));
-  EXPECT_THAT(refusal({"chekc"}), HasSubstr("did you mean \"check\"?"));
-  EXPECT_THAT(refusal({"exemplar", "chekc"}), HasSubstr("belvedere exemplar has no command \"chekc\"; did you mean \"check\"?"));
-  EXPECT_THAT(refusal({"exemplar", "render"}), HasSubstr("allowed: check, compare, paint, segment."));
-  EXPECT_THAT(refusal({"--nonsense"}), HasSubstr("what shall belvedere do?"));
+  EXPECT_THAT(refused_run({}), HasSubstr("what shall belvedere do?"));
+  EXPECT_THAT(refused_run({"chekc"}), HasSubstr("did you mean \"check\"?"));
+  EXPECT_THAT(refused_run({"exemplar", "chekc"}), HasSubstr("belvedere exemplar has no command \"chekc\"; did you mean \"check\"?"));
+  EXPECT_THAT(refused_run({"exemplar", "render"}), HasSubstr("allowed: check, compare, paint, segment."));
+  EXPECT_THAT(refused_run({"--nonsense"}), HasSubstr("what shall belvedere do?"));
   // Where the command is found, the fault is in what follows.
-  EXPECT_THAT(refusal({"diff", "a"}), Not(HasSubstr("what shall")));
+  EXPECT_THAT(refused_run({"diff", "a"}), Not(HasSubstr("what shall")));
 }
 
 const CommandDescription& find(const CommandDescription& in, const std::string& word) {

@@ -136,7 +136,7 @@ TEST_F(Equalizer, BrowserFindsBreakLinesAsAskedFor) {
 }
 
 // What a user does with the page, and what it then shows. Pictures are compared in the browser; a line tells of each step.
-constexpr const char* clicks = R"(<pre id="clicked"></pre><script>
+constexpr const char* equalizer_clicks = R"(<pre id="clicked"></pre><script>
 (async () => {
   const lines = [];
   const say = (line) => { lines.push(line); document.getElementById("clicked").textContent = lines.join("\n"); };
@@ -195,7 +195,7 @@ TEST_F(Equalizer, ButtonsSwitchesAndSlidersDoWhatTheySay) {
   std::string text = read_bytes(path("page.html"));
   const std::size_t end = text.rfind("</body>");
   ASSERT_NE(end, std::string::npos);
-  text.replace(end, 7, clicks);
+  text.replace(end, 7, equalizer_clicks);
   // A browser without a window may stop drawing frames; timers go on.
   const std::size_t begin = text.find("<body>");
   ASSERT_NE(begin, std::string::npos);

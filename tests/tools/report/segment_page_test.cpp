@@ -40,7 +40,7 @@ TEST_F(SegmentPage, HoldsPaintingPiecesTreeAndClassesAndNeedsNoNetwork) {
   EXPECT_EQ(page.find("http"), std::string::npos) << "the page must need no network";
 }
 
-constexpr const char* clicks = R"(<pre id="clicked"></pre><script>
+constexpr const char* segment_clicks = R"(<pre id="clicked"></pre><script>
 (async () => {
   const lines = [];
   const say = (line) => { lines.push(line); document.getElementById("clicked").textContent = lines.join("\n"); };
@@ -115,7 +115,7 @@ TEST_F(SegmentPage, ClicksAndKeysMergeSplitNameAndUndo) {
   std::string text = made_page();
   const std::size_t end = text.rfind("</body>");
   ASSERT_NE(end, std::string::npos);
-  text.replace(end, 7, clicks);
+  text.replace(end, 7, segment_clicks);
   const std::string page = test::opened_page(write("clicked.html", text), path("profile"));
   const std::size_t from = page.find("<pre id=\"clicked\">");
   ASSERT_NE(from, std::string::npos) << page.substr(0, 2000);

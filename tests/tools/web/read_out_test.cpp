@@ -20,23 +20,23 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int width = 90;
-constexpr int height = 70;  // more than a row of tiles
-const glm::dvec3 origin(680000.0, 5250000.0, 0.0);
+constexpr int sheet_width = 90;
+constexpr int sheet_height = 70;  // more than a row of tiles
+const glm::dvec3 sheet_origin(680000.0, 5250000.0, 0.0);
 
 // Sky above row 10, below it ground whose numbers are its pixel.
 GuidanceBuffers guidance() {
   GuidanceBuffers out;
-  out.origin_m = origin;
-  out.depth_m = Grid<float>(width, height, std::numeric_limits<float>::infinity());
-  out.altitude_m = Grid<float>(width, height);
-  out.position_m = Grid<glm::vec3>(width, height);
-  out.land_cover = Grid<LandCoverClass>(width, height, LandCoverClass::sky);
-  for (int y = 10; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  out.origin_m = sheet_origin;
+  out.depth_m = Grid<float>(sheet_width, sheet_height, std::numeric_limits<float>::infinity());
+  out.altitude_m = Grid<float>(sheet_width, sheet_height);
+  out.position_m = Grid<glm::vec3>(sheet_width, sheet_height);
+  out.land_cover = Grid<LandCoverClass>(sheet_width, sheet_height, LandCoverClass::sky);
+  for (int y = 10; y < sheet_height; ++y)
+    for (int x = 0; x < sheet_width; ++x) {
       out.depth_m(x, y) = static_cast<float>(100 * y);
       out.altitude_m(x, y) = static_cast<float>(1000 + x);
-      out.position_m(x, y) = {10.F * static_cast<float>(x), 10.F * static_cast<float>(height - y), 0.F};
+      out.position_m(x, y) = {10.F * static_cast<float>(x), 10.F * static_cast<float>(sheet_height - y), 0.F};
       out.land_cover(x, y) = x < 40 ? LandCoverClass::forest : LandCoverClass::rock;
     }
   return out;
@@ -45,7 +45,7 @@ GuidanceBuffers guidance() {
 TEST(ReadOut, IsTheMiddleOfSquaresOfPixels) {
   const test::Folder folder;
   write_guidance(folder / "g.exr", guidance(), {{"belvedere:crs", "EPSG:32632"}});
-  const ReadOut whole = sample_read_out(folder / "g.exr", width * height);
+  const ReadOut whole = sample_read_out(folder / "g.exr", sheet_width * sheet_height);
   EXPECT_EQ(whole.step_px, 1);
   EXPECT_EQ(whole.altitude_m(33, 60), 1033.F);
   const ReadOut out = sample_read_out(folder / "g.exr", 800);
@@ -54,14 +54,15 @@ TEST(ReadOut, IsTheMiddleOfSquaresOfPixels) {
   ASSERT_EQ(out.distance_m.height(), 24);
   for (int row = 0; row < 24; ++row)
     for (int column = 0; column < 30; ++column) {
-      const int x = std::min(3 * column + 1, width - 1);
-      const int y = std::min(3 * row + 1, height - 1);
+      const int x = std::min(3 * column + 1, sheet_width - 1);
+      const int y = std::min(3 * row + 1, sheet_height - 1);
       ASSERT_EQ(std::isinf(out.distance_m(column, row)), y < 10);
       if (y < 10) continue;
       ASSERT_EQ(out.distance_m(column, row), static_cast<float>(100 * y));
       ASSERT_EQ(out.altitude_m(column, row), static_cast<float>(1000 + x));
       ASSERT_EQ(out.class_id(column, row), static_cast<float>(x < 40 ? LandCoverClass::forest : LandCoverClass::rock));
-      const glm::dvec2 place = transform_point("EPSG:32632", "EPSG:4326", glm::dvec2(origin) + 10.0 * glm::dvec2(x, height - y));
+      const glm::dvec2 place =
+          transform_point("EPSG:32632", "EPSG:4326", glm::dvec2(sheet_origin) + 10.0 * glm::dvec2(x, sheet_height - y));
       ASSERT_NEAR(out.longitude_deg(column, row), place.x, 1e-6);
       ASSERT_NEAR(out.latitude_deg(column, row), place.y, 1e-6);
     }

@@ -5,19 +5,20 @@
 
 #include <bit>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "renderer/image/image_io.h"
+#include "tests/files.h"
 #include "tests/renderer/image/exr/mixed_channels.h"
 #include "tests/renderer/image/picture_bytes.h"
 
 namespace belvedere {
 namespace {
 
+using test::kind_of;
 using namespace std::string_literals;
 using test::Folder;
 using test::id_value;
@@ -25,17 +26,6 @@ using test::mixed_parts;
 using test::tone_value;
 using test::write_mixed;
 using test::z_value;
-
-ErrorKind kind_of(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& e) {
-    EXPECT_FALSE(e.where().empty());
-    return e.kind();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return ErrorKind::bug;
-}
 
 TEST(ExrWriter, RoundTripOfMixedChannels) {
   const Folder folder("exr");

@@ -15,25 +15,19 @@
 #include "renderer/image/rows/picture_files.h"
 #include "tests/files.h"
 #include "tests/renderer/image/icc/press_profile.h"
+#include "tests/renderer/image/random_picture.h"
 
 namespace belvedere {
 namespace {
 
+using test::random_picture;
 using testing::HasSubstr;
-
-Grid<glm::vec3> random_picture(int width, int height) {
-  Grid<glm::vec3> out(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int c = 0; c < 3; ++c) out(x, y)[c] = static_cast<float>(random_uniform(3, x, y, static_cast<std::uint64_t>(c)));
-  return out;
-}
 
 // Colours that the press can print: of inks, where a monitor has them too.
 Grid<glm::vec3> printable_chart(const std::vector<std::uint8_t>& press) {
   const SoftProof proof(press, {});
   std::vector<glm::vec3> kept;
-  const Grid<glm::vec3> all = random_picture(60, 60);
+  const Grid<glm::vec3> all = random_picture(60, 60, 3);
   const ProofRows rows = proof.make(all);
   for (std::size_t i = 0; i < all.size(); ++i)
     if (rows.outside[i] == 0) kept.push_back(all[i]);
@@ -126,7 +120,7 @@ TEST(PressColor, AChartComesBackFromTheFile) {
 
 TEST(PressColor, InksAreThoseOfTheConversionInAnyRowsAndThreads) {
   const std::vector<std::uint8_t> press = test::press_profile();
-  const Grid<glm::vec3> picture = random_picture(300, 270);
+  const Grid<glm::vec3> picture = random_picture(300, 270, 3);
   const PressConversion conversion(press, {});
   Grid<Inks> one;
   {
@@ -168,7 +162,7 @@ TEST(PressColor, TheProfilesOwnLimitHoldsItsInks) {
   EXPECT_GT(limit, 200.0);
   EXPECT_LE(limit, 400.0);
   InkCount count(limit);
-  count.add(PressConversion(press, {}).convert(random_picture(100, 100)));
+  count.add(PressConversion(press, {}).convert(random_picture(100, 100, 3)));
   EXPECT_LT(count.coverage().above_share(), 0.01);
 }
 

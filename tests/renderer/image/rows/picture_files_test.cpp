@@ -17,20 +17,14 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/picture_formats.h"
 #include "tests/files.h"
+#include "tests/renderer/image/random_picture.h"
 #include "tests/small_disk.h"
 
 namespace belvedere {
 namespace {
 
 using test::Folder;
-
-Image random_picture(int width, int height) {
-  Image out(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int c = 0; c < 3; ++c) out(x, y)[c] = static_cast<float>(random_uniform(5, x, y, static_cast<std::uint64_t>(c)));
-  return out;
-}
+using test::random_picture;
 
 Image rows_of(const Image& picture, int first, int rows) {
   Image out(picture.width(), rows);

@@ -12,7 +12,7 @@
 namespace belvedere {
 namespace {
 
-SkyParameters sky(SkyKind kind, std::uint64_t seed = 1) {
+SkyParameters sky_of(SkyKind kind, std::uint64_t seed = 1) {
   SkyParameters p;
   p.kind = kind;
   p.seed = seed;
@@ -21,7 +21,7 @@ SkyParameters sky(SkyKind kind, std::uint64_t seed = 1) {
 
 TEST(Clouds, SeedsHaveEveryKindOfSky) {
   std::set<SkyKind> kinds;
-  for (std::uint64_t seed = 1; seed <= 24; ++seed) kinds.insert(look_of_sky(sky(SkyKind::any, seed)).kind);
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) kinds.insert(look_of_sky(sky_of(SkyKind::any, seed)).kind);
   EXPECT_EQ(kinds, (std::set<SkyKind>{SkyKind::fair, SkyKind::rows, SkyKind::streaks, SkyKind::banks}));
 }
 
@@ -33,7 +33,7 @@ TEST(Clouds, KindsAreFoundByName) {
 }
 
 TEST(Clouds, AKindThatIsAskedForIsTaken) {
-  for (std::uint64_t seed = 1; seed < 9; ++seed) EXPECT_EQ(look_of_sky(sky(SkyKind::banks, seed)).kind, SkyKind::banks);
+  for (std::uint64_t seed = 1; seed < 9; ++seed) EXPECT_EQ(look_of_sky(sky_of(SkyKind::banks, seed)).kind, SkyKind::banks);
 }
 
 // A wall behind the ranges stands low; heaps here and there stand at every height.
@@ -41,7 +41,7 @@ TEST(Clouds, BanksStandLow) {
   double low = 0.0, fair = 0.0;
   for (std::uint64_t seed = 1; seed < 9; ++seed) {
     const auto share = [&](SkyKind kind) {
-      const std::vector<Cloud> clouds = make_clouds(sky(kind, seed));
+      const std::vector<Cloud> clouds = make_clouds(sky_of(kind, seed));
       EXPECT_GT(clouds.size(), 4U);
       const auto below = std::count_if(clouds.begin(), clouds.end(), [](const Cloud& c) { return c.base_px > 198.0F * 0.80F; });
       return static_cast<double>(below) / static_cast<double>(clouds.size());
@@ -55,7 +55,7 @@ TEST(Clouds, BanksStandLow) {
 // The slopes of ways from the vanishing point to clouds gather in rows: neighbours in order of slope lie closer than clouds strewn evenly.
 TEST(Clouds, RowsComeFromTheVanishingPoint) {
   const auto gathered = [](SkyKind kind, std::uint64_t seed) {
-    const SkyParameters p = sky(kind, seed);
+    const SkyParameters p = sky_of(kind, seed);
     const SkyLook look = look_of_sky(p);
     EXPECT_GT(look.vanishing_px.y, p.horizon_px) << "below the horizon";
     std::vector<double> slopes;
@@ -77,7 +77,7 @@ TEST(Clouds, RowsComeFromTheVanishingPoint) {
 }
 
 TEST(Clouds, NoneAreAskedFor) {
-  SkyParameters p = sky(SkyKind::rows);
+  SkyParameters p = sky_of(SkyKind::rows);
   p.clouds = 0.0;
   EXPECT_TRUE(make_clouds(p).empty());
 }
@@ -87,7 +87,7 @@ TEST(Clouds, CumulusStandsHighAndShrinksTowardsTheHorizon) {
   double winter_tall = 0.0, tall = 0.0;
   std::size_t winter_count = 0, count = 0;
   for (std::uint64_t seed = 1; seed < 7; ++seed) {
-    SkyParameters p = sky(SkyKind::cumulus, seed);
+    SkyParameters p = sky_of(SkyKind::cumulus, seed);
     double near = 0.0, far = 0.0;
     int nears = 0, fars = 0;
     for (const Cloud& cloud : make_clouds(p)) {
@@ -113,14 +113,14 @@ TEST(Clouds, CumulusStandsHighAndShrinksTowardsTheHorizon) {
 
 TEST(Clouds, EveningBarsAreLongAndLitFromBelow) {
   for (std::uint64_t seed = 1; seed < 5; ++seed) {
-    const std::vector<Cloud> bars = make_clouds(sky(SkyKind::evening, seed));
+    const std::vector<Cloud> bars = make_clouds(sky_of(SkyKind::evening, seed));
     EXPECT_GT(bars.size(), 10U);
     for (const Cloud& bar : bars) {
       EXPECT_EQ(bar.underlit, 1.0F);
       EXPECT_GT(bar.to.x - bar.from.x, 2.5F * (bar.to.y - bar.from.y));
     }
   }
-  for (const Cloud& cloud : make_clouds(sky(SkyKind::fair))) EXPECT_EQ(cloud.underlit, 0.0F);
+  for (const Cloud& cloud : make_clouds(sky_of(SkyKind::fair))) EXPECT_EQ(cloud.underlit, 0.0F);
 }
 
 }  // namespace

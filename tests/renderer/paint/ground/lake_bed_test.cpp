@@ -10,13 +10,13 @@
 namespace belvedere {
 namespace {
 
-constexpr double west = 500000.0;
-constexpr double top = 5200000.0;
+constexpr double lake_west = 500000.0;
+constexpr double lake_top = 5200000.0;
 
 // A level lake at 900 m on cells of 10 m whose bed falls a metre a cell to the east, its layers of one colour.
 TerrainModel lake(int size, GroundColour colour = GroundColour(170, 150, 110, 255)) {
   TerrainModel model;
-  const GeoTransform transform{west, top, 10.0, 10.0};
+  const GeoTransform transform{lake_west, lake_top, 10.0, 10.0};
   model.dem = std::make_shared<const Dem>(make_dem({Grid<float>(size, size, 900.F), transform, ""}));
   model.generalized_m = model.dem->altitude_m;
   LandCover cover{{Grid<LandCoverClass>(size, size, LandCoverClass::water), transform, ""},
@@ -28,7 +28,7 @@ TerrainModel lake(int size, GroundColour colour = GroundColour(170, 150, 110, 25
   return model;
 }
 
-glm::dvec3 place_of(int x) { return {west + 10.0 * (x + 0.5), top - 205.0, 900.0}; }
+glm::dvec3 place_of(int x) { return {lake_west + 10.0 * (x + 0.5), lake_top - 205.0, 900.0}; }
 
 TEST(LakeBed, IsSeenThroughShallowWaterAndNotThroughDeep) {
   const TerrainModel model = lake(60);

@@ -28,12 +28,12 @@ constexpr int width = 12;
 constexpr int height = 160;
 
 // Water all over, 20 km off, seen at 60° from its normal; the upper half mirrors a lit forest, the lower the sky.
-struct Lake {
+struct FarLake {
   GuidanceBuffers guidance;
   MirrorSight sight;
   Palette palette = read_palette("summer");
   WaterImageParameters parameters;
-  Lake() {
+  FarLake() {
     guidance.depth_m = Grid<float>(width, height, 20000.0F);
     guidance.footprint_m = Grid<float>(width, height, 8.0F);
     guidance.altitude_m = Grid<float>(width, height, 900.0F);
@@ -57,7 +57,7 @@ struct Lake {
 };
 
 TEST(WaterImage, MirrorsLandDarkAndSkyByItsHeight) {
-  const Lake lake;
+  const FarLake lake;
   const WaterImage image = lake.paint();
   EXPECT_NEAR(image.land(4, 10), 1.0F, 1e-6F);
   EXPECT_NEAR(image.land(4, height - 10), 0.0F, 1e-6F);
@@ -72,23 +72,23 @@ TEST(WaterImage, MirrorsLandDarkAndSkyByItsHeight) {
 }
 
 TEST(WaterImage, TheImageOfAShadyBankIsDarker) {
-  Lake shady;
+  FarLake shady;
   for (float& lit : shady.sight.shadow) lit = 0.0F;
-  EXPECT_LT(shady.paint().colour(4, 10).g, Lake().paint().colour(4, 10).g - 0.05F);
+  EXPECT_LT(shady.paint().colour(4, 10).g, FarLake().paint().colour(4, 10).g - 0.05F);
 }
 
 TEST(WaterImage, FarThingsStandInTheAirOfTheWholeWay) {
-  Lake far;
+  FarLake far;
   for (int y = 0; y < height / 2; ++y)
     for (int x = 0; x < width; ++x) far.sight.path_m(x, y) = 80000.0F;
-  const glm::vec3 near_wood = Lake().paint().colour(4, 10);
+  const glm::vec3 near_wood = FarLake().paint().colour(4, 10);
   const glm::vec3 far_wood = far.paint().colour(4, 10);
   EXPECT_GT(far_wood.b, near_wood.b + 0.1F);
 }
 
 // Waves turn rays by some .06 rad: over 400 m of 20400 by .0012 rad, 2500 pixels a rad, so by some 3 px.
 TEST(WaterImage, IsDrawnOutDownwardsByWhatLiesFarFromTheWater) {
-  Lake lake;
+  FarLake lake;
   const auto border_rows = [&](float path_m) {
     for (int y = 0; y < height / 2; ++y)
       for (int x = 0; x < width; ++x) lake.sight.path_m(x, y) = path_m;
@@ -104,7 +104,7 @@ TEST(WaterImage, IsDrawnOutDownwardsByWhatLiesFarFromTheWater) {
 }
 
 TEST(WaterImage, APartIsThatOfTheWhole) {
-  Lake lake;
+  FarLake lake;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       if (x == 3 && y % 7 == 0) lake.guidance.land_cover(x, y) = LandCoverClass::pasture;
@@ -133,7 +133,7 @@ TEST(WaterImage, APartIsThatOfTheWhole) {
 }
 
 TEST(WaterImage, StrengthIsTheScenes) {
-  Lake lake;
+  FarLake lake;
   lake.parameters.strength = 0.0;
   for (const float share : lake.paint().share) ASSERT_EQ(share, 0.0F);
 }

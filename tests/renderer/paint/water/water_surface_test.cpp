@@ -5,14 +5,15 @@
 #include <limits>
 
 #include "tests/renderer/exemplar/painted_hills.h"
+#include "tests/renderer/paint/water/no_noise.h"
 
 namespace belvedere {
 namespace {
 
-constexpr Patches no_noise{0.0F, 0.0F, 0.0F, 0.0F};
+using test::no_noise;
 
 // One pixel of water far from its shores.
-struct Lake {
+struct OpenWater {
   GuidanceBuffers guidance = test::make_slope(1, 1, LandCoverClass::water, {0.0F, 0.0F, 1.0F}, 0.0F);
   Mirrored mirrored{Grid<std::int32_t>(1, 1, -1), Grid<float>(1, 1, 0.0F), Grid<float>(1, 1, 30.0F), Grid<float>(1, 1, 30.0F)};
   Palette palette = read_palette("summer");
@@ -35,7 +36,7 @@ struct Lake {
 };
 
 TEST(WaterSurface, WithoutABedIsItsLook) {
-  Lake lake;
+  OpenWater lake;
   const WaterSurface surface = lake.surface();
   EXPECT_EQ(surface.bed.depth_m, 0.0F);
   EXPECT_EQ(surface.frozen, 0.0F);
@@ -43,7 +44,7 @@ TEST(WaterSurface, WithoutABedIsItsLook) {
 }
 
 TEST(WaterSurface, LakesAreDarkByTheirDepthWhateverLightFallsOnThem) {
-  Lake lake;
+  OpenWater lake;
   lake.guidance.tone[0] = 0.9F;
   lake.ground = {40.0F, 1.0F};
   EXPECT_NEAR(lake.surface().look.tone_shift, -0.85F * (0.9F - 0.20F), 1e-6F);
@@ -55,7 +56,7 @@ TEST(WaterSurface, LakesAreDarkByTheirDepthWhateverLightFallsOnThem) {
 }
 
 TEST(WaterSurface, ABedTakesThePlaceOfTheLineAlongBanks) {
-  Lake lake;
+  OpenWater lake;
   lake.mirrored.to_near[0] = 1.1F;
   EXPECT_GT(lake.surface().look.shallow_share, 0.3F);
   lake.ground = {3.0F, 1.0F};
@@ -63,7 +64,7 @@ TEST(WaterSurface, ABedTakesThePlaceOfTheLineAlongBanks) {
 }
 
 TEST(WaterSurface, NothingIsMirroredWhereNothingShallBe) {
-  Lake lake;
+  OpenWater lake;
   lake.mirrored.source[0] = 0;
   lake.mirrored.share[0] = 1.0F;
   EXPECT_GT(lake.surface().look.image_share, 0.5F);
@@ -72,7 +73,7 @@ TEST(WaterSurface, NothingIsMirroredWhereNothingShallBe) {
 }
 
 TEST(WaterSurface, FrozenLakesLieUnderIceAndRiversRunOpen) {
-  Lake lake;
+  OpenWater lake;
   lake.palette = read_palette("winter");
   lake.palette.lakes_freeze_from_m = -std::numeric_limits<double>::infinity();
   lake.ground = {20.0F, 1.0F};

@@ -7,28 +7,28 @@
 namespace belvedere {
 namespace {
 
-const GeoTransform frame{0.0, 0.0, 100.0, 100.0};
+const GeoTransform sketch_frame{0.0, 0.0, 100.0, 100.0};
 const glm::dvec3 overhead{0.0, 0.0, 1.0};
-const glm::dvec2 viewer{3000.0, -6000.0};
+const glm::dvec2 sketch_viewer{3000.0, -6000.0};
 
 // Ground of 6 km as a camera sees it from 3 km above its southern rim, looking north and a little down: half sky, half land.
 struct Sketch {
   explicit Sketch(Grid<float> ground) : altitude_m(std::move(ground)) {
-    surface = deform(altitude_m, frame, glm::dvec3(viewer, 0.0), deformation);
+    surface = deform(altitude_m, sketch_frame, glm::dvec3(sketch_viewer, 0.0), deformation);
     tracer = std::make_unique<Tracer>(surface);
     CameraParameters parameters;
     parameters.width = 60;
     parameters.height = 40;
-    parameters.eye = {viewer, 3000.0};
+    parameters.eye = {sketch_viewer, 3000.0};
     parameters.pitch_deg = -30.0;
     parameters.field_of_view_deg = 60.0;
     camera = make_camera(parameters);
   }
   Grid<glm::vec3> draw(glm::dvec3 sun, const Grid<std::uint8_t>& marked = {}) const {
-    return make_relief_sketch(altitude_m, frame, marked, deformation, *tracer, *camera, sun);
+    return make_relief_sketch(altitude_m, sketch_frame, marked, deformation, *tracer, *camera, sun);
   }
   Grid<float> altitude_m;
-  Deformation deformation{DeformParameters{}, viewer};
+  Deformation deformation{DeformParameters{}, sketch_viewer};
   DeformedSurface surface;
   std::unique_ptr<Tracer> tracer;
   std::unique_ptr<Camera> camera;

@@ -14,7 +14,11 @@
 namespace belvedere {
 namespace {
 
-using namespace test;
+using test::all_meadow;
+using test::cell;
+using test::MadeUpWorld;
+using test::make_world;
+using test::southward;
 
 constexpr double level_m = 500.0;
 constexpr double shore_m = 5000.0;  // metres south of the first row, where the bank begins
@@ -25,12 +29,12 @@ constexpr double steep = 0.7;                    // rise over run of the bank
 LandCoverClass lake_or_wood(double, double y) { return y <= shore_m ? LandCoverClass::water : LandCoverClass::forest; }
 
 // A lake before a bank that rises evenly to the south, seen from the north.
-test::World lake_before_bank(DeformParameters deform = {}) {
+MadeUpWorld lake_before_bank(DeformParameters deform = {}) {
   return make_world(220, 330, [](double, double y) { return y <= shore_m ? level_m : level_m + steep * (y - shore_m); }, lake_or_wood,
                     deform, {653000.0, 5323000.0});
 }
 
-MirrorSight mirror(const test::World& world, const Camera& camera, PixelRect region, int tile_size = 64) {
+MirrorSight mirror(const MadeUpWorld& world, const Camera& camera, PixelRect region, int tile_size = 64) {
   MirrorParameters p;
   p.tile_size = tile_size;
   p.sun_direction = glm::normalize(glm::dvec3(0.0, 1.0, 1.0));
@@ -40,7 +44,7 @@ MirrorSight mirror(const test::World& world, const Camera& camera, PixelRect reg
 
 // The mirrored ray is the ray of an eye as far below the water as the eye is above it.
 TEST(WaterMirror, AnEvenBankIsSeenAsFromBelowTheWater) {
-  const test::World world = lake_before_bank();
+  const MadeUpWorld world = lake_before_bank();
   const auto camera = make_camera(southward(64, 160, -18.0));
   const MirrorSight sight = mirror(world, *camera, {0, 0, 64, 160});
   int seen = 0;
@@ -85,7 +89,7 @@ TEST(WaterMirror, AnEvenBankIsSeenAsFromBelowTheWater) {
 }
 
 TEST(WaterMirror, ShowsTheSkyWhereNothingStands) {
-  const test::World world = make_world(
+  const MadeUpWorld world = make_world(
       200, 200, [](double, double) { return level_m; }, [](double, double) { return LandCoverClass::water; });
   const auto camera = make_camera(southward(48, 48));
   const MirrorSight sight = mirror(world, *camera, {0, 0, 48, 48});
@@ -120,7 +124,7 @@ TEST(WaterMirror, AnyRegionAndAnyTilesGiveTheSameBits) {
   DeformParameters d;
   d.exaggeration = 1.4;
   d.bend = {60000.0, 9000.0, 8000.0, 1e-5};
-  const test::World world = lake_before_bank(d);
+  const MadeUpWorld world = lake_before_bank(d);
   const auto camera = make_camera(southward(96, 120));
   const MirrorSight whole = mirror(world, *camera, {0, 0, 96, 120});
   for (const PixelRect rect : {PixelRect{5, 30, 23, 71}, PixelRect{60, 47, 61, 48}, PixelRect{0, 0, 96, 120}}) {
@@ -136,7 +140,7 @@ TEST(WaterMirror, AnyRegionAndAnyTilesGiveTheSameBits) {
 }
 
 TEST(WaterMirror, NothingIsTracedWhereNothingIsWanted) {
-  const test::World world = lake_before_bank();
+  const MadeUpWorld world = lake_before_bank();
   const auto camera = make_camera(southward(64, 64));
   const MirrorSight none = trace_mirror(world.terrain, world.surface, Deformation(world.deform_parameters, world.viewer), *world.tracer,
                                         *camera, {}, Grid<std::uint8_t>(64, 64, 0), {0, 0, 64, 64});
@@ -147,7 +151,7 @@ TEST(WaterMirror, NothingIsTracedWhereNothingIsWanted) {
 }
 
 TEST(WaterGround, KnowsLakesByTheirPlace) {
-  const test::World world = lake_before_bank();
+  const MadeUpWorld world = lake_before_bank();
   const auto ground = find_water_ground(world.terrain);
   ASSERT_NE(ground, nullptr);
   const WaterGround::Place off = ground->at({653000.0, 5320000.0 - shore_m + 300.0});
@@ -155,7 +159,7 @@ TEST(WaterGround, KnowsLakesByTheirPlace) {
   // The bank's .7 is steeper than beds are taken for.
   EXPECT_NEAR(off.depth_m, 60.0 * (1.0 - std::exp(-0.6 * 300.0 / 60.0)), 1.0);
   EXPECT_EQ(ground->at({653000.0, 5320000.0 - shore_m - 300.0}).depth_m, 0.0F);
-  const test::World dry = make_world(
+  const MadeUpWorld dry = make_world(
       30, 30, [](double, double) { return level_m; }, all_meadow);
   EXPECT_EQ(find_water_ground(dry.terrain), nullptr);
 }

@@ -14,14 +14,18 @@
 namespace belvedere {
 namespace {
 
-using namespace test;
+using test::all_meadow;
+using test::MadeUpWorld;
+using test::make_world;
+using test::small_scene;
+using test::small_scene_text;
 using testing::HasSubstr;
 
 // Two cones of 1500 m on a plain, 9 km apart from west to east; the camera stands north of them and looks south, so that it sees the sides
 // that a sun in the south leaves dark.
 class TwoCones : public testing::Test {
  protected:
-  test::World world_ = make_world(
+  MadeUpWorld world_ = make_world(
       600, 400,
       [](double x, double y) {
         const auto cone = [&](double cx) { return std::max(0.0, 1500.0 - 0.6 * std::hypot(x - cx, y - 5000.0)); };
@@ -127,7 +131,7 @@ TEST(SeenRanges, ToldFromTurnedAwayIsWhatLiesInCastShadow) {
   p.pitch_deg = -70.0;
   const auto camera = make_camera(p);
   const auto shares = [&](double wall) {
-    const test::World world = cone_behind_wall(wall);
+    const MadeUpWorld world = cone_behind_wall(wall);
     const std::vector<SeenSlope> seen = see_slopes(world.terrain, 1.0, *world.tracer, *camera, 1);
     std::vector<SeenRange> ranges = find_ranges(seen);
     light_ranges(ranges, seen, *world.tracer, sun_direction({0.0, 30.0}), nullptr);

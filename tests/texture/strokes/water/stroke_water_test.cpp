@@ -7,17 +7,17 @@
 namespace belvedere {
 namespace {
 
-constexpr int width = 400;
-constexpr int height = 240;
+constexpr int lake_width = 400;
+constexpr int lake_height = 240;
 
 // Level water at an altitude, of which a pixel shows so many metres; land in the rows above 60.
-Picture water(float altitude_m = 900.F, float footprint_m = 14.F) {
-  Picture p = plain_picture(LandCoverClass::water, width, height);
-  p.guidance.depth_m = Grid<float>(width, height, 9000.F);
-  p.guidance.footprint_m = Grid<float>(width, height, footprint_m);
-  p.guidance.slope_deg = Grid<float>(width, height, 0.F);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+Picture lake_picture(float altitude_m = 900.F, float footprint_m = 14.F) {
+  Picture p = plain_picture(LandCoverClass::water, lake_width, lake_height);
+  p.guidance.depth_m = Grid<float>(lake_width, lake_height, 9000.F);
+  p.guidance.footprint_m = Grid<float>(lake_width, lake_height, footprint_m);
+  p.guidance.slope_deg = Grid<float>(lake_width, lake_height, 0.F);
+  for (int y = 0; y < lake_height; ++y)
+    for (int x = 0; x < lake_width; ++x) {
       p.guidance.position_m(x, y) = glm::vec3(footprint_m * static_cast<float>(x), -3.F * footprint_m * static_cast<float>(y), altitude_m);
       if (y < 60) p.guidance.land_cover(x, y) = LandCoverClass::pasture;
     }
@@ -28,20 +28,20 @@ Picture water(float altitude_m = 900.F, float footprint_m = 14.F) {
 }
 
 TEST(WaterStrokes, StreaksLieLevelAndLightOnOpenWaterAlone) {
-  const Picture p = water();
+  const Picture p = lake_picture();
   const std::vector<Stroke> streaks = grow_strokes("wind streaks", p.scene());
   ASSERT_GT(streaks.size(), 40U);
   for (const Stroke& s : streaks) {
     EXPECT_LT(angle_deg(axis_of(s), {1.F, 0.F}), 5.0);
     EXPECT_GT(s.colour.g, 0.5F);
     EXPECT_EQ(s.gate, StrokeGate::water);
-    EXPECT_GT(s.source / width, 60U + 3U) << "not at the shore";
+    EXPECT_GT(s.source / lake_width, 60U + 3U) << "not at the shore";
   }
 }
 
 TEST(WaterStrokes, StreaksAreShorterFarAway) {
   const auto mean_length = [](float footprint_m) {
-    const std::vector<Stroke> streaks = grow_strokes("wind streaks", water(900.F, footprint_m).scene());
+    const std::vector<Stroke> streaks = grow_strokes("wind streaks", lake_picture(900.F, footprint_m).scene());
     double sum = 0.0;
     for (const Stroke& s : streaks) sum += static_cast<double>(glm::length(axis_of(s))) / static_cast<double>(streaks.size());
     return sum;
@@ -50,21 +50,21 @@ TEST(WaterStrokes, StreaksAreShorterFarAway) {
 }
 
 TEST(WaterStrokes, CalmFrozenAndNarrowWaterHasNoStreaks) {
-  Picture p = water();
+  Picture p = lake_picture();
   p.parameters.wind = 0.0;
   EXPECT_TRUE(grow_strokes("wind streaks", p.scene()).empty());
   p.parameters.wind = 1.0;
   p.parameters.frozen_from_m = 800.0;
   EXPECT_TRUE(grow_strokes("wind streaks", p.scene()).empty());
-  Picture brook = water();
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
+  Picture brook = lake_picture();
+  for (int y = 0; y < lake_height; ++y)
+    for (int x = 0; x < lake_width; ++x)
       if (y < 100 || y > 104) brook.guidance.land_cover(x, y) = LandCoverClass::pasture;
   EXPECT_TRUE(grow_strokes("wind streaks", brook.scene()).empty());
 }
 
 TEST(WaterStrokes, FallsAreWhiteAndRunDown) {
-  Picture p = water();
+  Picture p = lake_picture();
   EXPECT_TRUE(grow_strokes("river foam", p.scene()).empty()) << "level water";
   for (float& slope : p.guidance.slope_deg) slope = 30.F;
   EXPECT_TRUE(grow_strokes("river foam", p.scene()).empty()) << "a lake below steep banks";
@@ -81,20 +81,20 @@ TEST(WaterStrokes, FallsAreWhiteAndRunDown) {
 
 // Coarse cells draw a lake some way up its bank: rows 60 to 70 here, over level water.
 TEST(WaterStrokes, TheBankOfALakeIsNoFall) {
-  Picture lake = water();
+  Picture lake = lake_picture();
   for (int y = 60; y < 70; ++y)
-    for (int x = 0; x < width; ++x) lake.guidance.position_m(x, y).z += 25.F * static_cast<float>(70 - y);
+    for (int x = 0; x < lake_width; ++x) lake.guidance.position_m(x, y).z += 25.F * static_cast<float>(70 - y);
   EXPECT_TRUE(grow_strokes("river foam", lake.scene()).empty());
   // The same water as a river's, which goes on falling.
-  for (int y = 70; y < height; ++y)
-    for (int x = 0; x < width; ++x) lake.guidance.position_m(x, y).z -= 25.F * static_cast<float>(y - 70);
+  for (int y = 70; y < lake_height; ++y)
+    for (int x = 0; x < lake_width; ++x) lake.guidance.position_m(x, y).z -= 25.F * static_cast<float>(y - 70);
   EXPECT_GT(grow_strokes("river foam", lake.scene()).size(), 1000U);
 }
 
 // Water is swept, ice is dabbed.
 TEST(WaterStrokes, IceIsPaintedInShorterStrokesThanWater) {
   const auto mean_length = [](double frozen_from_m) {
-    Picture p = water();
+    Picture p = lake_picture();
     p.parameters.frozen_from_m = frozen_from_m;
     const std::vector<Stroke> strokes = grow_strokes("water", p.scene());
     double sum = 0.0;
@@ -106,10 +106,10 @@ TEST(WaterStrokes, IceIsPaintedInShorterStrokesThanWater) {
 
 // A brook runs over a wall aslant, not down the wall's fall line.
 TEST(WaterStrokes, ABrookIsWhiteAlongItsOwnWayOverAWall) {
-  Picture p = water();
+  Picture p = lake_picture();
   std::size_t wet = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < lake_height; ++y)
+    for (int x = 0; x < lake_width; ++x) {
       const bool brook = std::abs(x - y - 40) < 2;
       p.guidance.land_cover(x, y) = brook ? LandCoverClass::water : LandCoverClass::rock;
       p.guidance.position_m(x, y) = {14.F * static_cast<float>(x), -14.F * static_cast<float>(y), 900.F - 14.F * static_cast<float>(y)};
@@ -128,33 +128,33 @@ TEST(WaterStrokes, ABrookIsWhiteAlongItsOwnWayOverAWall) {
 }
 
 TEST(WaterStrokes, SurfRunsAlongTheSeaInABrokenLine) {
-  EXPECT_TRUE(grow_strokes("sea surf", water(900.F).scene()).empty()) << "a lake";
-  const Picture p = water(0.4F);
+  EXPECT_TRUE(grow_strokes("sea surf", lake_picture(900.F).scene()).empty()) << "a lake";
+  const Picture p = lake_picture(0.4F);
   const std::vector<Stroke> surf = grow_strokes("sea surf", p.scene());
   ASSERT_GT(surf.size(), 40U);
-  Grid<std::uint8_t> white(width, 1, 0);
+  Grid<std::uint8_t> white(lake_width, 1, 0);
   for (const Stroke& s : surf) {
     EXPECT_LT(angle_deg(axis_of(s), {1.F, 0.F}), 25.0);
     EXPECT_LT(s.points[0].y, 60.F + 2.5F) << "within 1.6 units of the shore";
     EXPECT_LE(s.start_width, 0.8F);
     for (int x = static_cast<int>(s.points[0].x); x < static_cast<int>(s.points[1].x); ++x)
-      if (x >= 0 && x < width) white(x, 0) = 1;
+      if (x >= 0 && x < lake_width) white(x, 0) = 1;
     for (int x = static_cast<int>(s.points[1].x); x < static_cast<int>(s.points[0].x); ++x)
-      if (x >= 0 && x < width) white(x, 0) = 1;
+      if (x >= 0 && x < lake_width) white(x, 0) = 1;
   }
   int covered = 0;
   for (const std::uint8_t is : white) covered += is;
-  EXPECT_GT(covered, width / 5);
-  EXPECT_LT(covered, 9 * width / 10) << "broken";
+  EXPECT_GT(covered, lake_width / 5);
+  EXPECT_LT(covered, 9 * lake_width / 10) << "broken";
   // A farther shore has a thinner line: no more than 120 m of ground.
-  for (const Stroke& s : grow_strokes("sea surf", water(0.4F, 400.F).scene())) EXPECT_LE(s.start_width, 0.8F * 0.3F + 1e-4F);
+  for (const Stroke& s : grow_strokes("sea surf", lake_picture(0.4F, 400.F).scene())) EXPECT_LE(s.start_width, 0.8F * 0.3F + 1e-4F);
 }
 
 // A hill that stands before the sea and is nearer has no surf along its crest.
 TEST(WaterStrokes, WhatStandsBeforeTheSeaIsNoShore) {
-  Picture p = water(0.4F);
+  Picture p = lake_picture(0.4F);
   for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < width; ++x) p.guidance.depth_m(x, y) = 4000.F;
+    for (int x = 0; x < lake_width; ++x) p.guidance.depth_m(x, y) = 4000.F;
   EXPECT_TRUE(grow_strokes("sea surf", p.scene()).empty());
 }
 

@@ -12,7 +12,7 @@
 namespace belvedere {
 namespace {
 
-const std::string scene = std::string(test::contact_scene) + R"(
+const std::string figure_scene = std::string(test::contact_scene) + R"(
 [[exemplar]]
 width = 240
 height = 180
@@ -21,7 +21,7 @@ height = 180
 class Figure : public Program {};
 
 TEST_F(Figure, ShowsClassesAndAltitudesOfThePictureAndOfWhatItCopiesFrom) {
-  const std::string file = write("s.toml", scene);
+  const std::string file = write("s.toml", figure_scene);
   const Outcome outcome = run({"figure", file, "--quiet", "--out", path("out")});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   ASSERT_EQ(run({"render", file, "--quiet", "--channels", "Z,landcover.id,altitude.V", "--out", path("one")}).status, 0);

@@ -15,7 +15,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-const std::string scene = std::string(test::contact_scene) + R"(
+const std::string sweep_scene = std::string(test::contact_scene) + R"(
 [synthesis]
 enabled = false
 )";
@@ -23,7 +23,7 @@ enabled = false
 class Sweep : public Program {};
 
 TEST_F(Sweep, EachPictureIsTheRenderOfItsValues) {
-  const std::string file = write("s.toml", scene);
+  const std::string file = write("s.toml", sweep_scene);
   const Outcome outcome =
       run({"sweep", file, "--quiet", "--set", "sun.azimuth_deg=200,320", "--set", "air.haze=0.1", "--out", path("out")});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -51,7 +51,7 @@ TEST_F(Sweep, EachPictureIsTheRenderOfItsValues) {
 }
 
 TEST_F(Sweep, WrongValuesAreRefusedBeforeTheFirstPicture) {
-  const std::string file = write("s.toml", scene);
+  const std::string file = write("s.toml", sweep_scene);
   const Outcome outcome = run({"sweep", file, "--quiet", "--set", "air.haze=0.1,7", "--out", path("out")});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.err, HasSubstr("haze"));

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/parallel.h"
+#include "base/pixel_rect.h"
 
 namespace belvedere::tools {
 namespace {

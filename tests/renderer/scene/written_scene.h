@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/scene/scene_file.h"
+#include "tests/files.h"
+
+namespace belvedere::test {
+
+// Of a file whose second line `text` begins in.
+inline Scene scene_of(const std::string& text, const std::vector<std::string>& settings = {}) {
+  return parse_scene("version = 1\n" + text, "s.toml", ".", {.data_folders = {}, .settings = settings}).scene;
+}
+
+// What its reader says against it.
+inline std::string refused(const std::string& text, const std::vector<std::string>& settings = {}) {
+  return message_of(ErrorKind::usage, [&] { scene_of(text, settings); });
+}
+
+}  // namespace belvedere::test
