@@ -16,7 +16,7 @@ namespace belvedere {
 
 // What a user asks of the view.
 struct ViewWishes {
-  PictureFormat format = {};
+  ViewFormat format = {};
   std::optional<double> towards_deg = {};  // azimuth of the view, to 15° either way
   std::optional<glm::dvec2> from = {};     // the viewer stands here, scene CRS
   struct Place {

@@ -20,7 +20,7 @@ double tangent(double angle_rad) {
   return turn.sine / turn.cosine;
 }
 
-FormatLimits limits_of(const PictureFormat& format) {
+FormatLimits limits_of(const ViewFormat& format) {
   FormatLimits out;
   if (format.full_turn) {
     // A ring of ground: the far half of it is as near to the viewer as the near half, so the lower edge comes closer.

@@ -8,7 +8,7 @@
 namespace belvedere {
 
 // The shape of a sheet.
-struct PictureFormat {
+struct ViewFormat {
   double aspect = 2.0;     // width over height, 0.5…12
   bool full_turn = false;  // all around the viewer, on a cylinder
 };
@@ -19,7 +19,7 @@ struct FormatLimits {
   double field_of_view_deg = 44.0, least_field_deg = 34.0, most_field_deg = 56.0;
   double near_share = 0.42, least_near = 0.28, most_near = 0.66;  // distance of the lower edge, of the horizon's
 };
-FormatLimits limits_of(const PictureFormat& format);
+FormatLimits limits_of(const ViewFormat& format);
 
 // A view with its bend: all that a picture's geometry hangs on. The ground is first exaggerated about a base, then bent: by a parabola, or
 // between near and far by more in one half and less in the other. Level ground at the distance d is tipped towards the viewer by

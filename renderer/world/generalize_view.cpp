@@ -56,7 +56,7 @@ Grid<float> mask_for_scene(const LoadedScene& loaded, const Dem& dem, const Land
     mask = combine_masks(std::move(mask), soften_mask(read_mask(source, {dem.transform, dem.width(), dem.height(), dem.crs}, progress)));
   }
   if (!settings.mask_classes.empty()) {
-    ClassShares shares;
+    GeneralizedShares shares;
     shares.fill(1.F);
     for (const auto& [name, share] : settings.mask_classes) shares[static_cast<std::size_t>(*find_class(name))] = static_cast<float>(share);
     const LandCover made = land_cover == nullptr ? make_scene_land_cover(loaded, dem, progress, cache) : LandCover();

@@ -55,7 +55,7 @@ Grid<float> slope_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, const S
   return mask;
 }
 
-Grid<float> class_mask(const Grid<LandCoverClass>& classes, const ClassShares& shares) {
+Grid<float> class_mask(const Grid<LandCoverClass>& classes, const GeneralizedShares& shares) {
   Grid<float> mask(classes.width(), classes.height());
   change_cells(mask, [&](float, int x, int y) { return shares[static_cast<std::size_t>(classes(x, y))]; });
   return mask;

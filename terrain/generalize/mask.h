@@ -23,8 +23,8 @@ struct SlopeRange {
 Grid<float> slope_mask(const Grid<float>& altitude_m, glm::dvec2 cell_m, const SlopeRange& range);
 
 // How much of the generalization each class takes, 0…1: 0 for lakes and valley floors, 1 for what the map maker does not name.
-using ClassShares = std::array<float, land_cover_class_count>;
-Grid<float> class_mask(const Grid<LandCoverClass>& classes, const ClassShares& shares);
+using GeneralizedShares = std::array<float, land_cover_class_count>;
+Grid<float> class_mask(const Grid<LandCoverClass>& classes, const GeneralizedShares& shares);
 
 // For GeneralizeGrids::amplification_mask, where it lets flats be smoothed all the same. Where flat ground meets steep slopes, and nowhere
 // else: there amplified middle bands would dig a moat along the foot of the slope. Flat is less than 3° (all) to 12° (nothing) after a blur

@@ -124,7 +124,7 @@ RasterFrame level_frame(const RasterFrame& frame, int level) {
   return out;
 }
 
-Grid<float> RowReducer::push(const Grid<float>& rows) {
+Grid<float> DemRowReducer::push(const Grid<float>& rows) {
   const Grid<float> known = joined(kept_, rows);
   const int end = first_ + known.height();
   const bool last = end >= height_;
@@ -176,7 +176,7 @@ DemLevels::DemLevels(const DemParameters& parameters, const RasterFrame& frame, 
   const auto cells = [&](int level) { return static_cast<double>(level_frame(frame, level).width) * level_frame(frame, level).height; };
   for (double held = cells(coarsest); first_kept_ > 1 && held + cells(first_kept_ - 1) <= kept_cells; --first_kept_)
     held += cells(first_kept_ - 1);
-  std::vector<RowReducer> reducers;
+  std::vector<DemRowReducer> reducers;
   std::vector<int> rows_made(static_cast<std::size_t>(coarsest) + 1, 0);
   for (int level = 0; level < coarsest; ++level) reducers.emplace_back(level_cells(frame.width, level), level_cells(frame.height, level));
   for (int level = first_kept_; level <= coarsest; ++level)
@@ -237,7 +237,7 @@ Grid<float> DemLevels::read_level(int level, const PixelRect& cells) {
   const PixelRect all = whole_of(frame(), level);
   const PixelRect read = {finest.x0, finest.y0, around.x1 == all.x1 ? frame().width : finest.x1,
                           around.y1 == all.y1 ? frame().height : finest.y1};
-  std::vector<RowReducer> reducers;
+  std::vector<DemRowReducer> reducers;
   for (int i = 0; i < level; ++i) reducers.emplace_back(level_cells(read.width(), i), level_cells(read.height(), i));
   int made = around.y0;
   for (int y = read.y0; y < read.y1; y += strip_rows) {

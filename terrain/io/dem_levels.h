@@ -27,9 +27,9 @@ RasterFrame level_frame(const RasterFrame& frame, int level);
 
 // reduce() of a raster whose rows come in strips, from the top. A void takes no part: a cell is the mean of the known ones under the
 // kernel, weighted by it, and void where they have less than half of its weight.
-class RowReducer {
+class DemRowReducer {
  public:
-  RowReducer(int width, int height) : width_(width), height_(height) {}
+  DemRowReducer(int width, int height) : width_(width), height_(height) {}
   // The coarser rows that can be made now that these are known; none or several. After the last strip all (height + 1) / 2 are made.
   Grid<float> push(const Grid<float>& rows);
 

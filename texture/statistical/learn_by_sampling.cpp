@@ -39,8 +39,8 @@ LearnedTexture learn_by_sampling(const Grid<Rgb8>& crop, const Grid<std::uint8_t
   const BandPicture example = to_bands(crop, model.bands, states);
 
   // Step 1.
-  std::vector<Candidate> candidates = make_candidates(example, model.bands, candidate_types(0, sampled_reach_px));
-  for (Candidate& c : candidates) {
+  std::vector<CliqueCandidate> candidates = make_candidates(example, model.bands, candidate_types(0, sampled_reach_px));
+  for (CliqueCandidate& c : candidates) {
     c.in = preselected(c.clique.type);
     if (c.in) model.cliques.push_back(c.clique);
   }

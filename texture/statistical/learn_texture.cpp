@@ -110,17 +110,17 @@ LearnedTexture learn_texture(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& s
   TextureTrial trial(model, width, height, learning_seed);
   progress.begin("learning a texture", parameters.types);
   for (int level = model.levels; level >= 0; --level) {
-    std::vector<Candidate> candidates =
+    std::vector<CliqueCandidate> candidates =
         make_candidates(example[static_cast<std::size_t>(level)], model.bands, candidate_types(level, reach_at(parameters, level)));
     // Coarser levels together get at most half of the budget, the finest what is left.
     const auto budget =
         static_cast<std::size_t>(level > 0 ? parameters.types * (model.levels - level + 1) / (2 * (model.levels + 1)) : parameters.types);
-    const auto add = [&](Candidate& c) {
+    const auto add = [&](CliqueCandidate& c) {
       c.in = true;
       model.cliques.push_back(c.clique);
       progress.advance(1.0);
     };
-    for (Candidate& c : candidates)
+    for (CliqueCandidate& c : candidates)
       if (always_in(c.clique.type)) add(c);
     trial.begin_level(model, level);
     for (int round = 0;; ++round) {

@@ -4,8 +4,8 @@
 
 namespace belvedere {
 
-std::vector<Candidate> make_candidates(const BandPicture& example, const BandSpace& bands, const std::vector<CliqueType>& types) {
-  std::vector<Candidate> out(types.size());
+std::vector<CliqueCandidate> make_candidates(const BandPicture& example, const BandSpace& bands, const std::vector<CliqueType>& types) {
+  std::vector<CliqueCandidate> out(types.size());
   parallel_ranges(types.size(), std::size_t{8}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k != end; ++k) {
       const DifferenceHistogram histogram = count_differences(example, bands, types[k]);
@@ -16,7 +16,7 @@ std::vector<Candidate> make_candidates(const BandPicture& example, const BandSpa
   return out;
 }
 
-LearningRound judge_candidates(const std::vector<Candidate>& candidates, const BandPicture& made, const BandSpace& bands) {
+LearningRound judge_candidates(const std::vector<CliqueCandidate>& candidates, const BandPicture& made, const BandSpace& bands) {
   std::vector<HistogramGroups::Distance> off(candidates.size());
   parallel_ranges(candidates.size(), std::size_t{8}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k != end; ++k)

@@ -12,14 +12,14 @@ namespace belvedere {
 // histogram is farthest from the crop's.
 
 // A clique type that may be added, with the crop's distribution.
-struct Candidate {
+struct CliqueCandidate {
   Clique clique;
   HistogramGroups groups;
   bool in = false;
 };
 
 // Of the given types, from the crop at their level.
-std::vector<Candidate> make_candidates(const BandPicture& example, const BandSpace& bands, const std::vector<CliqueType>& types);
+std::vector<CliqueCandidate> make_candidates(const BandPicture& example, const BandSpace& bands, const std::vector<CliqueType>& types);
 
 // How a level's learning went.
 struct LearnedLevel {
@@ -34,6 +34,6 @@ struct LearningRound {
   LearnedLevel told;      // without its level; `types`: those that are in
   std::size_t worst = 0;  // candidates.size(): none is left out, or none differs
 };
-LearningRound judge_candidates(const std::vector<Candidate>& candidates, const BandPicture& made, const BandSpace& bands);
+LearningRound judge_candidates(const std::vector<CliqueCandidate>& candidates, const BandPicture& made, const BandSpace& bands);
 
 }  // namespace belvedere

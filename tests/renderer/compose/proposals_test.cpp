@@ -78,8 +78,8 @@ TEST(Proposals, WishesHold) {
 TEST(Proposals, AllFormatsHaveViews) {
   const CoarseGround ground = test::chain_region();
   const Massifs massifs = find_massifs(ground);
-  for (const PictureFormat format : {PictureFormat{1.0, false}, PictureFormat{1.414, false}, PictureFormat{3.0, false},
-                                     PictureFormat{5.0, false}, PictureFormat{10.0, true}}) {
+  for (const ViewFormat format :
+       {ViewFormat{1.0, false}, ViewFormat{1.414, false}, ViewFormat{3.0, false}, ViewFormat{5.0, false}, ViewFormat{10.0, true}}) {
     const std::vector<Candidate> proposals = propose_views({ground, massifs, {.format = format}}, {.most = 1});
     ASSERT_EQ(proposals.size(), 1U);
     EXPECT_EQ(proposals[0].view.cylinder, format.aspect > 3.2 || format.full_turn);

@@ -30,7 +30,7 @@ class MaskFile : public RasterFiles {
 };
 
 TEST(ClassMask, TakesEachClassAtItsShare) {
-  ClassShares shares;
+  GeneralizedShares shares;
   for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = static_cast<float>(i) / 16.F;
   Grid<LandCoverClass> classes(land_cover_class_count, 2);
   for (int x = 0; x < classes.width(); ++x)

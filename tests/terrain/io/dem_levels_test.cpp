@@ -27,7 +27,7 @@ Grid<float> rough_grid(int width, int height) {
 }
 
 Grid<float> reduce_in_strips(const Grid<float>& grid, int rows) {
-  RowReducer reducer(grid.width(), grid.height());
+  DemRowReducer reducer(grid.width(), grid.height());
   Grid<float> out((grid.width() + 1) / 2, (grid.height() + 1) / 2);
   int made = 0;
   for (int y = 0; y < grid.height(); y += rows) {
@@ -38,7 +38,7 @@ Grid<float> reduce_in_strips(const Grid<float>& grid, int rows) {
   return out;
 }
 
-TEST(RowReducer, EqualsReduceHoweverTheRowsCome) {
+TEST(DemRowReducer, EqualsReduceHoweverTheRowsCome) {
   for (const glm::ivec2 size :
        {glm::ivec2(1, 1), glm::ivec2(2, 2), glm::ivec2(3, 5), glm::ivec2(6, 4), glm::ivec2(37, 52), glm::ivec2(40, 41)})
     for (const int rows : {1, 2, 3, 7, 100}) {
@@ -47,7 +47,7 @@ TEST(RowReducer, EqualsReduceHoweverTheRowsCome) {
     }
 }
 
-TEST(RowReducer, VoidsTakeNoPart) {
+TEST(DemRowReducer, VoidsTakeNoPart) {
   Grid<float> level(20, 20, 500.F);
   for (int y = 6; y < 14; ++y)
     for (int x = 6; x < 14; ++x) level(x, y) = NAN;

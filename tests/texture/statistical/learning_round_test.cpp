@@ -12,7 +12,7 @@ TEST(LearningRound, TheCropItselfIsNoDistanceAwayAndStrangersAre) {
   const Grid<Rgb8> crop = test::striped_crop(64, 64, 8);
   const BandSpace bands = find_bands(crop, {});
   const BandPicture example = to_bands(crop, bands, {});
-  std::vector<Candidate> candidates = make_candidates(example, bands, candidate_types(0, 4));
+  std::vector<CliqueCandidate> candidates = make_candidates(example, bands, candidate_types(0, 4));
   const LearningRound same = judge_candidates(candidates, example, bands);
   EXPECT_EQ(same.worst, candidates.size());
   EXPECT_EQ(same.told.types, 0);

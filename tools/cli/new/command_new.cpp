@@ -46,7 +46,7 @@ std::string title_of(const std::string& path) {
   return title;
 }
 
-ViewWishes wishes_of(const NewOptions& options, const PictureFormat& format, const CoarseGround& ground) {
+ViewWishes wishes_of(const NewOptions& options, const ViewFormat& format, const CoarseGround& ground) {
   ViewWishes out;
   out.format = format;
   out.search_bend = options.search_bend;

@@ -24,7 +24,7 @@ NamedPlace read_named_place(const std::string& text);
 
 // The shape of the sheet and its width in print: "3:1", "A2" (lying), "A2 upright", "1600x900" or "cylinder".
 struct SheetFormat {
-  PictureFormat picture;
+  ViewFormat picture;
   double sheet_width_mm = 1200.0;
   int width_px = 2400;
 };
