@@ -7,11 +7,11 @@
 #include <limits>
 
 namespace belvedere::bench {
-namespace {
 
 constexpr std::size_t packet_size = 16;
 constexpr int tile_cells = 64;
 
+// Not in the anonymous namespace, because members of a class that a header names are of these types.
 struct alignas(64) PacketRays {
   float org_x[packet_size], org_y[packet_size], org_z[packet_size], dir_x[packet_size], dir_y[packet_size], dir_z[packet_size];
 };
@@ -19,6 +19,8 @@ struct PacketHits {
   float distance[packet_size], u[packet_size], v[packet_size];
   unsigned primitive[packet_size];
 };
+
+namespace {
 
 RTCIntersectContext coherent() {
   RTCIntersectContext context;

@@ -15,4 +15,8 @@ int text_width(const std::string& text, int scale);
 // `x`, `y`: the upper left corner of the first letter; what lies outside of the picture is cut off.
 void draw_text(Grid<glm::vec3>& picture, int x, int y, const std::string& text, glm::vec3 colour, int scale);
 
+// Captions on sheets of pictures.
+inline constexpr int caption_scale = 2;
+inline constexpr int caption_line_px = text_height * caption_scale + 6;
+
 }  // namespace belvedere::tools

@@ -43,17 +43,17 @@ struct Preview {
   Grid<float> foot_mask, slope_mask, drawn_mask;
 };
 
-std::string base64(const Grid<float>& values) {
+std::string base64_of(const Grid<float>& values) {
   std::string bytes;
   bytes.reserve(values.size() * 4);
   for (const float v : values) {
     const auto bits = std::bit_cast<std::uint32_t>(v);  // little end first
     for (int i = 0; i < 4; ++i) bytes += static_cast<char>((bits >> (8 * i)) & 0xffU);
   }
-  return belvedere::base64(bytes);
+  return base64(bytes);
 }
 
-std::string base64(const Grid<unsigned char>& values) { return belvedere::base64(std::string(values.begin(), values.end())); }
+std::string base64_of(const Grid<unsigned char>& values) { return base64(std::string(values.begin(), values.end())); }
 
 // Cell i over cell 2 i, as reduce() takes altitudes.
 Grid<unsigned char> every_other(const Grid<unsigned char>& cells) {
@@ -267,11 +267,11 @@ Json terrain_json(const Preview& p, glm::dvec2 distances_m) {
                      .add("skipped", Json::number(p.skipped))
                      .add("viewer", pair(p.viewer_cell.x, p.viewer_cell.y))
                      .add("distances", pair(distances_m.x, distances_m.y))
-                     .add("altitude", Json::text(base64(p.altitude_m)))
-                     .add("foot", Json::text(base64(p.foot_mask)))
-                     .add("slope", Json::text(base64(p.slope_mask)));
-  if (!p.drawn_mask.empty()) terrain.add("drawn", Json::text(base64(p.drawn_mask)));
-  if (!p.lakes.empty()) terrain.add("lakes", Json::text(base64(p.lakes)));
+                     .add("altitude", Json::text(base64_of(p.altitude_m)))
+                     .add("foot", Json::text(base64_of(p.foot_mask)))
+                     .add("slope", Json::text(base64_of(p.slope_mask)));
+  if (!p.drawn_mask.empty()) terrain.add("drawn", Json::text(base64_of(p.drawn_mask)));
+  if (!p.lakes.empty()) terrain.add("lakes", Json::text(base64_of(p.lakes)));
   return terrain;
 }
 

@@ -16,8 +16,8 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr int map_px = 600;      // longest side of a painting on the page
-constexpr int swatch_side = 96;  // texels
+constexpr int painting_px = 600;  // longest side of a painting on the page
+constexpr int swatch_side = 96;   // texels
 constexpr int swatch_times = 2;
 constexpr int inside_squared = 64;  // as in quality.h
 constexpr int step_px = 3;          // a guide's value in a chart
@@ -98,8 +98,8 @@ void write_exemplar_report(const std::string& folder, const std::vector<Exemplar
     const std::string number = fmt::format("{}", e + 1);
     page.begin_figure("painting_" + number, markup_text(exemplar.name),
                       "The painting and its classes; what is never a source is near black.");
-    page.picture("painting_" + number, reduced_picture(to_picture(exemplar.picture), map_px), "painting");
-    page.picture("classes_" + number, reduced_picture(label_picture(exemplar.guides.label), map_px), "classes");
+    page.picture("painting_" + number, reduced_picture(to_picture(exemplar.picture), painting_px), "painting");
+    page.picture("classes_" + number, reduced_picture(label_picture(exemplar.guides.label), painting_px), "classes");
     page.end_figure();
 
     page.begin_figure("swatches_" + number, "Its paints",

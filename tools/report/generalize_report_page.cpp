@@ -10,6 +10,7 @@
 #include "terrain/generalize/generalize_report.h"
 #include "terrain/generalize/mask.h"
 #include "tools/report/generalize_figures.h"
+#include "tools/report/json_numbers.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
 
@@ -173,12 +174,6 @@ Json pits_json(const FootPits& pits) {
       .add("lowered_m3", Json::number(pits.lowered_m3));
 }
 
-Json numbers(const std::vector<double>& values) {
-  Json out = Json::array();
-  for (const double v : values) out.add(Json::number(v));
-  return out;
-}
-
 std::string as_json(const GeneralizeReportInput& in, const Measures& m) {
   Json distances = Json::array();
   for (std::size_t s = 0; s < slices; ++s) {
@@ -186,8 +181,8 @@ std::string as_json(const GeneralizeReportInput& in, const Measures& m) {
     const RidgeSharpness& r = m.ridges[s];
     distances.add(Json::object()
                       .add("cells", Json::number(static_cast<double>(c.cells)))
-                      .add("band_energy_before_m2", numbers(m.energy_before_m2[s]))
-                      .add("band_energy_after_m2", numbers(m.energy_after_m2[s]))
+                      .add("band_energy_before_m2", json_numbers(m.energy_before_m2[s]))
+                      .add("band_energy_after_m2", json_numbers(m.energy_after_m2[s]))
                       .add("change_mean_m", Json::number(c.mean_m))
                       .add("change_rms_m", Json::number(c.rms_m))
                       .add("change_largest_m", Json::number(c.largest_m))
@@ -201,7 +196,7 @@ std::string as_json(const GeneralizeReportInput& in, const Measures& m) {
              .add("command", Json::text(in.command))
              .add("width", Json::number(in.before_m.width()))
              .add("height", Json::number(in.before_m.height()))
-             .add("cell_m", numbers({in.cell_m.x, in.cell_m.y}))
+             .add("cell_m", Json::array({Json::number(in.cell_m.x), Json::number(in.cell_m.y)}))
              .add("bands", Json::number(m.bands))
              .add("distances_near_to_far", std::move(distances))
              .add("pits_at_slope_feet", Json::object()

@@ -21,7 +21,7 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr int map_px = 480;  // longest side of a small map
+constexpr int small_map_px = 480;  // longest side of a small map
 
 Grid<glm::vec3> picture_of(const RgbPlanes& rgb) {
   Grid<glm::vec3> out(rgb.r.width(), rgb.r.height());
@@ -119,7 +119,7 @@ void add_inputs(ReportFolder& page, const KnownGround& ground, const GroundFit& 
     Grid<glm::vec3> grey(cells.width(), cells.height());
     for (std::size_t i = 0; i != cells.size(); ++i)
       grey[i] = glm::vec3(static_cast<float>(std::clamp((static_cast<double>(cells[i]) - range.low) / (range.high - range.low), 0.0, 1.0)));
-    page.picture(fmt::format("input_{}", range.name), reduced_picture(grey, map_px / 2),
+    page.picture(fmt::format("input_{}", range.name), reduced_picture(grey, small_map_px / 2),
                  fmt::format("{}: {:.4g} … {:.4g}", range.name, range.low, range.high));
   }
   page.end_figure();
@@ -132,8 +132,8 @@ void add_classes(ReportFolder& page, const KnownGround& ground, const std::vecto
           ? "The picture, what it was taken for (black: cloud, shadow, masked or too dark to tell), and how many cells have each "
             "colour of the hue–saturation plane, red to the right, green upwards to the left."
           : "What the land-cover map says (black: nothing to be learned from).");
-  if (ground.picture) page.picture("picture", reduced_picture(picture_of(ground.picture->rgb), map_px), "picture");
-  page.picture("classes", reduced_picture(class_map(ground.altitude_m, ground.labels, colours), map_px), "classes");
+  if (ground.picture) page.picture("picture", reduced_picture(picture_of(ground.picture->rgb), small_map_px), "picture");
+  page.picture("classes", reduced_picture(class_map(ground.altitude_m, ground.labels, colours), small_map_px), "classes");
   if (ground.picture) page.picture("plane", plane_picture(ground, colours), "hue and saturation");
   page.end_figure();
 }
@@ -326,9 +326,9 @@ void add_reproduction(ReportFolder& page, const LayersFitReportInput& in, const 
       in.ground->picture ? picture_of(in.ground->picture->rgb) : class_map(in.ground->altitude_m, in.ground->labels, colours);
   const Grid<glm::vec3> made =
       in.ground->picture ? picture_of(held_out.prediction.expected) : class_map(in.ground->altitude_m, likely, colours);
-  const Grid<glm::vec3> left = reduced_picture(original, 2 * map_px);
+  const Grid<glm::vec3> left = reduced_picture(original, 2 * small_map_px);
   page.write_picture("original", left);
-  page.write_picture("reproduction", reduced_picture(made, 2 * map_px));
+  page.write_picture("reproduction", reduced_picture(made, 2 * small_map_px));
   page.add(fmt::format(
       "<div style=\"position:relative;width:{0}px;height:{1}px\"><img src=\"reproduction.png\" alt=\"reproduction\" "
       "style=\"position:absolute\">"
@@ -339,8 +339,8 @@ void add_reproduction(ReportFolder& page, const LayersFitReportInput& in, const 
       left.width(), left.height()));
   page.end_figure();
   page.begin_figure("likely", "Most likely classes", "Beside the classes they are judged against.");
-  page.picture("true_classes", reduced_picture(class_map(in.ground->altitude_m, in.ground->labels, colours), map_px), "true");
-  page.picture("likely_classes", reduced_picture(class_map(in.ground->altitude_m, likely, colours), map_px), "most likely, not seen");
+  page.picture("true_classes", reduced_picture(class_map(in.ground->altitude_m, in.ground->labels, colours), small_map_px), "true");
+  page.picture("likely_classes", reduced_picture(class_map(in.ground->altitude_m, likely, colours), small_map_px), "most likely, not seen");
   page.end_figure();
 }
 

@@ -13,7 +13,7 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr const char* style =
+constexpr const char* folder_style =
     R"(body{font:16px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:1320px;padding:0 1rem;color:#222;background:#fafaf7}
 h1{font-size:1.7rem}h2{font-size:1.2rem;margin-top:2.2rem}p{max-width:46rem}
 .row{display:flex;gap:12px;align-items:flex-start;margin-bottom:10px}figure{margin:0;flex:0 1 auto;min-width:0}figure img{max-width:100%;height:auto;display:block}
@@ -61,7 +61,7 @@ void ReportFolder::write_page(const std::string& title, const std::string& headi
   write("index.html",
         fmt::format("<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{}</title>\n<style>{}</style></head>\n"
                     "<body><h1>{}</h1>\n<p>{}</p>\n<pre>{}</pre>\n{}</body></html>\n",
-                    markup_text(title), style, markup_text(heading), markup_text(lead), markup_text(command), body_));
+                    markup_text(title), folder_style, markup_text(heading), markup_text(lead), markup_text(command), body_));
 }
 
 void ReliefPainter::whole(const std::string& name, const Grid<float>& altitude_m, const std::string& caption) {

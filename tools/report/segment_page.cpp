@@ -13,6 +13,7 @@
 #include "renderer/image/output_file.h"
 #include "texture/segment/segment.h"
 #include "tools/report/data_uri.h"
+#include "tools/report/json_numbers.h"
 #include "tools/report/report_folder.h"
 
 namespace belvedere::tools {
@@ -34,17 +35,10 @@ std::string runs_of(const Grid<std::uint16_t>& pieces) {
   return out;
 }
 
-template <class Values>
-Json numbers(const Values& values) {
-  Json out = Json::array();
-  for (const auto value : values) out.add(Json::number(static_cast<double>(value)));
-  return out;
-}
-
 std::string script_data(const std::string& folder, const std::string& mask_name, const Grid<glm::vec3>& picture,
                         const PaintingSegments& segments, std::size_t groups) {
   Json joins = Json::array();
-  for (const auto& join : segments.tree.joins) joins.add(numbers(join));
+  for (const auto& join : segments.tree.joins) joins.add(json_numbers(join));
   Json classes = Json::array();
   for (const LandCoverClassInfo& info : land_cover_classes())
     classes.add(Json::object()
@@ -56,8 +50,8 @@ std::string script_data(const std::string& folder, const std::string& mask_name,
           .add("width", Json::number(picture.width()))
           .add("height", Json::number(picture.height()))
           .add("mask", Json::text(mask_name))
-          .add("groups", numbers(cut_nodes(segments.tree, groups)))
-          .add("guess", numbers(segments.guess))
+          .add("groups", json_numbers(cut_nodes(segments.tree, groups)))
+          .add("guess", json_numbers(segments.guess))
           .add("joins", std::move(joins))
           .add("classes", std::move(classes))
           .add("pieces", Json::text(base64(runs_of(segments.pieces))))

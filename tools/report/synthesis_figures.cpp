@@ -7,7 +7,7 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr double any = std::numeric_limits<double>::infinity();
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 // The class's value that lies farthest from 1; values of 0 are not known.
 double farthest_from_one(const SynthesisQuality& quality, double ClassQuality::*value) {
@@ -37,7 +37,7 @@ std::vector<QualityFigure> key_figures(const SynthesisQuality& q) {
   std::vector<QualityFigure> figures = {
       {"label_agreement", "texels of the class asked for, share", "class", q.label_agreement, 1.0, 1.0},
       {"guide_error_mean", "guide off by, mean, 0–255", "guide", q.guide_error_mean, 0.0, 2.2},
-      {"guide_error_95", "guide off by, 95th percentile", "guide 95 %", q.guide_error_95, 0.0, any},
+      {"guide_error_95", "guide off by, 95th percentile", "guide 95 %", q.guide_error_95, 0.0, no_limit},
       {"sharpness", "sharpness against the painting, worst class", "sharpness", farthest_from_one(q, &ClassQuality::sharpness), 0.95, 1.05},
       {"clique_distance", "strokes' clique distance, worst class, 0–2", "clique", largest(q, &ClassQuality::clique_distance), 0.0, 0.08},
       {"colour_distance", "colours' distance, worst class, grey levels", "colour", largest(q, &ClassQuality::colour_distance), 0.0, 3.0},
@@ -48,17 +48,17 @@ std::vector<QualityFigure> key_figures(const SynthesisQuality& q) {
       {"self_repeat", "self-repetition against the painting", "repetition", q.self_repeat, 0.9, 1.1},
       {"specks_inside", "specks inside classes against the painting", "specks", q.specks_inside, 0.0, 1.2},
       {"specks_border", "specks at borders against the painting", "specks, border", q.specks_border, 0.0, 1.2},
-      {"coverage", "texels used at all, share", "texels", q.texels_used, 0.0, any},
-      {"coherence", "neighbours copied together, share", "together", q.coherence, 0.0, any},
+      {"coverage", "texels used at all, share", "texels", q.texels_used, 0.0, no_limit},
+      {"coherence", "neighbours copied together, share", "together", q.coherence, 0.0, no_limit},
       {"across_silhouettes", "of those across silhouettes, share", "silhouettes", q.across_silhouettes, 0.0, 0.0},
       {"without_texel", "pixels without a texel", "empty", static_cast<double>(q.without_texel), 0.0, 0.0},
       {"excluded_used", "pixels that copy what is excluded", "excluded", static_cast<double>(q.excluded_used), 0.0, 0.0}};
   // Of one painting there is no seam to compare with. What eyes are content with is not known: seams inside a painting stand beside.
   if (q.exemplars > 1) {
     figures.push_back(
-        {"seams_between", "seams between paintings against the paintings' neighbours", "seams", q.seams.between.visibility, 0.0, any});
+        {"seams_between", "seams between paintings against the paintings' neighbours", "seams", q.seams.between.visibility, 0.0, no_limit});
     figures.push_back(
-        {"seams_within", "seams inside a painting against its neighbours", "seams inside", q.seams.within.visibility, 0.0, any});
+        {"seams_within", "seams inside a painting against its neighbours", "seams inside", q.seams.within.visibility, 0.0, no_limit});
   }
   return figures;
 }

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr int longest_px = 1000;  // of a picture on the page
 
-constexpr const char* style =
+constexpr const char* verification_style =
     "body{font:16px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:1040px;padding:0 1rem;color:#222;background:#fafaf7}"
     "h2{font-size:1.2rem;margin-top:2.2rem}figure{margin:0 0 1rem}img{max-width:100%;display:block}figcaption{font-size:.85rem;color:#555}"
     "table{border-collapse:collapse;font-size:.85rem}td,th{padding:.2rem .8rem;border-bottom:1px solid #ddd;text-align:left}"
@@ -119,7 +119,7 @@ std::string verification_page(const std::vector<Verification>& all, const Verifi
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>belvedere verify</title>\n<style>{}</style></head>\n"
       "<body><h1>Scenes and their locks</h1>\n<p>{} of {} scenes are the same.</p>\n{}</body></html>\n",
-      style, same, all.size(), body);
+      verification_style, same, all.size(), body);
 }
 
 }  // namespace belvedere::tools

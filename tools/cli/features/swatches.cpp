@@ -20,10 +20,10 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr int width_px = 200;
-constexpr int height_px = 88;
-constexpr int gap_px = 8;
-constexpr double px_per_mm = 8.0;
+constexpr int half_width_px = 200;
+constexpr int swatch_height_px = 88;
+constexpr int swatch_gap_px = 8;
+constexpr double swatch_px_per_mm = 8.0;
 constexpr double wood_from = 0.42;   // of the height: houses stand before a wood, so that white roofs in snow are seen
 constexpr double ground_m = 1000.0;  // altitude whose colours the ground has
 
@@ -38,8 +38,8 @@ struct Slope {
 
   Slope() {
     CameraParameters view;
-    view.width = width_px;
-    view.height = height_px;
+    view.width = half_width_px;
+    view.height = swatch_height_px;
     view.eye = {0.0, -260.0, 170.0};
     view.pitch_deg = -33.0;
     view.field_of_view_deg = 42.0;
@@ -78,22 +78,22 @@ Ground look_at_slope(const Slope& slope, bool winter, bool with_wood) {
   const Palette palette = read_palette(winter ? "winter" : "summer");
   Ground ground;
   GuidanceBuffers& g = ground.guidance;
-  const auto numbers = [](float value) { return Grid<float>(width_px, height_px, value); };
+  const auto numbers = [](float value) { return Grid<float>(half_width_px, swatch_height_px, value); };
   g.depth_m = numbers(std::numeric_limits<float>::infinity());
   g.tone = numbers(0.8F);
   g.slope_deg = numbers(8.F);
   g.footprint_m = numbers(1.F);
   g.relief_s_m = g.built = numbers(0.F);
-  g.grain = Grid<glm::vec2>(width_px, height_px);
-  g.fall_line = Grid<glm::vec2>(width_px, height_px, glm::vec2(0.F, 1.F));
-  g.position_m = Grid<glm::vec3>(width_px, height_px);
-  g.land_cover = Grid<LandCoverClass>(width_px, height_px, winter ? LandCoverClass::snow : LandCoverClass::pasture);
+  g.grain = Grid<glm::vec2>(half_width_px, swatch_height_px);
+  g.fall_line = Grid<glm::vec2>(half_width_px, swatch_height_px, glm::vec2(0.F, 1.F));
+  g.position_m = Grid<glm::vec3>(half_width_px, swatch_height_px);
+  g.land_cover = Grid<LandCoverClass>(half_width_px, swatch_height_px, winter ? LandCoverClass::snow : LandCoverClass::pasture);
   BasePicture& base = ground.base;
-  base.colour = base.darker = base.lighter = Grid<glm::vec3>(width_px, height_px);
+  base.colour = base.darker = base.lighter = Grid<glm::vec3>(half_width_px, swatch_height_px);
   base.accent = base.haze = numbers(0.F);
   base.tree_density = numbers(0.95F);
-  for (int y = 0; y < height_px; ++y)
-    for (int x = 0; x < width_px; ++x) {
+  for (int y = 0; y < swatch_height_px; ++y)
+    for (int x = 0; x < half_width_px; ++x) {
       const Ray ray = slope.camera->ray({x + 0.5, y + 0.5});
       Hit hit;
       slope.tracer->intersect(std::span(&ray, 1), std::span(&hit, 1));
@@ -103,7 +103,7 @@ Ground look_at_slope(const Slope& slope, bool winter, bool with_wood) {
         const double light = glm::dot(hit.facet_normal(), glm::normalize(glm::dvec3(-0.6, 0.2, 0.75)));
         g.tone(x, y) = static_cast<float>(std::clamp(0.78 + 2.2 * (light - 0.77), 0.0, 1.0));
       }
-      if (with_wood && y < wood_from * height_px) g.land_cover(x, y) = LandCoverClass::forest;
+      if (with_wood && y < wood_from * swatch_height_px) g.land_cover(x, y) = LandCoverClass::forest;
       const float tone = g.tone(x, y);
       base.colour(x, y) = colour_of(palette, g.land_cover(x, y), tone);
       base.darker(x, y) = colour_of(palette, g.land_cover(x, y), tone - 0.17F);
@@ -148,13 +148,13 @@ Grid<glm::vec3> paint_half(const FeatureStyle& style, int kind, bool winter) {
   const Grid<glm::vec2> unmoved;
   const GroundSight sight(slope.transform, slope.surface, *slope.camera, *slope.tracer, unmoved);
   FeatureSet set{.style = style, .features = examples(style, kind), .readings = std::vector<SourceReading>(1)};
-  const DrawnFeatures drawn =
-      draw_features(set, sight, {.winter = winter, .px_per_mm = px_per_mm, .seed = 3, .sun = glm::normalize(glm::dvec3(-0.7, -0.2, 0.7))});
+  const DrawnFeatures drawn = draw_features(
+      set, sight, {.winter = winter, .px_per_mm = swatch_px_per_mm, .seed = 3, .sun = glm::normalize(glm::dvec3(-0.7, -0.2, 0.7))});
   const Ground ground = look_at_slope(slope, winter, style.kinds[static_cast<std::size_t>(kind)].draw == FeatureDraw::building);
   StrokeParameters parameters;
-  parameters.pixels_per_unit = 0.5 * px_per_mm;
+  parameters.pixels_per_unit = 0.5 * swatch_px_per_mm;
   parameters.winter = winter;
-  const PixelRect all{0, 0, width_px, height_px};
+  const PixelRect all{0, 0, half_width_px, swatch_height_px};
   MappedGround map;
   map.cleared = find_cleared(drawn, ground.guidance.depth_m, all);
   // Nothing stands there but the features and the wood.
@@ -186,10 +186,11 @@ Grid<glm::vec3> make_swatch(const FeatureStyle& style, int kind) {
     case FeatureDraw::building:
       break;
   }
-  Grid<glm::vec3> swatch(2 * width_px + gap_px, height_px, glm::vec3(1.F));
+  Grid<glm::vec3> swatch(2 * half_width_px + swatch_gap_px, swatch_height_px, glm::vec3(1.F));
   for (const bool winter : {false, true}) {
     const Grid<glm::vec3> half = paint_half(style, kind, winter);
-    for (int y = 0; y < height_px; ++y) std::copy_n(half.row(y), width_px, swatch.row(y) + (winter ? width_px + gap_px : 0));
+    for (int y = 0; y < swatch_height_px; ++y)
+      std::copy_n(half.row(y), half_width_px, swatch.row(y) + (winter ? half_width_px + swatch_gap_px : 0));
   }
   return swatch;
 }

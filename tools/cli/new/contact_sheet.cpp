@@ -18,10 +18,9 @@ namespace belvedere::tools {
 namespace {
 
 constexpr int border_px = 12;
-constexpr int text_scale = 2;
-constexpr int caption_px = text_height * text_scale + border_px;
-const glm::vec3 paper(0.96F, 0.95F, 0.92F);
-const glm::vec3 ink(0.15F, 0.15F, 0.18F);
+constexpr int caption_px = text_height * caption_scale + border_px;
+const glm::vec3 sheet_paper(0.96F, 0.95F, 0.92F);
+const glm::vec3 sheet_ink(0.15F, 0.15F, 0.18F);
 
 void lay(Grid<glm::vec3>& sheet, const Grid<glm::vec3>& picture, int x0, int y0) {
   for (int y = 0; y < picture.height(); ++y)
@@ -90,12 +89,12 @@ void write_contact_sheet(const std::string& path, std::vector<LoadedScene> draft
   for (const Grid<glm::vec3>& picture : pictures) width = std::max(width, picture.width()), height = std::max(height, picture.height());
   const int columns = std::min(parameters.columns, static_cast<int>(pictures.size()));
   const int rows = (static_cast<int>(pictures.size()) + columns - 1) / std::max(1, columns);
-  Grid<glm::vec3> sheet(columns * (width + border_px) + border_px, rows * (height + caption_px + border_px) + border_px, paper);
+  Grid<glm::vec3> sheet(columns * (width + border_px) + border_px, rows * (height + caption_px + border_px) + border_px, sheet_paper);
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const int x = border_px + static_cast<int>(i) % columns * (width + border_px);
     const int y = border_px + static_cast<int>(i) / columns * (height + caption_px + border_px);
     lay(sheet, pictures[i], x, y);
-    draw_text(sheet, x, y + height + border_px / 2, captions[i], ink, text_scale);
+    draw_text(sheet, x, y + height + border_px / 2, captions[i], sheet_ink, caption_scale);
   }
   write_png8(path, sheet, {});
 }
