@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -13,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "tools/options/options.h"
 
 namespace belvedere::bench {
 
@@ -106,20 +106,22 @@ void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }  // 
 namespace {
 
 int run(int argc, char** argv) {
-  CLI::App app("Measures the speed of Belvedere's stages on made-up terrain and prints JSON.");
+  tools::CommandLine line(argc > 0 ? argv[0] : "bench", "Measures the speed of Belvedere's stages on made-up terrain and prints JSON.");
+  tools::CommandOptions& command = line.options();
   Options options;
   int threads = 0;
   std::string only;
   std::string sections_text;
   for (const Section& section : sections()) sections_text += fmt::format("{}  {}\n", section.name, section.meaning);
-  app.footer("Sections:\n" + sections_text);
-  app.add_option("--size", options.sizes, "Cells on a side of the terrain")->check(CLI::Range(64, 16384))->capture_default_str();
-  app.add_option("--repeats", options.repeats, "Runs of each measurement; the fastest counts")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
-  app.add_option("--threads", threads, "Threads; 0 for all")->check(CLI::Range(0, 1024));
-  app.add_option("section", only, "The section to run; all by default");
-  CLI11_PARSE(app, argc, argv);
+  command.footer("Sections:\n" + sections_text);
+  command.add_option("--size", options.sizes, "Cells on a side of the terrain").range(64, 16384).show_default();
+  command.add_option("--repeats", options.repeats, "Runs of each measurement; the fastest counts").range(1, 100).show_default();
+  command.add_option("--threads", threads, "Threads; 0 for all").range(0, 1024);
+  command.add_option("section", only, "The section to run; all by default");
+  if (const std::string help = line.read({argv + (argc > 0 ? 1 : 0), argv + argc}); !help.empty()) {
+    fmt::print("{}", help);
+    return 0;
+  }
   const auto requested = [&](const Section& section) { return only.empty() || section.name == only; };
   if (std::none_of(sections().begin(), sections().end(), requested)) throw Error(ErrorKind::usage, "section", only, sections_text);
   const ThreadLimit limit(threads);

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
@@ -9,6 +8,7 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
@@ -173,7 +173,7 @@ std::string as_text(const LoadedScene& scene, const SceneReport& report) {
 
 }  // namespace
 
-Action add_check(CLI::App& command) {
+Action add_check(CommandOptions& command) {
   const auto options = std::make_shared<SceneOptions>();
   add_scene_options(command, *options);
   add_locked_option(command, *options);

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
@@ -6,12 +5,13 @@
 #include "tools/cli/program.h"
 #include "tools/cli/shell_completion.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 
-Action add_completion(CLI::App& command) {
+Action add_completion(CommandOptions& command) {
   const auto shell = std::make_shared<std::string>();
-  command.add_option("SHELL", *shell, "The shell it is for")->required()->check(CLI::IsMember(completed_shells()));
+  command.add_option("SHELL", *shell, "The shell it is for").required().one_of(completed_shells());
   command.footer(
       "An installed program brings all of them along. Of one that is not installed:\n\n"
       "  belvedere completion bash > ~/.local/share/bash-completion/completions/belvedere\n"

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,6 +24,7 @@
 #include "tools/cli/file_names.h"
 #include "tools/cli/labels/located_places.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
@@ -35,8 +35,6 @@ struct Report {
   std::string table;  // CSV, of files of places
   Json json = Json::object();
 };
-
-Json pair_json(glm::dvec2 p) { return Json::array({Json::number(p.x), Json::number(p.y)}); }
 
 std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
 
@@ -266,7 +264,7 @@ int run(const DeformOptions& options) {
 
 }  // namespace
 
-Action add_deform(CLI::App& command) {
+Action add_deform(CommandOptions& command) {
   const auto options = std::make_shared<DeformOptions>();
   add_deform_options(command, *options);
   command.footer(

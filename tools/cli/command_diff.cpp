@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -9,11 +8,12 @@
 #include "renderer/image/picture_diff.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct DiffOptions {
   std::string a;
   std::string b;
   std::optional<double> max_mean;
@@ -22,7 +22,7 @@ struct Options {
 };
 
 // Without any limit the pictures must be equal; with one, the other does not hold.
-DifferenceLimits limits_of(const Options& options) {
+DifferenceLimits limits_of(const DiffOptions& options) {
   if (!options.max_mean && !options.max_max) return {};
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   return {.mean = options.max_mean.value_or(unlimited), .max = options.max_max.value_or(unlimited)};
@@ -60,16 +60,16 @@ std::string as_text(const PictureDifference& difference, bool same) {
 
 }  // namespace
 
-Action add_diff(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("A", options->a, "A picture: OpenEXR, TIFF, PNG or JPEG")->required();
-  command.add_option("B", options->b, "Another of the same size")->required();
+Action add_diff(CommandOptions& command) {
+  const auto options = std::make_shared<DiffOptions>();
+  command.add_option("A", options->a, "A picture: OpenEXR, TIFF, PNG or JPEG").required();
+  command.add_option("B", options->b, "Another of the same size").required();
   command.add_option("--max-mean", options->max_mean, "Largest mean difference of any channel that still counts as the same")
-      ->type_name("X")
-      ->check(CLI::NonNegativeNumber);
+      .type_name("X")
+      .not_negative();
   command.add_option("--max-max", options->max_max, "Largest difference of any single pixel that still counts as the same")
-      ->type_name("X")
-      ->check(CLI::NonNegativeNumber);
+      .type_name("X")
+      .not_negative();
   command.add_flag("--json", options->json, "As JSON");
   command.footer(
       "Exit status 0: the same within the thresholds (without any: equal in every pixel); 1: different.\n"

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,13 +14,14 @@
 #include "tools/cli/scene_options.h"
 #include "tools/cli/synthesis_files.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 #include "tools/report/exemplar_report_page.h"
 #include "tools/report/exemplar_verdict.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct ExemplarCheckOptions {
   SceneOptions scene;
   std::vector<std::string> pictures;
   std::vector<std::string> labels;
@@ -42,7 +42,7 @@ struct Subject {
   std::map<std::uint8_t, std::uint8_t> fallback;
 };
 
-void check_scene_or_files(const Options& options) {
+void check_scene_or_files(const ExemplarCheckOptions& options) {
   const bool of_files = !options.pictures.empty();
   const bool more = !options.labels.empty() || !options.guides.empty() || !options.target.empty() || !options.target_guides.empty();
   if (!of_files && more) throw Error(ErrorKind::usage, "command line", "there is no --picture", "at least one, or a scene");
@@ -55,7 +55,7 @@ void check_scene_or_files(const Options& options) {
                 "either a scene, or --picture with --label");
 }
 
-Subject from_files(const Options& options) {
+Subject from_files(const ExemplarCheckOptions& options) {
   SynthesisFiles files;
   files.pictures = options.pictures;
   for (const std::string& label : options.labels) files.labels.emplace_back(label, options.target);
@@ -81,7 +81,7 @@ Subject from_files(const Options& options) {
   return subject;
 }
 
-Subject from_scene(const Options& options, Progress& progress) {
+Subject from_scene(const ExemplarCheckOptions& options, Progress& progress) {
   const LoadedScene scene = load(options.scene);
   SceneExemplars found = look_at_exemplars(scene, progress, make_cache(options.scene));
   Subject subject;
@@ -124,7 +124,7 @@ void ask(const Subject& subject, GuideStack& asked, ExemplarFindings& findings) 
 }
 
 // As it would be typed, without folders.
-std::string describe_command(const Options& options) {
+std::string describe_command(const ExemplarCheckOptions& options) {
   std::string out = "belvedere exemplar check";
   if (!options.scene.scene.empty()) out += " " + file_name(options.scene.scene);
   for (const std::string& setting : options.scene.files.settings) out += " --set " + setting;
@@ -137,7 +137,7 @@ std::string describe_command(const Options& options) {
   return out;
 }
 
-int run(const Options& options) {
+int run(const ExemplarCheckOptions& options) {
   const bool of_files = !options.pictures.empty();
   check_scene_or_files(options);
 
@@ -174,27 +174,25 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_exemplar_check(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action add_exemplar_check(CommandOptions& command) {
+  const auto options = std::make_shared<ExemplarCheckOptions>();
   add_scene_options(command, options->scene);
   command.add_option("--picture", options->pictures, "Instead of a scene: a painting (PNG, TIFF, JPEG); may be repeated")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+      .type_name("FILE")
+      .repeated();
   command.add_option("--label", options->labels, "Its label image: grey, one number a class, 255 is never used; one for each --picture")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+      .type_name("FILE")
+      .repeated();
   command.add_option("--guide", options->guides, "A guide of it: name (altitude is judged) and grey image; may be repeated")
-      ->type_name("NAME FILE")
-      ->allow_extra_args(false);
-  command.add_option("--target", options->target, "Label image of the picture to be made: is there enough for it?")->type_name("FILE");
-  command.add_option("--target-guide", options->target_guides, "A guide of the picture to be made")
-      ->type_name("NAME FILE")
-      ->allow_extra_args(false);
+      .type_name("NAME FILE")
+      .repeated();
+  command.add_option("--target", options->target, "Label image of the picture to be made: is there enough for it?").type_name("FILE");
+  command.add_option("--target-guide", options->target_guides, "A guide of the picture to be made").type_name("NAME FILE").repeated();
   command.add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
-      ->type_name("LABEL LABEL")
-      ->allow_extra_args(false);
+      .type_name("LABEL LABEL")
+      .repeated();
   command.add_option("--report", options->report, "Also a folder with index.html: the paintings, a swatch of each class, coverage charts")
-      ->type_name("DIR");
+      .type_name("DIR");
   command.footer(
       "Of each class: how many texels it has and how many of them lie well inside, how many pixels they serve\n"
       "before strokes repeat, how sharp its paint is and how long its strokes are, at which altitudes it was\n"

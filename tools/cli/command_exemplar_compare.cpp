@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -14,12 +13,13 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 #include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct ExemplarCompareOptions {
   std::vector<std::string> pictures;
   std::vector<double> scales;
   std::vector<double> widths_mm;
@@ -73,7 +73,7 @@ const std::vector<Line>& lines() {
   return all;
 }
 
-void check(const Options& options) {
+void check(const ExemplarCompareOptions& options) {
   const auto as_many = [&](std::size_t n, const char* option) {
     if (n != 0 && n != options.pictures.size())
       throw Error(ErrorKind::usage, "command line", fmt::format("{} is given {} times for {} pictures", option, n, options.pictures.size()),
@@ -90,7 +90,7 @@ void check(const Options& options) {
                   "left, top, right and bottom as shares of the picture, 0…1: 0 0.2 1 1 leaves the upper fifth out");
 }
 
-std::vector<double> scales_of(const Options& options) {
+std::vector<double> scales_of(const ExemplarCompareOptions& options) {
   if (!options.scales.empty()) return options.scales;
   std::vector<double> scales(options.pictures.size(), 1.0);
   if (options.widths_mm.empty()) return scales;
@@ -183,7 +183,7 @@ std::string as_json(const std::vector<Compared>& all) {
   return Json::object().add("pictures", std::move(pictures)).str() + "\n";
 }
 
-int run(const Options& options) {
+int run(const ExemplarCompareOptions& options) {
   check(options);
   const ThreadLimit threads(options.threads);
   const std::vector<double> scales = scales_of(options);
@@ -201,31 +201,31 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_exemplar_compare(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action add_exemplar_compare(CommandOptions& command) {
+  const auto options = std::make_shared<ExemplarCompareOptions>();
   command
       .add_option("PICTURE", options->pictures, "Pictures, PNG, TIFF or JPEG: the one in question first, then paintings to compare it with")
-      ->required();
+      .required();
   command.add_option("--scale", options->scales, "Makes pictures smaller before they are measured, 0…1: once for each, in their order")
-      ->type_name("X")
-      ->allow_extra_args(false)
-      ->check(CLI::Range(0.001, 1.0));
+      .type_name("X")
+      .repeated()
+      .range(0.001, 1.0);
   command
       .add_option("--mm", options->widths_mm,
                   "Widths of the originals: all pictures are brought to the pixels a millimetre of the coarsest")
-      ->type_name("MM")
-      ->allow_extra_args(false)
-      ->check(CLI::Range(1.0, 1e6));
+      .type_name("MM")
+      .repeated()
+      .range(1.0, 1e6);
   command.add_option("--part", options->parts, "Left, top, right, bottom, 0…1, of what is measured: once for each picture, in their order")
-      ->type_name("L T R B")
-      ->type_size(4)
-      ->allow_extra_args(false);
+      .type_name("L T R B")
+      .words(4)
+      .repeated();
   command.add_option("--own", options->own, "How many of the pictures, from the first on, are in question; 1 by default")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1000));
+      .type_name("N")
+      .range(1, 1000);
   command.add_option("--threads", options->threads, "How many processor threads to use; 0, the default, takes all. Changes no figure")
-      ->type_name("N")
-      ->check(CLI::Range(0, 4096));
+      .type_name("N")
+      .range(0, 4096);
   command.add_flag("-q,--quiet", options->quiet, "No progress");
   command.add_flag("--json", options->json, "As JSON");
   command.footer(

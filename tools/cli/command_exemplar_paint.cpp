@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,11 +10,12 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct ExemplarPaintOptions {
   SceneOptions scene;
   std::string plan;
   std::string out;
@@ -26,7 +26,7 @@ struct Options {
   int tile_size = 32;
 };
 
-void refuse_example_sheet_options(const Options& options) {
+void refuse_example_sheet_options(const ExemplarPaintOptions& options) {
   const char* given = nullptr;
   if (options.size) given = "--size";
   if (options.dots_per_inch) given = "--dpi";
@@ -36,7 +36,7 @@ void refuse_example_sheet_options(const Options& options) {
                 "--set output.width=…, output.height and output.sheet_width_mm");
 }
 
-TexelSupply paint_scene(const Options& options, const Run& run) {
+TexelSupply paint_scene(const ExemplarPaintOptions& options, const Run& run) {
   refuse_example_sheet_options(options);
   SceneOptions scene = options.scene;
   if (options.season) scene.files.settings.push_back("palette=" + *options.season);
@@ -44,7 +44,7 @@ TexelSupply paint_scene(const Options& options, const Run& run) {
   return write_scene_exemplar(load(scene), options.out, run);
 }
 
-TexelSupply paint_example_sheet_of(const Options& options, const Run& run) {
+TexelSupply paint_example_sheet_of(const ExemplarPaintOptions& options, const Run& run) {
   if (!options.scene.files.settings.empty())
     throw Error(ErrorKind::usage, "--set", "it changes a scene, and an example sheet has none", "--plan with a sheet.toml of your own");
   ExampleSheetPlan plan = options.plan.empty() ? built_in_example_sheet_plan() : read_example_sheet_plan(options.plan);
@@ -55,7 +55,7 @@ TexelSupply paint_example_sheet_of(const Options& options, const Run& run) {
   return write_example_sheet(plan, options.out, run);
 }
 
-int run(const Options& options) {
+int run(const ExemplarPaintOptions& options) {
   const bool example_sheet = options.scene.scene.empty();
   TerminalProgress progress(options.scene.quiet);
   const Cache cache = make_cache(options.scene);
@@ -79,30 +79,28 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_exemplar_paint(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action add_exemplar_paint(CommandOptions& command) {
+  const auto options = std::make_shared<ExemplarPaintOptions>();
   add_scene_options(command, options->scene, "A scene whose view is painted; without one an example sheet of made-up views");
-  command.add_option("--out", options->out, "Folder for the results; made where it is missing")->type_name("DIR")->required();
+  command.add_option("--out", options->out, "Folder for the results; made where it is missing").type_name("DIR").required();
   command
       .add_option("--season", options->season,
                   "Palette: summer, autumn, winter, desert, evening, morning or a .toml file; of an example sheet summer by default")
-      ->type_name("PALETTE");
-  command.add_option("--size", options->size, "Side of the example sheet in pixels; 4096 by default")
-      ->type_name("PX")
-      ->check(CLI::Range(256, 16384));
+      .type_name("PALETTE");
+  command.add_option("--size", options->size, "Side of the example sheet in pixels; 4096 by default").type_name("PX").range(256, 16384);
   command
       .add_option("--dpi", options->dots_per_inch,
                   "Resolution the example sheet's strokes are sized for: that of the panorama that shall copy them; 50.8 by default")
-      ->type_name("DPI")
-      ->check(CLI::Range(5.0, 2540.0));
+      .type_name("DPI")
+      .range(5.0, 2540.0);
   command.add_option("--seed", options->seed, "Another number gives other mountains and strokes")
-      ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{0}, ExampleSheetPlan::largest_seed));
-  command.add_option("--plan", options->plan, "A sheet.toml: paints that example sheet instead of the built-in one")->type_name("FILE");
+      .type_name("N")
+      .range(std::uint64_t{0}, ExampleSheetPlan::largest_seed);
+  command.add_option("--plan", options->plan, "A sheet.toml: paints that example sheet instead of the built-in one").type_name("FILE");
   command.add_option("--tile", options->tile_size, "Side of the tiles that threads work on, in pixels. Changes no pixel")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(CLI::Range(8, 4096));
+      .type_name("N")
+      .show_default()
+      .range(8, 4096);
   command.footer(
       "Writes painting.tif, ground.tif (without trees and houses), painting.png, guidance.exr, sheet.toml or\n"
       "scene.toml (what made it) and coverage.json (what there is to copy). A scene copies it with\n"

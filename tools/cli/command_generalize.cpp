@@ -20,18 +20,15 @@
 #include "tools/cli/generalize_options.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/terrain_operators.h"
+#include "tools/options/refuse.h"
 #include "tools/report/equalizer_page.h"
 #include "tools/report/generalize_report_page.h"
 
 namespace belvedere::tools {
 namespace {
 
-[[noreturn]] void refuse(const std::string& where, const std::string& found, const std::string& allowed) {
-  throw Error(ErrorKind::usage, where, found, allowed);
-}
-
 // Before the work: what could not be written afterwards.
-void check_result_name(const std::string& path) {
+void check_dem_name(const std::string& path) {
   const std::string ending = ending_of(path);
   if (ending != ".tif" && ending != ".tiff" && ending != ".asc") refuse(path, "is no name of a DEM the program writes", ".tif or .asc");
 }
@@ -124,7 +121,7 @@ int run(const GeneralizeOptions& options) {
   const GeneralizeParameters bands = resolve_bands(options);
   if (options.out.empty() && !only_page) refuse("OUT", "no file for the result", "a .tif or .asc; only --equalizer goes without");
   if (only_page && !options.report.empty()) refuse("--report", "no result to report on", "a file OUT beside it");
-  if (!only_page) check_result_name(options.out);
+  if (!only_page) check_dem_name(options.out);
   check_place(options.out);
   check_place(options.equalizer);
   if (!options.report.empty()) check_output_folder(options.report);
@@ -212,7 +209,7 @@ int run(const GeneralizeOptions& options) {
 
 }  // namespace
 
-Action add_generalize(CLI::App& command) {
+Action add_generalize(CommandOptions& command) {
   const auto options = std::make_shared<GeneralizeOptions>();
   add_generalize_options(command, *options);
   return [options] { return run(*options); };

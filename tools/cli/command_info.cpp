@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
@@ -9,11 +8,12 @@
 #include "renderer/image/picture_hash.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct InfoOptions {
   std::string file;
   bool hash = false;
   bool json = false;
@@ -95,9 +95,9 @@ std::string as_text(const std::string& file, const ImageInfo& info, const Pictur
 
 }  // namespace
 
-Action add_info(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("FILE", options->file, "An OpenEXR, TIFF, PNG or JPEG file")->required();
+Action add_info(CommandOptions& command) {
+  const auto options = std::make_shared<InfoOptions>();
+  command.add_option("FILE", options->file, "An OpenEXR, TIFF, PNG or JPEG file").required();
   command.add_flag("--hash", options->hash,
                    "Also what the pixels hash to, by channel: the same for the same pixels, whatever the header says");
   command.add_flag("--json", options->json, "As JSON");

@@ -1,14 +1,13 @@
-#include <CLI/CLI.hpp>
-
 #include "renderer/image/provenance.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/man_page.h"
 #include "tools/cli/program.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 
-Action add_man(CLI::App& command) {
+Action add_man(CommandOptions& command) {
   command.footer(
       "An installed program has it already: man belvedere\n\n"
       "  belvedere man | man -l -");

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -13,11 +12,12 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct RenderOptions {
   SceneOptions scene;
   std::string out;
   int tile_size = 32;
@@ -33,7 +33,7 @@ struct Options {
 using Job = void (*)(const LoadedScene&, const std::string& out_folder, const Run&, const SheetRequest&);
 using Results = std::vector<std::string> (*)(const Scene&, bool whole_sheet);  // names of the pictures that a job makes
 
-int run_job(const Options& options, Job job, Results results) {
+int run_job(const RenderOptions& options, Job job, Results results) {
   LoadedScene scene = load(options.scene);
   if (options.draft) scene.scene = make_draft(std::move(scene.scene));
   const std::string folder = options.out.empty() ? scene.name : options.out;
@@ -79,33 +79,32 @@ int run_job(const Options& options, Job job, Results results) {
 
 enum class Drafts { no, yes };
 
-Action add_job(CLI::App& command, const char* footer, Drafts drafts, Job job, Results results) {
-  const auto options = std::make_shared<Options>();
+Action add_job(CommandOptions& command, const char* footer, Drafts drafts, Job job, Results results) {
+  const auto options = std::make_shared<RenderOptions>();
   add_scene_options(command, options->scene);
   add_locked_option(command, options->scene);
   command.add_option("--out", options->out, "Folder for the results; made where it is missing. Default: one named like the scene")
-      ->type_name("DIR");
+      .type_name("DIR");
   command.add_option("--tile", options->tile_size, "Side of the tiles that threads work on, in pixels. Changes no pixel")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(CLI::Range(8, 4096));
+      .type_name("N")
+      .show_default()
+      .range(8, 4096);
   command
       .add_option("--part", options->part,
                   "Only a rectangle of the sheet, as x,y,width,height in its pixels: a proof of what the whole will be")
-      ->type_name("X,Y,W,H")
-      ->delimiter(',')
-      ->expected(4);
+      .type_name("X,Y,W,H")
+      .list(',', 4);
   command
       .add_option("--piece", options->piece_px,
                   "Side of the pieces that are finished one after the other, in pixels; 0, the default, is 1024. Changes no pixel")
-      ->type_name("N")
-      ->check(CLI::Range(0, 4096));
+      .type_name("N")
+      .range(0, 4096);
   command.add_flag("--resume", options->resume,
                    "Go on where a run into this folder was stopped; the files are the same as if it had not been");
   command
       .add_option("--channels", options->channels,
                   "Channels of guidance.exr, such as Z,landcover.id; none: no such file. Without it: all, 40 bytes a pixel")
-      ->type_name("NAME,…|none");
+      .type_name("NAME,…|none");
   if (drafts == Drafts::yes)
     command.add_flag("--match", options->match,
                      "Also match.exr: which texel of which picture each pixel was copied from, for synthesize --replay");
@@ -120,7 +119,7 @@ Action add_job(CLI::App& command, const char* footer, Drafts drafts, Job job, Re
 
 }  // namespace
 
-Action add_render(CLI::App& command) {
+Action add_render(CommandOptions& command) {
   return add_job(command,
                  "Writes panorama.tif (16 bit, with profile and resolution), panorama.png, panorama.exr (scene-linear),\n"
                  "or what output.formats names, and guidance.exr (depth, classes, light … of every pixel).\n\n"
@@ -139,7 +138,7 @@ Action add_render(CLI::App& command) {
                  });
 }
 
-Action add_guidance(CLI::App& command) {
+Action add_guidance(CommandOptions& command) {
   return add_job(command,
                  "The channels and their units are described in the header: belvedere info guidance.exr\n\n"
                  "  belvedere guidance scenes/karwendel.toml --data ../data --out karwendel",

@@ -1,13 +1,13 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "renderer/scene/scene_file.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 
-Action add_schema(CLI::App& command) {
+Action add_schema(CommandOptions& command) {
   const auto markdown = std::make_shared<bool>(false);
   command.add_flag("--markdown", *markdown, "As a reference in Markdown instead of a JSON Schema (draft 4)");
   command.footer(

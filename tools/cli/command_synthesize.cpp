@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -20,12 +19,13 @@
 #include "tools/cli/synthesis_sweep.h"
 #include "tools/cli/synthesize_replay.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 #include "tools/report/synthesis_report_page.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct SynthesizeOptions {
   SynthesisFiles files;
   std::vector<std::tuple<std::string, std::string, std::string, double>> guides;
   std::vector<std::pair<int, int>> fallback;
@@ -44,14 +44,14 @@ struct Options {
   bool json = false;
 };
 
-void check_result_name(const std::string& path) {
+void check_picture_name(const std::string& path) {
   const std::string ending = ending_of(path);
   if (ending != ".png" && ending != ".tif" && ending != ".tiff")
     throw Error(ErrorKind::usage, "--out " + path, "is no name of a picture the program writes", ".png (8 bit) or .tif (16 bit)");
 }
 
 // Without folders: the same files give the same header wherever they lie.
-FileNotes make_notes(const Options& options) {
+FileNotes make_notes(const SynthesizeOptions& options) {
   std::map<std::string, std::string> inputs;
   const auto add = [&](const std::string& path) { inputs[file_name(path)] = path; };
   for (const std::string& picture : options.files.pictures) add(picture);
@@ -89,7 +89,7 @@ std::vector<MatchedPicture> matched_pictures(const SynthesisInputs& inputs) {
 std::string class_name_of(std::uint8_t label) { return fmt::format("class {}", label); }
 
 // What was asked for as it would be typed, without folders: the same on every machine.
-std::string describe_command(const Options& options) {
+std::string describe_command(const SynthesizeOptions& options) {
   std::string out = "belvedere synthesize";
   for (std::size_t i = 0; i < options.files.pictures.size(); ++i)
     out += fmt::format(" --picture {} --label {} {}", file_name(options.files.pictures[i]), file_name(options.files.labels[i].first),
@@ -115,7 +115,7 @@ void note_colours(const std::vector<Rgb8>& colours, Progress& progress) {
   if (!list.empty()) progress.note("labels by colour:" + list);
 }
 
-void print_result(const Options& options, int width, int height, std::size_t empty, Progress& progress) {
+void print_result(const SynthesizeOptions& options, int width, int height, std::size_t empty, Progress& progress) {
   if (empty > 0) progress.note(fmt::format("{} pixels stay black: nothing may be copied there", empty));
   if (!options.json) return;
   print_out(Json::object()
@@ -128,7 +128,7 @@ void print_result(const Options& options, int width, int height, std::size_t emp
             "\n");
 }
 
-int run_replay(const Options& options) {
+int run_replay(const SynthesizeOptions& options) {
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const ReplayResult result = replay_layers({options.replay, options.files.pictures, options.out}, progress);
@@ -137,7 +137,7 @@ int run_replay(const Options& options) {
 }
 
 // The plain methods, for comparison.
-MatchField run_basic(const Options& options, const SynthesisInputs& inputs, Progress& progress) {
+MatchField run_basic(const SynthesizeOptions& options, const SynthesisInputs& inputs, Progress& progress) {
   const SynthesisParameters& p = options.parameters;
   return synthesize_basic(inputs.exemplars, inputs.target,
                           {.neighbourhood = p.neighbourhood,
@@ -150,7 +150,7 @@ MatchField run_basic(const Options& options, const SynthesisInputs& inputs, Prog
                           progress);
 }
 
-void check_method(const Options& options) {
+void check_method(const SynthesizeOptions& options) {
   if (options.method == "fast") {
     if (options.distance != "squares")
       throw Error(ErrorKind::usage, "--distance " + options.distance, "is for the plain methods", "--method basic or coherent beside it");
@@ -160,7 +160,7 @@ void check_method(const Options& options) {
     throw Error(ErrorKind::usage, "--sweep", "makes its results by the fast method", "--method fast, or one result at a time");
 }
 
-int run_sweep(const Options& options, const SynthesisInputs& inputs, Progress& progress) {
+int run_sweep(const SynthesizeOptions& options, const SynthesisInputs& inputs, Progress& progress) {
   std::vector<std::string> guides;
   for (const Guide& guide : inputs.target.guides) guides.push_back(guide.name);
   std::vector<SweepAxis> axes;
@@ -184,11 +184,11 @@ int run_sweep(const Options& options, const SynthesisInputs& inputs, Progress& p
   return 0;
 }
 
-int run(Options& options) {
+int run(SynthesizeOptions& options) {
   const MemoryLimit memory(static_cast<std::uint64_t>(options.memory_mib) << 20);
   if (!options.replay.empty()) return run_replay(options);
   if (options.sweeps.empty()) {
-    check_result_name(options.out);
+    check_picture_name(options.out);
     check_place(options.out);
   } else {
     const std::string ending = ending_of(options.out);
@@ -256,130 +256,115 @@ std::vector<std::string> distance_names() {
   return names;
 }
 
-// An option of several words takes the next option's name where one of its own is missing, and the message would be about something else.
-CLI::Validator no_option_among(const char* words) {
-  return CLI::Validator(
-      [words](const std::string& word) {
-        return word.starts_with("--") ? fmt::format("takes {}, and {} comes too early", words, word) : "";
-      },
-      "");
-}
-
 }  // namespace
 
-Action add_synthesize(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action add_synthesize(CommandOptions& command) {
+  const auto options = std::make_shared<SynthesizeOptions>();
   SynthesisParameters& parameters = options->parameters;
   command.add_option("--picture", options->files.pictures, "The painting (PNG, TIFF, JPEG); may be repeated")
-      ->type_name("STYLE")
-      ->required()
-      ->allow_extra_args(false);
-  CLI::Option* label =
+      .type_name("STYLE")
+      .required()
+      .repeated();
+  const Option label =
       command
           .add_option(
               "--label", options->files.labels,
               "Label images of the painting and of the target: grey, one number a class, 255 is never used, or drawn in flat colours; "
               "one for each --picture")
-          ->type_name("STYLE TARGET")
-          ->check(no_option_among("two files, of the painting and of the target"))
-          ->allow_extra_args(false);
-  CLI::Option* guide =
+          .type_name("STYLE TARGET")
+          .takes("two files, of the painting and of the target")
+          .repeated();
+  const Option guide =
       command
           .add_option("--guide", options->guides,
                       "A further guide: name, grey image of the painting, of the target, and weight 0…100; may be repeated")
-          ->type_name("NAME STYLE TARGET WEIGHT")
-          ->check(no_option_among("a name, two files and a weight"))
-          ->allow_extra_args(false);
+          .type_name("NAME STYLE TARGET WEIGHT")
+          .takes("a name, two files and a weight")
+          .repeated();
   command.add_option("--out", options->out, "The result: .png (8 bit) or .tif (16 bit); with --replay also .exr")
-      ->type_name("FILE")
-      ->required();
-  CLI::Option* match =
+      .type_name("FILE")
+      .required();
+  const Option match =
       command.add_option("--match", options->match, "Also where each pixel was copied from: OpenEXR with channels exemplar, x, y")
-          ->type_name("FILE");
-  CLI::Option* report =
+          .type_name("FILE");
+  const Option report =
       command
           .add_option("--report", options->report,
                       "Also a folder with index.html: how good the result is, where it comes from, what each guide costs, worst places")
-          ->type_name("DIR");
+          .type_name("DIR");
   command
       .add_option("--exclude", options->files.exclusions,
                   "Grey image of the painting's size: what is not black is never copied (lettering, frames, figures); the first belongs to "
                   "the first --picture …, - is none")
-      ->type_name("MASK")
-      ->allow_extra_args(false);
+      .type_name("MASK")
+      .repeated();
   command
       .add_option("--harmonize", options->files.harmonize,
                   "Brings the colours of several paintings together first: label by label to what is common or to the first; or by\n"
                   "regions of like colour, whatever the labels, to the first")
-      ->type_name("HOW")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"off", "common", "first", "regions"}));
+      .type_name("HOW")
+      .show_default()
+      .one_of({"off", "common", "first", "regions"});
   command.add_option("--fallback", options->fallback, "Copies the second label's texture where the first has none")
-      ->type_name("LABEL LABEL")
-      ->allow_extra_args(false);
-  command.add_option("--seed", parameters.seed, "Another number gives another result")->type_name("N")->capture_default_str();
-  command.add_option("--levels", parameters.levels, "Steps from coarse to fine")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 8));
-  command.add_option("--reuse", parameters.reuse, "How hard repetition is avoided")
-      ->type_name("X")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 10.0));
+      .type_name("LABEL LABEL")
+      .repeated();
+  command.add_option("--seed", parameters.seed, "Another number gives another result").type_name("N").show_default();
+  command.add_option("--levels", parameters.levels, "Steps from coarse to fine").type_name("N").show_default().range(1, 8);
+  command.add_option("--reuse", parameters.reuse, "How hard repetition is avoided").type_name("X").show_default().range(0.0, 10.0);
   command.add_option("--copy-cap", parameters.copy_cap, "Largest piece copied whole, in pixels of area")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(CLI::Range(16, 100000));
+      .type_name("N")
+      .show_default()
+      .range(16, 100000);
   command.add_option("--neighbourhood", parameters.neighbourhood, "Side of the patches that are compared, in pixels: 3, 5, 7, 9 or 11")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(CLI::IsMember({3, 5, 7, 9, 11}));
+      .type_name("N")
+      .show_default()
+      .one_of({3, 5, 7, 9, 11});
   command.add_option("--surroundings", parameters.surroundings, "How much the classes around a place count")
-      ->type_name("X")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 100.0) | CLI::IsMember({"inf"}));
+      .type_name("X")
+      .show_default()
+      .range_or(0.0, 100.0, "inf");
   command
       .add_option("--surroundings-of", parameters.surroundings_of,
                   "Which other classes around count: the commonest, or all by their shares")
-      ->type_name("WHICH")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"commonest", "all"}));
+      .type_name("WHICH")
+      .show_default()
+      .one_of({"commonest", "all"});
   command
       .add_option("--unlikeness", options->unlikeness,
                   "How unlike two labels are as surroundings: 0, one is as good as the other, to 1, the default; may be repeated")
-      ->type_name("LABEL LABEL X")
-      ->allow_extra_args(false);
+      .type_name("LABEL LABEL X")
+      .repeated();
   command
       .add_option("--method", options->method,
                   "fast, or for comparison, slow and for small pictures: basic looks at every texel for every pixel, row by row, coherent "
                   "only at what continues the copies around")
-      ->type_name("HOW")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"fast", "basic", "coherent"}));
+      .type_name("HOW")
+      .show_default()
+      .one_of({"fast", "basic", "coherent"});
   command.add_option("--distance", options->distance, "With --method basic or coherent: how colours are compared")
-      ->type_name("NAME")
-      ->capture_default_str()
-      ->check(CLI::IsMember(distance_names()));
-  CLI::Option* replay =
+      .type_name("NAME")
+      .show_default()
+      .one_of(distance_names());
+  const Option replay =
       command
           .add_option("--replay", options->replay,
                       "Lays other layers of the same paintings, one --picture each, exactly where a --match file says; needs no labels")
-          ->type_name("MATCH")
-          ->excludes(label, guide, match, report);
+          .type_name("MATCH")
+          .excludes({label, guide, match, report});
   command
       .add_option("--sweep", options->sweeps,
                   "Tries several values of seed, levels, reuse, copy-cap, neighbourhood, surroundings or of a guide's weight; --out is a "
                   "folder then. "
                   "Twice for two at once")
-      ->type_name("NAME=V,V…")
-      ->allow_extra_args(false)
-      ->excludes(match, report, replay);
+      .type_name("NAME=V,V…")
+      .repeated()
+      .excludes({match, report, replay});
   command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")
-      ->type_name("N")
-      ->check(CLI::Range(0, 4096));
+      .type_name("N")
+      .range(0, 4096);
   command.add_option("--memory", options->memory_mib, "Memory that pictures may take; 0, the default, is three quarters of the machine's")
-      ->type_name("MIB")
-      ->check(CLI::Range(0, 1 << 30));
+      .type_name("MIB")
+      .range(0, 1 << 30);
   command.add_flag("--quiet,-q", options->quiet, "No progress, no notes");
   command.add_flag("--json", options->json, "The result as JSON on standard output");
   command.footer(

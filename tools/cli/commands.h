@@ -3,11 +3,9 @@
 #include <functional>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace belvedere::tools {
+
+class CommandOptions;
 
 // What a command does once its options are read. Returns the exit status of a command whose answer is one (diff), else 0. Errors are
 // thrown.
@@ -15,10 +13,10 @@ using Action = std::function<int()>;
 
 // A row of the table that everything about commands comes from: help, the question after a misspelt word, the manual page, completion.
 struct Command {
-  const char* group;                 // the word before its name; empty: none
-  const char* name;                  // what people type
-  const char* meaning;               // one line of help
-  Action (*add)(CLI::App& command);  // gives it options and footer
+  const char* group;                       // the word before its name; empty: none
+  const char* name;                        // what people type
+  const char* meaning;                     // one line of help
+  Action (*add)(CommandOptions& command);  // gives it options and footer
 };
 const std::vector<Command>& all_commands();
 
@@ -30,45 +28,45 @@ struct CommandGroup {
 const std::vector<CommandGroup>& command_groups();
 
 // One file and one row in commands.cpp a command.
-Action add_cache_clear(CLI::App& command);
-Action add_cache_list(CLI::App& command);
-Action add_check(CLI::App& command);
-Action add_completion(CLI::App& command);
-Action add_deform(CLI::App& command);
-Action add_diff(CLI::App& command);
-Action add_exemplar_check(CLI::App& command);
-Action add_exemplar_compare(CLI::App& command);
-Action add_exemplar_paint(CLI::App& command);
-Action add_exemplar_segment(CLI::App& command);
-Action add_fetch(CLI::App& command);
-Action add_generalize(CLI::App& command);
-Action add_guidance(CLI::App& command);
-Action add_info(CLI::App& command);
-Action add_join(CLI::App& command);
-Action add_features_check(CLI::App& command);
-Action add_features_swatches(CLI::App& command);
-Action add_labels(CLI::App& command);
-Action add_layers_apply(CLI::App& command);
-Action add_layers_picture(CLI::App& command);
-Action add_layers_fit(CLI::App& command);
-Action add_lock(CLI::App& command);
-Action add_man(CLI::App& command);
-Action add_new(CLI::App& command);
-Action add_part(CLI::App& command);
-Action add_plan(CLI::App& command);
-Action add_render(CLI::App& command);
-Action add_schema(CLI::App& command);
-Action add_synthesize(CLI::App& command);
-Action add_texture_erode(CLI::App& command);
-Action add_composite_learn(CLI::App& command);
-Action add_composite_make(CLI::App& command);
-Action add_texture_correct(CLI::App& command);
-Action add_texture_fill(CLI::App& command);
-Action add_texture_judge(CLI::App& command);
-Action add_texture_knit(CLI::App& command);
-Action add_texture_learn(CLI::App& command);
-Action add_texture_make(CLI::App& command);
-Action add_verify(CLI::App& command);
-Action add_web(CLI::App& command);
+Action add_cache_clear(CommandOptions& command);
+Action add_cache_list(CommandOptions& command);
+Action add_check(CommandOptions& command);
+Action add_completion(CommandOptions& command);
+Action add_deform(CommandOptions& command);
+Action add_diff(CommandOptions& command);
+Action add_exemplar_check(CommandOptions& command);
+Action add_exemplar_compare(CommandOptions& command);
+Action add_exemplar_paint(CommandOptions& command);
+Action add_exemplar_segment(CommandOptions& command);
+Action add_fetch(CommandOptions& command);
+Action add_generalize(CommandOptions& command);
+Action add_guidance(CommandOptions& command);
+Action add_info(CommandOptions& command);
+Action add_join(CommandOptions& command);
+Action add_features_check(CommandOptions& command);
+Action add_features_swatches(CommandOptions& command);
+Action add_labels(CommandOptions& command);
+Action add_layers_apply(CommandOptions& command);
+Action add_layers_picture(CommandOptions& command);
+Action add_layers_fit(CommandOptions& command);
+Action add_lock(CommandOptions& command);
+Action add_man(CommandOptions& command);
+Action add_new(CommandOptions& command);
+Action add_part(CommandOptions& command);
+Action add_plan(CommandOptions& command);
+Action add_render(CommandOptions& command);
+Action add_schema(CommandOptions& command);
+Action add_synthesize(CommandOptions& command);
+Action add_texture_erode(CommandOptions& command);
+Action add_composite_learn(CommandOptions& command);
+Action add_composite_make(CommandOptions& command);
+Action add_texture_correct(CommandOptions& command);
+Action add_texture_fill(CommandOptions& command);
+Action add_texture_judge(CommandOptions& command);
+Action add_texture_knit(CommandOptions& command);
+Action add_texture_learn(CommandOptions& command);
+Action add_texture_make(CommandOptions& command);
+Action add_verify(CommandOptions& command);
+Action add_web(CommandOptions& command);
 
 }  // namespace belvedere::tools

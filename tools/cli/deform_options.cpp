@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <filesystem>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/json.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
@@ -79,15 +79,14 @@ void add_handle(const std::string& text, std::size_t i, std::vector<std::string>
 
 }  // namespace
 
-void add_deform_options(CLI::App& command, DeformOptions& options) {
-  add_scene_options(command, options.scene);
-  command.get_option("SCENE")->description("A scene file, or a DEM (GeoTIFF, ESRI ASCII …); without one the built-in demo");
+void add_deform_options(CommandOptions& command, DeformOptions& options) {
+  add_scene_options(command, options.scene, "A scene file, or a DEM (GeoTIFF, ESRI ASCII …); without one the built-in demo");
   command.add_option("OUT", options.dem_out, "Writes the deformed ground as a DEM: GeoTIFF, or ESRI ASCII where it ends in .asc");
   const auto one = [&](const char* name, std::string& value, const char* meaning, const char* type) {
-    command.add_option(name, value, meaning)->type_name(type);
+    command.add_option(name, value, meaning).type_name(type);
   };
   const auto many = [&](const char* name, std::vector<std::string>& values, const char* meaning, const char* type) {
-    command.add_option(name, values, meaning)->type_name(type)->allow_extra_args(false);
+    command.add_option(name, values, meaning).type_name(type).repeated();
   };
   one("--viewer", options.viewer, "Where distances count from, instead of the scene's camera", "E,N");
   one("--exaggeration", options.exaggeration, "Vertical exaggeration", "FACTOR");
@@ -102,12 +101,12 @@ void add_deform_options(CLI::App& command, DeformOptions& options) {
   many("--at", options.at, "Says which place a pixel of the picture shows; may be repeated", "X,Y");
   command.add_flag("--search-bend", options.search_bend, "Searches the bend that shows most valley floor, and prints its keys");
   command.add_option("--max-distortion", options.max_distortion_deg, "With --search-bend: greatest tilt of level ground, degrees")
-      ->type_name("DEG")
-      ->capture_default_str();
+      .type_name("DEG")
+      .show_default();
   command.add_option("--max-bending", options.max_bending_deg, "With --search-bend: greatest change of tilt, degrees in 10 km")
-      ->type_name("DEG")
-      ->capture_default_str();
-  command.add_option("--points", options.points, "With --search-bend: control points, 3 to 8")->type_name("N")->capture_default_str();
+      .type_name("DEG")
+      .show_default();
+  command.add_option("--points", options.points, "With --search-bend: control points, 3 to 8").type_name("N").show_default();
   one("--out", options.out,
       "With --search-bend: a small picture of the ground before (above) and after (below). With --locate FILE: the table, instead of "
       "printing "

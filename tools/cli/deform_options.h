@@ -6,11 +6,9 @@
 
 #include "tools/cli/scene_options.h"
 
-namespace CLI {
-class App;
-}
-
 namespace belvedere::tools {
+
+class CommandOptions;
 
 // What `deform` is asked on the command line.
 struct DeformOptions {
@@ -28,7 +26,7 @@ struct DeformOptions {
   int points = 5;
   std::string out;  // of --search-bend a picture, of --locate FILE a table
 };
-void add_deform_options(CLI::App& command, DeformOptions& options);
+void add_deform_options(CommandOptions& command, DeformOptions& options);
 
 // "692000,5302000" to a pair. Throws Error(usage) naming the option.
 glm::dvec2 parse_pair(const std::string& text, const char* option);

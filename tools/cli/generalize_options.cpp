@@ -2,20 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include "base/error.h"
 #include "terrain/generalize/generalize_presets.h"
 #include "tools/cli/file_names.h"
+#include "tools/options/options.h"
+#include "tools/options/refuse.h"
 
 namespace belvedere::tools {
 namespace {
 
 using Weights = std::vector<float>;
-
-[[noreturn]] void refuse(const std::string& where, const std::string& found, const std::string& allowed) {
-  throw Error(ErrorKind::usage, where, found, allowed);
-}
 
 void check_set(const char* option, const Weights& weights, std::size_t bands, float least) {
   if (weights.empty()) return;
@@ -32,20 +28,20 @@ std::string preset_lines() {
   return out;
 }
 
-CLI::Option* add_weights(CLI::App& command, const char* name, Weights& weights, const char* meaning) {
-  return command.add_option(name, weights, meaning)->type_name("W1,…,WN")->delimiter(',');
+void add_weights(CommandOptions& command, const char* name, Weights& weights, const char* meaning) {
+  command.add_option(name, weights, meaning).type_name("W1,…,WN").list(',');
 }
 
 }  // namespace
 
-void add_generalize_options(CLI::App& command, GeneralizeOptions& options) {
-  command.add_option("IN", options.in, "The DEM: GeoTIFF, ESRI ASCII, HGT …; it stays in its own grid and coordinates")->required();
+void add_generalize_options(CommandOptions& command, GeneralizeOptions& options) {
+  command.add_option("IN", options.in, "The DEM: GeoTIFF, ESRI ASCII, HGT …; it stays in its own grid and coordinates").required();
   command.add_option("OUT", options.out, "The result, altitudes in metres: .tif or .asc. May be left out beside --equalizer");
   std::vector<std::string> names;
   for (const GeneralizePreset& preset : generalize_presets()) names.emplace_back(preset.name);
   command.add_option("--preset", options.preset, "Weights and masks by name; options beside it have the last word")
-      ->type_name("NAME")
-      ->check(CLI::IsMember(names));
+      .type_name("NAME")
+      .one_of(names);
   add_weights(command, "--global", options.global,
               "Weights of the bands, the largest landforms first; as many bands as weights. 1 keeps, 0 removes, more exaggerates (0 … 5)");
   add_weights(command, "--ridges", options.ridges, "Added along ridges: gives them back what --global takes, or more (-5 … 5)");
@@ -53,52 +49,48 @@ void add_generalize_options(CLI::App& command, GeneralizeOptions& options) {
   add_weights(command, "--background-global", options.background_global, "Weights far from the viewer; else as near");
   add_weights(command, "--background-ridges", options.background_ridges, "Added along ridges far from the viewer");
   add_weights(command, "--background-valleys", options.background_valleys, "Added along valley lines far from the viewer");
-  command.add_option("--viewer", options.viewer, "Where the viewer stands, in the DEM's coordinates")
-      ->type_name("E,N")
-      ->delimiter(',')
-      ->expected(2);
+  const Option viewer =
+      command.add_option("--viewer", options.viewer, "Where the viewer stands, in the DEM's coordinates").type_name("E,N").list(',', 2);
   command.add_option("--distances", options.distances, "Metres: all foreground up to the first, all background from the second")
-      ->type_name("NEAR,FAR")
-      ->delimiter(',')
-      ->expected(2)
-      ->needs("--viewer");
+      .type_name("NEAR,FAR")
+      .list(',', 2)
+      .needs(viewer);
   command.add_option("--mask", options.mask, "Raster: 0 stays as it is, 1 (or 255) is generalized; any grid and coordinates")
-      ->type_name("FILE");
+      .type_name("FILE");
   command.add_option("--mask-slope", options.mask_slope, "Degrees: flatter than the first stays, steeper than the second is generalized")
-      ->type_name("FLAT,STEEP")
-      ->delimiter(',')
-      ->expected(2);
+      .type_name("FLAT,STEEP")
+      .list(',', 2);
   command.add_flag("--automatic-mask", options.automatic_mask,
                    "Exaggerates nothing on flat ground at the foot of slopes, where moats would be dug");
   command.add_flag("--change-lakes", options.change_lakes, "Lakes are generalized like land; otherwise they keep their level");
   command.add_option("--curvature", options.curvature, "How ridges are found: bounded is quiet in flats, plan finds gentle ones too")
-      ->type_name("bounded|plan")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"bounded", "plan"}));
+      .type_name("bounded|plan")
+      .show_default()
+      .one_of({"bounded", "plan"});
   command
       .add_option("--full-curvature", options.bands.full_curvature,
                   "Curvature times cell of a full ridge; less makes more of the ground a ridge. 0: .15 bounded, .8 plan")
-      ->type_name("X")
-      ->check(CLI::Range(0.0, 10.0));
+      .type_name("X")
+      .range(0.0, 10.0);
   command.add_option("--blur", options.bands.blur_cells, "Softens the edge between ridge and slope, in cells of each band")
-      ->type_name("CELLS")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 10.0));
+      .type_name("CELLS")
+      .show_default()
+      .range(0.0, 10.0);
   command.add_option("--exponent", options.bands.exponent, "1: detail on ridges and valley lines only; towards 0 slopes keep theirs too")
-      ->type_name("X")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 4.0));
+      .type_name("X")
+      .show_default()
+      .range(0.0, 4.0);
   add_terrain_operators(command, options.operators);
   command
       .add_option(
           "--equalizer", options.equalizer,
           "Also an .html page with sliders for all weights and a preview that follows them; its bands are those of --global, else six")
-      ->type_name("FILE");
+      .type_name("FILE");
   command.add_option("--report", options.report, "Also a folder with a page of pictures and numbers: index.html, report.json")
-      ->type_name("DIR");
+      .type_name("DIR");
   command.add_option("--threads", options.threads, "Processor threads; 0, the default, takes all. Changes no altitude")
-      ->type_name("N")
-      ->check(CLI::Range(0, 4096));
+      .type_name("N")
+      .range(0, 4096);
   command.add_flag("--quiet,-q", options.quiet, "No progress, no notes");
   command.add_flag("--json", options.json, "What was done as JSON on standard output");
   command.footer(

@@ -8,11 +8,9 @@
 #include "terrain/generalize/mask.h"
 #include "tools/cli/terrain_operators.h"
 
-namespace CLI {
-class App;
-}
-
 namespace belvedere::tools {
+
+class CommandOptions;
 
 // What `generalize` is asked on the command line. Weights go from the largest landforms to the smallest; empty: not given.
 struct GeneralizeOptions {
@@ -37,7 +35,7 @@ struct GeneralizeOptions {
   bool json = false;
 };
 
-void add_generalize_options(CLI::App& command, GeneralizeOptions& options);
+void add_generalize_options(CommandOptions& command, GeneralizeOptions& options);
 
 // The weights asked for. A page with sliders begins with the terrain as it is. Error(usage) where there are none, where sets differ in
 // number, a weight is out of range, or weights differ near and far and nobody looks.

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tools/cli/program_description.h"
+#include "tools/options/program_description.h"
 
 namespace belvedere::tools {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/cli/program_description.h"
+#include "tools/options/program_description.h"
 
 namespace belvedere::tools {
 

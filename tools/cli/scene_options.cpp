@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
 
@@ -12,60 +11,60 @@
 #include "renderer/scene/scene_lock.h"
 #include "terrain/io/http_access.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 
-void add_file_options(CLI::App& command, SceneOptions& options) {
+void add_file_options(CommandOptions& command, SceneOptions& options) {
   command
       .add_option("--data", options.files.data_folders,
                   "A folder in which the scene's files may lie, beside the scene's own; may be repeated")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
+      .type_name("DIR")
+      .repeated();
   command.add_flag("--allow-http", options.allow_http, "Rasters may be addresses, https://…; without it no server is asked for anything");
   command.add_option("--http-silence", options.http_silence_s, "How long a server may send nothing before it counts as lost, in seconds")
-      ->type_name("S")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 3600));
+      .type_name("S")
+      .show_default()
+      .range(1, 3600);
 }
 
-void add_run_options(CLI::App& command, SceneOptions& options) {
+void add_run_options(CommandOptions& command, SceneOptions& options) {
   command.add_option("--threads", options.threads, "How many processor threads to use; 0, the default, takes all. Changes no pixel")
-      ->type_name("N")
-      ->check(CLI::Range(0, 4096));
-  command
-      .add_option("--memory", options.memory_mib, "Memory that the program may take; 0, the default, is three quarters of the machine's")
-      ->type_name("MIB")
-      ->check(CLI::Range(0, 1 << 30));
+      .type_name("N")
+      .range(0, 4096);
+  command.add_option("--memory", options.memory_mib, "Memory that the program may take; 0, the default, is three quarters of the machine's")
+      .type_name("MIB")
+      .range(0, 1 << 30);
   command.add_flag("--no-cache", options.no_cache, "Makes everything anew and keeps nothing; see belvedere cache list. Changes no pixel");
   command.add_flag("--quiet,-q", options.quiet, "No progress, no notes");
   command.add_flag("--json", options.json, "The result as JSON on standard output");
 }
 
-void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& meaning) {
+void add_scene_options(CommandOptions& command, SceneOptions& options, const std::string& meaning) {
   command.add_option("SCENE", options.scene, meaning);
   add_file_options(command, options);
   command
       .add_option("--set", options.files.settings,
                   "Overrides a key of the scene: --set output.width=1200, --set exemplar.0.seed=3; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+      .type_name("KEY=VALUE")
+      .repeated();
   add_run_options(command, options);
 }
 
-void add_locked_option(CLI::App& command, SceneOptions& options) {
+void add_locked_option(CommandOptions& command, SceneOptions& options) {
   command.add_flag("--locked", options.locked, "Only with the inputs that the scene's lock file knows, byte for byte; see belvedere lock");
 }
 
-void add_layers_option(CLI::App& command, std::vector<std::string>& layers) {
+void add_layers_option(CommandOptions& command, std::vector<std::string>& layers) {
   std::vector<std::string> endings;
   for (const LayerFormat& format : layer_formats()) endings.push_back(format.ending);
   command
       .add_option("--layers", layers,
                   "Also the picture in layers: ground, strokes, trees, houses … as panorama.ora (GIMP, Krita; 16 bits), panorama.psd "
                   "(Photoshop, Affinity; 16 bits) or panorama_layers.exr (Nuke, Natron, Blender; linear light)")
-      ->type_name(fmt::format("{},…", fmt::join(endings, "|")))
-      ->delimiter(',')
-      ->check(CLI::IsMember(endings));
+      .type_name(fmt::format("{},…", fmt::join(endings, "|")))
+      .list(',')
+      .one_of(endings);
 }
 
 void allow_servers(const SceneOptions& options) {

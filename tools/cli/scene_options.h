@@ -5,11 +5,9 @@
 #include "base/run.h"
 #include "renderer/scene/scene_file.h"
 
-namespace CLI {
-class App;
-}
-
 namespace belvedere::tools {
+
+class CommandOptions;
 
 // What every command that takes a scene has in common.
 struct SceneOptions {
@@ -26,15 +24,15 @@ struct SceneOptions {
 };
 
 // meaning: of the scene, in the command's help.
-void add_scene_options(CLI::App& command, SceneOptions& options,
+void add_scene_options(CommandOptions& command, SceneOptions& options,
                        const std::string& meaning = "The scene file; without one the built-in demo");
 // The parts of it that commands with several scenes take as well: --data and --allow-http, and threads, memory, quiet, json.
-void add_file_options(CLI::App& command, SceneOptions& options);
-void add_run_options(CLI::App& command, SceneOptions& options);
+void add_file_options(CommandOptions& command, SceneOptions& options);
+void add_run_options(CommandOptions& command, SceneOptions& options);
 // --locked, which load() then holds to.
-void add_locked_option(CLI::App& command, SceneOptions& options);
+void add_locked_option(CommandOptions& command, SceneOptions& options);
 // Formats of layers, as renderer/image/layers/layer_file.h has them.
-void add_layers_option(CLI::App& command, std::vector<std::string>& layers);
+void add_layers_option(CommandOptions& command, std::vector<std::string>& layers);
 // Opens the way to servers for the rest of the program, where the options allow it.
 void allow_servers(const SceneOptions& options);
 // Reads the scene, or the demo; its inputs are those of its lock where that is asked for.

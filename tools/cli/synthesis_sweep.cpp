@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/text/markup.h"
+#include "tools/options/refuse.h"
 #include "tools/report/bitmap_text.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
@@ -20,27 +21,22 @@ namespace {
 
 constexpr int most_cells = 100;
 constexpr int cell_px = 512;  // longest side of a result on the sheet
-constexpr int gap = 12;
-constexpr int text_scale = 2;
-constexpr int line_px = text_height * text_scale + 6;
+constexpr int sweep_gap = 12;
 
-struct Swept {
+struct SweptParameter {
   const char* name;
   double least;
   double most;
   bool whole;
 };
 constexpr double largest_seed = 9007199254740992.0;  // 2^53: every whole number up to it is a double
-constexpr Swept parameters_swept[] = {{"seed", 0, largest_seed, true}, {"levels", 1, 8, true},         {"reuse", 0, 10, false},
-                                      {"copy-cap", 16, 100000, true},  {"neighbourhood", 3, 11, true}, {"surroundings", 0, 100, false}};
-constexpr Swept weight_swept = {"weight", 0, 100, false};
+constexpr SweptParameter parameters_swept[] = {{"seed", 0, largest_seed, true}, {"levels", 1, 8, true},
+                                               {"reuse", 0, 10, false},         {"copy-cap", 16, 100000, true},
+                                               {"neighbourhood", 3, 11, true},  {"surroundings", 0, 100, false}};
+constexpr SweptParameter weight_swept = {"weight", 0, 100, false};
 
-[[noreturn]] void refuse(const std::string& where, const std::string& found, const std::string& allowed) {
-  throw Error(ErrorKind::usage, where, found, allowed);
-}
-
-const Swept* find_swept(const std::string& name, const std::vector<std::string>& guides) {
-  for (const Swept& swept : parameters_swept)
+const SweptParameter* find_swept(const std::string& name, const std::vector<std::string>& guides) {
+  for (const SweptParameter& swept : parameters_swept)
     if (name == swept.name) return &swept;
   return std::find(guides.begin(), guides.end(), name) != guides.end() ? &weight_swept : nullptr;
 }
@@ -95,34 +91,34 @@ class Sheet {
   Sheet(const std::vector<SweepAxis>& axes, int width, int height) : cell_width_(width), cell_height_(height) {
     const auto label = [&](std::size_t axis, std::size_t i) { return axes[axis].name + "=" + axes[axis].texts[i]; };
     const std::size_t rows = axes.size() > 1 ? axes[1].values.size() : 1;
-    for (std::size_t r = 0; axes.size() > 1 && r < rows; ++r) left_ = std::max(left_, gap + text_width(label(1, r), text_scale));
+    for (std::size_t r = 0; axes.size() > 1 && r < rows; ++r) left_ = std::max(left_, sweep_gap + text_width(label(1, r), caption_scale));
     for (std::size_t c = 0; c < axes[0].values.size(); ++c)
-      column_ = std::max({column_, cell_width_ + gap, text_width(label(0, c), text_scale) + gap});
-    picture_ = Grid<glm::vec3>(left_ + gap + static_cast<int>(axes[0].values.size()) * column_,
+      column_ = std::max({column_, cell_width_ + sweep_gap, text_width(label(0, c), caption_scale) + sweep_gap});
+    picture_ = Grid<glm::vec3>(left_ + sweep_gap + static_cast<int>(axes[0].values.size()) * column_,
                                top_ + static_cast<int>(rows) * row_height(), glm::vec3(1.F));
     for (std::size_t c = 0; c < axes[0].values.size(); ++c)
-      draw_text(picture_, x_of(static_cast<int>(c)), gap, label(0, c), glm::vec3(0.F), text_scale);
+      draw_text(picture_, x_of(static_cast<int>(c)), sweep_gap, label(0, c), glm::vec3(0.F), caption_scale);
     for (std::size_t r = 0; axes.size() > 1 && r < rows; ++r)
-      draw_text(picture_, gap, y_of(static_cast<int>(r)), label(1, r), glm::vec3(0.F), text_scale);
+      draw_text(picture_, sweep_gap, y_of(static_cast<int>(r)), label(1, r), glm::vec3(0.F), caption_scale);
   }
   void add(int column, int row, const Grid<glm::vec3>& view, const std::string& words) {
     paste(picture_, view, x_of(column), y_of(row));
     // The larger letters where they fit, else the smaller.
-    const int scale = text_width(words, text_scale) <= column_ - gap ? text_scale : 1;
+    const int scale = text_width(words, caption_scale) <= column_ - sweep_gap ? caption_scale : 1;
     draw_text(picture_, x_of(column), y_of(row) + cell_height_ + 4, words, glm::vec3(0.25F), scale);
   }
   const Grid<glm::vec3>& picture() const { return picture_; }
 
  private:
-  int row_height() const { return cell_height_ + line_px + gap; }
-  int x_of(int column) const { return left_ + gap + column * column_; }
+  int row_height() const { return cell_height_ + caption_line_px + sweep_gap; }
+  int x_of(int column) const { return left_ + sweep_gap + column * column_; }
   int y_of(int row) const { return top_ + row * row_height(); }
 
   int cell_width_;
   int cell_height_;
   int left_ = 0;
   int column_ = 0;
-  int top_ = gap + line_px;
+  int top_ = sweep_gap + caption_line_px;
   Grid<glm::vec3> picture_;
 };
 
@@ -186,10 +182,10 @@ SweepAxis parse_sweep(const std::string& text, const std::vector<std::string>& g
   if (equals == std::string::npos || equals == 0) refuse(where, "has no name and values", "NAME=VALUE,VALUE,… such as reuse=0,1,4");
   SweepAxis axis{.name = text.substr(0, equals), .texts = {}, .values = {}};
   if (axis.name == "copy_cap") axis.name = "copy-cap";
-  const Swept* swept = find_swept(axis.name, guides);
+  const SweptParameter* swept = find_swept(axis.name, guides);
   if (swept == nullptr) {
     std::string names;
-    for (const Swept& known : parameters_swept) names += std::string(names.empty() ? "" : ", ") + known.name;
+    for (const SweptParameter& known : parameters_swept) names += std::string(names.empty() ? "" : ", ") + known.name;
     for (const std::string& guide : guides) names += ", " + guide;
     refuse(where, fmt::format("\"{}\" is nothing that can be swept", axis.name), names + (guides.empty() ? "" : " (weight)"));
   }

@@ -11,13 +11,10 @@
 #include "renderer/image/provenance.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/synthesis_files.h"
+#include "tools/options/refuse.h"
 
 namespace belvedere::tools {
 namespace {
-
-[[noreturn]] void refuse(const std::string& where, const std::string& found, const std::string& allowed) {
-  throw Error(ErrorKind::usage, where, found, allowed);
-}
 
 ChannelType widest(const ImageInfo& info) {
   ChannelType type = ChannelType::uint8;

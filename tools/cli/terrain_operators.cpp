@@ -2,30 +2,29 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include "terrain/generalize/destripe.h"
 #include "terrain/generalize/line_integral_generalize.h"
 #include "terrain/generalize/widen_valleys.h"
 #include "terrain/io/contours.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/shape/hillshade.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 
-void add_terrain_operators(CLI::App& command, TerrainOperators& operators) {
+void add_terrain_operators(CommandOptions& command, TerrainOperators& operators) {
   command.add_flag("--destripe", operators.destripe, "First takes off stripes along rows and columns");
   command.add_flag("--line-integral", operators.line_integral, "Then makes slopes plain along slope lines, ridges stay sharp (Jenny 2021)");
   command.add_option("--widen-valleys", operators.widen_valleys_m, "Last makes the floors of large valleys so many metres wider")
-      ->type_name("METRES");
-  command.add_option("--hillshade", operators.hillshade, "Also writes the result's shaded relief, .tif")->type_name("FILE");
-  CLI::Option* contours =
+      .type_name("METRES");
+  command.add_option("--hillshade", operators.hillshade, "Also writes the result's shaded relief, .tif").type_name("FILE");
+  const Option contours =
       command.add_option("--contours", operators.contours, "Also writes the result's contour lines, .gpkg, .geojson or .shp")
-          ->type_name("FILE");
+          .type_name("FILE");
   command.add_option("--contour-interval", operators.contour_interval_m, "Metres between contour lines")
-      ->type_name("METRES")
-      ->capture_default_str()
-      ->needs(contours);
+      .type_name("METRES")
+      .show_default()
+      .needs(contours);
 }
 
 Grid<float> operate_before_bands(Grid<float> altitude_m, double cell_m, const TerrainOperators& operators, Progress& progress) {

@@ -7,11 +7,9 @@
 #include "base/progress.h"
 #include "terrain/io/raster.h"
 
-namespace CLI {
-class App;
-}
-
 namespace belvedere::tools {
+
+class CommandOptions;
 
 // What a command does to a DEM before and after the bands are weighted, and what it writes of the result besides the DEM.
 struct TerrainOperators {
@@ -24,7 +22,7 @@ struct TerrainOperators {
 };
 
 // --destripe, --line-integral, --widen-valleys, --hillshade, --contours, --contour-interval.
-void add_terrain_operators(CLI::App& command, TerrainOperators& operators);
+void add_terrain_operators(CommandOptions& command, TerrainOperators& operators);
 
 // Cells finite, m. `keep`: lakes, which stay; empty: none.
 Grid<float> operate_before_bands(Grid<float> altitude_m, double cell_m, const TerrainOperators& operators, Progress& progress);

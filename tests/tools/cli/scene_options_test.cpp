@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 
 #include "tests/files.h"
+#include "tests/tools/read_options.h"
 
 namespace belvedere::tools {
 namespace {
@@ -14,16 +14,14 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-SceneOptions read(const std::string& line) {
-  CLI::App command;
-  SceneOptions options;
-  add_scene_options(command, options);
-  command.parse(line);
-  return options;
+SceneOptions read_scene_options(const std::string& line) {
+  return test::read_options<SceneOptions>([](CommandOptions& command, SceneOptions& options) { add_scene_options(command, options); },
+                                          line);
 }
 
 TEST(SceneOptions, AreRead) {
-  const SceneOptions options = read("a.toml --data x --data y --set seed=3 --set palette=winter --threads 2 -q --json --memory 100");
+  const SceneOptions options =
+      read_scene_options("a.toml --data x --data y --set seed=3 --set palette=winter --threads 2 -q --json --memory 100");
   EXPECT_EQ(options.scene, "a.toml");
   EXPECT_THAT(options.files.data_folders, ElementsAre("x", "y"));
   EXPECT_THAT(options.files.settings, ElementsAre("seed=3", "palette=winter"));
@@ -32,9 +30,9 @@ TEST(SceneOptions, AreRead) {
   EXPECT_TRUE(options.quiet);
   EXPECT_TRUE(options.json);
   // A folder is one word: what follows is the scene.
-  EXPECT_EQ(read("--data x a.toml").scene, "a.toml");
-  EXPECT_THROW(read("--threads 4097"), CLI::ParseError);
-  EXPECT_THROW(read("--memory -1"), CLI::ParseError);
+  EXPECT_EQ(read_scene_options("--data x a.toml").scene, "a.toml");
+  EXPECT_THROW(read_scene_options("--threads 4097"), Error);
+  EXPECT_THROW(read_scene_options("--memory -1"), Error);
 }
 
 TEST(SceneOptions, WithoutASceneItIsTheDemo) {

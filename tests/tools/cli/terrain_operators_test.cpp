@@ -3,24 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
+#include "tests/tools/read_options.h"
 
 namespace belvedere::tools {
 namespace {
 
 using ::testing::HasSubstr;
 
-TerrainOperators read(const std::string& line) {
-  CLI::App command;
-  TerrainOperators operators;
-  add_terrain_operators(command, operators);
-  command.parse(line);
-  return operators;
-}
+TerrainOperators read_operators(const std::string& line) { return test::read_options<TerrainOperators>(add_terrain_operators, line); }
 
 // A cone with stripes of ±1 m along rows.
 Grid<float> striped_cone() {
@@ -33,22 +27,22 @@ Grid<float> striped_cone() {
 TEST(TerrainOperators, AreOffUnlessAskedFor) {
   const Grid<float> cone = striped_cone();
   Progress progress;
-  EXPECT_EQ(operate_before_bands(cone, 30.0, read(""), progress), cone);
-  EXPECT_EQ(operate_after_bands(cone, {}, 30.0, read(""), progress), cone);
+  EXPECT_EQ(operate_before_bands(cone, 30.0, read_operators(""), progress), cone);
+  EXPECT_EQ(operate_after_bands(cone, {}, 30.0, read_operators(""), progress), cone);
 }
 
 TEST(TerrainOperators, EachChangesTheGround) {
   const Grid<float> cone = striped_cone();
   Progress progress;
-  const Grid<float> plain = operate_before_bands(cone, 30.0, read("--destripe"), progress);
+  const Grid<float> plain = operate_before_bands(cone, 30.0, read_operators("--destripe"), progress);
   EXPECT_LT(std::abs(plain(10, 24) - plain(10, 25)), 0.5F * std::abs(cone(10, 24) - cone(10, 25)));
-  EXPECT_NE(operate_before_bands(cone, 30.0, read("--line-integral"), progress), cone);
-  EXPECT_EQ(read("--widen-valleys 60").widen_valleys_m, 60.F);
+  EXPECT_NE(operate_before_bands(cone, 30.0, read_operators("--line-integral"), progress), cone);
+  EXPECT_EQ(read_operators("--widen-valleys 60").widen_valleys_m, 60.F);
 }
 
 TEST(TerrainOperators, ContoursNeedAFileForTheirInterval) {
-  EXPECT_EQ(read("--contours a.gpkg --contour-interval 20").contour_interval_m, 20.0);
-  EXPECT_THROW(read("--contour-interval 20"), CLI::ParseError);
+  EXPECT_EQ(read_operators("--contours a.gpkg --contour-interval 20").contour_interval_m, 20.0);
+  EXPECT_THROW(read_operators("--contour-interval 20"), Error);
 }
 
 TEST(TerrainOperators, ProductsLieInTheGridOfTheResult) {

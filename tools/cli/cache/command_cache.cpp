@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <numeric>
 #include <string>
@@ -11,6 +10,7 @@
 #include "base/json.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
@@ -67,7 +67,7 @@ Json as_json(const Entries& entries) {
 
 }  // namespace
 
-Action add_cache_list(CLI::App& command) {
+Action add_cache_list(CommandOptions& command) {
   const auto json = std::make_shared<bool>(false);
   command.add_flag("--json", *json, "As JSON");
   command.footer(
@@ -91,9 +91,9 @@ Action add_cache_list(CLI::App& command) {
   };
 }
 
-Action add_cache_clear(CLI::App& command) {
+Action add_cache_clear(CommandOptions& command) {
   const auto days = std::make_shared<int>(0);
-  command.add_option("--older-than", *days, "Only what was not used for so many days")->type_name("DAYS")->check(CLI::Range(0, 36500));
+  command.add_option("--older-than", *days, "Only what was not used for so many days").type_name("DAYS").range(0, 36500);
   command.footer(
       "Costs nothing but time: what is needed again is made again.\n\n"
       "  belvedere cache clear\n"

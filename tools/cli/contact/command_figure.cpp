@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -24,6 +23,7 @@
 #include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 #include "tools/report/bitmap_text.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
@@ -31,10 +31,10 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr int cell_px = 900;               // longest side of a picture on the sheet
+constexpr int figure_px = 900;             // longest side of a picture on the sheet
 const glm::vec3& blank = no_class_colour;  // sky, and what is never copied from
 
-struct Options {
+struct FigureOptions {
   SceneOptions scene;
   std::string out;
   int width_px = 0;  // 0: the scene's
@@ -116,11 +116,11 @@ void add_making_of(ReportFolder& page, const LoadedScene& loaded, const Run& run
   const std::vector<MakingStep> steps = make_making_of(loaded, run);
   for (std::size_t i = 0; i < steps.size(); ++i) page.write_picture(fmt::format("making_{}_{}", i + 1, steps[i].file), steps[i].picture);
   page.begin_figure("making", "How it is made", "The same view at every stage, from the ground as measured to the picture.");
-  page.picture("making", draw_making_of(steps, cell_px), "making.png");
+  page.picture("making", draw_making_of(steps, figure_px), "making.png");
   page.end_figure();
 }
 
-int run(const Options& options) {
+int run(const FigureOptions& options) {
   LoadedScene loaded = load(options.scene);
   if (options.width_px > 0) loaded = at_width(loaded, options.width_px);
   loaded.scene.output.formats = {"png"};
@@ -140,7 +140,7 @@ int run(const Options& options) {
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const auto& [name, picture] = rows[r];
       if (!picture.empty()) page.write_picture(column.file + (*name == 0 ? "" : "_") + name, picture);
-      table.cells[r].push_back({picture.empty() ? picture : reduced_picture(picture, cell_px), {}});
+      table.cells[r].push_back({picture.empty() ? picture : reduced_picture(picture, figure_px), {}});
     }
   }
   table.foot = legend(columns);
@@ -168,15 +168,15 @@ int run(const Options& options) {
 
 }  // namespace
 
-std::function<int()> add_figure(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+std::function<int()> add_figure(CommandOptions& command) {
+  const auto options = std::make_shared<FigureOptions>();
   add_scene_options(command, options->scene);
   command.add_option("--out", options->out, "Folder for sheet.png, its pictures each for itself, and index.html")
-      ->type_name("DIR")
-      ->required();
+      .type_name("DIR")
+      .required();
   command.add_option("--width", options->width_px, "Of the picture in pixels, its height in proportion. Default: the scene's")
-      ->type_name("N")
-      ->check(CLI::Range(16, 20000));
+      .type_name("N")
+      .range(16, 20000);
   command.add_flag("--making", options->making,
                    "Also making.png: the ground as measured, generalized and bent, land cover, light, colours, copied paint, strokes.\n"
                    "Paints the picture a second time");

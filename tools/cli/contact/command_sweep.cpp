@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
 
@@ -24,9 +24,9 @@ namespace belvedere::tools {
 namespace {
 
 constexpr std::size_t most_pictures = 100;
-constexpr int cell_px = 640;  // longest side of a picture on the sheet
+constexpr int swept_px = 640;  // longest side of a picture on the sheet
 
-struct Options {
+struct SweepOptions {
   SceneOptions scene;
   std::string out;
   bool draft = false;
@@ -58,7 +58,7 @@ class PictureProgress : public Progress {
 };
 
 // All scenes, row by row: a value that none may have is refused before the first is rendered.
-std::vector<Swept> read_scenes(const Options& options, const SceneSweep& sweep) {
+std::vector<Swept> read_scenes(const SweepOptions& options, const SceneSweep& sweep) {
   std::vector<Swept> all;
   const std::size_t rows = sweep.axes.size() > 1 ? sweep.axes[1].values.size() : 1;
   for (std::size_t r = 0; r < rows; ++r)
@@ -84,13 +84,13 @@ Grid<glm::vec3> render_picture(const LoadedScene& scene, const Run& run) {
   return read_picture((std::filesystem::path(folder.path()) / "panorama.png").string());
 }
 
-std::string describe(const Options& options) {
+std::string describe(const SweepOptions& options) {
   std::string out = "belvedere sweep " + (options.scene.scene.empty() ? std::string() : file_name(options.scene.scene) + " ");
   for (const std::string& setting : options.scene.files.settings) out += fmt::format("--set '{}' ", setting);
   return out + (options.draft ? "--draft " : "") + "--out " + file_name(options.out);
 }
 
-std::string as_json(const Options& options, const SceneSweep& sweep, const std::vector<Swept>& all) {
+std::string as_json(const SweepOptions& options, const SceneSweep& sweep, const std::vector<Swept>& all) {
   Json axes = Json::array();
   for (const SceneAxis& axis : sweep.axes) {
     Json values = Json::array();
@@ -111,7 +111,7 @@ std::string as_json(const Options& options, const SceneSweep& sweep, const std::
          "\n";
 }
 
-int run(const Options& options) {
+int run(const SweepOptions& options) {
   const SceneSweep sweep = split_sweep(options.scene.files.settings);
   const std::size_t columns = sweep.axes[0].values.size();
   const std::size_t rows = sweep.axes.size() > 1 ? sweep.axes[1].values.size() : 1;
@@ -130,7 +130,7 @@ int run(const Options& options) {
     PictureProgress here(progress, i + 1, all.size());
     const Grid<glm::vec3> picture = render_picture(all[i].scene, make_run(options.scene, Run{}.tile_px, here, cache));
     page.write_picture(all[i].name, picture);
-    table.cells[i / columns].push_back({reduced_picture(picture, cell_px), {}});
+    table.cells[i / columns].push_back({reduced_picture(picture, swept_px), {}});
   }
   page.begin_figure("sheet", "All pictures", "Each whole is a file of its own: 2_1.png is the second column's first row.");
   page.picture("sheet", draw_table(table), "sheet.png");
@@ -149,10 +149,10 @@ int run(const Options& options) {
 
 }  // namespace
 
-std::function<int()> add_sweep(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+std::function<int()> add_sweep(CommandOptions& command) {
+  const auto options = std::make_shared<SweepOptions>();
   add_scene_options(command, options->scene);
-  command.add_option("--out", options->out, "Folder for the pictures, sheet.png, index.html and report.json")->type_name("DIR")->required();
+  command.add_option("--out", options->out, "Folder for the pictures, sheet.png, index.html and report.json").type_name("DIR").required();
   command.add_flag("--draft", options->draft, "Drafts as of render --draft: a third of the pixels a side, strokes alone");
   command.footer(
       "One key of --set or two have several values: the first goes along the columns, the second down the rows. Commas\n"

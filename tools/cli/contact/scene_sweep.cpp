@@ -5,11 +5,10 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "tools/options/refuse.h"
 
 namespace belvedere::tools {
 namespace {
-
-[[noreturn]] void refuse(const std::string& found, const std::string& allowed) { throw Error(ErrorKind::usage, "--set", found, allowed); }
 
 std::vector<std::string> split_values(const std::string& text) {
   std::vector<std::string> values(1);
@@ -46,15 +45,15 @@ SceneSweep split_sweep(const std::vector<std::string>& settings) {
       continue;
     }
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (values[i].empty()) refuse(fmt::format("{} with an empty value", setting), "KEY=VALUE,VALUE,…");
+      if (values[i].empty()) refuse("--set", fmt::format("{} with an empty value", setting), "KEY=VALUE,VALUE,…");
       if (std::count(values.begin(), values.end(), values[i]) > 1)
-        refuse(fmt::format("{} with {} twice", setting, values[i]), "each value once");
+        refuse("--set", fmt::format("{} with {} twice", setting, values[i]), "each value once");
     }
     sweep.axes.push_back({setting.substr(0, equals), values});
   }
-  if (sweep.axes.empty()) refuse("no key with several values", "--set KEY=VALUE,VALUE,… of one key or two");
+  if (sweep.axes.empty()) refuse("--set", "no key with several values", "--set KEY=VALUE,VALUE,… of one key or two");
   if (sweep.axes.size() > 2)
-    refuse(fmt::format("{} keys with several values", sweep.axes.size()), "one or two: columns and rows of a sheet");
+    refuse("--set", fmt::format("{} keys with several values", sweep.axes.size()), "one or two: columns and rows of a sheet");
   return sweep;
 }
 

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <map>
@@ -20,6 +19,7 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 #include "tools/report/segment_page.h"
 
 namespace belvedere::tools {
@@ -27,7 +27,7 @@ namespace {
 
 using Colours = std::vector<std::array<std::uint8_t, 3>>;
 
-struct Options {
+struct SegmentOptions {
   std::string painting, out, page, compare;
   std::optional<double> theta;  // none: as many groups as `most`
   int most = 30;
@@ -42,7 +42,7 @@ std::array<std::uint8_t, 3> bytes_of(std::uint32_t rgb) {
 }
 
 // Classes in the colours of class maps; numbers of groups in the mean colours of their paint.
-Colours colours_of(const Options& options, const Grid<std::uint8_t>& mask, const Grid<glm::vec3>& picture) {
+Colours colours_of(const SegmentOptions& options, const Grid<std::uint8_t>& mask, const Grid<glm::vec3>& picture) {
   Colours colours(256, {0, 0, 0});
   if (!options.numbers) {
     for (const LandCoverClassInfo& info : land_cover_classes()) colours[static_cast<std::size_t>(info.id)] = bytes_of(info.rgb);
@@ -65,7 +65,7 @@ struct Agreement {
   SegmentAgreement groups, named;
 };
 
-Agreement agreement_with(const Options& options, const PaintingSegments& segments, const Partition& groups,
+Agreement agreement_with(const SegmentOptions& options, const PaintingSegments& segments, const Partition& groups,
                          const std::vector<std::uint8_t>& classes) {
   const LabelImages drawn = read_label_images({options.compare});
   const Grid<std::uint8_t>& labels = drawn.labels.front();
@@ -82,7 +82,7 @@ Agreement agreement_with(const Options& options, const PaintingSegments& segment
   return {segment_agreement(group, labels), segment_agreement(named, labels)};
 }
 
-int run(const Options& options) {
+int run(const SegmentOptions& options) {
   for (const std::string* path : {&options.out, &options.page})
     if (!path->empty()) check_place(*path);
   if (ending_of(options.out) != ".png") throw Error(ErrorKind::usage, "--out", options.out, "a .png");
@@ -141,27 +141,27 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_exemplar_segment(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("PAINTING", options->painting, "A painting or a scan: PNG, TIFF or JPEG")->required()->type_name("PICTURE");
+Action add_exemplar_segment(CommandOptions& command) {
+  const auto options = std::make_shared<SegmentOptions>();
+  command.add_option("PAINTING", options->painting, "A painting or a scan: PNG, TIFF or JPEG").required().type_name("PICTURE");
   command.add_option("--out", options->out, "The mask: a .png whose numbers are classes, for `classes` of an [[exemplar]]")
-      ->required()
-      ->type_name("MASK");
+      .required()
+      .type_name("MASK");
   command.add_option("--page", options->page, "Also a page (.html) to merge, split and name the groups with clicks, and to save the mask")
-      ->type_name("PAGE");
+      .type_name("PAGE");
   command
       .add_option("--groups", options->theta,
                   "How unlike a group's parts may be, such as 1.1; more makes fewer groups. Default: as many groups as --most")
-      ->type_name("X")
-      ->check(CLI::Range(0.0, 10.0));
+      .type_name("X")
+      .range(0.0, 10.0);
   command.add_option("--most", options->most, "How many groups; the likest are joined. With --groups no more than these. Default: 30")
-      ->type_name("N")
-      ->check(CLI::Range(1, 254));
+      .type_name("N")
+      .range(1, 254);
   command.add_flag("--numbers", options->numbers, "Numbers of groups in the mask instead of classes, as `synthesize --label` takes them");
   command
       .add_option("--compare", options->compare, "A mask drawn by hand, in flat colours or numbers: says how well the groups agree with it")
-      ->type_name("MASK");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
+      .type_name("MASK");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel").type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(

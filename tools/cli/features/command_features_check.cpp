@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -17,11 +16,12 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct FeaturesCheckOptions {
   SceneOptions scene;
 };
 
@@ -99,7 +99,7 @@ Json to_json(const FeatureSet& set, const DrawnFeatures& drawn, const std::vecto
   return Json::object().add("style", Json::text(set.style.name)).add("sources", std::move(sources));
 }
 
-int run(const Options& options) {
+int run(const FeaturesCheckOptions& options) {
   const LoadedScene scene = load(options.scene);
   const RunLimits limits(make_run(options.scene));
   TerminalProgress progress(options.scene.quiet);
@@ -140,8 +140,8 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_features_check(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action add_features_check(CommandOptions& command) {
+  const auto options = std::make_shared<FeaturesCheckOptions>();
   add_scene_options(command, options->scene);
   command.footer(
       "Reads the files of [[features]] and lays them over the ground as it will be drawn, without rendering: what was read, of which "

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -10,16 +9,17 @@
 #include "tools/cli/features/swatches.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct SwatchesOptions {
   std::string style = "classic";
   std::string out;
 };
 
-int run(const Options& options) {
+int run(const SwatchesOptions& options) {
   const FeatureStyle style = load_feature_style(options.style);
   const std::filesystem::path folder = options.out;
   check_place((folder / "swatch.png").string());
@@ -37,10 +37,10 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_features_swatches(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("--style", options->style, "classic, ski, or a .toml file")->type_name("STYLE")->capture_default_str();
-  command.add_option("--out", options->out, "Folder for a picture of each kind; made where it is missing")->required()->type_name("DIR");
+Action add_features_swatches(CommandOptions& command) {
+  const auto options = std::make_shared<SwatchesOptions>();
+  command.add_option("--style", options->style, "classic, ski, or a .toml file").type_name("STYLE").show_default();
+  command.add_option("--out", options->out, "Folder for a picture of each kind; made where it is missing").required().type_name("DIR");
   command.footer(
       "Paints each kind of a style as it looks in the foreground of a sheet, summer left, winter right, at 8 pixels a mm, to see what a "
       "style\n"

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
@@ -10,11 +9,12 @@
 #include "tools/cli/fetch/fetch_options.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct FetchCommandOptions {
   FetchOptions fetch;
   SceneOptions run;  // threads, memory, cache, quiet, json
   std::string out;
@@ -30,7 +30,7 @@ std::size_t missing_tiles(const FetchedMap& map) {
       std::count_if(map.tiles.begin(), map.tiles.end(), [](const FetchedTile& tile) { return tile.about.missing; }));
 }
 
-std::string as_text(const Options& options, const FetchedArea& area) {
+std::string as_text(const FetchCommandOptions& options, const FetchedArea& area) {
   std::string out;
   for (const FetchedMap* map : {&area.elevation, area.land_cover ? &*area.land_cover : nullptr}) {
     if (map == nullptr) continue;
@@ -44,7 +44,7 @@ std::string as_text(const Options& options, const FetchedArea& area) {
   return out;
 }
 
-Json map_json(const Options& options, const FetchedMap& map) {
+Json map_json(const FetchCommandOptions& options, const FetchedMap& map) {
   Json tiles = Json::array();
   for (const FetchedTile& tile : map.tiles)
     tiles.add(Json::object().add("name", Json::text(tile.name)).add("missing", Json::boolean(tile.about.missing)));
@@ -62,7 +62,7 @@ Json map_json(const Options& options, const FetchedMap& map) {
   return out.add("tiles", std::move(tiles));
 }
 
-std::string as_json(const Options& options, const FetchedArea& area) {
+std::string as_json(const FetchCommandOptions& options, const FetchedArea& area) {
   Json out = Json::object().add("elevation", map_json(options, area.elevation));
   if (area.land_cover) out.add("land_cover", map_json(options, *area.land_cover));
   return out.add("record", Json::text(area.record))
@@ -72,7 +72,7 @@ std::string as_json(const Options& options, const FetchedArea& area) {
          "\n";
 }
 
-int run(const Options& options) {
+int run(const FetchCommandOptions& options) {
   TerminalProgress progress(options.run.quiet);
   const Cache cache = make_cache(options.run);
   const RunLimits limits(make_run(options.run, Run{}.tile_px, progress, cache));
@@ -87,13 +87,13 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_fetch(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action add_fetch(CommandOptions& command) {
+  const auto options = std::make_shared<FetchCommandOptions>();
   add_fetch_options(command, options->fetch);
-  command.get_option("--at")->required();
+  command.option("--at").required();
   command.add_option("--out", options->out, "The folder for elevation.tif, land_cover.tif and fetched.toml; made where it is missing")
-      ->required()
-      ->type_name("DIR");
+      .required()
+      .type_name("DIR");
   add_run_options(command, options->run);
   command.footer(
       "Asks the servers of Copernicus DEM GLO-30 and ESA WorldCover, or those of other sources, for the parts of their tiles that lie in\n"

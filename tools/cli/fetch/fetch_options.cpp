@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
-
 #include "base/error.h"
 #include "renderer/image/provenance.h"
 #include "renderer/scene/fetched_sources.h"
 #include "tools/cli/deform_options.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
@@ -33,43 +32,43 @@ glm::dvec2 parse_size(const std::string& text) {
 
 }  // namespace
 
-void add_fetch_options(CLI::App& command, FetchOptions& options) {
+void add_fetch_options(CommandOptions& command, FetchOptions& options) {
   command.add_option("--at", options.at, "The middle of the area: longitude and latitude in degrees, west and south negative")
-      ->type_name("LON,LAT");
+      .type_name("LON,LAT");
   command
       .add_option("--size", options.size,
                   "How large the area is, in km: a side of the square, or west to east x south to north; default 60")
-      ->type_name("KM");
+      .type_name("KM");
   command
       .add_option(
           "--source", options.sources,
           fmt::format("Another source than copernicus_glo30 or esa_worldcover: {}, or a .toml file (docs/fetch.md); may be repeated",
                       fmt::join(built_in_map_sources(), ", ")))
-      ->type_name("NAME")
-      ->allow_extra_args(false);
+      .type_name("NAME")
+      .repeated();
   command.add_flag("--no-land-cover", options.no_land_cover, "Only the elevation");
-  command.add_option("--cell", options.cell_m, "Width of the elevation's cells in m; default: the source's, 30")->type_name("M");
+  command.add_option("--cell", options.cell_m, "Width of the elevation's cells in m; default: the source's, 30").type_name("M");
   command
       .add_option("--cover-cell", options.cover_cell_m, "Width of the land cover's cells in m; default: the source's, 10, up to 80 × 80 km")
-      ->type_name("M");
+      .type_name("M");
   command
       .add_option("--mirror", options.mirror,
                   "A server that has copies of the sources' files under the same paths, asked in their place; also $BELVEDERE_MIRROR")
-      ->type_name("URL")
-      ->envname("BELVEDERE_MIRROR");
+      .type_name("URL")
+      .environment("BELVEDERE_MIRROR");
   command.add_flag("--refresh", options.refresh, "Asks whether files that are known have changed; else that is believed for 30 days");
   // A command whose scene may have files on servers has this already.
-  if (command.get_option_no_throw("--http-silence") == nullptr)
+  if (!command.has_option("--http-silence"))
     command
         .add_option("--http-silence", options.manners.silence_s, "How long a server may send nothing before it counts as lost, in seconds")
-        ->type_name("S")
-        ->capture_default_str();
+        .type_name("S")
+        .show_default();
   command.add_option("--http-time", options.manners.answer_s, "How long one answer of a server may take, in seconds")
-      ->type_name("S")
-      ->capture_default_str();
+      .type_name("S")
+      .show_default();
   command.add_option("--http-retries", options.manners.retries, "How often what failed is asked for again, later each time")
-      ->type_name("N")
-      ->capture_default_str();
+      .type_name("N")
+      .show_default();
 }
 
 std::string sources_for_scenes(const FetchedArea& area) { return fetched_sources(area, ""); }

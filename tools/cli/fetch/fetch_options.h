@@ -5,11 +5,9 @@
 
 #include "terrain/fetch/fetch_area.h"
 
-namespace CLI {
-class App;
-}
-
 namespace belvedere::tools {
+
+class CommandOptions;
 
 // What commands that fetch an area have in common: place, size, sources, and how servers are asked.
 struct FetchOptions {
@@ -25,7 +23,7 @@ struct FetchOptions {
 };
 
 // --http-silence only where the command has none yet: then manners.silence_s is the command's to fill.
-void add_fetch_options(CLI::App& command, FetchOptions& options);
+void add_fetch_options(CommandOptions& command, FetchOptions& options);
 // What stands first in the record of fetched data: tables that are ready for a scene beside it.
 std::string sources_for_scenes(const FetchedArea& area);
 // Error(usage) for what cannot be understood; places and sizes out of range are told by fetch_area.

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,13 +16,14 @@
 #include "tools/cli/file_names.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct LabelsOptions {
   SceneOptions scene;
   std::vector<std::string> points;
   std::vector<std::string> shapes;
@@ -46,7 +46,7 @@ void note_fonts(const LabelStyle& style, Progress& progress) {
     if (!asked.starts_with(found)) progress.note(fmt::format("of the fonts \"{}\" {} is taken: the first is not installed", asked, found));
 }
 
-int run(const Options& options) {
+int run(const LabelsOptions& options) {
   const LoadedScene scene = load(options.scene);
   const RunLimits limits(make_run(options.scene));
   const Cache cache = make_cache(options.scene);
@@ -113,32 +113,31 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_labels(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action add_labels(CommandOptions& command) {
+  const auto options = std::make_shared<LabelsOptions>();
   add_scene_options(command, options->scene);
   command
       .add_option(
           "--points", options->points,
           "Points with names, instead of those of the scene's [labels]: .csv, .gpkg, .geojson, .shp, .fgb, .gpx or .osm; may be repeated")
-      ->type_name("FILE");
-  command
-      .add_option("--tracks", options->tracks, "Ways to draw, with a profile each: .gpx, .gpkg, .geojson, .shp or .fgb; may be repeated")
-      ->type_name("FILE");
+      .type_name("FILE");
+  command.add_option("--tracks", options->tracks, "Ways to draw, with a profile each: .gpx, .gpkg, .geojson, .shp or .fgb; may be repeated")
+      .type_name("FILE");
   command
       .add_option("--shapes", options->shapes,
                   "Lines and areas whose names are bent along them, valleys and lakes: .gpkg, .geojson, .shp or .fgb; may be repeated")
-      ->type_name("FILE");
-  command.add_option("--style", options->style, "How names are set: classic, or a .toml file; without it the scene's")->type_name("STYLE");
+      .type_name("FILE");
+  command.add_option("--style", options->style, "How names are set: classic, or a .toml file; without it the scene's").type_name("STYLE");
   command.add_option("--summits", options->summits, "So many of the DEM's own summits as well, with their altitudes; 30 without --points")
-      ->type_name("N")
-      ->check(CLI::Range(0, 10000));
+      .type_name("N")
+      .range(0, 10000);
   command
       .add_option("--least-prominence", options->least_prominence_m,
                   "What counts as a summit of the DEM: so high over the way to higher ground, in metres; without it the scene's, 150")
-      ->type_name("M")
-      ->check(CLI::Range(1.0, 9000.0));
-  command.add_option("--under", options->under, "A picture of the scene that labels.svg shows beneath the names")->type_name("FILE");
-  command.add_option("--out", options->out, "Folder for the results; made where it is missing")->required()->type_name("DIR");
+      .type_name("M")
+      .range(1.0, 9000.0);
+  command.add_option("--under", options->under, "A picture of the scene that labels.svg shows beneath the names").type_name("FILE");
+  command.add_option("--out", options->out, "Folder for the results; made where it is missing").required().type_name("DIR");
   command.footer(
       "Writes labels.svg (over the picture, text as text), labels.csv and labels.geojson: each point's pixel, distance, and whether\n"
       "it is seen or what hides it. Summits are marked where they are drawn. Files have columns name, kind, rank (1 … 9) and ele.\n\n"

@@ -21,8 +21,6 @@ bool names_a_file(const std::string& text) {
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
-Json pair_json(glm::dvec2 p) { return Json::array({Json::number(p.x), Json::number(p.y)}); }
-
 Json json_of(const LabelSheet& sheet, const Label& label) {
   const LabelMark& mark = label.mark;
   Json entry = Json::object()
@@ -44,6 +42,8 @@ Json json_of(const LabelSheet& sheet, const Label& label) {
 }
 
 }  // namespace
+
+Json pair_json(glm::dvec2 p) { return Json::array({Json::number(p.x), Json::number(p.y)}); }
 
 LocateQuestions sort_questions(const std::vector<std::string>& asked) {
   LocateQuestions questions;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,7 @@ struct LocatedTable {
   Json json = Json::array();
 };
 LocatedTable locate_files(const BareView& bare, const std::vector<std::string>& files, Progress& progress);
+// A place as it is told to machines: [x, y].
+Json pair_json(glm::dvec2 p);
 
 }  // namespace belvedere::tools

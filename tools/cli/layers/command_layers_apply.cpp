@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -18,11 +17,12 @@
 #include "tools/cli/file_names.h"
 #include "tools/cli/layers/ground_climate_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct LayersApplyOptions {
   std::string layers, dem, out, colour, shares;
   GroundClimateOptions climate;
   LayerApplyParameters apply;
@@ -48,7 +48,7 @@ std::string legend_text(const std::string& name) {
 }
 
 // All names are different, and none is what is read.
-void check_names(const Options& options, const std::string& legend) {
+void check_names(const LayersApplyOptions& options, const std::string& legend) {
   std::set<std::string> names = {options.layers, options.dem};
   for (const std::string& path : {options.out, options.colour, options.shares, legend}) {
     if (path.empty()) continue;
@@ -57,7 +57,7 @@ void check_names(const Options& options, const std::string& legend) {
   }
 }
 
-std::string as_text(const Options& options, const SurfaceLayers& layers, const Dem& dem, const LayerApplyResult& result) {
+std::string as_text(const LayersApplyOptions& options, const SurfaceLayers& layers, const Dem& dem, const LayerApplyResult& result) {
   std::string out = fmt::format("{}: {}×{} cells\n", options.out, dem.width(), dem.height());
   for (const LandCoverClassInfo& info : land_cover_classes())
     if (const double share = result.class_share[static_cast<std::size_t>(info.id)]; share > 0.0)
@@ -68,7 +68,7 @@ std::string as_text(const Options& options, const SurfaceLayers& layers, const D
   return out;
 }
 
-std::string as_json(const Options& options, const SurfaceLayers& layers, const Dem& dem, const LayerApplyResult& result) {
+std::string as_json(const LayersApplyOptions& options, const SurfaceLayers& layers, const Dem& dem, const LayerApplyResult& result) {
   Json classes = Json::object();
   for (const LandCoverClassInfo& info : land_cover_classes())
     if (info.id != LandCoverClass::sky) classes.add(info.name, Json::number(result.class_share[static_cast<std::size_t>(info.id)]));
@@ -85,7 +85,7 @@ std::string as_json(const Options& options, const SurfaceLayers& layers, const D
          "\n";
 }
 
-int run(const Options& options) {
+int run(const LayersApplyOptions& options) {
   const std::string legend = std::filesystem::path(options.out).replace_extension(".legend.toml").string();
   check_names(options, legend);
   const ThreadLimit threads(options.threads);
@@ -139,25 +139,24 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_layers_apply(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("LAYERS", options->layers, "The layers: a .toml file (docs/layers.md)")->required()->type_name("FILE");
-  command.add_option("--dem", options->dem, "The ground: a DEM; the results lie on its cells, in metres")->required()->type_name("FILE");
+Action add_layers_apply(CommandOptions& command) {
+  const auto options = std::make_shared<LayersApplyOptions>();
+  command.add_option("LAYERS", options->layers, "The layers: a .toml file (docs/layers.md)").required().type_name("FILE");
+  command.add_option("--dem", options->dem, "The ground: a DEM; the results lie on its cells, in metres").required().type_name("FILE");
   command.add_option("--out", options->out, "The classes: a GeoTIFF of bytes, and beside it a legend, so that scenes can read it")
-      ->required()
-      ->type_name("TIF");
-  command.add_option("--colour", options->colour, "The colours of the layers, blended as much as they cover: a GeoTIFF")->type_name("TIF");
+      .required()
+      .type_name("TIF");
+  command.add_option("--colour", options->colour, "The colours of the layers, blended as much as they cover: a GeoTIFF").type_name("TIF");
   command.add_option("--shares", options->shares, "How much of each cell each layer covers: a GeoTIFF with a band for each, 255 is all")
-      ->type_name("TIF");
+      .type_name("TIF");
   add_ground_climate(command, options->climate);
   LayerDrawingParameters& drawing = options->apply.drawing;
-  command
-      .add_option("--sharpen", drawing.power, "How little classes mix where shares are divided: 1 as much as shares say … 4. Default: 2")
-      ->type_name("POWER");
+  command.add_option("--sharpen", drawing.power, "How little classes mix where shares are divided: 1 as much as shares say … 4. Default: 2")
+      .type_name("POWER");
   command.add_option("--patches", drawing.spectrum, "Size of patches: 0, the default, speckled, to 4, large with smooth borders")
-      ->type_name("SIZE");
-  command.add_option("--seed", options->apply.seed, "Another seed, another draw; default 1")->type_name("N");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no cell")->type_name("N");
+      .type_name("SIZE");
+  command.add_option("--seed", options->apply.seed, "Another seed, another draw; default 1").type_name("N");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no cell").type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(

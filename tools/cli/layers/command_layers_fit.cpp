@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <set>
@@ -20,12 +19,14 @@
 #include "tools/cli/layers/fit_sources.h"
 #include "tools/cli/layers/ground_climate_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
+#include "tools/options/refuse.h"
 #include "tools/report/layers_fit_page.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct LayersFitOptions {
   FitSources from;
   std::string out, report;
   GroundClimateOptions climate;
@@ -37,11 +38,7 @@ struct Options {
   bool quiet = false;
 };
 
-[[noreturn]] void refuse(const std::string& where, const std::string& found, const std::string& allowed) {
-  throw Error(ErrorKind::usage, where, found, allowed);
-}
-
-void check_options(const Options& options) {
+void check_options(const LayersFitOptions& options) {
   if (options.from.image.empty() == options.from.classes.empty())
     refuse("layers fit", "what covers the ground is said by nothing or by two", "--image, or --classes with --legend");
   if (!options.from.classes.empty() && options.from.legend.empty())
@@ -60,7 +57,7 @@ void check_options(const Options& options) {
   check_place(options.out);
 }
 
-std::vector<std::string> inputs_of(const Options& options, const Dem& dem) {
+std::vector<std::string> inputs_of(const LayersFitOptions& options, const Dem& dem) {
   if (!options.inputs.empty()) {
     for (const std::string& name : options.inputs) require_layer_input(name, "--inputs");
     return options.inputs;
@@ -86,7 +83,7 @@ std::vector<std::string> inputs_of(const Options& options, const Dem& dem) {
 }
 
 // White everywhere, and no slope is lighter than another: that is cloud. Snow has the sun on its slopes.
-void refuse_cloud(const Options& options, const KnownGround& known, const GroundFit& fit) {
+void refuse_cloud(const LayersFitOptions& options, const KnownGround& known, const GroundFit& fit) {
   constexpr double nearly_all = 0.95;
   constexpr double least_correlation = 0.1;
   constexpr float white = 0.6F * 255.F;
@@ -128,7 +125,7 @@ void note_fit(const KnownGround& known, const GroundFit& fit, FitFindings& findi
                     fit.classes.saturated, known.classes.size() * fit.ranges.size()));
 }
 
-int run(const Options& options) {
+int run(const LayersFitOptions& options) {
   check_options(options);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
@@ -177,45 +174,43 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_layers_fit(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("--dem", options->from.dem, "The ground: a DEM")->required()->type_name("FILE");
+Action add_layers_fit(CommandOptions& command) {
+  const auto options = std::make_shared<LayersFitOptions>();
+  command.add_option("--dem", options->from.dem, "The ground: a DEM").required().type_name("FILE");
   command
       .add_option(
           "--image", options->from.image,
           "A satellite picture of it: a GeoTIFF (the DEM is brought onto its cells), or PNG or JPEG with a pixel for each cell of the DEM")
-      ->type_name("FILE");
-  command.add_option("--classes", options->from.classes, "Instead of a picture: a land-cover raster")->type_name("FILE");
-  command.add_option("--classes-band", options->from.classes_band, "Which band of it; default 1")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
-  command.add_option("--legend", options->from.legend, "What its codes mean: a legend's name or file (docs/legends.md)")->type_name("NAME");
+      .type_name("FILE");
+  command.add_option("--classes", options->from.classes, "Instead of a picture: a land-cover raster").type_name("FILE");
+  command.add_option("--classes-band", options->from.classes_band, "Which band of it; default 1").type_name("N").positive();
+  command.add_option("--legend", options->from.legend, "What its codes mean: a legend's name or file (docs/legends.md)").type_name("NAME");
   command.add_option("--out", options->out, "The layers: a .toml file of some ten KB, which needs the picture no more")
-      ->required()
-      ->type_name("TOML");
+      .required()
+      .type_name("TOML");
   add_ground_climate(command, options->climate);
-  command.add_option("--mask", options->from.mask, "Cells above 0 are not learned from: fields, towns")->type_name("FILE");
+  command.add_option("--mask", options->from.mask, "Cells above 0 are not learned from: fields, towns").type_name("FILE");
   command
       .add_option("--regions", options->from.regions,
                   "Which colours of the picture are one class, drawn by hand: a .toml file (docs/layers_fit.md)")
-      ->type_name("FILE");
+      .type_name("FILE");
   command
       .add_option("--functions", options->functions,
                   "How functions are found: fitted by likelihood (the default), or histogram, as first published")
-      ->type_name("HOW");
+      .type_name("HOW");
   command
       .add_option("--model", options->model,
                   "product (the default): coverage is the product of functions; additive: shares by their sum, finer, larger")
-      ->type_name("NAME");
+      .type_name("NAME");
   command
       .add_option("--inputs", options->inputs, "What functions are of, instead of what suits the model: altitude,slope,… (docs/layers.md)")
-      ->delimiter(',')
-      ->type_name("NAMES");
-  command.add_option("--children", options->children, "Colours of a class, 1…12; default 4")->type_name("N");
+      .list(',')
+      .type_name("NAMES");
+  command.add_option("--children", options->children, "Colours of a class, 1…12; default 4").type_name("N");
   command
       .add_option("--report", options->report, "A folder for a page on what was learned and how it does on ground not seen; takes a minute")
-      ->type_name("DIR");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit")->type_name("N");
+      .type_name("DIR");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit").type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.footer(
       "Finds clouds and their shadows, the sun and the classes of colours in the picture, and how each hangs on altitude, slope, sun …\n\n"

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "base/error.h"
@@ -15,11 +14,12 @@
 #include "tools/cli/file_names.h"
 #include "tools/cli/layers/ground_climate_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct LayersPictureOptions {
   std::string layers, dem, out;
   GroundClimateOptions climate;
   LayerPictureParameters picture;
@@ -35,7 +35,7 @@ Grid<std::uint8_t> band(const Grid<glm::vec3>& rows, int c) {
   return bytes;
 }
 
-int run(const Options& options) {
+int run(const LayersPictureOptions& options) {
   check_place(options.out);
   if (options.out == options.dem || options.out == options.layers)
     throw Error(ErrorKind::usage, options.out, "the same file twice", "a file of its own");
@@ -77,23 +77,23 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_layers_picture(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action add_layers_picture(CommandOptions& command) {
+  const auto options = std::make_shared<LayersPictureOptions>();
   LayerPictureParameters& picture = options->picture;
-  command.add_option("LAYERS", options->layers, "The layers: a .toml file (docs/layers.md)")->required()->type_name("FILE");
-  command.add_option("--dem", options->dem, "The ground: a DEM")->required()->type_name("FILE");
-  command.add_option("--out", options->out, "The picture: a GeoTIFF of three bands")->required()->type_name("TIF");
-  command.add_option("--finer", picture.finer, "Places a cell of the DEM, across and down; 1 to 16, default 4")->type_name("N");
+  command.add_option("LAYERS", options->layers, "The layers: a .toml file (docs/layers.md)").required().type_name("FILE");
+  command.add_option("--dem", options->dem, "The ground: a DEM").required().type_name("FILE");
+  command.add_option("--out", options->out, "The picture: a GeoTIFF of three bands").required().type_name("TIF");
+  command.add_option("--finer", picture.finer, "Places a cell of the DEM, across and down; 1 to 16, default 4").type_name("N");
   command.add_option("--light-from", picture.light_from, "Where the light comes from, degrees clockwise from north; default 315")
-      ->type_name("DEG");
-  command.add_option("--light-height", picture.light_height, "How high it stands, 5 to 90 degrees; default 45")->type_name("DEG");
-  command.add_option("--shade", picture.shade, "Brightness of slopes turned away from the light, 0 to 1; default .35")->type_name("SHARE");
-  command.add_option("--relief", picture.relief, "Slopes are lit as if so many times as steep, 0 to 20; default 1")->type_name("TIMES");
+      .type_name("DEG");
+  command.add_option("--light-height", picture.light_height, "How high it stands, 5 to 90 degrees; default 45").type_name("DEG");
+  command.add_option("--shade", picture.shade, "Brightness of slopes turned away from the light, 0 to 1; default .35").type_name("SHARE");
+  command.add_option("--relief", picture.relief, "Slopes are lit as if so many times as steep, 0 to 20; default 1").type_name("TIMES");
   command.add_flag("--no-beds", options->no_beds,
                    "Lakes keep the colour of their layers; else they are seen through, down to made-up beds");
   add_ground_climate(command, options->climate);
-  command.add_option("--seed", picture.seed, "Another seed, another grain of the layers; default 1")->type_name("N");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
+  command.add_option("--seed", picture.seed, "Another seed, another grain of the layers; default 1").type_name("N");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel").type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(

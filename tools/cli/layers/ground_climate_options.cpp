@@ -1,12 +1,12 @@
 #include "tools/cli/layers/ground_climate_options.h"
 
-#include <CLI/CLI.hpp>
 #include <glm/vec2.hpp>
 
 #include "base/error.h"
 #include "terrain/climate/climate.h"
 #include "terrain/climate/default_climate.h"
 #include "terrain/io/raster_io.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
@@ -24,27 +24,27 @@ std::optional<RasterSource> monthly(std::string& file) {
 
 }  // namespace
 
-void add_ground_climate(CLI::App& command, GroundClimateOptions& options) {
+void add_ground_climate(CommandOptions& command, GroundClimateOptions& options) {
   command
       .add_option("--stations", options.stations,
                   "Weather stations, for temperature and rain: CSV, points or netCDF (docs/climate.md); else the climate of the place")
-      ->type_name("FILE");
+      .type_name("FILE");
   command
       .add_option("--temperature", options.files.temperature,
                   "Or mean temperature of the year, °C: a raster of one band; of 12 bands: of months")
-      ->type_name("FILE");
+      .type_name("FILE");
   command.add_option("--rain", options.files.rain, "Or rain of the year, mm: a raster of one band; of 12 bands: of months")
-      ->type_name("FILE");
+      .type_name("FILE");
   command
       .add_option("--radiation", options.files.radiation,
                   "Potential direct radiation of the year, instead of what is computed of the ground, MJ/m²: a raster")
-      ->type_name("FILE");
+      .type_name("FILE");
   command.add_option("--sky-view", options.files.sky_view, "Share of the sky that is seen, 0 … 1, instead of what is computed: a raster")
-      ->type_name("FILE");
+      .type_name("FILE");
   command
       .add_option("--latitude", options.latitude_deg,
                   "Where the ground lies, for a DEM without a coordinate system whose sun or climate is computed, degrees")
-      ->type_name("DEG");
+      .type_name("DEG");
 }
 
 Dem read_layer_dem(const std::string& path, Progress& progress) {

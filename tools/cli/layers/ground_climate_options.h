@@ -8,11 +8,9 @@
 #include "terrain/io/dem.h"
 #include "terrain/layers/layer_climate.h"
 
-namespace CLI {
-class App;
-}
-
 namespace belvedere::tools {
+
+class CommandOptions;
 
 // What commands on layers are told of climate and sun: --stations, --temperature, --rain, --radiation, --sky-view, --latitude.
 struct GroundClimateOptions {
@@ -20,7 +18,7 @@ struct GroundClimateOptions {
   std::string stations;
   std::optional<double> latitude_deg;
 };
-void add_ground_climate(CLI::App& command, GroundClimateOptions& options);
+void add_ground_climate(CommandOptions& command, GroundClimateOptions& options);
 
 // The inputs among `names` that hang on climate or sun: what the user gave, else stations, else the climate of the place. A raster of
 // 12 bands is one of months, as a scene's. Error(usage) where it is not known where the DEM lies.

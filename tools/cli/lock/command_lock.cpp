@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -16,19 +15,20 @@
 #include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
 constexpr int usual_width_px = 800;  // quick, and every stage has its part in it
 
-struct Options {
+struct LockOptions {
   SceneOptions scene;
   int width = 0;  // 0: as before, else usual_width_px
   bool update = false;
 };
 
-[[noreturn]] void refuse(const std::string& lock, const std::string& found) {
+[[noreturn]] void refuse_change(const std::string& lock, const std::string& found) {
   throw Error(ErrorKind::input, lock, found, "belvedere lock --update, where the new state is meant");
 }
 
@@ -57,7 +57,7 @@ std::string describe_changes(const SceneLock& old, const SceneLock& now) {
   return out;
 }
 
-int run_lock(Options options) {
+int run_lock(LockOptions options) {
   const std::string path = lock_path(options.scene.scene);
   check_output_folder(std::filesystem::path(path).parent_path().string());
   const std::optional<SceneLock> old = old_lock(path, options.update);
@@ -75,7 +75,7 @@ int run_lock(Options options) {
                  .products = {}};
   if (old && !options.update)
     if (const std::string changes = describe_changes(*old, lock); !changes.empty())
-      refuse(path, "the scene is not as it was locked:" + changes);
+      refuse_change(path, "the scene is not as it was locked:" + changes);
 
   const ScratchFolder folder;
   TerminalProgress progress(options.scene.quiet);
@@ -83,7 +83,7 @@ int run_lock(Options options) {
   progress.end();
   if (old && !options.update)
     if (const std::string changes = describe(compare_products(old->products, lock.products)); !changes.empty())
-      refuse(path, "the pictures are not as they were locked:" + changes);
+      refuse_change(path, "the pictures are not as they were locked:" + changes);
   write_text_file(path, write_lock(lock));
 
   if (options.scene.json)
@@ -103,17 +103,17 @@ int run_lock(Options options) {
 
 }  // namespace
 
-Action add_lock(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action add_lock(CommandOptions& command) {
+  const auto options = std::make_shared<LockOptions>();
   add_scene_options(command, options->scene, "The scene file");
-  command.get_option("SCENE")->required();
+  command.option("SCENE").required();
   command
       .add_option(
           "--width", options->width,
           "Width of the picture that is verified, in pixels, its height in proportion. Default: as in the lock that is there, else 800, "
           "or the scene's where that is less")
-      ->type_name("PX")
-      ->check(CLI::Range(16, 65535));
+      .type_name("PX")
+      .range(16, 65535);
   command.add_flag("--update", options->update, "Write the lock anew where something differs from the one that is there");
   command.footer(
       "Writes SCENE.lock beside SCENE.toml: size and hash of every file the scene reads, the program's version,\n"

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <exception>
@@ -20,6 +19,7 @@
 #include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 #include "tools/report/verification.h"
 
 namespace belvedere::tools {
@@ -27,13 +27,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct VerifyOptions {
   SceneOptions scene;  // what the scenes have in common
   std::vector<std::string> scenes;
   std::string out, against, junit, page;
 };
 
-void compare(Verification& result, const Options& options) {
+void compare(Verification& result, const VerifyOptions& options) {
   const SceneLock lock = read_lock(lock_path(result.scene));
   SceneOptions one = options.scene;
   one.scene = result.scene;
@@ -59,7 +59,7 @@ void compare(Verification& result, const Options& options) {
 }
 
 // A scene that cannot be compared keeps no other from it; only the user stops all.
-Verification verify(const std::string& scene, const std::string& name, const std::string& folder, const Options& options) {
+Verification verify(const std::string& scene, const std::string& name, const std::string& folder, const VerifyOptions& options) {
   const auto begun = std::chrono::steady_clock::now();
   Verification result;
   result.scene = scene;
@@ -114,7 +114,7 @@ std::string as_json(const std::vector<Verification>& all) {
   return Json::object().add("scenes", std::move(scenes)).str() + "\n";
 }
 
-int run_verify(const Options& options) {
+int run_verify(const VerifyOptions& options) {
   // What cannot be written is told before the work.
   for (const std::string& file : {options.junit, options.page})
     if (!file.empty()) check_output_folder(fs::path(file).parent_path().string());
@@ -138,15 +138,15 @@ int run_verify(const Options& options) {
 
 }  // namespace
 
-Action add_verify(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("SCENE", options->scenes, "Scene files, each with its lock file beside it")->required();
+Action add_verify(CommandOptions& command) {
+  const auto options = std::make_shared<VerifyOptions>();
+  command.add_option("SCENE", options->scenes, "Scene files, each with its lock file beside it").required();
   add_file_options(command, options->scene);
-  command.add_option("--out", options->out, "Keeps the pictures, each scene's in a folder of its name")->type_name("DIR");
+  command.add_option("--out", options->out, "Keeps the pictures, each scene's in a folder of its name").type_name("DIR");
   command.add_option("--against", options->against, "Pictures of an earlier run, as --out kept them: the page then shows what differs")
-      ->type_name("DIR");
-  command.add_option("--junit", options->junit, "Writes the results as JUnit XML, for services that show tests")->type_name("FILE");
-  command.add_option("--page", options->page, "Writes a page that needs no other file: what differs, with pictures")->type_name("FILE");
+      .type_name("DIR");
+  command.add_option("--junit", options->junit, "Writes the results as JUnit XML, for services that show tests").type_name("FILE");
+  command.add_option("--page", options->page, "Writes a page that needs no other file: what differs, with pictures").type_name("FILE");
   add_run_options(command, options->scene);
   command.footer(
       "Renders each scene at the size its lock says, with the settings it says, and compares every channel; a line a\n"

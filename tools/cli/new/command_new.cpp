@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -27,6 +26,7 @@
 #include "tools/cli/new/view_options.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
@@ -217,7 +217,7 @@ int run_new(const NewOptions& options) {
 
 }  // namespace
 
-Action add_new(CLI::App& command) {
+Action add_new(CommandOptions& command) {
   const auto options = std::make_shared<NewOptions>();
   add_new_options(command, *options);
   return [options] { return run_new(*options); };

@@ -32,6 +32,6 @@ struct NewOptions {
   bool force = false;
 };
 
-void add_new_options(CLI::App& command, NewOptions& options);
+void add_new_options(CommandOptions& command, NewOptions& options);
 
 }  // namespace belvedere::tools

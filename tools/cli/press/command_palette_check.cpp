@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -11,11 +10,12 @@
 #include "tools/cli/press/press_commands.h"
 #include "tools/cli/press/press_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct PaletteCheckOptions {
   std::vector<std::string> palettes;
   PressOptions press;
   double outside_delta_e = ProofParameters{}.outside_delta_e;
@@ -47,15 +47,15 @@ std::string as_text(const std::string& palette, std::size_t all, const std::vect
 
 }  // namespace
 
-std::function<int()> add_palette_check(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("PALETTE", options->palettes, "Built-in palettes or .toml files")->required();
+std::function<int()> add_palette_check(CommandOptions& command) {
+  const auto options = std::make_shared<PaletteCheckOptions>();
+  command.add_option("PALETTE", options->palettes, "Built-in palettes or .toml files").required();
   add_press_options(command, options->press, false);
   command
       .add_option("--outside", options->outside_delta_e, "ΔE2000 by which a colour has to be missed to count as one that cannot be printed")
-      ->type_name("DE")
-      ->check(CLI::Range(0.1, 50.0))
-      ->capture_default_str();
+      .type_name("DE")
+      .range(0.1, 50.0)
+      .show_default();
   command.add_flag("--json", options->json, "As JSON");
   command.footer(
       "Exit status 0: the press has all colours; 1: some fall out. Beside each stands the nearest that inks make.\n\n"

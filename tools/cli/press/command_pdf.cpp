@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <utility>
 
@@ -11,11 +10,12 @@
 #include "tools/cli/press/press_commands.h"
 #include "tools/cli/press/press_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct PdfOptions {
   std::string picture;
   PressOptions press;
   PdfParameters pdf;
@@ -54,35 +54,29 @@ std::string as_text(const std::string& file, const PdfReport& report, bool press
 
 }  // namespace
 
-std::function<int()> add_pdf(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+std::function<int()> add_pdf(CommandOptions& command) {
+  const auto options = std::make_shared<PdfOptions>();
   PdfParameters& pdf = options->pdf;
-  command.add_option("PICTURE", options->picture, "A picture in RGB, or the folder of a rendered scene")->required();
+  command.add_option("PICTURE", options->picture, "A picture in RGB, or the folder of a rendered scene").required();
   add_press_options(command, options->press, true);
-  command.get_option("--profile")->required(false);
+  command.option("--profile").required(false);
   command.add_option("--ink-limit", pdf.ink_limit_percent, "Sum of inks above which pixels are counted; 0: the profile's own")
-      ->type_name("PERCENT")
-      ->check(CLI::Range(0.0, 400.0));
-  command.add_option("--bits", pdf.bits, "Of a channel")->check(CLI::IsMember({8, 16}))->capture_default_str();
+      .type_name("PERCENT")
+      .range(0.0, 400.0);
+  command.add_option("--bits", pdf.bits, "Of a channel").one_of({8, 16}).show_default();
   command.add_option("--width-mm", pdf.width_mm, "Width of the picture in print; without it, as its resolution says")
-      ->type_name("MM")
-      ->check(CLI::Range(10.0, 20000.0));
+      .type_name("MM")
+      .range(10.0, 20000.0);
   command.add_option("--labels", pdf.labels, "An SVG over the whole picture, as belvedere labels writes it: stays vectors")
-      ->type_name("FILE");
-  command.add_option("--bleed", pdf.pages.bleed_mm, "The picture's edge that is cut away")->type_name("MM")->check(CLI::Range(0.0, 50.0));
+      .type_name("FILE");
+  command.add_option("--bleed", pdf.pages.bleed_mm, "The picture's edge that is cut away").type_name("MM").range(0.0, 50.0);
   command.add_flag("--marks", pdf.pages.marks, "Crop marks");
   command.add_option("--paper", options->paper, "Tiles over pages of this size: A4, A3, A3-landscape … or WIDTHxHEIGHT in mm")
-      ->type_name("SIZE");
-  command.add_option("--margin", pdf.pages.margin_mm, "Around each tile")
-      ->type_name("MM")
-      ->check(CLI::Range(0.0, 100.0))
-      ->capture_default_str();
-  command.add_option("--overlap", pdf.pages.overlap_mm, "Of tiles, for gluing")
-      ->type_name("MM")
-      ->check(CLI::Range(0.0, 100.0))
-      ->capture_default_str();
-  command.add_option("--title", pdf.title, "What viewers show")->type_name("TEXT");
-  command.add_option("--out", options->out, "The PDF")->required()->type_name("FILE");
+      .type_name("SIZE");
+  command.add_option("--margin", pdf.pages.margin_mm, "Around each tile").type_name("MM").range(0.0, 100.0).show_default();
+  command.add_option("--overlap", pdf.pages.overlap_mm, "Of tiles, for gluing").type_name("MM").range(0.0, 100.0).show_default();
+  command.add_option("--title", pdf.title, "What viewers show").type_name("TEXT");
+  command.add_option("--out", options->out, "The PDF").required().type_name("FILE");
   command.add_flag("--quiet", options->quiet, "No progress");
   command.footer(
       "With a press profile the file is built as PDF/X-4: CMYK, output intent, page boxes. Without one it is RGB, for\n"

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
@@ -10,11 +9,12 @@
 #include "tools/cli/press/press_commands.h"
 #include "tools/cli/press/press_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct ProofOptions {
   std::string picture;
   PressOptions press;
   bool paper = false;
@@ -53,20 +53,20 @@ std::string as_text(const ProofReport& report, double outside_delta_e) {
 
 }  // namespace
 
-std::function<int()> add_proof(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("PICTURE", options->picture, "A picture in RGB, or the folder of a rendered scene")->required();
+std::function<int()> add_proof(CommandOptions& command) {
+  const auto options = std::make_shared<ProofOptions>();
+  command.add_option("PICTURE", options->picture, "A picture in RGB, or the folder of a rendered scene").required();
   add_press_options(command, options->press, true);
   command.add_flag("--paper", options->paper, "Shows the paper's own colour and the press's own black");
   command
       .add_option("--outside", options->outside_delta_e, "ΔE2000 by which a colour has to be missed to count as one that cannot be printed")
-      ->type_name("DE")
-      ->check(CLI::Range(0.1, 50.0))
-      ->capture_default_str();
+      .type_name("DE")
+      .range(0.1, 50.0)
+      .show_default();
   command.add_option("--ink-limit", options->ink_limit_percent, "Sum of inks above which pixels are counted; 0: the profile's own")
-      ->type_name("PERCENT")
-      ->check(CLI::Range(0.0, 400.0));
-  command.add_option("--out", options->out, "Folder for the two pictures")->required()->type_name("DIR");
+      .type_name("PERCENT")
+      .range(0.0, 400.0);
+  command.add_option("--out", options->out, "Folder for the two pictures").required().type_name("DIR");
   command.add_flag("--json", options->json, "The figures as JSON");
   command.add_flag("--quiet", options->quiet, "No progress");
   command.footer(

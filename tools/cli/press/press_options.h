@@ -4,11 +4,9 @@
 
 #include "renderer/image/icc/device_color.h"
 
-namespace CLI {
-class App;
-}
-
 namespace belvedere::tools {
+
+class CommandOptions;
 
 // What commands for printers have in common.
 struct PressOptions {
@@ -18,6 +16,6 @@ struct PressOptions {
   DeviceParameters device() const { return {rendering_intent(intent), !no_black_point}; }
 };
 // --profile, and with `conversion` also --intent and --no-black-point.
-void add_press_options(CLI::App& command, PressOptions& options, bool conversion);
+void add_press_options(CommandOptions& command, PressOptions& options, bool conversion);
 
 }  // namespace belvedere::tools

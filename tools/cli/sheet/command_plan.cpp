@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
@@ -14,13 +13,14 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct PlanOptions {
   SceneOptions scene;               // of plan; part and join read what the plan noted
   std::vector<std::string> layers;  // the same
   std::string folder;
@@ -62,9 +62,11 @@ Order read_order(const std::string& folder) {
     throw Error(ErrorKind::usage, folder, "no sheet is planned in this folder", "a folder made by belvedere plan");
   Order order;
   std::from_chars(known->second.data(), known->second.data() + known->second.size(), order.parts);
+  std::string layer;
   for (const auto& [name, value] : entries) {
     if (name == "scene") order.scene = value;
-    if (name == "layers") order.request.layers = CLI::detail::split(value, ',');
+    if (name == "layers")
+      for (std::istringstream layers(value); std::getline(layers, layer, ',');) order.request.layers.push_back(layer);
     if (name == "servers") order.allow_http = true;
     if (name.starts_with("data ")) order.files.data_folders.push_back(value);
     if (name.starts_with("set ")) order.files.settings.push_back(value);
@@ -83,25 +85,22 @@ LoadedScene load_order(const Order& order, SceneOptions options) {
 std::string absolute(const std::string& path) { return path.empty() ? path : fs::absolute(path).lexically_normal().string(); }
 
 // What part and join take from the command line: the folder, and this machine's side of a run.
-void add_shared_folder(CLI::App& command, Options& options) {
-  command.add_option("DIR", options.folder, "The folder of the plan")->required();
+void add_shared_folder(CommandOptions& command, PlanOptions& options) {
+  command.add_option("DIR", options.folder, "The folder of the plan").required();
   add_run_options(command, options.scene);
 }
 
 }  // namespace
 
-Action add_plan(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action add_plan(CommandOptions& command) {
+  const auto options = std::make_shared<PlanOptions>();
   add_scene_options(command, options->scene);
   add_locked_option(command, options->scene);
   add_layers_option(command, options->layers);
   command
       .add_option("--out", options->folder, "Folder that every machine sees; made where it is missing. Default: one named like the scene")
-      ->type_name("DIR");
-  command.add_option("--parts", options->parts, "How many parts the sheet is made in")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100000));
+      .type_name("DIR");
+  command.add_option("--parts", options->parts, "How many parts the sheet is made in").type_name("N").show_default().range(1, 100000);
   command.footer(
       "Chooses what is global, once. The parts can then be made in any order, by any number of machines at once, and be made again:\n"
       "what is there and whole is skipped. Scene and data must lie under the same names for all of them.\n\n"
@@ -124,10 +123,10 @@ Action add_plan(CLI::App& command) {
   };
 }
 
-Action add_part(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action add_part(CommandOptions& command) {
+  const auto options = std::make_shared<PlanOptions>();
   add_shared_folder(command, *options);
-  command.add_option("NUMBER", options->part, "Which part, from 1 on")->required();
+  command.add_option("NUMBER", options->part, "Which part, from 1 on").required();
   command.footer("  belvedere part karwendel 3");
   return [options] {
     const Order order = read_order(options->folder);
@@ -139,10 +138,10 @@ Action add_part(CLI::App& command) {
   };
 }
 
-Action add_join(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action add_join(CommandOptions& command) {
+  const auto options = std::make_shared<PlanOptions>();
   add_shared_folder(command, *options);
-  command.add_option("--out", options->out, "Folder for the results. Default: that of the plan")->type_name("DIR");
+  command.add_option("--out", options->out, "Folder for the results. Default: that of the plan").type_name("DIR");
   command.footer(
       "Names the parts that are missing. The pieces stay; remove the folder's .belvedere when the files are good.\n\n  belvedere join "
       "karwendel");

@@ -1,16 +1,15 @@
 #include "tools/cli/texture/begin_options.h"
+#include "tools/options/options.h"
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 namespace belvedere::tools {
 
-void add_begin_options(CLI::App& command, BeginOptions& options, const std::string& meaning) {
-  command.add_option("--begin", options.kind, meaning)->check(CLI::IsMember({"white", "streaks", "discs"}))->type_name("KIND");
+void add_begin_options(CommandOptions& command, BeginOptions& options, const std::string& meaning) {
+  command.add_option("--begin", options.kind, meaning).one_of({"white", "streaks", "discs"}).type_name("KIND");
   command.add_option("--begin-px", options.px, "With --begin: half length of streaks, radius of discs. Default: 8")
-      ->check(CLI::Range(1.0, 256.0))
-      ->type_name("PX");
+      .range(1.0, 256.0)
+      .type_name("PX");
 }
 
 TextureBegin begin_of(const BeginOptions& options) {

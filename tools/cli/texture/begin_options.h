@@ -4,11 +4,9 @@
 
 #include "texture/statistical/clique_model.h"
 
-namespace CLI {
-class App;
-}
-
 namespace belvedere::tools {
+
+class CommandOptions;
 
 // The noise that a texture begins with, where its user chooses: --begin, --begin-px.
 struct BeginOptions {
@@ -16,7 +14,7 @@ struct BeginOptions {
   double px = 8.0;   // half length of streaks, radius of discs, 1…256
 };
 // `meaning`: what --begin says in the help.
-void add_begin_options(CLI::App& command, BeginOptions& options, const std::string& meaning);
+void add_begin_options(CommandOptions& command, BeginOptions& options, const std::string& meaning);
 
 struct TextureBegin {
   TextureSeed seed = TextureSeed::white;

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
@@ -20,12 +19,13 @@
 #include "tools/cli/texture/label_pictures.h"
 #include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
+#include "tools/options/options.h"
 #include "tools/report/report_folder.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct CompositeLearnOptions {
   std::string crop, labels, out, report;
   BeginOptions begin;
   CompositeParameters composite;
@@ -35,7 +35,7 @@ struct Options {
 };
 
 // What a run found, for all ways to tell it.
-struct Findings {
+struct CompositeFindings {
   CompositeModel model;
   std::size_t bytes = 0;
   std::vector<std::string> names;
@@ -48,7 +48,7 @@ struct Findings {
   LayoutFigures made_figures;
 };
 
-std::string border_text(const Findings& found) {
+std::string border_text(const CompositeFindings& found) {
   const auto wanted = border_shares(found.model.map);
   std::string out;
   for (std::size_t s = 0; s < label_scales; ++s)
@@ -56,7 +56,7 @@ std::string border_text(const Findings& found) {
   return out;
 }
 
-std::string as_text(const Options& options, const Findings& found) {
+std::string as_text(const CompositeLearnOptions& options, const CompositeFindings& found) {
   std::string out = fmt::format("{}: {} labels{}, {} bytes\n", options.out, found.model.labels.size(),
                                 found.model.transition ? " and a transition" : "", found.bytes);
   for (std::size_t k = 0; k < found.names.size(); ++k)
@@ -70,7 +70,7 @@ std::string as_text(const Options& options, const Findings& found) {
   return out;
 }
 
-std::string as_json(const Options& options, const Findings& found) {
+std::string as_json(const CompositeLearnOptions& options, const CompositeFindings& found) {
   const auto layout = [](const LayoutFigures& f) {
     return Json::object().add("profile", Json::number(f.profile)).add("far_pairs", Json::number(f.far_pairs));
   };
@@ -95,7 +95,8 @@ std::string as_json(const Options& options, const Findings& found) {
          "\n";
 }
 
-void write_report(const Options& options, const TextureCrop& crop, const LabelPicture& labels, const Findings& found) {
+void write_report(const CompositeLearnOptions& options, const TextureCrop& crop, const LabelPicture& labels,
+                  const CompositeFindings& found) {
   ReportFolder folder(options.report);
   folder.begin_figure(
       "pictures", "Crop and composite",
@@ -129,7 +130,7 @@ void write_report(const Options& options, const TextureCrop& crop, const LabelPi
                                 file_name(options.out)));
 }
 
-CompositeParameters parameters_of(const Options& options) {
+CompositeParameters parameters_of(const CompositeLearnOptions& options) {
   CompositeParameters parameters = options.composite;
   const TextureBegin begin = begin_of(options.begin);
   parameters.choose = options.begin.kind.empty();
@@ -138,7 +139,7 @@ CompositeParameters parameters_of(const Options& options) {
   return parameters;
 }
 
-int run(const Options& options) {
+int run(const CompositeLearnOptions& options) {
   check_place(options.out);
   check_not_read(options.out, "--out", {options.crop, options.labels});
   check_report(options.report);
@@ -150,7 +151,7 @@ int run(const Options& options) {
   if (!labels.labels.same_size(crop.picture))
     throw Error(ErrorKind::input, options.labels, fmt::format("{} × {} pixels", labels.labels.width(), labels.labels.height()),
                 fmt::format("the size of {}: {} × {}", options.crop, crop.picture.width(), crop.picture.height()));
-  Findings found;
+  CompositeFindings found;
   found.names = labels.names;
   for (std::size_t k = 0; k < labels.names.size(); ++k)
     found.pixels.push_back(static_cast<std::size_t>(std::count(labels.labels.begin(), labels.labels.end(), static_cast<std::uint8_t>(k))));
@@ -176,24 +177,24 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_composite_learn(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("CROP", options->crop, "A painting, or a piece of one, that shows several textures")->required()->type_name("PICTURE");
+Action add_composite_learn(CommandOptions& command) {
+  const auto options = std::make_shared<CompositeLearnOptions>();
+  command.add_option("CROP", options->crop, "A painting, or a piece of one, that shows several textures").required().type_name("PICTURE");
   command
       .add_option("--labels", options->labels,
                   "What is where: a picture of its size in 2 to 16 flat colours, or of grey numbers; number 255 is left out.\n"
                   "Each colour is one texture, 48 pixels a side or more")
-      ->required()
-      ->type_name("PICTURE");
-  command.add_option("--out", options->out, "The model: a text of some 15 000 letters")->required()->type_name("COMPOSITE");
+      .required()
+      .type_name("PICTURE");
+  command.add_option("--out", options->out, "The model: a text of some 15 000 letters").required().type_name("COMPOSITE");
   command.add_option("--types", options->composite.learn.types, "How many statistics each texture holds at most, 16 to 200. Default: 40")
-      ->check(CLI::Range(16, 200))
-      ->type_name("N");
+      .range(16, 200)
+      .type_name("N");
   add_begin_options(command, options->begin,
                     "The noise that all textures begin with, which decides the shape of their dabs: white, streaks or discs.\n"
                     "Default: for each what comes nearest to the crop");
   add_report_option(command, options->report, "A page with crop beside composite, and all figures");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit")->type_name("N");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit").type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -18,11 +17,12 @@
 #include "tools/cli/texture/label_pictures.h"
 #include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct CompositeMakeOptions {
   std::string model, labels, map, out, report;
   std::vector<int> size;
   std::vector<int> window;
@@ -43,7 +43,8 @@ PixelRect window_of(const std::vector<int>& w, const Grid<std::uint8_t>& labels)
 }
 
 // What lies where beside what was made of it, and how much of each there is.
-void write_report(const Options& options, const std::vector<std::string>& names, const Grid<std::uint8_t>& labels, const Grid<Rgb8>& made) {
+void write_report(const CompositeMakeOptions& options, const std::vector<std::string>& names, const Grid<std::uint8_t>& labels,
+                  const Grid<Rgb8>& made) {
   const std::string file = file_name(options.model);
   std::vector<std::vector<std::string>> table = {{"label", "pixels"}};
   for (std::size_t k = 0; k < names.size(); ++k)
@@ -63,7 +64,7 @@ void write_report(const Options& options, const std::vector<std::string>& names,
        .command = fmt::format("belvedere composite make {} {} --seed {} --out {}", file, asked, options.seed, file_name(options.out))});
 }
 
-int run(const Options& options) {
+int run(const CompositeMakeOptions& options) {
   if (options.size.empty() == options.labels.empty())
     throw Error(ErrorKind::usage, "command line", options.size.empty() ? "neither --size nor --labels" : "both --size and --labels",
                 "one of them: a drawing has its own size");
@@ -108,30 +109,27 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_composite_make(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("COMPOSITE", options->model, "What `belvedere composite learn` wrote")->required()->type_name("COMPOSITE");
-  command.add_option("--out", options->out, "The picture: .png or .tif")->required()->type_name("PICTURE");
+Action add_composite_make(CommandOptions& command) {
+  const auto options = std::make_shared<CompositeMakeOptions>();
+  command.add_option("COMPOSITE", options->model, "What `belvedere composite learn` wrote").required().type_name("COMPOSITE");
+  command.add_option("--out", options->out, "The picture: .png or .tif").required().type_name("PICTURE");
   command.add_option("--size", options->size, "Width and height, in pixels: what lies where is made too")
-      ->delimiter('x')
-      ->expected(2)
-      ->check(CLI::Range(1, 1 << 20))
-      ->type_name("WxH");
-  command
-      .add_option("--labels", options->labels, "Instead: what lies where, drawn in the colours (or numbers) that the crop's labels have")
-      ->type_name("PICTURE");
+      .list('x', 2)
+      .range(1, 1 << 20)
+      .type_name("WxH");
+  command.add_option("--labels", options->labels, "Instead: what lies where, drawn in the colours (or numbers) that the crop's labels have")
+      .type_name("PICTURE");
   command
       .add_option("--window", options->window,
                   "Only this part of the map: column, row, width and height. Windows fit together to the pixel, in any order; one of\n"
                   "the whole map is the picture they are windows of, a little other than without --window")
-      ->delimiter(',')
-      ->expected(4)
-      ->type_name("X,Y,W,H");
+      .list(',', 4)
+      .type_name("X,Y,W,H");
   command.add_option("--map", options->map, "Writes the labels too, in their colours: to be drawn over and given to --labels")
-      ->type_name("PICTURE");
-  command.add_option("--seed", options->seed, "Another seed, another picture of the same kind. Default: 1")->type_name("N");
+      .type_name("PICTURE");
+  command.add_option("--seed", options->seed, "Another seed, another picture of the same kind. Default: 1").type_name("N");
   add_report_option(command, options->report, "A page with the labels beside what is made of them");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel").type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -14,11 +13,12 @@
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct TextureCorrectOptions {
   std::string source, target, out, report;
   int regions = PhotometricParameters{}.regions;
   int threads = 0;
@@ -41,8 +41,8 @@ Json distances_json(const std::array<double, 3>& distance) {
       .add("value", Json::number(distance[2]));
 }
 
-void write_report(const Options& options, const Grid<glm::vec3>& source, const Grid<glm::vec3>& target, const Grid<glm::vec3>& out,
-                  const std::array<double, 3>& before, const std::array<double, 3>& after) {
+void write_report(const TextureCorrectOptions& options, const Grid<glm::vec3>& source, const Grid<glm::vec3>& target,
+                  const Grid<glm::vec3>& out, const std::array<double, 3>& before, const std::array<double, 3>& after) {
   const auto row = [](const char* name, const std::array<double, 3>& d) {
     return std::vector<std::string>{name, fmt::format("{:.2f}", d[0]), fmt::format("{:.2f}", d[1]), fmt::format("{:.2f}", d[2])};
   };
@@ -60,7 +60,7 @@ void write_report(const Options& options, const Grid<glm::vec3>& source, const G
                               file_name(options.target), options.regions, file_name(options.out))});
 }
 
-int run(const Options& options) {
+int run(const TextureCorrectOptions& options) {
   check_texture_name(options.out);
   check_not_read(options.out, "--out", {options.source, options.target});
   check_report(options.report);
@@ -99,17 +99,17 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_texture_correct(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("SOURCE", options->source, "The picture that is corrected: PNG, TIFF or JPEG")->required()->type_name("PICTURE");
-  command.add_option("--to", options->target, "The picture whose colours it gets")->required()->type_name("PICTURE");
-  command.add_option("--out", options->out, "The corrected picture: .png or .tif")->required()->type_name("PICTURE");
+Action add_texture_correct(CommandOptions& command) {
+  const auto options = std::make_shared<TextureCorrectOptions>();
+  command.add_option("SOURCE", options->source, "The picture that is corrected: PNG, TIFF or JPEG").required().type_name("PICTURE");
+  command.add_option("--to", options->target, "The picture whose colours it gets").required().type_name("PICTURE");
+  command.add_option("--out", options->out, "The corrected picture: .png or .tif").required().type_name("PICTURE");
   command.add_option("--regions", options->regions, "Regions of like colour that are told apart and paired. Default: 3")
-      ->type_name("N")
-      ->check(CLI::Range(1, 5));
+      .type_name("N")
+      .range(1, 5);
   add_report_option(command, options->report,
                     "A page with the picture before and after beside the other, and how far their colours are apart");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel").type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -17,11 +16,12 @@
 #include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/result_page.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct TextureErodeOptions {
   std::string mask, out, report;
   ErosionParameters erosion{.levels = 8};
   int label = -1;
@@ -30,7 +30,7 @@ struct Options {
   bool json = false;
 };
 
-Grid<std::uint8_t> read_labels(const Options& options) {
+Grid<std::uint8_t> read_labels(const TextureErodeOptions& options) {
   const Grid<std::uint16_t> grey = read_grey(options.mask);
   Grid<std::uint8_t> labels(grey.width(), grey.height());
   for (std::size_t i = 0; i < grey.size(); ++i) {
@@ -52,7 +52,7 @@ Grid<glm::vec3> steps_picture(const Grid<std::uint8_t>& labels, std::uint8_t lab
   return out;
 }
 
-void write_report(const Options& options, const Grid<std::uint8_t>& labels, std::uint8_t label, const Erosion& eroded,
+void write_report(const TextureErodeOptions& options, const Grid<std::uint8_t>& labels, std::uint8_t label, const Erosion& eroded,
                   std::vector<std::vector<std::string>> table) {
   const int steps = options.erosion.levels;
   const Grid<std::uint8_t> none(labels.width(), labels.height());
@@ -70,7 +70,7 @@ void write_report(const Options& options, const Grid<std::uint8_t>& labels, std:
                               steps, options.erosion.step, options.erosion.ragged, options.erosion.seed, file_name(options.out))});
 }
 
-int run(const Options& options) {
+int run(const TextureErodeOptions& options) {
   check_output_folder(options.out);
   check_report(options.report);
   TerminalProgress progress(options.quiet);
@@ -118,28 +118,26 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_texture_erode(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("MASK", options->mask, "A grey picture: what is not 0 is taken back")->required()->type_name("PICTURE");
-  command.add_option("--out", options->out, "Folder of the series: MASK_01.png, MASK_02.png …")->required()->type_name("FOLDER");
-  command.add_option("--steps", options->erosion.levels, "How many masks. Default: 8")->check(CLI::Range(1, 99))->type_name("N");
+Action add_texture_erode(CommandOptions& command) {
+  const auto options = std::make_shared<TextureErodeOptions>();
+  command.add_option("MASK", options->mask, "A grey picture: what is not 0 is taken back").required().type_name("PICTURE");
+  command.add_option("--out", options->out, "Folder of the series: MASK_01.png, MASK_02.png …").required().type_name("FOLDER");
+  command.add_option("--steps", options->erosion.levels, "How many masks. Default: 8").range(1, 99).type_name("N");
   command.add_option("--step-px", options->erosion.step, "How far a straight border goes back from one to the next. Default: 8")
-      ->check(CLI::Range(0.5, 1000.0))
-      ->type_name("PX");
+      .range(0.5, 1000.0)
+      .type_name("PX");
   command
       .add_option("--ragged", options->erosion.ragged,
                   "How much faster it goes in some places than in others: 0 peels evenly, 1 is torn. Default: .4")
-      ->check(CLI::Range(0.0, 1.0))
-      ->type_name("SHARE");
+      .range(0.0, 1.0)
+      .type_name("SHARE");
   command
       .add_option("--label", options->label,
                   "Of a map of classes: the number that draws back; each pixel it leaves goes to the number that came there first")
-      ->check(CLI::Range(0, 255))
-      ->type_name("NUMBER");
-  command.add_option("--keep", options->keep, "Numbers that take nothing: shores of water stay")
-      ->check(CLI::Range(0, 255))
-      ->type_name("NUMBER");
-  command.add_option("--seed", options->erosion.seed, "Another seed, other borders. Default: 1")->type_name("N");
+      .range(0, 255)
+      .type_name("NUMBER");
+  command.add_option("--keep", options->keep, "Numbers that take nothing: shores of water stay").range(0, 255).type_name("NUMBER");
+  command.add_option("--seed", options->erosion.seed, "Another seed, other borders. Default: 1").type_name("N");
   add_report_option(command, options->report, "A page with the mask beside what each step takes");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
@@ -15,11 +14,12 @@
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct TextureFillOptions {
   std::string picture, hole, model, out, report;
   std::uint64_t seed = 1;
   int threads = 0;
@@ -37,7 +37,8 @@ Grid<Rgb8> without_clear(const TextureCrop& scan) {
 }
 
 // What is around the hole, before and after.
-void write_report(const Options& options, const Grid<glm::vec3>& before, const Grid<glm::vec3>& after, const Grid<std::uint8_t>& hole) {
+void write_report(const TextureFillOptions& options, const Grid<glm::vec3>& before, const Grid<glm::vec3>& after,
+                  const Grid<std::uint8_t>& hole) {
   constexpr int around_px = 64;
   PixelRect box{hole.width(), hole.height(), 0, 0};
   std::size_t pixels = 0;
@@ -60,7 +61,7 @@ void write_report(const Options& options, const Grid<glm::vec3>& before, const G
                                             file_name(options.hole), file_name(options.model), options.seed, file_name(options.out))});
 }
 
-int run(const Options& options) {
+int run(const TextureFillOptions& options) {
   check_texture_name(options.out);
   check_not_read(options.out, "--out", {options.picture, options.hole, options.model});
   check_report(options.report);
@@ -94,17 +95,17 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_texture_fill(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("PICTURE", options->picture, "A painting or a scan")->required()->type_name("PICTURE");
-  command.add_option("--hole", options->hole, "What is made anew: a grey picture of its size, 0 stays")->required()->type_name("PICTURE");
+Action add_texture_fill(CommandOptions& command) {
+  const auto options = std::make_shared<TextureFillOptions>();
+  command.add_option("PICTURE", options->picture, "A painting or a scan").required().type_name("PICTURE");
+  command.add_option("--hole", options->hole, "What is made anew: a grey picture of its size, 0 stays").required().type_name("PICTURE");
   command.add_option("--model", options->model, "What should stand there: what `belvedere texture learn` wrote")
-      ->required()
-      ->type_name("MODEL");
-  command.add_option("--out", options->out, "The picture: .png or .tif")->required()->type_name("PICTURE");
-  command.add_option("--seed", options->seed, "Another seed, other paint. Default: 1")->type_name("N");
+      .required()
+      .type_name("MODEL");
+  command.add_option("--out", options->out, "The picture: .png or .tif").required().type_name("PICTURE");
+  command.add_option("--seed", options->seed, "Another seed, other paint. Default: 1").type_name("N");
   add_report_option(command, options->report, "A page with the part that changed, before and after");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel").type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,11 +13,12 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/texture_pictures.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct TextureJudgeOptions {
   std::string model, crop;
   std::vector<std::string> pictures;
   int threads = 0;
@@ -47,7 +47,7 @@ std::string as_text(const Judgement& judged) {
                      layout, judged.copy_px < 0 ? "" : fmt::format("{}", judged.copy_px));
 }
 
-int run(const Options& options) {
+int run(const TextureJudgeOptions& options) {
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const CliqueModel model = read_model(options.model);
@@ -77,14 +77,14 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_texture_judge(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action add_texture_judge(CommandOptions& command) {
+  const auto options = std::make_shared<TextureJudgeOptions>();
   command.add_option("MODEL", options->model, "The crop's model: says which statistics it holds and which it was not told")
-      ->required()
-      ->type_name("MODEL");
-  command.add_option("CROP", options->crop, "The crop that the model was learned from")->required()->type_name("PICTURE");
-  command.add_option("PICTURE", options->pictures, "Textures to be judged, made by whatever program")->required()->type_name("PICTURE …");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no figure")->type_name("N");
+      .required()
+      .type_name("MODEL");
+  command.add_option("CROP", options->crop, "The crop that the model was learned from").required().type_name("PICTURE");
+  command.add_option("PICTURE", options->pictures, "Textures to be judged, made by whatever program").required().type_name("PICTURE …");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no figure").type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors and the figures");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -14,11 +13,12 @@
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct TextureKnitOptions {
   std::vector<std::string> pictures;
   std::string out, report;
   KnitParameters knit;
@@ -52,7 +52,7 @@ struct Cloth {
   Grid<glm::vec3> stored;
 };
 
-Cloth read_cloth(const Options& options, const std::string& path) {
+Cloth read_cloth(const TextureKnitOptions& options, const std::string& path) {
   Cloth cloth;
   TextureCrop crop = read_crop(path, "", &cloth.stored);
   if (crop.transparent > 0)
@@ -63,7 +63,7 @@ Cloth read_cloth(const Options& options, const std::string& path) {
   return {transposed(cloth.picture), transposed(cloth.stored)};
 }
 
-void write_report(const Options& options, const Grid<glm::vec3>& cut, const Grid<glm::vec3>& knitted,
+void write_report(const TextureKnitOptions& options, const Grid<glm::vec3>& cut, const Grid<glm::vec3>& knitted,
                   std::vector<std::vector<std::string>> table) {
   std::string files;
   for (const std::string& picture : options.pictures) files += " " + file_name(picture);
@@ -82,7 +82,7 @@ void write_report(const Options& options, const Grid<glm::vec3>& cut, const Grid
                               file_name(options.out))});
 }
 
-int run(const Options& options) {
+int run(const TextureKnitOptions& options) {
   if (options.pictures.size() < 2) throw Error(ErrorKind::usage, "command line", "one picture", "two or more to join");
   check_texture_name(options.out);
   check_not_read(options.out, "--out", options.pictures);
@@ -131,21 +131,21 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_texture_knit(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action add_texture_knit(CommandOptions& command) {
+  const auto options = std::make_shared<TextureKnitOptions>();
   command.add_option("PICTURE", options->pictures, "Two or more pictures of one height, from left to right")
-      ->required()
-      ->type_name("PICTURE");
-  command.add_option("--out", options->out, "The picture: .png or .tif")->required()->type_name("PICTURE");
+      .required()
+      .type_name("PICTURE");
+  command.add_option("--out", options->out, "The picture: .png or .tif").required().type_name("PICTURE");
   command.add_flag("--down", options->down, "From top to bottom instead; of one width then");
   command
       .add_option("--band-px", options->knit.band_px,
                   "How far from a seam pixels may change. Default: as the step of the seam asks, 24 to 96")
-      ->check(CLI::Range(8, 256))
-      ->type_name("PX");
-  command.add_option("--seed", options->knit.seed, "Another seed, another border. Default: 1")->type_name("N");
+      .range(8, 256)
+      .type_name("PX");
+  command.add_option("--seed", options->knit.seed, "Another seed, another border. Default: 1").type_name("N");
   add_report_option(command, options->report, "A page with the pictures side by side and knitted, and how plain the seams are");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel").type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(

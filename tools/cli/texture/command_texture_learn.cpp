@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "base/error.h"
@@ -20,6 +19,7 @@
 #include "tools/cli/texture/begin_options.h"
 #include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
+#include "tools/options/options.h"
 #include "tools/report/report_folder.h"
 
 namespace belvedere::tools {
@@ -28,7 +28,7 @@ namespace {
 constexpr int report_px = 512;
 constexpr int sampled_report_px = 128;  // what a sampler makes in the time
 
-struct Options {
+struct TextureLearnOptions {
   std::string crop, mask, light, out, report, method;
   BeginOptions begin;
   LearnParameters learn;
@@ -38,7 +38,7 @@ struct Options {
 };
 
 // What a run found, for all ways to tell it.
-struct Findings {
+struct TextureFindings {
   LearnedTexture learned;
   std::vector<SeedTrial> trials;
   Grid<Rgb8> made;
@@ -47,14 +47,14 @@ struct Findings {
   int copy_px = 0;
 };
 
-bool is_uneven(const Findings& found) { return found.halves.held_out > uneven_halves; }
+bool is_uneven(const TextureFindings& found) { return found.halves.held_out > uneven_halves; }
 
-std::string warning_of(const Findings& found) {
+std::string warning_of(const TextureFindings& found) {
   return fmt::format("warning: the crop's halves are as far apart as {:.2f}: it is not one texture, or too small (over {:.2f})",
                      found.halves.held_out, uneven_halves);
 }
 
-std::string as_text(const Options& options, const Findings& found) {
+std::string as_text(const TextureLearnOptions& options, const TextureFindings& found) {
   const CliqueModel& model = found.learned.model;
   std::string out = fmt::format("{}: {} types, {} bytes, begins with {}\n", options.out, model.cliques.size(), model_bytes(model),
                                 describe_begin(model.seed, model.seed_px, model.polish));
@@ -68,7 +68,7 @@ std::string as_text(const Options& options, const Findings& found) {
   return out;
 }
 
-std::string as_json(const Options& options, const Findings& found) {
+std::string as_json(const TextureLearnOptions& options, const TextureFindings& found) {
   const CliqueModel& model = found.learned.model;
   Json trials = Json::array();
   for (const SeedTrial& t : found.trials)
@@ -94,7 +94,7 @@ std::string as_json(const Options& options, const Findings& found) {
          "\n";
 }
 
-void write_report(const Options& options, const TextureCrop& crop, const Findings& found) {
+void write_report(const TextureLearnOptions& options, const TextureCrop& crop, const TextureFindings& found) {
   ReportFolder folder(options.report);
   folder.begin_figure(
       "pictures", "Crop and texture",
@@ -128,7 +128,7 @@ void write_report(const Options& options, const TextureCrop& crop, const Finding
                     fmt::format("belvedere texture learn {} --out {}", file_name(options.crop), file_name(options.out)));
 }
 
-int run(const Options& options) {
+int run(const TextureLearnOptions& options) {
   check_place(options.out);
   check_not_read(options.out, "--out", {options.crop, options.mask});
   check_report(options.report);
@@ -138,7 +138,7 @@ int run(const Options& options) {
   if (!options.light.empty())
     crop.states = light_half(crop.picture, crop.states, options.light == "lit" ? LightHalf::lit : LightHalf::shaded);
   if (crop.transparent > 0) progress.note(fmt::format("{} transparent pixels are left out", crop.transparent));
-  Findings found;
+  TextureFindings found;
   const bool sampled = options.method == "paper";
   if (sampled && !options.begin.kind.empty())
     throw Error(ErrorKind::usage, "--begin", options.begin.kind, "nothing with --method paper, which begins with white noise");
@@ -170,23 +170,23 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_texture_learn(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action add_texture_learn(CommandOptions& command) {
+  const auto options = std::make_shared<TextureLearnOptions>();
   command.add_option("CROP", options->crop, "A piece of a painting that shows one texture, 48 pixels a side or more")
-      ->required()
-      ->type_name("PICTURE");
-  command.add_option("--out", options->out, "The model: a text of some 1500 letters")->required()->type_name("MODEL");
+      .required()
+      .type_name("PICTURE");
+  command.add_option("--out", options->out, "The model: a text of some 1500 letters").required().type_name("MODEL");
   command.add_option("--mask", options->mask, "What of the crop is that texture: a grey picture of its size, 0 is left out")
-      ->type_name("PICTURE");
+      .type_name("PICTURE");
   command.add_option("--types", options->learn.types, "How many statistics the model holds at most, 16 to 200. Default: 40")
-      ->check(CLI::Range(16, 200))
-      ->type_name("N");
+      .range(16, 200)
+      .type_name("N");
   command
       .add_option("--light", options->light,
                   "Learn only what of the crop lies in the light (lit) or in the shade (shaded), its lighter or its darker\n"
                   "half: rock and snow faces are light and shade, and want a model for each. Default: all of it")
-      ->check(CLI::IsMember({"lit", "shaded"}))
-      ->type_name("HALF");
+      .one_of({"lit", "shaded"})
+      .type_name("HALF");
   add_begin_options(command, options->begin,
                     "The noise it begins with, which decides the shape of its dabs: white, streaks (strokes along a\n"
                     "direction) or discs (crowns). Default: what comes nearest to the crop");
@@ -194,10 +194,10 @@ Action add_texture_learn(CLI::App& command) {
       .add_option("--method", options->method,
                   "flow, or paper: the published method, which samples one level pixel by pixel. To compare with, on\n"
                   "crops up to 256 pixels a side; it takes minutes and knows nothing farther than 12 pixels. Default: flow")
-      ->check(CLI::IsMember({"flow", "paper"}))
-      ->type_name("METHOD");
+      .one_of({"flow", "paper"})
+      .type_name("METHOD");
   add_report_option(command, options->report, "A page with crop beside texture, and all figures");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit")->type_name("N");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit").type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 
@@ -17,11 +16,12 @@
 #include "tools/cli/texture/begin_options.h"
 #include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
+#include "tools/options/options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct Options {
+struct TextureMakeOptions {
   std::string model, out, report;
   std::vector<int> size;
   std::vector<int> window;
@@ -39,12 +39,12 @@ DirectionField one_way(double deg) {
   return [along](double, double) { return along; };
 }
 
-std::string asked_for(const Options& options) {
+std::string asked_for(const TextureMakeOptions& options) {
   return options.size.empty() ? fmt::format("--window {}", fmt::join(options.window, ","))
                               : fmt::format("--size {}", fmt::join(options.size, "x"));
 }
 
-void write_report(const Options& options, const CliqueModel& model, const Grid<Rgb8>& made) {
+void write_report(const TextureMakeOptions& options, const CliqueModel& model, const Grid<Rgb8>& made) {
   const std::string file = file_name(options.model);
   write_result_page(
       options.report,
@@ -64,7 +64,7 @@ void write_report(const Options& options, const CliqueModel& model, const Grid<R
            fmt::format("belvedere texture make {} {} --seed {} --out {}", file, asked_for(options), options.seed, file_name(options.out))});
 }
 
-int run(const Options& options) {
+int run(const TextureMakeOptions& options) {
   if (options.size.empty() == options.window.empty())
     throw Error(ErrorKind::usage, "command line", options.size.empty() ? "neither --size nor --window" : "both --size and --window",
                 "one of them");
@@ -100,31 +100,26 @@ int run(const Options& options) {
 
 }  // namespace
 
-Action add_texture_make(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("MODEL", options->model, "What `belvedere texture learn` wrote")->required()->type_name("MODEL");
-  command.add_option("--out", options->out, "The picture: .png or .tif")->required()->type_name("PICTURE");
-  command.add_option("--size", options->size, "Width and height, in pixels")
-      ->delimiter('x')
-      ->expected(2)
-      ->check(CLI::Range(1, 1 << 20))
-      ->type_name("WxH");
+Action add_texture_make(CommandOptions& command) {
+  const auto options = std::make_shared<TextureMakeOptions>();
+  command.add_option("MODEL", options->model, "What `belvedere texture learn` wrote").required().type_name("MODEL");
+  command.add_option("--out", options->out, "The picture: .png or .tif").required().type_name("PICTURE");
+  command.add_option("--size", options->size, "Width and height, in pixels").list('x', 2).range(1, 1 << 20).type_name("WxH");
   command
       .add_option(
           "--window", options->window,
           "Instead: left, top, width and height of a window of a texture without end. Windows that overlap have the same pixels there")
-      ->delimiter(',')
-      ->expected(4)
-      ->check(CLI::Range(-(1 << 28), 1 << 28))
-      ->type_name("X,Y,W,H");
-  command.add_option("--seed", options->seed, "Another seed, another texture of the same look. Default: 1")->type_name("N");
+      .list(',', 4)
+      .range(-(1 << 28), 1 << 28)
+      .type_name("X,Y,W,H");
+  command.add_option("--seed", options->seed, "Another seed, another texture of the same look. Default: 1").type_name("N");
   command
       .add_option("--direction", options->direction_deg,
                   "Where strokes run, degrees clockwise from level; of models that begin with streaks.\n"
                   "Default: as in the crop")
-      ->type_name("DEGREES");
+      .type_name("DEGREES");
   add_report_option(command, options->report, "A page with the texture and what its model is");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")->type_name("N");
+  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel").type_name("N");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(

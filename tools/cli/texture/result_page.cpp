@@ -1,16 +1,16 @@
 #include "tools/cli/texture/result_page.h"
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 
 #include "base/text/markup.h"
 #include "renderer/image/output_file.h"
+#include "tools/options/options.h"
 #include "tools/report/report_folder.h"
 
 namespace belvedere::tools {
 
-void add_report_option(CLI::App& command, std::string& folder, const std::string& meaning) {
-  command.add_option("--report", folder, meaning)->type_name("FOLDER");
+void add_report_option(CommandOptions& command, std::string& folder, const std::string& meaning) {
+  command.add_option("--report", folder, meaning).type_name("FOLDER");
 }
 
 void check_report(const std::string& folder) {

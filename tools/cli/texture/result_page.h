@@ -6,11 +6,9 @@
 
 #include "base/grid.h"
 
-namespace CLI {
-class App;
-}
-
 namespace belvedere::tools {
+
+class CommandOptions;
 
 // A picture of a page, encoded sRGB, shown pixel by pixel.
 struct PagePicture {
@@ -30,7 +28,7 @@ struct ResultPage {
   std::string command;
 };
 
-void add_report_option(CLI::App& command, std::string& folder, const std::string& meaning);
+void add_report_option(CommandOptions& command, std::string& folder, const std::string& meaning);
 // Tries the folder before the work begins: Error(output). An empty one is none.
 void check_report(const std::string& folder);
 void write_result_page(const std::string& folder, const ResultPage& page);

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
@@ -8,6 +7,7 @@
 #include "base/parallel.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
+#include "tools/options/options.h"
 #include "tools/web/web_page.h"
 
 namespace belvedere::tools {
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct WebOptions {
   std::string from;
   std::string out;
   std::string name;
@@ -36,29 +36,23 @@ WebPicture picture_of(const std::string& text) {
 
 }  // namespace
 
-Action add_web(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
-  command.add_option("DIR", options->from, "The folder that belvedere render wrote")->required();
-  command.add_option("--out", options->out, "Folder of the page. Default: DIR/web")->type_name("DIR");
+Action add_web(CommandOptions& command) {
+  const auto options = std::make_shared<WebOptions>();
+  command.add_option("DIR", options->from, "The folder that belvedere render wrote").required();
+  command.add_option("--out", options->out, "Folder of the page. Default: DIR/web").type_name("DIR");
   command.add_option("--name", options->name, "What the picture is called beside others, such as Summer. Default: its folder's name");
   command
       .add_option("--also", options->also,
                   "Another picture of the same view, to be compared by a border that is moved; may be repeated: --also winter=Winter")
-      ->type_name("DIR[=NAME]")
-      ->allow_extra_args(false);
-  command.add_option("--quality", options->page.quality, "Of the tiles' JPEG")
-      ->type_name("1…100")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100));
-  command.add_option("--tile-size", options->page.tile_px, "Side of a tile in pixels")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(CLI::Range(64, 4096));
+      .type_name("DIR[=NAME]")
+      .repeated();
+  command.add_option("--quality", options->page.quality, "Of the tiles' JPEG").type_name("1…100").show_default().range(1, 100);
+  command.add_option("--tile-size", options->page.tile_px, "Side of a tile in pixels").type_name("N").show_default().range(64, 4096);
   command.add_option("--cells", options->page.ground_cells, "How many places of the picture the page knows; 9 bytes each")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(CLI::Range(100, 20000000));
-  command.add_option("--threads", options->threads, "How many at once; 0: all")->type_name("N")->check(CLI::Range(0, 1024));
+      .type_name("N")
+      .show_default()
+      .range(100, 20000000);
+  command.add_option("--threads", options->threads, "How many at once; 0: all").type_name("N").range(0, 1024);
   command.add_flag("-q,--quiet", options->quiet, "No progress and no notes");
   command.footer(
       "A panorama to click: one folder that needs no server. Open index.html, or put the folder on any web space. Pointing tells place,\n"

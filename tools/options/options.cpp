@@ -1,0 +1,231 @@
+#include "tools/options/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace belvedere::tools {
+namespace {
+
+// Where the help's right column begins.
+constexpr int meaning_column = 34;
+
+// CLI11 writes what checks say of a value behind its name: "HOW:{off,common}", "N:INT in [8 - 4096]".
+void describe_value(const CLI::Option& option, OptionDescription& out) {
+  const std::string text = option.get_type_name();
+  std::size_t end = text.size();
+  for (const char* check : {":{", ":INT in [", ":UINT in [", ":FLOAT in [", ":NONNEGATIVE", ":POSITIVE"})
+    end = std::min(end, text.find(check));
+  out.value = text.substr(0, end);
+  const std::string check = text.substr(end);
+  if (check.starts_with(":{")) {
+    std::istringstream choices(check.substr(2, check.rfind('}') - 2));
+    for (std::string choice; std::getline(choices, choice, ',');) out.choices.push_back(choice);
+  }
+  const std::size_t from = check.find('[');
+  const std::size_t between = check.find(" - ", from);
+  if (from != std::string::npos && between != std::string::npos)
+    out.range = check.substr(from + 1, between - from - 1) + " … " + check.substr(between + 3, check.rfind(']') - between - 3);
+}
+
+OptionDescription describe_option(const CLI::Option& option) {
+  OptionDescription out;
+  out.positional = !option.nonpositional();
+  if (out.positional) out.names.push_back(option.get_name(true));
+  for (const std::string& name : option.get_lnames()) out.names.push_back("--" + name);
+  for (const std::string& name : option.get_snames()) out.names.push_back("-" + name);
+  out.meaning = option.get_description();
+  out.required = option.get_required();
+  out.preset = option.get_default_str();
+  if (option.get_items_expected_max() > 0) describe_value(option, out);
+  return out;
+}
+
+CommandDescription describe_command(const CLI::App& command, const std::string& before) {
+  CommandDescription out{.name = before + command.get_name(),
+                         .meaning = command.get_description(),
+                         .description = {},
+                         .footer = command.get_footer(),
+                         .options = {},
+                         .commands = {}};
+  for (const CLI::Option* option : command.get_options()) out.options.push_back(describe_option(*option));
+  for (const CLI::App* one : command.get_subcommands({})) out.commands.push_back(describe_command(*one, out.name + " "));
+  return out;
+}
+
+}  // namespace
+
+Option& Option::type_name(const std::string& name) {
+  option_->type_name(name);
+  return *this;
+}
+
+Option& Option::show_default() {
+  option_->capture_default_str();
+  return *this;
+}
+
+Option& Option::required(bool is) {
+  option_->required(is);
+  return *this;
+}
+
+Option& Option::environment(const std::string& variable) {
+  option_->envname(variable);
+  return *this;
+}
+
+Option& Option::range(int least, int most) {
+  option_->check(CLI::Range(least, most));
+  return *this;
+}
+
+Option& Option::range(std::uint64_t least, std::uint64_t most) {
+  option_->check(CLI::Range(least, most));
+  return *this;
+}
+
+Option& Option::range(double least, double most) {
+  option_->check(CLI::Range(least, most));
+  return *this;
+}
+
+Option& Option::range_or(double least, double most, const std::string& word) {
+  option_->check(CLI::Range(least, most) | CLI::IsMember({word}));
+  return *this;
+}
+
+Option& Option::positive() {
+  option_->check(CLI::PositiveNumber);
+  return *this;
+}
+
+Option& Option::not_negative() {
+  option_->check(CLI::NonNegativeNumber);
+  return *this;
+}
+
+Option& Option::one_of(const std::vector<std::string>& words) {
+  option_->check(CLI::IsMember(words));
+  return *this;
+}
+
+Option& Option::one_of(std::initializer_list<int> numbers) {
+  option_->check(CLI::IsMember(numbers));
+  return *this;
+}
+
+Option& Option::repeated() {
+  option_->allow_extra_args(false);
+  return *this;
+}
+
+Option& Option::list(char between) {
+  option_->delimiter(between);
+  return *this;
+}
+
+Option& Option::list(char between, int count) {
+  option_->delimiter(between)->expected(count);
+  return *this;
+}
+
+Option& Option::words(int count) {
+  option_->type_size(count);
+  return *this;
+}
+
+// An option of several words takes the next option's name where one of its own is missing, and the message would be about something else.
+Option& Option::takes(const std::string& meant) {
+  option_->check(CLI::Validator(
+      [meant](const std::string& word) {
+        return word.starts_with("--") ? fmt::format("takes {}, and {} comes too early", meant, word) : "";
+      },
+      ""));
+  return *this;
+}
+
+Option& Option::needs(const Option& other) {
+  option_->needs(other.option_);
+  return *this;
+}
+
+Option& Option::excludes(std::initializer_list<Option> others) {
+  for (const Option& other : others) option_->excludes(other.option_);
+  return *this;
+}
+
+template <OptionValue T>
+Option CommandOptions::add_option(const std::string& names, T& value, const std::string& meaning) {
+  return Option(app_->add_option(names, value, meaning));
+}
+template Option CommandOptions::add_option(const std::string&, std::string&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, int&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::uint64_t&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, float&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, double&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::optional<std::string>&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::optional<int>&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::optional<std::uint64_t>&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::optional<double>&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<std::string>&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<int>&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<float>&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<double>&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<std::vector<double>>&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<std::pair<int, int>>&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<std::pair<std::string, std::string>>&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<std::tuple<std::string, std::string>>&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<std::tuple<int, int, double>>&, const std::string&);
+template Option CommandOptions::add_option(const std::string&, std::vector<std::tuple<std::string, std::string, std::string, double>>&,
+                                           const std::string&);
+
+Option CommandOptions::add_flag(const std::string& names, bool& value, const std::string& meaning) {
+  return Option(app_->add_flag(names, value, meaning));
+}
+
+void CommandOptions::footer(const std::string& text) { app_->footer(text); }
+
+Option CommandOptions::option(const std::string& name) { return Option(app_->get_option(name)); }
+
+bool CommandOptions::has_option(const std::string& name) const { return app_->get_option_no_throw(name) != nullptr; }
+
+CommandOptions CommandOptions::add_command(const std::string& name, const std::string& meaning) {
+  app_->require_subcommand(1);
+  return CommandOptions(app_->add_subcommand(name, meaning));
+}
+
+bool CommandOptions::is_named() const { return app_->parsed(); }
+
+CommandDescription CommandOptions::describe(const std::string& before) const { return describe_command(*app_, before); }
+
+CommandLine::CommandLine(const std::string& name, const std::string& description, const std::string& version)
+    : app_(std::make_unique<CLI::App>(description, name)), options_(app_.get()) {
+  if (!version.empty()) app_->set_version_flag("--version", version);
+  app_->get_formatter()->column_width(meaning_column);
+}
+
+CommandLine::~CommandLine() = default;
+
+std::string CommandLine::read(const std::vector<std::string>& words) {
+  try {
+    app_->parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them from the back
+  } catch (const CLI::Success& asked) {                                   // --help and --version
+    std::ostringstream out;
+    app_->exit(asked, out, out);
+    std::string text = out.str();
+    if (!text.ends_with('\n')) text += '\n';
+    return text;
+  } catch (const CLI::ParseError& problem) {
+    const std::string name = app_->get_name();
+    const std::string of_commands = app_->get_subcommands({}).empty() ? "" : fmt::format(", or {} COMMAND --help,", name);
+    throw Error(ErrorKind::usage, "command line", problem.what(), fmt::format("{} --help{} says what there is", name, of_commands));
+  }
+  return {};
+}
+
+}  // namespace belvedere::tools

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "base/error.h"
+
+namespace belvedere::tools {
+
+// For what a command line says and a command cannot mean.
+[[noreturn]] inline void refuse(const std::string& where, const std::string& found, const std::string& allowed) {
+  throw Error(ErrorKind::usage, where, found, allowed);
+}
+
+}  // namespace belvedere::tools
