@@ -372,4 +372,8 @@ void allow_only(const ConfigTable& table, const std::vector<std::string>& allowe
   }
 }
 
+void refuse_value(const ConfigValue& value, const std::string& name, std::string found, std::string allowed) {
+  throw Error(ErrorKind::usage, config_where(name, value.place), std::move(found), std::move(allowed));
+}
+
 }  // namespace belvedere

@@ -45,6 +45,8 @@ ConfigValue parse_config_value(std::string_view text, const std::string& name);
 
 // `name:line:column`, or `name` alone where there is no place.
 std::string config_where(const std::string& name, ConfigPlace place);
+// Throws Error(usage) at the place of the value.
+[[noreturn]] void refuse_value(const ConfigValue& value, const std::string& name, std::string found, std::string allowed);
 // What a value is, in words for messages: "the string \"abc\"", "the number 3", "a table" …
 std::string describe(const ConfigValue& value);
 // The candidate closest to `word` by edit distance, or an empty string where none is near.

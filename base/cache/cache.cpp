@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -259,15 +260,15 @@ std::vector<CacheEntry> cache_entries(const std::string& folder) {
     const std::optional<Header> header = read_header(Descriptor(file.path.string(), O_RDONLY));
     const auto age = std::chrono::duration_cast<std::chrono::seconds>(now - file.used);
     entries.push_back({file.path.string(), header ? header->product : "damaged", header ? header->subject : "", file.bytes,
-                       std::max(age, std::chrono::seconds(0))});
+                       std::max<std::int64_t>(age.count(), 0)});
   }
   return entries;
 }
 
-std::vector<CacheEntry> clear_cache(const std::string& folder, std::chrono::seconds older_than) {
+std::vector<CacheEntry> clear_cache(const std::string& folder, std::int64_t older_than_s) {
   std::vector<CacheEntry> removed;
   for (CacheEntry& entry : cache_entries(folder)) {
-    if (entry.age < older_than) continue;
+    if (entry.age_s < older_than_s) continue;
     std::error_code problem;
     fs::remove(entry.path, problem);
     if (problem) throw Error(ErrorKind::output, entry.path, "cannot be removed: " + problem.message());

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -65,14 +64,14 @@ struct CacheEntry {
   std::string path;
   std::string product;
   std::string subject;
-  std::uint64_t bytes = 0;      // of the file
-  std::chrono::seconds age{0};  // since it was used
+  std::uint64_t bytes = 0;  // of the file
+  std::int64_t age_s = 0;   // since it was used
 };
 // The last used first; none where there is no such folder. What is no entry is passed over. Error(input) where the folder cannot be read.
 std::vector<CacheEntry> cache_entries(const std::string& folder);
 // Removes the entries that were not used for so long, and what interrupted programs left; what else lies in the folder stays.
 // Returns what it removed. Error(output) where an entry cannot be removed.
-std::vector<CacheEntry> clear_cache(const std::string& folder, std::chrono::seconds older_than = std::chrono::seconds(0));
+std::vector<CacheEntry> clear_cache(const std::string& folder, std::int64_t older_than_s = 0);
 // What the cache may grow to where nothing is said: CacheParameters::limit_bytes.
 std::uint64_t default_cache_limit(const std::string& folder);
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/angle.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/compose/view_changes.h"
 #include "renderer/compose/view_defaults.h"
 #include "renderer/compose/view_score.h"

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/config.h"
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/random_streams.h"
 
 namespace belvedere {
@@ -18,10 +18,6 @@ namespace {
 constexpr int row_px = 64;               // rows of panels begin at multiples of it
 constexpr double fine_panel_px = 240.0;  // smaller panels have coarser terrains
 constexpr double margin_mm = 2.0;        // of bare paper between two panels
-
-[[noreturn]] void fail(const ConfigValue& value, const std::string& name, std::string found, std::string allowed) {
-  throw Error(ErrorKind::usage, config_where(name, value.place), std::move(found), std::move(allowed));
-}
 
 std::vector<std::string> read_texts(const ConfigValue& value, const std::string& name) {
   std::vector<std::string> texts;
@@ -47,7 +43,7 @@ void append_named(ExampleSheetPanel& panel, const ConfigTable& table, const char
   if (found == named.end()) {
     std::string known;
     for (const auto& n : named) known += (known.empty() ? "" : ", ") + n.first;
-    fail(*value, name, fmt::format("no {} \"{}\"", key, given), known);
+    refuse_value(*value, name, fmt::format("no {} \"{}\"", key, given), known);
   }
   panel.settings.insert(panel.settings.end(), found->second.begin(), found->second.end());
   panel.name += (panel.name.empty() ? "" : ", ") + given;
@@ -58,7 +54,7 @@ void read_number(const ConfigTable& table, const char* key, double least, double
   const ConfigValue* value = find(table, key);
   if (value == nullptr) return;
   const double found = as_number(*value, name);
-  if (!(found >= least && found <= most)) fail(*value, name, fmt::format("{} = {}", key, found), fmt::format("{}…{}", least, most));
+  if (!(found >= least && found <= most)) refuse_value(*value, name, fmt::format("{} = {}", key, found), fmt::format("{}…{}", least, most));
   number = static_cast<T>(found);
 }
 
@@ -99,7 +95,7 @@ ExampleSheetPlan build_plan(const ConfigValue& root, const std::string& name) {
   const Named terrains = read_named(table, "terrains", name);
   const Named views = read_named(table, "views", name);
   const ConfigValue* panels = find(table, "panels");
-  if (panels == nullptr) fail(root, name, "no panels", "[[panels]], row by row");
+  if (panels == nullptr) refuse_value(root, name, "no panels", "[[panels]], row by row");
   for (const ConfigValue& value : as_array(*panels, name)) {
     const ConfigTable& one = as_table(value, name);
     allow_only(one, {"name", "terrain", "view", "set", "set_in_winter"}, name);
@@ -113,7 +109,7 @@ ExampleSheetPlan build_plan(const ConfigValue& root, const std::string& name) {
     plan.panels.push_back(std::move(panel));
   }
   if (plan.panels.empty() || plan.panels.size() % static_cast<std::size_t>(plan.columns) != 0)
-    fail(*panels, name, fmt::format("{} panels in rows of {}", plan.panels.size(), plan.columns), "full rows");
+    refuse_value(*panels, name, fmt::format("{} panels in rows of {}", plan.panels.size(), plan.columns), "full rows");
   return plan;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/config.h"
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "base/error.h"
 #include "renderer/exemplar/texel_supply.h"
 #include "renderer/exemplar/texel_supply_names.h"
@@ -11,13 +11,9 @@
 namespace belvedere {
 namespace {
 
-[[noreturn]] void fail(const ConfigValue& value, const std::string& name, std::string found, std::string allowed) {
-  throw Error(ErrorKind::usage, config_where(name, value.place), std::move(found), std::move(allowed));
-}
-
 std::size_t read_class_name(const std::string& word, const ConfigValue& at, const std::string& name) {
   const auto id = find_class(word);
-  if (!id || *id == LandCoverClass::sky) fail(at, name, "the class \"" + word + "\"", "a land-cover class");
+  if (!id || *id == LandCoverClass::sky) refuse_value(at, name, "the class \"" + word + "\"", "a land-cover class");
   return static_cast<std::size_t>(*id);
 }
 
@@ -26,7 +22,7 @@ template <std::size_t count>
 void read_flags(const ConfigValue& value, const std::string& name, std::array<bool, count>& flags) {
   const std::string& text = as_string(value, name);
   if (text.size() != count || text.find_first_not_of("1.") != std::string::npos)
-    fail(value, name, describe(value), fmt::format("{} signs, 1 for what occurs and . for what does not", count));
+    refuse_value(value, name, describe(value), fmt::format("{} signs, 1 for what occurs and . for what does not", count));
   for (std::size_t i = 0; i < count; ++i) flags[i] = text[i] == '1';
 }
 
@@ -43,7 +39,7 @@ SupplyDemand parse_demand(std::string_view text, const std::string& name) {
     allow_only(of_class, {"light", "direction", "shadow", "border"}, name);
     if (const ConfigValue* light = find(of_class, "light")) {
       const ConfigArray& rows = as_array(*light, name);
-      if (rows.size() != TexelSupply::tones) fail(*light, name, fmt::format("{} rows", rows.size()), "one for each of five tones");
+      if (rows.size() != TexelSupply::tones) refuse_value(*light, name, fmt::format("{} rows", rows.size()), "one for each of five tones");
       for (std::size_t t = 0; t < rows.size(); ++t) read_flags(rows[t], name, demand.light[id][t]);
     }
     if (const ConfigValue* direction = find(of_class, "direction")) read_flags(*direction, name, demand.direction[id]);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/exemplar/texel_supply.h"
 #include "renderer/exemplar/texel_supply_names.h"
 

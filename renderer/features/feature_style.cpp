@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "base/error.h"
 #include "base/text/config_reader.h"
 

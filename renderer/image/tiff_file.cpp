@@ -23,10 +23,10 @@
 namespace belvedere {
 namespace {
 
-constexpr int tile_size = 256;  // pixels; 384 KiB a tile, small enough for viewers, large enough to compress
-constexpr std::size_t tile_pixels = std::size_t{tile_size} * tile_size;
-constexpr int compression_level = 6;
-constexpr int tiles_at_once = 32;  // are packed together, then written: more would be held
+constexpr int tiff_tile_size = 256;  // pixels; 384 KiB a tile, small enough for viewers, large enough to compress
+constexpr std::size_t tile_pixels = std::size_t{tiff_tile_size} * tiff_tile_size;
+constexpr int tiff_compression_level = 6;
+constexpr int tiff_tiles_at_once = 32;  // are packed together, then written: more would be held
 
 struct CloseTiff {
   void operator()(TIFF* tiff) const { TIFFClose(tiff); }
@@ -53,22 +53,22 @@ Tiff open_tiff(const std::string& path, const char* mode, std::string& message) 
 // Horizontal differencing of pixels within a tile (TIFF 6.0, section 14), in place; arithmetic modulo 2^16 or 2^8.
 template <class Number>
 void difference(Number* row, int channels) {
-  for (int i = channels * tile_size - 1; i >= channels; --i) row[i] = static_cast<Number>(row[i] - row[i - channels]);
+  for (int i = channels * tiff_tile_size - 1; i >= channels; --i) row[i] = static_cast<Number>(row[i] - row[i - channels]);
 }
 
-// Some tiles of a row of `across`, packed; the same bytes whatever the number of threads. `band` has tile_size full rows.
+// Some tiles of a row of `across`, packed; the same bytes whatever the number of threads. `band` has tiff_tile_size full rows.
 template <class Number>
 std::vector<std::vector<std::uint8_t>> pack_tiles(const std::vector<Number>& band, int channels, int across, int first, int count) {
-  const std::size_t row_values = static_cast<std::size_t>(channels) * tile_size;
+  const std::size_t row_values = static_cast<std::size_t>(channels) * tiff_tile_size;
   std::vector<std::vector<std::uint8_t>> out(static_cast<std::size_t>(count));
   parallel_rows(count, [&](int i) {
-    std::vector<Number> tile(row_values * tile_size);
-    for (std::size_t y = 0; y < tile_size; ++y) {
+    std::vector<Number> tile(row_values * tiff_tile_size);
+    for (std::size_t y = 0; y < tiff_tile_size; ++y) {
       const Number* from = band.data() + (y * static_cast<std::size_t>(across) + static_cast<std::size_t>(first + i)) * row_values;
       std::copy(from, from + row_values, tile.begin() + static_cast<std::ptrdiff_t>(y * row_values));
       difference(tile.data() + y * row_values, channels);
     }
-    out[static_cast<std::size_t>(i)] = Deflater(compression_level).pack(tile.data(), tile.size() * sizeof(Number));
+    out[static_cast<std::size_t>(i)] = Deflater(tiff_compression_level).pack(tile.data(), tile.size() * sizeof(Number));
   });
   return out;
 }
@@ -82,8 +82,8 @@ struct PixelForm {
 bool set_fields(TIFF* tiff, int width, int height, PixelForm form, const PictureFileOptions& options) {
   bool ok = TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(width)) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(height)) != 0;
-  ok &= TIFFSetField(tiff, TIFFTAG_TILEWIDTH, static_cast<std::uint32_t>(tile_size)) != 0;
-  ok &= TIFFSetField(tiff, TIFFTAG_TILELENGTH, static_cast<std::uint32_t>(tile_size)) != 0;
+  ok &= TIFFSetField(tiff, TIFFTAG_TILEWIDTH, static_cast<std::uint32_t>(tiff_tile_size)) != 0;
+  ok &= TIFFSetField(tiff, TIFFTAG_TILELENGTH, static_cast<std::uint32_t>(tiff_tile_size)) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, form.bits) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, form.channels) != 0;
   ok &= TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT) != 0;
@@ -115,29 +115,29 @@ template <class Number>
 class TileRows : public PictureRows {
  public:
   TileRows(const std::string& path, int width, int height, int channels, const PictureFileOptions& options)
-      : PictureRows(path, width, height, tile_size),
+      : PictureRows(path, width, height, tiff_tile_size),
         output_(path),
         channels_(channels),
-        across_((width + tile_size - 1) / tile_size),
-        row_values_(static_cast<std::size_t>(channels) * tile_size) {
+        across_((width + tiff_tile_size - 1) / tiff_tile_size),
+        row_values_(static_cast<std::size_t>(channels) * tiff_tile_size) {
     const auto pixel_bytes = static_cast<std::uint64_t>(channels) * sizeof(Number);
     const bool big = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * pixel_bytes >= options.big_tiff_from_bytes;
     const PixelForm form = {channels, 8 * static_cast<int>(sizeof(Number))};
     tiff_ = open_tiff(output_.temporary(), big ? "w8l" : "w4l", message_);  // l: little-endian on any machine
     if (tiff_ == nullptr || !set_fields(tiff_.get(), width, height, form, options)) output_.fail(message_);
-    band_.resize(static_cast<std::size_t>(across_) * row_values_ * tile_size);
+    band_.resize(static_cast<std::size_t>(across_) * row_values_ * tiff_tile_size);
   }
 
  protected:
   // Pixels of a row of the band, with those beyond the picture.
-  int row_pixels() const { return across_ * tile_size; }
+  int row_pixels() const { return across_ * tiff_tile_size; }
   Number* band_row(int row) { return band_.data() + row_at(row); }
 
  private:
   void write_band(int, int rows) override {
     std::fill(band_.begin() + static_cast<std::ptrdiff_t>(row_at(rows)), band_.end(), Number{0});
-    for (int t = 0; t < across_; t += tiles_at_once) {
-      for (std::vector<std::uint8_t>& packed : pack_tiles(band_, channels_, across_, t, std::min(tiles_at_once, across_ - t))) {
+    for (int t = 0; t < across_; t += tiff_tiles_at_once) {
+      for (std::vector<std::uint8_t>& packed : pack_tiles(band_, channels_, across_, t, std::min(tiff_tiles_at_once, across_ - t))) {
         const auto bytes = static_cast<tmsize_t>(packed.size());
         written_.add(text_of(packed));
         if (TIFFWriteRawTile(tiff_.get(), tiles_++, packed.data(), bytes) != bytes) output_.fail(message_);
@@ -168,7 +168,7 @@ class TileRows : public PictureRows {
     std::vector<std::uint8_t> packed;
     for (ttile_t tile = 0; tile < tiles_; ++tile) {
       const std::uint64_t bytes = TIFFGetStrileByteCount(tiff.get(), tile);
-      if (bytes == 0 || bytes > 2 * row_values_ * tile_size * sizeof(Number)) output_.fail("a tile is missing");
+      if (bytes == 0 || bytes > 2 * row_values_ * tiff_tile_size * sizeof(Number)) output_.fail("a tile is missing");
       packed.resize(bytes);
       if (TIFFReadRawTile(tiff.get(), tile, packed.data(), static_cast<tmsize_t>(bytes)) != static_cast<tmsize_t>(bytes))
         output_.fail(message_);
@@ -225,9 +225,9 @@ class InkRows final : public TileRows<Number> {
 };
 
 double writer_bytes(int width, double pixel_bytes) {
-  const int across = (width + tile_size - 1) / tile_size;
+  const int across = (width + tiff_tile_size - 1) / tiff_tile_size;
   const double tile_bytes = static_cast<double>(tile_pixels) * pixel_bytes;
-  return tile_bytes * (across + 2.0 * tiles_at_once);  // a row of tiles, those that are packed at once
+  return tile_bytes * (across + 2.0 * tiff_tiles_at_once);  // a row of tiles, those that are packed at once
 }
 
 }  // namespace

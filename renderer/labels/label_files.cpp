@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/text/markup.h"
 #include "renderer/labels/drawing_svg.h"
 #include "renderer/labels/label_drawing.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/config.h"
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "base/error.h"
 #include "base/text/config_reader.h"
 

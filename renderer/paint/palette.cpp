@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "base/config.h"
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "base/error.h"
 
 namespace belvedere {

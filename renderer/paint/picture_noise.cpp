@@ -9,8 +9,6 @@
 namespace belvedere {
 namespace {
 
-constexpr double spacing_per_sigma = 1.7320508075688772;  // as in base/noise.cpp: a B-spline's deviation is spacing / sqrt(3)
-constexpr std::int64_t nowhere = std::numeric_limits<std::int64_t>::min();
 constexpr std::size_t memory_size = 1024;  // lattice values a GroundNoise remembers; a power of two
 
 // The four weights of a uniform cubic B-spline, divided by the square root of the sum of their squares.

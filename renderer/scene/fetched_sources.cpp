@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "base/json.h"
+#include "base/text/json.h"
 
 namespace belvedere {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "base/error.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/scene/scene_schema.h"

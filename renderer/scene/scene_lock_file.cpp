@@ -7,7 +7,7 @@
 
 #include "base/config.h"
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/scene/scene_lock.h"
 
 namespace belvedere {

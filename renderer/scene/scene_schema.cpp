@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 
 namespace belvedere {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/image/picture_formats.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/scene/scene_schema.h"

@@ -7,7 +7,7 @@
 
 #include "base/angle.h"
 #include "base/config.h"
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "base/error.h"
 #include "base/math_exact.h"
 #include "terrain/climate/map_place.h"

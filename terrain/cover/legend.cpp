@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "base/config.h"
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "base/error.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/io/csv.h"

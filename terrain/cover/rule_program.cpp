@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <regex>
 
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "base/error.h"
 #include "terrain/cover/class_rules_inputs.h"
 #include "terrain/cover/layers_document.h"

@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "terrain/io/crs.h"
 
 namespace belvedere {

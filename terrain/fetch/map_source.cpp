@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "base/config.h"
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "base/error.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/http_access.h"

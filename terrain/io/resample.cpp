@@ -7,7 +7,7 @@
 namespace belvedere {
 namespace {
 
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
+constexpr float void_value = std::numeric_limits<float>::quiet_NaN();
 
 double cubic(double distance) {
   const double d = std::abs(distance);
@@ -38,7 +38,7 @@ glm::ivec2 Resampler::reach() const {
 
 float Resampler::sample(const Grid<float>& cells, glm::dvec2 at) const {
   // Beyond half a cell outside nothing is known, and far outside a place may not even fit an int.
-  if (!(at.x > -1.0 && at.y > -1.0 && at.x < cells.width() && at.y < cells.height())) return nan_value;
+  if (!(at.x > -1.0 && at.y > -1.0 && at.x < cells.width() && at.y < cells.height())) return void_value;
   const glm::ivec2 sx = span(at.x, 2.0 * scale_.x);
   const glm::ivec2 sy = span(at.y, 2.0 * scale_.y);
   double total = 0.0;
@@ -51,7 +51,7 @@ float Resampler::sample(const Grid<float>& cells, glm::dvec2 at) const {
     for (int x = sx[0]; x <= sx[1]; ++x) {
       const double wx = cubic((x - at.x) / scale_.x);
       if (wx == 0.0) continue;
-      const float value = cells.contains(x, y) ? cells(x, y) : nan_value;
+      const float value = cells.contains(x, y) ? cells(x, y) : void_value;
       if (std::isnan(value)) return sample_tent(cells, at);
       low = std::min(low, value);
       high = std::max(high, value);
@@ -78,7 +78,7 @@ float Resampler::sample_tent(const Grid<float>& cells, glm::dvec2 at) const {
       sum += weight * cells(x, y);
     }
   }
-  return known > 0.0 && known >= 0.5 * total ? static_cast<float>(sum / known) : nan_value;
+  return known > 0.0 && known >= 0.5 * total ? static_cast<float>(sum / known) : void_value;
 }
 
 std::int32_t sample_nearest(const Grid<std::int32_t>& cells, glm::dvec2 at) {

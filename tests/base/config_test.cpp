@@ -10,7 +10,7 @@
 #include <functional>
 #include <locale>
 
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "base/error.h"
 #include "tests/files.h"
 

@@ -10,7 +10,7 @@
 
 #include "base/config.h"
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/math_exact.h"
 #include "base/text/base64.h"
 #include "texture/statistical/model_file.h"

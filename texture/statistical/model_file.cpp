@@ -11,7 +11,7 @@
 
 #include "base/config.h"
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/text/base64.h"
 
 namespace belvedere {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/pipeline/scene_check.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"

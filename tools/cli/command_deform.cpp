@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
 #include "renderer/trace/sketch/relief_sketch.h"

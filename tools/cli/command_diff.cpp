@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/image/picture_diff.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/parallel.h"
 #include "renderer/exemplar/painting_figures.h"
 #include "renderer/image/image_io.h"

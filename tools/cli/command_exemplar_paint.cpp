@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/exemplar/exemplar_files.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/scene_options.h"

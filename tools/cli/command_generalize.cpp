@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/parallel.h"
 #include "renderer/image/image_io.h"
 #include "terrain/generalize/foreground_share.h"

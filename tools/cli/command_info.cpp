@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/picture_hash.h"
 #include "tools/cli/commands.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/image/layers/layer_file.h"
 #include "renderer/pipeline/named_picture.h"
 #include "renderer/pipeline/pipeline.h"

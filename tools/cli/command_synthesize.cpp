@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "renderer/image/provenance.h"

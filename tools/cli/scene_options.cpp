@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "base/error.h"
 #include "renderer/image/layers/layer_file.h"
 #include "renderer/scene/scene_lock.h"

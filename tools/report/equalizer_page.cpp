@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "base/filter.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/pyramid.h"
 #include "base/text/base64.h"
 #include "base/text/markup.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "texture/quality/exemplar_survey.h"
 #include "texture/synthesis/class_supply.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "terrain/generalize/generalize_report.h"
 #include "terrain/generalize/mask.h"
 #include "tools/report/generalize_figures.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/json.h"
+#include "base/text/json.h"
 
 namespace belvedere::tools {
 

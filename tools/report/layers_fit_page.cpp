@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 #include <utility>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/text/markup.h"
 #include "terrain/layers/fit/colour_regions.h"
 #include "terrain/layers/fit/held_out.h"

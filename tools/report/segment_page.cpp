@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/embedded.h"
-#include "base/json.h"
+#include "base/text/embedded.h"
+#include "base/text/json.h"
 #include "base/land_cover_class.h"
 #include "base/text/base64.h"
 #include "base/text/markup.h"

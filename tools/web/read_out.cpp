@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/land_cover_class.h"
 #include "base/text/base64.h"
 #include "renderer/image/exr/exr_reader.h"

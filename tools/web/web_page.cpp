@@ -11,9 +11,9 @@
 #include <sstream>
 #include <string_view>
 
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/text/markup.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"

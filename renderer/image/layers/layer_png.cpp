@@ -17,7 +17,7 @@ namespace belvedere {
 namespace {
 
 // Layers are mostly empty or noise: the fastest of zlib's levels that finds runs.
-constexpr int compression_level = 2;
+constexpr int layer_compression_level = 2;
 
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
@@ -40,7 +40,7 @@ class PngWriter {
     if (info_ == nullptr) throw std::bad_alloc();
     call([&] {
       png_init_io(png_, file_.get());
-      png_set_compression_level(png_, compression_level);
+      png_set_compression_level(png_, layer_compression_level);
       png_set_filter(png_, 0, PNG_FILTER_SUB);
       png_set_IHDR(png_, info_, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), bits,
                    channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,

@@ -16,7 +16,7 @@ namespace {
 
 using Class = LandCoverClass;
 
-constexpr double step_units = 2.0;
+constexpr double fan_step_units = 2.0;
 constexpr int steps = 26;        // each way: longer fans are broad fields of stone
 constexpr int streak_steps = 9;  // each way
 constexpr double streak_sigma_units = 1.7;
@@ -40,7 +40,7 @@ ScreeFans make_scree_fans(const GuidanceBuffers& g, const WideView& wide, const 
   const double ppu = parameters.pixels_per_unit;
   const Grid<float> noise = make_image_noise(stream_seed(parameters.seed, Stream::forest_lanes, 1), wide.origin_px, wide.seen.width(),
                                              wide.seen.height(), ppu / wide.factor, streak_sigma_units, streak_sigma_units);
-  const auto step_px = static_cast<float>(step_units * ppu);
+  const auto step_px = static_cast<float>(fan_step_units * ppu);
   parallel_rows(wanted.height(), [&](int row) {
     const int y = wanted.y0 + row;
     for (int x = wanted.x0; x < wanted.x1; ++x) {
@@ -58,7 +58,7 @@ ScreeFans make_scree_fans(const GuidanceBuffers& g, const WideView& wide, const 
   return fans;
 }
 
-int scree_fans_margin_px(double pixels_per_unit) { return static_cast<int>(std::ceil(steps * step_units * pixels_per_unit)) + steps; }
+int scree_fans_margin_px(double pixels_per_unit) { return static_cast<int>(std::ceil(steps * fan_step_units * pixels_per_unit)) + steps; }
 
 ScreeTurn scree_turn(float place, float streak, float relief_s_m, float strength) {
   const float run = std::clamp(streak, -1.8F, 1.8F);

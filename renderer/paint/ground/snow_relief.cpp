@@ -9,13 +9,12 @@
 #include "base/math_exact.h"
 #include "base/random.h"
 #include "base/random_streams.h"
+#include "renderer/paint/picture_noise.h"
 
 namespace belvedere {
 namespace {
 
-constexpr double spacing_per_sigma = 1.7320508075688772;  // as in base/noise.cpp: a B-spline's deviation is spacing / sqrt(3)
-constexpr std::int64_t nowhere = std::numeric_limits<std::int64_t>::min();
-constexpr std::size_t memory_size = 256;  // lattice values that a field remembers; a power of two
+constexpr std::size_t field_memory_size = 256;  // lattice values that a field remembers; a power of two
 constexpr int lowest_octave = -12;        // forms of 2^-12 m are the smallest
 
 // Sizes of forms: deviation of their noise, units of the sheet, and how steep they are.
@@ -36,7 +35,7 @@ constexpr float crest_edge = 0.10F;  // over which one goes over into the other
 // Noise of deviation about 1 with its gradient; lattice and B-spline as in base/noise.h, without the correction between lattice points.
 class SnowRelief::Field {
  public:
-  explicit Field(std::uint64_t seed) : seed_(seed), memory_(memory_size, Entry{nowhere, nowhere, 0.0F}) {}
+  explicit Field(std::uint64_t seed) : seed_(seed), memory_(field_memory_size, Entry{nowhere, nowhere, 0.0F}) {}
 
   // Place in deviations. Value, and its change along x and y a deviation.
   std::array<float, 3> at(double x, double y) {
@@ -86,7 +85,7 @@ class SnowRelief::Field {
             {-0.5F * u * u, -2.0F * t + 1.5F * t * t, 2.0F * u - 1.5F * u * u, 0.5F * t * t}};
   }
   float lattice(std::int64_t x, std::int64_t y) {
-    const auto slot = static_cast<std::size_t>(static_cast<std::uint64_t>(x) + 37U * static_cast<std::uint64_t>(y)) & (memory_size - 1);
+    const auto slot = static_cast<std::size_t>(static_cast<std::uint64_t>(x) + 37U * static_cast<std::uint64_t>(y)) & (field_memory_size - 1);
     Entry& entry = memory_[slot];
     if (entry.x != x || entry.y != y) entry = {x, y, static_cast<float>(random_normal(seed_, x, y))};
     return entry.value;

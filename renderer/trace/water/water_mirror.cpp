@@ -17,7 +17,7 @@ namespace {
 
 constexpr double normal_step_m = 20.0;  // between the places whose bent neighbours tell how water is tilted
 
-struct Tracing {
+struct MirrorTracing {
   const TerrainModel& terrain;
   const Deformation& deformation;
   const Tracer& tracer;
@@ -43,7 +43,7 @@ glm::vec3 light_normal(const TerrainModel& ground, const Hit& hit) {
 }
 
 // Every pixel of a block is traced, so that a ray has the same neighbours in its bundle whatever region is asked for.
-void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, MirrorSight& out) {
+void trace_block(const MirrorTracing& t, glm::ivec2 corner, PixelRect region, MirrorSight& out) {
   std::array<Ray, trace_block_pixels> rays;
   std::array<Hit, trace_block_pixels> waters;
   for (int p = 0; p < trace_block_pixels; ++p)
@@ -123,7 +123,7 @@ MirrorSight trace_mirror(const TerrainModel& terrain, const DeformedSurface& sur
   out.normal = Grid<glm::vec3>(width, height, glm::vec3(0.0F, 0.0F, 1.0F));
   MirrorParameters checked = parameters;
   checked.sun_direction = glm::normalize(parameters.sun_direction);
-  const Tracing tracing{terrain, deformation, tracer, camera, checked};
+  const MirrorTracing tracing{terrain, deformation, tracer, camera, checked};
   const int bx0 = region.x0 / trace_block_px;
   const int by0 = region.y0 / trace_block_px;
   const int across = (region.x1 + trace_block_px - 1) / trace_block_px - bx0;

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "tests/files.h"
 
 namespace belvedere {

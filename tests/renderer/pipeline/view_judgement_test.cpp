@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "base/progress.h"
 #include "renderer/compose/proposals.h"
 #include "renderer/compose/proposed_scene.h"

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 #include "terrain/fetch/tile_mosaic.h"
 #include "tests/files.h"
 

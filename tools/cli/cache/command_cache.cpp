@@ -7,7 +7,7 @@
 
 #include "base/cache/cache.h"
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
@@ -36,9 +36,9 @@ std::string describe_bytes(std::uint64_t bytes) {
   return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / mib);
 }
 
-std::string describe_age(std::chrono::seconds age) {
-  const double seconds = static_cast<double>(age.count());
-  return age.count() < 2 * seconds_per_day ? describe_seconds(seconds) : fmt::format("{:.0f} days", seconds / seconds_per_day);
+std::string describe_age(std::int64_t age_s) {
+  const double seconds = static_cast<double>(age_s);
+  return age_s < 2 * seconds_per_day ? describe_seconds(seconds) : fmt::format("{:.0f} days", seconds / seconds_per_day);
 }
 
 std::string describe_entries(const Entries& entries) {
@@ -49,7 +49,7 @@ std::string as_text(const std::string& folder, const Entries& entries) {
   std::string out;
   for (const CacheEntry& entry : entries)
     out +=
-        fmt::format("{:<20} {:>11}  used {} ago  {}\n", entry.product, describe_bytes(entry.bytes), describe_age(entry.age), entry.subject);
+        fmt::format("{:<20} {:>11}  used {} ago  {}\n", entry.product, describe_bytes(entry.bytes), describe_age(entry.age_s), entry.subject);
   return out + fmt::format("{}: {}; it may grow to {}\n", folder, describe_entries(entries), describe_bytes(default_cache_limit(folder)));
 }
 
@@ -61,7 +61,7 @@ Json as_json(const Entries& entries) {
                  .add("subject", Json::text(entry.subject))
                  .add("path", Json::text(entry.path))
                  .add("bytes", Json::raw(fmt::format("{}", entry.bytes)))
-                 .add("unused_s", Json::raw(fmt::format("{}", entry.age.count()))));
+                 .add("unused_s", Json::raw(fmt::format("{}", entry.age_s))));
   return list;
 }
 
@@ -99,7 +99,7 @@ Action add_cache_clear(CommandOptions& command) {
       "  belvedere cache clear\n"
       "  belvedere cache clear --older-than 30");
   return [days] {
-    const Entries removed = clear_cache(required_folder(), std::chrono::seconds(std::int64_t{seconds_per_day} * *days));
+    const Entries removed = clear_cache(required_folder(), std::int64_t{seconds_per_day} * *days);
     print_out(fmt::format("removed {}\n", describe_entries(removed)));
     return 0;
   };

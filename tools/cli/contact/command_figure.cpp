@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/land_cover_class.h"
 #include "renderer/exemplar/exemplars.h"
 #include "renderer/image/guidance_io.h"

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/land_cover_class.h"
 #include "base/parallel.h"
 #include "renderer/exemplar/painting_segments.h"

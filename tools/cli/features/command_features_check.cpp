@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/features/drawn_features.h"
 #include "renderer/ground/feature_files.h"
 #include "renderer/world/scene_features.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "terrain/io/crs.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/fetch/fetch_options.h"

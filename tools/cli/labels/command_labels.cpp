@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/labels/labels.h"
 #include "renderer/pipeline/scene_labels.h"
 #include "tools/cli/commands.h"

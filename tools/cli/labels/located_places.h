@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/world/valley_view.h"
 
 namespace belvedere::tools {

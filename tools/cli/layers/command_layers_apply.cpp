@@ -6,7 +6,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/parallel.h"
 #include "renderer/image/output_file.h"
 #include "terrain/io/byte_raster_rows.h"

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/image/output_file.h"
 #include "renderer/image/provenance.h"
 #include "renderer/pipeline/scene_lock_run.h"

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/image/output_file.h"
 #include "renderer/image/provenance.h"
 #include "renderer/pipeline/scene_lock_run.h"

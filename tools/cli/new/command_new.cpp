@@ -9,7 +9,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/compose/proposals.h"
 #include "renderer/compose/proposed_scene.h"
 #include "renderer/compose/region_climate.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/image/icc/press_color.h"
 #include "renderer/press/palette_press.h"
 #include "tools/cli/press/press_commands.h"

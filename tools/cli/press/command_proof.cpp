@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "renderer/image/output_file.h"
 #include "renderer/press/proof.h"
 #include "tools/cli/press/press_commands.h"

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/parallel.h"
 #include "base/text/markup.h"
 #include "renderer/image/output_file.h"

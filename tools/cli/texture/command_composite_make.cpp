@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/grid_part.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/parallel.h"
 #include "texture/composite/composite_window.h"
 #include "texture/composite/make_composite.h"

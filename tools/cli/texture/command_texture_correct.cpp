@@ -4,7 +4,7 @@
 #include <array>
 #include <memory>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/parallel.h"
 #include "renderer/image/image_io.h"
 #include "texture/statistical/photometric.h"

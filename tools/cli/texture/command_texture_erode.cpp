@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/masks/erosion.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"

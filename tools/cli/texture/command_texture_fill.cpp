@@ -5,7 +5,7 @@
 
 #include "base/filter.h"
 #include "base/grid_part.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/parallel.h"
 #include "texture/statistical/make_texture.h"
 #include "texture/statistical/model_file.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/parallel.h"
 #include "texture/composite/composite_figures.h"
 #include "texture/statistical/model_file.h"

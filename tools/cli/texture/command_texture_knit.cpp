@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/parallel.h"
 #include "texture/statistical/knit.h"
 #include "tools/cli/commands.h"

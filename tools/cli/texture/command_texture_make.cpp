@@ -5,7 +5,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "texture/statistical/make_texture.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/grid.h"
-#include "base/json.h"
+#include "base/text/json.h"
 #include "base/progress.h"
 #include "texture/statistical/texture_figures.h"
 #include "texture/synthesis/exemplar.h"

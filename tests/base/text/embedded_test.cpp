@@ -1,4 +1,4 @@
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
-#include "base/embedded.h"
+#include "base/text/embedded.h"
 
 #include <algorithm>
 
-#include "base/embedded_table.h"
+#include "base/text/embedded_table.h"
 #include "base/error.h"
 
 namespace belvedere {
