@@ -22,8 +22,7 @@ struct ThreadLimit::Control {
   tbb::global_control limit;
 };
 
-ThreadLimit::ThreadLimit(int threads)
-    : control_(new Control(static_cast<std::size_t>(threads > 0 ? threads : max_threads()))) {}
+ThreadLimit::ThreadLimit(int threads) : control_(new Control(static_cast<std::size_t>(threads > 0 ? threads : max_threads()))) {}
 
 ThreadLimit::~ThreadLimit() { delete control_; }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "base/text/embedded_table.h"
 #include "base/error.h"
+#include "base/text/embedded_table.h"
 
 namespace belvedere {
 

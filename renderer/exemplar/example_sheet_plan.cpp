@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "base/config.h"
-#include "base/text/embedded.h"
 #include "base/error.h"
-#include "base/text/json.h"
 #include "base/random_streams.h"
+#include "base/text/embedded.h"
+#include "base/text/json.h"
 
 namespace belvedere {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/config.h"
-#include "base/text/embedded.h"
 #include "base/error.h"
+#include "base/text/embedded.h"
 #include "renderer/exemplar/texel_supply.h"
 #include "renderer/exemplar/texel_supply_names.h"
 

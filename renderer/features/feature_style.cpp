@@ -8,9 +8,9 @@
 #include <set>
 #include <utility>
 
-#include "base/text/embedded.h"
 #include "base/error.h"
 #include "base/text/config_reader.h"
+#include "base/text/embedded.h"
 
 namespace belvedere {
 namespace {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/config.h"
-#include "base/text/embedded.h"
 #include "base/error.h"
 #include "base/text/config_reader.h"
+#include "base/text/embedded.h"
 
 namespace belvedere {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "base/config.h"
-#include "base/text/embedded.h"
 #include "base/error.h"
+#include "base/text/embedded.h"
 
 namespace belvedere {
 namespace {

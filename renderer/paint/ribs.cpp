@@ -15,7 +15,7 @@
 namespace belvedere {
 namespace {
 
-constexpr double sample_units = 2.0;        // between the samples of a streamline
+constexpr double sample_units = 2.0;      // between the samples of a streamline
 constexpr double blur_sigma_units = 0.5;  // hides the steps of nearest sampling
 constexpr double relief_gain = 0.81;      // the trial divided by a deviation that counted the sky: .805, .811, .853 for its three widths
 

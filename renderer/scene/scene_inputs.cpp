@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/text/embedded.h"
 #include "base/error.h"
+#include "base/text/embedded.h"
 #include "renderer/scene/scene_file.h"
 #include "renderer/scene/scene_schema.h"
 #include "terrain/io/http_access.h"

@@ -6,10 +6,10 @@
 
 #include "base/angle.h"
 #include "base/config.h"
-#include "base/text/embedded.h"
 #include "base/error.h"
 #include "base/math.h"
 #include "base/math_exact.h"
+#include "base/text/embedded.h"
 #include "terrain/climate/map_place.h"
 #include "terrain/climate/snow_balance.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <numbers>
+#include <numeric>
 
 #include "base/math_exact.h"
 

@@ -19,7 +19,7 @@
 namespace belvedere {
 namespace {
 
-constexpr std::size_t most_terms = 4;                    // 1, altitude, x, y
+constexpr std::size_t most_terms = 4;               // 1, altitude, x, y
 constexpr std::uint64_t rain_seed = 0x7261696eULL;  // no stream of pictures: only a range in a report hangs on it
 using Terms = std::array<double, most_terms>;
 

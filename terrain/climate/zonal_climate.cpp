@@ -7,9 +7,9 @@
 
 #include "base/angle.h"
 #include "base/config.h"
-#include "base/text/embedded.h"
 #include "base/error.h"
 #include "base/math_exact.h"
+#include "base/text/embedded.h"
 #include "terrain/climate/map_place.h"
 
 // Universal kriging (Cressie 1993): a value is a trend of latitude and altitude, and a sum over stations of how akin the place is to each.

@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "base/config.h"
-#include "base/text/embedded.h"
 #include "base/error.h"
+#include "base/text/embedded.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/io/csv.h"
 

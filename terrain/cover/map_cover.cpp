@@ -206,7 +206,9 @@ MapCover::MapCover(const std::vector<CoverArea>& areas, std::vector<CoverCourse>
   filler.finish();
 }
 
-glm::dvec2 MapCover::place_of(int column, int row) const { return low_ + box_m_ * glm::dvec2(column + own_place_share, row + own_place_share); }
+glm::dvec2 MapCover::place_of(int column, int row) const {
+  return low_ + box_m_ * glm::dvec2(column + own_place_share, row + own_place_share);
+}
 
 std::int32_t MapCover::find(glm::dvec2 place) const {
   const double x = (place.x - low_.x) / box_m_;

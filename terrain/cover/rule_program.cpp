@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <regex>
 
-#include "base/text/embedded.h"
 #include "base/error.h"
+#include "base/text/embedded.h"
 #include "terrain/cover/class_rules_inputs.h"
 #include "terrain/cover/layers_document.h"
 

@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "base/config.h"
-#include "base/text/embedded.h"
 #include "base/error.h"
+#include "base/text/embedded.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/http_access.h"
 

@@ -10,8 +10,8 @@
 #include <functional>
 #include <locale>
 
-#include "base/text/embedded.h"
 #include "base/error.h"
+#include "base/text/embedded.h"
 #include "tests/files.h"
 
 namespace belvedere {

@@ -10,9 +10,9 @@
 
 #include "base/config.h"
 #include "base/error.h"
-#include "base/text/json.h"
 #include "base/math_exact.h"
 #include "base/text/base64.h"
+#include "base/text/json.h"
 #include "texture/statistical/model_file.h"
 
 namespace belvedere {

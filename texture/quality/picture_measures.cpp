@@ -67,8 +67,10 @@ double mean_gradient(const Grid<Rgb8>& picture, const Grid<std::uint8_t>& labels
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
       if (labels(x, y) != label || borders(x, y) <= quality::inside_squared) continue;
-      const double gx = slope(quality::sum_of(picture.clamped(x - 1, y)), quality::sum_of(picture.clamped(x + 1, y)), x > 0 && x + 1 < picture.width());
-      const double gy = slope(quality::sum_of(picture.clamped(x, y - 1)), quality::sum_of(picture.clamped(x, y + 1)), y > 0 && y + 1 < picture.height());
+      const double gx =
+          slope(quality::sum_of(picture.clamped(x - 1, y)), quality::sum_of(picture.clamped(x + 1, y)), x > 0 && x + 1 < picture.width());
+      const double gy =
+          slope(quality::sum_of(picture.clamped(x, y - 1)), quality::sum_of(picture.clamped(x, y + 1)), y > 0 && y + 1 < picture.height());
       sum += exact::hypot(gx, gy);
       ++count;
     }

@@ -20,9 +20,9 @@
 namespace belvedere {
 namespace {
 
-constexpr int learnt_px = 96;    // of a picture, beside the band, that its model is learnt from: what is far may be of another kind
-constexpr int seam_border_px = 1;     // on either side of the ragged border that is made by the model of both
-constexpr double torn_px = 1.0;  // half width of the noise across the ragged border
+constexpr int learnt_px = 96;      // of a picture, beside the band, that its model is learnt from: what is far may be of another kind
+constexpr int seam_border_px = 1;  // on either side of the ragged border that is made by the model of both
+constexpr double torn_px = 1.0;    // half width of the noise across the ragged border
 constexpr int least_band_px = 24;
 constexpr int widest_band_px = 96;  // that is chosen
 constexpr int least_within_px = 48;

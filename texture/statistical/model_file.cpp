@@ -11,8 +11,8 @@
 
 #include "base/config.h"
 #include "base/error.h"
-#include "base/text/json.h"
 #include "base/text/base64.h"
+#include "base/text/json.h"
 
 namespace belvedere {
 namespace {

@@ -108,7 +108,8 @@ std::vector<std::uint8_t> make_bins(const Plane& exemplars, int classes) {
   std::vector<std::uint8_t> bins(exemplars.words.size(), 0);
   const int bands = static_cast<int>((bins.size() + binned_a_task - 1) / binned_a_task);
   parallel_rows(bands, [&](int b) {
-    for (std::size_t at = static_cast<std::size_t>(b) * binned_a_task; at < std::min(bins.size(), static_cast<std::size_t>(b + 1) * binned_a_task); ++at) {
+    for (std::size_t at = static_cast<std::size_t>(b) * binned_a_task;
+         at < std::min(bins.size(), static_cast<std::size_t>(b + 1) * binned_a_task); ++at) {
       const std::uint32_t c = class_of(exemplars.words[at]);
       if (c == no_class) continue;
       const int bright = luminance_quantile[c * luminances + static_cast<std::size_t>(luminance(exemplars.words[at]))];

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "base/error.h"
-#include "base/text/json.h"
 #include "base/parallel.h"
+#include "base/text/json.h"
 #include "renderer/exemplar/painting_figures.h"
 #include "renderer/image/image_io.h"
 #include "tools/cli/commands.h"

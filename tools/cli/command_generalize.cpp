@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/text/json.h"
 #include "base/parallel.h"
+#include "base/text/json.h"
 #include "renderer/image/image_io.h"
 #include "terrain/generalize/foreground_share.h"
 #include "terrain/generalize/generalize_presets.h"

@@ -6,9 +6,9 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "base/text/json.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
+#include "base/text/json.h"
 #include "renderer/image/provenance.h"
 #include "texture/basic/basic_synthesis.h"
 #include "texture/synthesis/class_supply.h"

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "base/text/embedded.h"
 #include "base/error.h"
+#include "base/text/embedded.h"
 #include "renderer/image/layers/layer_file.h"
 #include "renderer/scene/scene_lock.h"
 #include "terrain/io/http_access.h"

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "base/text/embedded.h"
 #include "base/filter.h"
-#include "base/text/json.h"
 #include "base/pyramid.h"
 #include "base/text/base64.h"
+#include "base/text/embedded.h"
+#include "base/text/json.h"
 #include "base/text/markup.h"
 #include "renderer/image/output_file.h"
 #include "terrain/generalize/foreground_share.h"

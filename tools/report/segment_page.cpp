@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/text/embedded.h"
-#include "base/text/json.h"
 #include "base/land_cover_class.h"
 #include "base/text/base64.h"
+#include "base/text/embedded.h"
+#include "base/text/json.h"
 #include "base/text/markup.h"
 #include "renderer/image/output_file.h"
 #include "texture/segment/segment.h"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/text/json.h"
 #include "base/land_cover_class.h"
 #include "base/text/base64.h"
+#include "base/text/json.h"
 #include "renderer/image/exr/exr_reader.h"
 #include "terrain/io/crs.h"
 

@@ -11,8 +11,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "base/text/embedded.h"
 #include "base/error.h"
+#include "base/text/embedded.h"
 #include "base/text/json.h"
 #include "base/text/markup.h"
 #include "renderer/image/image_io.h"

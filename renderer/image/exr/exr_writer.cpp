@@ -28,7 +28,6 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-
 constexpr int tile_size = ExrWriter::band_rows;
 constexpr int tiles_at_once = 128;    // are packed together, then written: more would be held
 constexpr int compression_level = 1;  // guidance measured: 2.4 times as fast as zlib's level 2, the same size; level 4: 2 % smaller
@@ -176,7 +175,8 @@ void ExrWriter::State::write_tiles(std::size_t part, int y0, const Values& value
       progress[part].offsets[static_cast<std::size_t>(y) * static_cast<std::size_t>(across) + static_cast<std::size_t>(x)] = end;
       std::string start;
       if (specs.size() > 1) put_number(start, static_cast<std::int32_t>(part));
-      for (const int number : {x, y, 0, 0, static_cast<int>(packed[i].size())}) put_number(start, std::int32_t{number});  // 0, 0: of full size
+      for (const int number : {x, y, 0, 0, static_cast<int>(packed[i].size())})
+        put_number(start, std::int32_t{number});  // 0, 0: of full size
       add(start);
       add({reinterpret_cast<const char*>(packed[i].data()), packed[i].size()});
     }

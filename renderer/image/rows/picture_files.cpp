@@ -115,7 +115,8 @@ void PictureFiles::write_rows(const Image& linear) {
     if (!linear.empty()) state_->write_band(linear);
     return;
   }
-  for (int y = 0; y < linear.height(); y += rows_at_once) state_->write_band(copy_rows(linear, y, std::min(rows_at_once, linear.height() - y)));
+  for (int y = 0; y < linear.height(); y += rows_at_once)
+    state_->write_band(copy_rows(linear, y, std::min(rows_at_once, linear.height() - y)));
 }
 
 void PictureFiles::finish() {

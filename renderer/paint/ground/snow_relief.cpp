@@ -15,7 +15,7 @@ namespace belvedere {
 namespace {
 
 constexpr std::size_t field_memory_size = 256;  // lattice values that a field remembers; a power of two
-constexpr int lowest_octave = -12;        // forms of 2^-12 m are the smallest
+constexpr int lowest_octave = -12;              // forms of 2^-12 m are the smallest
 
 // Sizes of forms: deviation of their noise, units of the sheet, and how steep they are.
 struct SnowSize {
@@ -85,7 +85,8 @@ class SnowRelief::Field {
             {-0.5F * u * u, -2.0F * t + 1.5F * t * t, 2.0F * u - 1.5F * u * u, 0.5F * t * t}};
   }
   float lattice(std::int64_t x, std::int64_t y) {
-    const auto slot = static_cast<std::size_t>(static_cast<std::uint64_t>(x) + 37U * static_cast<std::uint64_t>(y)) & (field_memory_size - 1);
+    const auto slot =
+        static_cast<std::size_t>(static_cast<std::uint64_t>(x) + 37U * static_cast<std::uint64_t>(y)) & (field_memory_size - 1);
     Entry& entry = memory_[slot];
     if (entry.x != x || entry.y != y) entry = {x, y, static_cast<float>(random_normal(seed_, x, y))};
     return entry.value;

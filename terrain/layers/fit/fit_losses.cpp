@@ -191,7 +191,8 @@ class AdditiveLoss {
         for (std::size_t k = 0; k != classes_; ++k) {
           const double* at = &x[(a * knots_ + places_[i].first) * classes_ + k];
           // ± 30 an input keeps products of 20 of them finite; fitted tables stay within ± 10.
-          factors[(a * table_samples + i) * classes_ + k] = exact::exp(std::clamp(at[0] + places_[i].next * (at[classes_] - at[0]), -30.0, 30.0));
+          factors[(a * table_samples + i) * classes_ + k] =
+              exact::exp(std::clamp(at[0] + places_[i].next * (at[classes_] - at[0]), -30.0, 30.0));
         }
     const double cells = static_cast<double>(labels_.size());
     std::vector<double> slopes(factors.size(), 0.0);

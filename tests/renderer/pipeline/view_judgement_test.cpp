@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/text/embedded.h"
 #include "base/progress.h"
+#include "base/text/embedded.h"
 #include "renderer/compose/proposals.h"
 #include "renderer/compose/proposed_scene.h"
 #include "renderer/scene/scene_file.h"

@@ -48,8 +48,8 @@ std::string describe_entries(const Entries& entries) {
 std::string as_text(const std::string& folder, const Entries& entries) {
   std::string out;
   for (const CacheEntry& entry : entries)
-    out +=
-        fmt::format("{:<20} {:>11}  used {} ago  {}\n", entry.product, describe_bytes(entry.bytes), describe_age(entry.age_s), entry.subject);
+    out += fmt::format("{:<20} {:>11}  used {} ago  {}\n", entry.product, describe_bytes(entry.bytes), describe_age(entry.age_s),
+                       entry.subject);
   return out + fmt::format("{}: {}; it may grow to {}\n", folder, describe_entries(entries), describe_bytes(default_cache_limit(folder)));
 }
 

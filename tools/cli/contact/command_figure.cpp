@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "base/text/json.h"
 #include "base/land_cover_class.h"
+#include "base/text/json.h"
 #include "renderer/exemplar/exemplars.h"
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"

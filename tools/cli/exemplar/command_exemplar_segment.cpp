@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "base/error.h"
-#include "base/text/json.h"
 #include "base/land_cover_class.h"
 #include "base/parallel.h"
+#include "base/text/json.h"
 #include "renderer/exemplar/painting_segments.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/label_image.h"

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "base/error.h"
-#include "base/text/json.h"
 #include "base/parallel.h"
+#include "base/text/json.h"
 #include "renderer/image/output_file.h"
 #include "terrain/io/byte_raster_rows.h"
 #include "terrain/layers/layer_apply.h"

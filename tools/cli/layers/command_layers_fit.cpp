@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/text/json.h"
 #include "base/parallel.h"
+#include "base/text/json.h"
 #include "renderer/image/output_file.h"
 #include "terrain/climate/stations.h"
 #include "terrain/cover/ground_variables.h"

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "base/error.h"
-#include "base/text/json.h"
 #include "base/parallel.h"
+#include "base/text/json.h"
 #include "renderer/image/output_file.h"
 #include "terrain/io/byte_raster_rows.h"
 #include "terrain/layers/layer_coverage.h"

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -68,7 +70,7 @@ void fetch_data(const NewOptions& options, SceneFileNames& names, const Cache& c
   about.sources.push_back(proposed(area.elevation, names.name(source.path)));
   dem.sources.push_back(std::move(source));
   if (!area.land_cover) return;
-  about.land_cover = proposed(*area.land_cover, names.name(folder / area.land_cover->file));
+  about.land_cover = proposed(*area.land_cover, names.name((folder / area.land_cover->file).string()));
   about.legend = area.land_cover->source.legend;
 }
 
@@ -95,9 +97,10 @@ double share_under(const CoarseGround& ground, const RasterInfo& info, const std
 }  // namespace
 
 SceneFileNames::SceneFileNames(const NewOptions& options)
-    : folder_(fs::absolute(options.out).parent_path()), given_(options.common.files.data_folders) {}
+    : folder_(fs::absolute(options.out).parent_path().string()), given_(options.common.files.data_folders) {}
 
-std::string SceneFileNames::name(const fs::path& file) {
+std::string SceneFileNames::name(const std::string& path) {
+  const fs::path file(path);
   if (is_address(file.string())) return file.string();
   if (const auto name = inside(folder_, file)) return *name;
   for (const std::string& folder : given_)

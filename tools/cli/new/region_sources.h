@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,16 +17,16 @@ class SceneFileNames {
  public:
   explicit SceneFileNames(const NewOptions& options);
   // The scene's word for a file, whose folder becomes one of data() where the scene has to be told.
-  std::string name(const std::filesystem::path& file);
+  std::string name(const std::string& path);
   // The folders that rendering needs as --data.
   const std::vector<std::string>& data() const { return data_; }
   // The scene's own.
-  std::string folder() const { return folder_.string(); }
+  const std::string& folder() const { return folder_; }
 
  private:
   std::string keep(const std::string& folder, const std::string& name);
 
-  std::filesystem::path folder_;
+  std::string folder_;
   std::vector<std::string> given_;
   std::vector<std::string> data_;
 };

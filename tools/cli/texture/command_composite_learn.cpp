@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "base/error.h"
-#include "base/text/json.h"
 #include "base/parallel.h"
+#include "base/text/json.h"
 #include "base/text/markup.h"
 #include "renderer/image/output_file.h"
 #include "texture/composite/composite_figures.h"

@@ -6,8 +6,8 @@
 
 #include "base/error.h"
 #include "base/grid_part.h"
-#include "base/text/json.h"
 #include "base/parallel.h"
+#include "base/text/json.h"
 #include "texture/composite/composite_window.h"
 #include "texture/composite/make_composite.h"
 #include "texture/composite/make_label_map.h"

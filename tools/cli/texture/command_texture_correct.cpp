@@ -4,8 +4,8 @@
 #include <array>
 #include <memory>
 
-#include "base/text/json.h"
 #include "base/parallel.h"
+#include "base/text/json.h"
 #include "renderer/image/image_io.h"
 #include "texture/statistical/photometric.h"
 #include "tools/cli/commands.h"

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/text/json.h"
 #include "base/masks/erosion.h"
+#include "base/text/json.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
 #include "renderer/image/png_palette.h"

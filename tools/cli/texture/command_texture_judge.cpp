@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/text/json.h"
 #include "base/parallel.h"
+#include "base/text/json.h"
 #include "texture/composite/composite_figures.h"
 #include "texture/statistical/model_file.h"
 #include "texture/statistical/texture_figures.h"

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/text/json.h"
 #include "base/parallel.h"
+#include "base/text/json.h"
 #include "texture/statistical/knit.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"

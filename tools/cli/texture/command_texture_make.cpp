@@ -5,9 +5,9 @@
 
 #include "base/angle.h"
 #include "base/error.h"
-#include "base/text/json.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
+#include "base/text/json.h"
 #include "texture/statistical/make_texture.h"
 #include "texture/statistical/model_file.h"
 #include "tools/cli/commands.h"

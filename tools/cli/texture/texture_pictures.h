@@ -5,8 +5,8 @@
 #include <string>
 
 #include "base/grid.h"
-#include "base/text/json.h"
 #include "base/progress.h"
+#include "base/text/json.h"
 #include "texture/statistical/texture_figures.h"
 #include "texture/synthesis/exemplar.h"
 
