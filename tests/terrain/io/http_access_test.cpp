@@ -114,7 +114,7 @@ TEST_F(Http, AServerThatFailsForGoodIsAnInputError) {
 TEST_F(Http, ServersThatStallOrGiveNoPartsAreInputErrors) {
   write_tiff();
   const test::HttpServer stalls(folder_.path(), {"stall"});
-  const HttpAccess access(impatient());
+  const HttpAccess access(impatient(0));
   EXPECT_THAT(test::message_of(ErrorKind::input, [&] { read_raster(source_of(stalls.address("dem.tif"))); }),
               HasSubstr(stalls.address("dem.tif")));
   EXPECT_EQ(error_of([&] { read_address(stalls.address("dem.tif"), [](std::string_view) {}); }).kind(), ErrorKind::input);
