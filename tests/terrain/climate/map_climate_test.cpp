@@ -105,6 +105,7 @@ TEST(MapClimate, TablesStayCloseToTheClimateBetweenTheirPosts) {
 }
 
 TEST(MapClimate, LevelGroundGetsLevelGroundsSunAtAnyAltitude) {
+  const ThreadLimit one(1);  // so little ground is no work for two
   for (const double altitude : {0.0, 3000.0}) {
     const Dem dem = ground(20, 20, 100.0, [&](double, double) { return altitude; });
     const Grid<float> share = sun_share(dem, place_of(dem), {});
@@ -116,6 +117,7 @@ TEST(MapClimate, LevelGroundGetsLevelGroundsSunAtAnyAltitude) {
 }
 
 TEST(MapClimate, SunnySlopesGetMoreAndShadedOnesLess) {
+  const ThreadLimit one(1);  // so little ground is no work for two
   const Dem south = ground(30, 30, 100.0, [](double, double n) { return 3400.0 + 0.4 * n; });
   const Dem north = ground(30, 30, 100.0, [](double, double n) { return 1600.0 - 0.4 * n; });
   EXPECT_GT(sun_share(south, place_of(south), {})(15, 15), 1.15F);

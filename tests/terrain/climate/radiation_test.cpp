@@ -63,6 +63,7 @@ double year_on_slope_mj(double latitude_deg, double slope_deg) {
 }
 
 TEST(Radiation, PlanesGetWhatTheClosedFormSays) {
+  const ThreadLimit one(1);  // so little ground is no work for two
   RadiationParameters above_the_air;
   above_the_air.sun.transmissivity = 1.0;
   double worst = 0.0;
@@ -169,6 +170,7 @@ TEST(Radiation, IsWhatRaysThatMarchOverTheGroundFind) {
 }
 
 TEST(Radiation, TrueNorthIsWhereTheMapSaysItIs) {
+  const ThreadLimit one(1);  // so little ground is no work for two
   // The columns of this map run towards 30° east of north: a slope to its east faces 120°.
   const RadiationParameters parameters;
   MapPlace leaning = flat_place(33, 33, 47.0);
@@ -207,6 +209,7 @@ TEST(Radiation, LatitudeChangesOverTheMapWithoutASeam) {
 }
 
 TEST(Radiation, SunnySidesGetMoreThanShadyOnesInEitherHemisphere) {
+  const ThreadLimit one(1);  // so little ground is no work for two
   for (const double latitude : {47.0, -33.0}) {
     const double sunny = latitude > 0.0 ? 180.0 : 0.0;
     const float warm = potential_radiation(make_plane(30.0, sunny), flat_place(33, 33, latitude), {}).direct_mj_m2(16, 16);

@@ -35,10 +35,10 @@ TEST(LearnBySampling, PreselectsNeighboursAndAddsUpToItsBudget) {
 TEST(LearnBySampling, FlowAndPolishComeAsNearAsTheSampler) {
   const Grid<Rgb8> crop = test::meadow_crop(64, 64);
   const LearnParameters level{.types = 18, .levels = 0};
-  const Grid<Rgb8> by_sampler = make_texture(sampled(), 64, 64, {});
+  const Grid<Rgb8> by_sampler = make_texture(sampled(), 96, 96, {});
   const TextureFigures sampler = texture_figures(crop, {}, by_sampler, sampled(), level);
   const TextureFigures ours =
-      texture_figures(crop, {}, make_texture(learn_texture(crop, {}, {.types = 28}).model, 64, 64, {}), sampled(), level);
+      texture_figures(crop, {}, make_texture(learn_texture(crop, {}, {.types = 28}).model, 96, 96, {}), sampled(), level);
   RecordProperty("sampler", std::to_string(sampler.held_out));
   RecordProperty("flow", std::to_string(ours.held_out));
   EXPECT_LT(sampler.selected, .35);
