@@ -266,8 +266,10 @@ TEST_F(FetchArea, WhoeverStopsItLeavesNothingBehind) {
   EXPECT_TRUE(std::filesystem::is_empty(path("out")));
 }
 
+class FetchAreaLong : public FetchArea {};
+
 // The built-in source at its true size: the tile N47E011 made of real ground, beside that ground itself.
-TEST_F(FetchArea, RealGroundComesBackAsItWas) {
+TEST_F(FetchAreaLong, RealGroundComesBackAsItWas) {
   RasterSource ground;
   ground.path = test::data_folder() + "/innsbruck/innsbruck_utm32_30m.tif";
   if (!std::filesystem::exists(ground.path)) GTEST_SKIP() << "no " << ground.path;

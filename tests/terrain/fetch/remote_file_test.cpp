@@ -33,8 +33,9 @@ class Remote : public ServedTiles {
     serve(modes);
     return bytes;
   }
-  std::string read(std::uint64_t offset, std::size_t count, bool with_cache = true) {
-    HttpClient client(manners(), progress_);
+  std::string read(std::uint64_t offset, std::size_t count, bool with_cache = true) { return read(offset, count, with_cache, manners()); }
+  std::string read(std::uint64_t offset, std::size_t count, bool with_cache, const HttpManners& with_manners) {
+    HttpClient client(with_manners, progress_);
     RemoteFile file(server_->address("file.bin"), {client, with_cache ? cache_ : no_cache(), progress_, now_, false});
     std::string out(count, '\0');
     file.read(offset, count, out.data());
@@ -94,16 +95,18 @@ TEST_F(Remote, ServersWithoutPartsAreAskedOnce) {
 
 TEST_F(Remote, ThereIsAnEndToPatience) {
   std::size_t asked_before = 0;
-  const auto fails = [&](const std::vector<std::string>& modes) {
+  const auto fails = [&](const std::vector<std::string>& modes, int retries) {
+    HttpManners tried = manners();
+    tried.retries = retries;
     clear_cache(path("cache"));
     serve_noise(modes);
     asked_before = requests().size();
-    return test::message_of(ErrorKind::input, [&] { read(0, 2 * mib); });
+    return test::message_of(ErrorKind::input, [&] { read(0, 2 * mib, true, tried); });
   };
-  EXPECT_THAT(fails({"fail=1000"}), AllOf(HasSubstr("503"), HasSubstr("file.bin")));
+  EXPECT_THAT(fails({"fail=1000"}, 3), AllOf(HasSubstr("503"), HasSubstr("file.bin")));
   EXPECT_EQ(requests().size() - asked_before, 4U);  // three retries
-  EXPECT_THAT(fails({"stall"}), HasSubstr("silent"));
-  EXPECT_THAT(fails({"short=1000"}), HasSubstr("other bytes"));
+  EXPECT_THAT(fails({"stall"}, 0), HasSubstr("silent"));
+  EXPECT_THAT(fails({"short=1000"}, 3), HasSubstr("other bytes"));
 }
 
 TEST_F(Remote, AServerMaySayHowLongToWait) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -30,22 +31,26 @@ TEST(PlanCurvature, IsTheNegativeOfGrassPlanc) {
                "set -e\n"
                "g.region n=2000 s=0 e=2000 w=0 rows=100 cols=100\n"
                "r.in.bin -f input=z.bin output=z bytes=4 north=2000 south=0 east=2000 west=0 rows=100 cols=100\n"
-               "r.param.scale input=z output=k method=planc size=3\n"
-               "r.out.bin -f input=k output=$1 bytes=4 null=-9999\n");
+               "for run in 1 2; do\n"
+               "  r.param.scale --overwrite input=z output=k method=planc size=3\n"
+               "  r.out.bin -f input=k output=$1.$run bytes=4 null=-9999\n"
+               "done\n");
   const auto planc = [&](const std::string& name) {
     const std::string command = "cd '" + folder.path() + "' && grass --tmp-location XY --exec bash run.sh " + name + " > log.txt 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0) << test::read_bytes(folder / "log.txt");
-    return test::read_bytes(folder / name);
+    return std::array{test::read_bytes(folder / (name + ".1")), test::read_bytes(folder / (name + ".2"))};
   };
   // Now and then a run of r.param.scale goes wrong: two that agree are right.
   std::vector<std::string> runs;
   std::string bytes;
   bool agreed = false;
-  for (int i = 0; i < 8 && !agreed; ++i) {
-    bytes = planc(std::to_string(i) + ".bin");
-    agreed = std::find(runs.begin(), runs.end(), bytes) != runs.end();
-    runs.push_back(bytes);
-  }
+  for (int i = 0; i < 4 && !agreed; ++i)
+    for (const std::string& run : planc(std::to_string(i))) {
+      if (agreed) break;
+      bytes = run;
+      agreed = std::find(runs.begin(), runs.end(), bytes) != runs.end();
+      runs.push_back(bytes);
+    }
   ASSERT_TRUE(agreed);
   ASSERT_EQ(bytes.size(), hills.size() * sizeof(float));
   Grid<float> theirs(size, size);

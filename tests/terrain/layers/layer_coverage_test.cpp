@@ -229,8 +229,8 @@ TEST(LayerCoverage, MeanColourDoesNotHangOnResolution) {
       for (const glm::vec3& c : colour) sum += glm::dvec3(c);
       return sum / static_cast<double>(colour.size());
     };
-    const glm::dvec3 a = mean_of(coarse, 160);
-    const glm::dvec3 b = mean_of(fine, 1280);
+    const glm::dvec3 a = mean_of(coarse, 80);
+    const glm::dvec3 b = mean_of(fine, 640);
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], 0.1) << (model == LayerModel::product ? "product" : "additive");
   }
 }

@@ -15,16 +15,16 @@ namespace {
 using test::is_green;
 using test::two_textures_model;
 
-const TextureParameters quick_window{.rounds = 6, .sweeps = 2};
+const TextureParameters quick_window{.rounds = 3, .sweeps = 1};
 
 const CompositeRecord& record() {
   static const CompositeRecord r = record_composite(two_textures_model(), quick_window);
   return r;
 }
 
-// Discs on a ground, over four tiles.
-Grid<std::uint8_t> drawn() {
-  Grid<std::uint8_t> labels(560, 530);
+// Discs on a ground.
+Grid<std::uint8_t> discs(int width, int height) {
+  Grid<std::uint8_t> labels(width, height);
   for (int y = 0; y < labels.height(); ++y)
     for (int x = 0; x < labels.width(); ++x) {
       const int u = x % 160 - 80;
@@ -35,11 +35,18 @@ Grid<std::uint8_t> drawn() {
 }
 
 TEST(CompositeWindow, AnyWindowIsAPartOfTheWhole) {
-  const Grid<std::uint8_t> labels = drawn();
-  const Grid<Rgb8> whole = make_composite_window(two_textures_model(), record(), labels, {0, 0, 560, 530}, quick_window);
-  const ThreadLimit threads(3);
-  for (const PixelRect window : {PixelRect{480, 490, 560, 530}, PixelRect{500, 0, 530, 40}})
-    EXPECT_EQ(make_composite_window(two_textures_model(), record(), labels, window, quick_window), part_of(whole, window));
+  const Grid<std::uint8_t> labels = discs(560, 140);  // two tiles
+  const Grid<Rgb8> whole = make_composite_window(two_textures_model(), record(), labels, {0, 0, 560, 140}, quick_window);
+  {
+    const ThreadLimit threads(3);
+    for (const PixelRect window : {PixelRect{480, 90, 560, 140}, PixelRect{530, 0, 560, 40}})
+      EXPECT_EQ(make_composite_window(two_textures_model(), record(), labels, window, quick_window), part_of(whole, window));
+    // One tile above the other.
+    const Grid<std::uint8_t> tall = discs(60, 540);
+    const Grid<Rgb8> column = make_composite_window(two_textures_model(), record(), tall, {0, 0, 60, 540}, quick_window);
+    const PixelRect below{10, 515, 50, 540};
+    EXPECT_EQ(make_composite_window(two_textures_model(), record(), tall, below, quick_window), part_of(column, below));
+  }
   // Each label in its texture.
   const Grid<std::uint8_t> zone = near_borders(labels, 6);
   int wrong = 0;
@@ -58,7 +65,7 @@ TEST(CompositeWindow, AnyWindowIsAPartOfTheWhole) {
 }
 
 TEST(CompositeWindow, RefusesWhatIsBeyondTheMap) {
-  EXPECT_THROW(make_composite_window(two_textures_model(), record(), drawn(), {500, 0, 600, 40}, quick_window), Error);
+  EXPECT_THROW(make_composite_window(two_textures_model(), record(), discs(560, 60), {500, 0, 600, 40}, quick_window), Error);
 }
 
 }  // namespace

@@ -25,9 +25,9 @@ GuideStack with_silhouettes(GuideStack stack) {
 
 TEST(SynthesisTile, SameBitsInAnyOrderForAnyThreads) {
   const std::vector<Exemplar> exemplars{painting(150, 120, 1, 3), painting(60, 90, 9, 3)};
-  const GuideStack target = with_silhouettes(land(333, 201, 40, 3));
-  for (const int level : {1, 2, 3}) {
-    const SynthesisSheet sheet{333, 201, level, 128};
+  const GuideStack target = with_silhouettes(land(201, 151, 40, 3));
+  for (const int level : {1, 3}) {
+    const SynthesisSheet sheet{201, 151, level, 128};
     MatchField reference;
     {
       const ThreadLimit one(1);
@@ -66,14 +66,14 @@ TEST(SynthesisTile, SameBitsForPatchesOfAnySizeAndAllSurroundings) {
 // The strips along a line are made by both tiles; were they not the same, pieces could not lie across it as they do inside.
 TEST(SynthesisTile, PiecesLieAcrossLinesAsInside) {
   const std::vector<Exemplar> exemplars{painting(200, 200, 1)};
-  const GuideStack target = land(512, 512, 40);
+  const GuideStack target = land(256, 256, 40);
   for (const int level : {1, 3}) {
-    SynthesisPlan plan = plan_of(exemplars, target, {512, 512, level, 128});
+    SynthesisPlan plan = plan_of(exemplars, target, {256, 256, level, 128});
     const MatchField field = all_tiles(plan, target);
     double pairs[2] = {0, 0};
     double joined[2] = {0, 0};
-    for (int y = 0; y < 512; ++y) {
-      for (int x = 1; x < 512; ++x) {
+    for (int y = 0; y < 256; ++y) {
+      for (int x = 1; x < 256; ++x) {
         for (const bool down : {false, true}) {
           const Match& here = down ? field(y, x) : field(x, y);
           const Match& before = down ? field(y, x - 1) : field(x - 1, y);
@@ -94,15 +94,15 @@ TEST(SynthesisTile, PiecesLieAcrossLinesAsInside) {
 TEST(SynthesisTile, KeepsWhatSynthesisPromises) {
   std::vector<Exemplar> exemplars{painting(200, 180, 1, 3)};
   for (int x = 0; x < 40; ++x) exemplars[0].guides.label(x, 20) = unused_label;
-  GuideStack target = with_silhouettes(land(300, 260, 40, 3));
+  GuideStack target = with_silhouettes(land(220, 180, 40, 3));
   for (int x = 100; x < 180; ++x) target.label(x, 70) = unused_label;
   for (const int level : {1, 2, 3}) {
     SynthesisParameters parameters;
     parameters.copy_cap = 100;
-    SynthesisPlan plan = plan_of(exemplars, target, {300, 260, level, 128}, parameters);
+    SynthesisPlan plan = plan_of(exemplars, target, {220, 180, level, 128}, parameters);
     const MatchField field = all_tiles(plan, target);
-    for (int y = 0; y < 260; ++y) {
-      for (int x = 0; x < 300; ++x) {
+    for (int y = 0; y < 180; ++y) {
+      for (int x = 0; x < 220; ++x) {
         const Match m = field(x, y);
         ASSERT_EQ(m.exemplar == Match::none, target.label(x, y) == unused_label) << x << ", " << y;
         if (m.exemplar != Match::none) {

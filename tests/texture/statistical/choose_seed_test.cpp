@@ -36,25 +36,17 @@ TEST(StrokeDirection, IsTheWayPaintIsDrawn) {
   EXPECT_GT(find_stroke_direction(test::striped_crop(96, 96, 96), Grid<std::uint8_t>(96, 96, 0)).spread, .99F);  // nothing counts
 }
 
-TEST(ChooseSeed, TriesAllAndTakesTheNearest) {
-  const Grid<Rgb8> crop = test::meadow_crop(80, 80);
+// What is chosen for a crop, and what was tried.
+struct Choice {
+  CliqueModel model;
+  std::vector<SeedTrial> trials;
+};
+
+Choice choose_for(const Grid<Rgb8>& crop) {
   const LearnParameters quick{.types = 18, .levels = 1, .reach_px = 5, .coarse_reach = 3};
-  CliqueModel model = learn_texture(crop, {}, quick).model;
-  const std::vector<SeedTrial> trials = choose_seed(model, crop, {}, quick);
-  EXPECT_EQ(trials.size(), 6U);
-  const auto least = [&](bool streaks, auto&& measure) {
-    double out = 100.0;
-    for (const SeedTrial& t : trials)
-      if ((t.seed == TextureSeed::streaks) == streaks) out = std::min(out, measure(t));
-    return out;
-  };
-  const auto shape = [](const SeedTrial& t) { return t.beyond + t.drawn; };
-  EXPECT_GT(least(true, shape), streaks_margin * least(false, shape));
-  const auto score = [](const SeedTrial& t) { return (t.beyond + t.drawn + t.turned) / (t.polish ? 1.0 : unpolished_margin); };
-  EXPECT_EQ(score(trials.front()), least(false, score));
-  EXPECT_EQ(model.seed, trials.front().seed);
-  EXPECT_EQ(model.seed_px, trials.front().px);
-  EXPECT_EQ(model.polish, trials.front().polish);
+  Choice choice{learn_texture(crop, {}, quick).model, {}};
+  choice.trials = choose_seed(choice.model, crop, {}, quick);
+  return choice;
 }
 
 // Soft round dabs: values of a lattice, each spread over its neighbourhood, and a little grain.
@@ -81,25 +73,39 @@ Grid<Rgb8> dabbed_crop(int size) {
   return crop;
 }
 
+const Choice& choice_for_dabs() {
+  static const Choice choice = choose_for(dabbed_crop(96));
+  return choice;
+}
+
+TEST(ChooseSeed, TriesAllAndTakesTheNearest) {
+  const auto& [model, trials] = choice_for_dabs();
+  EXPECT_EQ(trials.size(), 6U);
+  const auto least = [&](bool streaks, auto&& measure) {
+    double out = 100.0;
+    for (const SeedTrial& t : trials)
+      if ((t.seed == TextureSeed::streaks) == streaks) out = std::min(out, measure(t));
+    return out;
+  };
+  const auto shape = [](const SeedTrial& t) { return t.beyond + t.drawn; };
+  EXPECT_GT(least(true, shape), streaks_margin * least(false, shape));
+  const auto score = [](const SeedTrial& t) { return (t.beyond + t.drawn + t.turned) / (t.polish ? 1.0 : unpolished_margin); };
+  EXPECT_EQ(score(trials.front()), least(false, score));
+  EXPECT_EQ(model.seed, trials.front().seed);
+  EXPECT_EQ(model.seed_px, trials.front().px);
+  EXPECT_EQ(model.polish, trials.front().polish);
+}
+
 // By what lies beyond pairs alone streaks would be taken: dabs without a direction are not combed.
 TEST(ChooseSeed, StreaksAreForWhatIsMuchDrawn) {
-  const LearnParameters quick{.types = 18, .levels = 1, .reach_px = 5, .coarse_reach = 3};
-  const Grid<Rgb8> crop = dabbed_crop(96);
-  CliqueModel model = learn_texture(crop, {}, quick).model;
-  const std::vector<SeedTrial> trials = choose_seed(model, crop, {}, quick);
+  const auto& [model, trials] = choice_for_dabs();
   EXPECT_NE(model.seed, TextureSeed::streaks);
   const auto nearest =
       std::min_element(trials.begin(), trials.end(), [](const SeedTrial& a, const SeedTrial& b) { return a.beyond < b.beyond; });
   EXPECT_EQ(nearest->seed, TextureSeed::streaks);
 }
 
-TEST(ChooseSeed, DrawnPaintBeginsWithStreaks) {
-  const LearnParameters quick{.types = 18, .levels = 1, .reach_px = 5, .coarse_reach = 3};
-  const Grid<Rgb8> crop = drawn_crop(96, 30.0, 3.0, .3);
-  CliqueModel model = learn_texture(crop, {}, quick).model;
-  choose_seed(model, crop, {}, quick);
-  EXPECT_EQ(model.seed, TextureSeed::streaks);
-}
+TEST(ChooseSeed, DrawnPaintBeginsWithStreaks) { EXPECT_EQ(choose_for(drawn_crop(96, 30.0, 3.0, .3)).model.seed, TextureSeed::streaks); }
 
 }  // namespace
 }  // namespace belvedere

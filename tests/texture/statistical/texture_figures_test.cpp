@@ -45,11 +45,11 @@ TEST(TextureFigures, PaintThatRunsOneWayIsToldFromDabs) {
 
 // What is made lies as near as two halves of the crop to each other, and far nearer than noise: also for what the model was not told.
 TEST(TextureFigures, WhatIsMadeIsAsNearAsTheCropsHalves) {
-  const Grid<Rgb8> crop = test::meadow_crop(160, 160);
+  const Grid<Rgb8> crop = test::meadow_crop(128, 128);
   const CliqueModel model = learn_texture(crop, {}, quick_learning).model;
-  const TextureFigures made = texture_figures(crop, {}, make_texture(model, 256, 256, {}), model, quick_learning);
+  const TextureFigures made = texture_figures(crop, {}, make_texture(model, 128, 128, {}), model, quick_learning);
   const TextureFigures halves = halves_figures(crop, model, quick_learning);
-  const TextureFigures other = texture_figures(crop, {}, test::striped_crop(160, 160, 8), model, quick_learning);
+  const TextureFigures other = texture_figures(crop, {}, test::striped_crop(128, 128, 8), model, quick_learning);
   EXPECT_LT(made.selected, halves.selected);
   EXPECT_LT(made.held_out, 1.2 * halves.held_out);
   EXPECT_LT(made.held_out, .25 * other.held_out);

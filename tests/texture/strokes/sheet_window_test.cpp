@@ -217,9 +217,18 @@ struct Sheet {
 // The long ones hold the longest moraine.
 constexpr Sheet sheets[] = {{0.7, 170, 1000}, {1.0, 170, 1000}, {3.0, 125, 460}};
 
+const Picture& picture_of(const Sheet& sheet) {
+  static const std::vector<Picture> pictures = [] {
+    std::vector<Picture> all;
+    for (const Sheet& each : sheets) all.push_back(make_sheet(each.width_units, each.height_units, each.pixels_per_unit));
+    return all;
+  }();
+  return pictures[static_cast<std::size_t>(&sheet - sheets)];
+}
+
 TEST(SheetWindow, EachKindPaintsInAWindowWhatItPaintsOnTheWhole) {
   for (const Sheet& sheet : sheets) {
-    const Picture p = make_sheet(sheet.width_units, sheet.height_units, sheet.pixels_per_unit);
+    const Picture& p = picture_of(sheet);
     for (const StrokeKind& kind : stroke_kinds()) {
       EXPECT_EQ(kind_differences(kind, p, 16, 1.0), 0) << kind.name << " at " << sheet.pixels_per_unit;
     }
@@ -229,7 +238,7 @@ TEST(SheetWindow, EachKindPaintsInAWindowWhatItPaintsOnTheWhole) {
 // Of all layers, and of those that are painted as a draft of what is to be copied.
 TEST(SheetWindow, LayersTogetherEqualTheWhole) {
   for (const Sheet& sheet : sheets) {
-    const Picture p = make_sheet(sheet.width_units, sheet.height_units, sheet.pixels_per_unit);
+    const Picture& p = picture_of(sheet);
     const IcePlan ice = plan_ice(p.guidance, p.parameters);
     const StrokeLayers draft{.sky = false, .breaks = false, .upright = false};
     for (const StrokeLayers& layers : {StrokeLayers{}, draft}) {
@@ -262,7 +271,7 @@ TEST(SheetWindow, NothingLooksFar) {
 
 // What is told of a margin is not much more than what is needed: with an eighth of it windows of every kind fail.
 TEST(SheetWindow, MarginsAreNeeded) {
-  const Picture p = make_sheet(170, 1000, 1.0);
+  const Picture& p = picture_of(sheets[1]);
   std::string idle;
   for (const StrokeKind& kind : stroke_kinds())
     if (kind_differences(kind, p, 64, 0.125) == 0) idle += std::string(kind.name) + ", ";

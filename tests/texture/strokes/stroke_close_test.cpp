@@ -54,10 +54,10 @@ TEST(CloseViews, NothingOfThemFromAfar) {
 // About .05 stones of more than a metre a square metre of scree, .05 / d² of more than d (fields of stones and bare places come on top):
 // the same however near they are and however fine the pixels.
 TEST(CloseViews, SoManyStonesASquareMetreAtAnyResolution) {
-  constexpr double metres = 300.0;
+  constexpr double metres = 150.0;
   std::vector<double> counts;
   for (const auto& [px, unit_m] :
-       {std::pair{600, 0.5}, std::pair{1200, 0.5}, std::pair{900, 0.5}, std::pair{900, 0.4}, std::pair{1500, 0.4}}) {
+       {std::pair{300, 0.5}, std::pair{600, 0.5}, std::pair{450, 0.5}, std::pair{450, 0.4}, std::pair{750, 0.4}}) {
     // Fields of stones differ from seed to seed.
     Picture ground = ground_of(scree, metres, px, unit_m);
     std::vector<double> sizes;
