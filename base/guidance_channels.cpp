@@ -1,6 +1,6 @@
 #include "base/guidance_channels.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <limits>

@@ -1,6 +1,6 @@
 #include "base/cache/cache_key.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace belvedere {
 

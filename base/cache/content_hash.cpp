@@ -1,6 +1,6 @@
 #include "base/cache/content_hash.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <xxhash.h>
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "base/text/json.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "renderer/compose/proposed_scene.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "renderer/exemplar/example_sheet.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "renderer/exemplar/example_sheet_plan.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

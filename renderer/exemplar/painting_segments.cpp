@@ -1,6 +1,6 @@
 #include "renderer/exemplar/painting_segments.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

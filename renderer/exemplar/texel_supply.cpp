@@ -1,6 +1,6 @@
 #include "renderer/exemplar/texel_supply.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

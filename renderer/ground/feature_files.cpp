@@ -1,6 +1,6 @@
 #include "renderer/ground/feature_files.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "renderer/ground/laid_rivers.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

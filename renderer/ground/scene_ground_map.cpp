@@ -1,6 +1,6 @@
 #include "renderer/ground/scene_ground_map.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

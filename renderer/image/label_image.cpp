@@ -1,6 +1,6 @@
 #include "renderer/image/label_image.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "renderer/image/picture_diff.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

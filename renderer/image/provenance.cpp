@@ -1,6 +1,6 @@
 #include "renderer/image/provenance.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <tbb/version.h>
 
 #include "base/instruction_set.h"

@@ -1,6 +1,6 @@
 #include "renderer/labels/drawing_svg.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <functional>

@@ -1,6 +1,6 @@
 #include "renderer/labels/label_files.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "renderer/labels/label_style.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cctype>

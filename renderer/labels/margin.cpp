@@ -1,6 +1,6 @@
 #include "renderer/labels/margin.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

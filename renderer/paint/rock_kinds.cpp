@@ -1,6 +1,6 @@
 #include "renderer/paint/rock_kinds.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <glm/common.hpp>
 #include <string>

@@ -1,6 +1,6 @@
 #include "renderer/pipeline/copy_plan.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "renderer/pipeline/named_picture.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

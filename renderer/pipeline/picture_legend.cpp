@@ -1,6 +1,6 @@
 #include "renderer/pipeline/picture_legend.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

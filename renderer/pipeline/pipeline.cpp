@@ -1,6 +1,6 @@
 #include "renderer/pipeline/pipeline.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 #include <span>

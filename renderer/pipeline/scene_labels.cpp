@@ -1,6 +1,6 @@
 #include "renderer/pipeline/scene_labels.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

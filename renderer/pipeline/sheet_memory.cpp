@@ -1,6 +1,6 @@
 #include "renderer/pipeline/sheet_memory.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "renderer/press/palette_press.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "renderer/image/icc/press_color.h"
 

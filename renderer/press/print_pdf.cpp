@@ -6,7 +6,7 @@
 #define JSON_HH
 class JSON;
 #include <fmt/chrono.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <sys/stat.h>
 
 #include <algorithm>

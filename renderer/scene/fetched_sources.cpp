@@ -1,6 +1,6 @@
 #include "renderer/scene/fetched_sources.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 

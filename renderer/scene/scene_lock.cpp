@@ -1,6 +1,6 @@
 #include "renderer/scene/scene_lock.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "renderer/trace/camera_reduced.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/error.h"
 

@@ -1,6 +1,6 @@
 #include "renderer/trace/guidance.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "renderer/trace/light_field.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "renderer/trace/sun.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "renderer/trace/terrain_model.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <utility>
 

@@ -1,7 +1,7 @@
 #include "renderer/trace/tracer.h"
 
 #include <embree3/rtcore.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 #include <xmmintrin.h>
 

@@ -1,6 +1,6 @@
 #include "renderer/world/fold_check.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <string>
 #include <vector>

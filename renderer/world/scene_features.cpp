@@ -1,6 +1,6 @@
 #include "renderer/world/scene_features.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <glm/common.hpp>

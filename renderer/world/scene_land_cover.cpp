@@ -1,6 +1,6 @@
 #include "renderer/world/scene_land_cover.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

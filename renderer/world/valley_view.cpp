@@ -1,6 +1,6 @@
 #include "renderer/world/valley_view.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 #include "renderer/world/view.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>

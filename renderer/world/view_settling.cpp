@@ -1,6 +1,6 @@
 #include "renderer/world/view_settling.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

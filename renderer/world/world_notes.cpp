@@ -1,6 +1,6 @@
 #include "renderer/world/world_notes.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <string>
 

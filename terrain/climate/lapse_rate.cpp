@@ -1,6 +1,6 @@
 #include "terrain/climate/lapse_rate.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "terrain/climate/zonal_climate.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

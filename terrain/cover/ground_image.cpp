@@ -1,6 +1,6 @@
 #include "terrain/cover/ground_image.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "terrain/cover/land_cover.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <bit>

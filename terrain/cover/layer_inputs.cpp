@@ -1,6 +1,6 @@
 #include "terrain/cover/layer_inputs.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "terrain/deform/bend_search.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

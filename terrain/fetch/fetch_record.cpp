@@ -1,6 +1,6 @@
 #include "terrain/fetch/fetch_record.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 #include <fstream>

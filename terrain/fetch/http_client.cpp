@@ -1,6 +1,6 @@
 #include "terrain/fetch/http_client.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>

@@ -1,6 +1,6 @@
 #include "terrain/fetch/remote_file.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "terrain/generalize/line_integral_generalize.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "terrain/generalize/widen_valleys.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

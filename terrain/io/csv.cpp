@@ -1,6 +1,6 @@
 #include "terrain/io/csv.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cctype>

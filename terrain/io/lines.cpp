@@ -1,6 +1,6 @@
 #include "terrain/io/lines.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #include "terrain/io/source_place.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "terrain/io/crs.h"
 #include "terrain/io/raster_io.h"

@@ -17,7 +17,7 @@
 //   servers: each way of reading from them        Http.*
 //   a damaged piece of a sheet                    WorkFolderTest.ADamagedPieceIsRemoved, SheetJob.PartsInAnyOrder…
 //   closed streams, other locales                 Program.ClosedStreamsDoNoHarm, Program.LocaleChangesNothing
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,6 +1,6 @@
 #include "texture/basic/basic_synthesis.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "texture/composite/label_map.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

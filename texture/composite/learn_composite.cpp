@@ -1,6 +1,6 @@
 #include "texture/composite/learn_composite.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "texture/quality/exemplar_survey.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

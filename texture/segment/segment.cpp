@@ -1,6 +1,6 @@
 #include "texture/segment/segment.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "texture/sheet/synthesis_plan.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "texture/sheet/synthesis_tile.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <bit>

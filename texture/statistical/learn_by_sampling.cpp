@@ -1,6 +1,6 @@
 #include "texture/statistical/learn_by_sampling.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstddef>

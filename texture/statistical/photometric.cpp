@@ -1,6 +1,6 @@
 #include "texture/statistical/photometric.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "texture/synthesis/guide_stack.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/error.h"
 

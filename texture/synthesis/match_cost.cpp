@@ -1,6 +1,6 @@
 #include "texture/synthesis/match_cost.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 #include "texture/synthesis/synth_setup.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "renderer/trace/guidance.h"
 #include "tools/bench/bench.h"

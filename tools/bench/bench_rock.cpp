@@ -1,4 +1,4 @@
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "renderer/paint/picture_filter.h"
 #include "renderer/paint/ribs.h"

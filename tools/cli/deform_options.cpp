@@ -1,6 +1,6 @@
 #include "tools/cli/deform_options.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "tools/cli/synthesis_files.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

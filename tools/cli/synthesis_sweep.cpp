@@ -1,6 +1,6 @@
 #include "tools/cli/synthesis_sweep.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,6 @@
 #include "tools/cli/terrain_operators.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "terrain/generalize/destripe.h"
 #include "terrain/generalize/line_integral_generalize.h"

@@ -1,6 +1,6 @@
 #include "tools/report/equalizer_page.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,6 @@
 #include "tools/report/exemplar_verdict.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

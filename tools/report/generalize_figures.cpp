@@ -1,6 +1,6 @@
 #include "tools/report/generalize_figures.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "tools/report/generalize_report_page.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

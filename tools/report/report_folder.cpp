@@ -1,6 +1,6 @@
 #include "tools/report/report_folder.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "tools/report/segment_page.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <filesystem>

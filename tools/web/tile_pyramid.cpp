@@ -1,6 +1,6 @@
 #include "tools/web/tile_pyramid.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <filesystem>

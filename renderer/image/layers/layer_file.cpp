@@ -1,6 +1,6 @@
 #include "renderer/image/layers/layer_file.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/error.h"
 #include "renderer/image/exr/layered_exr.h"

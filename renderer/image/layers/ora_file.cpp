@@ -1,6 +1,6 @@
 #include "renderer/image/layers/ora_file.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdint>

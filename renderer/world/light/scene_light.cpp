@@ -1,6 +1,6 @@
 #include "renderer/world/light/scene_light.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <utility>
 

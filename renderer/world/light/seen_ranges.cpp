@@ -1,6 +1,6 @@
 #include "renderer/world/light/seen_ranges.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "terrain/io/byte_raster_rows.h"
 
 #include <cpl_string.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "terrain/io/contours.h"
 
 #include <cpl_string.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gdal_alg.h>
 #include <ogr_api.h>
 #include <ogr_spatialref.h>

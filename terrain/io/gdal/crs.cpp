@@ -1,6 +1,6 @@
 #include "terrain/io/crs.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>

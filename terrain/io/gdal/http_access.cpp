@@ -2,7 +2,7 @@
 
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <memory>

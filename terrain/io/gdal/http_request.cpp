@@ -2,7 +2,7 @@
 
 #include <cpl_http.h>
 #include <cpl_string.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,6 @@
 #include "terrain/io/number_arrays.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gdal.h>
 
 #include <filesystem>

@@ -3,7 +3,7 @@
 #include <cpl_conv.h>
 #include <cpl_minixml.h>
 #include <cpl_string.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <cpl_string.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "terrain/io/stream_file.h"
 
 #include <cpl_vsi.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <atomic>

@@ -1,7 +1,7 @@
 #include "terrain/io/gdal/vector_layers.h"
 
 #include <cpl_conv.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
 

@@ -1,6 +1,6 @@
 #include "terrain/layers/fit/clusters.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "terrain/layers/fit/colour_regions.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "terrain/layers/fit/ground_fit.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

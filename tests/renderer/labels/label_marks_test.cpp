@@ -1,6 +1,6 @@
 #include "renderer/labels/label_marks.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

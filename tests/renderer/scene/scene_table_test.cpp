@@ -1,7 +1,7 @@
 #include "renderer/scene/scene_table.h"
 #include "renderer/paint/base_picture.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "renderer/trace/sun.h"
 
 #include <erfa.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

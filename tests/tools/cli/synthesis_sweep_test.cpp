@@ -1,5 +1,5 @@
 // synthesize --sweep, as users meet it.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

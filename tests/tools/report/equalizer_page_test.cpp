@@ -1,5 +1,5 @@
 // The page with sliders: what it holds, and, where there is a browser, that it computes what the program does.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

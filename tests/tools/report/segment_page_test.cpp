@@ -1,5 +1,5 @@
 // The page on which groups are merged, split and named: what it holds, and, where there is a browser, what clicks and keys do.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The page of a panorama: what it holds, and what hands, keys, GPX files and links do in a browser that opens it from the disk.
 #include "tools/web/web_page.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

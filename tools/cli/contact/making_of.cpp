@@ -1,6 +1,6 @@
 #include "tools/cli/contact/making_of.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <utility>

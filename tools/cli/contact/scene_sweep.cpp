@@ -1,6 +1,6 @@
 #include "tools/cli/contact/scene_sweep.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

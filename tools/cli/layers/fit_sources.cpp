@@ -1,6 +1,6 @@
 #include "tools/cli/layers/fit_sources.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

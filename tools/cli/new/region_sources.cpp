@@ -1,6 +1,6 @@
 #include "tools/cli/new/region_sources.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 

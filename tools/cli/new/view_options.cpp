@@ -1,6 +1,6 @@
 #include "tools/cli/new/view_options.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <charconv>

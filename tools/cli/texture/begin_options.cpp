@@ -1,7 +1,7 @@
 #include "tools/cli/texture/begin_options.h"
 #include "tools/options/options.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace belvedere::tools {
 

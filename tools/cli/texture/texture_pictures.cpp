@@ -1,6 +1,6 @@
 #include "tools/cli/texture/texture_pictures.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // `belvedere fetch` as users meet it, against a server of the test's own.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
