@@ -43,12 +43,12 @@ TEST(SynthesisTile, SameBitsInAnyOrderForAnyThreads) {
 
 TEST(SynthesisTile, SameBitsForPatchesOfAnySizeAndAllSurroundings) {
   const std::vector<Exemplar> exemplars{painting(150, 120, 1, 2)};
-  const GuideStack target = with_silhouettes(land(301, 161, 40, 2));
+  const GuideStack target = with_silhouettes(land(201, 151, 40, 2));
   for (const int side : {3, 11}) {
     SynthesisParameters parameters;
     parameters.neighbourhood = side;
     parameters.surroundings_of = "all";
-    const SynthesisSheet sheet{301, 161, 1, 128};
+    const SynthesisSheet sheet{201, 151, 1, 128};
     MatchField reference;
     {
       const ThreadLimit one(1);
