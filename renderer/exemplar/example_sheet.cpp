@@ -12,6 +12,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/cache/cache.h"
 #include "base/error.h"
 #include "base/grid_part.h"
 #include "base/guidance_channels.h"

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "base/cache/cache.h"
 #include "base/filter.h"
 #include "base/math.h"
 #include "base/pixel_rect.h"

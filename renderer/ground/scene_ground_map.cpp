@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "base/cache/cache.h"
 #include "base/cache/content_hash.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"

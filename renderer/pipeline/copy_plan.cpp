@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "base/cache/cache.h"
 #include "base/error.h"
 #include "base/math.h"
 #include "base/random_streams.h"

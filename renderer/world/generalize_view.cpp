@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "base/cache/cache.h"
 #include "base/filter.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/cache/cache.h"
 #include "base/filter.h"
 #include "base/math_exact.h"
 #include "base/memory_limit.h"

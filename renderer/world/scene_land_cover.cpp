@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/cache/cache.h"
 #include "base/pixel_rect.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/ground/refined_cover.h"

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/cache/cache.h"
 #include "base/instruction_set.h"
 #include "renderer/ground/cached_products.h"
 #include "renderer/paint/sky.h"

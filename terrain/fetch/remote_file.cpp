@@ -6,6 +6,7 @@
 #include <cstring>
 #include <span>
 
+#include "base/cache/cache.h"
 #include "base/error.h"
 
 namespace belvedere {

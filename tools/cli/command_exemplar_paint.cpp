@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/cache/cache.h"
 #include "base/error.h"
 #include "base/text/json.h"
 #include "renderer/exemplar/exemplar_files.h"

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/cache/cache.h"
 #include "base/text/json.h"
 #include "renderer/image/layers/layer_file.h"
 #include "renderer/pipeline/named_picture.h"

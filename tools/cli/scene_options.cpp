@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "base/cache/cache.h"
 #include "base/error.h"
 #include "base/text/embedded.h"
 #include "renderer/image/layers/layer_file.h"

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "base/cache/cache.h"
+
 namespace belvedere {
 namespace {
 

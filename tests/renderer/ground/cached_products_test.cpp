@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "base/cache/cache.h"
 #include "renderer/image/provenance.h"
 #include "renderer/world/generalize_view.h"
 #include "renderer/world/world.h"

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/cache/cache.h"
 #include "tests/files.h"
 
 namespace belvedere {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/cache/cache.h"
 #include "base/error.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"

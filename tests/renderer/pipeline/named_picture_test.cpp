@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "base/cache/cache.h"
 #include "base/grid_part.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/picture_legend.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/cache/cache.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
 

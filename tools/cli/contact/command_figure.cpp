@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/cache/cache.h"
 #include "base/land_cover_class.h"
 #include "base/text/json.h"
 #include "renderer/exemplar/exemplars.h"

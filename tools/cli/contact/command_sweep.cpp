@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/cache/cache.h"
 #include "base/error.h"
 #include "base/text/json.h"
 #include "renderer/image/image_io.h"

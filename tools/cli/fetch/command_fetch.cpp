@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/cache/cache.h"
 #include "base/text/json.h"
 #include "terrain/io/crs.h"
 #include "tools/cli/commands.h"

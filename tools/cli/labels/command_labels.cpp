@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/cache/cache.h"
 #include "base/error.h"
 #include "base/text/json.h"
 #include "renderer/labels/labels.h"

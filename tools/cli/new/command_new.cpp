@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/angle.h"
+#include "base/cache/cache.h"
 #include "base/error.h"
 #include "base/text/json.h"
 #include "renderer/compose/proposals.h"

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/cache/cache.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/scene/draft.h"

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/cache/cache.h"
 #include "base/error.h"
 #include "renderer/image/output_file.h"
 #include "renderer/pipeline/pipeline.h"
