@@ -11,11 +11,13 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "base/cache/cache.h"
 #include "base/error.h"
 #include "base/grid_part.h"
 #include "base/guidance_channels.h"
+#include "base/parallel.h"
 #include "base/random_streams.h"
 #include "renderer/exemplar/seam_picture.h"
 #include "renderer/exemplar/texel_supply.h"
@@ -26,6 +28,7 @@
 #include "renderer/world/lit_picture.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
+#include "terrain/shape/catchments.h"
 
 namespace belvedere {
 namespace {
@@ -100,30 +103,62 @@ void insert_panel(ExamplePainting& row, ExamplePainting panel, int x0, int y0, i
 struct ExampleSheetPainter::State {
   ExampleSheetPlan plan;
   ExampleSheetHand hand;
-  std::map<std::string, std::shared_ptr<const Dem>> dems;
+  struct Terrain {
+    std::shared_ptr<const Dem> dem;
+    std::unique_ptr<Catchments> catchments;  // found once for all panels
+  };
+  std::map<std::string, Terrain> terrains;
   std::map<std::string, std::shared_ptr<const LandCover>> covers;
   std::uint32_t strokes = 0;  // laid so far on the example sheet
   std::string instruction_set;
+
+  static std::string name_of_terrain(const LoadedScene& loaded) {
+    const SyntheticParameters& synthetic = loaded.scene.terrain.synthetic.value();
+    return fmt::format("{} {} {} {} {} {}", synthetic.width, synthetic.height, synthetic.cell_m, synthetic.lowest_m, synthetic.highest_m,
+                       synthetic.seed);
+  }
+
+  // Water walks about a terrain on one thread, so all terrains are made beside each other.
+  void make_terrains(const Run& run) {
+    std::map<std::string, LoadedScene> scenes;
+    for (int panel = 0; panel < static_cast<int>(plan.panels.size()); ++panel) {
+      LoadedScene loaded = panel_scene(plan, panel, hand.palette.winter);
+      std::string name = name_of_terrain(loaded);
+      scenes.emplace(std::move(name), std::move(loaded));
+    }
+    std::map<std::string, Terrain> made;
+    std::vector<std::pair<const LoadedScene*, Terrain*>> work;
+    for (const auto& [name, loaded] : scenes) work.emplace_back(&loaded, &made[name]);
+    parallel_ranges(work.size(), std::size_t{1}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i != end; ++i) {
+        const auto& [loaded, terrain] = work[i];
+        terrain->dem = std::make_shared<const Dem>(make_scene_dem(*loaded, run.progress, run.cache));
+        terrain->catchments = std::make_unique<Catchments>(*terrain->dem);
+        terrain->catchments->km2();
+      }
+    });
+    terrains = std::move(made);
+  }
 
   ExamplePainting paint_panel(int panel, const ExampleLayers& layers, const Run& run) {
     Progress& progress = run.progress;
     LoadedScene loaded = panel_scene(plan, panel, hand.palette.winter);
     if (hand.light) loaded.scene.light = *hand.light;
-    const SyntheticParameters& synthetic = loaded.scene.terrain.synthetic.value();
-    const std::string terrain = fmt::format("{} {} {} {} {} {}", synthetic.width, synthetic.height, synthetic.cell_m, synthetic.lowest_m,
-                                            synthetic.highest_m, synthetic.seed);
-    auto dem = dems.find(terrain);
-    if (dem == dems.end()) dem = dems.emplace(terrain, std::make_shared<const Dem>(make_scene_dem(loaded, progress, run.cache))).first;
-    std::string rules = terrain + " " + loaded.scene.land_cover.rules;
+    if (terrains.empty()) make_terrains(run);
+    const std::string name = name_of_terrain(loaded);
+    const auto& [dem, catchments] = terrains.at(name);
+    std::string rules = name + " " + loaded.scene.land_cover.rules;
     for (const auto& [key, value] : loaded.scene.land_cover.settings) rules += fmt::format(" {}={}", key, value);
     auto cover = covers.find(rules);
     if (cover == covers.end())
       cover =
-          covers.emplace(rules, std::make_shared<const LandCover>(make_scene_land_cover(loaded, *dem->second, progress, run.cache))).first;
+          covers
+              .emplace(rules, std::make_shared<const LandCover>(make_scene_land_cover(loaded, *dem, progress, run.cache, catchments.get())))
+              .first;
 
     // No two panels have strokes at the same places. Files hold no more than 53 bits of a seed.
     loaded.scene.seed = stream_seed(plan.seed, Stream::sheet_panels, static_cast<std::uint64_t>(panel)) >> 11;
-    const World world(loaded, dem->second, cover->second, progress);
+    const World world(loaded, dem, cover->second, progress, no_cache(), std::make_unique<Catchments>(*dem, catchments->km2()));
     instruction_set = world.tracer.description();
     const PixelRect whole{0, 0, loaded.scene.output.width, loaded.scene.output.height};
     ExamplePainting painted = paint_example(world, hand.palette, make_lit_picture(world, hand.palette, whole, run), layers, progress);

@@ -106,8 +106,8 @@ World::World(const LoadedScene& loaded, Progress& progress, const Cache& cache)
     : World(loaded, nullptr, nullptr, {}, nullptr, progress, cache) {}
 
 World::World(const LoadedScene& loaded, std::shared_ptr<const Dem> known_dem, std::shared_ptr<const LandCover> known_cover,
-             Progress& progress, const Cache& cache)
-    : World(loaded, std::move(known_dem), std::move(known_cover), {}, nullptr, progress, cache) {}
+             Progress& progress, const Cache& cache, std::unique_ptr<Catchments> catchments)
+    : World(loaded, std::move(known_dem), std::move(known_cover), {}, std::move(catchments), progress, cache) {}
 
 World::World(const LoadedScene& loaded, std::shared_ptr<const Dem> known_dem, std::shared_ptr<const LandCover> known_cover, SceneDem opened,
              std::unique_ptr<Catchments> catchments, Progress& progress, const Cache& cache)

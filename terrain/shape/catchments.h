@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "base/grid.h"
 #include "terrain/io/dem.h"
 
@@ -10,6 +12,8 @@ namespace belvedere {
 class Catchments {
  public:
   explicit Catchments(const Dem& dem) : dem_(dem) {}
+  // Found before: km2().
+  Catchments(const Dem& dem, Grid<float> km2) : dem_(dem), km2_(std::move(km2)) {}
   Catchments(const Catchments&) = delete;
   Catchments& operator=(const Catchments&) = delete;
 

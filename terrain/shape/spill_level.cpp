@@ -37,8 +37,8 @@ std::int32_t lowest_around(const Grid<float>& altitude_m, int x, int y) {
 }
 
 // Where each cell runs down to: its lowest neighbour; bottoms of basins and outlets stay where they are.
-std::vector<std::int32_t> find_descents(const Grid<float>& altitude_m, std::span<const std::int32_t> outlets) {
-  std::vector<std::int32_t> descent(altitude_m.size());
+void find_descents(const Grid<float>& altitude_m, std::span<const std::int32_t> outlets, std::vector<std::int32_t>& descent) {
+  descent.resize(altitude_m.size());
   const int width = altitude_m.width();
   parallel_rows(altitude_m.height(), [&](int y) {
     std::int32_t* const out = &descent[altitude_m.index(0, y)];
@@ -76,7 +76,6 @@ std::vector<std::int32_t> find_descents(const Grid<float>& altitude_m, std::span
     }
   });
   for (const std::int32_t i : outlets) descent[at(i)] = i;
-  return descent;
 }
 
 // Basin 0 is all that runs to an outlet, the others end in pits.
@@ -183,13 +182,24 @@ std::vector<float> find_spill_levels(std::vector<Pass> passes, int basins) {
 
 }  // namespace
 
-void fill_to_spill_level(Grid<float>& altitude_m, std::span<const std::int32_t> outlets) {
-  const Basins basins = find_basins(find_descents(altitude_m, outlets), outlets);
-  if (basins.count == 1) return;
+void fill_to_spill_level(Grid<float>& altitude_m, std::span<const std::int32_t> outlets, std::vector<std::int32_t>& memory) {
+  find_descents(altitude_m, outlets, memory);
+  Basins basins = find_basins(std::move(memory), outlets);
+  memory = {};
+  if (basins.count == 1) {
+    memory = std::move(basins.of_cell);
+    return;
+  }
   const std::vector<float> level_m = find_spill_levels(find_passes(altitude_m, basins), basins.count);
   parallel_ranges(altitude_m.size(), std::size_t{1} << 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) altitude_m[i] = std::max(altitude_m[i], level_m[at(basins.of_cell[i])]);
   });
+  memory = std::move(basins.of_cell);
+}
+
+void fill_to_spill_level(Grid<float>& altitude_m, std::span<const std::int32_t> outlets) {
+  std::vector<std::int32_t> memory;
+  fill_to_spill_level(altitude_m, outlets, memory);
 }
 
 }  // namespace belvedere

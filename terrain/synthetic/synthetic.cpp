@@ -299,6 +299,8 @@ Dem make_synthetic_terrain(const SyntheticParameters& parameters, Progress& prog
   double total = 0.0;
   for (int l = refinements; l >= 0; --l) total += steps_at(l) * exact::pow(4.0, -l);
   progress.begin("synthetic terrain", total);
+  Drainage drainage;
+  Grid<ErosionCell> cells;
   for (int l = refinements; l >= 0; --l) {
     if (l < refinements) {
       level.altitude_m = refine(level.altitude_m);
@@ -322,7 +324,7 @@ Dem make_synthetic_terrain(const SyntheticParameters& parameters, Progress& prog
     const int ice_step = l == std::min(1, refinements) ? steps_at(l) - 3 : -1;
     if (ice_is_gone) erosion.step = 0.12F;
     for (int step = 0; step < steps_at(l); ++step) {
-      Drainage drainage = find_drainage(level.altitude_m, level.outlets, plan.seed() + static_cast<std::uint64_t>(l));
+      drainage = find_drainage(level.altitude_m, level.outlets, plan.seed() + static_cast<std::uint64_t>(l), std::move(drainage));
       const Grid<float> catchment = catchments_km2(drainage, level.inflow_km2, level.cell_m);
       if (step == ice_step) {
         const Grid<float> floor = carve_valleys(level.altitude_m, drainage, catchment, valleys);
@@ -330,7 +332,7 @@ Dem make_synthetic_terrain(const SyntheticParameters& parameters, Progress& prog
         erosion.step = 0.12F;
         continue;
       }
-      erode(level.altitude_m, drainage, catchment, level.uplift_m, level.softness, erosion);
+      erode(level.altitude_m, drainage, catchment, level.uplift_m, level.softness, erosion, cells);
       creep(level.altitude_m, 0.06F);
       progress.advance(exact::pow(4.0, -l));
     }
@@ -342,14 +344,15 @@ Dem make_synthetic_terrain(const SyntheticParameters& parameters, Progress& prog
   }
 
   // Gravel levels the floors, and moraines hold lakes.
-  Drainage drainage = find_drainage(level.altitude_m, level.outlets, plan.seed());
+  cells = {};
+  drainage = find_drainage(level.altitude_m, level.outlets, plan.seed(), std::move(drainage));
   const Grid<float> catchment = catchments_km2(drainage, level.inflow_km2, level.cell_m);
   valleys.flank = 0.7F;
   valleys.smallest_km2 = 2.F;
   const Grid<float> floor = carve_valleys(level.altitude_m, drainage, catchment, valleys);
   soften_feet(level.altitude_m, floor, 110.0 * unit_m / level.cell_m);
   add_ribs(level, plan, relief);
-  drainage = find_drainage(level.altitude_m, level.outlets, plan.seed());
+  drainage = find_drainage(level.altitude_m, level.outlets, plan.seed(), std::move(drainage));
   dam_valleys(level.altitude_m, drainage, catchments_km2(drainage, level.inflow_km2, level.cell_m), valleys);
 
   // The margin goes.

@@ -38,32 +38,33 @@ void for_neighbours(const Grid<float>& grid, int x, int y, F&& f) {
 }
 
 // Cells by altitude, of equal ones by index: a radix sort by three parts of the key.
-std::vector<std::int32_t> sort_cells(const Grid<float>& altitude_m) {
+void sort_cells(const Grid<float>& altitude_m, Drainage& drainage) {
   constexpr int digits = 3;
   constexpr int bits = 11;
   constexpr std::size_t values = std::size_t{1} << bits;
   const auto digit_of = [](std::uint64_t key, int digit) { return static_cast<std::size_t>(key >> (32 + bits * digit)) & (values - 1); };
   std::array<std::array<std::uint32_t, values>, digits> places{};
-  std::vector<std::uint64_t> keys(altitude_m.size());
+  auto& [receiver, order, keys, sorted] = drainage;
+  keys.resize(altitude_m.size());
   for (std::size_t i = 0; i < keys.size(); ++i) {
     keys[i] = rising_key(altitude_m[i], static_cast<std::uint32_t>(i));
     for (int digit = 0; digit < digits; ++digit) ++places[static_cast<std::size_t>(digit)][digit_of(keys[i], digit)];
   }
-  std::vector<std::uint64_t> sorted(keys.size());
+  sorted.resize(keys.size());
   for (int digit = 0; digit < digits; ++digit) {
     auto& place = places[static_cast<std::size_t>(digit)];
     std::exclusive_scan(place.begin(), place.end(), place.begin(), 0U);
     for (const std::uint64_t key : keys) sorted[place[digit_of(key, digit)]++] = key;
     keys.swap(sorted);
   }
-  std::vector<std::int32_t> order(keys.size());
+  order.resize(keys.size());
   for (std::size_t i = 0; i < keys.size(); ++i) order[i] = static_cast<std::int32_t>(keys[i] & 0xffffffffU);
-  return order;
 }
 
 // Receivers by steepest descent on filled ground; is_flat where nothing is lower.
-std::vector<std::int32_t> find_receivers(const Grid<float>& filled_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed) {
-  std::vector<std::int32_t> receivers(filled_m.size());
+void find_receivers(const Grid<float>& filled_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed,
+                    std::vector<std::int32_t>& receivers) {
+  receivers.resize(filled_m.size());
   const int width = filled_m.width();
   parallel_ranges(filled_m.height(), 8, [&](int begin, int end) {
     std::vector<float> diagonal(static_cast<std::size_t>(width));  // how much of a diagonal drop counts
@@ -113,7 +114,6 @@ std::vector<std::int32_t> find_receivers(const Grid<float>& filled_m, const std:
     }
   });
   for (const std::int32_t i : outlets) receivers[at(i)] = is_outlet;
-  return receivers;
 }
 
 // Cells first … last of the order are as high as each other. The water reaches them from lower cells and outlets, and from there goes on
@@ -141,9 +141,18 @@ void order_flat(std::vector<std::int32_t>& order, std::size_t first, std::size_t
 
 }  // namespace
 
-Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed) {
-  fill_to_spill_level(altitude_m, outlets);
-  Drainage drainage{find_receivers(altitude_m, outlets, seed), sort_cells(altitude_m)};
+Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed, Drainage memory) {
+  Drainage drainage = std::move(memory);
+  fill_to_spill_level(altitude_m, outlets, drainage.receiver);
+  // Neither asks for what the other finds.
+  parallel_ranges(2, 1, [&](int begin, int end) {
+    for (int part = begin; part != end; ++part) {
+      if (part == 0)
+        sort_cells(altitude_m, drainage);
+      else
+        find_receivers(altitude_m, outlets, seed, drainage.receiver);
+    }
+  });
   std::vector<std::int32_t>& order = drainage.order;
   for (std::size_t first = 0; first < order.size();) {
     bool flat = false;

@@ -10,15 +10,17 @@ namespace belvedere::synthetic {
 
 // Where the water goes. Only outlets have no receiver.
 struct Drainage {
-  std::vector<std::int32_t> receiver;  // index of the cell that takes a cell's water, -1 for outlets
-  std::vector<std::int32_t> order;     // all cells, receivers before their donors
+  std::vector<std::int32_t> receiver;       // index of the cell that takes a cell's water, -1 for outlets
+  std::vector<std::int32_t> order;          // all cells, receivers before their donors
+  std::vector<std::uint64_t> keys, sorted;  // what ordering needs meanwhile
 };
 
 // Receivers by steepest descent on the surface filled from the outlets, in the order in which a priority flood (Barnes, Lehman & Mulla
 // 2014) reaches the cells: lowest first, of equal ones that with the lowest index among those that the water stands beside.
 // Diagonal drops are weighed by chance (Fairfield & Leymarie 1991, rho8), fixed for each cell, so that
 // valleys do not prefer the eight directions of the grid. Pits in altitude_m are filled up to their spill level.
-Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed);
+// `memory`: of a step before, whose values do not matter; new memory would have to be cleared each time.
+Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed, Drainage memory = {});
 
 // Catchment of each cell, km²; `inflow_km2` (empty or of the grid's size) is what comes from outside.
 Grid<float> catchments_km2(const Drainage& drainage, const Grid<float>& inflow_km2, double cell_m);

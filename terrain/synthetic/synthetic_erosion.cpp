@@ -38,20 +38,13 @@ double upwind_rise(double c, double d, double a, double limit) {
 }  // namespace
 
 void erode(Grid<float>& altitude_m, const Drainage& drainage, const Grid<float>& catchment_km2, const Grid<float>& uplift_m,
-           const Grid<float>& softness, const ErosionParameters& parameters) {
+           const Grid<float>& softness, const ErosionParameters& parameters, Grid<ErosionCell>& memory) {
   const int width = altitude_m.width();
   const auto reach = static_cast<float>(240.0 * parameters.unit_m / parameters.cell_m);
   const auto area_unit = static_cast<float>(parameters.unit_m * parameters.unit_m);
-  // What the walk in the water's order asks of a cell lies together, as in find_drainage.
-  struct Cell {
-    float altitude_m;  // new; infinity where it is not known so far
-    float risen_m;
-    float incision;
-    float limit_m;  // steepest rise, metres a cell
-    std::int32_t receiver;
-  };
   constexpr float unknown = std::numeric_limits<float>::infinity();
-  Grid<Cell> cells(width, altitude_m.height());
+  if (!memory.same_size(altitude_m)) memory = Grid<ErosionCell>(width, altitude_m.height());
+  Grid<ErosionCell>& cells = memory;
   parallel_rows(altitude_m.height(), [&](int y) {
     std::vector<float> water(static_cast<std::size_t>(width));
     for (int x = 0; x < width; ++x) water[at(x)] = catchment_km2(x, y) / area_unit + parameters.hillslope_km2;
@@ -78,7 +71,7 @@ void erode(Grid<float>& altitude_m, const Drainage& drainage, const Grid<float>&
     }
     const std::int32_t index = drainage.order[k];
     const std::size_t i = at(index);
-    Cell& cell = cells[i];
+    ErosionCell& cell = cells[i];
     if (cell.receiver < 0) {
       cell.altitude_m = altitude_m[i];
       continue;

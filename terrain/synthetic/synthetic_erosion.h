@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "base/grid.h"
 #include "terrain/synthetic/synthetic_drainage.h"
 
@@ -14,10 +16,20 @@ struct ErosionParameters {
   float steepest = 1.2F;       // greatest slope along the water's way, tan
 };
 
+// What the walk in the water's order asks of a cell lies together.
+struct ErosionCell {
+  float altitude_m;  // new; infinity where it is not known so far
+  float risen_m;
+  float incision;
+  float limit_m;  // steepest rise, metres a cell
+  std::int32_t receiver;
+};
+
 // One time step of uplift and stream-power incision, dz/dt = U - K A^0.6 S, implicit in the slope (Braun & Willett 2013), and a
 // limit of slope. At a catchment of 1 km² a wave of incision travels 240 m a step where softness is 1.
+// `memory`: its values do not matter; that of a step before need not be cleared again.
 void erode(Grid<float>& altitude_m, const Drainage& drainage, const Grid<float>& catchment_km2, const Grid<float>& uplift_m,
-           const Grid<float>& softness, const ErosionParameters& parameters);
+           const Grid<float>& softness, const ErosionParameters& parameters, Grid<ErosionCell>& memory);
 
 // Hillslopes creep: z += rate · mean difference to the eight neighbours, isotropic; outlets and the rim stay.
 void creep(Grid<float>& altitude_m, float rate);

@@ -215,7 +215,8 @@ TEST(Erosion, SlopesDoNotPreferTheGridsDirections) {
   const Grid<float> no_inflow(size, size, 0.F);
   for (int step = 0; step < 60; ++step) {
     const synthetic::Drainage drainage = synthetic::find_drainage(z, {middle}, 1);
-    synthetic::erode(z, drainage, synthetic::catchments_km2(drainage, no_inflow, 30.0), uplift, softness, p);
+    Grid<synthetic::ErosionCell> cells;
+    synthetic::erode(z, drainage, synthetic::catchments_km2(drainage, no_inflow, 30.0), uplift, softness, p, cells);
   }
   const auto height_at = [&](int dx, int dy) { return z(size / 2 + dx, size / 2 + dy); };
   const float straight = height_at(40, 0) / 40.F;
