@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <map>
 #include <memory>
 #include <string>
@@ -129,14 +130,24 @@ struct ExampleSheetPainter::State {
     std::map<std::string, Terrain> made;
     std::vector<std::pair<const LoadedScene*, Terrain*>> work;
     for (const auto& [name, loaded] : scenes) work.emplace_back(&loaded, &made[name]);
+    // What one throws waits until all are done: leaving the loop would cut short the loops of the others, which would go on with half of
+    // their values. So a wish to stop is heard behind them.
+    std::vector<std::exception_ptr> faults(work.size());
     parallel_ranges(work.size(), std::size_t{1}, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i != end; ++i) {
         const auto& [loaded, terrain] = work[i];
-        terrain->dem = std::make_shared<const Dem>(make_scene_dem(*loaded, run.progress, run.cache));
-        terrain->catchments = std::make_unique<Catchments>(*terrain->dem);
-        terrain->catchments->km2();
+        try {
+          terrain->dem = std::make_shared<const Dem>(make_scene_dem(*loaded, silent_progress(), run.cache));
+          terrain->catchments = std::make_unique<Catchments>(*terrain->dem);
+          terrain->catchments->km2();
+        } catch (...) {
+          faults[i] = std::current_exception();
+        }
       }
     });
+    for (const std::exception_ptr& fault : faults)
+      if (fault) std::rethrow_exception(fault);
+    run.progress.advance(0.0);
     terrains = std::move(made);
   }
 
