@@ -50,7 +50,7 @@ class Program : public ::testing::Test {
     argv.push_back(nullptr);
     const pid_t child = fork();
     if (child == 0) {
-      signal(SIGINT, SIG_DFL);  // shells let what runs in the background ignore it, and tests interrupt the program
+      signal(SIGINT, SIG_DFL);           // shells let what runs in the background ignore it, and tests interrupt the program
       setenv("BELVEDERE_CACHE", "", 1);  // of whoever runs the tests, nothing counts; `prepare` may name a folder
       dup2(open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
       dup2(open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
