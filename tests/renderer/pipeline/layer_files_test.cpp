@@ -1,6 +1,6 @@
 // What layers of a whole picture say of what lies over its strokes: roads, lifts, names. Unpacked by Python.
-#include "base/cache/cache.h"
 #include "renderer/pipeline/layer_files.h"
+#include "base/cache/cache.h"
 
 #include <gtest/gtest.h>
 

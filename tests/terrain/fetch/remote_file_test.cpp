@@ -1,6 +1,6 @@
 // Servers as they are: busy, slow, cut off, changed, gone. What is read is right all the same, and nothing is asked for twice.
-#include "base/cache/cache.h"
 #include "terrain/fetch/remote_file.h"
+#include "base/cache/cache.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
