@@ -52,8 +52,12 @@ void run_ranges(std::size_t count, std::size_t grain, FunctionRef<void(std::size
 void isolated(FunctionRef<void()> f) { f(); }
 #else
 void run_ranges(std::size_t count, std::size_t grain, FunctionRef<void(std::size_t begin, std::size_t end)> f) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                    [&](const tbb::blocked_range<std::size_t>& range) { f(range.begin(), range.end()); });
+  // A context of its own: an exception cancels the loop it leaves. Loops inside other tasks of that loop would be cancelled with it,
+  // without an exception of their own, and their callers would go on with half of the values.
+  tbb::task_group_context context(tbb::task_group_context::isolated);
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, count, grain),
+      [&](const tbb::blocked_range<std::size_t>& range) { f(range.begin(), range.end()); }, context);
 }
 
 void isolated(FunctionRef<void()> f) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <map>
 #include <memory>
 #include <string>
@@ -119,7 +118,7 @@ struct ExampleSheetPainter::State {
                        synthetic.seed);
   }
 
-  // Water walks about a terrain on one thread, so all terrains are made beside each other.
+  // The drainage of a terrain is found on one thread, so the terrains are made in parallel.
   void make_terrains(const Run& run) {
     std::map<std::string, LoadedScene> scenes;
     for (int panel = 0; panel < static_cast<int>(plan.panels.size()); ++panel) {
@@ -130,23 +129,15 @@ struct ExampleSheetPainter::State {
     std::map<std::string, Terrain> made;
     std::vector<std::pair<const LoadedScene*, Terrain*>> work;
     for (const auto& [name, loaded] : scenes) work.emplace_back(&loaded, &made[name]);
-    // What one throws waits until all are done: leaving the loop would cut short the loops of the others, which would go on with half of
-    // their values. So a wish to stop is heard behind them.
-    std::vector<std::exception_ptr> faults(work.size());
+    // Progress is for one thread, so a request to stop takes effect after them.
     parallel_ranges(work.size(), std::size_t{1}, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i != end; ++i) {
         const auto& [loaded, terrain] = work[i];
-        try {
-          terrain->dem = std::make_shared<const Dem>(make_scene_dem(*loaded, silent_progress(), run.cache));
-          terrain->catchments = std::make_unique<Catchments>(*terrain->dem);
-          terrain->catchments->km2();
-        } catch (...) {
-          faults[i] = std::current_exception();
-        }
+        terrain->dem = std::make_shared<const Dem>(make_scene_dem(*loaded, silent_progress(), run.cache));
+        terrain->catchments = std::make_unique<Catchments>(*terrain->dem);
+        terrain->catchments->km2();
       }
     });
-    for (const std::exception_ptr& fault : faults)
-      if (fault) std::rethrow_exception(fault);
     run.progress.advance(0.0);
     terrains = std::move(made);
   }

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "base/grid.h"
@@ -71,6 +73,33 @@ TEST(DeterministicSum, IsTheSum) {
   for (const std::size_t n : {1UL, 8191UL, 8192UL, 8193UL, 50000UL}) {
     EXPECT_EQ(deterministic_sum(n, [](std::size_t i) { return static_cast<double>(i); }),
               0.5 * static_cast<double>(n) * static_cast<double>(n - 1));
+  }
+}
+
+// A task that throws cancels its own loop, never a loop inside another task: whoever called that one believes that it was done.
+TEST(ParallelRanges, AnExceptionDoesNotCutShortTheLoopsOfOtherTasks) {
+  for (int round = 0; round < 20; ++round) {
+    std::atomic<bool> thrown{false};
+    std::atomic<int> cut_short{0};
+    EXPECT_THROW(parallel_ranges(8, 1,
+                                 [&](int begin, int) {
+                                   if (begin == 0) {
+                                     thrown = true;
+                                     throw std::runtime_error("stopped");
+                                   }
+                                   std::vector<int> visited(20000, 0);
+
+                                   parallel_ranges(20000, 1, [&](int from, int to) {
+                                     for (int i = from; i != to; ++i) visited[static_cast<std::size_t>(i)] = 1;
+                                   });
+                                   for (const int v : visited)
+                                     if (v == 0) {
+                                       ++cut_short;
+                                       break;
+                                     }
+                                 }),
+                 std::runtime_error);
+    EXPECT_EQ(cut_short, 0);
   }
 }
 
