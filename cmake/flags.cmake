@@ -2,9 +2,9 @@
 add_library(belvedere_flags INTERFACE)
 target_compile_options(belvedere_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wnon-virtual-dtor -Woverloaded-virtual -Werror
-  # In a batch, what stands in another file's anonymous namespace is no outer scope that a name could be taken from.
-  $<IF:$<AND:$<BOOL:${BELVEDERE_BATCHES}>,$<CXX_COMPILER_ID:GNU>>,-Wshadow=local,-Wshadow>
-  # … and GCC takes the batch for the one file that may use its anonymous namespace in a type of a header.
+  # In a batch the anonymous namespaces of other files count as outer scopes; Clang cannot tell these from local ones.
+  $<IF:$<BOOL:${BELVEDERE_BATCHES}>,$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>,-Wshadow>
+  # GCC takes the batch for the main file, and warns of types of the files in it that hold something of an anonymous namespace.
   $<$<AND:$<BOOL:${BELVEDERE_BATCHES}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>
   # GCC 12 sees copies that overlap or overflow in its own std::string once it is inlined (GCC bugs 105329, 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-stringop-overflow>
