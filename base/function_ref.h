@@ -7,8 +7,8 @@ namespace belvedere {
 template <class Signature>
 class FunctionRef;
 
-// A function that somebody else keeps: a pointer to it and how it is called. For parameters of functions that call it before they return;
-// unlike std::function it copies and allocates nothing.
+// A reference to a callable object, for parameters of functions that call it before they return. It does not own the object; unlike
+// std::function it copies and allocates nothing.
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:

@@ -21,11 +21,12 @@ class ThreadLimit {
   Control* control_;  // owned; a pointer, so that <memory> is not read where loops are parallel
 };
 
-// How many threads work at most: those of the machine, or of the lowest limit that lives.
+// The highest number of threads that work at the same time: that of the machine, or the lowest ThreadLimit that exists.
 int max_threads();
 
 // Calls f(begin, end) for ranges that cover 0 <= i < count, none split that is `grain` or shorter; each must write only values of its own.
-// Called once a range, not once a value: the loop over the range belongs in f, where the compiler sees it whole.
+// f is called once per range, through a pointer, so the loop over the range belongs in f, where the compiler can optimize it. An exception
+// ends this loop and is thrown to the caller; loops inside other tasks run to their end.
 void run_ranges(std::size_t count, std::size_t grain, FunctionRef<void(std::size_t begin, std::size_t end)> f);
 
 // Calls f(), in which a thread that waits for others takes up no work from outside: so its caller may hold a lock.

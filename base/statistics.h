@@ -4,10 +4,10 @@
 
 namespace belvedere {
 
-// The middle one of the values in order; of an even number the mean of the two in the middle. Of none: 0.
+// The median; the mean of the two middle values where their number is even; 0 without values.
 double median(std::vector<double> values);
 
-// The value below which `share` (0…1) of the others lie, at the nearest rank. Of none: 0.
+// The value below which `share` (0…1) of the values lie, at the nearest rank; 0 without values.
 double percentile(std::vector<double> values, double share);
 
 }  // namespace belvedere

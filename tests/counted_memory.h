@@ -4,8 +4,8 @@
 
 namespace belvedere::test {
 
-// Counts the bytes that the program asks for while it lives: by new, and for grids. Not what the system grants: other tests, threads and
-// programs do not change the count. One at a time.
+// Counts the bytes that the program allocates while this object exists, with new and for grids. Unlike resident memory the count does not
+// depend on other programs or on what earlier tests left in the heap. Only one may exist at a time.
 class CountedMemory {
  public:
   CountedMemory();
@@ -13,7 +13,7 @@ class CountedMemory {
   CountedMemory(const CountedMemory&) = delete;
   CountedMemory& operator=(const CountedMemory&) = delete;
 
-  // The most that was held at a time, beyond what was held at the beginning.
+  // The highest number of bytes allocated at the same time, beyond those at the beginning.
   std::size_t peak_bytes() const;
 };
 

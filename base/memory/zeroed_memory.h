@@ -14,7 +14,7 @@ namespace belvedere {
 void* allocate_zeroed(std::size_t bytes);
 // bytes: those that were asked for.
 void free_zeroed(void* memory, std::size_t bytes) noexcept;
-// For tests that count what is asked for: called with the bytes of each block, negative where it is given back.
+// For tests that count allocations: called with the size of each block, negative when it is freed.
 extern std::atomic<void (*)(std::ptrdiff_t bytes)> zeroed_memory_observer;
 
 // Of a std::vector: an element that is made from nothing, of a type without initializers, is left as the memory is, and that is zero.

@@ -15,7 +15,7 @@ constexpr double most_middle = 0.3;    // of a bend, so that it bends downwards 
 constexpr double off_wish_deg = 15.0;  // that a wished azimuth leaves free
 
 double turned(double degrees) { return degrees - 360.0 * std::floor(degrees / 360.0); }
-double turned_off_by(double a, double b) { return std::abs(turned(a - b + 180.0) - 180.0); }
+double azimuth_difference_deg(double a, double b) { return std::abs(turned(a - b + 180.0) - 180.0); }
 
 // A place that a user wants to see, as an anchor: a summit's top is seen or hidden.
 Anchor anchor_of(const CoarseGround& ground, const ViewWishes::Place& place) {
@@ -30,7 +30,8 @@ Anchor anchor_of(const CoarseGround& ground, const ViewWishes::Place& place) {
 bool allowed(const ViewSearch& search, const ViewPlan& plan) {
   const FormatLimits limits = limits_of(search.wishes.format);
   constexpr double slack = 1e-9;
-  if (search.wishes.towards_deg && turned_off_by(plan.azimuth_deg, *search.wishes.towards_deg) > off_wish_deg + slack) return false;
+  if (search.wishes.towards_deg && azimuth_difference_deg(plan.azimuth_deg, *search.wishes.towards_deg) > off_wish_deg + slack)
+    return false;
   return plan.field_of_view_deg >= limits.least_field_deg - slack && plan.field_of_view_deg <= limits.most_field_deg + slack &&
          plan.near_share >= limits.least_near - slack && plan.near_share <= limits.most_near + slack && plan.crest_share >= 0.66 - slack &&
          plan.crest_share <= 0.95 + slack && plan.anchor_share > 0.35 && plan.anchor_share < 0.98 && plan.across > 0.2 &&

@@ -21,7 +21,7 @@ namespace {
 constexpr int joined_px = 16;  // letters nearer than twice this are filled together
 constexpr int around_px = 96;  // of a group that its models are learnt from; where that is too little, ever twice as far
 constexpr int learnt_types = 32;
-constexpr std::size_t least_crop_texels = std::size_t{least_crop_px} * least_crop_px;
+constexpr std::size_t min_crop_texels = std::size_t{min_crop_px} * min_crop_px;
 
 // Excluded pixels without a class take that of what is nearest, from the rim inwards; row by row where two are as near.
 void spread_classes(Grid<std::uint8_t>& labels, const Grid<std::uint8_t>& excluded) {
@@ -110,8 +110,8 @@ std::optional<CliqueModel> learn_around(const FilledPaint& paint, const Grid<std
   const int farthest = std::max(excluded.width(), excluded.height());
   for (int around = around_px;; around *= 2) {
     const Part part = part_around(paint, excluded, label, box, around);
-    const bool wide = std::min(part.picture.width(), part.picture.height()) >= least_crop_px;
-    if (wide && part.count >= 2 * least_crop_texels) {
+    const bool wide = std::min(part.picture.width(), part.picture.height()) >= min_crop_px;
+    if (wide && part.count >= 2 * min_crop_texels) {
       LearnParameters learning;
       learning.types = learnt_types;
       try {

@@ -21,7 +21,7 @@ namespace {
 constexpr int least_side = 96;
 constexpr double local_sigma = 10.0;  // px; what is wider is form, not paint
 constexpr double least_contrast = 0.004;
-constexpr float least_stroke_coherence = 0.2F;
+constexpr float min_stroke_coherence = 0.2F;
 constexpr int most_lag = 40;       // px
 constexpr int lags_per_px = 2;     // places per pixel at which the correlation is taken
 constexpr int sample_step = 3;     // px between the places that are looked at
@@ -170,7 +170,7 @@ void measure_strokes(const Grid<float>& lightness, const Direction& direction, P
       place += heading;
       const int u = static_cast<int>(std::lround(place.x));
       const int v = static_cast<int>(std::lround(place.y));
-      if (!lightness.contains(u, v) || direction.coherence(u, v) < least_stroke_coherence) break;
+      if (!lightness.contains(u, v) || direction.coherence(u, v) < min_stroke_coherence) break;
       const glm::vec2 here = direction.along(u, v);
       heading = glm::dot(here, heading) < 0.F ? -here : here;
       if (static_cast<double>(glm::dot(heading, first)) < turned) break;
@@ -181,7 +181,7 @@ void measure_strokes(const Grid<float>& lightness, const Direction& direction, P
     Row& row = sums[static_cast<std::size_t>(j)];
     const int y = margin + j * sample_step;
     for (int x = margin; x < lightness.width() - margin; x += sample_step) {
-      if (direction.coherence(x, y) < least_stroke_coherence) continue;
+      if (direction.coherence(x, y) < min_stroke_coherence) continue;
       const glm::vec2 centre(static_cast<float>(x), static_cast<float>(y));
       const glm::vec2 along = direction.along(x, y);
       const glm::vec2 across(-along.y, along.x);

@@ -16,7 +16,7 @@ namespace {
 constexpr double blue_share = 0.5;     // of the way from yellow to blue that counts as darkness
 constexpr double least_darker = 0.07;  // OKLab lightness by which the group in shadow is darker …
 constexpr double least_bluer = 0.006;  // … and bluer, between the means of the groups
-constexpr std::size_t least_shaded_texels = 64;
+constexpr std::size_t min_shaded_texels = 64;
 constexpr double least_share = 0.01;  // of a label's texels; fewer are strokes
 constexpr double soft = 0.02;         // half width of the transition, OKLab
 constexpr int bins = 256;
@@ -42,7 +42,7 @@ double find_threshold(const std::array<Group, bins>& histogram) {
   constexpr double none = 1e9;
   Group all;
   for (const Group& bin : histogram) all.add(bin);
-  if (all.count < static_cast<double>(least_shaded_texels)) return none;
+  if (all.count < static_cast<double>(min_shaded_texels)) return none;
   Group lit;
   double best = -1.0;
   double threshold = none;

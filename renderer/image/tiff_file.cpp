@@ -26,7 +26,7 @@ namespace {
 constexpr int tiff_tile_size = 256;  // pixels; 384 KiB a tile, small enough for viewers, large enough to compress
 constexpr std::size_t tile_pixels = std::size_t{tiff_tile_size} * tiff_tile_size;
 constexpr int tiff_compression_level = 6;
-constexpr int tiff_tiles_at_once = 32;  // are packed together, then written: more would be held
+constexpr int tiff_tiles_per_batch = 32;  // are packed together, then written: more would be held
 
 struct CloseTiff {
   void operator()(TIFF* tiff) const { TIFFClose(tiff); }
@@ -136,8 +136,8 @@ class TileRows : public PictureRows {
  private:
   void write_band(int, int rows) override {
     std::fill(band_.begin() + static_cast<std::ptrdiff_t>(row_at(rows)), band_.end(), Number{0});
-    for (int t = 0; t < across_; t += tiff_tiles_at_once) {
-      for (std::vector<std::uint8_t>& packed : pack_tiles(band_, channels_, across_, t, std::min(tiff_tiles_at_once, across_ - t))) {
+    for (int t = 0; t < across_; t += tiff_tiles_per_batch) {
+      for (std::vector<std::uint8_t>& packed : pack_tiles(band_, channels_, across_, t, std::min(tiff_tiles_per_batch, across_ - t))) {
         const auto bytes = static_cast<tmsize_t>(packed.size());
         written_.add(text_of(packed));
         if (TIFFWriteRawTile(tiff_.get(), tiles_++, packed.data(), bytes) != bytes) output_.fail(message_);
@@ -227,7 +227,7 @@ class InkRows final : public TileRows<Number> {
 double writer_bytes(int width, double pixel_bytes) {
   const int across = (width + tiff_tile_size - 1) / tiff_tile_size;
   const double tile_bytes = static_cast<double>(tile_pixels) * pixel_bytes;
-  return tile_bytes * (across + 2.0 * tiff_tiles_at_once);  // a row of tiles, those that are packed at once
+  return tile_bytes * (across + 2.0 * tiff_tiles_per_batch);  // a row of tiles, those that are packed at once
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace belvedere {
 namespace {
 
-constexpr double shortest_break_px = 3.0;
+constexpr double min_gap_px = 3.0;
 constexpr double pixel_step = 0.6;  // places nearer to each other are one
 
 struct Sample {
@@ -72,7 +72,7 @@ double length_px(const TrackRun& run) {
 // Consecutive runs of one stretch: each begins where the one before it ends.
 void join_short_gaps(std::vector<TrackRun>& runs) {
   for (TrackRun& run : runs)
-    if (!run.seen && length_px(run) < shortest_break_px) run.seen = true;
+    if (!run.seen && length_px(run) < min_gap_px) run.seen = true;
   std::vector<TrackRun> joined;
   for (TrackRun& run : runs) {
     if (!joined.empty() && joined.back().seen == run.seen)

@@ -11,7 +11,7 @@ namespace belvedere {
 
 // As in base/noise.cpp: the deviation of a B-spline is its spacing / sqrt(3).
 constexpr double spacing_per_sigma = 1.7320508075688772;
-// A cell of a lattice that no place lies in: nothing is remembered yet.
+// A lattice coordinate outside of every picture, for cache entries that are still empty.
 constexpr std::int64_t nowhere = INT64_MIN;
 
 // The noise of base/noise.h evaluated for whole pictures: same values up to float rounding, many times faster.

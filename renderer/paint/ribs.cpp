@@ -15,16 +15,16 @@
 namespace belvedere {
 namespace {
 
-constexpr double sample_units = 2.0;      // between the samples of a streamline
-constexpr double blur_sigma_units = 0.5;  // hides the steps of nearest sampling
-constexpr double relief_gain = 0.81;      // the trial divided by a deviation that counted the sky: .805, .811, .853 for its three widths
+constexpr double sample_spacing_units = 2.0;  // between the samples of a streamline
+constexpr double blur_sigma_units = 0.5;      // hides the steps of nearest sampling
+constexpr double relief_gain = 0.81;  // the trial divided by a deviation that counted the sky: .805, .811, .853 for its three widths
 
-// Deviation of a sum of `count` samples `sample_units` apart of noise with the autocorrelation exp(-r²/(4 sigma²)), that of white noise
-// under a Gaussian.
+// Deviation of a sum of `count` samples `sample_spacing_units` apart of noise with the autocorrelation exp(-r²/(4 sigma²)), that of white
+// noise under a Gaussian.
 double line_sum_deviation(int count, double sigma_units) {
   double variance = count;
   for (int k = 1; k < count; ++k) {
-    const double r = k * sample_units / sigma_units;
+    const double r = k * sample_spacing_units / sigma_units;
     variance += 2.0 * (count - k) * exact::exp(-0.25 * r * r);
   }
   return std::sqrt(variance);
@@ -37,7 +37,7 @@ bool any_marked(const Grid<std::uint8_t>& marks, PixelRect rect) {
   return false;
 }
 
-int steps_each_way(const RibWidth& width) { return static_cast<int>(width.length_units / 2.0 / sample_units); }
+int steps_each_way(const RibWidth& width) { return static_cast<int>(width.length_units / 2.0 / sample_spacing_units); }
 
 // The noises of the three widths at one pixel, side by side, because every step reads all of them.
 using NoiseTriple = glm::vec3;
@@ -141,7 +141,7 @@ std::array<Grid<float>, 3> integrate_along_fall_line(const GuidanceBuffers& guid
     });
     scale[k] = static_cast<float>(1.0 / line_sum_deviation(2 * steps_each_way(rib_widths[k]) + 1, sigma));
   }
-  const auto step_px = static_cast<float>(sample_units * pixels_per_unit);
+  const auto step_px = static_cast<float>(sample_spacing_units * pixels_per_unit);
   const WidePlaces places(wide);
   // Neighbours that slopes and the blur will ask for.
   const int reach = static_cast<int>(std::ceil(pixels_per_unit)) + blur_reach_px(blur_sigma_units * pixels_per_unit);

@@ -18,7 +18,7 @@
 namespace belvedere {
 namespace {
 
-constexpr int copied_rows = 64;
+constexpr int rows_per_copy = 64;
 
 glm::vec3 colour_of(const std::string& hex) {
   unsigned value = 0;
@@ -104,8 +104,8 @@ void write_named_picture(const LoadedScene& loaded, PixelRect region, const Shee
                      {color.display, color.profile}, scene.output.width / scene.output.sheet_width_mm * 25.4, notes);
   const glm::vec3 paper = colour_of(sheet.style.margin.paper);
   // Bands of paper above and below, between them those of the picture.
-  for (int y0 = 0; y0 < height; y0 += copied_rows) {
-    const int y1 = std::min(height, y0 + copied_rows);
+  for (int y0 = 0; y0 < height; y0 += rows_per_copy) {
+    const int y1 = std::min(height, y0 + rows_per_copy);
     Grid<glm::vec3> band(width, y1 - y0, paper);
     const int first = std::max(y0, margin.top);
     const int end = std::min(y1, margin.top + region.height());

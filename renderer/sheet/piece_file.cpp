@@ -29,7 +29,7 @@ std::string head_of(const PieceKey& key) {
                      key.rect.x1, key.rect.y1);
 }
 
-[[noreturn]] void throw_unwritten(const std::string& path, const char* what, int code) {
+[[noreturn]] void throw_write_error(const std::string& path, const char* what, int code) {
   throw Error(ErrorKind::output, path, fmt::format("{}: {}", what, std::generic_category().message(code)));
 }
 
@@ -72,10 +72,10 @@ void write_piece(const std::string& path, const PieceKey& key, const Planes& pla
 
   const std::string temporary = temporary_name(path);
   OpenFile file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (file.descriptor < 0) throw_unwritten(path, "cannot be created", errno);
+  if (file.descriptor < 0) throw_write_error(path, "cannot be created", errno);
   const auto give_up = [&](const char* what, int code) {
     ::unlink(temporary.c_str());
-    throw_unwritten(path, what, code);
+    throw_write_error(path, what, code);
   };
   const auto* bytes_of_content = reinterpret_cast<const std::byte*>(content.data());
   if (const int code = write_bytes_at(file.descriptor, bytes_of_content, content.size(), 0); code != 0) give_up("cannot be written", code);

@@ -19,7 +19,7 @@
 namespace belvedere {
 namespace {
 
-[[noreturn]] void throw_no_room(const std::string& folder, const char* what, int code) {
+[[noreturn]] void throw_scratch_error(const std::string& folder, const char* what, int code) {
   throw Error(ErrorKind::output, folder, fmt::format("{}: {}", what, std::generic_category().message(code)),
               "room for what is worked on: a larger disk, another --out, or more --memory");
 }
@@ -38,7 +38,7 @@ int open_scratch(const std::string& folder) {
   std::filesystem::create_directories(folder, code);
   std::string name = folder + "/scratch-XXXXXX";
   const int file = ::mkstemp(name.data());
-  if (file < 0) throw_no_room(folder, "no scratch file can be made in this folder", errno);
+  if (file < 0) throw_scratch_error(folder, "no scratch file can be made in this folder", errno);
   ::unlink(name.c_str());
   return file;
 }
@@ -102,7 +102,7 @@ void TileStore::put(int column, int row, PixelRect held, const Planes& planes) {
     std::uint64_t at = static_cast<std::uint64_t>(to.slot) * slot_bytes_;
     for (std::size_t i = 0; i < value_bytes_.size(); at += planes[i].bytes(), ++i)
       if (const int code = write_bytes_at(file_, planes[i].values, planes[i].bytes(), at); code != 0)
-        throw_no_room(place_.folder, "a scratch file cannot be written", code);
+        throw_scratch_error(place_.folder, "a scratch file cannot be written", code);
   }
   to.held = held;
 }
@@ -127,7 +127,7 @@ void TileStore::get(int column, int row, PixelRect from, int origin_x, int origi
           source = rows.get();
           const std::uint64_t place = static_cast<std::uint64_t>(of.slot) * slot_bytes_ + skipped;
           if (const int code = read_bytes_at(file_, rows.get(), bytes, place); code != 0)
-            throw_no_room(place_.folder, "a scratch file cannot be read", code);
+            throw_scratch_error(place_.folder, "a scratch file cannot be read", code);
         } else {
           source = of.memory.get() + skipped;
         }

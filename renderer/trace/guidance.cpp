@@ -19,7 +19,7 @@
 namespace belvedere {
 namespace {
 
-constexpr double same_depth = 0.03;  // depths within 3 % belong together
+constexpr double depth_tolerance = 0.03;  // depths within 3 % belong together
 
 void check_range(const char* key, double value, double lowest, double highest) {
   if (value >= lowest && value <= highest) return;
@@ -180,7 +180,7 @@ void trace_block(const Tracing& t, glm::ivec2 corner, PixelRect region, Guidance
     int front_samples = 0;
     for (const Seen& s : seen) {
       terrain_samples += s.hit.found ? 1 : 0;
-      const bool together = s.hit.found && std::abs(s.hit.distance_m - winner.hit.distance_m) <= same_depth * winner.hit.distance_m;
+      const bool together = s.hit.found && std::abs(s.hit.distance_m - winner.hit.distance_m) <= depth_tolerance * winner.hit.distance_m;
       front_samples += (winner.hit.found ? together : !s.hit.found) ? 1 : 0;
     }
     out.coverage[o] = static_cast<float>(terrain_samples) / static_cast<float>(per_pixel);

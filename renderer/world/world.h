@@ -24,7 +24,7 @@ struct World {
   // Reads, generalizes and bends the terrain, sets up camera and sun, builds the acceleration structure. Throws Error for whatever is wrong
   // with scene or data as soon as it can be known: the machine's instruction set first, the camera's place before land cover is made.
   World(const LoadedScene& loaded, Progress& progress, const Cache& cache = no_cache());
-  // The same on terrain that is already there, with what flows over it where that is known: several views of one made-up terrain.
+  // The same on terrain that exists already, with its catchments where these are known: for several views of one synthetic terrain.
   World(const LoadedScene& loaded, std::shared_ptr<const Dem> dem, std::shared_ptr<const LandCover> land_cover, Progress& progress,
         const Cache& cache = no_cache(), std::unique_ptr<Catchments> catchments = nullptr);
   World(const World&) = delete;

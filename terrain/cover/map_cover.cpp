@@ -15,7 +15,7 @@ namespace {
 constexpr double least_box_m = 20.0;
 constexpr double most_boxes = 4e6;
 // Where in its box a box's own place lies: nothing that people or rasters make runs exactly through it.
-constexpr double own_place_share = 0.51234567891;
+constexpr double sample_offset = 0.51234567891;
 
 // How often a way from `own` up or down and then across to `place` crosses an edge, even or odd. Ends count half open, so that a way
 // through a corner of an outline crosses it once.
@@ -206,9 +206,7 @@ MapCover::MapCover(const std::vector<CoverArea>& areas, std::vector<CoverCourse>
   filler.finish();
 }
 
-glm::dvec2 MapCover::place_of(int column, int row) const {
-  return low_ + box_m_ * glm::dvec2(column + own_place_share, row + own_place_share);
-}
+glm::dvec2 MapCover::place_of(int column, int row) const { return low_ + box_m_ * glm::dvec2(column + sample_offset, row + sample_offset); }
 
 std::int32_t MapCover::find(glm::dvec2 place) const {
   const double x = (place.x - low_.x) / box_m_;

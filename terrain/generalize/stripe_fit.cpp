@@ -31,7 +31,7 @@ constexpr float least_certainty = 0.6F;     // of the lines around: a crest alon
 constexpr float most_displacement = 0.75F;  // cells; nearest neighbours move by no more than half a cell
 // A line may stand out from the lines around it by this factor (geometric mean of their amplitudes; a sine's crest has 2, a saw tooth 2.7):
 // a ridge that runs along the lines is a single large exception, and is not cut off.
-constexpr float crest_exception = 4.F;
+constexpr float max_crest_exception = 4.F;
 constexpr std::array<double, 3> band_cells{0.55, 1.0, 1.8};  // Gaussians between the bands of width
 
 // Values of row y + tilt (x - middle) come to row y; beyond the grid 0.
@@ -193,7 +193,7 @@ void limit(Grid<float>& error, Follows follows, double around) {
   for (std::size_t i = 0; i < error.size(); ++i) level[i] = exact::log(std::abs(error[i]) + 1e-6F);
   level = gaussian_blur(level, 0.0, around);
   for (std::size_t i = 0; i < error.size(); ++i) {
-    float most = crest_exception * exact::exp(level[i]);
+    float most = max_crest_exception * exact::exp(level[i]);
     if (follows != Follows::offset) most = std::min(most, most_displacement);
     // Far above it is a crest, and is the less believed the farther: what stands out is no part of a stripe.
     const float over = std::abs(error[i]) / std::max(most, 1e-12F);

@@ -55,7 +55,7 @@ Grid<float> flood_from_rim(const Grid<float>& altitude_m) {
 // Where each cell of a flooded terrain drains to: which neighbour, or drains_out. Where it falls, water takes the steepest way, also
 // inwards from the rim; what leaves the rim else leaves the grid. Level ground drains to the outlets from which a flood of one level
 // reaches it first: from outlet after outlet, in the order of their cells, wave after wave. So no way leads upwards, and none is a circle.
-Grid<std::uint8_t> find_steps(const Grid<float>& level_m) {
+Grid<std::uint8_t> find_flow_directions(const Grid<float>& level_m) {
   const int width = level_m.width();
   const int height = level_m.height();
   Grid<std::uint8_t> towards(width, height, no_way);
@@ -238,7 +238,7 @@ void remove_what_is_no_lake(Mask& mask, const Grid<float>& altitude_m, const Lak
 Grid<float> flow_accumulation_km2(const Grid<float>& altitude_m, double cell_m, const std::vector<RiverEntry>& entries) {
   const int width = altitude_m.width();
   const int height = altitude_m.height();
-  const Grid<std::uint8_t> towards = find_steps(flood_from_rim(altitude_m));
+  const Grid<std::uint8_t> towards = find_flow_directions(flood_from_rim(altitude_m));
   const auto target_of = [&](std::size_t cell) {
     const Step& step = neighbours[towards[cell]];
     return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell) + step.x + static_cast<std::ptrdiff_t>(step.y) * width);

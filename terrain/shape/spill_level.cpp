@@ -185,15 +185,12 @@ std::vector<float> find_spill_levels(std::vector<Pass> passes, int basins) {
 void fill_to_spill_level(Grid<float>& altitude_m, std::span<const std::int32_t> outlets, std::vector<std::int32_t>& memory) {
   find_descents(altitude_m, outlets, memory);
   Basins basins = find_basins(std::move(memory), outlets);
-  memory = {};
-  if (basins.count == 1) {
-    memory = std::move(basins.of_cell);
-    return;
+  if (basins.count > 1) {
+    const std::vector<float> level_m = find_spill_levels(find_passes(altitude_m, basins), basins.count);
+    parallel_ranges(altitude_m.size(), std::size_t{1} << 16, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i != end; ++i) altitude_m[i] = std::max(altitude_m[i], level_m[at(basins.of_cell[i])]);
+    });
   }
-  const std::vector<float> level_m = find_spill_levels(find_passes(altitude_m, basins), basins.count);
-  parallel_ranges(altitude_m.size(), std::size_t{1} << 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i != end; ++i) altitude_m[i] = std::max(altitude_m[i], level_m[at(basins.of_cell[i])]);
-  });
   memory = std::move(basins.of_cell);
 }
 

@@ -12,7 +12,7 @@ namespace belvedere {
 // What a flood from the outlets ends in, which takes the lowest cell beside the water next (Barnes, Lehman & Mulla 2014). At least one
 // outlet; cells finite, fewer than 2^31. The same bits for any number of threads.
 void fill_to_spill_level(Grid<float>& altitude_m, std::span<const std::int32_t> outlets);
-// The same in memory of the caller's, whose values do not matter: for who fills again and again.
+// The same with scratch memory of the caller, whose values do not matter: for repeated calls.
 void fill_to_spill_level(Grid<float>& altitude_m, std::span<const std::int32_t> outlets, std::vector<std::int32_t>& memory);
 
 }  // namespace belvedere

@@ -144,7 +144,7 @@ void order_flat(std::vector<std::int32_t>& order, std::size_t first, std::size_t
 Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed, Drainage memory) {
   Drainage drainage = std::move(memory);
   fill_to_spill_level(altitude_m, outlets, drainage.receiver);
-  // Neither asks for what the other finds.
+  // These two do not depend on each other.
   parallel_ranges(2, 1, [&](int begin, int end) {
     for (int part = begin; part != end; ++part) {
       if (part == 0)

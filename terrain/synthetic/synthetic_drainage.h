@@ -19,7 +19,7 @@ struct Drainage {
 // 2014) reaches the cells: lowest first, of equal ones that with the lowest index among those that the water stands beside.
 // Diagonal drops are weighed by chance (Fairfield & Leymarie 1991, rho8), fixed for each cell, so that
 // valleys do not prefer the eight directions of the grid. Pits in altitude_m are filled up to their spill level.
-// `memory`: of a step before, whose values do not matter; new memory would have to be cleared each time.
+// `memory`: an earlier result whose memory is reused; its values do not matter. New memory would be cleared by the system each time.
 Drainage find_drainage(Grid<float>& altitude_m, const std::vector<std::int32_t>& outlets, std::uint64_t seed, Drainage memory = {});
 
 // Catchment of each cell, km²; `inflow_km2` (empty or of the grid's size) is what comes from outside.

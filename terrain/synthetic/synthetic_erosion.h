@@ -27,7 +27,7 @@ struct ErosionCell {
 
 // One time step of uplift and stream-power incision, dz/dt = U - K A^0.6 S, implicit in the slope (Braun & Willett 2013), and a
 // limit of slope. At a catchment of 1 km² a wave of incision travels 240 m a step where softness is 1.
-// `memory`: its values do not matter; that of a step before need not be cleared again.
+// `memory`: scratch memory that is reused from step to step; its values do not matter.
 void erode(Grid<float>& altitude_m, const Drainage& drainage, const Grid<float>& catchment_km2, const Grid<float>& uplift_m,
            const Grid<float>& softness, const ErosionParameters& parameters, Grid<ErosionCell>& memory);
 

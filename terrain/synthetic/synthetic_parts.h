@@ -5,7 +5,7 @@
 
 namespace belvedere::synthetic {
 
-// Cells are kept as 32-bit indices, half the memory; where a grid is read they are its own.
+// Cells are stored as 32-bit indices, which halves their memory; a grid is indexed with std::size_t.
 inline std::size_t at(std::int32_t cell) { return static_cast<std::size_t>(cell); }
 
 }  // namespace belvedere::synthetic

@@ -19,7 +19,7 @@ namespace belvedere::synthetic {
 namespace {
 
 template <class F>
-void for_eight_around(const Grid<float>& grid, std::int32_t i, F&& f) {
+void for_each_neighbour(const Grid<float>& grid, std::int32_t i, F&& f) {
   const int width = grid.width();
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx)
@@ -39,7 +39,7 @@ struct Trough {
 std::size_t count_flooded(const Grid<float>& altitude_m, const Drainage& drainage, std::int32_t outlet, float level_m, std::size_t limit) {
   std::vector<std::int32_t> cells = {outlet};
   for (std::size_t k = 0; k < cells.size() && cells.size() <= limit; ++k)
-    for_eight_around(altitude_m, cells[k], [&](std::int32_t j) {
+    for_each_neighbour(altitude_m, cells[k], [&](std::int32_t j) {
       if (drainage.receiver[at(j)] == cells[k] && altitude_m[at(j)] < level_m) cells.push_back(j);
     });
   return cells.size();
@@ -189,7 +189,7 @@ Grid<std::uint8_t> fill_pits(Grid<float>& altitude_m, int min_lake_cells) {
     hollow.assign(1, static_cast<std::int32_t>(start));
     seen[start] = 1;
     for (std::size_t k = 0; k < hollow.size(); ++k)
-      for_eight_around(altitude_m, hollow[k], [&](std::int32_t j) {
+      for_each_neighbour(altitude_m, hollow[k], [&](std::int32_t j) {
         if (seen[at(j)] != 0 || filled[at(j)] <= altitude_m[at(j)] || filled[at(j)] != filled[start]) return;
         seen[at(j)] = 1;
         hollow.push_back(j);
@@ -213,7 +213,7 @@ Grid<std::uint8_t> fill_pits(Grid<float>& altitude_m, int min_lake_cells) {
   }
   while (!front.empty()) {
     const auto i = static_cast<std::int32_t>(front.pop() & 0xffffffffU);
-    for_eight_around(altitude_m, i, [&](std::int32_t j) {
+    for_each_neighbour(altitude_m, i, [&](std::int32_t j) {
       if (reached[at(j)] != 0) return;
       reached[at(j)] = 1;
       altitude_m[at(j)] = std::max(altitude_m[at(j)], lake[at(j)] != 0 ? altitude_m[at(i)] : altitude_m[at(i)] + fall_m);

@@ -37,8 +37,8 @@ std::optional<CliqueModel> learn_seam(const SeamSample& one, const SeamSample& o
   };
   lay(one, 0);
   lay(other, one.picture.width() + between_px);
-  constexpr std::size_t least = std::size_t{least_crop_px} * least_crop_px;
-  if (counted < least || !varied || both.height() < least_crop_px) return std::nullopt;
+  constexpr std::size_t least = std::size_t{min_crop_px} * min_crop_px;
+  if (counted < least || !varied || both.height() < min_crop_px) return std::nullopt;
   LearnParameters learning;
   learning.types = seam_types;
   learning.levels = seam_levels;

@@ -27,13 +27,13 @@ void check_label(const std::string& name, const Grid<Rgb8>& picture, const Grid<
   const std::string where = "the label " + name;
   const PixelRect box = box_of(states);
   const auto count = std::count(states.begin(), states.end(), pixel_free);
-  constexpr std::ptrdiff_t least = std::ptrdiff_t{least_crop_px} * least_crop_px;
-  if (count < least || box.width() < least_crop_px || box.height() < least_crop_px)
-    throw Error(ErrorKind::input, where,
-                fmt::format("{} pixels, {} × {}, lie {} or more off its borders", count, std::max(0, box.width()),
-                            std::max(0, box.height()), label_inset_px),
-                fmt::format("{} pixels or more, {} × {}: join it to a label that looks alike, or leave it out", least, least_crop_px,
-                            least_crop_px));
+  constexpr std::ptrdiff_t least = std::ptrdiff_t{min_crop_px} * min_crop_px;
+  if (count < least || box.width() < min_crop_px || box.height() < min_crop_px)
+    throw Error(
+        ErrorKind::input, where,
+        fmt::format("{} pixels, {} × {}, lie {} or more off its borders", count, std::max(0, box.width()), std::max(0, box.height()),
+                    label_inset_px),
+        fmt::format("{} pixels or more, {} × {}: join it to a label that looks alike, or leave it out", least, min_crop_px, min_crop_px));
   std::size_t first = 0;
   while (states[first] == 0) ++first;
   for (std::size_t i = first; i < states.size(); ++i)
@@ -43,7 +43,7 @@ void check_label(const std::string& name, const Grid<Rgb8>& picture, const Grid<
 
 CliqueModel learn_part(const LabelledCrop& crop, const Grid<std::uint8_t>& states, bool choose, const CompositeParameters& parameters,
                        Progress& progress) {
-  const PixelRect box = intersection(grown(box_of(states), least_crop_px / 2), {0, 0, states.width(), states.height()});
+  const PixelRect box = intersection(grown(box_of(states), min_crop_px / 2), {0, 0, states.width(), states.height()});
   const Grid<Rgb8> picture = part_of(crop.picture, box);
   const Grid<std::uint8_t> counted = part_of(states, box);
   CliqueModel model = learn_texture(picture, counted, parameters.learn, progress).model;
@@ -112,7 +112,7 @@ CompositeModel learn_composite(const LabelledCrop& crop, const CompositeParamete
 
   const Grid<std::uint8_t> near = near_borders(crop.labels, transition_px);
   const Grid<std::uint8_t> zone = states_where(crop, [&](std::size_t i) { return near[i] != 0; });
-  const bool enough = std::count(zone.begin(), zone.end(), pixel_free) >= std::ptrdiff_t{least_crop_px} * least_crop_px;
+  const bool enough = std::count(zone.begin(), zone.end(), pixel_free) >= std::ptrdiff_t{min_crop_px} * min_crop_px;
   const CompositeParameters white{.learn = parameters.learn};
   if (enough)
     out.transition = learn_part(crop, zone, false, white, progress);

@@ -29,7 +29,7 @@ struct CompositeParameters {
 };
 
 // A model of each label under its mask, of borders, and of the map. Error(input) for labels of another size than the crop, one label or
-// more than 16, and labels that leave too little to learn from (least_crop_px), each with its name.
+// more than 16, and labels that leave too little to learn from (min_crop_px), each with its name.
 CompositeModel learn_composite(const LabelledCrop& crop, const CompositeParameters& parameters, Progress& progress = silent_progress());
 
 }  // namespace belvedere

@@ -11,7 +11,7 @@ namespace belvedere::quality {
 // Squared distances of pixels from the border of their class: those inside lie further than 8 pixels from it.
 constexpr int inside_squared = 64;
 
-// Three times the grey of a colour.
+// Sum of the channels: three times the gray value.
 constexpr int sum_of(const Rgb8& c) { return c[0] + c[1] + c[2]; }
 
 // Weights of the values 0…255.

@@ -23,13 +23,13 @@ struct Steps {
 int step_between(const Rgb8& a, const Rgb8& b) { return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]); }
 
 // Texels of a class by the values of a channel, for all three.
-using ChannelSums = std::array<std::array<std::uint64_t, 256>, 3>;
+using ChannelHistograms = std::array<std::array<std::uint64_t, 256>, 3>;
 
 // Mean step between texels picked independently: E|A − B| = Σ over v of P(A ≤ v) P(B > v) + P(B ≤ v) P(A > v), summed over channels.
-double chance_step(const ChannelSums& a, const ChannelSums& b) {
+double chance_step(const ChannelHistograms& a, const ChannelHistograms& b) {
   double step = 0.0;
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto total = [c](const ChannelSums& of) {
+    const auto total = [c](const ChannelHistograms& of) {
       return static_cast<double>(std::accumulate(of[c].begin(), of[c].end(), std::uint64_t{0}));
     };
     const double all_a = total(a);
@@ -50,7 +50,7 @@ struct OwnSteps {
   std::vector<Steps> by_pair = std::vector<Steps>(std::size_t{256} * 256);
   Steps borders;
   double borders_by_chance = 0.0;  // what borders.sum would be if the texels there were any of their classes
-  std::map<std::uint8_t, ChannelSums> colours;
+  std::map<std::uint8_t, ChannelHistograms> colours;
   const Steps& of(std::uint8_t a, std::uint8_t b) const { return by_pair[std::size_t{std::min(a, b)} * 256 + std::max(a, b)]; }
 };
 
@@ -71,7 +71,7 @@ OwnSteps own_steps(const Exemplar& exemplar) {
       look(x, y, x + 1, y);
       look(x, y, x, y + 1);
       if (labels(x, y) == unused_label) continue;
-      ChannelSums& colours = own.colours[labels(x, y)];
+      ChannelHistograms& colours = own.colours[labels(x, y)];
       for (std::size_t c = 0; c < 3; ++c) ++colours[c][exemplar.picture(x, y)[c]];
     }
   }

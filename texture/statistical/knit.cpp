@@ -173,11 +173,11 @@ KnitPicture knit_textures(const Grid<Rgb8>& left, const Grid<Rgb8>& right, const
   if (parameters.band_px == 0) parameters.band_px = choose_band(knitted.before, std::min(left.width(), right.width()));
   const int k = parameters.band_px;
   const int height = left.height();
-  const int least = std::max(least_crop_px, 2 * k);
-  if (left.width() < least || right.width() < least || height < least_crop_px)
+  const int least = std::max(min_crop_px, 2 * k);
+  if (left.width() < least || right.width() < least || height < min_crop_px)
     throw Error(ErrorKind::input, "knitting",
                 fmt::format("pictures of {} × {} and {} × {} pixels", left.width(), height, right.width(), height),
-                fmt::format("{} pixels across the seam and {} along it", least, least_crop_px));
+                fmt::format("{} pixels across the seam and {} along it", least, min_crop_px));
   if (knitted.before <= unseen_seam) {
     knitted.after = knitted.before;
     return knitted;

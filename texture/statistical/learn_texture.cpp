@@ -33,8 +33,8 @@ void check_crop(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states) {
   if (static_cast<std::int64_t>(crop.size()) > most_texture_pixels)
     throw Error(ErrorKind::limit, "the crop", fmt::format("{} × {} pixels", crop.width(), crop.height()),
                 fmt::format("{} Mpixels or fewer: a piece that shows one texture", most_texture_pixels >> 20));
-  if (crop.width() < least_crop_px || crop.height() < least_crop_px)
-    refuse(fmt::format("{} × {} pixels", crop.width(), crop.height()), fmt::format("{} pixels a side or more", least_crop_px));
+  if (crop.width() < min_crop_px || crop.height() < min_crop_px)
+    refuse(fmt::format("{} × {} pixels", crop.width(), crop.height()), fmt::format("{} pixels a side or more", min_crop_px));
   if (!states.empty() && !states.same_size(crop))
     refuse(fmt::format("a mask of {} × {} pixels for a crop of {} × {}", states.width(), states.height(), crop.width(), crop.height()),
            "a mask of the crop's size");
@@ -46,7 +46,7 @@ void check_crop(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states) {
     if (counted++ == 0) first = crop[i];
     varied |= crop[i] != first;
   }
-  constexpr std::size_t least = std::size_t{least_crop_px} * least_crop_px;
+  constexpr std::size_t least = std::size_t{min_crop_px} * min_crop_px;
   if (counted < least) refuse(fmt::format("{} pixels that are opaque and in its mask", counted), fmt::format("{} or more", least));
   if (!varied) refuse("one colour all over", "a texture");
 }

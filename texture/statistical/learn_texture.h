@@ -29,7 +29,7 @@ struct LearnedTexture {
 // count, and for crops of one colour.
 LearnedTexture learn_texture(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, const LearnParameters& parameters,
                              Progress& progress = silent_progress());
-inline constexpr int least_crop_px = 48;
+inline constexpr int min_crop_px = 48;
 
 // A model without types: the bands, levels and name of a crop, after the checks of learn_texture.
 CliqueModel begin_model(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& states, int levels);

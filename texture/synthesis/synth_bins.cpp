@@ -12,7 +12,7 @@ namespace {
 
 constexpr int side = 2 * patch_radius + 1;
 constexpr int quantiles = 8;
-constexpr std::size_t binned_a_task = 4096;  // texels a task
+constexpr std::size_t binned_texels_per_task = 4096;  // texels a task
 constexpr std::size_t luminances = 3 * 255 + 1;
 constexpr std::size_t contrasts = 384;  // the deviation of values 0…765 is at most 382.5
 
@@ -106,10 +106,10 @@ std::vector<std::uint8_t> make_bins(const Plane& exemplars, int classes) {
     to_quantiles(&by_contrast[c * contrasts], contrasts, &contrast_quantile[c * contrasts]);
   }
   std::vector<std::uint8_t> bins(exemplars.words.size(), 0);
-  const int bands = static_cast<int>((bins.size() + binned_a_task - 1) / binned_a_task);
+  const int bands = static_cast<int>((bins.size() + binned_texels_per_task - 1) / binned_texels_per_task);
   parallel_rows(bands, [&](int b) {
-    for (std::size_t at = static_cast<std::size_t>(b) * binned_a_task;
-         at < std::min(bins.size(), static_cast<std::size_t>(b + 1) * binned_a_task); ++at) {
+    for (std::size_t at = static_cast<std::size_t>(b) * binned_texels_per_task;
+         at < std::min(bins.size(), static_cast<std::size_t>(b + 1) * binned_texels_per_task); ++at) {
       const std::uint32_t c = class_of(exemplars.words[at]);
       if (c == no_class) continue;
       const int bright = luminance_quantile[c * luminances + static_cast<std::size_t>(luminance(exemplars.words[at]))];

@@ -15,7 +15,7 @@
 namespace belvedere {
 namespace {
 
-constexpr int rows_at_once = 64;  // are converted at once
+constexpr int rows_per_read = 64;  // are converted at once
 
 struct OneFile {
   const PictureFormat* format;
@@ -111,12 +111,12 @@ PictureFiles::PictureFiles(const std::string& stem, const std::vector<std::strin
 PictureFiles::~PictureFiles() = default;
 
 void PictureFiles::write_rows(const Image& linear) {
-  if (linear.height() <= rows_at_once) {
+  if (linear.height() <= rows_per_read) {
     if (!linear.empty()) state_->write_band(linear);
     return;
   }
-  for (int y = 0; y < linear.height(); y += rows_at_once)
-    state_->write_band(copy_rows(linear, y, std::min(rows_at_once, linear.height() - y)));
+  for (int y = 0; y < linear.height(); y += rows_per_read)
+    state_->write_band(copy_rows(linear, y, std::min(rows_per_read, linear.height() - y)));
 }
 
 void PictureFiles::finish() {
@@ -134,7 +134,7 @@ std::string ink_note(const std::string& file, const InkCoverage& ink) {
 
 double picture_files_bytes(const std::vector<std::string>& endings, int width, int height) {
   // A band: its copy, encoded, in the printer's colours, reduced.
-  double bytes = 4.0 * rows_at_once * static_cast<double>(sizeof(glm::vec3)) * width;
+  double bytes = 4.0 * rows_per_read * static_cast<double>(sizeof(glm::vec3)) * width;
   for (const PictureFormat* format : formats_of(endings)) {
     const int factor = reduction_factor(*format, width, height);
     bytes += format->writer_bytes(reduced(width, factor), reduced(height, factor));

@@ -19,14 +19,14 @@ namespace {
 
 constexpr double water_index = 1.333;  // of refraction, at 20 °C
 constexpr double painters_power = 0.4;
-constexpr float land_share = 1.5F;            // how much stronger than the sky's the image of land is …
-constexpr float most_mirrored_share = 0.88F;  // … up to here
-constexpr double wave_slope_rad = 0.06;       // deviation of what waves turn rays by
-constexpr double longest_units = 9.0;         // deviation to which images are drawn out at most …
-constexpr double shortest_units = 0.45;       // … and at least
-constexpr double reach_sigmas = 2.0;          // of the drawing's bell
-constexpr int looks = 12;                     // up and down each
-constexpr double zenith_rise = 0.80;          // sine of the angle from which up the sky has the colour of the picture's top
+constexpr float land_share = 1.5F;           // how much stronger than the sky's the image of land is …
+constexpr float max_mirrored_share = 0.88F;  // … up to here
+constexpr double wave_slope_rad = 0.06;      // deviation of what waves turn rays by
+constexpr double longest_units = 9.0;        // deviation to which images are drawn out at most …
+constexpr double shortest_units = 0.45;      // … and at least
+constexpr double reach_sigmas = 2.0;         // of the drawing's bell
+constexpr int looks = 12;                    // up and down each
+constexpr double zenith_rise = 0.80;         // sine of the angle from which up the sky has the colour of the picture's top
 constexpr glm::vec3 sky_in_water{0.80F, 0.88F, 0.93F};
 constexpr glm::vec3 in_water{0.66F, 0.76F, 0.86F};  // images are darker and bluer than what they are of
 constexpr float wrap = 0.22F;                       // as ToneParameters::wrap
@@ -57,10 +57,10 @@ MirrorRay image_at(const MirrorSight& s, std::size_t i, float altitude_m, const 
   const double mirrored = painted_mirror(static_cast<double>(s.cosine[i])) * p.strength;
   image.sky = sky_gradient(palette, 1.0 - unit(static_cast<double>(s.rise[i]) / zenith_rise)) * sky_in_water;
   image.colour = image.sky;
-  image.share = static_cast<float>(std::min(mirrored, static_cast<double>(most_mirrored_share)));
+  image.share = static_cast<float>(std::min(mirrored, static_cast<double>(max_mirrored_share)));
   if (std::isinf(s.path_m[i])) return image;
   image.land = 1.0F;
-  image.share = std::min(land_share * static_cast<float>(mirrored), most_mirrored_share);
+  image.share = std::min(land_share * static_cast<float>(mirrored), max_mirrored_share);
   image.colour = palette_colour(palette, s.land_cover[i], s.altitude_m[i], tone_of(s, i, p)) * in_water;
   // Air of the whole way, of which that up to the water will be laid over all of it.
   const double before_m = s.distance_m[i];

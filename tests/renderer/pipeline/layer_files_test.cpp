@@ -1,6 +1,5 @@
 // What layers of a whole picture say of what lies over its strokes: roads, lifts, names. Unpacked by Python.
 #include "renderer/pipeline/layer_files.h"
-#include "base/cache/cache.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/cache/cache.h"
 #include "base/grid_part.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"

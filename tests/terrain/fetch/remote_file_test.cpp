@@ -1,6 +1,5 @@
 // Servers as they are: busy, slow, cut off, changed, gone. What is read is right all the same, and nothing is asked for twice.
 #include "terrain/fetch/remote_file.h"
-#include "base/cache/cache.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/cache/cache.h"
 #include "tests/terrain/fetch/served_tiles.h"
 
 namespace belvedere {
