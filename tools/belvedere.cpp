@@ -1,35 +1,3 @@
-#include <exception>
-#include <new>
-#include <string>
+#include "tools/cli/program_main.h"
 
-#include "base/error.h"
-#include "tools/cli/program.h"
-#include "tools/cli/terminal.h"
-
-// The one place where errors end: as a message and the exit status of their kind.
-int main(int argc, char** argv) {
-  using belvedere::Error;
-  using belvedere::ErrorKind;
-  belvedere::tools::prepare_process();
-  const auto fail = [](const std::string& message, ErrorKind kind) {
-    belvedere::tools::print_error("belvedere: " + message + "\n");
-    return static_cast<int>(kind);
-  };
-  try {
-    const int status = belvedere::tools::run_program({argv + (argc > 0 ? 1 : 0), argv + argc});
-    belvedere::tools::finish_output();
-    return status;
-  } catch (const Error& error) {
-    const std::string asked =
-        error.kind() == ErrorKind::bug ? "\n  This is a fault of the program, not of your data. Please report it." : "";
-    return fail(error.what() + asked, error.kind());
-  } catch (const std::bad_alloc&) {
-    return fail("there is not enough memory\n  allowed: a smaller output.width and output.height, or a smaller terrain.extent",
-                ErrorKind::limit);
-  } catch (const std::exception& error) {
-    return fail(std::string("unexpected: ") + error.what() + "\n  This is a fault of the program, not of your data. Please report it.",
-                ErrorKind::bug);
-  } catch (...) {
-    return fail("unexpected: an error without a description\n  This is a fault of the program. Please report it.", ErrorKind::bug);
-  }
-}
+int main(int argc, char** argv) { return belvedere::tools::program_main(argc, argv); }

@@ -92,7 +92,7 @@ TEST_F(Program, DeepAndHugeScenesAreRefusedAtOnce) {
   const std::string huge = write("huge.toml", "version = 1\n");
   fs::resize_file(huge, 100'000'000);
   for (const std::string& scene : {write("deep.toml", deep), huge}) {
-    const Outcome outcome = run({"check", scene}, [] {
+    const Outcome outcome = run_prepared({"check", scene}, [] {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
       const rlimit seconds{10, 10};
 #else
@@ -149,13 +149,13 @@ TEST_F(Program, ClosedStreamsDoNoHarm) {
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
   close(ends[0]);
-  EXPECT_EQ(run({"schema"}, [&] { dup2(ends[1], STDOUT_FILENO); }).status, 0);
+  EXPECT_EQ(run_prepared({"schema"}, [&] { dup2(ends[1], STDOUT_FILENO); }).status, 0);
   close(ends[1]);
-  const Outcome full = run({"schema"}, [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
+  const Outcome full = run_prepared({"schema"}, [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
   EXPECT_EQ(full.status, 4);
   EXPECT_THAT(full.err, HasSubstr("standard output"));
   // With no stdout at all, the first file that is opened must not become it.
-  const Outcome none = run({"guidance", write_scene_file(), "--out", path("result"), "--json"}, [] {
+  const Outcome none = run_prepared({"guidance", write_scene_file(), "--out", path("result"), "--json"}, [] {
     close(STDIN_FILENO);
     close(STDOUT_FILENO);
     close(STDERR_FILENO);
@@ -166,10 +166,7 @@ TEST_F(Program, ClosedStreamsDoNoHarm) {
 
 TEST_F(Program, LocaleChangesNothing) {
   const std::string scene = write_scene_file();
-  const auto german = [] {
-    setenv("LC_ALL", "de_DE.UTF-8", 1);
-    setenv("LC_NUMERIC", "de_DE.UTF-8", 1);
-  };
+  const std::vector<std::string> german = {"LC_ALL=de_DE.UTF-8", "LC_NUMERIC=de_DE.UTF-8"};
   ASSERT_EQ(run({"guidance", scene, "--out", path("de"), "--set", "camera.pitch_deg=-20.5", "--quiet"}, german).status, 0);
   ASSERT_EQ(run({"guidance", scene, "--out", path("c"), "--set", "camera.pitch_deg=-20.5", "--quiet"}).status, 0);
   EXPECT_EQ(read_bytes(path("de/guidance.exr")), read_bytes(path("c/guidance.exr")));
@@ -185,7 +182,7 @@ TEST_F(Program, TooLittleMemoryIsALimit) {
   // An allocation that fails: a grey TIFF of 400 MB that takes no disk, 4.5 GiB once it is a picture.
   const std::string large = write_labels(
       "large.tif", 20000, 20000, [](int, int) { return 0; }, false);
-  const Outcome starved = run({"diff", large, large}, [] {
+  const Outcome starved = run_prepared({"diff", large, large}, [] {
     setenv("BELVEDERE_MEMORY_MIB", "100000", 1);
     const rlimit bytes{3UL << 30U, 3UL << 30U};
     setrlimit(RLIMIT_AS, &bytes);

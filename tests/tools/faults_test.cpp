@@ -367,7 +367,7 @@ TEST_F(Faults, SunBelowTheHorizonIsAWarning) {
 
 TEST_F(Faults, APinnedInstructionSetThatTheProcessorLacksIsALimit) {
   const std::string scene = write_scene_file("[sampling]\ninstruction_set = \"avx2\"\n");
-  const auto older_machine = [] { setenv("BELVEDERE_INSTRUCTION_SET", "sse4.2", 1); };
+  const std::vector<std::string> older_machine = {"BELVEDERE_INSTRUCTION_SET=sse4.2"};
   for (const char* command : {"check", "render", "guidance"}) {
     std::vector<std::string> arguments = {command, scene};
     if (command != std::string("check")) arguments.insert(arguments.end(), {"--out", path("result")});
@@ -405,7 +405,7 @@ TEST_F(Faults, FullDiskKeepsTheOldResultWhole) {
   std::vector<std::string> old;
   for (const char* file : files) old.push_back(read_bytes(fs::path(path("result")) / file));
   // A limit of file sizes stands for the full disk: here every file is too large for it.
-  const Outcome outcome = run({"render", scene, "--out", path("result"), "--set", "seed=5"}, [] {
+  const Outcome outcome = run_prepared({"render", scene, "--out", path("result"), "--set", "seed=5"}, [] {
     const rlimit bytes{8000, 8000};
     setrlimit(RLIMIT_FSIZE, &bytes);
   });

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -17,6 +14,7 @@
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
 #include "tests/paths.h"
+#include "tests/tools/program_server.h"
 
 // Runs the built program as users do.
 namespace belvedere {
@@ -40,20 +38,25 @@ class Program : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return folder_ / name; }
 
-  // Starts the program with stdout and stderr in files; `prepare` runs in the child before it.
-  pid_t start(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {}) const {
+  // Starts the program with stdout and stderr in files and `environment` ("NAME=value") added.
+  pid_t start(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {}) const {
+    if (test::has_program_server()) return test::start_in_server(arguments, environment, path("stdout"), path("stderr"));
+    return execute(arguments, environment);
+  }
+  // As a process of its own, as users do; `prepare` runs in the child before it.
+  pid_t execute(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {},
+                const std::function<void()>& prepare = {}) const {
     const std::string program = test::build_folder() + "/belvedere";
     const std::string out = path("stdout");
     const std::string err = path("stderr");
+    std::vector<std::string> words = arguments;
+    std::vector<std::string> variables = environment;
     std::vector<char*> argv = {const_cast<char*>(program.c_str())};
-    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     const pid_t child = fork();
     if (child == 0) {
-      signal(SIGINT, SIG_DFL);           // shells let what runs in the background ignore it, and tests interrupt the program
-      setenv("BELVEDERE_CACHE", "", 1);  // of whoever runs the tests, nothing counts; `prepare` may name a folder
-      dup2(open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
-      dup2(open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
+      test::prepare_environment(variables, out, err);
       if (prepare) prepare();
       execv(argv[0], argv.data());
       _exit(127);
@@ -62,11 +65,14 @@ class Program : public ::testing::Test {
   }
   Outcome finish(pid_t child) const {
     int status = 0;
-    waitpid(child, &status, 0);
+    if (waitpid(child, &status, 0) < 0) status = test::wait_in_server(child);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), read_bytes(path("stdout")), read_bytes(path("stderr"))};
   }
-  Outcome run(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {}) const {
-    return finish(start(arguments, prepare));
+  Outcome run(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {}) const {
+    return finish(start(arguments, environment));
+  }
+  Outcome run_prepared(const std::vector<std::string>& arguments, const std::function<void()>& prepare) const {
+    return finish(execute(arguments, {}, prepare));
   }
   std::string write(const std::string& name, const std::string& text) const { return folder_.write(name, text); }
   std::string write_picture(const std::string& name, int width, int height, const std::function<glm::vec3(int, int)>& colour) const {

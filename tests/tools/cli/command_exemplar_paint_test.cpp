@@ -91,7 +91,7 @@ TEST_F(ExemplarPaint, FullDiskAndInterruptionKeepTheOldSheetWhole) {
   };
   const std::vector<std::string> again = {"exemplar", "paint", "--plan", plan, "--season", "winter", "--out", path("a")};
   // A limit of file sizes stands for the full disk.
-  const Outcome full = run(again, [] {
+  const Outcome full = run_prepared(again, [] {
     const rlimit bytes{8000, 8000};
     setrlimit(RLIMIT_FSIZE, &bytes);
   });

@@ -62,7 +62,7 @@ TEST_F(Program, MissingFilesAreAllNamed) {
                                   "version = 1\n[[terrain.sources]]\nfile = \"a.tif\"\nget_from = \"https://example.org/a\"\n"
                                   "[[terrain.sources]]\nfile = \"b.tif\"\n[camera]\nposition = [0, 0]\n");
   for (const char* command : {"check", "render", "guidance"}) {
-    const Outcome outcome = run({command, scene, "--out", path("result")}, [] {});
+    const Outcome outcome = run({command, scene, "--out", path("result")});
     EXPECT_EQ(outcome.status, command == std::string("check") ? 2 : 3);  // check has no --out
     if (command == std::string("check")) continue;
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("a.tif"), HasSubstr("b.tif"), HasSubstr("https://example.org/a")));

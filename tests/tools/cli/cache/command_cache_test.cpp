@@ -15,9 +15,7 @@ using ::testing::Not;
 
 class CacheProgram : public Program {
  protected:
-  Outcome run_with_cache(const std::vector<std::string>& arguments) const {
-    return run(arguments, [folder = path("cache")] { setenv("BELVEDERE_CACHE", folder.c_str(), 1); });
-  }
+  Outcome run_with_cache(const std::vector<std::string>& arguments) const { return run(arguments, {"BELVEDERE_CACHE=" + path("cache")}); }
 };
 
 TEST_F(CacheProgram, SecondRunsAreTheSameWithoutTheSlowStages) {
@@ -53,7 +51,7 @@ TEST_F(CacheProgram, IsListedAndCleared) {
 
 TEST_F(CacheProgram, WithoutAFolderWorkGoesOn) {
   const std::string scene = write_scene_file();
-  const Outcome blocked = run({"check", scene}, [file = write("file", "")] { setenv("BELVEDERE_CACHE", (file + "/cache").c_str(), 1); });
+  const Outcome blocked = run({"check", scene}, {"BELVEDERE_CACHE=" + write("file", "") + "/cache"});
   EXPECT_EQ(blocked.status, 0);
   EXPECT_THAT(blocked.err, HasSubstr("not used"));
   const Outcome off = run({"check", scene});
@@ -66,13 +64,7 @@ TEST_F(CacheProgram, WithoutAFolderWorkGoesOn) {
 TEST_F(CacheProgram, LiesWhereCachesLie) {
   const std::string home = path("home");
   const auto folder = [&](const std::string& xdg) {
-    return run({"cache", "list"},
-               [&] {
-                 unsetenv("BELVEDERE_CACHE");
-                 setenv("HOME", home.c_str(), 1);
-                 setenv("XDG_CACHE_HOME", xdg.c_str(), 1);
-               })
-        .out;
+    return run({"cache", "list"}, {"BELVEDERE_CACHE", "HOME=" + home, "XDG_CACHE_HOME=" + xdg}).out;  // the first one is taken away
   };
   EXPECT_THAT(folder(path("xdg")), HasSubstr(path("xdg/belvedere")));
   EXPECT_THAT(folder("relative"), HasSubstr(home + "/.cache/belvedere"));

@@ -51,10 +51,7 @@ class FetchProgram : public Program {
     std::vector<std::string> arguments = {"fetch",  "--at",     "11.5,47.5", "--size",         "30", "--source",
                                           heights_, "--source", cover_,      "--http-retries", "0"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return run(arguments, [&] {
-      setenv("BELVEDERE_CACHE", path("cache").c_str(), 1);
-      setenv("BELVEDERE_MIRROR", mirror.c_str(), 1);
-    });
+    return run(arguments, {"BELVEDERE_CACHE=" + path("cache"), "BELVEDERE_MIRROR=" + mirror});
   }
   std::string heights_, cover_;
 };
@@ -66,10 +63,7 @@ TEST_F(FetchProgram, NewFetchesThePlaceItIsGiven) {
     std::vector<std::string> arguments = {"new",      "--at", "11.5,47.5",      "--size", "60",    "--source",        heights_,
                                           "--source", cover_, "--http-retries", "0",      "--out", path("place.toml")};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return run(arguments, [&] {
-      setenv("BELVEDERE_CACHE", path("cache").c_str(), 1);
-      setenv("BELVEDERE_MIRROR", server.address("").c_str(), 1);
-    });
+    return run(arguments, {"BELVEDERE_CACHE=" + path("cache"), "BELVEDERE_MIRROR=" + server.address("")});
   };
   const Outcome made = propose({});
   ASSERT_EQ(made.status, 0) << made.err;
@@ -119,8 +113,7 @@ TEST_F(FetchProgram, WhatItWritesIsReadyForAScene) {
   const Outcome again = fetch({"--out", path("again"), "--json"}, server.address(""));
   EXPECT_THAT(again.out, AllOf(HasSubstr("\"questions\": 0"), HasSubstr("\"legend\": \"esa_worldcover\""), HasSubstr("\"N47E011\"")));
   EXPECT_EQ(read_bytes(path("again/land_cover.tif")), read_bytes(path("out/land_cover.tif")));
-  EXPECT_THAT(run({"cache", "list"}, [&] { setenv("BELVEDERE_CACHE", path("cache").c_str(), 1); }).out,
-              AllOf(HasSubstr("fetched file"), HasSubstr("N47E011.tif")));
+  EXPECT_THAT(run({"cache", "list"}, {"BELVEDERE_CACHE=" + path("cache")}).out, AllOf(HasSubstr("fetched file"), HasSubstr("N47E011.tif")));
 }
 
 TEST_F(FetchProgram, WithoutLandCoverOnlyHeightsAreAskedFor) {

@@ -168,11 +168,11 @@ TEST_F(Lock, ABrokenSceneKeepsNoOtherFromBeingVerified) {
 
 TEST_F(Lock, NothingStaysInTheFolderForTemporaryFiles) {
   fs::create_directories(path("tmp"));
-  const auto there = [&] { setenv("TMPDIR", path("tmp").c_str(), 1); };
+  const std::vector<std::string> there = {"TMPDIR=" + path("tmp")};
   ASSERT_EQ(run({"lock", alps(), "--data", path("data"), "-q"}, there).status, 0);
   EXPECT_EQ(run({"verify", alps(), "--data", path("data"), "-q"}, there).status, 0);
   EXPECT_TRUE(fs::is_empty(path("tmp")));
-  const auto nowhere = [] { setenv("TMPDIR", "/nowhere", 1); };
+  const std::vector<std::string> nowhere = {"TMPDIR=/nowhere"};
   EXPECT_EQ(run({"verify", alps(), "--data", path("data"), "-q"}, nowhere).status, 4);
 }
 

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+// Runs the program without starting it anew: loading its 265 shared libraries takes .3 to .6 CPU seconds, more than what most tests ask of
+// it. A server process is forked before the tests begin; for each run it forks a child, which calls the program's main. So each run begins
+// in the state of a new process, and neither threads nor files of the tests are in it.
+namespace belvedere::test {
+
+// In main, before there are threads. Under sanitizers there is no server: what they report at the end of a process would be lost.
+void start_program_server();
+bool has_program_server();
+
+// In a child that becomes the program: stdout and stderr go to files, $BELVEDERE_CACHE is empty, `variables` ("NAME=value") are added; they
+// must live on.
+void prepare_environment(std::vector<std::string>& variables, const std::string& out, const std::string& err);
+
+// Starts the program in such an environment.
+int start_in_server(const std::vector<std::string>& arguments, const std::vector<std::string>& environment, const std::string& out,
+                    const std::string& err);
+// Waits for a program that start_in_server started; its status as waitpid gives it.
+int wait_in_server(int child);
+
+}  // namespace belvedere::test
