@@ -116,11 +116,7 @@ TEST_F(Program, FilesOutsideTheAllowedFoldersAreRefused) {
 // ---- signals, streams, memory
 
 TEST_F(Program, SignalsStopItAndASecondOneEndsIt) {
-  // Small terrain, a picture that takes minutes with one thread.
-  const std::string scene =
-      write("large.toml",
-            "version = 1\n[terrain.synthetic]\nwidth = 96\nheight = 96\ncell_m = 200\n[camera]\nposition = [9000, -9000]\n"
-            "height_m = 9000\npitch_deg = -25\n[output]\nwidth = 16000\nheight = 8000\n");
+  const std::string scene = write_large_scene();
   const auto start_tracing = [&] {
     fs::remove(path("stderr"));
     const pid_t child = start({"guidance", scene, "--out", path("result"), "--threads", "1"});

@@ -265,10 +265,7 @@ TEST_F(Faults, BadColourFilesAreFoundBeforeTheWork) {
   write("show.ocio", "no config: [");
   const auto scene = [&](const std::string& output) {
     return write("scene.toml",
-                 "version = 1\n[terrain.synthetic]\nwidth = 96\nheight = 96\ncell_m = 200\n[camera]\n"
-                 "position = [9000, -9000]\nheight_m = 9000\npitch_deg = -25\n[synthesis]\nenabled = false\n"
-                 "[output]\nwidth = 64\nheight = 48\n" +
-                     output);
+                 "version = 1\n" + test::small_mountains + "[synthesis]\nenabled = false\n[output]\nwidth = 64\nheight = 48\n" + output);
   };
   expect_refusal(scene(profile), 3, AllOf(HasSubstr("printer.icc"), Not(HasSubstr(" s)"))));
   expect_refusal(scene(config), 3, AllOf(HasSubstr("show.ocio"), Not(HasSubstr(" s)"))));
@@ -338,11 +335,7 @@ TEST_F(Faults, DataThatChangedOnItsServerIsNotGoneOnWith) {
 // ---- two runs
 
 TEST_F(Faults, TheSecondRunIntoAFolderEndsAtOnceAndLeavesTheFirstAlone) {
-  // Small terrain, a picture that takes minutes with one thread.
-  const std::string scene =
-      write("large.toml",
-            "version = 1\n[terrain.synthetic]\nwidth = 96\nheight = 96\ncell_m = 200\n[camera]\nposition = [9000, -9000]\n"
-            "height_m = 9000\npitch_deg = -25\n[output]\nwidth = 16000\nheight = 8000\n");
+  const std::string scene = write_large_scene();
   const std::vector<std::string> line = {"guidance", scene, "--out", path("result"), "--threads", "1"};
   const pid_t first = start(line);
   for (int i = 0; i < 1000 && read_bytes(path("stderr")).find("building the ray tracer") == std::string::npos; ++i)

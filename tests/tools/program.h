@@ -14,6 +14,8 @@
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
 #include "tests/paths.h"
+#include "tests/scenes.h"
+#include "tests/shared_cache.h"
 #include "tests/tools/program_server.h"
 
 // Runs the built program as users do.
@@ -38,10 +40,10 @@ class Program : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return folder_ / name; }
 
-  // Starts the program with stdout and stderr in files and `environment` ("NAME=value") added.
+  // Starts the program with stdout and stderr in files, `environment` ("NAME=value") added, and the cache that tests share.
   pid_t start(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {}) const {
-    if (test::has_program_server()) return test::start_in_server(arguments, environment, path("stdout"), path("stderr"));
-    return execute(arguments, environment);
+    if (!test::has_program_server()) return execute(arguments, environment);
+    return test::start_in_server(arguments, with_cache(environment), path("stdout"), path("stderr"));
   }
   // As a process of its own, as users do; `prepare` runs in the child before it.
   pid_t execute(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {},
@@ -50,7 +52,7 @@ class Program : public ::testing::Test {
     const std::string out = path("stdout");
     const std::string err = path("stderr");
     std::vector<std::string> words = arguments;
-    std::vector<std::string> variables = environment;
+    std::vector<std::string> variables = with_cache(environment);
     std::vector<char*> argv = {const_cast<char*>(program.c_str())};
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
@@ -112,14 +114,25 @@ class Program : public ::testing::Test {
     std::filesystem::resize_file(file, 8 + 2 + entries * 12 + 4 + static_cast<std::uintmax_t>(width) * static_cast<std::uintmax_t>(height));
     return file;
   }
-  // A scene of small made-up mountains.
+  // A scene of small synthetic mountains.
   std::string write_scene_file(const std::string& more = "") const {
-    return write("scene.toml",
-                 "version = 1\n" + more +
-                     "\n[terrain.synthetic]\nwidth = 96\nheight = 96\ncell_m = 200\n[camera]\nposition = [9000, -9000]\nheight_m = 9000\n"
-                     "pitch_deg = -25\n[synthesis]\nenabled = false\n[output]\nwidth = 96\nheight = 64\n");
+    return write("scene.toml", "version = 1\n" + more + "\n" + test::small_mountains +
+                                   "[synthesis]\nenabled = false\n[output]\nwidth = 96\nheight = 64\n");
   }
+  // Small terrain, a picture that takes minutes with one thread.
+  std::string write_large_scene() const {
+    return write("large.toml", "version = 1\n" + test::small_mountains + "[output]\nwidth = 16000\nheight = 8000\n");
+  }
+  // For tests of what the cache might hide: nothing is kept.
+  static std::vector<std::string> without_cache() { return {"BELVEDERE_CACHE="}; }
   test::Folder folder_;
+
+ private:
+  static std::vector<std::string> with_cache(const std::vector<std::string>& environment) {
+    std::vector<std::string> variables = {"BELVEDERE_CACHE=" + test::shared_cache_folder()};
+    variables.insert(variables.end(), environment.begin(), environment.end());
+    return variables;
+  }
 };
 
 }  // namespace belvedere

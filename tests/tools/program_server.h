@@ -12,8 +12,7 @@ namespace belvedere::test {
 void start_program_server();
 bool has_program_server();
 
-// In a child that becomes the program: stdout and stderr go to files, $BELVEDERE_CACHE is empty, `variables` ("NAME=value") are added; they
-// must live on.
+// In a child that becomes the program: stdout and stderr go to files, `variables` ("NAME=value") are added; they must live on.
 void prepare_environment(std::vector<std::string>& variables, const std::string& out, const std::string& err);
 
 // Starts the program in such an environment.

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

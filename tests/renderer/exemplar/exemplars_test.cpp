@@ -11,7 +11,7 @@
 
 #include "base/cache/cache.h"
 #include "tests/files.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "tests/files.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/composite/composite_model.h"
 #include "texture/statistical/learn_texture.h"

@@ -14,7 +14,7 @@
 #include "renderer/world/world.h"
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

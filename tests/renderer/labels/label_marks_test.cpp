@@ -10,7 +10,7 @@
 
 #include "renderer/world/valley_view.h"
 #include "terrain/shape/summits.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/parallel.h"
 #include "renderer/world/valley_view.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

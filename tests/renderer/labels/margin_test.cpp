@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/world/valley_view.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

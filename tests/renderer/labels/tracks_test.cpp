@@ -8,7 +8,7 @@
 
 #include "renderer/labels/drawing_svg.h"
 #include "renderer/world/valley_view.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

@@ -13,7 +13,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
 #include "tests/files.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

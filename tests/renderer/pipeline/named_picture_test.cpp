@@ -11,7 +11,7 @@
 #include "renderer/pipeline/picture_legend.h"
 #include "renderer/pipeline/pipeline.h"
 #include "tests/files.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

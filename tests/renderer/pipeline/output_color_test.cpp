@@ -8,7 +8,7 @@
 
 #include "tests/files.h"
 #include "tests/renderer/image/icc/press_profile.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "renderer/image/image_io.h"
 #include "tests/renderer/image/picture_bytes.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere::test {
 

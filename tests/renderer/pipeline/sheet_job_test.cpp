@@ -16,6 +16,7 @@
 #include "renderer/pipeline/pipeline.h"
 #include "renderer/sheet/picture_layers.h"
 #include "tests/files.h"
+#include "tests/shared_cache.h"
 #include "tests/texture/statistical/texture_crops.h"
 #include "texture/statistical/learn_texture.h"
 #include "texture/statistical/model_file.h"
@@ -60,12 +61,13 @@ class SheetJob : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     all_ = std::make_unique<test::Folder>();
-    render(scene(), whole(), {});
+    render(scene(), whole(), shared());
   }
   static void TearDownTestSuite() { all_.reset(); }
   static LoadedScene scene(const std::vector<std::string>& settings = {}) {
     return parse_scene(wide_scene, "wide.toml", ".", {.data_folders = {}, .settings = settings});
   }
+  static belvedere::Run shared(int threads = 0) { return {.threads = threads, .cache = test::shared_cache()}; }
   static std::string whole() { return all_->path(); }
   static void expect_same_files(const std::string& a, const std::string& b) {
     for (const char* file : {"panorama.tif", "panorama.png", "panorama.exr", "guidance.exr"}) {
@@ -85,7 +87,7 @@ TEST_F(SheetJob, APartIsThePixelsOfTheWholeInEveryFile) {
   // A pixel, across the border of pieces and tiles, corners, edges.
   for (const PixelRect part : {PixelRect{1023, 64, 1024, 65}, {990, 40, 1060, 110}, {0, 0, 37, 29}, {1040, 100, 1100, 130}}) {
     const std::string out = folder_ / std::to_string(number++);
-    render(scene(), out, {}, {.part = part});
+    render(scene(), out, shared(), {.part = part});
     for (const char* file : {"/panorama.tif", "/panorama.png", "/panorama.exr"})
       EXPECT_TRUE(read_picture(out + file) == part_of(read_picture(whole() + file), part)) << file << " " << number;
     const GuidanceBuffers cut = read_guidance(out + "/guidance.exr");
@@ -118,7 +120,7 @@ std::map<std::string, UnpackedLayer> unpack(const std::string& out) {
 // Layers laid over each other are the panorama, change none of its bytes, and are the same for any part, pieces and threads.
 TEST_F(SheetJob, LayersMakeThePanorama) {
   const std::string all = folder_ / "all";
-  render(scene(), all, {}, {.layers = {"ora", "psd", "exr"}});
+  render(scene(), all, shared(), {.layers = {"ora", "psd", "exr"}});
   expect_same_files(whole(), all);
   EXPECT_TRUE(fs::exists(all + "/panorama.psd"));
   EXPECT_TRUE(fs::exists(all + "/panorama_layers.exr"));
@@ -140,7 +142,7 @@ TEST_F(SheetJob, LayersMakeThePanorama) {
   const PixelRect part{990, 40, 1060, 110};
   const std::string cut = folder_ / "cut";
   const ThreadLimit limit(1);
-  render(scene(), cut, {}, {.layers = {"ora"}, .part = part, .piece_px = 64, .block_px = 64});
+  render(scene(), cut, shared(), {.layers = {"ora"}, .part = part, .piece_px = 64, .block_px = 64});
   for (const auto& [name, layer] : unpack(cut)) {
     EXPECT_TRUE(layer.colour == part_of(layers.at(name).colour, part)) << name;
     EXPECT_TRUE(layer.opacity == part_of(layers.at(name).opacity, part)) << name;
@@ -149,22 +151,23 @@ TEST_F(SheetJob, LayersMakeThePanorama) {
 
 TEST_F(SheetJob, PartsOfAPlanMakeTheSameLayers) {
   const SheetRequest request{.channels = GuidanceChoice{std::vector<std::string>{}}, .layers = {"ora", "exr"}};
-  render(scene(), folder_ / "one", {}, request);
-  plan_sheet(scene(), folder_ / "many", {}, request);
-  for (const int part : {2, 1}) make_part(scene(), folder_ / "many", part, 2, {}, request);
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_part(scene(), folder_ / "many", 1, 2, {}); }), HasSubstr("results differ"));
-  join_parts(scene(), folder_ / "many", 2, folder_ / "many", {}, request);
+  render(scene(), folder_ / "one", shared(), request);
+  plan_sheet(scene(), folder_ / "many", shared(), request);
+  for (const int part : {2, 1}) make_part(scene(), folder_ / "many", part, 2, shared(), request);
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_part(scene(), folder_ / "many", 1, 2, shared()); }),
+              HasSubstr("results differ"));
+  join_parts(scene(), folder_ / "many", 2, folder_ / "many", shared(), request);
   for (const char* file : {"panorama.tif", "panorama.ora", "panorama_layers.exr"})
     EXPECT_TRUE(test::read_bytes(folder_ / "one/" + file) == test::read_bytes(folder_ / "many/" + file)) << file;
 }
 
 TEST_F(SheetJob, LayersAreOfTheProgramsOwnColours) {
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(scene(), folder_.path(), {}, {.layers = {"xcf"}}); }),
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(scene(), folder_.path(), shared(), {.layers = {"xcf"}}); }),
               HasSubstr("ora, psd, exr"));
   folder_.write("show.ocio", "no matter what");
   const LoadedScene other =
       parse_scene(wide_scene, "wide.toml", folder_.path(), {.data_folders = {}, .settings = {"output.ocio_config=show.ocio"}});
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(other, folder_.path(), {}, {.layers = {"ora"}}); }),
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(other, folder_.path(), shared(), {.layers = {"ora"}}); }),
               HasSubstr("ocio_config"));
 }
 
@@ -177,13 +180,13 @@ TEST_F(SheetJob, GroundFromAModelIsTheSameInPartsAndPieces) {
       "exemplar.1={ model = \"m.model\", serves = [\"pasture\", \"alpine_grass\", \"forest\"], prefer = \"model\" }"};
   const LoadedScene modelled = parse_scene(wide_scene, "wide.toml", folder_.path(), {.data_folders = {}, .settings = settings});
   const std::string all = folder_ / "all";
-  render(modelled, all, {});
+  render(modelled, all, shared());
   const Grid<glm::vec3> picture = read_picture(all + "/panorama.tif");
   EXPECT_NE(picture, read_picture(whole() + "/panorama.tif"));
   const PixelRect part{490, 20, 560, 110};
-  render(modelled, folder_ / "part", {}, {.part = part});
+  render(modelled, folder_ / "part", shared(), {.part = part});
   EXPECT_EQ(read_picture(folder_ / "part/panorama.tif"), part_of(picture, part));
-  render(modelled, folder_ / "small", {.threads = 1}, {.piece_px = 200, .block_px = 96});
+  render(modelled, folder_ / "small", shared(1), {.piece_px = 200, .block_px = 96});
   expect_same_files(all, folder_ / "small");
 }
 
@@ -191,27 +194,27 @@ TEST_F(SheetJob, GroundFromAModelIsTheSameInPartsAndPieces) {
 TEST_F(SheetJob, GuidanceHoldsTheChannelsThatWereAskedFor) {
   const PixelRect part{990, 40, 1060, 110};
   const GuidanceBuffers all = read_guidance(whole() + "/guidance.exr");
-  render(scene(), folder_ / "two", {}, {.channels = {{"Z", "landcover.id"}}, .part = part});
+  render(scene(), folder_ / "two", shared(), {.channels = {{"Z", "landcover.id"}}, .part = part});
   const GuidanceBuffers two = read_guidance(folder_ / "two/guidance.exr");
   EXPECT_EQ(two.depth_m, part_of(all.depth_m, part));
   EXPECT_EQ(two.land_cover, part_of(all.land_cover, part));
   EXPECT_TRUE(two.normal.empty() && two.altitude_m.empty());
-  render_guidance(scene(), folder_ / "classes", {}, {.channels = {{"landcover.id"}}, .part = part});
+  render_guidance(scene(), folder_ / "classes", shared(), {.channels = {{"landcover.id"}}, .part = part});
   EXPECT_EQ(read_guidance(folder_ / "classes/guidance.exr").land_cover, two.land_cover) << "without distances beside them";
-  render(scene(), folder_ / "none", {}, {.channels = std::vector<std::string>(), .part = part});
+  render(scene(), folder_ / "none", shared(), {.channels = std::vector<std::string>(), .part = part});
   EXPECT_FALSE(fs::exists(folder_ / "none/guidance.exr"));
   EXPECT_EQ(test::read_bytes(folder_ / "none/panorama.tif"), test::read_bytes(folder_ / "two/panorama.tif"));
-  EXPECT_THAT(
-      test::message_of(ErrorKind::usage, [&] { render_guidance(scene(), folder_ / "none", {}, {.channels = std::vector<std::string>()}); }),
-      HasSubstr("--channels"));
+  EXPECT_THAT(test::message_of(ErrorKind::usage,
+                               [&] { render_guidance(scene(), folder_ / "none", shared(), {.channels = std::vector<std::string>()}); }),
+              HasSubstr("--channels"));
 }
 
 // The texels that pixels were copied from, as the sheet's stages had them, whatever the part and the pieces.
 TEST_F(SheetJob, MatchesAreThoseThePictureWasCopiedBy) {
   const PixelRect part{980, 30, 1080, 130};
   const PixelRect corner{1020, 60, 1060, 110};
-  render(scene(), folder_ / "part", {}, {.matches = true, .part = part});
-  render(scene(), folder_ / "corner", {.threads = 1}, {.matches = true, .part = corner, .piece_px = 64, .block_px = 96});
+  render(scene(), folder_ / "part", shared(), {.matches = true, .part = part});
+  render(scene(), folder_ / "corner", shared(1), {.matches = true, .part = corner, .piece_px = 64, .block_px = 96});
   EXPECT_EQ(test::read_bytes(folder_ / "part/panorama.tif").empty(), false);
   const GuidanceBuffers guidance = read_guidance(folder_ / "part/guidance.exr");
   const auto ids = [&](const char* folder, const char* channel) {
@@ -238,17 +241,18 @@ TEST_F(SheetJob, MatchesAreThoseThePictureWasCopiedBy) {
   EXPECT_GT(copied, 2000);
   EXPECT_THAT(read_image_info(folder_ / "part/match.exr").notes.at("belvedere:matched_pictures"), testing::StartsWith("240 180 "));
   EXPECT_THAT(
-      test::message_of(ErrorKind::usage, [&] { render(scene({"synthesis.enabled=false"}), folder_ / "no", {}, {.matches = true}); }),
+      test::message_of(ErrorKind::usage, [&] { render(scene({"synthesis.enabled=false"}), folder_ / "no", shared(), {.matches = true}); }),
       HasSubstr("--match"));
 }
 
 TEST_F(SheetJob, APartOutsideOfTheSheetIsRefused) {
   for (const PixelRect part : {PixelRect{0, 0, 0, 5}, {1090, 0, 1101, 5}, {-1, 0, 5, 5}})
-    EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(scene(), folder_.path(), {}, {.part = part}); }), HasSubstr("1100 × 130"));
+    EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(scene(), folder_.path(), shared(), {.part = part}); }),
+                HasSubstr("1100 × 130"));
 }
 
 TEST_F(SheetJob, PiecesAndTilesOfStagesChangeNoByte) {
-  render(scene(), folder_ / "small", {.threads = 1}, {.piece_px = 200, .block_px = 96});
+  render(scene(), folder_ / "small", shared(1), {.piece_px = 200, .block_px = 96});
   expect_same_files(whole(), folder_ / "small");
 }
 
@@ -267,7 +271,7 @@ TEST_F(SheetJob, ARunThatWasStoppedGoesOnToTheSameBytes) {
   for (int steps = 400;; steps += 700) {
     Stopping progress(steps);
     try {
-      render(scene(), folder_.path(), {.progress = progress}, request);
+      render(scene(), folder_.path(), {.progress = progress, .cache = test::shared_cache()}, request);
       break;
     } catch (const Error& error) {
       ASSERT_EQ(error.kind(), ErrorKind::interrupted) << error.what();
@@ -279,17 +283,18 @@ TEST_F(SheetJob, ARunThatWasStoppedGoesOnToTheSameBytes) {
 }
 
 TEST_F(SheetJob, PartsInAnyOrderJoinToTheSameBytes) {
-  plan_sheet(scene(), folder_.path(), {});
-  for (const int part : {3, 1, 3}) make_part(scene(), folder_.path(), part, 3, {});
+  plan_sheet(scene(), folder_.path(), shared());
+  for (const int part : {3, 1, 3}) make_part(scene(), folder_.path(), part, 3, shared());
   // What is missing is named; a damaged piece is missing, and made again.
   const auto expect_missing = [&](const std::string& which) {
-    const std::string message = test::message_of(ErrorKind::input, [&] { join_parts(scene(), folder_.path(), 3, folder_.path(), {}); });
+    const std::string message =
+        test::message_of(ErrorKind::input, [&] { join_parts(scene(), folder_.path(), 3, folder_.path(), shared()); });
     EXPECT_THAT(message, HasSubstr(which));
     EXPECT_THAT(message, HasSubstr(" of 3 is missing or not whole"));
     EXPECT_THAT(message, HasSubstr("missing"));
   };
   expect_missing("part 2");
-  make_part(scene(), folder_.path(), 2, 3, {});
+  make_part(scene(), folder_.path(), 2, 3, shared());
   int damaged = 0;
   for (const auto& entry : fs::directory_iterator(work_folder_of(folder_.path()))) {
     if (!entry.path().filename().string().starts_with("panorama")) continue;
@@ -301,12 +306,12 @@ TEST_F(SheetJob, PartsInAnyOrderJoinToTheSameBytes) {
   }
   ASSERT_EQ(damaged, 1);
   expect_missing("part ");
-  for (const int part : {1, 2, 3}) make_part(scene(), folder_.path(), part, 3, {});
-  join_parts(scene(), folder_.path(), 3, folder_.path(), {});
+  for (const int part : {1, 2, 3}) make_part(scene(), folder_.path(), part, 3, shared());
+  join_parts(scene(), folder_.path(), 3, folder_.path(), shared());
   expect_same_files(whole(), folder_.path());
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_part(scene({"seed=9"}), folder_.path(), 1, 3, {}); }),
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_part(scene({"seed=9"}), folder_.path(), 1, 3, shared()); }),
               HasSubstr("scene differs"));
-  test::message_of(ErrorKind::usage, [&] { make_part(scene(), folder_.path(), 4, 3, {}); });
+  test::message_of(ErrorKind::usage, [&] { make_part(scene(), folder_.path(), 4, 3, shared()); });
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "base/memory_limit.h"
 #include "tests/files.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/grid.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

@@ -6,7 +6,7 @@
 #include "renderer/image/guidance_io.h"
 #include "renderer/world/lit_picture.h"
 #include "tests/files.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/grid_part.h"
 #include "tests/files.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

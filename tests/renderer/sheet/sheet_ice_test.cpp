@@ -4,7 +4,7 @@
 
 #include <fmt/core.h>
 
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

@@ -10,7 +10,7 @@
 #include "base/parallel.h"
 #include "renderer/sheet/sheet_picture.h"
 #include "tests/files.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

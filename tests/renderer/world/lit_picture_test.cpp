@@ -11,7 +11,7 @@
 #include "renderer/paint/composite.h"
 #include "renderer/paint/light.h"
 #include "tests/renderer/exemplar/painted_hills.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

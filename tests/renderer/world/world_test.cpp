@@ -11,7 +11,7 @@
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
 #include "tests/files.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

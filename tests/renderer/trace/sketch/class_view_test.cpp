@@ -5,7 +5,7 @@
 #include <set>
 
 #include "renderer/world/world.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

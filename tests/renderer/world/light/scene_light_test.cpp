@@ -10,7 +10,7 @@
 #include "renderer/world/lit_picture.h"
 #include "renderer/world/world.h"
 #include "tests/files.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "renderer/trace/sun.h"
 #include "tests/renderer/trace/made_up_ground.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere {
 namespace {

@@ -34,10 +34,8 @@ TEST_F(ExemplarSegment, WritesAMaskOfClassesThatAnExemplarTakes) {
   EXPECT_EQ(mask(20, 70), 4);
   EXPECT_EQ(mask(100, 70), 10);
   // In a scene.
-  const std::string scene = write("scene.toml",
-                                  "version = 1\n[[exemplar]]\npicture = \"painting.png\"\nclasses = \"mask.png\"\n[terrain.synthetic]\n"
-                                  "width = 96\nheight = 96\ncell_m = 200\n[camera]\nposition = [9000, -9000]\nheight_m = 9000\n"
-                                  "pitch_deg = -25\n[output]\nwidth = 96\nheight = 64\n");
+  const std::string scene = write("scene.toml", "version = 1\n[[exemplar]]\npicture = \"painting.png\"\nclasses = \"mask.png\"\n" +
+                                                    test::small_mountains + "[output]\nwidth = 96\nheight = 64\n");
   const Outcome checked = run({"exemplar", "check", scene});
   ASSERT_EQ(checked.status, 0) << checked.err;
   EXPECT_THAT(checked.out, AllOf(HasSubstr("forest"), HasSubstr("pasture"), Not(HasSubstr("class 255"))));

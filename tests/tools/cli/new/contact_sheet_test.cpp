@@ -8,7 +8,7 @@
 #include "terrain/io/raster_io.h"
 #include "tests/files.h"
 #include "tests/renderer/compose/made_up_region.h"
-#include "tests/renderer/world/small_world.h"
+#include "tests/scenes.h"
 
 namespace belvedere::tools {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "renderer/scene/scene_file.h"
 
+// Scenes that several tests use.
 namespace belvedere::test {
 
 // A scene that is made in a second: hills of 12 × 12 km, seen from the south in 96 × 80 pixels of 1 mm. What follows from the region is
@@ -43,6 +44,11 @@ width = 96
 height = 80
 sheet_width_mm = 96
 )";
+
+// Terrain and camera of the tests that run the program.
+inline const std::string small_mountains =
+    "[terrain.synthetic]\nwidth = 96\nheight = 96\ncell_m = 200\n"
+    "[camera]\nposition = [9000, -9000]\nheight_m = 9000\npitch_deg = -25\n";
 
 inline LoadedScene small_scene(const std::vector<std::string>& settings = {}, const std::string& folder = ".") {
   return parse_scene(small_scene_text, "small.toml", folder, {.data_folders = {}, .settings = settings});
