@@ -5,5 +5,7 @@
 int main(int argc, char** argv) {
   belvedere::test::start_program_server();
   ::testing::InitGoogleMock(&argc, argv);
-  return RUN_ALL_TESTS();
+  const int status = RUN_ALL_TESTS();
+  belvedere::test::stop_program_server();
+  return status;
 }

@@ -21,6 +21,7 @@ namespace belvedere::test {
 namespace {
 
 int server = -1;  // the tests' end of the socket
+pid_t server_process = -1;
 
 // A message: "run" or "wait", then its fields, each ended by a zero byte.
 std::string message_of(const std::vector<std::string>& fields) {
@@ -106,7 +107,14 @@ void start_program_server() {
   }
   close(ends[1]);
   server = ends[0];
+  server_process = child;
 #endif
+}
+
+void stop_program_server() {
+  if (!has_program_server()) return;
+  close(server);
+  waitpid(server_process, nullptr, 0);
 }
 
 bool has_program_server() { return server >= 0; }

@@ -10,6 +10,7 @@ namespace belvedere::test {
 
 // In main, before there are threads. Under sanitizers there is no server: what they report at the end of a process would be lost.
 void start_program_server();
+void stop_program_server();
 bool has_program_server();
 
 // In a child that becomes the program: stdout and stderr go to files, `variables` ("NAME=value") are added; they must live on.

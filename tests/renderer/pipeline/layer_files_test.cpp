@@ -14,6 +14,7 @@
 #include "renderer/pipeline/pipeline.h"
 #include "tests/files.h"
 #include "tests/scenes.h"
+#include "tests/shared_cache.h"
 
 namespace belvedere {
 namespace {
@@ -35,7 +36,7 @@ class LayerFiles : public testing::Test {
     own.layers = {"ora"};
     own.channels = GuidanceChoice{std::vector<std::string>{}};
     const std::string out = folder_ / name;
-    render(test::small_scene(settings, folder_.path()), out, {0, 0, 32, silent_progress(), no_cache()}, own);
+    render(test::small_scene(settings, folder_.path()), out, {.cache = test::shared_cache()}, own);
     EXPECT_EQ(std::system(("cd " + out + " && python3 -m zipfile -e panorama.ora layers").c_str()), 0);
     return out;
   }

@@ -5,13 +5,13 @@
 
 #include <filesystem>
 
-#include "base/cache/cache.h"
 #include "base/grid_part.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/picture_legend.h"
 #include "renderer/pipeline/pipeline.h"
 #include "tests/files.h"
 #include "tests/scenes.h"
+#include "tests/shared_cache.h"
 
 namespace belvedere {
 namespace {
@@ -27,7 +27,7 @@ void render_to(const std::string& folder, std::vector<std::string> more, const S
   settings.insert(settings.end(), more.begin(), more.end());
   SheetRequest own = request;
   own.channels = GuidanceChoice{std::vector<std::string>{}};
-  render(test::small_scene(settings), folder, {0, 0, 32, silent_progress(), no_cache()}, own);
+  render(test::small_scene(settings), folder, {.cache = test::shared_cache()}, own);
 }
 
 TEST(NamedPicture, HasThePanoramaUnderItsNamesAndAPartHasThePixelsOfTheWhole) {
@@ -94,10 +94,7 @@ TEST(NamedPicture, WrongNamesAreSaidBeforeAnythingIsPainted) {
   const test::Folder folder;
   folder.write("far.csv", "name,east,north\nA,900000,900000\n");
   const LoadedScene scene = test::small_scene({"labels.points.0.file=\"far.csv\""}, folder.path());
-  EXPECT_THAT(test::message_of(ErrorKind::usage,
-                               [&] {
-                                 render(scene, folder / "out", {0, 0, 32, silent_progress(), no_cache()}, {});
-                               }),
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { render(scene, folder / "out", {.cache = test::shared_cache()}, {}); }),
               HasSubstr("none of 1 points lies on the terrain"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out/panorama.png"));
 }

@@ -15,6 +15,7 @@
 #include "renderer/image/image_io.h"
 #include "tests/paths.h"
 #include "tests/renderer/image/picture_bytes.h"
+#include "tests/shared_cache.h"
 
 namespace belvedere {
 namespace {
@@ -103,8 +104,8 @@ TEST_F(Pipeline, GuidanceAloneEqualsGuidanceOfTheWholeRender) {
   // Taller than one band of the streamed file, with a margin on both sides of its seams.
   const std::vector<std::string> tall = {"output.height=1100", "output.width=96", "output.sheet_width_mm=96", "synthesis.enabled=false",
                                          "sampling.pixel_samples=1"};
-  render(scene(tall), out("a"), {});
-  render_guidance(scene(tall), out("b"), {});
+  render(scene(tall), out("a"), {.cache = test::shared_cache()});
+  render_guidance(scene(tall), out("b"), {.cache = test::shared_cache()});
   EXPECT_TRUE(read_bytes(out("a/guidance.exr")) == read_bytes(out("b/guidance.exr")));
 }
 
@@ -187,7 +188,7 @@ move_m = [0, 400]
 rotate_deg = 60
 raise_m = 250
 )";
-  render(parse_scene(std::string(small_scene) + turned, "turned.toml", ".", {}), out("turned"), {});
+  render(parse_scene(std::string(small_scene) + turned, "turned.toml", ".", {}), out("turned"), {.cache = test::shared_cache()});
   expect_golden(out("turned/panorama.png"), "turned_mountain.png");
 }
 
@@ -235,7 +236,7 @@ TEST_F(Pipeline, ASunBelowTheHorizonIsNotedAndLeavesSkyLight) {
     std::string all;
     void note(std::string_view text) override { all += text; }
   } notes;
-  render_guidance(scene({"sun.altitude_deg=-5"}), out("a"), {.progress = notes});
+  render_guidance(scene({"sun.altitude_deg=-5"}), out("a"), {.progress = notes, .cache = test::shared_cache()});
   EXPECT_NE(notes.all.find("below the horizon"), std::string::npos);
   const GuidanceBuffers guidance = read_guidance(out("a/guidance.exr"));
   for (std::size_t i = 0; i < guidance.shadow.size(); ++i) {

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <memory>
 #include <string>
 
 #include "base/grid_part.h"
 #include "tests/files.h"
 #include "tests/scenes.h"
+#include "tests/shared_cache.h"
 
 namespace belvedere {
 namespace {
@@ -20,7 +22,7 @@ class SheetGroundTest : public testing::TestWithParam<int> {
       : world_(test::small_scene({"output.width=230", "output.height=210", "output.sheet_width_mm=115", "terrain.synthetic.highest_m=3900",
                                   "land_cover.settings.ice_line_m=900", "land_cover.settings.snowline_m=1100",
                                   "land_cover.settings.treeline_m=400"}),
-               silent_progress()) {}
+               silent_progress(), test::shared_cache()) {}
   const Palette palette_ = read_palette("summer");
   const World world_;
   const test::Folder folder_;
@@ -80,7 +82,7 @@ TEST_P(SheetGroundTest, ColoursOfLayersAreThoseOfTheWholeInAnyTiles) {
         test::small_scene({"output.width=230", "output.height=210", "output.sheet_width_mm=115", "terrain.synthetic.highest_m=3900",
                            "land_cover.layers=two.layers.toml", "land_cover.colours=" + colours},
                           folder_.path()),
-        silent_progress());
+        silent_progress(), test::shared_cache());
   };
   const PixelRect rect{40, 90, 190, 200};
   const auto base = [&](const World& of, int tile_px) {
@@ -102,7 +104,7 @@ TEST_P(SheetGroundTest, WhatWaterMirrorsIsThatOfTheWholeInAnyTiles) {
     return std::make_unique<World>(
         test::small_scene({"output.width=230", "output.height=210", "output.sheet_width_mm=115", "terrain.synthetic.highest_m=3900",
                            "land_cover.sea_level_m=1100", "water.mirror=" + mirror}),
-        silent_progress());
+        silent_progress(), test::shared_cache());
   };
   const auto base = [&](const World& of, const PixelRect& rect, int tile_px) {
     return SheetGround(of, view_of(of), palette_, place_, run_, tile_px).read_base(rect);
@@ -134,27 +136,46 @@ TEST_P(SheetGroundTest, WhatWaterMirrorsIsThatOfTheWholeInAnyTiles) {
 // wider than what any of them looks at.
 class PrintGroundTest : public testing::TestWithParam<const char*> {
  protected:
-  PrintGroundTest()
-      : world_(test::small_scene({"output.width=1100", "output.height=620", GetParam(), "terrain.synthetic.highest_m=3900",
-                                  "land_cover.settings.ice_line_m=2900", "land_cover.settings.snowline_m=2500",
-                                  "land_cover.settings.treeline_m=1700", "sampling.sky_directions=2"}),
-               silent_progress()) {}
-  const Palette palette_ = read_palette("summer");
-  const World world_;
+  // The world and the sheet in one tile, made once for each scale.
+  struct Print {
+    explicit Print(const char* scale)
+        : world(test::small_scene({"output.width=1100", "output.height=620", scale, "terrain.synthetic.highest_m=3900",
+                                   "land_cover.settings.ice_line_m=2900", "land_cover.settings.snowline_m=2500",
+                                   "land_cover.settings.treeline_m=1700", "sampling.sky_directions=2"}),
+                silent_progress(), test::shared_cache()),
+          whole(world, view_of(world), palette, place, run, 4096) {}
+    const Palette palette = read_palette("summer");
+    const World world;
+    const test::Folder folder{"whole"};
+    TileStore::Place place{folder.path(), 1U << 28U};
+    const belvedere::Run run;
+    SheetGround whole;
+  };
+  static void TearDownTestSuite() { prints_.clear(); }
+  SheetGround tiles_of(int tile_px) {
+    return SheetGround(print_.world, view_of(print_.world), print_.palette, place_, print_.run, tile_px);
+  }
+
+  static inline std::map<std::string, std::unique_ptr<Print>> prints_;
+  static Print& print_of(const char* scale) {
+    std::unique_ptr<Print>& print = prints_[scale];
+    if (print == nullptr) print = std::make_unique<Print>(scale);
+    return *print;
+  }
+  Print& print_ = print_of(GetParam());
+  SheetGround& one_ = print_.whole;
   const test::Folder folder_;
   TileStore::Place place_{folder_.path(), 1U << 28U};
-  const belvedere::Run run_;
 };
 
 TEST_P(PrintGroundTest, APartIsThatOfTheWhole) {
-  SheetGround one(world_, view_of(world_), palette_, place_, run_, 4096);
-  const GuidanceBuffers seen = one.read_all_guidance(one.sheet());
-  const BasePicture painted = one.read_base(one.sheet());
+  const GuidanceBuffers seen = one_.read_all_guidance(one_.sheet());
+  const BasePicture painted = one_.read_base(one_.sheet());
   for (const int tile_px : {64, 100}) {
     for (const PixelRect rect : {PixelRect{0, 300, 30, 340}, PixelRect{1075, 330, 1100, 371}, PixelRect{590, 560, 650, 620}}) {
-      SheetGround part(world_, view_of(world_), palette_, place_, run_, tile_px);
+      SheetGround part = tiles_of(tile_px);
       const PaintDraft draft = part.read_draft(rect);
-      const PaintDraft whole = one.read_draft(rect);
+      const PaintDraft whole = one_.read_draft(rect);
       EXPECT_TRUE(draft.land_cover == whole.land_cover);
       EXPECT_TRUE(draft.base == whole.base);
       EXPECT_TRUE(draft.under == whole.under);
@@ -173,32 +194,31 @@ TEST_P(PrintGroundTest, APartIsThatOfTheWhole) {
 
 // What a stage is told to keep to is enough for the stages after it: nothing else is asked for, and its pixels are the same.
 TEST_P(PrintGroundTest, APartLooksAtNoMoreThanItSays) {
-  SheetGround one(world_, view_of(world_), palette_, place_, run_, 4096);
   for (const PixelRect rect : {PixelRect{0, 300, 30, 340}, PixelRect{1075, 330, 1100, 371}, PixelRect{590, 560, 650, 620}}) {
-    SheetGround part(world_, view_of(world_), palette_, place_, run_, 64);
+    SheetGround part = tiles_of(64);
     part.keep_only({.guidance = rect, .base = rect, .draft = rect});
-    const PaintDraft whole = one.read_draft(rect);
+    const PaintDraft whole = one_.read_draft(rect);
     EXPECT_TRUE(part.read_draft(rect).base == whole.base) << rect.x0;
-    EXPECT_TRUE(part.read_guides(rect).label == one.read_guides(rect).label);
-    EXPECT_TRUE(part.read_base(rect).colour == one.read_base(rect).colour);
-    EXPECT_TRUE(part.read_all_guidance(rect).tone == one.read_all_guidance(rect).tone);
+    EXPECT_TRUE(part.read_guides(rect).label == one_.read_guides(rect).label);
+    EXPECT_TRUE(part.read_base(rect).colour == one_.read_base(rect).colour);
+    EXPECT_TRUE(part.read_all_guidance(rect).tone == one_.read_all_guidance(rect).tone);
     EXPECT_EQ(place_.asked_beyond, 0) << rect.x0;
-    SheetGround base(world_, view_of(world_), palette_, place_, run_, 64);
+    SheetGround base = tiles_of(64);
     base.keep_only({.guidance = {}, .base = rect, .draft = {}});
-    EXPECT_TRUE(base.read_base(rect).colour == one.read_base(rect).colour);
+    EXPECT_TRUE(base.read_base(rect).colour == one_.read_base(rect).colour);
     EXPECT_EQ(place_.asked_beyond, 0) << rect.x0;
   }
-  SheetGround beyond(world_, view_of(world_), palette_, place_, run_, 64);
+  SheetGround beyond = tiles_of(64);
   beyond.keep_only({.guidance = {20, 300, 30, 340}, .base = {}, .draft = {}});
   beyond.read_all_guidance({20, 300, 30, 340});
-  EXPECT_TRUE(beyond.read_draft({0, 300, 30, 340}).base == one.read_draft({0, 300, 30, 340}).base);
+  EXPECT_TRUE(beyond.read_draft({0, 300, 30, 340}).base == one_.read_draft({0, 300, 30, 340}).base);
   EXPECT_GT(place_.asked_beyond, 0) << "what is asked for beyond it comes all the same";
 }
 
 // Memory: the windows of a stage never stand around those of the stages behind it (SheetStage::prepare).
 TEST_P(PrintGroundTest, NoStageHoldsWindowsWhileAnotherIsMade) {
   const PixelRect rect{590, 560, 650, 620};
-  SheetGround ground(world_, view_of(world_), palette_, place_, run_, 64);
+  SheetGround ground = tiles_of(64);
   ground.read_draft(rect);
   ground.read_guides(rect);
   ground.read_all_guidance(rect);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +30,8 @@ using test::Notes;
 
 // Made-up mountains of 27 × 27 km in a file, seen from their southern edge. What would follow from the region is written, so that whole and
 // windows are the same view.
+constexpr const char* few_cells = "terrain.most_mcells=0.6";
+
 class GroundWindows : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -41,6 +44,8 @@ class GroundWindows : public testing::Test {
     write_raster(*folder_ / "terrain.tif", Raster<float>{dem.altitude_m, transform, normalize_crs("EPSG:32632")});
   }
   static void TearDownTestSuite() {
+    whole_.reset();
+    parts_.reset();
     delete folder_;
     folder_ = nullptr;
   }
@@ -82,6 +87,9 @@ sheet_width_mm = 160
 )";
     return parse_scene(text, "big.toml", *folder_ / "", {.data_folders = {*folder_ / ""}, .settings = settings});
   }
+  // The ground in one grid and in windows, each made once.
+  static const World& in_one() { return made(whole_, {}); }
+  static const World& in_windows() { return made(parts_, {few_cells}); }
   static GuidanceBuffers guidance_of(const World& world) {
     GuidanceParameters parameters;
     parameters.sampling = world.scene.sampling;
@@ -90,15 +98,20 @@ sheet_width_mm = 160
   }
 
   static test::Folder* folder_;
+
+ private:
+  static const World& made(std::unique_ptr<World>& world, const std::vector<std::string>& settings) {
+    if (world == nullptr) world = std::make_unique<World>(scene(settings), silent_progress());
+    return *world;
+  }
+  static inline std::unique_ptr<World> whole_, parts_;
 };
 test::Folder* GroundWindows::folder_ = nullptr;
 
-constexpr const char* few_cells = "terrain.most_mcells=0.6";
-
 // Guessed rivers of a window run where those of the same cells run in the whole, not where coarser cells have their valley.
 TEST_F(GroundWindows, RiversLieInTheValleysOfTheirOwnCells) {
-  const World whole(scene(), silent_progress());
-  const World parts(scene({few_cells}), silent_progress());
+  const World& whole = in_one();
+  const World& parts = in_windows();
   ASSERT_EQ(parts.terrain.windows.size(), 2U);
   const auto mean_apart_m = [&](const TerrainModel& ground, const Dem& dem, const PixelRect& part) {
     double sum = 0.0;
@@ -129,7 +142,7 @@ bool is_sky(const GuidanceBuffers& seen, int x, int y) { return !std::isfinite(s
 
 TEST_F(GroundWindows, ShowWhatTheWholeShows) {
   Notes notes;
-  const World whole(scene(), silent_progress());
+  const World& whole = in_one();
   const World parts(scene({few_cells}), notes);
   ASSERT_TRUE(whole.terrain.windows.empty());
   ASSERT_EQ(parts.terrain.windows.size(), 2U) << notes.text();
@@ -178,7 +191,7 @@ TEST_F(GroundWindows, ShowWhatTheWholeShows) {
 }
 
 TEST_F(GroundWindows, NoCracksLetTheSkyThrough) {
-  const World parts(scene({few_cells}), silent_progress());
+  const World& parts = in_windows();
   const GuidanceBuffers seen = guidance_of(parts);
   for (int y = 1; y + 1 < 200; ++y)
     for (int x = 1; x + 1 < 320; ++x)
@@ -214,7 +227,7 @@ TEST_F(GroundWindows, NoCracksLetTheSkyThrough) {
 }
 
 TEST_F(GroundWindows, MeetTheGroundAroundThemInAllTheyKnow) {
-  const World parts(scene({few_cells}), silent_progress());
+  const World& parts = in_windows();
   const TerrainModel* coarser = &parts.terrain;
   for (const TerrainWindow& window : parts.terrain.windows) {
     const auto expect_joined = [&](const Grid<float>& fine, const Grid<float>& coarse, const char* what) {
@@ -244,8 +257,8 @@ TEST_F(GroundWindows, SameBitsForAnyThreads) {
 }
 
 TEST_F(GroundWindows, RiversAreAsLargeAsTheWholeKnowsThem) {
-  const World whole(scene(), silent_progress());
-  const World parts(scene({few_cells}), silent_progress());
+  const World& whole = in_one();
+  const World& parts = in_windows();
   const TerrainWindow& finest = parts.terrain.windows.back();
   const auto largest = [](const Grid<float>& flow, const PixelRect& rect) {
     float most = 0.F;
@@ -313,7 +326,7 @@ Agreement agreement_of(const World& parts, std::size_t index) {
 TEST_F(GroundWindowsByTheSea, HaveTheWholesSeaAndClimate) {
   Notes notes;
   const World whole(scene(), notes);
-  const World parts(scene({few_cells}), silent_progress());
+  const World& parts = in_windows();
   EXPECT_NE(notes.text().find("sea: "), std::string::npos) << notes.text();
   const GuidanceBuffers a = guidance_of(whole);
   const GuidanceBuffers b = guidance_of(parts);

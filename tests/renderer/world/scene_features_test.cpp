@@ -15,6 +15,7 @@
 #include "renderer/world/world.h"
 #include "tests/files.h"
 #include "tests/notes.h"
+#include "tests/shared_cache.h"
 
 namespace belvedere {
 namespace {
@@ -87,7 +88,7 @@ formats = ["tif"]
   }
   static constexpr const char* block = "[[features]]\nsource = \"roads.geojson\"\nkind_of = \"kind\"\n";
   Grid<glm::vec3> painted(const LoadedScene& loaded, const std::string& name, const SheetRequest& request = {}) const {
-    render(loaded, folder_ / name, {}, request);
+    render(loaded, folder_ / name, {.cache = test::shared_cache()}, request);
     return read_picture(folder_ / (name + "/panorama.tif"));
   }
   test::Folder folder_;

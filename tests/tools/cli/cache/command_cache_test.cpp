@@ -54,10 +54,10 @@ TEST_F(CacheProgram, WithoutAFolderWorkGoesOn) {
   const Outcome blocked = run({"check", scene}, {"BELVEDERE_CACHE=" + write("file", "") + "/cache"});
   EXPECT_EQ(blocked.status, 0);
   EXPECT_THAT(blocked.err, HasSubstr("not used"));
-  const Outcome off = run({"check", scene});
+  const Outcome off = run({"check", scene}, without_cache());
   EXPECT_EQ(off.status, 0);
   EXPECT_THAT(off.err, Not(HasSubstr("cache")));
-  EXPECT_EQ(run({"cache", "list"}).status, 2);
+  EXPECT_EQ(run({"cache", "list"}, without_cache()).status, 2);
 }
 
 // The standard of desktops: XDG_CACHE_HOME where it is an absolute path, else .cache at home.

@@ -29,7 +29,7 @@ class Composite : public Program {
 };
 
 TEST_F(Composite, IsLearntMadeAndDrawn) {
-  const test::Composite two = test::two_textures(200, 130);
+  const test::Composite two = test::two_textures(120, 120);
   const std::string crop = write_crop(two);
   const std::string labels = write_drawing("labels.png", two.labels);
   const Outcome learnt = run({"composite", "learn", crop, "--labels", labels, "--types", "16", "--begin", "white", "--out",

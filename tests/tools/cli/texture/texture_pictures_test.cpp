@@ -45,10 +45,14 @@ class TexturePictures : public Program {
       }
     return write(name, test::make_png(width, height, 8, 6, rows));
   }
+  // Learnt once.
   std::string write_model() const {
-    const std::string crop = write_meadow("learnt.png", 72, 64);
-    EXPECT_EQ(run({"texture", "learn", crop, "--types", "16", "--begin", "white", "--out", path("m.model"), "-q"}).status, 0);
-    return path("m.model");
+    if (model_.empty()) {
+      const std::string crop = write_meadow("learnt.png", 72, 64);
+      EXPECT_EQ(run({"texture", "learn", crop, "--types", "16", "--begin", "white", "--out", path("m.model"), "-q"}).status, 0);
+      model_ = read_bytes(path("m.model"));
+    }
+    return write("m.model", model_);
   }
   void refused(const std::vector<std::string>& arguments, int status, const std::string& word) const {
     const Outcome outcome = run(arguments);
@@ -69,6 +73,7 @@ class TexturePictures : public Program {
             {"texture", "judge", model, good, picture},
             {"exemplar", "segment", picture, "--out", path("x.png")}};
   }
+  static inline std::string model_;
 };
 
 TEST_F(TexturePictures, WhatCannotBeReadIsNamedByEveryCommand) {
