@@ -117,7 +117,7 @@ class Program : public ::testing::Test {
   // A scene of small synthetic mountains.
   std::string write_scene_file(const std::string& more = "") const {
     return write("scene.toml", "version = 1\n" + more + "\n" + test::small_mountains +
-                                   "[synthesis]\nenabled = false\n[output]\nwidth = 96\nheight = 64\n");
+                                   "[synthesis]\nenabled = false\n[output]\nwidth = 96\nheight = 64\nsheet_width_mm = 96\n");
   }
   // Small terrain, a picture that takes minutes with one thread.
   std::string write_large_scene() const {

@@ -87,7 +87,7 @@ TEST_F(ViewJudgementTest, ParallelProjectionsAreNotJudged) {
 
 // What a new user sees first. Where the demo's data ended under its horizon, far ranges were single cones in front of nothing: the end of
 // the data was 3 % of the picture, ranges stood 2.5 deep, and the skyline fell off to its corners.
-TEST(DemoView, HasRangesUpToItsHorizonAndNoEndOfTheData) {
+TEST(DemoViewLong, HasRangesUpToItsHorizonAndNoEndOfTheData) {
   const Scene scene = parse_scene(std::string(embedded_file("scenes/demo/demo.toml")), "demo.toml", ".", {}).scene;
   ASSERT_TRUE(scene.terrain.synthetic.has_value());
   const Dem dem = make_synthetic_terrain(*scene.terrain.synthetic, silent_progress());

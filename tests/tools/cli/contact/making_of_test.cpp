@@ -63,7 +63,7 @@ TEST_F(MakingOf, ShowsGroundLargerThanMemory) {
   const std::string file = write("s.toml",
                                  "version = 1\n[[terrain.sources]]\nfile = \"dem.tif\"\n[terrain]\nmost_mcells = 0.06\n"
                                  "[camera]\nposition = [606000, 5185000]\nheight_m = 4000\npitch_deg = -24\n[synthesis]\nenabled = false\n"
-                                 "[output]\nwidth = 100\nheight = 60\n");
+                                 "[output]\nwidth = 100\nheight = 60\nsheet_width_mm = 100\n");
   EXPECT_NE(run({"check", file}).out.find("more than memory holds"), std::string::npos);
   ASSERT_EQ(run({"render", file, "--quiet", "--out", path("one")}).status, 0);
   const Outcome made = run({"figure", file, "--quiet", "--making", "--out", path("out")});

@@ -61,7 +61,7 @@ TEST(ContactSheet, SharedGroundIsTheGround) {
   const auto draft = [&](const std::string& azimuth) {
     return make_small_draft(parse_scene("version = 1\n[[terrain.sources]]\nfile = \"hills.tif\"\n[camera]\nposition = [610000, 5198000]\n"
                                         "height_m = 6000\nazimuth_deg = " +
-                                            azimuth + "\n[output]\nwidth = 480\nheight = 240\n",
+                                            azimuth + "\n[output]\nwidth = 480\nheight = 240\nsheet_width_mm = 480\n",
                                         "hills.toml", folder.path(), {}),
                             96, 250.0);
   };
