@@ -1,3 +1,3 @@
-#include "tools/cli/program_main.h"
+#include "tools/cli/program.h"
 
 int main(int argc, char** argv) { return belvedere::tools::program_main(argc, argv); }

@@ -13,7 +13,7 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "tools/cli/program_main.h"
+#include "tools/cli/program.h"
 
 extern "C" void __gcov_dump() __attribute__((weak));  // there when coverage is measured
 

@@ -11,6 +11,10 @@ namespace belvedere::tools {
 // one. Throws Error(usage) for a command line that cannot be meant, naming the nearest command to a misspelt one.
 int run_program(const std::vector<std::string>& arguments);
 
+// What main() does, so that tests can call it: prepares the process, does what the command line says, and turns every error into a message
+// on stderr and the exit status of its kind. The one place that catches errors.
+int program_main(int argc, char** argv);
+
 // All commands and their options.
 CommandDescription describe_program();
 
