@@ -264,8 +264,8 @@ TEST_F(Faults, BadColourFilesAreFoundBeforeTheWork) {
   write("printer.icc", "no profile");
   write("show.ocio", "no config: [");
   const auto scene = [&](const std::string& output) {
-    return write("scene.toml",
-                 "version = 1\n" + test::small_mountains + "[synthesis]\nenabled = false\n[output]\nwidth = 64\nheight = 48\nsheet_width_mm = 64\n" + output);
+    return write("scene.toml", "version = 1\n" + test::small_mountains +
+                                   "[synthesis]\nenabled = false\n[output]\nwidth = 64\nheight = 48\nsheet_width_mm = 64\n" + output);
   };
   expect_refusal(scene(profile), 3, AllOf(HasSubstr("printer.icc"), Not(HasSubstr(" s)"))));
   expect_refusal(scene(config), 3, AllOf(HasSubstr("show.ocio"), Not(HasSubstr(" s)"))));
