@@ -23,8 +23,8 @@ using ::testing::HasSubstr;
 class ExemplarPaint : public Program {
  protected:
   std::string write_plan() const {
-    return write("plan.toml", "width = 256\nheight = 256\ncolumns = 1\ndots_per_inch = 25.4\nscene = \"\"\"\nversion = 1\n" + test::small_mountains +
-                                  "\"\"\"\n[[panels]]\nname = \"one\"\n");
+    return write("plan.toml", "width = 256\nheight = 256\ncolumns = 1\ndots_per_inch = 25.4\nscene = \"\"\"\nversion = 1\n" +
+                                  test::small_mountains + "\"\"\"\n[[panels]]\nname = \"one\"\n");
   }
 };
 
@@ -59,9 +59,9 @@ TEST_F(ExemplarPaint, PaintsASceneThatCanBePaintedAgain) {
 
 TEST_F(ExemplarPaint, APanoramaCopiesIt) {
   ASSERT_EQ(run({"exemplar", "paint", write_scene_file(), "--out", path("a"), "-q"}).status, 0);
-  const std::string scene = write(
-      "copy.toml", "version = 1\n" + test::small_mountains +
-                       "[[exemplar]]\npicture = \"a/ground.tif\"\nguidance = \"a/guidance.exr\"\n[output]\nwidth = 96\nheight = 64\nsheet_width_mm = 96\n");
+  const std::string scene = write("copy.toml", "version = 1\n" + test::small_mountains +
+                                                   "[[exemplar]]\npicture = \"a/ground.tif\"\nguidance = "
+                                                   "\"a/guidance.exr\"\n[output]\nwidth = 96\nheight = 64\nsheet_width_mm = 96\n");
   const Outcome done = run({"render", scene, "--out", path("copy")});
   ASSERT_EQ(done.status, 0) << done.err;
   // The same view copied from itself, with the same trees on it: most pixels are their own, and the others differ by little.

@@ -99,10 +99,10 @@ TEST_F(FetchProgram, WhatItWritesIsReadyForAScene) {
               AllOf(HasSubstr("elevation.tif: 61 × 61 cells of 500 m, EPSG:32632"), HasSubstr("© Surveyors"), HasSubstr("© Lookers")));
   // The tables down to [request], and a view.
   const std::string record = read_bytes(path("out/fetched.toml"));
-  const std::string scene =
-      write("out/scene.toml", "version = 1\n" + record.substr(0, record.find("[request]")) +
-                                  "[camera]\nposition_lonlat = [11.5, 47.3]\nheight_m = 4000\npitch_deg = -20\n"
-                                  "[synthesis]\nenabled = false\n[output]\nwidth = 96\nheight = 64\nsheet_width_mm = 96\nformats = [\"png\"]\n");
+  const std::string scene = write(
+      "out/scene.toml", "version = 1\n" + record.substr(0, record.find("[request]")) +
+                            "[camera]\nposition_lonlat = [11.5, 47.3]\nheight_m = 4000\npitch_deg = -20\n"
+                            "[synthesis]\nenabled = false\n[output]\nwidth = 96\nheight = 64\nsheet_width_mm = 96\nformats = [\"png\"]\n");
   const Outcome check = run({"check", scene});
   EXPECT_EQ(check.status, 0) << check.err;
   const Outcome render = run({"render", scene, "--out", path("picture")});
