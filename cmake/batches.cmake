@@ -6,6 +6,10 @@
 option(BELVEDERE_BATCHES "Compile files of a room together, with precompiled headers" ON)
 set(BELVEDERE_BATCH_SIZE 10 CACHE STRING "Files that are compiled as one, at most")
 
+# Rooms whose code runs once and not once a pixel: -O1 takes a third less of the compiler's time. The pixels' rooms would run 1.5 times as long.
+set(belvedere_rooms_that_run_once renderer_labels_ renderer_pipeline_ renderer_press_ renderer_scene_ terrain_fetch_ tools_cli_ tools_options_
+  tools_report_ tools_web_)
+
 # belvedere_precompiled(NAME headers … [LINK libraries …]): headers that many targets read, compiled once for all of them. What defines
 # macros or changes code (belvedere_flags) must be the same here and there, else the compiler says so.
 function(belvedere_precompiled name)
@@ -55,6 +59,13 @@ function(belvedere_batches target precompiled)
     list(SORT ${room})
     list(LENGTH ${room} count)
     math(EXPR batches "(${count} + ${BELVEDERE_BATCH_SIZE} - 1) / ${BELVEDERE_BATCH_SIZE}")
+    if(CMAKE_BUILD_TYPE STREQUAL "Release" AND room IN_LIST belvedere_rooms_that_run_once)
+      math(EXPR last "${batches} - 1")
+      foreach(batch RANGE ${last})
+        set(unit ${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${target}.dir/Unity/unity_${room}_${batch}_cxx.cxx)
+        set_source_files_properties(${unit} PROPERTIES COMPILE_OPTIONS -O1)
+      endforeach()
+    endif()
     set(at 0)
     foreach(source IN LISTS ${room})
       math(EXPR batch "${at} * ${batches} / ${count}")

@@ -1,6 +1,7 @@
 #include "tests/tools/program_server.h"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -64,6 +65,7 @@ std::vector<std::string> fields_of(const std::string& bytes) {
     if (fields[0] == "run") {
       answer = fork();
       if (answer == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
         close(socket);
         run_in_child(fields);
       }
@@ -101,7 +103,8 @@ void start_program_server() {
   const pid_t child = fork();
   if (child < 0) return;
   if (child == 0) {
-    std::signal(SIGINT, SIG_IGN);  // from the terminal: the tests end, and the socket with them
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // with the tests it ends, and with it what it runs
+    std::signal(SIGINT, SIG_IGN);      // from the terminal: the tests end
     close(ends[0]);
     serve(ends[1]);
   }
