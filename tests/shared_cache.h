@@ -4,9 +4,9 @@
 
 #include "base/cache/cache.h"
 
-// A cache that the tests of one process share, so that each terrain, each map of classes and each example sheet is made once. It is empty
-// when the process begins and gone when it ends. Tests of what is the same for any threads or tiles use it only where they are about what
-// comes after these.
+// A cache that all tests of one process share, so that each terrain, land cover and example sheet is made only once. It is empty when the
+// process starts and is deleted when it ends. A test that compares runs (threads, tiles, locales, instruction sets) must not use it for
+// both of them: the second run would only read what the first one made.
 namespace belvedere::test {
 
 const Cache& shared_cache();

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-// Runs the program without starting it anew: loading its 265 shared libraries takes .3 to .6 CPU seconds, more than what most tests ask of
-// it. A server process is forked before the tests begin; for each run it forks a child, which calls the program's main. So each run begins
-// in the state of a new process, and neither threads nor files of the tests are in it.
+// Runs the program without the cost of starting a process: loading its 265 shared libraries takes 0.3 to 0.6 CPU seconds, longer than what
+// is tested. A server process is forked before the tests begin; for each run it forks a child that calls the program's main function. So
+// every run starts in the state of a new process, without threads or open files of the tests.
 namespace belvedere::test {
 
 // In main, before there are threads. Under sanitizers there is no server: what they report at the end of a process would be lost.

@@ -31,7 +31,7 @@ TEST_F(Program, GuidanceIsWrittenAndTold) {
   EXPECT_THAT(run({"info", path("result/guidance.exr"), "--json"}).out, AllOf(StartsWith("{\n"), HasSubstr("\"format\": \"openexr\"")));
 
   // The same from other threads and tiles, quietly.
-  const Outcome again = run({"guidance", scene, "--out", path("again"), "--quiet", "--threads", "2", "--tile", "8"});
+  const Outcome again = run({"guidance", scene, "--out", path("again"), "--quiet", "--threads", "2", "--tile", "8"}, without_cache());
   EXPECT_EQ(again.status, 0);
   EXPECT_THAT(again.err, IsEmpty());
   EXPECT_THAT(again.out, IsEmpty());

@@ -21,7 +21,8 @@ TEST_F(Program, APlannedSheetIsThatOfOneRun) {
   EXPECT_EQ(early.status, 3);
   EXPECT_THAT(early.err, HasSubstr("missing"));
   EXPECT_THAT(early.err, HasSubstr("belvedere part " + path("many") + " 2")) << "which makes its one piece";
-  for (const char* part : {"2", "1", "1"}) ASSERT_EQ(run({"part", path("many"), part, "-q"}).status, 0);
+  // Another machine of a cluster has no cache.
+  for (const char* part : {"2", "1", "1"}) ASSERT_EQ(run({"part", path("many"), part, "-q"}, without_cache()).status, 0);
   ASSERT_EQ(run({"join", path("many"), "-q", "--out", path("joined")}).status, 0);
   for (const char* file : {"/panorama.tif", "/panorama.png", "/panorama.exr", "/guidance.exr"})
     EXPECT_TRUE(read_bytes(path("one") + file) == read_bytes(path("joined") + file)) << file;
