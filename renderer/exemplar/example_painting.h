@@ -1,7 +1,7 @@
 #pragma once
 
 #include "renderer/paint/guides.h"
-#include "renderer/world/lit_picture.h"
+#include "renderer/stages/lit_picture.h"
 
 namespace belvedere {
 

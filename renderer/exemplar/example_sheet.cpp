@@ -25,7 +25,7 @@
 #include "renderer/image/srgb.h"
 #include "renderer/paint/composite.h"
 #include "renderer/paint/guides.h"
-#include "renderer/world/lit_picture.h"
+#include "renderer/stages/lit_picture.h"
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/scene_land_cover.h"
 #include "terrain/shape/catchments.h"

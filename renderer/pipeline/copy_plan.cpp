@@ -18,6 +18,7 @@
 #include "renderer/pipeline/sheet_memory.h"
 #include "renderer/pipeline/sheet_pieces.h"
 #include "renderer/scene/scene_rules.h"
+#include "renderer/stages/lit_picture.h"
 #include "renderer/trace/camera_reduced.h"
 #include "texture/synthesis/class_supply.h"
 
@@ -117,8 +118,8 @@ std::string fine_print_note(const Scene& scene) {
       dpi);
 }
 
-CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePaint& paint, SheetGround& ground, TileStore::Place& place,
-                        const WorkFolder& work, const Run& run, bool ground_tells) {
+CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePaint& paint, const GroundStages& ground,
+                        TileStore::Place& place, const WorkFolder& work, const Run& run, bool ground_tells) {
   CopyPlan plan;
   if (const std::string note = fine_print_note(world.scene); !note.empty()) run.progress.note(note);
   plan.residual = world.scene.synthesis.residual;
@@ -150,11 +151,13 @@ CopyPlan make_copy_plan(const LoadedScene& loaded, const World& world, ScenePain
       const int factor = 1 << division.level;
       const std::unique_ptr<const Camera> camera = make_reduced_camera(*world.camera, factor);
       const SheetView view = reduced_view(world, *camera, factor);
-      SheetGround small(world, view, paint.palette, place, told, choose_block_px(world.scene, view.pixels_per_unit, standing));
-      return small.read_guides(small.sheet());
+      StageGraph graph(place, quiet);
+      const int tile_px = choose_block_px(world.scene, view.pixels_per_unit, standing);
+      const GroundStages small = add_ground_stages(graph, make_ground_inputs(world, view, paint.palette, told), tile_px);
+      return small.guides->read(small.guides->sheet());
     };
     if (division.level > 0 || !ground_tells) progress.begin("drafting the sheet", 0.0);
-    GuideStack guides = division.level == 0 ? ground.read_guides(ground.sheet()) : reduced_guides();
+    GuideStack guides = division.level == 0 ? ground.guides->read(ground.guides->sheet()) : reduced_guides();
     for (const ModelledClass& chosen : choose_modelled(models, copied_from, guides.label, parameters)) {
       plan.models.lit[static_cast<std::size_t>(chosen.id)] = static_cast<std::uint8_t>(chosen.lit);
       plan.models.shaded[static_cast<std::size_t>(chosen.id)] = static_cast<std::uint8_t>(chosen.shaded);

@@ -9,7 +9,7 @@
 #include "renderer/labels/label_drawing.h"
 #include "renderer/labels/sheet_painter.h"
 #include "renderer/pipeline/scene_labels.h"
-#include "renderer/sheet/picture_layers.h"
+#include "renderer/stages/picture_layers.h"
 #include "renderer/world/valley_view.h"
 
 namespace belvedere {

@@ -20,7 +20,8 @@
 #include "renderer/pipeline/sheet_memory.h"
 #include "renderer/sheet/guidance_pack.h"
 #include "renderer/sheet/piece_writer.h"
-#include "renderer/sheet/sheet_picture.h"
+#include "renderer/stages/lit_picture.h"
+#include "renderer/stages/stages.h"
 #include "renderer/world/scene_features.h"
 #include "renderer/world/scene_season.h"
 #include "renderer/world/world_notes.h"
@@ -73,7 +74,8 @@ struct SheetWork {
   TileStore::Place place;
   SheetView view;
   int block_px;  // what is painted at once
-  SheetGround ground;
+  StageGraph graph;
+  GroundStages ground;
 };
 
 ScenePaint paint_for(const LoadedScene& loaded, const SheetRequest& request, Progress& progress) {
@@ -104,8 +106,9 @@ SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, con
       place{work.folder(), kept_tile_bytes()},
       view(view_of(world)),
       block_px(block_px_for(world, paint, view, request)),
-      ground(world, view, bring_to_place(paint.palette, loaded, world), place, stage_run,
-             choose_tile_px(block_px, region_of(world.scene, request))) {
+      graph(place, stage_run.progress),
+      ground(add_ground_stages(graph, make_ground_inputs(world, view, bring_to_place(paint.palette, loaded, world), stage_run),
+                               choose_tile_px(block_px, region_of(world.scene, request)))) {
   if (request.panorama) check_names(loaded, *world.dem);
   keep_notes(loaded, world, work);
   if (has_legend(world.scene) && !work.has_bytes(legend_bytes))
@@ -124,12 +127,12 @@ CopyPlan plan_copies(const LoadedScene& loaded, SheetWork& sheet, const WorkFold
 }
 
 // A piece as memory allows it to be painted.
-Grid<glm::vec3> paint_in_blocks(SheetPicture& picture, PixelRect piece, int block_px) {
-  if (piece.width() <= block_px && piece.height() <= block_px) return picture.make(piece);
+Grid<glm::vec3> paint_in_blocks(Stage<SheetPicture>& picture, PixelRect piece, int block_px) {
+  if (piece.width() <= block_px && piece.height() <= block_px) return picture.read(piece).colour;
   Grid<glm::vec3> whole(piece.width(), piece.height());
   for (int y = piece.y0; y < piece.y1; y += block_px)
     for (int x = piece.x0; x < piece.x1; x += block_px)
-      copy_part(whole, picture.make({x, y, std::min(x + block_px, piece.x1), std::min(y + block_px, piece.y1)}), x - piece.x0,
+      copy_part(whole, picture.read({x, y, std::min(x + block_px, piece.x1), std::min(y + block_px, piece.y1)}).colour, x - piece.x0,
                 y - piece.y0);
   return whole;
 }
@@ -150,10 +153,10 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
   const bool copied = is_copied(sheet.world.scene, request);
   CopyPlan plan = copied ? plan_copies(loaded, sheet, work, run, few) : CopyPlan{};
   const DrawnFeatures features =
-      request.panorama ? draw_scene_features(loaded, sheet.world, sheet.ground.strokes().winter, run.progress) : DrawnFeatures{};
+      request.panorama ? draw_scene_features(loaded, sheet.world, sheet.ground.inputs->strokes.winter, run.progress) : DrawnFeatures{};
   if (has_legend(sheet.world.scene) && !features.empty() && !work.has_bytes(feature_legend_bytes))
     work.keep_bytes(feature_legend_bytes, swatches_to_text(find_feature_legend(features, sheet.paint.palette)));
-  SheetPicture picture(sheet.ground, copied ? &plan : nullptr, sheet.place, stage_run, features);
+  const PictureStages picture = add_picture_stages(sheet.graph, sheet.ground, copied ? &plan : nullptr, features);
 
   if (request.matches) work.keep_bytes(matched_bytes, to_note(pictures_of(plan)));
   const std::vector<std::string> products = products_of(request);
@@ -166,25 +169,28 @@ void make_pieces(const LoadedScene& loaded, const SheetRequest& request, std::sp
     const PixelRect piece = missing[i];
     // Nobody asks again for what only earlier pieces looked at, or ever for what none of these does.
     const PixelRect still = still_to_make(missing, i);
-    request.panorama ? picture.keep_only(still) : sheet.ground.keep_only({.guidance = still, .base = still, .draft = {}});
+    std::vector<StageGraph::Request> requests;
+    if (makes("guidance")) requests.push_back({sheet.ground.guidance, still});
+    if (request.panorama) requests.push_back({picture.picture, still});
+    if (request.matches) requests.push_back({picture.matches, still});
+    sheet.graph.keep_only(requests);
     if (makes("guidance") && !work.has("guidance", piece)) {
-      GuidanceBuffers guidance = sheet.ground.read_all_guidance(piece);
+      GuidanceBuffers guidance = sheet.ground.guidance->read(piece);
       keep_chosen(guidance, request.channels);
       const auto packed = std::make_shared<PackedGuidance>(pack_guidance(guidance));
       writer.keep("guidance", piece, packed->planes, packed);
     }
     if (makes("layer_ground") && lacks_layers(work, piece)) {
-      const auto layers = std::make_shared<PictureLayers>();
-      const auto painted = std::make_shared<Grid<glm::vec3>>(picture.make(piece, layers.get()));
+      const auto painted = std::make_shared<SheetPicture>(picture.picture->read(piece, with_layers));
       for (std::size_t k = 0; k < layer_plane_count; ++k)
-        writer.keep(std::string(layer_plane_names()[k]), piece, {plane_of(layers->planes[k])}, layers);
-      writer.keep("panorama", piece, {plane_of(*painted)}, painted);
+        writer.keep(std::string(layer_plane_names()[k]), piece, {plane_of(painted->layers->planes[k])}, painted);
+      writer.keep("panorama", piece, {plane_of(painted->colour)}, painted);
     } else if (request.panorama && !work.has("panorama", piece)) {
-      const auto painted = std::make_shared<Grid<glm::vec3>>(paint_in_blocks(picture, piece, sheet.block_px));
+      const auto painted = std::make_shared<Grid<glm::vec3>>(paint_in_blocks(*picture.picture, piece, sheet.block_px));
       writer.keep("panorama", piece, {plane_of(*painted)}, painted);
     }
     if (request.matches && !work.has("matches", piece)) {
-      const auto matches = std::make_shared<MatchField>(picture.read_matches(piece));
+      const auto matches = std::make_shared<MatchField>(picture.matches->read(piece));
       writer.keep("matches", piece, {plane_of(*matches)}, matches);
     }
     if (!few) run.progress.advance(1.0);

@@ -5,21 +5,14 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/math.h"
 #include "base/memory_limit.h"
 #include "renderer/exemplar/example_sheet.h"
 #include "renderer/ground/cached_products.h"
-#include "renderer/rock/crest_shift.h"
-#include "renderer/rock/rock_relief.h"
-#include "renderer/trace/wide_view.h"
+#include "renderer/stages/stages.h"
 
 namespace belvedere {
 namespace {
 
-// Bytes that a pixel of a stage's window takes while the stage works, and one of a wide view.
-constexpr double window_bytes_per_pixel = 180.0;
-constexpr double wide_bytes_per_pixel = 40.0;
-constexpr double rock_bytes_per_pixel = 90.0;  // of the view from afar, thinned out, with its blurs
 // Measured: a world of 9 million cells has 1.0 GB, 24 million texels with their plan 2.0 GB.
 constexpr double standing_bytes_per_cell = 115.0;
 constexpr double standing_bytes_per_texel = 85.0;
@@ -66,33 +59,11 @@ std::uint64_t kept_tile_bytes() { return static_cast<std::uint64_t>(share_of_til
 int choose_block_px(const Scene& scene, double pixels_per_unit, const StandingBytes& standing, int least_px) {
   const double without_ground = (1.0 - share_of_tiles) * static_cast<double>(memory_budget_bytes()) - standing.besides;
   const double available = std::max(without_ground - standing.ground, least_share_of_windows * without_ground);
-  BaseParameters base;
-  base.pixels_per_unit = pixels_per_unit;
-  StrokeParameters strokes;
-  strokes.pixels_per_unit = pixels_per_unit;
-  // The widest windows are those of strokes below the sky and of base pictures with water, which look around in a wide view. One of the
-  // pixels' own size, where a unit has too few for a smaller one, is a window like others.
-  const int stroke_margin = stroke_margin_px(StrokeLayers{}, strokes);
-  const int wide_margin = base_margin_px(base);
-  const int factor = wide_factor(pixels_per_unit);
-  // Rock looks farthest of all, at about a pixel a unit.
-  RockParameters rock;
-  rock.light.pixels_per_unit = pixels_per_unit;
-  rock.kind = &find_rock_kind(scene.land_cover.rock);
-  const int rock_margin = std::max(rock_margin_px(rock), crest_view_margin_px(rock));
-  const double rock_pixels = square(static_cast<double>(rock_factor(pixels_per_unit)));
-  const PixelRect sheet{0, 0, scene.output.width, scene.output.height};
-  const auto area = [&](const PixelRect& window) {
-    return std::min<double>(window.width(), sheet.width()) * std::min<double>(window.height(), sheet.height());
-  };
-  const auto bytes = [&](int side) {
-    const PixelRect tile{0, 0, side, side};
-    const double wide = area(grown(tile, wide_margin));
-    const double near = std::max(area(grown(tile, stroke_margin)), area(base_window(tile, true, base)));
-    const double far = area(grown(tile, rock_margin)) / rock_pixels * rock_bytes_per_pixel;
-    if (factor == 1) return std::max(wide, near) * window_bytes_per_pixel + far;
-    return near * window_bytes_per_pixel + wide / (factor * factor) * wide_bytes_per_pixel + far;
-  };
+  TileStore::Place nowhere;
+  StageGraph graph(nowhere, silent_progress());
+  const GroundStages ground = add_ground_stages(graph, estimate_ground_inputs(scene, pixels_per_unit), largest_block_px);
+  const PictureStages picture = add_picture_stages(graph, ground, nullptr);
+  const auto bytes = [&](int side) { return graph.bytes_to_make(*picture.picture, side); };
   int block = largest_block_px;
   while (block > least_px && bytes(block) > available) block /= 2;
   if (bytes(block) > available)

@@ -8,7 +8,7 @@
 #include "renderer/image/provenance.h"
 #include "renderer/pipeline/sheet_memory.h"
 #include "renderer/scene/input_hash.h"
-#include "renderer/sheet/picture_layers.h"
+#include "renderer/stages/picture_layers.h"
 #include "terrain/io/http_access.h"
 #include "texture/sheet/synthesis_plan.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/guidance_buffers.h"
-#include "renderer/sheet/planes.h"
+#include "renderer/graph/planes.h"
 
 namespace belvedere {
 

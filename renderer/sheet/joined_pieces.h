@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/pixel_rect.h"
-#include "renderer/sheet/planes.h"
+#include "renderer/graph/planes.h"
 #include "renderer/sheet/work_folder.h"
 
 namespace belvedere {

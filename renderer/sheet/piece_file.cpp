@@ -15,8 +15,8 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "renderer/graph/file_bytes.h"
 #include "renderer/image/provenance.h"
-#include "renderer/sheet/file_bytes.h"
 
 namespace belvedere {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/pixel_rect.h"
-#include "renderer/sheet/planes.h"
+#include "renderer/graph/planes.h"
 
 namespace belvedere {
 

@@ -6,7 +6,7 @@
 #include "renderer/features/drawn_features.h"
 #include "renderer/features/feature_set.h"
 #include "renderer/scene/scene_file.h"
-#include "renderer/world/lit_picture.h"
+#include "renderer/world/picture_parameters.h"
 
 namespace belvedere {
 

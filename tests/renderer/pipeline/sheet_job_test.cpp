@@ -14,7 +14,7 @@
 #include "renderer/image/guidance_io.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
-#include "renderer/sheet/picture_layers.h"
+#include "renderer/stages/picture_layers.h"
 #include "tests/files.h"
 #include "tests/shared_cache.h"
 #include "tests/texture/statistical/texture_crops.h"

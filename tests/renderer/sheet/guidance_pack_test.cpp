@@ -4,7 +4,7 @@
 
 #include "base/guidance_channels.h"
 #include "renderer/image/guidance_io.h"
-#include "renderer/world/lit_picture.h"
+#include "renderer/stages/lit_picture.h"
 #include "tests/files.h"
 #include "tests/scenes.h"
 

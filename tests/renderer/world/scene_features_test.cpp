@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "renderer/image/image_io.h"
 #include "renderer/pipeline/pipeline.h"
-#include "renderer/sheet/picture_layers.h"
+#include "renderer/stages/picture_layers.h"
 #include "renderer/world/world.h"
 #include "tests/files.h"
 #include "tests/notes.h"

@@ -9,7 +9,8 @@
 #include "renderer/pipeline/copy_plan.h"
 #include "renderer/pipeline/scene_paint.h"
 #include "renderer/pipeline/sheet_memory.h"
-#include "renderer/sheet/sheet_picture.h"
+#include "renderer/stages/lit_picture.h"
+#include "renderer/stages/stages.h"
 #include "renderer/trace/sketch/relief_sketch.h"
 #include "renderer/world/scene_features.h"
 #include "renderer/world/scene_season.h"
@@ -56,12 +57,6 @@ Grid<glm::vec3> tone_picture(const GuidanceBuffers& guidance) {
   return out;
 }
 
-Grid<glm::vec3> canvas_picture(const Grid<LayerPixel>& canvas) {
-  Grid<glm::vec3> out(canvas.width(), canvas.height());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = glm::vec3(canvas[i][0], canvas[i][1], canvas[i][2]) / 65535.F;
-  return out;
-}
-
 // From the world on, by the stages of rendering itself.
 void add_paint(std::vector<MakingStep>& steps, const LoadedScene& loaded, const Run& run) {
   const ScratchFolder scratch;
@@ -71,20 +66,20 @@ void add_paint(std::vector<MakingStep>& steps, const LoadedScene& loaded, const 
   paint.palette = palette_of_place(paint.palette, loaded, *world.dem);
   TileStore::Place place{work.folder(), tile_bytes};
   const SheetView view = view_of(world);
-  SheetGround ground(world, view, paint.palette, place, run, choose_block_px(world.scene, view.pixels_per_unit));
-  const PixelRect sheet = ground.sheet();
-  const GuidanceBuffers guidance = ground.read_guidance(sheet, {&GuidanceBuffers::depth_m, &GuidanceBuffers::land_cover}, true);
+  StageGraph graph(place, run.progress);
+  const GroundStages ground =
+      add_ground_stages(graph, make_ground_inputs(world, view, paint.palette, run), choose_block_px(world.scene, view.pixels_per_unit));
+  const PixelRect sheet = ground.lit->sheet();
+  const GuidanceBuffers guidance = ground.lit->read(sheet);
   steps.push_back({"classes", "what covers it", class_picture(guidance)});
   steps.push_back({"tone", "light and shade", tone_picture(guidance)});
-  steps.push_back({"base", "colours of the palette", ground.read_base(sheet).colour});
+  steps.push_back({"base", "colours of the palette", ground.base->read(sheet).colour});
   const bool copied = world.scene.synthesis.enabled;
   CopyPlan plan = copied ? make_copy_plan(loaded, world, paint, ground, place, work, run) : CopyPlan{};
-  const DrawnFeatures features = draw_scene_features(loaded, world, ground.strokes().winter, run.progress);
-  SheetPicture picture(ground, copied ? &plan : nullptr, place, run, features);
-  PictureLayers layers;
-  Grid<glm::vec3> finished = picture.make(sheet, copied ? &layers : nullptr);
-  if (copied) steps.push_back({"copied", "paint copied from paintings", canvas_picture(layers.planes.front())});
-  steps.push_back({"strokes", "strokes over it: the picture", std::move(finished)});
+  const DrawnFeatures features = draw_scene_features(loaded, world, ground.inputs->strokes.winter, run.progress);
+  const PictureStages picture = add_picture_stages(graph, ground, copied ? &plan : nullptr, features);
+  if (copied) steps.push_back({"copied", "paint copied from paintings", picture.copied->read(sheet)});
+  steps.push_back({"strokes", "strokes over it: the picture", picture.picture->read(sheet).colour});
 }
 
 }  // namespace

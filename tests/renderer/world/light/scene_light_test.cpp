@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "renderer/stages/lit_picture.h"
 #include "renderer/trace/sun.h"
-#include "renderer/world/lit_picture.h"
 #include "renderer/world/world.h"
 #include "tests/files.h"
 #include "tests/scenes.h"

@@ -1,0 +1,62 @@
+#include "renderer/stages/finishing_paint.h"
+
+#include <glm/common.hpp>
+#include <utility>
+
+#include "base/grid_part.h"
+#include "renderer/features/house_strokes.h"
+#include "renderer/features/paint_features.h"
+
+namespace belvedere {
+namespace {
+
+// Whether lines or houses may touch a rectangle, or keep ground there clear.
+bool has_features(const DrawnFeatures& features, PixelRect rect) {
+  return !features.empty() && (!features.lines_at(rect).empty() || !features.houses_at(rect).empty());
+}
+
+}  // namespace
+
+FinishedPaint finish_paint(const PaintedGround& painted, const FinishingGround& ground, const FinishingHand& hand, bool in_parts,
+                           Progress& progress) {
+  const auto& [guidance, base, veil, crest_rows, window] = ground;
+  const PixelRect inside = moved(painted.rect, -window.x0, -window.y0);
+  Grid<glm::vec3> canvas = base.colour;
+  if (!painted.copied.empty()) copy_part(canvas, painted.copied, inside.x0, inside.y0);
+  FinishedPaint finished;
+  finished.in_parts = in_parts;
+  if (in_parts) {
+    finished.parts.emplace(inside);
+    finished.bare = part_of(canvas, inside);
+    finished.mist = painted.mist;
+    finished.haze = part_of(base.haze, inside);
+  }
+  const bool misty = !veil.empty();
+  if (misty) lay_mist(canvas, {inside.x0, inside.y0}, painted.mist);
+  SheetWindow place{.origin_px = {window.x0, window.y0}, .sheet_px = hand.sheet_px, .asked = inside, .ice = &hand.ice};
+  place.veil = misty ? &veil : nullptr;
+  place.waters_known = hand.features.rivers;
+  PaintParts* parts = finished.parts ? &*finished.parts : nullptr;
+  const bool mapped = has_features(hand.features, window);
+  MappedGround map;
+  if (mapped) {
+    map.cleared = find_cleared(hand.features, guidance.depth_m, window, &crest_rows);
+    map.hung_m = find_hung(hand.features, window);
+    map.besides = house_strokes(hand.features, {guidance, base, hand.strokes, place});
+    place.mapped = &map;
+  }
+  Painting strokes = paint_strokes(std::move(canvas), guidance, base, hand.layers, hand.strokes, progress, place, parts);
+  if (mapped) {
+    // Ways stand in the mist, which is laid already: what lies before them shows what was there.
+    const Grid<glm::vec3> before = misty ? strokes.picture : Grid<glm::vec3>();
+    const std::optional<PaintParts> parts_before = misty ? finished.parts : std::nullopt;
+    paint_features(strokes.picture, hand.features, {guidance, base.colour, base.haze, strokes.seen_ground, strokes.seen_hung, &crest_rows},
+                   window, painted.rect, parts);
+    for (std::size_t i = 0; i < before.size(); ++i) strokes.picture[i] = glm::mix(strokes.picture[i], before[i], veil[i]);
+    if (parts_before) parts->thin_since(*parts_before, veil);
+  }
+  finished.picture = part_of(strokes.picture, inside);
+  return finished;
+}
+
+}  // namespace belvedere

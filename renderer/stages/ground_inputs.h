@@ -1,0 +1,39 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "base/run.h"
+#include "renderer/paint/base_picture.h"
+#include "renderer/paint/light.h"
+#include "renderer/paint/palette.h"
+#include "renderer/rock/rock_relief.h"
+#include "renderer/world/picture_parameters.h"
+#include "renderer/world/world.h"
+
+namespace belvedere {
+
+// What the stages of the ground look at and are made with.
+struct GroundInputs {
+  // Without a world nothing can be made, but margins and memory can be asked for.
+  const World* world = nullptr;
+  const Palette* palette = nullptr;
+  Run run = {};
+  const Camera* camera = nullptr;
+  glm::ivec2 size_px{0};
+  double pixels_per_unit = 1.0;  // pixels in .5 mm of the sheet
+  double horizon_px = 0.0;       // SheetView::horizon_px
+  // Whether what reaches far is looked up in pixels of about half a unit (WideView) where the sheet's are finer.
+  bool wide_views = true;
+  bool has_mist = false;
+  RockParameters rock = {};
+  ToneParameters tone = {};
+  BaseParameters base = {};
+  StrokeParameters strokes = {};
+};
+// All arguments must outlive the inputs.
+// Without BaseParameters::mean_light, which is measured with them: make_ground_inputs of lit_picture.h.
+GroundInputs make_unlit_inputs(const World& world, const SheetView& view, const Palette& palette, const Run& run);
+// Of a scene whose world is not made yet: for what memory its stages take.
+GroundInputs estimate_ground_inputs(const Scene& scene, double pixels_per_unit);
+
+}  // namespace belvedere

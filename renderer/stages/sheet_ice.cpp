@@ -1,0 +1,64 @@
+#include "renderer/stages/sheet_ice.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "renderer/trace/camera_reduced.h"
+#include "renderer/world/picture_parameters.h"
+
+namespace belvedere {
+namespace {
+
+constexpr double most_pixels_per_unit = 1.3;
+constexpr int band_px = 256;  // rows that are traced at once: of most channels nothing is kept
+
+template <class T>
+void put_rows(Grid<T>& into, int first_row, const Grid<T>& rows) {
+  std::copy(rows.begin(), rows.end(), into.row(first_row));
+}
+
+bool has_ice(const LandCover& land_cover) {
+  return std::any_of(land_cover.classes.cells.begin(), land_cover.classes.cells.end(),
+                     [](LandCoverClass id) { return has_trait(id, ClassTrait::icy); });
+}
+
+// In the terrain or a window of it, whose finer cells may know smaller glaciers.
+bool has_ice(const TerrainModel& terrain) {
+  return has_ice(*terrain.land_cover) || std::any_of(terrain.windows.begin(), terrain.windows.end(),
+                                                     [](const TerrainWindow& window) { return has_ice(*window.ground.land_cover); });
+}
+
+// What a plan asks of the sheet as a camera shows it: one ray a pixel, and no light.
+GuidanceBuffers look_at(const World& world, const Camera& camera, const Run& run) {
+  const glm::ivec2 size = camera.size();
+  GuidanceBuffers seen;
+  seen.origin_m = world.surface.origin;
+  seen.depth_m = seen.slope_deg = seen.relief_s_m = Grid<float>(size.x, size.y);
+  seen.land_cover = Grid<LandCoverClass>(size.x, size.y);
+  seen.fall_line = Grid<glm::vec2>(size.x, size.y);
+  for (int y = 0; y < size.y; y += band_px) {
+    const PixelRect band{0, y, size.x, std::min(y + band_px, size.y)};
+    const GuidanceBuffers rows = trace_forms(world, camera, band, run);
+    put_rows(seen.depth_m, y, rows.depth_m);
+    put_rows(seen.slope_deg, y, rows.slope_deg);
+    put_rows(seen.relief_s_m, y, rows.relief_s_m);
+    put_rows(seen.land_cover, y, rows.land_cover);
+    put_rows(seen.fall_line, y, rows.fall_line);
+  }
+  return seen;
+}
+
+}  // namespace
+
+IcePlan make_ice_plan(const World& world, const Run& run) {
+  if (!has_ice(world.terrain)) return {};
+  int factor = 1;
+  while (world.scene.pixels_per_unit() / factor > most_pixels_per_unit) factor *= 2;
+  const std::unique_ptr<const Camera> camera = make_reduced_camera(*world.camera, factor);
+  StrokeParameters parameters;
+  parameters.pixels_per_unit = world.scene.pixels_per_unit() / factor;
+  parameters.seed = world.scene.seed;
+  return plan_ice(look_at(world, *camera, run), parameters);
+}
+
+}  // namespace belvedere
