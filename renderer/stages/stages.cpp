@@ -64,18 +64,6 @@ Channels guide_channels() {
   return channels;
 }
 
-// A pixel whose right or lower neighbour lies in another band of 200 m of altitude is darkened.
-void draw_isolines(Grid<glm::vec3>& picture, const GuidanceBuffers& guidance, PixelRect part) {
-  const auto band = [&](int x, int y) { return std::floor(guidance.altitude_m(x, y) / 200.F); };
-  for (int y = 0; y < picture.height(); ++y)
-    for (int x = 0; x < picture.width(); ++x) {
-      const int u = part.x0 + x;
-      const int v = part.y0 + y;
-      if (guidance.is_sky(guidance.depth_m.index(u, v)) || u + 1 >= guidance.width() || v + 1 >= guidance.height()) continue;
-      if (band(u, v) != band(u + 1, v) || band(u, v) != band(u, v + 1)) picture(x, y) *= 0.6F;
-    }
-}
-
 // Traced pixels of a tile: silhouettes and sky view look at their neighbours.
 GuidanceBuffers trace_tile(const GroundInputs& in, PixelRect tile) {
   const PixelRect window = intersection({0, 0, in.size_px.x, in.size_px.y}, grown(tile, guidance_margin_px()));
@@ -332,19 +320,10 @@ PictureStages add_picture_stages(StageGraph& graph, const GroundStages& ground, 
                            {in->strokes, seen, features, ice->get(), in->size_px}, out.in_parts, in->run.progress);
       });
 
-  // Lines of equal altitude over the strokes.
-  Stage<FinishedPaint>* isolines = graph.add_view<FinishedPaint>(
-      view("isolines"), untiled<FinishedPaint>(),
-      inputs(reads_in_pieces(picture.finished), reads(ground.raised, around(1), some({&B::depth_m, &B::altitude_m}))),
-      [](const Tile& tile, FinishedPaint& out, const auto& finished, const auto& raised) {
-        finished.read_into(tile.rect, out);
-        draw_isolines(out.picture, raised.value, raised.inside(tile.rect));
-      });
-
   // Edges of depth are softened, and layers cut.
   picture.picture = graph.add_view<SheetPicture>(
       view("panorama"), untiled<SheetPicture>(),
-      inputs(reads_in_pieces(isolines, around(blend_margin_px)), reads_in_pieces(ground.lit, around(blend_margin_px))),
+      inputs(reads_in_pieces(picture.finished, around(blend_margin_px)), reads_in_pieces(ground.lit, around(blend_margin_px))),
       [some](const Tile& tile, SheetPicture& out, const auto& finished, const auto& lit) {
         const PixelRect window = finished.rect();
         const PixelRect wanted = moved(tile.rect, -window.x0, -window.y0);
