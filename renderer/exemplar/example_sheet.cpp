@@ -160,7 +160,8 @@ struct ExampleSheetPainter::State {
 
     // No two panels have strokes at the same places. Files hold no more than 53 bits of a seed.
     loaded.scene.seed = stream_seed(plan.seed, Stream::sheet_panels, static_cast<std::uint64_t>(panel)) >> 11;
-    const World world(loaded, dem, cover->second, progress, no_cache(), std::make_unique<Catchments>(*dem, catchments->km2()));
+    const World world =
+        make_world(loaded, progress, no_cache(), {dem, cover->second, std::make_unique<Catchments>(*dem, catchments->km2())});
     instruction_set = world.tracer.description();
     const PixelRect whole{0, 0, loaded.scene.output.width, loaded.scene.output.height};
     ExamplePainting painted = paint_example(world, hand.palette, make_lit_picture(world, hand.palette, whole, run), layers, progress);

@@ -73,7 +73,7 @@ TexelSupply write_scene_exemplar(const LoadedScene& loaded, const std::string& o
   check_output_folder(out_folder);
 
   const Palette named = read_palette(find_named_file(loaded, "palettes", loaded.scene.palette));
-  const World world(loaded, progress, run.cache);
+  const World world = make_world(loaded, progress, run.cache);
   const Palette palette = palette_of_place(named, loaded, *world.dem);
   const FileNotes notes = make_world_notes(loaded, world);
   LitPicture picture = make_lit_picture(world, palette, {0, 0, output.width, output.height}, run);

@@ -161,7 +161,7 @@ SceneExemplars look_at_exemplars(const LoadedScene& scene, Progress& progress, c
   check_paintings(scene);
   const LoadedScene view = small(scene);
   const Palette named = read_scene_palette(scene, progress);
-  const World world(view, progress, cache);
+  const World world = make_world(view, progress, cache);
   const Palette palette = palette_of_place(named, scene, *world.dem);
   const LitPicture picture = make_lit_picture(world, palette, whole_picture(view), {.progress = progress});
   const double small_pixels = static_cast<double>(view.scene.output.width) * view.scene.output.height;

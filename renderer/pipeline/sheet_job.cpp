@@ -43,7 +43,7 @@ void keep_notes(const LoadedScene& loaded, const World& world, const WorkFolder&
                   "a run without --resume");
     return;
   }
-  const glm::dvec3 origin = world.surface.origin;
+  const glm::dvec3 origin = world.surface->origin;
   notes[origin_note] = fmt::format("{:.17g} {:.17g} {:.17g}", origin.x, origin.y, origin.z);
   work.keep_bytes(notes_bytes, to_text(notes));
 }
@@ -102,7 +102,7 @@ bool has_legend(const Scene& scene) { return scene.margin && scene.margin->legen
 
 SheetWork::SheetWork(const LoadedScene& loaded, const SheetRequest& request, const WorkFolder& work, const Run& run, const Run& stage_run)
     : paint(paint_for(loaded, request, run.progress)),
-      world(loaded, run.progress, run.cache),
+      world(make_world(loaded, run.progress, run.cache)),
       place{work.folder(), kept_tile_bytes()},
       view(view_of(world)),
       block_px(block_px_for(world, paint, view, request)),

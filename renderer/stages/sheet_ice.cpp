@@ -32,7 +32,7 @@ bool has_ice(const TerrainModel& terrain) {
 GuidanceBuffers look_at(const World& world, const Camera& camera, const Run& run) {
   const glm::ivec2 size = camera.size();
   GuidanceBuffers seen;
-  seen.origin_m = world.surface.origin;
+  seen.origin_m = world.surface->origin;
   seen.depth_m = seen.slope_deg = seen.relief_s_m = Grid<float>(size.x, size.y);
   seen.land_cover = Grid<LandCoverClass>(size.x, size.y);
   seen.fall_line = Grid<glm::vec2>(size.x, size.y);

@@ -80,7 +80,7 @@ GuidanceBuffers trace_tile(const GroundInputs& in, PixelRect tile) {
 GroundStages add_ground_stages(StageGraph& graph, GroundInputs given, int tile_px) {
   const auto in = std::make_shared<const GroundInputs>(std::move(given));
   const double ppu = in->pixels_per_unit;
-  const glm::dvec3 origin_m = in->world == nullptr ? glm::dvec3(0.0) : in->world->surface.origin;
+  const glm::dvec3 origin_m = in->world == nullptr ? glm::dvec3(0.0) : in->world->surface->origin;
   const auto tiles = [&](const char* name, double work_bytes = 0.0) {
     return StageNode::Declaration{.name = name, .size_px = in->size_px, .tile_px = tile_px, .work_bytes_per_pixel = work_bytes};
   };
@@ -213,7 +213,7 @@ GroundStages add_ground_stages(StageGraph& graph, GroundInputs given, int tile_p
 
 PictureStages add_picture_stages(StageGraph& graph, const GroundStages& ground, CopyPlan* plan, const DrawnFeatures& features) {
   const std::shared_ptr<const GroundInputs> in = ground.inputs;
-  const glm::dvec3 origin_m = in->world == nullptr ? glm::dvec3(0.0) : in->world->surface.origin;
+  const glm::dvec3 origin_m = in->world == nullptr ? glm::dvec3(0.0) : in->world->surface->origin;
   const auto whole_tiles = [&](const char* name, int tile_px) {
     return StageNode::Declaration{.name = name, .size_px = in->size_px, .tile_px = tile_px, .whole_tiles = true};
   };

@@ -114,7 +114,7 @@ std::optional<WaterImage> see_mirrored(const World& world, const SheetView& view
     for (int x = 0; x < mask.width(); ++x) mask(x, y) = guidance.land_cover(rect.x0 + x, rect.y0 + y) == LandCoverClass::water ? 1 : 0;
   MirrorParameters rays;
   rays.sun_direction = world.view.sun_direction;
-  const MirrorSight sight = trace_mirror(world.terrain, world.surface, world.deformation, world.tracer, view.camera, rays, mask,
+  const MirrorSight sight = trace_mirror(world.terrain, *world.surface, world.deformation, world.tracer, view.camera, rays, mask,
                                          moved(rect, origin_px.x, origin_px.y));
   WaterImageParameters look;
   look.light = world.scene.light;
@@ -133,7 +133,7 @@ GuidanceBuffers trace_view(const World& world, const SheetView& view, PixelRect 
   parameters.light_field = world.light_field;
   parameters.sun_radius_rad = to_radians(world.scene.sun.radius_deg);
   parameters.tile_size = run.tile_px;
-  return trace_guidance(world.terrain, world.surface, world.tracer, view.camera, parameters, region, run.progress);
+  return trace_guidance(world.terrain, *world.surface, world.tracer, view.camera, parameters, region, run.progress);
 }
 
 GuidanceBuffers trace_forms(const World& world, const Camera& camera, PixelRect region, const Run& run) {
@@ -141,7 +141,7 @@ GuidanceBuffers trace_forms(const World& world, const Camera& camera, PixelRect 
   parameters.sampling = {.pixel_samples = 1, .shadow_rays = 1, .sky_directions = 0};
   parameters.sun_direction = {0.0, 0.0, -1.0};
   parameters.tile_size = run.tile_px;
-  return trace_guidance(world.terrain, world.surface, world.tracer, camera, parameters, region, run.progress);
+  return trace_guidance(world.terrain, *world.surface, world.tracer, camera, parameters, region, run.progress);
 }
 
 }  // namespace belvedere

@@ -115,7 +115,7 @@ DrawnFeatures draw_scene_features(const LoadedScene& loaded, const World& world,
   else
     set = read_scene_features(loaded, world.dem->crs, progress);
   progress.begin("laying features over the ground", 0.0);
-  const GroundSight sight(world.dem->transform, world.surface, *world.camera, world.tracer, world.terrain.goes_to);
+  const GroundSight sight(world.dem->transform, *world.surface, *world.camera, world.tracer, world.terrain.goes_to);
   DrawnFeatures drawn = draw_features(set, sight,
                                       {.winter = winter,
                                        .px_per_mm = world.scene.output.width / world.scene.output.sheet_width_mm,

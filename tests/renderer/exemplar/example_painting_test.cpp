@@ -12,7 +12,7 @@ namespace {
 
 class ExamplePaintings : public testing::Test {
  protected:
-  ExamplePaintings() : world_(test::small_scene(), silent_progress()), palette_(read_palette("summer")) {}
+  ExamplePaintings() : world_(make_world(test::small_scene(), silent_progress())), palette_(read_palette("summer")) {}
   LitPicture lit() const { return make_lit_picture(world_, palette_, {0, 0, 96, 80}, {}); }
   ExamplePainting paint(const ExampleLayers& layers) const { return paint_example(world_, palette_, lit(), layers, silent_progress()); }
 

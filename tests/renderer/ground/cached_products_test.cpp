@@ -40,7 +40,7 @@ class CachedProducts : public ::testing::Test {
   // Stages that had to be done for a world; what the cache has is none.
   std::vector<std::string> stages(const std::vector<std::string>& settings) const {
     Told told;
-    const World world(small_scene(settings), told, cache_);
+    const World world = make_world(small_scene(settings), told, cache_);
     return told.stages;
   }
   test::Folder folder_{"cache"};
@@ -92,11 +92,11 @@ TEST_F(CachedProducts, AreMadeOnceAndBringTheirRemarksAlong) {
 TEST_F(CachedProducts, AWorldIsTheSameFromAColdOrAWarmCacheOrNone) {
   const std::vector<std::string> settings = {"generalize.foreground=[1.4,0.8,0.6,1.2]", "generalize.background=[1,0.2,0.1,1]",
                                              "generalize.widen_valleys_m=700"};
-  const World none(small_scene(settings), silent_progress());
-  const World cold(small_scene(settings), silent_progress(), cache_);
+  const World none = make_world(small_scene(settings), silent_progress());
+  const World cold = make_world(small_scene(settings), silent_progress(), cache_);
   EXPECT_EQ(folder_.count(), 4U);
   Told told;
-  const World warm(small_scene(settings), told, cache_);
+  const World warm = make_world(small_scene(settings), told, cache_);
   EXPECT_THAT(told.stages, ElementsAre("building the ray tracer"));
   ASSERT_FALSE(none.terrain.came_from.empty());
   for (const World* other : {&cold, &warm}) {
@@ -123,7 +123,7 @@ TEST_F(CachedProducts, SurroundingsHangOnElevationAndLandCoverAlone) {
     return std::count_if(entries.begin(), entries.end(),
                          [](const CacheEntry& entry) { return entry.product == "surroundings of the ground"; });
   };
-  const World first(small_scene(), silent_progress(), cache_);
+  const World first = make_world(small_scene(), silent_progress(), cache_);
   for (const char* same : {"sun.altitude_deg=12", "camera.position=[6000, -4001]", "generalize.crest=0.5", "deform.exaggeration=1.3"}) {
     stages({same});
     EXPECT_EQ(kept(), 1) << same;
@@ -131,11 +131,11 @@ TEST_F(CachedProducts, SurroundingsHangOnElevationAndLandCoverAlone) {
   const char* town = "land_cover.towns.0={ name = \"A\", position = [3000, 3000], radius_m = 400 }";
   int entries = 1;
   for (const char* other : {town, "terrain.synthetic.seed=4"}) {
-    const World cold(small_scene({other}), silent_progress(), cache_);
+    const World cold = make_world(small_scene({other}), silent_progress(), cache_);
     EXPECT_EQ(kept(), ++entries) << other;
-    const World warm(small_scene({other}), silent_progress(), cache_);
+    const World warm = make_world(small_scene({other}), silent_progress(), cache_);
     EXPECT_EQ(kept(), entries) << other;
-    const World none(small_scene({other}), silent_progress());
+    const World none = make_world(small_scene({other}), silent_progress());
     for (const World* world : {&cold, &warm}) {
       EXPECT_EQ(world->terrain.flow, none.terrain.flow) << other;
       EXPECT_EQ(world->terrain.floor_plan.built, none.terrain.floor_plan.built) << other;
@@ -145,7 +145,7 @@ TEST_F(CachedProducts, SurroundingsHangOnElevationAndLandCoverAlone) {
 }
 
 TEST_F(CachedProducts, DamagedOnesAreMadeAgain) {
-  const World none(small_scene(), silent_progress());
+  const World none = make_world(small_scene(), silent_progress());
   EXPECT_EQ(stages({}).size(), 4U);
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_.path())) {
     std::string bytes = test::read_bytes(entry.path());
@@ -153,7 +153,7 @@ TEST_F(CachedProducts, DamagedOnesAreMadeAgain) {
     test::write_bytes(entry.path(), bytes);
   }
   Told told;
-  const World again(small_scene(), told, cache_);
+  const World again = make_world(small_scene(), told, cache_);
   EXPECT_EQ(told.stages.size(), 4U);
   EXPECT_THAT(told.notes, Contains(HasSubstr("damaged")).Times(4));
   EXPECT_EQ(again.terrain.generalized_m, none.terrain.generalized_m);
@@ -198,7 +198,7 @@ TEST_F(CachedProducts, FilesCountByWhatIsInThem) {
   const auto time = fs::last_write_time(file);
   const auto made = [&](const Cache& cache) {
     Told told;
-    const World world(scene, told, cache);
+    const World world = make_world(scene, told, cache);
     return std::pair(told.stages, world.terrain.generalized_m);
   };
   const auto first = made(cache_);

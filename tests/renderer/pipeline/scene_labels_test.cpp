@@ -105,8 +105,8 @@ class ManyNames : public testing::Test {
     job_ = {.points = {*folder_ / "names.csv"}, .shapes = {*folder_ / "valleys.geojson"}, .tracks = {}};
     bare_ = new BareView(make_bare_view(*loaded_, silent_progress()));
     sheet_ = new LabelSheet(make_label_sheet(*loaded_, job_, *bare_, silent_progress()));
-    world_ = new World(*loaded_, silent_progress());
-    traced_ = new GuidanceBuffers(trace_guidance(world_->terrain, world_->surface, world_->tracer, *world_->camera,
+    world_ = new World(make_world(*loaded_, silent_progress()));
+    traced_ = new GuidanceBuffers(trace_guidance(world_->terrain, *world_->surface, world_->tracer, *world_->camera,
                                                  {.sampling = loaded_->scene.sampling}, {0, 0, size_px.x, size_px.y}, silent_progress()));
   }
   static void TearDownTestSuite() {

@@ -13,7 +13,7 @@ namespace {
 
 // A file written from packed guidance is the file of the guidance itself.
 TEST(GuidancePack, KeepsAllThatTheFileKeeps) {
-  const World world(test::small_scene(), silent_progress());
+  const World world = make_world(test::small_scene(), silent_progress());
   const GuidanceBuffers guidance = make_lit_picture(world, read_palette("summer"), {0, 0, 96, 80}, {}).guidance;
   const GuidanceBuffers back = unpack_guidance(pack_guidance(guidance), guidance);
   const test::Folder folder;
@@ -24,7 +24,7 @@ TEST(GuidancePack, KeepsAllThatTheFileKeeps) {
 }
 
 TEST(GuidancePack, ASheetsGuidanceHasTheChannelsOfTracingAndLight) {
-  const World world(test::small_scene(), silent_progress());
+  const World world = make_world(test::small_scene(), silent_progress());
   const GuidanceBuffers guidance = make_lit_picture(world, read_palette("summer"), {0, 0, 96, 80}, {}).guidance;
   const GuidanceBuffers like = sheet_guidance_like(guidance.origin_m);
   for (const GuidanceChannel& channel : guidance_channels())

@@ -12,7 +12,7 @@ namespace {
 // Before there is a world the stages reach as far as they will when there is one, so that memory is told beforehand.
 TEST(GroundInputs, AnEstimateHasTheReachesOfTheWorlds) {
   const LoadedScene scene = test::small_scene({"output.width=400", "output.height=200", "land_cover.rock=granite"});
-  const World world(scene, silent_progress());
+  const World world = make_world(scene, silent_progress());
   const Palette palette = read_palette("summer");
   TileStore::Place nowhere;
   StageGraph made(nowhere, silent_progress());

@@ -22,7 +22,7 @@ using test::small_scene;
 PixelRect whole_picture(const Scene& scene) { return {0, 0, scene.output.width, scene.output.height}; }
 
 TEST(LitPicture, ItsGuidanceHasToneAndBase) {
-  const World world(small_scene(), silent_progress());
+  const World world = make_world(small_scene(), silent_progress());
   const LitPicture lit = make_lit_picture(world, read_palette("summer"), whole_picture(world.scene), {});
   EXPECT_TRUE(lit.guidance.base == decode_srgb(lit.base.colour));
   for (const float tone : lit.guidance.tone) {
@@ -33,7 +33,7 @@ TEST(LitPicture, ItsGuidanceHasToneAndBase) {
 
 TEST(LitPicture, WithoutSunTheDirectionOfTheSunNoLongerCounts) {
   const auto tone = [](const std::string& altitude, const std::string& strength) {
-    const World world(small_scene({"sun.altitude_deg=" + altitude, "light.sun=" + strength}), silent_progress());
+    const World world = make_world(small_scene({"sun.altitude_deg=" + altitude, "light.sun=" + strength}), silent_progress());
     return make_lit_picture(world, read_palette("summer"), whole_picture(world.scene), {}).guidance.tone;
   };
   EXPECT_TRUE(tone("-3", "0.9") == tone("-3", "0"));
@@ -50,9 +50,9 @@ double luminance(const glm::vec3& encoded) {
 TEST(LitPicture, ColourTimesLightKeepsTheLuminanceOfLitGround) {
   const Palette palette = read_palette("summer");
   for (const auto& [width, height] : {std::pair{96, 80}, std::pair{1000, 500}}) {
-    const World world(small_scene({"light.model=product", "air.from_m=1000000", "air.rim_fade_m=0",
-                                   "output.height=" + std::to_string(height), "output.width=" + std::to_string(width)}),
-                      silent_progress());
+    const World world = make_world(small_scene({"light.model=product", "air.from_m=1000000", "air.rim_fade_m=0",
+                                                "output.height=" + std::to_string(height), "output.width=" + std::to_string(width)}),
+                                   silent_progress());
     const double mean_light = make_ground_inputs(world, view_of(world), palette, {}).base.mean_light;
     ASSERT_GT(mean_light, 0.0);
     const LitPicture lit = make_lit_picture(world, palette, whole_picture(world.scene), {});
@@ -70,7 +70,7 @@ TEST(LitPicture, ColourTimesLightKeepsTheLuminanceOfLitGround) {
     EXPECT_NEAR(seen[1] / own[1], 1.0, 0.01) << width;
     EXPECT_LT(seen[0] / own[0], 0.8) << width;
   }
-  const World usual(small_scene(), silent_progress());
+  const World usual = make_world(small_scene(), silent_progress());
   EXPECT_EQ(make_ground_inputs(usual, view_of(usual), palette, {}).base.mean_light, 0.0) << "the palette's ramps";
 }
 

@@ -29,9 +29,9 @@ struct PaintedSheet {
     PictureStages picture;
   };
   explicit PaintedSheet(std::vector<std::string> settings)
-      : world((settings.insert(settings.end(), {"output.width=230", "output.height=210", "output.sheet_width_mm=115"}),
-               test::small_scene(settings)),
-              silent_progress()) {}
+      : world(make_world((settings.insert(settings.end(), {"output.width=230", "output.height=210", "output.sheet_width_mm=115"}),
+                          test::small_scene(settings)),
+                         silent_progress())) {}
   Grid<glm::vec3> make(PixelRect rect, int tile_px = 96) { return Stages(*this, tile_px).picture.picture->read(rect).colour; }
   const Palette palette = read_palette("summer");
   const World world;

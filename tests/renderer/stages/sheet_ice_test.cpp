@@ -11,11 +11,12 @@ namespace {
 
 // High mountains on a sheet of 115 × 105 mm, with glaciers above the line.
 IcePlan plan_at(int width, int ice_line_m) {
-  const World world(test::small_scene({fmt::format("output.width={}", width), fmt::format("output.height={}", width * 105 / 115),
-                                       "output.sheet_width_mm=115", "terrain.synthetic.highest_m=3900",
-                                       fmt::format("land_cover.settings.ice_line_m={}", ice_line_m), "land_cover.settings.treeline_m=400",
-                                       fmt::format("land_cover.settings.snowline_m={}", ice_line_m + 200)}),
-                    silent_progress());
+  const World world =
+      make_world(test::small_scene({fmt::format("output.width={}", width), fmt::format("output.height={}", width * 105 / 115),
+                                    "output.sheet_width_mm=115", "terrain.synthetic.highest_m=3900",
+                                    fmt::format("land_cover.settings.ice_line_m={}", ice_line_m), "land_cover.settings.treeline_m=400",
+                                    fmt::format("land_cover.settings.snowline_m={}", ice_line_m + 200)}),
+                 silent_progress());
   return make_ice_plan(world, {});
 }
 

@@ -41,10 +41,10 @@ class GroundStagesTest : public testing::TestWithParam<int> {
  protected:
   // Ice among the hills: its strokes hang on the sheet as a whole.
   GroundStagesTest()
-      : world_(test::small_scene({"output.width=230", "output.height=210", "output.sheet_width_mm=115", "terrain.synthetic.highest_m=3900",
-                                  "land_cover.settings.ice_line_m=900", "land_cover.settings.snowline_m=1100",
-                                  "land_cover.settings.treeline_m=400"}),
-               silent_progress(), test::shared_cache()) {}
+      : world_(make_world(test::small_scene({"output.width=230", "output.height=210", "output.sheet_width_mm=115",
+                                             "terrain.synthetic.highest_m=3900", "land_cover.settings.ice_line_m=900",
+                                             "land_cover.settings.snowline_m=1100", "land_cover.settings.treeline_m=400"}),
+                          silent_progress(), test::shared_cache())) {}
   const Palette palette_ = read_palette("summer");
   const World world_;
   const test::Folder folder_;
@@ -102,11 +102,11 @@ TEST_P(GroundStagesTest, ColoursOfLayersAreThoseOfTheWholeInAnyTiles) {
                 "version = 1\nground = { class = \"pasture\", colour = \"#7a5a3a\" }\n[[layers]]\nname = \"high\"\nclass = \"rock\"\n"
                 "colour = \"#5a6a8a\"\nwhen = \"altitude > 1500 + 300 * n660\"\n");
   const auto world = [&](const std::string& colours) {
-    return std::make_unique<World>(
+    return std::unique_ptr<World>(new World(make_world(
         test::small_scene({"output.width=230", "output.height=210", "output.sheet_width_mm=115", "terrain.synthetic.highest_m=3900",
                            "land_cover.layers=two.layers.toml", "land_cover.colours=" + colours},
                           folder_.path()),
-        silent_progress(), test::shared_cache());
+        silent_progress(), test::shared_cache())));
   };
   const PixelRect rect{40, 90, 190, 200};
   const auto base = [&](const World& of, int tile_px) { return Sheet(of, palette_, place_, tile_px).ground.base->read(rect); };
@@ -123,10 +123,10 @@ TEST_P(GroundStagesTest, ColoursOfLayersAreThoseOfTheWholeInAnyTiles) {
 // The sea fills the valleys: what it mirrors is traced pixel by pixel and drawn out downwards, over the borders of tiles.
 TEST_P(GroundStagesTest, WhatWaterMirrorsIsThatOfTheWholeInAnyTiles) {
   const auto world = [&](const std::string& mirror) {
-    return std::make_unique<World>(
-        test::small_scene({"output.width=230", "output.height=210", "output.sheet_width_mm=115", "terrain.synthetic.highest_m=3900",
-                           "land_cover.sea_level_m=1100", "water.mirror=" + mirror}),
-        silent_progress(), test::shared_cache());
+    return std::unique_ptr<World>(new World(
+        make_world(test::small_scene({"output.width=230", "output.height=210", "output.sheet_width_mm=115",
+                                      "terrain.synthetic.highest_m=3900", "land_cover.sea_level_m=1100", "water.mirror=" + mirror}),
+                   silent_progress(), test::shared_cache())));
   };
   const auto base = [&](const World& of, const PixelRect& rect, int tile_px) {
     return Sheet(of, palette_, place_, tile_px).ground.base->read(rect);
@@ -161,10 +161,10 @@ class PrintGroundTest : public testing::TestWithParam<const char*> {
   // The world and the sheet in one tile, made once for each scale.
   struct Print {
     explicit Print(const char* scale)
-        : world(test::small_scene({"output.width=1100", "output.height=620", scale, "terrain.synthetic.highest_m=3900",
-                                   "land_cover.settings.ice_line_m=2900", "land_cover.settings.snowline_m=2500",
-                                   "land_cover.settings.treeline_m=1700", "sampling.sky_directions=2"}),
-                silent_progress(), test::shared_cache()),
+        : world(make_world(test::small_scene({"output.width=1100", "output.height=620", scale, "terrain.synthetic.highest_m=3900",
+                                              "land_cover.settings.ice_line_m=2900", "land_cover.settings.snowline_m=2500",
+                                              "land_cover.settings.treeline_m=1700", "sampling.sky_directions=2"}),
+                           silent_progress(), test::shared_cache())),
           whole(world, palette, place, 4096) {}
     const Palette palette = read_palette("summer");
     const World world;

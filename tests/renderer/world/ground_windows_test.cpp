@@ -94,14 +94,14 @@ sheet_width_mm = 160
     GuidanceParameters parameters;
     parameters.sampling = world.scene.sampling;
     parameters.sun_direction = world.view.sun_direction;
-    return trace_guidance(world.terrain, world.surface, world.tracer, *world.camera, parameters, {0, 0, 320, 200}, silent_progress());
+    return trace_guidance(world.terrain, *world.surface, world.tracer, *world.camera, parameters, {0, 0, 320, 200}, silent_progress());
   }
 
   static test::Folder* folder_;
 
  private:
   static const World& made(std::unique_ptr<World>& world, const std::vector<std::string>& settings) {
-    if (world == nullptr) world = std::make_unique<World>(scene(settings), silent_progress());
+    if (world == nullptr) world = std::unique_ptr<World>(new World(make_world(scene(settings), silent_progress())));
     return *world;
   }
   static inline std::unique_ptr<World> whole_, parts_;
@@ -143,7 +143,7 @@ bool is_sky(const GuidanceBuffers& seen, int x, int y) { return !std::isfinite(s
 TEST_F(GroundWindows, ShowWhatTheWholeShows) {
   Notes notes;
   const World& whole = in_one();
-  const World parts(scene({few_cells}), notes);
+  const World parts = make_world(scene({few_cells}), notes);
   ASSERT_TRUE(whole.terrain.windows.empty());
   ASSERT_EQ(parts.terrain.windows.size(), 2U) << notes.text();
   EXPECT_EQ(parts.dem->halved, 2);
@@ -246,7 +246,7 @@ TEST_F(GroundWindows, MeetTheGroundAroundThemInAllTheyKnow) {
 TEST_F(GroundWindows, SameBitsForAnyThreads) {
   const auto seen = [&](int threads) {
     const ThreadLimit limit(threads);
-    return guidance_of(World(scene({few_cells}), silent_progress()));
+    return guidance_of(make_world(scene({few_cells}), silent_progress()));
   };
   const GuidanceBuffers one = seen(1);
   const GuidanceBuffers two = seen(2);
@@ -274,9 +274,9 @@ TEST_F(GroundWindows, RiversAreAsLargeAsTheWholeKnowsThem) {
 }
 
 TEST_F(GroundWindows, ADemThatFitsStaysWhole) {
-  const World plenty(scene({"terrain.most_mcells=1"}), silent_progress());
+  const World plenty = make_world(scene({"terrain.most_mcells=1"}), silent_progress());
   EXPECT_TRUE(plenty.terrain.windows.empty());
-  EXPECT_EQ(plenty.terrain.generalized_m, World(scene(), silent_progress()).terrain.generalized_m);
+  EXPECT_EQ(plenty.terrain.generalized_m, make_world(scene(), silent_progress()).terrain.generalized_m);
 }
 
 // The same mountains sunk until the sea reaches far into them.
@@ -325,7 +325,7 @@ Agreement agreement_of(const World& parts, std::size_t index) {
 
 TEST_F(GroundWindowsByTheSea, HaveTheWholesSeaAndClimate) {
   Notes notes;
-  const World whole(scene(), notes);
+  const World whole = make_world(scene(), notes);
   const World& parts = in_windows();
   EXPECT_NE(notes.text().find("sea: "), std::string::npos) << notes.text();
   const GuidanceBuffers a = guidance_of(whole);
@@ -373,8 +373,8 @@ TEST_F(GroundWindows, IceGoesOnAcrossJoints) {
                                              "land_cover.settings.speck_cells=0"};
   std::vector<std::string> with_few = settings;
   with_few.emplace_back(few_cells);
-  const World whole(scene(settings), silent_progress());
-  const World parts(scene(with_few), silent_progress());
+  const World whole = make_world(scene(settings), silent_progress());
+  const World parts = make_world(scene(with_few), silent_progress());
   ASSERT_EQ(parts.terrain.windows.size(), 2U);
   const TerrainModel* coarser = &parts.terrain;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -417,8 +417,8 @@ TEST_F(GroundWindows, LayersSeeTheWholesClimateAndWideGround) {
                  "[[layers]]\nname = \"high\"\nclass = \"glacier\"\nwhen = \"relief_4000 > 300\"\n"
                  "[[layers]]\nname = \"sunny\"\nclass = \"pasture\"\nwhen = \"radiation > 6500\"\n");
   const std::string layers = "land_cover.layers=\"high.layers.toml\"";
-  const World whole(scene({layers}), silent_progress());
-  const World parts(scene({layers, few_cells}), silent_progress());
+  const World whole = make_world(scene({layers}), silent_progress());
+  const World parts = make_world(scene({layers, few_cells}), silent_progress());
   const TerrainWindow& finest = parts.terrain.windows.back();
   const Grid<LandCoverClass>& fine = finest.ground.land_cover->classes.cells;
   std::array<double, land_cover_class_count> kinds{};
@@ -441,7 +441,8 @@ TEST_F(GroundWindows, BumpsAndBedsAreJoined) {
                  "version = 1\nground = { class = \"rock\" }\n[[inputs]]\nname = \"slope\"\nlow = 0\nhigh = 60\n[[layers]]\n"
                  "name = \"stones\"\nclass = \"scree\"\nroughness = { height_m = 5, length_m = 300 }\n[layers.functions]\n"
                  "slope = { low = 10, high = 35, width = 8 }\n");
-  const World parts(scene({"land_cover.layers=\"rough.layers.toml\"", "land_cover.colours=\"layers\"", few_cells}), silent_progress());
+  const World parts =
+      make_world(scene({"land_cover.layers=\"rough.layers.toml\"", "land_cover.colours=\"layers\"", few_cells}), silent_progress());
   const TerrainModel* coarser = &parts.terrain;
   for (const TerrainWindow& window : parts.terrain.windows) {
     const GroundRelief& fine = window.ground.land_cover->relief;
@@ -469,7 +470,7 @@ TEST_F(GroundWindows, BumpsAndBedsAreJoined) {
 
 TEST_F(GroundWindows, ABudgetThatHoldsNotEvenTheCoarsestIsRefused) {
   const MemoryLimit limit(std::uint64_t{8} << 20);
-  const std::string message = test::message_of(ErrorKind::limit, [] { World(scene(), silent_progress()); });
+  const std::string message = test::message_of(ErrorKind::limit, [] { make_world(scene(), silent_progress()); });
   EXPECT_NE(message.find("900 × 900 cells, even in cells of 120 m"), std::string::npos) << message;
   EXPECT_NE(message.find("--memory"), std::string::npos) << message;
 }

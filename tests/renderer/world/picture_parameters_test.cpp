@@ -10,7 +10,7 @@ namespace {
 using test::small_scene;
 
 TEST(PictureParameters, RockTakesItsKindFromTheSceneAndItsSnowFromThePalette) {
-  const World world(small_scene({"land_cover.rock=granite"}), silent_progress());
+  const World world = make_world(small_scene({"land_cover.rock=granite"}), silent_progress());
   const SheetView view = view_of(world);
   EXPECT_EQ(to_rock_parameters(world, read_palette("summer"), view).kind->name, "granite");
   EXPECT_EQ(to_base_parameters(world, read_palette("summer"), view).rock->name, "granite");
@@ -19,7 +19,7 @@ TEST(PictureParameters, RockTakesItsKindFromTheSceneAndItsSnowFromThePalette) {
 }
 
 TEST(PictureParameters, StrokesTakeTheHandOfSceneAndPalette) {
-  const World world(small_scene({"seed=9", "sun.azimuth_deg=270"}), silent_progress());
+  const World world = make_world(small_scene({"seed=9", "sun.azimuth_deg=270"}), silent_progress());
   const StrokeParameters winter = to_stroke_parameters(world, read_palette("winter"));
   EXPECT_TRUE(winter.winter);
   EXPECT_FALSE(to_stroke_parameters(world, read_palette("summer")).winter);

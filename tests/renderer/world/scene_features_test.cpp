@@ -109,8 +109,8 @@ TEST_F(SceneFeaturesInPictures, AnyPartShowsTheWholeAndFarFromThemNothingChanges
   EXPECT_EQ(wrong, 0U);
 
   const Grid<glm::vec3> before = painted(scene(), "before");
-  World world(scene(), silent_progress());
-  const GroundSight sight(world.dem->transform, world.surface, *world.camera, world.tracer, world.terrain.goes_to);
+  World world = make_world(scene(), silent_progress());
+  const GroundSight sight(world.dem->transform, *world.surface, *world.camera, world.tracer, world.terrain.goes_to);
   glm::dvec2 low(1e9);
   glm::dvec2 high(-1e9);
   for (const glm::dvec2 place :
@@ -184,7 +184,7 @@ TEST_F(SceneFeaturesInPictures, TheyAndMistAreLayersOfTheirOwn) {
 TEST_F(SceneFeaturesInPictures, AFileWhoseFeaturesAllLieElsewhereIsSaidWithBothExtents) {
   write("roads.geojson", line("road", "[482500, 5243000], [485500, 5244500]"));
   const LoadedScene loaded = scene(block);
-  const World world(loaded, silent_progress());
+  const World world = make_world(loaded, silent_progress());
   EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { draw_scene_features(loaded, world, false, silent_progress()); }),
               AllOf(HasSubstr("none of 1 features"), HasSubstr("E 482500 … 485500"), HasSubstr("E 680000 … 688000")));
 }

@@ -14,14 +14,15 @@ namespace {
 using testing::HasSubstr;
 
 TEST(SceneMist, AScenesMistIsNoneWhereItAsksForNone) {
-  const World world(test::small_scene(), silent_progress());
+  const World world = make_world(test::small_scene(), silent_progress());
   EXPECT_TRUE(world.mist.empty());
 }
 
 TEST(SceneMist, IsWhatTheSceneSays) {
-  const World world(test::small_scene({"air.mist.0={ kind = \"sea\", to_m = 900, sight_m = 222 }", "air.mist.1={ kind = \"valley\" }",
-                                       "air.mist.2={ kind = \"lee\", position = [6000, 6000], size_m = 1500 }"}),
-                    silent_progress());
+  const World world =
+      make_world(test::small_scene({"air.mist.0={ kind = \"sea\", to_m = 900, sight_m = 222 }", "air.mist.1={ kind = \"valley\" }",
+                                    "air.mist.2={ kind = \"lee\", position = [6000, 6000], size_m = 1500 }"}),
+                 silent_progress());
   ASSERT_EQ(world.mist.layers.size(), 2U);
   EXPECT_EQ(world.mist.layers[0].kind, MistKind::sea);
   EXPECT_EQ(world.mist.layers[0].to_m, 900.0);

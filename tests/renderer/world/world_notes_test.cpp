@@ -12,7 +12,7 @@ namespace {
 
 using test::small_scene;
 
-FileNotes notes_of(const LoadedScene& loaded) { return make_world_notes(loaded, World(loaded, silent_progress())); }
+FileNotes notes_of(const LoadedScene& loaded) { return make_world_notes(loaded, make_world(loaded, silent_progress())); }
 
 TEST(WorldNotes, SayCameraAndSun) {
   const FileNotes notes = notes_of(small_scene({"camera.azimuth_deg=12.5", "sun.azimuth_deg=250", "sun.altitude_deg=31"}));

@@ -28,12 +28,12 @@ struct Stages : Progress {
 
 TEST(World, IsMadeInOrder) {
   Stages stages;
-  const World world(small_scene(), stages);
+  const World world = make_world(small_scene(), stages);
   EXPECT_THAT(stages.all, ElementsAre("synthetic terrain", "class rules", "generalize", "building the ray tracer"));
 }
 
 TEST(World, ItsValuesFitEachOther) {
-  const World world(small_scene(), silent_progress());
+  const World world = make_world(small_scene(), silent_progress());
   EXPECT_EQ(world.camera->size(), glm::ivec2(96, 80));
   EXPECT_EQ(world.camera->eye(), world.view.camera.eye);
   EXPECT_EQ(world.terrain.dem, world.dem);
@@ -46,7 +46,7 @@ TEST(World, ItsValuesFitEachOther) {
 }
 
 TEST(World, WhereNoTerrainIsSeenTheHorizonIsTheUsualOne) {
-  const World world(small_scene({"camera.pitch_deg=60"}), silent_progress());
+  const World world = make_world(small_scene({"camera.pitch_deg=60"}), silent_progress());
   EXPECT_DOUBLE_EQ(world.horizon_px, 0.18 * 80);
 }
 
@@ -55,11 +55,11 @@ TEST(World, SharesTheTerrainThatIsThere) {
   const auto dem = std::make_shared<const Dem>(make_scene_dem(loaded, silent_progress()));
   const auto cover = std::make_shared<const LandCover>(make_scene_land_cover(loaded, *dem, silent_progress()));
   Stages stages;
-  const World world(loaded, dem, cover, stages);
+  const World world = make_world(loaded, stages, no_cache(), {dem, cover});
   EXPECT_EQ(world.dem, dem);
   EXPECT_EQ(world.land_cover, cover);
   EXPECT_THAT(stages.all, ElementsAre("generalize", "building the ray tracer"));
-  EXPECT_EQ(world.terrain.generalized_m, World(loaded, silent_progress()).terrain.generalized_m);
+  EXPECT_EQ(world.terrain.generalized_m, make_world(loaded, silent_progress()).terrain.generalized_m);
 }
 
 // ---- it refuses as early as it can
@@ -76,12 +76,12 @@ TEST(World, RefusesAMachineThatCannotBeforeItReadsAnything) {
   const std::string kept = old == nullptr ? "" : old;
   setenv("BELVEDERE_INSTRUCTION_SET", "sse4.2", 1);
   Stages stages;
-  EXPECT_THAT(test::message_of(ErrorKind::limit,
-                               [&] {
-                                 const World world(parse_scene(no_files, "s.toml", ".",
-                                                               {.data_folders = {}, .settings = {"sampling.instruction_set=avx2"}}),
-                                                   stages);
-                               }),
+  EXPECT_THAT(test::message_of(
+                  ErrorKind::limit,
+                  [&] {
+                    const World world = make_world(
+                        parse_scene(no_files, "s.toml", ".", {.data_folders = {}, .settings = {"sampling.instruction_set=avx2"}}), stages);
+                  }),
               HasSubstr("sampling.instruction_set"));
   if (old == nullptr)
     unsetenv("BELVEDERE_INSTRUCTION_SET");
@@ -92,11 +92,12 @@ TEST(World, RefusesAMachineThatCannotBeforeItReadsAnything) {
 
 TEST(World, RefusesAnEyeBelowTheGroundBeforeLandCoverIsMade) {
   Stages stages;
-  EXPECT_THAT(test::message_of(ErrorKind::usage,
-                               [&] {
-                                 const World world(small_scene({"camera.position=[6000,6000]", "camera.height_m=-500"}), stages);
-                               }),
-              HasSubstr("below the ground"));
+  EXPECT_THAT(
+      test::message_of(ErrorKind::usage,
+                       [&] {
+                         const World world = make_world(small_scene({"camera.position=[6000,6000]", "camera.height_m=-500"}), stages);
+                       }),
+      HasSubstr("below the ground"));
   EXPECT_THAT(stages.all, ElementsAre("synthetic terrain"));
 }
 
@@ -104,11 +105,12 @@ TEST(World, RefusesFoldedGroundBeforeTheTracerIsBuilt) {
   Stages stages;
   EXPECT_THAT(test::message_of(ErrorKind::usage,
                                [&] {
-                                 const World world(small_scene({"camera.position=[6000,6000]", "camera.height_m=12000",
-                                                                "camera.pitch_deg=-90", "camera.field_of_view_deg=90",
-                                                                "deform.handles.0={ position = [6000, 6000], radius_m = 3000, core_m = "
-                                                                "1000, move_m = [2500, 0] }"}),
-                                                   stages);
+                                 const World world =
+                                     make_world(small_scene({"camera.position=[6000,6000]", "camera.height_m=12000", "camera.pitch_deg=-90",
+                                                             "camera.field_of_view_deg=90",
+                                                             "deform.handles.0={ position = [6000, 6000], radius_m = 3000, core_m = "
+                                                             "1000, move_m = [2500, 0] }"}),
+                                                stages);
                                }),
               HasSubstr("folds"));
   EXPECT_THAT(stages.all, ElementsAre("synthetic terrain", "class rules", "generalize"));

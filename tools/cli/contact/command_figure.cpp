@@ -93,7 +93,7 @@ Grid<glm::vec3> legend(const std::vector<Column>& columns) {
 std::vector<Column> copied_from(const LoadedScene& loaded, Progress& progress, const Cache& cache) {
   if (!loaded.scene.synthesis.enabled) return {};
   ScenePaint paint = read_scene_paint(loaded, progress);
-  const World world(loaded, progress, cache);
+  const World world = make_world(loaded, progress, cache);
   const Palette palette = palette_of_place(paint.palette, loaded, *world.dem);
   std::vector<Column> columns;
   for (PaintedExemplar& painted : make_exemplars(loaded, world.view, palette, std::move(paint.paintings), progress, cache)) {

@@ -62,7 +62,7 @@ void add_paint(std::vector<MakingStep>& steps, const LoadedScene& loaded, const 
   const ScratchFolder scratch;
   const WorkFolder work(scratch.path() + "/work", {}, WorkMode::begin);
   ScenePaint paint = read_scene_paint(loaded, run.progress);
-  const World world(loaded, run.progress, run.cache);
+  const World world = make_world(loaded, run.progress, run.cache);
   paint.palette = palette_of_place(paint.palette, loaded, *world.dem);
   TileStore::Place place{work.folder(), tile_bytes};
   const SheetView view = view_of(world);

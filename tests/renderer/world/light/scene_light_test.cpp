@@ -25,14 +25,14 @@ constexpr const char* turned =
 constexpr const char* cloud = "[[light.clouds]]\nposition = [3000, 7000]\nradius_m = 1500\nstrength = 0.8\n";
 
 LitPicture lit(const LoadedScene& scene, PixelRect part, int tile_px = 32) {
-  const World world(scene, silent_progress());
+  const World world = make_world(scene, silent_progress());
   Run run;
   run.tile_px = tile_px;
   return make_lit_picture(world, read_palette("summer"), part, run);
 }
 
 TEST(SceneLight, SaysNothingWhereTheSceneSaysNothing) {
-  const World world(with(""), silent_progress());
+  const World world = make_world(with(""), silent_progress());
   EXPECT_EQ(world.light_field, nullptr);
 }
 
@@ -40,7 +40,7 @@ TEST(SceneLight, RegionsTurnTheScenesSunOrHaveTheirOwn) {
   const std::string blocks = std::string(turned) +
                              "[[light.regions]]\npoints = [[0, 0], [2000, 0], [1000, 2000]]\nazimuth_deg = 90\naltitude_deg = 50\n"
                              "strength = 1.5\nblend_m = 0\n";
-  const World world(with(blocks), silent_progress());
+  const World world = make_world(with(blocks), silent_progress());
   ASSERT_NE(world.light_field, nullptr);
   const GroundLight turned_light = world.light_field->at({6000.0, 6000.0});
   EXPECT_LT(glm::length(turned_light.sun - sun_direction({315.0 + 120.0, 30.0})), 1e-12);
@@ -88,17 +88,17 @@ TEST(SceneLight, NotesAnOptionalFileThatIsMissing) {
     std::vector<std::string> notes;
   } progress;
   const std::string block = "[[light.regions]]\nfile = \"nowhere.gpkg\"\nget_from = \"the club\"\nturn_deg = 40\n";
-  const World world(with(block + "optional = true\n"), progress);
+  const World world = make_world(with(block + "optional = true\n"), progress);
   EXPECT_EQ(world.light_field, nullptr);
   EXPECT_THAT(progress.notes, testing::Contains("light.regions.0 is left out: there is no nowhere.gpkg; the club"));
-  const World beside(with(block + "optional = true\n" + cloud), silent_progress());
+  const World beside = make_world(with(block + "optional = true\n" + cloud), silent_progress());
   ASSERT_NE(beside.light_field, nullptr) << "the cloud stays";
-  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { World(with(block), silent_progress()); }), HasSubstr("nowhere.gpkg"));
+  EXPECT_THAT(test::message_of(ErrorKind::input, [&] { make_world(with(block), silent_progress()); }), HasSubstr("nowhere.gpkg"));
 }
 
 TEST(SceneLight, RefusesWhatCannotBe) {
   const auto refused = [](const std::string& blocks) {
-    return test::message_of(ErrorKind::usage, [&] { World(with(blocks), silent_progress()); });
+    return test::message_of(ErrorKind::usage, [&] { make_world(with(blocks), silent_progress()); });
   };
   EXPECT_THAT(refused("[[light.regions]]\nturn_deg = 90\n"), HasSubstr("light.regions.0 has no place"));
   EXPECT_THAT(refused("[[light.regions]]\nposition = [1, 1]\n"), HasSubstr("without a radius"));
@@ -109,12 +109,12 @@ TEST(SceneLight, RefusesWhatCannotBe) {
   EXPECT_THAT(refused("[[light.clouds]]\nradius_m = 100\n"), HasSubstr("light.clouds.0 has no position"));
   LoadedScene night = with(turned);
   night.scene.sun.altitude_deg = -2.0;
-  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { World(night, silent_progress()); }), HasSubstr("below the horizon"));
+  EXPECT_THAT(test::message_of(ErrorKind::usage, [&] { make_world(night, silent_progress()); }), HasSubstr("below the horizon"));
 }
 
 TEST(SceneLight, TurnsWhatLiesInTheRegionAndNothingElse) {
   const PixelRect whole{0, 0, 96, 80};
-  const World world(with(turned), silent_progress());
+  const World world = make_world(with(turned), silent_progress());
   const LitPicture plain = lit(with(""), whole);
   const LitPicture local = lit(with(turned), whole);
   int changed = 0;
