@@ -69,18 +69,6 @@ struct ClassHue {
   float relief_accent;  // how strongly ridges and hollows are marked, 0…1
 };
 
-// What little dabs turn the colour into, warm and cool.
-enum class DabHue : std::uint8_t { none, earth, leaves, ice };
-
-// How the brush paints a class. Lengths and widths in units of 0.5 mm of the sheet.
-struct ClassStrokes {
-  float wash_length;      // 0: no wash, all its strokes are its own
-  float wash_width;       // at the start of the stroke
-  float wash_wander_rad;  // deviation of the direction
-  float meadow_length;    // of strokes of grass; 0: no grass grows
-  DabHue dabs;
-};
-
 struct LandCoverClassInfo {
   LandCoverClass id;
   std::string_view name;     // as written in scenes, legends and file headers
@@ -90,7 +78,6 @@ struct LandCoverClassInfo {
   ClassTrait traits;
   ClassTone tone;
   ClassHue hue;
-  ClassStrokes strokes;
 };
 
 // The one table: a new class is an enumerator above and a row here, in the order of ids. No member has a default, so a row that leaves one
@@ -106,8 +93,7 @@ inline constexpr auto land_cover_table = [] {
        .stand_in = sky,
        .traits = none,
        .tone = {.detail = 0.00F, .edges = 0.00F, .ribs = 0.00F, .contrast = 1.00F, .lift = 0.00F},
-       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.35F},
-       .strokes = {.wash_length = 0.0F, .wash_width = 0.0F, .wash_wander_rad = 0.00F, .meadow_length = 0.0F, .dabs = DabHue::none}},
+       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.35F}},
       {.id = water,
        .name = "water",
        .meaning = "lakes, rivers, the sea",
@@ -115,8 +101,7 @@ inline constexpr auto land_cover_table = [] {
        .stand_in = water,
        .traits = none,
        .tone = {.detail = 0.45F, .edges = 0.07F, .ribs = 0.00F, .contrast = 0.55F, .lift = 0.00F},
-       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.35F},
-       .strokes = {.wash_length = 0.0F, .wash_width = 0.0F, .wash_wander_rad = 0.00F, .meadow_length = 0.0F, .dabs = DabHue::none}},
+       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.35F}},
       {.id = valley_floor,
        .name = "valley_floor",
        .meaning = "fields, meadows and parks of the valley bottom",
@@ -124,8 +109,7 @@ inline constexpr auto land_cover_table = [] {
        .stand_in = valley_floor,
        .traits = drifts | stales | gravel_banks | level | lone_trees | accents,
        .tone = {.detail = 0.45F, .edges = 0.07F, .ribs = 0.00F, .contrast = 0.55F, .lift = 0.10F},
-       .hue = {.ripeness = {0.00F, 0.12F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.35F},
-       .strokes = {.wash_length = 10.0F, .wash_width = 5.2F, .wash_wander_rad = 0.15F, .meadow_length = 9.0F, .dabs = DabHue::earth}},
+       .hue = {.ripeness = {0.00F, 0.12F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.35F}},
       {.id = settlement,
        .name = "settlement",
        .meaning = "towns, villages",
@@ -133,8 +117,7 @@ inline constexpr auto land_cover_table = [] {
        .stand_in = settlement,
        .traits = level,
        .tone = {.detail = 0.45F, .edges = 0.07F, .ribs = 0.00F, .contrast = 0.55F, .lift = 0.00F},
-       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.35F},
-       .strokes = {.wash_length = 10.0F, .wash_width = 5.2F, .wash_wander_rad = 0.15F, .meadow_length = 0.0F, .dabs = DabHue::none}},
+       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.35F}},
       {.id = forest,
        .name = "forest",
        .meaning = "upright trees",
@@ -142,8 +125,7 @@ inline constexpr auto land_cover_table = [] {
        .stand_in = forest,
        .traits = drifts | stales | turf,
        .tone = {.detail = 0.45F, .edges = 0.10F, .ribs = 0.05F, .contrast = 1.20F, .lift = 0.00F},
-       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.35F},
-       .strokes = {.wash_length = 8.0F, .wash_width = 4.0F, .wash_wander_rad = 0.20F, .meadow_length = 0.0F, .dabs = DabHue::leaves}},
+       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.35F}},
       {.id = alpine_grass,
        .name = "alpine_grass",
        .meaning = "grass above the treeline",
@@ -151,8 +133,7 @@ inline constexpr auto land_cover_table = [] {
        .stand_in = alpine_grass,
        .traits = open_high | bleaches | drifts | stales | turf | lone_trees | accents,
        .tone = {.detail = 0.45F, .edges = 0.07F, .ribs = 0.10F, .contrast = 1.00F, .lift = 0.00F},
-       .hue = {.ripeness = {0.14F, 0.22F, 0.12F, -0.15F}, .warmth = 1.00F, .relief_accent = 0.35F},
-       .strokes = {.wash_length = 10.0F, .wash_width = 5.2F, .wash_wander_rad = 0.30F, .meadow_length = 7.6F, .dabs = DabHue::earth}},
+       .hue = {.ripeness = {0.14F, 0.22F, 0.12F, -0.15F}, .warmth = 1.00F, .relief_accent = 0.35F}},
       {.id = scree,
        .name = "scree",
        .meaning = "loose stone",
@@ -160,8 +141,7 @@ inline constexpr auto land_cover_table = [] {
        .stand_in = scree,
        .traits = open_high | drifts | accents,
        .tone = {.detail = 0.60F, .edges = 0.07F, .ribs = 0.10F, .contrast = 1.00F, .lift = 0.00F},
-       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.60F},
-       .strokes = {.wash_length = 10.0F, .wash_width = 5.2F, .wash_wander_rad = 0.20F, .meadow_length = 0.0F, .dabs = DabHue::earth}},
+       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.60F}},
       {.id = rock,
        .name = "rock",
        .meaning = "walls, bare ground",
@@ -169,8 +149,7 @@ inline constexpr auto land_cover_table = [] {
        .stand_in = rock,
        .traits = open_high | own_relief | drifts | tight,
        .tone = {.detail = 0.68F, .edges = 0.10F, .ribs = 0.00F, .contrast = 1.45F, .lift = 0.00F},
-       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 0.60F, .relief_accent = 0.90F},
-       .strokes = {.wash_length = 0.0F, .wash_width = 0.0F, .wash_wander_rad = 0.00F, .meadow_length = 0.0F, .dabs = DabHue::none}},
+       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 0.60F, .relief_accent = 0.90F}},
       {.id = snow,
        .name = "snow",
        .meaning = "snow fields",
@@ -178,8 +157,7 @@ inline constexpr auto land_cover_table = [] {
        .stand_in = snow,
        .traits = open_high | tight | icy | accents,
        .tone = {.detail = 0.55F, .edges = 0.07F, .ribs = 0.10F, .contrast = 1.30F, .lift = 0.00F},
-       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 0.40F, .relief_accent = 0.60F},
-       .strokes = {.wash_length = 20.0F, .wash_width = 5.2F, .wash_wander_rad = 0.08F, .meadow_length = 0.0F, .dabs = DabHue::ice}},
+       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 0.40F, .relief_accent = 0.60F}},
       {.id = glacier,
        .name = "glacier",
        .meaning = "ice, and snow that stays all year",
@@ -187,8 +165,7 @@ inline constexpr auto land_cover_table = [] {
        .stand_in = glacier,
        .traits = open_high | tight | icy | accents,
        .tone = {.detail = 0.38F, .edges = 0.05F, .ribs = 0.00F, .contrast = 1.20F, .lift = 0.00F},
-       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 0.40F, .relief_accent = 0.60F},
-       .strokes = {.wash_length = 20.0F, .wash_width = 5.2F, .wash_wander_rad = 0.08F, .meadow_length = 0.0F, .dabs = DabHue::ice}},
+       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 0.40F, .relief_accent = 0.60F}},
       {.id = pasture,
        .name = "pasture",
        .meaning = "grass on slopes below the treeline",
@@ -196,8 +173,7 @@ inline constexpr auto land_cover_table = [] {
        .stand_in = pasture,
        .traits = bleaches | drifts | stales | gravel_banks | turf | lone_trees | accents,
        .tone = {.detail = 0.45F, .edges = 0.07F, .ribs = 0.00F, .contrast = 1.00F, .lift = 0.00F},
-       .hue = {.ripeness = {0.12F, 0.20F, 0.12F, -0.15F}, .warmth = 1.00F, .relief_accent = 0.35F},
-       .strokes = {.wash_length = 10.0F, .wash_width = 5.2F, .wash_wander_rad = 0.30F, .meadow_length = 8.0F, .dabs = DabHue::earth}},
+       .hue = {.ripeness = {0.12F, 0.20F, 0.12F, -0.15F}, .warmth = 1.00F, .relief_accent = 0.35F}},
       {.id = shrub,
        .name = "shrub",
        .meaning = "shrubland, heath, sagebrush",
@@ -205,8 +181,7 @@ inline constexpr auto land_cover_table = [] {
        .stand_in = shrub,
        .traits = open_high | bleaches | drifts | stales | turf | accents,
        .tone = {.detail = 0.45F, .edges = 0.09F, .ribs = 0.07F, .contrast = 1.05F, .lift = 0.00F},
-       .hue = {.ripeness = {0.14F, 0.22F, 0.10F, -0.05F}, .warmth = 1.00F, .relief_accent = 0.35F},
-       .strokes = {.wash_length = 10.0F, .wash_width = 5.2F, .wash_wander_rad = 0.30F, .meadow_length = 8.0F, .dabs = DabHue::leaves}},
+       .hue = {.ripeness = {0.14F, 0.22F, 0.10F, -0.05F}, .warmth = 1.00F, .relief_accent = 0.35F}},
       {.id = sand,
        .name = "sand",
        .meaning = "beaches, dunes, river bars",
@@ -214,8 +189,7 @@ inline constexpr auto land_cover_table = [] {
        .stand_in = scree,
        .traits = drifts | level | accents,
        .tone = {.detail = 0.50F, .edges = 0.08F, .ribs = 0.00F, .contrast = 0.85F, .lift = 0.05F},
-       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.50F},
-       .strokes = {.wash_length = 14.0F, .wash_width = 5.2F, .wash_wander_rad = 0.10F, .meadow_length = 0.0F, .dabs = DabHue::earth}},
+       .hue = {.ripeness = {0.00F, 0.00F, 0.00F, 0.00F}, .warmth = 1.00F, .relief_accent = 0.50F}},
   });
 }();
 inline constexpr int land_cover_class_count = static_cast<int>(land_cover_table.size());

@@ -117,6 +117,164 @@ AnchorSight sight_of(const CoarseGround& ground, const SightModel& sight, const 
   return out;
 }
 
+// Ground in near and far parts of the depth, whose altitudes are compared: weights by distance.
+struct MeanAltitude {
+  double sum = 0.0, weight = 0.0;
+  void add(double altitude_m, double distance_m) { sum += distance_m * altitude_m, weight += distance_m; }
+};
+
+// What lines of sight add up to.
+struct SeenView {
+  Sums sums;
+  std::vector<Subject> subjects;  // of the anchors
+  std::vector<double> skyline;    // of the columns whose level line lies in the picture
+  MeanAltitude near, far;
+};
+
+// A sample of a line of sight that lies in the picture.
+struct SeenSample {
+  const GroundCell& cell;
+  std::size_t step;  // along the line
+  double distance_m;
+  double depth;       // 0 at the lower edge, 1 at the horizon
+  glm::dvec2 on_map;  // the line's direction
+  glm::dvec2 at;      // in the picture
+  bool seen;
+};
+
+// Ground between lower edge and horizon, seen or not. Samples lie at equal ratios, so each stands for ground that grows with d².
+void add_ground(SeenView& view, const CoarseGround& ground, const SightModel& sight, const std::vector<Anchor>& anchors,
+                const SeenSample& sample) {
+  const double subject_reach = 0.09 * ground.side_m;
+  const auto& [c, step, d, depth, on_map, at, seen] = sample;
+  const double area = d * d;
+  view.sums.area += area;
+  if (seen) view.sums.area_seen += area;
+  if (c.floor) {
+    view.sums.area_floor += area;
+    if (seen) view.sums.area_floor_seen += area;
+  }
+  if (depth > 0.6) view.far.add(static_cast<double>(c.altitude_m), d);
+  if (depth < 0.4) view.near.add(static_cast<double>(c.altitude_m), d);
+  for (std::size_t k = 0; k < anchors.size(); ++k) {
+    const Anchor& a = anchors[k];
+    if (a.kind == AnchorKind::summit) continue;
+    const bool belongs = a.kind == AnchorKind::shore ? c.water : static_cast<double>(c.incision_m) > 0.6 * a.stands_m;
+    if (!belongs) continue;
+    const glm::dvec2 off = sight.viewer + d * on_map - a.place;
+    if (off.x * off.x + off.y * off.y > subject_reach * subject_reach) continue;
+    view.subjects[k].area += area;
+    if (seen && at.y <= 1.0) view.subjects[k].seen += area;
+  }
+}
+
+// What a sample takes of the picture: `height` of a column.
+void add_picture(Sums& sums, const CoarseGround& ground, const SightModel& sight, const SeenSample& sample, double height, double air) {
+  const GroundCell& c = sample.cell;
+  const double depth = std::clamp(sample.depth, 0.0, 1.0);
+  sums.all += height;
+  sums.haze += height * air;
+  if (static_cast<double>(c.rim_m) < sight.rim_fade_m) {
+    sums.rim += height;
+    if (depth < 0.55) sums.rim_near += height;
+  }
+  if (c.water) sums.water += height;
+  if (c.floor) {
+    sums.floor += height;
+    sums.floor_by_depth[std::min<std::size_t>(3, static_cast<std::size_t>(4.0 * depth))] += height;
+    sums.floor_by_third[std::min<std::size_t>(2, static_cast<std::size_t>(3.0 * sample.at.x))] += height;
+  }
+  const double above = static_cast<double>(c.above_m);
+  if (above < 0.12 * ground.relief_m && !c.water) sums.flat += height;
+  sums.forms += height * square(sight.exaggeration[sample.step] * above / (sample.distance_m * sight.height));
+}
+
+// Goes out along one line of sight. air: of each step.
+void walk_line(SeenView& view, const CoarseGround& ground, const SightModel& sight, const std::vector<Anchor>& anchors,
+               glm::dvec2 direction, const std::vector<double>& air) {
+  const double depth_of_view = std::max(1.0, sight.far_m - sight.near_m);
+  const glm::dvec2 on_map = to_map(direction, sight.azimuth_deg);
+  double before = hidden;
+  double last_seen = 0.0;
+  double top = 1.0;
+  bool any = false;
+  bool lower_edge = false;
+  EdgeForm edge_form(ground);
+  const double level_x = sight.picture.place(direction, 0.3).x;
+  const bool central = level_x >= 0.0 && level_x <= 1.0;
+  for (std::size_t i = 0; i < sight.distance_m.size(); ++i) {
+    const double d = sight.distance_m[i];
+    const GroundCell* c = ground.at(sight.viewer + d * on_map);
+    if (c == nullptr || !c->known) continue;
+    const double altitude = static_cast<double>(c->altitude_m);
+    const double z = sight.base_m + sight.exaggeration[i] * (altitude - sight.base_m);
+    const double depression = (sight.eye_m - z + sight.drop_m[i]) / d;
+    const bool seen = depression < before;
+    const double was = before;
+    if (seen) before = depression;
+    edge_form.go_on(altitude, d);
+    const bool in_depth = d >= sight.near_m && d <= sight.far_m;
+    if (!seen && !in_depth) continue;
+    const glm::dvec2 at = sight.picture.place(direction, depression);
+    if (!(at.x >= 0.0 && at.x <= 1.0)) continue;
+    any = true;
+    const SeenSample sample{*c, i, d, (d - sight.near_m) / depth_of_view, on_map, at, seen};
+    if (in_depth) add_ground(view, ground, sight, anchors, sample);
+    if (!seen) continue;
+    const double below = sight.picture.place(direction, std::min(was, lowest_seen)).y;
+    if (below > 1.0 && at.y < 1.0) {
+      lower_edge = true;
+      edge_form.begin(*c, d);
+    }
+    top = std::min(top, unit_height(at.y));
+    const double height = std::max(0.0, unit_height(below) - unit_height(at.y));
+    if (last_seen > 0.0 && at.y < 1.0 && d / last_seen > 1.045 && central) view.sums.jumps += 1.0;
+    if (at.y < 1.0) last_seen = d;
+    if (height > 0.0) add_picture(view.sums, ground, sight, sample, height, air[i]);
+  }
+  if (any) view.sums.columns += 1.0;
+  if (!central) return;
+  view.skyline.push_back(any ? top : 1.0);
+  view.sums.edge_columns += 1.0;
+  if (!lower_edge) view.sums.edge_empty += 1.0;
+  if (edge_form.cuts()) view.sums.edge_cut += 1.0;
+}
+
+// In the middle of the lower edge: the line of sight against the bent ground there.
+double lower_edge_angle_deg(const SightModel& sight) {
+  std::size_t i = 0;
+  while (i + 2 < sight.distance_m.size() && sight.distance_m[i + 1] < sight.near_m) ++i;
+  const double slope = (sight.drop_m[i + 1] - sight.drop_m[i]) / (sight.distance_m[i + 1] - sight.distance_m[i]);
+  double low = 0.0, high = lowest_seen;  // depression of the lower edge, by halving
+  for (int k = 0; k < 40; ++k) {
+    const double middle = 0.5 * (low + high);
+    (sight.picture.place({0.0, 1.0}, middle).y < 1.0 ? low : high) = middle;
+  }
+  return to_degrees(exact::atan2(low, 1.0) + exact::atan2(-slope, 1.0));
+}
+
+// Sums as shares.
+void add_shares(ViewMeasures& out, const Sums& sums) {
+  const double columns = std::max(1.0, sums.columns);
+  const double edge = std::max(1.0, sums.edge_columns);
+  out.empty_edge = sums.edge_empty / edge;
+  out.cut = sums.edge_cut / edge;
+  out.ranges = sums.jumps / edge;
+  out.rim = sums.rim / columns;
+  out.rim_near = sums.rim_near / columns;
+  out.floor = sums.floor / columns;
+  out.water = sums.water / columns;
+  out.flat = sums.flat / columns;
+  for (const double share : sums.floor_by_depth) out.floor_depth += 0.25 * std::min(1.0, share / columns / 0.012);
+  for (const double share : sums.floor_by_third) out.floor_across += std::min(1.0, share / columns / 0.015) / 3.0;
+  if (sums.area > 0.0) out.ground = sums.area_seen / sums.area;
+  if (sums.area_floor > 0.0) out.floor_open = sums.area_floor_seen / sums.area_floor;
+  if (sums.all > 0.0) {
+    out.forms = std::sqrt(sums.forms / sums.all);
+    out.haze = sums.haze / sums.all;
+  }
+}
+
 }  // namespace
 
 double hump_of(const std::vector<double>& line) {
@@ -144,140 +302,25 @@ double hump_of(const std::vector<double>& line) {
 }
 
 ViewMeasures measure_view(const CoarseGround& ground, const SightModel& sight, const std::vector<Anchor>& anchors) {
+  SeenView view;
+  view.subjects.resize(anchors.size());
+  std::vector<double> air;
+  for (const double distance : sight.distance_m)
+    air.push_back(sight.haze * (1.0 - exact::exp(-std::max(0.0, distance - sight.air_from_m) / sight.air_scale_m)));
+  for (const glm::dvec2 direction : sight.directions) walk_line(view, ground, sight, anchors, direction, air);
+
   ViewMeasures out;
-  Sums sums;
-  std::vector<Subject> subjects(anchors.size());
-  std::vector<double> skyline;
-  const std::size_t steps = sight.distance_m.size();
-  std::vector<double> air(steps);
-  for (std::size_t i = 0; i < steps; ++i)
-    air[i] = sight.haze * (1.0 - exact::exp(-std::max(0.0, sight.distance_m[i] - sight.air_from_m) / sight.air_scale_m));
-  const double depth_of_view = std::max(1.0, sight.far_m - sight.near_m);
-  const double subject_reach = 0.09 * ground.side_m;
-  double far_sum = 0.0, far_count = 0.0, near_sum = 0.0, near_count = 0.0;
-
-  for (const glm::dvec2 direction : sight.directions) {
-    const glm::dvec2 on_map = to_map(direction, sight.azimuth_deg);
-    double before = hidden;
-    double last_seen = 0.0;
-    double top = 1.0;
-    bool any = false;
-    bool lower_edge = false;
-    EdgeForm edge_form(ground);
-    const double level_x = sight.picture.place(direction, 0.3).x;
-    const bool central = level_x >= 0.0 && level_x <= 1.0;
-    for (std::size_t i = 0; i < steps; ++i) {
-      const double d = sight.distance_m[i];
-      const GroundCell* c = ground.at(sight.viewer + d * on_map);
-      if (c == nullptr || !c->known) continue;
-      const double altitude = static_cast<double>(c->altitude_m);
-      const double z = sight.base_m + sight.exaggeration[i] * (altitude - sight.base_m);
-      const double depression = (sight.eye_m - z + sight.drop_m[i]) / d;
-      const bool seen = depression < before;
-      const double was = before;
-      if (seen) before = depression;
-      edge_form.go_on(altitude, d);
-      const bool in_depth = d >= sight.near_m && d <= sight.far_m;
-      if (!seen && !in_depth) continue;
-      const glm::dvec2 at = sight.picture.place(direction, depression);
-      if (!(at.x >= 0.0 && at.x <= 1.0)) continue;
-      any = true;
-      const double area = d * d;  // samples lie at equal ratios, so each stands for ground that grows with d²
-      if (in_depth) {
-        sums.area += area;
-        if (seen) sums.area_seen += area;
-        if (c->floor) {
-          sums.area_floor += area;
-          if (seen) sums.area_floor_seen += area;
-        }
-        const double depth = (d - sight.near_m) / depth_of_view;
-        if (depth > 0.6) far_sum += d * altitude, far_count += d;
-        if (depth < 0.4) near_sum += d * altitude, near_count += d;
-        for (std::size_t k = 0; k < anchors.size(); ++k) {
-          const Anchor& a = anchors[k];
-          if (a.kind == AnchorKind::summit) continue;
-          const bool belongs = a.kind == AnchorKind::shore ? c->water : static_cast<double>(c->incision_m) > 0.6 * a.stands_m;
-          if (!belongs) continue;
-          const glm::dvec2 off = sight.viewer + d * on_map - a.place;
-          if (off.x * off.x + off.y * off.y > subject_reach * subject_reach) continue;
-          subjects[k].area += area;
-          if (seen && at.y <= 1.0) subjects[k].seen += area;
-        }
-      }
-      if (!seen) continue;
-      const double below = sight.picture.place(direction, std::min(was, lowest_seen)).y;
-      if (below > 1.0 && at.y < 1.0) {
-        lower_edge = true;
-        edge_form.begin(*c, d);
-      }
-      top = std::min(top, unit_height(at.y));
-      const double height = std::max(0.0, unit_height(below) - unit_height(at.y));
-      if (last_seen > 0.0 && at.y < 1.0 && d / last_seen > 1.045 && central) sums.jumps += 1.0;
-      if (at.y < 1.0) last_seen = d;
-      if (height <= 0.0) continue;
-      const double depth = std::clamp((d - sight.near_m) / depth_of_view, 0.0, 1.0);
-      sums.all += height;
-      sums.haze += height * air[i];
-      if (static_cast<double>(c->rim_m) < sight.rim_fade_m) {
-        sums.rim += height;
-        if (depth < 0.55) sums.rim_near += height;
-      }
-      if (c->water) sums.water += height;
-      if (c->floor) {
-        sums.floor += height;
-        sums.floor_by_depth[std::min<std::size_t>(3, static_cast<std::size_t>(4.0 * depth))] += height;
-        sums.floor_by_third[std::min<std::size_t>(2, static_cast<std::size_t>(3.0 * at.x))] += height;
-      }
-      const double above = static_cast<double>(c->above_m);
-      if (above < 0.12 * ground.relief_m && !c->water) sums.flat += height;
-      sums.forms += height * square(sight.exaggeration[i] * above / (d * sight.height));
-    }
-    if (any) sums.columns += 1.0;
-    if (!central) continue;
-    skyline.push_back(any ? top : 1.0);
-    sums.edge_columns += 1.0;
-    if (!lower_edge) sums.edge_empty += 1.0;
-    if (edge_form.cuts()) sums.edge_cut += 1.0;
-  }
-
-  measure_skyline(skyline, out);
-  const double columns = std::max(1.0, sums.columns);
-  const double edge = std::max(1.0, sums.edge_columns);
-  out.empty_edge = sums.edge_empty / edge;
-  out.cut = sums.edge_cut / edge;
-  out.ranges = sums.jumps / edge;
-  out.rim = sums.rim / columns;
-  out.rim_near = sums.rim_near / columns;
-  out.floor = sums.floor / columns;
-  out.water = sums.water / columns;
-  out.flat = sums.flat / columns;
-  for (const double share : sums.floor_by_depth) out.floor_depth += 0.25 * std::min(1.0, share / columns / 0.012);
-  for (const double share : sums.floor_by_third) out.floor_across += std::min(1.0, share / columns / 0.015) / 3.0;
-  if (sums.area > 0.0) out.ground = sums.area_seen / sums.area;
-  if (sums.area_floor > 0.0) out.floor_open = sums.area_floor_seen / sums.area_floor;
-  if (sums.all > 0.0) {
-    out.forms = std::sqrt(sums.forms / sums.all);
-    out.haze = sums.haze / sums.all;
-  }
-  if (far_count > 0.0 && near_count > 0.0) out.rise = (far_sum / far_count - near_sum / near_count) / ground.relief_m;
+  measure_skyline(view.skyline, out);
+  add_shares(out, view.sums);
+  if (view.far.weight > 0.0 && view.near.weight > 0.0)
+    out.rise = (view.far.sum / view.far.weight - view.near.sum / view.near.weight) / ground.relief_m;
   out.area = 0.5 * sight.width * (square(sight.far_m) - square(sight.near_m)) / square(ground.side_m);
   constexpr double judged_px = 2400.0;
   out.cell_px = ground.source_cell_m / std::max(1e-6, sight.width * sight.near_m / judged_px);
-
-  // In the middle of the lower edge: the line of sight against the bent ground there.
-  std::size_t i = 0;
-  while (i + 2 < steps && sight.distance_m[i + 1] < sight.near_m) ++i;
-  const double slope = (sight.drop_m[i + 1] - sight.drop_m[i]) / (sight.distance_m[i + 1] - sight.distance_m[i]);
-  double low = 0.0, high = lowest_seen;  // depression of the lower edge, by halving
-  for (int k = 0; k < 40; ++k) {
-    const double middle = 0.5 * (low + high);
-    (sight.picture.place({0.0, 1.0}, middle).y < 1.0 ? low : high) = middle;
-  }
-  out.angle_deg = to_degrees(exact::atan2(low, 1.0) + exact::atan2(-slope, 1.0));
-
+  out.angle_deg = lower_edge_angle_deg(sight);
   for (std::size_t k = 0; k < anchors.size(); ++k) {
     AnchorSight placed = sight_of(ground, sight, anchors[k]);
-    if (anchors[k].kind != AnchorKind::summit && subjects[k].area > 0.0) placed.seen = subjects[k].seen / subjects[k].area;
+    if (anchors[k].kind != AnchorKind::summit && view.subjects[k].area > 0.0) placed.seen = view.subjects[k].seen / view.subjects[k].area;
     out.anchors.push_back(placed);
   }
   return out;

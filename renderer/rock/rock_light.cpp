@@ -133,6 +133,127 @@ float winter_snow(const RockPixel& p, glm::vec3 large_normal, float stands, floa
   return std::max({level, hollow, on_tread});
 }
 
+// The wall under a pixel, without its spurs, and the light that falls there.
+struct LitWall {
+  glm::vec3 base{0.0F};    // its normal
+  float shadow = 0.0F;     // 1 lit by the sun
+  float sky_share = 0.0F;  // 0…1
+  float facing = 0.0F;     // Sun::facing of the base
+};
+
+// Light of the planes of all sizes on a pixel, largest first.
+struct PlaneLight {
+  float tone = 0.0F;
+  float base_tone = 0.0F;        // of the wall without them
+  glm::vec3 normal{0.0F};        // of the smallest plane
+  glm::vec3 large_normal{0.0F};  // of the two larger sizes
+};
+
+PlaneLight light_planes(const RockKind& kind, const ToneParameters& light, const Sun& sun, const RockPixel& p, const SpurHits& hits,
+                        const LitWall& on, float calm, float stands) {
+  const glm::vec3 base = on.base;
+  // Axes of the wall: down its slope, and across it to the right of the picture.
+  const glm::vec3 downhill(base.x * base.z, base.y * base.z, base.z * base.z - 1.0F);
+  const float fall = glm::length(downhill);
+  const glm::vec3 down = fall > 1e-4F ? downhill / fall : glm::vec3(0.0F);
+  const glm::vec3 across = glm::cross(base, down);
+  const float strength = static_cast<float>(light.ribs) * (0.35F + 0.65F * smoothstep(18.0F, 40.0F, p.slope_deg));
+
+  float along_sum = 0.0F;
+  float across_sum = 0.0F;
+  float before = sun(base, on.shadow, on.sky_share, on.facing);
+  const float shade = 1.0F - smoothstep(0.25F, 0.50F, before);
+  PlaneLight lit{before, before, base, base};
+  for (int size = 0; size < spur_sizes; ++size) {
+    const auto k = static_cast<std::size_t>(size);
+    const SpurHit& hit = hits[k];
+    if (hit.spur == nullptr) break;
+    const float share = drawn(kind, size, p);
+    if (share <= 0.0F) break;
+    const glm::vec2 f = hit.spur->fall;
+    along_sum += kind.tilt[k] * 0.8F * (hit.slope.x * f.x + hit.slope.y * f.y);
+    across_sum += kind.tilt[k] * (hit.slope.x * f.y - hit.slope.y * f.x);
+    lit.normal = glm::normalize(base - (across * across_sum + down * along_sum) * strength);
+    if (size <= 1) lit.large_normal = lit.normal;
+    const float now = sun(lit.normal, on.shadow, on.sky_share, on.facing);
+    const float factor = (1.0F + (shade_factor[k] - 1.0F) * shade) * (calm_least[k] + (1.0F - calm_least[k]) * calm) * share;
+    lit.tone += factor * soft(now - before, most_tone[k]);
+    before = now;
+  }
+  // Shade that is left as dark as it is has no room below it for the dark side of a plane: it draws together around the paint of shade.
+  lit.tone += shade * (shade_lift + shade_drawn * (shade_tone - lit.base_tone)) + 0.06F * std::clamp(2.0F * stands, -1.0F, 1.0F);
+  return lit;
+}
+
+// Beds: light treads over dark undercuts. Adds to the tone and says how much of a tread the pixel is.
+float light_bed(const RockKind& kind, const Sun& sun, const RockPixel& p, const Bed& bed, const LitWall& on, float& tone) {
+  if (bed.shown <= 0.0F) return 0.0F;
+  const float lit = unit((tone - 0.12F) / 0.5F);
+  const float tread = bed.shown * smoothstep(0.66F, 0.69F, bed.height) * (1.0F - smoothstep(0.84F + 0.1F * bed.strong, 0.98F, bed.height));
+  const float under = bed.shown * smoothstep(0.40F, 0.62F, bed.height) * (1.0F - smoothstep(0.64F, 0.67F, bed.height));
+  const glm::vec3 to_sky = glm::normalize(glm::mix(p.normal, glm::vec3(0.0F, 0.0F, 1.0F), kind.tread));
+  const float open = sun(to_sky, on.shadow, on.sky_share, on.facing);
+  tone += tread * 0.75F * (std::max(open, tone + 0.05F) - tone) * (0.45F + 0.55F * lit) - under * 0.28F * (0.4F + 0.6F * lit);
+  return tread;
+}
+
+// Turf and snow lie where the ground is flat enough, as far as some is near.
+void cover_rock(RockLook& look, const RockPixel& p, const PlaneLight& planes, bool winter, float stands, float tread, float strong_bed) {
+  const float turf_near = smoothstep(0.04F, 0.35F, p.turf);
+  if (turf_near > 0.0F && !winter)
+    look.turf = 0.5F * std::max(smoothstep(0.35F, 0.5F, tread) * smoothstep(0.3F, 0.6F, turf_near),
+                                turf_near * smoothstep(0.66F, 0.72F, planes.normal.z + 0.12F * (turf_near - 0.6F) + 0.05F * p.cover_noise));
+  const float field_near = smoothstep(0.03F, 0.40F, p.snow);
+  const float snow_near = winter ? std::max(0.75F, field_near) : field_near;
+  if (snow_near > 0.0F)
+    look.snow = snow_paint * snow_near *
+                (winter ? winter_snow(p, planes.large_normal, stands, tread * strong_bed) : old_snow(p, planes.normal, stands, snow_near));
+}
+
+// Lines of the brush: light on crests, dark in gullies, 0…1.
+struct RockLines {
+  float crest = 0.0F;
+  float gully = 0.0F;
+};
+
+// Broken along their length; where the hand rests there are fewer.
+RockLines draw_rock_lines(const RockKind& kind, const RockPixel& p, const SpurHits& hits, float calm) {
+  RockLines lines;
+  const float busy = smoothstep(0.45F, 0.85F, calm);
+  const std::array<float, spur_sizes> few = {1.0F, 0.45F + 0.55F * busy, 0.8F * busy};
+  const float broken = 0.5F + 0.5F * std::clamp(0.48F * p.line_noise + 0.2F, -1.0F, 1.0F);
+  const float soft_edge = 0.9F / p.scale * 0.5F + 0.18F;
+  for (int size = 0; size < spur_sizes; ++size) {
+    const auto k = static_cast<std::size_t>(size);
+    const SpurHit& hit = hits[k];
+    if (hit.spur == nullptr) break;
+    const float share = drawn(kind, size, p) * few[k];
+    if (share <= 0.0F) break;
+    const float spacing = spur_spacing(kind, size, p.band);
+    const float zoom = std::min(1.0F, spur_band_table[static_cast<std::size_t>(p.band)].factor);
+    if (hit.part == SpurPart::back && hashed(hit.spur->id, 9) < 0.75F) {
+      const float width = crest_width[k] * zoom * (0.3F + 0.9F * broken);
+      const float near = 1.0F - smoothstep(width - 0.04F, width + 2.0F * soft_edge, std::abs(hit.across) * spacing);
+      lines.crest =
+          std::max(lines.crest, share * crest_strength[k] * near * unit(1.0F - 0.5F * std::abs(hit.along - 0.5F)) * (0.4F + 0.6F * broken));
+    }
+    if (hashed(hit.spur->id * 13U + hit.next_id, 11) < 0.8F) {
+      const float width = gully_width[k] * zoom * (0.15F + broken);
+      const float near = 1.0F - smoothstep(width - 0.08F, width + 2.0F * soft_edge, hit.over_next / (2.0F * hit.steepness) * spacing);
+      lines.gully = std::max(lines.gully, share * gully_strength[k] * near * (0.35F + 0.65F * broken));
+    }
+  }
+  // A ramp: a light tread over a dark undercut.
+  if (hits.ramp_strength > 0.0F) {
+    const float d = hits.below_ramp;
+    const float on_tread = smoothstep(-3.2F * broken - 0.8F, -0.4F, d) * (1.0F - smoothstep(-0.2F, 0.3F, d));
+    const float undercut = smoothstep(-0.2F, 0.3F, d) * (1.0F - smoothstep(0.8F, 1.2F + 3.0F * broken, d));
+    lines.crest = std::max(lines.crest, 0.8F * hits.ramp_strength * on_tread);
+    lines.gully = std::max(lines.gully, 0.9F * hits.ramp_strength * undercut);
+  }
+  return lines;
+}
+
 }  // namespace
 
 float stands_out(const SpurHits& hits) {
@@ -174,115 +295,30 @@ RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool wint
                     float sun_share) {
   const Sun sun(light, p);
   const float stands = stands_out(hits);
-  glm::vec3 base = p.normal;
-  if (hits[1].spur != nullptr) base = glm::normalize(p.normal * (1.0F - flatness) + hits[1].spur->normal * flatness);
-  const float sky_share = static_cast<float>(exact::pow(static_cast<double>(std::max(p.sky_view, 0.01F)), 1.3));
+  LitWall wall{.base = p.normal};
+  if (hits[1].spur != nullptr) wall.base = glm::normalize(p.normal * (1.0F - flatness) + hits[1].spur->normal * flatness);
+  wall.sky_share = static_cast<float>(exact::pow(static_cast<double>(std::max(p.sky_view, 0.01F)), 1.3));
   // The edge of a cast shadow follows the spurs it falls on.
-  const float shadow =
+  wall.shadow =
       smoothstep(0.36F, 0.64F,
                  p.shadow + 0.22F * std::clamp(2.0F * stands, -1.0F, 1.0F) * (p.shadow > 0.02F && p.shadow < 0.98F ? 1.0F : 0.0F)) *
       sun_share;
-
-  // Axes of the wall: down its slope, and across it to the right of the picture.
-  const glm::vec3 downhill(base.x * base.z, base.y * base.z, base.z * base.z - 1.0F);
-  const float fall = glm::length(downhill);
-  const glm::vec3 down = fall > 1e-4F ? downhill / fall : glm::vec3(0.0F);
-  const glm::vec3 across = glm::cross(base, down);
-  const float strength = static_cast<float>(light.ribs) * (0.35F + 0.65F * smoothstep(18.0F, 40.0F, p.slope_deg));
+  wall.facing = sun.facing(wall.base);
 
   const float calm = unit(0.55F + 0.42F * p.calm_noise);
-  float along_sum = 0.0F;
-  float across_sum = 0.0F;
-  const float wall = sun.facing(base);
-  float before = sun(base, shadow, sky_share, wall);
-  const float shade = 1.0F - smoothstep(0.25F, 0.50F, before);
-  float tone = before;
-  const float base_tone = before;
-  glm::vec3 normal = base;
-  glm::vec3 large_normal = base;  // of the two larger sizes
-  for (int size = 0; size < spur_sizes; ++size) {
-    const auto k = static_cast<std::size_t>(size);
-    const SpurHit& hit = hits[k];
-    if (hit.spur == nullptr) break;
-    const float share = drawn(kind, size, p);
-    if (share <= 0.0F) break;
-    const glm::vec2 f = hit.spur->fall;
-    along_sum += kind.tilt[k] * 0.8F * (hit.slope.x * f.x + hit.slope.y * f.y);
-    across_sum += kind.tilt[k] * (hit.slope.x * f.y - hit.slope.y * f.x);
-    normal = glm::normalize(base - (across * across_sum + down * along_sum) * strength);
-    if (size <= 1) large_normal = normal;
-    const float now = sun(normal, shadow, sky_share, wall);
-    const float factor = (1.0F + (shade_factor[k] - 1.0F) * shade) * (calm_least[k] + (1.0F - calm_least[k]) * calm) * share;
-    tone += factor * soft(now - before, most_tone[k]);
-    before = now;
-  }
-  // Shade that is left as dark as it is has no room below it for the dark side of a plane: it draws together around the paint of shade.
-  tone += shade * (shade_lift + shade_drawn * (shade_tone - base_tone)) + 0.06F * std::clamp(2.0F * stands, -1.0F, 1.0F);
-
+  const PlaneLight planes = light_planes(kind, light, sun, p, hits, wall, calm, stands);
   // A patch of few units has no room for towers: it would glitter like a pebble.
   const float patch = smoothstep(small_patch, large_patch, p.rock);
-  tone = base_tone + (tone - base_tone) * (least_of_patch + (1.0F - least_of_patch) * patch);
+  float tone = planes.base_tone + (planes.tone - planes.base_tone) * (least_of_patch + (1.0F - least_of_patch) * patch);
   const Bed bed = bed_at(kind, p, hits);
-  float tread = 0.0F;
-  if (bed.shown > 0.0F) {
-    const float lit = unit((tone - 0.12F) / 0.5F);
-    tread = bed.shown * smoothstep(0.66F, 0.69F, bed.height) * (1.0F - smoothstep(0.84F + 0.1F * bed.strong, 0.98F, bed.height));
-    const float under = bed.shown * smoothstep(0.40F, 0.62F, bed.height) * (1.0F - smoothstep(0.64F, 0.67F, bed.height));
-    const glm::vec3 to_sky = glm::normalize(glm::mix(p.normal, glm::vec3(0.0F, 0.0F, 1.0F), kind.tread));
-    const float open = sun(to_sky, shadow, sky_share, wall);
-    tone += tread * 0.75F * (std::max(open, tone + 0.05F) - tone) * (0.45F + 0.55F * lit) - under * 0.28F * (0.4F + 0.6F * lit);
-  }
+  const float tread = light_bed(kind, sun, p, bed, wall, tone);
 
   RockLook look;
-  // Turf and snow lie where the ground is flat enough, as far as some is near.
-  const float turf_near = smoothstep(0.04F, 0.35F, p.turf);
-  if (turf_near > 0.0F && !winter)
-    look.turf = 0.5F * std::max(smoothstep(0.35F, 0.5F, tread) * smoothstep(0.3F, 0.6F, turf_near),
-                                turf_near * smoothstep(0.66F, 0.72F, normal.z + 0.12F * (turf_near - 0.6F) + 0.05F * p.cover_noise));
-  const float field_near = smoothstep(0.03F, 0.40F, p.snow);
-  const float snow_near = winter ? std::max(0.75F, field_near) : field_near;
-  if (snow_near > 0.0F)
-    look.snow = snow_paint * snow_near *
-                (winter ? winter_snow(p, large_normal, stands, tread * bed.strong) : old_snow(p, normal, stands, snow_near));
-
-  // Light on crests, dark in gullies, broken along their length; where the hand rests there are fewer.
-  float crest = 0.0F;
-  float gully = 0.0F;
-  const float busy = smoothstep(0.45F, 0.85F, calm);
-  const std::array<float, spur_sizes> few = {1.0F, 0.45F + 0.55F * busy, 0.8F * busy};
-  const float broken = 0.5F + 0.5F * std::clamp(0.48F * p.line_noise + 0.2F, -1.0F, 1.0F);
-  const float soft_edge = 0.9F / p.scale * 0.5F + 0.18F;
-  for (int size = 0; size < spur_sizes; ++size) {
-    const auto k = static_cast<std::size_t>(size);
-    const SpurHit& hit = hits[k];
-    if (hit.spur == nullptr) break;
-    const float share = drawn(kind, size, p) * few[k];
-    if (share <= 0.0F) break;
-    const float spacing = spur_spacing(kind, size, p.band);
-    const float zoom = std::min(1.0F, spur_band_table[static_cast<std::size_t>(p.band)].factor);
-    if (hit.part == SpurPart::back && hashed(hit.spur->id, 9) < 0.75F) {
-      const float width = crest_width[k] * zoom * (0.3F + 0.9F * broken);
-      const float near = 1.0F - smoothstep(width - 0.04F, width + 2.0F * soft_edge, std::abs(hit.across) * spacing);
-      crest = std::max(crest, share * crest_strength[k] * near * unit(1.0F - 0.5F * std::abs(hit.along - 0.5F)) * (0.4F + 0.6F * broken));
-    }
-    if (hashed(hit.spur->id * 13U + hit.next_id, 11) < 0.8F) {
-      const float width = gully_width[k] * zoom * (0.15F + broken);
-      const float near = 1.0F - smoothstep(width - 0.08F, width + 2.0F * soft_edge, hit.over_next / (2.0F * hit.steepness) * spacing);
-      gully = std::max(gully, share * gully_strength[k] * near * (0.35F + 0.65F * broken));
-    }
-  }
-  // A ramp: a light tread over a dark undercut.
-  if (hits.ramp_strength > 0.0F) {
-    const float d = hits.below_ramp;
-    const float on_tread = smoothstep(-3.2F * broken - 0.8F, -0.4F, d) * (1.0F - smoothstep(-0.2F, 0.3F, d));
-    const float undercut = smoothstep(-0.2F, 0.3F, d) * (1.0F - smoothstep(0.8F, 1.2F + 3.0F * broken, d));
-    crest = std::max(crest, 0.8F * hits.ramp_strength * on_tread);
-    gully = std::max(gully, 0.9F * hits.ramp_strength * undercut);
-  }
+  cover_rock(look, p, planes, winter, stands, tread, bed.strong);
+  const RockLines lines = draw_rock_lines(kind, p, hits, calm);
   const float lit = tone;
-  tone += crest_light * crest * patch * smoothstep(0.32F, 0.60F, lit) -
-          gully_dark * gully * patch * (0.45F + 0.55F * smoothstep(0.15F, 0.5F, lit));
-  look.tone = tone;
+  look.tone = tone + (crest_light * lines.crest * patch * smoothstep(0.32F, 0.60F, lit) -
+                      gully_dark * lines.gully * patch * (0.45F + 0.55F * smoothstep(0.15F, 0.5F, lit)));
   return look;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "texture/strokes/class_strokes.h"
 #include "texture/strokes/stroke_kinds.h"
 #include "texture/strokes/stroke_parts.h"
 
@@ -46,7 +47,7 @@ std::vector<Stroke> sky_strokes(const StrokeScene& scene, Stream stream) {
 std::vector<Stroke> wash_strokes(const StrokeScene& scene, Stream stream) {
   return sow(scene, 4.4F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
-    const ClassStrokes& brush = class_info(id).strokes;
+    const ClassStrokes& brush = strokes_of(id);
     if (brush.wash_length <= 0.F) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     const bool wooded = id == forest && !is_grassy(scene, i);
@@ -70,7 +71,7 @@ std::vector<Stroke> meadow_strokes(const StrokeScene& scene, Stream stream) {
     const LandCoverClass id = scene.class_at(i);
     if (!is_grass(id)) return;
     Stroke stroke = ground_stroke(scene, i, seed);
-    const float length = class_info(id).strokes.meadow_length * seed.between(0.6F, 1.4F);
+    const float length = strokes_of(id).meadow_length * seed.between(0.6F, 1.4F);
     if (is_floor(id)) {
       lay_line(stroke, scene, place, length, seed.normal() * 0.12F, 0.1F, false, seed);
     } else {
@@ -136,7 +137,7 @@ std::vector<Stroke> scree_strokes(const StrokeScene& scene, Stream stream) {
 std::vector<Stroke> broken_colour(const StrokeScene& scene, Stream stream) {
   return sow(scene, 4.F, stream, [&](StrokeSeed& seed, glm::vec2 place, std::size_t i, std::vector<Stroke>& out) {
     const LandCoverClass id = scene.class_at(i);
-    const DabHue dabs = class_info(id).strokes.dabs;
+    const DabHue dabs = strokes_of(id).dabs;
     if (dabs == DabHue::none || seed.uniform() > (is_ice(id) ? 0.40F : 0.10F + 0.85F * hand_busy_at(scene, place))) return;
     Stroke stroke = ground_stroke(scene, i, seed);
     stroke.depth_tolerance = tight_depth;

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include "base/random_streams.h"
+#include "texture/strokes/class_strokes.h"
 #include "texture/strokes/stroke_seeds.h"
 
 namespace belvedere {
@@ -43,7 +44,7 @@ void lay_on_top(Stroke& stroke);
 
 inline bool is_floor(LandCoverClass id) { return has_trait(id, ClassTrait::level); }
 inline bool is_ice(LandCoverClass id) { return has_trait(id, ClassTrait::icy); }
-inline bool is_grass(LandCoverClass id) { return class_info(id).strokes.meadow_length > 0.F; }
+inline bool is_grass(LandCoverClass id) { return strokes_of(id).meadow_length > 0.F; }
 
 // Share, 0…1, of eight places on a circle around that satisfy `test(pixel index)`; places off the canvas count as the centre does.
 template <class Test>

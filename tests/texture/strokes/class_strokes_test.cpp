@@ -1,3 +1,5 @@
+#include "texture/strokes/class_strokes.h"
+
 #include <gtest/gtest.h>
 
 #include "tests/texture/strokes/stroke_picture.h"
@@ -5,6 +7,17 @@
 
 namespace belvedere {
 namespace {
+
+// A class with a forgotten number in its row would be painted in one grey, or not at all.
+TEST(ClassStrokes, OfEveryClassWithAWashAreInRange) {
+  for (const LandCoverClassInfo& info : land_cover_classes()) {
+    using enum LandCoverClass;
+    if (info.id == sky || info.id == water || info.id == rock) continue;  // their strokes are their own
+    EXPECT_GT(strokes_of(info.id).wash_length, 0.F) << info.name;
+    EXPECT_GT(strokes_of(info.id).wash_width, 0.F) << info.name;
+    EXPECT_GT(strokes_of(info.id).wash_wander_rad, 0.F) << info.name;
+  }
+}
 
 // Every class of the table is painted: strokes cover what lies on the canvas before them.
 TEST(ClassStrokes, CoverEveryClassOfGround) {
