@@ -6,7 +6,6 @@
 #include "base/math.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "texture/basic/basic_synthesis.h"
 #include "texture/synthesis/synthesize.h"
 #include "tools/bench/bench.h"
 
@@ -79,28 +78,12 @@ Exemplar make_exemplar(int size) {
   return exemplar;
 }
 
-// The plain methods on a small picture, whose time a Mpixel grows with the painting (basic) or does not (coherent).
-Measurement bench_basic(const Options& options, bool coherent) {
-  constexpr int side = 96;
-  const Exemplar exemplar = make_exemplar(side);
-  const GuideStack target = make_guides(side, 12);
-  BasicParameters parameters;
-  for (const char* name : guide_names) parameters.weights.emplace_back(name, std::string_view(name) == "altitude" ? 1.0 : 0.0);
-  parameters.coherent = coherent;
-  MatchField field;
-  const Cost cost =
-      measure_fastest(options.repeats, {[&] { field = synthesize_basic({exemplar}, target, parameters, silent_progress()); }})[0];
-  return {fmt::format("{}²/{}", side, coherent ? "coherent" : "basic"), cost.cpu_s / (1e-6 * side * side), "CPU s/Mpixel"};
-}
-
 }  // namespace
 
 // A picture of `size`² from a painting of the same size; times are for a million pixels of output. The digest (of the match field)
 // tells whether a change of speed has changed what is made.
 std::vector<Measurement> bench_synthesis(const Options& options) {
   std::vector<Measurement> out;
-  out.push_back(bench_basic(options, false));
-  out.push_back(bench_basic(options, true));
   for (const int size : options.sizes) {
     if (size > 2048) continue;  // seconds per pixel stay the same, minutes would not
     const Exemplar exemplar = make_exemplar(size);

@@ -10,7 +10,6 @@
 #include "base/parallel.h"
 #include "base/text/json.h"
 #include "renderer/image/provenance.h"
-#include "texture/basic/basic_synthesis.h"
 #include "texture/synthesis/class_supply.h"
 #include "texture/synthesis/synthesize.h"
 #include "tools/cli/commands.h"
@@ -67,7 +66,6 @@ FileNotes make_notes(const SynthesizeOptions& options) {
   }
   FileNotes notes = to_notes(make_provenance("", inputs));
   std::string weights;
-  if (options.method != "fast") notes["belvedere:method"] = options.method + ", " + options.distance;
   std::string around = options.parameters.surroundings_of;
   for (const auto& [a, b, value] : options.unlikeness) around += fmt::format(" {}/{} {}", a, b, value);
   if (around != SynthesisParameters().surroundings_of) notes["belvedere:surroundings"] = around;
@@ -100,7 +98,6 @@ std::string describe_command(const SynthesizeOptions& options) {
   if (options.files.harmonize != "off") out += fmt::format(" --harmonize {}", options.files.harmonize);
   for (const auto& [from, to] : options.fallback) out += fmt::format(" --fallback {} {}", from, to);
   const SynthesisParameters& p = options.parameters;
-  if (options.method != "fast") out += fmt::format(" --method {} --distance {}", options.method, options.distance);
   if (p.surroundings_of != "commonest") out += " --surroundings-of " + p.surroundings_of;
   for (const auto& [a, b, value] : options.unlikeness) out += fmt::format(" --unlikeness {} {} {}", a, b, value);
   return out + fmt::format(" --seed {} --levels {} --reuse {} --copy-cap {} --neighbourhood {} --surroundings {} --out {}", p.seed,
@@ -134,30 +131,6 @@ int run_replay(const SynthesizeOptions& options) {
   const ReplayResult result = replay_layers({options.replay, options.files.pictures, options.out}, progress);
   print_result(options, result.width, result.height, result.without_texel, progress);
   return 0;
-}
-
-// The plain methods, for comparison.
-MatchField run_basic(const SynthesizeOptions& options, const SynthesisInputs& inputs, Progress& progress) {
-  const SynthesisParameters& p = options.parameters;
-  return synthesize_basic(inputs.exemplars, inputs.target,
-                          {.neighbourhood = p.neighbourhood,
-                           .distance = *find_colour_distance(options.distance),
-                           .weights = p.weights,
-                           .land_cover = p.surroundings,
-                           .fallback = p.fallback,
-                           .coherent = options.method == "coherent",
-                           .seed = p.seed},
-                          progress);
-}
-
-void check_method(const SynthesizeOptions& options) {
-  if (options.method == "fast") {
-    if (options.distance != "squares")
-      throw Error(ErrorKind::usage, "--distance " + options.distance, "is for the plain methods", "--method basic or coherent beside it");
-    return;
-  }
-  if (!options.sweeps.empty())
-    throw Error(ErrorKind::usage, "--sweep", "makes its results by the fast method", "--method fast, or one result at a time");
 }
 
 int run_sweep(const SynthesizeOptions& options, const SynthesisInputs& inputs, Progress& progress) {
@@ -209,7 +182,6 @@ int run(SynthesizeOptions& options) {
       throw Error(ErrorKind::usage, fmt::format("--unlikeness {} {}", a, b), "is no pair of labels", "two different ones, 0 … 254");
     options.parameters.unlikeness[{static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b)}] = value;
   }
-  check_method(options);
 
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
@@ -222,8 +194,7 @@ int run(SynthesizeOptions& options) {
       describe_scarcity(class_supply(inputs.exemplars, inputs.target.label, options.parameters.fallback), class_name_of);
   if (!scarcity.empty()) progress.note(scarcity);
   if (!options.sweeps.empty()) return run_sweep(options, inputs, progress);
-  const MatchField matches = options.method == "fast" ? synthesize(inputs.exemplars, inputs.target, options.parameters, progress)
-                                                      : run_basic(options, inputs, progress);
+  const MatchField matches = synthesize(inputs.exemplars, inputs.target, options.parameters, progress);
 
   progress.begin("writing", 0.0);
   std::vector<const Grid<glm::vec3>*> layers;
@@ -248,12 +219,6 @@ int run(SynthesizeOptions& options) {
   const auto empty = std::count_if(matches.begin(), matches.end(), [](const Match& m) { return m.exemplar == Match::none; });
   print_result(options, picture.width(), picture.height(), static_cast<std::size_t>(empty), progress);
   return 0;
-}
-
-std::vector<std::string> distance_names() {
-  std::vector<std::string> names;
-  for (const ColourDistance& distance : colour_distances()) names.emplace_back(distance.name);
-  return names;
 }
 
 }  // namespace
@@ -322,7 +287,7 @@ Action add_synthesize(CommandOptions& command) {
   command.add_option("--surroundings", parameters.surroundings, "How much the classes around a place count")
       .type_name("X")
       .show_default()
-      .range_or(0.0, 100.0, "inf");
+      .range(0.0, 100.0);
   command
       .add_option("--surroundings-of", parameters.surroundings_of,
                   "Which other classes around count: the commonest, or all by their shares")
@@ -334,17 +299,6 @@ Action add_synthesize(CommandOptions& command) {
                   "How unlike two labels are as surroundings: 0, one is as good as the other, to 1, the default; may be repeated")
       .type_name("LABEL LABEL X")
       .repeated();
-  command
-      .add_option("--method", options->method,
-                  "fast, or for comparison, slow and for small pictures: basic looks at every texel for every pixel, row by row, coherent "
-                  "only at what continues the copies around")
-      .type_name("HOW")
-      .show_default()
-      .one_of({"fast", "basic", "coherent"});
-  command.add_option("--distance", options->distance, "With --method basic or coherent: how colours are compared")
-      .type_name("NAME")
-      .show_default()
-      .one_of(distance_names());
   const Option replay =
       command
           .add_option("--replay", options->replay,

@@ -94,11 +94,6 @@ Option& Option::range(double least, double most) {
   return *this;
 }
 
-Option& Option::range_or(double least, double most, const std::string& word) {
-  option_->check(CLI::Range(least, most) | CLI::IsMember({word}));
-  return *this;
-}
-
 Option& Option::positive() {
   option_->check(CLI::PositiveNumber);
   return *this;

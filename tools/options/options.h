@@ -46,7 +46,6 @@ class Option {
   Option& range(int least, int most);
   Option& range(std::uint64_t least, std::uint64_t most);
   Option& range(double least, double most);
-  Option& range_or(double least, double most, const std::string& word);
   Option& positive();
   Option& not_negative();
   Option& one_of(const std::vector<std::string>& words);

@@ -124,10 +124,6 @@ TEST(OptionChecks, RangesHoldTheirEnds) {
   const Say seed = [](Option option) { option.range(std::uint64_t{0}, std::uint64_t{9007199254740992}); };
   EXPECT_EQ(value_of<std::uint64_t>("--x 9007199254740992", seed), 9007199254740992U);
   EXPECT_THAT(refusal_of<std::uint64_t>("--x 9007199254740993", seed), HasSubstr("not in range 0 to 9007199254740992"));
-  const Say or_inf = [](Option option) { option.range_or(0.0, 100.0, "inf"); };
-  EXPECT_EQ(value_of<std::string>("--x inf", or_inf), "inf");
-  EXPECT_EQ(value_of<std::string>("--x 100", or_inf), "100");
-  EXPECT_THAT(refusal_of<std::string>("--x 101", or_inf), AllOf(HasSubstr("101"), HasSubstr("inf")));
 }
 
 TEST(OptionChecks, SignsAndChoices) {
