@@ -91,7 +91,6 @@ std::vector<Candidate> propose_views(const ViewSearch& search, const ProposalPar
   parallel_ranges(starts.size(), std::size_t{1}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       starts[i] = refine(search, std::move(starts[i]));
-      if (search.wishes.search_bend) starts[i] = with_better_bend(search, starts[i]);
       if (!search.wishes.plain) starts[i] = with_changes(search, wide, starts[i]);
     }
   });

@@ -51,29 +51,6 @@ void write_source(Text& text, const ProposedFile& source) {
   if (!source.get_from.empty()) text.value("get_from", json_quoted(source.get_from));
 }
 
-// The parabola, or its control points. Returned: how much higher the ground lies by what is written than by the view's own bend; the eye
-// goes up with it.
-double write_bend(Text& text, const Candidate& candidate) {
-  const ViewShape& v = candidate.view;
-  if (v.middle == 0.0) {
-    text.line("[deform.bend]");
-    text.value("radius_m", metres(v.radius_m), fmt::format("level ground at {:.1f} km then lies on the lower edge", km(v.near_m)));
-    text.value("crest_m", metres(v.crest_m), "level here, tipped towards the viewer before, sinking to the horizon behind");
-    return 0.0;
-  }
-  text.line("[deform.bend]");
-  text.line(v.middle > 0.0
-                ? "# Tipped towards the viewer as far as the middle, more than by a parabola, and soon down to the horizon behind:"
-                : "# Level from the middle on, sooner than by a parabola, and gently down to the horizon:");
-  text.line(fmt::format("# that wins {}. Level ground at {:.1f} km lies on the lower edge.", candidate.bend.words, km(v.near_m)));
-  const BendPoints bend = bend_points(v);
-  text.line("points = [");
-  for (const BendPoint& point : bend.points)
-    text.line(fmt::format("  {{ distance_m = {:.0f}, inclination_deg = {:.2f} }},", point.distance_m, *point.inclination_deg));
-  text.line("]");
-  return bend.less_m;
-}
-
 std::string subject_words(const Anchor& anchor, const Massifs& massifs) {
   if (anchor.kind != AnchorKind::summit) return describe_anchor(anchor);
   if (massifs.lone > 0.5) return fmt::format("a lone mountain of {:.0f} m", anchor.altitude_m);
@@ -169,13 +146,15 @@ std::string proposed_scene_text(const ViewSearch& search, const Candidate& candi
   text.value("exaggeration", fmt::format("{:.2f}", v.exaggeration),
              fmt::format("forms then stand {:.0f} % of the picture high over their valleys", 100.0 * m.forms));
   text.value("exaggeration_base_m", fmt::format("{:.0f}", v.base_m), "a tenth of the ground in view is lower: valleys stay where they are");
-  const double eye_m = v.eye_m + write_bend(text, candidate);
+  text.line("[deform.bend]");
+  text.value("radius_m", metres(v.radius_m), fmt::format("level ground at {:.1f} km then lies on the lower edge", km(v.near_m)));
+  text.value("crest_m", metres(v.crest_m), "level here, tipped towards the viewer before, sinking to the horizon behind");
   text.line();
   write_summits(text, search, candidate);
   text.line("[camera]");
   if (v.cylinder) text.value("projection", "\"cylindrical\"", "a picture so wide would be stretched at its sides by a plane");
   text.value("position", place(v.viewer), search.ground.at(v.viewer) == nullptr ? "outside of the data, which begin in front of it" : "");
-  text.value("height_m", fmt::format("{:.0f}", eye_m), "bent level ground touches the line of sight at the horizon");
+  text.value("height_m", fmt::format("{:.0f}", v.eye_m), "bent level ground touches the line of sight at the horizon");
   text.value("azimuth_deg", fmt::format("{:.1f}", turned_deg(v.azimuth_deg)), fmt::format("to the {}", compass(v.azimuth_deg)));
   text.value("pitch_deg", fmt::format("{:.2f}", v.pitch_deg), fmt::format("{:.0f} % of the picture is sky", 100.0 * m.sky));
   text.value("field_of_view_deg", fmt::format("{:.1f}", v.field_of_view_deg));

@@ -11,7 +11,6 @@
 namespace belvedere {
 namespace {
 
-constexpr double most_middle = 0.3;    // of a bend, so that it bends downwards everywhere
 constexpr double off_wish_deg = 15.0;  // that a wished azimuth leaves free
 
 double turned(double degrees) { return degrees - 360.0 * std::floor(degrees / 360.0); }
@@ -34,11 +33,10 @@ bool allowed(const ViewSearch& search, const ViewPlan& plan) {
     return false;
   return plan.field_of_view_deg >= limits.least_field_deg - slack && plan.field_of_view_deg <= limits.most_field_deg + slack &&
          plan.near_share >= limits.least_near - slack && plan.near_share <= limits.most_near + slack && plan.crest_share >= 0.66 - slack &&
-         plan.crest_share <= 0.95 + slack && plan.anchor_share > 0.35 && plan.anchor_share < 0.98 && plan.across > 0.2 &&
-         plan.across < 0.8 && std::abs(plan.middle) <= most_middle + slack;
+         plan.crest_share <= 0.95 + slack && plan.anchor_share > 0.35 && plan.anchor_share < 0.98 && plan.across > 0.2 && plan.across < 0.8;
 }
 
-// A value of a plan and the first step along it; 0 leaves it. A factor goes up and down by ratios.
+// A value of a plan and the first step along it. A factor goes up and down by ratios.
 struct Step {
   double ViewPlan::*value;
   double by;
@@ -57,7 +55,6 @@ ViewShape shape_of(const ViewSearch& search, const ViewPlan& plan) {
   view.far_m = plan.far_m;
   view.near_m = plan.near_share * plan.far_m;
   view.crest_m = plan.crest_share * plan.far_m;
-  view.middle = plan.middle;
   if (search.wishes.from) {
     view.viewer = *search.wishes.from;
     return view;
@@ -164,10 +161,9 @@ std::vector<Candidate> first_candidates(const ViewSearch& search) {
 namespace {
 
 // Half as far as the first ones.
-std::vector<Step> later_steps(double middle) {
-  return {{&ViewPlan::middle, middle, false},         {&ViewPlan::near_share, 0.04, false}, {&ViewPlan::crest_share, 0.04, false},
-          {&ViewPlan::field_of_view_deg, 3.0, false}, {&ViewPlan::far_m, 1.06, true},       {&ViewPlan::anchor_share, 0.03, false},
-          {&ViewPlan::azimuth_deg, 4.0, false}};
+std::vector<Step> later_steps() {
+  return {{&ViewPlan::near_share, 0.04, false}, {&ViewPlan::crest_share, 0.04, false},  {&ViewPlan::field_of_view_deg, 3.0, false},
+          {&ViewPlan::far_m, 1.06, true},       {&ViewPlan::anchor_share, 0.03, false}, {&ViewPlan::azimuth_deg, 4.0, false}};
 }
 
 // Steps from a candidate along each value while they make it better, halved after each round.
@@ -175,7 +171,6 @@ Candidate climb(const ViewSearch& search, Candidate from, std::vector<Step> step
   for (int round = 0; round < rounds; ++round) {
     for (const Step& step : steps)
       for (const int sign : {-1, 1}) {
-        if (step.by == 0.0) continue;
         ViewPlan plan = from.plan;
         plan.*step.value = step.factor ? plan.*step.value * (sign > 0 ? step.by : 1.0 / step.by) : plan.*step.value + sign * step.by;
         plan.azimuth_deg = turned(plan.azimuth_deg);
@@ -203,26 +198,9 @@ Candidate refine(const ViewSearch& search, Candidate from) {
                 {&ViewPlan::across, 0.05, false}},
                4);
   // Values lean on each other, so a second go in another order finds what the first one left.
-  return climb(search, std::move(from), later_steps(0.0), 3);
+  return climb(search, std::move(from), later_steps(), 3);
 }
 
-Candidate settle(const ViewSearch& search, Candidate from) { return climb(search, std::move(from), later_steps(0.0), 2); }
-
-Candidate with_better_bend(const ViewSearch& search, const Candidate& from) {
-  Candidate best = from;
-  for (const double middle : {-0.8 * most_middle, 0.8 * most_middle}) {
-    ViewPlan plan = from.plan;
-    plan.middle = middle;
-    std::optional<Candidate> start = judge(search, plan);
-    if (!start) continue;
-    Candidate found = climb(search, std::move(*start), later_steps(0.4 * most_middle), 3);
-    if (found.plan.middle != 0.0 && found.score > best.score) best = std::move(found);
-  }
-  // Control points are harder to change by hand than a radius: they must be worth it.
-  constexpr double worth_it = 0.10;
-  if (best.score < from.score + worth_it) return from;
-  best.bend = {.merit = best.merit - from.merit, .words = describe_gains(from.terms, best.terms)};
-  return best;
-}
+Candidate settle(const ViewSearch& search, Candidate from) { return climb(search, std::move(from), later_steps(), 2); }
 
 }  // namespace belvedere

@@ -24,7 +24,6 @@ struct ViewWishes {
     glm::dvec2 place{0.0};  // scene CRS
   };
   std::vector<Place> include = {};  // must be in the picture
-  bool search_bend = false;         // bends other than parabolas, too
   bool plain = false;               // no valley widened, no summit raised by itself
 };
 
@@ -38,7 +37,6 @@ struct ViewPlan {
   double crest_share = 0.80;
   double anchor_share = 0.76;  // distance of the anchor
   double across = 0.5;         // where the anchor is in the picture
-  double middle = 0.0;         // of the bend: ViewShape::middle
 };
 
 // What a means beyond the usual ones makes better in a view.
@@ -69,7 +67,6 @@ struct Candidate {
   std::vector<ScoreTerm> terms;
   double score = 0.0;
   double merit = 0.0;  // 0…10
-  ViewGain bend;       // by another bend than a parabola; empty: it is a parabola
   ViewChanges changes;
 };
 
@@ -90,7 +87,5 @@ std::vector<Candidate> first_candidates(const ViewSearch& search);
 Candidate refine(const ViewSearch& search, Candidate from);
 // Short steps alone, from a candidate whose ground has changed a little.
 Candidate settle(const ViewSearch& search, Candidate from);
-// A refined candidate with another bend than a parabola, refined again, where that scores clearly more; else itself.
-Candidate with_better_bend(const ViewSearch& search, const Candidate& from);
 
 }  // namespace belvedere

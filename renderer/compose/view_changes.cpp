@@ -69,7 +69,6 @@ Candidate with_a_summit(const ViewSearch& search, const CoarseGround& ground, co
       std::optional<Candidate> next = judge_changed(search, raised_ground(ground, raised(changes)), changes, from.plan);
       if (!next || next->score < from.score + summit_wins || next->score <= best.score) continue;
       best = std::move(*next);
-      best.bend = from.bend;
       best.changes.summits.back().gain = {.merit = best.merit - from.merit, .words = describe_gains(from.terms, best.terms)};
     }
   }
@@ -104,7 +103,6 @@ Candidate with_changes(const ViewSearch& search, const std::vector<WideGround>& 
     std::optional<Candidate> next = judge_changed(search, tried.ground, changes, from.plan);
     if (!next || next->score < from.score + wide_wins || next->score <= best.score) continue;
     best = std::move(*next);
-    best.bend = from.bend;
     best.changes.widened = {.merit = best.merit - from.merit, .words = describe_gains(from.terms, best.terms)};
     ground = &tried.ground;
   }
@@ -118,14 +116,12 @@ Candidate with_changes(const ViewSearch& search, const std::vector<WideGround>& 
   Candidate out = settle({changed, massifs, search.wishes}, best);
   (changes.widen_valleys_m > 0.0 ? changes.widened : changes.summits.back().gain).merit += out.merit - best.merit;
   out.changes = std::move(changes);
-  out.bend = best.bend;
   return out;
 }
 
 std::string describe_changes(const ViewSearch& search, const Candidate& candidate) {
   std::vector<std::string> out;
   const ViewChanges& changes = candidate.changes;
-  if (!candidate.bend.words.empty()) out.push_back(fmt::format("a bend of its own wins {}", candidate.bend.words));
   if (changes.widen_valleys_m > 0.0)
     out.push_back(fmt::format("valleys {:.0f} m wider win {}", changes.widen_valleys_m, changes.widened.words));
   for (const RaisedSummit& summit : changes.summits)

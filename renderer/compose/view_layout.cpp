@@ -91,7 +91,7 @@ std::optional<ViewShape> lay_out(const CoarseGround& ground, ViewShape view, dou
   const double least_over = parameters.over_summit - 0.025 * lone;
   const double steepest = view.cylinder ? 3.0 : 1.2;  // of the lower edge: no picture is tipped further than a map on a desk
   double top = -0.15 * height;                        // depression of the upper edge; an angle, of a cylinder its tangent
-  const double rise = far * far - crest * crest + 16.0 / 15.0 * view.middle * square(far - near);
+  const double rise = far * far - crest * crest;
   const auto drop_m = [&](double distance) { return given.drop_m ? given.drop_m(distance) : view.drop_m(distance); };
   const auto lay = [&] {
     const double bottom = view.cylinder ? std::min(top + height, steepest) : tangent(std::min(top + height, steepest));

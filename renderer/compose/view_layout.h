@@ -10,9 +10,8 @@
 namespace belvedere {
 
 // A view is laid out, not searched: sky, lower edge and horizon are constraints, and height of the eye, tilt and bend follow from them.
-//   eye = base + level + (F² - c² + m) / (2 R): bent level ground touches the line of sight exactly at F, so that F is the horizon.
-//   R = (F² - c² + m + (near - c)²) / (2 near tan(lower edge)): level ground at `near` lies on the lower edge.
-//   m = 16/15 middle (F - near)²: what a bend that is no parabola has risen more at F, where it has the parabola's slope again.
+//   eye = base + level + (F² - c²) / (2 R): bent level ground touches the line of sight exactly at F, so that F is the horizon.
+//   R = (F² - c² + (near - c)²) / (2 near tan(lower edge)): level ground at `near` lies on the lower edge.
 //   The upper edge lies a share of the height above most of the skyline, and above the highest summit by a margin.
 // F is far_m, c crest_m, R radius_m. The skyline hangs on R, so the three are found together as a fixed point.
 

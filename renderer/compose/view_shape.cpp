@@ -1,12 +1,10 @@
 #include "renderer/compose/view_shape.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/angle.h"
 #include "base/math.h"
 #include "base/math_exact.h"
-#include "renderer/compose/view_defaults.h"
 
 namespace belvedere {
 namespace {
@@ -44,45 +42,8 @@ FormatLimits limits_of(const ViewFormat& format) {
   return out;
 }
 
-double ViewShape::drop_m(double distance_m) const {
-  const double parabola = square(distance_m - crest_m) / (2.0 * radius_m);
-  if (middle == 0.0) return parabola;
-  const double t = std::clamp((distance_m - near_m) / (far_m - near_m), 0.0, 1.0);
-  const double tipped = 16.0 * t * t * t * (1.0 / 3.0 + t * (-0.5 + t * 0.2));  // integral of 16 t² (1 - t)²; 8/15 of the whole
-  return parabola - middle * square(far_m - near_m) / radius_m * tipped;
-}
-
-double ViewShape::slope(double distance_m) const {
-  const double parabola = (crest_m - distance_m) / radius_m;
-  if (middle == 0.0) return parabola;
-  const double t = std::clamp((distance_m - near_m) / (far_m - near_m), 0.0, 1.0);
-  return parabola + middle * (far_m - near_m) / radius_m * 16.0 * square(t * (1.0 - t));
-}
-
-BendPoints bend_points(const ViewShape& view) {
-  // Evenly between near and far, where slopes curve; beside them they are straight, and two points say it: so far that nothing that is
-  // seen lies beyond. Points close to both ends keep the curve from rounding the corner.
-  constexpr int between = 8;
-  constexpr double beside = 0.12, nearer = 0.5, farther = 2.0;  // of near; of near, of far
-  std::vector<double> distances = {nearer * view.near_m, (1.0 - beside) * view.near_m};
-  for (int k = 0; k <= between; ++k) distances.push_back(view.near_m + (view.far_m - view.near_m) * k / between);
-  distances.push_back(view.far_m + beside * view.near_m);
-  distances.push_back(farther * view.far_m);
-  BendPoints out;
-  for (const double distance : distances) {
-    const double at = rounded_m(distance);
-    constexpr double steepest_deg = 80.0;
-    const double tilt_deg = std::clamp(arc_tangent_deg(view.slope(at)), -steepest_deg, steepest_deg);
-    out.points.push_back({at, std::nullopt, rounded_to(tilt_deg, 100.0)});
-  }
-  BendCurve curve;
-  curve.points = out.points;
-  const BendProfile profile(curve);
-  // Where both shall be the same: in the middle of what is seen.
-  const double middle_m = 0.5 * (view.near_m + view.far_m);
-  out.less_m = view.drop_m(middle_m) - profile.drop_m(middle_m);
-  return out;
-}
+double ViewShape::drop_m(double distance_m) const { return square(distance_m - crest_m) / (2.0 * radius_m); }
+double ViewShape::slope(double distance_m) const { return (crest_m - distance_m) / radius_m; }
 
 double picture_height(const ViewShape& view) {
   const double width = to_radians(view.field_of_view_deg);

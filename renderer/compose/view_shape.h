@@ -3,8 +3,6 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "terrain/deform/bend_curve.h"
-
 namespace belvedere {
 
 // The shape of a sheet.
@@ -21,11 +19,8 @@ struct FormatLimits {
 };
 FormatLimits limits_of(const ViewFormat& format);
 
-// A view with its bend: all that a picture's geometry hangs on. The ground is first exaggerated about a base, then bent: by a parabola, or
-// between near and far by more in one half and less in the other. Level ground at the distance d is tipped towards the viewer by
-//   (crest - d) / radius + middle (far - near) / radius · 16 t² (1 - t)²,   t = (d - near) / (far - near), 0…1,
-// so that ends and horizon keep their slopes. 16 t² (1 - t)² changes by at most 16 / (3 √3) = 3.08 over t: up to .32 the ground bends
-// downwards everywhere, so that far is the horizon of all level ground, and none hides behind a fold of the bend.
+// A view with its bend: all that a picture's geometry hangs on. The ground is first exaggerated about a base, then bent by a parabola:
+// level ground at the distance d is tipped towards the viewer by (crest - d) / radius. So far is the horizon of all level ground.
 struct ViewShape {
   glm::dvec2 viewer{0.0};
   double azimuth_deg = 0.0;
@@ -39,7 +34,6 @@ struct ViewShape {
   double base_m = 0.0;    // altitude that exaggeration keeps
   double level_m = 0.0;   // level ground over the base, exaggerated
   double radius_m = 0.0;  // of the bend
-  double middle = 0.0;    // how much more than by the parabola the middle is tipped, -.3….3 of what it turns from near to far; 0: not
   double eye_m = 0.0;     // height of the eye
   double pitch_deg = 0.0;
 
@@ -69,14 +63,6 @@ class ComposedPicture final : public PictureMap {
   double cosine_ = 1.0, sine_ = 0.0;             // of the pitch, downwards
   double middle_ = 0.0;                          // of a cylinder: the tangent of depression in the middle
 };
-
-// The bend as a scene says it by control points, and how far its drop is less than `drop_m` everywhere: control points count from the
-// highest place of their curve. Inclinations are rounded to hundredths of a degree.
-struct BendPoints {
-  std::vector<BendPoint> points;
-  double less_m = 0.0;
-};
-BendPoints bend_points(const ViewShape& view);
 
 // Height of the picture as an angle: 2 atan(tan(field / 2) / aspect); of a cylinder the field over the aspect, in tangents.
 double picture_height(const ViewShape& view);

@@ -58,33 +58,6 @@ TEST(ViewCandidates, RefiningNeverMakesWorse) {
   EXPECT_GT(gained, 1.0);
 }
 
-TEST(ViewCandidates, AnotherBendIsTakenWhereItScoresMore) {
-  const CoarseGround ground = test::chain_region();
-  const Massifs massifs = find_massifs(ground);
-  const ViewSearch search{ground, massifs, {}};
-  std::vector<Candidate> candidates = first_candidates(search);
-  int bent = 0, kept = 0;
-  for (std::size_t i = 0; i < candidates.size(); i += candidates.size() / 9) {
-    const Candidate before = refine(search, candidates[i]);
-    const Candidate after = with_better_bend(search, before);
-    EXPECT_EQ(before.plan.middle, 0.0);
-    if (after.plan.middle == 0.0) {
-      ++kept;
-      EXPECT_EQ(after.score, before.score);
-      EXPECT_EQ(after.bend.words, "");
-      continue;
-    }
-    ++bent;
-    EXPECT_GE(after.score, before.score + 0.1);
-    EXPECT_LE(std::abs(after.plan.middle), 0.3);
-    EXPECT_EQ(after.view.middle, after.plan.middle);
-    EXPECT_NE(after.bend.words, "");
-    EXPECT_NEAR(after.bend.merit, after.merit - before.merit, 1e-12);
-  }
-  EXPECT_GT(bent, 0);
-  EXPECT_GT(kept, 0);
-}
-
 TEST(ViewCandidates, TheSameForAnyThreads) {
   const CoarseGround ground = test::coast_region();
   const Massifs massifs = find_massifs(ground);

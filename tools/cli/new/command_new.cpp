@@ -50,7 +50,6 @@ std::string title_of(const std::string& path) {
 ViewWishes wishes_of(const NewOptions& options, const ViewFormat& format, const CoarseGround& ground) {
   ViewWishes out;
   out.format = format;
-  out.search_bend = options.search_bend;
   out.plain = options.plain;
   if (!options.towards.empty()) out.towards_deg = read_direction(options.towards);
   const std::string degrees = normalize_crs("EPSG:4326");
@@ -123,7 +122,7 @@ void note_limits(const std::vector<RasterSource>& sources, const CoarseGround& g
 
 // What of the merit is won by means beyond the usual.
 double won(const Candidate& candidate) {
-  double out = candidate.bend.merit + candidate.changes.widened.merit;
+  double out = candidate.changes.widened.merit;
   for (const RaisedSummit& summit : candidate.changes.summits) out += summit.gain.merit;
   return out;
 }

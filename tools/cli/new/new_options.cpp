@@ -27,7 +27,6 @@ void add_new_options(CommandOptions& command, NewOptions& options) {
                   "Shape of the sheet: 2:1, 3:1 …; A2, \"A2 upright\"; 2400x1200 pixels; cylinder, \"cylinder 8:1\" for a view all around")
       .type_name("FORMAT")
       .show_default();
-  command.add_flag("--search-bend", options.search_bend, "Tries bends other than parabolas, and takes one where it makes a better picture");
   command.add_flag("--plain", options.plain,
                    "Neither widens valleys nor raises summits where that makes a better picture: the land is raised and bent as a whole");
   command.add_option("--title", options.title, "Title of the scene; without it the file's name").type_name("TEXT");

@@ -28,7 +28,7 @@ struct NewOptions {
     std::string file, legend, crs, unknown;
     int band = 1;
   } cover;
-  bool search_bend = false, plain = false;
+  bool plain = false;
   bool force = false;
 };
 
