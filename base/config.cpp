@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/letters.h"
 
 // In this version some malformed texts reach the library's own assertions, which would end the program, or, compiled out, leave it
 // undefined. Thrown instead they are one more syntax error. (Its mode without exceptions reaches more of them.)
@@ -208,13 +209,6 @@ std::string in_quotes(std::string_view text) {
   return out + (text.size() > longest ? "…\"" : "\"");
 }
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
-}
-
 // Edit distance with swaps of neighbouring letters as one edit (optimal string alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), previous(b.size() + 1), row(b.size() + 1);
@@ -328,11 +322,11 @@ std::string describe(const ConfigValue& value) {
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest = 64;  // no key of ours is nearly as long; keeps the distance cheap
   if (word.empty() || word.size() > longest) return {};
-  const std::string given = lower(word);
+  const std::string given = lower_case(std::string(word));
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3 + 1);  // so many edits are no slip any more
   for (const std::string& candidate : candidates) {
-    const std::string known = lower(candidate);
+    const std::string known = lower_case(candidate);
     // A unit too much or too little (pitch_deg for pitch) is a small slip, however long it is.
     const bool same_stem = given.starts_with(known + "_") || known.starts_with(given + "_");
     const std::size_t distance = same_stem ? 1 : edit_distance(given, known);

@@ -15,9 +15,7 @@ double median(std::vector<double> values) {
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
+  return value_at_rank(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5));
 }
 
 }  // namespace belvedere

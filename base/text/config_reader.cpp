@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/error.h"
+#include "base/text/hex_colour.h"
 
 namespace belvedere {
 
@@ -54,18 +54,13 @@ void ConfigReader::colour(const char* key, std::string& to) {
   const ConfigValue* value = known(key);
   if (value == nullptr) return;
   to = as_string(*value, name_);
-  const auto hex = [](unsigned char c) { return std::isxdigit(c) != 0; };
-  if (to.size() != 7 || to[0] != '#' || !std::all_of(to.begin() + 1, to.end(), hex)) fail(*value, "\"#rrggbb\"");
+  if (!colour_of_hex(to)) fail(*value, "\"#rrggbb\"");
 }
 
 void ConfigReader::colour(const char* key, glm::vec3& to) {
   std::string text;
   colour(key, text);
-  if (text.empty()) return;
-  const auto part = [&](std::size_t at) { return static_cast<float>(std::stoi(text.substr(at, 2), nullptr, 16)) / 255.F; };
-  to.x = part(1);
-  to.y = part(3);
-  to.z = part(5);
+  if (!text.empty()) to = *colour_of_hex(text);
 }
 
 }  // namespace belvedere

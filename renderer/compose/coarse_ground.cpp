@@ -11,6 +11,7 @@
 #include "base/math.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "terrain/io/raster_io.h"
 #include "terrain/io/raster_thinned.h"
 #include "terrain/io/surface_raster.h"
@@ -26,13 +27,6 @@ constexpr double wall_reach = 0.05;     // … and has mountains so far around i
 constexpr double narrow_reach = 0.022;  // valleys narrower than twice this are filled to measure incision
 
 int cells_in(double length_m, double cell_m) { return std::max(1, static_cast<int>(std::lround(length_m / cell_m))); }
-
-double lower_percentile(std::vector<float> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
-  return static_cast<double>(values[rank]);
-}
 
 // Voids that touch the frame's border, directly or through others: beyond the data. Holes within them are not.
 Grid<std::uint8_t> inside_data(const Grid<std::uint8_t>& is_void) {
@@ -83,8 +77,7 @@ void calm_holes(Grid<float>& z, const Grid<std::uint8_t>& hole) {
       std::vector<float> around;
       for (int j = -reach; j <= reach; ++j)
         for (int i = -reach; i <= reach; ++i) around.push_back(before.clamped(x + i, y + j));
-      std::nth_element(around.begin(), around.begin() + 12, around.end());
-      z(x, y) = around[12];
+      z(x, y) = middle_value(std::move(around));
     }
 }
 
@@ -174,9 +167,9 @@ CoarseGround make_coarse_ground(Raster<float> raster, double source_cell_m) {
   ground.side_m = std::sqrt(static_cast<double>(known.size())) * cell;
   ground.lowest_m = static_cast<double>(*std::min_element(known.begin(), known.end()));
   ground.highest_m = static_cast<double>(*std::max_element(known.begin(), known.end()));
-  ground.low_m = lower_percentile(known, 0.05);
-  ground.upper_m = lower_percentile(known, 0.999);
-  ground.relief_m = std::max(1.0, lower_percentile(known, 0.97) - ground.low_m);
+  ground.low_m = static_cast<double>(value_at_share(known, 0.05));
+  ground.upper_m = static_cast<double>(value_at_share(known, 0.999));
+  ground.relief_m = std::max(1.0, static_cast<double>(value_at_share(known, 0.97)) - ground.low_m);
 
   const double side = ground.side_m;
   const Grid<float> rim = rim_distance(inside, cell);

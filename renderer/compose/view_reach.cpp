@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/statistics.h"
 #include "renderer/compose/view_layout.h"
 #include "renderer/compose/view_measures.h"
 
@@ -27,9 +28,7 @@ double level_of(const CoarseGround& ground, const CameraParameters& camera, glm:
     for (const GroundCell& c : ground.cells)
       if (c.known) altitudes.push_back(c.altitude_m);
   }
-  const auto at = altitudes.begin() + static_cast<std::ptrdiff_t>(altitudes.size() * 2 / 5);
-  std::nth_element(altitudes.begin(), at, altitudes.end());
-  return static_cast<double>(*at);
+  return static_cast<double>(value_at_rank(altitudes, altitudes.size() * 2 / 5));
 }
 
 // The farthest ground there is, in the middle of the directions.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "texture/synthesis/guide_stack.h"
 
 namespace belvedere {
@@ -44,12 +45,6 @@ struct Sample {
   double weight;
 };
 
-double median_of(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
-}
-
 // Medians of tone × distance of one label's texels.
 std::vector<Sample> find_medians(const std::vector<std::size_t>& texels, const Grid<glm::vec3>& picture, const Grid<float>& tone,
                                  const Grid<std::uint8_t>& distance, double nearest, double farthest) {
@@ -74,7 +69,7 @@ std::vector<Sample> find_medians(const std::vector<std::size_t>& texels, const G
     for (int c = 0; c < 3; ++c) {
       values.clear();
       for (const std::size_t i : cell) values.push_back(picture[i][c]);
-      sample.colour[c] = median_of(values);
+      sample.colour[c] = static_cast<double>(value_at_rank(values, values.size() / 2));
     }
     total += sample.weight;
     samples.push_back(sample);

@@ -4,13 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <utility>
 
 #include "base/error.h"
 #include "base/text/config_reader.h"
 #include "base/text/embedded.h"
+#include "base/text/letters.h"
 
 namespace belvedere {
 namespace {
@@ -32,11 +32,6 @@ constexpr std::array draw_words = {DrawWord{"line", FeatureDraw::line, FeatureGe
 
 const DrawWord& row_of(FeatureDraw draw) {
   return *std::find_if(draw_words.begin(), draw_words.end(), [&](const DrawWord& row) { return row.draw == draw; });
-}
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 void read_colours(ConfigReader& read, FeatureColours& to) {
@@ -94,8 +89,8 @@ FeatureKind read_kind(const ConfigEntry& entry, const std::string& name) {
 void check_words(const FeatureStyle& style) {
   std::set<std::string> seen;
   for (const FeatureKind& kind : style.kinds) {
-    std::set<std::string> own = {lower(kind.name)};
-    for (const std::string& word : kind.also) own.insert(lower(word));
+    std::set<std::string> own = {lower_case(kind.name)};
+    for (const std::string& word : kind.also) own.insert(lower_case(word));
     for (const std::string& word : own)
       if (!seen.insert(word).second)
         throw Error(ErrorKind::usage, style.name, fmt::format("\"{}\" means two kinds", word), "each word once");
@@ -144,10 +139,10 @@ const char* name_of(FeatureGeometry geometry) {
 }
 
 int FeatureStyle::find(const std::string& word) const {
-  const std::string wanted = lower(word);
+  const std::string wanted = lower_case(word);
   for (std::size_t k = 0; k < kinds.size(); ++k)
-    if (lower(kinds[k].name) == wanted ||
-        std::any_of(kinds[k].also.begin(), kinds[k].also.end(), [&](const std::string& other) { return lower(other) == wanted; }))
+    if (lower_case(kinds[k].name) == wanted ||
+        std::any_of(kinds[k].also.begin(), kinds[k].also.end(), [&](const std::string& other) { return lower_case(other) == wanted; }))
       return static_cast<int>(k);
   return -1;
 }

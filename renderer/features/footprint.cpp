@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/grid.h"
+#include "base/masks/polygon.h"
 
 namespace belvedere {
 namespace {
@@ -32,17 +33,6 @@ std::vector<double> lines_through(std::vector<double> values, double least) {
   for (std::size_t k = 0; k < most_lines; ++k)
     lines.push_back(values.front() + (last - values.front()) * static_cast<double>(k) / static_cast<double>(most_lines - 1));
   return lines;
-}
-
-bool is_inside(const std::vector<std::vector<glm::dvec2>>& rings, glm::dvec2 place) {
-  bool inside = false;
-  for (const auto& ring : rings)
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const glm::dvec2 a = ring[i];
-      const glm::dvec2 b = ring[(i + 1) % ring.size()];
-      if ((a.y <= place.y) != (b.y <= place.y) && place.x < a.x + (place.y - a.y) * ((b.x - a.x) / (b.y - a.y))) inside = !inside;
-    }
-  return inside;
 }
 
 // The house in its own directions, as a net through its corners whose cells lie in it or not.
@@ -83,7 +73,7 @@ Net net_of(const std::vector<std::vector<glm::dvec2>>& rings, double least) {
     for (int c = 0; c < columns; ++c) {
       const auto i = static_cast<std::size_t>(c);
       const auto j = static_cast<std::size_t>(r);
-      net.inside(c, r) = is_inside(rings, {0.5 * (net.x[i] + net.x[i + 1]), 0.5 * (net.y[j] + net.y[j + 1])}) ? 1 : 0;
+      net.inside(c, r) = encloses(rings, {0.5 * (net.x[i] + net.x[i + 1]), 0.5 * (net.y[j] + net.y[j + 1])}) ? 1 : 0;
     }
   return net;
 }

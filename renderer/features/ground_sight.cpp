@@ -5,26 +5,12 @@
 #include <glm/geometric.hpp>
 #include <span>
 
+#include "base/statistics.h"
+#include "renderer/trace/facet_hit.h"
 #include "terrain/generalize/moved_ground.h"
 
 namespace belvedere {
 namespace {
-
-// The tracer's two triangles of a cell, whose common side runs from the north-east to the south-west.
-glm::dvec3 on_facet(const Grid<glm::vec3>& posts, glm::dvec2 at) {
-  const int x = std::clamp(static_cast<int>(at.x), 0, posts.width() - 2);
-  const int y = std::clamp(static_cast<int>(at.y), 0, posts.height() - 2);
-  const double fx = at.x - x;
-  const double fy = at.y - y;
-  const glm::dvec3 ne(posts(x + 1, y));
-  const glm::dvec3 sw(posts(x, y + 1));
-  if (fx + fy <= 1.0) {
-    const glm::dvec3 nw(posts(x, y));
-    return nw + (ne - nw) * fx + (sw - nw) * fy;
-  }
-  const glm::dvec3 se(posts(x + 1, y + 1));
-  return se + (sw - se) * (1.0 - fx) + (ne - se) * (1.0 - fy);
-}
 
 bool holds(const PixelRect& posts, glm::dvec2 at) {
   return at.x >= posts.x0 && at.y >= posts.y0 && at.x <= posts.x1 - 1 && at.y <= posts.y1 - 1;
@@ -101,8 +87,7 @@ double GroundSight::nearest_metres_per_px() const {
       if (hit.found) found.push_back(metres_per_px(ray.origin + ray.direction * hit.distance_m, pixel));
     }
     if (2 * found.size() < columns) continue;
-    std::nth_element(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2), found.end());
-    return found[found.size() / 2];
+    return middle_value(std::move(found));
   }
   return 1.0;
 }

@@ -14,6 +14,7 @@
 
 #include "base/cache/cache.h"
 #include "base/cache/content_hash.h"
+#include "base/masks/polygon.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "renderer/ground/cached_products.h"
@@ -106,19 +107,9 @@ CacheKey features_key(const LoadedScene& loaded, const Dem& dem) {
   return make_cache_key(CachedProduct::ground_features, key, subject_of(loaded));
 }
 
-double signed_area_m2(const std::vector<glm::dvec2>& ring) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const glm::dvec2 a = ring[i] - ring[0];
-    const glm::dvec2 b = ring[(i + 1) % ring.size()] - ring[0];
-    sum += 0.5 * (a.x * b.y - b.x * a.y);
-  }
-  return sum;
-}
-
 double area_m2(const std::vector<std::vector<glm::dvec2>>& rings) {
   double sum = 0.0;
-  for (std::size_t r = 0; r < rings.size(); ++r) sum += (r == 0 ? 1.0 : -1.0) * std::abs(signed_area_m2(rings[r]));
+  for (std::size_t r = 0; r < rings.size(); ++r) sum += (r == 0 ? 1.0 : -1.0) * std::abs(signed_area(rings[r]));
   return std::max(0.0, sum);
 }
 
@@ -132,7 +123,7 @@ glm::dvec2 middle_of(const std::vector<glm::dvec2>& ring) {
 void add_coast_line(const Feature& feature, std::vector<std::vector<glm::dvec2>>& lines) {
   lines.push_back(feature.parts[0]);
   if (feature.shape != MapShape::area) return;
-  if (signed_area_m2(lines.back()) < 0.0) std::reverse(lines.back().begin(), lines.back().end());
+  if (signed_area(lines.back()) < 0.0) std::reverse(lines.back().begin(), lines.back().end());
   lines.back().push_back(lines.back().front());
 }
 

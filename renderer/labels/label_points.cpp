@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <glm/geometric.hpp>
 #include <set>
 #include <span>
@@ -16,18 +14,13 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/letters.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/features.h"
 #include "terrain/io/points.h"
 
 namespace belvedere {
 namespace {
-
-bool ends_as(const std::string& path, std::string_view ending) {
-  std::string own = std::filesystem::path(path).extension().string();
-  std::transform(own.begin(), own.end(), own.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return own == ending;
-}
 
 const std::string& text_of(const PointTable::Point& point, int column) {
   static const std::string nothing;
@@ -84,7 +77,7 @@ constexpr std::array altitude_columns{"ele", "altitude_m", "altitude", "elevatio
 
 // The points of a file of any format, of vector files those of all its layers.
 PointTable read_table(const std::string& path, const std::string& crs, NamesAre names, Progress& progress) {
-  if (ends_as(path, ".csv") || crs.empty()) return read_points(path, crs);
+  if (lower_ending(path) == ".csv" || crs.empty()) return read_points(path, crs);
   MapQuery query;
   (names == NamesAre::needed ? query.columns : query.also).emplace_back("name");
   query.also.insert(query.also.end(), kind_columns.begin(), kind_columns.end());

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/masks/polygon.h"
 #include "base/parallel.h"
 #include "renderer/labels/drawing.h"
 #include "terrain/io/features.h"
@@ -40,15 +41,6 @@ glm::dvec2 middle_of(const std::vector<glm::dvec2>& places) {
   glm::dvec2 sum(0.0);
   for (const glm::dvec2 p : places) sum += p;
   return sum / static_cast<double>(places.size());
-}
-
-bool inside(const std::vector<std::vector<glm::dvec2>>& rings, glm::dvec2 p) {
-  bool in = false;
-  for (const std::vector<glm::dvec2>& ring : rings)
-    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
-      if ((ring[i].y > p.y) != (ring[j].y > p.y) && p.x < ring[i].x + (ring[j].x - ring[i].x) * (p.y - ring[i].y) / (ring[j].y - ring[i].y))
-        in = !in;
-  return in;
 }
 
 // A row of places with new ones between, no farther from each other than `step`; steps grow where a line would have too many.
@@ -117,7 +109,7 @@ ShapeRun run_of_area(const DrawnGround& ground, const LabelShape& shape) {
   // Seen is what of the picture shows a place of the area, and not the ground before it.
   for (const glm::dvec2 pixel : refined(middle, 1.0, false)) {
     const std::optional<GeoPlace> shown = ground.map.to_geo(pixel);
-    row.push_back({pixel, shown && inside(shape.parts, shown->place)});
+    row.push_back({pixel, shown && encloses(shape.parts, shown->place)});
   }
   out.line = longest_run(row);
   return out;

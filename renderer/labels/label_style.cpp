@@ -3,13 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "base/config.h"
 #include "base/error.h"
 #include "base/text/config_reader.h"
 #include "base/text/embedded.h"
+#include "base/text/letters.h"
 
 namespace belvedere {
 namespace {
@@ -67,11 +67,6 @@ MarginStyle read_margin(const ConfigValue& value, const std::string& name) {
   return margin;
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 LabelStyle read_style(const ConfigValue& document, const std::string& name) {
   LabelStyle style;
   style.name = name;
@@ -100,10 +95,10 @@ LabelStyle read_style(const ConfigValue& document, const std::string& name) {
 }  // namespace
 
 int LabelStyle::find(const std::string& word) const {
-  const std::string wanted = lower(word);
+  const std::string wanted = lower_case(word);
   for (std::size_t k = 0; k < kinds.size(); ++k)
-    if (lower(kinds[k].name) == wanted ||
-        std::any_of(kinds[k].also.begin(), kinds[k].also.end(), [&](const std::string& other) { return lower(other) == wanted; }))
+    if (lower_case(kinds[k].name) == wanted ||
+        std::any_of(kinds[k].also.begin(), kinds[k].also.end(), [&](const std::string& other) { return lower_case(other) == wanted; }))
       return static_cast<int>(k);
   return -1;
 }

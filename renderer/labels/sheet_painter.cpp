@@ -3,7 +3,6 @@
 #include <cairo.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -11,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/text/hex_colour.h"
 #include "renderer/labels/placed_text.h"
 
 namespace belvedere {
@@ -75,10 +75,9 @@ Outline circle_outline(glm::dvec2 m, double r) {
 }
 
 glm::dvec3 rgb_of(const std::string& colour) {
-  unsigned value = 0;
-  if (colour.size() != 7 || std::from_chars(colour.data() + 1, colour.data() + 7, value, 16).ec != std::errc())
-    throw Error(ErrorKind::bug, "a drawing", "the colour \"" + colour + '"', "#rrggbb");
-  return glm::dvec3((value >> 16) & 255U, (value >> 8) & 255U, value & 255U) / 255.0;
+  const std::optional<glm::vec3> rgb = colour_of_hex(colour);
+  if (!rgb) throw Error(ErrorKind::bug, "a drawing", "the colour \"" + colour + '"', "#rrggbb");
+  return glm::dvec3(*rgb);
 }
 
 void trace(cairo_t* cairo, const Outline& outline, glm::dvec2 origin) {

@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
+#include "base/statistics.h"
 #include "renderer/paint/clouds/front_deck.h"
 #include "renderer/paint/picture_noise.h"
 
@@ -134,12 +135,7 @@ struct EdgeNoises {
   GroundNoise wobble_x, wobble_y, ripple_x, ripple_y;
 };
 
-double median_or(std::vector<double> values, double fallback) {
-  if (values.empty()) return fallback;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double median_or(std::vector<double> values, double fallback) { return values.empty() ? fallback : middle_value(std::move(values)); }
 
 }  // namespace
 

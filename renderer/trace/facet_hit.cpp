@@ -129,4 +129,19 @@ bool resolve_facet(const TracedPart& part, const GridTile& tile, glm::vec2 in_ti
   return true;
 }
 
+glm::dvec3 on_facet(const Grid<glm::vec3>& posts, glm::dvec2 at) {
+  const int x = std::clamp(static_cast<int>(at.x), 0, posts.width() - 2);
+  const int y = std::clamp(static_cast<int>(at.y), 0, posts.height() - 2);
+  const double fx = at.x - x;
+  const double fy = at.y - y;
+  const glm::dvec3 ne(posts(x + 1, y));
+  const glm::dvec3 sw(posts(x, y + 1));
+  if (fx + fy <= 1.0) {
+    const glm::dvec3 nw(posts(x, y));
+    return nw + (ne - nw) * fx + (sw - nw) * fy;
+  }
+  const glm::dvec3 se(posts(x + 1, y + 1));
+  return se + (sw - se) * (1.0 - fx) + (ne - se) * (1.0 - fy);
+}
+
 }  // namespace belvedere

@@ -12,4 +12,8 @@ namespace belvedere {
 // from the surface's. Fills all of `hit` but its window. False where in double the ray passes the facet by (it grazed an edge).
 bool resolve_facet(const TracedPart& part, const GridTile& tile, glm::vec2 in_tile, const Ray& ray, Hit& hit);
 
+// A place of a surface, column and row within its posts: on one of the two triangles of its cell, whose common side runs from the
+// north-east to the south-west.
+glm::dvec3 on_facet(const Grid<glm::vec3>& posts, glm::dvec2 at);
+
 }  // namespace belvedere

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/filter.h"
+#include "renderer/trace/facet_hit.h"
 #include "terrain/generalize/moved_ground.h"
 
 namespace belvedere {
@@ -38,19 +39,7 @@ std::optional<glm::dvec3> GeoMap::drawn_surface(glm::dvec2 drawn) const {
   const Grid<glm::vec3>& posts = surface_.vertices_m;
   const glm::dvec2 at = transform_.to_cell(drawn.x, drawn.y);
   if (!(at.x >= 0.0 && at.y >= 0.0 && at.x <= posts.width() - 1.0 && at.y <= posts.height() - 1.0)) return std::nullopt;
-  const int x = std::min(static_cast<int>(at.x), posts.width() - 2);
-  const int y = std::min(static_cast<int>(at.y), posts.height() - 2);
-  const double fx = at.x - x;
-  const double fy = at.y - y;
-  const glm::dvec3 ne(posts(x + 1, y));
-  const glm::dvec3 sw(posts(x, y + 1));
-  // The tracer's two triangles of a cell, whose common side runs from the north-east to the south-west.
-  if (fx + fy <= 1.0) {
-    const glm::dvec3 nw(posts(x, y));
-    return surface_.origin + nw + (ne - nw) * fx + (sw - nw) * fy;
-  }
-  const glm::dvec3 se(posts(x + 1, y + 1));
-  return surface_.origin + se + (sw - se) * (1.0 - fx) + (ne - se) * (1.0 - fy);
+  return surface_.origin + on_facet(posts, at);
 }
 
 std::optional<ImagePlace> GeoMap::see(glm::dvec3 deformed) const {

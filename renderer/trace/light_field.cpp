@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/masks/polygon.h"
 #include "base/math.h"
 #include "base/noise.h"
 #include "base/random_streams.h"
@@ -31,17 +32,6 @@ double distance_to_segment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
   const double squared = glm::dot(along, along);
   const double t = squared > 0.0 ? std::clamp(glm::dot(p - a, along) / squared, 0.0, 1.0) : 0.0;
   return glm::length(p - (a + along * t));
-}
-
-bool encloses(const std::vector<std::vector<glm::dvec2>>& rings, glm::dvec2 p) {
-  bool inside = false;
-  for (const std::vector<glm::dvec2>& ring : rings)
-    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-      const glm::dvec2 a = ring[i];
-      const glm::dvec2 b = ring[j];
-      if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
-    }
-  return inside;
 }
 
 // How far a place lies outside of a region, m; 0 inside.

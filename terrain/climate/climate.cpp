@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "terrain/climate/lapse_rate.h"
 #include "terrain/climate/stations.h"
 #include "terrain/io/block_means.h"
@@ -201,11 +202,7 @@ class Maker {
           altitude_m.push_back(static_cast<double>(ground_m_[i]));
         }
       if (known_c.empty()) throw Error(ErrorKind::input, p_.temperature->path, "does not reach the terrain", "a raster that covers it");
-      if (m == 0) {
-        std::vector<double> sorted = known_c;
-        std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-        if (sorted[sorted.size() / 2] > 150.0) kelvin = 273.15;
-      }
+      if (m == 0 && middle_value(known_c) > 150.0) kelvin = 273.15;
       // Its own fall with altitude, where the map has any to tell it by; the default's else.
       const auto [low, high] = std::minmax_element(altitude_m.begin(), altitude_m.end());
       constexpr double least_relief_m = 300.0;

@@ -120,12 +120,8 @@ RainPlane fit_rain(const std::vector<Station>& all, int bootstrap_samples) {
       drawn[i] = rows[random_index(static_cast<std::uint32_t>(rows.size()), rain_seed, sample, static_cast<std::int64_t>(i))];
     if (const std::optional<Terms> again = solve_robust(drawn, terms)) gradients.push_back((*again)[1]);
   }
-  std::sort(gradients.begin(), gradients.end());
-  const auto quantile = [&](double share) {
-    return gradients[static_cast<std::size_t>(share * static_cast<double>(gradients.size() - 1))];
-  };
-  plane.low_mm_per_km_up = gradients.empty() ? plane.mm_per_km_up : quantile(0.025);
-  plane.high_mm_per_km_up = gradients.empty() ? plane.mm_per_km_up : quantile(0.975);
+  plane.low_mm_per_km_up = gradients.empty() ? plane.mm_per_km_up : value_at_share(gradients, 0.025);
+  plane.high_mm_per_km_up = gradients.empty() ? plane.mm_per_km_up : value_at_share(gradients, 0.975);
   double sum = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::vector<Row> others = rows;

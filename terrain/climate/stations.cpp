@@ -4,16 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <numeric>
 #include <optional>
 
 #include "base/error.h"
+#include "base/text/letters.h"
 #include "terrain/climate/growing_season.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/number_arrays.h"
@@ -215,9 +214,7 @@ bool StationTable::has_rain() const {
 }
 
 StationTable read_stations(const std::string& path, const std::string& crs, Progress& progress) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  StationTable table = ending == ".nc" ? from_history(path, crs) : from_points(path, crs);
+  StationTable table = lower_ending(path) == ".nc" ? from_history(path, crs) : from_points(path, crs);
   if (table.stations.empty()) throw Error(ErrorKind::input, path, "has no station", fmt::format("at least {} stations", fewest_stations));
   if (table.stations.size() < static_cast<std::size_t>(fewest_stations))
     progress.note(fmt::format("{}: {} stations do not tell how temperature falls with altitude; {} or more do, at different altitudes",

@@ -12,6 +12,7 @@
 #include "base/grid_part.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/io/block_means.h"
 #include "terrain/shape/derivatives.h"
@@ -327,9 +328,7 @@ LayerInput layer_input_range(const std::string& name, const Grid<float>& values,
     if ((use == nullptr || (*use)[i] != 0) && std::isfinite(values[i])) used.push_back(values[i]);
   if (used.empty()) throw Error(ErrorKind::input, "input " + name, "no ground to take its range from", "at least one cell");
   const auto at = [&](double share) {
-    const auto place = used.begin() + static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(used.size() - 1)));
-    std::nth_element(used.begin(), place, used.end());
-    return static_cast<double>(*place);
+    return static_cast<double>(value_at_rank(used, static_cast<std::size_t>(std::lround(share * static_cast<double>(used.size() - 1)))));
   };
   LayerInput range{name, at(0.001), at(0.999)};
   if (!(range.low < range.high)) {

@@ -8,6 +8,7 @@
 #include "base/config.h"
 #include "base/error.h"
 #include "base/text/embedded.h"
+#include "base/text/letters.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/io/csv.h"
 
@@ -233,8 +234,7 @@ Legend legend_from_toml(const ConfigValue& value, const std::string& name, const
 }  // namespace
 
 Legend read_legend(const std::string& name_or_path, const std::vector<std::string>& folders) {
-  std::string ending = fs::path(name_or_path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = lower_ending(name_or_path);
   if (ending == ".csv") return legend_from_csv(name_or_path);
   if (ending == ".toml") {
     std::vector<std::string> places = {fs::path(name_or_path).parent_path().string()};

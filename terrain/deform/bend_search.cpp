@@ -12,6 +12,7 @@
 #include "base/filter.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
+#include "terrain/io/block_means.h"
 #include "terrain/io/surface_raster.h"
 #include "terrain/shape/valley_floor.h"
 
@@ -19,20 +20,6 @@ namespace belvedere {
 namespace {
 
 constexpr double most_cells = 2e6;
-
-// Means of factor × factor cells; what is left over at the right and lower rim is dropped.
-Grid<float> thinned(const Grid<float>& cells, int factor) {
-  Grid<float> out(std::max(cells.width() / factor, 1), std::max(cells.height() / factor, 1));
-  parallel_rows(out.height(), [&](int y) {
-    for (int x = 0; x < out.width(); ++x) {
-      double sum = 0.0;
-      for (int j = 0; j < factor; ++j)
-        for (int i = 0; i < factor; ++i) sum += static_cast<double>(cells.clamped(x * factor + i, y * factor + j));
-      out(x, y) = static_cast<float>(sum / (factor * factor));
-    }
-  });
-  return out;
-}
 
 // The inclinations of a candidate in tenths of a degree, from the nearest to the farthest point; the last is 0.
 using Inclinations = std::vector<int>;
@@ -131,7 +118,7 @@ ValleySight::ValleySight(const Grid<float>& altitude_m, const GeoTransform& tran
                          std::vector<SightLine> lines)
     : lines_(std::move(lines)), eye_m_(eye_m) {
   const int factor = std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(altitude_m.size()) / most_cells))));
-  const Grid<float> thin = factor == 1 ? altitude_m : thinned(altitude_m, factor);
+  const Grid<float> thin = block_means(altitude_m, factor);
   const GeoTransform cells{transform.origin_x, transform.origin_y, transform.cell_x * factor, transform.cell_y * factor};
   const double cell_m = 0.5 * (cells.cell_x + cells.cell_y);
   // Floors are found in the rearranged landscape, so that they go along with the mountains around them.

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "terrain/generalize/stripe_fit.h"
 
 // Across a stripe the terrain's fine detail h = z - blur(z) is noise whose sign changes along the line; the stripe's part does not change.
@@ -56,9 +57,7 @@ float median_size(const Grid<float>& values) {
   const std::size_t step = std::max<std::size_t>(1, values.size() / 65536);
   std::vector<float> sizes;
   for (std::size_t i = 0; i < values.size(); i += step) sizes.push_back(std::abs(values[i]));
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle;
+  return middle_value(std::move(sizes));
 }
 
 // The terrain as the fits see it, lines along rows.
@@ -99,10 +98,7 @@ Detail find_detail(const Grid<float>& altitude_m, const DestripeParameters& para
 
 // A ridge along the lines is an exception among them and must not pass for a stripe.
 double sum_without_exceptions(const std::vector<float>& energies) {
-  std::vector<float> sorted = energies;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const float most = most_exception * most_exception * *middle;
+  const float most = most_exception * most_exception * middle_value(energies);
   double sum = 0.0;
   for (const float energy : energies) sum += std::min(energy, most);
   return sum;

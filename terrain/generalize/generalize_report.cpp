@@ -10,6 +10,7 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/pyramid.h"
+#include "base/statistics.h"
 #include "terrain/generalize/mask.h"
 #include "terrain/shape/hydrology.h"
 
@@ -183,10 +184,8 @@ Grid<std::uint8_t> ridge_lines(const Grid<float>& altitude_m, glm::dvec2 cell_m)
   std::copy_if(sharpness.begin(), sharpness.end(), std::back_inserter(crests), [](float v) { return v > 0.F; });
   Grid<std::uint8_t> out(altitude_m.width(), altitude_m.height());
   if (crests.empty()) return out;
-  const auto quarter = crests.begin() + static_cast<std::ptrdiff_t>(crests.size() * 3 / 4);
-  std::nth_element(crests.begin(), quarter, crests.end());
-  std::transform(sharpness.begin(), sharpness.end(), out.begin(),
-                 [least = *quarter](float v) { return static_cast<std::uint8_t>(v >= least); });
+  const float least = value_at_rank(crests, crests.size() * 3 / 4);
+  std::transform(sharpness.begin(), sharpness.end(), out.begin(), [least](float v) { return static_cast<std::uint8_t>(v >= least); });
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include "base/filter.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 
 // Along a line the stripe's error c is fitted to the detail h = c · g + terrain, weighted by how plain the terrain is. How plain is known
 // without the stripes: they leave the detail *along* the line alone, and terrain is about as rough along as across. What c leaves
@@ -72,9 +73,7 @@ float median(const Grid<float>& values) {
   const std::size_t step = std::max<std::size_t>(1, values.size() / 65536);
   std::vector<float> some;
   for (std::size_t i = 0; i < values.size(); i += step) some.push_back(values[i]);
-  const auto middle = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
-  std::nth_element(some.begin(), middle, some.end());
-  return *middle;
+  return middle_value(std::move(some));
 }
 
 // Mean square of `detail` around each cell.

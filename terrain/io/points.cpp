@@ -4,12 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
 #include "base/error.h"
+#include "base/text/letters.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/csv.h"
 #include "terrain/io/raster_file.h"
@@ -18,12 +17,6 @@ namespace belvedere {
 namespace {
 
 constexpr const char* longitude_latitude = "EPSG:4326";
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
 
 double number_of(const std::string& text, const std::string& where, const std::string& column, double most) {
   double value = 0.0;
@@ -71,12 +64,13 @@ PointTable read_csv_points(const std::string& path, const std::string& crs) {
 }  // namespace
 
 int PointTable::find(std::string_view column) const {
-  const auto found = std::find_if(columns.begin(), columns.end(), [&](const std::string& c) { return lower(c) == lower(column); });
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const std::string& c) { return lower_case(c) == lower_case(std::string(column)); });
   return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
 }
 
 PointTable read_points(const std::string& path, const std::string& crs) {
-  return lower(std::filesystem::path(path).extension().string()) == ".csv" ? read_csv_points(path, crs) : read_point_layer(path, crs);
+  return lower_ending(path) == ".csv" ? read_csv_points(path, crs) : read_point_layer(path, crs);
 }
 
 }  // namespace belvedere

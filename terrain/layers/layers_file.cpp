@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "base/config.h"
 #include "base/error.h"
 #include "base/text/base64.h"
+#include "base/text/hex_colour.h"
 #include "terrain/cover/ground_variables.h"
 #include "terrain/cover/layers_document.h"
 #include "terrain/layers/layer_expressions.h"
@@ -33,9 +33,7 @@ std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
 struct Reader : LayersReader {
   std::uint32_t colour(const ConfigValue& value) const {
     const std::string& text = as_string(value, where);
-    const bool good = text.size() == 7 && text[0] == '#' &&
-                      std::all_of(text.begin() + 1, text.end(), [](char c) { return std::isxdigit(static_cast<unsigned char>(c)) != 0; });
-    if (!good) fail(value.place, describe(value), "a colour as \"#rrggbb\"");
+    if (!colour_of_hex(text)) fail(value.place, describe(value), "a colour as \"#rrggbb\"");
     return static_cast<std::uint32_t>(std::stoul(text.substr(1), nullptr, 16));
   }
 

@@ -1,4 +1,5 @@
 #include "terrain/shape/coast.h"
+#include "base/masks/polygon.h"
 
 #include <fmt/core.h>
 
@@ -129,16 +130,6 @@ std::string cut(const Box& box, Row line, std::vector<Row>& pieces, std::vector<
     }
   }
   return {};
-}
-
-double signed_area(const Row& ring) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const glm::dvec2 a = ring[i] - ring[0];
-    const glm::dvec2 b = ring[(i + 1) % ring.size()] - ring[0];
-    sum += 0.5 * (a.x * b.y - b.x * a.y);
-  }
-  return sum;
 }
 
 // Pieces with the ways along the edge from where one leaves the terrain, with the clock, to where the next comes in: sea lies to the right

@@ -8,6 +8,7 @@
 
 #include "base/filter.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "terrain/shape/mask_pieces.h"
 
 namespace belvedere {
@@ -149,9 +150,7 @@ float median_of(const Grid<float>& z, const std::vector<std::int32_t>& cells) {
   std::vector<float> values;
   values.reserve(cells.size());
   for (const std::int32_t at : cells) values.push_back(z[static_cast<std::size_t>(at)]);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return middle_value(std::move(values));
 }
 
 // Whether what touches the edge of a DEM is open to the sea: the edge of the data is, that of a window is not.

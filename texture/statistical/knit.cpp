@@ -29,16 +29,6 @@ constexpr int least_within_px = 48;
 // What may be left of a step that is spread over a band: of one h times those inside, (h - 1) / 2 k is left of every column of 2 k.
 constexpr double left_of_step = .15;
 
-// Beside each other without more ado.
-Grid<Rgb8> abutted(const Grid<Rgb8>& left, const Grid<Rgb8>& right) {
-  Grid<Rgb8> out(left.width() + right.width(), left.height());
-  for (int y = 0; y < out.height(); ++y) {
-    std::copy_n(left.row(y), left.width(), out.row(y));
-    std::copy_n(right.row(y), right.width(), out.row(y) + left.width());
-  }
-  return out;
-}
-
 // Columns beside a band are left, however wide it is.
 double ratio_beside(const Grid<Rgb8>& picture, int seam, int band_px) {
   return seam_ratio(picture, seam, band_px, std::max(least_within_px, 2 * band_px));
@@ -166,7 +156,7 @@ KnitPicture knit_textures(const Grid<Rgb8>& left, const Grid<Rgb8>& right, const
   if (left.height() != right.height())
     throw Error(ErrorKind::usage, "knitting", fmt::format("pictures {} and {} pixels high", left.height(), right.height()),
                 "one height for pictures side by side");
-  KnitPicture knitted{abutted(left, right)};
+  KnitPicture knitted{side_by_side(left, right)};
   Grid<Rgb8>& out = knitted.picture;
   knitted.before = ratio_beside(out, left.width(), given.band_px == 0 ? least_band_px : given.band_px);
   KnitParameters parameters = given;

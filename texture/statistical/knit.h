@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "base/progress.h"
@@ -27,6 +28,17 @@ struct KnitPicture {
 KnitPicture knit_textures(const Grid<Rgb8>& left, const Grid<Rgb8>& right, const KnitParameters& parameters,
                           Progress& progress = silent_progress());
 inline constexpr double unseen_seam = 1.25;
+
+// Beside each other without more ado; of one height.
+template <class Pixel>
+Grid<Pixel> side_by_side(const Grid<Pixel>& left, const Grid<Pixel>& right) {
+  Grid<Pixel> out(left.width() + right.width(), left.height());
+  for (int y = 0; y < out.height(); ++y) {
+    std::copy_n(left.row(y), left.width(), out.row(y));
+    std::copy_n(right.row(y), right.width(), out.row(y) + left.width());
+  }
+  return out;
+}
 
 // How plain a line of a picture is to see: the mean step of colour from column x - 1 to x, over the mean of such steps in `within` columns
 // on both sides of it, the nearest `apart` left out. 1: as any other.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/filter.h"
+#include "base/statistics.h"
 
 namespace belvedere {
 
@@ -27,10 +28,9 @@ Grid<std::uint8_t> light_half(const Grid<Rgb8>& crop, const Grid<std::uint8_t>& 
   }
   Grid<std::uint8_t> out(crop.width(), crop.height());
   if (sorted.empty()) return out;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
+  const auto middle = middle_value(std::move(sorted));
   for (std::size_t i = 0; i < crop.size(); ++i)
-    if (counts(i) && (light[i] >= *middle) == (half == LightHalf::lit)) out[i] = pixel_free;
+    if (counts(i) && (light[i] >= middle) == (half == LightHalf::lit)) out[i] = pixel_free;
   return out;
 }
 

@@ -1,4 +1,5 @@
 #include "texture/synthesis/class_supply.h"
+#include "base/text/letters.h"
 
 #include <fmt/core.h>
 
@@ -19,12 +20,6 @@ Counts count_texels(const std::vector<Exemplar>& exemplars) {
 }
 
 // 12 345 678
-std::string grouped(std::size_t number) {
-  std::string digits = fmt::format("{}", number);
-  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, " ");
-  return digits;
-}
-
 }  // namespace
 
 Grid<std::uint8_t> serving_labels(const std::vector<Exemplar>& exemplars, const Grid<std::uint8_t>& target,

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/text/letters.h"
 #include "renderer/exemplar/texture_models.h"
 #include "renderer/pipeline/scene_check.h"
 #include "tools/cli/commands.h"
@@ -47,7 +48,7 @@ void check_scene_or_files(const ExemplarCheckOptions& options) {
   const bool more = !options.labels.empty() || !options.guides.empty() || !options.target.empty() || !options.target_guides.empty();
   if (!of_files && more) throw Error(ErrorKind::usage, "command line", "there is no --picture", "at least one, or a scene");
   for (const char* ending : {".png", ".tif", ".tiff", ".jpg", ".jpeg", ".exr"})
-    if (ending_of(options.scene.scene) == ending)
+    if (lower_ending(options.scene.scene) == ending)
       throw Error(ErrorKind::usage, options.scene.scene, "is a picture, and no scene",
                   "a scene file, or --picture " + options.scene.scene + " with --label");
   if (of_files && !options.scene.scene.empty())

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
+#include "base/text/letters.h"
 #include "renderer/image/image_io.h"
 #include "terrain/generalize/foreground_share.h"
 #include "terrain/generalize/generalize_presets.h"
@@ -29,7 +30,7 @@ namespace {
 
 // Before the work: what could not be written afterwards.
 void check_dem_name(const std::string& path) {
-  const std::string ending = ending_of(path);
+  const std::string ending = lower_ending(path);
   if (ending != ".tif" && ending != ".tiff" && ending != ".asc") refuse(path, "is no name of a DEM the program writes", ".tif or .asc");
 }
 

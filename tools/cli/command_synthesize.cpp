@@ -9,6 +9,7 @@
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
+#include "base/text/letters.h"
 #include "renderer/image/provenance.h"
 #include "texture/synthesis/class_supply.h"
 #include "texture/synthesis/synthesize.h"
@@ -44,7 +45,7 @@ struct SynthesizeOptions {
 };
 
 void check_picture_name(const std::string& path) {
-  const std::string ending = ending_of(path);
+  const std::string ending = lower_ending(path);
   if (ending != ".png" && ending != ".tif" && ending != ".tiff")
     throw Error(ErrorKind::usage, "--out " + path, "is no name of a picture the program writes", ".png (8 bit) or .tif (16 bit)");
 }
@@ -164,7 +165,7 @@ int run(SynthesizeOptions& options) {
     check_picture_name(options.out);
     check_place(options.out);
   } else {
-    const std::string ending = ending_of(options.out);
+    const std::string ending = lower_ending(options.out);
     if (ending == ".png" || ending == ".tif" || ending == ".tiff" || ending == ".exr" || ending == ".jpg")
       throw Error(ErrorKind::usage, "--out " + options.out, "is no name of a folder", "with --sweep a folder for all results");
     check_output_folder(options.out);
@@ -201,7 +202,7 @@ int run(SynthesizeOptions& options) {
   for (const Grid<glm::vec3>& picture : inputs.pictures) layers.push_back(&picture);
   const Grid<glm::vec3> picture = replay(matches, layers, Grid<glm::vec3>());  // black where nothing could be copied
   const PictureFileOptions file{.icc_profile = inputs.profile, .notes = notes};
-  if (ending_of(options.out) == ".png")
+  if (lower_ending(options.out) == ".png")
     write_png8(options.out, picture, file);
   else
     write_tiff16(options.out, picture, file);

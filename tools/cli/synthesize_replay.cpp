@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/text/letters.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/provenance.h"
 #include "tools/cli/file_names.h"
@@ -57,7 +58,7 @@ void check_layers(const ReplayFiles& files, const StoredMatches& stored, const s
 }
 
 void check_format(const ReplayFiles& files, const std::vector<ImageInfo>& infos, Progress& progress) {
-  const std::string ending = ending_of(files.out);
+  const std::string ending = lower_ending(files.out);
   if (ending != ".png" && ending != ".tif" && ending != ".tiff" && ending != ".exr")
     refuse("--out " + files.out, "is no name of a picture the program writes",
            ".tif (16 bit), .png (8 bit), or .exr for layers of floating-point numbers");
@@ -95,7 +96,7 @@ void lay_picture(const ReplayFiles& files, const MatchField& matches, const Pict
   for (const Grid<glm::vec3>& picture : pictures) layers.push_back(&picture);
   const Grid<glm::vec3> picture = replay(matches, layers, Grid<glm::vec3>());
   progress.begin("writing", 0.0);
-  if (ending_of(files.out) == ".png")
+  if (lower_ending(files.out) == ".png")
     write_png8(files.out, picture, options);
   else
     write_tiff16(files.out, picture, options);
@@ -167,7 +168,7 @@ ReplayResult replay_layers(const ReplayFiles& files, Progress& progress) {
   std::map<std::string, std::string> inputs{{file_name(files.match), files.match}};
   for (const std::string& layer : files.layers) inputs[file_name(layer)] = layer;
   const FileNotes notes = to_notes(make_provenance("", inputs));
-  if (ending_of(files.out) == ".exr")
+  if (lower_ending(files.out) == ".exr")
     lay_channels(files, stored.matches, infos, notes, progress);
   else
     lay_picture(files, stored.matches, {.icc_profile = infos.front().icc_profile, .notes = notes}, progress);

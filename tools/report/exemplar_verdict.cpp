@@ -1,4 +1,5 @@
 #include "tools/report/exemplar_verdict.h"
+#include "base/text/letters.h"
 
 #include <fmt/core.h>
 
@@ -13,12 +14,6 @@ constexpr double uneven_ratio = 2.5;        // against what chance makes
 constexpr double low_coverage = 0.9;
 
 // 12 345 678
-std::string grouped(double number) {
-  std::string digits = fmt::format("{:.0f}", number);
-  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, " ");
-  return digits;
-}
-
 Json halves_json(const HalvesDistance& halves) {
   if (!halves.known) return Json::raw("null");
   return Json::object().add("clique_distance", Json::number(halves.clique)).add("colour_distance", Json::number(halves.colour));
@@ -85,8 +80,8 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows) {
 std::vector<std::string> describe_flaws(const ClassSurvey& of, const ExemplarFindings& findings) {
   std::vector<std::string> flaws;
   if (of.texels < least_texels)
-    flaws.push_back(fmt::format("only {} texels: at least some {} are needed to take strokes from", grouped(static_cast<double>(of.texels)),
-                                grouped(static_cast<double>(least_texels))));
+    flaws.push_back(
+        fmt::format("only {} texels: at least some {} are needed to take strokes from", grouped(of.texels), grouped(least_texels)));
   if (of.inside == 0) flaws.emplace_back("no place farther than 8 texels from another class: its strokes are seen along borders alone");
   if (of.left_right.known && of.left_right.clique > std::max(uneven_clique, uneven_ratio * of.checkerboard.clique))
     flaws.push_back(fmt::format("left and right are painted unlike each other ({:.2f}, chance makes {:.2f}): both will lie side by side",
@@ -100,19 +95,15 @@ std::vector<std::string> describe_flaws(const ClassSurvey& of, const ExemplarFin
   return flaws;
 }
 
-std::string describe_service(const ClassSurvey& of) {
-  return fmt::format("serves up to {} pixels", grouped(static_cast<double>(of.texels * pixels_per_texel)));
-}
+std::string describe_service(const ClassSurvey& of) { return fmt::format("serves up to {} pixels", grouped(of.texels * pixels_per_texel)); }
 
 std::string describe_demand(const ClassDemand& demand) {
   const ClassSupply& supply = demand.supply;
   std::string text =
       supply.enough()
-          ? fmt::format("enough: {} pixels want it, {} can be served", grouped(static_cast<double>(supply.pixels)),
-                        grouped(static_cast<double>(supply.serves())))
+          ? fmt::format("enough: {} pixels want it, {} can be served", grouped(supply.pixels), grouped(supply.serves()))
           : fmt::format("too few, strokes will repeat: {} pixels want it, {} can be served; {} texels would be needed, there are {}",
-                        grouped(static_cast<double>(supply.pixels)), grouped(static_cast<double>(supply.serves())),
-                        grouped(static_cast<double>(supply.texels_needed())), grouped(static_cast<double>(supply.texels)));
+                        grouped(supply.pixels), grouped(supply.serves()), grouped(supply.texels_needed()), grouped(supply.texels));
   if (demand.altitude_covered >= 0.0 && demand.altitude_covered < low_coverage)
     text += fmt::format("; only {:.0f} % of its pixels find texels of their altitude", 100.0 * demand.altitude_covered);
   return text;
@@ -130,8 +121,8 @@ std::string findings_text(const ExemplarFindings& findings) {
         {"class", "texels", "inside", "pixels served", "sharpness", "stroke, px", "left | right", "chance"}};
     if (altitude) rows[0].emplace_back("altitudes (5–95 %)");
     for (const ClassSurvey& of : survey.classes) {
-      rows.push_back({findings.name(of.label), grouped(static_cast<double>(of.texels)), grouped(static_cast<double>(of.inside)),
-                      grouped(static_cast<double>(of.texels * pixels_per_texel)), of.inside > 0 ? fmt::format("{:.1f}", of.sharpness) : "–",
+      rows.push_back({findings.name(of.label), grouped(of.texels), grouped(of.inside), grouped(of.texels * pixels_per_texel),
+                      of.inside > 0 ? fmt::format("{:.1f}", of.sharpness) : "–",
                       of.inside > 0 ? fmt::format("{:.1f}", of.stroke_run_px) : "–", halves_text(of.left_right),
                       halves_text(of.checkerboard)});
       for (const GuideSupply& guide : of.guides)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/pyramid.h"
+#include "base/statistics.h"
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/generalize/generalize_report.h"
 #include "terrain/generalize/mask.h"
@@ -63,14 +64,9 @@ FigureWindows choose_windows(const Grid<float>& altitude_m, glm::dvec2 cell_m, c
   Grid<float> score(lines.width(), lines.height());
   std::transform(lines.begin(), lines.end(), score.begin(), [](std::uint8_t v) { return static_cast<float>(v); });
   // The nearest and the farthest quarter of the cells.
-  std::vector<float> ranked(share.begin(), share.end());
-  const auto ranked_at = [&ranked](double part) {
-    const auto at = ranked.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(ranked.size() - 1));
-    std::nth_element(ranked.begin(), at, ranked.end());
-    return *at;
-  };
-  const float nearest_quarter = ranked_at(0.75);
-  const float farthest_quarter = ranked_at(0.25);
+  const std::vector<float> ranked(share.begin(), share.end());
+  const float nearest_quarter = value_at_share(ranked, 0.75);
+  const float farthest_quarter = value_at_share(ranked, 0.25);
   Grid<float> near = share;
   Grid<float> far = share;
   for (float& v : near) v = v >= nearest_quarter ? 1.F : 0.F;

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 #include <utility>
 
+#include "base/text/hex_colour.h"
 #include "base/text/json.h"
 #include "base/text/markup.h"
 #include "terrain/layers/fit/colour_regions.h"
@@ -32,11 +33,6 @@ Grid<glm::vec3> picture_of(const RgbPlanes& rgb) {
 glm::vec3 unpacked(std::uint32_t rgb) {
   return glm::vec3(static_cast<float>(rgb >> 16U), static_cast<float>(rgb >> 8U & 255U), static_cast<float>(rgb & 255U)) / 255.0F;
 }
-std::string css(const glm::vec3& rgb) {
-  const auto byte = [](float v) { return static_cast<int>(std::clamp(v, 0.0F, 1.0F) * 255.0F + 0.5F); };
-  return fmt::format("#{:02x}{:02x}{:02x}", byte(rgb.x), byte(rgb.y), byte(rgb.z));
-}
-
 // Each class in the mean of its leaves' colours.
 std::vector<glm::vec3> class_colours(const KnownGround& ground, const GroundFit& fit) {
   std::vector<glm::vec3> colours(ground.classes.size(), glm::vec3(0.0F));
@@ -160,7 +156,7 @@ void add_functions(ReportFolder& page, const KnownGround& ground, const GroundFi
       std::vector<std::size_t> histogram(256, 0);
       for (std::size_t i = 0; i != ground.labels.size(); ++i)
         if (ground.labels[i] == k) ++histogram[samples[a][i]];
-      row.push_back(function_chart(fit.classes.functions[k][a], histogram, css(colours[k]), low, high));
+      row.push_back(function_chart(fit.classes.functions[k][a], histogram, hex_colour(colours[k]), low, high));
     }
     page.add(html_row(row));
   }
@@ -195,7 +191,9 @@ void add_trace(ReportFolder& page, const LayersFitReportInput& in) {
                   cell % static_cast<std::size_t>(all.x1), cell / static_cast<std::size_t>(all.x1)));
   page.add(html_row({"layer", "under", "C of the parent", "C", "its colour", "colour so far"}, "th"));
   glm::vec3 colour = unpacked(in.layers.ground_rgb);
-  const auto swatch = [](const glm::vec3& rgb) { return fmt::format("<span style=\"background:{0}\">&emsp;&emsp;</span> {0}", css(rgb)); };
+  const auto swatch = [](const glm::vec3& rgb) {
+    return fmt::format("<span style=\"background:{0}\">&emsp;&emsp;</span> {0}", hex_colour(rgb));
+  };
   page.add(html_row({"ground", "", "", "1", swatch(colour), swatch(colour)}));
   for (std::size_t l = 0; l != in.layers.layers.size(); ++l) {
     const SurfaceLayer& layer = in.layers.layers[l];

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "terrain/shape/hillshade.h"
 
 namespace belvedere::tools {
@@ -118,9 +119,7 @@ float percentile(const Grid<float>& values, double share) {
   const std::size_t step = std::max<std::size_t>(1, values.size() / 1000000);
   std::vector<float> some;
   for (std::size_t i = 0; i < values.size(); i += step) some.push_back(values[i]);
-  const auto nth = some.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(some.size() - 1));
-  std::nth_element(some.begin(), nth, some.end());
-  return *nth;
+  return value_at_share(std::move(some), share);
 }
 
 PixelRect best_window(const Grid<float>& score, const Grid<float>& where, int side) {

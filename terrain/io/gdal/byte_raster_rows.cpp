@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/text/letters.h"
 #include "terrain/io/gdal/gdal_files.h"
 
 namespace belvedere {

@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/grid.h"
+#include "base/text/letters.h"
 #include "terrain/io/gdal/gdal_files.h"
 
 namespace belvedere {

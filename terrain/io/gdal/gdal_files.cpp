@@ -3,9 +3,7 @@
 #include <cpl_conv.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
-#include <filesystem>
 #include <mutex>
 
 #include "base/memory_limit.h"
@@ -36,12 +34,6 @@ void register_gdal() {
   static std::once_flag registered;
   std::call_once(registered, [] { GDALAllRegister(); });
   limit_block_cache();
-}
-
-std::string lower_ending(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
 }
 
 }  // namespace belvedere

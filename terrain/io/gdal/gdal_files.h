@@ -55,7 +55,4 @@ struct CloseDataset {
 };
 using Dataset = std::unique_ptr<void, CloseDataset>;
 
-// ".tif" of "a/B.TIF": formats are known by it.
-std::string lower_ending(const std::string& path);
-
 }  // namespace belvedere

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/memory_limit.h"
+#include "base/text/letters.h"
 #include "terrain/io/crs.h"
 #include "terrain/io/gdal/gdal_files.h"
 #include "terrain/io/http_access.h"
@@ -141,8 +142,7 @@ Dataset open_checked(const std::string& path, int nesting) {
 
 // Metres per unit by a unit's name; 0 where it is none that is known.
 double metres_per_unit(std::string_view unit) {
-  std::string name(unit);
-  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string name = lower_case(std::string(unit));
   const auto is = [&name](std::initializer_list<const char*> words) {
     return std::any_of(words.begin(), words.end(), [&name](const char* word) { return name == word; });
   };

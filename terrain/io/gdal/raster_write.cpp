@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/text/letters.h"
 #include "terrain/io/gdal/gdal_files.h"
 #include "terrain/io/raster_file.h"
 #include "terrain/io/raster_io.h"

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/text/letters.h"
 
 namespace belvedere {
 namespace {

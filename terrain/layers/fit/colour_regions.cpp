@@ -9,6 +9,8 @@
 
 #include "base/config.h"
 #include "base/error.h"
+#include "base/masks/polygon.h"
+#include "base/text/hex_colour.h"
 
 namespace belvedere {
 namespace {
@@ -29,29 +31,25 @@ std::array<double, 2> as_pair(const ConfigValue& value, const std::string& name,
 
 // Even–odd rule in the plane, where saturation is the distance and hue the direction.
 bool inside(const std::vector<std::array<double, 2>>& polygon, const HueSaturation& colour) {
-  const auto place = [](double hue, double saturation) { return hue_saturation_place({hue, saturation, 1.0, false}); };
-  const PlanePlace at = place(colour.hue_deg, colour.saturation);
-  bool odd = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i != polygon.size(); j = i++) {
-    const PlanePlace a = place(polygon[i][0], polygon[i][1]);
-    const PlanePlace b = place(polygon[j][0], polygon[j][1]);
-    if ((a.y > at.y) != (b.y > at.y) && at.x < a.x + (at.y - a.y) * (b.x - a.x) / (b.y - a.y)) odd = !odd;
-  }
-  return odd;
+  const auto place = [](double hue, double saturation) {
+    const PlanePlace at = hue_saturation_place({hue, saturation, 1.0, false});
+    return glm::dvec2(at.x, at.y);
+  };
+  std::vector<glm::dvec2> ring;
+  for (const auto& [hue, saturation] : polygon) ring.push_back(place(hue, saturation));
+  return encloses({ring}, place(colour.hue_deg, colour.saturation));
 }
 
 // The pixels of a picture of the plane that are painted in a colour, "#rrggbb". Painters' edges are soft: a pixel of less than a twelfth
 // of the way to white or black away counts.
 Grid<std::uint8_t> painted_in(const Grid<glm::vec3>& picture, const ConfigValue& colour, const std::string& name) {
   const std::string& text = as_string(colour, name);
-  const bool good = text.size() == 7 && text[0] == '#' && text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
-  if (!good) throw Error(ErrorKind::usage, config_where(name, colour.place), describe(colour), "a colour as \"#rrggbb\"");
-  const auto rgb = static_cast<std::uint32_t>(std::stoul(text.substr(1), nullptr, 16));
-  const glm::vec3 wanted = glm::vec3(rgb >> 16U & 255U, rgb >> 8U & 255U, rgb & 255U) / 255.F;
+  const std::optional<glm::vec3> wanted = colour_of_hex(text);
+  if (!wanted) throw Error(ErrorKind::usage, config_where(name, colour.place), describe(colour), "a colour as \"#rrggbb\"");
   Grid<std::uint8_t> painted(picture.width(), picture.height());
   std::size_t count = 0;
   for (std::size_t i = 0; i != picture.size(); ++i) {
-    const glm::vec3 away = glm::abs(picture[i] - wanted);
+    const glm::vec3 away = glm::abs(picture[i] - *wanted);
     painted[i] = std::max({away.x, away.y, away.z}) < 1.F / 12.F ? 1 : 0;
     count += painted[i];
   }

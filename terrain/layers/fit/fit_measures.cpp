@@ -10,6 +10,7 @@
 
 #include "base/math_exact.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 
 namespace belvedere {
 namespace {
@@ -188,9 +189,7 @@ BlockDifference block_difference(const RgbPlanes& picture, const RgbPlanes& othe
   BlockDifference result{block, 0.0, 0.0, differences.size()};
   if (differences.empty()) return result;
   result.mean = std::accumulate(differences.begin(), differences.end(), 0.0) / static_cast<double>(differences.size());
-  const auto at = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(differences.size() - 1));
-  std::nth_element(differences.begin(), differences.begin() + at, differences.end());
-  result.p95 = differences[static_cast<std::size_t>(at)];
+  result.p95 = value_at_share(std::move(differences), 0.95);
   return result;
 }
 

@@ -7,13 +7,6 @@
 namespace belvedere::tools {
 namespace {
 
-TEST(FileNames, EndingIsInSmallLetters) {
-  EXPECT_EQ(ending_of("a/b.TIF"), ".tif");
-  EXPECT_EQ(ending_of("a.b/c"), "");
-  EXPECT_EQ(ending_of("x.tar.GZ"), ".gz");
-  EXPECT_EQ(ending_of("x.ÄÖ"), ".ÄÖ") << "letters of other alphabets are left alone, whatever the locale";
-}
-
 TEST(FileNames, NameIsWithoutFolders) {
   EXPECT_EQ(file_name("/a/b/c.tif"), "c.tif");
   EXPECT_EQ(file_name("c.tif"), "c.tif");

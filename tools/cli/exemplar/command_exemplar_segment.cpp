@@ -10,6 +10,7 @@
 #include "base/land_cover_class.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
+#include "base/text/letters.h"
 #include "renderer/exemplar/painting_segments.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/label_image.h"
@@ -85,8 +86,8 @@ Agreement agreement_with(const SegmentOptions& options, const PaintingSegments& 
 int run(const SegmentOptions& options) {
   for (const std::string* path : {&options.out, &options.page})
     if (!path->empty()) check_place(*path);
-  if (ending_of(options.out) != ".png") throw Error(ErrorKind::usage, "--out", options.out, "a .png");
-  const std::string page_ending = options.page.empty() ? ".html" : ending_of(options.page);
+  if (lower_ending(options.out) != ".png") throw Error(ErrorKind::usage, "--out", options.out, "a .png");
+  const std::string page_ending = options.page.empty() ? ".html" : lower_ending(options.page);
   if (page_ending != ".html" && page_ending != ".htm") throw Error(ErrorKind::usage, "--page", options.page, "a .html");
   check_not_read(options.out, "--out", {options.painting, options.compare});
   check_not_read(options.page, "--page", {options.painting, options.compare});

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 
 #include "base/error.h"
+#include "base/text/letters.h"
 #include "renderer/labels/label_files.h"
 #include "renderer/pipeline/scene_labels.h"
 #include "tools/cli/deform_options.h"
@@ -15,10 +14,8 @@ namespace belvedere::tools {
 namespace {
 
 bool names_a_file(const std::string& text) {
-  std::string ending = std::filesystem::path(text).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   constexpr std::array endings = {".csv", ".gpkg", ".geojson", ".json", ".shp", ".fgb", ".gpx", ".osm", ".pbf"};
-  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+  return std::find(endings.begin(), endings.end(), lower_ending(text)) != endings.end();
 }
 
 Json json_of(const LabelSheet& sheet, const Label& label) {

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "base/text/letters.h"
 #include "renderer/image/image_io.h"
 #include "terrain/cover/land_cover.h"
 #include "terrain/cover/layer_inputs.h"
@@ -28,7 +29,7 @@ RasterSource source_of(const std::string& path, int band = 1) {
 
 // Pictures that say where on Earth they lie.
 bool has_geography(const std::string& path) {
-  const std::string ending = ending_of(path);
+  const std::string ending = lower_ending(path);
   return ending == ".tif" || ending == ".tiff" || ending == ".img" || ending == ".vrt";
 }
 

@@ -10,14 +10,13 @@
 
 #include "base/error.h"
 #include "terrain/io/crs.h"
+#include "terrain/io/http_access.h"
 #include "terrain/io/raster_io.h"
 
 namespace belvedere::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_address(const std::string& file) { return file.starts_with("http://") || file.starts_with("https://"); }
 
 // Where a file of the command line lies: as given, or in a --data folder.
 fs::path find_file(const NewOptions& options, const std::string& file) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/text/hex_colour.h"
 #include "base/text/json.h"
 #include "renderer/image/icc/press_color.h"
 #include "renderer/press/palette_press.h"
@@ -22,18 +23,13 @@ struct PaletteCheckOptions {
   bool json = false;
 };
 
-std::string hex(glm::vec3 colour) {
-  const auto byte = [](float v) { return std::lround(255.0 * std::clamp(static_cast<double>(v), 0.0, 1.0)); };
-  return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.x), byte(colour.y), byte(colour.z));
-}
-
 Json as_json(const std::string& palette, std::size_t all, const std::vector<PaletteColour>& missed) {
   Json colours = Json::array();
   for (const PaletteColour& one : missed)
     colours.add(Json::object()
                     .add("where", Json::text(one.where))
-                    .add("colour", Json::text(hex(one.colour)))
-                    .add("printed", Json::text(hex(one.printed)))
+                    .add("colour", Json::text(hex_colour(one.colour)))
+                    .add("printed", Json::text(hex_colour(one.printed)))
                     .add("delta_e", Json::number(one.delta_e)));
   return Json::object().add("palette", Json::text(palette)).add("colours", Json::number(static_cast<double>(all))).add("outside", colours);
 }
@@ -41,7 +37,8 @@ Json as_json(const std::string& palette, std::size_t all, const std::vector<Pale
 std::string as_text(const std::string& palette, std::size_t all, const std::vector<PaletteColour>& missed) {
   std::string out = fmt::format("{}: {} of {} colours cannot be printed\n", palette, missed.size(), all);
   for (const PaletteColour& one : missed)
-    out += fmt::format("  {:<34} {} prints as {}, ΔE2000 {:.1f}\n", one.where, hex(one.colour), hex(one.printed), one.delta_e);
+    out +=
+        fmt::format("  {:<34} {} prints as {}, ΔE2000 {:.1f}\n", one.where, hex_colour(one.colour), hex_colour(one.printed), one.delta_e);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include "base/grid_part.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
+#include "base/text/letters.h"
 #include "texture/composite/composite_window.h"
 #include "texture/composite/make_composite.h"
 #include "texture/composite/make_label_map.h"
@@ -74,7 +75,7 @@ int run(const CompositeMakeOptions& options) {
   check_report(options.report);
   if (!options.map.empty()) {
     check_place(options.map);
-    if (ending_of(options.map) != ".png") throw Error(ErrorKind::usage, "--map", options.map, "a .png");
+    if (lower_ending(options.map) != ".png") throw Error(ErrorKind::usage, "--map", options.map, "a .png");
   }
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);

@@ -36,16 +36,6 @@ Grid<Pixel> transposed(const Grid<Pixel>& picture) {
   return out;
 }
 
-template <class Pixel>
-Grid<Pixel> side_by_side(const Grid<Pixel>& left, const Grid<Pixel>& right) {
-  Grid<Pixel> out(left.width() + right.width(), left.height());
-  for (int y = 0; y < out.height(); ++y) {
-    std::copy_n(left.row(y), left.width(), out.row(y));
-    std::copy_n(right.row(y), right.width(), out.row(y) + left.width());
-  }
-  return out;
-}
-
 // A picture as it is compared, in 8 bits, and with all the bits of its file.
 struct Cloth {
   Grid<Rgb8> picture;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/letters.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/output_file.h"
 #include "texture/statistical/band_pyramid.h"
@@ -58,7 +59,7 @@ void note_rounding(const std::string& read, const std::string& out, Progress& pr
   const ImageInfo info = read_image_info(read);
   const bool fine =
       !info.parts.empty() && !info.parts.front().channels.empty() && info.parts.front().channels.front().type != ChannelType::uint8;
-  if (fine && ending_of(out) == ".png")
+  if (fine && lower_ending(out) == ".png")
     progress.note(fmt::format("{} has more than 8 bits, a .png keeps 8 of them: name a .tif to keep 16", file_name(read)));
 }
 
@@ -70,7 +71,7 @@ Grid<glm::vec3> encoded_picture(const Grid<Rgb8>& picture) {
 
 void check_texture_name(const std::string& path) {
   check_place(path);
-  if (const std::string ending = ending_of(path); ending != ".png" && ending != ".tif" && ending != ".tiff")
+  if (const std::string ending = lower_ending(path); ending != ".png" && ending != ".tif" && ending != ".tiff")
     throw Error(ErrorKind::usage, "--out", path, "a .png or a .tif");
 }
 
@@ -81,7 +82,7 @@ void write_texture(const std::string& path, const Grid<Rgb8>& picture, const std
 void write_encoded_texture(const std::string& path, const Grid<glm::vec3>& picture, const std::string& note) {
   PictureFileOptions options;
   options.notes["belvedere:texture"] = note;
-  if (ending_of(path) == ".png")
+  if (lower_ending(path) == ".png")
     write_png8(path, picture, options);
   else
     write_tiff16(path, picture, options);
