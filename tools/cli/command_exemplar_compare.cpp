@@ -14,20 +14,18 @@
 #include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
+#include "tools/options/run_options.h"
 #include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct ExemplarCompareOptions {
+struct ExemplarCompareOptions : RunOptions {
   std::vector<std::string> pictures;
   std::vector<double> scales;
   std::vector<double> widths_mm;
   std::vector<std::vector<double>> parts;
   std::size_t own = 1;
-  int threads = 0;
-  bool quiet = false;
-  bool json = false;
 };
 
 struct Compared {
@@ -223,11 +221,7 @@ Action add_exemplar_compare(CommandOptions& command) {
   command.add_option("--own", options->own, "How many of the pictures, from the first on, are in question; 1 by default")
       .type_name("N")
       .range(1, 1000);
-  command.add_option("--threads", options->threads, "How many processor threads to use; 0, the default, takes all. Changes no figure")
-      .type_name("N")
-      .range(0, 4096);
-  command.add_flag("-q,--quiet", options->quiet, "No progress");
-  command.add_flag("--json", options->json, "As JSON");
+  add_run_options(command, *options, "figure");
   command.footer(
       "Sharpness: 0 soft, 1 hard edges, 1.6 to 2 detail of every size as in paintings, to 4 grain; whatever the\n"
       "contrast. Stroke length and width, and how far a direction holds: in pixels, so bring pictures to strokes\n"

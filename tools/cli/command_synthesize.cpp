@@ -20,12 +20,13 @@
 #include "tools/cli/synthesize_replay.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
+#include "tools/options/run_options.h"
 #include "tools/report/synthesis_report_page.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct SynthesizeOptions {
+struct SynthesizeOptions : RunOptions {
   SynthesisFiles files;
   std::vector<std::tuple<std::string, std::string, std::string, double>> guides;
   std::vector<std::pair<int, int>> fallback;
@@ -36,12 +37,7 @@ struct SynthesizeOptions {
   std::vector<std::string> sweeps;
   SynthesisParameters parameters;
   std::vector<std::tuple<int, int, double>> unlikeness;
-  std::string method = "fast";
-  std::string distance = "squares";
-  int threads = 0;
   int memory_mib = 0;
-  bool quiet = false;
-  bool json = false;
 };
 
 void check_picture_name(const std::string& path) {
@@ -314,14 +310,10 @@ Action add_synthesize(CommandOptions& command) {
       .type_name("NAME=V,V…")
       .repeated()
       .excludes({match, report, replay});
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel")
-      .type_name("N")
-      .range(0, 4096);
+  add_run_options(command, *options);
   command.add_option("--memory", options->memory_mib, "Memory that pictures may take; 0, the default, is three quarters of the machine's")
       .type_name("MIB")
       .range(0, 1 << 30);
-  command.add_flag("--quiet,-q", options->quiet, "No progress, no notes");
-  command.add_flag("--json", options->json, "The result as JSON on standard output");
   command.footer(
       "  belvedere synthesize --picture style.png --label style_class.png target_class.png \\\n"
       "    --guide altitude style_alt.png target_alt.png 1.0 --out out.png --match match.exr\n\n"

@@ -88,11 +88,7 @@ void add_generalize_options(CommandOptions& command, GeneralizeOptions& options)
       .type_name("FILE");
   command.add_option("--report", options.report, "Also a folder with a page of pictures and numbers: index.html, report.json")
       .type_name("DIR");
-  command.add_option("--threads", options.threads, "Processor threads; 0, the default, takes all. Changes no altitude")
-      .type_name("N")
-      .range(0, 4096);
-  command.add_flag("--quiet,-q", options.quiet, "No progress, no notes");
-  command.add_flag("--json", options.json, "What was done as JSON on standard output");
+  add_run_options(command, options, "altitude");
   command.footer(
       "Bands halve in size from one weight to the next. The last holds landforms of 1 to 2 cells (30 to 60 m in a\n"
       "DEM of 30 m), the one before it 2 to 4, and so on.\n\n"

@@ -7,13 +7,14 @@
 #include "terrain/generalize/generalize.h"
 #include "terrain/generalize/mask.h"
 #include "tools/cli/terrain_operators.h"
+#include "tools/options/run_options.h"
 
 namespace belvedere::tools {
 
 class CommandOptions;
 
 // What `generalize` is asked on the command line. Weights go from the largest landforms to the smallest; empty: not given.
-struct GeneralizeOptions {
+struct GeneralizeOptions : RunOptions {
   std::string in;
   std::string out;
   std::string preset;
@@ -30,9 +31,6 @@ struct GeneralizeOptions {
   TerrainOperators operators;
   std::string report;
   std::string equalizer;
-  int threads = 0;
-  bool quiet = false;
-  bool json = false;
 };
 
 void add_generalize_options(CommandOptions& command, GeneralizeOptions& options);

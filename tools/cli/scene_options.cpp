@@ -30,15 +30,11 @@ void add_file_options(CommandOptions& command, SceneOptions& options) {
 }
 
 void add_run_options(CommandOptions& command, SceneOptions& options) {
-  command.add_option("--threads", options.threads, "How many processor threads to use; 0, the default, takes all. Changes no pixel")
-      .type_name("N")
-      .range(0, 4096);
   command.add_option("--memory", options.memory_mib, "Memory that the program may take; 0, the default, is three quarters of the machine's")
       .type_name("MIB")
       .range(0, 1 << 30);
   command.add_flag("--no-cache", options.no_cache, "Makes everything anew and keeps nothing; see belvedere cache list. Changes no pixel");
-  command.add_flag("--quiet,-q", options.quiet, "No progress, no notes");
-  command.add_flag("--json", options.json, "The result as JSON on standard output");
+  add_run_options(command, static_cast<RunOptions&>(options), "pixel");
 }
 
 void add_scene_options(CommandOptions& command, SceneOptions& options, const std::string& meaning) {

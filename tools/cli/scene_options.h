@@ -4,22 +4,20 @@
 
 #include "base/run.h"
 #include "renderer/scene/scene_file.h"
+#include "tools/options/run_options.h"
 
 namespace belvedere::tools {
 
 class CommandOptions;
 
 // What every command that takes a scene has in common.
-struct SceneOptions {
+struct SceneOptions : RunOptions {
   std::string scene;  // path; empty: the built-in demo
   SceneFileOptions files;
   bool locked = false;      // inputs must be those of the scene's lock
   bool allow_http = false;  // rasters may lie on servers
   int http_silence_s = 30;  // s that a server may send nothing
-  int threads = 0;          // 0: all
   int memory_mib = 0;       // 0: three quarters of the machine's
-  bool quiet = false;
-  bool json = false;
   bool no_cache = false;
 };
 

@@ -21,6 +21,7 @@
 #include "tools/cli/file_names.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
+#include "tools/options/run_options.h"
 #include "tools/report/segment_page.h"
 
 namespace belvedere::tools {
@@ -28,14 +29,11 @@ namespace {
 
 using Colours = std::vector<std::array<std::uint8_t, 3>>;
 
-struct SegmentOptions {
+struct SegmentOptions : RunOptions {
   std::string painting, out, page, compare;
   std::optional<double> theta;  // none: as many groups as `most`
   int most = 30;
   bool numbers = false;
-  int threads = 0;
-  bool quiet = false;
-  bool json = false;
 };
 
 std::array<std::uint8_t, 3> bytes_of(std::uint32_t rgb) {
@@ -162,9 +160,7 @@ Action add_exemplar_segment(CommandOptions& command) {
   command
       .add_option("--compare", options->compare, "A mask drawn by hand, in flat colours or numbers: says how well the groups agree with it")
       .type_name("MASK");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel").type_name("N");
-  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
-  command.add_flag("--json", options->json, "Say what came out as JSON");
+  add_run_options(command, *options);
   command.footer(
       "Finds what belongs together in a painting: groups to be merged and named by whoever sees what is painted. The\n"
       "classes that the mask begins with are guesses by place, colour and strokes.\n\n"

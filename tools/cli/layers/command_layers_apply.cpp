@@ -18,17 +18,15 @@
 #include "tools/cli/layers/ground_climate_options.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
+#include "tools/options/run_options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct LayersApplyOptions {
+struct LayersApplyOptions : RunOptions {
   std::string layers, dem, out, colour, shares;
   GroundClimateOptions climate;
   LayerApplyParameters apply;
-  int threads = 0;
-  bool quiet = false;
-  bool json = false;
 };
 
 ByteRasterLayout class_layout(const RasterFrame& frame) {
@@ -156,9 +154,7 @@ Action add_layers_apply(CommandOptions& command) {
   command.add_option("--patches", drawing.spectrum, "Size of patches: 0, the default, speckled, to 4, large with smooth borders")
       .type_name("SIZE");
   command.add_option("--seed", options->apply.seed, "Another seed, another draw; default 1").type_name("N");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no cell").type_name("N");
-  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
-  command.add_flag("--json", options->json, "Say what came out as JSON");
+  add_run_options(command, *options, "cell");
   command.footer(
       "Says how much of the ground each class covers, and how much of it lies outside the range of altitudes, slopes … that the\n"
       "layers know; beyond 10 % it warns, because there they guess.\n\n"

@@ -15,18 +15,16 @@
 #include "tools/cli/layers/ground_climate_options.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
+#include "tools/options/run_options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct LayersPictureOptions {
+struct LayersPictureOptions : RunOptions {
   std::string layers, dem, out;
   GroundClimateOptions climate;
   LayerPictureParameters picture;
   bool no_beds = false;
-  int threads = 0;
-  bool quiet = false;
-  bool json = false;
 };
 
 Grid<std::uint8_t> band(const Grid<glm::vec3>& rows, int c) {
@@ -93,9 +91,7 @@ Action add_layers_picture(CommandOptions& command) {
                    "Lakes keep the colour of their layers; else they are seen through, down to made-up beds");
   add_ground_climate(command, options->climate);
   command.add_option("--seed", picture.seed, "Another seed, another grain of the layers; default 1").type_name("N");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel").type_name("N");
-  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
-  command.add_flag("--json", options->json, "Say what came out as JSON");
+  add_run_options(command, *options);
   command.footer(
       "The ground as seen from above, finer than the DEM: a smooth surface through its cells, the layers' colours and bumps on it.\n\n"
       "  belvedere layers picture innsbruck.layers.toml --dem innsbruck.tif --finer 4 --out map.tif");

@@ -20,18 +20,16 @@
 #include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
+#include "tools/options/run_options.h"
 #include "tools/report/report_folder.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct CompositeLearnOptions {
+struct CompositeLearnOptions : RunOptions {
   std::string crop, labels, out, report;
   BeginOptions begin;
   CompositeParameters composite;
-  int threads = 0;
-  bool quiet = false;
-  bool json = false;
 };
 
 // What a run found, for all ways to tell it.
@@ -194,9 +192,7 @@ Action add_composite_learn(CommandOptions& command) {
                     "The noise that all textures begin with, which decides the shape of their dabs: white, streaks or discs.\n"
                     "Default: for each what comes nearest to the crop");
   add_report_option(command, options->report, "A page with crop beside composite, and all figures");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit").type_name("N");
-  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
-  command.add_flag("--json", options->json, "Say what came out as JSON");
+  add_run_options(command, *options, "bit");
   command.footer(
       "Where a picture holds sky above water beside rock, one texture of all would be camouflage. A composite learns each by itself, what "
       "lies\n"

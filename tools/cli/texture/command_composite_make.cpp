@@ -19,18 +19,16 @@
 #include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
+#include "tools/options/run_options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct CompositeMakeOptions {
+struct CompositeMakeOptions : RunOptions {
   std::string model, labels, map, out, report;
   std::vector<int> size;
   std::vector<int> window;
   std::uint64_t seed = 1;
-  int threads = 0;
-  bool quiet = false;
-  bool json = false;
 };
 
 // The window that is asked for, within the map.
@@ -130,9 +128,7 @@ Action add_composite_make(CommandOptions& command) {
       .type_name("PICTURE");
   command.add_option("--seed", options->seed, "Another seed, another picture of the same kind. Default: 1").type_name("N");
   add_report_option(command, options->report, "A page with the labels beside what is made of them");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel").type_name("N");
-  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
-  command.add_flag("--json", options->json, "Say what came out as JSON");
+  add_run_options(command, *options);
   command.footer(
       "  belvedere composite make coast.composite --size 1600x1000 --map labels.png --out another_coast.png\n"
       "  belvedere composite make coast.composite --labels my_labels.png --out my_coast.png\n"

@@ -14,16 +14,14 @@
 #include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
+#include "tools/options/run_options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct TextureCorrectOptions {
+struct TextureCorrectOptions : RunOptions {
   std::string source, target, out, report;
   int regions = PhotometricParameters{}.regions;
-  int threads = 0;
-  bool quiet = false;
-  bool json = false;
 };
 
 // What is opaque; empty: all is.
@@ -109,9 +107,7 @@ Action add_texture_correct(CommandOptions& command) {
       .range(1, 5);
   add_report_option(command, options->report,
                     "A page with the picture before and after beside the other, and how far their colours are apart");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel").type_name("N");
-  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
-  command.add_flag("--json", options->json, "Say what came out as JSON");
+  add_run_options(command, *options);
   command.footer(
       "Regions of like colour of both pictures are paired, and each gets the distributions of hue, saturation and\n"
       "brightness of its partner: before paintings of several hands, seasons or scans are used together.\n\n"

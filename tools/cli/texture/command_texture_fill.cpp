@@ -15,16 +15,14 @@
 #include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
+#include "tools/options/run_options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct TextureFillOptions {
+struct TextureFillOptions : RunOptions {
   std::string picture, hole, model, out, report;
   std::uint64_t seed = 1;
-  int threads = 0;
-  bool quiet = false;
-  bool json = false;
 };
 
 // Clear pixels have the colour of the nearest opaque one: whatever lies hidden in them, nothing made beside them takes it over.
@@ -105,9 +103,7 @@ Action add_texture_fill(CommandOptions& command) {
   command.add_option("--out", options->out, "The picture: .png or .tif").required().type_name("PICTURE");
   command.add_option("--seed", options->seed, "Another seed, other paint. Default: 1").type_name("N");
   add_report_option(command, options->report, "A page with the part that changed, before and after");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel").type_name("N");
-  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
-  command.add_flag("--json", options->json, "Say what came out as JSON");
+  add_run_options(command, *options);
   command.footer(
       "Takes lettering, frames and figures out of a scan, or lets a wood grow over a clearing. Nothing outside the mask changes:\n"
       "in a .tif not one of 16 bits.\n\n"

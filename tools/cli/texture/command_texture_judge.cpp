@@ -14,16 +14,14 @@
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
+#include "tools/options/run_options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct TextureJudgeOptions {
+struct TextureJudgeOptions : RunOptions {
   std::string model, crop;
   std::vector<std::string> pictures;
-  int threads = 0;
-  bool quiet = false;
-  bool json = false;
 };
 
 struct Judgement {
@@ -84,9 +82,7 @@ Action add_texture_judge(CommandOptions& command) {
       .type_name("MODEL");
   command.add_option("CROP", options->crop, "The crop that the model was learned from").required().type_name("PICTURE");
   command.add_option("PICTURE", options->pictures, "Textures to be judged, made by whatever program").required().type_name("PICTURE …");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no figure").type_name("N");
-  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors and the figures");
-  command.add_flag("--json", options->json, "Say what came out as JSON");
+  add_run_options(command, *options, "figure");
   command.footer(
       "Says how far textures are from a crop: of the pairs that the model holds, of all others within reach, of five pixels at once "
       "(beyond\n"

@@ -14,18 +14,16 @@
 #include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
+#include "tools/options/run_options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct TextureKnitOptions {
+struct TextureKnitOptions : RunOptions {
   std::vector<std::string> pictures;
   std::string out, report;
   KnitParameters knit;
   bool down = false;
-  int threads = 0;
-  bool quiet = false;
-  bool json = false;
 };
 
 template <class Pixel>
@@ -135,9 +133,7 @@ Action add_texture_knit(CommandOptions& command) {
       .type_name("PX");
   command.add_option("--seed", options->knit.seed, "Another seed, another border. Default: 1").type_name("N");
   add_report_option(command, options->report, "A page with the pictures side by side and knitted, and how plain the seams are");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel").type_name("N");
-  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
-  command.add_flag("--json", options->json, "Say what came out as JSON");
+  add_run_options(command, *options);
   command.footer(
       "Each picture is grown over the seam by a texture model of its own, up to a ragged border that a model of both makes anew.\n"
       "A seam that nobody sees is left as it is. Nothing farther from the seam changes.\n\n"

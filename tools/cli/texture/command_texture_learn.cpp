@@ -20,6 +20,7 @@
 #include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
+#include "tools/options/run_options.h"
 #include "tools/report/report_folder.h"
 
 namespace belvedere::tools {
@@ -28,13 +29,10 @@ namespace {
 constexpr int report_px = 512;
 constexpr int sampled_report_px = 128;  // what a sampler makes in the time
 
-struct TextureLearnOptions {
+struct TextureLearnOptions : RunOptions {
   std::string crop, mask, light, out, report, method;
   BeginOptions begin;
   LearnParameters learn;
-  int threads = 0;
-  bool quiet = false;
-  bool json = false;
 };
 
 // What a run found, for all ways to tell it.
@@ -197,9 +195,7 @@ Action add_texture_learn(CommandOptions& command) {
       .one_of({"flow", "paper"})
       .type_name("METHOD");
   add_report_option(command, options->report, "A page with crop beside texture, and all figures");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no bit").type_name("N");
-  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
-  command.add_flag("--json", options->json, "Say what came out as JSON");
+  add_run_options(command, *options, "bit");
   command.footer(
       "The model says how neighbouring pixels differ, near and far, and nothing more: meadow, forest from afar, scree, water and sky come "
       "out\n"

@@ -17,19 +17,17 @@
 #include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
+#include "tools/options/run_options.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct TextureMakeOptions {
+struct TextureMakeOptions : RunOptions {
   std::string model, out, report;
   std::vector<int> size;
   std::vector<int> window;
   std::optional<double> direction_deg;
   std::uint64_t seed = 1;
-  int threads = 0;
-  bool quiet = false;
-  bool json = false;
 };
 
 // All strokes one way, clockwise from level.
@@ -119,9 +117,7 @@ Action add_texture_make(CommandOptions& command) {
                   "Default: as in the crop")
       .type_name("DEGREES");
   add_report_option(command, options->report, "A page with the texture and what its model is");
-  command.add_option("--threads", options->threads, "Processor threads; 0, the default, takes all. Changes no pixel").type_name("N");
-  command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
-  command.add_flag("--json", options->json, "Say what came out as JSON");
+  add_run_options(command, *options);
   command.footer(
       "Nothing is copied and nothing repeats, at any size.\n\n"
       "  belvedere texture make meadow.model --size 1200x800 --out meadow.png\n"

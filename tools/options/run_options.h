@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+namespace belvedere::tools {
+
+class CommandOptions;
+
+// How a command runs, which most of them may be told.
+struct RunOptions {
+  int threads = 0;  // 0: all
+  bool quiet = false;
+  bool json = false;
+};
+// --threads, --quiet and --json. `unchanged`: what the number of threads does not change any of, "pixel".
+void add_run_options(CommandOptions& command, RunOptions& options, const std::string& unchanged = "pixel");
+
+}  // namespace belvedere::tools
