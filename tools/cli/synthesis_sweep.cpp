@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/text/markup.h"
 #include "tools/options/refuse.h"
-#include "tools/report/bitmap_text.h"
+#include "tools/report/picture_text.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
 #include "tools/report/synthesis_figures.h"

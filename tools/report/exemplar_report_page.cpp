@@ -9,7 +9,7 @@
 
 #include "base/text/markup.h"
 #include "texture/quality/quality.h"
-#include "tools/report/bitmap_text.h"
+#include "tools/report/picture_text.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
 

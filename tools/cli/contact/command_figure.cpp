@@ -25,7 +25,7 @@
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
-#include "tools/report/bitmap_text.h"
+#include "tools/report/picture_text.h"
 #include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
 

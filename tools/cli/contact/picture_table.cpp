@@ -1,8 +1,7 @@
 #include "tools/cli/contact/picture_table.h"
+#include "tools/report/picture_text.h"
 
 #include <algorithm>
-
-#include "tools/report/bitmap_text.h"
 
 namespace belvedere::tools {
 namespace {

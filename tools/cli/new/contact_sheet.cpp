@@ -13,7 +13,7 @@
 #include "renderer/world/valley_view.h"
 #include "terrain/io/raster_io.h"
 #include "tools/cli/lock/scratch_folder.h"
-#include "tools/report/bitmap_text.h"
+#include "tools/report/picture_text.h"
 
 namespace belvedere::tools {
 namespace {
