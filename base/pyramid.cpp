@@ -132,21 +132,6 @@ LaplacianPyramid make_laplacian_pyramid(const Grid<float>& values, int bands) {
   return pyramid;
 }
 
-Grid<float> reconstruct(const LaplacianPyramid& pyramid) {
-  Grid<float> sum = pyramid.base;
-  for (auto band = pyramid.bands.rbegin(); band != pyramid.bands.rend(); ++band) {
-    Grid<float> finer = *band;
-    parallel_rows(finer.height(), [&](int y) {
-      std::vector<float> coarse(static_cast<std::size_t>(finer.width()));
-      expand_row(sum, y, finer.width(), coarse.data());
-      float* row = finer.row(y);
-      for (int x = 0; x < finer.width(); ++x) row[x] += coarse[static_cast<std::size_t>(x)];
-    });
-    sum = std::move(finer);
-  }
-  return sum;
-}
-
 std::vector<Grid<float>> make_gaussian_pyramid(const Grid<float>& values, int levels) {
   std::vector<Grid<float>> pyramid;
   pyramid.reserve(static_cast<std::size_t>(std::max(levels, 0)));

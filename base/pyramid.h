@@ -27,8 +27,6 @@ struct LaplacianPyramid {
 
 // `bands` bands, or fewer where the next level would have less than 2 cells on a side.
 LaplacianPyramid make_laplacian_pyramid(const Grid<float>& values, int bands);
-// Equation 1: the base and all bands summed up; identical to the input up to float rounding.
-Grid<float> reconstruct(const LaplacianPyramid& pyramid);
 // The Gaussian levels of a mask or weight, level 0 first; `levels` of them (small ones may be a single cell).
 std::vector<Grid<float>> make_gaussian_pyramid(const Grid<float>& values, int levels);
 // How many bands a grid of this size can have: the limit of make_laplacian_pyramid.

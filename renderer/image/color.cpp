@@ -117,7 +117,7 @@ void require_space(const ocio::Config& config, const std::string& config_file, c
 }
 
 // From the working space to the display, or back.
-ocio::ConstCPUProcessorRcPtr make_processor(const ColorParameters& parameters, ocio::TransformDirection direction) {
+ocio::ConstCPUProcessorRcPtr make_processor(const ColorParameters& parameters) {
   ocio::SetLoggingLevel(ocio::LOGGING_LEVEL_NONE);  // errors are thrown; nothing is printed
   const std::string name = config_name(parameters);
   try {
@@ -130,12 +130,10 @@ ocio::ConstCPUProcessorRcPtr make_processor(const ColorParameters& parameters, o
       view->setSrc(parameters.working.c_str());
       view->setDisplay(parameters.display.substr(0, slash).c_str());
       view->setView(parameters.display.substr(slash + 1).c_str());
-      processor = config->getProcessor(view, direction);
+      processor = config->getProcessor(view, ocio::TRANSFORM_DIR_FORWARD);
     } else {
       require_space(*config, name, parameters.display);
-      const bool forward = direction == ocio::TRANSFORM_DIR_FORWARD;
-      processor = config->getProcessor((forward ? parameters.working : parameters.display).c_str(),
-                                       (forward ? parameters.display : parameters.working).c_str());
+      processor = config->getProcessor(parameters.working.c_str(), parameters.display.c_str());
     }
     // Lossless: no fast powers, no merging of steps that would change digits.
     return processor->getOptimizedCPUProcessor(ocio::BIT_DEPTH_F32, ocio::BIT_DEPTH_F32, ocio::OPTIMIZATION_LOSSLESS);
@@ -162,20 +160,12 @@ struct DisplayConversion::State {
 };
 
 DisplayConversion::DisplayConversion(const ColorParameters& parameters)
-    : state_(std::make_unique<State>(State{make_processor(parameters, ocio::TRANSFORM_DIR_FORWARD)})) {}
+    : state_(std::make_unique<State>(State{make_processor(parameters)})) {}
 DisplayConversion::~DisplayConversion() = default;
 DisplayConversion::DisplayConversion(DisplayConversion&&) noexcept = default;
 DisplayConversion& DisplayConversion::operator=(DisplayConversion&&) noexcept = default;
 Grid<glm::vec3> DisplayConversion::convert(Image linear) const { return run(std::move(linear), state_->processor); }
 
 Grid<glm::vec3> to_display(const Image& linear, const ColorParameters& parameters) { return DisplayConversion(parameters).convert(linear); }
-
-Image from_display(const Grid<glm::vec3>& encoded, const ColorParameters& parameters) {
-  return run(encoded, make_processor(parameters, ocio::TRANSFORM_DIR_INVERSE));
-}
-
-std::string describe_color(const ColorParameters& parameters) {
-  return config_name(parameters) + ", " + parameters.working + " to " + parameters.display + ", OpenColorIO " + ocio::GetVersion();
-}
 
 }  // namespace belvedere

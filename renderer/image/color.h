@@ -35,13 +35,9 @@ class DisplayConversion {
 
 // Scene-linear to encoded 0…1. Not cut: values beyond white stay beyond 1. The same bits for any number of threads.
 Grid<glm::vec3> to_display(const Image& linear, const ColorParameters& parameters);
-Image from_display(const Grid<glm::vec3>& encoded, const ColorParameters& parameters);
-// Config ("own" or the file's name), spaces and OCIO's version: for provenance.
-std::string describe_color(const ColorParameters& parameters);
 
-// Reads an ICC file; Error(input) where it is missing, damaged or no profile of an RGB device.
-std::vector<std::uint8_t> read_icc_profile(const std::string& path);
-// Converts encoded sRGB as to_profile does, row by row; with parameters of its own, or from another RGB profile (`source`; empty: sRGB).
+// Encoded sRGB, or what another RGB profile (`source`) says, to the device space of an RGB profile, cut to 0…1. Error(input) for bytes that
+// are no profile of an RGB output. The same bits for any number of threads.
 class ProfileConversion {
  public:
   explicit ProfileConversion(const std::vector<std::uint8_t>& profile, const DeviceParameters& parameters = {},
@@ -55,8 +51,4 @@ class ProfileConversion {
   struct State;
   std::unique_ptr<State> state_;
 };
-// Encoded sRGB to the device space of an RGB profile, perceptual intent with black-point compensation, cut to 0…1. Error(input) for bytes
-// that are no profile of an RGB output. The same bits for any number of threads.
-Grid<glm::vec3> to_profile(const Grid<glm::vec3>& encoded_srgb, const std::vector<std::uint8_t>& profile);
-
 }  // namespace belvedere

@@ -287,10 +287,6 @@ std::unique_ptr<PictureRows> open_jxl16(const std::string& path, int width, int 
   return std::make_unique<JxlRows>(path, width, height, options);
 }
 
-void write_jxl16(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options) {
-  write_whole(*open_jxl16(path, encoded.width(), encoded.height(), options), encoded);
-}
-
 ImageInfo read_jxl_info(const std::string& path) {
   const JxlReader reader(path, false);
   ImageInfo info;

@@ -14,7 +14,6 @@ namespace belvedere {
 // picture whole: Error(limit), before anything is written, where jxl16_writer_bytes are over memory_budget_bytes().
 std::unique_ptr<PictureRows> open_jxl16(const std::string& path, int width, int height, const PictureFileOptions& options);
 double jxl16_writer_bytes(int width, int height);
-void write_jxl16(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options);
 
 // As read_image_info and read_picture of image_io.h; of an animation the first picture.
 ImageInfo read_jxl_info(const std::string& path);

@@ -8,20 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/image/deflate.h"
 #include "renderer/image/image_file_parts.h"
 
 namespace belvedere::image_io {
 namespace {
-
-constexpr auto crc_table = [] {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t i = 0; i < 256; ++i) {
-    std::uint32_t c = i;
-    for (int k = 0; k < 8; ++k) c = (c & 1) != 0 ? 0xedb88320u ^ (c >> 1) : c >> 1;
-    table[i] = c;
-  }
-  return table;
-}();
 
 std::uint32_t big_endian(const char* bytes) {
   std::uint32_t word = 0;
@@ -38,19 +29,15 @@ bool is_png_complete(const std::string& path) {
   std::vector<char> buffer(1 << 16);
   std::array<char, 8> head{};
   while (file.read(head.data(), 8)) {
-    std::uint32_t crc = 0xffffffffu;
-    const auto add = [&](const char* bytes, std::size_t count) {
-      for (std::size_t i = 0; i < count; ++i) crc = crc_table[(crc ^ static_cast<std::uint8_t>(bytes[i])) & 0xff] ^ (crc >> 8);
-    };
-    add(head.data() + 4, 4);
+    std::uint32_t crc = crc32_after(0, head.data() + 4, 4);
     for (std::uint64_t left = big_endian(head.data()); left > 0;) {
       const std::size_t count = static_cast<std::size_t>(std::min<std::uint64_t>(left, buffer.size()));
       if (!file.read(buffer.data(), static_cast<std::streamsize>(count))) return false;
-      add(buffer.data(), count);
+      crc = crc32_after(crc, buffer.data(), count);
       left -= count;
     }
     std::array<char, 4> expected{};
-    if (!file.read(expected.data(), 4) || big_endian(expected.data()) != ~crc) return false;
+    if (!file.read(expected.data(), 4) || big_endian(expected.data()) != crc) return false;
     if (std::string_view(head.data() + 4, 4) == "IEND") return true;
   }
   return false;

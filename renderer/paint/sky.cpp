@@ -210,17 +210,6 @@ Grid<glm::vec3> make_sky(const Grid<float>& depth_m, const Palette& palette, con
   return sky;
 }
 
-double skyline_row_px(const GuidanceBuffers& guidance, double fallback_px) {
-  std::vector<double> rows;
-  for (int x = 0; x < guidance.width(); ++x)
-    for (int y = 0; y < guidance.height(); ++y)
-      if (!guidance.is_sky(guidance.depth_m.index(x, y))) {
-        rows.push_back(y);
-        break;
-      }
-  return median_or(std::move(rows), fallback_px);
-}
-
 double skyline_row_px(const Camera& camera, const Tracer& tracer, double fallback_px) {
   constexpr int columns = 64;
   constexpr int steps = 96;

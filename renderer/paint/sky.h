@@ -19,10 +19,8 @@ glm::vec3 air_beyond(const Palette& palette, double place);
 // Encoded sRGB at the sky pixels of a part of the picture (depth +inf); other pixels hold 0. Every pixel stands alone.
 Grid<glm::vec3> make_sky(const Grid<float>& depth_m, const Palette& palette, const SkyParameters& parameters, glm::ivec2 origin_px);
 
-// Median over the columns of the topmost terrain row, for buffers that hold the whole picture's skyline; `fallback_px` where no column
-// has terrain.
-double skyline_row_px(const GuidanceBuffers& guidance, double fallback_px);
-// The same before anything is traced, by a few thousand rays in 64 columns: the horizon_px of pictures made in parts. A column's
+// Median over the columns of the topmost terrain row, `fallback_px` where no column has terrain: the horizon_px of pictures. By a few
+// thousand rays in 64 columns, before anything is traced. A column's
 // skyline is sought from the top in steps of 1/96 of the height, so a needle between two steps may be missed; then halved to a pixel.
 double skyline_row_px(const Camera& camera, const Tracer& tracer, double fallback_px);
 

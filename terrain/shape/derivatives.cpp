@@ -57,17 +57,6 @@ Grid<float> slope_deg(const Grid<float>& altitude_m, double cell_x_m, double cel
   });
 }
 
-Grid<float> aspect_deg(const Grid<float>& altitude_m, double cell_x_m, double cell_y_m) {
-  return map_windows(altitude_m, [=](const Window& w) {
-    const Gradient g = horn(w, cell_x_m, cell_y_m);
-    if (g.east == 0.0 && g.north == 0.0) return -1.0F;
-    const double aspect = to_degrees(exact::atan2(-g.east, -g.north));
-    // A hair's breadth below 360 must not round to it.
-    const auto clockwise = static_cast<float>(aspect < 0.0 ? aspect + 360.0 : aspect);
-    return clockwise >= 360.F ? 0.F : clockwise;
-  });
-}
-
 Grid<float> relief(const Grid<float>& altitude_m, double cell_m, double inner_m, double outer_m) {
   Grid<float> out = gaussian_blur(altitude_m, inner_m / cell_m);
   const Grid<float> mean = gaussian_blur(altitude_m, outer_m / cell_m);

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "tests/base/reconstruct.h"
 #include "tests/grids.h"
 
 namespace belvedere {
@@ -34,7 +35,7 @@ Grid<float> weighted_sum(LaplacianPyramid pyramid, const std::vector<float>& wei
   for (std::size_t i = 0; i < pyramid.bands.size(); ++i) {
     for (float& v : pyramid.bands[i]) v *= weights[i];
   }
-  return reconstruct(pyramid);
+  return test::reconstruct(pyramid);
 }
 
 TEST(Pyramid, SizesHalveRoundingUp) {
@@ -52,7 +53,7 @@ TEST(Pyramid, ReconstructsTheInput) {
   for (const auto& [width, height] : {std::pair{512, 512}, std::pair{513, 379}, std::pair{37, 61}, std::pair{2, 9}, std::pair{1, 1}}) {
     const Grid<float> values = rough_terrain(width, height);
     for (const int bands : {1, 5, 30}) {
-      EXPECT_LE(largest_difference(reconstruct(make_laplacian_pyramid(values, bands)), values), 1e-3) << width << " x " << height;
+      EXPECT_LE(largest_difference(test::reconstruct(make_laplacian_pyramid(values, bands)), values), 1e-3) << width << " x " << height;
     }
   }
 }

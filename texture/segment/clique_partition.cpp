@@ -46,14 +46,6 @@ Partition in_order(const Partition& groups) {
   return out;
 }
 
-double partition_objective(const PairWeights& weights, const Partition& groups) {
-  double sum = 0.0;
-  for (std::size_t a = 0; a < weights.count(); ++a)
-    for (std::size_t b = a + 1; b < weights.count(); ++b)
-      if (groups[a] == groups[b]) sum += weights(a, b);
-  return sum;
-}
-
 Partition join_by_mean_weight(const PairWeights& weights) {
   const std::size_t count = weights.count();
   Groups groups{std::vector<double>(count * count, 0.0), std::vector<std::size_t>(count, 1), count};

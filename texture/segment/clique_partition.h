@@ -25,10 +25,8 @@ using Partition = std::vector<std::uint16_t>;
 // Numbers groups anew in the order in which they are met.
 Partition in_order(const Partition& groups);
 
-// Sum of the weights of all pairs that share a group.
-double partition_objective(const PairWeights& weights, const Partition& groups);
-
-// Clique partitioning (Grötschel & Wakabayashi 1989): groups, as many as there happen to be, with a high objective. Which is the highest is
+// Clique partitioning (Grötschel & Wakabayashi 1989): groups, as many as there happen to be, with a high sum of the weights of all pairs
+// that share a group. Which is the highest is
 // NP-hard to find; here the two groups with the largest mean weight between them are joined while that is positive, then single things
 // move to the group that gains most until none gains. Ties go to the lower numbers, so the same weights give the same groups; at most
 // 65,535 things.

@@ -101,10 +101,6 @@ Partition group_pieces(const Segments& segments, double theta) {
   return partition_cliques(weights);
 }
 
-JoinTree join_segments(const Segments& segments, double theta) {
-  return join_pieces(segments.distance, segments.pixels, group_pieces(segments, theta));
-}
-
 int segment_reduction(int width, int height) {
   return std::max(static_cast<int>(std::sqrt(static_cast<double>(width) * height / reduced_pixels) + 0.5), 1);
 }

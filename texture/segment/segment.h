@@ -35,9 +35,6 @@ Segments find_segments(const Grid<glm::vec3>& oklab, const SegmentParameters& pa
 Partition group_pieces(const Segments& segments, double theta);
 inline constexpr double usual_theta = 1.1;
 
-// Those groups and everything below and above them: what a group falls into, and what it joins next.
-JoinTree join_segments(const Segments& segments, double theta);
-
 // How many times a picture must be reduced, so that about 200,000 pixels are left; a whole number, at least 1.
 int segment_reduction(int width, int height);
 // Means of blocks of factor × factor pixels; blocks at the right and lower edge may be smaller.

@@ -127,9 +127,4 @@ SynthesisPlan plan_synthesis(const std::vector<Exemplar>& exemplars, const Guide
   return SynthesisPlan(std::move(data));
 }
 
-std::size_t plan_bytes(std::size_t texels, std::size_t plan_pixels, int guides, bool with_depth) {
-  // The finer levels' texels, a third more in all, and at once the level that is worked on: at most as much as the finest alone.
-  return synthesis_bytes(texels + texels / 3, plan_pixels + plan_pixels / 2, guides, with_depth);
-}
-
 }  // namespace belvedere

@@ -42,7 +42,4 @@ std::vector<std::uint8_t> pack_plan(const SynthesisPlan& plan);
 // with.
 SynthesisPlan unpack_plan(const std::vector<std::uint8_t>& bytes, const std::vector<Exemplar>& exemplars);
 
-// Memory that plan_synthesis needs beyond its arguments, the plan included, bytes; an upper bound.
-std::size_t plan_bytes(std::size_t texels, std::size_t plan_pixels, int guides, bool with_depth);
-
 }  // namespace belvedere

@@ -278,12 +278,4 @@ MatchField synthesize_tile(SynthesisPlan& plan, const GuideStack& guides, const 
   return field;
 }
 
-std::size_t tile_bytes(const SynthesisSheet& sheet, int guides, bool with_depth) {
-  // Of the window: guides and depths as planes with a third more of the coarser levels; beside the level that is worked on what is fixed
-  // and how many of it are in a piece, its own depths, and the matches of all areas.
-  const std::size_t side = static_cast<std::size_t>(sheet.tile_px + 2 * synthesis_margin_px(sheet.level));
-  const std::size_t planes = (4 + static_cast<std::size_t>(guides) + (with_depth ? 4 : 0)) * 4 / 3;
-  return synthesis_bytes(0, side * side, guides, with_depth) + side * side * (planes + 8 + (with_depth ? 4 : 0) + 12);
-}
-
 }  // namespace belvedere

@@ -14,7 +14,4 @@ namespace belvedere {
 // progress.advance comes to 1 in all. Throws Error(usage) where the tile is none of the division or guides are missing or of another size.
 MatchField synthesize_tile(SynthesisPlan& plan, const GuideStack& guides, const PixelRect& tile, Progress& progress);
 
-// Memory that a tile needs beyond its plan and arguments, bytes; an upper bound.
-std::size_t tile_bytes(const SynthesisSheet& sheet, int guides, bool with_depth);
-
 }  // namespace belvedere

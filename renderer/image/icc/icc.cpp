@@ -13,13 +13,6 @@ constexpr const char* rgb_allowed = "the ICC profile of an RGB monitor, printer 
 
 }  // namespace
 
-std::vector<std::uint8_t> read_icc_profile(const std::string& path) {
-  std::vector<std::uint8_t> bytes = icc::read_profile_bytes(path);
-  const icc::Context context;
-  icc::require_device(path, context, icc::open_profile(context, bytes), cmsSigRgbData, rgb_allowed);
-  return bytes;
-}
-
 struct ProfileConversion::State {
   icc::Context context;
   icc::Transform transform;
@@ -49,10 +42,6 @@ Grid<glm::vec3> ProfileConversion::convert(const Grid<glm::vec3>& encoded_srgb) 
     }
   });
   return out;
-}
-
-Grid<glm::vec3> to_profile(const Grid<glm::vec3>& encoded_srgb, const std::vector<std::uint8_t>& profile) {
-  return ProfileConversion(profile).convert(encoded_srgb);
 }
 
 }  // namespace belvedere

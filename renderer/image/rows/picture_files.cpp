@@ -132,16 +132,6 @@ std::string ink_note(const std::string& file, const InkCoverage& ink) {
                      ink.highest_percent, ink.mean_percent, 100.0 * ink.above_share(), ink.limit_percent);
 }
 
-double picture_files_bytes(const std::vector<std::string>& endings, int width, int height) {
-  // A band: its copy, encoded, in the printer's colours, reduced.
-  double bytes = 4.0 * rows_per_read * static_cast<double>(sizeof(glm::vec3)) * width;
-  for (const PictureFormat* format : formats_of(endings)) {
-    const int factor = reduction_factor(*format, width, height);
-    bytes += format->writer_bytes(reduced(width, factor), reduced(height, factor));
-  }
-  return bytes;
-}
-
 std::vector<std::string> reduction_notes(const std::string& name, const std::vector<std::string>& endings, int width, int height) {
   std::vector<std::string> notes;
   for (const PictureFormat* format : formats_of(endings)) {
@@ -151,13 +141,6 @@ std::vector<std::string> reduction_notes(const std::string& name, const std::vec
                                   reduced(height, factor), factor));
   }
   return notes;
-}
-
-void write_pictures(const std::string& stem, const std::vector<std::string>& endings, const Image& linear, const PictureColors& colors,
-                    double dots_per_inch, const FileNotes& notes) {
-  PictureFiles files(stem, endings, linear.width(), linear.height(), colors, dots_per_inch, notes);
-  files.write_rows(linear);
-  files.finish();
 }
 
 }  // namespace belvedere

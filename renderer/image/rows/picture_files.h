@@ -23,8 +23,8 @@ struct PictureColors {
 
 // A scene-linear picture as STEM.ENDING for each of the endings, from one pass over its rows. Encoded ones are sRGB and carry its profile,
 // `device` formats the printer's where there is one; a format with a longest side (PNG) gets pictures that are larger reduced by a whole
-// factor, each pixel the mean in linear light, its resolution divided by the factor. Memory does not grow with the height
-// (picture_files_bytes), and how the rows come changes no byte. Without finish() older files of these names stay as they are.
+// factor, each pixel the mean in linear light, its resolution divided by the factor. Memory does not grow with the height,
+// and how the rows come changes no byte. Without finish() older files of these names stay as they are.
 class PictureFiles {
  public:
   // Error(usage) for an unknown ending, before anything is written; Error(limit) for a format that packs pictures whole, over the budget;
@@ -47,16 +47,10 @@ class PictureFiles {
   std::unique_ptr<State> state_;
 };
 
-// The most bytes that PictureFiles holds beside the rows it is given.
-double picture_files_bytes(const std::vector<std::string>& endings, int width, int height);
 // What is worth a line in the log, such as "panorama.png is 6667 × 2667 pixels, the picture reduced by 3": one for each reduced format.
 std::vector<std::string> reduction_notes(const std::string& name, const std::vector<std::string>& endings, int width, int height);
 
 // "panorama.tif asks for up to 312 % of ink, 140 % on average; .4 % of its pixels for more than 300 %"
 std::string ink_note(const std::string& file, const InkCoverage& ink);
-
-// A whole picture.
-void write_pictures(const std::string& stem, const std::vector<std::string>& endings, const Image& linear, const PictureColors& colors,
-                    double dots_per_inch, const FileNotes& notes);
 
 }  // namespace belvedere

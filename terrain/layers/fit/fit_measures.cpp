@@ -90,29 +90,6 @@ ClassMeasures measure_classes(const ClassShares& shares, std::span<const std::ui
   return measures;
 }
 
-double adjusted_rand_index(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
-  std::map<std::pair<int, int>, double> both;
-  std::map<int, double> of_a;
-  std::map<int, double> of_b;
-  for (std::size_t i = 0; i != a.size(); ++i) {
-    both[{a[i], b[i]}] += 1.0;
-    of_a[a[i]] += 1.0;
-    of_b[b[i]] += 1.0;
-  }
-  const auto pairs = [](const auto& counts) {
-    double sum = 0.0;
-    for (const auto& [key, n] : counts) sum += 0.5 * n * (n - 1.0);
-    return sum;
-  };
-  const double all = 0.5 * static_cast<double>(a.size()) * (static_cast<double>(a.size()) - 1.0);
-  const double together = pairs(both);
-  const double in_a = pairs(of_a);
-  const double in_b = pairs(of_b);
-  const double expected = in_a * in_b / std::max(all, 1.0);
-  const double most = 0.5 * (in_a + in_b);
-  return most == expected ? 1.0 : (together - expected) / (most - expected);
-}
-
 LabColour lab_of_srgb(double r, double g, double b) {
   const double lr = linear(r);
   const double lg = linear(g);

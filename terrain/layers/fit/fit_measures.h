@@ -27,9 +27,6 @@ ClassMeasures measure_classes(const ClassShares& shares, std::span<const std::ui
 // over false alarms; Mann and Whitney 1947). NaN where there are none of either kind.
 double area_under_curve(std::span<const float> scores, std::span<const std::uint8_t> is_class);
 
-// How alike two divisions of the same things are, corrected for chance: 1 alike, 0 as by chance (Hubert and Arabie 1985).
-double adjusted_rand_index(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
-
 // 0xrrggbb-like picture in three planes of 0…255, sRGB.
 struct RgbPlanes {
   Grid<float> r;

@@ -61,14 +61,6 @@ TEST_F(Color, OwnConfigIsTheExactCurve) {
   }
 }
 
-TEST_F(Color, RoundTrip) {
-  const Image linear = random_picture(100, 37);
-  const Image again = from_display(to_display(linear, {}), {});
-  for (std::size_t i = 0; i < linear.size(); ++i) {
-    for (int c = 0; c < 3; ++c) ASSERT_NEAR(again[i][c], linear[i][c], 1e-6);
-  }
-}
-
 TEST_F(Color, AcesSpacesAreThosePublished) {
   // AP1 to Rec. 709 with Bradford, as in the ACES documents (S-2014-004 with the usual adaptation), columns of glm are the rows turned.
   const glm::dmat3 published(1.70505, -0.13026, -0.02400, -0.62179, 1.14080, -0.12897, -0.08326, -0.01055, 1.15297);
@@ -130,12 +122,8 @@ TEST_F(Color, FileAndEnvironmentOverride) {
   ColorParameters parameters;
   parameters.config = folder / "a.ocio";
   EXPECT_NEAR(to_display(grey, parameters)(2, 1).y, 0.6, 1e-6);
-  EXPECT_NEAR(from_display(grey, parameters)(2, 1).y, 0.15, 1e-6);
-  EXPECT_THAT(describe_color(parameters), testing::HasSubstr("a.ocio"));
   parameters.display = "monitor/twice";
   EXPECT_NEAR(to_display(grey, parameters)(2, 1).y, 0.6, 1e-6);
-  EXPECT_NEAR(from_display(grey, parameters)(2, 1).y, 0.15, 1e-6);
-  EXPECT_THAT(describe_color({}), testing::StartsWith("own"));
   ::setenv("OCIO", (folder / "a.ocio").c_str(), 1);
   EXPECT_NEAR(to_display(grey, {})(0, 0).y, 0.6, 1e-6);
   ::setenv("OCIO", "", 1);

@@ -16,6 +16,10 @@ namespace {
 using test::Folder;
 using test::random_picture;
 
+void write_jxl16(const std::string& path, const Grid<glm::vec3>& encoded, const PictureFileOptions& options) {
+  write_whole(*open_jxl16(path, encoded.width(), encoded.height(), options), encoded);
+}
+
 TEST(Jxl, KeepsEveryValueAndRoundsToTheNearest) {
   const Folder folder("jxl");
   Grid<glm::vec3> picture = random_picture(530, 270);  // three groups of 256 across, the last one cut

@@ -207,16 +207,6 @@ TEST(Sky, PartEqualsWholeAndTerrainIsLeftOut) {
   EXPECT_EQ(make_sky(test::cut(depth, rect), palette, p, {rect.x0, rect.y0}), test::cut(whole, rect));
 }
 
-TEST(Sky, SkylineIsTheMedianOfTheColumns) {
-  GuidanceBuffers g;
-  g.depth_m = Grid<float>(9, 20, sky_depth);
-  for (int x = 0; x < 9; ++x)
-    for (int y = x + 3; y < 20; ++y) g.depth_m(x, y) = 5000.0F;
-  EXPECT_EQ(skyline_row_px(g, 1.0), 7.0);
-  g.depth_m = Grid<float>(9, 20, sky_depth);
-  EXPECT_EQ(skyline_row_px(g, 33.0), 33.0);
-}
-
 TEST(Sky, SkylineByRaysIsWhereTheCrestProjects) {
   // A level crest 400 m high, 6 km north of the eye and at right angles to the view.
   DeformedSurface surface;

@@ -14,8 +14,8 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "terrain/io/raster_io.h"
-#include "terrain/shape/heightfield.h"
 #include "tests/paths.h"
+#include "tests/terrain/shape/heightfield.h"
 
 namespace belvedere {
 namespace {
@@ -202,7 +202,7 @@ TEST(Tracer, APlaneHasNoShadowAndReachIsKept) {
 
 void expect_like_oracle(const DeformedSurface& surface, double height_m) {
   const Tracer tracer(surface);
-  const Heightfield oracle(surface.vertices_m);
+  const test::Heightfield oracle(surface.vertices_m);
   const std::vector<Ray> rays = view_rays(surface, 400, 280, height_m);
   std::vector<Hit> hits(rays.size());
   tracer.intersect(rays, hits);

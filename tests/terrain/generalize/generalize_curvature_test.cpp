@@ -16,6 +16,7 @@
 #include "terrain/generalize/mask.h"
 #include "terrain/io/dem.h"
 #include "terrain/shape/derivatives.h"
+#include "tests/base/reconstruct.h"
 #include "tests/paths.h"
 #include "tests/terrain/generalize/made_up_relief.h"
 #include "tests/terrain/shape/terrain_measures.h"
@@ -38,7 +39,7 @@ GeneralizeGrids masked(Grid<float> mask) {
 TEST(GeneralizeCurvature, PyramidReconstructsHighRelief) {
   for (const auto& [width, height] : {std::pair{512, 512}, std::pair{513, 379}, std::pair{37, 61}}) {
     const Grid<float> terrain = alpine(width, height, 5000.0);
-    EXPECT_LE(largest_difference(reconstruct(make_laplacian_pyramid(terrain, 6)), terrain), 1e-3);
+    EXPECT_LE(largest_difference(test::reconstruct(make_laplacian_pyramid(terrain, 6)), terrain), 1e-3);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/pyramid.h"
+#include "tests/base/reconstruct.h"
 #include "tests/terrain/generalize/made_up_relief.h"
 
 namespace belvedere {
@@ -25,7 +26,7 @@ Grid<float> equation_two(const Grid<float>& altitude_m, const std::vector<float>
   for (std::size_t i = 0; i < pyramid.bands.size(); ++i) {
     for (float& v : pyramid.bands[i]) v *= weights[weights.size() - 1 - i];
   }
-  return reconstruct(pyramid);
+  return test::reconstruct(pyramid);
 }
 
 Grid<float> generalized(const Grid<float>& altitude_m, const GeneralizeParameters& parameters, const Grid<float>& share = {},
@@ -211,7 +212,7 @@ TEST(Generalize, CrestEqualsItsFormula) {
       for (float& v : kept.bands[i]) v *= weights[i];
     }
     if (!base) std::fill(kept.base.begin(), kept.base.end(), 0.F);
-    return reconstruct(kept);
+    return test::reconstruct(kept);
   };
   const Grid<float> detail = keep_bands({0, 1, 1, .6F, 0, 0}, false);
   const Grid<float> ground = keep_bands({0, 0, 0, 0, 1, 1}, true);
@@ -261,8 +262,8 @@ TEST(Generalize, CrestsOfAHalvedDemAreMadeOfTheBandsItHas) {
       std::fill(ground.bands[i].begin(), ground.bands[i].end(), 0.F);
     }
     std::fill(detail.base.begin(), detail.base.end(), 0.F);
-    const Grid<float> fine = reconstruct(detail);
-    const Grid<float> low = reconstruct(ground);
+    const Grid<float> fine = test::reconstruct(detail);
+    const Grid<float> low = test::reconstruct(ground);
     Grid<float> expected = terrain;
     for (std::size_t i = 0; i < expected.size(); ++i)
       expected[i] += 1.5F * std::clamp((low[i] - 1200.F) / 700.F, 0.F, 1.F) * std::clamp(fine[i], 0.F, 60.F);

@@ -1,4 +1,4 @@
-#include "terrain/shape/heightfield.h"
+#include "tests/terrain/shape/heightfield.h"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ TEST(Heightfield, AgreesWithEveryFacetOnRandomRays) {
   for (const auto& [width, height] : sizes) {
     const auto seed = static_cast<std::uint64_t>(width * 100 + height);
     const Grid<glm::vec3> vertices = random_surface(width, height, 30.F, 90.F, seed);
-    const Heightfield field(vertices);
+    const test::Heightfield field(vertices);
     const glm::dvec3 size(30.0 * (width - 1), 30.0 * (height - 1), 90.0);
     for (int i = 0; i < 1500; ++i) {
       const auto u = [&](int draw) { return random_uniform(seed + 1, i, draw); };
@@ -82,7 +82,7 @@ TEST(Heightfield, SplitsCellsAlongTheDiagonalOfTheTracer) {
   vertices(1, 0) = {1, 1, 10};  // the diagonal runs between these two raised posts
   vertices(0, 1) = {0, 0, 10};
   vertices(1, 1) = {1, 0, 0};
-  const Heightfield field(vertices);
+  const test::Heightfield field(vertices);
   // Straight down on the middle: 10 on the ridge between the raised posts; the other diagonal would give 0.
   EXPECT_DOUBLE_EQ(*field.intersect({0.5, 0.5, 100.0}, {0, 0, -1}), 90.0);
   EXPECT_DOUBLE_EQ(*field.intersect({0.25, 0.75, 100.0}, {0, 0, -2}), 47.5);
@@ -93,7 +93,7 @@ TEST(Heightfield, SplitsCellsAlongTheDiagonalOfTheTracer) {
 
 TEST(Heightfield, NoRayFallsThroughEdgesAndVertices) {
   const Grid<glm::vec3> vertices = random_surface(9, 9, 30.F, 60.F, 7);
-  const Heightfield field(vertices);
+  const test::Heightfield field(vertices);
   for (int y = 1; y < 8; ++y) {
     for (int x = 1; x < 8; ++x) {
       const glm::dvec3 a(vertices(x, y));
@@ -112,10 +112,10 @@ TEST(Heightfield, NoRayFallsThroughEdgesAndVertices) {
 TEST(Heightfield, FacetsWithAVoidDoNotExist) {
   Grid<glm::vec3> vertices = random_surface(5, 5, 10.F, 0.F, 1);
   vertices(2, 2).z = std::numeric_limits<float>::quiet_NaN();
-  const Heightfield field(vertices);
+  const test::Heightfield field(vertices);
   EXPECT_FALSE(field.intersect({21.0, 19.0, 50.0}, {0, 0, -1}));
   EXPECT_TRUE(field.intersect({1.0, 1.0, 50.0}, {0, 0, -1}));
-  EXPECT_THROW(Heightfield(Grid<glm::vec3>(1, 4)), Error);
+  EXPECT_THROW(test::Heightfield(Grid<glm::vec3>(1, 4)), std::invalid_argument);
 }
 
 }  // namespace

@@ -9,6 +9,15 @@ namespace {
 
 using ::testing::ElementsAre;
 
+// Sum of the weights of all pairs that share a group.
+double partition_objective(const PairWeights& weights, const Partition& groups) {
+  double sum = 0.0;
+  for (std::size_t a = 0; a < weights.count(); ++a)
+    for (std::size_t b = a + 1; b < weights.count(); ++b)
+      if (groups[a] == groups[b]) sum += weights(a, b);
+  return sum;
+}
+
 // The highest objective of all partitions, by growth strings: thing i joins one of the groups before it or begins the next.
 double best_of_all(const PairWeights& weights, Partition& groups, std::size_t i, std::uint16_t used) {
   if (i == weights.count()) return partition_objective(weights, groups);

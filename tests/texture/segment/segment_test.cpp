@@ -27,7 +27,7 @@ Grid<glm::vec3> landscape(int width, int height) {
 TEST(Segment, ThreeThingsAreThreeGroups) {
   const Grid<glm::vec3> picture = landscape(200, 150);
   const Segments segments = find_segments(picture);
-  const Partition groups = cut_tree(join_segments(segments, usual_theta), 3);
+  const Partition groups = cut_tree(join_pieces(segments.distance, segments.pixels, group_pieces(segments, usual_theta)), 3);
   Grid<std::uint16_t> found(200, 150);
   Grid<std::uint8_t> truth(200, 150);
   for (int y = 0; y < 150; ++y)
@@ -53,7 +53,7 @@ TEST(Segment, SameForAnyThreads) {
   const auto made = [](int threads) {
     const ThreadLimit limit(threads);
     const Segments segments = find_segments(landscape(160, 120));
-    return std::pair(segments.pieces.of, join_segments(segments, usual_theta).joins);
+    return std::pair(segments.pieces.of, join_pieces(segments.distance, segments.pixels, group_pieces(segments, usual_theta)).joins);
   };
   EXPECT_EQ(made(1), made(2));
 }

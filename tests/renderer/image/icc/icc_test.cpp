@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "renderer/image/color.h"
+#include "renderer/image/icc/press_color.h"
 #include "renderer/image/image_io.h"
 #include "tests/renderer/image/picture_bytes.h"
 #include "tests/renderer/image/random_picture.h"
@@ -45,7 +46,7 @@ TEST(Icc, SrgbProfileHasTheSameBytesEveryTime) {
 
 TEST(Icc, ToSrgbIsTheIdentity) {
   const Grid<glm::vec3> picture = random_picture(200, 50);
-  const Grid<glm::vec3> out = to_profile(picture, srgb_profile());
+  const Grid<glm::vec3> out = ProfileConversion(srgb_profile()).convert(picture);
   for (std::size_t i = 0; i < picture.size(); ++i) {
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(out[i][c], picture[i][c], 1.0 / 65535.0);
   }
@@ -53,7 +54,7 @@ TEST(Icc, ToSrgbIsTheIdentity) {
 
 TEST(Icc, ConvertsToTheDeviceNumbers) {
   const Grid<glm::vec3> picture = random_picture(50, 50);
-  const Grid<glm::vec3> out = to_profile(picture, swapped_profile());
+  const Grid<glm::vec3> out = ProfileConversion(swapped_profile()).convert(picture);
   for (std::size_t i = 0; i < picture.size(); ++i) {
     ASSERT_NEAR(out[i].x, picture[i].y, 1e-4);
     ASSERT_NEAR(out[i].y, picture[i].x, 1e-4);
@@ -66,9 +67,9 @@ TEST(Icc, SameBitsForAnyThreads) {
   Grid<glm::vec3> one;
   {
     const ThreadLimit limit(1);
-    one = to_profile(picture, swapped_profile());
+    one = ProfileConversion(swapped_profile()).convert(picture);
   }
-  EXPECT_EQ(one, to_profile(picture, swapped_profile()));
+  EXPECT_EQ(one, ProfileConversion(swapped_profile()).convert(picture));
 }
 
 TEST(Icc, EmbeddedAndReadAgain) {
@@ -80,29 +81,33 @@ TEST(Icc, EmbeddedAndReadAgain) {
   EXPECT_EQ(read_image_info(folder / "a.png").icc_profile, options.icc_profile);
   EXPECT_EQ(read_image_info(folder / "a.tif").icc_profile, options.icc_profile);
   test::write_bytes(folder / "a.icc", as_text(options.icc_profile));
-  EXPECT_EQ(read_icc_profile(folder / "a.icc"), options.icc_profile);
+  EXPECT_EQ(read_device_profile(folder / "a.icc"), options.icc_profile);
 }
 
 TEST(Icc, FaultsAreNamed) {
   const Folder folder("icc");
   const std::string good = as_text(srgb_profile());
   const auto changed = [&](std::size_t at, const std::string& with) { return std::string(good).replace(at, with.size(), with); };
-  const std::vector<std::pair<std::string, std::string>> files = {{"text.icc", "this is no profile"}, {"empty.icc", ""},
-                                                                  {"cut.icc", good.substr(0, 200)},   {"cmyk.icc", changed(16, "CMYK")},
-                                                                  {"grey.icc", changed(16, "GRAY")},  {"link.icc", changed(12, "link")}};
+  const std::vector<std::pair<std::string, std::string>> files = {{"text.icc", "this is no profile"},
+                                                                  {"empty.icc", ""},
+                                                                  {"cut.icc", good.substr(0, 200)},
+                                                                  {"grey.icc", changed(16, "GRAY")},
+                                                                  {"link.icc", changed(12, "link")}};
   for (const auto& [name, bytes] : files) {
     test::write_bytes(folder / name, bytes);
     try {
-      read_icc_profile(folder / name);
+      read_device_profile(folder / name);
       ADD_FAILURE() << name;
     } catch (const Error& e) {
       EXPECT_EQ(e.kind(), ErrorKind::input);
       EXPECT_THAT(e.what(), testing::HasSubstr(name));
     }
-    EXPECT_THROW(to_profile(random_picture(1, 1), {bytes.begin(), bytes.end()}), Error) << name;
+    EXPECT_THROW(ProfileConversion({bytes.begin(), bytes.end()}), Error) << name;
   }
-  EXPECT_THROW(read_icc_profile(folder / "absent.icc"), Error);
-  EXPECT_THROW(read_icc_profile(folder.path()), Error);
+  const std::string cmyk = changed(16, "CMYK");
+  EXPECT_THROW(ProfileConversion({cmyk.begin(), cmyk.end()}), Error);
+  EXPECT_THROW(read_device_profile(folder / "absent.icc"), Error);
+  EXPECT_THROW(read_device_profile(folder.path()), Error);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "terrain/layers/fit/fit_measures.h"
 #include "tests/terrain/layers/fit/made_up_picture.h"
+#include "tests/terrain/layers/fit/rand_index.h"
 
 namespace belvedere {
 namespace {
@@ -40,7 +41,7 @@ TEST(FindClusters, MadeUpPictureIsDividedAsItWasMade) {
   const Clusters clusters = find_clusters(places);
   EXPECT_GE(clusters.classes, 4);
   EXPECT_LE(clusters.classes, static_cast<int>(clusters.parts.size()));
-  EXPECT_GE(adjusted_rand_index(clusters_at(places, clusters), picture.classes), 0.73);
+  EXPECT_GE(test::adjusted_rand_index(clusters_at(places, clusters), picture.classes), 0.73);
 }
 
 // The least number of parts that is tried is more than these heaps need: what cannot be told apart is one class.

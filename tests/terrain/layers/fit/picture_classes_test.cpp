@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "tests/terrain/layers/fit/made_up_picture.h"
+#include "tests/terrain/layers/fit/rand_index.h"
 
 namespace belvedere {
 namespace {
@@ -21,7 +22,7 @@ TEST(PictureClasses, FindsTheClassesOfAMadeUpPicture) {
   EXPECT_NEAR(found.used_share, 0.995, 1e-9);
   EXPECT_EQ(found.labels[0], no_class);  // not in use
   EXPECT_GE(found.classes.size(), 4U);
-  EXPECT_GT(adjusted_rand_index(found.labels, picture.classes), 0.65);
+  EXPECT_GT(test::adjusted_rand_index(found.labels, picture.classes), 0.65);
 }
 
 TEST(PictureClasses, OneHueIsDividedByLightness) {
@@ -46,7 +47,7 @@ TEST(PictureClasses, OneHueIsDividedByLightness) {
     made.push_back(ground[i] > 0.0F ? 1 : 0);
   }
   EXPECT_GT(got.size(), 160U * 160U / 4U);
-  EXPECT_GT(adjusted_rand_index(got, made), 0.9);
+  EXPECT_GT(test::adjusted_rand_index(got, made), 0.9);
 }
 
 TEST(PictureClasses, NothingToLearnFromIsAnError) {

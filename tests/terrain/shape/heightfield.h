@@ -1,19 +1,24 @@
-#include "terrain/shape/heightfield.h"
+#pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <limits>
-#include <string>
+#include <optional>
+#include <stdexcept>
 #include <utility>
+#include <vector>
 
-#include "base/error.h"
+#include "base/grid.h"
 
-namespace belvedere {
-namespace {
+namespace belvedere::test {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+namespace heightfield {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The part of a ray, from `enter` to `leave`.
 struct Interval {
@@ -22,7 +27,7 @@ struct Interval {
 };
 
 // Narrows the interval to where low <= origin + t direction <= high.
-void clip_to_slab(Interval& interval, double origin, double direction, double low, double high) {
+inline void clip_to_slab(Interval& interval, double origin, double direction, double low, double high) {
   if (direction == 0.0) {
     if (origin < low || origin > high) interval.leave = -infinity;
     return;
@@ -42,7 +47,7 @@ struct Shear {
   double by_y;
 };
 
-Shear make_shear(glm::dvec3 direction) {
+inline Shear make_shear(glm::dvec3 direction) {
   const glm::dvec3 size = glm::abs(direction);
   const int z = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
   const int x = (z + 1) % 3;
@@ -51,13 +56,13 @@ Shear make_shear(glm::dvec3 direction) {
 }
 
 // Where a point relative to the ray's origin lies in the plane that the ray pierces at (0, 0).
-glm::dvec2 flatten(const Shear& shear, glm::dvec3 p) {
+inline glm::dvec2 flatten(const Shear& shear, glm::dvec3 p) {
   return {p[shear.x] - shear.by_x * p[shear.z], p[shear.y] - shear.by_y * p[shear.z]};
 }
 
 // After Woop, Benthin & Wald 2013. A vertex is flattened once, the same for all its facets, and as rounding of a product is monotonic,
 // the sign of an edge below is right or zero; zero counts as inside, so a ray cannot slip between facets at an edge or a vertex.
-double intersect_facet(const Shear& shear, glm::dvec3 direction, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+inline double intersect_facet(const Shear& shear, glm::dvec3 direction, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
   const glm::dvec2 fa = flatten(shear, a);
   const glm::dvec2 fb = flatten(shear, b);
   const glm::dvec2 fc = flatten(shear, c);
@@ -72,27 +77,47 @@ double intersect_facet(const Shear& shear, glm::dvec3 direction, glm::dvec3 a, g
   return distance >= 0.0 ? distance : infinity;
 }
 
-bool is_finite(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+inline bool is_finite(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-}  // namespace
+}  // namespace heightfield
+
+// Max-mipmap traversal of a triangulated height field in double: an oracle for the tracer, independent of Embree. Slow and plain.
+// Vertices at cell centres; each cell is split along the same diagonal as Embree's grids: (0,0)-(1,0)-(0,1) and (1,1)-(0,1)-(1,0).
+class Heightfield {
+ public:
+  // Vertices on a regular grid in x and y (columns east, rows south), any heights; small irregularities, such as rounding to
+  // float, are allowed for. Facets with a vertex that is not finite do not exist. At least 2×2 vertices.
+  explicit Heightfield(const Grid<glm::vec3>& vertices);
+  // Distance along the ray (direction of any length; in units of it) to the nearest facet from either side, or nothing.
+  // No ray falls through an edge or a vertex that facets share.
+  std::optional<double> intersect(glm::dvec3 origin, glm::dvec3 direction) const;
+
+ private:
+  struct Ray;
+  void visit(const Ray& ray, int level, int x, int y, double& nearest) const;
+
+  Grid<glm::vec3> vertices_;
+  std::vector<glm::dvec2> column_x_;  // smallest and largest x of each column of vertices
+  std::vector<glm::dvec2> row_y_;     // smallest and largest y of each row of vertices
+  std::vector<Grid<float>> maxima_;   // highest z of a cell (level 0), of 2×2 cells (level 1), …; the last is one block
+};
 
 struct Heightfield::Ray {
   glm::dvec3 origin;
   glm::dvec3 direction;
-  Shear shear;
+  heightfield::Shear shear;
 };
 
-Heightfield::Heightfield(const Grid<glm::vec3>& vertices) : vertices_(vertices) {
+inline Heightfield::Heightfield(const Grid<glm::vec3>& vertices) : vertices_(vertices) {
   const int width = vertices.width();
   const int height = vertices.height();
-  if (width < 2 || height < 2)
-    throw Error(ErrorKind::bug, "Heightfield", std::to_string(width) + " × " + std::to_string(height) + " vertices", "at least 2 × 2");
-  column_x_.assign(static_cast<std::size_t>(width), glm::dvec2(infinity, -infinity));
-  row_y_.assign(static_cast<std::size_t>(height), glm::dvec2(infinity, -infinity));
+  if (width < 2 || height < 2) throw std::invalid_argument("a heightfield of fewer than 2 x 2 vertices");
+  column_x_.assign(static_cast<std::size_t>(width), glm::dvec2(heightfield::infinity, -heightfield::infinity));
+  row_y_.assign(static_cast<std::size_t>(height), glm::dvec2(heightfield::infinity, -heightfield::infinity));
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const glm::dvec3 p(vertices(x, y));
-      if (!is_finite(p)) continue;
+      if (!heightfield::is_finite(p)) continue;
       glm::dvec2& column = column_x_[static_cast<std::size_t>(x)];
       glm::dvec2& row = row_y_[static_cast<std::size_t>(y)];
       column = {std::min(column.x, p.x), std::max(column.y, p.x)};
@@ -105,7 +130,7 @@ Heightfield::Heightfield(const Grid<glm::vec3>& vertices) : vertices_(vertices) 
   for (int y = 0; y + 1 < height; ++y)
     for (int x = 0; x + 1 < width; ++x)
       for (const glm::vec3& p : {vertices(x, y), vertices(x + 1, y), vertices(x, y + 1), vertices(x + 1, y + 1)})
-        if (is_finite(p)) cells(x, y) = std::max(cells(x, y), p.z);
+        if (heightfield::is_finite(p)) cells(x, y) = std::max(cells(x, y), p.z);
   maxima_.push_back(std::move(cells));
   while (maxima_.back().size() > 1) {
     const Grid<float>& fine = maxima_.back();
@@ -117,7 +142,7 @@ Heightfield::Heightfield(const Grid<glm::vec3>& vertices) : vertices_(vertices) 
 }
 
 // A block of 2^level cells a side, its first at (x << level, y << level).
-void Heightfield::visit(const Ray& ray, int level, int x, int y, double& nearest) const {
+inline void Heightfield::visit(const Ray& ray, int level, int x, int y, double& nearest) const {
   const Grid<float>& maxima = maxima_[static_cast<std::size_t>(level)];
   if (!maxima.contains(x, y)) return;
   const auto first_x = static_cast<std::size_t>(x) << level;
@@ -126,10 +151,10 @@ void Heightfield::visit(const Ray& ray, int level, int x, int y, double& nearest
   const std::size_t last_y = std::min((static_cast<std::size_t>(y) + 1) << level, row_y_.size() - 1);
   const auto [west, east] = std::minmax({column_x_[first_x].x, column_x_[last_x].x, column_x_[first_x].y, column_x_[last_x].y});
   const auto [south, north] = std::minmax({row_y_[first_y].x, row_y_[last_y].x, row_y_[first_y].y, row_y_[last_y].y});
-  Interval interval{0.0, nearest};
-  clip_to_slab(interval, ray.origin.x, ray.direction.x, west, east);
-  clip_to_slab(interval, ray.origin.y, ray.direction.y, south, north);
-  clip_to_slab(interval, ray.origin.z, ray.direction.z, -infinity, static_cast<double>(maxima(x, y)));
+  heightfield::Interval interval{0.0, nearest};
+  heightfield::clip_to_slab(interval, ray.origin.x, ray.direction.x, west, east);
+  heightfield::clip_to_slab(interval, ray.origin.y, ray.direction.y, south, north);
+  heightfield::clip_to_slab(interval, ray.origin.z, ray.direction.z, -heightfield::infinity, static_cast<double>(maxima(x, y)));
   // Slabs are computed with rounding, so a block that is missed by a hair is looked into all the same.
   if (interval.enter - interval.leave > 1e-9 * (1.0 + interval.enter)) return;
 
@@ -145,16 +170,16 @@ void Heightfield::visit(const Ray& ray, int level, int x, int y, double& nearest
   const glm::dvec3 p10 = relative(x + 1, y);
   const glm::dvec3 p01 = relative(x, y + 1);
   const glm::dvec3 p11 = relative(x + 1, y + 1);
-  if (!is_finite(p10) || !is_finite(p01)) return;
-  if (is_finite(p00)) nearest = std::min(nearest, intersect_facet(ray.shear, ray.direction, p00, p10, p01));
-  if (is_finite(p11)) nearest = std::min(nearest, intersect_facet(ray.shear, ray.direction, p11, p01, p10));
+  if (!heightfield::is_finite(p10) || !heightfield::is_finite(p01)) return;
+  if (heightfield::is_finite(p00)) nearest = std::min(nearest, heightfield::intersect_facet(ray.shear, ray.direction, p00, p10, p01));
+  if (heightfield::is_finite(p11)) nearest = std::min(nearest, heightfield::intersect_facet(ray.shear, ray.direction, p11, p01, p10));
 }
 
-std::optional<double> Heightfield::intersect(glm::dvec3 origin, glm::dvec3 direction) const {
-  double nearest = infinity;
-  visit({origin, direction, make_shear(direction)}, static_cast<int>(maxima_.size()) - 1, 0, 0, nearest);
-  if (nearest == infinity) return std::nullopt;
+inline std::optional<double> Heightfield::intersect(glm::dvec3 origin, glm::dvec3 direction) const {
+  double nearest = heightfield::infinity;
+  visit({origin, direction, heightfield::make_shear(direction)}, static_cast<int>(maxima_.size()) - 1, 0, 0, nearest);
+  if (nearest == heightfield::infinity) return std::nullopt;
   return nearest;
 }
 
-}  // namespace belvedere
+}  // namespace belvedere::test
