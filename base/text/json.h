@@ -19,10 +19,20 @@ class Json {
   // What is JSON already.
   static Json raw(std::string json) { return Json(std::move(json)); }
   static Json texts(const std::vector<std::string>& texts);
+  // An array of them on one line.
+  template <class Values>
+  static Json numbers(const Values& values) {
+    std::string list;
+    for (const auto value : values) list += (list.empty() ? "" : ", ") + number(static_cast<double>(value)).scalar_;
+    return Json("[" + list + "]");
+  }
 
   // Adds a member to an object, an element to an array.
   Json& add(std::string_view key, Json value);
   Json& add(Json value);
+
+  // Nothing was added to it.
+  bool empty() const { return members_.empty(); }
 
   // Indented by two spaces a level, no line break at the end.
   std::string str(int depth = 0) const;

@@ -169,7 +169,7 @@ int run(const ExemplarCheckOptions& options) {
   ask(subject, asked, findings);
   if (!options.report.empty()) write_exemplar_report(options.report, subject.exemplars, asked, findings, describe_command(options));
   progress.end();
-  print_out(options.scene.json ? findings_json(findings) : findings_text(findings));
+  print_out(options.scene.json ? findings_json(findings).str() + "\n" : findings_text(findings));
   return 0;
 }
 

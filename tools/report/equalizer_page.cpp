@@ -20,7 +20,6 @@
 #include "terrain/generalize/foreground_share.h"
 #include "terrain/generalize/generalize_presets.h"
 #include "terrain/generalize/generalize_report.h"
-#include "tools/report/report_folder.h"
 #include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
@@ -317,7 +316,7 @@ std::string script_data(const EqualizerInput& in, Progress& progress) {
   add_preset("unchanged", unchanged, false, false);
   for (const GeneralizePreset& preset : generalize_presets())
     add_preset(preset.name, fitted(preset.bands, bands), preset.automatic_mask, preset.slope_mask.has_value());
-  std::string text = Json::object()
+  return script_json(Json::object()
                          .add("input", Json::text(in.title))
                          .add("bands", Json::number(static_cast<double>(bands)))
                          .add("viewer", Json::text(in.viewer_options))
@@ -328,30 +327,20 @@ std::string script_data(const EqualizerInput& in, Progress& progress) {
                          .add("switches", switches_of_page(in))
                          .add("terrains", std::move(terrains))
                          .add("checks", make_checks(previews, in, progress))
-                         .str();
-  // A file name must not end the script.
-  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 2)) text.replace(at, 2, "<\\/");
-  return text;
+                         .str());
 }
 
 }  // namespace
 
 void write_equalizer_page(const std::string& path, const EqualizerInput& input, Progress& progress) {
   progress.begin("equalizer page", 0.0);
-  const std::string text = fmt::format(
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Equalizer: "
-      "{0}</title>\n<style>\n{1}</style></head>\n<body>\n"
-      "<h1>Equalizer for {0}</h1>\n<p>Each slider is a band of landforms, the largest on the left: 1 keeps it, 0 takes it off, more "
-      "exaggerates it. "
-      "Ridges and valleys add to the weight along break lines. The preview follows the sliders.</p>\n<p id=\"verdict\"></p>\n"
-      "<main><div><canvas id=\"preview\"></canvas><p id=\"unseen\"></p><div id=\"views\"></div></div>\n<div><div id=\"presets\"></div>\n"
-      "<div id=\"switches\"></div>\n"
-      "<div id=\"foreground\" class=\"sets\"></div><div id=\"background\" class=\"sets\"></div>\n<p>The same for the whole DEM:</p>\n"
-      "<pre id=\"command\"></pre><button id=\"copy\">Copy</button></div></main>\n<script>\nconst equalizer = "
-      "{2};\n</script>\n<script>\n{3}{4}{5}</script>\n"
-      "</body></html>\n",
-      markup_text(input.title), embedded_file("equalizer/equalizer.css"), script_data(input, progress),
-      embedded_file("equalizer/generalize.js"), embedded_file("equalizer/lakes.js"), embedded_file("equalizer/equalizer.js"));
+  const std::string text =
+      filled_page(embedded_file("equalizer/index.html"), {{"title", markup_text(input.title)},
+                                                          {"css", std::string(embedded_file("equalizer/equalizer.css"))},
+                                                          {"data", script_data(input, progress)},
+                                                          {"generalize", std::string(embedded_file("equalizer/generalize.js"))},
+                                                          {"lakes", std::string(embedded_file("equalizer/lakes.js"))},
+                                                          {"page", std::string(embedded_file("equalizer/equalizer.js"))}});
   write_text_file(path, text);
 }
 

@@ -144,7 +144,7 @@ std::string findings_text(const ExemplarFindings& findings) {
   return out;
 }
 
-std::string findings_json(const ExemplarFindings& findings) {
+Json findings_json(const ExemplarFindings& findings) {
   Json paintings = Json::array();
   for (const ExemplarFindings::Painting& painting : findings.paintings) {
     Json classes = Json::array();
@@ -188,7 +188,7 @@ std::string findings_json(const ExemplarFindings& findings) {
                       .add("pixels", Json::number(pixels)));
     out.add("asked", std::move(demands)).add("missing", std::move(missing));
   }
-  return out.str() + "\n";
+  return out;
 }
 
 }  // namespace belvedere::tools

@@ -47,6 +47,6 @@ std::string describe_service(const ClassSurvey& of);
 std::string describe_demand(const ClassDemand& demand);
 
 std::string findings_text(const ExemplarFindings& findings);
-std::string findings_json(const ExemplarFindings& findings);
+Json findings_json(const ExemplarFindings& findings);
 
 }  // namespace belvedere::tools

@@ -17,11 +17,10 @@
 namespace belvedere::tools {
 namespace {
 
-void add_pyramid(ReportFolder& page, const Grid<float>& altitude_m, glm::dvec2 cell_m, const PixelRect& around, int bands) {
-  page.begin_figure(
-      "figure1", "Figure 1: the terrain taken apart",
-      "The first row is the Gaussian pyramid, from the original to its coarsest level; the second row shows the band that each "
-      "step took away (grey nothing, bright higher, dark lower), small landforms first.");
+void add_pyramid(Report& page, const Grid<float>& altitude_m, glm::dvec2 cell_m, const PixelRect& around, int bands) {
+  page.section("figure1", "Figure 1: the terrain taken apart",
+               "The first row is the Gaussian pyramid, from the original to its coarsest level; the second row shows the band that each "
+               "step took away (grey nothing, bright higher, dark lower), small landforms first.");
   // A quarter of the window: the smallest landforms are one or two cells wide and have to be seen.
   constexpr int side = 220;
   const int width = std::min(side, around.width());
@@ -54,7 +53,6 @@ void add_pyramid(ReportFolder& page, const Grid<float>& altitude_m, glm::dvec2 c
     page.picture(fmt::format("figure1_laplacian_{}", count - i), signed_picture(band, static_cast<float>(3.0 * rms)),
                  fmt::format("L{}, {:.0f}–{:.0f} m wide, ±{:.1f} m", count - i, std::ldexp(cell_m.x, i), std::ldexp(cell_m.x, i + 1), rms));
   }
-  page.end_figure();
 }
 
 }  // namespace
@@ -71,14 +69,15 @@ FigureWindows choose_windows(const Grid<float>& altitude_m, glm::dvec2 cell_m, c
   Grid<float> far = share;
   for (float& v : near) v = v >= nearest_quarter ? 1.F : 0.F;
   for (float& v : far) v = v <= farthest_quarter ? 1.F : 0.F;
-  return {best_window(score, {}, ReliefPainter::window_px), best_window(score, near, ReliefPainter::window_px),
-          best_window(score, far, ReliefPainter::window_px)};
+  return {best_window(score, {}, window_px), best_window(score, near, window_px), best_window(score, far, window_px)};
 }
 
-void add_paper_figures(ReportFolder& page, const GeneralizeReportInput& in, const Grid<float>& share, const FigureWindows& windows,
+void add_paper_figures(Report& page, const GeneralizeReportInput& in, const Grid<float>& share, const FigureWindows& windows,
                        Progress& progress) {
-  ReliefPainter paint(page, in.cell_m);
   const Grid<float>& before = in.before_m;
+  const auto relief = [&](const std::string& name, const Grid<float>& altitude_m, const PixelRect& where, const std::string& caption) {
+    page.picture(name, relief_picture(cut(altitude_m, where), in.cell_m, window_px), caption);
+  };
   const auto filtered = [&](const GeneralizeParameters& parameters, Grid<float> where, Grid<float> mask) {
     GeneralizeGrids grids;
     grids.keep = in.grids.keep;
@@ -90,53 +89,46 @@ void add_paper_figures(ReportFolder& page, const GeneralizeReportInput& in, cons
 
   const GeneralizeParameters figure_2 = find_generalize_preset("figure2")->bands;
   const Grid<float> amplified = filtered(figure_2, {}, {});
-  page.begin_figure(
-      "figure2", "Figure 2: fine detail removed, middle forms doubled",
-      "With the paper's weights 100, 100, 200, 25 and 0 % the right picture has lost its small gullies and its main ridges and "
-      "valleys stand out.");
-  paint.window("figure2_original", before, windows.ridges, "original");
-  paint.window("figure2_filtered", amplified, windows.ridges, "filtered");
-  page.end_figure();
+  page.section("figure2", "Figure 2: fine detail removed, middle forms doubled",
+               "With the paper's weights 100, 100, 200, 25 and 0 % the right picture has lost its small gullies and its main ridges and "
+               "valleys stand out.");
+  relief("figure2_original", before, windows.ridges, "original");
+  relief("figure2_filtered", amplified, windows.ridges, "filtered");
 
   GeneralizeParameters global;
   global.foreground = global.background = {1.F, 1.F, 0.4F, 0.1F, 0.F};
   GeneralizeParameters local = global;
   local.foreground_ridges = local.background_ridges = {0.F, 0.F, 0.7F, 1.F, 1.1F};
   local.foreground_valleys = local.background_valleys = {0.F, 0.F, 0.4F, 0.6F, 0.6F};
-  page.begin_figure("figure3", "Figure 3: ridges and valley lines kept by curvature",
-                    "In the middle the same weights everywhere blur the ridges; on the right further weights along ridges and valley lines "
-                    "bring their edges back while slopes stay quiet.");
-  paint.window("figure3_original", before, windows.ridges, "original");
-  paint.window("figure3_global", filtered(global, {}, {}), windows.ridges, "the same weights everywhere");
-  paint.window("figure3_local", filtered(local, {}, {}), windows.ridges, "further weights along ridges and valleys");
-  page.end_figure();
+  page.section("figure3", "Figure 3: ridges and valley lines kept by curvature",
+               "In the middle the same weights everywhere blur the ridges; on the right further weights along ridges and valley lines "
+               "bring their edges back while slopes stay quiet.");
+  relief("figure3_original", before, windows.ridges, "original");
+  relief("figure3_global", filtered(global, {}, {}), windows.ridges, "the same weights everywhere");
+  relief("figure3_local", filtered(local, {}, {}), windows.ridges, "further weights along ridges and valleys");
 
   const Grid<float> by_distance = filtered(find_generalize_preset("figure4")->bands, share, {});
-  page.begin_figure("figure4", "Figure 4: more generalization with distance",
-                    "Near ground (first two) should hardly differ; on far ground (last two) only large forms and their ridges are left.");
-  paint.window("figure4_near_original", before, windows.near, "near, original");
-  paint.window("figure4_near_filtered", by_distance, windows.near, "near, filtered");
-  paint.window("figure4_far_original", before, windows.far, "far, original");
-  paint.window("figure4_far_filtered", by_distance, windows.far, "far, filtered");
-  page.end_figure();
+  page.section("figure4", "Figure 4: more generalization with distance",
+               "Near ground (first two) should hardly differ; on far ground (last two) only large forms and their ridges are left.");
+  relief("figure4_near_original", before, windows.near, "near, original");
+  relief("figure4_near_filtered", by_distance, windows.near, "near, filtered");
+  relief("figure4_far_original", before, windows.far, "far, original");
+  relief("figure4_far_filtered", by_distance, windows.far, "far, filtered");
 
   const Grid<std::uint8_t> feet = slope_feet(before, in.cell_m, static_cast<int>(figure_2.foreground.size()));
   Grid<float> dug(before.width(), before.height());
   for (std::size_t i = 0; i < dug.size(); ++i) dug[i] = feet[i] != 0 ? std::max(0.F, before[i] - amplified[i]) : 0.F;
-  const PixelRect window = best_window(dug, {}, ReliefPainter::window_px);
+  const PixelRect window = best_window(dug, {}, window_px);
   const Grid<float> masked = filtered(figure_2, {}, slope_mask(before, in.cell_m, SlopeRange{}));
   constexpr float full_m = 20.F;
-  page.begin_figure(
-      "figure5", "Figure 5: flat ground protected by a mask",
-      "Red ground was lowered and blue ground raised, fully at 20 m: red moats along the foot of slopes in the middle picture "
-      "should be gone on the right, where only steep ground is filtered.");
-  paint.window("figure5_original", before, window, "original");
-  page.picture("figure5_everywhere",
-               change_picture(cut(before, window), cut(amplified, window), in.cell_m, full_m, ReliefPainter::window_px),
+  page.section("figure5", "Figure 5: flat ground protected by a mask",
+               "Red ground was lowered and blue ground raised, fully at 20 m: red moats along the foot of slopes in the middle picture "
+               "should be gone on the right, where only steep ground is filtered.");
+  relief("figure5_original", before, window, "original");
+  page.picture("figure5_everywhere", change_picture(cut(before, window), cut(amplified, window), in.cell_m, full_m, window_px),
                "filtered everywhere");
-  page.picture("figure5_masked", change_picture(cut(before, window), cut(masked, window), in.cell_m, full_m, ReliefPainter::window_px),
+  page.picture("figure5_masked", change_picture(cut(before, window), cut(masked, window), in.cell_m, full_m, window_px),
                "steep ground only");
-  page.end_figure();
 }
 
 }  // namespace belvedere::tools

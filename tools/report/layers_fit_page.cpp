@@ -3,20 +3,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <utility>
 
-#include "base/text/hex_colour.h"
-#include "base/text/json.h"
-#include "base/text/markup.h"
 #include "terrain/layers/fit/colour_regions.h"
 #include "terrain/layers/fit/held_out.h"
 #include "terrain/layers/fit/hue_saturation.h"
 #include "terrain/layers/layer_coverage.h"
-#include "tools/report/report_folder.h"
+#include "tools/report/report.h"
 #include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
@@ -85,30 +81,22 @@ double value_at(const LayerSamples& function, std::size_t i) {
   return function.at_0 + (function.at_255 - function.at_0) * static_cast<double>(function.samples[i]) / 255.0;
 }
 
-// A function as a line over its input's range; behind it, in grey, where the class occurs.
-std::string function_chart(const LayerSamples& function, const std::vector<std::size_t>& histogram, const std::string& colour, double low,
-                           double high) {
-  constexpr double width = 128.0;
-  constexpr double height = 64.0;
+// A function as a line over its input's range, 0…1 from low to high; behind it how often the class occurs.
+Json function_curve(const LayerSamples& function, const std::vector<std::size_t>& histogram, glm::vec3 colour, double low, double high) {
   const auto most = static_cast<double>(std::max<std::size_t>(*std::max_element(histogram.begin(), histogram.end()), 1));
-  std::string area;
-  std::string line;
+  const auto rounded = [](double v) { return std::round(1000.0 * v) / 1000.0; };
+  std::vector<double> places, line, area;
   for (std::size_t i = 0; i != 256; i += 2) {
-    const double x = width * layer_sample_place(static_cast<int>(i));
-    area += fmt::format("{:.1f},{:.1f} ", x, height - height * static_cast<double>(histogram[i] + histogram[i + 1]) / (2.0 * most));
-    line += fmt::format("{:.1f},{:.1f} ", x,
-                        height - (height - 2.0) * std::clamp((value_at(function, i) - low) / std::max(high - low, 1e-9), 0.0, 1.0) - 1.0);
+    places.push_back(rounded(layer_sample_place(static_cast<int>(i))));
+    area.push_back(rounded(static_cast<double>(histogram[i] + histogram[i + 1]) / (2.0 * most)));
+    line.push_back(rounded(std::clamp((value_at(function, i) - low) / std::max(high - low, 1e-9), 0.0, 1.0)));
   }
-  return fmt::format(
-      "<svg width=\"{0:.0f}\" height=\"{1:.0f}\"><rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#f4f4f4\"/>"
-      "<polygon points=\"0,{1:.0f} {2}{0:.0f},{1:.0f}\" fill=\"#cccccc\"/><polyline points=\"{3}\" fill=\"none\" stroke=\"{4}\" "
-      "stroke-width=\"2\"/></svg>",
-      width, height, area, line, colour);
+  return swatch(colour).add("places", Json::numbers(places)).add("line", Json::numbers(line)).add("area", Json::numbers(area));
 }
 
-void add_inputs(ReportFolder& page, const KnownGround& ground, const GroundFit& fit) {
-  page.begin_figure("inputs", "What is known of the ground",
-                    "The inputs that functions are of, black at the low end of the range that functions cover and white at the high end.");
+void add_inputs(Report& page, const KnownGround& ground, const GroundFit& fit) {
+  page.section("inputs", "What is known of the ground",
+               "The inputs that functions are of, black at the low end of the range that functions cover and white at the high end.");
   for (std::size_t a = 0; a != ground.inputs.size(); ++a) {
     Grid<float> cells = ground.inputs[a];
     const LayerInput& range = fit.ranges[a];
@@ -118,33 +106,28 @@ void add_inputs(ReportFolder& page, const KnownGround& ground, const GroundFit& 
     page.picture(fmt::format("input_{}", range.name), reduced_picture(grey, small_map_px / 2),
                  fmt::format("{}: {:.4g} … {:.4g}", range.name, range.low, range.high));
   }
-  page.end_figure();
 }
 
-void add_classes(ReportFolder& page, const KnownGround& ground, const std::vector<glm::vec3>& colours) {
-  page.begin_figure(
-      "classes", "Classes",
-      ground.picture
-          ? "The picture, what it was taken for (black: cloud, shadow, masked or too dark to tell), and how many cells have each "
-            "colour of the hue–saturation plane, red to the right, green upwards to the left."
-          : "What the land-cover map says (black: nothing to be learned from).");
+void add_classes(Report& page, const KnownGround& ground, const std::vector<glm::vec3>& colours) {
+  page.section("classes", "Classes",
+               ground.picture
+                   ? "The picture, what it was taken for (black: cloud, shadow, masked or too dark to tell), and how many cells have each "
+                     "colour of the hue–saturation plane, red to the right, green upwards to the left."
+                   : "What the land-cover map says (black: nothing to be learned from).");
   if (ground.picture) page.picture("picture", reduced_picture(picture_of(ground.picture->rgb), small_map_px), "picture");
   page.picture("classes", reduced_picture(class_map(ground.altitude_m, ground.labels, colours), small_map_px), "classes");
   if (ground.picture) page.picture("plane", plane_picture(ground, colours), "hue and saturation");
-  page.end_figure();
 }
 
-void add_functions(ReportFolder& page, const KnownGround& ground, const GroundFit& fit, const std::vector<glm::vec3>& colours) {
-  page.add(
-      "<section id=\"functions\"><h2>Functions</h2>\n<p>Line: what the file holds, for each class and input. Grey: where the class "
-      "occurs.</p>\n<table>");
-  std::vector<std::string> head = {""};
-  for (const LayerInput& range : fit.ranges) head.push_back(markup_text(range.name));
-  page.add(html_row(head, "th"));
+void add_functions(Report& page, const KnownGround& ground, const GroundFit& fit, const std::vector<glm::vec3>& colours) {
+  page.section("functions", "Functions", "Line: what the file holds, for each class and input. Grey: where the class occurs.");
+  std::vector<ReportColumn> columns = {{"class", ""}};
+  for (const LayerInput& range : fit.ranges) columns.push_back({range.name, range.name});
+  ReportTable table(columns);
   const std::vector<std::vector<std::uint8_t>> samples = sample_indices(ground.inputs, fit.ranges);
   for (std::size_t rank = ground.classes.size(); rank-- != 0;) {
     const auto k = static_cast<std::size_t>(fit.classes.order[rank]);
-    std::vector<std::string> row = {markup_text(ground.classes[k].name)};
+    std::vector<Json> row = {Json::text(ground.classes[k].name)};
     double low = 0.0;
     double high = 1.0;
     if (fit.classes.model == LayerModel::additive)
@@ -156,15 +139,15 @@ void add_functions(ReportFolder& page, const KnownGround& ground, const GroundFi
       std::vector<std::size_t> histogram(256, 0);
       for (std::size_t i = 0; i != ground.labels.size(); ++i)
         if (ground.labels[i] == k) ++histogram[samples[a][i]];
-      row.push_back(function_chart(fit.classes.functions[k][a], histogram, hex_colour(colours[k]), low, high));
+      row.push_back(function_curve(fit.classes.functions[k][a], histogram, colours[k], low, high));
     }
-    page.add(html_row(row));
+    table.add_row(std::move(row));
   }
-  page.add("</table></section>");
+  page.table(table);
 }
 
 // The cell where most layers lie over each other to some extent: the first of equals.
-void add_trace(ReportFolder& page, const LayersFitReportInput& in) {
+void add_trace(Report& page, const LayersFitReportInput& in) {
   const LayerProgram program = compile_layers(in.layers);
   std::vector<Grid<float>> inputs;
   for (const std::string& name : program.inputs) {
@@ -184,35 +167,34 @@ void add_trace(ReportFolder& page, const LayersFitReportInput& in) {
       cell = i;
     }
   }
-  page.add(
-      fmt::format("<section id=\"trace\"><h2>One place, layer by layer</h2>\n<p>Cell {}, {}: its colour as each layer is laid on, RGB' = "
-                  "(1 − C) RGB + C "
-                  "RGB of the layer. C is never more than the parent's.</p>\n<table>",
+  page.section(
+      "trace", "One place, layer by layer",
+      fmt::format("Cell {}, {}: its colour as each layer is laid on, RGB' = (1 − C) RGB + C RGB of the layer. C is never more than "
+                  "the parent's.",
                   cell % static_cast<std::size_t>(all.x1), cell / static_cast<std::size_t>(all.x1)));
-  page.add(html_row({"layer", "under", "C of the parent", "C", "its colour", "colour so far"}, "th"));
+  ReportTable table({{"layer", "layer"},
+                     {"under", "under"},
+                     {"parent_coverage", "C of the parent", ".3f"},
+                     {"coverage", "C", ".3f"},
+                     {"layer_colour", "its colour"},
+                     {"colour", "colour so far"}});
   glm::vec3 colour = unpacked(in.layers.ground_rgb);
-  const auto swatch = [](const glm::vec3& rgb) {
-    return fmt::format("<span style=\"background:{0}\">&emsp;&emsp;</span> {0}", hex_colour(rgb));
-  };
-  page.add(html_row({"ground", "", "", "1", swatch(colour), swatch(colour)}));
+  table.row("ground", "", "", 1.0, swatch(colour), swatch(colour));
   for (std::size_t l = 0; l != in.layers.layers.size(); ++l) {
     const SurfaceLayer& layer = in.layers.layers[l];
     const float c = coverage[l][cell];
     if (program.paints[l]) colour = (1.0F - c) * colour + c * unpacked(layer.rgb);
     const bool child = layer.parent >= 0;
-    page.add(html_row({markup_text(layer.name), child ? markup_text(in.layers.layers[static_cast<std::size_t>(layer.parent)].name) : "",
-                       child ? fmt::format("{:.3f}", coverage[static_cast<std::size_t>(layer.parent)][cell]) : "1",
-                       fmt::format("{:.3f}", c), swatch(unpacked(layer.rgb)), swatch(colour)}));
+    table.row(layer.name, child ? in.layers.layers[static_cast<std::size_t>(layer.parent)].name : std::string(),
+              child ? coverage[static_cast<std::size_t>(layer.parent)][cell] : 1.F, c, swatch(unpacked(layer.rgb)), swatch(colour));
   }
-  page.add("</table></section>");
+  page.table(table);
 }
 
 struct Judged {
   std::string model;
   std::vector<HeldOutResult> results;  // of each way to hold out
 };
-
-std::string number(double v, int digits = 3) { return std::isnan(v) ? "–" : fmt::format("{:.{}f}", v, digits); }
 
 HeldOutResult mean_of(const HeldOutResult& a, const HeldOutResult& b) {
   HeldOutResult mean = a;
@@ -267,100 +249,85 @@ std::vector<Judged> judge_models(const LayersFitReportInput& in, Progress& progr
   return judged;
 }
 
-void add_judgement(ReportFolder& page, const LayersFitReportInput& in, const std::vector<Judged>& judged) {
-  page.add(
-      "<section id=\"judgement\"><h2>On ground that the fit has not seen</h2>\n<p>Tiles: fitted on one colour of a chessboard, judged on "
-      "the other, both "
-      "ways; neighbouring tiles look alike, so this flatters. Halves: west by east, north by south and back, which is to extrapolate. "
-      "Accuracy: "
-      "cells whose most likely class is the true one. AUC: the chance that a cell of a class gets a larger share of it than another cell. "
-      "IoU: cells "
-      "of both over cells of either; matched: with shares scaled so that each class covers its true area.</p>\n<table>");
-  page.add(html_row({"", "tiles: accuracy", "AUC", "IoU", "matched", "halves: accuracy", "AUC", "IoU", "matched"}, "th"));
+ReportTable measures_table(const std::vector<Judged>& judged) {
+  std::vector<ReportColumn> columns = {{"model", ""}};
+  for (const std::string way : {"tiles", "halves"}) {
+    const std::vector<ReportColumn> of = {{way + "_accuracy", way + ": accuracy", ".3f"},
+                                          {way + "_auc", "AUC", ".3f"},
+                                          {way + "_iou", "IoU", ".3f"},
+                                          {way + "_iou_matched", "matched", ".3f"}};
+    columns.insert(columns.end(), of.begin(), of.end());
+  }
+  ReportTable table(columns);
   for (const Judged& one : judged) {
-    std::vector<std::string> row = {markup_text(one.model)};
+    std::vector<Json> row = {Json::text(one.model)};
     for (const HeldOutResult& r : one.results)
-      row.insert(row.end(),
-                 {number(r.measures.accuracy), number(r.measures.mean_auc), number(r.measures.mean_iou), number(r.matched.mean_iou)});
-    page.add(html_row(row));
+      for (const double v : {r.measures.accuracy, r.measures.mean_auc, r.measures.mean_iou, r.matched.mean_iou}) row.push_back(known(v));
+    table.add_row(std::move(row));
   }
-  page.add("</table>");
-  const ClassMeasures& own = judged[1].results[0].measures;
-  page.add("<h3>Class by class, as in the file, tiles</h3>\n<table>");
-  std::vector<std::string> head = {"true \\ most likely"};
-  for (const FitClass& c : in.ground->classes) head.push_back(markup_text(c.name));
-  head.insert(head.end(), {"AUC", "IoU"});
-  page.add(html_row(head, "th"));
-  for (std::size_t k = 0; k != own.counts.size(); ++k) {
-    std::vector<std::string> row = {markup_text(in.ground->classes[k].name)};
-    for (const std::size_t n : own.counts[k]) row.push_back(fmt::format("{}", n));
-    row.insert(row.end(), {number(own.auc[k]), number(own.iou[k])});
-    page.add(html_row(row));
-  }
-  page.add("</table>");
-  if (in.ground->picture) {
-    page.add(
-        "<h3>Colour difference ΔE00 of the means of blocks, lit again by the sun found (exceeded by one block in twenty)</h3>\n<table>");
-    page.add(html_row({"", "cell", "16 cells", "32 cells", "64 cells", "halves: 32 cells", "gradient energy, of the picture's"}, "th"));
-    for (const Judged& one : judged) {
-      if (one.results[0].differences.empty()) continue;
-      std::vector<std::string> row = {markup_text(one.model)};
-      for (const BlockDifference& d : one.results[0].differences) row.push_back(fmt::format("{:.2f} ({:.1f})", d.mean, d.p95));
-      row.push_back(fmt::format("{:.2f} ({:.1f})", one.results[1].differences[2].mean, one.results[1].differences[2].p95));
-      row.push_back(number(one.results[0].gradient_share, 2));
-      page.add(html_row(row));
-    }
-    page.add("</table>");
-  }
-  page.add("</section>");
+  return table;
 }
 
-void add_reproduction(ReportFolder& page, const LayersFitReportInput& in, const HeldOutResult& held_out,
-                      const std::vector<glm::vec3>& colours) {
+ReportTable confusion_table(const KnownGround& ground, const ClassMeasures& own) {
+  std::vector<ReportColumn> columns = {{"true", "true \\ most likely"}};
+  for (std::size_t k = 0; k != ground.classes.size(); ++k) columns.push_back({fmt::format("class_{}", k + 1), ground.classes[k].name});
+  columns.insert(columns.end(), {{"auc", "AUC", ".3f"}, {"iou", "IoU", ".3f"}});
+  ReportTable table(columns);
+  for (std::size_t k = 0; k != own.counts.size(); ++k) {
+    std::vector<Json> row = {Json::text(ground.classes[k].name)};
+    for (const std::size_t n : own.counts[k]) row.push_back(Json::number(static_cast<double>(n)));
+    row.insert(row.end(), {known(own.auc[k]), known(own.iou[k])});
+    table.add_row(std::move(row));
+  }
+  return table;
+}
+
+ReportTable difference_table(const std::vector<Judged>& judged) {
+  std::vector<ReportColumn> columns = {{"model", ""}};
+  for (const BlockDifference& d : judged[1].results[0].differences) {
+    const std::string cells = d.block == 1 ? "cell" : fmt::format("{} cells", d.block);
+    columns.push_back({fmt::format("delta_e00_{}", d.block), cells, ".2f"});
+    columns.push_back({fmt::format("delta_e00_{}_p95", d.block), "1 in 20", ".1f", "exceeded by one block in twenty"});
+  }
+  columns.insert(columns.end(), {{"halves_delta_e00_32", "halves: 32 cells", ".2f"},
+                                 {"halves_delta_e00_32_p95", "1 in 20", ".1f", "exceeded by one block in twenty"},
+                                 {"gradient_share", "gradient energy, of the picture's", ".2f"}});
+  ReportTable table(columns);
+  for (const Judged& one : judged) {
+    if (one.results[0].differences.empty()) continue;
+    std::vector<Json> row = {Json::text(one.model)};
+    for (const BlockDifference& d : one.results[0].differences) row.insert(row.end(), {known(d.mean), known(d.p95)});
+    const BlockDifference& halves = one.results[1].differences[2];
+    row.insert(row.end(), {known(halves.mean), known(halves.p95), known(one.results[0].gradient_share)});
+    table.add_row(std::move(row));
+  }
+  return table;
+}
+
+void add_judgement(Report& page, const LayersFitReportInput& in, const std::vector<Judged>& judged) {
+  page.section("judgement", "On ground that the fit has not seen",
+               "Tiles: fitted on one colour of a chessboard, judged on the other, both ways; neighbouring tiles look alike, so this "
+               "flatters. Halves: west by east, north by south and back, which is to extrapolate. Accuracy: cells whose most likely class "
+               "is the true one. AUC: the chance that a cell of a class gets a larger share of it than another cell. IoU: cells of both "
+               "over cells of either; matched: with shares scaled so that each class covers its true area.");
+  page.table(measures_table(judged));
+  page.table(confusion_table(*in.ground, judged[1].results[0].measures), "Class by class, as in the file, tiles");
+  if (in.ground->picture)
+    page.table(difference_table(judged),
+               "Colour difference ΔE00 of the means of blocks, lit again by the sun found, and what one block in twenty exceeds");
+}
+
+void add_reproduction(Report& page, const LayersFitReportInput& in, const HeldOutResult& held_out, const std::vector<glm::vec3>& colours) {
   const std::vector<std::uint8_t> likely = most_likely(held_out.prediction.classes);
-  page.begin_figure("reproduction", "Original and reproduction",
-                    "Everything is painted by a fit that has not seen the place. Drag the slider.");
+  page.section("reproduction", "Original and reproduction", "Everything is painted by a fit that has not seen the place. Drag the slider.");
   const Grid<glm::vec3> original =
       in.ground->picture ? picture_of(in.ground->picture->rgb) : class_map(in.ground->altitude_m, in.ground->labels, colours);
   const Grid<glm::vec3> made =
       in.ground->picture ? picture_of(held_out.prediction.expected) : class_map(in.ground->altitude_m, likely, colours);
-  const Grid<glm::vec3> left = reduced_picture(original, 2 * small_map_px);
-  page.write_picture("original", left);
-  page.write_picture("reproduction", reduced_picture(made, 2 * small_map_px));
-  page.add(fmt::format(
-      "<div style=\"position:relative;width:{0}px;height:{1}px\"><img src=\"reproduction.png\" alt=\"reproduction\" "
-      "style=\"position:absolute\">"
-      "<img id=\"original\" src=\"original.png\" alt=\"original\" style=\"position:absolute;clip-path:inset(0 50% 0 0)\"></div>\n"
-      "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" style=\"width:{0}px\" aria-label=\"original on the left, reproduction on "
-      "the right\" "
-      "oninput=\"document.getElementById('original').style.clipPath='inset(0 '+(100-this.value)+'% 0 0)'\">",
-      left.width(), left.height()));
-  page.end_figure();
-  page.begin_figure("likely", "Most likely classes", "Beside the classes they are judged against.");
+  page.compare("original", reduced_picture(original, 2 * small_map_px), "reproduction", reduced_picture(made, 2 * small_map_px));
+  page.section("likely", "Most likely classes", "Beside the classes they are judged against.");
   page.picture("true_classes", reduced_picture(class_map(in.ground->altitude_m, in.ground->labels, colours), small_map_px), "true");
   page.picture("likely_classes", reduced_picture(class_map(in.ground->altitude_m, likely, colours), small_map_px), "most likely, not seen");
-  page.end_figure();
-}
-
-std::string as_json(const LayersFitReportInput& in, const std::vector<Judged>& judged) {
-  Json models = Json::array();
-  for (const Judged& one : judged) {
-    Json model = Json::object();
-    model.add("model", Json::text(one.model));
-    const std::array<const char*, 2> ways = {"tiles", "halves"};
-    for (std::size_t w = 0; w != ways.size(); ++w) {
-      const HeldOutResult& r = one.results[w];
-      Json way = Json::object();
-      way.add("accuracy", Json::number(r.measures.accuracy)).add("auc", Json::number(r.measures.mean_auc));
-      way.add("iou", Json::number(r.measures.mean_iou)).add("iou_matched", Json::number(r.matched.mean_iou));
-      for (const BlockDifference& d : r.differences) way.add(fmt::format("delta_e00_{}", d.block), Json::number(d.mean));
-      if (!r.differences.empty()) way.add("gradient_share", Json::number(r.gradient_share));
-      model.add(ways[w], std::move(way));
-    }
-    models.add(std::move(model));
-  }
-  return Json::object().add("title", Json::text(in.title)).add("notes", Json::texts(in.notes)).add("models", std::move(models)).str() +
-         "\n";
 }
 
 }  // namespace
@@ -369,19 +336,18 @@ void write_layers_fit_report(const std::string& folder, const LayersFitReportInp
   const std::vector<Judged> judged = judge_models(input, progress);
   progress.begin("writing the report", 0.0);
   const std::vector<glm::vec3> colours = class_colours(*input.ground, *input.fit);
-  ReportFolder page(folder);
-  page.add("<ul>");
-  for (const std::string& note : input.notes) page.add("<li>" + markup_text(note) + "</li>");
-  page.add("</ul>");
+  Report page(folder);
+  page.section("notes", "");
+  page.list(input.notes);
   add_reproduction(page, input, judged[1].results[0], colours);
   add_judgement(page, input, judged);
   add_classes(page, *input.ground, colours);
   add_functions(page, *input.ground, *input.fit, colours);
   add_trace(page, input);
   add_inputs(page, *input.ground, *input.fit);
-  page.write("report.json", as_json(input, judged));
-  page.write_page("Surface layers", input.title, "What surface layers learned, and how well they tell ground they have not seen.",
-                  input.command);
+  page.write({.title = "Surface layers: " + input.title,
+              .lead = "What surface layers learned, and how well they tell ground they have not seen.",
+              .command = input.command});
 }
 
 }  // namespace belvedere::tools

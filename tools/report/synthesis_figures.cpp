@@ -8,6 +8,7 @@ namespace belvedere::tools {
 namespace {
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 // The class's value that lies farthest from 1; values of 0 are not known.
 double farthest_from_one(const SynthesisQuality& quality, double ClassQuality::*value) {
@@ -21,14 +22,6 @@ double largest(const SynthesisQuality& quality, double ClassQuality::*value) {
   double worst = 0.0;
   for (const ClassQuality& of : quality.classes) worst = std::max(worst, of.*value);
   return worst;
-}
-
-Json seams_json(const SeamVisibility& seams) {
-  return Json::object()
-      .add("pairs", Json::number(static_cast<double>(seams.pairs)))
-      .add("compared", Json::number(static_cast<double>(seams.compared)))
-      .add("step", Json::number(seams.step))
-      .add("visibility", Json::number(seams.visibility));
 }
 
 }  // namespace
@@ -63,29 +56,34 @@ std::vector<QualityFigure> key_figures(const SynthesisQuality& q) {
   return figures;
 }
 
-Json quality_json(const SynthesisQuality& quality, const std::function<std::string(std::uint8_t)>& class_name) {
-  Json out = Json::object();
-  for (const QualityFigure& figure : key_figures(quality))
-    out.add(figure.key, Json::object().add("value", Json::number(figure.value)).add("good", Json::boolean(figure.good())));
-  if (quality.exemplars > 1)
-    out.add("seams", Json::object().add("between", seams_json(quality.seams.between)).add("within", seams_json(quality.seams.within)));
-  Json classes = Json::array();
+ReportTable class_table(const SynthesisQuality& quality, const std::vector<ClassSupply>& supplies,
+                        const std::function<std::string(std::uint8_t)>& class_name) {
+  ReportTable classes({{"name", "class"},
+                       {"pixels", "pixels"},
+                       {"asked", "asked of it", "", "with those of classes that have no texels of their own"},
+                       {"texels", "texels"},
+                       {"texels_needed", "needed"},
+                       {"sharpness", "sharpness", ".2f"},
+                       {"stroke_run", "strokes", ".2f"},
+                       {"clique_distance", "clique", ".3f"},
+                       {"clique_floor", "floor", ".3f"},
+                       {"clique_beyond_floor", "beyond", ".3f"},
+                       {"colour_distance", "colour", ".1f"},
+                       {"colour_floor", "floor", ".1f"},
+                       {"colour_beyond_floor", "beyond", ".1f"}});
   for (const ClassQuality& of : quality.classes) {
-    classes.add(Json::object()
-                    .add("label", Json::number(of.label))
-                    .add("name", Json::text(class_name(of.label)))
-                    .add("pixels", Json::number(static_cast<double>(of.pixels)))
-                    .add("texels", Json::number(static_cast<double>(of.texels)))
-                    .add("sharpness", Json::number(of.sharpness))
-                    .add("stroke_run", Json::number(of.stroke_run))
-                    .add("clique_distance", Json::number(of.clique_distance))
-                    .add("clique_floor", Json::number(of.clique_floor))
-                    .add("clique_beyond_floor", Json::number(of.clique_beyond_floor))
-                    .add("colour_distance", Json::number(of.colour_distance))
-                    .add("colour_floor", Json::number(of.colour_floor))
-                    .add("colour_beyond_floor", Json::number(of.colour_beyond_floor)));
+    const auto supply = std::find_if(supplies.begin(), supplies.end(), [&](const ClassSupply& s) { return s.label == of.label; });
+    const bool served = supply != supplies.end();
+    const auto ratio = [](double v, double least, double most) {
+      return judged(v == 0.0 ? not_known : v, v == 0.0 || (v >= least && v <= most));
+    };
+    classes.row(class_name(of.label), of.pixels, served ? static_cast<double>(supply->pixels) : not_known, of.texels,
+                served ? judged(static_cast<double>(supply->texels_needed()), supply->enough()) : known(not_known),
+                ratio(of.sharpness, 0.95, 1.05), ratio(of.stroke_run, 0.85, 1.15), judged(of.clique_distance, of.clique_distance <= 0.08),
+                of.clique_floor, of.clique_beyond_floor, judged(of.colour_distance, of.colour_distance <= 3.0), of.colour_floor,
+                of.colour_beyond_floor);
   }
-  return out.add("classes", std::move(classes));
+  return classes;
 }
 
 }  // namespace belvedere::tools

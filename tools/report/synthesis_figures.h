@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "base/text/json.h"
 #include "texture/quality/quality.h"
+#include "texture/synthesis/class_supply.h"
+#include "tools/report/report.h"
 
 namespace belvedere::tools {
 
@@ -21,6 +22,8 @@ struct QualityFigure {
 };
 // Those of a whole picture; those of classes by the worst of them.
 std::vector<QualityFigure> key_figures(const SynthesisQuality& quality);
-Json quality_json(const SynthesisQuality& quality, const std::function<std::string(std::uint8_t)>& class_name);
+// Class by class, with the texels that are there and needed.
+ReportTable class_table(const SynthesisQuality& quality, const std::vector<ClassSupply>& supplies,
+                        const std::function<std::string(std::uint8_t)>& class_name);
 
 }  // namespace belvedere::tools

@@ -3,13 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/error.h"
 #include "base/text/markup.h"
 #include "tools/report/picture_text.h"
-#include "tools/report/report_folder.h"
+#include "tools/report/report.h"
 #include "tools/report/report_pictures.h"
 #include "tools/report/synthesis_figures.h"
 #include "tools/report/synthesis_findings.h"
@@ -17,7 +17,8 @@
 namespace belvedere::tools {
 namespace {
 
-constexpr int map_px = 600;    // longest side of a map
+constexpr int map_px = 600;  // longest side of a map
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int crop_times = 4;  // worst places are shown so many times as large
 
 Grid<glm::vec3> grey_picture(const Grid<std::uint8_t>& values) {
@@ -71,21 +72,10 @@ void mark(Grid<glm::vec3>& map, const Place& place, int factor) {
   draw_text(map, r.x0 + 3, r.y0 + 2, place.letter, yellow, 1);
 }
 
-std::string number_text(double value) { return value == std::floor(value) ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value); }
-
-std::string range_text(const QualityFigure& figure) {
-  if (std::isinf(figure.most)) return "–";
-  if (figure.least == figure.most) return number_text(figure.most);
-  return figure.least == 0.0 ? "≤ " + number_text(figure.most)
-                             : fmt::format("{} – {}", number_text(figure.least), number_text(figure.most));
-}
-
-std::string coloured(const std::string& text, bool good) { return good ? text : "<b style=\"color:#b03\">" + text + "</b>"; }
-
-void add_overview(ReportFolder& page, const SynthesisReportInput& in, const Grid<glm::vec3>& picture, const SynthesisFindings& found) {
-  page.begin_figure("overview", "The picture and what it was made of",
-                    "Left the classes asked for, then the picture; the frames are the places shown at the end. Below the paintings with "
-                    "their classes; what is excluded is near black.");
+void add_overview(Report& page, const SynthesisReportInput& in, const Grid<glm::vec3>& picture, const SynthesisFindings& found) {
+  page.section("overview", "The picture and what it was made of",
+               "Left the classes asked for, then the picture; the frames are the places shown at the end. Below the paintings with "
+               "their classes; what is excluded is near black.");
   page.picture("target_classes", reduced_picture(label_picture(in.target.label), map_px), "classes of the target");
   Grid<glm::vec3> small = reduced_picture(picture, map_px);
   const int factor = std::max(1, (std::max(picture.width(), picture.height()) + map_px - 1) / map_px);
@@ -96,68 +86,47 @@ void add_overview(ReportFolder& page, const SynthesisReportInput& in, const Grid
     page.next_row();
     page.picture(fmt::format("painting_{}_classes", e + 1), reduced_picture(label_picture(exemplar.guides.label), map_px),
                  "classes of the painting");
-    page.picture(fmt::format("painting_{}", e + 1), reduced_picture(to_picture(exemplar.picture), map_px), markup_text(exemplar.name));
+    page.picture(fmt::format("painting_{}", e + 1), reduced_picture(to_picture(exemplar.picture), map_px), exemplar.name);
   }
-  page.end_figure();
 }
 
-void add_seams(ReportFolder& page, const SeamsOfKinds& seams) {
-  page.add("<section id=\"seams\"><h2>Seams between paintings</h2>");
-  page.add(
-      "<p>Neighbours that were not side by side in a painting, and how far apart their colours are. Visibility is that step against what "
-      "neighbours of the same classes are apart in the paintings themselves: at 1 a seam steps as the painting does, above it shows. "
-      "Silhouettes do not count.</p>");
-  std::string table = "<table>" + html_row({"seams", "pairs", "step, levels", "visibility"}, "th");
+void add_seams(Report& page, const SeamsOfKinds& seams) {
+  page.section(
+      "seams", "Seams between paintings",
+      "Neighbours that were not side by side in a painting, and how far apart their colours are. Visibility is that step against "
+      "what neighbours of the same classes are apart in the paintings themselves: at 1 a seam steps as the painting does, above it "
+      "shows. Silhouettes do not count.");
+  ReportTable table({{"seams", "seams"}, {"pairs", "pairs"}, {"step", "step, levels", ".1f"}, {"visibility", "visibility", ".2f"}});
   const auto row = [&table](const char* name, const SeamVisibility& of) {
-    table += html_row({name, fmt::format("{}", of.pairs), of.pairs == 0 ? "–" : fmt::format("{:.1f}", of.step),
-                       of.compared == 0 ? "–" : fmt::format("{:.2f}", of.visibility)});
+    table.row(name, of.pairs, of.pairs == 0 ? unknown : of.step, of.compared == 0 ? unknown : of.visibility);
   };
   row("from one painting to another", seams.between);
   row("inside a painting", seams.within);
-  page.add(table + "</table></section>");
+  page.table(table);
 }
 
-void add_figures(ReportFolder& page, const SynthesisReportInput& in, const SynthesisFindings& found) {
-  page.add("<section id=\"figures\"><h2>Figures</h2>");
-  page.add(
-      "<p>What is measured against what eyes are content with; red is outside. No figure is enough alone, and none replaces looking: blur "
-      "pleases some of them.</p>");
-  std::string table = "<table>" + html_row({"figure", "this picture", "wanted"}, "th");
+void add_figures(Report& page, const SynthesisReportInput& in, const SynthesisFindings& found) {
+  page.section("figures", "Figures",
+               "What is measured against what eyes are content with; red is outside. No figure is enough alone, and none replaces looking: "
+               "blur pleases some of them.");
+  ReportTable figures({{"key", "", "hidden"}, {"figure", "figure"}, {"value", "this picture", ".3g"}, {"wanted", "wanted"}});
   for (const QualityFigure& figure : key_figures(found.quality))
-    table += html_row({figure.name, coloured(number_text(figure.value), figure.good()), range_text(figure)});
-  page.add(table + "</table></section>");
+    figures.row(figure.key, figure.name, judged(figure.value, figure.good()), range(figure.least, figure.most));
+  page.table(figures);
   if (found.quality.exemplars > 1) add_seams(page, found.quality.seams);
 
-  page.add("<section id=\"classes\"><h2>Class by class</h2>");
-  page.add(fmt::format(
-      "<p>Against the painting: sharpness and length of strokes are ratios, clique and colour distance grow from 0. The floor is what the "
-      "painting would differ by from itself at the target's altitudes and borders, the figure after it what the synthesis adds. A texel "
-      "serves up to {} pixels before strokes are seen to repeat.</p>",
-      pixels_per_texel));
-  table =
-      "<table>" +
-      html_row({"class", "pixels", "texels", "needed", "sharpness", "strokes", "clique", "floor, beyond", "colour", "floor, beyond"}, "th");
-  for (const ClassQuality& of : found.quality.classes) {
-    const auto supply = std::find_if(found.supply.begin(), found.supply.end(), [&](const ClassSupply& s) { return s.label == of.label; });
-    const auto ratio = [](double v, double least, double most) {
-      return v == 0.0 ? std::string("–") : coloured(fmt::format("{:.2f}", v), v >= least && v <= most);
-    };
-    table += html_row({markup_text(in.class_name(of.label)), fmt::format("{}", of.pixels), fmt::format("{}", of.texels),
-                       supply == found.supply.end() ? "–" : coloured(fmt::format("{}", supply->texels_needed()), supply->enough()),
-                       ratio(of.sharpness, 0.95, 1.05), ratio(of.stroke_run, 0.85, 1.15),
-                       coloured(fmt::format("{:.3f}", of.clique_distance), of.clique_distance <= 0.08),
-                       fmt::format("{:.3f}, {:.3f}", of.clique_floor, of.clique_beyond_floor),
-                       coloured(fmt::format("{:.1f}", of.colour_distance), of.colour_distance <= 3.0),
-                       fmt::format("{:.1f}, {:.1f}", of.colour_floor, of.colour_beyond_floor)});
-  }
-  page.add(table + "</table></section>");
+  page.section("classes", "Class by class",
+               fmt::format("Against the painting: sharpness and length of strokes are ratios, clique and colour distance grow from 0. The "
+                           "floor is what the painting would differ by from itself at the target's altitudes and borders, the figure after "
+                           "it what the synthesis adds. A texel serves up to {} pixels before strokes are seen to repeat.",
+                           pixels_per_texel));
+  page.table(class_table(found.quality, found.supply, in.class_name));
 }
 
-void add_field(ReportFolder& page, const SynthesisReportInput& in) {
-  page.begin_figure(
-      "field", "Where texels come from",
-      "Every place of the painting has a colour (right: red grows to the right, green downwards, blue tells paintings apart); "
-      "left each pixel has the colour of its texel's place. Patches of one colour are pieces copied together.");
+void add_field(Report& page, const SynthesisReportInput& in) {
+  page.section("field", "Where texels come from",
+               "Every place of the painting has a colour (right: red grows to the right, green downwards, blue tells paintings apart); "
+               "left each pixel has the colour of its texel's place. Patches of one colour are pieces copied together.");
   page.picture("field", reduced_picture(field_picture(in.matches, in.exemplars), map_px), "the picture, by where its texels come from");
   for (std::size_t e = 0; e < in.exemplars.size(); ++e) {
     const int width = in.exemplars[e].picture.width();
@@ -165,131 +134,93 @@ void add_field(ReportFolder& page, const SynthesisReportInput& in) {
     Grid<glm::vec3> key(width, height);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) key(x, y) = place_colour(e, in.exemplars.size(), x, y, width, height);
-    page.picture(fmt::format("field_key_{}", e + 1), reduced_picture(key, 200), markup_text(in.exemplars[e].name));
+    page.picture(fmt::format("field_key_{}", e + 1), reduced_picture(key, 200), in.exemplars[e].name);
   }
-  page.end_figure();
 }
 
-void add_reuse(ReportFolder& page, const SynthesisReportInput& in, const SynthesisFindings& found) {
+void add_reuse(Report& page, const SynthesisReportInput& in, const SynthesisFindings& found) {
   const float full = static_cast<float>(std::max(4, found.quality.most_used));
-  page.begin_figure(
-      "reuse", "How often texels are used",
-      fmt::format("Black is never, white {:.0f} times. Left the picture by how often each pixel's texel is used in all, right "
-                  "the paintings: what is black was of no use, what is bright is much in demand.",
-                  static_cast<double>(full)));
+  page.section("reuse", "How often texels are used",
+               fmt::format("Black is never, white {:.0f} times. Left the picture by how often each pixel's texel is used in all, right "
+                           "the paintings: what is black was of no use, what is bright is much in demand.",
+                           static_cast<double>(full)));
   page.picture("reuse", reduced_picture(heat_picture(found.use_counts, full), map_px), "the picture");
   for (std::size_t e = 0; e < found.uses.size(); ++e) {
     Grid<float> counts(found.uses[e].width(), found.uses[e].height());
     std::transform(found.uses[e].begin(), found.uses[e].end(), counts.begin(), [](std::uint32_t n) { return static_cast<float>(n); });
-    page.picture(fmt::format("reuse_painting_{}", e + 1), reduced_picture(heat_picture(counts, full), map_px),
-                 markup_text(in.exemplars[e].name));
+    page.picture(fmt::format("reuse_painting_{}", e + 1), reduced_picture(heat_picture(counts, full), map_px), in.exemplars[e].name);
   }
-  page.end_figure();
 }
 
-void add_costs(ReportFolder& page, const SynthesisReportInput& in, const SynthesisFindings& found) {
-  page.begin_figure("costs", "What seams and guides cost",
-                    "Seams: how ill the texels around each pixel go together. Guides: weight times the squared difference between what is "
-                    "asked and what was found. A guide whose share is small could as well have more weight; one that outweighs seams tears "
-                    "strokes apart. White is the 99th percentile of each map.");
+void add_costs(Report& page, const SynthesisReportInput& in, const SynthesisFindings& found) {
+  page.section("costs", "What seams and guides cost",
+               "Seams: how ill the texels around each pixel go together. Guides: weight times the squared difference between what is "
+               "asked and what was found. A guide whose share is small could as well have more weight; one that outweighs seams tears "
+               "strokes apart. White is the 99th percentile of each map.");
   double total = found.seam_mean;
   for (const GuideFindings& guide : found.guides) total += guide.cost_mean;
-  const auto share = [total](double cost) { return total > 0.0 ? fmt::format("{:.0f} %", 100.0 * cost / total) : std::string("–"); };
-  std::string table = "<table>" + html_row({"term", "weight", "off by, mean", "off by, 95 %", "cost, mean", "share"}, "th");
-  table += html_row({"seams", "–", "–", "–", fmt::format("{:.0f}", found.seam_mean), share(found.seam_mean)});
+  const auto share = [total](double cost) { return total > 0.0 ? cost / total : unknown; };
+  ReportTable table({{"name", "term"},
+                     {"weight", "weight", ".3g"},
+                     {"error_mean", "off by, mean", ".2f"},
+                     {"error_95", "off by, 95 %", ".0f"},
+                     {"cost_mean", "cost, mean", ".0f"},
+                     {"share", "share", ".0%"}});
+  table.row("seams", unknown, unknown, unknown, found.seam_mean, share(found.seam_mean));
   for (const GuideFindings& guide : found.guides)
-    table += html_row({markup_text(guide.name), fmt::format("{:.3g}", guide.weight), fmt::format("{:.2f}", guide.error_mean),
-                       fmt::format("{:.0f}", static_cast<double>(guide.error_95)), fmt::format("{:.0f}", guide.cost_mean),
-                       share(guide.cost_mean)});
-  page.add("</div>" + table + "</table><p></p><div class=\"row\">");
+    table.row(guide.name, guide.weight, guide.error_mean, guide.error_95, guide.cost_mean, share(guide.cost_mean));
+  page.table(table);
   const auto map = [&](const std::string& file, const Grid<float>& cost, const std::string& caption) {
     page.picture(file, reduced_picture(heat_picture(cost, percentile(cost, 0.99)), map_px), caption);
   };
   map("cost_seams", found.seams, "seams");
   for (std::size_t g = 0; g < found.guides.size(); ++g) {
     if (g % 2 == 1) page.next_row();
-    map(fmt::format("cost_guide_{}", g + 1), guide_cost_map(in, found.guides[g].name), markup_text(found.guides[g].name));
+    map(fmt::format("cost_guide_{}", g + 1), guide_cost_map(in, found.guides[g].name), found.guides[g].name);
   }
-  page.end_figure();
 }
 
-void add_worst_places(ReportFolder& page, const SynthesisReportInput& in, const Grid<glm::vec3>& picture, const SynthesisFindings& found) {
-  page.begin_figure("worst", "The worst places",
-                    fmt::format("Each {0} × {0} pixels, {1} times as large, and beside it where most of it was copied from.",
-                                worst_place_side, crop_times));
+void add_worst_places(Report& page, const SynthesisReportInput& in, const Grid<glm::vec3>& picture, const SynthesisFindings& found) {
+  page.section("worst", "The worst places",
+               fmt::format("Each {0} × {0} pixels, {1} times as large, and beside it where most of it was copied from.", worst_place_side,
+                           crop_times));
   const float seam_full = percentile(found.seams, 0.99);
   const float use_full = static_cast<float>(std::max(4, found.quality.most_used));
-  bool first = true;
+  ReportTable table({{"letter", "place"},
+                     {"why", "why"},
+                     {"x", "x"},
+                     {"y", "y"},
+                     {"painting", "copied from"},
+                     {"source_x", "x"},
+                     {"source_y", "y"},
+                     {"pixels_from_source", "pixels of it"}});
+  for (const Place& place : found.places)
+    table.row(place.letter, place.why, place.window.x0, place.window.y0, in.exemplars[place.exemplar].name, place.source.x0,
+              place.source.y0, place.piece);
+  page.table(table);
   for (const Place& place : found.places) {
-    if (!first) page.next_row();
-    first = false;
+    page.next_row();
     const auto show = [&](const char* what, const Grid<glm::vec3>& crop, const std::string& caption) {
       page.picture(fmt::format("place_{}_{}", place.letter, what), enlarged(crop, crop_times), caption);
     };
     show("picture", cut(picture, place.window),
-         fmt::format("{}: {}, at {}, {}", place.letter, markup_text(place.why), place.window.x0, place.window.y0));
+         fmt::format("{}: {}, at {}, {}", place.letter, place.why, place.window.x0, place.window.y0));
     const Exemplar& exemplar = in.exemplars[place.exemplar];
     show("source", to_picture(cut(exemplar.picture, place.source)),
-         fmt::format("{} of its pixels: {} at {}, {}", place.piece, markup_text(exemplar.name), place.source.x0, place.source.y0));
+         fmt::format("{} of its pixels: {} at {}, {}", place.piece, exemplar.name, place.source.x0, place.source.y0));
     show("field", field_picture(cut(in.matches, place.window), in.exemplars), "where its texels come from");
     if (!place.guide.empty()) {
       std::vector<const Grid<std::uint8_t>*> offered;
       for (const Exemplar& from : in.exemplars) offered.push_back(&guide_values(from.guides, place.guide));
       const Grid<std::uint8_t> asked = cut(guide_values(in.target, place.guide), place.window);
-      show("asked", grey_picture(asked), markup_text(place.guide) + " asked for");
-      show("found", grey_picture(replay(cut(in.matches, place.window), offered, Grid<std::uint8_t>())),
-           markup_text(place.guide) + " found");
+      show("asked", grey_picture(asked), place.guide + " asked for");
+      show("found", grey_picture(replay(cut(in.matches, place.window), offered, Grid<std::uint8_t>())), place.guide + " found");
     } else if (place.why == "seams") {
       show("cost", heat_picture(cut(found.seams, place.window), seam_full), "seams");
     } else {
       show("uses", heat_picture(cut(found.use_counts, place.window), use_full), "uses of its texels");
     }
   }
-  page.end_figure();
-}
-
-Json rect_json(const PixelRect& r) {
-  return Json::array({Json::number(r.x0), Json::number(r.y0), Json::number(r.width()), Json::number(r.height())});
-}
-
-std::string as_json(const SynthesisReportInput& in, const SynthesisFindings& found) {
-  Json guides = Json::array();
-  for (const GuideFindings& guide : found.guides)
-    guides.add(Json::object()
-                   .add("name", Json::text(guide.name))
-                   .add("weight", Json::number(guide.weight))
-                   .add("error_mean", Json::number(guide.error_mean))
-                   .add("error_95", Json::number(static_cast<double>(guide.error_95)))
-                   .add("cost_mean", Json::number(guide.cost_mean)));
-  Json supply = Json::array();
-  for (const ClassSupply& of : found.supply)
-    supply.add(Json::object()
-                   .add("label", Json::number(of.label))
-                   .add("pixels", Json::number(static_cast<double>(of.pixels)))
-                   .add("texels", Json::number(static_cast<double>(of.texels)))
-                   .add("texels_needed", Json::number(static_cast<double>(of.texels_needed())))
-                   .add("enough", Json::boolean(of.enough())));
-  Json places = Json::array();
-  for (const Place& place : found.places)
-    places.add(Json::object()
-                   .add("letter", Json::text(place.letter))
-                   .add("why", Json::text(place.why))
-                   .add("window", rect_json(place.window))
-                   .add("painting", Json::text(in.exemplars[place.exemplar].name))
-                   .add("source", rect_json(place.source))
-                   .add("pixels_from_source", Json::number(static_cast<double>(place.piece))));
-  return Json::object()
-             .add("title", Json::text(in.title))
-             .add("command", Json::text(in.command))
-             .add("width", Json::number(in.matches.width()))
-             .add("height", Json::number(in.matches.height()))
-             .add("quality", quality_json(found.quality, in.class_name))
-             .add("supply", std::move(supply))
-             .add("seam_cost_mean", Json::number(found.seam_mean))
-             .add("guides", std::move(guides))
-             .add("worst_places", std::move(places))
-             .str() +
-         "\n";
 }
 
 }  // namespace
@@ -300,18 +231,17 @@ void write_synthesis_report(const std::string& folder, const SynthesisReportInpu
   std::vector<const Grid<Rgb8>*> layers;
   for (const Exemplar& exemplar : in.exemplars) layers.push_back(&exemplar.picture);
   const Grid<glm::vec3> picture = to_picture(replay(in.matches, layers, Grid<Rgb8>()));
-  ReportFolder page(folder);
+  Report page(folder);
   add_overview(page, in, picture, found);
   add_figures(page, in, found);
   add_costs(page, in, found);
   add_field(page, in);
   add_reuse(page, in, found);
   add_worst_places(page, in, picture, found);
-  page.write("report.json", as_json(in, found));
-  page.write_page(in.title, "Synthesis of " + in.title,
-                  fmt::format("{} × {} pixels from {} painting{}.", in.matches.width(), in.matches.height(), in.exemplars.size(),
-                              in.exemplars.size() == 1 ? "" : "s"),
-                  in.command);
+  page.write({.title = "Synthesis of " + in.title,
+              .lead = fmt::format("{} × {} pixels from {} painting{}.", in.matches.width(), in.matches.height(), in.exemplars.size(),
+                                  in.exemplars.size() == 1 ? "" : "s"),
+              .command = in.command});
 }
 
 }  // namespace belvedere::tools

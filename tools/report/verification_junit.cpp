@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/text/markup.h"
-#include "tools/report/report_folder.h"
 #include "tools/report/verification.h"
 
 namespace belvedere::tools {

@@ -96,28 +96,6 @@ void add_labels(Json& page, const std::string& folder, const ImageInfo& info, co
   page.add("labels", Json::raw(text_of(labels))).add("labelScale", Json::number(scale));
 }
 
-// Nothing inside of a script may end it.
-std::string in_script(std::string text) {
-  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 2)) text.replace(at, 2, "<\\/");
-  return text;
-}
-
-// {word} of the template becomes the text of that word.
-std::string filled(std::string_view from, const std::map<std::string, std::string>& texts) {
-  std::string out;
-  for (std::size_t at = 0; at < from.size();) {
-    const std::size_t end = from[at] == '{' ? from.find('}', at) : std::string_view::npos;
-    const auto text = end == std::string_view::npos ? texts.end() : texts.find(std::string(from.substr(at + 1, end - at - 1)));
-    if (text != texts.end()) {
-      out += text->second;
-      at = end + 1;
-    } else {
-      out += from[at++];
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 void write_web_page(const std::vector<WebPicture>& pictures, const std::string& folder, const WebParameters& parameters,
@@ -156,17 +134,17 @@ void write_web_page(const std::vector<WebPicture>& pictures, const std::string& 
   }
   const About said = about(first, pictures[0].folder);
   add_labels(page, pictures[0].folder, first, said, progress);
-  write_text_file((fs::path(folder) / "panorama.js").string(), "window.panoramaPage = " + in_script(page.str()) + ";\n");
+  write_text_file((fs::path(folder) / "panorama.js").string(), "window.panoramaPage = " + script_json(page.str()) + ";\n");
 
   write_text_file((fs::path(folder) / "index.html").string(),
-                  filled(embedded_file("web/index.html"), {{"title", markup_text(said.title)},
-                                                           {"alt", markup_text("Panorama: " + said.title)},
-                                                           {"first", markup_text(pictures[0].name)},
-                                                           {"sources", said.sources},
-                                                           {"css", std::string(embedded_file("web/page.css"))},
-                                                           {"ground", std::string(embedded_file("web/ground.js"))},
-                                                           {"viewer", std::string(embedded_file("web/viewer.js"))},
-                                                           {"page", std::string(embedded_file("web/page.js"))}}));
+                  filled_page(embedded_file("web/index.html"), {{"title", markup_text(said.title)},
+                                                                {"alt", markup_text("Panorama: " + said.title)},
+                                                                {"first", markup_text(pictures[0].name)},
+                                                                {"sources", said.sources},
+                                                                {"css", std::string(embedded_file("web/page.css"))},
+                                                                {"ground", std::string(embedded_file("web/ground.js"))},
+                                                                {"viewer", std::string(embedded_file("web/viewer.js"))},
+                                                                {"page", std::string(embedded_file("web/page.js"))}}));
 }
 
 }  // namespace belvedere::tools

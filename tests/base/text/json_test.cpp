@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <vector>
 
 namespace belvedere {
 namespace {
@@ -16,6 +17,11 @@ TEST(Json, NestsInTheOrderAdded) {
                         .add("raw", Json::raw("[1, 2]"));
   EXPECT_EQ(json.str(),
             "{\n  \"b\": 1.5,\n  \"a\": [\n    true,\n    \"x\"\n  ],\n  \"none\": [],\n  \"empty\": {},\n  \"raw\": [1, 2]\n}");
+}
+
+TEST(Json, ListsOfNumbersStandOnOneLine) {
+  EXPECT_EQ(Json::object().add("n", Json::numbers(std::vector<float>{1.F, 0.5F})).add("none", Json::numbers(std::vector<int>())).str(),
+            "{\n  \"n\": [1, 0.5],\n  \"none\": []\n}");
 }
 
 TEST(Json, EscapesWhatMustBe) {

@@ -39,7 +39,7 @@ TEST(GeneralizeFigures, WindowsLieWhereRidgesAre) {
 
 TEST(GeneralizeFigures, AddsTheFiveOfThePaper) {
   const test::Folder folder;
-  ReportFolder page(folder.path());
+  Report page(folder.path());
   Grid<float> ground(120, 110);
   for (int y = 0; y < 110; ++y)
     for (int x = 0; x < 120; ++x) ground(x, y) = static_cast<float>(800.0 + 200.0 * std::abs(std::sin(x / 9.0)) + y);
@@ -48,8 +48,9 @@ TEST(GeneralizeFigures, AddsTheFiveOfThePaper) {
   const GeneralizeReportInput input{"t", "c", ground, ground, {30.0, 30.0}, grids, parameters};
   const Grid<float> share(120, 110, 0.5F);
   add_paper_figures(page, input, share, choose_windows(ground, input.cell_m, share), silent_progress());
+  const std::string text = page.page({});
   for (const char* id : {"figure1", "figure2", "figure3", "figure4", "figure5"})
-    EXPECT_THAT(page.body(), HasSubstr(std::string("<section id=\"") + id + "\"")) << id;
+    EXPECT_THAT(text, HasSubstr(std::string("\"id\": \"") + id + "\"")) << id;
   EXPECT_TRUE(std::ifstream(folder / "figure5_masked.png").good());
 }
 

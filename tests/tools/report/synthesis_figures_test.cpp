@@ -56,10 +56,13 @@ TEST(SynthesisFigures, SeamsBetweenPaintingsNeedTwo) {
   EXPECT_THAT(keys(), AllOf(HasSubstr("seams_between"), HasSubstr("seams_within")));
 }
 
-TEST(SynthesisFigures, JsonHasEachWithItsVerdict) {
-  const std::string json = quality_json(two_classes(), [](std::uint8_t label) { return "class " + std::to_string(label); }).str();
-  for (const QualityFigure& f : key_figures(two_classes())) EXPECT_THAT(json, HasSubstr("\"" + f.key + "\": {"));
-  EXPECT_THAT(json, AllOf(HasSubstr("\"value\": 0.7,\n    \"good\": false"), HasSubstr("\"name\": \"class 2\"")));
+TEST(SynthesisFigures, ClassesHaveTheirFiguresWithTheirVerdict) {
+  const ClassSupply supply{.label = 2, .pixels = 900, .texels = 10};
+  const std::string json =
+      class_table(two_classes(), {supply}, [](std::uint8_t label) { return "class " + std::to_string(label); }).rows().str();
+  EXPECT_THAT(json, AllOf(HasSubstr("\"name\": \"class 2\""), HasSubstr("\"asked\": 900"), HasSubstr("\"asked\": null")));
+  EXPECT_THAT(json, AllOf(HasSubstr("\"value\": 0.7,\n      \"good\": false"), HasSubstr("\"value\": null,\n      \"good\": true")))
+      << "0 is not known";
 }
 
 }  // namespace

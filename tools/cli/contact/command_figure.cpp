@@ -26,7 +26,7 @@
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
 #include "tools/report/picture_text.h"
-#include "tools/report/report_folder.h"
+#include "tools/report/report.h"
 #include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
@@ -113,19 +113,18 @@ Column painted_picture(const LoadedScene& loaded, const Run& run) {
   return {loaded.name, "picture", read_picture(path("panorama.png")), make_guide_stack(guidance, guidance.land_cover)};
 }
 
-void add_making_of(ReportFolder& page, const LoadedScene& loaded, const Run& run) {
+void add_making_of(Report& page, const LoadedScene& loaded, const Run& run) {
   const std::vector<MakingStep> steps = make_making_of(loaded, run);
   for (std::size_t i = 0; i < steps.size(); ++i) page.write_picture(fmt::format("making_{}_{}", i + 1, steps[i].file), steps[i].picture);
-  page.begin_figure("making", "How it is made", "The same view at every stage, from the ground as measured to the picture.");
+  page.section("making", "How it is made", "The same view at every stage, from the ground as measured to the picture.");
   page.picture("making", draw_making_of(steps, figure_px), "making.png");
-  page.end_figure();
 }
 
 int run(const FigureOptions& options) {
   LoadedScene loaded = load(options.scene);
   if (options.width_px > 0) loaded = at_width(loaded, options.width_px);
   loaded.scene.output.formats = {"png"};
-  ReportFolder page(options.out);
+  Report page(options.out);
   TerminalProgress progress(options.scene.quiet);
   const Cache cache = make_cache(options.scene);
   Column result = painted_picture(loaded, make_run(options.scene, Run{}.tile_px, progress, cache));
@@ -145,25 +144,22 @@ int run(const FigureOptions& options) {
     }
   }
   table.foot = legend(columns);
-  page.begin_figure("sheet", "What is copied from, and the picture",
-                    "The classes and altitudes of both (figure 4 of Jenny & Jenny 2013), the painting, and what is made of it (figure 5).");
+  page.section("sheet", "What is copied from, and the picture",
+               "The classes and altitudes of both (figure 4 of Jenny & Jenny 2013), the painting, and what is made of it (figure 5).");
   page.picture("sheet", draw_table(table), "sheet.png");
-  page.end_figure();
   if (options.making) add_making_of(page, loaded, make_run(options.scene, Run{}.tile_px, progress, cache));
   std::string command = "belvedere figure " + file_name(options.scene.scene);
   for (const std::string& setting : options.scene.files.settings) command += fmt::format(" --set '{}'", setting);
   if (options.width_px > 0) command += fmt::format(" --width {}", options.width_px);
   if (options.making) command += " --making";
-  page.write_page("Figure of " + loaded.name, "Figure of " + loaded.name,
-                  fmt::format("{} × {} pixels.", loaded.scene.output.width, loaded.scene.output.height),
-                  command + " --out " + file_name(options.out));
+  page.write({.title = "Figure of " + loaded.name,
+              .lead = fmt::format("{} × {} pixels.", loaded.scene.output.width, loaded.scene.output.height),
+              .command = command + " --out " + file_name(options.out)});
   progress.end();
   const std::string sheet = (std::filesystem::path(options.out) / "sheet.png").string();
-  if (options.scene.json)
-    print_out(Json::object().add("sheet", Json::text(sheet)).add("columns", Json::number(static_cast<double>(columns.size()))).str() +
-              "\n");
-  else if (!options.scene.quiet)
-    print_out(sheet + "\n");
+  print_result(options.scene,
+               Json::object().add("sheet", Json::text(sheet)).add("columns", Json::number(static_cast<double>(columns.size()))),
+               sheet + "\n");
   return 0;
 }
 

@@ -13,12 +13,13 @@
 #include "tools/cli/contact/contact_commands.h"
 #include "tools/cli/contact/picture_table.h"
 #include "tools/cli/contact/scene_sweep.h"
+#include "tools/cli/contact/sweep_progress.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/lock/scratch_folder.h"
 #include "tools/cli/scene_options.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
-#include "tools/report/report_folder.h"
+#include "tools/report/report.h"
 #include "tools/report/report_pictures.h"
 
 namespace belvedere::tools {
@@ -38,24 +39,6 @@ struct Swept {
   std::vector<std::string> values;  // of each axis
   std::string name;                 // of its file, without ending
   LoadedScene scene;
-};
-
-// Stages say which picture of the sweep they belong to.
-class PictureProgress : public Progress {
- public:
-  PictureProgress(Progress& whole, std::size_t picture, std::size_t pictures) : whole_(whole), picture_(picture), pictures_(pictures) {}
-  void begin(std::string_view stage, double total) override {
-    whole_.begin(fmt::format("{} of {}: {}", picture_, pictures_, stage), total);
-  }
-  void advance(double amount) override { whole_.advance(amount); }
-  void note(std::string_view text) override {
-    if (picture_ == 1) whole_.note(text);
-  }
-
- private:
-  Progress& whole_;
-  std::size_t picture_;
-  std::size_t pictures_;
 };
 
 // All scenes, row by row: a value that none may have is refused before the first is rendered.
@@ -91,7 +74,7 @@ std::string describe(const SweepOptions& options) {
   return out + (options.draft ? "--draft " : "") + "--out " + file_name(options.out);
 }
 
-std::string as_json(const SweepOptions& options, const SceneSweep& sweep, const std::vector<Swept>& all) {
+Json as_json(const SweepOptions& options, const SceneSweep& sweep, const std::vector<Swept>& all) {
   Json axes = Json::array();
   for (const SceneAxis& axis : sweep.axes) {
     Json values = Json::array();
@@ -104,12 +87,7 @@ std::string as_json(const SweepOptions& options, const SceneSweep& sweep, const 
     for (std::size_t a = 0; a < swept.values.size(); ++a) values.add(sweep.axes[a].key, Json::text(swept.values[a]));
     pictures.add(Json::object().add("picture", Json::text(swept.name + ".png")).add("values", std::move(values)));
   }
-  return Json::object()
-             .add("command", Json::text(describe(options)))
-             .add("axes", std::move(axes))
-             .add("pictures", std::move(pictures))
-             .str() +
-         "\n";
+  return Json::object().add("command", Json::text(describe(options))).add("axes", std::move(axes)).add("pictures", std::move(pictures));
 }
 
 int run(const SweepOptions& options) {
@@ -119,7 +97,7 @@ int run(const SweepOptions& options) {
   if (columns * rows > most_pictures)
     throw Error(ErrorKind::usage, "--set", fmt::format("{} pictures", columns * rows), fmt::format("at most {}", most_pictures));
   const std::vector<Swept> all = read_scenes(options, sweep);
-  ReportFolder page(options.out);
+  Report page(options.out);
   TerminalProgress progress(options.scene.quiet);
   const Cache cache = make_cache(options.scene);
   PictureTable table;
@@ -128,23 +106,20 @@ int run(const SweepOptions& options) {
     for (const std::string& value : sweep.axes[1].values) table.rows.push_back(sweep.axes[1].key + "=" + value);
   table.cells.resize(rows);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    PictureProgress here(progress, i + 1, all.size());
+    SweepProgress here(progress, i + 1, all.size());
     const Grid<glm::vec3> picture = render_picture(all[i].scene, make_run(options.scene, Run{}.tile_px, here, cache));
     page.write_picture(all[i].name, picture);
     table.cells[i / columns].push_back({reduced_picture(picture, swept_px), {}});
   }
-  page.begin_figure("sheet", "All pictures", "Each whole is a file of its own: 2_1.png is the second column's first row.");
+  page.section("sheet", "All pictures", "Each whole is a file of its own: 2_1.png is the second column's first row.");
   page.picture("sheet", draw_table(table), "sheet.png");
-  page.end_figure();
-  const std::string json = as_json(options, sweep, all);
-  page.write("report.json", json);
-  page.write_page("Sweep of " + all.front().scene.name, "Sweep of " + all.front().scene.name, fmt::format("{} pictures.", all.size()),
-                  describe(options));
+  const Json told = as_json(options, sweep, all);
+  page.write({.title = "Sweep of " + all.front().scene.name,
+              .lead = fmt::format("{} pictures.", all.size()),
+              .command = describe(options),
+              .data = told});
   progress.end();
-  if (options.scene.json)
-    print_out(json);
-  else if (!options.scene.quiet)
-    print_out((std::filesystem::path(options.out) / "sheet.png").string() + "\n");
+  print_result(options.scene, told, (std::filesystem::path(options.out) / "sheet.png").string() + "\n");
   return 0;
 }
 

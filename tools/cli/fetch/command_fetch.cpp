@@ -63,14 +63,12 @@ Json map_json(const FetchCommandOptions& options, const FetchedMap& map) {
   return out.add("tiles", std::move(tiles));
 }
 
-std::string as_json(const FetchCommandOptions& options, const FetchedArea& area) {
+Json as_json(const FetchCommandOptions& options, const FetchedArea& area) {
   Json out = Json::object().add("elevation", map_json(options, area.elevation));
   if (area.land_cover) out.add("land_cover", map_json(options, *area.land_cover));
   return out.add("record", Json::text(area.record))
-             .add("questions", Json::number(static_cast<double>(area.questions)))
-             .add("bytes", Json::number(static_cast<double>(area.bytes)))
-             .str() +
-         "\n";
+      .add("questions", Json::number(static_cast<double>(area.questions)))
+      .add("bytes", Json::number(static_cast<double>(area.bytes)));
 }
 
 int run(const FetchCommandOptions& options) {
@@ -79,10 +77,7 @@ int run(const FetchCommandOptions& options) {
   const RunLimits limits(make_run(options.run, Run{}.tile_px, progress, cache));
   const FetchedArea area = fetch_area(fetch_parameters(options.fetch), options.out, cache, progress, sources_for_scenes);
   progress.end();
-  if (options.run.json)
-    print_out(as_json(options, area));
-  else if (!options.run.quiet)
-    print_out(as_text(options, area));
+  print_result(options.run, as_json(options, area), as_text(options, area));
   return 0;
 }
 

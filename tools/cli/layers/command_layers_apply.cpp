@@ -16,6 +16,7 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/layers/ground_climate_options.h"
+#include "tools/cli/print_result.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"
@@ -66,21 +67,19 @@ std::string as_text(const LayersApplyOptions& options, const SurfaceLayers& laye
   return out;
 }
 
-std::string as_json(const LayersApplyOptions& options, const SurfaceLayers& layers, const Dem& dem, const LayerApplyResult& result) {
+Json as_json(const LayersApplyOptions& options, const SurfaceLayers& layers, const Dem& dem, const LayerApplyResult& result) {
   Json classes = Json::object();
   for (const LandCoverClassInfo& info : land_cover_classes())
     if (info.id != LandCoverClass::sky) classes.add(info.name, Json::number(result.class_share[static_cast<std::size_t>(info.id)]));
   Json outside = Json::object();
   for (std::size_t i = 0; i < layers.inputs.size(); ++i) outside.add(layers.inputs[i].name, Json::number(result.outside[i]));
   return Json::object()
-             .add("out", Json::text(options.out))
-             .add("width", Json::number(dem.width()))
-             .add("height", Json::number(dem.height()))
-             .add("classes", std::move(classes))
-             .add("outside", std::move(outside))
-             .add("warnings", Json::texts(range_warnings(layers, result)))
-             .str() +
-         "\n";
+      .add("out", Json::text(options.out))
+      .add("width", Json::number(dem.width()))
+      .add("height", Json::number(dem.height()))
+      .add("classes", std::move(classes))
+      .add("outside", std::move(outside))
+      .add("warnings", Json::texts(range_warnings(layers, result)));
 }
 
 int run(const LayersApplyOptions& options) {
@@ -128,10 +127,7 @@ int run(const LayersApplyOptions& options) {
   if (shares) shares->commit();
   for (const std::string& warning : range_warnings(layers, result)) progress.note("warning: " + warning);
   progress.end();
-  if (options.json)
-    print_out(as_json(options, layers, dem, result));
-  else if (!options.quiet)
-    print_out(as_text(options, layers, dem, result));
+  print_result(options, as_json(options, layers, dem, result), as_text(options, layers, dem, result));
   return 0;
 }
 

@@ -13,6 +13,7 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/layers/ground_climate_options.h"
+#include "tools/cli/print_result.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"
@@ -60,16 +61,13 @@ int run(const LayersPictureOptions& options) {
   picture.prepare();
   picture.commit();
   progress.end();
-  if (options.json)
-    print_out(Json::object()
-                  .add("out", Json::text(options.out))
-                  .add("width", Json::number(frame.width))
-                  .add("height", Json::number(frame.height))
-                  .add("cell", Json::number(frame.transform.cell_x))
-                  .str() +
-              "\n");
-  else if (!options.quiet)
-    print_out(fmt::format("{}: {}×{} places of {:g} m\n", options.out, frame.width, frame.height, frame.transform.cell_x));
+  print_result(options,
+               Json::object()
+                   .add("out", Json::text(options.out))
+                   .add("width", Json::number(frame.width))
+                   .add("height", Json::number(frame.height))
+                   .add("cell", Json::number(frame.transform.cell_x)),
+               fmt::format("{}: {}×{} places of {:g} m\n", options.out, frame.width, frame.height, frame.transform.cell_x));
   return 0;
 }
 

@@ -86,18 +86,15 @@ int run_lock(LockOptions options) {
       refuse_change(path, "the pictures are not as they were locked:" + changes);
   write_text_file(path, write_lock(lock));
 
-  if (options.scene.json)
-    print_out(Json::object()
-                  .add("lock", Json::text(path))
-                  .add("width", Json::number(lock.width))
-                  .add("height", Json::number(lock.height))
-                  .add("inputs", Json::number(static_cast<double>(lock.inputs.size())))
-                  .add("products", Json::number(static_cast<double>(lock.products.size())))
-                  .str() +
-              "\n");
-  else if (!options.scene.quiet)
-    print_out(
-        fmt::format("{}: {} inputs; {} files of {}×{} pixels\n", path, lock.inputs.size(), lock.products.size(), lock.width, lock.height));
+  print_result(
+      options.scene,
+      Json::object()
+          .add("lock", Json::text(path))
+          .add("width", Json::number(lock.width))
+          .add("height", Json::number(lock.height))
+          .add("inputs", Json::number(static_cast<double>(lock.inputs.size())))
+          .add("products", Json::number(static_cast<double>(lock.products.size()))),
+      fmt::format("{}: {} inputs; {} files of {}×{} pixels\n", path, lock.inputs.size(), lock.products.size(), lock.width, lock.height));
   return 0;
 }
 

@@ -6,7 +6,6 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
-#include "base/text/markup.h"
 #include "renderer/image/output_file.h"
 #include "texture/composite/composite_figures.h"
 #include "texture/composite/learn_composite.h"
@@ -14,14 +13,14 @@
 #include "texture/composite/make_label_map.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
+#include "tools/cli/print_result.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/begin_options.h"
 #include "tools/cli/texture/label_pictures.h"
-#include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"
-#include "tools/report/report_folder.h"
+#include "tools/report/report.h"
 
 namespace belvedere::tools {
 namespace {
@@ -68,7 +67,7 @@ std::string as_text(const CompositeLearnOptions& options, const CompositeFinding
   return out;
 }
 
-std::string as_json(const CompositeLearnOptions& options, const CompositeFindings& found) {
+Json as_json(const CompositeLearnOptions& options, const CompositeFindings& found) {
   const auto layout = [](const LayoutFigures& f) {
     return Json::object().add("profile", Json::number(f.profile)).add("far_pairs", Json::number(f.far_pairs));
   };
@@ -79,53 +78,48 @@ std::string as_json(const CompositeLearnOptions& options, const CompositeFinding
                    .add("pixels", Json::number(static_cast<double>(found.pixels[k])))
                    .add("types", Json::number(static_cast<double>(found.model.labels[k].model.cliques.size()))));
   return Json::object()
-             .add("out", Json::text(options.out))
-             .add("bytes", Json::number(static_cast<double>(found.bytes)))
-             .add("labels", std::move(labels))
-             .add("transition", Json::boolean(found.model.transition.has_value()))
-             .add("map", Json::object()
-                             .add("pairs", Json::number(found.map_figures.pairs))
-                             .add("rings", Json::number(found.map_figures.rings))
-                             .add("profile", Json::number(found.map_figures.profile)))
-             .add("filled", layout(found.filled_figures))
-             .add("made", layout(found.made_figures))
-             .str() +
-         "\n";
+      .add("out", Json::text(options.out))
+      .add("bytes", Json::number(static_cast<double>(found.bytes)))
+      .add("labels", std::move(labels))
+      .add("transition", Json::boolean(found.model.transition.has_value()))
+      .add("map", Json::object()
+                      .add("pairs", Json::number(found.map_figures.pairs))
+                      .add("rings", Json::number(found.map_figures.rings))
+                      .add("profile", Json::number(found.map_figures.profile)))
+      .add("filled", layout(found.filled_figures))
+      .add("made", layout(found.made_figures));
 }
 
 void write_report(const CompositeLearnOptions& options, const TextureCrop& crop, const LabelPicture& labels,
                   const CompositeFindings& found) {
-  ReportFolder folder(options.report);
-  folder.begin_figure(
-      "pictures", "Crop and composite",
-      "The crop with its labels, and what is made from the model alone: over the crop's own map, and over a made one. Look at "
-      "borders first: are they as ragged, and do labels lie as they should?");
-  folder.picture("crop", encoded_picture(crop.picture), "the crop");
-  folder.picture("labels", label_colours(labels.labels, labels.names), "its labels");
-  folder.next_row();
-  folder.picture("filled", encoded_picture(found.filled), "made over the crop's labels");
-  folder.next_row();
-  folder.picture("made", encoded_picture(found.made), "made over made labels");
-  folder.picture("map", label_colours(found.map, found.names), "made labels");
-  folder.end_figure();
-  folder.add("<h2>Labels</h2><table>" + html_row({"label", "pixels", "types"}, "th"));
+  Report report(options.report);
+  report.section("pictures", "Crop and composite",
+                 "The crop with its labels, and what is made from the model alone: over the crop's own map, and over a made one. Look at "
+                 "borders first: are they as ragged, and do labels lie as they should?");
+  report.picture("crop", encoded_picture(crop.picture), "the crop");
+  report.picture("labels", label_colours(labels.labels, labels.names), "its labels");
+  report.next_row();
+  report.picture("filled", encoded_picture(found.filled), "made over the crop's labels");
+  report.next_row();
+  report.picture("made", encoded_picture(found.made), "made over made labels");
+  report.picture("map", label_colours(found.map, found.names), "made labels");
+  report.section("labels", "Labels");
+  ReportTable table({{"label", "label"}, {"pixels", "pixels"}, {"types", "types"}});
   for (std::size_t k = 0; k < found.names.size(); ++k)
-    folder.add(html_row(
-        {markup_text(found.names[k]), fmt::format("{}", found.pixels[k]), fmt::format("{}", found.model.labels[k].model.cliques.size())}));
-  folder.add("</table><h2>Distances to the crop</h2><table>" + html_row({"", "colours by height", "pairs 16–128 px apart"}, "th"));
-  const auto row = [&](const char* name, const LayoutFigures& f) {
-    folder.add(html_row({name, fmt::format("{:.3f}", f.profile), fmt::format("{:.3f}", f.far_pairs)}));
-  };
-  row("over the crop's labels", found.filled_figures);
-  row("over made labels", found.made_figures);
-  folder.add("</table><h2>The made map</h2><table>" + html_row({"pairs", "borders' patterns", "labels by height"}, "th") +
-             html_row({fmt::format("{:.3f}", found.map_figures.pairs), fmt::format("{:.3f}", found.map_figures.rings),
-                       fmt::format("{:.3f}", found.map_figures.profile)}) +
-             "</table><p>Borders, as the share of neighbours 1, 2, 4, 8, 16 pixels apart that differ, of the crop's: " +
-             border_text(found) + ".</p>");
-  folder.write_page("Composite texture", file_name(options.crop), fmt::format("A model of {} bytes.", found.bytes),
-                    fmt::format("belvedere composite learn {} --labels {} --out {}", file_name(options.crop), file_name(options.labels),
-                                file_name(options.out)));
+    table.row(found.names[k], found.pixels[k], found.model.labels[k].model.cliques.size());
+  report.table(table);
+  report.section("distances", "Distances to the crop");
+  report.table(ReportTable({{"made", ""}, {"profile", "colours by height", ".3f"}, {"far_pairs", "pairs 16–128 px apart", ".3f"}})
+                   .row("over the crop's labels", found.filled_figures.profile, found.filled_figures.far_pairs)
+                   .row("over made labels", found.made_figures.profile, found.made_figures.far_pairs));
+  report.section("map", "The made map");
+  report.table(ReportTable({{"pairs", "pairs", ".3f"}, {"rings", "borders' patterns", ".3f"}, {"profile", "labels by height", ".3f"}})
+                   .row(found.map_figures.pairs, found.map_figures.rings, found.map_figures.profile));
+  report.text("Borders, as the share of neighbours 1, 2, 4, 8, 16 pixels apart that differ, of the crop's: " + border_text(found) + ".");
+  report.write({.title = "Composite texture: " + file_name(options.crop),
+                .lead = fmt::format("A model of {} bytes.", found.bytes),
+                .command = fmt::format("belvedere composite learn {} --labels {} --out {}", file_name(options.crop),
+                                       file_name(options.labels), file_name(options.out))});
 }
 
 CompositeParameters parameters_of(const CompositeLearnOptions& options) {
@@ -140,7 +134,7 @@ CompositeParameters parameters_of(const CompositeLearnOptions& options) {
 int run(const CompositeLearnOptions& options) {
   check_place(options.out);
   check_not_read(options.out, "--out", {options.crop, options.labels});
-  check_report(options.report);
+  if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const TextureCrop crop = read_crop(options.crop, "");
@@ -166,10 +160,7 @@ int run(const CompositeLearnOptions& options) {
   found.made_figures = layout_figures(crop.picture, found.made);
   if (!options.report.empty()) write_report(options, crop, labels, found);
   progress.end();
-  if (options.json)
-    print_out(as_json(options, found));
-  else if (!options.quiet)
-    print_out(as_text(options, found));
+  print_result(options, as_json(options, found), as_text(options, found));
   return 0;
 }
 
@@ -191,8 +182,8 @@ Action add_composite_learn(CommandOptions& command) {
   add_begin_options(command, options->begin,
                     "The noise that all textures begin with, which decides the shape of their dabs: white, streaks or discs.\n"
                     "Default: for each what comes nearest to the crop");
-  add_report_option(command, options->report, "A page with crop beside composite, and all figures");
   add_run_options(command, *options, "bit");
+  command.add_option("--report", options->report, "A page with crop beside composite, and all figures").type_name("FOLDER");
   command.footer(
       "Where a picture holds sky above water beside rock, one texture of all would be camouflage. A composite learns each by itself, what "
       "lies\n"

@@ -9,17 +9,19 @@
 #include "base/parallel.h"
 #include "base/text/json.h"
 #include "base/text/letters.h"
+#include "renderer/image/output_file.h"
 #include "texture/composite/composite_window.h"
 #include "texture/composite/make_composite.h"
 #include "texture/composite/make_label_map.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
+#include "tools/cli/print_result.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/label_pictures.h"
-#include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"
+#include "tools/report/report.h"
 
 namespace belvedere::tools {
 namespace {
@@ -45,21 +47,22 @@ PixelRect window_of(const std::vector<int>& w, const Grid<std::uint8_t>& labels)
 void write_report(const CompositeMakeOptions& options, const std::vector<std::string>& names, const Grid<std::uint8_t>& labels,
                   const Grid<Rgb8>& made) {
   const std::string file = file_name(options.model);
-  std::vector<std::vector<std::string>> table = {{"label", "pixels"}};
+  ReportTable table({{"label", "label"}, {"pixels", "pixels"}});
   for (std::size_t k = 0; k < names.size(); ++k)
-    table.push_back({names[k], fmt::format("{}", std::count(labels.begin(), labels.end(), static_cast<std::uint8_t>(k)))});
+    table.row(names[k], std::count(labels.begin(), labels.end(), static_cast<std::uint8_t>(k)));
   std::string asked = options.labels.empty() ? fmt::format("--size {}", fmt::join(options.size, "x"))
                                              : fmt::format("--labels {}", file_name(options.labels));
   if (!options.window.empty()) asked += fmt::format(" --window {}", fmt::join(options.window, ","));
-  write_result_page(
-      options.report,
-      {.title = "Composite texture",
-       .heading = file,
+  Report report(options.report);
+  report.section("pictures", "Pictures",
+                 "Left what lies where, right what is made of it. Look at borders first: are they as ragged as a painter's?");
+  report.picture("labels", label_colours(labels, names), options.labels.empty() ? "made labels" : "drawn labels");
+  report.picture("made", encoded_picture(made), fmt::format("made with seed {}", options.seed));
+  report.section("figures", "Figures");
+  report.table(table);
+  report.write(
+      {.title = "Composite texture: " + file,
        .lead = fmt::format("{} × {} pixels of {} textures.", made.width(), made.height(), names.size()),
-       .how_to_read = "Left what lies where, right what is made of it. Look at borders first: are they as ragged as a painter's?",
-       .rows = {{{"labels", label_colours(labels, names), options.labels.empty() ? "made labels" : "drawn labels"},
-                 {"made", encoded_picture(made), fmt::format("made with seed {}", options.seed)}}},
-       .table = std::move(table),
        .command = fmt::format("belvedere composite make {} {} --seed {} --out {}", file, asked, options.seed, file_name(options.out))});
 }
 
@@ -70,7 +73,7 @@ int run(const CompositeMakeOptions& options) {
   check_texture_name(options.out);
   check_not_read(options.out, "--out", {options.model, options.labels});
   check_not_read(options.map, "--map", {options.model, options.labels});
-  check_report(options.report);
+  if (!options.report.empty()) check_output_folder(options.report);
   if (!options.map.empty()) {
     check_place(options.map);
     if (lower_ending(options.map) != ".png") throw Error(ErrorKind::usage, "--map", options.map, "a .png");
@@ -94,15 +97,12 @@ int run(const CompositeMakeOptions& options) {
   if (!options.map.empty()) write_label_picture(options.map, labels, names);
   if (!options.report.empty()) write_report(options, names, whole ? labels : part_of(labels, window), made);
   progress.end();
-  if (options.json)
-    print_out(Json::object()
-                  .add("out", Json::text(options.out))
-                  .add("width", Json::number(made.width()))
-                  .add("height", Json::number(made.height()))
-                  .str() +
-              "\n");
-  else if (!options.quiet)
-    print_out(fmt::format("{}: {}×{} pixels\n", options.out, made.width(), made.height()));
+  print_result(options,
+               Json::object()
+                   .add("out", Json::text(options.out))
+                   .add("width", Json::number(made.width()))
+                   .add("height", Json::number(made.height())),
+               fmt::format("{}: {}×{} pixels\n", options.out, made.width(), made.height()));
   return 0;
 }
 
@@ -127,8 +127,8 @@ Action add_composite_make(CommandOptions& command) {
   command.add_option("--map", options->map, "Writes the labels too, in their colours: to be drawn over and given to --labels")
       .type_name("PICTURE");
   command.add_option("--seed", options->seed, "Another seed, another picture of the same kind. Default: 1").type_name("N");
-  add_report_option(command, options->report, "A page with the labels beside what is made of them");
   add_run_options(command, *options);
+  command.add_option("--report", options->report, "A page with the labels beside what is made of them").type_name("FOLDER");
   command.footer(
       "  belvedere composite make coast.composite --size 1600x1000 --map labels.png --out another_coast.png\n"
       "  belvedere composite make coast.composite --labels my_labels.png --out my_coast.png\n"

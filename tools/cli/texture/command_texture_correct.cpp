@@ -7,14 +7,16 @@
 #include "base/parallel.h"
 #include "base/text/json.h"
 #include "renderer/image/image_io.h"
+#include "renderer/image/output_file.h"
 #include "texture/statistical/photometric.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
+#include "tools/cli/print_result.h"
 #include "tools/cli/terminal.h"
-#include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"
+#include "tools/report/report.h"
 
 namespace belvedere::tools {
 namespace {
@@ -41,27 +43,27 @@ Json distances_json(const std::array<double, 3>& distance) {
 
 void write_report(const TextureCorrectOptions& options, const Grid<glm::vec3>& source, const Grid<glm::vec3>& target,
                   const Grid<glm::vec3>& out, const std::array<double, 3>& before, const std::array<double, 3>& after) {
-  const auto row = [](const char* name, const std::array<double, 3>& d) {
-    return std::vector<std::string>{name, fmt::format("{:.2f}", d[0]), fmt::format("{:.2f}", d[1]), fmt::format("{:.2f}", d[2])};
-  };
-  write_result_page(
-      options.report,
-      {.title = "Corrected colours",
-       .heading = file_name(options.source),
-       .lead = fmt::format("In the colours of {}, {} regions.", file_name(options.target), options.regions),
-       .how_to_read =
-           "The picture, what it became, and whose colours these are. Look for flecks of a hue that neither has. The figures are "
-           "distances of the histograms: 0 alike, 2 nothing in common.",
-       .rows = {{{"source", source, "the picture"}, {"corrected", out, "corrected"}, {"target", target, "whose colours it got"}}},
-       .table = {{"", "hue", "saturation", "value"}, row("before", before), row("after", after)},
-       .command = fmt::format("belvedere texture correct {} --to {} --regions {} --out {}", file_name(options.source),
-                              file_name(options.target), options.regions, file_name(options.out))});
+  Report report(options.report);
+  report.section("pictures", "Pictures",
+                 "The picture, what it became, and whose colours these are. Look for flecks of a hue that neither has. The figures are "
+                 "distances of the histograms: 0 alike, 2 nothing in common.");
+  report.picture("source", source, "the picture");
+  report.picture("corrected", out, "corrected");
+  report.picture("target", target, "whose colours it got");
+  report.section("figures", "Figures");
+  report.table(ReportTable({{"when", ""}, {"hue", "hue", ".2f"}, {"saturation", "saturation", ".2f"}, {"value", "value", ".2f"}})
+                   .row("before", before[0], before[1], before[2])
+                   .row("after", after[0], after[1], after[2]));
+  report.write({.title = "Corrected colours: " + file_name(options.source),
+                .lead = fmt::format("In the colours of {}, {} regions.", file_name(options.target), options.regions),
+                .command = fmt::format("belvedere texture correct {} --to {} --regions {} --out {}", file_name(options.source),
+                                       file_name(options.target), options.regions, file_name(options.out))});
 }
 
 int run(const TextureCorrectOptions& options) {
   check_texture_name(options.out);
   check_not_read(options.out, "--out", {options.source, options.target});
-  check_report(options.report);
+  if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   progress.begin("reading", 0.0);
@@ -85,13 +87,10 @@ int run(const TextureCorrectOptions& options) {
   const std::array<double, 3> after = colour_histogram_distance(out, target);
   if (!options.report.empty()) write_report(options, source, target, out, before, after);
   progress.end();
-  if (options.json)
-    print_out(
-        Json::object().add("out", Json::text(options.out)).add("before", distances_json(before)).add("after", distances_json(after)).str() +
-        "\n");
-  else if (!options.quiet)
-    print_out(fmt::format("{}: hue {:.2f} to {:.2f}, saturation {:.2f} to {:.2f}, value {:.2f} to {:.2f} (0 alike … 2 nothing in common)\n",
-                          options.out, before[0], after[0], before[1], after[1], before[2], after[2]));
+  print_result(
+      options, Json::object().add("out", Json::text(options.out)).add("before", distances_json(before)).add("after", distances_json(after)),
+      fmt::format("{}: hue {:.2f} to {:.2f}, saturation {:.2f} to {:.2f}, value {:.2f} to {:.2f} (0 alike … 2 nothing in common)\n",
+                  options.out, before[0], after[0], before[1], after[1], before[2], after[2]));
   return 0;
 }
 
@@ -105,9 +104,11 @@ Action add_texture_correct(CommandOptions& command) {
   command.add_option("--regions", options->regions, "Regions of like colour that are told apart and paired. Default: 3")
       .type_name("N")
       .range(1, 5);
-  add_report_option(command, options->report,
-                    "A page with the picture before and after beside the other, and how far their colours are apart");
   add_run_options(command, *options);
+  command
+      .add_option("--report", options->report,
+                  "A page with the picture before and after beside the other, and how far their colours are apart")
+      .type_name("FOLDER");
   command.footer(
       "Regions of like colour of both pictures are paired, and each gets the distributions of hue, saturation and\n"
       "brightness of its partner: before paintings of several hands, seasons or scans are used together.\n\n"

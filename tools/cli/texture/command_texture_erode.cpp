@@ -14,20 +14,19 @@
 #include "renderer/image/png_palette.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
+#include "tools/cli/print_result.h"
 #include "tools/cli/terminal.h"
-#include "tools/cli/texture/result_page.h"
 #include "tools/options/options.h"
+#include "tools/report/report.h"
 
 namespace belvedere::tools {
 namespace {
 
-struct TextureErodeOptions {
+struct TextureErodeOptions : RunOptions {
   std::string mask, out, report;
   ErosionParameters erosion{.levels = 8};
   int label = -1;
   std::vector<int> keep;
-  bool quiet = false;
-  bool json = false;
 };
 
 Grid<std::uint8_t> read_labels(const TextureErodeOptions& options) {
@@ -53,26 +52,27 @@ Grid<glm::vec3> steps_picture(const Grid<std::uint8_t>& labels, std::uint8_t lab
 }
 
 void write_report(const TextureErodeOptions& options, const Grid<std::uint8_t>& labels, std::uint8_t label, const Erosion& eroded,
-                  std::vector<std::vector<std::string>> table) {
+                  const ReportTable& table) {
   const int steps = options.erosion.levels;
   const Grid<std::uint8_t> none(labels.width(), labels.height());
-  write_result_page(
-      options.report,
-      {.title = "Mask taken back",
-       .heading = file_name(options.mask),
+  Report report(options.report);
+  report.section("pictures", "Pictures",
+                 "Left the mask, right what each step takes, the darker the earlier; white is left. Look whether borders are as ragged as "
+                 "melting snow's.");
+  report.picture("mask", steps_picture(labels, label, {{}, none}, steps), "before");
+  report.picture("steps", steps_picture(labels, label, eroded, steps), "step by step");
+  report.section("figures", "Figures");
+  report.table(table);
+  report.write(
+      {.title = "Mask taken back: " + file_name(options.mask),
        .lead = fmt::format("{} steps of {} pixels.", steps, options.erosion.step),
-       .how_to_read = "Left the mask, right what each step takes, the darker the earlier; white is left. Look whether borders are "
-                      "as ragged as melting snow's.",
-       .rows = {{{"mask", steps_picture(labels, label, {{}, none}, steps), "before"},
-                 {"steps", steps_picture(labels, label, eroded, steps), "step by step"}}},
-       .table = std::move(table),
        .command = fmt::format("belvedere texture erode {} --steps {} --step-px {} --ragged {} --seed {} --out {}", file_name(options.mask),
                               steps, options.erosion.step, options.erosion.ragged, options.erosion.seed, file_name(options.out))});
 }
 
 int run(const TextureErodeOptions& options) {
   check_output_folder(options.out);
-  check_report(options.report);
+  if (!options.report.empty()) check_output_folder(options.report);
   TerminalProgress progress(options.quiet);
   const Grid<std::uint8_t> labels = read_labels(options);
   const auto label = static_cast<std::uint8_t>(options.label >= 0 ? options.label : 255);
@@ -85,7 +85,7 @@ int run(const TextureErodeOptions& options) {
   if (standing == 0)
     progress.note(options.label >= 0 ? fmt::format("warning: no pixel has the number {}", options.label)
                                      : std::string("warning: the mask marks nothing"));
-  std::vector<std::vector<std::string>> table = {{"file", "pixels left", "of all, %"}};
+  ReportTable table({{"file", "file"}, {"left", "pixels left"}, {"share", "of all", ".1%"}});
   Json told = Json::array();
   std::string lines;
   Grid<std::uint8_t> now = labels;
@@ -98,21 +98,17 @@ int run(const TextureErodeOptions& options) {
     const std::string name = fmt::format("{}_{:02}.png", std::filesystem::path(options.mask).stem().string(), level);
     image_io::write_grey_png((std::filesystem::path(options.out) / name).string(), now);
     lines += fmt::format("  {}  {} of {} pixels left\n", name, left, standing);
-    table.push_back({name, fmt::format("{}", left),
-                     fmt::format("{:.1f}", 100.0 * static_cast<double>(left) / std::max<double>(1.0, static_cast<double>(standing)))});
+    table.row(name, left, static_cast<double>(left) / std::max<double>(1.0, static_cast<double>(standing)));
     told.add(Json::object().add("file", Json::text(name)).add("left", Json::number(static_cast<double>(left))));
   }
-  if (!options.report.empty()) write_report(options, labels, label, eroded, std::move(table));
+  if (!options.report.empty()) write_report(options, labels, label, eroded, table);
   progress.end();
-  if (options.json)
-    print_out(Json::object()
-                  .add("out", Json::text(options.out))
-                  .add("standing", Json::number(static_cast<double>(standing)))
-                  .add("steps", std::move(told))
-                  .str() +
-              "\n");
-  else if (!options.quiet)
-    print_out(options.out + "\n" + lines);
+  print_result(options,
+               Json::object()
+                   .add("out", Json::text(options.out))
+                   .add("standing", Json::number(static_cast<double>(standing)))
+                   .add("steps", std::move(told)),
+               options.out + "\n" + lines);
   return 0;
 }
 
@@ -138,7 +134,7 @@ Action add_texture_erode(CommandOptions& command) {
       .type_name("NUMBER");
   command.add_option("--keep", options->keep, "Numbers that take nothing: shores of water stay").range(0, 255).type_name("NUMBER");
   command.add_option("--seed", options->erosion.seed, "Another seed, other borders. Default: 1").type_name("N");
-  add_report_option(command, options->report, "A page with the mask beside what each step takes");
+  command.add_option("--report", options->report, "A page with the mask beside what each step takes").type_name("FOLDER");
   command.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command.add_flag("--json", options->json, "Say what came out as JSON");
   command.footer(

@@ -7,15 +7,17 @@
 #include "base/grid_part.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
+#include "renderer/image/output_file.h"
 #include "texture/statistical/make_texture.h"
 #include "texture/statistical/model_file.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
+#include "tools/cli/print_result.h"
 #include "tools/cli/terminal.h"
-#include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"
+#include "tools/report/report.h"
 
 namespace belvedere::tools {
 namespace {
@@ -48,21 +50,20 @@ void write_report(const TextureFillOptions& options, const Grid<glm::vec3>& befo
     }
   const PixelRect all{0, 0, hole.width(), hole.height()};
   box = box.empty() ? all : intersection(grown(box, around_px), all);
-  write_result_page(options.report,
-                    {.title = "Filled picture",
-                     .heading = file_name(options.picture),
-                     .lead = fmt::format("{} of {} pixels made anew.", pixels, hole.size()),
-                     .how_to_read = "Left as it was, right as it is, in the part that changed. Look for the outline of the hole.",
-                     .rows = {{{"before", part_of(before, box), "before"}, {"after", part_of(after, box), "after"}}},
-                     .table = {},
-                     .command = fmt::format("belvedere texture fill {} --hole {} --model {} --seed {} --out {}", file_name(options.picture),
-                                            file_name(options.hole), file_name(options.model), options.seed, file_name(options.out))});
+  Report report(options.report);
+  report.section("pictures", "Pictures", "Left as it was, right as it is, in the part that changed. Look for the outline of the hole.");
+  report.picture("before", part_of(before, box), "before");
+  report.picture("after", part_of(after, box), "after");
+  report.write({.title = "Filled picture: " + file_name(options.picture),
+                .lead = fmt::format("{} of {} pixels made anew.", pixels, hole.size()),
+                .command = fmt::format("belvedere texture fill {} --hole {} --model {} --seed {} --out {}", file_name(options.picture),
+                                       file_name(options.hole), file_name(options.model), options.seed, file_name(options.out))});
 }
 
 int run(const TextureFillOptions& options) {
   check_texture_name(options.out);
   check_not_read(options.out, "--out", {options.picture, options.hole, options.model});
-  check_report(options.report);
+  if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const CliqueModel model = read_model(options.model);
@@ -84,10 +85,8 @@ int run(const TextureFillOptions& options) {
                         fmt::format("{} filled from {} seed {}", file_name(options.picture), file_name(options.model), options.seed));
   if (!options.report.empty()) write_report(options, stored, filled, hole);
   progress.end();
-  if (options.json)
-    print_out(Json::object().add("out", Json::text(options.out)).add("filled", Json::number(static_cast<double>(pixels))).str() + "\n");
-  else if (!options.quiet)
-    print_out(fmt::format("{}: {} of {} pixels made anew\n", options.out, pixels, picture.size()));
+  print_result(options, Json::object().add("out", Json::text(options.out)).add("filled", Json::number(static_cast<double>(pixels))),
+               fmt::format("{}: {} of {} pixels made anew\n", options.out, pixels, picture.size()));
   return 0;
 }
 
@@ -102,8 +101,8 @@ Action add_texture_fill(CommandOptions& command) {
       .type_name("MODEL");
   command.add_option("--out", options->out, "The picture: .png or .tif").required().type_name("PICTURE");
   command.add_option("--seed", options->seed, "Another seed, other paint. Default: 1").type_name("N");
-  add_report_option(command, options->report, "A page with the part that changed, before and after");
   add_run_options(command, *options);
+  command.add_option("--report", options->report, "A page with the part that changed, before and after").type_name("FOLDER");
   command.footer(
       "Takes lettering, frames and figures out of a scan, or lets a wood grow over a clearing. Nothing outside the mask changes:\n"
       "in a .tif not one of 16 bits.\n\n"

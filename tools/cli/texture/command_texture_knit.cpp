@@ -7,14 +7,16 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
+#include "renderer/image/output_file.h"
 #include "texture/statistical/knit.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
+#include "tools/cli/print_result.h"
 #include "tools/cli/terminal.h"
-#include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"
+#include "tools/report/report.h"
 
 namespace belvedere::tools {
 namespace {
@@ -51,36 +53,36 @@ Cloth read_cloth(const TextureKnitOptions& options, const std::string& path) {
   return {transposed(cloth.picture), transposed(cloth.stored)};
 }
 
-void write_report(const TextureKnitOptions& options, const Grid<glm::vec3>& cut, const Grid<glm::vec3>& knitted,
-                  std::vector<std::vector<std::string>> table) {
+void write_report(const TextureKnitOptions& options, const Grid<glm::vec3>& cut, const Grid<glm::vec3>& knitted, const ReportTable& table) {
   std::string files;
   for (const std::string& picture : options.pictures) files += " " + file_name(picture);
-  write_result_page(
-      options.report,
-      {.title = "Knitted pictures",
-       .heading = file_name(options.out),
-       .lead = fmt::format("{} pictures, {} × {} pixels.", options.pictures.size(), knitted.width(), knitted.height()),
-       .how_to_read =
-           "First as they are, side by side, then knitted. Look for the line, then for a band that is busier than both sides. The "
-           "figures are steps of colour across the seam over those inside: 1 is as any other column.",
-       .rows = {{{"cut", cut, "side by side"}}, {{"knitted", knitted, "knitted"}}},
-       .table = std::move(table),
-       .command = fmt::format("belvedere texture knit{}{}{} --seed {} --out {}", files, options.down ? " --down" : "",
-                              options.knit.band_px == 0 ? "" : fmt::format(" --band-px {}", options.knit.band_px), options.knit.seed,
-                              file_name(options.out))});
+  Report report(options.report);
+  report.section("pictures", "Pictures",
+                 "First as they are, side by side, then knitted. Look for the line, then for a band that is busier than both sides. The "
+                 "figures are steps of colour across the seam over those inside: 1 is as any other column.");
+  report.picture("cut", cut, "side by side");
+  report.next_row();
+  report.picture("knitted", knitted, "knitted");
+  report.section("figures", "Figures");
+  report.table(table);
+  report.write({.title = "Knitted pictures: " + file_name(options.out),
+                .lead = fmt::format("{} pictures, {} × {} pixels.", options.pictures.size(), knitted.width(), knitted.height()),
+                .command = fmt::format("belvedere texture knit{}{}{} --seed {} --out {}", files, options.down ? " --down" : "",
+                                       options.knit.band_px == 0 ? "" : fmt::format(" --band-px {}", options.knit.band_px),
+                                       options.knit.seed, file_name(options.out))});
 }
 
 int run(const TextureKnitOptions& options) {
   if (options.pictures.size() < 2) throw Error(ErrorKind::usage, "command line", "one picture", "two or more to join");
   check_texture_name(options.out);
   check_not_read(options.out, "--out", options.pictures);
-  check_report(options.report);
+  if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   Cloth joined = read_cloth(options, options.pictures.front());
   for (const std::string& picture : options.pictures) note_rounding(picture, options.out, progress);
   Grid<glm::vec3> cut = joined.stored;
-  std::vector<std::vector<std::string>> table = {{"seam at, px", "before", "after", "band, px"}};
+  ReportTable table({{"at_px", "seam at, px"}, {"before", "before", ".2f"}, {"knitted", "after", ".2f"}, {"band_px", "band, px"}});
   Json told = Json::array();
   std::string lines;
   for (std::size_t i = 1; i < options.pictures.size(); ++i) {
@@ -96,8 +98,7 @@ int run(const TextureKnitOptions& options) {
                  .add("before", Json::number(knitted.before))
                  .add("knitted", Json::number(knitted.after))
                  .add("band_px", Json::number(knitted.band_px)));
-    table.push_back({fmt::format("{}", seam), fmt::format("{:.2f}", knitted.before), fmt::format("{:.2f}", knitted.after),
-                     knitted.band_px == 0 ? "left as it was" : fmt::format("{}", knitted.band_px)});
+    table.row(seam, knitted.before, knitted.after, knitted.band_px == 0 ? Json::text("left as it was") : Json::number(knitted.band_px));
     joined.stored = with_changes(side_by_side(joined.stored, next.stored), side_by_side(joined.picture, next.picture), knitted.picture);
     joined.picture = std::move(knitted.picture);
     if (!options.report.empty()) cut = side_by_side(cut, next.stored);
@@ -108,12 +109,10 @@ int run(const TextureKnitOptions& options) {
   }
   write_encoded_texture(options.out, joined.stored,
                         fmt::format("{} pictures knitted, seed {}", options.pictures.size(), options.knit.seed));
-  if (!options.report.empty()) write_report(options, cut, joined.stored, std::move(table));
+  if (!options.report.empty()) write_report(options, cut, joined.stored, table);
   progress.end();
-  if (options.json)
-    print_out(Json::object().add("out", Json::text(options.out)).add("seams", std::move(told)).str() + "\n");
-  else if (!options.quiet)
-    print_out(fmt::format("{}: {}×{} pixels\n", options.out, joined.stored.width(), joined.stored.height()) + lines);
+  print_result(options, Json::object().add("out", Json::text(options.out)).add("seams", std::move(told)),
+               fmt::format("{}: {}×{} pixels\n", options.out, joined.stored.width(), joined.stored.height()) + lines);
   return 0;
 }
 
@@ -132,8 +131,9 @@ Action add_texture_knit(CommandOptions& command) {
       .range(8, 256)
       .type_name("PX");
   command.add_option("--seed", options->knit.seed, "Another seed, another border. Default: 1").type_name("N");
-  add_report_option(command, options->report, "A page with the pictures side by side and knitted, and how plain the seams are");
   add_run_options(command, *options);
+  command.add_option("--report", options->report, "A page with the pictures side by side and knitted, and how plain the seams are")
+      .type_name("FOLDER");
   command.footer(
       "Each picture is grown over the seam by a texture model of its own, up to a ragged border that a model of both makes anew.\n"
       "A seam that nobody sees is left as it is. Nothing farther from the seam changes.\n\n"

@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
-#include "base/text/markup.h"
 #include "renderer/image/output_file.h"
 #include "texture/statistical/choose_seed.h"
 #include "texture/statistical/learn_by_sampling.h"
@@ -15,13 +14,13 @@
 #include "texture/statistical/texture_figures.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
+#include "tools/cli/print_result.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/begin_options.h"
-#include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"
-#include "tools/report/report_folder.h"
+#include "tools/report/report.h"
 
 namespace belvedere::tools {
 namespace {
@@ -66,7 +65,7 @@ std::string as_text(const TextureLearnOptions& options, const TextureFindings& f
   return out;
 }
 
-std::string as_json(const TextureLearnOptions& options, const TextureFindings& found) {
+Json as_json(const TextureLearnOptions& options, const TextureFindings& found) {
   const CliqueModel& model = found.learned.model;
   Json trials = Json::array();
   for (const SeedTrial& t : found.trials)
@@ -78,58 +77,61 @@ std::string as_json(const TextureLearnOptions& options, const TextureFindings& f
                    .add("drawn", Json::number(t.drawn))
                    .add("turned", Json::number(t.turned)));
   return Json::object()
-             .add("out", Json::text(options.out))
-             .add("types", Json::number(static_cast<double>(model.cliques.size())))
-             .add("bytes", Json::number(static_cast<double>(model_bytes(model))))
-             .add("seed", Json::text(name_of(model.seed)))
-             .add("seed_px", Json::number(model.seed_px))
-             .add("polish", Json::boolean(model.polish))
-             .add("figures", with_figures(Json::object(), found.figures))
-             .add("halves", with_figures(Json::object(), found.halves))
-             .add("longest_copy_px", Json::number(found.copy_px))
-             .add("trials", std::move(trials))
-             .str() +
-         "\n";
+      .add("out", Json::text(options.out))
+      .add("types", Json::number(static_cast<double>(model.cliques.size())))
+      .add("bytes", Json::number(static_cast<double>(model_bytes(model))))
+      .add("seed", Json::text(name_of(model.seed)))
+      .add("seed_px", Json::number(model.seed_px))
+      .add("polish", Json::boolean(model.polish))
+      .add("figures", with_figures(Json::object(), found.figures))
+      .add("halves", with_figures(Json::object(), found.halves))
+      .add("longest_copy_px", Json::number(found.copy_px))
+      .add("trials", std::move(trials));
 }
 
 void write_report(const TextureLearnOptions& options, const TextureCrop& crop, const TextureFindings& found) {
-  ReportFolder folder(options.report);
-  folder.begin_figure(
-      "pictures", "Crop and texture",
-      "Left the crop, right what is made from the model alone. Look at single dabs, then from afar: an even busyness without "
-      "accents is what such a model gives.");
-  folder.picture("crop", encoded_picture(crop.picture), "the crop");
-  folder.picture("texture", encoded_picture(found.made), fmt::format("made, {} × {} pixels", found.made.width(), found.made.height()));
-  folder.end_figure();
-  folder.add("<h2>Distances</h2><table>" +
-             html_row({"", "types it holds", "all others", "worst", "beyond pairs", "drawn one way", "which way"}, "th"));
+  Report report(options.report);
+  report.section("pictures", "Crop and texture",
+                 "Left the crop, right what is made from the model alone. Look at single dabs, then from afar: an even busyness without "
+                 "accents is what such a model gives.");
+  report.picture("crop", encoded_picture(crop.picture), "the crop");
+  report.picture("texture", encoded_picture(found.made), fmt::format("made, {} × {} pixels", found.made.width(), found.made.height()));
+  report.section("distances", "Distances");
+  ReportTable distances({{"of", ""},
+                         {"selected", "types it holds", ".3f"},
+                         {"held_out", "all others", ".3f"},
+                         {"worst", "worst", ".2f"},
+                         {"beyond", "beyond pairs", ".3f"},
+                         {"drawn", "drawn one way", ".3f"},
+                         {"turned", "which way", ".3f"}});
   const auto row = [&](const char* name, const TextureFigures& f) {
-    folder.add(html_row({name, fmt::format("{:.3f}", f.selected), fmt::format("{:.3f}", f.held_out), fmt::format("{:.2f}", f.worst),
-                         fmt::format("{:.3f}", f.beyond), fmt::format("{:.3f}", f.drawn), fmt::format("{:.3f}", f.turned)}));
+    distances.row(name, f.selected, f.held_out, f.worst, f.beyond, f.drawn, f.turned);
   };
   row("texture to crop", found.figures);
   row("halves of the crop", found.halves);
-  folder.add("</table><h2>Levels</h2><table>" + html_row({"pixels a side", "types", "others, mean", "others, worst"}, "th"));
-  for (const LearnedLevel& level : found.learned.levels)
-    folder.add(html_row({fmt::format("{}", 1 << level.level), fmt::format("{}", level.types), fmt::format("{:.3f}", level.held_out_l1),
-                         fmt::format("{:.3f}", level.worst_l2)}));
-  folder.add("</table>");
+  report.table(distances);
+  report.section("levels", "Levels");
+  ReportTable levels(
+      {{"pixels", "pixels a side"}, {"types", "types"}, {"held_out", "others, mean", ".3f"}, {"worst", "others, worst", ".3f"}});
+  for (const LearnedLevel& level : found.learned.levels) levels.row(1 << level.level, level.types, level.held_out_l1, level.worst_l2);
+  report.table(levels);
   if (!found.trials.empty()) {
-    folder.add("<h2>How it begins</h2><table>" + html_row({"noise", "beyond pairs", "drawn one way", "which way"}, "th"));
-    for (const SeedTrial& t : found.trials)
-      folder.add(html_row({describe_begin(t.seed, t.px, t.polish), fmt::format("{:.3f}", t.beyond), fmt::format("{:.3f}", t.drawn),
-                           fmt::format("{:.3f}", t.turned)}));
-    folder.add("</table>");
+    report.section("begins", "How it begins");
+    ReportTable trials(
+        {{"noise", "noise"}, {"beyond", "beyond pairs", ".3f"}, {"drawn", "drawn one way", ".3f"}, {"turned", "which way", ".3f"}});
+    for (const SeedTrial& t : found.trials) trials.row(describe_begin(t.seed, t.px, t.polish), t.beyond, t.drawn, t.turned);
+    report.table(trials);
   }
-  if (is_uneven(found)) folder.add("<p>" + markup_text(warning_of(found)) + "</p>");
-  folder.write_page("Texture model", file_name(options.crop), fmt::format("A model of {} bytes.", model_bytes(found.learned.model)),
-                    fmt::format("belvedere texture learn {} --out {}", file_name(options.crop), file_name(options.out)));
+  if (is_uneven(found)) report.text(warning_of(found));
+  report.write({.title = "Texture model: " + file_name(options.crop),
+                .lead = fmt::format("A model of {} bytes.", model_bytes(found.learned.model)),
+                .command = fmt::format("belvedere texture learn {} --out {}", file_name(options.crop), file_name(options.out))});
 }
 
 int run(const TextureLearnOptions& options) {
   check_place(options.out);
   check_not_read(options.out, "--out", {options.crop, options.mask});
-  check_report(options.report);
+  if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   TextureCrop crop = read_crop(options.crop, options.mask);
@@ -159,10 +161,7 @@ int run(const TextureLearnOptions& options) {
   if (!options.report.empty()) write_report(options, crop, found);
   if (is_uneven(found)) progress.note(warning_of(found));
   progress.end();
-  if (options.json)
-    print_out(as_json(options, found));
-  else if (!options.quiet)
-    print_out(as_text(options, found));
+  print_result(options, as_json(options, found), as_text(options, found));
   return 0;
 }
 
@@ -194,8 +193,8 @@ Action add_texture_learn(CommandOptions& command) {
                   "crops up to 256 pixels a side; it takes minutes and knows nothing farther than 12 pixels. Default: flow")
       .one_of({"flow", "paper"})
       .type_name("METHOD");
-  add_report_option(command, options->report, "A page with crop beside texture, and all figures");
   add_run_options(command, *options, "bit");
+  command.add_option("--report", options->report, "A page with crop beside texture, and all figures").type_name("FOLDER");
   command.footer(
       "The model says how neighbouring pixels differ, near and far, and nothing more: meadow, forest from afar, scree, water and sky come "
       "out\n"

@@ -8,16 +8,18 @@
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/text/json.h"
+#include "renderer/image/output_file.h"
 #include "texture/statistical/make_texture.h"
 #include "texture/statistical/model_file.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
+#include "tools/cli/print_result.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/begin_options.h"
-#include "tools/cli/texture/result_page.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"
+#include "tools/report/report.h"
 
 namespace belvedere::tools {
 namespace {
@@ -44,22 +46,21 @@ std::string asked_for(const TextureMakeOptions& options) {
 
 void write_report(const TextureMakeOptions& options, const CliqueModel& model, const Grid<Rgb8>& made) {
   const std::string file = file_name(options.model);
-  write_result_page(
-      options.report,
-      {.title = "Texture",
-       .heading = file,
-       .lead = fmt::format("{} × {} pixels from a model of {} bytes.", made.width(), made.height(), model_bytes(model)),
-       .how_to_read =
-           "Look at single dabs, then from afar: an even busyness without accents is what such a model gives. The page of texture "
-           "learn has the crop beside it.",
-       .rows = {{{"texture", encoded_picture(made), fmt::format("made with seed {}", options.seed)}}},
-       .table = {{"model", ""},
-                 {"types of pairs", fmt::format("{}", model.cliques.size())},
-                 {"begins with", describe_begin(model.seed, model.seed_px, model.polish)},
-                 {"learnt from, pixels", fmt::format("{} × {}", model.crop_width, model.crop_height)},
-                 {"hash of the crop", model.crop_hash}},
-       .command =
-           fmt::format("belvedere texture make {} {} --seed {} --out {}", file, asked_for(options), options.seed, file_name(options.out))});
+  Report report(options.report);
+  report.section("pictures", "Pictures",
+                 "Look at single dabs, then from afar: an even busyness without accents is what such a model gives. The page of texture "
+                 "learn has the crop beside it.");
+  report.picture("texture", encoded_picture(made), fmt::format("made with seed {}", options.seed));
+  report.section("figures", "Figures");
+  report.table(ReportTable({{"what", "model"}, {"value", ""}})
+                   .row("types of pairs", model.cliques.size())
+                   .row("begins with", describe_begin(model.seed, model.seed_px, model.polish))
+                   .row("learnt from, pixels", fmt::format("{} × {}", model.crop_width, model.crop_height))
+                   .row("hash of the crop", model.crop_hash));
+  report.write({.title = "Texture: " + file,
+                .lead = fmt::format("{} × {} pixels from a model of {} bytes.", made.width(), made.height(), model_bytes(model)),
+                .command = fmt::format("belvedere texture make {} {} --seed {} --out {}", file, asked_for(options), options.seed,
+                                       file_name(options.out))});
 }
 
 int run(const TextureMakeOptions& options) {
@@ -68,7 +69,7 @@ int run(const TextureMakeOptions& options) {
                 "one of them");
   check_texture_name(options.out);
   check_not_read(options.out, "--out", {options.model});
-  check_report(options.report);
+  if (!options.report.empty()) check_output_folder(options.report);
   const ThreadLimit threads(options.threads);
   TerminalProgress progress(options.quiet);
   const CliqueModel model = read_model(options.model);
@@ -89,10 +90,7 @@ int run(const TextureMakeOptions& options) {
                         .add("out", Json::text(options.out))
                         .add("width", Json::number(made.width()))
                         .add("height", Json::number(made.height()));
-  if (options.json)
-    print_out(told.str() + "\n");
-  else if (!options.quiet)
-    print_out(fmt::format("{}: {}×{} pixels\n", options.out, made.width(), made.height()));
+  print_result(options, told, fmt::format("{}: {}×{} pixels\n", options.out, made.width(), made.height()));
   return 0;
 }
 
@@ -116,8 +114,8 @@ Action add_texture_make(CommandOptions& command) {
                   "Where strokes run, degrees clockwise from level; of models that begin with streaks.\n"
                   "Default: as in the crop")
       .type_name("DEGREES");
-  add_report_option(command, options->report, "A page with the texture and what its model is");
   add_run_options(command, *options);
+  command.add_option("--report", options->report, "A page with the texture and what its model is").type_name("FOLDER");
   command.footer(
       "Nothing is copied and nothing repeats, at any size.\n\n"
       "  belvedere texture make meadow.model --size 1200x800 --out meadow.png\n"

@@ -86,7 +86,7 @@ TEST_F(Texture, JoinsPicturesAndNothingElse) {
   EXPECT_THAT(knitted.out, AllOf(HasSubstr("\"at_px\""), HasSubstr("\"before\"")));
   const Grid<glm::vec3> joined = read_picture(path("knit.png"));
   ASSERT_EQ(joined.width(), 132);
-  EXPECT_THAT(read_bytes(path("page/index.html")), AllOf(HasSubstr("cut.png"), HasSubstr("<td>72</td>"), HasSubstr("--band-px 12")));
+  EXPECT_THAT(read_bytes(path("page/index.html")), AllOf(HasSubstr("cut.png"), HasSubstr("\"at_px\": 72"), HasSubstr("--band-px 12")));
   EXPECT_EQ(read_picture(path("page/knitted.png")), joined);
   const Grid<glm::vec3> a = read_picture(left);
   const Grid<glm::vec3> b = read_picture(right);
