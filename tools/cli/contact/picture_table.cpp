@@ -54,7 +54,8 @@ Grid<glm::vec3> draw_table(const PictureTable& table) {
   int left = table_gap;
   for (const std::string& name : table.rows) left = std::max(left, 2 * table_gap + text_width(name, caption_scale));
   const std::vector<int> x = begins(left, widths);
-  const std::vector<int> y = begins(table_gap + caption_line_px, heights);
+  const bool named = std::any_of(table.columns.begin(), table.columns.end(), [](const std::string& name) { return !name.empty(); });
+  const std::vector<int> y = begins(table_gap + (named ? caption_line_px : 0), heights);
   const int foot_px = table.foot.empty() ? 0 : table.foot.height() + table_gap;
   Grid<glm::vec3> sheet(std::max(x.back(), left + table.foot.width() + table_gap), y.back() + foot_px, table_paper);
   for (int j = 0; j < table.foot.height(); ++j) std::copy_n(table.foot.row(j), table.foot.width(), sheet.row(y.back() + j) + left);

@@ -14,7 +14,7 @@ struct TableCell {
   std::string caption;
 };
 struct PictureTable {
-  std::vector<std::string> columns;           // above them
+  std::vector<std::string> columns;           // above them; all empty: nothing stands there
   std::vector<std::string> rows;              // left of them; empty: nothing stands there
   std::vector<std::vector<TableCell>> cells;  // [row][column]
   Grid<glm::vec3> foot;                       // below them all, such as a legend; empty: none

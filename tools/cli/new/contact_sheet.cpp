@@ -12,22 +12,11 @@
 #include "renderer/world/scene_dem.h"
 #include "renderer/world/valley_view.h"
 #include "terrain/io/raster_io.h"
+#include "tools/cli/contact/picture_table.h"
 #include "tools/cli/lock/scratch_folder.h"
-#include "tools/report/picture_text.h"
 
 namespace belvedere::tools {
 namespace {
-
-constexpr int border_px = 12;
-constexpr int caption_px = text_height * caption_scale + border_px;
-const glm::vec3 sheet_paper(0.96F, 0.95F, 0.92F);
-const glm::vec3 sheet_ink(0.15F, 0.15F, 0.18F);
-
-void lay(Grid<glm::vec3>& sheet, const Grid<glm::vec3>& picture, int x0, int y0) {
-  for (int y = 0; y < picture.height(); ++y)
-    for (int x = 0; x < picture.width(); ++x)
-      if (sheet.contains(x0 + x, y0 + y)) sheet(x0 + x, y0 + y) = picture(x, y);
-}
 
 std::string terrain_of(const LoadedScene& loaded) {
   Scene terrain;
@@ -79,25 +68,16 @@ void write_contact_sheet(const std::string& path, std::vector<LoadedScene> draft
                   .cache = run.cache.is_on() ? run.cache : own};
   run.progress.begin("drawing the proposals", static_cast<double>(drafts.size()));
   share_ground(drafts, kept.path(), quiet.cache);
-  std::vector<Grid<glm::vec3>> pictures;
-  for (const LoadedScene& draft : drafts) {
+  PictureTable sheet;
+  sheet.columns.resize(std::min(static_cast<std::size_t>(parameters.columns), drafts.size()));
+  for (std::size_t i = 0; i < drafts.size(); ++i) {
     const ScratchFolder folder;
-    render(draft, folder.path(), quiet);
+    render(drafts[i], folder.path(), quiet);
     run.progress.advance(1.0);
-    pictures.push_back(read_picture((std::filesystem::path(folder.path()) / "panorama.png").string()));
+    if (i % sheet.columns.size() == 0) sheet.cells.emplace_back();
+    sheet.cells.back().push_back({read_picture((std::filesystem::path(folder.path()) / "panorama.png").string()), captions[i]});
   }
-  int width = 0, height = 0;
-  for (const Grid<glm::vec3>& picture : pictures) width = std::max(width, picture.width()), height = std::max(height, picture.height());
-  const int columns = std::min(parameters.columns, static_cast<int>(pictures.size()));
-  const int rows = (static_cast<int>(pictures.size()) + columns - 1) / std::max(1, columns);
-  Grid<glm::vec3> sheet(columns * (width + border_px) + border_px, rows * (height + caption_px + border_px) + border_px, sheet_paper);
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const int x = border_px + static_cast<int>(i) % columns * (width + border_px);
-    const int y = border_px + static_cast<int>(i) / columns * (height + caption_px + border_px);
-    lay(sheet, pictures[i], x, y);
-    draw_text(sheet, x, y + height + border_px / 2, captions[i], sheet_ink, caption_scale);
-  }
-  write_png8(path, sheet, {});
+  write_png8(path, draw_table(sheet), {});
 }
 
 }  // namespace belvedere::tools
