@@ -65,7 +65,7 @@ TEST_F(Program, CommandsThatAreMissingOrMisspeltAreAskedFor) {
   const auto said = [&](const std::vector<std::string>& arguments) { return run(arguments).err; };
   EXPECT_THAT(said({}), HasSubstr("what shall belvedere do?\n  allowed: new, render, guidance"));
   EXPECT_THAT(said({"rendr", "x.toml"}), HasSubstr("belvedere has no command \"rendr\"; did you mean \"render\"?"));
-  EXPECT_THAT(said({"exemplar"}), HasSubstr("what shall belvedere exemplar do?\n  allowed: check, compare, paint, segment."));
+  EXPECT_THAT(said({"exemplar"}), HasSubstr("what shall belvedere exemplar do?\n  allowed: check, paint, segment."));
   EXPECT_THAT(said({"exemplar", "pain"}), HasSubstr("belvedere exemplar has no command \"pain\"; did you mean \"paint\"?"));
   EXPECT_THAT(said({"exemplar", "xyz"}), Not(HasSubstr("did you mean")));
   // Where there is a command, what is wrong with its options is said.

@@ -10,11 +10,11 @@
 
 #include "base/filter.h"
 #include "base/progress.h"
-#include "renderer/exemplar/painting_figures.h"
 #include "renderer/paint/base_picture.h"
 #include "renderer/paint/light.h"
 #include "renderer/paint/palette.h"
 #include "tests/renderer/exemplar/painted_hills.h"
+#include "tests/renderer/exemplar/painting_figures.h"
 #include "texture/strokes/ice_plan.h"
 #include "texture/strokes/stroke_painter.h"
 #include "texture/strokes/stroke_table.h"

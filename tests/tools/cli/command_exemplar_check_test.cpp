@@ -95,7 +95,7 @@ TEST_F(ExemplarCheck, RefusesWhatCannotBeMeant) {
     EXPECT_EQ(outcome.status, status) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(words));
   };
-  refused(2, {"exemplar"}, "what shall belvedere exemplar do?\n  allowed: check, compare, paint, segment.");
+  refused(2, {"exemplar"}, "what shall belvedere exemplar do?\n  allowed: check, paint, segment.");
   refused(2, {"exemplar", "check", "--label", label_}, "there is no --picture");
   refused(2, {"exemplar", "check", "--picture", style_}, "1 --picture and 0 --label");
   refused(2, {"exemplar", "check", "scene.toml", "--picture", style_, "--label", label_}, "either a scene");

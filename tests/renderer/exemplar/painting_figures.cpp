@@ -1,4 +1,4 @@
-#include "renderer/exemplar/painting_figures.h"
+#include "tests/renderer/exemplar/painting_figures.h"
 
 #include <algorithm>
 #include <cmath>
