@@ -15,7 +15,6 @@
 #include "texture/synthesis/synthesize.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
-#include "tools/cli/print_result.h"
 #include "tools/cli/synthesis_files.h"
 #include "tools/cli/synthesis_sweep.h"
 #include "tools/cli/synthesize_replay.h"

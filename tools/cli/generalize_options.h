@@ -6,7 +6,6 @@
 
 #include "terrain/generalize/generalize.h"
 #include "terrain/generalize/mask.h"
-#include "tools/cli/print_result.h"
 #include "tools/cli/terrain_operators.h"
 #include "tools/options/run_options.h"
 

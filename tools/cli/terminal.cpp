@@ -12,6 +12,8 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/text/json.h"
+#include "tools/options/run_options.h"
 
 namespace belvedere::tools {
 namespace {
@@ -48,6 +50,13 @@ bool interrupted() { return stop_asked != 0; }
 
 void print_out(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() && output_problem == 0) output_problem = errno;
+}
+
+void print_result(const RunOptions& options, const Json& json, const std::string& text) {
+  if (options.json)
+    print_out(json.str() + "\n");
+  else if (!options.quiet)
+    print_out(text);
 }
 
 void finish_output() {

@@ -8,7 +8,13 @@
 
 #include "base/progress.h"
 
+namespace belvedere {
+class Json;
+}
+
 namespace belvedere::tools {
+
+struct RunOptions;
 
 // What the program owes its surroundings before anything else: closed standard streams are replaced by /dev/null, so that no file of
 // ours becomes "the terminal"; a closed pipe is an error code and no signal; SIGINT and SIGTERM ask to stop, a second one ends at once.
@@ -19,6 +25,8 @@ bool interrupted();
 // Text to stdout. What cannot be written is remembered; finish_output() flushes and throws Error(output), or does nothing where the
 // reader simply closed the pipe.
 void print_out(std::string_view text);
+// What came out, as it was asked for: as JSON, as text or, quiet, not at all.
+void print_result(const RunOptions& options, const Json& json, const std::string& text);
 void finish_output();
 // Text to stderr; nobody can be told where that fails.
 void print_error(std::string_view text);

@@ -19,7 +19,6 @@
 #include "texture/synthesis/guide_stack.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
-#include "tools/cli/print_result.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"

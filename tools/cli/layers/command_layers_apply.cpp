@@ -16,7 +16,6 @@
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
 #include "tools/cli/layers/ground_climate_options.h"
-#include "tools/cli/print_result.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
 #include "tools/options/run_options.h"

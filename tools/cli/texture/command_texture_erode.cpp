@@ -14,9 +14,9 @@
 #include "renderer/image/png_palette.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
-#include "tools/cli/print_result.h"
 #include "tools/cli/terminal.h"
 #include "tools/options/options.h"
+#include "tools/options/run_options.h"
 #include "tools/report/report.h"
 
 namespace belvedere::tools {

@@ -11,7 +11,6 @@
 #include "texture/statistical/knit.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
-#include "tools/cli/print_result.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/texture_pictures.h"
 #include "tools/options/options.h"

@@ -14,7 +14,6 @@
 #include "texture/statistical/texture_figures.h"
 #include "tools/cli/commands.h"
 #include "tools/cli/file_names.h"
-#include "tools/cli/print_result.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/texture/begin_options.h"
 #include "tools/cli/texture/texture_pictures.h"
