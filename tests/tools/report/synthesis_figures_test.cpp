@@ -57,7 +57,7 @@ TEST(SynthesisFigures, SeamsBetweenPaintingsNeedTwo) {
 }
 
 TEST(SynthesisFigures, ClassesHaveTheirFiguresWithTheirVerdict) {
-  const ClassSupply supply{.label = 2, .pixels = 900, .texels = 10};
+  const ClassSupply supply{.label = 2, .texels = 10, .pixels = 900};
   const std::string json =
       class_table(two_classes(), {supply}, [](std::uint8_t label) { return "class " + std::to_string(label); }).rows().str();
   EXPECT_THAT(json, AllOf(HasSubstr("\"name\": \"class 2\""), HasSubstr("\"asked\": 900"), HasSubstr("\"asked\": null")));
