@@ -23,6 +23,7 @@ pkg_check_modules(lcms REQUIRED IMPORTED_TARGET lcms2)
 pkg_check_modules(pango REQUIRED IMPORTED_TARGET pangocairo fontconfig)
 pkg_check_modules(qpdf REQUIRED IMPORTED_TARGET libqpdf)
 pkg_check_modules(rsvg REQUIRED IMPORTED_TARGET librsvg-2.0 cairo-pdf)
+pkg_check_modules(lbfgs REQUIRED IMPORTED_TARGET liblbfgs)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 # Vector code for several instruction sets, chosen when the program starts.
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)

@@ -36,7 +36,8 @@ struct ClusterParameters {
   int rounds = 80;                              // of expectation and maximization, at most
 };
 // Classes by colour: the parts of a mixture, those that are mistaken for each other joined (after Hennig 2010), since a mixture needs
-// several parts for one class that is not Gaussian.
+// several parts for one class that is not Gaussian. OpenCV fits such mixtures too, but in minutes where this takes a second, and its last
+// bits hang on the processor.
 struct Clusters {
   std::vector<MixturePart> parts;
   std::vector<std::uint8_t> class_of_part;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/math_exact.h"
-#include "base/parallel.h"
 #include "terrain/layers/fit/fit_losses.h"
 #include "terrain/layers/fit/minimize.h"
 
@@ -27,10 +26,6 @@ std::uint8_t to_byte(double unit) { return static_cast<std::uint8_t>(std::floor(
 void set_knots(LayerSamples& function, std::vector<std::uint8_t> knots) {
   function.samples = samples_of_knots(knots);
   function.knots = std::move(knots);
-}
-
-double value_of(const LayerSamples& function, std::size_t sample) {
-  return function.at_0 + (function.at_255 - function.at_0) * static_cast<double>(function.samples[sample]) / 255.0;
 }
 
 }  // namespace
@@ -143,66 +138,22 @@ ClassFunctions histogram_functions(const FitCells& cells, const HistogramParamet
   return made;
 }
 
-namespace {
-
-// Coverage of a product, shares of a sum.
-ClassShares evaluate(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs) {
-  const std::size_t classes = functions.bias.size();
-  const std::size_t cells = inputs.empty() ? 0 : inputs[0].size();
-  const bool product = functions.model == LayerModel::product;
-  std::vector<double> table(inputs.size() * samples * classes);  // factors, [input][sample][class]
-  for (std::size_t k = 0; k != classes; ++k)
-    for (std::size_t a = 0; a != inputs.size(); ++a)
-      for (std::size_t i = 0; i != samples; ++i) {
-        const double value = value_of(functions.functions[k][a], i);
-        table[(a * samples + i) * classes + k] = product ? value : exact::exp(std::clamp(value, -30.0, 30.0));
-      }
-  ClassShares shares{static_cast<int>(classes), std::vector<float>(cells * classes)};
-  constexpr std::size_t cells_at_once = 8192;
-  parallel_ranges(cells, cells_at_once, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> of(classes);
-    for (std::size_t c = begin; c != end; ++c) {
-      for (std::size_t k = 0; k != classes; ++k) of[k] = product ? functions.bias[k] : exact::exp(functions.bias[k]);
-      for (std::size_t a = 0; a != inputs.size(); ++a) {
-        const double* factor = &table[(a * samples + inputs[a][c]) * classes];
-        for (std::size_t k = 0; k != classes; ++k) of[k] *= factor[k];
-      }
-      float* to = &shares.values[c * classes];
-      if (product) {
-        for (std::size_t k = 0; k != classes; ++k) to[k] = static_cast<float>(of[k]);
-        to[static_cast<std::size_t>(functions.order[0])] = 1.0F;
-      } else {
-        double total = 0.0;
-        for (const double v : of) total += v;
-        for (std::size_t k = 0; k != classes; ++k) to[k] = static_cast<float>(of[k] / total);
-      }
-    }
-  });
-  return shares;
-}
-
-}  // namespace
-
-ClassShares predict_coverage(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs) {
-  return evaluate(functions, inputs);
-}
-
-ClassShares predict_shares(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs) {
-  ClassShares shares = evaluate(functions, inputs);
-  if (functions.model != LayerModel::product) return shares;
-  const std::size_t classes = functions.bias.size();
-  for (std::size_t c = 0; c != shares.size(); ++c) {
-    // What is seen of each: those painted later lie over those before; what is left is ground.
-    float* of = &shares.values[c * classes];
-    double rest = 1.0;
-    for (std::size_t rank = classes; rank-- != 0;) {
-      const auto k = static_cast<std::size_t>(functions.order[rank]);
-      const auto coverage = static_cast<double>(of[k]);
-      of[k] = static_cast<float>(coverage * rest);
-      rest *= 1.0 - coverage;
+void set_functions(SurfaceLayer& layer, const ClassFunctions& functions, std::size_t of) {
+  constexpr double least_span = 0.02;
+  layer.noise.bias = functions.bias[of];
+  layer.functions.clear();
+  for (const LayerSamples& function : functions.functions[of]) {
+    const auto [low, high] = std::minmax_element(function.samples.begin(), function.samples.end());
+    const double step = (function.at_255 - function.at_0) / 255.0;
+    if (functions.model == LayerModel::product && function.at_255 == 1.0 && *low == 255) {
+      layer.functions.emplace_back();
+    } else if (functions.model == LayerModel::additive && step * (*high - *low) < least_span) {
+      layer.noise.bias += function.at_0 + step * 0.5 * (*low + *high);
+      layer.functions.emplace_back();
+    } else {
+      layer.functions.emplace_back(function);
     }
   }
-  return shares;
 }
 
 }  // namespace belvedere

@@ -41,10 +41,9 @@ struct HistogramParameters {
 // mean is 1/2. Where more than half of the samples are empty that cannot be: the function is 1 where the class occurs, and counted.
 ClassFunctions histogram_functions(const FitCells& cells, const HistogramParameters& parameters = {});
 
-// Of a product: the coverage C of each class in each cell, before any lies over another; 1 for the ground.
-ClassShares predict_coverage(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs);
-// Of every cell of `inputs` ([input][cell]), by the model's own rule.
-ClassShares predict_shares(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs);
+// Gives a layer the functions and the bias of a class. Functions that say nothing are left out: those of a product that are 1 throughout,
+// and of a sum those that change a share by less than two hundredths of itself from one end to the other.
+void set_functions(SurfaceLayer& layer, const ClassFunctions& functions, std::size_t of);
 
 // Classes from the largest to the smallest; ties to the lower class.
 std::vector<int> by_falling_area(const std::vector<std::size_t>& counts);

@@ -1,10 +1,11 @@
 #include "terrain/layers/fit/fit_measures.h"
 
+#include <lcms2.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -14,8 +15,6 @@
 
 namespace belvedere {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 double linear(double encoded) {
   const double v = encoded / 255.0;
@@ -101,46 +100,9 @@ LabColour lab_of_srgb(double r, double g, double b) {
 }
 
 double colour_difference(const LabColour& one, const LabColour& other) {
-  const double chroma_mean = 0.5 * (exact::hypot(one.a, one.b) + exact::hypot(other.a, other.b));
-  const double c7 = exact::pow(chroma_mean, 7.0);
-  const double g = 0.5 * (1.0 - std::sqrt(c7 / (c7 + 6103515625.0)));  // 25^7
-  const double a1 = (1.0 + g) * one.a;
-  const double a2 = (1.0 + g) * other.a;
-  const double c1 = exact::hypot(a1, one.b);
-  const double c2 = exact::hypot(a2, other.b);
-  const auto hue = [](double a, double b) {
-    if (a == 0.0 && b == 0.0) return 0.0;
-    const double h = exact::atan2(b, a) * 180.0 / pi;
-    return h < 0.0 ? h + 360.0 : h;
-  };
-  const double h1 = hue(a1, one.b);
-  const double h2 = hue(a2, other.b);
-  double dh = c1 * c2 == 0.0 ? 0.0 : h2 - h1;
-  if (dh > 180.0) dh -= 360.0;
-  if (dh < -180.0) dh += 360.0;
-  double h_mean = h1 + h2;
-  if (c1 * c2 != 0.0) {
-    if (std::abs(h1 - h2) > 180.0) h_mean += h_mean < 360.0 ? 360.0 : -360.0;
-    h_mean *= 0.5;
-  }
-  const double dl = other.l - one.l;
-  const double dc = c2 - c1;
-  const double dhh = 2.0 * std::sqrt(c1 * c2) * exact::sin(0.5 * dh * pi / 180.0);
-  const auto cosine = [](double degrees) { return exact::cos(degrees * pi / 180.0); };
-  const double t = 1.0 - 0.17 * cosine(h_mean - 30.0) + 0.24 * cosine(2.0 * h_mean) + 0.32 * cosine(3.0 * h_mean + 6.0) -
-                   0.20 * cosine(4.0 * h_mean - 63.0);
-  const double l50 = (0.5 * (one.l + other.l) - 50.0) * (0.5 * (one.l + other.l) - 50.0);
-  const double sl = 1.0 + 0.015 * l50 / std::sqrt(20.0 + l50);
-  const double cm = 0.5 * (c1 + c2);
-  const double sc = 1.0 + 0.045 * cm;
-  const double sh = 1.0 + 0.015 * cm * t;
-  const double turn = 30.0 * exact::exp(-((h_mean - 275.0) / 25.0) * ((h_mean - 275.0) / 25.0));
-  const double cm7 = exact::pow(cm, 7.0);
-  const double rt = -2.0 * std::sqrt(cm7 / (cm7 + 6103515625.0)) * exact::sin(2.0 * turn * pi / 180.0);
-  const double l = dl / sl;
-  const double c = dc / sc;
-  const double h = dhh / sh;
-  return std::sqrt(l * l + c * c + h * h + rt * c * h);
+  const cmsCIELab a = {one.l, one.a, one.b};
+  const cmsCIELab b = {other.l, other.a, other.b};
+  return cmsCIE2000DeltaE(&a, &b, 1.0, 1.0, 1.0);
 }
 
 BlockDifference block_difference(const RgbPlanes& picture, const RgbPlanes& other, const Grid<std::uint8_t>* use, int block) {

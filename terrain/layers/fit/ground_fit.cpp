@@ -9,10 +9,12 @@
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "base/grid_part.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "terrain/cover/layer_inputs.h"
 #include "terrain/layers/fit/clusters.h"
+#include "terrain/layers/layer_coverage.h"
 
 namespace belvedere {
 namespace {
@@ -99,112 +101,107 @@ std::uint32_t packed(const std::array<double, 3>& rgb) {
   return value;
 }
 
-// Functions that say nothing are left out: those of a product that are 1 throughout, and of a sum those that change a share by less than
-// two hundredths of itself from one end to the other.
-void set_functions(SurfaceLayer& layer, const ClassFunctions& functions, std::size_t of) {
-  constexpr double least_span = 0.02;
-  layer.noise.bias = functions.bias[of];
-  layer.functions.clear();
-  for (const LayerSamples& function : functions.functions[of]) {
-    const auto [low, high] = std::minmax_element(function.samples.begin(), function.samples.end());
-    const double step = (function.at_255 - function.at_0) / 255.0;
-    if (functions.model == LayerModel::product && function.at_255 == 1.0 && *low == 255) {
-      layer.functions.emplace_back();
-    } else if (functions.model == LayerModel::additive && step * (*high - *low) < least_span) {
-      layer.noise.bias += function.at_0 + step * 0.5 * (*low + *high);
-      layer.functions.emplace_back();
-    } else {
-      layer.functions.emplace_back(function);
-    }
-  }
-}
-
-// First leaf of each class, and after the last the number of leaves.
-std::vector<std::size_t> first_leaves(const GroundFit& fit) {
-  std::vector<std::size_t> first(fit.children.size() + 1, fit.parent.size());
-  for (std::size_t j = fit.parent.size(); j-- != 0;) first[static_cast<std::size_t>(fit.parent[j])] = j;
-  return first;
-}
-
-// The classes' shares, each shared out among its leaves.
-ClassShares shared_leaves(const GroundFit& fit, const std::vector<std::vector<std::uint8_t>>& samples) {
-  const ClassShares of_classes = predict_shares(fit.classes, samples);
-  const std::vector<std::size_t> first = first_leaves(fit);
-  const std::size_t leaves = fit.parent.size();
-  ClassShares shares{static_cast<int>(leaves), std::vector<float>(of_classes.size() * leaves)};
-  for (std::size_t k = 0; k != fit.children.size(); ++k) {
-    const std::size_t count = first[k + 1] - first[k];
-    const ClassShares within = count > 1 ? predict_shares(fit.children[k], samples) : ClassShares{};
-    for (std::size_t i = 0; i != of_classes.size(); ++i)
-      for (std::size_t j = 0; j != count; ++j)
-        shares.values[i * leaves + first[k] + j] = of_classes.of(i)[k] * (count > 1 ? within.of(i)[j] : 1.0F);
-  }
-  return shares;
-}
-
-// As a file of a product is painted: a class with the colour of its first child, then its other children, each over all that is there and
-// never more than their class (P04, P05).
-ClassShares painted_leaves(const GroundFit& fit, const std::vector<std::vector<std::uint8_t>>& samples) {
-  const ClassShares of_classes = predict_coverage(fit.classes, samples);
-  const std::vector<std::size_t> first = first_leaves(fit);
-  const std::size_t leaves = fit.parent.size();
-  ClassShares shares{static_cast<int>(leaves), std::vector<float>(of_classes.size() * leaves, 0.0F)};
-  const auto paint = [&](std::size_t cell, std::size_t leaf, float coverage) {
-    float* const of = &shares.values[cell * leaves];
-    for (std::size_t j = 0; j != leaves; ++j) of[j] *= 1.0F - coverage;
-    of[leaf] += coverage;
-  };
+// A file of what was learned, and whose colour is seen where: the leaf of the bare ground, then that of each layer (-1: it paints nothing).
+struct LeafLayers {
+  SurfaceLayers layers;
+  std::vector<int> leaf_of;
+};
+LeafLayers leaf_layers(const KnownGround& ground, const GroundFit& fit, const std::string& name) {
+  LeafLayers out;
+  SurfaceLayers& layers = out.layers;
+  layers.name = name;
+  layers.model = fit.classes.model;
+  layers.inputs = fit.ranges;
+  const bool product = layers.model == LayerModel::product;
   for (const int k_int : fit.classes.order) {
     const auto k = static_cast<std::size_t>(k_int);
-    const std::size_t count = first[k + 1] - first[k];
-    const ClassShares within = count > 1 ? predict_coverage(fit.children[k], samples) : ClassShares{};
-    const std::size_t own = count > 1 ? static_cast<std::size_t>(fit.children[k].order[0]) : 0;
-    parallel_ranges(of_classes.size(), std::size_t{16384}, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i != end; ++i) {
-        const float coverage = of_classes.of(i)[k];
-        paint(i, first[k] + own, coverage);
-        for (std::size_t rank = 1; rank < count; ++rank) {
-          const auto j = static_cast<std::size_t>(fit.children[k].order[rank]);
-          paint(i, first[k] + j, coverage * within.of(i)[j]);
-        }
-      }
-    });
+    const int first = static_cast<int>(std::find(fit.parent.begin(), fit.parent.end(), k_int) - fit.parent.begin());
+    const std::vector<int>& order = fit.children[k].order;  // empty where the class has one colour
+    SurfaceLayer layer;
+    layer.name = ground.classes[k].name;
+    layer.painted_as = ground.classes[k].painted_as;
+    set_functions(layer, fit.classes, k);
+    const int index = static_cast<int>(layers.layers.size());
+    // In a product the first of the children covers its class wholly: the class's own colour.
+    const int own = order.empty() ? first : first + order[0];
+    layer.rgb = packed(fit.colours[static_cast<std::size_t>(own)]);
+    layers.layers.push_back(layer);
+    if (index == 0) out.leaf_of.push_back(own);
+    out.leaf_of.push_back(product || order.empty() ? own : -1);
+    for (std::size_t rank = product ? 1 : 0; rank < order.size(); ++rank) {
+      SurfaceLayer child;
+      child.name = fmt::format("{}, colour {}", layer.name, rank + 1);
+      child.parent = index;
+      child.rgb = packed(fit.colours[static_cast<std::size_t>(first + order[rank])]);
+      set_functions(child, fit.children[k], static_cast<std::size_t>(order[rank]));
+      layers.layers.push_back(std::move(child));
+      out.leaf_of.push_back(first + order[rank]);
+    }
   }
+  layers.ground_rgb = layers.layers[0].rgb;
+  layers.ground_painted_as = layers.layers[0].painted_as;
+  check_surface_layers(layers, name);
+  return out;
+}
+
+// What is seen of each leaf where the file is laid over the ground.
+ClassShares seen_leaves(const KnownGround& ground, const GroundFit& fit) {
+  constexpr int rows_at_once = 16;
+  const LeafLayers file = leaf_layers(ground, fit, "fit");
+  const LayerProgram program = compile_layers(file.layers);
+  const int width = ground.altitude_m.width();
+  const std::size_t leaves = fit.parent.size();
+  ClassShares shares{static_cast<int>(leaves), std::vector<float>(ground.altitude_m.size() * leaves, 0.0F)};
+  parallel_ranges(ground.altitude_m.height(), rows_at_once, [&](int y0, int y1) {
+    const PixelRect cells{0, y0, width, y1};
+    std::vector<Grid<float>> inputs;
+    for (const Grid<float>& input : ground.inputs) inputs.push_back(part_of(input, cells));
+    const std::vector<Grid<float>> seen = layer_shares(program, layer_coverage(program, inputs, {}, cells, 0));
+    for (std::size_t of = 0; of != seen.size(); ++of) {
+      if (file.leaf_of[of] < 0) continue;
+      float* to = &shares.values[ground.altitude_m.index(0, y0) * leaves + static_cast<std::size_t>(file.leaf_of[of])];
+      for (std::size_t i = 0; i != seen[of].size(); ++i) to[i * leaves] += seen[of][i];
+    }
+  });
   return shares;
 }
 
 // Scales b of each class so that on the ground learned from it covers what it does there, children and all: a child of coverage C lies over
 // what is under its class as well, so that classes with children would come out too large. From the top down, since what lies over a layer
 // decides what is seen of it. A sum does so by itself: that is where its likelihood is flat.
-void match_painted_areas(GroundFit& fit, const FitCells& all) {
+void match_painted_areas(const KnownGround& ground, const std::vector<std::uint8_t>& labels, GroundFit& fit) {
   constexpr std::size_t most = 40'000;
   constexpr int halvings = 16;
-  const FitCells cells = select_cells(all, draw_labelled(all.labels, most, 4));
-  const std::vector<std::size_t> counts = count_labels(cells.labels, cells.classes);
-  ClassFunctions unscaled = fit.classes;
-  std::fill(unscaled.bias.begin(), unscaled.bias.end(), 1.0);
-  const ClassShares products = predict_coverage(unscaled, cells.inputs);
-  std::vector<double> rest(cells.size(), 1.0);
-  for (std::size_t rank = fit.classes.order.size(); rank-- > 1;) {
-    const auto k = static_cast<std::size_t>(fit.classes.order[rank]);
-    const bool divided = !fit.children[k].order.empty();
-    const ClassShares within = divided ? predict_coverage(fit.children[k], cells.inputs) : ClassShares{};
-    const auto painted = [&](std::size_t i, double bias) {
-      const double coverage = bias * static_cast<double>(products.of(i)[k]);
-      double left = 1.0 - coverage;
-      for (std::size_t r = 1; divided && r != fit.children[k].order.size(); ++r)
-        left *= 1.0 - coverage * static_cast<double>(within.of(i)[static_cast<std::size_t>(fit.children[k].order[r])]);
+  const std::vector<std::uint32_t> some = draw_labelled(labels, most, 4);
+  const int count = static_cast<int>(some.size());
+  std::vector<double> wanted(ground.classes.size(), 0.0);
+  for (const std::uint32_t i : some) wanted[labels[i]] += 1.0;
+  std::vector<Grid<float>> inputs(ground.inputs.size(), Grid<float>(count, 1));
+  for (std::size_t a = 0; a != inputs.size(); ++a)
+    for (std::size_t i = 0; i != some.size(); ++i) inputs[a][i] = ground.inputs[a][some[i]];
+  std::fill(fit.classes.bias.begin(), fit.classes.bias.end(), 1.0);
+  const LeafLayers file = leaf_layers(ground, fit, "fit");
+  const std::vector<Grid<float>> products = layer_coverage(compile_layers(file.layers), inputs, {}, {0, 0, count, 1}, 0);
+  std::vector<double> rest(some.size(), 1.0);
+  // A class and its children stand together, from `layer` to `end`.
+  for (std::size_t layer = products.size(), end = products.size(); layer-- > 1;) {
+    if (file.layers.layers[layer].parent >= 0) continue;
+    const auto k = static_cast<std::size_t>(fit.parent[static_cast<std::size_t>(file.leaf_of[layer + 1])]);
+    const auto painted = [&, end](std::size_t i, double bias) {
+      double left = 1.0;
+      for (std::size_t l = layer; l != end; ++l) left *= 1.0 - bias * static_cast<double>(products[l][i]);
       return 1.0 - left;
     };
     double low = 0.0;
     double high = 1.0;
     for (int step = 0; step != halvings; ++step) {
       const double bias = 0.5 * (low + high);
-      const double seen = deterministic_sum(cells.size(), [&](std::size_t i) { return painted(i, bias) * rest[i]; });
-      (seen < static_cast<double>(counts[k]) ? low : high) = bias;
+      const double seen = deterministic_sum(some.size(), [&](std::size_t i) { return painted(i, bias) * rest[i]; });
+      (seen < wanted[k] ? low : high) = bias;
     }
     fit.classes.bias[k] = 0.5 * (low + high);
-    for (std::size_t i = 0; i != cells.size(); ++i) rest[i] *= 1.0 - painted(i, fit.classes.bias[k]);
+    for (std::size_t i = 0; i != rest.size(); ++i) rest[i] *= 1.0 - painted(i, fit.classes.bias[k]);
+    end = layer;
   }
 }
 
@@ -255,8 +252,7 @@ GroundFit fit_ground(const KnownGround& ground, const GroundFitParameters& param
   for (std::size_t a = 0; a != ground.inputs.size(); ++a)
     fit.ranges.push_back(layer_input_range(ground.input_names[a], ground.inputs[a], &use));
   const std::vector<std::vector<std::uint8_t>> samples = sample_indices(ground.inputs, fit.ranges);
-  const FitCells cells = cells_of(samples, labels, classes);
-  fit.classes = fit_functions(cells, parameters, 60'000);
+  fit.classes = fit_functions(cells_of(samples, labels, classes), parameters, 60'000);
   std::vector<std::uint8_t> leaves = labels;
   if (ground.picture) {
     fit_children(ground, parameters, samples, labels, fit, leaves);
@@ -269,7 +265,7 @@ GroundFit fit_ground(const KnownGround& ground, const GroundFitParameters& param
       fit.children.emplace_back();
     }
   }
-  if (parameters.functions == FunctionSource::fitted && parameters.model == LayerModel::product) match_painted_areas(fit, cells);
+  if (parameters.functions == FunctionSource::fitted && parameters.model == LayerModel::product) match_painted_areas(ground, labels, fit);
   if (parameters.forest_share > 0.0) {
     fit.forest_share = parameters.forest_share;
     fit.forest = fit_forest(cells_of(samples, std::move(leaves), static_cast<int>(fit.parent.size())));
@@ -278,16 +274,14 @@ GroundFit fit_ground(const KnownGround& ground, const GroundFitParameters& param
 }
 
 GroundPrediction predict_ground(const KnownGround& ground, const GroundFit& fit) {
-  const std::vector<std::vector<std::uint8_t>> samples = sample_indices(ground.inputs, fit.ranges);
   const std::size_t classes = ground.classes.size();
   const std::size_t leaves = fit.parent.size();
   const std::size_t cells = ground.altitude_m.size();
   GroundPrediction prediction;
-  ClassShares of_leaves = fit.classes.model == LayerModel::product ? painted_leaves(fit, samples) : shared_leaves(fit, samples);
+  ClassShares of_leaves = seen_leaves(ground, fit);
   prediction.classes = {static_cast<int>(classes), std::vector<float>(cells * classes, 0.0F)};
-  if (fit.forest_share > 0.0) {
-    of_leaves = mix_shares(predict_shares(fit.forest, samples), of_leaves, fit.forest_share);
-  }
+  if (fit.forest_share > 0.0)
+    of_leaves = mix_shares(predict_shares(fit.forest, sample_indices(ground.inputs, fit.ranges)), of_leaves, fit.forest_share);
   for (std::size_t i = 0; i != cells; ++i)
     for (std::size_t j = 0; j != leaves; ++j)
       prediction.classes.values[i * classes + static_cast<std::size_t>(fit.parent[j])] += of_leaves.values[i * leaves + j];
@@ -322,42 +316,7 @@ GroundPrediction predict_ground(const KnownGround& ground, const GroundFit& fit)
 }
 
 SurfaceLayers surface_layers_of(const KnownGround& ground, const GroundFit& fit, const std::string& name) {
-  SurfaceLayers layers;
-  layers.name = name;
-  layers.model = fit.classes.model;
-  layers.inputs = fit.ranges;
-  const std::size_t leaves = fit.parent.size();
-  for (const int k_int : fit.classes.order) {
-    const auto k = static_cast<std::size_t>(k_int);
-    const auto first = static_cast<std::size_t>(std::find(fit.parent.begin(), fit.parent.end(), k_int) - fit.parent.begin());
-    std::size_t count = 0;
-    while (first + count != leaves && fit.parent[first + count] == k_int) ++count;
-    SurfaceLayer layer;
-    layer.name = ground.classes[k].name;
-    layer.painted_as = ground.classes[k].painted_as;
-    set_functions(layer, fit.classes, k);
-    const int index = static_cast<int>(layers.layers.size());
-    // In a product the first of the children covers its class wholly: the class's own colour.
-    const bool product = layers.model == LayerModel::product;
-    const std::size_t own = count > 1 ? first + static_cast<std::size_t>(fit.children[k].order[0]) : first;
-    layer.rgb = packed(fit.colours[own]);
-    layers.layers.push_back(layer);
-    if (index == 0) {
-      layers.ground_rgb = layer.rgb;
-      layers.ground_painted_as = layer.painted_as;
-    }
-    for (std::size_t rank = product ? 1 : 0; count > 1 && rank != count; ++rank) {
-      const auto j = static_cast<std::size_t>(fit.children[k].order[rank]);
-      SurfaceLayer child;
-      child.name = fmt::format("{}, colour {}", layer.name, rank + 1);
-      child.parent = index;
-      child.rgb = packed(fit.colours[first + j]);
-      set_functions(child, fit.children[k], j);
-      layers.layers.push_back(std::move(child));
-    }
-  }
-  check_surface_layers(layers, name);
-  return layers;
+  return leaf_layers(ground, fit, name).layers;
 }
 
 }  // namespace belvedere

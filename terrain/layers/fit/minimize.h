@@ -7,8 +7,7 @@
 namespace belvedere {
 
 struct MinimizeParameters {
-  int steps = 150;          // at most, ≥ 0
-  int memory = 10;          // pairs of steps and changes of the gradient that are remembered, ≥ 1
+  int steps = 150;          // at most, ≥ 1
   double tolerance = 1e-9;  // stops where a step gains less than this share of the value, ≥ 0
 };
 struct MinimizeResult {
@@ -18,12 +17,11 @@ struct MinimizeResult {
   int evaluations = 0;
 };
 
-// Returns the value at x and writes the gradient, both of finite numbers.
+// Returns the value at x, ≥ 0, and writes the gradient, both of finite numbers; throws nothing.
 using ValueAndGradient = std::function<double(std::span<const double> x, std::span<double> gradient)>;
 
-// A minimum of a smooth function without bounds: limited-memory BFGS (Nocedal 1980; Nocedal and Wright, "Numerical Optimization", 2006,
-// algorithms 7.4 and 7.5) with a line search to the weak Wolfe conditions by doubling and bisection (Lewis and Overton 2013). One thread
-// and sums in one order: the same bits wherever the function gives them.
-MinimizeResult minimize(std::vector<double> start, const ValueAndGradient& function, const MinimizeParameters& parameters = {});
+// A minimum of a smooth function without bounds: limited-memory BFGS (Nocedal 1980) of libLBFGS. One thread, and of mathematics only square
+// roots: the same bits wherever the function gives them.
+MinimizeResult minimize(const std::vector<double>& start, const ValueAndGradient& function, const MinimizeParameters& parameters = {});
 
 }  // namespace belvedere

@@ -11,12 +11,22 @@
 namespace belvedere {
 namespace {
 
+using test::adjusted_rand_index;
+
 std::vector<PlanePlace> places_of(const RgbPlanes& rgb) {
   std::vector<PlanePlace> places;
   for (std::size_t i = 0; i != rgb.r.size(); ++i)
     places.push_back(hue_saturation_place(
         hue_saturation_of(static_cast<double>(rgb.r[i]), static_cast<double>(rgb.g[i]), static_cast<double>(rgb.b[i]))));
   return places;
+}
+
+TEST(AdjustedRandIndex, AsHubertAndArabieHaveIt) {
+  const std::vector<std::uint8_t> a = {0, 0, 0, 1, 1, 1};
+  EXPECT_DOUBLE_EQ(adjusted_rand_index(a, std::vector<std::uint8_t>{5, 5, 5, 2, 2, 2}), 1.0);
+  // Tables [[2 1 0] [0 1 2]]: (2 - 3·6/15 …): pairs together 2, in a 6, in b 3, of 15.
+  EXPECT_NEAR(adjusted_rand_index(a, std::vector<std::uint8_t>{0, 0, 1, 1, 2, 2}), (2.0 - 6.0 * 3.0 / 15.0) / (4.5 - 6.0 * 3.0 / 15.0),
+              1e-12);
 }
 
 TEST(ClusterMeans, FindHeapsFarApart) {
@@ -41,7 +51,7 @@ TEST(FindClusters, MadeUpPictureIsDividedAsItWasMade) {
   const Clusters clusters = find_clusters(places);
   EXPECT_GE(clusters.classes, 4);
   EXPECT_LE(clusters.classes, static_cast<int>(clusters.parts.size()));
-  EXPECT_GE(test::adjusted_rand_index(clusters_at(places, clusters), picture.classes), 0.73);
+  EXPECT_GE(adjusted_rand_index(clusters_at(places, clusters), picture.classes), 0.73);
 }
 
 // The least number of parts that is tried is more than these heaps need: what cannot be told apart is one class.

@@ -4,9 +4,12 @@
 
 #include <cmath>
 #include <numeric>
+#include <string>
+#include <variant>
 
 #include "base/parallel.h"
 #include "terrain/layers/fit/fit_measures.h"
+#include "terrain/layers/layer_coverage.h"
 #include "tests/terrain/layers/fit/made_up.h"
 
 namespace belvedere {
@@ -16,6 +19,33 @@ using made_up::two_classes;
 
 double mean_of(const LayerSamples& function) {
   return std::accumulate(function.samples.begin(), function.samples.end(), 0.0) / (256.0 * 255.0);
+}
+
+// The share of each class in each cell, as a file of the functions gives it.
+ClassShares shares_of(const ClassFunctions& functions, const std::vector<std::vector<std::uint8_t>>& inputs) {
+  SurfaceLayers layers;
+  layers.model = functions.model;
+  const std::vector<std::string> names = layer_input_names();
+  const int cells = static_cast<int>(inputs[0].size());
+  std::vector<Grid<float>> values;
+  for (std::size_t a = 0; a != inputs.size(); ++a) {
+    layers.inputs.push_back({names[a], 0.0, 256.0});
+    values.emplace_back(cells, 1);
+    for (std::size_t i = 0; i != inputs[a].size(); ++i) values[a][i] = static_cast<float>(inputs[a][i]) + 0.5F;  // where that sample stands
+  }
+  for (const int k : functions.order) {
+    SurfaceLayer& layer = layers.layers.emplace_back();
+    layer.name = "class " + std::to_string(k);
+    set_functions(layer, functions, static_cast<std::size_t>(k));
+  }
+  const LayerProgram program = compile_layers(layers);
+  const std::vector<Grid<float>> seen = layer_shares(program, layer_coverage(program, values, {}, {0, 0, cells, 1}, 0));
+  ClassShares shares{static_cast<int>(functions.order.size()), std::vector<float>(inputs[0].size() * functions.order.size(), 0.0F)};
+  for (std::size_t of = 0; of != seen.size(); ++of) {
+    const auto k = static_cast<std::size_t>(functions.order[of == 0 ? 0 : of - 1]);  // bare ground is that of the first
+    for (std::size_t i = 0; i != inputs[0].size(); ++i) shares.values[i * functions.order.size() + k] += seen[of][i];
+  }
+  return shares;
 }
 
 TEST(FitProduct, RecoversKnownFunctions) {
@@ -38,7 +68,7 @@ TEST(FitProduct, RecoversKnownFunctions) {
 
 TEST(FitProduct, SharesAreAsOftenAsTheClass) {
   const FitCells cells = two_classes(40'000);
-  const std::vector<double> mean = mean_shares(predict_shares(fit_product(cells), cells.inputs), cells.labels);
+  const std::vector<double> mean = mean_shares(shares_of(fit_product(cells), cells.inputs), cells.labels);
   const double truth = static_cast<double>(count_labels(cells.labels, 2)[1]) / 40'000.0;
   EXPECT_NEAR(mean[1], truth, 0.01);
   EXPECT_NEAR(mean[0] + mean[1], 1.0, 1e-5);
@@ -47,7 +77,7 @@ TEST(FitProduct, SharesAreAsOftenAsTheClass) {
 TEST(FitAdditive, RecoversSharesAndBeatsChance) {
   const FitCells cells = two_classes(60'000);
   const FitCells judged = two_classes(20'000, 8);
-  const ClassShares shares = predict_shares(fit_additive(cells), judged.inputs);
+  const ClassShares shares = shares_of(fit_additive(cells), judged.inputs);
   double off = 0.0;
   for (std::size_t i = 0; i != judged.size(); ++i)
     off += std::abs(static_cast<double>(shares.of(i)[1]) - made_up::rising(judged.inputs[0][i]) * made_up::falling(judged.inputs[1][i]));
@@ -60,7 +90,7 @@ TEST(FitFunctions, ClassesWithoutCellsCoverNothing) {
   FitCells cells = two_classes(5'000);
   cells.classes = 3;
   for (const ClassFunctions& fitted : {fit_product(cells), fit_additive(cells)}) {
-    const ClassShares shares = predict_shares(fitted, cells.inputs);
+    const ClassShares shares = shares_of(fitted, cells.inputs);
     for (std::size_t i = 0; i != 100; ++i) EXPECT_LT(shares.of(i)[2], 0.02F);
   }
 }
@@ -95,14 +125,22 @@ TEST(HistogramFunctions, MeanIsOneHalfOrSaturated) {
   EXPECT_EQ(narrow.functions[1][0].samples[100], 0);
 }
 
-TEST(PredictShares, LaterLayersLieOverEarlierOnes) {
+TEST(SetFunctions, WhatSaysNothingIsLeftOut) {
   LayerSamples all;
   all.samples.fill(255);
-  const ClassFunctions functions{LayerModel::product, {1, 0, 2}, {0.5, 1.0, 0.25}, std::vector(3, std::vector<LayerSamples>{all}), 0};
-  const ClassShares shares = predict_shares(functions, {{0}});
-  EXPECT_FLOAT_EQ(shares.of(0)[2], 0.25F);
-  EXPECT_FLOAT_EQ(shares.of(0)[0], 0.75F * 0.5F);
-  EXPECT_FLOAT_EQ(shares.of(0)[1], 0.75F * 0.5F);
+  LayerSamples half = all;
+  half.samples[0] = 127;
+  SurfaceLayer layer;
+  set_functions(layer, {LayerModel::product, {0}, {0.5}, {{all, half}}, 0}, 0);
+  EXPECT_EQ(layer.noise.bias, 0.5);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(layer.functions[0]));
+  EXPECT_TRUE(std::holds_alternative<LayerSamples>(layer.functions[1]));
+  // Of a sum a level function is a number, which the bias takes.
+  all.at_255 = 3.0;
+  set_functions(layer, {LayerModel::additive, {0}, {0.5}, {{all, half}}, 0}, 0);
+  EXPECT_EQ(layer.noise.bias, 3.5);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(layer.functions[0]));
+  EXPECT_TRUE(std::holds_alternative<LayerSamples>(layer.functions[1]));
 }
 
 }  // namespace

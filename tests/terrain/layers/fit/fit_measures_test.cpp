@@ -1,5 +1,4 @@
 #include "terrain/layers/fit/fit_measures.h"
-#include "tests/terrain/layers/fit/rand_index.h"
 
 #include <gtest/gtest.h>
 
@@ -14,14 +13,6 @@ TEST(AreaUnderCurve, CountsPairsByHand) {
   // (.4 over .1: 1) + (.4 beside .4: ½) + (.8 over both: 2) of 4.
   EXPECT_DOUBLE_EQ(area_under_curve(scores, own), 3.5 / 4.0);
   EXPECT_TRUE(std::isnan(area_under_curve(scores, std::vector<std::uint8_t>(4, 1))));
-}
-
-TEST(AdjustedRandIndex, AsHubertAndArabieHaveIt) {
-  const std::vector<std::uint8_t> a = {0, 0, 0, 1, 1, 1};
-  EXPECT_DOUBLE_EQ(test::adjusted_rand_index(a, std::vector<std::uint8_t>{5, 5, 5, 2, 2, 2}), 1.0);
-  // Tables [[2 1 0] [0 1 2]]: (2 - 3·6/15 …): pairs together 2, in a 6, in b 3, of 15.
-  EXPECT_NEAR(test::adjusted_rand_index(a, std::vector<std::uint8_t>{0, 0, 1, 1, 2, 2}),
-              (2.0 - 6.0 * 3.0 / 15.0) / (4.5 - 6.0 * 3.0 / 15.0), 1e-12);
 }
 
 // Pairs 1, 7, 17 and 25 of the table of Sharma, Wu and Dalal (2005).
