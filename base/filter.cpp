@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/lines/blur_lines.h"
+#include "base/lines/bspline.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 
@@ -124,12 +125,6 @@ void blur_columns(Grid<float>& values, double sigma) {
       for (int y = 0; y < height; ++y) std::copy_n(blurred.get() + static_cast<std::ptrdiff_t>(y) * n, used, values.row(y) + first);
     }
   });
-}
-
-// Weights of the four coefficients around a place t in 0…1 after the second.
-std::array<double, 4> bspline_weights(double t) {
-  const double u = 1.0 - t;
-  return {u * u * u / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0, t * t * t / 6.0};
 }
 
 // The whole cell at or before a place; places far outside the grid come to its border, so that an int can hold them.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/lines/bspline.h"
 #include "base/random.h"
 
 namespace belvedere {
@@ -21,10 +22,7 @@ struct SplineWeights {
 SplineWeights spline_weights(double position) {
   const double base = std::floor(position);
   const double t = position - base;
-  const double u = 1.0 - t;
-  SplineWeights s{};
-  s.first = static_cast<std::int64_t>(base) - 1;
-  s.weight = {u * u * u / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0, t * t * t / 6.0};
+  SplineWeights s{static_cast<std::int64_t>(base) - 1, bspline_weights(t), 0.0};
   double squares = 0.0;
   for (const double w : s.weight) squares += w * w;
   s.inverse_deviation = 1.0 / std::sqrt(squares);

@@ -1,8 +1,10 @@
 #include "renderer/paint/picture_noise.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "base/lines/bspline.h"
 #include "base/parallel.h"
 #include "base/random.h"
 
@@ -20,10 +22,7 @@ struct LatticeWeights {
 LatticeWeights lattice_weights(double position) {
   const double base = std::floor(position);
   const double t = position - base;
-  const double u = 1.0 - t;
-  LatticeWeights w{
-      static_cast<std::int64_t>(base) - 1,
-      {u * u * u / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0, t * t * t / 6.0}};
+  LatticeWeights w{static_cast<std::int64_t>(base) - 1, bspline_weights(t)};
   double squares = 0.0;
   for (const double each : w.weight) squares += each * each;
   const double scale = 1.0 / std::sqrt(squares);

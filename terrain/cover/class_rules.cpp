@@ -1,7 +1,6 @@
 #include "terrain/cover/class_rules.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -21,25 +20,6 @@ namespace {
 
 using namespace class_rules;
 
-Parameters with_settings(const ClassRules& rules, const Parameters& settings) {
-  Parameters parameters = rules.parameters;
-  for (const auto& [name, value] : settings) {
-    const auto parameter = std::find_if(parameters.begin(), parameters.end(), [&, &key = name](const auto& p) { return p.first == key; });
-    if (parameter != parameters.end()) {
-      parameter->second = value;
-      continue;
-    }
-    std::vector<std::string> known;
-    for (const auto& p : parameters) known.push_back(p.first);
-    const std::string near = nearest_word(name, known);
-    throw Error(
-        ErrorKind::usage, "setting " + name,
-        fmt::format("unknown parameter of the class rules \"{}\"{}", rules.name, near.empty() ? "" : "; did you mean \"" + near + "\"?"),
-        fmt::format("{}", fmt::join(known, ", ")));
-  }
-  return parameters;
-}
-
 // The state of one run over the DEM.
 struct Run {
   const ClassRules& rules;
@@ -48,91 +28,61 @@ struct Run {
   std::uint64_t seed;
   const RuleClimate& climate;
   std::vector<Grid<float>> inputs;
-  std::vector<NoiseColumns> noise;  // of each noise variable
   ClimateColumns columns = plan_climate_columns(climate, dem.transform, dem.width());
 };
 
-// Slots of one row, whole blocks long; each thread has its own.
-struct Row {
-  std::vector<std::vector<float>> slots;
-  RuleExpression::Scratch scratch;
-};
-
-// Where the block of a slot begins at a column. Grids are read where they are, but for the last block, which must be whole.
-const float* block_of(const Run& run, const Row& row, std::size_t slot, int y, int begin) {
-  if (slot < static_cast<std::size_t>(first_noise) && begin + rule_block <= run.dem.width()) return run.inputs[slot].row(y) + begin;
-  return row.slots[slot].data() + begin;
-}
-
-// Makes the needed slots of a row; `classes` is the row so far, or null. Terms come last, in their order.
-void fill_row(const Run& run, const std::vector<bool>& needed, int y, const LandCoverClass* classes, Row& row) {
-  const int width = run.dem.width();
-  const std::size_t variables = variable_names().size();
-  const int padded = (width + rule_block - 1) / rule_block * rule_block;
-  row.slots.resize(needed.size());
-  std::vector<const float*> pointers(needed.size(), nullptr);
-  for (std::size_t v = 0; v < needed.size(); ++v) {
-    if (!needed[v]) continue;
-    std::vector<float>& out = row.slots[v];
-    out.resize(static_cast<std::size_t>(padded), 0.F);
-    const int variable = static_cast<int>(v);
-    if (variable < first_noise) {
-      const int last = padded - rule_block;
-      std::copy_n(run.inputs[v].row(y) + last, width - last, out.begin() + last);
-    } else if (variable < easting) {
-      fill_noise(variable, run.noise[static_cast<std::size_t>(variable - first_noise)], run.seed, run.dem.transform, y, out.data());
-    } else if (variable < first_climate) {
+// What expressions see; `classes` are those so far, or null where none is asked for.
+RuleGrids grids_of(const Run& run, std::vector<bool> needed, const Grid<LandCoverClass>* classes) {
+  std::vector<const Grid<float>*> grids;
+  for (const Grid<float>& input : run.inputs) grids.push_back(&input);
+  const auto fill = [&run, classes](std::size_t slot, int y, float* out) {
+    const int width = run.dem.width();
+    const int variable = static_cast<int>(slot);
+    if (variable < first_climate) {
       for (int x = 0; x < width; ++x) {
         const glm::dvec2 place = run.dem.transform.to_crs(x, y);
-        out[static_cast<std::size_t>(x)] = static_cast<float>(variable == easting ? place.x : place.y);
+        out[x] = static_cast<float>(variable == easting ? place.x : place.y);
       }
     } else if (variable < first_class) {
       fill_climate_row(run.climate, run.columns, static_cast<ClimateVariable>(variable - first_climate), run.dem.transform, y,
-                       run.dem.altitude_m.row(y), out.data());
-    } else if (v < variables) {
-      const auto id = static_cast<LandCoverClass>(variable - first_class);
-      for (int x = 0; x < width; ++x) out[static_cast<std::size_t>(x)] = classes != nullptr && classes[x] == id ? 1.F : 0.F;
+                       run.dem.altitude_m.row(y), out);
     } else {
-      for (int begin = 0; begin < padded; begin += rule_block) {
-        for (std::size_t i = 0; i < v; ++i) pointers[i] = needed[i] ? block_of(run, row, i, y, begin) : nullptr;
-        run.program.terms[v - variables].evaluate(pointers, out.data() + begin, row.scratch);
-      }
+      const LandCoverClass* line = classes->row(y);
+      for (int x = 0; x < width; ++x) out[x] = line[x] == static_cast<LandCoverClass>(variable - first_class) ? 1.F : 0.F;
     }
-  }
+  };
+  return {run.program, std::move(needed), run.dem.transform, {0, 0, run.dem.width(), run.dem.height()}, run.seed, std::move(grids), fill};
 }
 
 // Applies the layers from…to to all cells.
 void apply_layers(const Run& run, std::size_t from, std::size_t to, Grid<LandCoverClass>& classes) {
   if (from == to) return;
-  const std::size_t variables = variable_names().size();
-  const std::size_t slots = variables + run.rules.terms.size();
-  const std::vector<bool> needed = union_of(run.program.layer_needs, from, to, slots);
+  const RuleGrids grids = grids_of(run, run.program.needs_of(from, to), &classes);
+  const std::vector<bool>& needed = grids.needed;
   const auto first = static_cast<std::size_t>(first_class);
   parallel_ranges(classes.height(), 16, [&](int y0, int y1) {
-    Row row;
+    RuleRows rows(grids);
     std::array<float, rule_block> hit{};
     for (int y = y0; y != y1; ++y) {
       LandCoverClass* line = classes.row(y);
-      fill_row(run, needed, y, line, row);
-      std::vector<const float*> pointers(slots, nullptr);
+      rows.start(y);
       for (int begin = 0; begin < classes.width(); begin += rule_block) {
         const int count = std::min(rule_block, classes.width() - begin);
-        for (std::size_t i = 0; i < slots; ++i) pointers[i] = needed[i] ? block_of(run, row, i, y, begin) : nullptr;
+        rows.go_to(begin);
         for (std::size_t k = from; k < to; ++k) {
           const auto painted = static_cast<std::size_t>(run.rules.layers[k].painted_as);
-          run.program.layers[k].evaluate(pointers, hit.data(), row.scratch);
+          rows.evaluate(*run.program.conditions[k], hit.data());
           int hits = 0;
           for (const float h : hit) hits |= h > 0.F ? 1 : 0;
           if (hits == 0) continue;
           for (int x = 0; x < count; ++x) {
             if (!(hit[static_cast<std::size_t>(x)] > 0.F)) continue;
             const int at = begin + x;
-            const auto place = static_cast<std::size_t>(at);
-            const auto old = static_cast<std::size_t>(line[place]);
+            const auto old = static_cast<std::size_t>(line[at]);
             // Later layers of this pass see the class so far.
-            if (needed[first + old]) row.slots[first + old][place] = 0.F;
-            if (needed[first + painted]) row.slots[first + painted][place] = 1.F;
-            line[place] = run.rules.layers[k].painted_as;
+            if (needed[first + old]) rows.row(first + old)[at] = 0.F;
+            if (needed[first + painted]) rows.row(first + painted)[at] = 1.F;
+            line[at] = run.rules.layers[k].painted_as;
           }
         }
       }
@@ -143,22 +93,21 @@ void apply_layers(const Run& run, std::size_t from, std::size_t to, Grid<LandCov
 // Where rivers run: cells whose catchment is large enough and where the rules have rivers. Rows without such cells cost nothing.
 Grid<std::uint8_t> find_river_beds(const Run& run, const Grid<float>& catchment_km2, double least_km2,
                                    const Grid<LandCoverClass>& classes) {
-  const std::size_t slots = run.program.river_needs.size();
+  const RuleGrids grids = grids_of(run, run.program.needs.back(), &classes);
   Grid<std::uint8_t> beds(classes.width(), classes.height(), 0);
   parallel_ranges(beds.height(), 16, [&](int y0, int y1) {
-    Row row;
+    RuleRows rows(grids);
     std::array<float, rule_block> hit{};
-    std::vector<const float*> pointers(slots, nullptr);
     for (int y = y0; y != y1; ++y) {
       const float* water = catchment_km2.row(y);
       const auto is_river = [&](float km2) { return static_cast<double>(km2) >= least_km2; };
       if (std::none_of(water, water + beds.width(), is_river)) continue;
-      fill_row(run, run.program.river_needs, y, classes.row(y), row);
+      rows.start(y);
       for (int begin = 0; begin < beds.width(); begin += rule_block) {
         const int count = std::min(rule_block, beds.width() - begin);
         if (std::none_of(water + begin, water + begin + count, is_river)) continue;
-        for (std::size_t i = 0; i < slots; ++i) pointers[i] = run.program.river_needs[i] ? block_of(run, row, i, y, begin) : nullptr;
-        run.program.rivers->evaluate(pointers, hit.data(), row.scratch);
+        rows.go_to(begin);
+        rows.evaluate(*run.program.conditions.back(), hit.data());
         for (int x = 0; x < count; ++x) beds(begin + x, y) = hit[static_cast<std::size_t>(x)] > 0.F ? 1 : 0;
       }
     }
@@ -188,43 +137,41 @@ Grid<float> evaluate_term(const Run& run, std::size_t term) {
   std::vector<bool> needed = run.program.term_needs[term];
   const std::size_t slot = variable_names().size() + term;
   needed[slot] = true;
+  const RuleGrids grids = grids_of(run, std::move(needed), nullptr);
   Grid<float> out(run.dem.width(), run.dem.height());
   parallel_ranges(out.height(), 16, [&](int y0, int y1) {
-    Row row;
+    RuleRows rows(grids);
     for (int y = y0; y != y1; ++y) {
-      fill_row(run, needed, y, nullptr, row);
-      std::copy_n(row.slots[slot].begin(), out.width(), out.row(y));
+      rows.start(y);
+      std::copy_n(rows.row(slot), out.width(), out.row(y));
     }
   });
   return out;
 }
 
 Parameters all_parameters(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem) {
-  Parameters parameters = with_settings(rules, given.settings);
+  Parameters parameters = with_settings(rules.parameters, given.settings, fmt::format("the class rules \"{}\"", rules.name));
   resolve_altitudes(parameters, given.climate, dem);
   return parameters;
 }
 
 // Makes the run's inputs: what rules see of the ground, and in a window what they saw around it. Returns the ice.
 RuleIce make_inputs(Run& run, const Parameters& parameters, const ClassRuleParameters& given, Catchments& waters, Progress& progress) {
-  const auto& [rules, program, dem, seed, climate, inputs, noise, columns] = run;
-  const std::size_t slots = variable_names().size() + rules.terms.size();
+  const auto& [rules, program, dem, seed, climate, inputs, columns] = run;
   // Ice needs the balance of snow and melting, and that needs variables of its own.
-  std::vector<bool> needed = all_needs(program, slots);
+  std::vector<bool> needed = program.all_needs();
   const auto balance = std::find_if(rules.terms.begin(), rules.terms.end(), [](const auto& t) { return t.first == ice_balance_term; });
   const bool no_rivers = needed[river] && !given.rivers;
   if (no_rivers) needed[river] = false;
   const bool has_ice = needed[ice] && balance != rules.terms.end();
   if (has_ice) {
     const std::vector<bool>& needs = program.term_needs[static_cast<std::size_t>(balance - rules.terms.begin())];
-    for (std::size_t i = 0; i < slots; ++i) needed[i] = needed[i] || needs[i];
+    for (std::size_t i = 0; i < needed.size(); ++i) needed[i] = needed[i] || needs[i];
   }
   const Settlers settlers{given.towns, given.seed, given.sites ? &*given.sites : nullptr};
   const RuleGround* around = given.around != nullptr ? &given.around->ground : nullptr;
   run.inputs = make_terrain_inputs(dem, needed, parameters, settlers, given.sea, climate, &waters, nullptr, around, given.whole);
   if (no_rivers) run.inputs[river] = Grid<float>(dem.width(), dem.height(), 0.F);
-  for (int v = first_noise; v < easting; ++v)
-    run.noise.push_back(needed[static_cast<std::size_t>(v)] ? plan_noise(v, dem.transform, dem.width()) : NoiseColumns{});
   progress.advance(1.0);
   RuleIce made;
   if (has_ice) {
@@ -252,7 +199,7 @@ RuleGround seen_by(Run&& run, RuleIce&& ice) {
 RuleGround see_rule_ground(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem) {
   const Parameters parameters = all_parameters(rules, given, dem);
   const RuleProgram program = compile_rules(rules, parameters, rules.name, {});
-  Run run{rules, program, dem, given.seed, given.climate, {}, {}};
+  Run run{rules, program, dem, given.seed, given.climate, {}};
   Catchments own(dem);
   RuleIce ice = make_inputs(run, parameters, given, given.catchments != nullptr ? *given.catchments : own, silent_progress());
   return seen_by(std::move(run), std::move(ice));
@@ -263,7 +210,7 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
   const Parameters parameters = all_parameters(rules, given, dem);
   const RuleProgram program = compile_rules(rules, parameters, rules.name, {});
   progress.begin("class rules", 4.0);
-  Run run{rules, program, dem, given.seed, given.climate, {}, {}};
+  Run run{rules, program, dem, given.seed, given.climate, {}};
   Catchments own(dem);
   Catchments& waters = given.catchments != nullptr ? *given.catchments : own;
   RuleIce made_ice = make_inputs(run, parameters, given, waters, progress);
@@ -271,7 +218,7 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
   // Layers that ask for rock uphill wait until the rock is there.
   Grid<LandCoverClass> classes(dem.width(), dem.height(), LandCoverClass::sky);
   std::size_t first = 0;
-  while (first < rules.layers.size() && !program.layer_needs[first][below_rock]) ++first;
+  while (first < rules.layers.size() && !program.needs[first][below_rock]) ++first;
   apply_layers(run, 0, first, classes);
   if (first < rules.layers.size()) {
     run.inputs[below_rock] = rock_above(classes, dem, parameter_or(parameters, "apron_m", 400.0));
@@ -281,19 +228,17 @@ LandCover apply_class_rules(const ClassRules& rules, const ClassRuleParameters& 
   remove_specks(classes, static_cast<int>(parameter_or(parameters, "speck_cells", 5.0)));
   progress.advance(1.0);
   LandCover cover{{std::move(classes), dem.transform, dem.crs}};
-  if (given.rivers && program.rivers) cover.guessed_rivers = guess_rivers(run, waters.km2(), cover.classes.cells);
+  if (given.rivers && program.conditions.back()) cover.guessed_rivers = guess_rivers(run, waters.km2(), cover.classes.cells);
   if (seen != nullptr) *seen = seen_by(std::move(run), std::move(made_ice));
   return cover;
 }
 
 std::vector<TownSite> find_rule_towns(const ClassRules& rules, const ClassRuleParameters& given, const Dem& dem) {
-  Parameters parameters = with_settings(rules, given.settings);
-  resolve_altitudes(parameters, given.climate, dem);
+  const Parameters parameters = all_parameters(rules, given, dem);
   const RuleProgram program = compile_rules(rules, parameters, rules.name, {});
-  const std::size_t slots = variable_names().size() + rules.terms.size();
   std::vector<TownSite> found;
-  if (!union_of(program.layer_needs, 0, program.layers.size(), slots)[town]) return found;
-  std::vector<bool> needed(slots, false);
+  if (!program.needs_of(0, rules.layers.size())[town]) return found;
+  std::vector<bool> needed(first_class, false);
   for (const int variable : {town, slope, valley_floor}) needed[static_cast<std::size_t>(variable)] = true;
   make_terrain_inputs(dem, needed, parameters, {given.towns, given.seed}, given.sea, given.climate, given.catchments, &found);
   return found;
@@ -301,8 +246,7 @@ std::vector<TownSite> find_rule_towns(const ClassRules& rules, const ClassRulePa
 
 ClassRuleParameters parameters_for_parts(const ClassRules& rules, const ClassRuleParameters& given, const Dem& whole) {
   ClassRuleParameters parts = given;
-  parts.settings = with_settings(rules, given.settings);
-  resolve_altitudes(parts.settings, given.climate, whole);
+  parts.settings = all_parameters(rules, given, whole);
   if (!parts.sites) parts.sites = find_rule_towns(rules, parts, whole);
   parts.catchments = nullptr;
   return parts;

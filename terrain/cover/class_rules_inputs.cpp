@@ -9,7 +9,6 @@
 #include "base/angle.h"
 #include "base/filter.h"
 #include "base/math_exact.h"
-#include "base/noise.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
@@ -179,13 +178,7 @@ void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>
 }  // namespace
 
 const std::vector<std::string>& variable_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> n;
-    for (const GroundVariable& row : ground_variables())
-      if (row.known_to != KnownTo::layers) n.emplace_back(row.name);
-    for (const LandCoverClassInfo& c : land_cover_classes()) n.push_back("is_" + std::string(c.name));
-    return n;
-  }();
+  static const std::vector<std::string> names = expression_names(KnownTo::rules);
   return names;
 }
 
@@ -287,16 +280,6 @@ Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, doub
     return 0.F;
   });
   return above;
-}
-
-NoiseColumns plan_noise(int variable, const GeoTransform& transform, int width) {
-  const GroundVariable& row = *find_ground_variable(variable_names()[static_cast<std::size_t>(variable)]);
-  return plan_noise_columns(transform.to_crs(0.0, 0.0).x, transform.cell_x, width, row.noise_m);
-}
-
-void fill_noise(int variable, const NoiseColumns& places, std::uint64_t seed, const GeoTransform& transform, int row, float* out) {
-  const auto k = static_cast<std::uint64_t>(variable - first_noise);
-  gaussian_noise_row(places, stream_seed(seed, Stream::class_noise, k), transform.to_crs(0.0, row).y, out);
 }
 
 void remove_specks(Grid<LandCoverClass>& classes, int window) {

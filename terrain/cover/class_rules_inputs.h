@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/land_cover_class.h"
-#include "base/noise.h"
 #include "terrain/cover/rule_climate.h"
 #include "terrain/cover/rule_ground.h"
 #include "terrain/cover/towns.h"
@@ -19,7 +18,7 @@ namespace belvedere::class_rules {
 
 using Parameters = std::vector<std::pair<std::string, double>>;
 
-// The variables of rules, in the order of the table of ground_variables.h. Those before `first_noise` are grids; noise, places, climate and
+// The slots of variables, in the order of the table of ground_variables.h. Those before `first_noise` are grids; noise, places, climate and
 // classes are made row by row.
 enum Variable : int {
   altitude,
@@ -62,6 +61,8 @@ enum Variable : int {
   moisture,
   temperature,
   rain,
+  radiation,  // of layers alone, as sky_view
+  sky_view,
   first_class
 };
 // Their names by slot; is_<class> follow from first_class on.
@@ -90,10 +91,6 @@ std::vector<Grid<float>> make_terrain_inputs(const Dem& dem, const std::vector<b
 
 // 1 just below rock, falling to 0 over `reach_m` down the fall line.
 Grid<float> rock_above(const Grid<LandCoverClass>& classes, const Dem& dem, double reach_m);
-
-// A noise variable: its places in every row, and one row of it.
-NoiseColumns plan_noise(int variable, const GeoTransform& transform, int width);
-void fill_noise(int variable, const NoiseColumns& places, std::uint64_t seed, const GeoTransform& transform, int row, float* out);
 
 // Cells whose (window × window) neighbourhood holds no majority of their class take the class of the nearest cell that is not
 // so; window odd, below 3 off. Water and settlement keep every cell.

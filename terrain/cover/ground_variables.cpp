@@ -5,6 +5,7 @@
 
 #include "base/config.h"
 #include "base/error.h"
+#include "base/land_cover_class.h"
 
 namespace belvedere {
 
@@ -102,6 +103,14 @@ const GroundVariable* find_ground_variable(std::string_view name) {
   for (const GroundVariable& row : ground_variables())
     if (row.name == name) return &row;
   return nullptr;
+}
+
+std::vector<std::string> expression_names(KnownTo who) {
+  std::vector<std::string> names;
+  for (const GroundVariable& row : ground_variables())
+    names.emplace_back(row.known_to == KnownTo::both || row.known_to == who ? row.name : std::string_view());
+  for (const LandCoverClassInfo& c : land_cover_classes()) names.push_back(who == KnownTo::rules ? "is_" + std::string(c.name) : "");
+  return names;
 }
 
 std::vector<std::string> layer_input_names() {

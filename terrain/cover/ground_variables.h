@@ -54,6 +54,9 @@ struct GroundVariable {
 const std::vector<GroundVariable>& ground_variables();
 const GroundVariable* find_ground_variable(std::string_view name);  // null for a name that is none
 
+// Names in expressions by slot: the table, then is_<class>. Empty where rules or layers do not know it.
+std::vector<std::string> expression_names(KnownTo who);
+
 // What a function is of: a variable with an input kind, and the range that samples are spread over. Values beyond it count as its ends.
 struct LayerInput {
   std::string name;

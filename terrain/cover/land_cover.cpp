@@ -16,8 +16,8 @@
 namespace belvedere {
 namespace {
 
-// Weights of the cubic B-spline on four cells around a place t past the second one; their sum is 1.
-std::array<double, 4> bspline_weights(double t) {
+// bspline_weights, but rounded in an order of their own, which pixels on the border of two classes hang on.
+std::array<double, 4> class_weights(double t) {
   const double s = 1.0 - t;
   return {s * s * s / 6.0, (4.0 + t * t * (3.0 * t - 6.0)) / 6.0, (4.0 + s * s * (3.0 * s - 6.0)) / 6.0, t * t * t / 6.0};
 }
@@ -166,8 +166,8 @@ LandCoverClass LandCover::cell_at(double x, double y) const {
   const int y0 = static_cast<int>(above) - 1;
   const bool inside = x0 >= 0 && y0 >= 0 && x0 + 4 <= cells.width() && y0 + 4 <= cells.height();
   if (inside && is_uniform(cells, x0 + 1, y0 + 1)) return cells(x0 + 1, y0 + 1);
-  const std::array<double, 4> across = bspline_weights(column - left);
-  const std::array<double, 4> down = bspline_weights(row - above);
+  const std::array<double, 4> across = class_weights(column - left);
+  const std::array<double, 4> down = class_weights(row - above);
   std::array<double, land_cover_class_count> membership{};
   std::uint64_t present = 0;  // a bit for each class among the 16
   static_assert(land_cover_class_count <= 64);

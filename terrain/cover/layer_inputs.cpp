@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -10,6 +11,7 @@
 #include "base/error.h"
 #include "base/filter.h"
 #include "base/grid_part.h"
+#include "base/lines/bspline.h"
 #include "base/math_exact.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
@@ -67,11 +69,10 @@ struct Taps {
 Taps taps_at(int cell, int factor) {
   const double at = (cell + 0.5) / factor - 0.5;
   const double whole = std::floor(at);
-  const double t = at - whole;
-  const double u = 1.0 - t;
-  return {static_cast<int>(whole) - 1,
-          {static_cast<float>(u * u * u / 6.0), static_cast<float>((4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0),
-           static_cast<float>((4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0), static_cast<float>(t * t * t / 6.0)}};
+  const std::array<double, 4> w = bspline_weights(at - whole);
+  Taps taps{static_cast<int>(whole) - 1};
+  std::copy(w.begin(), w.end(), taps.weight);
+  return taps;
 }
 
 // The values of a coarse grid at fine cells: the same bits for any rectangle.

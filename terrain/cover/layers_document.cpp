@@ -71,14 +71,14 @@ std::string LayersReader::expression(const ConfigValue& value) const {
   return text;
 }
 
-LandCoverClass LayersReader::land_cover_class(const ConfigValue& value) const {
+LandCoverClass as_ground_class(const ConfigValue& value, const std::string& where) {
   const std::string& word = as_string(value, where);
   const std::optional<LandCoverClass> found = find_class(word);
   if (found && *found != LandCoverClass::sky) return *found;
   std::vector<std::string> known;
   for (const LandCoverClassInfo& info : land_cover_classes())
     if (info.id != LandCoverClass::sky) known.emplace_back(info.name);
-  fail_unknown(value.place, "class", word, known);
+  LayersReader{where}.fail_unknown(value.place, "class", word, known);
 }
 
 const ConfigValue& LayersReader::required(const ConfigTable& table, std::string_view key, ConfigPlace place, const std::string& of) const {

@@ -26,9 +26,11 @@ struct LayersReader {
   double number_or(const ConfigTable& table, std::string_view key, double otherwise) const;
   std::string text_or(const ConfigTable& table, std::string_view key, const std::string& otherwise) const;
   std::string expression(const ConfigValue& value) const;  // not empty
-  LandCoverClass land_cover_class(const ConfigValue& value) const;
   const ConfigValue& required(const ConfigTable& table, std::string_view key, ConfigPlace place, const std::string& of) const;
 };
+
+// A class of the ground by its name, not the sky.
+LandCoverClass as_ground_class(const ConfigValue& value, const std::string& where);
 
 // What all such files have.
 struct LayersDocument {

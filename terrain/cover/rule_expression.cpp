@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string_view>
 
@@ -273,7 +274,8 @@ class RuleCompiler {
     }
     for (const auto& [name, value] : names_.constants)
       if (name == token.text) return constant(value);
-    std::vector<std::string> known = names_.variables;
+    std::vector<std::string> known;
+    std::copy_if(names_.variables.begin(), names_.variables.end(), std::back_inserter(known), [](const auto& n) { return !n.empty(); });
     for (const auto& [name, value] : names_.constants) known.push_back(name);
     fail_unknown(token, "name", known);
   }

@@ -12,7 +12,7 @@ namespace belvedere {
 
 // What names in an expression stand for.
 struct RuleNames {
-  std::vector<std::string> variables;                     // by slot
+  std::vector<std::string> variables;                     // by slot; empty: not known here
   std::vector<std::pair<std::string, double>> constants;  // numbers, put in when the expression is compiled
 };
 

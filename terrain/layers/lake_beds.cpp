@@ -1,12 +1,12 @@
 #include "terrain/layers/lake_beds.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "base/filter.h"
+#include "terrain/shape/mask_pieces.h"
 
 namespace belvedere {
 
@@ -26,29 +26,16 @@ Grid<float> lake_depth_m(const Dem& dem, const LakeBedParameters& parameters) {
       depth(x, y) = static_cast<float>(std::sqrt(dx * dx + dy * dy));
     }
   // Lake by lake: the farthest place from the shore, then depths from distances.
-  Grid<std::uint8_t> open = lakes;
-  std::vector<std::size_t> lake;
-  for (std::size_t first = 0; first < open.size(); ++first) {
-    if (open[first] == 0) continue;
-    lake.assign(1, first);
-    open[first] = 0;
+  each_piece(lakes, 1, [&](const std::vector<std::int32_t>& lake) {
     float farthest = 0.F;
-    for (std::size_t k = 0; k < lake.size(); ++k) {
-      const int x = static_cast<int>(lake[k] % static_cast<std::size_t>(width));
-      const int y = static_cast<int>(lake[k] / static_cast<std::size_t>(width));
-      farthest = std::max(farthest, depth[lake[k]]);
-      for (const auto& [dx, dy] : std::array<std::array<int, 2>, 4>{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}}) {
-        if (!open.contains(x + dx, y + dy) || open(x + dx, y + dy) == 0) continue;
-        open(x + dx, y + dy) = 0;
-        lake.push_back(open.index(x + dx, y + dy));
-      }
-    }
+    for (const std::int32_t i : lake) farthest = std::max(farthest, depth[static_cast<std::size_t>(i)]);
     const auto deepest = static_cast<float>(std::min(parameters.deepest_m, 0.5 * parameters.shore_slope * static_cast<double>(farthest)));
-    for (const std::size_t i : lake) {
-      const float left = farthest > 0.F ? 1.F - depth[i] / farthest : 1.F;
-      depth[i] = deepest * (1.F - left * left);
+    for (const std::int32_t i : lake) {
+      float& at = depth[static_cast<std::size_t>(i)];
+      const float left = farthest > 0.F ? 1.F - at / farthest : 1.F;
+      at = deepest * (1.F - left * left);
     }
-  }
+  });
   return depth;
 }
 

@@ -78,10 +78,9 @@ class Evaluation {
       }
     for (std::size_t i = 0; i < layers_.inputs.size(); ++i)
       if (layers_.inputs[i].name == "altitude") altitude_ = static_cast<int>(i);
-    if (!program.expressions.empty() ||
-        std::any_of(layers_.layers.begin(), layers_.layers.end(), [](const auto& l) { return !l.when.empty(); })) {
+    if (std::any_of(layers_.layers.begin(), layers_.layers.end(), [](const auto& l) { return !l.when.empty(); })) {
       std::vector<const Grid<float>*> read;
-      for (const std::size_t i : program.expression_inputs) read.push_back(&inputs[i]);
+      for (const int i : program.input_of_slot) read.push_back(i < 0 ? nullptr : &inputs[static_cast<std::size_t>(i)]);
       when_ = evaluate_layer_expressions(program.expressions, read, transform, cells, seed);
     }
     places_.resize(layers_.inputs.size());
@@ -276,11 +275,14 @@ LayerProgram compile_layers(const SurfaceLayers& layers) {
   program.layers = layers;
   program.expressions = compile_layer_expressions(layers, where);
   for (const LayerInput& input : layers.inputs) program.inputs.push_back(input.name);
-  for (std::size_t v = 0; v < program.expressions.inputs; ++v) {
-    const std::string& name = program.expressions.variables[v];
-    const auto found = std::find(program.inputs.begin(), program.inputs.end(), name);
-    program.expression_inputs.push_back(static_cast<std::size_t>(found - program.inputs.begin()));
-    if (found == program.inputs.end()) program.inputs.push_back(name);
+  const std::vector<bool> needed = program.expressions.all_needs();
+  for (std::size_t v = 0; v < ground_variables().size(); ++v) {
+    const GroundVariable& variable = ground_variables()[v];
+    program.input_of_slot.push_back(-1);
+    if (v >= needed.size() || !needed[v] || variable.input == LayerInputKind::none) continue;
+    const auto found = std::find(program.inputs.begin(), program.inputs.end(), variable.name);
+    program.input_of_slot.back() = static_cast<int>(found - program.inputs.begin());
+    if (found == program.inputs.end()) program.inputs.emplace_back(variable.name);
   }
   for (const SurfaceLayer& layer : layers.layers) {
     program.table_of.emplace_back(layers.inputs.size(), -1);

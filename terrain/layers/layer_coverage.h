@@ -20,10 +20,10 @@ struct LayerProgram {
     std::array<std::array<float, 2>, 256> samples{};
   };
   SurfaceLayers layers;
-  LayerExpressions expressions;
-  std::vector<std::string> inputs;             // what evaluation wants, by name: those of the file, then what only expressions read
-  std::vector<std::size_t> expression_inputs;  // where the variables of expressions stand among them
-  std::vector<std::vector<int>> table_of;      // of each layer and input of the file: its table, or -1
+  RuleProgram expressions;
+  std::vector<std::string> inputs;         // what evaluation wants, by name: those of the file, then what only expressions read
+  std::vector<int> input_of_slot;          // where the variables of expressions stand among them, or -1
+  std::vector<std::vector<int>> table_of;  // of each layer and input of the file: its table, or -1
   std::vector<Table> tables;
   std::vector<bool> paints;  // all layers of a product; of an additive model those without children
 };

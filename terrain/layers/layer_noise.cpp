@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/lines/bspline.h"
 #include "base/random.h"
 #include "base/random_streams.h"
 
@@ -40,26 +41,16 @@ void each_octave(const LayerNoise& noise, std::uint64_t seed, double cell_m, Oct
 
 }  // namespace
 
-std::array<double, 4> spline_weights(double t) {
-  const double u = 1.0 - t;
-  return {u * u * u / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0, t * t * t / 6.0};
-}
-
-std::array<double, 4> spline_slopes(double t) {
-  const double u = 1.0 - t;
-  return {-0.5 * u * u, t * (1.5 * t - 2.0), u * (2.0 - 1.5 * u), 0.5 * t * t};
-}
-
 NoiseAtPlace layer_noise_at(const LayerNoise& noise, std::uint64_t seed, glm::dvec2 place_m, double cell_m) {
   NoiseAtPlace out;
   each_octave(noise, seed, cell_m, [&](double spacing_m, double weight, std::uint64_t own) {
     const glm::dvec2 at = place_m / spacing_m;
     const double whole_x = std::floor(at.x);
     const double whole_y = std::floor(at.y);
-    const std::array<double, 4> wx = spline_weights(at.x - whole_x);
-    const std::array<double, 4> wy = spline_weights(at.y - whole_y);
-    const std::array<double, 4> dx = spline_slopes(at.x - whole_x);
-    const std::array<double, 4> dy = spline_slopes(at.y - whole_y);
+    const std::array<double, 4> wx = bspline_weights(at.x - whole_x);
+    const std::array<double, 4> wy = bspline_weights(at.y - whole_y);
+    const std::array<double, 4> dx = bspline_slopes(at.x - whole_x);
+    const std::array<double, 4> dy = bspline_slopes(at.y - whole_y);
     const auto x0 = static_cast<std::int64_t>(whole_x) - 1;
     const auto y0 = static_cast<std::int64_t>(whole_y) - 1;
     for (std::size_t j = 0; j < 4; ++j) {
@@ -77,16 +68,6 @@ NoiseAtPlace layer_noise_at(const LayerNoise& noise, std::uint64_t seed, glm::dv
   });
   if (std::abs(out.value) > 1.0) out = {std::clamp(out.value, -1.0, 1.0), glm::dvec2(0.0)};
   return out;
-}
-
-NoiseColumns plan_raster_noise(const GeoTransform& transform, const PixelRect& cells, double sigma_m) {
-  NoiseColumns plan = plan_noise_columns(transform.to_crs(0.0, 0.0).x, transform.cell_x, cells.x1, sigma_m);
-  plan.columns.erase(plan.columns.begin(), plan.columns.begin() + cells.x0);
-  const int skipped = plan.columns.front().first;
-  for (NoiseColumns::Column& column : plan.columns) column.first -= skipped;
-  plan.first_column += skipped;
-  plan.lattice_columns -= skipped;
-  return plan;
 }
 
 LayerNoiseRows::LayerNoiseRows(const LayerNoise& noise, std::uint64_t seed, const GeoTransform& transform, const PixelRect& cells)
@@ -116,7 +97,7 @@ void LayerNoiseRows::add_octave(double spacing_m, double weight, std::uint64_t s
     const auto first = static_cast<std::int64_t>(whole) - 1;
     if (x == 0) octave.first_column = first;
     octave.at[x] = static_cast<std::int32_t>(first - octave.first_column);
-    const std::array<double, 4> w = spline_weights(place - whole);
+    const std::array<double, 4> w = bspline_weights(place - whole);
     const double louder = gaussian_ ? inverse_deviation(w) : 1.0;
     for (std::size_t k = 0; k < 4; ++k) octave.weights[x][k] = static_cast<float>(w[k] * louder);
     last = first + 3;
@@ -146,7 +127,7 @@ void LayerNoiseRows::fill(int y, float* out) {
       octave.first_row = first;
       octave.filled = true;
     }
-    const std::array<double, 4> w = spline_weights(place - whole);
+    const std::array<double, 4> w = bspline_weights(place - whole);
     float v[4];
     const double louder = gaussian_ ? inverse_deviation(w) : 1.0;
     for (std::size_t k = 0; k < 4; ++k) v[k] = static_cast<float>(w[k] * louder) * octave.weight;

@@ -5,7 +5,6 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "base/noise.h"
 #include "base/pixel_rect.h"
 #include "terrain/io/raster.h"
 #include "terrain/layers/surface_layers.h"
@@ -59,13 +58,5 @@ struct NoiseAtPlace {
   glm::dvec2 slope{0.0};
 };
 NoiseAtPlace layer_noise_at(const LayerNoise& noise, std::uint64_t seed, glm::dvec2 place_m, double cell_m);
-
-// Weights of the four coefficients of a cubic B-spline around a place t in 0…1 after the second, and how they change with t.
-std::array<double, 4> spline_weights(double t);
-std::array<double, 4> spline_slopes(double t);
-
-// What gaussian_noise_row needs for the columns of a rectangle of a raster, counted from the raster's first column, so that their rounding
-// hangs on no rectangle.
-NoiseColumns plan_raster_noise(const GeoTransform& transform, const PixelRect& cells, double sigma_m);
 
 }  // namespace belvedere

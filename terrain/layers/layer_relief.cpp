@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/lines/bspline.h"
 #include "base/random.h"
 #include "base/random_streams.h"
 #include "terrain/layers/layer_noise.h"
@@ -25,10 +26,10 @@ GridPlace smooth_at(const Grid<float>& grid, glm::dvec2 cell) {
   const double y = std::clamp(cell.y, -1.0, static_cast<double>(grid.height()));
   const int x0 = static_cast<int>(std::floor(x));
   const int y0 = static_cast<int>(std::floor(y));
-  const std::array<double, 4> wx = spline_weights(x - x0);
-  const std::array<double, 4> wy = spline_weights(y - y0);
-  const std::array<double, 4> dx = spline_slopes(x - x0);
-  const std::array<double, 4> dy = spline_slopes(y - y0);
+  const std::array<double, 4> wx = bspline_weights(x - x0);
+  const std::array<double, 4> wy = bspline_weights(y - y0);
+  const std::array<double, 4> dx = bspline_slopes(x - x0);
+  const std::array<double, 4> dy = bspline_slopes(y - y0);
   GridPlace out;
   for (int j = 0; j < 4; ++j) {
     double row = 0.0;

@@ -111,7 +111,7 @@ ReadLayer read_layer(const Reader& reader, const ConfigValue& value, const Surfa
     read.parent = as_string(*parent, reader.where);
     read.parent_place = parent->place;
   }
-  if (const ConfigValue* painted = find(table, "class")) read.layer.painted_as = reader.land_cover_class(*painted);
+  if (const ConfigValue* painted = find(table, "class")) read.layer.painted_as = as_ground_class(*painted, reader.where);
   if (const ConfigValue* colour = find(table, "colour")) {
     read.layer.rgb = reader.colour(*colour);
   } else if (read.layer.painted_as) {
@@ -262,7 +262,7 @@ SurfaceLayers read_document(const ConfigValue& document, const std::string& wher
   file.name = common.name;
   file.parameters = common.parameters;
   file.terms = common.terms;
-  LayerExpressionPlaces places;
+  RulePlaces places;
   places.terms = common.term_places;
   if (const ConfigValue* model = find(root, "model")) {
     const std::string& word = as_string(*model, where);
@@ -273,7 +273,7 @@ SurfaceLayers read_document(const ConfigValue& document, const std::string& wher
     const ConfigTable& of = as_table(*ground, where);
     allow_only(of, {"colour", "class"}, where);
     if (const ConfigValue* painted = find(of, "class")) {
-      file.ground_painted_as = reader.land_cover_class(*painted);
+      file.ground_painted_as = as_ground_class(*painted, where);
       file.ground_rgb = class_info(*file.ground_painted_as).rgb;
     }
     if (const ConfigValue* colour = find(of, "colour")) file.ground_rgb = reader.colour(*colour);
@@ -287,7 +287,7 @@ SurfaceLayers read_document(const ConfigValue& document, const std::string& wher
     }
   std::vector<ReadLayer> read;
   for (const ConfigValue& value : layers_of(reader, document)) read.push_back(read_layer(reader, value, file));
-  order_layers(reader, read, file, places.when);
+  order_layers(reader, read, file, places.conditions);
   compile_layer_expressions(file, where, places);
   check_surface_layers(file, where);
   return file;

@@ -1,16 +1,16 @@
 #include "terrain/layers/surface_layers.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
-#include "base/config.h"
 #include "base/error.h"
 #include "base/math_exact.h"
 #include "terrain/cover/ground_variables.h"
+#include "terrain/cover/rule_program.h"
 
 namespace belvedere {
 namespace {
@@ -84,20 +84,7 @@ std::optional<LandCoverClass> layer_class(const SurfaceLayers& layers, std::size
 }
 
 void set_layer_parameters(SurfaceLayers& layers, const std::vector<std::pair<std::string, double>>& settings) {
-  for (const auto& [name, value] : settings) {
-    const auto found =
-        std::find_if(layers.parameters.begin(), layers.parameters.end(), [&, &key = name](const auto& p) { return p.first == key; });
-    if (found != layers.parameters.end()) {
-      found->second = value;
-      continue;
-    }
-    std::vector<std::string> known;
-    for (const auto& parameter : layers.parameters) known.push_back(parameter.first);
-    const std::string near = nearest_word(name, known);
-    fail("setting " + name,
-         fmt::format("unknown parameter of the layers \"{}\"{}", layers.name, near.empty() ? "" : "; did you mean \"" + near + "\"?"),
-         known.empty() ? "none: the file has no parameters" : fmt::format("{}", fmt::join(known, ", ")));
-  }
+  layers.parameters = with_settings(std::move(layers.parameters), settings, fmt::format("the layers \"{}\"", layers.name));
 }
 
 void check_surface_layers(const SurfaceLayers& layers, const std::string& where) {

@@ -10,93 +10,65 @@
 #include "base/config.h"
 #include "base/error.h"
 #include "base/masks/polygon.h"
-#include "base/text/hex_colour.h"
+#include "base/text/config_reader.h"
+#include "terrain/cover/layers_document.h"
 
 namespace belvedere {
 namespace {
 
-std::array<double, 2> as_pair(const ConfigValue& value, const std::string& name, double lowest, double highest) {
-  const ConfigArray& numbers = as_array(value, name);
-  const std::string allowed = fmt::format("two numbers, {}…{}", lowest, highest);
-  if (numbers.size() != 2)
-    throw Error(ErrorKind::usage, config_where(name, value.place), fmt::format("{} values", numbers.size()), allowed);
-  std::array<double, 2> pair{};
-  for (std::size_t i = 0; i != 2; ++i) {
-    pair[i] = as_number(numbers[i], name);
-    if (!(pair[i] >= lowest && pair[i] <= highest))
-      throw Error(ErrorKind::usage, config_where(name, numbers[i].place), describe(numbers[i]), allowed);
-  }
-  return pair;
-}
-
 // Even–odd rule in the plane, where saturation is the distance and hue the direction.
-bool inside(const std::vector<std::array<double, 2>>& polygon, const HueSaturation& colour) {
+bool inside(const std::vector<glm::dvec2>& polygon, const HueSaturation& colour) {
   const auto place = [](double hue, double saturation) {
     const PlanePlace at = hue_saturation_place({hue, saturation, 1.0, false});
     return glm::dvec2(at.x, at.y);
   };
   std::vector<glm::dvec2> ring;
-  for (const auto& [hue, saturation] : polygon) ring.push_back(place(hue, saturation));
+  for (const glm::dvec2& corner : polygon) ring.push_back(place(corner.x, corner.y));
   return encloses({ring}, place(colour.hue_deg, colour.saturation));
 }
 
-// The pixels of a picture of the plane that are painted in a colour, "#rrggbb". Painters' edges are soft: a pixel of less than a twelfth
-// of the way to white or black away counts.
-Grid<std::uint8_t> painted_in(const Grid<glm::vec3>& picture, const ConfigValue& colour, const std::string& name) {
-  const std::string& text = as_string(colour, name);
-  const std::optional<glm::vec3> wanted = colour_of_hex(text);
-  if (!wanted) throw Error(ErrorKind::usage, config_where(name, colour.place), describe(colour), "a colour as \"#rrggbb\"");
+// The pixels of a picture of the plane that are painted in a colour. Painters' edges are soft: a pixel of less than a twelfth of the way to
+// white or black away counts.
+Grid<std::uint8_t> painted_in(const Grid<glm::vec3>& picture, const glm::vec3& wanted) {
   Grid<std::uint8_t> painted(picture.width(), picture.height());
-  std::size_t count = 0;
   for (std::size_t i = 0; i != picture.size(); ++i) {
-    const glm::vec3 away = glm::abs(picture[i] - *wanted);
+    const glm::vec3 away = glm::abs(picture[i] - wanted);
     painted[i] = std::max({away.x, away.y, away.z}) < 1.F / 12.F ? 1 : 0;
-    count += painted[i];
   }
-  if (count == 0)
-    throw Error(ErrorKind::usage, config_where(name, colour.place), fmt::format("no pixel of the picture is {}", text),
-                "a colour that the plane is painted in");
   return painted;
 }
 
-ColourRegion region_of(const ConfigTable& table, ConfigPlace place, const std::string& name, const Grid<glm::vec3>& picture) {
-  allow_only(table, {"name", "class", "colour", "grey", "hue_deg", "saturation", "value", "polygon", "lowest_m"}, name);
+ColourRegion region_of(const ConfigValue& table, const std::string& name, const Grid<glm::vec3>& picture) {
+  ConfigReader reader(table, name);
   ColourRegion region;
-  const ConfigValue* title = find(table, "name");
-  if (title == nullptr) throw Error(ErrorKind::usage, config_where(name, place), "a region without a name", "name = \"…\"");
-  region.of.name = as_string(*title, name);
-  if (const ConfigValue* painted_as = find(table, "class")) {
-    const std::string& word = as_string(*painted_as, name);
-    region.of.painted_as = find_class(word);
-    if (!region.of.painted_as) {
-      std::vector<std::string> known;
-      for (const LandCoverClassInfo& info : land_cover_table) known.emplace_back(info.name);
-      const std::string near = nearest_word(word, known);
-      throw Error(ErrorKind::usage, config_where(name, painted_as->place), fmt::format("unknown class \"{}\"", word),
-                  near.empty() ? "a class of docs/legends.md" : near);
-    }
-  }
-  if (const ConfigValue* colour = find(table, "colour")) {
+  reader.text("name", region.of.name);
+  if (region.of.name.empty()) refuse_value(table, name, "a region without a name", "name = \"…\"");
+  if (const ConfigValue* painted_as = reader.known("class")) region.of.painted_as = as_ground_class(*painted_as, name);
+  if (const ConfigValue* colour = reader.known("colour")) {
     if (picture.empty())
-      throw Error(ErrorKind::usage, config_where(name, colour->place), "a colour, and no picture in which regions are painted",
-                  "image = \"NAME.png\" above the regions");
-    region.painted = painted_in(picture, *colour, name);
+      refuse_value(*colour, name, "a colour, and no picture in which regions are painted", "image = \"NAME.png\" above the regions");
+    glm::vec3 wanted{};
+    reader.colour("colour", wanted);
+    region.painted = painted_in(picture, wanted);
+    if (std::count(region.painted.begin(), region.painted.end(), 1) == 0)
+      refuse_value(*colour, name, "no pixel of the picture is " + as_string(*colour, name), "a colour that the plane is painted in");
   }
-  if (const ConfigValue* grey = find(table, "grey")) region.grey = as_bool(*grey, name);
-  if (const ConfigValue* hue = find(table, "hue_deg")) region.hue_deg = as_pair(*hue, name, 0.0, 360.0);
-  if (const ConfigValue* saturation = find(table, "saturation")) region.saturation = as_pair(*saturation, name, 0.0, 1.01);
-  if (const ConfigValue* value = find(table, "value")) region.value = as_pair(*value, name, 0.0, 1.01);
-  if (const ConfigValue* lowest = find(table, "lowest_m")) region.lowest_m = as_number(*lowest, name);
-  if (const ConfigValue* polygon = find(table, "polygon")) {
+  if (const ConfigValue* grey = reader.known("grey")) region.grey = as_bool(*grey, name);
+  glm::dvec2 hue_deg(-1.0);
+  reader.pair("hue_deg", hue_deg, 0.0, 360.0);
+  if (hue_deg.x >= 0.0) region.hue_deg = hue_deg;
+  reader.pair("saturation", region.saturation, 0.0, 1.01);
+  reader.pair("value", region.value, 0.0, 1.01);
+  if (const ConfigValue* lowest = reader.known("lowest_m")) region.lowest_m = as_number(*lowest, name);
+  if (const ConfigValue* polygon = reader.known("polygon")) {
     for (const ConfigValue& corner : as_array(*polygon, name)) {
       const ConfigArray& numbers = as_array(corner, name);
-      if (numbers.size() != 2)
-        throw Error(ErrorKind::usage, config_where(name, corner.place), "no corner", "[hue in degrees, saturation 0…1]");
-      region.polygon.push_back({as_number(numbers[0], name), as_number(numbers[1], name)});
+      if (numbers.size() != 2) refuse_value(corner, name, "no corner", "[hue in degrees, saturation 0…1]");
+      region.polygon.emplace_back(as_number(numbers[0], name), as_number(numbers[1], name));
     }
-    if (region.polygon.size() < 3)
-      throw Error(ErrorKind::usage, config_where(name, polygon->place), fmt::format("{} corners", region.polygon.size()), "at least 3");
+    if (region.polygon.size() < 3) refuse_value(*polygon, name, fmt::format("{} corners", region.polygon.size()), "at least 3");
   }
+  reader.end();
   return region;
 }
 
@@ -111,7 +83,7 @@ std::vector<ColourRegion> regions_of(const ConfigValue& root, const std::string&
     picture = read_picture(path.is_absolute() ? path.string() : (std::filesystem::path(name).parent_path() / path).string());
   }
   if (const ConfigValue* list = find(table, "region"))
-    for (const ConfigValue& value : as_array(*list, name)) regions.push_back(region_of(as_table(value, name), value.place, name, picture));
+    for (const ConfigValue& value : as_array(*list, name)) regions.push_back(region_of(value, name, picture));
   // A name may come twice: a class of several regions.
   if (regions.empty()) throw Error(ErrorKind::usage, name, "no region", "[[region]] tables");
   return regions;
@@ -122,10 +94,11 @@ std::vector<ColourRegion> regions_of(const ConfigValue& root, const std::string&
 bool holds(const ColourRegion& region, const HueSaturation& colour, double altitude_m) {
   if (region.grey && *region.grey != colour.grey) return false;
   if (altitude_m < region.lowest_m) return false;
-  if (colour.saturation < region.saturation[0] || colour.saturation >= region.saturation[1]) return false;
-  if (colour.value < region.value[0] || colour.value >= region.value[1]) return false;
+  if (colour.saturation < region.saturation.x || colour.saturation >= region.saturation.y) return false;
+  if (colour.value < region.value.x || colour.value >= region.value.y) return false;
   if (region.hue_deg) {
-    const auto [from, to] = *region.hue_deg;
+    const double from = region.hue_deg->x;
+    const double to = region.hue_deg->y;
     const bool in = from <= to ? colour.hue_deg >= from && colour.hue_deg < to : colour.hue_deg >= from || colour.hue_deg < to;
     if (!in) return false;
   }

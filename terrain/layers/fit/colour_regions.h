@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
@@ -20,10 +20,10 @@ namespace belvedere {
 struct ColourRegion {
   FitClass of;
   std::optional<bool> grey;                                    // only greys, or only what is none
-  std::optional<std::array<double, 2>> hue_deg;                // from … up to, clockwise; over 360 where the first is larger
-  std::array<double, 2> saturation = {0.0, 1.01};              // from … up to
-  std::array<double, 2> value = {0.0, 1.01};                   // from … up to
-  std::vector<std::array<double, 2>> polygon;                  // hue in degrees, saturation: corners in the plane; empty: none
+  std::optional<glm::dvec2> hue_deg;                           // from … up to, clockwise; over 360 where the first is larger
+  glm::dvec2 saturation{0.0, 1.01};                            // from … up to
+  glm::dvec2 value{0.0, 1.01};                                 // from … up to
+  std::vector<glm::dvec2> polygon;                             // hue in degrees, saturation: corners in the plane; empty: none
   double lowest_m = -std::numeric_limits<double>::infinity();  // no lower than this: clouds are not snow
   Grid<std::uint8_t> painted;  // 1 where the region is painted in a picture of the plane (plane_pixel); empty: not painted
 };

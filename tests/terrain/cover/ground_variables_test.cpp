@@ -48,6 +48,7 @@ TEST(GroundVariables, EachNameOnceAndSlotsOfRulesInItsOrder) {
                                                                            {rules::treeline, "treeline"},
                                                                            {rules::season_snow, "season_snow"},
                                                                            {rules::rain, "rain"},
+                                                                           {rules::sky_view, ""},
                                                                            {rules::first_class, "is_sky"}})
     EXPECT_EQ(slots[static_cast<std::size_t>(slot)], name);
 }
