@@ -32,7 +32,8 @@ void ConfigReader::pair(const char* key, glm::dvec2& to, double least, double mo
   const auto allowed = [&] { return fmt::format("two numbers, {:g} … {:g}", least, most); };
   if (array.size() != 2) fail(*value, allowed());
   to = {as_number(array[0], name_), as_number(array[1], name_)};
-  if (!(to.x >= least && to.x <= most && to.y >= least && to.y <= most)) fail(*value, allowed());
+  for (int i = 0; i < 2; ++i)
+    if (!(to[i] >= least && to[i] <= most)) fail(array[static_cast<std::size_t>(i)], allowed());
 }
 
 void ConfigReader::flag(const char* key, bool& to) {
