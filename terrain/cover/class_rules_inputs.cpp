@@ -18,6 +18,7 @@
 #include "terrain/cover/layer_inputs.h"
 #include "terrain/shape/derivatives.h"
 #include "terrain/shape/hydrology.h"
+#include "terrain/shape/mask_pieces.h"
 
 namespace belvedere::class_rules {
 namespace {
@@ -69,7 +70,7 @@ void make_sea_inputs(const Dem& dem, const Sea& found, const std::vector<bool>& 
     if (!found.empty()) each_cell(inputs[sea], [&](int x, int y) { return found.mask(x, y) != 0 ? 1.F : 0.F; });
   }
   if (needed[coast])
-    inputs[coast] = found.empty() ? Grid<float>(dem.width(), dem.height(), 1e6F) : distance_to_sea_m(found.mask, dem.cell_m());
+    inputs[coast] = found.empty() ? Grid<float>(dem.width(), dem.height(), 1e6F) : distance_to_marked_m(found.mask, dem.cell_m());
 }
 
 // Where the ground around a window has lakes, in the window's cells; empty where nothing is known of it.
@@ -164,13 +165,7 @@ void make_shape_inputs(const Dem& dem, const Sea& found, const std::vector<bool>
     if (is_needed(shore)) {
       Grid<std::uint8_t> land(z.width(), z.height());
       each_cell(land, [&](int x, int y) { return static_cast<std::uint8_t>(mask(x, y) != 0 ? 0 : 1); });
-      const Grid<std::int32_t> nearest = nearest_marked(land);
-      grid(shore) = Grid<float>(z.width(), z.height());
-      each_cell(grid(shore), [&](int x, int y) {
-        if (mask(x, y) == 0) return 0.F;
-        const std::int32_t at = nearest(x, y);
-        return at < 0 ? 1e6F : static_cast<float>(cell * exact::hypot(at % z.width() - x, at / z.width() - y));
-      });
+      grid(shore) = distance_to_marked_m(land, cell);
     }
   }
 }

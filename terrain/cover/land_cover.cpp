@@ -12,6 +12,7 @@
 #include "base/filter.h"
 #include "base/parallel.h"
 #include "terrain/cover/map_cover.h"
+#include "terrain/shape/mask_pieces.h"
 
 namespace belvedere {
 namespace {
@@ -91,26 +92,17 @@ void fill_unknown(Grid<LandCoverClass>& classes, const LandCoverParameters& para
 
 // Pieces of water (cells that touch by a side) that reach into a known lake become the nearest land.
 void clear_guessed_water(Grid<LandCoverClass>& cells, const Grid<std::uint8_t>& lake) {
-  std::vector<glm::ivec2> open;
   Grid<std::uint8_t> guessed(cells.width(), cells.height(), 0);
-  const auto mark = [&](int x, int y) {
-    if (!cells.contains(x, y) || cells(x, y) != LandCoverClass::water || guessed(x, y) != 0) return;
-    guessed(x, y) = 1;
-    open.emplace_back(x, y);
-  };
-  for (int y = 0; y < cells.height(); ++y)
-    for (int x = 0; x < cells.width(); ++x)
-      if (lake(x, y) != 0) mark(x, y);
-  bool any = !open.empty();
-  while (!open.empty()) {
-    const glm::ivec2 at = open.back();
-    open.pop_back();
-    for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)})
-      mark(at.x + step.x, at.y + step.y);
+  std::vector<std::int32_t> open;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (lake[i] == 0 || cells[i] != LandCoverClass::water) continue;
+    guessed[i] = 1;
+    open.push_back(static_cast<std::int32_t>(i));
   }
-  if (!any) return;
+  if (open.empty()) return;
+  flood(guessed, std::move(open), [&](int x, int y) { return cells(x, y) == LandCoverClass::water; });
   Grid<std::uint8_t> land(cells.width(), cells.height(), 0);
-  any = false;
+  bool any = false;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     land[i] = cells[i] != LandCoverClass::water ? 1 : 0;
     any = any || land[i] != 0;

@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/random_streams.h"
+#include "terrain/shape/mask_pieces.h"
 
 namespace belvedere {
 namespace {
@@ -74,15 +75,7 @@ Grid<float> valley_mouths(const TownGround& g, double cell_m) {
 Grid<float> distance_to_rivers(const TownGround& g, double cell_m) {
   Grid<std::uint8_t> streams(g.floor.width(), g.floor.height(), 0);
   for (std::size_t i = 0; i < streams.size(); ++i) streams[i] = g.catchment_km2[i] >= river_km2 ? 1 : 0;
-  const Grid<std::int32_t> nearest = nearest_marked(streams);
-  Grid<float> distance(g.floor.width(), g.floor.height());
-  parallel_rows(distance.height(), [&](int y) {
-    for (int x = 0; x < distance.width(); ++x) {
-      const std::int32_t at = nearest(x, y);
-      distance(x, y) = at < 0 ? 1e6F : static_cast<float>(cell_m * exact::hypot(at % distance.width() - x, at / distance.width() - y));
-    }
-  });
-  return distance;
+  return distance_to_marked_m(streams, cell_m);
 }
 
 // Places by squares of the map, so that those near another are found among any number: a terrain as wide as a continent has a hundred

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "base/filter.h"
 #include "base/grid.h"
+#include "base/parallel.h"
 
 namespace belvedere {
 
@@ -26,6 +29,21 @@ void flood(Mask& mask, std::vector<std::int32_t> from, Open&& open) {
       from.push_back((y + dy) * width + x + dx);
     }
   }
+}
+
+// How far each cell is from the nearest marked one, m; 1 000 000 where none is.
+inline Grid<float> distance_to_marked_m(const Mask& mask, double cell_m) {
+  const Grid<std::int32_t> nearest = nearest_marked(mask);
+  Grid<float> distance(mask.width(), mask.height());
+  parallel_rows(mask.height(), [&](int y) {
+    for (int x = 0; x < mask.width(); ++x) {
+      const std::int32_t at = nearest(x, y);
+      const double dx = at % mask.width() - x;
+      const double dy = at / mask.width() - y;
+      distance(x, y) = at < 0 ? 1e6F : static_cast<float>(cell_m * std::sqrt(dx * dx + dy * dy));
+    }
+  });
+  return distance;
 }
 
 inline bool at_edge(const Mask& mask, int x, int y) { return x == 0 || y == 0 || x == mask.width() - 1 || y == mask.height() - 1; }

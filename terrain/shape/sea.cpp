@@ -351,18 +351,4 @@ void level_sea(Dem& dem, const Sea& sea) {
   });
 }
 
-Grid<float> distance_to_sea_m(const Grid<std::uint8_t>& sea, double cell_m) {
-  const Grid<std::int32_t> nearest = nearest_marked(sea);
-  Grid<float> distance(sea.width(), sea.height());
-  parallel_rows(sea.height(), [&](int y) {
-    for (int x = 0; x < sea.width(); ++x) {
-      const std::int32_t at = nearest(x, y);
-      const double dx = at % sea.width() - x;
-      const double dy = at / sea.width() - y;
-      distance(x, y) = at < 0 ? 1e6F : static_cast<float>(cell_m * std::sqrt(dx * dx + dy * dy));
-    }
-  });
-  return distance;
-}
-
 }  // namespace belvedere

@@ -45,7 +45,4 @@ Sea continue_sea(const Dem& window, const Dem& whole, const Sea& sea, const SeaP
 // Level water: what is sea gets the sea's level, and holes there are no holes any more.
 void level_sea(Dem& dem, const Sea& sea);
 
-// How far each cell of land is from the sea, m (centres of cells); 0 at sea, 1e6 where there is none.
-Grid<float> distance_to_sea_m(const Grid<std::uint8_t>& sea, double cell_m);
-
 }  // namespace belvedere

@@ -20,10 +20,9 @@ namespace {
 
 constexpr int small_map_px = 480;  // longest side of a small map
 
-Grid<glm::vec3> picture_of(const RgbPlanes& rgb) {
-  Grid<glm::vec3> out(rgb.r.width(), rgb.r.height());
-  for (std::size_t i = 0; i != out.size(); ++i) out[i] = glm::vec3(rgb.r[i], rgb.g[i], rgb.b[i]) / 255.0F;
-  return out;
+Grid<glm::vec3> picture_of(Grid<glm::vec3> rgb) {
+  for (glm::vec3& colour : rgb) colour /= 255.0F;
+  return rgb;
 }
 
 glm::vec3 unpacked(std::uint32_t rgb) {
@@ -36,9 +35,7 @@ std::vector<glm::vec3> class_colours(const KnownGround& ground, const GroundFit&
   for (std::size_t j = 0; j != fit.parent.size(); ++j) {
     const auto k = static_cast<std::size_t>(fit.parent[j]);
     const auto n = static_cast<float>(fit.cells[j]);
-    colours[k] +=
-        n * glm::vec3(static_cast<float>(fit.colours[j][0]), static_cast<float>(fit.colours[j][1]), static_cast<float>(fit.colours[j][2])) /
-        255.0F;
+    colours[k] += n * glm::vec3(fit.colours[j]) / 255.0F;
     cells[k] += n;
   }
   for (std::size_t k = 0; k != colours.size(); ++k) colours[k] = cells[k] > 0.0F ? colours[k] / cells[k] : unpacked(ground.classes[k].rgb);
@@ -55,13 +52,11 @@ Grid<glm::vec3> class_map(const Grid<float>& like, const std::vector<std::uint8_
 // How many cells have each colour of the hue–saturation plane, dark where few, in the colour of the class that has most of them.
 Grid<glm::vec3> plane_picture(const KnownGround& ground, const std::vector<glm::vec3>& colours) {
   constexpr int side = 256;
-  const RgbPlanes smooth = smooth_chroma(ground.picture->rgb);
+  const Grid<glm::vec3> smooth = smooth_chroma(ground.picture->rgb);
   std::vector<std::vector<float>> counts(colours.size(), std::vector<float>(static_cast<std::size_t>(side) * side, 0.0F));
   for (std::size_t i = 0; i != ground.labels.size(); ++i) {
     if (ground.labels[i] == no_class) continue;
-    const PlanePixel at =
-        plane_pixel(hue_saturation_of(static_cast<double>(smooth.r[i]), static_cast<double>(smooth.g[i]), static_cast<double>(smooth.b[i])),
-                    side, side);
+    const PlanePixel at = plane_pixel(hue_saturation_of(smooth[i]), side, side);
     counts[ground.labels[i]][static_cast<std::size_t>(at.y) * side + static_cast<std::size_t>(at.x)] += 1.0F;
   }
   Grid<glm::vec3> picture(side, side, glm::vec3(0.05F));

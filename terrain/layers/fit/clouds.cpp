@@ -104,19 +104,18 @@ Grid<std::uint8_t> opened(const Grid<std::uint8_t>& mask) {
 
 }  // namespace
 
-Clouds find_clouds(const RgbPlanes& picture, double cell_m, const CloudParameters& parameters) {
+Clouds find_clouds(const Grid<glm::vec3>& picture, double cell_m, const CloudParameters& parameters) {
   constexpr int cloud_rim = 3;
   constexpr int shadow_rim = 8;
   constexpr int coarse_size = 256;  // cells on the longer side of what all offsets are tried on
-  const int width = picture.r.width();
-  const int height = picture.r.height();
+  const int width = picture.width();
+  const int height = picture.height();
   Grid<std::uint8_t> white(width, height);
   Grid<std::uint8_t> dark(width, height);
   Grid<std::uint8_t> dim(width, height);
   parallel_rows(height, [&](int y) {
     for (int x = 0; x != width; ++x) {
-      const HueSaturation c = hue_saturation_of(static_cast<double>(picture.r(x, y)), static_cast<double>(picture.g(x, y)),
-                                                static_cast<double>(picture.b(x, y)));
+      const HueSaturation c = hue_saturation_of(picture(x, y));
       white(x, y) = (c.grey && c.value > parameters.white) || (c.value > parameters.whitest && c.saturation < parameters.pale) ? 1 : 0;
       dark(x, y) = c.value < parameters.dark ? 1 : 0;
       dim(x, y) = c.value < parameters.shadow ? 1 : 0;

@@ -31,6 +31,6 @@ struct Clouds {
   double match = 0.0;            // correlation there, -1…1
   double sun_azimuth_deg = 0.0;  // 0…360, towards the sun, clockwise from the picture's top
 };
-Clouds find_clouds(const RgbPlanes& picture, double cell_m, const CloudParameters& parameters = {});
+Clouds find_clouds(const Grid<glm::vec3>& picture, double cell_m, const CloudParameters& parameters = {});
 
 }  // namespace belvedere

@@ -3,7 +3,6 @@
 #include <lcms2.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -17,7 +16,7 @@ namespace belvedere {
 namespace {
 
 double linear(double encoded) {
-  const double v = encoded / 255.0;
+  const double v = std::clamp(encoded, 0.0, 255.0) / 255.0;
   return v <= 0.04045 ? v / 12.92 : exact::pow((v + 0.055) / 1.055, 2.4);
 }
 double lab_curve(double t) { return t > 216.0 / 24389.0 ? exact::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; }
@@ -89,10 +88,10 @@ ClassMeasures measure_classes(const ClassShares& shares, std::span<const std::ui
   return measures;
 }
 
-LabColour lab_of_srgb(double r, double g, double b) {
-  const double lr = linear(r);
-  const double lg = linear(g);
-  const double lb = linear(b);
+LabColour lab_of_srgb(const glm::dvec3& rgb) {
+  const double lr = linear(rgb.x);
+  const double lg = linear(rgb.y);
+  const double lb = linear(rgb.z);
   const double x = lab_curve((0.4124564 * lr + 0.3575761 * lg + 0.1804375 * lb) / 0.95047);
   const double y = lab_curve(0.2126729 * lr + 0.7151522 * lg + 0.0721750 * lb);
   const double z = lab_curve((0.0193339 * lr + 0.1191920 * lg + 0.9503041 * lb) / 1.08883);
@@ -105,25 +104,25 @@ double colour_difference(const LabColour& one, const LabColour& other) {
   return cmsCIE2000DeltaE(&a, &b, 1.0, 1.0, 1.0);
 }
 
-BlockDifference block_difference(const RgbPlanes& picture, const RgbPlanes& other, const Grid<std::uint8_t>* use, int block) {
+BlockDifference block_difference(const Grid<glm::vec3>& picture, const Grid<glm::vec3>& other, const Grid<std::uint8_t>* use, int block) {
   constexpr double least_used = 0.3;
   std::vector<double> differences;
-  for (int y0 = 0; y0 < picture.r.height(); y0 += block)
-    for (int x0 = 0; x0 < picture.r.width(); x0 += block) {
-      std::array<double, 6> sum{};
+  for (int y0 = 0; y0 < picture.height(); y0 += block)
+    for (int x0 = 0; x0 < picture.width(); x0 += block) {
+      glm::dvec3 own(0.0);
+      glm::dvec3 others(0.0);
       double used = 0.0;
       double cells = 0.0;
-      for (int y = y0; y < std::min(y0 + block, picture.r.height()); ++y)
-        for (int x = x0; x < std::min(x0 + block, picture.r.width()); ++x) {
+      for (int y = y0; y < std::min(y0 + block, picture.height()); ++y)
+        for (int x = x0; x < std::min(x0 + block, picture.width()); ++x) {
           cells += 1.0;
           if (use != nullptr && (*use)(x, y) == 0) continue;
           used += 1.0;
-          const std::array<float, 6> values{picture.r(x, y), picture.g(x, y), picture.b(x, y), other.r(x, y), other.g(x, y), other.b(x, y)};
-          for (std::size_t i = 0; i != 6; ++i) sum[i] += static_cast<double>(values[i]);
+          own += picture(x, y);
+          others += other(x, y);
         }
       if (used < 1.0 || used < least_used * cells) continue;
-      for (double& s : sum) s /= used;
-      differences.push_back(colour_difference(lab_of_srgb(sum[0], sum[1], sum[2]), lab_of_srgb(sum[3], sum[4], sum[5])));
+      differences.push_back(colour_difference(lab_of_srgb(own / used), lab_of_srgb(others / used)));
     }
   BlockDifference result{block, 0.0, 0.0, differences.size()};
   if (differences.empty()) return result;
@@ -132,14 +131,12 @@ BlockDifference block_difference(const RgbPlanes& picture, const RgbPlanes& othe
   return result;
 }
 
-double gradient_energy(const RgbPlanes& picture, const Grid<std::uint8_t>* use) {
-  const int width = picture.r.width();
-  const int height = picture.r.height();
+double gradient_energy(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>* use) {
+  const int width = picture.width();
+  const int height = picture.height();
   Grid<double> lightness(width, height);
   parallel_rows(height, [&](int y) {
-    for (int x = 0; x != width; ++x)
-      lightness(x, y) =
-          lab_of_srgb(static_cast<double>(picture.r(x, y)), static_cast<double>(picture.g(x, y)), static_cast<double>(picture.b(x, y))).l;
+    for (int x = 0; x != width; ++x) lightness(x, y) = lab_of_srgb(picture(x, y)).l;
   });
   double sum = 0.0;
   double pairs = 0.0;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
@@ -27,19 +28,15 @@ ClassMeasures measure_classes(const ClassShares& shares, std::span<const std::ui
 // over false alarms; Mann and Whitney 1947). NaN where there are none of either kind.
 double area_under_curve(std::span<const float> scores, std::span<const std::uint8_t> is_class);
 
-// 0xrrggbb-like picture in three planes of 0…255, sRGB.
-struct RgbPlanes {
-  Grid<float> r;
-  Grid<float> g;
-  Grid<float> b;
-};
+// Pictures are encoded sRGB of 0…255.
+
 struct LabColour {
   double l = 0.0;
   double a = 0.0;
   double b = 0.0;
 };
-// CIE L*a*b* under D65 of an sRGB colour of 0…255.
-LabColour lab_of_srgb(double r, double g, double b);
+// CIE L*a*b* under D65 of a colour, which is clamped to 0…255.
+LabColour lab_of_srgb(const glm::dvec3& rgb);
 // CIEDE2000 (Sharma, Wu and Dalal 2005).
 double colour_difference(const LabColour& one, const LabColour& other);
 
@@ -50,9 +47,9 @@ struct BlockDifference {
   std::size_t blocks = 0;  // with at least .3 of their cells used
 };
 // Over blocks of the used cells (use != 0; null: all).
-BlockDifference block_difference(const RgbPlanes& picture, const RgbPlanes& other, const Grid<std::uint8_t>* use, int block);
+BlockDifference block_difference(const Grid<glm::vec3>& picture, const Grid<glm::vec3>& other, const Grid<std::uint8_t>* use, int block);
 // Mean squared difference of neighbouring cells' lightness, both used: of a picture over another's, it says how much of the detail is
 // there.
-double gradient_energy(const RgbPlanes& picture, const Grid<std::uint8_t>* use);
+double gradient_energy(const Grid<glm::vec3>& picture, const Grid<std::uint8_t>* use);
 
 }  // namespace belvedere

@@ -3,8 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
 #include <utility>
 
 #include "base/angle.h"
@@ -19,17 +22,13 @@
 namespace belvedere {
 namespace {
 
-double brightness_at(const RgbPlanes& rgb, std::size_t i) {
-  return (static_cast<double>(rgb.r[i]) + static_cast<double>(rgb.g[i]) + static_cast<double>(rgb.b[i])) / 3.0;
-}
-
 double level_cosine(const PictureSun& sun) { return exact::sin(to_radians(sun.elevation_deg)); }
 
 // Colour more than lightness, which shading has still a share in.
-ClusterPlace colour_place(double r, double g, double b) {
+ClusterPlace colour_place(const glm::dvec3& rgb) {
   constexpr double lightness_weight = 0.012;
   constexpr double darkest = 8.0;
-  const LabColour lab = lab_of_srgb(std::clamp(r, 0.0, 255.0), std::clamp(g, 0.0, 255.0), std::clamp(b, 0.0, 255.0));
+  const LabColour lab = lab_of_srgb(rgb);
   const double l = std::max(lab.l, darkest);
   return {lab.a / l, lab.b / l, lightness_weight * lab.l};
 }
@@ -51,9 +50,8 @@ void fit_children(const KnownGround& ground, const GroundFitParameters& paramete
   constexpr std::size_t most_for_means = 6'000;
   constexpr std::size_t most_for_functions = 20'000;
   constexpr double small = 0.05;  // share of the ground below which a class has half as many children
-  const RgbPlanes& rgb = ground.picture->rgb;
   const Grid<float> light = sunlight(ground.altitude_m, ground.cell_m, fit.sun);
-  const RgbPlanes even = lit_evenly(rgb, light, level_cosine(fit.sun), labels, fit.light);
+  const Grid<glm::vec3> even = lit_evenly(ground.picture->rgb, light, level_cosine(fit.sun), labels, fit.light);
   const std::vector<std::size_t> counts = count_labels(labels, static_cast<int>(ground.classes.size()));
   std::size_t learned = 0;
   for (const std::size_t c : counts) learned += c;
@@ -62,31 +60,25 @@ void fit_children(const KnownGround& ground, const GroundFitParameters& paramete
     std::vector<std::uint8_t> own(labels.size(), no_class);
     for (std::size_t i = 0; i != labels.size(); ++i)
       if (labels[i] == k) own[i] = 0;
-    const auto place_of = [&](std::size_t i) {
-      return colour_place(static_cast<double>(even.r[i]), static_cast<double>(even.g[i]), static_cast<double>(even.b[i]));
-    };
     std::vector<ClusterPlace> places;
-    for (const std::uint32_t i : draw_labelled(own, most_for_means, 10 + k)) places.push_back(place_of(i));
+    for (const std::uint32_t i : draw_labelled(own, most_for_means, 10 + k)) places.push_back(colour_place(even[i]));
     const bool is_small = static_cast<double>(counts[k]) < small * static_cast<double>(learned);
     const std::vector<ClusterPlace> means =
         cluster_means(places, std::max(1, is_small ? (parameters.children + 1) / 2 : parameters.children), {.part = 10 + k});
     const auto first = static_cast<std::uint8_t>(fit.parent.size());
     const std::size_t count = std::max<std::size_t>(means.size(), 1);
-    std::vector<std::array<double, 3>> sums(count, std::array<double, 3>{});
+    std::vector<glm::dvec3> sums(count, glm::dvec3(0.0));
     std::vector<std::size_t> cells(count, 0);
     for (std::size_t i = 0; i != own.size(); ++i) {
       if (own[i] == no_class) continue;
-      own[i] = nearest_mean(place_of(i), means);
+      own[i] = nearest_mean(colour_place(even[i]), means);
       leaves[i] = static_cast<std::uint8_t>(first + own[i]);
-      sums[own[i]][0] += static_cast<double>(even.r[i]);
-      sums[own[i]][1] += static_cast<double>(even.g[i]);
-      sums[own[i]][2] += static_cast<double>(even.b[i]);
+      sums[own[i]] += even[i];
       ++cells[own[i]];
     }
     for (std::size_t j = 0; j != count; ++j) {
-      for (double& v : sums[j]) v = cells[j] > 0 ? v / static_cast<double>(cells[j]) : 128.0;
       fit.parent.push_back(static_cast<int>(k));
-      fit.colours.push_back(sums[j]);
+      fit.colours.push_back(cells[j] > 0 ? sums[j] / static_cast<double>(cells[j]) : glm::dvec3(128.0));
       fit.cells.push_back(cells[j]);
     }
     fit.children.emplace_back();
@@ -95,10 +87,9 @@ void fit_children(const KnownGround& ground, const GroundFitParameters& paramete
   }
 }
 
-std::uint32_t packed(const std::array<double, 3>& rgb) {
-  std::uint32_t value = 0;
-  for (const double c : rgb) value = value << 8U | static_cast<std::uint32_t>(std::clamp(c, 0.0, 255.0) + 0.5);
-  return value;
+std::uint32_t packed(const glm::dvec3& rgb) {
+  const glm::uvec3 bytes(glm::clamp(rgb, 0.0, 255.0) + 0.5);
+  return bytes.x << 16U | bytes.y << 8U | bytes.z;
 }
 
 // A file of what was learned, and whose colour is seen where: the leaf of the bare ground, then that of each layer (-1: it paints nothing).
@@ -231,7 +222,10 @@ GroundFit fit_ground(const KnownGround& ground, const GroundFitParameters& param
   if (ground.picture) {
     // Cells that the sun does not reach show nothing of what they are.
     Grid<float> brightness(use.width(), use.height());
-    for (std::size_t i = 0; i != brightness.size(); ++i) brightness[i] = static_cast<float>(brightness_at(ground.picture->rgb, i));
+    for (std::size_t i = 0; i != brightness.size(); ++i) {
+      const glm::dvec3 rgb = ground.picture->rgb[i];
+      brightness[i] = static_cast<float>((rgb.x + rgb.y + rgb.z) / 3.0);
+    }
     fit.sun = find_sun(ground.altitude_m, ground.cell_m, brightness, {}, use, ground.picture->sun_azimuth_deg);
     const Grid<float> light = sunlight(ground.altitude_m, ground.cell_m, fit.sun);
     fit.light = light_answers(ground.picture->rgb, light, labels, classes, use);
@@ -260,7 +254,7 @@ GroundFit fit_ground(const KnownGround& ground, const GroundFitParameters& param
     for (int k = 0; k != classes; ++k) {
       const std::uint32_t rgb = ground.classes[static_cast<std::size_t>(k)].rgb;
       fit.parent.push_back(k);
-      fit.colours.push_back({static_cast<double>(rgb >> 16U), static_cast<double>(rgb >> 8U & 255U), static_cast<double>(rgb & 255U)});
+      fit.colours.emplace_back(rgb >> 16U, rgb >> 8U & 255U, rgb & 255U);
       fit.cells.push_back(counts[static_cast<std::size_t>(k)]);
       fit.children.emplace_back();
     }
@@ -287,30 +281,29 @@ GroundPrediction predict_ground(const KnownGround& ground, const GroundFit& fit)
       prediction.classes.values[i * classes + static_cast<std::size_t>(fit.parent[j])] += of_leaves.values[i * leaves + j];
   const int width = ground.altitude_m.width();
   const int height = ground.altitude_m.height();
-  prediction.even = {Grid<float>(width, height), Grid<float>(width, height), Grid<float>(width, height)};
+  prediction.even = Grid<glm::vec3>(width, height);
   prediction.expected = prediction.even;
   const bool lit = ground.picture.has_value();
-  const Grid<float> light = lit ? sunlight(ground.altitude_m, ground.cell_m, fit.sun) : Grid<float>(width, height, 1.0F);
-  const double level = lit ? level_cosine(fit.sun) : 1.0;
+  const Grid<float> light = lit ? sunlight(ground.altitude_m, ground.cell_m, fit.sun) : Grid<float>();
+  const double level = level_cosine(fit.sun);
   parallel_rows(height, [&](int y) {
-    for (std::size_t i = light.index(0, y); i != light.index(0, y + 1); ++i)
-      for (std::size_t c = 0; c != 3; ++c) {
-        double colour = 0.0;
-        LightAnswer answer{0.0, 0.0};
-        for (std::size_t j = 0; j != leaves; ++j) {
-          const auto share = static_cast<double>(of_leaves.values[i * leaves + j]);
-          colour += share * fit.colours[j][c];
-          if (!lit) continue;
+    for (std::size_t i = prediction.even.index(0, y); i != prediction.even.index(0, y + 1); ++i) {
+      glm::dvec3 colour(0.0);
+      std::array<LightAnswer, 3> answer;
+      answer.fill({0.0, 0.0});
+      for (std::size_t j = 0; j != leaves; ++j) {
+        const auto share = static_cast<double>(of_leaves.values[i * leaves + j]);
+        colour += share * fit.colours[j];
+        for (std::size_t c = 0; lit && c != 3; ++c) {
           const LightAnswer& of = fit.light[static_cast<std::size_t>(fit.parent[j])][c];
-          answer.gain += share * of.gain;
-          answer.base += share * of.base;
+          answer[c].gain += share * of.gain;
+          answer[c].base += share * of.base;
         }
-        Grid<float>& even = c == 0 ? prediction.even.r : c == 1 ? prediction.even.g : prediction.even.b;
-        Grid<float>& expected = c == 0 ? prediction.expected.r : c == 1 ? prediction.expected.g : prediction.expected.b;
-        even[i] = static_cast<float>(std::clamp(colour, 0.0, 255.0));
-        expected[i] =
-            static_cast<float>(std::clamp(colour / (lit ? levelling(answer, static_cast<double>(light[i]), level) : 1.0), 0.0, 255.0));
       }
+      prediction.even[i] = glm::clamp(colour, 0.0, 255.0);
+      for (int c = 0; lit && c != 3; ++c) colour[c] /= levelling(answer[static_cast<std::size_t>(c)], static_cast<double>(light[i]), level);
+      prediction.expected[i] = glm::clamp(colour, 0.0, 255.0);
+    }
   });
   return prediction;
 }

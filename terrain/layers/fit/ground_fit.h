@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +25,7 @@ struct FitClass {
 
 // A picture of the ground, cell for cell.
 struct FitPicture {
-  RgbPlanes rgb;
+  Grid<glm::vec3> rgb;
   std::optional<double> sun_azimuth_deg;  // as clouds' shadows tell it
 };
 
@@ -55,10 +55,10 @@ struct GroundFitParameters {
 struct GroundFit {
   std::vector<LayerInput> ranges;
   ClassFunctions classes;
-  std::vector<ClassFunctions> children;        // [class]; without functions where it has one colour
-  std::vector<int> parent;                     // [leaf]: its class; leaves of a class stand together
-  std::vector<std::array<double, 3>> colours;  // [leaf], 0…255, as on level ground under the picture's sun
-  std::vector<std::size_t> cells;              // [leaf] that it was learned from
+  std::vector<ClassFunctions> children;  // [class]; without functions where it has one colour
+  std::vector<int> parent;               // [leaf]: its class; leaves of a class stand together
+  std::vector<glm::dvec3> colours;       // [leaf], 0…255, as on level ground under the picture's sun
+  std::vector<std::size_t> cells;        // [leaf] that it was learned from
   PictureSun sun;
   LightAnswers light;  // [class]
   double forest_share = 0.0;
@@ -72,8 +72,8 @@ std::vector<std::vector<std::uint8_t>> sample_indices(const std::vector<Grid<flo
 
 struct GroundPrediction {
   ClassShares classes;
-  RgbPlanes even;      // expected colours on level ground (with a picture)
-  RgbPlanes expected;  // … in the light of the picture's sun
+  Grid<glm::vec3> even;      // expected colours on level ground (with a picture)
+  Grid<glm::vec3> expected;  // … in the light of the picture's sun
 };
 GroundPrediction predict_ground(const KnownGround& ground, const GroundFit& fit);
 

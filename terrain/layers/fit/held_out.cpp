@@ -33,13 +33,9 @@ void take(GroundPrediction& all, const GroundPrediction& one, const HoldOut& hol
     if (hold_out.part[i] != part) continue;
     std::copy_n(one.classes.values.begin() + static_cast<std::ptrdiff_t>(i * classes), classes,
                 all.classes.values.begin() + static_cast<std::ptrdiff_t>(i * classes));
-    if (one.even.r.empty()) continue;
-    all.even.r[i] = one.even.r[i];
-    all.even.g[i] = one.even.g[i];
-    all.even.b[i] = one.even.b[i];
-    all.expected.r[i] = one.expected.r[i];
-    all.expected.g[i] = one.expected.g[i];
-    all.expected.b[i] = one.expected.b[i];
+    if (one.even.empty()) continue;
+    all.even[i] = one.even[i];
+    all.expected[i] = one.expected[i];
   }
 }
 
@@ -51,7 +47,7 @@ void judge(const KnownGround& ground, HeldOutResult& result) {
   for (const std::size_t c : counts) total += c;
   for (const std::size_t c : counts) wanted.push_back(static_cast<double>(c) / static_cast<double>(std::max<std::size_t>(total, 1)));
   result.matched = measure_classes(result.prediction.classes, ground.labels, matching_offsets(result.prediction.classes, wanted));
-  if (!ground.picture || result.prediction.expected.r.empty()) return;
+  if (!ground.picture || result.prediction.expected.empty()) return;
   Grid<std::uint8_t> use(ground.altitude_m.width(), ground.altitude_m.height());
   for (std::size_t i = 0; i != use.size(); ++i) use[i] = ground.labels[i] != no_class ? 1 : 0;
   for (const int block : {1, 16, 32, 64})

@@ -1,16 +1,18 @@
 #include "terrain/layers/fit/hue_saturation.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <glm/common.hpp>
 
 #include "base/angle.h"
 #include "base/filter.h"
 #include "base/math_exact.h"
-#include "base/parallel.h"
 
 namespace belvedere {
 
-HueSaturation hue_saturation_of(double r, double g, double b, double grey_range) {
+HueSaturation hue_saturation_of(const glm::dvec3& rgb, double grey_range) {
+  const auto [r, g, b] = std::array{rgb.x, rgb.y, rgb.z};
   const double most = std::max({r, g, b});
   const double least = std::min({r, g, b});
   const double range = most - least;
@@ -37,30 +39,26 @@ PlanePlace hue_saturation_place(const HueSaturation& colour) {
   return {reach * turn.cosine, reach * turn.sine};
 }
 
-RgbPlanes smooth_chroma(const RgbPlanes& picture, double sigma_cells) {
-  const int width = picture.r.width();
-  const int height = picture.r.height();
+Grid<glm::vec3> smooth_chroma(const Grid<glm::vec3>& picture, double sigma_cells) {
+  const int width = picture.width();
+  const int height = picture.height();
   // Luma of Rec. 601, as JPEG has it.
   Grid<float> luma(width, height);
   Grid<float> red(width, height);
   Grid<float> blue(width, height);
   for (std::size_t i = 0; i != luma.size(); ++i) {
-    luma[i] = 0.299F * picture.r[i] + 0.587F * picture.g[i] + 0.114F * picture.b[i];
-    red[i] = picture.r[i] - luma[i];
-    blue[i] = picture.b[i] - luma[i];
+    luma[i] = 0.299F * picture[i].x + 0.587F * picture[i].y + 0.114F * picture[i].z;
+    red[i] = picture[i].x - luma[i];
+    blue[i] = picture[i].z - luma[i];
   }
   red = gaussian_blur(red, sigma_cells);
   blue = gaussian_blur(blue, sigma_cells);
-  RgbPlanes smooth{std::move(red), Grid<float>(width, height), std::move(blue)};
-  parallel_rows(height, [&](int y) {
-    for (std::size_t i = luma.index(0, y); i != luma.index(0, y + 1); ++i) {
-      const float r = luma[i] + smooth.r[i];
-      const float b = luma[i] + smooth.b[i];
-      smooth.r[i] = std::clamp(r, 0.0F, 255.0F);
-      smooth.g[i] = std::clamp((luma[i] - 0.299F * r - 0.114F * b) / 0.587F, 0.0F, 255.0F);
-      smooth.b[i] = std::clamp(b, 0.0F, 255.0F);
-    }
-  });
+  Grid<glm::vec3> smooth(width, height);
+  for (std::size_t i = 0; i != smooth.size(); ++i) {
+    const float r = luma[i] + red[i];
+    const float b = luma[i] + blue[i];
+    smooth[i] = glm::clamp(glm::vec3(r, (luma[i] - 0.299F * r - 0.114F * b) / 0.587F, b), 0.0F, 255.0F);
+  }
   return smooth;
 }
 

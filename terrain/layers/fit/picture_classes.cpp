@@ -14,13 +14,9 @@
 namespace belvedere {
 namespace {
 
-std::array<double, 3> colour_at(const RgbPlanes& picture, std::size_t i) {
-  return {static_cast<double>(picture.r[i]), static_cast<double>(picture.g[i]), static_cast<double>(picture.b[i])};
-}
-
 // The name that people would give a mean colour.
-std::string colour_word(const std::array<double, 3>& rgb) {
-  const HueSaturation c = hue_saturation_of(rgb[0], rgb[1], rgb[2]);
+std::string colour_word(const glm::dvec3& rgb) {
+  const HueSaturation c = hue_saturation_of(rgb);
   const char* hue = c.grey || c.saturation < 0.08 ? (c.value > 0.75 ? "white" : "grey")
                     : c.hue_deg < 20.0            ? "red"
                     : c.hue_deg < 48.0            ? "brown"
@@ -34,18 +30,14 @@ std::string colour_word(const std::array<double, 3>& rgb) {
 }
 
 // Classes get the names of their mean colours, numbered where two would be alike.
-std::vector<FitClass> named_by_colour(const RgbPlanes& picture, const std::vector<std::uint8_t>& labels, int classes) {
-  std::vector<std::array<double, 3>> sums(static_cast<std::size_t>(classes), std::array<double, 3>{});
-  for (std::size_t i = 0; i != labels.size(); ++i) {
-    if (labels[i] == no_class) continue;
-    const std::array<double, 3> rgb = colour_at(picture, i);
-    for (std::size_t c = 0; c != 3; ++c) sums[labels[i]][c] += rgb[c];
-  }
+std::vector<FitClass> named_by_colour(const Grid<glm::vec3>& picture, const std::vector<std::uint8_t>& labels, int classes) {
+  std::vector<glm::dvec3> sums(static_cast<std::size_t>(classes), glm::dvec3(0.0));
+  for (std::size_t i = 0; i != labels.size(); ++i)
+    if (labels[i] != no_class) sums[labels[i]] += picture[i];
   const std::vector<std::size_t> counts = count_labels(labels, classes);
   std::vector<FitClass> named;
   for (std::size_t k = 0; k != sums.size(); ++k) {
-    for (double& v : sums[k]) v /= static_cast<double>(std::max<std::size_t>(counts[k], 1));
-    const std::string word = colour_word(sums[k]);
+    const std::string word = colour_word(sums[k] / static_cast<double>(std::max<std::size_t>(counts[k], 1)));
     std::string name = word;
     for (int n = 2; std::any_of(named.begin(), named.end(), [&](const FitClass& c) { return c.name == name; }); ++n)
       name = fmt::format("{} {}", word, n);
@@ -55,25 +47,24 @@ std::vector<FitClass> named_by_colour(const RgbPlanes& picture, const std::vecto
 }
 
 // Greys and snow have no hue that would tell them apart: their lightness does, once it is freed of the sun.
-std::vector<std::uint8_t> labels_by_lightness(const RgbPlanes& picture, const Grid<float>& altitude_m, double cell_m,
+std::vector<std::uint8_t> labels_by_lightness(const Grid<glm::vec3>& picture, const Grid<float>& altitude_m, double cell_m,
                                               const Grid<std::uint8_t>& use, const Clouds& clouds, int classes) {
   constexpr std::size_t most = 20'000;
   Grid<float> brightness(use.width(), use.height());
   std::vector<std::uint8_t> all(use.size());
   for (std::size_t i = 0; i != use.size(); ++i) {
-    brightness[i] = (picture.r[i] + picture.g[i] + picture.b[i]) / 3.0F;
+    brightness[i] = (picture[i].x + picture[i].y + picture[i].z) / 3.0F;
     all[i] = use[i] != 0 ? 0 : no_class;
   }
   const PictureSun sun =
       find_sun(altitude_m, cell_m, brightness, {}, use, clouds.found ? std::optional<double>(clouds.sun_azimuth_deg) : std::nullopt);
   const Grid<float> light = sunlight(altitude_m, cell_m, sun);
-  const RgbPlanes even =
+  const Grid<glm::vec3> even =
       lit_evenly(picture, light, exact::sin(to_radians(sun.elevation_deg)), all, light_answers(picture, light, all, 1, use));
   for (std::size_t i = 0; i != all.size(); ++i)
     if (!(light[i] > 0.05F)) all[i] = no_class;
   const auto place_of = [&](std::size_t i) {
-    const std::array<double, 3> rgb = colour_at(even, i);
-    const LabColour lab = lab_of_srgb(std::clamp(rgb[0], 0.0, 255.0), std::clamp(rgb[1], 0.0, 255.0), std::clamp(rgb[2], 0.0, 255.0));
+    const LabColour lab = lab_of_srgb(even[i]);
     return ClusterPlace{lab.l, lab.a, lab.b};
   };
   std::vector<ClusterPlace> places;
@@ -87,12 +78,12 @@ std::vector<std::uint8_t> labels_by_lightness(const RgbPlanes& picture, const Gr
 
 }  // namespace
 
-PictureClasses picture_classes(const RgbPlanes& picture, const Grid<float>& altitude_m, double cell_m, const Grid<std::uint8_t>& use,
+PictureClasses picture_classes(const Grid<glm::vec3>& picture, const Grid<float>& altitude_m, double cell_m, const Grid<std::uint8_t>& use,
                                const PictureClassParameters& parameters) {
   constexpr double least_used = 0.01;
   PictureClasses found;
   found.clouds = find_clouds(picture, cell_m, parameters.clouds);
-  const RgbPlanes smooth = smooth_chroma(picture, parameters.chroma_sigma_cells);
+  const Grid<glm::vec3> smooth = smooth_chroma(picture, parameters.chroma_sigma_cells);
   Grid<std::uint8_t> clear = use;
   std::vector<HueSaturation> colours(use.size());
   std::size_t used = 0;
@@ -100,8 +91,7 @@ PictureClasses picture_classes(const RgbPlanes& picture, const Grid<float>& alti
   for (std::size_t i = 0; i != use.size(); ++i) {
     if (found.clouds.found && (found.clouds.cloud[i] != 0 || found.clouds.shadow[i] != 0)) clear[i] = 0;
     if (clear[i] == 0) continue;
-    const std::array<double, 3> rgb = colour_at(smooth, i);
-    colours[i] = hue_saturation_of(rgb[0], rgb[1], rgb[2]);
+    colours[i] = hue_saturation_of(smooth[i]);
     ++used;
     if (colours[i].grey) ++greys;
   }

@@ -30,7 +30,7 @@ struct PictureClasses {
   double grey_share = 0.0;  // of what is used
 };
 // `use`: 0 where nothing is to be learned (voids, masked). Error(input) where less than a hundredth of the picture is left, or one class.
-PictureClasses picture_classes(const RgbPlanes& picture, const Grid<float>& altitude_m, double cell_m, const Grid<std::uint8_t>& use,
+PictureClasses picture_classes(const Grid<glm::vec3>& picture, const Grid<float>& altitude_m, double cell_m, const Grid<std::uint8_t>& use,
                                const PictureClassParameters& parameters = {});
 
 }  // namespace belvedere

@@ -111,39 +111,36 @@ PictureSun find_sun(const Grid<float>& altitude_m, double cell_m, const Grid<flo
   return best;
 }
 
-LightAnswers light_answers(const RgbPlanes& picture, const Grid<float>& light, const std::vector<std::uint8_t>& labels, int classes,
+LightAnswers light_answers(const Grid<glm::vec3>& picture, const Grid<float>& light, const std::vector<std::uint8_t>& labels, int classes,
                            const Grid<std::uint8_t>& use) {
   constexpr float lit = 0.05F;
   constexpr double fewest = 50.0;
   struct Sums {
     double n = 0.0, x = 0.0, xx = 0.0;
-    std::array<double, 3> y{}, xy{};
+    glm::dvec3 y{}, xy{};
   };
   std::vector<Sums> sums(static_cast<std::size_t>(classes) + 1);  // the last: of all
   for (std::size_t i = 0; i != light.size(); ++i) {
     if (use[i] == 0 || labels[i] == no_class || !(light[i] > lit)) continue;
     const auto x = static_cast<double>(light[i]);
-    const std::array<double, 3> rgb{static_cast<double>(picture.r[i]), static_cast<double>(picture.g[i]),
-                                    static_cast<double>(picture.b[i])};
+    const glm::dvec3 rgb = picture[i];
     for (const std::size_t k : {static_cast<std::size_t>(labels[i]), sums.size() - 1}) {
       sums[k].n += 1.0;
       sums[k].x += x;
       sums[k].xx += x * x;
-      for (std::size_t c = 0; c != 3; ++c) {
-        sums[k].y[c] += rgb[c];
-        sums[k].xy[c] += x * rgb[c];
-      }
+      sums[k].y += rgb;
+      sums[k].xy += x * rgb;
     }
   }
   LightAnswers answers(static_cast<std::size_t>(classes));
   for (std::size_t k = 0; k != answers.size(); ++k) {
     const Sums& s = sums[k].n >= fewest ? sums[k] : sums.back();
     const double variance = s.xx - s.x * s.x / std::max(s.n, 1.0);
-    for (std::size_t c = 0; c != 3; ++c) {
+    for (int c = 0; c != 3; ++c) {
       const double mean = s.y[c] / std::max(s.n, 1.0);
       const double gain = variance > 1e-9 ? (s.xy[c] - s.x * s.y[c] / s.n) / variance : 0.0;
       // A base near 0 would let the darkest slopes explode.
-      answers[k][c] = {gain, std::max(mean - gain * s.x / std::max(s.n, 1.0), 0.02 * mean)};
+      answers[k][static_cast<std::size_t>(c)] = {gain, std::max(mean - gain * s.x / std::max(s.n, 1.0), 0.02 * mean)};
     }
   }
   return answers;
@@ -154,16 +151,15 @@ double levelling(const LightAnswer& answer, double cos_incidence, double level_c
   return (answer.gain * level_cos + answer.base) / (answer.gain * cos_incidence + answer.base);
 }
 
-RgbPlanes lit_evenly(const RgbPlanes& picture, const Grid<float>& light, double level_cos, const std::vector<std::uint8_t>& labels,
-                     const LightAnswers& answers) {
-  RgbPlanes even = picture;
+Grid<glm::vec3> lit_evenly(const Grid<glm::vec3>& picture, const Grid<float>& light, double level_cos,
+                           const std::vector<std::uint8_t>& labels, const LightAnswers& answers) {
+  Grid<glm::vec3> even = picture;
   parallel_rows(light.height(), [&](int y) {
     for (std::size_t i = light.index(0, y); i != light.index(0, y + 1); ++i) {
       const std::array<LightAnswer, 3>& answer = answers[labels[i] == no_class ? 0 : labels[i]];
       const auto l = static_cast<double>(light[i]);
-      even.r[i] = static_cast<float>(static_cast<double>(picture.r[i]) * levelling(answer[0], l, level_cos));
-      even.g[i] = static_cast<float>(static_cast<double>(picture.g[i]) * levelling(answer[1], l, level_cos));
-      even.b[i] = static_cast<float>(static_cast<double>(picture.b[i]) * levelling(answer[2], l, level_cos));
+      even[i] = glm::dvec3(picture[i]) *
+                glm::dvec3(levelling(answer[0], l, level_cos), levelling(answer[1], l, level_cos), levelling(answer[2], l, level_cos));
     }
   });
   return even;

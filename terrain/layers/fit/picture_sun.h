@@ -37,12 +37,12 @@ struct LightAnswer {
 using LightAnswers = std::vector<std::array<LightAnswer, 3>>;  // of each class
 // By least squares over the cells of the class in use that the sun reaches (cos i > .05); a class of fewer than 50 of them answers as all
 // do.
-LightAnswers light_answers(const RgbPlanes& picture, const Grid<float>& light, const std::vector<std::uint8_t>& labels, int classes,
+LightAnswers light_answers(const Grid<glm::vec3>& picture, const Grid<float>& light, const std::vector<std::uint8_t>& labels, int classes,
                            const Grid<std::uint8_t>& use);
 // Of a channel: what it would be on level ground over what it is at cos i. 1 where it does not answer to light.
 double levelling(const LightAnswer& answer, double cos_incidence, double level_cos);
 // The picture as on level ground: each cell by the answers of its class (no_class: those of class 0).
-RgbPlanes lit_evenly(const RgbPlanes& picture, const Grid<float>& light, double level_cos, const std::vector<std::uint8_t>& labels,
-                     const LightAnswers& answers);
+Grid<glm::vec3> lit_evenly(const Grid<glm::vec3>& picture, const Grid<float>& light, double level_cos,
+                           const std::vector<std::uint8_t>& labels, const LightAnswers& answers);
 
 }  // namespace belvedere

@@ -6,6 +6,8 @@
 #include <memory>
 #include <utility>
 
+#include "terrain/shape/mask_pieces.h"
+
 namespace belvedere {
 namespace {
 
@@ -227,9 +229,9 @@ TEST(Sea, MountainsHaveNone) {
 
 TEST(DistanceToSea, IsMetresFromItsCells) {
   Grid<std::uint8_t> sea(10, 4, 0);
-  EXPECT_EQ(distance_to_sea_m(sea, 30.0)(3, 3), 1e6F);
+  EXPECT_EQ(distance_to_marked_m(sea, 30.0)(3, 3), 1e6F);
   sea(0, 0) = 1;
-  const Grid<float> distance = distance_to_sea_m(sea, 30.0);
+  const Grid<float> distance = distance_to_marked_m(sea, 30.0);
   EXPECT_EQ(distance(0, 0), 0.F);
   EXPECT_FLOAT_EQ(distance(3, 0), 90.F);
   EXPECT_FLOAT_EQ(distance(4, 3), 150.F);

@@ -88,13 +88,13 @@ void refuse_cloud(const LayersFitOptions& options, const KnownGround& known, con
   constexpr double least_correlation = 0.1;
   constexpr float white = 0.6F * 255.F;
   constexpr float palest = 0.25F;  // of saturation
-  const RgbPlanes& rgb = known.picture->rgb;
   std::size_t whites = 0;
   std::size_t all = 0;
   for (std::size_t i = 0; i != known.labels.size(); ++i) {
     if (known.labels[i] == no_class) continue;
-    const float most = std::max({rgb.r[i], rgb.g[i], rgb.b[i]});
-    const float least = std::min({rgb.r[i], rgb.g[i], rgb.b[i]});
+    const glm::vec3& rgb = known.picture->rgb[i];
+    const float most = std::max({rgb.x, rgb.y, rgb.z});
+    const float least = std::min({rgb.x, rgb.y, rgb.z});
     whites += most > white && most - least < palest * most ? 1U : 0U;
     ++all;
   }

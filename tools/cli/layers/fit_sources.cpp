@@ -35,17 +35,6 @@ bool has_geography(const std::string& path) {
 
 RasterFrame frame_of(const Dem& dem) { return {dem.transform, dem.width(), dem.height(), dem.crs}; }
 
-RgbPlanes planes_of(const Grid<glm::vec3>& picture) {
-  RgbPlanes planes{Grid<float>(picture.width(), picture.height()), Grid<float>(picture.width(), picture.height()),
-                   Grid<float>(picture.width(), picture.height())};
-  for (std::size_t i = 0; i != picture.size(); ++i) {
-    planes.r[i] = 255.0F * picture[i].x;
-    planes.g[i] = 255.0F * picture[i].y;
-    planes.b[i] = 255.0F * picture[i].z;
-  }
-  return planes;
-}
-
 // A picture without coordinates lies on the DEM's cells, one pixel a cell; one that has them brings the DEM onto its own.
 FitGround read_picture_ground(const FitSources& from, FitFindings& findings, Progress& progress) {
   FitGround ground;
@@ -58,7 +47,8 @@ FitGround read_picture_ground(const FitSources& from, FitFindings& findings, Pro
                               picture.height(), file_name(from.dem), ground.dem.width(), ground.dem.height()),
                   "one pixel for each cell, or a GeoTIFF with coordinates");
     findings.note("the picture has no coordinates and lies on the cells of the DEM");
-    ground.rgb = planes_of(picture);
+    ground.rgb = picture;
+    for (glm::vec3& colour : *ground.rgb) colour *= 255.0F;
   } else {
     const RasterInfo info = read_raster_info(source_of(from.image));
     if (info.bands < 3)
@@ -71,7 +61,11 @@ FitGround read_picture_ground(const FitSources& from, FitFindings& findings, Pro
       source.unit_to_m = 1.0;  // no altitudes
       return warp_rasters({source}, frame, progress).cells;
     };
-    ground.rgb = RgbPlanes{band(1), band(2), band(3)};
+    const Grid<float> red = band(1);
+    const Grid<float> green = band(2);
+    const Grid<float> blue = band(3);
+    ground.rgb = Grid<glm::vec3>(red.width(), red.height());
+    for (std::size_t i = 0; i != red.size(); ++i) (*ground.rgb)[i] = {red[i], green[i], blue[i]};
     Raster<float> altitude = warp_rasters({source_of(from.dem)}, frame, progress);
     const RasterInfo dem = read_raster_info(source_of(from.dem));
     if (std::none_of(altitude.cells.begin(), altitude.cells.end(), [](float z) { return std::isfinite(z); }))
@@ -84,10 +78,11 @@ FitGround read_picture_ground(const FitSources& from, FitFindings& findings, Pro
   ground.use = Grid<std::uint8_t>(ground.dem.width(), ground.dem.height());
   float most = 0.0F;
   for (std::size_t i = 0; i != ground.use.size(); ++i) {
-    const bool known = std::isfinite(ground.rgb->r[i]) && std::isfinite(ground.rgb->g[i]) && std::isfinite(ground.rgb->b[i]);
+    glm::vec3& rgb = (*ground.rgb)[i];
+    const bool known = std::isfinite(rgb.x) && std::isfinite(rgb.y) && std::isfinite(rgb.z);
     ground.use[i] = known && ground.dem.filled[i] == 0 ? 1 : 0;
-    if (!known) ground.rgb->r[i] = ground.rgb->g[i] = ground.rgb->b[i] = 0.0F;
-    most = std::max({most, ground.rgb->r[i], ground.rgb->g[i], ground.rgb->b[i]});
+    if (!known) rgb = glm::vec3(0.0F);
+    most = std::max({most, rgb.x, rgb.y, rgb.z});
   }
   if (most > 255.0F)
     throw Error(ErrorKind::input, from.image, fmt::format("values up to {}", most), "8 bits, 0…255, as a picture is shown");

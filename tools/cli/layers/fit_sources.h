@@ -31,7 +31,7 @@ struct FitFindings {
 struct FitGround {
   Dem dem;
   Grid<std::uint8_t> use;  // 0: void, masked, outside the picture
-  std::optional<RgbPlanes> rgb;
+  std::optional<Grid<glm::vec3>> rgb;
 };
 
 // The DEM, on the picture's own cells where one has coordinates, without what is masked. Error(input) where picture and DEM do not belong

@@ -10,13 +10,12 @@ namespace belvedere {
 namespace {
 
 // Brown ground with round clouds, each with a dark shadow at one offset; and a white field without one.
-RgbPlanes clouded(int shadow_x, int shadow_y, bool shadows) {
-  RgbPlanes picture{Grid<float>(240, 200, 140.0F), Grid<float>(240, 200, 110.0F), Grid<float>(240, 200, 80.0F)};
+Grid<glm::vec3> clouded(int shadow_x, int shadow_y, bool shadows) {
+  Grid<glm::vec3> picture(240, 200, glm::vec3(140.0F, 110.0F, 80.0F));
   const auto disc = [&](int cx, int cy, int radius, float value) {
     for (int y = cy - radius; y <= cy + radius; ++y)
       for (int x = cx - radius; x <= cx + radius; ++x)
-        if (picture.r.contains(x, y) && (x - cx) * (x - cx) + (y - cy) * (y - cy) <= radius * radius)
-          picture.r(x, y) = picture.g(x, y) = picture.b(x, y) = value;
+        if (picture.contains(x, y) && (x - cx) * (x - cx) + (y - cy) * (y - cy) <= radius * radius) picture(x, y) = glm::vec3(value);
   };
   for (int i = 0; i != 9; ++i) {
     const int x = 50 + static_cast<int>(random_index(150, 3, i, 0));
@@ -35,16 +34,16 @@ TEST(FindClouds, OffsetAndSunAreThoseOfTheShadows) {
   EXPECT_EQ(clouds.shadow_y, -32);
   // Shadows to the north-west: the sun stands in the south-east, atan2(24, -32) from north.
   EXPECT_NEAR(clouds.sun_azimuth_deg, 180.0 - std::atan2(24.0, 32.0) * 180.0 / 3.14159265358979, 1e-9);
-  const RgbPlanes picture = clouded(-24, -32, true);
+  const Grid<glm::vec3> picture = clouded(-24, -32, true);
   for (std::size_t i = 0; i != clouds.cloud.size(); ++i) {
-    if (picture.r[i] == 235.0F) {
+    if (picture[i].x == 235.0F) {
       EXPECT_EQ(clouds.cloud[i], 1);
     }
-    if (picture.r[i] == 40.0F) {
+    if (picture[i].x == 40.0F) {
       EXPECT_EQ(clouds.shadow[i], 1);
     }
     if (clouds.shadow[i] != 0) {
-      EXPECT_EQ(picture.r[i], 40.0F);
+      EXPECT_EQ(picture[i].x, 40.0F);
     }
   }
 }

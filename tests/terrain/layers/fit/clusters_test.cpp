@@ -13,11 +13,9 @@ namespace {
 
 using test::adjusted_rand_index;
 
-std::vector<PlanePlace> places_of(const RgbPlanes& rgb) {
+std::vector<PlanePlace> places_of(const Grid<glm::vec3>& rgb) {
   std::vector<PlanePlace> places;
-  for (std::size_t i = 0; i != rgb.r.size(); ++i)
-    places.push_back(hue_saturation_place(
-        hue_saturation_of(static_cast<double>(rgb.r[i]), static_cast<double>(rgb.g[i]), static_cast<double>(rgb.b[i]))));
+  for (const glm::vec3& colour : rgb) places.push_back(hue_saturation_place(hue_saturation_of(colour)));
   return places;
 }
 

@@ -36,10 +36,10 @@ TEST(MeasureClasses, ConfusionByHand) {
 }
 
 TEST(BlockDifference, OfMeansAndOnlyOfUsedCells) {
-  RgbPlanes picture{Grid<float>(4, 2, 100.0F), Grid<float>(4, 2, 100.0F), Grid<float>(4, 2, 100.0F)};
-  RgbPlanes other = picture;
-  other.r(0, 0) = 140.0F;
-  other.r(1, 0) = 60.0F;  // the mean of the block stays
+  const Grid<glm::vec3> picture(4, 2, glm::vec3(100.0F));
+  Grid<glm::vec3> other = picture;
+  other(0, 0).x = 140.0F;
+  other(1, 0).x = 60.0F;  // the mean of the block stays
   Grid<std::uint8_t> use(4, 2, 1);
   EXPECT_NEAR(block_difference(picture, other, &use, 2).mean, 0.0, 1e-9);
   EXPECT_GT(block_difference(picture, other, &use, 1).mean, 1.0);
@@ -49,9 +49,9 @@ TEST(BlockDifference, OfMeansAndOnlyOfUsedCells) {
 }
 
 TEST(GradientEnergy, OfLevelColourIsNone) {
-  RgbPlanes picture{Grid<float>(5, 5, 80.0F), Grid<float>(5, 5, 80.0F), Grid<float>(5, 5, 80.0F)};
+  Grid<glm::vec3> picture(5, 5, glm::vec3(80.0F));
   EXPECT_EQ(gradient_energy(picture, nullptr), 0.0);
-  picture.g(2, 2) = 180.0F;
+  picture(2, 2).y = 180.0F;
   EXPECT_GT(gradient_energy(picture, nullptr), 0.0);
 }
 

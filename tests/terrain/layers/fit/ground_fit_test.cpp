@@ -56,7 +56,7 @@ TEST(FitGround, FileEvaluatesToWhatIsPredicted) {
     const std::vector<Grid<float>> coverage = layer_coverage(program, ground.inputs, {}, {0, 0, 96, 96}, 1);
     const Grid<glm::vec3> colour = layer_colour(program, coverage);
     float off = 0.0F;
-    for (std::size_t i = 0; i != colour.size(); ++i) off = std::max(off, std::abs(colour[i].x - prediction.even.r[i]));
+    for (std::size_t i = 0; i != colour.size(); ++i) off = std::max(off, std::abs(colour[i].x - prediction.even[i].x));
     EXPECT_LT(off, 0.6F) << "colours of a file are whole numbers; way " << &way - ways.data();
     // Classes are the layers without a parent, each with those under it.
     std::vector<double> share(7, 0.0);
@@ -93,7 +93,7 @@ TEST(FitGround, WhatIsNotLearnedFromDoesNotCount) {
   for (int y = 0; y != 96; ++y)
     for (int x = 48; x != 96; ++x) {
       ground.labels[ground.altitude_m.index(x, y)] = 0;
-      ground.picture->rgb.r(x, y) = 255.0F;
+      ground.picture->rgb(x, y).x = 255.0F;
     }
   const GroundFit after = fit_ground(ground, {}, &learn);
   EXPECT_EQ(before.classes.bias, after.classes.bias);

@@ -25,7 +25,7 @@ inline Grid<float> hills(int width, int height, std::uint64_t seed = 5, double h
 }
 
 struct Picture {
-  RgbPlanes rgb;
+  Grid<glm::vec3> rgb;
   std::vector<std::uint8_t> classes;
 };
 // Seven classes that lie in bands of smooth noise and of altitude, in the colours of a summer landscape, lit by a sun, with noise of
@@ -37,8 +37,7 @@ inline Picture seven_classes(const Grid<float>& altitude_m, const PictureSun& su
   const int height = altitude_m.height();
   const Grid<float> patches = hills(width, height, 77, 1.0);
   const Grid<float> light = sunlight(altitude_m, 30.0, sun);
-  Picture picture{{Grid<float>(width, height), Grid<float>(width, height), Grid<float>(width, height)},
-                  std::vector<std::uint8_t>(altitude_m.size())};
+  Picture picture{Grid<glm::vec3>(width, height), std::vector<std::uint8_t>(altitude_m.size())};
   // Classes by rank of a mixture of altitude and patches, in shares that differ.
   std::vector<float> key(altitude_m.size());
   for (std::size_t i = 0; i != key.size(); ++i) key[i] = altitude_m[i] / 6000.0F + patches[i];
@@ -52,10 +51,9 @@ inline Picture seven_classes(const Grid<float>& altitude_m, const PictureSun& su
     while (rank >= until[k] && k != 6) ++k;
     picture.classes[i] = k;
     const double shade = 0.35 + 0.75 * static_cast<double>(light[i]);
-    const std::array<Grid<float>*, 3> planes = {&picture.rgb.r, &picture.rgb.g, &picture.rgb.b};
     for (std::size_t c = 0; c != 3; ++c) {
       const double n = noise * random_normal(99, static_cast<std::int64_t>(i), static_cast<std::int64_t>(c));
-      (*planes[c])[i] = static_cast<float>(std::clamp(colours[k][c] * shade + n, 0.0, 255.0));
+      picture.rgb[i][static_cast<int>(c)] = static_cast<float>(std::clamp(colours[k][c] * shade + n, 0.0, 255.0));
     }
   }
   return picture;

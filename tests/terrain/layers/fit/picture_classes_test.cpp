@@ -27,12 +27,10 @@ TEST(PictureClasses, FindsTheClassesOfAMadeUpPicture) {
 
 TEST(PictureClasses, OneHueIsDividedByLightness) {
   const Grid<float> ground = made_up::hills(160, 160);
-  RgbPlanes snow{Grid<float>(160, 160), Grid<float>(160, 160), Grid<float>(160, 160)};
-  for (std::size_t i = 0; i != snow.r.size(); ++i) {
+  Grid<glm::vec3> snow(160, 160);
+  for (std::size_t i = 0; i != snow.size(); ++i) {
     const float light = (ground[i] > 0.0F ? 200.0F : 90.0F) + static_cast<float>(4.0 * random_normal(8, static_cast<std::int64_t>(i), 0));
-    snow.r[i] = 0.5F * light;
-    snow.g[i] = 0.8F * light;
-    snow.b[i] = light;
+    snow[i] = {0.5F * light, 0.8F * light, light};
   }
   PictureClassParameters parameters;
   parameters.by_lightness = 2;
@@ -52,7 +50,7 @@ TEST(PictureClasses, OneHueIsDividedByLightness) {
 
 TEST(PictureClasses, NothingToLearnFromIsAnError) {
   const Grid<float> ground = made_up::hills(64, 64);
-  const RgbPlanes grey{Grid<float>(64, 64, 90.0F), Grid<float>(64, 64, 90.0F), Grid<float>(64, 64, 90.0F)};
+  const Grid<glm::vec3> grey(64, 64, glm::vec3(90.0F));
   EXPECT_THROW(picture_classes(grey, ground, 30.0, Grid<std::uint8_t>(64, 64, 0)), Error);
   EXPECT_THROW(picture_classes(grey, ground, 30.0, Grid<std::uint8_t>(64, 64, 1)), Error);  // one class only
 }

@@ -36,7 +36,7 @@ TEST(FindSun, IsTheSunOfAMadeUpPicture) {
   const Grid<float> ground = made_up::hills(160, 160);
   const made_up::Picture picture = made_up::seven_classes(ground, {145.0, 38.0}, 4.0);
   Grid<float> brightness(160, 160);
-  for (std::size_t i = 0; i != brightness.size(); ++i) brightness[i] = (picture.rgb.r[i] + picture.rgb.g[i] + picture.rgb.b[i]) / 3.0F;
+  for (std::size_t i = 0; i != brightness.size(); ++i) brightness[i] = (picture.rgb[i].x + picture.rgb[i].y + picture.rgb[i].z) / 3.0F;
   const Grid<std::uint8_t> use(160, 160, 1);
   const PictureSun by_class = find_sun(ground, 30.0, brightness, picture.classes, use, std::nullopt);
   EXPECT_NEAR(by_class.azimuth_deg, 145.0, 5.0);
@@ -55,10 +55,10 @@ TEST(LitEvenly, TakesOutTheLightOfEachClass) {
   // Made with .35 + .75 cos i: base / gain = .35 / .75.
   EXPECT_NEAR(answers[1][1].base / answers[1][1].gain, 0.35 / 0.75, 0.03);
   const double level = std::sin(sun.elevation_deg * pi / 180.0);
-  const RgbPlanes even = lit_evenly(picture.rgb, light, level, picture.classes, answers);
+  const Grid<glm::vec3> even = lit_evenly(picture.rgb, light, level, picture.classes, answers);
   for (std::size_t i = 0; i < light.size(); i += 97) {
     if (picture.classes[i] != 1 || light[i] < 0.1F) continue;
-    EXPECT_NEAR(even.g[i], 124.0 * (0.35 + 0.75 * level), 124.0 * 0.15) << i;
+    EXPECT_NEAR(even[i].y, 124.0 * (0.35 + 0.75 * level), 124.0 * 0.15) << i;
   }
   EXPECT_EQ(levelling({0.5, 10.0}, 0.2, 0.6), 1.0);
 }
