@@ -37,19 +37,19 @@ void add(PlaceClimate& sum, const PlaceClimate& other, double weight) {
 }
 
 // Two neighbours of a place on a line of `count` values, and the share of the second.
-struct Between {
+struct Neighbours {
   int first, second;
   double share;
 };
-Between between(double at, int count) {
+Neighbours neighbours_at(double at, int count) {
   const double inside = std::clamp(at, 0.0, static_cast<double>(count - 1));
   const int first = std::min(static_cast<int>(inside), std::max(0, count - 2));
   return {first, std::min(first + 1, count - 1), inside - first};
 }
 
 double sample(const Grid<float>& grid, double column, double row) {
-  const Between x = between(column, grid.width());
-  const Between y = between(row, grid.height());
+  const Neighbours x = neighbours_at(column, grid.width());
+  const Neighbours y = neighbours_at(row, grid.height());
   const auto line = [&](int at) {
     return static_cast<double>(grid(x.first, at)) * (1.0 - x.share) + static_cast<double>(grid(x.second, at)) * x.share;
   };
@@ -306,8 +306,8 @@ class Maker {
 }  // namespace
 
 PlaceClimate Climate::at(double column, double row) const {
-  const Between x = between(place.width > 1 ? column / (place.width - 1) * (nodes.width() - 1) : 0.0, nodes.width());
-  const Between y = between(place.height > 1 ? row / (place.height - 1) * (nodes.height() - 1) : 0.0, nodes.height());
+  const Neighbours x = neighbours_at(place.width > 1 ? column / (place.width - 1) * (nodes.width() - 1) : 0.0, nodes.width());
+  const Neighbours y = neighbours_at(place.height > 1 ? row / (place.height - 1) * (nodes.height() - 1) : 0.0, nodes.height());
   PlaceClimate here{.sea_level_c = {}, .lapse_k_per_km = {}, .rain_mm_at_km = {}, .summer_share = 0.0, .gathers = 0.0};
   add(here, nodes(x.first, y.first), (1.0 - x.share) * (1.0 - y.share));
   add(here, nodes(x.second, y.first), x.share * (1.0 - y.share));

@@ -5,7 +5,7 @@
 #include "base/progress.h"
 #include "terrain/climate/climate.h"
 #include "terrain/climate/map_place.h"
-#include "terrain/cover/rule_climate.h"
+#include "terrain/climate/rule_climate.h"
 #include "terrain/io/dem.h"
 
 namespace belvedere {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "terrain/climate/rule_climate.h"
 #include "terrain/cover/land_cover.h"
-#include "terrain/cover/rule_climate.h"
 #include "terrain/cover/rule_ground.h"
 #include "terrain/cover/rule_program.h"
 #include "terrain/cover/towns.h"

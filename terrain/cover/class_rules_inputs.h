@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/land_cover_class.h"
-#include "terrain/cover/rule_climate.h"
+#include "terrain/climate/rule_climate.h"
 #include "terrain/cover/rule_ground.h"
 #include "terrain/cover/towns.h"
 #include "terrain/io/dem.h"

@@ -70,7 +70,6 @@ class TexturePictures : public Program {
             {"texture", "knit", good, picture, "--out", path("x.png")},
             {"texture", "correct", picture, "--to", good, "--out", path("x.png")},
             {"texture", "correct", good, "--to", picture, "--out", path("x.png")},
-            {"texture", "judge", model, good, picture},
             {"exemplar", "segment", picture, "--out", path("x.png")}};
   }
   static inline std::string model_;

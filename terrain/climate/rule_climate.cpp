@@ -1,4 +1,4 @@
-#include "terrain/cover/rule_climate.h"
+#include "terrain/climate/rule_climate.h"
 
 #include <algorithm>
 #include <cmath>
