@@ -264,37 +264,8 @@ TEST(Stages, TheArchitecturePageDrawsThem) {
   EXPECT_EQ(page.substr(first, page.find("```", first) - first), graph.draw(print_ppu)) << "what the stages say now belongs into the page";
 }
 
-// No stage declares more than it reads: with half of any of its reaches a part of the sheet differs somewhere from the whole.
-class PrintGroundLong : public PrintGroundTest {};
-TEST_P(PrintGroundLong, HalfOfAnyReachIsTooLittle) {
-  const std::vector<PixelRect> parts = {{0, 300, 60, 340}, {590, 520, 650, 580}, {300, 100, 360, 220}};
-  const auto differs = [&](std::size_t stage, std::size_t source) {
-    for (const PixelRect& rect : parts) {
-      const std::unique_ptr<Sheet> part = tiles_of(64);
-      StageNode& node = *part->graph.stages()[stage];
-      const Reach full = node.sources()[source].wide_reach;
-      node.set_reach(source, {full.columns / 2, full.rows / 2});
-      part->keep_only({{part->ground.draft, rect}, {part->ground.guidance, rect}});
-      const PaintDraft draft = part->ground.draft->read(rect);
-      const PaintDraft whole = one_.draft->read(rect);
-      if (!(draft.base == whole.base && draft.land_cover == whole.land_cover && draft.under == whole.under)) return true;
-      if (!(part->ground.guidance->read(rect).tone == one_.guidance->read(rect).tone)) return true;
-    }
-    return false;
-  };
-  const auto& stages = print_.whole.graph.stages();
-  for (std::size_t stage = 0; stage < stages.size(); ++stage)
-    for (std::size_t source = 0; source < stages[stage]->sources().size(); ++source) {
-      if (stages[stage]->sources()[source].wide_reach == Reach()) continue;
-      EXPECT_TRUE(differs(stage, source)) << stages[stage]->declaration().name << " of "
-                                          << stages[stage]->sources()[source].stage->declaration().name;
-    }
-}
-
 // 4 and 6 pixels a unit: wide pixels of 2 × 2 and 3 × 3.
 INSTANTIATE_TEST_SUITE_P(Prints, PrintGroundTest, testing::Values("output.sheet_width_mm=137.5", "output.sheet_width_mm=91.6"));
-
-INSTANTIATE_TEST_SUITE_P(Prints, PrintGroundLong, testing::Values("output.sheet_width_mm=137.5"));
 
 INSTANTIATE_TEST_SUITE_P(Tiles, GroundStagesTest, testing::Values(64, 100, 1024));
 
