@@ -32,11 +32,11 @@ function shown(value, format = "") {
   return sign && value >= 0 ? `+${text}` : text;
 }
 
-function range(least, most) {
+function range(min, max) {
   const text = (value) => shown(value, Number.isInteger(value) ? "" : ".3g");
-  if (most === null) return "–";
-  if (least === most) return text(most);
-  return least === 0 ? `≤ ${text(most)}` : `${text(least)} – ${text(most)}`;
+  if (max === null) return "–";
+  if (min === max) return text(max);
+  return min === 0 ? `≤ ${text(max)}` : `${text(min)} – ${text(max)}`;
 }
 
 // A line over a grey area, both 0…1, at places 0…1.
@@ -54,7 +54,7 @@ function cell(value, format) {
   if (value === null || typeof value !== "object") return element("td", {}, shown(value, format));
   if ("line" in value) return element("td", {}, curve(value));
   if ("colour" in value) return element("td", {}, element("span", { class: "swatch", style: `background:${value.colour}` }), value.colour);
-  if ("most" in value) return element("td", {}, range(value.least, value.most));
+  if ("max" in value) return element("td", {}, range(value.min, value.max));
   const text = shown(value.value, format);
   const td = element("td", {}, "href" in value ? element("a", { href: value.href }, text) : value.good === false ? element("b", {}, text) : text);
   if ("before" in value) td.append(element("small", {}, `${shown(value.before, ".3g")} → ${shown(value.after, ".3g")} ${value.unit}`));
@@ -93,7 +93,7 @@ function slider([left, right]) {
 }
 
 // Groups of bars, dark to light, a dashed line across at `line`.
-function bars({ title, groups, most, line }) {
+function bars({ title, groups, max, line }) {
   const bar = 16, gap = 26, high = 160, top = 8;
   const count = groups[0].values.length;
   const step = count * bar + gap;
@@ -102,13 +102,13 @@ function bars({ title, groups, most, line }) {
     const x0 = gap + s * step;
     values.forEach((value, b) => {
       // To a tenth of a pixel, as it is written: so all bars stand on one line.
-      const height = Math.round(10 * Math.min(value || 0, most) * high / most) / 10;
+      const height = Math.round(10 * Math.min(value || 0, max) * high / max) / 10;
       svg.append(drawing("rect", { x: x0 + b * bar, y: (top + high - height).toFixed(1), width: bar - 2, height: height.toFixed(1),
         fill: `hsl(205,45%,${25 + Math.floor(45 * b / Math.max(count - 1, 1))}%)` }));
     });
     svg.append(drawing("text", { x: x0 + count * bar / 2, y: top + high + 18, "text-anchor": "middle" }, name));
   });
-  const y = top + high - high * line / most;
+  const y = top + high - high * line / max;
   svg.append(drawing("line", { x1: gap / 2, x2: groups.length * step + gap / 2, y1: y, y2: y, stroke: "#a33", "stroke-dasharray": "5 4" }));
   return [svg];
 }
@@ -124,10 +124,10 @@ function coverage({ rows, scale }) {
     box(names, y, 256 * step, high, "#000");
     // White is nearly the largest count, because the ends of a range may gather many; the root lets few be seen beside many.
     const some = counts.filter((n) => n > 0).sort((a, b) => a - b);
-    const most = some[Math.floor((some.length - 1) * 19 / 20)];
+    const max = some[Math.floor((some.length - 1) * 19 / 20)];
     const light = (t) => Math.round(255 * Math.min(Math.max(t, 0), 1));
     counts.forEach((n, v) => {
-      const t = 3 * Math.min(Math.sqrt(n / most), 1);
+      const t = 3 * Math.min(Math.sqrt(n / max), 1);
       if (n > 0) box(names + v * step, y, step, high, `rgb(${light(t)},${light(t - 1)},${light(t - 2)})`);
     });
     (asked || []).forEach((n, v) => { if (n > 0) box(names + v * step, y + high + 1, step, 3, "#1a4de6"); });

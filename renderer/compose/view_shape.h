@@ -19,7 +19,7 @@ struct FormatLimits {
 };
 FormatLimits limits_of(const ViewFormat& format);
 
-// A view with its bend: all that a picture's geometry hangs on. The ground is first exaggerated about a base, then bent by a parabola:
+// A view with its bend: all that a picture's geometry depends on. The ground is first exaggerated about a base, then bent by a parabola:
 // level ground at the distance d is tipped towards the viewer by (crest - d) / radius. So far is the horizon of all level ground.
 struct ViewShape {
   glm::dvec2 viewer{0.0};

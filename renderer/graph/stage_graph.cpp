@@ -43,7 +43,7 @@ std::string draw_source(const StageNode::Source& source, const std::string& read
 
 }  // namespace
 
-PixelRect around_both(const PixelRect& a, const PixelRect& b) {
+PixelRect bounding_rect(const PixelRect& a, const PixelRect& b) {
   if (a.empty() || b.empty()) return a.empty() ? b : a;
   return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
@@ -101,14 +101,14 @@ double StageNode::bytes_to_make(int side) const {
 void StageGraph::keep_only(std::span<const Request> requests) {
   for (const auto& stage : stages_) stage->wanted_ = {};
   for (const Request& request : requests)
-    request.stage->wanted_ = around_both(request.stage->wanted_, intersection(request.stage->sheet(), request.rect));
+    request.stage->wanted_ = bounding_rect(request.stage->wanted_, intersection(request.stage->sheet(), request.rect));
   // Each stage stands behind all that it reads, so this is one walk from the outputs to the first rays.
   for (auto stage = stages_.rbegin(); stage != stages_.rend(); ++stage) {
     const StageNode& reader = **stage;
     (*stage)->keep_only(reader.wanted_);
     if (reader.wanted_.empty()) continue;
     const auto need = [&](const StageNode::Source& source) {
-      if (source.stage != nullptr) source.stage->wanted_ = around_both(source.stage->wanted_, reader.demand(source, reader.wanted_));
+      if (source.stage != nullptr) source.stage->wanted_ = bounding_rect(source.stage->wanted_, reader.demand(source, reader.wanted_));
     };
     for (const StageNode::Source& source : reader.sources()) need(source);
     if (const auto& condition = reader.declaration().condition) need({condition->stage, condition->reach, condition->reach});

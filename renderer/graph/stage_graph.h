@@ -23,7 +23,7 @@ namespace belvedere {
 // pixels of which stage a rectangle needs, in what order they are made, how long tiles stay in memory, and what all of it takes.
 //
 // Tiles are made once, where somebody asks, and kept until no remaining request needs them. A *view* only rearranges other stages: it is
-// made anew for each reader and kept nowhere. A stage's function gets its inputs as values and never asks a store for anything.
+// made for each reader and kept nowhere. A stage's function gets its inputs as values and never asks a store for anything.
 
 // How far a reader looks around its own pixels, px of its own.
 struct Reach {
@@ -37,11 +37,11 @@ constexpr Reach rows_around(int px) { return {0, px}; }
 // What a stage is asked for.
 struct Tile {
   PixelRect rect;     // of its own pixels
-  bool wide = false;  // whether its condition holds, so that it reads within its wide margins
+  bool wide = false;  // whether its condition holds, so that it reads within its wide reach
 };
 
 // The smallest rectangle around two; an empty one counts for nothing.
-PixelRect around_both(const PixelRect& a, const PixelRect& b);
+PixelRect bounding_rect(const PixelRect& a, const PixelRect& b);
 
 // A stage, whatever it makes: its declaration, and what the executor derives from it.
 class StageNode {
@@ -52,7 +52,7 @@ class StageNode {
     Reach wide_reach;              // where the condition holds; never smaller
     double bytes_per_pixel = 0.0;  // of the grids that are read
   };
-  // Whether a tile needs the wide margins, found from a cheaper stage around it.
+  // Whether a tile needs the wide reach, found from a cheaper stage around it.
   struct Condition {
     StageNode* stage = nullptr;
     Reach reach;
@@ -88,9 +88,6 @@ class StageNode {
   // The most memory that a square of `side` pixels takes while it is made, its inputs being prepared, bytes.
   double bytes_to_make(int side) const;
   virtual double bytes_per_pixel() const = 0;
-
-  // Of tests: reads less or more than was declared.
-  void set_reach(std::size_t source, Reach reach) { sources_.at(source).reach = sources_.at(source).wide_reach = reach; }
 
  protected:
   Tile tile_of(PixelRect rect) const;
@@ -139,27 +136,22 @@ struct Window {
 };
 
 // An input that its reader takes piece by piece, so that not all of it stands in memory at once.
+void check_inside(PixelRect window, PixelRect rect);  // Error(bug) where it is not
 template <class Product>
 class WindowReader {
  public:
   WindowReader(Stage<Product>* stage, PixelRect rect) : stage_(stage), rect_(rect) {}
   // Fills the grids that `out` has. Error(bug) beyond the declared window.
   void read_into(PixelRect rect, Product& out) const {
-    check(rect);
+    check_inside(rect_, rect);
     stage_->read_into(rect, out);
   }
   PixelRect rect() const { return rect_; }
 
  private:
-  void check(PixelRect rect) const;
   Stage<Product>* stage_;
   PixelRect rect_;
 };
-void check_inside(PixelRect window, PixelRect rect);
-template <class Product>
-void WindowReader<Product>::check(PixelRect rect) const {
-  check_inside(rect_, rect);
-}
 
 // What a stage reads: of which stage, how far around, and which grids of it (none named: all).
 template <class Product>
@@ -169,7 +161,6 @@ struct Reads {
   Wanted<Product> wanted = {};
   std::optional<Reach> wide_reach = {};
 
-  using Argument = const Window<Product>&;
   StageNode::Source source() const {
     if (stage == nullptr) return {};
     const ProductFormat<Product> format{wanted ? wanted : stage->format().blank, stage->format().planes};
@@ -188,7 +179,6 @@ struct ReadsInPieces {
   Stage<Product>* stage = nullptr;
   Reach reach = {};
 
-  using Argument = const WindowReader<Product>&;
   StageNode::Source source() const { return {stage, reach, reach, 0.0}; }
   WindowReader<Product> take(PixelRect rect) const { return {stage, rect}; }
 };
@@ -230,7 +220,7 @@ class StageGraph {
 
   // In the order in which they were added: each after those that it reads.
   const std::vector<std::unique_ptr<StageNode>>& stages() const { return stages_; }
-  // The most memory that any stage that `output` needs takes for a square of the sheet of `side` pixels, bytes.
+  // The most memory that `output`, or the tiles of any stage, take for a square of the sheet of `side` pixels, bytes.
   double bytes_to_make(const StageNode& output, int side) const;
   // The stages as a drawing in the language of Mermaid: boxes are kept in tiles, round ones are views, and arrows say how far around a
   // pixel the reader looks, in units of .5 mm.

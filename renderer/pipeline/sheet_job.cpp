@@ -51,7 +51,7 @@ void keep_notes(const LoadedScene& loaded, const World& world, const WorkFolder&
 // The rectangle that pieces from number `next` on lie in.
 PixelRect still_to_make(std::span<const PixelRect> pieces, std::size_t next) {
   PixelRect all;
-  for (const PixelRect& piece : pieces.subspan(next)) all = around_both(all, piece);
+  for (const PixelRect& piece : pieces.subspan(next)) all = bounding_rect(all, piece);
   return all;
 }
 

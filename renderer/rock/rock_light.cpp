@@ -18,12 +18,12 @@ constexpr float lift = 0.10F;
 constexpr float fill_strength = 0.30F;  // sky and ground opposite the sun still model what lies in shade
 constexpr float flatness = 0.85F;       // how far a facet has one normal
 // By how much each size may move the tone, and how that differs in shade, which has large planes and little detail.
-constexpr std::array<float, spur_sizes> most_tone = {0.50F, 0.13F, 0.055F};
+constexpr std::array<float, spur_sizes> max_tone = {0.50F, 0.13F, 0.055F};
 constexpr std::array<float, spur_sizes> shade_factor = {2.2F, 1.6F, 0.8F};
 constexpr float shade_tone = 0.24F;   // about which walls in shade are painted
 constexpr float shade_drawn = 0.65F;  // how far they draw together there
 constexpr float shade_lift = 0.06F;   // what gullies and planes turned from the light of the sky take away again
-constexpr std::array<float, spur_sizes> calm_least = {1.0F, 0.6F, 0.25F};
+constexpr std::array<float, spur_sizes> calm_min = {1.0F, 0.6F, 0.25F};
 // Lines of the three sizes, units: half widths of light crests and dark gullies, and how strong they are.
 constexpr std::array<float, spur_sizes> crest_width = {0.84F, 0.60F, 0.36F};
 constexpr std::array<float, spur_sizes> gully_width = {1.20F, 0.72F, 0.40F};
@@ -34,7 +34,7 @@ constexpr float crest_light = 0.22F;
 // Shares of rock around, of patches about 6 and 14 units wide, and what is left of the relief's light on the smallest.
 constexpr float small_patch = 0.12F;
 constexpr float large_patch = 0.55F;
-constexpr float least_of_patch = 0.35F;
+constexpr float min_of_patch = 0.35F;
 constexpr float gully_dark = 0.34F;
 constexpr float snow_paint = 0.95F;  // of what lies in snow
 
@@ -176,8 +176,8 @@ PlaneLight light_planes(const RockKind& kind, const ToneParameters& light, const
     lit.normal = glm::normalize(base - (across * across_sum + down * along_sum) * strength);
     if (size <= 1) lit.large_normal = lit.normal;
     const float now = sun(lit.normal, on.shadow, on.sky_share, on.facing);
-    const float factor = (1.0F + (shade_factor[k] - 1.0F) * shade) * (calm_least[k] + (1.0F - calm_least[k]) * calm) * share;
-    lit.tone += factor * soft(now - before, most_tone[k]);
+    const float factor = (1.0F + (shade_factor[k] - 1.0F) * shade) * (calm_min[k] + (1.0F - calm_min[k]) * calm) * share;
+    lit.tone += factor * soft(now - before, max_tone[k]);
     before = now;
   }
   // Shade that is left as dark as it is has no room below it for the dark side of a plane: it draws together around the paint of shade.
@@ -309,7 +309,7 @@ RockLook light_rock(const RockKind& kind, const ToneParameters& light, bool wint
   const PlaneLight planes = light_planes(kind, light, sun, p, hits, wall, calm, stands);
   // A patch of few units has no room for towers: it would glitter like a pebble.
   const float patch = smoothstep(small_patch, large_patch, p.rock);
-  float tone = planes.base_tone + (planes.tone - planes.base_tone) * (least_of_patch + (1.0F - least_of_patch) * patch);
+  float tone = planes.base_tone + (planes.tone - planes.base_tone) * (min_of_patch + (1.0F - min_of_patch) * patch);
   const Bed bed = bed_at(kind, p, hits);
   const float tread = light_bed(kind, sun, p, bed, wall, tone);
 

@@ -22,6 +22,7 @@ struct GroundInputs {
   glm::ivec2 size_px{0};
   double pixels_per_unit = 1.0;  // pixels in .5 mm of the sheet
   double horizon_px = 0.0;       // SheetView::horizon_px
+  SheetView view() const { return {*camera, pixels_per_unit, horizon_px}; }
   // Whether what reaches far is looked up in pixels of about half a unit (WideView) where the sheet's are finer.
   bool wide_views = true;
   bool has_mist = false;

@@ -67,7 +67,7 @@ Channels guide_channels() {
 // Traced pixels of a tile: silhouettes and sky view look at their neighbours.
 GuidanceBuffers trace_tile(const GroundInputs& in, PixelRect tile) {
   const PixelRect window = intersection({0, 0, in.size_px.x, in.size_px.y}, grown(tile, guidance_margin_px()));
-  GuidanceBuffers wide = trace_view(*in.world, {*in.camera, in.pixels_per_unit, in.horizon_px}, window, in.run);
+  GuidanceBuffers wide = trace_view(*in.world, in.view(), window, in.run);
   GuidanceBuffers traced;
   traced.origin_m = wide.origin_m;
   for (const GuidanceMember& channel : channels_of(ChannelMaker::trace))
@@ -179,8 +179,7 @@ GroundStages add_ground_stages(StageGraph& graph, GroundInputs given, int tile_p
                  .wide_reach = base_reach(true, in->base)}),
       [in](const Tile& tile, const auto& wide, const auto& near) {
         const PixelRect wanted = near.inside(tile.rect);
-        const SheetView sheet_view{*in->camera, in->pixels_per_unit, in->horizon_px};
-        const std::optional<WaterImage> image = see_mirrored(*in->world, sheet_view, *in->palette, near.value, near.origin_px(), wanted);
+        const std::optional<WaterImage> image = see_mirrored(*in->world, in->view(), *in->palette, near.value, near.origin_px(), wanted);
         return make_base_picture(near.value, as_wide_view(wide), *in->palette, in->base, near.origin_px(), in->size_px, in->run.progress,
                                  wanted, image ? &*image : nullptr);
       });

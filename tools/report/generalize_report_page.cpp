@@ -106,7 +106,7 @@ void add_energy(Report& page, const Measures& m, bool view) {
                        .add("title", Json::text("Detail kept by band and distance"))
                        .add("groups", std::move(groups))
                        .add("line", Json::number(1.0))
-                       .add("most", Json::number(2.0)));
+                       .add("max", Json::number(2.0)));
   page.table(table);
   page.add("small", Json::text(std::string("Below each percentage the root mean square height of the band, before → after. ") +
                                (view ? "Distance goes by the foreground share of the view, in five equal steps."

@@ -28,7 +28,7 @@ Json swatch(glm::vec3 rgb) {
   return Json::object().add("colour", Json::text(fmt::format("#{:02x}{:02x}{:02x}", byte(rgb.x), byte(rgb.y), byte(rgb.z))));
 }
 
-Json range(double least, double most) { return Json::object().add("least", Json::number(least)).add("most", known(most)); }
+Json range(double min, double max) { return Json::object().add("min", Json::number(min)).add("max", known(max)); }
 
 ReportTable::ReportTable(std::vector<ReportColumn> columns) : columns_(std::move(columns)) {}
 

@@ -28,7 +28,7 @@ Json known(double value);
 Json judged(double value, bool good);
 Json linked(const std::string& text, const std::string& file);
 Json swatch(glm::vec3 rgb);
-Json range(double least, double most);
+Json range(double min, double max);
 
 class ReportTable {
  public:

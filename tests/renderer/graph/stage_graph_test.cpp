@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -71,9 +72,11 @@ class StageGraphTest : public testing::TestWithParam<std::uint64_t> {
       return numbers;
     });
   }
-  static Stage<Numbers>* add_sums(StageGraph& graph, Stage<Numbers>* from, Reach reach, const char* name = "sums", int tile_px = 16) {
+  // `declared`: where it is not what the sums look at.
+  static Stage<Numbers>* add_sums(StageGraph& graph, Stage<Numbers>* from, Reach reach, const char* name = "sums", int tile_px = 16,
+                                  std::optional<Reach> declared = {}) {
     return graph.add_tiles<Numbers>(
-        {.name = name, .size_px = sheet_px, .tile_px = tile_px}, one_grid<Numbers>(), std::tuple(reads(from, reach)),
+        {.name = name, .size_px = sheet_px, .tile_px = tile_px}, one_grid<Numbers>(), std::tuple(reads(from, declared.value_or(reach))),
         [reach](const Tile& tile, const Window<Numbers>& window) { return sums_around(window, tile.rect, reach); });
   }
   void expect(Stage<Product>* places, PixelRect rect) {
@@ -189,9 +192,7 @@ TEST_P(StageGraphTest, HalfTheReachGivesOtherPixels) {
   const auto read = [&](int rows) {
     TileStore::Place place{folder_.path(), GetParam()};
     StageGraph graph(place, silent_progress());
-    Stage<Numbers>* sums = add_sums(graph, add_numbers(graph), {0, 4});
-    sums->set_reach(0, {0, rows});
-    return sums->read(sheet);
+    return add_sums(graph, add_numbers(graph), {0, 4}, "sums", 16, Reach{0, rows})->read(sheet);
   };
   EXPECT_TRUE(read(4) == read(9));
   EXPECT_FALSE(read(4) == read(2));

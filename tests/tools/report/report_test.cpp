@@ -34,7 +34,7 @@ TEST(Report, TablesKeepAllDigitsAndWhatIsNotKnownIsNull) {
 
 TEST(Report, CellsOfEachKind) {
   EXPECT_EQ(swatch({1.F, .5F, 0.F}).str(), "{\n  \"colour\": \"#ff8000\"\n}");
-  EXPECT_EQ(range(0.0, not_finite).str(), "{\n  \"least\": 0,\n  \"most\": null\n}");
+  EXPECT_EQ(range(0.0, not_finite).str(), "{\n  \"min\": 0,\n  \"max\": null\n}");
   EXPECT_EQ(linked("one", "1.png").str(), "{\n  \"value\": \"one\",\n  \"href\": \"1.png\"\n}");
 }
 
@@ -62,7 +62,7 @@ std::string make_report(const std::string& folder) {
                       Json::array({Json::object().add("name", Json::text("near")).add("values", Json::numbers(std::vector{2.0, 0.5, 1.0})),
                                    Json::object().add("name", Json::text("far")).add("values", Json::numbers(std::vector{1.0, 1.0, 3.0}))}))
                  .add("line", Json::number(1.0))
-                 .add("most", Json::number(2.0)));
+                 .add("max", Json::number(2.0)));
   std::vector<int> counts(256, 0);
   counts[5] = 7;
   std::vector<int> asked(256, 0);
