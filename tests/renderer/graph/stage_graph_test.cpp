@@ -160,6 +160,21 @@ TEST_P(StageGraphTest, WholeTilesAreMadeWhole) {
   EXPECT_EQ(pixels_made(), 16 * 16);
 }
 
+// A stage of whole tiles needs what its whole tiles reach, however little of them is asked for.
+TEST_P(StageGraphTest, WholeTilesNeedWhatAllOfThemReaches) {
+  Stage<Numbers>* numbers = add_numbers(graph_);
+  StageNode::Declaration declared = tiles("whole");
+  declared.whole_tiles = true;
+  Stage<Numbers>* whole =
+      graph_.add_tiles<Numbers>(declared, one_grid<Numbers>(), std::tuple(reads(numbers, around(2))),
+                                [](const Tile& tile, const Window<Numbers>& window) { return sums_around(window, tile.rect, around(2)); });
+  const StageGraph::Request part[] = {{whole, {20, 20, 21, 21}}};
+  graph_.keep_only(part);
+  whole->read({20, 20, 21, 21});
+  EXPECT_EQ(whole->made_px(), 16U * 16U);
+  EXPECT_EQ(pixels_made(), 20 * 20);
+}
+
 // A sum of sums looks as far as both together, rows farther than columns; at the sheet's rim there is less to sum.
 TEST_P(StageGraphTest, StagesReadWhatTheyDeclareWhateverTheTiles) {
   const auto picture = [&](int tile_px, PixelRect rect) {
@@ -255,19 +270,19 @@ TEST_P(StageGraphTest, AConditionWidensTheReachOfTilesThatNeedIt) {
   declared.condition = seen_in<Numbers>(numbers, around(1), Wanted<Numbers>([](int w, int h) { return Numbers(w, h); }),
                                         [](const Numbers& seen) { return std::find(seen.begin(), seen.end(), 0U) != seen.end(); });
   Stage<Numbers>* conditional = graph_.add_tiles<Numbers>(
-      declared, one_grid<Numbers>(), std::tuple(Reads<Numbers>{.stage = numbers, .reach = {}, .wide_reach = rows_around(10)}),
+      declared, one_grid<Numbers>(), std::tuple(Reads<Numbers>{.stage = numbers, .reach = {}, .wide_reach = rows_around(20)}),
       [&](const Tile& tile, const Window<Numbers>& window) {
         if (tile.rect.x0 == 0) rows_read[tile.rect.y0] = window.rect.height() - tile.rect.height();
         EXPECT_EQ(tile.wide, window.rect.height() > tile.rect.height());
         return part_of(window.value, window.inside(tile.rect));
       });
   EXPECT_TRUE(conditional->read(sheet) == numbers->read(sheet));
-  EXPECT_EQ(rows_read[0], 10) << "number 0 stands in the corner";
+  EXPECT_EQ(rows_read[0], 20) << "number 0 stands in the corner";
   EXPECT_EQ(rows_read[32], 0);
-  const StageGraph::Request request[] = {{conditional, {0, 16, 16, 32}}};
+  const StageGraph::Request request[] = {{conditional, {0, 34, 16, 45}}};
   graph_.keep_only(request);
   made.clear();
-  numbers->read({0, 6, 16, 42});
+  numbers->read({0, 14, 16, 45});
   EXPECT_TRUE(made.empty()) << "what the wider reach may need is kept";
 }
 
